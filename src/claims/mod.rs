@@ -1,0 +1,1 @@
+//! One row for each published number or statement.

@@ -1,0 +1,1 @@
+//! What is run: one experiment a file, results that save and reload exactly.

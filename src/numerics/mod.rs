@@ -1,0 +1,5 @@
+//! Mathematics that knows no physics: portable kernels, certified searches, sums, statistics and
+//! random streams. Everything here gives the same bits on every machine: only + − × ÷ √ and the
+//! functions of `pxfm` are used, never the platform's libm.
+
+pub mod random;
