@@ -1,1 +1,3 @@
 //! What is run: one experiment a file, results that save and reload exactly.
+
+pub mod theory;
