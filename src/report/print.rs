@@ -1,0 +1,373 @@
+//! How a value is printed: as many digits as it deserves, the same in every format.
+//!
+//! [`print`] decides the digits and knows no markup; the methods of [`Printed`] write them down.
+//! Only Rust's own decimal conversion is used, which rounds exactly and alike on every platform.
+
+use super::values::{Digits, Number, Value};
+
+/// What a template asks of a value beyond its own digits, through filters.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Style {
+    /// Times one hundred, with a percent sign.
+    pub percent: bool,
+    /// Other digits than the value's own.
+    pub digits: Option<Asked>,
+    /// Without the error in brackets.
+    pub no_error: bool,
+    /// Followed by the unit.
+    pub with_unit: bool,
+}
+
+/// Digits that a template asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Asked {
+    /// So many decimals.
+    Fixed(usize),
+    /// So many significant digits.
+    Significant(usize),
+    /// The shortest decimal that reads back to the same double.
+    Full,
+}
+
+/// Digits of one number, ready to be written in any markup.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Decimal {
+    negative: bool,
+    /// Digits with at most one point.
+    mantissa: String,
+    /// What stands in brackets behind the mantissa.
+    error: Option<String>,
+    /// Power of ten, if one is shown.
+    exponent: Option<i32>,
+    percent: bool,
+}
+
+/// A value in a style: one number, two (an interval), or words.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Printed {
+    /// One number.
+    One(Decimal),
+    /// An interval.
+    Two(Decimal, Decimal),
+    /// Words.
+    Words(String),
+}
+
+/// Chooses the digits of a number.
+pub fn print(number: &Number, style: Style) -> Printed {
+    let percent = if style.percent { 2 } else { 0 };
+    let finish = |decimal: Decimal| Decimal {
+        percent: style.percent,
+        error: decimal.error.filter(|_| !style.no_error),
+        ..decimal
+    };
+    let asked = |x: f64, own: &dyn Fn(f64) -> Decimal| {
+        let x = times_ten(x, percent);
+        finish(match style.digits {
+            Some(Asked::Full) => shortest(x),
+            Some(Asked::Significant(n)) => significant(x, n),
+            Some(Asked::Fixed(n)) => bare(x, rounded(x, n as i32)),
+            None => own(x),
+        })
+    };
+    match *number {
+        Number::Text(ref text) => Printed::Words(text.clone()),
+        Number::Integer(n) if !style.percent && style.digits.is_none() => {
+            Printed::One(Decimal { negative: n < 0, ..bare(1.0, grouped(n)) })
+        }
+        Number::Integer(n) => Printed::One(asked(n as f64, &|x| bare(x, rounded(x, 0)))),
+        Number::Real { value, digits } => Printed::One(asked(value, &|x| match digits {
+            Digits::Error(error) => with_error(x, times_ten(error, percent)),
+            Digits::Significant(n) => significant(x, n),
+            Digits::Decimals(n) => bare(x, rounded(x, (n as i32 - percent).max(0))),
+        })),
+        Number::Interval { low, high } => {
+            // Two digits of the width say all that an interval of confidence can say.
+            let width = times_ten((high - low).abs(), percent);
+            let whole = low.fract() == 0.0 && high.fract() == 0.0;
+            let places = if width == 0.0 || whole { 0 } else { 1 - leading(width, 2) };
+            let own = |x: f64| if width == 0.0 { shortest(x) } else { to_place(x, places) };
+            Printed::Two(asked(low, &own), asked(high, &own))
+        }
+    }
+}
+
+impl Printed {
+    /// For Markdown prose: `0.1165(4)`, `$1.2\times10^{-5}$`, `−3`, `94.5 %`.
+    pub fn markdown(&self) -> String {
+        self.join(Decimal::markdown, Clone::clone)
+    }
+
+    /// Inside mathematics (Markdown's and LaTeX's): `0.1165(4)`, `1.2\times10^{-5}`.
+    pub fn maths(&self) -> String {
+        self.join(Decimal::maths, |words| format!(r"\text{{{words}}}"))
+    }
+
+    /// For terminals and data files: `0.1165(4)`, `1.2e-5`, `94.5 %`.
+    pub fn plain(&self) -> String {
+        self.join(Decimal::plain, Clone::clone)
+    }
+
+    fn join(&self, one: impl Fn(&Decimal) -> String, words: impl Fn(&String) -> String) -> String {
+        match self {
+            Printed::One(x) => one(x),
+            Printed::Two(a, b) => format!("[{}, {}]", one(a), one(b)),
+            Printed::Words(text) => words(text),
+        }
+    }
+}
+
+impl Decimal {
+    fn markdown(&self) -> String {
+        let percent = if self.percent { "\u{a0}%" } else { "" };
+        match self.exponent {
+            Some(_) => format!("${}${percent}", self.maths_digits()),
+            None => format!("{}{percent}", self.digits("−")),
+        }
+    }
+
+    fn maths(&self) -> String {
+        let percent = if self.percent { r"\,\%" } else { "" };
+        format!("{}{percent}", self.maths_digits())
+    }
+
+    fn plain(&self) -> String {
+        let power = self.exponent.map(|e| format!("e{e}")).unwrap_or_default();
+        let percent = if self.percent { " %" } else { "" };
+        format!("{}{power}{percent}", self.digits("-")).replace(NARROW_SPACE, "")
+    }
+
+    fn digits(&self, minus: &str) -> String {
+        let minus = if self.negative { minus } else { "" };
+        let error = self.error.as_ref().map(|e| format!("({e})")).unwrap_or_default();
+        format!("{minus}{}{error}", self.mantissa)
+    }
+
+    fn maths_digits(&self) -> String {
+        let digits = self.digits("-").replace(NARROW_SPACE, r"\,");
+        match self.exponent {
+            Some(e) if digits == "1" => format!("10^{{{e}}}"),
+            Some(e) => format!(r"{digits}\times10^{{{e}}}"),
+            None => digits,
+        }
+    }
+}
+
+const NARROW_SPACE: char = '\u{202f}';
+
+/// Below 10^−3 and from 10^6 on, a real number is written with a power of ten.
+fn shows_power(exponent: i32) -> bool {
+    !(-3..6).contains(&exponent)
+}
+
+/// A number with these digits and nothing else; one that rounds to zero has no sign.
+fn bare(x: f64, mantissa: String) -> Decimal {
+    let negative = x < 0.0 && mantissa.contains(|c: char| ('1'..='9').contains(&c));
+    Decimal { negative, mantissa, error: None, exponent: None, percent: false }
+}
+
+/// The shortest decimal that reads back to the same double.
+fn shortest(x: f64) -> Decimal {
+    let exponent = leading(x, 17);
+    if x != 0.0 && shows_power(exponent) {
+        let (mantissa, exponent) = scientific(&format!("{:e}", x.abs()));
+        return Decimal { exponent: Some(exponent), ..bare(x, mantissa) };
+    }
+    bare(x, format!("{}", x.abs()))
+}
+
+/// So many significant digits.
+fn significant(x: f64, digits: usize) -> Decimal {
+    if x == 0.0 {
+        return bare(x, "0".into());
+    }
+    to_place(x, digits.max(1) as i32 - 1 - leading(x, digits))
+}
+
+/// The number with its error in brackets: one digit of it, or two after a leading 1.
+fn with_error(x: f64, error: f64) -> Decimal {
+    if error <= 0.0 {
+        return shortest(x);
+    }
+    let starts_with_1 = |text: String| text.starts_with('1');
+    let two = starts_with_1(format!("{error:.1e}")) || starts_with_1(format!("{error:.0e}"));
+    let places = i32::from(two) - leading(error, 1);
+    let decimal = to_place(x, places);
+    let exponent = decimal.exponent.unwrap_or(0);
+    let error = rounded(times_ten(error, -exponent), places + exponent);
+    // In units of the last digit, unless it reaches over the point: 0.1165(4), but 16.0(1.2).
+    let error = match error.strip_prefix("0.") {
+        Some(after) => after.trim_start_matches('0').to_string(),
+        None => error,
+    };
+    Decimal { error: Some(error), ..decimal }
+}
+
+/// Rounded to a decimal place (negative: tens, hundreds), with a power of ten where one is due.
+fn to_place(x: f64, places: i32) -> Decimal {
+    // The leading digit after rounding; that of the last place for what rounds to nothing.
+    let digits = if x == 0.0 { 0 } else { leading(x, 17) + places + 1 };
+    let exponent = if digits < 1 { -places } else { leading(x, digits as usize) };
+    if shows_power(exponent) {
+        let mantissa = rounded(times_ten(x, -exponent), places + exponent);
+        return Decimal { exponent: Some(exponent), ..bare(x, mantissa) };
+    }
+    bare(x, rounded(x, places))
+}
+
+/// |x| rounded to `places` decimals; a negative number of places rounds to tens, hundreds, …
+fn rounded(x: f64, places: i32) -> String {
+    match usize::try_from(places) {
+        Ok(places) => format!("{:.*}", places, x.abs()),
+        Err(_) => {
+            let units = format!("{:.0}", times_ten(x.abs(), places));
+            if units == "0" { units } else { units + &"0".repeat(places.unsigned_abs() as usize) }
+        }
+    }
+}
+
+/// Exponent of the leading digit of x after rounding to so many significant digits; 0 for 0.
+fn leading(x: f64, digits: usize) -> i32 {
+    scientific(&format!("{:.*e}", digits.max(1) - 1, x)).1
+}
+
+/// x · 10^power, by moving the point of its shortest decimal: one rounding, of the exact product.
+fn times_ten(x: f64, power: i32) -> f64 {
+    if power == 0 {
+        return x;
+    }
+    let (mantissa, exponent) = scientific(&format!("{x:e}"));
+    format!("{mantissa}e{}", exponent + power).parse().unwrap_or(x)
+}
+
+/// "1.5e-4" → ("1.5", −4).
+fn scientific(text: &str) -> (String, i32) {
+    let (mantissa, exponent) = text.split_once('e').unwrap_or((text, "0"));
+    (mantissa.to_string(), exponent.parse().unwrap_or(0))
+}
+
+/// Digits in groups of three from five digits on, with a narrow space that does not break.
+fn grouped(n: i64) -> String {
+    let digits = n.unsigned_abs().to_string();
+    if digits.len() < 5 {
+        return digits;
+    }
+    let mut out = String::new();
+    for (i, c) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            out.push(NARROW_SPACE);
+        }
+        out.push(c);
+    }
+    out
+}
+
+impl Value {
+    /// The value in its own digits, for terminals and data: `0.1165(4)`.
+    pub fn plain(&self) -> String {
+        print(&self.number, Style::default()).plain()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn error(value: f64, error: f64) -> Printed {
+        print(&Value::ensemble("x", value, error, 9).number, Style::default())
+    }
+
+    fn real(value: f64, digits: usize) -> Printed {
+        print(&Value::real("x", value, digits).number, Style::default())
+    }
+
+    #[test]
+    fn digits_follow_from_the_error() {
+        for (value, e, text) in [
+            (0.116_527, 0.000_43, "0.1165(4)"),
+            (0.116_527, 0.001_43, "0.1165(14)"),
+            (0.116_527, 0.009_6, "0.117(10)"),
+            (16.04, 1.23, "16.0(1.2)"),
+            (16.04, 3.4, "16(3)"),
+            (4123.0, 34.0, "4120(30)"),
+            (4123.0, 134.0, "4120(130)"),
+            (-3.16, 0.2, "-3.2(2)"),
+            (0.0, 0.03, "0.00(3)"),
+            (101.0, 0.0, "101"),
+            (3.14e-8, 2e-9, "3.1(2)e-8"),
+            (2.5e9, 3e7, "2.50(3)e9"),
+            (9.996, 0.02, "10.00(2)"),
+        ] {
+            assert_eq!(error(value, e).plain(), text, "{value} ± {e}");
+        }
+    }
+
+    #[test]
+    fn declared_digits_and_powers() {
+        for (value, digits, text) in [
+            (0.012_209_975_124, 6, "0.0122100"),
+            (8.870_17e-4, 3, "8.87e-4"),
+            (8.5e-301, 2, "8.5e-301"),
+            (99.96, 3, "100"),
+            (9.996e-4, 3, "0.00100"),
+            (1234.5, 2, "1200"),
+            (0.0, 4, "0"),
+        ] {
+            assert_eq!(real(value, digits).plain(), text, "{value}");
+        }
+    }
+
+    #[test]
+    fn each_markup_has_its_minus_and_power() {
+        assert_eq!(real(-3.25, 3).markdown(), "−3.25");
+        assert_eq!(real(-3.25, 3).maths(), "-3.25");
+        assert_eq!(real(1.2e-5, 2).markdown(), r"$1.2\times10^{-5}$");
+        assert_eq!(real(1e-9, 1).maths(), "10^{-9}");
+        assert_eq!(real(-2e-9, 1).maths(), r"-2\times10^{-9}");
+        let big = Printed::One(Decimal { negative: false, ..bare(1.0, grouped(1_234_567)) });
+        assert_eq!(big.markdown(), "1\u{202f}234\u{202f}567");
+        assert_eq!(big.maths(), r"1\,234\,567");
+        assert_eq!(big.plain(), "1234567");
+    }
+
+    #[test]
+    fn styles() {
+        let number = Value::ensemble("x", 0.9453, 0.0081, 400).number;
+        let percent = Style { percent: true, ..Style::default() };
+        assert_eq!(print(&number, percent).plain(), "94.5(8) %");
+        assert_eq!(print(&number, Style { no_error: true, ..percent }).markdown(), "94.5\u{a0}%");
+        assert_eq!(print(&number, percent).maths(), r"94.5(8)\,\%");
+        let fixed = Style { digits: Some(Asked::Fixed(2)), ..Style::default() };
+        assert_eq!(print(&number, fixed).plain(), "0.95");
+        let full = Style { digits: Some(Asked::Full), ..Style::default() };
+        assert_eq!(print(&number, full).plain(), "0.9453");
+        assert_eq!(
+            print(&Number::Real { value: 0.1 + 0.2, digits: Digits::Decimals(1) }, full).plain(),
+            "0.30000000000000004"
+        );
+    }
+
+    #[test]
+    fn intervals_show_two_digits_of_their_width() {
+        let interval =
+            |low, high| print(&Value::interval("x", [low, high]).number, Style::default()).plain();
+        assert_eq!(interval(0.115_71, 0.117_34), "[0.1157, 0.1173]");
+        assert_eq!(interval(19.0, 219.0), "[19, 219]");
+        assert_eq!(interval(0.5, 0.5), "[0.5, 0.5]");
+    }
+
+    /// Every printed number reads back to within half a unit of its last digit.
+    #[test]
+    fn no_digit_is_invented() {
+        let mut x = 1.234_567_890_123e-7_f64;
+        while x < 1e9 {
+            for digits in 1..8 {
+                let back: f64 = real(x, digits).plain().parse().unwrap();
+                let unit = format!("1e{}", leading(x, digits) - digits as i32 + 1);
+                let half = 0.5 * unit.parse::<f64>().unwrap();
+                assert!((back - x).abs() <= half * (1.0 + 1e-9), "{x} printed as {back}");
+            }
+            x *= 1.37;
+        }
+    }
+}

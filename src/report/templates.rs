@@ -1,0 +1,367 @@
+//! The templates: people's prose, read at run time and filled by Tera.
+//!
+//! Delimiters are `«value»`, `<% tag %>` and `<# comment #>`, because Tera's own ones break TeX.
+//! Autoescape is off: the result is Markdown.
+//!
+//! In a template `«v.half_height»` does not become digits yet but a *mark* that carries the id,
+//! and filters change the mark: `«v.kept | percent»`, `«v.p_jump | significant(digits=10)»`,
+//! `«v.p_jump | full»`, `«v.x | fixed(digits=2)»`, `«v.x | no_error»`, `«v.x | with_unit»`. The
+//! writers turn marks into digits, each in its own markup and knowing whether the mark stands in
+//! prose or in mathematics; and they know which values were named. For conditions there are plain
+//! numbers: `<% if raw.half_height < raw.printed.threshold %>`.
+
+use super::Error;
+use super::print::{Asked, Style};
+use super::values::{Number, Registry};
+use std::collections::BTreeMap;
+use std::path::Path;
+use tera::{Context, Delimiters, Kwargs, State, Tera};
+
+/// The copy that is built into the program: path relative to `templates/`, and text.
+const EMBEDDED: &[(&str, &str)] = &[("report.md", include_str!("../../templates/report.md"))];
+
+/// Endings of the files that are templates or data for them (fonts live there too).
+const TEXT: [&str; 5] = [".md", ".tex", ".bib", ".toml", ".html"];
+
+/// All template files, by path relative to their folder.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Templates(BTreeMap<String, String>);
+
+impl Templates {
+    /// The copy that is built into the program.
+    pub fn embedded() -> Self {
+        let own = |(path, text): &(&str, &str)| (path.to_string(), text.to_string());
+        Templates(EMBEDDED.iter().map(own).collect())
+    }
+
+    /// Reads all templates of a folder.
+    ///
+    /// # Errors
+    /// When a file or folder cannot be read.
+    pub fn read(folder: &Path) -> Result<Self, Error> {
+        let mut files = BTreeMap::new();
+        walk(folder, "", &mut files)?;
+        Ok(Templates(files))
+    }
+
+    /// The given folder; without one `./templates` if it is there, else the embedded copy.
+    ///
+    /// # Errors
+    /// As [`Templates::read`].
+    pub fn find(folder: Option<&Path>) -> Result<Self, Error> {
+        let default = Path::new("templates");
+        match folder {
+            Some(folder) => Templates::read(folder),
+            None if default.join("report.md").is_file() => Templates::read(default),
+            None => Ok(Templates::embedded()),
+        }
+    }
+
+    /// The text of one file.
+    ///
+    /// # Errors
+    /// When there is none of that name.
+    pub fn text(&self, path: &str) -> Result<&str, Error> {
+        let missing = || Error::Template(format!("{path}: no such file in the templates"));
+        self.0.get(path).map(String::as_str).ok_or_else(missing)
+    }
+
+    /// Paths and texts, sorted.
+    pub fn iter(&self) -> impl Iterator<Item = (&str, &str)> {
+        self.0.iter().map(|(path, text)| (path.as_str(), text.as_str()))
+    }
+}
+
+fn walk(folder: &Path, prefix: &str, into: &mut BTreeMap<String, String>) -> Result<(), Error> {
+    let fail = |path: &Path, source| Error::Read { path: path.display().to_string(), source };
+    for entry in std::fs::read_dir(folder).map_err(|e| fail(folder, e))? {
+        let path = entry.map_err(|e| fail(folder, e))?.path();
+        let Some(name) = path.file_name().and_then(|name| name.to_str()) else { continue };
+        let relative = format!("{prefix}{name}");
+        if path.is_dir() {
+            walk(&path, &format!("{relative}/"), into)?;
+        } else if TEXT.iter().any(|end| name.ends_with(end)) {
+            into.insert(relative, std::fs::read_to_string(&path).map_err(|e| fail(&path, e))?);
+        }
+    }
+    Ok(())
+}
+
+/// Tera, set up with the templates and the values.
+#[derive(Clone)]
+pub struct Filler {
+    tera: Tera,
+    context: Context,
+}
+
+impl Filler {
+    /// Sets Tera up: all `.md` and `.tex` files can be included by their relative path.
+    ///
+    /// # Errors
+    /// A template that does not parse, with file, line and column.
+    pub fn new(templates: &Templates, values: &Registry) -> Result<Self, Error> {
+        let mut tera = Tera::new();
+        let delimiters = Delimiters {
+            block_start: "<%".into(),
+            block_end: "%>".into(),
+            variable_start: "«".into(),
+            variable_end: "»".into(),
+            comment_start: "<#".into(),
+            comment_end: "#>".into(),
+        };
+        tera.set_delimiters(delimiters).map_err(failure)?;
+        tera.autoescape_on(Vec::<&str>::new());
+        register(&mut tera);
+        let sources = templates.iter().filter(|(p, _)| p.ends_with(".md") || p.ends_with(".tex"));
+        tera.add_raw_templates(sources).map_err(failure)?;
+        Ok(Filler { tera, context: context(values) })
+    }
+
+    /// Adds a name that is no value: the rows of the claims, the list of figures.
+    pub fn insert<T: serde::Serialize>(&mut self, name: &'static str, rows: &T) {
+        self.context.insert(name, rows);
+    }
+
+    /// Fills one template; values are marks in the result.
+    ///
+    /// # Errors
+    /// An unknown name or a wrong filter, with file, line and column.
+    pub fn fill(&self, path: &str) -> Result<String, Error> {
+        self.tera.render(path, &self.context).map_err(failure)
+    }
+
+    /// Fills a text that is no file (a field of a claim); `name` stands for it in errors.
+    ///
+    /// # Errors
+    /// As [`Filler::fill`].
+    pub fn fill_text(&self, name: &str, text: &str) -> Result<String, Error> {
+        let mut tera = self.tera.clone();
+        tera.add_raw_template(name, text).map_err(failure)?;
+        tera.render(name, &self.context).map_err(failure)
+    }
+}
+
+fn failure(error: tera::Error) -> Error {
+    Error::Template(error.to_string())
+}
+
+/// `v.name` and `group.name` are marks, `raw.name` and `raw.group.name` plain numbers.
+fn context(values: &Registry) -> Context {
+    let mut marks: BTreeMap<&str, BTreeMap<&str, String>> = BTreeMap::new();
+    let mut raw: BTreeMap<&str, serde_json::Value> = BTreeMap::new();
+    for value in values.iter() {
+        let number = match &value.number {
+            Number::Integer(n) => (*n).into(),
+            Number::Real { value, .. } => (*value).into(),
+            Number::Interval { low, high } => vec![*low, *high].into(),
+            Number::Text(text) => text.clone().into(),
+        };
+        let mark = Mark { id: value.id.clone(), style: Style::default() }.write();
+        match value.id.split_once('.') {
+            None => {
+                marks.entry("v").or_default().insert(&value.id, mark);
+                raw.insert(&value.id, number);
+            }
+            Some((group, name)) => {
+                marks.entry(group).or_default().insert(name, mark);
+                raw.entry(group).or_insert_with(|| serde_json::json!({}))[name] = number;
+            }
+        }
+    }
+    let mut context = Context::new();
+    for (group, names) in marks {
+        context.insert(group.to_string(), &names);
+    }
+    context.insert("raw", &raw);
+    context
+}
+
+/// The place of a value in filled text. Private-use characters frame it, so that neither Tera nor
+/// Markdown reads anything into it, and no prose can contain one by accident.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Mark {
+    /// Id of the value.
+    pub id: String,
+    /// What the filters asked for.
+    pub style: Style,
+}
+
+const OPEN: char = '\u{e000}';
+const CLOSE: char = '\u{e001}';
+const NEXT: char = '\u{e002}';
+
+impl Mark {
+    /// The mark as text.
+    pub fn write(&self) -> String {
+        let mut out = format!("{OPEN}{}", self.id);
+        let mut flag = |text: String| {
+            out.push(NEXT);
+            out.push_str(&text);
+        };
+        if self.style.percent {
+            flag("percent".into());
+        }
+        match self.style.digits {
+            Some(Asked::Full) => flag("full".into()),
+            Some(Asked::Fixed(n)) => flag(format!("fixed{n}")),
+            Some(Asked::Significant(n)) => flag(format!("significant{n}")),
+            None => {}
+        }
+        if self.style.no_error {
+            flag("noerror".into());
+        }
+        if self.style.with_unit {
+            flag("unit".into());
+        }
+        out.push(CLOSE);
+        out
+    }
+
+    /// Reads what [`Mark::write`] wrote; None for anything else.
+    pub fn read(text: &str) -> Option<Mark> {
+        let inner = text.strip_prefix(OPEN)?.strip_suffix(CLOSE)?;
+        let mut parts = inner.split(NEXT);
+        let id = parts.next()?.to_string();
+        let mut style = Style::default();
+        for flag in parts {
+            let number = |prefix: &str| flag.strip_prefix(prefix)?.parse().ok();
+            match flag {
+                "percent" => style.percent = true,
+                "full" => style.digits = Some(Asked::Full),
+                "noerror" => style.no_error = true,
+                "unit" => style.with_unit = true,
+                _ => {
+                    let fixed = number("fixed").map(Asked::Fixed);
+                    style.digits = Some(fixed.or(number("significant").map(Asked::Significant))?);
+                }
+            }
+        }
+        (!id.contains(OPEN)).then_some(Mark { id, style })
+    }
+
+    /// Cuts text at its marks: Ok is a mark, Err is text between marks.
+    pub fn split(text: &str) -> Vec<Result<Mark, &str>> {
+        let mut pieces = Vec::new();
+        let mut rest = text;
+        while let Some(start) = rest.find(OPEN) {
+            let Some(length) = rest[start..].find(CLOSE) else { break };
+            let end = start + length + CLOSE.len_utf8();
+            if start > 0 {
+                pieces.push(Err(&rest[..start]));
+            }
+            pieces.push(Mark::read(&rest[start..end]).ok_or(&rest[start..end]));
+            rest = &rest[end..];
+        }
+        if !rest.is_empty() {
+            pieces.push(Err(rest));
+        }
+        pieces
+    }
+}
+
+/// The filters on values, and `literal` for a number that the prose may type with a reason.
+fn register(tera: &mut Tera) {
+    type Change = fn(&mut Style, &Kwargs) -> tera::TeraResult<()>;
+    let changes: [(&str, Change); 6] = [
+        ("percent", |style, _| {
+            style.percent = true;
+            Ok(())
+        }),
+        ("full", |style, _| {
+            style.digits = Some(Asked::Full);
+            Ok(())
+        }),
+        ("no_error", |style, _| {
+            style.no_error = true;
+            Ok(())
+        }),
+        ("with_unit", |style, _| {
+            style.with_unit = true;
+            Ok(())
+        }),
+        ("fixed", |style, arguments| {
+            style.digits = Some(Asked::Fixed(arguments.must_get("digits")?));
+            Ok(())
+        }),
+        ("significant", |style, arguments| {
+            style.digits = Some(Asked::Significant(arguments.must_get("digits")?));
+            Ok(())
+        }),
+    ];
+    for (name, change) in changes {
+        tera.register_filter(name, move |text: &str, arguments: Kwargs, _: &State| {
+            let mut mark = Mark::read(text).ok_or_else(|| {
+                tera::Error::message(format!("`{name}` is a filter of values such as v.p_crit"))
+            })?;
+            change(&mut mark.style, &arguments)?;
+            Ok::<_, tera::Error>(mark.write())
+        });
+    }
+    tera.register_function("literal", |arguments: Kwargs, _: &State| {
+        let text: String = arguments.must_get("text")?;
+        let why: String = arguments.must_get("why")?;
+        if why.trim().is_empty() {
+            return Err(tera::Error::message("`literal` needs its reason in `why`"));
+        }
+        Ok(text)
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Value;
+    use super::*;
+
+    fn fill(text: &str) -> Result<String, Error> {
+        let mut values = Registry::new();
+        values.add(Value::real("p_crit", 0.0122, 3)).unwrap();
+        values.add(Value::printed("printed.rise", "0.12", "Sec. 2")).unwrap();
+        let templates = Templates([("report.md".to_string(), text.to_string())].into());
+        Filler::new(&templates, &values)?.fill("report.md")
+    }
+
+    #[test]
+    fn a_value_is_a_mark_that_filters_change() {
+        let filled =
+            fill(r"$x^{{2}}$ {% «v.p_crit» and «printed.rise | percent | fixed(digits=1)»")
+                .unwrap();
+        let pieces = Mark::split(&filled);
+        assert_eq!(pieces.len(), 4);
+        assert_eq!(pieces[0], Err(r"$x^{{2}}$ {% "));
+        assert_eq!(pieces[1], Ok(Mark { id: "p_crit".into(), style: Style::default() }));
+        let style = Style { percent: true, digits: Some(Asked::Fixed(1)), ..Style::default() };
+        assert_eq!(pieces[3], Ok(Mark { id: "printed.rise".into(), style }));
+    }
+
+    #[test]
+    fn conditions_see_plain_numbers() {
+        let text = "<% if raw.p_crit < raw.printed.rise %>below<% else %>above<% endif %>";
+        assert_eq!(fill(text).unwrap(), "below");
+    }
+
+    #[test]
+    fn an_unknown_name_is_an_error_with_its_place() {
+        for text in
+            ["one\n  «v.p_krit»", "one\n  «w.p_crit»", "one\n  <% if raw.nix > 1 %>x<% endif %>"]
+        {
+            let error = fill(text).unwrap_err().to_string();
+            assert!(error.contains("report.md:2:"), "{error}");
+        }
+    }
+
+    #[test]
+    fn a_wrong_filter_is_an_error_with_its_place() {
+        for text in ["\n«v.p_crit | percents»", "\n«v.p_crit | fixed»", "\n«\"text\" | percent»"]
+        {
+            let error = fill(text).unwrap_err().to_string();
+            assert!(error.contains("report.md:2:"), "{error}");
+        }
+    }
+
+    #[test]
+    fn a_literal_needs_its_reason() {
+        let text = "«literal(text=\"2007\", why=\"year of the paper\")»";
+        assert_eq!(fill(text).unwrap(), "2007");
+        assert!(fill("«literal(text=\"2007\", why=\" \")»").is_err());
+    }
+}
