@@ -1,0 +1,84 @@
+//! Sentences of a claim: words, and numbers that the report prints with the digits they deserve.
+
+use serde::Serialize;
+
+/// How many digits of a number are shown.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Digits {
+    /// As many as the error allows, the error in brackets: 0.1165(4).
+    Error(f64),
+    /// So many decimals.
+    Decimals(u8),
+    /// So many significant digits.
+    Significant(u8),
+    /// An integer.
+    Integer,
+}
+
+/// A number inside a sentence.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Number {
+    /// The number.
+    pub value: f64,
+    /// How it is shown.
+    pub digits: Digits,
+}
+
+/// A piece of a sentence.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Piece {
+    /// Words, as they are.
+    Words(String),
+    /// A number.
+    Number(Number),
+}
+
+/// A short text with numbers in it.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[serde(transparent)]
+pub struct Text(pub Vec<Piece>);
+
+impl Text {
+    /// A text of words alone.
+    pub fn words(words: impl Into<String>) -> Text {
+        Text::default().say(words)
+    }
+
+    /// Goes on with words.
+    pub fn say(mut self, words: impl Into<String>) -> Text {
+        self.0.push(Piece::Words(words.into()));
+        self
+    }
+
+    fn number(mut self, value: f64, digits: Digits) -> Text {
+        self.0.push(Piece::Number(Number { value, digits }));
+        self
+    }
+
+    /// Goes on with a number and its error.
+    pub fn with_error(self, value: f64, error: f64) -> Text {
+        self.number(value, Digits::Error(error))
+    }
+
+    /// Goes on with a number of so many decimals.
+    pub fn decimals(self, value: f64, decimals: u8) -> Text {
+        self.number(value, Digits::Decimals(decimals))
+    }
+
+    /// Goes on with a number of so many significant digits.
+    pub fn significant(self, value: f64, digits: u8) -> Text {
+        self.number(value, Digits::Significant(digits))
+    }
+
+    /// Goes on with an integer.
+    pub fn integer(self, value: usize) -> Text {
+        self.number(value as f64, Digits::Integer)
+    }
+
+    /// Whether nothing is said.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+}

@@ -1,0 +1,89 @@
+//! Verdicts, as functions of what was compared.
+
+use serde::Serialize;
+
+/// What became of a statement.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// Our finding lies within the tolerance.
+    Reproduced,
+    /// It does not, and the difference has the size that our explanation predicts.
+    DiffersAndExplained,
+    /// It does not, or our explanation of a difference fails.
+    Differs,
+    /// The results at hand do not decide.
+    CannotBeJudged,
+}
+
+impl Verdict {
+    /// Every verdict, in the order of a scorecard.
+    pub const ALL: [Verdict; 4] = [
+        Verdict::Reproduced,
+        Verdict::DiffersAndExplained,
+        Verdict::Differs,
+        Verdict::CannotBeJudged,
+    ];
+
+    /// The verdict in words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Verdict::Reproduced => "reproduced",
+            Verdict::DiffersAndExplained => "differs and explained",
+            Verdict::Differs => "differs",
+            Verdict::CannotBeJudged => "cannot be judged",
+        }
+    }
+}
+
+/// What was compared, before it is a verdict.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Judgement {
+    /// The finding against the tolerance.
+    Plain {
+        /// Whether the finding lies within it.
+        agrees: bool,
+    },
+    /// The finding against the tolerance, and the explanation of a difference against its own
+    /// prediction. An explanation that fails makes the row fail whatever the finding.
+    Explained {
+        /// Whether the finding lies within the tolerance.
+        agrees: bool,
+        /// Whether the explanation predicts what is found.
+        holds: bool,
+    },
+    /// The results at hand do not decide.
+    Open,
+}
+
+impl Judgement {
+    /// The verdict.
+    pub fn verdict(self) -> Verdict {
+        match self {
+            Judgement::Plain { agrees: true } => Verdict::Reproduced,
+            Judgement::Plain { agrees: false } => Verdict::Differs,
+            Judgement::Explained { holds: false, .. } => Verdict::Differs,
+            Judgement::Explained { agrees: true, holds: true } => Verdict::Reproduced,
+            Judgement::Explained { agrees: false, holds: true } => Verdict::DiffersAndExplained,
+            Judgement::Open => Verdict::CannotBeJudged,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_verdict_follows_the_numbers_both_ways() {
+        let plain = |agrees| Judgement::Plain { agrees }.verdict();
+        assert_eq!(plain(true), Verdict::Reproduced);
+        assert_eq!(plain(false), Verdict::Differs);
+        let explained = |agrees, holds| Judgement::Explained { agrees, holds }.verdict();
+        assert_eq!(explained(false, true), Verdict::DiffersAndExplained);
+        assert_eq!(explained(false, false), Verdict::Differs);
+        assert_eq!(explained(true, true), Verdict::Reproduced);
+        assert_eq!(explained(true, false), Verdict::Differs);
+        assert_eq!(Judgement::Open.verdict(), Verdict::CannotBeJudged);
+    }
+}
