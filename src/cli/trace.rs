@@ -1,12 +1,74 @@
 //! `impact-paper trace`.
 
 use super::Failure;
+use impact_paper::dynamics::{Engine, Error, Scenario};
+use impact_paper::numerics::clock::LATEST;
+use std::io::{self, Write};
+use std::path::PathBuf;
 
-/// Prints the impacts of one scenario as CSV.
+/// Prints the impacts of one scenario as CSV: time, gap, closing speed.
+///
+/// Gap 0 lies between the left wall and mass 1, gap j between masses j and j + 1; on a ring gap n
+/// lies between masses n and 1. Exact three-way impacts are taken one after the other, lowest gap
+/// first. Past some 150 units of time a chaotic chain depends on the last bit: only statistics are
+/// reproducible there.
 #[derive(clap::Args)]
-pub struct Args {}
+#[command(after_help = FORM)]
+pub struct Args {
+    /// File with the scenario as JSON (the form is below).
+    #[arg(value_name = "SCENARIO.json")]
+    scenario: PathBuf,
+    /// Time at which to stop, from 0 to 1e12.
+    #[arg(long, value_name = "T")]
+    until: f64,
+    /// Stop after this many impacts.
+    #[arg(long, value_name = "M")]
+    max_impacts: Option<u64>,
+}
+
+const FORM: &str = r#"The scenario, with the defaults of everything but "forcing":
+  {"spacing": 1, "natural_frequency": 1, "forcing_frequency": 1.4142135623730951,
+   "restitution": 0.8, "boundary": "walls", "initial": "rest",
+   "forcing": [[alpha_1, beta_1], ..., [alpha_n, beta_n]]}
+boundary: "walls" or "ring".
+initial:  "rest" (at equilibrium), "zero" (no free part),
+          {"free": [[a_1, b_1], ...]} (x_j = j d + a_j cos wt + b_j sin wt + forced response),
+          {"random": {"sigma": s, "seed": k}} (normal free parts)."#;
 
 /// Runs the verb.
-pub fn run(_args: Args) -> Result<(), Failure> {
-    todo!()
+pub fn run(args: Args) -> Result<(), Failure> {
+    if !(0.0..=LATEST).contains(&args.until) {
+        let message =
+            format!("--until: {:?} is out of range; give a time from 0 to 1e12", args.until);
+        return Err(Failure::input(message));
+    }
+    let name = args.scenario.display();
+    let text = std::fs::read_to_string(&args.scenario).map_err(|error| {
+        Failure::input(format!("{name}: {error}; give the path of a readable scenario file"))
+    })?;
+    let in_file = |error: Error| match error {
+        Error::Work { .. } => Failure::run(error.to_string()),
+        Error::Input { .. } | Error::Overlap { .. } => Failure::input(format!("{name}: {error}")),
+    };
+    let scenario = Scenario::from_json(&text).map_err(in_file)?;
+    let mut engine = Engine::new(&scenario).map_err(in_file)?;
+    let mut out = io::BufWriter::new(io::stdout().lock());
+    let mut written = writeln!(out, "time,gap,closing_speed");
+    let mut left = args.max_impacts.unwrap_or(u64::MAX);
+    if left > 0 {
+        engine
+            .run(args.until, |impact| {
+                written =
+                    writeln!(out, "{:?},{},{:?}", impact.time, impact.gap, impact.closing_speed);
+                left -= 1;
+                left > 0 && written.is_ok()
+            })
+            .map_err(in_file)?;
+    }
+    match written.and_then(|()| out.flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Failure::input(format!(
+            "standard output: {error}; direct it to a file that can be written"
+        ))),
+        _ => Ok(()),
+    }
 }

@@ -3,6 +3,7 @@
 use super::Error;
 use crate::numerics::random::NormalPairs;
 use crate::params::{Boundary, Chain, Start};
+use serde::Deserialize;
 
 /// The start of one scenario.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,6 +14,72 @@ pub enum Initial {
     Zero,
     /// Given free parts (a_j, b_j): x_j = j d + a_j cos ωt + b_j sin ωt + forced response.
     Free(Vec<[f64; 2]>),
+}
+
+/// The form of a scenario file.
+#[derive(Deserialize)]
+#[serde(default, deny_unknown_fields)]
+struct Form {
+    spacing: f64,
+    natural_frequency: f64,
+    forcing_frequency: f64,
+    restitution: f64,
+    boundary: Boundary,
+    initial: InitialForm,
+    forcing: Vec<[f64; 2]>,
+}
+
+/// The start as a scenario file names it.
+#[derive(Deserialize)]
+#[serde(rename_all = "lowercase", deny_unknown_fields)]
+enum InitialForm {
+    Rest,
+    Zero,
+    Free(Vec<[f64; 2]>),
+    Random { sigma: f64, seed: u64 },
+}
+
+impl Default for Form {
+    fn default() -> Self {
+        let chain = Chain::default();
+        Form {
+            spacing: chain.spacing,
+            natural_frequency: chain.natural_frequency,
+            forcing_frequency: chain.forcing_frequency,
+            restitution: chain.restitution,
+            boundary: chain.boundary,
+            initial: InitialForm::Rest,
+            forcing: Vec::new(),
+        }
+    }
+}
+
+impl From<Form> for Scenario {
+    fn from(form: Form) -> Scenario {
+        let initial = match form.initial {
+            InitialForm::Rest => Initial::Rest,
+            InitialForm::Zero => Initial::Zero,
+            InitialForm::Free(parts) => Initial::Free(parts),
+            InitialForm::Random { sigma, seed } => {
+                let mut normals = NormalPairs::new("trace", seed, 0);
+                Initial::Free(scaled_pairs(form.forcing.len(), sigma, &mut normals))
+            }
+        };
+        Scenario {
+            spacing: form.spacing,
+            natural_frequency: form.natural_frequency,
+            forcing_frequency: form.forcing_frequency,
+            restitution: form.restitution,
+            boundary: form.boundary,
+            initial,
+            forcing: form.forcing,
+        }
+    }
+}
+
+/// `masses` pairs of normals with standard deviation `sigma`.
+fn scaled_pairs(masses: usize, sigma: f64, normals: &mut NormalPairs) -> Vec<[f64; 2]> {
+    (0..masses).map(|_| normals.pair().map(|x| sigma * x)).collect()
 }
 
 /// One chain with the amplitudes of its forcing.
@@ -38,19 +105,11 @@ impl Scenario {
     /// Draws the amplitudes of Eq. (5) with standard deviation `sigma` from `normals`: first the
     /// n pairs of the forcing, then, for a random start, the n pairs of the free part.
     pub fn draw(chain: &Chain, sigma: f64, normals: &mut NormalPairs) -> Scenario {
-        let mut pairs = || -> Vec<[f64; 2]> {
-            (0..chain.masses)
-                .map(|_| {
-                    let [x, y] = normals.pair();
-                    [sigma * x, sigma * y]
-                })
-                .collect()
-        };
-        let forcing = pairs();
+        let forcing = scaled_pairs(chain.masses, sigma, normals);
         let initial = match chain.start {
             Start::Rest => Initial::Rest,
             Start::Zero => Initial::Zero,
-            Start::Random => Initial::Free(pairs()),
+            Start::Random => Initial::Free(scaled_pairs(chain.masses, sigma, normals)),
         };
         Scenario {
             spacing: chain.spacing,
@@ -67,8 +126,76 @@ impl Scenario {
     ///
     /// # Errors
     /// [`Error::Input`] names the field and the remedy.
-    pub fn from_json(_text: &str) -> Result<Scenario, Error> {
-        todo!()
+    pub fn from_json(text: &str) -> Result<Scenario, Error> {
+        let mut reader = serde_json::Deserializer::from_str(text);
+        let form: Form = serde_path_to_error::deserialize(&mut reader).map_err(|error| {
+            let path = error.path().to_string();
+            let field = if path == "." { "scenario".to_string() } else { path };
+            let problem = error.into_inner().to_string();
+            Error::input(field, problem, "see the form in `impact-paper trace --help`")
+        })?;
+        reader.end().map_err(|error| {
+            Error::input(
+                "scenario",
+                error.to_string(),
+                "write one JSON object and nothing after it",
+            )
+        })?;
+        let scenario = Scenario::from(form);
+        scenario.validate()?;
+        Ok(scenario)
+    }
+
+    /// Checks every field against the model.
+    ///
+    /// # Errors
+    /// [`Error::Input`] names the first field that is out of bounds.
+    pub fn validate(&self) -> Result<(), Error> {
+        let within = |field: &str, x: f64, low: f64, high: f64| {
+            if x >= low && x <= high {
+                return Ok(());
+            }
+            let remedy = format!("give a number from {low:?} to {high:?}");
+            Err(Error::input(field, format!("{x:?} is out of range"), remedy))
+        };
+        within("spacing", self.spacing, 1e-6, 1e6)?;
+        within("natural_frequency", self.natural_frequency, 1e-3, 1e3)?;
+        within("forcing_frequency", self.forcing_frequency, 1e-3, 1e3)?;
+        within("restitution", self.restitution, 0.0, 1.0)?;
+        if self.forcing_frequency == self.natural_frequency {
+            return Err(Error::input(
+                "forcing_frequency",
+                format!("{:?} equals the natural frequency (resonance)", self.forcing_frequency),
+                "the undamped response grows without bound; choose another frequency",
+            ));
+        }
+        if self.forcing.is_empty() {
+            return Err(Error::input(
+                "forcing",
+                "it names no mass",
+                "give one pair [alpha, beta] for each mass, at least one",
+            ));
+        }
+        let pairs = |field: &str, pairs: &[[f64; 2]]| {
+            for (j, pair) in pairs.iter().enumerate() {
+                for x in pair {
+                    within(&format!("{field}[{j}]"), *x, -1e9, 1e9)?;
+                }
+            }
+            Ok(())
+        };
+        pairs("forcing", &self.forcing)?;
+        if let Initial::Free(free) = &self.initial {
+            if free.len() != self.forcing.len() {
+                return Err(Error::input(
+                    "initial.free",
+                    format!("it has {} pairs for {} masses", free.len(), self.forcing.len()),
+                    "give one pair [a, b] for each mass",
+                ));
+            }
+            pairs("initial.free", free)?;
+        }
+        Ok(())
     }
 
     /// Number of gaps.

@@ -1,0 +1,263 @@
+//! The certified first root of a sum of two sinusoids and a constant.
+//!
+//! In the *local frame* of an instant, with s the time since then, such a function is
+//!
+//! f(s) = f₀ + (g₀/ω) sin ωs − α (1 − cos ωs) − γ (1 − cos Ωs) + δ (sin Ωs − (Ω/ω) sin ωs),
+//!
+//! where f₀ and g₀ are its value and slope at s = 0, and α, γ, δ the amplitudes of cos ωs, cos Ωs
+//! and sin Ωs. In this form nothing cancels at small s: right after an impact f₀ = 0 exactly, and
+//! the waiting time keeps its relative accuracy however short it is.
+
+use super::lane::Lane;
+use super::trig::{RANGE, one_minus_cos, sin_minus_x};
+
+/// The two frequencies ω and Ω and what follows from them.
+#[derive(Clone, Copy, Debug)]
+pub struct Frequencies {
+    /// ω.
+    pub omega: f64,
+    /// Ω.
+    pub big_omega: f64,
+    /// The longest stretch of time that one frame covers, [`RANGE`] / max(ω, Ω).
+    pub reach: f64,
+    inverse_omega: f64,
+    ratio: f64,
+}
+
+impl Frequencies {
+    /// From ω > 0 and Ω > 0.
+    pub fn new(omega: f64, big_omega: f64) -> Self {
+        Frequencies {
+            omega,
+            big_omega,
+            reach: RANGE / omega.max(big_omega),
+            inverse_omega: 1.0 / omega,
+            ratio: big_omega / omega,
+        }
+    }
+}
+
+/// A function in the local frame of an instant (see the module), one per lane.
+#[derive(Clone, Copy, Debug)]
+pub struct Frame<L> {
+    /// f₀, value at s = 0.
+    pub f0: L,
+    /// g₀, slope at s = 0.
+    pub g0: L,
+    /// α, amplitude of cos ωs.
+    pub alpha: L,
+    /// γ, amplitude of cos Ωs.
+    pub gamma: L,
+    /// δ, amplitude of sin Ωs.
+    pub delta: L,
+    /// M₄ ≥ |f''''(s)| for every s: ω⁴ R₁ + Ω⁴ R₂ with R₁, R₂ the amplitudes of the two parts.
+    pub bound: L,
+}
+
+/// Value and derivatives at one s, and the rounding margin of the value.
+#[derive(Clone, Copy, Debug)]
+pub struct Point<L> {
+    /// f(s).
+    pub f: L,
+    /// f'(s).
+    pub g: L,
+    /// f''(s).
+    pub h: L,
+    /// f'''(s).
+    pub j: L,
+    /// The computed f(s) is within this of the exact one.
+    pub margin: L,
+}
+
+/// Rounding of one evaluation, in units of the sum of the absolute values of its terms: each of
+/// the five terms carries at most five roundings of 2^-53 and the sum four more, 9 · 2^-53 < 5e-16
+/// times 2; doubled, so that the margin may be used at both sides.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
+
+impl<L: Lane> Frame<L> {
+    /// Value, derivatives and margin at `s`, 0 ≤ s ≤ reach.
+    #[inline(always)]
+    pub fn at(&self, s: L, frequencies: &Frequencies) -> Point<L> {
+        let w = L::splat(frequencies.omega);
+        let big_w = L::splat(frequencies.big_omega);
+        let ratio = L::splat(frequencies.ratio);
+        let one = L::splat(1.0);
+        let (x, y) = (w * s, big_w * s);
+        let (sx, sy) = (sin_minus_x(x), sin_minus_x(y));
+        let (cx, cy) = (one_minus_cos(x), one_minus_cos(y));
+        let (sin_x, sin_y) = (x + sx, y + sy);
+        let linear = self.g0 * L::splat(frequencies.inverse_omega) * sin_x;
+        let (free, forced) = (self.alpha * cx, self.gamma * cy);
+        let difference = self.delta * (sy - ratio * sx);
+        let (aw, cw) = (self.alpha * w, self.gamma * big_w);
+        let dw = self.delta * big_w;
+        let size = self.f0.abs()
+            + linear.abs()
+            + free.abs()
+            + forced.abs()
+            + self.delta.abs() * (sy.abs() + ratio * sx.abs());
+        Point {
+            f: self.f0 + linear - free - forced + difference,
+            g: self.g0 * (one - cx) - aw * sin_x - cw * sin_y + dw * (cx - cy),
+            h: -(self.g0 * w * sin_x) - aw * w * (one - cx) - cw * big_w * (one - cy)
+                + dw * (w * sin_x - big_w * sin_y),
+            j: -(self.g0 * w * w * (one - cx))
+                + aw * w * w * sin_x
+                + cw * big_w * big_w * sin_y
+                + dw * (w * w * (one - cx) - big_w * big_w * (one - cy)),
+            margin: L::splat(ROUNDING) * size,
+        }
+    }
+
+    /// Value and derivatives at s = 0, where no sine is needed and the value is exact.
+    #[inline(always)]
+    pub fn start(&self, frequencies: &Frequencies) -> Point<L> {
+        let w = L::splat(frequencies.omega);
+        let big_w = L::splat(frequencies.big_omega);
+        Point {
+            f: self.f0,
+            g: self.g0,
+            h: -(self.alpha * w * w) - self.gamma * big_w * big_w,
+            j: -(self.g0 * w * w) + self.delta * big_w * (w * w - big_w * big_w),
+            margin: L::splat(0.0),
+        }
+    }
+}
+
+/// The first root h > 0 of the parabola f + g h − ½ K h², f ≥ 0; `far` if there is none before.
+#[inline(always)]
+fn parabola<L: Lane>(f: L, g: L, k: L, far: L) -> L {
+    let zero = L::splat(0.0);
+    let two = L::splat(2.0);
+    let discriminant = g * g + two * k * f;
+    let root = discriminant.max(zero).sqrt();
+    let falling = two * f / (root - g);
+    // A convex parabola that rises has no root; a division by zero ends as "none" in `min`.
+    let rising = L::select(k.lt(zero), far, (g + root) / k);
+    let h = L::select(g.lt(zero), falling, rising);
+    L::select(discriminant.lt(zero), far, h).min(far)
+}
+
+/// A certified stretch: f > 0 on (s, s + h) for the returned h ≤ `limit`.
+///
+/// On [0, L] the second derivative is at least f'' + min(0, f''' L) − ½ M₄ L² = −K, so f stays
+/// above the parabola f + g h − ½ K h² there, and has no root before the smaller of L and the
+/// parabola's first root. Any L gives a certified stretch; two are tried and the longer is taken.
+#[inline(always)]
+pub fn stretch<L: Lane>(f: L, p: &Point<L>, bound: L, limit: L) -> L {
+    let zero = L::splat(0.0);
+    let half = L::splat(0.5);
+    let certified = |trial: L| {
+        let k = (-(p.j * trial)).max(zero) + half * bound * trial * trial - p.h;
+        parabola(f, p.g, k, trial)
+    };
+    // Closing: most gaps shut near the tangent's root; beyond twice that there is no gain.
+    // Opening: where f'' > 0, K stays negative up to f''/(|f'''| + √(M₄ f'')) at least.
+    let tangent = L::splat(2.0) * f / -p.g;
+    let curved = p.h / (p.j.abs() + (bound * p.h.max(zero)).sqrt());
+    let opening = L::select(zero.lt(p.h), curved, limit);
+    let first = L::select(p.g.lt(zero), tangent, opening).min(limit);
+    let h = certified(first);
+    let again = (L::splat(1.5) * h).min(limit);
+    certified(again).max(h)
+}
+
+/// What a search found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Next {
+    /// The first root, at `s`, where f falls with `speed` = −f'(s) ≥ 0.
+    Root {
+        /// Time since the frame's instant.
+        s: f64,
+        /// −f' at the root.
+        speed: f64,
+    },
+    /// No root in (0, s].
+    Clear {
+        /// Certified up to here.
+        s: f64,
+    },
+}
+
+/// Counted work of searches.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Work {
+    /// Searches started.
+    pub searches: u64,
+    /// Evaluations of f with its sines (the start costs none).
+    pub evaluations: u64,
+    /// Decisions taken inside the undecidable band.
+    pub undecided: u64,
+}
+
+/// Evaluations after which a search stops with what is certified so far; its owner resumes it.
+const PATIENCE: u32 = 64;
+
+/// The first root of the frame's function after s = 0, or the proof that there is none up to
+/// `limit` ≤ reach.
+///
+/// f₀ > 0: the first root. f₀ = 0: the first root after s = 0 if f leaves zero upwards, and s = 0
+/// itself if it moves down. f₀ < 0 is a root at s = 0.
+///
+/// # Why no root is skipped
+/// From a point with f > margin, [`stretch`] of f − margin gives an h such that the exact f is
+/// positive on (s, s + h): the minorant holds for the exact function, since |f''''| ≤ M₄
+/// everywhere, and the margin covers the rounding of the evaluation. So s only moves over proven
+/// ground. Near a transversal root the parabola has the slope and curvature of f, so the steps
+/// converge from below, and fast. They end when the quadratic f + f' h + ½ f'' h² has its root so
+/// close that the rest, |f'''| h³/6 + M₄ h⁴/24, is below the margin.
+///
+/// # The undecidable band
+/// Where the minimum of that quadratic lies within two margins of zero, a double cannot tell a
+/// grazing impact from a near miss. The quadratic then decides, hit if its minimum is ≤ 0, and the
+/// decision is counted in [`Work::undecided`]. A margin is 8 ε times the sum of the absolute
+/// values of the terms of f, ε = 2^-52, which is never more than d + 2 (R₁ + R₂) + 3 R₂ Ω/ω.
+pub fn first_root(
+    frame: &Frame<f64>,
+    limit: f64,
+    frequencies: &Frequencies,
+    work: &mut Work,
+) -> Next {
+    work.searches += 1;
+    let mut p = frame.start(frequencies);
+    if p.f < 0.0 || (p.f == 0.0 && p.g < 0.0) {
+        return Next::Root { s: 0.0, speed: -p.g };
+    }
+    let mut s = 0.0;
+    for _ in 0..PATIENCE {
+        let in_band = s > 0.0 && p.f <= 2.0 * p.margin;
+        if p.g < 0.0 {
+            // The quadratic through this point; its minimum is −discriminant / 2 f''.
+            let discriminant = p.g * p.g - 2.0 * p.h * p.f;
+            let h = 2.0 * p.f / (discriminant.max(0.0).sqrt() - p.g);
+            let rest = (p.j.abs() * (1.0 / 6.0) + frame.bound * h * (1.0 / 24.0)) * (h * h * h);
+            if discriminant >= 0.0 && (in_band || rest <= p.margin) {
+                work.undecided += u64::from(discriminant <= 4.0 * p.h * p.margin);
+                let s = (s + h).max(0.0);
+                return if s <= limit {
+                    Next::Root { s, speed: discriminant.sqrt() }
+                } else {
+                    Next::Clear { s: limit }
+                };
+            }
+        }
+        let h = if in_band && p.h > 0.0 {
+            // A dip that the quadratic does not reach zero in: on to where it leaves the band.
+            work.undecided += 1;
+            let up = (p.g * p.g + 2.0 * p.h * (4.0 * p.margin)).sqrt();
+            (up - p.g) / p.h
+        } else {
+            stretch((p.f - p.margin).max(0.0), &p, frame.bound, limit - s)
+        };
+        // Where f, f' and f'' vanish to rounding, f''' lifts f: above zero while h < 4 f'''/M₄.
+        let h = if h > 0.0 { h } else { 2.0 * p.j.abs() / frame.bound };
+        let next = s + h * (1.0 - 4.0 * f64::EPSILON);
+        s = if next > s { next } else { s + s * f64::EPSILON };
+        if s >= limit {
+            return Next::Clear { s: limit };
+        }
+        p = frame.at(s, frequencies);
+        work.evaluations += 1;
+    }
+    Next::Clear { s }
+}

@@ -1,0 +1,131 @@
+//! Portable sine and cosine: plain + − × only, so the same bits on every machine.
+
+use super::lane::Lane;
+
+/// Largest |x| for which [`sin_minus_x`] and [`one_minus_cos`] are meant.
+pub const RANGE: f64 = 2.0;
+
+/// 1/3!, −1/5!, …: Taylor coefficients of (x − sin x)/x³ in x², up to x^25 of the sine.
+const SIN: [f64; 12] = inverse_factorials(3);
+
+/// 1/2!, −1/4!, …: Taylor coefficients of (1 − cos x)/x² in x², up to x^24 of the cosine.
+const COS: [f64; 12] = inverse_factorials(2);
+
+/// 1/m!, −1/(m+2)!, 1/(m+4)!, …
+///
+/// Every factorial up to 18! is exact in a double; the later ones are rounded, which changes the
+/// sums by less than 1e-24.
+const fn inverse_factorials(m: usize) -> [f64; 12] {
+    let mut out = [0.0; 12];
+    let mut factorial = 1.0;
+    let mut i = 2;
+    while i <= m {
+        factorial *= i as f64;
+        i += 1;
+    }
+    let mut k = 0;
+    while k < 12 {
+        out[k] = if k % 2 == 0 { 1.0 / factorial } else { -1.0 / factorial };
+        let next = (m + 2 * k) as f64;
+        factorial *= (next + 1.0) * (next + 2.0);
+        k += 1;
+    }
+    out
+}
+
+/// The polynomial with coefficients `c` at `z`: even and odd powers apart, which halves the chain
+/// of dependent operations against Horner's rule.
+#[inline(always)]
+fn polynomial<L: Lane>(c: &[f64; 12], z: L) -> L {
+    let y = z * z;
+    let mut even = L::splat(c[10]);
+    let mut odd = L::splat(c[11]);
+    for k in (0..5).rev() {
+        even = even * y + L::splat(c[2 * k]);
+        odd = odd * y + L::splat(c[2 * k + 1]);
+    }
+    even + z * odd
+}
+
+/// sin x − x for |x| ≤ [`RANGE`], to a few units in its own last place.
+///
+/// The omitted terms are below 2^27/27! < 2e-20.
+#[inline(always)]
+pub fn sin_minus_x<L: Lane>(x: L) -> L {
+    let z = x * x;
+    -(z * x * polynomial(&SIN, z))
+}
+
+/// 1 − cos x for |x| ≤ [`RANGE`], to a few units in its own last place.
+///
+/// The omitted terms are below 2^26/26! < 2e-19.
+#[inline(always)]
+pub fn one_minus_cos<L: Lane>(x: L) -> L {
+    let z = x * x;
+    z * polynomial(&COS, z)
+}
+
+/// (sin, cos) of a phase given as a fraction of a turn in units of 2^-64, to 1.2 units of 2^-53.
+///
+/// The reduction to the nearest quarter turn is exact integer arithmetic.
+#[inline]
+pub fn sin_cos_turn(turn: u64) -> (f64, f64) {
+    const QUARTER: u64 = 1 << 62;
+    const RADIANS: f64 = std::f64::consts::TAU / (1u128 << 64) as f64;
+    let shifted = turn.wrapping_add(QUARTER / 2);
+    let remainder = (shifted % QUARTER) as i64 - (QUARTER / 2) as i64;
+    let x = remainder as f64 * RADIANS;
+    let sin = x + sin_minus_x(x);
+    let cos = 1.0 - one_minus_cos(x);
+    match shifted / QUARTER {
+        0 => (sin, cos),
+        1 => (cos, -sin),
+        2 => (-sin, -cos),
+        _ => (-cos, sin),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::lane::Lanes;
+    use super::*;
+
+    /// The correctly rounded functions of `pxfm` are the second route.
+    #[test]
+    fn small_arguments_keep_relative_accuracy() {
+        for i in 1..=4000 {
+            let x = f64::from(i) * (RANGE / 4000.0);
+            let half = pxfm::f_sin(x / 2.0);
+            let c = 2.0 * half * half;
+            assert!((one_minus_cos(x) - c).abs() <= 1e-15 * c, "x = {x}");
+            let s = pxfm::f_sin(x) - x;
+            assert!((sin_minus_x(x) - s).abs() <= 3e-16 * x, "x = {x}");
+        }
+        let x = 1e-5;
+        assert!((sin_minus_x(x) / (-x * x * x / 6.0) - 1.0).abs() < 1e-10);
+    }
+
+    #[test]
+    fn a_turn_is_reduced_exactly() {
+        for i in 0..100_000u64 {
+            let turn = i.wrapping_mul(0x9e37_79b9_7f4a_7c15);
+            let (s, c) = sin_cos_turn(turn);
+            let x = turn as i64 as f64 / (1u128 << 64) as f64 * std::f64::consts::TAU;
+            assert!((s - pxfm::f_sin(x)).abs() < 7e-16);
+            assert!((c - pxfm::f_cos(x)).abs() < 7e-16);
+            assert!((s * s + c * c - 1.0).abs() < 5e-16);
+        }
+        assert_eq!(sin_cos_turn(0), (0.0, 1.0));
+        assert_eq!(sin_cos_turn(1 << 62), (1.0, 0.0));
+        assert_eq!(sin_cos_turn(1 << 63), (0.0, -1.0));
+    }
+
+    #[test]
+    fn lanes_give_the_bits_of_one() {
+        let x = [0.1, -1.9, 1e-9, 1.5];
+        let Lanes(side) = sin_minus_x(Lanes(x));
+        assert_eq!(side, x.map(sin_minus_x::<f64>));
+        let Lanes(side) = one_minus_cos(Lanes(x));
+        assert_eq!(side, x.map(one_minus_cos::<f64>));
+    }
+}
