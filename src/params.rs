@@ -111,3 +111,24 @@ pub enum Profile {
     /// The committed report.
     Full,
 }
+
+mod sizes;
+
+pub use sizes::{
+    Grid, HorizonParams, ProtocolParams, StartVariant, StartsParams, SweepParams, TwoMassesParams,
+};
+
+/// Length of the steps in which the paper prints its threshold, σ ≈ 0.12 (Sec. 2).
+pub const PRINTED_THRESHOLD_UNIT: f64 = 0.01;
+
+/// The threshold as the paper prints it (Sec. 2).
+pub const PRINTED_THRESHOLD: f64 = 0.12;
+
+/// Share of rejected (overlapping) starts above which a row is not comparable (ours).
+pub const COMPARABLE_REJECTED: f64 = 0.1;
+
+/// Bootstrap resamples behind each interval (ours).
+pub const RESAMPLES: usize = 1000;
+
+/// Level of the intervals (ours).
+pub const LEVEL: f64 = 0.95;

@@ -1,3 +1,20 @@
 //! What is run: one experiment a file, results that save and reload exactly.
 
+pub mod error;
+pub mod horizon;
+pub mod laws;
+pub mod observe;
+pub mod progress;
+pub mod protocol;
+pub mod rise;
+pub mod segments;
+pub mod starts;
+pub mod sweep;
 pub mod theory;
+pub mod two_masses;
+
+mod results;
+
+pub use error::Error;
+pub use progress::Progress;
+pub use results::{Need, Results};

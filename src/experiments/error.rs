@@ -1,0 +1,68 @@
+//! What can go wrong in an experiment.
+
+use crate::dynamics;
+use std::path::PathBuf;
+
+/// An error of an experiment.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// Ctrl-C or a request to end; nothing is saved of the running experiment.
+    #[error("interrupted; nothing was left half-written")]
+    Interrupted,
+    /// A parameter is outside what the experiment allows (exit code 2).
+    #[error("{field}: {problem}; {remedy}")]
+    Input {
+        /// Name of the parameter.
+        field: String,
+        /// What is wrong, with the value.
+        problem: String,
+        /// What to write instead.
+        remedy: String,
+    },
+    /// A simulation failed that must not fail.
+    #[error("{experiment}: {source}")]
+    Dynamics {
+        /// The experiment.
+        experiment: &'static str,
+        /// What failed.
+        source: dynamics::Error,
+    },
+    /// A saved scenario does not do what it was saved for.
+    #[error("{file}: {problem}; run the directed search again")]
+    Scenario {
+        /// File of the scenario.
+        file: String,
+        /// What differs.
+        problem: String,
+    },
+    /// A result was asked for that was not run.
+    #[error("the results of {0:?} were not run; declare them among what is needed")]
+    NotRun(super::Need),
+    /// A result holds a number that is not finite, or that does not survive saving.
+    #[error(
+        "{experiment}: a result is not finite, so it was not saved; this is a fault of the program"
+    )]
+    NotFinite {
+        /// The experiment.
+        experiment: &'static str,
+    },
+    /// The results directory cannot be written.
+    #[error("results directory {path}: {source}; choose another with --results")]
+    Store {
+        /// File or directory.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+}
+
+impl Error {
+    /// An [`Error::Input`] from its three parts.
+    pub fn input(
+        field: impl Into<String>,
+        problem: impl Into<String>,
+        remedy: impl Into<String>,
+    ) -> Self {
+        Error::Input { field: field.into(), problem: problem.into(), remedy: remedy.into() }
+    }
+}

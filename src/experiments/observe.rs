@@ -1,0 +1,196 @@
+//! What is read from one realisation while it runs; no list of impacts is kept.
+
+use super::{Error, Progress};
+use crate::dynamics::{self, Engine, Impact, Scenario};
+use crate::numerics::random::NormalPairs;
+use crate::params::{Chain, Protocol};
+
+/// The δ below which two impacts of adjacent gaps are counted as close, in units of 1/ω.
+pub const NEAR_DECADES: [f64; 9] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];
+
+/// The v below which a closing speed is counted as slow, in units of d ω.
+pub const SLOW_DECADES: [f64; 8] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8];
+
+/// Impacts between two looks at the flag that ends the work.
+const LOOK_EVERY: u64 = 4096;
+
+/// What one realisation showed.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Observed {
+    /// Distinct gaps that impact in the window (T, T + W].
+    pub distinct: u32,
+    /// Impacts in the window.
+    pub window_impacts: u64,
+    /// All impacts, transient included.
+    pub impacts: u64,
+    /// Impacts that follow one of an adjacent gap, however long after.
+    pub adjacent_pairs: u64,
+    /// Of these, the ones that follow within each of [`NEAR_DECADES`].
+    pub near: [u64; NEAR_DECADES.len()],
+    /// Impacts with a closing speed below each of [`SLOW_DECADES`].
+    pub slow: [u64; SLOW_DECADES.len()],
+    /// Contact phases begun.
+    pub contact_phases: u64,
+}
+
+/// How one realisation ended.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Outcome {
+    /// It ran to T + W.
+    Counted(Observed),
+    /// It started with an overlapping gap.
+    Rejected,
+    /// The engine gave up, after what was observed.
+    Failed(Observed, dynamics::Error),
+}
+
+/// The running observation of one realisation.
+struct Watch {
+    from: f64,
+    observed: Observed,
+    hit: Vec<bool>,
+    /// Time of the last impact of each gap.
+    last: Vec<f64>,
+    ring: bool,
+}
+
+impl Watch {
+    fn new(gaps: usize, ring: bool, from: f64) -> Self {
+        Watch {
+            from,
+            observed: Observed::default(),
+            hit: vec![false; gaps],
+            last: vec![f64::NEG_INFINITY; gaps],
+            ring,
+        }
+    }
+
+    fn see(&mut self, impact: Impact) {
+        let seen = &mut self.observed;
+        seen.impacts += 1;
+        let gaps = self.last.len();
+        // On a ring gap n lies between masses n and 1: modulo n it is the neighbour of gap 1.
+        let gap = impact.gap % gaps;
+        if impact.time > self.from {
+            seen.window_impacts += 1;
+            self.hit[gap] = true;
+        }
+        let left = match gap {
+            0 if self.ring && gaps > 1 => self.last[gaps - 1],
+            0 => f64::NEG_INFINITY,
+            _ => self.last[gap - 1],
+        };
+        let right = match gap + 1 {
+            next if next < gaps => self.last[next],
+            _ if self.ring && gaps > 1 => self.last[0],
+            _ => f64::NEG_INFINITY,
+        };
+        let since = impact.time - left.max(right);
+        if since.is_finite() {
+            seen.adjacent_pairs += 1;
+            for (count, &within) in seen.near.iter_mut().zip(&NEAR_DECADES) {
+                if since > within {
+                    break;
+                }
+                *count += 1;
+            }
+        }
+        for (count, &below) in seen.slow.iter_mut().zip(&SLOW_DECADES) {
+            if impact.closing_speed >= below {
+                break;
+            }
+            *count += 1;
+        }
+        self.last[gap] = impact.time;
+    }
+
+    fn end(mut self, engine: &Engine) -> Observed {
+        self.observed.distinct = self.hit.iter().map(|&hit| u32::from(hit)).sum();
+        self.observed.contact_phases = engine.counters().contact_phases;
+        self.observed
+    }
+}
+
+/// Runs realisation `index` of a chain at σ = `sigma` and observes it.
+///
+/// # Errors
+/// [`Error::Interrupted`], or [`Error::Dynamics`] if the chain itself is not allowed. A start that
+/// overlaps and an engine that gives up are outcomes, not errors.
+pub fn realisation(
+    chain: &Chain,
+    protocol: Protocol,
+    sigma: f64,
+    key: (&str, u64, u64),
+    progress: &Progress,
+) -> Result<Outcome, Error> {
+    progress.check()?;
+    let (stream, seed, index) = key;
+    let scenario = Scenario::draw(chain, sigma, &mut NormalPairs::new(stream, seed, index));
+    let mut engine = match Engine::new(&scenario) {
+        Ok(engine) => engine,
+        Err(dynamics::Error::Overlap { .. }) => return Ok(Outcome::Rejected),
+        Err(source) => return Err(Error::Dynamics { experiment: "sweep", source }),
+    };
+    let ring = chain.boundary == crate::params::Boundary::Ring;
+    let mut watch = Watch::new(scenario.gaps(), ring, protocol.transient);
+    let ended = engine.run(protocol.transient + protocol.window, |impact| {
+        watch.see(impact);
+        !watch.observed.impacts.is_multiple_of(LOOK_EVERY) || !progress.stopped()
+    });
+    progress.check()?;
+    let observed = watch.end(&engine);
+    Ok(match ended {
+        Ok(()) => Outcome::Counted(observed),
+        Err(error) => Outcome::Failed(observed, error),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn impact(time: f64, gap: usize, closing_speed: f64) -> Impact {
+        Impact { time, gap, closing_speed }
+    }
+
+    fn watch_all(gaps: usize, ring: bool, from: f64, impacts: &[Impact]) -> Watch {
+        let mut watch = Watch::new(gaps, ring, from);
+        impacts.iter().for_each(|&i| watch.see(i));
+        watch
+    }
+
+    #[test]
+    fn the_window_is_open_at_its_start() {
+        let impacts = [impact(1.0, 0, 1.0), impact(2.0, 1, 1.0), impact(3.0, 1, 1.0)];
+        let watch = watch_all(4, false, 1.0, &impacts);
+        assert_eq!(watch.hit, [false, true, false, false]);
+        assert_eq!((watch.observed.impacts, watch.observed.window_impacts), (3, 2));
+    }
+
+    #[test]
+    fn adjacent_impacts_by_hand() {
+        // Gap 1 follows gap 0 by 0.5; gap 2 follows gap 1 by 0.05; gap 0 has gap 1 as its only
+        // neighbour, 0.054 ago; gap 3 follows gap 2 by 0.004 + 0.0 = 0.004.
+        let impacts = [
+            impact(1.0, 0, 1.0),
+            impact(1.5, 1, 0.05),
+            impact(1.55, 2, 0.0005),
+            impact(1.554, 0, 1.0),
+            impact(1.554, 3, 1e-9),
+        ];
+        let seen = watch_all(4, false, 0.0, &impacts).observed;
+        assert_eq!(seen.adjacent_pairs, 4);
+        assert_eq!(seen.near, [3, 1, 0, 0, 0, 0, 0, 0, 0]);
+        assert_eq!(seen.slow, [3, 2, 2, 1, 1, 1, 1, 1]);
+    }
+
+    #[test]
+    fn the_ends_of_a_ring_are_neighbours() {
+        // Gaps of a ring of 5 masses are 1..=5.
+        let impacts = [impact(1.0, 5, 1.0), impact(1.01, 1, 1.0)];
+        assert_eq!(watch_all(5, true, 0.0, &impacts).observed.adjacent_pairs, 1);
+        // Between walls the first and the last gap (0 and 4) are none.
+        let impacts = [impact(1.0, 4, 1.0), impact(1.01, 0, 1.0)];
+        assert_eq!(watch_all(5, false, 0.0, &impacts).observed.adjacent_pairs, 0);
+    }
+}

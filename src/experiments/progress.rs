@@ -1,0 +1,159 @@
+//! Progress for the person who waits, and the flag by which that person ends the wait.
+//!
+//! On a terminal a bar with the time left; otherwise plain lines, seconds apart. All of it goes to
+//! stderr, and nothing of it into a result.
+
+use super::Error;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::io::IsTerminal;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::time::{Duration, Instant};
+
+/// Seconds between plain lines.
+const LINE_EVERY: u64 = 5;
+
+/// How progress is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Show {
+    Nothing,
+    Bar,
+    Lines,
+}
+
+/// Handed to every experiment: shows how far it is, and says whether to go on.
+#[derive(Clone, Debug)]
+pub struct Progress {
+    show: Show,
+    stop: Arc<AtomicBool>,
+}
+
+impl Progress {
+    /// Shows nothing and is stopped by nobody: for tests and callers inside the program.
+    pub fn silent() -> Self {
+        Progress { show: Show::Nothing, stop: Arc::default() }
+    }
+
+    /// A bar on stderr if that is a terminal, plain lines otherwise; `stop` ends the work.
+    pub fn on_stderr(stop: Arc<AtomicBool>) -> Self {
+        let show = if std::io::stderr().is_terminal() { Show::Bar } else { Show::Lines };
+        Progress { show, stop }
+    }
+
+    /// Whether the work was asked to end. Cheap: one relaxed load.
+    pub fn stopped(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
+    }
+
+    /// [`Error::Interrupted`] if the work was asked to end.
+    ///
+    /// # Errors
+    /// [`Error::Interrupted`].
+    pub fn check(&self) -> Result<(), Error> {
+        if self.stopped() { Err(Error::Interrupted) } else { Ok(()) }
+    }
+
+    /// Begins a stage of `total` units of work.
+    pub fn stage(&self, name: &str, total: u64) -> Stage {
+        let bar = (self.show == Show::Bar).then(|| {
+            let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::stderr());
+            let style = ProgressStyle::with_template("{msg:24} {bar:30} {percent:>3}% {eta} left");
+            if let Ok(style) = style {
+                bar.set_style(style);
+            }
+            bar.set_message(name.to_string());
+            bar
+        });
+        Stage {
+            name: name.to_string(),
+            total,
+            done: AtomicU64::new(0),
+            bar,
+            lines: self.show == Show::Lines,
+            began: Instant::now(),
+            next_line: AtomicU64::new(LINE_EVERY),
+        }
+    }
+
+    /// Says one plain line, whatever the way of showing, except to nobody.
+    pub fn say(&self, line: &str) {
+        if self.show != Show::Nothing {
+            eprintln!("{line}");
+        }
+    }
+}
+
+/// One stage of an experiment. Shared by the threads that work on it.
+#[derive(Debug)]
+pub struct Stage {
+    name: String,
+    total: u64,
+    done: AtomicU64,
+    bar: Option<ProgressBar>,
+    lines: bool,
+    began: Instant,
+    next_line: AtomicU64,
+}
+
+impl Stage {
+    /// Counts `units` more as done.
+    pub fn advance(&self, units: u64) {
+        let done = self.done.fetch_add(units, Ordering::Relaxed) + units;
+        if let Some(bar) = &self.bar {
+            bar.set_position(done);
+        }
+        if self.lines {
+            self.line(done);
+        }
+    }
+
+    /// At most one line every [`LINE_EVERY`] seconds: the thread that moves the mark writes it.
+    fn line(&self, done: u64) {
+        let elapsed = self.began.elapsed();
+        let mark = self.next_line.load(Ordering::Relaxed);
+        if elapsed.as_secs() < mark {
+            return;
+        }
+        let next = elapsed.as_secs() + LINE_EVERY;
+        let moved =
+            self.next_line.compare_exchange(mark, next, Ordering::Relaxed, Ordering::Relaxed);
+        if moved.is_ok() {
+            eprintln!("{}", plain_line(&self.name, done, self.total, elapsed));
+        }
+    }
+}
+
+impl Drop for Stage {
+    fn drop(&mut self) {
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+/// `main sweep: 40 %, about 12 s left`.
+fn plain_line(name: &str, done: u64, total: u64, elapsed: Duration) -> String {
+    let share = if total == 0 { 1.0 } else { done as f64 / total as f64 };
+    let left = if share > 0.0 { elapsed.as_secs_f64() * (1.0 - share) / share } else { 0.0 };
+    format!("{name}: {:.0} %, about {left:.0} s left", 100.0 * share)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_tells_share_and_time_left() {
+        let line = plain_line("main sweep", 40, 100, Duration::from_secs(8));
+        assert_eq!(line, "main sweep: 40 %, about 12 s left");
+    }
+
+    #[test]
+    fn a_raised_flag_is_an_interruption() {
+        let flag = Arc::new(AtomicBool::new(false));
+        let progress = Progress::on_stderr(flag.clone());
+        assert!(progress.check().is_ok());
+        flag.store(true, Ordering::Relaxed);
+        assert!(matches!(progress.check(), Err(Error::Interrupted)));
+    }
+}

@@ -1,0 +1,133 @@
+//! All results together, and the declaration of what a figure or a claim needs of them.
+
+use super::Error;
+use super::{horizon, laws, protocol, segments, starts, sweep, theory, two_masses};
+use crate::params::{Profile, VERTICES};
+use std::sync::LazyLock;
+
+/// A result that a figure, a value or a claim needs. The theory need not be declared: it costs
+/// hundredths of a second and is computed when first looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Need {
+    /// [`Results::sweep`].
+    Sweep,
+    /// [`Results::second_seed`].
+    SecondSeed,
+    /// [`Results::protocol`].
+    Protocol,
+    /// [`Results::starts`].
+    Starts,
+    /// [`Results::laws`]; runs the main sweep too.
+    Laws,
+    /// [`Results::horizon`].
+    Horizon,
+    /// [`Results::two_masses`].
+    TwoMasses,
+    /// [`Results::segments`].
+    Segments,
+}
+
+impl Need {
+    /// Everything: what the report needs.
+    pub const ALL: [Need; 8] = [
+        Need::Sweep,
+        Need::SecondSeed,
+        Need::Protocol,
+        Need::Starts,
+        Need::Laws,
+        Need::Horizon,
+        Need::TwoMasses,
+        Need::Segments,
+    ];
+}
+
+/// All results: what is `None` was not asked for.
+#[derive(Debug)]
+pub struct Results {
+    /// The sample sizes.
+    pub profile: Profile,
+    /// Secs. 3 to 9, computed when first looked at: `&results.theory.curve` is all it takes.
+    pub theory: LazyLock<theory::Theory>,
+    /// The main sweep of Sec. 2.
+    pub sweep: Option<sweep::Sweep>,
+    /// The rise again, with another seed.
+    pub second_seed: Option<sweep::Sweep>,
+    /// Half height against transient and window.
+    pub protocol: Option<protocol::ProtocolMap>,
+    /// Other starts, boundaries, restitutions and frequencies.
+    pub starts: Option<starts::Starts>,
+    /// Three-way impacts and sticking.
+    pub laws: Option<laws::Laws>,
+    /// Chaos and its horizon.
+    pub horizon: Option<horizon::Horizon>,
+    /// Two masses under a low force.
+    pub two_masses: Option<two_masses::TwoMasses>,
+    /// The motions of Figs. 5(b) and 6(b).
+    pub segments: Option<segments::Segments>,
+}
+
+macro_rules! asked_for {
+    ($($(#[$doc:meta])* $name:ident: $type:ty, $need:ident;)*) => {
+        impl Results {
+            $(
+                $(#[$doc])*
+                ///
+                /// # Errors
+                /// [`Error::NotRun`] if it was not asked for.
+                pub fn $name(&self) -> Result<&$type, Error> {
+                    self.$name.as_ref().ok_or(Error::NotRun(Need::$need))
+                }
+            )*
+        }
+    };
+}
+
+asked_for! {
+    /// The main sweep.
+    sweep: sweep::Sweep, Sweep;
+    /// The repetition with another seed.
+    second_seed: sweep::Sweep, SecondSeed;
+    /// The map over protocols.
+    protocol: protocol::ProtocolMap, Protocol;
+    /// The variants.
+    starts: starts::Starts, Starts;
+    /// The laws.
+    laws: laws::Laws, Laws;
+    /// The horizon.
+    horizon: horizon::Horizon, Horizon;
+    /// Two masses.
+    two_masses: two_masses::TwoMasses, TwoMasses;
+    /// The segments.
+    segments: segments::Segments, Segments;
+}
+
+impl Results {
+    /// Results of which nothing was run yet.
+    pub fn empty(profile: Profile) -> Self {
+        Results {
+            profile,
+            theory: LazyLock::new(|| {
+                theory::run(VERTICES).expect("the theory exists for the paper's N")
+            }),
+            sweep: None,
+            second_seed: None,
+            protocol: None,
+            starts: None,
+            laws: None,
+            horizon: None,
+            two_masses: None,
+            segments: None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_was_not_run_is_an_error() {
+        let results = Results::empty(Profile::Quick);
+        assert!(matches!(results.laws(), Err(Error::NotRun(Need::Laws))));
+    }
+}

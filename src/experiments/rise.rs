@@ -1,0 +1,204 @@
+//! Where the number of impacts rises: half height, onset and width, with bootstrap intervals.
+//!
+//! The realisations are resampled, not the rows: realisation i has the same standard normals at
+//! every σ, so a resample takes its counts at all σ together.
+
+use crate::numerics::bootstrap;
+use crate::numerics::statistics::{Estimate, count_quantile, last_rise, mode};
+use crate::params::{LEVEL, RESAMPLES};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+/// The place of the rise on the σ axis, in several declared senses. Each is the last rise of a
+/// curve through a level, linear between rows; a curve that does not rise through it has none.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Rise {
+    /// Half height: the mean of the kept reaches N/2.
+    pub half_height: Option<Estimate>,
+    /// The mean of all (those without impact included) reaches N/2.
+    pub half_height_all: Option<Estimate>,
+    /// Onset: the mean of all reaches N/20.
+    pub onset: Option<Estimate>,
+    /// Half of the realisations have an impact in the window.
+    pub kept_half: Option<Estimate>,
+    /// The mean of all reaches N/10.
+    pub tenth: Option<Estimate>,
+    /// The mean of all reaches 9N/10.
+    pub nine_tenths: Option<Estimate>,
+    /// Width of the rise: from a tenth to nine tenths.
+    pub width: Option<Estimate>,
+}
+
+/// Bootstrap intervals of one row.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Intervals {
+    /// Of the mean of the kept.
+    pub mean_kept: Option<[f64; 2]>,
+    /// Of the mean of all.
+    pub mean_all: Option<[f64; 2]>,
+    /// Of the mode of the kept.
+    pub mode: Option<[usize; 2]>,
+}
+
+/// What is computed of the whole sample and of each resample.
+struct Curves {
+    mean_kept: Vec<Option<f64>>,
+    mean_all: Vec<Option<f64>>,
+    mode: Vec<Option<usize>>,
+    /// The places of [`Rise`], in its order.
+    places: [Option<f64>; 7],
+}
+
+impl Curves {
+    fn new(sigmas: &[f64], counts: &[Vec<Option<u32>>], gaps: usize, weights: &[u32]) -> Self {
+        let mut kept_share = Vec::with_capacity(sigmas.len());
+        let mut curves = Curves {
+            mean_kept: Vec::with_capacity(sigmas.len()),
+            mean_all: Vec::with_capacity(sigmas.len()),
+            mode: Vec::with_capacity(sigmas.len()),
+            places: [None; 7],
+        };
+        let ratio = |sum: u64, of: u64| (of > 0).then(|| sum as f64 / of as f64);
+        let mut histogram = vec![0; gaps + 1];
+        for row in counts {
+            histogram.fill(0);
+            for (&count, &weight) in row.iter().zip(weights) {
+                if let Some(k) = count {
+                    histogram[k as usize] += weight;
+                }
+            }
+            let ran: u64 = histogram.iter().copied().map(u64::from).sum();
+            let sum = (0_u64..).zip(&histogram).map(|(k, &h)| k * u64::from(h)).sum();
+            let kept = ran - u64::from(histogram[0]);
+            histogram[0] = 0;
+            curves.mean_kept.push(ratio(sum, kept));
+            curves.mean_all.push(ratio(sum, ran));
+            curves.mode.push(mode(&histogram));
+            kept_share.push(ratio(kept, ran));
+        }
+        let height = gaps as f64;
+        let all = |share: f64| last_rise(sigmas, &curves.mean_all, share * height);
+        let (tenth, nine_tenths) = (all(0.1), all(0.9));
+        curves.places = [
+            last_rise(sigmas, &curves.mean_kept, 0.5 * height),
+            all(0.5),
+            all(0.05),
+            last_rise(sigmas, &kept_share, 0.5),
+            tenth,
+            nine_tenths,
+            tenth.zip(nine_tenths).map(|(low, high)| high - low),
+        ];
+        curves
+    }
+}
+
+/// Finds the rise in `counts[σ][realisation]` of a chain with `gaps` gaps, and the intervals of
+/// each row.
+pub fn find(
+    sigmas: &[f64],
+    counts: &[Vec<Option<u32>>],
+    gaps: usize,
+    seed: u64,
+) -> (Rise, Vec<Intervals>) {
+    let realisations = counts.first().map_or(0, Vec::len);
+    let whole = Curves::new(sigmas, counts, gaps, &vec![1; realisations]);
+    let resampled: Vec<Curves> = (0..RESAMPLES as u64)
+        .into_par_iter()
+        .map(|index| {
+            Curves::new(sigmas, counts, gaps, &bootstrap::weights(seed, index, realisations))
+        })
+        .collect();
+    let mut places = (0..7).map(|i| {
+        let of_resamples: Vec<_> = resampled.iter().map(|curves| curves.places[i]).collect();
+        bootstrap::estimate(whole.places[i], &of_resamples, LEVEL)
+    });
+    let mut next = || places.next().flatten();
+    let rise = Rise {
+        half_height: next(),
+        half_height_all: next(),
+        onset: next(),
+        kept_half: next(),
+        tenth: next(),
+        nine_tenths: next(),
+        width: next(),
+    };
+    let interval = |value, pick: &dyn Fn(&Curves) -> Option<f64>| {
+        let of_resamples: Vec<_> = resampled.iter().map(pick).collect();
+        bootstrap::estimate(value, &of_resamples, LEVEL).map(|estimate| estimate.interval)
+    };
+    let intervals = (0..sigmas.len())
+        .map(|row| Intervals {
+            mean_kept: interval(whole.mean_kept[row], &|curves| curves.mean_kept[row]),
+            mean_all: interval(whole.mean_all[row], &|curves| curves.mean_all[row]),
+            mode: whole.mode[row].and_then(|_| mode_interval(gaps, &resampled, row)),
+        })
+        .collect();
+    (rise, intervals)
+}
+
+/// The percentile interval of the mode: whole numbers, at both ends an order statistic.
+fn mode_interval(gaps: usize, resampled: &[Curves], row: usize) -> Option<[usize; 2]> {
+    let mut histogram = vec![0; gaps + 1];
+    for k in resampled.iter().filter_map(|curves| curves.mode[row]) {
+        histogram[k] += 1;
+    }
+    let tail = 0.5 * (1.0 - LEVEL);
+    Some([count_quantile(&histogram, tail)?, count_quantile(&histogram, 1.0 - tail)?])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Four realisations on five σ, N = 10.
+    fn counts() -> Vec<Vec<Option<u32>>> {
+        [[0, 0, 0, 0], [0, 0, 0, 2], [0, 4, 4, 6], [8, 8, 8, 6], [10, 10, 10, 10]]
+            .map(|row| row.map(Some).to_vec())
+            .to_vec()
+    }
+
+    #[test]
+    fn places_by_hand() {
+        let sigmas = [0.1, 0.2, 0.3, 0.4, 0.5];
+        let curves = Curves::new(&sigmas, &counts(), 10, &[1; 4]);
+        assert_eq!(curves.mean_all, [0.0, 0.5, 3.5, 7.5, 10.0].map(Some));
+        let kept = [None, Some(2.0), Some(14.0 / 3.0), Some(7.5), Some(10.0)];
+        assert_eq!(curves.mean_kept, kept);
+        assert_eq!(curves.mode, [None, Some(2), Some(4), Some(8), Some(10)]);
+        let expected = [
+            0.3 + 0.1 * (5.0 - 14.0 / 3.0) / (7.5 - 14.0 / 3.0),
+            0.3 + 0.1 * 1.5 / 4.0,
+            0.2,             // N/20 is met exactly at the second row
+            0.25,            // from 1/4 kept to 3/4
+            0.2 + 0.1 / 6.0, // 1 between 0.5 and 3.5
+            0.4 + 0.1 * 0.6, // 9 between 7.5 and 10
+            0.46 - 0.2 - 0.1 / 6.0,
+        ];
+        for (place, expected) in curves.places.iter().zip(expected) {
+            assert!((place.unwrap() - expected).abs() < 1e-15, "{place:?} {expected}");
+        }
+    }
+
+    #[test]
+    fn rejected_realisations_weigh_nothing() {
+        let mut with = counts();
+        with.iter_mut().for_each(|row| row.push(None));
+        let sigmas = [0.1, 0.2, 0.3, 0.4, 0.5];
+        let places = Curves::new(&sigmas, &with, 10, &[1; 5]).places;
+        assert_eq!(places, Curves::new(&sigmas, &counts(), 10, &[1; 4]).places);
+    }
+
+    #[test]
+    fn without_spread_there_is_no_width() {
+        // All realisations alike: every resample gives the same places.
+        let counts: Vec<_> = [0, 4, 8].map(|k| vec![Some(k); 20]).to_vec();
+        let (rise, intervals) = find(&[0.1, 0.2, 0.3], &counts, 10, 1);
+        let half = rise.half_height_all.unwrap();
+        assert!(half.error < 1e-12);
+        assert_eq!(half.interval, [half.value, half.value]);
+        assert_eq!(rise.nine_tenths, None, "8 of 10 is below nine tenths");
+        assert_eq!(intervals[1].mean_all, Some([4.0, 4.0]));
+        assert_eq!(intervals[2].mode, Some([8, 8]));
+        assert_eq!(intervals[0].mode, None);
+    }
+}

@@ -1,0 +1,275 @@
+//! The numerical simulations of Sec. 2: ensembles over σ (Figs. 2, 3, 12 and 15).
+//!
+//! All cores share the realisations of one σ; results are collected in the order of the
+//! realisations and reduced by one thread, so the number of threads changes no bit.
+
+use super::observe::{NEAR_DECADES, Observed, Outcome, SLOW_DECADES, realisation};
+use super::progress::Stage;
+use super::rise::{self, Rise};
+use super::{Error, Progress};
+use crate::numerics::statistics as stat;
+use crate::params::{COMPARABLE_REJECTED, LEVEL, SweepParams};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+/// An ensemble over σ.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Sweep {
+    /// What was run.
+    pub parameters: SweepParams,
+    /// One row for each σ, rising.
+    pub rows: Vec<SweepRow>,
+    /// Where the rise is.
+    pub rise: Rise,
+}
+
+/// The ensemble at one σ. Means, mode and quantiles are of the number of distinct gaps that
+/// impact in the window; "kept" are the realisations with at least one.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SweepRow {
+    /// Standard deviation σ of the amplitudes.
+    pub sigma: f64,
+    /// Realisations drawn: kept, without impact in the window, rejected and failed.
+    pub realisations: usize,
+    /// With at least one impact in the window.
+    pub kept: usize,
+    /// With an overlapping start.
+    pub rejected: usize,
+    /// Ended by the engine before T + W.
+    pub failed: usize,
+    /// What the engine said of the first failed one.
+    pub first_failure: Option<String>,
+    /// Whether few enough were rejected for the row to be compared with others.
+    pub comparable: bool,
+    /// Share of the kept among those that ran, with Wilson's interval.
+    pub kept_interval: Option<[f64; 2]>,
+    /// Mean of the kept.
+    pub mean_distinct: Option<f64>,
+    /// Standard error of that mean.
+    pub standard_error: Option<f64>,
+    /// Bootstrap interval of that mean.
+    pub mean_interval: Option<[f64; 2]>,
+    /// Mean of all that ran, those without impact included.
+    pub mean_all: Option<f64>,
+    /// Bootstrap interval of that mean.
+    pub mean_all_interval: Option<[f64; 2]>,
+    /// Mode of the kept; of several the lowest.
+    pub mode_distinct: Option<usize>,
+    /// Bootstrap interval of the mode.
+    pub mode_interval: Option<[usize; 2]>,
+    /// 5, 25, 50, 75 and 95 % quantiles of the kept.
+    pub quantiles: Option<[usize; 5]>,
+    /// Impacts per unit time and kept realisation, in the window.
+    pub impacts_per_time: Option<f64>,
+    /// All impacts simulated, transient and failed realisations included.
+    pub impacts: u64,
+    /// Of these, impacts within [`crate::params::NEAR_SIMULTANEOUS`] of one of an adjacent gap.
+    pub near_simultaneous: u64,
+    /// Of these, impacts with a closing speed below [`crate::params::SLOW`].
+    pub slow: u64,
+    /// Contact phases begun.
+    pub contact_phases: u64,
+    /// Impacts that follow one of an adjacent gap.
+    pub adjacent_pairs: u64,
+    /// Of these, within each δ of [`NEAR_DECADES`].
+    pub near_decades: Vec<u64>,
+    /// Impacts with a closing speed below each v of [`SLOW_DECADES`].
+    pub slow_decades: Vec<u64>,
+    /// Realisations that ran, by their number of distinct gaps k = 0..=N.
+    pub counts: Vec<u32>,
+}
+
+/// One σ: the row without its bootstrap intervals, and the count of each realisation (none if it
+/// did not run to the end).
+#[derive(Clone, Debug)]
+pub struct Sample {
+    /// The row.
+    pub row: SweepRow,
+    /// Distinct gaps of each realisation.
+    pub distinct: Vec<Option<u32>>,
+}
+
+/// Runs the ensemble over all σ.
+///
+/// # Errors
+/// [`Error::Interrupted`]; [`Error::Dynamics`] if the chain is not allowed.
+pub fn run(parameters: &SweepParams, name: &str, progress: &Progress) -> Result<Sweep, Error> {
+    let stage = progress.stage(name, work(parameters));
+    let mut rows = Vec::with_capacity(parameters.sigmas.len());
+    let mut counts = Vec::with_capacity(parameters.sigmas.len());
+    for &sigma in &parameters.sigmas {
+        let Sample { row, distinct } = at(parameters, sigma, &stage, progress)?;
+        rows.push(row);
+        counts.push(distinct);
+    }
+    drop(stage);
+    progress.check()?;
+    let gaps = parameters.chain.gaps();
+    let (rise, intervals) = rise::find(&parameters.sigmas, &counts, gaps, parameters.seed);
+    for (row, interval) in rows.iter_mut().zip(intervals) {
+        row.mean_interval = interval.mean_kept;
+        row.mean_all_interval = interval.mean_all;
+        row.mode_interval = interval.mode;
+    }
+    Ok(Sweep { parameters: parameters.clone(), rows, rise })
+}
+
+/// Work is about proportional to σ − 0.06 once gaps impact: the time left is then about right.
+fn weight(sigma: f64) -> u64 {
+    1 + (1000.0 * (sigma - 0.06)).clamp(0.0, 100.0) as u64
+}
+
+/// Units of work of all σ, for the stage that [`at`] advances.
+pub fn work(parameters: &SweepParams) -> u64 {
+    parameters.sigmas.iter().map(|&sigma| weight(sigma)).sum::<u64>()
+        * parameters.realisations as u64
+}
+
+/// Runs the ensemble at one σ, without bootstrap.
+///
+/// # Errors
+/// As [`run`].
+pub fn at(
+    parameters: &SweepParams,
+    sigma: f64,
+    stage: &Stage,
+    progress: &Progress,
+) -> Result<Sample, Error> {
+    let outcomes: Vec<Outcome> = (0..parameters.realisations)
+        .into_par_iter()
+        .with_max_len(1)
+        .map(|index| {
+            let key = (parameters.stream.as_str(), parameters.seed, index as u64);
+            let outcome = realisation(&parameters.chain, parameters.protocol, sigma, key, progress);
+            stage.advance(weight(sigma));
+            outcome
+        })
+        .collect::<Result<_, _>>()?;
+    Ok(reduce(parameters, sigma, &outcomes))
+}
+
+/// Reduces the outcomes of one σ, in the order of the realisations.
+fn reduce(parameters: &SweepParams, sigma: f64, outcomes: &[Outcome]) -> Sample {
+    let mut counts = vec![0; parameters.chain.gaps() + 1];
+    let mut distinct = Vec::with_capacity(outcomes.len());
+    let mut total = Observed::default();
+    let (mut rejected, mut failed, mut first_failure) = (0, 0, None);
+    let mut kept_impacts = 0;
+    for outcome in outcomes {
+        distinct.push(match outcome {
+            Outcome::Counted(seen) => {
+                add(&mut total, seen);
+                counts[seen.distinct as usize] += 1;
+                kept_impacts += seen.window_impacts;
+                Some(seen.distinct)
+            }
+            Outcome::Rejected => {
+                rejected += 1;
+                None
+            }
+            Outcome::Failed(seen, error) => {
+                add(&mut total, seen);
+                failed += 1;
+                first_failure.get_or_insert_with(|| error.to_string());
+                None
+            }
+        });
+    }
+    let ran: Vec<f64> = distinct.iter().flatten().map(|&k| f64::from(k)).collect();
+    let kept: Vec<f64> = ran.iter().copied().filter(|&k| k > 0.0).collect();
+    let mut kept_counts = counts.clone();
+    kept_counts[0] = 0;
+    let quantiles = [0.05, 0.25, 0.5, 0.75, 0.95].map(|q| stat::count_quantile(&kept_counts, q));
+    let time = kept.len() as f64 * parameters.protocol.window;
+    let row = SweepRow {
+        sigma,
+        realisations: outcomes.len(),
+        kept: kept.len(),
+        rejected,
+        failed,
+        first_failure,
+        comparable: rejected as f64 <= COMPARABLE_REJECTED * outcomes.len() as f64,
+        kept_interval: stat::wilson(kept.len() as u64, ran.len() as u64, LEVEL),
+        mean_distinct: stat::mean(&kept),
+        standard_error: stat::standard_error(&kept),
+        mean_interval: None,
+        mean_all: stat::mean(&ran),
+        mean_all_interval: None,
+        mode_distinct: stat::mode(&kept_counts),
+        mode_interval: None,
+        quantiles: match quantiles {
+            [Some(a), Some(b), Some(c), Some(d), Some(e)] => Some([a, b, c, d, e]),
+            _ => None,
+        },
+        impacts_per_time: (time > 0.0).then(|| kept_impacts as f64 / time),
+        impacts: total.impacts,
+        near_simultaneous: total.near[NEAR_DECADES.len() - 1],
+        slow: total.slow[SLOW_DECADES.len() - 1],
+        contact_phases: total.contact_phases,
+        adjacent_pairs: total.adjacent_pairs,
+        near_decades: total.near.to_vec(),
+        slow_decades: total.slow.to_vec(),
+        counts,
+    };
+    Sample { row, distinct }
+}
+
+fn add(total: &mut Observed, seen: &Observed) {
+    total.impacts += seen.impacts;
+    total.adjacent_pairs += seen.adjacent_pairs;
+    total.contact_phases += seen.contact_phases;
+    total.near.iter_mut().zip(seen.near).for_each(|(sum, n)| *sum += n);
+    total.slow.iter_mut().zip(seen.slow).for_each(|(sum, n)| *sum += n);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dynamics;
+    use crate::params::{NEAR_SIMULTANEOUS, Profile, SLOW};
+
+    fn counted(distinct: u32, window_impacts: u64) -> Outcome {
+        let impacts = 2 * window_impacts;
+        Outcome::Counted(Observed { distinct, window_impacts, impacts, ..Observed::default() })
+    }
+
+    #[test]
+    fn nothing_is_dropped_silently() {
+        let mut parameters = SweepParams::main(Profile::Quick);
+        parameters.chain.masses = 9;
+        let error = dynamics::Error::Work { gap: 3, time: 1.5, bound: 7 };
+        let outcomes = [
+            counted(0, 0),
+            counted(4, 40),
+            counted(10, 120),
+            counted(4, 80),
+            Outcome::Rejected,
+            Outcome::Failed(Observed { impacts: 5, ..Observed::default() }, error.clone()),
+        ];
+        let Sample { row, distinct } = reduce(&parameters, 0.1, &outcomes);
+        assert_eq!(distinct, [Some(0), Some(4), Some(10), Some(4), None, None]);
+        assert_eq!((row.realisations, row.kept, row.rejected, row.failed), (6, 3, 1, 1));
+        assert_eq!(row.first_failure, Some(error.to_string()));
+        assert!(!row.comparable, "one of six was rejected");
+        assert_eq!((row.mean_distinct, row.mean_all), (Some(6.0), Some(4.5)));
+        assert_eq!(row.standard_error, Some(2.0)); // s = √12, over √3
+        assert_eq!((row.mode_distinct, row.quantiles), (Some(4), Some([4, 4, 4, 10, 10])));
+        assert_eq!(row.impacts_per_time, Some(240.0 / (3.0 * 200.0)));
+        assert_eq!(row.impacts, 485);
+        assert_eq!(row.counts, [1, 0, 0, 0, 2, 0, 0, 0, 0, 0, 1]);
+    }
+
+    #[test]
+    fn of_nothing_kept_there_is_no_mean() {
+        let parameters = SweepParams::main(Profile::Quick);
+        let row = reduce(&parameters, 0.1, &[counted(0, 0)]).row;
+        assert_eq!((row.mean_distinct, row.mean_all), (None, Some(0.0)));
+        assert_eq!((row.mode_distinct, row.quantiles, row.impacts_per_time), (None, None, None));
+    }
+
+    #[test]
+    fn the_last_decades_are_the_declared_limits() {
+        assert_eq!(NEAR_DECADES.last(), Some(&NEAR_SIMULTANEOUS));
+        assert_eq!(SLOW_DECADES.last(), Some(&SLOW));
+    }
+}

@@ -1,0 +1,289 @@
+//! Sample sizes and grids of each profile, in one place.
+
+use super::{Boundary, Chain, Profile, Protocol, SECOND_SEED, SEED, Start};
+use serde::{Deserialize, Serialize};
+
+/// A σ axis made of stretches of equal steps; values are exact quotients, so 0.12 is the double
+/// nearest to 0.12.
+#[derive(Clone, Debug, Default)]
+pub struct Grid(Vec<f64>);
+
+impl Grid {
+    /// Appends i / `denominator` for i = `from`, `from` + `step`, … up to `to`, included.
+    pub fn and(mut self, from: u32, to: u32, step: usize, denominator: u32) -> Self {
+        self.0.extend((from..=to).step_by(step).map(|i| f64::from(i) / f64::from(denominator)));
+        self
+    }
+
+    /// The values, rising.
+    pub fn values(self) -> Vec<f64> {
+        debug_assert!(self.0.windows(2).all(|w| w[0] < w[1]));
+        self.0
+    }
+}
+
+/// An ensemble over σ: what `impact-paper sweep` and the experiments built on it run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SweepParams {
+    /// The chain without its forcing.
+    pub chain: Chain,
+    /// Transient and window.
+    pub protocol: Protocol,
+    /// Standard deviations σ of the amplitudes, rising.
+    pub sigmas: Vec<f64>,
+    /// Realisations at each σ; realisation i has the same standard normals at every σ.
+    pub realisations: usize,
+    /// Name of the random stream.
+    pub stream: String,
+    /// Master seed.
+    pub seed: u64,
+}
+
+impl SweepParams {
+    /// The main sweep of Sec. 2 (Figs. 2, 3, 12 and 15).
+    pub fn main(profile: Profile) -> Self {
+        let (sigmas, realisations) = match profile {
+            Profile::Full => (
+                // 69 values, 0.0025 apart where the rise is.
+                Grid::default()
+                    .and(4, 15, 1, 200)
+                    .and(32, 72, 1, 400)
+                    .and(19, 28, 1, 100)
+                    .and(15, 20, 1, 50)
+                    .values(),
+                1000,
+            ),
+            Profile::Ci => (
+                Grid::default().and(2, 7, 1, 100).and(16, 36, 1, 200).and(10, 20, 1, 50).values(),
+                60,
+            ),
+            Profile::Quick => (
+                Grid::default().and(2, 8, 2, 100).and(9, 16, 1, 100).and(9, 20, 2, 50).values(),
+                12,
+            ),
+        };
+        SweepParams {
+            chain: Chain::default(),
+            protocol: Protocol::default(),
+            sigmas,
+            realisations,
+            stream: "sweep".into(),
+            seed: SEED,
+        }
+    }
+
+    /// The headline numbers again, with another seed and fewer realisations on the rise only.
+    pub fn second_seed(profile: Profile) -> Self {
+        let (sigmas, realisations) = match profile {
+            Profile::Full => (Grid::default().and(34, 64, 1, 400).values(), 400),
+            Profile::Ci => (Grid::default().and(8, 16, 1, 100).values(), 30),
+            Profile::Quick => (Grid::default().and(8, 16, 1, 100).values(), 8),
+        };
+        SweepParams { sigmas, realisations, seed: SECOND_SEED, ..Self::main(profile) }
+    }
+}
+
+/// The map of the half height over transient and window: one long run of each realisation, in
+/// which every window is read.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ProtocolParams {
+    /// The chain without its forcing.
+    pub chain: Chain,
+    /// Transients T, rising.
+    pub transients: Vec<f64>,
+    /// Windows W, rising.
+    pub windows: Vec<f64>,
+    /// Standard deviations σ, rising.
+    pub sigmas: Vec<f64>,
+    /// Above this σ ...
+    pub short_above: f64,
+    /// ... windows that end later than this are not run: the chain is full long before.
+    pub short_until: f64,
+    /// Realisations at each σ.
+    pub realisations: usize,
+    /// Name of the random stream.
+    pub stream: String,
+    /// Master seed.
+    pub seed: u64,
+}
+
+impl ProtocolParams {
+    /// The map of each profile.
+    pub fn new(profile: Profile) -> Self {
+        let (longest, sigmas, realisations) = match profile {
+            Profile::Full => (7, Grid::default().and(34, 68, 2, 400).values(), 120),
+            Profile::Ci => (5, Grid::default().and(9, 17, 1, 100).values(), 24),
+            Profile::Quick => (4, Grid::default().and(9, 17, 1, 100).values(), 6),
+        };
+        let transients = [50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0, 4000.0];
+        ProtocolParams {
+            chain: Chain::default(),
+            transients: transients[..longest].to_vec(),
+            windows: vec![20.0, 50.0, 100.0, 200.0, 500.0],
+            sigmas,
+            short_above: 0.131,
+            short_until: 1000.0,
+            realisations,
+            stream: "protocol".into(),
+            seed: SEED,
+        }
+    }
+}
+
+/// One chain that differs from the paper's in one respect.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct StartVariant {
+    /// Short name: `rest`, `zero`, `random`, `ring`, `restitution-0.6`, …
+    pub name: String,
+    /// The chain.
+    pub chain: Chain,
+    /// Standard deviations σ, rising.
+    pub sigmas: Vec<f64>,
+}
+
+/// The variants of start, boundary, restitution and forcing frequency.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct StartsParams {
+    /// The variants; the first is the paper's chain.
+    pub variants: Vec<StartVariant>,
+    /// Transient and window.
+    pub protocol: Protocol,
+    /// Realisations at each σ.
+    pub realisations: usize,
+    /// Name of the random stream, common to the variants.
+    pub stream: String,
+    /// Master seed.
+    pub seed: u64,
+}
+
+impl StartsParams {
+    /// The variants of each profile.
+    pub fn new(profile: Profile) -> Self {
+        let (step, realisations) = match profile {
+            Profile::Full => (1, 100),
+            Profile::Ci => (2, 16),
+            Profile::Quick => (2, 4),
+        };
+        let near = Grid::default().and(8, 18, step, 100).values();
+        let wide = Grid::default().and(8, 26, step, 100).values();
+        let variant = |name: &str, sigmas: &Vec<f64>, change: fn(&mut Chain)| {
+            let mut chain = Chain::default();
+            change(&mut chain);
+            StartVariant { name: name.into(), chain, sigmas: sigmas.clone() }
+        };
+        let mut variants = vec![
+            variant("rest", &near, |_| ()),
+            variant("zero", &wide, |c| c.start = Start::Zero),
+            variant("random", &near, |c| c.start = Start::Random),
+            variant("ring", &near, |c| c.boundary = Boundary::Ring),
+        ];
+        if profile == Profile::Full {
+            variants.extend([
+                variant("restitution-0.6", &near, |c| c.restitution = 0.6),
+                variant("restitution-0.9", &near, |c| c.restitution = 0.9),
+                variant("forcing-frequency-1.3", &near, |c| c.forcing_frequency = 1.3),
+                variant("forcing-frequency-1.6", &near, |c| c.forcing_frequency = 1.6),
+            ]);
+        }
+        StartsParams {
+            variants,
+            protocol: Protocol::default(),
+            realisations,
+            stream: "starts".into(),
+            seed: SEED,
+        }
+    }
+}
+
+/// Twin runs that differ in the last bit of one amplitude.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct HorizonParams {
+    /// The chain without its forcing.
+    pub chain: Chain,
+    /// Standard deviation σ.
+    pub sigma: f64,
+    /// Time at which the twins are given up.
+    pub until: f64,
+    /// Number of twins.
+    pub realisations: usize,
+    /// Name of the random stream.
+    pub stream: String,
+    /// Master seed.
+    pub seed: u64,
+}
+
+impl HorizonParams {
+    /// The twins of each profile.
+    pub fn new(profile: Profile) -> Self {
+        HorizonParams {
+            chain: Chain::default(),
+            sigma: 0.2,
+            until: 500.0,
+            realisations: match profile {
+                Profile::Full => 100,
+                Profile::Ci => 30,
+                Profile::Quick => 10,
+            },
+            stream: "horizon".into(),
+            seed: SEED,
+        }
+    }
+}
+
+/// Two masses under a low force.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TwoMassesParams {
+    /// The chain, with n = 2.
+    pub chain: Chain,
+    /// Times within which an impact must come, rising.
+    pub times: Vec<f64>,
+    /// Number of random directions of the forcing.
+    pub directions: usize,
+    /// Halvings of the bracket around the smallest amplitude.
+    pub halvings: usize,
+    /// Name of the random stream.
+    pub stream: String,
+    /// Master seed.
+    pub seed: u64,
+}
+
+impl TwoMassesParams {
+    /// The sizes of each profile.
+    pub fn new(profile: Profile) -> Self {
+        TwoMassesParams {
+            chain: Chain { masses: 2, ..Chain::default() },
+            times: match profile {
+                Profile::Full => vec![1e2, 1e3, 1e4],
+                _ => vec![1e2, 1e3],
+            },
+            directions: match profile {
+                Profile::Full => 200,
+                Profile::Ci => 50,
+                Profile::Quick => 20,
+            },
+            halvings: 40,
+            stream: "two-masses".into(),
+            seed: SEED,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn full_grid_is_as_promised() {
+        let sigmas = SweepParams::main(Profile::Full).sigmas;
+        assert_eq!(sigmas.len(), 69);
+        assert_eq!((sigmas[0], sigmas[68]), (0.02, 0.40));
+        assert!(sigmas.windows(2).all(|w| w[0] < w[1]));
+        assert!(
+            sigmas
+                .windows(2)
+                .filter(|w| w[0] >= 0.08 && w[1] <= 0.18)
+                .all(|w| w[1] - w[0] < 0.0025 + 1e-12)
+        );
+        assert!(sigmas.contains(&0.12) && sigmas.contains(&0.1175));
+    }
+}
