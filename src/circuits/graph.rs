@@ -1,0 +1,209 @@
+//! The directed graph of Sec. 3: a vertex for each pair that can impact, an edge for each possible
+//! flight from one impact to the next, loops included. Periodic orbits are its circuits.
+
+use std::collections::BTreeMap;
+
+/// The fully connected directed graph of N vertices, named for a chain of N − 1 masses.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Graph {
+    labels: Vec<String>,
+}
+
+/// A circuit: vertex indices in order, read cyclically. Two circuits are the same when one is a
+/// rotation of the other; the stored rotation is the lexicographically least.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Circuit(Vec<usize>);
+
+impl Graph {
+    /// The graph of `masses` masses between two walls: vertices L-1, 1-2, …, n-R in the order of
+    /// the gaps (Fig. 4 for three masses). Without masses the walls face each other: L-R.
+    pub fn of_chain(masses: usize) -> Self {
+        let body = |j: usize| match j {
+            0 => "L".to_string(),
+            j if j > masses => "R".to_string(),
+            j => j.to_string(),
+        };
+        Graph { labels: (0..=masses).map(|j| format!("{}-{}", body(j), body(j + 1))).collect() }
+    }
+
+    /// Number of vertices N = n + 1.
+    pub fn vertices(&self) -> usize {
+        self.labels.len()
+    }
+
+    /// Name of a vertex, such as `L-1`, `1-2` or `3-R`.
+    pub fn label(&self, vertex: usize) -> &str {
+        &self.labels[vertex]
+    }
+
+    /// The vertex of that name.
+    pub fn vertex(&self, label: &str) -> Option<usize> {
+        self.labels.iter().position(|l| l == label)
+    }
+
+    /// All N² edges (from, to), loops included, in lexicographic order.
+    pub fn edges(&self) -> impl Iterator<Item = (usize, usize)> {
+        let n = self.vertices();
+        (0..n).flat_map(move |from| (0..n).map(move |to| (from, to)))
+    }
+
+    /// Every primitive circuit of at most `longest` edges, in lexicographic order: a circuit that
+    /// only runs another one several times over is the same periodic orbit and is left out.
+    ///
+    /// There are about N^longest/longest of them: meant for small graphs.
+    pub fn circuits(&self, longest: usize) -> Circuits {
+        Circuits { vertices: self.vertices(), longest, word: Vec::new(), started: false }
+    }
+
+    /// The circuit through vertices of these names, or nothing if one is unknown.
+    pub fn circuit(&self, labels: &[&str]) -> Option<Circuit> {
+        let word: Option<Vec<usize>> = labels.iter().map(|l| self.vertex(l)).collect();
+        word.map(Circuit::new)
+    }
+}
+
+impl Circuit {
+    /// The circuit of a cyclic sequence of vertices, in its least rotation.
+    pub fn new(word: Vec<usize>) -> Self {
+        let rotation = |i: usize| word[i..].iter().chain(&word[..i]).copied().collect::<Vec<_>>();
+        Circuit((0..word.len()).map(rotation).min().unwrap_or_default())
+    }
+
+    /// Its vertices from the least rotation's start.
+    pub fn word(&self) -> &[usize] {
+        &self.0
+    }
+
+    /// Its number of edges, the paper's length.
+    pub fn length(&self) -> usize {
+        self.0.len()
+    }
+
+    /// How often each visited vertex occurs.
+    pub fn visits(&self) -> BTreeMap<usize, usize> {
+        let mut visits = BTreeMap::new();
+        for vertex in &self.0 {
+            *visits.entry(*vertex).or_insert(0) += 1;
+        }
+        visits
+    }
+
+    /// Its number of different vertices, the number X of different impacts.
+    pub fn different_vertices(&self) -> usize {
+        self.visits().len()
+    }
+
+    /// Whether no vertex is visited more than once (Sec. 5).
+    pub fn is_simple(&self) -> bool {
+        self.different_vertices() == self.length()
+    }
+
+    /// δ_1, δ_2, …: how many vertices are visited j + 1 times, without trailing zeros; empty for a
+    /// simple circuit. The class of Eq. (34) to which the circuit belongs.
+    pub fn repeats(&self) -> Vec<usize> {
+        let visits = self.visits();
+        let most = visits.values().copied().max().unwrap_or(1);
+        (2..=most).map(|m| visits.values().filter(|v| **v == m).count()).collect()
+    }
+
+    /// Whether it is no repetition of a shorter circuit.
+    pub fn is_primitive(&self) -> bool {
+        let n = self.length();
+        (1..n)
+            .filter(|shift| n.is_multiple_of(*shift))
+            .all(|shift| (0..n).any(|i| self.0[i] != self.0[(i + shift) % n]))
+    }
+}
+
+/// Iterator over primitive circuits, see [`Graph::circuits`]. Their least rotations are the Lyndon
+/// words over the vertices, which Duval's algorithm lists in order.
+#[derive(Clone, Debug)]
+pub struct Circuits {
+    vertices: usize,
+    longest: usize,
+    word: Vec<usize>,
+    started: bool,
+}
+
+impl Iterator for Circuits {
+    type Item = Circuit;
+
+    fn next(&mut self) -> Option<Circuit> {
+        if !self.started {
+            self.started = true;
+            self.word = vec![0];
+        } else {
+            let period = self.word.len();
+            while self.word.len() < self.longest {
+                self.word.push(self.word[self.word.len() - period]);
+            }
+            while self.word.last() == Some(&(self.vertices - 1)) {
+                self.word.pop();
+            }
+            *self.word.last_mut()? += 1;
+        }
+        (self.longest > 0).then(|| Circuit(self.word.clone()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn three_masses_give_figure_four() {
+        // Sec. 3: four vertices, 16 edges.
+        let graph = Graph::of_chain(3);
+        let labels: Vec<&str> = (0..graph.vertices()).map(|v| graph.label(v)).collect();
+        assert_eq!(labels, ["L-1", "1-2", "2-3", "3-R"]);
+        assert_eq!(graph.edges().count(), 16);
+        assert!(graph.edges().any(|(a, b)| a == b));
+        assert_eq!(graph.vertex("2-3"), Some(2));
+        assert_eq!(graph.vertex("3-4"), None);
+    }
+
+    #[test]
+    fn circuits_of_section_five() {
+        let graph = Graph::of_chain(3);
+        let simple = graph.circuit(&["L-1", "1-2", "3-R"]).unwrap();
+        assert!(simple.is_simple() && simple.repeats().is_empty());
+        let sequence = ["L-1", "L-1", "1-2", "L-1", "2-3", "1-2", "3-R", "3-R"];
+        let other = graph.circuit(&sequence).unwrap();
+        assert_eq!((other.length(), other.different_vertices()), (8, 4));
+        // One vertex three times, two twice.
+        assert_eq!(other.repeats(), [2, 1]);
+        assert!(other.is_primitive() && !other.is_simple());
+        assert!(!Circuit::new(vec![0, 1, 0, 1]).is_primitive());
+    }
+
+    #[test]
+    fn rotations_are_one_circuit() {
+        assert_eq!(Circuit::new(vec![2, 0, 1]), Circuit::new(vec![0, 1, 2]));
+        assert_ne!(Circuit::new(vec![2, 1, 0]), Circuit::new(vec![0, 1, 2]));
+    }
+
+    #[test]
+    fn enumeration_agrees_with_a_search_of_all_sequences() {
+        // Second route: all N^L sequences, brought to their least rotation, primitive ones kept.
+        for (masses, longest) in [(0, 3), (1, 7), (2, 6), (3, 5)] {
+            let graph = Graph::of_chain(masses);
+            let n = graph.vertices();
+            let mut all = std::collections::BTreeSet::new();
+            for length in 1..=longest {
+                let mut words = vec![vec![]];
+                for _ in 0..length {
+                    words = words
+                        .into_iter()
+                        .flat_map(|w: Vec<usize>| {
+                            (0..n).map(move |v| [w.clone(), vec![v]].concat())
+                        })
+                        .collect();
+                }
+                all.extend(words.into_iter().map(Circuit::new).filter(Circuit::is_primitive));
+            }
+            let listed: Vec<Circuit> = graph.circuits(longest).collect();
+            assert_eq!(listed, all.into_iter().collect::<Vec<_>>(), "N = {n}");
+        }
+        assert_eq!(Graph::of_chain(2).circuits(0).count(), 0);
+    }
+}

@@ -1,0 +1,208 @@
+//! Numbers carried as an unevaluated sum of two doubles: about 106 bits, for products of many
+//! factors and for exponents whose error the exponential would enlarge.
+//!
+//! The error-free sum is Knuth's, the error-free product Dekker's; neither needs a fused
+//! multiply-add, so the bits are the same on every machine. Magnitudes must stay between about
+//! 2^−450 and 2^450 for products to be exact; [`super::scaled::Scaled`] takes care of that.
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// The value hi + lo, with |lo| at most half a unit in the last place of hi.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct DoubleDouble {
+    /// The nearest double.
+    pub hi: f64,
+    /// What is left of the value.
+    pub lo: f64,
+}
+
+/// a + b exactly, as rounded sum and error.
+pub fn two_sum(a: f64, b: f64) -> DoubleDouble {
+    let hi = a + b;
+    let b_part = hi - a;
+    let lo = (a - (hi - b_part)) + (b - b_part);
+    DoubleDouble { hi, lo }
+}
+
+/// a + b exactly, when |a| ≥ |b| or a = 0.
+fn quick_two_sum(a: f64, b: f64) -> DoubleDouble {
+    let hi = a + b;
+    DoubleDouble { hi, lo: b - (hi - a) }
+}
+
+/// Splits a double into two halves of at most 26 bits each.
+fn split(a: f64) -> (f64, f64) {
+    let c = 134_217_729.0 * a; // 2^27 + 1
+    let high = c - (c - a);
+    (high, a - high)
+}
+
+/// a · b exactly, as rounded product and error.
+pub fn two_product(a: f64, b: f64) -> DoubleDouble {
+    let hi = a * b;
+    let (a1, a2) = split(a);
+    let (b1, b2) = split(b);
+    let lo = ((a1 * b1 - hi) + a1 * b2 + a2 * b1) + a2 * b2;
+    DoubleDouble { hi, lo }
+}
+
+impl DoubleDouble {
+    /// Zero.
+    pub const ZERO: Self = DoubleDouble { hi: 0.0, lo: 0.0 };
+    /// One.
+    pub const ONE: Self = DoubleDouble { hi: 1.0, lo: 0.0 };
+    /// ln 2.
+    pub const LN_2: Self =
+        DoubleDouble { hi: std::f64::consts::LN_2, lo: 2.319_046_813_846_299_6e-17 };
+
+    /// Multiplies by a power of two, exactly.
+    pub fn times_power_of_two(self, factor: f64) -> Self {
+        DoubleDouble { hi: self.hi * factor, lo: self.lo * factor }
+    }
+
+    /// The nearest double.
+    pub fn to_f64(self) -> f64 {
+        self.hi + self.lo
+    }
+
+    /// e^self as a double, with the relative error of the exponential of a double.
+    pub fn exp(self) -> f64 {
+        let e = pxfm::f_exp(self.hi);
+        e + e * pxfm::f_expm1(self.lo)
+    }
+
+    /// The square root, for values ≥ 0.
+    pub fn sqrt(self) -> Self {
+        if self.hi <= 0.0 {
+            return DoubleDouble::ZERO;
+        }
+        let root = self.hi.sqrt();
+        let residue = self - two_product(root, root);
+        quick_two_sum(root, residue.to_f64() / (2.0 * root))
+    }
+}
+
+impl From<f64> for DoubleDouble {
+    fn from(x: f64) -> Self {
+        DoubleDouble { hi: x, lo: 0.0 }
+    }
+}
+
+impl From<usize> for DoubleDouble {
+    fn from(x: usize) -> Self {
+        let hi = x as f64;
+        // A usize has at most 64 bits, so the remainder is exact.
+        DoubleDouble { hi, lo: (x as i128 - hi as i128) as f64 }
+    }
+}
+
+impl Neg for DoubleDouble {
+    type Output = Self;
+    fn neg(self) -> Self {
+        DoubleDouble { hi: -self.hi, lo: -self.lo }
+    }
+}
+
+impl Add for DoubleDouble {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        let s = two_sum(self.hi, other.hi);
+        let t = two_sum(self.lo, other.lo);
+        let s = quick_two_sum(s.hi, s.lo + t.hi);
+        quick_two_sum(s.hi, s.lo + t.lo)
+    }
+}
+
+impl Sub for DoubleDouble {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        self + -other
+    }
+}
+
+impl Mul for DoubleDouble {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        let p = two_product(self.hi, other.hi);
+        quick_two_sum(p.hi, p.lo + (self.hi * other.lo + self.lo * other.hi))
+    }
+}
+
+impl Mul<f64> for DoubleDouble {
+    type Output = Self;
+    fn mul(self, other: f64) -> Self {
+        let p = two_product(self.hi, other);
+        quick_two_sum(p.hi, p.lo + self.lo * other)
+    }
+}
+
+impl Div for DoubleDouble {
+    type Output = Self;
+    fn div(self, other: Self) -> Self {
+        let q1 = self.hi / other.hi;
+        let r = self - other * q1;
+        let q2 = r.hi / other.hi;
+        let r = r - other * q2;
+        let q3 = r.hi / other.hi;
+        let q = quick_two_sum(q1, q2);
+        q + DoubleDouble::from(q3)
+    }
+}
+
+impl PartialOrd for DoubleDouble {
+    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
+        let d = *self - *other;
+        (d.hi + d.lo).partial_cmp(&0.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn product_of_doubles_is_exact() {
+        // (2^27 + 1)² = 2^54 + 2^28 + 1 needs 55 bits: the integer is the second route.
+        let a = 134_217_729.0_f64;
+        let square = two_product(a, a);
+        let exact = 134_217_729_i128 * 134_217_729_i128;
+        assert_eq!(square.hi as i128 + square.lo as i128, exact);
+        assert_ne!(square.lo, 0.0);
+    }
+
+    #[test]
+    fn quotient_times_divisor_gives_back_the_dividend() {
+        let a = DoubleDouble::from(22.0) / DoubleDouble::from(7.0);
+        let back = a * 7.0 - DoubleDouble::from(22.0);
+        assert!(back.to_f64().abs() < 1e-30, "{back:?}");
+        assert_ne!(a.lo, 0.0);
+    }
+
+    #[test]
+    fn root_squared_gives_back_the_radicand() {
+        let root = DoubleDouble::from(2.0).sqrt();
+        assert!((root * root - DoubleDouble::from(2.0)).to_f64().abs() < 1e-30);
+    }
+
+    #[test]
+    fn large_integers_keep_their_last_bit() {
+        let n = (1_usize << 60) + 1;
+        let d = DoubleDouble::from(n);
+        assert_eq!(d.hi as i128 + d.lo as i128, n as i128);
+    }
+
+    #[test]
+    fn order_looks_at_the_second_part() {
+        let one = DoubleDouble::ONE;
+        let more = DoubleDouble { hi: 1.0, lo: 1e-25 };
+        assert!(more > one && one < more && one == DoubleDouble::from(1.0));
+    }
+
+    #[test]
+    fn exponential_sees_the_second_part() {
+        let x = DoubleDouble { hi: 700.0, lo: 5e-14 };
+        // e^(5e−14) = 1 + 5e−14 to 1e−27.
+        let ratio = x.exp() / pxfm::f_exp(700.0);
+        assert!((ratio - 1.0 - 5e-14).abs() < 5e-16);
+    }
+}
