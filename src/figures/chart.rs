@@ -1,0 +1,129 @@
+//! What several charts share: columns over integers, round axis ends, corner notes, numbers.
+
+use plotters::style::text_anchor::{HPos, VPos};
+
+use super::Error;
+use super::axis::{Axis, number};
+use super::panel::{Frame, Panel};
+use super::style::{INK, SMALL};
+
+/// Points (k, value) of a series whose first value belongs to k = 1.
+pub fn over_k(values: &[f64]) -> Vec<(f64, f64)> {
+    values.iter().enumerate().map(|(i, &v)| ((i + 1) as f64, v)).collect()
+}
+
+/// The outline of columns of width 1 that stand on zero, as a closed polygon.
+pub fn columns(values: &[f64]) -> Vec<(f64, f64)> {
+    let mut outline = vec![(0.5, 0.0)];
+    for (i, &value) in values.iter().enumerate() {
+        let k = (i + 1) as f64;
+        outline.push((k - 0.5, value));
+        outline.push((k + 0.5, value));
+    }
+    outline.push((values.len() as f64 + 0.5, 0.0));
+    outline
+}
+
+/// An axis from zero to a round number at or above `largest`, with about four labelled steps.
+pub fn upwards_from_zero(largest: f64, label: &str) -> Axis {
+    let mut unit = 1.0;
+    while unit > largest {
+        unit /= 10.0;
+    }
+    while unit * 10.0 <= largest {
+        unit *= 10.0;
+    }
+    for step in [0.2, 0.25, 0.5, 1.0, 2.0, 2.5] {
+        let step = step * unit;
+        let steps = (largest / step - 1e-9).ceil();
+        if steps <= 5.0 {
+            return Axis::linear(0.0, steps * step, step, 1, label);
+        }
+    }
+    Axis::linear(0.0, 10.0 * unit, 5.0 * unit, 1, label)
+}
+
+/// Largest of a series, zero if it is empty.
+pub fn largest(values: &[f64]) -> f64 {
+    values.iter().copied().fold(0.0, f64::max)
+}
+
+/// Four panels, two by two, on a sheet 6750 high.
+pub const FOUR: [Frame; 4] = [
+    Frame::new(1080, 480, 4050, 2580),
+    Frame::new(5230, 480, 8200, 2580),
+    Frame::new(1080, 3780, 4050, 5880),
+    Frame::new(5230, 3780, 8200, 5880),
+];
+
+/// The letters of panels.
+pub const LETTERS: [&str; 4] = ["(a)", "(b)", "(c)", "(d)"];
+
+/// Lines of words in an upper corner of a panel.
+pub fn corner(panel: &Panel, side: HPos, lines: &[String]) -> Result<(), Error> {
+    let (x, dx) = match side {
+        HPos::Left => (panel.x.lo, 140),
+        _ => (panel.x.hi, -60),
+    };
+    for (i, line) in lines.iter().enumerate() {
+        let look = (SMALL, INK, side, VPos::Top);
+        panel.note(line, (x, panel.y.hi), (dx, 60 + 330 * i as i32), look)?;
+    }
+    Ok(())
+}
+
+/// The letter of a panel and the parameter it is drawn for, above its frame.
+pub fn heading(panel: &Panel, letter: &str, parameter: &str) -> Result<(), Error> {
+    panel.letter(letter)?;
+    let look = (SMALL, INK, HPos::Right, VPos::Bottom);
+    panel.note(parameter, (panel.x.hi, panel.y.hi), (0, -80), look)
+}
+
+/// A number with about `digits` significant decimals, for notes and descriptions.
+pub fn short(value: f64, digits: usize) -> String {
+    let mut decimals = digits.saturating_sub(1);
+    let mut size = value.abs();
+    while size >= 10.0 && decimals > 0 {
+        size /= 10.0;
+        decimals -= 1;
+    }
+    while size > 0.0 && size < 1.0 && decimals < 12 {
+        size *= 10.0;
+        decimals += 1;
+    }
+    let shown = number(value, decimals);
+    if shown.contains('.') {
+        shown.trim_end_matches('0').trim_end_matches('.').to_string()
+    } else {
+        shown
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn axes_end_at_round_numbers() {
+        assert_eq!(upwards_from_zero(0.37, "").hi, 0.4);
+        assert_eq!(upwards_from_zero(101.0, "").hi, 125.0);
+        let axis = upwards_from_zero(0.056, "");
+        assert!((axis.hi - 0.06).abs() < 1e-12, "{}", axis.hi);
+    }
+
+    #[test]
+    fn short_numbers_keep_their_leading_digits() {
+        assert_eq!(short(0.013_032_86, 4), "0.01303");
+        assert_eq!(short(89.887, 3), "89.9");
+        assert_eq!(short(0.5, 3), "0.5");
+        assert_eq!(short(100.0, 3), "100");
+    }
+
+    #[test]
+    fn columns_stand_on_zero() {
+        let outline = columns(&[0.25, 0.75]);
+        assert_eq!(outline.first(), Some(&(0.5, 0.0)));
+        assert_eq!(outline.last(), Some(&(2.5, 0.0)));
+        assert_eq!(outline.len(), 6);
+    }
+}

@@ -1,0 +1,133 @@
+//! Fig. 1: the model, a row of forced masses between two walls.
+
+use plotters::style::text_anchor::{HPos, VPos};
+
+use super::data::cells;
+use super::panel::Frame;
+use super::sheet::Sheet;
+use super::style::{BLUE, Dash, GREY, HAIR, INK, PALE, SMALL, Stroke, TEXT, TINY, WHITE};
+use super::{DataFile, Error, Figure};
+
+const LEFT: i32 = 640;
+const SPACING: i32 = 1187;
+const FLOOR: i32 = 2280;
+const HEIGHT: i32 = 1060;
+const RADIUS: i32 = 235;
+
+/// A mass as drawn: its place in units of the spacing on the sheet, its name, its place in the
+/// row, and how far it is bent from its equilibrium.
+struct Mass {
+    slot: i32,
+    name: &'static str,
+    place: &'static str,
+    bend: i32,
+}
+
+const MASSES: [Mass; 4] = [
+    Mass { slot: 1, name: "1", place: "*d*", bend: -300 },
+    Mass { slot: 2, name: "2", place: "2*d*", bend: 230 },
+    Mass { slot: 4, name: "*n*−1", place: "(*n*−1)*d*", bend: 190 },
+    Mass { slot: 5, name: "*n*", place: "*nd*", bend: -250 },
+];
+
+/// Draws the figure.
+pub fn draw() -> Result<Figure, Error> {
+    let sheet = Sheet::new(3180, None)?;
+    let right = LEFT + 6 * SPACING;
+    walls(&sheet, right)?;
+    for mass in &MASSES {
+        draw_mass(&sheet, mass)?;
+    }
+    let middle = LEFT + 3 * SPACING;
+    for dx in [-170, 0, 170] {
+        sheet.disc((middle + dx, HEIGHT), 26, INK, Stroke::solid(INK, 4))?;
+    }
+    floor_labels(&sheet, right)?;
+    distances(&sheet)?;
+
+    let mut data = DataFile::new(
+        "fig01.csv",
+        &["gap (1)", "left_neighbour", "right_neighbour", "distance_at_rest (d)"],
+    );
+    data.row(cells!["0", "left wall", "mass 1", 1usize]);
+    data.row(cells!["j", "mass j", "mass j+1", 1usize]);
+    data.row(cells!["n", "mass n", "right wall", 1usize]);
+    let description =
+        "A row of n equal masses, drawn as discs on elastic stems, between a left and \
+        a right wall that stand at 0 and (n + 1)d. The stems are rooted at the equilibria d, 2d, \
+        …, (n − 1)d, nd, a distance d apart; each mass is bent away from its equilibrium along \
+        the x-axis. Marked are the spacing d, the position x1(t) of the first mass, the gap Δ1(t) \
+        between the masses 1 and 2, and the force F2(t) on mass 2."
+            .to_string();
+    Ok(sheet.finish(1, "The chain of masses between two walls", description, vec![data]))
+}
+
+fn walls(sheet: &Sheet, right: i32) -> Result<(), Error> {
+    let (top, thick) = (470, 260);
+    for (edge, out) in [(LEFT, -1), (right, 1)] {
+        let (a, b) = (edge.min(edge + out * thick), edge.max(edge + out * thick));
+        sheet.rectangle(Frame::new(a, top, b, FLOOR), PALE)?;
+        sheet.line(&[(edge, top), (edge, FLOOR)], Stroke::solid(INK, 40))?;
+    }
+    sheet.rectangle(Frame::new(LEFT - thick, FLOOR, right + thick, FLOOR + 130), PALE)?;
+    sheet.line(&[(LEFT - thick, FLOOR), (right + thick, FLOOR)], Stroke::solid(INK, 24))
+}
+
+fn draw_mass(sheet: &Sheet, mass: &Mass) -> Result<(), Error> {
+    let root = LEFT + mass.slot * SPACING;
+    let rest = Stroke::dashed(GREY, HAIR, Dash::Short);
+    sheet.line(&[(root, 620), (root, FLOOR)], rest)?;
+    // A clamped stem with a load at its end: s²(3 − s)/2.
+    let stem: Vec<_> = (0..=40)
+        .map(|i| {
+            let s = f64::from(i) / 40.0;
+            let bend = s * s * (3.0 - s) / 2.0 * f64::from(mass.bend);
+            (root + bend.round() as i32, FLOOR - (s * f64::from(FLOOR - HEIGHT)).round() as i32)
+        })
+        .collect();
+    sheet.line(&stem, Stroke::solid(INK, 50))?;
+    let centre = (root + mass.bend, HEIGHT);
+    sheet.disc(centre, RADIUS, WHITE, Stroke::solid(INK, 36))?;
+    let size = if mass.name.len() > 3 { TINY } else { SMALL };
+    sheet.text(mass.name, centre, (size, INK, HPos::Center, VPos::Center))
+}
+
+fn floor_labels(sheet: &Sheet, right: i32) -> Result<(), Error> {
+    let y = FLOOR + 240;
+    let places = MASSES.iter().map(|m| (LEFT + m.slot * SPACING, m.place));
+    for (x, place) in [(LEFT, "0"), (right, "(*n*+1)*d*")].into_iter().chain(places) {
+        sheet.line(&[(x, FLOOR), (x, FLOOR + 130)], Stroke::solid(INK, HAIR))?;
+        sheet.text(place, (x, y), (TEXT, INK, HPos::Center, VPos::Top))?;
+    }
+    Ok(())
+}
+
+fn double_arrow(sheet: &Sheet, a: (i32, i32), b: (i32, i32)) -> Result<(), Error> {
+    sheet.arrow(&[a, b], Stroke::solid(INK, HAIR))?;
+    sheet.arrow(&[b, a], Stroke::solid(INK, HAIR))
+}
+
+fn distances(sheet: &Sheet) -> Result<(), Error> {
+    let (one, two) = (LEFT + SPACING, LEFT + 2 * SPACING);
+    let (x1, x2) = (one + MASSES[0].bend, two + MASSES[1].bend);
+    let label = |text, at, v| sheet.text(text, at, (TEXT, INK, HPos::Center, v));
+    // The spacing, between the equilibria 1 and 2.
+    let y = FLOOR + 760;
+    double_arrow(sheet, (one, y), (two, y))?;
+    label("*d*", ((one + two) / 2, y - 60), VPos::Bottom)?;
+    for x in [one, two] {
+        sheet.line(&[(x, y - 90), (x, y + 90)], Stroke::solid(INK, HAIR))?;
+    }
+    // The gap between the masses 1 and 2.
+    double_arrow(sheet, (x1 + RADIUS + 30, HEIGHT), (x2 - RADIUS - 30, HEIGHT))?;
+    label("Δ_{1}(*t*)", ((x1 + x2) / 2, HEIGHT - 80), VPos::Bottom)?;
+    // The position of mass 1, from the left wall.
+    let y = HEIGHT - 430;
+    double_arrow(sheet, (LEFT + 20, y), (x1, y))?;
+    label("*x*_{1}(*t*)", ((LEFT + x1) / 2, y - 70), VPos::Bottom)?;
+    sheet.line(&[(x1, y - 90), (x1, HEIGHT - RADIUS)], Stroke::solid(INK, HAIR))?;
+    // The force on mass 2.
+    let y = HEIGHT - 330;
+    sheet.arrow(&[(x2 - 60, y), (x2 + 500, y)], Stroke::solid(BLUE, 40))?;
+    sheet.text("*F*_{2}(*t*)", (x2 + 190, y - 90), (TEXT, BLUE, HPos::Center, VPos::Bottom))
+}

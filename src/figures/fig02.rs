@@ -1,0 +1,84 @@
+//! Fig. 2: the most likely number of impacts against σ, simulated.
+
+use super::chart::short;
+use super::data::cells;
+use super::panel::Frame;
+use super::sheet::{Entry, Sheet};
+use super::simulated::{
+    CROSS, CROSS_HALF, comparable, count_axis, crosses, last_sigma, sigma_axis, split, spoken,
+};
+use super::style::{GREY, HAIR, Mark, SMALL, Stroke, THIN};
+use super::{DataFile, Error, Figure};
+use crate::experiments::sweep::Sweep;
+
+/// Draws the figure.
+pub fn draw(sweep: &Sweep, note: Option<&str>) -> Result<Figure, Error> {
+    let sheet = Sheet::new(5350, note)?;
+    let n = sweep.parameters.chain.gaps();
+    let panel = sheet.panel(
+        Frame::new(1200, 260, 8150, 4450),
+        sigma_axis(last_sigma(sweep)),
+        count_axis(n, "most likely number of impacts"),
+    )?;
+    let bar = Stroke::solid(GREY, THIN);
+    let bars: Vec<_> = comparable(sweep)
+        .filter_map(|row| {
+            let [low, high] = row.mode_interval?;
+            (low < high).then_some((row.sigma, low as f64, high as f64))
+        })
+        .collect();
+    panel.bars("interval of the mode", &bars, 40, bar)?;
+    let modes: Vec<_> =
+        comparable(sweep).filter_map(|row| Some((row.sigma, row.mode_distinct? as f64))).collect();
+    crosses(&panel, "mode", &modes)?;
+    sheet.legend(
+        (4900, 3300),
+        (SMALL, 400),
+        &[
+            Entry::mark(Mark::Cross, CROSS_HALF, CROSS, "mode of the kept"),
+            Entry::line(Stroke::solid(GREY, HAIR), "its bootstrap interval, 95 %"),
+        ],
+    )?;
+
+    let mut data = DataFile::new(
+        "fig02.csv",
+        &[
+            "sigma (d omega^2)",
+            "kept (1)",
+            "mode (1)",
+            "mode_low_95 (1)",
+            "mode_high_95 (1)",
+            "quantile_05 (1)",
+            "quantile_50 (1)",
+            "quantile_95 (1)",
+        ],
+    );
+    for row in comparable(sweep) {
+        let [low, high] = split(row.mode_interval);
+        let quantile = |i: usize| row.quantiles.map(|q| q[i]);
+        data.row(cells![
+            row.sigma,
+            row.kept,
+            row.mode_distinct,
+            low,
+            high,
+            quantile(0),
+            quantile(2),
+            quantile(4)
+        ]);
+    }
+    let settled = modes.iter().rev().take_while(|m| m.1 == n as f64).last();
+    let description = format!(
+        "Red crosses: the most likely number of different gaps that impact, against the standard \
+         deviation σ of the forcing, from simulations of {} masses; grey bars: 95 % bootstrap \
+         intervals of the mode. Below the rise the mode is small and badly determined; {}. \
+         Some values: {}.",
+        sweep.parameters.chain.masses,
+        settled.map_or("it does not reach all gaps".into(), |m| format!(
+            "from σ = {} on it is {n}, every gap",
+            short(m.0, 4)
+        )),
+        spoken(&modes),
+    );
+    Ok(sheet.finish(2, "Most likely number of impacts", description, vec![data]))
+}

@@ -1,0 +1,65 @@
+//! Fig. 7: how many simple circuits there are of each length.
+
+use std::f64::consts::LN_10;
+
+use super::axis::Axis;
+use super::chart::{columns, largest, over_k, short, upwards_from_zero};
+use super::data::cells;
+use super::panel::{Frame, Outside};
+use super::sheet::Sheet;
+use super::style::{GREEN, LINE, Stroke, THIN};
+use super::{DataFile, Error, Figure};
+use crate::experiments::theory::Theory;
+
+/// Draws the figure.
+pub fn draw(theory: &Theory) -> Result<Figure, Error> {
+    let circuits = &theory.simple_circuits;
+    let n = theory.vertices;
+    let sheet = Sheet::new(5150, None)?;
+    let top = largest(&circuits.share);
+    let panel = sheet.panel(
+        Frame::new(1350, 300, 8100, 4200),
+        Axis::linear(0.0, n as f64 + 1.0, 20.0, 2, "length *k*"),
+        upwards_from_zero(top, "*ϕ*_{*N*}(*k*) / *ϕ*_{*N*}^{tot}"),
+    )?;
+    let shape = columns(&circuits.share);
+    panel.area("share of circuits", &shape, GREEN, 45)?;
+    panel.curve("share of circuits", &shape, Stroke::solid(GREEN, THIN), Outside::Refuse)?;
+
+    let logs: Vec<f64> =
+        circuits.log_count.iter().map(|l| (l - circuits.log_total) / LN_10).collect();
+    let lowest = (logs.iter().copied().fold(0.0, f64::min) / 40.0).floor() as i32 * 40;
+    let inset = sheet.inset(
+        Frame::new(2650, 650, 5950, 2750),
+        Axis::linear(0.0, n as f64 + 1.0, 25.0, 1, ""),
+        Axis::decades(lowest, 0, 40, ""),
+    )?;
+    inset.curve(
+        "logarithm of the share",
+        &over_k(&logs),
+        Stroke::solid(GREEN, LINE),
+        Outside::Refuse,
+    )?;
+
+    let mut data = DataFile::new(
+        "fig07.csv",
+        &["k (1)", "share_of_simple_circuits (1)", "log10_share (1)", "ln_phi (1)"],
+    );
+    for (i, &share) in circuits.share.iter().enumerate() {
+        data.row(cells![i + 1, share, logs[i], circuits.log_count[i]]);
+    }
+    let peak = circuits.share.iter().position(|&s| s == top).unwrap_or(0) + 1;
+    let near_end: f64 = circuits.share.iter().rev().take(4).sum();
+    let description = format!(
+        "Columns over the length k = 1 … {n}: the number of simple circuits of length k in a fully \
+         connected graph of N = {n} vertices, divided by the number of all. The columns are \
+         invisible up to k ≈ {}, the highest stands at k = {peak} with {}, and the last four \
+         together hold {}. An inset with a logarithmic axis shows the same numbers fall to about \
+         10^{} at k = 1.",
+        n.saturating_sub(8),
+        short(top, 3),
+        short(near_end, 3),
+        logs.first().copied().unwrap_or(0.0).round() as i64,
+    );
+    Ok(sheet.finish(7, "Number of simple circuits of each length", description, vec![data]))
+}

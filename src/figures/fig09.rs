@@ -1,0 +1,129 @@
+//! Fig. 9: (a) the most likely and (b) the expected number of impacts against p.
+
+use plotters::style::text_anchor::{HPos, VPos};
+
+use super::axis::Axis;
+use super::chart::{LETTERS, short};
+use super::data::cells;
+use super::panel::{Frame, Outside, Panel};
+use super::sheet::Sheet;
+use super::style::{Dash, GREEN, GREY, HAIR, INK, LINE, Mark, Stroke, THIN, TINY};
+use super::{DataFile, Error, Figure};
+use crate::experiments::theory::{MeanRow, Theory};
+
+/// Largest p of the insets.
+const SMALL_P: f64 = 0.04;
+
+/// Draws the figure.
+pub fn draw(theory: &Theory) -> Result<Figure, Error> {
+    let sheet = Sheet::new(9600, None)?;
+    let n = theory.vertices;
+    let top = (n as f64 / 20.0).ceil() * 20.0;
+    let labels = ["*k*^{∗}", "*μ*"];
+    let mut panels = Vec::new();
+    for (i, y) in [(0, 430), (1, 5130)] {
+        let panel = sheet.panel(
+            Frame::new(1150, y, 8150, y + 3450),
+            Axis::linear(0.0, 1.0, 0.2, 2, "*p*"),
+            Axis::linear(0.0, top, 20.0, 2, labels[i]),
+        )?;
+        panel.letter(LETTERS[i])?;
+        let inset = sheet.inset(
+            Frame::new(3300, y + 560, 7700, y + 2750),
+            Axis::linear(0.0, SMALL_P, 0.01, 2, ""),
+            Axis::linear(0.0, top, 20.0, 2, ""),
+        )?;
+        panels.push((panel, inset));
+    }
+    let scalars = &theory.scalars;
+    for panel in [&panels[0].0, &panels[0].1] {
+        most_likely(theory, panel)?;
+    }
+    let inset = &panels[0].1;
+    let jump = scalars.k_after_jump as f64;
+    inset.marks(
+        "before the jump",
+        &[(scalars.p_jump, 1.0)],
+        (Mark::Disc, 50, Stroke::solid(GREEN, THIN)),
+        Outside::Refuse,
+    )?;
+    inset.marks(
+        "after the jump",
+        &[(scalars.p_jump, jump)],
+        (Mark::Ring, 50, Stroke::solid(GREEN, THIN)),
+        Outside::Refuse,
+    )?;
+    let note = format!(
+        "*k*^{{∗}} jumps from 1 to {} at *p* = {}",
+        scalars.k_after_jump,
+        short(scalars.p_jump, 4)
+    );
+    inset.note(
+        &note,
+        (scalars.p_jump, jump / 2.0),
+        (110, 0),
+        (TINY, INK, HPos::Left, VPos::Center),
+    )?;
+
+    let mean = points(&theory.most_likely.mean);
+    let fine = points(&theory.most_likely.mean_inset);
+    let stroke = Stroke::solid(GREEN, LINE);
+    panels[1].0.curve("mean", &mean, stroke, Outside::Refuse)?;
+    panels[1].1.curve("mean, small p", &fine, stroke, Outside::Cut)?;
+    let one = Stroke::dashed(GREY, HAIR, Dash::Short);
+    panels[1].1.curve("limit 1", &[(0.0, 1.0), (SMALL_P, 1.0)], one, Outside::Refuse)?;
+
+    let mut steps = DataFile::new("fig09a.csv", &["p_step (1)", "k_star_beyond (1)"]);
+    for step in &theory.most_likely.steps {
+        steps.row(cells![step.p, step.k_star]);
+    }
+    let header = ["p (1)", "mean_simple (1)", "mean_five_classes (1)"];
+    let mut files = vec![steps];
+    for (name, rows) in [
+        ("fig09b.csv", &theory.most_likely.mean),
+        ("fig09b-inset.csv", &theory.most_likely.mean_inset),
+    ] {
+        let mut file = DataFile::new(name, &header);
+        for row in rows {
+            file.row(cells![row.p, row.mean, row.mean_higher]);
+        }
+        files.push(file);
+    }
+    let last = theory.most_likely.steps.last().map_or(0, |s| s.k_star);
+    let description = format!(
+        "Two curves against the edge probability p from 0 to 1, for N = {n}, each with an inset \
+         for p up to {SMALL_P}. (a) The most likely number of impacts k* is 1 up to p = {}, jumps \
+         there to {}, and then climbs in steps of one, steeply at first, to {last}. (b) The \
+         expected number μ starts at 1, rises without a jump through {} at p = 0.02, and levels \
+         off towards {n}.",
+        short(scalars.p_jump, 4),
+        scalars.k_after_jump,
+        fine.iter().find(|p| p.0 >= 0.02).map_or("about 50".into(), |p| short(p.1, 3)),
+    );
+    Ok(sheet.finish(9, "Most likely and expected number of impacts", description, files))
+}
+
+fn points(rows: &[MeanRow]) -> Vec<(f64, f64)> {
+    rows.iter().map(|row| (row.p, row.mean)).collect()
+}
+
+/// k* as a staircase; its jump from 1 is dotted, because no value lies between.
+fn most_likely(theory: &Theory, panel: &Panel) -> Result<(), Error> {
+    let jump = theory.scalars.p_jump;
+    let first = theory.scalars.k_after_jump as f64;
+    let solid = Stroke::solid(GREEN, LINE);
+    let mut stairs = Vec::new();
+    let mut level = None;
+    for step in theory.most_likely.steps.iter().filter(|s| s.k_star > 1) {
+        if let Some(before) = level {
+            stairs.push((step.p, before));
+        }
+        level = Some(step.k_star as f64);
+        stairs.push((step.p, step.k_star as f64));
+    }
+    stairs.extend(level.map(|k| (1.0, k)));
+    panel.curve("most likely number, 1", &[(0.0, 1.0), (jump, 1.0)], solid, Outside::Refuse)?;
+    panel.curve("most likely number", &stairs, solid, Outside::Cut)?;
+    let dotted = Stroke::dashed(GREEN, THIN, Dash::Dotted);
+    panel.curve("jump", &[(jump, 1.0), (jump, first)], dotted, Outside::Refuse)
+}

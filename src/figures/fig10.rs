@@ -1,0 +1,128 @@
+//! Fig. 10: how the jump of the most likely number of impacts comes about.
+
+use plotters::style::text_anchor::{HPos, VPos};
+
+use super::axis::Axis;
+use super::chart::{LETTERS, columns, largest, short, upwards_from_zero};
+use super::data::cells;
+use super::panel::{Frame, Outside, Panel};
+use super::sheet::Sheet;
+use super::style::{BLUE, Dash, GREEN, GREY, HAIR, INK, LINE, Mark, RED, SMALL, Stroke, THIN};
+use super::{DataFile, Error, Figure};
+use crate::experiments::theory::{Mechanism, Theory};
+
+/// Largest k shown: beyond it nothing changes sign again.
+const K_SHOWN: f64 = 40.0;
+
+/// Draws the figure.
+pub fn draw(theory: &Theory) -> Result<Figure, Error> {
+    let rows: Vec<&Mechanism> = theory.mechanism.iter().take(4).collect();
+    let sheet = Sheet::new(1050 + 2350 * rows.len() as u32, None)?;
+    let mut data = Vec::new();
+    let mut seen = Vec::new();
+    for (i, row) in rows.iter().enumerate() {
+        let y = 550 + 2350 * i as i32;
+        let last = i + 1 == rows.len();
+        let k = || {
+            let axis = Axis::linear(0.0, K_SHOWN, 10.0, 2, "*k*");
+            if last { axis } else { axis.bare() }
+        };
+        let left = sheet.panel(
+            Frame::new(1000, y, 4000, y + 1700),
+            k(),
+            Axis::linear(-3.0, 1.0, 1.0, 1, "*f*_{*N*,*p*}(*k*)"),
+        )?;
+        let p = match i {
+            0 => "*p* → 0".to_string(),
+            1 => format!("*p* = *p*_{{crit}} = {}", short(row.p, 4)),
+            _ => format!("*p* = {}", short(row.p, 4)),
+        };
+        left.note(
+            &format!("{} {p}", LETTERS[i]),
+            (0.0, left.y.hi),
+            (60, -90),
+            (SMALL, INK, HPos::Left, VPos::Bottom),
+        )?;
+        sign(&left, row)?;
+        let shown = &row.phi_over_gamma[..row.phi_over_gamma.len().min(K_SHOWN as usize)];
+        let right = sheet.panel(
+            Frame::new(5250, y, 8250, y + 1700),
+            k(),
+            upwards_from_zero(largest(shown) * 1.02, "*Φ*_{*N*,*p*}(*k*) / *Γ*_{*N*,*p*}"),
+        )?;
+        weight(&right, row, shown)?;
+
+        let letter = LETTERS[i].trim_matches(['(', ')']);
+        let mut f = DataFile::new(&format!("fig10{letter}-f.csv"), &["p (1)", "k (1)", "f (1)"]);
+        for point in &row.f {
+            f.row(cells![row.p, point.x, point.y]);
+        }
+        let mut phi = DataFile::new(
+            &format!("fig10{letter}-phi.csv"),
+            &["p (1)", "k (1)", "phi_over_gamma (1)", "phi_over_phi_1 (1)"],
+        );
+        for (j, &value) in row.phi_over_gamma.iter().enumerate() {
+            phi.row(cells![row.p, j + 1, value, row.phi_over_first[j]]);
+        }
+        data.extend([f, phi]);
+        let zeros = match row.zeros {
+            Some([a, b]) if a == b => format!("touches zero at k = {}", short(a, 3)),
+            Some([a, b]) => format!("is positive between k = {} and {}", short(a, 3), short(b, 3)),
+            None => "is negative throughout".into(),
+        };
+        let name = if i == 0 { "p → 0".into() } else { format!("p = {}", short(row.p, 4)) };
+        seen.push(format!("{} {name}: f {zeros}, and k* = {}", LETTERS[i], row.k_star));
+    }
+    let description = format!(
+        "Four rows of two charts over k from 0 to {K_SHOWN}, p increasing downwards, N = {}. Left, \
+         the function f whose sign tells whether the weight Φ grows from k to k + 1; right, \
+         columns of Φ divided by its sum Γ, with a broken line at the height of the first column \
+         and a red disc on the highest. {}.",
+        theory.vertices,
+        seen.join("; ")
+    );
+    Ok(sheet.finish(10, "The mechanism of the jump", description, data))
+}
+
+fn sign(panel: &Panel, row: &Mechanism) -> Result<(), Error> {
+    let zero = Stroke::solid(GREY, HAIR);
+    panel.curve("zero", &[(0.0, 0.0), (K_SHOWN, 0.0)], zero, Outside::Refuse)?;
+    let f: Vec<_> = row.f.iter().map(|point| (point.x, point.y)).collect();
+    panel.curve("f", &f, Stroke::solid(BLUE, LINE), Outside::Cut)?;
+    if let Some(zeros) = row.zeros {
+        let at: Vec<_> = zeros.iter().map(|&k| (k, 0.0)).collect();
+        panel.marks(
+            "zeros of f",
+            &at,
+            (Mark::Disc, 60, Stroke::solid(BLUE, HAIR)),
+            Outside::Cut,
+        )?;
+        let look = (SMALL, INK, HPos::Center, VPos::Bottom);
+        if zeros[0] < zeros[1] {
+            panel.note("*k*_{−}", at[0], (-60, -110), look)?;
+            panel.note("*k*_{+}", at[1], (60, -110), look)?;
+        }
+    }
+    Ok(())
+}
+
+fn weight(panel: &Panel, row: &Mechanism, shown: &[f64]) -> Result<(), Error> {
+    let shape: Vec<_> = columns(shown).into_iter().map(|(k, v)| (k.min(K_SHOWN), v)).collect();
+    panel.area("weight", &shape, GREEN, 45)?;
+    panel.curve("weight", &shape, Stroke::solid(GREEN, THIN), Outside::Refuse)?;
+    let first = shown.first().copied().unwrap_or(0.0);
+    let level = Stroke::dashed(INK, HAIR, Dash::Short);
+    panel.curve("height at k = 1", &[(0.5, first), (K_SHOWN, first)], level, Outside::Refuse)?;
+    if let Some(&top) = shown.get(row.k_star.saturating_sub(1)) {
+        let at = (row.k_star as f64, top);
+        panel.marks(
+            "most likely",
+            &[at],
+            (Mark::Disc, 75, Stroke::solid(RED, HAIR)),
+            Outside::Refuse,
+        )?;
+        let look = (SMALL, RED, HPos::Left, VPos::Bottom);
+        panel.note(&format!("*k*^{{∗}} = {}", row.k_star), at, (110, 40), look)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,99 @@
+//! Fig. 11: the impact probability p against the standard deviation σ of the forcing.
+
+use plotters::style::text_anchor::{HPos, VPos};
+
+use super::axis::Axis;
+use super::chart::{LETTERS, short};
+use super::data::cells;
+use super::panel::{Frame, Outside};
+use super::sheet::{Entry, Sheet};
+use super::style::{BLUE, Dash, GREY, HAIR, INK, LINE, SMALL, Stroke, TEXT, TINY};
+use super::{DataFile, Error, Figure};
+use crate::experiments::theory::{RelationRow, Theory};
+
+/// Lowest decade of the logarithmic panel.
+const LOWEST: i32 = -20;
+
+/// Draws the figure.
+pub fn draw(theory: &Theory) -> Result<Figure, Error> {
+    let sheet = Sheet::new(8950, None)?;
+    let rows = &theory.relation;
+    let end = rows.last().map_or(0.4, |row| row.sigma);
+    let top = (rows.iter().map(|r| r.p.max(r.p_rest)).fold(0.0, f64::max) * 10.0).ceil() / 10.0;
+    let sigma = || Axis::linear(0.0, end, 0.1, 2, "standard deviation *σ* of the forcing");
+    let linear = sheet.panel(
+        Frame::new(1300, 430, 8150, 3450),
+        sigma().bare(),
+        Axis::linear(0.0, top, 0.2, 2, "*p*"),
+    )?;
+    linear.letter(LETTERS[0])?;
+    let decades = sheet.panel(
+        Frame::new(1300, 4350, 8150, 8050),
+        sigma(),
+        Axis::decades(LOWEST, 0, 4, "*p*"),
+    )?;
+    decades.letter(LETTERS[1])?;
+
+    let (main, rest) = (Stroke::solid(BLUE, LINE), Stroke::dashed(GREY, LINE, Dash::Short));
+    let curve = |value: &dyn Fn(&RelationRow) -> f64| -> Vec<(f64, f64)> {
+        rows.iter().map(|r| (r.sigma, value(r))).filter(|p| p.1.is_finite()).collect()
+    };
+    linear.curve("p for a start from rest", &curve(&|r| r.p_rest), rest, Outside::Refuse)?;
+    linear.curve("p of Eq. (25)", &curve(&|r| r.p), main, Outside::Refuse)?;
+    decades.curve(
+        "p for a start from rest",
+        &curve(&|r| super::axis::log(r.p_rest)),
+        rest,
+        Outside::Cut,
+    )?;
+    decades.curve(
+        "p of Eq. (25)",
+        &curve(&|r| r.log_p / std::f64::consts::LN_10),
+        main,
+        Outside::Cut,
+    )?;
+    sheet.legend(
+        (1850, 900),
+        (TEXT, 420),
+        &[Entry::line(main, "Eq. (25): random free parts"), Entry::line(rest, "start from rest")],
+    )?;
+
+    let scalars = &theory.scalars;
+    let level = super::axis::log(scalars.p_jump);
+    let guide = Stroke::dashed(INK, HAIR, Dash::Dotted);
+    let corner =
+        [(0.0, level), (scalars.sigma_jump, level), (scalars.sigma_jump, f64::from(LOWEST))];
+    decades.curve("jump of k*", &corner, guide, Outside::Refuse)?;
+    let note = format!("*k*^{{∗}} jumps: *p* = {}", short(scalars.p_jump, 4));
+    decades.note(&note, (0.0, level), (110, -80), (TINY, INK, HPos::Left, VPos::Bottom))?;
+    let note = format!("*σ* = {}", short(scalars.sigma_jump, 3));
+    let foot = (scalars.sigma_jump, f64::from(LOWEST));
+    decades.note(&note, foot, (90, -120), (SMALL, INK, HPos::Left, VPos::Bottom))?;
+
+    let mut data = DataFile::new(
+        "fig11.csv",
+        &["sigma (d omega^2)", "p (1)", "ln_p (1)", "p_start_from_rest (1)"],
+    );
+    for row in rows {
+        data.row(cells![row.sigma, row.p, row.log_p, row.p_rest]);
+    }
+    let value_at =
+        |sigma: f64| rows.iter().find(|r| r.sigma >= sigma).map_or((0.0, 0.0), |r| (r.sigma, r.p));
+    let (s1, p1) = value_at(0.1);
+    let (s2, p2) = value_at(0.2);
+    let description = format!(
+        "The probability p that two neighbours meet, against the standard deviation σ of the \
+         forcing, from σ = 0 to {end}. (a) On a linear axis p stays at zero up to about σ = 0.13 and \
+         then rises to {}. (b) On a logarithmic axis it falls ever faster towards small σ: {} at \
+         σ = {}, {} at σ = {}. It reaches {}, where k* jumps, at σ = {}. A broken grey curve for \
+         a start from rest lies above.",
+        rows.last().map_or("1".into(), |r| short(r.p, 3)),
+        short(p2, 3),
+        short(s2, 3),
+        short(p1, 3),
+        short(s1, 3),
+        short(scalars.p_jump, 4),
+        short(scalars.sigma_jump, 4),
+    );
+    Ok(sheet.finish(11, "Impact probability against forcing", description, vec![data]))
+}

@@ -1,0 +1,60 @@
+//! Fig. 12: the expected number of impacts, graph theory against simulation.
+
+use super::data::cells;
+use super::panel::{Frame, Outside};
+use super::sheet::{Entry, Sheet};
+use super::simulated::{
+    CROSS, CROSS_HALF, count_axis, crosses, curve, last_sigma, means, means_file, sigma_axis,
+    spoken,
+};
+use super::style::{GREEN, LINE, Mark, SMALL, Stroke, THIN};
+use super::{DataFile, Error, Figure};
+use crate::experiments::sweep::Sweep;
+use crate::experiments::theory::Theory;
+
+/// Draws the figure.
+pub fn draw(sweep: &Sweep, theory: &Theory, note: Option<&str>) -> Result<Figure, Error> {
+    let sheet = Sheet::new(5350, note)?;
+    let n = sweep.parameters.chain.gaps().max(theory.curve_walls.vertices);
+    let end = last_sigma(sweep);
+    let panel = sheet.panel(
+        Frame::new(1200, 260, 8150, 4450),
+        sigma_axis(end),
+        count_axis(n, "expected number of impacts"),
+    )?;
+    let (main, thin) = (Stroke::solid(GREEN, LINE), Stroke::solid(GREEN, THIN / 2));
+    let walls = curve(&theory.curve_walls, end, |row| row.simple);
+    panel.curve("theory, N = n + 1", &walls, thin, Outside::Refuse)?;
+    let simple = curve(&theory.curve, end, |row| row.simple);
+    panel.curve("theory", &simple, main, Outside::Refuse)?;
+    let simulated = means(sweep);
+    crosses(&panel, "simulation", &simulated)?;
+    let (big_n, big_n_walls) = (theory.curve.vertices, theory.curve_walls.vertices);
+    sheet.legend(
+        (4650, 2800),
+        (SMALL, 400),
+        &[
+            Entry::mark(Mark::Cross, CROSS_HALF, CROSS, "simulation, mean of the kept"),
+            Entry::line(main, &format!("graph theory, *N* = {big_n}")),
+            Entry::line(thin, &format!("graph theory, *N* = {big_n_walls}")),
+        ],
+    )?;
+
+    let mut data =
+        DataFile::new("fig12-theory.csv", &["N (1)", "sigma (d omega^2)", "mean_simple (1)"]);
+    for family in [&theory.curve, &theory.curve_walls] {
+        for row in family.rows.iter().filter(|row| row.sigma <= end) {
+            data.row(cells![family.vertices, row.sigma, row.simple]);
+        }
+    }
+    let description = format!(
+        "The expected number of impacts against the standard deviation σ of the forcing. Red \
+         crosses, the simulation: {}. A green line, the graph theory for N = {big_n} with p(σ) of \
+         Eq. (25): {}; a thin green line for N = {big_n_walls} lies next to it. The simulation rises \
+         at a smaller σ than the theory; for large σ the two come together.",
+        spoken(&simulated),
+        spoken(&simple),
+    );
+    let files = vec![means_file("fig12-simulation.csv", sweep), data];
+    Ok(sheet.finish(12, "Simulation against graph theory", description, files))
+}

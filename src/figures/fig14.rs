@@ -1,0 +1,58 @@
+//! Fig. 14: simple and higher-order distributions become alike as p grows.
+
+use super::axis::Axis;
+use super::chart::{LETTERS, heading, largest, over_k, short, upwards_from_zero};
+use super::data::cells;
+use super::panel::{Frame, Outside};
+use super::sheet::{Entry, Sheet};
+use super::style::{BLUE, Dash, GREEN, LINE, SMALL, Stroke};
+use super::{DataFile, Error, Figure};
+use crate::experiments::theory::Theory;
+
+const FRAMES: [Frame; 2] = [Frame::new(1080, 480, 4050, 2780), Frame::new(5230, 480, 8200, 2780)];
+
+/// Draws the figure.
+pub fn draw(theory: &Theory) -> Result<Figure, Error> {
+    let sheet = Sheet::new(4100, None)?;
+    let n = theory.vertices;
+    let simple = Stroke::dashed(GREEN, LINE, Dash::Long);
+    let higher = Stroke::solid(BLUE, LINE);
+    let mut data = Vec::new();
+    let mut seen = Vec::new();
+    for (i, pair) in theory.convergence.iter().take(2).enumerate() {
+        let panel = sheet.panel(
+            FRAMES[i],
+            Axis::linear(0.0, n as f64 + 1.0, 20.0, 2, "*k*"),
+            upwards_from_zero(largest(&pair.total).max(largest(&pair.simple)), "*P*(*X* = *k*)"),
+        )?;
+        let p = short(pair.p, 3);
+        heading(&panel, LETTERS[i], &format!("*p* = {p}"))?;
+        panel.curve("five classes", &over_k(&pair.total), higher, Outside::Refuse)?;
+        panel.curve("simple circuits", &over_k(&pair.simple), simple, Outside::Refuse)?;
+        let name = format!("fig14{}.csv", LETTERS[i].trim_matches(['(', ')']));
+        let mut file = DataFile::new(
+            &name,
+            &["p (1)", "k (1)", "probability_simple (1)", "probability_five_classes (1)"],
+        );
+        for (j, (&a, &b)) in pair.simple.iter().zip(&pair.total).enumerate() {
+            file.row(cells![pair.p, j + 1, a, b]);
+        }
+        data.push(file);
+        seen.push(format!(
+            "{} p = {p}: the means are {} and {}, the total variation distance is {}",
+            LETTERS[i],
+            short(pair.mean_simple, 3),
+            short(pair.mean, 3),
+            short(pair.total_variation, 3)
+        ));
+    }
+    sheet.legend((1300, 3850), (SMALL, 400), &[Entry::line(simple, "simple circuits")])?;
+    sheet.legend((4900, 3850), (SMALL, 400), &[Entry::line(higher, "with higher orders")])?;
+    let description = format!(
+        "Two charts of the probability of k different impacts, N = {n}: a broken green line for \
+         simple circuits, a blue line for the sample space with higher orders. {}. The two curves \
+         lie apart in (a) and nearly on each other in (b).",
+        seen.join("; ")
+    );
+    Ok(sheet.finish(14, "Simple and higher-order distributions converge", description, data))
+}

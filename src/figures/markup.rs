@@ -1,0 +1,114 @@
+//! A tiny mark-up for labels: `*k*^{∗}`, `*ϕ*_{*N*}(*k*)`, `10^{−3}`.
+//!
+//! A star turns italics on and off, `_{…}` lowers, `^{…}` raises, a backslash takes the next
+//! character as it is. A raised part right behind a lowered one stands above it.
+
+/// Which of the two shipped faces a character is set in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Face {
+    /// Upright.
+    Regular,
+    /// Italic, for the letters of mathematics.
+    Italic,
+}
+
+/// Height of a piece of a label.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Level {
+    /// On the base line.
+    Base,
+    /// Lowered and small.
+    Sub,
+    /// Raised and small.
+    Sup,
+}
+
+/// Characters of one face at one height.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Piece {
+    /// The face.
+    pub face: Face,
+    /// The height.
+    pub level: Level,
+    /// The characters.
+    pub text: String,
+}
+
+/// Cuts a label into pieces.
+pub fn parse(label: &str) -> Vec<Piece> {
+    let mut pieces: Vec<Piece> = Vec::new();
+    let (mut face, mut level) = (Face::Regular, Level::Base);
+    let mut chars = label.chars().peekable();
+    while let Some(c) = chars.next() {
+        let literal = match c {
+            '\\' => match chars.next() {
+                Some(next) => next,
+                None => break,
+            },
+            '*' => {
+                face = if face == Face::Regular { Face::Italic } else { Face::Regular };
+                continue;
+            }
+            '_' | '^' if level == Level::Base && chars.peek() == Some(&'{') => {
+                chars.next();
+                level = if c == '_' { Level::Sub } else { Level::Sup };
+                continue;
+            }
+            '}' if level != Level::Base => {
+                level = Level::Base;
+                continue;
+            }
+            other => other,
+        };
+        match pieces.last_mut() {
+            Some(last) if last.face == face && last.level == level => last.text.push(literal),
+            _ => pieces.push(Piece { face, level, text: literal.to_string() }),
+        }
+    }
+    pieces
+}
+
+/// The label as a plain string, for screen readers and tests: scripts keep `_` and `^`.
+pub fn plain(label: &str) -> String {
+    let mut out = String::new();
+    let mut before = Level::Base;
+    for piece in parse(label) {
+        if piece.level != before {
+            match piece.level {
+                Level::Base => {}
+                Level::Sub => out.push('_'),
+                Level::Sup => out.push('^'),
+            }
+        }
+        before = piece.level;
+        out.push_str(&piece.text);
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn italics_scripts_and_escapes() {
+        let pieces = parse(r"*ϕ*_{*N*}(1)\*");
+        let shown: Vec<_> =
+            pieces.iter().map(|p| (p.face, p.level, p.text.as_str())).collect::<Vec<_>>();
+        assert_eq!(
+            shown,
+            [
+                (Face::Italic, Level::Base, "ϕ"),
+                (Face::Italic, Level::Sub, "N"),
+                (Face::Regular, Level::Base, "(1)*"),
+            ]
+        );
+    }
+
+    #[test]
+    fn plain_text_is_readable() {
+        assert_eq!(plain("*P*(*X* = *k*)"), "P(X = k)");
+        assert_eq!(plain("10^{−3}"), "10^−3");
+        assert_eq!(plain("*k*_{*N*}^{∗}"), "k_N^∗");
+    }
+}

@@ -1,0 +1,154 @@
+//! Figs. 5 and 6: (a) a circuit on the graph, (b) a motion with the same impacts in this order.
+
+use plotters::style::text_anchor::{HPos, VPos};
+
+use super::axis::Axis;
+use super::chart::{LETTERS, short};
+use super::data::cells;
+use super::graph::{Layout, NAMES};
+use super::panel::{Frame, Outside, Panel};
+use super::sheet::Sheet;
+use super::style::{
+    BLUE, Colour, Dash, GREEN, GREY, HAIR, INK, LINE, Mark, ORANGE, PALE, RED, SMALL, Stroke, TEXT,
+    TINY, WIDTH,
+};
+use super::{DataFile, Error, Figure};
+use crate::experiments::segments::Segment;
+
+/// Colour and dash of each mass.
+const MASSES: [(Colour, Dash); 3] =
+    [(BLUE, Dash::Solid), (GREEN, Dash::Long), (ORANGE, Dash::Alternate)];
+
+/// What differs between the two figures.
+pub struct Circuit {
+    /// Number of the figure.
+    pub figure: u8,
+    /// Title.
+    pub title: &'static str,
+    /// Gaps in the order of their impacts.
+    pub order: &'static [usize],
+    /// What kind of circuit it is.
+    pub kind: &'static str,
+}
+
+/// Draws one of the two figures.
+pub fn draw(circuit: &Circuit, segment: &Segment) -> Result<Figure, Error> {
+    let sheet = Sheet::new(9500, None)?;
+    let layout = Layout::rectangle((2500, 950), (5900, 3150), 400, 1500.0);
+    layout.edges(&sheet, Stroke::solid(PALE, HAIR))?;
+    layout.circuit(&sheet, circuit.order, RED)?;
+    layout.vertices(&sheet, circuit.order)?;
+    let look = (TEXT, INK, HPos::Left, VPos::Bottom);
+    sheet.text(LETTERS[0], (260, 350), look)?;
+
+    let duration = segment.until - segment.from;
+    let walls = (segment.masses + 1) as f64;
+    let panel = sheet.panel(
+        Frame::new(1200, 4700, 8150, 8350),
+        time_axis(duration),
+        Axis::linear(0.0, walls, 1.0, 1, "position *x*_{*j*} / *d*"),
+    )?;
+    sheet.text(LETTERS[1], (260, 4560), look)?;
+    motion(&panel, segment)?;
+    let foot = "a segment of a simulated motion, not a periodic orbit";
+    let look = (TINY, GREY, HPos::Right, VPos::Bottom);
+    sheet.text(foot, (WIDTH as i32 - 250, 4560), look)?;
+
+    let names: Vec<&str> = circuit.order.iter().map(|&gap| NAMES[gap]).collect();
+    let description = format!(
+        "(a) The graph of three masses with a {} circuit drawn in red, its {} steps numbered: {}. \
+         (b) The positions of the three masses between the walls at 0 and {walls} against time, \
+         over {} time units of a simulated motion, a segment and not a periodic orbit; the \
+         impacts, marked by numbered circles, are {}.",
+        circuit.kind,
+        circuit.order.len(),
+        names.join(", "),
+        short(duration, 3),
+        segment
+            .impacts
+            .iter()
+            .map(|hit| format!(
+                "{} at {}",
+                NAMES.get(hit.gap).unwrap_or(&"?"),
+                short(hit.time - segment.from, 3)
+            ))
+            .collect::<Vec<_>>()
+            .join(", "),
+    );
+    let data = tables(circuit, segment);
+    Ok(sheet.finish(circuit.figure, circuit.title, description, data))
+}
+
+fn time_axis(duration: f64) -> Axis {
+    let label = "time *t* (1/*ω*)";
+    let step = [0.5, 1.0, 2.0, 5.0, 10.0, 20.0].into_iter().find(|s| duration / s <= 8.0);
+    Axis::linear(0.0, duration, step.unwrap_or(50.0), 1, label)
+}
+
+fn motion(panel: &Panel, segment: &Segment) -> Result<(), Error> {
+    let (from, d) = (segment.from, segment.spacing);
+    let walls = (segment.masses + 1) as f64;
+    let end = panel.x.hi;
+    for j in 1..=segment.masses {
+        let rest = Stroke::solid(PALE, HAIR);
+        panel.curve("equilibrium", &[(0.0, j as f64), (end, j as f64)], rest, Outside::Refuse)?;
+    }
+    for wall in [0.0, walls] {
+        panel.curve(
+            "wall",
+            &[(0.0, wall), (end, wall)],
+            Stroke::solid(INK, LINE),
+            Outside::Refuse,
+        )?;
+    }
+    for (j, path) in segment.positions.iter().enumerate() {
+        let (colour, dash) = MASSES[j % MASSES.len()];
+        let points: Vec<_> =
+            segment.times.iter().zip(path).map(|(t, x)| (t - from, x / d)).collect();
+        let name = format!("mass {}", j + 1);
+        panel.curve(&name, &points, Stroke::dashed(colour, LINE, dash), Outside::Refuse)?;
+        if let Some(&(_, y)) = points.last() {
+            let look = (SMALL, colour, HPos::Left, VPos::Center);
+            panel.note(&format!("{}", j + 1), (end, y), (70, 0), look)?;
+        }
+    }
+    let hits: Vec<_> =
+        segment.impacts.iter().map(|hit| (hit.time - from, hit.position / d)).collect();
+    let ring = (Mark::Ring, 70, Stroke::solid(RED, 24));
+    panel.marks("impacts", &hits, ring, Outside::Refuse)?;
+    for (i, &hit) in hits.iter().enumerate() {
+        let below = hit.1 > walls - 0.5;
+        let (dy, v) = if below { (130, VPos::Top) } else { (-120, VPos::Bottom) };
+        let look = (SMALL, RED, HPos::Center, v);
+        panel.note(&(i + 1).to_string(), hit, (0, dy), look)?;
+    }
+    Ok(())
+}
+
+fn tables(circuit: &Circuit, segment: &Segment) -> Vec<DataFile> {
+    let number = circuit.figure;
+    let mut steps =
+        DataFile::new(&format!("fig{number:02}a.csv"), &["step (1)", "from_impact", "to_impact"]);
+    for (i, &gap) in circuit.order.iter().enumerate() {
+        let next = circuit.order[(i + 1) % circuit.order.len()];
+        steps.row(cells![i + 1, NAMES[gap], NAMES[next]]);
+    }
+    let mut path = DataFile::new(
+        &format!("fig{number:02}b.csv"),
+        &["time (1/omega)", "x_1 (d)", "x_2 (d)", "x_3 (d)"],
+    );
+    for (i, &time) in segment.times.iter().enumerate() {
+        let x =
+            |j: usize| segment.positions.get(j).and_then(|p| p.get(i)).map(|x| x / segment.spacing);
+        path.row(cells![time, x(0), x(1), x(2)]);
+    }
+    let mut hits = DataFile::new(
+        &format!("fig{number:02}b-impacts.csv"),
+        &["time (1/omega)", "impact", "position (d)", "closing_speed (d omega)"],
+    );
+    for hit in &segment.impacts {
+        let name = NAMES.get(hit.gap).copied().unwrap_or("?");
+        hits.row(cells![hit.time, name, hit.position / segment.spacing, hit.closing_speed]);
+    }
+    vec![steps, path, hits]
+}

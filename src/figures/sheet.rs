@@ -1,0 +1,222 @@
+//! The sheet that a figure is drawn on: panels, and free drawing for schematics.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use plotters::coord::Shift;
+use plotters::drawing::DrawingArea;
+use plotters::element::{Circle, Drawable, PointCollection, Rectangle, Text};
+use plotters::style::text_anchor::{HPos, VPos};
+use plotters::style::{Color, RGBColor, ShapeStyle};
+
+use super::axis::Axis;
+use super::backend::Svg;
+use super::element::{Curve, Marks};
+use super::panel::{Frame, Panel};
+use super::style::{self, Colour, GREY, INK, Mark, Stroke, TINY, WIDTH};
+use super::{DataFile, Error, Figure};
+
+/// A figure in the making.
+pub struct Sheet {
+    svg: Rc<RefCell<Svg>>,
+    area: DrawingArea<Svg, Shift>,
+}
+
+/// One entry of a legend.
+#[derive(Clone, Debug)]
+pub struct Entry {
+    /// Line, if the series has one.
+    pub line: Option<Stroke>,
+    /// Marker with half width, if the series has one.
+    pub mark: Option<(Mark, i32, Stroke)>,
+    /// Words, with mark-up.
+    pub text: String,
+}
+
+impl Entry {
+    /// An entry for a curve.
+    pub fn line(stroke: Stroke, text: &str) -> Self {
+        Entry { line: Some(stroke), mark: None, text: text.into() }
+    }
+
+    /// An entry for markers.
+    pub fn mark(mark: Mark, half: i32, stroke: Stroke, text: &str) -> Self {
+        Entry { line: None, mark: Some((mark, half, stroke)), text: text.into() }
+    }
+}
+
+/// Runs `draw` inside an SVG group.
+pub(super) fn group(
+    area: &DrawingArea<Svg, Shift>,
+    attributes: &str,
+    draw: impl FnOnce() -> Result<(), Error>,
+) -> Result<(), Error> {
+    area.draw(&Brackets(Some(attributes.into())))?;
+    draw()?;
+    area.draw(&Brackets(None))?;
+    Ok(())
+}
+
+/// Opens or closes a group: an element without points that only talks to the backend.
+struct Brackets(Option<String>);
+
+impl<'a> PointCollection<'a, (i32, i32)> for &'a Brackets {
+    type Point = &'a (i32, i32);
+    type IntoIter = &'a [(i32, i32)];
+    fn point_iter(self) -> &'a [(i32, i32)] {
+        &[]
+    }
+}
+
+impl Drawable<Svg> for Brackets {
+    fn draw<I: Iterator<Item = (i32, i32)>>(
+        &self,
+        _: I,
+        svg: &mut Svg,
+        _: (u32, u32),
+    ) -> Result<(), plotters_backend::DrawingErrorKind<Error>> {
+        match &self.0 {
+            Some(attributes) => svg.open(attributes),
+            None => svg.close(),
+        }
+        Ok(())
+    }
+}
+
+impl Sheet {
+    /// An empty sheet of column width; a `note` about its provenance adds a line at the foot.
+    ///
+    /// # Errors
+    /// If the note has a character that the shipped fonts lack.
+    pub fn new(height: u32, note: Option<&str>) -> Result<Self, Error> {
+        let foot = if note.is_some() { 330 } else { 0 };
+        let svg = Rc::new(RefCell::new(Svg::new(height + foot)));
+        let area = DrawingArea::from(&svg);
+        let sheet = Sheet { svg, area };
+        if let Some(note) = note {
+            let at = (WIDTH as i32 - 120, (height + foot) as i32 - 110);
+            sheet.text(note, at, (TINY, GREY, HPos::Right, VPos::Bottom))?;
+        }
+        Ok(sheet)
+    }
+
+    /// A panel with its axes drawn.
+    ///
+    /// # Errors
+    /// If a label has a character that the shipped fonts lack.
+    pub fn panel(&self, frame: Frame, x: Axis, y: Axis) -> Result<Panel, Error> {
+        let panel = Panel::new(&self.area, frame, x, y);
+        panel.axes()?;
+        Ok(panel)
+    }
+
+    /// An inset: smaller numbers on a white ground that covers what is behind.
+    ///
+    /// # Errors
+    /// If a label has a character that the shipped fonts lack.
+    pub fn inset(&self, frame: Frame, x: Axis, y: Axis) -> Result<Panel, Error> {
+        let mut panel = Panel::new(&self.area, frame, x, y);
+        panel.numbers = TINY;
+        panel.axes()?;
+        Ok(panel)
+    }
+
+    /// Words on the sheet: size, colour and anchor.
+    ///
+    /// # Errors
+    /// If a label has a character that the shipped fonts lack.
+    pub fn text(
+        &self,
+        text: &str,
+        at: (i32, i32),
+        (size, colour, h, v): (i32, Colour, HPos, VPos),
+    ) -> Result<(), Error> {
+        let look = style::text(size, colour, h, v);
+        Ok(self.area.draw(&Text::new(text.to_string(), at, look))?)
+    }
+
+    /// A line through points of the sheet.
+    ///
+    /// # Errors
+    /// If drawing fails.
+    pub fn line(&self, points: &[(i32, i32)], stroke: Stroke) -> Result<(), Error> {
+        Ok(self.area.draw(&Curve { points: points.to_vec(), stroke, arrow: false })?)
+    }
+
+    /// A line that ends in an arrow head.
+    ///
+    /// # Errors
+    /// If drawing fails.
+    pub fn arrow(&self, points: &[(i32, i32)], stroke: Stroke) -> Result<(), Error> {
+        Ok(self.area.draw(&Curve { points: points.to_vec(), stroke, arrow: true })?)
+    }
+
+    /// A filled circle with an edge.
+    ///
+    /// # Errors
+    /// If drawing fails.
+    pub fn disc(
+        &self,
+        centre: (i32, i32),
+        radius: i32,
+        fill: Colour,
+        edge: Stroke,
+    ) -> Result<(), Error> {
+        let fill = RGBColor::from(fill).filled();
+        self.area.draw(&Circle::new(centre, radius, fill))?;
+        let edge = ShapeStyle {
+            color: RGBColor::from(edge.colour).to_rgba(),
+            filled: false,
+            stroke_width: edge.width,
+        };
+        Ok(self.area.draw(&Circle::new(centre, radius, edge))?)
+    }
+
+    /// A filled rectangle.
+    ///
+    /// # Errors
+    /// If drawing fails.
+    pub fn rectangle(&self, frame: Frame, fill: Colour) -> Result<(), Error> {
+        let corners = [(frame.left, frame.top), (frame.right, frame.bottom)];
+        Ok(self.area.draw(&Rectangle::new(corners, RGBColor::from(fill).filled()))?)
+    }
+
+    /// A legend; `at` is the left end of its first sample line.
+    ///
+    /// # Errors
+    /// If a label has a character that the shipped fonts lack.
+    pub fn legend(
+        &self,
+        at: (i32, i32),
+        (size, spacing): (i32, i32),
+        entries: &[Entry],
+    ) -> Result<(), Error> {
+        const SAMPLE: i32 = 560;
+        for (i, entry) in entries.iter().enumerate() {
+            let (x, y) = (at.0, at.1 + i as i32 * spacing);
+            if let Some(stroke) = entry.line {
+                self.line(&[(x, y), (x + SAMPLE, y)], stroke)?;
+            }
+            if let Some((mark, half, stroke)) = entry.mark {
+                let points = vec![(x + SAMPLE / 2, y)];
+                self.area.draw(&Marks { points, mark, half, stroke })?;
+            }
+            let look = (size, INK, HPos::Left, VPos::Center);
+            self.text(&entry.text, (x + SAMPLE + 130, y), look)?;
+        }
+        Ok(())
+    }
+
+    /// Closes the figure.
+    pub fn finish(
+        self,
+        number: u8,
+        title: &str,
+        description: String,
+        data: Vec<DataFile>,
+    ) -> Figure {
+        let id = format!("fig{number:02}");
+        let svg = self.svg.borrow().document(&id, title, &description);
+        Figure { id, title: title.into(), description, svg, data }
+    }
+}

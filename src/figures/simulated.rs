@@ -1,0 +1,97 @@
+//! What the figures of the simulations share: their rows, axes and marks.
+
+use super::axis::Axis;
+use super::panel::{Outside, Panel};
+use super::style::{Mark, RED, Stroke, THIN};
+use super::{DataFile, Error};
+use crate::experiments::sweep::{Sweep, SweepRow};
+use crate::experiments::theory;
+use crate::figures::data::cells;
+
+/// Line of the simulation's marks.
+pub const CROSS: Stroke = Stroke::solid(RED, THIN);
+
+/// Half width of a cross.
+pub const CROSS_HALF: i32 = 62;
+
+/// Rows that may be compared with others: few enough starts overlap.
+pub fn comparable(sweep: &Sweep) -> impl Iterator<Item = &SweepRow> {
+    sweep.rows.iter().filter(|row| row.comparable)
+}
+
+/// The axis of σ from zero to the sweep's end.
+pub fn sigma_axis(end: f64) -> Axis {
+    Axis::linear(0.0, end, 0.1, 2, "standard deviation *σ* of the forcing")
+}
+
+/// Largest σ of a sweep.
+pub fn last_sigma(sweep: &Sweep) -> f64 {
+    sweep.rows.last().map_or(0.4, |row| row.sigma)
+}
+
+/// An axis for counts of impacts up to `n` and a little above.
+pub fn count_axis(n: usize, label: &str) -> Axis {
+    Axis::linear(0.0, n as f64 * 1.05, 20.0, 2, label)
+}
+
+/// The mean of the kept against σ.
+pub fn means(sweep: &Sweep) -> Vec<(f64, f64)> {
+    comparable(sweep).filter_map(|row| Some((row.sigma, row.mean_distinct?))).collect()
+}
+
+/// Red crosses.
+pub fn crosses(panel: &Panel, name: &str, points: &[(f64, f64)]) -> Result<(), Error> {
+    panel.marks(name, points, (Mark::Cross, CROSS_HALF, CROSS), Outside::Refuse)
+}
+
+/// The simulated means as a data file, as Figs. 12 and 15 show them.
+pub fn means_file(name: &str, sweep: &Sweep) -> DataFile {
+    let mut file = DataFile::new(
+        name,
+        &[
+            "sigma (d omega^2)",
+            "mean_of_kept (1)",
+            "mean_of_kept_low_95 (1)",
+            "mean_of_kept_high_95 (1)",
+        ],
+    );
+    for row in comparable(sweep).filter(|row| row.mean_distinct.is_some()) {
+        let [low, high] = split(row.mean_interval);
+        file.row(cells![row.sigma, row.mean_distinct, low, high]);
+    }
+    file
+}
+
+/// The two ends of an interval, if there is one.
+pub fn split<T: Copy>(interval: Option<[T; 2]>) -> [Option<T>; 2] {
+    [interval.map(|i| i[0]), interval.map(|i| i[1])]
+}
+
+/// A theory curve up to `end`.
+pub fn curve(
+    curve: &theory::Curve,
+    end: f64,
+    value: fn(&theory::CurveRow) -> f64,
+) -> Vec<(f64, f64)> {
+    curve.rows.iter().filter(|r| r.sigma <= end).map(|r| (r.sigma, value(r))).collect()
+}
+
+/// The value of a curve at some σ, linear between its points.
+pub fn value_at(points: &[(f64, f64)], sigma: f64) -> Option<f64> {
+    points.windows(2).find(|w| w[0].0 <= sigma && sigma <= w[1].0).map(|w| {
+        let share = (sigma - w[0].0) / (w[1].0 - w[0].0);
+        w[0].1 + share * (w[1].1 - w[0].1)
+    })
+}
+
+/// Words such as "27 at σ = 0.1" for a few σ, for descriptions.
+pub fn spoken(points: &[(f64, f64)]) -> String {
+    let words: Vec<String> = [0.1, 0.12, 0.15, 0.2, 0.3]
+        .into_iter()
+        .filter_map(|sigma| {
+            let value = super::chart::short(value_at(points, sigma)?, 3);
+            Some(format!("{value} at σ = {sigma}"))
+        })
+        .collect();
+    words.join(", ")
+}

@@ -1,0 +1,146 @@
+//! One look for all figures: sizes, colours, dashes and markers.
+//!
+//! Lengths are hundredths of a millimetre on the printed column. The hues are those of Okabe and
+//! Ito (2008), which colour-blind readers tell apart; where a caption of the paper names a
+//! colour, that colour, and always a marker or a dash beside it.
+
+use std::fmt;
+
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+use plotters::style::{FontTransform, IntoFont, RGBColor, TextStyle};
+
+/// Width of every figure: one column.
+pub const WIDTH: u32 = 8400;
+
+/// Size of axis labels and legends: 8 points.
+pub const TEXT: i32 = 282;
+
+/// Size of tick labels: 7 points.
+pub const SMALL: i32 = 247;
+
+/// Size of what stands inside an inset or a note: 6 points.
+pub const TINY: i32 = 212;
+
+/// Thickness of axes and ticks.
+pub const HAIR: u32 = 16;
+
+/// Thickness of a thin curve.
+pub const THIN: u32 = 22;
+
+/// Thickness of a curve.
+pub const LINE: u32 = 36;
+
+/// An opaque colour.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Colour(pub u8, pub u8, pub u8);
+
+impl fmt::Display for Colour {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "#{:02x}{:02x}{:02x}", self.0, self.1, self.2)
+    }
+}
+
+impl From<Colour> for RGBColor {
+    fn from(c: Colour) -> Self {
+        RGBColor(c.0, c.1, c.2)
+    }
+}
+
+/// Text and axes.
+pub const INK: Colour = Colour(0x22, 0x22, 0x22);
+/// What steps back: construction lines, unused edges.
+pub const GREY: Colour = Colour(0x8c, 0x8c, 0x8c);
+/// Light fills and guides.
+pub const PALE: Colour = Colour(0xd9, 0xd9, 0xd9);
+/// Simulation (the captions of Figs. 12, 13 and 15 say red).
+pub const RED: Colour = Colour(0xc8, 0x1e, 0x1e);
+/// Simple circuits (the captions of Figs. 12 and 15 say green).
+pub const GREEN: Colour = Colour(0x00, 0x9e, 0x73);
+/// Higher-order circuits (the caption of Fig. 15 says blue).
+pub const BLUE: Colour = Colour(0x00, 0x72, 0xb2);
+/// A further class.
+pub const ORANGE: Colour = Colour(0xe6, 0x9f, 0x00);
+/// A further class.
+pub const PURPLE: Colour = Colour(0xa5, 0x50, 0x8c);
+/// The page.
+pub const WHITE: Colour = Colour(0xff, 0xff, 0xff);
+
+/// How a line is broken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Dash {
+    /// Unbroken.
+    Solid,
+    /// Long strokes.
+    Long,
+    /// Short strokes.
+    Short,
+    /// Dots.
+    Dotted,
+    /// Strokes and dots in turn.
+    Alternate,
+}
+
+/// Colour, thickness and dash of a line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stroke {
+    /// Colour.
+    pub colour: Colour,
+    /// Thickness.
+    pub width: u32,
+    /// Dash.
+    pub dash: Dash,
+}
+
+impl Stroke {
+    /// An unbroken line.
+    pub const fn solid(colour: Colour, width: u32) -> Self {
+        Stroke { colour, width, dash: Dash::Solid }
+    }
+
+    /// A broken line.
+    pub const fn dashed(colour: Colour, width: u32, dash: Dash) -> Self {
+        Stroke { colour, width, dash }
+    }
+
+    /// The dash as an SVG attribute with a leading blank, or nothing.
+    pub fn dash_array(&self) -> String {
+        match self.dash {
+            Dash::Solid => String::new(),
+            Dash::Long => " stroke-dasharray=\"150 75\"".into(),
+            Dash::Short => " stroke-dasharray=\"70 50\"".into(),
+            Dash::Dotted => " stroke-dasharray=\"24 54\"".into(),
+            Dash::Alternate => " stroke-dasharray=\"150 60 26 60\"".into(),
+        }
+    }
+}
+
+/// Shape of a data point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mark {
+    /// ×
+    Cross,
+    /// +
+    Plus,
+    /// Filled circle.
+    Disc,
+    /// Open circle.
+    Ring,
+    /// Filled square.
+    Square,
+    /// Filled diamond.
+    Diamond,
+}
+
+/// A text style with the given size, colour and anchor. Top is the height of capitals, bottom the
+/// base line, centre half the height of capitals.
+pub fn text(size: i32, colour: Colour, h: HPos, v: VPos) -> TextStyle<'static> {
+    ("Libertinus Serif", f64::from(size))
+        .into_font()
+        .color(&RGBColor::from(colour))
+        .pos(Pos::new(h, v))
+}
+
+/// The same style, read from bottom to top.
+pub fn upwards(style: TextStyle<'static>) -> TextStyle<'static> {
+    style.transform(FontTransform::Rotate270)
+}
