@@ -3,8 +3,16 @@
 //! The flow: experiments' results become [`Value`]s in a [`Registry`]; templates (people's prose)
 //! name them; [`templates`] fills them in.
 
+pub mod bibliography;
+pub mod document;
+pub mod labels;
+pub mod latex;
+pub mod lint;
+pub mod markdown;
+pub mod parse;
 pub mod print;
 pub mod templates;
+mod tex;
 pub mod values;
 
 pub use templates::Templates;
@@ -37,7 +45,150 @@ pub enum Error {
         /// What the system said.
         source: std::io::Error,
     },
+    /// Markup that the report does not have.
+    #[error("the report has no such markup: {0}; see report::parse for what it has")]
+    Markup(String),
+    /// Two things with one id.
+    #[error("{0}: two things in the report have this id; give one of them another")]
+    Label(String),
+    /// A reference to nothing.
+    #[error("[@{0}]: nothing in the report has this id; correct or remove the reference")]
+    Reference(String),
+    /// A character that pdflatex does not know.
+    #[error(
+        "no LaTeX is known for the character {0:?}; write it otherwise, or add it to report::tex"
+    )]
+    NoLatex(char),
     /// Values that nothing names.
     #[error("no template and no claim names {0}; use or remove it, or declare it data_only()")]
     Unused(String),
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// One document with everything that the prose may use.
+    const SAMPLE: &str = r#"# A title
+
+## Introduction {#sec:introduction}
+
+Masses in a row ([@rice1945]; see [@fig:3], [@eq:18; @eq:25] and [@sec:protocol]). With
+«v.half_height» and $\sigma = «v.half_height»$, far below «v.tiny», the $n$-th mass of
+$f_{N,p}(k)$ and $\Phi'_{N,p}\,(k) < 1$ moves *fast*, **very** fast, at 100 % of `a_b`.
+
+$$
+p_{\mathrm{crit}} = \left(\frac{1 + \sqrt{N+1}}{N}\right)^2 \tag{18}
+$$
+
+where $N$ is large, so
+$$
+\begin{aligned} a &= b \\ c &= d \end{aligned} \tag{25}
+$$
+
+![The rise, at «v.half_height» or $\sigma$ ≥ 0.12.](figures/fig03.svg)
+
+### The protocol {#sec:protocol}
+
+Table: What σ gives {#tab:sigma}
+
+| Claim | Statement | Ours |
+|:--|---|--:|
+| [!claim:rise] | A threshold exists near 0.12 | «v.half_height» |
+| [!claim:jump] | a_b * c | «v.kept | percent» |
+
+«v.count»
+. and [@Claim:jump] of [@tab:sigma] and [@fig:3a].
+
+1. one
+2. two
+
+   more
+- x
+  - y
+
+> An aside.
+
+```rust
+fn f() -> σ { 1 }
+```
+
+## References {.unnumbered}
+
+[@bibliography]
+"#;
+
+    fn values() -> Registry {
+        let mut values = Registry::new();
+        let half = Value::ensemble("half_height", 0.11652, 0.0004, 1000);
+        let tiny = Value::real("tiny", 8.87e-4, 3);
+        let kept = Value::ensemble("kept", 0.945, 0.008, 400);
+        values.extend([half, tiny, kept, Value::integer("count", 12345)]).unwrap();
+        values
+    }
+
+    fn tree(text: &str) -> Vec<document::Block> {
+        let templates = Templates::of([("report.md", text)]);
+        let filled = templates::Filler::new(&templates, &values()).unwrap().fill("report.md");
+        let mut blocks = parse::parse(&filled.unwrap(), &values()).unwrap();
+        let bib = "@article{rice1945, author={Rice, S. O.}, title={Noise}, year=1945}";
+        let library = bibliography::Library::read(bib).unwrap();
+        labels::resolve(&mut blocks, &library).unwrap();
+        blocks
+    }
+
+    #[test]
+    fn markdown_for_a_host() {
+        let text = markdown::write(&tree(SAMPLE));
+        for part in [
+            "## <a id=\"sec-introduction\"></a>1 Introduction\n",
+            "([[Rice, 1945](#ref-rice1945)]; see [Fig.\u{a0}3](#fig-3), Eqs.\u{a0}[(18)](#eq-18) and",
+            "\n0.1165(4) and $\\sigma = 0.1165(4)$, far below $8.87\\times10^{-4}$, the $n\\text{-th}$",
+            "$\\Phi'_{N,p}\\thinspace(k) \\lt 1$ moves *fast*, **very** fast",
+            "<a id=\"eq-18\"></a>\n\n$$\np_{\\mathrm{crit}} = \\left(\\frac{1 + \\sqrt{N+1}}{N}\\right)^2\n\\tag{18}\n$$\n",
+            "\n\\begin{aligned} a &= b \\cr c &= d \\end{aligned}\n",
+            "<a id=\"fig-3\"></a>\n![](figures/fig03.svg)\n\n**Figure 3.** The rise, at 0.1165(4) or",
+            "<a id=\"tab-sigma\"></a>**Table 1.** What σ gives\n\n| Claim | Statement | Ours |\n|---|---|--:|\n",
+            "| <a id=\"claim-jump\"></a>2 | a_b \\* c | 94.5(8)\u{a0}% |\n",
+            "\n. and [Claim\u{a0}2](#claim-jump) of [Table\u{a0}1](#tab-sigma) and [Fig.\u{a0}3(a)](#fig-3).\n",
+            "1. one\n2. two\n\n   more\n",
+            "```rust\nfn f() -> σ { 1 }\n```\n",
+            "- <a id=\"ref-rice1945\"></a>Rice,\u{a0}S.\u{a0}O. (1945). Noise.\n",
+        ] {
+            assert!(text.contains(part), "{part:?} is not in\n{text}");
+        }
+    }
+
+    #[test]
+    fn latex_for_pdflatex() {
+        let text = latex::write(&tree(SAMPLE)).unwrap();
+        for part in [
+            "\\section{Introduction}\\label{sec:introduction}\n\nMasses",
+            "see \\hyperref[fig:3]{Fig.~3}, Eqs.~\\hyperref[eq:18]{(18)} and",
+            "at 100 \\% of \\texttt{a\\_\\allowbreak{}b}.\n\\begin{equation}\np_{",
+            "\\tag{18}\\label{eq:18}\n\\end{equation}\nwhere $N$ is large, so\n\\begin{equation}\n",
+            "\\includegraphics[width=\\linewidth,height=0.62\\textheight,keepaspectratio]{figures/fig03.pdf}",
+            "\\caption{The rise, at 0.1165(4) or $\\sigma$ \\ensuremath{\\ge} 0.12.}\\label{fig:3}",
+            "\\begin{longtable}{llr}\n\\caption{What \\ensuremath{\\sigma} gives}\\label{tab:sigma}\\\\\n",
+            "\\phantomsection\\label{claim:jump}2 & a\\_b * c & 94.5(8)~\\% \\\\\n",
+            "\\phantomsection\\section*{References}",
+        ] {
+            assert!(text.contains(part), "{part:?} is not in\n{text}");
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_resolved_is_an_error() {
+        let fails = |text: &str| {
+            let mut blocks = parse::parse(text, &values()).unwrap();
+            let library = bibliography::Library::default();
+            labels::resolve(&mut blocks, &library).unwrap_err().to_string()
+        };
+        assert!(fails("see [@fig:3]").contains("fig:3"));
+        assert!(fails("see [@rice1945]").contains("rice1945"));
+        assert!(fails("$$a \\tag{1}$$\n\n$$b \\tag{1}$$").contains("eq:1"));
+        assert!(fails("## A {#sec:a}\n\nSee [@sec:a; @eq:1].").contains("eq:1"));
+        assert!(parse::parse("<b>html</b>", &values()).is_err());
+        assert!(parse::parse("see ![x](figures/fig01.svg)", &values()).is_err());
+    }
 }

@@ -30,8 +30,13 @@ pub struct Templates(BTreeMap<String, String>);
 impl Templates {
     /// The copy that is built into the program.
     pub fn embedded() -> Self {
-        let own = |(path, text): &(&str, &str)| (path.to_string(), text.to_string());
-        Templates(EMBEDDED.iter().map(own).collect())
+        Templates::of(EMBEDDED.iter().copied())
+    }
+
+    /// Templates from texts.
+    pub fn of<'a>(files: impl IntoIterator<Item = (&'a str, &'a str)>) -> Self {
+        let own = |(path, text): (&str, &str)| (path.to_string(), text.to_string());
+        Templates(files.into_iter().map(own).collect())
     }
 
     /// Reads all templates of a folder.
@@ -316,7 +321,7 @@ mod tests {
         let mut values = Registry::new();
         values.add(Value::real("p_crit", 0.0122, 3)).unwrap();
         values.add(Value::printed("printed.rise", "0.12", "Sec. 2")).unwrap();
-        let templates = Templates([("report.md".to_string(), text.to_string())].into());
+        let templates = Templates::of([("report.md", text)]);
         Filler::new(&templates, &values)?.fill("report.md")
     }
 

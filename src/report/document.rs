@@ -1,0 +1,243 @@
+//! The report as a tree, between one prose and several formats.
+//!
+//! [`super::parse`] makes it from filled Markdown, [`super::labels`] numbers what can be referred
+//! to and resolves references, and each format has one writer that walks it. Writers decide on
+//! markup only: numbers, words of references and digits of values are in the tree already.
+
+/// A block of the report.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Block {
+    /// A heading. Level 1 is the title; sections start at level 2.
+    Heading {
+        /// Level, 1 to 6.
+        level: u8,
+        /// Section number as "2" or "2.1"; None for the title and for unnumbered sections.
+        number: Option<String>,
+        /// Id as `sec:protocol`.
+        id: Option<String>,
+        /// Its words.
+        text: Vec<Inline>,
+    },
+    /// A paragraph; displayed equations stand inside it.
+    Paragraph(Vec<Inline>),
+    /// A picture with its caption.
+    Figure {
+        /// Id as `fig:3`.
+        id: String,
+        /// Number as "3".
+        number: String,
+        /// Path of the SVG relative to the report.
+        path: String,
+        /// What is seen, for those who do not see it.
+        alt: String,
+        /// The caption.
+        caption: Vec<Inline>,
+    },
+    /// A table.
+    Table {
+        /// Id as `tab:horizon`.
+        id: Option<String>,
+        /// Number, for tables with a caption.
+        number: Option<String>,
+        /// The caption; may be empty.
+        caption: Vec<Inline>,
+        /// Alignment of each column.
+        columns: Vec<Align>,
+        /// Cells of the head.
+        head: Vec<Vec<Inline>>,
+        /// Cells of the rows.
+        rows: Vec<Vec<Vec<Inline>>>,
+    },
+    /// A list.
+    List {
+        /// The first number of an ordered list.
+        start: Option<u64>,
+        /// Each item.
+        items: Vec<Vec<Block>>,
+    },
+    /// A quotation or aside.
+    Quote(Vec<Block>),
+    /// A block of code.
+    Code {
+        /// Language, may be empty.
+        language: String,
+        /// The lines.
+        text: String,
+    },
+    /// The place of the list of references; filled by [`super::labels::resolve`].
+    Bibliography(Vec<Entry>),
+}
+
+/// One entry of the list of references.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Entry {
+    /// Key as in references.bib.
+    pub key: String,
+    /// Label as "Rice, 1945".
+    pub label: String,
+    /// The reference in words.
+    pub text: Vec<Inline>,
+}
+
+/// How a column is aligned.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Align {
+    /// Left.
+    Left,
+    /// Centre.
+    Centre,
+    /// Right.
+    Right,
+}
+
+/// A piece of running text.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Inline {
+    /// Words; no markup inside.
+    Text(String),
+    /// A line break of the source, which is a space.
+    Soft,
+    /// A line break that is meant.
+    Break,
+    /// Code.
+    Code(String),
+    /// Emphasis.
+    Emphasis(Vec<Inline>),
+    /// Strong emphasis.
+    Strong(Vec<Inline>),
+    /// Mathematics in the line, as TeX.
+    Maths(String),
+    /// A displayed equation, as TeX without its tag.
+    Display {
+        /// The TeX.
+        tex: String,
+        /// The number in brackets, as "18"; its id is `eq:18`.
+        tag: Option<String>,
+    },
+    /// A value: the words and mathematics that show it.
+    Value {
+        /// Its id.
+        id: String,
+        /// What is shown.
+        shown: Vec<Inline>,
+    },
+    /// A link out of the report, or to a file beside it.
+    Link {
+        /// Where to.
+        to: String,
+        /// What is shown.
+        shown: Vec<Inline>,
+    },
+    /// References `[@fig:3; @eq:18]` and citations `[@rice1945]`, until they are resolved.
+    Unresolved(Vec<String>),
+    /// A resolved reference to something in the report.
+    Reference {
+        /// Id as `fig:3`, `ref:rice1945`.
+        to: String,
+        /// What is shown.
+        shown: String,
+    },
+    /// A place that can be referred to, `[!claim:rise]`; shows its number.
+    Anchor {
+        /// Id as `claim:rise`.
+        id: String,
+        /// Number in the order of the report, given when references are resolved.
+        number: String,
+    },
+}
+
+/// Calls `visit` on each piece of running text of the blocks, in reading order, nested ones too.
+pub fn visit(blocks: &[Block], visit: &mut impl FnMut(&Inline)) {
+    for block in blocks {
+        match block {
+            Block::Heading { text, .. } | Block::Paragraph(text) => visit_inlines(text, visit),
+            Block::Figure { caption, .. } => visit_inlines(caption, visit),
+            Block::Table { caption, head, rows, .. } => {
+                visit_inlines(caption, visit);
+                for cell in head.iter().chain(rows.iter().flatten()) {
+                    visit_inlines(cell, visit);
+                }
+            }
+            Block::List { items, .. } => items.iter().for_each(|item| self::visit(item, visit)),
+            Block::Quote(inner) => self::visit(inner, visit),
+            Block::Code { .. } | Block::Bibliography(_) => {}
+        }
+    }
+}
+
+fn visit_inlines(inlines: &[Inline], visit: &mut impl FnMut(&Inline)) {
+    for inline in inlines {
+        visit(inline);
+        match inline {
+            Inline::Emphasis(inner) | Inline::Strong(inner) => visit_inlines(inner, visit),
+            Inline::Link { shown, .. } | Inline::Value { shown, .. } => visit_inlines(shown, visit),
+            _ => {}
+        }
+    }
+}
+
+/// Replaces each piece of running text of the blocks by the pieces that `change` makes of it.
+pub fn rewrite<E>(
+    blocks: &mut [Block],
+    change: &mut impl FnMut(Inline) -> Result<Vec<Inline>, E>,
+) -> Result<(), E> {
+    for block in blocks {
+        match block {
+            Block::Heading { text, .. } | Block::Paragraph(text) => rewrite_inlines(text, change)?,
+            Block::Figure { caption, .. } => rewrite_inlines(caption, change)?,
+            Block::Table { caption, head, rows, .. } => {
+                rewrite_inlines(caption, change)?;
+                for cell in head.iter_mut().chain(rows.iter_mut().flatten()) {
+                    rewrite_inlines(cell, change)?;
+                }
+            }
+            Block::List { items, .. } => {
+                for item in items {
+                    rewrite(item, change)?;
+                }
+            }
+            Block::Quote(inner) => rewrite(inner, change)?,
+            Block::Code { .. } | Block::Bibliography(_) => {}
+        }
+    }
+    Ok(())
+}
+
+fn rewrite_inlines<E>(
+    inlines: &mut Vec<Inline>,
+    change: &mut impl FnMut(Inline) -> Result<Vec<Inline>, E>,
+) -> Result<(), E> {
+    let mut out = Vec::with_capacity(inlines.len());
+    for mut inline in std::mem::take(inlines) {
+        match &mut inline {
+            Inline::Emphasis(inner) | Inline::Strong(inner) => rewrite_inlines(inner, change)?,
+            Inline::Link { shown, .. } | Inline::Value { shown, .. } => {
+                rewrite_inlines(shown, change)?;
+            }
+            _ => {}
+        }
+        out.extend(change(inline)?);
+    }
+    *inlines = out;
+    Ok(())
+}
+
+/// The words alone, for alternative text and widths of columns.
+pub fn plain(inlines: &[Inline]) -> String {
+    let mut out = String::new();
+    for inline in inlines {
+        match inline {
+            Inline::Text(text) | Inline::Code(text) | Inline::Maths(text) => out.push_str(text),
+            Inline::Display { tex, .. } => out.push_str(tex),
+            Inline::Soft | Inline::Break => out.push(' '),
+            Inline::Emphasis(inner) | Inline::Strong(inner) => out.push_str(&plain(inner)),
+            Inline::Link { shown, .. } | Inline::Value { shown, .. } => {
+                out.push_str(&plain(shown));
+            }
+            Inline::Reference { shown, .. } => out.push_str(shown),
+            Inline::Anchor { number, .. } => out.push_str(number),
+            Inline::Unresolved(_) => {}
+        }
+    }
+    out
+}

@@ -1,0 +1,226 @@
+//! The tree → the body of report.tex; its shell is a template.
+
+use super::Error;
+use super::document::{Align, Block, Inline, plain};
+use super::tex;
+
+/// Writes the body of report.tex.
+///
+/// # Errors
+/// A character that LaTeX has no name for.
+pub fn write(blocks: &[Block]) -> Result<String, Error> {
+    let mut out = String::new();
+    let mut before: Option<&Block> = None;
+    for block in blocks {
+        // An equation belongs to the sentence around it: no paragraph begins before it, nor after
+        // it when the sentence goes on.
+        let goes_on = before.is_some_and(|before| {
+            matches!(before, Block::Paragraph(_)) && is_equation(block)
+                || is_equation(before) && continues(block)
+        });
+        out.push_str(if out.is_empty() || goes_on { "" } else { "\n" });
+        let text = write_block(block)?;
+        out.push_str(text.trim_matches('\n'));
+        out.push_str(if text.is_empty() { "" } else { "\n" });
+        before = Some(block);
+    }
+    Ok(out)
+}
+
+fn is_equation(block: &Block) -> bool {
+    matches!(block, Block::Paragraph(inlines) if matches!(inlines[..], [Inline::Display { .. }]))
+}
+
+/// Does this paragraph go on with the sentence before it?
+fn continues(block: &Block) -> bool {
+    let Block::Paragraph(inlines) = block else { return false };
+    matches!(inlines.first(), Some(Inline::Text(text)) if text.starts_with(char::is_lowercase))
+}
+
+fn write_block(block: &Block) -> Result<String, Error> {
+    Ok(match block {
+        // The title belongs to the shell.
+        Block::Heading { level: 1, .. } => String::new(),
+        Block::Heading { level, number, id, text } => {
+            let command = match level {
+                2 => "section",
+                3 => "subsection",
+                4 => "subsubsection",
+                _ => "paragraph",
+            };
+            let label = id.as_deref().map(|id| format!("\\label{{{id}}}")).unwrap_or_default();
+            let words = inlines(text)?;
+            match number {
+                Some(_) => format!("\\{command}{{{words}}}{label}"),
+                None => format!(
+                    "\\phantomsection{label}\\{command}*{{{words}}}\n\
+                     \\addcontentsline{{toc}}{{{command}}}{{{words}}}"
+                ),
+            }
+        }
+        Block::Paragraph(text) => inlines(text)?.trim_end().to_string(),
+        Block::Figure { id, number, path, caption, .. } => {
+            let pdf = path.strip_suffix(".svg").map_or(path.clone(), |stem| format!("{stem}.pdf"));
+            format!(
+                "\\begin{{figure}}[htbp]\n\\centering\n\
+                 \\includegraphics[width=\\linewidth,height=0.62\\textheight,keepaspectratio]{{{pdf}}}\n\
+                 \\renewcommand{{\\thefigure}}{{{number}}}\n\\caption{{{}}}\\label{{{id}}}\n\\end{{figure}}",
+                inlines(caption)?
+            )
+        }
+        Block::Table { id, number, caption, columns, head, rows } => {
+            table(id.as_deref(), number.is_some(), caption, columns, head, rows)?
+        }
+        Block::List { start, items } => {
+            let kind = if start.is_some() { "enumerate" } else { "itemize" };
+            let mut out = format!("\\begin{{{kind}}}\n");
+            if let Some(start) = start.filter(|start| *start != 1) {
+                out.push_str(&format!("\\setcounter{{enumi}}{{{}}}\n", start.saturating_sub(1)));
+            }
+            for item in items {
+                out.push_str(&format!("\\item {}\n", write(item)?.trim_end()));
+            }
+            format!("{out}\\end{{{kind}}}")
+        }
+        Block::Quote(blocks) => format!("\\begin{{quote}}\n{}\\end{{quote}}", write(blocks)?),
+        Block::Code { text, .. } => {
+            format!("{{\\small\\begin{{alltt}}\n{}\n\\end{{alltt}}}}", tex::code(text.trim_end())?)
+        }
+        Block::Bibliography(entries) => {
+            let mut out = String::from(HANGING);
+            for entry in entries {
+                let text = inlines(&entry.text)?;
+                let name = label(&format!("ref:{}", entry.key));
+                out.push_str(&format!("\\item {name}{text}\n"));
+            }
+            out + "\\end{list}"
+        }
+    })
+}
+
+/// The list of references: its second lines are indented.
+const HANGING: &str = "\\begin{list}{}{\\leftmargin=1.5em\\itemindent=-1.5em\\itemsep=0.3ex}\n";
+
+/// A place that `\hyperref[…]` finds.
+fn label(id: &str) -> String {
+    format!("\\phantomsection\\label{{{id}}}")
+}
+
+fn inlines(list: &[Inline]) -> Result<String, Error> {
+    let mut out = String::new();
+    for (i, piece) in list.iter().enumerate() {
+        // A blank line around an equation would begin a paragraph.
+        let beside = |j: usize| matches!(list.get(j), Some(Inline::Display { .. }));
+        if *piece == Inline::Soft && (beside(i + 1) || i > 0 && beside(i - 1)) {
+            continue;
+        }
+        out.push_str(&inline(piece)?);
+    }
+    Ok(out)
+}
+
+fn inline(inline: &Inline) -> Result<String, Error> {
+    Ok(match inline {
+        Inline::Text(text) => tex::text(text)?,
+        Inline::Soft => "\n".into(),
+        Inline::Break => "\\\\\n".into(),
+        Inline::Code(code) => format!("\\texttt{{{}}}", breakable(&tex::text(code)?)),
+        Inline::Emphasis(inner) => format!("\\emph{{{}}}", inlines(inner)?),
+        Inline::Strong(inner) => format!("\\textbf{{{}}}", inlines(inner)?),
+        Inline::Maths(maths) => format!("${}$", tex::maths(maths)?),
+        Inline::Display { tex: maths, tag } => {
+            let maths = tex::maths(maths)?;
+            match tag {
+                Some(tag) => format!(
+                    "\n\\begin{{equation}}\n{maths}\n\\tag{{{tag}}}\\label{{eq:{tag}}}\n\\end{{equation}}\n"
+                ),
+                None => format!("\n\\begin{{equation*}}\n{maths}\n\\end{{equation*}}\n"),
+            }
+        }
+        Inline::Value { shown, .. } => inlines(shown)?,
+        Inline::Link { to, shown } if to.contains("://") => {
+            format!("\\href{{{}}}{{{}}}", address(to), inlines(shown)?)
+        }
+        // Files beside the report: the path in words, a PDF travels without them.
+        Inline::Link { shown, .. } => inlines(shown)?,
+        Inline::Reference { to, shown } => format!("\\hyperref[{to}]{{{}}}", tex::text(shown)?),
+        Inline::Anchor { id, number } => format!("{}{number}", label(id)),
+        Inline::Unresolved(ids) => return Err(Error::Reference(ids.join("; "))),
+    })
+}
+
+/// Long paths in code may break after `::`, `/` and `\_`.
+fn breakable(code: &str) -> String {
+    code.replace("::", "::\\allowbreak{}")
+        .replace('/', "/\\allowbreak{}")
+        .replace(r"\_", r"\_\allowbreak{}")
+}
+
+/// An address inside `\href`.
+fn address(to: &str) -> String {
+    to.replace('\\', "").replace('%', r"\%").replace('#', r"\#").replace('&', r"\&")
+}
+
+/// Characters that fit into a line of the page in the size of tables.
+const LINE: usize = 92;
+
+fn table(
+    id: Option<&str>,
+    captioned: bool,
+    caption: &[Inline],
+    columns: &[Align],
+    head: &[Vec<Inline>],
+    rows: &[Vec<Vec<Inline>>],
+) -> Result<String, Error> {
+    let width = |column: usize| -> usize {
+        let cell = |row: &[Vec<Inline>]| row.get(column).map_or(0, |c| plain(c).chars().count());
+        rows.iter().map(|row| cell(row)).chain([cell(head)]).max().unwrap_or(0).max(3)
+    };
+    let widths: Vec<usize> = (0..columns.len()).map(width).collect();
+    let row = |cells: &[Vec<Inline>]| -> Result<String, Error> {
+        let cells: Vec<String> =
+            cells.iter().map(|cell| inlines(cell)).collect::<Result<_, _>>()?;
+        Ok(format!("{} \\\\\n", cells.join(" & ").replace('\n', " ")))
+    };
+    let mut out =
+        format!("{{\\footnotesize\n\\begin{{longtable}}{{{}}}\n", layout(columns, &widths));
+    if captioned {
+        let label = id.map(|id| format!("\\label{{{id}}}")).unwrap_or_default();
+        out.push_str(&format!("\\caption{{{}}}{label}\\\\\n", inlines(caption)?));
+    }
+    let head = row(head)?;
+    out.push_str(&format!("\\toprule\n{head}\\midrule\n\\endfirsthead\n"));
+    out.push_str(&format!("\\toprule\n{head}\\midrule\n\\endhead\n\\bottomrule\n\\endlastfoot\n"));
+    for cells in rows {
+        out.push_str(&row(cells)?);
+    }
+    Ok(out + "\\end{longtable}}")
+}
+
+/// Columns as wide as their words while all fit; else the long ones share what the short leave.
+fn layout(columns: &[Align], widths: &[usize]) -> String {
+    let letter = |align: &Align| match align {
+        Align::Left => "l",
+        Align::Centre => "c",
+        Align::Right => "r",
+    };
+    let total: usize = widths.iter().map(|w| w + 2).sum();
+    if total <= LINE {
+        return columns.iter().map(letter).collect();
+    }
+    let short = |w: usize| w <= 12;
+    let taken: usize = widths.iter().filter(|w| short(**w)).map(|w| w + 2).sum();
+    // Long cells wrap: the square root keeps a very long one from starving the others.
+    let weight = |w: usize| (w as f64).sqrt();
+    let weights: f64 = widths.iter().filter(|w| !short(**w)).map(|w| weight(*w)).sum();
+    let free = LINE.saturating_sub(taken).max(30) as f64 / LINE as f64;
+    let gaps = 0.02 * columns.len() as f64;
+    let column = |(align, w): (&Align, &usize)| {
+        if short(*w) {
+            return letter(align).to_string();
+        }
+        let share = (free - gaps).max(0.2) * weight(*w) / weights;
+        format!(">{{\\raggedright\\arraybackslash}}p{{{share:.3}\\linewidth}}")
+    };
+    columns.iter().zip(widths).map(column).collect()
+}

@@ -1,0 +1,297 @@
+//! The tree → report.md, for the place where the repository is hosted.
+//!
+//! Hosts read `$…$` after Markdown has had its way with the characters inside, so mathematics is
+//! respelled where Markdown would eat or misread it: `\,` becomes `\thinspace`, `\{` `\lbrace`,
+//! `\\` `\cr`, `*` `\ast`, `<` `\lt`; a `_` that could open emphasis gets a space behind it; and what
+//! follows a closing `$` without a space (`$n$-th`) moves inside.
+
+use super::document::{Align, Block, Inline};
+
+/// Writes report.md.
+pub fn write(blocks: &[Block]) -> String {
+    let mut out = String::new();
+    for block in blocks {
+        write_block(block, "", &mut out);
+    }
+    while out.ends_with("\n\n") {
+        out.pop();
+    }
+    out
+}
+
+/// Running text as Markdown, for tables and ledgers.
+pub fn inlines(inlines: &[Inline]) -> String {
+    Writer { in_table: false }.all(inlines)
+}
+
+fn write_block(block: &Block, indent: &str, out: &mut String) {
+    let prose = Writer { in_table: false };
+    let text = match block {
+        Block::Heading { level, number, id, text } => {
+            let number = number.as_ref().map(|n| format!("{n} ")).unwrap_or_default();
+            let hashes = "#".repeat(usize::from(*level));
+            format!(
+                "{hashes} {}{number}{}",
+                id.as_deref().map_or(String::new(), anchor),
+                prose.all(text)
+            )
+        }
+        Block::Paragraph(text) => prose.all(text),
+        Block::Figure { id, number, path, alt, caption } => format!(
+            "{}\n![{}]({path})\n\n**Figure {number}.** {}",
+            anchor(id),
+            alternative(alt),
+            prose.all(caption)
+        ),
+        Block::Table { id, number, caption, columns, head, rows } => {
+            let mut text = id.as_deref().map_or(String::new(), anchor);
+            if let Some(number) = number {
+                text.push_str(&format!("**Table {number}.** {}\n\n", prose.all(caption)));
+            }
+            text + &table(columns, head, rows)
+        }
+        Block::List { start, items } => {
+            for (i, item) in items.iter().enumerate() {
+                let marker = match start {
+                    Some(start) => format!("{}. ", start + i as u64),
+                    None => "- ".to_string(),
+                };
+                let mut inner = String::new();
+                for block in item {
+                    write_block(block, "", &mut inner);
+                }
+                let deeper = " ".repeat(marker.len());
+                let mut lines = inner.trim_end().lines();
+                out.push_str(&format!("{indent}{marker}{}\n", lines.next().unwrap_or_default()));
+                for line in lines {
+                    let line = format!("{indent}{deeper}{line}");
+                    out.push_str(line.trim_end());
+                    out.push('\n');
+                }
+            }
+            out.push('\n');
+            return;
+        }
+        Block::Quote(blocks) => {
+            let mut inner = String::new();
+            for block in blocks {
+                write_block(block, "", &mut inner);
+            }
+            let line = |line: &str| format!("> {line}").trim_end().to_string();
+            inner.trim_end().lines().map(line).collect::<Vec<_>>().join("\n")
+        }
+        Block::Code { language, text } => format!("```{language}\n{}\n```", text.trim_end()),
+        Block::Bibliography(entries) => {
+            let entry = |entry: &super::document::Entry| {
+                format!("- {}{}", anchor(&format!("ref:{}", entry.key)), prose.all(&entry.text))
+            };
+            entries.iter().map(entry).collect::<Vec<_>>().join("\n")
+        }
+    };
+    for line in text.trim_end().lines() {
+        if !line.is_empty() {
+            out.push_str(indent);
+        }
+        out.push_str(line);
+        out.push('\n');
+    }
+    out.push('\n');
+}
+
+fn table(columns: &[Align], head: &[Vec<Inline>], rows: &[Vec<Vec<Inline>>]) -> String {
+    let writer = Writer { in_table: true };
+    let row = |cells: &[Vec<Inline>]| {
+        let cells: Vec<String> = cells.iter().map(|cell| writer.all(cell)).collect();
+        format!("| {} |\n", cells.join(" | "))
+    };
+    let rule = |align: &Align| match align {
+        Align::Left => "---",
+        Align::Centre => ":-:",
+        Align::Right => "--:",
+    };
+    let rules: Vec<&str> = columns.iter().map(rule).collect();
+    let mut out = row(head);
+    out.push_str(&format!("|{}|\n", rules.join("|")));
+    rows.iter().for_each(|cells| out.push_str(&row(cells)));
+    out
+}
+
+/// `fig:3` → an HTML anchor `fig-3`, which hosts keep.
+fn anchor(id: &str) -> String {
+    format!("<a id=\"{}\"></a>", id.replace(':', "-"))
+}
+
+/// Alternative text: one line, without characters that Markdown would read.
+fn alternative(text: &str) -> String {
+    let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    line.replace('\\', r"\\").replace('[', r"\[").replace(']', r"\]").replace('_', r"\_")
+}
+
+struct Writer {
+    in_table: bool,
+}
+
+impl Writer {
+    fn all(&self, inlines: &[Inline]) -> String {
+        let mut out = String::new();
+        let mut flat = Vec::new();
+        flatten(inlines, &mut flat);
+        let mut i = 0;
+        while i < flat.len() {
+            if let Inline::Maths(tex) = flat[i] {
+                // Words that touch the closing dollar move inside.
+                let mut tail = String::new();
+                let mut rest = None;
+                if let Some(Inline::Text(text)) = flat.get(i + 1) {
+                    let (glued, after) = text.split_at(glued(text));
+                    tail = if glued.is_empty() { tail } else { format!(r"\text{{{glued}}}") };
+                    rest = Some(after);
+                }
+                out.push_str(&format!("${}{tail}$", maths(tex)));
+                if let Some(rest) = rest {
+                    self.text(rest, &mut out);
+                    i += 1;
+                }
+            } else {
+                self.one(flat[i], &mut out);
+            }
+            i += 1;
+        }
+        out
+    }
+
+    fn one(&self, inline: &Inline, out: &mut String) {
+        match inline {
+            Inline::Text(text) => self.text(text, out),
+            Inline::Soft | Inline::Break if self.in_table => out.push(' '),
+            Inline::Soft => out.push('\n'),
+            Inline::Break => out.push_str("\\\n"),
+            Inline::Code(code) => out.push_str(&format!("`{code}`")),
+            Inline::Emphasis(inner) => out.push_str(&format!("*{}*", self.all(inner))),
+            Inline::Strong(inner) => out.push_str(&format!("**{}**", self.all(inner))),
+            Inline::Maths(tex) => out.push_str(&format!("${}$", maths(tex))),
+            Inline::Display { tex, tag } => {
+                while out.ends_with([' ', '\n']) {
+                    out.pop();
+                }
+                if !out.is_empty() {
+                    out.push_str("\n\n");
+                }
+                if let Some(tag) = tag {
+                    out.push_str(&anchor(&format!("eq:{tag}")));
+                    out.push_str("\n\n");
+                }
+                let tag = tag.as_ref().map(|t| format!("\n\\tag{{{t}}}")).unwrap_or_default();
+                out.push_str(&format!("$$\n{}{tag}\n$$\n\n", maths(tex)));
+            }
+            Inline::Value { shown, .. } => out.push_str(&self.all(shown)),
+            Inline::Link { to, shown } => out.push_str(&format!("[{}]({to})", self.all(shown))),
+            Inline::Reference { to, shown } => {
+                out.push_str(&format!("[{shown}](#{})", to.replace(':', "-")));
+            }
+            Inline::Anchor { id, number } => out.push_str(&format!("{}{number}", anchor(id))),
+            Inline::Unresolved(ids) => out.push_str(&ids.join("; ")),
+        }
+    }
+
+    fn text(&self, text: &str, out: &mut String) {
+        // After a displayed equation the line starts anew.
+        let text = if out.is_empty() || out.ends_with('\n') { text.trim_start() } else { text };
+        let starts_line = out.is_empty() || out.ends_with('\n');
+        let chars: Vec<char> = text.chars().collect();
+        let marker = if starts_line { marker_length(&chars) } else { None };
+        for (i, &c) in chars.iter().enumerate() {
+            let inside_word = i > 0
+                && chars[i - 1].is_alphanumeric()
+                && chars.get(i + 1).is_some_and(|next| next.is_alphanumeric());
+            let escape = match c {
+                '\\' | '*' | '`' | '<' | '$' => true,
+                '_' => !inside_word,
+                '|' => self.in_table,
+                '(' => i > 0 && chars[i - 1] == ']',
+                _ => marker == Some(i),
+            };
+            if escape {
+                out.push('\\');
+            }
+            out.push(c);
+        }
+    }
+}
+
+/// Values are shown by their content: flat, so that neighbours of mathematics are seen.
+fn flatten<'a>(inlines: &'a [Inline], into: &mut Vec<&'a Inline>) {
+    for inline in inlines {
+        match inline {
+            Inline::Value { shown, .. } => flatten(shown, into),
+            other => into.push(other),
+        }
+    }
+}
+
+/// Where a backslash stops words at the start of a line from becoming a list, a heading, a quote.
+fn marker_length(chars: &[char]) -> Option<usize> {
+    let digits = chars.iter().take_while(|c| c.is_ascii_digit()).count();
+    let next_is_space = |i: usize| chars.get(i + 1).is_none_or(|c| *c == ' ');
+    match chars.get(digits)? {
+        '.' | ')' if digits > 0 && next_is_space(digits) => Some(digits),
+        '-' | '+' if digits == 0 && next_is_space(0) => Some(0),
+        '#' | '>' | '=' if digits == 0 => Some(0),
+        _ => None,
+    }
+}
+
+/// Length of what touches the closing dollar and would stop hosts from seeing it.
+fn glued(text: &str) -> usize {
+    let touches = |c: char| c.is_alphanumeric() || matches!(c, '-' | '–' | '’' | '\'' | '“' | '”');
+    if !text.starts_with(touches) {
+        return 0;
+    }
+    let inside = |c: char| c.is_alphanumeric() || matches!(c, '-' | '–' | '’' | '\'' | '“' | '”');
+    text.find(|c| !inside(c)).unwrap_or(text.len())
+}
+
+/// TeX that survives Markdown.
+fn maths(tex: &str) -> String {
+    let chars: Vec<char> = tex.chars().collect();
+    let mut out = String::with_capacity(tex.len());
+    let mut i = 0;
+    let word = |out: &mut String, name: &str, next: Option<&char>| {
+        out.push_str(name);
+        if next.is_some_and(char::is_ascii_alphabetic) {
+            out.push(' ');
+        }
+    };
+    while i < chars.len() {
+        let next = chars.get(i + 1);
+        let after = chars.get(i + 2);
+        match (chars[i], next) {
+            ('\\', Some(c)) => {
+                i += 1;
+                match c {
+                    ',' | ':' | ';' | '>' => word(&mut out, r"\thinspace", after),
+                    '!' => word(&mut out, r"\negthinspace", after),
+                    '{' => word(&mut out, r"\lbrace", after),
+                    '}' => word(&mut out, r"\rbrace", after),
+                    '|' => word(&mut out, r"\Vert", after),
+                    '\\' if after != Some(&'[') => word(&mut out, r"\cr", after),
+                    c => out.extend(['\\', *c]),
+                }
+            }
+            ('*', next) => word(&mut out, r"\ast", next),
+            ('<', next) => word(&mut out, r"\lt", next),
+            ('>', next) => word(&mut out, r"\gt", next),
+            ('|', next) => word(&mut out, r"\vert", next),
+            ('_', Some(next)) => {
+                out.push('_');
+                let before = i.checked_sub(1).map(|j| chars[j]);
+                if next.is_alphanumeric() && !before.is_some_and(char::is_alphanumeric) {
+                    out.push(' ');
+                }
+            }
+            (c, _) => out.push(c),
+        }
+        i += 1;
+    }
+    out
+}

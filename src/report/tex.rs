@@ -1,0 +1,198 @@
+//! Characters for pdflatex: what is special is escaped, what is not ASCII is named.
+
+use super::Error;
+
+/// Running text.
+///
+/// # Errors
+/// A character for which no LaTeX is known.
+pub fn text(text: &str) -> Result<String, Error> {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '\\' => out.push_str(r"\textbackslash{}"),
+            '{' | '}' | '$' | '&' | '#' | '%' | '_' => out.extend(['\\', c]),
+            '^' => out.push_str(r"\textasciicircum{}"),
+            '~' => out.push_str(r"\textasciitilde{}"),
+            '<' => out.push_str(r"\textless{}"),
+            '>' => out.push_str(r"\textgreater{}"),
+            '|' => out.push_str(r"\textbar{}"),
+            '"' => out.push_str(r"\textquotedbl{}"),
+            c if c.is_ascii() => out.push(c),
+            // Latin letters with accents are known to T1 fonts.
+            '\u{c0}'..='\u{17f}' if c != '×' && c != '÷' => out.push(c),
+            c => match (in_text(c), in_maths(c)) {
+                (Some(tex), _) => out.push_str(tex),
+                (None, Some(tex)) => out.push_str(&format!(r"\ensuremath{{{tex}}}")),
+                (None, None) => return Err(Error::NoLatex(c)),
+            },
+        }
+    }
+    Ok(out)
+}
+
+/// Mathematics: TeX already, but for characters beyond ASCII.
+///
+/// # Errors
+/// As [`text`].
+pub fn maths(tex: &str) -> Result<String, Error> {
+    let mut out = String::with_capacity(tex.len());
+    for c in tex.chars() {
+        match (c.is_ascii(), in_maths(c), in_text(c)) {
+            (true, ..) => out.push(c),
+            (_, Some(tex), _) => out.push_str(&format!("{tex} ")),
+            (_, None, Some(tex)) => out.push_str(&format!(r"\text{{{tex}}}")),
+            _ if ('\u{c0}'..='\u{17f}').contains(&c) => out.push(c),
+            _ => return Err(Error::NoLatex(c)),
+        }
+    }
+    Ok(out)
+}
+
+/// A block of code inside `alltt`, where only `\`, `{` and `}` are special.
+///
+/// # Errors
+/// As [`text`].
+pub fn code(code: &str) -> Result<String, Error> {
+    let mut out = String::with_capacity(code.len());
+    for c in code.chars() {
+        match c {
+            '\\' => out.push_str(r"\textbackslash{}"),
+            '{' | '}' => out.extend(['\\', c]),
+            c if c.is_ascii() => out.push(c),
+            c => out.push_str(&text(&c.to_string())?),
+        }
+    }
+    Ok(out)
+}
+
+fn in_text(c: char) -> Option<&'static str> {
+    Some(match c {
+        '\u{a0}' => "~",
+        '\u{202f}' | '\u{2009}' => r"\,",
+        '\u{2011}' => "-",
+        '–' => "--",
+        '—' => "---",
+        '‘' => "`",
+        '’' => "'",
+        '“' => "``",
+        '”' => "''",
+        '…' => r"\ldots{}",
+        '§' => r"\S{}",
+        '©' => r"\textcopyright{}",
+        '°' => r"\textdegree{}",
+        '«' => r"\guillemotleft{}",
+        '»' => r"\guillemotright{}",
+        '€' => r"\texteuro{}",
+        _ => return None,
+    })
+}
+
+fn in_maths(c: char) -> Option<&'static str> {
+    Some(match c {
+        'α' => r"\alpha",
+        'β' => r"\beta",
+        'γ' => r"\gamma",
+        'δ' => r"\delta",
+        'ε' => r"\varepsilon",
+        'ζ' => r"\zeta",
+        'η' => r"\eta",
+        'θ' => r"\theta",
+        'κ' => r"\kappa",
+        'λ' => r"\lambda",
+        'μ' | 'µ' => r"\mu",
+        'ν' => r"\nu",
+        'ξ' => r"\xi",
+        'π' => r"\pi",
+        'ρ' => r"\rho",
+        'σ' => r"\sigma",
+        'τ' => r"\tau",
+        'φ' => r"\phi",
+        'χ' => r"\chi",
+        'ψ' => r"\psi",
+        'ω' => r"\omega",
+        'Γ' => r"\Gamma",
+        'Δ' => r"\Delta",
+        'Θ' => r"\Theta",
+        'Λ' => r"\Lambda",
+        'Π' => r"\Pi",
+        'Σ' => r"\Sigma",
+        'Φ' => r"\Phi",
+        'Ψ' => r"\Psi",
+        'Ω' => r"\Omega",
+        '≤' => r"\le",
+        '≥' => r"\ge",
+        '≪' => r"\ll",
+        '≫' => r"\gg",
+        '≈' => r"\approx",
+        '≠' => r"\ne",
+        '≲' => r"\lesssim",
+        '≳' => r"\gtrsim",
+        '∼' => r"\sim",
+        '∝' => r"\propto",
+        '±' => r"\pm",
+        '−' => "-",
+        '×' => r"\times",
+        '÷' => r"\div",
+        '·' => r"\cdot",
+        '∗' => r"\ast",
+        '√' => r"\surd",
+        '∞' => r"\infty",
+        '→' => r"\to",
+        '←' => r"\leftarrow",
+        '↦' => r"\mapsto",
+        '⇒' => r"\Rightarrow",
+        '∈' => r"\in",
+        '∑' => r"\sum",
+        '∏' => r"\prod",
+        '∫' => r"\int",
+        '∂' => r"\partial",
+        '⌈' => r"\lceil",
+        '⌉' => r"\rceil",
+        '⌊' => r"\lfloor",
+        '⌋' => r"\rfloor",
+        '′' => "'",
+        '✓' => r"\checkmark",
+        '✗' => r"\times",
+        '⁰' => "^0",
+        '¹' => "^1",
+        '²' => "^2",
+        '³' => "^3",
+        '⁴' => "^4",
+        '⁵' => "^5",
+        '⁶' => "^6",
+        '⁷' => "^7",
+        '⁸' => "^8",
+        '⁹' => "^9",
+        '⁻' => "^-",
+        '₀' => "_0",
+        '₁' => "_1",
+        '₂' => "_2",
+        '₃' => "_3",
+        '½' => r"\frac12",
+        '¼' => r"\frac14",
+        _ => return None,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_that_stops_pdflatex_is_left() {
+        assert_eq!(
+            text("50 % of σ ≥ 1–2 «x_1»").unwrap(),
+            r"50 \% of \ensuremath{\sigma} \ensuremath{\ge} 1--2 \guillemotleft{}x\_1\guillemotright{}"
+        );
+        assert_eq!(maths("σ+1").unwrap(), r"\sigma +1");
+        assert_eq!(code(r"a\{b_1}").unwrap(), r"a\textbackslash{}\{b_1\}");
+        assert_eq!(text("é").unwrap(), "é");
+    }
+
+    #[test]
+    fn an_unknown_character_is_an_error() {
+        assert!(matches!(text("漢"), Err(Error::NoLatex('漢'))));
+        assert!(maths("漢").is_err());
+    }
+}
