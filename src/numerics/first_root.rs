@@ -9,7 +9,7 @@
 //! the waiting time keeps its relative accuracy however short it is.
 
 use super::lane::Lane;
-use super::trig::{RANGE, one_minus_cos, sin_minus_x};
+use super::trig::{RANGE, small_sin_cos};
 
 /// The two frequencies ω and Ω and what follows from them.
 #[derive(Clone, Copy, Debug)]
@@ -83,8 +83,7 @@ impl<L: Lane> Frame<L> {
         let ratio = L::splat(frequencies.ratio);
         let one = L::splat(1.0);
         let (x, y) = (w * s, big_w * s);
-        let (sx, sy) = (sin_minus_x(x), sin_minus_x(y));
-        let (cx, cy) = (one_minus_cos(x), one_minus_cos(y));
+        let [sx, sy, cx, cy] = small_sin_cos(x, y);
         let (sin_x, sin_y) = (x + sx, y + sy);
         let linear = self.g0 * L::splat(frequencies.inverse_omega) * sin_x;
         let (free, forced) = (self.alpha * cx, self.gamma * cy);
@@ -162,6 +161,28 @@ pub fn stretch<L: Lane>(f: L, p: &Point<L>, bound: L, limit: L) -> L {
     certified(again).max(h)
 }
 
+/// Whether f > 0 is certain on (a, a + h), from value, slope and curvature at both ends.
+///
+/// The quintic through these six numbers differs from f by at most M₆ t³ (h − t)³/720 (Hermite's
+/// remainder), with M₆ ≤ max(ω, Ω)² M₄. Quintic minus remainder is a polynomial of degree six, and
+/// its Bernstein coefficients on the interval bound it from below; they need no square root and
+/// no division. The first is f(a) ≥ 0 and the last f(b); `slack` covers the rounding of the values.
+#[inline]
+fn stays_open(a: &Point<f64>, b: &Point<f64>, h: f64, bound6: f64, slack: f64) -> bool {
+    let (ga, gb) = (h * a.g, h * b.g);
+    let h2 = h * h;
+    let (ha, hb) = (h2 * a.h, h2 * b.h);
+    let remainder = bound6 * (h2 * h2 * h2) * (1.0 / 14400.0);
+    let coefficients = [
+        a.f + ga * (1.0 / 6.0),
+        a.f + ga * (1.0 / 3.0) + ha * (1.0 / 30.0),
+        0.5 * (a.f + b.f) + 0.2 * (ga - gb) + (ha + hb) * (1.0 / 40.0) - remainder,
+        b.f - gb * (1.0 / 3.0) + hb * (1.0 / 30.0),
+        b.f - gb * (1.0 / 6.0),
+    ];
+    coefficients.iter().all(|&c| c > slack)
+}
+
 /// What a search found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Next {
@@ -200,12 +221,12 @@ const PATIENCE: u32 = 64;
 /// itself if it moves down. f₀ < 0 is a root at s = 0.
 ///
 /// # Why no root is skipped
-/// From a point with f > margin, [`stretch`] of f − margin gives an h such that the exact f is
-/// positive on (s, s + h): the minorant holds for the exact function, since |f''''| ≤ M₄
-/// everywhere, and the margin covers the rounding of the evaluation. So s only moves over proven
-/// ground. Near a transversal root the parabola has the slope and curvature of f, so the steps
-/// converge from below, and fast. They end when the quadratic f + f' h + ½ f'' h² has its root so
-/// close that the rest, |f'''| h³/6 + M₄ h⁴/24, is below the margin.
+/// s only moves over ground that is proven to hold no root, in one of two ways; both bound the
+/// exact function from below, and count the rounding of its values against it. A *leap* goes to a
+/// point chosen by any guess (the end of the search, or just before a guessed root) and is taken
+/// if [`stays_open`] certifies the interval. Where it does not, [`stretch`] gives a step that is
+/// certain from this side alone. The search ends when the quadratic f + f' h + ½ f'' h² has its root
+/// so close that the rest, |f'''| h³/6 + M₄ h⁴/24, is below the margin.
 ///
 /// # The undecidable band
 /// Where the minimum of that quadratic lies within two margins of zero, a double cannot tell a
@@ -223,22 +244,46 @@ pub fn first_root(
     if p.f < 0.0 || (p.f == 0.0 && p.g < 0.0) {
         return Next::Root { s: 0.0, speed: -p.g };
     }
+    let fast = frequencies.omega.max(frequencies.big_omega);
+    let bound6 = fast * fast * frame.bound;
     let mut s = 0.0;
     for _ in 0..PATIENCE {
         let in_band = s > 0.0 && p.f <= 2.0 * p.margin;
-        if p.g < 0.0 {
-            // The quadratic through this point; its minimum is −discriminant / 2 f''.
-            let discriminant = p.g * p.g - 2.0 * p.h * p.f;
-            let h = 2.0 * p.f / (discriminant.max(0.0).sqrt() - p.g);
+        // The quadratic through this point; its minimum is −discriminant / 2 f''.
+        let discriminant = p.g * p.g - 2.0 * p.h * p.f;
+        let root = discriminant.max(0.0).sqrt();
+        if p.g < 0.0 && discriminant >= 0.0 {
+            let h = 2.0 * p.f / (root - p.g);
             let rest = (p.j.abs() * (1.0 / 6.0) + frame.bound * h * (1.0 / 24.0)) * (h * h * h);
-            if discriminant >= 0.0 && (in_band || rest <= p.margin) {
+            if in_band || rest <= p.margin {
                 work.undecided += u64::from(discriminant <= 4.0 * p.h * p.margin);
                 let s = (s + h).max(0.0);
                 return if s <= limit {
-                    Next::Root { s, speed: discriminant.sqrt() }
+                    Next::Root { s, speed: root }
                 } else {
                     Next::Clear { s: limit }
                 };
+            }
+        }
+        if !in_band {
+            // A leap: to just beyond the guessed root and back, or to the end.
+            let mut h = beyond_root(&p, root, discriminant, limit - s);
+            let mut b = frame.at(s + h, frequencies);
+            work.evaluations += 1;
+            if b.f < 0.0
+                && let Some(before) = before_root(&p, &b, h, bound6)
+            {
+                h = before;
+                b = frame.at(s + h, frequencies);
+                work.evaluations += 1;
+            }
+            if b.f > b.margin && stays_open(&p, &b, h, bound6, p.margin + b.margin) {
+                s += h;
+                if s >= limit {
+                    return Next::Clear { s: limit };
+                }
+                p = b;
+                continue;
             }
         }
         let h = if in_band && p.h > 0.0 {
@@ -260,4 +305,146 @@ pub fn first_root(
         work.evaluations += 1;
     }
     Next::Clear { s }
+}
+
+/// A guess of where f, seen from `p`, has just crossed zero; `left` if no root is in sight.
+#[inline]
+fn beyond_root(p: &Point<f64>, root: f64, discriminant: f64, left: f64) -> f64 {
+    let crosses = discriminant > 0.0 && (p.g < 0.0 || p.h < 0.0);
+    if !crosses {
+        return left;
+    }
+    let guess = if p.g < 0.0 { 2.0 * p.f / (root - p.g) } else { (root + p.g) / -p.h };
+    if guess >= left {
+        return left;
+    }
+    // One Newton step with the cubic term.
+    let value = p.f + guess * (p.g + guess * (0.5 * p.h + guess * p.j * (1.0 / 6.0)));
+    let slope = p.g + guess * (p.h + guess * 0.5 * p.j);
+    let better = guess - value / slope;
+    if better > 0.0 { (1.0625 * better).min(left) } else { guess }
+}
+
+/// A guess of a point shortly before the first root between `a`, where f > 0, and `b` = a + h,
+/// where f < 0, from the quintic through both ends.
+#[inline]
+fn before_root(a: &Point<f64>, b: &Point<f64>, h: f64, bound6: f64) -> Option<f64> {
+    let (ga, gb) = (h * a.g, h * b.g);
+    let h2 = h * h;
+    let (ha, hb) = (h2 * a.h, h2 * b.h);
+    let d = b.f - a.f - ga - 0.5 * ha;
+    let e = gb - ga - ha;
+    let c = hb - ha;
+    let c3 = 10.0 * d - 4.0 * e + 0.5 * c;
+    let c4 = -15.0 * d + 7.0 * e - c;
+    let c5 = 6.0 * d - 3.0 * e + 0.5 * c;
+    // Newton from the right, where the overshoot of the leap is known.
+    let mut t = 1.0 - (b.f / gb).clamp(0.0, 0.5);
+    let mut slope = gb;
+    for _ in 0..3 {
+        let value = a.f + t * (ga + t * (0.5 * ha + t * (c3 + t * (c4 + t * c5))));
+        slope = ga + t * (ha + t * (3.0 * c3 + t * (4.0 * c4 + t * 5.0 * c5)));
+        t -= value / slope;
+    }
+    // Back by more than the quintic can be wrong, so that f is positive there.
+    let wrong = bound6 * (h2 * h2 * h2) * (1.0 / 46080.0) + 4.0 * (a.margin + b.margin);
+    t += 2.0 * wrong / slope;
+    (slope < 0.0 && t > 0.0 && t < 1.0).then_some(t * h)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::lane::Lanes;
+    use super::*;
+    use crate::numerics::random::NormalPairs;
+
+    const OMEGAS: [[f64; 2]; 4] =
+        [[1.0, std::f64::consts::SQRT_2], [1.3, 0.7], [0.2, 3.0], [1.0, 1.0001]];
+
+    /// A frame with normal amplitudes; every third starts shut, every fifth barely.
+    fn frame(i: u64, frequencies: &Frequencies) -> Frame<f64> {
+        let mut normals = NormalPairs::new("frames", 1, i);
+        let [alpha, q] = normals.pair();
+        let [gamma, delta] = normals.pair();
+        let [width, slope] = normals.pair();
+        let (w, big_w) = (frequencies.omega, frequencies.big_omega);
+        let f0 = match i {
+            i if i % 3 == 0 => 0.0,
+            i if i % 5 == 0 => 1e-12 * width.abs(),
+            _ => width.abs(),
+        };
+        let g0 = if f0 == 0.0 { slope.abs() } else { q };
+        let r1 = alpha.hypot(g0 / w - big_w / w * delta);
+        let r2 = gamma.hypot(delta);
+        Frame { f0, g0, alpha, gamma, delta, bound: w.powi(4) * r1 + big_w.powi(4) * r2 }
+    }
+
+    /// The second route: f on a fine grid, with the platform's functions, in absolute form.
+    #[test]
+    fn no_sign_change_is_skipped() {
+        let (mut roots, mut evaluations) = (0, 0);
+        for [w, big_w] in OMEGAS {
+            let frequencies = Frequencies::new(w, big_w);
+            for i in 0..3000 {
+                let frame = frame(i, &frequencies);
+                let q = frame.g0 / w - big_w / w * frame.delta;
+                let f = |s: f64| {
+                    frame.f0 - frame.alpha - frame.gamma
+                        + frame.alpha * (w * s).cos()
+                        + q * (w * s).sin()
+                        + frame.gamma * (big_w * s).cos()
+                        + frame.delta * (big_w * s).sin()
+                };
+                let mut work = Work::default();
+                let limit = frequencies.reach;
+                let next = first_root(&frame, limit, &frequencies, &mut work);
+                let end = match next {
+                    Next::Root { s, speed } => {
+                        roots += 1;
+                        assert!(f(s).abs() < 1e-14, "frame {i}: f = {:e}", f(s));
+                        let numeric = -(f(s + 1e-5) - f(s - 1e-5)) / 2e-5;
+                        assert!((speed - numeric).abs() < 1e-8, "{speed} {numeric}");
+                        s
+                    }
+                    Next::Clear { s } => {
+                        assert_eq!(s, limit);
+                        limit
+                    }
+                };
+                for k in 1..1000 {
+                    let s = end * f64::from(k) / 1000.0;
+                    assert!(f(s) > -1e-15, "frame {i} of {w}, {big_w}: root before {s}");
+                }
+                evaluations += work.evaluations;
+            }
+        }
+        assert!((2000..10_000).contains(&roots), "{roots}");
+        // Counted work: a change of the algorithm shows here.
+        assert!(evaluations < 3 * 12_000, "{evaluations}");
+    }
+
+    #[test]
+    fn lanes_give_the_bits_of_one() {
+        let frequencies = Frequencies::new(1.0, std::f64::consts::SQRT_2);
+        let frames = [1, 2, 3, 4].map(|i| frame(i, &frequencies));
+        let pack = |of: fn(&Frame<f64>) -> f64| Lanes(frames.map(|f| of(&f)));
+        let side = Frame {
+            f0: pack(|f| f.f0),
+            g0: pack(|f| f.g0),
+            alpha: pack(|f| f.alpha),
+            gamma: pack(|f| f.gamma),
+            delta: pack(|f| f.delta),
+            bound: pack(|f| f.bound),
+        };
+        let s = [0.1, 0.9, 1e-7, 1.3];
+        let p = side.at(Lanes(s), &frequencies);
+        let h = stretch(p.f, &p, side.bound, Lanes([1.0; 4]));
+        for i in 0..4 {
+            let one = frames[i].at(s[i], &frequencies);
+            assert_eq!([p.f.0[i], p.g.0[i], p.h.0[i], p.j.0[i]], [one.f, one.g, one.h, one.j]);
+            assert_eq!(p.margin.0[i], one.margin);
+            let alone = stretch(one.f, &one, frames[i].bound, 1.0);
+            assert!(h.0[i] == alone || one.f < 0.0);
+        }
+    }
 }

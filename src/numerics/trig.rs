@@ -2,21 +2,24 @@
 
 use super::lane::Lane;
 
-/// Largest |x| for which [`sin_minus_x`] and [`one_minus_cos`] are meant.
+/// Largest |x| for which [`small_sin_cos`] is meant.
 pub const RANGE: f64 = 2.0;
 
+/// Terms of each Taylor polynomial.
+const TERMS: usize = 12;
+
 /// 1/3!, −1/5!, …: Taylor coefficients of (x − sin x)/x³ in x², up to x^25 of the sine.
-const SIN: [f64; 12] = inverse_factorials(3);
+const SIN: [f64; TERMS] = inverse_factorials(3);
 
 /// 1/2!, −1/4!, …: Taylor coefficients of (1 − cos x)/x² in x², up to x^24 of the cosine.
-const COS: [f64; 12] = inverse_factorials(2);
+const COS: [f64; TERMS] = inverse_factorials(2);
 
 /// 1/m!, −1/(m+2)!, 1/(m+4)!, …
 ///
 /// Every factorial up to 18! is exact in a double; the later ones are rounded, which changes the
 /// sums by less than 1e-24.
-const fn inverse_factorials(m: usize) -> [f64; 12] {
-    let mut out = [0.0; 12];
+const fn inverse_factorials(m: usize) -> [f64; TERMS] {
+    let mut out = [0.0; TERMS];
     let mut factorial = 1.0;
     let mut i = 2;
     while i <= m {
@@ -24,7 +27,7 @@ const fn inverse_factorials(m: usize) -> [f64; 12] {
         i += 1;
     }
     let mut k = 0;
-    while k < 12 {
+    while k < TERMS {
         out[k] = if k % 2 == 0 { 1.0 / factorial } else { -1.0 / factorial };
         let next = (m + 2 * k) as f64;
         factorial *= (next + 1.0) * (next + 2.0);
@@ -33,36 +36,41 @@ const fn inverse_factorials(m: usize) -> [f64; 12] {
     out
 }
 
-/// The polynomial with coefficients `c` at `z`: even and odd powers apart, which halves the chain
-/// of dependent operations against Horner's rule.
-#[inline(always)]
-fn polynomial<L: Lane>(c: &[f64; 12], z: L) -> L {
-    let y = z * z;
-    let mut even = L::splat(c[10]);
-    let mut odd = L::splat(c[11]);
-    for k in (0..5).rev() {
-        even = even * y + L::splat(c[2 * k]);
-        odd = odd * y + L::splat(c[2 * k + 1]);
+/// [`SIN`] twice and [`COS`] twice, for [`polynomials`] in one register of four.
+const TABLE: [[f64; 4]; TERMS] = {
+    let mut table = [[0.0; 4]; TERMS];
+    let mut k = 0;
+    while k < TERMS {
+        table[k] = [SIN[k], SIN[k], COS[k], COS[k]];
+        k += 1;
     }
-    even + z * odd
+    table
+};
+
+/// The polynomials [`SIN`] and [`COS`] at x² and y² side by side: (sin − x)/x³ of both, up to the
+/// sign, and (1 − cos)/x² of both. Four chains that a processor runs at once, in vector registers
+/// where it has them.
+#[inline(always)]
+fn polynomials<L: Lane>(x2: L, y2: L) -> [L; 4] {
+    let z = [x2, y2, x2, y2];
+    let mut sum = TABLE[TERMS - 1].map(L::splat);
+    for row in TABLE[..TERMS - 1].iter().rev() {
+        for i in 0..4 {
+            sum[i] = sum[i] * z[i] + L::splat(row[i]);
+        }
+    }
+    sum
 }
 
-/// sin x − x for |x| ≤ [`RANGE`], to a few units in its own last place.
+/// sin x − x, sin y − y, 1 − cos x and 1 − cos y for |x|, |y| ≤ [`RANGE`], each to a few units in
+/// its own last place.
 ///
-/// The omitted terms are below 2^27/27! < 2e-20.
+/// The omitted terms are below 2^27/27! < 2e-20 and 2^26/26! < 2e-19.
 #[inline(always)]
-pub fn sin_minus_x<L: Lane>(x: L) -> L {
-    let z = x * x;
-    -(z * x * polynomial(&SIN, z))
-}
-
-/// 1 − cos x for |x| ≤ [`RANGE`], to a few units in its own last place.
-///
-/// The omitted terms are below 2^26/26! < 2e-19.
-#[inline(always)]
-pub fn one_minus_cos<L: Lane>(x: L) -> L {
-    let z = x * x;
-    z * polynomial(&COS, z)
+pub fn small_sin_cos<L: Lane>(x: L, y: L) -> [L; 4] {
+    let (x2, y2) = (x * x, y * y);
+    let [sx, sy, cx, cy] = polynomials(x2, y2);
+    [-(x2 * x * sx), -(y2 * y * sy), x2 * cx, y2 * cy]
 }
 
 /// (sin, cos) of a phase given as a fraction of a turn in units of 2^-64, to 1.2 units of 2^-53.
@@ -75,8 +83,8 @@ pub fn sin_cos_turn(turn: u64) -> (f64, f64) {
     let shifted = turn.wrapping_add(QUARTER / 2);
     let remainder = (shifted % QUARTER) as i64 - (QUARTER / 2) as i64;
     let x = remainder as f64 * RADIANS;
-    let sin = x + sin_minus_x(x);
-    let cos = 1.0 - one_minus_cos(x);
+    let [s, _, c, _] = small_sin_cos(x, x);
+    let (sin, cos) = (x + s, 1.0 - c);
     match shifted / QUARTER {
         0 => (sin, cos),
         1 => (cos, -sin),
@@ -97,12 +105,14 @@ mod tests {
             let x = f64::from(i) * (RANGE / 4000.0);
             let half = pxfm::f_sin(x / 2.0);
             let c = 2.0 * half * half;
-            assert!((one_minus_cos(x) - c).abs() <= 1e-15 * c, "x = {x}");
+            let [_, sin, _, cos] = small_sin_cos(0.5 * x, x);
+            assert!((cos - c).abs() <= 1e-15 * c, "x = {x}");
             let s = pxfm::f_sin(x) - x;
-            assert!((sin_minus_x(x) - s).abs() <= 3e-16 * x, "x = {x}");
+            assert!((sin - s).abs() <= 3e-16 * x, "x = {x}");
         }
         let x = 1e-5;
-        assert!((sin_minus_x(x) / (-x * x * x / 6.0) - 1.0).abs() < 1e-10);
+        let [sin, ..] = small_sin_cos(x, 0.0);
+        assert!((sin / (-x * x * x / 6.0) - 1.0).abs() < 1e-10);
     }
 
     #[test]
@@ -122,10 +132,11 @@ mod tests {
 
     #[test]
     fn lanes_give_the_bits_of_one() {
-        let x = [0.1, -1.9, 1e-9, 1.5];
-        let Lanes(side) = sin_minus_x(Lanes(x));
-        assert_eq!(side, x.map(sin_minus_x::<f64>));
-        let Lanes(side) = one_minus_cos(Lanes(x));
-        assert_eq!(side, x.map(one_minus_cos::<f64>));
+        let x = [0.1, -1.4, 1e-9, 1.5];
+        let y = x.map(|x| 0.3 - x);
+        let side = small_sin_cos(Lanes(x), Lanes(y));
+        for i in 0..4 {
+            assert_eq!(side.map(|lanes| lanes.0[i]), small_sin_cos(x[i], y[i]));
+        }
     }
 }

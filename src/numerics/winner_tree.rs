@@ -37,7 +37,12 @@ impl WinnerTree {
         while node > 0 {
             let (left, right) = (self.winner[2 * node], self.winner[2 * node + 1]);
             let right_wins = self.keys[right as usize] < self.keys[left as usize];
-            self.winner[node] = if right_wins { right } else { left };
+            let winner = if right_wins { right } else { left };
+            // Another key wins here as it did before: nothing changes further up.
+            if winner == self.winner[node] && winner != index as u32 {
+                return;
+            }
+            self.winner[node] = winner;
             node >>= 1;
         }
     }
