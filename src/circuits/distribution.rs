@@ -35,19 +35,28 @@ pub(crate) struct Weights {
     p: DoubleDouble,
     p_scaled: Scaled,
     k: usize,
-    /// p^(k−1) N!/(N − k)!.
+    /// p^(k−1) N!/(N − k)!, over the common denominator of the classes.
     arranged: Scaled,
 }
 
 impl Weights {
     pub(crate) fn new(space: SampleSpace, big_n: usize, p: DoubleDouble) -> Self {
-        let arranged = Scaled::from(big_n);
+        let arranged = match space {
+            SampleSpace::Simple => Scaled::from(big_n),
+            // What `higher_order::multiplicity` multiplies by, taken out once.
+            _ => Scaled::from(big_n) / Scaled::from(higher_order::SHARED as usize),
+        };
         Weights { space, big_n, p, p_scaled: Scaled::from(p), k: 1, arranged }
     }
 
     /// Moves on to k + 1.
     pub(crate) fn advance(&mut self) {
-        self.arranged = self.arranged * (self.p_scaled * Scaled::from(self.big_n - self.k));
+        let left = self.big_n - self.k;
+        self.arranged = if self.p.hi > 1e-100 {
+            self.arranged * (self.p * left as f64)
+        } else {
+            self.arranged * (self.p_scaled * Scaled::from(left))
+        };
         self.k += 1;
     }
 
@@ -71,7 +80,8 @@ impl Weights {
     }
 }
 
-/// Sums over the distribution, and its first maximum.
+/// Sums over the distribution, and (except for simple circuits, see
+/// [`Law::simple_k_star`]) its first maximum.
 struct Sums {
     total: Scaled,
     first_moment: Scaled,
@@ -125,7 +135,7 @@ impl Law {
             let weight = moment / Scaled::from(k);
             sums.first_moment = sums.first_moment + moment;
             sums.total = sums.total + weight;
-            if weight > sums.largest {
+            if self.space != SampleSpace::Simple && weight > sums.largest {
                 (sums.largest, sums.largest_at) = (weight, k);
             }
             let done = weights.falls_for_good() && weight < sums.total * negligible;

@@ -182,15 +182,13 @@ impl ImpactProbability {
         let exponent = exponent.to_double_double();
         if !exponent.hi.is_finite() {
             let remedy = "give a larger sigma";
-            return Err(Error::Underflow {
-                what: "e^(−10^308) > p(σ)", sigma: self.sigma, remedy
-            });
+            return Err(Error::Underflow { what: "ln p(σ)", sigma: self.sigma, remedy });
         }
         if exponent.hi < 1.0 {
             let rest = self.complement();
             if rest < f64::MIN_POSITIVE {
                 let remedy = "give a smaller sigma";
-                return Err(Error::Underflow { what: "1 − p(σ)", sigma: self.sigma, remedy });
+                return Err(Error::Underflow { what: "−ln p(σ)", sigma: self.sigma, remedy });
             }
             if rest < 0.5 {
                 return Ok(pxfm::f_log1p(-rest));

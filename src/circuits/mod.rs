@@ -22,7 +22,7 @@ pub use error::Error;
 pub use fraction::Fraction;
 
 /// The largest number of vertices for which a quantity is computed: each takes a time that grows
-/// at most in proportion to N, about half a second at this bound.
+/// at most in proportion to N, some seconds at this bound.
 pub const LARGEST_N: usize = 10_000_000;
 
 /// Refuses a number of vertices outside 1..=[`LARGEST_N`].

@@ -47,7 +47,11 @@ impl Failure {
 
 /// Parses the command line and runs the verb.
 pub fn main() -> ExitCode {
-    let result = match Cli::parse().verb {
+    let verb = match Cli::try_parse() {
+        Ok(cli) => cli.verb,
+        Err(error) => return usage(&error),
+    };
+    let result = match verb {
         Verb::Eval(args) => eval::run(args),
         Verb::Trace(args) => trace::run(args),
     };
@@ -58,4 +62,19 @@ pub fn main() -> ExitCode {
             ExitCode::from(failure.code)
         }
     }
+}
+
+/// Help and version go to standard output; a wrong command line becomes one line, exit code 2.
+fn usage(error: &clap::Error) -> ExitCode {
+    use clap::error::ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand;
+    if !error.use_stderr() || error.kind() == DisplayHelpOnMissingArgumentOrSubcommand {
+        // A closed standard output is no reason to fail: nobody reads the help.
+        let _ = error.print();
+        return ExitCode::from(error.exit_code() as u8);
+    }
+    let text = error.to_string();
+    let lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
+    let line = lines.collect::<Vec<_>>().join("; ");
+    eprintln!("impact-paper: {}", line.strip_prefix("error: ").unwrap_or(&line));
+    ExitCode::from(2)
 }

@@ -141,6 +141,9 @@ impl Add for Scaled {
         let (large, small) =
             if self.exponent >= other.exponent { (self, other) } else { (other, self) };
         let shift = large.exponent - small.exponent;
+        if shift == 0 {
+            return Scaled::normalised(large.mantissa + small.mantissa, large.exponent);
+        }
         // Beyond 512 binary digits the smaller one cannot change the larger.
         if shift > 4 * STEP {
             return large;

@@ -14,4 +14,4 @@ pub use doubled::{
     compositions, doubled, doubled_as_printed, doubled_paths, is_composition, length_of_loops,
     paths_by_falling, paths_with_loops,
 };
-pub use sample_space::{CLASSES, FiveClass, different, multiplicity};
+pub use sample_space::{CLASSES, FiveClass, SHARED, different, multiplicity};

@@ -35,24 +35,28 @@ impl FiveClass {
         k + self.class().excess()
     }
 
-    /// Its number of circuits with k different vertices, over φ_N(k): what the printed formula
-    /// gives, or with primitive counts. A polynomial in k, whatever N.
-    pub fn per_simple_circuit(&self, space: SampleSpace, k: usize) -> DoubleDouble {
-        let n = |j: usize| DoubleDouble::from(j);
+    /// [`SHARED`] times its number of circuits with k different vertices, over φ_N(k): by the
+    /// printed formula, or as primitive circuits. A polynomial in k with whole coefficients,
+    /// whatever N.
+    pub fn per_simple_circuit(&self, space: SampleSpace, k: usize) -> u128 {
         let short = space == SampleSpace::FiveClasses;
+        let k = k as u128;
         match self.equation {
-            7 => DoubleDouble::ONE,
+            7 => SHARED,
             // A single vertex run over and over is a shorter circuit repeated.
-            33 | 35 | 36 if short && k == 1 => DoubleDouble::ZERO,
+            33 | 35 | 36 if short && k == 1 => 0,
             // Of the 3/2 cyclic sequences of two vertices twice, only aabb is primitive.
-            37 if short && k == 2 => DoubleDouble::ONE,
-            33 => n(k) * n(k) / n(2),
-            35 => n(k) * n(k) * n(k + 1) / n(6),
-            36 => n(k) * n(k) * n(k + 1) * n(k + 2) / n(24),
-            _ => n(k - 1) * n(k) * n(k) * n(k + 1) / n(8),
+            37 if short && k == 2 => SHARED,
+            33 => 12 * k * k,
+            35 => 4 * k * k * (k + 1),
+            36 => k * k * (k + 1) * (k + 2),
+            _ => 3 * (k - 1) * k * k * (k + 1),
         }
     }
 }
+
+/// The common denominator of the five classes.
+pub const SHARED: u128 = 24;
 
 /// **Eq. (38)**
 ///
@@ -65,16 +69,14 @@ pub fn different(big_n: usize, k: usize) -> Option<u128> {
     })
 }
 
-/// The weight of all circuits with k different vertices over that of the simple ones: each class
-/// of Eq. (38) over φ_N(k), times p for each edge more than k.
+/// [`SHARED`] times the weight of all circuits with k different vertices over that of the simple
+/// ones: each class of Eq. (38) over φ_N(k), times p for each edge more than k.
 pub fn multiplicity(space: SampleSpace, p: DoubleDouble, k: usize) -> DoubleDouble {
-    if space == SampleSpace::Simple {
-        return DoubleDouble::ONE;
-    }
     let [simple, doubled, three, four, two] =
         CLASSES.map(|class| class.per_simple_circuit(space, k));
+    let real = |x: u128| DoubleDouble::from(x);
     // Horner's scheme in p; the excess lengths are 0, 1, 2, 3 and 2.
-    simple + p * (doubled + p * ((three + two) + p * four))
+    real(simple) + p * (real(doubled) + p * (real(three + two) + p * real(four)))
 }
 
 #[cfg(test)]
@@ -115,10 +117,12 @@ mod tests {
                 let simple = phi(12, k).unwrap() as f64;
                 let length = class.length(k);
                 let exact = class.class().primitive(12, length).unwrap() as f64 / simple;
-                let ours = class.per_simple_circuit(SampleSpace::FiveClasses, k).to_f64();
+                let ours = class.per_simple_circuit(SampleSpace::FiveClasses, k);
+                let ours = ours as f64 / SHARED as f64;
                 assert!((ours - exact).abs() <= 1e-14 * exact, "{class:?} {k} {ours} {exact}");
                 let formula = printed(class.equation, 12, length).unwrap().to_f64() / simple;
-                let ours = class.per_simple_circuit(SampleSpace::FiveClassesPrinted, k).to_f64();
+                let ours = class.per_simple_circuit(SampleSpace::FiveClassesPrinted, k);
+                let ours = ours as f64 / SHARED as f64;
                 assert!((ours - formula).abs() <= 1e-14 * formula, "{class:?} {k}");
             }
         }
