@@ -1,0 +1,21 @@
+//! An independent simulator of the chain in higher precision, to hold the engine against.
+//!
+//! Nothing here is taken from `src/` but the description of a scenario. It works in absolute time
+//! with the plain amplitudes of Eq. (19), searches by certified subdivision of intervals instead
+//! of forward stretches, and is generic over its numbers: [`dd::Dd`] (106 bits, own sine and
+//! cosine, fast) and [`big::Big`] (256 bits, dashu's sine and cosine) check each other.
+
+// Each test binary uses its own part of this module.
+#![allow(dead_code, unused_imports)]
+
+pub mod big;
+pub mod chain;
+pub mod dd;
+pub mod gap;
+pub mod real;
+
+pub use big::Big;
+pub use chain::{Hit, Reference};
+pub use dd::Dd;
+pub use gap::Gap;
+pub use real::Real;
