@@ -211,6 +211,21 @@ pub struct Work {
     pub undecided: u64,
 }
 
+/// The root s + h of the quadratic, which falls there at `slope`, and its speed, with the cubic
+/// term put in.
+///
+/// What the quadratic leaves out is below the margin in f, yet not in f': at h = 1e-5 its slope
+/// f''' h²/2 is 1e-10. A grazing root, where that is not small beside the slope, is left as it is.
+fn cubic_root(s: f64, h: f64, slope: f64, p: &Point<f64>) -> (f64, f64) {
+    let bend = 0.5 * p.j * h * h;
+    if slope <= 2.0 * bend.abs() {
+        return ((s + h).max(0.0), slope);
+    }
+    let speed = slope - bend;
+    let shift = bend * h / (3.0 * speed);
+    ((s + (h + shift)).max(0.0), speed - p.h * shift)
+}
+
 /// Evaluations after which a search stops with what is certified so far; its owner resumes it.
 const PATIENCE: u32 = 64;
 
@@ -257,12 +272,8 @@ pub fn first_root(
             let rest = (p.j.abs() * (1.0 / 6.0) + frame.bound * h * (1.0 / 24.0)) * (h * h * h);
             if in_band || rest <= p.margin {
                 work.undecided += u64::from(discriminant <= 4.0 * p.h * p.margin);
-                let s = (s + h).max(0.0);
-                return if s <= limit {
-                    Next::Root { s, speed: root }
-                } else {
-                    Next::Clear { s: limit }
-                };
+                let (s, speed) = cubic_root(s, h, root, &p);
+                return if s <= limit { Next::Root { s, speed } } else { Next::Clear { s: limit } };
             }
         }
         if !in_band {
