@@ -84,10 +84,10 @@ fn solve(mut m: Vec<Vec<f64>>) -> Option<Vec<f64>> {
         }
         m.swap(i, pivot);
         for row in i + 1..n {
-            let factor = m[row][i] / m[i][i];
-            for column in i..=n {
-                m[row][column] -= factor * m[i][column];
-            }
+            let (above, below) = m.split_at_mut(row);
+            let factor = below[0][i] / above[i][i];
+            let pivot = above[i][i..].iter();
+            below[0][i..].iter_mut().zip(pivot).for_each(|(x, p)| *x -= factor * p);
         }
     }
     let mut x = vec![0.0; n];
