@@ -1,6 +1,16 @@
 //! How rare three-way impacts and sticking are (the remark of Sec. 2): power laws over decades.
 
+use super::observe::{NEAR_DECADES, SLOW_DECADES};
+use super::sweep::SweepRow;
+use crate::params::{NEAR_SIMULTANEOUS, SLOW};
 use serde::{Deserialize, Serialize};
+
+/// First decade of the law of neighbouring impacts that is fitted, δ = 1e−2: at 1e−1 two impacts
+/// are no longer close against the time between impacts.
+const NEAR_FROM: usize = 1;
+
+/// First decade of the law of slow impacts that is fitted, v = 1e−1.
+const SLOW_FROM: usize = 0;
 
 /// The fitted laws, from the rows of the main sweep.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -59,4 +69,105 @@ pub struct LawsTotals {
     pub expected_near_simultaneous: f64,
     /// Slow impacts (below 1e−8) that the laws let expect in the whole sweep.
     pub expected_slow: f64,
+}
+
+/// Fits the laws to the rows of a sweep.
+pub fn run(rows: &[SweepRow]) -> Laws {
+    let fitted: Vec<LawsRow> = rows
+        .iter()
+        .filter(|row| row.impacts > 0)
+        .map(|row| LawsRow {
+            sigma: row.sigma,
+            impacts: row.impacts,
+            near: fit(&row.near_decades[NEAR_FROM..], NEAR_DECADES[NEAR_FROM], 1, row.impacts),
+            slow: fit(&row.slow_decades[SLOW_FROM..], SLOW_DECADES[SLOW_FROM], 2, row.impacts),
+            contact_phases_per_impact: row.contact_phases as f64 / row.impacts as f64,
+        })
+        .collect();
+    let expected = |pick: fn(&LawsRow) -> Option<PowerLaw>, scale: f64| -> f64 {
+        fitted
+            .iter()
+            .filter_map(|row| Some(pick(row)?.coefficient * scale * row.impacts as f64))
+            .sum()
+    };
+    let totals = LawsTotals {
+        impacts: rows.iter().map(|row| row.impacts).sum(),
+        near_decades: sums(rows, NEAR_DECADES.len(), |row| &row.near_decades),
+        slow_decades: sums(rows, SLOW_DECADES.len(), |row| &row.slow_decades),
+        contact_phases: rows.iter().map(|row| row.contact_phases).sum(),
+        expected_near_simultaneous: expected(|row| row.near, NEAR_SIMULTANEOUS),
+        expected_slow: expected(|row| row.slow, SLOW * SLOW),
+    };
+    Laws { rows: fitted, totals }
+}
+
+fn sums(rows: &[SweepRow], decades: usize, pick: fn(&SweepRow) -> &[u64]) -> Vec<u64> {
+    (0..decades).map(|i| rows.iter().map(|row| pick(row)[i]).sum()).collect()
+}
+
+/// Fits a power law to the nested counts below `first`, `first`/10, … among `impacts`.
+///
+/// Under P(x) = c x^a an event below 10^−i lies below 10^−(i+1) with probability q = 10^−a,
+/// whatever i: each event at each decade is one trial. So the likelihood gives q as successes
+/// over trials, without logarithms of small counts, and its binomial error.
+fn fit(nested: &[u64], first: f64, expected: i32, impacts: u64) -> Option<PowerLaw> {
+    let events = *nested.first()?;
+    let trials: u64 = nested[..nested.len() - 1].iter().sum();
+    let successes: u64 = nested[1..].iter().sum();
+    if successes == 0 || successes == trials {
+        return None;
+    }
+    let q = successes as f64 / trials as f64;
+    let q_error = (q * (1.0 - q) / trials as f64).sqrt();
+    let scale = (0..expected).fold(impacts as f64, |product, _| product * first);
+    Some(PowerLaw {
+        exponent: -pxfm::f_log10(q),
+        exponent_error: q_error / (q * std::f64::consts::LN_10),
+        coefficient: events as f64 / scale,
+        coefficient_error: (events as f64).sqrt() / scale,
+        decades: nested.iter().filter(|&&count| count > 0).count(),
+        events,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::numerics::random::NormalPairs;
+
+    #[test]
+    fn exact_decades_give_the_exact_law() {
+        // 40 000, 400, 4 below 0.1, 0.01, 0.001 of 10^6 impacts: 4 v².
+        let law = fit(&[40_000, 400, 4], 0.1, 2, 1_000_000).unwrap();
+        assert!((law.exponent - 2.0).abs() < 1e-12, "{law:?}");
+        assert!((law.coefficient - 4.0).abs() < 1e-12);
+        assert!((law.coefficient_error - 4.0 / 200.0).abs() < 1e-12);
+        assert_eq!((law.decades, law.events), (3, 40_000));
+    }
+
+    #[test]
+    fn a_sampled_law_is_found_within_its_error() {
+        // 1 − exp(−(x² + y²)/2) is uniform for normal x, y: so is a variable below each decade.
+        let mut normals = NormalPairs::new("test-laws", 1, 0);
+        let mut nested = [0; 6];
+        for _ in 0..200_000 {
+            let [x, y] = normals.pair();
+            let uniform = -pxfm::f_expm1(-0.5 * (x * x + y * y));
+            let mut below = 1e-1;
+            for count in &mut nested {
+                *count += u64::from(uniform < below);
+                below *= 0.1;
+            }
+        }
+        let law = fit(&nested, 1e-1, 1, 200_000).unwrap();
+        assert!((law.exponent - 1.0).abs() < 4.0 * law.exponent_error, "{law:?}");
+        assert!((law.coefficient - 1.0).abs() < 4.0 * law.coefficient_error, "{law:?}");
+        assert!(law.exponent_error < 0.01);
+    }
+
+    #[test]
+    fn too_few_events_make_no_law() {
+        assert_eq!(fit(&[5, 0, 0], 0.1, 2, 100), None);
+        assert_eq!(fit(&[0, 0, 0], 0.1, 2, 100), None);
+    }
 }

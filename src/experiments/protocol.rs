@@ -1,7 +1,11 @@
 //! The influence of the counting protocol: half height against transient T and window W.
 
+use super::{Error, Progress, rise};
+use crate::dynamics::{self, Engine, Scenario};
+use crate::numerics::random::NormalPairs;
 use crate::numerics::statistics::Estimate;
-use crate::params::ProtocolParams;
+use crate::params::{PRINTED_THRESHOLD, PRINTED_THRESHOLD_UNIT, ProtocolParams};
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// Half height for every pair of a transient and a window.
@@ -34,5 +38,188 @@ impl ProtocolMap {
     /// The cell of a transient and a window.
     pub fn cell(&self, transient: f64, window: f64) -> Option<&ProtocolCell> {
         self.cells.iter().find(|cell| cell.transient == transient && cell.window == window)
+    }
+}
+
+/// Distinct gaps that one run has in every window; none for windows that it did not reach.
+type Counts = Vec<Option<u32>>;
+
+/// The first impact of each gap after each transient: all that the windows need.
+struct FirstPassages<'a> {
+    transients: &'a [f64],
+    /// `times[transient][gap]`, infinite until known.
+    times: Vec<Vec<f64>>,
+    /// For each gap the number of transients whose first impact is known.
+    known: Vec<usize>,
+}
+
+impl<'a> FirstPassages<'a> {
+    fn new(transients: &'a [f64], gaps: usize) -> Self {
+        FirstPassages {
+            transients,
+            times: vec![vec![f64::INFINITY; gaps]; transients.len()],
+            known: vec![0; gaps],
+        }
+    }
+
+    fn see(&mut self, time: f64, gap: usize) {
+        let gap = gap % self.known.len();
+        let known = &mut self.known[gap];
+        while self.transients.get(*known).is_some_and(|&transient| time > transient) {
+            self.times[*known][gap] = time;
+            *known += 1;
+        }
+    }
+
+    /// Distinct gaps in every window (T, T + W] that ends by `until`.
+    fn counts(&self, windows: &[f64], until: f64) -> Counts {
+        let mut counts = Vec::with_capacity(self.transients.len() * windows.len());
+        for (times, transient) in self.times.iter().zip(self.transients) {
+            for window in windows {
+                let end = transient + window;
+                let hit = times.iter().filter(|&&time| time <= end).count();
+                counts.push((end <= until).then_some(hit as u32));
+            }
+        }
+        counts
+    }
+}
+
+/// Runs the map.
+///
+/// # Errors
+/// [`Error::Interrupted`]; [`Error::Dynamics`] if the chain is not allowed.
+pub fn run(parameters: &ProtocolParams, progress: &Progress) -> Result<ProtocolMap, Error> {
+    let realisations = parameters.realisations;
+    let longest = |times: &[f64]| times.last().copied().unwrap_or(0.0);
+    let full = longest(&parameters.transients) + longest(&parameters.windows);
+    let until = |sigma: f64| {
+        if sigma > parameters.short_above { full.min(parameters.short_until) } else { full }
+    };
+    let work = |sigma: f64| (until(sigma) * (sigma - 0.05).max(0.01)) as u64;
+    let total: u64 = parameters.sigmas.iter().map(|&sigma| work(sigma)).sum();
+    let stage = progress.stage("protocol map", total * realisations as u64);
+    let mut failed = 0;
+    // by_cell[cell][σ][realisation]
+    let cells = parameters.transients.len() * parameters.windows.len();
+    let mut by_cell = vec![Vec::with_capacity(parameters.sigmas.len()); cells];
+    for &sigma in &parameters.sigmas {
+        let runs: Vec<Option<Counts>> = (0..realisations)
+            .into_par_iter()
+            .with_max_len(1)
+            .map(|index| {
+                let counts = realisation(parameters, sigma, index as u64, until(sigma), progress);
+                stage.advance(work(sigma));
+                counts
+            })
+            .collect::<Result<_, _>>()?;
+        failed += runs.iter().filter(|run| run.is_none()).count();
+        for (cell, rows) in by_cell.iter_mut().enumerate() {
+            rows.push(runs.iter().map(|run| run.as_ref()?[cell]).collect::<Counts>());
+        }
+    }
+    drop(stage);
+    let protocols = parameters
+        .transients
+        .iter()
+        .flat_map(|&transient| parameters.windows.iter().map(move |&window| (transient, window)));
+    let mut map = Vec::with_capacity(cells);
+    for ((transient, window), counts) in protocols.zip(by_cell) {
+        progress.check()?;
+        let gaps = parameters.chain.gaps();
+        let (rise, _) = rise::find(&parameters.sigmas, &counts, gaps, parameters.seed);
+        let half_height = rise.half_height;
+        map.push(ProtocolCell {
+            transient,
+            window,
+            half_height,
+            half_height_all: rise.half_height_all,
+            prints_as_published: half_height.is_some_and(|half| prints_as_published(half.value)),
+        });
+    }
+    Ok(ProtocolMap { parameters: parameters.clone(), cells: map, failed })
+}
+
+/// Whether a number rounds to the printed threshold with the printed digits.
+fn prints_as_published(sigma: f64) -> bool {
+    let half = 0.5 * PRINTED_THRESHOLD_UNIT;
+    (PRINTED_THRESHOLD - half..PRINTED_THRESHOLD + half).contains(&sigma)
+}
+
+/// One long run; none if the engine gave up.
+fn realisation(
+    parameters: &ProtocolParams,
+    sigma: f64,
+    index: u64,
+    until: f64,
+    progress: &Progress,
+) -> Result<Option<Counts>, Error> {
+    progress.check()?;
+    let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, index);
+    let scenario = Scenario::draw(&parameters.chain, sigma, &mut normals);
+    let mut engine = Engine::new(&scenario)
+        .map_err(|source| Error::Dynamics { experiment: "protocol map", source })?;
+    let mut passages = FirstPassages::new(&parameters.transients, scenario.gaps());
+    let mut seen = 0_u32;
+    let ended = engine.run(until, |impact| {
+        passages.see(impact.time, impact.gap);
+        seen = seen.wrapping_add(1);
+        !seen.is_multiple_of(4096) || !progress.stopped()
+    });
+    progress.check()?;
+    match ended {
+        Ok(()) => Ok(Some(passages.counts(&parameters.windows, until))),
+        Err(dynamics::Error::Work { .. }) => Ok(None),
+        Err(source) => Err(Error::Dynamics { experiment: "protocol map", source }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::experiments::observe::{self, Outcome};
+    use crate::params::{Profile, Protocol};
+
+    #[test]
+    fn windows_by_hand() {
+        let mut passages = FirstPassages::new(&[1.0, 5.0], 3);
+        for (time, gap) in [(0.5, 0), (1.0, 1), (2.0, 0), (3.0, 0), (6.0, 1), (9.0, 0)] {
+            passages.see(time, gap);
+        }
+        // After 1: gap 0 at 2, gap 1 at 6. After 5: gap 1 at 6, gap 0 at 9.
+        let counts = passages.counts(&[1.0, 4.0, 5.0], 9.5);
+        assert_eq!(counts, [Some(1), Some(1), Some(2), Some(1), Some(2), None]);
+    }
+
+    #[test]
+    fn one_run_reads_every_window_as_its_own_run_would() {
+        let mut parameters = ProtocolParams::new(Profile::Quick);
+        parameters.chain.masses = 20;
+        parameters.transients = vec![20.0, 50.0, 100.0];
+        parameters.windows = vec![20.0, 50.0];
+        let quiet = Progress::silent();
+        let mut most = 0;
+        for index in 0..6 {
+            let counts = realisation(&parameters, 0.16, index, 150.0, &quiet).unwrap().unwrap();
+            let mut cell = counts.iter();
+            for &transient in &parameters.transients {
+                for &window in &parameters.windows {
+                    let protocol = Protocol { transient, window };
+                    let key = (parameters.stream.as_str(), parameters.seed, index);
+                    let chain = &parameters.chain;
+                    let alone = observe::realisation(chain, protocol, 0.16, key, &quiet).unwrap();
+                    let Outcome::Counted(alone) = alone else { panic!("{alone:?}") };
+                    assert_eq!(cell.next(), Some(&Some(alone.distinct)));
+                    most = most.max(alone.distinct);
+                }
+            }
+        }
+        assert!(most > 3, "a sample without impacts tests nothing");
+    }
+
+    #[test]
+    fn rounding_to_the_printed_digits() {
+        assert!(prints_as_published(0.115) && prints_as_published(0.1249));
+        assert!(!prints_as_published(0.1149) && !prints_as_published(0.1251));
     }
 }

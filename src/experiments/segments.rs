@@ -1,5 +1,7 @@
 //! The motions of Figs. 5(b) and 6(b): saved scenarios, replayed by the engine.
 
+use super::Error;
+use crate::dynamics::{Engine, Impact, Scenario};
 use serde::{Deserialize, Serialize};
 
 /// The two segments.
@@ -41,4 +43,151 @@ pub struct SegmentImpact {
     pub position: f64,
     /// Closing speed.
     pub closing_speed: f64,
+}
+
+/// Points of the grid between two impacts, at least.
+const POINTS: usize = 200;
+
+/// The files of the saved scenarios, below the templates directory.
+pub const FILES: [&str; 2] = ["scenarios/fig05.json", "scenarios/fig06.json"];
+
+/// The impacts, as gaps, that Figs. 5 and 6 of the paper show (Sec. 5).
+pub const ORDERS: [&[usize]; 2] = [&[0, 1, 3], &[0, 0, 1, 0, 2, 1, 3, 3]];
+
+/// A saved scenario.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Saved {
+    scenario: serde_json::Value,
+    from: f64,
+    until: f64,
+    order: Vec<usize>,
+}
+
+/// Replays both segments from the texts of [`FILES`].
+///
+/// # Errors
+/// [`Error::Scenario`] names the file if it is broken, if the engine refuses it, or if its impacts
+/// are not those of the paper's figure.
+pub fn run(texts: [&str; 2]) -> Result<Segments, Error> {
+    let [fig05, fig06] = [0, 1].map(|i| replay(FILES[i], texts[i], ORDERS[i]));
+    Ok(Segments { fig05: fig05?, fig06: fig06? })
+}
+
+fn replay(file: &str, text: &str, order: &[usize]) -> Result<Segment, Error> {
+    let fault = |problem: String| Error::Scenario { file: file.into(), problem };
+    let saved: Saved = serde_json::from_str(text).map_err(|error| fault(error.to_string()))?;
+    let inner = saved.scenario.to_string();
+    let scenario = Scenario::from_json(&inner).map_err(|error| fault(error.to_string()))?;
+    if saved.order != order || !(0.0 <= saved.from && saved.from < saved.until) {
+        return Err(fault("order, from or until is not that of the figure".into()));
+    }
+    let segment = record(&scenario, saved.from, saved.until).map_err(|e| fault(e.to_string()))?;
+    let found: Vec<usize> = segment.impacts.iter().map(|impact| impact.gap).collect();
+    if found != order {
+        return Err(fault(format!("the engine has the impacts {found:?}, not {order:?}")));
+    }
+    Ok(segment)
+}
+
+/// Runs a scenario and records positions and impacts from `from` to `until`.
+fn record(scenario: &Scenario, from: f64, until: f64) -> Result<Segment, crate::dynamics::Error> {
+    let mut engine = Engine::new(scenario)?;
+    engine.run(from, |_| true)?;
+    let masses = scenario.forcing.len();
+    let mut segment = Segment {
+        spacing: scenario.spacing,
+        masses,
+        from,
+        until,
+        times: Vec::new(),
+        positions: vec![Vec::new(); masses],
+        impacts: Vec::new(),
+    };
+    let step = (until - from) / POINTS as f64;
+    for point in 0..=POINTS {
+        let time = if point == POINTS { until } else { from + point as f64 * step };
+        // The engine stops after each impact, because positions are exact only up to the next.
+        while let Some(impact) = next_impact(&mut engine, time)? {
+            let positions = engine.positions(impact.time);
+            let place = match impact.gap {
+                0 => 0.0,
+                gap if gap <= masses => positions[gap - 1],
+                _ => positions[masses - 1],
+            };
+            segment.impacts.push(SegmentImpact {
+                time: impact.time,
+                gap: impact.gap,
+                position: place,
+                closing_speed: impact.closing_speed,
+            });
+            segment.push(impact.time, positions);
+        }
+        segment.push(time, engine.positions(time));
+    }
+    Ok(segment)
+}
+
+fn next_impact(engine: &mut Engine, until: f64) -> Result<Option<Impact>, crate::dynamics::Error> {
+    let mut found = None;
+    engine.run(until, |impact| {
+        found = Some(impact);
+        false
+    })?;
+    Ok(found)
+}
+
+impl Segment {
+    fn push(&mut self, time: f64, positions: Vec<f64>) {
+        self.times.push(time);
+        self.positions.iter_mut().zip(positions).for_each(|(track, x)| track.push(x));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SCENARIO: &str = r#"{"forcing":[[0.9,-0.4],[-0.7,0.8],[0.3,0.9]]}"#;
+
+    fn text(order: &str, until: f64) -> String {
+        format!(r#"{{"scenario":{SCENARIO},"from":1.0,"until":{until},"order":{order}}}"#)
+    }
+
+    #[test]
+    fn positions_are_continuous_and_meet_at_impacts() {
+        let scenario = Scenario::from_json(SCENARIO).unwrap();
+        let segment = record(&scenario, 1.0, 20.0).unwrap();
+        assert!(segment.impacts.len() > 5, "{}", segment.impacts.len());
+        assert!(segment.times.windows(2).all(|w| w[0] <= w[1]));
+        for track in &segment.positions {
+            // No mass moves faster than a few d ω.
+            for (x, t) in track.windows(2).zip(segment.times.windows(2)) {
+                assert!((x[1] - x[0]).abs() <= 10.0 * (t[1] - t[0]) + 1e-12);
+            }
+        }
+        for impact in &segment.impacts {
+            let at = segment.times.iter().position(|&t| t == impact.time).unwrap();
+            let bodies = [
+                0.0,
+                segment.positions[0][at],
+                segment.positions[1][at],
+                segment.positions[2][at],
+                4.0,
+            ];
+            assert!((bodies[impact.gap] - bodies[impact.gap + 1]).abs() < 1e-12);
+            assert!((bodies[impact.gap] - impact.position).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn a_scenario_must_do_what_it_was_saved_for() {
+        let order = &[0, 1, 3];
+        assert!(replay("x.json", &text("[0,1,3]", 20.0), order).is_err_and(|error| {
+            error.to_string().starts_with("x.json: the engine has the impacts [")
+        }));
+        assert!(replay("x.json", &text("[0,1]", 20.0), order).is_err());
+        assert!(replay("x.json", &text("[0,1,3]", 0.5), order).is_err());
+        assert!(replay("x.json", "{", order).is_err());
+    }
 }

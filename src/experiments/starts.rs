@@ -1,8 +1,9 @@
 //! What the choices that the paper leaves open change: the start, walls or ring, r and Ω.
 
 use super::rise::Rise;
-use super::sweep::SweepRow;
-use crate::params::{Chain, StartsParams};
+use super::sweep::{self, SweepRow};
+use super::{Error, Progress};
+use crate::params::{Chain, StartsParams, SweepParams};
 use serde::{Deserialize, Serialize};
 
 /// The variants, the paper's chain first.
@@ -32,4 +33,34 @@ impl Starts {
     pub fn variant(&self, name: &str) -> Option<&Variant> {
         self.variants.iter().find(|variant| variant.name == name)
     }
+}
+
+/// Runs all variants.
+///
+/// # Errors
+/// [`Error::Interrupted`]; [`Error::Dynamics`] if a chain is not allowed.
+pub fn run(parameters: &StartsParams, progress: &Progress) -> Result<Starts, Error> {
+    let variants = parameters
+        .variants
+        .iter()
+        .map(|variant| {
+            let ensemble = SweepParams {
+                chain: variant.chain.clone(),
+                protocol: parameters.protocol,
+                sigmas: variant.sigmas.clone(),
+                realisations: parameters.realisations,
+                stream: parameters.stream.clone(),
+                seed: parameters.seed,
+            };
+            let name = format!("variant {}", variant.name);
+            let sweep = sweep::run(&ensemble, &name, progress)?;
+            Ok(Variant {
+                name: variant.name.clone(),
+                chain: variant.chain.clone(),
+                rows: sweep.rows,
+                rise: sweep.rise,
+            })
+        })
+        .collect::<Result<_, Error>>()?;
+    Ok(Starts { parameters: parameters.clone(), variants })
 }

@@ -19,7 +19,7 @@ pub struct Sweep {
     pub parameters: SweepParams,
     /// One row for each σ, rising.
     pub rows: Vec<SweepRow>,
-    /// Where the rise is.
+    /// Where the rise is, read from the comparable rows.
     pub rise: Rise,
 }
 
@@ -99,8 +99,9 @@ pub fn run(parameters: &SweepParams, name: &str, progress: &Progress) -> Result<
     let mut counts = Vec::with_capacity(parameters.sigmas.len());
     for &sigma in &parameters.sigmas {
         let Sample { row, distinct } = at(parameters, sigma, &stage, progress)?;
+        // A row of which many starts overlapped is shown, but no place is read from it.
+        counts.push(if row.comparable { distinct } else { vec![None; distinct.len()] });
         rows.push(row);
-        counts.push(distinct);
     }
     drop(stage);
     progress.check()?;

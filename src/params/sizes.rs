@@ -195,7 +195,7 @@ impl StartsParams {
     }
 }
 
-/// Twin runs that differ in the last bit of one amplitude.
+/// Twin runs that differ in the last bit of every amplitude.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct HorizonParams {
     /// The chain without its forcing.
@@ -257,11 +257,11 @@ impl TwoMassesParams {
                 _ => vec![1e2, 1e3],
             },
             directions: match profile {
-                Profile::Full => 200,
-                Profile::Ci => 50,
-                Profile::Quick => 20,
+                Profile::Full => 40,
+                Profile::Ci => 20,
+                Profile::Quick => 10,
             },
-            halvings: 40,
+            halvings: 28,
             stream: "two-masses".into(),
             seed: SEED,
         }
