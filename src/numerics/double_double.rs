@@ -97,7 +97,8 @@ impl From<usize> for DoubleDouble {
 impl From<u128> for DoubleDouble {
     /// Exact below 2^106, wrong from 2^117 on.
     fn from(x: u128) -> Self {
-        let (upper, lower) = ((x >> 53) as u64 as f64 * 9_007_199_254_740_992.0, x & ((1 << 53) - 1));
+        let (upper, lower) =
+            ((x >> 53) as u64 as f64 * 9_007_199_254_740_992.0, x & ((1 << 53) - 1));
         two_sum(upper, lower as u64 as f64)
     }
 }
