@@ -94,6 +94,22 @@ pub const SECOND_SEED: u64 = 7002;
 /// Number of vertices N of the theory's main curves (Figs. 7 to 9: 100).
 pub const VERTICES: usize = 100;
 
+/// Edge probabilities of Fig. 8 (a) to (d).
+pub const DISTRIBUTION_P: [f64; 4] = [0.01, 0.02, 0.05, 0.1];
+
+/// Edge probabilities of Fig. 13: panels (a) and (b) share the first, then (c) and (d).
+pub const HIGHER_P: [f64; 3] = [0.005, 0.01, 0.05];
+
+/// Edge probabilities of Fig. 14 (a) and (b).
+pub const CONVERGENCE_P: [f64; 2] = [0.015, 0.04];
+
+/// Edge probabilities of the remarks on Sec. 9 (ours, from the rise of the theory outwards).
+pub const REMARK_P: [f64; 7] = [0.001, 0.005, 0.01, 0.015, 0.02, 0.04, 0.05];
+
+/// Number of vertices N at which printed class formulas are set against enumeration (ours: small
+/// enough to list all circuits, and coprime to 2, 3 and 4).
+pub const ENUMERATED_VERTICES: usize = 5;
+
 /// Two impacts of adjacent gaps closer in time than this count as near-simultaneous (ours, 1/ω).
 pub const NEAR_SIMULTANEOUS: f64 = 1e-9;
 

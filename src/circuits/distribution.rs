@@ -173,6 +173,23 @@ impl Law {
         })
     }
 
+    /// What one of the five classes contributes to P(X = k), k = 1..=N: the classes add up to
+    /// [`Law::probabilities`]. For a sample space of five classes.
+    pub fn contribution(&self, class: &higher_order::FiveClass) -> Vec<f64> {
+        let total = self.sums().total;
+        let extra = (0..class.class().excess()).fold(Scaled::ONE, |w, _| w * self.p);
+        let mut weights = self.weights();
+        (1..=self.big_n)
+            .map(|k| {
+                while weights.k < k {
+                    weights.advance();
+                }
+                let circuits = DoubleDouble::from(class.per_simple_circuit(self.space, k));
+                (weights.arranged * circuits * extra / (Scaled::from(k) * total)).to_f64()
+            })
+            .collect()
+    }
+
     /// ln Γ_{N,p} (−∞ at p = 0).
     pub fn log_gamma(&self) -> f64 {
         (self.sums().total * Scaled::from(self.p)).ln()

@@ -1,16 +1,43 @@
 //! The graph theory of Secs. 3 to 9 as numbers: what Figs. 7 to 15 draw and what the text quotes.
 //!
-//! Cheap and in memory: [`run`] takes some hundredths of a second and nothing is saved. Distributions are
-//! vectors over k = 1..=N (index i holds k = i + 1).
+//! Cheap and in memory: [`run`] takes some tenths of a second at most and nothing is saved.
+//! Distributions are vectors over k = 1..=N (index i holds k = i + 1).
 
+mod curves;
+mod distributions;
+mod jump;
 mod results;
+mod slips;
 
 pub use results::*;
 
-/// Computes everything for a graph of `vertices` vertices (main curves) and of one more (thin curves).
+use crate::circuits::Error;
+use crate::params::{CONVERGENCE_P, DISTRIBUTION_P, HIGHER_P};
+
+/// Computes everything for a graph of `vertices` vertices (main curves) and of one more (thin
+/// curves).
 ///
 /// # Errors
-/// None for the paper's N = 100; see [`crate::circuits::Error`] for N that are too small or large.
-pub fn run(_vertices: usize) -> Result<Theory, String> {
-    todo!()
+/// None for the paper's N = 100; [`Error`] for N without a jump (N ≤ 3) or too large.
+pub fn run(vertices: usize) -> Result<Theory, Error> {
+    let scalars = jump::scalars(vertices)?;
+    let each = |values: &[f64], one: fn(usize, f64) -> Result<HigherDistribution, Error>| {
+        values.iter().map(|p| one(vertices, *p)).collect::<Result<Vec<_>, _>>()
+    };
+    let simple = |p: &f64| distributions::simple(vertices, *p);
+    Ok(Theory {
+        vertices,
+        simple_circuits: distributions::simple_circuits(vertices)?,
+        distributions: DISTRIBUTION_P.iter().map(simple).collect::<Result<_, _>>()?,
+        most_likely: curves::most_likely(vertices, &scalars)?,
+        mechanism: jump::mechanism(vertices, &scalars)?,
+        relation: curves::relation()?,
+        curve: curves::curve(vertices)?,
+        curve_walls: curves::curve(vertices + 1)?,
+        higher: each(&HIGHER_P, distributions::higher)?,
+        convergence: each(&CONVERGENCE_P, distributions::higher)?,
+        slips: slips::slips(vertices)?,
+        scalars,
+        scalars_walls: jump::scalars(vertices + 1)?,
+    })
 }

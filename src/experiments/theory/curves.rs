@@ -1,0 +1,65 @@
+//! Curves over p and over σ: Figs. 9, 11, 12 and 15.
+
+use super::{Curve, CurveRow, MeanRow, MostLikely, RelationRow, Scalars, Step};
+use crate::circuits::distribution::{Law, SampleSpace};
+use crate::circuits::impact_probability::ImpactProbability;
+use crate::circuits::{Error, jump};
+use crate::params::Grid;
+
+/// The σ axis of Figs. 11, 12 and 15: 0.02 to 0.4 in steps of 0.001.
+fn sigmas() -> Vec<f64> {
+    Grid::default().and(20, 400, 1, 1000).values()
+}
+
+/// Fig. 9: k* with its exact steps, μ on two grids.
+pub fn most_likely(vertices: usize, scalars: &Scalars) -> Result<MostLikely, Error> {
+    let mut steps =
+        vec![Step { p: 0.0, k_star: 1 }, Step { p: scalars.p_jump, k_star: scalars.k_after_jump }];
+    for k in scalars.k_after_jump..vertices.saturating_sub(1) {
+        steps.push(Step { p: jump::step(vertices, k), k_star: k + 1 });
+    }
+    // Finest where μ rises, up to p = 0.05.
+    let whole = Grid::default().and(0, 49, 1, 1000).and(10, 200, 1, 200).values();
+    let inset = Grid::default().and(0, 400, 1, 10_000).values();
+    let means = |grid: Vec<f64>| -> Result<Vec<MeanRow>, Error> {
+        grid.into_iter().map(|p| mean_row(vertices, p)).collect()
+    };
+    Ok(MostLikely { steps, mean: means(whole)?, mean_inset: means(inset)? })
+}
+
+fn mean(space: SampleSpace, vertices: usize, p: f64) -> Result<f64, Error> {
+    Ok(Law::new(space, vertices, p)?.mean())
+}
+
+fn mean_row(vertices: usize, p: f64) -> Result<MeanRow, Error> {
+    Ok(MeanRow {
+        p,
+        mean: mean(SampleSpace::Simple, vertices, p)?,
+        mean_higher: mean(SampleSpace::FiveClasses, vertices, p)?,
+    })
+}
+
+/// Fig. 11.
+pub fn relation() -> Result<Vec<RelationRow>, Error> {
+    let row = |sigma| {
+        let law = ImpactProbability::of_paper(sigma)?;
+        Ok(RelationRow { sigma, p: law.p()?, log_p: law.log_p()?, p_rest: law.p_from_rest()? })
+    };
+    sigmas().into_iter().map(row).collect()
+}
+
+/// Figs. 12 and 15, the theory for one N.
+pub fn curve(vertices: usize) -> Result<Curve, Error> {
+    let row = |sigma| {
+        let law = ImpactProbability::of_paper(sigma)?;
+        let p = law.p()?;
+        Ok(CurveRow {
+            sigma,
+            simple: mean(SampleSpace::Simple, vertices, p)?,
+            higher: mean(SampleSpace::FiveClasses, vertices, p)?,
+            simple_rest: mean(SampleSpace::Simple, vertices, law.p_from_rest()?)?,
+        })
+    };
+    let rows = sigmas().into_iter().map(row).collect::<Result<_, Error>>()?;
+    Ok(Curve { vertices, rows })
+}
