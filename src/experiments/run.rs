@@ -1,0 +1,88 @@
+//! Runs what is needed, and nothing else; long runs are taken from the store.
+
+use super::{Error, Need, Progress, Results, Store};
+use super::{horizon, laws, protocol, segments, starts, sweep, two_masses};
+use crate::params::{
+    HorizonParams, Profile, ProtocolParams, StartsParams, SweepParams, TwoMassesParams,
+};
+
+/// Runs the experiments behind `needs` with the sample sizes of a profile. `scenarios` gives the
+/// text of a file of [`segments::FILES`]; it is asked only if [`Need::Segments`] is among them.
+///
+/// # Errors
+/// [`Error::Interrupted`], or whatever the first failing experiment returns.
+pub fn run(
+    needs: &[Need],
+    profile: Profile,
+    scenarios: impl Fn(&str) -> Result<String, String>,
+    store: &Store,
+    progress: &Progress,
+) -> Result<Results, Error> {
+    let needs = |need| needs.contains(&need);
+    let mut results = Results::empty(profile);
+    if needs(Need::Segments) {
+        let text = |file: &str| {
+            scenarios(file).map_err(|problem| Error::Scenario { file: file.into(), problem })
+        };
+        let [fig05, fig06] = segments::FILES.map(text);
+        results.segments = Some(segments::run([&fig05?, &fig06?])?);
+    }
+    if needs(Need::Sweep) || needs(Need::Laws) {
+        let parameters = SweepParams::main(profile);
+        let run = || sweep::run(&parameters, "main sweep", progress);
+        results.sweep = Some(store.get("sweep", &parameters, progress, run)?);
+    }
+    if let (true, Some(sweep)) = (needs(Need::Laws), &results.sweep) {
+        results.laws = Some(laws::run(&sweep.rows));
+    }
+    if needs(Need::SecondSeed) {
+        let parameters = SweepParams::second_seed(profile);
+        let run = || sweep::run(&parameters, "second seed", progress);
+        results.second_seed = Some(store.get("second-seed", &parameters, progress, run)?);
+    }
+    if needs(Need::Protocol) {
+        let parameters = ProtocolParams::new(profile);
+        let run = || protocol::run(&parameters, progress);
+        results.protocol = Some(store.get("protocol", &parameters, progress, run)?);
+    }
+    if needs(Need::Starts) {
+        let parameters = StartsParams::new(profile);
+        let run = || starts::run(&parameters, progress);
+        results.starts = Some(store.get("starts", &parameters, progress, run)?);
+    }
+    if needs(Need::Horizon) {
+        let parameters = HorizonParams::new(profile);
+        let run = || horizon::run(&parameters, progress);
+        results.horizon = Some(store.get("horizon", &parameters, progress, run)?);
+    }
+    if needs(Need::TwoMasses) {
+        let parameters = TwoMassesParams::new(profile);
+        let run = || two_masses::run(&parameters, progress);
+        results.two_masses = Some(store.get("two-masses", &parameters, progress, run)?);
+    }
+    progress.check()?;
+    Ok(results)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_what_is_needed_runs() {
+        let none = |_: &str| Err("not there".to_string());
+        let quiet = Progress::silent();
+        let needs = [Need::TwoMasses];
+        let results = run(&needs, Profile::Quick, none, &Store::nowhere(), &quiet).unwrap();
+        assert!(results.two_masses().is_ok());
+        assert!(results.sweep.is_none() && results.laws.is_none() && results.segments.is_none());
+    }
+
+    #[test]
+    fn a_missing_scenario_is_named() {
+        let none = |_: &str| Err("not there".to_string());
+        let (store, quiet) = (Store::nowhere(), Progress::silent());
+        let error = run(&[Need::Segments], Profile::Quick, none, &store, &quiet).unwrap_err();
+        assert!(error.to_string().starts_with("scenarios/fig05.json: not there"), "{error}");
+    }
+}
