@@ -1,0 +1,341 @@
+//! Every figure: well-formed, inside its frame, labelled, described, with its data, and the same
+//! bytes each time.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::LazyLock;
+
+use impact_paper::experiments::segments::{Segment, SegmentImpact, Segments};
+use impact_paper::experiments::{Progress, Results, sweep};
+use impact_paper::figures::{self, Error, Figure};
+use impact_paper::params::{Profile, SweepParams};
+use roxmltree::{Document, Node};
+
+/// A drawn motion is enough here: that the engine's impacts have the right order is tested where
+/// the saved scenarios are replayed.
+fn segment(order: &[usize]) -> Segment {
+    let times: Vec<f64> = (0..=160).map(|i| 300.0 + f64::from(i) * 0.05).collect();
+    let positions = (1..=3_u32)
+        .map(|j| times.iter().map(|t| f64::from(j) + 0.4 * (t + f64::from(j)).sin()).collect())
+        .collect();
+    let impacts = order
+        .iter()
+        .enumerate()
+        .map(|(i, &gap)| SegmentImpact {
+            time: 300.5 + 0.9 * i as f64,
+            gap,
+            position: [0.0, 1.5, 2.5, 4.0][gap],
+            closing_speed: 0.3,
+        })
+        .collect();
+    Segment { spacing: 1.0, masses: 3, from: 300.0, until: 308.0, times, positions, impacts }
+}
+
+fn results(profile: Profile) -> Results {
+    let parameters = SweepParams {
+        sigmas: vec![0.05, 0.1, 0.12, 0.15, 0.2, 0.4],
+        realisations: 6,
+        ..SweepParams::main(Profile::Quick)
+    };
+    let mut results = Results::empty(profile);
+    results.sweep = Some(sweep::run(&parameters, "test", &Progress::silent()).unwrap());
+    results.segments =
+        Some(Segments { fig05: segment(&[0, 1, 3]), fig06: segment(&[0, 0, 1, 0, 2, 1, 3, 3]) });
+    results
+}
+
+/// Quick results, computed once.
+fn quick() -> &'static Results {
+    static QUICK: LazyLock<Results> = LazyLock::new(|| results(Profile::Quick));
+    &QUICK
+}
+
+fn all(results: &Results) -> Vec<Figure> {
+    figures::ALL.map(|number| figures::draw(number, results).unwrap()).collect()
+}
+
+/// Numbers of a list such as `1,2 3,4`.
+fn numbers(list: &str) -> Vec<f64> {
+    list.split([' ', ','])
+        .filter(|s| !s.is_empty())
+        .map(|s| s.parse().unwrap_or_else(|_| panic!("{s:?} is not a number")))
+        .collect()
+}
+
+fn pairs(list: &str) -> Vec<(f64, f64)> {
+    numbers(list).chunks(2).map(|c| (c[0], c[1])).collect()
+}
+
+fn view(document: &Document) -> (f64, f64) {
+    let view = numbers(document.root_element().attribute("viewBox").unwrap());
+    assert_eq!(&view[..2], [0.0, 0.0]);
+    (view[2], view[3])
+}
+
+/// A label: its words and its box on the sheet.
+#[derive(Debug)]
+struct Label {
+    words: String,
+    x: (f64, f64),
+    y: (f64, f64),
+}
+
+/// Labels with the boxes of their letters, from the base line to the height of a capital.
+fn labels(document: &Document) -> Vec<Label> {
+    let labelled = |n: &Node| n.tag_name().name() == "g" && n.attribute("aria-label").is_some();
+    document.descendants().filter(labelled).map(|group| label(&group)).collect()
+}
+
+fn label(group: &Node) -> Label {
+    let transform = group.attribute("transform").unwrap();
+    let inner = |name: &str| {
+        let rest = transform.split(&format!("{name}(")).nth(1)?;
+        Some(numbers(rest.split(')').next().unwrap()))
+    };
+    let (at, scale) = (inner("translate").unwrap(), inner("scale").unwrap()[0]);
+    let uses = || group.children().filter(|n| n.tag_name().name() == "use");
+    let mut extent = (f64::MAX, f64::MIN);
+    let mut base = 0.0;
+    for glyph in uses() {
+        let (x, wide) = match glyph.attribute("transform") {
+            Some(moved) => (numbers(moved[10..].split(')').next().unwrap())[0], 330.0),
+            None => {
+                base = glyph.attribute("y").unwrap().parse().unwrap();
+                (glyph.attribute("x").unwrap().parse().unwrap(), 470.0)
+            }
+        };
+        extent = (extent.0.min(x), extent.1.max(x + wide));
+    }
+    let (along, across) =
+        ((extent.0 * scale, extent.1 * scale), (base * scale, (base + 640.0) * scale));
+    let words = group.attribute("aria-label").unwrap().to_string();
+    if inner("rotate").is_some() {
+        let x = (at[0] - across.1, at[0] - across.0);
+        Label { words, x, y: (at[1] - along.1, at[1] - along.0) }
+    } else {
+        let y = (at[1] - across.1, at[1] - across.0);
+        Label { words, x: (at[0] + along.0, at[0] + along.1), y }
+    }
+}
+
+#[test]
+fn every_figure_is_a_titled_and_described_picture() {
+    let drawn = all(quick());
+    assert_eq!(drawn.len(), 15);
+    for (number, figure) in (1..).zip(&drawn) {
+        assert_eq!(figure.id, format!("fig{number:02}"));
+        let document = Document::parse(&figure.svg).unwrap();
+        let root = document.root_element();
+        assert_eq!(root.attribute("role"), Some("img"));
+        let text = |name: &str| {
+            let id = format!("{}-{name}", figure.id);
+            assert!(root.attribute("aria-labelledby").unwrap().contains(&id));
+            let node = document.descendants().find(|n| n.attribute("id") == Some(&id));
+            node.unwrap().text().unwrap().to_string()
+        };
+        assert_eq!(text("title"), figure.title);
+        assert_eq!(text("desc"), figure.description);
+        assert!(figure.description.chars().count() > 150, "{}", figure.id);
+        assert!(figure.description.chars().any(|c| c.is_ascii_digit()), "{}", figure.id);
+        assert!(!figure.description.contains("NaN") && !figure.description.contains("  "));
+        // Nothing that depends on the reader's fonts, and every glyph that is used is there.
+        assert!(!figure.svg.contains("<text") && !figure.svg.contains("font-family"));
+        let ids: BTreeSet<_> = document.descendants().filter_map(|n| n.attribute("id")).collect();
+        for used in document.descendants().filter_map(|n| n.attribute("href")) {
+            assert!(ids.contains(used.trim_start_matches('#')), "{}: {used}", figure.id);
+        }
+    }
+}
+
+#[test]
+fn all_coordinates_are_finite_and_on_the_sheet() {
+    for figure in all(quick()) {
+        let document = Document::parse(&figure.svg).unwrap();
+        let (width, height) = view(&document);
+        let on_sheet = |x: f64, y: f64| (0.0..=width).contains(&x) && (0.0..=height).contains(&y);
+        let mut points = 0;
+        for node in document.descendants() {
+            if let Some(list) = node.attribute("points") {
+                for (x, y) in pairs(list) {
+                    assert!(on_sheet(x, y), "{}: {x}, {y}", figure.id);
+                    points += 1;
+                }
+            }
+            let get = |name: &str| node.attribute(name).map_or(0.0, |v| v.parse().unwrap());
+            if node.tag_name().name() == "rect" {
+                assert!(on_sheet(get("x"), get("y")), "{}", figure.id);
+                assert!(on_sheet(get("x") + get("width"), get("y") + get("height")));
+            }
+            if node.tag_name().name() == "circle" {
+                let (x, y, r) = (get("cx"), get("cy"), get("r"));
+                assert!(on_sheet(x - r, y - r) && on_sheet(x + r, y + r), "{}", figure.id);
+            }
+        }
+        assert!(points > 50, "{} has only {points} points", figure.id);
+        assert!(!figure.svg.contains("NaN") && !figure.svg.contains("inf"), "{}", figure.id);
+    }
+}
+
+#[test]
+fn labels_are_on_the_sheet_and_do_not_overlap() {
+    for figure in all(quick()) {
+        let document = Document::parse(&figure.svg).unwrap();
+        let (width, height) = view(&document);
+        let labels = labels(&document);
+        for (i, a) in labels.iter().enumerate() {
+            let inside = a.x.0 >= 0.0 && a.x.1 <= width && a.y.0 >= 0.0 && a.y.1 <= height;
+            assert!(inside, "{}: {a:?} is cut", figure.id);
+            for b in &labels[i + 1..] {
+                let apart = a.x.1 <= b.x.0 || b.x.1 <= a.x.0 || a.y.1 <= b.y.0 || b.y.1 <= a.y.0;
+                assert!(apart, "{}: {a:?} and {b:?} overlap", figure.id);
+            }
+        }
+    }
+}
+
+#[test]
+fn axes_carry_their_labels() {
+    let expected: [(usize, &[&str]); 14] = [
+        (1, &["d", "nd", "(n+1)d", "Δ_1(t)"]),
+        (2, &["standard deviation σ of the forcing", "most likely number of impacts"]),
+        (3, &["standard deviation σ of the forcing", "expected number of impacts", "kept share"]),
+        (4, &["L–1", "1–2", "2–3", "3–R"]),
+        (5, &["time t (1/ω)", "position x_j / d", "L–1", "3–R"]),
+        (6, &["time t (1/ω)", "position x_j / d", "8"]),
+        (7, &["length k", "ϕ_N(k) / ϕ_N^tot"]),
+        (8, &["k", "P(X = k)", "p = 0.01", "p = 0.02", "p = 0.05", "p = 0.1"]),
+        (9, &["p", "k^∗", "μ"]),
+        (10, &["k", "f_N,p(k)", "Φ_N,p(k) / Γ_N,p", "(b) p = p_crit = 0.01221"]),
+        (11, &["standard deviation σ of the forcing", "p", "10^−4"]),
+        (12, &["standard deviation σ of the forcing", "graph theory, N = 101"]),
+        (13, &["k", "P(X = k)", "p = 0.005, detail", "two vertices twice, ϕ_N^2"]),
+        (15, &["expected number of impacts", "with higher orders", "simple circuits only"]),
+    ];
+    let drawn = all(quick());
+    for (number, words) in expected {
+        let document = Document::parse(&drawn[number - 1].svg).unwrap();
+        let labels: Vec<_> = labels(&document).into_iter().map(|l| l.words).collect();
+        for word in words {
+            assert!(labels.iter().any(|l| l == word), "Fig. {number} lacks {word:?}: {labels:?}");
+        }
+    }
+}
+
+#[test]
+fn no_data_lies_outside_its_frame() {
+    for figure in all(quick()) {
+        let document = Document::parse(&figure.svg).unwrap();
+        let groups: Vec<_> =
+            document.descendants().filter(|n| n.attribute("class") == Some("data")).collect();
+        let schematic = ["fig01", "fig04"].contains(&figure.id.as_str());
+        assert_eq!(groups.is_empty(), schematic, "{}", figure.id);
+        for group in groups {
+            let name = group.attribute("data-name").unwrap();
+            let frame = numbers(group.attribute("data-frame").unwrap());
+            let mut points = Vec::new();
+            for node in group.descendants() {
+                if let Some(list) = node.attribute("points") {
+                    points.extend(pairs(list));
+                }
+                // A marker begins at most its half width before its place.
+                let half = 90.0;
+                for mark in node.attribute("d").unwrap_or_default().split('M').skip(1) {
+                    let head = mark.split(|c: char| c.is_ascii_alphabetic()).next().unwrap();
+                    let at = numbers(head);
+                    assert!(at[0] >= frame[0] - half && at[0] <= frame[2] + half, "{name}");
+                    assert!(at[1] >= frame[1] - half && at[1] <= frame[3] + half, "{name}");
+                }
+            }
+            for (x, y) in points {
+                let inside =
+                    (frame[0]..=frame[2]).contains(&x) && (frame[1]..=frame[3]).contains(&y);
+                assert!(inside, "{}, {name}: {x}, {y} is outside {frame:?}", figure.id);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_same_results_give_the_same_bytes() {
+    let again = results(Profile::Quick);
+    for (a, b) in all(quick()).iter().zip(&all(&again)) {
+        assert!(a == b, "{} differs", a.id);
+    }
+}
+
+#[test]
+fn data_files_have_headers_with_units_and_the_rows_of_what_is_drawn() {
+    let results = quick();
+    let (n, theory) = (results.theory.vertices, &results.theory);
+    let sigmas = results.sweep.as_ref().unwrap().rows.len();
+    let mut names = BTreeSet::new();
+    let mut rows = BTreeMap::new();
+    for figure in all(&results) {
+        assert!(!figure.data.is_empty(), "{}", figure.id);
+        for file in &figure.data {
+            assert!(file.name.starts_with(&figure.id) && file.name.ends_with(".csv"));
+            assert!(names.insert(file.name.clone()), "{} twice", file.name);
+            let text = file.csv();
+            let mut reader = csv::Reader::from_reader(text.as_bytes());
+            let header = reader.headers().unwrap().clone();
+            let read: Vec<_> = reader.records().map(|r| r.unwrap()).collect();
+            assert_eq!(read.len(), file.rows.len(), "{}", file.name);
+            assert!(!read.is_empty(), "{} is empty", file.name);
+            for (column, head) in header.iter().enumerate() {
+                for record in read.iter().filter(|_| head.ends_with(')')) {
+                    let cell = &record[column];
+                    let words = !cell.is_empty() && cell.parse::<f64>().is_err();
+                    assert!(!words || file.name == "fig01.csv", "{}: {cell}", file.name);
+                    assert!(!["NaN", "inf", "-inf"].contains(&cell), "{}", file.name);
+                }
+                let text_column = ["impact", "neighbour"].iter().any(|w| head.contains(w));
+                assert!(head.ends_with(')') || text_column, "{}: {head} has no unit", file.name);
+            }
+            rows.insert(file.name.clone(), read.len());
+        }
+    }
+    for (name, expected) in [
+        ("fig02.csv", sigmas),
+        ("fig03.csv", sigmas),
+        ("fig04.csv", 16),
+        ("fig05a.csv", 3),
+        ("fig05b.csv", 161),
+        ("fig06b-impacts.csv", 8),
+        ("fig07.csv", n),
+        ("fig08d.csv", n),
+        ("fig09a.csv", theory.most_likely.steps.len()),
+        ("fig09b.csv", theory.most_likely.mean.len()),
+        ("fig10c-phi.csv", n),
+        ("fig11.csv", theory.relation.len()),
+        ("fig13a.csv", n),
+        ("fig13b.csv", 20),
+        ("fig14b.csv", n),
+    ] {
+        assert_eq!(rows.get(name), Some(&expected), "{name}");
+    }
+}
+
+#[test]
+fn less_than_the_full_profile_is_marked() {
+    let quick = all(quick());
+    for (number, figure) in (1..).zip(&quick) {
+        let marked = figure.svg.contains("profile quick: not for citation");
+        assert_eq!(marked, [2, 3, 12, 15].contains(&number), "{}", figure.id);
+    }
+    let full = all(&results(Profile::Full));
+    assert!(full.iter().all(|figure| !figure.svg.contains("not for citation")));
+}
+
+#[test]
+fn a_figure_needs_exactly_what_it_declares() {
+    let nothing = Results::empty(Profile::Quick);
+    for number in figures::ALL {
+        match figures::draw(number, &nothing) {
+            Ok(_) => assert!(figures::needs(number).is_empty(), "Fig. {number} needs nothing"),
+            Err(Error::Experiment(_)) => {
+                assert!(!figures::needs(number).is_empty(), "Fig. {number} needs something");
+            }
+            Err(other) => panic!("Fig. {number}: {other}"),
+        }
+    }
+    assert!(matches!(figures::draw(16, &nothing), Err(Error::Number(16))));
+}
