@@ -269,7 +269,7 @@ fn data_files_have_headers_with_units_and_the_rows_of_what_is_drawn() {
     let sigmas = results.sweep.as_ref().unwrap().rows.len();
     let mut names = BTreeSet::new();
     let mut rows = BTreeMap::new();
-    for figure in all(&results) {
+    for figure in all(results) {
         assert!(!figure.data.is_empty(), "{}", figure.id);
         for file in &figure.data {
             assert!(file.name.starts_with(&figure.id) && file.name.ends_with(".csv"));

@@ -17,7 +17,7 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     let sheet = Sheet::new(850 + 2350 * rows.len() as u32, None)?;
     // Beyond this k nothing changes sign again.
     let last_zero = rows.iter().filter_map(|row| row.zeros).map(|z| z[1]).fold(20.0, f64::max);
-    let shown = ((1.6 * last_zero / 10.0).ceil() * 10.0).min(theory.vertices as f64);
+    let shown = ((1.8 * last_zero / 10.0).ceil() * 10.0).min(theory.vertices as f64);
     let mut data = Vec::new();
     let mut seen = Vec::new();
     for (i, row) in rows.iter().enumerate() {
@@ -110,7 +110,7 @@ fn sign(panel: &Panel, row: &Mechanism) -> Result<(), Error> {
         )?;
         let look = (SMALL, INK, HPos::Center, VPos::Bottom);
         if zeros[0] < zeros[1] {
-            panel.note("*k*_{−}", at[0], (-60, -110), look)?;
+            panel.note("*k*_{−}", at[0], (-80, -110), look)?;
             panel.note("*k*_{+}", at[1], (60, -110), look)?;
         }
     }
