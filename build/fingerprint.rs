@@ -20,7 +20,8 @@ const SOURCES: [&str; 6] = [
 /// What lies among it and changes no saved result.
 const EXCEPT: [&str; 2] = ["src/experiments/theory", "src/experiments/progress.rs"];
 
-fn main() -> std::io::Result<()> {
+/// Prints the fingerprint for the compiler.
+pub fn run() -> std::io::Result<()> {
     let mut files = Vec::new();
     for source in SOURCES {
         println!("cargo::rerun-if-changed={source}");

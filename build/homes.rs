@@ -1,0 +1,110 @@
+//! Lists the homes of the numbered equations: every doc comment with `**Eq. (n)**` in src/, as
+//! (n, path of the item, what the comment says behind it). The report and the README's map read
+//! this list, so that neither can disagree with the source.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::{env, fs, io};
+
+/// Writes `homes.rs` for `report::equations`.
+pub fn run() -> io::Result<()> {
+    println!("cargo::rerun-if-changed=src");
+    let mut files = Vec::new();
+    collect(Path::new("src"), &mut files)?;
+    files.sort();
+    let mut out = String::from("&[\n");
+    for file in files {
+        for (number, item, note) in homes(&module(&file), &fs::read_to_string(&file)?) {
+            let _ = writeln!(out, "    ({number}, {item:?}, {note:?}),");
+        }
+    }
+    out.push_str("]\n");
+    let folder = env::var_os("OUT_DIR").map(PathBuf::from).unwrap_or_default();
+    fs::write(folder.join("homes.rs"), out)
+}
+
+fn collect(folder: &Path, into: &mut Vec<PathBuf>) -> io::Result<()> {
+    for entry in fs::read_dir(folder)? {
+        let path = entry?.path();
+        if path.is_dir() {
+            collect(&path, into)?;
+        } else if path.extension().is_some_and(|end| end == "rs") {
+            into.push(path);
+        }
+    }
+    Ok(())
+}
+
+/// src/circuits/jump.rs → circuits::jump, src/circuits/mod.rs → circuits.
+fn module(file: &Path) -> String {
+    let parts = file.iter().skip(1).filter_map(|part| part.to_str());
+    let path = parts.collect::<Vec<_>>().join("::");
+    let path = path.trim_end_matches(".rs");
+    path.strip_suffix("::mod").unwrap_or(path).to_string()
+}
+
+fn homes(module: &str, text: &str) -> Vec<(u32, String, String)> {
+    let mut found = Vec::new();
+    // Homes whose item has not been reached yet, and the type that an `impl` block is about.
+    let mut waiting: Vec<(u32, String)> = Vec::new();
+    let mut owner = String::new();
+    for line in text.lines() {
+        let code = line.trim_start();
+        if let Some(header) = line.strip_prefix("impl") {
+            owner = subject(header);
+        } else if line.starts_with('}') {
+            owner.clear();
+        }
+        if let Some(comment) = code.strip_prefix("///").or_else(|| code.strip_prefix("//!")) {
+            if let Some(rest) = comment.trim_start().strip_prefix("**Eq. (")
+                && let Some((number, note)) = rest.split_once(")**")
+                && let Ok(number) = number.parse()
+            {
+                let note = note.trim_start_matches(':').trim().to_string();
+                if code.starts_with("//!") {
+                    found.push((number, module.to_string(), note));
+                } else {
+                    waiting.push((number, note));
+                }
+            }
+        } else if !waiting.is_empty()
+            && let Some(name) = item(code)
+        {
+            let path = match owner.as_str() {
+                "" => format!("{module}::{name}"),
+                owner => format!("{module}::{owner}::{name}"),
+            };
+            found.extend(waiting.drain(..).map(|(number, note)| (number, path.clone(), note)));
+        }
+    }
+    found
+}
+
+/// `<'a> Trait for Type<'a> {` → Type.
+fn subject(header: &str) -> String {
+    let header = header.split(" for ").last().unwrap_or(header);
+    let after = match header.strip_prefix('<').and_then(|rest| rest.split_once('>')) {
+        Some((_, after)) => after,
+        None => header,
+    };
+    let name = |c: char| c.is_alphanumeric() || c == '_';
+    after.trim_start().chars().take_while(|c| name(*c)).collect()
+}
+
+/// The name of the item that a line of code declares: a function, type, constant or field.
+fn item(code: &str) -> Option<String> {
+    if code.is_empty() || code.starts_with("#[") || code.starts_with("//") {
+        return None;
+    }
+    let word = |c: char| !(c.is_alphanumeric() || c == '_');
+    let mut words = code.split(word).filter(|w| !w.is_empty());
+    let keyword = |w: &&str| {
+        matches!(*w, "fn" | "struct" | "enum" | "trait" | "const" | "static" | "type" | "mod")
+    };
+    let by_keyword = words.clone().position(|w| keyword(&w) && w != "const");
+    match by_keyword {
+        Some(i) => words.nth(i + 1).map(str::to_string),
+        // `pub const NAME`, `pub field: Type`, `Variant`.
+        None => words.find(|w| !matches!(*w, "pub" | "crate" | "const")).map(str::to_string),
+    }
+}
