@@ -211,18 +211,34 @@ pub struct Work {
     pub undecided: u64,
 }
 
-/// The root s + h of the quadratic, which falls there at `slope`, and its speed, with the cubic
-/// term put in.
+/// The root s + h of the quadratic, which falls there at `slope`, and its speed, with the terms of
+/// third to fifth order put in.
 ///
-/// What the quadratic leaves out is below the margin in f, yet not in f': at h = 1e-5 its slope
-/// f''' h²/2 is 1e-10. A grazing root, where that is not small beside the slope, is left as it is.
-fn cubic_root(s: f64, h: f64, slope: f64, p: &Point<f64>) -> (f64, f64) {
-    let bend = 0.5 * p.j * h * h;
+/// What the quadratic leaves out is below the margin in f, yet not in f': at h = 1e-5 the slope
+/// f''' h²/2 is 1e-10, and f'''' h³/6, which has one sign, would take energy from a chain. The two
+/// derivatives come from f'''' = −(ω² + Ω²) f'' − ω² Ω² (f − mean), true of any such sum.
+/// A grazing root, where the slope left out is not small beside the slope, is left as it is.
+fn polish(
+    s: f64,
+    h: f64,
+    slope: f64,
+    p: &Point<f64>,
+    frame: &Frame<f64>,
+    frequencies: &Frequencies,
+) -> (f64, f64) {
+    let (w2, big_w2) =
+        (frequencies.omega * frequencies.omega, frequencies.big_omega * frequencies.big_omega);
+    let mean = frame.f0 - frame.alpha - frame.gamma;
+    let fourth = -(w2 + big_w2) * p.h - w2 * big_w2 * (p.f - mean);
+    let fifth = -(w2 + big_w2) * p.j - w2 * big_w2 * p.g;
+    let h2 = h * h;
+    let bend = h2 * (0.5 * p.j + h * (fourth * (1.0 / 6.0) + h * fifth * (1.0 / 24.0)));
     if slope <= 2.0 * bend.abs() {
         return ((s + h).max(0.0), slope);
     }
     let speed = slope - bend;
-    let shift = bend * h / (3.0 * speed);
+    let left = h2 * h * (p.j * (1.0 / 6.0) + h * (fourth * (1.0 / 24.0)));
+    let shift = left / speed;
     ((s + (h + shift)).max(0.0), speed - p.h * shift)
 }
 
@@ -272,7 +288,7 @@ pub fn first_root(
             let rest = (p.j.abs() * (1.0 / 6.0) + frame.bound * h * (1.0 / 24.0)) * (h * h * h);
             if in_band || rest <= p.margin {
                 work.undecided += u64::from(discriminant <= 4.0 * p.h * p.margin);
-                let (s, speed) = cubic_root(s, h, root, &p);
+                let (s, speed) = polish(s, h, root, &p, frame, frequencies);
                 return if s <= limit { Next::Root { s, speed } } else { Next::Clear { s: limit } };
             }
         }
@@ -352,7 +368,7 @@ fn before_root(a: &Point<f64>, b: &Point<f64>, h: f64, bound6: f64) -> Option<f6
     // Newton from the right, where the overshoot of the leap is known.
     let mut t = 1.0 - (b.f / gb).clamp(0.0, 0.5);
     let mut slope = gb;
-    for _ in 0..2 {
+    for _ in 0..3 {
         let value = a.f + t * (ga + t * (0.5 * ha + t * (c3 + t * (c4 + t * c5))));
         slope = ga + t * (ha + t * (3.0 * c3 + t * (4.0 * c4 + t * 5.0 * c5)));
         t -= value / slope;
