@@ -24,6 +24,8 @@ fn apart(order: &[usize]) -> f64 {
     if order.len() < 6 { 0.6 } else { 0.3 }
 }
 
+/// How wide a gap should open between two of its impacts, so that the picture shows it.
+const SEEN: f64 = 0.25;
 /// Time step at which the search looks at the gaps.
 const STEP: f64 = 0.02;
 
@@ -146,6 +148,7 @@ impl<'a> Motion<'a> {
         let mut cost = 0.0;
         let mut done = 0;
         let mut last = [f64::NEG_INFINITY; MASSES + 1];
+        let mut widest: [f64; MASSES + 1] = [0.0; MASSES + 1];
         for (step, at) in grid.iter().enumerate() {
             let t = STEP * step as f64;
             if t > self.end() {
@@ -158,7 +161,10 @@ impl<'a> Motion<'a> {
                     wave[0] -= kick * time.sin();
                     wave[1] += kick * time.cos();
                 }
-                last[gap] = time;
+                if last[gap] > 0.0 {
+                    cost += (SEEN - widest[gap]).max(0.0).powi(2);
+                }
+                (last[gap], widest[gap]) = (time, 0.0);
                 done += 1;
             }
             let mut left = 0.0;
@@ -166,6 +172,7 @@ impl<'a> Motion<'a> {
                 let right = if gap < MASSES { dot(&waves[gap], at) } else { 0.0 };
                 let delta = 1.0 + right - left;
                 left = right;
+                widest[gap] = widest[gap].max(delta);
                 if delta > 0.06 {
                     continue;
                 }
