@@ -28,6 +28,8 @@ pub enum Start {
 }
 
 /// The chain of Sec. 2, without the amplitudes of its forcing.
+///
+/// **Eq. (4)** (step towards (2)): the scaling d = m = ω = 1 is this type's default.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Chain {
     /// Number of masses n (Sec. 2: 100).

@@ -1,7 +1,10 @@
 //! One file per verb; the exit codes are a contract.
 
 mod eval;
+mod sigmas;
+mod sweep;
 mod trace;
+mod work;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
@@ -11,7 +14,7 @@ use std::process::ExitCode;
 #[derive(Parser)]
 #[command(
     version,
-    after_help = "Exit codes: 0 fine, 1 a claim or lint failed, 2 wrong usage or input, 3 stale, 4 a run failed."
+    after_help = "Exit codes: 0 fine, 1 a claim or lint failed, 2 wrong usage or input, 3 stale, 4 a run failed, 130 ended by Ctrl-C."
 )]
 struct Cli {
     #[command(subcommand)]
@@ -21,13 +24,14 @@ struct Cli {
 #[derive(Subcommand)]
 enum Verb {
     Eval(eval::Args),
+    Sweep(sweep::Args),
     Trace(trace::Args),
 }
 
 /// Why a verb ended without success: an exit code of the contract and one line for stderr.
 #[derive(Debug)]
 pub struct Failure {
-    /// 1 a claim or lint failed, 2 wrong usage or input, 3 stale, 4 a run failed.
+    /// 1 a claim or lint failed, 2 wrong usage or input, 3 stale, 4 a run failed, 130 Ctrl-C.
     pub code: u8,
     /// One line: which number, where, and what to do.
     pub message: String,
@@ -53,6 +57,7 @@ pub fn main() -> ExitCode {
     };
     let result = match verb {
         Verb::Eval(args) => eval::run(args),
+        Verb::Sweep(args) => sweep::run(args),
         Verb::Trace(args) => trace::run(args),
     };
     match result {

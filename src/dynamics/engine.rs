@@ -94,7 +94,7 @@ pub struct Engine {
     pub(super) work: Work,
     impacts: u64,
     pub(super) contact_phases: u64,
-    budget_start: Instant,
+    budget_end: Instant,
     budget_left: u64,
 }
 
@@ -141,7 +141,7 @@ impl Engine {
             work: Work::default(),
             impacts: 0,
             contact_phases: 0,
-            budget_start: Instant::ZERO,
+            budget_end: Instant::ZERO.after(1.0 / w),
             budget_left: EVENTS_PER_GAP * gaps as u64,
         };
         engine.start()?;
@@ -216,8 +216,8 @@ impl Engine {
     /// Takes one event from the budget of the current unit of time.
     fn spend(&mut self, k: usize) -> Result<(), Error> {
         let bound = EVENTS_PER_GAP * self.gaps.len() as u64;
-        if self.now.since(self.budget_start) * self.frequencies.omega >= 1.0 {
-            self.budget_start = self.now;
+        if self.now >= self.budget_end {
+            self.budget_end = self.now.after(1.0 / self.frequencies.omega);
             self.budget_left = bound;
         }
         if self.budget_left == 0 {

@@ -1,4 +1,8 @@
 //! Sections 1 and 2: forced masses in a row that hit one another, simulated without time steps.
+//!
+//! The chain is a piecewise smooth system: smooth in flight, with a jump of velocities at impacts.
+//!
+//! **Eq. (1)** (step towards (2)): its general form has no code of its own.
 
 mod contact;
 mod engine;

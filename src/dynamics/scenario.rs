@@ -83,6 +83,8 @@ fn scaled_pairs(masses: usize, sigma: f64, normals: &mut NormalPairs) -> Vec<[f6
 }
 
 /// One chain with the amplitudes of its forcing.
+///
+/// **Eq. (3)** (step towards (5)): of the sum over harmonics Ω_i the paper keeps one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scenario {
     /// Distance d between equilibria.
@@ -102,7 +104,9 @@ pub struct Scenario {
 }
 
 impl Scenario {
-    /// Draws the amplitudes of Eq. (5) with standard deviation `sigma` from `normals`: first the
+    /// **Eq. (5)**
+    ///
+    /// Draws the amplitudes α_j, β_j of the forcing α_j cos Ωt + β_j sin Ωt with standard deviation `sigma` from `normals`: first the
     /// n pairs of the forcing, then, for a random start, the n pairs of the free part.
     pub fn draw(chain: &Chain, sigma: f64, normals: &mut NormalPairs) -> Scenario {
         let forcing = scaled_pairs(chain.masses, sigma, normals);

@@ -11,7 +11,7 @@ use sha2::{Digest, Sha256};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// Fingerprint of the code that simulates (see `build.rs`).
+/// Fingerprint of the code that simulates (see `build/fingerprint.rs`).
 pub const CODE: &str = env!("CODE_FINGERPRINT");
 
 /// Where results are saved.

@@ -59,12 +59,16 @@ impl Axis {
         Axis { lo, hi, label: label.into(), ticks }
     }
 
-    /// A logarithmic axis from 10^`lo` to 10^`hi`, labelled every `every` decades.
+    /// A logarithmic axis from 10^`lo` to 10^`hi`, labelled every `every` decades; beyond five the
+    /// decades between have no tick.
     pub fn decades(lo: i32, hi: i32, every: i32, label: &str) -> Self {
         let mut ticks = Vec::new();
         for exponent in lo..=hi {
             let base = f64::from(exponent);
             let labelled = (exponent - lo) % every == 0;
+            if !labelled && every > 5 {
+                continue;
+            }
             let name = format!("10^{{{}}}", exponent.to_string().replace('-', "−"));
             ticks.push(Tick { at: base, label: labelled.then_some(name) });
             if every == 1 && exponent < hi {
@@ -74,9 +78,10 @@ impl Axis {
         Axis { lo: f64::from(lo), hi: f64::from(hi), label: label.into(), ticks }
     }
 
-    /// Whether the axis holds a value.
+    /// Whether the axis holds a value; a wall touched within rounding is still inside.
     pub fn holds(&self, value: f64) -> bool {
-        self.lo <= value && value <= self.hi
+        let slack = 1e-9 * (self.hi - self.lo);
+        self.lo - slack <= value && value <= self.hi + slack
     }
 
     /// The same axis without numbers, for a panel that shares its neighbour's.

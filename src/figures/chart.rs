@@ -63,11 +63,11 @@ pub const LETTERS: [&str; 4] = ["(a)", "(b)", "(c)", "(d)"];
 pub fn corner(panel: &Panel, side: HPos, lines: &[String]) -> Result<(), Error> {
     let (x, dx) = match side {
         HPos::Left => (panel.x.lo, 140),
-        _ => (panel.x.hi, -60),
+        _ => (panel.x.hi, 0),
     };
     for (i, line) in lines.iter().enumerate() {
         let look = (SMALL, INK, side, VPos::Top);
-        panel.note(line, (x, panel.y.hi), (dx, 60 + 330 * i as i32), look)?;
+        panel.note(line, (x, panel.y.hi), (dx, 90 + 330 * i as i32), look)?;
     }
     Ok(())
 }
@@ -79,8 +79,13 @@ pub fn heading(panel: &Panel, letter: &str, parameter: &str) -> Result<(), Error
     panel.note(parameter, (panel.x.hi, panel.y.hi), (0, -80), look)
 }
 
-/// A number with about `digits` significant decimals, for notes and descriptions.
+/// A number with about `digits` significant decimals, for notes and descriptions; a tiny one as a
+/// multiple of a power of ten.
 pub fn short(value: f64, digits: usize) -> String {
+    if value != 0.0 && value.abs() < 1e-3 {
+        let shown = format!("{:.*e}", digits.saturating_sub(1), value);
+        return shown.replace('-', "−").replace('e', "·10^");
+    }
     let mut decimals = digits.saturating_sub(1);
     let mut size = value.abs();
     while size >= 10.0 && decimals > 0 {
@@ -117,6 +122,7 @@ mod tests {
         assert_eq!(short(89.887, 3), "89.9");
         assert_eq!(short(0.5, 3), "0.5");
         assert_eq!(short(100.0, 3), "100");
+        assert_eq!(short(2.339e-5, 3), "2.34·10^−5");
     }
 
     #[test]

@@ -38,7 +38,7 @@ pub fn draw() -> Result<Figure, Error> {
     for mass in &MASSES {
         draw_mass(&sheet, mass)?;
     }
-    let middle = LEFT + 3 * SPACING;
+    let middle = LEFT + 3 * SPACING + 300;
     for dx in [-170, 0, 170] {
         sheet.disc((middle + dx, HEIGHT), 26, INK, Stroke::solid(INK, 4))?;
     }
@@ -76,7 +76,7 @@ fn walls(sheet: &Sheet, right: i32) -> Result<(), Error> {
 fn draw_mass(sheet: &Sheet, mass: &Mass) -> Result<(), Error> {
     let root = LEFT + mass.slot * SPACING;
     let rest = Stroke::dashed(GREY, HAIR, Dash::Short);
-    sheet.line(&[(root, 620), (root, FLOOR)], rest)?;
+    sheet.line(&[(root, 740), (root, FLOOR)], rest)?;
     // A clamped stem with a load at its end: s²(3 − s)/2.
     let stem: Vec<_> = (0..=40)
         .map(|i| {
@@ -118,16 +118,18 @@ fn distances(sheet: &Sheet) -> Result<(), Error> {
     for x in [one, two] {
         sheet.line(&[(x, y - 90), (x, y + 90)], Stroke::solid(INK, HAIR))?;
     }
-    // The gap between the masses 1 and 2.
-    double_arrow(sheet, (x1 + RADIUS + 30, HEIGHT), (x2 - RADIUS - 30, HEIGHT))?;
-    label("Δ_{1}(*t*)", ((x1 + x2) / 2, HEIGHT - 80), VPos::Bottom)?;
-    // The position of mass 1, from the left wall.
+    // The position of mass 1 and the gap between the masses 1 and 2, one behind the other.
     let y = HEIGHT - 430;
+    for x in [x1, x2] {
+        sheet.line(&[(x, y - 90), (x, HEIGHT - RADIUS)], Stroke::solid(INK, HAIR))?;
+    }
     double_arrow(sheet, (LEFT + 20, y), (x1, y))?;
-    label("*x*_{1}(*t*)", ((LEFT + x1) / 2, y - 70), VPos::Bottom)?;
-    sheet.line(&[(x1, y - 90), (x1, HEIGHT - RADIUS)], Stroke::solid(INK, HAIR))?;
+    label("*x*_{1}(*t*)", ((LEFT + x1) / 2, y - 80), VPos::Bottom)?;
+    double_arrow(sheet, (x1, y), (x2, y))?;
+    label("Δ_{1}(*t*)", ((x1 + x2) / 2, y - 80), VPos::Bottom)?;
     // The force on mass 2.
-    let y = HEIGHT - 330;
-    sheet.arrow(&[(x2 - 60, y), (x2 + 500, y)], Stroke::solid(BLUE, 40))?;
-    sheet.text("*F*_{2}(*t*)", (x2 + 190, y - 90), (TEXT, BLUE, HPos::Center, VPos::Bottom))
+    let start = x2 + RADIUS + 25;
+    sheet.arrow(&[(start, HEIGHT), (start + 480, HEIGHT)], Stroke::solid(BLUE, 40))?;
+    let at = (start + 215, HEIGHT - 130);
+    sheet.text("*F*_{2}(*t*)", at, (TEXT, BLUE, HPos::Center, VPos::Bottom))
 }

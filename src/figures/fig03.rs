@@ -61,7 +61,7 @@ pub fn draw(sweep: &Sweep, note: Option<&str>) -> Result<Figure, Error> {
     let share = sheet.panel(
         Frame::new(1200, 5100, 8150, 6550),
         sigma_axis(end),
-        Axis::linear(0.0, 1.0, 0.5, 5, "kept"),
+        Axis::linear(0.0, 1.0, 0.5, 2, "kept share"),
     )?;
     share.letter(LETTERS[1])?;
     let fraction: Vec<_> =

@@ -20,7 +20,7 @@ pub fn draw() -> Result<Figure, Error> {
         }
     }
     let description =
-        "A directed graph with the four vertices L–1, 1–2, 2–3 and 3–R at the corners \
+        "A directed graph with the four vertices L-1, 1-2, 2-3 and 3-R at the corners \
         of a square: the impacts of three masses with the left wall, among each other and with the \
         right wall. Its 16 edges join every vertex to every vertex: 4 loops and 12 arrows, two of \
         opposite direction between each of the 6 pairs."

@@ -2,12 +2,14 @@
 
 use std::f64::consts::LN_10;
 
+use plotters::style::text_anchor::{HPos, VPos};
+
 use super::axis::Axis;
 use super::chart::{columns, largest, over_k, short, upwards_from_zero};
 use super::data::cells;
 use super::panel::{Frame, Outside};
 use super::sheet::Sheet;
-use super::style::{GREEN, LINE, Stroke, THIN};
+use super::style::{GREEN, INK, LINE, Stroke, THIN, TINY};
 use super::{DataFile, Error, Figure};
 use crate::experiments::theory::Theory;
 
@@ -40,6 +42,9 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
         Stroke::solid(GREEN, LINE),
         Outside::Refuse,
     )?;
+
+    let look = (TINY, INK, HPos::Right, VPos::Bottom);
+    inset.note("the same, logarithmic", (inset.x.hi, inset.y.lo), (0, -110), look)?;
 
     let mut data = DataFile::new(
         "fig07.csv",

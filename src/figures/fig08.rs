@@ -22,7 +22,7 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
         let panel = sheet.panel(
             FOUR[i],
             Axis::linear(0.0, n as f64 + 1.0, 20.0, 2, "*k*"),
-            upwards_from_zero(top, "*P*(*X* = *k*)"),
+            upwards_from_zero(1.04 * top, "*P*(*X* = *k*)"),
         )?;
         let shape = columns(&distribution.probability);
         panel.area("probability", &shape, GREEN, 45)?;

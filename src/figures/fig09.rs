@@ -73,6 +73,9 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     let one = Stroke::dashed(GREY, HAIR, Dash::Short);
     panels[1].1.curve("limit 1", &[(0.0, 1.0), (SMALL_P, 1.0)], one, Outside::Refuse)?;
 
+    let look = (TINY, INK, HPos::Right, VPos::Bottom);
+    panels[1].1.note("*μ* → 1 as *p* → 0", (SMALL_P, 1.0), (-60, -90), look)?;
+
     let mut steps = DataFile::new("fig09a.csv", &["p_step (1)", "k_star_beyond (1)"]);
     for step in &theory.most_likely.steps {
         steps.row(cells![step.p, step.k_star]);

@@ -11,27 +11,23 @@ use super::style::{BLUE, Dash, GREEN, GREY, HAIR, INK, LINE, Mark, RED, SMALL, S
 use super::{DataFile, Error, Figure};
 use crate::experiments::theory::{Mechanism, Theory};
 
-/// Largest k shown: beyond it nothing changes sign again.
-const K_SHOWN: f64 = 40.0;
-
 /// Draws the figure.
 pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     let rows: Vec<&Mechanism> = theory.mechanism.iter().take(4).collect();
-    let sheet = Sheet::new(1050 + 2350 * rows.len() as u32, None)?;
+    let sheet = Sheet::new(850 + 2350 * rows.len() as u32, None)?;
+    // Beyond this k nothing changes sign again.
+    let last_zero = rows.iter().filter_map(|row| row.zeros).map(|z| z[1]).fold(20.0, f64::max);
+    let shown = ((1.8 * last_zero / 10.0).ceil() * 10.0).min(theory.vertices as f64);
     let mut data = Vec::new();
     let mut seen = Vec::new();
     for (i, row) in rows.iter().enumerate() {
         let y = 550 + 2350 * i as i32;
         let last = i + 1 == rows.len();
         let k = || {
-            let axis = Axis::linear(0.0, K_SHOWN, 10.0, 2, "*k*");
+            let axis = Axis::linear(0.0, shown, 10.0, 2, "*k*");
             if last { axis } else { axis.bare() }
         };
-        let left = sheet.panel(
-            Frame::new(1000, y, 4000, y + 1700),
-            k(),
-            Axis::linear(-3.0, 1.0, 1.0, 1, "*f*_{*N*,*p*}(*k*)"),
-        )?;
+        let left = sheet.panel(Frame::new(1000, y, 4000, y + 1700), k(), signs(row))?;
         let p = match i {
             0 => "*p* → 0".to_string(),
             1 => format!("*p* = *p*_{{crit}} = {}", short(row.p, 4)),
@@ -44,13 +40,14 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
             (SMALL, INK, HPos::Left, VPos::Bottom),
         )?;
         sign(&left, row)?;
-        let shown = &row.phi_over_gamma[..row.phi_over_gamma.len().min(K_SHOWN as usize)];
+        let columns = &row.phi_over_gamma[..row.phi_over_gamma.len().min(shown as usize)];
+        let room = if i == 0 { 1.0 } else { 1.02 };
         let right = sheet.panel(
             Frame::new(5250, y, 8250, y + 1700),
             k(),
-            upwards_from_zero(largest(shown) * 1.02, "*Φ*_{*N*,*p*}(*k*) / *Γ*_{*N*,*p*}"),
+            upwards_from_zero(room * largest(columns), "Φ_{*N*,*p*}(*k*) / Γ_{*N*,*p*}"),
         )?;
-        weight(&right, row, shown)?;
+        weight(&right, row, columns)?;
 
         let letter = LETTERS[i].trim_matches(['(', ')']);
         let mut f = DataFile::new(&format!("fig10{letter}-f.csv"), &["p (1)", "k (1)", "f (1)"]);
@@ -74,7 +71,7 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
         seen.push(format!("{} {name}: f {zeros}, and k* = {}", LETTERS[i], row.k_star));
     }
     let description = format!(
-        "Four rows of two charts over k from 0 to {K_SHOWN}, p increasing downwards, N = {}. Left, \
+        "Four rows of two charts over k from 0 to {shown}, p increasing downwards, N = {}. Left, \
          the function f whose sign tells whether the weight Φ grows from k to k + 1; right, \
          columns of Φ divided by its sum Γ, with a broken line at the height of the first column \
          and a red disc on the highest. {}.",
@@ -84,9 +81,23 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     Ok(sheet.finish(10, "The mechanism of the jump", description, data))
 }
 
+/// The axis of f: around zero, as high as its maximum.
+fn signs(row: &Mechanism) -> Axis {
+    let top = row.f.iter().map(|point| point.y).fold(0.0, f64::max);
+    let (hi, step) = if top <= 1.0 {
+        (1.0, 1.0)
+    } else if top <= 2.0 {
+        (2.0, 1.0)
+    } else {
+        let step = (top / 2.0).ceil();
+        (2.0 * step, step)
+    };
+    Axis::linear(-3.0 * step, hi, step, 1, "*f*_{*N*,*p*}(*k*)")
+}
+
 fn sign(panel: &Panel, row: &Mechanism) -> Result<(), Error> {
     let zero = Stroke::solid(GREY, HAIR);
-    panel.curve("zero", &[(0.0, 0.0), (K_SHOWN, 0.0)], zero, Outside::Refuse)?;
+    panel.curve("zero", &[(0.0, 0.0), (panel.x.hi, 0.0)], zero, Outside::Refuse)?;
     let f: Vec<_> = row.f.iter().map(|point| (point.x, point.y)).collect();
     panel.curve("f", &f, Stroke::solid(BLUE, LINE), Outside::Cut)?;
     if let Some(zeros) = row.zeros {
@@ -99,7 +110,7 @@ fn sign(panel: &Panel, row: &Mechanism) -> Result<(), Error> {
         )?;
         let look = (SMALL, INK, HPos::Center, VPos::Bottom);
         if zeros[0] < zeros[1] {
-            panel.note("*k*_{−}", at[0], (-60, -110), look)?;
+            panel.note("*k*_{−}", at[0], (-80, -110), look)?;
             panel.note("*k*_{+}", at[1], (60, -110), look)?;
         }
     }
@@ -107,12 +118,12 @@ fn sign(panel: &Panel, row: &Mechanism) -> Result<(), Error> {
 }
 
 fn weight(panel: &Panel, row: &Mechanism, shown: &[f64]) -> Result<(), Error> {
-    let shape: Vec<_> = columns(shown).into_iter().map(|(k, v)| (k.min(K_SHOWN), v)).collect();
+    let shape: Vec<_> = columns(shown).into_iter().map(|(k, v)| (k.min(panel.x.hi), v)).collect();
     panel.area("weight", &shape, GREEN, 45)?;
     panel.curve("weight", &shape, Stroke::solid(GREEN, THIN), Outside::Refuse)?;
     let first = shown.first().copied().unwrap_or(0.0);
     let level = Stroke::dashed(INK, HAIR, Dash::Short);
-    panel.curve("height at k = 1", &[(0.5, first), (K_SHOWN, first)], level, Outside::Refuse)?;
+    panel.curve("height at k = 1", &[(0.5, first), (panel.x.hi, first)], level, Outside::Refuse)?;
     if let Some(&top) = shown.get(row.k_star.saturating_sub(1)) {
         let at = (row.k_star as f64, top);
         panel.marks(
@@ -121,8 +132,11 @@ fn weight(panel: &Panel, row: &Mechanism, shown: &[f64]) -> Result<(), Error> {
             (Mark::Disc, 75, Stroke::solid(RED, HAIR)),
             Outside::Refuse,
         )?;
-        let look = (SMALL, RED, HPos::Left, VPos::Bottom);
-        panel.note(&format!("*k*^{{∗}} = {}", row.k_star), at, (110, 40), look)?;
+        // Beside the first column, under the broken line; above the other columns.
+        let (offset, v) =
+            if row.k_star == 1 { ((130, 80), VPos::Top) } else { ((60, -110), VPos::Bottom) };
+        let look = (SMALL, RED, HPos::Left, v);
+        panel.note(&format!("*k*^{{∗}} = {}", row.k_star), at, offset, look)?;
     }
     Ok(())
 }

@@ -38,8 +38,16 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     let curve = |value: &dyn Fn(&RelationRow) -> f64| -> Vec<(f64, f64)> {
         rows.iter().map(|r| (r.sigma, value(r))).filter(|p| p.1.is_finite()).collect()
     };
-    linear.curve("p for a start from rest", &curve(&|r| r.p_rest), rest, Outside::Refuse)?;
-    linear.curve("p of Eq. (25)", &curve(&|r| r.p), main, Outside::Refuse)?;
+    // Both vanish with σ.
+    let from_zero = |mut points: Vec<(f64, f64)>| {
+        if points.first().is_some_and(|p| p.0 > 0.0) {
+            points.insert(0, (0.0, 0.0));
+        }
+        points
+    };
+    let p_rest = from_zero(curve(&|r| r.p_rest));
+    linear.curve("p for a start from rest", &p_rest, rest, Outside::Refuse)?;
+    linear.curve("p of Eq. (25)", &from_zero(curve(&|r| r.p)), main, Outside::Refuse)?;
     decades.curve(
         "p for a start from rest",
         &curve(&|r| super::axis::log(r.p_rest)),
@@ -85,8 +93,8 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
         "The probability p that two neighbours meet, against the standard deviation σ of the \
          forcing, from σ = 0 to {end}. (a) On a linear axis p stays at zero up to about σ = 0.13 and \
          then rises to {}. (b) On a logarithmic axis it falls ever faster towards small σ: {} at \
-         σ = {}, {} at σ = {}. It reaches {}, where k* jumps, at σ = {}. A broken grey curve for \
-         a start from rest lies above.",
+         σ = {}, {} at σ = {}. It reaches {}, where k* jumps, at σ = {}. A broken grey curve \
+         for a start from rest lies above it up to σ = {}.",
         rows.last().map_or("1".into(), |r| short(r.p, 3)),
         short(p2, 3),
         short(s2, 3),
@@ -94,6 +102,7 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
         short(s1, 3),
         short(scalars.p_jump, 4),
         short(scalars.sigma_jump, 4),
+        rows.iter().rev().find(|r| r.p_rest > r.p).map_or("0".into(), |r| short(r.sigma, 2)),
     );
     Ok(sheet.finish(11, "Impact probability against forcing", description, vec![data]))
 }

@@ -12,20 +12,23 @@ use super::{DataFile, Error, Figure};
 use crate::experiments::theory::{HigherDistribution, Theory};
 
 /// Largest k of the detail in (b).
-const DETAIL: usize = 12;
+const DETAIL: usize = 20;
 
-/// The five classes in the order of Eq. (38): symbol, colour and dash.
-const CLASSES: [(&str, Colour, Dash); 5] = [
-    ("*ϕ*_{*N*}", GREEN, Dash::Long),
-    ("*ϕ*_{*N*}^{1}", BLUE, Dash::Short),
-    ("*ϕ*_{*N*}^{1,0}", ORANGE, Dash::Dotted),
-    ("*ϕ*_{*N*}^{1,0,0}", INK, Dash::Dotted),
-    ("*ϕ*_{*N*}^{2}", PURPLE, Dash::Alternate),
+/// Name, symbol, colour and dash of a class.
+type Class = (&'static str, &'static str, Colour, Dash);
+
+/// The five classes in the order of Eq. (38).
+const CLASSES: [Class; 5] = [
+    ("simple circuits", "*ϕ*_{*N*}", GREEN, Dash::Long),
+    ("one vertex twice", "*ϕ*_{*N*}^{1}", BLUE, Dash::Short),
+    ("one vertex three times", "*ϕ*_{*N*}^{1,0}", ORANGE, Dash::Twice),
+    ("one vertex four times", "*ϕ*_{*N*}^{1,0,0}", INK, Dash::Dotted),
+    ("two vertices twice", "*ϕ*_{*N*}^{2}", PURPLE, Dash::Alternate),
 ];
 
 /// Draws the figure.
 pub fn draw(theory: &Theory) -> Result<Figure, Error> {
-    let sheet = Sheet::new(7650, None)?;
+    let sheet = Sheet::new(8050, None)?;
     let n = theory.vertices;
     let [small, middle, large] = theory.higher.as_slice() else {
         return Err(Error::Shape { figure: 13, expected: "higher-order distributions at three p" });
@@ -35,15 +38,26 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     for (i, (distribution, shown)) in
         [(small, n), (small, DETAIL), (middle, n), (large, n)].into_iter().enumerate()
     {
-        let (step, minor) = if shown == DETAIL { (4.0, 4) } else { (20.0, 2) };
+        let (step, minor) = if shown == DETAIL { (5.0, 5) } else { (20.0, 2) };
+        // The detail shows the higher orders: the simple circuits leave it at its upper edge.
+        let top = if shown == DETAIL {
+            1.5 * distribution
+                .classes
+                .iter()
+                .skip(1)
+                .map(|c| largest(&c.probability))
+                .fold(0.0, f64::max)
+        } else {
+            largest(&distribution.total)
+        };
         let end = if shown == DETAIL { shown as f64 } else { n as f64 + 1.0 };
         let panel = sheet.panel(
             FOUR[i],
             Axis::linear(0.0, end, step, minor, "*k*"),
-            upwards_from_zero(largest(&distribution.total), "*P*(*X* = *k*)"),
+            upwards_from_zero(top, "*P*(*X* = *k*)"),
         )?;
         let p = short(distribution.p, 3);
-        let detail = if shown == DETAIL { ", small *k*" } else { "" };
+        let detail = if shown == DETAIL { ", detail" } else { "" };
         heading(&panel, LETTERS[i], &format!("*p* = {p}{detail}"))?;
         series(&panel, distribution, shown)?;
         data.push(table(LETTERS[i], distribution, shown));
@@ -52,18 +66,16 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
         }
     }
     let mut entries = vec![Entry::line(Stroke::solid(RED, LINE), "all five classes")];
-    entries.extend(
-        CLASSES
-            .iter()
-            .map(|&(symbol, colour, dash)| Entry::line(Stroke::dashed(colour, LINE, dash), symbol)),
-    );
-    for (i, pair) in entries.chunks(2).enumerate() {
-        sheet.legend(([600, 3700, 6100][i], 6950), (SMALL, 400), pair)?;
+    entries.extend(CLASSES.iter().map(|&(name, symbol, colour, dash)| {
+        Entry::line(Stroke::dashed(colour, LINE, dash), &format!("{name}, {symbol}"))
+    }));
+    for (i, half) in entries.chunks(3).enumerate() {
+        sheet.legend(([400, 4500][i], 6950), (SMALL, 400), half)?;
     }
     let description = format!(
         "Four charts of the probability of k different impacts, N = {n}, for a sample space of \
-         five classes of circuits: a red line for the sum, broken lines for the classes. {}. (b) \
-         shows k up to {DETAIL} of (a).",
+         five classes of circuits: a red line for the sum, broken lines for the classes where they stand out from zero. {}. (b) \
+         is a detail of (a) for k up to {DETAIL}, high enough for the higher orders only.",
         seen.join("; ")
     );
     Ok(sheet.finish(13, "Distributions with higher-order circuits", description, data))
@@ -71,19 +83,28 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
 
 fn series(panel: &Panel, distribution: &HigherDistribution, shown: usize) -> Result<(), Error> {
     let detail = shown == DETAIL;
+    let outside = if detail { Outside::Cut } else { Outside::Refuse };
     let total = over_k(&distribution.total[..shown.min(distribution.total.len())]);
     let red = Stroke::solid(RED, LINE);
-    panel.curve("all five classes", &total, red, Outside::Refuse)?;
-    for (class, &(symbol, colour, dash)) in distribution.classes.iter().zip(&CLASSES) {
-        let name = super::markup::plain(symbol);
-        let points = over_k(&class.probability[..shown.min(class.probability.len())]);
-        panel.curve(&name, &points, Stroke::dashed(colour, LINE, dash), Outside::Refuse)?;
+    panel.curve("all five classes", &total, red, outside)?;
+    for (class, &(name, _, colour, dash)) in distribution.classes.iter().zip(&CLASSES) {
+        let points = visible(&class.probability[..shown.min(class.probability.len())], panel.y.hi);
+        panel.curve(name, &points, Stroke::dashed(colour, LINE, dash), outside)?;
         if detail {
             let dots = (Mark::Disc, 28, Stroke::solid(colour, THIN));
-            panel.marks(&name, &points, dots, Outside::Refuse)?;
+            panel.marks(name, &points, dots, outside)?;
         }
     }
     Ok(())
+}
+
+/// The stretch over which a class stands out from the axis, so that it is not a mere zero line.
+fn visible(probability: &[f64], top: f64) -> Vec<(f64, f64)> {
+    let stands_out = |p: &f64| *p > 0.002 * top;
+    let points = over_k(probability);
+    let Some(first) = probability.iter().position(stands_out) else { return Vec::new() };
+    let last = probability.iter().rposition(stands_out).unwrap_or(first);
+    points[first.saturating_sub(1)..(last + 2).min(points.len())].to_vec()
 }
 
 fn table(letter: &str, distribution: &HigherDistribution, shown: usize) -> DataFile {

@@ -17,8 +17,10 @@ pub const CAP_HEIGHT: i32 = 645;
 /// Size of a lowered or raised piece, in thousandths.
 pub const SCRIPT: i32 = 700;
 
-const SUB_SHIFT: i32 = -190;
-const SUP_SHIFT: i32 = 360;
+const SUB_SHIFT: i32 = -200;
+const SUP_SHIFT: i32 = 380;
+/// How far two stacked scripts are pushed apart.
+const STACK_SHIFT: i32 = 45;
 /// Clear space behind a script before the base line goes on.
 const SCRIPT_SPACE: i32 = 30;
 /// Clear space between a slanted letter and an upright one (the italic correction's place).
@@ -72,15 +74,21 @@ pub fn set(label: &str) -> Result<Line, Error> {
     let mut line = Line::default();
     // `x` is the pen; `below` is where a lowered part began, for a raised part above it.
     let (mut x, mut below, mut before) = (0, None, (Face::Regular, Level::Base));
-    let mut end_of_scripts = 0;
+    let (mut end_of_scripts, mut lift) = (0, 0);
     for piece in markup::parse(label) {
         let face = font(piece.face)?;
         match (before.1, piece.level) {
             (Level::Base, Level::Sub) => below = Some(x),
-            (Level::Sub, Level::Sup) => x = below.take().unwrap_or(x),
+            (Level::Sub, Level::Sup) => {
+                if let Some(start) = below.take() {
+                    let lowered = line.glyphs.iter_mut().rev().take_while(|g| g.y < 0);
+                    lowered.for_each(|g| g.y -= STACK_SHIFT);
+                    (x, lift) = (start, STACK_SHIFT);
+                }
+            }
             (Level::Sub | Level::Sup, Level::Base) => {
                 x = x.max(end_of_scripts) + SCRIPT_SPACE;
-                (below, end_of_scripts) = (None, 0);
+                (below, end_of_scripts, lift) = (None, 0, 0);
             }
             _ => {}
         }
@@ -92,7 +100,7 @@ pub fn set(label: &str) -> Result<Line, Error> {
         let (scale, y) = match piece.level {
             Level::Base => (EM, 0),
             Level::Sub => (SCRIPT, SUB_SHIFT),
-            Level::Sup => (SCRIPT, SUP_SHIFT),
+            Level::Sup => (SCRIPT, SUP_SHIFT + lift),
         };
         for character in piece.text.chars() {
             let id = face.glyph_id(character);

@@ -98,9 +98,9 @@ impl Layout {
         for (i, path) in steps.iter().enumerate() {
             // Off the middle, where the diagonals cross.
             let crosses = order[i].abs_diff(order[(i + 1) % order.len()]) == 2;
-            let share = if crosses { 32 } else { 50 };
+            let share = if crosses { 24 } else { 50 };
             let at = path[path.len() * share / 100];
-            sheet.disc(at, 165, WHITE, Stroke::solid(colour, HAIR))?;
+            sheet.disc(at, 150, WHITE, Stroke::solid(colour, HAIR))?;
             let number = (i + 1).to_string();
             sheet.text(&number, at, (SMALL, INK, HPos::Center, VPos::Center))?;
         }

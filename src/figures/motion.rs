@@ -33,8 +33,8 @@ pub struct Circuit {
 
 /// Draws one of the two figures.
 pub fn draw(circuit: &Circuit, segment: &Segment) -> Result<Figure, Error> {
-    let sheet = Sheet::new(9500, None)?;
-    let layout = Layout::rectangle((2500, 950), (5900, 3150), 400, 1500.0);
+    let sheet = Sheet::new(9600, None)?;
+    let layout = Layout::rectangle((2700, 1150), (5700, 3400), 400, 2000.0);
     layout.edges(&sheet, Stroke::solid(PALE, HAIR))?;
     layout.circuit(&sheet, circuit.order, RED)?;
     layout.vertices(&sheet, circuit.order)?;
@@ -44,22 +44,22 @@ pub fn draw(circuit: &Circuit, segment: &Segment) -> Result<Figure, Error> {
     let duration = segment.until - segment.from;
     let walls = (segment.masses + 1) as f64;
     let panel = sheet.panel(
-        Frame::new(1200, 4700, 8150, 8350),
+        Frame::new(1200, 4900, 8000, 8500),
         time_axis(duration),
         Axis::linear(0.0, walls, 1.0, 1, "position *x*_{*j*} / *d*"),
     )?;
-    sheet.text(LETTERS[1], (260, 4560), look)?;
+    sheet.text(LETTERS[1], (260, 4760), look)?;
     motion(&panel, segment)?;
     let foot = "a segment of a simulated motion, not a periodic orbit";
     let look = (TINY, GREY, HPos::Right, VPos::Bottom);
-    sheet.text(foot, (WIDTH as i32 - 250, 4560), look)?;
+    sheet.text(foot, (WIDTH as i32 - 400, 4760), look)?;
 
     let names: Vec<&str> = circuit.order.iter().map(|&gap| NAMES[gap]).collect();
     let description = format!(
         "(a) The graph of three masses with a {} circuit drawn in red, its {} steps numbered: {}. \
          (b) The positions of the three masses between the walls at 0 and {walls} against time, \
          over {} time units of a simulated motion, a segment and not a periodic orbit; the \
-         impacts, marked by numbered circles, are {}.",
+         impacts, marked by circles numbered as the steps that follow them, are {}.",
         circuit.kind,
         circuit.order.len(),
         names.join(", "),
@@ -108,8 +108,8 @@ fn motion(panel: &Panel, segment: &Segment) -> Result<(), Error> {
         let name = format!("mass {}", j + 1);
         panel.curve(&name, &points, Stroke::dashed(colour, LINE, dash), Outside::Refuse)?;
         if let Some(&(_, y)) = points.last() {
-            let look = (SMALL, colour, HPos::Left, VPos::Center);
-            panel.note(&format!("{}", j + 1), (end, y), (70, 0), look)?;
+            let look = (SMALL, INK, HPos::Left, VPos::Center);
+            panel.note(&format!("*x*_{{{}}}", j + 1), (end, y), (70, 0), look)?;
         }
     }
     let hits: Vec<_> =

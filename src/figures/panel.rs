@@ -111,7 +111,7 @@ impl Panel {
             let x = self.at(tick.at, self.y.lo).0;
             let length = if tick.label.is_some() { TICK } else { MINOR_TICK };
             self.line((x, bottom), (x, bottom + length))?;
-            if let Some(label) = &tick.label {
+            if let Some(label) = tick.label.as_ref().filter(|label| !label.is_empty()) {
                 let at = (x, bottom + TICK + GAP);
                 self.text(label, at, self.numbers, HPos::Center, VPos::Top)?;
             }
@@ -208,11 +208,18 @@ impl Panel {
         if outside == Outside::Refuse {
             self.check(name, points)?;
         }
-        let finite = points.iter().all(|p| p.0.is_finite() && p.1.is_finite());
-        if !finite {
-            return Err(Error::Outside { series: name.into(), x: f64::NAN, y: f64::NAN });
+        if let Some(&(x, y)) = points.iter().find(|p| !(p.0.is_finite() && p.1.is_finite())) {
+            return Err(Error::Outside { series: name.into(), x, y });
         }
-        let parts = clip(points, (self.x.lo, self.x.hi), (self.y.lo, self.y.hi));
+        let inside: Vec<_> = match outside {
+            Outside::Cut => points.to_vec(),
+            // At most a rounding error is cut off here.
+            Outside::Refuse => points
+                .iter()
+                .map(|p| (p.0.clamp(self.x.lo, self.x.hi), p.1.clamp(self.y.lo, self.y.hi)))
+                .collect(),
+        };
+        let parts = clip(&inside, (self.x.lo, self.x.hi), (self.y.lo, self.y.hi));
         let curves: Vec<_> =
             parts.into_iter().map(|points| Curve { points, stroke, arrow: false }).collect();
         self.series(name, &curves)
@@ -283,4 +290,45 @@ impl Panel {
 
 fn cap(size: i32) -> i32 {
     size * font::CAP_HEIGHT / font::EM
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::figures::sheet::Sheet;
+    use crate::figures::style::GREEN;
+
+    fn panel() -> Panel {
+        let sheet = Sheet::new(3000, None).unwrap();
+        let axis = || Axis::linear(0.0, 1.0, 0.5, 1, "");
+        sheet.panel(Frame::new(1000, 100, 2000, 1100), axis(), axis()).unwrap()
+    }
+
+    #[test]
+    fn data_outside_the_frame_is_an_error_and_not_moved_onto_it() {
+        let panel = panel();
+        let line = Stroke::solid(GREEN, 30);
+        let beyond = [(0.5, 0.5), (0.6, 1.1)];
+        let drawn = panel.curve("curve", &beyond, line, Outside::Refuse);
+        assert!(matches!(drawn, Err(Error::Outside { y: 1.1, .. })));
+        panel.curve("curve", &beyond, line, Outside::Cut).unwrap();
+        let marks = panel.marks("marks", &beyond, (Mark::Disc, 30, line), Outside::Refuse);
+        assert!(matches!(marks, Err(Error::Outside { .. })));
+        assert!(panel.area("area", &beyond, GREEN, 50).is_err());
+        assert!(panel.bars("bars", &[(0.5, 0.1, 1.1)], 20, line).is_err());
+        assert!(panel.curve("nan", &[(0.1, f64::NAN)], line, Outside::Cut).is_err());
+    }
+
+    #[test]
+    fn a_wall_touched_within_rounding_is_inside() {
+        let line = Stroke::solid(GREEN, 30);
+        panel().curve("wall", &[(0.0, -1e-17), (1.0, 1.0 + 1e-15)], line, Outside::Refuse).unwrap();
+    }
+
+    #[test]
+    fn corners_of_the_axes_are_corners_of_the_frame() {
+        let panel = panel();
+        assert_eq!(panel.at(0.0, 0.0), (1000, 1100));
+        assert_eq!(panel.at(1.0, 1.0), (2000, 100));
+    }
 }

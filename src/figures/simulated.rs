@@ -12,7 +12,7 @@ use crate::figures::data::cells;
 pub const CROSS: Stroke = Stroke::solid(RED, THIN);
 
 /// Half width of a cross.
-pub const CROSS_HALF: i32 = 62;
+pub const CROSS_HALF: i32 = 56;
 
 /// Rows that may be compared with others: few enough starts overlap.
 pub fn comparable(sweep: &Sweep) -> impl Iterator<Item = &SweepRow> {

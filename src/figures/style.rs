@@ -78,6 +78,8 @@ pub enum Dash {
     Dotted,
     /// Strokes and dots in turn.
     Alternate,
+    /// A stroke and two dots in turn.
+    Twice,
 }
 
 /// Colour, thickness and dash of a line.
@@ -109,6 +111,7 @@ impl Stroke {
             Dash::Long => " stroke-dasharray=\"150 75\"".into(),
             Dash::Short => " stroke-dasharray=\"70 50\"".into(),
             Dash::Dotted => " stroke-dasharray=\"24 54\"".into(),
+            Dash::Twice => " stroke-dasharray=\"120 50 26 50 26 50\"".into(),
             Dash::Alternate => " stroke-dasharray=\"150 60 26 60\"".into(),
         }
     }

@@ -368,7 +368,7 @@ fn before_root(a: &Point<f64>, b: &Point<f64>, h: f64, bound6: f64) -> Option<f6
     // Newton from the right, where the overshoot of the leap is known.
     let mut t = 1.0 - (b.f / gb).clamp(0.0, 0.5);
     let mut slope = gb;
-    for _ in 0..3 {
+    for _ in 0..2 {
         let value = a.f + t * (ga + t * (0.5 * ha + t * (c3 + t * (c4 + t * c5))));
         slope = ga + t * (ha + t * (3.0 * c3 + t * (4.0 * c4 + t * 5.0 * c5)));
         t -= value / slope;

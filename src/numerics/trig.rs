@@ -90,13 +90,17 @@ const TABLE: [[f64; 4]; TERMS] = {
 #[inline(always)]
 fn polynomials<L: Lane>(x2: L, y2: L) -> [L; 4] {
     let z = [x2, y2, x2, y2];
-    let mut sum = TABLE[TERMS - 1].map(L::splat);
-    for row in TABLE[..TERMS - 1].iter().rev() {
+    // Even and odd powers apart: half the length of each chain of dependent operations.
+    let mut even = TABLE[TERMS - 2].map(L::splat);
+    let mut odd = TABLE[TERMS - 1].map(L::splat);
+    for k in (0..TERMS / 2 - 1).rev() {
         for i in 0..4 {
-            sum[i] = sum[i] * z[i] + L::splat(row[i]);
+            let square = z[i] * z[i];
+            even[i] = even[i] * square + L::splat(TABLE[2 * k][i]);
+            odd[i] = odd[i] * square + L::splat(TABLE[2 * k + 1][i]);
         }
     }
-    sum
+    std::array::from_fn(|i| even[i] + z[i] * odd[i])
 }
 
 /// sin x − x, sin y − y, 1 − cos x and 1 − cos y for |x|, |y| ≤ [`RANGE`], each to a few units in

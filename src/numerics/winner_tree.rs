@@ -10,48 +10,54 @@ use super::clock::Instant;
 pub struct WinnerTree {
     /// Number of leaves, a power of two.
     width: usize,
-    keys: Vec<Instant>,
-    /// `winner[i]` for inner node i, root at 1; leaves are `width..2 width`.
-    winner: Vec<u32>,
+    /// The winner below each node, root at 1; leaves are `width..2 width`. Siblings lie side by
+    /// side, so that a comparison touches one cache line.
+    nodes: Vec<Entry>,
 }
+
+/// A key and its index.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Entry(Instant, u32);
 
 impl WinnerTree {
     /// A tree of `len` ≥ 1 keys, all [`Instant::NEVER`].
     pub fn new(len: usize) -> Self {
         let width = len.next_power_of_two();
-        let mut winner = vec![0; 2 * width];
-        for (leaf, slot) in winner[width..].iter_mut().enumerate() {
-            *slot = leaf as u32;
+        let mut nodes = vec![Entry(Instant::NEVER, 0); 2 * width];
+        for (leaf, node) in nodes[width..].iter_mut().enumerate() {
+            node.1 = leaf as u32;
         }
         for node in (1..width).rev() {
-            winner[node] = winner[2 * node];
+            nodes[node] = nodes[2 * node];
         }
-        WinnerTree { width, keys: vec![Instant::NEVER; width], winner }
+        WinnerTree { width, nodes }
     }
 
     /// Changes one key.
     #[inline]
     pub fn set(&mut self, index: usize, key: Instant) {
-        self.keys[index] = key;
-        let mut node = (self.width + index) >> 1;
-        while node > 0 {
-            let (left, right) = (self.winner[2 * node], self.winner[2 * node + 1]);
-            let right_wins = self.keys[right as usize] < self.keys[left as usize];
-            let winner = if right_wins { right } else { left };
+        let index = index as u32;
+        let mut node = self.width + index as usize;
+        self.nodes[node].0 = key;
+        while node > 1 {
+            let (left, right) = (&self.nodes[node & !1], &self.nodes[node | 1]);
+            // The right index is the larger one: it wins only with a smaller key.
+            let winner = if right.0 < left.0 { *right } else { *left };
+            node >>= 1;
+            let slot = &mut self.nodes[node];
             // Another key wins here as it did before: nothing changes further up.
-            if winner == self.winner[node] && winner != index as u32 {
+            if slot.1 == winner.1 && winner.1 != index {
                 return;
             }
-            self.winner[node] = winner;
-            node >>= 1;
+            *slot = winner;
         }
     }
 
     /// The index of the earliest key, and that key.
     #[inline]
     pub fn first(&self) -> (usize, Instant) {
-        let index = self.winner[1] as usize;
-        (index, self.keys[index])
+        let Entry(key, index) = self.nodes[1];
+        (index as usize, key)
     }
 }
 

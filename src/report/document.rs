@@ -30,6 +30,8 @@ pub enum Block {
         path: String,
         /// What is seen, for those who do not see it.
         alt: String,
+        /// Paths of its data relative to the report.
+        data: Vec<String>,
         /// The caption.
         caption: Vec<Inline>,
     },

@@ -27,6 +27,18 @@ pub fn write(blocks: &[Block]) -> Result<String, Error> {
     Ok(out)
 }
 
+/// The title: the words of the first heading of level 1.
+///
+/// # Errors
+/// As [`write`].
+pub fn title(blocks: &[Block]) -> Result<String, Error> {
+    let is_title = |block: &&Block| matches!(block, Block::Heading { level: 1, .. });
+    match blocks.iter().find(is_title) {
+        Some(Block::Heading { text, .. }) => inlines(text),
+        _ => Err(Error::Markup("a report begins with its title, `# Words`".into())),
+    }
+}
+
 fn is_equation(block: &Block) -> bool {
     matches!(block, Block::Paragraph(inlines) if matches!(inlines[..], [Inline::Display { .. }]))
 }
@@ -191,8 +203,11 @@ fn table(
     let head = row(head)?;
     out.push_str(&format!("\\toprule\n{head}\\midrule\n\\endfirsthead\n"));
     out.push_str(&format!("\\toprule\n{head}\\midrule\n\\endhead\n\\bottomrule\n\\endlastfoot\n"));
+    // Rows of several lines stand apart.
+    let wraps = widths.iter().map(|w| w + 2).sum::<usize>() > LINE;
     for cells in rows {
         out.push_str(&row(cells)?);
+        out.push_str(if wraps { "\\addlinespace[2pt]\n" } else { "" });
     }
     Ok(out + "\\end{longtable}}")
 }

@@ -37,11 +37,12 @@ fn write_block(block: &Block, indent: &str, out: &mut String) {
             )
         }
         Block::Paragraph(text) => prose.all(text),
-        Block::Figure { id, number, path, alt, caption } => format!(
-            "{}\n![{}]({path})\n\n**Figure {number}.** {}",
+        Block::Figure { id, number, path, alt, data, caption } => format!(
+            "{}\n![{}]({path})\n\n**Figure {number}.** {}{}",
             anchor(id),
             alternative(alt),
-            prose.all(caption)
+            prose.all(caption),
+            origin(path, data)
         ),
         Block::Table { id, number, caption, columns, head, rows } => {
             let mut text = id.as_deref().map_or(String::new(), anchor);
@@ -127,6 +128,31 @@ fn alternative(text: &str) -> String {
     line.replace('\\', r"\\").replace('[', r"\[").replace(']', r"\]").replace('_', r"\_")
 }
 
+/// Links from a figure to its data and to the code that draws it, which is beside paper/.
+fn origin(path: &str, data: &[String]) -> String {
+    let name = |path: &str| path.rsplit('/').next().unwrap_or(path).to_string();
+    let link = |path: &String| format!("[{}]({path})", name(path));
+    if data.is_empty() {
+        return String::new();
+    }
+    let code = name(path).replace(".svg", ".rs");
+    let data: Vec<String> = data.iter().map(link).collect();
+    format!("\n<sub>Data: {}. Code: [{code}](../src/figures/{code}).</sub>", data.join(", "))
+}
+
+/// Words as Markdown that shows just these words; mathematics between dollars stays.
+pub fn escaped(text: &str) -> String {
+    let mut out = String::new();
+    for (i, piece) in text.split('$').enumerate() {
+        if i % 2 == 1 {
+            out.push_str(&format!("${piece}$"));
+        } else {
+            Writer { in_table: true }.text(piece, &mut out);
+        }
+    }
+    out
+}
+
 struct Writer {
     in_table: bool,
 }
@@ -196,7 +222,7 @@ impl Writer {
 
     fn text(&self, text: &str, out: &mut String) {
         // After a displayed equation the line starts anew.
-        let text = if out.is_empty() || out.ends_with('\n') { text.trim_start() } else { text };
+        let text = if out.ends_with('\n') { text.trim_start() } else { text };
         let starts_line = out.is_empty() || out.ends_with('\n');
         let chars: Vec<char> = text.chars().collect();
         let marker = if starts_line { marker_length(&chars) } else { None };

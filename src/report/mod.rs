@@ -1,20 +1,29 @@
 //! Values for the templates, and Markdown and LaTeX from them.
 //!
-//! The flow: experiments' results become [`Value`]s in a [`Registry`]; templates (people's prose)
-//! name them; [`templates`] fills them in.
+//! The flow: experiments' results become [`Value`]s in a [`Registry`]; [`templates`] (people's
+//! prose) name them; [`parse`] makes a tree of the filled Markdown, [`labels`] resolves references
+//! in it, [`markdown`] and [`latex`] write it; [`assemble()`] does all that and adds figures, data,
+//! values, ledger and checksums: every file of paper/ as bytes, written by the command line.
 
+pub mod assemble;
 pub mod bibliography;
+pub mod claims;
+pub mod compare;
 pub mod document;
+pub mod equations;
 pub mod labels;
 pub mod latex;
+pub mod ledger;
 pub mod lint;
 pub mod markdown;
 pub mod parse;
+pub mod pdf;
 pub mod print;
 pub mod templates;
 mod tex;
 pub mod values;
 
+pub use assemble::{Files, Input, Report, assemble, files_of};
 pub use templates::Templates;
 pub use values::{Registry, Value};
 
@@ -59,6 +68,15 @@ pub enum Error {
         "no LaTeX is known for the character {0:?}; write it otherwise, or add it to report::tex"
     )]
     NoLatex(char),
+    /// A picture that cannot be made into a PDF.
+    #[error("a figure for LaTeX: {0}; draw it otherwise, or teach it to report::pdf")]
+    Picture(String),
+    /// Numerals that nobody computed.
+    #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
+    Numerals(Vec<lint::Finding>),
+    /// A figure that the prose does not show.
+    #[error("{0} is not shown; put ![caption](figures/{0}.svg) into the prose")]
+    NotShown(String),
     /// Values that nothing names.
     #[error("no template and no claim names {0}; use or remove it, or declare it data_only()")]
     Unused(String),
@@ -67,6 +85,8 @@ pub enum Error {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::claims::{Claim, Text, Verdict};
+    use crate::figures::{DataFile, Figure};
 
     /// One document with everything that the prose may use.
     const SAMPLE: &str = r#"# A title
@@ -175,6 +195,102 @@ fn f() -> σ { 1 }
         ] {
             assert!(text.contains(part), "{part:?} is not in\n{text}");
         }
+    }
+
+    fn figure() -> Figure {
+        let svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"8\" height=\"4\" viewBox=\"0 0 8 4\"/>";
+        let mut data = DataFile::new("fig03.csv", &["sigma", "mean"]);
+        data.rows.push(vec!["0.1".into(), "2".into()]);
+        Figure {
+            id: "fig03".into(),
+            title: "The rise".into(),
+            description: "It rises [steeply].".into(),
+            svg: svg.into(),
+            data: vec![data],
+        }
+    }
+
+    fn claim() -> Claim {
+        Claim {
+            id: "rise".into(),
+            place: "Sec. 2".into(),
+            statement: "A threshold | exists".into(),
+            printed: "σ ≈ 0.12".into(),
+            ours: Text::default().with_error(0.11652, 0.0004),
+            tolerance: Text::default().decimals(0.005, 3),
+            reason: "half a unit".into(),
+            verdict: Verdict::Reproduced,
+            note: Text::default(),
+        }
+    }
+
+    /// Assembles a report with one figure, one claim and one value from this prose.
+    fn assembled(prose: &str) -> Result<Report, Error> {
+        let bib = "@article{rice1945, author={Rice, S. O.}, title={Noise}, year=1945}";
+        let tex = "\\title{«title»}«body»";
+        let files = [("report.md", prose), ("references.bib", bib), ("report.tex", tex)];
+        let mut values = Registry::new();
+        values.add(Value::ensemble("half_height", 0.11652, 0.0004, 1000))?;
+        values.add(Value::integer("spare", 3).data_only())?;
+        assemble(&Input {
+            templates: &Templates::of(files),
+            values: &values,
+            rows: &Default::default(),
+            claims: &[claim()],
+            figures: &[figure()],
+        })
+    }
+
+    const PROSE: &str = "# Title\n\nAt «v.half_height», [@rice1945].\n\n\
+        ![The rise.](figures/fig03.svg)\n\n| Id | Claim |\n|---|---|\n\
+        <% for c in claims %>| [!claim:«c.id»] | «c.statement»: «c.ours», «c.verdict» |\n<% endfor %>";
+
+    #[test]
+    fn a_report_is_all_its_files() {
+        let report = assembled(PROSE).unwrap();
+        let paths: Vec<&str> = report.committed.keys().map(String::as_str).collect();
+        let expected = [
+            "SHA256SUMS",
+            "data/fig03.csv",
+            "figures/fig03.svg",
+            "ledger.json",
+            "ledger.md",
+            "report.md",
+            "report.tex",
+            "values.json",
+        ];
+        assert_eq!(paths, expected);
+        let text = |path: &str| String::from_utf8(report.committed[path].clone()).unwrap();
+        let markdown = text("report.md");
+        assert!(markdown.contains("![It rises \\[steeply\\].](figures/fig03.svg)"), "{markdown}");
+        assert!(
+            markdown.contains("1 | A threshold \\| exists: 0.1165(4), reproduced |"),
+            "{markdown}"
+        );
+        assert!(markdown.contains("[fig03.csv](data/fig03.csv)"), "{markdown}");
+        assert!(text("report.tex").starts_with("\\title{Title}"));
+        assert!(text("values.json").contains("\"claims.reproduced\""));
+        assert!(text("ledger.md").contains("| (18) | 7 |"));
+        assert_eq!(text("SHA256SUMS").lines().count(), paths.len() - 1);
+        let sum =
+            "5fbfa3bf9031ae769b4cb3a5cd6b9e1c235880438f409f9ec99217b60b1ecb17  data/fig03.csv\n";
+        assert!(text("SHA256SUMS").contains(sum), "{}", text("SHA256SUMS"));
+        assert_eq!(report.beside.keys().collect::<Vec<_>>(), ["figures/fig03.pdf"]);
+        assert_eq!(assembled(PROSE).unwrap(), report);
+    }
+
+    #[test]
+    fn a_report_with_a_mistake_is_refused() {
+        let fails = |from: &str, to: &str| assembled(&PROSE.replace(from, to)).unwrap_err();
+        assert!(matches!(fails("At", "At 0.12,"), Error::Numerals(_)));
+        assert!(
+            matches!(fails("«v.half_height»", "half"), Error::Unused(id) if id == "half_height")
+        );
+        assert!(matches!(fails("v.half", "v.hulf"), Error::Template(_)));
+        assert!(matches!(fails("rice1945", "mice1945"), Error::Reference(_)));
+        assert!(matches!(fails("fig03.svg", "fig04.svg"), Error::Reference(_)));
+        assert!(matches!(fails("![The rise.](figures/fig03.svg)", ""), Error::NotShown(_)));
+        assert!(matches!(fails("Title", "漢"), Error::NoLatex('漢')));
     }
 
     #[test]

@@ -307,7 +307,8 @@ fn paragraph(mut inlines: Vec<Inline>) -> Result<Block, Error> {
         let path = to.trim_start_matches(IMAGE).to_string();
         let number = number_of_figure(&path);
         let id = format!("fig:{number}");
-        return Ok(Block::Figure { id, number, path, alt: String::new(), caption: shown });
+        let (alt, data) = (String::new(), Vec::new());
+        return Ok(Block::Figure { id, number, path, alt, data, caption: shown });
     }
     Ok(Block::Paragraph(inlines))
 }

@@ -18,7 +18,11 @@ use std::path::Path;
 use tera::{Context, Delimiters, Kwargs, State, Tera};
 
 /// The copy that is built into the program: path relative to `templates/`, and text.
-const EMBEDDED: &[(&str, &str)] = &[("report.md", include_str!("../../templates/report.md"))];
+const EMBEDDED: &[(&str, &str)] = &[
+    ("published.toml", include_str!("../../templates/published.toml")),
+    ("report.md", include_str!("../../templates/report.md")),
+    ("report.tex", include_str!("../../templates/report.tex")),
+];
 
 /// Endings of the files that are templates or data for them (fonts live there too).
 const TEXT: [&str; 5] = [".md", ".tex", ".bib", ".toml", ".html"];
@@ -323,6 +327,12 @@ mod tests {
         values.add(Value::printed("printed.rise", "0.12", "Sec. 2")).unwrap();
         let templates = Templates::of([("report.md", text)]);
         Filler::new(&templates, &values)?.fill("report.md")
+    }
+
+    #[test]
+    fn the_embedded_copy_is_the_folder() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("templates");
+        assert_eq!(Templates::embedded(), Templates::read(&folder).unwrap());
     }
 
     #[test]

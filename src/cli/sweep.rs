@@ -1,0 +1,215 @@
+//! `impact-paper sweep`.
+
+use super::{Failure, sigmas, work};
+use impact_paper::experiments::{Progress, sweep};
+use impact_paper::numerics::clock::LATEST;
+use impact_paper::params::{Boundary, Chain, Protocol, SEED, Start, SweepParams};
+use serde::Serialize;
+use std::io::{self, Write};
+use std::time::Instant;
+
+/// Runs an ensemble of random chains at each σ and prints one row a σ.
+///
+/// A row counts the distinct gaps that impact in the window (T, T + W]; realisations without any
+/// are not kept. Realisation i has the same standard normals at every σ. Rows come together at the
+/// end, so that Ctrl-C (exit code 130) leaves no half a table. Realisations that the engine ended
+/// early, and rows with more than a tenth of the starts rejected, are named on stderr.
+#[derive(clap::Args)]
+pub struct Args {
+    /// Standard deviations: a list 0.1,0.12 or a range A..B:STEP (B included when hit).
+    #[arg(long, value_name = "A..B:STEP|LIST", allow_hyphen_values = true)]
+    sigma: String,
+    /// Number of masses n.
+    #[arg(long, value_name = "n", default_value_t = 100, allow_hyphen_values = true)]
+    masses: usize,
+    /// Realisations at each σ.
+    #[arg(long, value_name = "R", default_value_t = 1000, allow_hyphen_values = true)]
+    realisations: usize,
+    /// Transient T that is dropped, in units of 1/ω.
+    #[arg(long, value_name = "T", default_value_t = 500.0, allow_hyphen_values = true)]
+    transient: f64,
+    /// Window W in which impacts are counted, in units of 1/ω.
+    #[arg(long, value_name = "W", default_value_t = 200.0, allow_hyphen_values = true)]
+    window: f64,
+    /// Coefficient of restitution r, from 0 to 1.
+    #[arg(long, value_name = "r", default_value_t = 0.8, allow_hyphen_values = true)]
+    restitution: f64,
+    /// How a realisation starts: at rest, without free part, or with a random one.
+    #[arg(long, value_name = "START", default_value = "rest")]
+    initial: Initial,
+    /// What stands at the ends.
+    #[arg(long, value_name = "BOUNDARY", default_value = "walls")]
+    boundary: Ends,
+    /// Master seed of the random streams.
+    #[arg(long, value_name = "S", default_value_t = SEED, allow_hyphen_values = true)]
+    seed: u64,
+    /// Number of threads; all cores without it. It changes no bit of the result.
+    #[arg(long, value_name = "K", allow_hyphen_values = true)]
+    threads: Option<usize>,
+    /// Form of the table.
+    #[arg(long, default_value = "csv")]
+    format: Format,
+}
+
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum Initial {
+    Rest,
+    Zero,
+    Random,
+}
+
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum Ends {
+    Walls,
+    Ring,
+}
+
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum Format {
+    Csv,
+    Json,
+}
+
+/// One printed row; the names are the columns.
+#[derive(Debug, Serialize)]
+struct Row {
+    sigma: f64,
+    realisations: usize,
+    kept: usize,
+    rejected: usize,
+    mean_distinct: Option<f64>,
+    standard_error: Option<f64>,
+    mode_distinct: Option<usize>,
+    impacts_per_time: Option<f64>,
+    impacts: u64,
+    near_simultaneous: u64,
+    slow: u64,
+    contact_phases: u64,
+    seconds: f64,
+}
+
+/// Runs the verb.
+pub fn run(args: Args) -> Result<(), Failure> {
+    let parameters = parameters(&args)?;
+    let progress = work::progress();
+    let rows = work::on_threads(args.threads, || rows(&parameters, &progress))?;
+    write(&rows, args.format).or_else(|error| {
+        // Who closed the pipe has read enough.
+        if error.kind() == io::ErrorKind::BrokenPipe {
+            return Ok(());
+        }
+        let remedy = "direct it to a file that can be written";
+        Err(Failure::input(format!("standard output: {error}; {remedy}")))
+    })
+}
+
+/// Checks what the engine cannot check.
+fn parameters(args: &Args) -> Result<SweepParams, Failure> {
+    let sigmas = sigmas::parse(&args.sigma).map_err(Failure::input)?;
+    let at_least_one = |name: &str, value: usize| {
+        let message = format!("--{name}: 0 is not allowed; give 1 or more");
+        if value == 0 { Err(Failure::input(message)) } else { Ok(()) }
+    };
+    at_least_one("masses", args.masses)?;
+    at_least_one("realisations", args.realisations)?;
+    if args.transient.is_nan() || args.transient < 0.0 {
+        let message = format!("--transient: {:?} is not allowed; give 0 or more", args.transient);
+        return Err(Failure::input(message));
+    }
+    if args.window.is_nan() || args.window <= 0.0 {
+        let message = format!("--window: {:?} is not allowed; give more than 0", args.window);
+        return Err(Failure::input(message));
+    }
+    if args.transient + args.window > LATEST {
+        let message = "--transient: transient and window end after t = 1e12; give shorter ones";
+        return Err(Failure::input(message));
+    }
+    if !(0.0..=1.0).contains(&args.restitution) {
+        let message =
+            format!("--restitution: {:?} is not in [0, 1]; give e.g. 0.8", args.restitution);
+        return Err(Failure::input(message));
+    }
+    Ok(SweepParams {
+        chain: Chain {
+            masses: args.masses,
+            restitution: args.restitution,
+            boundary: match args.boundary {
+                Ends::Walls => Boundary::Walls,
+                Ends::Ring => Boundary::Ring,
+            },
+            start: match args.initial {
+                Initial::Rest => Start::Rest,
+                Initial::Zero => Start::Zero,
+                Initial::Random => Start::Random,
+            },
+            ..Chain::default()
+        },
+        protocol: Protocol { transient: args.transient, window: args.window },
+        sigmas,
+        realisations: args.realisations,
+        stream: "sweep".into(),
+        seed: args.seed,
+    })
+}
+
+/// Runs σ after σ: the wall time of each is a column.
+fn rows(parameters: &SweepParams, progress: &Progress) -> Result<Vec<Row>, Failure> {
+    let stage = progress.stage("sweep", sweep::work(parameters));
+    let mut rows = Vec::with_capacity(parameters.sigmas.len());
+    for &sigma in &parameters.sigmas {
+        let began = Instant::now();
+        let row = sweep::at(parameters, sigma, &stage, progress)?.row;
+        let seconds = began.elapsed().as_micros() as f64 / 1e6;
+        if let Some(first) = &row.first_failure {
+            progress.say(&format!(
+                "impact-paper: sigma {sigma:?}: {} of {} realisations ended early and are in no \
+                 mean; the first: {first}",
+                row.failed, row.realisations
+            ));
+        }
+        if !row.comparable {
+            progress.say(&format!(
+                "impact-paper: sigma {sigma:?}: {} of {} starts overlapped and were rejected; the \
+                 row is not comparable with others",
+                row.rejected, row.realisations
+            ));
+        }
+        rows.push(Row {
+            sigma,
+            realisations: row.realisations,
+            kept: row.kept,
+            rejected: row.rejected,
+            mean_distinct: row.mean_distinct,
+            standard_error: row.standard_error,
+            mode_distinct: row.mode_distinct,
+            impacts_per_time: row.impacts_per_time,
+            impacts: row.impacts,
+            near_simultaneous: row.near_simultaneous,
+            slow: row.slow,
+            contact_phases: row.contact_phases,
+            seconds,
+        });
+    }
+    Ok(rows)
+}
+
+fn write(rows: &[Row], format: Format) -> io::Result<()> {
+    let mut out = io::BufWriter::new(io::stdout().lock());
+    match format {
+        Format::Csv => {
+            let mut csv = csv::Writer::from_writer(&mut out);
+            for row in rows {
+                csv.serialize(row).map_err(|error| match error.into_kind() {
+                    csv::ErrorKind::Io(error) => error,
+                    other => io::Error::other(format!("{other:?}")),
+                })?;
+            }
+            csv.flush()?;
+        }
+        Format::Json => {
+            serde_json::to_writer_pretty(&mut out, rows)?;
+            writeln!(out)?;
+        }
+    }
+    out.flush()
+}

@@ -1,0 +1,68 @@
+//! What the verbs that take time have in common: threads, Ctrl-C, and errors as exit codes.
+
+use super::Failure;
+use impact_paper::experiments::{Error, Progress};
+use impact_paper::params::Profile;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Sample sizes, as named on the command line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum ProfileName {
+    /// To try out: seconds.
+    Quick,
+    /// For pull requests: half a minute.
+    Ci,
+    /// The committed report: minutes.
+    Full,
+}
+
+impl From<ProfileName> for Profile {
+    fn from(name: ProfileName) -> Self {
+        match name {
+            ProfileName::Quick => Profile::Quick,
+            ProfileName::Ci => Profile::Ci,
+            ProfileName::Full => Profile::Full,
+        }
+    }
+}
+
+/// What a shell calls a program that Ctrl-C ended: 128 + SIGINT.
+const INTERRUPTED: u8 = 130;
+
+/// Progress on stderr. Ctrl-C (or SIGTERM) raises a flag that all work looks at, so that it ends
+/// within a moment at a place where nothing is half-written.
+pub fn progress() -> Progress {
+    let stop = Arc::new(AtomicBool::new(false));
+    let raised = Arc::clone(&stop);
+    // A handler can only be refused if there is one already; then Ctrl-C just ends the program.
+    let _ = ctrlc::set_handler(move || raised.store(true, Ordering::Relaxed));
+    Progress::on_stderr(stop)
+}
+
+/// Runs `work` on that many threads; none means all cores.
+pub fn on_threads<T: Send>(
+    threads: Option<usize>,
+    work: impl FnOnce() -> Result<T, Failure> + Send,
+) -> Result<T, Failure> {
+    if threads == Some(0) {
+        return Err(Failure::input("--threads: 0 threads do no work; give 1 or more"));
+    }
+    let builder = rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0));
+    let pool = builder.build().map_err(|error| {
+        Failure::input(format!("--threads: {error}; give a smaller number of threads"))
+    })?;
+    pool.install(work)
+}
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        let code = match &error {
+            Error::Interrupted => INTERRUPTED,
+            Error::Input { .. } | Error::Scenario { .. } | Error::Store { .. } => 2,
+            Error::Dynamics { source: impact_paper::dynamics::Error::Input { .. }, .. } => 2,
+            _ => 4,
+        };
+        Failure { code, message: error.to_string() }
+    }
+}

@@ -1,0 +1,136 @@
+//! Results and prose → every file of paper/, as bytes. Nothing is written here.
+
+use super::bibliography::Library;
+use super::claims::{Row, scorecard};
+use super::document::Block;
+use super::templates::{Filler, Mark, Templates};
+use super::values::Registry;
+use super::{Error, labels, latex, ledger, lint, markdown, parse, pdf};
+use crate::claims::Claim;
+use crate::figures::Figure;
+use sha2::{Digest, Sha256};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Paths relative to the report's folder, and their bytes.
+pub type Files = BTreeMap<String, Vec<u8>>;
+
+/// What a report is made of.
+#[derive(Clone, Copy, Debug)]
+pub struct Input<'a> {
+    /// The prose.
+    pub templates: &'a Templates,
+    /// The numbers that it may name.
+    pub values: &'a Registry,
+    /// Rows of tables that are not values or claims, by the name that templates use.
+    pub rows: &'a BTreeMap<&'static str, serde_json::Value>,
+    /// The judged statements.
+    pub claims: &'a [Claim],
+    /// The figures.
+    pub figures: &'a [Figure],
+}
+
+/// A report in memory.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Report {
+    /// Files that are committed; SHA256SUMS covers them.
+    pub committed: Files,
+    /// Files that stand beside them for LaTeX, and are not committed: figures/*.pdf.
+    pub beside: Files,
+}
+
+/// Makes the whole report.
+///
+/// # Errors
+/// A naked numeral, an unknown or unused value, a reference to nothing, a figure that is missing
+/// or not shown, markup or a character that a format lacks.
+pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
+    check_numerals(input.templates)?;
+    let mut values = input.values.clone();
+    values.extend(scorecard(input.claims))?;
+    let mut filler = Filler::new(input.templates, &values)?;
+    let rows: Vec<Row> = input.claims.iter().map(Row::of).collect();
+    filler.insert("claims", &rows);
+    for (name, rows) in input.rows {
+        filler.insert(name, rows);
+    }
+    let filled = filler.fill("report.md")?;
+    check_unused(&values, &filled)?;
+
+    let mut blocks = parse::parse(&filled, &values)?;
+    illustrate(&mut blocks, input.figures)?;
+    let library = Library::read(input.templates.text("references.bib").unwrap_or_default())?;
+    labels::resolve(&mut blocks, &library)?;
+
+    let mut committed = Files::new();
+    let mut put = |path: String, text: String| committed.insert(path, text.into_bytes());
+    put("report.md".into(), markdown::write(&blocks));
+    filler.insert("title", &latex::title(&blocks)?);
+    filler.insert("body", &latex::write(&blocks)?);
+    put("report.tex".into(), filler.fill("report.tex")?);
+    let json = |e: serde_json::Error| Error::Template(format!("values.json: {e}"));
+    put("values.json".into(), serde_json::to_string_pretty(&values).map_err(json)? + "\n");
+    put("ledger.json".into(), ledger::json(input.claims, input.figures).map_err(json)?);
+    put("ledger.md".into(), ledger::markdown(input.claims, input.figures));
+    let mut beside = Files::new();
+    for figure in input.figures {
+        committed.extend(files_of(figure));
+        let path = format!("figures/{}.pdf", figure.id);
+        beside.insert(path, pdf::from_svg(&figure.svg)?);
+    }
+    committed.insert("SHA256SUMS".into(), sums(&committed).into_bytes());
+    Ok(Report { committed, beside })
+}
+
+/// The picture of a figure and its data.
+pub fn files_of(figure: &Figure) -> Files {
+    let picture = (format!("figures/{}.svg", figure.id), figure.svg.clone().into_bytes());
+    let data = figure.data.iter().map(|d| (format!("data/{}", d.name), d.csv().into_bytes()));
+    std::iter::once(picture).chain(data).collect()
+}
+
+/// Lines that `sha256sum --check` reads, sorted by path.
+pub fn sums(files: &Files) -> String {
+    let line = |(path, bytes): (&String, &Vec<u8>)| {
+        let hex: String = Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect();
+        format!("{hex}  {path}\n")
+    };
+    files.iter().map(line).collect()
+}
+
+fn check_numerals(templates: &Templates) -> Result<(), Error> {
+    let prose = templates.iter().filter(|(path, _)| path.ends_with(".md"));
+    let found: Vec<lint::Finding> =
+        prose.flat_map(|(path, text)| lint::numerals(path, text)).collect();
+    if found.is_empty() { Ok(()) } else { Err(Error::Numerals(found)) }
+}
+
+fn check_unused(values: &Registry, filled: &str) -> Result<(), Error> {
+    let used: BTreeSet<String> =
+        Mark::split(filled).into_iter().flatten().map(|mark| mark.id).collect();
+    let unused: Vec<&str> = values
+        .iter()
+        .filter(|value| !value.for_data_only && !used.contains(&value.id))
+        .map(|value| value.id.as_str())
+        .collect();
+    if unused.is_empty() { Ok(()) } else { Err(Error::Unused(unused.join(", "))) }
+}
+
+/// Gives the figures in the prose their alternative text and data; each is shown exactly once
+/// ([`labels::resolve`] refuses twice).
+fn illustrate(blocks: &mut [Block], figures: &[Figure]) -> Result<(), Error> {
+    let mut shown = BTreeSet::new();
+    for block in blocks {
+        if let Block::Figure { path, alt, data, .. } = block {
+            let figure =
+                figures.iter().find(|figure| *path == format!("figures/{}.svg", figure.id));
+            let figure = figure.ok_or_else(|| Error::Reference(path.clone()))?;
+            *alt = figure.description.clone();
+            *data = figure.data.iter().map(|d| format!("data/{}", d.name)).collect();
+            shown.insert(figure.id.as_str());
+        }
+    }
+    match figures.iter().find(|figure| !shown.contains(figure.id.as_str())) {
+        Some(figure) => Err(Error::NotShown(figure.id.clone())),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,101 @@
+//! Claims as rows for templates, ledgers and terminals.
+
+use super::markdown;
+use super::print::{Style, print};
+use super::values::{Digits, Number, Value};
+use crate::claims::{Claim, Digits as ClaimDigits, Piece, Text, Verdict};
+use serde::Serialize;
+
+/// One claim for a template: every field is Markdown, its numbers printed with their digits.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Row {
+    /// Id, for `[!claim:id]` and `[@claim:id]`.
+    pub id: String,
+    /// Where the statement stands in the paper.
+    pub place: String,
+    /// The statement.
+    pub statement: String,
+    /// What was printed.
+    pub printed: String,
+    /// What we find.
+    pub ours: String,
+    /// How far from the printed value a finding may lie.
+    pub tolerance: String,
+    /// Why the tolerance has this size.
+    pub reason: String,
+    /// The verdict in words.
+    pub verdict: String,
+    /// What explains a difference.
+    pub note: String,
+}
+
+impl Row {
+    /// The row of a claim.
+    pub fn of(claim: &Claim) -> Self {
+        let words = |text: &str| markdown::escaped(text);
+        Row {
+            id: claim.id.clone(),
+            place: words(&claim.place),
+            statement: words(&claim.statement),
+            printed: words(&claim.printed),
+            ours: sentence(&claim.ours),
+            tolerance: sentence(&claim.tolerance),
+            reason: words(&claim.reason),
+            verdict: claim.verdict.words().to_string(),
+            note: sentence(&claim.note),
+        }
+    }
+}
+
+/// A text of a claim as Markdown.
+pub fn sentence(text: &Text) -> String {
+    let piece = |piece: &Piece| match piece {
+        Piece::Words(words) => markdown::escaped(words),
+        Piece::Number(number) => print(&digits_of(number), Style::default()).markdown(),
+    };
+    text.0.iter().map(piece).collect()
+}
+
+/// A text of a claim for terminals and data.
+pub fn plain(text: &Text) -> String {
+    let piece = |piece: &Piece| match piece {
+        Piece::Words(words) => words.clone(),
+        Piece::Number(number) => print(&digits_of(number), Style::default()).plain(),
+    };
+    text.0.iter().map(piece).collect()
+}
+
+fn digits_of(number: &crate::claims::Number) -> Number {
+    let value = number.value;
+    let digits = match number.digits {
+        ClaimDigits::Error(error) => Digits::Error(error),
+        ClaimDigits::Decimals(places) => Digits::Decimals(places.into()),
+        ClaimDigits::Significant(places) => Digits::Significant(places.into()),
+        ClaimDigits::Integer => return Number::Integer(value as i64),
+    };
+    Number::Real { value, digits }
+}
+
+/// The scorecard as values: `claims.total`, `claims.reproduced`, `claims.differs_and_explained`,
+/// `claims.differs`, `claims.cannot_be_judged`.
+pub fn scorecard(claims: &[Claim]) -> Vec<Value> {
+    let value = |name: &str, count: usize| {
+        Value::integer(format!("claims.{name}"), count).source("claims", "").data_only()
+    };
+    let count = |verdict| claims.iter().filter(|claim| claim.verdict == verdict).count();
+    let verdict = |verdict: &Verdict| value(&verdict.words().replace(' ', "_"), count(*verdict));
+    Verdict::ALL.iter().map(verdict).chain([value("total", claims.len())]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_of_claims_have_their_digits() {
+        let text =
+            Text::words("k* at ").with_error(0.11652, 0.0004).say(", ").significant(8.87e-4, 3);
+        assert_eq!(sentence(&text), r"k\* at 0.1165(4), $8.87\times10^{-4}$");
+        assert_eq!(plain(&text.integer(12345)), "k* at 0.1165(4), 8.87e-412345");
+    }
+}
