@@ -193,6 +193,31 @@ fn labels_are_on_the_sheet_and_do_not_overlap() {
 }
 
 #[test]
+fn no_curve_runs_through_a_label() {
+    for figure in all(quick()) {
+        let document = Document::parse(&figure.svg).unwrap();
+        let labels = labels(&document);
+        let data = document.descendants().filter(|n| n.attribute("class") == Some("data"));
+        for line in data.flat_map(|group| group.descendants()) {
+            if line.tag_name().name() != "polyline" {
+                continue;
+            }
+            for stretch in pairs(line.attribute("points").unwrap()).windows(2) {
+                // Sampled finely enough: a letter is about a hundred units wide.
+                for i in 0..=200 {
+                    let share = f64::from(i) / 200.0;
+                    let x = stretch[0].0 + share * (stretch[1].0 - stretch[0].0);
+                    let y = stretch[0].1 + share * (stretch[1].1 - stretch[0].1);
+                    let through =
+                        labels.iter().find(|l| l.x.0 < x && x < l.x.1 && l.y.0 < y && y < l.y.1);
+                    assert!(through.is_none(), "{}: a curve through {through:?}", figure.id);
+                }
+            }
+        }
+    }
+}
+
+#[test]
 fn axes_carry_their_labels() {
     let expected: [(usize, &[&str]); 14] = [
         (1, &["d", "nd", "(n+1)d", "Δ_1(t)"]),

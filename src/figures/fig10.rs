@@ -108,10 +108,10 @@ fn sign(panel: &Panel, row: &Mechanism) -> Result<(), Error> {
             (Mark::Disc, 60, Stroke::solid(BLUE, HAIR)),
             Outside::Cut,
         )?;
-        let look = (SMALL, INK, HPos::Center, VPos::Bottom);
         if zeros[0] < zeros[1] {
-            panel.note("*k*_{−}", at[0], (-80, -110), look)?;
-            panel.note("*k*_{+}", at[1], (60, -110), look)?;
+            // Where the curve is not: below the line inside the arch, above it outside.
+            panel.note("*k*_{−}", at[0], (90, 110), (SMALL, INK, HPos::Left, VPos::Top))?;
+            panel.note("*k*_{+}", at[1], (60, -110), (SMALL, INK, HPos::Left, VPos::Bottom))?;
         }
     }
     Ok(())

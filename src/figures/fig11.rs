@@ -7,7 +7,7 @@ use super::chart::{LETTERS, short};
 use super::data::cells;
 use super::panel::{Frame, Outside};
 use super::sheet::{Entry, Sheet};
-use super::style::{BLUE, Dash, GREY, HAIR, INK, LINE, SMALL, Stroke, TEXT, TINY};
+use super::style::{BLUE, Dash, GREY, HAIR, INK, LINE, SMALL, Stroke, TEXT};
 use super::{DataFile, Error, Figure};
 use crate::experiments::theory::{RelationRow, Theory};
 
@@ -72,11 +72,17 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     let corner =
         [(0.0, level), (scalars.sigma_jump, level), (scalars.sigma_jump, f64::from(LOWEST))];
     decades.curve("jump of k*", &corner, guide, Outside::Refuse)?;
-    let note = format!("*k*^{{∗}} jumps: *p* = {}", short(scalars.p_jump, 4));
-    decades.note(&note, (0.0, level), (110, -80), (TINY, INK, HPos::Left, VPos::Bottom))?;
-    let note = format!("*σ* = {}", short(scalars.sigma_jump, 3));
-    let foot = (scalars.sigma_jump, f64::from(LOWEST));
-    decades.note(&note, foot, (90, -120), (SMALL, INK, HPos::Left, VPos::Bottom))?;
+    let place = (scalars.sigma_jump, level);
+    for (i, line) in [
+        format!("*k*^{{∗}} jumps at *p* = {},", short(scalars.p_jump, 4)),
+        format!("*σ* = {}", short(scalars.sigma_jump, 4)),
+    ]
+    .iter()
+    .enumerate()
+    {
+        let look = (SMALL, INK, HPos::Left, VPos::Top);
+        decades.note(line, place, (110, 260 + 330 * i as i32), look)?;
+    }
 
     let mut data = DataFile::new(
         "fig11.csv",

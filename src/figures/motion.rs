@@ -101,12 +101,15 @@ fn motion(panel: &Panel, segment: &Segment) -> Result<(), Error> {
             Outside::Refuse,
         )?;
     }
-    for (j, path) in segment.positions.iter().enumerate() {
+    let paths: Vec<Vec<(f64, f64)>> = segment
+        .positions
+        .iter()
+        .map(|path| segment.times.iter().zip(path).map(|(t, x)| (t - from, x / d)).collect())
+        .collect();
+    for (j, points) in paths.iter().enumerate() {
         let (colour, dash) = MASSES[j % MASSES.len()];
-        let points: Vec<_> =
-            segment.times.iter().zip(path).map(|(t, x)| (t - from, x / d)).collect();
         let name = format!("mass {}", j + 1);
-        panel.curve(&name, &points, Stroke::dashed(colour, LINE, dash), Outside::Refuse)?;
+        panel.curve(&name, points, Stroke::dashed(colour, LINE, dash), Outside::Refuse)?;
         if let Some(&(_, y)) = points.last() {
             let look = (SMALL, INK, HPos::Left, VPos::Center);
             panel.note(&format!("*x*_{{{}}}", j + 1), (end, y), (70, 0), look)?;
@@ -116,13 +119,61 @@ fn motion(panel: &Panel, segment: &Segment) -> Result<(), Error> {
         segment.impacts.iter().map(|hit| (hit.time - from, hit.position / d)).collect();
     let ring = (Mark::Ring, 70, Stroke::solid(RED, 24));
     panel.marks("impacts", &hits, ring, Outside::Refuse)?;
-    for (i, &hit) in hits.iter().enumerate() {
-        let below = hit.1 > walls - 0.5;
-        let (dy, v) = if below { (130, VPos::Top) } else { (-120, VPos::Bottom) };
-        let look = (SMALL, RED, HPos::Center, v);
-        panel.note(&(i + 1).to_string(), hit, (0, dy), look)?;
+    number_impacts(panel, &hits, &paths)
+}
+
+/// Where a number may stand beside its impact, the best places first: offset of its middle.
+const PLACES: [(i32, i32); 12] = [
+    (0, -200),
+    (0, 200),
+    (190, 0),
+    (-190, 0),
+    (150, -170),
+    (-150, -170),
+    (150, 170),
+    (-150, 170),
+    (0, -330),
+    (0, 330),
+    (260, -260),
+    (-260, 260),
+];
+
+/// Numbers the impacts, each at the first place where no path and no other number is in its way.
+fn number_impacts(
+    panel: &Panel,
+    hits: &[(f64, f64)],
+    paths: &[Vec<(f64, f64)>],
+) -> Result<(), Error> {
+    let lines: Vec<Vec<(i32, i32)>> =
+        paths.iter().map(|path| path.iter().map(|p| panel.at(p.0, p.1)).collect()).collect();
+    let marks: Vec<_> = hits.iter().map(|hit| panel.at(hit.0, hit.1)).collect();
+    let mut taken: Vec<(i32, i32)> = Vec::new();
+    for (i, &(x, y)) in marks.iter().enumerate() {
+        let frame = panel.frame;
+        let free = |place: &(i32, i32)| {
+            let (px, py) = (x + place.0, y + place.1);
+            let near = |q: (i32, i32), w: i32, h: i32| (q.0 - px).abs() < w && (q.1 - py).abs() < h;
+            let inside = px > frame.left + 90
+                && px < frame.right - 90
+                && py > frame.top + 110
+                && py < frame.bottom - 110;
+            let crossed = lines.iter().any(|line| {
+                line.windows(2).any(|w| (0..=8).any(|k| near(between(w[0], w[1], k), 95, 120)))
+            });
+            let others = marks.iter().enumerate().any(|(j, &m)| j != i && near(m, 150, 170));
+            inside && !crossed && !others && !taken.iter().any(|&t| near(t, 170, 210))
+        };
+        let place = PLACES.iter().find(|place| free(place)).unwrap_or(&PLACES[0]);
+        let look = (SMALL, RED, HPos::Center, VPos::Center);
+        panel.note(&(i + 1).to_string(), hits[i], *place, look)?;
+        taken.push((x + place.0, y + place.1));
     }
     Ok(())
+}
+
+/// The point `eighths`/8 of the way from `a` to `b`.
+fn between(a: (i32, i32), b: (i32, i32), eighths: i32) -> (i32, i32) {
+    (a.0 + (b.0 - a.0) * eighths / 8, a.1 + (b.1 - a.1) * eighths / 8)
 }
 
 fn tables(circuit: &Circuit, segment: &Segment) -> Vec<DataFile> {
