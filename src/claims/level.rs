@@ -23,10 +23,23 @@ impl Level {
     /// The level for so many claims (at least one).
     pub fn of(claims: usize) -> Level {
         let claims = claims.max(1);
-        let each = -pxfm::f_expm1(pxfm::f_log1p(-FAMILY_LEVEL) / claims as f64);
-        let quantile = Normal::standard().inverse_cdf(1.0 - each / 2.0);
-        Level { claims, each, quantile: (100.0 * quantile).ceil() / 100.0 }
+        let each = share(FAMILY_LEVEL, claims);
+        Level { claims, each, quantile: quantile(each) }
     }
+
+    /// The quantile when one claim compares `rows` numbers, which then share its level.
+    pub fn among(self, rows: usize) -> f64 {
+        quantile(share(self.each, rows.max(1)))
+    }
+}
+
+/// Šidák's level of each of `parts` independent tests that together have `level`.
+fn share(level: f64, parts: usize) -> f64 {
+    -pxfm::f_expm1(pxfm::f_log1p(-level) / parts as f64)
+}
+
+fn quantile(level: f64) -> f64 {
+    (100.0 * Normal::standard().inverse_cdf(1.0 - level / 2.0)).ceil() / 100.0
 }
 
 #[cfg(test)]
@@ -46,6 +59,8 @@ mod tests {
     #[test]
     fn more_claims_make_each_one_wider() {
         assert!(Level::of(10).quantile < Level::of(40).quantile);
+        // Ten tests in ten rows each are a hundred tests.
+        assert_eq!(Level::of(10).among(10), Level::of(100).quantile);
         let whole = 1.0 - (1.0 - Level::of(7).each).powi(7);
         assert!((whole - FAMILY_LEVEL).abs() < 1e-14);
     }

@@ -7,13 +7,25 @@
 //! Each verdict is a function of numbers, and can fail: a number leaves its tolerance, or a
 //! difference that we explain no longer has the size that the explanation predicts.
 
+mod ledger;
 mod level;
 mod published;
+mod row;
+pub(crate) mod sec10;
+pub(crate) mod sec2;
+mod sec3;
+pub(crate) mod sec5;
+pub(crate) mod sec6;
+mod sec7;
+pub(crate) mod sec8;
+pub(crate) mod sec9;
 mod text;
 mod verdict;
 
+pub use ledger::{all, level, needs, one, rows, scorecard};
 pub use level::{FAMILY_LEVEL, Level};
 pub use published::{Parameter, Published, PublishedError, Statement};
+pub use row::{Error, Evidence, Finding, Row};
 pub use text::{Digits, Number, Piece, Text};
 pub use verdict::{Judgement, Verdict};
 

@@ -2,6 +2,7 @@
 
 pub mod error;
 pub mod horizon;
+pub mod identities;
 pub mod laws;
 pub mod observe;
 pub mod progress;

@@ -1,7 +1,7 @@
 //! All results together, and the declaration of what a figure or a claim needs of them.
 
 use super::Error;
-use super::{horizon, laws, protocol, segments, starts, sweep, theory, two_masses};
+use super::{horizon, identities, laws, protocol, segments, starts, sweep, theory, two_masses};
 use crate::params::{Profile, VERTICES};
 use std::sync::LazyLock;
 
@@ -48,6 +48,8 @@ pub struct Results {
     pub profile: Profile,
     /// Secs. 3 to 9, computed when first looked at: `&results.theory.curve` is all it takes.
     pub theory: LazyLock<theory::Theory>,
+    /// Exact statements of Secs. 3 to 9 against a second route, computed when first looked at.
+    pub identities: LazyLock<identities::Identities>,
     /// The main sweep of Sec. 2.
     pub sweep: Option<sweep::Sweep>,
     /// The rise again, with another seed.
@@ -108,6 +110,9 @@ impl Results {
             profile,
             theory: LazyLock::new(|| {
                 theory::run(VERTICES).expect("the theory exists for the paper's N")
+            }),
+            identities: LazyLock::new(|| {
+                identities::run(VERTICES).expect("the theory exists for the paper's N")
             }),
             sweep: None,
             second_seed: None,

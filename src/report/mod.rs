@@ -9,6 +9,7 @@ pub mod assemble;
 pub mod bibliography;
 pub mod claims;
 pub mod compare;
+pub mod contents;
 pub mod document;
 pub mod equations;
 pub mod labels;

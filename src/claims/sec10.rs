@@ -1,0 +1,69 @@
+//! Section 10: conclusions.
+
+use super::row::{Error, Evidence, Finding, Row, exact, measured, open};
+use super::sec8::{LARGE_SIGMA, at};
+use super::{Judgement, Statement, Text};
+use crate::experiments::Need;
+use crate::experiments::sweep::Sweep;
+use crate::experiments::theory::{Curve, CurveRow};
+
+/// The rows of this section.
+pub const ROWS: &[Row] = &[
+    exact("sec10_expected_jump", expected_jump),
+    measured("sec10_improves", &[Need::Sweep], improves),
+];
+
+fn expected_jump(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
+    let id = &e.results.identities;
+    let (variance, difference) = (id.mean_slope_by_variance, id.mean_slope_by_difference);
+    Ok(Finding {
+        ours: Text::words("dμ/dp = ").significant(difference, 4).say(" at p_jump"),
+        tolerance: Text::words("no finite slope"),
+        reason: "a jump has none",
+        judgement: Judgement::Explained {
+            agrees: !difference.is_finite(),
+            holds: (difference / variance - 1.0).abs() < 1e-6,
+        },
+        note: Text::words(
+            "Only the mode jumps. For weights in proportion to p^k the slope of the mean is the \
+             variance over p, ",
+        )
+        .significant(variance, 4)
+        .say(" there, and finite for every finite N."),
+    })
+}
+
+/// Root mean square distance of a theory curve from the simulated means, from the first row with
+/// kept realisations up to where σ is large.
+pub(crate) fn distance(sweep: &Sweep, curve: &Curve, column: fn(&CurveRow) -> f64) -> Option<f64> {
+    let rows = sweep.rows.iter().filter(|row| row.sigma < LARGE_SIGMA);
+    let squares: Vec<f64> = rows
+        .filter_map(|row| {
+            let difference = row.mean_distinct? - at(curve, row.sigma, column)?;
+            Some(difference * difference)
+        })
+        .collect();
+    let count = squares.len();
+    (count > 0).then(|| (squares.into_iter().sum::<f64>() / count as f64).sqrt())
+}
+
+fn improves(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
+    let (sweep, curve) = (e.results.sweep()?, &e.results.theory.curve);
+    let simple = distance(sweep, curve, |row| row.simple);
+    let (Some(simple), Some(higher)) = (simple, distance(sweep, curve, |row| row.higher)) else {
+        return Ok(open(Text::words("no row"), "The sweep has no row at small σ."));
+    };
+    Ok(Finding {
+        ours: Text::words("distance to the simulated means below σ = ")
+            .significant(LARGE_SIGMA, 1)
+            .say(": ")
+            .significant(simple, 3)
+            .say(" gaps without, ")
+            .significant(higher, 3)
+            .say(" with higher orders"),
+        tolerance: Text::words("a decrease by at most a fifth"),
+        reason: "ours: “slightly”; the distance is the root of the mean square over all rows",
+        judgement: Judgement::Plain { agrees: higher < simple && higher >= 0.8 * simple },
+        note: Text::default(),
+    })
+}

@@ -1,0 +1,119 @@
+//! Section 5: counting orbits.
+
+use super::row::{Error, Evidence, Finding, Row, all_cases, exact, measured};
+use super::{Judgement, Statement, Text};
+use crate::experiments::Need;
+use crate::experiments::segments::Segment;
+use std::collections::BTreeSet;
+
+/// The rows of this section.
+pub const ROWS: &[Row] = &[
+    measured("sec5_fig5", &[Need::Segments], |e, s| motion(&e.results.segments()?.fig05, s)),
+    measured("sec5_fig6", &[Need::Segments], |e, s| motion(&e.results.segments()?.fig06, s)),
+    measured("sec5_masses_of_circuit", &[Need::Segments], masses_of_circuit),
+    exact("sec5_eq6", |e, _| cases(e.results.identities.eq6)),
+    exact("sec5_eq7", |e, _| cases(e.results.identities.eq7)),
+    exact("sec5_eq8", eq8),
+    exact("sec5_majority", majority),
+];
+
+const ENUMERATION: &str = "Formula against enumeration on graphs of one to six vertices.";
+
+fn cases(cases: crate::experiments::identities::Cases) -> Result<Finding, Error> {
+    Ok(all_cases(cases.compared, cases.failed, ENUMERATION))
+}
+
+/// The impacts of a segment by the names of the paper: `L-1, 1-2, 3-R`.
+pub(crate) fn names(segment: &Segment) -> Vec<String> {
+    let body = |j: usize| match j {
+        0 => "L".to_string(),
+        j if j > segment.masses => "R".to_string(),
+        j => j.to_string(),
+    };
+    segment.impacts.iter().map(|i| format!("{}-{}", body(i.gap), body(i.gap + 1))).collect()
+}
+
+fn motion(segment: &Segment, s: &Statement) -> Result<Finding, Error> {
+    let found = names(segment);
+    // The statement names the sequence at its end, after "as".
+    let asked = s.statement.rsplit_once(" as ").map_or("", |(_, names)| names);
+    let asked: Vec<&str> = asked.trim_end_matches('.').split(", ").collect();
+    let in_order = segment.impacts.windows(2).all(|w| w[0].time < w[1].time);
+    Ok(Finding {
+        ours: Text::words(found.join(", ")),
+        tolerance: Text::words("none"),
+        reason: "the same impacts in the same order",
+        judgement: Judgement::Plain {
+            agrees: in_order && found == asked && found.len() as f64 == s.number()?,
+        },
+        note: Text::words("A segment of a solution of the equations of motion, from time ")
+            .significant(segment.from, 4)
+            .say(" to ")
+            .significant(segment.until, 4)
+            .say("; not a periodic orbit."),
+    })
+}
+
+/// The masses that take part in impacts of these gaps, in a chain of `masses` masses.
+pub(crate) fn masses_in(gaps: impl Iterator<Item = usize>, masses: usize) -> usize {
+    let both_sides = gaps.flat_map(|gap| [gap, gap + 1]);
+    both_sides.filter(|body| (1..=masses).contains(body)).collect::<BTreeSet<_>>().len()
+}
+
+fn masses_of_circuit(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
+    let segment = &e.results.segments()?.fig05;
+    let gaps: BTreeSet<usize> = segment.impacts.iter().map(|i| i.gap).collect();
+    let found = masses_in(gaps.iter().copied(), segment.masses);
+    // Each run of neighbouring gaps has one body more than gaps; walls are bodies but no masses.
+    let runs = gaps.iter().filter(|&&gap| gap == 0 || !gaps.contains(&(gap - 1))).count();
+    let walls = gaps.iter().filter(|&&gap| gap == 0 || gap == segment.masses).count();
+    let predicted = gaps.len() + runs - walls;
+    Ok(Finding {
+        ours: Text::default().integer(found),
+        tolerance: Text::words("none"),
+        reason: "an integer is exact",
+        judgement: Judgement::Explained {
+            agrees: found as f64 == s.number()?,
+            holds: found == predicted,
+        },
+        note: Text::words("k different gaps in ")
+            .integer(runs)
+            .say(" runs of neighbours touch k + ")
+            .integer(runs)
+            .say(" bodies, of which ")
+            .integer(walls)
+            .say(" are walls; k + 1 masses need one run without walls."),
+    })
+}
+
+fn eq8(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
+    let theory = &e.results.theory;
+    let n = theory.vertices as f64;
+    let ratio = theory.slips.ratio_before_last;
+    let exceptions = &e.results.identities.eq8_exceptions;
+    let holds = (ratio * (n - 1.0) / n - 1.0).abs() < 1e-13
+        && exceptions.iter().all(|&k| k + 4 > theory.vertices);
+    Ok(Finding {
+        ours: Text::words("at k = N − 1: ").significant(ratio, 4),
+        tolerance: Text::words("at most ").significant(0.1, 1),
+        reason: "ours: “far below one” as at most a tenth",
+        judgement: Judgement::Explained { agrees: exceptions.is_empty(), holds },
+        note: Text::words("The ratio at k = N − 1 is N/(N − 1), above one. Above a tenth are the ")
+            .integer(exceptions.len())
+            .say(" lengths next to N, where most circuits are; below them Eq. (8) holds."),
+    })
+}
+
+fn majority(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
+    let slips = &e.results.theory.slips;
+    Ok(Finding {
+        ours: Text::default()
+            .significant(slips.share_near_end, 4)
+            .say(" of all within three of N; the peak at k = ")
+            .integer(slips.longest_peak),
+        tolerance: Text::words("more than half"),
+        reason: "a majority",
+        judgement: Judgement::Plain { agrees: slips.share_near_end > 0.5 },
+        note: Text::default(),
+    })
+}

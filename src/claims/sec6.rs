@@ -1,0 +1,134 @@
+//! Section 6: probability.
+
+use super::row::{Error, Evidence, Finding, Row, exact, measured, open, rounding};
+use super::sec2;
+use super::{Judgement, Statement, Text};
+use crate::experiments::Need;
+
+/// The rows of this section.
+pub const ROWS: &[Row] = &[
+    exact("sec6_normalised", |e, _| {
+        Ok(rounding(e.results.identities.normalisation, 1e-13, "Over ten values of p up to one."))
+    }),
+    exact("sec6_fig8_few", few),
+    exact("sec6_fig8_rise", rise),
+    exact("sec6_fig9_step", step),
+    exact("sec6_mu_zero", mu_zero),
+    measured("sec6_like_simulation", &[Need::Sweep], like_simulation),
+];
+
+fn few(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
+    let theory = &e.results.theory;
+    let Some(panel) = theory.distributions.first() else {
+        return Ok(open(Text::words("nothing"), "Fig. 8 was not computed."));
+    };
+    let limit = theory.vertices as f64 / 10.0;
+    Ok(Finding {
+        ours: Text::words("μ = ")
+            .significant(panel.mean, 4)
+            .say(", k* = ")
+            .integer(panel.k_star)
+            .say(" at p = ")
+            .significant(panel.p, 2),
+        tolerance: Text::words("at most ").significant(limit, 2),
+        reason: "ours: a tenth of all vertices",
+        judgement: Judgement::Plain { agrees: panel.mean <= limit && panel.k_star == 1 },
+        note: Text::default(),
+    })
+}
+
+fn rise(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
+    let theory = &e.results.theory;
+    let (Some(a), Some(c)) = (theory.distributions.first(), theory.distributions.get(2)) else {
+        return Ok(open(Text::words("nothing"), "Fig. 8 was not computed."));
+    };
+    let n = theory.vertices as f64;
+    Ok(Finding {
+        ours: Text::words("μ from ")
+            .significant(a.mean, 3)
+            .say(" to ")
+            .significant(c.mean, 3)
+            .say(" while p goes from ")
+            .significant(a.p, 1)
+            .say(" to ")
+            .significant(c.p, 1),
+        tolerance: Text::words("from below a tenth to above three quarters of N"),
+        reason: "ours: what “rapidly towards the size of the whole system” asks at least",
+        judgement: Judgement::Plain { agrees: a.mean < 0.1 * n && c.mean > 0.75 * n },
+        note: Text::default(),
+    })
+}
+
+/// The steps of k*(p) upwards: the largest, the second largest.
+pub(crate) fn two_largest_steps(steps: &[crate::experiments::theory::Step]) -> [usize; 2] {
+    let mut heights: Vec<usize> =
+        steps.windows(2).map(|w| w[1].k_star.saturating_sub(w[0].k_star)).collect();
+    heights.sort_unstable_by(|a, b| b.cmp(a));
+    [heights.first().copied().unwrap_or(0), heights.get(1).copied().unwrap_or(0)]
+}
+
+fn step(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
+    let theory = &e.results.theory;
+    let [largest, second] = two_largest_steps(&theory.most_likely.steps);
+    Ok(Finding {
+        ours: Text::words("one step of height ")
+            .integer(largest)
+            .say(", all others ")
+            .integer(second),
+        tolerance: Text::words("one step of ten or more, all others of one"),
+        reason: "ours: “large” as at least a tenth of N; a step function of integers has ones",
+        judgement: Judgement::Plain { agrees: largest * 10 >= theory.vertices && second == 1 },
+        note: Text::default(),
+    })
+}
+
+fn mu_zero(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
+    let limit = e.results.theory.slips.mean_at_zero;
+    Ok(Finding {
+        ours: Text::words("μ(0+) = ").significant(limit, 3),
+        tolerance: Text::words("none"),
+        reason: "a limit is exact",
+        judgement: Judgement::Explained {
+            agrees: limit == s.number()?,
+            holds: (limit - 1.0).abs() < 1e-12,
+        },
+        note: Text::words(
+            "The value 0 is a convention: a circuit has at least one edge, and as p → 0 the \
+             loops at single vertices take all the weight, so the limit of Eq. (9) is 1.",
+        ),
+    })
+}
+
+fn like_simulation(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
+    let sweep = e.results.sweep()?;
+    let theory = &e.results.theory;
+    let simulated: Vec<f64> =
+        sweep.rows.iter().filter_map(|row| Some(row.mean_all? / sec2::gaps(sweep))).collect();
+    let n = theory.vertices as f64;
+    let mean: Vec<f64> = theory.most_likely.mean.iter().map(|row| row.mean / n).collect();
+    let ends = |curve: &[f64]| Some([*curve.first()?, *curve.last()?]);
+    let (Some([a, b]), Some([c, d])) = (ends(&simulated), ends(&mean)) else {
+        return Ok(open(Text::words("no curves"), "One of the two curves is empty."));
+    };
+    let rises = |[low, high]: [f64; 2]| low < 0.1 && high > 0.9;
+    Ok(Finding {
+        ours: Text::words("simulated from ")
+            .significant(a, 2)
+            .say(" to ")
+            .significant(b, 2)
+            .say(" of N, theory from ")
+            .significant(c, 2)
+            .say(" to ")
+            .significant(d, 2)
+            .say("; k* jumps"),
+        tolerance: Text::words("both from below a tenth to above nine tenths"),
+        reason: "ours: the least that a common rise must do",
+        judgement: Judgement::Plain {
+            agrees: rises([a, b])
+                && rises([c, d])
+                && mean.windows(2).all(|w| w[1] >= w[0])
+                && theory.scalars.k_after_jump > 1,
+        },
+        note: Text::words("What agrees beyond this is judged in Section 8."),
+    })
+}

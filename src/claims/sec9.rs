@@ -1,0 +1,397 @@
+//! Section 9: circuits that repeat impacts.
+
+use super::row::{Error, Evidence, Finding, Row, all_cases, exact, measured, open};
+use super::sec5;
+use super::{Judgement, Statement, Text};
+use crate::experiments::Need;
+use crate::experiments::theory::{Curve, HigherDistribution, Theory};
+use std::collections::BTreeMap;
+
+/// The rows of this section.
+pub const ROWS: &[Row] = &[
+    measured("sec9_fig6_repeats", &[Need::Segments], fig6_repeats),
+    exact("sec9_eq29", |e, _| {
+        let cases = e.results.identities.eq29;
+        Ok(all_cases(
+            cases.compared,
+            cases.failed,
+            "Circuits through one vertex twice, by the lengths of their loops, on graphs of one to six vertices.",
+        ))
+    }),
+    exact("sec9_eq30", eq30),
+    exact("sec9_eq32", |e, _| {
+        let cases = e.results.identities.eq32;
+        Ok(all_cases(cases.compared, cases.failed, "Every n up to ten, one sum at a time."))
+    }),
+    exact("sec9_eq33", |e, s| class_range(e, s, 33)),
+    exact("sec9_eq35", |e, s| class_range(e, s, 35)),
+    exact("sec9_eq36", |e, s| class_range(e, s, 36)),
+    exact("sec9_eq37", |e, s| class_range(e, s, 37)),
+    exact("sec9_eq38", eq38),
+    exact("sec9_even_small_p", even_small_p),
+    exact("sec9_dominate", dominate),
+    exact("sec9_convergence", convergence),
+    exact("sec9_mean_large_p", mean_large_p),
+    exact("sec9_mean_small_p", mean_small_p),
+    exact("sec9_all_orders", all_orders),
+    exact("sec9_higher_jump", higher_jump),
+    exact("sec9_fig15_modest", fig15_modest),
+    exact("sec9_relation_matters", relation_matters),
+];
+
+const INTEGER: &str = "integers are exact";
+
+/// How often each different impact of Fig. 6 is repeated beyond its first time, most first.
+pub(crate) fn repeats(segment: &crate::experiments::segments::Segment) -> Vec<(String, usize)> {
+    let mut visits: BTreeMap<String, usize> = BTreeMap::new();
+    for name in sec5::names(segment) {
+        *visits.entry(name).or_insert(0) += 1;
+    }
+    let mut repeated: Vec<(String, usize)> =
+        visits.into_iter().filter(|(_, n)| *n > 1).map(|(name, n)| (name, n - 1)).collect();
+    repeated.sort_by(|a, b| b.1.cmp(&a.1).then(a.0.cmp(&b.0)));
+    repeated
+}
+
+fn fig6_repeats(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
+    let found = repeats(&e.results.segments()?.fig06);
+    let text = found.iter().enumerate().fold(Text::default(), |text, (i, (name, times))| {
+        text.say(if i == 0 { "" } else { ", " }).say(format!("{name}: ")).integer(*times)
+    });
+    let times: Vec<usize> = found.iter().map(|(_, times)| *times).collect();
+    let first = found.first().map(|(name, _)| name.as_str());
+    Ok(Finding {
+        ours: text,
+        tolerance: Text::words("none"),
+        reason: INTEGER,
+        judgement: Judgement::Plain {
+            agrees: found.len() as f64 == s.number()? && times == [2, 1, 1] && first == Some("L-1"),
+        },
+        note: Text::words("This class, δ₂ = 1 and δ₁ = 2, is none of the five of Eq. (38)."),
+    })
+}
+
+fn eq30(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
+    let id = &e.results.identities;
+    let counted = id.eq30_counted;
+    Ok(Finding {
+        ours: Text::words("Eq. (30) gives ")
+            .significant(id.eq30_printed, 2)
+            .say(", enumeration ")
+            .integer(counted as usize),
+        tolerance: Text::words("none"),
+        reason: INTEGER,
+        judgement: Judgement::Explained {
+            agrees: id.eq30_printed == counted as f64,
+            holds: id.eq30_times_n.failed == 0
+                && id.eq30_times_n.compared > 0
+                && (e.results.theory.slips.missing_factor / e.results.theory.vertices as f64 - 1.0)
+                    .abs()
+                    < 1e-13,
+        },
+        note: Text::words(
+            "A factor N is missing, the choice of the vertex that is visited twice; \
+             Eq. (33) has it. With it the formula agrees in ",
+        )
+        .integer(id.eq30_times_n.compared as usize)
+        .say(" of ")
+        .integer(id.eq30_times_n.compared as usize)
+        .say(" cases."),
+    })
+}
+
+fn class_range(e: &Evidence, s: &Statement, equation: u32) -> Result<Finding, Error> {
+    let ranges = &e.results.identities.classes;
+    let Some(range) = ranges.iter().find(|range| range.equation == equation) else {
+        return Ok(open(Text::words("nothing"), "The formula was not compared."));
+    };
+    // A printed "k > 3" means from 4 on; without a printed range every length is meant.
+    let printed_from = s.value.map_or(1, |k| k as usize + 1);
+    let agrees = range.right_from <= printed_from && range.cases.failed == 0;
+    let ours = Text::words("right from k = ").integer(range.right_from).say(" on");
+    let note = Text::words("One length below, on three vertices, the formula gives ")
+        .significant(range.formula_below, 3)
+        .say(" and enumeration finds ")
+        .integer(range.counted_below as usize)
+        .say(": sequences that repeat a shorter one.");
+    let compared = range.cases.compared > 3;
+    Ok(Finding {
+        ours,
+        tolerance: Text::words("none"),
+        reason: INTEGER,
+        judgement: match s.value {
+            Some(_) => Judgement::Plain { agrees: agrees && compared },
+            // Without a range: wrong only where both loops are alike and so counted as half.
+            None => Judgement::Explained {
+                agrees: agrees && compared,
+                holds: compared && range.right_from == 3 && range.counted_below == 0,
+            },
+        },
+        note,
+    })
+}
+
+fn eq38(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
+    let scalars = &e.results.theory.scalars;
+    let shift = scalars.printed_p_jump / scalars.higher_p_jump - 1.0;
+    let failures = &e.results.theory.slips.class_failures;
+    let only_short = failures.iter().all(|f| f.length <= 4 && f.printed != f.primitive as f64);
+    Ok(Finding {
+        ours: Text::words("with primitive counts p_jump = ")
+            .significant(scalars.higher_p_jump, 15)
+            .say(", with the printed formulas ")
+            .significant(scalars.printed_p_jump, 15),
+        tolerance: Text::default().significant(1e-13, 1).say(" relative"),
+        reason: "rounding",
+        judgement: Judgement::Explained {
+            agrees: shift.abs() <= 1e-13,
+            holds: only_short && !failures.is_empty() && shift.abs() < scalars.higher_p_jump,
+        },
+        note: Text::words(
+            "At k = 1, and in the last term at k = 2, the formulas are used below their range. \
+             There a weight is wrong by terms of relative order p, so p_jump may move by less \
+             than that; it moves by ",
+        )
+        .significant(shift, 2)
+        .say("."),
+    })
+}
+
+/// Share of simple circuits at one p.
+pub(crate) fn simple_share(theory: &Theory, p: f64) -> Option<f64> {
+    theory.slips.simple_shares.iter().find(|row| row.p == p).map(|row| row.share)
+}
+
+fn even_small_p(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
+    let p = s.number()?;
+    let (Some(share), Some(panel)) =
+        (simple_share(&e.results.theory, p), e.results.theory.higher.iter().find(|h| h.p == p))
+    else {
+        return Ok(open(Text::words("nothing"), "This p was not computed."));
+    };
+    // One doubled vertex costs p and can be placed in k²/2 ways, except on a single vertex.
+    let first_order: f64 = (1_u32..)
+        .zip(&panel.simple)
+        .skip(1)
+        .map(|(k, q)| q * p * f64::from(k) * f64::from(k) / 2.0)
+        .sum();
+    let higher = (1.0 - share) / share;
+    Ok(Finding {
+        ours: Text::words("higher orders hold ").significant(100.0 * (1.0 - share), 2).say(" %"),
+        tolerance: Text::words("at least 5 %"),
+        reason: "ours: the least that can be seen in a figure",
+        judgement: Judgement::Explained {
+            agrees: 1.0 - share >= 0.05,
+            holds: higher > first_order && higher < 2.0 * first_order,
+        },
+        note: Text::words(
+            "A doubled vertex has relative weight p k²/2, which is below one for the small k that \
+             hold nearly everything; this first order alone predicts ",
+        )
+        .significant(100.0 * first_order / (1.0 + first_order), 2)
+        .say(" %, and further orders less than as much again. They dominate only in the tail."),
+    })
+}
+
+fn dominate(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
+    let theory = &e.results.theory;
+    let shares: Vec<(f64, f64)> =
+        theory.slips.simple_shares.iter().map(|row| (row.p, row.share)).collect();
+    let falls = shares.windows(2).all(|w| w[1].0 <= w[0].0 || w[1].1 < w[0].1);
+    let Some(last) = theory.higher.last() else {
+        return Ok(open(Text::words("nothing"), "Fig. 13 was not computed."));
+    };
+    let Some(share) = last.classes.first().map(|class| class.share) else {
+        return Ok(open(Text::words("nothing"), "Fig. 13 has no classes."));
+    };
+    Ok(Finding {
+        ours: Text::words("simple circuits hold ")
+            .significant(share, 2)
+            .say(" at p = ")
+            .significant(last.p, 1),
+        tolerance: Text::words("at most ").significant(0.01, 1),
+        reason: "ours: “insignificant” as at most one in a hundred, and falling with p",
+        judgement: Judgement::Plain { agrees: share <= 0.01 && falls },
+        note: Text::default(),
+    })
+}
+
+fn convergence(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
+    let theory = &e.results.theory;
+    let (Some(a), Some(b)) = (theory.convergence.first(), theory.convergence.last()) else {
+        return Ok(open(Text::words("nothing"), "Fig. 14 was not computed."));
+    };
+    let later: Vec<_> = theory.slips.total_variations.iter().filter(|v| v.x >= a.p).collect();
+    let falls = later.windows(2).all(|w| w[1].y < w[0].y);
+    let last = later.last().map_or(f64::NAN, |v| v.y);
+    Ok(Finding {
+        ours: Text::words("total variation distance ")
+            .significant(a.total_variation, 3)
+            .say(" at p = ")
+            .significant(a.p, 2)
+            .say(", ")
+            .significant(b.total_variation, 3)
+            .say(" at ")
+            .significant(b.p, 2),
+        tolerance: Text::words("falling, and at most half from panel (a) to (b)"),
+        reason: "ours: convergence asks for a decrease at every p that was computed",
+        judgement: Judgement::Plain {
+            agrees: falls && later.len() > 2 && b.total_variation < 0.5 * a.total_variation,
+        },
+        note: Text::words("It falls further to ").significant(last, 2).say("."),
+    })
+}
+
+fn mean_large_p(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
+    let Some(last) = e.results.theory.higher.last() else {
+        return Ok(open(Text::words("nothing"), "Fig. 13 was not computed."));
+    };
+    let difference = last.mean / last.mean_simple - 1.0;
+    Ok(Finding {
+        ours: Text::words("relative difference ")
+            .significant(difference, 2)
+            .say(" at p = ")
+            .significant(last.p, 1),
+        tolerance: Text::words("at most ").significant(0.05, 1),
+        reason: "ours: “very good” as within one in twenty",
+        judgement: Judgement::Plain { agrees: difference.abs() <= 0.05 },
+        note: Text::default(),
+    })
+}
+
+/// The largest relative difference of the two means, and the p where it is.
+pub(crate) fn largest_mean_difference(theory: &Theory) -> [f64; 2] {
+    theory.most_likely.mean_inset.iter().fold([0.0, 0.0], |most, row| {
+        let difference = (row.mean_higher / row.mean - 1.0).abs();
+        if difference > most[0] { [difference, row.p] } else { most }
+    })
+}
+
+fn mean_small_p(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
+    let [difference, at] = largest_mean_difference(&e.results.theory);
+    Ok(Finding {
+        ours: Text::words("relative difference up to ")
+            .significant(difference, 2)
+            .say(", at p = ")
+            .significant(at, 3),
+        tolerance: Text::words("at least ").significant(0.1, 1),
+        reason: "ours: “measurable” as one in ten",
+        judgement: Judgement::Plain { agrees: difference >= 0.1 },
+        note: Text::default(),
+    })
+}
+
+/// Weight of circuits with one doubled vertex over that of simple ones, at the same number of
+/// different vertices k: found, and p k²/2.
+pub(crate) fn doubling(panel: &HigherDistribution, k: usize) -> Option<[f64; 2]> {
+    let class = |i: usize| panel.classes.get(i)?.probability.get(k - 1).copied();
+    let k = k as f64;
+    Some([class(1)? / class(0)?, panel.p * k * k / 2.0])
+}
+
+/// In each further order the weights grow: the sum over all of them has no limit for p ≥ 1/N.
+fn all_orders(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
+    let theory = &e.results.theory;
+    let Some(last) = theory.higher.last() else {
+        return Ok(open(Text::words("nothing"), "Fig. 13 was not computed."));
+    };
+    let Some([found, predicted]) = doubling(last, last.mean as usize) else {
+        return Ok(open(Text::words("nothing"), "Fig. 13 has no classes."));
+    };
+    let least = theory.vertices as f64 * theory.scalars.p_crit;
+    Ok(Finding {
+        ours: Text::words("doubling one vertex multiplies the weight by ")
+            .significant(found, 3)
+            .say(" at p = ")
+            .significant(last.p, 1),
+        tolerance: Text::words("below 1"),
+        reason: "further orders can be left out only if each weighs less than the one before",
+        judgement: Judgement::Explained {
+            agrees: found < 1.0,
+            holds: (found / predicted - 1.0).abs() < 1e-12 && least > 1.0,
+        },
+        note: Text::words("The factor is p k²/2 exactly, ")
+            .significant(predicted, 3)
+            .say(". All sequences of length L weigh about (N p)^L/L, and N p is ")
+            .significant(least, 3)
+            .say(
+                " at p_crit already, so the sum over all orders diverges. The statement holds \
+                  for the four classes that were added.",
+            ),
+    })
+}
+
+fn higher_jump(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
+    let scalars = &e.results.theory.scalars;
+    let shift = scalars.higher_p_jump / scalars.p_jump - 1.0;
+    Ok(Finding {
+        ours: Text::words("p_jump = ")
+            .significant(scalars.higher_p_jump, 6)
+            .say(", to k* = ")
+            .integer(scalars.higher_k_after_jump)
+            .say("; for simple circuits ")
+            .significant(scalars.p_jump, 6),
+        tolerance: Text::words("another p, and a step of ten or more"),
+        reason: "both are known to the last bit; “jump” as in Section 7",
+        judgement: Judgement::Plain {
+            agrees: shift.abs() > 1e-9 && scalars.higher_k_after_jump >= 10,
+        },
+        note: Text::words("A change by ").significant(100.0 * shift, 2).say(" %."),
+    })
+}
+
+/// The largest change of the expected number by higher orders, and the σ where it is.
+pub(crate) fn largest_change(curve: &Curve) -> [f64; 2] {
+    curve.rows.iter().fold([0.0, 0.0], |most, row| {
+        let change = (row.higher - row.simple).abs();
+        if change > most[0] { [change, row.sigma] } else { most }
+    })
+}
+
+fn fig15_modest(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
+    let theory = &e.results.theory;
+    let [change, at] = largest_change(&theory.curve);
+    let shift = theory.scalars.sigma_half - theory.scalars.higher_sigma_half;
+    let [low, high] = e.published.statement("sec2_half_height")?.rounding()?;
+    Ok(Finding {
+        ours: Text::words("largest change ")
+            .significant(change, 3)
+            .say(" at σ = ")
+            .significant(at, 3)
+            .say("; the half height moves by ")
+            .significant(shift, 2),
+        tolerance: Text::words("below σ = ")
+            .significant(super::sec8::LARGE_SIGMA, 1)
+            .say("; by at most ")
+            .significant((high - low) / 2.0, 1),
+        reason: "ours: “small σ” as what is not large in Section 8; “modest” as half a unit of the \
+                 digit in which the paper prints the threshold",
+        judgement: Judgement::Plain {
+            agrees: at < super::sec8::LARGE_SIGMA && shift.abs() <= (high - low) / 2.0,
+        },
+        note: Text::default(),
+    })
+}
+
+/// How far the jump moves in σ: by the relation for a start from rest, and by higher orders.
+pub(crate) fn moves(theory: &Theory) -> [f64; 2] {
+    let scalars = &theory.scalars;
+    [
+        (scalars.sigma_jump_rest - scalars.sigma_jump).abs(),
+        (scalars.higher_sigma_jump - scalars.sigma_jump).abs(),
+    ]
+}
+
+fn relation_matters(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
+    let [relation, higher] = moves(&e.results.theory);
+    Ok(Finding {
+        ours: Text::words("another relation moves the jump by ")
+            .significant(relation, 3)
+            .say(" in σ, higher orders by ")
+            .significant(higher, 2),
+        tolerance: Text::words("the first is larger"),
+        reason: "a comparison of two computed numbers",
+        judgement: Judgement::Plain { agrees: relation > higher },
+        note: Text::words("The other relation is that of a start from rest."),
+    })
+}

@@ -1,0 +1,102 @@
+//! What the templates can name: the values of each section, and the rows of the generated tables.
+//!
+//! A value is computed here from results and carries the path of the item that computed it. Groups
+//! are `v` (ours), `paper` (numbers that the paper chose), `printed` (numbers in its statements),
+//! `protocol` and `starts` (cells of two tables).
+
+mod higher;
+mod ledger;
+mod paper;
+mod protocol;
+mod simulation;
+mod starts;
+mod theory;
+
+use super::print::Style;
+use super::templates::{Filler, Mark};
+use super::values::{Registry, Value};
+use crate::claims::{self, Claim, Published};
+use crate::experiments::Results;
+use crate::numerics::statistics::Estimate;
+
+pub use ledger::{markdown, plain};
+
+/// What can go wrong between results and values.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// A result or a printed number is missing.
+    #[error(transparent)]
+    Claims(#[from] claims::Error),
+    /// An experiment was not run.
+    #[error(transparent)]
+    Experiment(#[from] crate::experiments::Error),
+    /// A value that the registry refuses.
+    #[error(transparent)]
+    Report(#[from] super::Error),
+    /// Results without the row that a sentence is about.
+    #[error("the report speaks of {0}, which the results do not have; run a fuller profile")]
+    Missing(&'static str),
+}
+
+/// All values of the report.
+///
+/// # Errors
+/// If a result is missing, or two values have one id.
+pub fn registry(
+    results: &Results,
+    published: &Published,
+    claims: &[Claim],
+) -> Result<Registry, Error> {
+    let mut registry = Registry::new();
+    registry.extend(paper::values(published))?;
+    registry.extend(simulation::values(results)?)?;
+    registry.extend(theory::values(results)?)?;
+    registry.extend(higher::values(results)?)?;
+    registry.extend(protocol::values(results)?)?;
+    registry.extend(starts::values(results)?)?;
+    registry.extend(ledger::values(results, claims))?;
+    Ok(registry)
+}
+
+/// Hands the rows of the generated tables to the templates: `claims`, `row` (a reference to each
+/// claim with its verdict), `protocol_windows`, `protocol_table` and `starts_table`.
+///
+/// # Errors
+/// If a result is missing.
+pub fn tables(filler: &mut Filler, results: &Results, claims: &[Claim]) -> Result<(), Error> {
+    filler.insert("claims", &ledger::rows(claims));
+    filler.insert("row", &ledger::references(claims));
+    filler.insert("protocol_windows", &protocol::windows(results)?);
+    filler.insert("protocol_table", &protocol::table(results)?);
+    filler.insert("starts_table", &starts::table(results)?);
+    Ok(())
+}
+
+/// A value with its standard error, or the word "none" where the sample decides nothing.
+fn estimate(id: impl Into<String>, found: Option<Estimate>, realisations: usize) -> Value {
+    match found {
+        Some(e) => Value::ensemble(id, e.value, e.error, realisations as u64),
+        None => Value::text(id, "none"),
+    }
+}
+
+/// A share of a number of realisations, with its binomial standard error.
+fn share(id: impl Into<String>, part: usize, whole: usize) -> Value {
+    let p = part as f64 / whole.max(1) as f64;
+    Value::ensemble(id, p, (p * (1.0 - p) / whole.max(1) as f64).sqrt(), whole as u64)
+}
+
+/// A count, shown as an integer up to a million and with its leading digits beyond.
+fn count(id: &str, n: u64) -> Value {
+    if n < 1_000_000 { Value::integer(id, n) } else { Value::real(id, n as f64, 2) }
+}
+
+/// The value with this id, as a template writes it.
+fn mark(id: impl Into<String>) -> String {
+    Mark { id: id.into(), style: Style::default() }.write()
+}
+
+/// With the item that computed them, for all values of one place.
+fn from(values: Vec<Value>, item: &str, experiment: &str) -> Vec<Value> {
+    values.into_iter().map(|value| value.source(item, experiment)).collect()
+}

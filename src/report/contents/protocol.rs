@@ -1,0 +1,95 @@
+//! Section 11: the map over transients and windows.
+
+use super::{Error, estimate, from, mark};
+use crate::experiments::Results;
+use crate::experiments::protocol::ProtocolMap;
+use crate::report::values::Value;
+use serde::Serialize;
+
+/// One line of the table.
+#[derive(Debug, Serialize)]
+pub struct Line {
+    transient: String,
+    cells: Vec<String>,
+}
+
+fn cell(transient: f64, window: f64) -> String {
+    format!("protocol.t{}_w{}", transient as u64, window as u64)
+}
+
+pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
+    let map = results.protocol()?;
+    let parameters = &map.parameters;
+    let n = parameters.realisations;
+    let mut values: Vec<Value> = Vec::new();
+    for &w in &parameters.windows {
+        values.push(Value::real(format!("protocol.w{}", w as u64), w, 4));
+    }
+    for &t in &parameters.transients {
+        values.push(Value::real(format!("protocol.t{}", t as u64), t, 4));
+    }
+    let cells = map.cells.iter().map(|c| estimate(cell(c.transient, c.window), c.half_height, n));
+    values.extend(cells);
+    let lowest = extreme(map, |a, b| a < b);
+    let highest = extreme(map, |a, b| a > b);
+    let ends = |list: &[f64]| [list.first().copied(), list.last().copied()];
+    let real = |id: &str, x: Option<f64>, digits| match x {
+        Some(x) => Value::real(id, x, digits),
+        None => Value::text(id, "none"),
+    };
+    let [t_low, t_high] = ends(&parameters.transients);
+    let [w_low, w_high] = ends(&parameters.windows);
+    values.extend([
+        // The largest threshold first: it falls with both times.
+        real("protocol_low", highest, 3),
+        real("protocol_high", lowest, 3),
+        real("protocol_transient_low", t_low, 4),
+        real("protocol_transient_high", t_high, 4),
+        real("protocol_window_low", w_low, 4),
+        real("protocol_window_high", w_high, 4),
+        Value::integer("protocol_realisations", n),
+        Value::integer("protocol_sigma_count", parameters.sigmas.len()),
+        Value::integer(
+            "protocols_printed",
+            map.cells.iter().filter(|c| c.prints_as_published).count(),
+        ),
+        Value::integer("protocols_total", map.cells.len()),
+        Value::text("protocols_printed_list", printed(map)),
+    ]);
+    Ok(from(values, "experiments::protocol::run", "protocol"))
+}
+
+fn extreme(map: &ProtocolMap, better: fn(f64, f64) -> bool) -> Option<f64> {
+    let halves = map.cells.iter().filter_map(|c| Some(c.half_height?.value));
+    halves.reduce(|best, x| if better(x, best) { x } else { best })
+}
+
+/// The protocols that print as the paper does: `T = 500 with W = 100, 200; …`.
+fn printed(map: &ProtocolMap) -> String {
+    let groups = map.parameters.transients.iter().filter_map(|&t| {
+        let windows: Vec<String> = map
+            .cells
+            .iter()
+            .filter(|c| c.transient == t && c.prints_as_published)
+            .map(|c| format!("{}", c.window))
+            .collect();
+        (!windows.is_empty()).then(|| format!("T = {t} with W = {}", windows.join(", ")))
+    });
+    groups.collect::<Vec<_>>().join("; ")
+}
+
+/// The heads of the columns.
+pub fn windows(results: &Results) -> Result<Vec<String>, Error> {
+    let windows = &results.protocol()?.parameters.windows;
+    Ok(windows.iter().map(|w| mark(format!("protocol.w{}", *w as u64))).collect())
+}
+
+/// The lines of the table.
+pub fn table(results: &Results) -> Result<Vec<Line>, Error> {
+    let parameters = &results.protocol()?.parameters;
+    let line = |&t: &f64| Line {
+        transient: mark(format!("protocol.t{}", t as u64)),
+        cells: parameters.windows.iter().map(|&w| mark(cell(t, w))).collect(),
+    };
+    Ok(parameters.transients.iter().map(line).collect())
+}

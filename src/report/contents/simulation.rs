@@ -1,0 +1,191 @@
+//! Section 2 and what other sections take from the main sweep.
+
+use super::{Error, count, estimate, from, share};
+use crate::claims::sec2;
+use crate::experiments::Results;
+use crate::experiments::sweep::{Sweep, SweepRow};
+use crate::params::{LEVEL, NEAR_SIMULTANEOUS, SECOND_SEED, SEED, SLOW};
+use crate::report::values::Value;
+
+/// A σ below the rise, where the text tells how little happens.
+const BELOW: f64 = 0.08;
+/// A σ above the rise.
+const ABOVE: f64 = 0.2;
+/// A σ at which masses begin to be able to stick.
+const STICKING: f64 = 0.3;
+
+/// The row nearest to σ.
+pub(super) fn row(sweep: &Sweep, sigma: f64) -> Result<&SweepRow, Error> {
+    let distance = |row: &SweepRow| (row.sigma - sigma).abs();
+    let nearest = sweep.rows.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+    nearest.ok_or(Error::Missing("a row of the main sweep"))
+}
+
+/// Realisations of a row that ran to the end.
+pub(super) fn ran(row: &SweepRow) -> usize {
+    row.realisations - row.rejected - row.failed
+}
+
+/// The mean over the kept of a row.
+pub(super) fn mean_kept(id: &str, row: &SweepRow) -> Value {
+    match (row.mean_distinct, row.standard_error) {
+        (Some(mean), Some(error)) => Value::ensemble(id, mean, error, row.kept as u64),
+        (Some(mean), None) => Value::real(id, mean, 2),
+        _ => Value::text(id, "none"),
+    }
+}
+
+/// The mean over all of a row.
+pub(super) fn mean_all(id: &str, row: &SweepRow) -> Value {
+    match sec2::mean_all(row) {
+        Some([mean, error]) => Value::ensemble(id, mean, error, ran(row) as u64),
+        None => Value::text(id, "none"),
+    }
+}
+
+pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
+    let sweep = results.sweep()?;
+    let mut values = from(run(sweep), "params::SweepParams::main", "sweep");
+    values.extend(from(rise(results, sweep)?, "experiments::rise::find", "sweep"));
+    values.extend(from(laws(results, sweep)?, "experiments::laws::run", "laws"));
+    let found = results.two_masses()?;
+    let longest = found.excess.last().ok_or(Error::Missing("two masses"))?;
+    let two_masses = vec![
+        Value::real("two_masses_bound", found.safe_force, 4),
+        Value::integer("two_masses_directions", found.parameters.directions),
+        Value::real("two_masses_time", longest.time, 1),
+        Value::real("two_masses_least", longest.least, 6),
+        Value::real("two_masses_greatest", longest.greatest, 6),
+    ];
+    values.extend(from(two_masses, "experiments::two_masses::run", "two_masses"));
+    values.extend(from(horizon(results)?, "experiments::horizon::run", "horizon"));
+    Ok(values)
+}
+
+/// What was run.
+fn run(sweep: &Sweep) -> Vec<Value> {
+    let parameters = &sweep.parameters;
+    let ends = |i: usize| sweep.rows.get(i).map_or(0.0, |row| row.sigma);
+    vec![
+        Value::integer("gaps", parameters.chain.gaps()),
+        Value::real("transient", parameters.protocol.transient, 3).unit(r"$1/\omega$"),
+        Value::real("window", parameters.protocol.window, 3).unit(r"$1/\omega$"),
+        Value::integer("realisations", parameters.realisations),
+        Value::integer("sigma_count", sweep.rows.len()),
+        Value::real("sigma_low", ends(0), 1),
+        Value::real("sigma_high", ends(sweep.rows.len().saturating_sub(1)), 1),
+        Value::real("confidence", LEVEL, 2),
+        Value::integer("seed", SEED),
+        Value::integer("second_seed", SECOND_SEED),
+        count("sweep_impacts", sweep.rows.iter().map(|row| row.impacts).sum()),
+    ]
+}
+
+/// Figs. 2 and 3.
+fn rise(results: &Results, sweep: &Sweep) -> Result<Vec<Value>, Error> {
+    let n = sweep.parameters.realisations;
+    let (below, above) = (row(sweep, BELOW)?, row(sweep, ABOVE)?);
+    let places = &sweep.rise;
+    let second = results.second_seed()?;
+    let interval = places.half_height.map(|half| half.interval);
+    let mode = sec2::mode_half(sweep);
+    let noise = noisiest_mode(sweep);
+    let largest = sec2::largest_between_seeds(sweep, second);
+    let or_none = |id: &str, value: Option<Value>| value.unwrap_or_else(|| Value::text(id, "none"));
+    Ok(vec![
+        Value::real("sigma_below", below.sigma, 2),
+        share("kept_below", below.kept, ran(below)),
+        mean_kept("mean_kept_below", below),
+        mean_all("mean_all_below", below),
+        Value::real("sigma_above", above.sigma, 2),
+        share("kept_above", above.kept, ran(above)),
+        mean_kept("mean_above", above),
+        estimate("rise_width", places.width, n),
+        estimate("half_height", places.half_height, n),
+        or_none(
+            "half_height_interval",
+            interval.map(|ends| Value::interval("half_height_interval", ends)),
+        ),
+        estimate("onset", places.onset, n),
+        estimate("kept_half", places.kept_half, n),
+        or_none("mode_half", mode.map(|ends| Value::interval("mode_half", ends))),
+        or_none("mode_noise_sigma", noise.map(|r| Value::real("mode_noise_sigma", r.sigma, 3))),
+        or_none(
+            "mode_noise",
+            noise
+                .and_then(|r| r.mode_interval)
+                .map(|[low, high]| Value::interval("mode_noise", [low as f64, high as f64])),
+        ),
+        estimate("half_height_second", second.rise.half_height, second.parameters.realisations),
+        or_none(
+            "second_seed_largest",
+            largest.map(|(errors, _)| Value::real("second_seed_largest", errors, 2)),
+        ),
+    ])
+}
+
+/// The row whose mode is known worst.
+fn noisiest_mode(sweep: &Sweep) -> Option<&SweepRow> {
+    let width = |row: &SweepRow| row.mode_interval.map_or(0, |[low, high]| high - low);
+    sweep.rows.iter().filter(|row| width(row) > 0).max_by_key(|row| width(row))
+}
+
+/// Three at a time, and sticking.
+fn laws(results: &Results, sweep: &Sweep) -> Result<Vec<Value>, Error> {
+    let laws = results.laws()?;
+    let distance = |sigma: f64| (sigma - ABOVE).abs();
+    let fitted = laws
+        .rows
+        .iter()
+        .filter(|row| row.near.is_some() && row.slow.is_some())
+        .min_by(|a, b| distance(a.sigma).total_cmp(&distance(b.sigma)));
+    let (near, slow, sigma, impacts) = match fitted {
+        Some(row) => (row.near, row.slow, row.sigma, row.impacts),
+        None => return Err(Error::Missing("laws of rare impacts")),
+    };
+    let (Some(near), Some(slow)) = (near, slow) else {
+        return Err(Error::Missing("laws of rare impacts"));
+    };
+    let contacts = |below: f64| -> u64 {
+        let rows = sweep.rows.iter().filter(|row| row.sigma <= below);
+        rows.map(|row| row.contact_phases).sum()
+    };
+    let stick = |sigma: f64| pxfm::f_exp(-0.25 / (sigma * sigma));
+    let last = |decades: &[u64]| decades.last().copied().unwrap_or(0);
+    let largest = sweep.rows.last().map_or(f64::INFINITY, |row| row.sigma);
+    Ok(vec![
+        Value::real("laws_sigma", sigma, 2),
+        Value::ensemble("near_exponent", near.exponent, near.exponent_error, impacts),
+        Value::ensemble("near_coefficient", near.coefficient, near.coefficient_error, impacts),
+        Value::ensemble("slow_exponent", slow.exponent, slow.exponent_error, impacts),
+        count("near_simultaneous", last(&laws.totals.near_decades)),
+        Value::real("near_expected", laws.totals.expected_near_simultaneous, 2),
+        Value::real("near_limit", NEAR_SIMULTANEOUS, 1),
+        count("slow_impacts", last(&laws.totals.slow_decades)),
+        Value::real("slow_limit", SLOW, 1),
+        Value::real("stick_rise", stick(crate::params::PRINTED_THRESHOLD), 1),
+        Value::real("sigma_stick_above", STICKING, 1),
+        Value::real("stick_above", stick(STICKING), 1),
+        Value::real("sigma_contact", ABOVE, 1),
+        count("contact_phases_rise", contacts(ABOVE)),
+        count("contact_phases", contacts(largest)),
+    ])
+}
+
+fn horizon(results: &Results) -> Result<Vec<Value>, Error> {
+    let found = results.horizon()?;
+    let twins = found.twins.len();
+    let first = found.twins.iter().filter_map(|pair| pair.order).fold(f64::INFINITY, f64::min);
+    Ok(vec![
+        Value::integer("horizon_twins", twins),
+        Value::real("horizon_sigma", found.parameters.sigma, 1),
+        estimate("horizon_order", found.order, twins),
+        estimate("horizon_impacts", found.order_impacts, twins),
+        estimate("horizon_tenfold", found.tenfold, twins),
+        if first.is_finite() {
+            Value::real("horizon_order_first", first, 3)
+        } else {
+            Value::text("horizon_order_first", "none")
+        },
+    ])
+}
