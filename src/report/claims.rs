@@ -76,11 +76,11 @@ fn digits_of(number: &crate::claims::Number) -> Number {
     Number::Real { value, digits }
 }
 
-/// The scorecard as values: `claims.total`, `claims.reproduced`, `claims.differs_and_explained`,
-/// `claims.differs`, `claims.cannot_be_judged`.
+/// The scorecard as values: `score.total`, `score.reproduced`, `score.differs_and_explained`,
+/// `score.differs`, `score.cannot_be_judged`.
 pub fn scorecard(claims: &[Claim]) -> Vec<Value> {
     let value = |name: &str, count: usize| {
-        Value::integer(format!("claims.{name}"), count).source("claims", "").data_only()
+        Value::integer(format!("score.{name}"), count).source("claims", "").data_only()
     };
     let count = |verdict| claims.iter().filter(|claim| claim.verdict == verdict).count();
     let verdict = |verdict: &Verdict| value(&verdict.words().replace(' ', "_"), count(*verdict));

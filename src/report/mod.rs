@@ -270,7 +270,7 @@ fn f() -> σ { 1 }
         );
         assert!(markdown.contains("[fig03.csv](data/fig03.csv)"), "{markdown}");
         assert!(text("report.tex").starts_with("\\title{Title}"));
-        assert!(text("values.json").contains("\"claims.reproduced\""));
+        assert!(text("values.json").contains("\"score.reproduced\""));
         assert!(text("ledger.md").contains("| (18) | 7 |"));
         assert_eq!(text("SHA256SUMS").lines().count(), paths.len() - 1);
         let sum =

@@ -13,13 +13,12 @@ mod starts;
 mod theory;
 
 use super::print::Style;
-use super::templates::{Filler, Mark};
+use super::templates::Mark;
 use super::values::{Registry, Value};
 use crate::claims::{self, Claim, Published};
 use crate::experiments::Results;
 use crate::numerics::statistics::Estimate;
-
-pub use ledger::{markdown, plain};
+use std::collections::BTreeMap;
 
 /// What can go wrong between results and values.
 #[derive(Debug, thiserror::Error)]
@@ -30,6 +29,9 @@ pub enum Error {
     /// An experiment was not run.
     #[error(transparent)]
     Experiment(#[from] crate::experiments::Error),
+    /// Rows that are not JSON.
+    #[error("the rows of a table: {0}")]
+    Rows(#[from] serde_json::Error),
     /// A value that the registry refuses.
     #[error(transparent)]
     Report(#[from] super::Error),
@@ -42,11 +44,7 @@ pub enum Error {
 ///
 /// # Errors
 /// If a result is missing, or two values have one id.
-pub fn registry(
-    results: &Results,
-    published: &Published,
-    claims: &[Claim],
-) -> Result<Registry, Error> {
+pub fn registry(results: &Results, published: &Published) -> Result<Registry, Error> {
     let mut registry = Registry::new();
     registry.extend(paper::values(published))?;
     registry.extend(simulation::values(results)?)?;
@@ -54,22 +52,25 @@ pub fn registry(
     registry.extend(higher::values(results)?)?;
     registry.extend(protocol::values(results)?)?;
     registry.extend(starts::values(results)?)?;
-    registry.extend(ledger::values(results, claims))?;
+    registry.extend(ledger::values(results))?;
     Ok(registry)
 }
 
-/// Hands the rows of the generated tables to the templates: `claims`, `row` (a reference to each
+/// The rows of the generated tables, by the name that templates use: `row` (a reference to each
 /// claim with its verdict), `protocol_windows`, `protocol_table` and `starts_table`.
 ///
 /// # Errors
 /// If a result is missing.
-pub fn tables(filler: &mut Filler, results: &Results, claims: &[Claim]) -> Result<(), Error> {
-    filler.insert("claims", &ledger::rows(claims));
-    filler.insert("row", &ledger::references(claims));
-    filler.insert("protocol_windows", &protocol::windows(results)?);
-    filler.insert("protocol_table", &protocol::table(results)?);
-    filler.insert("starts_table", &starts::table(results)?);
-    Ok(())
+pub fn rows(
+    results: &Results,
+    claims: &[Claim],
+) -> Result<BTreeMap<&'static str, serde_json::Value>, Error> {
+    Ok(BTreeMap::from([
+        ("row", serde_json::to_value(ledger::references(claims))?),
+        ("protocol_windows", serde_json::to_value(protocol::windows(results)?)?),
+        ("protocol_table", serde_json::to_value(protocol::table(results)?)?),
+        ("starts_table", serde_json::to_value(starts::table(results)?)?),
+    ]))
 }
 
 /// A value with its standard error, or the word "none" where the sample decides nothing.

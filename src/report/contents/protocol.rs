@@ -23,10 +23,10 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
     let n = parameters.realisations;
     let mut values: Vec<Value> = Vec::new();
     for &w in &parameters.windows {
-        values.push(Value::real(format!("protocol.w{}", w as u64), w, 4));
+        values.push(Value::integer(format!("protocol.w{}", w as u64), w as u64));
     }
     for &t in &parameters.transients {
-        values.push(Value::real(format!("protocol.t{}", t as u64), t, 4));
+        values.push(Value::integer(format!("protocol.t{}", t as u64), t as u64));
     }
     let cells = map.cells.iter().map(|c| estimate(cell(c.transient, c.window), c.half_height, n));
     values.extend(cells);
@@ -37,16 +37,17 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
         Some(x) => Value::real(id, x, digits),
         None => Value::text(id, "none"),
     };
+    let time = |id: &str, x: Option<f64>| Value::integer(id, x.unwrap_or(0.0) as u64);
     let [t_low, t_high] = ends(&parameters.transients);
     let [w_low, w_high] = ends(&parameters.windows);
     values.extend([
         // The largest threshold first: it falls with both times.
         real("protocol_low", highest, 3),
         real("protocol_high", lowest, 3),
-        real("protocol_transient_low", t_low, 4),
-        real("protocol_transient_high", t_high, 4),
-        real("protocol_window_low", w_low, 4),
-        real("protocol_window_high", w_high, 4),
+        time("protocol_transient_low", t_low),
+        time("protocol_transient_high", t_high),
+        time("protocol_window_low", w_low),
+        time("protocol_window_high", w_high),
         Value::integer("protocol_realisations", n),
         Value::integer("protocol_sigma_count", parameters.sigmas.len()),
         Value::integer(

@@ -53,7 +53,7 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
     let two_masses = vec![
         Value::real("two_masses_bound", found.safe_force, 4),
         Value::integer("two_masses_directions", found.parameters.directions),
-        Value::real("two_masses_time", longest.time, 1),
+        Value::integer("two_masses_time", longest.time as u64),
         Value::real("two_masses_least", longest.least, 6),
         Value::real("two_masses_greatest", longest.greatest, 6),
     ];
@@ -68,8 +68,8 @@ fn run(sweep: &Sweep) -> Vec<Value> {
     let ends = |i: usize| sweep.rows.get(i).map_or(0.0, |row| row.sigma);
     vec![
         Value::integer("gaps", parameters.chain.gaps()),
-        Value::real("transient", parameters.protocol.transient, 3).unit(r"$1/\omega$"),
-        Value::real("window", parameters.protocol.window, 3).unit(r"$1/\omega$"),
+        Value::integer("transient", parameters.protocol.transient as u64).unit(r"$1/\omega$"),
+        Value::integer("window", parameters.protocol.window as u64).unit(r"$1/\omega$"),
         Value::integer("realisations", parameters.realisations),
         Value::integer("sigma_count", sweep.rows.len()),
         Value::real("sigma_low", ends(0), 1),
