@@ -10,6 +10,8 @@
 
 use super::Error;
 use super::impact_probability::ImpactProbability;
+use crate::numerics::double_double::DoubleDouble;
+use crate::numerics::scaled::Scaled;
 use std::f64::consts::FRAC_PI_2;
 
 impl ImpactProbability {
@@ -21,11 +23,13 @@ impl ImpactProbability {
     /// [`Error::Underflow`] where the value is below the range of normal doubles.
     pub fn p_from_rest(&self) -> Result<f64, Error> {
         let scale = (self.half_ratio * self.detuning).square();
-        let kappa = self.frequency_ratio;
-        let reach = 1.0 + kappa.max(1.0).sqrt();
+        let kappa = self.frequency_ratio.to_f64();
+        let root = if kappa > 1.0 { self.frequency_ratio.sqrt() } else { DoubleDouble::ONE };
+        let reach = Scaled::from(DoubleDouble::ONE + root);
+        let (rate, reach_f64) = (scale.to_f64(), reach.to_f64());
         let integral =
-            half_period_mean(|theta| pxfm::f_exp(-scale.to_f64() * excess(kappa, reach, theta)));
-        let least = (scale / crate::numerics::scaled::product(reach, reach)).to_double_double();
+            half_period_mean(|theta| pxfm::f_exp(-rate * excess(kappa, reach_f64, theta)));
+        let least = (scale / reach.square()).to_double_double();
         let half = (-least).times_power_of_two(0.5).exp();
         let p = (half * integral) * half;
         if p >= f64::MIN_POSITIVE {

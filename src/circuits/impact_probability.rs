@@ -34,7 +34,7 @@ pub struct ImpactProbability {
     /// |ω² − Ω²|.
     pub(super) detuning: Scaled,
     /// (Ω/ω)².
-    pub(super) frequency_ratio: f64,
+    pub(super) frequency_ratio: DoubleDouble,
 }
 
 /// **Eq. (21)**
@@ -113,7 +113,7 @@ impl ImpactProbability {
             spacing,
             half_ratio: Scaled::from(spacing) / Scaled::from(sigma) * 0.5,
             detuning,
-            frequency_ratio: (squared(forcing) / squared(omega)).to_f64(),
+            frequency_ratio: (squared(forcing) / squared(omega)).to_double_double(),
         })
     }
 

@@ -68,7 +68,8 @@ impl DoubleDouble {
     /// e^self as a double, with the relative error of the exponential of a double.
     pub fn exp(self) -> f64 {
         let e = pxfm::f_exp(self.hi);
-        e + e * pxfm::f_expm1(self.lo)
+        // At 0 and ∞ nothing is left to correct, and lo may be anything.
+        if e == 0.0 || e.is_infinite() { e } else { e + e * pxfm::f_expm1(self.lo) }
     }
 
     /// The square root, for values ≥ 0.
@@ -215,5 +216,6 @@ mod tests {
         // e^(5e−14) = 1 + 5e−14 to 1e−27.
         let ratio = x.exp() / pxfm::f_exp(700.0);
         assert!((ratio - 1.0 - 5e-14).abs() < 5e-16);
+        assert_eq!((DoubleDouble { hi: -1e200, lo: 1e183 }).exp(), 0.0);
     }
 }

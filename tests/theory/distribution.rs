@@ -1,0 +1,236 @@
+//! Eqs. (9), (10) and (38), k* and μ, against direct sums in high precision.
+
+use crate::high_precision::{Big, big, int, near, relative_error};
+use SampleSpace::{FiveClasses, FiveClassesPrinted, Simple};
+use impact_paper::circuits::distribution::{Law, SampleSpace};
+use impact_paper::circuits::graph::Graph;
+use impact_paper::circuits::higher_order::{CLASSES, Class, different};
+use impact_paper::circuits::{Error, LARGEST_N, counting};
+
+/// The weights of k = 1..=N, term by term as Eqs. (10) and (38) have them.
+fn weights(space: SampleSpace, big_n: usize, p: f64) -> Vec<Big> {
+    let p = big(p);
+    let mut arranged = int(1);
+    let power = |e: usize| (0..e).fold(int(1), |w, _| w * &p);
+    let of = |k: usize, arranged: &Big| {
+        let simple = arranged.clone() / int(k);
+        if space == Simple {
+            return simple;
+        }
+        // Primitive counts at two different vertices at most, the printed polynomials beyond.
+        let single = usize::from(space == FiveClassesPrinted || k > 1);
+        let (doubled, three, four) = (
+            int(k) / int(2),
+            int(k) * int(k + 1) / int(6),
+            int(k) * int(k + 1) * int(k + 2) / int(24),
+        );
+        let two = match (space, k) {
+            (FiveClasses, 2) => int(1) / int(2),
+            _ => int(k - 1) * int(k) * int(k + 1) / int(8),
+        };
+        let higher = doubled * power(1) + three * power(2) + four * power(3);
+        simple + arranged.clone() * (higher * int(single) + two * power(2))
+    };
+    (1..=big_n)
+        .map(|k| {
+            arranged *= p.clone() * int(big_n + 1 - k);
+            of(k, &arranged)
+        })
+        .collect()
+}
+
+fn sum<'a>(values: impl IntoIterator<Item = &'a Big>) -> Big {
+    values.into_iter().fold(int(0), |s, v| s + v)
+}
+
+/// The index (from 1) of the first largest value.
+fn first_largest(values: &[Big]) -> usize {
+    let mut best = 0;
+    for (i, value) in values.iter().enumerate() {
+        if *value > values[best] {
+            best = i;
+        }
+    }
+    best + 1
+}
+
+const SPACES: [SampleSpace; 3] = [Simple, FiveClasses, FiveClassesPrinted];
+
+#[test]
+fn probabilities_mean_and_mode_agree_with_direct_sums() {
+    for space in SPACES {
+        for big_n in [1, 2, 3, 4, 5, 7, 12, 100, 171] {
+            for p in [1e-12, 1e-3, 0.005, 0.01, 0.015, 0.02, 0.1, 0.5, 0.75, 1.0] {
+                let law = Law::new(space, big_n, p).unwrap();
+                let weights = weights(space, big_n, p);
+                let total = sum(&weights);
+                let at = format!("{space:?} N = {big_n} p = {p}");
+                for (i, ours) in law.probabilities().into_iter().enumerate() {
+                    let exact = weights[i].clone() / &total;
+                    if near(&exact) > 1e-300 {
+                        assert!(relative_error(ours, &exact) < 4e-15, "{at} k = {}", i + 1);
+                    }
+                    assert_eq!(law.probability(i + 1), Ok(ours), "{at}");
+                }
+                let moment =
+                    weights.iter().enumerate().fold(int(0), |s, (i, w)| s + int(i + 1) * w);
+                assert!(relative_error(law.mean(), &(moment / &total)) < 1e-15, "{at}");
+                assert!(relative_error(law.log_gamma(), &total.ln()) < 1e-15, "{at}");
+                assert_eq!(law.k_star(), first_largest(&weights), "{at}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_million_vertices_keep_thirteen_digits() {
+    // Second route: the same sums in 67-digit arithmetic, cut where terms no longer matter.
+    let big_n = 1_000_000;
+    for p in [9e-7, 1.003e-6, 1.02e-6] {
+        let law = Law::new(Simple, big_n, p).unwrap();
+        let (mut arranged, mut total, mut moment) = (int(1), int(0), int(0));
+        let mut seen = Vec::new();
+        for k in 1..=60_000 {
+            arranged *= big(p) * int(big_n + 1 - k);
+            let term = arranged.clone() / int(k);
+            moment += &arranged;
+            total += &term;
+            if [1, 1000, 20_000].contains(&k) {
+                seen.push((k, term));
+            }
+        }
+        // Nothing beyond k = 60 000 matters: past the peak near 2 (p N − 1) N ≤ 40 000 the terms
+        // fall at least like e^{−(k − peak)²/(2N)}.
+        assert!(near(&(arranged / &total)) < 1e-20);
+        assert!(relative_error(law.mean(), &(moment / &total)) < 1e-13, "p = {p}");
+        for (k, term) in seen {
+            let exact = term / &total;
+            if near(&exact) > 1e-300 {
+                let ours = law.probability(k).unwrap();
+                assert!(relative_error(ours, &exact) < 1e-13, "p = {p} k = {k} {ours:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn far_from_small_p_a_million_vertices_follow_the_tail_of_the_exponential_series() {
+    // Second route: with j = N − k, Φ is proportional to (1/p)^j / (j! (N − j)); at N = 10^6 and
+    // p = 0.3 forty terms are all there is.
+    let (big_n, p) = (1_000_000, 0.3);
+    let inverse = int(1) / big(p);
+    let (mut power, mut total, mut moment) = (int(1), int(0), int(0));
+    for j in 0..60 {
+        if j > 0 {
+            power = power * &inverse / int(j);
+        }
+        total += power.clone() / int(big_n - j);
+        moment += &power;
+    }
+    let law = Law::new(Simple, big_n, p).unwrap();
+    assert!(relative_error(law.mean(), &(moment / &total)) < 1e-15);
+    let last = int(1) / int(big_n) / &total;
+    assert!(relative_error(law.probability(big_n).unwrap(), &last) < 1e-13);
+    // Far in the lower tail the probability is below every double.
+    assert_eq!(law.probability(1), Ok(0.0));
+}
+
+#[test]
+fn five_classes_weigh_what_enumeration_finds() {
+    // Every primitive circuit of a small graph, weight p^L, by number of different vertices.
+    for big_n in 1..=5 {
+        let p = 0.375;
+        let mut found = vec![0.0; big_n];
+        for circuit in Graph::of_chain(big_n - 1).circuits(big_n + 3) {
+            if CLASSES.iter().any(|class| class.repeats == circuit.repeats()) {
+                let weight = (0..circuit.length()).fold(1.0, |w, _| w * p);
+                found[circuit.different_vertices() - 1] += weight;
+            }
+        }
+        let total: f64 = found.iter().sum();
+        let ours = Law::new(FiveClasses, big_n, p).unwrap().probabilities();
+        for (k, (ours, found)) in ours.iter().zip(&found).enumerate() {
+            assert!((ours * total / found - 1.0).abs() < 1e-12, "N = {big_n}, k = {}", k + 1);
+        }
+    }
+}
+
+#[test]
+fn equation_38_is_the_weight_at_p_one() {
+    // At p = 1 all classes weigh alike: the counts of Eq. (38), as exact integers.
+    for big_n in 1..=20 {
+        let law = Law::new(FiveClasses, big_n, 1.0).unwrap();
+        for k in 1..=big_n {
+            let count = different(big_n, k).unwrap();
+            let weight = law.weight(k).unwrap().to_f64();
+            assert!((weight / count as f64 - 1.0).abs() < 1e-15, "N = {big_n}, k = {k}");
+        }
+    }
+}
+
+#[test]
+fn contributions_of_the_classes_add_up_and_follow_their_counts() {
+    let (big_n, p) = (20, 0.07);
+    let law = Law::new(FiveClasses, big_n, p).unwrap();
+    let total = law.probabilities();
+    let parts: Vec<Vec<f64>> = CLASSES.iter().map(|class| law.contribution(class)).collect();
+    for k in 1..=big_n {
+        let added: f64 = parts.iter().map(|part| part[k - 1]).sum();
+        assert!((added / total[k - 1] - 1.0).abs() < 1e-14);
+        for (class, part) in CLASSES.iter().zip(&parts) {
+            let length = class.length(k);
+            let count = Class::new(class.repeats).primitive(big_n, length).unwrap();
+            let simple = counting::phi(big_n, k).unwrap();
+            let power = (0..length - k).fold(1.0, |w, _| w * p);
+            let expected = parts[0][k - 1] * power * (count as f64 / simple as f64);
+            assert!((part[k - 1] - expected).abs() <= 1e-14 * expected, "{class:?} k = {k}");
+        }
+    }
+}
+
+#[test]
+fn limit_of_small_p() {
+    for space in [Simple, FiveClasses] {
+        let law = Law::new(space, 100, 0.0).unwrap();
+        assert_eq!((law.k_star(), law.mean(), law.probability(1)), (1, 1.0, Ok(1.0)));
+        assert_eq!(law.probability(2), Ok(0.0));
+        // And it is a limit: at the smallest double nothing has changed.
+        let tiny = Law::new(space, 100, 5e-324).unwrap();
+        assert_eq!((tiny.k_star(), tiny.mean(), tiny.probability(1)), (1, 1.0, Ok(1.0)));
+    }
+}
+
+#[test]
+fn ties_go_to_the_lowest() {
+    // N = 5, p = 1/2: Φ(1) = Φ(2) = Φ(3) = 5/2 by hand.
+    assert_eq!(Law::new(Simple, 5, 0.5).unwrap().k_star(), 1);
+    assert_eq!(Law::new(Simple, 5, 0.5_f64.next_up()).unwrap().k_star(), 3);
+    // N = 3, p = 1: Φ = 3, 3, 2.
+    assert_eq!(Law::new(Simple, 3, 1.0).unwrap().k_star(), 1);
+    // A tie of neighbours at the top needs f(k) = 0, so p = (k + 1)/(k (N − k)), at a dyadic p:
+    // the first such N and k for which k is also the maximum.
+    let tie = (2..200).flat_map(|n| (2..n).map(move |k| (n, k))).find(|(n, k)| {
+        let p = (k + 1) as f64 / (k * (n - k)) as f64;
+        let dyadic = (p * 1024.0).fract() == 0.0;
+        dyadic && p <= 1.0 && *k > 1 && first_largest(&weights(Simple, *n, p)) == *k
+    });
+    let (n, k) = tie.expect("a dyadic tie at the maximum");
+    let p = (k + 1) as f64 / (k * (n - k)) as f64;
+    assert_eq!(Law::new(Simple, n, p).unwrap().k_star(), k);
+    assert_eq!(Law::new(Simple, n, p.next_up()).unwrap().k_star(), k + 1);
+}
+
+#[test]
+fn bad_input_is_an_error() {
+    let field = |result: Result<Law, Error>| match result {
+        Err(Error::Input { field, .. }) => field,
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(field(Law::new(Simple, 0, 0.5)), "vertices");
+    assert_eq!(field(Law::new(Simple, LARGEST_N + 1, 0.5)), "vertices");
+    for p in [-1e-9, 1.0_f64.next_up(), f64::NAN, f64::INFINITY] {
+        assert_eq!(field(Law::new(Simple, 5, p)), "p");
+    }
+    let law = Law::new(Simple, 5, 0.5).unwrap();
+    assert!(law.probability(0).is_err() && law.probability(6).is_err());
+}

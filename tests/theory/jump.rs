@@ -1,0 +1,231 @@
+//! Eqs. (11) to (18) and the actual jump, against exact and 67-digit arithmetic.
+
+use crate::high_precision::{Big, big, exp, int, near, relative_error};
+use SampleSpace::{FiveClasses, FiveClassesPrinted, Simple};
+use dashu::integer::UBig;
+use impact_paper::circuits::distribution::{Law, SampleSpace};
+use impact_paper::circuits::{Error, jump};
+
+#[test]
+fn p_crit_to_the_last_digits() {
+    for big_n in [1, 2, 3, 4, 99, 100, 101, 1000, 10_000_000] {
+        let root = (int(1) + int(big_n + 1).sqrt()) / int(big_n);
+        let ours = jump::p_crit(big_n).unwrap();
+        assert!(relative_error(ours, &(root.clone() * root)) < 1e-15, "N = {big_n}");
+    }
+}
+
+/// p_jump from its definition for simple circuits: Φ(k) = Φ(1) at p^(k−1) = k (N − k)!/(N − 1)!,
+/// so the infimum is the least (k − 1)-th root over k, taken through logarithms.
+fn p_jump_by_roots(big_n: usize) -> (Big, usize) {
+    let mut falling = UBig::ONE;
+    let mut best: Option<(Big, usize)> = None;
+    for k in 2..=big_n {
+        falling *= UBig::from(big_n + 1 - k);
+        let quotient = int(k) / Big::from(dashu::integer::IBig::from(falling.clone()));
+        let log = quotient.with_precision(crate::high_precision::BITS).value().ln() / int(k - 1);
+        // Of equal roots the larger k wins just after the jump.
+        if best.as_ref().is_none_or(|(least, _)| near(&(log.clone() - least)) < 1e-50) {
+            best = Some((log, k));
+        }
+    }
+    let (log, k) = best.unwrap();
+    (exp(log), k)
+}
+
+#[test]
+fn jump_agrees_with_roots_of_exact_integers() {
+    for big_n in [4, 5, 6, 10, 50, 100, 101, 171, 400] {
+        let (exact, k) = p_jump_by_roots(big_n);
+        let ours = jump::p_jump(Simple, big_n).unwrap();
+        assert!(relative_error(ours.p, &exact) < 1.2e-16, "N = {big_n}: {:e}", ours.p);
+        assert_eq!(ours.k_after, k, "N = {big_n}");
+        let [below, above] = ours.bracket;
+        assert_eq!(below.next_up(), above);
+        // To 60 digits the root of N = 5 is 1/2 itself.
+        let slack = big(1e-50);
+        assert!(big(below) <= exact.clone() + &slack && exact <= big(above) + slack);
+        let k_star = |p| Law::new(Simple, big_n, p).unwrap().k_star();
+        assert_eq!((k_star(below), k_star(above)), (1, k), "N = {big_n}");
+    }
+}
+
+#[test]
+fn jump_of_a_million_vertices() {
+    // Second route: Φ(k)/Φ(1) in 67-digit arithmetic at both ends of the bracket, and ln p_jump
+    // to 1e−14 from the root at its own k.
+    let big_n = 1_000_000;
+    let found = jump::p_jump(Simple, big_n).unwrap();
+    let exceeds = |p: f64| {
+        let mut ratio = int(1);
+        (2..=3 * found.k_after).any(|k| {
+            ratio *= big(p) * int(big_n + 1 - k);
+            ratio > int(k)
+        })
+    };
+    assert!(!exceeds(found.bracket[0]) && exceeds(found.bracket[1]));
+    let mut log = int(found.k_after).ln();
+    for k in 2..=found.k_after {
+        log -= int(big_n + 1 - k).ln();
+    }
+    assert!(relative_error(found.p, &exp(log / int(found.k_after - 1))) < 1e-14);
+}
+
+/// Whether the five-class weight of some k > 1 exceeds that of k = 1, in 67-digit arithmetic.
+fn first_exceeded(printed: bool, big_n: usize, p: f64) -> bool {
+    let p = big(p);
+    let weight = |k: usize, arranged: &Big| {
+        let c = |top: usize, below: usize| int(top) / int(below);
+        let counts = match (printed, k) {
+            (false, 1) => [int(1), int(0), int(0), int(0)],
+            (false, 2) => [c(1, 2), int(1), c(3, 2), int(1)],
+            _ => [
+                c(1, k),
+                c(k, 2),
+                c(k * (k + 1), 6) + c((k - 1) * k * (k + 1), 8),
+                c(k * (k + 1) * (k + 2), 24),
+            ],
+        };
+        let [a, b, c, d] = counts;
+        arranged.clone() * (a + p.clone() * (b + p.clone() * (c + p.clone() * d)))
+    };
+    let mut arranged = p.clone() * int(big_n);
+    let first = weight(1, &arranged);
+    (2..=big_n).any(|k| {
+        arranged *= p.clone() * int(big_n + 1 - k);
+        weight(k, &arranged) > first
+    })
+}
+
+#[test]
+fn jump_of_five_classes_is_bracketed_to_the_last_bit() {
+    for (space, printed) in [(FiveClasses, false), (FiveClassesPrinted, true)] {
+        for big_n in [2, 3, 4, 10, 100, 101, 300] {
+            let found = jump::p_jump(space, big_n).unwrap();
+            let [below, above] = found.bracket;
+            assert_eq!(below.next_up(), above);
+            assert!(!first_exceeded(printed, big_n, below), "{space:?} N = {big_n}");
+            assert!(first_exceeded(printed, big_n, above), "{space:?} N = {big_n}");
+            assert!(found.p == below || found.p == above);
+            let k_star = |p| Law::new(space, big_n, p).unwrap().k_star();
+            assert_eq!((k_star(below), k_star(above)), (1, found.k_after));
+        }
+    }
+}
+
+#[test]
+fn small_graphs_have_no_jump() {
+    for big_n in 1..=3 {
+        let none = Err(Error::NoJump { vertices: big_n, least: 4 });
+        assert_eq!(jump::p_jump(Simple, big_n), none);
+        // By hand: at p = 1 no Φ(k) exceeds Φ(1) = N.
+        assert_eq!(Law::new(Simple, big_n, 1.0).unwrap().k_star(), 1);
+    }
+    assert_eq!(jump::p_jump(FiveClasses, 1), Err(Error::NoJump { vertices: 1, least: 2 }));
+    assert!(matches!(jump::p_jump(Simple, 0), Err(Error::Input { .. })));
+}
+
+#[test]
+fn difference_of_neighbours_is_equation_11() {
+    for (big_n, p) in [(5, 0.3), (100, 0.0125), (100, 0.5), (1000, 0.002)] {
+        let law = Law::new(Simple, big_n, p).unwrap();
+        for k in [1, 2, 3, big_n / 2, big_n - 1] {
+            // `weight` is Φ over p.
+            let direct = (law.weight(k + 1).unwrap() - law.weight(k).unwrap()) * p;
+            let error = jump::difference(big_n, p, k) / direct;
+            assert!((error.to_f64() - 1.0).abs() < 1e-14, "N = {big_n} p = {p} k = {k}");
+            assert_eq!(jump::rises(big_n, p, k), direct.sign() > 0);
+            assert_eq!(jump::f(big_n, p, k as f64) > 0.0, direct.sign() > 0);
+        }
+    }
+}
+
+#[test]
+fn f_as_printed_its_ends_and_its_slope() {
+    for (big_n, p) in [(4, 0.7), (100, 0.0125), (100, 0.3), (1_000_000, 1.01e-6)] {
+        let printed = |k: f64| {
+            let (k, p) = (big(k), big(p));
+            -p.clone() * &k * &k + (int(big_n) * p - int(1)) * k - int(1)
+        };
+        for k in [0.0, 0.5, 1.0, 9.25, big_n as f64 / 3.0, big_n as f64] {
+            let exact = printed(k);
+            assert!(relative_error(jump::f(big_n, p, k), &exact) < 1e-13, "k = {k}");
+        }
+        assert_eq!(jump::f(big_n, p, 0.0), jump::f_at_zero());
+        assert_eq!(jump::f(big_n, p, big_n as f64), jump::f_at_end(big_n));
+        for k in [0.5, 2.0, big_n as f64 / 3.0] {
+            assert_eq!(jump::f(big_n, 0.0, k), jump::f_without_p(k));
+            // f is linear in p, so a difference over any step is the slope.
+            let slope = (jump::f(big_n, 1.0, k) - jump::f(big_n, 0.0, k)) / 1.0;
+            assert!((slope / jump::slope_in_p(big_n, k) - 1.0).abs() < 1e-14);
+            assert!(slope > 0.0);
+        }
+    }
+}
+
+#[test]
+fn zeros_solve_the_quadratic() {
+    for (big_n, p) in [(100, 0.01221), (100, 0.0125), (100, 0.5), (1_000_000, 0.3), (3, 1.0)] {
+        let b = int(big_n) * big(p) - int(1);
+        let root = (b.clone() * &b - int(4) * big(p)).sqrt();
+        let zeros = jump::zeros(big_n, p).unwrap();
+        let exact = [b.clone() - &root, b + root].map(|twice| twice / (int(2) * big(p)));
+        for (ours, exact) in zeros.iter().zip(&exact) {
+            assert!(relative_error(*ours, exact) < 1e-14, "N = {big_n}, p = {p}: {zeros:?}");
+        }
+    }
+    let crit = jump::p_crit(100).unwrap();
+    assert_eq!(jump::zeros(100, crit * (1.0 - 1e-12)), None);
+    assert!(jump::zeros(100, crit * (1.0 + 1e-12)).is_some());
+    assert_eq!(jump::zeros(100, 0.0), None);
+    // The two zeros meet at 1/√p_crit.
+    let [a, b] = jump::zeros(100, crit * (1.0 + 1e-12)).unwrap();
+    let middle = 1.0 / crit.sqrt();
+    assert!((a / middle - 1.0).abs() < 1e-4 && (b / middle - 1.0).abs() < 1e-4);
+}
+
+#[test]
+fn integer_maximum_is_the_ceiling_of_k_plus() {
+    for big_n in [4, 5, 30, 100] {
+        for i in 1..=400 {
+            let p = f64::from(i) / 400.0;
+            let top = jump::local_maximum(big_n, p);
+            // Direct: the last k at which Φ rises, plus one.
+            let direct = (1..big_n).rev().find(|k| jump::rises(big_n, p, *k)).map_or(1, |k| k + 1);
+            assert_eq!(top, direct, "N = {big_n}, p = {p}");
+            if top > 1 {
+                // At p = 0.055, N = 30 the zero is 10 up to the rounding of p.
+                let plus = jump::zeros(big_n, p).unwrap()[1];
+                let near = [plus - 1e-9, plus + 1e-9].map(|x| x.ceil() as usize);
+                assert!(near.contains(&top), "N = {big_n}, p = {p}: {plus} {top}");
+            }
+        }
+    }
+}
+
+#[test]
+fn steps_of_k_star_are_where_f_vanishes() {
+    for big_n in [10, 100] {
+        let after = jump::p_jump(Simple, big_n).unwrap().k_after;
+        for k in after..big_n - 1 {
+            let p = jump::step(big_n, k);
+            let k_star = |p| Law::new(Simple, big_n, p).unwrap().k_star();
+            assert_eq!((k_star(p * (1.0 - 1e-14)), k_star(p * (1.0 + 1e-14))), (k, k + 1));
+        }
+        assert_eq!(Law::new(Simple, big_n, 1.0).unwrap().k_star(), big_n - 1);
+        assert!(jump::step(big_n, big_n - 1) > 1.0);
+    }
+}
+
+#[test]
+fn first_local_maximum_over_integers() {
+    for big_n in 3..=60 {
+        let (k, [top, below]) = jump::first_local_maximum(big_n).unwrap();
+        let p = top as f64 / below as f64;
+        // Just before, nothing rises from k > 1 on; just after, Φ rises from k to k + 1.
+        assert!((2..big_n).all(|j| !jump::rises(big_n, p * (1.0 - 1e-14), j)), "N = {big_n}");
+        assert!(jump::rises(big_n, p * (1.0 + 1e-14), k));
+        assert!(p >= jump::p_crit(big_n).unwrap() * (1.0 - 1e-15));
+    }
+    assert_eq!(jump::first_local_maximum(2), None);
+}

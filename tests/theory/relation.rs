@@ -1,0 +1,201 @@
+//! Eqs. (20) to (25) against quadrature in 67-digit arithmetic.
+
+use crate::high_precision::{BITS, Big, Gauss, big, exp, int, relative_error, root_two};
+use impact_paper::circuits::Error;
+use impact_paper::circuits::impact_probability::{ImpactProbability, density_forced, density_free};
+use std::f64::consts::SQRT_2;
+
+/// The parameters of one case, σ, d, ω, Ω as exact numbers; √2 for the double nearest to it.
+struct Case {
+    s: Big,
+    q: Big,
+    d: Big,
+}
+
+impl Case {
+    fn new(sigma: f64, d: f64, omega: f64, forcing: f64) -> Self {
+        let exact = |x: f64| if x == SQRT_2 { root_two() } else { big(x) };
+        let (w, f) = (exact(omega), exact(forcing));
+        let difference = (w.clone() - &f) * (w + f);
+        let q = if difference < Big::ZERO { -difference } else { difference };
+        Case { s: big(sigma), q, d: big(d) }
+    }
+
+    /// x²/(4σ²), the exponent of both densities.
+    fn exponent(&self, x: &Big) -> Big {
+        x.clone() * x / (int(4) * &self.s * &self.s)
+    }
+
+    /// e^E p with E the least exponent of the convolution: the probability that Y_0 alone exceeds
+    /// d, plus the integral over Y_0 = x < d of the probability that the rest exceeds d − x. All
+    /// terms positive; the integral is cut to 24 widths around its peak, which loses e^{−288}.
+    fn scaled_p(&self, gauss: &Gauss) -> (Big, Big) {
+        let q2 = self.q.clone() * &self.q;
+        let one_q2 = int(1) + &q2;
+        let least = self.exponent(&self.d) * &q2 / &one_q2;
+        let peak = self.d.clone() * &q2 / &one_q2;
+        let width = self.s.clone() * (int(2) / &one_q2).sqrt();
+        let reach = int(24) * &width;
+        let low = if peak > reach { peak.clone() - &reach } else { int(0) };
+        let high = if peak.clone() + &reach < self.d { peak + reach } else { self.d.clone() };
+        let integral = gauss.integrate(&low, &high, 12, |x| {
+            let rest = (self.d.clone() - &x) * &self.q;
+            let exponent = self.exponent(&x) + self.exponent(&rest) - &least;
+            x / (int(2) * &self.s * &self.s) * exp(-exponent)
+        });
+        let alone = exp(least.clone() - self.exponent(&self.d));
+        (least, alone + integral)
+    }
+
+    /// 1 − p: an integral of positive terms.
+    fn complement(&self, gauss: &Gauss) -> Big {
+        gauss.integrate(&int(0), &self.d, 12, |x| {
+            let rest = (self.d.clone() - &x) * &self.q;
+            let inner = int(1) - exp(-self.exponent(&rest));
+            let free = exp(-self.exponent(&x));
+            x / (int(2) * &self.s * &self.s) * free * inner
+        })
+    }
+}
+
+const PAPER: (f64, f64, f64) = (1.0, 1.0, SQRT_2);
+
+/// (d, ω, Ω): the paper's, unequal scales both ways, nearly equal scales, and near resonance.
+const SETTINGS: [(f64, f64, f64); 7] = [
+    PAPER,
+    (1.0, 1.0, 3.0),
+    (1.0, 1.0, 1.1),
+    (0.3, 2.0, 1.5),
+    (1.0, 1.0, SQRT_2 * (1.0 + 1e-9)),
+    (1.0, 1.0, 1.000_000_1),
+    (1e-200, 1.0, 2.0),
+];
+
+#[test]
+fn closed_form_agrees_with_quadrature_to_the_last_digits() {
+    let gauss = Gauss::new(30);
+    let mut worst = (0.0_f64, 0.0_f64);
+    for (d, omega, forcing) in SETTINGS {
+        for over_d in [0.0135, 0.02, 0.03, 0.05, 0.12, 0.15, 0.2, 0.5, 1.0, 3.0, 10.0] {
+            let sigma = over_d * d;
+            let law = ImpactProbability::new(sigma, d, omega, forcing).unwrap();
+            let (least, factor) = Case::new(sigma, d, omega, forcing).scaled_p(&gauss);
+            let exact = exp(-least) * factor;
+            if exact < big(f64::MIN_POSITIVE) {
+                assert!(matches!(law.p(), Err(Error::Underflow { .. })));
+                continue;
+            }
+            let p = relative_error(law.p().unwrap(), &exact);
+            let log = relative_error(law.log_p().unwrap(), &exact.ln());
+            // ln p is ill-conditioned for p → 1 here, as 1 − p is not: see the next test.
+            let log = if over_d < 3.0 { log } else { 0.0 };
+            worst = (worst.0.max(p), worst.1.max(log));
+            assert!(p < 5e-15 && log < 5e-15, "d {d} ω {omega} Ω {forcing} σ {sigma}: {p} {log}");
+        }
+    }
+    println!("worst relative errors: p {:e}, ln p {:e}", worst.0, worst.1);
+}
+
+#[test]
+fn complement_and_log_keep_their_digits_at_large_sigma() {
+    let gauss = Gauss::new(30);
+    for (d, omega, forcing) in SETTINGS {
+        for over_d in [0.4, 1.0, 10.0, 1e6] {
+            let sigma = over_d * d;
+            let law = ImpactProbability::new(sigma, d, omega, forcing).unwrap();
+            let rest = Case::new(sigma, d, omega, forcing).complement(&gauss);
+            let at = format!("d {d} ω {omega} Ω {forcing} σ {sigma}");
+            assert!(relative_error(law.complement(), &rest) < 5e-15, "{at}");
+            let log = (int(1) - rest).ln();
+            assert!(relative_error(law.log_p().unwrap(), &log) < 5e-15, "{at}");
+        }
+    }
+}
+
+#[test]
+fn logarithm_in_the_far_tail() {
+    let gauss = Gauss::new(30);
+    for (d, omega, forcing) in SETTINGS {
+        for over_d in [0.01, 1e-3, 1e-5, 1e-20, 1e-25] {
+            let sigma = over_d * d;
+            let law = ImpactProbability::new(sigma, d, omega, forcing).unwrap();
+            let (least, factor) = Case::new(sigma, d, omega, forcing).scaled_p(&gauss);
+            let error = relative_error(law.log_p().unwrap(), &(factor.ln() - least));
+            assert!(error < 5e-15, "d {d} ω {omega} Ω {forcing} σ {sigma}: {error}");
+        }
+        // So far out that the exponent is all there is: e^{−10^200} against factors near 10^100.
+        let sigma = 1e-100 * d;
+        let case = Case::new(sigma, d, omega, forcing);
+        let q2 = case.q.clone() * &case.q;
+        let least = case.exponent(&case.d) * &q2 / (int(1) + q2);
+        let law = ImpactProbability::new(sigma, d, omega, forcing).unwrap();
+        assert!(relative_error(law.log_p().unwrap(), &-least) < 5e-16);
+    }
+}
+
+#[test]
+fn logarithm_and_probability_say_when_they_leave_the_range_of_doubles() {
+    let law = |sigma| ImpactProbability::of_paper(sigma).unwrap();
+    let underflows = |result: Result<f64, Error>| matches!(result, Err(Error::Underflow { .. }));
+    assert!(law(0.0135).p().is_ok() && underflows(law(0.0125).p()));
+    assert!(law(1e-153).log_p().is_ok() && underflows(law(1e-155).log_p()));
+    assert!(law(1e76).log_p().is_ok() && underflows(law(1e80).log_p()));
+    assert_eq!(law(1e300).p(), Ok(1.0));
+    assert!(underflows(law(5e-324).log_p()));
+    // ln p near the edge of p's range is that of p.
+    assert!(
+        (law(0.0135).log_p().unwrap() / pxfm::f_log(law(0.0135).p().unwrap()) - 1.0).abs() < 1e-15
+    );
+}
+
+#[test]
+fn densities_are_normalised_and_have_the_printed_form() {
+    let rule = impact_paper::numerics::quadrature::GaussLegendre::new(30);
+    for (sigma, q) in [(0.3, 1.0), (0.3, 2.5), (2.0, 0.4)] {
+        let total =
+            rule.integrate_panels(0.0, 40.0 * sigma / q, 40, |x| density_forced(x, sigma, q));
+        assert!((total - 1.0).abs() < 1e-13, "{total}");
+        for x in [0.1, 0.7, 2.0] {
+            let (s, y, q2) = (big(sigma), big(x), big(q) * big(q));
+            let exponent = q2.clone() * &y * &y / (int(4) * &s * &s);
+            let printed = q2 * y / (int(2) * &s * s) * exp(-exponent);
+            assert!(relative_error(density_forced(x, sigma, q), &printed) < 1e-13);
+        }
+    }
+    assert_eq!((density_free(-1.0, 1.0), density_free(0.0, 1.0)), (0.0, 0.0));
+    assert_eq!(density_free(0.4, 0.3), density_forced(0.4, 0.3, 1.0));
+}
+
+#[test]
+fn start_from_rest_against_the_trapezoidal_rule_in_high_precision() {
+    // Periodic and analytic: 400 points are exact to far more digits than a double has.
+    let points = 400;
+    let pi = int(4) * arctan_of_one();
+    for sigma in [0.0135, 0.05, 0.12, 0.5, 3.0] {
+        let s = int(1) / (int(2) * big(sigma));
+        let rate = s.clone() * s;
+        let mut sum = int(0);
+        for i in 0..points {
+            let (sin, _) = (pi.clone() * int(2 * i + 1) / int(4 * points)).sin_cos();
+            let d = int(1) + (int(1) + sin.clone() * sin).sqrt();
+            sum += exp(-rate.clone() / (d.clone() * d));
+        }
+        let ours = ImpactProbability::of_paper(sigma).unwrap().p_from_rest().unwrap();
+        let error = relative_error(ours, &(sum / int(points)));
+        assert!(error < 1e-14, "σ = {sigma}: {error:e}");
+    }
+}
+
+/// π/4 by Machin's formula.
+fn arctan_of_one() -> Big {
+    let arctan_inverse = |n: usize| {
+        let (mut power, mut sum) = (int(1) / int(n), int(0));
+        for j in 0..BITS {
+            let term = power.clone() / int(2 * j + 1);
+            sum = if j % 2 == 0 { sum + term } else { sum - term };
+            power /= int(n * n);
+        }
+        sum
+    };
+    int(4) * arctan_inverse(5) - arctan_inverse(239)
+}
