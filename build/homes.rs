@@ -1,5 +1,5 @@
 //! Lists the homes of the numbered equations: every doc comment with `**Eq. (n)**` in src/, as
-//! (n, path of the item, what the comment says behind it). The report and the README's map read
+//! (n, path of the item, what the comment says behind it, file). The report and the README's map read
 //! this list, so that neither can disagree with the source.
 
 use std::fmt::Write as _;
@@ -15,7 +15,8 @@ pub fn run() -> io::Result<()> {
     let mut out = String::from("&[\n");
     for file in files {
         for (number, item, note) in homes(&module(&file), &fs::read_to_string(&file)?) {
-            let _ = writeln!(out, "    ({number}, {item:?}, {note:?}),");
+            let path = file.to_string_lossy();
+            let _ = writeln!(out, "    ({number}, {item:?}, {note:?}, {path:?}),");
         }
     }
     out.push_str("]\n");

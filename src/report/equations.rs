@@ -23,23 +23,23 @@ pub const EQUATIONS: [Equation; 38] = [
     equation(4, 2, "the motion in scaled units"),
     equation(5, 2, "the forcing with one harmonic"),
     equation(6, 5, "paths of length k back to their first vertex"),
-    equation(7, 5, "simple circuits of length k, φ_N(k)"),
-    equation(8, 5, "φ_N(k) against φ_N(N)"),
-    equation(9, 6, "distribution of the number of impacts, P(X = k)"),
-    equation(10, 6, "its weights Φ_{N,p}(k) and their sum Γ_{N,p}"),
+    equation(7, 5, "simple circuits of length k, $\\phi_N(k)$"),
+    equation(8, 5, "$\\phi_N(k)$ against $\\phi_N(N)$"),
+    equation(9, 6, "distribution of the number of impacts, $P(X = k)$"),
+    equation(10, 6, "its weights $\\Phi_{N,p}(k)$ and their sum $\\Gamma_{N,p}$"),
     equation(11, 7, "difference of neighbouring weights"),
-    equation(12, 7, "f_{N,p}(k), which has the sign of that difference"),
-    equation(13, 7, "the zeros k± of f_{N,p}"),
-    equation(14, 7, "f_{N,p} at k = 0"),
-    equation(15, 7, "f_{N,p} at k = N"),
-    equation(16, 7, "f_{N,p} at p = 0"),
-    equation(17, 7, "the slope of f_{N,p} in p"),
-    equation(18, 7, "p_crit, where f_{N,p} has a double zero"),
-    equation(19, 8, "the separation Δ_j(t) of two neighbours"),
+    equation(12, 7, "$f_{N,p}(k)$, which has the sign of that difference"),
+    equation(13, 7, "the zeros $k_\\pm$ of $f_{N,p}$"),
+    equation(14, 7, "$f_{N,p}$ at k = 0"),
+    equation(15, 7, "$f_{N,p}$ at k = N"),
+    equation(16, 7, "$f_{N,p}$ at p = 0"),
+    equation(17, 7, "the slope of $f_{N,p}$ in p"),
+    equation(18, 7, "$p_{\\mathrm{crit}}$, where $f_{N,p}$ has a double zero"),
+    equation(19, 8, "the separation $\\Delta_j(t)$ of two neighbours"),
     equation(20, 8, "the probability that a gap never closes"),
-    equation(21, 8, "the amplitudes Y_i"),
-    equation(22, 8, "density of Y_0"),
-    equation(23, 8, "density of the scaled Y_1"),
+    equation(21, 8, "the amplitudes $Y_i$"),
+    equation(22, 8, "density of $Y_0$"),
+    equation(23, 8, "density of the scaled $Y_1$"),
     equation(24, 8, "the probability of no impact as a convolution"),
     equation(25, 8, "p(σ)"),
     equation(26, 9, "lengths of the two loops of a circuit with one doubled vertex"),
@@ -48,22 +48,24 @@ pub const EQUATIONS: [Equation; 38] = [
     equation(29, 9, "the same, as factorials"),
     equation(30, 9, "circuits with one doubled vertex, as a sum over loops"),
     equation(31, 9, "an integer as an ordered sum"),
-    equation(32, 9, "the number γ(n, j) of such sums"),
-    equation(33, 9, "circuits with one doubled vertex, φ¹_N(k)"),
-    equation(34, 9, "circuits of a general class, by the visits δ_j"),
+    equation(32, 9, "the number $\\gamma(n, j)$ of such sums"),
+    equation(33, 9, "circuits with one doubled vertex, $\\phi_N^1(k)$"),
+    equation(34, 9, "circuits of a general class, by the visits $\\delta_j$"),
     equation(35, 9, "circuits with one tripled vertex"),
     equation(36, 9, "circuits with one vertex visited four times"),
     equation(37, 9, "circuits with two doubled vertices"),
     equation(38, 9, "circuits of five classes with k different vertices"),
 ];
 
-/// Every home in the source: (number, path of the item, what its comment says behind the number).
+/// Every home in the source: (number, path of the item, what its comment says behind the number,
+/// file).
 /// The build script collects them from the doc comments that have `**Eq. (n)**`.
-const HOMES: &[(u32, &str, &str)] = include!(concat!(env!("OUT_DIR"), "/homes.rs"));
+const HOMES: &[(u32, &str, &str, &str)] = include!(concat!(env!("OUT_DIR"), "/homes.rs"));
 
 /// The homes of an equation; a test demands that there is exactly one.
 pub fn homes(number: u32) -> impl Iterator<Item = Home> {
-    HOMES.iter().filter(move |home| home.0 == number).map(|&(_, item, note)| Home { item, note })
+    let own = HOMES.iter().filter(move |home| home.0 == number);
+    own.map(|&(_, item, note, file)| Home { item, file, note })
 }
 
 /// Where an equation lives.
@@ -71,6 +73,8 @@ pub fn homes(number: u32) -> impl Iterator<Item = Home> {
 pub struct Home {
     /// Path of the item, as `circuits::jump::p_crit`.
     pub item: &'static str,
+    /// The file, as `src/circuits/jump.rs`.
+    pub file: &'static str,
     /// What the comment says behind the number; "(step towards (18))" where coding the equation
     /// itself would be pointless.
     note: &'static str,
@@ -94,7 +98,7 @@ mod tests {
             let items: Vec<&str> = homes(equation.number).map(|home| home.item).collect();
             assert_eq!(items.len(), 1, "Eq. ({}) lives in {items:?}", equation.number);
         }
-        for (number, item, _) in HOMES {
+        for (number, item, ..) in HOMES {
             assert!((1..=38).contains(number), "{item} is the home of no equation ({number})");
         }
     }

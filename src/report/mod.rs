@@ -16,6 +16,7 @@ pub mod labels;
 pub mod latex;
 pub mod ledger;
 pub mod lint;
+pub mod map;
 pub mod markdown;
 pub mod parse;
 pub mod pdf;

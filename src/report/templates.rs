@@ -25,7 +25,7 @@ const EMBEDDED: &[(&str, &str)] = &[
 ];
 
 /// Endings of the files that are templates or data for them (fonts live there too).
-const TEXT: [&str; 5] = [".md", ".tex", ".bib", ".toml", ".html"];
+const TEXT: [&str; 6] = [".md", ".tex", ".bib", ".toml", ".html", ".json"];
 
 /// All template files, by path relative to their folder.
 #[derive(Clone, Debug, PartialEq)]

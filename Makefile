@@ -1,0 +1,34 @@
+# Every target is one line that calls cargo or the program. Needed: Rust (rust-toolchain.toml
+# names the version), make and a C compiler for linking.
+
+.PHONY: paper quick check test test-long lint bench measure clean help
+
+paper: ## the whole reproduction in the full profile, into paper/
+	cargo run --release --locked -- paper
+
+quick: ## the same with small samples, into target/paper-quick/
+	cargo run --release --locked -- paper --profile quick
+
+check: ## every claim with its verdict; fails if one does not hold
+	cargo run --release --locked -- check
+
+test: ## all tests but the long ones
+	cargo test --locked
+
+test-long: ## the long tests only (searches, large samples)
+	cargo test --release --locked -- --ignored
+
+lint: ## formatting, clippy and documentation, warnings denied
+	cargo fmt --check && cargo clippy --locked --all-targets -- -D warnings && RUSTDOCFLAGS="-D warnings" cargo doc --locked --no-deps --document-private-items
+
+bench: ## how fast the parts are, on this machine
+	cargo bench --locked
+
+measure: ## time of one ensemble of the full chain on this machine (last column, in seconds)
+	cargo run --release --locked -- sweep --sigma 0.08,0.12,0.20 --realisations 100
+
+clean: ## remove everything that was built, saved results included
+	cargo clean
+
+help: ## this list
+	@sed -n 's/^\([a-z-]*\): ## /\1\t/p' Makefile | expand -t 12
