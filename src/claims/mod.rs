@@ -26,7 +26,7 @@ pub use ledger::{all, level, needs, one, rows, scorecard};
 pub use level::{FAMILY_LEVEL, Level};
 pub use published::{Parameter, Published, PublishedError, Statement};
 pub use row::{Error, Evidence, Finding, Row};
-pub use text::{Digits, Number, Piece, Text};
+pub use text::{Digits, Number, Piece, Text, digits_of};
 pub use verdict::{Judgement, Verdict};
 
 use serde::Serialize;

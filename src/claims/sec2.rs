@@ -56,13 +56,13 @@ fn parameters(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
         ours: Text::words("n = ")
             .integer(chain.masses)
             .say(", d = ")
-            .significant(chain.spacing, 1)
+            .chosen(chain.spacing)
             .say(", ω = ")
-            .significant(chain.natural_frequency, 1)
+            .chosen(chain.natural_frequency)
             .say(", Ω² = ")
-            .significant(square, 2)
+            .significant(square, 1)
             .say(", r = ")
-            .significant(chain.restitution, 1),
+            .chosen(chain.restitution),
         tolerance: Text::words("none"),
         reason: "the same numbers",
         judgement: Judgement::Plain {
@@ -82,7 +82,7 @@ fn few_below(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
     let limit = gaps(sweep) / 100.0;
     Ok(Finding {
         ours: Text::words("mean of all at σ = ")
-            .significant(row.sigma, 2)
+            .chosen(row.sigma)
             .say(": ")
             .with_error(mean, error),
         tolerance: Text::words("at most ").significant(limit, 2),
@@ -205,7 +205,7 @@ fn mode_rise(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
     };
     let [from, to] = s.rounding()?;
     Ok(Finding {
-        ours: Text::words("between σ = ").significant(low, 3).say(" and ").significant(high, 3),
+        ours: Text::words("between σ = ").chosen(low).say(" and ").chosen(high),
         tolerance: half_unit(s)?,
         reason: "the two intervals have to meet: half a unit of the last printed digit, and the \
                  range of σ in which bootstrap intervals of the mode reach over half of all gaps",
@@ -419,7 +419,7 @@ fn two_masses(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
 
 fn walls_like_masses(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
     let starts = e.results.starts()?;
-    let half = |name| starts.variant(name).and_then(|variant| variant.rise.half_height);
+    let half = |name| starts.variant(name).and_then(|variant| variant.rise.half_height_all);
     let (Some(walls), Some(ring)) = (half("rest"), half("ring")) else {
         return Ok(open(Text::words("no rise"), "One of the two means does not pass one half."));
     };

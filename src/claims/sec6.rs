@@ -29,7 +29,7 @@ fn few(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
             .say(", k* = ")
             .integer(panel.k_star)
             .say(" at p = ")
-            .significant(panel.p, 2),
+            .chosen(panel.p),
         tolerance: Text::words("at most ").significant(limit, 2),
         reason: "ours: a tenth of all vertices",
         judgement: Judgement::Plain { agrees: panel.mean <= limit && panel.k_star == 1 },
@@ -49,9 +49,9 @@ fn rise(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
             .say(" to ")
             .significant(c.mean, 3)
             .say(" while p goes from ")
-            .significant(a.p, 1)
+            .chosen(a.p)
             .say(" to ")
-            .significant(c.p, 1),
+            .chosen(c.p),
         tolerance: Text::words("from below a tenth to above three quarters of N"),
         reason: "ours: what “rapidly towards the size of the whole system” asks at least",
         judgement: Judgement::Plain { agrees: a.mean < 0.1 * n && c.mean > 0.75 * n },

@@ -114,7 +114,7 @@ fn p_small(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
     let (p, scalars) = (theory.slips.p_at_015, &theory.scalars);
     let printed = s.number()?;
     Ok(Finding {
-        ours: Text::words("p = ").significant(p, 3).say(" at σ = ").significant(printed, 2),
+        ours: Text::words("p = ").significant(p, 3).say(" at σ = ").chosen(printed),
         tolerance: Text::words("below p_crit"),
         reason: "too small for the theory to show anything: below the first change of k*",
         judgement: Judgement::Explained {
@@ -162,7 +162,7 @@ fn large_sigma(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
     let limit = sec2::gaps(sweep) / 10.0;
     Ok(Finding {
         ours: Text::words("largest distance from σ = ")
-            .significant(LARGE_SIGMA, 1)
+            .chosen(LARGE_SIGMA)
             .say(" on: ")
             .significant(distance, 2)
             .say(" gaps"),
@@ -170,7 +170,7 @@ fn large_sigma(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
         reason: "ours: a tenth of all gaps",
         judgement: Judgement::Plain { agrees: distance <= limit },
         note: Text::words("Reached at σ = ")
-            .significant(at, 2)
+            .chosen(at)
             .say("; both curves must approach the number of gaps."),
     })
 }
@@ -184,7 +184,7 @@ pub(crate) fn share_of_start(rest: f64, random: f64, theory: f64) -> f64 {
 fn threshold_shift(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
     let sweep = e.results.sweep()?;
     let starts = e.results.starts()?;
-    let half = |name| starts.variant(name).and_then(|variant| variant.rise.half_height);
+    let half = |name| starts.variant(name).and_then(|variant| variant.rise.half_height_all);
     let (Some(simulated), Some(rest), Some(random)) =
         (sweep.rise.half_height, half("rest"), half("random"))
     else {

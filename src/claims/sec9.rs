@@ -76,7 +76,7 @@ fn eq30(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
     let counted = id.eq30_counted;
     Ok(Finding {
         ours: Text::words("Eq. (30) gives ")
-            .significant(id.eq30_printed, 2)
+            .significant(id.eq30_printed, 1)
             .say(", enumeration ")
             .integer(counted as usize),
         tolerance: Text::words("none"),
@@ -110,7 +110,7 @@ fn class_range(e: &Evidence, s: &Statement, equation: u32) -> Result<Finding, Er
     let agrees = range.right_from <= printed_from && range.cases.failed == 0;
     let ours = Text::words("right from k = ").integer(range.right_from).say(" on");
     let note = Text::words("One length below, on three vertices, the formula gives ")
-        .significant(range.formula_below, 3)
+        .chosen(range.formula_below)
         .say(" and enumeration finds ")
         .integer(range.counted_below as usize)
         .say(": sequences that repeat a shorter one.");
@@ -208,7 +208,7 @@ fn dominate(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
         ours: Text::words("simple circuits hold ")
             .significant(share, 2)
             .say(" at p = ")
-            .significant(last.p, 1),
+            .chosen(last.p),
         tolerance: Text::words("at most ").significant(0.01, 1),
         reason: "ours: “insignificant” as at most one in a hundred, and falling with p",
         judgement: Judgement::Plain { agrees: share <= 0.01 && falls },
@@ -228,11 +228,11 @@ fn convergence(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
         ours: Text::words("total variation distance ")
             .significant(a.total_variation, 3)
             .say(" at p = ")
-            .significant(a.p, 2)
+            .chosen(a.p)
             .say(", ")
             .significant(b.total_variation, 3)
             .say(" at ")
-            .significant(b.p, 2),
+            .chosen(b.p),
         tolerance: Text::words("falling, and at most half from panel (a) to (b)"),
         reason: "ours: convergence asks for a decrease at every p that was computed",
         judgement: Judgement::Plain {
@@ -251,7 +251,7 @@ fn mean_large_p(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
         ours: Text::words("relative difference ")
             .significant(difference, 2)
             .say(" at p = ")
-            .significant(last.p, 1),
+            .chosen(last.p),
         tolerance: Text::words("at most ").significant(0.05, 1),
         reason: "ours: “very good” as within one in twenty",
         judgement: Judgement::Plain { agrees: difference.abs() <= 0.05 },
@@ -273,7 +273,7 @@ fn mean_small_p(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
         ours: Text::words("relative difference up to ")
             .significant(difference, 2)
             .say(", at p = ")
-            .significant(at, 3),
+            .chosen(at),
         tolerance: Text::words("at least ").significant(0.1, 1),
         reason: "ours: “measurable” as one in ten",
         judgement: Judgement::Plain { agrees: difference >= 0.1 },
@@ -303,7 +303,7 @@ fn all_orders(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
         ours: Text::words("doubling one vertex multiplies the weight by ")
             .significant(found, 3)
             .say(" at p = ")
-            .significant(last.p, 1),
+            .chosen(last.p),
         tolerance: Text::words("below 1"),
         reason: "further orders can be left out only if each weighs less than the one before",
         judgement: Judgement::Explained {
@@ -357,7 +357,7 @@ fn fig15_modest(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
         ours: Text::words("largest change ")
             .significant(change, 3)
             .say(" at σ = ")
-            .significant(at, 3)
+            .chosen(at)
             .say("; the half height moves by ")
             .significant(shift, 2),
         tolerance: Text::words("below σ = ")

@@ -40,6 +40,13 @@ pub enum Piece {
 #[serde(transparent)]
 pub struct Text(pub Vec<Piece>);
 
+/// The number of significant digits of the shortest decimal that reads back to the same double.
+pub fn digits_of(value: f64) -> u8 {
+    let text = format!("{:e}", value.abs());
+    let mantissa = text.split('e').next().unwrap_or_default();
+    mantissa.bytes().filter(u8::is_ascii_digit).count().max(1) as u8
+}
+
 impl Text {
     /// A text of words alone.
     pub fn words(words: impl Into<String>) -> Text {
@@ -72,6 +79,11 @@ impl Text {
         self.number(value, Digits::Significant(digits))
     }
 
+    /// Goes on with a number that was chosen, with all its digits.
+    pub fn chosen(self, value: f64) -> Text {
+        self.significant(value, digits_of(value))
+    }
+
     /// Goes on with an integer.
     pub fn integer(self, value: usize) -> Text {
         self.number(value as f64, Digits::Integer)
@@ -80,5 +92,17 @@ impl Text {
     /// Whether nothing is said.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_chosen_number_keeps_its_digits_and_gets_no_others() {
+        for (value, digits) in [(0.08, 1), (0.1175, 4), (4000.0, 1), (1e-9, 1), (0.0, 1)] {
+            assert_eq!(digits_of(value), digits, "{value}");
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! Section 9: circuits of higher order.
 
-use super::{Error, from};
+use super::{Error, chosen, from};
 use crate::claims::{sec9, sec10};
 use crate::experiments::Results;
 use crate::report::values::Value;
@@ -13,7 +13,7 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
 
 fn classes(results: &Results) -> Result<Vec<Value>, Error> {
     let (theory, id) = (&results.theory, &results.identities);
-    let (scalars, slips) = (&theory.scalars, &theory.slips);
+    let scalars = &theory.scalars;
     let missing = Error::Missing("Figs. 13 and 14");
     let (Some(first), Some(last)) = (theory.higher.first(), theory.higher.last()) else {
         return Err(missing);
@@ -34,7 +34,6 @@ fn classes(results: &Results) -> Result<Vec<Value>, Error> {
     let small = theory.most_likely.mean_inset.iter().find(|row| row.p == at);
     let small = small.map_or(0.0, |row| row.mean_higher - row.mean);
     let repeated = sec9::repeats(&results.segments()?.fig06).len();
-    let _ = slips;
     Ok(vec![
         Value::integer("fig6_repeated", repeated),
         Value::real("eq30_printed", id.eq30_printed, 1),
@@ -52,7 +51,7 @@ fn classes(results: &Results) -> Result<Vec<Value>, Error> {
         Value::real("tv_b", b.total_variation, 2),
         Value::real("mean_difference_large", last.mean - last.mean_simple, 2),
         Value::real("mean_difference_small", small, 2),
-        Value::real("mean_difference_at", at, 3),
+        chosen("mean_difference_at", at),
         Value::real("doubling", doubling, 3),
         Value::real("higher_p_jump", scalars.higher_p_jump, 5),
         Value::integer("higher_k_after_jump", scalars.higher_k_after_jump),
@@ -70,7 +69,7 @@ fn compared(results: &Results) -> Result<Vec<Value>, Error> {
     };
     Ok(vec![
         Value::real("fig15_largest", change, 2),
-        Value::real("fig15_largest_at", at, 3),
+        chosen("fig15_largest_at", at),
         Value::real("fig15_shift", scalars.sigma_half - scalars.higher_sigma_half, 1),
         Value::real("rms_simple", distance(|row| row.simple)?, 3),
         Value::real("rms_higher", distance(|row| row.higher)?, 3),

@@ -87,6 +87,11 @@ fn share(id: impl Into<String>, part: usize, whole: usize) -> Value {
     Value::ensemble(id, p, (p * (1.0 - p) / whole.max(1) as f64).sqrt(), whole as u64)
 }
 
+/// A number that was chosen, with all its digits.
+fn chosen(id: &str, value: f64) -> Value {
+    Value::real(id, value, usize::from(claims::digits_of(value)))
+}
+
 /// A count, shown as an integer up to a million and with its leading digits beyond.
 fn count(id: &str, n: u64) -> Value {
     if n < 1_000_000 { Value::integer(id, n) } else { Value::real(id, n as f64, 2) }

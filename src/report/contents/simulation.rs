@@ -1,6 +1,6 @@
 //! Section 2 and what other sections take from the main sweep.
 
-use super::{Error, count, estimate, from, share};
+use super::{Error, chosen, count, estimate, from, share};
 use crate::claims::sec2;
 use crate::experiments::Results;
 use crate::experiments::sweep::{Sweep, SweepRow};
@@ -72,8 +72,8 @@ fn run(sweep: &Sweep) -> Vec<Value> {
         Value::integer("window", parameters.protocol.window as u64).unit(r"$1/\omega$"),
         Value::integer("realisations", parameters.realisations),
         Value::integer("sigma_count", sweep.rows.len()),
-        Value::real("sigma_low", ends(0), 1),
-        Value::real("sigma_high", ends(sweep.rows.len().saturating_sub(1)), 1),
+        chosen("sigma_low", ends(0)),
+        chosen("sigma_high", ends(sweep.rows.len().saturating_sub(1))),
         Value::real("confidence", LEVEL, 2),
         Value::integer("seed", SEED),
         Value::integer("second_seed", SECOND_SEED),
@@ -93,11 +93,11 @@ fn rise(results: &Results, sweep: &Sweep) -> Result<Vec<Value>, Error> {
     let largest = sec2::largest_between_seeds(sweep, second);
     let or_none = |id: &str, value: Option<Value>| value.unwrap_or_else(|| Value::text(id, "none"));
     Ok(vec![
-        Value::real("sigma_below", below.sigma, 2),
+        chosen("sigma_below", below.sigma),
         share("kept_below", below.kept, ran(below)),
         mean_kept("mean_kept_below", below),
         mean_all("mean_all_below", below),
-        Value::real("sigma_above", above.sigma, 2),
+        chosen("sigma_above", above.sigma),
         share("kept_above", above.kept, ran(above)),
         mean_kept("mean_above", above),
         estimate("rise_width", places.width, n),
@@ -109,7 +109,7 @@ fn rise(results: &Results, sweep: &Sweep) -> Result<Vec<Value>, Error> {
         estimate("onset", places.onset, n),
         estimate("kept_half", places.kept_half, n),
         or_none("mode_half", mode.map(|ends| Value::interval("mode_half", ends))),
-        or_none("mode_noise_sigma", noise.map(|r| Value::real("mode_noise_sigma", r.sigma, 3))),
+        or_none("mode_noise_sigma", noise.map(|r| chosen("mode_noise_sigma", r.sigma))),
         or_none(
             "mode_noise",
             noise
@@ -154,7 +154,7 @@ fn laws(results: &Results, sweep: &Sweep) -> Result<Vec<Value>, Error> {
     let last = |decades: &[u64]| decades.last().copied().unwrap_or(0);
     let largest = sweep.rows.last().map_or(f64::INFINITY, |row| row.sigma);
     Ok(vec![
-        Value::real("laws_sigma", sigma, 2),
+        chosen("laws_sigma", sigma),
         Value::ensemble("near_exponent", near.exponent, near.exponent_error, impacts),
         Value::ensemble("near_coefficient", near.coefficient, near.coefficient_error, impacts),
         Value::ensemble("slow_exponent", slow.exponent, slow.exponent_error, impacts),
@@ -163,10 +163,11 @@ fn laws(results: &Results, sweep: &Sweep) -> Result<Vec<Value>, Error> {
         Value::real("near_limit", NEAR_SIMULTANEOUS, 1),
         count("slow_impacts", last(&laws.totals.slow_decades)),
         Value::real("slow_limit", SLOW, 1),
+        Value::real("slow_expected", laws.totals.expected_slow, 1),
         Value::real("stick_rise", stick(crate::params::PRINTED_THRESHOLD), 1),
-        Value::real("sigma_stick_above", STICKING, 1),
+        chosen("sigma_stick_above", STICKING),
         Value::real("stick_above", stick(STICKING), 1),
-        Value::real("sigma_contact", ABOVE, 1),
+        chosen("sigma_contact", ABOVE),
         count("contact_phases_rise", contacts(ABOVE)),
         count("contact_phases", contacts(largest)),
     ])
@@ -178,7 +179,7 @@ fn horizon(results: &Results) -> Result<Vec<Value>, Error> {
     let first = found.twins.iter().filter_map(|pair| pair.order).fold(f64::INFINITY, f64::min);
     Ok(vec![
         Value::integer("horizon_twins", twins),
-        Value::real("horizon_sigma", found.parameters.sigma, 1),
+        chosen("horizon_sigma", found.parameters.sigma),
         estimate("horizon_order", found.order, twins),
         estimate("horizon_impacts", found.order_impacts, twins),
         estimate("horizon_tenfold", found.tenfold, twins),

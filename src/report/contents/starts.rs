@@ -1,6 +1,6 @@
 //! Section 11: other starts, ends, restitutions and frequencies.
 
-use super::{Error, estimate, from, mark};
+use super::{Error, chosen, estimate, from, mark};
 use crate::claims::sec8;
 use crate::experiments::Results;
 use crate::experiments::starts::{Starts, Variant};
@@ -24,9 +24,9 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
     let starts = results.starts()?;
     let n = starts.parameters.realisations;
     let mut values = Vec::new();
-    let rest = starts.variants.first().and_then(|variant| variant.rise.half_height);
+    let rest = starts.variants.first().and_then(|variant| variant.rise.half_height_all);
     for variant in &starts.variants {
-        let half = variant.rise.half_height;
+        let half = variant.rise.half_height_all;
         values.push(estimate(id(variant), half, n));
         let difference = format!("{}_difference", id(variant));
         values.push(match rest.zip(half) {
@@ -48,14 +48,14 @@ fn random(results: &Results, starts: &Starts) -> Result<Vec<Value>, Error> {
     let missing = Error::Missing("random starts");
     let Some(random) = starts.variant("random") else { return Err(missing) };
     let Some(last) = random.rows.last() else { return Err(missing) };
-    let half = |name: &str| starts.variant(name).and_then(|variant| variant.rise.half_height);
+    let half = |name: &str| starts.variant(name).and_then(|variant| variant.rise.half_height_all);
     let theory = results.theory.scalars.sigma_half;
     let part = half("rest").zip(half("random"));
     Ok(vec![
         Value::integer("starts_realisations", starts.parameters.realisations),
         super::share("rejected_random", last.rejected, last.realisations),
-        Value::real("rejected_random_at", last.sigma, 2),
-        Value::real("rejected_limit", COMPARABLE_REJECTED, 1),
+        chosen("rejected_random_at", last.sigma),
+        chosen("rejected_limit", COMPARABLE_REJECTED),
         part.map_or(Value::text("share_of_start", "none"), |(rest, random)| {
             let share = sec8::share_of_start(rest.value, random.value, theory);
             Value::real("share_of_start", share, 2)

@@ -1,7 +1,7 @@
 //! Sections 3 to 8: graph, counting, distribution, jump, relation.
 
 use super::simulation::{mean_all, mean_kept, ran, row};
-use super::{Error, from, share};
+use super::{Error, chosen, from, share};
 use crate::claims::{sec5, sec6, sec8};
 use crate::experiments::Results;
 use crate::experiments::theory::{MeanRow, Theory};
@@ -121,12 +121,12 @@ fn relation(results: &Results) -> Result<Vec<Value>, Error> {
         Value::real("p_rest_012", threshold.p_rest, 3),
         Value::real("p_rest_ratio", threshold.p_rest / threshold.p, 2),
         Value::real("self_closing", gaps * threshold.p_rest, 2),
-        Value::real("sigma_kept_a", threshold.sigma, 2),
-        Value::real("sigma_kept_b", kept.sigma, 1),
+        chosen("sigma_kept_a", threshold.sigma),
+        chosen("sigma_kept_b", kept.sigma),
         Value::real("kept_predicted_a", threshold.any_rest, 3),
         Value::real("kept_predicted_b", kept.any_rest, 3),
         Value::real("kept_half_predicted", id.sigma_kept_half, 3),
-        Value::real("overlap_sigma", id.overlap_sigma, 3),
+        chosen("overlap_sigma", id.overlap_sigma),
         Value::real("overlap_share", id.overlap_share, 2),
     ])
 }
@@ -149,10 +149,10 @@ fn simulated(results: &Results) -> Result<Vec<Value>, Error> {
         share("kept_a", a.kept, ran(a)),
         share("kept_b", b.kept, ran(b)),
         mean_all("mean_all_threshold", a),
-        Value::real("sigma_between", between.sigma, 2),
+        chosen("sigma_between", between.sigma),
         mean_kept("mean_between", between),
         Value::real("theory_between", predicted, 2),
-        Value::real("large_sigma", sec8::LARGE_SIGMA, 1),
+        chosen("large_sigma", sec8::LARGE_SIGMA),
         largest.map_or(Value::text("large_distance", "none"), |[distance, _]| {
             Value::real("large_distance", distance, 2)
         }),
