@@ -5,7 +5,8 @@ use plotters::style::text_anchor::{HPos, VPos};
 use super::axis::Axis;
 use super::chart::{LETTERS, short};
 use super::data::cells;
-use super::panel::{Frame, Outside};
+use super::panel::Frame;
+use super::series::Outside;
 use super::sheet::{Entry, Sheet};
 use super::simulated::{
     CROSS, CROSS_HALF, comparable, count_axis, crosses, last_sigma, means, sigma_axis, split,

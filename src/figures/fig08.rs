@@ -5,7 +5,7 @@ use plotters::style::text_anchor::HPos;
 use super::axis::Axis;
 use super::chart::{FOUR, LETTERS, columns, corner, heading, largest, short, upwards_from_zero};
 use super::data::cells;
-use super::panel::Outside;
+use super::series::Outside;
 use super::sheet::Sheet;
 use super::style::{GREEN, Stroke, THIN};
 use super::{DataFile, Error, Figure};

@@ -1,7 +1,8 @@
 //! Fig. 12: the expected number of impacts, graph theory against simulation.
 
 use super::data::cells;
-use super::panel::{Frame, Outside};
+use super::panel::Frame;
+use super::series::Outside;
 use super::sheet::{Entry, Sheet};
 use super::simulated::{
     CROSS, CROSS_HALF, count_axis, crosses, curve, last_sigma, means, means_file, sigma_axis,

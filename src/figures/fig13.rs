@@ -3,7 +3,8 @@
 use super::axis::Axis;
 use super::chart::{FOUR, LETTERS, heading, largest, over_k, short, upwards_from_zero};
 use super::data::cells;
-use super::panel::{Outside, Panel};
+use super::panel::Panel;
+use super::series::Outside;
 use super::sheet::{Entry, Sheet};
 use super::style::{
     BLUE, Colour, Dash, GREEN, INK, LINE, Mark, ORANGE, PURPLE, RED, SMALL, Stroke, THIN,

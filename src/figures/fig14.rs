@@ -3,7 +3,8 @@
 use super::axis::Axis;
 use super::chart::{LETTERS, heading, largest, over_k, short, upwards_from_zero};
 use super::data::cells;
-use super::panel::{Frame, Outside};
+use super::panel::Frame;
+use super::series::Outside;
 use super::sheet::{Entry, Sheet};
 use super::style::{BLUE, Dash, GREEN, LINE, SMALL, Stroke};
 use super::{DataFile, Error, Figure};

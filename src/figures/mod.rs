@@ -26,6 +26,7 @@ mod graph;
 mod markup;
 mod motion;
 mod panel;
+mod series;
 mod sheet;
 mod simulated;
 mod style;

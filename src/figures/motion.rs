@@ -6,7 +6,8 @@ use super::axis::Axis;
 use super::chart::{LETTERS, short};
 use super::data::cells;
 use super::graph::{Layout, NAMES};
-use super::panel::{Frame, Outside, Panel};
+use super::panel::{Frame, Panel};
+use super::series::Outside;
 use super::sheet::Sheet;
 use super::style::{
     BLUE, Colour, Dash, GREEN, GREY, HAIR, INK, LINE, Mark, ORANGE, PALE, RED, SMALL, Stroke, TEXT,
@@ -49,7 +50,7 @@ pub fn draw(circuit: &Circuit, segment: &Segment) -> Result<Figure, Error> {
         Axis::linear(0.0, walls, 1.0, 1, "position *x*_{*j*} / *d*"),
     )?;
     sheet.text(LETTERS[1], (260, 4760), look)?;
-    motion(&panel, segment)?;
+    motion(&panel, segment, circuit.order.len())?;
     let foot = "a segment of a simulated motion, not a periodic orbit";
     let look = (TINY, GREY, HPos::Right, VPos::Bottom);
     sheet.text(foot, (WIDTH as i32 - 400, 4760), look)?;
@@ -82,10 +83,12 @@ pub fn draw(circuit: &Circuit, segment: &Segment) -> Result<Figure, Error> {
 fn time_axis(duration: f64) -> Axis {
     let label = "time *t* (1/*ω*)";
     let step = [0.5, 1.0, 2.0, 5.0, 10.0, 20.0].into_iter().find(|s| duration / s <= 8.0);
-    Axis::linear(0.0, duration, step.unwrap_or(50.0), 1, label)
+    let step = step.unwrap_or(50.0);
+    Axis::linear(0.0, duration, step, if step == 2.0 { 2 } else { 5 }, label)
 }
 
-fn motion(panel: &Panel, segment: &Segment) -> Result<(), Error> {
+/// Walls, equilibria, paths and impacts; a circuit of `steps` impacts begins again after them.
+fn motion(panel: &Panel, segment: &Segment, steps: usize) -> Result<(), Error> {
     let (from, d) = (segment.from, segment.spacing);
     let walls = (segment.masses + 1) as f64;
     let end = panel.x.hi;
@@ -110,16 +113,27 @@ fn motion(panel: &Panel, segment: &Segment) -> Result<(), Error> {
         let (colour, dash) = MASSES[j % MASSES.len()];
         let name = format!("mass {}", j + 1);
         panel.curve(&name, points, Stroke::dashed(colour, LINE, dash), Outside::Refuse)?;
-        if let Some(&(_, y)) = points.last() {
-            let look = (SMALL, INK, HPos::Left, VPos::Center);
-            panel.note(&format!("*x*_{{{}}}", j + 1), (end, y), (70, 0), look)?;
-        }
     }
+    name_masses(panel, &paths)?;
     let hits: Vec<_> =
         segment.impacts.iter().map(|hit| (hit.time - from, hit.position / d)).collect();
     let ring = (Mark::Ring, 70, Stroke::solid(RED, 24));
     panel.marks("impacts", &hits, ring, Outside::Refuse)?;
-    number_impacts(panel, &hits, &paths)
+    number_impacts(panel, &hits, &paths, steps)
+}
+
+/// Names the paths at their ends, from bottom to top and never on one another.
+fn name_masses(panel: &Panel, paths: &[Vec<(f64, f64)>]) -> Result<(), Error> {
+    let mut above = i32::MAX;
+    for (j, path) in paths.iter().enumerate() {
+        let Some(&end) = path.last() else { continue };
+        let y = panel.at(end.0, end.1).1;
+        let place = y.min(above.saturating_sub(260));
+        above = place;
+        let look = (SMALL, INK, HPos::Left, VPos::Center);
+        panel.note(&format!("*x*_{{{}}}", j + 1), end, (90, place - y), look)?;
+    }
+    Ok(())
 }
 
 /// Where a number may stand beside its impact, the best places first: offset of its middle.
@@ -143,6 +157,7 @@ fn number_impacts(
     panel: &Panel,
     hits: &[(f64, f64)],
     paths: &[Vec<(f64, f64)>],
+    steps: usize,
 ) -> Result<(), Error> {
     let lines: Vec<Vec<(i32, i32)>> =
         paths.iter().map(|path| path.iter().map(|p| panel.at(p.0, p.1)).collect()).collect();
@@ -165,7 +180,7 @@ fn number_impacts(
         };
         let place = PLACES.iter().find(|place| free(place)).unwrap_or(&PLACES[0]);
         let look = (SMALL, RED, HPos::Center, VPos::Center);
-        panel.note(&(i + 1).to_string(), hits[i], *place, look)?;
+        panel.note(&(i % steps + 1).to_string(), hits[i], *place, look)?;
         taken.push((x + place.0, y + place.1));
     }
     Ok(())

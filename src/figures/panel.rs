@@ -1,7 +1,4 @@
-//! A panel: a frame on the sheet with its two axes, and what may be drawn in it.
-//!
-//! plotters moves points that lie outside a range onto the frame, which makes curves silently
-//! false. Here such a point is an error, unless the caller asks for a cut at the frame.
+//! A panel: a frame on the sheet with its two axes; [`super::series`] draws data in it.
 
 use plotters::coord::Shift;
 use plotters::coord::cartesian::Cartesian2d;
@@ -12,9 +9,8 @@ use plotters::style::text_anchor::{HPos, VPos};
 
 use super::axis::Axis;
 use super::backend::Svg;
-use super::clip::clip;
-use super::element::{Area, Curve, Marks};
-use super::style::{self, Colour, HAIR, INK, Mark, SMALL, Stroke, TEXT};
+use super::element::Curve;
+use super::style::{self, Colour, HAIR, INK, SMALL, Stroke, TEXT};
 use super::{Error, font};
 
 type Plane = Cartesian2d<RangedCoordf64, RangedCoordf64>;
@@ -39,19 +35,10 @@ impl Frame {
     }
 }
 
-/// What to do with data outside the frame.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Outside {
-    /// It is a mistake.
-    Refuse,
-    /// The panel shows a part of the data on purpose: cut at the frame.
-    Cut,
-}
-
 /// Axes in a frame; data is given in axis coordinates.
 pub struct Panel {
-    sheet: DrawingArea<Svg, Shift>,
-    plane: DrawingArea<Svg, Plane>,
+    pub(super) sheet: DrawingArea<Svg, Shift>,
+    pub(super) plane: DrawingArea<Svg, Plane>,
     /// Where it stands.
     pub frame: Frame,
     /// Horizontal axis.
@@ -170,165 +157,8 @@ impl Panel {
         let style = style::text(look.0, look.1, look.2, look.3);
         self.put(&Text::new(text.to_string(), (px + dx, py + dy), style))
     }
-
-    fn check(&self, name: &str, points: &[(f64, f64)]) -> Result<(), Error> {
-        match points.iter().find(|p| !(self.x.holds(p.0) && self.y.holds(p.1))) {
-            Some(&(x, y)) => Err(Error::Outside { series: name.into(), x, y }),
-            None => Ok(()),
-        }
-    }
-
-    fn series<E>(&self, name: &str, elements: &[E]) -> Result<(), Error>
-    where
-        E: Drawable<Svg>,
-        for<'a> &'a E: PointCollection<'a, (f64, f64)>,
-    {
-        let Frame { left, top, right, bottom } = self.frame;
-        super::sheet::group(
-            &self.sheet,
-            &format!(
-                "class=\"data\" data-name=\"{}\" data-frame=\"{left} {top} {right} {bottom}\"",
-                super::backend::escape(name)
-            ),
-            || elements.iter().try_for_each(|e| self.plane.draw(e).map_err(Error::from)),
-        )
-    }
-
-    /// A curve.
-    ///
-    /// # Errors
-    /// [`Error::Outside`] if a point lies outside the frame and `outside` refuses that.
-    pub fn curve(
-        &self,
-        name: &str,
-        points: &[(f64, f64)],
-        stroke: Stroke,
-        outside: Outside,
-    ) -> Result<(), Error> {
-        if outside == Outside::Refuse {
-            self.check(name, points)?;
-        }
-        if let Some(&(x, y)) = points.iter().find(|p| !(p.0.is_finite() && p.1.is_finite())) {
-            return Err(Error::Outside { series: name.into(), x, y });
-        }
-        let inside: Vec<_> = match outside {
-            Outside::Cut => points.to_vec(),
-            // At most a rounding error is cut off here.
-            Outside::Refuse => points
-                .iter()
-                .map(|p| (p.0.clamp(self.x.lo, self.x.hi), p.1.clamp(self.y.lo, self.y.hi)))
-                .collect(),
-        };
-        let parts = clip(&inside, (self.x.lo, self.x.hi), (self.y.lo, self.y.hi));
-        let curves: Vec<_> =
-            parts.into_iter().map(|points| Curve { points, stroke, arrow: false }).collect();
-        self.series(name, &curves)
-    }
-
-    /// Markers; points outside the frame are left out if `outside` cuts.
-    ///
-    /// # Errors
-    /// [`Error::Outside`] if a point lies outside the frame and `outside` refuses that.
-    pub fn marks(
-        &self,
-        name: &str,
-        points: &[(f64, f64)],
-        (mark, half, stroke): (Mark, i32, Stroke),
-        outside: Outside,
-    ) -> Result<(), Error> {
-        if outside == Outside::Refuse {
-            self.check(name, points)?;
-        }
-        let points =
-            points.iter().copied().filter(|p| self.x.holds(p.0) && self.y.holds(p.1)).collect();
-        self.series(name, &[Marks { points, mark, half, stroke }])
-    }
-
-    /// A filled polygon, all of it inside the frame.
-    ///
-    /// # Errors
-    /// [`Error::Outside`] if a corner lies outside the frame.
-    pub fn area(
-        &self,
-        name: &str,
-        points: &[(f64, f64)],
-        fill: Colour,
-        opacity: u8,
-    ) -> Result<(), Error> {
-        self.check(name, points)?;
-        self.series(name, &[Area { points: points.to_vec(), fill, opacity }])
-    }
-
-    /// Bars from `low` to `high` at each x, with caps of the given half width.
-    ///
-    /// # Errors
-    /// [`Error::Outside`] if an end lies outside the frame.
-    pub fn bars(
-        &self,
-        name: &str,
-        bars: &[(f64, f64, f64)],
-        half: i32,
-        stroke: Stroke,
-    ) -> Result<(), Error> {
-        let ends: Vec<_> = bars.iter().flat_map(|&(x, a, b)| [(x, a), (x, b)]).collect();
-        self.check(name, &ends)?;
-        let width = (self.x.hi - self.x.lo) / f64::from(self.frame.right - self.frame.left);
-        let cap = f64::from(half) * width;
-        let line = |a, b| Curve { points: vec![a, b], stroke, arrow: false };
-        let mut parts = Vec::new();
-        for &(x, low, high) in bars {
-            parts.push(line((x, low), (x, high)));
-            if half > 0 {
-                let (a, b) = ((x - cap).max(self.x.lo), (x + cap).min(self.x.hi));
-                parts.push(line((a, low), (b, low)));
-                parts.push(line((a, high), (b, high)));
-            }
-        }
-        self.series(name, &parts)
-    }
 }
 
 fn cap(size: i32) -> i32 {
     size * font::CAP_HEIGHT / font::EM
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::figures::sheet::Sheet;
-    use crate::figures::style::GREEN;
-
-    fn panel() -> Panel {
-        let sheet = Sheet::new(3000, None).unwrap();
-        let axis = || Axis::linear(0.0, 1.0, 0.5, 1, "");
-        sheet.panel(Frame::new(1000, 100, 2000, 1100), axis(), axis()).unwrap()
-    }
-
-    #[test]
-    fn data_outside_the_frame_is_an_error_and_not_moved_onto_it() {
-        let panel = panel();
-        let line = Stroke::solid(GREEN, 30);
-        let beyond = [(0.5, 0.5), (0.6, 1.1)];
-        let drawn = panel.curve("curve", &beyond, line, Outside::Refuse);
-        assert!(matches!(drawn, Err(Error::Outside { y: 1.1, .. })));
-        panel.curve("curve", &beyond, line, Outside::Cut).unwrap();
-        let marks = panel.marks("marks", &beyond, (Mark::Disc, 30, line), Outside::Refuse);
-        assert!(matches!(marks, Err(Error::Outside { .. })));
-        assert!(panel.area("area", &beyond, GREEN, 50).is_err());
-        assert!(panel.bars("bars", &[(0.5, 0.1, 1.1)], 20, line).is_err());
-        assert!(panel.curve("nan", &[(0.1, f64::NAN)], line, Outside::Cut).is_err());
-    }
-
-    #[test]
-    fn a_wall_touched_within_rounding_is_inside() {
-        let line = Stroke::solid(GREEN, 30);
-        panel().curve("wall", &[(0.0, -1e-17), (1.0, 1.0 + 1e-15)], line, Outside::Refuse).unwrap();
-    }
-
-    #[test]
-    fn corners_of_the_axes_are_corners_of_the_frame() {
-        let panel = panel();
-        assert_eq!(panel.at(0.0, 0.0), (1000, 1100));
-        assert_eq!(panel.at(1.0, 1.0), (2000, 100));
-    }
 }

@@ -1,7 +1,8 @@
 //! What the figures of the simulations share: their rows, axes and marks.
 
 use super::axis::Axis;
-use super::panel::{Outside, Panel};
+use super::panel::Panel;
+use super::series::Outside;
 use super::style::{Mark, RED, Stroke, THIN};
 use super::{DataFile, Error};
 use crate::experiments::sweep::{Sweep, SweepRow};
