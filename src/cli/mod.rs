@@ -1,7 +1,11 @@
 //! One file per verb; the exit codes are a contract.
 
+mod check;
 mod eval;
+mod output;
+mod paper;
 mod sigmas;
+mod sources;
 mod sweep;
 mod trace;
 mod work;
@@ -23,7 +27,9 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Verb {
+    Check(check::Args),
     Eval(eval::Args),
+    Paper(paper::Args),
     Sweep(sweep::Args),
     Trace(trace::Args),
 }
@@ -56,7 +62,9 @@ pub fn main() -> ExitCode {
         Err(error) => return usage(&error),
     };
     let result = match verb {
+        Verb::Check(args) => check::run(args),
         Verb::Eval(args) => eval::run(args),
+        Verb::Paper(args) => paper::run(args),
         Verb::Sweep(args) => sweep::run(args),
         Verb::Trace(args) => trace::run(args),
     };

@@ -1,0 +1,99 @@
+//! `impact-paper check`.
+
+use super::sources::Sources;
+use super::{Failure, work};
+use impact_paper::claims::{self, Claim};
+use impact_paper::params::Profile;
+use impact_paper::report::claims::plain;
+use std::collections::BTreeSet;
+use std::io::{self, Write};
+
+/// Holds every quantitative statement of the paper against what is computed here.
+///
+/// Saved results are used where they are fresh; what is missing is run. Prints a row for each
+/// claim, and ends with exit code 1 if one differs without an explanation that holds.
+#[derive(clap::Args)]
+pub struct Args {
+    /// Sample sizes.
+    #[arg(long, default_value = "full")]
+    profile: work::ProfileName,
+    /// Only this claim (may be repeated); runs no more than it needs.
+    #[arg(long, value_name = "ID")]
+    claim: Vec<String>,
+    #[command(flatten)]
+    sources: Sources,
+}
+
+/// Runs the verb.
+pub fn run(args: Args) -> Result<(), Failure> {
+    let profile = Profile::from(args.profile);
+    let templates = args.sources.templates()?;
+    let published = args.sources.published(&templates)?;
+    if let Some(id) = args.claim.iter().find(|id| published.statement(id).is_err()) {
+        let known: Vec<&str> = published.statements.iter().map(|s| s.id.as_str()).collect();
+        let message = format!("--claim: there is no claim {id:?}; the claims are {known:?}");
+        return Err(Failure::input(message));
+    }
+    let all: Vec<&str> = published.statements.iter().map(|s| s.id.as_str()).collect();
+    let asked: Vec<&str> = match args.claim.as_slice() {
+        [] => all,
+        some => all.into_iter().filter(|id| some.iter().any(|one| one == id)).collect(),
+    };
+    let needs: BTreeSet<_> = asked.iter().flat_map(|id| claims::needs(id)).copied().collect();
+    let progress = work::progress();
+    let judged = work::on_threads(args.sources.threads, || {
+        let results = args.sources.run(&needs, profile, &templates, &progress)?;
+        asked
+            .iter()
+            .map(|id| {
+                claims::one(id, &results, &published).map_err(|e| Failure::run(e.to_string()))
+            })
+            .collect::<Result<Vec<Claim>, Failure>>()
+    })?;
+    // Who closed the pipe has read enough; the exit code says the rest.
+    match print(&judged) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            let remedy = "direct it to a file that can be written";
+            return Err(Failure::input(format!("standard output: {error}; {remedy}")));
+        }
+        _ => (),
+    }
+    let failing: Vec<&str> =
+        judged.iter().filter(|claim| claim.fails()).map(|claim| claim.id.as_str()).collect();
+    if failing.is_empty() {
+        return Ok(());
+    }
+    let message = format!(
+        "{} of {} claims differ without an explanation that holds: {}",
+        failing.len(),
+        judged.len(),
+        failing.join(", ")
+    );
+    Err(Failure { code: 1, message })
+}
+
+/// A block of lines for each claim, and the scorecard.
+fn print(judged: &[Claim]) -> io::Result<()> {
+    let mut out = io::BufWriter::new(io::stdout().lock());
+    for claim in judged {
+        let mark = if claim.fails() { "FAILS" } else { "ok" };
+        writeln!(out, "{:5} {} ({}): {}", mark, claim.id, claim.place, claim.verdict.words())?;
+        writeln!(out, "      {}", claim.statement)?;
+        let fields = [
+            ("printed", claim.printed.clone()),
+            ("ours", plain(&claim.ours)),
+            ("within", format!("{} ({})", plain(&claim.tolerance), claim.reason)),
+            ("note", plain(&claim.note)),
+        ];
+        for (name, text) in fields.iter().filter(|(_, text)| !text.is_empty()) {
+            writeln!(out, "      {name:8} {text}")?;
+        }
+    }
+    let score: Vec<String> = claims::Verdict::ALL
+        .iter()
+        .zip(claims::scorecard(judged))
+        .map(|(verdict, count)| format!("{count} {}", verdict.words()))
+        .collect();
+    writeln!(out, "{} claims: {}", judged.len(), score.join(", "))?;
+    out.flush()
+}

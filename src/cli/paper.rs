@@ -1,0 +1,181 @@
+//! `impact-paper paper`.
+
+use super::output::{Staging, remove_stale};
+use super::sources::Sources;
+use super::{Failure, work};
+use impact_paper::experiments::{Need, Progress};
+use impact_paper::figures::{self, Figure};
+use impact_paper::params::Profile;
+use impact_paper::report::{self, Files, Registry, compare, contents};
+use impact_paper::{claims, report::values::Number};
+use std::collections::BTreeSet;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// Runs every experiment, draws all figures and writes the report.
+///
+/// Results of long runs are saved and used again as long as parameters and simulating code are the
+/// same. Files are moved into place at the very end: Ctrl-C (exit code 130) changes nothing.
+#[derive(clap::Args)]
+pub struct Args {
+    /// Sample sizes.
+    #[arg(long, default_value = "full")]
+    profile: work::ProfileName,
+    /// Draw this figure only (1 to 15; may be repeated): its SVG and its CSV are written.
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    figure: Vec<u8>,
+    /// Folder to write into [default: paper for the full profile, else target/paper-PROFILE].
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    sources: Sources,
+}
+
+/// The file in which a report keeps its values.
+const VALUES: &str = "values.json";
+
+/// The file that lists what a report wrote.
+const SUMS: &str = "SHA256SUMS";
+
+/// Runs the verb.
+pub fn run(args: Args) -> Result<(), Failure> {
+    let began = Instant::now();
+    let profile = Profile::from(args.profile);
+    let out = args.out.clone().unwrap_or_else(|| default_folder(profile));
+    if let Some(number) = args.figure.iter().find(|number| !figures::ALL.contains(number)) {
+        let message = format!("--figure: there is no figure {number}; give a number from 1 to 15");
+        return Err(Failure::input(message));
+    }
+    refuse_over_full(profile, &out)?;
+    let progress = work::progress();
+    let staging = Staging::below(&out)?;
+    let files = work::on_threads(args.sources.threads, || {
+        if args.figure.is_empty() {
+            whole(&args.sources, profile, &progress)
+        } else {
+            some(&args.sources, &args.figure, profile, &progress)
+        }
+    })?;
+    // What was there before is compared first: it is about to be replaced.
+    let changes = if args.figure.is_empty() { changes(&out, &files) } else { Vec::new() };
+    let sums_before = std::fs::read_to_string(out.join(SUMS)).unwrap_or_default();
+    staging.place(&files, &progress)?;
+    if args.figure.is_empty() {
+        remove_stale(&out, &sums_before, &files)?;
+    }
+    // A closed standard output is no failure: the files are written.
+    let mut told = std::io::stdout().lock();
+    for line in changes {
+        let _ = writeln!(told, "{line}");
+    }
+    let time = duration(began.elapsed());
+    let _ = writeln!(told, "{}: {} files in {time}", out.display(), files.len());
+    Ok(())
+}
+
+/// Where a profile writes unless told otherwise.
+fn default_folder(profile: Profile) -> PathBuf {
+    match profile {
+        Profile::Full => "paper".into(),
+        Profile::Ci => "target/paper-ci".into(),
+        Profile::Quick => "target/paper-quick".into(),
+    }
+}
+
+/// The values of the report in a folder, if there is one.
+fn values_in(folder: &Path) -> Option<Registry> {
+    compare::read(&std::fs::read_to_string(folder.join(VALUES)).ok()?).ok()
+}
+
+/// Lesser samples must not take the place of the committed report.
+fn refuse_over_full(profile: Profile, out: &Path) -> Result<(), Failure> {
+    let is_full = |values: Registry| {
+        values.get("profile").is_some_and(|v| v.number == Number::Text("full".into()))
+    };
+    if profile == Profile::Full || !values_in(out).is_some_and(is_full) {
+        return Ok(());
+    }
+    Err(Failure::input(format!(
+        "--out: {} holds a report of the full profile; give another folder, or --profile full",
+        out.display()
+    )))
+}
+
+/// The figures that were asked for, and nothing else.
+fn some(
+    sources: &Sources,
+    numbers: &[u8],
+    profile: Profile,
+    progress: &Progress,
+) -> Result<Files, Failure> {
+    let numbers: BTreeSet<u8> = numbers.iter().copied().collect();
+    let needs = numbers.iter().flat_map(|&number| figures::needs(number)).copied().collect();
+    let results = sources.run(&needs, profile, &sources.templates()?, progress)?;
+    let mut files = Files::new();
+    for number in numbers {
+        progress.check()?;
+        let figure = figures::draw(number, &results).map_err(|e| Failure::run(e.to_string()))?;
+        files.extend(report::files_of(&figure));
+    }
+    Ok(files)
+}
+
+/// The whole report.
+fn whole(sources: &Sources, profile: Profile, progress: &Progress) -> Result<Files, Failure> {
+    let templates = sources.templates()?;
+    // Faults of the templates are told before the long runs, not after them.
+    let published = sources.published(&templates)?;
+    let results = sources.run(&Need::ALL.into(), profile, &templates, progress)?;
+    let fault = |error: &dyn std::error::Error| Failure::run(error.to_string());
+    let mut drawn: Vec<Figure> = Vec::new();
+    for number in figures::ALL {
+        progress.check()?;
+        drawn.push(figures::draw(number, &results).map_err(|e| fault(&e))?);
+    }
+    let claims = claims::all(&results, &published).map_err(|e| fault(&e))?;
+    let values = contents::registry(&results, &published).map_err(|e| fault(&e))?;
+    let rows = contents::rows(&results, &claims).map_err(|e| fault(&e))?;
+    progress.check()?;
+    let report = report::assemble(&report::Input {
+        templates: &templates,
+        values: &values,
+        rows: &rows,
+        claims: &claims,
+        figures: &drawn,
+    })
+    .map_err(|error| Failure::input(error.to_string()))?;
+    let mut files = report.committed;
+    files.extend(report.beside);
+    Ok(files)
+}
+
+/// Which values changed against the report in `out`, or else against the committed one.
+fn changes(out: &Path, files: &Files) -> Vec<String> {
+    let committed = default_folder(Profile::Full);
+    let Some((folder, before)) = [out, &committed]
+        .into_iter()
+        .find_map(|folder| Some((folder.join(VALUES), values_in(folder)?)))
+    else {
+        return vec!["there is no earlier report to compare with".into()];
+    };
+    let after = files.get(VALUES).and_then(|bytes| std::str::from_utf8(bytes).ok());
+    let Some(Ok(after)) = after.map(compare::read) else { return Vec::new() };
+    let changes = compare::changes(&before, &after);
+    let number = changes.len();
+    let summary = match number {
+        0 => format!("no value differs from {}", folder.display()),
+        1 => format!("1 value differs from {}", folder.display()),
+        _ => format!("{number} values differ from {}", folder.display()),
+    };
+    changes.iter().map(ToString::to_string).chain([summary]).collect()
+}
+
+/// `3 min 20 s` or `4.2 s`.
+fn duration(time: Duration) -> String {
+    let seconds = time.as_secs_f64();
+    if seconds < 60.0 {
+        return format!("{seconds:.1} s");
+    }
+    format!("{} min {} s", time.as_secs() / 60, time.as_secs() % 60)
+}

@@ -1,0 +1,61 @@
+//! Where `paper` and `check` read prose and keep results.
+
+use super::Failure;
+use impact_paper::claims::Published;
+use impact_paper::experiments::{self, Need, Progress, Results, Store};
+use impact_paper::params::Profile;
+use impact_paper::report::Templates;
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+
+/// Options common to `paper` and `check`.
+#[derive(clap::Args)]
+pub struct Sources {
+    /// Number of threads; all cores without it. It changes no bit of the result.
+    #[arg(long, value_name = "K", allow_hyphen_values = true)]
+    pub threads: Option<usize>,
+    /// Folder of the prose [default: templates, or the copy inside the program].
+    #[arg(long, value_name = "DIR")]
+    templates: Option<PathBuf>,
+    /// Folder in which results of long runs are kept.
+    #[arg(long, value_name = "DIR", default_value = "target/results")]
+    results: PathBuf,
+}
+
+impl Sources {
+    /// The templates.
+    ///
+    /// # Errors
+    /// Exit code 2 if they cannot be read.
+    pub fn templates(&self) -> Result<Templates, Failure> {
+        Templates::find(self.templates.as_deref()).map_err(|e| Failure::input(e.to_string()))
+    }
+
+    /// What the paper printed.
+    ///
+    /// # Errors
+    /// Exit code 2 if the file is broken.
+    pub fn published(&self, templates: &Templates) -> Result<Published, Failure> {
+        let text = templates.text("published.toml").map_err(|e| Failure::input(e.to_string()))?;
+        Published::parse(text).map_err(|e| Failure::input(format!("published.toml: {e}")))
+    }
+
+    /// Runs what is needed. The folder of results is made only if something long is.
+    ///
+    /// # Errors
+    /// Exit codes 2, 4 and 130.
+    pub fn run(
+        &self,
+        needs: &BTreeSet<Need>,
+        profile: Profile,
+        templates: &Templates,
+        progress: &Progress,
+    ) -> Result<Results, Failure> {
+        let needs: Vec<Need> = needs.iter().copied().collect();
+        let long = needs.iter().any(|need| *need != Need::Segments);
+        let store = if long { Store::open(&self.results)? } else { Store::nowhere() };
+        let scenario =
+            |file: &str| templates.text(file).map(String::from).map_err(|e| e.to_string());
+        Ok(experiments::run(&needs, profile, scenario, &store, progress)?)
+    }
+}
