@@ -212,7 +212,7 @@ fn an_exact_three_way_impact_is_taken_lowest_gap_first() {
         let time = impacts[first].time;
         let block: Vec<(usize, f64)> = impacts[first..]
             .iter()
-            .take_while(|i| i.time == time)
+            .take_while(|i| i.time - time < 1e-14)
             .map(|i| (i.gap, i.closing_speed))
             .collect();
         let v = block[0].1;

@@ -26,6 +26,8 @@ fn apart(order: &[usize]) -> f64 {
 
 /// How wide a gap should open between two of its impacts, so that the picture shows it.
 const SEEN: f64 = 0.25;
+/// How far a gap should stay open away from its impacts, so that none seems to be there.
+const CLEAR: f64 = 0.15;
 /// Time step at which the search looks at the gaps.
 const STEP: f64 = 0.02;
 
@@ -173,13 +175,13 @@ impl<'a> Motion<'a> {
                 let delta = 1.0 + right - left;
                 left = right;
                 widest[gap] = widest[gap].max(delta);
-                if delta > 0.06 {
+                if delta > CLEAR {
                     continue;
                 }
                 let ahead = (done..self.times.len()).find(|&i| self.order[i] == gap);
                 let ahead = ahead.map_or(f64::INFINITY, |i| self.times[i] - t);
                 let near = ahead.min(t - last[gap]);
-                let wanted = 0.06 * ((near - 0.03) / 0.2).clamp(0.0, 1.0);
+                let wanted = CLEAR * ((near - 0.03) / 0.2).clamp(0.0, 1.0);
                 let lack = (wanted - delta).max(0.0);
                 cost += lack * lack;
             }
