@@ -51,8 +51,9 @@ const POINTS: usize = 200;
 /// The files of the saved scenarios, below the templates directory.
 pub const FILES: [&str; 2] = ["scenarios/fig05.json", "scenarios/fig06.json"];
 
-/// The impacts, as gaps, that Figs. 5 and 6 of the paper show (Sec. 5).
-pub const ORDERS: [&[usize]; 2] = [&[0, 1, 3], &[0, 0, 1, 0, 2, 1, 3, 3]];
+/// The impacts, as gaps, that Figs. 5 and 6 of the paper show (Sec. 5), and at the end the first
+/// one again, which closes the circuit.
+pub const ORDERS: [&[usize]; 2] = [&[0, 1, 3, 0], &[0, 0, 1, 0, 2, 1, 3, 3, 0]];
 
 /// A saved scenario.
 #[derive(Deserialize)]
