@@ -13,6 +13,7 @@ mod published;
 mod row;
 pub(crate) mod sec10;
 pub(crate) mod sec2;
+mod sec2_rare;
 mod sec3;
 pub(crate) mod sec5;
 pub(crate) mod sec6;

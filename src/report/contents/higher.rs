@@ -73,6 +73,7 @@ fn compared(results: &Results) -> Result<Vec<Value>, Error> {
         Value::real("fig15_shift", scalars.sigma_half - scalars.higher_sigma_half, 1),
         Value::real("rms_simple", distance(|row| row.simple)?, 3),
         Value::real("rms_higher", distance(|row| row.higher)?, 3),
+        Value::real("rms_rest", distance(|row| row.simple_rest)?, 3),
         Value::real("relation_over_higher", relation / higher, 2),
     ])
 }

@@ -2,8 +2,9 @@
 //!
 //! A value is computed here from results and carries the path of the item that computed it. Groups
 //! are `v` (ours), `paper` (numbers that the paper chose), `printed` (numbers in its statements),
-//! `protocol` and `starts` (cells of two tables).
+//! `compare`, `protocol` and `starts` (cells of three tables).
 
+mod comparison;
 mod higher;
 mod ledger;
 mod paper;
@@ -49,6 +50,7 @@ pub fn registry(results: &Results, published: &Published) -> Result<Registry, Er
     registry.extend(paper::values(published))?;
     registry.extend(simulation::values(results)?)?;
     registry.extend(theory::values(results)?)?;
+    registry.extend(comparison::values(results)?)?;
     registry.extend(higher::values(results)?)?;
     registry.extend(protocol::values(results)?)?;
     registry.extend(starts::values(results)?)?;
@@ -57,7 +59,8 @@ pub fn registry(results: &Results, published: &Published) -> Result<Registry, Er
 }
 
 /// The rows of the generated tables, by the name that templates use: `row` (a reference to each
-/// claim with its verdict), `protocol_windows`, `protocol_table` and `starts_table`.
+/// claim with its verdict), `comparison_table`, `protocol_windows`, `protocol_table` and
+/// `starts_table`.
 ///
 /// # Errors
 /// If a result is missing.
@@ -67,6 +70,7 @@ pub fn rows(
 ) -> Result<BTreeMap<&'static str, serde_json::Value>, Error> {
     Ok(BTreeMap::from([
         ("row", serde_json::to_value(ledger::references(claims))?),
+        ("comparison_table", serde_json::to_value(comparison::table(results)?)?),
         ("protocol_windows", serde_json::to_value(protocol::windows(results)?)?),
         ("protocol_table", serde_json::to_value(protocol::table(results)?)?),
         ("starts_table", serde_json::to_value(starts::table(results)?)?),

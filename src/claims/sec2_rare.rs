@@ -1,0 +1,112 @@
+//! Section 2: what is rare, what never happens, and what does not matter.
+
+use super::row::{Error, Evidence, Finding, open};
+use super::sec2::LAST_DIGIT;
+use super::{Judgement, Statement, Text};
+use crate::params::{NEAR_SIMULTANEOUS, SLOW};
+
+/// Share of impacts that may be called negligible (ours).
+const NEGLIGIBLE: f64 = 1e-3;
+
+pub(super) fn three_way(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
+    let totals = &e.results.laws()?.totals;
+    let Some(&seen) = totals.near_decades.last() else {
+        return Ok(open(Text::words("no impacts"), "The sweep has no impacts."));
+    };
+    let expected = totals.expected_near_simultaneous;
+    // Counts of rare events: Poisson, with one event of room where almost none are expected.
+    let room = e.level.quantile * expected.sqrt() + 1.0 + e.level.quantile;
+    let share = expected / totals.impacts as f64;
+    Ok(Finding {
+        ours: Text::default()
+            .integer(seen as usize)
+            .say(" of ")
+            .significant(totals.impacts as f64, 2)
+            .say(" impacts within ")
+            .significant(NEAR_SIMULTANEOUS, 1)
+            .say(" of one next to it"),
+        tolerance: Text::words("a share of ").significant(NEGLIGIBLE, 1),
+        reason: "ours: one in a thousand; and the count must be that of the fitted law",
+        judgement: Judgement::Plain {
+            agrees: share <= NEGLIGIBLE && (seen as f64 - expected).abs() <= room,
+        },
+        note: Text::words("The share within δ falls in proportion to δ; the law lets expect ")
+            .significant(expected, 2)
+            .say(" such impacts, and none at δ = 0."),
+    })
+}
+
+pub(super) fn sticking(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
+    let sweep = e.results.sweep()?;
+    let impacts: u64 = sweep.rows.iter().map(|row| row.impacts).sum();
+    let contacts: u64 = sweep.rows.iter().map(|row| row.contact_phases).sum();
+    let slow: u64 = sweep.rows.iter().map(|row| row.slow).sum();
+    if impacts == 0 {
+        return Ok(open(Text::words("no impacts"), "The sweep has no impacts."));
+    }
+    let share = contacts as f64 / impacts as f64;
+    Ok(Finding {
+        ours: Text::default()
+            .integer(contacts as usize)
+            .say(" contact phases in ")
+            .significant(impacts as f64, 2)
+            .say(" impacts"),
+        tolerance: Text::words("a share of ").significant(NEGLIGIBLE, 1),
+        reason: "ours: one in a thousand",
+        judgement: Judgement::Plain { agrees: share <= NEGLIGIBLE },
+        note: Text::words(
+            "Two masses on their own can stick only if their forces differ by more \
+             than d ω². ",
+        )
+        .integer(slow as usize)
+        .say(" impacts were slower than ")
+        .significant(SLOW, 1)
+        .say("."),
+    })
+}
+
+pub(super) fn two_masses(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
+    let found = e.results.two_masses()?;
+    let least = found.excess.iter().map(|x| x.least).fold(f64::INFINITY, f64::min);
+    if !least.is_finite() {
+        return Ok(open(Text::words("no run"), "No direction of the forcing was tried."));
+    }
+    Ok(Finding {
+        ours: Text::default()
+            .integer(found.violations as usize)
+            .say(
+                " impacts below the force that the amplitudes allow; smallest force with an \
+                 impact, over that bound: ",
+            )
+            .significant(least, 6),
+        tolerance: Text::words("none below 1"),
+        reason: "a gap whose amplitudes add up to less than d never closes; rounding of the \
+                 bracket aside",
+        judgement: Judgement::Plain {
+            agrees: found.violations == 0 && least >= 1.0 - 1e-9 && found.safe_force > 0.0,
+        },
+        note: Text::words("No direction of the forces lets the masses meet below an amplitude of ")
+            .significant(found.safe_force, 4)
+            .say(" on each."),
+    })
+}
+
+pub(super) fn walls_like_masses(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
+    let starts = e.results.starts()?;
+    let half = |name| starts.variant(name).and_then(|variant| variant.rise.half_height_all);
+    let (Some(walls), Some(ring)) = (half("rest"), half("ring")) else {
+        return Ok(open(Text::words("no rise"), "One of the two means does not pass one half."));
+    };
+    let [low, high] = e.published.statement("sec2_half_height")?.rounding()?;
+    let error = (walls.error * walls.error + ring.error * ring.error).sqrt();
+    let difference = ring.value - walls.value;
+    Ok(Finding {
+        ours: Text::words("σ½ differs by ").with_error(difference, error),
+        tolerance: Text::words("± ").significant((high - low) / 2.0, 1),
+        reason: LAST_DIGIT,
+        judgement: Judgement::Plain {
+            agrees: difference.abs() <= (high - low) / 2.0 + e.level.quantile * error,
+        },
+        note: Text::words("A ring has N = n gaps, a chain between walls N = n + 1."),
+    })
+}
