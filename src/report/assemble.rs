@@ -58,7 +58,7 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
 
     let mut blocks = parse::parse(&filled, &values)?;
     illustrate(&mut blocks, input.figures)?;
-    let library = Library::read(input.templates.text("references.bib").unwrap_or_default())?;
+    let library = Library::read(input.templates.text("references.bib")?)?;
     labels::resolve(&mut blocks, &library)?;
 
     let mut committed = Files::new();

@@ -20,6 +20,7 @@ use tera::{Context, Delimiters, Kwargs, State, Tera};
 /// The copy that is built into the program: path relative to `templates/`, and text.
 const EMBEDDED: &[(&str, &str)] = &[
     ("published.toml", include_str!("../../templates/published.toml")),
+    ("references.bib", include_str!("../../templates/references.bib")),
     ("report.md", include_str!("../../templates/report.md")),
     ("report.tex", include_str!("../../templates/report.tex")),
 ];
