@@ -23,6 +23,8 @@ const EMBEDDED: &[(&str, &str)] = &[
     ("references.bib", include_str!("../../templates/references.bib")),
     ("report.md", include_str!("../../templates/report.md")),
     ("report.tex", include_str!("../../templates/report.tex")),
+    ("scenarios/fig05.json", include_str!("../../templates/scenarios/fig05.json")),
+    ("scenarios/fig06.json", include_str!("../../templates/scenarios/fig06.json")),
 ];
 
 /// Endings of the files that are templates or data for them (fonts live there too).
