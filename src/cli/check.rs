@@ -94,6 +94,7 @@ fn print(judged: &[Claim]) -> io::Result<()> {
         .zip(claims::scorecard(judged))
         .map(|(verdict, count)| format!("{count} {}", verdict.words()))
         .collect();
-    writeln!(out, "{} claims: {}", judged.len(), score.join(", "))?;
+    let noun = if judged.len() == 1 { "claim" } else { "claims" };
+    writeln!(out, "{} {noun}: {}", judged.len(), score.join(", "))?;
     out.flush()
 }

@@ -54,8 +54,10 @@ impl Sources {
         let needs: Vec<Need> = needs.iter().copied().collect();
         let long = needs.iter().any(|need| *need != Need::Segments);
         let store = if long { Store::open(&self.results)? } else { Store::nowhere() };
-        let scenario =
-            |file: &str| templates.text(file).map(String::from).map_err(|e| e.to_string());
+        let scenario = |file: &str| {
+            let text = templates.text(file).map(String::from);
+            text.map_err(|_| "this file is missing from the templates".to_string())
+        };
         Ok(experiments::run(&needs, profile, scenario, &store, progress)?)
     }
 }

@@ -28,7 +28,7 @@ pub enum Error {
         source: dynamics::Error,
     },
     /// A saved scenario does not do what it was saved for.
-    #[error("{file}: {problem}; run the directed search again")]
+    #[error("{file}: {problem}; restore it, or find it anew by the directed search")]
     Scenario {
         /// File of the scenario.
         file: String,
