@@ -145,6 +145,15 @@ impl Scenario {
                 "write one JSON object and nothing after it",
             )
         })?;
+        if let InitialForm::Random { sigma, .. } = form.initial
+            && !(0.0..=1e9).contains(&sigma)
+        {
+            return Err(Error::input(
+                "initial.random.sigma",
+                format!("{sigma:?} is no standard deviation"),
+                "give a number from 0.0 to 1e9",
+            ));
+        }
         let scenario = Scenario::from(form);
         scenario.validate()?;
         Ok(scenario)
