@@ -30,7 +30,7 @@ pub(crate) fn names(segment: &Segment) -> Vec<String> {
         j if j > segment.masses => "R".to_string(),
         j => j.to_string(),
     };
-    segment.impacts.iter().map(|i| format!("{}-{}", body(i.gap), body(i.gap + 1))).collect()
+    segment.circuit().iter().map(|i| format!("{}-{}", body(i.gap), body(i.gap + 1))).collect()
 }
 
 fn motion(segment: &Segment, s: &Statement) -> Result<Finding, Error> {
@@ -50,7 +50,7 @@ fn motion(segment: &Segment, s: &Statement) -> Result<Finding, Error> {
             .significant(segment.from, 4)
             .say(" to ")
             .significant(segment.until, 4)
-            .say("; not a periodic orbit."),
+            .say(", with the first impact again at its end; not a periodic orbit."),
     })
 }
 

@@ -48,6 +48,19 @@ pub struct SegmentImpact {
 /// Points of the grid between two impacts, at least.
 const POINTS: usize = 200;
 
+impl Segment {
+    /// The impacts of the circuit, each edge's end once: without the last impact, which is the
+    /// first one again and closes the circuit.
+    pub fn circuit(&self) -> &[SegmentImpact] {
+        match self.impacts.split_last() {
+            Some((last, others)) if others.first().is_some_and(|first| first.gap == last.gap) => {
+                others
+            }
+            _ => &self.impacts,
+        }
+    }
+}
+
 /// The files of the saved scenarios, below the templates directory.
 pub const FILES: [&str; 2] = ["scenarios/fig05.json", "scenarios/fig06.json"];
 

@@ -34,7 +34,7 @@ fn graph(results: &Results) -> Result<Vec<Value>, Error> {
         Value::integer("graph_vertices", id.graph_vertices),
         Value::integer("graph_edges", id.graph_edges),
         Value::integer("fig5_masses", sec5::masses_in(five, segments.fig05.masses)),
-        Value::integer("fig6_length", segments.fig06.impacts.len()),
+        Value::integer("fig6_length", segments.fig06.circuit().len()),
         Value::integer("fig6_distinct", six.len()),
     ])
 }
