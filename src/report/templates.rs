@@ -153,8 +153,30 @@ impl Filler {
     }
 }
 
+/// One line: file, line, column, what is wrong, and names that begin alike.
 fn failure(error: tera::Error) -> Error {
-    Error::Template(error.to_string())
+    use tera::ErrorKind::{RenderingError, SyntaxError};
+    let (RenderingError(report) | SyntaxError(report)) = error.kind() else {
+        return Error::Template(error.to_string());
+    };
+    let place = format!(
+        "{}:{}:{}",
+        report.filename(),
+        report.span().start_line,
+        report.span().start_col + 1
+    );
+    // Tera lists every name that there is: too many to read.
+    let Some((what, names)) = report.message().split_once(" Available fields: ") else {
+        return Error::Template(format!("{place}: {}", report.message()));
+    };
+    let asked = what.split('`').nth(1).unwrap_or_default();
+    let start: String = asked.chars().take(3).collect();
+    let alike: Vec<&str> = names.split(", ").filter(|name| name.starts_with(&start)).collect();
+    let alike = match alike.as_slice() {
+        [] => String::new(),
+        names => format!(" Names that begin alike: {}.", names.join(", ")),
+    };
+    Error::Template(format!("{place}: {what}{alike}"))
 }
 
 /// `v.name` and `group.name` are marks, `raw.name` and `raw.group.name` plain numbers.
@@ -363,8 +385,11 @@ mod tests {
             ["one\n  «v.p_krit»", "one\n  «w.p_crit»", "one\n  <% if raw.nix > 1 %>x<% endif %>"]
         {
             let error = fill(text).unwrap_err().to_string();
-            assert!(error.contains("report.md:2:"), "{error}");
+            assert!(error.starts_with("report.md:2:"), "{error}");
+            assert!(!error.contains('\n'), "{error}");
         }
+        let error = fill("«v.p_krit»").unwrap_err().to_string();
+        assert!(error.ends_with("Names that begin alike: p_crit."), "{error}");
     }
 
     #[test]
