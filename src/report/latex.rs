@@ -61,7 +61,7 @@ fn write_block(block: &Block) -> Result<String, Error> {
                 _ => "paragraph",
             };
             let label = id.as_deref().map(|id| format!("\\label{{{id}}}")).unwrap_or_default();
-            let words = inlines(text)?;
+            let words = bookmarked(text)?;
             match number {
                 Some(_) => format!("\\{command}{{{words}}}{label}"),
                 None => format!(
@@ -75,7 +75,7 @@ fn write_block(block: &Block) -> Result<String, Error> {
             let pdf = path.strip_suffix(".svg").map_or(path.clone(), |stem| format!("{stem}.pdf"));
             format!(
                 "\\begin{{figure}}[htbp]\n\\centering\n\
-                 \\includegraphics[width=\\linewidth,height=0.62\\textheight,keepaspectratio]{{{pdf}}}\n\
+                 \\includegraphics[width=0.8\\linewidth,height=0.62\\textheight,keepaspectratio]{{{pdf}}}\n\
                  \\renewcommand{{\\thefigure}}{{{number}}}\n\\caption{{{}}}\\label{{{id}}}\n\\end{{figure}}",
                 inlines(caption)?
             )
@@ -108,6 +108,18 @@ fn write_block(block: &Block) -> Result<String, Error> {
             out + "\\end{list}"
         }
     })
+}
+
+/// Words of a heading: where they have mathematics, PDF bookmarks show them without markup.
+fn bookmarked(text: &[Inline]) -> Result<String, Error> {
+    let words = inlines(text)?;
+    if !words.contains(['$', '\\']) {
+        return Ok(words);
+    }
+    let plain: String = plain(text).chars().filter(|c| !"\\{}$^_#%&~".contains(*c)).collect();
+    let plain = plain.replace('σ', "sigma").replace('φ', "phi");
+    let ascii: String = plain.chars().filter(char::is_ascii).collect();
+    Ok(format!("\\texorpdfstring{{{words}}}{{{ascii}}}"))
 }
 
 /// The list of references: its second lines are indented.
@@ -176,6 +188,9 @@ fn address(to: &str) -> String {
 /// Characters that fit into a line of the page in the size of tables.
 const LINE: usize = 92;
 
+/// A table with more than this many characters in its longest cells together stands across.
+const ACROSS: usize = 4 * LINE;
+
 fn table(
     id: Option<&str>,
     captioned: bool,
@@ -189,13 +204,25 @@ fn table(
         rows.iter().map(|row| cell(row)).chain([cell(head)]).max().unwrap_or(0).max(3)
     };
     let widths: Vec<usize> = (0..columns.len()).map(width).collect();
+    let words = |column: usize| -> usize {
+        let longest = |row: &[Vec<Inline>]| {
+            let cell = row.get(column).map(|c| plain(c)).unwrap_or_default();
+            cell.split_whitespace().map(|word| word.chars().count()).max().unwrap_or(0)
+        };
+        rows.iter().map(|row| longest(row)).chain([longest(head)]).max().unwrap_or(0).min(24)
+    };
+    let words: Vec<usize> = (0..columns.len()).map(words).collect();
+    let total: usize = widths.iter().map(|w| w + 2).sum();
+    let across = total > ACROSS;
+    let line = if across { LINE * 3 / 2 } else { LINE };
     let row = |cells: &[Vec<Inline>]| -> Result<String, Error> {
         let cells: Vec<String> =
             cells.iter().map(|cell| inlines(cell)).collect::<Result<_, _>>()?;
         Ok(format!("{} \\\\\n", cells.join(" & ").replace('\n', " ")))
     };
-    let mut out =
-        format!("{{\\footnotesize\n\\begin{{longtable}}{{{}}}\n", layout(columns, &widths));
+    let mut out = String::from(if across { "\\begin{landscape}\n" } else { "" });
+    let layout = layout(columns, &widths, &words, line);
+    out.push_str(&format!("{{\\footnotesize\n\\begin{{longtable}}{{{layout}}}\n"));
     if captioned {
         let label = id.map(|id| format!("\\label{{{id}}}")).unwrap_or_default();
         out.push_str(&format!("\\caption{{{}}}{label}\\\\\n", inlines(caption)?));
@@ -204,38 +231,53 @@ fn table(
     out.push_str(&format!("\\toprule\n{head}\\midrule\n\\endfirsthead\n"));
     out.push_str(&format!("\\toprule\n{head}\\midrule\n\\endhead\n\\bottomrule\n\\endlastfoot\n"));
     // Rows of several lines stand apart.
-    let wraps = widths.iter().map(|w| w + 2).sum::<usize>() > LINE;
+    let wraps = total > line;
     for cells in rows {
         out.push_str(&row(cells)?);
         out.push_str(if wraps { "\\addlinespace[2pt]\n" } else { "" });
     }
-    Ok(out + "\\end{longtable}}")
+    out.push_str("\\end{longtable}}");
+    Ok(out + if across { "\n\\end{landscape}" } else { "" })
 }
 
-/// Columns as wide as their words while all fit; else the long ones share what the short leave.
-fn layout(columns: &[Align], widths: &[usize]) -> String {
+/// Columns as wide as their words while all fit; else the long ones share what the short leave,
+/// each at least as wide as its longest word.
+fn layout(columns: &[Align], widths: &[usize], words: &[usize], line: usize) -> String {
     let letter = |align: &Align| match align {
         Align::Left => "l",
         Align::Centre => "c",
         Align::Right => "r",
     };
-    let total: usize = widths.iter().map(|w| w + 2).sum();
-    if total <= LINE {
+    if widths.iter().map(|w| w + 2).sum::<usize>() <= line {
         return columns.iter().map(letter).collect();
     }
-    let short = |w: usize| w <= 12;
-    let taken: usize = widths.iter().filter(|w| short(**w)).map(|w| w + 2).sum();
+    let short = |i: usize| widths[i] <= 12;
+    let long: Vec<usize> = (0..columns.len()).filter(|i| !short(*i)).collect();
+    let taken: usize = (0..columns.len()).filter(|i| short(*i)).map(|i| widths[i]).sum();
+    // Each column has two gaps of 6 pt, 2.7 % of a line of 455 pt.
+    let gaps = 0.027 * columns.len() as f64 * LINE as f64 / line as f64;
+    let free = (1.0 - gaps - taken as f64 / line as f64).max(0.3);
     // Long cells wrap: the square root keeps a very long one from starving the others.
-    let weight = |w: usize| (w as f64).sqrt();
-    let weights: f64 = widths.iter().filter(|w| !short(**w)).map(|w| weight(*w)).sum();
-    let free = LINE.saturating_sub(taken).max(30) as f64 / LINE as f64;
-    let gaps = 0.02 * columns.len() as f64;
-    let column = |(align, w): (&Align, &usize)| {
-        if short(*w) {
+    let mut shares = vec![0.0; columns.len()];
+    let mut fixed = vec![false; columns.len()];
+    loop {
+        let open: Vec<usize> = long.iter().copied().filter(|i| !fixed[*i]).collect();
+        let kept: f64 = long.iter().filter(|i| fixed[**i]).map(|i| shares[*i]).sum();
+        let weights: f64 = open.iter().map(|i| (widths[*i] as f64).sqrt()).sum();
+        for i in &open {
+            shares[*i] = (free - kept).max(0.1) * (widths[*i] as f64).sqrt() / weights;
+        }
+        let least = |i: usize| (words[i] + 1) as f64 / line as f64;
+        match open.iter().find(|i| shares[**i] < least(**i)) {
+            Some(&i) => (shares[i], fixed[i]) = (least(i), true),
+            None => break,
+        }
+    }
+    let column = |(i, align): (usize, &Align)| {
+        if short(i) {
             return letter(align).to_string();
         }
-        let share = (free - gaps).max(0.2) * weight(*w) / weights;
-        format!(">{{\\raggedright\\arraybackslash}}p{{{share:.3}\\linewidth}}")
+        format!(">{{\\raggedright\\arraybackslash}}p{{{:.3}\\linewidth}}", shares[i])
     };
-    columns.iter().zip(widths).map(column).collect()
+    columns.iter().enumerate().map(column).collect()
 }

@@ -189,7 +189,7 @@ fn f() -> σ { 1 }
             "see \\hyperref[fig:3]{Fig.~3}, Eqs.~\\hyperref[eq:18]{(18)} and",
             "at 100 \\% of \\texttt{a\\_\\allowbreak{}b}.\n\\begin{equation}\np_{",
             "\\tag{18}\\label{eq:18}\n\\end{equation}\nwhere $N$ is large, so\n\\begin{equation}\n",
-            "\\includegraphics[width=\\linewidth,height=0.62\\textheight,keepaspectratio]{figures/fig03.pdf}",
+            "\\includegraphics[width=0.8\\linewidth,height=0.62\\textheight,keepaspectratio]{figures/fig03.pdf}",
             "\\caption{The rise, at 0.1165(4) or $\\sigma$ \\ensuremath{\\ge} 0.12.}\\label{fig:3}",
             "\\begin{longtable}{llr}\n\\caption{What \\ensuremath{\\sigma} gives}\\label{tab:sigma}\\\\\n",
             "\\phantomsection\\label{claim:jump}2 & a\\_b * c & 94.5(8)~\\% \\\\\n",
