@@ -170,7 +170,7 @@ fn failure(error: tera::Error) -> Error {
         return Error::Template(format!("{place}: {}", report.message()));
     };
     let asked = what.split('`').nth(1).unwrap_or_default();
-    let start: String = asked.chars().take(3).collect();
+    let start: String = asked.chars().take(2).collect();
     let alike: Vec<&str> = names.split(", ").filter(|name| name.starts_with(&start)).collect();
     let alike = match alike.as_slice() {
         [] => String::new(),
