@@ -161,14 +161,14 @@ fn rows(parameters: &SweepParams, progress: &Progress) -> Result<Vec<Row>, Failu
         let row = sweep::at(parameters, sigma, &stage, progress)?.row;
         let seconds = began.elapsed().as_micros() as f64 / 1e6;
         if let Some(first) = &row.first_failure {
-            progress.say(&format!(
+            stage.say(&format!(
                 "impact-paper: sigma {sigma:?}: {} of {} realisations ended early and are in no \
                  mean; the first: {first}",
                 row.failed, row.realisations
             ));
         }
         if !row.comparable {
-            progress.say(&format!(
+            stage.say(&format!(
                 "impact-paper: sigma {sigma:?}: {} of {} starts overlapped and were rejected; the \
                  row is not comparable with others",
                 row.rejected, row.realisations

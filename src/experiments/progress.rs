@@ -107,6 +107,15 @@ impl Stage {
         }
     }
 
+    /// Says one plain line in the middle of the stage, above its bar if there is one.
+    pub fn say(&self, line: &str) {
+        match &self.bar {
+            Some(bar) => bar.suspend(|| eprintln!("{line}")),
+            None if self.lines => eprintln!("{line}"),
+            None => (),
+        }
+    }
+
     /// At most one line every [`LINE_EVERY`] seconds: the thread that moves the mark writes it.
     fn line(&self, done: u64) {
         let elapsed = self.began.elapsed();
