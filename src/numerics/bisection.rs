@@ -31,12 +31,14 @@ mod tests {
 
     #[test]
     fn work_is_bounded() {
-        let mut count = 0;
-        let [_, above] = bracket(0.0, f64::MAX, |x| {
-            count += 1;
-            x >= 5e-324
-        });
-        assert_eq!(above, 5e-324);
-        assert!(count <= 64);
+        for threshold in [5e-324, 1.0, 1e300] {
+            let mut count = 0;
+            let [_, above] = bracket(0.0, f64::MAX, |x| {
+                count += 1;
+                x >= threshold
+            });
+            assert_eq!(above, threshold);
+            assert!(count <= 64, "{count} evaluations to find {threshold:e}");
+        }
     }
 }
