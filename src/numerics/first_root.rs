@@ -255,7 +255,7 @@ const PATIENCE: u32 = 64;
 /// s only moves over ground that is proven to hold no root, in one of two ways; both bound the
 /// exact function from below, and count the rounding of its values against it. A *leap* goes to a
 /// point chosen by any guess (the end of the search, or just before a guessed root) and is taken
-/// if [`stays_open`] certifies the interval. Where it does not, [`stretch`] gives a step that is
+/// if `stays_open` certifies the interval. Where it does not, `stretch` gives a step that is
 /// certain from this side alone. The search ends when the quadratic f + f' h + ½ f'' h² has its root
 /// so close that the rest, |f'''| h³/6 + M₄ h⁴/24, is below the margin.
 ///

@@ -109,6 +109,7 @@ fn read_fields(mut text: &str) -> Fields {
         let Some(end) = end else { break };
         let end = end + after[end..].chars().next().map_or(0, char::len_utf8);
         let value = after[..end].trim().replace(['{', '}', '"'], "").replace("--", "–");
+        let value = value.replace(r"\&", "&");
         let value = value.split_whitespace().collect::<Vec<_>>().join(" ");
         fields.insert(name.trim().trim_start_matches(',').trim().to_lowercase(), value);
         text = &after[end..];
@@ -174,11 +175,16 @@ fn entry(fields: &Fields) -> Vec<Inline> {
         }
         out.push(words(format!("{tail}.")));
     }
-    let house: Vec<&str> = ["edition", "school", "institution", "publisher", "address", "note"]
-        .iter()
-        .map(|name| get(name))
-        .filter(|text| !text.is_empty())
-        .collect();
+    let edition = match get("edition") {
+        "" => String::new(),
+        "1" => "1st edition".into(),
+        "2" => "2nd edition".into(),
+        "3" => "3rd edition".into(),
+        other => format!("{other} edition"),
+    };
+    let mut house = vec![edition.as_str()];
+    house.extend(["school", "institution", "publisher", "address", "note"].iter().map(|n| get(n)));
+    house.retain(|text| !text.is_empty());
     if !house.is_empty() {
         out.push(words(format!(" {}.", house.join(", "))));
     }
@@ -209,7 +215,7 @@ mod tests {
   doi = {10.1002/x}
 }
 @book{stauffer1985, author = {Dietrich Stauffer}, title = {Introduction to Percolation Theory},
-  publisher = {Taylor & Francis}, year = 1985}
+  publisher = {Taylor \& Francis}, edition = 2, year = 1985}
 @inproceedings{three2006, author = {A. One and Two, B. and C. D. Three}, title = {T}, year = {2006}}
 "#;
 
@@ -227,7 +233,7 @@ mod tests {
         );
         assert_eq!(
             plain(&entries[1].text),
-            "Stauffer,\u{a0}D. (1985). Introduction to Percolation Theory. Taylor & Francis."
+            "Stauffer,\u{a0}D. (1985). Introduction to Percolation Theory. 2nd edition, Taylor & Francis."
         );
     }
 

@@ -30,7 +30,7 @@ pub fn write(blocks: &[Block]) -> Result<String, Error> {
 /// The title: the words of the first heading of level 1.
 ///
 /// # Errors
-/// As [`write`].
+/// As [`write()`].
 pub fn title(blocks: &[Block]) -> Result<String, Error> {
     let is_title = |block: &&Block| matches!(block, Block::Heading { level: 1, .. });
     match blocks.iter().find(is_title) {

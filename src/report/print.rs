@@ -1,6 +1,6 @@
 //! How a value is printed: as many digits as it deserves, the same in every format.
 //!
-//! [`print`] decides the digits and knows no markup; the methods of [`Printed`] write them down.
+//! [`print()`] decides the digits and knows no markup; the methods of [`Printed`] write them down.
 //! Only Rust's own decimal conversion is used, which rounds exactly and alike on every platform.
 
 use super::values::{Digits, Number, Value};
