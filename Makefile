@@ -22,7 +22,7 @@ lint: ## formatting, clippy and documentation, warnings denied
 	cargo fmt --check && cargo clippy --locked --all-targets -- -D warnings && RUSTDOCFLAGS="-D warnings" cargo doc --locked --no-deps --document-private-items
 
 bench: ## how fast the parts are, on this machine
-	cargo bench --locked
+	cargo bench --locked --bench engine
 
 measure: ## time of one ensemble of the full chain on this machine (last column, in seconds)
 	cargo run --release --locked -- sweep --sigma 0.08,0.12,0.20 --realisations 100
