@@ -4,7 +4,8 @@
 mod reference;
 
 use impact_paper::dynamics::{Engine, Error, Impact, Initial, Scenario};
-use impact_paper::numerics::first_root::{Frame, Frequencies, Next, Work, first_root};
+use impact_paper::numerics::first_root::{Next, Work, first_root};
+use impact_paper::numerics::local_frame::{Frame, Frequencies};
 use impact_paper::numerics::random::NormalPairs;
 use impact_paper::params::{Boundary, Chain};
 use reference::{Big, Dd, Real, Reference};

@@ -15,7 +15,8 @@ use super::engine::{Awaits, Engine};
 use super::flight::{Motion, Phases};
 use super::linear::contact_forces;
 use crate::numerics::clock::Instant;
-use crate::numerics::first_root::{Frame, Next, first_root};
+use crate::numerics::first_root::{Next, first_root};
+use crate::numerics::local_frame::Frame;
 
 /// Separation speed, in units of d ω, below which a chatter is taken to have come to rest.
 pub const CONTACT_SPEED: f64 = 1e-10;

@@ -11,7 +11,8 @@ use super::impact::jumps;
 use super::topology::Topology;
 use super::{Error, Initial, Scenario};
 use crate::numerics::clock::{Instant, Rate};
-use crate::numerics::first_root::{Frame, Frequencies, Next, Work, first_root};
+use crate::numerics::first_root::{Next, Work, first_root};
+use crate::numerics::local_frame::{Frame, Frequencies};
 use crate::numerics::winner_tree::WinnerTree;
 
 /// One impact.

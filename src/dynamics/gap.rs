@@ -1,8 +1,8 @@
 //! The gap between neighbours, seen from one instant.
 
 use super::flight::{Motion, Phases};
-use crate::numerics::first_root::{Frame, Frequencies};
 use crate::numerics::lane::Lane;
+use crate::numerics::local_frame::{Frame, Frequencies};
 
 /// What bounds a gap for ever, as long as neither neighbour is hit.
 #[derive(Clone, Copy, Debug)]

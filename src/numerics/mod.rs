@@ -8,6 +8,7 @@ pub mod clock;
 pub mod double_double;
 pub mod first_root;
 pub mod lane;
+pub mod local_frame;
 pub mod quadrature;
 pub mod random;
 pub mod regression;
