@@ -182,7 +182,7 @@ impl StartsParams {
                 variant("restitution-0.6", &near, |c| c.restitution = 0.6),
                 variant("restitution-0.9", &near, |c| c.restitution = 0.9),
                 variant("forcing-frequency-1.3", &near, |c| c.forcing_frequency = 1.3),
-                variant("forcing-frequency-1.6", &near, |c| c.forcing_frequency = 1.6),
+                variant("forcing-frequency-1.6", &wide, |c| c.forcing_frequency = 1.6),
             ]);
         }
         StartsParams {
