@@ -78,6 +78,7 @@ fn run(sweep: &Sweep) -> Vec<Value> {
         Value::integer("seed", SEED),
         Value::integer("second_seed", SECOND_SEED),
         count("sweep_impacts", sweep.rows.iter().map(|row| row.impacts).sum()),
+        Value::integer("sweep_failed", sweep.rows.iter().map(|row| row.failed).sum::<usize>()),
     ]
 }
 
