@@ -11,6 +11,7 @@ mod flight;
 mod gap;
 mod impact;
 mod linear;
+pub mod methods;
 mod scenario;
 mod topology;
 

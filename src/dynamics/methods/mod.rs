@@ -1,0 +1,47 @@
+//! The engine and its rivals: seven ways to simulate one chain, under one trait.
+//!
+//! Each rival is the textbook form of a method that is in use, so that its cost and its failures
+//! can be measured on the same scenes: sampled gaps, Newton's iteration, a Runge–Kutta pair with
+//! events, time stepping on velocities, Verlet with a flip, penalty springs. Each file says what its
+//! method is, where it comes from, of which order it is, and where it fails.
+
+mod certified;
+mod state;
+
+pub use certified::Certified;
+pub use state::State;
+
+use super::{Error, Impact, Scenario};
+
+/// Counted work of a method: deterministic.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Cost {
+    /// Impacts handed out.
+    pub impacts: u64,
+    /// Steps in time; for the certified engine, searches.
+    pub steps: u64,
+    /// Evaluations of one mass's acceleration or of one gap's width, with its sines.
+    pub evaluations: u64,
+}
+
+/// A way to simulate a chain.
+pub trait Method: Sync {
+    /// Name, as in `trace --method`, e.g. "verlet".
+    fn name(&self) -> &'static str;
+
+    /// Runs from `start` to the time `until` and hands each impact to `sink`, which stops the run
+    /// right after that impact by returning false. The start of `scenario` is not looked at.
+    ///
+    /// A gap of `start` that is shut but for rounding is shut; it is hit only if it is closing.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a scenario, start, step or tolerance outside the model,
+    /// [`Error::Overlap`] for an overlapping start, [`Error::Work`] when a bound on work is exceeded.
+    fn run(
+        &self,
+        scenario: &Scenario,
+        start: &State,
+        until: f64,
+        sink: &mut dyn FnMut(Impact) -> bool,
+    ) -> Result<Cost, Error>;
+}
