@@ -24,8 +24,8 @@ lint: ## formatting, clippy and documentation, warnings denied
 bench: ## how fast the parts are, on this machine
 	cargo bench --locked --bench engine
 
-measure: ## time of one ensemble of the full chain on this machine (last column, in seconds)
-	cargo run --release --locked -- sweep --sigma 0.08,0.12,0.20 --realisations 100
+measure: ## speed of the engine, of its rivals and of other projects, into benches/measured.json (Python 3)
+	python3 benches/peers/measure.py
 
 clean: ## remove everything that was built, saved results included
 	cargo clean

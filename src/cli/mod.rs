@@ -1,5 +1,6 @@
 //! One file per verb; the exit codes are a contract.
 
+mod bench;
 mod check;
 mod eval;
 mod output;
@@ -27,6 +28,7 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Verb {
+    Bench(bench::Args),
     Check(check::Args),
     Eval(eval::Args),
     Paper(paper::Args),
@@ -62,6 +64,7 @@ pub fn main() -> ExitCode {
         Err(error) => return usage(&error),
     };
     let result = match verb {
+        Verb::Bench(args) => bench::run(args),
         Verb::Check(args) => check::run(args),
         Verb::Eval(args) => eval::run(args),
         Verb::Paper(args) => paper::run(args),

@@ -4,6 +4,7 @@ pub mod error;
 pub mod horizon;
 pub mod identities;
 pub mod laws;
+pub mod measured;
 pub mod observe;
 pub mod progress;
 pub mod protocol;
@@ -19,6 +20,7 @@ pub mod two_masses;
 mod results;
 
 pub use error::Error;
+pub use measured::Measured;
 pub use progress::Progress;
 pub use results::{Need, Results};
 pub use run::run;

@@ -1,0 +1,91 @@
+"""What all peers share: the scenario, the true impacts, and how a run is timed and judged.
+
+A peer calls `main` with a function `prepare(scenario, setting)` that returns a simulator
+`run(t, u, v, until, first)`: from displacements u and velocities v at time t it simulates to
+`until`, and returns its impacts as (time, gap), only the first one if `first`.
+"""
+
+import json
+import sys
+import time
+
+CLOSE = 1e-3  # a time that is further off than this is wrong
+SEGMENT = 30.0  # no segment of the scenarios lasts longer
+ENOUGH = 4.0  # seconds of repetitions
+
+
+def judge(impacts, reference):
+    """Impacts compared, and number and time of the first wrong one."""
+    true = reference["impacts"]
+    for number, (time_, gap) in enumerate(true, 1):
+        own = impacts[number - 1] if number <= len(impacts) else None
+        if own is None or own[1] != gap or not abs(own[0] - time_) <= CLOSE:
+            return len(true), number, time_
+    return len(true), None, None
+
+
+def timed(run):
+    """Result and the best wall time of up to three calls."""
+    best, spent = float("inf"), 0.0
+    for _ in range(3):
+        began = time.perf_counter()
+        result = run()
+        took = time.perf_counter() - began
+        best, spent = min(best, took), spent + took
+        if spent > ENOUGH:
+            break
+    return result, best
+
+
+def misses(run, reference):
+    """How many segments end without their true impact."""
+    missed = 0
+    for segment in reference["segments"]:
+        until = min(segment["t"] + SEGMENT, segment["next_t"] + 1.0)
+        try:
+            found = run(segment["t"], segment["u"], segment["v"], until, True)
+        except Exception:
+            found = []
+        right = found and found[0][1] == segment["next_gap"]
+        missed += not (right and abs(found[0][0] - segment["next_t"]) <= CLOSE)
+    return missed
+
+
+def main(name, version, settings, prepare, note="", segments=True):
+    """Runs all settings on the scenario of the command line, prints a row of JSON for each."""
+    with open(sys.argv[1]) as file:
+        scenario = json.load(file)
+    with open(sys.argv[2]) as file:
+        reference = json.load(file)
+    until = float(sys.argv[3])
+    n = len(scenario["forcing"])
+    rest = [0.0] * n
+    for setting in settings:
+        run = prepare(scenario, setting)
+        run(0.0, rest, rest, min(until, 1.0), False)  # compiles and warms up
+        impacts, seconds = timed(lambda run=run: run(0.0, rest, rest, until, False))
+        compared, number, when = judge(impacts, reference)
+        row = {
+            "what": "peer",
+            "name": name,
+            "version": version,
+            "settings": setting_text(setting),
+            "n": n,
+            "until": until,
+            "impacts": len(impacts),
+            "microseconds_per_impact": seconds / len(impacts) * 1e6 if impacts else None,
+            "seconds": seconds,
+            "compared": compared,
+            "horizon_impact": number,
+            "horizon_time": when,
+            "note": note,
+        }
+        if segments:
+            row["segments"] = len(reference["segments"])
+            row["segment_misses"] = misses(run, reference)
+        print(json.dumps(row), flush=True)
+
+
+def setting_text(setting):
+    """{"tol": 1e-10} as "tol=1e-10"."""
+    return " ".join(f"{key}={value:g}" for key, value in setting.items())

@@ -1,0 +1,120 @@
+//! `impact-paper bench`: the JSON that it prints, and what it refuses.
+
+use assert_cmd::Command;
+use serde_json::Value;
+
+fn bench(arguments: &[&str]) -> std::process::Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_impact-paper"));
+    command.arg("bench").args(arguments).output().unwrap()
+}
+
+fn json(arguments: &[&str]) -> Value {
+    let output = bench(arguments);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+const TINY: [&str; 9] =
+    ["engine", "--masses", "1,20", "--until", "20", "--repetitions", "3", "--chains", "2"];
+
+#[test]
+fn a_case_has_every_field() {
+    let report = json(&TINY);
+    assert_eq!(report["version"], env!("CARGO_PKG_VERSION"));
+    let cases = report["cases"].as_array().unwrap();
+    assert_eq!(cases.len(), 2);
+    let case = &cases[1];
+    for (field, value) in [("n", 20.0), ("sigma", 0.3), ("until", 20.0), ("chains", 2.0)] {
+        assert_eq!(case[field].as_f64(), Some(value), "{field}");
+    }
+    for (field, value) in [("threads", 1), ("lanes", 1), ("repetitions", 3)] {
+        assert_eq!(case[field].as_u64(), Some(value), "{field}");
+    }
+    let positive = |field: &str| {
+        let x = case[field].as_f64().unwrap_or_else(|| panic!("no {field}"));
+        assert!(x > 0.0, "{field}: {x}");
+        x
+    };
+    // Two chains of 20 masses have some 3 impacts a unit of time each.
+    let impacts = positive("impacts");
+    assert!((40.0..400.0).contains(&impacts), "{impacts}");
+    let best = positive("ns_per_impact");
+    assert!(best <= positive("ns_per_impact_median"));
+    assert!((best * impacts - positive("seconds") * 1e9).abs() < 1e-3 * best * impacts);
+    // A search or more an impact, an evaluation or more a search on average.
+    assert!(positive("searches_per_impact") >= 1.0);
+    assert!(positive("evaluations_per_impact") >= positive("searches_per_impact"));
+    positive("setup_seconds");
+}
+
+#[test]
+fn counts_are_the_same_whatever_the_threads() {
+    let mut many = TINY.to_vec();
+    many.extend(["--threads", "2"]);
+    let [one, two] = [json(&TINY), json(&many)];
+    for field in ["impacts", "evaluations_per_impact", "searches_per_impact", "undecided"] {
+        assert_eq!(one["cases"][1][field], two["cases"][1][field], "{field}");
+    }
+}
+
+/// The scenario that is printed is the chain that is timed, and `trace` takes it.
+#[test]
+fn a_scenario_is_the_chain_that_is_timed() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("scenario.json");
+    let output = bench(&["scenario", "--masses", "20", "--chain", "3"]);
+    std::fs::write(&path, &output.stdout).unwrap();
+    let mut trace = Command::new(env!("CARGO_BIN_EXE_impact-paper"));
+    let trace = trace.arg("trace").arg(&path).args(["--until", "20"]).output().unwrap();
+    let impacts = String::from_utf8(trace.stdout).unwrap().lines().count() as u64 - 1;
+    let until = ["engine", "--until", "20", "--repetitions", "1", "--masses", "20"];
+    let timed = json(&[&until[..], &["--chain", "3"]].concat());
+    assert_eq!(timed["cases"][0]["impacts"].as_u64(), Some(impacts));
+    let other = json(&until);
+    assert_ne!(other["cases"][0]["impacts"].as_u64(), Some(impacts));
+}
+
+/// A million masses need far less than 1 GiB: here a tenth of them, the start included.
+#[test]
+fn memory_grows_by_less_than_a_kibibyte_a_mass() {
+    let options = ["--until", "1", "--repetitions", "1"];
+    let peak = |n: &str| {
+        json(&[&["engine", "--masses", n], &options[..]].concat())["cases"][0]["peak_mib"].as_f64()
+    };
+    // Only Linux tells.
+    let (Some(few), Some(many)) = (peak("10"), peak("100000")) else { return };
+    let bytes_a_mass = (many - few) * 1024.0 * 1024.0 / 1e5;
+    assert!((100.0..500.0).contains(&bytes_a_mass), "{bytes_a_mass} bytes a mass");
+}
+
+#[test]
+#[ignore = "a minute or less, and 250 MiB"]
+fn a_million_masses_run_to_10_within_a_gibibyte() {
+    let report = json(&["engine", "--masses", "1000000", "--until", "10", "--repetitions", "1"]);
+    let case = &report["cases"][0];
+    assert!(case["impacts"].as_u64().unwrap() > 1_000_000);
+    if let Some(peak) = case["peak_mib"].as_f64() {
+        assert!(peak < 1024.0, "{peak} MiB");
+    }
+}
+
+#[test]
+fn what_is_wrong_is_named() {
+    for (arguments, words) in [
+        (&["engine", "--masses", "0"][..], "--masses: 0"),
+        (&["engine", "--masses", "x"], "--masses"),
+        (&["engine", "--sigma", "NaN"], "--sigma: NaN"),
+        (&["engine", "--restitution", "1.5"], "--restitution: 1.5"),
+        (&["engine", "--until", "-1"], "--until: -1.0"),
+        (&["engine", "--threads", "0"], "--threads: 0"),
+        (&["engine", "--chains", "0"], "--chains: 0"),
+        (&["engine", "--repetitions", "0"], "--repetitions: 0"),
+        (&["scenario", "--masses", "0"], "--masses: 0"),
+    ] {
+        let output = bench(arguments);
+        let error = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {error}");
+        assert!(output.stdout.is_empty() && error.lines().count() == 1, "{error}");
+        assert!(error.contains(words), "{arguments:?}: {error}");
+    }
+}
