@@ -3,6 +3,7 @@
 mod bench;
 mod check;
 mod eval;
+mod method;
 mod output;
 mod paper;
 mod sigmas;

@@ -1,7 +1,8 @@
 //! `impact-paper trace`.
 
-use super::Failure;
-use impact_paper::dynamics::{Engine, Error, Scenario};
+use super::{Failure, method};
+use impact_paper::dynamics::methods::State;
+use impact_paper::dynamics::{Error, Impact, Scenario};
 use impact_paper::numerics::clock::LATEST;
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -24,6 +25,8 @@ pub struct Args {
     /// Stop after this many impacts.
     #[arg(long, value_name = "M")]
     max_impacts: Option<u64>,
+    #[command(flatten)]
+    method: method::Choice,
 }
 
 const FORM: &str = r#"The scenario, with the defaults of everything but "forcing":
@@ -48,23 +51,29 @@ pub fn run(args: Args) -> Result<(), Failure> {
     })?;
     let in_file = |error: Error| match error {
         Error::Work { .. } => Failure::run(error.to_string()),
+        Error::Input { ref field, .. } if ["step", "tolerance"].contains(&field.as_str()) => {
+            Failure::input(format!("--{error}"))
+        }
         Error::Input { .. } | Error::Overlap { .. } => Failure::input(format!("{name}: {error}")),
     };
     let scenario = Scenario::from_json(&text).map_err(in_file)?;
-    let mut engine = Engine::new(&scenario).map_err(in_file)?;
+    let (method, start) = (args.method.method()?, State::of(&scenario));
     let mut out = io::BufWriter::new(io::stdout().lock());
-    let mut written = writeln!(out, "time,gap,closing_speed");
+    let mut written = Ok(());
+    let mut header = "time,gap,closing_speed\n";
     let mut left = args.max_impacts.unwrap_or(u64::MAX);
-    if left > 0 {
-        engine
-            .run(args.until, |impact| {
-                written =
-                    writeln!(out, "{:?},{},{:?}", impact.time, impact.gap, impact.closing_speed);
-                left -= 1;
-                left > 0 && written.is_ok()
-            })
-            .map_err(in_file)?;
-    }
+    let mut sink = |Impact { time, gap, closing_speed }: Impact| {
+        if left > 0 {
+            // A run that is refused at its start prints nothing.
+            let header = std::mem::take(&mut header);
+            written = writeln!(out, "{header}{time:?},{gap},{closing_speed:?}");
+            left -= 1;
+        }
+        left > 0 && written.is_ok()
+    };
+    let until = if args.max_impacts == Some(0) { 0.0 } else { args.until };
+    method.run(&scenario, &start, until, &mut sink).map_err(in_file)?;
+    let written = written.and_then(|()| out.write_all(header.as_bytes()));
     match written.and_then(|()| out.flush()) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Failure::input(format!(
             "standard output: {error}; direct it to a file that can be written"

@@ -1,6 +1,6 @@
 //! The engine of this project, under the trait of its rivals.
 
-use super::state::rounding;
+use super::tally::check_end;
 use super::{Cost, Method, State};
 use crate::dynamics::topology::Topology;
 use crate::dynamics::{Engine, Error, Impact, Scenario};
@@ -29,6 +29,7 @@ impl Method for Certified {
         until: f64,
         sink: &mut dyn FnMut(Impact) -> bool,
     ) -> Result<Cost, Error> {
+        check_end(until)?;
         let mut cost = Cost::default();
         let own = *start == State::of(scenario);
         let moved = if own { None } else { Some(start.as_scenario(scenario)?) };
@@ -66,7 +67,8 @@ fn resting(scenario: &Scenario, start: &State) -> Vec<usize> {
     let is_resting = |k: &usize| {
         let [left, right] = topology.sides(*k).map(place);
         let width = d + (right[0] - left[0]);
-        width.abs() <= rounding(*k, d, left[0].abs().max(right[0].abs()))
+        let beside = |i: usize| left[i].abs().max(right[i].abs());
+        width.abs() <= start.rounding((k + 1) as f64 * d + beside(0), beside(1))
             && (right[1] - left[1]).abs() <= AT_REST * d * scenario.natural_frequency
     };
     (0..topology.gaps()).filter(is_resting).map(|k| topology.label(k)).collect()

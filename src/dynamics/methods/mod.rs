@@ -6,10 +6,27 @@
 //! method is, where it comes from, of which order it is, and where it fails.
 
 mod certified;
+mod crossing;
+mod dormand_prince;
+mod flights;
+mod moreau_jean;
+mod newton;
+mod penalty;
+mod row;
+mod runge_kutta;
+mod sampled;
 mod state;
+mod tally;
+mod verlet;
 
 pub use certified::Certified;
+pub use moreau_jean::MoreauJean;
+pub use newton::Newton;
+pub use penalty::Penalty;
+pub use runge_kutta::RungeKutta;
+pub use sampled::Sampled;
 pub use state::State;
+pub use verlet::Verlet;
 
 use super::{Error, Impact, Scenario};
 

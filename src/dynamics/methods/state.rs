@@ -16,8 +16,8 @@ pub struct State {
     pub velocities: Vec<f64>,
 }
 
-/// A gap is shut but for rounding when its width is below this many units in the last place of the
-/// two positions.
+/// A gap is shut but for rounding when its width is below this many roundings of its place, of a
+/// displacement beside it, and of the way that it goes while the time is rounded.
 const UNITS: f64 = 16.0;
 
 impl State {
@@ -62,7 +62,9 @@ impl State {
             if width >= 0.0 {
                 continue;
             }
-            if width < -rounding(k, d, u[left].abs().max(u[right].abs())) {
+            let place = (k + 1) as f64 * d + u[left].abs().max(u[right].abs());
+            let speed = |m: usize| self.velocities.get(m.wrapping_sub(1)).map_or(0.0, |v| v.abs());
+            if width < -self.rounding(place, speed(left).max(speed(right))) {
                 return Err(Error::Overlap { gap: topology.label(k), depth: -width });
             }
             if topology.is_wall(right) {
@@ -72,6 +74,12 @@ impl State {
             }
         }
         Ok(u)
+    }
+
+    /// How wide a gap from the place `place` on may be by rounding of this state, `speed` being that
+    /// of the faster of its sides.
+    pub(super) fn rounding(&self, place: f64, speed: f64) -> f64 {
+        UNITS * f64::EPSILON * (place.abs() + self.time * speed)
     }
 
     fn validate(&self, n: usize) -> Result<(), Error> {
@@ -116,11 +124,6 @@ impl State {
 fn response(scenario: &Scenario) -> [f64; 2] {
     let (w, big_w) = (scenario.natural_frequency, scenario.forcing_frequency);
     [big_w / w, (w - big_w) * (w + big_w)]
-}
-
-/// How wide a gap k may be by rounding of the positions beside it.
-pub(super) fn rounding(k: usize, spacing: f64, displacement: f64) -> f64 {
-    UNITS * f64::EPSILON * ((k + 1) as f64 * spacing + displacement)
 }
 
 #[cfg(test)]

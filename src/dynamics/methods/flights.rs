@@ -1,0 +1,190 @@
+//! Flight in closed form, looked at on a grid of times: what the sampling rivals share.
+
+use super::crossing::is_rounding;
+use super::tally::{Grid, Step, Stop, Tally};
+use super::{Cost, State};
+use crate::dynamics::flight::{Motion, Phases};
+use crate::dynamics::impact::jumps;
+use crate::dynamics::topology::Topology;
+use crate::dynamics::{Error, Impact, Scenario};
+use crate::numerics::clock::{Instant, Rate};
+
+/// Width and rate of a gap, `s` after the beginning of a step.
+#[derive(Clone, Copy, Debug)]
+pub struct Look {
+    pub s: f64,
+    pub width: f64,
+    pub rate: f64,
+}
+
+/// How a method finds the time within a step at which a gap closes.
+pub trait Locate {
+    /// The time s after the beginning of the step at which the gap comes to zero, from < s ≤ to, if
+    /// the method finds one. Right after an impact `from` has the width 0 exactly.
+    fn locate(&self, from: Look, to: Look, at: impl FnMut(f64) -> Look) -> Option<f64>;
+}
+
+/// The masses in flight.
+pub struct Flights {
+    pub topology: Topology,
+    spacing: f64,
+    restitution: f64,
+    omega: f64,
+    big_omega: f64,
+    rates: [Rate; 2],
+    motions: Vec<Motion<f64>>,
+}
+
+impl Flights {
+    /// # Errors
+    /// As [`super::Method::run`].
+    fn new(scenario: &Scenario, start: &State) -> Result<Flights, Error> {
+        let u = start.displacements(scenario)?;
+        let (w, big_w) = (scenario.natural_frequency, scenario.forcing_frequency);
+        let factor = (w - big_w) * (w + big_w);
+        let rates = [Rate::new(w), Rate::new(big_w)];
+        let phases = Phases::at(&rates, Instant::at(start.time));
+        let mut motions = vec![Motion::still(); u.len()];
+        for (j, &[alpha, beta]) in scenario.forcing.iter().enumerate() {
+            let motion = &mut motions[j + 1];
+            (motion.c, motion.s) = (alpha / factor, beta / factor);
+            let forced = motion.seen(&phases);
+            let quadrature = (start.velocities[j] - big_w * forced.v_quadrature) / w;
+            motion.set_free(u[j + 1] - forced.v, quadrature, &phases);
+        }
+        Ok(Flights {
+            topology: Topology::new(scenario.forcing.len(), scenario.boundary),
+            spacing: scenario.spacing,
+            restitution: scenario.restitution,
+            omega: w,
+            big_omega: big_w,
+            rates,
+            motions,
+        })
+    }
+
+    fn phases(&self, step: &Step, s: f64) -> Phases<f64> {
+        let at = if s == step.h { step.to } else { step.from.after(s) };
+        Phases::at(&self.rates, at)
+    }
+
+    /// Gap k at a time whose phases are given.
+    fn look(&self, k: usize, s: f64, phases: &Phases<f64>) -> Look {
+        let [left, right] = self.topology.sides(k);
+        let seen = self.motions[right].minus(&self.motions[left]).seen(phases);
+        let width = self.spacing + (seen.u + seen.v);
+        let rate = self.omega * seen.u_quadrature + self.big_omega * seen.v_quadrature;
+        let width = if is_rounding(width, rate, self.spacing) { 0.0 } else { width };
+        Look { s, width, rate }
+    }
+
+    fn hit(&mut self, k: usize, speed: f64, phases: &Phases<f64>) {
+        let sides = self.topology.sides(k);
+        let inverse = sides.map(|m| self.topology.inverse_mass(m));
+        let jumps = jumps(speed, self.restitution, inverse);
+        for (side, jump) in sides.into_iter().zip(jumps) {
+            self.motions[side].kick(jump / self.omega, phases);
+        }
+    }
+}
+
+/// Samples all gaps with a fixed step; in each step the earliest time that `method` locates is an
+/// impact, until it locates no more.
+pub fn run_samples(
+    method: &impl Locate,
+    (scenario, start): (&Scenario, &State),
+    until: f64,
+    step: f64,
+    sink: &mut dyn FnMut(Impact) -> bool,
+) -> Result<Cost, Error> {
+    let mut flights = Flights::new(scenario, start)?;
+    let grid = Grid::new(scenario, start, until, step)?;
+    let mut tally = Tally::new(scenario, sink);
+    let gaps = flights.topology.gaps();
+    let phases = Phases::at(&flights.rates, Instant::at(start.time));
+    let begin = (0..gaps).map(|k| flights.look(k, 0.0, &phases)).collect();
+    tally.cost.evaluations += gaps as u64;
+    let mut samples = Samples { begin, end: Vec::new(), roots: vec![None; gaps] };
+    let ended = grid.steps().try_for_each(|step| {
+        tally.cost.steps += 1;
+        samples.step(method, &mut flights, &step, &mut tally)
+    });
+    tally.finish(ended)
+}
+
+/// All gaps in one step.
+struct Samples {
+    /// At the beginning of the step, or right after the last impact beside the gap.
+    begin: Vec<Look>,
+    /// At the end of the step.
+    end: Vec<Look>,
+    /// When the gap closes between.
+    roots: Vec<Option<f64>>,
+}
+
+impl Samples {
+    fn step(
+        &mut self,
+        method: &impl Locate,
+        flights: &mut Flights,
+        step: &Step,
+        tally: &mut Tally,
+    ) -> Result<(), Stop> {
+        let last = flights.phases(step, step.h);
+        let gaps = self.begin.len();
+        self.end.clear();
+        self.end.extend((0..gaps).map(|k| flights.look(k, step.h, &last)));
+        tally.cost.evaluations += gaps as u64;
+        for k in 0..gaps {
+            self.roots[k] = self.locate(k, method, flights, step, tally);
+        }
+        while let Some((k, s)) = self.earliest() {
+            let phases = flights.phases(step, s);
+            let time = step.from.after(s).time();
+            let before = flights.look(k, s, &phases);
+            let speed = (-before.rate).max(0.0);
+            flights.hit(k, speed, &phases);
+            self.begin[k] = Look { s, width: 0.0, rate: flights.restitution * speed };
+            let [left, right] = flights.topology.adjacent(k);
+            let near = [left, right.filter(|right| Some(*right) != left)];
+            for j in near.into_iter().flatten() {
+                self.begin[j] = flights.look(j, s, &phases);
+            }
+            for j in [Some(k)].into_iter().chain(near).flatten() {
+                self.end[j] = flights.look(j, step.h, &last);
+                tally.cost.evaluations += 2;
+                self.roots[j] = self.locate(j, method, flights, step, tally);
+            }
+            // A gap that stands still at zero is no impact, but it is work: it may do so for ever.
+            if speed > 0.0 {
+                tally.impact(k, time, speed)?;
+            } else {
+                tally.spend(k, time)?;
+            }
+        }
+        for (begin, end) in self.begin.iter_mut().zip(&self.end) {
+            *begin = Look { s: 0.0, ..*end };
+        }
+        Ok(())
+    }
+
+    fn locate(
+        &self,
+        k: usize,
+        method: &impl Locate,
+        flights: &Flights,
+        step: &Step,
+        tally: &mut Tally,
+    ) -> Option<f64> {
+        method.locate(self.begin[k], self.end[k], |s| {
+            tally.cost.evaluations += 1;
+            flights.look(k, s, &flights.phases(step, s))
+        })
+    }
+
+    /// The gap that closes first, the lowest of equals.
+    fn earliest(&self) -> Option<(usize, f64)> {
+        let found = self.roots.iter().enumerate().filter_map(|(k, s)| Some((k, (*s)?)));
+        found.reduce(|best, next| if next.1 < best.1 { next } else { best })
+    }
+}
