@@ -16,7 +16,7 @@ pub enum Name {
     Newton,
     /// Dormand–Prince 5(4) with events, --tolerance [1e-9]: misses pairs of roots within a step.
     RungeKutta,
-    /// Time stepping on velocities, --step [0.001]: first order, hits near misses, rests in contact.
+    /// Time stepping on velocities, --step [0.001]: first order, hits near misses, but can rest.
     MoreauJean,
     /// Velocity Verlet with flips at the ends of steps, --step [0.001]: first order, impacts late.
     Verlet,

@@ -70,19 +70,40 @@ impl Stages {
     pub fn attempt(&mut self, row: &Row, from: Instant, h: f64, tolerance: f64) -> f64 {
         self.h = h;
         for (stage, coefficients) in STAGES.iter().enumerate() {
-            for (i, next) in self.next.iter_mut().enumerate() {
-                let slopes = coefficients.iter().zip(&self.k).take(stage + 1);
-                *next = self.y[i] + h * slopes.map(|(a, k)| a * k[i]).sum::<f64>();
+            match stage {
+                0 => self.combine::<1>(coefficients),
+                1 => self.combine::<2>(coefficients),
+                2 => self.combine::<3>(coefficients),
+                3 => self.combine::<4>(coefficients),
+                4 => self.combine::<5>(coefficients),
+                _ => self.combine::<6>(coefficients),
             }
             derivative(row, from.after(NODES[stage] * h), &self.next, &mut self.k[stage + 1]);
         }
         let mut sum = 0.0;
+        let k = self.slopes::<7>();
         for (i, (y, next)) in self.y.iter().zip(&self.next).enumerate() {
-            let error = h * ERROR.iter().zip(&self.k).map(|(e, k)| e * k[i]).sum::<f64>();
+            let error = h * weighted(&ERROR, &k, i);
             let allowed = tolerance * (1.0 + y.abs().max(next.abs()));
             sum += (error / allowed) * (error / allowed);
         }
         (sum / self.y.len() as f64).sqrt()
+    }
+
+    /// The first S derivatives.
+    fn slopes<const S: usize>(&self) -> [&[f64]; S] {
+        std::array::from_fn(|j| &self.k[j][..self.y.len()])
+    }
+
+    /// `next` = y + h Σ a_j k_j over the first S derivatives.
+    fn combine<const S: usize>(&mut self, coefficients: &[f64; 6]) {
+        let coefficients: [f64; S] = std::array::from_fn(|j| coefficients[j]);
+        let mut next = std::mem::take(&mut self.next);
+        let k = self.slopes::<S>();
+        for (i, (next, y)) in next.iter_mut().zip(&self.y).enumerate() {
+            *next = y + self.h * weighted(&coefficients, &k, i);
+        }
+        self.next = next;
     }
 
     /// Component i at the part θ of the step.
@@ -91,7 +112,7 @@ impl Stages {
         let difference = self.next[i] - self.y[i];
         let bend = h * self.k[0][i] - difference;
         let third = difference - h * self.k[6][i] - bend;
-        let fourth = h * DENSE.iter().zip(&self.k).map(|(d, k)| d * k[i]).sum::<f64>();
+        let fourth = h * weighted(&DENSE, &self.slopes(), i);
         self.y[i] + theta * (difference + rest * (bend + theta * (third + rest * fourth)))
     }
 
@@ -108,6 +129,16 @@ impl Stages {
         }
         std::mem::swap(&mut self.y, &mut self.next);
     }
+}
+
+/// Σ a_j k_j of component i.
+#[inline(always)]
+fn weighted<const S: usize>(a: &[f64; S], k: &[&[f64]; S], i: usize) -> f64 {
+    let mut sum = 0.0;
+    for j in 0..S {
+        sum += a[j] * k[j][i];
+    }
+    sum
 }
 
 /// (u, v)' = (v, −ω² u + forcing).

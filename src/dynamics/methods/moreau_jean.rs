@@ -67,6 +67,8 @@ struct Impulses {
     before: Vec<f64>,
     /// Whether the gap had an impulse in the last step.
     touching: Vec<bool>,
+    /// Whether any gap was active in the last step.
+    touched: bool,
     active: Vec<Active>,
 }
 
@@ -75,10 +77,12 @@ impl Stepper for Impulses {
         let half = 0.5 * step.h;
         let gaps = self.touching.len();
         self.active.clear();
-        for k in 0..gaps {
-            let rate = row.rate(k);
-            if row.width(k) + half * rate <= 0.0 {
-                self.active.push(Active { k, rate, impulse: 0.0 });
+        if row.any_shut(half) {
+            for k in 0..gaps {
+                let rate = row.rate(k);
+                if row.width(k) + half * rate <= 0.0 {
+                    self.active.push(Active { k, rate, impulse: 0.0 });
+                }
             }
         }
         row.forces(step.to, &mut self.later);
@@ -109,6 +113,7 @@ impl Impulses {
             forces,
             before: row.v.clone(),
             touching: vec![false; row.topology.gaps()],
+            touched: false,
             active: Vec::new(),
         }
     }
@@ -134,6 +139,10 @@ impl Impulses {
 
     /// Hands out the episodes that begin with this step.
     fn report(&mut self, step: &Step, tally: &mut Tally) -> Result<(), Stop> {
+        if self.active.is_empty() && !self.touched {
+            return Ok(());
+        }
+        self.touched = !self.active.is_empty();
         let mut active = self.active.iter().peekable();
         for (k, touching) in self.touching.iter_mut().enumerate() {
             let own = active.next_if(|gap| gap.k == k).filter(|gap| gap.impulse > 0.0);

@@ -69,6 +69,8 @@ struct Springs {
     damping: f64,
     /// Whether the gap is in an episode of contact.
     touching: Vec<bool>,
+    /// How many are.
+    contacts: usize,
     accelerations: Vec<f64>,
 }
 
@@ -81,6 +83,7 @@ impl Springs {
             stiffness: contact * contact,
             damping: 2.0 * damping_ratio(row.restitution) * contact,
             touching: vec![false; row.topology.gaps()],
+            contacts: 0,
             accelerations: vec![0.0; row.u.len()],
         };
         springs.push(row, at);
@@ -90,6 +93,9 @@ impl Springs {
     /// The accelerations at the row's displacements and velocities.
     fn push(&mut self, row: &Row, at: Instant) {
         row.accelerations(at, &row.u, &mut self.accelerations);
+        if self.contacts == 0 {
+            return;
+        }
         for k in (0..self.touching.len()).filter(|&k| self.touching[k]) {
             let [left, right] = row.topology.sides(k);
             let [of_left, of_right] = row.inverse_masses(k);
@@ -110,7 +116,22 @@ impl Stepper for Springs {
         }
         let gaps = self.touching.len();
         tally.cost.evaluations += row.masses() + gaps as u64;
-        for k in 0..gaps {
+        if self.contacts > 0 || row.any_shut(0.0) {
+            self.begin_and_end(row, step, tally)?;
+        }
+        // The damper sees the velocity in the middle of the step, half a step ago.
+        self.push(row, step.to);
+        for (v, a) in row.v.iter_mut().zip(&self.accelerations) {
+            *v += half * a;
+        }
+        Ok(())
+    }
+}
+
+impl Springs {
+    /// Begins and ends contacts after a step.
+    fn begin_and_end(&mut self, row: &Row, step: &Step, tally: &mut Tally) -> Result<(), Stop> {
+        for k in 0..self.touching.len() {
             let (width, speed) = (row.width(k), -row.rate(k));
             if self.touching[k] {
                 self.touching[k] = width < 0.0;
@@ -119,11 +140,7 @@ impl Stepper for Springs {
                 tally.impact(k, step.to.time(), speed)?;
             }
         }
-        // The damper sees the velocity in the middle of the step, half a step ago.
-        self.push(row, step.to);
-        for (v, a) in row.v.iter_mut().zip(&self.accelerations) {
-            *v += half * a;
-        }
+        self.contacts = self.touching.iter().filter(|touching| **touching).count();
         Ok(())
     }
 }

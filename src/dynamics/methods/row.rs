@@ -7,16 +7,20 @@ use crate::dynamics::topology::Topology;
 use crate::dynamics::{Error, Impact, Scenario};
 use crate::numerics::clock::{Instant, Rate};
 use crate::numerics::trig::sin_cos_turn;
+use crate::params::Boundary;
 
 /// A state with its forces; bodies are numbered from the left wall (0) to the right one (n + 1).
 pub struct Row {
     pub topology: Topology,
+    is_ring: bool,
     pub spacing: f64,
     pub restitution: f64,
     /// ω².
     pub stiffness: f64,
     rate: Rate,
-    forcing: Vec<[f64; 2]>,
+    /// α_j and β_j; 0 for the walls.
+    alpha: Vec<f64>,
+    beta: Vec<f64>,
     /// Displacements from the places j d; 0 for the walls.
     pub u: Vec<f64>,
     /// Velocities; 0 for the walls.
@@ -31,15 +35,19 @@ impl Row {
         let masses = scenario.forcing.len();
         let mut row = Row {
             topology: Topology::new(masses, scenario.boundary),
+            is_ring: scenario.boundary == Boundary::Ring,
             spacing: scenario.spacing,
             restitution: scenario.restitution,
             stiffness: scenario.natural_frequency * scenario.natural_frequency,
             rate: Rate::new(scenario.forcing_frequency),
-            forcing: vec![[0.0; 2]; masses + 2],
+            alpha: vec![0.0; u.len()],
+            beta: vec![0.0; u.len()],
             v: vec![0.0; u.len()],
             u,
         };
-        row.forcing[1..=masses].copy_from_slice(&scenario.forcing);
+        for (j, &[alpha, beta]) in scenario.forcing.iter().enumerate() {
+            (row.alpha[j + 1], row.beta[j + 1]) = (alpha, beta);
+        }
         row.v[1..=masses].copy_from_slice(&start.velocities);
         Ok(row)
     }
@@ -90,7 +98,7 @@ impl Row {
     /// The forcing α_j cos Ωt + β_j sin Ωt of every body at an instant.
     pub fn forces(&self, at: Instant, out: &mut [f64]) {
         let (sin, cos) = sin_cos_turn(self.rate.turn(at));
-        for (out, [alpha, beta]) in out.iter_mut().zip(&self.forcing) {
+        for ((out, alpha), beta) in out.iter_mut().zip(&self.alpha).zip(&self.beta) {
             *out = alpha * cos + beta * sin;
         }
     }
@@ -101,6 +109,23 @@ impl Row {
         for (out, u) in out.iter_mut().zip(u) {
             *out -= self.stiffness * u;
         }
+    }
+
+    /// Whether any gap would be narrower than zero after `ahead` at its present rate: a look at all
+    /// gaps that is cheap, because mostly none is.
+    pub fn any_shut(&self, ahead: f64) -> bool {
+        let (u, v) = (&self.u, &self.v);
+        let is_shut = |left: usize, right: usize| {
+            self.spacing + (u[right] - u[left]) + ahead * (v[right] - v[left]) <= 0.0
+        };
+        // Neighbours in the array are neighbours in the row; a ring has one gap more.
+        let bodies = if self.is_ring { 1..u.len() - 1 } else { 0..u.len() };
+        let pairs = u[bodies.clone()].windows(2).zip(v[bodies.clone()].windows(2));
+        let mut any = self.is_ring && is_shut(bodies.end - 1, bodies.start);
+        for (u, v) in pairs {
+            any |= self.spacing + (u[1] - u[0]) + ahead * (v[1] - v[0]) <= 0.0;
+        }
+        any
     }
 
     /// Number of masses, as counted work.

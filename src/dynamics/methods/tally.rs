@@ -145,14 +145,15 @@ impl Grid {
 
     /// The steps in order.
     pub fn steps(&self) -> impl Iterator<Item = Step> {
-        (0..self.count).map(|i| {
-            let at = |i: u64| self.start.after(i as f64 * self.step);
-            let (from, to) = (at(i), at(i + 1));
-            if i + 1 < self.count {
-                Step { from, to, h: self.step }
+        let mut from = self.start;
+        (1..=self.count).map(move |i| {
+            let step = if i < self.count {
+                Step { from, to: self.start.after(i as f64 * self.step), h: self.step }
             } else {
                 Step { from, to: self.until, h: self.until.since(from).max(0.0) }
-            }
+            };
+            from = step.to;
+            step
         })
     }
 }

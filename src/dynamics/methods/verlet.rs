@@ -65,6 +65,9 @@ impl Stepper for Flip {
         }
         let gaps = row.topology.gaps();
         tally.cost.evaluations += row.masses() + gaps as u64;
+        if !row.any_shut(0.0) {
+            return Ok(());
+        }
         for k in 0..gaps {
             let speed = -row.rate(k);
             if row.width(k) < 0.0 && speed > 0.0 {
