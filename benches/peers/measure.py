@@ -222,7 +222,7 @@ def machine():
 def of_part(row):
     """The part that writes a row."""
     by_what = {"engine": "ours", "ensemble": "ours", "method": "methods", "command": "commands"}
-    return by_what.get(row["what"], row["name"])
+    return by_what.get(row["what"], row["name"].split()[0].lower())
 
 
 def main():
@@ -239,7 +239,7 @@ def main():
         old = json.loads(arguments.out.read_text())
         kept = [row for row in old["rows"] if of_part(row) not in wanted]
         if kept and any(old[key] != header[key] for key in header):
-            parser.error(f"of another day or machine; measure all, or give --out")
+            parser.error("of another day or machine; measure all, or give --out")
     WORK.mkdir(parents=True, exist_ok=True)
     say("build")
     call(["cargo", "build", "--release", "--locked", "--quiet"], 1800)
