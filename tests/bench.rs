@@ -74,6 +74,45 @@ fn a_scenario_is_the_chain_that_is_timed() {
     assert_ne!(other["cases"][0]["impacts"].as_u64(), Some(impacts));
 }
 
+/// Rows of rivals are rows of measured.json, and judge what they are set against.
+#[test]
+fn methods_are_judged() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("reference.json");
+    // One true impact, one segment at rest that it ends, and an impact that never comes.
+    let options = ["methods", "--masses", "20", "--until", "3", "--seconds", "0"];
+    let free = json(&options);
+    let rows = free["rows"].as_array().unwrap();
+    let certified = rows.iter().find(|row| row["name"] == "certified").unwrap();
+    assert!(certified["impacts"].as_u64().unwrap() > 0 && certified["compared"].is_null());
+    let scenario = bench(&["scenario", "--masses", "20"]).stdout;
+    let scenario =
+        impact_paper::dynamics::Scenario::from_json(&String::from_utf8(scenario).unwrap());
+    let mut first = None;
+    let mut engine = impact_paper::dynamics::Engine::new(&scenario.unwrap()).unwrap();
+    engine.run(3.0, |impact| first.replace(impact).is_some()).unwrap();
+    let first = first.unwrap();
+    let rest = vec![0.0; 20];
+    let segment = |gap: usize| serde_json::json!({"t": 0.0, "u": rest, "v": rest, "next_t": first.time, "next_gap": gap});
+    let truth = serde_json::json!({
+        "impacts": [[first.time, first.gap], [first.time + 0.01, 99]],
+        "segments": [segment(first.gap), segment(first.gap + 1)],
+    });
+    std::fs::write(&path, truth.to_string()).unwrap();
+    let judged = json(&[&options[..], &["--reference", path.to_str().unwrap()]].concat());
+    let certified = &judged["rows"].as_array().unwrap()[0];
+    for (field, value) in
+        [("compared", 2), ("horizon_impact", 2), ("segments", 2), ("segment_misses", 1)]
+    {
+        assert_eq!(certified[field].as_u64(), Some(value), "{field}");
+    }
+    let mut file: Value = serde_json::json!({"date": "2007-01-01"});
+    file["machine"] = serde_json::json!({"processor": "x", "cores": 1, "os": "x"});
+    file["rows"] = judged["rows"].clone();
+    let measured = impact_paper::experiments::Measured::parse(&file.to_string()).unwrap();
+    assert!(measured.rows.len() > 15);
+}
+
 /// A million masses need far less than 1 GiB: here a tenth of them, the start included.
 #[test]
 fn memory_grows_by_less_than_a_kibibyte_a_mass() {
@@ -110,6 +149,8 @@ fn what_is_wrong_is_named() {
         (&["engine", "--chains", "0"], "--chains: 0"),
         (&["engine", "--repetitions", "0"], "--repetitions: 0"),
         (&["scenario", "--masses", "0"], "--masses: 0"),
+        (&["methods", "--until", "NaN"], "--until: NaN"),
+        (&["methods", "--reference", "nowhere.json"], "--reference: nowhere.json"),
     ] {
         let output = bench(arguments);
         let error = String::from_utf8(output.stderr).unwrap();

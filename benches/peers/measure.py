@@ -142,8 +142,10 @@ def part_ours():
 def part_methods():
     """Our own rivals; `bench methods` prints rows."""
     for n in SIZES:
-        scenario, reference = inputs(n)
-        text, _, _ = ours("bench", "methods", scenario, "--reference", reference, limit=240)
+        _, reference = inputs(n)
+        say(f"  n = {n}")
+        chain = ["--masses", n, "--sigma", SIGMA, "--chain", CHAIN, "--until", UNTIL]
+        text, _, _ = ours("bench", "methods", *chain, "--reference", reference, limit=400)
         yield from json.loads(text)["rows"]
 
 

@@ -1,5 +1,7 @@
 //! `impact-paper bench`.
 
+mod methods;
+
 use super::{Failure, work};
 use impact_paper::dynamics::{Counters, Engine, Error, Scenario};
 use impact_paper::numerics::clock::LATEST;
@@ -22,6 +24,7 @@ pub struct Args {
 #[derive(clap::Subcommand)]
 enum What {
     Engine(EngineArgs),
+    Methods(methods::Args),
     Scenario(ScenarioArgs),
 }
 
@@ -127,6 +130,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
             let cases = args.masses.iter().map(|&n| case(&args, n)).collect::<Result<_, _>>()?;
             print(&Report { version: env!("CARGO_PKG_VERSION"), cases })
         }
+        What::Methods(args) => methods::run(&args),
         What::Scenario(args) => {
             let scenario = draw(args.masses, args.sigma, args.restitution, args.seed, args.chain)?;
             print(&form(&scenario))
