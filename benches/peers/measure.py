@@ -10,8 +10,10 @@ import datetime
 import json
 import os
 import platform
+import shutil
 import subprocess
 import sys
+import tempfile
 import time
 from pathlib import Path
 
@@ -188,26 +190,29 @@ def peer(command, n, part):
 def part_commands():
     """Wall time of whole commands, without saved results."""
     report = json.loads(ours("bench", "engine", "--masses", 1, "--until", 1)[0])
-    fresh = WORK / f"results-{os.getpid()}"
+    fresh = Path(tempfile.mkdtemp(dir=WORK))
     sweep = (TOP / "paper" / "data" / "fig02.csv").read_text().splitlines()[1:]
     sigmas = ",".join(line.split(",")[0] for line in sweep)
-    commands = {
-        profile: ["paper", "--profile", profile, "--results", fresh / profile]
-        + ["--out", fresh / f"paper-{profile}"]
-        for profile in ["quick", "ci", "full"]
-    }
-    commands["main sweep"] = ["sweep", "--sigma", sigmas, "--format", "json"]
+    commands = {"main sweep": ["sweep", "--sigma", sigmas, "--format", "json"]}
+    for profile in ["quick", "ci", "full"]:
+        folders = ["--results", fresh / profile, "--out", fresh / f"paper-{profile}"]
+        commands[profile] = ["paper", "--profile", profile, *folders]
     for name, arguments in commands.items():
         say(f"  {name}")
-        text, seconds, peak = ours(*arguments, limit=900)
+        try:
+            text, seconds, peak = ours(*arguments, limit=900)
+        except Absent as reason:
+            yield {"what": "absent", "name": f"commands: {name}", "note": str(reason)}
+            continue
         row = {"what": "command", "name": name, "version": report["version"]}
         if name == "main sweep":
             rows = json.loads(text)
             impacts = sum(row["impacts"] for row in rows)
             row |= {"impacts": impacts, "microseconds_per_impact": seconds / impacts * 1e6}
-            row |= {"n": 100, "until": 700.0, "chains": 1000 * len(rows)}
+            row |= {"n": 100, "until": 700.0, "chains": sum(row["realisations"] for row in rows)}
         yield row | {"sigma": 0.0, "seconds": seconds, "peak_mib": peak,
                      "threads": os.cpu_count() or 1}  # fmt: skip
+    shutil.rmtree(fresh, ignore_errors=True)
 
 
 def machine():
@@ -224,7 +229,7 @@ def machine():
 def of_part(row):
     """The part that writes a row."""
     by_what = {"engine": "ours", "ensemble": "ours", "method": "methods", "command": "commands"}
-    return by_what.get(row["what"], row["name"].split()[0].lower())
+    return by_what.get(row["what"], row["name"].split()[0].lower().strip(":"))
 
 
 def main():
@@ -254,9 +259,10 @@ def main():
             for row in run():
                 rows[part].append(ROW | row)
                 say("    " + told(rows[part][-1]))
-        except Absent as reason:
-            rows[part].append(ROW | {"what": "absent", "name": part, "note": str(reason)})
-            say(f"    absent: {reason}")
+        except Exception as reason:  # one part that fails must not take the others with it
+            why = str(reason) if isinstance(reason, Absent) else repr(reason)[:200]
+            rows[part].append(ROW | {"what": "absent", "name": part, "note": why})
+            say(f"    absent: {why}")
         # Whatever happens later, this much is kept.
         done = [row for each in PARTS for row in rows[each]]
         arguments.out.write_text(text_of(header, done))

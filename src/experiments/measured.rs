@@ -71,9 +71,9 @@ pub struct Row {
     pub version: String,
     /// Step, tolerance or options, e.g. "tol=1e-10"; may be empty.
     pub settings: String,
-    /// Number of masses n.
+    /// Number of masses n; 0 for a command that has many.
     pub n: u64,
-    /// Standard deviation σ of the forcing.
+    /// Standard deviation σ of the forcing; 0 for a command that has many.
     pub sigma: f64,
     /// Simulated time T.
     pub until: f64,
