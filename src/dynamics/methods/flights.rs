@@ -1,13 +1,14 @@
 //! Flight in closed form, looked at on a grid of times: what the sampling rivals share.
 
 use super::crossing::is_rounding;
+use super::forcing::{COMPONENTS, Component};
 use super::tally::{Grid, Step, Stop, Tally};
 use super::{Cost, State};
-use crate::dynamics::flight::{Motion, Phases};
 use crate::dynamics::impact::jumps;
 use crate::dynamics::topology::Topology;
 use crate::dynamics::{Error, Impact, Scenario};
 use crate::numerics::clock::{Instant, Rate};
+use crate::numerics::trig::sin_cos_turn;
 
 /// Width and rate of a gap, `s` after the beginning of a step.
 #[derive(Clone, Copy, Debug)]
@@ -24,66 +25,93 @@ pub trait Locate {
     fn locate(&self, from: Look, to: Look, at: impl FnMut(f64) -> Look) -> Option<f64>;
 }
 
-/// The masses in flight.
-pub struct Flights {
-    pub topology: Topology,
+/// The masses in flight: x_j = j d + a_j cos ωt + b_j sin ωt + forced response.
+struct Flights {
+    topology: Topology,
     spacing: f64,
     restitution: f64,
     omega: f64,
-    big_omega: f64,
-    rates: [Rate; 2],
-    motions: Vec<Motion<f64>>,
+    rate: Rate,
+    /// Free parts (a_j, b_j) of all bodies; 0 for the walls.
+    free: Vec<[f64; 2]>,
+    forced: Vec<Component>,
 }
+
+/// (sin, cos) of ωt and of each Ωt.
+type Phases = ((f64, f64), [(f64, f64); COMPONENTS]);
 
 impl Flights {
     /// # Errors
     /// As [`super::Method::run`].
     fn new(scenario: &Scenario, start: &State) -> Result<Flights, Error> {
         let u = start.displacements(scenario)?;
-        let (w, big_w) = (scenario.natural_frequency, scenario.forcing_frequency);
-        let factor = (w - big_w) * (w + big_w);
-        let rates = [Rate::new(w), Rate::new(big_w)];
-        let phases = Phases::at(&rates, Instant::at(start.time));
-        let mut motions = vec![Motion::still(); u.len()];
-        for (j, &[alpha, beta]) in scenario.forcing.iter().enumerate() {
-            let motion = &mut motions[j + 1];
-            (motion.c, motion.s) = (alpha / factor, beta / factor);
-            let forced = motion.seen(&phases);
-            let quadrature = (start.velocities[j] - big_w * forced.v_quadrature) / w;
-            motion.set_free(u[j + 1] - forced.v, quadrature, &phases);
-        }
-        Ok(Flights {
+        let w = scenario.natural_frequency;
+        let mut flights = Flights {
             topology: Topology::new(scenario.forcing.len(), scenario.boundary),
             spacing: scenario.spacing,
             restitution: scenario.restitution,
             omega: w,
-            big_omega: big_w,
-            rates,
-            motions,
-        })
+            rate: Rate::new(w),
+            free: vec![[0.0; 2]; u.len()],
+            forced: Component::response(scenario),
+        };
+        let phases = flights.phases(Instant::at(start.time));
+        let (sin, cos) = phases.0;
+        for (j, v) in start.velocities.iter().enumerate() {
+            let [forced, rate] = flights.response([0, j + 1], &phases);
+            let (u, quadrature) = (u[j + 1] - forced, (v - rate) / w);
+            flights.free[j + 1] = [u * cos - quadrature * sin, u * sin + quadrature * cos];
+        }
+        Ok(flights)
     }
 
-    fn phases(&self, step: &Step, s: f64) -> Phases<f64> {
-        let at = if s == step.h { step.to } else { step.from.after(s) };
-        Phases::at(&self.rates, at)
+    fn phases(&self, at: Instant) -> Phases {
+        let mut forced = [(0.0, 1.0); COMPONENTS];
+        for (phase, component) in forced.iter_mut().zip(&self.forced) {
+            *phase = component.phase(at);
+        }
+        (sin_cos_turn(self.rate.turn(at)), forced)
+    }
+
+    /// The phases `s` after the beginning of a step.
+    fn phases_in(&self, step: &Step, s: f64) -> Phases {
+        self.phases(if s == step.h { step.to } else { step.from.after(s) })
+    }
+
+    /// The forced response of the right one of two bodies less that of the left one, and its rate.
+    fn response(&self, [left, right]: [usize; 2], phases: &Phases) -> [f64; 2] {
+        let [mut v, mut rate] = [0.0; 2];
+        for (component, (sin, cos)) in self.forced.iter().zip(&phases.1) {
+            let of = |amplitudes: &[f64]| amplitudes[right] - amplitudes[left];
+            let [c, s] = [of(&component.cos), of(&component.sin)];
+            v += c * cos + s * sin;
+            rate += component.frequency * (s * cos - c * sin);
+        }
+        [v, rate]
     }
 
     /// Gap k at a time whose phases are given.
-    fn look(&self, k: usize, s: f64, phases: &Phases<f64>) -> Look {
-        let [left, right] = self.topology.sides(k);
-        let seen = self.motions[right].minus(&self.motions[left]).seen(phases);
-        let width = self.spacing + (seen.u + seen.v);
-        let rate = self.omega * seen.u_quadrature + self.big_omega * seen.v_quadrature;
+    fn look(&self, k: usize, s: f64, phases: &Phases) -> Look {
+        let sides = self.topology.sides(k);
+        let [of_left, of_right] = sides.map(|m| self.free[m]);
+        let [a, b] = [of_right[0] - of_left[0], of_right[1] - of_left[1]];
+        let (sin, cos) = phases.0;
+        let [v, forced_rate] = self.response(sides, phases);
+        let width = self.spacing + (a * cos + b * sin + v);
+        let rate = self.omega * (b * cos - a * sin) + forced_rate;
         let width = if is_rounding(width, rate, self.spacing) { 0.0 } else { width };
         Look { s, width, rate }
     }
 
-    fn hit(&mut self, k: usize, speed: f64, phases: &Phases<f64>) {
+    /// The impact law at gap k: a jump of velocity only rotates into the free part.
+    fn hit(&mut self, k: usize, speed: f64, phases: &Phases) {
         let sides = self.topology.sides(k);
         let inverse = sides.map(|m| self.topology.inverse_mass(m));
-        let jumps = jumps(speed, self.restitution, inverse);
-        for (side, jump) in sides.into_iter().zip(jumps) {
-            self.motions[side].kick(jump / self.omega, phases);
+        let (sin, cos) = phases.0;
+        for (side, jump) in sides.into_iter().zip(jumps(speed, self.restitution, inverse)) {
+            let kick = jump / self.omega;
+            self.free[side][0] -= kick * sin;
+            self.free[side][1] += kick * cos;
         }
     }
 }
@@ -101,7 +129,7 @@ pub fn run_samples(
     let grid = Grid::new(scenario, start, until, step)?;
     let mut tally = Tally::new(scenario, sink);
     let gaps = flights.topology.gaps();
-    let phases = Phases::at(&flights.rates, Instant::at(start.time));
+    let phases = flights.phases(Instant::at(start.time));
     let begin = (0..gaps).map(|k| flights.look(k, 0.0, &phases)).collect();
     tally.cost.evaluations += gaps as u64;
     let mut samples = Samples { begin, end: Vec::new(), roots: vec![None; gaps] };
@@ -130,7 +158,7 @@ impl Samples {
         step: &Step,
         tally: &mut Tally,
     ) -> Result<(), Stop> {
-        let last = flights.phases(step, step.h);
+        let last = flights.phases_in(step, step.h);
         let gaps = self.begin.len();
         self.end.clear();
         self.end.extend((0..gaps).map(|k| flights.look(k, step.h, &last)));
@@ -139,7 +167,7 @@ impl Samples {
             self.roots[k] = self.locate(k, method, flights, step, tally);
         }
         while let Some((k, s)) = self.earliest() {
-            let phases = flights.phases(step, s);
+            let phases = flights.phases_in(step, s);
             let time = step.from.after(s).time();
             let before = flights.look(k, s, &phases);
             let speed = (-before.rate).max(0.0);
@@ -178,7 +206,7 @@ impl Samples {
     ) -> Option<f64> {
         method.locate(self.begin[k], self.end[k], |s| {
             tally.cost.evaluations += 1;
-            flights.look(k, s, &flights.phases(step, s))
+            flights.look(k, s, &flights.phases_in(step, s))
         })
     }
 

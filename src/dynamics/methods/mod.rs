@@ -9,6 +9,7 @@ mod certified;
 mod crossing;
 mod dormand_prince;
 mod flights;
+mod forcing;
 mod moreau_jean;
 mod newton;
 mod penalty;

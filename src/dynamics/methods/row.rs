@@ -1,12 +1,12 @@
 //! The row of masses as an integrator sees it: displacements, velocities, forces, impact law.
 
+use super::forcing::Component;
 use super::tally::{Grid, Step, Stop, Tally};
 use super::{Cost, State};
 use crate::dynamics::impact::jumps;
 use crate::dynamics::topology::Topology;
 use crate::dynamics::{Error, Impact, Scenario};
-use crate::numerics::clock::{Instant, Rate};
-use crate::numerics::trig::sin_cos_turn;
+use crate::numerics::clock::Instant;
 use crate::params::Boundary;
 
 /// A state with its forces; bodies are numbered from the left wall (0) to the right one (n + 1).
@@ -17,10 +17,7 @@ pub struct Row {
     pub restitution: f64,
     /// ω².
     pub stiffness: f64,
-    rate: Rate,
-    /// α_j and β_j; 0 for the walls.
-    alpha: Vec<f64>,
-    beta: Vec<f64>,
+    forcing: Vec<Component>,
     /// Displacements from the places j d; 0 for the walls.
     pub u: Vec<f64>,
     /// Velocities; 0 for the walls.
@@ -39,15 +36,10 @@ impl Row {
             spacing: scenario.spacing,
             restitution: scenario.restitution,
             stiffness: scenario.natural_frequency * scenario.natural_frequency,
-            rate: Rate::new(scenario.forcing_frequency),
-            alpha: vec![0.0; u.len()],
-            beta: vec![0.0; u.len()],
+            forcing: Component::of(scenario),
             v: vec![0.0; u.len()],
             u,
         };
-        for (j, &[alpha, beta]) in scenario.forcing.iter().enumerate() {
-            (row.alpha[j + 1], row.beta[j + 1]) = (alpha, beta);
-        }
         row.v[1..=masses].copy_from_slice(&start.velocities);
         Ok(row)
     }
@@ -95,11 +87,15 @@ impl Row {
         self.v[right] += jumps[1];
     }
 
-    /// The forcing α_j cos Ωt + β_j sin Ωt of every body at an instant.
+    /// The forcing of every body at an instant.
     pub fn forces(&self, at: Instant, out: &mut [f64]) {
-        let (sin, cos) = sin_cos_turn(self.rate.turn(at));
-        for ((out, alpha), beta) in out.iter_mut().zip(&self.alpha).zip(&self.beta) {
-            *out = alpha * cos + beta * sin;
+        for (i, component) in self.forcing.iter().enumerate() {
+            let (sin, cos) = component.phase(at);
+            let amplitudes = component.cos.iter().zip(&component.sin);
+            for (out, (alpha, beta)) in out.iter_mut().zip(amplitudes) {
+                let force = alpha * cos + beta * sin;
+                *out = if i == 0 { force } else { *out + force };
+            }
         }
     }
 

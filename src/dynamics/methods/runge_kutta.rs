@@ -2,6 +2,7 @@
 
 use super::crossing::{crossing, is_rounding};
 use super::dormand_prince::Stages;
+use super::forcing::fastest;
 use super::row::Row;
 use super::tally::{Stop, Tally, check_end};
 use super::{Cost, Method, State};
@@ -56,7 +57,7 @@ impl Method for RungeKutta {
         tally.cost.evaluations += row.masses();
         let stages = Stages::new(&row, now);
         let mut run = Run { stages, row, now, tolerance: self.tolerance };
-        let first = FIRST / scenario.natural_frequency.max(scenario.forcing_frequency);
+        let first = FIRST / fastest(scenario);
         let ended = run.integrate(Instant::at(until), first, &mut tally);
         tally.finish(ended)
     }

@@ -1,9 +1,9 @@
 //! A state of the masses at any time, and the scenario that starts there.
 
+use super::forcing;
 use crate::dynamics::topology::Topology;
 use crate::dynamics::{Error, Initial, Scenario};
-use crate::numerics::clock::{Instant, LATEST, Rate};
-use crate::numerics::trig::sin_cos_turn;
+use crate::numerics::clock::{Instant, LATEST};
 
 /// Positions and velocities of the masses 1..n at a time: what a method starts from.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,21 +23,19 @@ const UNITS: f64 = 16.0;
 impl State {
     /// The start of a scenario, at t = 0.
     pub fn of(scenario: &Scenario) -> State {
-        let [ratio, factor] = response(scenario);
-        let big_w = scenario.forcing_frequency;
         let w = scenario.natural_frequency;
         let mut state = State { time: 0.0, positions: Vec::new(), velocities: Vec::new() };
-        for (j, &[alpha, beta]) in scenario.forcing.iter().enumerate() {
-            let [c, s] = [alpha / factor, beta / factor];
-            let [a, b] = match &scenario.initial {
-                Initial::Rest => [-c, -(ratio * s)],
-                Initial::Zero => [0.0; 2],
-                Initial::Free(parts) => parts.get(j).copied().unwrap_or_default(),
+        for (j, [x, v]) in forcing::response(scenario).into_iter().enumerate() {
+            let [u, v] = match &scenario.initial {
+                Initial::Rest => [0.0; 2],
+                Initial::Zero => [x, v],
+                Initial::Free(parts) => {
+                    let [a, b] = parts.get(j).copied().unwrap_or_default();
+                    [a + x, w * b + v]
+                }
             };
-            state.positions.push((j + 1) as f64 * scenario.spacing + (a + c));
-            // At rest means at rest, to the last bit.
-            let at_rest = scenario.initial == Initial::Rest;
-            state.velocities.push(if at_rest { 0.0 } else { w * b + big_w * s });
+            state.positions.push((j + 1) as f64 * scenario.spacing + u);
+            state.velocities.push(v);
         }
         state
     }
@@ -104,26 +102,15 @@ impl State {
     /// As [`super::Method::run`].
     pub fn as_scenario(&self, scenario: &Scenario) -> Result<Scenario, Error> {
         let u = self.displacements(scenario)?;
-        let [ratio, factor] = response(scenario);
-        let rate = Rate::new(scenario.forcing_frequency);
-        let (sin, cos) = sin_cos_turn(rate.turn(Instant::at(self.time)));
         let mut moved = scenario.clone();
-        let mut free = Vec::with_capacity(scenario.forcing.len());
-        for (j, pair) in moved.forcing.iter_mut().enumerate() {
-            let [alpha, beta] = *pair;
-            *pair = [alpha * cos + beta * sin, beta * cos - alpha * sin];
-            let [c, s] = pair.map(|x| x / factor);
-            free.push([u[j + 1] - c, self.velocities[j] / scenario.natural_frequency - ratio * s]);
-        }
+        forcing::turn(&mut moved, Instant::at(self.time));
+        let forced = forcing::response(&moved);
+        let own = u[1..].iter().zip(&self.velocities).zip(forced);
+        let free = own.map(|((u, v), [x, y])| [u - x, (v - y) / scenario.natural_frequency]);
+        let free = free.collect();
         moved.initial = Initial::Free(free);
         Ok(moved)
     }
-}
-
-/// Ω/ω, and ω² − Ω², by which a forcing is divided for its response.
-fn response(scenario: &Scenario) -> [f64; 2] {
-    let (w, big_w) = (scenario.natural_frequency, scenario.forcing_frequency);
-    [big_w / w, (w - big_w) * (w + big_w)]
 }
 
 #[cfg(test)]
