@@ -341,6 +341,29 @@ fn runs_stop_and_go_on() {
     }
 }
 
+/// A look or a step may end with the last bit of an impact's time, when the gap is shut but opens.
+#[test]
+fn runs_may_end_at_an_impact() {
+    let scenario = chain(20, Boundary::Walls, 0.3, 7);
+    for step in [0.01, 0.1] {
+        let sampled = Sampled { step };
+        for impact in impacts(&sampled, &scenario, 10.0) {
+            let mut until = impact.time.next_down();
+            for _ in 0..5 {
+                until = until.next_up();
+                let found = impacts(&sampled, &scenario, until);
+                assert!(found.iter().all(|i| i.time <= until && i.closing_speed > 0.0));
+            }
+        }
+    }
+    let runge_kutta = RungeKutta { tolerance: 1e-9 };
+    for impact in impacts(&runge_kutta, &scenario, 10.0) {
+        for after in [0.0, 1e-15, 1e-14] {
+            impacts(&runge_kutta, &scenario, impact.time + after);
+        }
+    }
+}
+
 #[test]
 fn no_method_loops_or_panics_on_bad_data() {
     let good = chain(2, Boundary::Walls, 0.3, 0);

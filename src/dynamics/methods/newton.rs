@@ -93,3 +93,25 @@ fn guess(from: &Look, to: &Look, size: f64) -> Option<f64> {
     }
     None
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A gap just hit, which closes at 0.2 and would open at 1.3: s (0.2 − s)(1.3 − s).
+    fn cubic(s: f64) -> Look {
+        let width = s * (0.2 - s) * (1.3 - s);
+        Look { s, width, rate: 0.26 - 3.0 * s + 3.0 * s * s }
+    }
+
+    #[test]
+    fn the_root_of_the_last_impact_is_no_impact() {
+        let newton = Newton { step: 1.0 };
+        let found = newton.locate(cubic(0.0), cubic(0.7), cubic).unwrap();
+        assert!((found - 0.2).abs() < 1e-15, "{found}");
+        // From here the iteration is drawn back to s = 0, where the gap opens.
+        assert_eq!(newton.locate(cubic(0.0), cubic(0.8), cubic), None);
+        // And from here it is thrown out of the step.
+        assert_eq!(newton.locate(cubic(0.0), cubic(0.9), cubic), None);
+    }
+}
