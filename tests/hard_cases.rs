@@ -4,7 +4,7 @@
 mod reference;
 
 use impact_paper::dynamics::{Engine, Error, Impact, Initial, Scenario};
-use impact_paper::numerics::first_root::{Next, Work, first_root};
+use impact_paper::numerics::first_root::{Next, Search, Work};
 use impact_paper::numerics::local_frame::{Frame, Frequencies};
 use impact_paper::numerics::random::NormalPairs;
 use impact_paper::params::{Boundary, Chain};
@@ -101,7 +101,7 @@ fn tiny_separation_speeds_keep_their_waiting_times() {
         let gap = Reference::<Big>::new(&scenario).gap(0);
         let exact = gap.first_root(&Big::of(0.0), &Big::of(1.0)).unwrap().expect("it falls back");
         // The search itself: relative, however short the wait.
-        let frequencies = Frequencies::new(1.0, 2.0);
+        let search = Search::new(Frequencies::new(1.0, [2.0]));
         let frame =
             Frame { f0: 0.0, g0: v, alpha: -3.0, gamma: 2.0, delta: 0.0, bound: 16.0 * 2.0 + 3.1 };
         let mut work = Work::default();

@@ -11,12 +11,14 @@
 //! found by the same certified search as an impact. A hit from outside frees the masses of the
 //! cluster, is carried through it by the impact law, and what is slow is settled again.
 
-use super::engine::{Awaits, Engine};
 use super::flight::{Motion, Phases};
+use super::force::Force;
+use super::gap;
 use super::linear::contact_forces;
+use super::simulation::{Awaits, Simulation};
 use crate::numerics::clock::Instant;
-use crate::numerics::first_root::{Next, first_root};
-use crate::numerics::local_frame::Frame;
+use crate::numerics::first_root::Next;
+use crate::numerics::window::next_window;
 
 /// Separation speed, in units of d ω, below which a chatter is taken to have come to rest.
 pub const CONTACT_SPEED: f64 = 1e-10;
@@ -33,16 +35,16 @@ struct Resting {
     g0: f64,
 }
 
-impl Engine {
+impl<const M: usize> Simulation<M> {
     /// Whether the impact of gap k at `speed` needs more than the impact law.
     pub(super) fn is_contact_matter(&self, k: usize, speed: f64) -> bool {
         let near = self.topology.adjacent(k);
-        self.restitution * speed <= CONTACT_SPEED * self.spacing * self.frequencies.omega
+        self.restitution * speed <= CONTACT_SPEED * self.spacing * self.search.frequencies.omega
             || near.into_iter().flatten().any(|near| self.gaps[near].in_contact)
     }
 
     /// An impact that is slow, or that hits a cluster.
-    pub(super) fn collide_in_contact(&mut self, k: usize, speed: f64, phases: &Phases<f64>) {
+    pub(super) fn collide_in_contact(&mut self, k: usize, speed: f64, phases: &Phases<M>) {
         let mut freed = Vec::new();
         for near in self.topology.adjacent(k).into_iter().flatten() {
             if self.gaps[near].in_contact {
@@ -64,31 +66,31 @@ impl Engine {
     }
 
     /// The force of gap `k`, or of another gap of its cluster, has come to zero.
-    pub(super) fn release(&mut self, k: usize, phases: &Phases<f64>) {
+    pub(super) fn release(&mut self, k: usize, phases: &Phases<M>) {
         let freed = self.free_cluster(k, phases);
         self.settle(phases, &freed, Some(k));
     }
 
     /// Settles gaps that are shut and at rest; `released` is not pressed any more.
-    pub(super) fn settle(&mut self, p: &Phases<f64>, shut: &[usize], released: Option<usize>) {
+    pub(super) fn settle(&mut self, p: &Phases<M>, shut: &[usize], released: Option<usize>) {
         let resting = shut.iter().map(|&k| Resting { k, f0: 0.0, g0: 0.0 }).collect();
         self.settle_runs(resting, p, released);
     }
 
     /// Width and rate of gap k now.
-    fn resting(&self, k: usize, phases: &Phases<f64>, jump: f64) -> Resting {
-        let (frame, _) = self.look(k, phases);
+    fn resting(&self, k: usize, phases: &Phases<M>, jump: f64) -> Resting {
+        let frame = self.look(k, phases);
         let [f0, g0] = self.carried(k, &frame, jump).unwrap_or([frame.f0, frame.g0]);
         Resting { k, f0, g0 }
     }
 
     fn is_settled(&self, r: &Resting) -> bool {
-        r.f0 <= SHUT * self.spacing && r.g0.abs() <= SLOW * self.spacing * self.frequencies.omega
+        r.f0 <= SHUT * self.spacing && r.g0.abs() <= SLOW * self.spacing * self.search.frequencies.omega
     }
 
     /// Takes the gaps whose state has just changed, grows them to whole runs of shut and slow
     /// gaps, settles each run, and frames all that was touched.
-    fn settle_runs(&mut self, mut known: Vec<Resting>, p: &Phases<f64>, released: Option<usize>) {
+    fn settle_runs(&mut self, mut known: Vec<Resting>, p: &Phases<M>, released: Option<usize>) {
         // Grow: neighbours of settled gaps that are themselves shut and slow.
         let mut i = 0;
         while i < known.len() {
@@ -152,13 +154,15 @@ impl Engine {
         &mut self,
         known: &mut [Resting],
         run: &[usize],
-        p: &Phases<f64>,
+        p: &Phases<M>,
         released: Option<usize>,
     ) {
         let gaps: Vec<usize> = run.iter().map(|&i| known[i].k).collect();
         let allowed: Vec<bool> = gaps.iter().map(|&k| Some(k) != released).collect();
+        let accelerations = self.accelerations(&gaps);
+        let frequencies = &self.search.frequencies;
         let forces =
-            contact_forces(&self.accelerations(&gaps), &self.stiffness(&gaps), p, &allowed);
+            contact_forces(&accelerations, &self.stiffness(&gaps), &allowed, p, frequencies);
         let pressed: Vec<bool> = forces.iter().map(Option::is_some).collect();
         let alone = gaps.len() == 1;
         if alone && (known[run[0]].g0 < 0.0 || !pressed[0]) {
@@ -190,15 +194,17 @@ impl Engine {
         }
     }
 
-    /// Acceleration of each gap without contact forces, at width zero:
-    /// ω² d + ΔF_j(t), as constant, cos Ωt and sin Ωt parts.
-    fn accelerations(&self, gaps: &[usize]) -> Vec<[f64; 3]> {
-        let w = self.frequencies.omega;
-        let big_w = self.frequencies.big_omega;
-        let factor = (w - big_w) * (w + big_w);
+    /// Acceleration of each gap without contact forces, at width zero: ω² d + ΔF_j(t).
+    fn accelerations(&self, gaps: &[usize]) -> Vec<Force<M>> {
+        let w = self.search.frequencies.omega;
         let force = |k: usize| {
             let [left, right] = self.topology.sides(k).map(|m| self.forced[m]);
-            [w * w * self.spacing, factor * (right[0] - left[0]), factor * (right[1] - left[1])]
+            let forced = std::array::from_fn(|m| {
+                let big_w = self.search.frequencies.big_omegas[m];
+                let factor = (w - big_w) * (w + big_w);
+                [0, 1].map(|i| factor * (right[m][i] - left[m][i]))
+            });
+            Force { constant: w * w * self.spacing, forced }
         };
         gaps.iter().map(|&k| force(k)).collect()
     }
@@ -216,7 +222,7 @@ impl Engine {
         let members = self.members(gaps);
         let place = |i: usize| i as f64 * self.spacing;
         let wall = members.iter().position(|&m| self.topology.is_wall(m));
-        let mut common = Motion::still();
+        let mut common = Motion::STILL;
         // The centre, counted from the first member's place.
         let centre = if let Some(wall) = wall {
             place(wall)
@@ -226,8 +232,10 @@ impl Engine {
                 let motion = &self.motions[m];
                 common.a += share * motion.a;
                 common.b += share * motion.b;
-                common.c += share * self.forced[m][0];
-                common.s += share * self.forced[m][1];
+                for (common, own) in common.forced.iter_mut().zip(self.forced[m]) {
+                    common[0] += share * own[0];
+                    common[1] += share * own[1];
+                }
             }
             share * (0..members.len()).map(place).sum::<f64>()
         };
@@ -239,22 +247,23 @@ impl Engine {
     }
 
     /// Gives the masses along `gaps` their own forcing back, at unchanged place and velocity.
-    fn make_free(&mut self, gaps: &[usize], p: &Phases<f64>) {
+    fn make_free(&mut self, gaps: &[usize], p: &Phases<M>) {
         for m in self.members(gaps) {
             if self.topology.is_wall(m) {
                 continue;
             }
             let was = self.motions[m];
-            let [c, s] = self.forced[m];
-            let own = Motion { a: 0.0, b: 0.0, c, s, offset: 0.0 };
+            let own = Motion { forced: self.forced[m], ..Motion::STILL };
             let (seen, forced) = (was.seen(p), own.seen(p));
-            let ratio = self.frequencies.big_omega / self.frequencies.omega;
+            let (mut u, mut quadrature) = (was.offset + seen.u, seen.u_quadrature);
+            for (i, (seen, own)) in seen.forced.iter().zip(forced.forced).enumerate() {
+                let frequencies = &self.search.frequencies;
+                u += seen[0] - own[0];
+                quadrature +=
+                    frequencies.big_omegas[i] / frequencies.omega * (seen[1] - own[1]);
+            }
             self.motions[m] = own;
-            self.motions[m].set_free(
-                was.offset + seen.u + (seen.v - forced.v),
-                seen.u_quadrature + ratio * (seen.v_quadrature - forced.v_quadrature),
-                p,
-            );
+            self.motions[m].set_free(u, quadrature, p);
         }
     }
 
@@ -265,7 +274,7 @@ impl Engine {
     }
 
     /// Frees the cluster that gap k belongs to; returns its gaps, left to right.
-    fn free_cluster(&mut self, k: usize, phases: &Phases<f64>) -> Vec<usize> {
+    fn free_cluster(&mut self, k: usize, phases: &Phases<M>) -> Vec<usize> {
         let mut gaps = std::collections::VecDeque::from([k]);
         let contact = |side: usize, k: usize| {
             self.topology.adjacent(k)[side].filter(|&near| self.gaps[near].in_contact)
@@ -286,32 +295,24 @@ impl Engine {
     }
 
     /// Waits for the zero of the contact force of gap k.
-    pub(super) fn watch_contact(&mut self, k: usize, p: &Phases<f64>) {
-        let [constant, cos, sin] = self.forces[k];
-        let big_w = self.frequencies.big_omega;
-        let gamma = cos * p.big_cos + sin * p.big_sin;
-        let delta = sin * p.big_cos - cos * p.big_sin;
-        let amplitude = (cos * cos + sin * sin).sqrt();
-        let frame = Frame {
-            f0: constant + gamma,
-            g0: big_w * delta,
-            alpha: 0.0,
-            gamma,
-            delta,
-            bound: big_w * big_w * big_w * big_w * amplitude * (1.0 + 1e-12),
-        };
-        let (awaits, key) = if amplitude * (1.0 + 1e-12) < constant {
+    pub(super) fn watch_contact(&mut self, k: usize, p: &Phases<M>) {
+        let force = self.forces[k];
+        let frequencies = &self.search.frequencies;
+        let motion = Motion { forced: force.forced, ..Motion::STILL };
+        let frame = gap::frame(force.constant, &motion, p, frequencies);
+        let wait = next_window(force.constant, [0.0; 2], &frame.forced, frequencies);
+        let (awaits, key) = if wait.is_none() {
             (Awaits::Release, Instant::NEVER)
         } else {
-            match first_root(&frame, self.frequencies.reach, &self.frequencies, &mut self.work) {
+            match self.search.first_root(&frame, &mut self.work) {
                 Next::Root { s, .. } => (Awaits::Release, self.now.after(s)),
-                Next::Clear { s } => (Awaits::Search, self.now.after(s)),
+                Next::Clear { s } => (Awaits::Search { whole_reach: false }, self.now.after(s)),
             }
         };
         self.gaps[k].frame = frame;
         self.gaps[k].origin = self.now;
         self.gaps[k].awaits = awaits;
-        self.queue.set(k, key);
+        self.queue.set(k, [key]);
     }
 
     /// The gaps in contact and their contact forces at `time` (≥ 0 while it lasts), exact between
@@ -321,8 +322,7 @@ impl Engine {
         (0..self.gaps.len())
             .filter(|&k| self.gaps[k].in_contact)
             .map(|k| {
-                let [constant, cos, sin] = self.forces[k];
-                (self.topology.label(k), constant + cos * p.big_cos + sin * p.big_sin)
+                (self.topology.label(k), self.forces[k].at(&p))
             })
             .collect()
     }

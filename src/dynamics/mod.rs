@@ -8,13 +8,15 @@ mod contact;
 mod engine;
 mod error;
 mod flight;
+mod force;
 mod gap;
 mod impact;
 mod linear;
 pub mod methods;
 mod scenario;
+mod simulation;
 mod topology;
 
 pub use engine::{Counters, Engine, Impact};
 pub use error::Error;
-pub use scenario::{Initial, Scenario};
+pub use scenario::{Initial, Overtone, Scenario};

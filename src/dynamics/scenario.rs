@@ -73,6 +73,7 @@ impl From<Form> for Scenario {
             boundary: form.boundary,
             initial,
             forcing: form.forcing,
+            overtones: Vec::new(),
         }
     }
 }
@@ -101,6 +102,17 @@ pub struct Scenario {
     pub initial: Initial,
     /// Amplitudes (α_j, β_j) of Eq. (5), one pair a mass.
     pub forcing: Vec<[f64; 2]>,
+    /// Further components of the forcing, Eq. (3); the paper has none.
+    pub overtones: Vec<Overtone>,
+}
+
+/// A further component of the forcing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Overtone {
+    /// Its frequency Ω.
+    pub frequency: f64,
+    /// Its amplitudes (α_j, β_j), one pair a mass.
+    pub amplitudes: Vec<[f64; 2]>,
 }
 
 impl Scenario {
@@ -123,6 +135,7 @@ impl Scenario {
             boundary: chain.boundary,
             initial,
             forcing,
+            overtones: Vec::new(),
         }
     }
 
@@ -209,6 +222,22 @@ impl Scenario {
             pairs("initial.free", free)?;
         }
         Ok(())
+    }
+
+    /// The frequencies of the forcing, filled up to `M` with the first.
+    pub(super) fn frequencies<const M: usize>(&self) -> [f64; M] {
+        std::array::from_fn(|m| match m.checked_sub(1).and_then(|m| self.overtones.get(m)) {
+            Some(overtone) => overtone.frequency,
+            None => self.forcing_frequency,
+        })
+    }
+
+    /// The amplitudes (α_j, β_j) of mass j, counted from 0, filled up to `M` with zeros.
+    pub(super) fn amplitudes<const M: usize>(&self, j: usize) -> [[f64; 2]; M] {
+        std::array::from_fn(|m| match m.checked_sub(1) {
+            None => self.forcing[j],
+            Some(m) => self.overtones.get(m).map_or([0.0; 2], |o| o.amplitudes[j]),
+        })
     }
 
     /// Number of gaps.

@@ -5,6 +5,12 @@ use super::trig::sin_cos_turn;
 /// One unit of time is 2^80 ticks.
 const TICKS: f64 = (1u128 << 80) as f64;
 
+/// Its square root.
+const HALF: f64 = (1u64 << 40) as f64;
+
+/// Below this many units of time, two numbers of 64 bits hold a waiting time.
+const LONG: f64 = (1u64 << 22) as f64;
+
 /// 1/(2π) in units of 2^-256, least significant limb first.
 const INVERSE_TAU: [u64; 4] =
     [0x7f94_58ea_f7ae_f158, 0x36d8_a566_4f10_e410, 0x7f09_d5f4_7d4d_3770, 0x28be_60db_9391_054a];
@@ -32,6 +38,13 @@ impl Instant {
     /// The instant `s` units of time later.
     #[inline]
     pub fn after(self, s: f64) -> Instant {
+        // In two exact halves where they fit, for a conversion to 128 bits is a long routine.
+        if s.abs() < LONG {
+            let high = s * HALF;
+            let whole = high as i64;
+            let low = ((high - whole as f64) * HALF) as i64;
+            return Instant(self.0 + (i128::from(whole) << 40) + i128::from(low));
+        }
         Instant(self.0 + (s * TICKS) as i128)
     }
 
@@ -39,6 +52,13 @@ impl Instant {
     #[inline]
     pub fn since(self, earlier: Instant) -> f64 {
         (self.0 - earlier.0) as f64 / TICKS
+    }
+
+    /// Time in units of 2^-23, rounded to some whole number, never out of order; infinite for
+    /// "never".
+    #[inline(always)]
+    pub fn coarse(self) -> f64 {
+        i64::try_from(self.0 >> 57).map_or(f64::INFINITY, |units| units as f64)
     }
 
     /// The time since t = 0, rounded once.
@@ -81,20 +101,21 @@ impl Rate {
 
     /// The phase at an instant ≥ 0 as a fraction of a turn in units of 2^-64.
     ///
-    /// The product of 128 and 192 bits is taken modulo one turn, so the error is below 2^-63
-    /// turns up to the time [`LATEST`], and does not grow with the history of the run.
-    #[inline]
+    /// The product of 128 and 192 bits is taken modulo one turn, without what lies below 2^-80
+    /// turns, so the error is below 2^-63 turns up to the time [`LATEST`], and does not grow with
+    /// the history of the run.
+    #[inline(always)]
     pub fn turn(self, at: Instant) -> u64 {
         let t = at.0 as u128;
         let (t0, t1) = (u128::from(t as u64), u128::from((t >> 64) as u64));
-        let r = self.0.map(u128::from);
-        let (p00, p01, p10) = (t0 * r[0], t0 * r[1], t1 * r[0]);
-        let low = |x: u128| u128::from(x as u64);
-        let column1 = (p00 >> 64) + low(p01) + low(p10);
-        let (p02, p11) = (t0 * r[2], t1 * r[1]);
-        let column2 = (column1 >> 64) + (p01 >> 64) + (p10 >> 64) + low(p02) + low(p11);
-        let column3 = (column2 >> 64) + (p02 >> 64) + (p11 >> 64) + t1 * low(r[2]) % (1 << 64);
-        (column3 as u64) << 48 | (column2 as u64) >> 16
+        let [r0, r1, r2] = self.0.map(u128::from);
+        // In units of 2^-80 turns, modulo 2^48 turns.
+        let sum = (t0 * r2)
+            .wrapping_add(t1 * r1)
+            .wrapping_add((t0 * r1) >> 64)
+            .wrapping_add((t1 * r0) >> 64)
+            .wrapping_add((t1 * r2) << 64);
+        (sum >> 16) as u64
     }
 
     /// (sin, cos) of the phase at an instant.

@@ -1,124 +1,201 @@
-//! A sum of two sinusoids and a constant, seen from one instant.
+//! A sum of sinusoids and a constant, seen from one instant.
 //!
 //! In the *local frame* of an instant, with s the time since then, the function is
 //!
-//! f(s) = f₀ + (g₀/ω) sin ωs − α (1 − cos ωs) − γ (1 − cos Ωs) + δ (sin Ωs − (Ω/ω) sin ωs),
+//! f(s) = f₀ + (g₀/ω) sin ωs − α (1 − cos ωs) + Σ_m [δ (sin Ωs − (Ω/ω) sin ωs) − γ (1 − cos Ωs)],
 //!
-//! where f₀ and g₀ are its value and slope at s = 0, and α, γ, δ the amplitudes of cos ωs, cos Ωs
-//! and sin Ωs. In this form nothing cancels at small s: right after an impact f₀ = 0 exactly, and
-//! the waiting time keeps its relative accuracy however short it is.
+//! where f₀ and g₀ are its value and slope at s = 0, α the amplitude of cos ωs, and γ and δ those
+//! of cos Ωs and sin Ωs for each of the `M` frequencies Ω of the forcing. In this form nothing
+//! cancels at small s: right after an impact f₀ = 0 exactly, and the waiting time keeps its
+//! relative accuracy however short it is.
 
-use super::lane::Lane;
 use super::trig::{RANGE, small_sin_cos};
 
-/// The two frequencies ω and Ω and what follows from them.
+/// The natural frequency ω, the `M` frequencies Ω of the forcing, and what follows from them.
 #[derive(Clone, Copy, Debug)]
-pub struct Frequencies {
+pub struct Frequencies<const M: usize> {
     /// ω.
     pub omega: f64,
-    /// Ω.
-    pub big_omega: f64,
-    /// The longest stretch of time that one frame covers, [`RANGE`] / max(ω, Ω).
+    /// Ω of each component.
+    pub big_omegas: [f64; M],
+    /// The largest of them all.
+    pub fastest: f64,
+    /// The longest stretch of time that one frame covers, [`RANGE`] / fastest.
     pub reach: f64,
+    /// 1 + 2 Ω/ω: what a forced part of amplitude 1 adds to the size of a frame at most.
+    pub weights: [f64; M],
     inverse_omega: f64,
-    ratio: f64,
+    /// (sin ωs, cos ωs) at the end of the reach, and (sin Ωs, cos Ωs).
+    turn: [f64; 2],
+    forced_turns: [[f64; 2]; M],
 }
 
-impl Frequencies {
-    /// From ω > 0 and Ω > 0.
-    pub fn new(omega: f64, big_omega: f64) -> Self {
+impl<const M: usize> Frequencies<M> {
+    /// From frequencies > 0.
+    pub fn new(omega: f64, big_omegas: [f64; M]) -> Self {
+        let fastest = big_omegas.iter().fold(omega, |a, &b| a.max(b));
+        let reach = RANGE / fastest;
+        let turn = |frequency: f64| {
+            let [rest, versine] = small_sin_cos(frequency * reach);
+            [frequency * reach + rest, 1.0 - versine]
+        };
         Frequencies {
             omega,
-            big_omega,
-            reach: RANGE / omega.max(big_omega),
+            big_omegas,
+            fastest,
+            reach,
+            weights: big_omegas.map(|big_omega| 1.0 + 2.0 * big_omega / omega),
             inverse_omega: 1.0 / omega,
-            ratio: big_omega / omega,
+            turn: turn(omega),
+            forced_turns: big_omegas.map(turn),
         }
     }
 }
 
-/// A function in the local frame of an instant (see the module), one per lane.
+/// A function in the local frame of an instant (see the module).
 #[derive(Clone, Copy, Debug)]
-pub struct Frame<L> {
+pub struct Frame<const M: usize> {
     /// f₀, value at s = 0.
-    pub f0: L,
+    pub f0: f64,
     /// g₀, slope at s = 0.
-    pub g0: L,
+    pub g0: f64,
     /// α, amplitude of cos ωs.
-    pub alpha: L,
-    /// γ, amplitude of cos Ωs.
-    pub gamma: L,
-    /// δ, amplitude of sin Ωs.
-    pub delta: L,
-    /// M₄ ≥ |f''''(s)| for every s: ω⁴ R₁ + Ω⁴ R₂ with R₁, R₂ the amplitudes of the two parts.
-    pub bound: L,
+    pub alpha: f64,
+    /// (γ, δ), amplitudes of cos Ωs and sin Ωs, for each component of the forcing.
+    pub forced: [[f64; 2]; M],
+    /// M₄ ≥ |f''''(s)| for every s: Σ ω⁴ R over the parts, R ≥ the amplitude of the part.
+    pub bound: f64,
+    /// What f is made of at most: |mean| + R₁ + Σ (1 + 2 Ω/ω) R₂. Its rounding follows.
+    pub size: f64,
 }
 
 /// Value and derivatives at one s, and the rounding margin of the value.
 #[derive(Clone, Copy, Debug)]
-pub struct Point<L> {
+pub struct Point<const M: usize> {
     /// f(s).
-    pub f: L,
+    pub f: f64,
     /// f'(s).
-    pub g: L,
+    pub g: f64,
     /// f''(s).
-    pub h: L,
+    pub h: f64,
     /// f'''(s).
-    pub j: L,
+    pub j: f64,
     /// The computed f(s) is within this of the exact one.
-    pub margin: L,
+    pub margin: f64,
+    /// Free part at s and its quadrature: value u and u̇/ω.
+    free: [f64; 2],
+    /// The same of the forced parts.
+    forced: [[f64; 2]; M],
 }
 
-/// Rounding of one evaluation, in units of the sum of the absolute values of its terms: each of
-/// the five terms carries at most five roundings of 2^-53 and the sum four more, 9 · 2^-53 < 5e-16
-/// times 2; doubled, so that the margin may be used at both sides.
+/// Rounding of one evaluation, in units of the sum of the absolute values of its terms: each term
+/// carries at most five roundings of 2^-53 and the sum four more, 9 · 2^-53 < 5e-16 times 2;
+/// doubled, so that the margin may be used at both sides.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
-impl<L: Lane> Frame<L> {
+impl<const M: usize> Frame<M> {
+    /// A function that is zero for ever.
+    pub const ZERO: Frame<M> =
+        Frame { f0: 0.0, g0: 0.0, alpha: 0.0, forced: [[0.0; 2]; M], bound: 0.0, size: 0.0 };
+
+    /// Amplitude of sin ωs: what the slope at s = 0 leaves to the free part.
+    #[inline(always)]
+    fn sine(&self, frequencies: &Frequencies<M>) -> f64 {
+        let mut slope = self.g0;
+        for m in 0..M {
+            slope -= frequencies.big_omegas[m] * self.forced[m][1];
+        }
+        slope * frequencies.inverse_omega
+    }
+
+    /// The same function seen from the end of the reach.
+    #[inline(always)]
+    pub fn advanced(&self, frequencies: &Frequencies<M>) -> Frame<M> {
+        let rotated = |[value, quadrature]: [f64; 2], [sin, cos]: [f64; 2]| {
+            [value * cos + quadrature * sin, quadrature * cos - value * sin]
+        };
+        let mut mean = self.f0 - self.alpha;
+        let [alpha, sine] = rotated([self.alpha, self.sine(frequencies)], frequencies.turn);
+        let (mut f0, mut g0) = (alpha, frequencies.omega * sine);
+        let mut forced = [[0.0; 2]; M];
+        for m in 0..M {
+            mean -= self.forced[m][0];
+            forced[m] = rotated(self.forced[m], frequencies.forced_turns[m]);
+            f0 += forced[m][0];
+            g0 += frequencies.big_omegas[m] * forced[m][1];
+        }
+        Frame { f0: mean + f0, g0, alpha, forced, bound: self.bound, size: self.size }
+    }
+
     /// Value, derivatives and margin at `s`, 0 ≤ s ≤ reach.
     #[inline(always)]
-    pub fn at(&self, s: L, frequencies: &Frequencies) -> Point<L> {
-        let w = L::splat(frequencies.omega);
-        let big_w = L::splat(frequencies.big_omega);
-        let ratio = L::splat(frequencies.ratio);
-        let one = L::splat(1.0);
-        let (x, y) = (w * s, big_w * s);
-        let [sx, sy, cx, cy] = small_sin_cos(x, y);
-        let (sin_x, sin_y) = (x + sx, y + sy);
-        let linear = self.g0 * L::splat(frequencies.inverse_omega) * sin_x;
-        let (free, forced) = (self.alpha * cx, self.gamma * cy);
-        let difference = self.delta * (sy - ratio * sx);
-        let (aw, cw) = (self.alpha * w, self.gamma * big_w);
-        let dw = self.delta * big_w;
-        let size = self.f0.abs()
-            + linear.abs()
-            + free.abs()
-            + forced.abs()
-            + self.delta.abs() * (sy.abs() + ratio * sx.abs());
-        Point {
-            f: self.f0 + linear - free - forced + difference,
-            g: self.g0 * (one - cx) - aw * sin_x - cw * sin_y + dw * (cx - cy),
-            h: -(self.g0 * w * sin_x) - aw * w * (one - cx) - cw * big_w * (one - cy)
-                + dw * (w * sin_x - big_w * sin_y),
-            j: -(self.g0 * w * w * (one - cx))
-                + aw * w * w * sin_x
-                + cw * big_w * big_w * sin_y
-                + dw * (w * w * (one - cx) - big_w * big_w * (one - cy)),
-            margin: L::splat(ROUNDING) * size,
+    pub fn at(&self, s: f64, frequencies: &Frequencies<M>) -> Point<M> {
+        let w = frequencies.omega;
+        let x = w * s;
+        let [sin_rest, versine] = small_sin_cos(x);
+        let (sin, cos) = (x + sin_rest, 1.0 - versine);
+        let linear = self.g0 * frequencies.inverse_omega * sin;
+        let along = self.alpha * versine;
+        let mut f = self.f0 + linear - along;
+        let mut size = self.f0.abs() + linear.abs() + along.abs();
+        let aw = self.alpha * w;
+        let mut g = self.g0 * cos - aw * sin;
+        let sine = self.sine(frequencies);
+        let free = [self.alpha * cos + sine * sin, sine * cos - self.alpha * sin];
+        let mut h = -(w * w * free[0]);
+        let mut j = -(w * w * w * free[1]);
+        let mut forced = [[0.0; 2]; M];
+        for m in 0..M {
+            let (big_w, [gamma, delta]) = (frequencies.big_omegas[m], self.forced[m]);
+            let ratio = big_w * frequencies.inverse_omega;
+            let y = big_w * s;
+            let [big_sin_rest, big_versine] = small_sin_cos(y);
+            let (big_sin, big_cos) = (y + big_sin_rest, 1.0 - big_versine);
+            let along = gamma * big_versine;
+            f = f - along + delta * (big_sin_rest - ratio * sin_rest);
+            size += along.abs() + delta.abs() * (big_sin_rest.abs() + ratio * sin_rest.abs());
+            g = g - gamma * big_w * big_sin + delta * big_w * (versine - big_versine);
+            let part = [gamma * big_cos + delta * big_sin, delta * big_cos - gamma * big_sin];
+            h -= big_w * big_w * part[0];
+            j -= big_w * big_w * big_w * part[1];
+            forced[m] = part;
         }
+        Point { f, g, h, j, margin: ROUNDING * size, free, forced }
     }
 
     /// Value and derivatives at s = 0, where no sine is needed and the value is exact.
     #[inline(always)]
-    pub fn start(&self, frequencies: &Frequencies) -> Point<L> {
-        let w = L::splat(frequencies.omega);
-        let big_w = L::splat(frequencies.big_omega);
-        Point {
-            f: self.f0,
-            g: self.g0,
-            h: -(self.alpha * w * w) - self.gamma * big_w * big_w,
-            j: -(self.g0 * w * w) + self.delta * big_w * (w * w - big_w * big_w),
-            margin: L::splat(0.0),
+    pub fn start(&self, frequencies: &Frequencies<M>) -> Point<M> {
+        let w = frequencies.omega;
+        let sine = self.sine(frequencies);
+        let mut h = -(self.alpha * w * w);
+        let mut j = -(sine * w * w * w);
+        for m in 0..M {
+            let (big_w, [gamma, delta]) = (frequencies.big_omegas[m], self.forced[m]);
+            h -= gamma * big_w * big_w;
+            j -= delta * big_w * big_w * big_w;
         }
+        let (free, forced) = ([self.alpha, sine], self.forced);
+        Point { f: self.f0, g: self.g0, h, j, margin: 0.0, free, forced }
+    }
+}
+
+impl<const M: usize> Point<M> {
+    /// The derivatives of fourth to seventh order.
+    #[inline(always)]
+    pub fn higher(&self, frequencies: &Frequencies<M>) -> [f64; 4] {
+        let of = |w: f64, [value, quadrature]: [f64; 2]| {
+            let fourth = w * w * w * w;
+            let (even, odd) = (fourth * value, fourth * w * quadrature);
+            [even, odd, -(w * w * even), -(w * w * odd)]
+        };
+        let mut sum = of(frequencies.omega, self.free);
+        for m in 0..M {
+            let part = of(frequencies.big_omegas[m], self.forced[m]);
+            for (total, term) in sum.iter_mut().zip(part) {
+                *total += term;
+            }
+        }
+        sum
     }
 }

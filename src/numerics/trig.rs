@@ -1,46 +1,46 @@
 //! Portable sine and cosine: plain + − × only, so the same bits on every machine.
 
-use super::lane::Lane;
+use wide::f64x2;
 
 /// Largest |x| for which [`small_sin_cos`] is meant.
-pub const RANGE: f64 = 2.0;
+pub const RANGE: f64 = 2.83;
 
 /// Terms of each Taylor polynomial.
-const TERMS: usize = 12;
+const TERMS: usize = 14;
 
-/// 1/3!, −1/5!, …: Taylor coefficients of (x − sin x)/x³ in x², up to x^25 of the sine.
+/// 1/3!, −1/5!, …: Taylor coefficients of (x − sin x)/x³ in x², up to x^29 of the sine.
 const SIN: [f64; TERMS] = adjusted(
     3,
     [
         0.0,
-        2.42861286636753e-17,
-        -2.3283241654126208e-17,
-        1.0295261957402393e-17,
-        -2.1442076576926077e-18,
-        1.7023335647310682e-19,
+        1.214306433183765e-17,
+        -5.854691731421724e-18,
+        1.2938428269309438e-18,
+        -1.3453265482562442e-19,
+        5.330843005780414e-21,
     ],
 );
 
-/// 1/2!, −1/4!, …: Taylor coefficients of (1 − cos x)/x² in x², up to x^24 of the cosine.
+/// 1/2!, −1/4!, …: Taylor coefficients of (1 − cos x)/x² in x², up to x^28 of the cosine.
 const COS: [f64; TERMS] = adjusted(
     2,
     [
         0.0,
         0.0,
-        -4.119968255444917e-18,
-        2.4970531285056774e-18,
-        -6.449097102157429e-19,
-        5.978613313349518e-20,
+        -1.951563910473908e-18,
+        5.522654816098038e-19,
+        -6.829203137237796e-20,
+        3.0580867246085433e-21,
     ],
 );
 
 /// Taylor coefficients with the first few moved by some units in their last places.
 ///
 /// 1/3!, 1/5! and 1/4! are not doubles. Their rounding errors alone would make the sine too large
-/// by 7e-17 and the cosine by 4e-17 at 2, always to the same side, and a chain without forcing would
+/// and the cosine by 2e-16 at [`RANGE`], always to the same side, and a chain without forcing would
 /// lose 1e-17 of its energy an impact. The coefficients after them take these errors up: least
 /// squares over 0 ≤ x ≤ [`RANGE`], one coefficient after the other rounded. What is left of the
-/// polynomial's own error is below 1e-18.
+/// polynomial's own error is below 3e-18.
 const fn adjusted(m: usize, by: [f64; 6]) -> [f64; TERMS] {
     let mut out = inverse_factorials(m);
     let mut k = 0;
@@ -73,45 +73,48 @@ const fn inverse_factorials(m: usize) -> [f64; TERMS] {
     out
 }
 
-/// [`SIN`] twice and [`COS`] twice, for [`polynomials`] in one register of four.
-const TABLE: [[f64; 4]; TERMS] = {
-    let mut table = [[0.0; 4]; TERMS];
+/// [`SIN`] with the sign of sin x − x, and [`COS`], side by side.
+const TABLE: [[f64; 2]; TERMS] = {
+    let mut table = [[0.0; 2]; TERMS];
     let mut k = 0;
     while k < TERMS {
-        table[k] = [SIN[k], SIN[k], COS[k], COS[k]];
+        table[k] = [-SIN[k], COS[k]];
         k += 1;
     }
     table
 };
 
-/// The polynomials [`SIN`] and [`COS`] at x² and y² side by side: (sin − x)/x³ of both, up to the
-/// sign, and (1 − cos)/x² of both. Four chains that a processor runs at once, in vector registers
-/// where it has them.
+/// Terms that a quarter turn needs: the first omitted ones are below 1e-19 and 3e-18.
+const QUARTER_TERMS: usize = 8;
+
+/// Both polynomials of the first `N` rows of [`TABLE`] at z = x², in one register of two.
 #[inline(always)]
-fn polynomials<L: Lane>(x2: L, y2: L) -> [L; 4] {
-    let z = [x2, y2, x2, y2];
+fn polynomials<const N: usize>(z: f64) -> f64x2 {
+    let z = f64x2::splat(z);
+    let square = z * z;
     // Even and odd powers apart: half the length of each chain of dependent operations.
-    let mut even = TABLE[TERMS - 2].map(L::splat);
-    let mut odd = TABLE[TERMS - 1].map(L::splat);
-    for k in (0..TERMS / 2 - 1).rev() {
-        for i in 0..4 {
-            let square = z[i] * z[i];
-            even[i] = even[i] * square + L::splat(TABLE[2 * k][i]);
-            odd[i] = odd[i] * square + L::splat(TABLE[2 * k + 1][i]);
-        }
+    let mut even = f64x2::from(TABLE[N - 2]);
+    let mut odd = f64x2::from(TABLE[N - 1]);
+    for k in (0..N / 2 - 1).rev() {
+        even = even * square + f64x2::from(TABLE[2 * k]);
+        odd = odd * square + f64x2::from(TABLE[2 * k + 1]);
     }
-    std::array::from_fn(|i| even[i] + z[i] * odd[i])
+    even + z * odd
 }
 
-/// sin x − x, sin y − y, 1 − cos x and 1 − cos y for |x|, |y| ≤ [`RANGE`], each to a few units in
-/// its own last place.
-///
-/// The omitted terms are below 2^27/27! < 2e-20 and 2^26/26! < 2e-19.
+/// sin x − x and 1 − cos x from `N` terms.
 #[inline(always)]
-pub fn small_sin_cos<L: Lane>(x: L, y: L) -> [L; 4] {
-    let (x2, y2) = (x * x, y * y);
-    let [sx, sy, cx, cy] = polynomials(x2, y2);
-    [-(x2 * x * sx), -(y2 * y * sy), x2 * cx, y2 * cy]
+fn remainders<const N: usize>(x: f64) -> [f64; 2] {
+    let z = x * x;
+    (polynomials::<N>(z) * f64x2::from([z * x, z])).to_array()
+}
+
+/// sin x − x and 1 − cos x for |x| ≤ [`RANGE`], each to a few units in its own last place.
+///
+/// The omitted terms are below 2.83^31/31! < 2e-20 and 2.83^30/30! < 2e-19.
+#[inline(always)]
+pub fn small_sin_cos(x: f64) -> [f64; 2] {
+    remainders::<TERMS>(x)
 }
 
 /// (sin, cos) of a phase given as a fraction of a turn in units of 2^-64, to 1.2 units of 2^-53.
@@ -124,19 +127,20 @@ pub fn sin_cos_turn(turn: u64) -> (f64, f64) {
     let shifted = turn.wrapping_add(QUARTER / 2);
     let remainder = (shifted % QUARTER) as i64 - (QUARTER / 2) as i64;
     let x = remainder as f64 * RADIANS;
-    let [s, _, c, _] = small_sin_cos(x, x);
+    let [s, c] = remainders::<QUARTER_TERMS>(x);
     let (sin, cos) = (x + s, 1.0 - c);
-    match shifted / QUARTER {
-        0 => (sin, cos),
-        1 => (cos, -sin),
-        2 => (-sin, -cos),
-        _ => (-cos, sin),
-    }
+    // The quarter swaps the two and sets their signs; no branch, for it is not predictable.
+    let quarter = shifted >> 62;
+    let swap = 0u64.wrapping_sub(quarter & 1);
+    let (a, b) = (sin.to_bits(), cos.to_bits());
+    let change = (a ^ b) & swap;
+    let sin = a ^ change ^ (quarter >> 1) << 63;
+    let cos = b ^ change ^ ((quarter ^ quarter >> 1) & 1) << 63;
+    (f64::from_bits(sin), f64::from_bits(cos))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::lane::Lanes;
     use super::*;
 
     /// The correctly rounded functions of `pxfm` are the second route.
@@ -146,13 +150,13 @@ mod tests {
             let x = f64::from(i) * (RANGE / 4000.0);
             let half = pxfm::f_sin(x / 2.0);
             let c = 2.0 * half * half;
-            let [_, sin, _, cos] = small_sin_cos(0.5 * x, x);
+            let [sin, cos] = small_sin_cos(x);
             assert!((cos - c).abs() <= 1e-15 * c, "x = {x}");
             let s = pxfm::f_sin(x) - x;
             assert!((sin - s).abs() <= 3e-16 * x, "x = {x}");
         }
         let x = 1e-5;
-        let [sin, ..] = small_sin_cos(x, 0.0);
+        let [sin, _] = small_sin_cos(x);
         assert!((sin / (-x * x * x / 6.0) - 1.0).abs() < 1e-10);
     }
 
@@ -169,15 +173,6 @@ mod tests {
         assert_eq!(sin_cos_turn(0), (0.0, 1.0));
         assert_eq!(sin_cos_turn(1 << 62), (1.0, 0.0));
         assert_eq!(sin_cos_turn(1 << 63), (0.0, -1.0));
-    }
-
-    #[test]
-    fn lanes_give_the_bits_of_one() {
-        let x = [0.1, -1.4, 1e-9, 1.5];
-        let y = x.map(|x| 0.3 - x);
-        let side = small_sin_cos(Lanes(x), Lanes(y));
-        for i in 0..4 {
-            assert_eq!(side.map(|lanes| lanes.0[i]), small_sin_cos(x[i], y[i]));
-        }
+        assert_eq!(sin_cos_turn(3 << 62), (-1.0, 0.0));
     }
 }

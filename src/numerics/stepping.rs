@@ -1,0 +1,206 @@
+//! The first root by certified steps: slower than the screen, and never at a loss.
+
+use super::first_root::{Next, Work};
+use super::local_frame::{Frame, Frequencies, Point};
+use super::polish::polish;
+
+/// The first root h > 0 of the parabola f + g h − ½ K h², f ≥ 0; `far` if there is none before.
+#[inline]
+fn parabola(f: f64, g: f64, k: f64, far: f64) -> f64 {
+    let discriminant = g * g + 2.0 * k * f;
+    if discriminant < 0.0 {
+        return far;
+    }
+    let root = discriminant.sqrt();
+    // A convex parabola that rises has no root; a division by zero ends as "none" in `min`.
+    let h = match (g < 0.0, k < 0.0) {
+        (true, _) => 2.0 * f / (root - g),
+        (false, true) => far,
+        (false, false) => (g + root) / k,
+    };
+    h.min(far)
+}
+
+/// A certified stretch: f > 0 on (s, s + h) for the returned h ≤ `limit`.
+///
+/// On [0, L] the second derivative is at least f'' + min(0, f''' L) − ½ M₄ L² = −K, so f stays
+/// above the parabola f + g h − ½ K h² there, and has no root before the smaller of L and the
+/// parabola's first root. Any L gives a certified stretch; two are tried and the longer is taken.
+fn stretch<const M: usize>(f: f64, p: &Point<M>, bound: f64, limit: f64) -> f64 {
+    let certified = |trial: f64| {
+        let k = (-(p.j * trial)).max(0.0) + 0.5 * bound * trial * trial - p.h;
+        parabola(f, p.g, k, trial)
+    };
+    // Closing: most gaps shut near the tangent's root; beyond twice that there is no gain.
+    // Opening: where f'' > 0, K stays negative up to f''/(|f'''| + √(M₄ f'')) at least.
+    let first = if p.g < 0.0 {
+        2.0 * f / -p.g
+    } else if p.h > 0.0 {
+        p.h / (p.j.abs() + (bound * p.h).sqrt())
+    } else {
+        limit
+    };
+    let h = certified(first.min(limit));
+    certified((1.5 * h).min(limit)).max(h)
+}
+
+/// Whether f > 0 is certain on (a, a + h), from value, slope and curvature at both ends.
+///
+/// The quintic through these six numbers differs from f by at most M₆ t³ (h − t)³/720 (Hermite's
+/// remainder), with M₆ ≤ max(ω, Ω)² M₄. Quintic minus remainder is a polynomial of degree six, and
+/// its Bernstein coefficients on the interval bound it from below; they need no square root and
+/// no division. The first is f(a) ≥ 0 and the last f(b); `slack` covers the rounding of the values.
+#[inline]
+fn stays_open<const M: usize>(
+    a: &Point<M>,
+    b: &Point<M>,
+    h: f64, bound6: f64, slack: f64) -> bool {
+    let (ga, gb) = (h * a.g, h * b.g);
+    let h2 = h * h;
+    let (ha, hb) = (h2 * a.h, h2 * b.h);
+    let remainder = bound6 * (h2 * h2 * h2) * (1.0 / 14400.0);
+    let coefficients = [
+        a.f + ga * (1.0 / 6.0),
+        a.f + ga * (1.0 / 3.0) + ha * (1.0 / 30.0),
+        0.5 * (a.f + b.f) + 0.2 * (ga - gb) + (ha + hb) * (1.0 / 40.0) - remainder,
+        b.f - gb * (1.0 / 3.0) + hb * (1.0 / 30.0),
+        b.f - gb * (1.0 / 6.0),
+    ];
+    coefficients.iter().all(|&c| c > slack)
+}
+
+/// Evaluations after which a search stops with what is certified so far; its owner resumes it.
+const PATIENCE: u32 = 64;
+
+/// The first root after `from`, where f ≥ 0, or the proof that there is none up to `limit`.
+///
+/// # Why no root is skipped
+/// s only moves over ground that is proven to hold no root, in one of two ways; both bound the
+/// exact function from below, and count the rounding of its values against it. A *leap* goes to a
+/// point chosen by any guess (the end of the search, or just before a guessed root) and is taken
+/// if `stays_open` certifies the interval. Where it does not, `stretch` gives a step that is
+/// certain from this side alone. The search ends when the quadratic f + f' h + ½ f'' h² has its root
+/// so close that the rest, |f'''| h³/6 + M₄ h⁴/24, is below the margin.
+///
+/// # The undecidable band
+/// Where the minimum of that quadratic lies within two margins of zero, a double cannot tell a
+/// grazing impact from a near miss. The quadratic then decides, hit if its minimum is ≤ 0, and the
+/// decision is counted in [`Work::undecided`]. A margin is 8 ε times the sum of the absolute
+/// values of the terms of f, ε = 2^-52, which is never more than d + 2 (R₁ + R₂) + 3 R₂ Ω/ω.
+pub fn first_root_by_steps<const M: usize>(
+    frame: &Frame<M>,
+    from: f64,
+    limit: f64,
+    frequencies: &Frequencies<M>,
+    work: &mut Work,
+) -> Next {
+    let fast = frequencies.fastest;
+    let bound6 = fast * fast * frame.bound;
+    let mut s = from;
+    let mut p = if s == 0.0 {
+        frame.start(frequencies)
+    } else {
+        work.evaluations += 1;
+        frame.at(s, frequencies)
+    };
+    for _ in 0..PATIENCE {
+        let in_band = s > 0.0 && p.f <= 2.0 * p.margin;
+        // The quadratic through this point; its minimum is −discriminant / 2 f''.
+        let discriminant = p.g * p.g - 2.0 * p.h * p.f;
+        let root = discriminant.max(0.0).sqrt();
+        if p.g < 0.0 && discriminant >= 0.0 {
+            let h = 2.0 * p.f / (root - p.g);
+            let rest = (p.j.abs() * (1.0 / 6.0) + frame.bound * h * (1.0 / 24.0)) * (h * h * h);
+            if in_band || rest <= p.margin {
+                work.undecided += u64::from(discriminant <= 4.0 * p.h * p.margin);
+                let (s, speed) = polish(s, h, root, &p, frequencies);
+                return if s <= limit { Next::Root { s, speed } } else { Next::Clear { s: limit } };
+            }
+        }
+        if !in_band {
+            // A leap: to just beyond the guessed root and back, or to the end.
+            let mut h = beyond_root(&p, root, discriminant, limit - s);
+            let mut b = frame.at(s + h, frequencies);
+            work.evaluations += 1;
+            if b.f < 0.0
+                && let Some(before) = before_root(&p, &b, h, bound6)
+            {
+                h = before;
+                b = frame.at(s + h, frequencies);
+                work.evaluations += 1;
+            }
+            if b.f > b.margin && stays_open(&p, &b, h, bound6, p.margin + b.margin) {
+                s += h;
+                if s >= limit {
+                    return Next::Clear { s: limit };
+                }
+                p = b;
+                continue;
+            }
+        }
+        let h = if in_band && p.h > 0.0 {
+            // A dip that the quadratic does not reach zero in: on to where it leaves the band.
+            work.undecided += 1;
+            let up = (p.g * p.g + 2.0 * p.h * (4.0 * p.margin)).sqrt();
+            (up - p.g) / p.h
+        } else {
+            stretch((p.f - p.margin).max(0.0), &p, frame.bound, limit - s)
+        };
+        // Where f, f' and f'' vanish to rounding, f''' lifts f: above zero while h < 4 f'''/M₄.
+        let h = if h > 0.0 { h } else { 2.0 * p.j.abs() / frame.bound };
+        let next = s + h * (1.0 - 4.0 * f64::EPSILON);
+        s = if next > s { next } else { s + s * f64::EPSILON };
+        if s >= limit {
+            return Next::Clear { s: limit };
+        }
+        p = frame.at(s, frequencies);
+        work.evaluations += 1;
+    }
+    Next::Clear { s }
+}
+
+/// A guess of where f, seen from `p`, has just crossed zero; `left` if no root is in sight.
+#[inline]
+fn beyond_root<const M: usize>(p: &Point<M>, root: f64, discriminant: f64, left: f64) -> f64 {
+    let crosses = discriminant > 0.0 && (p.g < 0.0 || p.h < 0.0);
+    if !crosses {
+        return left;
+    }
+    let guess = if p.g < 0.0 { 2.0 * p.f / (root - p.g) } else { (root + p.g) / -p.h };
+    if guess >= left {
+        return left;
+    }
+    // One Newton step with the cubic term.
+    let value = p.f + guess * (p.g + guess * (0.5 * p.h + guess * p.j * (1.0 / 6.0)));
+    let slope = p.g + guess * (p.h + guess * 0.5 * p.j);
+    let better = guess - value / slope;
+    if better > 0.0 { (1.0625 * better).min(left) } else { guess }
+}
+
+/// A guess of a point shortly before the first root between `a`, where f > 0, and `b` = a + h,
+/// where f < 0, from the quintic through both ends.
+#[inline]
+fn before_root<const M: usize>(a: &Point<M>, b: &Point<M>, h: f64, bound6: f64) -> Option<f64> {
+    let (ga, gb) = (h * a.g, h * b.g);
+    let h2 = h * h;
+    let (ha, hb) = (h2 * a.h, h2 * b.h);
+    let d = b.f - a.f - ga - 0.5 * ha;
+    let e = gb - ga - ha;
+    let c = hb - ha;
+    let c3 = 10.0 * d - 4.0 * e + 0.5 * c;
+    let c4 = -15.0 * d + 7.0 * e - c;
+    let c5 = 6.0 * d - 3.0 * e + 0.5 * c;
+    // Newton from the right, where the overshoot of the leap is known.
+    let mut t = 1.0 - (b.f / gb).clamp(0.0, 0.5);
+    let mut slope = gb;
+    for _ in 0..2 {
+        let value = a.f + t * (ga + t * (0.5 * ha + t * (c3 + t * (c4 + t * c5))));
+        slope = ga + t * (ha + t * (3.0 * c3 + t * (4.0 * c4 + t * 5.0 * c5)));
+        t -= value / slope;
+    }
+    // Back by more than the quintic can be wrong, so that f is positive there.
+    let wrong = bound6 * (h2 * h2 * h2) * (1.0 / 46080.0) + 4.0 * (a.margin + b.margin);
+    t += 2.0 * wrong / slope;
+    (slope < 0.0 && t > 0.0 && t < 1.0).then_some(t * h)
+}
+

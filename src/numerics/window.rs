@@ -1,0 +1,81 @@
+//! Long waits: when can all parts of a sum of sinusoids be low at once?
+
+use super::local_frame::Frequencies;
+
+/// One sinusoid R cos(νs + θ), as value u and quadrature u̇/ν at s = 0.
+#[derive(Clone, Copy, Debug)]
+struct Part {
+    frequency: f64,
+    amplitude: f64,
+    /// θ − π.
+    angle: f64,
+    /// The sum can reach zero only while νs + θ is within this of π, modulo 2π.
+    half_width: f64,
+}
+
+/// Windows are widened by this much, far more than rounding can move their edges.
+const WIDENED: f64 = 1e-9;
+
+/// Windows passed in one call.
+const HOPS: u32 = 64;
+
+/// A time s ≥ 0 before which `mean` + Σ R cos(νs + θ) > 0 is certain; nothing if it is so for ever.
+///
+/// The part with amplitude R is low enough only while R cos(νs + θ) ≤ −(mean − Σ of the other
+/// amplitudes): in one window a period. Before s no instant lies in the windows of all parts.
+/// The cost is one comparison a window, however long the wait.
+pub fn next_window<const M: usize>(
+    mean: f64,
+    free: [f64; 2],
+    forced: &[[f64; 2]; M],
+    frequencies: &Frequencies<M>,
+) -> Option<f64> {
+    let amplitude = |[u, quadrature]: [f64; 2]| (u * u + quadrature * quadrature).sqrt();
+    let amplitudes: [f64; M] = std::array::from_fn(|m| amplitude(forced[m]));
+    let own = amplitude(free);
+    let total = amplitudes.iter().fold(own, |sum, r| sum + r) * (1.0 + 1e-12);
+    if total < mean {
+        return None;
+    }
+    let part = |frequency: f64, [u, quadrature]: [f64; 2], r: f64| {
+        let cosine = (mean - (total - r)) / r - 1e-12;
+        // Always low enough if there is no angle at which it is too high.
+        let narrow = cosine > -1.0 && cosine < 1.0;
+        let half_width = if narrow { pxfm::f_acos(cosine) + WIDENED } else { 4.0 };
+        let angle = if narrow { pxfm::f_atan2(quadrature, -u) } else { 0.0 };
+        Part { frequency, amplitude: r, angle, half_width }
+    };
+    let free = part(frequencies.omega, free, own);
+    let forced: [Part; M] =
+        std::array::from_fn(|m| part(frequencies.big_omegas[m], forced[m], amplitudes[m]));
+    let mut s = 0.0;
+    for _ in 0..HOPS {
+        let before = s;
+        for part in std::iter::once(&free).chain(&forced) {
+            s += part.wait(s);
+        }
+        if s == before {
+            break;
+        }
+    }
+    Some(s)
+}
+
+impl Part {
+    /// How long after `s` the next window opens; 0 in a window.
+    fn wait(&self, s: f64) -> f64 {
+        const TURN: f64 = std::f64::consts::TAU;
+        if self.half_width >= 3.5 || self.amplitude == 0.0 {
+            return 0.0;
+        }
+        let angle = self.angle + self.frequency * s;
+        // Behind the middle of the last window, 0 ≤ behind < 2π.
+        let turns = angle / TURN;
+        let behind = angle - TURN * ((turns as i64 - i64::from(turns < 0.0)) as f64);
+        let closes_at = self.half_width + 1e-3 * WIDENED;
+        if behind <= closes_at || behind >= TURN - closes_at {
+            return 0.0;
+        }
+        (TURN - self.half_width - behind) / self.frequency
+    }
+}
