@@ -126,6 +126,7 @@ fn corner(index: u64) -> Option<Scenario> {
         boundary,
         initial: Initial::Free(free),
         forcing: forced,
+        overtones: Vec::new(),
     };
     Engine::new(&scenario).is_ok().then_some(scenario)
 }

@@ -102,11 +102,11 @@ fn tiny_separation_speeds_keep_their_waiting_times() {
         let exact = gap.first_root(&Big::of(0.0), &Big::of(1.0)).unwrap().expect("it falls back");
         // The search itself: relative, however short the wait.
         let search = Search::new(Frequencies::new(1.0, [2.0]));
-        let frame =
-            Frame { f0: 0.0, g0: v, alpha: -3.0, gamma: 2.0, delta: 0.0, bound: 16.0 * 2.0 + 3.1 };
+        let forced = [[2.0, 0.0]];
+        let bound = 16.0 * 2.0 + 3.1;
+        let frame = Frame { f0: 0.0, g0: v, alpha: -3.0, forced, bound, size: 15.0 };
         let mut work = Work::default();
-        let Next::Root { s, .. } = first_root(&frame, frequencies.reach, &frequencies, &mut work)
-        else {
+        let Next::Root { s, .. } = search.first_root(&frame, &mut work) else {
             panic!("v = 1e-{k}: no root");
         };
         let relative = ((Big::of(s) - exact.clone()) / exact.clone()).near().abs();

@@ -33,6 +33,8 @@ const FORM: &str = r#"The scenario, with the defaults of everything but "forcing
   {"spacing": 1, "natural_frequency": 1, "forcing_frequency": 1.4142135623730951,
    "restitution": 0.8, "boundary": "walls", "initial": "rest",
    "forcing": [[alpha_1, beta_1], ..., [alpha_n, beta_n]]}
+Several components of the forcing, 8 at most:
+   "forcing_frequencies": [W_1, W_2, ...], "forcing": [[[alpha_1, beta_1], ...], [[...], ...], ...]
 boundary: "walls" or "ring".
 initial:  "rest" (at equilibrium), "zero" (no free part),
           {"free": [[a_1, b_1], ...]} (x_j = j d + a_j cos wt + b_j sin wt + forced response),

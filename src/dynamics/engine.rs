@@ -1,6 +1,7 @@
 //! The exact event-driven engine.
 
 use super::simulation::Simulation;
+use super::scenario::COMPONENTS;
 use super::{Error, Scenario};
 
 /// One impact.
@@ -32,9 +33,6 @@ pub struct Counters {
     /// Decisions taken inside the undecidable band of the search.
     pub undecided: u64,
 }
-
-/// Components of the forcing that a scenario may have at most.
-pub const COMPONENTS: usize = 8;
 
 /// The simulation of one scenario.
 #[derive(Clone, Debug)]

@@ -16,18 +16,25 @@ pub enum Initial {
     Free(Vec<[f64; 2]>),
 }
 
-/// The form of a scenario file.
+/// Components of the forcing that a scenario may have at most.
+pub const COMPONENTS: usize = 8;
+
+/// The form of a scenario file, with forcing `F`: one component, or several with their frequencies.
 #[derive(Deserialize)]
 #[serde(default, deny_unknown_fields)]
-struct Form {
+struct Form<F: Default> {
     spacing: f64,
     natural_frequency: f64,
-    forcing_frequency: f64,
+    forcing_frequency: Option<f64>,
+    forcing_frequencies: Option<Vec<f64>>,
     restitution: f64,
     boundary: Boundary,
     initial: InitialForm,
-    forcing: Vec<[f64; 2]>,
+    forcing: F,
 }
+
+/// One component: a pair for each mass.
+type Pairs = Vec<[f64; 2]>;
 
 /// The start as a scenario file names it.
 #[derive(Deserialize)]
@@ -39,42 +46,99 @@ enum InitialForm {
     Random { sigma: f64, seed: u64 },
 }
 
-impl Default for Form {
+impl<F: Default> Default for Form<F> {
     fn default() -> Self {
         let chain = Chain::default();
         Form {
             spacing: chain.spacing,
             natural_frequency: chain.natural_frequency,
-            forcing_frequency: chain.forcing_frequency,
+            forcing_frequency: None,
+            forcing_frequencies: None,
             restitution: chain.restitution,
             boundary: chain.boundary,
             initial: InitialForm::Rest,
-            forcing: Vec::new(),
+            forcing: F::default(),
         }
     }
 }
 
-impl From<Form> for Scenario {
-    fn from(form: Form) -> Scenario {
-        let initial = match form.initial {
+impl<F: Default> Form<F> {
+    /// Reads a form.
+    fn read<'a>(text: &'a str) -> Result<Self, Error>
+    where
+        F: Deserialize<'a>,
+    {
+        let mut reader = serde_json::Deserializer::from_str(text);
+        let form = serde_path_to_error::deserialize(&mut reader).map_err(|error| {
+            let path = error.path().to_string();
+            let field = if path == "." { "scenario".to_string() } else { path };
+            let problem = error.into_inner().to_string();
+            Error::input(field, problem, "see the form in `impact-paper trace --help`")
+        })?;
+        reader.end().map_err(|error| {
+            let remedy = "write one JSON object and nothing after it";
+            Error::input("scenario", error.to_string(), remedy)
+        })?;
+        Ok(form)
+    }
+
+    /// The scenario with these components of the forcing.
+    fn with(self, components: Vec<(f64, Pairs)>) -> Result<Scenario, Error> {
+        let masses = components.first().map_or(0, |(_, pairs)| pairs.len());
+        let initial = match self.initial {
             InitialForm::Rest => Initial::Rest,
             InitialForm::Zero => Initial::Zero,
             InitialForm::Free(parts) => Initial::Free(parts),
             InitialForm::Random { sigma, seed } => {
+                if !(0.0..=1e9).contains(&sigma) {
+                    return Err(Error::input(
+                        "initial.random.sigma",
+                        format!("{sigma:?} is no standard deviation"),
+                        "give a number from 0.0 to 1e9",
+                    ));
+                }
                 let mut normals = NormalPairs::new("trace", seed, 0);
-                Initial::Free(scaled_pairs(form.forcing.len(), sigma, &mut normals))
+                Initial::Free(scaled_pairs(masses, sigma, &mut normals))
             }
         };
-        Scenario {
-            spacing: form.spacing,
-            natural_frequency: form.natural_frequency,
-            forcing_frequency: form.forcing_frequency,
-            restitution: form.restitution,
-            boundary: form.boundary,
+        let mut components = components.into_iter();
+        let (forcing_frequency, forcing) = components.next().unwrap_or_default();
+        Ok(Scenario {
+            spacing: self.spacing,
+            natural_frequency: self.natural_frequency,
+            forcing_frequency,
+            restitution: self.restitution,
+            boundary: self.boundary,
             initial,
-            forcing: form.forcing,
-            overtones: Vec::new(),
+            forcing,
+            overtones: components
+                .map(|(frequency, amplitudes)| Overtone { frequency, amplitudes })
+                .collect(),
+        })
+    }
+}
+
+impl Form<Vec<Pairs>> {
+    /// The scenario of a form with `forcing_frequencies`.
+    fn scenario(mut self) -> Result<Scenario, Error> {
+        let frequencies = self.forcing_frequencies.take().unwrap_or_default();
+        if self.forcing_frequency.is_some() {
+            return Err(Error::input(
+                "forcing_frequency",
+                "it stands beside forcing_frequencies",
+                "give one of the two",
+            ));
         }
+        let forcing = std::mem::take(&mut self.forcing);
+        if frequencies.len() != forcing.len() || forcing.is_empty() || forcing.len() > COMPONENTS {
+            let (given, lists) = (frequencies.len(), forcing.len());
+            return Err(Error::input(
+                "forcing_frequencies",
+                format!("there are {given} of them and {lists} lists in forcing"),
+                format!("give 1 to {COMPONENTS}, and one list of pairs for each"),
+            ));
+        }
+        self.with(frequencies.into_iter().zip(forcing).collect())
     }
 }
 
@@ -85,7 +149,7 @@ fn scaled_pairs(masses: usize, sigma: f64, normals: &mut NormalPairs) -> Vec<[f6
 
 /// One chain with the amplitudes of its forcing.
 ///
-/// **Eq. (3)** (step towards (5)): of the sum over harmonics Ω_i the paper keeps one.
+/// **Eq. (3)**: the forcing is a sum over components; the paper goes on with one, Eq. (5).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scenario {
     /// Distance d between equilibria.
@@ -144,30 +208,22 @@ impl Scenario {
     /// # Errors
     /// [`Error::Input`] names the field and the remedy.
     pub fn from_json(text: &str) -> Result<Scenario, Error> {
-        let mut reader = serde_json::Deserializer::from_str(text);
-        let form: Form = serde_path_to_error::deserialize(&mut reader).map_err(|error| {
-            let path = error.path().to_string();
-            let field = if path == "." { "scenario".to_string() } else { path };
-            let problem = error.into_inner().to_string();
-            Error::input(field, problem, "see the form in `impact-paper trace --help`")
-        })?;
-        reader.end().map_err(|error| {
-            Error::input(
-                "scenario",
-                error.to_string(),
-                "write one JSON object and nothing after it",
-            )
-        })?;
-        if let InitialForm::Random { sigma, .. } = form.initial
-            && !(0.0..=1e9).contains(&sigma)
-        {
-            return Err(Error::input(
-                "initial.random.sigma",
-                format!("{sigma:?} is no standard deviation"),
-                "give a number from 0.0 to 1e9",
-            ));
+        /// Which of the two forms a file has.
+        #[derive(Deserialize)]
+        struct Kind {
+            forcing_frequencies: Option<serde::de::IgnoredAny>,
         }
-        let scenario = Scenario::from(form);
+        let several = serde_json::from_str::<Kind>(text)
+            .is_ok_and(|kind| kind.forcing_frequencies.is_some());
+        let scenario = if several {
+            Form::<Vec<Pairs>>::read(text)?.scenario()?
+        } else {
+            let mut form = Form::<Pairs>::read(text)?;
+            let frequency = form.forcing_frequency.take();
+            let frequency = frequency.unwrap_or(Chain::default().forcing_frequency);
+            let pairs = std::mem::take(&mut form.forcing);
+            form.with(vec![(frequency, pairs)])?
+        };
         scenario.validate()?;
         Ok(scenario)
     }
@@ -186,14 +242,23 @@ impl Scenario {
         };
         within("spacing", self.spacing, 1e-6, 1e6)?;
         within("natural_frequency", self.natural_frequency, 1e-3, 1e3)?;
-        within("forcing_frequency", self.forcing_frequency, 1e-3, 1e3)?;
         within("restitution", self.restitution, 0.0, 1.0)?;
-        if self.forcing_frequency == self.natural_frequency {
-            return Err(Error::input(
-                "forcing_frequency",
-                format!("{:?} equals the natural frequency (resonance)", self.forcing_frequency),
-                "the undamped response grows without bound; choose another frequency",
-            ));
+        let single = self.overtones.is_empty();
+        let frequencies = std::iter::once(self.forcing_frequency)
+            .chain(self.overtones.iter().map(|overtone| overtone.frequency));
+        for (m, frequency) in frequencies.enumerate() {
+            let field = match single {
+                true => "forcing_frequency".to_string(),
+                false => format!("forcing_frequencies[{m}]"),
+            };
+            within(&field, frequency, 1e-3, 1e3)?;
+            if frequency == self.natural_frequency {
+                return Err(Error::input(
+                    field,
+                    format!("{frequency:?} equals the natural frequency (resonance)"),
+                    "the undamped response grows without bound; choose another frequency",
+                ));
+            }
         }
         if self.forcing.is_empty() {
             return Err(Error::input(
@@ -210,7 +275,19 @@ impl Scenario {
             }
             Ok(())
         };
-        pairs("forcing", &self.forcing)?;
+        pairs(if single { "forcing" } else { "forcing[0]" }, &self.forcing)?;
+        for (m, overtone) in self.overtones.iter().enumerate() {
+            let field = format!("forcing[{}]", m + 1);
+            if overtone.amplitudes.len() != self.forcing.len() {
+                let (own, first) = (overtone.amplitudes.len(), self.forcing.len());
+                return Err(Error::input(
+                    field,
+                    format!("it has {own} pairs, forcing[0] has {first}"),
+                    "give one pair [alpha, beta] for each mass in each list",
+                ));
+            }
+            pairs(&field, &overtone.amplitudes)?;
+        }
         if let Initial::Free(free) = &self.initial {
             if free.len() != self.forcing.len() {
                 return Err(Error::input(

@@ -151,6 +151,7 @@ impl Direction<'_> {
             boundary: self.chain.boundary,
             initial: Initial::Rest,
             forcing: self.forcing.iter().map(|pair| pair.map(|x| scale * x)).collect(),
+            overtones: Vec::new(),
         };
         let failed = |source| Error::Dynamics { experiment: "two masses", source };
         let mut time = None;

@@ -1,7 +1,7 @@
 //! The earliest of many keys, each of which may change at any time.
 
 use super::clock::Instant;
-use wide::{CmpEq, f64x2};
+use wide::f64x2;
 
 /// Children of a node: their minimum takes three operations of a register of two numbers each.
 const WIDTH: usize = 8;

@@ -174,3 +174,125 @@ pub enum Sight {
         clear: f64,
     },
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::numerics::random::NormalPairs;
+
+    const OMEGAS: [[f64; 2]; 4] =
+        [[1.0, std::f64::consts::SQRT_2], [1.3, 0.7], [0.2, 3.0], [1.0, 1.0001]];
+
+    /// A frame with normal amplitudes; every third starts shut, every fifth barely.
+    fn frame(i: u64, frequencies: &Frequencies<1>) -> Frame<1> {
+        let mut normals = NormalPairs::new("frames", 1, i);
+        let [alpha, q] = normals.pair();
+        let [gamma, delta] = normals.pair();
+        let [width, slope] = normals.pair();
+        let (w, big_w) = (frequencies.omega, frequencies.big_omegas[0]);
+        let f0 = match i {
+            i if i % 3 == 0 => 0.0,
+            i if i % 5 == 0 => 1e-12 * width.abs(),
+            _ => width.abs(),
+        };
+        let g0 = if f0 == 0.0 { slope.abs() } else { q };
+        let r1 = alpha.hypot(g0 / w - big_w / w * delta);
+        let r2 = gamma.hypot(delta);
+        let bound = w.powi(4) * r1 + big_w.powi(4) * r2;
+        let size = (f0 - alpha - gamma).abs() + r1 + (1.0 + 2.0 * big_w / w) * r2;
+        Frame { f0, g0, alpha, forced: [[gamma, delta]], bound, size }
+    }
+
+    /// The frame's function in absolute form, with the platform's sine and cosine.
+    fn absolute(
+        frame: &Frame<1>,
+        frequencies: &Frequencies<1>,
+    ) -> impl Fn(f64) -> f64 + use<> {
+        let (w, big_w) = (frequencies.omega, frequencies.big_omegas[0]);
+        let Frame { f0, g0, alpha, forced: [[gamma, delta]], .. } = *frame;
+        let q = g0 / w - big_w / w * delta;
+        move |s: f64| {
+            f0 - alpha - gamma
+                + alpha * (w * s).cos()
+                + q * (w * s).sin()
+                + gamma * (big_w * s).cos()
+                + delta * (big_w * s).sin()
+        }
+    }
+
+    /// The second route: f on a fine grid.
+    #[test]
+    fn no_sign_change_is_skipped() {
+        let (mut roots, mut total) = (0, Work::default());
+        for [w, big_w] in OMEGAS {
+            let search = Search::new(Frequencies::new(w, [big_w]));
+            let reach = search.frequencies.reach;
+            for i in 0..3000 {
+                let frame = frame(i, &search.frequencies);
+                let f = absolute(&frame, &search.frequencies);
+                let next = search.first_root(&frame, &mut total);
+                let end = match next {
+                    Next::Root { s, speed } => {
+                        roots += 1;
+                        assert!(f(s).abs() < 2e-14, "frame {i}: f = {:e}", f(s));
+                        let numeric = -(f(s + 1e-5) - f(s - 1e-5)) / 2e-5;
+                        assert!((speed - numeric).abs() < 1e-8, "{speed} {numeric}");
+                        s
+                    }
+                    Next::Clear { s } => {
+                        assert_eq!(s, reach);
+                        reach
+                    }
+                };
+                for k in 1..1000 {
+                    let s = end * f64::from(k) / 1000.0;
+                    assert!(f(s) > -1e-15, "frame {i} of {w}, {big_w}: root before {s}");
+                }
+            }
+        }
+        assert!((2000..10_000).contains(&roots), "{roots}");
+        // Counted work: a change of the algorithm shows here.
+        assert!(total.evaluations < 2 * roots, "{total:?}, {roots} roots");
+        assert!(total.stepped < 12_000 / 8, "{total:?}");
+    }
+
+    /// Screen and steps are two ways to the same root.
+    #[test]
+    fn steps_alone_find_the_same_roots() {
+        for [w, big_w] in OMEGAS {
+            let search = Search::new(Frequencies::new(w, [big_w]));
+            let reach = search.frequencies.reach;
+            for i in 0..3000 {
+                let frame = frame(i, &search.frequencies);
+                let mut work = Work::default();
+                let quick = search.first_root(&frame, &mut work);
+                let frequencies = &search.frequencies;
+                let sure = first_root_by_steps(&frame, 0.0, reach, frequencies, &mut work);
+                match (quick, sure) {
+                    (Next::Root { s, speed }, Next::Root { s: sure, speed: own }) => {
+                        let close = 1e-13 / speed.max(1e-3);
+                        assert!((s - sure).abs() < close, "frame {i}: {s} {sure}");
+                        assert!((speed - own).abs() < 1e-12 / speed.max(1e-3), "frame {i}");
+                    }
+                    _ => assert_eq!(quick, sure, "frame {i} of {w}, {big_w}"),
+                }
+            }
+        }
+    }
+
+    /// An advanced frame is the same function seen later.
+    #[test]
+    fn a_frame_advances_by_its_reach() {
+        let frequencies = Frequencies::new(1.0, [std::f64::consts::SQRT_2]);
+        for i in 0..300 {
+            let frame = frame(i, &frequencies);
+            let (early, late) = (
+                absolute(&frame, &frequencies),
+                absolute(&frame.advanced(&frequencies), &frequencies),
+            );
+            for s in [0.0, 0.3, 1.7] {
+                assert!((late(s) - early(s + frequencies.reach)).abs() < 1e-14, "frame {i}");
+            }
+        }
+    }
+}

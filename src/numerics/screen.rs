@@ -9,7 +9,7 @@
 
 use super::local_frame::{Frame, Frequencies};
 use super::trig::small_sin_cos;
-use wide::{CmpGt, f64x2};
+use wide::f64x2;
 
 /// Degree of the Bernstein form.
 const N: usize = 8;

@@ -79,3 +79,46 @@ impl Part {
         (TURN - self.half_width - behind) / self.frequency
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::numerics::random::NormalPairs;
+
+    /// On a fine grid nothing is below zero before the window, and much later something is.
+    #[test]
+    fn nothing_closes_before_the_window() {
+        let frequencies = Frequencies::new(1.0, [std::f64::consts::SQRT_2]);
+        let (mut longest, mut never, mut closed) = (0.0f64, 0, 0);
+        for i in 0..400 {
+            let mut normals = NormalPairs::new("windows", 1, i);
+            let (free, forced) = (normals.pair(), normals.pair());
+            let r = free[0].hypot(free[1]) + forced[0].hypot(forced[1]);
+            // Just closable, easily closable, or never.
+            let mean = r * [0.999, 0.9, 1.001][i as usize % 3];
+            let f = |s: f64| {
+                let y = frequencies.big_omegas[0] * s;
+                mean + free[0] * s.cos() + free[1] * s.sin() + forced[0] * y.cos()
+                    + forced[1] * y.sin()
+            };
+            let Some(wait) = next_window(mean, free, &[forced], &frequencies) else {
+                never += 1;
+                assert!(mean > r);
+                continue;
+            };
+            if wait == 0.0 {
+                continue;
+            }
+            longest = longest.max(wait);
+            for k in 0..=20_000 {
+                let s = wait * f64::from(k) / 20_000.0;
+                assert!(f(s) > -1e-12, "{i}: f({s}) = {:e} before {wait}", f(s));
+            }
+            // And the wait is not needlessly short: soon after a window opens, f may be low.
+            closed += i32::from((0..2000).any(|k| f(wait + 0.002 * f64::from(k)) < 0.2 * mean));
+        }
+        assert_eq!(never, 133);
+        assert!(longest > 60.0, "{longest}");
+        assert!(closed > 100, "{closed}");
+    }
+}

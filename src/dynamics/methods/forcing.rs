@@ -1,20 +1,22 @@
 //! The forcing of a scenario as the rivals see it: the one place that knows its components.
 
+pub use crate::dynamics::scenario::COMPONENTS;
 use crate::dynamics::Scenario;
 use crate::numerics::clock::{Instant, Rate};
 use crate::numerics::trig::sin_cos_turn;
 
-/// Components that a forcing may have.
-pub const COMPONENTS: usize = 8;
-
 /// The components α_j cos Ωt + β_j sin Ωt of a scenario: Ω, and the amplitudes of the masses.
 fn parts(scenario: &Scenario) -> impl Iterator<Item = (f64, &[[f64; 2]])> {
+    let overtones = scenario.overtones.iter();
     std::iter::once((scenario.forcing_frequency, &scenario.forcing[..]))
+        .chain(overtones.map(|overtone| (overtone.frequency, &overtone.amplitudes[..])))
 }
 
 /// The same, to be changed.
 fn parts_mut(scenario: &mut Scenario) -> impl Iterator<Item = (f64, &mut [[f64; 2]])> {
+    let overtones = scenario.overtones.iter_mut();
     std::iter::once((scenario.forcing_frequency, &mut scenario.forcing[..]))
+        .chain(overtones.map(|overtone| (overtone.frequency, &mut overtone.amplitudes[..])))
 }
 
 /// The largest of ω and Ω.
