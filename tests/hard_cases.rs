@@ -20,6 +20,7 @@ fn one(free: [f64; 2], forcing: [f64; 2], restitution: f64) -> Scenario {
         boundary: Boundary::Walls,
         initial: Initial::Free(vec![free]),
         forcing: vec![forcing],
+        overtones: Vec::new(),
     }
 }
 

@@ -205,6 +205,7 @@ impl<'a> Motion<'a> {
             boundary: Boundary::Walls,
             initial: Initial::Free(masses.clone().map(|m| [cut(m[0]), cut(m[1])]).collect()),
             forcing: masses.map(|m| [cut(-m[2]), cut(-m[3])]).collect(),
+            overtones: Vec::new(),
         }
     }
 }

@@ -85,7 +85,8 @@ impl<const M: usize> Simulation<M> {
     }
 
     fn is_settled(&self, r: &Resting) -> bool {
-        r.f0 <= SHUT * self.spacing && r.g0.abs() <= SLOW * self.spacing * self.search.frequencies.omega
+        r.f0 <= SHUT * self.spacing
+            && r.g0.abs() <= SLOW * self.spacing * self.search.frequencies.omega
     }
 
     /// Takes the gaps whose state has just changed, grows them to whole runs of shut and slow
@@ -259,8 +260,7 @@ impl<const M: usize> Simulation<M> {
             for (i, (seen, own)) in seen.forced.iter().zip(forced.forced).enumerate() {
                 let frequencies = &self.search.frequencies;
                 u += seen[0] - own[0];
-                quadrature +=
-                    frequencies.big_omegas[i] / frequencies.omega * (seen[1] - own[1]);
+                quadrature += frequencies.big_omegas[i] / frequencies.omega * (seen[1] - own[1]);
             }
             self.motions[m] = own;
             self.motions[m].set_free(u, quadrature, p);
@@ -321,9 +321,7 @@ impl<const M: usize> Simulation<M> {
         let p = Phases::at(&self.rates, Instant::at(time));
         (0..self.gaps.len())
             .filter(|&k| self.gaps[k].in_contact)
-            .map(|k| {
-                (self.topology.label(k), self.forces[k].at(&p))
-            })
+            .map(|k| (self.topology.label(k), self.forces[k].at(&p)))
             .collect()
     }
 }

@@ -1,7 +1,7 @@
 //! The exact event-driven engine.
 
-use super::simulation::Simulation;
 use super::scenario::COMPONENTS;
+use super::simulation::Simulation;
 use super::{Error, Scenario};
 
 /// One impact.

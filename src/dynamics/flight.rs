@@ -24,10 +24,7 @@ pub struct Rates<const M: usize> {
 impl<const M: usize> Rates<M> {
     /// Of the given frequencies.
     pub fn new(frequencies: &Frequencies<M>) -> Self {
-        Rates {
-            free: Rate::new(frequencies.omega),
-            forced: frequencies.big_omegas.map(Rate::new),
-        }
+        Rates { free: Rate::new(frequencies.omega), forced: frequencies.big_omegas.map(Rate::new) }
     }
 }
 

@@ -213,8 +213,8 @@ impl Scenario {
         struct Kind {
             forcing_frequencies: Option<serde::de::IgnoredAny>,
         }
-        let several = serde_json::from_str::<Kind>(text)
-            .is_ok_and(|kind| kind.forcing_frequencies.is_some());
+        let several =
+            serde_json::from_str::<Kind>(text).is_ok_and(|kind| kind.forcing_frequencies.is_some());
         let scenario = if several {
             Form::<Vec<Pairs>>::read(text)?.scenario()?
         } else {

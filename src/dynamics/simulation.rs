@@ -20,7 +20,11 @@ use crate::numerics::window::next_window;
 
 /// The response (c, s) of an undamped oscillator to each component of Eq. (3), with ω² − Ω² as
 /// (ω − Ω)(ω + Ω).
-fn response<const M: usize>(w: f64, big_omegas: &[f64; M], amplitudes: &[[f64; 2]; M]) -> [[f64; 2]; M] {
+fn response<const M: usize>(
+    w: f64,
+    big_omegas: &[f64; M],
+    amplitudes: &[[f64; 2]; M],
+) -> [[f64; 2]; M] {
     std::array::from_fn(|m| {
         let factor = (w - big_omegas[m]) * (w + big_omegas[m]);
         amplitudes[m].map(|amplitude| amplitude / factor)
@@ -102,10 +106,11 @@ impl<const M: usize> Simulation<M> {
         for j in 0..n {
             let forced = response(w, &frequencies.big_omegas, &scenario.amplitudes(j));
             let [a, b] = match &scenario.initial {
-                Initial::Rest => frequencies.big_omegas.iter().zip(forced).fold(
-                    [0.0; 2],
-                    |[a, b], (big_w, [c, s])| [a - c, b - big_w / w * s],
-                ),
+                Initial::Rest => frequencies
+                    .big_omegas
+                    .iter()
+                    .zip(forced)
+                    .fold([0.0; 2], |[a, b], (big_w, [c, s])| [a - c, b - big_w / w * s]),
                 Initial::Zero => [0.0; 2],
                 Initial::Free(parts) => parts[j],
             };
@@ -416,7 +421,9 @@ impl<const M: usize> Simulation<M> {
         let frequencies = &self.search.frequencies;
         let (awaits, key) = match next_window(mean, free, &seen.forced, frequencies) {
             None => (Awaits::Nothing, Instant::NEVER),
-            Some(s) if s > frequencies.reach => (Awaits::Search { whole_reach: false }, self.now.after(s)),
+            Some(s) if s > frequencies.reach => {
+                (Awaits::Search { whole_reach: false }, self.now.after(s))
+            }
             Some(_) => return false,
         };
         self.gaps[k].awaits = awaits;
@@ -436,9 +443,7 @@ impl<const M: usize> Simulation<M> {
     /// Velocities of the masses 1..n at `time`, exact between the last event and the next.
     pub fn velocities(&self, time: f64) -> Vec<f64> {
         let phases = Phases::at(&self.rates, Instant::at(time));
-        self.masses(|_, motion| {
-            motion.seen(&phases).velocity(&self.search.frequencies)
-        })
+        self.masses(|_, motion| motion.seen(&phases).velocity(&self.search.frequencies))
     }
 
     /// Free parts (a_j, b_j) of the masses 1..n; those in contact share that of their cluster.

@@ -204,10 +204,7 @@ mod tests {
     }
 
     /// The frame's function in absolute form, with the platform's sine and cosine.
-    fn absolute(
-        frame: &Frame<1>,
-        frequencies: &Frequencies<1>,
-    ) -> impl Fn(f64) -> f64 + use<> {
+    fn absolute(frame: &Frame<1>, frequencies: &Frequencies<1>) -> impl Fn(f64) -> f64 + use<> {
         let (w, big_w) = (frequencies.omega, frequencies.big_omegas[0]);
         let Frame { f0, g0, alpha, forced: [[gamma, delta]], .. } = *frame;
         let q = g0 / w - big_w / w * delta;

@@ -60,7 +60,8 @@ fn hermite(left: [f64; 4], right: [f64; 4], w: f64) -> Row {
         }
     }
     // Degree seven: the eighth difference vanishes.
-    b[4] = (56.0 * (b[3] + b[5]) - 28.0 * (b[2] + b[6]) + 8.0 * (b[1] + b[7]) - (b[0] + b[8])) / 70.0;
+    b[4] =
+        (56.0 * (b[3] + b[5]) - 28.0 * (b[2] + b[6]) + 8.0 * (b[1] + b[7]) - (b[0] + b[8])) / 70.0;
     row(b[1..].try_into().expect("eight of nine"))
 }
 

@@ -51,10 +51,7 @@ fn stretch<const M: usize>(f: f64, p: &Point<M>, bound: f64, limit: f64) -> f64 
 /// its Bernstein coefficients on the interval bound it from below; they need no square root and
 /// no division. The first is f(a) ≥ 0 and the last f(b); `slack` covers the rounding of the values.
 #[inline]
-fn stays_open<const M: usize>(
-    a: &Point<M>,
-    b: &Point<M>,
-    h: f64, bound6: f64, slack: f64) -> bool {
+fn stays_open<const M: usize>(a: &Point<M>, b: &Point<M>, h: f64, bound6: f64, slack: f64) -> bool {
     let (ga, gb) = (h * a.g, h * b.g);
     let h2 = h * h;
     let (ha, hb) = (h2 * a.h, h2 * b.h);
@@ -203,4 +200,3 @@ fn before_root<const M: usize>(a: &Point<M>, b: &Point<M>, h: f64, bound6: f64) 
     t += 2.0 * wrong / slope;
     (slope < 0.0 && t > 0.0 && t < 1.0).then_some(t * h)
 }
-

@@ -98,7 +98,9 @@ mod tests {
             let mean = r * [0.999, 0.9, 1.001][i as usize % 3];
             let f = |s: f64| {
                 let y = frequencies.big_omegas[0] * s;
-                mean + free[0] * s.cos() + free[1] * s.sin() + forced[0] * y.cos()
+                mean + free[0] * s.cos()
+                    + free[1] * s.sin()
+                    + forced[0] * y.cos()
                     + forced[1] * y.sin()
             };
             let Some(wait) = next_window(mean, free, &[forced], &frequencies) else {

@@ -1,7 +1,7 @@
 //! The forcing of a scenario as the rivals see it: the one place that knows its components.
 
-pub use crate::dynamics::scenario::COMPONENTS;
 use crate::dynamics::Scenario;
+pub use crate::dynamics::scenario::COMPONENTS;
 use crate::numerics::clock::{Instant, Rate};
 use crate::numerics::trig::sin_cos_turn;
 
