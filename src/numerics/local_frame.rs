@@ -118,11 +118,11 @@ impl<const M: usize> Frame<M> {
         let [alpha, sine] = rotated([self.alpha, self.sine(frequencies)], frequencies.turn);
         let (mut f0, mut g0) = (alpha, frequencies.omega * sine);
         let mut forced = [[0.0; 2]; M];
-        for m in 0..M {
+        for (m, seen) in forced.iter_mut().enumerate() {
             mean -= self.forced[m][0];
-            forced[m] = rotated(self.forced[m], frequencies.forced_turns[m]);
-            f0 += forced[m][0];
-            g0 += frequencies.big_omegas[m] * forced[m][1];
+            *seen = rotated(self.forced[m], frequencies.forced_turns[m]);
+            f0 += seen[0];
+            g0 += frequencies.big_omegas[m] * seen[1];
         }
         Frame { f0: mean + f0, g0, alpha, forced, bound: self.bound, size: self.size }
     }
@@ -145,7 +145,7 @@ impl<const M: usize> Frame<M> {
         let mut h = -(w * w * free[0]);
         let mut j = -(w * w * w * free[1]);
         let mut forced = [[0.0; 2]; M];
-        for m in 0..M {
+        for (m, seen) in forced.iter_mut().enumerate() {
             let (big_w, [gamma, delta]) = (frequencies.big_omegas[m], self.forced[m]);
             let ratio = big_w * frequencies.inverse_omega;
             let y = big_w * s;
@@ -158,7 +158,7 @@ impl<const M: usize> Frame<M> {
             let part = [gamma * big_cos + delta * big_sin, delta * big_cos - gamma * big_sin];
             h -= big_w * big_w * part[0];
             j -= big_w * big_w * big_w * part[1];
-            forced[m] = part;
+            *seen = part;
         }
         Point { f, g, h, j, margin: ROUNDING * size, free, forced }
     }

@@ -55,7 +55,7 @@ pub fn refine<const M: usize>(
     let radius = RADIUS / frequencies.fastest;
     // Halley's step.
     let mut h = 2.0 * p.f * p.g / (p.f * p.h - 2.0 * p.g * p.g);
-    if !(h.abs() <= radius) {
+    if h.abs().partial_cmp(&radius).is_none_or(|order| order.is_gt()) {
         return Err(h);
     }
     let taylor = Taylor::about(p, frequencies);
