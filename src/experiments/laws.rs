@@ -30,7 +30,9 @@ pub struct LawsRow {
     pub impacts: u64,
     /// Share of impacts that follow one of an adjacent gap within δ: about c δ.
     pub near: Option<PowerLaw>,
-    /// Share of impacts with a closing speed below v: about c v².
+    /// Share of impacts with a closing speed below v: about c v². None where contact phases
+    /// began: before a pair sticks it chatters, and its last bounces are slow by another law, a
+    /// fixed number of them in each decade.
     pub slow: Option<PowerLaw>,
     /// Contact phases per impact.
     pub contact_phases_per_impact: f64,
@@ -80,23 +82,28 @@ pub fn run(rows: &[SweepRow]) -> Laws {
             sigma: row.sigma,
             impacts: row.impacts,
             near: fit(&row.near_decades[NEAR_FROM..], NEAR_DECADES[NEAR_FROM], 1, row.impacts),
-            slow: fit(&row.slow_decades[SLOW_FROM..], SLOW_DECADES[SLOW_FROM], 2, row.impacts),
+            slow: (row.contact_phases == 0)
+                .then(|| {
+                    let nested = &row.slow_decades[SLOW_FROM..];
+                    fit(nested, SLOW_DECADES[SLOW_FROM], 2, row.impacts)
+                })
+                .flatten(),
             contact_phases_per_impact: row.contact_phases as f64 / row.impacts as f64,
         })
         .collect();
-    let expected = |pick: fn(&LawsRow) -> Option<PowerLaw>, scale: f64| -> f64 {
-        fitted
-            .iter()
-            .filter_map(|row| Some(pick(row)?.coefficient * scale * row.impacts as f64))
-            .sum()
-    };
+    // With the exponent fixed, the counts at the first decade scale down to the limit.
+    let near_decades = sums(rows, NEAR_DECADES.len(), |row| &row.near_decades);
+    let slow_decades = sums(rows, SLOW_DECADES.len(), |row| &row.slow_decades);
+    let slow_ratio = SLOW / SLOW_DECADES[SLOW_FROM];
+    let first = |counts: &[u64], from: usize| counts[from] as f64;
     let totals = LawsTotals {
         impacts: rows.iter().map(|row| row.impacts).sum(),
-        near_decades: sums(rows, NEAR_DECADES.len(), |row| &row.near_decades),
-        slow_decades: sums(rows, SLOW_DECADES.len(), |row| &row.slow_decades),
         contact_phases: rows.iter().map(|row| row.contact_phases).sum(),
-        expected_near_simultaneous: expected(|row| row.near, NEAR_SIMULTANEOUS),
-        expected_slow: expected(|row| row.slow, SLOW * SLOW),
+        expected_near_simultaneous: first(&near_decades, NEAR_FROM)
+            * (NEAR_SIMULTANEOUS / NEAR_DECADES[NEAR_FROM]),
+        expected_slow: first(&slow_decades, SLOW_FROM) * slow_ratio * slow_ratio,
+        near_decades,
+        slow_decades,
     };
     Laws { rows: fitted, totals }
 }

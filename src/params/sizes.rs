@@ -166,6 +166,8 @@ impl StartsParams {
         };
         let near = Grid::default().and(8, 18, step, 100).values();
         let wide = Grid::default().and(8, 26, step, 100).values();
+        // A smaller r or a larger Ω move the rise up, a larger r or a smaller Ω move it down.
+        let low = Grid::default().and(4, 14, step, 100).values();
         let variant = |name: &str, sigmas: &Vec<f64>, change: fn(&mut Chain)| {
             let mut chain = Chain::default();
             change(&mut chain);
@@ -179,9 +181,9 @@ impl StartsParams {
         ];
         if profile == Profile::Full {
             variants.extend([
-                variant("restitution-0.6", &near, |c| c.restitution = 0.6),
-                variant("restitution-0.9", &near, |c| c.restitution = 0.9),
-                variant("forcing-frequency-1.3", &near, |c| c.forcing_frequency = 1.3),
+                variant("restitution-0.6", &wide, |c| c.restitution = 0.6),
+                variant("restitution-0.9", &low, |c| c.restitution = 0.9),
+                variant("forcing-frequency-1.3", &low, |c| c.forcing_frequency = 1.3),
                 variant("forcing-frequency-1.6", &wide, |c| c.forcing_frequency = 1.6),
             ]);
         }
