@@ -130,7 +130,12 @@ pub enum Profile {
     Full,
 }
 
+mod accuracy;
 mod sizes;
+
+pub use accuracy::{
+    AnalyticParams, BiasParams, MethodName, RaceParams, ScaleParams, Setting, TrialParams,
+};
 
 pub use sizes::{
     Grid, HorizonParams, ProtocolParams, StartVariant, StartsParams, SweepParams, TwoMassesParams,

@@ -20,6 +20,7 @@ pub(crate) mod sec6;
 mod sec7;
 pub(crate) mod sec8;
 pub(crate) mod sec9;
+pub mod targets;
 mod text;
 mod verdict;
 

@@ -2,16 +2,19 @@
 
 use super::sources::Sources;
 use super::{Failure, work};
+use impact_paper::claims::targets::{self, Standing, Target};
 use impact_paper::claims::{self, Claim};
 use impact_paper::params::Profile;
 use impact_paper::report::claims::plain;
 use std::collections::BTreeSet;
 use std::io::{self, Write};
 
-/// Holds every quantitative statement of the paper against what is computed here.
+/// Holds every quantitative statement of the paper against what is computed here, and the targets
+/// of this edition for its own speed and accuracy.
 ///
 /// Saved results are used where they are fresh; what is missing is run. Prints a row for each
-/// claim, and ends with exit code 1 if one differs without an explanation that holds.
+/// claim, and ends with exit code 1 if one differs without an explanation that holds, or if a
+/// target is missed that does not depend on the clock.
 #[derive(clap::Args)]
 pub struct Args {
     /// Sample sizes.
@@ -39,19 +42,23 @@ pub fn run(args: Args) -> Result<(), Failure> {
         [] => all,
         some => all.into_iter().filter(|id| some.iter().any(|one| one == id)).collect(),
     };
-    let needs: BTreeSet<_> = asked.iter().flat_map(|id| claims::needs(id)).copied().collect();
+    let mut needs: BTreeSet<_> = asked.iter().flat_map(|id| claims::needs(id)).copied().collect();
+    // The targets belong to the whole.
+    let whole = args.claim.is_empty();
+    if whole {
+        needs.extend(targets::NEEDS);
+    }
     let progress = work::progress();
-    let judged = work::on_threads(args.sources.threads, || {
+    let (judged, targets) = work::on_threads(args.sources.threads, || {
         let results = args.sources.run(&needs, profile, &templates, &progress)?;
-        asked
-            .iter()
-            .map(|id| {
-                claims::one(id, &results, &published).map_err(|e| Failure::run(e.to_string()))
-            })
-            .collect::<Result<Vec<Claim>, Failure>>()
+        let fault = |error: claims::Error| Failure::run(error.to_string());
+        let one = |id: &&str| claims::one(id, &results, &published).map_err(fault);
+        let judged = asked.iter().map(one).collect::<Result<Vec<Claim>, Failure>>()?;
+        let targets = if whole { targets::targets(&results).map_err(fault)? } else { Vec::new() };
+        Ok((judged, targets))
     })?;
     // Who closed the pipe has read enough; the exit code says the rest.
-    match print(&judged) {
+    match print(&judged, &targets) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
             let remedy = "direct it to a file that can be written";
             return Err(Failure::input(format!("standard output: {error}; {remedy}")));
@@ -61,7 +68,14 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let failing: Vec<&str> =
         judged.iter().filter(|claim| claim.fails()).map(|claim| claim.id.as_str()).collect();
     if failing.is_empty() {
-        return Ok(());
+        let missed = |target: &&Target| target.standing == Standing::Missed && !target.timed;
+        let missed: Vec<&str> = targets.iter().filter(missed).map(|target| target.id).collect();
+        if missed.is_empty() {
+            return Ok(());
+        }
+        let message =
+            format!("targets of accuracy or counted work are missed: {}", missed.join(", "));
+        return Err(Failure { code: 1, message });
     }
     let message = format!(
         "{} of {} claims differ without an explanation that holds: {}",
@@ -73,7 +87,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
 }
 
 /// A block of lines for each claim, and the scorecard.
-fn print(judged: &[Claim]) -> io::Result<()> {
+fn print(judged: &[Claim], targets: &[Target]) -> io::Result<()> {
     let mut out = io::BufWriter::new(io::stdout().lock());
     for claim in judged {
         let mark = if claim.fails() { "FAILS" } else { "ok" };
@@ -88,6 +102,15 @@ fn print(judged: &[Claim]) -> io::Result<()> {
         for (name, text) in fields.iter().filter(|(_, text)| !text.is_empty()) {
             writeln!(out, "      {name:8} {text}")?;
         }
+    }
+    for target in targets {
+        let (what, found, bound) = (target.what, plain(&target.found), plain(&target.bound));
+        writeln!(
+            out,
+            "target {}: {found} ({what}; {bound}): {}",
+            target.id,
+            target.standing.words()
+        )?;
     }
     let score: Vec<String> = claims::Verdict::ALL
         .iter()

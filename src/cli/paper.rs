@@ -22,9 +22,9 @@ pub struct Args {
     /// Sample sizes.
     #[arg(long, default_value = "full")]
     profile: work::ProfileName,
-    /// Draw this figure only (1 to 15; may be repeated): its SVG and its CSV are written.
+    /// Draw this figure only (1 to 15, s1 to s5; may be repeated): its SVG and its CSV are written.
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
-    figure: Vec<u8>,
+    figure: Vec<String>,
     /// Folder to write into [default: paper for the full profile, else target/paper-PROFILE].
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -43,10 +43,9 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let began = Instant::now();
     let profile = Profile::from(args.profile);
     let out = args.out.clone().unwrap_or_else(|| default_folder(profile));
-    if let Some(number) = args.figure.iter().find(|number| !figures::ALL.contains(number)) {
-        let message = format!("--figure: there is no figure {number}; give a number from 1 to 15");
-        return Err(Failure::input(message));
-    }
+    let read = |text: &String| text.parse().map_err(|e| Failure::input(format!("--figure: {e}")));
+    let numbers =
+        args.figure.iter().map(read).collect::<Result<BTreeSet<figures::Number>, Failure>>()?;
     refuse_over_full(profile, &out)?;
     let progress = work::progress();
     let staging = Staging::below(&out)?;
@@ -54,7 +53,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
         if args.figure.is_empty() {
             whole(&args.sources, profile, &progress)
         } else {
-            some(&args.sources, &args.figure, profile, &progress)
+            some(&args.sources, &numbers, profile, &progress)
         }
     })?;
     // What was there before is compared first: it is about to be replaced.
@@ -105,15 +104,14 @@ fn refuse_over_full(profile: Profile, out: &Path) -> Result<(), Failure> {
 /// The figures that were asked for, and nothing else.
 fn some(
     sources: &Sources,
-    numbers: &[u8],
+    numbers: &BTreeSet<figures::Number>,
     profile: Profile,
     progress: &Progress,
 ) -> Result<Files, Failure> {
-    let numbers: BTreeSet<u8> = numbers.iter().copied().collect();
     let needs = numbers.iter().flat_map(|&number| figures::needs(number)).copied().collect();
     let results = sources.run(&needs, profile, &sources.templates()?, progress)?;
     let mut files = Files::new();
-    for number in numbers {
+    for &number in numbers {
         progress.check()?;
         let figure = figures::draw(number, &results).map_err(|e| Failure::run(e.to_string()))?;
         files.extend(report::files_of(&figure));
@@ -129,7 +127,7 @@ fn whole(sources: &Sources, profile: Profile, progress: &Progress) -> Result<Fil
     let results = sources.run(&Need::ALL.into(), profile, &templates, progress)?;
     let fault = |error: &dyn std::error::Error| Failure::run(error.to_string());
     let mut drawn: Vec<Figure> = Vec::new();
-    for number in figures::ALL {
+    for number in figures::all() {
         progress.check()?;
         drawn.push(figures::draw(number, &results).map_err(|e| fault(&e))?);
     }

@@ -52,7 +52,8 @@ impl Sources {
         progress: &Progress,
     ) -> Result<Results, Failure> {
         let needs: Vec<Need> = needs.iter().copied().collect();
-        let long = needs.iter().any(|need| *need != Need::Segments);
+        let short = [Need::Segments, Need::Measured];
+        let long = needs.iter().any(|need| !short.contains(need));
         let store = if long { Store::open(&self.results)? } else { Store::nowhere() };
         let scenario = |file: &str| {
             let text = templates.text(file).map(String::from);

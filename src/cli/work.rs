@@ -59,7 +59,10 @@ impl From<Error> for Failure {
     fn from(error: Error) -> Self {
         let code = match &error {
             Error::Interrupted => INTERRUPTED,
-            Error::Input { .. } | Error::Scenario { .. } | Error::Store { .. } => 2,
+            Error::Input { .. }
+            | Error::Scenario { .. }
+            | Error::Store { .. }
+            | Error::Measured(_) => 2,
             Error::Dynamics { source: impact_paper::dynamics::Error::Input { .. }, .. } => 2,
             _ => 4,
         };

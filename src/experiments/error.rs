@@ -35,6 +35,9 @@ pub enum Error {
         /// What differs.
         problem: String,
     },
+    /// The file of measured times is broken.
+    #[error(transparent)]
+    Measured(#[from] super::measured::MeasuredError),
     /// A result was asked for that was not run.
     #[error("the results of {0:?} were not run; declare them among what is needed")]
     NotRun(super::Need),

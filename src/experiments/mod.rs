@@ -1,5 +1,6 @@
 //! What is run: one experiment a file, results that save and reload exactly.
 
+pub mod accuracy;
 pub mod error;
 pub mod horizon;
 pub mod identities;

@@ -1,6 +1,7 @@
 //! All results together, and the declaration of what a figure or a claim needs of them.
 
-use super::Error;
+use super::accuracy::{analytic, bias, race, scale, trials};
+use super::{Error, Measured};
 use super::{horizon, identities, laws, protocol, segments, starts, sweep, theory, two_masses};
 use crate::params::{Profile, VERTICES};
 use std::sync::LazyLock;
@@ -25,11 +26,23 @@ pub enum Need {
     TwoMasses,
     /// [`Results::segments`].
     Segments,
+    /// [`Results::race`].
+    Race,
+    /// [`Results::biases`].
+    Biases,
+    /// [`Results::trials`].
+    Trials,
+    /// [`Results::scale`].
+    Scale,
+    /// [`Results::analytic`].
+    Analytic,
+    /// [`Results::measured`]: read, not run.
+    Measured,
 }
 
 impl Need {
     /// Everything: what the report needs.
-    pub const ALL: [Need; 8] = [
+    pub const ALL: [Need; 14] = [
         Need::Sweep,
         Need::SecondSeed,
         Need::Protocol,
@@ -38,6 +51,12 @@ impl Need {
         Need::Horizon,
         Need::TwoMasses,
         Need::Segments,
+        Need::Race,
+        Need::Biases,
+        Need::Trials,
+        Need::Scale,
+        Need::Analytic,
+        Need::Measured,
     ];
 }
 
@@ -66,6 +85,18 @@ pub struct Results {
     pub two_masses: Option<two_masses::TwoMasses>,
     /// The motions of Figs. 5(b) and 6(b).
     pub segments: Option<segments::Segments>,
+    /// Every method against the true motion.
+    pub race: Option<race::Race>,
+    /// What methods do to the mean count.
+    pub biases: Option<bias::Biases>,
+    /// Every method in the scenes where methods fail.
+    pub trials: Option<trials::Trials>,
+    /// Counted work against the number of masses.
+    pub scale: Option<scale::Scale>,
+    /// Ways to compute Eqs. (9) and (25).
+    pub analytic: Option<analytic::Analytic>,
+    /// Times that were measured once.
+    pub measured: Option<Measured>,
 }
 
 macro_rules! asked_for {
@@ -101,6 +132,18 @@ asked_for! {
     two_masses: two_masses::TwoMasses, TwoMasses;
     /// The segments.
     segments: segments::Segments, Segments;
+    /// The methods against the truth.
+    race: race::Race, Race;
+    /// The bias of the methods.
+    biases: bias::Biases, Biases;
+    /// The scenes where methods fail.
+    trials: trials::Trials, Trials;
+    /// Work against size.
+    scale: scale::Scale, Scale;
+    /// The analytic methods.
+    analytic: analytic::Analytic, Analytic;
+    /// The measured times.
+    measured: Measured, Measured;
 }
 
 impl Results {
@@ -122,6 +165,12 @@ impl Results {
             horizon: None,
             two_masses: None,
             segments: None,
+            race: None,
+            biases: None,
+            trials: None,
+            scale: None,
+            analytic: None,
+            measured: None,
         }
     }
 }

@@ -1,9 +1,11 @@
 //! Runs what is needed, and nothing else; long runs are taken from the store.
 
-use super::{Error, Need, Progress, Results, Store};
+use super::accuracy::{analytic, bias, race, scale, trials};
+use super::{Error, Measured, Need, Progress, Results, Store};
 use super::{horizon, laws, protocol, segments, starts, sweep, two_masses};
 use crate::params::{
-    HorizonParams, Profile, ProtocolParams, StartsParams, SweepParams, TwoMassesParams,
+    AnalyticParams, BiasParams, HorizonParams, Profile, ProtocolParams, RaceParams, ScaleParams,
+    StartsParams, SweepParams, TrialParams, TwoMassesParams,
 };
 
 /// Runs the experiments behind `needs` with the sample sizes of a profile. `scenarios` gives the
@@ -26,6 +28,9 @@ pub fn run(
         };
         let [fig05, fig06] = segments::FILES.map(text);
         results.segments = Some(segments::run([&fig05?, &fig06?])?);
+    }
+    if needs(Need::Measured) {
+        results.measured = Some(Measured::find()?);
     }
     if needs(Need::Sweep) || needs(Need::Laws) {
         let parameters = SweepParams::main(profile);
@@ -59,6 +64,31 @@ pub fn run(
         let parameters = TwoMassesParams::new(profile);
         let run = || two_masses::run(&parameters, progress);
         results.two_masses = Some(store.get("two-masses", &parameters, progress, run)?);
+    }
+    if needs(Need::Race) {
+        let parameters = RaceParams::new(profile);
+        let run = || race::run(&parameters, progress);
+        results.race = Some(store.get("race", &parameters, progress, run)?);
+    }
+    if needs(Need::Biases) {
+        let parameters = BiasParams::new(profile);
+        let run = || bias::run(&parameters, progress);
+        results.biases = Some(store.get("bias", &parameters, progress, run)?);
+    }
+    if needs(Need::Trials) {
+        let parameters = TrialParams::new(profile);
+        let run = || trials::run(&parameters, progress);
+        results.trials = Some(store.get("trials", &parameters, progress, run)?);
+    }
+    if needs(Need::Scale) {
+        let parameters = ScaleParams::new(profile);
+        let run = || scale::run(&parameters, progress);
+        results.scale = Some(store.get("scale", &parameters, progress, run)?);
+    }
+    if needs(Need::Analytic) {
+        let parameters = AnalyticParams::new(profile);
+        let run = || analytic::run(&parameters, progress);
+        results.analytic = Some(store.get("analytic", &parameters, progress, run)?);
     }
     progress.check()?;
     Ok(results)

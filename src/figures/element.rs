@@ -167,17 +167,22 @@ impl<C> Drawable<Svg> for Marks<C> {
                         -2 * r
                     )
                 }
-                Mark::Square => {
+                Mark::Square | Mark::OpenSquare => {
                     write!(d, "M{},{}h{}v{}h{}z", x - r, y - r, 2 * r, 2 * r, -2 * r)
                 }
-                Mark::Diamond => {
+                Mark::Triangle | Mark::OpenTriangle => {
+                    write!(d, "M{x},{}l{r},{}h{}z", y - r, 2 * r, -2 * r)
+                }
+                Mark::Diamond | Mark::OpenDiamond => {
                     write!(d, "M{x},{}l{r},{r}l{},{r}l{},{}z", y - r, -r, -r, -r)
                 }
             };
         }
         let fill = match self.mark {
-            Mark::Disc | Mark::Square | Mark::Diamond => Some(self.stroke.colour),
-            Mark::Ring => Some(super::style::WHITE),
+            Mark::Disc | Mark::Square | Mark::Diamond | Mark::Triangle => Some(self.stroke.colour),
+            Mark::Ring | Mark::OpenSquare | Mark::OpenDiamond | Mark::OpenTriangle => {
+                Some(super::style::WHITE)
+            }
             Mark::Cross | Mark::Plus => None,
         };
         svg.path(&d, &self.stroke, fill);

@@ -9,7 +9,7 @@ use super::sheet::{Entry, Sheet};
 use super::style::{
     BLUE, Colour, Dash, GREEN, INK, LINE, Mark, ORANGE, PURPLE, RED, SMALL, Stroke, THIN,
 };
-use super::{DataFile, Error, Figure};
+use super::{DataFile, Error, Figure, Number};
 use crate::experiments::theory::{HigherDistribution, Theory};
 
 /// Largest k of the detail in (b).
@@ -32,7 +32,10 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     let sheet = Sheet::new(8050, None)?;
     let n = theory.vertices;
     let [small, middle, large] = theory.higher.as_slice() else {
-        return Err(Error::Shape { figure: 13, expected: "higher-order distributions at three p" });
+        return Err(Error::Shape {
+            figure: Number::Paper(13),
+            expected: "higher-order distributions at three p",
+        });
     };
     let mut data = Vec::new();
     let mut seen = Vec::new();

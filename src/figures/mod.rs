@@ -1,4 +1,5 @@
-//! The fifteen figures of the paper, one a file; each returns an SVG string and its data.
+//! The fifteen figures of the paper and those of this edition, one a file; each returns an SVG
+//! string and its data.
 
 mod axis;
 mod backend;
@@ -25,13 +26,21 @@ mod font;
 mod graph;
 mod markup;
 mod motion;
+mod number;
 mod panel;
+mod rivals;
+mod s01;
+mod s02;
+mod s03;
+mod s04;
+mod s05;
 mod series;
 mod sheet;
 mod simulated;
 mod style;
 
 pub use data::DataFile;
+pub use number::Number;
 
 use plotters::drawing::DrawingAreaErrorKind;
 use plotters_backend::DrawingErrorKind;
@@ -40,13 +49,15 @@ use thiserror::Error;
 use crate::experiments::{self, Need, Results};
 use crate::params::Profile;
 
-/// The numbers of all figures.
-pub const ALL: std::ops::RangeInclusive<u8> = 1..=15;
+/// All figures: first the paper's, then our own.
+pub fn all() -> impl Iterator<Item = Number> {
+    (1..=Number::PAPER).map(Number::Paper).chain((1..=Number::OWN).map(Number::Own))
+}
 
 /// A figure: the picture, what it shows in words, and its data.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
-    /// `fig01` … `fig15`; the picture's file name without its ending.
+    /// `fig01` … `fig15`, `s01` …; the picture's file name without its ending.
     pub id: String,
     /// A short name.
     pub title: String,
@@ -61,9 +72,9 @@ pub struct Figure {
 /// Why a figure cannot be drawn.
 #[derive(Debug, Error)]
 pub enum Error {
-    /// Not one of the fifteen.
-    #[error("there is no figure {0}; figures are numbered from 1 to 15")]
-    Number(u8),
+    /// There is none of that number.
+    #[error("there is no figure {0}; --figure lists those that there are")]
+    Number(Number),
     /// Its experiment was not run.
     #[error("a figure lacks its data: {0}")]
     Experiment(#[from] experiments::Error),
@@ -71,7 +82,7 @@ pub enum Error {
     #[error("figure {figure} expects {expected}")]
     Shape {
         /// The figure.
-        figure: u8,
+        figure: Number,
         /// What it expects.
         expected: &'static str,
     },
@@ -108,10 +119,15 @@ impl From<DrawingAreaErrorKind<Error>> for Error {
 }
 
 /// The experiments that a figure needs, beside the theory, which costs nothing.
-pub fn needs(number: u8) -> &'static [Need] {
+pub fn needs(number: Number) -> &'static [Need] {
     match number {
-        2 | 3 | 12 | 15 => &[Need::Sweep],
-        5 | 6 => &[Need::Segments],
+        Number::Paper(2 | 3 | 12 | 15) => &[Need::Sweep],
+        Number::Paper(5 | 6) => &[Need::Segments],
+        Number::Own(1) => &[Need::Race],
+        Number::Own(2) => &[Need::Race, Need::Measured],
+        Number::Own(3) => &[Need::Biases],
+        Number::Own(4) => &[Need::Scale, Need::Measured],
+        Number::Own(5) => &[Need::Analytic],
         _ => &[],
     }
 }
@@ -119,29 +135,34 @@ pub fn needs(number: u8) -> &'static [Need] {
 /// Draws one figure.
 ///
 /// # Errors
-/// [`Error::Number`] beyond 15, [`Error::Experiment`] without the results that it needs.
-pub fn draw(number: u8, results: &Results) -> Result<Figure, Error> {
+/// [`Error::Number`] if there is none, [`Error::Experiment`] without the results that it needs.
+pub fn draw(number: Number, results: &Results) -> Result<Figure, Error> {
     let note = match results.profile {
         Profile::Full => None,
         Profile::Ci => Some("profile ci: not for citation"),
         Profile::Quick => Some("profile quick: not for citation"),
     };
     match number {
-        1 => fig01::draw(),
-        2 => fig02::draw(results.sweep()?, note),
-        3 => fig03::draw(results.sweep()?, note),
-        4 => fig04::draw(),
-        5 => fig05::draw(results.segments()?),
-        6 => fig06::draw(results.segments()?),
-        7 => fig07::draw(&results.theory),
-        8 => fig08::draw(&results.theory),
-        9 => fig09::draw(&results.theory),
-        10 => fig10::draw(&results.theory),
-        11 => fig11::draw(&results.theory),
-        12 => fig12::draw(results.sweep()?, &results.theory, note),
-        13 => fig13::draw(&results.theory),
-        14 => fig14::draw(&results.theory),
-        15 => fig15::draw(results.sweep()?, &results.theory, note),
+        Number::Paper(1) => fig01::draw(),
+        Number::Paper(2) => fig02::draw(results.sweep()?, note),
+        Number::Paper(3) => fig03::draw(results.sweep()?, note),
+        Number::Paper(4) => fig04::draw(),
+        Number::Paper(5) => fig05::draw(results.segments()?),
+        Number::Paper(6) => fig06::draw(results.segments()?),
+        Number::Paper(7) => fig07::draw(&results.theory),
+        Number::Paper(8) => fig08::draw(&results.theory),
+        Number::Paper(9) => fig09::draw(&results.theory),
+        Number::Paper(10) => fig10::draw(&results.theory),
+        Number::Paper(11) => fig11::draw(&results.theory),
+        Number::Paper(12) => fig12::draw(results.sweep()?, &results.theory, note),
+        Number::Paper(13) => fig13::draw(&results.theory),
+        Number::Paper(14) => fig14::draw(&results.theory),
+        Number::Paper(15) => fig15::draw(results.sweep()?, &results.theory, note),
+        Number::Own(1) => s01::draw(results.race()?, note),
+        Number::Own(2) => s02::draw(results.race()?, results.measured()?, note),
+        Number::Own(3) => s03::draw(results.biases()?, note),
+        Number::Own(4) => s04::draw(results.scale()?, results.measured()?, note),
+        Number::Own(5) => s05::draw(results.analytic()?, note),
         _ => Err(Error::Number(number)),
     }
 }

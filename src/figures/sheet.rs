@@ -14,7 +14,7 @@ use super::backend::Svg;
 use super::element::{Curve, Marks};
 use super::panel::{Frame, Panel};
 use super::style::{self, Colour, GREY, INK, Mark, Stroke, TINY, WIDTH};
-use super::{DataFile, Error, Figure};
+use super::{DataFile, Error, Figure, Number};
 
 /// A figure in the making.
 pub struct Sheet {
@@ -207,7 +207,7 @@ impl Sheet {
         Ok(())
     }
 
-    /// Closes the figure.
+    /// Closes a figure of the paper.
     pub fn finish(
         self,
         number: u8,
@@ -215,7 +215,28 @@ impl Sheet {
         description: String,
         data: Vec<DataFile>,
     ) -> Figure {
-        let id = format!("fig{number:02}");
+        self.close(Number::Paper(number), title, description, data)
+    }
+
+    /// Closes a figure of this edition.
+    pub fn finish_own(
+        self,
+        number: u8,
+        title: &str,
+        description: String,
+        data: Vec<DataFile>,
+    ) -> Figure {
+        self.close(Number::Own(number), title, description, data)
+    }
+
+    fn close(
+        self,
+        number: Number,
+        title: &str,
+        description: String,
+        data: Vec<DataFile>,
+    ) -> Figure {
+        let id = number.id();
         let svg = self.svg.borrow().document(&id, title, &description);
         Figure { id, title: title.into(), description, svg, data }
     }

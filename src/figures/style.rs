@@ -132,6 +132,14 @@ pub enum Mark {
     Square,
     /// Filled diamond.
     Diamond,
+    /// Filled triangle.
+    Triangle,
+    /// Open square.
+    OpenSquare,
+    /// Open diamond.
+    OpenDiamond,
+    /// Open triangle.
+    OpenTriangle,
 }
 
 /// A text style with the given size, colour and anchor. Top is the height of capitals, bottom the

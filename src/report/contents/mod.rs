@@ -2,8 +2,9 @@
 //!
 //! A value is computed here from results and carries the path of the item that computed it. Groups
 //! are `v` (ours), `paper` (numbers that the paper chose), `printed` (numbers in its statements),
-//! `compare`, `protocol` and `starts` (cells of three tables).
+//! `compare`, `protocol`, `starts` and `bias` (cells of four tables).
 
+mod accuracy;
 mod comparison;
 mod higher;
 mod ledger;
@@ -54,13 +55,15 @@ pub fn registry(results: &Results, published: &Published) -> Result<Registry, Er
     registry.extend(higher::values(results)?)?;
     registry.extend(protocol::values(results)?)?;
     registry.extend(starts::values(results)?)?;
+    registry.extend(accuracy::values(results)?)?;
     registry.extend(ledger::values(results))?;
     Ok(registry)
 }
 
 /// The rows of the generated tables, by the name that templates use: `row` (a reference to each
-/// claim with its verdict), `comparison_table`, `protocol_windows`, `protocol_table` and
-/// `starts_table`.
+/// claim with its verdict), `comparison_table`, `protocol_windows`, `protocol_table`,
+/// `starts_table`, `bias_heads`, `bias_table`, `bias_means`, `scene_heads`, `scene_table` and
+/// `target_table`.
 ///
 /// # Errors
 /// If a result is missing.
@@ -74,6 +77,12 @@ pub fn rows(
         ("protocol_windows", serde_json::to_value(protocol::windows(results)?)?),
         ("protocol_table", serde_json::to_value(protocol::table(results)?)?),
         ("starts_table", serde_json::to_value(starts::table(results)?)?),
+        ("bias_heads", serde_json::to_value(accuracy::bias_heads(results)?)?),
+        ("bias_table", serde_json::to_value(accuracy::bias_table(results)?)?),
+        ("bias_means", serde_json::to_value(accuracy::bias_means(results)?)?),
+        ("scene_heads", serde_json::to_value(accuracy::scene_heads(results)?)?),
+        ("scene_table", serde_json::to_value(accuracy::scene_table(results)?)?),
+        ("target_table", serde_json::to_value(accuracy::target_table(results)?)?),
     ]))
 }
 

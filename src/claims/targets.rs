@@ -1,0 +1,311 @@
+//! What this edition promises about its own speed and accuracy, and what is found.
+//!
+//! A target that rests on counted work or on accuracy is decided by the results; one that rests on
+//! the clock by the committed measurements, and is open while nobody measured it.
+
+use super::{Error, Text};
+use crate::experiments::accuracy::analytic::{Analytic, Route, Way};
+use crate::experiments::accuracy::race::{Entry, Race};
+use crate::experiments::measured::{Row, What};
+use crate::experiments::{Measured, Need, Results};
+use crate::params::MethodName;
+use serde::Serialize;
+
+/// Whether a target is met.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Standing {
+    /// It is.
+    Met,
+    /// It is not.
+    Missed,
+    /// Nobody measured it.
+    Open,
+}
+
+impl Standing {
+    /// The standing in words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Standing::Met => "met",
+            Standing::Missed => "missed",
+            Standing::Open => "not measured",
+        }
+    }
+
+    fn of(met: bool) -> Self {
+        if met { Standing::Met } else { Standing::Missed }
+    }
+}
+
+/// One target.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Target {
+    /// Its id.
+    pub id: &'static str,
+    /// What is promised, in words.
+    pub what: &'static str,
+    /// The bound.
+    pub bound: Text,
+    /// What was found.
+    pub found: Text,
+    /// Whether times of the clock decide it.
+    pub timed: bool,
+    /// Whether it is met.
+    pub standing: Standing,
+}
+
+/// The experiments that the targets need.
+pub const NEEDS: &[Need] = &[Need::Race, Need::Analytic, Need::Scale, Need::Trials, Need::Measured];
+
+/// Largest error of p(σ), and of P(X = k) and its mean, that is allowed.
+pub const DIGITS: f64 = 1e-13;
+
+/// Largest error of a waiting time in units of ε (d + R₁ + R₂)/|Δ'| that is allowed.
+pub const UNITS: f64 = 8.0;
+
+/// All targets, those of the clock first.
+///
+/// # Errors
+/// If a result is missing.
+pub fn targets(results: &Results) -> Result<Vec<Target>, Error> {
+    let measured = results.measured()?;
+    let (race, analytic) = (results.race()?, results.analytic()?);
+    let mut all = clock(measured);
+    all.extend(memory(measured));
+    all.push(growth(results)?);
+    all.extend(segments(race));
+    all.push(scenes(results)?);
+    all.extend(digits(analytic));
+    Ok(all)
+}
+
+fn engine(measured: &Measured, n: u64) -> Option<&Row> {
+    let own = measured.of(What::Engine).filter(|row| row.n == n && row.chains == 1);
+    own.filter(|row| row.note.is_empty()).find(|row| row.microseconds_per_impact.is_some())
+}
+
+/// A target of the form "at most".
+fn at_most(
+    (id, what): (&'static str, &'static str),
+    (bound, unit): (f64, &str),
+    found: Option<f64>,
+    timed: bool,
+) -> Target {
+    let (text, standing) = match found {
+        Some(x) => (Text::default().significant(x, 3).say(unit), Standing::of(x <= bound)),
+        None => (Text::words("–"), Standing::Open),
+    };
+    let bound = if bound == 0.0 {
+        Text::words("none")
+    } else {
+        Text::words("≤ ").chosen(bound).say(unit)
+    };
+    Target { id, what, bound, found: text, timed, standing }
+}
+
+fn clock(measured: &Measured) -> Vec<Target> {
+    let time = |row: Option<&Row>| row.and_then(|row| row.microseconds_per_impact);
+    let ensemble = measured
+        .of(What::Ensemble)
+        .filter(|row| row.threads == 1)
+        .filter_map(|row| row.microseconds_per_impact)
+        .min_by(f64::total_cmp);
+    let command = |name: &str| {
+        measured.of(What::Command).find(|row| row.name == name).and_then(|row| row.seconds)
+    };
+    let ratio = time(engine(measured, 1_000_000)).zip(time(engine(measured, 100)));
+    let one = ("one_chain", "time of an impact, one chain of 100 masses");
+    let many = ("ensemble", "time of an impact, an ensemble on one core");
+    let size = ("size", "time of an impact at a million masses, over that at a hundred");
+    let mut all = vec![
+        at_most(one, (0.25, " µs"), time(engine(measured, 100)), true),
+        at_most(many, (0.12, " µs"), ensemble, true),
+        against(
+            measured,
+            "heyoka_20",
+            "time of heyoka at its tightest over ours, 20 masses",
+            20,
+            25.0,
+        ),
+        against(measured, "heyoka_100", "the same, 100 masses", 100, 100.0),
+        at_most(size, (2.0, ""), ratio.map(|(a, b)| a / b), true),
+    ];
+    for (name, what, bound) in [
+        ("quick", "the quick profile", 5.0),
+        ("ci", "the profile of pull requests", 30.0),
+        ("full", "the full profile", 120.0),
+        ("main sweep", "its main sweep alone", 60.0),
+    ] {
+        all.push(at_most((name, what), (bound, " s"), command(name), true));
+    }
+    all
+}
+
+/// How many times faster we are than heyoka at its tightest tolerance, with a horizon no shorter
+/// and no more segments missed.
+fn against(
+    measured: &Measured,
+    id: &'static str,
+    what: &'static str,
+    n: u64,
+    bound: f64,
+) -> Target {
+    let peers = measured.of(What::Peer).filter(|row| row.n == n && row.name.starts_with("heyoka"));
+    let tightest = peers.max_by_key(|row| row.horizon_impact.or(row.compared));
+    let (found, standing) = match tightest.zip(engine(measured, n)) {
+        Some((peer, own)) => match peer.microseconds_per_impact.zip(own.microseconds_per_impact) {
+            Some((theirs, ours)) => {
+                let reach = |row: &Row| row.horizon_impact.or(row.compared);
+                let faster = theirs / ours >= bound && reach(own) >= reach(peer);
+                (Text::default().significant(theirs / ours, 3), Standing::of(faster))
+            }
+            None => (Text::words("–"), Standing::Open),
+        },
+        None => (Text::words("–"), Standing::Open),
+    };
+    Target { id, what, bound: Text::words("≥ ").chosen(bound), found, timed: true, standing }
+}
+
+fn memory(measured: &Measured) -> Vec<Target> {
+    let full = measured.of(What::Command).find(|row| row.name == "full");
+    let million = measured.of(What::Engine).filter(|row| row.n == 1_000_000);
+    let million = million.filter_map(|row| row.peak_mib).min_by(f64::total_cmp);
+    let whole = ("memory", "memory of the full profile");
+    let large = ("million", "memory of a chain of a million masses");
+    vec![
+        at_most(whole, (300.0, " MiB"), full.and_then(|row| row.peak_mib), true),
+        at_most(large, (1024.0, " MiB"), million, true),
+    ]
+}
+
+/// Counted work of the largest chain over that of a hundred masses.
+fn growth(results: &Results) -> Result<Target, Error> {
+    let scale = results.scale()?;
+    let own = || scale.rows.iter().filter(|row| row.setting.method == MethodName::Certified);
+    let largest = own().max_by_key(|row| row.masses);
+    let hundred = own().find(|row| row.masses == 100);
+    let ratio =
+        largest.zip(hundred).map(|(a, b)| a.evaluations_per_impact / b.evaluations_per_impact);
+    let name =
+        ("work", "evaluations per impact in the largest chain over those at a hundred masses");
+    Ok(at_most(name, (2.0, ""), ratio, false))
+}
+
+/// The certified engine among the methods.
+pub(crate) fn own_entry(race: &Race) -> Option<&Entry> {
+    race.entries.iter().find(|entry| entry.setting.method == MethodName::Certified)
+}
+
+fn segments(race: &Race) -> Vec<Target> {
+    let own = own_entry(race);
+    let misses = own.map(|entry| entry.segments.misses() as f64);
+    let units = own.and_then(|entry| entry.segments.units);
+    let missed = ("misses", "impacts missed from exact states");
+    let waiting = (
+        "waiting",
+        "largest error of a waiting time, in units of $\\epsilon (d + R_1 + R_2)/\\lvert\\dot\\Delta\\rvert$",
+    );
+    vec![at_most(missed, (0.0, ""), misses, false), at_most(waiting, (UNITS, ""), units, false)]
+}
+
+fn scenes(results: &Results) -> Result<Target, Error> {
+    let trials = results.trials()?;
+    let own = |method: MethodName| method == MethodName::Certified;
+    let wrong: usize = trials
+        .scenes
+        .iter()
+        .flat_map(|scene| scene.trials.iter().filter(|t| own(t.setting.method)))
+        .map(|trial| trial.verdicts.len() - trial.right())
+        .sum();
+    let name = ("scenes", "cases of the scenes of failure with another outcome than expected");
+    Ok(at_most(name, (0.0, ""), Some(wrong as f64), false))
+}
+
+/// Largest error of the closed form of Eq. (25) over σ.
+pub(crate) fn relation_error(analytic: &Analytic, route: Route) -> Option<f64> {
+    let own = analytic.relation.iter().find(|own| own.route == route)?;
+    own.points.iter().map(|point| point.1).max_by(f64::total_cmp)
+}
+
+/// Largest error of a way to the distribution over N.
+pub(crate) fn distribution_error(analytic: &Analytic, way: Way) -> Option<f64> {
+    let own = analytic.distribution.iter().find(|own| own.way == way)?;
+    own.points.iter().filter_map(|point| point.error).max_by(f64::total_cmp)
+}
+
+fn digits(analytic: &Analytic) -> Vec<Target> {
+    let relation = relation_error(analytic, Route::ClosedForm);
+    let products = distribution_error(analytic, Way::Products);
+    let first = ("relation", "largest relative error of $p(\\sigma)$, [@eq:25]");
+    let second = ("distribution", "largest relative error of $P(X = k)$ and $\\mu$, [@eq:9]");
+    vec![
+        at_most(first, (DIGITS, ""), relation, false),
+        at_most(second, (DIGITS, ""), products, false),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::experiments::{Progress, Store, run::run};
+    use crate::params::Profile;
+
+    fn results() -> Results {
+        let none = |_: &str| Err("not needed".to_string());
+        run(NEEDS, Profile::Quick, none, &Store::nowhere(), &Progress::silent()).unwrap()
+    }
+
+    fn standing(results: &Results, id: &str) -> Standing {
+        targets(results).unwrap().iter().find(|target| target.id == id).unwrap().standing
+    }
+
+    /// Each target can be missed: make the results worse and it is.
+    #[test]
+    fn targets_follow_the_numbers() {
+        let mut results = results();
+        for id in ["misses", "waiting", "scenes", "work", "relation", "distribution"] {
+            assert_eq!(standing(&results, id), Standing::Met, "{id}");
+        }
+        let race = results.race.as_mut().unwrap();
+        race.entries[0].segments.unseen += 1;
+        race.entries[0].segments.units = Some(9.0);
+        let analytic = results.analytic.as_mut().unwrap();
+        analytic.relation.last_mut().unwrap().points[0].1 = 2e-13;
+        analytic.distribution.last_mut().unwrap().points[0].error = Some(2e-13);
+        let verdicts = &mut results.trials.as_mut().unwrap().scenes[0].trials[0].verdicts;
+        verdicts[0] = crate::experiments::accuracy::scenes::Verdict::Missed;
+        let scale = results.scale.as_mut().unwrap();
+        let own = |m: MethodName| m == MethodName::Certified;
+        let largest = scale.rows.iter_mut().filter(|row| own(row.setting.method)).last();
+        largest.unwrap().evaluations_per_impact *= 3.0;
+        for id in ["misses", "waiting", "scenes", "work", "relation", "distribution"] {
+            assert_eq!(standing(&results, id), Standing::Missed, "{id}");
+        }
+    }
+
+    #[test]
+    fn times_decide_and_their_absence_leaves_open() {
+        let mut results = results();
+        let measured = results.measured.as_mut().unwrap();
+        let mut row = measured.of(What::Engine).find(|row| row.n == 100).unwrap().clone();
+        measured.rows.clear();
+        for id in ["one_chain", "ensemble", "heyoka_20", "size", "full", "memory"] {
+            assert_eq!(standing(&results, id), Standing::Open, "{id}");
+        }
+        row.microseconds_per_impact = Some(0.2);
+        let peer = Row {
+            what: What::Peer,
+            name: "heyoka".into(),
+            microseconds_per_impact: Some(19.0),
+            ..row.clone()
+        };
+        results.measured.as_mut().unwrap().rows = vec![row, peer];
+        assert_eq!(standing(&results, "one_chain"), Standing::Met);
+        assert_eq!(standing(&results, "heyoka_100"), Standing::Missed, "95 times faster");
+        results.measured.as_mut().unwrap().rows[1].microseconds_per_impact = Some(21.0);
+        assert_eq!(standing(&results, "heyoka_100"), Standing::Met);
+        results.measured.as_mut().unwrap().rows[0].horizon_impact = Some(2);
+        assert_eq!(standing(&results, "heyoka_100"), Standing::Missed, "a shorter horizon");
+    }
+}

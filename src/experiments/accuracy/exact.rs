@@ -1,0 +1,111 @@
+//! Elementary functions of numbers with 106 bits: what the references of this experiment need, and
+//! nothing else. Each is a series of falling terms after a reduction of the argument; they are slow
+//! and good to about 1e−30.
+
+use crate::numerics::double_double::DoubleDouble;
+use crate::numerics::scaled::Scaled;
+
+/// π/2 to 106 bits.
+const HALF_PI: DoubleDouble =
+    DoubleDouble { hi: std::f64::consts::FRAC_PI_2, lo: 6.123_233_995_736_766e-17 };
+
+/// Terms below this part of the sum change no bit of 106.
+const NEGLIGIBLE: f64 = 1e-33;
+
+fn dd(x: f64) -> DoubleDouble {
+    DoubleDouble::from(x)
+}
+
+/// Σ term_k with term_{k+1} = term_k · `ratio`(k), from `first` on, until the terms are negligible.
+fn series(first: DoubleDouble, ratio: impl Fn(f64) -> DoubleDouble) -> DoubleDouble {
+    let (mut term, mut sum, mut k) = (first, first, 0.0);
+    while term.hi.abs() > NEGLIGIBLE * sum.hi.abs() {
+        term = term * ratio(k);
+        sum = sum + term;
+        k += 1.0;
+    }
+    sum
+}
+
+/// sin x and cos x; the absolute error grows as 1e−32 |x|.
+pub fn sin_cos(x: DoubleDouble) -> [DoubleDouble; 2] {
+    let turns = (x / HALF_PI).hi.round();
+    let r = x - HALF_PI * turns;
+    let square = -(r * r);
+    let part = |k: f64| square / dd((k + 1.0) * (k + 2.0));
+    let sin = if r.hi == 0.0 { r } else { series(r, |k| part(2.0 * k + 1.0)) };
+    let cos = series(DoubleDouble::ONE, |k| part(2.0 * k));
+    match turns.rem_euclid(4.0) as u8 {
+        0 => [sin, cos],
+        1 => [cos, -sin],
+        2 => [-sin, -cos],
+        _ => [-cos, sin],
+    }
+}
+
+/// e^{−x} for x ≥ 0, however small.
+pub fn decay(x: DoubleDouble) -> Scaled {
+    // e^{−x} = (e^{−x/1024})^1024, and so on until the series is short.
+    if x.hi > 1.0 {
+        let root = decay(x.times_power_of_two(1.0 / 1024.0));
+        return (0..10).fold(root, |power, _| power.square());
+    }
+    Scaled::from(series(DoubleDouble::ONE, |k| -x / dd(k + 1.0)))
+}
+
+/// √π erf(x)/2 for x ≥ 0: x e^{−x²} Σ (2x²)^k/(2k + 1)!!, a sum of positive terms.
+pub fn erf_integral(x: DoubleDouble) -> Scaled {
+    let square = x * x;
+    // From here on erf is 1 to 106 bits.
+    if x.hi > 8.7 {
+        return Scaled::from(HALF_PI.times_power_of_two(2.0).sqrt().times_power_of_two(0.5));
+    }
+    let sum = series(DoubleDouble::ONE, |k| square.times_power_of_two(2.0) / dd(2.0 * k + 3.0));
+    Scaled::from(x) * Scaled::from(sum) * decay(square)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn close(a: DoubleDouble, b: DoubleDouble, bound: f64) {
+        assert!((a - b).to_f64().abs() < bound, "{a:?} {b:?}");
+    }
+
+    /// Addition theorems join different octants and arguments of different size.
+    #[test]
+    fn sines_obey_their_addition_theorem() {
+        for (a, b) in [(0.3, 0.9), (2.0, 40.7), (-5.5, 100.25), (1e3, 0.125)] {
+            let [sa, ca] = sin_cos(dd(a));
+            let [sb, cb] = sin_cos(dd(b));
+            let [s, c] = sin_cos(dd(a) + dd(b));
+            close(s, sa * cb + ca * sb, 1e-28);
+            close(c, ca * cb - sa * sb, 1e-28);
+            assert!((s.to_f64() - pxfm::f_sin(a + b)).abs() < 2e-16);
+        }
+    }
+
+    #[test]
+    fn decay_halves_and_multiplies() {
+        for (a, b) in [(0.5, 0.25), (3.0, 700.0), (40.5, 0.001)] {
+            let one = decay(dd(a) + dd(b)) / (decay(dd(a)) * decay(dd(b)));
+            close(one.to_double_double(), DoubleDouble::ONE, 1e-27);
+            assert!((decay(dd(a)).to_f64() / pxfm::f_exp(-a) - 1.0).abs() < 1e-15);
+        }
+        // e^{−2000} is far below the range of doubles.
+        let tiny = decay(dd(2000.0));
+        assert!(tiny.to_f64() == 0.0 && (tiny.ln() + 2000.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_error_function_of_doubles() {
+        let root_pi = std::f64::consts::PI.sqrt();
+        for x in [0.01, 0.5, 1.0, 2.5, 6.0, 8.6, 9.0, 30.0] {
+            let ours = erf_integral(dd(x)).to_f64() * 2.0 / root_pi;
+            assert!((ours / pxfm::f_erf(x) - 1.0).abs() < 1e-15, "{x}");
+        }
+        // Both sides of the place where the series ends.
+        let [a, b] = [8.699_999, 8.700_001].map(|x| erf_integral(dd(x)).to_double_double());
+        close(a, b, 1e-28);
+    }
+}

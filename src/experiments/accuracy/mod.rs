@@ -1,0 +1,20 @@
+//! Speed against accuracy: what each way to compute costs, and where it fails.
+//!
+//! - [`race`]: every method against the true motion, segment by segment and run by run.
+//! - [`bias`]: what a method does to the mean number of gaps that impact.
+//! - [`scenes`], [`trials`]: situations in which methods fail, and what each makes of them.
+//! - [`scale`]: counted work against the number of masses.
+//! - [`analytic`]: ways to compute Eq. (25) and the distribution of Eq. (9).
+//!
+//! Cost is counted work here, which is the same on every machine; times of the clock are in
+//! [`super::measured`].
+
+pub mod analytic;
+pub mod bias;
+mod exact;
+pub mod race;
+mod routes;
+pub mod scale;
+pub mod scenes;
+pub mod trials;
+pub mod truth;

@@ -1,0 +1,313 @@
+//! Every method against the true motion: the next impact from exact states, and whole runs until
+//! they leave the truth, with the counted work of both.
+
+use super::routes::method;
+use super::truth::{Hit, Truth};
+use crate::dynamics::methods::State;
+use crate::dynamics::{self, Impact, Scenario};
+use crate::experiments::horizon::{self, Horizon};
+use crate::experiments::{Error, Progress};
+use crate::numerics::double_double::DoubleDouble;
+use crate::numerics::random::NormalPairs;
+use crate::numerics::statistics::{mean, quantile, standard_error};
+use crate::params::{RaceParams, Setting};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+/// A time off by more than this counts as lost, in units of 1/ω.
+pub const DISPLACED: f64 = 1e-3;
+
+/// No state waits longer than this for its next impact.
+const LONGEST: f64 = 1e3;
+
+/// Waiting longer than this beyond the true impact is no use.
+const PATIENCE: f64 = 0.1;
+
+/// All methods against the truth.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Race {
+    /// What was run.
+    pub parameters: RaceParams,
+    /// Growth of small differences in the same chain.
+    pub growth: Horizon,
+    /// Impacts of the true motion of each chain.
+    pub impacts: Vec<u64>,
+    /// One for each setting, in their order.
+    pub entries: Vec<Entry>,
+}
+
+/// What one method with one setting did.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Entry {
+    /// Method and setting.
+    pub setting: Setting,
+    /// Steps per impact of the runs.
+    pub steps_per_impact: Option<f64>,
+    /// Evaluations per impact of the runs.
+    pub evaluations_per_impact: Option<f64>,
+    /// Where each run left the truth.
+    pub runs: Vec<Run>,
+    /// Mean time at which the runs left the truth, and its standard error; those that did not
+    /// count with the end of the run, so the mean is then a lower bound.
+    pub horizon: Option<[f64; 2]>,
+    /// The next impact from exact states.
+    pub segments: Segments,
+}
+
+/// Where one run left the truth.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Run {
+    /// Number, from 1, of the first impact of the truth that it has not within [`DISPLACED`].
+    pub impact: Option<u64>,
+    /// Time of that impact; the end of the run if there was none.
+    pub time: f64,
+    /// What stopped it, if it could not go on.
+    pub failure: Option<String>,
+}
+
+/// The next impact from exact states.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Segments {
+    /// States tried.
+    pub tried: u64,
+    /// No impact was seen, or it came too late by far.
+    pub unseen: u64,
+    /// The first impact seen was of another gap.
+    pub wrong_gap: u64,
+    /// The right gap, and its time off by more than [`DISPLACED`].
+    pub displaced: u64,
+    /// Refused, or given up.
+    pub failed: u64,
+    /// Median, nine tenths and largest error of the time, of those with the right gap.
+    pub errors: Option<[f64; 3]>,
+    /// The largest of these errors in units of ε (d + R₁ + R₂)/|Δ'|.
+    pub units: Option<f64>,
+}
+
+impl Segments {
+    /// Segments whose next impact was not found, or not within [`DISPLACED`].
+    pub fn misses(&self) -> u64 {
+        self.unseen + self.wrong_gap + self.displaced + self.failed
+    }
+}
+
+/// The true motion of one chain.
+struct Course {
+    scenario: Scenario,
+    hits: Vec<(Hit, State)>,
+}
+
+/// Runs everything.
+///
+/// # Errors
+/// [`Error::Interrupted`]; [`Error::Dynamics`] if the truth cannot be computed.
+pub fn run(parameters: &RaceParams, progress: &Progress) -> Result<Race, Error> {
+    let growth = horizon::run(&parameters.growth, progress)?;
+    let failed = |source| Error::Dynamics { experiment: "race", source };
+    let courses: Vec<Course> = (0..parameters.chains)
+        .into_par_iter()
+        .with_max_len(1)
+        .map(|index| {
+            progress.check()?;
+            let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, index as u64);
+            let scenario = Scenario::draw(&parameters.chain, parameters.sigma, &mut normals);
+            let mut truth = Truth::of(&scenario, &State::of(&scenario));
+            let hits = truth.run(parameters.until).map_err(failed)?;
+            Ok(Course { scenario, hits })
+        })
+        .collect::<Result<_, Error>>()?;
+    let targets = targets(parameters, &courses)?;
+    let stage = progress.stage("methods against the truth", parameters.settings.len() as u64);
+    let entries: Vec<Entry> = parameters
+        .settings
+        .par_iter()
+        .with_max_len(1)
+        .map(|&setting| {
+            let entry = entry(parameters, setting, &courses, &targets, progress)?;
+            stage.advance(1);
+            Ok(entry)
+        })
+        .collect::<Result<_, Error>>()?;
+    Ok(Race {
+        parameters: parameters.clone(),
+        growth,
+        impacts: courses.iter().map(|course| course.hits.len() as u64).collect(),
+        entries,
+    })
+}
+
+/// A state to start from at t = 0, and the true next impact of exactly these doubles.
+struct Target {
+    scenario: Scenario,
+    state: State,
+    hit: Hit,
+    /// ε (d + R₁ + R₂)/|Δ'|: what rounding the gap makes of its time.
+    unit: f64,
+}
+
+/// States right after impacts of the true motion. Each is moved to t = 0, the forcing with it, so
+/// that the rounding of a late time hides no error.
+fn targets(parameters: &RaceParams, courses: &[Course]) -> Result<Vec<Target>, Error> {
+    let failed = |source| Error::Dynamics { experiment: "race", source };
+    let wanted = parameters.segments / courses.len().max(1);
+    let mut targets = Vec::with_capacity(parameters.segments);
+    for Course { scenario, hits } in courses {
+        let last = hits.len().saturating_sub(1);
+        for i in 0..wanted.min(last) {
+            let (_, state) = &hits[i * last / wanted.min(last)];
+            let scenario = state.as_scenario(scenario).map_err(failed)?;
+            let state = State { time: 0.0, ..state.clone() };
+            let truth = Truth::of(&scenario, &state);
+            targets.extend(truth.next(LONGEST).map_err(failed)?.map(|hit| {
+                let unit = f64::EPSILON * truth.scale(hit.gap) / hit.closing_speed;
+                Target { scenario, state, hit, unit }
+            }));
+        }
+    }
+    Ok(targets)
+}
+
+fn entry(
+    parameters: &RaceParams,
+    setting: Setting,
+    courses: &[Course],
+    targets: &[Target],
+    progress: &Progress,
+) -> Result<Entry, Error> {
+    let (mut impacts, mut steps, mut evaluations) = (0, 0, 0);
+    let mut runs = Vec::with_capacity(courses.len());
+    for course in courses {
+        progress.check()?;
+        let (run, cost) = follow(parameters, setting, course, progress);
+        progress.check()?;
+        runs.push(run);
+        if let Some(cost) = cost {
+            impacts += cost.impacts;
+            steps += cost.steps;
+            evaluations += cost.evaluations;
+        }
+    }
+    let per_impact = |count: u64| (impacts > 0).then(|| count as f64 / impacts as f64);
+    let times: Vec<f64> = runs.iter().map(|run| run.time).collect();
+    let segments = segments(setting, targets, progress)?;
+    Ok(Entry {
+        setting,
+        steps_per_impact: per_impact(steps),
+        evaluations_per_impact: per_impact(evaluations),
+        horizon: mean(&times).map(|m| [m, standard_error(&times).unwrap_or(0.0)]),
+        runs,
+        segments,
+    })
+}
+
+/// Runs one chain from its start until it has left the truth and its cost is known.
+fn follow(
+    parameters: &RaceParams,
+    setting: Setting,
+    course: &Course,
+    progress: &Progress,
+) -> (Run, Option<dynamics::methods::Cost>) {
+    let end = Run { impact: None, time: parameters.until, failure: None };
+    let mut run: Option<Run> = None;
+    let mut seen = 0;
+    let mut compare = |impact: Impact| {
+        let expected = course.hits.get(seen).map(|(hit, _)| hit);
+        if let (Some(hit), None) = (expected, &run)
+            && !agrees(hit, &impact)
+        {
+            let impact = Some(seen as u64 + 1);
+            run = Some(Run { impact, time: hit.time.to_f64(), failure: None });
+        }
+        seen += 1;
+        (run.is_none() || impact.time < parameters.at_least) && !progress.stopped()
+    };
+    let start = State::of(&course.scenario);
+    let cost = method(setting).run(&course.scenario, &start, parameters.until, &mut compare);
+    // Impacts of the truth that the run never came to.
+    let missing = course.hits.get(seen).map(|(hit, _)| hit).filter(|_| run.is_none());
+    let mut run = run.unwrap_or(end);
+    if let Some(hit) = missing {
+        run = Run { impact: Some(seen as u64 + 1), time: hit.time.to_f64(), failure: None };
+    }
+    match cost {
+        Ok(cost) => (run, Some(cost)),
+        Err(error) => (Run { failure: Some(error.to_string()), ..run }, None),
+    }
+}
+
+fn agrees(hit: &Hit, impact: &Impact) -> bool {
+    hit.gap == impact.gap && error(hit, impact) <= DISPLACED
+}
+
+fn error(hit: &Hit, impact: &Impact) -> f64 {
+    (DoubleDouble::from(impact.time) - hit.time).to_f64().abs()
+}
+
+/// Starts anew from each exact state.
+fn segments(setting: Setting, targets: &[Target], progress: &Progress) -> Result<Segments, Error> {
+    let mut found = Segments {
+        tried: 0,
+        unseen: 0,
+        wrong_gap: 0,
+        displaced: 0,
+        failed: 0,
+        errors: None,
+        units: None,
+    };
+    let mut errors = Vec::new();
+    let method = method(setting);
+    for Target { scenario, state, hit, unit } in targets {
+        progress.check()?;
+        found.tried += 1;
+        let mut first = None;
+        let until = hit.time.to_f64() + PATIENCE;
+        let ran = method.run(scenario, state, until, &mut |impact| {
+            first = Some(impact);
+            false
+        });
+        match (ran, first) {
+            (Err(_), _) => found.failed += 1,
+            (Ok(_), None) => found.unseen += 1,
+            (Ok(_), Some(impact)) if impact.gap != hit.gap => found.wrong_gap += 1,
+            (Ok(_), Some(impact)) => {
+                let error = error(hit, &impact);
+                errors.push(error);
+                found.units = Some(found.units.map_or(error / unit, |u| u.max(error / unit)));
+                found.displaced += u64::from(error > DISPLACED);
+            }
+        }
+    }
+    errors.sort_by(f64::total_cmp);
+    if let [Some(a), Some(b), Some(c)] = [0.5, 0.9, 1.0].map(|q| quantile(&errors, q)) {
+        found.errors = Some([a, b, c]);
+    }
+    Ok(found)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::params::{MethodName, Profile};
+
+    #[test]
+    fn ours_loses_nothing_and_a_coarse_method_does() {
+        let mut parameters = RaceParams::new(Profile::Quick);
+        parameters.segments = 40;
+        let race = run(&parameters, &Progress::silent()).unwrap();
+        let of = |name: MethodName| {
+            race.entries.iter().find(|entry| entry.setting.method == name).unwrap()
+        };
+        let ours = of(MethodName::Certified);
+        assert_eq!((ours.segments.tried, ours.segments.misses()), (40, 0));
+        let [_, _, largest] = ours.segments.errors.unwrap();
+        assert!(largest > 0.0 && largest < 1e-12, "{largest:e}");
+        assert_eq!(ours.runs[0].impact, None, "{:?}", ours.runs);
+        assert!(ours.evaluations_per_impact.unwrap() < 40.0);
+        for name in [MethodName::Verlet, MethodName::Penalty, MethodName::MoreauJean] {
+            let theirs = of(name);
+            assert!(theirs.segments.misses() > 20, "{theirs:?}");
+            assert!(theirs.runs[0].impact.unwrap() < 20, "{theirs:?}");
+        }
+        assert_eq!(race, run(&parameters, &Progress::silent()).unwrap());
+    }
+}

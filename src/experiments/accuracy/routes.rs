@@ -1,0 +1,35 @@
+//! From the name of a method and its setting to the method.
+
+use crate::dynamics::methods::{
+    Certified, Method, MoreauJean, Newton, Penalty, RungeKutta, Sampled, Verlet,
+};
+use crate::params::{MethodName, Setting};
+
+/// The method of a setting.
+pub fn method(setting: Setting) -> Box<dyn Method> {
+    let step = setting.value;
+    match setting.method {
+        MethodName::Certified => Box::new(Certified),
+        MethodName::Sampled => Box::new(Sampled { step }),
+        MethodName::Newton => Box::new(Newton { step }),
+        MethodName::RungeKutta => Box::new(RungeKutta { tolerance: step }),
+        MethodName::MoreauJean => Box::new(MoreauJean { step }),
+        MethodName::Verlet => Box::new(Verlet { step }),
+        MethodName::Penalty => Box::new(Penalty { step }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Results are saved under the same names that the command line has.
+    #[test]
+    fn names_are_those_of_the_methods() {
+        for name in MethodName::ALL {
+            let own = method(Setting { method: name, value: 1e-3 });
+            assert_eq!(serde_json::json!(name), own.name());
+            assert_eq!(name.id(), own.name());
+        }
+    }
+}

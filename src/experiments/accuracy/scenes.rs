@@ -1,0 +1,638 @@
+//! Scenes in which methods fail, as data: what each is, and what must come out.
+//!
+//! The tests of the engine and of its rivals and the table of the report use the same scenes. An
+//! expectation comes from a closed form where there is one, else from the motion to 106 bits.
+
+use super::truth::Truth;
+use crate::dynamics::methods::{Certified, Method, State};
+use crate::dynamics::{Error, Impact, Initial, Scenario};
+use crate::numerics::random::NormalPairs;
+use crate::params::{Boundary, Chain, SEED};
+use std::f64::consts::{PI, SQRT_2};
+
+/// One kind of trouble.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// Short name, as in saved results: `grazing-hits`.
+    pub id: &'static str,
+    /// What happens in it.
+    pub what: &'static str,
+    /// Its cases.
+    pub cases: Vec<Case>,
+}
+
+/// One run and its outcome.
+#[derive(Clone, Debug)]
+pub struct Case {
+    /// What is special about it: `depth 1e-3`.
+    pub name: String,
+    /// The chain.
+    pub scenario: Scenario,
+    /// Where it starts.
+    pub start: State,
+    /// When it ends.
+    pub until: f64,
+    /// What must come out.
+    pub expected: Expected,
+}
+
+/// What must come out of a case.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Expected {
+    /// The first impact.
+    First {
+        /// Its gap.
+        gap: usize,
+        /// Its time.
+        time: f64,
+        /// How far off a time may be.
+        within: f64,
+    },
+    /// No impact at all.
+    Nothing,
+    /// Two gaps are hit at the same time, in any order, before anything else.
+    Together {
+        /// The gaps.
+        gaps: [usize; 2],
+        /// The time.
+        time: f64,
+        /// How far off a time may be.
+        within: f64,
+    },
+    /// Some of the impacts, in order; bounces that die out and what happens within a cluster are
+    /// a matter of the method and of the law of simultaneous impacts.
+    Sequence {
+        /// Time and gap of each.
+        impacts: Vec<(f64, usize)>,
+        /// Slower impacts are passed over.
+        faster: f64,
+        /// Impacts of other gaps are passed over.
+        among: Vec<usize>,
+        /// How far off a time may be.
+        within: f64,
+    },
+    /// For each impact at gap k one at gap N − 1 − k at the same time.
+    Mirror {
+        /// How far off a time may be.
+        within: f64,
+    },
+    /// All impacts at the same closing speed.
+    Steady {
+        /// How many impacts, at least.
+        impacts: u64,
+        /// The speed.
+        speed: f64,
+        /// How far off, relative to it.
+        within: f64,
+    },
+    /// An error, before anything is run.
+    Refused,
+}
+
+/// How far off a time may be in most scenes, in units of 1/ω: coarse enough for every method at
+/// its usual step.
+const NEAR: f64 = 1e-2;
+
+/// All scenes. `short` cuts those that take long.
+///
+/// # Errors
+/// What the engine refuses; there is nothing to refuse.
+pub fn all(short: bool) -> Result<Vec<Scene>, Error> {
+    Ok(vec![
+        grazing("grazing-hits", "a dip reaches just below zero", -1.0),
+        grazing("grazing-misses", "a dip ends just above zero", 1.0),
+        recontact(if short { 6 } else { 15 }),
+        zero_start()?,
+        chattering()?,
+        squeezed(if short { &[3] } else { &[3, 5] })?,
+        three_way()?,
+        mirror(if short { 10.0 } else { 20.0 }),
+        long_wait(if short { &[2, 3] } else { &[2, 3, 4] })?,
+        late_start()?,
+        elastic(if short { 100 } else { 1000 }),
+        quiet(if short { 20.0 } else { 200.0 }),
+        bad_input(),
+    ])
+}
+
+/// One mass between walls, with free part (a, b) and forcing (α, β).
+fn one(free: [f64; 2], forcing: [f64; 2], big_omega: f64, restitution: f64) -> Scenario {
+    Scenario {
+        spacing: 1.0,
+        natural_frequency: 1.0,
+        forcing_frequency: big_omega,
+        restitution,
+        boundary: Boundary::Walls,
+        initial: Initial::Free(vec![free]),
+        forcing: vec![forcing],
+        overtones: Vec::new(),
+    }
+}
+
+fn case(name: String, scenario: Scenario, until: f64, expected: Expected) -> Case {
+    let start = State::of(&scenario);
+    Case { name, scenario, start, until, expected }
+}
+
+/// 10^−k.
+fn tenth(k: i32) -> f64 {
+    (0..k).fold(1.0, |x, _| x / 10.0)
+}
+
+/// The gap 1 + a cos t − cos(2t)/4, whose lowest place 3/4 − a is at t = π. It falls to zero where
+/// cos t = a − √(a² + 5/2).
+fn grazing(id: &'static str, what: &'static str, sign: f64) -> Scene {
+    let cases = (2..=14).map(|k| {
+        let a = 0.75 - sign * tenth(k);
+        let scenario = one([a, 0.0], [0.75, 0.0], 2.0, 0.8);
+        let expected = if sign > 0.0 {
+            Expected::Nothing
+        } else {
+            // 1 + cos t = (2a − 3/2)/(1 + a + √(a² + 5/2)), without cancellation.
+            let half_angle = ((a - 0.75) / (1.0 + a + (a * a + 2.5).sqrt())).sqrt();
+            Expected::First { gap: 0, time: PI - 2.0 * pxfm::f_asin(half_angle), within: NEAR }
+        };
+        case(format!("depth 1e-{k}"), scenario, 4.5, expected)
+    });
+    Scene { id, what, cases: cases.collect() }
+}
+
+/// A gap that is left with speed v under an acceleration of −5: v sin t + 6 sin²(t/2) − 4 sin² t,
+/// which is sin(t/2) times 2v cos h + 6 sin h − 16 sin h cos² h with h = t/2.
+fn recontact(decades: i32) -> Scene {
+    let cases = (1..=decades).map(|k| {
+        let v = tenth(k);
+        let scenario = one([-3.0, v], [-6.0, 0.0], 2.0, 0.5);
+        let mut h = v / 5.0;
+        for _ in 0..8 {
+            let (sin, cos) = (pxfm::f_sin(h), pxfm::f_cos(h));
+            let value = 2.0 * v * cos + 6.0 * sin - 16.0 * sin * cos * cos;
+            let slope = -2.0 * v * sin + 6.0 * cos - 16.0 * cos * (cos * cos - 2.0 * sin * sin);
+            h -= value / slope;
+        }
+        let expected = Expected::First { gap: 0, time: 2.0 * h, within: 0.02 * h };
+        case(format!("speed 1e-{k}"), scenario, 2.0 * h + 0.05, expected)
+    });
+    Scene {
+        id: "recontact",
+        what: "a gap opens ever more slowly and shuts again",
+        cases: cases.collect(),
+    }
+}
+
+/// The first impact of the true motion.
+fn first(scenario: &Scenario, start: &State, until: f64, within: f64) -> Result<Expected, Error> {
+    Ok(match Truth::of(scenario, start).next(until)? {
+        Some(hit) => Expected::First { gap: hit.gap, time: hit.time.to_f64(), within },
+        None => Expected::Nothing,
+    })
+}
+
+/// A gap that is shut at the start, at speed v, and pulled open.
+fn zero_start() -> Result<Scene, Error> {
+    let mut cases = Vec::new();
+    for v in [0.5, 0.0, -0.5] {
+        let scenario = one([-1.0, 0.25 + v], [0.0, 0.375], 2.0, 0.8);
+        let expected = if v < 0.0 {
+            Expected::First { gap: 0, time: 0.0, within: NEAR }
+        } else {
+            first(&scenario, &State::of(&scenario), 20.0, NEAR)?
+        };
+        cases.push(case(format!("rate {v}"), scenario, 20.0, expected));
+    }
+    Ok(Scene { id: "zero-start", what: "a gap is shut at the start", cases })
+}
+
+/// The impacts of some gaps, faster than `faster`, of a run of the engine.
+fn sequence(
+    scenario: &Scenario,
+    until: f64,
+    faster: f64,
+    among: Vec<usize>,
+) -> Result<Expected, Error> {
+    let mut impacts = Vec::new();
+    Certified.run(scenario, &State::of(scenario), until, &mut |impact| {
+        if impact.closing_speed > faster && among.contains(&impact.gap) {
+            impacts.push((impact.time, impact.gap));
+        }
+        true
+    })?;
+    Ok(Expected::Sequence { impacts, faster, among, within: NEAR })
+}
+
+/// Closing speed between impacts of a flight and the last bounces of a chatter.
+const BOUNCE: f64 = 0.3;
+
+/// One mass that comes to rest at a wall, is held there, and is released.
+fn chattering() -> Result<Scene, Error> {
+    let scenario = Scenario { initial: Initial::Rest, ..one([0.0; 2], [5.88, -4.94], SQRT_2, 0.2) };
+    let expected = sequence(&scenario, 20.0, BOUNCE, vec![0, 1])?;
+    let cases = vec![case("one mass".into(), scenario, 20.0, expected)];
+    let what = "a mass bounces to rest at a wall, sticks, and is released";
+    Ok(Scene { id: "chattering", what, cases })
+}
+
+/// Masses that are pressed together towards the middle, and let go.
+fn squeezed(sizes: &[u32]) -> Result<Scene, Error> {
+    let mut cases = Vec::new();
+    for &n in sizes {
+        let push = |j: u32| 3.0 * (f64::from(n - 1) - 2.0 * f64::from(j));
+        // Not in mirror symmetry: ties are another scene.
+        let forcing = (0..n).map(|j| [push(j) + 0.1 * f64::from(j), 0.3 * f64::from(j)]).collect();
+        let base = one([0.0; 2], [0.0; 2], SQRT_2, 0.2);
+        let scenario = Scenario { initial: Initial::Rest, forcing, ..base };
+        // They meet, stick, and are let go; then the outer two come to the walls.
+        let expected = sequence(&scenario, 2.4, BOUNCE, vec![0, n as usize])?;
+        cases.push(case(format!("{n} masses"), scenario, 2.4, expected));
+    }
+    Ok(Scene { id: "squeezed", what: "masses are pressed together and stick", cases })
+}
+
+/// Three masses: the outer two hit the middle one from both sides at once.
+fn three_way() -> Result<Scene, Error> {
+    let forcing = vec![[2.0, 1.0], [0.0, 0.0], [-2.0, -1.0]];
+    let scenario =
+        Scenario { initial: Initial::Rest, forcing, ..one([0.0; 2], [0.0; 2], SQRT_2, 0.8) };
+    let expected = match first(&scenario, &State::of(&scenario), 100.0, NEAR)? {
+        Expected::First { time, within, .. } => Expected::Together { gaps: [1, 2], time, within },
+        other => other,
+    };
+    let cases = vec![case("three masses".into(), scenario, 100.0, expected)];
+    Ok(Scene { id: "three-way", what: "a mass is hit from both sides at once", cases })
+}
+
+/// A chain that is its own mirror image: pairs of impacts tie.
+fn mirror(until: f64) -> Scene {
+    let chain = Chain { masses: 20, ..Chain::default() };
+    let mut scenario = Scenario::draw(&chain, 0.3, &mut NormalPairs::new("mirror", SEED, 0));
+    for j in 0..10 {
+        scenario.forcing[19 - j] = scenario.forcing[j].map(|x| -x);
+    }
+    let cases = vec![case("20 masses".into(), scenario, until, Expected::Mirror { within: NEAR })];
+    Scene { id: "mirror", what: "a chain is its own mirror image", cases }
+}
+
+/// A gap whose two amplitudes add up to little more than d.
+fn long_wait(decades: &[i32]) -> Result<Scene, Error> {
+    let mut cases = Vec::new();
+    for &k in decades {
+        // R1 = 0.4 and R2 = 0.6 + 10^−k, in random directions.
+        let mut normals = NormalPairs::new("wait", 1, (k - 2) as u64);
+        let [free, forcing] = [(0.4, 1.0), (0.6 + tenth(k), -1.0)].map(|(length, sign)| {
+            let [x, y] = normals.pair();
+            let scale = sign * length / (x * x + y * y).sqrt();
+            [scale * x, scale * y]
+        });
+        let scenario = one(free, forcing, SQRT_2, 0.8);
+        let expected = first(&scenario, &State::of(&scenario), 1e6, NEAR)?;
+        let until = match &expected {
+            Expected::First { time, .. } => time + 1.0,
+            _ => 1e4,
+        };
+        cases.push(case(format!("excess 1e-{k}"), scenario, until, expected));
+    }
+    Ok(Scene { id: "long-wait", what: "a gap closes after a long quasi-periodic wait", cases })
+}
+
+/// The same flight from ever later times.
+fn late_start() -> Result<Scene, Error> {
+    let mut cases = Vec::new();
+    for time in [0.0, 1e4, 1e6, 1e8, 1e10, 1e12 - 128.0] {
+        let scenario = one([0.0; 2], [0.6, -0.5], SQRT_2, 0.8);
+        let start = State { time, positions: vec![1.0], velocities: vec![0.5] };
+        let expected = first(&scenario, &start, time + 100.0, 2e-3)?;
+        let name = format!("from {time:.3e}");
+        cases.push(Case { name, scenario, start, until: time + 20.0, expected });
+    }
+    Ok(Scene { id: "late-start", what: "the clock starts at up to a million million", cases })
+}
+
+/// One unforced mass between walls with r = 1: u = b sin t hits |u| = 1 at the speed √(b² − 1).
+fn elastic(impacts: u64) -> Scene {
+    let scenario = one([0.0, 1.25], [0.0, 0.0], SQRT_2, 1.0);
+    // From wall to wall takes 2 arcsin(1/b).
+    let flight = 2.0 * pxfm::f_asin(1.0 / 1.25);
+    let expected = Expected::Steady { impacts, speed: 0.75, within: 1e-6 };
+    let cases = vec![case("one mass".into(), scenario, flight * (impacts as f64 + 0.6), expected)];
+    Scene { id: "elastic", what: "nothing takes energy out or puts it in", cases }
+}
+
+/// A chain none of whose gaps can close.
+fn quiet(until: f64) -> Scene {
+    let chain = Chain { masses: 20, ..Chain::default() };
+    let scenario = Scenario::draw(&chain, 0.04, &mut NormalPairs::new("quiet", SEED, 0));
+    let cases = vec![case("20 masses".into(), scenario, until, Expected::Nothing)];
+    Scene { id: "quiet", what: "no gap can ever close", cases }
+}
+
+/// Scenarios outside the model.
+fn bad_input() -> Scene {
+    let good = one([0.0, 0.5], [0.1, 0.1], SQRT_2, 0.8);
+    let start = State::of(&good);
+    let of = |name: &str, change: &dyn Fn(&mut Scenario, &mut State)| {
+        let (mut scenario, mut start) = (good.clone(), start.clone());
+        change(&mut scenario, &mut start);
+        Case { name: name.into(), scenario, start, until: 10.0, expected: Expected::Refused }
+    };
+    let cases = vec![
+        of("a forcing that is no number", &|s, _| s.forcing[0][1] = f64::NAN),
+        of("an infinite forcing", &|s, _| s.forcing[0][0] = f64::INFINITY),
+        of("r below zero", &|s, _| s.restitution = -0.1),
+        of("r above one", &|s, _| s.restitution = 1.5),
+        of("no mass", &|s, start| {
+            s.forcing.clear();
+            s.initial = Initial::Rest;
+            start.positions.clear();
+            start.velocities.clear();
+        }),
+        of("an overlapping start", &|_, start| start.positions[0] = -0.25),
+        of("a position that is no number", &|_, start| start.positions[0] = f64::NAN),
+    ];
+    Scene { id: "bad-input", what: "the input is outside the model", cases }
+}
+
+/// What a method made of a case.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outcome {
+    /// In one word.
+    pub verdict: Verdict,
+    /// How far off its time (or, for steady speeds, its relative speed) was, where that was seen.
+    pub error: Option<f64>,
+}
+
+/// An outcome in one word.
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize,
+)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// As expected.
+    Right,
+    /// An impact was not seen, or far too late.
+    Missed,
+    /// An impact where there is none, or one too early.
+    Ghost,
+    /// The right impact at a wrong time.
+    Displaced,
+    /// Another gap.
+    WrongGap,
+    /// The speed changed.
+    Drifted,
+    /// The method gave up, with an error.
+    GaveUp,
+    /// What is outside the model was run.
+    Accepted,
+}
+
+impl Verdict {
+    /// The verdict in words, as a table gives it.
+    pub fn words(self) -> &'static str {
+        match self {
+            Verdict::Right => "right",
+            Verdict::Missed => "missed",
+            Verdict::Ghost => "ghosts",
+            Verdict::Displaced => "late or early",
+            Verdict::WrongGap => "wrong gap",
+            Verdict::Drifted => "drift",
+            Verdict::GaveUp => "gave up",
+            Verdict::Accepted => "accepted",
+        }
+    }
+}
+
+impl Case {
+    /// Runs a method on this case and judges what it did.
+    pub fn judge(&self, method: &dyn Method) -> Outcome {
+        let mut judge = Judge { case: self, seen: Vec::new(), count: 0, worst: 0.0 };
+        let ran = method.run(&self.scenario, &self.start, self.until, &mut |i| judge.see(i));
+        match (ran, &self.expected) {
+            (Err(Error::Input { .. } | Error::Overlap { .. }), Expected::Refused) => {
+                Outcome { verdict: Verdict::Right, error: None }
+            }
+            (Ok(_), Expected::Refused) => Outcome { verdict: Verdict::Accepted, error: None },
+            (Err(_), _) => Outcome { verdict: Verdict::GaveUp, error: None },
+            (Ok(_), _) => judge.end(),
+        }
+    }
+}
+
+/// What was seen of a run so far, as far as the expectation needs it.
+struct Judge<'a> {
+    case: &'a Case,
+    seen: Vec<Impact>,
+    count: u64,
+    worst: f64,
+}
+
+impl Judge<'_> {
+    /// Whether the run should go on.
+    fn see(&mut self, impact: Impact) -> bool {
+        self.count += 1;
+        match &self.case.expected {
+            Expected::First { .. } | Expected::Nothing | Expected::Refused => {
+                self.seen.push(impact);
+                false
+            }
+            Expected::Together { .. } => {
+                self.seen.push(impact);
+                self.seen.len() < 2
+            }
+            Expected::Sequence { impacts, faster, among, .. } => {
+                if impact.closing_speed > *faster && among.contains(&impact.gap) {
+                    self.seen.push(impact);
+                }
+                self.seen.len() < impacts.len()
+            }
+            Expected::Mirror { .. } => {
+                self.seen.push(impact);
+                true
+            }
+            Expected::Steady { speed, .. } => {
+                self.worst = self.worst.max((impact.closing_speed / speed - 1.0).abs());
+                true
+            }
+        }
+    }
+
+    fn end(&self) -> Outcome {
+        match &self.case.expected {
+            Expected::First { gap, time, within } => self.in_order(&[(*time, *gap)], *within),
+            Expected::Sequence { impacts, within, .. } => self.in_order(impacts, *within),
+            Expected::Nothing if self.seen.is_empty() => right(None),
+            Expected::Nothing => Outcome { verdict: Verdict::Ghost, error: None },
+            Expected::Refused => Outcome { verdict: Verdict::Accepted, error: None },
+            Expected::Together { gaps, time, within } => {
+                let mut seen: Vec<usize> = self.seen.iter().map(|impact| impact.gap).collect();
+                seen.sort_unstable();
+                if seen != gaps {
+                    let verdict = if seen.len() < 2 { Verdict::Missed } else { Verdict::WrongGap };
+                    return Outcome { verdict, error: None };
+                }
+                let off = |impact: &Impact| (impact.time - time).abs();
+                timed(self.seen.iter().map(off).fold(0.0, f64::max), *within)
+            }
+            Expected::Mirror { within } => self.mirror(*within),
+            Expected::Steady { impacts, within, .. } => {
+                let verdict = match (self.count >= *impacts, self.worst <= *within) {
+                    (false, _) => Verdict::Missed,
+                    (true, false) => Verdict::Drifted,
+                    (true, true) => Verdict::Right,
+                };
+                Outcome { verdict, error: Some(self.worst) }
+            }
+        }
+    }
+
+    /// Impacts one after the other.
+    fn in_order(&self, expected: &[(f64, usize)], within: f64) -> Outcome {
+        let mut worst: f64 = 0.0;
+        for (i, (time, gap)) in expected.iter().enumerate() {
+            let Some(seen) = self.seen.get(i) else {
+                return Outcome { verdict: Verdict::Missed, error: None };
+            };
+            let early = seen.time - time;
+            worst = worst.max(early.abs());
+            if seen.gap != *gap {
+                let verdict = if early < -within { Verdict::Ghost } else { Verdict::WrongGap };
+                return Outcome { verdict, error: None };
+            }
+            if early.abs() > within {
+                return Outcome { verdict: Verdict::Displaced, error: Some(worst) };
+            }
+        }
+        right(Some(worst))
+    }
+
+    fn mirror(&self, within: f64) -> Outcome {
+        let last = self.case.scenario.gaps() - 1;
+        let until = self.case.until;
+        let mut worst: f64 = 0.0;
+        for impact in self.seen.iter().filter(|impact| impact.time < until - within) {
+            let partners = self.seen.iter().filter(|other| other.gap == last - impact.gap);
+            let nearest = partners.map(|other| (other.time - impact.time).abs());
+            worst = worst.max(nearest.fold(f64::INFINITY, f64::min));
+        }
+        match self.seen.is_empty() {
+            true => Outcome { verdict: Verdict::Missed, error: None },
+            false if worst <= within => right(Some(worst)),
+            false => Outcome { verdict: Verdict::WrongGap, error: None },
+        }
+    }
+}
+
+fn right(error: Option<f64>) -> Outcome {
+    Outcome { verdict: Verdict::Right, error }
+}
+
+fn timed(worst: f64, within: f64) -> Outcome {
+    let verdict = if worst <= within { Verdict::Right } else { Verdict::Displaced };
+    Outcome { verdict, error: Some(worst) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The engine is right in every case, and where a closed form gives the time, right to
+    /// rounding.
+    #[test]
+    fn the_engine_is_right_in_every_scene() {
+        for scene in all(false).unwrap() {
+            assert!(!scene.cases.is_empty());
+            for case in &scene.cases {
+                let outcome = case.judge(&Certified);
+                assert_eq!(outcome.verdict, Verdict::Right, "{}, {}", scene.id, case.name);
+                let Some(error) = outcome.error else { continue };
+                let Expected::First { time, .. } = case.expected else { continue };
+                // A grazing time is known to the rounding of the gap over its speed.
+                let bound = match scene.id {
+                    "grazing-hits" => 2e-8,
+                    "recontact" => 1e-13 * time + 1e-24,
+                    _ => 1e-12 + 1e-15 * time,
+                };
+                assert!(error <= bound, "{}, {}: {error:e}", scene.id, case.name);
+            }
+        }
+    }
+
+    /// Scenes are what they say: long waits are long, nothing is asked of nothing.
+    #[test]
+    fn scenes_hold_what_they_promise() {
+        let scenes = all(false).unwrap();
+        let of = |id: &str| scenes.iter().find(|scene| scene.id == id).unwrap();
+        let mut before = 2.0;
+        for case in &of("long-wait").cases {
+            let Expected::First { time, .. } = case.expected else { panic!("{case:?}") };
+            assert!(time > before, "{}: {time}", case.name);
+            before = time;
+        }
+        for id in ["chattering", "squeezed"] {
+            for case in &of(id).cases {
+                let Expected::Sequence { impacts, .. } = &case.expected else { panic!("{case:?}") };
+                assert!(impacts.len() >= 2, "{id}: {}", impacts.len());
+                let mut engine = crate::dynamics::Engine::new(&case.scenario).unwrap();
+                engine.run(case.until, |_| true).unwrap();
+                assert!(engine.counters().contact_phases > 0, "{id} never sticks");
+            }
+        }
+        assert!(matches!(of("three-way").cases[0].expected, Expected::Together { .. }));
+    }
+
+    /// A judge that lets everything pass would be no judge: a false copy of the engine fails.
+    #[test]
+    fn a_method_that_errs_is_told() {
+        struct Late(f64);
+        impl Method for Late {
+            fn name(&self) -> &'static str {
+                "late"
+            }
+            fn run(
+                &self,
+                scenario: &Scenario,
+                start: &State,
+                until: f64,
+                sink: &mut dyn FnMut(Impact) -> bool,
+            ) -> Result<crate::dynamics::methods::Cost, Error> {
+                Certified.run(scenario, start, until, &mut |impact| {
+                    sink(Impact {
+                        time: impact.time + self.0,
+                        closing_speed: impact.closing_speed * (1.0 + self.0),
+                        gap: impact.gap,
+                    })
+                })
+            }
+        }
+        struct Blind;
+        impl Method for Blind {
+            fn name(&self) -> &'static str {
+                "blind"
+            }
+            fn run(
+                &self,
+                _: &Scenario,
+                _: &State,
+                _: f64,
+                _: &mut dyn FnMut(Impact) -> bool,
+            ) -> Result<crate::dynamics::methods::Cost, Error> {
+                Ok(crate::dynamics::methods::Cost::default())
+            }
+        }
+        for scene in all(true).unwrap() {
+            for case in &scene.cases {
+                let late = case.judge(&Late(0.05)).verdict;
+                let blind = case.judge(&Blind).verdict;
+                let quiet = case.expected == Expected::Nothing;
+                match scene.id {
+                    "bad-input" => assert_eq!((late, blind), (Verdict::Right, Verdict::Accepted)),
+                    "elastic" => assert_eq!((late, blind), (Verdict::Drifted, Verdict::Missed)),
+                    // A common delay leaves a mirror image a mirror image.
+                    "mirror" => assert_eq!((late, blind), (Verdict::Right, Verdict::Missed)),
+                    _ if quiet => assert_eq!((late, blind), (Verdict::Right, Verdict::Right)),
+                    id => {
+                        assert_eq!((late, blind), (Verdict::Displaced, Verdict::Missed), "{id}");
+                    }
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,139 @@
+//! Fig. S3: what a method does to the mean number of gaps that impact, against counted work.
+
+use plotters::style::text_anchor::{HPos, VPos};
+
+use super::axis::{Axis, log};
+use super::chart::{LETTERS, short};
+use super::data::cells;
+use super::panel::Frame;
+use super::rivals::{decades_around, entries, look, name};
+use super::s01::setting;
+use super::series::Outside;
+use super::sheet::Sheet;
+use super::style::{GREY, HAIR, INK, PALE, SMALL, Stroke};
+use super::{DataFile, Error, Figure};
+use crate::experiments::accuracy::bias::{BiasRow, Biases};
+
+/// Within this share of the mean a method is good enough for the mean.
+const GOOD: f64 = 1.0;
+
+/// Bias and its error in per cent of the mean.
+fn percent(row: &BiasRow) -> Option<[f64; 2]> {
+    let own = row.own_mean.filter(|own| *own > 0.0)?;
+    Some([100.0 * row.bias? / own, 100.0 * row.error.unwrap_or(0.0) / own])
+}
+
+/// Draws the figure.
+pub fn draw(biases: &Biases, note: Option<&str>) -> Result<Figure, Error> {
+    let sigmas: Vec<f64> = biases.certified.iter().map(|own| own.sigma).collect();
+    let panels = sigmas.len() as i32;
+    let bottom = 430 + 2500 * panels;
+    let sheet = Sheet::new((bottom + 1850) as u32, note)?;
+    let costs = || biases.rows.iter().filter_map(|row| row.evaluations_per_impact);
+    for (i, sigma) in sigmas.iter().enumerate() {
+        let last = i + 1 == sigmas.len();
+        let rows: Vec<&BiasRow> = biases.rows.iter().filter(|row| row.sigma == *sigma).collect();
+        let ends = rows.iter().filter_map(|row| {
+            let [bias, error] = percent(row)?;
+            Some([bias - error, bias + error])
+        });
+        let (mut low, mut high): (f64, f64) = (-5.0, 5.0);
+        for [a, b] in ends {
+            (low, high) = (low.min(a), high.max(b));
+        }
+        let step = if high - low > 80.0 {
+            50.0
+        } else if high - low > 20.0 {
+            10.0
+        } else {
+            5.0
+        };
+        let (low, high) = ((low / step).floor() * step, (high / step).ceil() * step);
+        let x = decades_around(costs(), 1, "evaluations per impact");
+        let top = 430 + 2500 * i as i32;
+        let panel = sheet.panel(
+            Frame::new(1300, top, 8150, top + 1900),
+            if last { x } else { x.bare() },
+            Axis::linear(low, high, step, 1, "bias (%)"),
+        )?;
+        panel.letter(LETTERS[i.min(LETTERS.len() - 1)])?;
+        let words = (SMALL, INK, HPos::Right, VPos::Bottom);
+        panel.note(&format!("*σ* = {sigma}"), (panel.x.hi, panel.y.hi), (0, -80), words)?;
+        let (a, b) = (panel.x.lo, panel.x.hi);
+        panel.area(
+            "within one per cent",
+            &[(a, -GOOD), (b, -GOOD), (b, GOOD), (a, GOOD)],
+            PALE,
+            100,
+        )?;
+        panel.curve("zero", &[(a, 0.0), (b, 0.0)], Stroke::solid(GREY, HAIR), Outside::Refuse)?;
+        for row in rows {
+            let (Some([bias, error]), Some(cost)) = (percent(row), row.evaluations_per_impact)
+            else {
+                continue;
+            };
+            let look = look(row.setting.method);
+            let label = name(row.setting.method);
+            panel.bars(label, &[(log(cost), bias - error, bias + error)], 40, look.line())?;
+            panel.marks(label, &[(log(cost), bias)], look.marker(), Outside::Refuse)?;
+        }
+    }
+    let present = |method| biases.rows.iter().any(|row| row.setting.method == method);
+    for (i, column) in entries(present).chunks(3).enumerate() {
+        sheet.legend((1300 + 3200 * i as i32, bottom + 700), (SMALL, 370), column)?;
+    }
+    Ok(sheet.finish_own(3, "Bias of the mean count", description(biases), vec![table(biases)]))
+}
+
+fn description(biases: &Biases) -> String {
+    let told = |row: &BiasRow| {
+        let [bias, error] = percent(row)?;
+        Some(format!(
+            "{}{} at σ = {}: {} ± {}",
+            name(row.setting.method),
+            setting(row.setting.value),
+            row.sigma,
+            short(bias, 2),
+            short(error, 1)
+        ))
+    };
+    let all: Vec<String> = biases.rows.iter().filter_map(told).collect();
+    format!(
+        "One chart for each σ: the difference of a method’s mean number of impacting gaps from the \
+         certified engine’s on the same chains, in per cent of the latter, with paired standard \
+         errors, against evaluations per impact on a logarithmic axis; a grey band is one per cent \
+         wide to both sides. Bias in per cent: {}.",
+        all.join("; ")
+    )
+}
+
+fn table(biases: &Biases) -> DataFile {
+    let mut file = DataFile::new(
+        "s03.csv",
+        &[
+            "method",
+            "step_or_tolerance (1/omega)",
+            "sigma (d omega^2)",
+            "pairs (1)",
+            "failed (1)",
+            "mean_certified (1)",
+            "bias (1)",
+            "paired_standard_error (1)",
+            "evaluations_per_impact (1)",
+        ],
+    );
+    for row in &biases.rows {
+        file.row(cells![
+            name(row.setting.method),
+            row.setting.value,
+            row.sigma,
+            row.pairs,
+            row.failed,
+            row.own_mean,
+            row.bias,
+            row.error,
+            row.evaluations_per_impact
+        ]);
+    }
+    file
+}

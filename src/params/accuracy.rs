@@ -1,0 +1,316 @@
+//! Sizes of what the report says about speed and accuracy.
+
+use super::{Chain, HorizonParams, Profile, Protocol, SEED};
+use serde::{Deserialize, Serialize};
+
+/// A way to simulate, as `impact-paper trace --method` names it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum MethodName {
+    /// The certified engine of this project.
+    Certified,
+    /// Gaps looked at on a grid of times, and bisection.
+    Sampled,
+    /// Newton's iteration from a look on a grid of times.
+    Newton,
+    /// A Runge–Kutta pair of orders 5 and 4 with events.
+    RungeKutta,
+    /// Time stepping on velocities.
+    MoreauJean,
+    /// Verlet's scheme with a flip of velocities.
+    Verlet,
+    /// Springs where masses overlap.
+    Penalty,
+}
+
+impl MethodName {
+    /// All of them, ours first.
+    pub const ALL: [MethodName; 7] = [
+        MethodName::Certified,
+        MethodName::Sampled,
+        MethodName::Newton,
+        MethodName::RungeKutta,
+        MethodName::MoreauJean,
+        MethodName::Verlet,
+        MethodName::Penalty,
+    ];
+
+    /// The name on the command line and in measurements.
+    pub fn id(self) -> &'static str {
+        match self {
+            MethodName::Certified => "certified",
+            MethodName::Sampled => "sampled",
+            MethodName::Newton => "newton",
+            MethodName::RungeKutta => "runge-kutta",
+            MethodName::MoreauJean => "moreau-jean",
+            MethodName::Verlet => "verlet",
+            MethodName::Penalty => "penalty",
+        }
+    }
+}
+
+/// A method with its step or tolerance; the certified engine has none, and 0 stands for it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Setting {
+    /// The method.
+    pub method: MethodName,
+    /// Step h in units of 1/ω, or tolerance.
+    pub value: f64,
+}
+
+/// Shorthand for lists of settings.
+fn settings(list: &[(MethodName, &[f64])]) -> Vec<Setting> {
+    let of = |&(method, values): &(MethodName, &[f64])| {
+        values.iter().map(move |&value| Setting { method, value }).collect::<Vec<_>>()
+    };
+    list.iter().flat_map(of).collect()
+}
+
+/// Ways to compute Eq. (25) and the distributions of Sec. 6.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct AnalyticParams {
+    /// Standard deviations σ, rising.
+    pub sigmas: Vec<f64>,
+    /// Panels in each direction of the double integral of Eq. (25), rising.
+    pub panels: Vec<usize>,
+    /// Numbers of vertices N, rising.
+    pub sizes: Vec<usize>,
+    /// N p, the same at every N.
+    pub mean_degree: f64,
+}
+
+impl AnalyticParams {
+    /// The sizes of each profile.
+    pub fn new(profile: Profile) -> Self {
+        let (per_decade, sizes): (u32, &[usize]) = match profile {
+            Profile::Full => {
+                (16, &[10, 20, 50, 100, 170, 171, 300, 1000, 10_000, 100_000, 1_000_000])
+            }
+            Profile::Ci => (8, &[10, 20, 50, 100, 170, 171, 300, 1000, 10_000, 100_000]),
+            Profile::Quick => (4, &[10, 30, 100, 170, 171, 1000, 10_000]),
+        };
+        // From 0.0135, below which p leaves the range of doubles, to 10.
+        let step = pxfm::f_exp(pxfm::f_log(10.0) / f64::from(per_decade));
+        let mut sigmas = vec![0.0135];
+        while let Some(last) = sigmas.last().filter(|last| **last * step < 10.0) {
+            sigmas.push(last * step);
+        }
+        sigmas.push(10.0);
+        AnalyticParams { sigmas, panels: vec![1, 3], sizes: sizes.to_vec(), mean_degree: 10.0 }
+    }
+}
+
+/// Every method against the true motion of a few chains: the next impact from many exact states,
+/// and whole runs.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RaceParams {
+    /// The chain without its forcing.
+    pub chain: Chain,
+    /// Standard deviation σ.
+    pub sigma: f64,
+    /// Length of the runs; a run ends where it has left the truth.
+    pub until: f64,
+    /// Until then a run goes on although it has left the truth, so that its cost is known.
+    pub at_least: f64,
+    /// Number of chains.
+    pub chains: usize,
+    /// Impacts from whose states each method starts anew, spread evenly over all chains.
+    pub segments: usize,
+    /// The methods.
+    pub settings: Vec<Setting>,
+    /// The twins whose growth gives the line that chaos allows.
+    pub growth: HorizonParams,
+    /// Name of the random stream: that of `impact-paper bench`, so that its first chain is the one
+    /// on which other programs are measured.
+    pub stream: String,
+    /// Master seed, likewise.
+    pub seed: u64,
+}
+
+impl RaceParams {
+    /// The sizes of each profile.
+    pub fn new(profile: Profile) -> Self {
+        use MethodName::{Certified, MoreauJean, Newton, Penalty, RungeKutta, Sampled, Verlet};
+        let quick = settings(&[
+            (Certified, &[0.0]),
+            (Sampled, &[0.1]),
+            (Newton, &[0.1]),
+            (RungeKutta, &[1e-3]),
+            (MoreauJean, &[1e-1]),
+            (Verlet, &[1e-1]),
+            (Penalty, &[1e-1]),
+        ]);
+        let whole = settings(&[
+            (Certified, &[0.0]),
+            (Sampled, &[0.5, 0.2, 0.1, 0.03, 0.01]),
+            (Newton, &[0.5, 0.2, 0.1, 0.03, 0.01]),
+            (RungeKutta, &[1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13]),
+            (MoreauJean, &[1e-1, 1e-2, 1e-3, 1e-4]),
+            (Verlet, &[1e-1, 1e-2, 1e-3, 1e-4]),
+            (Penalty, &[1e-1, 1e-2, 1e-3, 1e-4]),
+        ]);
+        let (until, at_least, chains, segments, settings) = match profile {
+            Profile::Full => (250.0, 20.0, 12, 1200, whole),
+            Profile::Ci => (250.0, 10.0, 3, 120, whole),
+            Profile::Quick => (30.0, 10.0, 2, 12, quick),
+        };
+        let chain = Chain { masses: 20, ..Chain::default() };
+        let (stream, seed) = ("bench".to_string(), 1);
+        let growth = HorizonParams {
+            chain: chain.clone(),
+            sigma: 0.3,
+            until: 300.0,
+            realisations: match profile {
+                Profile::Full => 60,
+                Profile::Ci => 20,
+                Profile::Quick => 6,
+            },
+            stream: stream.clone(),
+            seed,
+        };
+        RaceParams {
+            chain,
+            sigma: 0.3,
+            until,
+            at_least,
+            chains,
+            segments,
+            settings,
+            growth,
+            stream,
+            seed,
+        }
+    }
+}
+
+/// The mean number of distinct gaps by every method, on the same chains.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BiasParams {
+    /// The chain without its forcing.
+    pub chain: Chain,
+    /// Standard deviations σ, each with transient and window.
+    pub scenes: Vec<(f64, Protocol)>,
+    /// The methods, each with its number of realisations.
+    pub settings: Vec<(Setting, usize)>,
+    /// Name of the random stream: that of the main sweep.
+    pub stream: String,
+    /// Master seed, likewise.
+    pub seed: u64,
+}
+
+impl BiasParams {
+    /// The sizes of each profile.
+    pub fn new(profile: Profile) -> Self {
+        use MethodName::{MoreauJean, Newton, Penalty, RungeKutta, Sampled, Verlet};
+        let coarse = |n| {
+            settings(&[(MoreauJean, &[0.1]), (Verlet, &[0.1]), (Penalty, &[0.1])])
+                .into_iter()
+                .map(|setting| (setting, n))
+                .collect::<Vec<_>>()
+        };
+        let short = Protocol { transient: 100.0, window: 100.0 };
+        let (scenes, settings) = match profile {
+            Profile::Quick => (vec![(0.12, short), (0.3, short)], coarse(2)),
+            Profile::Ci => {
+                (vec![(0.12, Protocol::default()), (0.15, short), (0.3, short)], coarse(12))
+            }
+            Profile::Full => {
+                let mut list = coarse(64);
+                for (method, value, n) in [
+                    (Verlet, 0.01, 10),
+                    (MoreauJean, 0.01, 10),
+                    (Penalty, 0.01, 10),
+                    (Sampled, 0.3, 24),
+                    (Newton, 0.3, 24),
+                    (RungeKutta, 1e-3, 6),
+                    (RungeKutta, 1e-6, 6),
+                ] {
+                    list.push((Setting { method, value }, n));
+                }
+                (vec![(0.12, Protocol::default()), (0.15, short), (0.3, short)], list)
+            }
+        };
+        BiasParams { chain: Chain::default(), scenes, settings, stream: "sweep".into(), seed: SEED }
+    }
+}
+
+/// Every method on every scene in which methods fail.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TrialParams {
+    /// One setting of each method.
+    pub settings: Vec<Setting>,
+    /// Whether the scenes that take long (waits, many impacts) are cut short.
+    pub short: bool,
+}
+
+impl TrialParams {
+    /// The sizes of each profile.
+    pub fn new(profile: Profile) -> Self {
+        use MethodName::{Certified, MoreauJean, Newton, Penalty, RungeKutta, Sampled, Verlet};
+        TrialParams {
+            settings: settings(&[
+                (Certified, &[0.0]),
+                (Sampled, &[0.03]),
+                (Newton, &[0.03]),
+                (RungeKutta, &[1e-9]),
+                (MoreauJean, &[1e-3]),
+                (Verlet, &[1e-3]),
+                (Penalty, &[1e-3]),
+            ]),
+            short: profile == Profile::Quick,
+        }
+    }
+}
+
+/// Counted work of an impact against the number of masses.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ScaleParams {
+    /// The chain without its forcing and its number of masses.
+    pub chain: Chain,
+    /// Standard deviation σ.
+    pub sigma: f64,
+    /// Numbers of masses n, rising.
+    pub masses: Vec<usize>,
+    /// The methods, each with its largest n.
+    pub settings: Vec<(Setting, usize)>,
+    /// Name of the random stream.
+    pub stream: String,
+    /// Master seed.
+    pub seed: u64,
+}
+
+impl ScaleParams {
+    /// The sizes of each profile.
+    pub fn new(profile: Profile) -> Self {
+        use MethodName::{Certified, MoreauJean, RungeKutta, Sampled, Verlet};
+        let (masses, largest, rivals) = match profile {
+            Profile::Full => (vec![10, 30, 100, 300, 1000, 10_000, 100_000], 100_000, 300),
+            Profile::Ci => (vec![10, 30, 100, 300, 1000, 10_000], 10_000, 100),
+            Profile::Quick => (vec![10, 30, 100, 1000], 1000, 30),
+        };
+        let list = settings(&[
+            (Certified, &[0.0]),
+            (Sampled, &[0.1]),
+            (RungeKutta, &[1e-6]),
+            (MoreauJean, &[0.01]),
+            (Verlet, &[0.01]),
+        ]);
+        let limit = |s: Setting| (s, if s.method == Certified { largest } else { rivals });
+        ScaleParams {
+            chain: Chain::default(),
+            sigma: 0.3,
+            masses,
+            settings: list.into_iter().map(limit).collect(),
+            stream: "bench".into(),
+            seed: 1,
+        }
+    }
+
+    /// Simulated time at n masses: that of `impact-paper bench engine`, and short for rivals.
+    pub fn until(&self, masses: usize, method: MethodName) -> f64 {
+        match method {
+            MethodName::Certified => (200_000.0 / masses as f64).clamp(10.0, 200.0),
+            _ => 20.0,
+        }
+    }
+}
