@@ -39,6 +39,11 @@ pub struct Choice {
 }
 
 impl Choice {
+    /// Whether it is the engine of this project.
+    pub fn is_certified(&self) -> bool {
+        self.method == Name::Certified
+    }
+
     /// The method.
     ///
     /// # Errors

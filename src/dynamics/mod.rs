@@ -4,12 +4,14 @@
 //!
 //! **Eq. (1)** (step towards (2)): its general form has no code of its own.
 
+mod certify;
 mod contact;
 mod engine;
 mod error;
 mod flight;
 mod force;
 mod gap;
+mod growth;
 mod impact;
 mod linear;
 pub mod methods;
@@ -17,6 +19,8 @@ mod scenario;
 mod simulation;
 mod topology;
 
+pub use certify::{Certificate, TOLERANCE, TWINS, certify};
 pub use engine::{Counters, Engine, Impact};
 pub use error::Error;
+pub use growth::Growth;
 pub use scenario::{Initial, Overtone, Scenario};

@@ -208,9 +208,11 @@ impl<const M: usize> Simulation<M> {
                 return Ok(Some(impact));
             }
             Awaits::Search { whole_reach: true } if !self.gaps[k].in_contact => {
-                let frame = self.advanced(k);
-                let next = self.search.first_root(&frame, &mut self.work);
-                let key = self.await_again(k, frame, next);
+                // The next frame will come from the motions, which do not drift, and with an eye
+                // to a longer wait.
+                let gap = &mut self.gaps[k];
+                gap.frame = gap.frame.advanced(&self.search.frequencies);
+                let key = self.search(k, false);
                 self.queue.set(k, [key]);
             }
             Awaits::Search { .. } => {
@@ -242,23 +244,6 @@ impl<const M: usize> Simulation<M> {
         Ok(Impact { time: self.now.time(), gap: self.topology.label(k), closing_speed })
     }
 
-    /// The frame of gap k, whose whole reach is certified, from the end of the reach.
-    #[inline(always)]
-    pub(super) fn advanced(&self, k: usize) -> Frame<M> {
-        self.gaps[k].frame.advanced(&self.search.frequencies)
-    }
-
-    /// Gap k waits again after its frame was advanced. The next frame will come from the motions,
-    /// which do not drift, and with an eye to a longer wait.
-    #[inline(always)]
-    pub(super) fn await_again(&mut self, k: usize, frame: Frame<M>, next: Next) -> Instant {
-        let key = self.await_next(k, frame, next);
-        if let Awaits::Search { whole_reach } = &mut self.gaps[k].awaits {
-            *whole_reach = false;
-        }
-        key
-    }
-
     /// Takes one event from the budget of the current unit of time.
     fn spend(&mut self, k: usize) -> Result<(), Error> {
         let bound = EVENTS_PER_GAP * self.gaps.len() as u64;
@@ -278,15 +263,20 @@ impl<const M: usize> Simulation<M> {
         if self.is_contact_matter(k, speed) {
             return self.collide_in_contact(k, speed, phases);
         }
-        if self.is_inside(k) {
-            let frames = self.hit(k, speed, phases);
-            let keys: [Instant; 3] = std::array::from_fn(|i| {
-                let next = self.search.first_root(&frames[i], &mut self.work);
-                self.await_next(k + i - 1, frames[i], next)
-            });
+        let jumps = self.kick_neighbours(k, speed, phases);
+        if k > 0 && k + 1 < self.gaps.len() {
+            // Each neighbour shares one mass with the gap.
+            self.look_again(k - 1, phases, jumps[0]);
+            self.look_again(k + 1, phases, -jumps[1]);
+            let mut own = self.look(k, phases);
+            (own.f0, own.g0) = (0.0, self.restitution * speed);
+            self.gaps[k].frame = own;
+            let mut keys = [Instant::NEVER; 3];
+            for (near, key) in (k - 1..).zip(&mut keys) {
+                *key = self.search(near, true);
+            }
             return self.queue.set(k - 1, keys);
         }
-        let jumps = self.kick_neighbours(k, speed, phases);
         self.set_frame(k, phases, 0.0, self.restitution * speed);
         let [before, after] = self.topology.adjacent(k);
         for near in [before, after].into_iter().flatten() {
@@ -324,31 +314,16 @@ impl<const M: usize> Simulation<M> {
     }
 
     /// The frame of gap k from the motions of its neighbours.
+    #[inline(always)]
     pub(super) fn look(&self, k: usize, phases: &Phases<M>) -> Frame<M> {
         let [left, right] = self.topology.sides(k);
         let motion = self.motions[right].minus(&self.motions[left]);
         gap::frame(self.spacing, &motion, phases, &self.search.frequencies)
     }
 
-    /// Whether gap k has the gaps k − 1 and k + 1 for neighbours.
+    /// Takes the frame of gap k anew, `jump` being what its rate has just jumped by.
     #[inline(always)]
-    pub(super) fn is_inside(&self, k: usize) -> bool {
-        k > 0 && k + 1 < self.gaps.len()
-    }
-
-    /// The impact of gap k, inside the chain, at `speed`: the new frames of k − 1, k and k + 1.
-    #[inline(always)]
-    pub(super) fn hit(&mut self, k: usize, speed: f64, phases: &Phases<M>) -> [Frame<M>; 3] {
-        let [left, right] = self.kick_neighbours(k, speed, phases);
-        let mut own = self.look(k, phases);
-        (own.f0, own.g0) = (0.0, self.restitution * speed);
-        // Each neighbour shares one mass with the gap.
-        [self.seen(k - 1, phases, left), own, self.seen(k + 1, phases, -right)]
-    }
-
-    /// The frame of gap k, whose rate has just jumped by `jump`.
-    #[inline(always)]
-    fn seen(&self, k: usize, phases: &Phases<M>, jump: f64) -> Frame<M> {
+    fn look_again(&mut self, k: usize, phases: &Phases<M>, jump: f64) {
         let mut frame = self.look(k, phases);
         if let Some([f0, g0]) = self.carried(k, &frame, jump) {
             (frame.f0, frame.g0) = (f0, g0);
@@ -357,34 +332,38 @@ impl<const M: usize> Simulation<M> {
         if frame.g0 >= 0.0 {
             frame.f0 = frame.f0.max(0.0);
         }
-        frame
+        self.gaps[k].frame = frame;
     }
 
-    /// Looks at gap k anew, `jump` being what its rate has just jumped by.
+    /// The same, and looks for the next impact of gap k.
     pub(super) fn reframe(&mut self, k: usize, phases: &Phases<M>, jump: f64) {
-        self.search_from(k, self.seen(k, phases, jump));
+        self.look_again(k, phases, jump);
+        let key = self.search(k, true);
+        self.queue.set(k, [key]);
     }
 
-    /// Frames gap k now with width `f0` and rate `g0`, which are known better than by looking.
+    /// Frames gap k now with width `f0` and rate `g0`, which are known better than by looking, and
+    /// looks for its next impact.
     pub(super) fn set_frame(&mut self, k: usize, phases: &Phases<M>, f0: f64, g0: f64) {
         let mut frame = self.look(k, phases);
         (frame.f0, frame.g0) = (if g0 >= 0.0 { f0.max(0.0) } else { f0 }, g0);
-        self.search_from(k, frame);
-    }
-
-    /// Looks for the next impact of gap k.
-    fn search_from(&mut self, k: usize, frame: Frame<M>) {
-        let next = self.search.first_root(&frame, &mut self.work);
-        let key = self.await_next(k, frame, next);
+        self.gaps[k].frame = frame;
+        let key = self.search(k, true);
         self.queue.set(k, [key]);
     }
 
     /// Width and rate of a nearly shut gap from its own last frame.
+    #[inline(always)]
     pub(super) fn carried(&self, k: usize, seen: &Frame<M>, jump: f64) -> Option<[f64; 2]> {
-        let old = &self.gaps[k];
-        if seen.f0 >= NEARLY_SHUT * self.spacing || old.in_contact {
+        if seen.f0 >= NEARLY_SHUT * self.spacing || self.gaps[k].in_contact {
             return None;
         }
+        self.carried_on(k, jump)
+    }
+
+    #[cold]
+    fn carried_on(&self, k: usize, jump: f64) -> Option<[f64; 2]> {
+        let old = &self.gaps[k];
         let s = self.now.since(old.origin);
         let p = if s == 0.0 {
             old.frame.start(&self.search.frequencies)
@@ -396,18 +375,24 @@ impl<const M: usize> Simulation<M> {
         Some([p.f, p.g + jump])
     }
 
-    /// Gap k, with this frame at this instant, waits for what a search found; returns its key.
+    /// Searches the frame of gap k, taken at this instant; returns the key of what it now awaits.
+    /// `looked` if the frame came from the motions.
     #[inline(always)]
-    pub(super) fn await_next(&mut self, k: usize, frame: Frame<M>, next: Next) -> Instant {
-        let (awaits, key) = match next {
-            Next::Root { s, speed } => (Awaits::Impact(speed), self.now.after(s)),
-            Next::Clear { s } => {
-                let whole_reach = s == self.search.frequencies.reach;
-                (Awaits::Search { whole_reach }, self.now.after(s))
+    fn search(&mut self, k: usize, looked: bool) -> Instant {
+        let gap = &mut self.gaps[k];
+        gap.origin = self.now;
+        gap.in_contact = false;
+        match self.search.first_root(&gap.frame, &mut self.work) {
+            Next::Root { s, speed } => {
+                gap.awaits = Awaits::Impact(speed);
+                self.now.after(s)
             }
-        };
-        self.gaps[k] = Gap { frame, origin: self.now, awaits, in_contact: false };
-        key
+            Next::Clear { s } => {
+                let whole_reach = looked && s == self.search.frequencies.reach;
+                gap.awaits = Awaits::Search { whole_reach };
+                self.now.after(s)
+            }
+        }
     }
 
     /// Lets gap k, which is open, wait without a search for as long as it certainly stays open, if

@@ -4,9 +4,8 @@
 //! rounded away. Every operation of a run rounds, in every mass, so the twins differ in all.
 
 use super::{Error, Progress};
-use crate::dynamics::{Engine, Impact, Scenario};
+use crate::dynamics::{Engine, Growth, Impact, Scenario};
 use crate::numerics::random::NormalPairs;
-use crate::numerics::regression;
 use crate::numerics::statistics::{Estimate, mean, normal_quantile, standard_error};
 use crate::params::{HorizonParams, LEVEL};
 use rayon::prelude::*;
@@ -46,12 +45,6 @@ pub struct Twins {
 
 /// A difference in time above which an impact counts as displaced.
 const DISPLACED: f64 = 1e-9;
-
-/// Differences that follow the growth: above the rounding of the times, below saturation.
-const GROWING: std::ops::Range<f64> = 1e-13..1e-4;
-
-/// Units of time in which the largest difference is one point of the growth.
-const STRIDE: f64 = 5.0;
 
 /// Runs the twins.
 ///
@@ -133,8 +126,7 @@ struct Compared {
     impacts: u64,
     order: Option<f64>,
     time: Option<f64>,
-    /// Largest difference in each stride of time.
-    largest: Vec<f64>,
+    growth: Growth,
 }
 
 impl Compared {
@@ -149,25 +141,16 @@ impl Compared {
         if difference > DISPLACED {
             self.time.get_or_insert(own.time);
         }
-        let stride = (own.time / STRIDE) as usize;
-        self.largest.resize(self.largest.len().max(stride + 1), 0.0);
-        self.largest[stride] = self.largest[stride].max(difference);
+        self.growth.see(own.time, difference);
         true
     }
 
     fn end(self) -> Twins {
-        let points: Vec<(f64, f64, f64)> = (0..)
-            .zip(&self.largest)
-            .filter(|(_, largest)| GROWING.contains(largest))
-            .map(|(stride, &largest)| ((f64::from(stride) + 0.5) * STRIDE, largest))
-            .map(|(time, largest)| (time, pxfm::f_log(largest), 1.0))
-            .collect();
-        let growth = (points.len() >= 3).then(|| regression::line(&points)).flatten();
         Twins {
             order: self.order,
             order_impacts: self.order.map(|_| self.impacts),
             time: self.time,
-            growth: growth.map(|line| line.slope),
+            growth: self.growth.rate(),
         }
     }
 }

@@ -54,11 +54,10 @@ impl Instant {
         (self.0 - earlier.0) as f64 / TICKS
     }
 
-    /// Time in units of 2^-23, rounded to some whole number, never out of order; infinite for
-    /// "never".
+    /// Time in whole units of 2^-23, rounded down; the largest number for "never".
     #[inline(always)]
-    pub fn coarse(self) -> f64 {
-        i64::try_from(self.0 >> 57).map_or(f64::INFINITY, |units| units as f64)
+    pub fn coarse(self) -> i64 {
+        i64::try_from(self.0 >> 57).unwrap_or(i64::MAX)
     }
 
     /// The time since t = 0, rounded once.

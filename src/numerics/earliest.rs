@@ -1,121 +1,97 @@
 //! The earliest of many keys, each of which may change at any time.
 
 use super::clock::Instant;
-use wide::f64x2;
-
-/// Children of a node: their minimum takes three operations of a register of two numbers each.
-const WIDTH: usize = 8;
+use std::hint::select_unpredictable;
 
 /// Keys 0..len with the earliest at hand; among equal keys the lowest index wins.
 ///
-/// A tree of minima with eight children a node, over the keys rounded down to whole units of 2^-23 of
-/// time. Such a rounded key hardly ever ties, and then the full keys decide. No branch depends on
-/// who wins, for no processor can predict it.
+/// A winner tree over the keys rounded down to whole units of 2^-23 of time. Where two of those tie,
+/// the full keys decide. The shape is fixed, so the order of changes never matters: ties resolve
+/// the same way in every run.
 #[derive(Clone, Debug)]
 pub struct Earliest {
-    /// The keys in full.
+    /// The keys in full, "never" beyond `len`.
     keys: Vec<Instant>,
-    /// The rounded keys, then the minima of eight of them each, and so on to a level of eight; all
-    /// levels filled up with "never".
-    nodes: Vec<f64>,
-    /// Where each level begins.
-    levels: Vec<usize>,
+    /// The winner below each node, root at 1; the leaves are the second half.
+    nodes: Vec<Entry>,
+}
+
+/// A rounded key and its index.
+#[derive(Clone, Copy, Debug)]
+struct Entry {
+    coarse: i64,
+    index: u64,
 }
 
 impl Earliest {
     /// `len` ≥ 1 keys, all [`Instant::NEVER`].
     pub fn new(len: usize) -> Self {
-        let mut levels = vec![0];
-        let mut size = len.next_multiple_of(WIDTH);
-        let mut end = size;
-        while size > WIDTH {
-            levels.push(end);
-            size = (size / WIDTH).next_multiple_of(WIDTH);
-            end += size;
+        let width = len.next_power_of_two();
+        let never = Instant::NEVER.coarse();
+        let mut nodes: Vec<Entry> = vec![Entry { coarse: never, index: 0 }; 2 * width];
+        for (index, node) in nodes[width..].iter_mut().enumerate() {
+            node.index = index as u64;
         }
-        Earliest { keys: vec![Instant::NEVER; len], nodes: vec![f64::INFINITY; end], levels }
+        for node in (1..width).rev() {
+            nodes[node] = nodes[2 * node];
+        }
+        Earliest { keys: vec![Instant::NEVER; width], nodes }
     }
 
-    /// The eight nodes that begin at `start`.
-    #[inline(always)]
-    fn block(&self, start: usize) -> [f64x2; WIDTH / 2] {
-        let block: &[f64; WIDTH] = self.nodes[start..].first_chunk().expect("levels are filled up");
-        std::array::from_fn(|i| f64x2::from([block[2 * i], block[2 * i + 1]]))
-    }
-
-    /// Changes the keys of `first`, `first` + 1, …, at most eight.
+    /// Changes the keys of `first`, `first` + 1, …, at most three.
+    ///
+    /// Neighbours have at most two nodes of each level above them. The two winners are carried
+    /// upwards in registers, each against one sibling from memory, so the wait is a comparison a
+    /// level; no branch depends on who wins, for no processor can predict it.
     #[inline(always)]
     pub fn set<const K: usize>(&mut self, first: usize, keys: [Instant; K]) {
-        const { assert!(K <= WIDTH) };
+        const { assert!(K <= 3) };
         self.keys[first..first + K].copy_from_slice(&keys);
-        for (node, key) in self.nodes[first..first + K].iter_mut().zip(keys) {
-            *node = key.coarse();
+        let width = self.keys.len();
+        let (mut low, mut high) = (width + first, width + first + K - 1);
+        for (i, key) in keys.into_iter().enumerate() {
+            self.nodes[low + i].coarse = key.coarse();
         }
-        let (mut low, mut high) = (first / WIDTH, (first + K - 1) / WIDTH);
-        for level in 1..self.levels.len() {
-            let (below, here) = (self.levels[level - 1], self.levels[level]);
-            for node in low..=high {
-                self.nodes[here + node] = least(self.block(below + node * WIDTH));
+        let (mut left, mut right) = (self.nodes[low], self.nodes[high]);
+        while low > 1 {
+            left = self.play(left, low);
+            right = if K > 1 { self.play(right, high) } else { left };
+            (low, high) = (low >> 1, high >> 1);
+            let mask = self.nodes.len() - 1;
+            self.nodes[low & mask] = left;
+            if K > 1 {
+                self.nodes[high & mask] = right;
             }
-            (low, high) = (low / WIDTH, high / WIDTH);
         }
+    }
+
+    /// The winner of node `node`, whose own winner is `own`, against its sibling.
+    #[inline(always)]
+    fn play(&self, own: Entry, node: usize) -> Entry {
+        let other = self.nodes[(node ^ 1) & (self.nodes.len() - 1)];
+        let mut loses = other.coarse < own.coarse;
+        if other.coarse == own.coarse {
+            loses = self.loses_tie(own, other);
+        }
+        Entry {
+            coarse: select_unpredictable(loses, other.coarse, own.coarse),
+            index: select_unpredictable(loses, other.index, own.index),
+        }
+    }
+
+    /// Whether `other` is earlier by the full keys, or as early with the lower index.
+    #[cold]
+    fn loses_tie(&self, own: Entry, other: Entry) -> bool {
+        let key = |entry: Entry| (self.keys[entry.index as usize], entry.index);
+        key(other) < key(own)
     }
 
     /// The index of the earliest key, and that key.
     #[inline(always)]
     pub fn first(&self) -> (usize, Instant) {
-        let level = self.levels.len() - 1;
-        let minimum = least(self.block(self.levels[level]));
-        // The filling is "never" too, and has no key: where it wins, all keys are.
-        let index = if minimum < f64::INFINITY { self.find(level, 0, minimum) } else { 0 };
+        let index = self.nodes[1].index as usize;
         (index, self.keys[index])
     }
-
-    /// The index of the earliest of the keys under one node that are rounded to `minimum`.
-    #[inline(always)]
-    fn find(&self, mut level: usize, mut node: usize, minimum: f64) -> usize {
-        loop {
-            let places = places(self.block(self.levels[level] + node * WIDTH), minimum);
-            if places & (places - 1) != 0 {
-                return self.first_of_ties(level, node, minimum, places);
-            }
-            node = node * WIDTH + places.trailing_zeros() as usize;
-            if level == 0 {
-                return node;
-            }
-            level -= 1;
-        }
-    }
-
-    /// The same where several children have the minimum. The two gaps beside an impact often end
-    /// their searches at one instant.
-    fn first_of_ties(&self, level: usize, node: usize, minimum: f64, mut places: u32) -> usize {
-        let mut best: Option<(Instant, usize)> = None;
-        while places != 0 {
-            let child = node * WIDTH + places.trailing_zeros() as usize;
-            places &= places - 1;
-            let index = if level == 0 { child } else { self.find(level - 1, child, minimum) };
-            if best.is_none_or(|best| self.keys[index] < best.0) {
-                best = Some((self.keys[index], index));
-            }
-        }
-        best.map_or(0, |(_, index)| index)
-    }
-}
-
-/// The least of eight numbers.
-#[inline(always)]
-fn least([a, b, c, d]: [f64x2; WIDTH / 2]) -> f64 {
-    let [even, odd] = a.fast_min(b).fast_min(c.fast_min(d)).to_array();
-    if odd < even { odd } else { even }
-}
-
-/// One bit for each of eight numbers, set where it is `value`.
-#[inline(always)]
-fn places(block: [f64x2; WIDTH / 2], value: f64) -> u32 {
-    let value = f64x2::splat(value);
-    let [a, b, c, d] = block.map(|pair| pair.simd_eq(value).to_bitmask());
-    a | b << 2 | c << 4 | d << 6
 }
 
 #[cfg(test)]

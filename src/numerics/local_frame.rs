@@ -181,13 +181,14 @@ impl<const M: usize> Frame<M> {
 }
 
 impl<const M: usize> Point<M> {
-    /// The derivatives of fourth to seventh order.
+    /// The derivatives of fourth to ninth order.
     #[inline(always)]
-    pub fn higher(&self, frequencies: &Frequencies<M>) -> [f64; 4] {
+    pub fn higher(&self, frequencies: &Frequencies<M>) -> [f64; 6] {
         let of = |w: f64, [value, quadrature]: [f64; 2]| {
-            let fourth = w * w * w * w;
-            let (even, odd) = (fourth * value, fourth * w * quadrature);
-            [even, odd, -(w * w * even), -(w * w * odd)]
+            let square = w * w;
+            let (even, odd) = (square * square * value, square * square * w * quadrature);
+            let (sixth, seventh) = (-(square * even), -(square * odd));
+            [even, odd, sixth, seventh, -(square * sixth), -(square * seventh)]
         };
         let mut sum = of(frequencies.omega, self.free);
         for m in 0..M {

@@ -136,42 +136,18 @@ impl<const M: usize> Piece<M> {
         if !falls {
             return None;
         }
-        // Inverse interpolation: s as a cubic of f, from values and slopes at both ends.
-        let drop = b[N] - b[0];
-        let t = b[0] / -drop;
-        let (left, right) = (drop / (8.0 * (b[1] - b[0])), drop / (8.0 * (b[N] - b[N - 1])));
-        let cubic = t * (1.0 - t) * ((1.0 - t) * left - t * right) + t * t * (3.0 - 2.0 * t);
-        let inside = if cubic > 0.0 && cubic < 1.0 { cubic } else { t };
-        Some(self.start + self.width * newton(&b, inside))
+        // The parabola with value, slope and curvature of p at the end that is nearer to zero.
+        let at_left = b[0] < -b[N];
+        let [near, next, third] = if at_left { [b[0], b[1], b[2]] } else { [b[8], b[7], b[6]] };
+        let slope = 8.0 * (near - next);
+        let curvature = 56.0 * (near - 2.0 * next + third);
+        let root = (slope * slope - 2.0 * near * curvature).max(0.0).sqrt();
+        // Inwards, f falls from the left end and rises from the right one.
+        let inwards = 2.0 * near.abs() / (slope.abs() + root);
+        let inwards = inwards.min(1.0);
+        let inside = if at_left { inwards } else { 1.0 - inwards };
+        Some(self.start + self.width * inside)
     }
-}
-
-/// Newton steps from `t` towards the root of the polynomial p with Bernstein coefficients `b`.
-///
-/// With u = t/(1 − t) and Q(u) = Σ C(8, i) b_i uⁱ, p = (1 − t)⁸ Q, and p/p' follows from Q and Q'.
-#[inline(always)]
-fn newton(b: &[f64; N + 1], mut t: f64) -> f64 {
-    const CHOOSE: [f64; N + 1] = [1.0, 8.0, 28.0, 56.0, 70.0, 56.0, 28.0, 8.0, 1.0];
-    let scaled: [f64; N + 1] = std::array::from_fn(|i| CHOOSE[i] * b[i]);
-    for _ in 0..3 {
-        let rest = 1.0 - t;
-        let u = t / rest;
-        let (mut value, mut slope) = (scaled[N], 0.0);
-        for i in (0..N).rev() {
-            slope = slope * u + value;
-            value = value * u + scaled[i];
-        }
-        let step = value * rest * rest / (slope - 8.0 * rest * value);
-        let next = t - step;
-        if !(next > 0.0 && next < 1.0) {
-            break;
-        }
-        t = next;
-        if step.abs() < 0.01 {
-            break;
-        }
-    }
-    t
 }
 
 /// Rounding of a coefficient: at most a dozen roundings of terms that are each below a few sizes.

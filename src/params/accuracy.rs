@@ -241,6 +241,8 @@ pub struct TrialParams {
     pub settings: Vec<Setting>,
     /// Whether the scenes that take long (waits, many impacts) are cut short.
     pub short: bool,
+    /// Numbers of masses that are pressed together; without any that scene is left out.
+    pub clusters: Vec<u32>,
 }
 
 impl TrialParams {
@@ -257,7 +259,12 @@ impl TrialParams {
                 (Verlet, &[1e-3]),
                 (Penalty, &[1e-3]),
             ]),
-            short: profile == Profile::Quick,
+            short: profile != Profile::Full,
+            clusters: match profile {
+                Profile::Full => vec![3, 5],
+                Profile::Ci => vec![3],
+                Profile::Quick => Vec::new(),
+            },
         }
     }
 }
