@@ -229,6 +229,7 @@ fn repeat(
             sum.impacts += own.impacts;
             sum.contact_phases += own.contact_phases;
             sum.searches += own.searches;
+            sum.pieces += own.pieces;
             sum.evaluations += own.evaluations;
             sum.undecided += own.undecided;
         }
