@@ -213,7 +213,8 @@ fn table(
     };
     let words: Vec<usize> = (0..columns.len()).map(words).collect();
     let total: usize = widths.iter().map(|w| w + 2).sum();
-    let across = total > ACROSS;
+    let least: usize = (0..columns.len()).map(|i| least_width(widths[i], words[i])).sum();
+    let across = total > ACROSS || least as f64 + GAPS * columns.len() as f64 > LINE as f64;
     let line = if across { LINE * 3 / 2 } else { LINE };
     let row = |cells: &[Vec<Inline>]| -> Result<String, Error> {
         let cells: Vec<String> =
@@ -240,6 +241,17 @@ fn table(
     Ok(out + if across { "\n\\end{landscape}" } else { "" })
 }
 
+/// A column that never wraps is at most this wide.
+const SHORT: usize = 12;
+
+/// The two gaps of a column, 6 pt each, in characters of which 455 pt hold [`LINE`].
+const GAPS: f64 = 0.027 * LINE as f64;
+
+/// How narrow a column can be: a short one does not wrap, a long one keeps its longest word whole.
+fn least_width(width: usize, longest_word: usize) -> usize {
+    if width <= SHORT { width } else { longest_word + 1 }
+}
+
 /// Columns as wide as their words while all fit; else the long ones share what the short leave,
 /// each at least as wide as its longest word.
 fn layout(columns: &[Align], widths: &[usize], words: &[usize], line: usize) -> String {
@@ -251,11 +263,10 @@ fn layout(columns: &[Align], widths: &[usize], words: &[usize], line: usize) -> 
     if widths.iter().map(|w| w + 2).sum::<usize>() <= line {
         return columns.iter().map(letter).collect();
     }
-    let short = |i: usize| widths[i] <= 12;
+    let short = |i: usize| widths[i] <= SHORT;
     let long: Vec<usize> = (0..columns.len()).filter(|i| !short(*i)).collect();
     let taken: usize = (0..columns.len()).filter(|i| short(*i)).map(|i| widths[i]).sum();
-    // Each column has two gaps of 6 pt, 2.7 % of a line of 455 pt.
-    let gaps = 0.027 * columns.len() as f64 * LINE as f64 / line as f64;
+    let gaps = GAPS * columns.len() as f64 / line as f64;
     let free = (1.0 - gaps - taken as f64 / line as f64).max(0.3);
     // Long cells wrap: the square root keeps a very long one from starving the others.
     let mut shares = vec![0.0; columns.len()];
@@ -267,7 +278,7 @@ fn layout(columns: &[Align], widths: &[usize], words: &[usize], line: usize) -> 
         for i in &open {
             shares[*i] = (free - kept).max(0.1) * (widths[*i] as f64).sqrt() / weights;
         }
-        let least = |i: usize| (words[i] + 1) as f64 / line as f64;
+        let least = |i: usize| least_width(widths[i], words[i]) as f64 / line as f64;
         match open.iter().find(|i| shares[**i] < least(**i)) {
             Some(&i) => (shares[i], fixed[i]) = (least(i), true),
             None => break,
