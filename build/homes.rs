@@ -24,7 +24,8 @@ pub fn run() -> io::Result<()> {
     fs::write(folder.join("homes.rs"), out)
 }
 
-fn collect(folder: &Path, into: &mut Vec<PathBuf>) -> io::Result<()> {
+/// All Rust files below a folder.
+pub fn collect(folder: &Path, into: &mut Vec<PathBuf>) -> io::Result<()> {
     for entry in fs::read_dir(folder)? {
         let path = entry?.path();
         if path.is_dir() {
@@ -37,7 +38,7 @@ fn collect(folder: &Path, into: &mut Vec<PathBuf>) -> io::Result<()> {
 }
 
 /// src/circuits/jump.rs → circuits::jump, src/circuits/mod.rs → circuits.
-fn module(file: &Path) -> String {
+pub fn module(file: &Path) -> String {
     let parts = file.iter().skip(1).filter_map(|part| part.to_str());
     let path = parts.collect::<Vec<_>>().join("::");
     let path = path.trim_end_matches(".rs");

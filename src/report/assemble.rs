@@ -66,6 +66,7 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
     put("report.md".into(), markdown::write(&blocks));
     filler.insert("title", &latex::title(&blocks)?);
     filler.insert("body", &latex::write(&blocks)?);
+    filler.insert("listings", &latex::listings(&blocks)?);
     put("report.tex".into(), filler.fill("report.tex")?);
     let json = |e: serde_json::Error| Error::Template(format!("values.json: {e}"));
     put("values.json".into(), serde_json::to_string_pretty(&values).map_err(json)? + "\n");

@@ -66,6 +66,21 @@ pub enum Block {
         /// The lines.
         text: String,
     },
+    /// A piece of the program's source, folded or put aside where a format can do that.
+    Listing {
+        /// Id as `lst:jump`.
+        id: String,
+        /// Number in the order of the report.
+        number: String,
+        /// What it does, in words.
+        caption: Vec<Inline>,
+        /// Path of the item, as `circuits::jump::p_jump`.
+        item: String,
+        /// Its file, from the top of the project.
+        file: String,
+        /// The lines.
+        text: String,
+    },
     /// The place of the list of references; filled by [`super::labels::resolve`].
     Bibliography(Vec<Entry>),
 }
@@ -153,7 +168,9 @@ pub fn visit(blocks: &[Block], visit: &mut impl FnMut(&Inline)) {
     for block in blocks {
         match block {
             Block::Heading { text, .. } | Block::Paragraph(text) => visit_inlines(text, visit),
-            Block::Figure { caption, .. } => visit_inlines(caption, visit),
+            Block::Figure { caption, .. } | Block::Listing { caption, .. } => {
+                visit_inlines(caption, visit);
+            }
             Block::Table { caption, head, rows, .. } => {
                 visit_inlines(caption, visit);
                 for cell in head.iter().chain(rows.iter().flatten()) {
@@ -186,7 +203,9 @@ pub fn rewrite<E>(
     for block in blocks {
         match block {
             Block::Heading { text, .. } | Block::Paragraph(text) => rewrite_inlines(text, change)?,
-            Block::Figure { caption, .. } => rewrite_inlines(caption, change)?,
+            Block::Figure { caption, .. } | Block::Listing { caption, .. } => {
+                rewrite_inlines(caption, change)?;
+            }
             Block::Table { caption, head, rows, .. } => {
                 rewrite_inlines(caption, change)?;
                 for cell in head.iter_mut().chain(rows.iter_mut().flatten()) {

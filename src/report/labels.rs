@@ -22,14 +22,14 @@ impl Labels {
         self.0.get(id).map(String::as_str)
     }
 
-    /// Ids of one kind (`fig`, `eq`, `sec`, `tab`, `claim`) that the report has.
+    /// Ids of one kind (`fig`, `eq`, `sec`, `tab`, `lst`, `claim`) that the report has.
     pub fn of_kind<'a>(&'a self, kind: &'a str) -> impl Iterator<Item = &'a str> {
         let own = move |id: &&str| id.split_once(':').is_some_and(|(before, _)| before == kind);
         self.0.keys().map(String::as_str).filter(own)
     }
 }
 
-/// Gives numbers to sections, captioned tables and anchors, resolves all references, and fills
+/// Gives numbers to sections, captioned tables, listings and anchors, resolves all references, and fills
 /// the list of references with what was cited.
 ///
 /// # Errors
@@ -53,7 +53,7 @@ pub fn resolve(blocks: &mut [Block], library: &Library) -> Result<Labels, Error>
 
 fn number(blocks: &mut [Block]) -> Result<Labels, Error> {
     let mut labels = Labels::default();
-    let (mut section, mut subsection, mut tables) = (0, 0, 0);
+    let (mut section, mut subsection, mut tables, mut listings) = (0, 0, 0, 0);
     for block in blocks.iter_mut() {
         match block {
             Block::Heading { level, number, id, .. } => {
@@ -71,6 +71,11 @@ fn number(blocks: &mut [Block]) -> Result<Labels, Error> {
                 }
             }
             Block::Figure { id, number, .. } => labels.add(id, number)?,
+            Block::Listing { id, number, .. } => {
+                listings += 1;
+                *number = listings.to_string();
+                labels.add(id, number)?;
+            }
             Block::Table { id, number: Some(number), .. } => {
                 tables += 1;
                 *number = tables.to_string();
@@ -111,6 +116,7 @@ fn names(kind: &str) -> Option<[&'static str; 4]> {
         "sec" => ["Sec.", "Secs.", "Section", "Sections"],
         "tab" => ["Table", "Tables", "Table", "Tables"],
         "claim" => ["claim", "claims", "Claim", "Claims"],
+        "lst" => ["Listing", "Listings", "Listing", "Listings"],
         "slip" => ["slip", "slips", "Slip", "Slips"],
         _ => return None,
     })

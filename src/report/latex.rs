@@ -39,6 +39,34 @@ pub fn title(blocks: &[Block]) -> Result<String, Error> {
     }
 }
 
+/// The appendix of listings, empty if there are none.
+///
+/// # Errors
+/// As [`write()`].
+pub fn listings(blocks: &[Block]) -> Result<String, Error> {
+    let mut out = String::new();
+    for block in blocks {
+        let Block::Listing { id, number, caption, item, file, text } = block else { continue };
+        if out.is_empty() {
+            out.push_str(LISTINGS);
+        }
+        let (item, file) = (breakable(&tex::text(item)?), breakable(&tex::text(file)?));
+        out.push_str(&format!(
+            "\n\\begin{{samepage}}\n\\noindent{}\\textbf{{Listing {number}.}} {} \
+             \\texttt{{{item}}}, from \\texttt{{{file}}}.\n\\end{{samepage}}\n\
+             {{\\scriptsize\\begin{{alltt}}\n{}\n\\end{{alltt}}}}\n",
+            label(id),
+            inlines(caption)?,
+            tex::code(text.trim_end())?
+        ));
+    }
+    Ok(out)
+}
+
+/// Head of the appendix of listings.
+const LISTINGS: &str = "\\clearpage\n\\phantomsection\\section*{Listings}\n\
+                        \\addcontentsline{toc}{section}{Listings}\n";
+
 fn is_equation(block: &Block) -> bool {
     matches!(block, Block::Paragraph(inlines) if matches!(inlines[..], [Inline::Display { .. }]))
 }
@@ -98,6 +126,8 @@ fn write_block(block: &Block) -> Result<String, Error> {
         Block::Code { text, .. } => {
             format!("{{\\small\\begin{{alltt}}\n{}\n\\end{{alltt}}}}", tex::code(text.trim_end())?)
         }
+        // On paper nothing unfolds: it stands in the appendix, see `listings`.
+        Block::Listing { .. } => String::new(),
         Block::Bibliography(entries) => {
             let mut out = String::from(HANGING);
             for entry in entries {

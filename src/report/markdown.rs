@@ -82,6 +82,14 @@ fn write_block(block: &Block, indent: &str, out: &mut String) {
             inner.trim_end().lines().map(line).collect::<Vec<_>>().join("\n")
         }
         Block::Code { language, text } => format!("```{language}\n{}\n```", text.trim_end()),
+        // Hosts fold `details`; Markdown goes on inside it after a blank line.
+        Block::Listing { id, number, caption, item, file, text } => format!(
+            "{}**Listing {number}.** {}\n\n<details>\n<summary><code>{item}</code></summary>\n\n\
+             ```rust\n{}\n```\n\n<sub>From [{file}](../{file}).</sub>\n\n</details>",
+            anchor(id),
+            prose.all(caption),
+            text.trim_end()
+        ),
         Block::Bibliography(entries) => {
             let entry = |entry: &super::document::Entry| {
                 format!("- {}{}", anchor(&format!("ref:{}", entry.key)), prose.all(&entry.text))

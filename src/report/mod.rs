@@ -16,6 +16,7 @@ pub mod labels;
 pub mod latex;
 pub mod ledger;
 pub mod lint;
+pub mod literate;
 pub mod map;
 pub mod markdown;
 pub mod parse;
@@ -135,6 +136,12 @@ Table: What σ gives {#tab:sigma}
 fn f() -> σ { 1 }
 ```
 
+By [@lst:kick], in words.
+
+Listing: What $\delta v$ does. {#lst:kick}
+
+«code(item="dynamics::flight::Motion::kick")»
+
 ## References {.unnumbered}
 
 [@bibliography]
@@ -175,6 +182,9 @@ fn f() -> σ { 1 }
             "\n. and [Claim\u{a0}2](#claim-jump) of [Table\u{a0}1](#tab-sigma) and [Fig.\u{a0}3(a)](#fig-3).\n",
             "1. one\n2. two\n\n   more\n",
             "```rust\nfn f() -> σ { 1 }\n```\n",
+            "\nBy [Listing\u{a0}1](#lst-kick), in words.\n",
+            "<a id=\"lst-kick\"></a>**Listing 1.** What $\\delta v$ does.\n\n<details>\n<summary><code>dynamics::flight::Motion::kick</code></summary>\n\n```rust\n/// ",
+            "\n    self.b += kick * p.cos;\n}\n```\n\n<sub>From [src/dynamics/flight.rs](../src/dynamics/flight.rs).</sub>\n\n</details>\n",
             "- <a id=\"ref-rice1945\"></a>Rice,\u{a0}S.\u{a0}O. (1945). Noise.\n",
         ] {
             assert!(text.contains(part), "{part:?} is not in\n{text}");
@@ -194,8 +204,19 @@ fn f() -> σ { 1 }
             "\\begin{longtable}{llr}\n\\caption{What \\ensuremath{\\sigma} gives}\\label{tab:sigma}\\\\\n",
             "\\phantomsection\\label{claim:jump}2 & a\\_b * c & 94.5(8)~\\% \\\\\n",
             "\\phantomsection\\section*{References}",
+            "\nBy \\hyperref[lst:kick]{Listing~1}, in words.\n",
         ] {
             assert!(text.contains(part), "{part:?} is not in\n{text}");
+        }
+        assert!(!text.contains("self.b +="), "{text}");
+        let appendix = latex::listings(&tree(SAMPLE)).unwrap();
+        for part in [
+            "\\section*{Listings}",
+            "\\phantomsection\\label{lst:kick}\\textbf{Listing 1.} What $\\delta v$ does. \\texttt{dynamics::\\allowbreak{}flight",
+            "\\begin{alltt}\n/// A jump of the velocity by \\ensuremath{\\omega} `kick`",
+            "(&mut self, kick: f64, p: &Phases<M>) \\{\n    self.a -= kick * p.sin;\n",
+        ] {
+            assert!(appendix.contains(part), "{part:?} is not in\n{appendix}");
         }
     }
 
@@ -307,6 +328,12 @@ fn f() -> σ { 1 }
         assert!(fails("$$a \\tag{1}$$\n\n$$b \\tag{1}$$").contains("eq:1"));
         assert!(fails("## A {#sec:a}\n\nSee [@sec:a; @eq:1].").contains("eq:1"));
         assert!(parse::parse("<b>html</b>", &values()).is_err());
+        let code = "```rust dynamics::flight::Motion::kick\n```";
+        assert!(parse::parse(&format!("Listing: A. {{#lst:a}}\n\n{code}"), &values()).is_ok());
+        for text in [format!("Words.\n\n{code}"), format!("Listing: No id.\n\n{code}")] {
+            let error = parse::parse(&text, &values()).unwrap_err().to_string();
+            assert!(error.contains("Motion::kick") && error.contains("Listing: "), "{error}");
+        }
         assert!(parse::parse("see ![x](figures/fig01.svg)", &values()).is_err());
     }
 }

@@ -6,17 +6,19 @@
 //! - `$$ … \tag{18} $$`: a numbered equation; its id is `eq:18`.
 //! - `![caption](figures/fig03.svg)` alone in a paragraph: a figure; its id is `fig:3`.
 //! - `Table: caption {#tab:id}`, a paragraph right before a table: its caption.
+//! - `Listing: caption {#lst:id}`, a paragraph right before `«code(item="path::of::item")»`: a
+//!   listing of that item of the source.
 //! - `[!claim:id]`: a place that can be referred to; it shows its number.
-//! - `[@eq:18]`, `[@fig:2; @fig:3]`, `[@sec:id]`, `[@tab:id]`, `[@claim:id]`: references, written
+//! - `[@eq:18]`, `[@fig:2; @fig:3]`, `[@sec:id]`, `[@tab:id]`, `[@lst:id]`, `[@claim:id]`: references, written
 //!   out as "Eq. (18)" and so on; with a capital, as `[@Fig:2]`, in full as at the start of a sentence.
 //! - `[@rice1945]`: a citation of `references.bib`.
 //! - `[@bibliography]` alone in a paragraph: the list of what was cited.
 
-use super::Error;
 use super::document::{Align, Block, Inline};
 use super::print::print;
 use super::templates::Mark;
 use super::values::Registry;
+use super::{Error, literate};
 use pulldown_cmark::{Alignment, BrokenLink, CowStr, Event, LinkType, Options, Parser, Tag};
 
 /// Parses filled Markdown; `values` turn marks into what is shown.
@@ -34,7 +36,7 @@ pub fn parse(text: &str, values: &Registry) -> Result<Vec<Block>, Error> {
     let events: Vec<Event<'_>> = parser.collect();
     let mut reader = Reader { events: events.into_iter().peekable(), values };
     let mut blocks = reader.blocks()?;
-    captions(&mut blocks);
+    captions(&mut blocks)?;
     Ok(blocks)
 }
 
@@ -95,7 +97,10 @@ impl Reader<'_> {
                     text.push_str(piece);
                     self.events.next();
                 }
-                Block::Code { language, text: self.written(&text)? }
+                match language.split_once(' ') {
+                    Some((_, item)) => listing(item)?,
+                    None => Block::Code { language, text: self.written(&text)? },
+                }
             }
             Tag::Table(columns) => self.table(&columns)?,
             Tag::HtmlBlock => {
@@ -323,27 +328,59 @@ fn number_of_figure(path: &str) -> String {
     if prefix == "fig" { digits.to_string() } else { format!("{}{digits}", prefix.to_uppercase()) }
 }
 
-/// Joins `Table: …` paragraphs to the tables behind them.
-fn captions(blocks: &mut Vec<Block>) {
+/// The listing of an item; its caption stands before it.
+fn listing(path: &str) -> Result<Block, Error> {
+    let found = literate::item(path).map_err(Error::Markup)?;
+    Ok(Block::Listing {
+        id: String::new(),
+        number: String::new(),
+        caption: Vec::new(),
+        item: path.to_string(),
+        file: found.file.to_string(),
+        text: found.text,
+    })
+}
+
+/// Joins `Table: …` and `Listing: …` paragraphs to what stands behind them.
+fn captions(blocks: &mut Vec<Block>) -> Result<(), Error> {
     let mut out: Vec<Block> = Vec::with_capacity(blocks.len());
     for mut block in std::mem::take(blocks) {
-        if let Block::Table { id, number, caption, .. } = &mut block
-            && let Some(Block::Paragraph(words)) = out.last_mut()
-            && let Some(Inline::Text(first)) = words.first_mut()
-            && let Some(rest) = first.strip_prefix("Table: ")
-        {
-            *first = rest.to_string();
-            if let Some(Inline::Text(last)) = words.last_mut()
-                && let Some((before, attribute)) = last.trim_end().rsplit_once("{#")
-            {
-                *id = Some(attribute.trim_end_matches('}').to_string());
-                *last = before.trim_end().to_string();
+        match &mut block {
+            Block::Table { id, number, caption, .. } => {
+                if let Some((words, attribute)) = caption_before(&mut out, "Table: ") {
+                    (*caption, *id) = (words, attribute);
+                    *number = Some(String::new());
+                }
             }
-            *caption = std::mem::take(words);
-            *number = Some(String::new());
-            out.pop();
+            Block::Listing { id, caption, item, .. } => {
+                let Some((words, Some(attribute))) = caption_before(&mut out, "Listing: ") else {
+                    return Err(Error::Markup(format!(
+                        "code of `{item}` without the paragraph `Listing: caption {{#lst:id}}` before it"
+                    )));
+                };
+                (*caption, *id) = (words, attribute);
+            }
+            _ => {}
         }
         out.push(block);
     }
     *blocks = out;
+    Ok(())
+}
+
+/// Takes the last block if it is a paragraph that begins so: its words and its `{#id}`.
+fn caption_before(blocks: &mut Vec<Block>, opening: &str) -> Option<(Vec<Inline>, Option<String>)> {
+    let Some(Block::Paragraph(words)) = blocks.last_mut() else { return None };
+    let Some(Inline::Text(first)) = words.first_mut() else { return None };
+    *first = first.strip_prefix(opening)?.to_string();
+    let mut id = None;
+    if let Some(Inline::Text(last)) = words.last_mut()
+        && let Some((before, attribute)) = last.trim_end().rsplit_once("{#")
+    {
+        id = Some(attribute.trim_end_matches('}').to_string());
+        *last = before.trim_end().to_string();
+    }
+    let words = std::mem::take(words);
+    blocks.pop();
+    Some((words, id))
 }

@@ -9,10 +9,11 @@
 //! writers turn marks into digits, each in its own markup and knowing whether the mark stands in
 //! prose or in mathematics; and they know which values were named. For conditions there are plain
 //! numbers: `<% if raw.half_height < raw.printed.threshold %>`.
+//! `«code(item="circuits::jump::p_jump")»` is an item of the source, see [`super::literate`].
 
-use super::Error;
 use super::print::{Asked, Style};
 use super::values::{Number, Registry};
+use super::{Error, literate};
 use std::collections::BTreeMap;
 use std::path::Path;
 use tera::{Context, Delimiters, Kwargs, State, Tera};
@@ -293,7 +294,8 @@ impl Mark {
     }
 }
 
-/// The filters on values, and `literal` for a number that the prose may type with a reason.
+/// The filters on values; `literal` for a number that the prose may type with a reason; and `code`
+/// for an item of the source, which [`super::parse`] makes a listing.
 fn register(tera: &mut Tera) {
     type Change = fn(&mut Style, &Kwargs) -> tera::TeraResult<()>;
     let changes: [(&str, Change); 6] = [
@@ -338,6 +340,11 @@ fn register(tera: &mut Tera) {
             return Err(tera::Error::message("`literal` needs its reason in `why`"));
         }
         Ok(text)
+    });
+    tera.register_function("code", |arguments: Kwargs, _: &State| {
+        let item: String = arguments.must_get("item")?;
+        literate::item(&item).map_err(tera::Error::message)?;
+        Ok::<_, tera::Error>(format!("```rust {item}\n```"))
     });
 }
 
@@ -399,6 +406,16 @@ mod tests {
             let error = fill(text).unwrap_err().to_string();
             assert!(error.contains("report.md:2:"), "{error}");
         }
+    }
+
+    #[test]
+    fn an_item_that_is_gone_is_an_error_with_its_place() {
+        assert!(fill("«code(item=\"circuits::jump::p_jump\")»").is_ok());
+        let error =
+            fill("one\n\n  «code(item=\"circuits::jump::p_yump\")»").unwrap_err().to_string();
+        assert!(error.starts_with("report.md:3:"), "{error}");
+        assert!(error.contains("no item `circuits::jump::p_yump`"), "{error}");
+        assert!(!error.contains('\n'), "{error}");
     }
 
     #[test]
