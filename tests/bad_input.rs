@@ -109,7 +109,9 @@ fn numbers_that_the_model_does_not_have() {
     range("natural_frequency", &["0", "-1", "1e300", "1e-300"]);
     range("forcing_frequency", &["0", "-1", "1e300", "1", "1.0"]);
     range("boundary", &["\"wall\"", "\"\"", "1", "null", "[\"walls\"]"]);
+    range("simultaneous", &["\"both\"", "\"Joint\"", "\"\"", "1", "null", "true", "[\"joint\"]"]);
     range("initial", &["\"start\"", "1", "{\"free\":3}", "{\"random\":{}}", "[]", "{}"]);
+    refused(with(r#""simultaneous":"both""#), &["simultaneous", "`sequential` or `joint`"]);
     refused(r#"{"forcing":[[1e300,0]]}"#, &["forcing[0]"]);
     refused(r#"{"forcing":[[0,0],[0,-1e300]]}"#, &["forcing[1]"]);
 }

@@ -9,7 +9,7 @@
 
 mod reference;
 
-use impact_paper::dynamics::{Initial, Scenario};
+use impact_paper::dynamics::{Initial, Scenario, Simultaneous};
 use impact_paper::numerics::random::NormalPairs;
 use impact_paper::params::Boundary;
 use reference::{Dd, Reference};
@@ -206,6 +206,7 @@ impl<'a> Motion<'a> {
             initial: Initial::Free(masses.clone().map(|m| [cut(m[0]), cut(m[1])]).collect()),
             forcing: masses.map(|m| [cut(-m[2]), cut(-m[3])]).collect(),
             overtones: Vec::new(),
+            simultaneous: Simultaneous::default(),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{Failure, method};
 use impact_paper::dynamics::methods::State;
-use impact_paper::dynamics::{Certificate, Error, Impact, Scenario, certify};
+use impact_paper::dynamics::{Certificate, Error, Impact, Scenario, Simultaneous, certify};
 use impact_paper::numerics::clock::LATEST;
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -10,9 +10,10 @@ use std::path::PathBuf;
 /// Prints the impacts of one scenario as CSV: time, gap, closing speed.
 ///
 /// Gap 0 lies between the left wall and mass 1, gap j between masses j and j + 1; on a ring gap n
-/// lies between masses n and 1. Exact three-way impacts are taken one after the other, lowest gap
-/// first. Past some 150 units of time a chaotic chain depends on the last bit: only statistics are
-/// reproducible there. --certify says where that begins.
+/// lies between masses n and 1. Neighbouring gaps that close at exactly the same instant (a three-way
+/// impact) follow the law "simultaneous" of the scenario; how often there were such is said on
+/// standard error, if there were any. Past some 150 units of time a chaotic chain depends on the last
+/// bit: only statistics are reproducible there. --certify says where that begins.
 #[derive(clap::Args)]
 #[command(after_help = FORM)]
 pub struct Args {
@@ -37,11 +38,14 @@ pub struct Args {
 
 const FORM: &str = r#"The scenario, with the defaults of everything but "forcing":
   {"spacing": 1, "natural_frequency": 1, "forcing_frequency": 1.4142135623730951,
-   "restitution": 0.8, "boundary": "walls", "initial": "rest",
+   "restitution": 0.8, "boundary": "walls", "simultaneous": "sequential", "initial": "rest",
    "forcing": [[alpha_1, beta_1], ..., [alpha_n, beta_n]]}
 Several components of the forcing, 8 at most:
    "forcing_frequencies": [W_1, W_2, ...], "forcing": [[[alpha_1, beta_1], ...], [[...], ...], ...]
 boundary: "walls" or "ring".
+simultaneous: when neighbouring gaps close at exactly the same instant, "sequential" takes one after
+          the other, lowest gap first, until none closes; "joint" takes all at once, each with
+          Newton's restitution, those in contact with them as well. Only the method certified.
 initial:  "rest" (at equilibrium), "zero" (no free part),
           {"free": [[a_1, b_1], ...]} (x_j = j d + a_j cos wt + b_j sin wt + forced response),
           {"random": {"sigma": s, "seed": k}} (normal free parts)."#;
@@ -59,6 +63,19 @@ fn line(certificate: &Certificate, printed: u64) -> String {
         Some(rate) => format!("impact-paper: {trusted}; errors grow as exp({rate:.3} t)"),
         None => format!("impact-paper: {trusted}; errors are too small to see them grow"),
     }
+}
+
+/// What is said of impacts of several neighbouring gaps at once.
+fn simultaneous(count: u64, law: Simultaneous) -> String {
+    let times = if count == 1 { "once" } else { &format!("{count} times") };
+    let taken = match law {
+        Simultaneous::Sequential => "one after the other, lowest gap first",
+        Simultaneous::Joint => "all at once",
+    };
+    format!(
+        "impact-paper: {times}, neighbouring gaps closed at exactly the same instant; \
+         they were taken {taken}"
+    )
 }
 
 /// Runs the verb.
@@ -88,6 +105,13 @@ pub fn run(args: Args) -> Result<(), Failure> {
         );
         return Err(Failure::input(message));
     }
+    if scenario.simultaneous == Simultaneous::Joint && !args.method.is_certified() {
+        let name = method.name();
+        let message = format!(
+            "simultaneous: only the method certified has the joint law, not {name}; leave out one of the two"
+        );
+        return Err(Failure::input(message));
+    }
     let mut out = io::BufWriter::new(io::stdout().lock());
     let mut written = Ok(());
     let mut header = "time,gap,closing_speed\n";
@@ -103,9 +127,12 @@ pub fn run(args: Args) -> Result<(), Failure> {
         left > 0 && written.is_ok()
     };
     let until = if args.max_impacts == Some(0) { 0.0 } else { args.until };
-    let certificate = match args.certify {
-        true => Some(certify(&scenario, until, &mut sink).map_err(in_file)?),
-        false => method.run(&scenario, &start, until, &mut sink).map(|_| None).map_err(in_file)?,
+    let (certificate, ties) = if args.certify {
+        let certificate = certify(&scenario, until, &mut sink).map_err(in_file)?;
+        (Some(certificate), certificate.simultaneous)
+    } else {
+        let cost = method.run(&scenario, &start, until, &mut sink).map_err(in_file)?;
+        (None, cost.simultaneous)
     };
     let written = written.and_then(|()| out.write_all(header.as_bytes()));
     match written.and_then(|()| out.flush()) {
@@ -114,6 +141,9 @@ pub fn run(args: Args) -> Result<(), Failure> {
         ))),
         Err(_) => Ok(()),
         Ok(()) => {
+            if ties > 0 {
+                eprintln!("{}", simultaneous(ties, scenario.simultaneous));
+            }
             if let Some(certificate) = certificate {
                 eprintln!("{}", line(&certificate, most - left));
             }

@@ -30,6 +30,8 @@ pub struct Certificate {
     pub horizon: Option<f64>,
     /// Rate λ at which differences grow as e^λt, per unit of time; nothing if they hardly do.
     pub growth: Option<f64>,
+    /// Runs of neighbouring gaps that closed at exactly the same instant.
+    pub simultaneous: u64,
 }
 
 /// Runs a scenario with its twins beside it, and hands each impact to `sink` as
@@ -53,7 +55,7 @@ pub fn certify(
     if !stopped {
         watch.end();
     }
-    Ok(watch.certificate())
+    Ok(watch.certificate(engine.counters().simultaneous))
 }
 
 /// The twins of a run, and what was seen of them.
@@ -120,9 +122,9 @@ impl Watch {
         self.twins.clear();
     }
 
-    fn certificate(&self) -> Certificate {
+    fn certificate(&self, simultaneous: u64) -> Certificate {
         let growth = self.growth.rate().map(|rate| rate / self.unit);
-        Certificate { impacts: self.impacts, horizon: self.horizon, growth }
+        Certificate { impacts: self.impacts, horizon: self.horizon, growth, simultaneous }
     }
 }
 

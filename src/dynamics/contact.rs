@@ -16,6 +16,7 @@ use super::force::Force;
 use super::gap;
 use super::linear::contact_forces;
 use super::simulation::{Awaits, Simulation};
+use super::simultaneous::Simultaneous;
 use crate::numerics::clock::Instant;
 use crate::numerics::first_root::Next;
 use crate::numerics::window::next_window;
@@ -29,22 +30,34 @@ const SHUT: f64 = 1e-16;
 
 /// One gap of a run that is being settled: its index, width and rate.
 #[derive(Clone, Copy, Debug)]
-struct Resting {
-    k: usize,
-    f0: f64,
-    g0: f64,
+pub(super) struct Resting {
+    pub k: usize,
+    pub f0: f64,
+    pub g0: f64,
 }
 
 impl<const M: usize> Simulation<M> {
     /// Whether the impact of gap k at `speed` needs more than the impact law.
     pub(super) fn is_contact_matter(&self, k: usize, speed: f64) -> bool {
         let near = self.topology.adjacent(k);
-        self.restitution * speed <= CONTACT_SPEED * self.spacing * self.search.frequencies.omega
+        self.is_slow(self.restitution * speed)
             || near.into_iter().flatten().any(|near| self.gaps[near].in_contact)
+    }
+
+    /// Whether a gap that opens at `rate` is taken to have come to rest.
+    #[inline(always)]
+    pub(super) fn is_slow(&self, rate: f64) -> bool {
+        rate <= CONTACT_SPEED * self.spacing * self.search.frequencies.omega
     }
 
     /// An impact that is slow, or that hits a cluster.
     pub(super) fn collide_in_contact(&mut self, k: usize, speed: f64, phases: &Phases<M>) {
+        if self.collide_tied(k, phases) {
+            return;
+        }
+        if self.ties.law == Simultaneous::Joint {
+            return self.collide_jointly(k, phases);
+        }
         let mut freed = Vec::new();
         for near in self.topology.adjacent(k).into_iter().flatten() {
             if self.gaps[near].in_contact {
@@ -78,7 +91,7 @@ impl<const M: usize> Simulation<M> {
     }
 
     /// Width and rate of gap k now.
-    fn resting(&self, k: usize, phases: &Phases<M>, jump: f64) -> Resting {
+    pub(super) fn resting(&self, k: usize, phases: &Phases<M>, jump: f64) -> Resting {
         let frame = self.look(k, phases);
         let [f0, g0] = self.carried(k, &frame, jump).unwrap_or([frame.f0, frame.g0]);
         Resting { k, f0, g0 }
@@ -91,7 +104,12 @@ impl<const M: usize> Simulation<M> {
 
     /// Takes the gaps whose state has just changed, grows them to whole runs of shut and slow
     /// gaps, settles each run, and frames all that was touched.
-    fn settle_runs(&mut self, mut known: Vec<Resting>, p: &Phases<M>, released: Option<usize>) {
+    pub(super) fn settle_runs(
+        &mut self,
+        mut known: Vec<Resting>,
+        p: &Phases<M>,
+        released: Option<usize>,
+    ) {
         // Grow: neighbours of settled gaps that are themselves shut and slow.
         let mut i = 0;
         while i < known.len() {
@@ -211,7 +229,7 @@ impl<const M: usize> Simulation<M> {
     }
 
     /// What a unit of contact force does to its own gap: the sum of the inverse masses.
-    fn stiffness(&self, gaps: &[usize]) -> Vec<f64> {
+    pub(super) fn stiffness(&self, gaps: &[usize]) -> Vec<f64> {
         let own = |k: usize| {
             self.topology.sides(k).into_iter().map(|m| self.topology.inverse_mass(m)).sum()
         };
@@ -268,13 +286,13 @@ impl<const M: usize> Simulation<M> {
     }
 
     /// The masses (and walls) along adjacent gaps, left to right.
-    fn members(&self, gaps: &[usize]) -> Vec<usize> {
+    pub(super) fn members(&self, gaps: &[usize]) -> Vec<usize> {
         let first = self.topology.sides(gaps[0])[0];
         std::iter::once(first).chain(gaps.iter().map(|&k| self.topology.sides(k)[1])).collect()
     }
 
     /// Frees the cluster that gap k belongs to; returns its gaps, left to right.
-    fn free_cluster(&mut self, k: usize, phases: &Phases<M>) -> Vec<usize> {
+    pub(super) fn free_cluster(&mut self, k: usize, phases: &Phases<M>) -> Vec<usize> {
         let mut gaps = std::collections::VecDeque::from([k]);
         let contact = |side: usize, k: usize| {
             self.topology.adjacent(k)[side].filter(|&near| self.gaps[near].in_contact)

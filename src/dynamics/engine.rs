@@ -32,6 +32,8 @@ pub struct Counters {
     pub evaluations: u64,
     /// Decisions taken inside the undecidable band of the search.
     pub undecided: u64,
+    /// Runs of two or more neighbouring gaps that closed at exactly the same instant.
+    pub simultaneous: u64,
 }
 
 /// The simulation of one scenario.

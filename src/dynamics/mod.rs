@@ -17,6 +17,7 @@ mod linear;
 pub mod methods;
 mod scenario;
 mod simulation;
+mod simultaneous;
 mod topology;
 
 pub use certify::{Certificate, TOLERANCE, TWINS, certify};
@@ -24,3 +25,4 @@ pub use engine::{Counters, Engine, Impact};
 pub use error::Error;
 pub use growth::Growth;
 pub use scenario::{Initial, Overtone, Scenario};
+pub use simultaneous::Simultaneous;

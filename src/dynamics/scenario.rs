@@ -1,6 +1,6 @@
 //! A scenario: one chain, its forcing and its start, complete and checked.
 
-use super::Error;
+use super::{Error, Simultaneous};
 use crate::numerics::random::NormalPairs;
 use crate::params::{Boundary, Chain, Start};
 use serde::Deserialize;
@@ -29,6 +29,7 @@ struct Form<F: Default> {
     forcing_frequencies: Option<Vec<f64>>,
     restitution: f64,
     boundary: Boundary,
+    simultaneous: Simultaneous,
     initial: InitialForm,
     forcing: F,
 }
@@ -56,6 +57,7 @@ impl<F: Default> Default for Form<F> {
             forcing_frequencies: None,
             restitution: chain.restitution,
             boundary: chain.boundary,
+            simultaneous: Simultaneous::default(),
             initial: InitialForm::Rest,
             forcing: F::default(),
         }
@@ -109,6 +111,7 @@ impl<F: Default> Form<F> {
             forcing_frequency,
             restitution: self.restitution,
             boundary: self.boundary,
+            simultaneous: self.simultaneous,
             initial,
             forcing,
             overtones: components
@@ -162,6 +165,9 @@ pub struct Scenario {
     pub restitution: f64,
     /// Walls or ring.
     pub boundary: Boundary,
+    /// What happens when neighbouring gaps close at the same instant. The rivals of the engine have
+    /// their own ways and do not look at it.
+    pub simultaneous: Simultaneous,
     /// The start.
     pub initial: Initial,
     /// Amplitudes (α_j, β_j) of Eq. (5), one pair a mass.
@@ -197,6 +203,7 @@ impl Scenario {
             forcing_frequency: chain.forcing_frequency,
             restitution: chain.restitution,
             boundary: chain.boundary,
+            simultaneous: Simultaneous::default(),
             initial,
             forcing,
             overtones: Vec::new(),
@@ -244,6 +251,13 @@ impl Scenario {
         within("natural_frequency", self.natural_frequency, 1e-3, 1e3)?;
         within("restitution", self.restitution, 0.0, 1.0)?;
         let single = self.overtones.is_empty();
+        if self.overtones.len() >= COMPONENTS {
+            return Err(Error::input(
+                "forcing_frequencies",
+                format!("there are {} of them", self.overtones.len() + 1),
+                format!("give 1 to {COMPONENTS}"),
+            ));
+        }
         let frequencies = std::iter::once(self.forcing_frequency)
             .chain(self.overtones.iter().map(|overtone| overtone.frequency));
         for (m, frequency) in frequencies.enumerate() {

@@ -2,14 +2,15 @@
 //!
 //! Nothing is integrated. Each gap knows the instant of its next impact, found by the certified
 //! search from its own local frame; the earliest is taken from a winner tree, two masses are
-//! kicked, and the three gaps that they border are framed anew. Exact three-way impacts are taken
-//! one after the other, lowest gap first.
+//! kicked, and the three gaps that they border are framed anew. What happens when neighbouring gaps
+//! close at the same instant is in `simultaneous`.
 
 use super::engine::{Counters, Impact};
 use super::flight::{Motion, Phases, Rates};
 use super::force::Force;
 use super::gap;
 use super::impact::jumps;
+use super::simultaneous::Ties;
 use super::topology::Topology;
 use super::{Error, Initial, Scenario};
 use crate::numerics::clock::Instant;
@@ -86,6 +87,7 @@ pub(super) struct Simulation<const M: usize> {
     pub(super) work: Work,
     impacts: u64,
     pub(super) contact_phases: u64,
+    pub(super) ties: Ties,
     budget_end: Instant,
     budget_left: u64,
 }
@@ -139,6 +141,7 @@ impl<const M: usize> Simulation<M> {
             work: Work::default(),
             impacts: 0,
             contact_phases: 0,
+            ties: Ties::new(scenario.simultaneous),
             budget_end: Instant::ZERO.after(1.0 / w),
             budget_left: EVENTS_PER_GAP * gaps as u64,
         };
@@ -176,9 +179,12 @@ impl<const M: usize> Simulation<M> {
     /// [`Error::Work`] when the bound on work is exceeded.
     pub fn run(&mut self, until: f64, mut sink: impl FnMut(Impact) -> bool) -> Result<(), Error> {
         let end = Instant::at(until);
+        if !self.ties.left.is_empty() && !self.hand_out(&mut sink) {
+            return Ok(());
+        }
         while let Some(k) = self.next_event(end) {
             if let Some(impact) = self.step(k)?
-                && !sink(impact)
+                && (!sink(impact) || !self.ties.left.is_empty() && !self.hand_out(&mut sink))
             {
                 break;
             }
@@ -204,7 +210,9 @@ impl<const M: usize> Simulation<M> {
             Awaits::Impact(speed) => {
                 let impact = self.count_impact(k, speed)?;
                 let phases = Phases::at(&self.rates, self.now);
-                self.collide(k, speed, &phases);
+                if !(self.queue.ties_beside(k) && self.collide_tied(k, &phases)) {
+                    self.collide(k, speed, &phases);
+                }
                 return Ok(Some(impact));
             }
             Awaits::Search { whole_reach: true } if !self.gaps[k].in_contact => {
@@ -242,6 +250,13 @@ impl<const M: usize> Simulation<M> {
         self.spend(k)?;
         self.impacts += 1;
         Ok(Impact { time: self.now.time(), gap: self.topology.label(k), closing_speed })
+    }
+
+    /// Counts another impact at the same instant; should the budget be spent, the next event says so.
+    pub(super) fn count_another(&mut self, k: usize, closing_speed: f64) -> Impact {
+        self.budget_left = self.budget_left.saturating_sub(1);
+        self.impacts += 1;
+        Impact { time: self.now.time(), gap: self.topology.label(k), closing_speed }
     }
 
     /// Takes one event from the budget of the current unit of time.
@@ -456,6 +471,7 @@ impl<const M: usize> Simulation<M> {
             stepped: self.work.stepped,
             evaluations: self.work.evaluations,
             undecided: self.work.undecided,
+            simultaneous: self.ties.count,
         }
     }
 }

@@ -6,7 +6,7 @@
 //! to it when given time, because ω and Ω are incommensurable.
 
 use super::{Error, Progress};
-use crate::dynamics::{Engine, Initial, Scenario};
+use crate::dynamics::{Engine, Initial, Scenario, Simultaneous};
 use crate::numerics::bootstrap;
 use crate::numerics::random::NormalPairs;
 use crate::numerics::statistics::{Estimate, quantile};
@@ -152,6 +152,7 @@ impl Direction<'_> {
             initial: Initial::Rest,
             forcing: self.forcing.iter().map(|pair| pair.map(|x| scale * x)).collect(),
             overtones: Vec::new(),
+            simultaneous: Simultaneous::default(),
         };
         let failed = |source| Error::Dynamics { experiment: "two masses", source };
         let mut time = None;

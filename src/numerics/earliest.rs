@@ -14,6 +14,7 @@ pub struct Earliest {
     keys: Vec<Instant>,
     /// The winner below each node, root at 1; the leaves are the second half.
     nodes: Vec<Entry>,
+    last: usize,
 }
 
 /// A rounded key and its index.
@@ -35,7 +36,7 @@ impl Earliest {
         for node in (1..width).rev() {
             nodes[node] = nodes[2 * node];
         }
-        Earliest { keys: vec![Instant::NEVER; width], nodes }
+        Earliest { keys: vec![Instant::NEVER; width], nodes, last: len - 1 }
     }
 
     /// Changes the keys of `first`, `first` + 1, …, at most three.
@@ -86,6 +87,20 @@ impl Earliest {
         key(other) < key(own)
     }
 
+    /// Whether key `index` has an equal next to it, where the last and the first are neighbours too.
+    #[inline(always)]
+    pub fn ties_beside(&self, index: usize) -> bool {
+        let before = if index == 0 { self.last } else { index - 1 };
+        let after = if index == self.last { 0 } else { index + 1 };
+        let own = self.keys[index];
+        (self.keys[before] == own) | (self.keys[after] == own)
+    }
+
+    /// Key `index`.
+    pub fn key(&self, index: usize) -> Instant {
+        self.keys[index]
+    }
+
     /// The index of the earliest key, and that key.
     #[inline(always)]
     pub fn first(&self) -> (usize, Instant) {
@@ -119,6 +134,9 @@ mod tests {
                 earliest.set(index, [key]);
                 let expected = (0..len).min_by_key(|&i| (keys[i], i)).unwrap();
                 assert_eq!(earliest.first(), (expected, keys[expected]));
+                let beside = [(index + len - 1) % len, (index + 1) % len];
+                let tied = beside.into_iter().any(|i| keys[i] == keys[index]);
+                assert_eq!(earliest.ties_beside(index), tied);
                 if index + 3 <= len {
                     let three = [0, 1, 2].map(|i| moment.after(f64::from(i) * 0.25));
                     keys[index..index + 3].copy_from_slice(&three);

@@ -28,11 +28,12 @@ enum Next<R> {
 #[derive(Clone, Debug)]
 pub struct Reference<R> {
     spacing: R,
-    frequencies: [R; 2],
+    /// ω and each Ω.
+    frequencies: Vec<R>,
     restitution: R,
     ring: bool,
-    /// Free amplitudes (a, b) and forced amplitudes of each mass.
-    masses: Vec<[[R; 2]; 2]>,
+    /// Free amplitudes (a, b) of each mass, then its forced ones, as the frequencies.
+    masses: Vec<Vec<[R; 2]>>,
     /// One entry a gap of the engine's numbering; on a ring entry 0 stays idle.
     next: Vec<Next<R>>,
     time: R,
@@ -44,23 +45,36 @@ const AHEAD: f64 = 2.0;
 impl<R: Real> Reference<R> {
     /// Sets a scenario at t = 0, every double taken as the exact number that it is.
     pub fn new(scenario: &Scenario) -> Self {
-        let [w, big_w] = [scenario.natural_frequency, scenario.forcing_frequency].map(R::of);
-        let factor = w.clone() * w.clone() - big_w.clone() * big_w.clone();
-        let masses = scenario.forcing.iter().enumerate().map(|(j, forcing)| {
-            let [alpha, beta] = forcing.map(|x| R::of(x) / factor.clone());
-            let free = match &scenario.initial {
-                Initial::Rest => [-alpha.clone(), -(beta.clone() * big_w.clone() / w.clone())],
-                Initial::Zero => [R::of(0.0), R::of(0.0)],
-                Initial::Free(free) => free[j].map(R::of),
-            };
-            [free, [alpha, beta]]
+        let w = R::of(scenario.natural_frequency);
+        let overtones = scenario.overtones.iter().map(|o| (o.frequency, &o.amplitudes));
+        let components: Vec<(R, &Vec<[f64; 2]>)> =
+            std::iter::once((scenario.forcing_frequency, &scenario.forcing))
+                .chain(overtones)
+                .map(|(big_w, amplitudes)| (R::of(big_w), amplitudes))
+                .collect();
+        let masses = (0..scenario.forcing.len()).map(|j| {
+            let mut mass = vec![[R::of(0.0), R::of(0.0)]];
+            for (big_w, amplitudes) in &components {
+                let factor = w.clone() * w.clone() - big_w.clone() * big_w.clone();
+                let [alpha, beta] = amplitudes[j].map(|x| R::of(x) / factor.clone());
+                // At rest the free part cancels place and velocity of the response.
+                if scenario.initial == Initial::Rest {
+                    let [a, b] = mass[0].clone();
+                    mass[0] = [a - alpha.clone(), b - beta.clone() * big_w.clone() / w.clone()];
+                }
+                mass.push([alpha, beta]);
+            }
+            if let Initial::Free(free) = &scenario.initial {
+                mass[0] = free[j].map(R::of);
+            }
+            mass
         });
         let masses: Vec<_> = masses.collect();
         let ring = scenario.boundary == Boundary::Ring;
         let mut chain = Reference {
             spacing: R::of(scenario.spacing),
             restitution: R::of(scenario.restitution),
-            frequencies: [w, big_w],
+            frequencies: std::iter::once(w).chain(components.into_iter().map(|c| c.0)).collect(),
             ring,
             next: Vec::new(),
             masses,
@@ -93,18 +107,18 @@ impl<R: Real> Reference<R> {
         Gap {
             spacing: self.spacing.clone(),
             frequencies: self.frequencies.clone(),
-            amplitudes: [[part(0, 0), part(0, 1)], [part(1, 0), part(1, 1)]],
+            amplitudes: (0..self.frequencies.len()).map(|m| [part(m, 0), part(m, 1)]).collect(),
         }
     }
 
     /// Free and forced amplitudes of a mass, counted from 0.
-    pub fn mass(&self, j: usize) -> &[[R; 2]; 2] {
+    pub fn mass(&self, j: usize) -> &[[R; 2]] {
         &self.masses[j]
     }
 
     /// Displacement from equilibrium, and velocity, of each mass at a time of the present flight.
     pub fn state(&self, t: &R) -> Vec<[R; 2]> {
-        let one = |mass: &[[R; 2]; 2]| {
+        let one = |mass: &Vec<[R; 2]>| {
             let gap = Gap {
                 spacing: R::of(0.0),
                 frequencies: self.frequencies.clone(),

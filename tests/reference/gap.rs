@@ -2,15 +2,15 @@
 
 use super::real::Real;
 
-/// Δ(t) = d + a cos ωt + b sin ωt + c cos Ωt + e sin Ωt.
+/// Δ(t) = d + a cos ωt + b sin ωt + Σ (c cos Ωt + e sin Ωt).
 #[derive(Clone, Debug)]
 pub struct Gap<R> {
     /// d.
     pub spacing: R,
-    /// ω and Ω.
-    pub frequencies: [R; 2],
-    /// (a, b) and (c, e).
-    pub amplitudes: [[R; 2]; 2],
+    /// ω and each Ω.
+    pub frequencies: Vec<R>,
+    /// (a, b) and each (c, e).
+    pub amplitudes: Vec<[R; 2]>,
 }
 
 /// One piece of the time axis, with the signs that are known of Δ at its ends.

@@ -51,7 +51,12 @@ impl Method for Certified {
                 other => other,
             })?;
         let counters = engine.counters();
-        Ok(Cost { steps: counters.searches, evaluations: counters.evaluations, ..cost })
+        Ok(Cost {
+            steps: counters.searches,
+            evaluations: counters.evaluations,
+            simultaneous: counters.simultaneous,
+            ..cost
+        })
     }
 }
 

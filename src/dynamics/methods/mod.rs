@@ -40,6 +40,8 @@ pub struct Cost {
     pub steps: u64,
     /// Evaluations of one mass's acceleration or of one gap's width, with its sines.
     pub evaluations: u64,
+    /// Runs of neighbouring gaps that closed at exactly the same instant, which no rival sees.
+    pub simultaneous: u64,
 }
 
 /// A way to simulate a chain.

@@ -5,7 +5,7 @@
 
 use super::truth::Truth;
 use crate::dynamics::methods::{Certified, Method, State};
-use crate::dynamics::{Error, Impact, Initial, Scenario};
+use crate::dynamics::{Error, Impact, Initial, Scenario, Simultaneous};
 use crate::numerics::random::NormalPairs;
 use crate::params::{Boundary, Chain, SEED};
 use std::f64::consts::{PI, SQRT_2};
@@ -129,6 +129,7 @@ fn one(free: [f64; 2], forcing: [f64; 2], big_omega: f64, restitution: f64) -> S
         initial: Initial::Free(vec![free]),
         forcing: vec![forcing],
         overtones: Vec::new(),
+        simultaneous: Simultaneous::default(),
     }
 }
 

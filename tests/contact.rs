@@ -1,0 +1,179 @@
+//! Contact of pairs and clusters: how it comes about, what holds it, when it ends. Ω = 2 and cosine
+//! forcing only, so a mass under F cos Ωt is at j d + a − F/3 at t = 0, and forces are known.
+
+use impact_paper::dynamics::{Engine, Impact, Initial, Scenario, Simultaneous};
+use impact_paper::params::Boundary;
+
+/// Masses at these places, with these velocities, under these forces.
+fn scene(masses: &[(f64, f64)], forces: &[f64], restitution: f64) -> Scenario {
+    let free = masses
+        .iter()
+        .zip(forces)
+        .enumerate()
+        .map(|(i, ((x, v), force))| [x - (i + 1) as f64 + force / 3.0, *v])
+        .collect();
+    Scenario {
+        spacing: 1.0,
+        natural_frequency: 1.0,
+        forcing_frequency: 2.0,
+        restitution,
+        boundary: Boundary::Walls,
+        simultaneous: Simultaneous::Sequential,
+        initial: Initial::Free(free),
+        forcing: forces.iter().map(|f| [*f, 0.0]).collect(),
+        overtones: Vec::new(),
+    }
+}
+
+fn run(engine: &mut Engine, until: f64) -> Vec<Impact> {
+    let mut impacts = Vec::new();
+    engine
+        .run(until, |impact| {
+            impacts.push(impact);
+            true
+        })
+        .unwrap();
+    impacts
+}
+
+/// The gaps in contact at a time, all with a force that presses.
+fn held(engine: &mut Engine, t: f64) -> Vec<usize> {
+    assert!(run(engine, t).is_empty(), "an impact before {t}");
+    let contacts = engine.contacts(t);
+    assert!(contacts.iter().all(|c| c.1 >= 0.0), "{contacts:?} at {t}");
+    contacts.into_iter().map(|c| c.0).collect()
+}
+
+/// Δ'' of a gap that nothing presses is d + (F₂ − F₁) cos 2t.
+#[test]
+fn a_pair_is_released_where_its_force_changes_sign() {
+    // −(1 − 2 F cos 2t)/2 = 0.
+    let force = 1.5f64;
+    let release = 0.5 * (1.0 / (2.0 * force)).acos();
+    let scenario = scene(&[(1.5, 0.1), (1.5, 0.1)], &[force, -force], 0.8);
+    let mut engine = Engine::new(&scenario).unwrap();
+    for part in [0.0, 0.3, 0.9] {
+        let t = part * release;
+        assert_eq!(held(&mut engine, t), [1]);
+        let expected = force * (2.0 * t).cos() - 0.5;
+        assert!((engine.contacts(t)[0].1 - expected).abs() < 1e-14, "at {t}");
+    }
+    assert_eq!(held(&mut engine, release - 1e-12), [1]);
+    assert!(held(&mut engine, release + 1e-12).is_empty(), "a pair that is pulled apart");
+    // From width and rate zero: Δ = 1 + A cos s + B sin s + (2F/3) cos 2t.
+    let s = 0.2;
+    let t = release + s;
+    run(&mut engine, t);
+    let x = engine.positions(t);
+    let forced = |t: f64| 2.0 * force / 3.0 * (2.0 * t).cos();
+    let rate = -4.0 * force / 3.0 * (2.0 * release).sin();
+    let width = 1.0 - (1.0 + forced(release)) * s.cos() - rate * s.sin() + forced(t);
+    assert!(width > 0.0 && (x[1] - x[0] - width).abs() < 1e-14, "{} {width}", x[1] - x[0]);
+}
+
+#[test]
+fn a_cluster_of_three_is_released_gap_by_gap() {
+    // Forces (6, 0, −3) cos 2t: in gap 1 it is 5c − 1, in gap 2 4c − 1, and in gap 1 alone (6c − 1)/2.
+    let scenario = scene(&[(2.0, 0.0), (2.0, 0.0), (2.0, 0.0)], &[6.0, 0.0, -3.0], 0.8);
+    let mut engine = Engine::new(&scenario).unwrap();
+    let at = |cosine: f64| 0.5 * cosine.acos();
+    for cosine in [1.0, 0.7, 0.3] {
+        let t = at(cosine);
+        assert_eq!(held(&mut engine, t), [1, 2]);
+        for (force, expected) in engine.contacts(t).iter().zip([5.0, 4.0]) {
+            let expected: f64 = expected * cosine - 1.0;
+            assert!((force.1 - expected).abs() < 1e-13, "{force:?} {expected}");
+        }
+    }
+    assert_eq!(held(&mut engine, at(0.25) - 1e-12), [1, 2]);
+    assert_eq!(held(&mut engine, at(0.25) + 1e-12), [1], "gap 2 opens first");
+    let t = at(0.2);
+    assert_eq!(held(&mut engine, t), [1]);
+    assert!((engine.contacts(t)[0].1 - 0.1).abs() < 1e-13, "{:?}", engine.contacts(t));
+    assert_eq!(held(&mut engine, at(1.0 / 6.0) - 1e-12), [1]);
+    assert!(held(&mut engine, at(1.0 / 6.0) + 1e-12).is_empty());
+    assert_eq!(engine.counters().contact_phases, 2, "one for each gap");
+}
+
+#[test]
+fn a_neighbour_keeps_a_gap_shut_that_would_open() {
+    // Two masses at the wall under 3 cos 2t and −7 cos 2t: gap 0 alone would open (1 + 3 > 0).
+    let scenario = scene(&[(0.0, 0.0), (0.0, 0.0)], &[3.0, -7.0], 0.8);
+    let mut engine = Engine::new(&scenario).unwrap();
+    // K = (1, 2): forces −(2 g₀ + g₁) = 4c − 3 and −(g₀ + g₁) = 7c − 2, g = (1 + 3c, 1 − 10c).
+    let at = |cosine: f64| 0.5 * cosine.acos();
+    assert_eq!(held(&mut engine, 0.0), [0, 1]);
+    for (force, expected) in engine.contacts(0.0).iter().zip([1.0, 5.0]) {
+        assert!((force.1 - expected).abs() < 1e-13, "{force:?} {expected}");
+    }
+    assert_eq!(held(&mut engine, at(0.75) - 1e-12), [0, 1]);
+    assert_eq!(held(&mut engine, at(0.75) + 1e-12), [1], "the pair leaves the wall together");
+    assert_eq!(held(&mut engine, at(0.11)), [1]);
+    assert!(held(&mut engine, at(0.09)).is_empty(), "(10c − 1)/2 has changed its sign");
+}
+
+/// Two hits in a row multiply (rate just hit, other rate) by a matrix with μ² − (1 + r)/2 μ + r = 0: with
+/// two real roots, r < 7 − 4√3, closing speeds fall by the larger, and waits by the roots' ratio.
+#[test]
+fn three_masses_collapse_in_a_geometric_series() {
+    for r in [0.0, 0.02, 0.05] {
+        // Pressed together, so that contact is what comes of it; the middle one between the others.
+        let masses = [(2.0 - 1e-3, 1.0), (2.0, 0.0), (2.0 + 2e-3, -1.0)];
+        let mut engine = Engine::new(&scene(&masses, &[9.0, 0.0, -9.0], r)).unwrap();
+        let impacts = run(&mut engine, 0.1);
+        assert!(impacts.len() < 80, "r = {r}: a collapse is cut short, {}", impacts.len());
+        let contacts = engine.contacts(0.1);
+        assert_eq!(contacts.iter().map(|c| c.0).collect::<Vec<_>>(), [1, 2], "r = {r}");
+        for (_, force) in contacts {
+            assert!((force - (9.0 * 0.2f64.cos() - 1.0)).abs() < 1e-12, "force {force}");
+        }
+        let x = engine.positions(0.1);
+        assert!((x[1] - x[0]).abs() < 2e-15 && (x[2] - x[1]).abs() < 2e-15, "{x:?}");
+        if r == 0.0 {
+            continue;
+        }
+        let half = 0.25 * (1.0 + r);
+        let root = (half * half - r).sqrt();
+        let (mu, ratio) = (half + root, (half - root) / (half + root));
+        // Those that alternate, past the first few and above what counts as slow.
+        let series: Vec<&Impact> = impacts.iter().filter(|hit| hit.closing_speed > 1e-5).collect();
+        let tail = &series[series.len() - 4..];
+        assert!(series.len() > 8 && tail.windows(2).all(|pair| pair[0].gap != pair[1].gap));
+        for pair in tail.windows(2) {
+            let seen = pair[1].closing_speed / pair[0].closing_speed;
+            assert!((seen / mu - 1.0).abs() < 1e-2, "r = {r}: speeds fall by {seen}, not {mu}");
+        }
+        let waits: Vec<f64> = tail.windows(2).map(|pair| pair[1].time - pair[0].time).collect();
+        for pair in waits.windows(2) {
+            let seen = pair[1] / pair[0];
+            assert!(
+                (seen / ratio - 1.0).abs() < 0.05,
+                "r = {r}: waits fall by {seen}, not {ratio}"
+            );
+        }
+    }
+    // Above 7 − 4√3 and not pressed, the three part.
+    let masses = [(2.0 - 1e-3, 1.0), (2.0, 0.0), (2.0 + 2e-3, -1.0)];
+    let mut engine = Engine::new(&scene(&masses, &[0.0; 3], 0.2)).unwrap();
+    let impacts = run(&mut engine, 0.1);
+    assert!((2..8).contains(&impacts.len()), "{impacts:?}");
+    assert_eq!(engine.counters().contact_phases, 0);
+}
+
+#[test]
+fn without_restitution_a_pair_sticks_only_while_it_is_pressed() {
+    // d + ΔF > 0 at the impact: they part at once. < 0: they stay together.
+    for (force, sticks) in [(0.0, false), (0.4, false), (0.6, true), (3.0, true)] {
+        let masses = [(1.5 - 1e-3, 0.5), (1.5 + 1e-3, -0.5)];
+        let mut engine = Engine::new(&scene(&masses, &[force, -force], 0.0)).unwrap();
+        let impacts = run(&mut engine, 0.01);
+        assert_eq!(impacts.len(), 1, "force {force}");
+        assert_eq!(engine.contacts(0.01).len(), usize::from(sticks), "force {force}");
+        let (x, v) = (engine.positions(0.01), engine.velocities(0.01));
+        let rate = v[1] - v[0];
+        let s = 0.01 - impacts[0].time;
+        let expected = if sticks { 0.0 } else { (1.0 - 2.0 * force) * s };
+        assert!((rate - expected).abs() < 1e-5, "force {force}: {rate} {expected}");
+        assert!(sticks && (x[1] - x[0]).abs() < 2e-15 || x[0] < x[1], "force {force}: {x:?}");
+    }
+}

@@ -1,0 +1,347 @@
+//! Neighbouring gaps that close at exactly the same instant, under both laws. The scenes are exact:
+//! masses in one point at t = 0, or mirror images.
+
+use assert_cmd::Command;
+use impact_paper::dynamics::{Engine, Impact, Initial, Scenario, Simultaneous};
+use impact_paper::numerics::random::NormalPairs;
+use impact_paper::params::{Boundary, Chain};
+use std::path::Path;
+
+const LAWS: [Simultaneous; 2] = [Simultaneous::Sequential, Simultaneous::Joint];
+
+fn draw(masses: usize, sigma: f64, index: u64) -> Scenario {
+    let chain = Chain { masses, ..Chain::default() };
+    Scenario::draw(&chain, sigma, &mut NormalPairs::new("simultaneous", 1, index))
+}
+
+/// A drawn chain made its own mirror image; an odd one has a mass at rest in the middle.
+fn mirror(masses: usize, sigma: f64, index: u64) -> Scenario {
+    let mut scenario = draw(masses, sigma, index);
+    for j in 0..masses.div_ceil(2) {
+        scenario.forcing[masses - 1 - j] = match 2 * j + 1 == masses {
+            true => [0.0; 2],
+            false => scenario.forcing[j].map(|x| -x),
+        };
+    }
+    scenario
+}
+
+fn run(engine: &mut Engine, until: f64) -> Vec<Impact> {
+    let mut impacts = Vec::new();
+    engine
+        .run(until, |impact| {
+            impacts.push(impact);
+            true
+        })
+        .unwrap();
+    impacts
+}
+
+#[test]
+fn a_three_way_impact_under_both_laws() {
+    let scene = |law, r| Scenario { restitution: r, simultaneous: law, ..mirror(3, 1.0, 0) };
+    for r in [0.0, 0.3, 0.8, 1.0] {
+        let mut speeds = Vec::new();
+        for law in LAWS {
+            let mut engine = Engine::new(&scene(law, r)).unwrap();
+            let mut first = None;
+            while first.is_none_or(|hit: Impact| hit.gap == 0 || hit.gap == 3) {
+                engine
+                    .run(100.0, |impact| {
+                        first = Some(impact);
+                        false
+                    })
+                    .unwrap();
+            }
+            let first = first.unwrap();
+            assert_eq!(first.gap, 1);
+            // The rest of it: under the joint law at the same tick.
+            let mut block = vec![first];
+            block.extend(run(&mut engine, first.time + 1e-13));
+            let v = engine.velocities(engine.time());
+            let closing = first.closing_speed;
+            assert_eq!(engine.counters().simultaneous, 1, "{law:?}, r = {r}");
+            let gaps: Vec<usize> = block.iter().map(|hit| hit.gap).collect();
+            if law == Simultaneous::Joint {
+                assert_eq!(gaps, [1, 2]);
+                assert!(block.iter().all(|hit| hit.time == first.time));
+                assert_eq!(block[1].closing_speed, closing);
+                assert!(v[1].abs() < 1e-15 && (v[2] + v[0]).abs() < 1e-15, "{v:?}");
+                for rate in [v[1] - v[0], v[2] - v[1]] {
+                    assert!((rate - r * closing).abs() < 1e-14, "r = {r}: {rate}, {closing}");
+                }
+            } else {
+                assert!(gaps.starts_with(&[1, 2]) && gaps.len() > 2, "r = {r}: {gaps:?}");
+                assert!(block[1].closing_speed > 1.4 * closing, "the first hit speeds the second");
+            }
+            speeds.push(v);
+        }
+        // The laws differ wherever there is anything to restitute but all.
+        let apart = (speeds[0][1] - speeds[1][1]).abs();
+        assert_eq!(apart > 1e-3, r > 0.0 && r < 1.0, "r = {r}: {speeds:?}");
+    }
+}
+
+/// Newton's restitution for masses in one point, by elimination with the dense matrix; walls have
+/// inverse mass 0. All gaps between the first and the last mass are in it.
+fn newton(v: &[f64], inverse: &[f64], r: f64) -> Vec<f64> {
+    let n = v.len() - 1;
+    let mut rows: Vec<Vec<f64>> = (0..n)
+        .map(|i| {
+            let mut row = vec![0.0; n + 1];
+            row[i] = inverse[i] + inverse[i + 1];
+            if i > 0 {
+                row[i - 1] = -inverse[i];
+            }
+            if i + 1 < n {
+                row[i + 1] = -inverse[i + 1];
+            }
+            row[n] = (1.0 + r) * (v[i] - v[i + 1]);
+            row
+        })
+        .collect();
+    for i in 0..n {
+        for j in (0..n).filter(|&j| j != i) {
+            let factor = rows[j][i] / rows[i][i];
+            let pivot = rows[i].clone();
+            rows[j].iter_mut().zip(pivot).for_each(|(x, p)| *x -= factor * p);
+        }
+    }
+    let mut after = v.to_vec();
+    for (i, row) in rows.iter().enumerate() {
+        let impulse = row[n] / row[i];
+        after[i] -= inverse[i] * impulse;
+        after[i + 1] += inverse[i + 1] * impulse;
+    }
+    after
+}
+
+/// An unforced chain whose masses from..=to are in one point, at these velocities.
+fn heap(n: usize, boundary: Boundary, members: &[(usize, f64, f64)], r: f64) -> Scenario {
+    let mut free = vec![[0.0; 2]; n];
+    for &(j, place, v) in members {
+        free[j - 1] = [place - j as f64, v];
+    }
+    let scenario = Scenario {
+        boundary,
+        restitution: r,
+        initial: Initial::Free(free),
+        simultaneous: Simultaneous::Joint,
+        ..draw(n, 0.0, 0)
+    };
+    assert!(scenario.forcing.iter().flatten().all(|x| *x == 0.0));
+    scenario
+}
+
+fn energy(v: &[f64]) -> f64 {
+    0.5 * v.iter().map(|x| x * x).sum::<f64>()
+}
+
+#[test]
+fn the_joint_law_is_newtons_for_any_run() {
+    let mut normals = NormalPairs::new("heaps", 1, 0);
+    for count in 2..7usize {
+        for (shift, boundary) in
+            [(0, Boundary::Walls), (2, Boundary::Walls), (2, Boundary::Ring), (5, Boundary::Ring)]
+        {
+            for r in [0.0, 0.4, 1.0] {
+                let n = 9;
+                let at_wall = boundary == Boundary::Walls && shift == 0;
+                // Velocities that fall along the run, so that every gap of it closes.
+                let mut v = 0.0;
+                let members: Vec<(usize, f64, f64)> = (0..count)
+                    .map(|i| {
+                        v -= 0.05 + normals.pair()[0].abs();
+                        let j = i + shift + 1;
+                        // On a ring the run may pass from mass n to mass 1, one turn on.
+                        let place = if at_wall { 0.0 } else { (shift + 3) as f64 };
+                        if j > n { (j - n, place - n as f64, v) } else { (j, place, v) }
+                    })
+                    .collect();
+                let mut engine = Engine::new(&heap(n, boundary, &members, r)).unwrap();
+                let impacts = run(&mut engine, 0.0);
+                let mut gaps: Vec<usize> = members[..count - 1].iter().map(|m| m.0).collect();
+                if at_wall {
+                    gaps.insert(0, 0);
+                }
+                gaps.sort_unstable();
+                let seen: Vec<usize> = impacts.iter().map(|hit| hit.gap).collect();
+                assert_eq!(seen, gaps, "{boundary:?}, r = {r}");
+                assert_eq!(engine.counters().simultaneous, u64::from(gaps.len() > 1));
+                let wall = at_wall.then_some((0.0, 0.0));
+                let bodies = wall.into_iter().chain(members.iter().map(|m| (m.2, 1.0)));
+                let (before, inverse): (Vec<f64>, Vec<f64>) = bodies.unzip();
+                let expected = newton(&before, &inverse, r);
+                let after = engine.velocities(0.0);
+                for (m, expected) in members.iter().zip(&expected[usize::from(at_wall)..]) {
+                    assert!((after[m.0 - 1] - expected).abs() < 4e-15 * before.len() as f64);
+                }
+                assert!(energy(&after) <= energy(&before) * (1.0 + 1e-14), "r = {r}");
+            }
+        }
+    }
+}
+
+#[test]
+fn energy_never_grows_and_nothing_is_left_closing() {
+    // Velocities in any order: some gaps of the heap close, some open, some are driven shut again.
+    let mut normals = NormalPairs::new("heaps", 2, 0);
+    let mut more = 0;
+    for round in 0..300 {
+        let count = 3 + round % 5;
+        let r = [1.0, 0.9, 0.6, 0.0][round % 4];
+        let members: Vec<(usize, f64, f64)> =
+            (0..count).map(|i| (i + 2, 4.0, normals.pair()[0])).collect();
+        let before: Vec<f64> = members.iter().map(|m| m.2).collect();
+        let mut engine = Engine::new(&heap(9, Boundary::Walls, &members, r)).unwrap();
+        let impacts = run(&mut engine, 0.0);
+        assert!(impacts.iter().all(|hit| hit.time == 0.0));
+        let closing = before.windows(2).filter(|pair| pair[1] < pair[0]).count();
+        more += usize::from(impacts.len() > closing);
+        let after = &engine.velocities(0.0)[1..=count];
+        let bound = energy(&before) * (1.0 + 1e-13);
+        assert!(energy(after) <= bound, "{before:?}, r = {r}");
+        assert!((energy(after) >= bound * (1.0 - 1e-12)) || r < 1.0 || impacts.is_empty());
+        let momentum = |v: &[f64]| v.iter().sum::<f64>();
+        assert!((momentum(after) - momentum(&before)).abs() < 1e-13);
+        assert!(after.windows(2).all(|pair| pair[1] - pair[0] > -1e-9), "{before:?}: {after:?}");
+    }
+    assert!(more > 30, "{more} heaps with an impact after the first");
+}
+
+/// Masses in one point with forces that press the middle together: Ω = 2, so x = a − F/3 at t = 0.
+fn pressed(velocities: &[f64], forces: &[f64], r: f64) -> Scenario {
+    let n = velocities.len();
+    let members: Vec<(usize, f64, f64)> = (1..=n)
+        .map(|j| (j, 0.5 * (n + 1) as f64 + forces[j - 1] / 3.0, velocities[j - 1]))
+        .collect();
+    let forcing = forces.iter().map(|&f| [f, 0.0]).collect();
+    Scenario { forcing, forcing_frequency: 2.0, ..heap(n, Boundary::Walls, &members, r) }
+}
+
+#[test]
+fn masses_in_contact_take_part_in_a_joint_impact() {
+    for r in [0.0, 0.5, 1.0] {
+        // Two in contact, hit from both sides at once: they stay where they are.
+        let scenario = pressed(&[2.0, 0.0, 0.0, -2.0], &[0.0, 3.0, -3.0, 0.0], r);
+        let mut engine = Engine::new(&scenario).unwrap();
+        assert_eq!(engine.contacts(0.0).len(), 1);
+        let gaps: Vec<usize> = run(&mut engine, 0.0).iter().map(|hit| hit.gap).collect();
+        assert_eq!(gaps, [1, 3], "r = {r}");
+        assert_eq!(engine.counters().simultaneous, 1);
+        let v = engine.velocities(0.0);
+        for (v, expected) in v.iter().zip([-2.0 * r, 0.0, 0.0, 2.0 * r]) {
+            assert!((v - expected).abs() < 1e-14, "r = {r}: {v} {expected}");
+        }
+        let held: Vec<usize> = engine.contacts(0.0).iter().map(|c| c.0).collect();
+        assert!(held.contains(&2), "{held:?}");
+        // One hit on two in contact: they go on as one body of mass 2.
+        let hit = |law| {
+            let scenario = pressed(&[3.0, 0.0, 0.0], &[0.0, 3.0, -3.0], r);
+            let mut engine = Engine::new(&Scenario { simultaneous: law, ..scenario }).unwrap();
+            let impacts = run(&mut engine, 0.0);
+            (impacts.len(), engine.velocities(0.0), engine.counters().simultaneous)
+        };
+        let (impacts, v, ties) = hit(Simultaneous::Joint);
+        assert_eq!((impacts, ties), (1, 0));
+        for (v, expected) in v.iter().zip([1.0 - 2.0 * r, 1.0 + r, 1.0 + r]) {
+            assert!((v - expected).abs() < 1e-14, "r = {r}: {v} {expected}");
+        }
+        // Passed on from mass to mass instead.
+        let (impacts, v, _) = hit(Simultaneous::Sequential);
+        assert!(r == 0.0 || impacts > 1 && v[2] > v[1] + 1e-3, "r = {r}: {impacts}, {v:?}");
+    }
+}
+
+#[test]
+fn a_mirror_image_keeps_its_symmetry_under_the_joint_law() {
+    // An odd chain: its middle mass is hit from both sides at once, again and again.
+    let asymmetry = |law| {
+        let scenario = Scenario { simultaneous: law, ..mirror(21, 0.3, 1) };
+        let mut engine = Engine::new(&scenario).unwrap();
+        let impacts = run(&mut engine, 300.0);
+        let x = engine.positions(300.0);
+        let off = (0..21).map(|j| (x[j] + x[20 - j] - 22.0).abs()).fold(0.0, f64::max);
+        (impacts, off, engine.counters().simultaneous)
+    };
+    let (impacts, off, ties) = asymmetry(Simultaneous::Joint);
+    assert!(impacts.len() > 300 && ties > 10, "{} {ties}", impacts.len());
+    assert!(off < 1e-14, "{off:e}");
+    // Each impact has its twin at the same time and speed.
+    let mut twins: Vec<Impact> = impacts.iter().map(|i| Impact { gap: 21 - i.gap, ..*i }).collect();
+    twins.sort_by(|a, b| (a.time, a.gap).partial_cmp(&(b.time, b.gap)).unwrap());
+    let mut impacts = impacts;
+    impacts.sort_by(|a, b| (a.time, a.gap).partial_cmp(&(b.time, b.gap)).unwrap());
+    assert_eq!(impacts, twins);
+    // One gap after the other cannot keep it.
+    let (_, off, ties) = asymmetry(Simultaneous::Sequential);
+    assert!(off > 1e-3 && ties >= 1, "{off:e} {ties}");
+}
+
+#[test]
+fn an_even_mirror_image_has_ties_but_none_between_neighbours() {
+    let trace = |law| {
+        let scenario = Scenario { simultaneous: law, ..mirror(20, 0.3, 3) };
+        let mut engine = Engine::new(&scenario).unwrap();
+        (run(&mut engine, 300.0), engine.counters())
+    };
+    let [sequential, joint] = LAWS.map(trace);
+    assert_eq!(sequential, joint);
+    assert!(joint.0.len() > 500 && joint.1.simultaneous == 0);
+}
+
+#[test]
+fn a_receiver_that_stops_in_a_joint_impact_gets_the_rest_later() {
+    let scenario = Scenario { simultaneous: Simultaneous::Joint, ..mirror(21, 0.3, 1) };
+    let all = run(&mut Engine::new(&scenario).unwrap(), 100.0);
+    let mut engine = Engine::new(&scenario).unwrap();
+    let mut one_by_one = Vec::new();
+    loop {
+        let before = one_by_one.len();
+        engine
+            .run(100.0, |impact| {
+                one_by_one.push(impact);
+                false
+            })
+            .unwrap();
+        if one_by_one.len() == before {
+            break;
+        }
+    }
+    assert_eq!(all, one_by_one);
+    assert_eq!(engine.counters().impacts, all.len() as u64);
+}
+
+fn trace(folder: &Path, scenario: &str, more: &[&str]) -> (Option<i32>, String, String) {
+    let path = folder.join("scenario.json");
+    std::fs::write(&path, scenario).unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_impact-paper"));
+    let output = command.arg("trace").arg(path).args(["--until", "12"]).args(more).output();
+    let output = output.unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    (output.status.code(), text(output.stdout), text(output.stderr))
+}
+
+#[test]
+fn trace_says_what_was_done_with_ties() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = |law: &str| format!(r#"{{"forcing":[[0.9,0.8],[0,0],[-0.9,-0.8]]{law}}}"#);
+    let plain = trace(folder.path(), &scene(""), &[]);
+    let sequential = trace(folder.path(), &scene(r#","simultaneous":"sequential""#), &[]);
+    let joint = trace(folder.path(), &scene(r#","simultaneous":"joint""#), &[]);
+    assert_eq!(plain, sequential);
+    for (run, words) in [(&plain, "lowest gap first"), (&joint, "all at once")] {
+        assert!(run.0 == Some(0) && run.2.contains(words) && run.2.lines().count() == 1, "{run:?}");
+    }
+    assert_ne!(plain.1, joint.1);
+    let certified = trace(folder.path(), &scene(r#","simultaneous":"joint""#), &["--certify"]);
+    assert_eq!(certified.1, joint.1);
+    assert!(certified.2.contains("all at once") && certified.2.contains("can be trusted"));
+    let rival = trace(folder.path(), &scene(r#","simultaneous":"joint""#), &["--method", "verlet"]);
+    assert_eq!((rival.0, rival.1.as_str(), rival.2.lines().count()), (Some(2), "", 1), "{rival:?}");
+    assert!(rival.2.contains("simultaneous") && rival.2.contains("verlet"), "{}", rival.2);
+    let mut help = Command::new(env!("CARGO_BIN_EXE_impact-paper"));
+    let help = help.args(["trace", "--help"]).output().unwrap().stdout;
+    let help = String::from_utf8(help).unwrap();
+    assert!(help.contains(r#""simultaneous": "sequential""#) && help.contains(r#""joint" takes"#));
+}
