@@ -46,30 +46,38 @@ fn two_and_eight_components_have_the_impacts_of_the_reference() {
     let chain = |masses| Chain { masses, ..Chain::default() };
     let cases = [
         (chain(12), 0.3, &EIGHT[..2], 60.0),
-        (chain(5), 0.3, &EIGHT[..], 40.0),
-        (Chain { start: Start::Zero, ..chain(2) }, 0.3, &EIGHT[..], 40.0),
-        (Chain { boundary: Boundary::Ring, restitution: 0.3, ..chain(8) }, 0.3, &EIGHT[1..4], 60.0),
-        (Chain { natural_frequency: 1.3, spacing: 2.0, ..chain(6) }, 0.8, &[0.7, 2.9], 40.0),
+        (chain(5), 0.3, &EIGHT[..], 30.0),
+        (Chain { start: Start::Zero, ..chain(4) }, 0.35, &EIGHT[..], 30.0),
+        (Chain { boundary: Boundary::Ring, restitution: 0.3, ..chain(8) }, 0.5, &EIGHT[1..4], 60.0),
+        (Chain { natural_frequency: 1.3, spacing: 2.0, ..chain(6) }, 1.0, &[0.7, 2.9], 40.0),
     ];
-    let mut worst: f64 = 0.0;
+    let (mut worst, mut early_ones): (f64, usize) = (0.0, 0);
     for (i, (chain, sigma, frequencies, until)) in cases.into_iter().enumerate() {
-        let index = (0..20)
-            .find(|&index| Engine::new(&drawn(&chain, sigma, frequencies, index)).is_ok())
-            .expect("a start without overlap");
-        let scenario = drawn(&chain, sigma, frequencies, index);
+        // The first that starts without overlap and is not too quiet.
+        let busy = |scenario: &Scenario| {
+            Engine::new(scenario).is_ok() && trace(scenario, until).len() > 30
+        };
+        let mut draws = (0..50).map(|index| drawn(&chain, sigma, frequencies, index));
+        let scenario = draws.find(busy).expect("a busy chain");
         let (ours, theirs) =
             (trace(&scenario, until), Reference::<Dd>::new(&scenario).run(until).unwrap());
-        assert!(theirs.len() > 30, "case {i} is too quiet: {}", theirs.len());
+        let few = theirs.iter().filter(|hit| hit.time.near() < 4.0).count();
+        println!("case {i}: {} impacts, {few} of them early", theirs.len());
+        early_ones += few;
         assert_eq!(ours.len(), theirs.len(), "case {i}");
         for (a, b) in ours.iter().zip(&theirs) {
             assert_eq!(a.gap, b.gap, "case {i} at t = {}", a.time);
             let error = (Dd::of(a.time) - b.time).near().abs();
             let speed = (Dd::of(a.closing_speed) - b.closing_speed).near().abs();
             assert!(error < 1e-9 && speed < 1e-8, "case {i}: {a:?} {error:e} {speed:e}");
+            // Before chaos has had time, all digits are right.
+            let early = a.time > 4.0 || error * b.closing_speed.near() < 4e-14;
+            assert!(early, "case {i}: {a:?} {error:e}");
             worst = worst.max(error);
         }
     }
     println!("largest error of a time: {worst:.1e}");
+    assert!(early_ones > 10, "{early_ones}");
 }
 
 #[test]

@@ -136,9 +136,9 @@ fn three_masses_collapse_in_a_geometric_series() {
         let root = (half * half - r).sqrt();
         let (mu, ratio) = (half + root, (half - root) / (half + root));
         // Those that alternate, past the first few and above what counts as slow.
-        let series: Vec<&Impact> = impacts.iter().filter(|hit| hit.closing_speed > 1e-5).collect();
+        let series: Vec<&Impact> = impacts.iter().filter(|hit| hit.closing_speed > 1e-3).collect();
         let tail = &series[series.len() - 4..];
-        assert!(series.len() > 8 && tail.windows(2).all(|pair| pair[0].gap != pair[1].gap));
+        assert!(series.len() > 6 && tail.windows(2).all(|pair| pair[0].gap != pair[1].gap));
         for pair in tail.windows(2) {
             let seen = pair[1].closing_speed / pair[0].closing_speed;
             assert!((seen / mu - 1.0).abs() < 1e-2, "r = {r}: speeds fall by {seen}, not {mu}");

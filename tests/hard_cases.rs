@@ -260,9 +260,8 @@ fn long_quasi_periodic_waits_end_at_the_first_root() {
         assert!(units < 8.0, "k = {k}, t = {t}: {units}");
         rates.push(rate);
     }
-    // The longest waits, of thousands of windows, cost no more for each than the shortest.
-    let [first, last] = [rates[0], rates[rates.len() - 1]];
-    assert!(rates.iter().all(|rate| *rate < 1.2 * first) && last < 1.5, "{rates:?}");
+    // Long waits, of hundreds of windows, cost no more for each than short ones, and almost nothing.
+    assert!(rates[0] < 5.0 && rates[1..].iter().all(|rate| *rate < 0.3), "{rates:?}");
     println!("long waits: |δt| ≤ {worst:.2} ε (d + R1 + R2) / |Δ'| beyond the rounding of t");
 }
 
