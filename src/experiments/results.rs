@@ -58,6 +58,26 @@ impl Need {
         Need::Analytic,
         Need::Measured,
     ];
+
+    /// The name of the experiment, as values carry it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Need::Sweep => "sweep",
+            Need::SecondSeed => "second_seed",
+            Need::Protocol => "protocol",
+            Need::Starts => "starts",
+            Need::Laws => "laws",
+            Need::Horizon => "horizon",
+            Need::TwoMasses => "two_masses",
+            Need::Segments => "segments",
+            Need::Race => "race",
+            Need::Biases => "bias",
+            Need::Trials => "trials",
+            Need::Scale => "scale",
+            Need::Analytic => "analytic",
+            Need::Measured => "measured",
+        }
+    }
 }
 
 /// All results: what is `None` was not asked for.

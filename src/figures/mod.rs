@@ -132,6 +132,17 @@ pub fn needs(number: Number) -> &'static [Need] {
     }
 }
 
+/// The names of the experiments whose results a figure shows; none for a schematic.
+pub fn experiments(number: Number) -> Vec<&'static str> {
+    let theory = matches!(number, Number::Paper(7..=15)).then_some("theory");
+    needs(number).iter().map(|need| need.name()).chain(theory).collect()
+}
+
+/// The colours of all figures: the name that style sheets use, and the colour as `#rrggbb`.
+pub fn palette() -> impl Iterator<Item = (&'static str, String)> {
+    style::PALETTE.into_iter().map(|(name, colour)| (name, colour.to_string()))
+}
+
 /// Draws one figure.
 ///
 /// # Errors

@@ -65,6 +65,19 @@ pub const PURPLE: Colour = Colour(0xa5, 0x50, 0x8c);
 /// The page.
 pub const WHITE: Colour = Colour(0xff, 0xff, 0xff);
 
+/// All colours by the names that style sheets use.
+pub const PALETTE: [(&str, Colour); 9] = [
+    ("ink", INK),
+    ("grey", GREY),
+    ("pale", PALE),
+    ("red", RED),
+    ("green", GREEN),
+    ("blue", BLUE),
+    ("orange", ORANGE),
+    ("purple", PURPLE),
+    ("page", WHITE),
+];
+
 /// How a line is broken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dash {

@@ -5,9 +5,9 @@ use super::claims::{Row, scorecard};
 use super::document::Block;
 use super::templates::{Filler, Mark, Templates};
 use super::values::Registry;
-use super::{Error, labels, latex, ledger, lint, markdown, parse, pdf};
+use super::{Error, html, labels, latex, ledger, lint, markdown, parse, pdf};
 use crate::claims::Claim;
-use crate::figures::Figure;
+use crate::figures::{self, Figure};
 use sha2::{Digest, Sha256};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -34,7 +34,7 @@ pub struct Input<'a> {
 pub struct Report {
     /// Files that are committed; SHA256SUMS covers them.
     pub committed: Files,
-    /// Files that stand beside them for LaTeX, and are not committed: figures/*.pdf.
+    /// Files that stand beside them and are not committed: report.html, figures/*.pdf for LaTeX.
     pub beside: Files,
 }
 
@@ -73,6 +73,9 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
     put("ledger.json".into(), ledger::json(input.claims, input.figures).map_err(json)?);
     put("ledger.md".into(), ledger::markdown(input.claims, input.figures));
     let mut beside = Files::new();
+    filler.insert("page", &html::write(&blocks, input.figures, &values)?);
+    filler.insert("style", &input.templates.text("report.css")?);
+    beside.insert("report.html".into(), filler.fill("report.html")?.into_bytes());
     for figure in input.figures {
         committed.extend(files_of(figure));
         let path = format!("figures/{}.pdf", figure.id);
@@ -121,12 +124,16 @@ fn check_unused(values: &Registry, filled: &str) -> Result<(), Error> {
 fn illustrate(blocks: &mut [Block], figures: &[Figure]) -> Result<(), Error> {
     let mut shown = BTreeSet::new();
     for block in blocks {
-        if let Block::Figure { path, alt, data, .. } = block {
+        if let Block::Figure { path, alt, data, experiments, .. } = block {
             let figure =
                 figures.iter().find(|figure| *path == format!("figures/{}.svg", figure.id));
             let figure = figure.ok_or_else(|| Error::Reference(path.clone()))?;
             *alt = figure.description.clone();
             *data = figure.data.iter().map(|d| format!("data/{}", d.name)).collect();
+            *experiments = match figure.id.trim_start_matches("fig").parse() {
+                Ok(number) => figures::experiments(number),
+                Err(_) => Vec::new(),
+            };
             shown.insert(figure.id.as_str());
         }
     }

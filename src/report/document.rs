@@ -4,6 +4,8 @@
 //! to and resolves references, and each format has one writer that walks it. Writers decide on
 //! markup only: numbers, words of references and digits of values are in the tree already.
 
+use super::valued::bare;
+
 /// A block of the report.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Block {
@@ -32,6 +34,8 @@ pub enum Block {
         alt: String,
         /// Paths of its data relative to the report.
         data: Vec<String>,
+        /// Names of the experiments whose results it shows.
+        experiments: Vec<&'static str>,
         /// The caption.
         caption: Vec<Inline>,
     },
@@ -122,7 +126,7 @@ pub enum Inline {
     Emphasis(Vec<Inline>),
     /// Strong emphasis.
     Strong(Vec<Inline>),
-    /// Mathematics in the line, as TeX.
+    /// Mathematics in the line, as TeX; values in it are framed (see [`super::valued`]).
     Maths(String),
     /// A displayed equation, as TeX without its tag.
     Display {
@@ -248,8 +252,8 @@ pub fn plain(inlines: &[Inline]) -> String {
     let mut out = String::new();
     for inline in inlines {
         match inline {
-            Inline::Text(text) | Inline::Code(text) | Inline::Maths(text) => out.push_str(text),
-            Inline::Display { tex, .. } => out.push_str(tex),
+            Inline::Text(text) | Inline::Code(text) => out.push_str(text),
+            Inline::Maths(tex) | Inline::Display { tex, .. } => out.push_str(&bare(tex)),
             Inline::Soft | Inline::Break => out.push(' '),
             Inline::Emphasis(inner) | Inline::Strong(inner) => out.push_str(&plain(inner)),
             Inline::Link { shown, .. } | Inline::Value { shown, .. } => {

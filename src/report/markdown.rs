@@ -6,6 +6,7 @@
 //! follows a closing `$` without a space (`$n$-th`) moves inside.
 
 use super::document::{Align, Block, Inline};
+use super::valued::bare;
 
 /// Writes report.md.
 pub fn write(blocks: &[Block]) -> String {
@@ -37,7 +38,7 @@ fn write_block(block: &Block, indent: &str, out: &mut String) {
             )
         }
         Block::Paragraph(text) => prose.all(text),
-        Block::Figure { id, number, path, alt, data, caption } => format!(
+        Block::Figure { id, number, path, alt, data, caption, .. } => format!(
             "{}\n![{}]({path})\n\n**Figure {number}.** {}{}",
             anchor(id),
             alternative(alt),
@@ -287,6 +288,7 @@ fn glued(text: &str) -> usize {
 
 /// TeX that survives Markdown.
 fn maths(tex: &str) -> String {
+    let tex = bare(tex);
     let chars: Vec<char> = tex.chars().collect();
     let mut out = String::with_capacity(tex.len());
     let mut i = 0;

@@ -2,16 +2,18 @@
 //!
 //! The flow: experiments' results become [`Value`]s in a [`Registry`]; [`templates`] (people's
 //! prose) name them; [`parse`] makes a tree of the filled Markdown, [`labels`] resolves references
-//! in it, [`markdown`] and [`latex`] write it; [`assemble()`] does all that and adds figures, data,
+//! in it, [`markdown`], [`latex`] and [`html`] write it; [`assemble()`] does all that and adds figures, data,
 //! values, ledger and checksums: every file of paper/ as bytes, written by the command line.
 
 pub mod assemble;
 pub mod bibliography;
+pub mod card;
 pub mod claims;
 pub mod compare;
 pub mod contents;
 pub mod document;
 pub mod equations;
+pub mod html;
 pub mod labels;
 pub mod latex;
 pub mod ledger;
@@ -24,6 +26,7 @@ pub mod pdf;
 pub mod print;
 pub mod templates;
 mod tex;
+pub mod valued;
 pub mod values;
 
 pub use assemble::{Files, Input, Report, assemble, files_of};
@@ -71,9 +74,17 @@ pub enum Error {
         "no LaTeX is known for the character {0:?}; write it otherwise, or add it to report::tex"
     )]
     NoLatex(char),
-    /// A picture that cannot be made into a PDF.
-    #[error("a figure for LaTeX: {0}; draw it otherwise, or teach it to report::pdf")]
+    /// A picture that another format cannot take.
+    #[error("a figure for LaTeX or HTML: {0}; draw it otherwise, or teach it to report::pdf")]
     Picture(String),
+    /// Mathematics that cannot become MathML.
+    #[error("no MathML for ${tex}$: {what}; write it otherwise")]
+    Maths {
+        /// The TeX.
+        tex: String,
+        /// What is wrong with it.
+        what: String,
+    },
     /// Numerals that nobody computed.
     #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
     Numerals(Vec<lint::Finding>),
@@ -251,7 +262,14 @@ Listing: What $\delta v$ does. {#lst:kick}
     fn assembled(prose: &str) -> Result<Report, Error> {
         let bib = "@article{rice1945, author={Rice, S. O.}, title={Noise}, year=1945}";
         let tex = "\\title{«title»}«body»";
-        let files = [("report.md", prose), ("references.bib", bib), ("report.tex", tex)];
+        let html = "<html><title>«page.title»</title>«page.body»«page.cards»</html>";
+        let files = [
+            ("report.md", prose),
+            ("references.bib", bib),
+            ("report.tex", tex),
+            ("report.html", html),
+            ("report.css", ""),
+        ];
         let mut values = Registry::new();
         values.add(Value::ensemble("half_height", 0.11652, 0.0004, 1000))?;
         values.add(Value::integer("spare", 3).data_only())?;
@@ -298,7 +316,7 @@ Listing: What $\delta v$ does. {#lst:kick}
         let sum =
             "5fbfa3bf9031ae769b4cb3a5cd6b9e1c235880438f409f9ec99217b60b1ecb17  data/fig03.csv\n";
         assert!(text("SHA256SUMS").contains(sum), "{}", text("SHA256SUMS"));
-        assert_eq!(report.beside.keys().collect::<Vec<_>>(), ["figures/fig03.pdf"]);
+        assert_eq!(report.beside.keys().collect::<Vec<_>>(), ["figures/fig03.pdf", "report.html"]);
         assert_eq!(assembled(PROSE).unwrap(), report);
     }
 

@@ -14,9 +14,11 @@
 //! - `[@rice1945]`: a citation of `references.bib`.
 //! - `[@bibliography]` alone in a paragraph: the list of what was cited.
 
+use super::card::words_and_maths;
 use super::document::{Align, Block, Inline};
 use super::print::print;
 use super::templates::Mark;
+use super::valued::framed;
 use super::values::Registry;
 use super::{Error, literate};
 use pulldown_cmark::{Alignment, BrokenLink, CowStr, Event, LinkType, Options, Parser, Tag};
@@ -233,8 +235,10 @@ impl Reader<'_> {
         Ok(match (target, unit) {
             (Target::Prose, "") => printed.markdown(),
             (Target::Prose, unit) => format!("{}\u{a0}{unit}", printed.markdown()),
-            (Target::Maths, "") => printed.maths(),
-            (Target::Maths, unit) => format!(r"{}\,{}", printed.maths(), unit.trim_matches('$')),
+            (Target::Maths, "") => framed(&mark.id, &printed.maths()),
+            (Target::Maths, unit) => {
+                format!(r"{}\,{}", framed(&mark.id, &printed.maths()), unit.trim_matches('$'))
+            }
             (Target::Plain, "") => printed.plain(),
             (Target::Plain, unit) => format!("{} {unit}", printed.plain()),
         })
@@ -263,15 +267,6 @@ fn is_block(tag: &Tag<'_>) -> bool {
             | Item
             | Table(_)
     )
-}
-
-/// "3 $\times$ 4" → words and mathematics; used for printed values only.
-fn words_and_maths(text: &str) -> Vec<Inline> {
-    let piece = |(i, piece): (usize, &str)| match i % 2 {
-        0 => Inline::Text(piece.to_string()),
-        _ => Inline::Maths(piece.to_string()),
-    };
-    text.split('$').enumerate().filter(|(_, piece)| !piece.is_empty()).map(piece).collect()
 }
 
 /// Cuts `\tag{18}` out of an equation.
@@ -312,8 +307,8 @@ fn paragraph(mut inlines: Vec<Inline>) -> Result<Block, Error> {
         let path = to.trim_start_matches(IMAGE).to_string();
         let number = number_of_figure(&path);
         let id = format!("fig:{number}");
-        let (alt, data) = (String::new(), Vec::new());
-        return Ok(Block::Figure { id, number, path, alt, data, caption: shown });
+        let (alt, data, experiments) = (String::new(), Vec::new(), Vec::new());
+        return Ok(Block::Figure { id, number, path, alt, data, experiments, caption: shown });
     }
     Ok(Block::Paragraph(inlines))
 }

@@ -22,6 +22,8 @@ use tera::{Context, Delimiters, Kwargs, State, Tera};
 const EMBEDDED: &[(&str, &str)] = &[
     ("published.toml", include_str!("../../templates/published.toml")),
     ("references.bib", include_str!("../../templates/references.bib")),
+    ("report.css", include_str!("../../templates/report.css")),
+    ("report.html", include_str!("../../templates/report.html")),
     ("report.md", include_str!("../../templates/report.md")),
     ("report.tex", include_str!("../../templates/report.tex")),
     ("scenarios/fig05.json", include_str!("../../templates/scenarios/fig05.json")),
@@ -29,7 +31,7 @@ const EMBEDDED: &[(&str, &str)] = &[
 ];
 
 /// Endings of the files that are templates or data for them (fonts live there too).
-const TEXT: [&str; 6] = [".md", ".tex", ".bib", ".toml", ".html", ".json"];
+const TEXT: [&str; 7] = [".md", ".tex", ".bib", ".toml", ".html", ".css", ".json"];
 
 /// All template files, by path relative to their folder.
 #[derive(Clone, Debug, PartialEq)]
@@ -108,7 +110,7 @@ pub struct Filler {
 }
 
 impl Filler {
-    /// Sets Tera up: all `.md` and `.tex` files can be included by their relative path.
+    /// Sets Tera up: all `.md`, `.tex` and `.html` files can be included by their relative path.
     ///
     /// # Errors
     /// A template that does not parse, with file, line and column.
@@ -125,7 +127,8 @@ impl Filler {
         tera.set_delimiters(delimiters).map_err(failure)?;
         tera.autoescape_on(Vec::<&str>::new());
         register(&mut tera);
-        let sources = templates.iter().filter(|(p, _)| p.ends_with(".md") || p.ends_with(".tex"));
+        let prose = |path: &str| [".md", ".tex", ".html"].iter().any(|end| path.ends_with(end));
+        let sources = templates.iter().filter(|(path, _)| prose(path));
         tera.add_raw_templates(sources).map_err(failure)?;
         Ok(Filler { tera, context: context(values) })
     }

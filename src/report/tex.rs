@@ -1,6 +1,7 @@
 //! Characters for pdflatex: what is special is escaped, what is not ASCII is named.
 
 use super::Error;
+use super::valued::bare;
 
 /// Running text.
 ///
@@ -36,6 +37,7 @@ pub fn text(text: &str) -> Result<String, Error> {
 /// # Errors
 /// As [`text`].
 pub fn maths(tex: &str) -> Result<String, Error> {
+    let tex = bare(tex);
     let mut out = String::with_capacity(tex.len());
     for c in tex.chars() {
         match (c.is_ascii(), in_maths(c), in_text(c)) {

@@ -1,0 +1,159 @@
+//! Blocks → HTML.
+
+use super::{Page, escape};
+use crate::report::Error;
+use crate::report::document::{Align, Block, Inline};
+use std::fmt::Write as _;
+
+impl Page<'_> {
+    /// All blocks.
+    ///
+    /// # Errors
+    /// As [`Page::inlines`], and figures that are missing.
+    pub(super) fn blocks(&self, blocks: &[Block]) -> Result<String, Error> {
+        blocks.iter().map(|block| self.block(block)).collect()
+    }
+
+    fn block(&self, block: &Block) -> Result<String, Error> {
+        Ok(match block {
+            // The title belongs to the shell.
+            Block::Heading { level: 1, .. } => String::new(),
+            Block::Heading { level, number, id, text } => {
+                let number = number.as_ref().map(|n| format!("<span>{n}</span> "));
+                let (number, text) = (number.unwrap_or_default(), self.inlines(text)?);
+                match id {
+                    Some(id) => {
+                        let id = escape::id(id);
+                        format!(
+                            "<h{level} id=\"{id}\"><a href=\"#{id}\">{number}{text}</a></h{level}>\n"
+                        )
+                    }
+                    None => format!("<h{level}>{number}{text}</h{level}>\n"),
+                }
+            }
+            Block::Paragraph(text) => self.paragraph(text)?,
+            Block::Figure { .. } => self.figure(block)?,
+            Block::Table { id, number, caption, columns, head, rows } => {
+                let mut text = String::from("<figure class=\"table\"");
+                if let Some(id) = id {
+                    let _ = write!(text, " id=\"{}\"", escape::id(id));
+                }
+                text.push('>');
+                let name = match number {
+                    Some(number) => {
+                        let caption = self.inlines(caption)?;
+                        let _ = write!(
+                            text,
+                            "<figcaption><strong>Table {number}.</strong> {caption}</figcaption>"
+                        );
+                        format!("Table {number}")
+                    }
+                    None => "Table".into(),
+                };
+                let _ = write!(
+                    text,
+                    "<div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"{name}\">"
+                );
+                text + &self.table(columns, head, rows)? + "</div></figure>\n"
+            }
+            Block::List { start, items } => {
+                let (open, close) = match start {
+                    Some(1) => ("<ol>".to_string(), "</ol>"),
+                    Some(n) => (format!("<ol start=\"{n}\">"), "</ol>"),
+                    None => ("<ul>".to_string(), "</ul>"),
+                };
+                let mut out = format!("{open}\n");
+                for item in items {
+                    let _ = writeln!(out, "<li>{}</li>", self.item(item)?);
+                }
+                out + close + "\n"
+            }
+            Block::Quote(blocks) => {
+                format!("<blockquote>\n{}</blockquote>\n", self.blocks(blocks)?)
+            }
+            Block::Code { text, .. } => format!(
+                "<pre tabindex=\"0\"><code>{}</code></pre>\n",
+                escape::text(text.trim_end())
+            ),
+            Block::Listing { id, number, caption, item, file, text } => {
+                let (caption, item) = (self.inlines(caption)?, escape::text(item));
+                let text = escape::text(text.trim_end());
+                format!(
+                    "<div class=\"listing\" id=\"{}\"><p><strong>Listing {number}.</strong> {caption}</p>\n\
+                     <details><summary><code>{item}</code></summary>\n\
+                     <pre tabindex=\"0\"><code>{text}</code></pre>\n\
+                     <p class=\"origin\">From <a href=\"../{file}\">{file}</a>.</p></details></div>\n",
+                    escape::id(id)
+                )
+            }
+            Block::Bibliography(entries) => {
+                let mut out = String::from("<ul class=\"references\">\n");
+                for entry in entries {
+                    let id = escape::id(&format!("ref:{}", entry.key));
+                    let _ = writeln!(out, "<li id=\"{id}\">{}</li>", self.inlines(&entry.text)?);
+                }
+                out + "</ul>\n"
+            }
+        })
+    }
+
+    /// One paragraph of an item stands without `<p>`.
+    fn item(&self, blocks: &[Block]) -> Result<String, Error> {
+        match blocks {
+            [Block::Paragraph(text)] => self.inlines(text),
+            _ => self.blocks(blocks),
+        }
+    }
+
+    /// HTML lets no equation stand inside a `<p>`: the sentence goes on in the next one.
+    fn paragraph(&self, text: &[Inline]) -> Result<String, Error> {
+        let mut out = String::new();
+        let is_display = |inline: &Inline| matches!(inline, Inline::Display { .. });
+        let mut rest = text;
+        let mut goes_on = false;
+        while !rest.is_empty() {
+            let end = rest.iter().position(is_display).unwrap_or(rest.len());
+            let words = self.inlines(&rest[..end])?;
+            if !words.trim().is_empty() {
+                let class = if goes_on { " class=\"on\"" } else { "" };
+                let _ = writeln!(out, "<p{class}>{}</p>", words.trim());
+            }
+            if let Some(equation) = rest.get(end) {
+                out.push_str(&self.inlines(std::slice::from_ref(equation))?);
+            }
+            goes_on = true;
+            rest = &rest[rest.len().min(end + 1)..];
+        }
+        Ok(out)
+    }
+
+    fn table(
+        &self,
+        columns: &[Align],
+        head: &[Vec<Inline>],
+        rows: &[Vec<Vec<Inline>>],
+    ) -> Result<String, Error> {
+        let class = |i: usize| match columns.get(i) {
+            Some(Align::Right) => " class=\"right\"",
+            Some(Align::Centre) => " class=\"centre\"",
+            _ => "",
+        };
+        let mut out = String::from("<table>\n<thead><tr>");
+        for (i, cell) in head.iter().enumerate() {
+            let text = self.inlines(cell)?;
+            // A head without words is no head.
+            let tag = if text.trim().is_empty() { "td" } else { "th scope=\"col\"" };
+            let end = &tag[..2];
+            let _ = write!(out, "<{tag}{}>{text}</{end}>", class(i));
+        }
+        out.push_str("</tr></thead>\n<tbody>\n");
+        for row in rows {
+            out.push_str("<tr>");
+            for (i, cell) in row.iter().enumerate() {
+                let _ = write!(out, "<td{}>{}</td>", class(i), self.inlines(cell)?);
+            }
+            out.push_str("</tr>\n");
+        }
+        Ok(out + "</tbody>\n</table>")
+    }
+}

@@ -1,0 +1,47 @@
+//! A figure: the picture inside the page, its caption, and where it comes from.
+
+use super::{Page, escape, picture};
+use crate::report::Error;
+use crate::report::document::Block;
+
+impl Page<'_> {
+    pub(super) fn figure(&self, block: &Block) -> Result<String, Error> {
+        let Block::Figure { id, number, path, data, experiments, caption, .. } = block else {
+            return Ok(String::new());
+        };
+        let own = |figure: &&crate::figures::Figure| *path == format!("figures/{}.svg", figure.id);
+        let figure = self.figures.iter().find(own);
+        let figure = figure.ok_or_else(|| Error::Reference(path.clone()))?;
+        let svg = picture::inline(&figure.svg, &mut self.glyphs.borrow_mut())?;
+        Ok(format!(
+            "<figure id=\"{}\">{svg}<figcaption><strong>Figure {number}.</strong> {} \
+             <span class=\"origin\">{}</span></figcaption></figure>\n",
+            escape::id(id),
+            self.inlines(caption)?,
+            origin(&figure.id, path, data, experiments)
+        ))
+    }
+}
+
+/// Links to the picture as a file, its data, its drawing code and the experiments.
+fn origin(id: &str, path: &str, data: &[String], experiments: &[&str]) -> String {
+    let link = |to: &str, shown: &str| {
+        format!("<a href=\"{}\">{}</a>", escape::text(to), escape::text(shown))
+    };
+    let name = |path: &str| path.rsplit('/').next().unwrap_or(path).to_string();
+    let mut out = format!("Picture: {}.", link(path, &name(path)));
+    if !data.is_empty() {
+        let data: Vec<String> = data.iter().map(|path| link(path, &name(path))).collect();
+        out.push_str(&format!(" Data: {}.", data.join(", ")));
+    }
+    out.push_str(&format!(
+        " Code: {}.",
+        link(&format!("../src/figures/{id}.rs"), &format!("{id}.rs"))
+    ));
+    if !experiments.is_empty() {
+        let names: Vec<String> =
+            experiments.iter().map(|name| escape::text(&name.replace('_', " "))).collect();
+        out.push_str(&format!(" Experiment: {}.", names.join(", ")));
+    }
+    out
+}

@@ -1,0 +1,59 @@
+//! Running text → HTML.
+
+use super::{Page, escape, maths};
+use crate::report::Error;
+use crate::report::document::Inline;
+
+impl Page<'_> {
+    /// Running text.
+    ///
+    /// # Errors
+    /// Mathematics that cannot be converted, or a reference that was not resolved.
+    pub(super) fn inlines(&self, list: &[Inline]) -> Result<String, Error> {
+        list.iter().map(|piece| self.inline(piece)).collect()
+    }
+
+    fn inline(&self, inline: &Inline) -> Result<String, Error> {
+        Ok(match inline {
+            Inline::Text(text) => escape::text(text),
+            Inline::Soft => "\n".into(),
+            Inline::Break => "<br/>".into(),
+            // Long paths may break at their joints.
+            Inline::Code(code) => {
+                let code = escape::text(code).replace('/', "/\u{200b}").replace("::", "::\u{200b}");
+                format!("<code>{}</code>", code.replace('\u{200b}', "<wbr/>"))
+            }
+            Inline::Emphasis(inner) => format!("<em>{}</em>", self.inlines(inner)?),
+            Inline::Strong(inner) => format!("<strong>{}</strong>", self.inlines(inner)?),
+            Inline::Maths(tex) => maths::write(self, tex, false)?,
+            Inline::Display { tex, tag } => self.display(tex, tag.as_deref())?,
+            Inline::Value { id, shown } => self.button(id, &self.inlines(shown)?),
+            Inline::Link { to, shown } => {
+                format!("<a href=\"{}\">{}</a>", escape::text(to), self.inlines(shown)?)
+            }
+            Inline::Reference { to, shown } => {
+                format!("<a href=\"#{}\">{}</a>", escape::id(to), escape::text(shown))
+            }
+            Inline::Anchor { id, number } => {
+                format!("<span id=\"{}\">{number}</span>", escape::id(id))
+            }
+            Inline::Unresolved(ids) => return Err(Error::Reference(ids.join("; "))),
+        })
+    }
+
+    /// An equation, which scrolls by itself where it is too wide, and its number.
+    fn display(&self, tex: &str, tag: Option<&str>) -> Result<String, Error> {
+        let formula = maths::write(self, tex, true)?;
+        Ok(match tag {
+            Some(tag) => format!(
+                "<div class=\"equation\" id=\"eq-{tag}\"><div class=\"scroll\" tabindex=\"0\" \
+                 role=\"group\" aria-label=\"Equation {tag}\">{formula}</div>\
+                 <a class=\"number\" href=\"#eq-{tag}\">({tag})</a></div>\n"
+            ),
+            None => format!(
+                "<div class=\"equation\"><div class=\"scroll\" tabindex=\"0\" role=\"group\" \
+                 aria-label=\"Equation without number\">{formula}</div></div>\n"
+            ),
+        })
+    }
+}

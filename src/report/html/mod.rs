@@ -1,0 +1,73 @@
+//! The tree → the parts of report.html; its shell and its style sheet are templates.
+//!
+//! One file, readable from a disk: pictures, fonts and styles are inside it, nothing is loaded and
+//! no script is needed. It is well-formed XML too, so that tests can read it.
+
+mod block;
+mod card;
+mod contents;
+mod escape;
+mod figure;
+mod fonts;
+mod inline;
+mod maths;
+mod picture;
+
+use super::Error;
+use super::document::{Block, plain};
+use super::values::Registry;
+use crate::figures::Figure;
+use serde::Serialize;
+use std::cell::RefCell;
+use std::collections::BTreeSet;
+
+/// What the shell has places for.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Parts {
+    /// The title as words.
+    pub title: String,
+    /// The title with its mathematics.
+    pub heading: String,
+    /// The table of contents.
+    pub contents: String,
+    /// The text.
+    pub body: String,
+    /// The cards of the values.
+    pub cards: String,
+    /// The outlines that figures share.
+    pub glyphs: String,
+    /// Fonts and colours of the figures as CSS.
+    pub style: String,
+}
+
+/// A page in the making: what its pieces share.
+struct Page<'a> {
+    figures: &'a [Figure],
+    /// Values that were shown, so that each gets its card.
+    named: RefCell<BTreeSet<String>>,
+    glyphs: RefCell<picture::Glyphs>,
+}
+
+/// Writes all parts of the page.
+///
+/// # Errors
+/// Mathematics, pictures or references that cannot be written.
+pub fn write(blocks: &[Block], figures: &[Figure], values: &Registry) -> Result<Parts, Error> {
+    let page = Page { figures, named: RefCell::default(), glyphs: RefCell::default() };
+    let is_title = |block: &&Block| matches!(block, Block::Heading { level: 1, .. });
+    let Some(Block::Heading { text, .. }) = blocks.iter().find(is_title) else {
+        return Err(Error::Markup("a report begins with its title, `# Words`".into()));
+    };
+    let heading = page.inlines(text)?;
+    let body = page.blocks(blocks)?;
+    let contents = page.contents(blocks)?;
+    Ok(Parts {
+        title: escape::text(&plain(text)),
+        heading,
+        contents,
+        body,
+        cards: page.cards(values)?,
+        glyphs: picture::shared(&page.glyphs.borrow()),
+        style: fonts::rules() + &picture::rules(),
+    })
+}

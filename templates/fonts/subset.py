@@ -1,0 +1,56 @@
+"""Makes the fonts of report.html: python3 subset.py FOLDER, where FOLDER holds the originals.
+
+Needs fontTools and brotli from PyPI, and Libertinus Serif 7.051 (regular, italic, bold) and
+NewCMMath-Regular 4.0 as they stand in the crate typst-assets 0.15.1. Run once; the results are
+committed. The block U+1D400-1D7FF has the italic, double-struck and other letters of MathML.
+"""
+
+import sys
+from pathlib import Path
+
+from fontTools.subset import Options, Subsetter, load_font, save_font
+
+TEXT = "20-7E A0-17F 2B0-2FF 370-3FF 2010-2027 202F-203A 2044 2070-209F 20AC 2116 2122 2153-215E "
+TEXT += "2190-2193 2200-2265 2308-230B 25A0-25CF 2713 FB00-FB04"
+MATHS = "20-7E A0-FF 300-338 370-3FF 2010-2016 2020-2026 202F-2037 203E 2044 2057 2061-2064 "
+MATHS += "20D0-20DC 2100-214F 2190-21FF 2200-22FF 2300-2312 23B0-23E1 2713 27E6-27EF 2A00-2A10 1D400-1D7FF"
+
+FONTS = {
+    "LibertinusSerif-Regular": TEXT,
+    "LibertinusSerif-Italic": TEXT,
+    "LibertinusSerif-Bold": TEXT,
+    "NewCMMath-Regular": MATHS,
+}
+
+
+def codes(ranges):
+    for part in ranges.split():
+        first, _, last = part.partition("-")
+        yield from range(int(first, 16), int(last or first, 16) + 1)
+
+
+def rename(font, name):
+    """The licence of New Computer Modern asks that a changed font has a name of its own."""
+    for record in font["name"].names:
+        if record.nameID in (1, 3, 4, 6, 16):
+            record.string = name.replace(" ", "") if record.nameID == 6 else name
+    font["CFF "].cff.fontNames = [name.replace(" ", "")]
+
+
+for source, ranges in FONTS.items():
+    options = Options()
+    options.flavor = "woff2"
+    options.layout_features = ["kern", "liga", "mark", "mkmk", "ccmp", "tnum", "lnum"]
+    options.hinting = False
+    options.name_IDs = [0, 1, 2, 3, 4, 5, 6, 13, 14, 16, 17]
+    options.notdef_outline = True
+    font = load_font(str(Path(sys.argv[1]) / f"{source}.otf"), options)
+    font.recalcTimestamp = False
+    subsetter = Subsetter(options)
+    subsetter.populate(unicodes=list(codes(ranges)))
+    subsetter.subset(font)
+    target = source
+    if source.startswith("NewCM"):
+        target = "ImpactMath-Regular"
+        rename(font, "Impact Math")
+    save_font(font, str(Path(__file__).parent / f"{target}.woff2"), options)
