@@ -132,6 +132,7 @@ pub enum Profile {
 
 mod accuracy;
 mod sizes;
+mod spacetime;
 
 pub use accuracy::{
     AnalyticParams, BiasParams, MethodName, RaceParams, ScaleParams, Setting, TrialParams,
@@ -140,6 +141,7 @@ pub use accuracy::{
 pub use sizes::{
     Grid, HorizonParams, ProtocolParams, StartVariant, StartsParams, SweepParams, TwoMassesParams,
 };
+pub use spacetime::SpaceTimeParams;
 
 /// Length of the steps in which the paper prints its threshold, σ ≈ 0.12 (Sec. 2).
 pub const PRINTED_THRESHOLD_UNIT: f64 = 0.01;

@@ -6,10 +6,10 @@ use std::sync::LazyLock;
 
 use impact_paper::experiments::accuracy::{analytic, bias, race, scale};
 use impact_paper::experiments::segments::{Segment, SegmentImpact, Segments};
-use impact_paper::experiments::{Measured, Progress, Results, sweep};
+use impact_paper::experiments::{Measured, Progress, Results, spacetime, sweep};
 use impact_paper::figures::{self, Error, Figure};
 use impact_paper::params::{
-    AnalyticParams, BiasParams, Profile, RaceParams, ScaleParams, SweepParams,
+    AnalyticParams, BiasParams, Profile, RaceParams, ScaleParams, SpaceTimeParams, SweepParams,
 };
 use roxmltree::{Document, Node};
 
@@ -48,6 +48,7 @@ fn results(profile: Profile) -> Results {
     results.biases = Some(bias::run(&BiasParams::new(quick), &quiet).unwrap());
     results.scale = Some(scale::run(&ScaleParams::new(quick), &quiet).unwrap());
     results.analytic = Some(analytic::run(&AnalyticParams::new(quick), &quiet).unwrap());
+    results.spacetime = Some(spacetime::run(&SpaceTimeParams::new(quick), &quiet).unwrap());
     results.measured = Some(Measured::embedded().unwrap());
     results
 }
@@ -129,7 +130,7 @@ fn label(group: &Node) -> Label {
 #[test]
 fn every_figure_is_a_titled_and_described_picture() {
     let drawn = all(quick());
-    assert_eq!(drawn.len(), 20);
+    assert_eq!(drawn.len(), 21);
     for (number, figure) in figures::all().zip(&drawn) {
         assert_eq!(figure.id, number.id());
         let document = Document::parse(&figure.svg).unwrap();
@@ -228,7 +229,7 @@ fn no_curve_runs_through_a_label() {
 
 #[test]
 fn axes_carry_their_labels() {
-    let expected: [(usize, &[&str]); 19] = [
+    let expected: [(usize, &[&str]); 20] = [
         (1, &["d", "nd", "(n+1)d", "Δ_1(t)"]),
         (2, &["standard deviation σ of the forcing", "most likely number of impacts"]),
         (3, &["standard deviation σ of the forcing", "expected number of impacts", "kept share"]),
@@ -247,6 +248,7 @@ fn axes_carry_their_labels() {
         (17, &["horizon t", "error of the next impact", "measured µs per impact"]),
         (18, &["bias (%)", "evaluations per impact", "σ = 0.12"]),
         (19, &["number of masses n", "evaluations per impact", "measured µs per impact"]),
+        (21, &["gap", "time t (1/ω)", "impact", "no neighbour was hit before"]),
         (20, &["relative error", "number of vertices N", "closed form", "log-gamma"]),
     ];
     let drawn = all(quick());
@@ -356,10 +358,47 @@ fn data_files_have_headers_with_units_and_the_rows_of_what_is_drawn() {
     }
 }
 
+/// Thousands of impacts are strokes, not thousands of elements, and cover exactly the impacts.
+#[test]
+fn the_long_run_is_drawn_compactly_and_completely() {
+    let run = quick().spacetime.as_ref().unwrap();
+    let number: figures::Number = "s6".parse().unwrap();
+    let figure = figures::draw(number, quick()).unwrap();
+    assert!(figure.svg.len() < 300_000, "{} bytes", figure.svg.len());
+    assert_eq!(figure.data[0].rows.len(), run.times.len());
+    let document = Document::parse(&figure.svg).unwrap();
+    let group = document.descendants().find(|n| n.attribute("data-name") == Some("impacts"));
+    let group = group.unwrap();
+    let frame = numbers(group.attribute("data-frame").unwrap());
+    let path = group.descendants().find_map(|n| n.attribute("d")).unwrap();
+    let strokes: Vec<[f64; 3]> = path
+        .split('M')
+        .skip(1)
+        .map(|stroke| {
+            let (at, length) = stroke.split_once('h').unwrap();
+            let at = numbers(at);
+            [at[0], at[1], length.parse().unwrap()]
+        })
+        .collect();
+    let place = |time: f64, gap: u32| {
+        let across = frame[0] + (frame[2] - frame[0]) * time / run.parameters.until;
+        let share = f64::from(gap + 1) / (run.width() + 1) as f64;
+        (across, frame[3] - (frame[3] - frame[1]) * share)
+    };
+    let mut used = vec![false; strokes.len()];
+    for (&time, &gap) in run.times.iter().zip(&run.gaps) {
+        let (x, y) = place(time, gap);
+        let covers = |s: &[f64; 3]| (s[1] - y).abs() < 1.5 && s[0] <= x && x <= s[0] + s[2];
+        let found = strokes.iter().position(covers);
+        used[found.unwrap_or_else(|| panic!("gap {gap} at {time} is not drawn"))] = true;
+    }
+    assert!(used.iter().all(|used| *used), "a stroke without an impact");
+}
+
 #[test]
 fn less_than_the_full_profile_is_marked() {
     let quick = all(quick());
-    let simulated = ["fig02", "fig03", "fig12", "fig15", "s01", "s02", "s03", "s04", "s05"];
+    let simulated = ["fig02", "fig03", "fig12", "fig15", "s01", "s02", "s03", "s04", "s05", "s06"];
     for figure in &quick {
         let marked = figure.svg.contains("profile quick: not for citation");
         assert_eq!(marked, simulated.contains(&figure.id.as_str()), "{}", figure.id);

@@ -12,6 +12,7 @@ pub mod protocol;
 pub mod rise;
 pub mod run;
 pub mod segments;
+pub mod spacetime;
 pub mod starts;
 pub mod store;
 pub mod sweep;

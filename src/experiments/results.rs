@@ -2,7 +2,9 @@
 
 use super::accuracy::{analytic, bias, race, scale, trials};
 use super::{Error, Measured};
-use super::{horizon, identities, laws, protocol, segments, starts, sweep, theory, two_masses};
+use super::{
+    horizon, identities, laws, protocol, segments, spacetime, starts, sweep, theory, two_masses,
+};
 use crate::params::{Profile, VERTICES};
 use std::sync::LazyLock;
 
@@ -26,6 +28,8 @@ pub enum Need {
     TwoMasses,
     /// [`Results::segments`].
     Segments,
+    /// [`Results::spacetime`].
+    SpaceTime,
     /// [`Results::race`].
     Race,
     /// [`Results::biases`].
@@ -42,7 +46,7 @@ pub enum Need {
 
 impl Need {
     /// Everything: what the report needs.
-    pub const ALL: [Need; 14] = [
+    pub const ALL: [Need; 15] = [
         Need::Sweep,
         Need::SecondSeed,
         Need::Protocol,
@@ -51,6 +55,7 @@ impl Need {
         Need::Horizon,
         Need::TwoMasses,
         Need::Segments,
+        Need::SpaceTime,
         Need::Race,
         Need::Biases,
         Need::Trials,
@@ -76,6 +81,7 @@ impl Need {
             Need::Scale => "scale",
             Need::Analytic => "analytic",
             Need::Measured => "measured",
+            Need::SpaceTime => "space-time",
         }
     }
 }
@@ -105,6 +111,8 @@ pub struct Results {
     pub two_masses: Option<two_masses::TwoMasses>,
     /// The motions of Figs. 5(b) and 6(b).
     pub segments: Option<segments::Segments>,
+    /// One long run.
+    pub spacetime: Option<spacetime::SpaceTime>,
     /// Every method against the true motion.
     pub race: Option<race::Race>,
     /// What methods do to the mean count.
@@ -152,6 +160,8 @@ asked_for! {
     two_masses: two_masses::TwoMasses, TwoMasses;
     /// The segments.
     segments: segments::Segments, Segments;
+    /// The long run.
+    spacetime: spacetime::SpaceTime, SpaceTime;
     /// The methods against the truth.
     race: race::Race, Race;
     /// The bias of the methods.
@@ -185,6 +195,7 @@ impl Results {
             horizon: None,
             two_masses: None,
             segments: None,
+            spacetime: None,
             race: None,
             biases: None,
             trials: None,

@@ -2,10 +2,10 @@
 
 use super::accuracy::{analytic, bias, race, scale, trials};
 use super::{Error, Measured, Need, Progress, Results, Store};
-use super::{horizon, laws, protocol, segments, starts, sweep, two_masses};
+use super::{horizon, laws, protocol, segments, spacetime, starts, sweep, two_masses};
 use crate::params::{
     AnalyticParams, BiasParams, HorizonParams, Profile, ProtocolParams, RaceParams, ScaleParams,
-    StartsParams, SweepParams, TrialParams, TwoMassesParams,
+    SpaceTimeParams, StartsParams, SweepParams, TrialParams, TwoMassesParams,
 };
 
 /// Runs the experiments behind `needs` with the sample sizes of a profile. `scenarios` gives the
@@ -64,6 +64,11 @@ pub fn run(
         let parameters = TwoMassesParams::new(profile);
         let run = || two_masses::run(&parameters, progress);
         results.two_masses = Some(store.get("two-masses", &parameters, progress, run)?);
+    }
+    if needs(Need::SpaceTime) {
+        let parameters = SpaceTimeParams::new(profile);
+        let run = || spacetime::run(&parameters, progress);
+        results.spacetime = Some(store.get("space-time", &parameters, progress, run)?);
     }
     if needs(Need::Race) {
         let parameters = RaceParams::new(profile);

@@ -34,6 +34,17 @@ pub struct Area<C> {
     pub opacity: u8,
 }
 
+/// Upright ticks at thousands of points; those in one row that touch are one stroke.
+#[derive(Debug)]
+pub struct Ticks<C> {
+    /// Their middles.
+    pub points: Vec<C>,
+    /// Their width, in grid units.
+    pub width: i32,
+    /// Colour; its thickness is their height.
+    pub stroke: Stroke,
+}
+
 /// Equal markers at many points.
 #[derive(Debug)]
 pub struct Marks<C> {
@@ -56,6 +67,14 @@ impl<'a, C: 'a> PointCollection<'a, C> for &'a Curve<C> {
 }
 
 impl<'a, C: 'a> PointCollection<'a, C> for &'a Area<C> {
+    type Point = &'a C;
+    type IntoIter = &'a [C];
+    fn point_iter(self) -> &'a [C] {
+        &self.points
+    }
+}
+
+impl<'a, C: 'a> PointCollection<'a, C> for &'a Ticks<C> {
     type Point = &'a C;
     type IntoIter = &'a [C];
     fn point_iter(self) -> &'a [C] {
@@ -129,6 +148,26 @@ impl<C> Drawable<Svg> for Area<C> {
         _: (u32, u32),
     ) -> Drawn {
         svg.polygon(pos, self.fill, self.opacity);
+        Ok(())
+    }
+}
+
+impl<C> Drawable<Svg> for Ticks<C> {
+    fn draw<I: Iterator<Item = BackendCoord>>(
+        &self,
+        pos: I,
+        svg: &mut Svg,
+        _: (u32, u32),
+    ) -> Drawn {
+        let mut places: Vec<BackendCoord> = pos.map(|(x, y)| (y, x)).collect();
+        places.sort_unstable();
+        let mut d = String::new();
+        for run in places.chunk_by(|a, b| a.0 == b.0 && b.1 - a.1 <= self.width) {
+            if let (Some((y, first)), Some((_, last))) = (run.first(), run.last()) {
+                let _ = write!(d, "M{},{y}h{}", first - self.width / 2, last - first + self.width);
+            }
+        }
+        svg.path(&d, &self.stroke, None);
         Ok(())
     }
 }

@@ -34,6 +34,7 @@ mod s02;
 mod s03;
 mod s04;
 mod s05;
+mod s06;
 mod series;
 mod sheet;
 mod simulated;
@@ -128,6 +129,7 @@ pub fn needs(number: Number) -> &'static [Need] {
         Number::Own(3) => &[Need::Biases],
         Number::Own(4) => &[Need::Scale, Need::Measured],
         Number::Own(5) => &[Need::Analytic],
+        Number::Own(6) => &[Need::SpaceTime],
         _ => &[],
     }
 }
@@ -174,6 +176,7 @@ pub fn draw(number: Number, results: &Results) -> Result<Figure, Error> {
         Number::Own(3) => s03::draw(results.biases()?, note),
         Number::Own(4) => s04::draw(results.scale()?, results.measured()?, note),
         Number::Own(5) => s05::draw(results.analytic()?, note),
+        Number::Own(6) => s06::draw(results.spacetime()?, note),
         _ => Err(Error::Number(number)),
     }
 }

@@ -8,7 +8,7 @@ use plotters::element::{Drawable, PointCollection};
 use super::Error;
 use super::backend::{Svg, escape};
 use super::clip::clip;
-use super::element::{Area, Curve, Marks};
+use super::element::{Area, Curve, Marks, Ticks};
 use super::panel::{Frame, Panel};
 use super::sheet::group;
 use super::style::{Colour, Mark, Stroke};
@@ -94,6 +94,22 @@ impl Panel {
         let points =
             points.iter().copied().filter(|p| self.x.holds(p.0) && self.y.holds(p.1)).collect();
         self.series(name, &[Marks { points, mark, half, stroke }])
+    }
+
+    /// Upright ticks of the given width at many points, all inside the frame; the thickness of the
+    /// stroke is their height.
+    ///
+    /// # Errors
+    /// [`Error::Outside`] if a point lies outside the frame.
+    pub fn ticks(
+        &self,
+        name: &str,
+        points: &[(f64, f64)],
+        width: i32,
+        stroke: Stroke,
+    ) -> Result<(), Error> {
+        self.check(name, points)?;
+        self.series(name, &[Ticks { points: points.to_vec(), width, stroke }])
     }
 
     /// A filled polygon, all of it inside the frame.

@@ -11,6 +11,7 @@ mod ledger;
 mod paper;
 mod protocol;
 mod simulation;
+mod spacetime;
 mod starts;
 mod theory;
 
@@ -55,6 +56,7 @@ pub fn registry(results: &Results, published: &Published) -> Result<Registry, Er
     registry.extend(higher::values(results)?)?;
     registry.extend(protocol::values(results)?)?;
     registry.extend(starts::values(results)?)?;
+    registry.extend(spacetime::values(results)?)?;
     registry.extend(accuracy::values(results)?)?;
     registry.extend(ledger::values(results))?;
     Ok(registry)

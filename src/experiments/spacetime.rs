@@ -1,0 +1,326 @@
+//! One long run at the printed threshold, impact by impact: where impacts start, how they spread
+//! along the chain, and where they stop.
+//!
+//! Which run is shown is not a matter of taste: it is the first realisation of its stream that
+//! still has impacts in the last part of the run.
+
+use super::{Error, Progress};
+use crate::dynamics::{Engine, Scenario};
+use crate::numerics::random::NormalPairs;
+use crate::params::SpaceTimeParams;
+use serde::{Deserialize, Serialize};
+
+/// The run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SpaceTime {
+    /// What was run.
+    pub parameters: SpaceTimeParams,
+    /// Which realisation it is, from 0; those before it had no impact in the last part.
+    pub realisation: u64,
+    /// Time of each impact, rising.
+    pub times: Vec<f64>,
+    /// Gap of each impact, from 0.
+    pub gaps: Vec<u32>,
+    /// A part of it, mass by mass.
+    pub scene: Scene,
+}
+
+/// A part of the run, complete enough to know where every mass is at every time of it:
+/// x_j(t) = (j + 1) d + a cos ωt + b sin ωt + (α cos Ωt + β sin Ωt)/(ω² − Ω²) for j from 0.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Scene {
+    /// Its first time.
+    pub from: f64,
+    /// Its last time; earlier than asked for if masses came to rest against each other.
+    pub until: f64,
+    /// (α, β) of each mass.
+    pub forcing: Vec<[f64; 2]>,
+    /// (a, b) of each mass at first.
+    pub free: Vec<[f64; 2]>,
+    /// What changes them.
+    pub events: Vec<SceneEvent>,
+}
+
+/// An impact, and the free parts of the masses that it hit.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SceneEvent {
+    /// When.
+    pub time: f64,
+    /// The gap that closed.
+    pub gap: u32,
+    /// (mass from 0, a, b) after it.
+    pub after: Vec<(u32, f64, f64)>,
+}
+
+/// A step of a front: from a gap that was hit to its neighbour.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Advance {
+    /// The gap that is hit for the first time.
+    pub gap: usize,
+    /// When.
+    pub time: f64,
+    /// How long after the first impact of the neighbour that was hit first.
+    pub delay: f64,
+}
+
+/// Runs realisations until one keeps hitting.
+///
+/// # Errors
+/// [`Error::Interrupted`]; [`Error::Dynamics`] if a run fails.
+pub fn run(parameters: &SpaceTimeParams, progress: &Progress) -> Result<SpaceTime, Error> {
+    let stage = progress.stage("space-time", 1);
+    let failed = |source| Error::Dynamics { experiment: "space-time", source };
+    for realisation in 0..REALISATIONS {
+        progress.check()?;
+        let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, realisation);
+        let scenario = Scenario::draw(&parameters.chain, parameters.sigma, &mut normals);
+        let (mut times, mut gaps) = (Vec::new(), Vec::new());
+        let mut engine = Engine::new(&scenario).map_err(failed)?;
+        engine
+            .run(parameters.until, |impact| {
+                times.push(impact.time);
+                gaps.push(impact.gap as u32);
+                true
+            })
+            .map_err(failed)?;
+        if times.last().is_some_and(|t| *t > parameters.until - parameters.last) {
+            let scene = scene(parameters, &scenario).map_err(failed)?;
+            stage.advance(1);
+            let parameters = parameters.clone();
+            return Ok(SpaceTime { parameters, realisation, times, gaps, scene });
+        }
+    }
+    Err(Error::input(
+        "sigma",
+        format!("none of {REALISATIONS} runs with {:?} has late impacts", parameters.sigma),
+        "give a larger one",
+    ))
+}
+
+/// Realisations after which the search for one that keeps hitting is given up.
+const REALISATIONS: u64 = 1000;
+
+/// The last part of a run.
+fn scene(
+    parameters: &SpaceTimeParams,
+    scenario: &Scenario,
+) -> Result<Scene, crate::dynamics::Error> {
+    let from = (parameters.until - parameters.scene).max(0.0);
+    let mut until = parameters.until;
+    let mut engine = Engine::new(scenario)?;
+    engine.run(from, |_| true)?;
+    let free = engine.free_parts();
+    let phases = engine.counters().contact_phases;
+    // In contact masses move otherwise than by their own free parts.
+    if !engine.contacts(from).is_empty() {
+        until = from;
+    }
+    let (mut now, mut events) = (free.clone(), Vec::new());
+    while from < until {
+        let mut hit = None;
+        engine.run(until, |impact| {
+            hit = Some(impact);
+            false
+        })?;
+        let Some(impact) = hit else { break };
+        if engine.counters().contact_phases > phases {
+            until = impact.time;
+            break;
+        }
+        let next = engine.free_parts();
+        let changed = (0..next.len()).filter(|&j| next[j] != now[j]);
+        let after = changed.map(|j| (j as u32, next[j][0], next[j][1])).collect();
+        events.push(SceneEvent { time: impact.time, gap: impact.gap as u32, after });
+        now = next;
+    }
+    Ok(Scene { from, until, forcing: scenario.forcing.clone(), free, events })
+}
+
+impl SpaceTime {
+    /// Number of gaps.
+    pub fn width(&self) -> usize {
+        self.parameters.chain.gaps()
+    }
+
+    /// Time of the first impact of each gap.
+    pub fn firsts(&self) -> Vec<Option<f64>> {
+        let mut firsts = vec![None; self.width()];
+        for (&time, &gap) in self.times.iter().zip(&self.gaps) {
+            firsts[gap as usize].get_or_insert(time);
+        }
+        firsts
+    }
+
+    /// Gaps that are hit at all.
+    pub fn reached(&self) -> usize {
+        self.firsts().iter().flatten().count()
+    }
+
+    /// The gaps at which impacts start: hit when neither neighbour had been. Such a gap closes by
+    /// itself, since its masses move as they did from the beginning.
+    pub fn starts(&self) -> Vec<usize> {
+        let firsts = self.firsts();
+        let before = |gap: Option<usize>, time: f64| {
+            gap.and_then(|gap| *firsts.get(gap)?).is_some_and(|other| other < time)
+        };
+        let alone = |gap: usize| {
+            firsts[gap].is_some_and(|t| !before(gap.checked_sub(1), t) && !before(Some(gap + 1), t))
+        };
+        (0..firsts.len()).filter(|&gap| alone(gap)).collect()
+    }
+
+    /// The longest time between two impacts of one gap: gap, from, to.
+    pub fn longest_silence(&self) -> Option<(usize, f64, f64)> {
+        let mut last: Vec<Option<f64>> = vec![None; self.width()];
+        let mut longest: Option<(usize, f64, f64)> = None;
+        for (&time, &gap) in self.times.iter().zip(&self.gaps) {
+            let gap = gap as usize;
+            if let Some(before) = last[gap].replace(time)
+                && longest.is_none_or(|(_, from, to)| time - before > to - from)
+            {
+                longest = Some((gap, before, time));
+            }
+        }
+        longest
+    }
+
+    /// The share of all impacts that the most active `count` gaps have.
+    pub fn share_of_busiest(&self, count: usize) -> f64 {
+        let mut impacts = vec![0_u32; self.width()];
+        self.gaps.iter().for_each(|gap| impacts[*gap as usize] += 1);
+        impacts.sort_unstable_by(|a, b| b.cmp(a));
+        let busiest: u32 = impacts.iter().take(count).sum();
+        f64::from(busiest) / self.gaps.len().max(1) as f64
+    }
+
+    /// Gaps reached by a time.
+    pub fn reached_by(&self, time: f64) -> usize {
+        self.firsts().iter().flatten().filter(|first| **first <= time).count()
+    }
+
+    /// The steps of all fronts, the quickest first: each gap that is reached, without the starts.
+    pub fn advances(&self) -> Vec<Advance> {
+        let firsts = self.firsts();
+        let at = |gap: Option<usize>| gap.and_then(|gap| *firsts.get(gap)?);
+        let advance = |gap: usize| {
+            let time = firsts[gap]?;
+            let beside = [at(gap.checked_sub(1)), at(Some(gap + 1))];
+            let before = beside.into_iter().flatten().reduce(f64::min)?;
+            (before < time).then_some(Advance { gap, time, delay: time - before })
+        };
+        let mut advances: Vec<Advance> = (0..firsts.len()).filter_map(advance).collect();
+        advances.sort_by(|a, b| a.delay.total_cmp(&b.delay));
+        advances
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::params::{Chain, Profile};
+
+    fn quick() -> SpaceTime {
+        run(&SpaceTimeParams::new(Profile::Quick), &Progress::silent()).unwrap()
+    }
+
+    /// Five gaps by hand: gap 1 starts, then 2 and 0 follow; gap 4 starts and 3 is never hit.
+    fn by_hand() -> SpaceTime {
+        let mut parameters = SpaceTimeParams::new(Profile::Quick);
+        parameters.chain = Chain { masses: 4, ..Chain::default() };
+        parameters.until = 100.0;
+        SpaceTime {
+            parameters,
+            realisation: 0,
+            times: vec![10.0, 12.0, 13.0, 14.0, 50.0, 60.0, 61.0],
+            gaps: vec![1, 2, 1, 0, 4, 1, 1],
+            scene: Scene {
+                from: 0.0,
+                until: 0.0,
+                forcing: Vec::new(),
+                free: Vec::new(),
+                events: Vec::new(),
+            },
+        }
+    }
+
+    #[test]
+    fn a_small_run_is_read_right() {
+        let run = by_hand();
+        assert_eq!(run.firsts(), [Some(14.0), Some(10.0), Some(12.0), None, Some(50.0)]);
+        assert_eq!((run.reached(), run.reached_by(12.0)), (4, 2));
+        assert_eq!(run.starts(), [1, 4]);
+        assert_eq!(run.longest_silence(), Some((1, 13.0, 60.0)));
+        assert_eq!(run.share_of_busiest(1), 4.0 / 7.0);
+        let advance = |gap, time, delay| Advance { gap, time, delay };
+        assert_eq!(run.advances(), [advance(2, 12.0, 2.0), advance(0, 14.0, 4.0)]);
+    }
+
+    #[test]
+    fn the_run_is_the_first_that_keeps_hitting_and_repeats_exactly() {
+        let found = quick();
+        assert_eq!(found, quick());
+        let late = found.parameters.until - found.parameters.last;
+        assert!(found.times.last().unwrap() > &late && found.times.is_sorted());
+        // Those passed over really had no late impact.
+        for index in 0..found.realisation {
+            let mut normals = NormalPairs::new("space-time", found.parameters.seed, index);
+            let scenario = Scenario::draw(&Chain::default(), found.parameters.sigma, &mut normals);
+            let mut last = 0.0;
+            let mut engine = Engine::new(&scenario).unwrap();
+            let seen = |impact: crate::dynamics::Impact| {
+                last = impact.time;
+                true
+            };
+            engine.run(found.parameters.until, seen).unwrap();
+            assert!(last <= late, "realisation {index} has an impact at {last}");
+        }
+    }
+
+    /// A start closes by itself: its free and forced amplitudes from rest must reach d (Sec. 8).
+    #[test]
+    fn starts_are_gaps_that_can_close_by_themselves() {
+        let found = quick();
+        let starts = found.starts();
+        assert!(!starts.is_empty());
+        let forcing = |mass: usize| match (1..=100).contains(&mass) {
+            true => found.scene.forcing[mass - 1],
+            false => [0.0; 2],
+        };
+        for gap in starts {
+            let ([a, b], [c, d]) = (forcing(gap), forcing(gap + 1));
+            let (alpha, beta) = (c - a, d - b);
+            let reach =
+                (alpha * alpha + 2.0 * beta * beta).sqrt() + (alpha * alpha + beta * beta).sqrt();
+            assert!(reach >= 1.0, "gap {gap} reaches only {reach}");
+        }
+    }
+
+    /// The second route: positions from the scene's events are those of the engine.
+    #[test]
+    fn the_scene_knows_where_every_mass_is() {
+        let found = quick();
+        let scene = &found.scene;
+        assert!(scene.events.len() > 50 && scene.until > scene.from + 50.0);
+        let parameters = &found.parameters;
+        let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, found.realisation);
+        let scenario = Scenario::draw(&parameters.chain, parameters.sigma, &mut normals);
+        let mut engine = Engine::new(&scenario).unwrap();
+        let mut free = scene.free.clone();
+        let mut events = scene.events.iter().peekable();
+        for i in 0..=200 {
+            let time = scene.from + (scene.until - scene.from) * f64::from(i) / 200.0;
+            while let Some(event) = events.next_if(|event| event.time <= time) {
+                event.after.iter().for_each(|&(j, a, b)| free[j as usize] = [a, b]);
+            }
+            engine.run(time, |_| true).unwrap();
+            for (j, x) in engine.positions(time).into_iter().enumerate() {
+                let ([a, b], [alpha, beta]) = (free[j], scene.forcing[j]);
+                let forced = std::f64::consts::SQRT_2 * time;
+                let own = (j + 1) as f64 + a * time.cos() + b * time.sin()
+                    - alpha * forced.cos()
+                    - beta * forced.sin();
+                assert!((own - x).abs() < 1e-12, "mass {j} at {time}: {own} {x}");
+            }
+        }
+    }
+}

@@ -1,0 +1,136 @@
+//! Fig. S6: one long run, gap against time, a tick for each impact.
+
+use super::axis::Axis;
+use super::chart::{LETTERS, short};
+use super::data::cells;
+use super::panel::{Frame, Panel};
+use super::series::Outside;
+use super::sheet::{Entry, Sheet};
+use super::style::{HAIR, INK, Mark, RED, SMALL, Stroke, WHITE};
+use super::{DataFile, Error, Figure};
+use crate::experiments::spacetime::SpaceTime;
+
+/// How much of the run the second panel shows.
+const DETAIL: f64 = 400.0;
+
+/// A gap at which impacts start.
+const START: (Mark, i32, Stroke) = (Mark::Disc, 62, Stroke::solid(WHITE, HAIR));
+
+/// Draws the figure.
+pub fn draw(run: &SpaceTime, note: Option<&str>) -> Result<Figure, Error> {
+    let sheet = Sheet::new(9750, note)?;
+    let until = run.parameters.until;
+    let gaps = || {
+        let last = (run.width() - 1) as f64;
+        Axis::linear(-1.0, last + 1.0, 20.0, 2, "gap")
+    };
+    let time = |from: f64, to: f64, step: f64| Axis::linear(from, to, step, 2, "time *t* (1/*ω*)");
+
+    let whole =
+        sheet.panel(Frame::new(1200, 430, 8150, 4130), time(0.0, until, until / 4.0), gaps())?;
+    whole.letter(LETTERS[0])?;
+    let impacts = points(run, 0.0, until);
+    let row = (whole.frame.bottom - whole.frame.top) / (run.width() as i32 + 1);
+    whole.ticks("impacts", &impacts, 12, Stroke::solid(INK, row as u32))?;
+    starts(&whole, run, until)?;
+
+    let (from, to) = detail(run);
+    let near =
+        sheet.panel(Frame::new(1200, 5250, 8150, 8550), time(from, to, DETAIL / 4.0), gaps())?;
+    near.letter(LETTERS[1])?;
+    near.ticks("first impacts", &points(run, from, to), 14, Stroke::solid(INK, 30))?;
+    starts(&near, run, to)?;
+
+    let tick =
+        Entry { line: None, mark: Some((Mark::Square, 16, INK_LINE)), text: "impact".into() };
+    let disc = Entry::mark(START.0, START.1, RED_DISC, "no neighbour was hit before");
+    sheet.legend((1500, 9500), (SMALL, 370), &[tick])?;
+    sheet.legend((3900, 9500), (SMALL, 370), &[disc])?;
+    Ok(sheet.finish_own(6, "One long run", description(run), tables(run)))
+}
+
+const INK_LINE: Stroke = Stroke::solid(INK, HAIR);
+const RED_DISC: Stroke = Stroke::solid(RED, HAIR);
+
+/// Where the second panel begins and ends: a round time before the first impact.
+fn detail(run: &SpaceTime) -> (f64, f64) {
+    let first = run.times.first().copied().unwrap_or(0.0);
+    let from = (first / 10.0).floor() * 10.0;
+    (from, from + DETAIL)
+}
+
+fn points(run: &SpaceTime, from: f64, to: f64) -> Vec<(f64, f64)> {
+    let all = run.times.iter().zip(&run.gaps).map(|(&time, &gap)| (time, f64::from(gap)));
+    all.filter(|(time, _)| (from..=to).contains(time)).collect()
+}
+
+/// A disc at the first impact of each gap at which impacts start.
+fn starts(panel: &Panel, run: &SpaceTime, until: f64) -> Result<(), Error> {
+    let firsts = run.firsts();
+    let own = run.starts().into_iter().filter_map(|gap| Some((firsts[gap]?, gap as f64)));
+    let own: Vec<_> = own.filter(|(time, _)| *time <= until).collect();
+    let (mark, half, _) = START;
+    // A white rim lifts the disc off the ticks.
+    panel.marks("rims", &own, (Mark::Disc, half + 22, START.2), Outside::Refuse)?;
+    panel.marks("starts", &own, (mark, half, RED_DISC), Outside::Refuse)
+}
+
+fn description(run: &SpaceTime) -> String {
+    let (n, parameters) = (run.width(), &run.parameters);
+    let (from, to) = detail(run);
+    let quarter = parameters.until / 4.0;
+    let advances = run.advances();
+    let delay = |i: Option<usize>| i.and_then(|i| advances.get(i)).map(|a| (a.gap, a.delay));
+    let fronts = match (delay(Some(advances.len() / 2)), delay(advances.len().checked_sub(1))) {
+        (Some(middle), Some(last)) => format!(
+            "half of the steps of a front to the next gap take less than {} units of time, the \
+             longest, to gap {}, takes {}",
+            short(middle.1, 2),
+            last.0,
+            short(last.1, 3)
+        ),
+        _ => "no front moves".into(),
+    };
+    let places: Vec<String> = run.starts().iter().map(usize::to_string).collect();
+    let firsts = run.firsts();
+    let first = firsts.iter().flatten().copied().reduce(f64::min).unwrap_or(0.0);
+    format!(
+        "Gap, from 0 to {}, against time: a dark tick for each of the {} impacts of one run of {} \
+         masses at σ = {}. (a) The whole run to t = {}. Impacts form dark horizontal bands that \
+         begin at {} red discs, in gaps {}, the first at t = {}, and widen in bursts: {} gaps are \
+         reached by t = {}, {} of {n} by the end; {fronts}. (b) The part from t = {} to {}: each \
+         impact a tick, {} of them.",
+        n - 1,
+        run.times.len(),
+        parameters.chain.masses,
+        parameters.sigma,
+        parameters.until,
+        places.len(),
+        places.join(", "),
+        short(first, 3),
+        run.reached_by(quarter),
+        quarter,
+        run.reached(),
+        from,
+        to,
+        points(run, from, to).len(),
+    )
+}
+
+fn tables(run: &SpaceTime) -> Vec<DataFile> {
+    // Thousandths are finer than the picture, and a file of all digits would be twice as long.
+    let mut impacts = DataFile::new("s06a.csv", &["time_to_thousandths (1/omega)", "gap (1)"]);
+    for (&time, &gap) in run.times.iter().zip(&run.gaps) {
+        impacts.row(cells![(time * 1000.0).round() / 1000.0, gap as usize]);
+    }
+    let mut gaps = DataFile::new(
+        "s06b.csv",
+        &["gap (1)", "first_time (1/omega)", "count (1)", "starts_by_itself (1)"],
+    );
+    let starts = run.starts();
+    for (gap, first) in run.firsts().into_iter().enumerate() {
+        let count = run.gaps.iter().filter(|own| **own as usize == gap).count();
+        gaps.row(cells![gap, first, count, usize::from(starts.contains(&gap))]);
+    }
+    vec![impacts, gaps]
+}
