@@ -1,7 +1,7 @@
 # Every target is one line that calls cargo, the program or a script. Needed: Rust (rust-toolchain.toml
 # names the version), make and a C compiler for linking.
 
-.PHONY: paper quick check latex test test-long lint bench measure clean help
+.PHONY: paper quick check latex browser test test-long lint bench measure clean help
 
 paper: ## the whole reproduction in the full profile, into paper/
 	cargo run --release --locked -- paper
@@ -14,6 +14,9 @@ check: ## every claim with its verdict; fails if one does not hold
 
 latex: ## paper/report.tex as target/latex/report.pdf, by TeX Live (installed when missing)
 	.ci/latex
+
+browser: ## paper/report.html in headless Chromium, as readers use it (Chromium and Node installed when missing)
+	.ci/browser
 
 test: ## all tests but the long ones
 	cargo test --locked

@@ -1,20 +1,15 @@
-//! Puts the source that the report quotes into the program: the layers that compute, as (module,
-//! file, text). Which items are quoted is for the templates to say, when the program runs.
+//! Puts the source into the program, as (module, file, text): the report quotes items of it, and
+//! `explain` finds them. Which items are quoted is for the templates to say, when the program runs.
 
 use super::homes::{collect, module};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
 
-/// What may be quoted.
-const LAYERS: [&str; 3] = ["src/numerics", "src/dynamics", "src/circuits"];
-
 /// Writes `sources.rs` for `report::literate`.
 pub fn run() -> io::Result<()> {
     let mut files = Vec::new();
-    for layer in LAYERS {
-        collect(Path::new(layer), &mut files)?;
-    }
+    collect(Path::new("src"), &mut files)?;
     files.sort();
     let mut out = String::from("&[\n");
     for file in files {

@@ -5,7 +5,7 @@ use impact_paper::claims::{self, Published};
 use impact_paper::experiments::{Need, Progress, Store, run::run};
 use impact_paper::figures::{self, Figure};
 use impact_paper::params::Profile;
-use impact_paper::report::{Input, Report, Templates, assemble, contents};
+use impact_paper::report::{Input, Report, Templates, assemble, compare, contents, recipe};
 use roxmltree::{Document, Node, ParsingOptions};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -104,18 +104,32 @@ fn every_value_has_one_card() {
     assert_eq!(cards.len(), have.len());
     assert_eq!(targets, have, "a card without a number, or a number without its card");
     assert!(buttons.iter().all(|button| !words(*button).trim().is_empty()));
+    let values = std::str::from_utf8(&MADE.report.committed["values.json"]).unwrap();
+    for value in compare::read(values).unwrap().iter().filter(|v| !v.experiment.is_empty()) {
+        let known = recipe::recipe(&value.experiment, Profile::Quick).is_some();
+        assert!(known, "{}: no recipe of {:?}", value.id, value.experiment);
+    }
+    // A path of an item that leads to no file was renamed or misspelt.
+    for card in &cards {
+        for code in card.descendants().filter(|node| node.tag_name().name() == "code").skip(1) {
+            let linked = code.parent().is_some_and(|outer| outer.tag_name().name() == "a");
+            assert!(linked, "{} names {}", card.attribute("id").unwrap(), words(code));
+        }
+    }
     // The headline number stands in an equation, and opens there too.
     let card = cards.iter().find(|card| card.attribute("id") == Some("card-half_height")).unwrap();
     let text = words(*card);
-    for part in ["experiments::rise::find", "standard error", "sweep"] {
+    for part in ["experiments::rise::find", "standard error", "seed: 2007", "reproduced"] {
         assert!(text.contains(part), "{part:?} is not in {text:?}");
     }
-    let in_maths = |node: &Node<'_, '_>| node.ancestors().any(|n| n.tag_name().name() == "math");
-    assert!(
-        buttons
-            .iter()
-            .any(|b| { in_maths(b) && b.attribute("popovertarget") == Some("card-half_height") })
-    );
+    let displayed = |node: &Node<'_, '_>| {
+        node.ancestors().any(|outer| outer.attribute("class") == Some("equation"))
+    };
+    let opens = |b: &Node<'_, '_>| b.attribute("popovertarget") == Some("card-half_height");
+    assert!(buttons.iter().any(|button| opens(button) && displayed(button)));
+    for button in &buttons {
+        assert!(button.ancestors().all(|outer| outer.tag_name().name() != "math"));
+    }
 }
 
 #[test]
@@ -135,7 +149,7 @@ fn every_figure_says_what_is_seen_with_its_numbers() {
         assert_eq!(text(&title), figure.title);
         assert_eq!(text(&description), figure.description.trim());
         assert!(figure.description.contains(|c: char| c.is_ascii_digit()), "{}", figure.id);
-        let outer = words(svg.parent().unwrap());
+        let outer = words(svg.ancestors().find(|n| n.tag_name().name() == "figure").unwrap());
         for origin in ["Picture: ", "Data: ", "Code: "] {
             assert!(outer.contains(origin), "{}: no {origin:?}", figure.id);
         }

@@ -3,6 +3,7 @@
 mod bench;
 mod check;
 mod eval;
+mod explain;
 mod method;
 mod output;
 mod paper;
@@ -32,6 +33,7 @@ enum Verb {
     Bench(bench::Args),
     Check(check::Args),
     Eval(eval::Args),
+    Explain(explain::Args),
     Paper(paper::Args),
     Sweep(sweep::Args),
     Trace(trace::Args),
@@ -68,6 +70,7 @@ pub fn main() -> ExitCode {
         Verb::Bench(args) => bench::run(args),
         Verb::Check(args) => check::run(args),
         Verb::Eval(args) => eval::run(args),
+        Verb::Explain(args) => explain::run(args),
         Verb::Paper(args) => paper::run(args),
         Verb::Sweep(args) => sweep::run(args),
         Verb::Trace(args) => trace::run(args),

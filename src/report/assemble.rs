@@ -1,9 +1,12 @@
 //! Results and prose → every file of paper/, as bytes. Nothing is written here.
 
 use super::bibliography::Library;
+use super::card::Cards;
 use super::claims::{Row, scorecard};
 use super::document::Block;
+use super::lint::{Declared, Finding};
 use super::templates::{Filler, Mark, Templates};
+use super::uses::uses;
 use super::values::Registry;
 use super::{Error, html, labels, latex, ledger, lint, markdown, parse, pdf};
 use crate::claims::Claim;
@@ -70,10 +73,14 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
     put("report.tex".into(), filler.fill("report.tex")?);
     let json = |e: serde_json::Error| Error::Template(format!("values.json: {e}"));
     put("values.json".into(), serde_json::to_string_pretty(&values).map_err(json)? + "\n");
-    put("ledger.json".into(), ledger::json(input.claims, input.figures).map_err(json)?);
-    put("ledger.md".into(), ledger::markdown(input.claims, input.figures));
+    let ledger = ledger::ledger(input.claims, input.figures, &uses(input.claims, &values, &blocks));
+    put("ledger.json".into(), ledger::json(&ledger).map_err(json)?);
+    put("ledger.md".into(), ledger::markdown(&ledger));
     let mut beside = Files::new();
-    filler.insert("page", &html::write(&blocks, input.figures, &values)?);
+    filler.insert(
+        "page",
+        &html::write(&blocks, input.figures, Cards { values: &values, ledger: &ledger })?,
+    );
     filler.insert("style", &input.templates.text("report.css")?);
     beside.insert("report.html".into(), filler.fill("report.html")?.into_bytes());
     for figure in input.figures {
@@ -103,9 +110,17 @@ pub fn sums(files: &Files) -> String {
 
 fn check_numerals(templates: &Templates) -> Result<(), Error> {
     let prose = templates.iter().filter(|(path, _)| path.ends_with(".md"));
-    let found: Vec<lint::Finding> =
-        prose.flat_map(|(path, text)| lint::numerals(path, text)).collect();
-    if found.is_empty() { Ok(()) } else { Err(Error::Numerals(found)) }
+    let declared =
+        templates.text("literals.toml").map_or(Ok(Declared::default()), Declared::read)?;
+    let found: Vec<Finding> =
+        prose.flat_map(|(path, text)| lint::numerals(path, text, &declared)).collect();
+    if !found.is_empty() {
+        return Err(Error::Numerals(found));
+    }
+    match declared.unmet().as_slice() {
+        [] => Ok(()),
+        unmet => Err(Error::Template(format!("literals.toml: no prose has {unmet:?}; remove it"))),
+    }
 }
 
 fn check_unused(values: &Registry, filled: &str) -> Result<(), Error> {
@@ -130,10 +145,8 @@ fn illustrate(blocks: &mut [Block], figures: &[Figure]) -> Result<(), Error> {
             let figure = figure.ok_or_else(|| Error::Reference(path.clone()))?;
             *alt = figure.description.clone();
             *data = figure.data.iter().map(|d| format!("data/{}", d.name)).collect();
-            *experiments = match figure.id.trim_start_matches("fig").parse() {
-                Ok(number) => figures::experiments(number),
-                Err(_) => Vec::new(),
-            };
+            let number = figures::Number::of_id(&figure.id);
+            *experiments = number.map(figures::experiments).unwrap_or_default();
             shown.insert(figure.id.as_str());
         }
     }

@@ -4,73 +4,111 @@ use super::claims::plain;
 use super::equations::{EQUATIONS, Equation, Home, homes};
 use super::markdown::escaped;
 use crate::claims::Claim;
-use crate::figures::Figure;
-use serde::Serialize;
+use crate::figures::{self, Figure};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
-#[derive(Serialize)]
-struct Ledger<'a> {
-    claims: Vec<ClaimEntry<'a>>,
-    figures: Vec<FigureEntry<'a>>,
-    equations: Vec<EquationEntry>,
+/// All entries.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Ledger {
+    /// The judged statements.
+    pub claims: Vec<ClaimEntry>,
+    /// The figures.
+    pub figures: Vec<FigureEntry>,
+    /// The numbered equations of the paper.
+    pub equations: Vec<EquationEntry>,
 }
 
-#[derive(Serialize)]
-struct ClaimEntry<'a> {
-    id: &'a str,
-    place: &'a str,
-    statement: &'a str,
-    printed: &'a str,
-    ours: String,
-    tolerance: String,
-    reason: &'a str,
-    verdict: &'static str,
-    note: String,
+/// A statement; the fields are those of [`Claim`], as text.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[expect(missing_docs, reason = "the fields are documented at Claim")]
+pub struct ClaimEntry {
+    pub id: String,
+    pub place: String,
+    pub statement: String,
+    pub printed: String,
+    pub ours: String,
+    pub tolerance: String,
+    pub reason: String,
+    pub verdict: String,
+    pub note: String,
+    /// Ids of the values of the report that it states or is held against.
+    pub values: Vec<String>,
 }
 
-#[derive(Serialize)]
-struct FigureEntry<'a> {
-    id: &'a str,
-    title: &'a str,
-    picture: String,
-    data: Vec<String>,
-    source: String,
+/// A figure.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FigureEntry {
+    /// Id as `fig03`.
+    pub id: String,
+    /// A short name.
+    pub title: String,
+    /// What is seen, with its numbers.
+    pub description: String,
+    /// Path of the picture.
+    pub picture: String,
+    /// Paths of its data.
+    pub data: Vec<String>,
+    /// Path of the item that draws it.
+    pub source: String,
+    /// Names of the experiments whose results it shows.
+    pub experiments: Vec<String>,
 }
 
-#[derive(Serialize)]
-struct EquationEntry {
-    number: u32,
-    section: u32,
-    what: &'static str,
-    home: &'static str,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    step_towards: Option<&'static str>,
+/// A numbered equation of the paper.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct EquationEntry {
+    /// Its number.
+    pub number: u32,
+    /// The section where it stands.
+    pub section: u32,
+    /// What it says, in a few words.
+    pub what: String,
+    /// The item that is its home.
+    pub home: String,
+    /// The equation that the home leads to, where coding this one would be pointless.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub step_towards: Option<String>,
 }
 
-fn ledger<'a>(claims: &'a [Claim], figures: &'a [Figure]) -> Ledger<'a> {
-    let claim = |claim: &'a Claim| ClaimEntry {
-        id: &claim.id,
-        place: &claim.place,
-        statement: &claim.statement,
-        printed: &claim.printed,
+/// The ledger of claims and figures; `uses` has the values of each claim.
+pub fn ledger(
+    claims: &[Claim],
+    figures: &[Figure],
+    uses: &BTreeMap<String, Vec<String>>,
+) -> Ledger {
+    let claim = |claim: &Claim| ClaimEntry {
+        id: claim.id.clone(),
+        place: claim.place.clone(),
+        statement: claim.statement.clone(),
+        printed: claim.printed.clone(),
         ours: plain(&claim.ours),
         tolerance: plain(&claim.tolerance),
-        reason: &claim.reason,
-        verdict: claim.verdict.words(),
+        reason: claim.reason.clone(),
+        verdict: claim.verdict.words().to_string(),
         note: plain(&claim.note),
+        values: uses.get(&claim.id).cloned().unwrap_or_default(),
     };
-    let figure = |figure: &'a Figure| FigureEntry {
-        id: &figure.id,
-        title: &figure.title,
+    let figure = |figure: &Figure| FigureEntry {
+        id: figure.id.clone(),
+        title: figure.title.clone(),
+        description: figure.description.clone(),
         picture: format!("figures/{}.svg", figure.id),
         data: figure.data.iter().map(|data| format!("data/{}", data.name)).collect(),
         source: format!("figures::{}", figure.id),
+        experiments: figures::Number::of_id(&figure.id)
+            .map(figures::experiments)
+            .into_iter()
+            .flatten()
+            .map(String::from)
+            .collect(),
     };
     let entry = |equation: Equation, home: Home| EquationEntry {
         number: equation.number,
         section: equation.section,
-        what: equation.what,
-        home: home.item,
-        step_towards: home.step_towards(),
+        what: equation.what.into(),
+        home: home.item.into(),
+        step_towards: home.step_towards().map(String::from),
     };
     let of = |equation: Equation| homes(equation.number).map(move |home| entry(equation, home));
     Ledger {
@@ -81,28 +119,30 @@ fn ledger<'a>(claims: &'a [Claim], figures: &'a [Figure]) -> Ledger<'a> {
 }
 
 /// ledger.json.
-pub fn json(claims: &[Claim], figures: &[Figure]) -> serde_json::Result<String> {
-    Ok(serde_json::to_string_pretty(&ledger(claims, figures))? + "\n")
+///
+/// # Errors
+/// None that can arise from a ledger.
+pub fn json(ledger: &Ledger) -> serde_json::Result<String> {
+    Ok(serde_json::to_string_pretty(ledger)? + "\n")
 }
 
 /// ledger.md.
-pub fn markdown(claims: &[Claim], figures: &[Figure]) -> String {
-    let ledger = ledger(claims, figures);
+pub fn markdown(ledger: &Ledger) -> String {
     let mut out = String::from(
         "# Ledger\n\nEvery quantitative statement, figure and numbered equation of the paper, and \
          what became of it here. Written by the program, as [ledger.json](ledger.json) is.\n\n\
          ## Statements\n\n| Place | Statement | Printed | Ours | Verdict | Id |\n|---|---|---|---|---|---|\n",
     );
     for claim in &ledger.claims {
-        let words = [claim.place, claim.statement, claim.printed, &claim.ours];
-        let cells = words.map(escaped).join(" | ");
+        let words = [&claim.place, &claim.statement, &claim.printed, &claim.ours];
+        let cells = words.map(|text| escaped(text)).join(" | ");
         out.push_str(&format!("| {cells} | {} | `{}` |\n", claim.verdict, claim.id));
     }
     out.push_str("\n## Figures\n\n| Figure | Title | Data | Drawn by |\n|---|---|---|---|\n");
     for figure in &ledger.figures {
         let link = |path: &String| format!("[{path}]({path})");
         let data: Vec<String> = figure.data.iter().map(link).collect();
-        let (title, picture) = (escaped(figure.title), &figure.picture);
+        let (title, picture) = (escaped(&figure.title), &figure.picture);
         let data = data.join(", ");
         out.push_str(&format!(
             "| [{}]({picture}) | {title} | {data} | `{}` |\n",
@@ -113,8 +153,9 @@ pub fn markdown(claims: &[Claim], figures: &[Figure]) -> String {
         "\n## Equations\n\n| Equation | Section | What it says | Home |\n|---|---|---|---|\n",
     );
     for equation in &ledger.equations {
-        let step = equation.step_towards.map(|n| format!(", step towards {n}")).unwrap_or_default();
-        let (number, section, what) = (equation.number, equation.section, escaped(equation.what));
+        let step = equation.step_towards.as_ref();
+        let step = step.map(|n| format!(", step towards {n}")).unwrap_or_default();
+        let (number, section, what) = (equation.number, equation.section, escaped(&equation.what));
         out.push_str(&format!("| ({number}) | {section} | {what} | `{}`{step} |\n", equation.home));
     }
     out

@@ -4,6 +4,17 @@
 //! `«v.id»` and `«literal(text="2007", why="…")»`), mathematics, code, `[@references]`,
 //! `[!anchors]`, `{#ids}`, targets of links, markers of ordered lists, and names that begin with
 //! a letter (`f64`). A number alone in mathematics, as `$0.12$`, is naked too: it is not a formula.
+//!
+//! Number words are numerals: *two*, *twice*, *twenty*, *hundred*, *dozens*. Not so words that are mostly
+//! something else: *one* (a pronoun), *once*, *single*, *pair*, *both*, *half*, *quarter*, *zero*, and
+//! ordinals (*first*, *a tenth of N* is a definition). A word inside a compound that names a kind,
+//! as *two-sided*, passes. Whatever the model itself fixes (*two masses* meet in an impact) is declared
+//! once, as a phrase with its reason, in `literals.toml`; a phrase that no prose has is refused.
+
+use super::Error;
+use serde::Deserialize;
+use std::cell::RefCell;
+use std::collections::BTreeSet;
 
 /// A numeral that nobody computed.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -21,11 +32,12 @@ pub struct Finding {
 impl std::fmt::Display for Finding {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let Finding { path, line, column, numeral } = self;
-        write!(
-            f,
-            "{path}:{line}:{column}: the naked numeral {numeral}; name a value «v.…», \
-             or declare «literal(text=\"{numeral}\", why=\"…\")»"
-        )
+        write!(f, "{path}:{line}:{column}: the naked numeral {numeral}; name a value «v.…», ")?;
+        if numeral.starts_with(char::is_alphabetic) {
+            write!(f, "or declare the phrase around it, with its reason, in literals.toml")
+        } else {
+            write!(f, "or declare «literal(text=\"{numeral}\", why=\"…\")»")
+        }
     }
 }
 
@@ -46,8 +58,74 @@ const EXEMPT: [(&str, &str); 13] = [
     ("<http", ">"),
 ];
 
+/// Words that are numbers and nothing else.
+const WORDS: &str = "two three four five six seven eight nine ten eleven twelve thirteen fourteen \
+    fifteen sixteen seventeen eighteen nineteen twenty thirty forty fifty sixty seventy eighty ninety \
+    hundred thousand million billion dozen hundreds thousands millions dozens tens twice thrice";
+
+/// Phrases with number words that prose may have, with their reasons: `literals.toml`.
+#[derive(Debug, Default)]
+pub struct Declared {
+    phrases: Vec<String>,
+    met: RefCell<BTreeSet<usize>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    literal: Vec<Group>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Group {
+    /// Why the numbers in these phrases are nobody's result.
+    why: String,
+    phrases: Vec<String>,
+}
+
+impl Declared {
+    /// Reads `literals.toml`.
+    ///
+    /// # Errors
+    /// What is wrong with it: TOML that does not read, a group without a reason.
+    pub fn read(text: &str) -> Result<Self, Error> {
+        let fail = |what: String| Error::Template(format!("literals.toml: {what}"));
+        let file: File = toml::from_str(text).map_err(|e| fail(e.to_string()))?;
+        if let Some(group) = file.literal.iter().find(|group| group.why.trim().is_empty()) {
+            return Err(fail(format!("no reason for {:?}", group.phrases)));
+        }
+        let phrases = file.literal.into_iter().flat_map(|group| group.phrases).collect();
+        Ok(Declared { phrases, met: RefCell::default() })
+    }
+
+    /// Phrases that no text had so far.
+    pub fn unmet(&self) -> Vec<&str> {
+        let met = self.met.borrow();
+        let all = self.phrases.iter().enumerate();
+        all.filter(|(i, _)| !met.contains(i)).map(|(_, phrase)| phrase.as_str()).collect()
+    }
+
+    /// Does the word at these bytes stand inside a declared phrase?
+    fn allows(&self, text: &str, start: usize, word: &str) -> bool {
+        let mut allowed = false;
+        for (i, phrase) in self.phrases.iter().enumerate() {
+            let fits = |(at, _): (usize, &str)| {
+                let Some(begin) = start.checked_sub(at) else { return false };
+                let found = text.get(begin..begin + phrase.len());
+                found.is_some_and(|found| found.eq_ignore_ascii_case(phrase))
+            };
+            if phrase.to_ascii_lowercase().match_indices(&word.to_ascii_lowercase()).any(fits) {
+                self.met.borrow_mut().insert(i);
+                allowed = true;
+            }
+        }
+        allowed
+    }
+}
+
 /// All naked numerals of a text.
-pub fn numerals(path: &str, text: &str) -> Vec<Finding> {
+pub fn numerals(path: &str, text: &str, declared: &Declared) -> Vec<Finding> {
     let mut findings = Vec::new();
     let mut position = Position { line: 1, column: 1 };
     let mut rest = text;
@@ -78,6 +156,16 @@ pub fn numerals(path: &str, text: &str) -> Vec<Finding> {
             }
         }
         if c.is_alphanumeric() || c == '_' {
+            if word.is_none() && c.is_alphabetic() {
+                let start = text.len() - rest.len();
+                let whole: String = rest.chars().take_while(|c| c.is_alphanumeric()).collect();
+                if is_number_word(&whole)
+                    && !names_a_kind(text, start, &whole)
+                    && !declared.allows(text, start, &whole)
+                {
+                    findings.push(position.finding(path, &whole));
+                }
+            }
             let begins_with_letter = *word.get_or_insert(c.is_alphabetic() || c == '_');
             if c.is_numeric() && !begins_with_letter {
                 let numeral: String = rest.chars().take_while(|c| in_numeral(*c)).collect();
@@ -92,6 +180,18 @@ pub fn numerals(path: &str, text: &str) -> Vec<Finding> {
         rest = position.past(rest, c.len_utf8());
     }
     findings
+}
+
+fn is_number_word(word: &str) -> bool {
+    let word = word.to_lowercase();
+    WORDS.split_whitespace().any(|known| known == word)
+}
+
+/// Is the word tied by a hyphen to one that is no number: *two-sided*, not *twenty-five*?
+fn names_a_kind(text: &str, start: usize, word: &str) -> bool {
+    let after = text[start + word.len()..].strip_prefix('-').unwrap_or_default();
+    let next: String = after.chars().take_while(|c| c.is_alphabetic()).collect();
+    !next.is_empty() && !is_number_word(&next)
 }
 
 fn in_numeral(c: char) -> bool {
@@ -150,7 +250,7 @@ mod tests {
 
     fn found(text: &str) -> Vec<(usize, usize, String)> {
         let place = |f: Finding| (f.line, f.column, f.numeral);
-        numerals("x.md", text).into_iter().map(place).collect()
+        numerals("x.md", text, &Declared::default()).into_iter().map(place).collect()
     }
 
     #[test]
@@ -169,13 +269,32 @@ mod tests {
     }
 
     #[test]
+    fn number_words_are_numerals() {
+        assert_eq!(
+            found("Two rows,\nmore than a hundred"),
+            [(1, 1, "Two".into()), (2, 13, "hundred".into())]
+        );
+        assert_eq!(found("twenty-five times, twice").len(), 3);
+        for text in ["one of them, once, a single pair, both halves", "two-sided", "often, weight"]
+        {
+            assert_eq!(found(text), [], "{text}");
+        }
+        let file =
+            "[[literal]]\nwhy = \"an impact has them\"\nphrases = [\"two masses\", \"not there\"]";
+        let declared = Declared::read(file).unwrap();
+        assert_eq!(numerals("x.md", "The two masses. Two masses; two", &declared).len(), 1);
+        assert_eq!(declared.unmet(), ["not there"]);
+        assert!(Declared::read("[[literal]]\nwhy = \" \"\nphrases = [\"two\"]").is_err());
+    }
+
+    #[test]
     fn what_is_declared_or_no_prose_passes() {
         for text in [
             "«v.p_15» and «literal(text=\"2007\", why=\"year\")» <% if raw.n > 3 %> <# 12 #>",
             "$k = 1$, $1$, $x_{12}$\n$$\n1 + 2 \\tag{18}\n$$",
             "[@fig:3] [@eq:18; @rice1945] [!claim:c1] {#sec:s2}",
             "`f64 = 3` and f64, k1, σ², H2O\n```\n12\n```",
-            "1. one\n2. two\n   3) three",
+            "1. one\n2. other\n   3) third",
             "[words](data/fig03.csv) ![caption](figures/fig03.svg) <https://x.org/10.1/2>",
             "<!-- 12 -->",
         ] {

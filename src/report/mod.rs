@@ -23,9 +23,12 @@ pub mod map;
 pub mod markdown;
 pub mod parse;
 pub mod pdf;
+pub mod place;
 pub mod print;
+pub mod recipe;
 pub mod templates;
 mod tex;
+mod uses;
 pub mod valued;
 pub mod values;
 

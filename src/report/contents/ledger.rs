@@ -1,6 +1,7 @@
 //! What the text says about all claims together, and about this copy of the report.
 
-use crate::claims::{self, Claim, FAMILY_LEVEL};
+use super::mark;
+use crate::claims::{self, Claim, FAMILY_LEVEL, Verdict};
 use crate::experiments::Results;
 use crate::params::Profile;
 use crate::report::values::Value;
@@ -10,6 +11,35 @@ use std::collections::BTreeMap;
 pub fn references(claims: &[Claim]) -> BTreeMap<&str, String> {
     let reference = |claim: &Claim| format!("[@claim:{}], *{}*", claim.id, claim.verdict.words());
     claims.iter().map(|claim| (claim.id.as_str(), reference(claim))).collect()
+}
+
+/// One line of the scorecard.
+#[derive(serde::Serialize)]
+pub struct ScoreLine {
+    /// The verdict in words.
+    verdict: &'static str,
+    /// How many statements have it, as a mark.
+    count: String,
+    /// References to them, or the word "none".
+    claims: String,
+}
+
+/// How many statements have each verdict, and which.
+pub fn scorecard(claims: &[Claim]) -> Vec<ScoreLine> {
+    let line = |verdict: &Verdict| {
+        let own: Vec<String> = claims
+            .iter()
+            .filter(|claim| claim.verdict == *verdict)
+            .map(|claim| format!("@claim:{}", claim.id))
+            .collect();
+        let name = verdict.words().replace(' ', "_");
+        ScoreLine {
+            verdict: verdict.words(),
+            count: mark(format!("score.{name}")),
+            claims: if own.is_empty() { "none".into() } else { format!("[{}]", own.join("; ")) },
+        }
+    };
+    Verdict::ALL.iter().map(line).collect()
 }
 
 /// The level of the claims, and what this copy was made with.

@@ -63,7 +63,7 @@ pub fn registry(results: &Results, published: &Published) -> Result<Registry, Er
 }
 
 /// The rows of the generated tables, by the name that templates use: `row` (a reference to each
-/// claim with its verdict), `comparison_table`, `protocol_windows`, `protocol_table`,
+/// claim with its verdict), `scorecard`, `comparison_table`, `protocol_windows`, `protocol_table`,
 /// `starts_table`, `bias_heads`, `bias_table`, `bias_means`, `scene_heads`, `scene_table` and
 /// `target_table`.
 ///
@@ -74,6 +74,7 @@ pub fn rows(
     claims: &[Claim],
 ) -> Result<BTreeMap<&'static str, serde_json::Value>, Error> {
     Ok(BTreeMap::from([
+        ("scorecard", serde_json::to_value(ledger::scorecard(claims))?),
         ("row", serde_json::to_value(ledger::references(claims))?),
         ("comparison_table", serde_json::to_value(comparison::table(results)?)?),
         ("protocol_windows", serde_json::to_value(protocol::windows(results)?)?),
@@ -117,7 +118,10 @@ fn mark(id: impl Into<String>) -> String {
     Mark { id: id.into(), style: Style::default() }.write()
 }
 
-/// With the item that computed them, for all values of one place.
+/// With the item that computed them, for all values of one place that do not name their own.
 fn from(values: Vec<Value>, item: &str, experiment: &str) -> Vec<Value> {
-    values.into_iter().map(|value| value.source(item, experiment)).collect()
+    let one = |value: Value| {
+        if value.source.is_empty() { value.source(item, experiment) } else { value }
+    };
+    values.into_iter().map(one).collect()
 }

@@ -45,7 +45,7 @@ pub(super) fn mean_all(id: &str, row: &SweepRow) -> Value {
 
 pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
     let sweep = results.sweep()?;
-    let mut values = from(run(sweep), "params::SweepParams::main", "sweep");
+    let mut values = from(run(sweep), "params::sizes::SweepParams::main", "sweep");
     values.extend(from(rise(results, sweep)?, "experiments::rise::find", "sweep"));
     values.extend(from(laws(results, sweep)?, "experiments::laws::run", "laws"));
     let found = results.two_masses()?;
@@ -117,10 +117,14 @@ fn rise(results: &Results, sweep: &Sweep) -> Result<Vec<Value>, Error> {
                 .and_then(|r| r.mode_interval)
                 .map(|[low, high]| Value::interval("mode_noise", [low as f64, high as f64])),
         ),
-        estimate("half_height_second", second.rise.half_height, second.parameters.realisations),
+        estimate("half_height_second", second.rise.half_height, second.parameters.realisations)
+            .source("experiments::rise::find", "second_seed"),
         or_none(
             "second_seed_largest",
-            largest.map(|(errors, _)| Value::real("second_seed_largest", errors, 2)),
+            largest.map(|(errors, _)| {
+                let item = "claims::sec2::largest_between_seeds";
+                Value::real("second_seed_largest", errors, 2).source(item, "second_seed")
+            }),
         ),
     ])
 }

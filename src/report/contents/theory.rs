@@ -84,9 +84,10 @@ fn jump(results: &Results) -> Vec<Value> {
     let (scalars, slips) = (&theory.scalars, &theory.slips);
     let first = &slips.first_local_maximum;
     vec![
-        Value::real("p_crit", scalars.p_crit, 5),
-        Value::real("p_crit_walls", theory.scalars_walls.p_crit, 5),
-        Value::real("p_jump", scalars.p_jump, 5),
+        Value::real("p_crit", scalars.p_crit, 5).source("circuits::jump::p_crit", "theory"),
+        Value::real("p_crit_walls", theory.scalars_walls.p_crit, 5)
+            .source("circuits::jump::p_crit", "theory"),
+        Value::real("p_jump", scalars.p_jump, 5).source("circuits::jump::p_jump", "theory"),
         Value::integer("k_before_jump", id.k_star_before_jump[1]),
         Value::integer("k_after_jump", scalars.k_after_jump),
         Value::real("k_touch", id.k_touch, 4),
@@ -116,8 +117,10 @@ fn relation(results: &Results) -> Result<Vec<Value>, Error> {
         Value::real("sigma_half_theory", scalars.sigma_half, 4),
         Value::real("sigma_half_rest", scalars.sigma_half_rest, 4),
         Value::real("eq25_difference", id.eq25, 1),
-        Value::real("p_012", threshold.p, 3),
-        Value::real("p_015", theory.slips.p_at_015, 3),
+        Value::real("p_012", threshold.p, 3)
+            .source("circuits::impact_probability::ImpactProbability::p", "theory"),
+        Value::real("p_015", theory.slips.p_at_015, 3)
+            .source("circuits::impact_probability::ImpactProbability::p", "theory"),
         Value::real("p_rest_012", threshold.p_rest, 3),
         Value::real("p_rest_ratio", threshold.p_rest / threshold.p, 2),
         Value::real("self_closing", gaps * threshold.p_rest, 2),

@@ -2,8 +2,7 @@
 
 use super::{Page, escape};
 use crate::report::Error;
-use crate::report::card::{self, Card};
-use crate::report::values::Registry;
+use crate::report::card::{Card, Cards};
 use std::fmt::Write as _;
 
 impl Page<'_> {
@@ -17,13 +16,12 @@ impl Page<'_> {
     }
 
     /// The cards of all values that were shown, each once.
-    pub(super) fn cards(&self, values: &Registry) -> Result<String, Error> {
+    pub(super) fn cards(&self, cards: Cards<'_>) -> Result<String, Error> {
         let named = self.named.borrow().clone();
         let mut out = String::new();
         for id in named {
             let unknown = || Error::Template(format!("there is no value {id}"));
-            let value = values.get(&id).ok_or_else(unknown)?;
-            out.push_str(&self.card(&card::of_value(value)?)?);
+            out.push_str(&self.card(&cards.get(&id).ok_or_else(unknown)?)?);
         }
         Ok(out)
     }

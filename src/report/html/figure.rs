@@ -1,8 +1,10 @@
 //! A figure: the picture inside the page, its caption, and where it comes from.
 
 use super::{Page, escape, picture};
-use crate::report::Error;
+use crate::params::Profile;
 use crate::report::document::Block;
+use crate::report::recipe::recipe;
+use crate::report::{Error, place};
 
 impl Page<'_> {
     pub(super) fn figure(&self, block: &Block) -> Result<String, Error> {
@@ -14,7 +16,8 @@ impl Page<'_> {
         let figure = figure.ok_or_else(|| Error::Reference(path.clone()))?;
         let svg = picture::inline(&figure.svg, &mut self.glyphs.borrow_mut())?;
         Ok(format!(
-            "<figure id=\"{}\">{svg}<figcaption><strong>Figure {number}.</strong> {} \
+            "<figure id=\"{}\"><div class=\"scroll\" tabindex=\"0\" role=\"group\" \
+             aria-label=\"Figure {number}\">{svg}</div><figcaption><strong>Figure {number}.</strong> {} \
              <span class=\"origin\">{}</span></figcaption></figure>\n",
             escape::id(id),
             self.inlines(caption)?,
@@ -39,8 +42,15 @@ fn origin(id: &str, path: &str, data: &[String], experiments: &[&str]) -> String
         link(&format!("../src/figures/{id}.rs"), &format!("{id}.rs"))
     ));
     if !experiments.is_empty() {
-        let names: Vec<String> =
-            experiments.iter().map(|name| escape::text(&name.replace('_', " "))).collect();
+        let one = |name: &&str| {
+            let shown = name.replace('_', " ");
+            let item = recipe(name, Profile::Full).map(|recipe| recipe.item);
+            match item.and_then(place::file) {
+                Some(file) => link(&format!("../{file}"), &shown),
+                None => escape::text(&shown),
+            }
+        };
+        let names: Vec<String> = experiments.iter().map(one).collect();
         out.push_str(&format!(" Experiment: {}.", names.join(", ")));
     }
     out

@@ -27,7 +27,13 @@ impl Page<'_> {
             Inline::Strong(inner) => format!("<strong>{}</strong>", self.inlines(inner)?),
             Inline::Maths(tex) => maths::write(self, tex, false)?,
             Inline::Display { tex, tag } => self.display(tex, tag.as_deref())?,
-            Inline::Value { id, shown } => self.button(id, &self.inlines(shown)?),
+            Inline::Value { id, shown } => {
+                let part = |inline: &Inline| match inline {
+                    Inline::Maths(tex) => maths::digits(tex),
+                    other => self.inline(other),
+                };
+                self.button(id, &shown.iter().map(part).collect::<Result<String, Error>>()?)
+            }
             Inline::Link { to, shown } => {
                 format!("<a href=\"{}\">{}</a>", escape::text(to), self.inlines(shown)?)
             }
@@ -47,12 +53,12 @@ impl Page<'_> {
         Ok(match tag {
             Some(tag) => format!(
                 "<div class=\"equation\" id=\"eq-{tag}\"><div class=\"scroll\" tabindex=\"0\" \
-                 role=\"group\" aria-label=\"Equation {tag}\">{formula}</div>\
+                 role=\"group\" aria-label=\"Equation {tag}\"><div>{formula}</div></div>\
                  <a class=\"number\" href=\"#eq-{tag}\">({tag})</a></div>\n"
             ),
             None => format!(
                 "<div class=\"equation\"><div class=\"scroll\" tabindex=\"0\" role=\"group\" \
-                 aria-label=\"Equation without number\">{formula}</div></div>\n"
+                 aria-label=\"Equation without number\"><div>{formula}</div></div></div>\n"
             ),
         })
     }

@@ -5,7 +5,6 @@ use super::escape;
 use crate::report::Error;
 use crate::report::valued::{Piece, bare, pieces};
 use math_core::{LatexToMathML, MathCoreConfig, MathDisplay};
-use std::fmt::Write as _;
 use std::sync::LazyLock;
 
 static CONVERTER: LazyLock<Option<LatexToMathML>> =
@@ -22,42 +21,91 @@ fn convert(tex: &str, display: MathDisplay) -> Result<String, Error> {
     made.map(|made| made.mathml).map_err(|error| fail(error.to_string()))
 }
 
-/// Mathematics whose values are buttons.
+/// Mathematics, cut at its values, which are buttons between the parts: readers of a screen take a
+/// formula as a whole and would not reach a button inside it. A value in a script, a root or a
+/// fraction stays in the formula and opens nothing.
 ///
 /// # Errors
 /// As [`convert`].
 pub fn write(page: &Page<'_>, tex: &str, block: bool) -> Result<String, Error> {
     let display = if block { MathDisplay::Block } else { MathDisplay::Inline };
-    let mut plain = String::with_capacity(tex.len());
-    let mut buttons = Vec::new();
+    let mut out = String::new();
+    let (mut part, mut depth) = (String::new(), 0);
     for piece in pieces(tex) {
         match piece {
-            Piece::Tex(text) => plain.push_str(text),
-            Piece::Value { id, digits } => {
-                // A text of its own, to be found again in the MathML.
-                let _ = write!(plain, r"\text{{@{}@}}", buttons.len());
-                buttons.push(page.button(id, &shown(digits)?));
+            Piece::Tex(text) => {
+                depth += braces(text);
+                part.push_str(text);
+            }
+            Piece::Value { digits, .. } if depth != 0 => part.push_str(digits),
+            Piece::Value { id, digits: tex } => {
+                if !part.trim().is_empty() {
+                    // The empty group keeps the space of a relation at the cut.
+                    out.push_str(&convert(&format!("{part}{{}}"), display)?);
+                    out.push('\u{2009}');
+                }
+                out.push_str(&page.button(id, &digits(tex)?));
+                part = String::from("{}");
             }
         }
     }
-    let mut out = convert(&plain, display)?;
-    for (i, button) in buttons.iter().enumerate() {
-        let place = format!("@{i}@");
-        if !out.contains(&place) {
-            let what = "a value is lost in it".into();
-            return Err(Error::Maths { tex: bare(tex), what });
-        }
-        out = out.replace(&place, button);
+    if !matches!(part.trim(), "" | "{}") {
+        out.push_str(&convert(&part, display)?);
     }
     Ok(out)
 }
 
-/// Digits as text, or as mathematics of their own where there are powers.
-fn shown(digits: &str) -> Result<String, Error> {
-    let text = digits.replace(r"\,", "\u{202f}").replace(r"\%", "%").replace('-', "−");
-    if text.contains(['\\', '^', '_']) {
-        convert(digits, MathDisplay::Inline)
-    } else {
-        Ok(escape::text(&text))
+/// Opening braces less closing ones, `\left` and environments among them.
+fn braces(tex: &str) -> i32 {
+    let count = |text: &str| tex.matches(text).count() as i32;
+    count("{") - count(r"\{") - count("}") + count(r"\}") + count(r"\left")
+        - count(r"\right")
+        - count(r"\leftarrow")
+        + count(r"\rightarrow")
+        + count(r"\begin")
+        - count(r"\end")
+}
+
+/// Printed digits as text, powers raised.
+///
+/// # Errors
+/// As [`convert`], for what is not digits.
+pub fn digits(tex: &str) -> Result<String, Error> {
+    let text = tex.strip_prefix(r"\text{").and_then(|rest| rest.strip_suffix('}')).unwrap_or(tex);
+    let text = text.replace(r"\,", "\u{202f}").replace(r"\%", "%").replace('-', "−");
+    let text = escape::text(&text.replace(r"\times", "\u{202f}×\u{202f}"));
+    let text = match text.split_once("^{") {
+        Some((base, rest)) => match rest.split_once('}') {
+            Some((power, rest)) => format!("{base}<sup>{power}</sup>{rest}"),
+            None => text,
+        },
+        None => text,
+    };
+    if text.contains(['\\', '^', '_', '{']) { convert(tex, MathDisplay::Inline) } else { Ok(text) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn digits_are_text() {
+        assert_eq!(digits("-3.2(2)").unwrap(), "−3.2(2)");
+        assert_eq!(digits(r"8.87\times10^{-4}").unwrap(), "8.87\u{202f}×\u{202f}10<sup>−4</sup>");
+        assert_eq!(digits(r"\text{none}").unwrap(), "none");
+        assert!(digits(r"\sigma").unwrap().starts_with("<math"));
+    }
+
+    #[test]
+    fn depth_is_counted() {
+        for (tex, depth) in [(r"x_{", 1), (r"\left( x", 1), (r"\{a\}", 0), (r"\sqrt{2} =", 0)] {
+            assert_eq!(braces(tex), depth, "{tex}");
+        }
+    }
+
+    #[test]
+    fn unknown_commands_are_errors() {
+        let error = convert(r"\nosuch x", MathDisplay::Inline).unwrap_err().to_string();
+        assert!(error.contains(r"$\nosuch x$"), "{error}");
     }
 }

@@ -14,8 +14,8 @@ mod maths;
 mod picture;
 
 use super::Error;
+use super::card::Cards;
 use super::document::{Block, plain};
-use super::values::Registry;
 use crate::figures::Figure;
 use serde::Serialize;
 use std::cell::RefCell;
@@ -52,7 +52,7 @@ struct Page<'a> {
 ///
 /// # Errors
 /// Mathematics, pictures or references that cannot be written.
-pub fn write(blocks: &[Block], figures: &[Figure], values: &Registry) -> Result<Parts, Error> {
+pub fn write(blocks: &[Block], figures: &[Figure], cards: Cards<'_>) -> Result<Parts, Error> {
     let page = Page { figures, named: RefCell::default(), glyphs: RefCell::default() };
     let is_title = |block: &&Block| matches!(block, Block::Heading { level: 1, .. });
     let Some(Block::Heading { text, .. }) = blocks.iter().find(is_title) else {
@@ -66,7 +66,7 @@ pub fn write(blocks: &[Block], figures: &[Figure], values: &Registry) -> Result<
         heading,
         contents,
         body,
-        cards: page.cards(values)?,
+        cards: page.cards(cards)?,
         glyphs: picture::shared(&page.glyphs.borrow()),
         style: fonts::rules() + &picture::rules(),
     })

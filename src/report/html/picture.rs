@@ -70,6 +70,8 @@ fn write(node: Node<'_, '_>, glyphs: &mut Glyphs, out: &mut String) -> Result<()
                 classes.push(format!("{key}-{}", colour(value)?));
                 continue;
             }
+            // The picture is one image to readers of a screen: its description says what is seen.
+            ("aria-label", _) => {}
             ("href", Some(glyph)) => {
                 let _ = write!(out, " href=\"#glyph-{glyph}\"");
             }

@@ -1,0 +1,180 @@
+//! `impact-paper explain`.
+
+use super::Failure;
+use impact_paper::report::card::{Card, Cards, Row};
+use impact_paper::report::document::plain;
+use impact_paper::report::ledger::Ledger;
+use impact_paper::report::place::place;
+use impact_paper::report::{Registry, compare};
+use serde_json::json;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// Says where a number, a figure, an equation or a claim of the report comes from.
+///
+/// An ID is the name of a value (half_height), `fig:3`, `fig:s1`, `eq:18` or `claim:sec7_jump`;
+/// without one, all are listed. Nothing is run: the answer is read from the report's folder, and
+/// lines of the source are looked up in ./src, or else as they were when the program was built.
+#[derive(clap::Args)]
+pub struct Args {
+    /// What to explain.
+    #[arg(value_name = "ID")]
+    ids: Vec<String>,
+    /// Folder of the report.
+    #[arg(long, value_name = "DIR", default_value = "paper")]
+    paper: PathBuf,
+    /// As JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Runs the verb.
+pub fn run(args: Args) -> Result<(), Failure> {
+    let values = values(&args.paper)?;
+    let ledger = ledger(&args.paper)?;
+    let cards = Cards { values: &values, ledger: &ledger };
+    let get = |id: &String| cards.get(id).ok_or_else(|| unknown(id, &cards.ids()));
+    let result = if args.ids.is_empty() {
+        let all: Vec<Card> = cards.ids().iter().filter_map(|id| cards.get(id)).collect();
+        list(&all, args.json)
+    } else {
+        let found = args.ids.iter().map(get).collect::<Result<Vec<Card>, Failure>>()?;
+        show(&found, args.json)
+    };
+    match result {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            let remedy = "direct it to a file that can be written";
+            Err(Failure::input(format!("standard output: {error}; {remedy}")))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn read(folder: &Path, name: &str) -> Result<String, Failure> {
+    let path = folder.join(name);
+    std::fs::read_to_string(&path).map_err(|e| {
+        let remedy = "give the folder of a report, or make one with `impact-paper paper`";
+        Failure::input(format!("--paper: {}: {e}; {remedy}", path.display()))
+    })
+}
+
+fn values(folder: &Path) -> Result<Registry, Failure> {
+    compare::read(&read(folder, "values.json")?)
+        .map_err(|e| Failure::input(format!("--paper: {e}")))
+}
+
+fn ledger(folder: &Path) -> Result<Ledger, Failure> {
+    let fault = |e: serde_json::Error| {
+        let remedy = "make the report anew with `impact-paper paper`";
+        Failure::input(format!("--paper: ledger.json: {e}; {remedy}"))
+    };
+    serde_json::from_str(&read(folder, "ledger.json")?).map_err(fault)
+}
+
+/// One line for each thing.
+fn list(cards: &[Card], as_json: bool) -> io::Result<()> {
+    let mut out = io::BufWriter::new(io::stdout().lock());
+    if as_json {
+        let ids: Vec<_> =
+            cards.iter().map(|card| json!({"id": card.id, "title": title(card)})).collect();
+        return writeln!(out, "{:#}", json!(ids));
+    }
+    for card in cards {
+        writeln!(out, "{:28} {}", card.id, title(card))?;
+    }
+    out.flush()
+}
+
+fn show(cards: &[Card], as_json: bool) -> io::Result<()> {
+    let mut out = io::BufWriter::new(io::stdout().lock());
+    if as_json {
+        let one = |card: &Card| {
+            let rows: Vec<_> = card.rows.iter().map(row_json).collect();
+            json!({"id": card.id, "title": title(card), "rows": rows})
+        };
+        let all: Vec<_> = cards.iter().map(one).collect();
+        return writeln!(out, "{:#}", json!(all));
+    }
+    for (i, card) in cards.iter().enumerate() {
+        if i > 0 {
+            writeln!(out)?;
+        }
+        writeln!(out, "{}: {}", card.id, title(card))?;
+        for row in card.rows.iter().filter(|row| row.name != "id") {
+            write!(out, "  {:15} {}", row.name, plain(&row.text))?;
+            if let Some((file, line)) = stands(row) {
+                write!(out, " ({file}:{line})")?;
+            }
+            writeln!(out)?;
+        }
+    }
+    out.flush()
+}
+
+fn title(card: &Card) -> String {
+    plain(&card.title)
+}
+
+fn row_json(row: &Row) -> serde_json::Value {
+    let mut out = json!({"name": row.name, "text": plain(&row.text)});
+    if let Some((file, line)) = stands(row) {
+        out["file"] = json!(file);
+        out["line"] = json!(line);
+    }
+    out
+}
+
+/// File and line of the item that a row names.
+fn stands(row: &Row) -> Option<(&'static str, usize)> {
+    let here = |file: &str| std::fs::read_to_string(file).ok();
+    // What was moved in the working copy may still be found in the built one.
+    let item = row.item.as_ref()?;
+    let found = place(item, here).or_else(|| place(item, |_| None))?;
+    Some((found.file, found.line))
+}
+
+/// One line with the ids that are spelt most alike.
+fn unknown(id: &str, ids: &[String]) -> Failure {
+    let mut near: Vec<(usize, &str)> =
+        ids.iter().map(|known| (distance(id, known), known.as_str())).collect();
+    near.sort_by_key(|(distance, _)| *distance);
+    let near: Vec<&str> = near.iter().take(3).map(|(_, id)| *id).collect();
+    Failure::input(format!(
+        "explain: there is no {id:?}; the nearest ids are {}; without an id all are listed",
+        near.join(", ")
+    ))
+}
+
+/// Fewest insertions, deletions and replacements between two words; what stands behind `claim:`
+/// may match alone.
+fn distance(asked: &str, known: &str) -> usize {
+    let one = |a: &str, b: &str| {
+        let b: Vec<char> = b.chars().collect();
+        let mut row: Vec<usize> = (0..=b.len()).collect();
+        for (i, x) in a.chars().enumerate() {
+            let mut before = row[0];
+            row[0] = i + 1;
+            for (j, y) in b.iter().enumerate() {
+                let replaced = before + usize::from(x != *y);
+                before = row[j + 1];
+                row[j + 1] = replaced.min(before + 1).min(row[j] + 1);
+            }
+        }
+        row[b.len()]
+    };
+    let whole = one(asked, known);
+    known.split_once(':').map_or(whole, |(_, name)| whole.min(one(asked, name)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::distance;
+
+    #[test]
+    fn words_that_are_alike_are_near() {
+        assert_eq!(distance("p_crit", "p_crit"), 0);
+        assert_eq!(distance("p_krit", "p_crit"), 1);
+        assert_eq!(distance("sec7_jump", "claim:sec7_jump"), 0);
+        assert_eq!(distance("", "abc"), 3);
+    }
+}

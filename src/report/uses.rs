@@ -1,0 +1,77 @@
+//! Which values a claim states or is held against.
+//!
+//! A claim's text carries its numbers as they were computed, and so does a value: the same double
+//! is the same number. Integers agree by chance, so they count only where the prose names claim
+//! and value in one paragraph.
+
+use super::document::{Block, Inline, visit};
+use super::valued::{Piece, pieces};
+use super::values::{Number, Registry};
+use crate::claims::{Claim, Piece as Said, Text};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// For each claim the ids of its values, sorted.
+pub fn uses(
+    claims: &[Claim],
+    values: &Registry,
+    blocks: &[Block],
+) -> BTreeMap<String, Vec<String>> {
+    let together = together(blocks);
+    let one = |claim: &Claim| {
+        let numbers: Vec<f64> =
+            [&claim.ours, &claim.tolerance, &claim.note].into_iter().flat_map(numbers).collect();
+        let near = together.get(&claim.id);
+        let states = |number: &Number, id: &String| match number {
+            Number::Integer(n) => {
+                near.is_some_and(|near| near.contains(id)) && numbers.contains(&(*n as f64))
+            }
+            Number::Real { value, .. } if value.fract() == 0.0 => {
+                near.is_some_and(|near| near.contains(id)) && numbers.contains(value)
+            }
+            Number::Real { value, .. } => numbers.contains(value),
+            Number::Interval { low, high } => numbers.contains(low) && numbers.contains(high),
+            Number::Text(_) => false,
+        };
+        let printed = format!("printed.{}", claim.id);
+        let used = values.iter().filter(|value| {
+            value.id == printed || !value.id.contains('.') && states(&value.number, &value.id)
+        });
+        (claim.id.clone(), used.map(|value| value.id.clone()).collect())
+    };
+    claims.iter().map(one).collect()
+}
+
+fn numbers(text: &Text) -> impl Iterator<Item = f64> + '_ {
+    text.0.iter().filter_map(|piece| match piece {
+        Said::Number(number) => Some(number.value),
+        Said::Words(_) => None,
+    })
+}
+
+/// For each claim the values that stand in one paragraph with a reference to it.
+fn together(blocks: &[Block]) -> BTreeMap<String, BTreeSet<String>> {
+    let mut out: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+    for block in blocks.iter().filter(|block| matches!(block, Block::Paragraph(_))) {
+        let (mut claims, mut values) = (Vec::new(), BTreeSet::new());
+        visit(std::slice::from_ref(block), &mut |inline| match inline {
+            Inline::Reference { to, .. } => {
+                claims.extend(to.strip_prefix("claim:").map(String::from))
+            }
+            Inline::Value { id, .. } => {
+                values.insert(id.clone());
+            }
+            Inline::Maths(tex) | Inline::Display { tex, .. } => {
+                for piece in pieces(tex) {
+                    if let Piece::Value { id, .. } = piece {
+                        values.insert(id.to_string());
+                    }
+                }
+            }
+            _ => {}
+        });
+        for claim in claims {
+            out.entry(claim).or_default().extend(values.iter().cloned());
+        }
+    }
+    out
+}

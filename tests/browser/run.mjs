@@ -1,0 +1,153 @@
+// Opens report.html from disk in headless Chromium, as a reader would, and ends with exit code 1
+// if something is wrong. Usage: node run.mjs REPORT.HTML [FOLDER FOR PICTURES]
+import { chromium } from "playwright-core";
+import { createRequire } from "node:module";
+import { existsSync } from "node:fs";
+import { resolve } from "node:path";
+import { pathToFileURL } from "node:url";
+
+const report = resolve(process.argv[2] ?? "../../paper/report.html");
+const pictures = process.argv[3];
+const page_url = pathToFileURL(report).href;
+const axe = createRequire(import.meta.url).resolve("axe-core/axe.min.js");
+const executable = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find(existsSync);
+
+const faults = [];
+const check = (good, what) => {
+  if (!good) faults.push(what);
+};
+
+const browser = await chromium.launch({
+  executablePath: process.env.CHROMIUM ?? executable,
+  args: process.getuid?.() === 0 ? ["--no-sandbox"] : [],
+});
+
+/** A page that tells every request and every complaint. */
+async function open(width, colorScheme, options = {}) {
+  const context = await browser.newContext({
+    viewport: { width, height: 900 },
+    colorScheme,
+    ...options,
+  });
+  const page = await context.newPage();
+  page.on("request", (request) => {
+    const url = request.url();
+    check(url.split("#")[0] === page_url || url.startsWith("data:"), `a request: ${url.slice(0, 100)}`);
+  });
+  page.on("console", (message) => {
+    check(!["error", "warning"].includes(message.type()), `console: ${message.text()}`);
+  });
+  page.on("pageerror", (error) => check(false, `script: ${error}`));
+  await page.goto(page_url);
+  await page.evaluate(() => document.fonts.ready.then(() => undefined));
+  return page;
+}
+
+/** Fonts are those inside the file, figures have a size and fall into the page, links land. */
+async function reads_well(page, name) {
+  const found = await page.evaluate(() => {
+    const wrong = [];
+    for (const face of document.fonts)
+      if (face.status !== "loaded" && face.style === "normal") wrong.push(`font ${face.family} ${face.weight}: ${face.status}`);
+    const figures = [...document.querySelectorAll("svg[role=img]")];
+    for (const svg of figures) {
+      const box = svg.getBoundingClientRect();
+      const inner = svg.getBBox();
+      if (box.width < 200 || box.height < 60 || inner.width === 0 || !svg.checkVisibility())
+        wrong.push(`${svg.getAttribute("aria-labelledby")} is not seen: ${box.width} x ${box.height}`);
+    }
+    const links = [...document.querySelectorAll('a[href^="#"]')];
+    for (const link of links) {
+      const target = document.getElementById(decodeURIComponent(link.hash.slice(1)));
+      if (!target || !target.checkVisibility()) wrong.push(`${link.hash} does not land`);
+    }
+    return { wrong, figures: figures.length, links: links.length };
+  });
+  found.wrong.forEach((wrong) => check(false, `${name}: ${wrong}`));
+  check(found.figures >= 20, `${name}: ${found.figures} figures`);
+  check(found.links > 400, `${name}: ${found.links} links`);
+}
+
+/** Nothing but boxes that scroll by themselves is wider than the screen. */
+async function stays_narrow(page, name) {
+  const wide = await page.evaluate(() => {
+    const width = document.documentElement.clientWidth;
+    if (document.documentElement.scrollWidth <= width) return [];
+    const inside = (node) => node.parentElement?.closest(".scroll, pre, svg, .card, nav");
+    return [...document.querySelectorAll("main *, header *, nav *")]
+      .filter((node) => node.getBoundingClientRect().right > width + 1 && !inside(node))
+      .slice(0, 5)
+      .map((node) => `${node.tagName} ${node.className} ${node.textContent.slice(0, 40)}`)
+      .concat(`the page is ${document.documentElement.scrollWidth} wide`);
+  });
+  check(wide.length === 0, `${name} scrolls sideways: ${wide.join(" | ")}`);
+}
+
+/** A number is reached and opened by keyboard alone, and closes again. */
+async function opens_by_keyboard(page, name) {
+  const button = page.locator("button.value").first();
+  const id = await button.getAttribute("popovertarget");
+  for (let i = 0; i < 80; i += 1) {
+    await page.keyboard.press("Tab");
+    if (await button.evaluate((node) => node === document.activeElement)) break;
+  }
+  check(await button.evaluate((node) => node === document.activeElement), `${name}: no key leads to a number`);
+  const shown = () => page.evaluate((id) => document.getElementById(id).matches(":popover-open"), id);
+  check(!(await shown()), `${name}: a card is open before it was asked for`);
+  await page.keyboard.press("Enter");
+  check(await shown(), `${name}: Enter opens no card`);
+  const box = await page.locator(`#${id}`).boundingBox();
+  const view = page.viewportSize();
+  check(
+    box && box.width > 100 && box.x >= 0 && box.y >= 0 && box.x + box.width <= view.width + 1 && box.y + box.height <= view.height + 1,
+    `${name}: the card is out of sight: ${JSON.stringify(box)}`,
+  );
+  if (pictures) await page.screenshot({ path: `${pictures}/card-${name}.png` });
+  await page.keyboard.press("Escape");
+  check(!(await shown()), `${name}: Escape closes no card`);
+}
+
+async function accessible(page, name) {
+  await page.addScriptTag({ path: axe });
+  const found = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
+  for (const rule of found.violations) {
+    const grave = ["serious", "critical"].includes(rule.impact);
+    const nodes = rule.nodes.slice(0, 3).map((node) => `${node.html.slice(0, 120)} (${node.failureSummary?.split("\n")[1]?.trim()})`);
+    const text = `${name}: axe ${rule.id} (${rule.impact}), ${rule.nodes.length} times: ${nodes.join(" | ")}`;
+    if (grave) check(false, text);
+    else console.log(`note: ${text}`);
+  }
+}
+
+for (const [name, width, scheme] of [
+  ["wide-light", 1280, "light"],
+  ["wide-dark", 1280, "dark"],
+  ["narrow-light", 400, "light"],
+  ["narrow-dark", 320, "dark"],
+]) {
+  const page = await open(width, scheme);
+  await reads_well(page, name);
+  await stays_narrow(page, name);
+  await opens_by_keyboard(page, name);
+  await accessible(page, name);
+  if (pictures) {
+    for (const place of ["text", "fig-3", "eq-25", "tab-claims", "tab-protocol", "sec-accuracy"]) {
+      await page.evaluate((id) => document.getElementById(id).scrollIntoView(), place);
+      await page.screenshot({ path: `${pictures}/${name}-${place}.png` });
+    }
+  }
+  await page.context().close();
+}
+
+// Without scripts nothing is lost, cards included.
+const page = await open(1280, "light", { javaScriptEnabled: false });
+await page.locator("button.value").first().click();
+check(await page.locator(".card:visible").isVisible(), "without scripts no card opens");
+await browser.close();
+
+if (faults.length > 0) {
+  console.error([...new Set(faults)].join("\n"));
+  console.error(`${new Set(faults).size} faults in ${report}`);
+  process.exit(1);
+}
+console.log(`${report}: as it should be, wide and narrow, light and dark, with and without scripts`);

@@ -1,0 +1,103 @@
+//! `impact-paper explain` as a user meets it, on the report of the quick profile.
+
+use std::path::Path;
+use std::process::Command;
+use std::sync::LazyLock;
+
+static PAPER: LazyLock<tempfile::TempDir> = LazyLock::new(|| {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("paper");
+    let results = folder.path().join("results");
+    let (out, results) = (out.to_str().unwrap(), results.to_str().unwrap());
+    let (code, _, note) = run(&["paper", "--profile", "quick", "--out", out, "--results", results]);
+    assert_eq!(code, 0, "{note}");
+    folder
+});
+
+fn run(arguments: &[&str]) -> (i32, String, String) {
+    let output = Command::new(env!("CARGO_BIN_EXE_impact-paper")).args(arguments).output().unwrap();
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
+}
+
+fn explain(arguments: &[&str]) -> (i32, String, String) {
+    let paper = PAPER.path().join("paper");
+    run(&[&["explain", "--paper", paper.to_str().unwrap()], arguments].concat())
+}
+
+#[test]
+fn values_figures_equations_and_claims_are_explained() {
+    for (id, parts) in [
+        (
+            "half_height",
+            vec![
+                "standard error",
+                "experiments::rise::find (src/experiments/rise.rs:",
+                "seed: 2007",
+                "chain masses: 100",
+                "fig03.csv",
+                "reproduced",
+            ],
+        ),
+        ("half_height_second", vec!["seed: 7002"]),
+        ("p_crit", vec!["0.0122099", "circuits::jump::p_crit (src/circuits/jump.rs:", "(18)"]),
+        ("printed.sec2_half_height", vec!["printed in the paper", "Sec. 2"]),
+        (
+            "fig:3",
+            vec![
+                "figures/fig03.svg".split('/').next_back().unwrap(),
+                "figures::fig03 (src/figures/fig03.rs:1)",
+                "seed: 2007",
+            ],
+        ),
+        ("fig:s1", vec!["experiments::accuracy::race::run (src/experiments/accuracy/race.rs:"]),
+        ("eq:18", vec!["circuits::jump::p_crit (src/circuits/jump.rs:", "p_crit, p_crit_walls"]),
+        ("claim:sec7_jump", vec!["verdict", "tolerance", "p_jump"]),
+    ] {
+        let (code, told, note) = explain(&[id]);
+        assert_eq!((code, note.as_str()), (0, ""), "{id}");
+        for part in parts {
+            assert!(told.contains(part), "{id}: {part:?} is not in\n{told}");
+        }
+    }
+}
+
+/// The line is that of the working copy, where the item is declared.
+#[test]
+fn the_line_is_that_of_the_item() {
+    let (_, told, _) = explain(&["p_jump"]);
+    let line = told.split("src/circuits/jump.rs:").nth(1).unwrap().split(')').next().unwrap();
+    let text = std::fs::read_to_string("src/circuits/jump.rs").unwrap();
+    let line = text.lines().nth(line.parse::<usize>().unwrap() - 1).unwrap();
+    assert!(line.contains("fn p_jump"), "{line}");
+}
+
+#[test]
+fn all_are_listed_and_as_json() {
+    let (code, told, _) = explain(&[]);
+    assert_eq!(code, 0);
+    for id in ["half_height ", "fig:15 ", "fig:s1 ", "eq:38 ", "claim:sec2_onset "] {
+        assert!(told.lines().any(|line| line.starts_with(id)), "{id}");
+    }
+    let (_, told, _) = explain(&["--json", "half_height", "eq:18"]);
+    let cards: serde_json::Value = serde_json::from_str(&told).unwrap();
+    assert_eq!(cards[0]["id"], "half_height");
+    let rows = cards[0]["rows"].as_array().unwrap();
+    let computed = rows.iter().find(|row| row["name"] == "computed by").unwrap();
+    assert_eq!(computed["file"], "src/experiments/rise.rs");
+    assert!(computed["line"].as_u64().unwrap() > 1);
+}
+
+#[test]
+fn an_unknown_id_is_one_line_with_the_nearest() {
+    for (id, near) in [("half_hight", "half_height"), ("eq:99", "eq:9"), ("sec7_jmp", "sec7_jump")]
+    {
+        let (code, told, note) = explain(&[id]);
+        assert_eq!((code, told.as_str()), (2, ""), "{note}");
+        assert!(note.contains(near) && note.trim_end().lines().count() == 1, "{note}");
+    }
+    let (code, _, note) = run(&["explain", "--paper", "no-such-folder", "x"]);
+    assert_eq!(code, 2);
+    assert!(note.contains("--paper") && note.trim_end().lines().count() == 1, "{note}");
+    assert!(!Path::new("no-such-folder").exists());
+}
