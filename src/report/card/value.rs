@@ -52,9 +52,9 @@ impl Cards<'_> {
             if !used.is_empty() {
                 used.push(Inline::Text("; ".into()));
             }
-            let shown = claim.place.clone();
+            let shown = claim.id.clone();
             used.push(Inline::Reference { to: format!("claim:{}", claim.id), shown });
-            used.push(Inline::Text(format!(": {}", claim.verdict)));
+            used.push(Inline::Text(format!(" ({}): {}", claim.place, claim.verdict)));
         }
         card.row("claims", used);
         Some(card)

@@ -76,11 +76,12 @@ impl Page<'_> {
                 escape::text(text.trim_end())
             ),
             Block::Listing { id, number, caption, item, file, text } => {
-                let (caption, item) = (self.inlines(caption)?, escape::text(item));
+                let caption = self.inlines(caption)?;
+                let item = self.inlines(&[Inline::Code(item.clone())])?;
                 let text = escape::text(text.trim_end());
                 format!(
                     "<div class=\"listing\" id=\"{}\"><p><strong>Listing {number}.</strong> {caption}</p>\n\
-                     <details><summary><code>{item}</code></summary>\n\
+                     <details><summary>{item}</summary>\n\
                      <pre tabindex=\"0\"><code>{text}</code></pre>\n\
                      <p class=\"origin\">From <a href=\"../{file}\">{file}</a>.</p></details></div>\n",
                     escape::id(id)
