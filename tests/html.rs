@@ -2,8 +2,11 @@
 //! quick profile.
 
 use impact_paper::claims::{self, Published};
+use impact_paper::dynamics::{Engine, Scenario};
+use impact_paper::experiments::spacetime::SpaceTime;
 use impact_paper::experiments::{Need, Progress, Store, run::run};
 use impact_paper::figures::{self, Figure};
+use impact_paper::numerics::random::NormalPairs;
 use impact_paper::params::Profile;
 use impact_paper::report::{Input, Report, Templates, assemble, compare, contents, recipe};
 use roxmltree::{Document, Node, ParsingOptions};
@@ -15,6 +18,7 @@ struct Made {
     figures: Vec<Figure>,
     report: Report,
     html: String,
+    run: SpaceTime,
 }
 
 fn make() -> Made {
@@ -28,6 +32,7 @@ fn make() -> Made {
     let claims = claims::all(&results, &published).unwrap();
     let values = contents::registry(&results, &published).unwrap();
     let rows = contents::rows(&results, &claims).unwrap();
+    let scene = figures::Scene::of(results.spacetime().unwrap());
     let figures: Vec<_> = figures::all().map(|n| figures::draw(n, &results).unwrap()).collect();
     let input = Input {
         templates: &templates,
@@ -35,11 +40,12 @@ fn make() -> Made {
         rows: &rows,
         claims: &claims,
         figures: &figures,
+        scene: scene.as_ref(),
     };
     let report = assemble(&input).unwrap_or_else(|error| panic!("{error}"));
     assert!(report == assemble(&input).unwrap(), "the same input gives other bytes");
     let html = String::from_utf8(report.beside["report.html"].clone()).unwrap();
-    Made { figures, report, html }
+    Made { figures, report, html, run: results.spacetime.unwrap() }
 }
 
 static MADE: LazyLock<Made> = LazyLock::new(make);
@@ -94,7 +100,8 @@ fn every_id_is_unique_and_every_link_lands() {
 #[test]
 fn every_value_has_one_card() {
     let page = page();
-    let buttons = elements(&page, "button");
+    let mut buttons = elements(&page, "button");
+    buttons.retain(|button| button.attribute("class") == Some("value"));
     assert!(buttons.len() > 400, "{}", buttons.len());
     let targets: BTreeSet<_> =
         buttons.iter().map(|b| b.attribute("popovertarget").unwrap()).collect();
@@ -140,7 +147,8 @@ fn every_figure_says_what_is_seen_with_its_numbers() {
         .filter(|svg| svg.attribute("role") == Some("img"))
         .map(|svg| (svg.attribute("aria-labelledby").unwrap_or_default(), svg))
         .collect();
-    assert_eq!(pictures.len(), MADE.figures.len());
+    assert_eq!(pictures.len(), MADE.figures.len() + 1);
+    assert!(pictures.contains_key("scene-title scene-desc"));
     for figure in &MADE.figures {
         let (title, description) = (format!("{}-title", figure.id), format!("{}-desc", figure.id));
         let svg = pictures[format!("{title} {description}").as_str()];
@@ -161,7 +169,7 @@ fn nothing_is_loaded_and_no_colour_is_fixed() {
     let page = page();
     for node in page.descendants() {
         let name = node.tag_name().name();
-        assert!(!["script", "img", "iframe", "object", "embed"].contains(&name), "{name}");
+        assert!(!["img", "iframe", "object", "embed"].contains(&name), "{name}");
         assert_eq!(node.attribute("src"), None);
         // MathML aligns the columns of its tables so.
         let style = node.attribute("style").unwrap_or_default();
@@ -183,6 +191,83 @@ fn nothing_is_loaded_and_no_colour_is_fixed() {
     assert!(MADE.html.len() < 4_000_000, "{} bytes", MADE.html.len());
 }
 
+/// The only scripts move the masses. Without them the picture, its caption and its description are
+/// there, and controls that would do nothing are not.
+#[test]
+fn the_scene_is_complete_without_its_script() {
+    let page = page();
+    let scene = page.descendants().find(|node| node.attribute("id") == Some("scene")).unwrap();
+    let inside = |name: &str| -> Vec<_> {
+        scene.descendants().filter(|node| node.tag_name().name() == name).collect()
+    };
+    assert_eq!(inside("script").len(), 2);
+    assert_eq!(elements(&page, "script").len(), 2);
+    assert_eq!(elements(&page, "input").len(), 1);
+    let controls = scene.children().find(|n| n.attribute("class") == Some("controls")).unwrap();
+    assert_eq!(controls.attribute("hidden"), Some(""));
+    assert!(inside("input")[0].has_attribute("aria-label"));
+    assert!(words(inside("figcaption")[0]).len() > 200);
+
+    let data = words(inside("script")[0]);
+    assert!(data.len() < 200_000, "{}", data.len());
+    let data: serde_json::Value = serde_json::from_str(&data).unwrap();
+    let number = |value: &serde_json::Value| value.as_f64().unwrap();
+    let bodies = data["bodies"].as_array().unwrap();
+    assert_eq!(bodies.len(), 22);
+    let [from, until] = ["from", "until"].map(|name| number(&data[name]));
+    let first = data["first"].as_u64().unwrap() as usize;
+
+    // The saved numbers put every mass where the engine has it, at times that the table gives.
+    let parameters = &MADE.run.parameters;
+    let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, MADE.run.realisation);
+    let scenario = Scenario::draw(&parameters.chain, parameters.sigma, &mut normals);
+    let mut engine = Engine::new(&scenario).unwrap();
+    let mut hits = Vec::new();
+    engine.run(from, |_| true).unwrap();
+    let table = String::from_utf8(MADE.report.committed["data/s06c.csv"].clone()).unwrap();
+    assert!(table.starts_with(&format!("time (1/omega),x_{first} (d),")), "{table}");
+    assert_eq!(table.lines().count(), 26);
+    for line in table.lines().skip(1) {
+        let mut cells = line.split(',').map(|cell| cell.parse::<f64>().unwrap());
+        let time = cells.next().unwrap();
+        let seen = |impact: impact_paper::dynamics::Impact| {
+            let gap = impact.gap.wrapping_sub(first);
+            hits.extend((gap < bodies.len() - 1).then_some((impact.time, gap)));
+            true
+        };
+        engine.run(time, seen).unwrap();
+        let walls = [0.0, (parameters.chain.masses + 1) as f64];
+        let all: Vec<f64> = [vec![walls[0]], engine.positions(time), vec![walls[1]]].concat();
+        for (k, (body, shown)) in bodies.iter().zip(cells).enumerate() {
+            let pair = |value: &serde_json::Value| [0, 1].map(|i| number(&value[i]));
+            let ([omega, big_omega], [c, s]) = (pair(&data["rates"]), pair(&body["forced"]));
+            let free = body["free"].as_array().unwrap();
+            let last = free.iter().rfind(|event| number(&event[0]) <= time).unwrap();
+            let x = number(&body["rest"])
+                + number(&last[1]) * (omega * time).cos()
+                + number(&last[2]) * (omega * time).sin()
+                + c * (big_omega * time).cos()
+                + s * (big_omega * time).sin();
+            let truth = all[first + k];
+            assert!((x - truth).abs() < 1e-9, "body {k} at {time}: {x} {truth}");
+            assert!((shown - truth).abs() < 1e-9, "body {k} at {time}: {shown} {truth}");
+        }
+    }
+    let listed: Vec<(f64, usize)> = serde_json::from_value(data["impacts"].clone()).unwrap();
+    assert_eq!(listed, hits);
+    assert!(listed.len() > 10 && listed.iter().all(|(t, _)| (from..=until).contains(t)));
+
+    let rects = |class: &str| {
+        let group = scene.descendants().find(|n| n.attribute("class") == Some(class)).unwrap();
+        group.children().filter(|n| n.tag_name().name() == "rect").collect::<Vec<_>>()
+    };
+    let places: Vec<f64> =
+        rects("masses").iter().map(|r| r.attribute("x").unwrap().parse().unwrap()).collect();
+    assert_eq!(places.len(), bodies.len());
+    // No block lies on another: the distance of two blocks is their gap.
+    assert!(places.windows(2).all(|pair| pair[1] - pair[0] > 49.9), "{places:?}");
+}
+
 /// All equations of the paper with their numbers, as MathML.
 #[test]
 fn equations_are_mathml() {
@@ -193,7 +278,11 @@ fn equations_are_mathml() {
     }
     assert!(elements(&page, "math").len() > 400);
     assert!(elements(&page, "merror").is_empty());
-    for text in page.descendants().filter(Node::is_text).filter_map(|node| node.text()) {
+    let is_code = |node: &Node<'_, '_>| {
+        node.parent_element().is_some_and(|outer| outer.tag_name().name() == "script")
+    };
+    let texts = page.descendants().filter(|node| node.is_text() && !is_code(node));
+    for text in texts.filter_map(|node| node.text()) {
         assert!(!text.contains(['\u{e000}', '\u{e003}', '\u{e005}', '$']), "{text:?}");
     }
 }

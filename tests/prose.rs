@@ -26,6 +26,7 @@ static MADE: LazyLock<Report> = LazyLock::new(|| {
     let claims = claims::all(&results, &published).unwrap();
     let values = contents::registry(&results, &published).unwrap();
     let rows = contents::rows(&results, &claims).unwrap();
+    let scene = figures::Scene::of(results.spacetime().unwrap());
     let figures: Vec<_> = figures::all().map(|n| figures::draw(n, &results).unwrap()).collect();
     let input = Input {
         templates: &TEMPLATES,
@@ -33,6 +34,7 @@ static MADE: LazyLock<Report> = LazyLock::new(|| {
         rows: &rows,
         claims: &claims,
         figures: &figures,
+        scene: scene.as_ref(),
     };
     assemble(&input).unwrap_or_else(|error| panic!("{error}"))
 });

@@ -4,7 +4,7 @@ use super::output::{Staging, remove_stale};
 use super::sources::Sources;
 use super::{Failure, work};
 use impact_paper::experiments::{Need, Progress};
-use impact_paper::figures::{self, Figure};
+use impact_paper::figures::{self, Figure, Scene};
 use impact_paper::params::Profile;
 use impact_paper::report::{self, Files, Registry, compare, contents};
 use impact_paper::{claims, report::values::Number};
@@ -134,6 +134,7 @@ fn whole(sources: &Sources, profile: Profile, progress: &Progress) -> Result<Fil
     let claims = claims::all(&results, &published).map_err(|e| fault(&e))?;
     let values = contents::registry(&results, &published).map_err(|e| fault(&e))?;
     let rows = contents::rows(&results, &claims).map_err(|e| fault(&e))?;
+    let scene = Scene::of(results.spacetime().map_err(|e| fault(&e))?);
     progress.check()?;
     let report = report::assemble(&report::Input {
         templates: &templates,
@@ -141,6 +142,7 @@ fn whole(sources: &Sources, profile: Profile, progress: &Progress) -> Result<Fil
         rows: &rows,
         claims: &claims,
         figures: &drawn,
+        scene: scene.as_ref(),
     })
     .map_err(|error| Failure::input(error.to_string()))?;
     let mut files = report.committed;

@@ -35,6 +35,7 @@ mod s03;
 mod s04;
 mod s05;
 mod s06;
+mod scene;
 mod series;
 mod sheet;
 mod simulated;
@@ -42,6 +43,7 @@ mod style;
 
 pub use data::DataFile;
 pub use number::Number;
+pub use scene::Scene;
 
 use plotters::drawing::DrawingAreaErrorKind;
 use plotters_backend::DrawingErrorKind;

@@ -4,6 +4,7 @@ use super::axis::Axis;
 use super::chart::{LETTERS, short};
 use super::data::cells;
 use super::panel::{Frame, Panel};
+use super::scene::Scene;
 use super::series::Outside;
 use super::sheet::{Entry, Sheet};
 use super::style::{HAIR, INK, Mark, RED, SMALL, Stroke, WHITE};
@@ -132,5 +133,6 @@ fn tables(run: &SpaceTime) -> Vec<DataFile> {
         let count = run.gaps.iter().filter(|own| **own as usize == gap).count();
         gaps.row(cells![gap, first, count, usize::from(starts.contains(&gap))]);
     }
-    vec![impacts, gaps]
+    let positions = Scene::of(run).map(|scene| scene.table("s06c.csv"));
+    [impacts, gaps].into_iter().chain(positions).collect()
 }

@@ -10,7 +10,7 @@ use super::uses::uses;
 use super::values::Registry;
 use super::{Error, html, labels, latex, ledger, lint, markdown, parse, pdf};
 use crate::claims::Claim;
-use crate::figures::{self, Figure};
+use crate::figures::{self, Figure, Scene};
 use sha2::{Digest, Sha256};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -30,6 +30,8 @@ pub struct Input<'a> {
     pub claims: &'a [Claim],
     /// The figures.
     pub figures: &'a [Figure],
+    /// The masses that move in report.html.
+    pub scene: Option<&'a Scene>,
 }
 
 /// A report in memory.
@@ -77,10 +79,10 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
     put("ledger.json".into(), ledger::json(&ledger).map_err(json)?);
     put("ledger.md".into(), ledger::markdown(&ledger));
     let mut beside = Files::new();
-    filler.insert(
-        "page",
-        &html::write(&blocks, input.figures, Cards { values: &values, ledger: &ledger })?,
-    );
+    let moving = |scene| Ok(html::Moving { scene, script: input.templates.text("scene.js")? });
+    let moving = input.scene.map(moving).transpose()?;
+    let cards = Cards { values: &values, ledger: &ledger };
+    filler.insert("page", &html::write(&blocks, input.figures, moving, cards)?);
     filler.insert("style", &input.templates.text("report.css")?);
     beside.insert("report.html".into(), filler.fill("report.html")?.into_bytes());
     for figure in input.figures {

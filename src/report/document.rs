@@ -85,6 +85,11 @@ pub enum Block {
         /// The lines.
         text: String,
     },
+    /// The place where masses move, in formats in which they can.
+    Scene {
+        /// The caption.
+        caption: Vec<Inline>,
+    },
     /// The place of the list of references; filled by [`super::labels::resolve`].
     Bibliography(Vec<Entry>),
 }
@@ -172,7 +177,9 @@ pub fn visit(blocks: &[Block], visit: &mut impl FnMut(&Inline)) {
     for block in blocks {
         match block {
             Block::Heading { text, .. } | Block::Paragraph(text) => visit_inlines(text, visit),
-            Block::Figure { caption, .. } | Block::Listing { caption, .. } => {
+            Block::Figure { caption, .. }
+            | Block::Listing { caption, .. }
+            | Block::Scene { caption } => {
                 visit_inlines(caption, visit);
             }
             Block::Table { caption, head, rows, .. } => {
@@ -207,7 +214,9 @@ pub fn rewrite<E>(
     for block in blocks {
         match block {
             Block::Heading { text, .. } | Block::Paragraph(text) => rewrite_inlines(text, change)?,
-            Block::Figure { caption, .. } | Block::Listing { caption, .. } => {
+            Block::Figure { caption, .. }
+            | Block::Listing { caption, .. }
+            | Block::Scene { caption } => {
                 rewrite_inlines(caption, change)?;
             }
             Block::Table { caption, head, rows, .. } => {

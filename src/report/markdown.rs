@@ -91,6 +91,8 @@ fn write_block(block: &Block, indent: &str, out: &mut String) {
             prose.all(caption),
             text.trim_end()
         ),
+        // Nothing moves here.
+        Block::Scene { .. } => return,
         Block::Bibliography(entries) => {
             let entry = |entry: &super::document::Entry| {
                 format!("- {}{}", anchor(&format!("ref:{}", entry.key)), prose.all(&entry.text))

@@ -146,6 +146,8 @@ Table: What σ gives {#tab:sigma}
 
 > An aside.
 
+Scene: They move.
+
 ```rust
 fn f() -> σ { 1 }
 ```
@@ -203,6 +205,7 @@ Listing: What $\delta v$ does. {#lst:kick}
         ] {
             assert!(text.contains(part), "{part:?} is not in\n{text}");
         }
+        assert!(!text.contains("They move") && !text.contains("\n\n\n"), "{text}");
     }
 
     #[test]
@@ -222,7 +225,7 @@ Listing: What $\delta v$ does. {#lst:kick}
         ] {
             assert!(text.contains(part), "{part:?} is not in\n{text}");
         }
-        assert!(!text.contains("self.b +="), "{text}");
+        assert!(!text.contains("self.b +=") && !text.contains("They move"), "{text}");
         let appendix = latex::listings(&tree(SAMPLE)).unwrap();
         for part in [
             "\\section*{Listings}",
@@ -282,6 +285,7 @@ Listing: What $\delta v$ does. {#lst:kick}
             rows: &Default::default(),
             claims: &[claim()],
             figures: &[figure()],
+            scene: None,
         })
     }
 

@@ -8,6 +8,7 @@
 //! - `Table: caption {#tab:id}`, a paragraph right before a table: its caption.
 //! - `Listing: caption {#lst:id}`, a paragraph right before `«code(item="path::of::item")»`: a
 //!   listing of that item of the source.
+//! - `Scene: caption`, a paragraph: the moving masses, where a format can show them, else nothing.
 //! - `[!claim:id]`: a place that can be referred to; it shows its number.
 //! - `[@eq:18]`, `[@fig:2; @fig:3]`, `[@sec:id]`, `[@tab:id]`, `[@lst:id]`, `[@claim:id]`: references, written
 //!   out as "Eq. (18)" and so on; with a capital, as `[@Fig:2]`, in full as at the start of a sentence.
@@ -297,6 +298,12 @@ fn paragraph(mut inlines: Vec<Inline>) -> Result<Block, Error> {
         && ids == &["bibliography"]
     {
         return Ok(Block::Bibliography(Vec::new()));
+    }
+    if let Some(Inline::Text(first)) = inlines.first_mut()
+        && let Some(words) = first.strip_prefix("Scene: ")
+    {
+        *first = words.to_string();
+        return Ok(Block::Scene { caption: inlines });
     }
     let image =
         |inline: &Inline| matches!(inline, Inline::Link { to, .. } if to.starts_with(IMAGE));

@@ -2,8 +2,8 @@
 // if something is wrong. Usage: node run.mjs REPORT.HTML [FOLDER FOR PICTURES]
 import { chromium } from "playwright-core";
 import { createRequire } from "node:module";
-import { existsSync } from "node:fs";
-import { resolve } from "node:path";
+import { existsSync, readFileSync } from "node:fs";
+import { dirname, join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 
 const report = resolve(process.argv[2] ?? "../../paper/report.html");
@@ -107,6 +107,61 @@ async function opens_by_keyboard(page, name) {
   check(!(await shown()), `${name}: Escape closes no card`);
 }
 
+/** Positions of the masses as the program computed them: a time and the places of all bodies in each row. */
+function saved_positions() {
+  const lines = readFileSync(join(dirname(report), "data/s06c.csv"), "utf8").trim().split("\n").slice(1);
+  return lines.map((line) => line.split(",").map(Number)).map(([t, ...places]) => ({ t, places }));
+}
+
+/** The scene stands until it is played, puts masses where the program has them, and obeys keys and reader. */
+async function moves(page, name, calm) {
+  const rows = saved_positions();
+  const worst = await page.evaluate((rows) => {
+    const { positions } = document.getElementById("scene");
+    return Math.max(...rows.flatMap(({ t, places }) => positions(t).map((x, k) => Math.abs(x - places[k]))));
+  }, rows);
+  check(rows.length > 20 && worst < 1e-9, `${name}: masses of the scene are misplaced by ${worst}`);
+  const state = () =>
+    page.evaluate(() => [...document.querySelectorAll("#scene .masses rect, #scene input")].map((node) => node.value ?? node.getAttribute("x")).join());
+  const [button, slider] = [page.locator("#scene .controls button"), page.locator("#scene .controls input")];
+  const stands = async (when) => {
+    const before = await state();
+    await page.waitForTimeout(300);
+    check(before === (await state()), `${name}: the scene moves ${when}`);
+  };
+  await page.locator("#scene").scrollIntoViewIfNeeded();
+  await stands("unasked");
+  check((await slider.inputValue()) === (await slider.getAttribute("min")), `${name}: the scene does not stand at its beginning`);
+  if (calm) {
+    check(!(await button.isVisible()), `${name}: Play is offered to those who prefer no motion`);
+  } else {
+    const before = await state();
+    await button.focus();
+    await page.keyboard.press("Enter");
+    await page.waitForTimeout(500);
+    check(before !== (await state()), `${name}: Enter on Play moves nothing`);
+    check((await button.innerText()) === "Pause", `${name}: Play does not turn into Pause`);
+    await page.keyboard.press("Space");
+    await stands("after Pause");
+    await page.keyboard.press("Space");
+    await page.emulateMedia({ reducedMotion: "reduce" });
+    await page.waitForTimeout(100);
+    await stands("on although no motion is preferred now");
+    await page.emulateMedia({ reducedMotion: "no-preference" });
+  }
+  await slider.focus();
+  await page.keyboard.press("End");
+  const [told, bars] = await page.evaluate(() => [
+    document.querySelector("#scene input").getAttribute("aria-valuetext"),
+    [...document.querySelectorAll("#scene .counts rect")].map((bar) => Number(bar.getAttribute("height"))),
+  ]);
+  check(/^t = \d+\.\d, impacts: [1-9]\d*$/.test(told), `${name}: the scene's time is told as ${told}`);
+  const full = bars.every((height, i) => i % 2 === 0 || Math.abs(height - bars[i - 1]) < 1e-6);
+  check(full, `${name}: at the end the bars of the scene are not full`);
+  await page.keyboard.press("Home");
+  check(/impacts: 0$/.test(await slider.getAttribute("aria-valuetext")), `${name}: the scene does not go back`);
+}
+
 async function accessible(page, name) {
   await page.addScriptTag({ path: axe });
   const found = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
@@ -129,9 +184,10 @@ for (const [name, width, scheme] of [
   await reads_well(page, name);
   await stays_narrow(page, name);
   await opens_by_keyboard(page, name);
+  await moves(page, name, false);
   await accessible(page, name);
   if (pictures) {
-    for (const place of ["text", "fig-3", "eq-25", "tab-claims", "tab-protocol", "sec-accuracy"]) {
+    for (const place of ["text", "fig-3", "eq-25", "tab-claims", "tab-protocol", "sec-accuracy", "scene"]) {
       await page.evaluate((id) => document.getElementById(id).scrollIntoView(), place);
       await page.screenshot({ path: `${pictures}/${name}-${place}.png` });
     }
@@ -139,10 +195,16 @@ for (const [name, width, scheme] of [
   await page.context().close();
 }
 
+const calm = await open(1280, "light", { reducedMotion: "reduce" });
+await moves(calm, "calm", true);
+await calm.context().close();
+
 // Without scripts nothing is lost, cards included.
 const page = await open(1280, "light", { javaScriptEnabled: false });
 await page.locator("button.value").first().click();
 check(await page.locator(".card:visible").isVisible(), "without scripts no card opens");
+check(await page.locator("#scene svg").isVisible(), "without scripts the scene shows nothing");
+check(!(await page.locator("#scene .controls").isVisible()), "without scripts the scene has controls that do nothing");
 await browser.close();
 
 if (faults.length > 0) {

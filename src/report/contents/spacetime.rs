@@ -2,6 +2,7 @@
 
 use super::{Error, chosen, count, from};
 use crate::experiments::Results;
+use crate::figures::Scene;
 use crate::report::values::Value;
 
 /// How many of the most active gaps the text speaks of.
@@ -47,5 +48,27 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
         Value::integer("run_busiest", BUSIEST),
         Value::real("run_busiest_share", run.share_of_busiest(BUSIEST), 2),
     ];
-    Ok(from(values, "experiments::spacetime::run", "space-time"))
+    let Some(scene) = Scene::of(run) else {
+        return Err(Error::Missing("a scene of the long run"));
+    };
+    let mut all = from(values, "experiments::spacetime::run", "space-time");
+    all.extend(from(moving(&scene), "figures::scene::Scene::of", "space-time"));
+    Ok(all)
+}
+
+/// What the caption of the moving masses says.
+fn moving(scene: &Scene) -> Vec<Value> {
+    let ([first, last], [left, right]) = (scene.masses(), scene.halves());
+    let until = scene.until.floor() as u64;
+    vec![
+        Value::integer("scene_masses", last + 1 - first),
+        Value::integer("scene_first", first),
+        Value::integer("scene_last", last),
+        Value::integer("scene_from", scene.from as u64),
+        Value::integer("scene_until", until),
+        Value::integer("scene_length", until - scene.from as u64),
+        Value::integer("scene_left", left),
+        Value::integer("scene_right", right),
+        Value::integer("scene_impacts", scene.impacts.len()),
+    ]
 }

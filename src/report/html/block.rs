@@ -33,6 +33,7 @@ impl Page<'_> {
             }
             Block::Paragraph(text) => self.paragraph(text)?,
             Block::Figure { .. } => self.figure(block)?,
+            Block::Scene { caption } => self.scene(caption)?,
             Block::Table { id, number, caption, columns, head, rows } => {
                 let mut text = String::from("<figure class=\"table\"");
                 if let Some(id) = id {

@@ -1,7 +1,7 @@
 //! The tree → the parts of report.html; its shell and its style sheet are templates.
 //!
 //! One file, readable from a disk: pictures, fonts and styles are inside it, nothing is loaded and
-//! no script is needed. It is well-formed XML too, so that tests can read it.
+//! no script is needed (one plays the scene of moving masses). It is well-formed XML too, so that tests can read it.
 
 mod block;
 mod card;
@@ -12,6 +12,9 @@ mod fonts;
 mod inline;
 mod maths;
 mod picture;
+mod scene;
+
+pub use scene::Moving;
 
 use super::Error;
 use super::card::Cards;
@@ -43,6 +46,7 @@ pub struct Parts {
 /// A page in the making: what its pieces share.
 struct Page<'a> {
     figures: &'a [Figure],
+    moving: Option<Moving<'a>>,
     /// Values that were shown, so that each gets its card.
     named: RefCell<BTreeSet<String>>,
     glyphs: RefCell<picture::Glyphs>,
@@ -52,8 +56,13 @@ struct Page<'a> {
 ///
 /// # Errors
 /// Mathematics, pictures or references that cannot be written.
-pub fn write(blocks: &[Block], figures: &[Figure], cards: Cards<'_>) -> Result<Parts, Error> {
-    let page = Page { figures, named: RefCell::default(), glyphs: RefCell::default() };
+pub fn write(
+    blocks: &[Block],
+    figures: &[Figure],
+    moving: Option<Moving<'_>>,
+    cards: Cards<'_>,
+) -> Result<Parts, Error> {
+    let page = Page { figures, moving, named: RefCell::default(), glyphs: RefCell::default() };
     let is_title = |block: &&Block| matches!(block, Block::Heading { level: 1, .. });
     let Some(Block::Heading { text, .. }) = blocks.iter().find(is_title) else {
         return Err(Error::Markup("a report begins with its title, `# Words`".into()));

@@ -1,0 +1,127 @@
+//! The scene of moving masses: a picture of its beginning that is complete by itself, and the
+//! controls, numbers and script that move it.
+
+use super::{Page, escape};
+use crate::figures::Scene;
+use crate::report::document::Inline;
+use crate::report::{Error, place};
+use serde::Serialize;
+use std::fmt::Write as _;
+
+/// What moves the picture.
+#[derive(Clone, Copy, Debug)]
+pub struct Moving<'a> {
+    /// Which masses, and how they move.
+    pub scene: &'a Scene,
+    /// The script.
+    pub script: &'a str,
+}
+
+/// Length of one d in the picture.
+const UNIT: f64 = 100.0;
+/// Width of a block, which is a point in the model.
+const BLOCK: f64 = 50.0;
+/// Space beside the row.
+const MARGIN: f64 = 60.0;
+/// Length of the longest bar.
+const BAR: f64 = 200.0;
+/// Masses from one that is named to the next.
+const NAMED: usize = 5;
+
+/// What the script needs beside the scene.
+#[derive(Serialize)]
+struct Data<'a> {
+    #[serde(flatten)]
+    scene: &'a Scene,
+    /// Length in the picture for a unit of length.
+    scale: f64,
+    /// Length of a bar for an impact.
+    bar: f64,
+}
+
+impl Page<'_> {
+    pub(super) fn scene(&self, caption: &[Inline]) -> Result<String, Error> {
+        let missing = || Error::Markup("`Scene: …`, but the results have no scene".into());
+        let Moving { scene, script } = self.moving.ok_or_else(missing)?;
+        let most = scene.counts().into_iter().max().unwrap_or(0).max(1);
+        let bar = BAR / most as f64;
+        let data = Data { scene, scale: UNIT / scene.spacing, bar };
+        let data = serde_json::to_string(&data).map_err(|e| Error::Markup(e.to_string()))?;
+        let code = |path: &str| place::file(path).unwrap_or_default().to_string();
+        let link = |to: &str| {
+            let name = to.rsplit('/').next().unwrap_or(to);
+            format!("<a href=\"../{to}\">{name}</a>")
+        };
+        Ok(format!(
+            "<figure id=\"scene\"><div class=\"scroll\" tabindex=\"0\" role=\"group\" \
+             aria-label=\"Scene of moving masses\">{}</div>\n\
+             <div class=\"controls\" hidden=\"\"><button type=\"button\">Play</button>\
+             <input type=\"range\" aria-label=\"Time of the scene\" min=\"{from}\" max=\"{}\" \
+             step=\"0.1\" value=\"{from}\"/><span aria-hidden=\"true\"></span></div>\n\
+             <figcaption><strong>Scene.</strong> {} <span class=\"origin\">Data: \
+             <a href=\"data/s06c.csv\">s06c.csv</a>. Code: {}. Experiment: {}.</span></figcaption>\n\
+             <script type=\"application/json\">{data}</script>\n\
+             <script>//<![CDATA[\n{script}//]]></script></figure>\n",
+            picture(scene, bar),
+            scene.until,
+            self.inlines(caption)?,
+            link(&code("figures::scene")),
+            link(&code("experiments::spacetime")),
+            from = scene.from,
+        ))
+    }
+}
+
+/// The row at its first moment, and below it the bars of its impacts.
+fn picture(scene: &Scene, bar: f64) -> String {
+    let shift = |k: usize| MARGIN + BLOCK * k as f64;
+    let rest = |k: usize| shift(k) + UNIT * k as f64;
+    let (bodies, gaps) = (scene.bodies.len(), scene.bodies.len().saturating_sub(1));
+    let width = rest(gaps) + BLOCK + MARGIN;
+    let mut out = format!(
+        "<svg role=\"img\" aria-labelledby=\"scene-title scene-desc\" viewBox=\"0 0 {width} 560\">\
+         <title id=\"scene-title\">Moving masses</title><desc id=\"scene-desc\">{}</desc>\n<g>",
+        escape::text(&scene.description())
+    );
+    let [one, last] = scene.masses();
+    for k in 0..bodies {
+        let (number, x) = (scene.first + k, rest(k) + BLOCK / 2.0);
+        if number % NAMED == 0 && (one..=last).contains(&number) {
+            let _ = write!(out, "<text class=\"fill-ink\" x=\"{x}\" y=\"70\">{number}</text>");
+        }
+        let _ = write!(out, "<path class=\"stroke-grey\" d=\"M{x} 256v24\"/>");
+    }
+    out.push_str("</g>\n<g class=\"masses\">");
+    let origin = scene.bodies.first().map_or(0.0, |body| body.rest);
+    for (k, place) in scene.positions(scene.from).into_iter().enumerate() {
+        let x = shift(k) + UNIT * (place - origin) / scene.spacing;
+        let own = (one..=last).contains(&(scene.first + k));
+        let colour = if own { "ink" } else { "grey" };
+        let _ = write!(
+            out,
+            "<rect class=\"fill-{colour}\" x=\"{x:.1}\" y=\"110\" width=\"{BLOCK}\" height=\"130\"/>"
+        );
+    }
+    out.push_str("</g>\n<g class=\"lights\">");
+    for gap in 0..gaps {
+        let x = rest(gap + 1);
+        let _ = write!(
+            out,
+            "<line class=\"stroke-red\" x1=\"{x}\" x2=\"{x}\" y1=\"88\" y2=\"262\" opacity=\"0\"/>"
+        );
+    }
+    out.push_str("</g>\n<g class=\"counts\">");
+    for (gap, count) in scene.counts().into_iter().enumerate() {
+        let x = rest(gap + 1) - UNIT / 2.0;
+        let _ = write!(
+            out,
+            "<rect class=\"fill-pale\" x=\"{left}\" y=\"300\" width=\"60\" height=\"{height}\"/>\
+             <rect class=\"now fill-red\" x=\"{left}\" y=\"300\" width=\"60\" height=\"0\"/>\
+             <text class=\"fill-ink\" x=\"{x}\" y=\"{below}\">{count}</text>",
+            left = x - 30.0,
+            height = bar * count as f64,
+            below = 300.0 + bar * count as f64 + 58.0,
+        );
+    }
+    out + "</g></svg>"
+}
