@@ -41,6 +41,7 @@ fn make() -> Made {
         claims: &claims,
         figures: &figures,
         scene: scene.as_ref(),
+        pdf: false,
     };
     let report = assemble(&input).unwrap_or_else(|error| panic!("{error}"));
     assert!(report == assemble(&input).unwrap(), "the same input gives other bytes");

@@ -35,6 +35,7 @@ static MADE: LazyLock<Report> = LazyLock::new(|| {
         claims: &claims,
         figures: &figures,
         scene: scene.as_ref(),
+        pdf: false,
     };
     assemble(&input).unwrap_or_else(|error| panic!("{error}"))
 });

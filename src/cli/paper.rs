@@ -28,6 +28,9 @@ pub struct Args {
     /// Folder to write into [default: paper for the full profile, else target/paper-PROFILE].
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Write report.pdf too (needs a binary with the feature pdf: make pdf).
+    #[arg(long)]
+    pdf: bool,
     #[command(flatten)]
     sources: Sources,
 }
@@ -51,7 +54,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let staging = Staging::below(&out)?;
     let files = work::on_threads(args.sources.threads, || {
         if args.figure.is_empty() {
-            whole(&args.sources, profile, &progress)
+            whole(&args, profile, &progress)
         } else {
             some(&args.sources, &numbers, profile, &progress)
         }
@@ -120,7 +123,11 @@ fn some(
 }
 
 /// The whole report.
-fn whole(sources: &Sources, profile: Profile, progress: &Progress) -> Result<Files, Failure> {
+fn whole(args: &Args, profile: Profile, progress: &Progress) -> Result<Files, Failure> {
+    let sources = &args.sources;
+    if args.pdf && cfg!(not(feature = "pdf")) {
+        return Err(Failure::input(report::Error::NoTypesetter.to_string()));
+    }
     let templates = sources.templates()?;
     // Faults of the templates are told before the long runs, not after them.
     let published = sources.published(&templates)?;
@@ -143,6 +150,7 @@ fn whole(sources: &Sources, profile: Profile, progress: &Progress) -> Result<Fil
         claims: &claims,
         figures: &drawn,
         scene: scene.as_ref(),
+        pdf: args.pdf,
     })
     .map_err(|error| Failure::input(error.to_string()))?;
     let mut files = report.committed;

@@ -8,7 +8,7 @@ use super::lint::{Declared, Finding};
 use super::templates::{Filler, Mark, Templates};
 use super::uses::uses;
 use super::values::Registry;
-use super::{Error, html, labels, latex, ledger, lint, markdown, parse, pdf};
+use super::{Error, appendix, html, labels, latex, ledger, lint, markdown, parse, pdf};
 use crate::claims::Claim;
 use crate::figures::{self, Figure, Scene};
 use sha2::{Digest, Sha256};
@@ -32,6 +32,8 @@ pub struct Input<'a> {
     pub figures: &'a [Figure],
     /// The masses that move in report.html.
     pub scene: Option<&'a Scene>,
+    /// Whether report.pdf is wanted; the feature `pdf` makes it.
+    pub pdf: bool,
 }
 
 /// A report in memory.
@@ -39,7 +41,8 @@ pub struct Input<'a> {
 pub struct Report {
     /// Files that are committed; SHA256SUMS covers them.
     pub committed: Files,
-    /// Files that stand beside them and are not committed: report.html, figures/*.pdf for LaTeX.
+    /// Files that stand beside them and are not committed: report.html, report.pdf if it was
+    /// asked for, figures/*.pdf for LaTeX.
     pub beside: Files,
 }
 
@@ -70,18 +73,19 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
     let mut put = |path: String, text: String| committed.insert(path, text.into_bytes());
     put("report.md".into(), markdown::write(&blocks));
     filler.insert("title", &latex::title(&blocks)?);
-    filler.insert("body", &latex::write(&blocks)?);
+    let ledger = ledger::ledger(input.claims, input.figures, &uses(input.claims, &values, &blocks));
+    let cards = Cards { values: &values, ledger: &ledger };
+    let printed = [blocks.as_slice(), &appendix::values(&blocks, cards)].concat();
+    filler.insert("body", &latex::write(&printed)?);
     filler.insert("listings", &latex::listings(&blocks)?);
     put("report.tex".into(), filler.fill("report.tex")?);
     let json = |e: serde_json::Error| Error::Template(format!("values.json: {e}"));
     put("values.json".into(), serde_json::to_string_pretty(&values).map_err(json)? + "\n");
-    let ledger = ledger::ledger(input.claims, input.figures, &uses(input.claims, &values, &blocks));
     put("ledger.json".into(), ledger::json(&ledger).map_err(json)?);
     put("ledger.md".into(), ledger::markdown(&ledger));
     let mut beside = Files::new();
     let moving = |scene| Ok(html::Moving { scene, script: input.templates.text("scene.js")? });
     let moving = input.scene.map(moving).transpose()?;
-    let cards = Cards { values: &values, ledger: &ledger };
     filler.insert("page", &html::write(&blocks, input.figures, moving, cards)?);
     filler.insert("style", &input.templates.text("report.css")?);
     beside.insert("report.html".into(), filler.fill("report.html")?.into_bytes());
@@ -90,8 +94,21 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
         let path = format!("figures/{}.pdf", figure.id);
         beside.insert(path, pdf::from_svg(&figure.svg)?);
     }
+    if input.pdf {
+        beside.insert("report.pdf".into(), typeset(&printed, input)?);
+    }
     committed.insert("SHA256SUMS".into(), sums(&committed).into_bytes());
     Ok(Report { committed, beside })
+}
+
+#[cfg(feature = "pdf")]
+fn typeset(blocks: &[Block], input: &Input<'_>) -> Result<Vec<u8>, Error> {
+    super::typeset::pdf(blocks, input.figures, input.templates)
+}
+
+#[cfg(not(feature = "pdf"))]
+fn typeset(_: &[Block], _: &Input<'_>) -> Result<Vec<u8>, Error> {
+    Err(Error::NoTypesetter)
 }
 
 /// The picture of a figure and its data.

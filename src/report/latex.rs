@@ -1,8 +1,8 @@
 //! The tree → the body of report.tex; its shell is a template.
 
-use super::Error;
 use super::document::{Align, Block, Inline, plain};
 use super::tex;
+use super::{Error, appendix};
 
 /// Writes the body of report.tex.
 ///
@@ -192,9 +192,15 @@ fn inline(inline: &Inline) -> Result<String, Error> {
                 None => format!("\n\\begin{{equation*}}\n{maths}\n\\end{{equation*}}\n"),
             }
         }
-        Inline::Value { shown, .. } => inlines(shown)?,
+        // On paper, a link to the line of the appendix that tells of it.
+        Inline::Value { id, shown } => {
+            format!("\\hyperref[{}]{{{}}}", appendix::id(id), inlines(shown)?)
+        }
         Inline::Link { to, shown } if to.contains("://") => {
-            format!("\\href{{{}}}{{{}}}", address(to), inlines(shown)?)
+            let shown = inlines(shown)?;
+            let bare = shown.starts_with("http");
+            let shown = if bare { breakable(&shown).replace('(', "\\allowbreak(") } else { shown };
+            format!("\\href{{{}}}{{{}}}", address(to), shown)
         }
         // Files beside the report: the path in words, a PDF travels without them.
         Inline::Link { shown, .. } => inlines(shown)?,

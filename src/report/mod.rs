@@ -5,6 +5,7 @@
 //! in it, [`markdown`], [`latex`] and [`html`] write it; [`assemble()`] does all that and adds figures, data,
 //! values, ledger and checksums: every file of paper/ as bytes, written by the command line.
 
+pub mod appendix;
 pub mod assemble;
 pub mod bibliography;
 pub mod card;
@@ -28,6 +29,8 @@ pub mod print;
 pub mod recipe;
 pub mod templates;
 mod tex;
+#[cfg(feature = "pdf")]
+mod typeset;
 mod uses;
 pub mod valued;
 pub mod values;
@@ -88,6 +91,12 @@ pub enum Error {
         /// What is wrong with it.
         what: String,
     },
+    /// What the typesetter of the PDF refuses.
+    #[error("report.pdf: {0}")]
+    Typeset(String),
+    /// A PDF from a binary that cannot make one.
+    #[error("--pdf: this binary was built without the typesetter; run make pdf")]
+    NoTypesetter,
     /// Numerals that nobody computed.
     #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
     Numerals(Vec<lint::Finding>),
@@ -201,7 +210,7 @@ Listing: What $\delta v$ does. {#lst:kick}
             "\nBy [Listing\u{a0}1](#lst-kick), in words.\n",
             "<a id=\"lst-kick\"></a>**Listing 1.** What $\\delta v$ does.\n\n<details>\n<summary><code>dynamics::flight::Motion::kick</code></summary>\n\n```rust\n/// ",
             "\n    self.b += kick * p.cos;\n}\n```\n\n<sub>From [src/dynamics/flight.rs](../src/dynamics/flight.rs).</sub>\n\n</details>\n",
-            "- <a id=\"ref-rice1945\"></a>Rice,\u{a0}S.\u{a0}O. (1945). Noise.\n",
+            "- <a id=\"ref-rice1945\"></a>Rice, S. O. (1945). *Noise*.\n",
         ] {
             assert!(text.contains(part), "{part:?} is not in\n{text}");
         }
@@ -217,9 +226,9 @@ Listing: What $\delta v$ does. {#lst:kick}
             "at 100 \\% of \\texttt{a\\_\\allowbreak{}b}.\n\\begin{equation}\np_{",
             "\\tag{18}\\label{eq:18}\n\\end{equation}\nwhere $N$ is large, so\n\\begin{equation}\n",
             "\\includegraphics[width=0.8\\linewidth,height=0.62\\textheight,keepaspectratio]{figures/fig03.pdf}",
-            "\\caption{The rise, at 0.1165(4) or $\\sigma$ \\ensuremath{\\ge} 0.12.}\\label{fig:3}",
+            "\\caption{The rise, at \\hyperref[value:half_height]{0.1165(4)} or $\\sigma$ \\ensuremath{\\ge} 0.12.}\\label{fig:3}",
             "\\begin{longtable}{llr}\n\\caption{What \\ensuremath{\\sigma} gives}\\label{tab:sigma}\\\\\n",
-            "\\phantomsection\\label{claim:jump}2 & a\\_b * c & 94.5(8)~\\% \\\\\n",
+            "\\phantomsection\\label{claim:jump}2 & a\\_b * c & \\hyperref[value:kept]{94.5(8)~\\%} \\\\\n",
             "\\phantomsection\\section*{References}",
             "\nBy \\hyperref[lst:kick]{Listing~1}, in words.\n",
         ] {
@@ -286,6 +295,7 @@ Listing: What $\delta v$ does. {#lst:kick}
             claims: &[claim()],
             figures: &[figure()],
             scene: None,
+            pdf: false,
         })
     }
 
@@ -317,6 +327,15 @@ Listing: What $\delta v$ does. {#lst:kick}
         );
         assert!(markdown.contains("[fig03.csv](data/fig03.csv)"), "{markdown}");
         assert!(text("report.tex").starts_with("\\title{Title}"));
+        // On paper a number leads to its line in the appendix; elsewhere it has a card.
+        for part in [
+            "At \\hyperref[value:half_height]{0.1165(4)}, ",
+            "\\label{value:half_height}1 & 0.1165(4) & \\texttt{half\\_\\allowbreak{}height} & 0.11652; \
+             ensemble, n = 1000, standard error 0.0004 & ",
+        ] {
+            assert!(text("report.tex").contains(part), "{part}: {}", text("report.tex"));
+        }
+        assert!(!markdown.contains("value:"), "{markdown}");
         assert!(text("values.json").contains("\"score.reproduced\""));
         assert!(text("ledger.md").contains("| (18) | 7 |"));
         assert_eq!(text("SHA256SUMS").lines().count(), paths.len() - 1);

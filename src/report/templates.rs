@@ -27,13 +27,14 @@ const EMBEDDED: &[(&str, &str)] = &[
     ("report.html", include_str!("../../templates/report.html")),
     ("report.md", include_str!("../../templates/report.md")),
     ("report.tex", include_str!("../../templates/report.tex")),
+    ("report.typ", include_str!("../../templates/report.typ")),
     ("scene.js", include_str!("../../templates/scene.js")),
     ("scenarios/fig05.json", include_str!("../../templates/scenarios/fig05.json")),
     ("scenarios/fig06.json", include_str!("../../templates/scenarios/fig06.json")),
 ];
 
 /// Endings of the files that are templates or data for them (fonts live there too).
-const TEXT: [&str; 8] = [".md", ".tex", ".bib", ".toml", ".html", ".css", ".js", ".json"];
+const TEXT: [&str; 9] = [".md", ".tex", ".typ", ".bib", ".toml", ".html", ".css", ".js", ".json"];
 
 /// All template files, by path relative to their folder.
 #[derive(Clone, Debug, PartialEq)]

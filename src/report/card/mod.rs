@@ -88,7 +88,7 @@ pub struct Cards<'a> {
 
 impl Cards<'_> {
     /// The profile with which the values were made.
-    fn profile(&self) -> Profile {
+    pub(super) fn profile(&self) -> Profile {
         match self.values.get("profile").map(|value| &value.number) {
             Some(Number::Text(text)) if text == "quick" => Profile::Quick,
             Some(Number::Text(text)) if text == "ci" => Profile::Ci,
