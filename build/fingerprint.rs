@@ -1,56 +1,40 @@
-//! Puts the fingerprint of the simulating code into the program, as `CODE_FINGERPRINT`.
+//! Puts into the program what each experiment is made of, as `dependencies.rs`: the hash of every
+//! file that it depends on, and that of Cargo.lock.
 //!
-//! Saved results are reused only by the code that would compute them again to the same bits. So
-//! the fingerprint covers what a simulation is made of and the versions of all crates; a change of
-//! prose, of a figure or of the theory leaves it as it is.
+//! Saved results are reused only by the code that would compute them again to the same bits; a
+//! change of prose, of a figure, of the theory or of another experiment leaves them as they are.
 
+use super::depends::{self, Source};
+use super::homes::collect;
 use sha2::{Digest, Sha256};
+use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
+use std::{env, fs, io};
 
-/// What a simulation is made of.
-const SOURCES: [&str; 6] = [
-    "Cargo.lock",
-    "src/params.rs",
-    "src/params",
-    "src/numerics",
-    "src/dynamics",
-    "src/experiments",
-];
-
-/// What lies among it and changes no saved result.
-const EXCEPT: [&str; 3] =
-    ["src/experiments/theory", "src/experiments/progress.rs", "src/experiments/measured.rs"];
-
-/// Prints the fingerprint for the compiler.
-pub fn run() -> std::io::Result<()> {
+/// Writes `dependencies.rs` for `experiments::store`.
+pub fn run() -> io::Result<()> {
+    println!("cargo::rerun-if-changed=Cargo.lock");
     let mut files = Vec::new();
-    for source in SOURCES {
-        println!("cargo::rerun-if-changed={source}");
-        walk(Path::new(source), &mut files)?;
-    }
-    files.sort();
-    let mut hash = Sha256::new();
+    collect(Path::new("src"), &mut files)?;
+    let mut source = Source::new();
     for file in files {
-        let text = std::fs::read(&file)?;
-        hash.update(file.to_string_lossy().as_bytes());
-        hash.update((text.len() as u64).to_le_bytes());
-        hash.update(&text);
+        source.insert(file.to_string_lossy().replace('\\', "/"), fs::read_to_string(&file)?);
     }
-    let digest: String = hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect();
-    println!("cargo::rustc-env=CODE_FINGERPRINT={digest}");
-    Ok(())
+    let mut out =
+        format!("Built {{\n    lock: {:?},\n    modules: &[\n", hash(&fs::read("Cargo.lock")?));
+    for path in source.keys().filter(|path| path.starts_with("src/experiments/")) {
+        let _ = writeln!(out, "    ({path:?}, &[");
+        for file in depends::files(&source, path) {
+            let _ = writeln!(out, "        ({file:?}, {:?}),", hash(source[&file].as_bytes()));
+        }
+        out.push_str("    ]),\n");
+    }
+    out.push_str("    ],\n}\n");
+    let folder = env::var_os("OUT_DIR").map(PathBuf::from).unwrap_or_default();
+    fs::write(folder.join("dependencies.rs"), out)
 }
 
-fn walk(path: &Path, files: &mut Vec<PathBuf>) -> std::io::Result<()> {
-    if EXCEPT.iter().any(|except| path == Path::new(except)) {
-        return Ok(());
-    }
-    if !path.is_dir() {
-        files.push(path.into());
-        return Ok(());
-    }
-    for entry in std::fs::read_dir(path)? {
-        walk(&entry?.path(), files)?;
-    }
-    Ok(())
+/// The first 64 bits of SHA-256, in hexadecimal.
+fn hash(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().take(8).map(|byte| format!("{byte:02x}")).collect()
 }

@@ -1,6 +1,7 @@
 //! What the program must know of its own source: a fingerprint, the homes of equations,
 //! and the source that the report quotes.
 
+mod depends;
 mod fingerprint;
 mod homes;
 mod sources;

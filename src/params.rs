@@ -3,157 +3,16 @@
 //! A default is the paper's value wherever the paper gives one. A [`Profile`] is a set of values
 //! of the sample sizes, and of nothing else: it never changes the model.
 
-use serde::{Deserialize, Serialize};
-
-/// What stands at the two ends of the row.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Boundary {
-    /// Rigid walls at 0 and (n + 1) d: n + 1 gaps (Fig. 1).
-    Walls,
-    /// Mass n is the left neighbour of mass 1: n gaps, all alike.
-    Ring,
-}
-
-/// How a realisation starts (Sec. 2 leaves it open; Sec. 8 assumes [`Start::Random`]).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Start {
-    /// At rest at equilibrium, when the forcing sets in.
-    Rest,
-    /// Without a free part: on the forced response.
-    Zero,
-    /// With a free part whose two amplitudes are normal with standard deviation σ.
-    Random,
-}
-
-/// The chain of Sec. 2, without the amplitudes of its forcing.
-///
-/// **Eq. (4)** (step towards (2)): the scaling d = m = ω = 1 is this type's default.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Chain {
-    /// Number of masses n (Sec. 2: 100).
-    pub masses: usize,
-    /// Distance d between equilibria (Sec. 2: 1).
-    pub spacing: f64,
-    /// Natural frequency ω (Sec. 2: 1).
-    pub natural_frequency: f64,
-    /// Forcing frequency Ω (Sec. 2: √2).
-    pub forcing_frequency: f64,
-    /// Coefficient of restitution r (Sec. 2: 0.8).
-    pub restitution: f64,
-    /// Walls or ring (Fig. 1: walls).
-    pub boundary: Boundary,
-    /// The start (ours: rest).
-    pub start: Start,
-}
-
-impl Default for Chain {
-    fn default() -> Self {
-        Chain {
-            masses: 100,
-            spacing: 1.0,
-            natural_frequency: 1.0,
-            forcing_frequency: std::f64::consts::SQRT_2,
-            restitution: 0.8,
-            boundary: Boundary::Walls,
-            start: Start::Rest,
-        }
-    }
-}
-
-impl Chain {
-    /// Number of gaps, the N of Sec. 3: n + 1 between walls, n on a ring.
-    pub fn gaps(&self) -> usize {
-        match self.boundary {
-            Boundary::Walls => self.masses + 1,
-            Boundary::Ring => self.masses,
-        }
-    }
-}
-
-/// The counting protocol (ours; Sec. 2 speaks only of "a suitable transient time").
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Protocol {
-    /// Transient T that is dropped, in units of 1/ω.
-    pub transient: f64,
-    /// Window W in which distinct gaps are counted, in units of 1/ω.
-    pub window: f64,
-}
-
-impl Default for Protocol {
-    fn default() -> Self {
-        Protocol { transient: 500.0, window: 200.0 }
-    }
-}
-
-/// Master seed of all random streams (ours: the year of the paper).
-pub const SEED: u64 = 2007;
-
-/// Seed of the repetition of the headline numbers (ours).
-pub const SECOND_SEED: u64 = 7002;
-
-/// Number of vertices N of the theory's main curves (Figs. 7 to 9: 100).
-pub const VERTICES: usize = 100;
-
-/// Edge probabilities of Fig. 8 (a) to (d).
-pub const DISTRIBUTION_P: [f64; 4] = [0.01, 0.02, 0.05, 0.1];
-
-/// Edge probabilities of Fig. 13: panels (a) and (b) share the first, then (c) and (d).
-pub const HIGHER_P: [f64; 3] = [0.005, 0.01, 0.05];
-
-/// Edge probabilities of Fig. 14 (a) and (b).
-pub const CONVERGENCE_P: [f64; 2] = [0.015, 0.04];
-
-/// Edge probabilities of the remarks on Sec. 9 (ours, from the rise of the theory outwards).
-pub const REMARK_P: [f64; 7] = [0.001, 0.005, 0.01, 0.015, 0.02, 0.04, 0.05];
-
-/// Number of vertices N at which printed class formulas are set against enumeration (ours: small
-/// enough to list all circuits, and coprime to 2, 3 and 4).
-pub const ENUMERATED_VERTICES: usize = 5;
-
-/// Two impacts of adjacent gaps closer in time than this count as near-simultaneous (ours, 1/ω).
-pub const NEAR_SIMULTANEOUS: f64 = 1e-9;
-
-/// An impact with a closing speed below this counts as slow (ours, d ω).
-pub const SLOW: f64 = 1e-8;
-
-/// How much is sampled: small to try out, large for the committed report.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Profile {
-    /// To try out: seconds.
-    Quick,
-    /// For pull requests: half a minute.
-    Ci,
-    /// The committed report.
-    Full,
-}
-
 mod accuracy;
+mod chosen;
 mod sizes;
 mod spacetime;
 
 pub use accuracy::{
     AnalyticParams, BiasParams, MethodName, RaceParams, ScaleParams, Setting, TrialParams,
 };
-
+pub use chosen::*;
 pub use sizes::{
     Grid, HorizonParams, ProtocolParams, StartVariant, StartsParams, SweepParams, TwoMassesParams,
 };
 pub use spacetime::SpaceTimeParams;
-
-/// Length of the steps in which the paper prints its threshold, σ ≈ 0.12 (Sec. 2).
-pub const PRINTED_THRESHOLD_UNIT: f64 = 0.01;
-
-/// The threshold as the paper prints it (Sec. 2).
-pub const PRINTED_THRESHOLD: f64 = 0.12;
-
-/// Share of rejected (overlapping) starts above which a row is not comparable (ours).
-pub const COMPARABLE_REJECTED: f64 = 0.1;
-
-/// Bootstrap resamples behind each interval (ours).
-pub const RESAMPLES: usize = 1000;
-
-/// Level of the intervals (ours).
-pub const LEVEL: f64 = 0.95;

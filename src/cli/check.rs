@@ -1,7 +1,7 @@
 //! `impact-paper check`.
 
 use super::sources::Sources;
-use super::{Failure, work};
+use super::{Failure, stdout, work};
 use impact_paper::claims::targets::{self, Standing, Target};
 use impact_paper::claims::{self, Claim};
 use impact_paper::params::Profile;
@@ -57,14 +57,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
         let targets = if whole { targets::targets(&results).map_err(fault)? } else { Vec::new() };
         Ok((judged, targets))
     })?;
-    // Who closed the pipe has read enough; the exit code says the rest.
-    match print(&judged, &targets) {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            let remedy = "direct it to a file that can be written";
-            return Err(Failure::input(format!("standard output: {error}; {remedy}")));
-        }
-        _ => (),
-    }
+    stdout::written(print(&judged, &targets))?;
     let failing: Vec<&str> =
         judged.iter().filter(|claim| claim.fails()).map(|claim| claim.id.as_str()).collect();
     if failing.is_empty() {

@@ -1,6 +1,6 @@
 //! `impact-paper explain`.
 
-use super::Failure;
+use super::{Failure, stdout};
 use impact_paper::report::card::{Card, Cards, Row};
 use impact_paper::report::document::plain;
 use impact_paper::report::ledger::Ledger;
@@ -41,13 +41,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
         let found = args.ids.iter().map(get).collect::<Result<Vec<Card>, Failure>>()?;
         show(&found, args.json)
     };
-    match result {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            let remedy = "direct it to a file that can be written";
-            Err(Failure::input(format!("standard output: {error}; {remedy}")))
-        }
-        _ => Ok(()),
-    }
+    stdout::written(result)
 }
 
 fn read(folder: &Path, name: &str) -> Result<String, Failure> {

@@ -1,5 +1,6 @@
 //! One file per verb; the exit codes are a contract.
 
+mod audit;
 mod bench;
 mod check;
 mod eval;
@@ -9,6 +10,8 @@ mod output;
 mod paper;
 mod sigmas;
 mod sources;
+mod status;
+mod stdout;
 mod sweep;
 mod trace;
 mod work;
@@ -30,11 +33,13 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Verb {
+    Audit(audit::Args),
     Bench(bench::Args),
     Check(check::Args),
     Eval(eval::Args),
     Explain(explain::Args),
     Paper(paper::Args),
+    Status(status::Args),
     Sweep(sweep::Args),
     Trace(trace::Args),
 }
@@ -54,6 +59,11 @@ impl Failure {
         Failure { code: 2, message: message.into() }
     }
 
+    /// Saved results are stale: exit code 3.
+    pub fn stale(message: impl Into<String>) -> Self {
+        Failure { code: 3, message: message.into() }
+    }
+
     /// A run failed: exit code 4.
     pub fn run(message: impl Into<String>) -> Self {
         Failure { code: 4, message: message.into() }
@@ -67,11 +77,13 @@ pub fn main() -> ExitCode {
         Err(error) => return usage(&error),
     };
     let result = match verb {
+        Verb::Audit(args) => audit::run(args),
         Verb::Bench(args) => bench::run(args),
         Verb::Check(args) => check::run(args),
         Verb::Eval(args) => eval::run(args),
         Verb::Explain(args) => explain::run(args),
         Verb::Paper(args) => paper::run(args),
+        Verb::Status(args) => status::run(args),
         Verb::Sweep(args) => sweep::run(args),
         Verb::Trace(args) => trace::run(args),
     };

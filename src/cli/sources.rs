@@ -19,7 +19,7 @@ pub struct Sources {
     templates: Option<PathBuf>,
     /// Folder in which results of long runs are kept.
     #[arg(long, value_name = "DIR", default_value = "target/results")]
-    results: PathBuf,
+    pub results: PathBuf,
 }
 
 impl Sources {
@@ -40,7 +40,7 @@ impl Sources {
         Published::parse(text).map_err(|e| Failure::input(format!("published.toml: {e}")))
     }
 
-    /// Runs what is needed. The folder of results is made only if something long is.
+    /// Runs what is needed. The folder of results is made only if something long is run.
     ///
     /// # Errors
     /// Exit codes 2, 4 and 130.

@@ -1,6 +1,6 @@
 //! `impact-paper sweep`.
 
-use super::{Failure, sigmas, work};
+use super::{Failure, sigmas, stdout, work};
 use impact_paper::experiments::{Progress, sweep};
 use impact_paper::numerics::clock::LATEST;
 use impact_paper::params::{Boundary, Chain, Protocol, SEED, Start, SweepParams};
@@ -93,14 +93,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let parameters = parameters(&args)?;
     let progress = work::progress();
     let rows = work::on_threads(args.threads, || rows(&parameters, &progress))?;
-    write(&rows, args.format).or_else(|error| {
-        // Who closed the pipe has read enough.
-        if error.kind() == io::ErrorKind::BrokenPipe {
-            return Ok(());
-        }
-        let remedy = "direct it to a file that can be written";
-        Err(Failure::input(format!("standard output: {error}; {remedy}")))
-    })
+    stdout::written(write(&rows, args.format))
 }
 
 /// Checks what the engine cannot check.

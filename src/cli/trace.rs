@@ -1,6 +1,6 @@
 //! `impact-paper trace`.
 
-use super::{Failure, method};
+use super::{Failure, method, stdout};
 use impact_paper::dynamics::methods::State;
 use impact_paper::dynamics::{Certificate, Error, Impact, Scenario, Simultaneous, certify};
 use impact_paper::numerics::clock::LATEST;
@@ -136,10 +136,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     };
     let written = written.and_then(|()| out.write_all(header.as_bytes()));
     match written.and_then(|()| out.flush()) {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Failure::input(format!(
-            "standard output: {error}; direct it to a file that can be written"
-        ))),
-        Err(_) => Ok(()),
+        Err(error) => stdout::written(Err(error)),
         Ok(()) => {
             if ties > 0 {
                 eprintln!("{}", simultaneous(ties, scenario.simultaneous));

@@ -47,7 +47,15 @@ pub enum Error {
     )]
     NotFinite {
         /// The experiment.
-        experiment: &'static str,
+        experiment: String,
+    },
+    /// An audit needs a result that is fresh.
+    #[error("{name}: there is nothing to audit: {why}; run `impact-paper paper` first")]
+    Stale {
+        /// The experiment.
+        name: &'static str,
+        /// The reasons.
+        why: String,
     },
     /// The results directory cannot be written.
     #[error("results directory {path}: {source}; choose another with --results")]

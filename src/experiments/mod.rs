@@ -1,6 +1,7 @@
 //! What is run: one experiment a file, results that save and reload exactly.
 
 pub mod accuracy;
+pub mod catalogue;
 pub mod error;
 pub mod horizon;
 pub mod identities;

@@ -1,12 +1,8 @@
 //! Runs what is needed, and nothing else; long runs are taken from the store.
 
-use super::accuracy::{analytic, bias, race, scale, trials};
 use super::{Error, Measured, Need, Progress, Results, Store};
-use super::{horizon, laws, protocol, segments, spacetime, starts, sweep, two_masses};
-use crate::params::{
-    AnalyticParams, BiasParams, HorizonParams, Profile, ProtocolParams, RaceParams, ScaleParams,
-    SpaceTimeParams, StartsParams, SweepParams, TrialParams, TwoMassesParams,
-};
+use super::{catalogue, laws, segments};
+use crate::params::Profile;
 
 /// Runs the experiments behind `needs` with the sample sizes of a profile. `scenarios` gives the
 /// text of a file of [`segments::FILES`]; it is asked only if [`Need::Segments`] is among them.
@@ -33,68 +29,23 @@ pub fn run(
         results.measured = Some(Measured::find()?);
     }
     if needs(Need::Sweep) || needs(Need::Laws) {
-        let parameters = SweepParams::main(profile);
-        let run = || sweep::run(&parameters, "main sweep", progress);
-        results.sweep = Some(store.get("sweep", &parameters, progress, run)?);
+        results.sweep = Some(catalogue::SWEEP.get(profile, store, progress)?);
     }
     if let (true, Some(sweep)) = (needs(Need::Laws), &results.sweep) {
         results.laws = Some(laws::run(&sweep.rows));
     }
-    if needs(Need::SecondSeed) {
-        let parameters = SweepParams::second_seed(profile);
-        let run = || sweep::run(&parameters, "second seed", progress);
-        results.second_seed = Some(store.get("second-seed", &parameters, progress, run)?);
+    macro_rules! saved {
+        ($($field:ident: $experiment:ident),*) => {
+            $(if needs(catalogue::$experiment.need) {
+                results.$field = Some(catalogue::$experiment.get(profile, store, progress)?);
+            })*
+        };
     }
-    if needs(Need::Protocol) {
-        let parameters = ProtocolParams::new(profile);
-        let run = || protocol::run(&parameters, progress);
-        results.protocol = Some(store.get("protocol", &parameters, progress, run)?);
-    }
-    if needs(Need::Starts) {
-        let parameters = StartsParams::new(profile);
-        let run = || starts::run(&parameters, progress);
-        results.starts = Some(store.get("starts", &parameters, progress, run)?);
-    }
-    if needs(Need::Horizon) {
-        let parameters = HorizonParams::new(profile);
-        let run = || horizon::run(&parameters, progress);
-        results.horizon = Some(store.get("horizon", &parameters, progress, run)?);
-    }
-    if needs(Need::TwoMasses) {
-        let parameters = TwoMassesParams::new(profile);
-        let run = || two_masses::run(&parameters, progress);
-        results.two_masses = Some(store.get("two-masses", &parameters, progress, run)?);
-    }
-    if needs(Need::SpaceTime) {
-        let parameters = SpaceTimeParams::new(profile);
-        let run = || spacetime::run(&parameters, progress);
-        results.spacetime = Some(store.get("space-time", &parameters, progress, run)?);
-    }
-    if needs(Need::Race) {
-        let parameters = RaceParams::new(profile);
-        let run = || race::run(&parameters, progress);
-        results.race = Some(store.get("race", &parameters, progress, run)?);
-    }
-    if needs(Need::Biases) {
-        let parameters = BiasParams::new(profile);
-        let run = || bias::run(&parameters, progress);
-        results.biases = Some(store.get("bias", &parameters, progress, run)?);
-    }
-    if needs(Need::Trials) {
-        let parameters = TrialParams::new(profile);
-        let run = || trials::run(&parameters, progress);
-        results.trials = Some(store.get("trials", &parameters, progress, run)?);
-    }
-    if needs(Need::Scale) {
-        let parameters = ScaleParams::new(profile);
-        let run = || scale::run(&parameters, progress);
-        results.scale = Some(store.get("scale", &parameters, progress, run)?);
-    }
-    if needs(Need::Analytic) {
-        let parameters = AnalyticParams::new(profile);
-        let run = || analytic::run(&parameters, progress);
-        results.analytic = Some(store.get("analytic", &parameters, progress, run)?);
-    }
+    saved!(
+        second_seed: SECOND_SEED, protocol: PROTOCOL, starts: STARTS, horizon: HORIZON,
+        two_masses: TWO_MASSES, spacetime: SPACE_TIME, race: RACE, biases: BIAS, trials: TRIALS,
+        scale: SCALE, analytic: ANALYTIC
+    );
     progress.check()?;
     Ok(results)
 }

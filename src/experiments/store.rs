@@ -1,18 +1,127 @@
 //! Results of long runs, saved and reused.
 //!
-//! A saved result is found by its key: the SHA-256 of the experiment's name, its parameters and
-//! the fingerprint of the simulating code. The file has three lines of text: a checksum of the
-//! other two, what the key is made of, and the result. Whatever is not whole is run again.
+//! A saved result has a file of its own, named by experiment and profile. It has three lines of
+//! text: a checksum of the other two, what the result was made of, and the result. It is reused if
+//! all of that is as it would be made of now; whatever is not whole or not known is run again, and
+//! the reason is said.
 
 use super::{Error, Progress};
-use serde::Serialize;
+use crate::params::Profile;
 use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
-use std::io::Write;
+use std::collections::{BTreeMap, BTreeSet};
+use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-/// Fingerprint of the code that simulates (see `build/fingerprint.rs`).
-pub const CODE: &str = env!("CODE_FINGERPRINT");
+/// The form of saved files; a change of it makes all of them unknown.
+const SCHEMA: u32 = 2;
+
+/// What the program was built of (see `build/fingerprint.rs`).
+struct Built {
+    /// Hash of Cargo.lock.
+    lock: &'static str,
+    /// Each file of an experiment, with path and hash of every file that it depends on.
+    modules: &'static [(&'static str, &'static [(&'static str, &'static str)])],
+}
+
+static BUILT: Built = include!(concat!(env!("OUT_DIR"), "/dependencies.rs"));
+
+/// Everything that a result depends on.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Identity {
+    /// Name of the experiment.
+    pub experiment: String,
+    /// The form of the saved file.
+    schema: u32,
+    /// The parameters, seed included.
+    pub parameters: serde_json::Value,
+    /// Hash of Cargo.lock.
+    lock: String,
+    /// Hashes of the files that the experiment depends on.
+    code: BTreeMap<String, String>,
+}
+
+impl Identity {
+    /// Of an experiment in the file `module`, with these parameters and the code of this program.
+    pub fn new(experiment: &str, module: &str, parameters: &impl Serialize) -> Self {
+        let code = BUILT.modules.iter().find(|(path, _)| *path == module);
+        let code = code.map(|(_, files)| *files).unwrap_or_default();
+        Identity {
+            experiment: experiment.into(),
+            schema: SCHEMA,
+            parameters: serde_json::to_value(parameters).unwrap_or_default(),
+            lock: BUILT.lock.into(),
+            code: code.iter().map(|(path, hash)| ((*path).into(), (*hash).into())).collect(),
+        }
+    }
+
+    /// Files of the source that the experiment depends on.
+    pub fn files(&self) -> impl Iterator<Item = &str> {
+        self.code.keys().map(String::as_str)
+    }
+
+    /// Why a result that was made of `saved` is not the one that would be made of this.
+    fn reasons(&self, saved: &Identity) -> Vec<Reason> {
+        let mut reasons = Vec::new();
+        if saved.schema != self.schema || saved.experiment != self.experiment {
+            return vec![Reason::Schema];
+        }
+        if saved.parameters != self.parameters {
+            reasons.push(Reason::Parameters);
+        }
+        let paths: BTreeSet<&String> = self.code.keys().chain(saved.code.keys()).collect();
+        let changed =
+            paths.into_iter().filter(|path| self.code.get(*path) != saved.code.get(*path));
+        let changed: Vec<String> = changed.cloned().collect();
+        if !changed.is_empty() {
+            reasons.push(Reason::Code(changed));
+        }
+        if saved.lock != self.lock {
+            reasons.push(Reason::Dependency);
+        }
+        reasons
+    }
+}
+
+/// Why a saved result is not used.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Reason {
+    /// There is none.
+    Missing,
+    /// It has other parameters.
+    Parameters,
+    /// These files of the source are others now.
+    Code(Vec<String>),
+    /// Other versions of crates (Cargo.lock).
+    Dependency,
+    /// It was saved in another form.
+    Schema,
+    /// It cannot be trusted, and why.
+    Damaged(String),
+}
+
+impl std::fmt::Display for Reason {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Reason::Missing => f.write_str("no saved result"),
+            Reason::Parameters => f.write_str("other parameters"),
+            Reason::Code(files) => match files.as_slice() {
+                [one] => write!(f, "{one} changed"),
+                [one, others @ ..] => write!(f, "{one} and {} more changed", others.len()),
+                [] => f.write_str("the code changed"),
+            },
+            Reason::Dependency => f.write_str("Cargo.lock changed"),
+            Reason::Schema => f.write_str("saved in another form"),
+            Reason::Damaged(what) => f.write_str(what),
+        }
+    }
+}
+
+/// Reasons in one line.
+pub fn told(reasons: &[Reason]) -> String {
+    reasons.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
+}
 
 /// Where results are saved.
 #[derive(Clone, Debug)]
@@ -21,15 +130,21 @@ pub struct Store {
 }
 
 impl Store {
-    /// A store in a folder, which is made if it is missing.
+    /// A store in a folder, which is made when something has to be saved.
     ///
     /// # Errors
-    /// [`Error::Store`] if the folder cannot be made or written: better now than after the run.
+    /// [`Error::Store`] if there is something else in its place.
     pub fn open(folder: &Path) -> Result<Self, Error> {
-        let failed = |source| Error::Store { path: folder.into(), source };
-        std::fs::create_dir_all(folder).map_err(failed)?;
-        tempfile::NamedTempFile::new_in(folder).map_err(failed)?;
-        Ok(Store { folder: Some(folder.into()) })
+        match std::fs::metadata(folder) {
+            Ok(found) if !found.is_dir() => {
+                let source = std::io::Error::from(ErrorKind::NotADirectory);
+                Err(Error::Store { path: folder.into(), source })
+            }
+            Err(source) if source.kind() != ErrorKind::NotFound => {
+                Err(Error::Store { path: folder.into(), source })
+            }
+            _ => Ok(Store { folder: Some(folder.into()) }),
+        }
     }
 
     /// A store that keeps nothing.
@@ -37,81 +152,107 @@ impl Store {
         Store { folder: None }
     }
 
+    fn path(&self, identity: &Identity, profile: Profile) -> Option<PathBuf> {
+        let name = format!("{}-{}.json", identity.experiment, profile.name());
+        self.folder.as_ref().map(|folder| folder.join(name))
+    }
+
+    /// The saved result as text, or why there is none to be used.
+    ///
+    /// # Errors
+    /// The reasons.
+    pub fn look(&self, identity: &Identity, profile: Profile) -> Result<String, Vec<Reason>> {
+        let path = self.path(identity, profile).ok_or_else(|| vec![Reason::Missing])?;
+        read(&path, identity)
+    }
+
     /// The saved result of an experiment, or else that of `run`, which is then saved.
     ///
     /// # Errors
     /// What `run` returns; [`Error::NotFinite`] for a result with a number that is not finite;
-    /// [`Error::Store`] if it cannot be saved.
-    pub fn get<P, T>(
+    /// [`Error::Store`] if it cannot be saved: better before the run than after it.
+    pub fn get<T>(
         &self,
-        experiment: &'static str,
-        parameters: &P,
+        identity: &Identity,
+        profile: Profile,
         progress: &Progress,
         run: impl FnOnce() -> Result<T, Error>,
     ) -> Result<T, Error>
     where
-        P: Serialize,
         T: Serialize + DeserializeOwned + PartialEq,
     {
-        let Some(folder) = &self.folder else { return run() };
-        let identity = serde_json::json!({
-            "experiment": experiment, "code": CODE, "parameters": parameters,
-        })
-        .to_string();
-        let path = folder.join(format!("{experiment}-{}.json", &digest(&[&identity])[..16]));
-        match load(&path, &identity) {
-            Ok(Some(result)) => return Ok(result),
-            Ok(None) => (),
-            Err(problem) => {
-                progress.say(&format!("{}: {problem}; running it again", path.display()));
+        let Some(path) = self.path(identity, profile) else { return run() };
+        let name = &identity.experiment;
+        let understood =
+            |text: String| serde_json::from_str(&text).map_err(|_| vec![Reason::Schema]);
+        match read(&path, identity).and_then(understood) {
+            Ok(result) => {
+                progress.say(&format!("{name}: fresh"));
+                return Ok(result);
             }
+            Err(reasons) => progress.say(&format!("{name}: run ({})", told(&reasons))),
         }
+        let failed = |source| Error::Store { path: path.clone(), source };
+        let folder = path.parent().unwrap_or(Path::new("."));
+        std::fs::create_dir_all(folder).map_err(failed)?;
+        tempfile::NamedTempFile::new_in(folder).map_err(failed)?;
         let result = run()?;
-        save(&path, &identity, experiment, &result)?;
+        let body = written(&identity.experiment, &result)?;
+        save(&path, identity, &body).map_err(failed)?;
         Ok(result)
     }
 }
 
-/// Reads and checks a file. None if there is none; an error says why it is not to be trusted.
-fn load<T: DeserializeOwned>(path: &Path, identity: &str) -> Result<Option<T>, String> {
-    let text = match std::fs::read_to_string(path) {
-        Ok(text) => text,
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
-        Err(error) => return Err(format!("cannot be read ({error})")),
+/// Reads and checks a file: its result as text, or why it is not to be used.
+fn read(path: &Path, identity: &Identity) -> Result<String, Vec<Reason>> {
+    let damaged = |what: &str| vec![Reason::Damaged(what.into())];
+    let text = match std::fs::read(path) {
+        Ok(bytes) => {
+            String::from_utf8(bytes).map_err(|_| damaged("the saved result is no text"))?
+        }
+        Err(error) if error.kind() == ErrorKind::NotFound => return Err(vec![Reason::Missing]),
+        Err(error) => return Err(damaged(&format!("the saved result cannot be read: {error}"))),
     };
     let mut lines = text.split('\n');
     let (Some(checksum), Some(found), Some(body), Some(""), None) =
         (lines.next(), lines.next(), lines.next(), lines.next(), lines.next())
     else {
-        return Err("the saved result is cut short or has lines too many".into());
+        return Err(damaged("the saved result is cut short or has lines too many"));
     };
     if checksum != digest(&[found, body]) {
-        return Err("the saved result was damaged or edited: its checksum is wrong".into());
+        return Err(damaged("the saved result was damaged or edited: its checksum is wrong"));
     }
-    if found != identity {
-        return Err("the saved result belongs to other parameters".into());
+    let saved: Identity = serde_json::from_str(found).map_err(|_| vec![Reason::Schema])?;
+    match identity.reasons(&saved) {
+        reasons if reasons.is_empty() => Ok(body.into()),
+        reasons => Err(reasons),
     }
-    serde_json::from_str(body).map(Some).map_err(|error| format!("cannot be understood ({error})"))
 }
 
-/// Writes a temporary file and renames it: at no time is there half a result under the name.
-fn save<T>(path: &Path, identity: &str, experiment: &'static str, result: &T) -> Result<(), Error>
+/// A result as text that reads back to the same bits.
+///
+/// # Errors
+/// [`Error::NotFinite`]: JSON has no NaN and no infinity, and serde_json writes null. Reading back
+/// tells all such losses.
+pub fn written<T>(experiment: &str, result: &T) -> Result<String, Error>
 where
     T: Serialize + DeserializeOwned + PartialEq,
 {
-    // JSON has no NaN and no infinity: serde_json writes null. Reading back tells all such losses.
-    let not_finite = || Error::NotFinite { experiment };
+    let not_finite = || Error::NotFinite { experiment: experiment.into() };
     let body = serde_json::to_string(result).map_err(|_| not_finite())?;
     match serde_json::from_str::<T>(&body) {
-        Ok(read) if read == *result => (),
-        _ => return Err(not_finite()),
+        Ok(read) if read == *result => Ok(body),
+        _ => Err(not_finite()),
     }
-    let failed = |source| Error::Store { path: path.into(), source };
-    let folder = path.parent().unwrap_or(Path::new("."));
-    let mut file = tempfile::NamedTempFile::new_in(folder).map_err(failed)?;
-    write!(file, "{}\n{identity}\n{body}\n", digest(&[identity, &body])).map_err(failed)?;
-    file.as_file().sync_all().map_err(failed)?;
-    file.persist(path).map_err(|error| failed(error.error))?;
+}
+
+/// Writes a temporary file and renames it: at no time is there half a result under the name.
+fn save(path: &Path, identity: &Identity, body: &str) -> std::io::Result<()> {
+    let identity = serde_json::to_string(identity)?;
+    let mut file = tempfile::NamedTempFile::new_in(path.parent().unwrap_or(Path::new(".")))?;
+    write!(file, "{}\n{identity}\n{body}\n", digest(&[&identity, body]))?;
+    file.as_file().sync_all()?;
+    file.persist(path)?;
     Ok(())
 }
 
@@ -130,17 +271,33 @@ mod tests {
     use super::*;
     use std::cell::Cell;
 
-    /// Asks for the result of an experiment and says whether it was run.
-    fn ask(folder: &Path, parameter: f64, result: &[Option<f64>]) -> (Vec<Option<f64>>, bool) {
+    fn identity(parameter: f64) -> Identity {
+        Identity::new("test", "src/experiments/rise.rs", &parameter)
+    }
+
+    /// Asks for a result, and says whether it was run.
+    fn ask_as(
+        folder: &Path,
+        identity: &Identity,
+        result: &[Option<f64>],
+    ) -> (Vec<Option<f64>>, bool) {
         let ran = Cell::new(false);
-        let found = Store::open(folder)
-            .unwrap()
-            .get("test", &parameter, &Progress::silent(), || {
-                ran.set(true);
-                Ok(result.to_vec())
-            })
-            .unwrap();
+        let store = Store::open(folder).unwrap();
+        let run = || {
+            ran.set(true);
+            Ok(result.to_vec())
+        };
+        let found = store.get(identity, Profile::Quick, &Progress::silent(), run).unwrap();
         (found, ran.get())
+    }
+
+    fn ask(folder: &Path, parameter: f64, result: &[Option<f64>]) -> (Vec<Option<f64>>, bool) {
+        ask_as(folder, &identity(parameter), result)
+    }
+
+    fn reasons(folder: &Path, identity: &Identity) -> Vec<Reason> {
+        let found = Store::open(folder).unwrap().look(identity, Profile::Quick);
+        found.err().unwrap_or_default()
     }
 
     fn only_file(folder: &Path) -> PathBuf {
@@ -165,11 +322,32 @@ mod tests {
     }
 
     #[test]
-    fn other_parameters_are_another_result() {
+    fn each_change_has_its_reason() {
         let folder = tempfile::tempdir().unwrap();
-        assert!(ask(folder.path(), 1.0, &[Some(1.0)]).1);
+        let now = identity(1.0);
+        assert_eq!(reasons(folder.path(), &now), [Reason::Missing]);
+        ask_as(folder.path(), &now, &[Some(1.0)]);
+        assert_eq!(reasons(folder.path(), &now), []);
+        assert_eq!(reasons(folder.path(), &identity(2.0)), [Reason::Parameters]);
+        let file = now.code.keys().next().expect("rise.rs depends on itself at least").clone();
+        let mut edited = now.clone();
+        edited.code.insert(file.clone(), "0".into());
+        assert_eq!(reasons(folder.path(), &edited), [Reason::Code(vec![file.clone()])]);
+        edited.code.remove(&file);
+        assert_eq!(reasons(folder.path(), &edited), [Reason::Code(vec![file])]);
+        let updated = Identity { lock: "0".into(), ..identity(2.0) };
+        let both = [Reason::Parameters, Reason::Dependency];
+        assert_eq!(reasons(folder.path(), &updated), both);
+        assert_eq!(told(&both), "other parameters, Cargo.lock changed");
+        let newer = Identity { schema: SCHEMA + 1, ..now.clone() };
+        assert_eq!(reasons(folder.path(), &newer), [Reason::Schema]);
+        // A result of another type is known when it is read.
+        let store = Store::open(folder.path()).unwrap();
+        let found: u32 = store.get(&now, Profile::Quick, &Progress::silent(), || Ok(7)).unwrap();
+        assert_eq!(found, 7);
+        // The new result takes the place of the old.
         assert_eq!(ask(folder.path(), 2.0, &[Some(2.0)]), (vec![Some(2.0)], true));
-        assert_eq!(ask(folder.path(), 1.0, &[]), (vec![Some(1.0)], false));
+        only_file(folder.path());
     }
 
     #[test]
@@ -190,6 +368,8 @@ mod tests {
         for broken in broken {
             assert_ne!(broken, text);
             std::fs::write(&path, &broken).unwrap();
+            let told = reasons(folder.path(), &identity(1.0));
+            assert!(matches!(told[..], [Reason::Damaged(_)]), "{told:?} of {broken}");
             assert_eq!(ask(folder.path(), 1.0, &whole), (whole.clone(), true), "{broken}");
             assert_eq!(std::fs::read_to_string(&path).unwrap(), text, "saved anew");
         }
@@ -202,8 +382,9 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let store = Store::open(folder.path()).unwrap();
         for bad in [f64::NAN, f64::INFINITY] {
-            let saved = store.get("test", &1, &Progress::silent(), || Ok(vec![Some(bad)]));
-            assert!(matches!(saved, Err(Error::NotFinite { experiment: "test" })));
+            let run = || Ok(vec![Some(bad)]);
+            let saved = store.get(&identity(1.0), Profile::Quick, &Progress::silent(), run);
+            assert!(matches!(saved, Err(Error::NotFinite { .. })));
         }
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
     }
@@ -213,14 +394,19 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let store = Store::open(folder.path()).unwrap();
         let run = || Err::<f64, _>(Error::Interrupted);
-        assert!(store.get("test", &1, &Progress::silent(), run).is_err());
+        assert!(store.get(&identity(1.0), Profile::Quick, &Progress::silent(), run).is_err());
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
     }
 
     #[test]
-    fn a_folder_that_cannot_be_is_an_error() {
+    fn a_folder_that_cannot_be_is_an_error_before_the_run() {
         let file = tempfile::NamedTempFile::new().unwrap();
-        let error = Store::open(&file.path().join("below")).unwrap_err().to_string();
+        let error = Store::open(file.path()).unwrap_err().to_string();
         assert!(error.contains("--results"), "{error}");
+        let store = Store { folder: Some(file.path().join("below")) };
+        let run = || -> Result<f64, Error> { panic!("nothing can be saved") };
+        let error =
+            store.get(&identity(1.0), Profile::Quick, &Progress::silent(), run).unwrap_err();
+        assert!(error.to_string().contains("--results"), "{error}");
     }
 }

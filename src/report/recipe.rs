@@ -1,10 +1,8 @@
 //! Experiments by the names that values carry: where their code is, and with which parameters
 //! they run. The parameters are those of [`crate::params`], field by field.
 
-use crate::params::{
-    AnalyticParams, BiasParams, HorizonParams, Profile, ProtocolParams, RaceParams, ScaleParams,
-    SpaceTimeParams, StartsParams, SweepParams, TrialParams, TwoMassesParams, VERTICES,
-};
+use crate::experiments::catalogue::{self, Saved};
+use crate::params::{Profile, VERTICES};
 use serde::Serialize;
 use serde_json::Value as Json;
 
@@ -21,44 +19,37 @@ pub struct Recipe {
 
 /// The recipe of a name; None for a name that no experiment has.
 pub fn recipe(name: &str, profile: Profile) -> Option<Recipe> {
-    let (name, item, parameters) = match name {
-        "sweep" => ("sweep", "experiments::sweep", json(SweepParams::main(profile))),
-        "second_seed" => {
-            ("second_seed", "experiments::sweep", json(SweepParams::second_seed(profile)))
-        }
-        "laws" => ("laws", "experiments::laws::run", json(SweepParams::main(profile))),
-        "protocol" => {
-            ("protocol", "experiments::protocol::run", json(ProtocolParams::new(profile)))
-        }
-        "starts" => ("starts", "experiments::starts::run", json(StartsParams::new(profile))),
-        "horizon" => ("horizon", "experiments::horizon::run", json(HorizonParams::new(profile))),
-        "two_masses" => {
-            ("two_masses", "experiments::two_masses::run", json(TwoMassesParams::new(profile)))
-        }
-        "race" => ("race", "experiments::accuracy::race::run", json(RaceParams::new(profile))),
-        "bias" => ("bias", "experiments::accuracy::bias::run", json(BiasParams::new(profile))),
-        "trials" => {
-            ("trials", "experiments::accuracy::trials::run", json(TrialParams::new(profile)))
-        }
-        "scale" => ("scale", "experiments::accuracy::scale::run", json(ScaleParams::new(profile))),
-        "analytic" => {
-            ("analytic", "experiments::accuracy::analytic::run", json(AnalyticParams::new(profile)))
-        }
-        "space-time" => {
-            ("space-time", "experiments::spacetime::run", json(SpaceTimeParams::new(profile)))
-        }
-        "segments" => ("segments", "experiments::segments::run", Json::Null),
-        "measured" => ("measured", "experiments::measured", Json::Null),
-        "theory" => ("theory", "experiments::theory::run", serde_json::json!({"N": VERTICES})),
+    let (name, item) = match name {
+        "sweep" => ("sweep", "experiments::sweep"),
+        "second_seed" => ("second_seed", "experiments::sweep"),
+        "laws" => ("laws", "experiments::laws::run"),
+        "protocol" => ("protocol", "experiments::protocol::run"),
+        "starts" => ("starts", "experiments::starts::run"),
+        "horizon" => ("horizon", "experiments::horizon::run"),
+        "two_masses" => ("two_masses", "experiments::two_masses::run"),
+        "race" => ("race", "experiments::accuracy::race::run"),
+        "bias" => ("bias", "experiments::accuracy::bias::run"),
+        "trials" => ("trials", "experiments::accuracy::trials::run"),
+        "scale" => ("scale", "experiments::accuracy::scale::run"),
+        "analytic" => ("analytic", "experiments::accuracy::analytic::run"),
+        "space-time" => ("space-time", "experiments::spacetime::run"),
+        "segments" => ("segments", "experiments::segments::run"),
+        "measured" => ("measured", "experiments::measured"),
+        "theory" => ("theory", "experiments::theory::run"),
         _ => return None,
+    };
+    let parameters = match name {
+        "theory" => serde_json::json!({"N": VERTICES}),
+        // Read from the impacts of the sweep.
+        "laws" => catalogue::SWEEP.identity(profile).parameters,
+        _ => catalogue::ALL
+            .iter()
+            .find(|experiment| experiment.need().name() == name)
+            .map_or(Json::Null, |experiment| experiment.identity(profile).parameters),
     };
     let mut flat = Vec::new();
     flatten("", &parameters, &mut flat);
     Some(Recipe { name, item, parameters: flat })
-}
-
-fn json(parameters: impl Serialize) -> Json {
-    serde_json::to_value(parameters).unwrap_or(Json::Null)
 }
 
 /// Fields of fields get both names; long lists are told by their ends.

@@ -2,7 +2,7 @@
 
 mod methods;
 
-use super::{Failure, work};
+use super::{Failure, stdout, work};
 use impact_paper::dynamics::{Counters, Engine, Error, Scenario};
 use impact_paper::numerics::clock::LATEST;
 use impact_paper::numerics::random::NormalPairs;
@@ -272,10 +272,5 @@ fn form(scenario: &Scenario) -> Form<'_> {
 fn print(what: &impl Serialize) -> Result<(), Failure> {
     let mut out = io::BufWriter::new(io::stdout().lock());
     let written = serde_json::to_writer_pretty(&mut out, what).map_err(io::Error::from);
-    match written.and_then(|()| writeln!(out)).and_then(|()| out.flush()) {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Failure::input(format!(
-            "standard output: {error}; direct it to a file that can be written"
-        ))),
-        _ => Ok(()),
-    }
+    stdout::written(written.and_then(|()| writeln!(out)).and_then(|()| out.flush()))
 }

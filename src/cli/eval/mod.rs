@@ -3,12 +3,11 @@
 mod inputs;
 mod quantity;
 
-use super::Failure;
+use super::{Failure, stdout};
 use impact_paper::circuits;
 use inputs::Inputs;
 use quantity::{QUANTITIES, Quantity, Value};
 use serde::Serialize;
-use std::io::Write;
 
 /// Evaluates one quantity of the theory (Secs. 3 to 9) and prints it as one JSON object.
 ///
@@ -104,12 +103,7 @@ fn explain(error: circuits::Error, inputs: &Inputs) -> Failure {
 }
 
 fn print(text: &str) -> Result<(), Failure> {
-    let mut out = std::io::stdout().lock();
-    writeln!(out, "{text}").and_then(|()| out.flush()).map_err(|error| {
-        Failure::input(format!(
-            "standard output cannot be written ({error}); redirect it elsewhere"
-        ))
-    })
+    stdout::print(&format!("{text}\n"))
 }
 
 /// One line per quantity: name, equation, what it needs, what it is.

@@ -3,7 +3,6 @@
 use super::mark;
 use crate::claims::{self, Claim, FAMILY_LEVEL, Verdict};
 use crate::experiments::Results;
-use crate::params::Profile;
 use crate::report::values::Value;
 use std::collections::BTreeMap;
 
@@ -45,16 +44,11 @@ pub fn scorecard(claims: &[Claim]) -> Vec<ScoreLine> {
 /// The level of the claims, and what this copy was made with.
 pub fn values(results: &Results) -> Vec<Value> {
     let level = claims::level();
-    let profile = match results.profile {
-        Profile::Quick => "quick",
-        Profile::Ci => "ci",
-        Profile::Full => "full",
-    };
     let values = vec![
         Value::integer("statistical_claims", level.claims),
         Value::real("claim_quantile", level.quantile, 3),
         Value::real("family_level", FAMILY_LEVEL, 1),
-        Value::text("profile", profile),
+        Value::text("profile", results.profile.name()),
         Value::text("version", env!("CARGO_PKG_VERSION")),
     ];
     super::from(values, "claims::level", "")

@@ -1,0 +1,236 @@
+//! Which files of the source a module is made of: itself, and what it names, and what those name.
+//!
+//! A path `crate::a::B` leads to the file of `a`, or to that from which `a` takes its `B`. Between
+//! the layers below the experiments no such distinction is made: who names one of their items
+//! depends on all their files, for methods may be defined beside a type as well as with it. Within
+//! experiments and parameters, a file with methods of a type that is used is used too.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Layers that count as one.
+const WHOLE: [&str; 3] = ["src/numerics/", "src/dynamics/", "src/circuits/"];
+
+/// What changes no result: words for people.
+const SILENT: [&str; 2] = ["src/experiments/progress.rs", "src/experiments/error.rs"];
+
+/// Files by path, with their text: the source.
+pub type Source = BTreeMap<String, String>;
+
+/// Paths of all files that the module in `root` is made of.
+pub fn files(source: &Source, root: &str) -> BTreeSet<String> {
+    let code: BTreeMap<&str, String> =
+        source.iter().map(|(path, text)| (path.as_str(), code(text))).collect();
+    let mut found = BTreeSet::new();
+    let mut open = vec![root.to_string()];
+    loop {
+        while let Some(path) = open.pop() {
+            if SILENT.contains(&path.as_str()) || !found.insert(path.clone()) {
+                continue;
+            }
+            if let Some(layer) = WHOLE.iter().find(|layer| path.starts_with(**layer)) {
+                open.extend(source.keys().filter(|path| path.starts_with(*layer)).cloned());
+            }
+            let module = module(&path);
+            for named in paths(&code[path.as_str()], &module) {
+                open.extend(resolve(source, &code, &named));
+            }
+            for child in children(&code[path.as_str()]) {
+                if code[path.as_str()].contains(&format!("{child}::")) {
+                    open.extend(resolve(source, &code, &[module.clone(), vec![child]].concat()));
+                }
+            }
+        }
+        let types: BTreeSet<&str> =
+            found.iter().flat_map(|path| defined(&code[path.as_str()])).collect();
+        for (path, text) in &code {
+            let layer = path.starts_with("src/experiments/") || path.starts_with("src/params/");
+            if layer && !found.contains(*path) && methods(text).any(|name| types.contains(name)) {
+                open.push(path.to_string());
+            }
+        }
+        open.retain(|path| !SILENT.contains(&path.as_str()));
+        if open.is_empty() {
+            return found;
+        }
+    }
+}
+
+/// Text without lines of comment and without unit tests.
+fn code(text: &str) -> String {
+    text.lines()
+        .take_while(|line| *line != "#[cfg(test)]")
+        .filter(|line| !line.trim_start().starts_with("//"))
+        .flat_map(|line| [line, "\n"])
+        .collect()
+}
+
+/// `src/a/b.rs` and `src/a/b/mod.rs` are [a, b].
+fn module(path: &str) -> Vec<String> {
+    let path = path.trim_start_matches("src/").trim_end_matches(".rs");
+    let parts: Vec<String> = path.split('/').map(String::from).collect();
+    match parts.last().map(String::as_str) {
+        Some("mod" | "lib") => parts[..parts.len() - 1].to_vec(),
+        _ => parts,
+    }
+}
+
+fn word(text: &str) -> &str {
+    let end = text.find(|c: char| !(c.is_alphanumeric() || c == '_')).unwrap_or(text.len());
+    &text[..end]
+}
+
+/// All paths from the top that code names by `crate::` and `super::`; a last "*" is a whole module.
+fn paths(code: &str, module: &[String]) -> Vec<Vec<String>> {
+    let mut out = Vec::new();
+    for (i, _) in code.match_indices("crate::") {
+        tree(&code[i + 7..], Vec::new(), &mut out);
+    }
+    for (i, _) in code.match_indices("super::") {
+        if code[..i].ends_with("super::") {
+            continue;
+        }
+        let (mut rest, mut base) = (&code[i..], module.to_vec());
+        while let Some(after) = rest.strip_prefix("super::") {
+            (rest, _) = (after, base.pop());
+        }
+        tree(rest, base, &mut out);
+    }
+    out
+}
+
+/// Reads `a::{b, c::d as e}` behind a prefix, and returns what follows it.
+fn tree<'a>(text: &'a str, prefix: Vec<String>, out: &mut Vec<Vec<String>>) -> &'a str {
+    let text = text.trim_start();
+    if let Some(mut rest) = text.strip_prefix('{') {
+        loop {
+            rest = rest.trim_start();
+            if let Some(after) = rest.strip_prefix('}') {
+                return after;
+            }
+            let Some(after) = rest.strip_prefix(',') else {
+                let before = rest.len();
+                rest = tree(rest, prefix.clone(), out);
+                if rest.len() == before {
+                    return rest;
+                }
+                continue;
+            };
+            rest = after;
+        }
+    }
+    if let Some(rest) = text.strip_prefix('*') {
+        out.push([prefix, vec!["*".into()]].concat());
+        return rest;
+    }
+    let name = word(text);
+    let rest = &text[name.len()..];
+    if name.is_empty() {
+        return rest;
+    }
+    let path = if name == "self" {
+        [prefix, vec!["*".into()]].concat()
+    } else {
+        [prefix, vec![name.to_string()]].concat()
+    };
+    if let Some(rest) = rest.strip_prefix("::")
+        && (rest.starts_with('{') || rest.starts_with('*') || !word(rest).is_empty())
+    {
+        return tree(rest, path, out);
+    }
+    out.push(path);
+    // `as name`, where there is one, is a word of no path.
+    match rest.trim_start().strip_prefix("as ") {
+        Some(alias) => &alias[word(alias).len()..],
+        None => rest,
+    }
+}
+
+/// Child modules that a file declares.
+fn children(code: &str) -> Vec<String> {
+    let declared = |line: &str| {
+        let line = line.trim_start_matches("pub ").trim_start_matches("pub(crate) ");
+        let name = line.strip_prefix("mod ")?.strip_suffix(';')?;
+        Some(name.to_string())
+    };
+    code.lines().filter_map(declared).collect()
+}
+
+/// The files that a path leads to.
+fn resolve(source: &Source, code: &BTreeMap<&str, String>, path: &[String]) -> Vec<String> {
+    let mut at = String::from("src");
+    let mut file: Option<String> = None;
+    for (i, name) in path.iter().enumerate() {
+        let [flat, folder] = [format!("{at}/{name}.rs"), format!("{at}/{name}/mod.rs")];
+        let next = [flat, folder].into_iter().find(|path| source.contains_key(path));
+        let Some(next) = next else {
+            return match file {
+                Some(file) if name == "*" => whole(source, &file, &at),
+                Some(file) => vec![home(source, code, &file, &at, &path[i..])],
+                None => Vec::new(),
+            };
+        };
+        at = format!("{at}/{name}");
+        file = Some(next);
+    }
+    file.map(|file| whole(source, &file, &at)).unwrap_or_default()
+}
+
+/// A module and all below it.
+fn whole(source: &Source, file: &str, at: &str) -> Vec<String> {
+    let below = format!("{at}/");
+    let inside = source.keys().filter(|path| path.starts_with(&below)).cloned();
+    std::iter::once(file.to_string()).chain(inside).collect()
+}
+
+/// Where a module has an item from: a child that it takes it from, or itself.
+fn home(
+    source: &Source,
+    code: &BTreeMap<&str, String>,
+    file: &str,
+    at: &str,
+    item: &[String],
+) -> String {
+    let text = code[file].as_str();
+    for child in children(text) {
+        let Some(child_file) = [format!("{at}/{child}.rs"), format!("{at}/{child}/mod.rs")]
+            .into_iter()
+            .find(|path| source.contains_key(path))
+        else {
+            continue;
+        };
+        let taken = format!("pub use {child}::");
+        for (i, _) in text.match_indices(&taken) {
+            let mut named = Vec::new();
+            tree(&text[i + taken.len()..], Vec::new(), &mut named);
+            let name = |path: &Vec<String>| path.last() == item.first();
+            let all = named.iter().any(|path| path.last().is_some_and(|last| last == "*"));
+            if named.iter().any(name) || all && defines(&code[child_file.as_str()], &item[0]) {
+                return child_file;
+            }
+        }
+    }
+    file.to_string()
+}
+
+const KINDS: [&str; 8] =
+    ["struct ", "enum ", "const ", "fn ", "type ", "static ", "trait ", "macro_rules! "];
+
+fn defines(code: &str, name: &str) -> bool {
+    KINDS
+        .iter()
+        .any(|kind| code.match_indices(kind).any(|(i, _)| word(&code[i + kind.len()..]) == name))
+}
+
+/// Types that code defines.
+fn defined(code: &str) -> impl Iterator<Item = &str> {
+    ["struct ", "enum "].into_iter().flat_map(move |kind| {
+        code.match_indices(kind).map(move |(i, _)| word(&code[i + kind.len()..]))
+    })
+}
+
+/// Names in the first lines of `impl` blocks: types that get methods or traits there, and more.
+fn methods(code: &str) -> impl Iterator<Item = &str> {
+    code.lines()
+        .filter(|line| line.starts_with("impl"))
+        .flat_map(|line| line.split(|c: char| !(c.is_alphanumeric() || c == '_')))
+}

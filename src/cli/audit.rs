@@ -1,0 +1,73 @@
+//! `impact-paper audit`.
+
+use super::{Failure, stdout, work};
+use impact_paper::experiments::Store;
+use impact_paper::experiments::catalogue::ALL;
+use impact_paper::numerics::random::generator;
+use impact_paper::params::Profile;
+use rand::seq::SliceRandom;
+use std::path::PathBuf;
+
+/// Runs a sample of the saved results again, and compares them byte by byte.
+///
+/// Nothing is saved. Ends with exit code 1 if a result differs, and with 3 if there is nothing fresh
+/// to compare with.
+#[derive(clap::Args)]
+pub struct Args {
+    /// Sample sizes.
+    #[arg(long, default_value = "full")]
+    profile: work::ProfileName,
+    /// Share of the experiments to run again; at least one is.
+    #[arg(long, value_name = "SHARE", default_value = "10%", value_parser = share)]
+    sample: f64,
+    /// Seed of the choice.
+    #[arg(long, value_name = "K", default_value_t = 0)]
+    seed: u64,
+    /// Folder in which results of long runs are kept.
+    #[arg(long, value_name = "DIR", default_value = "target/results")]
+    results: PathBuf,
+    /// Number of threads; all cores without it. It changes no bit of the result.
+    #[arg(long, value_name = "K", allow_hyphen_values = true)]
+    threads: Option<usize>,
+}
+
+/// "10%" or "0.1".
+fn share(text: &str) -> Result<f64, String> {
+    let (number, unit) = match text.trim().strip_suffix('%') {
+        Some(number) => (number, 100.0),
+        None => (text, 1.0),
+    };
+    match number.trim().parse::<f64>() {
+        Ok(number) if number > 0.0 && number <= unit => Ok(number / unit),
+        _ => Err("a share is a number above 0 and at most 1, or a percentage like 10%".into()),
+    }
+}
+
+/// Runs the verb.
+pub fn run(args: Args) -> Result<(), Failure> {
+    let profile = Profile::from(args.profile);
+    let store = Store::open(&args.results)?;
+    let mut chosen = ALL.to_vec();
+    chosen.shuffle(&mut generator("audit", args.seed, 0));
+    chosen.truncate((args.sample * ALL.len() as f64).ceil() as usize);
+    let progress = work::progress();
+    let differ = work::on_threads(args.threads, || {
+        let mut differ = Vec::new();
+        for experiment in chosen {
+            let name = experiment.need().name();
+            let same = experiment.audit(profile, &store, &progress)?;
+            stdout::print(&format!("{name}: {}\n", if same { "identical" } else { "differs" }))?;
+            if !same {
+                differ.push(name);
+            }
+        }
+        Ok(differ)
+    })?;
+    if differ.is_empty() {
+        return Ok(());
+    }
+    let remedy = "delete them from the results folder, and find out what changed them";
+    let message =
+        format!("saved results that a run does not give: {}; {remedy}", differ.join(", "));
+    Err(Failure { code: 1, message })
+}

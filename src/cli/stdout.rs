@@ -1,0 +1,27 @@
+//! Writing to standard output, which may be closed or full.
+
+use super::Failure;
+use std::io::{self, ErrorKind, Write};
+
+/// What became of writing to standard output: who closed the pipe has read enough.
+///
+/// # Errors
+/// Exit code 2 if it cannot be written.
+pub fn written(result: io::Result<()>) -> Result<(), Failure> {
+    match result {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            let remedy = "direct it to a file that can be written";
+            Err(Failure::input(format!("standard output: {error}; {remedy}")))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Prints text.
+///
+/// # Errors
+/// As [`written`].
+pub fn print(text: &str) -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    written(out.write_all(text.as_bytes()).and_then(|()| out.flush()))
+}
