@@ -1,6 +1,7 @@
 //! What the paper printed: `templates/published.toml`.
 
 use serde::Deserialize;
+use sha2::{Digest, Sha256};
 use std::collections::BTreeSet;
 
 /// Everything that the paper printed and this edition judges or uses.
@@ -13,6 +14,9 @@ pub struct Published {
     /// Statements that it makes.
     #[serde(rename = "statement")]
     pub statements: Vec<Statement>,
+    /// SHA-256 of the file, in hexadecimal: a printed digit or a value that is edited shows.
+    #[serde(skip)]
+    pub digest: String,
 }
 
 /// A number that the paper chose.
@@ -79,7 +83,9 @@ impl Published {
     /// # Errors
     /// [`PublishedError`] for a syntax error or an id that stands twice.
     pub fn parse(text: &str) -> Result<Published, PublishedError> {
-        let published: Published = toml::from_str(text)?;
+        let mut published: Published = toml::from_str(text)?;
+        let digest = Sha256::digest(text.as_bytes());
+        published.digest = digest.iter().map(|byte| format!("{byte:02x}")).collect();
         let parameters = published.parameters.iter().map(|p| &p.id);
         let statements = published.statements.iter().map(|s| &s.id);
         let mut seen = BTreeSet::new();
@@ -100,6 +106,12 @@ impl Published {
             .iter()
             .find(|s| s.id == id)
             .ok_or_else(|| PublishedError::Missing { what: "statement", id: id.into() })
+    }
+
+    /// The line of the file, from 1, where the entry with this id names itself.
+    pub fn line(&self, text: &str, id: &str) -> usize {
+        let own = format!("id = \"{id}\"");
+        text.lines().position(|line| line.trim() == own).map_or(1, |index| index + 1)
     }
 
     /// The number that the paper chose under this id.

@@ -12,5 +12,6 @@ pub fn values(published: &Published) -> Vec<Value> {
         let text = format!("{:.*}", usize::from(s.decimals), s.value?);
         Some(Value::printed(format!("printed.{}", s.id), &text, &s.place).data_only())
     });
-    chosen.chain(stated).collect()
+    let digest = Value::text("published_digest", &published.digest[..16]);
+    chosen.chain(stated).chain([digest]).collect()
 }

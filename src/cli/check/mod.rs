@@ -1,5 +1,8 @@
 //! `impact-paper check`.
 
+mod forms;
+
+use self::forms::Entry;
 use super::sources::Sources;
 use super::{Failure, stdout, work};
 use impact_paper::claims::targets::{self, Standing, Target};
@@ -23,8 +26,23 @@ pub struct Args {
     /// Only this claim (may be repeated); runs no more than it needs.
     #[arg(long, value_name = "ID")]
     claim: Vec<String>,
+    /// Form of what is printed: `github` annotates the ten worst claims, and adds the whole table
+    /// to the summary of the step.
+    #[arg(long, default_value = "text")]
+    format: Format,
     #[command(flatten)]
     sources: Sources,
+}
+
+/// Forms for people and machines.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Format {
+    Text,
+    Json,
+    Junit,
+    Sarif,
+    Github,
+    Markdown,
 }
 
 /// Runs the verb.
@@ -57,7 +75,22 @@ pub fn run(args: Args) -> Result<(), Failure> {
         let targets = if whole { targets::targets(&results).map_err(fault)? } else { Vec::new() };
         Ok((judged, targets))
     })?;
-    stdout::written(print(&judged, &targets))?;
+    let line = |id: &str| Ok(published.line(templates.text("published.toml")?, id));
+    let entry = |claim| Ok(Entry { claim, line: line(&claim.id)? });
+    let entries: Result<Vec<Entry>, impact_paper::report::Error> =
+        judged.iter().map(entry).collect();
+    let entries = entries.map_err(|error| Failure::input(error.to_string()))?;
+    match args.format {
+        Format::Text => stdout::written(print(&judged, &targets))?,
+        Format::Json => stdout::print(&forms::json(&entries, &targets))?,
+        Format::Junit => stdout::print(&forms::junit(&entries))?,
+        Format::Sarif => stdout::print(&forms::sarif(&entries))?,
+        Format::Markdown => stdout::print(&forms::markdown(&entries, &targets))?,
+        Format::Github => {
+            stdout::print(&forms::github(&entries))?;
+            summarise(&forms::markdown(&entries, &targets))?;
+        }
+    }
     let failing: Vec<&str> =
         judged.iter().filter(|claim| claim.fails()).map(|claim| claim.id.as_str()).collect();
     if failing.is_empty() {
@@ -77,6 +110,19 @@ pub fn run(args: Args) -> Result<(), Failure> {
         failing.join(", ")
     );
     Err(Failure { code: 1, message })
+}
+
+/// Adds to the summary of a step of GitHub's, if there is one.
+fn summarise(text: &str) -> Result<(), Failure> {
+    const NAME: &str = "GITHUB_STEP_SUMMARY";
+    let Some(path) = std::env::var_os(NAME).filter(|path| !path.is_empty()) else { return Ok(()) };
+    let file = std::fs::OpenOptions::new().append(true).create(true).open(&path);
+    file.and_then(|mut file| file.write_all(text.as_bytes())).map_err(|error| {
+        Failure::input(format!(
+            "{NAME} ({}): {error}; name a file that can be written",
+            path.display()
+        ))
+    })
 }
 
 /// A block of lines for each claim, and the scorecard.
