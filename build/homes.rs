@@ -6,21 +6,32 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
 
-/// Writes `homes.rs` for `report::equations`.
+/// The report, from the first page of `cargo doc`.
+const REPORT: &str = "../../../paper/report.html";
+
+/// Writes `homes.rs` for `report::equations`, and `map.md` for the first page of `cargo doc`.
 pub fn run() -> io::Result<()> {
     println!("cargo::rerun-if-changed=src");
     let mut files = Vec::new();
     collect(Path::new("src"), &mut files)?;
     files.sort();
     let mut out = String::from("&[\n");
+    let mut rows = Vec::new();
     for file in files {
         for (number, item, note) in homes(&module(&file), &fs::read_to_string(&file)?) {
             let path = file.to_string_lossy();
             let _ = writeln!(out, "    ({number}, {item:?}, {note:?}, {path:?}),");
+            let link = format!("[({number})]({REPORT}#eq-{number})");
+            // The page of the source: an item may be private, and has no page of its own then.
+            let source = format!("../src/impact_paper/{}.html", path.trim_start_matches("src/"));
+            rows.push((number, format!("| {link} | [`{item}`]({source}) |\n")));
         }
     }
     out.push_str("]\n");
+    rows.sort();
+    let map: String = rows.into_iter().map(|(_, row)| row).collect();
     let folder = env::var_os("OUT_DIR").map(PathBuf::from).unwrap_or_default();
+    fs::write(folder.join("map.md"), format!("| equation | home |\n|---|---|\n{map}"))?;
     fs::write(folder.join("homes.rs"), out)
 }
 

@@ -2,16 +2,30 @@
 //! Large Dimensional Systems*: every experiment, calculation, figure and published number of
 //! that paper, computed and checked by one binary.
 //!
-//! The tour follows the paper.
+//! The tour follows the paper, and leads to the report that `make paper` has written beside it.
 //!
-//! - Sections 1 and 2, the chain of forced masses and its impacts: [`dynamics`].
-//! - Sections 3 to 9, circuits of the impact graph, their probability, the jump: [`circuits`].
+//! - [Section 1](../../../paper/report.html#sec-introduction) and
+//!   [Section 2](../../../paper/report.html#sec-simulation), the chain of forced masses and its
+//!   impacts: [`dynamics`].
+//! - [Section 3](../../../paper/report.html#sec-graph) to
+//!   [Section 7](../../../paper/report.html#sec-jump), circuits of the impact graph, their
+//!   probability, the jump: [`circuits`].
+//! - [Section 8](../../../paper/report.html#sec-relation), how p follows from σ:
+//!   [`circuits::impact_probability`].
+//! - [Section 9](../../../paper/report.html#sec-higher), circuits that are not simple:
+//!   [`circuits::higher_order`].
 //! - What is run, with which parameters: [`experiments`] and [`params`].
 //! - What is shown: [`figures`], [`claims`] and [`report`].
-//! - Mathematics that knows no physics: [`numerics`].
+//! - Mathematics that knows no physics: [`numerics`]; what that means for
+//!   [the method](../../../paper/report.html#sec-method) and its
+//!   [speed and accuracy](../../../paper/report.html#sec-accuracy).
 //!
 //! Imports flow one way: `numerics` → `dynamics`, `circuits` → `experiments` → `figures`,
 //! `claims` → `report`; `params` may be read by all.
+//!
+//! # Where each equation lives
+#![doc = ""]
+#![doc = include_str!(concat!(env!("OUT_DIR"), "/map.md"))]
 
 pub mod circuits;
 pub mod claims;

@@ -163,6 +163,23 @@ fn files_end() {
     assert!(found.is_empty(), "split these: {found:?}");
 }
 
+/// The first page of `cargo doc` leads to sections of the report that exist.
+#[test]
+fn links_of_the_documentation_land() {
+    let page = fs::read_to_string(root().join("src/lib.rs")).unwrap();
+    let prose = fs::read_to_string(root().join("templates/report.md")).unwrap();
+    let links: Vec<&str> = page
+        .split("../../../paper/report.html#")
+        .skip(1)
+        .map(|rest| rest.split(')').next().unwrap())
+        .collect();
+    assert!(links.len() >= 8, "{links:?}");
+    for link in links {
+        let id = link.replacen('-', ":", 1);
+        assert!(prose.contains(&format!("{{#{id}}}")), "{link}");
+    }
+}
+
 #[test]
 fn no_path_of_a_machine() {
     // In two parts, so that this file does not find itself.
