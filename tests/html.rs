@@ -192,6 +192,26 @@ fn nothing_is_loaded_and_no_colour_is_fixed() {
     assert!(MADE.html.len() < 4_000_000, "{} bytes", MADE.html.len());
 }
 
+/// On a narrow screen the rows of a wide table are lists: each cell brings the name of its column.
+#[test]
+fn cells_of_wide_tables_know_their_column() {
+    let page = page();
+    let mut tables = elements(&page, "table");
+    tables.retain(|table| table.attribute("class") == Some("lists"));
+    assert!(!tables.is_empty());
+    for table in tables {
+        let inside = |name: &'static str| {
+            table.descendants().filter(move |node| node.tag_name().name() == name)
+        };
+        let heads: Vec<String> = inside("th").map(words).collect();
+        assert!(heads.len() >= 6, "{heads:?}");
+        for row in inside("tr").skip(1) {
+            let named = row.children().map(|cell| cell.attribute("data-name").unwrap_or_default());
+            assert!(named.eq(heads.iter().map(String::as_str)), "{}", words(row));
+        }
+    }
+}
+
 /// The only scripts move the masses. Without them the picture, its caption and its description are
 /// there, and controls that would do nothing are not.
 #[test]

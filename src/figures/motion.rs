@@ -49,11 +49,11 @@ pub fn draw(circuit: &Circuit, segment: &Segment) -> Result<Figure, Error> {
         time_axis(duration),
         Axis::linear(0.0, walls, 1.0, 1, "position *x*_{*j*} / *d*"),
     )?;
-    sheet.text(LETTERS[1], (260, 4760), look)?;
+    sheet.text(LETTERS[1], (260, 4690), look)?;
     motion(&panel, segment, circuit.order.len())?;
     let foot = "a segment of a simulated motion, not a periodic orbit";
     let look = (TINY, GREY, HPos::Right, VPos::Bottom);
-    sheet.text(foot, (WIDTH as i32 - 400, 4760), look)?;
+    sheet.text(foot, (WIDTH as i32 - 400, 4690), look)?;
 
     let names: Vec<&str> = circuit.order.iter().map(|&gap| NAMES[gap]).collect();
     let description = format!(
@@ -122,18 +122,31 @@ fn motion(panel: &Panel, segment: &Segment, steps: usize) -> Result<(), Error> {
     number_impacts(panel, &hits, &paths, steps)
 }
 
-/// Names the paths at their ends, from bottom to top and never on one another.
+/// Names the paths at their ends, from bottom to top; names that would touch move apart.
 fn name_masses(panel: &Panel, paths: &[Vec<(f64, f64)>]) -> Result<(), Error> {
-    let mut above = i32::MAX;
-    for (j, path) in paths.iter().enumerate() {
-        let Some(&end) = path.last() else { continue };
-        let y = panel.at(end.0, end.1).1;
-        let place = y.min(above.saturating_sub(260));
-        above = place;
+    let ends: Vec<(f64, f64)> = paths.iter().filter_map(|path| path.last().copied()).collect();
+    let heights: Vec<i32> = ends.iter().map(|end| panel.at(end.0, end.1).1).collect();
+    for (j, (place, y)) in apart(&heights, 340).into_iter().zip(&heights).enumerate() {
         let look = (SMALL, INK, HPos::Left, VPos::Center);
-        panel.note(&format!("*x*_{{{}}}", j + 1), end, (90, place - y), look)?;
+        panel.note(&format!("*x*_{{{}}}", j + 1), ends[j], (90, place - y), look)?;
     }
     Ok(())
+}
+
+/// Heights on the sheet, each at least `least` above the one before, moved as little from their
+/// own as taking turns gives.
+fn apart(heights: &[i32], least: i32) -> Vec<i32> {
+    let mut places = heights.to_vec();
+    for _ in 0..8 {
+        for i in 1..places.len() {
+            let short = least - (places[i - 1] - places[i]);
+            if short > 0 {
+                places[i - 1] += short / 2;
+                places[i] -= short - short / 2;
+            }
+        }
+    }
+    places
 }
 
 /// Where a number may stand beside its impact, the best places first: offset of its middle.
@@ -217,4 +230,17 @@ fn tables(circuit: &Circuit, segment: &Segment) -> Vec<DataFile> {
         hits.row(cells![hit.time, name, hit.position / segment.spacing, hit.closing_speed]);
     }
     vec![steps, path, hits]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_that_would_touch_move_apart() {
+        assert_eq!(apart(&[900, 500, 100], 340), [900, 500, 100]);
+        assert_eq!(apart(&[1200, 500, 400], 340), [1200, 620, 280]);
+        let crowd = apart(&[500, 500, 500], 340);
+        assert!(crowd.windows(2).all(|w| w[0] - w[1] >= 335), "{crowd:?}");
+    }
 }

@@ -81,6 +81,17 @@ async function stays_narrow(page, name) {
       .concat(`the page is ${document.documentElement.scrollWidth} wide`);
   });
   check(wide.length === 0, `${name} scrolls sideways: ${wide.join(" | ")}`);
+  const towers = await page.evaluate(() => {
+    const words = document.createRange();
+    const height = (cell) => {
+      words.selectNodeContents(cell);
+      return words.getBoundingClientRect().height;
+    };
+    return [...document.querySelectorAll("main td")]
+      .filter((cell) => cell.clientWidth < 120 && height(cell) > 180)
+      .map((cell) => `${cell.clientWidth} x ${height(cell)} ${cell.textContent.slice(0, 30)}`);
+  });
+  check(towers.length === 0, `${name}: ${towers.length} cells of tables are towers: ${towers.slice(0, 3).join(" | ")}`);
 }
 
 /** A number is reached and opened by keyboard alone, and closes again. */

@@ -63,7 +63,7 @@ pub fn registry(results: &Results, published: &Published) -> Result<Registry, Er
 }
 
 /// The rows of the generated tables, by the name that templates use: `row` (a reference to each
-/// claim with its verdict), `scorecard`, `comparison_table`, `protocol_windows`, `protocol_table`,
+/// claim with its verdict), `scorecard`, `comparison_table`, `protocol_windows`, `protocol_table`, `protocol_printed`,
 /// `starts_table`, `bias_heads`, `bias_table`, `bias_means`, `scene_heads`, `scene_table` and
 /// `target_table`.
 ///
@@ -78,6 +78,7 @@ pub fn rows(
         ("row", serde_json::to_value(ledger::references(claims))?),
         ("comparison_table", serde_json::to_value(comparison::table(results)?)?),
         ("protocol_windows", serde_json::to_value(protocol::windows(results)?)?),
+        ("protocol_printed", serde_json::to_value(protocol::printed(results)?)?),
         ("protocol_table", serde_json::to_value(protocol::table(results)?)?),
         ("starts_table", serde_json::to_value(starts::table(results)?)?),
         ("bias_heads", serde_json::to_value(accuracy::bias_heads(results)?)?),

@@ -55,7 +55,6 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
             map.cells.iter().filter(|c| c.prints_as_published).count(),
         ),
         Value::integer("protocols_total", map.cells.len()),
-        Value::text("protocols_printed_list", printed(map)),
     ]);
     Ok(from(values, "experiments::protocol::run", "protocol"))
 }
@@ -65,18 +64,16 @@ fn extreme(map: &ProtocolMap, better: fn(f64, f64) -> bool) -> Option<f64> {
     halves.reduce(|best, x| if better(x, best) { x } else { best })
 }
 
-/// The protocols that print as the paper does: `T = 500 with W = 100, 200; …`.
-fn printed(map: &ProtocolMap) -> String {
-    let groups = map.parameters.transients.iter().filter_map(|&t| {
-        let windows: Vec<String> = map
-            .cells
-            .iter()
-            .filter(|c| c.transient == t && c.prints_as_published)
-            .map(|c| format!("{}", c.window))
-            .collect();
-        (!windows.is_empty()).then(|| format!("T = {t} with W = {}", windows.join(", ")))
-    });
-    groups.collect::<Vec<_>>().join("; ")
+/// The protocols that print as the paper does: each transient with its windows.
+pub fn printed(results: &Results) -> Result<Vec<Line>, Error> {
+    let map = results.protocol()?;
+    let line = |&t: &f64| {
+        let own = map.cells.iter().filter(|c| c.transient == t && c.prints_as_published);
+        let cells = own.map(|c| mark(format!("protocol.w{}", c.window as u64))).collect();
+        Line { transient: mark(format!("protocol.t{}", t as u64)), cells }
+    };
+    let lines = map.parameters.transients.iter().map(line);
+    Ok(lines.filter(|line| !line.cells.is_empty()).collect())
 }
 
 /// The heads of the columns.

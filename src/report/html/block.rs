@@ -2,8 +2,11 @@
 
 use super::{Page, escape};
 use crate::report::Error;
-use crate::report::document::{Align, Block, Inline};
+use crate::report::document::{Align, Block, Inline, plain};
 use std::fmt::Write as _;
+
+/// So many columns do not stand side by side on a narrow screen.
+const MANY: usize = 6;
 
 impl Page<'_> {
     /// All blocks.
@@ -140,19 +143,40 @@ impl Page<'_> {
             Some(Align::Centre) => " class=\"centre\"",
             _ => "",
         };
-        let mut out = String::from("<table>\n<thead><tr>");
+        // On a narrow screen rows of many columns become lists, with the heads as names, or at
+        // least scroll sideways as lines and not as towers.
+        let names: Vec<String> = head.iter().map(|cell| plain(cell)).collect();
+        let is_words = |cell: &Vec<Inline>| matches!(cell.as_slice(), [Inline::Text(_)]);
+        let many = columns.len() >= MANY;
+        let lists = many && head.iter().all(is_words);
+        // A browser forgets that these are tables once style sheets lay them out as lists.
+        let [table, line, field] = match (lists, many) {
+            (true, _) => [" class=\"lists\" role=\"table\"", " role=\"row\"", " role=\"cell\""],
+            (false, true) => [" class=\"many\"", "", ""],
+            (false, false) => [""; 3],
+        };
+        let mut out = format!("<table{table}>\n<thead><tr{line}>");
         for (i, cell) in head.iter().enumerate() {
             let text = self.inlines(cell)?;
             // A head without words is no head.
-            let tag = if text.trim().is_empty() { "td" } else { "th scope=\"col\"" };
+            let tag = match (text.trim().is_empty(), lists) {
+                (true, _) => "td",
+                (false, true) => "th scope=\"col\" role=\"columnheader\"",
+                (false, false) => "th scope=\"col\"",
+            };
             let end = &tag[..2];
             let _ = write!(out, "<{tag}{}>{text}</{end}>", class(i));
         }
         out.push_str("</tr></thead>\n<tbody>\n");
         for row in rows {
-            out.push_str("<tr>");
+            let _ = write!(out, "<tr{line}>");
             for (i, cell) in row.iter().enumerate() {
-                let _ = write!(out, "<td{}>{}</td>", class(i), self.inlines(cell)?);
+                let name = match names.get(i).filter(|_| lists) {
+                    Some(name) => format!(" data-name=\"{}\"", escape::text(name)),
+                    None => String::new(),
+                };
+                let text = self.inlines(cell)?;
+                let _ = write!(out, "<td{field}{}{name}>{text}</td>", class(i));
             }
             out.push_str("</tr>\n");
         }

@@ -1,6 +1,6 @@
 //! Running text → HTML.
 
-use super::{Page, escape, maths};
+use super::{Page, escape, keep, maths};
 use crate::report::Error;
 use crate::report::document::Inline;
 
@@ -10,7 +10,15 @@ impl Page<'_> {
     /// # Errors
     /// Mathematics that cannot be converted, or a reference that was not resolved.
     pub(super) fn inlines(&self, list: &[Inline]) -> Result<String, Error> {
-        list.iter().map(|piece| self.inline(piece)).collect()
+        let mut out = String::new();
+        for group in keep::together(list) {
+            let text: String = group.iter().map(|p| self.inline(p)).collect::<Result<_, _>>()?;
+            match group.len() {
+                1 => out.push_str(&text),
+                _ => out.push_str(&format!("<span class=\"keep\">{text}</span>")),
+            }
+        }
+        Ok(out)
     }
 
     fn inline(&self, inline: &Inline) -> Result<String, Error> {

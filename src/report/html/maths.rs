@@ -42,7 +42,10 @@ pub fn write(page: &Page<'_>, tex: &str, block: bool) -> Result<String, Error> {
                 if !part.trim().is_empty() {
                     // The empty group keeps the space of a relation at the cut.
                     out.push_str(&convert(&format!("{part}{{}}"), display)?);
-                    out.push('\u{2009}');
+                    // A relation keeps its distance, a bracket has none.
+                    if !part.trim_end().ends_with(['(', '[']) {
+                        out.push('\u{2009}');
+                    }
                 }
                 out.push_str(&page.button(id, &digits(tex)?));
                 part = String::from("{}");

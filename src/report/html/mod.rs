@@ -10,6 +10,7 @@ mod escape;
 mod figure;
 mod fonts;
 mod inline;
+mod keep;
 mod maths;
 mod picture;
 mod scene;

@@ -24,7 +24,7 @@ const BLOCK: f64 = 50.0;
 /// Space beside the row.
 const MARGIN: f64 = 60.0;
 /// Length of the longest bar.
-const BAR: f64 = 200.0;
+const BAR: f64 = 240.0;
 /// Masses from one that is named to the next.
 const NAMED: usize = 5;
 
@@ -79,7 +79,7 @@ fn picture(scene: &Scene, bar: f64) -> String {
     let (bodies, gaps) = (scene.bodies.len(), scene.bodies.len().saturating_sub(1));
     let width = rest(gaps) + BLOCK + MARGIN;
     let mut out = format!(
-        "<svg role=\"img\" aria-labelledby=\"scene-title scene-desc\" viewBox=\"0 0 {width} 560\">\
+        "<svg role=\"img\" aria-labelledby=\"scene-title scene-desc\" viewBox=\"0 0 {width} 740\">\
          <title id=\"scene-title\">Moving masses</title><desc id=\"scene-desc\">{}</desc>\n<g>",
         escape::text(&scene.description())
     );
@@ -89,7 +89,7 @@ fn picture(scene: &Scene, bar: f64) -> String {
         if number % NAMED == 0 && (one..=last).contains(&number) {
             let _ = write!(out, "<text class=\"fill-ink\" x=\"{x}\" y=\"70\">{number}</text>");
         }
-        let _ = write!(out, "<path class=\"stroke-grey\" d=\"M{x} 256v24\"/>");
+        let _ = write!(out, "<path class=\"stroke-grey\" d=\"M{x} 360v28\"/>");
     }
     out.push_str("</g>\n<g class=\"masses\">");
     let origin = scene.bodies.first().map_or(0.0, |body| body.rest);
@@ -99,7 +99,7 @@ fn picture(scene: &Scene, bar: f64) -> String {
         let colour = if own { "ink" } else { "grey" };
         let _ = write!(
             out,
-            "<rect class=\"fill-{colour}\" x=\"{x:.1}\" y=\"110\" width=\"{BLOCK}\" height=\"130\"/>"
+            "<rect class=\"fill-{colour}\" x=\"{x:.1}\" y=\"110\" width=\"{BLOCK}\" height=\"230\"/>"
         );
     }
     out.push_str("</g>\n<g class=\"lights\">");
@@ -107,7 +107,7 @@ fn picture(scene: &Scene, bar: f64) -> String {
         let x = rest(gap + 1);
         let _ = write!(
             out,
-            "<line class=\"stroke-red\" x1=\"{x}\" x2=\"{x}\" y1=\"88\" y2=\"262\" opacity=\"0\"/>"
+            "<line class=\"stroke-red\" x1=\"{x}\" x2=\"{x}\" y1=\"88\" y2=\"362\" opacity=\"0\"/>"
         );
     }
     out.push_str("</g>\n<g class=\"counts\">");
@@ -115,12 +115,12 @@ fn picture(scene: &Scene, bar: f64) -> String {
         let x = rest(gap + 1) - UNIT / 2.0;
         let _ = write!(
             out,
-            "<rect class=\"fill-pale\" x=\"{left}\" y=\"300\" width=\"60\" height=\"{height}\"/>\
-             <rect class=\"now fill-red\" x=\"{left}\" y=\"300\" width=\"60\" height=\"0\"/>\
+            "<rect class=\"fill-pale\" x=\"{left}\" y=\"410\" width=\"60\" height=\"{height}\"/>\
+             <rect class=\"now fill-red\" x=\"{left}\" y=\"410\" width=\"60\" height=\"0\"/>\
              <text class=\"fill-ink\" x=\"{x}\" y=\"{below}\">{count}</text>",
             left = x - 30.0,
             height = bar * count as f64,
-            below = 300.0 + bar * count as f64 + 58.0,
+            below = 410.0 + bar * count as f64 + 70.0,
         );
     }
     out + "</g></svg>"
