@@ -76,16 +76,21 @@ pub fn draw(sweep: &Sweep, note: Option<&str>) -> Result<Figure, Error> {
         "(a) Red crosses with bars: the mean number of different gaps that impact, of the \
          realisations with at least one impact, against the standard deviation σ of the forcing, \
          from simulations of {} masses, with 95 % bootstrap intervals; a broken grey line: the \
-         mean of all realisations. The mean of the kept is {}{}. (b) The kept share rises from {} \
-         at σ = {} to {} at σ = {}.",
+         mean of all realisations. The mean of the kept is {}{}; the mean of all is {}. (b) The kept share rises from {} \
+         at σ = {}{} to {} at σ = {}.",
         sweep.parameters.chain.masses,
         spoken(&kept),
         sweep.rise.half_height.map_or(String::new(), |half| format!(
             "; it reaches half of {n} at σ = {}",
             short(half.value, 4)
         )),
+        spoken(&all),
         fraction.first().map_or("0".into(), |f| short(f.1, 2)),
         fraction.first().map_or("0".into(), |f| short(f.0, 3)),
+        sweep.rise.kept_half.map_or(String::new(), |half| format!(
+            " through a half at σ = {}",
+            short(half.value, 4)
+        )),
         fraction.last().map_or("1".into(), |f| short(f.1, 3)),
         fraction.last().map_or("0".into(), |f| short(f.0, 3)),
     );

@@ -76,10 +76,19 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     for (i, half) in entries.chunks(3).enumerate() {
         sheet.legend(([400, 4500][i], 6950), (SMALL, 400), half)?;
     }
+    // What the detail is there for: the class that is highest in it.
+    let higher = CLASSES.iter().zip(&small.classes).skip(1);
+    let peaks = higher.filter_map(|((name, ..), class)| {
+        let at = |(k, p): (usize, &f64)| (*name, k + 1, *p);
+        class.probability.iter().enumerate().map(at).max_by(|a, b| a.2.total_cmp(&b.2))
+    });
+    let peak = peaks.max_by(|a, b| a.2.total_cmp(&b.2)).map_or(String::new(), |(name, k, p)| {
+        format!(", of which those with {name} reach {} at k = {k}", short(p, 2))
+    });
     let description = format!(
         "Four charts of the probability of k different impacts, N = {n}, for a sample space of \
          five classes of circuits: a red line for the sum, broken lines for the classes where they stand out from zero. {}. (b) \
-         is a detail of (a) for k up to {DETAIL}, high enough for the higher orders only.",
+         is a detail of (a) for k up to {DETAIL}, high enough for the higher orders only{peak}.",
         seen.join("; ")
     );
     Ok(sheet.finish(13, "Distributions with higher-order circuits", description, data))

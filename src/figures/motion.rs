@@ -59,6 +59,7 @@ pub fn draw(circuit: &Circuit, segment: &Segment) -> Result<Figure, Error> {
     let description = format!(
         "(a) The graph of three masses with a {} circuit drawn in red, its {} steps numbered: {}. \
          (b) The positions of the three masses between the walls at 0 and {walls} against time, \
+         mass 1 a blue line, mass 2 a broken green, mass 3 a dotted and broken orange one, \
          over {} time units of a simulated motion, a segment and not a periodic orbit; the \
          impacts, marked by circles numbered as the steps that follow them, are {}.",
         circuit.kind,

@@ -150,6 +150,14 @@ pub fn most_accurate(programs: &[Timed]) -> Vec<&Timed> {
     programs.iter().filter(|b| !programs.iter().any(|a| better(a, b))).collect()
 }
 
+/// A program in words.
+pub fn called(program: &Timed) -> &str {
+    match program.method {
+        Some(method) => name(method),
+        None => &program.name,
+    }
+}
+
 /// Names of the other programs, sorted, each with its look.
 pub fn others(programs: &[Timed]) -> Vec<(&str, Look)> {
     const MARKS: [Mark; 6] = [

@@ -7,7 +7,7 @@ use super::chart::{LETTERS, short};
 use super::data::cells;
 use super::panel::Frame;
 use super::rivals::{
-    HALF, Timed, by_method, decades_around, entries, entries_of_others, look, look_of,
+    HALF, Timed, by_method, called, decades_around, entries, entries_of_others, look, look_of,
     most_accurate, name, others, timed,
 };
 use super::s01::setting;
@@ -118,11 +118,21 @@ fn description(scale: &Scale, measured: &Measured) -> String {
             Some(format!("{} at n = {}", short(row.microseconds_per_impact?, 2), row.n))
         })
         .collect();
+    let rivals: Vec<Timed> = timed(measured)
+        .into_iter()
+        .filter(|row| row.method != Some(MethodName::Certified) && row.horizon.is_some())
+        .collect();
+    let rivals: Vec<String> = most_accurate(&rivals)
+        .into_iter()
+        .map(|row| format!("{} {} at n = {}", called(row), short(row.microseconds, 2), row.masses))
+        .collect();
     format!(
         "Two charts against the number of masses n, all axes logarithmic. (a) Evaluations per \
-         impact: {}. (b) Measured microseconds per impact of this engine: {}.",
+         impact: {}. (b) Measured microseconds per impact of this engine: {}; of others at their most \
+         accurate: {}.",
         told.join("; "),
-        times.join(", ")
+        times.join(", "),
+        rivals.join(", ")
     )
 }
 

@@ -100,7 +100,7 @@ fn description(run: &SpaceTime) -> String {
          masses at σ = {}. (a) The whole run to t = {}. Impacts form dark horizontal bands that \
          begin at {} red discs, in gaps {}, the first at t = {}, and widen in bursts: {} gaps are \
          reached by t = {}, {} of {n} by the end; {fronts}. (b) The part from t = {} to {}: each \
-         impact a tick, {} of them.",
+         impact a tick, {} of them, in {} gaps.",
         n - 1,
         run.times.len(),
         parameters.chain.masses,
@@ -115,6 +115,7 @@ fn description(run: &SpaceTime) -> String {
         from,
         to,
         points(run, from, to).len(),
+        run.reached_by(to),
     )
 }
 
