@@ -5,6 +5,8 @@ mod bench;
 mod check;
 mod eval;
 mod explain;
+mod folder;
+mod make;
 mod method;
 mod output;
 mod paper;
@@ -14,6 +16,7 @@ mod status;
 mod stdout;
 mod sweep;
 mod trace;
+mod verify;
 mod work;
 
 use clap::{Parser, Subcommand};
@@ -24,7 +27,7 @@ use std::process::ExitCode;
 #[derive(Parser)]
 #[command(
     version,
-    after_help = "Exit codes: 0 fine, 1 a claim or lint failed, 2 wrong usage or input, 3 stale, 4 a run failed, 130 ended by Ctrl-C."
+    after_help = "Exit codes: 0 fine, 1 a claim, lint or comparison failed, 2 wrong usage or input, 3 stale, 4 a run failed, 130 ended by Ctrl-C."
 )]
 struct Cli {
     #[command(subcommand)]
@@ -42,12 +45,13 @@ enum Verb {
     Status(status::Args),
     Sweep(sweep::Args),
     Trace(trace::Args),
+    Verify(verify::Args),
 }
 
 /// Why a verb ended without success: an exit code of the contract and one line for stderr.
 #[derive(Debug)]
 pub struct Failure {
-    /// 1 a claim or lint failed, 2 wrong usage or input, 3 stale, 4 a run failed, 130 Ctrl-C.
+    /// 1 a claim, lint or comparison failed, 2 wrong usage or input, 3 stale, 4 a run failed, 130 Ctrl-C.
     pub code: u8,
     /// One line: which number, where, and what to do.
     pub message: String,
@@ -86,6 +90,7 @@ pub fn main() -> ExitCode {
         Verb::Status(args) => status::run(args),
         Verb::Sweep(args) => sweep::run(args),
         Verb::Trace(args) => trace::run(args),
+        Verb::Verify(args) => verify::run(args),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

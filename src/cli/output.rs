@@ -2,9 +2,9 @@
 
 use super::Failure;
 use impact_paper::experiments::Progress;
-use impact_paper::report::Files;
+use impact_paper::report::{Files, sums};
 use std::io;
-use std::path::{Component, Path};
+use std::path::Path;
 use tempfile::TempDir;
 
 /// A folder with a temporary one in it, into which everything goes first.
@@ -14,6 +14,8 @@ use tempfile::TempDir;
 #[derive(Debug)]
 pub struct Staging<'a> {
     folder: &'a Path,
+    /// The option that names the folder, for messages.
+    option: &'static str,
     made: bool,
     /// Inside the folder, so on its file system: there a rename is one step.
     temporary: Option<TempDir>,
@@ -25,12 +27,13 @@ impl<'a> Staging<'a> {
     ///
     /// # Errors
     /// Exit code 2 if the folder cannot be made or written.
-    pub fn below(folder: &'a Path) -> Result<Self, Failure> {
+    pub fn below(folder: &'a Path, option: &'static str) -> Result<Self, Failure> {
+        let failed = |error: io::Error| unwritable(option, folder, &error);
         let made = !folder.exists();
-        std::fs::create_dir_all(folder).map_err(|e| unwritable(folder, &e))?;
-        let mut staging = Staging { folder, made, temporary: None };
+        std::fs::create_dir_all(folder).map_err(failed)?;
+        let mut staging = Staging { folder, option, made, temporary: None };
         let temporary = tempfile::Builder::new().prefix(".staging-").tempdir_in(folder);
-        staging.temporary = Some(temporary.map_err(|e| unwritable(folder, &e))?);
+        staging.temporary = Some(temporary.map_err(failed)?);
         Ok(staging)
     }
 
@@ -40,7 +43,7 @@ impl<'a> Staging<'a> {
     /// # Errors
     /// Exit code 2 if something cannot be written, 130 on Ctrl-C.
     pub fn place(mut self, files: &Files, progress: &Progress) -> Result<(), Failure> {
-        let failed = |error: io::Error| unwritable(self.folder, &error);
+        let failed = |error: io::Error| unwritable(self.option, self.folder, &error);
         let Some(temporary) = &self.temporary else { return Ok(()) };
         for (path, bytes) in files {
             let staged = temporary.path().join(path);
@@ -68,9 +71,9 @@ impl Drop for Staging<'_> {
     }
 }
 
-fn unwritable(folder: &Path, error: &io::Error) -> Failure {
+fn unwritable(option: &str, folder: &Path, error: &io::Error) -> Failure {
     let folder = folder.display();
-    Failure::input(format!("--out: {folder}: {error}; give a folder that can be written"))
+    Failure::input(format!("{option}: {folder}: {error}; give a folder that can be written"))
 }
 
 /// Removes what the SHA256SUMS of an earlier run lists and this one no longer writes. Files that
@@ -80,8 +83,7 @@ fn unwritable(folder: &Path, error: &io::Error) -> Failure {
 /// Exit code 2 if a file cannot be removed.
 pub fn remove_stale(folder: &Path, sums_before: &str, files: &Files) -> Result<(), Failure> {
     for (_, path) in sums_before.lines().filter_map(|line| line.split_once("  ")) {
-        let inside = Path::new(path).components().all(|part| matches!(part, Component::Normal(_)));
-        if !inside || files.contains_key(path) {
+        if !sums::is_inside(path) || files.contains_key(path) {
             continue;
         }
         match std::fs::remove_file(folder.join(path)) {
@@ -126,7 +128,7 @@ mod tests {
             std::fs::write(folder.join(stranger), "before").unwrap();
         }
         let files = files(&["report.md", "data/kept.csv"]);
-        Staging::below(&folder).unwrap().place(&files, &Progress::silent()).unwrap();
+        Staging::below(&folder, "--out").unwrap().place(&files, &Progress::silent()).unwrap();
         let sums = "00  data/old.csv\n00  data/kept.csv\n00  ../outside\n00  never-there\n";
         std::fs::write(out.path().join("outside"), "").unwrap();
         remove_stale(&folder, sums, &files).unwrap();
@@ -141,20 +143,20 @@ mod tests {
         let out = tempfile::tempdir().unwrap();
         let stopped = Progress::on_stderr(Arc::new(AtomicBool::new(true)));
         std::fs::write(out.path().join("report.md"), "before").unwrap();
-        let staging = Staging::below(out.path()).unwrap();
+        let staging = Staging::below(out.path(), "--out").unwrap();
         let failure = staging.place(&files(&["report.md"]), &stopped).unwrap_err();
         assert_eq!(failure.code, 130);
         assert_eq!(names(out.path()), ["report.md"]);
         assert_eq!(std::fs::read_to_string(out.path().join("report.md")).unwrap(), "before");
         let new = out.path().join("new");
-        assert!(Staging::below(&new).unwrap().place(&files(&["x"]), &stopped).is_err());
+        assert!(Staging::below(&new, "--out").unwrap().place(&files(&["x"]), &stopped).is_err());
         assert!(!new.exists());
     }
 
     #[test]
     fn what_cannot_be_written_is_named() {
         let file = tempfile::NamedTempFile::new().unwrap();
-        let failure = Staging::below(file.path()).unwrap_err();
+        let failure = Staging::below(file.path(), "--out").unwrap_err();
         assert_eq!(failure.code, 2);
         assert!(failure.message.starts_with("--out: "), "{}", failure.message);
     }

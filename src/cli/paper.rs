@@ -2,12 +2,12 @@
 
 use super::output::{Staging, remove_stale};
 use super::sources::Sources;
-use super::{Failure, work};
-use impact_paper::experiments::{Need, Progress};
-use impact_paper::figures::{self, Figure, Scene};
+use super::{Failure, make, work};
+use impact_paper::experiments::Progress;
+use impact_paper::figures;
 use impact_paper::params::Profile;
-use impact_paper::report::{self, Files, Registry, compare, contents};
-use impact_paper::{claims, report::values::Number};
+use impact_paper::report::values::Number;
+use impact_paper::report::{self, Files, Registry, compare, sums};
 use std::collections::BTreeSet;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -38,9 +38,6 @@ pub struct Args {
 /// The file in which a report keeps its values.
 const VALUES: &str = "values.json";
 
-/// The file that lists what a report wrote.
-const SUMS: &str = "SHA256SUMS";
-
 /// Runs the verb.
 pub fn run(args: Args) -> Result<(), Failure> {
     let began = Instant::now();
@@ -51,17 +48,18 @@ pub fn run(args: Args) -> Result<(), Failure> {
         args.figure.iter().map(read).collect::<Result<BTreeSet<figures::Number>, Failure>>()?;
     refuse_over_full(profile, &out)?;
     let progress = work::progress();
-    let staging = Staging::below(&out)?;
+    let staging = Staging::below(&out, "--out")?;
     let files = work::on_threads(args.sources.threads, || {
         if args.figure.is_empty() {
-            whole(&args, profile, &progress)
+            let report = make::whole(&args.sources, profile, args.pdf, &progress)?;
+            Ok(report.committed.into_iter().chain(report.beside).collect())
         } else {
             some(&args.sources, &numbers, profile, &progress)
         }
     })?;
     // What was there before is compared first: it is about to be replaced.
     let changes = if args.figure.is_empty() { changes(&out, &files) } else { Vec::new() };
-    let sums_before = std::fs::read_to_string(out.join(SUMS)).unwrap_or_default();
+    let sums_before = std::fs::read_to_string(out.join(sums::NAME)).unwrap_or_default();
     staging.place(&files, &progress)?;
     if args.figure.is_empty() {
         remove_stale(&out, &sums_before, &files)?;
@@ -119,42 +117,6 @@ fn some(
         let figure = figures::draw(number, &results).map_err(|e| Failure::run(e.to_string()))?;
         files.extend(report::files_of(&figure));
     }
-    Ok(files)
-}
-
-/// The whole report.
-fn whole(args: &Args, profile: Profile, progress: &Progress) -> Result<Files, Failure> {
-    let sources = &args.sources;
-    if args.pdf && cfg!(not(feature = "pdf")) {
-        return Err(Failure::input(report::Error::NoTypesetter.to_string()));
-    }
-    let templates = sources.templates()?;
-    // Faults of the templates are told before the long runs, not after them.
-    let published = sources.published(&templates)?;
-    let results = sources.run(&Need::ALL.into(), profile, &templates, progress)?;
-    let fault = |error: &dyn std::error::Error| Failure::run(error.to_string());
-    let mut drawn: Vec<Figure> = Vec::new();
-    for number in figures::all() {
-        progress.check()?;
-        drawn.push(figures::draw(number, &results).map_err(|e| fault(&e))?);
-    }
-    let claims = claims::all(&results, &published).map_err(|e| fault(&e))?;
-    let values = contents::registry(&results, &published).map_err(|e| fault(&e))?;
-    let rows = contents::rows(&results, &claims).map_err(|e| fault(&e))?;
-    let scene = Scene::of(results.spacetime().map_err(|e| fault(&e))?);
-    progress.check()?;
-    let report = report::assemble(&report::Input {
-        templates: &templates,
-        values: &values,
-        rows: &rows,
-        claims: &claims,
-        figures: &drawn,
-        scene: scene.as_ref(),
-        pdf: args.pdf,
-    })
-    .map_err(|error| Failure::input(error.to_string()))?;
-    let mut files = report.committed;
-    files.extend(report.beside);
     Ok(files)
 }
 

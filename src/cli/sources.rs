@@ -23,6 +23,11 @@ pub struct Sources {
 }
 
 impl Sources {
+    /// From options of another verb.
+    pub fn of(threads: Option<usize>, templates: Option<PathBuf>, results: PathBuf) -> Self {
+        Sources { threads, templates, results }
+    }
+
     /// The templates.
     ///
     /// # Errors

@@ -8,10 +8,9 @@ use super::lint::{Declared, Finding};
 use super::templates::{Filler, Mark, Templates};
 use super::uses::uses;
 use super::values::Registry;
-use super::{Error, appendix, html, labels, latex, ledger, lint, markdown, parse, pdf};
+use super::{Error, appendix, html, labels, latex, ledger, lint, markdown, parse, pdf, sums};
 use crate::claims::Claim;
 use crate::figures::{self, Figure, Scene};
-use sha2::{Digest, Sha256};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Paths relative to the report's folder, and their bytes.
@@ -97,7 +96,7 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
     if input.pdf {
         beside.insert("report.pdf".into(), typeset(&printed, input)?);
     }
-    committed.insert("SHA256SUMS".into(), sums(&committed).into_bytes());
+    committed.insert(sums::NAME.into(), sums::write(&committed).into_bytes());
     Ok(Report { committed, beside })
 }
 
@@ -116,15 +115,6 @@ pub fn files_of(figure: &Figure) -> Files {
     let picture = (format!("figures/{}.svg", figure.id), figure.svg.clone().into_bytes());
     let data = figure.data.iter().map(|d| (format!("data/{}", d.name), d.csv().into_bytes()));
     std::iter::once(picture).chain(data).collect()
-}
-
-/// Lines that `sha256sum --check` reads, sorted by path.
-pub fn sums(files: &Files) -> String {
-    let line = |(path, bytes): (&String, &Vec<u8>)| {
-        let hex: String = Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect();
-        format!("{hex}  {path}\n")
-    };
-    files.iter().map(line).collect()
 }
 
 fn check_numerals(templates: &Templates) -> Result<(), Error> {

@@ -27,6 +27,7 @@ pub mod pdf;
 pub mod place;
 pub mod print;
 pub mod recipe;
+pub mod sums;
 pub mod templates;
 mod tex;
 #[cfg(feature = "pdf")]

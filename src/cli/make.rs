@@ -1,0 +1,49 @@
+//! The whole report, from experiments to files in memory.
+
+use super::Failure;
+use super::sources::Sources;
+use impact_paper::claims;
+use impact_paper::experiments::{Need, Progress};
+use impact_paper::figures::{self, Figure, Scene};
+use impact_paper::params::Profile;
+use impact_paper::report::{self, Report, contents};
+
+/// Runs every experiment and makes every file; with `pdf`, report.pdf too.
+///
+/// # Errors
+/// Exit codes 2, 4 and 130.
+pub fn whole(
+    sources: &Sources,
+    profile: Profile,
+    pdf: bool,
+    progress: &Progress,
+) -> Result<Report, Failure> {
+    if pdf && cfg!(not(feature = "pdf")) {
+        return Err(Failure::input(report::Error::NoTypesetter.to_string()));
+    }
+    let templates = sources.templates()?;
+    // Faults of the templates are told before the long runs, not after them.
+    let published = sources.published(&templates)?;
+    let results = sources.run(&Need::ALL.into(), profile, &templates, progress)?;
+    let fault = |error: &dyn std::error::Error| Failure::run(error.to_string());
+    let mut drawn: Vec<Figure> = Vec::new();
+    for number in figures::all() {
+        progress.check()?;
+        drawn.push(figures::draw(number, &results).map_err(|e| fault(&e))?);
+    }
+    let claims = claims::all(&results, &published).map_err(|e| fault(&e))?;
+    let values = contents::registry(&results, &published).map_err(|e| fault(&e))?;
+    let rows = contents::rows(&results, &claims).map_err(|e| fault(&e))?;
+    let scene = Scene::of(results.spacetime().map_err(|e| fault(&e))?);
+    progress.check()?;
+    report::assemble(&report::Input {
+        templates: &templates,
+        values: &values,
+        rows: &rows,
+        claims: &claims,
+        figures: &drawn,
+        scene: scene.as_ref(),
+        pdf,
+    })
+    .map_err(|error| Failure::input(error.to_string()))
+}

@@ -1,0 +1,153 @@
+//! `impact-paper verify`.
+
+use super::sources::Sources;
+use super::{Failure, folder, make, stdout, work};
+use clap::ValueEnum;
+use impact_paper::experiments::Progress;
+use impact_paper::params::Profile;
+use impact_paper::report::values::Number;
+use impact_paper::report::{Files, compare, sums};
+use std::collections::BTreeSet;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+/// Says whether a report is what its SHA256SUMS lists, and with --rerun whether it is what this
+/// program makes.
+///
+/// Every digest is computed anew. Ends with exit code 1 if a file differs, is missing, or stands
+/// there without being listed; PDFs and HTML are built beside and may. Writes nothing.
+#[derive(clap::Args)]
+pub struct Args {
+    /// Folder of the report.
+    #[arg(value_name = "DIR", default_value = "paper")]
+    folder: PathBuf,
+    /// Make the report again, without saved results, and compare byte by byte.
+    #[arg(long)]
+    rerun: bool,
+    /// Sample sizes of the rerun [default: those of the report].
+    #[arg(long, requires = "rerun")]
+    profile: Option<work::ProfileName>,
+    /// Take results of long runs from this folder, where they are fresh, and keep them there.
+    #[arg(long, value_name = "DIR", requires = "rerun")]
+    results: Option<PathBuf>,
+    /// Folder of the prose [default: templates, or the copy inside the program].
+    #[arg(long, value_name = "DIR", requires = "rerun")]
+    templates: Option<PathBuf>,
+    /// Number of threads; all cores without it. It changes no bit of the result.
+    #[arg(long, value_name = "K", allow_hyphen_values = true, requires = "rerun")]
+    threads: Option<usize>,
+}
+
+/// Runs the verb.
+pub fn run(args: Args) -> Result<(), Failure> {
+    let progress = work::progress();
+    let mut faults = listed(&args.folder, &progress)?;
+    if args.rerun {
+        faults += rerun(&args, &progress)?;
+    }
+    if faults == 0 {
+        return Ok(());
+    }
+    let (what, them) =
+        if faults == 1 { ("1 fault", "it") } else { (&*format!("{faults} faults"), "them") };
+    let remedy = "`impact-paper paper` writes a report anew, `impact-paper diff` says what differs";
+    let message =
+        format!("{}: {what} (standard output names {them}); {remedy}", args.folder.display());
+    Err(Failure { code: 1, message })
+}
+
+/// Compares the folder with its list, and returns the number of faults.
+fn listed(root: &Path, progress: &Progress) -> Result<usize, Failure> {
+    let place = root.join(sums::NAME);
+    let unusable = |what: String| {
+        let remedy = "make the report anew with `impact-paper paper`";
+        Failure::input(format!("{}: {what}; {remedy}", place.display()))
+    };
+    let found = folder::walk(root)?;
+    let text = folder::read(root, sums::NAME).map_err(|e| unusable(e.to_string()))?;
+    let text = String::from_utf8(text).map_err(|e| unusable(e.to_string()))?;
+    let entries = sums::read(&text).map_err(|e| unusable(e.to_string()))?;
+    let mut faults = 0;
+    let mut tell = |what: &str, path: &str, more: &str| {
+        faults += 1;
+        stdout::print(&format!("{what:8} {path}{more}\n"))
+    };
+    for entry in &entries {
+        progress.check()?;
+        match folder::read(root, &entry.path) {
+            Ok(bytes) if sums::digest(&bytes) == entry.digest => (),
+            Ok(_) => tell("differs", &entry.path, "")?,
+            Err(error) if error.kind() == ErrorKind::NotFound => tell("missing", &entry.path, "")?,
+            Err(error) => tell("unread", &entry.path, &format!(" ({error})"))?,
+        }
+    }
+    let known: BTreeSet<&str> = entries.iter().map(|entry| entry.path.as_str()).collect();
+    let strange = |path: &&String| {
+        *path != sums::NAME && !folder::is_beside(path) && !known.contains(path.as_str())
+    };
+    for path in found.iter().filter(strange) {
+        tell("unlisted", path, "")?;
+    }
+    if faults == 0 {
+        let (root, count) = (root.display(), entries.len());
+        stdout::print(&format!("{root}: {count} files, all as {} lists them\n", sums::NAME))?;
+    }
+    Ok(faults)
+}
+
+/// Makes the report again, compares, and returns the number of faults.
+fn rerun(args: &Args, progress: &Progress) -> Result<usize, Failure> {
+    let profile = match args.profile {
+        Some(name) => Profile::from(name),
+        None => own_profile(&args.folder)?,
+    };
+    // Removed in the end, whatever happens.
+    let temporary = tempfile::tempdir().map_err(|e| {
+        Failure::input(format!("a temporary folder: {e}; name one that can be written in TMPDIR"))
+    })?;
+    let results = args.results.clone().unwrap_or_else(|| temporary.path().join("results"));
+    let sources = Sources::of(args.threads, args.templates.clone(), results);
+    let made: Files = work::on_threads(args.threads, || {
+        Ok(make::whole(&sources, profile, false, progress)?.committed)
+    })?;
+    let mut faults = 0;
+    let mut tell = |what: &str, path: &str| {
+        faults += 1;
+        stdout::print(&format!("rerun: {what:8} {path}\n"))
+    };
+    for (path, bytes) in &made {
+        match folder::read(&args.folder, path) {
+            Ok(standing) if standing == *bytes => (),
+            Ok(_) => tell("differs", path)?,
+            Err(_) => tell("missing", path)?,
+        }
+    }
+    for path in folder::walk(&args.folder)? {
+        if !folder::is_beside(&path) && !made.contains_key(&path) {
+            tell("not made", &path)?;
+        }
+    }
+    if faults == 0 {
+        let (root, count, name) = (args.folder.display(), made.len(), profile.name());
+        let line =
+            format!("{root}: {count} files made again with the {name} profile, the same bytes\n");
+        stdout::print(&line)?;
+    }
+    Ok(faults)
+}
+
+/// The profile that the report's values name.
+fn own_profile(root: &Path) -> Result<Profile, Failure> {
+    let unknown = |what: &str| {
+        Failure::input(format!("{}: values.json {what}; give --profile", root.display()))
+    };
+    let text = folder::read(root, "values.json").map_err(|_| unknown("cannot be read"))?;
+    let text = String::from_utf8(text).map_err(|_| unknown("is not text"))?;
+    let values = compare::read(&text).map_err(|_| unknown("is not one of a report"))?;
+    match values.get("profile").map(|value| &value.number) {
+        Some(Number::Text(name)) => work::ProfileName::from_str(name, false)
+            .map(Profile::from)
+            .map_err(|_| unknown("names a profile that this program does not have")),
+        _ => Err(unknown("names no profile")),
+    }
+}

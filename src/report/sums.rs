@@ -1,0 +1,137 @@
+//! SHA256SUMS: what a report consists of, in the form of `sha256sum`.
+
+use super::assemble::Files;
+use sha2::{Digest, Sha256};
+use std::fmt;
+use std::path::{Component, Path};
+
+/// The file's name in the report's folder.
+pub const NAME: &str = "SHA256SUMS";
+
+/// One line.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Entry {
+    /// Path below the report's folder: names and slashes only.
+    pub path: String,
+    /// 64 lower-case hexadecimal digits.
+    pub digest: String,
+}
+
+/// A line that cannot be used.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Malformed {
+    /// Its number, from 1.
+    pub line: usize,
+    /// What is wrong with it.
+    pub what: &'static str,
+}
+
+impl fmt::Display for Malformed {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "line {}: {}", self.line, self.what)
+    }
+}
+
+/// Lines that `sha256sum --check` reads, sorted by path.
+pub fn write(files: &Files) -> String {
+    files.iter().map(|(path, bytes)| format!("{}  {path}\n", digest(bytes))).collect()
+}
+
+/// SHA-256 in lower-case hexadecimal.
+pub fn digest(bytes: &[u8]) -> String {
+    hexadecimal(&Sha256::digest(bytes))
+}
+
+/// Bytes in lower-case hexadecimal.
+pub fn hexadecimal(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// Reads the lines. Whoever wrote them is not trusted: a path stays below the folder, at least by
+/// its letters (links are for the caller to refuse), and none is listed twice.
+///
+/// # Errors
+/// The first line that cannot be used.
+pub fn read(text: &str) -> Result<Vec<Entry>, Malformed> {
+    let mut entries: Vec<Entry> = Vec::new();
+    let mut paths = std::collections::BTreeSet::new();
+    for (i, line) in text.lines().enumerate() {
+        let malformed = |what| Malformed { line: i + 1, what };
+        let form = "it is not 64 hexadecimal digits, two blanks and a path";
+        let (digest, path) = line.split_once("  ").ok_or(malformed(form))?;
+        let digit = |byte: u8| byte.is_ascii_digit() || (b'a'..=b'f').contains(&byte);
+        if digest.len() != 64 || !digest.bytes().all(digit) {
+            return Err(malformed(form));
+        }
+        if !is_inside(path) {
+            return Err(malformed("its path is not one of a file below this folder"));
+        }
+        if path == NAME {
+            return Err(malformed("the list cannot list itself"));
+        }
+        if !paths.insert(path) {
+            return Err(malformed("its path is listed twice"));
+        }
+        entries.push(Entry { path: path.into(), digest: digest.into() });
+    }
+    if entries.is_empty() {
+        return Err(Malformed { line: 1, what: "no file is listed" });
+    }
+    Ok(entries)
+}
+
+/// Whether a path is written as names with slashes between, so that it cannot climb or start anew.
+pub fn is_inside(path: &str) -> bool {
+    let plain = |c: char| !c.is_control() && c != '\\';
+    let names = Path::new(path).components().all(|part| matches!(part, Component::Normal(_)));
+    // `components` passes over a dot, a double slash and a slash at the end.
+    let tidy = path.split('/').all(|name| !name.is_empty() && name != ".");
+    names && tidy && path.chars().all(plain)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_written_is_read() {
+        let files: Files = [("b.md", "b"), ("a/c.csv", "")]
+            .map(|(path, text)| (path.to_string(), text.as_bytes().to_vec()))
+            .into();
+        let text = write(&files);
+        let empty = "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855";
+        assert!(text.starts_with(&format!("{empty}  a/c.csv\n")), "{text}");
+        let read = read(&text).unwrap();
+        assert_eq!(read.iter().map(|e| e.path.as_str()).collect::<Vec<_>>(), ["a/c.csv", "b.md"]);
+        assert_eq!(read[0].digest, empty);
+    }
+
+    #[test]
+    fn lines_of_another_form_are_named() {
+        let digest = digest(b"");
+        let good = format!("{digest}  a\n");
+        for (line, what) in [
+            (digest.clone(), "not 64"),
+            (format!("{}  a", &digest[1..]), "not 64"),
+            (format!("{}  a", digest.to_uppercase()), "not 64"),
+            (format!("{digest} *a"), "not 64"),
+            (String::new(), "not 64"),
+            (format!("{digest}  ../b"), "below"),
+            (format!("{digest}  b/../../c"), "below"),
+            (format!("{digest}  /etc/passwd"), "below"),
+            (format!("{digest}  ./b"), "below"),
+            (format!("{digest}  b/"), "below"),
+            (format!("{digest}  b//c"), "below"),
+            (format!("{digest}  "), "below"),
+            (format!("{digest}  b\\c"), "below"),
+            (format!("{digest}  b\u{7}"), "below"),
+            (format!("{digest}  a"), "twice"),
+            (format!("{digest}  {NAME}"), "itself"),
+        ] {
+            let fault = read(&format!("{good}{line}\n")).unwrap_err();
+            assert_eq!(fault.line, 2, "{line:?}");
+            assert!(fault.what.contains(what), "{line:?}: {fault}");
+        }
+        assert!(read("").is_err());
+    }
+}
