@@ -3,6 +3,7 @@
 mod audit;
 mod bench;
 mod check;
+mod diff;
 mod eval;
 mod explain;
 mod folder;
@@ -39,6 +40,7 @@ enum Verb {
     Audit(audit::Args),
     Bench(bench::Args),
     Check(check::Args),
+    Diff(diff::Args),
     Eval(eval::Args),
     Explain(explain::Args),
     Paper(paper::Args),
@@ -84,6 +86,7 @@ pub fn main() -> ExitCode {
         Verb::Audit(args) => audit::run(args),
         Verb::Bench(args) => bench::run(args),
         Verb::Check(args) => check::run(args),
+        Verb::Diff(args) => diff::run(args),
         Verb::Eval(args) => eval::run(args),
         Verb::Explain(args) => explain::run(args),
         Verb::Paper(args) => paper::run(args),

@@ -27,6 +27,7 @@ mod graph;
 mod markup;
 mod motion;
 mod number;
+mod overlay;
 mod panel;
 mod rivals;
 mod s01;
@@ -43,6 +44,7 @@ mod style;
 
 pub use data::DataFile;
 pub use number::Number;
+pub use overlay::{Overlay, OverlayPane, overlay};
 pub use scene::Scene;
 
 use plotters::drawing::DrawingAreaErrorKind;

@@ -229,6 +229,11 @@ impl Sheet {
         self.close(Number::Own(number), title, description, data)
     }
 
+    /// Closes what is no figure of the report, as an SVG document.
+    pub fn document(self, id: &str, title: &str, description: &str) -> String {
+        self.svg.borrow().document(id, title, description)
+    }
+
     fn close(
         self,
         number: Number,
@@ -237,7 +242,7 @@ impl Sheet {
         data: Vec<DataFile>,
     ) -> Figure {
         let id = number.id();
-        let svg = self.svg.borrow().document(&id, title, &description);
+        let svg = self.document(&id, title, &description);
         Figure { id, title: title.into(), description, svg, data }
     }
 }

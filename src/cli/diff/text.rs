@@ -1,0 +1,92 @@
+//! A comparison for the terminal.
+
+use super::{count, signed};
+use impact_paper::report::compare::{Change, ClaimChange, Diff, Largest, Row, TableChange};
+
+/// All of it.
+pub fn text(old: &str, new: &str, diff: &Diff) -> String {
+    if diff.is_empty() {
+        return format!("{old} and {new}: nothing differs\n");
+    }
+    let mut out = String::new();
+    let mut section = |title: String, lines: Vec<String>| {
+        if !lines.is_empty() {
+            out += &format!("{title}\n");
+            lines.iter().for_each(|line| out += &format!("  {line}\n"));
+        }
+    };
+    let lines = diff.verdicts.iter().map(claim).collect();
+    section(format!("{} changed", count(diff.verdicts.len(), "claim")), lines);
+    let lines = diff.numbers.iter().map(value).collect();
+    section(format!("{} changed", count(diff.numbers.len(), "number")), lines);
+    let lines = diff.data.iter().flat_map(table).collect();
+    section(format!("data of figures: {} changed", count(diff.data.len(), "file")), lines);
+    let named = |what: &str, paths: &[String]| -> Vec<String> {
+        paths.iter().map(|path| format!("{what} {path}")).collect()
+    };
+    let other = [named("new    ", &diff.gained), named("gone   ", &diff.lost)].concat();
+    section("files".into(), [other, named("differs", &diff.differing)].concat());
+    out
+}
+
+/// `reproduced -> differs`, `new, reproduced`, `gone, was reproduced`.
+pub fn fate(before: Option<&str>, after: Option<&str>) -> String {
+    match (before, after) {
+        (Some(before), Some(after)) if before == after => before.into(),
+        (Some(before), Some(after)) => format!("{before} -> {after}"),
+        (None, Some(after)) => format!("new, {after}"),
+        (Some(before), None) => format!("gone, was {before}"),
+        (None, None) => String::new(),
+    }
+}
+
+fn claim(change: &ClaimChange) -> String {
+    let verdict = fate(change.before.as_deref(), change.after.as_deref());
+    let fields =
+        [("ours", &change.ours), ("printed", &change.printed), ("tolerance", &change.tolerance)];
+    let told = fields.into_iter().filter_map(|(name, pair)| {
+        pair.as_ref().map(|[before, after]| format!("; {name}: {before} -> {after}"))
+    });
+    format!("{}: {verdict}{}", change.id, told.collect::<String>())
+}
+
+fn value(change: &Change) -> String {
+    let difference = change.difference.filter(|_| change.before != change.after);
+    let difference = difference.map(|d| format!("; Δ {}", signed(d))).unwrap_or_default();
+    let sigmas = change.sigmas.map(|s| format!(", {} σ", signed(s))).unwrap_or_default();
+    format!("{change}{difference}{}", if difference.is_empty() { "" } else { &sigmas })
+}
+
+fn table(change: &TableChange) -> Vec<String> {
+    let mut lines = vec![format!("{}: {}", change.path, amount(change))];
+    let told = [("largest difference", &change.absolute), ("largest relative", &change.relative)];
+    for (name, largest) in told {
+        if let Some(Largest { difference, column, row, before, after }) = largest {
+            let size = signed(*difference).replace('+', "");
+            lines.push(format!("  {name} {size} in {column}, row {row}: {before} -> {after}"));
+        }
+    }
+    if let Some(Row { row, before, after }) = &change.first {
+        let told = fate(before.as_deref(), after.as_deref());
+        lines.push(format!("  first at row {row}: {told}"));
+    }
+    lines
+}
+
+/// How much of a table differs.
+pub fn amount(change: &TableChange) -> String {
+    let mut parts = vec![format!("{} of {} rows changed", change.rows_changed, change.rows)];
+    let mut part = |number: usize, what: &str| {
+        if number > 0 {
+            parts.push(format!("{number} {what}"));
+        }
+    };
+    part(change.rows_gained, "new");
+    part(change.rows_lost, "gone");
+    part(change.words_changed, "cells that are no numbers");
+    let columns = [("new", &change.columns_gained), ("gone", &change.columns_lost)];
+    for (what, names) in columns.into_iter().filter(|(_, names)| !names.is_empty()) {
+        parts.push(format!("{what} columns {}", names.join(", ")));
+    }
+    parts.join(", ")
+}

@@ -1,0 +1,125 @@
+//! What changed between two reports: numbers, verdicts, the data of figures, and files.
+
+mod claims;
+mod numbers;
+mod overlay;
+mod table;
+
+pub use claims::ClaimChange;
+pub use numbers::{Change, changes, read};
+pub use table::{Largest, Row, TableChange};
+
+use super::{Files, Registry, sums};
+use claims::Claims;
+use overlay::overlay;
+use serde::Serialize;
+use std::collections::BTreeSet;
+use table::Table;
+
+/// A report, with the parts that are compared as what they mean.
+#[derive(Debug)]
+pub struct Parts<'a> {
+    name: &'a str,
+    files: &'a Files,
+    values: Registry,
+    claims: Claims,
+}
+
+/// What differs, part by part; all empty for the same bytes.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Diff {
+    /// Claims judged otherwise or held to another measure, gained and lost.
+    pub verdicts: Vec<ClaimChange>,
+    /// Values with another number, unit or kind, gained and lost.
+    pub numbers: Vec<Change>,
+    /// Data of figures.
+    pub data: Vec<TableChange>,
+    /// Files that only the later report has.
+    pub gained: Vec<String>,
+    /// Files that only the earlier report has.
+    pub lost: Vec<String>,
+    /// Files with other bytes, data left out.
+    pub differing: Vec<String>,
+}
+
+impl Diff {
+    /// Whether nothing differs.
+    pub fn is_empty(&self) -> bool {
+        *self == Diff::default()
+    }
+}
+
+impl<'a> Parts<'a> {
+    /// Reads values and claims of a report, which errors call `name`.
+    ///
+    /// # Errors
+    /// What is wrong, with the file's name.
+    pub fn of(name: &'a str, files: &'a Files) -> Result<Self, String> {
+        let fault = |what: String| format!("{name}: {what}");
+        let values = read(&text(name, files, "values.json")?).map_err(|e| fault(e.to_string()))?;
+        numbers::printable(&values).map_err(fault)?;
+        let claims = Claims::read(&text(name, files, "ledger.json")?).map_err(fault)?;
+        Ok(Parts { name, files, values, claims })
+    }
+
+    fn table(&self, path: &str) -> Result<Table, String> {
+        let text = text(self.name, self.files, path)?;
+        Table::read(&text).map_err(|what| format!("{}: {path}: {what}", self.name))
+    }
+}
+
+fn text(name: &str, files: &Files, path: &str) -> Result<String, String> {
+    let bytes = files.get(path).ok_or_else(|| format!("{name}: {path} is missing"))?;
+    String::from_utf8(bytes.clone()).map_err(|error| format!("{name}: {path}: {error}"))
+}
+
+fn is_data(path: &str) -> bool {
+    path.starts_with("data/") && path.ends_with(".csv")
+}
+
+/// What differs. Tables are read where their bytes differ.
+///
+/// # Errors
+/// A table that is none.
+pub fn diff(before: &Parts<'_>, after: &Parts<'_>) -> Result<Diff, String> {
+    let known = |files: &'_ Files| -> BTreeSet<String> {
+        files.keys().filter(|path| *path != sums::NAME).cloned().collect()
+    };
+    let (old, new) = (known(before.files), known(after.files));
+    let mut out = Diff {
+        verdicts: before.claims.changes(&after.claims),
+        numbers: changes(&before.values, &after.values),
+        gained: new.difference(&old).cloned().collect(),
+        lost: old.difference(&new).cloned().collect(),
+        ..Diff::default()
+    };
+    for path in old.intersection(&new).filter(|path| before.files[*path] != after.files[*path]) {
+        if is_data(path) {
+            let (before, after) = (before.table(path)?, after.table(path)?);
+            out.data.push(TableChange::between(path, &before, &after));
+        } else {
+            out.differing.push(path.clone());
+        }
+    }
+    Ok(out)
+}
+
+/// Pictures of the data that differ, by file name: before and after over each other. None for data
+/// without numbers.
+///
+/// # Errors
+/// A table that is none, or one that cannot be drawn.
+pub fn overlays(diff: &Diff, before: &Parts<'_>, after: &Parts<'_>) -> Result<Files, String> {
+    let mut out = Files::new();
+    for change in &diff.data {
+        let drawn = overlay(change, &before.table(&change.path)?, &after.table(&change.path)?);
+        if let Some(svg) = drawn.map_err(|error| format!("{}: {error}", change.path))? {
+            let name = change.path.trim_start_matches("data/").trim_end_matches(".csv");
+            out.insert(format!("{}.svg", name.replace('/', "-")), svg.into_bytes());
+        }
+    }
+    Ok(out)
+}
+
+#[cfg(test)]
+mod tests;

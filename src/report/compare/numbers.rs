@@ -1,0 +1,124 @@
+//! Which values changed between two files values.json.
+
+use super::super::Error;
+use super::super::print::{Asked, Style, print};
+use super::super::values::{Digits, Kind, Number, Registry, Value};
+use serde::Serialize;
+use std::collections::BTreeSet;
+
+/// One difference between two sets of values.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Change {
+    /// Id of the value.
+    pub id: String,
+    /// How it was printed; None for a new value.
+    pub before: Option<String>,
+    /// How it is printed now; None for a value that is gone.
+    pub after: Option<String>,
+    /// After minus before, where both are numbers.
+    pub difference: Option<f64>,
+    /// The difference over the combined standard error, where there is one. Runs with the same seed
+    /// share their chance, and then it overrates the error.
+    pub sigmas: Option<f64>,
+    /// Kind and unit before and after, where they differ.
+    pub kind: Option<[String; 2]>,
+}
+
+impl std::fmt::Display for Change {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match (&self.before, &self.after) {
+            (Some(before), Some(after)) => write!(f, "{}: {before} -> {after}", self.id)?,
+            (None, Some(after)) => write!(f, "{}: new, {after}", self.id)?,
+            (Some(before), None) => write!(f, "{}: gone, was {before}", self.id)?,
+            (None, None) => write!(f, "{}", self.id)?,
+        }
+        match &self.kind {
+            Some([before, after]) => write!(f, " ({before} -> {after})"),
+            None => Ok(()),
+        }
+    }
+}
+
+/// Reads a values.json.
+///
+/// # Errors
+/// When it is not one.
+pub fn read(text: &str) -> Result<Registry, Error> {
+    serde_json::from_str(text).map_err(|e| Error::Template(format!("values.json: {e}")))
+}
+
+/// No double has more digits than this.
+const MOST_DIGITS: usize = 1100;
+
+/// Refuses numbers of digits that nobody would print.
+pub fn printable(values: &Registry) -> Result<(), String> {
+    let asked = |value: &Value| match value.number {
+        Number::Real { digits: Digits::Significant(n) | Digits::Decimals(n), .. } => n,
+        _ => 0,
+    };
+    match values.iter().find(|value| asked(value) > MOST_DIGITS) {
+        Some(value) => Err(format!("values.json: {}: {} digits", value.id, asked(value))),
+        None => Ok(()),
+    }
+}
+
+/// All changes of numbers, units and kinds, sorted by id; other fields (notes, sources) do not
+/// count.
+pub fn changes(before: &Registry, after: &Registry) -> Vec<Change> {
+    let ids: BTreeSet<&str> = before.iter().chain(after.iter()).map(|v| v.id.as_str()).collect();
+    let change = |id: &str| {
+        let (old, new) = (before.get(id), after.get(id));
+        let meant = |value: Option<&Value>| value.map(|v| (v.number.clone(), kind(v)));
+        (meant(old) != meant(new)).then(|| Change {
+            id: id.to_string(),
+            before: old.map(|value| full_if_same(value, old, new)),
+            after: new.map(|value| full_if_same(value, old, new)),
+            difference: difference(old, new),
+            sigmas: sigmas(old, new),
+            kind: old.zip(new).map(|(old, new)| [kind(old), kind(new)]).filter(|[a, b]| a != b),
+        })
+    };
+    ids.into_iter().filter_map(change).collect()
+}
+
+/// The value in its own digits, or in full where those do not show the difference.
+fn full_if_same(value: &Value, before: Option<&Value>, after: Option<&Value>) -> String {
+    let number = |value: Option<&Value>| value.map(|value| value.number.clone());
+    if before.map(Value::plain) == after.map(Value::plain) && number(before) != number(after) {
+        let style = Style { digits: Some(Asked::Full), ..Style::default() };
+        return print(&value.number, style).plain();
+    }
+    value.plain()
+}
+
+/// Kind and unit in words.
+fn kind(value: &Value) -> String {
+    let kind = match &value.kind {
+        Kind::Exact => "exact".into(),
+        Kind::Deterministic => "deterministic".into(),
+        Kind::Ensemble { realisations, .. } => format!("ensemble of {realisations}"),
+        Kind::Printed { place } => format!("printed at {place}"),
+        Kind::Measured => "measured".into(),
+    };
+    if value.unit.is_empty() { kind } else { format!("{kind}, in {}", value.unit) }
+}
+
+fn difference(before: Option<&Value>, after: Option<&Value>) -> Option<f64> {
+    let real = |value: &Value| match value.number {
+        Number::Integer(n) => Some(n as f64),
+        Number::Real { value, .. } => Some(value),
+        _ => None,
+    };
+    Some(real(after?)? - real(before?)?).filter(|difference| difference.is_finite())
+}
+
+/// None without an error on either side.
+fn sigmas(before: Option<&Value>, after: Option<&Value>) -> Option<f64> {
+    let error = |value: &Value| match value.kind {
+        Kind::Ensemble { standard_error, .. } => standard_error,
+        _ => 0.0,
+    };
+    let (a, b) = (error(before?), error(after?));
+    let sigmas = difference(before, after)? / (a * a + b * b).sqrt();
+    sigmas.is_finite().then_some(sigmas)
+}

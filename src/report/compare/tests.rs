@@ -1,0 +1,173 @@
+//! Comparisons of small reports.
+
+use super::super::values::{Kind, Value};
+use super::*;
+
+fn registry(values: Vec<Value>) -> Registry {
+    let mut registry = Registry::new();
+    registry.extend(values).unwrap();
+    registry
+}
+
+fn report(values: Vec<Value>, claims: &str, data: &str) -> Files {
+    let values = serde_json::to_string(&registry(values)).unwrap();
+    let files = [("values.json", values.as_str()), ("ledger.json", claims), ("data/a.csv", data)];
+    files.map(|(path, text)| (path.to_string(), text.as_bytes().to_vec())).into()
+}
+
+fn of(before: &Files, after: &Files) -> Result<Diff, String> {
+    diff(&Parts::of("old", before)?, &Parts::of("new", after)?)
+}
+
+#[test]
+fn changes_are_found_and_shown() {
+    let before = registry(vec![
+        Value::real("a", 0.1, 2),
+        Value::integer("b", 3),
+        Value::integer("gone", 1),
+        Value::integer("same", 1),
+        Value::real("unit", 2.0, 2),
+    ]);
+    let after = registry(vec![
+        Value::real("a", 0.1 + 1e-9, 2),
+        Value::integer("b", 4),
+        Value::integer("new", 1),
+        Value::integer("same", 1).note("other words"),
+        Value::real("unit", 2.0, 2).unit("s").kind(Kind::Measured),
+    ]);
+    let text = serde_json::to_string(&before).unwrap();
+    assert_eq!(read(&text).unwrap(), before);
+    let shown: Vec<String> = changes(&before, &after).iter().map(Change::to_string).collect();
+    let unit = "unit: 2.0 -> 2.0 (deterministic -> measured, in s)";
+    assert_eq!(
+        shown,
+        ["a: 0.1 -> 0.100000001", "b: 3 -> 4", "gone: gone, was 1", "new: new, 1", unit]
+    );
+    assert_eq!(changes(&after, &after), []);
+}
+
+#[test]
+fn differences_are_measured_by_both_errors() {
+    let change = |before: Value, after: Value| {
+        changes(&registry(vec![before]), &registry(vec![after])).remove(0)
+    };
+    let both = change(Value::ensemble("x", 1.0, 0.3, 9), Value::ensemble("x", 2.0, 0.4, 9));
+    assert_eq!((both.difference, both.sigmas), (Some(1.0), Some(2.0)));
+    let one = change(Value::real("x", 1.0, 2), Value::ensemble("x", 0.0, 0.5, 9));
+    assert_eq!((one.difference, one.sigmas), (Some(-1.0), Some(-2.0)));
+    assert_eq!(one.kind, Some(["deterministic".into(), "ensemble of 9".into()]));
+    let none = change(Value::integer("x", 1), Value::integer("x", 3));
+    assert_eq!((none.difference, none.sigmas), (Some(2.0), None));
+    let words = change(Value::integer("x", 1), Value::text("x", "many"));
+    assert_eq!((words.difference, words.sigmas), (None, None));
+}
+
+#[test]
+fn claims_change_by_verdict_and_by_measure() {
+    let claim = |id: &str, verdict: &str, tolerance: &str| {
+        format!(
+            r#"{{"id":"{id}","verdict":"{verdict}","ours":"{verdict}","tolerance":"{tolerance}"}}"#
+        )
+    };
+    let ledger = |claims: &[String]| format!(r#"{{"claims":[{}]}}"#, claims.join(","));
+    let before =
+        ledger(&[claim("a", "good", "1"), claim("b", "good", "1"), claim("c", "good", "1")]);
+    let after = ledger(&[claim("a", "bad", "1"), claim("b", "good", "2"), claim("d", "good", "1")]);
+    let (before, after) = (report(vec![], &before, ""), report(vec![], &after, ""));
+    let diff = of(&before, &after).unwrap();
+    let ids: Vec<&str> = diff.verdicts.iter().map(|change| change.id.as_str()).collect();
+    assert_eq!(ids, ["a", "b", "c", "d"]);
+    let [a, b, c, d] = diff.verdicts.as_slice() else { panic!() };
+    let verdicts = |change: &ClaimChange| (change.before.clone(), change.after.clone());
+    assert_eq!(verdicts(a), (Some("good".into()), Some("bad".into())));
+    assert_eq!((a.ours.as_ref().unwrap()[1].as_str(), &a.tolerance), ("bad", &None));
+    assert_eq!(b.tolerance, Some(["1".into(), "2".into()]));
+    assert_eq!((verdicts(c).1, verdicts(d).0), (None, None));
+    assert_eq!(diff.differing, ["ledger.json"]);
+    assert!(of(&after, &after).unwrap().is_empty());
+}
+
+fn tables(before: &str, after: &str) -> TableChange {
+    let claims = r#"{"claims":[]}"#;
+    let (before, after) = (report(vec![], claims, before), report(vec![], claims, after));
+    let mut diff = of(&before, &after).unwrap();
+    assert_eq!(diff.data.len(), 1);
+    assert!(diff.verdicts.is_empty() && diff.numbers.is_empty() && diff.differing.is_empty());
+    diff.data.remove(0)
+}
+
+#[test]
+fn cells_are_compared_as_numbers() {
+    let change = tables("x,y,w\n1,2.0,a\n2,100,b\n3,,c\n", "x,y,w\n1,2.5,a\n2,101,B\n3,7,c\n");
+    assert_eq!((change.rows_changed, change.words_changed), (3, 2));
+    let first = change.first.unwrap();
+    assert_eq!((first.row, first.after.as_deref()), (1, Some("1,2.5,a")));
+    let largest = change.absolute.unwrap();
+    assert_eq!((largest.difference, largest.column.as_str(), largest.row), (1.0, "y", 2));
+    let largest = change.relative.unwrap();
+    assert_eq!((largest.difference, largest.before.as_str(), largest.row), (0.2, "2.0", 1));
+    assert_eq!(change.columns_changed, ["y"]);
+}
+
+#[test]
+fn a_row_put_between_shifts_nothing() {
+    let change = tables("n,y\n1,5\n1,6\n2,7\n", "n,y\n1,5\n1.5,0\n1,6\n2,8\n");
+    assert_eq!((change.rows_gained, change.rows_lost, change.rows_changed), (1, 0, 1));
+    assert_eq!(change.first, Some(Row { row: 2, before: None, after: Some("1.5,0".into()) }));
+    assert_eq!(change.absolute.unwrap().row, 4);
+    let change = tables("n,y\n1,5\n2,6\n", "n,y\n1,5\n");
+    assert_eq!((change.rows_lost, change.rows_changed), (1, 0));
+    assert_eq!(change.first, Some(Row { row: 2, before: Some("2,6".into()), after: None }));
+}
+
+#[test]
+fn columns_come_and_go_and_may_move() {
+    let change = tables("a,b,c\n1,2,3\n", "d,b,a\n4,2,1\n");
+    assert_eq!((change.columns_gained, change.columns_lost), (vec!["d".into()], vec!["c".into()]));
+    assert_eq!((change.rows_changed, change.first), (0, None));
+}
+
+#[test]
+fn what_is_no_report_is_named() {
+    let good = report(vec![], r#"{"claims":[]}"#, "a\n1\n");
+    for (path, text, what) in [
+        ("values.json", "{", "old: values.json: EOF"),
+        ("ledger.json", "[]", "old: ledger.json: "),
+        ("data/a.csv", "a,b\n1\n", "old: data/a.csv: "),
+        ("data/a.csv", "\u{ff}", ""),
+    ] {
+        let mut bad = good.clone();
+        bad.insert(path.into(), text.as_bytes().to_vec());
+        match of(&bad, &good) {
+            Err(fault) => assert!(fault.starts_with(what) && !what.is_empty(), "{fault}"),
+            Ok(_) => assert_eq!(what, ""),
+        }
+    }
+    let mut bad = good.clone();
+    bad.insert("data/a.csv".into(), vec![0xff]);
+    assert!(of(&bad, &good).unwrap_err().contains("data/a.csv: invalid utf-8"));
+    bad.remove("values.json");
+    assert_eq!(of(&good, &bad).unwrap_err(), "new: values.json is missing");
+    let digits = report(vec![Value::real("x", 1.0, usize::MAX)], r#"{"claims":[]}"#, "");
+    assert!(of(&digits, &good).unwrap_err().contains("x: 18446744073709551615 digits"));
+}
+
+#[test]
+fn a_picture_for_data_with_numbers() {
+    let claims = r#"{"claims":[]}"#;
+    let before = report(vec![], claims, "n,x,y,w\n1,0,3,a\n1,1,4,b\n2,0,5,c\n");
+    let drawn = |data: &str| {
+        let after = report(vec![], claims, data);
+        let (before, after) = (Parts::of("", &before).unwrap(), Parts::of("", &after).unwrap());
+        overlays(&diff(&before, &after).unwrap(), &before, &after).unwrap()
+    };
+    let files = drawn("n,x,y,w\n1,0,3,a\n1,1,4,b\n2,0,6,c\n");
+    let svg = String::from_utf8(files["a.svg"].clone()).unwrap();
+    // One pane, of y over x, with a curve for each n.
+    assert_eq!((svg.matches("data-name=\"before\"").count(), files.len()), (4, 1), "{svg}");
+    assert!(drawn("w\na\n").is_empty(), "columns that are gone are told, not drawn");
+    let words = report(vec![], claims, "w\na\n");
+    let other = report(vec![], claims, "w\nb\n");
+    let (words, other) = (Parts::of("", &words).unwrap(), Parts::of("", &other).unwrap());
+    assert!(overlays(&diff(&words, &other).unwrap(), &words, &other).unwrap().is_empty());
+}
