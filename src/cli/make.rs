@@ -7,6 +7,7 @@ use impact_paper::experiments::{Need, Progress};
 use impact_paper::figures::{self, Figure, Scene};
 use impact_paper::params::Profile;
 use impact_paper::report::{self, Report, contents};
+use rayon::prelude::*;
 
 /// Runs every experiment and makes every file; with `pdf`, report.pdf too.
 ///
@@ -26,11 +27,13 @@ pub fn whole(
     let published = sources.published(&templates)?;
     let results = sources.run(&Need::ALL.into(), profile, &templates, progress)?;
     let fault = |error: &dyn std::error::Error| Failure::run(error.to_string());
-    let mut drawn: Vec<Figure> = Vec::new();
-    for number in figures::all() {
+    results.look();
+    let draw = |number| {
         progress.check()?;
-        drawn.push(figures::draw(number, &results).map_err(|e| fault(&e))?);
-    }
+        figures::draw(number, &results).map_err(|e| fault(&e))
+    };
+    let numbers: Vec<figures::Number> = figures::all().collect();
+    let drawn: Vec<Figure> = numbers.into_par_iter().map(draw).collect::<Result<_, Failure>>()?;
     let claims = claims::all(&results, &published).map_err(|e| fault(&e))?;
     let values = contents::registry(&results, &published).map_err(|e| fault(&e))?;
     let rows = contents::rows(&results, &claims).map_err(|e| fault(&e))?;

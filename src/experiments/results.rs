@@ -177,6 +177,12 @@ asked_for! {
 }
 
 impl Results {
+    /// Computes what is otherwise computed when first looked at. Who works on several threads looks
+    /// first.
+    pub fn look(&self) {
+        rayon::join(|| LazyLock::force(&self.theory), || LazyLock::force(&self.identities));
+    }
+
     /// Results of which nothing was run yet.
     pub fn empty(profile: Profile) -> Self {
         Results {

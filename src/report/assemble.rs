@@ -11,6 +11,7 @@ use super::values::Registry;
 use super::{Error, appendix, html, labels, latex, ledger, lint, markdown, parse, pdf, sums};
 use crate::claims::Claim;
 use crate::figures::{self, Figure, Scene};
+use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Paths relative to the report's folder, and their bytes.
@@ -90,9 +91,10 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
     beside.insert("report.html".into(), filler.fill("report.html")?.into_bytes());
     for figure in input.figures {
         committed.extend(files_of(figure));
-        let path = format!("figures/{}.pdf", figure.id);
-        beside.insert(path, pdf::from_svg(&figure.svg)?);
     }
+    let pdf =
+        |figure: &Figure| Ok((format!("figures/{}.pdf", figure.id), pdf::from_svg(&figure.svg)?));
+    beside.extend(input.figures.par_iter().map(pdf).collect::<Result<Vec<_>, Error>>()?);
     if input.pdf {
         beside.insert("report.pdf".into(), typeset(&printed, input)?);
     }

@@ -48,18 +48,16 @@ pub fn relation() -> Result<Vec<RelationRow>, Error> {
     sigmas().into_iter().map(row).collect()
 }
 
-/// Figs. 12 and 15, the theory for one N.
-pub fn curve(vertices: usize) -> Result<Curve, Error> {
-    let row = |sigma| {
-        let law = ImpactProbability::of_paper(sigma)?;
-        let p = law.p()?;
+/// Figs. 12 and 15, the theory for one N, along the relation of Fig. 11.
+pub fn curve(vertices: usize, relation: &[RelationRow]) -> Result<Curve, Error> {
+    let row = |&RelationRow { sigma, p, p_rest, .. }: &RelationRow| {
         Ok(CurveRow {
             sigma,
             simple: mean(SampleSpace::Simple, vertices, p)?,
             higher: mean(SampleSpace::FiveClasses, vertices, p)?,
-            simple_rest: mean(SampleSpace::Simple, vertices, law.p_from_rest()?)?,
+            simple_rest: mean(SampleSpace::Simple, vertices, p_rest)?,
         })
     };
-    let rows = sigmas().into_iter().map(row).collect::<Result<_, Error>>()?;
+    let rows = relation.iter().map(row).collect::<Result<_, Error>>()?;
     Ok(Curve { vertices, rows })
 }

@@ -25,15 +25,16 @@ pub fn run(vertices: usize) -> Result<Theory, Error> {
         values.iter().map(|p| one(vertices, *p)).collect::<Result<Vec<_>, _>>()
     };
     let simple = |p: &f64| distributions::simple(vertices, *p);
+    let relation = curves::relation()?;
     Ok(Theory {
         vertices,
         simple_circuits: distributions::simple_circuits(vertices)?,
         distributions: DISTRIBUTION_P.iter().map(simple).collect::<Result<_, _>>()?,
         most_likely: curves::most_likely(vertices, &scalars)?,
         mechanism: jump::mechanism(vertices, &scalars)?,
-        relation: curves::relation()?,
-        curve: curves::curve(vertices)?,
-        curve_walls: curves::curve(vertices + 1)?,
+        curve: curves::curve(vertices, &relation)?,
+        curve_walls: curves::curve(vertices + 1, &relation)?,
+        relation,
         higher: each(&HIGHER_P, distributions::higher)?,
         convergence: each(&CONVERGENCE_P, distributions::higher)?,
         slips: slips::slips(vertices)?,
