@@ -5,6 +5,7 @@ use crate::circuits::distribution::{Law, SampleSpace};
 use crate::circuits::impact_probability::ImpactProbability;
 use crate::circuits::{Error, jump};
 use crate::params::Grid;
+use rayon::prelude::*;
 
 /// The σ axis of Figs. 11, 12 and 15: 0.02 to 0.4 in steps of 0.001.
 fn sigmas() -> Vec<f64> {
@@ -45,7 +46,7 @@ pub fn relation() -> Result<Vec<RelationRow>, Error> {
         let law = ImpactProbability::of_paper(sigma)?;
         Ok(RelationRow { sigma, p: law.p()?, log_p: law.log_p()?, p_rest: law.p_from_rest()? })
     };
-    sigmas().into_iter().map(row).collect()
+    sigmas().into_par_iter().map(row).collect()
 }
 
 /// Figs. 12 and 15, the theory for one N, along the relation of Fig. 11.

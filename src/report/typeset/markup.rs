@@ -112,6 +112,8 @@ fn write_block(block: &Block) -> Result<String, Error> {
         }
         // On paper nothing unfolds: it stands in the appendix.
         Block::Listing { .. } => String::new(),
+        // Nothing moves on paper.
+        Block::Scene { .. } => String::new(),
         Block::Bibliography(entries) => {
             let mut out = String::new();
             for entry in entries {
