@@ -20,7 +20,9 @@ use crate::params::{CONVERGENCE_P, DISTRIBUTION_P, HIGHER_P};
 /// # Errors
 /// None for the paper's N = 100; [`Error`] for N without a jump (N ≤ 3) or too large.
 pub fn run(vertices: usize) -> Result<Theory, Error> {
-    let scalars = jump::scalars(vertices)?;
+    let (scalars, scalars_walls) =
+        rayon::join(|| jump::scalars(vertices), || jump::scalars(vertices + 1));
+    let (scalars, scalars_walls) = (scalars?, scalars_walls?);
     let each = |values: &[f64], one: fn(usize, f64) -> Result<HigherDistribution, Error>| {
         values.iter().map(|p| one(vertices, *p)).collect::<Result<Vec<_>, _>>()
     };
@@ -39,6 +41,6 @@ pub fn run(vertices: usize) -> Result<Theory, Error> {
         convergence: each(&CONVERGENCE_P, distributions::higher)?,
         slips: slips::slips(vertices)?,
         scalars,
-        scalars_walls: jump::scalars(vertices + 1)?,
+        scalars_walls,
     })
 }
