@@ -1,43 +1,14 @@
 //! report.md as a host reads it: by a CommonMark parser with tables, which knows nothing of our
 //! mathematics. What it makes of the text must be what the report means.
 
-use impact_paper::claims::{self, Published};
-use impact_paper::experiments::{Need, Progress, Store, run::run};
-use impact_paper::figures;
-use impact_paper::params::Profile;
-use impact_paper::report::{Input, Report, Templates, assemble, contents};
-use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
-use std::collections::BTreeSet;
-use std::path::Path;
-use std::sync::LazyLock;
+mod quick;
 
-static REPORT: LazyLock<Report> = LazyLock::new(|| {
-    let templates = Templates::read(Path::new("templates")).unwrap();
-    let scenario = |file: &str| {
-        std::fs::read_to_string(Path::new("templates").join(file)).map_err(|e| e.to_string())
-    };
-    let results =
-        run(&Need::ALL, Profile::Quick, scenario, &Store::nowhere(), &Progress::silent()).unwrap();
-    let published = Published::parse(templates.text("published.toml").unwrap()).unwrap();
-    let claims = claims::all(&results, &published).unwrap();
-    let values = contents::registry(&results, &published).unwrap();
-    let rows = contents::rows(&results, &claims).unwrap();
-    let scene = figures::Scene::of(results.spacetime().unwrap());
-    let figures: Vec<_> = figures::all().map(|n| figures::draw(n, &results).unwrap()).collect();
-    let input = Input {
-        templates: &templates,
-        values: &values,
-        rows: &rows,
-        claims: &claims,
-        figures: &figures,
-        scene: scene.as_ref(),
-        pdf: false,
-    };
-    assemble(&input).unwrap_or_else(|error| panic!("{error}"))
-});
+use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
+use quick::QUICK;
+use std::collections::BTreeSet;
 
 fn text() -> &'static str {
-    std::str::from_utf8(&REPORT.committed["report.md"]).unwrap()
+    std::str::from_utf8(&QUICK.report.committed["report.md"]).unwrap()
 }
 
 fn events() -> Vec<Event<'static>> {
@@ -66,14 +37,14 @@ fn every_link_lands_and_every_picture_is_there() {
                     assert!(anchors.contains(id), "no anchor {id}");
                 } else if !dest_url.contains("://") {
                     let source = dest_url.strip_prefix("../").map(|path| Path::new(path).exists());
-                    let made = REPORT.committed.contains_key(&*dest_url)
+                    let made = QUICK.report.committed.contains_key(&*dest_url)
                         || ["SHA256SUMS", "data"].contains(&&*dest_url);
                     assert!(source.unwrap_or(made), "no file {dest_url}");
                 }
             }
             Event::Start(Tag::Image { dest_url, .. }) => {
                 pictures += 1;
-                assert!(REPORT.committed.contains_key(&*dest_url), "no picture {dest_url}");
+                assert!(QUICK.report.committed.contains_key(&*dest_url), "no picture {dest_url}");
             }
             _ => {}
         }

@@ -1,59 +1,24 @@
 //! report.html as a browser and a reader meet it: read by an XML parser, with the results of the
 //! quick profile.
 
-use impact_paper::claims::{self, Published};
+mod quick;
+
 use impact_paper::dynamics::{Engine, Scenario};
-use impact_paper::experiments::spacetime::SpaceTime;
-use impact_paper::experiments::{Need, Progress, Store, run::run};
-use impact_paper::figures::{self, Figure};
 use impact_paper::numerics::random::NormalPairs;
 use impact_paper::params::Profile;
-use impact_paper::report::{Input, Report, Templates, assemble, compare, contents, recipe};
+use impact_paper::report::{compare, recipe};
+use quick::QUICK;
 use roxmltree::{Document, Node, ParsingOptions};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::LazyLock;
 
-struct Made {
-    figures: Vec<Figure>,
-    report: Report,
-    html: String,
-    run: SpaceTime,
-}
-
-fn make() -> Made {
-    let templates = Templates::read(Path::new("templates")).unwrap();
-    let scenario = |file: &str| {
-        std::fs::read_to_string(Path::new("templates").join(file)).map_err(|e| e.to_string())
-    };
-    let results =
-        run(&Need::ALL, Profile::Quick, scenario, &Store::nowhere(), &Progress::silent()).unwrap();
-    let published = Published::parse(templates.text("published.toml").unwrap()).unwrap();
-    let claims = claims::all(&results, &published).unwrap();
-    let values = contents::registry(&results, &published).unwrap();
-    let rows = contents::rows(&results, &claims).unwrap();
-    let scene = figures::Scene::of(results.spacetime().unwrap());
-    let figures: Vec<_> = figures::all().map(|n| figures::draw(n, &results).unwrap()).collect();
-    let input = Input {
-        templates: &templates,
-        values: &values,
-        rows: &rows,
-        claims: &claims,
-        figures: &figures,
-        scene: scene.as_ref(),
-        pdf: false,
-    };
-    let report = assemble(&input).unwrap_or_else(|error| panic!("{error}"));
-    assert!(report == assemble(&input).unwrap(), "the same input gives other bytes");
-    let html = String::from_utf8(report.beside["report.html"].clone()).unwrap();
-    Made { figures, report, html, run: results.spacetime.unwrap() }
-}
-
-static MADE: LazyLock<Made> = LazyLock::new(make);
+static HTML: LazyLock<String> =
+    LazyLock::new(|| String::from_utf8(QUICK.report.beside["report.html"].clone()).unwrap());
 
 fn page() -> Document<'static> {
     let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
-    Document::parse_with_options(&MADE.html, options).unwrap_or_else(|error| panic!("{error}"))
+    Document::parse_with_options(&HTML, options).unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn elements<'a>(page: &'a Document<'a>, name: &str) -> Vec<Node<'a, 'a>> {
@@ -83,7 +48,8 @@ fn every_id_is_unique_and_every_link_lands() {
             assert!(seen.contains(id), "no {to}, to which {:?} links", words(link));
         } else if !to.contains("://") {
             let source = to.strip_prefix("../").map(|path| Path::new(path).exists());
-            let made = MADE.report.committed.contains_key(to) || to == "SHA256SUMS" || to == "data";
+            let made =
+                QUICK.report.committed.contains_key(to) || to == "SHA256SUMS" || to == "data";
             assert!(source.unwrap_or(made), "no file {to}");
         }
         assert!(!words(link).trim().is_empty() || link.tag_name().name() == "use", "{to}");
@@ -112,7 +78,7 @@ fn every_value_has_one_card() {
     assert_eq!(cards.len(), have.len());
     assert_eq!(targets, have, "a card without a number, or a number without its card");
     assert!(buttons.iter().all(|button| !words(*button).trim().is_empty()));
-    let values = std::str::from_utf8(&MADE.report.committed["values.json"]).unwrap();
+    let values = std::str::from_utf8(&QUICK.report.committed["values.json"]).unwrap();
     for value in compare::read(values).unwrap().iter().filter(|v| !v.experiment.is_empty()) {
         let known = recipe::recipe(&value.experiment, Profile::Quick).is_some();
         assert!(known, "{}: no recipe of {:?}", value.id, value.experiment);
@@ -148,9 +114,9 @@ fn every_figure_says_what_is_seen_with_its_numbers() {
         .filter(|svg| svg.attribute("role") == Some("img"))
         .map(|svg| (svg.attribute("aria-labelledby").unwrap_or_default(), svg))
         .collect();
-    assert_eq!(pictures.len(), MADE.figures.len() + 1);
+    assert_eq!(pictures.len(), QUICK.figures.len() + 1);
     assert!(pictures.contains_key("scene-title scene-desc"));
-    for figure in &MADE.figures {
+    for figure in &QUICK.figures {
         let (title, description) = (format!("{}-title", figure.id), format!("{}-desc", figure.id));
         let svg = pictures[format!("{title} {description}").as_str()];
         let text =
@@ -189,7 +155,7 @@ fn nothing_is_loaded_and_no_colour_is_fixed() {
         assert!(address.starts_with("data:font/woff2;base64,"), "{}", &address[..40]);
     }
     assert!(!style.contains("@import"));
-    assert!(MADE.html.len() < 4_000_000, "{} bytes", MADE.html.len());
+    assert!(HTML.len() < 4_000_000, "{} bytes", HTML.len());
 }
 
 /// On a narrow screen the rows of a wide table are lists: each cell brings the name of its column.
@@ -239,13 +205,13 @@ fn the_scene_is_complete_without_its_script() {
     let first = data["first"].as_u64().unwrap() as usize;
 
     // The saved numbers put every mass where the engine has it, at times that the table gives.
-    let parameters = &MADE.run.parameters;
-    let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, MADE.run.realisation);
+    let parameters = &QUICK.run.parameters;
+    let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, QUICK.run.realisation);
     let scenario = Scenario::draw(&parameters.chain, parameters.sigma, &mut normals);
     let mut engine = Engine::new(&scenario).unwrap();
     let mut hits = Vec::new();
     engine.run(from, |_| true).unwrap();
-    let table = String::from_utf8(MADE.report.committed["data/s06c.csv"].clone()).unwrap();
+    let table = String::from_utf8(QUICK.report.committed["data/s06c.csv"].clone()).unwrap();
     assert!(table.starts_with(&format!("time (1/omega),x_{first} (d),")), "{table}");
     assert_eq!(table.lines().count(), 26);
     for line in table.lines().skip(1) {

@@ -2,47 +2,17 @@
 //! none unused (the assembly refuses both, and naked numerals), it has every equation and figure of
 //! the paper, and every claim has its place in it.
 
+mod quick;
+
 use impact_paper::claims::{self, Published, Verdict};
 use impact_paper::experiments::{Need, Progress, Results, Store, run::run};
 use impact_paper::figures;
 use impact_paper::params::Profile;
-use impact_paper::report::{Input, Report, Templates, assemble, contents};
-use std::path::Path;
-use std::sync::LazyLock;
-
-static TEMPLATES: LazyLock<Templates> =
-    LazyLock::new(|| Templates::read(Path::new("templates")).unwrap());
-
-fn results() -> Results {
-    let scenario = |file: &str| {
-        std::fs::read_to_string(Path::new("templates").join(file)).map_err(|e| e.to_string())
-    };
-    run(&Need::ALL, Profile::Quick, scenario, &Store::nowhere(), &Progress::silent()).unwrap()
-}
-
-static MADE: LazyLock<Report> = LazyLock::new(|| {
-    let results = results();
-    let published = Published::parse(TEMPLATES.text("published.toml").unwrap()).unwrap();
-    let claims = claims::all(&results, &published).unwrap();
-    let values = contents::registry(&results, &published).unwrap();
-    let rows = contents::rows(&results, &claims).unwrap();
-    let scene = figures::Scene::of(results.spacetime().unwrap());
-    let figures: Vec<_> = figures::all().map(|n| figures::draw(n, &results).unwrap()).collect();
-    let input = Input {
-        templates: &TEMPLATES,
-        values: &values,
-        rows: &rows,
-        claims: &claims,
-        figures: &figures,
-        scene: scene.as_ref(),
-        pdf: false,
-    };
-    assemble(&input).unwrap_or_else(|error| panic!("{error}"))
-});
+use quick::QUICK;
 
 #[test]
 fn the_report_has_every_equation_and_figure() {
-    let report = &*MADE;
+    let report = &QUICK.report;
     let text = String::from_utf8(report.committed["report.md"].clone()).unwrap();
     for number in 1..=38 {
         assert_eq!(text.matches(&format!("\\tag{{{number}}}")).count(), 1, "Eq. ({number})");
@@ -54,7 +24,7 @@ fn the_report_has_every_equation_and_figure() {
 
 #[test]
 fn every_claim_is_spoken_of_once_in_the_text() {
-    let template = TEMPLATES.text("report.md").unwrap();
+    let template = QUICK.templates.text("report.md").unwrap();
     for row in claims::rows() {
         let tag = format!("«row.{}»", row.id);
         assert_eq!(template.matches(&tag).count(), 1, "{tag}");
