@@ -32,6 +32,7 @@ pub mod claims;
 pub mod dynamics;
 pub mod experiments;
 pub mod figures;
+pub mod input;
 pub mod numerics;
 pub mod params;
 pub mod report;

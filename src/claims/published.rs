@@ -1,5 +1,6 @@
 //! What the paper printed: `templates/published.toml`.
 
+use crate::input::{one_line, toml_fault};
 use serde::Deserialize;
 use sha2::{Digest, Sha256};
 use std::collections::BTreeSet;
@@ -55,12 +56,15 @@ pub struct Statement {
 /// What is wrong with a file of published statements.
 #[derive(Debug, thiserror::Error)]
 pub enum PublishedError {
-    /// It is not the TOML that is expected.
-    #[error("published.toml: {0}")]
-    Syntax(#[from] toml::de::Error),
+    /// It is not the TOML that is expected: line and fault.
+    #[error("published.toml:{0}")]
+    Syntax(String),
     /// An id stands twice.
     #[error("published.toml: the id {0:?} stands twice; give each statement its own")]
     Twice(String),
+    /// TOML has NaN and infinity; no paper prints them.
+    #[error("published.toml: the value of {0:?} is not finite; give a number")]
+    NotFinite(String),
     /// A claim asks for a statement or a number that is not there.
     #[error("published.toml: no {what} {id:?}; add it, or remove the claim that asks for it")]
     Missing {
@@ -81,9 +85,10 @@ impl Published {
     /// Reads the file.
     ///
     /// # Errors
-    /// [`PublishedError`] for a syntax error or an id that stands twice.
+    /// [`PublishedError`] for a syntax error, an id that stands twice, a value that is not finite.
     pub fn parse(text: &str) -> Result<Published, PublishedError> {
-        let mut published: Published = toml::from_str(text)?;
+        let mut published: Published = toml::from_str(text)
+            .map_err(|error| PublishedError::Syntax(toml_fault(text, &error)))?;
         let digest = Sha256::digest(text.as_bytes());
         published.digest = digest.iter().map(|byte| format!("{byte:02x}")).collect();
         let parameters = published.parameters.iter().map(|p| &p.id);
@@ -91,10 +96,15 @@ impl Published {
         let mut seen = BTreeSet::new();
         for id in parameters.chain(statements) {
             if !seen.insert(id) {
-                return Err(PublishedError::Twice(id.clone()));
+                return Err(PublishedError::Twice(one_line(id, 80)));
             }
         }
-        Ok(published)
+        let chosen = published.parameters.iter().map(|p| (&p.id, Some(p.value)));
+        let stated = published.statements.iter().map(|s| (&s.id, s.value));
+        match chosen.chain(stated).find(|(_, value)| value.is_some_and(|x| !x.is_finite())) {
+            Some((id, _)) => Err(PublishedError::NotFinite(one_line(id, 80))),
+            None => Ok(published),
+        }
     }
 
     /// The statement with this id.

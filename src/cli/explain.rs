@@ -46,23 +46,22 @@ pub fn run(args: Args) -> Result<(), Failure> {
 
 fn read(folder: &Path, name: &str) -> Result<String, Failure> {
     let path = folder.join(name);
-    std::fs::read_to_string(&path).map_err(|e| {
+    impact_paper::input::read(&path).map_err(|e| {
         let remedy = "give the folder of a report, or make one with `impact-paper paper`";
         Failure::input(format!("--paper: {}: {e}; {remedy}", path.display()))
     })
 }
 
 fn values(folder: &Path) -> Result<Registry, Failure> {
-    compare::read(&read(folder, "values.json")?)
-        .map_err(|e| Failure::input(format!("--paper: {e}")))
+    compare::read(&read(folder, "values.json")?).map_err(fault)
+}
+
+fn fault(error: impact_paper::report::Error) -> Failure {
+    Failure::input(format!("--paper: {error}; make the report anew with `impact-paper paper`"))
 }
 
 fn ledger(folder: &Path) -> Result<Ledger, Failure> {
-    let fault = |e: serde_json::Error| {
-        let remedy = "make the report anew with `impact-paper paper`";
-        Failure::input(format!("--paper: ledger.json: {e}; {remedy}"))
-    };
-    serde_json::from_str(&read(folder, "ledger.json")?).map_err(fault)
+    impact_paper::report::ledger::read(&read(folder, "ledger.json")?).map_err(fault)
 }
 
 /// One line for each thing.

@@ -2,6 +2,7 @@
 
 use super::Failure;
 use impact_paper::experiments::Progress;
+use impact_paper::input::one_line;
 use impact_paper::report::{Files, sums};
 use std::io;
 use std::path::Path;
@@ -46,11 +47,15 @@ impl<'a> Staging<'a> {
         let failed = |error: io::Error| unwritable(self.option, self.folder, &error);
         let Some(temporary) = &self.temporary else { return Ok(()) };
         for (path, bytes) in files {
+            inside(self.folder, path)?;
             let staged = temporary.path().join(path);
             std::fs::create_dir_all(staged.parent().unwrap_or(self.folder)).map_err(failed)?;
             std::fs::write(&staged, bytes).map_err(failed)?;
         }
         progress.check()?;
+        for path in files.keys() {
+            inside(self.folder, path)?;
+        }
         for path in files.keys() {
             let target = self.folder.join(path);
             std::fs::create_dir_all(target.parent().unwrap_or(self.folder)).map_err(failed)?;
@@ -76,6 +81,26 @@ fn unwritable(option: &str, folder: &Path, error: &io::Error) -> Failure {
     Failure::input(format!("{option}: {folder}: {error}; give a folder that can be written"))
 }
 
+/// Refuses a path that would leave `folder`: one with `..` or from the root, and one through a
+/// symbolic link to a folder. (The folder itself may be a link; a file that is one is replaced, not
+/// followed.)
+fn inside(folder: &Path, path: &str) -> Result<(), Failure> {
+    if !sums::is_inside(path) {
+        let path = one_line(path, 200);
+        return Err(Failure::input(format!("--out: {path:?} is no path inside the folder")));
+    }
+    for above in Path::new(path).ancestors().skip(1).filter(|above| !above.as_os_str().is_empty()) {
+        let above = folder.join(above);
+        if above.is_symlink() {
+            return Err(Failure::input(format!(
+                "--out: {} is a symbolic link out of the folder; remove it, or give another folder",
+                above.display()
+            )));
+        }
+    }
+    Ok(())
+}
+
 /// Removes what the SHA256SUMS of an earlier run lists and this one no longer writes. Files that
 /// no run wrote are left alone.
 ///
@@ -83,7 +108,7 @@ fn unwritable(option: &str, folder: &Path, error: &io::Error) -> Failure {
 /// Exit code 2 if a file cannot be removed.
 pub fn remove_stale(folder: &Path, sums_before: &str, files: &Files) -> Result<(), Failure> {
     for (_, path) in sums_before.lines().filter_map(|line| line.split_once("  ")) {
-        if !sums::is_inside(path) || files.contains_key(path) {
+        if inside(folder, path).is_err() || files.contains_key(path) {
             continue;
         }
         match std::fs::remove_file(folder.join(path)) {

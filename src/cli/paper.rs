@@ -5,6 +5,7 @@ use super::sources::Sources;
 use super::{Failure, make, work};
 use impact_paper::experiments::Progress;
 use impact_paper::figures;
+use impact_paper::input;
 use impact_paper::params::Profile;
 use impact_paper::report::values::Number;
 use impact_paper::report::{self, Files, Registry, compare, sums};
@@ -59,7 +60,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     })?;
     // What was there before is compared first: it is about to be replaced.
     let changes = if args.figure.is_empty() { changes(&out, &files) } else { Vec::new() };
-    let sums_before = std::fs::read_to_string(out.join(sums::NAME)).unwrap_or_default();
+    let sums_before = input::read(&out.join(sums::NAME)).unwrap_or_default();
     staging.place(&files, &progress)?;
     if args.figure.is_empty() {
         remove_stale(&out, &sums_before, &files)?;
@@ -85,7 +86,7 @@ fn default_folder(profile: Profile) -> PathBuf {
 
 /// The values of the report in a folder, if there is one.
 fn values_in(folder: &Path) -> Option<Registry> {
-    compare::read(&std::fs::read_to_string(folder.join(VALUES)).ok()?).ok()
+    compare::read(&input::read(&folder.join(VALUES)).ok()?).ok()
 }
 
 /// Lesser samples must not take the place of the committed report.

@@ -42,7 +42,7 @@ impl Sources {
     /// Exit code 2 if the file is broken.
     pub fn published(&self, templates: &Templates) -> Result<Published, Failure> {
         let text = templates.text("published.toml").map_err(|e| Failure::input(e.to_string()))?;
-        Published::parse(text).map_err(|e| Failure::input(format!("published.toml: {e}")))
+        Published::parse(text).map_err(|e| Failure::input(e.to_string()))
     }
 
     /// Runs what is needed. The folder of results is made only if something long is run.

@@ -2,6 +2,7 @@
 
 use super::{Failure, sigmas, stdout, work};
 use impact_paper::experiments::{Progress, sweep};
+use impact_paper::input::one_line;
 use impact_paper::numerics::clock::LATEST;
 use impact_paper::params::{Boundary, Chain, Protocol, SEED, Start, SweepParams};
 use serde::Serialize;
@@ -98,7 +99,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
 
 /// Checks what the engine cannot check.
 fn parameters(args: &Args) -> Result<SweepParams, Failure> {
-    let sigmas = sigmas::parse(&args.sigma).map_err(Failure::input)?;
+    let sigmas = sigmas::parse(&args.sigma).map_err(|e| Failure::input(one_line(&e, 500)))?;
     let at_least_one = |name: &str, value: usize| {
         let message = format!("--{name}: 0 is not allowed; give 1 or more");
         if value == 0 { Err(Failure::input(message)) } else { Ok(()) }

@@ -86,7 +86,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
         return Err(Failure::input(message));
     }
     let name = args.scenario.display();
-    let text = std::fs::read_to_string(&args.scenario).map_err(|error| {
+    let text = impact_paper::input::read(&args.scenario).map_err(|error| {
         Failure::input(format!("{name}: {error}; give the path of a readable scenario file"))
     })?;
     let in_file = |error: Error| match error {

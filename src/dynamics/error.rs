@@ -1,5 +1,7 @@
 //! What can go wrong in a simulation, with the numbers that explain it.
 
+use crate::input::one_line;
+
 /// An error of the dynamics.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Error {
@@ -43,6 +45,9 @@ impl Error {
         problem: impl Into<String>,
         remedy: impl Into<String>,
     ) -> Self {
-        Error::Input { field: field.into(), problem: problem.into(), remedy: remedy.into() }
+        // Both may repeat what stands in a file.
+        let field = one_line(&field.into(), 80);
+        let problem = one_line(&problem.into(), 300);
+        Error::Input { field, problem, remedy: remedy.into() }
     }
 }

@@ -4,6 +4,7 @@
 //! depends on them. `make measure` writes them, with date and machine, and they are committed; the
 //! report only reads them, and so keeps its bytes until somebody measures again.
 
+use crate::input::{self, one_line};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -141,7 +142,7 @@ impl Measured {
         if !path.is_file() {
             return Measured::embedded();
         }
-        let text = std::fs::read_to_string(path).map_err(|e| wrong("file", e.to_string()))?;
+        let text = input::read(path).map_err(|e| wrong("file", e.to_string()))?;
         Measured::parse(&text)
     }
 
@@ -228,7 +229,7 @@ impl Row {
 }
 
 fn wrong(field: &str, problem: String) -> MeasuredError {
-    MeasuredError { field: field.into(), problem, remedy: AGAIN }
+    MeasuredError { field: one_line(field, 80), problem: one_line(&problem, 1000), remedy: AGAIN }
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use super::Error;
 use crate::dynamics::{Engine, Impact, Scenario};
+use crate::input::one_line;
 use serde::{Deserialize, Serialize};
 
 /// The two segments.
@@ -68,6 +69,12 @@ pub const FILES: [&str; 2] = ["scenarios/fig05.json", "scenarios/fig06.json"];
 /// one again, which closes the circuit.
 pub const ORDERS: [&[usize]; 2] = [&[0, 1, 3, 0], &[0, 0, 1, 0, 2, 1, 3, 3, 0]];
 
+/// Masses of both figures.
+const MASSES: usize = 3;
+
+/// No segment ends later: a file must not make the engine run on and on.
+const LATEST: f64 = 1000.0;
+
 /// A saved scenario.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -89,12 +96,21 @@ pub fn run(texts: [&str; 2]) -> Result<Segments, Error> {
 }
 
 fn replay(file: &str, text: &str, order: &[usize]) -> Result<Segment, Error> {
-    let fault = |problem: String| Error::Scenario { file: file.into(), problem };
+    let fault = |problem: String| {
+        let problem = one_line(&problem, 500);
+        Error::Scenario { file: file.into(), problem }
+    };
     let saved: Saved = serde_json::from_str(text).map_err(|error| fault(error.to_string()))?;
     let inner = saved.scenario.to_string();
     let scenario = Scenario::from_json(&inner).map_err(|error| fault(error.to_string()))?;
-    if saved.order != order || !(0.0 <= saved.from && saved.from < saved.until) {
+    if saved.order != order
+        || !(0.0 <= saved.from && saved.from < saved.until && saved.until <= LATEST)
+    {
         return Err(fault("order, from or until is not that of the figure".into()));
+    }
+    let masses = scenario.forcing.len();
+    if masses != MASSES {
+        return Err(fault(format!("it has {masses} masses; the figures show {MASSES}")));
     }
     let segment = record(&scenario, saved.from, saved.until).map_err(|e| fault(e.to_string()))?;
     let found: Vec<usize> = segment.impacts.iter().map(|impact| impact.gap).collect();

@@ -6,6 +6,7 @@
 //! the reason is said.
 
 use super::{Error, Progress};
+use crate::input::{LARGEST, one_line};
 use crate::params::Profile;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -120,7 +121,8 @@ impl std::fmt::Display for Reason {
 
 /// Reasons in one line.
 pub fn told(reasons: &[Reason]) -> String {
-    reasons.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
+    // A file that was saved elsewhere names its own sources.
+    one_line(&reasons.iter().map(ToString::to_string).collect::<Vec<_>>().join(", "), 1000)
 }
 
 /// Where results are saved.
@@ -206,6 +208,9 @@ impl Store {
 /// Reads and checks a file: its result as text, or why it is not to be used.
 fn read(path: &Path, identity: &Identity) -> Result<String, Vec<Reason>> {
     let damaged = |what: &str| vec![Reason::Damaged(what.into())];
+    if std::fs::metadata(path).is_ok_and(|found| found.len() > LARGEST || !found.is_file()) {
+        return Err(damaged("the saved result is too long, or no file"));
+    }
     let text = match std::fs::read(path) {
         Ok(bytes) => {
             String::from_utf8(bytes).map_err(|_| damaged("the saved result is no text"))?

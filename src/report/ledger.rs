@@ -1,5 +1,6 @@
 //! The ledger: every claim, figure and numbered equation of the paper, and its status.
 
+use super::Error;
 use super::claims::plain;
 use super::equations::{EQUATIONS, Equation, Home, homes};
 use super::markdown::escaped;
@@ -116,6 +117,14 @@ pub fn ledger(
         figures: figures.iter().map(figure).collect(),
         equations: EQUATIONS.into_iter().flat_map(of).collect(),
     }
+}
+
+/// Reads a ledger.json.
+///
+/// # Errors
+/// When it is not one.
+pub fn read(text: &str) -> Result<Ledger, Error> {
+    serde_json::from_str(text).map_err(|e| Error::Template(format!("ledger.json: {e}")))
 }
 
 /// ledger.json.

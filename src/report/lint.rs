@@ -12,6 +12,7 @@
 //! once, as a phrase with its reason, in `literals.toml`; a phrase that no prose has is refused.
 
 use super::Error;
+use crate::input::toml_fault;
 use serde::Deserialize;
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -91,7 +92,8 @@ impl Declared {
     /// What is wrong with it: TOML that does not read, a group without a reason.
     pub fn read(text: &str) -> Result<Self, Error> {
         let fail = |what: String| Error::Template(format!("literals.toml: {what}"));
-        let file: File = toml::from_str(text).map_err(|e| fail(e.to_string()))?;
+        let syntax = |error| Error::Template(format!("literals.toml:{}", toml_fault(text, &error)));
+        let file: File = toml::from_str(text).map_err(syntax)?;
         if let Some(group) = file.literal.iter().find(|group| group.why.trim().is_empty()) {
             return Err(fail(format!("no reason for {:?}", group.phrases)));
         }
@@ -129,6 +131,8 @@ pub fn numerals(path: &str, text: &str, declared: &Declared) -> Vec<Finding> {
     let mut findings = Vec::new();
     let mut position = Position { line: 1, column: 1 };
     let mut rest = text;
+    // Delimiters whose end was looked for in vain, so that it is not looked for again and again.
+    let mut endless = [false; EXEMPT.len()];
     // The word that the position is in, and whether it began with a letter.
     let mut word: Option<bool> = None;
     while let Some(c) = rest.chars().next() {
@@ -136,17 +140,21 @@ pub fn numerals(path: &str, text: &str, declared: &Declared) -> Vec<Finding> {
             rest = position.past(rest, 2);
             continue;
         }
-        if let Some((open, close)) = EXEMPT.iter().find(|(open, _)| rest.starts_with(open)) {
+        if let Some(kind) = EXEMPT.iter().position(|(open, _)| rest.starts_with(open))
+            && !endless[kind]
+        {
+            let (open, close) = EXEMPT[kind];
             let inner = &rest[open.len()..];
             // Without its end a delimiter is a character like any other.
             if let Some(length) = inner.find(close) {
-                if *open == "$" && is_number(&inner[..length]) {
+                if open == "$" && is_number(&inner[..length]) {
                     findings.push(position.finding(path, &inner[..length]));
                 }
                 rest = position.past(rest, open.len() + length + close.len());
                 word = None;
                 continue;
             }
+            endless[kind] = true;
         }
         if position.column == 1 {
             let marker = list_marker(rest);

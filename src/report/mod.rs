@@ -40,6 +40,11 @@ pub use assemble::{Files, Input, Report, assemble, files_of};
 pub use templates::Templates;
 pub use values::{Registry, Value};
 
+use crate::input::one_line;
+
+/// Characters that a message may have.
+const LINE: usize = 1000;
+
 /// What is wrong with the report, with the place where it can be mended.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
@@ -57,7 +62,7 @@ pub enum Error {
     )]
     NotFinite(String),
     /// A template that cannot be read, parsed or filled; the message has file, line and column.
-    #[error("{0}")]
+    #[error("{}", one_line(.0, LINE))]
     Template(String),
     /// Files that cannot be read.
     #[error("{path}: {source}; check --templates")]
@@ -68,13 +73,13 @@ pub enum Error {
         source: std::io::Error,
     },
     /// Markup that the report does not have.
-    #[error("the report has no such markup: {0}; see report::parse for what it has")]
+    #[error("the report has no such markup: {}; see report::parse for what it has", one_line(.0, 200))]
     Markup(String),
     /// Two things with one id.
-    #[error("{0}: two things in the report have this id; give one of them another")]
+    #[error("{}: two things in the report have this id; give one of them another", one_line(.0, 200))]
     Label(String),
     /// A reference to nothing.
-    #[error("[@{0}]: nothing in the report has this id; correct or remove the reference")]
+    #[error("[@{}]: nothing in the report has this id; correct or remove the reference", one_line(.0, 200))]
     Reference(String),
     /// A character that pdflatex does not know.
     #[error(
@@ -85,7 +90,7 @@ pub enum Error {
     #[error("a figure for LaTeX or HTML: {0}; draw it otherwise, or teach it to report::pdf")]
     Picture(String),
     /// Mathematics that cannot become MathML.
-    #[error("no MathML for ${tex}$: {what}; write it otherwise")]
+    #[error("no MathML for ${}$: {}; write it otherwise", one_line(tex, 200), one_line(what, 200))]
     Maths {
         /// The TeX.
         tex: String,

@@ -37,10 +37,30 @@ pub fn parse(text: &str, values: &Registry) -> Result<Vec<Block>, Error> {
     };
     let parser = Parser::new_with_broken_link_callback(text, options, Some(callback));
     let events: Vec<Event<'_>> = parser.collect();
+    shallow(&events)?;
     let mut reader = Reader { events: events.into_iter().peekable(), values };
     let mut blocks = reader.blocks()?;
     captions(&mut blocks)?;
     Ok(blocks)
+}
+
+/// Lists, quotations and spans within each other, at most: what reads and writes them calls itself.
+const DEEPEST: usize = 40;
+
+/// Refuses what is nested deeper than any prose.
+fn shallow(events: &[Event<'_>]) -> Result<(), Error> {
+    let mut depth: usize = 0;
+    for event in events {
+        match event {
+            Event::Start(_) => depth += 1,
+            Event::End(_) => depth = depth.saturating_sub(1),
+            _ => {}
+        }
+        if depth > DEEPEST {
+            return Err(Error::Markup(format!("more than {DEEPEST} levels within each other")));
+        }
+    }
+    Ok(())
 }
 
 struct Reader<'a> {

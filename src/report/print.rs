@@ -5,6 +5,9 @@
 
 use super::values::{Digits, Number, Value};
 
+/// No number has more digits to show: a double ends at its 1074th decimal.
+pub const MOST_DIGITS: usize = 1100;
+
 /// What a template asks of a value beyond its own digits, through filters.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Style {
@@ -55,6 +58,7 @@ pub enum Printed {
 
 /// Chooses the digits of a number.
 pub fn print(number: &Number, style: Style) -> Printed {
+    let most = |digits: usize| digits.min(MOST_DIGITS);
     let percent = if style.percent { 2 } else { 0 };
     let finish = |decimal: Decimal| Decimal {
         percent: style.percent,
@@ -65,8 +69,8 @@ pub fn print(number: &Number, style: Style) -> Printed {
         let x = times_ten(x, percent);
         finish(match style.digits {
             Some(Asked::Full) => shortest(x),
-            Some(Asked::Significant(n)) => significant(x, n),
-            Some(Asked::Fixed(n)) => bare(x, rounded(x, n as i32)),
+            Some(Asked::Significant(n)) => significant(x, most(n)),
+            Some(Asked::Fixed(n)) => bare(x, rounded(x, most(n) as i32)),
             None => own(x),
         })
     };
@@ -78,8 +82,8 @@ pub fn print(number: &Number, style: Style) -> Printed {
         Number::Integer(n) => Printed::One(asked(n as f64, &|x| bare(x, rounded(x, 0)))),
         Number::Real { value, digits } => Printed::One(asked(value, &|x| match digits {
             Digits::Error(error) => with_error(x, times_ten(error, percent)),
-            Digits::Significant(n) => significant(x, n),
-            Digits::Decimals(n) => bare(x, rounded(x, (n as i32 - percent).max(0))),
+            Digits::Significant(n) => significant(x, most(n)),
+            Digits::Decimals(n) => bare(x, rounded(x, (most(n) as i32 - percent).max(0))),
         })),
         Number::Interval { low, high } => {
             // Two digits of the width say all that an interval of confidence can say.

@@ -11,11 +11,13 @@
 //! numbers: `<% if raw.half_height < raw.printed.threshold %>`.
 //! `«code(item="circuits::jump::p_jump")»` is an item of the source, see [`super::literate`].
 
-use super::print::{Asked, Style};
+use super::print::{Asked, MOST_DIGITS, Style};
 use super::values::{Number, Registry};
 use super::{Error, literate};
-use std::collections::BTreeMap;
-use std::path::Path;
+use crate::input::{self, LARGEST};
+use std::collections::{BTreeMap, BTreeSet};
+use std::io;
+use std::path::{Path, PathBuf};
 use tera::{Context, Delimiters, Kwargs, State, Tera};
 
 /// The copy that is built into the program: path relative to `templates/`, and text.
@@ -57,9 +59,9 @@ impl Templates {
     /// # Errors
     /// When a file or folder cannot be read.
     pub fn read(folder: &Path) -> Result<Self, Error> {
-        let mut files = BTreeMap::new();
-        walk(folder, "", &mut files)?;
-        Ok(Templates(files))
+        let mut walk = Walk::default();
+        walk.folder(folder, "")?;
+        Ok(Templates(walk.files))
     }
 
     /// The given folder; without one `./templates` if it is there, else the embedded copy.
@@ -90,19 +92,74 @@ impl Templates {
     }
 }
 
-fn walk(folder: &Path, prefix: &str, into: &mut BTreeMap<String, String>) -> Result<(), Error> {
-    let fail = |path: &Path, source| Error::Read { path: path.display().to_string(), source };
-    for entry in std::fs::read_dir(folder).map_err(|e| fail(folder, e))? {
-        let path = entry.map_err(|e| fail(folder, e))?.path();
-        let Some(name) = path.file_name().and_then(|name| name.to_str()) else { continue };
-        let relative = format!("{prefix}{name}");
-        if path.is_dir() {
-            walk(&path, &format!("{relative}/"), into)?;
-        } else if TEXT.iter().any(|end| name.ends_with(end)) {
-            into.insert(relative, std::fs::read_to_string(&path).map_err(|e| fail(&path, e))?);
+/// A folder being read.
+#[derive(Default)]
+struct Walk {
+    files: BTreeMap<String, String>,
+    bytes: usize,
+    /// Folders so far: symbolic links may lead to one of them again, without end.
+    folders: BTreeSet<PathBuf>,
+}
+
+impl Walk {
+    fn folder(&mut self, folder: &Path, prefix: &str) -> Result<(), Error> {
+        let fail = |path: &Path, source| Error::Read { path: path.display().to_string(), source };
+        let refuse = |path: &Path, kind, what: &str| Err(fail(path, io::Error::new(kind, what)));
+        if !self.folders.insert(folder.canonicalize().map_err(|e| fail(folder, e))?) {
+            return refuse(
+                folder,
+                io::ErrorKind::Other,
+                "it leads to a folder that was read before",
+            );
         }
+        for entry in std::fs::read_dir(folder).map_err(|e| fail(folder, e))? {
+            let path = entry.map_err(|e| fail(folder, e))?.path();
+            let Some(name) = path.file_name().and_then(|name| name.to_str()) else { continue };
+            let relative = format!("{prefix}{name}");
+            if path.is_dir() {
+                self.folder(&path, &format!("{relative}/"))?;
+            } else if TEXT.iter().any(|end| name.ends_with(end)) {
+                // Whoever opens a pipe waits for its other end.
+                if std::fs::metadata(&path).is_ok_and(|found| !found.is_file()) {
+                    return refuse(&path, io::ErrorKind::InvalidInput, "it is no regular file");
+                }
+                let text = input::read(&path).map_err(|e| fail(&path, e))?;
+                self.bytes += text.len();
+                if self.bytes as u64 > LARGEST {
+                    let what = format!("the templates are longer than {} MiB", LARGEST >> 20);
+                    return refuse(&path, io::ErrorKind::FileTooLarge, &what);
+                }
+                self.files.insert(relative, text);
+            }
+        }
+        Ok(())
     }
-    Ok(())
+}
+
+/// What a template makes, up to the bound of what is read: loops and doubled texts grow fast.
+#[derive(Default)]
+struct Bounded(Vec<u8>);
+
+impl io::Write for Bounded {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        if (self.0.len() + bytes.len()) as u64 > LARGEST {
+            let what = format!("it makes more than {} MiB", LARGEST >> 20);
+            return Err(io::Error::new(io::ErrorKind::FileTooLarge, what));
+        }
+        self.0.extend_from_slice(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+/// Fills a template of `tera`.
+fn render(tera: &Tera, name: &str, context: &Context) -> Result<String, Error> {
+    let mut text = Bounded::default();
+    tera.render_to(name, context, &mut text).map_err(failure)?;
+    String::from_utf8(text.0).map_err(|_| Error::Template(format!("{name}: it makes no text")))
 }
 
 /// Tera, set up with the templates and the values.
@@ -146,7 +203,7 @@ impl Filler {
     /// # Errors
     /// An unknown name or a wrong filter, with file, line and column.
     pub fn fill(&self, path: &str) -> Result<String, Error> {
-        self.tera.render(path, &self.context).map_err(failure)
+        render(&self.tera, path, &self.context)
     }
 
     /// Fills a text that is no file (a field of a claim); `name` stands for it in errors.
@@ -156,7 +213,7 @@ impl Filler {
     pub fn fill_text(&self, name: &str, text: &str) -> Result<String, Error> {
         let mut tera = self.tera.clone();
         tera.add_raw_template(name, text).map_err(failure)?;
-        tera.render(name, &self.context).map_err(failure)
+        render(&tera, name, &self.context)
     }
 }
 
@@ -300,6 +357,14 @@ impl Mark {
     }
 }
 
+/// How many digits a filter asks for.
+fn digits(arguments: &Kwargs) -> tera::TeraResult<usize> {
+    match arguments.must_get("digits")? {
+        digits if digits <= MOST_DIGITS => Ok(digits),
+        _ => Err(tera::Error::message(format!("no number has more than {MOST_DIGITS} digits"))),
+    }
+}
+
 /// The filters on values; `literal` for a number that the prose may type with a reason; and `code`
 /// for an item of the source, which [`super::parse`] makes a listing.
 fn register(tera: &mut Tera) {
@@ -322,11 +387,11 @@ fn register(tera: &mut Tera) {
             Ok(())
         }),
         ("fixed", |style, arguments| {
-            style.digits = Some(Asked::Fixed(arguments.must_get("digits")?));
+            style.digits = Some(Asked::Fixed(digits(arguments)?));
             Ok(())
         }),
         ("significant", |style, arguments| {
-            style.digits = Some(Asked::Significant(arguments.must_get("digits")?));
+            style.digits = Some(Asked::Significant(digits(arguments)?));
             Ok(())
         }),
     ];

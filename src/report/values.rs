@@ -305,6 +305,14 @@ mod tests {
         assert!(registry.add(Value::interval("x", [0.0, f64::NAN])).is_err());
     }
 
+    /// Formatting panics beyond 65535 digits.
+    #[test]
+    fn digits_that_no_number_has_are_not_printed() {
+        assert!(Value::real("x", 0.1, 70_000).plain().starts_with("0.1000"));
+        let long = format!("0.{}", "1".repeat(70_000));
+        assert!(Value::printed("x", &long, "Sec. 2").plain().len() < 2000);
+    }
+
     #[test]
     fn printed_numbers_keep_their_digits() {
         let number = |text| Value::printed("x", text, "Sec. 2").number;

@@ -6,6 +6,7 @@ use impact_paper::dynamics::methods::{
 };
 use impact_paper::dynamics::{Error, Impact, Scenario};
 use impact_paper::experiments::measured::{Row, What};
+use impact_paper::input;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -111,8 +112,8 @@ fn read(path: &Path) -> Result<Reference, Failure> {
     let wrong = |problem: String| {
         Failure::input(format!("--reference: {}: {problem}; {remedy}", path.display()))
     };
-    let text = std::fs::read_to_string(path).map_err(|error| wrong(error.to_string()))?;
-    serde_json::from_str(&text).map_err(|error| wrong(error.to_string()))
+    let text = input::read(path).map_err(|error| wrong(error.to_string()))?;
+    serde_json::from_str(&text).map_err(|error| wrong(input::one_line(&error.to_string(), 300)))
 }
 
 /// Runs one setting as often as there is time for.

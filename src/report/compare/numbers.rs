@@ -3,8 +3,9 @@
 use super::super::Error;
 use super::super::print::{Asked, Style, print};
 use super::super::values::{Digits, Kind, Number, Registry, Value};
+use crate::report::print::MOST_DIGITS;
 use serde::Serialize;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// One difference between two sets of values.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -42,13 +43,21 @@ impl std::fmt::Display for Change {
 /// Reads a values.json.
 ///
 /// # Errors
-/// When it is not one.
+/// When it is not one, and as [`Registry::add`].
 pub fn read(text: &str) -> Result<Registry, Error> {
-    serde_json::from_str(text).map_err(|e| Error::Template(format!("values.json: {e}")))
+    let fault = |what: String| Error::Template(format!("values.json: {what}"));
+    let values: BTreeMap<String, Value> =
+        serde_json::from_str(text).map_err(|e| fault(e.to_string()))?;
+    let mut registry = Registry::new();
+    for (id, value) in values {
+        if value.id != id {
+            return Err(fault(format!("{id:?} has the id {:?}; give it its own", value.id)));
+        }
+        registry.add(value).map_err(|e| fault(e.to_string()))?;
+    }
+    printable(&registry).map_err(Error::Template)?;
+    Ok(registry)
 }
-
-/// No double has more digits than this.
-const MOST_DIGITS: usize = 1100;
 
 /// Refuses numbers of digits that nobody would print.
 pub fn printable(values: &Registry) -> Result<(), String> {

@@ -1,0 +1,82 @@
+//! Text from outside: files are read up to a bound, and what is wrong with them is told in one line.
+
+use std::fs::File;
+use std::io::{Error, ErrorKind, Read};
+use std::path::Path;
+
+/// No file that is read may be longer, in bytes: all of it is kept in memory. The largest that the
+/// program writes has some hundred kilobytes.
+pub const LARGEST: u64 = 64 << 20;
+
+/// Reads a text file.
+///
+/// # Errors
+/// What the system says, and files that are no UTF-8 or longer than [`LARGEST`] (a device without
+/// end is).
+pub fn read(path: &Path) -> Result<String, Error> {
+    let mut bytes = Vec::new();
+    File::open(path)?.take(LARGEST + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > LARGEST {
+        let what = format!("it is longer than {} MiB", LARGEST >> 20);
+        return Err(Error::new(ErrorKind::FileTooLarge, what));
+    }
+    String::from_utf8(bytes).map_err(|_| Error::new(ErrorKind::InvalidData, "it is no UTF-8 text"))
+}
+
+/// A message in one line of at most `most` characters: parsers repeat what they were given. Of a
+/// longer one the beginning and the end are kept, for both tell something.
+pub fn one_line(text: &str, most: usize) -> String {
+    let visible = |c: char| if breaks(c) { ' ' } else { c };
+    let line: String = text.trim().chars().map(visible).collect();
+    let length = line.chars().count();
+    if length <= most {
+        return line;
+    }
+    let (head, tail) = (most * 2 / 3, most - most * 2 / 3 - 1);
+    let head = line.chars().take(head);
+    head.chain(['…']).chain(line.chars().skip(length - tail)).collect()
+}
+
+/// Does a terminal or an editor take the character for more than a sign?
+fn breaks(c: char) -> bool {
+    c.is_control() || matches!(c, '\u{2028}' | '\u{2029}')
+}
+
+/// A fault of TOML with its line, from 1: `12: missing field …`.
+pub fn toml_fault(text: &str, error: &toml::de::Error) -> String {
+    let before = error.span().and_then(|span| text.get(..span.start)).unwrap_or_default();
+    let line = before.matches('\n').count() + 1;
+    format!("{line}: {}", one_line(error.message(), 300))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_and_broken_lines_are_one_short_line() {
+        assert_eq!(one_line("a\nb\u{2028}c\0\n", 10), "a b c");
+        let long = format!("begin{}end", "σ".repeat(1000));
+        let line = one_line(&long, 30);
+        assert_eq!(line.chars().count(), 30);
+        assert!(
+            line.starts_with("begin") && line.ends_with("σend") && line.contains('…'),
+            "{line}"
+        );
+        assert_eq!(one_line("abc", 3), "abc");
+    }
+
+    #[test]
+    fn files_are_read_up_to_the_bound() {
+        let file = tempfile::NamedTempFile::new().unwrap();
+        file.as_file().set_len(LARGEST).unwrap();
+        assert_eq!(read(file.path()).unwrap().len() as u64, LARGEST);
+        file.as_file().set_len(LARGEST + 1).unwrap();
+        assert_eq!(read(file.path()).unwrap_err().to_string(), "it is longer than 64 MiB");
+        std::fs::write(file.path(), [b'a', 0xff]).unwrap();
+        assert_eq!(read(file.path()).unwrap_err().to_string(), "it is no UTF-8 text");
+        if Path::new("/dev/zero").exists() {
+            assert_eq!(read(Path::new("/dev/zero")).unwrap_err().kind(), ErrorKind::FileTooLarge);
+        }
+    }
+}
