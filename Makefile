@@ -1,7 +1,7 @@
 # Every target is one line that calls cargo, the program or a script. Needed: Rust (rust-toolchain.toml
 # names the version), make and a C compiler for linking.
 
-.PHONY: paper quick check pdf latex browser test test-long lint bench measure clean help
+.PHONY: paper quick check pdf latex browser test test-long lint identity bench measure clean help
 
 paper: ## the whole reproduction in the full profile, into paper/
 	cargo run --release --locked -- paper
@@ -29,6 +29,9 @@ test-long: ## the long tests only (searches, large samples)
 
 lint: ## formatting, clippy and documentation, warnings denied
 	cargo fmt --check && cargo clippy --locked --all-targets -- -D warnings && RUSTDOCFLAGS="-D warnings" cargo doc --locked --no-deps --document-private-items
+
+identity: ## the same bytes for any threads, folder, locale, C library and build (quick profile; minutes to build)
+	.ci/identity
 
 bench: ## how fast the parts are, on this machine
 	cargo bench --locked --bench engine

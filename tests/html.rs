@@ -294,7 +294,7 @@ fn colours_stand_out_in_light_and_dark() {
             let (a, b) = (colour(a), colour(b));
             (a.max(b) + 0.05) / (a.min(b) + 0.05)
         };
-        for (name, _) in figures::palette() {
+        for (name, _) in impact_paper::figures::palette() {
             let least = match name {
                 "page" => continue,
                 // Fills behind other things.
