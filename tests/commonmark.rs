@@ -36,7 +36,9 @@ fn every_link_lands_and_every_picture_is_there() {
                     inside += 1;
                     assert!(anchors.contains(id), "no anchor {id}");
                 } else if !dest_url.contains("://") {
-                    let source = dest_url.strip_prefix("../").map(|path| Path::new(path).exists());
+                    let source = dest_url
+                        .strip_prefix("../")
+                        .map(|path| std::path::Path::new(path).exists());
                     let made = QUICK.report.committed.contains_key(&*dest_url)
                         || ["SHA256SUMS", "data"].contains(&&*dest_url);
                     assert!(source.unwrap_or(made), "no file {dest_url}");
@@ -49,7 +51,7 @@ fn every_link_lands_and_every_picture_is_there() {
             _ => {}
         }
     }
-    assert_eq!(pictures, figures::all().count());
+    assert_eq!(pictures, impact_paper::figures::all().count());
     assert!(inside > 200, "{inside}");
 }
 
