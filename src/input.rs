@@ -27,10 +27,11 @@ pub fn read(path: &Path) -> Result<String, Error> {
 /// longer one the beginning and the end are kept, for both tell something.
 pub fn one_line(text: &str, most: usize) -> String {
     let visible = |c: char| if breaks(c) { ' ' } else { c };
-    let line: String = text.trim().chars().map(visible).collect();
+    let line: String = text.chars().map(visible).collect();
+    let line = line.trim();
     let length = line.chars().count();
     if length <= most {
-        return line;
+        return line.into();
     }
     let (head, tail) = (most * 2 / 3, most - most * 2 / 3 - 1);
     let head = line.chars().take(head);
