@@ -2,11 +2,14 @@
 
 mod audit;
 mod bench;
+mod bundle;
+mod certificate;
 mod check;
 mod diff;
 mod eval;
 mod explain;
 mod folder;
+mod git;
 mod make;
 mod method;
 mod output;
@@ -39,6 +42,7 @@ struct Cli {
 enum Verb {
     Audit(audit::Args),
     Bench(bench::Args),
+    Bundle(bundle::Args),
     Check(check::Args),
     Diff(diff::Args),
     Eval(eval::Args),
@@ -85,6 +89,7 @@ pub fn main() -> ExitCode {
     let result = match verb {
         Verb::Audit(args) => audit::run(args),
         Verb::Bench(args) => bench::run(args),
+        Verb::Bundle(args) => bundle::run(args),
         Verb::Check(args) => check::run(args),
         Verb::Diff(args) => diff::run(args),
         Verb::Eval(args) => eval::run(args),

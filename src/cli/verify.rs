@@ -1,7 +1,7 @@
 //! `impact-paper verify`.
 
 use super::sources::Sources;
-use super::{Failure, folder, make, stdout, work};
+use super::{Failure, certificate, folder, make, stdout, work};
 use clap::ValueEnum;
 use impact_paper::experiments::Progress;
 use impact_paper::params::Profile;
@@ -36,28 +36,62 @@ pub struct Args {
     /// Number of threads; all cores without it. It changes no bit of the result.
     #[arg(long, value_name = "K", allow_hyphen_values = true, requires = "rerun")]
     threads: Option<usize>,
+    /// Write what came out into this file, as a certificate that a person can sign.
+    #[arg(long, value_name = "FILE", requires = "rerun")]
+    certificate: Option<PathBuf>,
 }
 
 /// Runs the verb.
 pub fn run(args: Args) -> Result<(), Failure> {
     let progress = work::progress();
-    let mut faults = listed(&args.folder, &progress)?;
+    let mut checked = listed(&args.folder, &progress)?;
+    checked.tell(&args.folder)?;
     if args.rerun {
-        faults += rerun(&args, &progress)?;
+        let again = rerun(&args, &progress)?;
+        again.tell(&args.folder)?;
+        if let Some(path) = &args.certificate {
+            certificate::write(path, &args.folder, &checked, &again)?;
+        }
+        checked.faults.extend(again.faults);
     }
-    if faults == 0 {
-        return Ok(());
-    }
-    let (what, them) =
-        if faults == 1 { ("1 fault", "it") } else { (&*format!("{faults} faults"), "them") };
+    let them = match checked.faults.len() {
+        0 => return Ok(()),
+        1 => "1 fault (standard output names it)".to_string(),
+        faults => format!("{faults} faults (standard output names them)"),
+    };
     let remedy = "`impact-paper paper` writes a report anew, `impact-paper diff` says what differs";
-    let message =
-        format!("{}: {what} (standard output names {them}); {remedy}", args.folder.display());
+    let message = format!("{}: {them}; {remedy}", args.folder.display());
     Err(Failure { code: 1, message })
 }
 
-/// Compares the folder with its list, and returns the number of faults.
-fn listed(root: &Path, progress: &Progress) -> Result<usize, Failure> {
+/// What a comparison of all files found.
+pub struct Checked {
+    /// How many files were compared.
+    pub files: usize,
+    /// What a file without fault is, after the number of files.
+    pub fine: String,
+    /// One line for each file with a fault.
+    pub faults: Vec<String>,
+}
+
+impl Checked {
+    fn tell(&self, folder: &Path) -> Result<(), Failure> {
+        for fault in &self.faults {
+            stdout::print(&format!("{fault}\n"))?;
+        }
+        if self.faults.is_empty() {
+            let folder = folder.display();
+            stdout::print(&format!("{folder}: {} files{}\n", self.files, self.fine))?;
+        }
+        Ok(())
+    }
+}
+
+/// Compares the folder with its list.
+///
+/// # Errors
+/// Exit code 2 if there is no list that can be read.
+pub fn listed(root: &Path, progress: &Progress) -> Result<Checked, Failure> {
     let place = root.join(sums::NAME);
     let unusable = |what: String| {
         let remedy = "make the report anew with `impact-paper paper`";
@@ -67,18 +101,16 @@ fn listed(root: &Path, progress: &Progress) -> Result<usize, Failure> {
     let text = folder::read(root, sums::NAME).map_err(|e| unusable(e.to_string()))?;
     let text = String::from_utf8(text).map_err(|e| unusable(e.to_string()))?;
     let entries = sums::read(&text).map_err(|e| unusable(e.to_string()))?;
-    let mut faults = 0;
-    let mut tell = |what: &str, path: &str, more: &str| {
-        faults += 1;
-        stdout::print(&format!("{what:8} {path}{more}\n"))
-    };
+    let mut faults = Vec::new();
+    let mut fault =
+        |what: &str, path: &str, more: &str| faults.push(format!("{what:8} {path}{more}"));
     for entry in &entries {
         progress.check()?;
         match folder::read(root, &entry.path) {
             Ok(bytes) if sums::digest(&bytes) == entry.digest => (),
-            Ok(_) => tell("differs", &entry.path, "")?,
-            Err(error) if error.kind() == ErrorKind::NotFound => tell("missing", &entry.path, "")?,
-            Err(error) => tell("unread", &entry.path, &format!(" ({error})"))?,
+            Ok(_) => fault("differs", &entry.path, ""),
+            Err(error) if error.kind() == ErrorKind::NotFound => fault("missing", &entry.path, ""),
+            Err(error) => fault("unread", &entry.path, &format!(" ({error})")),
         }
     }
     let known: BTreeSet<&str> = entries.iter().map(|entry| entry.path.as_str()).collect();
@@ -86,17 +118,14 @@ fn listed(root: &Path, progress: &Progress) -> Result<usize, Failure> {
         *path != sums::NAME && !folder::is_beside(path) && !known.contains(path.as_str())
     };
     for path in found.iter().filter(strange) {
-        tell("unlisted", path, "")?;
+        fault("unlisted", path, "");
     }
-    if faults == 0 {
-        let (root, count) = (root.display(), entries.len());
-        stdout::print(&format!("{root}: {count} files, all as {} lists them\n", sums::NAME))?;
-    }
-    Ok(faults)
+    let fine = format!(", all as {} lists them", sums::NAME);
+    Ok(Checked { files: entries.len(), fine, faults })
 }
 
-/// Makes the report again, compares, and returns the number of faults.
-fn rerun(args: &Args, progress: &Progress) -> Result<usize, Failure> {
+/// Makes the report again and compares.
+fn rerun(args: &Args, progress: &Progress) -> Result<Checked, Failure> {
     let profile = match args.profile {
         Some(name) => Profile::from(name),
         None => own_profile(&args.folder)?,
@@ -110,34 +139,29 @@ fn rerun(args: &Args, progress: &Progress) -> Result<usize, Failure> {
     let made: Files = work::on_threads(args.threads, || {
         Ok(make::whole(&sources, profile, false, progress)?.committed)
     })?;
-    let mut faults = 0;
-    let mut tell = |what: &str, path: &str| {
-        faults += 1;
-        stdout::print(&format!("rerun: {what:8} {path}\n"))
-    };
+    let mut faults = Vec::new();
+    let mut fault = |what: &str, path: &str| faults.push(format!("rerun: {what:8} {path}"));
     for (path, bytes) in &made {
         match folder::read(&args.folder, path) {
             Ok(standing) if standing == *bytes => (),
-            Ok(_) => tell("differs", path)?,
-            Err(_) => tell("missing", path)?,
+            Ok(_) => fault("differs", path),
+            Err(_) => fault("missing", path),
         }
     }
     for path in folder::walk(&args.folder)? {
         if !folder::is_beside(&path) && !made.contains_key(&path) {
-            tell("not made", &path)?;
+            fault("not made", &path);
         }
     }
-    if faults == 0 {
-        let (root, count, name) = (args.folder.display(), made.len(), profile.name());
-        let line =
-            format!("{root}: {count} files made again with the {name} profile, the same bytes\n");
-        stdout::print(&line)?;
-    }
-    Ok(faults)
+    let fine = format!(" made again with the {} profile, the same bytes", profile.name());
+    Ok(Checked { files: made.len(), fine, faults })
 }
 
 /// The profile that the report's values name.
-fn own_profile(root: &Path) -> Result<Profile, Failure> {
+///
+/// # Errors
+/// Exit code 2 if they name none.
+pub fn own_profile(root: &Path) -> Result<Profile, Failure> {
     let unknown = |what: &str| {
         Failure::input(format!("{}: values.json {what}; give --profile", root.display()))
     };

@@ -3,7 +3,6 @@
 use super::super::Failure;
 use impact_paper::report::{Files, sums};
 use std::io::ErrorKind;
-use std::process::Command;
 
 /// The folder of the report in a revision, from where the program runs.
 const FOLDER: &str = "./paper";
@@ -41,15 +40,12 @@ pub fn files(name: &str) -> Result<Files, Failure> {
     Ok(files)
 }
 
-/// What git prints, without a shell between; None if it fails.
+/// What git prints; None if it fails.
 fn git(name: &str, arguments: &[&str]) -> Result<Option<Vec<u8>>, Failure> {
-    let output =
-        Command::new("git").args(["--no-pager", "--no-replace-objects"]).args(arguments).output();
-    match output {
-        Ok(output) => Ok(output.status.success().then_some(output.stdout)),
-        Err(error) if error.kind() == ErrorKind::NotFound => Err(Failure::input(format!(
+    super::super::git::git(arguments).map_err(|error| match error.kind() {
+        ErrorKind::NotFound => Failure::input(format!(
             "{name}: no such folder, and there is no git to ask for a revision; install git, or give a folder"
-        ))),
-        Err(error) => Err(Failure::input(format!("{name}: git: {error}; give a folder"))),
-    }
+        )),
+        _ => Failure::input(format!("{name}: git: {error}; give a folder")),
+    })
 }

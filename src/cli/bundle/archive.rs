@@ -1,0 +1,90 @@
+//! A ZIP file that appears whole or not at all, with the digest of each file in it.
+
+use super::super::Failure;
+use impact_paper::report::sums;
+use std::collections::BTreeMap;
+use std::fmt::Display;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use tempfile::NamedTempFile;
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, DateTime, ZipWriter};
+
+/// An archive that is being written. The same files give the same bytes: no clock, no owner.
+pub struct Archive {
+    path: PathBuf,
+    /// The folder that all files are in.
+    top: String,
+    zip: ZipWriter<NamedTempFile>,
+    /// Digest and size by path.
+    files: BTreeMap<String, (String, usize)>,
+}
+
+impl Archive {
+    /// An empty archive, which will be at `path` once it is complete.
+    ///
+    /// # Errors
+    /// Exit code 2 if nothing can be written there.
+    pub fn at(path: &Path, top: &str) -> Result<Self, Failure> {
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+        let file = NamedTempFile::new_in(folder.unwrap_or(Path::new(".")))
+            .map_err(|error| unwritable(path, &error))?;
+        let (path, top) = (path.to_path_buf(), top.to_string());
+        Ok(Archive { path, top, zip: ZipWriter::new(file), files: BTreeMap::new() })
+    }
+
+    /// Adds a file.
+    ///
+    /// # Errors
+    /// Exit code 2 if it cannot be written, or if there is one under this path.
+    pub fn add(&mut self, path: &str, bytes: &[u8], is_program: bool) -> Result<(), Failure> {
+        if self.files.contains_key(path) {
+            let what =
+                format!("bundle: {path} would be there twice; rename that file of the source");
+            return Err(Failure::input(what));
+        }
+        let options = SimpleFileOptions::default()
+            .compression_method(CompressionMethod::Deflated)
+            .last_modified_time(DateTime::default())
+            .unix_permissions(if is_program { 0o755 } else { 0o644 });
+        self.zip
+            .start_file(format!("{}/{path}", self.top), options)
+            .map_err(|error| unwritable(&self.path, &error))?;
+        self.zip.write_all(bytes).map_err(|error| unwritable(&self.path, &error))?;
+        self.files.insert(path.into(), (sums::digest(bytes), bytes.len()));
+        Ok(())
+    }
+
+    /// Digest and size of a file.
+    pub fn get(&self, path: &str) -> Option<&(String, usize)> {
+        self.files.get(path)
+    }
+
+    /// Paths of all files, sorted.
+    pub fn paths(&self) -> impl Iterator<Item = &str> {
+        self.files.keys().map(String::as_str)
+    }
+
+    /// Adds SHA256SUMS, moves the archive to its place, and returns how many files it has and its
+    /// size in bytes.
+    ///
+    /// # Errors
+    /// Exit code 2 if it cannot be written.
+    pub fn finish(mut self) -> Result<(usize, u64), Failure> {
+        let line = |(path, (digest, _)): (&String, &(String, usize))| format!("{digest}  {path}\n");
+        let list: String = self.files.iter().map(line).collect();
+        self.add(sums::NAME, list.as_bytes(), false)?;
+        let path = self.path;
+        let file = self.zip.finish().map_err(|error| unwritable(&path, &error))?;
+        let failed = |error: std::io::Error| unwritable(&path, &error);
+        file.as_file().sync_all().map_err(failed)?;
+        let size = file.as_file().metadata().map_err(failed)?.len();
+        file.persist(&path).map_err(|error| failed(error.error))?;
+        Ok((self.files.len(), size))
+    }
+}
+
+fn unwritable(path: &Path, error: &dyn Display) -> Failure {
+    let path = path.display();
+    Failure::input(format!("{path}: {error}; give an archive that can be written"))
+}

@@ -1,0 +1,125 @@
+//! `impact-paper bundle`.
+
+mod archive;
+mod codecheck;
+mod metadata;
+mod tree;
+mod vendored;
+
+use super::{Failure, certificate, folder, stdout, verify, work};
+use archive::Archive;
+use clap::ValueEnum;
+use impact_paper::experiments::{Store, catalogue};
+use impact_paper::params::Profile;
+use impact_paper::report::sums;
+use std::path::{Path, PathBuf};
+use tree::Tree;
+
+/// Packs all that is needed to make the report again in ten years into one ZIP file.
+///
+/// In it: the committed source, the source of every crate with the settings that let cargo build
+/// without a network, the toolchain file, saved results, paper/ with what was built beside it,
+/// SHA256SUMS of everything, RO-Crate 1.2 metadata, CITATION.cff, codecheck.yml, and the draft of a
+/// certificate that `verify --rerun --certificate` fills in. The same revision and results give the
+/// same bytes. Run it in a clone without uncommitted changes.
+#[derive(clap::Args)]
+pub struct Args {
+    /// The archive.
+    #[arg(value_name = "OUT.zip")]
+    out: PathBuf,
+    /// Folder of the saved results; they must be fresh.
+    #[arg(long, value_name = "DIR", default_value = "target/results")]
+    results: PathBuf,
+    /// Leave something out: `crates` (building then needs a registry) or `results` (making the
+    /// report then takes minutes); may be repeated.
+    #[arg(long, value_name = "WHAT")]
+    without: Vec<Part>,
+}
+
+/// What can be left out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Part {
+    /// The source of all crates.
+    Crates,
+    /// Saved results.
+    Results,
+}
+
+/// The committed report, in a clone.
+const PAPER: &str = "paper";
+
+/// Runs the verb.
+pub fn run(args: Args) -> Result<(), Failure> {
+    let progress = work::progress();
+    let tree = Tree::here()?;
+    let report = Path::new(PAPER);
+    let listed = verify::listed(report, &progress)?;
+    if let Some(first) = listed.faults.first() {
+        let what = format!("bundle: paper/ is not what its {} lists ({first})", sums::NAME);
+        return Err(Failure {
+            code: 1,
+            message: format!("{what}; make it anew with `make paper`"),
+        });
+    }
+    let facts = certificate::Facts::of(report)?;
+    let top = format!("impact-paper-{}", env!("CARGO_PKG_VERSION"));
+    let mut archive = Archive::at(&args.out, &top)?;
+    let released = metadata::released(Path::new("."))?;
+
+    let here = Path::new(".");
+    for (path, is_program) in &tree.files {
+        progress.check()?;
+        archive.add(path, &read(here, path)?, *is_program)?;
+    }
+    let beside = folder::walk(report)?.into_iter().filter(|path| folder::is_beside(path));
+    for path in beside {
+        archive.add(&format!("{PAPER}/{path}"), &read(report, &path)?, false)?;
+    }
+    if !args.without.contains(&Part::Results) {
+        let profile = verify::own_profile(report)?;
+        for name in fresh(&args.results, profile)? {
+            archive.add(&format!("results/{name}"), &read(&args.results, &name)?, false)?;
+        }
+    }
+    if !args.without.contains(&Part::Crates) {
+        vendored::add(&mut archive, &progress)?;
+    }
+    archive.add("CERTIFICATE.md", certificate::text(&facts, None).as_bytes(), false)?;
+    archive.add("codecheck.yml", codecheck::text(&archive).as_bytes(), false)?;
+    let metadata = metadata::text(&archive, &tree.revision, &released);
+    archive.add(metadata::NAME, metadata.as_bytes(), false)?;
+    progress.check()?;
+    let (files, size) = archive.finish()?;
+    let size = size as f64 / 1e6;
+    stdout::print(&format!("{}: {files} files, {size:.1} MB\n", args.out.display()))
+}
+
+fn read(root: &Path, path: &str) -> Result<Vec<u8>, Failure> {
+    folder::read(root, path).map_err(|error| {
+        let path = root.join(path);
+        Failure::input(format!("{}: {error}; make it a file that can be read", path.display()))
+    })
+}
+
+/// Names of the saved results of a profile.
+///
+/// # Errors
+/// Exit code 3 if one of them is not what this program would run to.
+fn fresh(results: &Path, profile: Profile) -> Result<Vec<String>, Failure> {
+    let store = Store::open(results)?;
+    let stale = |experiment: &&&dyn catalogue::Saved| !experiment.stale(profile, &store).is_empty();
+    let stale: Vec<&str> =
+        catalogue::ALL.iter().filter(stale).map(|experiment| experiment.need().name()).collect();
+    if stale.is_empty() {
+        let name = |experiment: &&dyn catalogue::Saved| {
+            format!("{}-{}.json", experiment.need().name(), profile.name())
+        };
+        return Ok(catalogue::ALL.iter().map(name).collect());
+    }
+    Err(Failure::stale(format!(
+        "--results: {} in {} not fresh; `impact-paper paper --profile {}` makes them, `--without results` packs none",
+        stale.join(", "),
+        results.display(),
+        profile.name()
+    )))
+}

@@ -1,0 +1,132 @@
+//! A certificate that a check was made: what the program can say, and places for a person's hand.
+
+use super::verify::Checked;
+use super::{Failure, folder};
+use impact_paper::report::values::Number;
+use impact_paper::report::{Registry, compare, sums};
+use std::fmt::Write as _;
+use std::io::Write as _;
+use std::path::Path;
+
+/// What a report says of itself.
+pub struct Facts {
+    values: Registry,
+    files: usize,
+    sums: String,
+}
+
+impl Facts {
+    /// Reads values.json and SHA256SUMS of a report's folder.
+    ///
+    /// # Errors
+    /// Exit code 2 if one of them cannot be read.
+    pub fn of(root: &Path) -> Result<Self, Failure> {
+        let fault = |path: &str, what: String| {
+            let remedy = "make the report anew with `impact-paper paper`";
+            Failure::input(format!("{}: {what}; {remedy}", root.join(path).display()))
+        };
+        let text = |path: &str| {
+            let bytes = folder::read(root, path).map_err(|e| fault(path, e.to_string()))?;
+            String::from_utf8(bytes).map_err(|e| fault(path, e.to_string()))
+        };
+        let values = compare::read(&text("values.json")?);
+        let values = values.map_err(|e| fault("values.json", e.to_string()))?;
+        let list = text(sums::NAME)?;
+        let files = sums::read(&list).map_err(|e| fault(sums::NAME, e.to_string()))?.len();
+        Ok(Facts { values, files, sums: sums::digest(list.as_bytes()) })
+    }
+
+    /// A value as text, or a dash.
+    pub fn value(&self, id: &str) -> String {
+        match self.values.get(id).map(|value| &value.number) {
+            Some(Number::Text(text)) => text.clone(),
+            Some(Number::Integer(n)) => n.to_string(),
+            _ => "–".into(),
+        }
+    }
+}
+
+/// The certificate, with what a rerun found if there was one.
+pub fn text(facts: &Facts, found: Option<(&Checked, &Checked)>) -> String {
+    let score = |id: &str| facts.value(&format!("score.{id}"));
+    let mut out = String::from("# Certificate of a check\n\n");
+    out +=
+        "A report counts as reproduced when a program built from the archived source makes every\n";
+    out += "file of it again, byte for byte. `verify --rerun --certificate` fills in the second part;\n";
+    out += "the third is for the person who ran it.\n\n";
+    out += "## 1. What is checked\n\n| | |\n|---|---|\n";
+    let mut row = |name: &str, what: &str| {
+        let _ = writeln!(out, "| {name} | {what} |");
+    };
+    row("Work", &format!("impact-paper {}", facts.value("version")));
+    row(
+        "Reproduces",
+        "M. Homer and S. J. Hogan (2007), Impact Dynamics of Large Dimensional Systems",
+    );
+    row(
+        "Sample sizes",
+        &format!("profile {}, seed {}", facts.value("profile"), facts.value("seed")),
+    );
+    row("Files of the report", &facts.files.to_string());
+    row("SHA-256 of SHA256SUMS", &format!("`{}`", facts.sums));
+    row("SHA-256 of the printed numbers", &format!("`{}`", facts.value("published_digest")));
+    row(
+        "Claims of the paper",
+        &format!(
+            "{}: {} reproduced, {} differ and are explained, {} differ, {} cannot be judged",
+            score("total"),
+            score("reproduced"),
+            score("differs_and_explained"),
+            score("differs"),
+            score("cannot_be_judged")
+        ),
+    );
+    out += "\n## 2. What the rerun found\n\n";
+    match found {
+        None => out += "Not run yet.\n",
+        Some((listed, again)) => {
+            let machine = std::env::consts::ARCH;
+            let cores = std::thread::available_parallelism().map_or(1, usize::from);
+            let _ = writeln!(out, "| | |\n|---|---|");
+            let _ = writeln!(out, "| Program | impact-paper {} |", env!("CARGO_PKG_VERSION"));
+            let _ =
+                writeln!(out, "| Machine | {}, {machine}, {cores} cores |", std::env::consts::OS);
+            let verdict = |checked: &Checked| match checked.faults.len() {
+                0 => format!("{} files{}", checked.files, checked.fine),
+                1 => "**1 fault**".into(),
+                faults => format!("**{faults} faults**"),
+            };
+            let _ = writeln!(out, "| Files against their list | {} |", verdict(listed));
+            let _ = writeln!(out, "| Files made again | {} |", verdict(again));
+            let faults: Vec<&String> = listed.faults.iter().chain(&again.faults).collect();
+            if !faults.is_empty() {
+                out += "\n```text\n";
+                faults.iter().for_each(|fault| out += &format!("{fault}\n"));
+                out += "```\n";
+            }
+        }
+    }
+    out += "\n## 3. Who checked it\n\n| | |\n|---|---|\n";
+    for place in ["Name", "ORCID", "Date", "What was looked at besides", "Signature"] {
+        let _ = writeln!(out, "| {place} | |");
+    }
+    out
+}
+
+/// Writes the certificate of a rerun; what stood there before is replaced whole.
+///
+/// # Errors
+/// Exit code 2 if the file cannot be written.
+pub fn write(path: &Path, root: &Path, listed: &Checked, again: &Checked) -> Result<(), Failure> {
+    let text = text(&Facts::of(root)?, Some((listed, again)));
+    let failed = |error: std::io::Error| {
+        let path = path.display();
+        Failure::input(format!("--certificate: {path}: {error}; give a file that can be written"))
+    };
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let mut file =
+        tempfile::NamedTempFile::new_in(folder.unwrap_or(Path::new("."))).map_err(failed)?;
+    file.write_all(text.as_bytes()).map_err(failed)?;
+    file.persist(path).map_err(|e| failed(e.error))?;
+    Ok(())
+}
