@@ -27,8 +27,11 @@ impl Archive {
     /// Exit code 2 if nothing can be written there.
     pub fn at(path: &Path, top: &str) -> Result<Self, Failure> {
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-        let file = NamedTempFile::new_in(folder.unwrap_or(Path::new(".")))
-            .map_err(|error| unwritable(path, &error))?;
+        let folder = folder.unwrap_or(Path::new("."));
+        if !folder.is_dir() || path.is_dir() {
+            return Err(unwritable(path, &"its folder is not there, or it is one itself"));
+        }
+        let file = NamedTempFile::new_in(folder).map_err(|error| unwritable(path, &error))?;
         let (path, top) = (path.to_path_buf(), top.to_string());
         Ok(Archive { path, top, zip: ZipWriter::new(file), files: BTreeMap::new() })
     }

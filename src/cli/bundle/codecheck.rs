@@ -2,7 +2,7 @@
 
 use super::PAPER;
 use super::archive::Archive;
-use impact_paper::figures::{self, Number};
+use super::told::description;
 use std::fmt::Write;
 
 /// The file. Strings are quoted as in JSON, which YAML reads too.
@@ -12,23 +12,14 @@ pub fn text(archive: &Archive) -> String {
     out += "paper:\n  title: \"Impact Dynamics of Large Dimensional Systems\"\n  authors:\n";
     out += "    - name: \"Martin Homer\"\n    - name: \"S. John Hogan\"\n";
     out += "  reference: \"International Journal of Bifurcation and Chaos 17 (2007)\"\nmanifest:\n";
-    let mut entry = |file: String, comment: &str| {
-        if archive.get(&file).is_some() {
-            let (file, comment) = (quoted(&file), quoted(comment));
-            let _ = writeln!(out, "  - file: {file}\n    comment: {comment}");
-        }
-    };
-    for number in figures::all() {
-        let (name, comment) = match number {
-            Number::Paper(n) => (format!("fig{n:02}"), format!("Figure {n} of the paper")),
-            Number::Own(n) => (format!("s{n:02}"), format!("Figure S{n} of this edition")),
-        };
-        entry(format!("{PAPER}/figures/{name}.svg"), &comment);
+    let pictures = archive.paths().filter(|path| path.ends_with(".svg"));
+    let texts = ["report.md", "report.tex", "values.json", "ledger.json"];
+    let texts = texts.map(|name| format!("{PAPER}/{name}"));
+    let report = pictures.filter(|path| path.starts_with(PAPER));
+    for path in report.chain(texts.iter().map(String::as_str)) {
+        let (file, comment) = (quoted(path), quoted(&description(path)));
+        let _ = writeln!(out, "  - file: {file}\n    comment: {comment}");
     }
-    entry(format!("{PAPER}/report.md"), "the report, with every number");
-    entry(format!("{PAPER}/report.tex"), "the report for LaTeX");
-    entry(format!("{PAPER}/values.json"), "every number that the report states");
-    entry(format!("{PAPER}/ledger.json"), "every claim of the paper with its verdict");
     // For a person: nothing here is known before somebody checked.
     out += "codechecker:\n  - name: \"\"\n    ORCID: \"\"\nsummary: \"\"\nrepository: \"\"\n";
     out += "check_time: \"\"\ncertificate: \"\"\nreport: \"\"\n";

@@ -1,10 +1,11 @@
 //! ro-crate-metadata.json: what the archive is, for machines (RO-Crate 1.2).
 
 use super::super::Failure;
-use super::PAPER;
 use super::archive::Archive;
+use super::told::description;
 use impact_paper::input;
 use serde_json::{Value, json};
+use std::collections::BTreeMap;
 use std::path::Path;
 
 /// The name that RO-Crate demands.
@@ -32,21 +33,28 @@ pub fn released(root: &Path) -> Result<String, Failure> {
 /// The metadata of an archive that has all its other files.
 pub fn text(archive: &Archive, revision: &str, released: &str) -> String {
     let id = |id: &str| json!({ "@id": id });
-    // Folders count as wholes; single files are those at the top and those of the report.
-    let mut folders = std::collections::BTreeSet::new();
+    // A folder at the top is a part of the whole, with its files; of the crates there are too many.
+    let mut folders: BTreeMap<String, Vec<&str>> = BTreeMap::new();
     let mut files = Vec::new();
+    let mut single = Vec::new();
     for path in archive.paths() {
         match path.split_once('/') {
-            Some((folder, _)) if folder != PAPER => {
-                folders.insert(format!("{folder}/"));
+            Some(("vendor", _)) => drop(folders.entry("vendor/".into()).or_default()),
+            Some((folder, _)) => {
+                folders.entry(format!("{folder}/")).or_default().push(path);
+                files.push(path);
             }
-            _ => files.push(path.to_string()),
+            None => {
+                single.push(path);
+                files.push(path);
+            }
         }
     }
-    let outputs: Vec<Value> =
-        files.iter().filter(|path| path.starts_with(PAPER)).map(|path| id(path)).collect();
-    let parts: Vec<Value> =
-        folders.iter().chain(&files).map(|path| id(path)).chain([id(SUMS)]).collect();
+    let parts = |paths: &[&str]| -> Vec<Value> { paths.iter().map(|path| id(path)).collect() };
+    let outputs = parts(folders.get("paper/").map_or(&[], Vec::as_slice));
+    let mut whole: Vec<Value> = folders.keys().map(|path| id(path)).collect();
+    whole.extend(parts(&single));
+    whole.push(id(SUMS));
     let mut graph = vec![
         json!({
             "@id": NAME,
@@ -61,29 +69,26 @@ pub fn text(archive: &Archive, revision: &str, released: &str) -> String {
             "description": env!("CARGO_PKG_DESCRIPTION"),
             "datePublished": released,
             "version": env!("CARGO_PKG_VERSION"),
-            "identifier": format!("git:{revision}"),
+            "identifier": id("#revision"),
             "author": id(AUTHORS),
             "publisher": id(AUTHORS),
             "license": [id(MIT), id(APACHE)],
-            "mainEntity": id("#program"),
-            "citation": id("#paper"),
+            "mainEntity": id(PROGRAM),
+            "isBasedOn": id("#paper"),
             "mentions": id("#run"),
-            "hasPart": parts,
+            "hasPart": whole,
+        }),
+        json!({
+            "@id": "#revision",
+            "@type": "PropertyValue",
+            "name": "git commit",
+            "propertyID": "https://git-scm.com/docs/gitglossary#def_SHA1",
+            "value": revision,
         }),
         json!({
             "@id": AUTHORS,
             "@type": "Organization",
             "name": env!("CARGO_PKG_AUTHORS"),
-        }),
-        json!({
-            "@id": "#program",
-            "@type": ["SoftwareSourceCode", "SoftwareApplication"],
-            "name": env!("CARGO_PKG_NAME"),
-            "version": env!("CARGO_PKG_VERSION"),
-            "description": env!("CARGO_PKG_DESCRIPTION"),
-            "programmingLanguage": id("#rust"),
-            "license": [id(MIT), id(APACHE)],
-            "author": id(AUTHORS),
         }),
         json!({
             "@id": MIT,
@@ -129,62 +134,58 @@ pub fn text(archive: &Archive, revision: &str, released: &str) -> String {
             "@type": "CreateAction",
             "name": "impact-paper paper",
             "description": "Ran every experiment, drew every figure and wrote the report.",
-            "instrument": id("#program"),
+            "instrument": id(PROGRAM),
             "object": id("templates/"),
             "result": outputs,
             "endTime": released,
-            "actionStatus": id("http://schema.org/CompletedActionStatus"),
         }),
     ];
-    graph.extend(folders.iter().map(|folder| {
-        let (name, description) = told_of_folder(folder);
-        json!({ "@id": folder, "@type": "Dataset", "name": name, "description": description })
+    graph.extend(folders.iter().map(|(folder, files)| {
+        json!({
+            "@id": folder,
+            "@type": "Dataset",
+            "name": folder,
+            "description": description(folder),
+            "hasPart": parts(files),
+        })
     }));
-    graph.extend(files.iter().map(|path| {
-        let mut file = json!({
+    let file = |path: &str, size: usize| {
+        json!({
             "@id": path,
             "@type": "File",
             "name": path,
+            "description": description(path),
             "encodingFormat": format(path),
-        });
-        if let Some((digest, size)) = archive.get(path) {
-            file["contentSize"] = json!(size.to_string());
-            file["sha256"] = json!(digest);
+            "contentSize": size.to_string(),
+        })
+    };
+    for path in files {
+        let Some((digest, size)) = archive.get(path) else { continue };
+        let mut file = file(path, *size);
+        file["sha256"] = json!(digest);
+        if path == PROGRAM {
+            file["@type"] = json!(["File", "SoftwareSourceCode"]);
+            file["version"] = json!(env!("CARGO_PKG_VERSION"));
+            file["programmingLanguage"] = id("#rust");
+            file["license"] = json!([id(MIT), id(APACHE)]);
+            file["author"] = id(AUTHORS);
         }
-        file
-    }));
-    graph.push(json!({
-        "@id": SUMS,
-        "@type": "File",
-        "name": SUMS,
-        "description": "SHA-256 of every other file",
-        "encodingFormat": "text/plain",
-    }));
+        graph.push(file);
+    }
+    // The list of digests comes last and lists this file too: 64 digits, two blanks, path, line end.
+    let listed = archive.paths().chain([NAME]).map(|path| 64 + 2 + path.len() + 1).sum();
+    graph.push(file(SUMS, listed));
     let context = "https://w3id.org/ro/crate/1.2/context";
     let whole = json!({ "@context": context, "@graph": graph });
     format!("{whole:#}\n")
 }
 
+/// Where the program begins.
+const PROGRAM: &str = "src/main.rs";
 const AUTHORS: &str = "#authors";
 const MIT: &str = "https://spdx.org/licenses/MIT";
 const APACHE: &str = "https://spdx.org/licenses/Apache-2.0";
 const SUMS: &str = impact_paper::report::sums::NAME;
-
-/// What a folder at the top is.
-fn told_of_folder(folder: &str) -> (&str, &str) {
-    match folder {
-        "src/" => ("source", "The program: experiments, calculations, figures, report, checks."),
-        "build/" => ("build script", "Finds the homes of equations and what results depend on."),
-        "templates/" => {
-            ("templates", "The prose with places for numbers, and the printed numbers.")
-        }
-        "tests/" => ("tests", "What proves the program."),
-        "benches/" => ("benchmarks", "How fast the engine and other projects are."),
-        "vendor/" => ("crates", "The source of every crate that the program is built of."),
-        "results/" => ("results", "Saved results of the long experiments."),
-        _ => (folder, "Settings."),
-    }
-}
 
 /// The media type of a file, by its name.
 fn format(path: &str) -> &'static str {
@@ -198,6 +199,11 @@ fn format(path: &str) -> &'static str {
         Some("pdf") => "application/pdf",
         Some("toml") => "application/toml",
         Some("cff" | "yml") => "application/yaml",
+        Some("rs") => "text/x-rust",
+        Some("js") => "text/javascript",
+        Some("css") => "text/css",
+        Some("ttf" | "otf") => "font/sfnt",
+        Some("py") => "text/x-python",
         _ => "text/plain",
     }
 }

@@ -3,23 +3,25 @@
 mod archive;
 mod codecheck;
 mod metadata;
+mod told;
 mod tree;
 mod vendored;
 
-use super::{Failure, certificate, folder, stdout, verify, work};
+use super::sources::Sources;
+use super::{Failure, certificate, folder, make, stdout, verify, work};
 use archive::Archive;
 use clap::ValueEnum;
-use impact_paper::experiments::{Store, catalogue};
+use impact_paper::experiments::{Progress, Store, catalogue};
 use impact_paper::params::Profile;
-use impact_paper::report::sums;
+use impact_paper::report::{Files, sums};
 use std::path::{Path, PathBuf};
 use tree::Tree;
 
 /// Packs all that is needed to make the report again in ten years into one ZIP file.
 ///
 /// In it: the committed source, the source of every crate with the settings that let cargo build
-/// without a network, the toolchain file, saved results, paper/ with what was built beside it,
-/// SHA256SUMS of everything, RO-Crate 1.2 metadata, CITATION.cff, codecheck.yml, and the draft of a
+/// without a network, the toolchain file, saved results, paper/ with what is built beside it from
+/// these results, SHA256SUMS of everything, RO-Crate 1.2 metadata, CITATION.cff, codecheck.yml, and the draft of a
 /// certificate that `verify --rerun --certificate` fills in. The same revision and results give the
 /// same bytes. Run it in a clone without uncommitted changes.
 #[derive(clap::Args)]
@@ -30,8 +32,7 @@ pub struct Args {
     /// Folder of the saved results; they must be fresh.
     #[arg(long, value_name = "DIR", default_value = "target/results")]
     results: PathBuf,
-    /// Leave something out: `crates` (building then needs a registry) or `results` (making the
-    /// report then takes minutes); may be repeated.
+    /// Leave something out; may be repeated.
     #[arg(long, value_name = "WHAT")]
     without: Vec<Part>,
 }
@@ -39,9 +40,9 @@ pub struct Args {
 /// What can be left out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Part {
-    /// The source of all crates.
+    /// The source of all crates: building then needs a registry.
     Crates,
-    /// Saved results.
+    /// Saved results and what is built beside the report: making it then takes minutes.
     Results,
 }
 
@@ -66,19 +67,17 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let mut archive = Archive::at(&args.out, &top)?;
     let released = metadata::released(Path::new("."))?;
 
-    let here = Path::new(".");
     for (path, is_program) in &tree.files {
         progress.check()?;
-        archive.add(path, &read(here, path)?, *is_program)?;
-    }
-    let beside = folder::walk(report)?.into_iter().filter(|path| folder::is_beside(path));
-    for path in beside {
-        archive.add(&format!("{PAPER}/{path}"), &read(report, &path)?, false)?;
+        archive.add(path, &read(Path::new("."), path)?, *is_program)?;
     }
     if !args.without.contains(&Part::Results) {
         let profile = verify::own_profile(report)?;
         for name in fresh(&args.results, profile)? {
             archive.add(&format!("results/{name}"), &read(&args.results, &name)?, false)?;
+        }
+        for (path, bytes) in beside(&args, profile, &progress)? {
+            archive.add(&format!("{PAPER}/{path}"), &bytes, false)?;
         }
     }
     if !args.without.contains(&Part::Crates) {
@@ -92,6 +91,24 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let (files, size) = archive.finish()?;
     let size = size as f64 / 1e6;
     stdout::print(&format!("{}: {files} files, {size:.1} MB\n", args.out.display()))
+}
+
+/// What is built beside the committed report, made of the saved results: whatever stands there may be
+/// older.
+///
+/// # Errors
+/// Exit code 1 if the results give another report than the committed one.
+fn beside(args: &Args, profile: Profile, progress: &Progress) -> Result<Files, Failure> {
+    let sources = Sources::of(None, None, args.results.clone());
+    let made = make::whole(&sources, profile, cfg!(feature = "pdf"), progress)?;
+    for (path, bytes) in &made.committed {
+        if folder::read(Path::new(PAPER), path).ok().as_ref() != Some(bytes) {
+            let what = format!("bundle: the results do not give paper/{path} as it is committed");
+            let message = format!("{what}; make it anew with `make paper` and commit it");
+            return Err(Failure { code: 1, message });
+        }
+    }
+    Ok(made.beside)
 }
 
 fn read(root: &Path, path: &str) -> Result<Vec<u8>, Failure> {
