@@ -55,10 +55,16 @@ def main():
         no_cache=True,
     )
     result = services.validate(settings)
+    # What is only recommended is mostly about persons: identifiers, affiliations, addresses.
+    wishes = 0
     for issue in result.get_issues():
-        print(f"{issue.severity.name}: {issue.violatingEntity}: {issue.message}")
+        if issue.severity == models.Severity.REQUIRED:
+            print(f"{issue.violatingEntity}: {issue.message}")
+        else:
+            wishes += 1
     failed = result.has_issues(models.Severity.REQUIRED)
-    print(f"{crate}: {'is no' if failed else 'is an'} RO-Crate 1.2")
+    verdict = "is no valid" if failed else "is a valid"
+    print(f"ro-crate-metadata.json {verdict} RO-Crate 1.2 ({wishes} recommendations not followed)")
     sys.exit(1 if failed else 0)
 
 

@@ -150,6 +150,17 @@ fn a_rerun_finds_what_the_list_cannot() {
     let counts: Vec<usize> = told.lines().map(count).collect();
     // The list is made again too, and does not list itself.
     assert_eq!(counts, [counts[0], counts[0] + 1]);
+    let score = |text: &str| {
+        let found = text.lines().find(|line| line.starts_with("| Claims of the paper |"));
+        found.expect("a line on claims").to_string()
+    };
+    let rerun = format!("verify r --rerun --results saved --certificate c.md {templates}");
+    assert_eq!(run(here, &rerun).0, 0);
+    let certificate = fs::read_to_string(here.join("c.md")).unwrap();
+    let line = format!("| Files made again | {} files made again", counts[1]);
+    assert!(certificate.contains(&line), "{certificate}");
+    assert!(!score(&certificate).contains('–'), "{certificate}");
+    assert!(certificate.contains("| Signature | |"), "{certificate}");
 
     // A forger who keeps the list right.
     let path = here.join("r/data/fig02.csv");
@@ -162,9 +173,11 @@ fn a_rerun_finds_what_the_list_cannot() {
     let forged = format!("{forged}{}  more.csv\n", digest(""));
     fs::write(here.join("r/SHA256SUMS"), forged).unwrap();
     assert_eq!(run(here, "verify r").0, 0);
-    let rerun = format!("verify r --rerun --results saved {templates}");
     let (code, told, note) = run(here, &rerun);
     assert_eq!(code, 1, "{told}{note}");
+    let certificate = fs::read_to_string(here.join("c.md")).unwrap();
+    assert!(certificate.contains("**3 faults**"), "{certificate}");
+    assert!(certificate.contains("rerun: differs  data/fig02.csv\n"), "{certificate}");
     assert!(note.contains("sweep: fresh"), "{note}");
     let lines: Vec<&str> = told.lines().skip(1).collect();
     let names = ["differs  SHA256SUMS", "differs  data/fig02.csv", "not made more.csv"];

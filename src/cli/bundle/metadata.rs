@@ -141,13 +141,18 @@ pub fn text(archive: &Archive, revision: &str, released: &str) -> String {
         }),
     ];
     graph.extend(folders.iter().map(|(folder, files)| {
-        json!({
+        let mut dataset = json!({
             "@id": folder,
             "@type": "Dataset",
             "name": folder,
             "description": description(folder),
-            "hasPart": parts(files),
-        })
+        });
+        match files.as_slice() {
+            [] => (),
+            [one] => dataset["hasPart"] = id(one),
+            all => dataset["hasPart"] = json!(parts(all)),
+        }
+        dataset
     }));
     let file = |path: &str, size: usize| {
         json!({
@@ -167,8 +172,6 @@ pub fn text(archive: &Archive, revision: &str, released: &str) -> String {
             file["@type"] = json!(["File", "SoftwareSourceCode"]);
             file["version"] = json!(env!("CARGO_PKG_VERSION"));
             file["programmingLanguage"] = id("#rust");
-            file["license"] = json!([id(MIT), id(APACHE)]);
-            file["author"] = id(AUTHORS);
         }
         graph.push(file);
     }
