@@ -1,7 +1,7 @@
 # Every target is one line that calls cargo, the program or a script. Needed: Rust (rust-toolchain.toml
 # names the version), make and a C compiler for linking.
 
-.PHONY: paper quick check pdf latex browser test test-long lint identity bench measure clean help
+.PHONY: paper quick check pdf latex browser test test-long lint identity bundle fuzz bench measure clean help
 
 paper: ## the whole reproduction in the full profile, into paper/
 	cargo run --release --locked -- paper
@@ -32,6 +32,12 @@ lint: ## formatting, clippy and documentation, warnings denied
 
 identity: ## the same bytes for any threads, folder, locale, C library and build (quick profile; minutes to build)
 	.ci/identity
+
+bundle: ## all that it takes to make the report again, in target/impact-paper.zip (after make paper)
+	cargo run --release --locked -- bundle target/impact-paper.zip
+
+fuzz: ## every parser against texts that a fuzzer thinks out (needs Rust nightly; minutes to build)
+	.ci/fuzz
 
 bench: ## how fast the parts are, on this machine
 	cargo bench --locked --bench engine

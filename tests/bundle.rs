@@ -67,7 +67,8 @@ fn unpacked(path: &Path) -> BTreeMap<String, (Vec<u8>, u32)> {
             let mut file = archive.by_index(i).unwrap();
             let mut bytes = Vec::new();
             file.read_to_end(&mut bytes).unwrap();
-            let name = file.name().unwrap().strip_prefix(TOP).expect("all in one folder").to_string();
+            let name =
+                file.name().unwrap().strip_prefix(TOP).expect("all in one folder").to_string();
             (name, (bytes, file.unix_mode().unwrap() & 0o777))
         })
         .collect()

@@ -1,18 +1,13 @@
 //! The prose: numerals, Tera, Markdown, references, and all that is written of it.
 
+use crate::entries::written;
 use crate::mutants::{committed, survives};
 use impact_paper::claims::{self, Published};
 use impact_paper::experiments::{Need, Progress, Store, run::run};
 use impact_paper::params::Profile;
-use impact_paper::report::bibliography::Library;
-use impact_paper::report::card::Cards;
-use impact_paper::report::ledger::Ledger;
 use impact_paper::report::lint::{Declared, numerals};
 use impact_paper::report::templates::Filler;
-use impact_paper::report::{
-    Error, Registry, Templates, appendix, claims::Row, contents, html, labels, latex, markdown,
-    parse,
-};
+use impact_paper::report::{Error, Registry, Templates, claims::Row, contents};
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
@@ -93,25 +88,8 @@ fn made(named: &Named, text: &str) -> Result<usize, Error> {
     for (name, rows) in &named.rows {
         filler.insert(name, rows);
     }
-    let mut blocks = parse::parse(&filler.fill("report.md")?, &named.values)?;
-    labels::resolve(&mut blocks, &LIBRARY)?;
-    let ledger = Ledger::default();
-    let cards = Cards { values: &named.values, ledger: &ledger };
-    let page = html::write(&blocks, &[], None, cards);
-    let printed = [blocks.as_slice(), &appendix::values(&blocks, cards)].concat();
-    let latex = latex::write(&printed)?.len() + latex::listings(&blocks)?.len();
-    latex::title(&blocks)?;
-    let page = match page {
-        Ok(page) => page.body.len(),
-        // No figure was given.
-        Err(Error::Reference(_) | Error::Picture(_)) => 0,
-        Err(error) => return Err(error),
-    };
-    Ok(markdown::write(&blocks).len() + latex + page)
+    written(&filler.fill("report.md")?, &named.values)
 }
-
-static LIBRARY: LazyLock<Library> =
-    LazyLock::new(|| Library::read(&committed("templates/references.bib")).unwrap());
 
 #[test]
 fn prose_of_any_text() {
