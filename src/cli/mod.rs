@@ -11,9 +11,12 @@ mod explain;
 mod folder;
 mod git;
 mod make;
+mod merge;
 mod method;
 mod output;
 mod paper;
+mod plan;
+mod shard;
 mod sigmas;
 mod sources;
 mod status;
@@ -47,7 +50,10 @@ enum Verb {
     Diff(diff::Args),
     Eval(eval::Args),
     Explain(explain::Args),
+    Merge(merge::Args),
     Paper(paper::Args),
+    Plan(plan::Args),
+    Run(shard::Args),
     Status(status::Args),
     Sweep(sweep::Args),
     Trace(trace::Args),
@@ -94,7 +100,10 @@ pub fn main() -> ExitCode {
         Verb::Diff(args) => diff::run(args),
         Verb::Eval(args) => eval::run(args),
         Verb::Explain(args) => explain::run(args),
+        Verb::Merge(args) => merge::run(args),
         Verb::Paper(args) => paper::run(args),
+        Verb::Plan(args) => plan::run(args),
+        Verb::Run(args) => shard::run(args),
         Verb::Status(args) => status::run(args),
         Verb::Sweep(args) => sweep::run(args),
         Verb::Trace(args) => trace::run(args),

@@ -64,7 +64,7 @@ impl From<Error> for Failure {
             | Error::Store { .. }
             | Error::Measured(_) => 2,
             Error::Dynamics { source: impact_paper::dynamics::Error::Input { .. }, .. } => 2,
-            Error::Stale { .. } => 3,
+            Error::Stale { .. } | Error::Units { .. } | Error::NotUnderstood { .. } => 3,
             _ => 4,
         };
         Failure { code, message: error.to_string() }

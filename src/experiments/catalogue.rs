@@ -1,86 +1,15 @@
 //! The experiments that take long: their names, parameters and runs, in one list.
 
+use super::Need;
 use super::accuracy::{analytic, bias, race, scale, trials};
-use super::store::{Identity, Reason, Store, told, written};
-use super::{Error, Need, Progress};
-use super::{horizon, protocol, spacetime, starts, sweep, two_masses};
+use super::experiment::How::{Cut, Whole};
+use super::{horizon, protocol, spacetime, starts, sweep, tally, two_masses, weights};
 use crate::params::{
-    AnalyticParams, BiasParams, HorizonParams, Profile, ProtocolParams, RaceParams, ScaleParams,
+    AnalyticParams, BiasParams, HorizonParams, ProtocolParams, RaceParams, ScaleParams,
     SpaceTimeParams, StartsParams, SweepParams, TrialParams, TwoMassesParams,
 };
-use serde::Serialize;
-use serde::de::DeserializeOwned;
 
-/// An experiment whose result is saved.
-pub struct Experiment<P, T> {
-    /// What it is needed for; its name is that of the experiment.
-    pub need: Need,
-    /// The file of its code.
-    module: &'static str,
-    /// Its parameters in a profile.
-    parameters: fn(Profile) -> P,
-    run: fn(&P, &Progress) -> Result<T, Error>,
-}
-
-impl<P: Serialize, T: Serialize + DeserializeOwned + PartialEq> Experiment<P, T> {
-    /// The result: the saved one if it is fresh, else that of a run.
-    ///
-    /// # Errors
-    /// As [`Store::get`].
-    pub fn get(&self, profile: Profile, store: &Store, progress: &Progress) -> Result<T, Error> {
-        let parameters = (self.parameters)(profile);
-        let identity = self.identity(&parameters);
-        store.get(&identity, profile, progress, || (self.run)(&parameters, progress))
-    }
-
-    fn identity(&self, parameters: &P) -> Identity {
-        Identity::new(self.need.name(), self.module, parameters)
-    }
-}
-
-/// What can be asked of every experiment, whatever its parameters and result are.
-pub trait Saved: Sync {
-    /// What it is needed for.
-    fn need(&self) -> Need;
-
-    /// What its result depends on.
-    fn identity(&self, profile: Profile) -> Identity;
-
-    /// Why its saved result is not to be used; nothing if it is fresh.
-    fn stale(&self, profile: Profile, store: &Store) -> Vec<Reason>;
-
-    /// Runs it again and compares with the fresh saved result, byte by byte.
-    ///
-    /// # Errors
-    /// As [`Experiment::get`]; [`Error::Stale`] if there is none that is fresh.
-    fn audit(&self, profile: Profile, store: &Store, progress: &Progress) -> Result<bool, Error>;
-}
-
-impl<P: Serialize, T: Serialize + DeserializeOwned + PartialEq> Saved for Experiment<P, T> {
-    fn need(&self) -> Need {
-        self.need
-    }
-
-    fn identity(&self, profile: Profile) -> Identity {
-        Experiment::identity(self, &(self.parameters)(profile))
-    }
-
-    fn stale(&self, profile: Profile, store: &Store) -> Vec<Reason> {
-        match store.look(&Saved::identity(self, profile), profile) {
-            Ok(text) if serde_json::from_str::<T>(&text).is_ok() => Vec::new(),
-            Ok(_) => vec![Reason::Schema],
-            Err(reasons) => reasons,
-        }
-    }
-
-    fn audit(&self, profile: Profile, store: &Store, progress: &Progress) -> Result<bool, Error> {
-        let name = self.need.name();
-        let saved = store.look(&Saved::identity(self, profile), profile);
-        let saved = saved.map_err(|reasons| Error::Stale { name, why: told(&reasons) })?;
-        let again = (self.run)(&(self.parameters)(profile), progress)?;
-        Ok(written(name, &again)? == saved)
-    }
-}
+pub use super::experiment::{Experiment, Saved};
 
 /// The experiments that are saved, in the order in which they run.
 pub const ALL: [&dyn Saved; 12] = [
@@ -99,35 +28,36 @@ pub const ALL: [&dyn Saved; 12] = [
 ];
 
 /// The main sweep of Sec. 2.
-pub const SWEEP: Experiment<SweepParams, sweep::Sweep> = Experiment {
+pub const SWEEP: Experiment<SweepParams, sweep::Sweep, tally::Tally> = Experiment {
     need: Need::Sweep,
     module: "src/experiments/sweep.rs",
     parameters: SweepParams::main,
-    run: |parameters, progress| sweep::run(parameters, "main sweep", progress),
+    how: Cut("main sweep", sweep::CUTTING),
 };
 
 /// The rise again, with another seed.
-pub const SECOND_SEED: Experiment<SweepParams, sweep::Sweep> = Experiment {
+pub const SECOND_SEED: Experiment<SweepParams, sweep::Sweep, tally::Tally> = Experiment {
     need: Need::SecondSeed,
     module: "src/experiments/sweep.rs",
     parameters: SweepParams::second_seed,
-    run: |parameters, progress| sweep::run(parameters, "second seed", progress),
+    how: Cut("second seed", sweep::CUTTING),
 };
 
 /// Half height against transient and window.
-pub const PROTOCOL: Experiment<ProtocolParams, protocol::ProtocolMap> = Experiment {
-    need: Need::Protocol,
-    module: "src/experiments/protocol.rs",
-    parameters: ProtocolParams::new,
-    run: protocol::run,
-};
+pub const PROTOCOL: Experiment<ProtocolParams, protocol::ProtocolMap, protocol::Part> =
+    Experiment {
+        need: Need::Protocol,
+        module: "src/experiments/protocol.rs",
+        parameters: ProtocolParams::new,
+        how: Cut("protocol map", protocol::CUTTING),
+    };
 
 /// Other starts, boundaries, restitutions and frequencies.
-pub const STARTS: Experiment<StartsParams, starts::Starts> = Experiment {
+pub const STARTS: Experiment<StartsParams, starts::Starts, tally::Tally> = Experiment {
     need: Need::Starts,
     module: "src/experiments/starts.rs",
     parameters: StartsParams::new,
-    run: starts::run,
+    how: Cut("variants", starts::CUTTING),
 };
 
 /// Chaos and its horizon.
@@ -135,7 +65,10 @@ pub const HORIZON: Experiment<HorizonParams, horizon::Horizon> = Experiment {
     need: Need::Horizon,
     module: "src/experiments/horizon.rs",
     parameters: HorizonParams::new,
-    run: horizon::run,
+    how: Whole {
+        run: horizon::run,
+        weight: |p| p.realisations as u64 * weights::run(&p.chain, p.sigma, p.until),
+    },
 };
 
 /// Two masses under a low force.
@@ -143,7 +76,10 @@ pub const TWO_MASSES: Experiment<TwoMassesParams, two_masses::TwoMasses> = Exper
     need: Need::TwoMasses,
     module: "src/experiments/two_masses.rs",
     parameters: TwoMassesParams::new,
-    run: two_masses::run,
+    how: Whole {
+        run: two_masses::run,
+        weight: |p| 5 * p.directions as u64 * p.times.iter().map(|time| *time as u64).sum::<u64>(),
+    },
 };
 
 /// One long run.
@@ -151,7 +87,7 @@ pub const SPACE_TIME: Experiment<SpaceTimeParams, spacetime::SpaceTime> = Experi
     need: Need::SpaceTime,
     module: "src/experiments/spacetime.rs",
     parameters: SpaceTimeParams::new,
-    run: spacetime::run,
+    how: Whole { run: spacetime::run, weight: |p| 2 * weights::run(&p.chain, p.sigma, p.until) },
 };
 
 /// Every method against the true motion.
@@ -159,15 +95,15 @@ pub const RACE: Experiment<RaceParams, race::Race> = Experiment {
     need: Need::Race,
     module: "src/experiments/accuracy/race.rs",
     parameters: RaceParams::new,
-    run: race::run,
+    how: Whole { run: race::run, weight: |p| 40_000 * (p.chains * p.settings.len()) as u64 },
 };
 
 /// What methods do to the mean count.
-pub const BIAS: Experiment<BiasParams, bias::Biases> = Experiment {
+pub const BIAS: Experiment<BiasParams, bias::Biases, Vec<bias::Counted>> = Experiment {
     need: Need::Biases,
     module: "src/experiments/accuracy/bias.rs",
     parameters: BiasParams::new,
-    run: bias::run,
+    how: Cut("bias of methods", bias::CUTTING),
 };
 
 /// Every method in the scenes where methods fail.
@@ -175,7 +111,7 @@ pub const TRIALS: Experiment<TrialParams, trials::Trials> = Experiment {
     need: Need::Trials,
     module: "src/experiments/accuracy/trials.rs",
     parameters: TrialParams::new,
-    run: trials::run,
+    how: Whole { run: trials::run, weight: |p| 100_000 * p.settings.len() as u64 },
 };
 
 /// Counted work against the number of masses.
@@ -183,7 +119,10 @@ pub const SCALE: Experiment<ScaleParams, scale::Scale> = Experiment {
     need: Need::Scale,
     module: "src/experiments/accuracy/scale.rs",
     parameters: ScaleParams::new,
-    run: scale::run,
+    how: Whole {
+        run: scale::run,
+        weight: |p| 2_000_000 + 10 * p.masses.iter().sum::<usize>() as u64,
+    },
 };
 
 /// Ways to compute Eqs. (9) and (25).
@@ -191,5 +130,5 @@ pub const ANALYTIC: Experiment<AnalyticParams, analytic::Analytic> = Experiment 
     need: Need::Analytic,
     module: "src/experiments/accuracy/analytic.rs",
     parameters: AnalyticParams::new,
-    run: analytic::run,
+    how: Whole { run: analytic::run, weight: |p| 10 * p.sizes.iter().sum::<usize>() as u64 },
 };

@@ -57,6 +57,20 @@ pub enum Error {
         /// The reasons.
         why: String,
     },
+    /// A unit of work gave something else than its experiment understands.
+    #[error("{name}: what a unit of work gave is not understood; run its shard again")]
+    NotUnderstood {
+        /// The experiment.
+        name: &'static str,
+    },
+    /// Units of work that are not there as this program would make them.
+    #[error("{what}; {remedy}")]
+    Units {
+        /// Which, and what is the matter.
+        what: String,
+        /// What to do.
+        remedy: String,
+    },
     /// The results directory cannot be written.
     #[error("results directory {path}: {source}; choose another with --results")]
     Store {

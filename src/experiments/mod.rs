@@ -2,7 +2,9 @@
 
 pub mod accuracy;
 pub mod catalogue;
+pub mod cutting;
 pub mod error;
+pub mod experiment;
 pub mod horizon;
 pub mod identities;
 pub mod laws;
@@ -13,12 +15,15 @@ pub mod protocol;
 pub mod rise;
 pub mod run;
 pub mod segments;
+pub mod shards;
 pub mod spacetime;
 pub mod starts;
 pub mod store;
 pub mod sweep;
+pub mod tally;
 pub mod theory;
 pub mod two_masses;
+pub mod weights;
 
 mod results;
 

@@ -4,6 +4,7 @@ use super::{Error, Progress};
 use crate::dynamics::{self, Engine, Impact, Scenario};
 use crate::numerics::random::NormalPairs;
 use crate::params::{Chain, Protocol};
+use serde::{Deserialize, Serialize};
 
 /// The δ below which two impacts of adjacent gaps are counted as close, in units of 1/ω.
 pub const NEAR_DECADES: [f64; 9] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];
@@ -15,7 +16,7 @@ pub const SLOW_DECADES: [f64; 8] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e
 const LOOK_EVERY: u64 = 4096;
 
 /// What one realisation showed.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Observed {
     /// Distinct gaps that impact in the window (T, T + W].
     pub distinct: u32,

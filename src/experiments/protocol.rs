@@ -1,6 +1,8 @@
 //! The influence of the counting protocol: half height against transient T and window W.
 
-use super::{Error, Progress, rise};
+use super::cutting::{Cutting, Row, Unit};
+use super::progress::Stage;
+use super::{Error, Progress, rise, weights};
 use crate::dynamics::{self, Engine, Scenario};
 use crate::numerics::random::NormalPairs;
 use crate::numerics::statistics::Estimate;
@@ -42,7 +44,10 @@ impl ProtocolMap {
 }
 
 /// Distinct gaps that one run has in every window; none for windows that it did not reach.
-type Counts = Vec<Option<u32>>;
+pub type Counts = Vec<Option<u32>>;
+
+/// Some realisations of one σ; none where the engine gave up.
+pub type Part = Vec<Option<Counts>>;
 
 /// The first impact of each gap after each transient: all that the windows need.
 struct FirstPassages<'a> {
@@ -85,40 +90,83 @@ impl<'a> FirstPassages<'a> {
     }
 }
 
+/// The map in units of work: realisations of one σ.
+pub const CUTTING: Cutting<ProtocolParams, Part, ProtocolMap> = Cutting { rows, part, fits, join };
+
 /// Runs the map.
 ///
 /// # Errors
 /// [`Error::Interrupted`]; [`Error::Dynamics`] if the chain is not allowed.
 pub fn run(parameters: &ProtocolParams, progress: &Progress) -> Result<ProtocolMap, Error> {
-    let realisations = parameters.realisations;
+    CUTTING.run(parameters, "protocol map", progress)
+}
+
+/// When runs end at a σ.
+fn until(parameters: &ProtocolParams, sigma: f64) -> f64 {
     let longest = |times: &[f64]| times.last().copied().unwrap_or(0.0);
     let full = longest(&parameters.transients) + longest(&parameters.windows);
-    let until = |sigma: f64| {
-        if sigma > parameters.short_above { full.min(parameters.short_until) } else { full }
+    if sigma > parameters.short_above { full.min(parameters.short_until) } else { full }
+}
+
+/// Number of pairs of a transient and a window.
+fn cells(parameters: &ProtocolParams) -> usize {
+    parameters.transients.len() * parameters.windows.len()
+}
+
+fn rows(parameters: &ProtocolParams) -> Vec<Row> {
+    let row = |&sigma: &f64| Row {
+        covers: format!("sigma = {sigma}"),
+        realisations: parameters.realisations,
+        weight: weights::run(&parameters.chain, sigma, until(parameters, sigma)),
     };
-    let work = |sigma: f64| (until(sigma) * (sigma - 0.05).max(0.01)) as u64;
-    let total: u64 = parameters.sigmas.iter().map(|&sigma| work(sigma)).sum();
-    let stage = progress.stage("protocol map", total * realisations as u64);
+    parameters.sigmas.iter().map(row).collect()
+}
+
+fn part(
+    parameters: &ProtocolParams,
+    unit: &Unit,
+    stage: &Stage,
+    progress: &Progress,
+) -> Result<Part, Error> {
+    let sigma = parameters.sigmas[unit.row];
+    let until = until(parameters, sigma);
+    let weight = weights::run(&parameters.chain, sigma, until);
+    unit.realisations
+        .clone()
+        .into_par_iter()
+        .with_max_len(1)
+        .map(|index| {
+            let counts = realisation(parameters, sigma, index as u64, until, progress);
+            stage.advance(weight);
+            counts
+        })
+        .collect()
+}
+
+fn fits(parameters: &ProtocolParams, unit: &Unit, runs: &Part) -> bool {
+    let (cells, gaps) = (cells(parameters), parameters.chain.gaps());
+    let fits = |counts: &Counts| {
+        counts.len() == cells && counts.iter().flatten().all(|&k| k as usize <= gaps)
+    };
+    runs.len() == unit.realisations.len() && runs.iter().flatten().all(fits)
+}
+
+fn join(
+    parameters: &ProtocolParams,
+    parts: Vec<Vec<Part>>,
+    progress: &Progress,
+) -> Result<ProtocolMap, Error> {
     let mut failed = 0;
     // by_cell[cell][σ][realisation]
-    let cells = parameters.transients.len() * parameters.windows.len();
+    let cells = cells(parameters);
     let mut by_cell = vec![Vec::with_capacity(parameters.sigmas.len()); cells];
-    for &sigma in &parameters.sigmas {
-        let runs: Vec<Option<Counts>> = (0..realisations)
-            .into_par_iter()
-            .with_max_len(1)
-            .map(|index| {
-                let counts = realisation(parameters, sigma, index as u64, until(sigma), progress);
-                stage.advance(work(sigma));
-                counts
-            })
-            .collect::<Result<_, _>>()?;
+    for runs in parts {
+        let runs = runs.concat();
         failed += runs.iter().filter(|run| run.is_none()).count();
         for (cell, rows) in by_cell.iter_mut().enumerate() {
             rows.push(runs.iter().map(|run| run.as_ref()?[cell]).collect::<Counts>());
         }
     }
-    drop(stage);
     let protocols = parameters
         .transients
         .iter()

@@ -1,9 +1,12 @@
 //! What the choices that the paper leaves open change: the start, walls or ring, r and Ω.
 
+use super::cutting::{Cutting, Row, Unit};
+use super::progress::Stage;
 use super::rise::Rise;
 use super::sweep::{self, SweepRow};
+use super::tally::Tally;
 use super::{Error, Progress};
-use crate::params::{Chain, StartsParams, SweepParams};
+use crate::params::{Chain, StartVariant, StartsParams, SweepParams};
 use serde::{Deserialize, Serialize};
 
 /// The variants, the paper's chain first.
@@ -35,25 +38,78 @@ impl Starts {
     }
 }
 
+/// The variants in units of work: the rows of each variant's ensemble, one variant after another.
+pub const CUTTING: Cutting<StartsParams, Tally, Starts> = Cutting { rows, part, fits, join };
+
 /// Runs all variants.
 ///
 /// # Errors
 /// [`Error::Interrupted`]; [`Error::Dynamics`] if a chain is not allowed.
 pub fn run(parameters: &StartsParams, progress: &Progress) -> Result<Starts, Error> {
+    CUTTING.run(parameters, "variants", progress)
+}
+
+/// The ensemble of a variant.
+fn ensemble(parameters: &StartsParams, variant: &StartVariant) -> SweepParams {
+    SweepParams {
+        chain: variant.chain.clone(),
+        protocol: parameters.protocol,
+        sigmas: variant.sigmas.clone(),
+        realisations: parameters.realisations,
+        stream: parameters.stream.clone(),
+        seed: parameters.seed,
+    }
+}
+
+fn rows(parameters: &StartsParams) -> Vec<Row> {
+    let of = |variant: &StartVariant| {
+        let name = variant.name.clone();
+        let rows = sweep::rows(&ensemble(parameters, variant)).into_iter();
+        rows.map(move |row| Row { covers: format!("{name}, {}", row.covers), ..row })
+    };
+    parameters.variants.iter().flat_map(of).collect()
+}
+
+/// The ensemble to which a unit belongs, and its unit there.
+fn within(parameters: &StartsParams, unit: &Unit) -> Option<(SweepParams, Unit)> {
+    let mut row = unit.row;
+    for variant in &parameters.variants {
+        match row.checked_sub(variant.sigmas.len()) {
+            Some(rest) => row = rest,
+            None => return Some((ensemble(parameters, variant), Unit { row, ..unit.clone() })),
+        }
+    }
+    None
+}
+
+fn part(
+    parameters: &StartsParams,
+    unit: &Unit,
+    stage: &Stage,
+    progress: &Progress,
+) -> Result<Tally, Error> {
+    match within(parameters, unit) {
+        Some((ensemble, unit)) => sweep::part(&ensemble, &unit, stage, progress),
+        None => Ok(Tally::default()),
+    }
+}
+
+fn fits(parameters: &StartsParams, unit: &Unit, tally: &Tally) -> bool {
+    within(parameters, unit).is_some_and(|(ensemble, unit)| sweep::fits(&ensemble, &unit, tally))
+}
+
+fn join(
+    parameters: &StartsParams,
+    tallies: Vec<Vec<Tally>>,
+    progress: &Progress,
+) -> Result<Starts, Error> {
+    let mut tallies = tallies.into_iter();
     let variants = parameters
         .variants
         .iter()
         .map(|variant| {
-            let ensemble = SweepParams {
-                chain: variant.chain.clone(),
-                protocol: parameters.protocol,
-                sigmas: variant.sigmas.clone(),
-                realisations: parameters.realisations,
-                stream: parameters.stream.clone(),
-                seed: parameters.seed,
-            };
-            let name = format!("variant {}", variant.name);
-            let sweep = sweep::run(&ensemble, &name, progress)?;
+            let own = tallies.by_ref().take(variant.sigmas.len()).collect();
+            let sweep = sweep::join(&ensemble(parameters, variant), own, progress)?;
             Ok(Variant {
                 name: variant.name.clone(),
                 chain: variant.chain.clone(),

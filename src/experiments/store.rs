@@ -5,6 +5,7 @@
 //! all of that is as it would be made of now; whatever is not whole or not known is run again, and
 //! the reason is said.
 
+use super::cutting::Unit;
 use super::{Error, Progress};
 use crate::input::{LARGEST, one_line};
 use crate::params::Profile;
@@ -37,10 +38,24 @@ pub struct Identity {
     schema: u32,
     /// The parameters, seed included.
     pub parameters: serde_json::Value,
+    /// The unit of work, if it is only a part of the result.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    unit: Option<UnitOf>,
     /// Hash of Cargo.lock.
     lock: String,
     /// Hashes of the files that the experiment depends on.
     code: BTreeMap<String, String>,
+}
+
+/// A unit of an experiment that is cut.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+struct UnitOf {
+    /// Its place among all units, from 0.
+    number: usize,
+    /// Its realisations of the row that it covers.
+    realisations: std::ops::Range<usize>,
+    /// What its row is about.
+    covers: String,
 }
 
 impl Identity {
@@ -52,8 +67,24 @@ impl Identity {
             experiment: experiment.into(),
             schema: SCHEMA,
             parameters: serde_json::to_value(parameters).unwrap_or_default(),
+            unit: None,
             lock: BUILT.lock.into(),
             code: code.iter().map(|(path, hash)| ((*path).into(), (*hash).into())).collect(),
+        }
+    }
+
+    /// Of one unit of the experiment, at its place among all.
+    pub fn of_unit(&self, number: usize, unit: &Unit) -> Self {
+        let (realisations, covers) = (unit.realisations.clone(), unit.covers.clone());
+        Identity { unit: Some(UnitOf { number, realisations, covers }), ..self.clone() }
+    }
+
+    /// Name of its file in a profile, without the ending.
+    pub fn file_stem(&self, profile: Profile) -> String {
+        let (experiment, profile) = (&self.experiment, profile.name());
+        match &self.unit {
+            Some(unit) => format!("{experiment}-{profile}-{:04}", unit.number),
+            None => format!("{experiment}-{profile}"),
         }
     }
 
@@ -70,6 +101,9 @@ impl Identity {
         }
         if saved.parameters != self.parameters {
             reasons.push(Reason::Parameters);
+        }
+        if saved.unit != self.unit {
+            reasons.push(Reason::Unit);
         }
         let paths: BTreeSet<&String> = self.code.keys().chain(saved.code.keys()).collect();
         let changed =
@@ -92,6 +126,8 @@ pub enum Reason {
     Missing,
     /// It has other parameters.
     Parameters,
+    /// It is another unit of work.
+    Unit,
     /// These files of the source are others now.
     Code(Vec<String>),
     /// Other versions of crates (Cargo.lock).
@@ -107,6 +143,7 @@ impl std::fmt::Display for Reason {
         match self {
             Reason::Missing => f.write_str("no saved result"),
             Reason::Parameters => f.write_str("other parameters"),
+            Reason::Unit => f.write_str("another unit of work"),
             Reason::Code(files) => match files.as_slice() {
                 [one] => write!(f, "{one} changed"),
                 [one, others @ ..] => write!(f, "{one} and {} more changed", others.len()),
@@ -154,8 +191,9 @@ impl Store {
         Store { folder: None }
     }
 
+    /// Where a result is saved.
     fn path(&self, identity: &Identity, profile: Profile) -> Option<PathBuf> {
-        let name = format!("{}-{}.json", identity.experiment, profile.name());
+        let name = format!("{}.json", identity.file_stem(profile));
         self.folder.as_ref().map(|folder| folder.join(name))
     }
 
@@ -194,14 +232,35 @@ impl Store {
             }
             Err(reasons) => progress.say(&format!("{name}: run ({})", told(&reasons))),
         }
-        let failed = |source| Error::Store { path: path.clone(), source };
-        let folder = path.parent().unwrap_or(Path::new("."));
-        std::fs::create_dir_all(folder).map_err(failed)?;
-        tempfile::NamedTempFile::new_in(folder).map_err(failed)?;
+        self.prepare()?;
         let result = run()?;
-        let body = written(&identity.experiment, &result)?;
-        save(&path, identity, &body).map_err(failed)?;
+        self.put(identity, profile, &result)?;
         Ok(result)
+    }
+
+    /// Makes the folder, and tries whether something can be saved there.
+    ///
+    /// # Errors
+    /// [`Error::Store`].
+    pub fn prepare(&self) -> Result<(), Error> {
+        let Some(folder) = &self.folder else { return Ok(()) };
+        let tried = std::fs::create_dir_all(folder)
+            .and_then(|()| tempfile::NamedTempFile::new_in(folder).map(drop));
+        tried.map_err(|source| Error::Store { path: folder.clone(), source })
+    }
+
+    /// Saves a result.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`] for a result with a number that is not finite; [`Error::Store`] if it
+    /// cannot be saved.
+    pub fn put<T>(&self, identity: &Identity, profile: Profile, result: &T) -> Result<(), Error>
+    where
+        T: Serialize + DeserializeOwned + PartialEq,
+    {
+        let Some(path) = self.path(identity, profile) else { return Ok(()) };
+        let body = written(&identity.experiment, result)?;
+        save(&path, identity, &body).map_err(|source| Error::Store { path, source })
     }
 }
 

@@ -1,16 +1,19 @@
 //! The numerical simulations of Sec. 2: ensembles over σ (Figs. 2, 3, 12 and 15).
 //!
-//! All cores share the realisations of one σ; results are collected in the order of the
-//! realisations and reduced by one thread, so the number of threads changes no bit.
+//! All cores share the realisations; what they show is collected in the order of the realisations
+//! and reduced by one thread, so neither the number of threads nor that of machines changes a bit.
 
-use super::observe::{NEAR_DECADES, Observed, Outcome, SLOW_DECADES, realisation};
+use super::cutting::{Cutting, Row, Unit};
+use super::observe::{NEAR_DECADES, SLOW_DECADES, realisation};
 use super::progress::Stage;
 use super::rise::{self, Rise};
-use super::{Error, Progress};
+use super::tally::Tally;
+use super::{Error, Progress, weights};
 use crate::numerics::statistics as stat;
-use crate::params::{COMPARABLE_REJECTED, LEVEL, SweepParams};
+use crate::params::{COMPARABLE_REJECTED, LEVEL, Protocol, SweepParams};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
+use std::ops::Range;
 
 /// An ensemble over σ.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -89,21 +92,62 @@ pub struct Sample {
     pub distinct: Vec<Option<u32>>,
 }
 
+/// The ensemble in units of work.
+pub const CUTTING: Cutting<SweepParams, Tally, Sweep> = Cutting { rows, part, fits, join };
+
 /// Runs the ensemble over all σ.
 ///
 /// # Errors
 /// [`Error::Interrupted`]; [`Error::Dynamics`] if the chain is not allowed.
 pub fn run(parameters: &SweepParams, name: &str, progress: &Progress) -> Result<Sweep, Error> {
-    let stage = progress.stage(name, work(parameters));
+    CUTTING.run(parameters, name, progress)
+}
+
+/// One row a σ.
+pub fn rows(parameters: &SweepParams) -> Vec<Row> {
+    let row = |&sigma: &f64| Row {
+        covers: format!("sigma = {sigma}"),
+        realisations: parameters.realisations,
+        weight: weight(parameters, sigma),
+    };
+    parameters.sigmas.iter().map(row).collect()
+}
+
+/// Runs some realisations of one σ.
+///
+/// # Errors
+/// As [`run`].
+pub fn part(
+    parameters: &SweepParams,
+    unit: &Unit,
+    stage: &Stage,
+    progress: &Progress,
+) -> Result<Tally, Error> {
+    tally(parameters, parameters.sigmas[unit.row], unit.realisations.clone(), stage, progress)
+}
+
+/// Whether a tally can be that of a unit.
+pub fn fits(parameters: &SweepParams, unit: &Unit, tally: &Tally) -> bool {
+    tally.can_be(unit.realisations.len(), parameters.chain.gaps())
+}
+
+/// Reduces the tallies of each σ, and finds the rise.
+///
+/// # Errors
+/// [`Error::Interrupted`].
+pub fn join(
+    parameters: &SweepParams,
+    tallies: Vec<Vec<Tally>>,
+    progress: &Progress,
+) -> Result<Sweep, Error> {
     let mut rows = Vec::with_capacity(parameters.sigmas.len());
     let mut counts = Vec::with_capacity(parameters.sigmas.len());
-    for &sigma in &parameters.sigmas {
-        let Sample { row, distinct } = at(parameters, sigma, &stage, progress)?;
+    for (&sigma, tallies) in parameters.sigmas.iter().zip(tallies) {
+        let Sample { row, distinct } = reduce(parameters, sigma, Tally::joined(tallies));
         // A row of which many starts overlapped is shown, but no place is read from it.
         counts.push(if row.comparable { distinct } else { vec![None; distinct.len()] });
         rows.push(row);
     }
-    drop(stage);
     progress.check()?;
     let gaps = parameters.chain.gaps();
     let (rise, intervals) = rise::find(&parameters.sigmas, &counts, gaps, parameters.seed);
@@ -115,15 +159,16 @@ pub fn run(parameters: &SweepParams, name: &str, progress: &Progress) -> Result<
     Ok(Sweep { parameters: parameters.clone(), rows, rise })
 }
 
-/// Work is about proportional to σ − 0.06 once gaps impact: the time left is then about right.
-fn weight(sigma: f64) -> u64 {
-    1 + (1000.0 * (sigma - 0.06)).clamp(0.0, 100.0) as u64
+/// Work of one realisation.
+fn weight(parameters: &SweepParams, sigma: f64) -> u64 {
+    let Protocol { transient, window } = parameters.protocol;
+    weights::run(&parameters.chain, sigma, transient + window)
 }
 
 /// Units of work of all σ, for the stage that [`at`] advances.
 pub fn work(parameters: &SweepParams) -> u64 {
-    parameters.sigmas.iter().map(|&sigma| weight(sigma)).sum::<u64>()
-        * parameters.realisations as u64
+    let weights = parameters.sigmas.iter().map(|&sigma| weight(parameters, sigma));
+    weights.fold(0, u64::saturating_add).saturating_mul(parameters.realisations as u64)
 }
 
 /// Runs the ensemble at one σ, without bootstrap.
@@ -136,46 +181,37 @@ pub fn at(
     stage: &Stage,
     progress: &Progress,
 ) -> Result<Sample, Error> {
-    let outcomes: Vec<Outcome> = (0..parameters.realisations)
+    let tally = tally(parameters, sigma, 0..parameters.realisations, stage, progress)?;
+    Ok(reduce(parameters, sigma, tally))
+}
+
+/// Runs realisations at one σ.
+fn tally(
+    parameters: &SweepParams,
+    sigma: f64,
+    realisations: Range<usize>,
+    stage: &Stage,
+    progress: &Progress,
+) -> Result<Tally, Error> {
+    let weight = weight(parameters, sigma);
+    let outcomes: Vec<_> = realisations
         .into_par_iter()
         .with_max_len(1)
         .map(|index| {
             let key = (parameters.stream.as_str(), parameters.seed, index as u64);
             let outcome = realisation(&parameters.chain, parameters.protocol, sigma, key, progress);
-            stage.advance(weight(sigma));
+            stage.advance(weight);
             outcome
         })
         .collect::<Result<_, _>>()?;
-    Ok(reduce(parameters, sigma, &outcomes))
+    Ok(outcomes.iter().collect())
 }
 
-/// Reduces the outcomes of one σ, in the order of the realisations.
-fn reduce(parameters: &SweepParams, sigma: f64, outcomes: &[Outcome]) -> Sample {
+/// Reduces the tally of one σ.
+fn reduce(parameters: &SweepParams, sigma: f64, tally: Tally) -> Sample {
+    let Tally { distinct, kept_impacts, rejected, failed, first_failure, total } = tally;
     let mut counts = vec![0; parameters.chain.gaps() + 1];
-    let mut distinct = Vec::with_capacity(outcomes.len());
-    let mut total = Observed::default();
-    let (mut rejected, mut failed, mut first_failure) = (0, 0, None);
-    let mut kept_impacts = 0;
-    for outcome in outcomes {
-        distinct.push(match outcome {
-            Outcome::Counted(seen) => {
-                add(&mut total, seen);
-                counts[seen.distinct as usize] += 1;
-                kept_impacts += seen.window_impacts;
-                Some(seen.distinct)
-            }
-            Outcome::Rejected => {
-                rejected += 1;
-                None
-            }
-            Outcome::Failed(seen, error) => {
-                add(&mut total, seen);
-                failed += 1;
-                first_failure.get_or_insert_with(|| error.to_string());
-                None
-            }
-        });
-    }
+    distinct.iter().flatten().for_each(|&k| counts[k as usize] += 1);
     let ran: Vec<f64> = distinct.iter().flatten().map(|&k| f64::from(k)).collect();
     let kept: Vec<f64> = ran.iter().copied().filter(|&k| k > 0.0).collect();
     let mut kept_counts = counts.clone();
@@ -184,12 +220,12 @@ fn reduce(parameters: &SweepParams, sigma: f64, outcomes: &[Outcome]) -> Sample 
     let time = kept.len() as f64 * parameters.protocol.window;
     let row = SweepRow {
         sigma,
-        realisations: outcomes.len(),
+        realisations: distinct.len(),
         kept: kept.len(),
         rejected,
         failed,
         first_failure,
-        comparable: rejected as f64 <= COMPARABLE_REJECTED * outcomes.len() as f64,
+        comparable: rejected as f64 <= COMPARABLE_REJECTED * distinct.len() as f64,
         kept_interval: stat::wilson(kept.len() as u64, ran.len() as u64, LEVEL),
         mean_distinct: stat::mean(&kept),
         standard_error: stat::standard_error(&kept),
@@ -215,18 +251,11 @@ fn reduce(parameters: &SweepParams, sigma: f64, outcomes: &[Outcome]) -> Sample 
     Sample { row, distinct }
 }
 
-fn add(total: &mut Observed, seen: &Observed) {
-    total.impacts += seen.impacts;
-    total.adjacent_pairs += seen.adjacent_pairs;
-    total.contact_phases += seen.contact_phases;
-    total.near.iter_mut().zip(seen.near).for_each(|(sum, n)| *sum += n);
-    total.slow.iter_mut().zip(seen.slow).for_each(|(sum, n)| *sum += n);
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::dynamics;
+    use crate::experiments::observe::{Observed, Outcome};
     use crate::params::{NEAR_SIMULTANEOUS, Profile, SLOW};
 
     fn counted(distinct: u32, window_impacts: u64) -> Outcome {
@@ -247,7 +276,7 @@ mod tests {
             Outcome::Rejected,
             Outcome::Failed(Observed { impacts: 5, ..Observed::default() }, error.clone()),
         ];
-        let Sample { row, distinct } = reduce(&parameters, 0.1, &outcomes);
+        let Sample { row, distinct } = reduce(&parameters, 0.1, outcomes.iter().collect());
         assert_eq!(distinct, [Some(0), Some(4), Some(10), Some(4), None, None]);
         assert_eq!((row.realisations, row.kept, row.rejected, row.failed), (6, 3, 1, 1));
         assert_eq!(row.first_failure, Some(error.to_string()));
@@ -263,7 +292,7 @@ mod tests {
     #[test]
     fn of_nothing_kept_there_is_no_mean() {
         let parameters = SweepParams::main(Profile::Quick);
-        let row = reduce(&parameters, 0.1, &[counted(0, 0)]).row;
+        let row = reduce(&parameters, 0.1, [counted(0, 0)].iter().collect()).row;
         assert_eq!((row.mean_distinct, row.mean_all), (None, Some(0.0)));
         assert_eq!((row.mode_distinct, row.quantiles, row.impacts_per_time), (None, None, None));
     }

@@ -128,6 +128,9 @@ pub enum Profile {
 }
 
 impl Profile {
+    /// All of them, rising.
+    pub const ALL: [Profile; 3] = [Profile::Quick, Profile::Ci, Profile::Full];
+
     /// Its name on the command line, in reports and in names of files.
     pub fn name(self) -> &'static str {
         match self {

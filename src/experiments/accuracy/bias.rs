@@ -4,11 +4,12 @@
 use super::routes::method;
 use crate::dynamics::methods::{Cost, State};
 use crate::dynamics::{Impact, Scenario};
+use crate::experiments::cutting::{Cutting, Row, Unit};
 use crate::experiments::progress::Stage;
-use crate::experiments::{Error, Progress};
+use crate::experiments::{Error, Progress, weights};
 use crate::numerics::random::NormalPairs;
 use crate::numerics::statistics::{mean, standard_error};
-use crate::params::{BiasParams, MethodName, Protocol, Setting};
+use crate::params::{BiasParams, Chain, MethodName, Protocol, Setting};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -57,26 +58,120 @@ pub struct BiasRow {
     pub evaluations_per_impact: Option<f64>,
 }
 
-/// One realisation by one method: distinct gaps, and cost.
-#[derive(Clone, Copy, Debug)]
-struct Counted {
+/// One realisation by one method: distinct gaps (none if it was given up), and cost.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Counted {
     distinct: Option<f64>,
-    cost: Cost,
+    impacts: u64,
+    evaluations: u64,
 }
+
+/// The ensembles in units of work: for each scene the certified engine and then every setting.
+pub const CUTTING: Cutting<BiasParams, Vec<Counted>, Biases> =
+    Cutting { rows, part, fits: |_, unit, runs| runs.len() == unit.realisations.len(), join };
 
 /// Runs everything.
 ///
 /// # Errors
 /// [`Error::Interrupted`].
 pub fn run(parameters: &BiasParams, progress: &Progress) -> Result<Biases, Error> {
+    CUTTING.run(parameters, "bias of methods", progress)
+}
+
+/// One ensemble: what is run of which scene by which method, and how often.
+struct Ensemble {
+    sigma: f64,
+    protocol: Protocol,
+    setting: Setting,
+    realisations: usize,
+}
+
+/// Looks of a rival at one mass or gap that take as long as an impact in the engine.
+const LOOKS: f64 = 30.0;
+
+impl Ensemble {
+    /// Work of one realisation, in impacts.
+    fn weight(&self, chain: &Chain) -> u64 {
+        let time = self.protocol.transient + self.protocol.window;
+        let own = weights::run(chain, self.sigma, time);
+        let (impacts, masses) = (own as f64, chain.masses as f64);
+        let grid = masses * time / self.setting.value;
+        let looks = match self.setting.method {
+            MethodName::Certified => return own,
+            // Around an impact a root is searched for in its gap.
+            MethodName::Sampled | MethodName::Newton => grid + 20.0 * impacts,
+            // Integration stops at each impact, and starts anew with all masses.
+            MethodName::RungeKutta => 12.0 * masses * impacts,
+            MethodName::MoreauJean | MethodName::Verlet | MethodName::Penalty => grid,
+        };
+        1 + (looks / LOOKS) as u64
+    }
+}
+
+fn ensembles(parameters: &BiasParams) -> Vec<Ensemble> {
     let most = parameters.settings.iter().map(|(_, n)| *n).max().unwrap_or(0);
-    let own = Setting { method: MethodName::Certified, value: 0.0 };
-    let chains = most + parameters.settings.iter().map(|(_, n)| n).sum::<usize>();
-    let stage = progress.stage("bias of methods", (chains * parameters.scenes.len()) as u64);
+    let own = (Setting { method: MethodName::Certified, value: 0.0 }, most);
+    let of = |&(sigma, protocol): &(f64, Protocol)| {
+        let settings = std::iter::once(own).chain(parameters.settings.iter().copied());
+        settings.map(move |(setting, realisations)| Ensemble {
+            sigma,
+            protocol,
+            setting,
+            realisations,
+        })
+    };
+    parameters.scenes.iter().flat_map(of).collect()
+}
+
+fn rows(parameters: &BiasParams) -> Vec<Row> {
+    let row = |ensemble: &Ensemble| {
+        let Setting { method, value } = ensemble.setting;
+        let method = match method {
+            MethodName::Certified => method.id().into(),
+            _ => format!("{} at {value}", method.id()),
+        };
+        Row {
+            covers: format!("{method}, sigma = {}", ensemble.sigma),
+            realisations: ensemble.realisations,
+            weight: ensemble.weight(&parameters.chain),
+        }
+    };
+    ensembles(parameters).iter().map(row).collect()
+}
+
+fn part(
+    parameters: &BiasParams,
+    unit: &Unit,
+    stage: &Stage,
+    progress: &Progress,
+) -> Result<Vec<Counted>, Error> {
+    let ensemble = &ensembles(parameters)[unit.row];
+    let weight = ensemble.weight(&parameters.chain);
+    unit.realisations
+        .clone()
+        .into_par_iter()
+        .with_max_len(1)
+        .map(|index| {
+            progress.check()?;
+            let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, index as u64);
+            let scenario = Scenario::draw(&parameters.chain, ensemble.sigma, &mut normals);
+            let counted = count(ensemble.setting, &scenario, ensemble.protocol, progress);
+            progress.check()?;
+            stage.advance(weight);
+            Ok(counted)
+        })
+        .collect()
+}
+
+fn join(
+    parameters: &BiasParams,
+    parts: Vec<Vec<Vec<Counted>>>,
+    _: &Progress,
+) -> Result<Biases, Error> {
     let (mut certified, mut rows) = (Vec::new(), Vec::new());
-    for &(sigma, protocol) in &parameters.scenes {
-        let scene = (sigma, protocol);
-        let ours = ensemble(parameters, own, scene, most, (&stage, progress))?;
+    let mut runs = parts.iter().map(|parts| parts.concat());
+    for &(sigma, _) in &parameters.scenes {
+        let ours = runs.next().unwrap_or_default();
         let counts: Vec<f64> = ours.iter().filter_map(|run| run.distinct).collect();
         certified.push(Own {
             sigma,
@@ -84,8 +179,7 @@ pub fn run(parameters: &BiasParams, progress: &Progress) -> Result<Biases, Error
             mean: mean(&counts).unwrap_or(0.0),
             evaluations_per_impact: evaluations_per_impact(&ours),
         });
-        for &(setting, n) in &parameters.settings {
-            let theirs = ensemble(parameters, setting, scene, n, (&stage, progress))?;
+        for (&(setting, _), theirs) in parameters.settings.iter().zip(runs.by_ref()) {
             let pairs: Vec<(f64, f64)> =
                 theirs.iter().zip(&ours).filter_map(|(a, b)| a.distinct.zip(b.distinct)).collect();
             let differences: Vec<f64> = pairs.iter().map(|(a, b)| a - b).collect();
@@ -105,31 +199,9 @@ pub fn run(parameters: &BiasParams, progress: &Progress) -> Result<Biases, Error
 }
 
 fn evaluations_per_impact(runs: &[Counted]) -> Option<f64> {
-    let sum = |of: fn(&Cost) -> u64| runs.iter().map(|run| of(&run.cost)).sum::<u64>();
-    let impacts = sum(|cost| cost.impacts);
-    (impacts > 0).then(|| sum(|cost| cost.evaluations) as f64 / impacts as f64)
-}
-
-fn ensemble(
-    parameters: &BiasParams,
-    setting: Setting,
-    (sigma, protocol): (f64, Protocol),
-    realisations: usize,
-    (stage, progress): (&Stage, &Progress),
-) -> Result<Vec<Counted>, Error> {
-    (0..realisations)
-        .into_par_iter()
-        .with_max_len(1)
-        .map(|index| {
-            progress.check()?;
-            let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, index as u64);
-            let scenario = Scenario::draw(&parameters.chain, sigma, &mut normals);
-            let counted = count(setting, &scenario, protocol, progress);
-            progress.check()?;
-            stage.advance(1);
-            Ok(counted)
-        })
-        .collect()
+    let sum = |of: fn(&Counted) -> u64| runs.iter().map(of).sum::<u64>();
+    let impacts = sum(|run| run.impacts);
+    (impacts > 0).then(|| sum(|run| run.evaluations) as f64 / impacts as f64)
 }
 
 /// Distinct gaps that impact in the window (T, T + W].
@@ -150,8 +222,10 @@ fn count(
     let ran = method(setting).run(scenario, &State::of(scenario), until, &mut see);
     let distinct = hit.iter().filter(|hit| **hit).count() as f64;
     match ran {
-        Ok(cost) => Counted { distinct: Some(distinct), cost },
-        Err(_) => Counted { distinct: None, cost: Cost::default() },
+        Ok(Cost { impacts, evaluations, .. }) => {
+            Counted { distinct: Some(distinct), impacts, evaluations }
+        }
+        Err(_) => Counted { distinct: None, impacts: 0, evaluations: 0 },
     }
 }
 

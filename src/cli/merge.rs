@@ -1,0 +1,39 @@
+//! `impact-paper merge`.
+
+use super::{Failure, stdout, work};
+use impact_paper::experiments::Store;
+use impact_paper::experiments::shards::Plan;
+use impact_paper::params::Profile;
+use std::path::PathBuf;
+
+/// Joins the folders of all shards to saved results, byte for byte those of one machine.
+///
+/// `paper`, `check` and `status` find them there, fresh, and run nothing again. Nothing is saved unless every
+/// unit of work is there exactly once: refused are units in two folders and files that are no unit of the profile (exit
+/// code 2), and units that are missing, damaged, or made by other code or parameters (exit code 3).
+#[derive(clap::Args)]
+pub struct Args {
+    /// Folders that `run` wrote, of all shards.
+    #[arg(value_name = "DIR", required = true)]
+    folders: Vec<PathBuf>,
+    /// Sample sizes.
+    #[arg(long, default_value = "full")]
+    profile: work::ProfileName,
+    /// Folder in which results of long runs are kept.
+    #[arg(long, value_name = "DIR", default_value = "target/results")]
+    results: PathBuf,
+    /// Number of threads; all cores without it. It changes no bit of the result.
+    #[arg(long, value_name = "K", allow_hyphen_values = true)]
+    threads: Option<usize>,
+}
+
+/// Runs the verb.
+pub fn run(args: Args) -> Result<(), Failure> {
+    let profile = Profile::from(args.profile);
+    let results = Store::open(&args.results)?;
+    let plan = Plan::new(profile);
+    let progress = work::progress();
+    work::on_threads(args.threads, || Ok(plan.merge(&args.folders, &results, &progress)?))?;
+    let (number, out) = (plan.tasks.len(), args.results.display());
+    stdout::print(&format!("{out}: results of {number} units of work\n"))
+}

@@ -1,0 +1,78 @@
+//! `impact-paper run`.
+
+use super::{Failure, stdout, work};
+use impact_paper::experiments::shards::{MOST, Plan};
+use impact_paper::experiments::{Error, Store};
+use impact_paper::params::Profile;
+use std::path::PathBuf;
+
+/// Runs one shard of a profile: its share of the units of work that `plan` lists.
+///
+/// Each unit is saved as soon as it is there, whole or not at all. After Ctrl-C (exit code 130), a crash or a lost
+/// machine the same command goes on where it was. `merge` joins the folders of all shards.
+#[derive(clap::Args)]
+pub struct Args {
+    /// Which share of how many, like 2/3: the second of three.
+    #[arg(long, value_name = "i/N", value_parser = share, allow_hyphen_values = true)]
+    shard: (usize, usize),
+    /// Sample sizes.
+    #[arg(long, default_value = "full")]
+    profile: work::ProfileName,
+    /// Folder for what the units give, one file each; it is made when missing. Shards may share it.
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Number of threads; all cores without it. It changes no bit of the result.
+    #[arg(long, value_name = "K", allow_hyphen_values = true)]
+    threads: Option<usize>,
+}
+
+/// "2/3".
+fn share(text: &str) -> Result<(usize, usize), String> {
+    let read = |text: &str| text.parse::<usize>().ok().filter(|number| (1..=MOST).contains(number));
+    match text.split_once('/').map(|(i, n)| (read(i), read(n))) {
+        Some((Some(i), Some(n))) if i <= n => Ok((i, n)),
+        _ => Err(format!("a shard is i/N with 1 <= i <= N <= {MOST}, like 2/3")),
+    }
+}
+
+/// Refuses numbers of shards that make no sense.
+pub fn number(option: &str, of: usize) -> Result<(), Failure> {
+    if (1..=MOST).contains(&of) {
+        return Ok(());
+    }
+    Err(Failure::input(format!("{option}: {of} is not allowed; give 1 to {MOST}")))
+}
+
+/// Runs the verb.
+pub fn run(args: Args) -> Result<(), Failure> {
+    let profile = Profile::from(args.profile);
+    let unwritable = |error: Error| match error {
+        Error::Store { path, source } => Failure::input(format!(
+            "--out: {}: {source}; give a folder that can be written",
+            path.display()
+        )),
+        other => other.into(),
+    };
+    let store = Store::open(&args.out).map_err(unwritable)?;
+    let plan = Plan::new(profile);
+    let progress = work::progress();
+    let ran = work::on_threads(args.threads, || {
+        plan.run(args.shard, &store, &progress).map_err(unwritable)
+    })?;
+    let ((i, n), out) = (args.shard, args.out.display());
+    stdout::print(&format!("{out}: shard {i}/{n}: {} units run, {} fresh\n", ran.run, ran.fresh))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shares() {
+        assert_eq!(share("2/3"), Ok((2, 3)));
+        assert_eq!(share("1/1"), Ok((1, 1)));
+        for wrong in ["", "2", "0/3", "4/3", "1/0", "-1/3", "1/3/5", "1.5/3", "a/b", "1/100001"] {
+            assert!(share(wrong).is_err(), "{wrong}");
+        }
+    }
+}

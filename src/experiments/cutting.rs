@@ -1,0 +1,126 @@
+//! Experiments that are cut into units of work, which may run anywhere and in any order.
+//!
+//! Such an experiment has rows (each σ of an ensemble, say), and each row has realisations. A unit
+//! is a row's realisations from one number to another; where the cuts are follows from the
+//! parameters alone, never from the number of machines. One machine runs all units and joins what
+//! they give, several machines do the same: that is why they give the same bytes.
+
+use super::progress::Stage;
+use super::{Error, Progress};
+use rayon::prelude::*;
+use std::ops::Range;
+
+/// No unit is meant to weigh more than this many impacts: half a second of one core.
+const HEAVY: u64 = 1_000_000;
+
+/// One row of an experiment.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// What it is about: `sigma = 0.12`.
+    pub covers: String,
+    /// Number of realisations.
+    pub realisations: usize,
+    /// Work of one realisation, in impacts.
+    pub weight: u64,
+}
+
+/// Some realisations of one row: what is run, saved and joined as a whole.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unit {
+    /// Place of its row.
+    pub row: usize,
+    /// Its realisations.
+    pub realisations: Range<usize>,
+    /// What its row is about.
+    pub covers: String,
+    /// Its work, in impacts.
+    pub weight: u64,
+}
+
+/// Makes a result T of parts U, for each row those of its units in order.
+type Join<P, U, T> = fn(&P, Vec<Vec<U>>, &Progress) -> Result<T, Error>;
+
+/// How an experiment with parameters P is cut into parts U and joined to a result T.
+pub struct Cutting<P, U, T> {
+    /// The rows, in their order.
+    pub rows: fn(&P) -> Vec<Row>,
+    /// Runs realisations of a row, and advances the stage by the row's weight for each.
+    pub part: fn(&P, &Unit, &Stage, &Progress) -> Result<U, Error>,
+    /// Whether what was read from a file can be the part of a unit.
+    pub fits: fn(&P, &Unit, &U) -> bool,
+    /// Makes the result.
+    pub join: Join<P, U, T>,
+}
+
+impl<P: Sync, U: Send, T> Cutting<P, U, T> {
+    /// All units: row by row, realisation by realisation.
+    pub fn units(&self, parameters: &P) -> Vec<Unit> {
+        let rows = (self.rows)(parameters);
+        rows.iter().enumerate().flat_map(|(place, row)| cut(place, row, HEAVY)).collect()
+    }
+
+    /// Runs all units and joins them.
+    ///
+    /// # Errors
+    /// [`Error::Interrupted`], or what a part returns.
+    pub fn run(&self, parameters: &P, name: &str, progress: &Progress) -> Result<T, Error> {
+        let units = self.units(parameters);
+        let stage = progress.stage(name, units.iter().map(|unit| unit.weight).sum());
+        // Units share the cores with the realisations inside them; parts come in their order.
+        let run = |unit: &Unit| (self.part)(parameters, unit, &stage, progress);
+        let parts: Vec<U> =
+            units.par_iter().with_max_len(1).map(run).collect::<Result<_, Error>>()?;
+        drop(stage);
+        self.joined(parameters, parts, progress)
+    }
+
+    /// The result of the parts of all units, in order.
+    ///
+    /// # Errors
+    /// What joining returns.
+    pub fn joined(&self, parameters: &P, parts: Vec<U>, progress: &Progress) -> Result<T, Error> {
+        progress.check()?;
+        let mut rows: Vec<Vec<U>> = (self.rows)(parameters).iter().map(|_| Vec::new()).collect();
+        for (unit, part) in self.units(parameters).into_iter().zip(parts) {
+            rows[unit.row].push(part);
+        }
+        (self.join)(parameters, rows, progress)
+    }
+}
+
+/// Cuts a row into the fewest pieces of about equal size of which none is heavy.
+fn cut(place: usize, row: &Row, heavy: u64) -> Vec<Unit> {
+    let all = row.realisations;
+    let pieces =
+        (row.weight.saturating_mul(all as u64)).div_ceil(heavy).clamp(1, all.max(1) as u64);
+    let at = |piece: u64| (all as u64 * piece / pieces) as usize;
+    (0..pieces)
+        .map(|piece| {
+            let realisations = at(piece)..at(piece + 1);
+            let weight = row.weight.saturating_mul(realisations.len() as u64);
+            Unit { row: place, realisations, covers: row.covers.clone(), weight }
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_realisation_is_in_one_unit() {
+        for (realisations, weight) in
+            [(1, 1), (1000, 19_000), (7, 400_000), (3, 5_000_000), (10, 0)]
+        {
+            let row = Row { covers: "sigma = 0.1".into(), realisations, weight };
+            let units = cut(4, &row, HEAVY);
+            let all: Vec<usize> = units.iter().flat_map(|unit| unit.realisations.clone()).collect();
+            assert_eq!(all, (0..realisations).collect::<Vec<_>>());
+            assert!(units.iter().all(|unit| !unit.realisations.is_empty() && unit.row == 4));
+            let light = |unit: &Unit| unit.realisations.len() == 1 || unit.weight <= HEAVY + weight;
+            assert!(units.iter().all(light), "{units:?}");
+        }
+        let row = Row { covers: String::new(), realisations: 100, weight: 1 };
+        assert_eq!(cut(0, &row, HEAVY).len(), 1);
+    }
+}

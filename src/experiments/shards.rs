@@ -1,0 +1,291 @@
+//! The work of a profile as a list of units, shared out to machines and joined again.
+
+use super::catalogue::{ALL, Saved};
+use super::cutting::Unit;
+use super::store::{Identity, Reason, Store, told};
+use super::{Error, Progress};
+use crate::params::Profile;
+use std::cmp::Reverse;
+use std::collections::{BTreeMap, BinaryHeap};
+use std::path::{Path, PathBuf};
+
+/// Into so many shards a profile may be divided; more would have nothing to do.
+pub const MOST: usize = 100_000;
+
+/// Of a longer list of names only so many are told.
+const TOLD: usize = 5;
+
+/// All units of work of a profile.
+pub struct Plan {
+    profile: Profile,
+    /// In the order of the catalogue, and of each experiment.
+    pub tasks: Vec<Task>,
+}
+
+/// One unit of work of one experiment.
+pub struct Task {
+    /// The experiment.
+    pub experiment: &'static dyn Saved,
+    /// The unit.
+    pub unit: Unit,
+    /// What it is made of.
+    identity: Identity,
+    /// Its name, that of its file without the ending.
+    pub name: String,
+}
+
+/// What [`Plan::run`] did.
+pub struct Ran {
+    /// Units that were run.
+    pub run: usize,
+    /// Units that were there before.
+    pub fresh: usize,
+}
+
+impl Plan {
+    /// The plan of a profile.
+    pub fn new(profile: Profile) -> Self {
+        let tasks = ALL.iter().flat_map(|&experiment| {
+            let whole = experiment.identity(profile);
+            experiment.units(profile).into_iter().enumerate().map(move |(number, unit)| {
+                let identity = whole.of_unit(number, &unit);
+                let name = identity.file_stem(profile);
+                Task { experiment, unit, identity, name }
+            })
+        });
+        Plan { profile, tasks: tasks.collect() }
+    }
+
+    /// The shard of each unit, from 1: the heaviest unit first, always to the shard with the least
+    /// work so far, of several to the first.
+    pub fn shards(&self, of: usize) -> Vec<usize> {
+        let mut order: Vec<usize> = (0..self.tasks.len()).collect();
+        order.sort_by_key(|&task| Reverse(self.tasks[task].unit.weight));
+        let mut loads: BinaryHeap<_> = (1..=of).map(|shard| Reverse((0_u64, shard))).collect();
+        let mut shards = vec![1; self.tasks.len()];
+        for task in order {
+            if let Some(Reverse((load, shard))) = loads.pop() {
+                shards[task] = shard;
+                // A unit without weight takes its turn too.
+                let weight = self.tasks[task].unit.weight.max(1);
+                loads.push(Reverse((load.saturating_add(weight), shard)));
+            }
+        }
+        shards
+    }
+
+    /// What a store has of a unit, or why there is nothing to be used.
+    fn look(&self, task: &Task, store: &Store) -> Result<String, Vec<Reason>> {
+        let text = store.look(&task.identity, self.profile)?;
+        if task.experiment.understands(self.profile, &task.unit, &text) {
+            Ok(text)
+        } else {
+            Err(vec![Reason::Schema])
+        }
+    }
+
+    /// Whether each unit is missing in all of these stores.
+    pub fn left(&self, stores: &[Store]) -> Vec<bool> {
+        let left = |task: &Task| stores.iter().all(|store| self.look(task, store).is_err());
+        self.tasks.iter().map(left).collect()
+    }
+
+    /// Runs the units of one shard that are not yet fresh in the store.
+    ///
+    /// # Errors
+    /// What a unit returns; [`Error::Store`].
+    pub fn run(
+        &self,
+        (shard, of): (usize, usize),
+        store: &Store,
+        progress: &Progress,
+    ) -> Result<Ran, Error> {
+        let own: Vec<&Task> = self
+            .tasks
+            .iter()
+            .zip(self.shards(of))
+            .filter(|(_, other)| *other == shard)
+            .map(|(task, _)| task)
+            .collect();
+        store.prepare()?;
+        let (mut open, mut fresh) = (Vec::new(), 0);
+        for &task in &own {
+            match self.look(task, store) {
+                Ok(_) => fresh += 1,
+                Err(reasons) => {
+                    if reasons != [Reason::Missing] {
+                        progress.say(&format!("{}: run ({})", task.name, told(&reasons)));
+                    }
+                    open.push(task);
+                }
+            }
+        }
+        let run = open.len();
+        progress.say(&format!("shard {shard}/{of}: {run} units to run, {fresh} fresh"));
+        for experiment in open.chunk_by(|a, b| a.experiment.need() == b.experiment.need()) {
+            progress.check()?;
+            let units: Vec<(&Unit, Identity)> =
+                experiment.iter().map(|task| (&task.unit, task.identity.clone())).collect();
+            experiment[0].experiment.run_units(self.profile, &units, store, progress)?;
+        }
+        Ok(Ran { run, fresh })
+    }
+
+    /// Joins the units in folders to results in a store.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a folder that cannot be read, a file that is no unit of this plan, and a
+    /// unit in two folders; [`Error::Units`] for units that are missing, damaged or made of
+    /// something else; what joining and saving return.
+    pub fn merge(
+        &self,
+        folders: &[PathBuf],
+        results: &Store,
+        progress: &Progress,
+    ) -> Result<(), Error> {
+        let found = self.found(folders)?;
+        let stores: Vec<Store> =
+            folders.iter().map(|folder| Store::open(folder)).collect::<Result<_, _>>()?;
+        let (mut texts, mut bad, mut missing) = (Vec::new(), Vec::new(), Vec::new());
+        for task in &self.tasks {
+            progress.check()?;
+            match found.get(&task.name) {
+                None => missing.push(task.name.clone()),
+                Some(&place) => match self.look(task, &stores[place]) {
+                    Ok(text) => texts.push(text),
+                    Err(reasons) => {
+                        let path = path(&folders[place], &task.name);
+                        bad.push(format!("{}: {}", path.display(), told(&reasons)));
+                    }
+                },
+            }
+        }
+        let profile = self.profile.name();
+        if !bad.is_empty() {
+            let remedy = "run its shard again with this program, into the same folder";
+            return Err(Error::Units { what: listed(&bad), remedy: remedy.into() });
+        }
+        if !missing.is_empty() {
+            let remedy = format!(
+                "`impact-paper plan --profile {profile} --shards N --left DIR…` names the shards to \
+                 run again"
+            );
+            let what = format!("missing units of work: {}", listed(&missing));
+            return Err(Error::Units { what, remedy });
+        }
+        results.prepare()?;
+        let mut texts = texts.into_iter();
+        for tasks in self.tasks.chunk_by(|a, b| a.experiment.need() == b.experiment.need()) {
+            let own: Vec<String> = texts.by_ref().take(tasks.len()).collect();
+            let experiment = tasks[0].experiment;
+            experiment.merge(self.profile, &own, results, progress)?;
+            let (name, number) = (experiment.need().name(), own.len());
+            progress.say(&format!("{name}: joined from {number} units of work"));
+        }
+        Ok(())
+    }
+
+    /// In which folder each unit lies, by name.
+    fn found(&self, folders: &[PathBuf]) -> Result<BTreeMap<String, usize>, Error> {
+        let mut found: BTreeMap<String, usize> = BTreeMap::new();
+        let known: BTreeMap<&str, ()> =
+            self.tasks.iter().map(|task| (task.name.as_str(), ())).collect();
+        let (mut strange, mut twice) = (Vec::new(), Vec::new());
+        for (place, folder) in folders.iter().enumerate() {
+            for name in names(folder)? {
+                if !known.contains_key(name.as_str()) {
+                    strange.push(self.stranger(folder, &name));
+                } else if let Some(first) = found.insert(name.clone(), place) {
+                    let [a, b] = [first, place].map(|place| path(&folders[place], &name));
+                    twice.push(format!("{name} is in {} and in {}", a.display(), b.display()));
+                }
+            }
+        }
+        let refused =
+            |what: &[String], remedy: &str| Err(Error::input("merge", listed(what), remedy));
+        if !strange.is_empty() {
+            return refused(
+                &strange,
+                "give folders that `impact-paper run` wrote, and their profile",
+            );
+        }
+        if !twice.is_empty() {
+            return refused(&twice, "give each unit once: leave out one of the folders");
+        }
+        Ok(found)
+    }
+
+    /// What is said of a file that is no unit of this plan.
+    fn stranger(&self, folder: &Path, name: &str) -> String {
+        let of = Profile::ALL.into_iter().find(|&profile| {
+            profile != self.profile && Plan::new(profile).tasks.iter().any(|task| task.name == name)
+        });
+        let path = path(folder, name);
+        match of {
+            Some(profile) => format!("{} is of profile {}", path.display(), profile.name()),
+            None => {
+                let profile = self.profile.name();
+                format!("{} is no unit of work of profile {profile}", path.display())
+            }
+        }
+    }
+}
+
+fn path(folder: &Path, name: &str) -> PathBuf {
+    folder.join(format!("{name}.json"))
+}
+
+/// Names of the JSON files in a folder, sorted; others, like logs, are nobody's concern.
+fn names(folder: &Path) -> Result<Vec<String>, Error> {
+    let remedy = "give folders that `impact-paper run` wrote";
+    let failed = |error: std::io::Error| {
+        Error::input(folder.display().to_string(), error.to_string(), remedy)
+    };
+    let mut names = Vec::new();
+    for entry in std::fs::read_dir(folder).map_err(failed)? {
+        let name = entry.map_err(failed)?.file_name().to_string_lossy().into_owned();
+        names.extend(name.strip_suffix(".json").map(String::from));
+    }
+    names.sort();
+    Ok(names)
+}
+
+/// The first few, and how many more.
+fn listed(names: &[String]) -> String {
+    let first = names.iter().take(TOLD).cloned().collect::<Vec<_>>().join(", ");
+    match names.len().saturating_sub(TOLD) {
+        0 => first,
+        more => format!("{first} and {more} more"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_units_differ_and_their_weights_are_shared_evenly() {
+        for profile in Profile::ALL {
+            let plan = Plan::new(profile);
+            let names: BTreeMap<&str, u64> =
+                plan.tasks.iter().map(|task| (task.name.as_str(), task.unit.weight)).collect();
+            assert_eq!(names.len(), plan.tasks.len());
+            let whole: u64 = names.values().sum();
+            let heaviest = names.values().max().unwrap();
+            for of in [1, 3, 7] {
+                let mut loads = vec![0; of];
+                for (task, shard) in plan.tasks.iter().zip(plan.shards(of)) {
+                    loads[shard - 1] += task.unit.weight;
+                }
+                let even = whole / of as u64;
+                assert!(loads.iter().all(|&load| load <= even + heaviest), "{loads:?}");
+                assert!(loads.iter().all(|&load| load + heaviest >= even), "{loads:?}");
+            }
+        }
+        // The cuts are the same whatever the number of machines; so many have one unit each.
+        let plan = Plan::new(Profile::Quick);
+        let mut alone = plan.shards(plan.tasks.len());
+        alone.sort_unstable();
+        assert_eq!(alone, (1..=plan.tasks.len()).collect::<Vec<_>>());
+    }
+}
