@@ -67,7 +67,7 @@ pub const HORIZON: Experiment<HorizonParams, horizon::Horizon> = Experiment {
     parameters: HorizonParams::new,
     how: Whole {
         run: horizon::run,
-        weight: |p| p.realisations as u64 * weights::run(&p.chain, p.sigma, p.until),
+        weight: |p| 3 * p.realisations as u64 * weights::run(&p.chain, p.sigma, p.until) / 2,
     },
 };
 
@@ -78,7 +78,7 @@ pub const TWO_MASSES: Experiment<TwoMassesParams, two_masses::TwoMasses> = Exper
     parameters: TwoMassesParams::new,
     how: Whole {
         run: two_masses::run,
-        weight: |p| 5 * p.directions as u64 * p.times.iter().map(|time| *time as u64).sum::<u64>(),
+        weight: |p| p.directions as u64 * p.times.iter().map(|time| *time as u64).sum::<u64>() / 3,
     },
 };
 
@@ -87,7 +87,7 @@ pub const SPACE_TIME: Experiment<SpaceTimeParams, spacetime::SpaceTime> = Experi
     need: Need::SpaceTime,
     module: "src/experiments/spacetime.rs",
     parameters: SpaceTimeParams::new,
-    how: Whole { run: spacetime::run, weight: |p| 2 * weights::run(&p.chain, p.sigma, p.until) },
+    how: Whole { run: spacetime::run, weight: |p| 8 * weights::run(&p.chain, p.sigma, p.until) },
 };
 
 /// Every method against the true motion.
@@ -95,7 +95,7 @@ pub const RACE: Experiment<RaceParams, race::Race> = Experiment {
     need: Need::Race,
     module: "src/experiments/accuracy/race.rs",
     parameters: RaceParams::new,
-    how: Whole { run: race::run, weight: |p| 40_000 * (p.chains * p.settings.len()) as u64 },
+    how: Whole { run: race::run, weight: |p| 30_000 * (p.chains * p.settings.len()) as u64 },
 };
 
 /// What methods do to the mean count.
@@ -111,7 +111,10 @@ pub const TRIALS: Experiment<TrialParams, trials::Trials> = Experiment {
     need: Need::Trials,
     module: "src/experiments/accuracy/trials.rs",
     parameters: TrialParams::new,
-    how: Whole { run: trials::run, weight: |p| 100_000 * p.settings.len() as u64 },
+    how: Whole {
+        run: trials::run,
+        weight: |p| if p.short { 100_000 } else { 1_100_000 } * p.settings.len() as u64,
+    },
 };
 
 /// Counted work against the number of masses.
@@ -119,10 +122,7 @@ pub const SCALE: Experiment<ScaleParams, scale::Scale> = Experiment {
     need: Need::Scale,
     module: "src/experiments/accuracy/scale.rs",
     parameters: ScaleParams::new,
-    how: Whole {
-        run: scale::run,
-        weight: |p| 2_000_000 + 10 * p.masses.iter().sum::<usize>() as u64,
-    },
+    how: Whole { run: scale::run, weight: |p| 300_000 + 7 * p.masses.iter().sum::<usize>() as u64 },
 };
 
 /// Ways to compute Eqs. (9) and (25).
@@ -130,5 +130,5 @@ pub const ANALYTIC: Experiment<AnalyticParams, analytic::Analytic> = Experiment 
     need: Need::Analytic,
     module: "src/experiments/accuracy/analytic.rs",
     parameters: AnalyticParams::new,
-    how: Whole { run: analytic::run, weight: |p| 10 * p.sizes.iter().sum::<usize>() as u64 },
+    how: Whole { run: analytic::run, weight: |p| 3 * p.sizes.iter().sum::<usize>() as u64 / 2 },
 };

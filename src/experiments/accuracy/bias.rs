@@ -86,7 +86,7 @@ struct Ensemble {
     realisations: usize,
 }
 
-/// Looks of a rival at one mass or gap that take as long as an impact in the engine.
+/// Looks of a rival at one mass or gap, with their sines, that take as long as an impact in the engine.
 const LOOKS: f64 = 30.0;
 
 impl Ensemble {
@@ -98,11 +98,13 @@ impl Ensemble {
         let grid = masses * time / self.setting.value;
         let looks = match self.setting.method {
             MethodName::Certified => return own,
-            // Around an impact a root is searched for in its gap.
-            MethodName::Sampled | MethodName::Newton => grid + 20.0 * impacts,
+            // At each point of the grid all gaps, and around an impact a root in its own.
+            MethodName::Sampled => 4.0 * grid + 20.0 * impacts,
+            MethodName::Newton => 2.0 * grid + 20.0 * impacts,
             // Integration stops at each impact, and starts anew with all masses.
-            MethodName::RungeKutta => 12.0 * masses * impacts,
-            MethodName::MoreauJean | MethodName::Verlet | MethodName::Penalty => grid,
+            MethodName::RungeKutta => 25.0 * masses * impacts,
+            // A step needs no sines of its own for each mass.
+            MethodName::MoreauJean | MethodName::Verlet | MethodName::Penalty => 0.3 * grid,
         };
         1 + (looks / LOOKS) as u64
     }
