@@ -10,8 +10,11 @@ use super::{Error, Progress};
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// No unit is meant to weigh more than this many impacts: half a second of one core.
+/// No unit is meant to weigh more than this many impacts: half a second of one core ...
 const HEAVY: u64 = 1_000_000;
+
+/// ... unless an experiment had then more units than about this many: each has a file.
+const MANY: u64 = 2000;
 
 /// One row of an experiment.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,6 +25,12 @@ pub struct Row {
     pub realisations: usize,
     /// Work of one realisation, in impacts.
     pub weight: u64,
+}
+
+impl Row {
+    fn work(&self) -> u64 {
+        self.weight.saturating_mul(self.realisations as u64)
+    }
 }
 
 /// Some realisations of one row: what is run, saved and joined as a whole.
@@ -56,7 +65,9 @@ impl<P: Sync, U: Send, T> Cutting<P, U, T> {
     /// All units: row by row, realisation by realisation.
     pub fn units(&self, parameters: &P) -> Vec<Unit> {
         let rows = (self.rows)(parameters);
-        rows.iter().enumerate().flat_map(|(place, row)| cut(place, row, HEAVY)).collect()
+        let all = rows.iter().map(Row::work).fold(0, u64::saturating_add);
+        let heavy = HEAVY.max(all / MANY);
+        rows.iter().enumerate().flat_map(|(place, row)| cut(place, row, heavy)).collect()
     }
 
     /// Runs all units and joins them.
@@ -91,9 +102,8 @@ impl<P: Sync, U: Send, T> Cutting<P, U, T> {
 /// Cuts a row into the fewest pieces of about equal size of which none is heavy.
 fn cut(place: usize, row: &Row, heavy: u64) -> Vec<Unit> {
     let all = row.realisations;
-    let pieces =
-        (row.weight.saturating_mul(all as u64)).div_ceil(heavy).clamp(1, all.max(1) as u64);
-    let at = |piece: u64| (all as u64 * piece / pieces) as usize;
+    let pieces = row.work().div_ceil(heavy).clamp(1, all.max(1) as u64);
+    let at = |piece: u64| (all as u128 * u128::from(piece) / u128::from(pieces)) as usize;
     (0..pieces)
         .map(|piece| {
             let realisations = at(piece)..at(piece + 1);
@@ -122,5 +132,26 @@ mod tests {
         }
         let row = Row { covers: String::new(), realisations: 100, weight: 1 };
         assert_eq!(cut(0, &row, HEAVY).len(), 1);
+    }
+
+    #[test]
+    fn a_billion_realisations_are_thousands_of_units() {
+        let cutting: Cutting<u64, (), ()> = Cutting {
+            rows: |&realisations| {
+                let row = |weight| Row {
+                    covers: String::new(),
+                    realisations: realisations as usize,
+                    weight,
+                };
+                [100, 7000, 20_000].map(row).to_vec()
+            },
+            part: |_, _, _, _| Ok(()),
+            fits: |_, _, ()| true,
+            join: |_, _, _| Ok(()),
+        };
+        assert_eq!(cutting.units(&300).len(), 1 + 3 + 6);
+        let many = cutting.units(&300_000_000);
+        assert!((1900..2100).contains(&many.len()), "{}", many.len());
+        assert_eq!(many.iter().map(|unit| unit.realisations.len()).sum::<usize>(), 900_000_000);
     }
 }

@@ -180,7 +180,8 @@ impl Plan {
             let experiment = tasks[0].experiment;
             experiment.merge(self.profile, &own, results, progress)?;
             let (name, number) = (experiment.need().name(), own.len());
-            progress.say(&format!("{name}: joined from {number} units of work"));
+            let units = if number == 1 { "unit" } else { "units" };
+            progress.say(&format!("{name}: joined from {number} {units} of work"));
         }
         Ok(())
     }
