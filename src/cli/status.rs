@@ -51,7 +51,7 @@ impl Line {
             experiment: experiment.need().name(),
             fresh: reasons.is_empty(),
             missing: has(|reason| *reason == Reason::Missing),
-            parameters: has(|reason| *reason == Reason::Parameters),
+            parameters: has(|reason| matches!(reason, Reason::Parameters | Reason::Unit)),
             code: has(|reason| matches!(reason, Reason::Code(_))),
             dependency: has(|reason| *reason == Reason::Dependency),
             schema: has(|reason| *reason == Reason::Schema),

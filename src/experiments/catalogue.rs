@@ -99,7 +99,7 @@ pub const RACE: Experiment<RaceParams, race::Race> = Experiment {
 };
 
 /// What methods do to the mean count.
-pub const BIAS: Experiment<BiasParams, bias::Biases, Vec<bias::Counted>> = Experiment {
+pub const BIAS: Experiment<BiasParams, bias::Biases, bias::Part> = Experiment {
     need: Need::Biases,
     module: "src/experiments/accuracy/bias.rs",
     parameters: BiasParams::new,

@@ -66,9 +66,11 @@ pub struct Counted {
     evaluations: u64,
 }
 
+/// Realisations of one method at one σ.
+pub type Part = Vec<Counted>;
+
 /// The ensembles in units of work: for each scene the certified engine and then every setting.
-pub const CUTTING: Cutting<BiasParams, Vec<Counted>, Biases> =
-    Cutting { rows, part, fits: |_, unit, runs| runs.len() == unit.realisations.len(), join };
+pub const CUTTING: Cutting<BiasParams, Part, Biases> = Cutting { rows, part, fits, join };
 
 /// Runs everything.
 ///
@@ -146,7 +148,7 @@ fn part(
     unit: &Unit,
     stage: &Stage,
     progress: &Progress,
-) -> Result<Vec<Counted>, Error> {
+) -> Result<Part, Error> {
     let ensemble = &ensembles(parameters)[unit.row];
     let weight = ensemble.weight(&parameters.chain);
     unit.realisations
@@ -165,11 +167,11 @@ fn part(
         .collect()
 }
 
-fn join(
-    parameters: &BiasParams,
-    parts: Vec<Vec<Vec<Counted>>>,
-    _: &Progress,
-) -> Result<Biases, Error> {
+fn fits(_: &BiasParams, unit: &Unit, runs: &Part) -> bool {
+    runs.len() == unit.realisations.len()
+}
+
+fn join(parameters: &BiasParams, parts: Vec<Vec<Part>>, _: &Progress) -> Result<Biases, Error> {
     let (mut certified, mut rows) = (Vec::new(), Vec::new());
     let mut runs = parts.iter().map(|parts| parts.concat());
     for &(sigma, _) in &parameters.scenes {
