@@ -129,7 +129,7 @@ fn fresh(results: &Path, profile: Profile) -> Result<Vec<String>, Failure> {
         catalogue::ALL.iter().filter(stale).map(|experiment| experiment.need().name()).collect();
     if stale.is_empty() {
         let name = |experiment: &&dyn catalogue::Saved| {
-            format!("{}-{}.json", experiment.need().name(), profile.name())
+            format!("{}.json", experiment.identity(profile).file_stem(profile))
         };
         return Ok(catalogue::ALL.iter().map(name).collect());
     }
