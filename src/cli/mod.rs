@@ -13,6 +13,7 @@ mod git;
 mod make;
 mod merge;
 mod method;
+mod mutate;
 mod output;
 mod paper;
 mod plan;
@@ -51,6 +52,7 @@ enum Verb {
     Eval(eval::Args),
     Explain(explain::Args),
     Merge(merge::Args),
+    Mutate(mutate::Args),
     Paper(paper::Args),
     Plan(plan::Args),
     Run(shard::Args),
@@ -101,6 +103,7 @@ pub fn main() -> ExitCode {
         Verb::Eval(args) => eval::run(args),
         Verb::Explain(args) => explain::run(args),
         Verb::Merge(args) => merge::run(args),
+        Verb::Mutate(args) => mutate::run(args),
         Verb::Paper(args) => paper::run(args),
         Verb::Plan(args) => plan::run(args),
         Verb::Run(args) => shard::run(args),

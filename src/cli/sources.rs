@@ -5,6 +5,7 @@ use impact_paper::claims::Published;
 use impact_paper::experiments::{self, Need, Progress, Results, Store};
 use impact_paper::params::Profile;
 use impact_paper::report::Templates;
+use impact_paper::report::mutate::Reasons;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
@@ -43,6 +44,15 @@ impl Sources {
     pub fn published(&self, templates: &Templates) -> Result<Published, Failure> {
         let text = templates.text("published.toml").map_err(|e| Failure::input(e.to_string()))?;
         Published::parse(text).map_err(|e| Failure::input(e.to_string()))
+    }
+
+    /// Why some numbers have no check.
+    ///
+    /// # Errors
+    /// Exit code 2 if the file is broken.
+    pub fn reasons(&self, templates: &Templates) -> Result<Reasons, Failure> {
+        let text = templates.text("unguarded.toml").map_err(|e| Failure::input(e.to_string()))?;
+        Reasons::read(text).map_err(|e| Failure::input(e.to_string()))
     }
 
     /// Runs what is needed. The folder of results is made only if something long is run.

@@ -23,6 +23,7 @@ use tera::{Context, Delimiters, Kwargs, State, Tera};
 /// The copy that is built into the program: path relative to `templates/`, and text.
 const EMBEDDED: &[(&str, &str)] = &[
     ("literals.toml", include_str!("../../templates/literals.toml")),
+    ("unguarded.toml", include_str!("../../templates/unguarded.toml")),
     ("published.toml", include_str!("../../templates/published.toml")),
     ("references.bib", include_str!("../../templates/references.bib")),
     ("report.css", include_str!("../../templates/report.css")),

@@ -244,6 +244,11 @@ impl Registry {
         values.into_iter().try_for_each(|value| self.add(value))
     }
 
+    /// Puts a value in the place of the one with its id.
+    pub fn put(&mut self, value: Value) {
+        self.0.insert(value.id.clone(), value);
+    }
+
     /// The value with this id.
     pub fn get(&self, id: &str) -> Option<&Value> {
         self.0.get(id)

@@ -3,6 +3,7 @@
 use impact_paper::claims::targets::Target;
 use impact_paper::claims::{Claim, Verdict, scorecard};
 use impact_paper::report::claims::plain;
+use impact_paper::report::guards::{self, Failing};
 use serde_json::json;
 use std::fmt::Write as _;
 
@@ -45,7 +46,7 @@ fn level(verdict: Verdict) -> Option<&'static str> {
 }
 
 /// All that is known, as JSON.
-pub fn json(entries: &[Entry], targets: &[Target]) -> String {
+pub fn json(entries: &[Entry], targets: &[Target], failing: &[Failing]) -> String {
     let claims: Vec<_> = entries
         .iter()
         .map(|Entry { claim, line }| {
@@ -72,7 +73,12 @@ pub fn json(entries: &[Entry], targets: &[Target]) -> String {
         .into_iter()
         .map(|(verdict, count)| (verdict.words().into(), count.into()))
         .collect();
-    format!("{:#}\n", json!({ "score": score, "claims": claims, "targets": targets }))
+    let failing: Vec<_> =
+        failing.iter().map(|f| json!({ "guard": f.name, "what": f.what })).collect();
+    let all = json!({
+        "score": score, "claims": claims, "targets": targets, "failing_guards": failing,
+    });
+    format!("{all:#}\n")
 }
 
 fn scores(entries: &[Entry]) -> Vec<(Verdict, usize)> {
@@ -80,8 +86,9 @@ fn scores(entries: &[Entry]) -> Vec<(Verdict, usize)> {
     Verdict::ALL.into_iter().zip(scorecard(&claims)).collect()
 }
 
-/// A test suite of JUnit's XML: a claim that differs fails, one that cannot be judged is skipped.
-pub fn junit(entries: &[Entry]) -> String {
+/// Test suites of JUnit's XML: a claim that differs fails, one that cannot be judged is skipped; and
+/// the guards, where any was asked.
+pub fn junit(entries: &[Entry], failing: &[Failing]) -> String {
     let of = |verdict| entries.iter().filter(|entry| entry.claim.verdict == verdict).count();
     let mut out = format!(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n\
@@ -105,7 +112,26 @@ pub fn junit(entries: &[Entry]) -> String {
             "<testcase name=\"{name}\" classname=\"{place}\" file=\"{FILE}\" line=\"{line}\">{inside}</testcase>"
         );
     }
-    out + "</testsuite>\n</testsuites>\n"
+    out.push_str("</testsuite>\n");
+    if !failing.is_empty() {
+        let (tests, failures) = (guards::all().count(), failing.len());
+        let _ = writeln!(
+            out,
+            "<testsuite name=\"guards\" tests=\"{tests}\" failures=\"{failures}\" errors=\"0\" skipped=\"0\">"
+        );
+        for guard in guards::all() {
+            let fault = failing.iter().find(|failing| failing.name == guard.name);
+            let inside = fault.map(|fault| {
+                format!("<failure message=\"fails\">{}</failure>", escaped(&fault.what))
+            });
+            let inside = inside.unwrap_or_default();
+            let name = guard.name;
+            let _ =
+                writeln!(out, "<testcase name=\"{name}\" classname=\"guards\">{inside}</testcase>");
+        }
+        out.push_str("</testsuite>\n");
+    }
+    out + "</testsuites>\n"
 }
 
 fn escaped(text: &str) -> String {
@@ -154,8 +180,8 @@ pub fn sarif(entries: &[Entry]) -> String {
 /// Most annotations that are worth a reader's time.
 const ANNOTATIONS: usize = 10;
 
-/// Commands of GitHub's log: the worst claims, each at its line.
-pub fn github(entries: &[Entry]) -> String {
+/// Commands of GitHub's log: guards that fail, and the worst claims, each at its line.
+pub fn github(entries: &[Entry], failing: &[Failing]) -> String {
     let mut worst: Vec<&Entry> =
         entries.iter().filter(|entry| level(entry.claim.verdict).is_some()).collect();
     let rank = |entry: &&Entry| match entry.claim.verdict {
@@ -166,6 +192,9 @@ pub fn github(entries: &[Entry]) -> String {
     };
     worst.sort_by_key(rank);
     let mut out = String::new();
+    for Failing { name, what } in failing.iter().take(ANNOTATIONS) {
+        let _ = writeln!(out, "::error title=guard {}::{}", property(name), data(what));
+    }
     for Entry { claim, line } in worst.into_iter().take(ANNOTATIONS) {
         let kind = level(claim.verdict)
             .map_or("notice", |level| if level == "note" { "notice" } else { level });
@@ -187,7 +216,7 @@ fn property(text: &str) -> String {
 }
 
 /// The whole as tables.
-pub fn markdown(entries: &[Entry], targets: &[Target]) -> String {
+pub fn markdown(entries: &[Entry], targets: &[Target], failing: &[Failing]) -> String {
     let cell = |text: &str| text.replace('|', "\\|").replace('\n', " ");
     let mut out = String::from("## Claims\n\n| verdict | claims |\n|---|--:|\n");
     for (verdict, count) in scores(entries) {
@@ -215,6 +244,12 @@ pub fn markdown(entries: &[Entry], targets: &[Target]) -> String {
         let (what, bound) = (cell(target.what), cell(&plain(&target.bound)));
         let (found, standing) = (cell(&plain(&target.found)), target.standing.words());
         let _ = writeln!(out, "| {what} | {bound} | {found} | {standing} |");
+    }
+    if !failing.is_empty() {
+        out.push_str("\n## Guards that fail\n\n| guard | what is wrong |\n|---|---|\n");
+    }
+    for Failing { name, what } in failing {
+        let _ = writeln!(out, "| {name} | {} |", cell(what));
     }
     out
 }

@@ -6,18 +6,21 @@ use self::forms::Entry;
 use super::sources::Sources;
 use super::{Failure, stdout, work};
 use impact_paper::claims::targets::{self, Standing, Target};
-use impact_paper::claims::{self, Claim};
+use impact_paper::claims::{self, Claim, Published};
+use impact_paper::experiments::{Need, Results};
 use impact_paper::params::Profile;
-use impact_paper::report::claims::plain;
+use impact_paper::report::claims::{plain, scorecard};
+use impact_paper::report::contents;
+use impact_paper::report::guards::{self, Failing, Look};
 use std::collections::BTreeSet;
 use std::io::{self, Write};
 
-/// Holds every quantitative statement of the paper against what is computed here, and the targets
-/// of this edition for its own speed and accuracy.
+/// Holds every quantitative statement of the paper against what is computed here, the targets of
+/// this edition for its own speed and accuracy, and the numbers of the report against one another.
 ///
 /// Saved results are used where they are fresh; what is missing is run. Prints a row for each
-/// claim, and ends with exit code 1 if one differs without an explanation that holds, or if a
-/// target is missed that does not depend on the clock.
+/// claim, and ends with exit code 1 if one differs without an explanation that holds, if a target is
+/// missed that does not depend on the clock, or if a guard fails, a relation that must hold.
 #[derive(clap::Args)]
 pub struct Args {
     /// Sample sizes.
@@ -61,19 +64,20 @@ pub fn run(args: Args) -> Result<(), Failure> {
         some => all.into_iter().filter(|id| some.iter().any(|one| one == id)).collect(),
     };
     let mut needs: BTreeSet<_> = asked.iter().flat_map(|id| claims::needs(id)).copied().collect();
-    // The targets belong to the whole.
+    // Targets and guards belong to the whole.
     let whole = args.claim.is_empty();
     if whole {
-        needs.extend(targets::NEEDS);
+        needs.extend(Need::ALL);
     }
     let progress = work::progress();
-    let (judged, targets) = work::on_threads(args.sources.threads, || {
+    let (judged, targets, failing) = work::on_threads(args.sources.threads, || {
         let results = args.sources.run(&needs, profile, &templates, &progress)?;
         let fault = |error: claims::Error| Failure::run(error.to_string());
         let one = |id: &&str| claims::one(id, &results, &published).map_err(fault);
         let judged = asked.iter().map(one).collect::<Result<Vec<Claim>, Failure>>()?;
         let targets = if whole { targets::targets(&results).map_err(fault)? } else { Vec::new() };
-        Ok((judged, targets))
+        let failing = if whole { guarding(&results, &published, &judged)? } else { Vec::new() };
+        Ok((judged, targets, failing))
     })?;
     let line = |id: &str| Ok(published.line(templates.text("published.toml")?, id));
     let entry = |claim| Ok(Entry { claim, line: line(&claim.id)? });
@@ -81,35 +85,54 @@ pub fn run(args: Args) -> Result<(), Failure> {
         judged.iter().map(entry).collect();
     let entries = entries.map_err(|error| Failure::input(error.to_string()))?;
     match args.format {
-        Format::Text => stdout::written(print(&judged, &targets))?,
-        Format::Json => stdout::print(&forms::json(&entries, &targets))?,
-        Format::Junit => stdout::print(&forms::junit(&entries))?,
+        Format::Text => stdout::written(print(&judged, &targets, &failing))?,
+        Format::Json => stdout::print(&forms::json(&entries, &targets, &failing))?,
+        Format::Junit => stdout::print(&forms::junit(&entries, &failing))?,
         Format::Sarif => stdout::print(&forms::sarif(&entries))?,
-        Format::Markdown => stdout::print(&forms::markdown(&entries, &targets))?,
+        Format::Markdown => stdout::print(&forms::markdown(&entries, &targets, &failing))?,
         Format::Github => {
-            stdout::print(&forms::github(&entries))?;
-            summarise(&forms::markdown(&entries, &targets))?;
+            stdout::print(&forms::github(&entries, &failing))?;
+            summarise(&forms::markdown(&entries, &targets, &failing))?;
         }
     }
-    let failing: Vec<&str> =
+    verdict(&judged, &targets, &failing)
+}
+
+/// Relations between the numbers of the report that do not hold.
+fn guarding(
+    results: &Results,
+    published: &Published,
+    claims: &[Claim],
+) -> Result<Vec<Failing>, Failure> {
+    let fault = |error: &dyn std::error::Error| Failure::run(error.to_string());
+    let mut values = contents::registry(results, published).map_err(|e| fault(&e))?;
+    values.extend(scorecard(claims)).map_err(|e| fault(&e))?;
+    Ok(guards::failing(Look { results, published, values: &values, claims }).collect())
+}
+
+/// Exit code 1 for what does not hold.
+fn verdict(judged: &[Claim], targets: &[Target], failing: &[Failing]) -> Result<(), Failure> {
+    let differ: Vec<&str> =
         judged.iter().filter(|claim| claim.fails()).map(|claim| claim.id.as_str()).collect();
-    if failing.is_empty() {
-        let missed = |target: &&Target| target.standing == Standing::Missed && !target.timed;
-        let missed: Vec<&str> = targets.iter().filter(missed).map(|target| target.id).collect();
-        if missed.is_empty() {
-            return Ok(());
-        }
-        let message =
-            format!("targets of accuracy or counted work are missed: {}", missed.join(", "));
-        return Err(Failure { code: 1, message });
-    }
-    let message = format!(
-        "{} of {} claims differ without an explanation that holds: {}",
-        failing.len(),
-        judged.len(),
-        failing.join(", ")
-    );
-    Err(Failure { code: 1, message })
+    let missed = |target: &&Target| target.standing == Standing::Missed && !target.timed;
+    let missed: Vec<&str> = targets.iter().filter(missed).map(|target| target.id).collect();
+    let broken: Vec<&str> = failing.iter().map(|failing| failing.name).collect();
+    let faults = [
+        (
+            format!(
+                "{} of {} claims differ without an explanation that holds",
+                differ.len(),
+                judged.len()
+            ),
+            differ,
+        ),
+        ("targets of accuracy or counted work are missed".into(), missed),
+        ("relations between numbers of the report do not hold".into(), broken),
+    ];
+    let told = faults.into_iter().filter(|(_, names)| !names.is_empty());
+    let told: Vec<String> =
+        told.map(|(what, names)| format!("{what}: {}", names.join(", "))).collect();
+    if told.is_empty() { Ok(()) } else { Err(Failure { code: 1, message: told.join("; ") }) }
 }
 
 /// Adds to the summary of a step of GitHub's, if there is one.
@@ -126,7 +149,7 @@ fn summarise(text: &str) -> Result<(), Failure> {
 }
 
 /// A block of lines for each claim, and the scorecard.
-fn print(judged: &[Claim], targets: &[Target]) -> io::Result<()> {
+fn print(judged: &[Claim], targets: &[Target], failing: &[Failing]) -> io::Result<()> {
     let mut out = io::BufWriter::new(io::stdout().lock());
     for claim in judged {
         let mark = if claim.fails() { "FAILS" } else { "ok" };
@@ -150,6 +173,9 @@ fn print(judged: &[Claim], targets: &[Target]) -> io::Result<()> {
             target.id,
             target.standing.words()
         )?;
+    }
+    for Failing { name, what } in failing {
+        writeln!(out, "FAILS guard {name}: {what}")?;
     }
     let score: Vec<String> = claims::Verdict::ALL
         .iter()

@@ -131,7 +131,8 @@ fn rise(results: &Results, sweep: &Sweep) -> Result<Vec<Value>, Error> {
 
 /// The row whose mode is known worst.
 fn noisiest_mode(sweep: &Sweep) -> Option<&SweepRow> {
-    let width = |row: &SweepRow| row.mode_interval.map_or(0, |[low, high]| high - low);
+    let width =
+        |row: &SweepRow| row.mode_interval.map_or(0, |[low, high]| high.saturating_sub(low));
     sweep.rows.iter().filter(|row| width(row) > 0).max_by_key(|row| width(row))
 }
 

@@ -1,0 +1,145 @@
+//! `impact-paper mutate`.
+
+use super::sources::Sources;
+use super::{Failure, stdout, work};
+use impact_paper::claims;
+use impact_paper::experiments::Need;
+use impact_paper::params::Profile;
+use impact_paper::report::contents;
+use impact_paper::report::mutate::{self, Mutation, Mutations, Reasons, Subject, Tally};
+use serde_json::json;
+use std::fmt::Write as _;
+
+/// Makes each number of the report wrong by more than its tolerance, and lists which check notices.
+///
+/// A number is moved to both sides in the results that it comes from, and all that follows is computed
+/// again; nothing is simulated. Comparisons with stored bytes are no checks here. Ends with exit code 1
+/// if no check notices a number that prose or claims use and unguarded.toml gives no reason, or if
+/// it gives one without need.
+#[derive(clap::Args)]
+pub struct Args {
+    /// Sample sizes.
+    #[arg(long, default_value = "full")]
+    profile: work::ProfileName,
+    /// Only this value (may be repeated); exit code 1 if nothing notices one.
+    #[arg(long, value_name = "ID")]
+    value: Vec<String>,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    sources: Sources,
+}
+
+/// Runs the verb.
+pub fn run(args: Args) -> Result<(), Failure> {
+    let profile = Profile::from(args.profile);
+    let templates = args.sources.templates()?;
+    let published = args.sources.published(&templates)?;
+    let reasons = args.sources.reasons(&templates)?;
+    let progress = work::progress();
+    let (found, used, values) = work::on_threads(args.sources.threads, || {
+        let results = args.sources.run(&Need::ALL.into(), profile, &templates, &progress)?;
+        results.look();
+        let fault = |error: &dyn std::error::Error| Failure::run(error.to_string());
+        let claims = claims::all(&results, &published).map_err(|e| fault(&e))?;
+        let values = contents::registry(&results, &published).map_err(|e| fault(&e))?;
+        let rows = contents::rows(&results, &claims).map_err(|e| fault(&e))?;
+        let used = mutate::used(&templates, &values, &rows, &claims);
+        let used = used.map_err(|error| Failure::input(error.to_string()))?;
+        if let Some(id) = args.value.iter().find(|id| !used.contains(*id)) {
+            let message = format!("--value: neither prose nor a claim uses a number {id:?}");
+            return Err(Failure::input(message));
+        }
+        let asked = |id: &String| args.value.is_empty() || args.value.contains(id);
+        let used: std::collections::BTreeSet<String> = used.into_iter().filter(asked).collect();
+        let stage = progress.stage("mutations", used.len() as u64);
+        let subject = Subject { results: &results, published: &published };
+        let found =
+            mutate::mutate(subject, &|value| used.contains(&value.id), &|_| stage.advance(1));
+        Ok((found.map_err(|e| fault(&e))?, used, values))
+    })?;
+    let whole = args.value.is_empty();
+    let reasons = if whole { reasons } else { Reasons::default() };
+    let tally = Tally::of(&used, &found, &reasons, &values);
+    stdout::print(&if args.json {
+        data(&found, &tally, &reasons)
+    } else {
+        text(&found, &tally, &reasons)
+    })?;
+    failure(&tally).map_or(Ok(()), Err)
+}
+
+fn failure(tally: &Tally) -> Option<Failure> {
+    let mut faults = Vec::new();
+    if !tally.bare.is_empty() {
+        let ids: Vec<&str> = tally.bare.iter().map(String::as_str).collect();
+        faults.push(format!(
+            "no check notices that these are wrong: {}; guard them, or give a reason in unguarded.toml",
+            ids.join(", ")
+        ));
+    }
+    if !tally.needless.is_empty() {
+        faults.push(format!(
+            "unguarded.toml has reasons without need: {}",
+            tally.needless.join(", ")
+        ));
+    }
+    (!faults.is_empty()).then(|| Failure { code: 1, message: faults.join("; ") })
+}
+
+/// What becomes of a number, in a word or with its reason.
+fn standing<'a>(id: &str, tally: &Tally, reasons: &'a Reasons) -> (&'static str, &'a str) {
+    if tally.guarded.contains(id) {
+        ("guarded", "")
+    } else {
+        reasons.of(id).map_or(("UNGUARDED", ""), |group| ("excused", group.why.as_str()))
+    }
+}
+
+fn text(found: &Mutations, tally: &Tally, reasons: &Reasons) -> String {
+    let mut out = String::new();
+    for (id, mutation) in found {
+        let (word, why) = standing(id, tally, reasons);
+        let Mutation { by, place, above, below } = mutation;
+        let _ = write!(out, "{word:9} {id} ± {by:.1e} at {place}: ");
+        let list = |red: &[String]| match red {
+            [] => "nothing".to_string(),
+            red => red.join(", "),
+        };
+        if above == below {
+            let _ = write!(out, "{}", list(above));
+        } else {
+            let _ = write!(out, "above {}, below {}", list(above), list(below));
+        }
+        let _ = if why.is_empty() { writeln!(out) } else { writeln!(out, " ({why})") };
+    }
+    for (kind, ids) in &tally.excused {
+        let _ = writeln!(out, "excused, {kind}: {}", ids.len());
+    }
+    let _ = writeln!(
+        out,
+        "{} numbers: {} guarded, {} not, {} of these without a reason",
+        tally.used(),
+        tally.guarded.len(),
+        tally.unguarded(),
+        tally.bare.len()
+    );
+    out
+}
+
+fn data(found: &Mutations, tally: &Tally, reasons: &Reasons) -> String {
+    let one = |(id, mutation): (&String, &Mutation)| {
+        let (word, why) = standing(id, tally, reasons);
+        json!({
+            "id": id, "by": mutation.by, "at": mutation.place, "above": mutation.above,
+            "below": mutation.below, "standing": word.to_lowercase(), "reason": why,
+        })
+    };
+    let values: Vec<_> = found.iter().map(one).collect();
+    let counts = json!({
+        "used": tally.used(), "guarded": tally.guarded.len(), "unguarded": tally.unguarded(),
+        "without_a_reason": tally.bare.len(),
+    });
+    format!("{:#}\n", json!({ "counts": counts, "needless": tally.needless, "values": values }))
+}

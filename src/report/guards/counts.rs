@@ -1,0 +1,184 @@
+//! Means, shares and sizes of ensembles, against the counts of their realisations.
+
+use super::{Guard, Look, far, unless};
+use crate::experiments::sweep::SweepRow;
+use crate::numerics::statistics::Estimate;
+
+pub const GUARDS: &[Guard] = &[
+    Guard { name: "means_of_counts", ids: &["compare.*", "mean_*"], find: means_of_counts },
+    Guard {
+        name: "rows_named",
+        ids: &[
+            "sigma_below",
+            "kept_below",
+            "mean_kept_below",
+            "mean_all_below",
+            "sigma_above",
+            "kept_above",
+            "mean_above",
+            "sigma_kept_a",
+            "kept_a",
+            "mean_all_threshold",
+            "sigma_kept_b",
+            "kept_b",
+            "sigma_between",
+            "mean_between",
+            "compare.*",
+        ],
+        find: rows_named,
+    },
+    Guard {
+        name: "all_accounted_for",
+        ids: &["realisations", "sweep_failed", "sigma_count", "gaps", "starts_realisations"],
+        find: all_accounted_for,
+    },
+    Guard {
+        name: "rejected_random_starts",
+        ids: &["rejected_random", "rejected_random_at"],
+        find: rejected,
+    },
+    Guard {
+        name: "estimates_in_intervals",
+        ids: &[
+            "half_height*",
+            "onset",
+            "kept_half",
+            "rise_width",
+            "starts.*",
+            "protocol.*",
+            "horizon_*",
+            "growth_rate",
+        ],
+        find: estimates,
+    },
+];
+
+/// Rows of all ensembles, with the number of realisations that was asked for.
+fn rows<'a>(look: Look<'a>) -> impl Iterator<Item = (&'a SweepRow, usize)> {
+    let results = look.results;
+    let sweeps = [&results.sweep, &results.second_seed].into_iter().flatten();
+    let sweeps = sweeps.map(|sweep| (&sweep.rows, sweep.parameters.realisations));
+    let starts = results.starts.iter().flat_map(|starts| {
+        starts.variants.iter().map(|variant| (&variant.rows, starts.parameters.realisations))
+    });
+    sweeps.chain(starts).flat_map(|(rows, asked)| rows.iter().map(move |row| (row, asked)))
+}
+
+/// Number and sum of all counts from `from` on.
+pub fn totals(counts: &[u32], from: usize) -> [f64; 2] {
+    let own = counts.iter().enumerate().skip(from);
+    own.fold([0.0, 0.0], |[n, sum], (k, &c)| [n + f64::from(c), sum + k as f64 * f64::from(c)])
+}
+
+/// The share of the realisations of a row that are kept, from its counts.
+pub fn kept(row: &SweepRow) -> f64 {
+    totals(&row.counts, 1)[0] / totals(&row.counts, 0)[0]
+}
+
+/// A mean is saved beside the histogram of the counts that it is the mean of, and was summed over
+/// realisations: summing over the histogram must give it again, over the kept and over all.
+fn means_of_counts(look: Look<'_>) -> Option<String> {
+    rows(look).find_map(|(row, _)| {
+        let mean = |from: usize, found: Option<f64>| {
+            let [n, sum] = totals(&row.counts, from);
+            far(&format!("a mean at sigma = {}", row.sigma), found?, sum / n)
+        };
+        mean(1, row.mean_distinct).or_else(|| mean(0, row.mean_all))
+    })
+}
+
+/// Where the text names a σ with a share or a mean, there is a row at this very σ, and its
+/// histogram gives share and mean.
+fn rows_named(look: Look<'_>) -> Option<String> {
+    let sweep = look.results.sweep.as_ref()?;
+    let named = [
+        ("sigma_below", "kept_below", "mean_kept_below", "mean_all_below"),
+        ("sigma_above", "kept_above", "mean_above", ""),
+        ("sigma_kept_a", "kept_a", "", "mean_all_threshold"),
+        ("sigma_kept_b", "kept_b", "", ""),
+        ("sigma_between", "", "mean_between", ""),
+    ];
+    let named = named.map(|(a, b, c, d)| [a, b, c, d].map(String::from));
+    let compared = look.values.iter().filter_map(|value| {
+        let line = value.id.strip_suffix("_sigma").filter(|line| line.starts_with("compare."))?;
+        Some([value.id.clone(), String::new(), format!("{line}_simulated"), String::new()])
+    });
+    named.into_iter().chain(compared).find_map(|[sigma, share, mean, all]| {
+        let at = look.number(&sigma)?;
+        let Some(row) = sweep.rows.iter().find(|row| row.sigma == at) else {
+            return Some(format!("{sigma} is {at}, where nothing was simulated"));
+        };
+        let over = |from: usize| {
+            let [n, sum] = totals(&row.counts, from);
+            sum / n
+        };
+        look.is(&share, kept(row))
+            .or_else(|| look.is(&mean, over(1)))
+            .or_else(|| look.is(&all, over(0)))
+    })
+}
+
+/// Each realisation is counted, rejected or given up; the histogram has a bin for each number of
+/// gaps, zero included; and all rows have as many realisations as were asked for.
+fn all_accounted_for(look: Look<'_>) -> Option<String> {
+    let uneven = rows(look).find_map(|(row, asked)| {
+        let [ran, _] = totals(&row.counts, 0);
+        let [kept, _] = totals(&row.counts, 1);
+        let all = ran as usize + row.rejected + row.failed;
+        unless(all == row.realisations && asked == all && kept as usize == row.kept, || {
+            format!("at sigma = {} {all} realisations ended somehow, of {asked}", row.sigma)
+        })
+    });
+    let sweep = look.results.sweep.as_ref()?;
+    let lost =
+        |row: &SweepRow| row.realisations as f64 - row.rejected as f64 - totals(&row.counts, 0)[0];
+    let bins = sweep.rows.first()?.counts.len();
+    uneven.or_else(|| {
+        look.are([
+            ("sweep_failed", sweep.rows.iter().map(lost).sum()),
+            ("sigma_count", sweep.parameters.sigmas.len() as f64),
+            ("gaps", bins as f64 - 1.0),
+        ])
+    })
+}
+
+/// The share of random starts that overlap, from the realisations that have no count.
+fn rejected(look: Look<'_>) -> Option<String> {
+    let variant = look.results.starts.as_ref()?.variant("random")?;
+    let at = look.number("rejected_random_at")?;
+    let Some(row) = variant.rows.iter().find(|row| row.sigma == at) else {
+        return Some(format!("no random starts were drawn at sigma = {at}"));
+    };
+    let counted = totals(&row.counts, 0)[0] + row.failed as f64;
+    look.is("rejected_random", 1.0 - counted / row.realisations as f64)
+}
+
+/// An estimate lies inside its own interval, which comes from resamples and not from it.
+fn estimates(look: Look<'_>) -> Option<String> {
+    let results = look.results;
+    let sweeps = [&results.sweep, &results.second_seed].into_iter().flatten().map(|s| &s.rise);
+    let variants = results.starts.iter().flat_map(|s| s.variants.iter().map(|v| &v.rise));
+    let rises = sweeps.chain(variants).flat_map(|rise| {
+        [
+            rise.half_height,
+            rise.half_height_all,
+            rise.onset,
+            rise.kept_half,
+            rise.tenth,
+            rise.nine_tenths,
+            rise.width,
+        ]
+    });
+    let cells = results.protocol.iter().flat_map(|map| &map.cells);
+    let cells = cells.flat_map(|cell| [cell.half_height, cell.half_height_all]);
+    let horizons = [results.horizon.as_ref(), results.race.as_ref().map(|race| &race.growth)];
+    let horizons = horizons.into_iter().flatten().flat_map(|horizon| {
+        [horizon.order, horizon.order_impacts, horizon.time, horizon.growth, horizon.tenfold]
+    });
+    rises.chain(cells).chain(horizons).flatten().find_map(outside)
+}
+
+fn outside(estimate: Estimate) -> Option<String> {
+    let Estimate { value, interval: [low, high], .. } = estimate;
+    unless(low <= value && value <= high, || format!("{value} lies outside its [{low}, {high}]"))
+}

@@ -1,0 +1,127 @@
+//! Relations between numbers that must hold whatever was drawn, beside the claims.
+//!
+//! A claim holds a number against what the paper printed, and many numbers of this edition were never
+//! printed. A guard holds them against one another: a mean against its counts, a root against its
+//! equation, a closed form against a sum of its own. None compares a number with a copy of itself, or
+//! with bytes of an earlier run; what a guard computes anew it computes by another way than the code
+//! that it guards, from a record or from first principles ([`model`]). `impact-paper check` names each
+//! that fails, and `impact-paper mutate` measures what they notice.
+
+mod accuracy;
+mod comparison;
+mod counts;
+mod higher;
+mod model;
+mod motion;
+mod places;
+mod printed;
+mod protocol;
+mod rare;
+mod relation;
+mod simple;
+
+use super::values::{Number, Registry};
+use crate::claims::{Claim, Published};
+use crate::experiments::Results;
+
+/// What a guard may look at.
+#[derive(Clone, Copy, Debug)]
+pub struct Look<'a> {
+    /// Results of the experiments.
+    pub results: &'a Results,
+    /// What the paper printed.
+    pub published: &'a Published,
+    /// The values of the report, with the scorecard.
+    pub values: &'a Registry,
+    /// The judged statements.
+    pub claims: &'a [Claim],
+}
+
+/// A relation that must hold.
+#[derive(Clone, Copy, Debug)]
+pub struct Guard {
+    /// Its name, as `check` and `mutate` tell it.
+    pub name: &'static str,
+    /// Ids of the values that it relates; a `*` at the end stands for any ending.
+    pub ids: &'static [&'static str],
+    /// What is wrong, if something is. The doc comment of the function says why it must hold.
+    pub find: fn(Look<'_>) -> Option<String>,
+}
+
+/// A guard that fails.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Failing {
+    /// Its name.
+    pub name: &'static str,
+    /// What is wrong.
+    pub what: String,
+}
+
+/// All guards.
+pub fn all() -> impl Iterator<Item = &'static Guard> {
+    let files = [
+        counts::GUARDS,
+        places::GUARDS,
+        rare::GUARDS,
+        protocol::GUARDS,
+        motion::GUARDS,
+        simple::GUARDS,
+        relation::GUARDS,
+        comparison::GUARDS,
+        higher::GUARDS,
+        accuracy::GUARDS,
+        printed::GUARDS,
+    ];
+    files.into_iter().flatten()
+}
+
+/// Those that fail.
+pub fn failing(look: Look<'_>) -> impl Iterator<Item = Failing> + '_ {
+    all().filter_map(move |guard| Some(Failing { name: guard.name, what: (guard.find)(look)? }))
+}
+
+impl Look<'_> {
+    /// The number of a value; none if it is words or an interval.
+    fn number(&self, id: &str) -> Option<f64> {
+        match self.values.get(id)?.number {
+            Number::Integer(n) => Some(n as f64),
+            Number::Real { value, .. } => Some(value),
+            Number::Interval { .. } | Number::Text(_) => None,
+        }
+    }
+
+    /// The interval of a value.
+    fn interval(&self, id: &str) -> Option<[f64; 2]> {
+        match self.values.get(id)?.number {
+            Number::Interval { low, high } => Some([low, high]),
+            _ => None,
+        }
+    }
+
+    /// Complains unless a value is this number, up to rounding. A value that is words says that
+    /// there is no such number, and agrees.
+    fn is(&self, id: &str, expected: f64) -> Option<String> {
+        far(id, self.number(id)?, expected)
+    }
+
+    /// The same for several values.
+    fn are<const N: usize>(&self, expected: [(&str, f64); N]) -> Option<String> {
+        expected.into_iter().find_map(|(id, expected)| self.is(id, expected))
+    }
+}
+
+/// What two ways of computing one number may differ by, relative to it: logarithms and sums in
+/// doubles lose some digits, and no number of the report shows more than these.
+const ROUNDING: f64 = 1e-9;
+
+/// Complains about two numbers that should be one, up to rounding.
+fn far(what: &str, found: f64, expected: f64) -> Option<String> {
+    let room = ROUNDING * found.abs().max(expected.abs());
+    let near = (found - expected).abs() <= room;
+    (!near).then(|| format!("{what} is {found}, and {expected} by another way"))
+}
+
+/// Complains unless it is so.
+fn unless(so: bool, what: impl FnOnce() -> String) -> Option<String> {
+    (!so).then(what)
+}

@@ -1,0 +1,179 @@
+//! The long run and the two segments, counted once more from their records.
+
+use super::{Guard, Look, unless};
+use crate::experiments::segments::Segment;
+use crate::experiments::spacetime::SpaceTime;
+use crate::figures::Scene;
+use std::collections::BTreeMap;
+
+pub const GUARDS: &[Guard] = &[
+    Guard {
+        name: "record_of_the_run",
+        ids: &["run_impacts", "run_reached*", "run_starts", "run_first", "run_half", "run_quarter"],
+        find: run,
+    },
+    Guard { name: "fronts_of_the_run", ids: &["run_advance_*"], find: fronts },
+    Guard { name: "silence_of_the_run", ids: &["run_silen*"], find: silence },
+    Guard { name: "busiest_of_the_run", ids: &["run_busiest*"], find: busiest },
+    Guard { name: "late_impacts", ids: &["run_until", "run_last"], find: late },
+    Guard { name: "counts_of_the_scene", ids: &["scene_*"], find: scene },
+    Guard { name: "visits_of_circuits", ids: &["fig5_masses", "fig6_*"], find: circuits },
+];
+
+/// Times of the impacts of each gap that has any.
+fn by_gap(run: &SpaceTime) -> BTreeMap<u32, Vec<f64>> {
+    let mut found: BTreeMap<u32, Vec<f64>> = BTreeMap::new();
+    for (&time, &gap) in run.times.iter().zip(&run.gaps) {
+        found.entry(gap).or_default().push(time);
+    }
+    found
+}
+
+/// Gaps by the time of their first impact, earliest first.
+fn order(run: &SpaceTime) -> Vec<(f64, u32)> {
+    let mut order: Vec<(f64, u32)> =
+        by_gap(run).into_iter().filter_map(|(gap, times)| Some((*times.first()?, gap))).collect();
+    order.sort_by(|a, b| a.0.total_cmp(&b.0));
+    order
+}
+
+/// How much later than the earlier of its neighbours, and when, each gap has its first impact; and
+/// the number of those that come first among their neighbours. Gaps are taken as they come.
+fn spreading(run: &SpaceTime) -> (Vec<(f64, u32, f64)>, usize) {
+    let mut seen: BTreeMap<u32, f64> = BTreeMap::new();
+    let (mut delays, mut starts) = (Vec::new(), 0);
+    for (time, gap) in order(run) {
+        let beside = [gap.checked_sub(1), Some(gap + 1)].into_iter().flatten();
+        let before = beside.filter_map(|gap| seen.get(&gap)).copied().reduce(f64::min);
+        match before {
+            Some(before) => delays.push((time - before, gap, time)),
+            None => starts += 1,
+        }
+        seen.insert(gap, time);
+    }
+    delays.sort_by(|a, b| a.0.total_cmp(&b.0));
+    (delays, starts)
+}
+
+/// Impacts, gaps reached in all and within parts of the time, and starts, from a list of each gap's times.
+fn run(look: Look<'_>) -> Option<String> {
+    let run = look.results.spacetime.as_ref()?;
+    let (own, order) = (by_gap(run), order(run));
+    let until = run.parameters.until;
+    let reached = |part: &str| {
+        let end = look.number(part).unwrap_or(f64::NAN);
+        order.iter().filter(|(time, _)| *time <= end).count() as f64
+    };
+    let width = run.parameters.chain.masses as f64 + 1.0;
+    look.are([
+        ("run_impacts", own.values().map(Vec::len).sum::<usize>() as f64),
+        ("run_reached", own.len() as f64),
+        ("run_reached_share", own.len() as f64 / width),
+        ("run_starts", spreading(run).1 as f64),
+        ("run_first", order.first()?.0),
+        ("run_reached_half", reached("run_half")),
+        ("run_reached_quarter", reached("run_quarter")),
+        ("run_half", until - until / 2.0),
+        ("run_quarter", until - 3.0 * until / 4.0),
+    ])
+}
+
+/// The waits of the fronts, from gaps in the order in which they are reached.
+fn fronts(look: Look<'_>) -> Option<String> {
+    let run = look.results.spacetime.as_ref()?;
+    let (delays, _) = spreading(run);
+    let (longest, gap, time) = *delays.last()?;
+    look.are([
+        ("run_advance_median", delays[delays.len() / 2].0),
+        ("run_advance_longest", longest),
+        ("run_advance_gap", f64::from(gap)),
+        ("run_advance_time", time),
+    ])
+}
+
+/// The longest time between two impacts of one gap, gap by gap.
+fn silence(look: Look<'_>) -> Option<String> {
+    let run = look.results.spacetime.as_ref()?;
+    let waits = by_gap(run).into_iter().flat_map(|(gap, times)| {
+        let waits: Vec<(f64, u32, f64)> =
+            times.windows(2).map(|w| (w[1] - w[0], gap, w[1])).collect();
+        waits
+    });
+    let (wait, gap, end) = waits.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    look.are([("run_silence", wait), ("run_silent_gap", f64::from(gap)), ("run_silence_end", end)])
+}
+
+/// The share of the gaps with most impacts: so many gaps have it, and one gap more or less has
+/// another share.
+fn busiest(look: Look<'_>) -> Option<String> {
+    let run = look.results.spacetime.as_ref()?;
+    let mut counts: Vec<usize> = by_gap(run).values().map(Vec::len).collect();
+    counts.sort_unstable();
+    let many = look.number("run_busiest")? as usize;
+    let own: usize = counts.iter().rev().take(many).sum();
+    look.is("run_busiest_share", own as f64 / counts.iter().sum::<usize>() as f64)
+}
+
+/// The run was chosen because it has impacts in its last part, and ends at its end.
+fn late(look: Look<'_>) -> Option<String> {
+    let run = look.results.spacetime.as_ref()?;
+    let (until, last) = look.number("run_until").zip(look.number("run_last"))?;
+    let end = *run.times.last()?;
+    unless(until - last < end && end <= until, || {
+        format!("the last impact is at {end}, not within the last {last} before {until}")
+    })
+}
+
+/// The row of the scene: its impacts from the events of its gaps, and halves that make up the whole
+/// but for a gap in the middle; masses that are neighbours; times that follow one another.
+fn scene(look: Look<'_>) -> Option<String> {
+    let run = look.results.spacetime.as_ref()?;
+    let scene = Scene::of(run)?;
+    let [first, last, masses] =
+        ["scene_first", "scene_last", "scene_masses"].map(|id| look.number(id).unwrap_or(0.0));
+    // Gap g lies between masses g and g + 1.
+    let own: Vec<usize> = run
+        .scene
+        .events
+        .iter()
+        .map(|event| event.gap as usize)
+        .filter(|&gap| first - 1.0 <= gap as f64 && gap as f64 <= last)
+        .collect();
+    let middle = (first - 1.0 + last) / 2.0;
+    let side = |left: bool| {
+        own.iter()
+            .filter(|&&gap| if left { (gap as f64) < middle } else { gap as f64 > middle })
+            .count()
+    };
+    look.are([
+        ("scene_impacts", own.len() as f64),
+        ("scene_left", side(true) as f64),
+        ("scene_right", side(false) as f64),
+        ("scene_masses", scene.bodies.len() as f64 - 2.0),
+        ("scene_last", first + masses - 1.0),
+        ("scene_from", run.scene.from.floor()),
+        ("scene_until", run.scene.until.floor()),
+        ("scene_length", run.scene.until.floor() - run.scene.from.floor()),
+    ])
+}
+
+/// Visits of each impact in a circuit: they add up to its length, and those beyond the first are the
+/// repeats. A mass takes part if a gap on one of its sides closes.
+fn circuits(look: Look<'_>) -> Option<String> {
+    let segments = look.results.segments.as_ref()?;
+    let visits = |segment: &Segment| {
+        let mut found = vec![0_usize; segment.masses + 1];
+        let all = segment.impacts.split_last().map_or(&[][..], |(_, others)| others);
+        all.iter().for_each(|impact| found[impact.gap] += 1);
+        found
+    };
+    let five = visits(&segments.fig05);
+    let touched = (1..five.len()).filter(|&mass| five[mass - 1] + five[mass] > 0).count();
+    let six = visits(&segments.fig06);
+    look.are([
+        ("fig5_masses", touched as f64),
+        ("fig6_length", six.iter().sum::<usize>() as f64),
+        ("fig6_distinct", six.iter().filter(|&&n| n > 0).count() as f64),
+        ("fig6_repeated", six.iter().filter(|&&n| n > 1).count() as f64),
+    ])
+}

@@ -1,0 +1,86 @@
+//! What was printed, verdicts and levels.
+
+use super::{Guard, Look, far, model, unless};
+use crate::claims::targets::{self, Standing};
+
+pub const GUARDS: &[Guard] = &[
+    Guard { name: "printed_as_it_reads", ids: &["printed.*"], find: as_it_reads },
+    Guard { name: "scores_add_up", ids: &["score.*"], find: scores },
+    Guard { name: "targets_add_up", ids: &["targets_met", "targets_all"], find: met },
+    Guard {
+        name: "level_of_claims",
+        ids: &["claim_quantile", "family_level", "statistical_claims"],
+        find: level,
+    },
+];
+
+/// Numbers in a text, as they are written; not those that a formula adds to a letter.
+fn numbers(text: &str) -> impl Iterator<Item = &str> {
+    let digit = |c: char| c.is_ascii_digit() || c == '.';
+    let starts = text.char_indices().filter(move |&(at, c)| {
+        c.is_ascii_digit() && !text[..at].ends_with(digit) && {
+            let before = text[..at].trim_end();
+            !before.ends_with(['+', '−'])
+        }
+    });
+    starts.map(move |(at, _)| {
+        let rest = &text[at..];
+        let end = rest.find(|c| !digit(c)).unwrap_or(rest.len());
+        rest[..end].trim_end_matches('.')
+    })
+}
+
+/// `published.toml` has what can be read in the paper and the number that is judged, each typed for
+/// itself: where numbers can be read, the one that is judged is among them, to its last digit.
+fn as_it_reads(look: Look<'_>) -> Option<String> {
+    look.published.statements.iter().find_map(|statement| {
+        let number = format!("{:.*}", usize::from(statement.decimals), statement.value?);
+        let read = || numbers(&statement.printed);
+        let named = read().next().is_none() || read().any(|own| own == number);
+        unless(named, || {
+            format!("{} reads {:?}, and is judged by {number}", statement.id, statement.printed)
+        })
+    })
+}
+
+/// Each claim has one verdict.
+fn scores(look: Look<'_>) -> Option<String> {
+    let own =
+        |value: &&crate::report::Value| value.id.starts_with("score.") && value.id != "score.total";
+    let parts = look.values.iter().filter(own);
+    let sum: f64 = parts.filter_map(|value| look.number(&value.id)).sum();
+    look.is("score.total", sum).or_else(|| far("score.total", sum, look.claims.len() as f64))
+}
+
+/// Targets that are met, missed or not measured are all targets.
+fn met(look: Look<'_>) -> Option<String> {
+    let targets = targets::targets(look.results).ok()?;
+    let of = |standing| targets.iter().filter(|target| target.standing == standing).count() as f64;
+    let others = of(Standing::Missed) + of(Standing::Open);
+    let rest = look.number("targets_all")? - look.number("targets_met")?;
+    far("targets that are not met", rest, others)
+        .or_else(|| look.is("targets_all", targets.len() as f64))
+}
+
+/// So many independent normal deviations, each beyond the quantile with its tails, keep the level of the
+/// family; a hundredth less, to which the quantile is rounded up, does not.
+fn level(look: Look<'_>) -> Option<String> {
+    let [quantile, family, claims] = ["claim_quantile", "family_level", "statistical_claims"]
+        .map(|id| look.number(id).unwrap_or(f64::NAN));
+    let any = |quantile: f64| model::any(model::both_tails(quantile), claims);
+    unless(any(quantile) <= family && family < any(quantile - 0.01), || {
+        format!("one of {claims} claims fails with probability {}, not {family}", any(quantile))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::numbers;
+
+    #[test]
+    fn numbers_are_read() {
+        let all = |text| numbers(text).collect::<Vec<_>>();
+        assert_eq!(all("σ ≈ 0.12, L-1 and 16."), ["0.12", "1", "16"]);
+        assert_eq!(all("N − 1, k + 1, k > 3"), ["3"]);
+    }
+}

@@ -1,0 +1,234 @@
+//! How good the checks are: each number of the report is made wrong, and some check must notice.
+//!
+//! A number is made wrong where it comes from. It is looked for among the numbers of its own
+//! experiment's results (a *leaf*), moved there by more than its tolerance ([`size`]), and claims, values
+//! and guards are computed again from the wrong results; a printed number is moved in what
+//! was printed. A number that no leaf carries was computed on the way to the report, and is moved
+//! there. Nothing is simulated again.
+//!
+//! A check is what makes `impact-paper check` or `impact-paper paper` fail: a claim, a target that no clock
+//! decides, a guard ([`super::guards`]), a report that cannot be made, or a type (no count is negative).
+//! A comparison with stored bytes is none. A number is guarded if one notices in both directions.
+
+mod part;
+mod reasons;
+mod site;
+mod size;
+mod tally;
+
+pub use reasons::Reasons;
+pub use size::last_digit;
+pub use tally::{IDS, Tally, used};
+
+use self::part::Whole;
+use self::site::Site;
+use super::claims::scorecard;
+use super::contents;
+use super::guards::{self, Look};
+use super::values::{Number, Registry, Value};
+use crate::claims::{self, Claim, Published, targets};
+use crate::experiments::Results;
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Mutex;
+
+/// What became of one number that was made wrong.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Mutation {
+    /// By how much it was moved to both sides.
+    pub by: f64,
+    /// Where it was moved.
+    pub place: String,
+    /// What turned red when it was larger.
+    pub above: Vec<String>,
+    /// What turned red when it was smaller.
+    pub below: Vec<String>,
+}
+
+impl Mutation {
+    /// Whether something notices in both directions.
+    pub fn guarded(&self) -> bool {
+        !self.above.is_empty() && !self.below.is_empty()
+    }
+
+    /// Everything that turned red, in order.
+    pub fn red(&self) -> BTreeSet<&str> {
+        self.above.iter().chain(&self.below).map(String::as_str).collect()
+    }
+}
+
+/// For each number of the report, by id; words are left out.
+pub type Mutations = BTreeMap<String, Mutation>;
+
+/// What is made wrong.
+#[derive(Clone, Copy, Debug)]
+pub struct Subject<'a> {
+    /// Results of all experiments.
+    pub results: &'a Results,
+    /// What the paper printed.
+    pub published: &'a Published,
+}
+
+/// What is computed from results: values, claims, and the names of all checks that fail.
+struct Judged {
+    values: Registry,
+    claims: Vec<Claim>,
+    red: BTreeSet<String>,
+}
+
+fn judged(subject: Subject<'_>) -> Result<Judged, contents::Error> {
+    let Subject { results, published } = subject;
+    let mut values = contents::registry(results, published)?;
+    let claims = claims::all(results, published)?;
+    values.extend(scorecard(&claims))?;
+    let mut red = BTreeSet::new();
+    red.extend(claims.iter().filter(|c| c.fails()).map(|c| format!("claim {}", c.id)));
+    let missed = |t: &&targets::Target| t.standing == targets::Standing::Missed && !t.timed;
+    let targets = targets::targets(results)?;
+    red.extend(targets.iter().filter(missed).map(|t| format!("target {}", t.id)));
+    red.extend(guarding(subject, &values, &claims));
+    Ok(Judged { values, claims, red })
+}
+
+fn guarding<'a>(
+    subject: Subject<'a>,
+    values: &'a Registry,
+    claims: &'a [Claim],
+) -> impl Iterator<Item = String> + use<'a> {
+    let Subject { results, published } = subject;
+    let look = Look { results, published, values, claims };
+    guards::failing(look).map(|failing| format!("guard {}", failing.name))
+}
+
+/// Makes every number wrong, one after the other; `told` hears the id of each that is done.
+///
+/// # Errors
+/// If the report cannot be made from the results as they are.
+pub fn mutate(
+    subject: Subject<'_>,
+    wanted: &(dyn Fn(&Value) -> bool + Sync),
+    told: &(dyn Fn(&str) + Sync),
+) -> Result<Mutations, contents::Error> {
+    let whole = Whole::of(subject.results);
+    let before = judged(subject)?;
+    let bench = Bench { subject, whole, before, idle: Mutex::default() };
+    let values: Vec<&Value> = bench.before.values.iter().filter(|value| wanted(value)).collect();
+    let one = |value: &&Value| {
+        let found = bench.one(value);
+        told(&value.id);
+        Some((value.id.clone(), found?))
+    };
+    Ok(values.par_iter().with_max_len(1).filter_map(one).collect())
+}
+
+/// The report as it is, and copies of the results to be made wrong.
+struct Bench<'a> {
+    subject: Subject<'a>,
+    whole: Whole,
+    before: Judged,
+    idle: Mutex<Vec<Results>>,
+}
+
+impl Bench<'_> {
+    fn one(&self, value: &Value) -> Option<Mutation> {
+        let by = size::step(value, claims::level())?;
+        let site = Site::of(value, by, self);
+        let [above, below] = [by, -by].map(|by| self.red(value, &site, by));
+        Some(Mutation { by, place: site.to_string(), above, below })
+    }
+
+    /// What turns red that is not so without.
+    fn red(&self, value: &Value, site: &Site, by: f64) -> Vec<String> {
+        let new = |red: BTreeSet<String>| red.difference(&self.before.red).cloned().collect();
+        match self.at(value, site, by) {
+            Wrong::Judged(judged) => new(judged.red),
+            Wrong::Refused(why) => vec![why],
+        }
+    }
+
+    /// The report with this number moved.
+    fn at(&self, value: &Value, site: &Site, by: f64) -> Wrong {
+        match site {
+            Site::Leaves(leaves) => {
+                let refused = || Wrong::Refused("type of the result".into());
+                self.with(leaves, by, wrong).unwrap_or_else(refused)
+            }
+            Site::Printed => {
+                let mut published = self.subject.published.clone();
+                site::print(&mut published, &value.id, by);
+                wrong(Subject { published: &published, ..self.subject })
+            }
+            Site::Report => {
+                let mut values = self.before.values.clone();
+                values.put(Value { number: size::moved(&value.number, by), ..value.clone() });
+                let claims = self.before.claims.clone();
+                let mut red = self.before.red.clone();
+                red.retain(|name| !name.starts_with("guard "));
+                red.extend(guarding(self.subject, &values, &claims));
+                Wrong::Judged(Box::new(Judged { values, claims, red }))
+            }
+        }
+    }
+
+    /// What becomes of results with these leaves moved; None if they are of another shape then.
+    fn with<T>(
+        &self,
+        leaves: &[(usize, Vec<String>)],
+        by: f64,
+        judge: impl FnOnce(Subject<'_>) -> T,
+    ) -> Option<T> {
+        let idle = self.idle.lock().ok().and_then(|mut idle| idle.pop());
+        let copy = idle.map_or_else(|| self.whole.copy(self.subject.results), Ok);
+        let mut results = copy.ok()?;
+        let put = leaves.iter().try_for_each(|(index, paths)| {
+            let mut json = self.whole.part(*index).clone();
+            part::add(&mut json, paths, by);
+            self.whole.put(&mut results, *index, Some(&json))
+        });
+        let found = put.ok().map(|()| judge(Subject { results: &results, ..self.subject }));
+        let mut back = leaves.iter().map(|(index, _)| self.whole.put(&mut results, *index, None));
+        if back.all(|put| put.is_ok())
+            && let Ok(mut idle) = self.idle.lock()
+        {
+            idle.push(results);
+        }
+        found
+    }
+
+    /// The number of a value after these leaves were moved.
+    fn carried(&self, leaves: &[(usize, Vec<String>)], by: f64, id: &str) -> Option<Number> {
+        let values = self.with(leaves, by, |subject| {
+            contents::registry(subject.results, subject.published).ok()
+        });
+        values??.get(id).map(|value| value.number.clone())
+    }
+}
+
+/// What a wrong number leads to.
+enum Wrong {
+    /// A report, with what is red in it.
+    Judged(Box<Judged>),
+    /// None: by what it is refused.
+    Refused(String),
+}
+
+fn wrong(subject: Subject<'_>) -> Wrong {
+    match judged(subject) {
+        Ok(judged) => Wrong::Judged(Box::new(judged)),
+        Err(error) => Wrong::Refused(format!("report: {error}")),
+    }
+}
+
+/// Whether two numbers are the same but for rounding, on the scale of a step.
+fn same(a: &Number, b: &Number, step: f64) -> bool {
+    let near = |a: f64, b: f64| (a - b).abs() <= 1e-6 * step.abs();
+    match (a, b) {
+        (Number::Integer(a), Number::Integer(b)) => a == b,
+        (Number::Real { value: a, .. }, Number::Real { value: b, .. }) => near(*a, *b),
+        (Number::Interval { low, high }, Number::Interval { low: l, high: h }) => {
+            near(*low, *l) && near(*high, *h)
+        }
+        _ => false,
+    }
+}

@@ -1,0 +1,194 @@
+//! The results in parts, each of which can be read and written as JSON.
+
+use crate::experiments::{Results, laws};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use serde_json::Value as Json;
+
+/// One part: the result of one experiment.
+pub struct Part {
+    /// The experiment, as values name it; theory and identities are one to them.
+    pub experiment: &'static str,
+    /// Members that are its raw record: lists of events, none of which is a number of the report.
+    record: &'static [&'static str],
+    read: fn(&Results) -> Option<Json>,
+    write: fn(&mut Results, &Json) -> serde_json::Result<()>,
+}
+
+fn json<T: Serialize>(result: &T) -> Option<Json> {
+    serde_json::to_value(result).ok()
+}
+
+fn typed<T: DeserializeOwned>(json: &Json) -> serde_json::Result<T> {
+    T::deserialize(json)
+}
+
+macro_rules! ran {
+    ($name:literal, $field:ident) => {
+        ran!($name, $field, &[])
+    };
+    ($name:literal, $field:ident, $record:expr) => {
+        Part {
+            experiment: $name,
+            record: $record,
+            read: |results| results.$field.as_ref().and_then(json),
+            write: |results, json| {
+                results.$field = Some(typed(json)?);
+                Ok(())
+            },
+        }
+    };
+}
+
+macro_rules! looked_at {
+    ($field:ident) => {
+        Part {
+            experiment: "theory",
+            record: &[],
+            read: |results| json(&*results.$field),
+            write: |results, json| {
+                *results.$field = typed(json)?;
+                Ok(())
+            },
+        }
+    };
+}
+
+/// All parts. What is computed from the main sweep in memory stands before it.
+const PARTS: [Part; 17] = [
+    looked_at!(theory),
+    looked_at!(identities),
+    ran!("laws", laws),
+    Part {
+        experiment: "sweep",
+        record: &[],
+        read: |results| results.sweep.as_ref().and_then(json),
+        write: |results, json| {
+            results.sweep = Some(typed(json)?);
+            // The laws follow from the rows.
+            results.laws = results.sweep.as_ref().map(|sweep| laws::run(&sweep.rows));
+            Ok(())
+        },
+    },
+    ran!("second_seed", second_seed),
+    ran!("protocol", protocol),
+    ran!("starts", starts),
+    ran!("horizon", horizon),
+    ran!("two_masses", two_masses),
+    ran!("segments", segments),
+    ran!("space-time", spacetime, &["times", "gaps", "scene"]),
+    ran!("race", race),
+    ran!("bias", biases),
+    ran!("trials", trials),
+    ran!("scale", scale),
+    ran!("analytic", analytic),
+    ran!("measured", measured),
+];
+
+/// The parts of some results as JSON; an index is that of [`experiments`].
+pub struct Whole(Vec<Json>);
+
+/// Names of the parts' experiments, in order.
+pub fn experiments() -> impl Iterator<Item = &'static str> {
+    PARTS.iter().map(|part| part.experiment)
+}
+
+impl Whole {
+    /// Of complete results.
+    pub fn of(results: &Results) -> Self {
+        Whole(PARTS.iter().map(|part| (part.read)(results).unwrap_or_default()).collect())
+    }
+
+    /// One part.
+    pub fn part(&self, index: usize) -> &Json {
+        &self.0[index]
+    }
+
+    /// Paths in a part of all numbers that are this one.
+    pub fn leaves(&self, index: usize, number: f64) -> Vec<String> {
+        paths(self.part(index), PARTS[index].record, number)
+    }
+
+    /// Puts one part into results; `None` is the part as it was.
+    ///
+    /// # Errors
+    /// When it is not of the part's shape: a negative count.
+    pub fn put(
+        &self,
+        results: &mut Results,
+        index: usize,
+        other: Option<&Json>,
+    ) -> serde_json::Result<()> {
+        (PARTS[index].write)(results, other.unwrap_or(&self.0[index]))
+    }
+
+    /// Results with these parts.
+    ///
+    /// # Errors
+    /// When a part is missing.
+    pub fn copy(&self, like: &Results) -> serde_json::Result<Results> {
+        let mut results = Results::empty(like.profile);
+        // The laws come after the sweep, which would compute them.
+        for index in (0..PARTS.len()).rev() {
+            self.put(&mut results, index, None)?;
+        }
+        Ok(results)
+    }
+}
+
+/// Paths of all numbers in JSON that are this one, as JSON pointers; members of objects first, for a
+/// long list of counts has every small integer many times.
+fn paths(json: &Json, record: &[&str], number: f64) -> Vec<String> {
+    fn walk(json: &Json, path: &str, number: f64, listed: bool, out: &mut [Vec<String>; 2]) {
+        match json {
+            Json::Number(found) if found.as_f64() == Some(number) => {
+                out[usize::from(listed)].push(path.into());
+            }
+            Json::Array(items) => {
+                for (i, item) in items.iter().enumerate() {
+                    walk(item, &format!("{path}/{i}"), number, true, out);
+                }
+            }
+            Json::Object(members) => {
+                for (name, member) in members {
+                    walk(member, &format!("{path}/{name}"), number, false, out);
+                }
+            }
+            _ => {}
+        }
+    }
+    let mut out = [Vec::new(), Vec::new()];
+    for (name, member) in json.as_object().into_iter().flatten() {
+        if !record.contains(&name.as_str()) {
+            walk(member, &format!("/{name}"), number, false, &mut out);
+        }
+    }
+    out.concat()
+}
+
+/// Adds to the numbers at these paths. An integer stays one if it can.
+pub fn add(json: &mut Json, paths: &[String], by: f64) {
+    for path in paths {
+        let Some(found) = json.pointer_mut(path) else { continue };
+        let whole = found.as_i64().filter(|_| by.fract() == 0.0);
+        *found = match whole {
+            Some(n) => (n + by as i64).into(),
+            None => (found.as_f64().unwrap_or_default() + by).into(),
+        };
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn leaves_are_found_and_moved() {
+        let mut tree = json!({"a": [3, {"b": 3.0}], "c": 4, "e": 3, "raw": 3});
+        assert_eq!(paths(&tree, &["raw"], 3.0), ["/a/1/b", "/e", "/a/0"]);
+        add(&mut tree, &["/a/0".into(), "/a/1/b".into()], 0.5);
+        add(&mut tree, &["/e".into()], -1.0);
+        assert_eq!(tree, json!({"a": [3.5, {"b": 3.5}], "c": 4, "e": 2, "raw": 3}));
+    }
+}

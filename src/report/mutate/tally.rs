@@ -1,0 +1,117 @@
+//! Which numbers are used, and how many of them are guarded.
+
+use super::reasons::fits;
+use super::{Mutations, Reasons};
+use crate::claims::Claim;
+use crate::report::claims::{Row, scorecard};
+use crate::report::templates::{Filler, Mark, Templates};
+use crate::report::uses::uses;
+use crate::report::values::{Number, Registry, Value};
+use crate::report::{Error, parse};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Ids of the counts themselves: they are added to the values when all is counted.
+pub const IDS: [&str; 4] = ["mutated", "guarded", "unguarded", "guards"];
+
+/// What is known of the numbers that prose or claims use.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Tally {
+    /// Ids of those that a check notices in both directions.
+    pub guarded: BTreeSet<String>,
+    /// Of the others, ids by the kind that their reason gives them.
+    pub excused: BTreeMap<String, BTreeSet<String>>,
+    /// Of the others, ids without a reason.
+    pub bare: BTreeSet<String>,
+    /// Patterns of reasons that nothing needs: unknown ids, and guarded ones.
+    pub needless: Vec<String>,
+}
+
+impl Tally {
+    /// Counts.
+    pub fn of(
+        used: &BTreeSet<String>,
+        found: &Mutations,
+        reasons: &Reasons,
+        values: &Registry,
+    ) -> Tally {
+        let mut tally = Tally::default();
+        for id in used {
+            if found.get(id).is_some_and(super::Mutation::guarded) {
+                tally.guarded.insert(id.clone());
+            } else if let Some(group) = reasons.of(id) {
+                tally.excused.entry(group.kind.clone()).or_default().insert(id.clone());
+            } else {
+                tally.bare.insert(id.clone());
+            }
+        }
+        let known = |pattern: &str| {
+            let counts = IDS.iter().any(|id| fits(pattern, id));
+            counts || values.iter().any(|value| fits(pattern, &value.id))
+        };
+        let guarded = |pattern: &str| tally.guarded.iter().find(|id| fits(pattern, id));
+        for pattern in reasons.groups().iter().flat_map(|group| &group.ids) {
+            if let Some(id) = guarded(pattern) {
+                tally.needless.push(format!("{pattern:?} ({id} is guarded)"));
+            } else if !known(pattern) {
+                tally.needless.push(format!("{pattern:?} (there is no such value)"));
+            }
+        }
+        tally
+    }
+
+    /// How many numbers are used.
+    pub fn used(&self) -> usize {
+        self.guarded.len() + self.unguarded()
+    }
+
+    /// How many of them are not guarded.
+    pub fn unguarded(&self) -> usize {
+        self.bare.len() + self.excused.values().map(BTreeSet::len).sum::<usize>()
+    }
+
+    /// The counts as values, in the order of [`IDS`].
+    pub fn values(&self) -> Vec<Value> {
+        let counts = [
+            self.used(),
+            self.guarded.len(),
+            self.unguarded(),
+            crate::report::guards::all().count(),
+        ];
+        let value = |(id, count)| Value::integer(id, count).source("report::mutate::mutate", "");
+        IDS.into_iter().zip(counts).map(value).collect()
+    }
+}
+
+/// Ids of the numbers that prose or claims use: what a template shows, and what a claim states or is
+/// held against. Words are left out, and so are the counts of [`IDS`].
+///
+/// # Errors
+/// If the prose cannot be filled or read.
+pub fn used(
+    templates: &Templates,
+    values: &Registry,
+    rows: &BTreeMap<&'static str, serde_json::Value>,
+    claims: &[Claim],
+) -> Result<BTreeSet<String>, Error> {
+    let mut values = values.clone();
+    if values.get("score.total").is_none() {
+        values.extend(scorecard(claims))?;
+    }
+    let unknown = |id: &&str| values.get(id).is_none();
+    let counts: Vec<&str> = IDS.into_iter().filter(unknown).collect();
+    values.extend(counts.into_iter().map(|id| Value::integer(id, 0)))?;
+    let mut filler = Filler::new(templates, &values)?;
+    filler.insert("claims", &claims.iter().map(Row::of).collect::<Vec<Row>>());
+    for (name, rows) in rows {
+        filler.insert(name, rows);
+    }
+    let filled = filler.fill("report.md")?;
+    let blocks = parse::parse(&filled, &values)?;
+    let shown = Mark::split(&filled).into_iter().flatten().map(|mark| mark.id);
+    let stated = uses(claims, &values, &blocks).into_values().flatten();
+    let number = |id: &String| {
+        let words = |value: &Value| matches!(value.number, Number::Text(_));
+        values.get(id).is_some_and(|value| !words(value)) && !IDS.contains(&id.as_str())
+    };
+    Ok(shown.chain(stated).filter(number).collect())
+}
