@@ -36,7 +36,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let profile = Profile::from(args.profile);
     let templates = args.sources.templates()?;
     let published = args.sources.published(&templates)?;
-    let reasons = args.sources.reasons(&templates)?;
+    let reasons = args.sources.reasons(&templates)?.for_profile(profile);
     let progress = work::progress();
     let (found, used, values) = work::on_threads(args.sources.threads, || {
         let results = args.sources.run(&Need::ALL.into(), profile, &templates, &progress)?;

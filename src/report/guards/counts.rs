@@ -1,6 +1,7 @@
 //! Means, shares and sizes of ensembles, against the counts of their realisations.
 
 use super::{Guard, Look, far, unless};
+use crate::claims::Piece;
 use crate::experiments::sweep::SweepRow;
 use crate::numerics::statistics::Estimate;
 
@@ -32,6 +33,8 @@ pub const GUARDS: &[Guard] = &[
         ids: &["realisations", "sweep_failed", "sigma_count", "gaps", "starts_realisations"],
         find: all_accounted_for,
     },
+    Guard { name: "whole_impacts", ids: &["window"], find: whole_impacts },
+    Guard { name: "seeds_that_ran", ids: &["seed", "second_seed"], find: seeds },
     Guard {
         name: "rejected_random_starts",
         ids: &["rejected_random", "rejected_random_at"],
@@ -88,7 +91,7 @@ fn means_of_counts(look: Look<'_>) -> Option<String> {
 }
 
 /// Where the text names a σ with a share or a mean, there is a row at this very σ, and its
-/// histogram gives share and mean.
+/// histogram gives share and mean. Below the rise it is the σ of which the claim speaks.
 fn rows_named(look: Look<'_>) -> Option<String> {
     let sweep = look.results.sweep.as_ref()?;
     let named = [
@@ -103,7 +106,16 @@ fn rows_named(look: Look<'_>) -> Option<String> {
         let line = value.id.strip_suffix("_sigma").filter(|line| line.starts_with("compare."))?;
         Some([value.id.clone(), String::new(), format!("{line}_simulated"), String::new()])
     });
-    named.into_iter().chain(compared).find_map(|[sigma, share, mean, all]| {
+    let below = look.number("sigma_below").and_then(|sigma| {
+        let claim = look.claims.iter().find(|claim| claim.id == "sec2_few_below")?;
+        let said = claim.ours.0.iter().any(|piece| match piece {
+            Piece::Number(number) => number.value == sigma,
+            Piece::Words(_) => false,
+        });
+        unless(said, || format!("sigma_below is {sigma}, of which {} does not speak", claim.id))
+    });
+    let mut named = named.into_iter().chain(compared);
+    let off = |[sigma, share, mean, all]: [String; 4]| {
         let at = look.number(&sigma)?;
         let Some(row) = sweep.rows.iter().find(|row| row.sigma == at) else {
             return Some(format!("{sigma} is {at}, where nothing was simulated"));
@@ -115,7 +127,8 @@ fn rows_named(look: Look<'_>) -> Option<String> {
         look.is(&share, kept(row))
             .or_else(|| look.is(&mean, over(1)))
             .or_else(|| look.is(&all, over(0)))
-    })
+    };
+    below.or_else(|| named.find_map(off))
 }
 
 /// Each realisation is counted, rejected or given up; the histogram has a bin for each number of
@@ -140,6 +153,25 @@ fn all_accounted_for(look: Look<'_>) -> Option<String> {
             ("gaps", bins as f64 - 1.0),
         ])
     })
+}
+
+/// The rate of impacts of a row, times its kept realisations and the window, is how many impacts there
+/// were: a whole number in every row.
+fn whole_impacts(look: Look<'_>) -> Option<String> {
+    let window = look.number("window")?;
+    look.results.sweep.as_ref()?.rows.iter().find_map(|row| {
+        let impacts = row.impacts_per_time? * row.kept as f64 * window;
+        far(&format!("the number of impacts at sigma = {}", row.sigma), impacts, impacts.round())
+    })
+}
+
+/// The seeds that are named are those with which the sweeps were run.
+fn seeds(look: Look<'_>) -> Option<String> {
+    let (sweep, second) = look.results.sweep.as_ref().zip(look.results.second_seed.as_ref())?;
+    look.are([
+        ("seed", sweep.parameters.seed as f64),
+        ("second_seed", second.parameters.seed as f64),
+    ])
 }
 
 /// The share of random starts that overlap, from the realisations that have no count.

@@ -6,7 +6,7 @@ use crate::numerics::quadrature::GaussLegendre;
 use pxfm::{f_erfc, f_exp, f_lgamma, f_log, f_sqrt1pm1};
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
-use std::sync::{LazyLock, Mutex};
+use std::sync::{Arc, LazyLock, Mutex};
 
 /// Sixteen points: exact to rounding on each panel of what is integrated here.
 static RULE: LazyLock<GaussLegendre> = LazyLock::new(|| GaussLegendre::new(16));
@@ -44,14 +44,21 @@ fn over_simple(class: &[usize], k: usize, p: f64) -> f64 {
 }
 
 /// A distribution over the number of different impacts.
+#[derive(Debug)]
 pub struct Law {
     /// P(X = k) at index k − 1, for each class.
     pub classes: Vec<[f64; 5]>,
 }
 
 impl Law {
-    /// Of simple circuits, or of five classes.
-    pub fn new(big_n: usize, p: f64, five: bool) -> Self {
+    /// Of simple circuits, or of five classes. Guards ask for the same ones again and again, so that
+    /// they are remembered.
+    pub fn new(big_n: usize, p: f64, five: bool) -> Arc<Self> {
+        static KNOWN: Known<(usize, u64, bool), Arc<Law>> = Known::new();
+        KNOWN.get((big_n, p.to_bits(), five), || Arc::new(Law::compute(big_n, p, five)))
+    }
+
+    fn compute(big_n: usize, p: f64, five: bool) -> Self {
         let logs: Vec<f64> =
             (1..=big_n).map(|k| log_simple(big_n, k) + k as f64 * f_log(p)).collect();
         let top = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -75,7 +82,8 @@ impl Law {
 
     /// The mean.
     pub fn mean(&self) -> f64 {
-        self.whole().iter().enumerate().map(|(i, p)| (i + 1) as f64 * p).sum()
+        let terms = self.classes.iter().enumerate();
+        terms.map(|(i, own)| (i + 1) as f64 * own.iter().sum::<f64>()).sum()
     }
 
     /// The share of a class.
@@ -101,6 +109,11 @@ const PANELS: usize = 24;
 
 /// Eq. (25) for the paper's chain: two amplitudes with the density of Eq. (22) exceed d together.
 pub fn p(sigma: f64) -> f64 {
+    static KNOWN: Known<u64, f64> = Known::new();
+    KNOWN.get(sigma.to_bits(), || both_amplitudes(sigma))
+}
+
+fn both_amplitudes(sigma: f64) -> f64 {
     let rate = 0.5 / sigma;
     let tail = |x: f64| f_exp(-(rate * x) * (rate * x));
     let both = |x: f64| 2.0 * rate * rate * x * tail(x) * tail(1.0 - x);
@@ -110,6 +123,11 @@ pub fn p(sigma: f64) -> f64 {
 /// The same for a start from rest, where the free amplitude goes with the forced one: the mean over
 /// the phase, Ω² = 2 ω².
 pub fn p_rest(sigma: f64) -> f64 {
+    static KNOWN: Known<u64, f64> = Known::new();
+    KNOWN.get(sigma.to_bits(), || over_phases(sigma))
+}
+
+fn over_phases(sigma: f64) -> f64 {
     let rate = 0.5 / sigma;
     let at = |theta: f64| {
         let sin = pxfm::f_sin(theta);
@@ -130,7 +148,7 @@ pub fn both_tails(z: f64) -> f64 {
 }
 
 /// A relation of p and σ with a sample space: the columns of theory beside the simulation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Column {
     /// Eq. (25), simple circuits.
     Simple,
@@ -140,19 +158,35 @@ pub enum Column {
     Rest,
 }
 
-/// μ at σ. Many guards ask for the same ones, so they are remembered.
+/// μ at σ.
 pub fn mean_at(big_n: usize, sigma: f64, column: Column) -> f64 {
-    static KNOWN: Mutex<BTreeMap<(usize, u64, Column), f64>> = Mutex::new(BTreeMap::new());
-    let key = (big_n, sigma.to_bits(), column);
-    let known = KNOWN.lock().ok().and_then(|known| known.get(&key).copied());
-    known.unwrap_or_else(|| {
-        let p = if column == Column::Rest { p_rest(sigma) } else { p(sigma) };
-        let mean = Law::new(big_n, p, column == Column::Higher).mean();
-        if let Ok(mut known) = KNOWN.lock() {
-            known.insert(key, mean);
-        }
-        mean
-    })
+    let p = if column == Column::Rest { p_rest(sigma) } else { p(sigma) };
+    Law::new(big_n, p, column == Column::Higher).mean()
+}
+
+/// Numbers that follow from a key alone.
+struct Known<K, V>(Mutex<BTreeMap<K, V>>);
+
+/// More are not remembered: wrong numbers ask for others each time.
+const REMEMBERED: usize = 4096;
+
+impl<K: Ord, V: Clone> Known<K, V> {
+    const fn new() -> Self {
+        Known(Mutex::new(BTreeMap::new()))
+    }
+
+    fn get(&self, key: K, compute: impl FnOnce() -> V) -> V {
+        let known = self.0.lock().ok().and_then(|known| known.get(&key).cloned());
+        known.unwrap_or_else(|| {
+            let value = compute();
+            if let Ok(mut known) = self.0.lock()
+                && known.len() < REMEMBERED
+            {
+                known.insert(key, value.clone());
+            }
+            value
+        })
+    }
 }
 
 #[cfg(test)]

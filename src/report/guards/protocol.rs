@@ -2,6 +2,7 @@
 
 use super::{Guard, Look, far, unless};
 use crate::claims;
+use crate::experiments::protocol::ProtocolCell;
 
 pub const GUARDS: &[Guard] = &[
     Guard {
@@ -15,7 +16,8 @@ pub const GUARDS: &[Guard] = &[
 ];
 
 /// The cells are those of all transients and windows that were asked for; every half height lies
-/// between the two extremes, and each extreme is one of them.
+/// between the two extremes, and each extreme is one of them. The heads of the table are the times
+/// of its cells.
 fn ends(look: Look<'_>) -> Option<String> {
     let map = look.results.protocol.as_ref()?;
     let parameters = &map.parameters;
@@ -30,7 +32,10 @@ fn ends(look: Look<'_>) -> Option<String> {
     let (lowest, highest) = (halves.first().copied(), halves.last().copied());
     let ordered = |list: &[f64]| list.windows(2).all(|w| w[0] < w[1]);
     let columns = parameters.transients.len() * parameters.windows.len();
+    let times = |pick: fn(&ProtocolCell) -> f64| map.cells.iter().map(pick).collect();
     uneven
+        .or_else(|| heads(look, "protocol.t", times(|cell| cell.transient)))
+        .or_else(|| heads(look, "protocol.w", times(|cell| cell.window)))
         .or_else(|| look.is("protocol_low", highest?))
         .or_else(|| look.is("protocol_high", lowest?))
         .or_else(|| look.is("protocols_total", columns as f64))
@@ -49,6 +54,18 @@ fn ends(look: Look<'_>) -> Option<String> {
         .or_else(|| {
             named(look, &parameters.windows, ["protocol_window_low", "protocol_window_high"])
         })
+}
+
+/// Complains unless the values whose ids begin so are the times of the cells.
+fn heads(look: Look<'_>, start: &str, mut times: Vec<f64>) -> Option<String> {
+    let own = |id: &str| id.strip_prefix(start).is_some_and(|rest| !rest.contains('_'));
+    let heads = look.values.iter().filter(|value| own(&value.id));
+    let mut heads: Vec<f64> = heads.filter_map(|value| look.number(&value.id)).collect();
+    for list in [&mut heads, &mut times] {
+        list.sort_by(f64::total_cmp);
+        list.dedup();
+    }
+    unless(heads == times, || format!("the heads {heads:?} of the map are not its {times:?}"))
 }
 
 fn named(look: Look<'_>, times: &[f64], ids: [&str; 2]) -> Option<String> {

@@ -29,6 +29,8 @@ pub const GUARDS: &[Guard] = &[
             "contact_phases",
             "contact_phases_rise",
             "sigma_contact",
+            "near_limit",
+            "slow_limit",
         ],
         find: totals,
     },
@@ -90,7 +92,8 @@ fn coefficient(look: Look<'_>) -> Option<String> {
 }
 
 /// Sums over rows of what each row counted by itself; the expected numbers from the counts of one
-/// decade; the contact phases below and above a σ make up all.
+/// decade; the contact phases below and above a σ make up all. The limits that are named are the last
+/// decades that were counted.
 fn totals(look: Look<'_>) -> Option<String> {
     let (sweep, laws) = look.results.sweep.as_ref().zip(look.results.laws.as_ref())?;
     let sum = |pick: &dyn Fn(&crate::experiments::sweep::SweepRow) -> u64| {
@@ -108,6 +111,8 @@ fn totals(look: Look<'_>) -> Option<String> {
         ("sweep_impacts", laws.totals.impacts as f64),
         ("contact_phases", laws.totals.contact_phases as f64),
         ("contact_phases_rise", laws.totals.contact_phases as f64 - above),
+        ("near_limit", NEAR_DECADES[NEAR_DECADES.len() - 1]),
+        ("slow_limit", SLOW_DECADES[SLOW_DECADES.len() - 1]),
     ])
 }
 

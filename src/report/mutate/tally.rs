@@ -48,12 +48,12 @@ impl Tally {
             let counts = IDS.iter().any(|id| fits(pattern, id));
             counts || values.iter().any(|value| fits(pattern, &value.id))
         };
-        let guarded = |pattern: &str| tally.guarded.iter().find(|id| fits(pattern, id));
         for pattern in reasons.groups().iter().flat_map(|group| &group.ids) {
-            if let Some(id) = guarded(pattern) {
-                tally.needless.push(format!("{pattern:?} ({id} is guarded)"));
-            } else if !known(pattern) {
+            let mut own = used.iter().filter(|id| fits(pattern, id)).peekable();
+            if !known(pattern) {
                 tally.needless.push(format!("{pattern:?} (there is no such value)"));
+            } else if own.peek().is_some() && own.all(|id| tally.guarded.contains(id)) {
+                tally.needless.push(format!("{pattern:?} (guarded)"));
             }
         }
         tally
