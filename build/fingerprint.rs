@@ -11,6 +11,9 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
 
+/// What is saved beside the experiments' results: `report::mutate::MODULE`.
+const MUTATIONS: &str = "src/report/mutate/mod.rs";
+
 /// Writes `dependencies.rs` for `experiments::store`.
 pub fn run() -> io::Result<()> {
     println!("cargo::rerun-if-changed=Cargo.lock");
@@ -22,7 +25,8 @@ pub fn run() -> io::Result<()> {
     }
     let mut out =
         format!("Built {{\n    lock: {:?},\n    modules: &[\n", hash(&fs::read("Cargo.lock")?));
-    for path in source.keys().filter(|path| path.starts_with("src/experiments/")) {
+    let saved = |path: &&String| path.starts_with("src/experiments/") || *path == MUTATIONS;
+    for path in source.keys().filter(saved) {
         let _ = writeln!(out, "    ({path:?}, &[");
         for file in depends::files(&source, path) {
             let _ = writeln!(out, "        ({file:?}, {:?}),", hash(source[&file].as_bytes()));

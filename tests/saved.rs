@@ -29,12 +29,14 @@ fn run(folder: &Path, arguments: &str) -> (i32, String, String) {
     told(&program(folder, arguments).output().unwrap())
 }
 
-/// Saved results by name; temporary files that a killed program left are not among them.
+/// Saved results by name; temporary files that a killed program left are not among them, nor what was
+/// computed from results alone.
 fn saved(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let Ok(entries) = std::fs::read_dir(folder.join("results")) else { return BTreeMap::new() };
     entries
         .map(|entry| entry.unwrap().path())
         .filter(|path| path.extension().is_some_and(|end| end == "json"))
+        .filter(|path| !path.ends_with("mutations-quick.json"))
         .map(|path| {
             let name = path.file_name().unwrap().to_string_lossy().into_owned();
             (name, std::fs::read(&path).unwrap())

@@ -3,10 +3,11 @@
 use super::sources::Sources;
 use super::{Failure, stdout, work};
 use impact_paper::claims;
-use impact_paper::experiments::Need;
+use impact_paper::experiments::store::Identity;
+use impact_paper::experiments::{Error, Need, Progress, Store};
 use impact_paper::params::Profile;
-use impact_paper::report::contents;
 use impact_paper::report::mutate::{self, Mutation, Mutations, Reasons, Subject, Tally};
+use impact_paper::report::{Value, contents};
 use serde_json::json;
 use std::fmt::Write as _;
 
@@ -31,6 +32,39 @@ pub struct Args {
     sources: Sources,
 }
 
+/// What becomes of every number of the report; saved like a result, and taken from there if nothing
+/// that it follows from has changed.
+///
+/// # Errors
+/// Exit codes 2 and 130.
+pub fn found(
+    sources: &Sources,
+    profile: Profile,
+    subject: Subject<'_>,
+    progress: &Progress,
+) -> Result<Mutations, Failure> {
+    let identity = Identity::new("mutations", mutate::MODULE, &subject.digests());
+    let run = || all(subject, &|_| true, progress);
+    let store = Store::open(&sources.results)?;
+    match store.get(&identity, profile, &Progress::silent(), run) {
+        // A folder that cannot be written is no reason to fail.
+        Err(Error::Store { .. }) => Ok(run()?),
+        found => Ok(found?),
+    }
+}
+
+fn all(
+    subject: Subject<'_>,
+    wanted: &(dyn Fn(&Value) -> bool + Sync),
+    progress: &Progress,
+) -> Result<Mutations, Error> {
+    let stage = progress.stage("mutations", 1);
+    let found = mutate::mutate(subject, wanted, &|| !progress.stopped());
+    stage.advance(1);
+    progress.check()?;
+    found.map_err(|error| Error::input("results", error.to_string(), "run a fuller profile"))
+}
+
 /// Runs the verb.
 pub fn run(args: Args) -> Result<(), Failure> {
     let profile = Profile::from(args.profile);
@@ -45,28 +79,25 @@ pub fn run(args: Args) -> Result<(), Failure> {
         let claims = claims::all(&results, &published).map_err(|e| fault(&e))?;
         let values = contents::registry(&results, &published).map_err(|e| fault(&e))?;
         let rows = contents::rows(&results, &claims).map_err(|e| fault(&e))?;
-        let used = mutate::used(&templates, &values, &rows, &claims);
-        let used = used.map_err(|error| Failure::input(error.to_string()))?;
+        let used = mutate::used(&templates, &values, &rows, &claims, &reasons);
+        let mut used = used.map_err(|error| Failure::input(error.to_string()))?;
         if let Some(id) = args.value.iter().find(|id| !used.contains(*id)) {
             let message = format!("--value: neither prose nor a claim uses a number {id:?}");
             return Err(Failure::input(message));
         }
-        let asked = |id: &String| args.value.is_empty() || args.value.contains(id);
-        let used: std::collections::BTreeSet<String> = used.into_iter().filter(asked).collect();
-        let stage = progress.stage("mutations", used.len() as u64);
         let subject = Subject { results: &results, published: &published };
-        let found =
-            mutate::mutate(subject, &|value| used.contains(&value.id), &|_| stage.advance(1));
-        Ok((found.map_err(|e| fault(&e))?, used, values))
+        let found = if args.value.is_empty() {
+            found(&args.sources, profile, subject, &progress)?
+        } else {
+            used.retain(|id| args.value.contains(id));
+            all(subject, &|value| used.contains(&value.id), &progress)?
+        };
+        Ok((found, used, values))
     })?;
-    let whole = args.value.is_empty();
-    let reasons = if whole { reasons } else { Reasons::default() };
+    let reasons = if args.value.is_empty() { reasons } else { Reasons::default() };
     let tally = Tally::of(&used, &found, &reasons, &values);
-    stdout::print(&if args.json {
-        data(&found, &tally, &reasons)
-    } else {
-        text(&found, &tally, &reasons)
-    })?;
+    let form = if args.json { data } else { text };
+    stdout::print(&form(&found, &tally, &reasons))?;
     failure(&tally).map_or(Ok(()), Err)
 }
 
@@ -99,7 +130,7 @@ fn standing<'a>(id: &str, tally: &Tally, reasons: &'a Reasons) -> (&'static str,
 
 fn text(found: &Mutations, tally: &Tally, reasons: &Reasons) -> String {
     let mut out = String::new();
-    for (id, mutation) in found {
+    for (id, mutation) in found.iter().filter(|(id, _)| tally.knows(id)) {
         let (word, why) = standing(id, tally, reasons);
         let Mutation { by, place, above, below } = mutation;
         let _ = write!(out, "{word:9} {id} ± {by:.1e} at {place}: ");
@@ -136,7 +167,7 @@ fn data(found: &Mutations, tally: &Tally, reasons: &Reasons) -> String {
             "below": mutation.below, "standing": word.to_lowercase(), "reason": why,
         })
     };
-    let values: Vec<_> = found.iter().map(one).collect();
+    let values: Vec<_> = found.iter().filter(|(id, _)| tally.knows(id)).map(one).collect();
     let counts = json!({
         "used": tally.used(), "guarded": tally.guarded.len(), "unguarded": tally.unguarded(),
         "without_a_reason": tally.bare.len(),

@@ -6,6 +6,7 @@ use impact_paper::claims::{self, Published};
 use impact_paper::experiments::{Need, Progress, Store, run::run};
 use impact_paper::params::Profile;
 use impact_paper::report::lint::{Declared, numerals};
+use impact_paper::report::mutate::{Reasons, TABLE, Tally};
 use impact_paper::report::templates::Filler;
 use impact_paper::report::{Error, Registry, Templates, claims::Row, contents};
 use std::collections::BTreeMap;
@@ -26,7 +27,10 @@ static NAMED: LazyLock<Named> = LazyLock::new(|| {
     let judged = claims::all(&results, &published).unwrap();
     let mut values = contents::registry(&results, &published).unwrap();
     values.extend(impact_paper::report::claims::scorecard(&judged)).unwrap();
-    let rows = contents::rows(&results, &judged).unwrap();
+    let mut rows = contents::rows(&results, &judged).unwrap();
+    let reasons = Reasons::read(&committed("templates/unguarded.toml")).unwrap();
+    values.extend(Tally::default().values(&reasons)).unwrap();
+    rows.insert(TABLE, serde_json::to_value(Tally::default().rows(&reasons)).unwrap());
     Named { values, claims: judged.iter().map(Row::of).collect(), rows }
 });
 

@@ -8,6 +8,7 @@ use impact_paper::experiments::spacetime::SpaceTime;
 use impact_paper::experiments::{Need, Progress, Store, run::run};
 use impact_paper::figures::{self, Figure};
 use impact_paper::params::Profile;
+use impact_paper::report::mutate::{Reasons, TABLE, Tally};
 use impact_paper::report::{Input, Report, Templates, assemble, contents};
 use std::path::Path;
 use std::sync::LazyLock;
@@ -29,8 +30,12 @@ pub static QUICK: LazyLock<Quick> = LazyLock::new(|| {
         run(&Need::ALL, Profile::Quick, scenario, &Store::nowhere(), &Progress::silent()).unwrap();
     let published = Published::parse(templates.text("published.toml").unwrap()).unwrap();
     let claims = claims::all(&results, &published).unwrap();
-    let values = contents::registry(&results, &published).unwrap();
-    let rows = contents::rows(&results, &claims).unwrap();
+    let mut values = contents::registry(&results, &published).unwrap();
+    let mut rows = contents::rows(&results, &claims).unwrap();
+    // How much checks notice takes seconds to measure, and the form of the report does not need it.
+    let reasons = Reasons::read(templates.text("unguarded.toml").unwrap()).unwrap();
+    values.extend(Tally::default().values(&reasons)).unwrap();
+    rows.insert(TABLE, serde_json::to_value(Tally::default().rows(&reasons)).unwrap());
     let scene = figures::Scene::of(results.spacetime().unwrap());
     let figures: Vec<_> = figures::all().map(|n| figures::draw(n, &results).unwrap()).collect();
     let input = Input {

@@ -20,29 +20,30 @@ pub const GUARDS: &[Guard] = &[
     Guard { name: "visits_of_circuits", ids: &["fig5_masses", "fig6_*"], find: circuits },
 ];
 
-/// Times of the impacts of each gap that has any.
-fn by_gap(run: &SpaceTime) -> BTreeMap<u32, Vec<f64>> {
-    let mut found: BTreeMap<u32, Vec<f64>> = BTreeMap::new();
+/// Times of the impacts of each gap, for those that have any.
+fn by_gap(run: &SpaceTime) -> Vec<(u32, Vec<f64>)> {
+    let width = run.gaps.iter().map(|gap| *gap as usize + 1).max().unwrap_or(0);
+    let mut found: Vec<Vec<f64>> = vec![Vec::new(); width];
     for (&time, &gap) in run.times.iter().zip(&run.gaps) {
-        found.entry(gap).or_default().push(time);
+        found[gap as usize].push(time);
     }
-    found
+    (0..).zip(found).filter(|(_, times)| !times.is_empty()).collect()
 }
 
 /// Gaps by the time of their first impact, earliest first.
-fn order(run: &SpaceTime) -> Vec<(f64, u32)> {
-    let mut order: Vec<(f64, u32)> =
-        by_gap(run).into_iter().filter_map(|(gap, times)| Some((*times.first()?, gap))).collect();
+fn order(own: &[(u32, Vec<f64>)]) -> Vec<(f64, u32)> {
+    let firsts = own.iter().filter_map(|(gap, times)| Some((*times.first()?, *gap)));
+    let mut order: Vec<(f64, u32)> = firsts.collect();
     order.sort_by(|a, b| a.0.total_cmp(&b.0));
     order
 }
 
 /// How much later than the earlier of its neighbours, and when, each gap has its first impact; and
 /// the number of those that come first among their neighbours. Gaps are taken as they come.
-fn spreading(run: &SpaceTime) -> (Vec<(f64, u32, f64)>, usize) {
+fn spreading(order: &[(f64, u32)]) -> (Vec<(f64, u32, f64)>, usize) {
     let mut seen: BTreeMap<u32, f64> = BTreeMap::new();
     let (mut delays, mut starts) = (Vec::new(), 0);
-    for (time, gap) in order(run) {
+    for &(time, gap) in order {
         let beside = [gap.checked_sub(1), Some(gap + 1)].into_iter().flatten();
         let before = beside.filter_map(|gap| seen.get(&gap)).copied().reduce(f64::min);
         match before {
@@ -58,7 +59,8 @@ fn spreading(run: &SpaceTime) -> (Vec<(f64, u32, f64)>, usize) {
 /// Impacts, gaps reached in all and within parts of the time, and starts, from a list of each gap's times.
 fn run(look: Look<'_>) -> Option<String> {
     let run = look.results.spacetime.as_ref()?;
-    let (own, order) = (by_gap(run), order(run));
+    let own = by_gap(run);
+    let order = order(&own);
     let until = run.parameters.until;
     let reached = |part: &str| {
         let end = look.number(part).unwrap_or(f64::NAN);
@@ -66,10 +68,10 @@ fn run(look: Look<'_>) -> Option<String> {
     };
     let width = run.parameters.chain.masses as f64 + 1.0;
     look.are([
-        ("run_impacts", own.values().map(Vec::len).sum::<usize>() as f64),
+        ("run_impacts", own.iter().map(|(_, times)| times.len()).sum::<usize>() as f64),
         ("run_reached", own.len() as f64),
         ("run_reached_share", own.len() as f64 / width),
-        ("run_starts", spreading(run).1 as f64),
+        ("run_starts", spreading(&order).1 as f64),
         ("run_first", order.first()?.0),
         ("run_reached_half", reached("run_half")),
         ("run_reached_quarter", reached("run_quarter")),
@@ -81,7 +83,7 @@ fn run(look: Look<'_>) -> Option<String> {
 /// The waits of the fronts, from gaps in the order in which they are reached.
 fn fronts(look: Look<'_>) -> Option<String> {
     let run = look.results.spacetime.as_ref()?;
-    let (delays, _) = spreading(run);
+    let (delays, _) = spreading(&order(&by_gap(run)));
     let (longest, gap, time) = *delays.last()?;
     look.are([
         ("run_advance_median", delays[delays.len() / 2].0),
@@ -107,7 +109,7 @@ fn silence(look: Look<'_>) -> Option<String> {
 /// another share.
 fn busiest(look: Look<'_>) -> Option<String> {
     let run = look.results.spacetime.as_ref()?;
-    let mut counts: Vec<usize> = by_gap(run).values().map(Vec::len).collect();
+    let mut counts: Vec<usize> = by_gap(run).iter().map(|(_, times)| times.len()).collect();
     counts.sort_unstable();
     let many = look.number("run_busiest")? as usize;
     let own: usize = counts.iter().rev().take(many).sum();

@@ -18,7 +18,7 @@ mod tally;
 
 pub use reasons::Reasons;
 pub use size::last_digit;
-pub use tally::{IDS, Tally, used};
+pub use tally::{TABLE, Tally, used};
 
 use self::part::Whole;
 use self::site::Site;
@@ -32,6 +32,10 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// The file that saved mutations depend on, with all that it needs.
+pub const MODULE: &str = "src/report/mutate/mod.rs";
 
 /// What became of one number that was made wrong.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -44,6 +48,14 @@ pub struct Mutation {
     pub above: Vec<String>,
     /// What turned red when it was smaller.
     pub below: Vec<String>,
+}
+
+impl Subject<'_> {
+    /// What is made wrong, as digests: the same ones have the same mutations.
+    pub fn digests(&self) -> BTreeMap<String, String> {
+        let printed = ("published.toml".into(), self.published.digest.clone());
+        Whole::of(self.results).digests().chain([printed]).collect()
+    }
 }
 
 impl Mutation {
@@ -101,22 +113,27 @@ fn guarding<'a>(
     guards::failing(look).map(|failing| format!("guard {}", failing.name))
 }
 
-/// Makes every number wrong, one after the other; `told` hears the id of each that is done.
+/// Makes every wanted number wrong, one after the other; `go_on` is asked after each, and ends all by
+/// a no.
 ///
 /// # Errors
 /// If the report cannot be made from the results as they are.
 pub fn mutate(
     subject: Subject<'_>,
     wanted: &(dyn Fn(&Value) -> bool + Sync),
-    told: &(dyn Fn(&str) + Sync),
+    go_on: &(dyn Fn() -> bool + Sync),
 ) -> Result<Mutations, contents::Error> {
     let whole = Whole::of(subject.results);
     let before = judged(subject)?;
     let bench = Bench { subject, whole, before, idle: Mutex::default() };
     let values: Vec<&Value> = bench.before.values.iter().filter(|value| wanted(value)).collect();
+    let stopped = AtomicBool::new(false);
     let one = |value: &&Value| {
+        if stopped.load(Ordering::Relaxed) {
+            return None;
+        }
         let found = bench.one(value);
-        told(&value.id);
+        stopped.fetch_or(!go_on(), Ordering::Relaxed);
         Some((value.id.clone(), found?))
     };
     Ok(values.par_iter().with_max_len(1).filter_map(one).collect())

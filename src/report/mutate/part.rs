@@ -4,6 +4,7 @@ use crate::experiments::{Results, laws};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value as Json;
+use sha2::{Digest, Sha256};
 
 /// One part: the result of one experiment.
 pub struct Part {
@@ -97,6 +98,14 @@ impl Whole {
     /// Of complete results.
     pub fn of(results: &Results) -> Self {
         Whole(PARTS.iter().map(|part| (part.read)(results).unwrap_or_default()).collect())
+    }
+
+    /// SHA-256 of each part, with its number.
+    pub fn digests(&self) -> impl Iterator<Item = (String, String)> + '_ {
+        self.0.iter().enumerate().map(|(index, json)| {
+            let digest = Sha256::digest(json.to_string().as_bytes());
+            (format!("part {index}"), digest.iter().map(|byte| format!("{byte:02x}")).collect())
+        })
     }
 
     /// One part.
