@@ -4,7 +4,7 @@
 //! printed. A guard holds them against one another: a mean against its counts, a root against its
 //! equation, a closed form against a sum of its own. None compares a number with a copy of itself, or
 //! with bytes of an earlier run; what a guard computes anew it computes by another way than the code
-//! that it guards, from a record or from first principles ([`model`]). `impact-paper check` names each
+//! that it guards, from a record or from first principles (`guards::model`). `impact-paper check` names each
 //! that fails, and `impact-paper mutate` measures what they notice.
 
 mod accuracy;

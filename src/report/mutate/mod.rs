@@ -1,7 +1,7 @@
 //! How good the checks are: each number of the report is made wrong, and some check must notice.
 //!
 //! A number is made wrong where it comes from. It is looked for among the numbers of its own
-//! experiment's results (a *leaf*), moved there by more than its tolerance ([`size`]), and claims, values
+//! experiment's results (a *leaf*), moved there by more than its tolerance (`mutate::size`), and claims, values
 //! and guards are computed again from the wrong results; a printed number is moved in what
 //! was printed. A number that no leaf carries was computed on the way to the report, and is moved
 //! there. Nothing is simulated again.

@@ -77,7 +77,7 @@ impl Tally {
         self.bare.len() + self.excused.values().map(BTreeSet::len).sum::<usize>()
     }
 
-    /// The counts as values: those of [`IDS`], and one for each kind of reason.
+    /// The counts as values: those of all numbers, and one for each kind of reason.
     pub fn values(&self, reasons: &Reasons) -> Vec<Value> {
         let guards = crate::report::guards::all().count();
         let counts = [self.used(), self.guarded.len(), self.unguarded(), guards];
@@ -126,7 +126,7 @@ fn counts(id: &str) -> bool {
 }
 
 /// Ids of the numbers that prose or claims use: what a template shows, and what a claim states or is
-/// held against. Words are left out, and so are the counts of [`IDS`].
+/// held against. Words are left out, and so are the counts of a [`Tally`].
 ///
 /// # Errors
 /// If the prose cannot be filled or read.
