@@ -1,7 +1,7 @@
 # Every target is one line that calls cargo, the program or a script. Needed: Rust (rust-toolchain.toml
 # names the version), make and a C compiler for linking.
 
-.PHONY: paper quick check mutate pdf latex browser test test-long lint identity bundle fuzz bench measure clean help
+.PHONY: paper quick check deep mutate pdf latex browser test test-long lint identity bundle fuzz bench measure clean help
 
 paper: ## the whole reproduction in the full profile, into paper/
 	cargo run --release --locked -- paper
@@ -11,6 +11,9 @@ quick: ## the same with small samples, into target/paper-quick/
 
 check: ## every claim with its verdict; fails if one does not hold
 	cargo run --release --locked -- check
+
+deep: ## what is too long for every report, again, into benches/deep/: a quarter of an hour
+	cargo run --release --locked -- run --profile deep --shard 1/1 --out target/deep && cargo run --release --locked -- merge --profile deep target/deep
 
 mutate: ## which check notices when a number of the report is wrong; fails if none does and no reason is given
 	cargo run --release --locked -- mutate

@@ -1,19 +1,18 @@
 //! `impact-paper check` for machines: every form says of every claim what the text says.
 
+mod program;
+
+use program::{PROGRAM, TEMPLATES, program, told};
 use std::path::Path;
 use std::process::Command;
 
 fn check(folder: &Path, arguments: &[&str], summary: Option<&Path>) -> (i32, String, String) {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_impact-paper"));
-    let templates = concat!(env!("CARGO_MANIFEST_DIR"), "/templates");
-    command.current_dir(folder).args(["check", "--profile", "quick", "--results", "r"]);
-    command.args(["--templates", templates]).args(arguments).env_remove("GITHUB_STEP_SUMMARY");
+    let mut command = program(folder, "check --profile quick --results r --templates");
+    command.arg(TEMPLATES).args(arguments).env_remove("GITHUB_STEP_SUMMARY");
     if let Some(summary) = summary {
         command.env("GITHUB_STEP_SUMMARY", summary);
     }
-    let output = command.output().unwrap();
-    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
-    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
+    told(&command.output().unwrap())
 }
 
 fn json(text: &str) -> serde_json::Value {
@@ -116,7 +115,7 @@ fn a_claim_that_differs_is_an_error_in_every_form() {
     let value = at + text[at..].find("value = ").unwrap() + "value = ".len();
     std::fs::write(&file, format!("{}9{}", &text[..value], &text[value..])).unwrap();
     let form = |name| {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_impact-paper"));
+        let mut command = Command::new(PROGRAM);
         command.current_dir(folder.path()).args([
             "check",
             "--profile",

@@ -1,25 +1,19 @@
 //! A job array on a real Slurm gives the bytes of one machine, even if a task is killed on its way.
 
+mod program;
+
+use program::{EXPERIMENTS, Files, PROGRAM, TEMPLATES, files, run};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::Command;
 
-const PROGRAM: &str = env!("CARGO_BIN_EXE_impact-paper");
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
-/// SHA-256 of each saved result in a folder, by name; what is made of all of them is no result.
-fn sums(folder: &Path) -> BTreeMap<String, String> {
+/// SHA-256 of each saved result, by name.
+fn sums(files: Files) -> BTreeMap<String, String> {
     let sum = |bytes: Vec<u8>| Sha256::digest(bytes).iter().map(|b| format!("{b:02x}")).collect();
-    std::fs::read_dir(folder)
-        .unwrap()
-        .map(|entry| entry.unwrap())
-        .filter(|entry| entry.file_name() != "mutations-ci.json")
-        .map(|entry| {
-            let name = entry.file_name().to_string_lossy().into_owned();
-            (name, sum(std::fs::read(entry.path()).unwrap()))
-        })
-        .collect()
+    files.into_iter().map(|(name, bytes)| (name, sum(bytes))).collect()
 }
 
 /// Starts munged, slurmctld and slurmd on this machine (root installs them when missing), and stops
@@ -41,15 +35,11 @@ fn a_job_array_with_a_killed_task_gives_the_bytes_of_one_machine() {
     for line in ["killed task 2 of job", "missing units of work", "resubmitted task 2 alone"] {
         assert!(text.contains(line), "{text}{note}");
     }
-    let templates = format!("{ROOT}/templates");
-    let local = Command::new(PROGRAM)
-        .current_dir(folder.path())
-        .args(["paper", "--profile", "ci", "--out", "report", "--results", "local"])
-        .args(["--templates", &templates])
-        .output()
-        .unwrap();
-    assert!(local.status.success(), "{}", String::from_utf8_lossy(&local.stderr));
-    let merged = sums(&folder.path().join("results"));
-    assert_eq!(merged.len(), 12);
-    assert_eq!(merged, sums(&folder.path().join("local")));
+    let paper = "paper --profile ci --out report --results local --templates";
+    let (code, _, note) = run(folder.path(), &format!("{paper} {TEMPLATES}"));
+    assert_eq!(code, 0, "{note}");
+    let made = |name: &str| sums(files(&folder.path().join(name)));
+    let merged = made("results");
+    assert_eq!(merged.len(), EXPERIMENTS);
+    assert_eq!(merged, made("local"));
 }

@@ -1,10 +1,11 @@
 //! `impact-paper diff`: two reports, by folder or by revision of git.
 
+mod program;
+
+use program::{PROGRAM, told};
 use std::fs;
 use std::path::Path;
 use std::process::Command;
-
-const PROGRAM: &str = env!("CARGO_BIN_EXE_impact-paper");
 
 fn command(folder: &Path, arguments: &[&str]) -> Command {
     let mut command = Command::new(PROGRAM);
@@ -12,15 +13,8 @@ fn command(folder: &Path, arguments: &[&str]) -> Command {
     command
 }
 
-/// Exit code, stdout and stderr.
-fn told(command: &mut Command) -> (i32, String, String) {
-    let output = command.output().unwrap();
-    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
-    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
-}
-
 fn run(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
-    told(&mut command(folder, arguments))
+    told(&command(folder, arguments).output().unwrap())
 }
 
 /// What the commands print that must not fail.
@@ -194,7 +188,7 @@ fn revisions_of_git_are_compared() {
         assert!(note.contains("neither a folder nor a revision"), "{odd}: {note}");
         assert_eq!(note.lines().count(), 1, "{odd}: {note}");
     }
-    let (code, _, note) = told(command(&sub, &["v1", "v2"]).env("PATH", ""));
+    let (code, _, note) = told(&command(&sub, &["v1", "v2"]).env("PATH", "").output().unwrap());
     assert_eq!(code, 2);
     assert!(note.contains("no git to ask") && note.lines().count() == 1, "{note}");
 }

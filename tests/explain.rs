@@ -1,5 +1,8 @@
 //! `impact-paper explain` as a user meets it, on the report of the quick profile.
 
+mod program;
+
+use program::{PROGRAM, told};
 use std::path::Path;
 use std::process::Command;
 use std::sync::LazyLock;
@@ -15,9 +18,7 @@ static PAPER: LazyLock<tempfile::TempDir> = LazyLock::new(|| {
 });
 
 fn run(arguments: &[&str]) -> (i32, String, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_impact-paper")).args(arguments).output().unwrap();
-    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
-    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
+    told(&Command::new(PROGRAM).args(arguments).output().unwrap())
 }
 
 fn explain(arguments: &[&str]) -> (i32, String, String) {

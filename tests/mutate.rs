@@ -1,11 +1,14 @@
 //! `impact-paper mutate`: a number that is wrong is noticed by the check that should, and a number that
 //! nobody would miss needs a reason.
 
+mod program;
+
 use impact_paper::claims::{self, Published};
 use impact_paper::experiments::{Need, Progress, Store, run::run};
 use impact_paper::params::Profile;
 use impact_paper::report::claims::scorecard;
 use impact_paper::report::{contents, guards};
+use program::{PROGRAM, told};
 use std::collections::BTreeSet;
 use std::path::Path;
 use std::process::Command;
@@ -17,11 +20,9 @@ static RESULTS: LazyLock<TempDir> = LazyLock::new(|| tempfile::tempdir().unwrap(
 
 fn mutate(arguments: &[&str]) -> (i32, String, String) {
     let results = RESULTS.path().to_str().unwrap();
-    let mut command = Command::new(env!("CARGO_BIN_EXE_impact-paper"));
+    let mut command = Command::new(PROGRAM);
     command.args(["mutate", "--profile", "quick", "--results", results]).args(arguments);
-    let output = command.output().unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
+    told(&command.output().unwrap())
 }
 
 /// The project's templates with one file changed, in a folder of its own.
@@ -162,7 +163,7 @@ fn guards_relate_values_of_the_report() {
 fn check_names_a_guard_that_fails() {
     let folder = templates("published.toml", |text| text.replacen("σ ≈ 0.12", "σ ≈ 0.13", 1));
     let check = |form: &str| {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_impact-paper"));
+        let mut command = Command::new(PROGRAM);
         command.args(["check", "--profile", "quick", "--format", form]);
         command.arg("--results").arg(RESULTS.path());
         let output = command.arg("--templates").arg(folder.path().join("t")).output().unwrap();

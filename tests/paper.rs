@@ -1,5 +1,8 @@
 //! `impact-paper paper` and `check` as a user meets them: what runs, what is written, what is not.
 
+mod program;
+
+use program::{TEMPLATES, told};
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -7,17 +10,11 @@ use std::time::{Duration, Instant};
 
 /// The program in a folder of its own, with the templates of the project.
 fn program(folder: &Path, arguments: &str) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_impact-paper"));
-    let templates = concat!(env!("CARGO_MANIFEST_DIR"), "/templates");
-    command.current_dir(folder).args(arguments.split(' ')).args(["--templates", templates]);
-    command
+    program::program(folder, &format!("{arguments} --templates {TEMPLATES}"))
 }
 
-/// Exit code, stdout and stderr.
 fn run(folder: &Path, arguments: &str) -> (i32, String, String) {
-    let output = program(folder, arguments).output().unwrap();
-    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
-    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
+    told(&program(folder, arguments).output().unwrap())
 }
 
 /// All files below a folder, hidden ones included.

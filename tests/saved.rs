@@ -1,47 +1,23 @@
 //! Saved results: never stale, never half, whatever happens to the program or the disk.
 
-use std::collections::BTreeMap;
+mod program;
+
+use program::{EXPERIMENTS, Files, PROGRAM, files, program, run, told};
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Stdio};
 use std::sync::LazyLock;
 use std::time::Duration;
 
-const PROGRAM: &str = env!("CARGO_BIN_EXE_impact-paper");
-const TEMPLATES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/templates");
 /// Needs every experiment that is saved.
-const PAPER: &str = "paper --profile quick --out report --results results";
+const PAPER: &str = concat!(
+    "paper --profile quick --out report --results results --templates ",
+    env!("CARGO_MANIFEST_DIR"),
+    "/templates"
+);
 
-fn program(folder: &Path, arguments: &str) -> Command {
-    let mut command = Command::new(PROGRAM);
-    command.current_dir(folder).args(arguments.split(' '));
-    if !arguments.starts_with("status") && !arguments.starts_with("audit") {
-        command.args(["--templates", TEMPLATES]);
-    }
-    command
-}
-
-fn told(output: &Output) -> (i32, String, String) {
-    let text = |bytes: &Vec<u8>| String::from_utf8_lossy(bytes).into_owned();
-    (output.status.code().unwrap_or(-1), text(&output.stdout), text(&output.stderr))
-}
-
-fn run(folder: &Path, arguments: &str) -> (i32, String, String) {
-    told(&program(folder, arguments).output().unwrap())
-}
-
-/// Saved results by name; temporary files that a killed program left are not among them, nor what was
-/// computed from results alone.
-fn saved(folder: &Path) -> BTreeMap<String, Vec<u8>> {
-    let Ok(entries) = std::fs::read_dir(folder.join("results")) else { return BTreeMap::new() };
-    entries
-        .map(|entry| entry.unwrap().path())
-        .filter(|path| path.extension().is_some_and(|end| end == "json"))
-        .filter(|path| !path.ends_with("mutations-quick.json"))
-        .map(|path| {
-            let name = path.file_name().unwrap().to_string_lossy().into_owned();
-            (name, std::fs::read(&path).unwrap())
-        })
-        .collect()
+/// Saved results by name.
+fn saved(folder: &Path) -> Files {
+    files(&folder.join("results"))
 }
 
 fn status(folder: &Path) -> serde_json::Value {
@@ -59,11 +35,11 @@ fn with(json: &serde_json::Value, reason: &str) -> Vec<String> {
 }
 
 /// All results of the quick profile, as an undisturbed run saves them.
-static RESULTS: LazyLock<BTreeMap<String, Vec<u8>>> = LazyLock::new(|| {
+static RESULTS: LazyLock<Files> = LazyLock::new(|| {
     let folder = tempfile::tempdir().unwrap();
     let (code, _, note) = run(folder.path(), PAPER);
     let results = saved(folder.path());
-    assert_eq!((code, results.len()), (0, 12), "{note}");
+    assert_eq!((code, results.len()), (0, EXPERIMENTS), "{note}");
     results
 });
 
@@ -81,7 +57,7 @@ fn whole() -> tempfile::TempDir {
 fn status_gives_each_reason_and_audit_compares_bytes() {
     let empty = tempfile::tempdir().unwrap();
     let json = status(empty.path());
-    assert_eq!((with(&json, "missing").len(), with(&json, "fresh").len()), (12, 0));
+    assert_eq!((with(&json, "missing").len(), with(&json, "fresh").len()), (EXPERIMENTS, 0));
     assert!(!empty.path().join("results").exists(), "status makes nothing");
     let (code, _, note) = run(empty.path(), "audit --profile quick --results results");
     assert_eq!(code, 3, "{note}");
@@ -89,13 +65,13 @@ fn status_gives_each_reason_and_audit_compares_bytes() {
 
     let (folder, results) = (whole(), &*RESULTS);
     let folder = folder.path();
-    assert_eq!(with(&status(folder), "fresh").len(), 12);
+    assert_eq!(with(&status(folder), "fresh").len(), EXPERIMENTS);
     let (_, _, note) = run(folder, PAPER);
-    assert_eq!(note.matches(": fresh").count(), 12, "{note}");
+    assert_eq!(note.matches(": fresh").count(), EXPERIMENTS, "{note}");
     assert_eq!(saved(folder), *results);
     let audit = "audit --profile quick --results results --sample";
     let (code, text, note) = run(folder, &format!("{audit} 100%"));
-    assert_eq!((code, text.matches(": identical").count()), (0, 12), "{text}{note}");
+    assert_eq!((code, text.matches(": identical").count()), (0, EXPERIMENTS), "{text}{note}");
     let (_, text, _) = run(folder, &format!("{audit} 0.1"));
     assert_eq!(text.lines().count(), 2, "{text}");
     assert_eq!(run(folder, &format!("{audit} 0%")).0, 2);
@@ -196,8 +172,7 @@ fn a_killed_run_leaves_nothing_that_is_read() {
 fn a_full_disk_is_told_and_leaves_nothing_half() {
     let results = &*RESULTS;
     let folder = tempfile::tempdir().unwrap();
-    let limited =
-        format!("trap '' XFSZ; ulimit -f 1; exec {PROGRAM} {PAPER} --templates {TEMPLATES}");
+    let limited = format!("trap '' XFSZ; ulimit -f 1; exec {PROGRAM} {PAPER}");
     let output = Command::new("bash").args(["-c", &limited]).current_dir(folder.path()).output();
     let (code, _, note) = told(&output.unwrap());
     assert_eq!(code, 2, "{note}");
@@ -257,7 +232,7 @@ fn a_read_only_folder_is_read() {
     set(&folder.join("results"), 0o555);
     let (code, _, note) = as_reader();
     assert_eq!(code, 0, "{note}");
-    assert_eq!(note.matches(": fresh").count(), 12, "{note}");
+    assert_eq!(note.matches(": fresh").count(), EXPERIMENTS, "{note}");
     set(&folder.join("results"), 0o755);
     std::fs::remove_file(folder.join("results/second_seed-quick.json")).unwrap();
     set(&folder.join("results"), 0o555);

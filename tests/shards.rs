@@ -1,46 +1,14 @@
 //! Work shared out to several machines gives the bytes of one, and nothing else is taken for it.
 
-use std::collections::BTreeMap;
+mod program;
+
+use program::{EXPERIMENTS, Files, TEMPLATES, files, program, run};
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::Stdio;
 use std::sync::LazyLock;
 use std::time::Duration;
 
-const PROGRAM: &str = env!("CARGO_BIN_EXE_impact-paper");
-const TEMPLATES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/templates");
 const MERGE: &str = "merge --profile quick --results joined 1 2 3";
-/// Number of the experiments that are saved.
-const EXPERIMENTS: usize = 12;
-
-fn program(folder: &Path, arguments: &str) -> Command {
-    let mut command = Command::new(PROGRAM);
-    command.current_dir(folder).args(arguments.split(' '));
-    command
-}
-
-fn told(output: &Output) -> (i32, String, String) {
-    let text = |bytes: &Vec<u8>| String::from_utf8_lossy(bytes).into_owned();
-    (output.status.code().unwrap_or(-1), text(&output.stdout), text(&output.stderr))
-}
-
-fn run(folder: &Path, arguments: &str) -> (i32, String, String) {
-    told(&program(folder, arguments).output().unwrap())
-}
-
-type Files = BTreeMap<String, Vec<u8>>;
-
-/// The JSON files of a folder by name; none if it is not there.
-fn files(folder: &Path) -> Files {
-    let Ok(entries) = std::fs::read_dir(folder) else { return Files::new() };
-    entries
-        .map(|entry| entry.unwrap().path())
-        .filter(|path| path.extension().is_some_and(|end| end == "json"))
-        .map(|path| {
-            let name = path.file_name().unwrap().to_string_lossy().into_owned();
-            (name, std::fs::read(&path).unwrap())
-        })
-        .collect()
-}
 
 fn shard(folder: &Path, i: usize) -> (i32, String, String) {
     run(folder, &format!("run --profile quick --shard {i}/3 --out {i} --threads {i}"))
@@ -52,9 +20,7 @@ static MADE: LazyLock<(Files, [Files; 3])> = LazyLock::new(|| {
     let folder = folder.path();
     let paper = format!("paper --profile quick --out r --results one --templates {TEMPLATES}");
     let (code, _, note) = run(folder, &paper);
-    let mut one = files(&folder.join("one"));
-    // Made of the results, and no experiment.
-    one.remove("mutations-quick.json");
+    let one = files(&folder.join("one"));
     assert_eq!((code, one.len()), (0, EXPERIMENTS), "{note}");
     // In another order, on other numbers of threads.
     let shards = [3, 1, 2].map(|i| {

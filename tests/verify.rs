@@ -1,24 +1,15 @@
 //! `impact-paper verify`: what a folder says of itself, held against what stands in it.
 
+mod program;
+
+use program::{PROGRAM, TEMPLATES, run};
 use sha2::{Digest, Sha256};
 use std::fs;
-use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-const PROGRAM: &str = env!("CARGO_BIN_EXE_impact-paper");
-const TEMPLATES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/templates");
-
 fn digest(text: &str) -> String {
     Sha256::digest(text).iter().map(|byte| format!("{byte:02x}")).collect()
-}
-
-/// Exit code, stdout and stderr.
-fn run(folder: &Path, arguments: &str) -> (i32, String, String) {
-    let output =
-        Command::new(PROGRAM).current_dir(folder).args(arguments.split(' ')).output().unwrap();
-    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
-    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
 }
 
 /// A folder that looks like a report, and its list.

@@ -2,7 +2,7 @@
 
 use super::{Failure, stdout, work};
 use impact_paper::experiments::Store;
-use impact_paper::experiments::catalogue::ALL;
+use impact_paper::experiments::catalogue;
 use impact_paper::numerics::random::generator;
 use impact_paper::params::Profile;
 use rand::seq::SliceRandom;
@@ -16,16 +16,17 @@ use std::path::PathBuf;
 pub struct Args {
     /// Sample sizes.
     #[arg(long, default_value = "full")]
-    profile: work::ProfileName,
+    profile: work::AnyProfile,
     /// Share of the experiments to run again; at least one is.
     #[arg(long, value_name = "SHARE", default_value = "10%", value_parser = share)]
     sample: f64,
     /// Seed of the choice.
     #[arg(long, value_name = "K", default_value_t = 0)]
     seed: u64,
-    /// Folder in which results of long runs are kept.
-    #[arg(long, value_name = "DIR", default_value = "target/results")]
-    results: PathBuf,
+    /// Folder in which results of long runs are kept; without it target/results, and benches/deep for
+    /// the deep profile.
+    #[arg(long, value_name = "DIR")]
+    results: Option<PathBuf>,
     /// Number of threads; all cores without it. It changes no bit of the result.
     #[arg(long, value_name = "K", allow_hyphen_values = true)]
     threads: Option<usize>,
@@ -46,10 +47,10 @@ fn share(text: &str) -> Result<f64, String> {
 /// Runs the verb.
 pub fn run(args: Args) -> Result<(), Failure> {
     let profile = Profile::from(args.profile);
-    let store = Store::open(&args.results)?;
-    let mut chosen = ALL.to_vec();
+    let store = Store::open(&work::results(args.results, profile))?;
+    let mut chosen = catalogue::of(profile).to_vec();
     chosen.shuffle(&mut generator("audit", args.seed, 0));
-    chosen.truncate((args.sample * ALL.len() as f64).ceil() as usize);
+    chosen.truncate((args.sample * chosen.len() as f64).ceil() as usize);
     let progress = work::progress();
     let differ = work::on_threads(args.threads, || {
         let mut differ = Vec::new();

@@ -18,10 +18,11 @@ pub struct Args {
     folders: Vec<PathBuf>,
     /// Sample sizes.
     #[arg(long, default_value = "full")]
-    profile: work::ProfileName,
-    /// Folder in which results of long runs are kept.
-    #[arg(long, value_name = "DIR", default_value = "target/results")]
-    results: PathBuf,
+    profile: work::AnyProfile,
+    /// Folder in which results of long runs are kept; without it target/results, and benches/deep for
+    /// the deep profile.
+    #[arg(long, value_name = "DIR")]
+    results: Option<PathBuf>,
     /// Number of threads; all cores without it. It changes no bit of the result.
     #[arg(long, value_name = "K", allow_hyphen_values = true)]
     threads: Option<usize>,
@@ -30,10 +31,11 @@ pub struct Args {
 /// Runs the verb.
 pub fn run(args: Args) -> Result<(), Failure> {
     let profile = Profile::from(args.profile);
-    let results = Store::open(&args.results)?;
+    let folder = work::results(args.results, profile);
+    let results = Store::open(&folder)?;
     let plan = Plan::new(profile);
     let progress = work::progress();
     work::on_threads(args.threads, || Ok(plan.merge(&args.folders, &results, &progress)?))?;
-    let (number, out) = (plan.tasks.len(), args.results.display());
+    let (number, out) = (plan.tasks.len(), folder.display());
     stdout::print(&format!("{out}: results of {number} units of work\n"))
 }

@@ -32,8 +32,8 @@ pub struct Args {
     sources: Sources,
 }
 
-/// What becomes of every number of the report; saved like a result, and taken from there if nothing
-/// that it follows from has changed.
+/// What becomes of every number of the report; saved like a result, in the folder `derived` among them,
+/// and taken from there if nothing that it follows from has changed.
 ///
 /// # Errors
 /// Exit codes 2 and 130.
@@ -45,7 +45,7 @@ pub fn found(
 ) -> Result<Mutations, Failure> {
     let identity = Identity::new("mutations", mutate::MODULE, &subject.digests());
     let run = || all(subject, &|_| true, progress);
-    let store = Store::open(&sources.results)?;
+    let store = Store::open(&sources.results)?.derived();
     match store.get(&identity, profile, &Progress::silent(), run) {
         // A folder that cannot be written is no reason to fail.
         Err(Error::Store { .. }) => Ok(run()?),

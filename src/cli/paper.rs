@@ -78,7 +78,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
 /// Where a profile writes unless told otherwise.
 fn default_folder(profile: Profile) -> PathBuf {
     match profile {
-        Profile::Full => "paper".into(),
+        Profile::Full | Profile::Deep => "paper".into(),
         Profile::Ci => "target/paper-ci".into(),
         Profile::Quick => "target/paper-quick".into(),
     }

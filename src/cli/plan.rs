@@ -21,7 +21,7 @@ use std::path::PathBuf;
 pub struct Args {
     /// Sample sizes.
     #[arg(long, default_value = "full")]
-    profile: work::ProfileName,
+    profile: work::AnyProfile,
     /// Say to which of N shards each unit belongs.
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     shards: Option<usize>,

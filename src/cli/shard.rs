@@ -17,7 +17,7 @@ pub struct Args {
     shard: (usize, usize),
     /// Sample sizes.
     #[arg(long, default_value = "full")]
-    profile: work::ProfileName,
+    profile: work::AnyProfile,
     /// Folder for what the units give, one file each; it is made when missing. Shards may share it.
     #[arg(long, value_name = "DIR")]
     out: PathBuf,

@@ -1,9 +1,10 @@
 //! `impact-paper status`.
 
 use super::{Failure, stdout, work};
-use impact_paper::experiments::Store;
-use impact_paper::experiments::catalogue::{ALL, Saved};
+use impact_paper::experiments::catalogue::{self, Saved};
+use impact_paper::experiments::deep::{self, Verdict};
 use impact_paper::experiments::store::{Reason, told};
+use impact_paper::experiments::{Need, Store};
 use impact_paper::params::Profile;
 use serde::Serialize;
 use std::path::PathBuf;
@@ -12,14 +13,18 @@ use std::path::PathBuf;
 ///
 /// A result is fresh if it was saved whole, with the same parameters, by the same code, and with the
 /// same versions of all crates. Ends with exit code 3 if any is not.
+///
+/// What the deep profile gave is committed, and carried over changes of code and crates: every other
+/// profile runs a sample of it again, and only if that fails is it stale.
 #[derive(clap::Args)]
 pub struct Args {
     /// Sample sizes.
     #[arg(long, default_value = "full")]
-    profile: work::ProfileName,
-    /// Folder in which results of long runs are kept.
-    #[arg(long, value_name = "DIR", default_value = "target/results")]
-    results: PathBuf,
+    profile: work::AnyProfile,
+    /// Folder in which results of long runs are kept; without it target/results, and benches/deep for
+    /// the deep profile.
+    #[arg(long, value_name = "DIR")]
+    results: Option<PathBuf>,
     /// As JSON: one boolean for each reason, and the files that changed.
     #[arg(long)]
     json: bool,
@@ -30,6 +35,10 @@ pub struct Args {
 struct Line {
     experiment: &'static str,
     fresh: bool,
+    /// Made by another program, and good as long as its audit finds no fault.
+    carried: bool,
+    /// Its audit failed.
+    failed: bool,
     missing: bool,
     parameters: bool,
     code: bool,
@@ -41,7 +50,7 @@ struct Line {
 }
 
 impl Line {
-    fn of(experiment: &dyn Saved, reasons: &[Reason]) -> Line {
+    fn of(experiment: &dyn Saved, reasons: &[Reason], carried: bool) -> Line {
         let has = |test: fn(&Reason) -> bool| reasons.iter().any(test);
         let changed = |reason: &Reason| match reason {
             Reason::Code(files) => files.clone(),
@@ -50,6 +59,8 @@ impl Line {
         Line {
             experiment: experiment.need().name(),
             fresh: reasons.is_empty(),
+            carried,
+            failed: has(|reason| *reason == Reason::Failed),
             missing: has(|reason| *reason == Reason::Missing),
             parameters: has(|reason| matches!(reason, Reason::Parameters | Reason::Unit)),
             code: has(|reason| matches!(reason, Reason::Code(_))),
@@ -64,31 +75,68 @@ impl Line {
 /// Runs the verb.
 pub fn run(args: Args) -> Result<(), Failure> {
     let profile = Profile::from(args.profile);
-    let store = Store::open(&args.results)?;
-    let found: Vec<(&dyn Saved, Vec<Reason>)> =
-        ALL.iter().map(|experiment| (*experiment, experiment.stale(profile, &store))).collect();
+    let store = Store::open(&work::results(args.results, profile))?;
+    let found: Vec<Found> =
+        catalogue::of(profile).iter().map(|one| Found::look(*one, profile, &store)).collect();
+    let stale = found.iter().filter(|one| one.is_stale()).count();
     let text = if args.json {
         let lines: Vec<Line> =
-            found.iter().map(|(experiment, reasons)| Line::of(*experiment, reasons)).collect();
-        let all = lines.iter().all(|line| line.fresh);
+            found.iter().map(|one| Line::of(one.experiment, &one.reasons, one.carried)).collect();
         let json = serde_json::json!({
-            "profile": profile.name(), "fresh": all, "experiments": lines,
+            "profile": profile.name(), "fresh": stale == 0, "experiments": lines,
         });
         format!("{json:#}\n")
     } else {
-        let line = |(experiment, reasons): &(&dyn Saved, Vec<Reason>)| {
-            let state = if reasons.is_empty() { "fresh".into() } else { told(reasons) };
-            format!("{:12} {state}\n", experiment.need().name())
-        };
+        let line = |one: &Found| format!("{:13} {}\n", one.experiment.need().name(), one.told());
         found.iter().map(line).collect()
     };
     stdout::print(&text)?;
-    let stale = found.iter().filter(|(_, reasons)| !reasons.is_empty()).count();
     if stale == 0 {
         return Ok(());
     }
-    let (name, all) = (profile.name(), found.len());
-    Err(Failure::stale(format!(
-        "{stale} of {all} results are stale; `impact-paper paper --profile {name}` runs them"
-    )))
+    let remedy = match profile {
+        Profile::Deep => deep::REMEDY.into(),
+        _ => format!("`impact-paper paper --profile {}` runs them", profile.name()),
+    };
+    Err(Failure::stale(format!("{stale} of {} results are stale; {remedy}", found.len())))
+}
+
+/// What was found of one experiment.
+struct Found {
+    experiment: &'static dyn Saved,
+    /// Why its result is not what this program would save.
+    reasons: Vec<Reason>,
+    /// Whether it is used all the same.
+    carried: bool,
+}
+
+impl Found {
+    fn look(experiment: &'static dyn Saved, profile: Profile, store: &Store) -> Found {
+        let mut reasons = experiment.stale(profile, store);
+        let audit = match experiment.need() {
+            Need::LongProtocol => catalogue::LONG_AUDIT.saved(profile, store),
+            _ => None,
+        };
+        if audit.is_some_and(|audit| audit.verdict == Verdict::Failed) {
+            reasons.push(Reason::Failed);
+        }
+        let carried = profile == Profile::Deep
+            && !reasons.is_empty()
+            && reasons.iter().all(Reason::is_of_source);
+        Found { experiment, reasons, carried }
+    }
+
+    fn is_stale(&self) -> bool {
+        !self.reasons.is_empty() && !self.carried
+    }
+
+    fn told(&self) -> String {
+        match self.reasons.as_slice() {
+            [] => "fresh".into(),
+            reasons if self.carried => {
+                format!("carried over ({}); other profiles audit it", told(reasons))
+            }
+            reasons => told(reasons),
+        }
+    }
 }

@@ -3,6 +3,7 @@
 use super::Failure;
 use impact_paper::experiments::{Error, Progress};
 use impact_paper::params::Profile;
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -15,6 +16,39 @@ pub enum ProfileName {
     Ci,
     /// The committed report: minutes.
     Full,
+}
+
+/// Sample sizes, and what takes longer than any report may.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum AnyProfile {
+    /// To try out: seconds.
+    Quick,
+    /// For pull requests: half a minute.
+    Ci,
+    /// The committed report: minutes.
+    Full,
+    /// What is run now and then, committed, and carried over: a quarter of an hour.
+    Deep,
+}
+
+/// Where results of a profile are kept unless a folder is given: beside the source what is committed,
+/// under target what is not.
+pub fn results(given: Option<PathBuf>, profile: Profile) -> PathBuf {
+    given.unwrap_or_else(|| match profile {
+        Profile::Deep => "benches/deep".into(),
+        _ => "target/results".into(),
+    })
+}
+
+impl From<AnyProfile> for Profile {
+    fn from(name: AnyProfile) -> Self {
+        match name {
+            AnyProfile::Quick => Profile::Quick,
+            AnyProfile::Ci => Profile::Ci,
+            AnyProfile::Full => Profile::Full,
+            AnyProfile::Deep => Profile::Deep,
+        }
+    }
 }
 
 impl From<ProfileName> for Profile {

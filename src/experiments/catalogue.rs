@@ -3,16 +3,16 @@
 use super::Need;
 use super::accuracy::{analytic, bias, race, scale, trials};
 use super::experiment::How::{Cut, Whole};
-use super::{horizon, protocol, spacetime, starts, sweep, tally, two_masses, weights};
+use super::{deep, horizon, protocol, spacetime, starts, sweep, tally, two_masses, weights};
 use crate::params::{
-    AnalyticParams, BiasParams, HorizonParams, ProtocolParams, RaceParams, ScaleParams,
+    AnalyticParams, BiasParams, HorizonParams, Profile, ProtocolParams, RaceParams, ScaleParams,
     SpaceTimeParams, StartsParams, SweepParams, TrialParams, TwoMassesParams,
 };
 
 pub use super::experiment::{Experiment, Saved};
 
 /// The experiments that are saved, in the order in which they run.
-pub const ALL: [&dyn Saved; 12] = [
+const ALL: [&dyn Saved; 13] = [
     &SWEEP,
     &SECOND_SEED,
     &PROTOCOL,
@@ -25,7 +25,16 @@ pub const ALL: [&dyn Saved; 12] = [
     &TRIALS,
     &SCALE,
     &ANALYTIC,
+    &LONG_AUDIT,
 ];
+
+/// The experiments of a profile: the deep one has those that take long, all others have the rest.
+pub fn of(profile: Profile) -> &'static [&'static dyn Saved] {
+    match profile {
+        Profile::Deep => &[&LONG_PROTOCOL],
+        _ => &ALL,
+    }
+}
 
 /// The main sweep of Sec. 2.
 pub const SWEEP: Experiment<SweepParams, sweep::Sweep, tally::Tally> = Experiment {
@@ -131,4 +140,20 @@ pub const ANALYTIC: Experiment<AnalyticParams, analytic::Analytic> = Experiment 
     module: "src/experiments/accuracy/analytic.rs",
     parameters: AnalyticParams::new,
     how: Whole { run: analytic::run, weight: |p| 3 * p.sizes.iter().sum::<usize>() as u64 / 2 },
+};
+
+/// The long end of the map over transients and windows.
+pub const LONG_PROTOCOL: Experiment<ProtocolParams, deep::LongMap, protocol::Part> = Experiment {
+    need: Need::LongProtocol,
+    module: "src/experiments/deep.rs",
+    parameters: ProtocolParams::long,
+    how: Cut("long protocol map", deep::CUTTING),
+};
+
+/// A sample of the committed long map, run again.
+pub const LONG_AUDIT: Experiment<deep::AuditParams, deep::Audit> = Experiment {
+    need: Need::LongProtocol,
+    module: "src/experiments/deep.rs",
+    parameters: deep::AuditParams::of_committed,
+    how: Whole { run: deep::audit, weight: deep::AuditParams::weight },
 };

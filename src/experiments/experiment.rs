@@ -47,6 +47,12 @@ impl<P: Serialize + Sync, T: Json, U: Json> Experiment<P, T, U> {
         store.get(&identity, profile, progress, || self.run(&parameters, progress))
     }
 
+    /// The saved result, if it is fresh.
+    pub fn saved(&self, profile: Profile, store: &Store) -> Option<T> {
+        let text = store.look(&Saved::identity(self, profile), profile).ok()?;
+        serde_json::from_str(&text).ok()
+    }
+
     fn made_of(&self, parameters: &P) -> Identity {
         Identity::new(self.need.name(), self.module, parameters)
     }

@@ -3,6 +3,7 @@
 pub mod accuracy;
 pub mod catalogue;
 pub mod cutting;
+pub mod deep;
 pub mod error;
 pub mod experiment;
 pub mod horizon;

@@ -102,18 +102,18 @@ pub fn run(parameters: &ProtocolParams, progress: &Progress) -> Result<ProtocolM
 }
 
 /// When runs end at a σ.
-fn until(parameters: &ProtocolParams, sigma: f64) -> f64 {
+pub(super) fn until(parameters: &ProtocolParams, sigma: f64) -> f64 {
     let longest = |times: &[f64]| times.last().copied().unwrap_or(0.0);
     let full = longest(&parameters.transients) + longest(&parameters.windows);
     if sigma > parameters.short_above { full.min(parameters.short_until) } else { full }
 }
 
 /// Number of pairs of a transient and a window.
-fn cells(parameters: &ProtocolParams) -> usize {
+pub(super) fn cells(parameters: &ProtocolParams) -> usize {
     parameters.transients.len() * parameters.windows.len()
 }
 
-fn rows(parameters: &ProtocolParams) -> Vec<Row> {
+pub(super) fn rows(parameters: &ProtocolParams) -> Vec<Row> {
     let row = |&sigma: &f64| Row {
         covers: format!("sigma = {sigma}"),
         realisations: parameters.realisations,
@@ -122,7 +122,7 @@ fn rows(parameters: &ProtocolParams) -> Vec<Row> {
     parameters.sigmas.iter().map(row).collect()
 }
 
-fn part(
+pub(super) fn part(
     parameters: &ProtocolParams,
     unit: &Unit,
     stage: &Stage,
@@ -143,7 +143,7 @@ fn part(
         .collect()
 }
 
-fn fits(parameters: &ProtocolParams, unit: &Unit, runs: &Part) -> bool {
+pub(super) fn fits(parameters: &ProtocolParams, unit: &Unit, runs: &Part) -> bool {
     let (cells, gaps) = (cells(parameters), parameters.chain.gaps());
     let fits = |counts: &Counts| {
         counts.len() == cells && counts.iter().flatten().all(|&k| k as usize <= gaps)
@@ -151,7 +151,7 @@ fn fits(parameters: &ProtocolParams, unit: &Unit, runs: &Part) -> bool {
     runs.len() == unit.realisations.len() && runs.iter().flatten().all(fits)
 }
 
-fn join(
+pub(super) fn join(
     parameters: &ProtocolParams,
     parts: Vec<Vec<Part>>,
     progress: &Progress,
@@ -195,7 +195,7 @@ fn prints_as_published(sigma: f64) -> bool {
 }
 
 /// One long run; none if the engine gave up.
-fn realisation(
+pub(super) fn realisation(
     parameters: &ProtocolParams,
     sigma: f64,
     index: u64,

@@ -3,7 +3,8 @@
 use super::accuracy::{analytic, bias, race, scale, trials};
 use super::{Error, Measured};
 use super::{
-    horizon, identities, laws, protocol, segments, spacetime, starts, sweep, theory, two_masses,
+    deep, horizon, identities, laws, protocol, segments, spacetime, starts, sweep, theory,
+    two_masses,
 };
 use crate::params::{Profile, VERTICES};
 use std::sync::LazyLock;
@@ -42,11 +43,13 @@ pub enum Need {
     Analytic,
     /// [`Results::measured`]: read, not run.
     Measured,
+    /// [`Results::long_protocol`]: read; a sample of it is run again.
+    LongProtocol,
 }
 
 impl Need {
     /// Everything: what the report needs.
-    pub const ALL: [Need; 15] = [
+    pub const ALL: [Need; 16] = [
         Need::Sweep,
         Need::SecondSeed,
         Need::Protocol,
@@ -62,6 +65,7 @@ impl Need {
         Need::Scale,
         Need::Analytic,
         Need::Measured,
+        Need::LongProtocol,
     ];
 
     /// The name of the experiment, as values carry it.
@@ -82,6 +86,7 @@ impl Need {
             Need::Analytic => "analytic",
             Need::Measured => "measured",
             Need::SpaceTime => "space-time",
+            Need::LongProtocol => "long_protocol",
         }
     }
 }
@@ -125,6 +130,8 @@ pub struct Results {
     pub analytic: Option<analytic::Analytic>,
     /// Times that were measured once.
     pub measured: Option<Measured>,
+    /// The long end of the map, carried over.
+    pub long_protocol: Option<deep::Carried>,
 }
 
 macro_rules! asked_for {
@@ -174,6 +181,8 @@ asked_for! {
     analytic: analytic::Analytic, Analytic;
     /// The measured times.
     measured: Measured, Measured;
+    /// The long end of the map.
+    long_protocol: deep::Carried, LongProtocol;
 }
 
 impl Results {
@@ -208,6 +217,7 @@ impl Results {
             scale: None,
             analytic: None,
             measured: None,
+            long_protocol: None,
         }
     }
 }

@@ -1,7 +1,8 @@
 //! Runs what is needed, and nothing else; long runs are taken from the store.
 
+use super::catalogue::{self, Saved as _};
 use super::{Error, Measured, Need, Progress, Results, Store};
-use super::{catalogue, laws, segments};
+use super::{deep, laws, segments};
 use crate::params::Profile;
 
 /// Runs the experiments behind `needs` with the sample sizes of a profile. `scenarios` gives the
@@ -46,6 +47,11 @@ pub fn run(
         two_masses: TWO_MASSES, spacetime: SPACE_TIME, race: RACE, biases: BIAS, trials: TRIALS,
         scale: SCALE, analytic: ANALYTIC
     );
+    if needs(Need::LongProtocol) {
+        let audit = catalogue::LONG_AUDIT.get(profile, store, progress)?;
+        let now = catalogue::LONG_PROTOCOL.identity(Profile::Deep);
+        results.long_protocol = Some(deep::carried(audit, &now)?);
+    }
     progress.check()?;
     Ok(results)
 }

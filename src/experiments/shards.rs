@@ -1,6 +1,6 @@
 //! The work of a profile as a list of units, shared out to machines and joined again.
 
-use super::catalogue::{ALL, Saved};
+use super::catalogue::{self, Saved};
 use super::cutting::Unit;
 use super::store::{Identity, Reason, Store, told};
 use super::{Error, Progress};
@@ -45,7 +45,7 @@ pub struct Ran {
 impl Plan {
     /// The plan of a profile.
     pub fn new(profile: Profile) -> Self {
-        let tasks = ALL.iter().flat_map(|&experiment| {
+        let tasks = catalogue::of(profile).iter().flat_map(|&experiment| {
             let whole = experiment.identity(profile);
             experiment.units(profile).into_iter().enumerate().map(move |(number, unit)| {
                 let identity = whole.of_unit(number, &unit);

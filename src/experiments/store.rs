@@ -94,7 +94,7 @@ impl Identity {
     }
 
     /// Why a result that was made of `saved` is not the one that would be made of this.
-    fn reasons(&self, saved: &Identity) -> Vec<Reason> {
+    pub(super) fn reasons(&self, saved: &Identity) -> Vec<Reason> {
         let mut reasons = Vec::new();
         if saved.schema != self.schema || saved.experiment != self.experiment {
             return vec![Reason::Schema];
@@ -136,6 +136,8 @@ pub enum Reason {
     Schema,
     /// It cannot be trusted, and why.
     Damaged(String),
+    /// An audit of a committed result found another than was saved.
+    Failed,
 }
 
 impl std::fmt::Display for Reason {
@@ -152,7 +154,15 @@ impl std::fmt::Display for Reason {
             Reason::Dependency => f.write_str("Cargo.lock changed"),
             Reason::Schema => f.write_str("saved in another form"),
             Reason::Damaged(what) => f.write_str(what),
+            Reason::Failed => f.write_str("a sample of it, run again, gave another result"),
         }
+    }
+}
+
+impl Reason {
+    /// Whether only the program is another: what was saved may be what it would give.
+    pub fn is_of_source(&self) -> bool {
+        matches!(self, Reason::Code(_) | Reason::Dependency)
     }
 }
 
@@ -184,6 +194,11 @@ impl Store {
             }
             _ => Ok(Store { folder: Some(folder.into()) }),
         }
+    }
+
+    /// A store inside this one, for what is computed from results alone.
+    pub fn derived(&self) -> Self {
+        Store { folder: self.folder.as_ref().map(|folder| folder.join("derived")) }
     }
 
     /// A store that keeps nothing.
@@ -277,6 +292,19 @@ fn read(path: &Path, identity: &Identity) -> Result<String, Vec<Reason>> {
         Err(error) if error.kind() == ErrorKind::NotFound => return Err(vec![Reason::Missing]),
         Err(error) => return Err(damaged(&format!("the saved result cannot be read: {error}"))),
     };
+    let (saved, body) = parsed(&text)?;
+    match identity.reasons(&saved) {
+        reasons if reasons.is_empty() => Ok(body.into()),
+        reasons => Err(reasons),
+    }
+}
+
+/// What a saved result was made of, and the result, as text.
+///
+/// # Errors
+/// Why the text is none that was saved whole.
+pub fn parsed(text: &str) -> Result<(Identity, &str), Vec<Reason>> {
+    let damaged = |what: &str| vec![Reason::Damaged(what.into())];
     let mut lines = text.split('\n');
     let (Some(checksum), Some(found), Some(body), Some(""), None) =
         (lines.next(), lines.next(), lines.next(), lines.next(), lines.next())
@@ -286,11 +314,8 @@ fn read(path: &Path, identity: &Identity) -> Result<String, Vec<Reason>> {
     if checksum != digest(&[found, body]) {
         return Err(damaged("the saved result was damaged or edited: its checksum is wrong"));
     }
-    let saved: Identity = serde_json::from_str(found).map_err(|_| vec![Reason::Schema])?;
-    match identity.reasons(&saved) {
-        reasons if reasons.is_empty() => Ok(body.into()),
-        reasons => Err(reasons),
-    }
+    let saved = serde_json::from_str(found).map_err(|_| vec![Reason::Schema])?;
+    Ok((saved, body))
 }
 
 /// A result as text that reads back to the same bits.

@@ -155,7 +155,7 @@ pub fn palette() -> impl Iterator<Item = (&'static str, String)> {
 /// [`Error::Number`] if there is none, [`Error::Experiment`] without the results that it needs.
 pub fn draw(number: Number, results: &Results) -> Result<Figure, Error> {
     let note = match results.profile {
-        Profile::Full => None,
+        Profile::Full | Profile::Deep => None,
         Profile::Ci => Some("profile ci: not for citation"),
         Profile::Quick => Some("profile quick: not for citation"),
     };

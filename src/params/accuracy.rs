@@ -83,7 +83,7 @@ impl AnalyticParams {
     /// The sizes of each profile.
     pub fn new(profile: Profile) -> Self {
         let (per_decade, sizes): (u32, &[usize]) = match profile {
-            Profile::Full => {
+            Profile::Full | Profile::Deep => {
                 (16, &[10, 20, 50, 100, 170, 171, 300, 1000, 10_000, 100_000, 1_000_000])
             }
             Profile::Ci => (8, &[10, 20, 50, 100, 170, 171, 300, 1000, 10_000, 100_000]),
@@ -150,7 +150,7 @@ impl RaceParams {
             (Penalty, &[1e-1, 1e-2, 1e-3, 1e-4]),
         ]);
         let (until, at_least, chains, segments, settings) = match profile {
-            Profile::Full => (250.0, 20.0, 12, 1200, whole),
+            Profile::Full | Profile::Deep => (250.0, 20.0, 12, 1200, whole),
             Profile::Ci => (250.0, 10.0, 3, 120, whole),
             Profile::Quick => (30.0, 10.0, 2, 12, quick),
         };
@@ -161,7 +161,7 @@ impl RaceParams {
             sigma: 0.3,
             until: 300.0,
             realisations: match profile {
-                Profile::Full => 60,
+                Profile::Full | Profile::Deep => 60,
                 Profile::Ci => 20,
                 Profile::Quick => 6,
             },
@@ -214,7 +214,7 @@ impl BiasParams {
             Profile::Ci => {
                 (vec![(0.12, Protocol::default()), (0.15, short), (0.3, short)], coarse(12))
             }
-            Profile::Full => {
+            Profile::Full | Profile::Deep => {
                 let mut list = coarse(64);
                 for (method, value, n) in [
                     (Verlet, 0.01, 10),
@@ -259,9 +259,9 @@ impl TrialParams {
                 (Verlet, &[1e-3]),
                 (Penalty, &[1e-3]),
             ]),
-            short: profile != Profile::Full,
+            short: profile < Profile::Full,
             clusters: match profile {
-                Profile::Full => vec![3, 5],
+                Profile::Full | Profile::Deep => vec![3, 5],
                 Profile::Ci => vec![3],
                 Profile::Quick => Vec::new(),
             },
@@ -291,7 +291,9 @@ impl ScaleParams {
     pub fn new(profile: Profile) -> Self {
         use MethodName::{Certified, MoreauJean, RungeKutta, Sampled, Verlet};
         let (masses, largest, rivals) = match profile {
-            Profile::Full => (vec![10, 30, 100, 300, 1000, 10_000, 100_000], 100_000, 300),
+            Profile::Full | Profile::Deep => {
+                (vec![10, 30, 100, 300, 1000, 10_000, 100_000], 100_000, 300)
+            }
             Profile::Ci => (vec![10, 30, 100, 300, 1000, 10_000], 10_000, 100),
             Profile::Quick => (vec![10, 30, 100, 1000], 1000, 30),
         };

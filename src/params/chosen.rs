@@ -125,11 +125,13 @@ pub enum Profile {
     Ci,
     /// The committed report.
     Full,
+    /// What takes long: run now and then, committed, and carried over.
+    Deep,
 }
 
 impl Profile {
     /// All of them, rising.
-    pub const ALL: [Profile; 3] = [Profile::Quick, Profile::Ci, Profile::Full];
+    pub const ALL: [Profile; 4] = [Profile::Quick, Profile::Ci, Profile::Full, Profile::Deep];
 
     /// Its name on the command line, in reports and in names of files.
     pub fn name(self) -> &'static str {
@@ -137,6 +139,7 @@ impl Profile {
             Profile::Quick => "quick",
             Profile::Ci => "ci",
             Profile::Full => "full",
+            Profile::Deep => "deep",
         }
     }
 }

@@ -43,7 +43,7 @@ impl SweepParams {
     /// The main sweep of Sec. 2 (Figs. 2, 3, 12 and 15).
     pub fn main(profile: Profile) -> Self {
         let (sigmas, realisations) = match profile {
-            Profile::Full => (
+            Profile::Full | Profile::Deep => (
                 // 69 values, 0.0025 apart where the rise is.
                 Grid::default()
                     .and(4, 15, 1, 200)
@@ -75,7 +75,7 @@ impl SweepParams {
     /// The headline numbers again, with another seed and fewer realisations on the rise only.
     pub fn second_seed(profile: Profile) -> Self {
         let (sigmas, realisations) = match profile {
-            Profile::Full => (Grid::default().and(34, 64, 1, 400).values(), 400),
+            Profile::Full | Profile::Deep => (Grid::default().and(34, 64, 1, 400).values(), 400),
             Profile::Ci => (Grid::default().and(8, 16, 1, 100).values(), 30),
             Profile::Quick => (Grid::default().and(8, 16, 1, 100).values(), 8),
         };
@@ -108,10 +108,26 @@ pub struct ProtocolParams {
 }
 
 impl ProtocolParams {
+    /// The long end of the map: the only experiment of the deep profile, and the same in every other.
+    pub fn long(_: Profile) -> Self {
+        ProtocolParams {
+            transients: vec![1e3, 4e3, 1e4, 2e4, 5e4, 1e5],
+            windows: vec![500.0, 2000.0],
+            // 23 values.
+            sigmas: Grid::default().and(26, 48, 1, 400).values(),
+            // None is shortened.
+            short_above: 1.0,
+            short_until: 1e6,
+            realisations: 200,
+            stream: "long-protocol".into(),
+            ..Self::new(Profile::Deep)
+        }
+    }
+
     /// The map of each profile.
     pub fn new(profile: Profile) -> Self {
         let (longest, sigmas, realisations) = match profile {
-            Profile::Full => (7, Grid::default().and(34, 68, 2, 400).values(), 120),
+            Profile::Full | Profile::Deep => (7, Grid::default().and(34, 68, 2, 400).values(), 120),
             Profile::Ci => (5, Grid::default().and(9, 17, 1, 100).values(), 24),
             Profile::Quick => (4, Grid::default().and(9, 17, 1, 100).values(), 6),
         };
@@ -160,7 +176,7 @@ impl StartsParams {
     /// The variants of each profile.
     pub fn new(profile: Profile) -> Self {
         let (step, realisations) = match profile {
-            Profile::Full => (1, 100),
+            Profile::Full | Profile::Deep => (1, 100),
             Profile::Ci => (2, 16),
             Profile::Quick => (2, 4),
         };
@@ -179,7 +195,7 @@ impl StartsParams {
             variant("random", &near, |c| c.start = Start::Random),
             variant("ring", &near, |c| c.boundary = Boundary::Ring),
         ];
-        if profile == Profile::Full {
+        if profile >= Profile::Full {
             variants.extend([
                 variant("restitution-0.6", &wide, |c| c.restitution = 0.6),
                 variant("restitution-0.9", &low, |c| c.restitution = 0.9),
@@ -222,7 +238,7 @@ impl HorizonParams {
             sigma: 0.2,
             until: 500.0,
             realisations: match profile {
-                Profile::Full => 100,
+                Profile::Full | Profile::Deep => 100,
                 Profile::Ci => 30,
                 Profile::Quick => 10,
             },
@@ -255,11 +271,11 @@ impl TwoMassesParams {
         TwoMassesParams {
             chain: Chain { masses: 2, ..Chain::default() },
             times: match profile {
-                Profile::Full => vec![1e2, 1e3, 1e4],
+                Profile::Full | Profile::Deep => vec![1e2, 1e3, 1e4],
                 _ => vec![1e2, 1e3],
             },
             directions: match profile {
-                Profile::Full => 40,
+                Profile::Full | Profile::Deep => 40,
                 Profile::Ci => 20,
                 Profile::Quick => 10,
             },

@@ -26,7 +26,7 @@ impl SpaceTimeParams {
     /// The run of each profile.
     pub fn new(profile: Profile) -> Self {
         let until = match profile {
-            Profile::Full => 4000.0,
+            Profile::Full | Profile::Deep => 4000.0,
             Profile::Ci => 1000.0,
             Profile::Quick => 400.0,
         };

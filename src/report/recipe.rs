@@ -35,6 +35,7 @@ pub fn recipe(name: &str, profile: Profile) -> Option<Recipe> {
         "space-time" => ("space-time", "experiments::spacetime::run"),
         "segments" => ("segments", "experiments::segments::run"),
         "measured" => ("measured", "experiments::measured"),
+        "long_protocol" => ("long_protocol", "experiments::deep::audit"),
         "theory" => ("theory", "experiments::theory::run"),
         _ => return None,
     };
@@ -42,7 +43,7 @@ pub fn recipe(name: &str, profile: Profile) -> Option<Recipe> {
         "theory" => serde_json::json!({"N": VERTICES}),
         // Read from the impacts of the sweep.
         "laws" => catalogue::SWEEP.identity(profile).parameters,
-        _ => catalogue::ALL
+        _ => catalogue::of(profile)
             .iter()
             .find(|experiment| experiment.need().name() == name)
             .map_or(Json::Null, |experiment| experiment.identity(profile).parameters),

@@ -125,13 +125,16 @@ fn read(root: &Path, path: &str) -> Result<Vec<u8>, Failure> {
 fn fresh(results: &Path, profile: Profile) -> Result<Vec<String>, Failure> {
     let store = Store::open(results)?;
     let stale = |experiment: &&&dyn catalogue::Saved| !experiment.stale(profile, &store).is_empty();
-    let stale: Vec<&str> =
-        catalogue::ALL.iter().filter(stale).map(|experiment| experiment.need().name()).collect();
+    let stale: Vec<&str> = catalogue::of(profile)
+        .iter()
+        .filter(stale)
+        .map(|experiment| experiment.need().name())
+        .collect();
     if stale.is_empty() {
         let name = |experiment: &&dyn catalogue::Saved| {
             format!("{}.json", experiment.identity(profile).file_stem(profile))
         };
-        return Ok(catalogue::ALL.iter().map(name).collect());
+        return Ok(catalogue::of(profile).iter().map(name).collect());
     }
     Err(Failure::stale(format!(
         "--results: {} in {} not fresh; `impact-paper paper --profile {}` makes them, `--without results` packs none",

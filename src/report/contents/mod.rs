@@ -2,12 +2,13 @@
 //!
 //! A value is computed here from results and carries the path of the item that computed it. Groups
 //! are `v` (ours), `paper` (numbers that the paper chose), `printed` (numbers in its statements),
-//! `compare`, `protocol`, `starts` and `bias` (cells of four tables).
+//! `compare`, `protocol`, `long`, `starts` and `bias` (cells of five tables).
 
 mod accuracy;
 mod comparison;
 mod higher;
 mod ledger;
+mod long;
 mod paper;
 mod protocol;
 mod simulation;
@@ -58,13 +59,14 @@ pub fn registry(results: &Results, published: &Published) -> Result<Registry, Er
     registry.extend(starts::values(results)?)?;
     registry.extend(spacetime::values(results)?)?;
     registry.extend(accuracy::values(results)?)?;
+    registry.extend(long::values(results)?)?;
     registry.extend(ledger::values(results))?;
     Ok(registry)
 }
 
 /// The rows of the generated tables, by the name that templates use: `row` (a reference to each
-/// claim with its verdict), `scorecard`, `comparison_table`, `protocol_windows`, `protocol_table`, `protocol_printed`,
-/// `starts_table`, `bias_heads`, `bias_table`, `bias_means`, `scene_heads`, `scene_table` and
+/// claim with its verdict), `scorecard`, `comparison_table`, `protocol_windows`, `protocol_table`,
+/// `protocol_printed`, `long_windows`, `long_table`, `long_verdict`, `starts_table`, `bias_heads`, `bias_table`, `bias_means`, `scene_heads`, `scene_table` and
 /// `target_table`.
 ///
 /// # Errors
@@ -80,6 +82,9 @@ pub fn rows(
         ("protocol_windows", serde_json::to_value(protocol::windows(results)?)?),
         ("protocol_printed", serde_json::to_value(protocol::printed(results)?)?),
         ("protocol_table", serde_json::to_value(protocol::table(results)?)?),
+        ("long_windows", serde_json::to_value(long::windows(results)?)?),
+        ("long_table", serde_json::to_value(long::table(results)?)?),
+        ("long_verdict", serde_json::to_value(long::verdict(results)?)?),
         ("starts_table", serde_json::to_value(starts::table(results)?)?),
         ("bias_heads", serde_json::to_value(accuracy::bias_heads(results)?)?),
         ("bias_table", serde_json::to_value(accuracy::bias_table(results)?)?),

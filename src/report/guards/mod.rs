@@ -11,6 +11,7 @@ mod accuracy;
 mod comparison;
 mod counts;
 mod higher;
+mod long;
 mod model;
 mod motion;
 mod places;
@@ -64,6 +65,7 @@ pub fn all() -> impl Iterator<Item = &'static Guard> {
         places::GUARDS,
         rare::GUARDS,
         protocol::GUARDS,
+        long::GUARDS,
         motion::GUARDS,
         simple::GUARDS,
         relation::GUARDS,

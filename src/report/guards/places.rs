@@ -27,14 +27,14 @@ pub const GUARDS: &[Guard] = &[
     Guard { name: "rise_rows", ids: &["rise_rows", "largest_increase", "gaps"], find: rise_rows },
 ];
 
-/// Between the rows of a curve on both sides of σ, in a straight line.
-fn between(rows: &[SweepRow], sigma: f64, height: impl Fn(&SweepRow) -> f64) -> Option<f64> {
-    let points: Vec<(f64, f64)> = rows
-        .iter()
-        .filter(|row| row.comparable)
-        .map(|row| (row.sigma, height(row)))
-        .filter(|point| point.1.is_finite())
-        .collect();
+/// The points of a curve through those rows that can be compared.
+fn curve(rows: &[SweepRow], height: impl Fn(&SweepRow) -> f64) -> Vec<(f64, f64)> {
+    let rows = rows.iter().filter(|row| row.comparable);
+    rows.map(|row| (row.sigma, height(row))).filter(|point| point.1.is_finite()).collect()
+}
+
+/// Between the points of a curve on both sides of σ, in a straight line.
+pub(super) fn between(points: &[(f64, f64)], sigma: f64) -> Option<f64> {
     let above = points.iter().position(|point| point.0 >= sigma)?;
     let (b, a) = (points[above], points[above.checked_sub(1)?]);
     Some(((b.0 - sigma) * a.1 + (sigma - a.0) * b.1) / (b.0 - a.0))
@@ -61,8 +61,8 @@ fn off_curve(rows: &[SweepRow], rise: &Rise) -> Option<String> {
     let at = |name: &str, place: Option<Estimate>, share: f64, from: Option<usize>| {
         let sigma = place?.value;
         let height = match from {
-            Some(from) => between(rows, sigma, mean(from)),
-            None => between(rows, sigma, kept),
+            Some(from) => between(&curve(rows, mean(from)), sigma),
+            None => between(&curve(rows, kept), sigma),
         };
         match height {
             Some(height) => far(&format!("the height of the curve at the {name}"), height, share),

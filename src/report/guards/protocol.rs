@@ -57,7 +57,7 @@ fn ends(look: Look<'_>) -> Option<String> {
 }
 
 /// Complains unless the values whose ids begin so are the times of the cells.
-fn heads(look: Look<'_>, start: &str, mut times: Vec<f64>) -> Option<String> {
+pub(super) fn heads(look: Look<'_>, start: &str, mut times: Vec<f64>) -> Option<String> {
     let own = |id: &str| id.strip_prefix(start).is_some_and(|rest| !rest.contains('_'));
     let heads = look.values.iter().filter(|value| own(&value.id));
     let mut heads: Vec<f64> = heads.filter_map(|value| look.number(&value.id)).collect();

@@ -1,0 +1,100 @@
+//! Section 11: the long end of the map, which is committed and carried over.
+
+use super::{Error, chosen, estimate, from, mark, share};
+use crate::experiments::Results;
+use crate::experiments::deep::{LongRow, Verdict};
+use crate::report::values::Value;
+use serde::Serialize;
+
+/// One line of the table.
+#[derive(Debug, Serialize)]
+pub struct Line {
+    transient: String,
+    /// Half heights of the mean of the kept, one for each window.
+    kept: Vec<String>,
+    /// The same of the mean of all.
+    all: Vec<String>,
+}
+
+fn cell(mean: &str, transient: f64, window: f64) -> String {
+    format!("long.{mean}_t{}_w{}", transient as u64, window as u64)
+}
+
+pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
+    let long = results.long_protocol()?;
+    let (map, audit) = (&long.map, &long.audit);
+    let parameters = &map.parameters;
+    let head = |letter: &str, time: f64| {
+        Value::integer(format!("long.{letter}{}", time as u64), time as u64)
+    };
+    let mut values: Vec<Value> = parameters.windows.iter().map(|&w| head("w", w)).collect();
+    values.extend(parameters.transients.iter().map(|&t| head("t", t)));
+    let n = parameters.realisations;
+    for c in &map.cells {
+        values.push(estimate(cell("kept", c.transient, c.window), c.half_height, n));
+        values.push(estimate(cell("all", c.transient, c.window), c.half_height_all, n));
+    }
+    let longest = |times: &[f64]| times.last().copied().unwrap_or(0.0);
+    let (t, w) = (longest(&parameters.transients), longest(&parameters.windows));
+    let last = map.cell(t, w).ok_or(Error::Missing("the longest transient"))?;
+    if audit.verdict != Verdict::Identical {
+        values.extend([
+            Value::real("long_distance", audit.distance, 2),
+            Value::real("long_allowed", audit.allowed, 2),
+        ]);
+    }
+    values.extend(seeds(results)?);
+    values.extend([
+        Value::integer("long_realisations", n),
+        Value::integer("long_sigma_count", parameters.sigmas.len()),
+        Value::integer("long_until", t as u64),
+        Value::integer("long_window", w as u64),
+        estimate("long_kept", last.half_height, n),
+        estimate("long_all", last.half_height_all, n),
+        Value::integer("long_audited", audit.realisations),
+        Value::integer("long_identical", audit.identical),
+    ]);
+    Ok(from(values, "experiments::deep::audit", "long_protocol"))
+}
+
+/// Near the σ at which half of the chains have a gap that closes by itself: the share that has
+/// impacts at the longest times, and the share that would if gaps were independent.
+fn seeds(results: &Results) -> Result<[Value; 3], Error> {
+    let (long, found) = (results.long_protocol()?, &results.identities);
+    let near = |row: &LongRow| (row.sigma - found.sigma_kept_half).abs();
+    let row = long.rows.iter().min_by(|a, b| near(a).total_cmp(&near(b)));
+    let row = row.ok_or(Error::Missing("the rows of the long map"))?;
+    let seeded = found.nucleation.iter().find(|other| other.sigma == row.sigma);
+    let seeded = seeded.ok_or(Error::Missing("gaps that close by themselves at such a sigma"))?;
+    let kept = row.kept.last().copied().unwrap_or(0);
+    Ok([
+        chosen("long_seeds_sigma", row.sigma),
+        share("long_seeds_kept", kept, long.map.parameters.realisations),
+        Value::real("long_seeds", seeded.any_rest, 3),
+    ])
+}
+
+/// What an audit of it found, in a word.
+pub fn verdict(results: &Results) -> Result<Verdict, Error> {
+    Ok(results.long_protocol()?.audit.verdict)
+}
+
+/// The heads of the columns.
+pub fn windows(results: &Results) -> Result<Vec<String>, Error> {
+    let windows = &results.long_protocol()?.map.parameters.windows;
+    Ok(windows.iter().map(|w| mark(format!("long.w{}", *w as u64))).collect())
+}
+
+/// The lines of the table.
+pub fn table(results: &Results) -> Result<Vec<Line>, Error> {
+    let parameters = &results.long_protocol()?.map.parameters;
+    let line = |&t: &f64| {
+        let cells = |mean| parameters.windows.iter().map(|&w| mark(cell(mean, t, w))).collect();
+        Line {
+            transient: mark(format!("long.t{}", t as u64)),
+            kept: cells("kept"),
+            all: cells("all"),
+        }
+    };
+    Ok(parameters.transients.iter().map(line).collect())
+}

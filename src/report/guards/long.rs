@@ -1,0 +1,173 @@
+//! The long map that is carried over.
+
+use super::places::between;
+use super::protocol::heads;
+use super::{Guard, Look, far, model, unless};
+use crate::claims;
+use crate::experiments::deep::{LongRow, Verdict};
+use crate::experiments::protocol::ProtocolCell;
+use crate::numerics::statistics::Estimate;
+use std::cmp::Ordering;
+
+pub const GUARDS: &[Guard] = &[
+    Guard {
+        name: "long_map_audited",
+        ids: &["long_audited", "long_identical", "long_sigma_count"],
+        find: audited,
+    },
+    Guard {
+        name: "long_half_heights",
+        ids: &["long.kept_*", "long.all_*", "long_kept", "long_all", "long_realisations"],
+        find: half_heights,
+    },
+    Guard { name: "long_map_meets_map", ids: &["long.kept_*", "long.all_*"], find: meets_map },
+    Guard { name: "long_map_falls", ids: &["long.kept_*", "long.all_*"], find: falls },
+    Guard { name: "long_map_needs_seeds", ids: &["long_seeds*"], find: needs_seeds },
+    Guard {
+        name: "long_map_ends",
+        ids: &["long_kept", "long_all", "long_until", "long_window", "long.t*", "long.w*"],
+        find: ends,
+    },
+];
+
+/// A committed result that this program does not give is stale: run it again.
+fn audited(look: Look<'_>) -> Option<String> {
+    let long = look.results.long_protocol.as_ref()?;
+    let audit = &long.audit;
+    let rows = long.map.parameters.sigmas.len();
+    unless(audit.verdict != Verdict::Failed, || {
+        "the committed long map is stale: run `make deep` and build again".into()
+    })
+    .or_else(|| look.is("long_audited", audit.realisations as f64))
+    .or_else(|| {
+        let all = audit.identical == audit.realisations;
+        let told = all == (audit.verdict == Verdict::Identical);
+        unless(told, || format!("{} of {} identical", audit.identical, audit.realisations))
+    })
+    .or_else(|| look.is("long_sigma_count", rows as f64))
+}
+
+/// The half heights of a cell: of the mean of the kept, and of that of all.
+fn halves(cell: &ProtocolCell) -> [Option<Estimate>; 2] {
+    [cell.half_height, cell.half_height_all]
+}
+
+/// How far two estimates that chance alone separates may lie apart.
+fn room(own: &Estimate, other: &Estimate) -> f64 {
+    claims::level().quantile * (own.error * own.error + other.error * other.error).sqrt()
+}
+
+/// Where both maps have a cell, their half heights agree within the errors of both: they drew
+/// other random numbers.
+fn meets_map(look: Look<'_>) -> Option<String> {
+    let long = &look.results.long_protocol.as_ref()?.map;
+    let map = look.results.protocol.as_ref()?;
+    long.cells.iter().find_map(|cell| {
+        let other = map.cell(cell.transient, cell.window)?;
+        halves(cell).into_iter().zip(halves(other)).find_map(|pair| {
+            let (own, other) = pair.0.zip(pair.1)?;
+            unless((own.value - other.value).abs() <= room(&own, &other), || {
+                format!("half height {} of the long map, {} of the map", own.value, other.value)
+            })
+        })
+    })
+}
+
+/// A longer transient gives impacts more time to spread, and a longer window counts no fewer gaps:
+/// the half height falls with both, but for its error.
+fn falls(look: Look<'_>) -> Option<String> {
+    let map = &look.results.long_protocol.as_ref()?.map;
+    map.cells.iter().flat_map(|early| map.cells.iter().map(move |late| (early, late))).find_map(
+        |(early, late)| {
+            let later = early.transient <= late.transient && early.window <= late.window;
+            halves(early).into_iter().zip(halves(late)).find_map(|pair| {
+                let (before, after) = pair.0.zip(pair.1)?;
+                unless(!later || after.value <= before.value + room(&before, &after), || {
+                    format!("half height {} after {}", after.value, before.value)
+                })
+            })
+        },
+    )
+}
+
+/// At a half height the curve through the means has half its height. Means are sums of whole counts
+/// over the number of realisations, and the mean of the kept is the same sum over fewer.
+fn half_heights(look: Look<'_>) -> Option<String> {
+    let long = look.results.long_protocol.as_ref()?;
+    let (map, gaps) = (&long.map, long.map.parameters.chain.gaps() as f64);
+    let n = map.parameters.realisations as f64;
+    map.cells.iter().enumerate().find_map(|(index, cell)| {
+        let curve = |of: fn(usize, f64) -> f64| -> Vec<(f64, f64)> {
+            let mean = |row: &LongRow| {
+                let sum = row.means.get(index).copied().flatten()? * n;
+                Some((row.sigma, sum / of(*row.kept.get(index)?, n)))
+            };
+            long.rows.iter().filter_map(mean).filter(|point| point.1.is_finite()).collect()
+        };
+        let whole = |point: &(f64, f64)| {
+            let sum = point.1 * n;
+            far("a sum of counts in the long map", sum, sum.round())
+        };
+        let at = |half: Option<Estimate>, points: &[(f64, f64)]| {
+            let half = half?.value;
+            match between(points, half) {
+                Some(height) => far(&format!("the long curve at {half}"), height, 0.5 * gaps),
+                None => Some(format!("the half height {half} lies outside the long curve")),
+            }
+        };
+        let all = curve(|_, n| n);
+        all.iter()
+            .find_map(whole)
+            .or_else(|| at(cell.half_height, &curve(|kept, _| kept as f64)))
+            .or_else(|| at(cell.half_height_all, &all))
+    })
+}
+
+/// A chain has no impacts unless a gap closes by itself, however long the transient: the share of the
+/// chains that have some is nowhere larger than that of those in which one does, but for its error.
+/// The mean over all is at most N times that share, and is half of N no sooner than the share is a half.
+fn needs_seeds(look: Look<'_>) -> Option<String> {
+    let long = look.results.long_protocol.as_ref()?;
+    let (parameters, quantile) = (&long.map.parameters, claims::level().quantile);
+    let n = parameters.realisations as f64;
+    let seeded = |sigma: f64| model::any(model::p_rest(sigma), parameters.chain.gaps() as f64);
+    let shares = long.rows.iter().find_map(|row| {
+        let seeds = seeded(row.sigma);
+        let most = n * seeds + quantile * (n * seeds * (1.0 - seeds)).sqrt();
+        let kept = row.kept.iter().copied().max()?;
+        unless(kept as f64 <= most, || {
+            format!("{kept} chains with impacts at {}, where {most} can have seeds", row.sigma)
+        })
+    });
+    let half = look.number("kept_half_predicted")?;
+    let mut halves = long.map.cells.iter().filter_map(|cell| cell.half_height_all);
+    let sooner = |own: Estimate| {
+        unless(own.value >= half - quantile * own.error, || {
+            format!("half height {} of all, half of which have seeds at {half}", own.value)
+        })
+    };
+    let row = || {
+        let sigma = look.number("long_seeds_sigma")?;
+        let Some(row) = long.rows.iter().find(|row| row.sigma == sigma) else {
+            return Some(format!("no row of the long map at {sigma}"));
+        };
+        look.is("long_seeds_kept", *row.kept.last()? as f64 / n)
+            .or_else(|| look.is("long_seeds", seeded(sigma)))
+    };
+    shares.or_else(|| halves.find_map(sooner)).or_else(row)
+}
+
+/// The heads of the table are the times of its cells, and the text gives the last of them.
+fn ends(look: Look<'_>) -> Option<String> {
+    let map = &look.results.long_protocol.as_ref()?.map;
+    let late = |a: &&ProtocolCell, b: &&ProtocolCell| {
+        (a.transient, a.window).partial_cmp(&(b.transient, b.window)).unwrap_or(Ordering::Equal)
+    };
+    let last = map.cells.iter().max_by(late)?;
+    let times = |pick: fn(&ProtocolCell) -> f64| map.cells.iter().map(pick).collect();
+    heads(look, "long.t", times(|cell| cell.transient))
+        .or_else(|| heads(look, "long.w", times(|cell| cell.window)))
+        .or_else(|| look.are([("long_until", last.transient), ("long_window", last.window)]))
+        .or_else(|| look.is("long_kept", last.half_height?.value))
+        .or_else(|| look.is("long_all", last.half_height_all?.value))
+}
