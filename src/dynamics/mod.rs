@@ -15,6 +15,7 @@ mod growth;
 mod impact;
 mod linear;
 pub mod methods;
+pub mod rounding;
 mod scenario;
 mod simulation;
 mod simultaneous;

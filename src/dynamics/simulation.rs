@@ -67,6 +67,10 @@ const NEARLY_SHUT: f64 = 1e-9;
 /// Overlap, as a fraction of d + R₁ + R₂, beyond which a gap cannot be explained by rounding.
 const ROUNDING: f64 = 1e-12;
 
+/// Below this part of what its positions are made of at t = 0, a gap may be exactly shut: roundings
+/// of amplitudes and sums add up to 5 · 2^-53 (see `rounding`).
+const SHUT: f64 = 4.0 * f64::EPSILON;
+
 /// The simulation of one scenario with `M` components of the forcing.
 #[derive(Clone, Debug)]
 pub(super) struct Simulation<const M: usize> {
@@ -158,7 +162,7 @@ impl<const M: usize> Simulation<M> {
             if frame.f0 < -ROUNDING * frame.size {
                 return Err(Error::Overlap { gap: self.topology.label(k), depth: -frame.f0 });
             }
-            let f0 = if frame.f0 <= 4.0 * f64::EPSILON * frame.size { 0.0 } else { frame.f0 };
+            let f0 = if frame.f0 <= SHUT * self.made_of(k) { 0.0 } else { frame.f0 };
             if f0 == 0.0 && frame.g0 == 0.0 {
                 shut.push(k);
             }
@@ -170,6 +174,15 @@ impl<const M: usize> Simulation<M> {
             self.settle(&phases, &shut, None);
         }
         Ok(())
+    }
+
+    /// d and the parts of both neighbours' positions at t = 0, summed: what rounding follows there.
+    fn made_of(&self, k: usize) -> f64 {
+        let parts = |side: usize| {
+            let motion = &self.motions[side];
+            motion.forced.iter().fold(motion.a.abs(), |sum, [c, _]| sum + c.abs())
+        };
+        self.topology.sides(k).into_iter().fold(self.spacing, |sum, side| sum + parts(side))
     }
 
     /// Runs until time `until`, and hands each impact to `sink` in order; stops early, right

@@ -90,7 +90,7 @@ impl<R: Real> Reference<R> {
     }
 
     /// The masses on both sides of a gap; a wall is none.
-    fn sides(&self, gap: usize) -> [Option<usize>; 2] {
+    pub fn sides(&self, gap: usize) -> [Option<usize>; 2] {
         let n = self.masses.len();
         let right = if self.ring { Some(gap % n) } else { (gap < n).then_some(gap) };
         [gap.checked_sub(1), right]
@@ -114,6 +114,13 @@ impl<R: Real> Reference<R> {
     /// Free and forced amplitudes of a mass, counted from 0.
     pub fn mass(&self, j: usize) -> &[[R; 2]] {
         &self.masses[j]
+    }
+
+    /// d + Q1 + Q2: the amplitudes of both neighbours of a gap, which all its roundings follow.
+    pub fn scale(&self, gap: usize) -> f64 {
+        let sides = self.sides(gap).into_iter().flatten();
+        let lengths = sides.flat_map(|j| &self.masses[j]).map(|[a, b]| a.near().hypot(b.near()));
+        self.spacing.near() + lengths.sum::<f64>()
     }
 
     /// Displacement from equilibrium, and velocity, of each mass at a time of the present flight.

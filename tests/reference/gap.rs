@@ -45,9 +45,14 @@ impl<R: Real> Gap<R> {
         bounds
     }
 
-    /// d + R1 + R2, the scale of rounding errors.
+    /// d + R1 + R2.
     pub fn scale(&self) -> f64 {
         self.spacing.near() + self.bounds()[0]
+    }
+
+    /// ω² R1 + Ω² R2, which bounds |Δ''|.
+    pub fn bend(&self) -> f64 {
+        self.bounds()[1]
     }
 
     /// Whether R1 + R2 < d by a clear margin, so that the gap never closes.
