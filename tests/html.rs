@@ -251,6 +251,33 @@ fn the_scene_is_complete_without_its_script() {
     let places: Vec<f64> =
         rects("masses").iter().map(|r| r.attribute("x").unwrap().parse().unwrap()).collect();
     assert_eq!(places.len(), bodies.len());
+    // Each block stands where its mass is at first, by the scale that the script moves it with.
+    let begin = Engine::new(&scenario).map(|mut engine| {
+        engine.run(from, |_| true).unwrap();
+        let walls = [0.0, (parameters.chain.masses + 1) as f64];
+        [vec![walls[0]], engine.positions(from), vec![walls[1]]].concat()
+    });
+    let begin = begin.unwrap();
+    let (scale, bar) = (number(&data["scale"]), number(&data["bar"]));
+    for (k, x) in places.iter().enumerate() {
+        let expected = 60.0 + 50.0 * k as f64 + scale * (begin[first + k] - first as f64);
+        assert!((x - expected).abs() < 0.051, "block {k}: {x} {expected}");
+    }
+    // A bar for each gap, pale and to its full length, and its number below.
+    let group = scene.descendants().find(|n| n.attribute("class") == Some("counts")).unwrap();
+    let numbers: Vec<usize> = group
+        .children()
+        .filter(|n| n.tag_name().name() == "text")
+        .map(|n| words(n).trim().parse().unwrap())
+        .collect();
+    let counted = |gap| hits.iter().filter(|(_, own)| *own == gap).count();
+    assert_eq!(numbers, (0..bodies.len() - 1).map(counted).collect::<Vec<_>>());
+    let height = |n: &Node<'_, '_>| n.attribute("height").unwrap().parse::<f64>().unwrap();
+    let pale = rects("counts").into_iter().step_by(2).map(|n| height(&n));
+    let heights: Vec<f64> = pale.collect();
+    assert!(heights.iter().zip(&numbers).all(|(h, n)| (h - bar * *n as f64).abs() < 1e-9));
+    let tallest = heights.iter().copied().fold(0.0, f64::max);
+    assert!((tallest - 240.0).abs() < 1e-9, "{tallest}");
     // No block lies on another: the distance of two blocks is their gap.
     assert!(places.windows(2).all(|pair| pair[1] - pair[0] > 49.9), "{places:?}");
 }

@@ -259,8 +259,17 @@ mod tests {
     fn the_run_is_the_first_that_keeps_hitting_and_repeats_exactly() {
         let found = quick();
         assert_eq!(found, quick());
+        // Some seeds have runs that are passed over.
+        let seeded = |seed| {
+            let parameters = SpaceTimeParams { seed, ..SpaceTimeParams::new(Profile::Quick) };
+            run(&parameters, &Progress::silent()).unwrap()
+        };
+        let all: Vec<SpaceTime> = (1..=10).map(seeded).collect();
         let late = found.parameters.until - found.parameters.last;
-        assert!(found.times.last().unwrap() > &late && found.times.is_sorted());
+        for found in &all {
+            assert!(found.times.last().unwrap() > &late && found.times.is_sorted());
+        }
+        let found = all.into_iter().find(|found| found.realisation > 0).expect("one in ten");
         // Those passed over really had no late impact.
         for index in 0..found.realisation {
             let mut normals = NormalPairs::new("space-time", found.parameters.seed, index);

@@ -173,3 +173,57 @@ impl Coefficients {
         [first, a, b, c, d, e, f, g, h]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::numerics::random::NormalPairs;
+
+    /// What every certificate rests on: the polynomial of the coefficients lies below f. The second
+    /// route is f in absolute form, with the platform's sine and cosine.
+    #[test]
+    fn the_polynomial_lies_below_the_function() {
+        const BINOMIALS: [f64; N + 1] = [1.0, 8.0, 28.0, 56.0, 70.0, 56.0, 28.0, 8.0, 1.0];
+        let mut closest = f64::INFINITY;
+        for i in 0..500 {
+            let omegas = [[1.0, std::f64::consts::SQRT_2], [1.3, 0.7], [0.2, 3.0]][i % 3];
+            let frequencies = Frequencies::new(omegas[0], [omegas[1]]);
+            let [w, big_w] = omegas;
+            let mut normals = NormalPairs::new("below", 1, i as u64);
+            let ([alpha, q], [gamma, delta]) = (normals.pair(), normals.pair());
+            let (r1, r2) = (alpha.hypot(q), gamma.hypot(delta));
+            let frame = Frame {
+                f0: 1.0 + alpha + gamma,
+                g0: w * q + big_w * delta,
+                alpha,
+                forced: [[gamma, delta]],
+                bound: w.powi(4) * r1 + big_w.powi(4) * r2,
+                size: 1.0 + r1 + r2,
+            };
+            let f = |s: f64| {
+                let (x, y) = (w * s, big_w * s);
+                1.0 + alpha * x.cos() + q * x.sin() + gamma * y.cos() + delta * y.sin()
+            };
+            let reach = frequencies.reach;
+            for (start, width) in [(0.0, reach), (0.0, 0.5 * reach), (0.5 * reach, 0.5 * reach)] {
+                let piece = Piece::new(start, width, &frequencies);
+                let b = piece.coefficients(&frame).all(f(start));
+                for step in 0..=40 {
+                    let t = f64::from(step) / 40.0;
+                    let polynomial: f64 = (0..=N)
+                        .map(|i| {
+                            b[i] * BINOMIALS[i] * t.powi(i as i32) * (1.0 - t).powi((N - i) as i32)
+                        })
+                        .sum();
+                    let above = (f(start + t * width) - polynomial) / frame.size;
+                    assert!(above > -1e-13, "{i}: {above:e} at {t} of {start} + {width}");
+                    if step == 20 {
+                        closest = closest.min(above);
+                    }
+                }
+            }
+        }
+        // And not far below.
+        assert!(closest < 1e-6, "{closest}");
+    }
+}
