@@ -15,8 +15,8 @@
 //! roundings stay: each forced amplitude is divided by ω² − Ω² on its own, so near resonance d + R₁ + R₂ would be no unit.
 //! M₂ bounds Δ'', and its term is what the error of the time does to the speed.
 //!
-//! The premise is that the impact is no graze: v² ≥ [`TRANSVERSAL`] M₂ C ε S. Below that even whether the gap closes may hang
-//! on a rounding: the least Δ of the dip is then within some C ε S of zero.
+//! The premise is that the impact is no graze: v² ≥ [`TRANSVERSAL`] M₂ C ε S. Below that Δ may reach but 25 C ε S below
+//! zero, and at least of the shallowest dips no double can tell whether the gap closes.
 //!
 //! # Why
 //! Let F be what the engine's computed Δ and the exact one differ by at one instant, |F| ≤ E. Between the exact root and the
