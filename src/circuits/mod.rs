@@ -7,6 +7,7 @@
 //! - [`jump`]: why its most likely value jumps, Eqs. (11) to (18) (Fig. 10).
 //! - [`impact_probability`]: the relation of p and σ, Eqs. (20) to (25) (Fig. 11).
 //! - [`higher_order`]: circuits that repeat vertices, Eqs. (26) to (38) (Figs. 13 to 15).
+//! - [`large`]: Eq. (10) and its jump for many vertices (ours).
 
 pub mod counting;
 pub mod distribution;
@@ -17,6 +18,7 @@ pub mod graph;
 pub mod higher_order;
 pub mod impact_probability;
 pub mod jump;
+pub mod large;
 
 pub use error::Error;
 pub use fraction::Fraction;

@@ -97,7 +97,7 @@ fn factorial(n: usize) -> Option<u128> {
 }
 
 /// The Möbius function, n ≥ 1.
-fn moebius(n: usize) -> i8 {
+pub(super) fn moebius(n: usize) -> i8 {
     let (mut rest, mut sign) = (n, 1);
     for prime in 2..=n {
         if rest.is_multiple_of(prime) {
