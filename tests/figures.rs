@@ -130,7 +130,7 @@ fn label(group: &Node) -> Label {
 #[test]
 fn every_figure_is_a_titled_and_described_picture() {
     let drawn = all(quick());
-    assert_eq!(drawn.len(), 21);
+    assert_eq!(drawn.len(), 23);
     for (number, figure) in figures::all().zip(&drawn) {
         assert_eq!(figure.id, number.id());
         let document = Document::parse(&figure.svg).unwrap();

@@ -16,10 +16,10 @@ use crate::experiments::theory::{HigherDistribution, Theory};
 const DETAIL: usize = 20;
 
 /// Name, symbol, colour and dash of a class.
-type Class = (&'static str, &'static str, Colour, Dash);
+pub(super) type Class = (&'static str, &'static str, Colour, Dash);
 
 /// The five classes in the order of Eq. (38).
-const CLASSES: [Class; 5] = [
+pub(super) const CLASSES: [Class; 5] = [
     ("simple circuits", "*ϕ*_{*N*}", GREEN, Dash::Long),
     ("one vertex twice", "*ϕ*_{*N*}^{1}", BLUE, Dash::Short),
     ("one vertex three times", "*ϕ*_{*N*}^{1,0}", ORANGE, Dash::Twice),

@@ -36,6 +36,8 @@ mod s03;
 mod s04;
 mod s05;
 mod s06;
+mod s07;
+mod s08;
 mod scene;
 mod series;
 mod sheet;
@@ -140,7 +142,7 @@ pub fn needs(number: Number) -> &'static [Need] {
 
 /// The names of the experiments whose results a figure shows; none for a schematic.
 pub fn experiments(number: Number) -> Vec<&'static str> {
-    let theory = matches!(number, Number::Paper(7..=15)).then_some("theory");
+    let theory = matches!(number, Number::Paper(7..=15) | Number::Own(7 | 8)).then_some("theory");
     needs(number).iter().map(|need| need.name()).chain(theory).collect()
 }
 
@@ -181,6 +183,8 @@ pub fn draw(number: Number, results: &Results) -> Result<Figure, Error> {
         Number::Own(4) => s04::draw(results.scale()?, results.measured()?, note),
         Number::Own(5) => s05::draw(results.analytic()?, note),
         Number::Own(6) => s06::draw(results.spacetime()?, note),
+        Number::Own(7) => s07::draw(&results.theory.large),
+        Number::Own(8) => s08::draw(&results.theory),
         _ => Err(Error::Number(number)),
     }
 }

@@ -109,6 +109,25 @@ pub const REMARK_P: [f64; 7] = [0.001, 0.005, 0.01, 0.015, 0.02, 0.04, 0.05];
 /// enough to list all circuits, and coprime to 2, 3 and 4).
 pub const ENUMERATED_VERTICES: usize = 5;
 
+/// Numbers of vertices at which the jump is followed to large N (ours: two to a decade).
+pub const LARGE_VERTICES: [usize; 11] =
+    [10, 30, 100, 300, 1000, 3000, 10_000, 30_000, 100_000, 300_000, 1_000_000];
+
+/// Those of them whose k* is drawn against p N (ours).
+pub const DRAWN_VERTICES: [usize; 3] = [100, 10_000, 1_000_000];
+
+/// Numbers of vertices at which N − X is set against a Poisson variable (ours).
+pub const POISSON_VERTICES: [usize; 5] = [100, 1000, 10_000, 100_000, 1_000_000];
+
+/// Values of p N for that (ours: beyond the jump of N = 100, which is at 1.3).
+pub const POISSON_P_N: [f64; 4] = [1.5, 2.0, 5.0, 10.0];
+
+/// How many edges more than a simple circuit others may have, while orders are added (ours).
+pub const ORDERS: [usize; 10] = [0, 1, 2, 3, 5, 10, 20, 50, 100, 500];
+
+/// Numbers of different vertices whose circuits of all orders are drawn (ours).
+pub const ORDERS_K: [usize; 5] = [5, 10, 20, 50, 100];
+
 /// Two impacts of adjacent gaps closer in time than this count as near-simultaneous (ours, 1/ω).
 pub const NEAR_SIMULTANEOUS: f64 = 1e-9;
 

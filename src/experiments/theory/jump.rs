@@ -42,6 +42,11 @@ pub fn scalars(vertices: usize) -> Result<Scalars, Error> {
     })
 }
 
+/// The σ at which p(σ) reaches p.
+pub fn sigma_of(p: f64) -> f64 {
+    smallest_sigma(|sigma| p_of(sigma) >= p)
+}
+
 /// p(σ) for the paper's chain, 0 where it underflows.
 fn p_of(sigma: f64) -> f64 {
     ImpactProbability::of_paper(sigma).and_then(|law| law.p()).unwrap_or(0.0)

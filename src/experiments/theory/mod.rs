@@ -1,4 +1,5 @@
-//! The graph theory of Secs. 3 to 9 as numbers: what Figs. 7 to 15 draw and what the text quotes.
+//! The graph theory of Secs. 3 to 9 as numbers: what Figs. 7 to 15 draw and what the text quotes; and
+//! what lies beyond the paper, many vertices and all orders of circuits (Figs. S7 and S8).
 //!
 //! Cheap and in memory: [`run`] takes some tenths of a second at most and nothing is saved.
 //! Distributions are vectors over k = 1..=N (index i holds k = i + 1).
@@ -6,9 +7,13 @@
 mod curves;
 mod distributions;
 mod jump;
+mod large;
+mod orders;
 mod results;
 mod slips;
 
+pub use large::{Large, LargeJump, LargeShares, PoissonCell, PoissonRow};
+pub use orders::{AllOrders, ClassShares, OrderJump, OrderRemarks, OrderShares};
 pub use results::*;
 
 use crate::circuits::Error;
@@ -40,6 +45,8 @@ pub fn run(vertices: usize) -> Result<Theory, Error> {
         higher: each(&HIGHER_P, distributions::higher)?,
         convergence: each(&CONVERGENCE_P, distributions::higher)?,
         slips: slips::slips(vertices)?,
+        large: large::large()?,
+        orders: orders::orders(vertices, &scalars)?,
         scalars,
         scalars_walls,
     })

@@ -1,5 +1,6 @@
 //! The shapes of the theory's results.
 
+use super::{AllOrders, Large};
 use serde::{Deserialize, Serialize};
 
 /// Everything that the theory figures and theory values need.
@@ -31,6 +32,10 @@ pub struct Theory {
     pub scalars_walls: Scalars,
     /// The calculations behind the slips of the printed paper.
     pub slips: Slips,
+    /// Fig. S7: many vertices, whatever `vertices` is.
+    pub large: Large,
+    /// Fig. S8: circuits of all orders.
+    pub orders: AllOrders,
 }
 
 /// Fig. 7: the number of simple circuits of each length.

@@ -7,6 +7,7 @@
 mod accuracy;
 mod comparison;
 mod higher;
+mod large;
 mod ledger;
 mod long;
 mod paper;
@@ -55,6 +56,7 @@ pub fn registry(results: &Results, published: &Published) -> Result<Registry, Er
     registry.extend(theory::values(results)?)?;
     registry.extend(comparison::values(results)?)?;
     registry.extend(higher::values(results)?)?;
+    registry.extend(large::values(results)?)?;
     registry.extend(protocol::values(results)?)?;
     registry.extend(starts::values(results)?)?;
     registry.extend(spacetime::values(results)?)?;
@@ -66,7 +68,8 @@ pub fn registry(results: &Results, published: &Published) -> Result<Registry, Er
 
 /// The rows of the generated tables, by the name that templates use: `row` (a reference to each
 /// claim with its verdict), `scorecard`, `comparison_table`, `protocol_windows`, `protocol_table`,
-/// `protocol_printed`, `long_windows`, `long_table`, `long_verdict`, `starts_table`, `bias_heads`, `bias_table`, `bias_means`, `scene_heads`, `scene_table` and
+/// `protocol_printed`, `long_windows`, `long_table`, `long_verdict`, `heat_table`, `distance_heads`,
+/// `distance_table`, `order_table`, `starts_table`, `bias_heads`, `bias_table`, `bias_means`, `scene_heads`, `scene_table` and
 /// `target_table`.
 ///
 /// # Errors
@@ -85,6 +88,9 @@ pub fn rows(
         ("long_windows", serde_json::to_value(long::windows(results)?)?),
         ("long_table", serde_json::to_value(long::table(results)?)?),
         ("long_verdict", serde_json::to_value(long::verdict(results)?)?),
+        ("distance_heads", serde_json::to_value(large::distance_heads(results))?),
+        ("distance_table", serde_json::to_value(large::distance_table(results))?),
+        ("order_table", serde_json::to_value(large::order_table(results))?),
         ("starts_table", serde_json::to_value(starts::table(results)?)?),
         ("bias_heads", serde_json::to_value(accuracy::bias_heads(results)?)?),
         ("bias_table", serde_json::to_value(accuracy::bias_table(results)?)?),

@@ -11,9 +11,11 @@ mod accuracy;
 mod comparison;
 mod counts;
 mod higher;
+mod large;
 mod long;
 mod model;
 mod motion;
+mod orders;
 mod places;
 mod printed;
 mod protocol;
@@ -71,6 +73,8 @@ pub fn all() -> impl Iterator<Item = &'static Guard> {
         relation::GUARDS,
         comparison::GUARDS,
         higher::GUARDS,
+        large::GUARDS,
+        orders::GUARDS,
         accuracy::GUARDS,
         printed::GUARDS,
     ];

@@ -26,7 +26,7 @@ pub fn log_simple(big_n: usize, k: usize) -> f64 {
 
 /// Circuits of a class over simple ones with as many different vertices, each edge beyond theirs
 /// weighing p: cyclic sequences, less those that are a shorter one repeated.
-fn over_simple(class: &[usize], k: usize, p: f64) -> f64 {
+pub fn over_simple(class: &[usize], k: usize, p: f64) -> f64 {
     let excess: usize = class.iter().map(|visits| visits - 1).sum();
     match (class, k) {
         (_, k) if k < class.len().max(1) => return 0.0,
@@ -165,17 +165,17 @@ pub fn mean_at(big_n: usize, sigma: f64, column: Column) -> f64 {
 }
 
 /// Numbers that follow from a key alone.
-struct Known<K, V>(Mutex<BTreeMap<K, V>>);
+pub struct Known<K, V>(Mutex<BTreeMap<K, V>>);
 
 /// More are not remembered: wrong numbers ask for others each time.
 const REMEMBERED: usize = 4096;
 
 impl<K: Ord, V: Clone> Known<K, V> {
-    const fn new() -> Self {
+    pub const fn new() -> Self {
         Known(Mutex::new(BTreeMap::new()))
     }
 
-    fn get(&self, key: K, compute: impl FnOnce() -> V) -> V {
+    pub fn get(&self, key: K, compute: impl FnOnce() -> V) -> V {
         let known = self.0.lock().ok().and_then(|known| known.get(&key).cloned());
         known.unwrap_or_else(|| {
             let value = compute();

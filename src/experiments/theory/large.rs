@@ -1,0 +1,137 @@
+//! The theory for many vertices: Fig. S7.
+
+use super::Point;
+use super::jump::sigma_of;
+use crate::circuits::distribution::SampleSpace;
+use crate::circuits::large::{Missing, jump_rule, limit_share, variation_limit};
+use crate::circuits::{Error, jump};
+use crate::params::{DRAWN_VERTICES, Grid, LARGE_VERTICES, POISSON_P_N, POISSON_VERTICES};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+/// What becomes of Secs. 6 and 7 as N grows with p N held fixed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Large {
+    /// The jump of k* at several N, rising.
+    pub jumps: Vec<LargeJump>,
+    /// k*/N against p N.
+    pub shares: Vec<LargeShares>,
+    /// The limit of k*/N against p N.
+    pub limit: Vec<Point>,
+    /// N − X beside a Poisson variable: one row for each p N.
+    pub poisson: Vec<PoissonRow>,
+    /// σ at which p(σ) is p_jump of the largest N.
+    pub sigma_jump: f64,
+}
+
+/// The jump for one N.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LargeJump {
+    /// Number of vertices N.
+    pub vertices: usize,
+    /// p_jump.
+    pub p: f64,
+    /// N p_jump.
+    pub p_n: f64,
+    /// k* just after it.
+    pub k_after: usize,
+    /// k*/N just after it.
+    pub share: f64,
+    /// The root of k² = 2 N (ln k − 1), for N > e³.
+    pub rule: Option<f64>,
+}
+
+/// k*/N against p N for one N.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LargeShares {
+    /// Number of vertices N.
+    pub vertices: usize,
+    /// The points; at the jump there are two.
+    pub rows: Vec<Point>,
+}
+
+/// N − X beside a Poisson variable with mean 1/p, at one p N.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PoissonRow {
+    /// p N.
+    pub p_n: f64,
+    /// Limit of √N times the distance.
+    pub limit: f64,
+    /// At several N, rising.
+    pub cells: Vec<PoissonCell>,
+}
+
+/// The same at one N.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PoissonCell {
+    /// Number of vertices N.
+    pub vertices: usize,
+    /// Total variation distance.
+    pub variation: f64,
+    /// Its bound by the moments of X.
+    pub bound: f64,
+    /// N − 1/p − μ.
+    pub mean_gap: f64,
+}
+
+/// Values of p N that are drawn.
+fn drawn() -> Vec<f64> {
+    Grid::default().and(0, 400, 1, 100).values()
+}
+
+/// All of it.
+pub fn large() -> Result<Large, Error> {
+    let jumps = LARGE_VERTICES.into_par_iter().map(jump_at).collect::<Result<Vec<_>, _>>()?;
+    let sigma_jump = jumps.last().map_or(0.0, |last| sigma_of(last.p));
+    let known = jumps.iter().filter(|jump| DRAWN_VERTICES.contains(&jump.vertices));
+    let limit = drawn().into_iter().map(|x| Point { x, y: limit_share(x) });
+    Ok(Large {
+        shares: known.map(shares).collect(),
+        jumps,
+        limit: limit.collect(),
+        poisson: POISSON_P_N.into_iter().map(poisson).collect::<Result<_, _>>()?,
+        sigma_jump,
+    })
+}
+
+fn jump_at(vertices: usize) -> Result<LargeJump, Error> {
+    let found = jump::p_jump(SampleSpace::Simple, vertices)?;
+    Ok(LargeJump {
+        vertices,
+        p: found.p,
+        p_n: found.p * vertices as f64,
+        k_after: found.k_after,
+        share: found.k_after as f64 / vertices as f64,
+        rule: jump_rule(vertices),
+    })
+}
+
+/// k* is 1 up to the jump and the local maximum beyond it, since Φ(k)/Φ(1) rises with p.
+fn shares(found: &LargeJump) -> LargeShares {
+    let big_n = found.vertices as f64;
+    let point = |x: f64, k: usize| Point { x, y: k as f64 / big_n };
+    let (before, after): (Vec<f64>, Vec<f64>) = drawn().into_iter().partition(|x| *x <= found.p_n);
+    let mut rows: Vec<Point> = before.into_iter().map(|x| point(x, 1)).collect();
+    rows.extend([point(found.p_n, 1), point(found.p_n, found.k_after)]);
+    rows.extend(
+        after
+            .into_iter()
+            .map(|x| point(x, jump::local_maximum(found.vertices, x / big_n).max(found.k_after))),
+    );
+    LargeShares { vertices: found.vertices, rows }
+}
+
+fn poisson(p_n: f64) -> Result<PoissonRow, Error> {
+    let cell = |vertices: usize| {
+        let big_n = vertices as f64;
+        let missing = Missing::new(vertices, p_n / big_n)?;
+        Ok(PoissonCell {
+            vertices,
+            variation: missing.variation,
+            bound: missing.variation_bound(),
+            mean_gap: big_n - big_n / p_n - missing.mean,
+        })
+    };
+    let cells = POISSON_VERTICES.into_iter().map(cell).collect::<Result<_, Error>>()?;
+    Ok(PoissonRow { p_n, limit: variation_limit(p_n), cells })
+}

@@ -1,0 +1,163 @@
+//! Fig. S7: what becomes of the most likely number, its jump and its distribution for many vertices.
+
+use super::axis::{Axis, log};
+use super::chart::{LETTERS, short};
+use super::data::cells;
+use super::panel::Frame;
+use super::series::Outside;
+use super::sheet::{Entry, Sheet};
+use super::style::{
+    BLUE, Colour, Dash, GREEN, INK, LINE, Mark, ORANGE, PURPLE, RED, SMALL, Stroke, THIN,
+};
+use super::{DataFile, Error, Figure};
+use crate::experiments::theory::{Large, PoissonCell, PoissonRow};
+
+/// Largest p N in (a).
+const END: f64 = 4.0;
+
+/// Colours of the numbers of vertices in (a).
+const SIZES: [(Colour, Dash); 3] =
+    [(ORANGE, Dash::Solid), (BLUE, Dash::Solid), (GREEN, Dash::Solid)];
+
+/// Looks of the values of p N in (c).
+const LOOKS: [(Colour, Mark); 4] =
+    [(RED, Mark::Disc), (ORANGE, Mark::Square), (BLUE, Mark::Diamond), (PURPLE, Mark::Triangle)];
+
+/// Draws the figure.
+pub fn draw(large: &Large) -> Result<Figure, Error> {
+    let sheet = Sheet::new(9350, None)?;
+    shares(&sheet, large)?;
+    jumps(&sheet, large)?;
+    poisson(&sheet, large)?;
+    Ok(sheet.finish_own(7, "The theory at large N", description(large), tables(large)))
+}
+
+/// A power of ten as the figures write it.
+fn power(vertices: usize) -> String {
+    format!("10^{{{}}}", vertices.ilog10())
+}
+
+fn shares(sheet: &Sheet, large: &Large) -> Result<(), Error> {
+    let panel = sheet.panel(
+        Frame::new(1150, 430, 8150, 3730),
+        Axis::linear(0.0, END, 1.0, 5, "*p N*"),
+        Axis::linear(0.0, 0.8, 0.2, 2, "*k*^{∗}/*N*"),
+    )?;
+    panel.letter(LETTERS[0])?;
+    let mut entries = Vec::new();
+    for (own, (colour, dash)) in large.shares.iter().zip(SIZES) {
+        let points: Vec<_> = own.rows.iter().map(|row| (row.x, row.y)).collect();
+        let stroke = Stroke::dashed(colour, LINE, dash);
+        panel.curve(&format!("N = {}", own.vertices), &points, stroke, Outside::Refuse)?;
+        entries.push(Entry::line(stroke, &format!("*N* = {}", power(own.vertices))));
+    }
+    let limit: Vec<_> = large.limit.iter().map(|row| (row.x, row.y)).collect();
+    let stroke = Stroke::dashed(INK, THIN, Dash::Short);
+    panel.curve("limit", &limit, stroke, Outside::Refuse)?;
+    entries.push(Entry::line(stroke, "max(0, 1 − 1/*p N*)"));
+    sheet.legend((5200, 2050), (SMALL, 370), &entries)
+}
+
+fn jumps(sheet: &Sheet, large: &Large) -> Result<(), Error> {
+    let panel = sheet.panel(
+        Frame::new(1150, 5250, 4050, 7650),
+        Axis::decades(1, 6, 1, "*N*"),
+        Axis::decades(-3, 0, 1, "*k*^{∗}/*N* at the jump"),
+    )?;
+    panel.letter(LETTERS[1])?;
+    let rule: Vec<_> = large
+        .jumps
+        .iter()
+        .filter_map(|own| Some((log(own.vertices as f64), log(own.rule? / own.vertices as f64))))
+        .collect();
+    let line = Stroke::solid(INK, THIN);
+    panel.curve("rule", &rule, line, Outside::Refuse)?;
+    let exact: Vec<_> =
+        large.jumps.iter().map(|own| (log(own.vertices as f64), log(own.share))).collect();
+    let disc = (Mark::Disc, 55, Stroke::solid(GREEN, THIN));
+    panel.marks("exact", &exact, disc, Outside::Refuse)?;
+    let entries = [
+        Entry::mark(disc.0, disc.1, disc.2, "exact"),
+        Entry::line(line, "*k*^{2} = 2*N*(ln *k* − 1)"),
+    ];
+    sheet.legend((900, 8750), (SMALL, 370), &entries)
+}
+
+fn poisson(sheet: &Sheet, large: &Large) -> Result<(), Error> {
+    let panel = sheet.panel(
+        Frame::new(5350, 5250, 8150, 7650),
+        Axis::decades(2, 6, 1, "*N*"),
+        Axis::decades(-4, 0, 1, "distance from Poisson"),
+    )?;
+    panel.letter(LETTERS[2])?;
+    let mut entries = Vec::new();
+    for (own, (colour, mark)) in large.poisson.iter().zip(LOOKS) {
+        let name = format!("p N = {}", short(own.p_n, 2));
+        let at = |of: fn(&PoissonCell) -> f64| -> Vec<(f64, f64)> {
+            own.cells.iter().map(|cell| (log(cell.vertices as f64), log(of(cell)))).collect()
+        };
+        let bound = Stroke::dashed(colour, THIN, Dash::Dotted);
+        panel.curve(&format!("bound, {name}"), &at(|cell| cell.bound), bound, Outside::Refuse)?;
+        let look = (mark, 55, Stroke::solid(colour, THIN));
+        panel.marks(&name, &at(|cell| cell.variation), look, Outside::Refuse)?;
+        entries.push(Entry::mark(
+            look.0,
+            look.1,
+            look.2,
+            &format!("*p N* = {}", short(own.p_n, 2)),
+        ));
+    }
+    for (i, column) in entries.chunks(2).enumerate() {
+        sheet.legend((4650 + 1800 * i as i32, 8750), (SMALL, 370), column)?;
+    }
+    Ok(())
+}
+
+fn description(large: &Large) -> String {
+    let jumps: Vec<String> = large
+        .jumps
+        .iter()
+        .filter(|own| own.vertices.to_string().starts_with('1'))
+        .map(|own| {
+            format!("k* = {} or {} of N = {}", own.k_after, short(own.share, 2), own.vertices)
+        })
+        .collect();
+    let ends = |row: &PoissonRow| {
+        let end = |cell: Option<&PoissonCell>| cell.map_or(0.0, |cell| cell.variation);
+        format!(
+            "from {} to {} for p N = {}",
+            short(end(row.cells.first()), 2),
+            short(end(row.cells.last()), 2),
+            short(row.p_n, 2)
+        )
+    };
+    let distances: Vec<String> = large.poisson.iter().map(ends).collect();
+    format!(
+        "(a) The most likely number over N against p N: zero, a jump soon after p N = 1, then a curve that          bends towards one. The larger N, the smaller the jump, and the nearer the curve to          the broken line max(0, 1 − 1/(p N)), on which that for the largest N lies. (b) The height of the          jump over N, on logarithmic axes: {}; the line of the rule goes through the points. (c) Total          variation distance of N − X from a Poisson variable, on logarithmic axes, falls with the          root of N, {}; dotted lines a little above are bounds.",
+        jumps.join(", "),
+        distances.join(", ")
+    )
+}
+
+fn tables(large: &Large) -> Vec<DataFile> {
+    let mut shares = DataFile::new("s07a.csv", &["N (1)", "p_N (1)", "k_star_over_N (1)"]);
+    for own in &large.shares {
+        for row in &own.rows {
+            shares.row(cells![own.vertices, row.x, row.y]);
+        }
+    }
+    let header = ["N (1)", "p_jump (1)", "k_star_after (1)", "k_star_over_N (1)", "k_rule (1)"];
+    let mut jumps = DataFile::new("s07b.csv", &header);
+    for own in &large.jumps {
+        jumps.row(cells![own.vertices, own.p, own.k_after, own.share, own.rule]);
+    }
+    let header =
+        ["p_N (1)", "N (1)", "total_variation (1)", "bound (1)", "N_minus_1_over_p_minus_mean (1)"];
+    let mut poisson = DataFile::new("s07c.csv", &header);
+    for row in &large.poisson {
+        for cell in &row.cells {
+            poisson.row(cells![row.p_n, cell.vertices, cell.variation, cell.bound, cell.mean_gap]);
+        }
+    }
+    vec![shares, jumps, poisson]
+}

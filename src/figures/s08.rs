@@ -1,0 +1,161 @@
+//! Fig. S8: the five classes of Sec. 9 among circuits of all orders.
+
+use plotters::style::text_anchor::{HPos, VPos};
+
+use super::axis::{Axis, log};
+use super::chart::{LETTERS, short};
+use super::data::cells;
+use super::fig13::CLASSES;
+use super::panel::{Frame, Panel};
+use super::series::Outside;
+use super::sheet::{Entry, Sheet};
+use super::style::{
+    BLUE, Colour, Dash, GREEN, GREY, INK, LINE, Mark, ORANGE, PURPLE, RED, SMALL, Stroke, THIN,
+    TINY,
+};
+use super::{DataFile, Error, Figure};
+use crate::experiments::theory::{AllOrders, Theory};
+
+/// Looks of the numbers of different vertices in (b), from few to many.
+const LOOKS: [(Colour, Dash); 5] = [
+    (PURPLE, Dash::Long),
+    (ORANGE, Dash::Short),
+    (BLUE, Dash::Alternate),
+    (GREEN, Dash::Twice),
+    (INK, Dash::Dotted),
+];
+
+/// Draws the figure.
+pub fn draw(theory: &Theory) -> Result<Figure, Error> {
+    let sheet = Sheet::new(11_900, None)?;
+    let orders = &theory.orders;
+    let x = || Axis::decades(-3, -1, 1, "*p*");
+    let share = || Axis::linear(0.0, 1.0, 0.2, 2, "share");
+    let classes = sheet.panel(Frame::new(1150, 480, 5100, 3380), x(), share())?;
+    classes.letter(LETTERS[0])?;
+    let mut entries = Vec::new();
+    for (i, &(name, symbol, colour, dash)) in CLASSES.iter().enumerate() {
+        let at = |shares: &Vec<f64>| shares.get(i).copied().unwrap_or(0.0);
+        let points: Vec<_> = orders.classes.iter().map(|c| (log(c.p), at(&c.shares))).collect();
+        let stroke = Stroke::dashed(colour, LINE, dash);
+        classes.curve(name, &points, stroke, Outside::Refuse)?;
+        entries.push(Entry::line(stroke, &format!("{name}, {symbol}")));
+    }
+    sheet.legend((5300, 900), (SMALL, 400), &entries)?;
+
+    let whole = sheet.panel(Frame::new(1150, 4680, 5100, 7580), x(), share())?;
+    whole.letter(LETTERS[1])?;
+    let mut entries = Vec::new();
+    for (own, (colour, dash)) in orders.shares.iter().zip(LOOKS) {
+        let points: Vec<_> = own.rows.iter().map(|row| (log(row.x), row.y)).collect();
+        let stroke = Stroke::dashed(colour, LINE, dash);
+        whole.curve(&format!("K = {}", own.k), &points, stroke, Outside::Cut)?;
+        entries.push(Entry::line(stroke, &format!("of *K* = {} vertices", own.k)));
+    }
+    let points: Vec<_> = orders.whole.iter().map(|row| (log(row.x), row.y)).collect();
+    let all = Stroke::solid(RED, LINE);
+    whole.curve("all circuits", &points, all, Outside::Refuse)?;
+    entries.push(Entry::line(all, "of all circuits"));
+    for (panel, top) in [(&classes, 1.0), (&whole, 1.0)] {
+        guide(panel, orders.pole, "1/*N*", top, HPos::Right)?;
+        guide(panel, theory.scalars.p_jump, "*p*_{jump}", top, HPos::Left)?;
+    }
+    sheet.legend((5300, 5100), (SMALL, 400), &entries)?;
+    distributions(&sheet, theory)?;
+    let files = tables(orders);
+    Ok(sheet.finish_own(8, "Circuits of all orders", description(theory), files))
+}
+
+/// An upright line at a place of p, with its name above.
+fn guide(panel: &Panel, p: f64, name: &str, top: f64, side: HPos) -> Result<(), Error> {
+    let stroke = Stroke::dashed(GREY, THIN, Dash::Dotted);
+    panel.curve(name, &[(log(p), 0.0), (log(p), top)], stroke, Outside::Refuse)?;
+    let dx = if matches!(side, HPos::Left) { 20 } else { -20 };
+    panel.note(name, (log(p), top), (dx, -80), (TINY, INK, side, VPos::Bottom))
+}
+
+fn distributions(sheet: &Sheet, theory: &Theory) -> Result<(), Error> {
+    let orders = &theory.orders;
+    let n = theory.vertices as f64;
+    let panel = sheet.panel(
+        Frame::new(1150, 8880, 8150, 10_780),
+        Axis::linear(0.0, n + 1.0, 20.0, 2, "*k*"),
+        Axis::decades(-4, 0, 1, "*P*(*X* = *k*)"),
+    )?;
+    panel.letter(LETTERS[2])?;
+    let look = |mark, colour| (mark, 42, Stroke::solid(colour, THIN));
+    let series = [
+        ("simple circuits", &orders.simple_at_jump, look(Mark::Ring, GREEN)),
+        ("all circuits", &orders.at_jump, look(Mark::Disc, RED)),
+    ];
+    for (name, values, look) in series {
+        let points: Vec<_> = (1..)
+            .zip(values)
+            .filter(|(_, p)| **p > 0.0)
+            .map(|(k, p)| (f64::from(k), log(*p)))
+            .collect();
+        panel.marks(name, &points, look, Outside::Cut)?;
+    }
+    let entry = |i: usize, p: f64| {
+        let (name, _, (mark, half, stroke)) = series[i];
+        Entry::mark(mark, half, stroke, &format!("{name} at *p* = {}", short(p, 4)))
+    };
+    sheet.legend((1150, 11_750), (SMALL, 400), &[entry(0, theory.scalars.p_jump)])?;
+    sheet.legend((4700, 11_750), (SMALL, 400), &[entry(1, orders.jump.p)])
+}
+
+fn description(theory: &Theory) -> String {
+    let orders = &theory.orders;
+    let shares = |p: f64| {
+        let near = |c: &&crate::experiments::theory::ClassShares| c.p >= p * (1.0 - 1e-9);
+        let found = orders.classes.iter().find(near);
+        let shares = found.map(|c| c.shares.iter().map(|s| short(*s, 2)).collect::<Vec<_>>());
+        shares.unwrap_or_default().join(", ")
+    };
+    let poles: Vec<String> = orders.shares.iter().map(|own| short(1.0 / own.k as f64, 2)).collect();
+    let ends = |values: &[f64]| {
+        let least = values.iter().copied().fold(1.0, f64::min);
+        (short(values.first().copied().unwrap_or(0.0), 2), short(least, 2))
+    };
+    let (first, least) = ends(&orders.at_jump);
+    format!(
+        "(a) The shares of the five classes among themselves against p on a logarithmic axis, N = {}: {}          at p = 0.001, {} at p = 0.1. Simple circuits give way to those with two vertices twice. (b) The share of the          five classes among all circuits with K different vertices: curves that fall from one to zero at p = 1/K, which is {};          among all circuits it falls to zero at 1/N. (c) P(X = k) at the jump:          with simple circuits two humps, as high at k = {} as at k = 1; with all          circuits a trough, {first} at both ends and {least} at its lowest.",
+        theory.vertices,
+        shares(1e-3),
+        shares(1e-1),
+        poles.join(", "),
+        theory.scalars.k_after_jump,
+    )
+}
+
+fn tables(orders: &AllOrders) -> Vec<DataFile> {
+    let header = [
+        "p (1)",
+        "simple_eq7 (1)",
+        "one_vertex_twice_eq33 (1)",
+        "one_vertex_thrice_eq35 (1)",
+        "one_vertex_four_times_eq36 (1)",
+        "two_vertices_twice_eq37 (1)",
+    ];
+    let mut classes = DataFile::new("s08a.csv", &header);
+    for row in &orders.classes {
+        let share = |i: usize| row.shares.get(i).copied();
+        classes.row(cells![row.p, share(0), share(1), share(2), share(3), share(4)]);
+    }
+    let mut shares = DataFile::new("s08b.csv", &["K (1)", "p (1)", "share_of_five_classes (1)"]);
+    for own in &orders.shares {
+        for row in &own.rows {
+            shares.row(cells![own.k, row.x, row.y]);
+        }
+    }
+    let mut whole = DataFile::new("s08b-all.csv", &["p (1)", "share_of_five_classes (1)"]);
+    for row in &orders.whole {
+        whole.row(cells![row.x, row.y]);
+    }
+    let header = ["k (1)", "probability_simple (1)", "probability_all (1)"];
+    let mut jump = DataFile::new("s08c.csv", &header);
+    for (i, (&simple, &all)) in orders.simple_at_jump.iter().zip(&orders.at_jump).enumerate() {
+        jump.row(cells![i + 1, simple, all]);
+    }
+    vec![classes, shares, whole, jump]
+}
