@@ -71,6 +71,12 @@ fn the_check_that_should_notice_does() {
         ("onset", "sweep/rise/onset/value", "guard places_on_curves"),
         ("mean_above", "sweep/rows/", "guard means_of_counts"),
         ("horizon_order", "horizon/order/value", "guard means_of_twins"),
+        ("large_k_jump", "theory/large/jumps", "guard jump_at_large_n"),
+        ("large_rule", "theory/large/jumps", "guard rule_of_large_jumps"),
+        ("poisson.d1_4", "theory/large/poisson", "guard distances_from_poisson"),
+        ("orders.p4", "theory/orders/jumps", "guard jumps_of_orders"),
+        ("all_p_jump", "theory/orders/jump", "guard jump_of_all_orders"),
+        ("five_at_jump", "theory/orders/remarks", "guard five_of_all_orders"),
         ("first_maximum_numerator", "theory/slips/", "guard first_maximum"),
         // Computed on the way to the report.
         ("kept_above", "report", "guard rows_named"),

@@ -23,7 +23,7 @@ pub struct Args {
     /// Sample sizes.
     #[arg(long, default_value = "full")]
     profile: work::ProfileName,
-    /// Draw this figure only (1 to 15, s1 to s6; may be repeated): its SVG and its CSV are written.
+    /// Draw this figure only (1 to 15, s1 to s8; may be repeated): its SVG and its CSV are written.
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     figure: Vec<String>,
     /// Folder to write into [default: paper for the full profile, else target/paper-PROFILE].

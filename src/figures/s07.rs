@@ -12,8 +12,8 @@ use super::style::{
 use super::{DataFile, Error, Figure};
 use crate::experiments::theory::{Large, PoissonCell, PoissonRow};
 
-/// Largest p N in (a).
-const END: f64 = 4.0;
+/// The p N in (a): around the onset, where the sizes differ.
+const RANGE: (f64, f64) = (0.75, 2.25);
 
 /// Colours of the numbers of vertices in (a).
 const SIZES: [(Colour, Dash); 3] =
@@ -40,22 +40,22 @@ fn power(vertices: usize) -> String {
 fn shares(sheet: &Sheet, large: &Large) -> Result<(), Error> {
     let panel = sheet.panel(
         Frame::new(1150, 430, 8150, 3730),
-        Axis::linear(0.0, END, 1.0, 5, "*p N*"),
-        Axis::linear(0.0, 0.8, 0.2, 2, "*k*^{∗}/*N*"),
+        Axis::linear(RANGE.0, RANGE.1, 0.25, 5, "*p N*"),
+        Axis::linear(0.0, 0.6, 0.1, 2, "*k*^{∗}/*N*"),
     )?;
     panel.letter(LETTERS[0])?;
     let mut entries = Vec::new();
     for (own, (colour, dash)) in large.shares.iter().zip(SIZES) {
         let points: Vec<_> = own.rows.iter().map(|row| (row.x, row.y)).collect();
         let stroke = Stroke::dashed(colour, LINE, dash);
-        panel.curve(&format!("N = {}", own.vertices), &points, stroke, Outside::Refuse)?;
+        panel.curve(&format!("N = {}", own.vertices), &points, stroke, Outside::Cut)?;
         entries.push(Entry::line(stroke, &format!("*N* = {}", power(own.vertices))));
     }
     let limit: Vec<_> = large.limit.iter().map(|row| (row.x, row.y)).collect();
     let stroke = Stroke::dashed(INK, THIN, Dash::Short);
-    panel.curve("limit", &limit, stroke, Outside::Refuse)?;
+    panel.curve("limit", &limit, stroke, Outside::Cut)?;
     entries.push(Entry::line(stroke, "max(0, 1 − 1/*p N*)"));
-    sheet.legend((5200, 2050), (SMALL, 370), &entries)
+    sheet.legend((5500, 2350), (SMALL, 370), &entries)
 }
 
 fn jumps(sheet: &Sheet, large: &Large) -> Result<(), Error> {

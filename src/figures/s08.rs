@@ -25,13 +25,16 @@ const LOOKS: [(Colour, Dash); 5] = [
     (INK, Dash::Dotted),
 ];
 
+/// Upper end of the shares' axes: above one, so that curves stay clear of what stands there.
+const TOP: f64 = 1.1;
+
 /// Draws the figure.
 pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     let sheet = Sheet::new(11_900, None)?;
     let orders = &theory.orders;
     let x = || Axis::decades(-3, -1, 1, "*p*");
-    let share = || Axis::linear(0.0, 1.0, 0.2, 2, "share");
-    let classes = sheet.panel(Frame::new(1150, 480, 5100, 3380), x(), share())?;
+    let share = || Axis::linear(0.0, TOP, 0.2, 2, "share");
+    let classes = sheet.panel(Frame::new(1150, 480, 4250, 3380), x(), share())?;
     classes.letter(LETTERS[0])?;
     let mut entries = Vec::new();
     for (i, &(name, symbol, colour, dash)) in CLASSES.iter().enumerate() {
@@ -41,9 +44,9 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
         classes.curve(name, &points, stroke, Outside::Refuse)?;
         entries.push(Entry::line(stroke, &format!("{name}, {symbol}")));
     }
-    sheet.legend((5300, 900), (SMALL, 400), &entries)?;
+    sheet.legend((4480, 1000), (SMALL, 400), &entries)?;
 
-    let whole = sheet.panel(Frame::new(1150, 4680, 5100, 7580), x(), share())?;
+    let whole = sheet.panel(Frame::new(1150, 4680, 4250, 7580), x(), share())?;
     whole.letter(LETTERS[1])?;
     let mut entries = Vec::new();
     for (own, (colour, dash)) in orders.shares.iter().zip(LOOKS) {
@@ -56,22 +59,22 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     let all = Stroke::solid(RED, LINE);
     whole.curve("all circuits", &points, all, Outside::Refuse)?;
     entries.push(Entry::line(all, "of all circuits"));
-    for (panel, top) in [(&classes, 1.0), (&whole, 1.0)] {
-        guide(panel, orders.pole, "1/*N*", top, HPos::Right)?;
-        guide(panel, theory.scalars.p_jump, "*p*_{jump}", top, HPos::Left)?;
+    for panel in [&classes, &whole] {
+        guide(panel, orders.pole, "1/*N*", HPos::Right)?;
+        guide(panel, theory.scalars.p_jump, "*p*_{jump}", HPos::Left)?;
     }
-    sheet.legend((5300, 5100), (SMALL, 400), &entries)?;
+    sheet.legend((4480, 5200), (SMALL, 400), &entries)?;
     distributions(&sheet, theory)?;
     let files = tables(orders);
     Ok(sheet.finish_own(8, "Circuits of all orders", description(theory), files))
 }
 
 /// An upright line at a place of p, with its name above.
-fn guide(panel: &Panel, p: f64, name: &str, top: f64, side: HPos) -> Result<(), Error> {
+fn guide(panel: &Panel, p: f64, name: &str, side: HPos) -> Result<(), Error> {
     let stroke = Stroke::dashed(GREY, THIN, Dash::Dotted);
-    panel.curve(name, &[(log(p), 0.0), (log(p), top)], stroke, Outside::Refuse)?;
+    panel.curve(name, &[(log(p), 0.0), (log(p), TOP)], stroke, Outside::Refuse)?;
     let dx = if matches!(side, HPos::Left) { 20 } else { -20 };
-    panel.note(name, (log(p), top), (dx, -80), (TINY, INK, side, VPos::Bottom))
+    panel.note(name, (log(p), TOP), (dx, -80), (TINY, INK, side, VPos::Bottom))
 }
 
 fn distributions(sheet: &Sheet, theory: &Theory) -> Result<(), Error> {
@@ -100,8 +103,8 @@ fn distributions(sheet: &Sheet, theory: &Theory) -> Result<(), Error> {
         let (name, _, (mark, half, stroke)) = series[i];
         Entry::mark(mark, half, stroke, &format!("{name} at *p* = {}", short(p, 4)))
     };
-    sheet.legend((1150, 11_750), (SMALL, 400), &[entry(0, theory.scalars.p_jump)])?;
-    sheet.legend((4700, 11_750), (SMALL, 400), &[entry(1, orders.jump.p)])
+    sheet.legend((700, 11_750), (SMALL, 400), &[entry(0, theory.scalars.p_jump)])?;
+    sheet.legend((4400, 11_750), (SMALL, 400), &[entry(1, orders.jump.p)])
 }
 
 fn description(theory: &Theory) -> String {

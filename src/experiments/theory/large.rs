@@ -76,7 +76,7 @@ pub struct PoissonCell {
 
 /// Values of p N that are drawn.
 fn drawn() -> Vec<f64> {
-    Grid::default().and(0, 400, 1, 100).values()
+    Grid::default().and(0, 500, 1, 200).values()
 }
 
 /// All of it.

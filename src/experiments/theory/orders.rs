@@ -75,9 +75,9 @@ pub struct OrderRemarks {
     pub five_at_jump: f64,
     /// Share of the class of Eq. (36) among all circuits with three edges more, for as many vertices.
     pub four_visits_of_third: f64,
-    /// Share of the five classes among all circuits at the smallest p of Fig. 13.
-    pub whole_at_small_p: f64,
-    /// The same at the jump with all orders.
+    /// Share of circuits that are in none of the five classes, among all, at the smallest p of Fig. 13.
+    pub beyond_five: f64,
+    /// Share of the five classes among all circuits at the jump with all orders.
     pub whole_at_jump: f64,
     /// By how much that jump comes before the pole, relative to it.
     pub before_pole: f64,
@@ -113,7 +113,7 @@ pub fn orders(vertices: usize, scalars: &Scalars) -> Result<AllOrders, Error> {
         diverges_at_large_p: diverges_from(HIGHER_P[HIGHER_P.len() - 1]),
         five_at_jump: five_share(&orders, k, scalars.p_jump),
         four_visits_of_third: four_visits_of_third(&orders, k),
-        whole_at_small_p: whole(HIGHER_P[0])?,
+        beyond_five: 1.0 - whole(HIGHER_P[0])?,
         whole_at_jump: whole(all.p)?,
         before_pole: 1.0 - all.p * vertices as f64,
         ends: at_jump.first().copied().unwrap_or(0.0),

@@ -66,7 +66,7 @@ fn distances(large: &Large) -> Result<Vec<Value>, Error> {
     let missing = || Error::Missing("distances from a Poisson variable");
     let first = large.poisson.first().ok_or_else(missing)?;
     let heads =
-        cells(first).map(|(j, cell)| chosen(&format!("poisson.n{j}"), cell.vertices as f64));
+        cells(first).map(|(j, cell)| Value::integer(format!("poisson.n{j}"), cell.vertices));
     let mut values: Vec<Value> = heads.collect();
     for (i, row) in large.poisson.iter().enumerate() {
         values.push(chosen(&format!("poisson.c{i}"), row.p_n));
@@ -96,7 +96,7 @@ fn orders(orders: &AllOrders) -> Vec<Value> {
         Value::integer("diverges_at_large_p", remarks.diverges_at_large_p),
         Value::real("five_at_jump", remarks.five_at_jump, 2),
         Value::real("four_visits_of_third", remarks.four_visits_of_third, 2),
-        Value::real("whole_at_small_p", remarks.whole_at_small_p, 3),
+        Value::real("beyond_five", remarks.beyond_five, 2),
         Value::real("whole_at_jump", remarks.whole_at_jump, 2),
         Value::real("all_p_jump", orders.jump.p, 5),
         Value::integer("all_k_after", orders.jump.k_after),

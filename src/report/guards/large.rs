@@ -23,6 +23,9 @@ pub const GUARDS: &[Guard] = &[
     Guard { name: "distances_are_bounded", ids: &["poisson.d*", "poisson.l*"], find: bounded },
 ];
 
+/// More vertices than any theory here is for.
+const MOST: usize = 100_000_000;
+
 /// The jump as the results have it, with the numbers that the text shows in their place.
 fn shown(look: Look<'_>) -> Option<LargeJump> {
     let last = *look.results.theory.large.jumps.last()?;
@@ -41,7 +44,7 @@ fn shown(look: Look<'_>) -> Option<LargeJump> {
 fn jump(look: Look<'_>) -> Option<String> {
     let LargeJump { vertices, k_after: k, p_n, share, .. } = shown(look)?;
     let big_n = vertices as f64;
-    if !(2..=vertices).contains(&k) {
+    if !(2..=vertices).contains(&k) || vertices > MOST {
         return Some(format!("the jump leads to {k} of {vertices} vertices"));
     }
     let log_p = (log_simple(vertices, 1) - log_simple(vertices, k)) / (k - 1) as f64;
@@ -120,6 +123,10 @@ fn sigma(look: Look<'_>) -> Option<String> {
 /// Distance of N − X from a Poisson variable with mean 1/p, and N − 1/p − μ: Eq. (10) by its ratios
 /// p (N − k) k/(k + 1), a Poisson law by its own, each outwards from its peak.
 fn distances(big_n: usize, p_n: f64) -> [f64; 2] {
+    // A number that is wrong may be anything.
+    if !(p_n > 1.0 && p_n <= big_n as f64) {
+        return [f64::NAN; 2];
+    }
     static KNOWN: Known<(usize, u64), [f64; 2]> = Known::new();
     KNOWN.get((big_n, p_n.to_bits()), || {
         let real = big_n as f64;

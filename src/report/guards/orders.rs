@@ -20,10 +20,13 @@ pub const GUARDS: &[Guard] = &[
     },
     Guard {
         name: "five_of_all_orders",
-        ids: &["five_at_jump", "four_visits_of_third", "whole_at_small_p", "whole_at_jump"],
+        ids: &["five_at_jump", "four_visits_of_third", "beyond_five", "whole_at_jump"],
         find: five,
     },
 ];
+
+/// Higher orders than any that is added.
+const MOST: usize = 10_000;
 
 /// The Möbius function.
 fn moebius(n: usize) -> f64 {
@@ -43,6 +46,7 @@ fn moebius(n: usize) -> f64 {
 /// Weights of k = 1..=N of all primitive circuits with at most so many edges more than k; of all of them
 /// for p N < 1.
 fn weights(big_n: usize, p: f64, most: Option<usize>) -> Arc<Vec<f64>> {
+    let most = most.map(|most| most.min(MOST));
     static KNOWN: Known<(usize, u64, Option<usize>), Arc<Vec<f64>>> = Known::new();
     KNOWN.get((big_n, p.to_bits(), most), || Arc::new(by_draws(big_n, p, most)))
 }
@@ -120,7 +124,7 @@ fn level(weights: &[f64], k: f64, name: &str) -> Option<String> {
 fn jump(look: Look<'_>) -> Option<String> {
     let big_n = look.results.theory.vertices;
     let (p, pole) = (look.number("all_p_jump")?, look.number("orders_pole")?);
-    if p >= pole {
+    if !(p > 0.0 && p < pole && p * (big_n as f64) < 1.0) {
         return Some(format!("all orders jump at {p}, beyond the pole {pole}"));
     }
     let weights = weights(big_n, p, None);
@@ -156,6 +160,9 @@ fn five(look: Look<'_>) -> Option<String> {
     let classes: [&[usize]; 5] = [&[], &[2], &[3], &[4], &[2, 2]];
     let of_five = |k: usize, p: f64| classes.iter().map(|c| over_simple(c, k, p)).sum::<f64>();
     let at_k = |k: usize, p: f64| {
+        if k == 0 || p * k as f64 >= 1.0 {
+            return f64::NAN;
+        }
         let simple = f_exp(log_simple(k, k) + k as f64 * f_log(p));
         of_five(k, p) * simple / weights(k, p, None)[k - 1]
     };
@@ -172,9 +179,12 @@ fn five(look: Look<'_>) -> Option<String> {
     look.are([
         ("five_at_jump", at_k(k, look.number("p_jump")?)),
         ("four_visits_of_third", third[0] / third.iter().sum::<f64>()),
-        ("whole_at_small_p", whole(theory.higher.first()?.p)),
         ("whole_at_jump", whole(look.number("all_p_jump")?)),
     ])
+    .or_else(|| {
+        let rest = 1.0 - look.number("beyond_five")?;
+        far("the share that beyond_five leaves", rest, whole(theory.higher.first()?.p))
+    })
 }
 
 #[cfg(test)]

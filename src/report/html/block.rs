@@ -27,8 +27,11 @@ impl Page<'_> {
                 match id {
                     Some(id) => {
                         let id = escape::id(id);
+                        // A section without a number that can be gone to opens a part.
+                        let part =
+                            if *level == 2 && number.is_empty() { " class=\"part\"" } else { "" };
                         format!(
-                            "<h{level} id=\"{id}\"><a href=\"#{id}\">{number}{text}</a></h{level}>\n"
+                            "<h{level} id=\"{id}\"{part}><a href=\"#{id}\">{number}{text}</a></h{level}>\n"
                         )
                     }
                     None => format!("<h{level}>{number}{text}</h{level}>\n"),
