@@ -5,6 +5,7 @@
 
 mod accuracy;
 mod chosen;
+mod heat;
 mod sizes;
 mod spacetime;
 
@@ -12,6 +13,7 @@ pub use accuracy::{
     AnalyticParams, BiasParams, MethodName, RaceParams, ScaleParams, Setting, TrialParams,
 };
 pub use chosen::*;
+pub use heat::{HeatParams, HeatRow};
 pub use sizes::{
     Grid, HorizonParams, ProtocolParams, StartVariant, StartsParams, SweepParams, TwoMassesParams,
 };

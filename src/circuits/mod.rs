@@ -6,9 +6,11 @@
 //! - [`distribution`]: the number X of different impacts, Eqs. (9) and (10) (Figs. 8 and 9).
 //! - [`jump`]: why its most likely value jumps, Eqs. (11) to (18) (Fig. 10).
 //! - [`impact_probability`]: the relation of p and σ, Eqs. (20) to (25) (Fig. 11).
+//! - [`balance`]: how hot a running chain is (ours).
 //! - [`higher_order`]: circuits that repeat vertices, Eqs. (26) to (38) (Figs. 13 to 15).
 //! - [`large`]: Eq. (10) and its jump for many vertices (ours).
 
+pub mod balance;
 pub mod counting;
 pub mod distribution;
 mod error;

@@ -3,16 +3,16 @@
 use super::Need;
 use super::accuracy::{analytic, bias, race, scale, trials};
 use super::experiment::How::{Cut, Whole};
-use super::{deep, horizon, protocol, spacetime, starts, sweep, tally, two_masses, weights};
+use super::{deep, heat, horizon, protocol, spacetime, starts, sweep, tally, two_masses, weights};
 use crate::params::{
-    AnalyticParams, BiasParams, HorizonParams, Profile, ProtocolParams, RaceParams, ScaleParams,
-    SpaceTimeParams, StartsParams, SweepParams, TrialParams, TwoMassesParams,
+    AnalyticParams, BiasParams, HeatParams, HorizonParams, Profile, ProtocolParams, RaceParams,
+    ScaleParams, SpaceTimeParams, StartsParams, SweepParams, TrialParams, TwoMassesParams,
 };
 
 pub use super::experiment::{Experiment, Saved};
 
 /// The experiments that are saved, in the order in which they run.
-const ALL: [&dyn Saved; 13] = [
+const ALL: [&dyn Saved; 14] = [
     &SWEEP,
     &SECOND_SEED,
     &PROTOCOL,
@@ -25,6 +25,7 @@ const ALL: [&dyn Saved; 13] = [
     &TRIALS,
     &SCALE,
     &ANALYTIC,
+    &HEAT,
     &LONG_AUDIT,
 ];
 
@@ -140,6 +141,14 @@ pub const ANALYTIC: Experiment<AnalyticParams, analytic::Analytic> = Experiment 
     module: "src/experiments/accuracy/analytic.rs",
     parameters: AnalyticParams::new,
     how: Whole { run: analytic::run, weight: |p| 3 * p.sizes.iter().sum::<usize>() as u64 / 2 },
+};
+
+/// How hot running chains are.
+pub const HEAT: Experiment<HeatParams, heat::Heat, heat::Part> = Experiment {
+    need: Need::Heat,
+    module: "src/experiments/heat.rs",
+    parameters: HeatParams::new,
+    how: Cut("heat", heat::CUTTING),
 };
 
 /// The long end of the map over transients and windows.

@@ -6,6 +6,7 @@ pub mod cutting;
 pub mod deep;
 pub mod error;
 pub mod experiment;
+pub mod heat;
 pub mod horizon;
 pub mod identities;
 pub mod laws;

@@ -3,7 +3,7 @@
 use super::accuracy::{analytic, bias, race, scale, trials};
 use super::{Error, Measured};
 use super::{
-    deep, horizon, identities, laws, protocol, segments, spacetime, starts, sweep, theory,
+    deep, heat, horizon, identities, laws, protocol, segments, spacetime, starts, sweep, theory,
     two_masses,
 };
 use crate::params::{Profile, VERTICES};
@@ -43,13 +43,15 @@ pub enum Need {
     Analytic,
     /// [`Results::measured`]: read, not run.
     Measured,
+    /// [`Results::heat`].
+    Heat,
     /// [`Results::long_protocol`]: read; a sample of it is run again.
     LongProtocol,
 }
 
 impl Need {
     /// Everything: what the report needs.
-    pub const ALL: [Need; 16] = [
+    pub const ALL: [Need; 17] = [
         Need::Sweep,
         Need::SecondSeed,
         Need::Protocol,
@@ -65,6 +67,7 @@ impl Need {
         Need::Scale,
         Need::Analytic,
         Need::Measured,
+        Need::Heat,
         Need::LongProtocol,
     ];
 
@@ -86,6 +89,7 @@ impl Need {
             Need::Analytic => "analytic",
             Need::Measured => "measured",
             Need::SpaceTime => "space-time",
+            Need::Heat => "heat",
             Need::LongProtocol => "long_protocol",
         }
     }
@@ -130,6 +134,8 @@ pub struct Results {
     pub analytic: Option<analytic::Analytic>,
     /// Times that were measured once.
     pub measured: Option<Measured>,
+    /// How hot running chains are.
+    pub heat: Option<heat::Heat>,
     /// The long end of the map, carried over.
     pub long_protocol: Option<deep::Carried>,
 }
@@ -181,6 +187,8 @@ asked_for! {
     analytic: analytic::Analytic, Analytic;
     /// The measured times.
     measured: Measured, Measured;
+    /// How hot running chains are.
+    heat: heat::Heat, Heat;
     /// The long end of the map.
     long_protocol: deep::Carried, LongProtocol;
 }
@@ -217,6 +225,7 @@ impl Results {
             scale: None,
             analytic: None,
             measured: None,
+            heat: None,
             long_protocol: None,
         }
     }

@@ -45,7 +45,7 @@ pub fn run(
     saved!(
         second_seed: SECOND_SEED, protocol: PROTOCOL, starts: STARTS, horizon: HORIZON,
         two_masses: TWO_MASSES, spacetime: SPACE_TIME, race: RACE, biases: BIAS, trials: TRIALS,
-        scale: SCALE, analytic: ANALYTIC
+        scale: SCALE, analytic: ANALYTIC, heat: HEAT
     );
     if needs(Need::LongProtocol) {
         let audit = catalogue::LONG_AUDIT.get(profile, store, progress)?;

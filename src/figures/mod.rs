@@ -38,6 +38,7 @@ mod s05;
 mod s06;
 mod s07;
 mod s08;
+mod s09;
 mod scene;
 mod series;
 mod sheet;
@@ -136,6 +137,7 @@ pub fn needs(number: Number) -> &'static [Need] {
         Number::Own(4) => &[Need::Scale, Need::Measured],
         Number::Own(5) => &[Need::Analytic],
         Number::Own(6) => &[Need::SpaceTime],
+        Number::Own(9) => &[Need::Heat],
         _ => &[],
     }
 }
@@ -185,6 +187,7 @@ pub fn draw(number: Number, results: &Results) -> Result<Figure, Error> {
         Number::Own(6) => s06::draw(results.spacetime()?, note),
         Number::Own(7) => s07::draw(&results.theory.large),
         Number::Own(8) => s08::draw(&results.theory),
+        Number::Own(9) => s09::draw(results.heat()?, &results.theory, note),
         _ => Err(Error::Number(number)),
     }
 }

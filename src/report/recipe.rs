@@ -35,6 +35,7 @@ pub fn recipe(name: &str, profile: Profile) -> Option<Recipe> {
         "space-time" => ("space-time", "experiments::spacetime::run"),
         "segments" => ("segments", "experiments::segments::run"),
         "measured" => ("measured", "experiments::measured"),
+        "heat" => ("heat", "experiments::heat::run"),
         "long_protocol" => ("long_protocol", "experiments::deep::audit"),
         "theory" => ("theory", "experiments::theory::run"),
         _ => return None,

@@ -2,10 +2,11 @@
 //!
 //! A value is computed here from results and carries the path of the item that computed it. Groups
 //! are `v` (ours), `paper` (numbers that the paper chose), `printed` (numbers in its statements),
-//! `compare`, `protocol`, `long`, `starts` and `bias` (cells of five tables).
+//! `compare`, `protocol`, `long`, `heat`, `starts` and `bias` (cells of six tables).
 
 mod accuracy;
 mod comparison;
+mod heat;
 mod higher;
 mod large;
 mod ledger;
@@ -62,6 +63,7 @@ pub fn registry(results: &Results, published: &Published) -> Result<Registry, Er
     registry.extend(spacetime::values(results)?)?;
     registry.extend(accuracy::values(results)?)?;
     registry.extend(long::values(results)?)?;
+    registry.extend(heat::values(results)?)?;
     registry.extend(ledger::values(results))?;
     Ok(registry)
 }
@@ -91,6 +93,7 @@ pub fn rows(
         ("distance_heads", serde_json::to_value(large::distance_heads(results))?),
         ("distance_table", serde_json::to_value(large::distance_table(results))?),
         ("order_table", serde_json::to_value(large::order_table(results))?),
+        ("heat_table", serde_json::to_value(heat::table(results)?)?),
         ("starts_table", serde_json::to_value(starts::table(results)?)?),
         ("bias_heads", serde_json::to_value(accuracy::bias_heads(results)?)?),
         ("bias_table", serde_json::to_value(accuracy::bias_table(results)?)?),

@@ -10,6 +10,7 @@
 mod accuracy;
 mod comparison;
 mod counts;
+mod heat;
 mod higher;
 mod large;
 mod long;
@@ -68,6 +69,7 @@ pub fn all() -> impl Iterator<Item = &'static Guard> {
         rare::GUARDS,
         protocol::GUARDS,
         long::GUARDS,
+        heat::GUARDS,
         motion::GUARDS,
         simple::GUARDS,
         relation::GUARDS,

@@ -110,14 +110,22 @@ const PANELS: usize = 24;
 /// Eq. (25) for the paper's chain: two amplitudes with the density of Eq. (22) exceed d together.
 pub fn p(sigma: f64) -> f64 {
     static KNOWN: Known<u64, f64> = Known::new();
-    KNOWN.get(sigma.to_bits(), || both_amplitudes(sigma))
+    KNOWN.get(sigma.to_bits(), || both_amplitudes(sigma, sigma))
 }
 
-fn both_amplitudes(sigma: f64) -> f64 {
-    let rate = 0.5 / sigma;
-    let tail = |x: f64| f_exp(-(rate * x) * (rate * x));
-    let both = |x: f64| 2.0 * rate * rate * x * tail(x) * tail(1.0 - x);
-    tail(1.0) + RULE.integrate_panels(0.0, 1.0, PANELS, both)
+/// The same with free amplitudes that are wider by the root of a ratio of variances.
+pub fn p_heated(sigma: f64, ratio: f64) -> f64 {
+    static KNOWN: Known<[u64; 2], f64> = Known::new();
+    let key = [sigma.to_bits(), ratio.to_bits()];
+    KNOWN.get(key, || both_amplitudes(sigma * ratio.sqrt(), sigma))
+}
+
+/// Rayleigh amplitudes of a free and a forced part exceed d together.
+fn both_amplitudes(free: f64, forced: f64) -> f64 {
+    let tail = |x: f64, scale: f64| f_exp(-(0.5 * x / scale) * (0.5 * x / scale));
+    let density = |x: f64| 0.5 * x / (forced * forced) * tail(x, forced);
+    let both = |x: f64| density(x) * tail(1.0 - x, free);
+    tail(1.0, forced) + RULE.integrate_panels(0.0, 1.0, PANELS, both)
 }
 
 /// The same for a start from rest, where the free amplitude goes with the forced one: the mean over

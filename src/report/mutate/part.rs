@@ -56,7 +56,7 @@ macro_rules! looked_at {
 }
 
 /// All parts. What is computed from the main sweep in memory stands before it.
-const PARTS: [Part; 18] = [
+const PARTS: [Part; 19] = [
     looked_at!(theory),
     looked_at!(identities),
     ran!("laws", laws),
@@ -84,6 +84,7 @@ const PARTS: [Part; 18] = [
     ran!("scale", scale),
     ran!("analytic", analytic),
     ran!("measured", measured),
+    ran!("heat", heat),
     ran!("long_protocol", long_protocol),
 ];
 

@@ -1,0 +1,109 @@
+//! Section 12: how hot a running chain is.
+
+use super::{Error, chosen, count, estimate, from, mark};
+use crate::experiments::Results;
+use crate::experiments::heat::{Heat, Warmth};
+use crate::numerics::statistics::Estimate;
+use crate::params::HeatParams;
+use crate::report::values::Value;
+use serde::Serialize;
+
+/// The σ of which the text speaks: at the rise, and far above.
+const SIGMAS: [f64; 2] = [0.12, 0.3];
+
+/// The restitution of which it speaks, beside the paper's.
+const RESTITUTION: f64 = 0.9;
+
+/// One line of the table.
+#[derive(Debug, Serialize)]
+pub struct Line {
+    sigma: String,
+    ratio: String,
+    count: String,
+    probabilities: Vec<String>,
+}
+
+fn id(row: &Warmth, column: &str) -> String {
+    format!("heat.s{}_{column}", format!("{}", row.row.sigma).replace('.', "_"))
+}
+
+/// What the chain's free parts are worth in the relation of p and σ, by column of the table.
+const COLUMNS: [&str; 4] = ["p", "rest", "balanced", "measured"];
+
+fn probabilities(row: &Warmth) -> [f64; 4] {
+    [row.p, row.p_rest, row.p_balanced, row.p_measured()]
+}
+
+pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
+    let heat = results.heat()?;
+    let protocol = heat.parameters.protocol;
+    let n = heat.parameters.realisations;
+    let mut values = vec![
+        Value::integer("heat_realisations", n),
+        Value::integer("heat_transient", protocol.transient as u64),
+        Value::integer("heat_window", protocol.window as u64),
+        Value::real("sigma_jump_hot", heat.sigma_jump, 3),
+        chosen("heat_other_sigma", HeatParams::SIGMA),
+        chosen("heat_other_restitution", RESTITUTION),
+    ];
+    for row in heat.rising() {
+        values.push(chosen(&id(row, "sigma"), row.row.sigma));
+        values.push(estimate(id(row, "ratio"), row.ratio, row.ratios.len()));
+        values.push(estimate(id(row, "count"), row.count, row.counts.len()));
+        let probabilities = COLUMNS.iter().zip(probabilities(row));
+        values.extend(probabilities.map(|(name, p)| Value::real(id(row, name), p, 2)));
+    }
+    for (letter, sigma) in ["a", "b"].iter().zip(SIGMAS) {
+        let row = heat.rising().find(|row| row.row.sigma == sigma);
+        let row = row.ok_or(Error::Missing("how hot chains are at every sigma of the text"))?;
+        let named = |name: &str| format!("heat_{name}_{letter}");
+        let share = |own: Estimate| {
+            Value::ensemble(
+                named("share"),
+                own.value / row.expected,
+                own.error / row.expected,
+                row.ratios.len() as u64,
+            )
+        };
+        values.push(chosen(&named("sigma"), sigma));
+        values.push(estimate(named("ratio"), row.ratio, row.ratios.len()));
+        values.push(estimate(named("hit"), row.ratio_of_hit, row.ratios.len()));
+        values.push(estimate(named("balance"), row.balance, row.ratios.len()));
+        values.push(row.ratio_of_hit.map_or(Value::text(named("share"), "none"), share));
+        values.push(Value::real(named("measured"), row.p_measured(), 2));
+        values.push(count(&named("impacts"), row.impacts));
+    }
+    let other = |row: &&Warmth| row.row.restitution == RESTITUTION;
+    let other = heat.others().find(other).ok_or(Error::Missing("another restitution"))?;
+    values.push(Value::real(
+        "heat_expected",
+        heat.rising().map(|row| row.expected).fold(0.0, f64::max),
+        2,
+    ));
+    values.push(Value::real("heat_other_expected", other.expected, 2));
+    values.push(estimate("heat_other", other.ratio, other.ratios.len()));
+    values.push(Value::integer("heat_scored", heat.rising().count()));
+    let of = |(name, score): (&&str, f64)| Value::real(format!("heat_score_{name}"), score, 2);
+    values.extend(COLUMNS.iter().zip(scores(heat)).map(of));
+    Ok(from(values, "experiments::heat::run", "heat"))
+}
+
+/// For each relation of p and σ the root mean square distance of its expected number of impacts from
+/// the mean count of the same runs.
+fn scores(heat: &Heat) -> [f64; 4] {
+    let rows = || heat.rising().filter_map(|row| Some((row, row.count?.value)));
+    let number = rows().count().max(1) as f64;
+    let square = |i: usize| rows().map(move |(row, k)| (row.means[i] - k) * (row.means[i] - k));
+    std::array::from_fn(|i| (square(i).sum::<f64>() / number).sqrt())
+}
+
+/// The lines of the table.
+pub fn table(results: &Results) -> Result<Vec<Line>, Error> {
+    let line = |row: &Warmth| Line {
+        sigma: mark(id(row, "sigma")),
+        ratio: mark(id(row, "ratio")),
+        count: mark(id(row, "count")),
+        probabilities: COLUMNS.iter().map(|name| mark(id(row, name))).collect(),
+    };
+    Ok(results.heat()?.rising().map(line).collect())
+}
