@@ -40,11 +40,17 @@ fn estimates(
     y: fn(f64) -> f64,
 ) -> Result<(), Error> {
     let thin = Stroke::solid(colour, THIN);
+    let inside = |height: f64| height.clamp(panel.y.lo, panel.y.hi);
     let bar = |(x, own): &(f64, Estimate)| {
-        (*x, y(own.value - own.error).max(panel.y.lo), y(own.value + own.error))
+        // A few realisations leave bars longer than the axis.
+        (
+            *x,
+            inside(y((own.value - own.error).max(f64::MIN_POSITIVE))),
+            inside(y(own.value + own.error)),
+        )
     };
     panel.bars(name, &points.iter().map(bar).collect::<Vec<_>>(), 35, thin)?;
-    let at = |(x, own): &(f64, Estimate)| (*x, y(own.value));
+    let at = |(x, own): &(f64, Estimate)| (*x, inside(y(own.value)));
     panel.marks(
         name,
         &points.iter().map(at).collect::<Vec<_>>(),
@@ -127,8 +133,8 @@ fn probabilities(sheet: &Sheet, heat: &Heat, theory: &Theory) -> Result<(), Erro
         panel.curve(name, &points, stroke, Outside::Cut)?;
         entries.push(Entry::line(stroke, name));
     }
-    let measured = heat.rising().filter(|row| row.closing > 0);
-    let measured: Vec<_> = measured.map(|row| (row.row.sigma, log(row.p_measured()))).collect();
+    let measured = heat.rising().filter(|row| row.p_measured > 0.0);
+    let measured: Vec<_> = measured.map(|row| (row.row.sigma, log(row.p_measured))).collect();
     let look = (Mark::Disc, SIZE, Stroke::solid(RED, THIN));
     panel.marks("measured", &measured, look, Outside::Refuse)?;
     entries.push(Entry::mark(look.0, look.1, look.2, "measured"));
@@ -153,7 +159,7 @@ fn description(heat: &Heat) -> String {
         .collect();
     let p: Vec<String> = heat
         .rising()
-        .map(|row| format!("{} at σ = {}", short(row.p_measured(), 2), row.row.sigma))
+        .map(|row| format!("{} at σ = {}", short(row.p_measured, 2), row.row.sigma))
         .collect();
     format!(
         "(a) Variance of the free amplitudes over that of the force against σ, of masses that are hit and of \
@@ -206,7 +212,7 @@ fn tables(heat: &Heat) -> Vec<DataFile> {
             row.p,
             row.p_rest,
             row.p_balanced,
-            row.p_measured()
+            row.p_measured
         ]);
     }
     let mut balanced = DataFile::new("s09c.csv", &["sigma (d omega^2)", "p_balanced (1)"]);

@@ -31,7 +31,7 @@ fn id(row: &Warmth, column: &str) -> String {
 const COLUMNS: [&str; 4] = ["p", "rest", "balanced", "measured"];
 
 fn probabilities(row: &Warmth) -> [f64; 4] {
-    [row.p, row.p_rest, row.p_balanced, row.p_measured()]
+    [row.p, row.p_rest, row.p_balanced, row.p_measured]
 }
 
 pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
@@ -70,8 +70,8 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
         values.push(estimate(named("hit"), row.ratio_of_hit, row.ratios.len()));
         values.push(estimate(named("balance"), row.balance, row.ratios.len()));
         values.push(row.ratio_of_hit.map_or(Value::text(named("share"), "none"), share));
-        values.push(Value::real(named("measured"), row.p_measured(), 2));
-        values.push(count(&named("impacts"), row.impacts));
+        values.push(Value::real(named("measured"), row.p_measured, 2));
+        values.push(count(&named("impacts"), row.impacts.iter().sum()));
     }
     let other = |row: &&Warmth| row.row.restitution == RESTITUTION;
     let other = heat.others().find(other).ok_or(Error::Missing("another restitution"))?;

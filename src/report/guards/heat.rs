@@ -5,14 +5,11 @@ use super::{Guard, Look, far, unless};
 use crate::experiments::heat::{Heat, Warmth};
 
 pub const GUARDS: &[Guard] = &[
-    Guard { name: "heat_of_realisations", ids: &["heat.*", "heat_ratio_*"], find: ratios },
-    Guard { name: "energy_kept_in_books", ids: &["heat_balance_*", "heat_window"], find: balance },
-    Guard {
-        name: "heat_expected",
-        ids: &["heat_expected", "heat_other_expected", "heat_share_*", "heat_hit_*"],
-        find: expected,
-    },
-    Guard { name: "p_of_hot_chains", ids: &["heat.*", "heat_measured_*"], find: p },
+    Guard { name: "heat_of_realisations", ids: &["heat.*", "heat_ratio_*"], find: sums },
+    Guard { name: "heat_as_tabled", ids: &["heat_*"], find: tabled },
+    Guard { name: "energy_kept_in_books", ids: &["heat_balance_*"], find: balance },
+    Guard { name: "heat_expected", ids: &["heat_expected", "heat_other_expected"], find: expected },
+    Guard { name: "p_of_hot_chains", ids: &["heat.*"], find: p },
     Guard { name: "sigma_of_hot_jump", ids: &["sigma_jump_hot"], find: jump },
     Guard { name: "heat_scores", ids: &["heat_score_*", "heat_scored"], find: scores },
 ];
@@ -21,33 +18,62 @@ fn heat(look: Look<'_>) -> Option<&Heat> {
     look.results.heat.as_ref()
 }
 
-/// The mean is that of the realisations, and a realisation with no mass that was hit is as it started.
-fn ratios(look: Look<'_>) -> Option<String> {
+/// Means are those of the realisations, and ratios those of their sums; the ensembles are those
+/// that were asked for.
+fn sums(look: Look<'_>) -> Option<String> {
     let heat = heat(look)?;
-    heat.rows.iter().find_map(|row| {
-        let n = row.ratios.len();
-        let told = row.ratio?.value;
-        let sum: f64 = row.ratios.iter().sum();
-        let counts: u64 = row.counts.iter().sum();
-        far("a mean of the free parts", told, sum / n as f64)
-            .or_else(|| far("a mean count", row.count?.value, counts as f64 / n as f64))
-            .or_else(|| look.is("heat_realisations", (n + row.failed) as f64))
-    })
+    let asked: Vec<_> = heat.rows.iter().map(|row| row.row).collect();
+    let gaps = heat.parameters.chain.gaps() as f64;
+    let uneven = unless(asked == heat.parameters.rows, || "other ensembles than asked for".into());
+    let row = |row: &Warmth| {
+        let n = row.ratios.len() as f64;
+        let ratio = |[above, below]: [f64; 2]| above / below;
+        let total = |counts: &[u64]| counts.iter().sum::<u64>() as f64;
+        far("a mean of the free parts", row.ratio?.value, row.ratios.iter().sum::<f64>() / n)
+            .or_else(|| far("a mean count", row.count?.value, total(&row.counts) / n))
+            .or_else(|| far("closing gaps", row.p_measured, total(&row.closing) / (n * gaps)))
+            .or_else(|| look.is("heat_realisations", n + row.failed as f64))
+            .or_else(|| far("heat of those hit", row.ratio_of_hit?.value, ratio(row.warmth_of_hit)))
+            .or_else(|| far("a balance", row.balance?.value, ratio(row.work)))
+    };
+    uneven.or_else(|| heat.rows.iter().find_map(row))
 }
 
-/// What the free parts of a chain gain in the window is what impacts gave them, and in a steady
-/// state that is nothing: as much as chance and the rest of the warming allow.
-fn balance(look: Look<'_>) -> Option<String> {
+/// The text speaks of rows of the table.
+fn tabled(look: Look<'_>) -> Option<String> {
     let heat = heat(look)?;
-    let protocol = heat.parameters.protocol;
-    let kept = heat.rows.iter().find_map(|row| {
+    let at = |letter: &str| {
+        let named = |name: &str| format!("heat_{name}_{letter}");
+        let sigma = look.number(&named("sigma"))?;
+        let Some(row) = heat.rising().find(|row| row.row.sigma == sigma) else {
+            return Some(format!("no row at sigma = {sigma}"));
+        };
+        let hit = row.warmth_of_hit[0] / row.warmth_of_hit[1];
+        look.is(&named("ratio"), row.ratios.iter().sum::<f64>() / row.ratios.len() as f64)
+            .or_else(|| look.is(&named("hit"), hit))
+            .or_else(|| look.is(&named("share"), hit / row.expected))
+            .or_else(|| look.is(&named("balance"), row.work[0] / row.work[1]))
+            .or_else(|| look.is(&named("measured"), row.p_measured))
+            .or_else(|| look.is(&named("impacts"), row.impacts.iter().sum::<u64>() as f64))
+    };
+    let other = || {
+        let r = look.number("heat_other_restitution")?;
+        let Some(row) = heat.others().find(|row| row.row.restitution == r) else {
+            return Some(format!("no row at r = {r}"));
+        };
+        look.is("heat_other", row.ratios.iter().sum::<f64>() / row.ratios.len() as f64)
+            .or_else(|| look.is("heat_other_sigma", row.row.sigma))
+    };
+    at("a").or_else(|| at("b")).or_else(other)
+}
+
+/// What the free parts of a chain gain in the window is what impacts gave them.
+fn balance(look: Look<'_>) -> Option<String> {
+    heat(look)?.rows.iter().find_map(|row| {
         let off = row.imbalance?;
         unless(off.abs() <= super::ROUNDING, || {
             format!("energy is off by {off} of what impacts took at {:?}", row.row)
         })
-    });
-    kept.or_else(|| {
-        look.are([("heat_transient", protocol.transient), ("heat_window", protocol.window)])
     })
 }
 
@@ -64,18 +90,16 @@ fn expected(look: Look<'_>) -> Option<String> {
         .or_else(|| look.is("heat_other_expected", of(look.number("heat_other_restitution")?)))
 }
 
-/// Rows of the table: probabilities by integrals, and the measured share as what it is a share of.
+/// Probabilities of the table, by integrals.
 fn p(look: Look<'_>) -> Option<String> {
     let heat = heat(look)?;
     heat.rows.iter().find_map(|row| {
         let sigma = row.row.sigma;
-        let share = row.p_measured() * row.gaps as f64;
+        let balanced =
+            || far("p of a hot chain", row.p_balanced, model::p_heated(sigma, row.expected));
         far("p", row.p, model::p(sigma))
             .or_else(|| far("p from rest", row.p_rest, model::p_rest(sigma)))
-            .or_else(|| {
-                far("p of a hot chain", row.p_balanced, model::p_heated(sigma, row.expected))
-            })
-            .or_else(|| far("closing gaps", share, row.closing as f64))
+            .or_else(balanced)
     })
 }
 
@@ -105,6 +129,6 @@ fn scores(look: Look<'_>) -> Option<String> {
         ("heat_score_p", score(|row| row.p)),
         ("heat_score_rest", score(|row| row.p_rest)),
         ("heat_score_balanced", score(|row| row.p_balanced)),
-        ("heat_score_measured", score(Warmth::p_measured)),
+        ("heat_score_measured", score(|row| row.p_measured)),
     ])
 }
