@@ -229,7 +229,7 @@ fn no_curve_runs_through_a_label() {
 
 #[test]
 fn axes_carry_their_labels() {
-    let expected: [(usize, &[&str]); 20] = [
+    let expected: [(usize, &[&str]); 22] = [
         (1, &["d", "nd", "(n+1)d", "Δ_1(t)"]),
         (2, &["standard deviation σ of the forcing", "most likely number of impacts"]),
         (3, &["standard deviation σ of the forcing", "expected number of impacts", "kept share"]),
@@ -249,6 +249,11 @@ fn axes_carry_their_labels() {
         (18, &["bias (%)", "evaluations per impact", "σ = 0.12"]),
         (19, &["number of masses n", "evaluations per impact", "measured µs per impact"]),
         (21, &["gap", "time t (1/ω)", "impact", "no neighbour was hit before"]),
+        (
+            22,
+            &["p N", "k^∗/N", "N = 10^6", "k^∗/N at the jump", "distance from Poisson", "p N = 10"],
+        ),
+        (23, &["share", "p", "1/N", "p_jump", "of all circuits", "all circuits at p = 0.009995"]),
         (20, &["relative error", "number of vertices N", "closed form", "log-gamma"]),
     ];
     let drawn = all(quick());
@@ -353,6 +358,8 @@ fn data_files_have_headers_with_units_and_the_rows_of_what_is_drawn() {
         ("fig13a.csv", n),
         ("fig13b.csv", 20),
         ("fig14b.csv", n),
+        ("s07b.csv", theory.large.jumps.len()),
+        ("s08c.csv", n),
     ] {
         assert_eq!(rows.get(name), Some(&expected), "{name}");
     }

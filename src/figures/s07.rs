@@ -133,7 +133,12 @@ fn description(large: &Large) -> String {
     };
     let distances: Vec<String> = large.poisson.iter().map(ends).collect();
     format!(
-        "(a) The most likely number over N against p N: zero, a jump soon after p N = 1, then a curve that          bends towards one. The larger N, the smaller the jump, and the nearer the curve to          the broken line max(0, 1 − 1/(p N)), on which that for the largest N lies. (b) The height of the          jump over N, on logarithmic axes: {}; the line of the rule goes through the points. (c) Total          variation distance of N − X from a Poisson variable, on logarithmic axes, falls with the          root of N, {}; dotted lines a little above are bounds.",
+        "(a) The most likely number over N against p N: zero, a jump soon after p N = 1, then a curve that \
+         bends towards one. The larger N, the smaller the jump, and the nearer the curve to \
+         the broken line max(0, 1 − 1/(p N)), on which that for the largest N lies. (b) The height of the \
+         jump over N, on logarithmic axes: {}; the line of the rule goes through the points. (c) Total \
+         variation distance of N − X from a Poisson variable, on logarithmic axes, falls with the \
+         root of N, {}; dotted lines a little above are bounds.",
         jumps.join(", "),
         distances.join(", ")
     )

@@ -122,7 +122,12 @@ fn description(theory: &Theory) -> String {
     };
     let (first, least) = ends(&orders.at_jump);
     format!(
-        "(a) The shares of the five classes among themselves against p on a logarithmic axis, N = {}: {}          at p = 0.001, {} at p = 0.1. Simple circuits give way to those with two vertices twice. (b) The share of the          five classes among all circuits with K different vertices: curves that fall from one to zero at p = 1/K, which is {};          among all circuits it falls to zero at 1/N. (c) P(X = k) at the jump:          with simple circuits two humps, as high at k = {} as at k = 1; with all          circuits a trough, {first} at both ends and {least} at its lowest.",
+        "(a) The shares of the five classes among themselves against p on a logarithmic axis, N = {}: {} \
+         at p = 0.001, {} at p = 0.1. Simple circuits give way to those with two vertices twice. (b) The share of the \
+         five classes among all circuits with K different vertices: curves that fall from one to zero at p = 1/K, which is {}; \
+         among all circuits it falls to zero at 1/N. (c) P(X = k) at the jump: \
+         with simple circuits two humps, as high at k = {} as at k = 1; with all \
+         circuits a trough, {first} at both ends and {least} at its lowest.",
         theory.vertices,
         shares(1e-3),
         shares(1e-1),

@@ -32,7 +32,7 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
     let theory = &results.theory;
     let mut values = from(jump(&theory.large)?, "circuits::large", "theory");
     values.extend(from(distances(&theory.large)?, "circuits::large::Missing", "theory"));
-    values.extend(from(orders(&theory.orders), "circuits::higher_order::Orders", "theory"));
+    values.extend(from(orders(&theory.orders), "circuits::higher_order::orders::Orders", "theory"));
     Ok(values)
 }
 

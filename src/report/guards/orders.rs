@@ -110,6 +110,9 @@ fn jumps(look: Look<'_>) -> Option<String> {
     (0..theory.orders.jumps.len()).find_map(|i| {
         let [most, p, k] = ["e", "p", "k"].map(|name| look.number(&format!("orders.{name}{i}")));
         let (most, p, k) = (most?, p?, k?);
+        if most < 0.0 {
+            return Some(format!("orders.e{i} is {most}"));
+        }
         level(&weights(theory.vertices, p, Some(most as usize)), k, &format!("orders.p{i}"))
     })
 }
