@@ -76,7 +76,7 @@ fn against_sigma(sheet: &Sheet, heat: &Heat) -> Result<(), Error> {
         ("Eq. (25)", 1.0, Stroke::dashed(BLUE, LINE, Dash::Short)),
     ];
     let mut entries = Vec::new();
-    for (name, height, stroke) in lines {
+    for (name, height, stroke) in lines.iter().copied() {
         level(name, height, stroke)?;
         entries.push(Entry::line(stroke, name));
     }
@@ -89,7 +89,9 @@ fn against_sigma(sheet: &Sheet, heat: &Heat) -> Result<(), Error> {
     for (name, mark, colour) in looks {
         entries.push(Entry::mark(mark, SIZE, Stroke::solid(colour, THIN), name));
     }
-    sheet.legend((5350, 600), (SMALL, 350), &entries)
+    let (lines, marks) = entries.split_at(lines.len());
+    sheet.legend((2700, 600), (SMALL, 350), lines)?;
+    sheet.legend((5650, 600), (SMALL, 350), marks)
 }
 
 fn against_restitution(sheet: &Sheet, heat: &Heat) -> Result<(), Error> {

@@ -3,7 +3,6 @@
 use super::{Error, chosen, count, estimate, from, mark};
 use crate::experiments::Results;
 use crate::experiments::heat::{Heat, Warmth};
-use crate::numerics::statistics::Estimate;
 use crate::params::HeatParams;
 use crate::report::values::Value;
 use serde::Serialize;
@@ -54,25 +53,26 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
         values.extend(probabilities.map(|(name, p)| Value::real(id(row, name), p, 2)));
     }
     for (letter, sigma) in ["a", "b"].iter().zip(SIGMAS) {
-        let row = heat.rising().find(|row| row.row.sigma == sigma);
-        let row = row.ok_or(Error::Missing("how hot chains are at every sigma of the text"))?;
+        let row = at(heat, sigma)?;
         let named = |name: &str| format!("heat_{name}_{letter}");
-        let share = |own: Estimate| {
-            Value::ensemble(
-                named("share"),
-                own.value / row.expected,
-                own.error / row.expected,
-                row.ratios.len() as u64,
-            )
-        };
         values.push(chosen(&named("sigma"), sigma));
         values.push(estimate(named("ratio"), row.ratio, row.ratios.len()));
-        values.push(estimate(named("hit"), row.ratio_of_hit, row.ratios.len()));
         values.push(estimate(named("balance"), row.balance, row.ratios.len()));
-        values.push(row.ratio_of_hit.map_or(Value::text(named("share"), "none"), share));
-        values.push(Value::real(named("measured"), row.p_measured, 2));
         values.push(count(&named("impacts"), row.impacts.iter().sum()));
     }
+    let row = at(heat, SIGMAS[0])?;
+    values.push(estimate("heat_hit", row.ratio_of_hit, row.ratios.len()));
+    values.push(match row.ratio_of_hit {
+        Some(own) => {
+            let [share, error] = [own.value, own.error].map(|x| x / row.expected);
+            Value::ensemble("heat_share", share, error, row.ratios.len() as u64)
+        }
+        None => Value::text("heat_share", "none"),
+    });
+    let lowest = heat.rising().next().ok_or(Error::Missing("how hot chains are"))?;
+    values.push(chosen("heat_lowest_sigma", lowest.row.sigma));
+    values.push(estimate("heat_lowest_hit", lowest.ratio_of_hit, lowest.ratios.len()));
+    values.push(Value::real("heat_measured", row.p_measured, 2));
     let other = |row: &&Warmth| row.row.restitution == RESTITUTION;
     let other = heat.others().find(other).ok_or(Error::Missing("another restitution"))?;
     values.push(Value::real(
@@ -86,6 +86,12 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
     let of = |(name, score): (&&str, f64)| Value::real(format!("heat_score_{name}"), score, 2);
     values.extend(COLUMNS.iter().zip(scores(heat)).map(of));
     Ok(from(values, "experiments::heat::run", "heat"))
+}
+
+/// The row of a σ that the text speaks of.
+fn at(heat: &Heat, sigma: f64) -> Result<&Warmth, Error> {
+    let row = heat.rising().find(|row| row.row.sigma == sigma);
+    row.ok_or(Error::Missing("how hot chains are at every sigma of the text"))
 }
 
 /// For each relation of p and σ the root mean square distance of its expected number of impacts from

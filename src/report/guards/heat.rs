@@ -48,12 +48,17 @@ fn tabled(look: Look<'_>) -> Option<String> {
         let Some(row) = heat.rising().find(|row| row.row.sigma == sigma) else {
             return Some(format!("no row at sigma = {sigma}"));
         };
-        let hit = row.warmth_of_hit[0] / row.warmth_of_hit[1];
+        let hit = || match letter {
+            "a" => {
+                let hit = row.warmth_of_hit[0] / row.warmth_of_hit[1];
+                look.are([("heat_hit", hit), ("heat_share", hit / row.expected)])
+                    .or_else(|| look.is("heat_measured", row.p_measured))
+            }
+            _ => None,
+        };
         look.is(&named("ratio"), row.ratios.iter().sum::<f64>() / row.ratios.len() as f64)
-            .or_else(|| look.is(&named("hit"), hit))
-            .or_else(|| look.is(&named("share"), hit / row.expected))
+            .or_else(hit)
             .or_else(|| look.is(&named("balance"), row.work[0] / row.work[1]))
-            .or_else(|| look.is(&named("measured"), row.p_measured))
             .or_else(|| look.is(&named("impacts"), row.impacts.iter().sum::<u64>() as f64))
     };
     let other = || {
@@ -64,7 +69,21 @@ fn tabled(look: Look<'_>) -> Option<String> {
         look.is("heat_other", row.ratios.iter().sum::<f64>() / row.ratios.len() as f64)
             .or_else(|| look.is("heat_other_sigma", row.row.sigma))
     };
-    at("a").or_else(|| at("b")).or_else(other)
+    let head = |row: &Warmth| {
+        let sigma = row.row.sigma;
+        look.is(&format!("heat.s{}_sigma", format!("{sigma}").replace('.', "_")), sigma)
+    };
+    let lowest = || {
+        let row = heat.rising().next()?;
+        look.is("heat_lowest_sigma", row.row.sigma)
+            .or_else(|| look.is("heat_lowest_hit", row.warmth_of_hit[0] / row.warmth_of_hit[1]))
+    };
+    heat.rising()
+        .find_map(head)
+        .or_else(lowest)
+        .or_else(|| at("a"))
+        .or_else(|| at("b"))
+        .or_else(other)
 }
 
 /// What the free parts of a chain gain in the window is what impacts gave them.
