@@ -2,7 +2,7 @@
 
 mod program;
 
-use program::{EXPERIMENTS, Files, PROGRAM, files, program, run, told};
+use program::{EXPERIMENTS, Files, PROGRAM, TEMPLATES, files, program, run, told};
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::sync::LazyLock;
@@ -111,7 +111,7 @@ fn status_gives_each_reason_and_audit_compares_bytes() {
     assert_eq!(horizon["changed"], serde_json::json!(["src/dynamics/simulation.rs"]));
     // The next run says why, runs these six and no other, and all is as before.
     let (_, _, note) = run(folder, PAPER);
-    assert_eq!(note.matches(": fresh").count(), 6, "{note}");
+    assert_eq!(note.matches(": fresh").count(), EXPERIMENTS - 6, "{note}");
     for line in [
         "horizon: run (src/dynamics/simulation.rs changed)",
         "starts: run (Cargo.lock changed)",
@@ -142,6 +142,55 @@ fn digest(lines: &[&str]) -> String {
     use sha2::{Digest, Sha256};
     let text: String = lines.iter().flat_map(|line| [*line, "\n"]).collect();
     Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// What the deep profile gave is committed: carried over as long as its audit finds no fault.
+#[test]
+fn a_committed_result_is_carried_over_until_its_audit_fails() {
+    let (folder, results) = (whole(), &*RESULTS);
+    let folder = folder.path();
+    let committed = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/deep/long_protocol-deep.json");
+    let deep = folder.join("deep");
+    std::fs::create_dir(&deep).unwrap();
+    let text = std::fs::read_to_string(committed).unwrap();
+    let lines: Vec<&str> = text.lines().collect();
+    let put = |identity: &str, body: &str| {
+        let text = format!("{}\n{identity}\n{body}\n", digest(&[identity, body]));
+        std::fs::write(deep.join("long_protocol-deep.json"), text).unwrap();
+    };
+    let asked = || {
+        let (code, text, _) = run(folder, "status --profile deep --results deep --json");
+        let json: serde_json::Value = serde_json::from_str(&text).unwrap();
+        (code, json["experiments"][0].clone())
+    };
+    // Other code is no reason against it; other parameters are, and damage.
+    put(&lines[1].replacen("engine.rs\":\"", "engine.rs\":\"0", 1), lines[2]);
+    let (code, line) = asked();
+    assert_eq!((code, &line["carried"], &line["code"]), (0, &true.into(), &true.into()), "{line}");
+    put(&lines[1].replacen("\"seed\":", "\"seed\":1", 1), lines[2]);
+    let (code, line) = asked();
+    let told = (&line["carried"], &line["parameters"]);
+    assert_eq!((code, told), (3, (&false.into(), &true.into())), "{line}");
+    std::fs::write(deep.join("long_protocol-deep.json"), &text[..1000]).unwrap();
+    let (code, line) = asked();
+    assert_eq!((code, &line["damaged"]), (3, &true.into()), "{line}");
+
+    // A sample that gave other counts than were committed makes it stale, and the check red.
+    let name = "long_protocol-quick.json";
+    let audit = String::from_utf8(results[name].clone()).unwrap();
+    let lines: Vec<&str> = audit.lines().collect();
+    let body = lines[2].replacen("\"identical\"", "\"failed\"", 1);
+    assert_ne!(body, lines[2], "{body}");
+    let audit = format!("{}\n{}\n{body}\n", digest(&[lines[1], &body]), lines[1]);
+    std::fs::write(folder.join("results").join(name), audit).unwrap();
+    assert_eq!(with(&status(folder), "failed"), ["long_protocol"]);
+    let check = format!("check --profile quick --results results --templates {TEMPLATES}");
+    let (code, text, note) = run(folder, &check);
+    assert_eq!(code, 1, "{note}");
+    assert!(
+        text.contains("FAILS guard long_map_audited: the committed long map is stale"),
+        "{text}"
+    );
 }
 
 /// Killed without a chance to tidy up, at many moments.
