@@ -6,10 +6,11 @@ use std::sync::LazyLock;
 
 use impact_paper::experiments::accuracy::{analytic, bias, race, scale};
 use impact_paper::experiments::segments::{Segment, SegmentImpact, Segments};
-use impact_paper::experiments::{Measured, Progress, Results, spacetime, sweep};
+use impact_paper::experiments::{Measured, Progress, Results, heat, spacetime, sweep};
 use impact_paper::figures::{self, Error, Figure};
 use impact_paper::params::{
-    AnalyticParams, BiasParams, Profile, RaceParams, ScaleParams, SpaceTimeParams, SweepParams,
+    AnalyticParams, BiasParams, HeatParams, Profile, RaceParams, ScaleParams, SpaceTimeParams,
+    SweepParams,
 };
 use roxmltree::{Document, Node};
 
@@ -49,6 +50,7 @@ fn results(profile: Profile) -> Results {
     results.scale = Some(scale::run(&ScaleParams::new(quick), &quiet).unwrap());
     results.analytic = Some(analytic::run(&AnalyticParams::new(quick), &quiet).unwrap());
     results.spacetime = Some(spacetime::run(&SpaceTimeParams::new(quick), &quiet).unwrap());
+    results.heat = Some(heat::run(&HeatParams::new(quick), &quiet).unwrap());
     results.measured = Some(Measured::embedded().unwrap());
     results
 }

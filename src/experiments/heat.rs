@@ -466,7 +466,7 @@ mod tests {
         assert_eq!(quiet.imbalance, Some(0.0));
         for row in [hot, tame] {
             assert!(row.imbalance.is_none_or(|off| off < 1e-10), "{:?}", row.imbalance);
-            assert!(row.impacts.iter().all(|&n| n > 50) && row.hit == 60, "{row:?}");
+            assert!(row.impacts.iter().all(|&n| n > 50) && row.hit > 50, "{row:?}");
         }
         assert!(hot.imbalance.is_some());
         assert!(hot.ratio.unwrap().value > tame.ratio.unwrap().value);
