@@ -132,7 +132,7 @@ fn label(group: &Node) -> Label {
 #[test]
 fn every_figure_is_a_titled_and_described_picture() {
     let drawn = all(quick());
-    assert_eq!(drawn.len(), 23);
+    assert_eq!(drawn.len(), 24);
     for (number, figure) in figures::all().zip(&drawn) {
         assert_eq!(figure.id, number.id());
         let document = Document::parse(&figure.svg).unwrap();
@@ -407,7 +407,8 @@ fn the_long_run_is_drawn_compactly_and_completely() {
 #[test]
 fn less_than_the_full_profile_is_marked() {
     let quick = all(quick());
-    let simulated = ["fig02", "fig03", "fig12", "fig15", "s01", "s02", "s03", "s04", "s05", "s06"];
+    let simulated =
+        ["fig02", "fig03", "fig12", "fig15", "s01", "s02", "s03", "s04", "s05", "s06", "s09"];
     for figure in &quick {
         let marked = figure.svg.contains("profile quick: not for citation");
         assert_eq!(marked, simulated.contains(&figure.id.as_str()), "{}", figure.id);
