@@ -16,7 +16,7 @@ use pxfm::f_log1p;
 #[derive(Clone, Debug)]
 pub struct Orders {
     big_n: usize,
-    /// S(K + e, K)/K^e at [K − 1][e]: rises with e from 1 to K^K/K!.
+    /// S(K + e, K)/K^e at index K − 1, then e: rises with e from 1 to K^K/K!.
     stirling: Vec<Vec<f64>>,
 }
 
