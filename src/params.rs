@@ -6,6 +6,10 @@
 mod accuracy;
 mod chosen;
 mod heat;
+mod history;
+mod independence;
+mod nucleation;
+mod orbits;
 mod sizes;
 mod spacetime;
 
@@ -14,6 +18,10 @@ pub use accuracy::{
 };
 pub use chosen::*;
 pub use heat::{HeatParams, HeatRow};
+pub use history::HistoryParams;
+pub use independence::{IndependenceParams, IndependenceRow};
+pub use nucleation::{NucleationParams, SeedsParams};
+pub use orbits::{HuntParams, OrbitsParams};
 pub use sizes::{
     Grid, HorizonParams, ProtocolParams, StartVariant, StartsParams, SweepParams, TwoMassesParams,
 };

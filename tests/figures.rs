@@ -6,11 +6,14 @@ use std::sync::LazyLock;
 
 use impact_paper::experiments::accuracy::{analytic, bias, race, scale};
 use impact_paper::experiments::segments::{Segment, SegmentImpact, Segments};
-use impact_paper::experiments::{Measured, Progress, Results, heat, spacetime, sweep};
+use impact_paper::experiments::{
+    Measured, Progress, Results, heat, independence, nucleation, orbits, protocol, seeds,
+    spacetime, sweep,
+};
 use impact_paper::figures::{self, Error, Figure};
 use impact_paper::params::{
-    AnalyticParams, BiasParams, HeatParams, Profile, RaceParams, ScaleParams, SpaceTimeParams,
-    SweepParams,
+    AnalyticParams, BiasParams, HeatParams, IndependenceParams, NucleationParams, OrbitsParams,
+    Profile, ProtocolParams, RaceParams, ScaleParams, SeedsParams, SpaceTimeParams, SweepParams,
 };
 use roxmltree::{Document, Node};
 
@@ -51,6 +54,13 @@ fn results(profile: Profile) -> Results {
     results.analytic = Some(analytic::run(&AnalyticParams::new(quick), &quiet).unwrap());
     results.spacetime = Some(spacetime::run(&SpaceTimeParams::new(quick), &quiet).unwrap());
     results.heat = Some(heat::run(&HeatParams::new(quick), &quiet).unwrap());
+    results.nucleation =
+        Some(nucleation::CUTTING.run(&NucleationParams::new(quick), "test", &quiet).unwrap());
+    results.seeds = Some(seeds::CUTTING.run(&SeedsParams::new(quick), "test", &quiet).unwrap());
+    results.protocol = Some(protocol::run(&ProtocolParams::new(quick), &quiet).unwrap());
+    results.independence =
+        Some(independence::run(&IndependenceParams::new(quick), &quiet).unwrap());
+    results.orbits = Some(orbits::run(&OrbitsParams::new(quick), &quiet).unwrap());
     results.measured = Some(Measured::embedded().unwrap());
     results
 }
@@ -132,7 +142,7 @@ fn label(group: &Node) -> Label {
 #[test]
 fn every_figure_is_a_titled_and_described_picture() {
     let drawn = all(quick());
-    assert_eq!(drawn.len(), 24);
+    assert_eq!(drawn.len(), 28);
     for (number, figure) in figures::all().zip(&drawn) {
         assert_eq!(figure.id, number.id());
         let document = Document::parse(&figure.svg).unwrap();
@@ -407,8 +417,10 @@ fn the_long_run_is_drawn_compactly_and_completely() {
 #[test]
 fn less_than_the_full_profile_is_marked() {
     let quick = all(quick());
-    let simulated =
-        ["fig02", "fig03", "fig12", "fig15", "s01", "s02", "s03", "s04", "s05", "s06", "s09"];
+    let simulated = [
+        "fig02", "fig03", "fig12", "fig15", "s01", "s02", "s03", "s04", "s05", "s06", "s09", "s10",
+        "s11", "s12", "s13",
+    ];
     for figure in &quick {
         let marked = figure.svg.contains("profile quick: not for citation");
         assert_eq!(marked, simulated.contains(&figure.id.as_str()), "{}", figure.id);

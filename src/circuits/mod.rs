@@ -8,9 +8,12 @@
 //! - [`impact_probability`]: the relation of p and σ, Eqs. (20) to (25) (Fig. 11).
 //! - [`balance`]: how hot a running chain is (ours).
 //! - [`higher_order`]: circuits that repeat vertices, Eqs. (26) to (38) (Figs. 13 to 15).
+//! - [`commuting`]: orders of impacts that no mass notices (ours).
 //! - [`large`]: Eq. (10) and its jump for many vertices (ours).
+//! - [`nucleation`]: gaps of a chain at rest that close by themselves (ours).
 
 pub mod balance;
+pub mod commuting;
 pub mod counting;
 pub mod distribution;
 mod error;
@@ -21,6 +24,7 @@ pub mod higher_order;
 pub mod impact_probability;
 pub mod jump;
 pub mod large;
+pub mod nucleation;
 
 pub use error::Error;
 pub use fraction::Fraction;

@@ -15,6 +15,7 @@ mod growth;
 mod impact;
 mod linear;
 pub mod methods;
+pub mod orbit;
 pub mod rounding;
 mod scenario;
 mod simulation;

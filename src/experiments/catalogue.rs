@@ -3,16 +3,20 @@
 use super::Need;
 use super::accuracy::{analytic, bias, race, scale, trials};
 use super::experiment::How::{Cut, Whole};
-use super::{deep, heat, horizon, protocol, spacetime, starts, sweep, tally, two_masses, weights};
+use super::{
+    deep, heat, history, horizon, independence, nucleation, orbits, protocol, seeds, spacetime,
+    starts, sweep, tally, two_masses, weights,
+};
 use crate::params::{
-    AnalyticParams, BiasParams, HeatParams, HorizonParams, Profile, ProtocolParams, RaceParams,
-    ScaleParams, SpaceTimeParams, StartsParams, SweepParams, TrialParams, TwoMassesParams,
+    AnalyticParams, BiasParams, HeatParams, HistoryParams, HorizonParams, IndependenceParams,
+    NucleationParams, OrbitsParams, Profile, ProtocolParams, RaceParams, ScaleParams, SeedsParams,
+    SpaceTimeParams, StartsParams, SweepParams, TrialParams, TwoMassesParams,
 };
 
 pub use super::experiment::{Experiment, Saved};
 
 /// The experiments that are saved, in the order in which they run.
-const ALL: [&dyn Saved; 14] = [
+const ALL: [&dyn Saved; 19] = [
     &SWEEP,
     &SECOND_SEED,
     &PROTOCOL,
@@ -26,6 +30,11 @@ const ALL: [&dyn Saved; 14] = [
     &SCALE,
     &ANALYTIC,
     &HEAT,
+    &NUCLEATION,
+    &SEEDS,
+    &HISTORY,
+    &INDEPENDENCE,
+    &ORBITS,
     &LONG_AUDIT,
 ];
 
@@ -149,6 +158,51 @@ pub const HEAT: Experiment<HeatParams, heat::Heat, heat::Part> = Experiment {
     module: "src/experiments/heat.rs",
     parameters: HeatParams::new,
     how: Cut("heat", heat::CUTTING),
+};
+
+/// First impacts of chains from rest.
+pub const NUCLEATION: Experiment<NucleationParams, nucleation::Nucleation, nucleation::Part> =
+    Experiment {
+        need: Need::Nucleation,
+        module: "src/experiments/nucleation.rs",
+        parameters: NucleationParams::new,
+        how: Cut("first impacts", nucleation::CUTTING),
+    };
+
+/// What one gap that closes by itself sets off.
+pub const SEEDS: Experiment<SeedsParams, seeds::Seeds, seeds::Part> = Experiment {
+    need: Need::Seeds,
+    module: "src/experiments/seeds/mod.rs",
+    parameters: SeedsParams::new,
+    how: Cut("seeds", seeds::CUTTING),
+};
+
+/// Chains that are heated first.
+pub const HISTORY: Experiment<HistoryParams, history::History, history::Part> = Experiment {
+    need: Need::History,
+    module: "src/experiments/history.rs",
+    parameters: HistoryParams::new,
+    how: Cut("history", history::CUTTING),
+};
+
+/// Whether impacts are independent.
+pub const INDEPENDENCE: Experiment<
+    IndependenceParams,
+    independence::Independence,
+    independence::Part,
+> = Experiment {
+    need: Need::Independence,
+    module: "src/experiments/independence/mod.rs",
+    parameters: IndependenceParams::new,
+    how: Cut("independence", independence::CUTTING),
+};
+
+/// Periodic orbits of a short chain.
+pub const ORBITS: Experiment<OrbitsParams, orbits::Orbits> = Experiment {
+    need: Need::Orbits,
+    module: "src/experiments/orbits/mod.rs",
+    parameters: OrbitsParams::new,
+    how: Whole { run: orbits::run, weight: |p| 60 * orbits::starts(p) },
 };
 
 /// The long end of the map over transients and windows.

@@ -3,8 +3,8 @@
 use super::accuracy::{analytic, bias, race, scale, trials};
 use super::{Error, Measured};
 use super::{
-    deep, heat, horizon, identities, laws, protocol, segments, spacetime, starts, sweep, theory,
-    two_masses,
+    deep, heat, history, horizon, identities, independence, laws, nucleation, orbits, protocol,
+    seeds, segments, spacetime, starts, sweep, theory, two_masses,
 };
 use crate::params::{Profile, VERTICES};
 use std::sync::LazyLock;
@@ -45,13 +45,23 @@ pub enum Need {
     Measured,
     /// [`Results::heat`].
     Heat,
+    /// [`Results::nucleation`].
+    Nucleation,
+    /// [`Results::seeds`].
+    Seeds,
+    /// [`Results::history`].
+    History,
+    /// [`Results::independence`].
+    Independence,
+    /// [`Results::orbits`].
+    Orbits,
     /// [`Results::long_protocol`]: read; a sample of it is run again.
     LongProtocol,
 }
 
 impl Need {
     /// Everything: what the report needs.
-    pub const ALL: [Need; 17] = [
+    pub const ALL: [Need; 22] = [
         Need::Sweep,
         Need::SecondSeed,
         Need::Protocol,
@@ -68,6 +78,11 @@ impl Need {
         Need::Analytic,
         Need::Measured,
         Need::Heat,
+        Need::Nucleation,
+        Need::Seeds,
+        Need::History,
+        Need::Independence,
+        Need::Orbits,
         Need::LongProtocol,
     ];
 
@@ -90,6 +105,11 @@ impl Need {
             Need::Measured => "measured",
             Need::SpaceTime => "space-time",
             Need::Heat => "heat",
+            Need::Nucleation => "nucleation",
+            Need::Seeds => "seeds",
+            Need::History => "history",
+            Need::Independence => "independence",
+            Need::Orbits => "orbits",
             Need::LongProtocol => "long_protocol",
         }
     }
@@ -136,6 +156,16 @@ pub struct Results {
     pub measured: Option<Measured>,
     /// How hot running chains are.
     pub heat: Option<heat::Heat>,
+    /// First impacts of chains from rest.
+    pub nucleation: Option<nucleation::Nucleation>,
+    /// What one gap that closes by itself sets off.
+    pub seeds: Option<seeds::Seeds>,
+    /// Counts after a larger force.
+    pub history: Option<history::History>,
+    /// Whether impacts are independent.
+    pub independence: Option<independence::Independence>,
+    /// Periodic orbits of a short chain.
+    pub orbits: Option<orbits::Orbits>,
     /// The long end of the map, carried over.
     pub long_protocol: Option<deep::Carried>,
 }
@@ -189,6 +219,16 @@ asked_for! {
     measured: Measured, Measured;
     /// How hot running chains are.
     heat: heat::Heat, Heat;
+    /// First impacts.
+    nucleation: nucleation::Nucleation, Nucleation;
+    /// What one gap sets off.
+    seeds: seeds::Seeds, Seeds;
+    /// Counts after a larger force.
+    history: history::History, History;
+    /// Whether impacts are independent.
+    independence: independence::Independence, Independence;
+    /// Periodic orbits of a short chain.
+    orbits: orbits::Orbits, Orbits;
     /// The long end of the map.
     long_protocol: deep::Carried, LongProtocol;
 }
@@ -226,6 +266,11 @@ impl Results {
             analytic: None,
             measured: None,
             heat: None,
+            nucleation: None,
+            seeds: None,
+            history: None,
+            independence: None,
+            orbits: None,
             long_protocol: None,
         }
     }

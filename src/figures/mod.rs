@@ -39,6 +39,10 @@ mod s06;
 mod s07;
 mod s08;
 mod s09;
+mod s10;
+mod s11;
+mod s12;
+mod s13;
 mod scene;
 mod series;
 mod sheet;
@@ -138,6 +142,10 @@ pub fn needs(number: Number) -> &'static [Need] {
         Number::Own(5) => &[Need::Analytic],
         Number::Own(6) => &[Need::SpaceTime],
         Number::Own(9) => &[Need::Heat],
+        Number::Own(10) => &[Need::Nucleation, Need::Sweep],
+        Number::Own(11) => &[Need::Seeds, Need::Sweep, Need::Protocol],
+        Number::Own(12) => &[Need::Independence],
+        Number::Own(13) => &[Need::Orbits],
         _ => &[],
     }
 }
@@ -188,6 +196,10 @@ pub fn draw(number: Number, results: &Results) -> Result<Figure, Error> {
         Number::Own(7) => s07::draw(&results.theory.large),
         Number::Own(8) => s08::draw(&results.theory),
         Number::Own(9) => s09::draw(results.heat()?, &results.theory, note),
+        Number::Own(10) => s10::draw(results.nucleation()?, results.sweep()?, note),
+        Number::Own(11) => s11::draw(results.seeds()?, results.sweep()?, results.protocol()?, note),
+        Number::Own(12) => s12::draw(results.independence()?, note),
+        Number::Own(13) => s13::draw(results.orbits()?, note),
         _ => Err(Error::Number(number)),
     }
 }

@@ -5,8 +5,10 @@
 pub mod bisection;
 pub mod bootstrap;
 pub mod clock;
+pub mod dense;
 pub mod double_double;
 pub mod earliest;
+pub mod eigenvalues;
 pub mod first_root;
 pub mod local_frame;
 mod polish;

@@ -2,15 +2,20 @@
 //!
 //! A value is computed here from results and carries the path of the item that computed it. Groups
 //! are `v` (ours), `paper` (numbers that the paper chose), `printed` (numbers in its statements),
-//! `compare`, `protocol`, `long`, `heat`, `starts` and `bias` (cells of six tables).
+//! `compare`, `protocol`, `long`, `nucleation`, `spread`, `growth`, `heat`, `history`, `independence`, `orbits`, `starts` and `bias` (cells of tables).
 
 mod accuracy;
 mod comparison;
+mod growth;
 mod heat;
 mod higher;
+mod history;
+mod independence;
 mod large;
 mod ledger;
 mod long;
+mod nucleation;
+mod orbits;
 mod paper;
 mod protocol;
 mod simulation;
@@ -63,14 +68,19 @@ pub fn registry(results: &Results, published: &Published) -> Result<Registry, Er
     registry.extend(spacetime::values(results)?)?;
     registry.extend(accuracy::values(results)?)?;
     registry.extend(long::values(results)?)?;
+    registry.extend(nucleation::values(results)?)?;
+    registry.extend(growth::values(results)?)?;
     registry.extend(heat::values(results)?)?;
+    registry.extend(history::values(results)?)?;
+    registry.extend(independence::values(results)?)?;
+    registry.extend(orbits::values(results)?)?;
     registry.extend(ledger::values(results))?;
     Ok(registry)
 }
 
 /// The rows of the generated tables, by the name that templates use: `row` (a reference to each
 /// claim with its verdict), `scorecard`, `comparison_table`, `protocol_windows`, `protocol_table`,
-/// `protocol_printed`, `long_windows`, `long_table`, `long_verdict`, `heat_table`, `distance_heads`,
+/// `protocol_printed`, `long_windows`, `long_table`, `long_verdict`, `nucleation_table`, `spread_table`, `growth_table`, `heat_table`, `history_times`, `history_table`, `independence_table`, `orbits_table`, `orbits_fig6`, `distance_heads`,
 /// `distance_table`, `order_table`, `starts_table`, `bias_heads`, `bias_table`, `bias_means`, `scene_heads`, `scene_table` and
 /// `target_table`.
 ///
@@ -90,10 +100,18 @@ pub fn rows(
         ("long_windows", serde_json::to_value(long::windows(results)?)?),
         ("long_table", serde_json::to_value(long::table(results)?)?),
         ("long_verdict", serde_json::to_value(long::verdict(results)?)?),
+        ("nucleation_table", serde_json::to_value(nucleation::table(results)?)?),
+        ("spread_table", serde_json::to_value(growth::spreads(results)?)?),
+        ("growth_table", serde_json::to_value(growth::halves(results)?)?),
         ("distance_heads", serde_json::to_value(large::distance_heads(results))?),
         ("distance_table", serde_json::to_value(large::distance_table(results))?),
         ("order_table", serde_json::to_value(large::order_table(results))?),
+        ("history_times", serde_json::to_value(history::times(results)?)?),
+        ("history_table", serde_json::to_value(history::table(results)?)?),
         ("heat_table", serde_json::to_value(heat::table(results)?)?),
+        ("independence_table", serde_json::to_value(independence::table(results)?)?),
+        ("orbits_table", serde_json::to_value(orbits::table(results)?)?),
+        ("orbits_fig6", serde_json::to_value(orbits::fig6(results)?)?),
         ("starts_table", serde_json::to_value(starts::table(results)?)?),
         ("bias_heads", serde_json::to_value(accuracy::bias_heads(results)?)?),
         ("bias_table", serde_json::to_value(accuracy::bias_table(results)?)?),

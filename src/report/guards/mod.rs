@@ -10,12 +10,17 @@
 mod accuracy;
 mod comparison;
 mod counts;
+mod growth;
 mod heat;
 mod higher;
+mod history;
+mod independence;
 mod large;
 mod long;
 mod model;
 mod motion;
+mod nucleation;
+mod orbits;
 mod orders;
 mod places;
 mod printed;
@@ -69,7 +74,12 @@ pub fn all() -> impl Iterator<Item = &'static Guard> {
         rare::GUARDS,
         protocol::GUARDS,
         long::GUARDS,
+        nucleation::GUARDS,
+        growth::GUARDS,
         heat::GUARDS,
+        history::GUARDS,
+        independence::GUARDS,
+        orbits::GUARDS,
         motion::GUARDS,
         simple::GUARDS,
         relation::GUARDS,

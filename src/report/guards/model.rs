@@ -15,7 +15,7 @@ static RULE: LazyLock<GaussLegendre> = LazyLock::new(|| GaussLegendre::new(16));
 const CLASSES: [&[usize]; 5] = [&[], &[2], &[3], &[4], &[2, 2]];
 
 /// ln x!.
-fn log_factorial(x: usize) -> f64 {
+pub fn log_factorial(x: usize) -> f64 {
     f_lgamma(x as f64 + 1.0)
 }
 

@@ -31,8 +31,8 @@ use crate::experiments::Results;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex};
 
 /// The file that saved mutations depend on, with all that it needs.
 pub const MODULE: &str = "src/report/mutate/mod.rs";
@@ -125,7 +125,8 @@ pub fn mutate(
 ) -> Result<Mutations, contents::Error> {
     let whole = Whole::of(subject.results);
     let before = judged(subject)?;
-    let bench = Bench { subject, whole, before, idle: Mutex::default() };
+    let bench =
+        Bench { subject, whole, before, idle: Mutex::default(), followers: Mutex::default() };
     let values: Vec<&Value> = bench.before.values.iter().filter(|value| wanted(value)).collect();
     let stopped = AtomicBool::new(false);
     let one = |value: &&Value| {
@@ -145,7 +146,15 @@ struct Bench<'a> {
     whole: Whole,
     before: Judged,
     idle: Mutex<Vec<Results>>,
+    /// What followed when leaves were moved by so much: many values are the same small integer.
+    followers: Mutex<BTreeMap<(Leaves, u64), Option<Followers>>>,
 }
+
+/// Leaves of results: for each part its index, and paths in it.
+type Leaves = Vec<(usize, Vec<String>)>;
+
+/// The numbers that are others when leaves are moved, by the ids of their values.
+type Followers = Arc<BTreeMap<String, Number>>;
 
 impl Bench<'_> {
     fn one(&self, value: &Value) -> Option<Mutation> {
@@ -214,11 +223,29 @@ impl Bench<'_> {
     }
 
     /// The number of a value after these leaves were moved.
-    fn carried(&self, leaves: &[(usize, Vec<String>)], by: f64, id: &str) -> Option<Number> {
+    fn carried(&self, leaves: &Leaves, by: f64, id: &str) -> Option<Number> {
+        let key = (leaves.clone(), by.to_bits());
+        let known = self.followers.lock().ok().and_then(|known| known.get(&key).cloned());
+        let followers = known.unwrap_or_else(|| {
+            let found = self.followers(leaves, by);
+            if let Ok(mut known) = self.followers.lock() {
+                known.insert(key, found.clone());
+            }
+            found
+        });
+        followers?.get(id).cloned()
+    }
+
+    /// The numbers that follow when leaves are moved; none if there is no report then.
+    fn followers(&self, leaves: &Leaves, by: f64) -> Option<Followers> {
         let values = self.with(leaves, by, |subject| {
             contents::registry(subject.results, subject.published).ok()
         });
-        values??.get(id).map(|value| value.number.clone())
+        let values = values??;
+        let others = values.iter().filter(|value| {
+            self.before.values.get(&value.id).is_none_or(|own| own.number != value.number)
+        });
+        Some(Arc::new(others.map(|value| (value.id.clone(), value.number.clone())).collect()))
     }
 }
 

@@ -10,7 +10,8 @@ use sha2::{Digest, Sha256};
 pub struct Part {
     /// The experiment, as values name it; theory and identities are one to them.
     pub experiment: &'static str,
-    /// Members that are its raw record: lists of events, none of which is a number of the report.
+    /// Members, at any depth, that are its raw record: lists of events, none of which is a number of
+    /// the report.
     record: &'static [&'static str],
     read: fn(&Results) -> Option<Json>,
     write: fn(&mut Results, &Json) -> serde_json::Result<()>,
@@ -56,7 +57,7 @@ macro_rules! looked_at {
 }
 
 /// All parts. What is computed from the main sweep in memory stands before it.
-const PARTS: [Part; 19] = [
+const PARTS: [Part; 24] = [
     looked_at!(theory),
     looked_at!(identities),
     ran!("laws", laws),
@@ -85,6 +86,11 @@ const PARTS: [Part; 19] = [
     ran!("analytic", analytic),
     ran!("measured", measured),
     ran!("heat", heat),
+    ran!("nucleation", nucleation),
+    ran!("history", history),
+    ran!("seeds", seeds, &["seen", "closing"]),
+    ran!("independence", independence, &["hits", "histogram"]),
+    ran!("orbits", orbits, &["found", "ends", "singles", "each", "example"]),
     ran!("long_protocol", long_protocol),
 ];
 
@@ -150,30 +156,34 @@ impl Whole {
 /// Paths of all numbers in JSON that are this one, as JSON pointers; members of objects first, for a
 /// long list of counts has every small integer many times.
 fn paths(json: &Json, record: &[&str], number: f64) -> Vec<String> {
-    fn walk(json: &Json, path: &str, number: f64, listed: bool, out: &mut [Vec<String>; 2]) {
+    fn walk(
+        json: &Json,
+        path: &str,
+        (record, number): (&[&str], f64),
+        listed: bool,
+        out: &mut [Vec<String>; 2],
+    ) {
         match json {
             Json::Number(found) if found.as_f64() == Some(number) => {
                 out[usize::from(listed)].push(path.into());
             }
             Json::Array(items) => {
                 for (i, item) in items.iter().enumerate() {
-                    walk(item, &format!("{path}/{i}"), number, true, out);
+                    walk(item, &format!("{path}/{i}"), (record, number), true, out);
                 }
             }
             Json::Object(members) => {
                 for (name, member) in members {
-                    walk(member, &format!("{path}/{name}"), number, false, out);
+                    if !record.contains(&name.as_str()) {
+                        walk(member, &format!("{path}/{name}"), (record, number), false, out);
+                    }
                 }
             }
             _ => {}
         }
     }
     let mut out = [Vec::new(), Vec::new()];
-    for (name, member) in json.as_object().into_iter().flatten() {
-        if !record.contains(&name.as_str()) {
-            walk(member, &format!("/{name}"), number, false, &mut out);
-        }
-    }
+    walk(json, "", (record, number), false, &mut out);
     out.concat()
 }
 
@@ -196,10 +206,10 @@ mod tests {
 
     #[test]
     fn leaves_are_found_and_moved() {
-        let mut tree = json!({"a": [3, {"b": 3.0}], "c": 4, "e": 3, "raw": 3});
+        let mut tree = json!({"a": [3, {"b": 3.0, "raw": [3]}], "c": 4, "e": 3, "raw": 3});
         assert_eq!(paths(&tree, &["raw"], 3.0), ["/a/1/b", "/e", "/a/0"]);
         add(&mut tree, &["/a/0".into(), "/a/1/b".into()], 0.5);
         add(&mut tree, &["/e".into()], -1.0);
-        assert_eq!(tree, json!({"a": [3.5, {"b": 3.5}], "c": 4, "e": 2, "raw": 3}));
+        assert_eq!(tree, json!({"a": [3.5, {"b": 3.5, "raw": [3]}], "c": 4, "e": 2, "raw": 3}));
     }
 }

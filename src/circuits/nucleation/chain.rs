@@ -1,0 +1,147 @@
+//! At least one gap of a chain that closes by itself.
+//!
+//! The gaps are 1-dependent: gaps that share no mass know nothing of one another, neighbours do, and
+//! those that close by themselves come in clumps. Let a clump begin at a gap that closes when the gap to its left does
+//! not. There is a gap that closes if and only if there is a clump, and beginnings of clumps are nearly
+//! independent: with their mean number λ, the theorem of Chen and Stein in the form of Arratia, Goldstein and Gordon
+//! (1989) bounds the error of e^{−λ} as the probability of none by
+//!
+//! (1 − e^{−λ})/λ · (b_1 + b_2),
+//!
+//! where b_1 sums the products of probabilities over all pairs of gaps at most two apart, and b_2 the
+//! probabilities that clumps begin at both. Beginnings exclude each other at neighbours; at two gaps apart
+//! those gaps share no mass, and the product of their probabilities to close is a bound.
+
+use super::pair::both;
+use super::reach::Reach;
+use crate::params::{Boundary, Chain};
+use serde::{Deserialize, Serialize};
+
+/// How likely it is that single gaps and neighbours close by themselves, of a chain from rest.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Chances {
+    /// A gap between masses.
+    pub p: f64,
+    /// A gap at a wall.
+    pub wall: f64,
+    /// Both of two neighbouring gaps between masses.
+    pub pair: f64,
+    /// A gap at a wall and its neighbour.
+    pub wall_pair: f64,
+}
+
+/// The probability that at least one gap of a chain closes by itself.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct AtLeastOne {
+    /// As if gaps knew nothing of one another.
+    pub independent: f64,
+    /// The mean number λ of clumps.
+    pub clumps: f64,
+    /// 1 − e^{−λ}.
+    pub value: f64,
+    /// What it may be off by.
+    pub bound: f64,
+}
+
+impl Chances {
+    /// The chances within a reach, for forces of standard deviation `sigma`; for neighbours, which take
+    /// the square of the number of angles, that reach may be at `fewer` angles.
+    pub fn new(chain: &Chain, reach: &Reach, fewer: &Reach, sigma: f64) -> Chances {
+        let (mass, wall) = (2.0 * sigma * sigma, sigma * sigma);
+        let d = chain.spacing;
+        Chances {
+            p: reach.probability(d, mass),
+            wall: reach.probability(d, wall),
+            pair: both(fewer, d, sigma, [mass, mass]),
+            wall_pair: both(fewer, d, sigma, [wall, mass]),
+        }
+    }
+
+    /// For a chain of `masses` masses, one at least, between walls or in a ring.
+    pub fn at_least_one(&self, masses: usize, boundary: Boundary) -> AtLeastOne {
+        // Each gap's chance to close, and that of a clump to begin there.
+        let walls = boundary == Boundary::Walls && masses > 1;
+        let gaps = if boundary == Boundary::Walls { masses + 1 } else { masses };
+        let closes =
+            |gap: usize| if walls && (gap == 0 || gap == masses) { self.wall } else { self.p };
+        let begins = |gap: usize| match (walls, gap) {
+            (true, 0) => self.wall,
+            (true, 1) => self.p - self.wall_pair,
+            (true, gap) if gap == masses => self.wall - self.wall_pair,
+            _ => self.p - self.pair,
+        };
+        let near = |gap: usize, apart: usize| match boundary {
+            Boundary::Walls => (gap + apart < gaps).then_some(gap + apart),
+            Boundary::Ring => Some((gap + apart) % gaps),
+        };
+        let (mut clumps, mut none, mut b) = (0.0, 1.0, 0.0);
+        for gap in 0..gaps {
+            clumps += begins(gap);
+            none *= 1.0 - closes(gap);
+            b += begins(gap) * begins(gap);
+            // Each pair stands for both of its orders.
+            b += near(gap, 1).map_or(0.0, |other| 2.0 * begins(gap) * begins(other));
+            b += near(gap, 2).map_or(0.0, |other| {
+                2.0 * (begins(gap) * begins(other) + closes(gap) * closes(other))
+            });
+        }
+        let value = -pxfm::f_expm1(-clumps);
+        let factor = if clumps > 0.0 { value / clumps } else { 1.0 };
+        AtLeastOne { independent: 1.0 - none, clumps, value, bound: factor * b }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::circuits::nucleation::reach::closes_by_itself;
+    use crate::numerics::random::NormalPairs;
+
+    #[test]
+    fn drawn_chains_stay_within_the_bound_and_near_the_value() {
+        let chain = Chain { masses: 30, ..Chain::default() };
+        let reach = Reach::ever(&chain, 32);
+        let draws = 4000;
+        for (sigma, index) in [(0.08, 0), (0.11, 1)] {
+            let mut normals = NormalPairs::new("test of clumps", 1, index);
+            let (mut some, mut clumps) = (0_u32, 0_u32);
+            for _ in 0..draws {
+                let mut forces: Vec<[f64; 2]> =
+                    (0..30).map(|_| normals.pair().map(|x| sigma * x)).collect();
+                forces.insert(0, [0.0; 2]);
+                forces.push([0.0; 2]);
+                let closes: Vec<bool> = forces
+                    .windows(2)
+                    .map(|pair| {
+                        let delta = [pair[1][0] - pair[0][0], pair[1][1] - pair[0][1]];
+                        closes_by_itself(&chain, delta)
+                    })
+                    .collect();
+                some += u32::from(closes.contains(&true));
+                clumps += u32::from(closes[0]);
+                clumps += closes.windows(2).map(|pair| u32::from(!pair[0] && pair[1])).sum::<u32>();
+            }
+            let found =
+                Chances::new(&chain, &reach, &reach, sigma).at_least_one(30, Boundary::Walls);
+            let n = f64::from(draws);
+            let (share, mean) = (f64::from(some) / n, f64::from(clumps) / n);
+            let error = (share * (1.0 - share) / n).sqrt();
+            assert!((share - found.value).abs() < found.bound + 5.0 * error, "{share} {found:?}");
+            // The bound is cautious: the value is nearer than a hundredth.
+            assert!((share - found.value).abs() < 0.01 + 5.0 * error, "{share} {found:?}");
+            assert!((mean - found.clumps).abs() < 5.0 * (mean / n).sqrt(), "{mean} {found:?}");
+            assert!(found.independent > found.value);
+        }
+    }
+
+    #[test]
+    fn without_sharing_it_is_poisson() {
+        // 1 − (1 − p)^n and 1 − e^{−np} differ by less than Le Cam's n p², and by less than the bound.
+        let chances = Chances { p: 0.003, wall: 0.003, pair: 9e-6, wall_pair: 9e-6 };
+        for boundary in [Boundary::Walls, Boundary::Ring] {
+            let found = chances.at_least_one(200, boundary);
+            assert!((found.independent - found.value).abs() < 201.0 * 9e-6);
+            assert!(found.bound > 0.0 && found.bound < 0.01, "{found:?}");
+        }
+    }
+}

@@ -1,0 +1,280 @@
+//! Whether the count depends on the past: chains that run under a large force, which is then lowered.
+
+use super::cutting::{Cutting, Row, Unit};
+use super::progress::Stage;
+use super::{Error, Progress, weights};
+use crate::dynamics::{self, Engine, Initial, Scenario};
+use crate::numerics::random::NormalPairs;
+use crate::numerics::statistics::{Estimate, mean, normal_quantile, standard_error};
+use crate::params::{HistoryParams, LEVEL};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+/// Counts after a larger force.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct History {
+    /// What was run.
+    pub parameters: HistoryParams,
+    /// One for each σ, rising.
+    pub rows: Vec<Lowered>,
+    /// The σ at which the mean count passes half of all gaps, for each transient.
+    pub half_heights: Vec<Option<Estimate>>,
+}
+
+/// Chains whose force was lowered to one σ.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Lowered {
+    /// Standard deviation σ of the lowered force.
+    pub sigma: f64,
+    /// Different gaps with an impact in the window after each transient, of each realisation.
+    pub counts: Vec<Vec<u64>>,
+    /// Their mean.
+    pub means: Vec<Option<Estimate>>,
+    /// Realisations with an impact in that window.
+    pub alive: Vec<u64>,
+    /// Realisations that the engine ended early.
+    pub failed: u64,
+}
+
+/// Counts of one realisation, for each transient; none where the engine gave up.
+pub type Counts = Option<Vec<u64>>;
+
+/// Some realisations of one row.
+pub type Part = Vec<Counts>;
+
+/// The experiment in units of work.
+pub const CUTTING: Cutting<HistoryParams, Part, History> = Cutting { rows, part, fits, join };
+
+fn until(parameters: &HistoryParams) -> f64 {
+    parameters.transients.last().copied().unwrap_or(0.0) + parameters.window
+}
+
+fn weight(parameters: &HistoryParams, sigma: f64) -> u64 {
+    weights::run(&parameters.chain, parameters.hot, parameters.heating)
+        + weights::run(&parameters.chain, sigma, until(parameters))
+}
+
+fn rows(parameters: &HistoryParams) -> Vec<Row> {
+    let row = |&sigma: &f64| Row {
+        covers: format!("sigma = {sigma}"),
+        realisations: parameters.realisations,
+        weight: weight(parameters, sigma),
+    };
+    parameters.sigmas.iter().map(row).collect()
+}
+
+fn part(
+    parameters: &HistoryParams,
+    unit: &Unit,
+    stage: &Stage,
+    progress: &Progress,
+) -> Result<Part, Error> {
+    let sigma = parameters.sigmas[unit.row];
+    let one = |index| {
+        let found = realisation(parameters, sigma, index as u64, progress);
+        stage.advance(weight(parameters, sigma));
+        found
+    };
+    unit.realisations.clone().into_par_iter().with_max_len(1).map(one).collect()
+}
+
+fn realisation(
+    parameters: &HistoryParams,
+    sigma: f64,
+    index: u64,
+    progress: &Progress,
+) -> Result<Counts, Error> {
+    progress.check()?;
+    let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, index);
+    let hot = Scenario::draw(&parameters.chain, parameters.hot, &mut normals);
+    let fault = |source| Error::Dynamics { experiment: "history", source };
+    let ended = |ended: Result<(), dynamics::Error>| match ended {
+        Ok(()) => Ok(true),
+        Err(dynamics::Error::Work { .. }) => Ok(false),
+        Err(source) => Err(fault(source)),
+    };
+    let mut engine = Engine::new(&hot).map_err(fault)?;
+    if !ended(engine.run(parameters.heating, |_| !progress.stopped()))? {
+        return Ok(None);
+    }
+    progress.check()?;
+    let lowered = lowered(&hot, &engine.free_parts(), parameters.heating, sigma / parameters.hot);
+    let mut engine = Engine::new(&lowered).map_err(fault)?;
+    let mut counts = Vec::with_capacity(parameters.transients.len());
+    for transient in &parameters.transients {
+        let mut hit = vec![false; parameters.chain.gaps()];
+        let mut go = |time: f64, seen: &mut dyn FnMut(usize)| {
+            let run = engine.run(time, |impact| {
+                seen(impact.gap);
+                !progress.stopped()
+            });
+            ended(run)
+        };
+        let there = go(*transient, &mut |_| {})?
+            && go(transient + parameters.window, &mut |gap| hit[gap] = true)?;
+        progress.check()?;
+        if !there {
+            return Ok(None);
+        }
+        counts.push(hit.iter().map(|&hit| u64::from(hit)).sum());
+    }
+    Ok(Some(counts))
+}
+
+/// The scenario that goes on from a time at which all forces change by a factor: places and velocities
+/// stay, so the free parts take what the forced parts lose. Time begins anew, with the phase that the
+/// forces have.
+fn lowered(hot: &Scenario, free: &[[f64; 2]], time: f64, factor: f64) -> Scenario {
+    let (omega, big_omega) = (hot.natural_frequency, hot.forcing_frequency);
+    let detuning = omega * omega - big_omega * big_omega;
+    let (sin, cos) = pxfm::f_sincos(omega * time);
+    let (forced_sin, forced_cos) = pxfm::f_sincos(big_omega * time);
+    let turned = |[a, b]: [f64; 2], sin: f64, cos: f64| [a * cos + b * sin, b * cos - a * sin];
+    let forces: Vec<[f64; 2]> =
+        hot.forcing.iter().map(|pair| turned(*pair, forced_sin, forced_cos)).collect();
+    let part = |(force, own): (&[f64; 2], &[f64; 2])| {
+        let [a, b] = turned(*own, sin, cos);
+        let lost = (1.0 - factor) / detuning;
+        [a + lost * force[0], b + lost * big_omega / omega * force[1]]
+    };
+    Scenario {
+        initial: Initial::Free(forces.iter().zip(free).map(part).collect()),
+        forcing: forces.iter().map(|pair| pair.map(|x| factor * x)).collect(),
+        ..hot.clone()
+    }
+}
+
+fn fits(parameters: &HistoryParams, unit: &Unit, runs: &Part) -> bool {
+    let (number, gaps) = (parameters.transients.len(), parameters.chain.gaps() as u64);
+    let fits = |counts: &Vec<u64>| counts.len() == number && counts.iter().all(|&k| k <= gaps);
+    runs.len() == unit.realisations.len() && runs.iter().flatten().all(fits)
+}
+
+fn join(
+    parameters: &HistoryParams,
+    parts: Vec<Vec<Part>>,
+    progress: &Progress,
+) -> Result<History, Error> {
+    progress.check()?;
+    let row = |(sigma, parts): (&f64, Vec<Part>)| {
+        let runs = parts.concat();
+        let counts: Vec<Vec<u64>> = (0..parameters.transients.len())
+            .map(|i| runs.iter().flatten().map(|counts| counts[i]).collect())
+            .collect();
+        let alive = |counts: &Vec<u64>| counts.iter().filter(|&&k| k > 0).count() as u64;
+        Lowered {
+            sigma: *sigma,
+            means: counts.iter().map(|counts| estimate(counts)).collect(),
+            alive: counts.iter().map(alive).collect(),
+            counts,
+            failed: runs.iter().filter(|run| run.is_none()).count() as u64,
+        }
+    };
+    let rows: Vec<Lowered> = parameters.sigmas.iter().zip(parts).map(row).collect();
+    let half_heights = (0..parameters.transients.len())
+        .map(|i| half_height(&rows, i, 0.5 * parameters.chain.gaps() as f64))
+        .collect();
+    Ok(History { parameters: parameters.clone(), rows, half_heights })
+}
+
+/// Where the mean count after a transient first rises through a height, with its error by the jackknife:
+/// each realisation, which has the same random numbers at every σ, is left out in turn.
+fn half_height(rows: &[Lowered], transient: usize, height: f64) -> Option<Estimate> {
+    let crossing = |left_out: Option<usize>| {
+        let mean = |row: &Lowered| {
+            let counts = row.counts[transient].iter().enumerate();
+            let counts = counts.filter(|(run, _)| Some(*run) != left_out);
+            let (n, sum) = counts.fold((0, 0), |(n, sum), (_, k)| (n + 1, sum + k));
+            sum as f64 / f64::from(n)
+        };
+        let points: Vec<(f64, f64)> = rows.iter().map(|row| (row.sigma, mean(row))).collect();
+        let rise = points.windows(2).find(|pair| pair[0].1 < height && pair[1].1 >= height)?;
+        let [(a, low), (b, high)] = [rise[0], rise[1]];
+        Some(a + (b - a) * (height - low) / (high - low))
+    };
+    let runs = rows.iter().map(|row| row.counts[transient].len()).min()?;
+    let without: Vec<f64> = (0..runs).map(|run| crossing(Some(run))).collect::<Option<_>>()?;
+    let (value, error) = (crossing(None)?, standard_error(&without)? * (runs as f64 - 1.0));
+    let half = normal_quantile(LEVEL) * error;
+    Some(Estimate { value, error, interval: [value - half, value + half] })
+}
+
+fn estimate(counts: &[u64]) -> Option<Estimate> {
+    let sample: Vec<f64> = counts.iter().map(|&k| k as f64).collect();
+    let (value, error) = (mean(&sample)?, standard_error(&sample)?);
+    let half = normal_quantile(LEVEL) * error;
+    Some(Estimate { value, error, interval: [value - half, value + half] })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::params::{Chain, Profile};
+
+    #[test]
+    fn a_force_that_is_not_lowered_changes_nothing() {
+        // The same impacts as without the break, for as long as chaos lets two roundings agree.
+        let chain = Chain { masses: 12, ..Chain::default() };
+        let mut normals = NormalPairs::new("test of history", 1, 0);
+        let scenario = Scenario::draw(&chain, 0.2, &mut normals);
+        let mut whole = Engine::new(&scenario).unwrap();
+        whole.run(30.0, |_| true).unwrap();
+        let again = lowered(&scenario, &whole.free_parts(), 30.0, 1.0);
+        let (mut left, mut right) = (Vec::new(), Vec::new());
+        whole
+            .run(60.0, |impact| {
+                left.push((impact.gap, impact.time));
+                true
+            })
+            .unwrap();
+        Engine::new(&again)
+            .unwrap()
+            .run(30.0, |impact| {
+                right.push((impact.gap, impact.time + 30.0));
+                true
+            })
+            .unwrap();
+        assert!(left.len() > 20 && left.len() == right.len(), "{left:?} {right:?}");
+        for ((gap, time), (other, later)) in left.iter().zip(&right) {
+            assert!(gap == other && (time - later).abs() < 1e-8, "{time} {later}");
+        }
+    }
+
+    #[test]
+    fn places_and_velocities_go_on_when_the_force_is_lowered() {
+        let chain = Chain { masses: 5, ..Chain::default() };
+        let mut normals = NormalPairs::new("test of history", 1, 1);
+        let hot = Scenario::draw(&chain, 0.3, &mut normals);
+        let free: Vec<[f64; 2]> = (0..5).map(|_| normals.pair()).collect();
+        let (time, h) = (7.3, 1e-5);
+        let place = |scenario: &Scenario, free: [f64; 2], j: usize, t: f64| {
+            let [alpha, beta] = scenario.forcing[j];
+            let (sin, cos) = pxfm::f_sincos(t);
+            let (forced_sin, forced_cos) = pxfm::f_sincos(scenario.forcing_frequency * t);
+            free[0] * cos + free[1] * sin - alpha * forced_cos - beta * forced_sin
+        };
+        let after = lowered(&hot, &free, time, 0.4);
+        let Initial::Free(parts) = &after.initial else { panic!() };
+        for j in 0..5 {
+            let before = |t| place(&hot, free[j], j, t);
+            let then = |t| place(&after, parts[j], j, t);
+            assert!((before(time) - then(0.0)).abs() < 1e-12);
+            let speeds = [before(time + h) - before(time - h), then(h) - then(-h)];
+            assert!((speeds[0] - speeds[1]).abs() < 1e-9 * h.sqrt(), "{speeds:?}");
+        }
+    }
+
+    #[test]
+    fn a_heated_chain_goes_on_where_one_at_rest_is_silent() {
+        let mut parameters = HistoryParams::new(Profile::Quick);
+        parameters.chain.masses = 30;
+        parameters.sigmas = vec![0.01, 0.07, 0.2];
+        (parameters.transients, parameters.window) = (vec![100.0, 300.0], 100.0);
+        let found = CUTTING.run(&parameters, "test", &Progress::silent()).unwrap();
+        let [cold, low, same] = &found.rows[..] else { panic!() };
+        assert!(same.counts[0].iter().all(|&k| k > 28), "{same:?}");
+        // From rest a gap closes by itself at σ = 0.07 in one chain of sixty.
+        assert!(low.alive[0] == 3 && low.means[0].unwrap().value > 3.0, "{low:?}");
+        assert!(cold.means[1].unwrap().value <= cold.means[0].unwrap().value, "{cold:?}");
+    }
+}

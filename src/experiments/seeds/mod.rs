@@ -1,0 +1,29 @@
+//! What one gap that closes by itself sets off: survival, spreading, and the mean count that
+//! nucleation and growth let expect.
+//!
+//! - [`run`](mod@run): chains with exactly one such gap, and where impacts get from there.
+//! - [`growth`]: what follows for a chain with as many of them as chance gives it.
+
+pub mod growth;
+pub mod run;
+
+pub use growth::Prediction;
+pub use run::{CUTTING, Part, Seen, Spread, Trace};
+
+use crate::params::SeedsParams;
+use serde::{Deserialize, Serialize};
+
+/// Chains with one gap that closes by itself.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Seeds {
+    /// What was run.
+    pub parameters: SeedsParams,
+    /// For each σ the chances that a gap at a wall, and any other, closes by itself in each bin.
+    pub closing: Vec<[Vec<f64>; 2]>,
+    /// The raw counts, for each σ.
+    pub seen: Vec<Seen>,
+    /// What they say, for each σ.
+    pub rows: Vec<Spread>,
+    /// The mean counts that follow, for each transient T.
+    pub predictions: Vec<Prediction>,
+}

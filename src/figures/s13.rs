@@ -1,0 +1,231 @@
+//! Fig. S13: periodic orbits from circuits.
+
+use super::axis::Axis;
+use super::chart::{LETTERS, short, upwards_from_zero};
+use super::data::cells;
+use super::panel::{Frame, Panel};
+use super::series::Outside;
+use super::sheet::{Entry, Sheet};
+use super::style::{
+    BLUE, Colour, Dash, GREEN, GREY, HAIR, INK, LINE, Mark, ORANGE, RED, SMALL, Stroke, THIN,
+};
+use super::{DataFile, Error, Figure};
+use crate::experiments::orbits::{Example, Orbits, Row};
+
+/// The colours of masses, and of lengths.
+const COLOURS: [Colour; 4] = [BLUE, RED, GREEN, ORANGE];
+
+/// The half size of marks.
+const SIZE: i32 = 52;
+
+/// The end of the axes of (c): multipliers beyond it are told by their number.
+const REACH: f64 = 2.0;
+
+/// The σ of (c), or the last if it was not run.
+const SIGMA: f64 = 0.3;
+
+/// Draws the figure.
+pub fn draw(orbits: &Orbits, note: Option<&str>) -> Result<Figure, Error> {
+    let sheet = Sheet::new(9500, note)?;
+    if let Some(example) = &orbits.example {
+        motion(&sheet, example)?;
+    }
+    shares(&sheet, orbits)?;
+    plane(&sheet, orbits)?;
+    let files = tables(orbits);
+    Ok(sheet.finish_own(13, "Periodic orbits from circuits", description(orbits), files))
+}
+
+fn motion(sheet: &Sheet, example: &Example) -> Result<(), Error> {
+    let masses = example.positions.len();
+    let wall = (masses + 1) as f64;
+    // A mass may be anywhere between the walls.
+    let panel = sheet.panel(
+        Frame::new(1150, 430, 8150, 3630),
+        Axis::linear(0.0, example.period, 0.5, 1, "time *t* in one period"),
+        Axis::linear(0.0, wall, 1.0, 2, "position *x*"),
+    )?;
+    panel.letter(LETTERS[0])?;
+    let top = [(0.0, wall), (example.period, wall)];
+    panel.curve("right wall", &top, Stroke::solid(INK, HAIR), Outside::Refuse)?;
+    for (place, colour) in example.positions.iter().zip(COLOURS) {
+        let points: Vec<_> = example.times.iter().copied().zip(place.iter().copied()).collect();
+        panel.curve("mass", &points, Stroke::solid(colour, LINE), Outside::Cut)?;
+    }
+    let impacts: Vec<_> = impacts(example).collect();
+    panel.marks("impacts", &impacts, (Mark::Disc, SIZE, Stroke::solid(INK, THIN)), Outside::Cut)
+}
+
+/// Where the impacts of an example are: at a mass of the gap, or at the wall.
+fn impacts(example: &Example) -> impl Iterator<Item = (f64, f64)> + '_ {
+    example.impacts.iter().zip(&example.circuit).map(|(&time, &gap)| {
+        let left = gap.checked_sub(1).and_then(|j| example.positions.get(j));
+        let at = example.times.iter().position(|t| *t == time);
+        (time, left.zip(at).map_or(0.0, |(places, at)| places[at]))
+    })
+}
+
+fn shares(sheet: &Sheet, orbits: &Orbits) -> Result<(), Error> {
+    let all = || orbits.rows.iter().flat_map(|row| &row.lengths);
+    let largest = all().map(|own| own.admissible.value + own.admissible.error).fold(0.1, f64::max);
+    let last = orbits.rows.iter().map(|row| row.sigma).fold(0.0, f64::max);
+    let panel = sheet.panel(
+        Frame::new(1150, 4950, 4150, 7750),
+        Axis::linear(0.0, if last > 0.35 { 0.7 } else { 0.35 }, 0.1, 2, "*σ*"),
+        upwards_from_zero(largest, "share of circuits"),
+    )?;
+    panel.letter(LETTERS[1])?;
+    let mut entries = Vec::new();
+    let lengths = orbits.rows.first().map_or(0, |row| row.lengths.len());
+    for (k, colour) in (1..=lengths).zip(COLOURS) {
+        let own = |row: &Row| row.lengths.iter().find(|own| own.k == k).cloned();
+        let of: Vec<_> =
+            orbits.rows.iter().filter_map(|row| Some((row.sigma, own(row)?))).collect();
+        let name = format!("length {k}");
+        let thin = Stroke::solid(colour, THIN);
+        let bars: Vec<_> = of
+            .iter()
+            .map(|(x, own)| (x, own.admissible.value, own.admissible.error))
+            .map(|(x, y, e)| (*x, (y - e).max(0.0), y + e))
+            .collect();
+        panel.bars(&name, &bars, 35, thin)?;
+        series(
+            &panel,
+            &name,
+            &of.iter().map(|(x, own)| (*x, own.admissible.value)).collect::<Vec<_>>(),
+            Mark::Disc,
+            Stroke::solid(colour, LINE),
+        )?;
+        series(
+            &panel,
+            &name,
+            &of.iter().map(|(x, own)| (*x, own.stable.value)).collect::<Vec<_>>(),
+            Mark::Ring,
+            Stroke::dashed(colour, THIN, Dash::Short),
+        )?;
+        entries.push(Entry::mark(Mark::Disc, SIZE, thin, &format!("*k* = {k}")));
+    }
+    let (left, right) = entries.split_at(entries.len().div_ceil(2));
+    sheet.legend((900, 8750), (SMALL, 370), left)?;
+    sheet.legend((2200, 8750), (SMALL, 370), right)?;
+    let open = Entry::mark(Mark::Ring, SIZE, Stroke::solid(INK, THIN), "stable");
+    sheet.legend((3500, 8750), (SMALL, 370), &[open])
+}
+
+fn series(
+    panel: &Panel,
+    name: &str,
+    points: &[(f64, f64)],
+    mark: Mark,
+    stroke: Stroke,
+) -> Result<(), Error> {
+    panel.curve(name, points, stroke, Outside::Refuse)?;
+    panel.marks(name, points, (mark, SIZE, Stroke { dash: Dash::Solid, ..stroke }), Outside::Refuse)
+}
+
+/// The row whose multipliers are drawn.
+fn chosen(orbits: &Orbits) -> Option<&Row> {
+    orbits.rows.iter().find(|row| row.sigma == SIGMA).or(orbits.rows.last())
+}
+
+fn plane(sheet: &Sheet, orbits: &Orbits) -> Result<(), Error> {
+    let panel = sheet.panel(
+        Frame::new(5350, 4950, 8150, 7750),
+        Axis::linear(-REACH, REACH, 1.0, 2, "Re *λ*"),
+        Axis::linear(-REACH, REACH, 1.0, 2, "Im *λ*"),
+    )?;
+    panel.letter(LETTERS[2])?;
+    let circle: Vec<_> = (0..=180)
+        .map(|i| pxfm::f_sincos(f64::from(i) * std::f64::consts::PI / 90.0))
+        .map(|(sin, cos)| (cos, sin))
+        .collect();
+    panel.curve("unit circle", &circle, Stroke::solid(GREY, THIN), Outside::Refuse)?;
+    let Some(row) = chosen(orbits) else { return Ok(()) };
+    let looks =
+        [("unstable orbits", Mark::Ring, ORANGE, false), ("stable orbits", Mark::Disc, BLUE, true)];
+    for (place, (name, mark, colour, stable)) in looks.into_iter().enumerate() {
+        let own = row.found.iter().filter(|f| (f.radius < 1.0) == stable);
+        let points: Vec<_> =
+            own.flat_map(|f| f.multipliers.iter().map(|[re, im]| (*re, *im))).collect();
+        let stroke = Stroke::solid(colour, THIN);
+        panel.marks(name, &points, (mark, 32, stroke), Outside::Cut)?;
+        let entry = Entry::mark(mark, SIZE, stroke, name);
+        sheet.legend((5750, 8750 + 370 * place as i32), (SMALL, 370), &[entry])?;
+    }
+    Ok(())
+}
+
+fn description(orbits: &Orbits) -> String {
+    let example = orbits.example.as_ref().map_or("No stable orbit was found.".into(), |own| {
+        format!(
+            "Its impacts are those of the circuit {:?} at σ = {}, and its largest multiplier has the modulus {}.",
+            own.circuit,
+            own.sigma,
+            short(own.radius, 2)
+        )
+    });
+    let row = |row: &Row| {
+        let lengths: Vec<String> =
+            row.lengths.iter().map(|own| short(own.admissible.value, 2)).collect();
+        format!("{} at σ = {}", lengths.join(", "), row.sigma)
+    };
+    let rows: Vec<String> = orbits.rows.iter().map(row).collect();
+    let outside = chosen(orbits).map_or(0, |row| {
+        let out = |m: &&[f64; 2]| m.iter().any(|x| x.abs() > REACH);
+        row.found.iter().flat_map(|f| &f.multipliers).filter(out).count()
+    });
+    format!(
+        "(a) Positions of the masses between two walls over one period of a stable orbit, with a disc at each \
+         impact. {example} (b) Share of the simple circuits with an orbit against σ, falling with their length; dashed, \
+         far below: with a stable orbit. By length: {}. (c) Multipliers in the complex plane with the unit circle: \
+         of stable orbits many on a circle inside it, of unstable ones along the real axis; {outside} \
+         lie beyond the frame.",
+        rows.join("; ")
+    )
+}
+
+fn tables(orbits: &Orbits) -> Vec<DataFile> {
+    let mut motion = DataFile::new("s13a.csv", &["time (1/omega)", "mass (1)", "position (d)"]);
+    if let Some(example) = &orbits.example {
+        for (mass, places) in example.positions.iter().enumerate() {
+            let places = example.times.iter().zip(places);
+            places.for_each(|(time, place)| motion.row(cells![*time, mass + 1, *place]));
+        }
+    }
+    let mut shares = DataFile::new(
+        "s13b.csv",
+        &[
+            "sigma (d omega^2)",
+            "length (1)",
+            "share_with_orbit (1)",
+            "standard_error (1)",
+            "share_with_stable_orbit (1)",
+            "standard_error_stable (1)",
+        ],
+    );
+    for row in &orbits.rows {
+        for own in &row.lengths {
+            shares.row(cells![
+                row.sigma,
+                own.k,
+                own.admissible.value,
+                own.admissible.error,
+                own.stable.value,
+                own.stable.error
+            ]);
+        }
+    }
+    let mut plane =
+        DataFile::new("s13c.csv", &["sigma (d omega^2)", "circuit (1)", "re (1)", "im (1)"]);
+    if let Some(row) = chosen(orbits) {
+        for found in &row.found {
+            let circuit: Vec<String> =
+                orbits.circuits[found.circuit].iter().map(usize::to_string).collect();
+            let circuit = circuit.join("-");
+            for [re, im] in &found.multipliers {
+                plane.row(cells![row.sigma, circuit.as_str(), *re, *im]);
+            }
+        }
+    }
+    vec![motion, shares, plane]
+}

@@ -1,0 +1,98 @@
+//! Gaps that close by themselves, and what one of them sets off: sizes of the experiments.
+
+use super::{Chain, Grid, Profile, SEED};
+use serde::{Deserialize, Serialize};
+
+/// Chains from rest, run until their first impact.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct NucleationParams {
+    /// The chain, but for its length.
+    pub chain: Chain,
+    /// Numbers of masses n, each with its realisations at each σ.
+    pub lengths: Vec<(usize, usize)>,
+    /// Standard deviations σ, rising.
+    pub sigmas: Vec<f64>,
+    /// Times T by which a first impact is looked for, rising.
+    pub times: Vec<f64>,
+    /// Angles at which the reach of a gap is computed.
+    pub angles: usize,
+    /// Name of the random stream.
+    pub stream: String,
+    /// Master seed.
+    pub seed: u64,
+}
+
+impl NucleationParams {
+    /// The sizes of each profile.
+    pub fn new(profile: Profile) -> Self {
+        let (lengths, sigmas, last): (&[_], _, _) = match profile {
+            Profile::Full | Profile::Deep => (
+                &[(10, 4000), (100, 2000), (1000, 400)],
+                Grid::default().and(6, 16, 1, 100),
+                2000.0,
+            ),
+            Profile::Ci => {
+                (&[(10, 400), (100, 200), (1000, 40)], Grid::default().and(6, 16, 2, 100), 1000.0)
+            }
+            Profile::Quick => (&[(10, 60), (100, 30)], Grid::default().and(8, 16, 2, 100), 500.0),
+        };
+        let times = [10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0];
+        NucleationParams {
+            chain: Chain::default(),
+            lengths: lengths.to_vec(),
+            sigmas: sigmas.values(),
+            times: times.into_iter().filter(|time| *time <= last).collect(),
+            angles: 256,
+            stream: "nucleation".into(),
+            seed: SEED,
+        }
+    }
+}
+
+/// Chains from rest of which exactly one gap closes by itself.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SeedsParams {
+    /// The chain.
+    pub chain: Chain,
+    /// Standard deviations σ, rising.
+    pub sigmas: Vec<f64>,
+    /// Chains at each σ.
+    pub realisations: usize,
+    /// A chain whose one gap has not closed by this time is left out.
+    pub wait: f64,
+    /// Width of the bins of time since its first impact ...
+    pub bin: f64,
+    /// ... and their number, 64 at most.
+    pub bins: usize,
+    /// Window W of the counts that are predicted, in bins.
+    pub window: usize,
+    /// Transients T of the counts that are predicted, in bins, rising; the last window ends with the bins.
+    pub transients: Vec<usize>,
+    /// Name of the random stream.
+    pub stream: String,
+    /// Master seed.
+    pub seed: u64,
+}
+
+impl SeedsParams {
+    /// The sizes of each profile.
+    pub fn new(profile: Profile) -> Self {
+        let (sigmas, realisations) = match profile {
+            Profile::Full | Profile::Deep => (Grid::default().and(16, 30, 1, 200), 240),
+            Profile::Ci => (Grid::default().and(8, 15, 1, 100), 30),
+            Profile::Quick => (Grid::default().and(9, 14, 1, 100), 6),
+        };
+        SeedsParams {
+            chain: Chain::default(),
+            sigmas: sigmas.values(),
+            realisations,
+            wait: 2000.0,
+            bin: 25.0,
+            bins: 48,
+            window: 8,
+            transients: vec![2, 4, 8, 20, 40],
+            stream: "seeds".into(),
+            seed: SEED,
+        }
+    }
+}

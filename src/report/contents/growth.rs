@@ -1,0 +1,149 @@
+//! Section 12, second half: what one gap sets off, and the mean count that follows.
+
+use super::simulation::mean_all;
+use super::{Error, chosen, estimate, from, mark, share};
+use crate::experiments::Results;
+use crate::experiments::protocol::ProtocolMap;
+use crate::experiments::seeds::{Prediction, Seeds, Spread};
+use crate::experiments::sweep::Sweep;
+use crate::numerics::statistics::Estimate;
+use crate::report::values::Value;
+use serde::Serialize;
+
+/// The σ of which the text speaks: at the rise.
+const SIGMA: f64 = 0.12;
+
+/// One line of a table.
+#[derive(Debug, Serialize)]
+pub struct Line {
+    cells: Vec<String>,
+}
+
+const SPREADS: [&str; 4] = ["sigma", "spread", "exponent", "radius"];
+
+const HALVES: [&str; 3] = ["transient", "predicted", "found"];
+
+fn spread_id(row: &Spread, column: &str) -> String {
+    format!("spread.s{}_{column}", row.sigma.to_string().replace('.', "_"))
+}
+
+fn half_id(own: &Prediction, column: &str) -> String {
+    format!("growth.t{}_{column}", own.transient as u64)
+}
+
+/// The rows of the table: those at whole hundredths.
+fn tabled(seeds: &Seeds) -> impl Iterator<Item = &Spread> {
+    seeds.rows.iter().filter(|row| (100.0 * row.sigma).round() / 100.0 == row.sigma)
+}
+
+/// The half height of the mean of all that the map found with the same transient and window.
+fn found(map: &ProtocolMap, own: &Prediction) -> Option<Estimate> {
+    map.cell(own.transient, own.window)?.half_height_all
+}
+
+/// For each σ that both have, what the simulation found, what nucleation and growth predict, and
+/// what the graph theory does.
+fn compared<'a>(
+    seeds: &'a Seeds,
+    own: &'a Prediction,
+    sweep: &'a Sweep,
+) -> impl Iterator<Item = (f64, f64, [f64; 3])> + 'a {
+    seeds.rows.iter().zip(&own.means).filter_map(|(row, mean)| {
+        let ran = sweep.rows.iter().find(|other| other.sigma == row.sigma)?;
+        let [printed, rest] = row.graph;
+        Some((row.sigma, ran.mean_all?, [mean.value, printed, rest]))
+    })
+}
+
+pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
+    let (seeds, sweep, map) = (results.seeds()?, results.sweep()?, results.protocol()?);
+    let parameters = &seeds.parameters;
+    let n = parameters.realisations;
+    let first = seeds.rows.first().ok_or(Error::Missing("seeds"))?;
+    let last = seeds.rows.last().ok_or(Error::Missing("seeds"))?;
+    let least = seeds.rows.iter().min_by(|a, b| a.survival.total_cmp(&b.survival));
+    let least = least.ok_or(Error::Missing("seeds"))?;
+    let lived = (least.survival * least.seeds as f64).round() as usize;
+    let mut values = vec![
+        Value::integer("seeds_each", n),
+        Value::integer("seeds_sigma_count", seeds.rows.len()),
+        chosen("seeds_sigma_low", first.sigma),
+        chosen("seeds_sigma_high", last.sigma),
+        Value::integer("seeds_until", (parameters.bin * parameters.bins as f64) as u64),
+        share("seeds_survival", lived, least.seeds as usize),
+        Value::real("seeds_exponent_low", first.exponent, 2),
+        Value::real("seeds_exponent_high", last.exponent, 2),
+    ];
+    for row in tabled(seeds) {
+        values.push(chosen(&spread_id(row, "sigma"), row.sigma));
+        values.push(estimate(spread_id(row, "spread"), row.spread, row.spreads.len()));
+        values.push(Value::real(spread_id(row, "exponent"), row.exponent, 2));
+        values.push(Value::real(spread_id(row, "radius"), row.radius, 2));
+    }
+    for own in &seeds.predictions {
+        values.push(Value::integer(half_id(own, "transient"), own.transient as u64));
+        values.push(estimate(half_id(own, "predicted"), own.half_height, n));
+        values.push(estimate(half_id(own, "found"), found(map, own), map.parameters.realisations));
+    }
+    values.extend(comparison(seeds, sweep, n)?);
+    Ok(from(values, "experiments::seeds::growth::predictions", "seeds"))
+}
+
+/// With the protocol of the main sweep.
+fn comparison(seeds: &Seeds, sweep: &Sweep, n: usize) -> Result<Vec<Value>, Error> {
+    let protocol = sweep.parameters.protocol;
+    let same =
+        |own: &&Prediction| (own.transient, own.window) == (protocol.transient, protocol.window);
+    let own = seeds.predictions.iter().find(same);
+    let own = own.ok_or(Error::Missing("a prediction for the protocol of the report"))?;
+    let at_rise = seeds.rows.iter().zip(&own.means).find(|(row, _)| row.sigma == SIGMA);
+    let (_, mean) = at_rise.ok_or(Error::Missing("seeds at the rise"))?;
+    let ran = super::simulation::row(sweep, SIGMA)?;
+    let rows: Vec<_> = compared(seeds, own, sweep).collect();
+    let off = |(_, found, [grown, ..]): &(f64, f64, [f64; 3])| grown - found;
+    let worst = rows.iter().max_by(|a, b| off(a).abs().total_cmp(&off(b).abs()));
+    let worst = worst.ok_or(Error::Missing("seeds at a sigma of the main sweep"))?;
+    let score = |i: usize| {
+        let squares = rows.iter().map(|(_, found, own)| (own[i] - found) * (own[i] - found));
+        (squares.sum::<f64>() / rows.len() as f64).sqrt()
+    };
+    Ok(vec![
+        chosen("growth_sigma", SIGMA),
+        estimate("growth_mean", Some(*mean), n),
+        mean_all("growth_mean_found", ran),
+        estimate("growth_half", own.half_height, n),
+        estimate("growth_half_found", sweep.rise.half_height_all, sweep.parameters.realisations),
+        early(own.half_height, sweep.rise.half_height_all, n),
+        Value::integer("growth_compared", rows.len()),
+        Value::real("growth_worst", off(worst).abs(), 2),
+        chosen("growth_worst_sigma", worst.0),
+        Value::real("growth_score", score(0), 2),
+        Value::real("growth_score_p", score(1), 2),
+        Value::real("growth_score_rest", score(2), 2),
+    ])
+}
+
+/// By how much the predicted half height comes before the simulated one.
+fn early(own: Option<Estimate>, found: Option<Estimate>, n: usize) -> Value {
+    match own.zip(found) {
+        Some((own, found)) => {
+            let error = (own.error * own.error + found.error * found.error).sqrt();
+            Value::ensemble("growth_early", found.value - own.value, error, n as u64)
+        }
+        None => Value::text("growth_early", "none"),
+    }
+}
+
+/// The lines of the table of spreading.
+pub fn spreads(results: &Results) -> Result<Vec<Line>, Error> {
+    let line =
+        |row: &Spread| Line { cells: SPREADS.map(|name| mark(spread_id(row, name))).to_vec() };
+    Ok(tabled(results.seeds()?).map(line).collect())
+}
+
+/// The lines of the table of half heights.
+pub fn halves(results: &Results) -> Result<Vec<Line>, Error> {
+    let line =
+        |own: &Prediction| Line { cells: HALVES.map(|name| mark(half_id(own, name))).to_vec() };
+    Ok(results.seeds()?.predictions.iter().map(line).collect())
+}
