@@ -1,6 +1,7 @@
 //! How hot a running chain is: the variance of the free parts, and the balance of energy that sets it.
 
 use super::cutting::{Cutting, Row, Unit};
+use super::estimates::{average, average_count, ratio, sums};
 use super::progress::Stage;
 use super::{Error, Progress, weights};
 use crate::circuits;
@@ -11,8 +12,8 @@ use crate::circuits::jump;
 use crate::dynamics::{self, Engine, Scenario};
 use crate::numerics::bisection;
 use crate::numerics::random::NormalPairs;
-use crate::numerics::statistics::{Estimate, mean, normal_quantile, standard_error};
-use crate::params::{Chain, HeatParams, HeatRow, LEVEL};
+use crate::numerics::statistics::Estimate;
+use crate::params::{Chain, HeatParams, HeatRow};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -339,16 +340,16 @@ fn warmth(parameters: &HeatParams, row: &HeatRow, runs: &Part) -> Result<Warmth,
     let p_measured = closing.iter().sum::<u64>() as f64 / (gaps * ran.len()).max(1) as f64;
     Ok(Warmth {
         row: *row,
-        ratio: estimate(&ratios),
+        ratio: average(&ratios),
         ratios,
         hit: each(|run| run.hit).iter().sum(),
-        warmth_of_hit: sums(&of_hit),
-        ratio_of_hit: of_sums(&of_hit),
+        warmth_of_hit: sums(&of_hit, None),
+        ratio_of_hit: ratio(&of_hit),
         expected,
-        balance: of_sums(&work),
-        work: sums(&work),
+        balance: ratio(&work),
+        work: sums(&work, None),
         impacts: each(|run| run.impacts),
-        count: estimate(&counts.iter().map(|&k| k as f64).collect::<Vec<_>>()),
+        count: average_count(&counts),
         counts,
         imbalance: (!ran.iter().any(|run| run.contact))
             .then(|| ran.iter().map(imbalance).fold(0.0, f64::max)),
@@ -360,33 +361,6 @@ fn warmth(parameters: &HeatParams, row: &HeatRow, runs: &Part) -> Result<Warmth,
         means: [mean_of(p)?, mean_of(p_rest)?, mean_of(p_balanced)?, mean_of(p_measured)?],
         failed: runs.len() - ran.len(),
     })
-}
-
-/// The mean, with a normal interval.
-fn estimate(sample: &[f64]) -> Option<Estimate> {
-    with_error(mean(sample)?, standard_error(sample)?)
-}
-
-fn with_error(value: f64, error: f64) -> Option<Estimate> {
-    let half = normal_quantile(LEVEL) * error;
-    Some(Estimate { value, error, interval: [value - half, value + half] })
-}
-
-fn sums(pairs: &[[f64; 2]]) -> [f64; 2] {
-    [0, 1].map(|i| pairs.iter().map(|pair| pair[i]).sum::<f64>())
-}
-
-/// The ratio of two sums over realisations, with its error by the jackknife: each is left out in turn.
-fn of_sums(pairs: &[[f64; 2]]) -> Option<Estimate> {
-    let [above, below] = sums(pairs);
-    // A realisation that gives nothing says nothing of the ratio.
-    let without: Vec<f64> = pairs
-        .iter()
-        .filter(|pair| pair[1] > 0.0 && below > pair[1])
-        .map(|[a, b]| (above - a) / (below - b))
-        .collect();
-    let n = without.len() as f64;
-    (n > 1.0).then(|| with_error(above / below, standard_error(&without)? * (n - 1.0)))?
 }
 
 #[cfg(test)]
@@ -472,17 +446,5 @@ mod tests {
         assert!(hot.ratio.unwrap().value > tame.ratio.unwrap().value);
         assert!(hot.p_measured > 0.5 && hot.p_balanced > hot.p_rest && hot.p_rest > hot.p);
         assert!((hot.expected - 18.0).abs() < 1e-12 && (tame.expected - 6.0).abs() < 1e-12);
-    }
-
-    #[test]
-    fn ratios_of_sums_have_the_error_of_their_spread() {
-        assert_eq!(of_sums(&[[1.0, 2.0]]), None);
-        assert_eq!(of_sums(&[[0.0, 0.0], [1.0, 2.0]]), None);
-        let same = of_sums(&[[1.0, 2.0], [2.0, 4.0], [3.0, 6.0]]).unwrap();
-        assert_eq!((same.value, same.error), (0.5, 0.0));
-        // Equal weights: the jackknife is the standard error of the mean.
-        let sample = [1.0, 2.0, 4.0, 9.0];
-        let found = of_sums(&sample.map(|x| [x, 1.0])).unwrap();
-        assert!((found.error - standard_error(&sample).unwrap()).abs() < 1e-14);
     }
 }

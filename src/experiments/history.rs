@@ -1,12 +1,13 @@
 //! Whether the count depends on the past: chains that run under a large force, which is then lowered.
 
 use super::cutting::{Cutting, Row, Unit};
+use super::estimates::{average_count, half_height};
 use super::progress::Stage;
 use super::{Error, Progress, weights};
 use crate::dynamics::{self, Engine, Initial, Scenario};
 use crate::numerics::random::NormalPairs;
-use crate::numerics::statistics::{Estimate, mean, normal_quantile, standard_error};
-use crate::params::{HistoryParams, LEVEL};
+use crate::numerics::statistics::Estimate;
+use crate::params::HistoryParams;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -164,7 +165,7 @@ fn join(
         let alive = |counts: &Vec<u64>| counts.iter().filter(|&&k| k > 0).count() as u64;
         Lowered {
             sigma: *sigma,
-            means: counts.iter().map(|counts| estimate(counts)).collect(),
+            means: counts.iter().map(|counts| average_count(counts)).collect(),
             alive: counts.iter().map(alive).collect(),
             counts,
             failed: runs.iter().filter(|run| run.is_none()).count() as u64,
@@ -172,38 +173,12 @@ fn join(
     };
     let rows: Vec<Lowered> = parameters.sigmas.iter().zip(parts).map(row).collect();
     let half_heights = (0..parameters.transients.len())
-        .map(|i| half_height(&rows, i, 0.5 * parameters.chain.gaps() as f64))
+        .map(|i| {
+            let counts: Vec<&[u64]> = rows.iter().map(|row| &row.counts[i][..]).collect();
+            half_height(&parameters.sigmas, &counts, 0.5 * parameters.chain.gaps() as f64)
+        })
         .collect();
     Ok(History { parameters: parameters.clone(), rows, half_heights })
-}
-
-/// Where the mean count after a transient first rises through a height, with its error by the jackknife:
-/// each realisation, which has the same random numbers at every σ, is left out in turn.
-fn half_height(rows: &[Lowered], transient: usize, height: f64) -> Option<Estimate> {
-    let crossing = |left_out: Option<usize>| {
-        let mean = |row: &Lowered| {
-            let counts = row.counts[transient].iter().enumerate();
-            let counts = counts.filter(|(run, _)| Some(*run) != left_out);
-            let (n, sum) = counts.fold((0, 0), |(n, sum), (_, k)| (n + 1, sum + k));
-            sum as f64 / f64::from(n)
-        };
-        let points: Vec<(f64, f64)> = rows.iter().map(|row| (row.sigma, mean(row))).collect();
-        let rise = points.windows(2).find(|pair| pair[0].1 < height && pair[1].1 >= height)?;
-        let [(a, low), (b, high)] = [rise[0], rise[1]];
-        Some(a + (b - a) * (height - low) / (high - low))
-    };
-    let runs = rows.iter().map(|row| row.counts[transient].len()).min()?;
-    let without: Vec<f64> = (0..runs).map(|run| crossing(Some(run))).collect::<Option<_>>()?;
-    let (value, error) = (crossing(None)?, standard_error(&without)? * (runs as f64 - 1.0));
-    let half = normal_quantile(LEVEL) * error;
-    Some(Estimate { value, error, interval: [value - half, value + half] })
-}
-
-fn estimate(counts: &[u64]) -> Option<Estimate> {
-    let sample: Vec<f64> = counts.iter().map(|&k| k as f64).collect();
-    let (value, error) = (mean(&sample)?, standard_error(&sample)?);
-    let half = normal_quantile(LEVEL) * error;
-    Some(Estimate { value, error, interval: [value - half, value + half] })
 }
 
 #[cfg(test)]

@@ -3,11 +3,12 @@
 //! A change of one amplitude alone would be the smaller disturbance: in one run of four it is
 //! rounded away. Every operation of a run rounds, in every mass, so the twins differ in all.
 
+use super::estimates::average;
 use super::{Error, Progress};
 use crate::dynamics::{Engine, Growth, Impact, Scenario};
 use crate::numerics::random::NormalPairs;
-use crate::numerics::statistics::{Estimate, mean, normal_quantile, standard_error};
-use crate::params::{HorizonParams, LEVEL};
+use crate::numerics::statistics::Estimate;
+use crate::params::HorizonParams;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -63,7 +64,7 @@ pub fn run(parameters: &HorizonParams, progress: &Progress) -> Result<Horizon, E
         })
         .collect::<Result<_, _>>()?;
     let over = |pick: fn(&Twins) -> Option<f64>| {
-        estimate(&twins.iter().filter_map(pick).collect::<Vec<f64>>())
+        average(&twins.iter().filter_map(pick).collect::<Vec<f64>>())
     };
     let growth = over(|twins| twins.growth);
     Ok(Horizon {
@@ -75,13 +76,6 @@ pub fn run(parameters: &HorizonParams, progress: &Progress) -> Result<Horizon, E
         tenfold: growth.map(tenfold),
         twins,
     })
-}
-
-/// The mean, with a normal interval.
-fn estimate(sample: &[f64]) -> Option<Estimate> {
-    let (value, error) = (mean(sample)?, standard_error(sample)?);
-    let half = normal_quantile(LEVEL) * error;
-    Some(Estimate { value, error, interval: [value - half, value + half] })
 }
 
 /// ln 10 / λ, with the error carried over to first order.

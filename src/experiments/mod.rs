@@ -5,6 +5,7 @@ pub mod catalogue;
 pub mod cutting;
 pub mod deep;
 pub mod error;
+pub mod estimates;
 pub mod experiment;
 pub mod heat;
 pub mod history;

@@ -93,8 +93,11 @@ fn end(lines: &[&str], first: usize, indent: usize) -> usize {
     if whole(lines[first]) {
         return first;
     }
+    // A value that begins on the next line ends there, or where its bracket closes.
+    let deeper = |line: &str| line.len() - line.trim_start().len() == indent + 4;
+    let below = |line: &str| lines[first].ends_with('=') && deeper(line) && line.ends_with(';');
     // A signature over several lines closes with `) -> T {`, which is no end.
-    let last = |i: &usize| closes(lines[*i]) && whole(lines[*i]);
+    let last = |i: &usize| below(lines[*i]) || closes(lines[*i]) && whole(lines[*i]);
     (first + 1..lines.len()).find(last).unwrap_or(lines.len() - 1)
 }
 
@@ -170,6 +173,17 @@ mod tests {
                 let text = lines.join("\n");
                 let count = |c| text.matches(c).count();
                 assert_eq!(count('{'), count('}'), "{module}::{name}:\n{text}");
+            }
+        }
+    }
+
+    #[test]
+    fn no_item_hides_in_the_one_before() {
+        for (module, _, text) in SOURCES {
+            let items = items(text);
+            let lines = text.lines().take_while(|line| *line != "#[cfg(test)]");
+            for (i, line) in lines.enumerate().filter(|(_, line)| declared(line).is_some()) {
+                assert!(items.iter().any(|(_, at, _)| *at == i), "{module}: {line}");
             }
         }
     }

@@ -39,7 +39,7 @@ pub fn recipe(name: &str, profile: Profile) -> Option<Recipe> {
         "nucleation" => ("nucleation", "experiments::nucleation::CUTTING"),
         "seeds" => ("nucleation", "experiments::seeds::run::CUTTING"),
         "history" => ("heat", "experiments::history::CUTTING"),
-        "independence" => ("independence", "experiments::independence::mod::run"),
+        "independence" => ("independence", "experiments::independence::run"),
         "orbits" => ("orbits", "experiments::orbits::run"),
         "long_protocol" => ("long_protocol", "experiments::deep::audit"),
         "theory" => ("theory", "experiments::theory::run"),

@@ -280,6 +280,16 @@ fn is_id(id: &str) -> bool {
     parts.clone().count() <= 2 && parts.all(name)
 }
 
+/// The id of a table's cell, in the line of a σ: `heat.s0_12_ratio`.
+pub fn cell(table: &str, sigma: f64, column: &str) -> String {
+    format!("{table}.{}_{column}", line(sigma))
+}
+
+/// The name of a table's line by its σ: `s0_12`.
+pub fn line(sigma: f64) -> String {
+    format!("s{}", sigma.to_string().replace('.', "_"))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,9 +1,9 @@
 //! From realisations to ensembles.
 
-use super::jackknife::{jackknife, ratio, sums};
 use super::{Dependence, Distinct, Independence, Orders, Outcome, Part, Run, blocks, chain};
 use crate::circuits::distribution::SampleSpace;
 use crate::circuits::{self, commuting, jump};
+use crate::experiments::estimates::{jackknife, ratio, sums};
 use crate::experiments::{Error, Progress};
 use crate::numerics::statistics::Estimate;
 use crate::params::{IndependenceParams, IndependenceRow, VERTICES};

@@ -1,6 +1,5 @@
 //! Are impacts independent: sequences of impacts beside the fully connected graph of Secs. 3 to 6.
 
-mod jackknife;
 mod joining;
 mod succession;
 mod surrogate;

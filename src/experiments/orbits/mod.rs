@@ -8,13 +8,14 @@ pub use ends::{End, Ends};
 pub use hunt::{Hunt, Prey};
 pub use search::Found;
 
+use super::estimates::{average, with_error};
 use super::segments::ORDERS;
 use super::{Error, Progress};
 use crate::dynamics::orbit::least_amplitude;
 use crate::dynamics::{self, Engine, Initial, Scenario};
 use crate::numerics::random::NormalPairs;
-use crate::numerics::statistics::{Estimate, mean, normal_quantile, standard_error};
-use crate::params::{LEVEL, OrbitsParams};
+use crate::numerics::statistics::{Estimate, mean};
+use crate::params::OrbitsParams;
 use rayon::prelude::*;
 use search::Sample;
 use serde::{Deserialize, Serialize};
@@ -168,10 +169,7 @@ fn circuits(vertices: usize) -> Vec<Vec<usize>> {
 
 /// The mean of a share over forcings.
 fn over(sample: &[f64]) -> Estimate {
-    let value = mean(sample).unwrap_or(0.0);
-    let error = standard_error(sample).unwrap_or(0.0);
-    let half = normal_quantile(LEVEL) * error;
-    Estimate { value, error, interval: [value - half, value + half] }
+    average(sample).unwrap_or_else(|| with_error(mean(sample).unwrap_or(0.0), 0.0))
 }
 
 fn row(

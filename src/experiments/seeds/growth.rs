@@ -12,8 +12,9 @@
 
 use super::Seen;
 use crate::circuits::nucleation::reach::Reach;
-use crate::numerics::statistics::{Estimate, normal_quantile};
-use crate::params::{LEVEL, SeedsParams};
+use crate::experiments::estimates::{jackknife, left_out};
+use crate::numerics::statistics::{Estimate, last_rise};
+use crate::params::SeedsParams;
 use serde::{Deserialize, Serialize};
 
 /// Mean counts after one transient.
@@ -67,38 +68,25 @@ pub fn predictions(
             both.map(|(own, seen)| expected(parameters, own, seen, *transient)).collect()
         };
         let value = means(&all);
-        let left_out: Vec<Vec<f64>> = without.iter().map(means).collect();
+        let others: Vec<Vec<f64>> = without.iter().map(means).collect();
         let at = |i: usize| {
-            let others: Vec<f64> = left_out.iter().map(|means| means[i]).collect();
-            estimate(value[i], &others)
+            let others: Vec<f64> = others.iter().map(|means| means[i]).collect();
+            left_out(value[i], &others)
         };
-        let cross = |means: &[f64]| crossing(&parameters.sigmas, means, half);
-        let others: Option<Vec<f64>> = left_out.iter().map(|means| cross(means)).collect();
+        let crossing = |means: &Vec<f64>| {
+            let means: Vec<Option<f64>> = means.iter().copied().map(Some).collect();
+            last_rise(&parameters.sigmas, &means, half)
+        };
+        let crossings =
+            |out: Option<usize>| out.map_or_else(|| crossing(&value), |i| crossing(&others[i]));
         Prediction {
             transient: *transient as f64 * parameters.bin,
             window: parameters.window as f64 * parameters.bin,
-            half_height: cross(&value).zip(others).map(|(half, others)| estimate(half, &others)),
-            means: (0..value.len()).map(at).collect(),
+            half_height: jackknife(groups, crossings),
+            means: (0..value.len()).filter_map(at).collect(),
         }
     };
     parameters.transients.iter().map(of).collect()
-}
-
-/// A number with its error by the jackknife, from what it is when each group of runs is left out.
-fn estimate(value: f64, without: &[f64]) -> Estimate {
-    let n = without.len() as f64;
-    let mean = without.iter().sum::<f64>() / n;
-    let squares: f64 = without.iter().map(|other| (other - mean) * (other - mean)).sum();
-    let error = (squares * (n - 1.0) / n).sqrt();
-    let half = normal_quantile(LEVEL) * error;
-    Estimate { value, error, interval: [value - half, value + half] }
-}
-
-/// Where a polygon first rises through a height.
-fn crossing(xs: &[f64], ys: &[f64], height: f64) -> Option<f64> {
-    let rise = (1..xs.len()).find(|&i| ys[i - 1] < height && ys[i] >= height)?;
-    let share = (height - ys[rise - 1]) / (ys[rise] - ys[rise - 1]);
-    Some(xs[rise - 1] + share * (xs[rise] - xs[rise - 1]))
 }
 
 /// The expected number of gaps with an impact in the window.
@@ -182,14 +170,5 @@ mod tests {
         let closing = [vec![0.1, 0.0, 0.0], vec![0.2, 0.0, 0.0]];
         let found = expected(&parameters(), &closing, &seen, 2);
         assert!((found - 3.0 * (1.0 - 0.9 * 0.9 * 0.8)).abs() < 1e-12, "{found}");
-    }
-
-    #[test]
-    fn half_heights_and_errors_by_hand() {
-        assert_eq!(crossing(&[1.0, 2.0, 4.0], &[0.0, 1.0, 3.0], 2.0), Some(3.0));
-        assert_eq!(crossing(&[1.0, 2.0], &[0.0, 1.0], 2.0), None);
-        // Means of n − 1 of {1, 2, 3}: the jackknife gives the standard error of the mean.
-        let found = estimate(2.0, &[2.5, 2.0, 1.5]);
-        assert!((found.error - (1.0_f64 / 3.0).sqrt()).abs() < 1e-15);
     }
 }

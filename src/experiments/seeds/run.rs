@@ -8,11 +8,12 @@ use crate::circuits::impact_probability::ImpactProbability;
 use crate::circuits::nucleation::reach::closes_by_itself;
 use crate::dynamics::{self, Engine, Initial, Scenario};
 use crate::experiments::cutting::{Cutting, Row, Unit};
+use crate::experiments::estimates::average_count;
 use crate::experiments::progress::Stage;
 use crate::experiments::{Error, Progress, weights};
 use crate::numerics::random::NormalPairs;
-use crate::numerics::statistics::{Estimate, mean, normal_quantile, standard_error};
-use crate::params::{Chain, LEVEL, SeedsParams};
+use crate::numerics::statistics::Estimate;
+use crate::params::{Chain, SeedsParams};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -285,11 +286,6 @@ fn spread(
     let seeds = ran(traces).count() as u64;
     let reached = |hits: &[u64]| hits.iter().filter(|own| **own != 0).count() as u64;
     let spreads: Vec<u64> = ran(traces).map(|(_, hits)| reached(hits)).collect();
-    let sample: Vec<f64> = spreads.iter().map(|&gaps| gaps as f64).collect();
-    let spread = mean(&sample).zip(standard_error(&sample)).map(|(value, error)| {
-        let half = normal_quantile(LEVEL) * error;
-        Estimate { value, error, interval: [value - half, value + half] }
-    });
     let advance: Vec<f64> =
         seen.reached.iter().map(|own| growth::shares(own, &seen.places).skip(1).sum()).collect();
     let last = parameters.bins;
@@ -309,8 +305,8 @@ fn spread(
         seeds,
         late: traces.iter().flatten().filter(|trace| trace.seed.is_none()).count() as u64,
         failed: traces.iter().filter(|trace| trace.is_none()).count() as u64,
+        spread: average_count(&spreads),
         spreads,
-        spread,
         survival: seen.alive.last().copied().unwrap_or(0) as f64 / seeds.max(1) as f64,
         exponent: if slope.is_finite() { slope } else { 0.0 },
         radius: (squares(2) / squares(0).max(f64::MIN_POSITIVE)).sqrt(),

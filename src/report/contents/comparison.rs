@@ -6,7 +6,7 @@ use crate::claims::sec8;
 use crate::experiments::Results;
 use crate::experiments::sweep::SweepRow;
 use crate::experiments::theory::CurveRow;
-use crate::report::values::Value;
+use crate::report::values::{Value, cell};
 use serde::Serialize;
 
 /// The σ of the lines, as far as the sweep has them.
@@ -26,7 +26,7 @@ pub struct Line {
 }
 
 fn id(row: &SweepRow, column: &str) -> String {
-    format!("compare.s{}_{column}", format!("{}", row.sigma).replace('.', "_"))
+    cell("compare", row.sigma, column)
 }
 
 fn lines(results: &Results) -> Result<Vec<&SweepRow>, Error> {

@@ -7,7 +7,7 @@ use crate::experiments::protocol::ProtocolMap;
 use crate::experiments::seeds::{Prediction, Seeds, Spread};
 use crate::experiments::sweep::Sweep;
 use crate::numerics::statistics::Estimate;
-use crate::report::values::Value;
+use crate::report::values::{Value, cell};
 use serde::Serialize;
 
 /// The σ of which the text speaks: at the rise.
@@ -24,7 +24,7 @@ const SPREADS: [&str; 4] = ["sigma", "spread", "exponent", "radius"];
 const HALVES: [&str; 3] = ["transient", "predicted", "found"];
 
 fn spread_id(row: &Spread, column: &str) -> String {
-    format!("spread.s{}_{column}", row.sigma.to_string().replace('.', "_"))
+    cell("spread", row.sigma, column)
 }
 
 fn half_id(own: &Prediction, column: &str) -> String {

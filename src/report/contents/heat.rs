@@ -4,7 +4,7 @@ use super::{Error, chosen, count, estimate, from, mark};
 use crate::experiments::Results;
 use crate::experiments::heat::{Heat, Warmth};
 use crate::params::HeatParams;
-use crate::report::values::Value;
+use crate::report::values::{Value, cell};
 use serde::Serialize;
 
 /// The σ of which the text speaks: at the rise, and far above.
@@ -23,7 +23,7 @@ pub struct Line {
 }
 
 fn id(row: &Warmth, column: &str) -> String {
-    format!("heat.s{}_{column}", format!("{}", row.row.sigma).replace('.', "_"))
+    cell("heat", row.row.sigma, column)
 }
 
 /// What the chain's free parts are worth in the relation of p and σ, by column of the table.

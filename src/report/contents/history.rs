@@ -4,7 +4,7 @@ use super::simulation::mean_all;
 use super::{Error, chosen, estimate, from, mark};
 use crate::experiments::Results;
 use crate::experiments::history::{History, Lowered};
-use crate::report::values::Value;
+use crate::report::values::{Value, cell};
 use serde::Serialize;
 
 /// One line of the table.
@@ -14,7 +14,7 @@ pub struct Line {
 }
 
 fn id(row: &Lowered, column: &str) -> String {
-    format!("history.s{}_{column}", row.sigma.to_string().replace('.', "_"))
+    cell("history", row.sigma, column)
 }
 
 /// The column of a transient.

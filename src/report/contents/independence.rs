@@ -5,7 +5,7 @@ use crate::experiments::Results;
 use crate::experiments::independence::{Dependence, Distinct, Independence};
 use crate::numerics::statistics::Estimate;
 use crate::params::IndependenceParams;
-use crate::report::values::Value;
+use crate::report::values::{Value, line};
 use serde::Serialize;
 
 /// The ensembles of which the text speaks, as (n, σ): the chain at the rise and far above, and one
@@ -27,8 +27,7 @@ fn id(row: &Dependence, column: &str) -> String {
     match TEXT.iter().find(|(_, masses, sigma)| (*masses, *sigma) == own) {
         Some((letter, ..)) => format!("independence.{letter}_{column}"),
         None => {
-            let sigma = format!("{}", own.1).replace('.', "_");
-            format!("independence.n{}_s{sigma}_{column}", own.0)
+            format!("independence.n{}_{}_{column}", own.0, line(own.1))
         }
     }
 }

@@ -4,7 +4,7 @@ use super::simulation::ran;
 use super::{Error, chosen, from, mark, share};
 use crate::experiments::Results;
 use crate::experiments::nucleation::{Chains, Nucleation};
-use crate::report::values::Value;
+use crate::report::values::{Value, cell};
 use serde::Serialize;
 
 /// The σ of which the text speaks: at the rise.
@@ -25,7 +25,7 @@ pub struct Line {
 const COLUMNS: [&str; 7] = ["sigma", "p", "independent", "clumps", "bound", "found", "kept"];
 
 fn id(row: &Chains, column: &str) -> String {
-    format!("nucleation.s{}_{column}", row.sigma.to_string().replace('.', "_"))
+    cell("nucleation", row.sigma, column)
 }
 
 /// The chains of the table.

@@ -3,7 +3,7 @@
 use super::{Error, chosen, count, estimate, from, mark, share};
 use crate::experiments::Results;
 use crate::experiments::orbits::{Hunt, Orbits, Row};
-use crate::report::values::Value;
+use crate::report::values::{Value, cell};
 use serde::Serialize;
 
 /// The σ of which the text speaks, beside the lowest.
@@ -19,7 +19,7 @@ pub struct Line {
 }
 
 fn id(row: &Row, column: &str) -> String {
-    format!("orbits.s{}_{column}", format!("{}", row.sigma).replace('.', "_"))
+    cell("orbits", row.sigma, column)
 }
 
 /// Where runs end, by column of the table.

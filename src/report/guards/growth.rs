@@ -3,6 +3,7 @@
 use super::places::between;
 use super::{Guard, Look, far, model, unless};
 use crate::experiments::seeds::{Prediction, Seeds, Spread};
+use crate::report::values::cell;
 
 pub const GUARDS: &[Guard] = &[
     Guard { name: "spreading_as_counted", ids: &["spread.*", "seeds_*"], find: counted },
@@ -214,7 +215,7 @@ fn tabled(look: Look<'_>) -> Option<String> {
     let least = seeds.rows.iter().map(|row| row.survival).fold(1.0, f64::min);
     let until = seeds.parameters.bin * seeds.parameters.bins as f64;
     let line = |row: &Spread| {
-        let id = |name: &str| format!("spread.s{}_{name}", row.sigma.to_string().replace('.', "_"));
+        let id = |name: &str| cell("spread", row.sigma, name);
         look.is(&id("sigma"), row.sigma)
             .or_else(|| look.is(&id("spread"), row.spread?.value))
             .or_else(|| look.is(&id("exponent"), row.exponent))

@@ -3,6 +3,7 @@
 use super::model;
 use super::{Guard, Look, far, unless};
 use crate::experiments::heat::{Heat, Warmth};
+use crate::report::values::cell;
 
 pub const GUARDS: &[Guard] = &[
     Guard { name: "heat_of_realisations", ids: &["heat.*", "heat_ratio_*"], find: sums },
@@ -71,7 +72,7 @@ fn tabled(look: Look<'_>) -> Option<String> {
     };
     let head = |row: &Warmth| {
         let sigma = row.row.sigma;
-        look.is(&format!("heat.s{}_sigma", format!("{sigma}").replace('.', "_")), sigma)
+        look.is(&cell("heat", sigma, "sigma"), sigma)
     };
     let lowest = || {
         let row = heat.rising().next()?;

@@ -3,6 +3,7 @@
 use super::places::between;
 use super::{Guard, Look, far, unless};
 use crate::experiments::history::{History, Lowered};
+use crate::report::values::cell;
 
 pub const GUARDS: &[Guard] = &[
     Guard { name: "history_of_counts", ids: &["history.s*", "history_coldest*"], find: counts },
@@ -24,7 +25,7 @@ fn mean(counts: &[u64]) -> f64 {
 }
 
 fn id(row: &Lowered, column: &str) -> String {
-    format!("history.s{}_{column}", row.sigma.to_string().replace('.', "_"))
+    cell("history", row.sigma, column)
 }
 
 /// Means are those of the counts, and the table has them.

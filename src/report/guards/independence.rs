@@ -4,6 +4,7 @@ use super::model;
 use super::{Guard, Look, far, unless};
 use crate::experiments::independence::{Dependence, Distinct, Independence};
 use crate::params::IndependenceParams;
+use crate::report::values::line;
 use pxfm::{f_exp, f_log};
 
 pub const GUARDS: &[Guard] = &[
@@ -219,8 +220,8 @@ fn tabled(look: Look<'_>) -> Option<String> {
     let at = |row: &Dependence| match letters().find(|letter| is(letter, row)) {
         Some(letter) => cells(look, row, letter).or_else(|| told(look, row, letter)),
         None => {
-            let sigma = format!("{}", row.row.sigma).replace('.', "_");
-            cells(look, row, &format!("n{}_s{sigma}", row.row.masses))
+            let line = line(row.row.sigma);
+            cells(look, row, &format!("n{}_{line}", row.row.masses))
         }
     };
     missing

@@ -2,6 +2,7 @@
 
 use super::{Guard, Look, far, model, unless};
 use crate::experiments::nucleation::{AtLeastOne, Chains, Chances, Nucleation};
+use crate::report::values::cell;
 
 pub const GUARDS: &[Guard] = &[
     Guard { name: "p_of_single_gaps", ids: &["nucleation_*", "nucleation.*"], find: p },
@@ -143,7 +144,7 @@ fn tabled(look: Look<'_>) -> Option<String> {
 }
 
 fn line(look: Look<'_>, row: &Chains) -> Option<String> {
-    let id = |name: &str| format!("nucleation.s{}_{name}", row.sigma.to_string().replace('.', "_"));
+    let id = |name: &str| cell("nucleation", row.sigma, name);
     let last = row.expected.last()?;
     let swept = look.results.sweep.as_ref()?.rows.iter().find(|own| own.sigma == row.sigma);
     look.is(&id("sigma"), row.sigma)

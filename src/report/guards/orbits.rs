@@ -2,6 +2,7 @@
 
 use super::{Guard, Look, far, unless};
 use crate::experiments::orbits::{End, Found, Orbits, Row};
+use crate::report::values::cell;
 use std::collections::BTreeSet;
 
 pub const GUARDS: &[Guard] = &[
@@ -65,7 +66,7 @@ fn listed(look: Look<'_>) -> Option<String> {
                 .or_else(|| far("forcings with a stable one", seen[1] as f64, of(true) as f64))
         };
         let any: BTreeSet<_> = pairs(None, true).into_iter().map(|(_, forcing)| forcing).collect();
-        let name = format!("orbits.s{}_sigma", format!("{}", row.sigma).replace('.', "_"));
+        let name = id(row, "sigma");
         (1..=row.lengths.len())
             .find_map(length)
             .or_else(|| row.seen.iter().enumerate().find_map(seen))
@@ -209,7 +210,7 @@ fn single(look: Look<'_>) -> Option<String> {
 }
 
 fn id(row: &Row, name: &str) -> String {
-    format!("orbits.s{}_{name}", row.sigma.to_string().replace('.', "_"))
+    cell("orbits", row.sigma, name)
 }
 
 /// Each run ends in one way.

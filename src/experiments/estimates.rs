@@ -1,0 +1,101 @@
+//! Numbers with their errors and intervals, from samples and by the jackknife.
+
+use crate::numerics::statistics::{Estimate, last_rise, mean, normal_quantile, standard_error};
+use crate::params::LEVEL;
+
+/// A number with its standard error, and the normal interval that follows from it.
+pub fn with_error(value: f64, error: f64) -> Estimate {
+    let half = normal_quantile(LEVEL) * error;
+    Estimate { value, error, interval: [value - half, value + half] }
+}
+
+/// The mean of a sample; none of fewer than two values.
+pub fn average(sample: &[f64]) -> Option<Estimate> {
+    Some(with_error(mean(sample)?, standard_error(sample)?))
+}
+
+/// The mean of counts.
+pub fn average_count(counts: &[u64]) -> Option<Estimate> {
+    average(&counts.iter().map(|&k| k as f64).collect::<Vec<_>>())
+}
+
+/// A number with the error that follows from what it is when each member of the sample is left out in
+/// turn; none of fewer than two members.
+pub fn left_out(value: f64, without: &[f64]) -> Option<Estimate> {
+    Some(with_error(value, standard_error(without)? * (without.len() as f64 - 1.0)))
+}
+
+/// A statistic of so many realisations, given the one that is left out; none if it does not exist
+/// without each of them.
+pub fn jackknife(
+    realisations: usize,
+    statistic: impl Fn(Option<usize>) -> Option<f64>,
+) -> Option<Estimate> {
+    let without: Option<Vec<f64>> = (0..realisations).map(|out| statistic(Some(out))).collect();
+    left_out(statistic(None)?, &without?)
+}
+
+/// The sums of both members of all pairs but one.
+pub fn sums(pairs: &[[f64; 2]], out: Option<usize>) -> [f64; 2] {
+    let mut sums = [0.0; 2];
+    for (_, pair) in pairs.iter().enumerate().filter(|(at, _)| Some(*at) != out) {
+        sums[0] += pair[0];
+        sums[1] += pair[1];
+    }
+    sums
+}
+
+/// The ratio of two sums over realisations.
+pub fn ratio(pairs: &[[f64; 2]]) -> Option<Estimate> {
+    jackknife(pairs.len(), |out| {
+        let [above, below] = sums(pairs, out);
+        (below > 0.0).then(|| above / below)
+    })
+}
+
+/// Where the mean count rises through a height for good. `counts[i]` are those of the realisations at
+/// `sigmas[i]`; realisation j has the same random numbers at each, and is left out at all of them together.
+pub fn half_height(sigmas: &[f64], counts: &[&[u64]], height: f64) -> Option<Estimate> {
+    let realisations = counts.iter().map(|own| own.len()).min()?;
+    jackknife(realisations, |out| {
+        let mean = |own: &&[u64]| {
+            let kept = own.iter().enumerate().filter(|(run, _)| Some(*run) != out);
+            let (n, sum) = kept.fold((0, 0), |(n, sum), (_, k)| (n + 1, sum + k));
+            (n > 0).then(|| sum as f64 / f64::from(n))
+        };
+        let means: Vec<Option<f64>> = counts.iter().map(mean).collect();
+        last_rise(sigmas, &means, height)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_a_mean_it_is_the_standard_error() {
+        let sample = [1.0, 2.0, 4.0, 9.0];
+        let found = ratio(&sample.map(|x| [x, 1.0])).unwrap();
+        assert_eq!(found.value, 4.0);
+        assert!((found.error - standard_error(&sample).unwrap()).abs() < 1e-14);
+        assert_eq!((ratio(&[[1.0, 2.0]]), average(&[1.0])), (None, None));
+        assert_eq!(ratio(&[[1.0, 0.0], [2.0, 0.0]]), None);
+        assert_eq!(ratio(&[[0.0, 0.0], [1.0, 2.0]]), None);
+        let same = ratio(&[[1.0, 2.0], [2.0, 4.0], [3.0, 6.0]]).unwrap();
+        assert_eq!((same.value, same.error), (0.5, 0.0));
+        // Means of two of {1, 2, 3}.
+        let found = left_out(2.0, &[2.5, 2.0, 1.5]).unwrap();
+        assert!((found.error - (1.0_f64 / 3.0).sqrt()).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_half_height_by_hand() {
+        // Means 0, 2 and 4 rise through 1 at 1.5; without either run 0, 1, 4 and 0, 3, 4: at 2 and 4/3.
+        let counts: [&[u64]; 3] = [&[0, 0], &[1, 3], &[4, 4]];
+        let found = half_height(&[1.0, 2.0, 3.0], &counts, 1.0).unwrap();
+        assert_eq!(found.value, 1.5);
+        let half = 0.5 * (2.0 - 4.0 / 3.0);
+        assert!((found.error - half).abs() < 1e-15, "{found:?}");
+        assert_eq!(half_height(&[1.0, 2.0, 3.0], &counts, 5.0), None);
+    }
+}
