@@ -147,11 +147,14 @@ struct Bench<'a> {
     before: Judged,
     idle: Mutex<Vec<Results>>,
     /// What followed when leaves were moved by so much: many values are the same small integer.
-    followers: Mutex<BTreeMap<(Leaves, u64), Option<Followers>>>,
+    followers: Mutex<BTreeMap<Vec<(Leaf, u64)>, Option<Followers>>>,
 }
 
-/// Leaves of results: for each part its index, and paths in it.
-type Leaves = Vec<(usize, Vec<String>)>;
+/// A number in the results: the index of its part, and its path there.
+type Leaf = (usize, String);
+
+/// A leaf, and by how much it is moved.
+type Move = (Leaf, f64);
 
 /// The numbers that are others when leaves are moved, by the ids of their values.
 type Followers = Arc<BTreeMap<String, Number>>;
@@ -178,7 +181,7 @@ impl Bench<'_> {
         match site {
             Site::Leaves(leaves) => {
                 let refused = || Wrong::Refused("type of the result".into());
-                self.with(leaves, by, wrong).unwrap_or_else(refused)
+                self.with(&moved(leaves, |_| by), wrong).unwrap_or_else(refused)
             }
             Site::Printed => {
                 let mut published = self.subject.published.clone();
@@ -198,55 +201,51 @@ impl Bench<'_> {
     }
 
     /// What becomes of results with these leaves moved; None if they are of another shape then.
-    fn with<T>(
-        &self,
-        leaves: &[(usize, Vec<String>)],
-        by: f64,
-        judge: impl FnOnce(Subject<'_>) -> T,
-    ) -> Option<T> {
+    fn with<T>(&self, moves: &[Move], judge: impl FnOnce(Subject<'_>) -> T) -> Option<T> {
         let idle = self.idle.lock().ok().and_then(|mut idle| idle.pop());
-        let copy = idle.map_or_else(|| self.whole.copy(self.subject.results), Ok);
-        let mut results = copy.ok()?;
-        let put = leaves.iter().try_for_each(|(index, paths)| {
-            let mut json = self.whole.part(*index).clone();
-            part::add(&mut json, paths, by);
-            self.whole.put(&mut results, *index, Some(&json))
+        let mut results = idle.unwrap_or_else(|| part::copy(self.subject.results));
+        // Leaves of one part stand together.
+        let parts = || moves.chunk_by(|a, b| a.0.0 == b.0.0);
+        let put = parts().try_for_each(|moves| {
+            let index = moves[0].0.0;
+            let mut json = self.whole.part(index).clone();
+            moves.iter().for_each(|((_, path), by)| part::add(&mut json, path, *by));
+            part::put(&mut results, index, &json)
         });
         let found = put.ok().map(|()| judge(Subject { results: &results, ..self.subject }));
-        let mut back = leaves.iter().map(|(index, _)| self.whole.put(&mut results, *index, None));
-        if back.all(|put| put.is_ok())
-            && let Ok(mut idle) = self.idle.lock()
-        {
+        parts().for_each(|moves| part::restore(&mut results, moves[0].0.0, self.subject.results));
+        if let Ok(mut idle) = self.idle.lock() {
             idle.push(results);
         }
         found
     }
 
-    /// The number of a value after these leaves were moved.
-    fn carried(&self, leaves: &Leaves, by: f64, id: &str) -> Option<Number> {
-        let key = (leaves.clone(), by.to_bits());
+    /// The numbers that follow when leaves are moved; none if there is no report then.
+    fn followers(&self, moves: &[Move]) -> Option<Followers> {
+        let key: Vec<_> = moves.iter().map(|(leaf, by)| (leaf.clone(), by.to_bits())).collect();
         let known = self.followers.lock().ok().and_then(|known| known.get(&key).cloned());
-        let followers = known.unwrap_or_else(|| {
-            let found = self.followers(leaves, by);
+        known.unwrap_or_else(|| {
+            let found = self.follow(moves);
             if let Ok(mut known) = self.followers.lock() {
                 known.insert(key, found.clone());
             }
             found
-        });
-        followers?.get(id).cloned()
+        })
     }
 
-    /// The numbers that follow when leaves are moved; none if there is no report then.
-    fn followers(&self, leaves: &Leaves, by: f64) -> Option<Followers> {
-        let values = self.with(leaves, by, |subject| {
-            contents::registry(subject.results, subject.published).ok()
-        });
-        let values = values??;
+    fn follow(&self, moves: &[Move]) -> Option<Followers> {
+        let registry = |to: Subject<'_>| contents::registry(to.results, to.published).ok();
+        let values = self.with(moves, registry)??;
         let others = values.iter().filter(|value| {
             self.before.values.get(&value.id).is_none_or(|own| own.number != value.number)
         });
         Some(Arc::new(others.map(|value| (value.id.clone(), value.number.clone())).collect()))
     }
+}
+
+/// Leaves moved by so much, given their places in the list.
+fn moved(leaves: &[Leaf], by: impl Fn(usize) -> f64) -> Vec<Move> {
+    leaves.iter().enumerate().map(|(i, leaf)| (leaf.clone(), by(i))).collect()
 }
 
 /// What a wrong number leads to.

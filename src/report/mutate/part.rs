@@ -15,6 +15,8 @@ pub struct Part {
     record: &'static [&'static str],
     read: fn(&Results) -> Option<Json>,
     write: fn(&mut Results, &Json) -> serde_json::Result<()>,
+    /// From results that have it to others.
+    restore: fn(&mut Results, &Results),
 }
 
 fn json<T: Serialize>(result: &T) -> Option<Json> {
@@ -38,6 +40,7 @@ macro_rules! ran {
                 results.$field = Some(typed(json)?);
                 Ok(())
             },
+            restore: |results, from| results.$field = from.$field.clone(),
         }
     };
 }
@@ -52,6 +55,7 @@ macro_rules! looked_at {
                 *results.$field = typed(json)?;
                 Ok(())
             },
+            restore: |results, from| (*results.$field).clone_from(&from.$field),
         }
     };
 }
@@ -70,6 +74,10 @@ const PARTS: [Part; 24] = [
             // The laws follow from the rows.
             results.laws = results.sweep.as_ref().map(|sweep| laws::run(&sweep.rows));
             Ok(())
+        },
+        restore: |results, from| {
+            results.sweep = from.sweep.clone();
+            results.laws = from.laws.clone();
         },
     },
     ran!("second_seed", second_seed),
@@ -125,78 +133,85 @@ impl Whole {
     pub fn leaves(&self, index: usize, number: f64) -> Vec<String> {
         paths(self.part(index), PARTS[index].record, number)
     }
+}
 
-    /// Puts one part into results; `None` is the part as it was.
-    ///
-    /// # Errors
-    /// When it is not of the part's shape: a negative count.
-    pub fn put(
-        &self,
-        results: &mut Results,
-        index: usize,
-        other: Option<&Json>,
-    ) -> serde_json::Result<()> {
-        (PARTS[index].write)(results, other.unwrap_or(&self.0[index]))
-    }
+/// Puts a part into results.
+///
+/// # Errors
+/// When it is not of the part's shape: a negative count.
+pub fn put(results: &mut Results, index: usize, part: &Json) -> serde_json::Result<()> {
+    (PARTS[index].write)(results, part)
+}
 
-    /// Results with these parts.
-    ///
-    /// # Errors
-    /// When a part is missing.
-    pub fn copy(&self, like: &Results) -> serde_json::Result<Results> {
-        let mut results = Results::empty(like.profile);
-        // The laws come after the sweep, which would compute them.
-        for index in (0..PARTS.len()).rev() {
-            self.put(&mut results, index, None)?;
-        }
-        Ok(results)
-    }
+/// Gives results a part of others.
+pub fn restore(results: &mut Results, index: usize, from: &Results) {
+    (PARTS[index].restore)(results, from);
+}
+
+/// Results with all parts of others.
+pub fn copy(from: &Results) -> Results {
+    let mut results = Results::empty(from.profile);
+    (0..PARTS.len()).for_each(|index| restore(&mut results, index, from));
+    results
 }
 
 /// Paths of all numbers in JSON that are this one, as JSON pointers; members of objects first, for a
 /// long list of counts has every small integer many times.
 fn paths(json: &Json, record: &[&str], number: f64) -> Vec<String> {
-    fn walk(
-        json: &Json,
-        path: &str,
-        (record, number): (&[&str], f64),
-        listed: bool,
-        out: &mut [Vec<String>; 2],
-    ) {
+    let mut walk = Walk { record, number, path: String::new(), members: vec![], listed: vec![] };
+    walk.down(json, false);
+    [walk.members, walk.listed].concat()
+}
+
+struct Walk<'a> {
+    record: &'a [&'a str],
+    number: f64,
+    /// Where it is.
+    path: String,
+    members: Vec<String>,
+    listed: Vec<String>,
+}
+
+impl Walk<'_> {
+    fn down(&mut self, json: &Json, listed: bool) {
         match json {
-            Json::Number(found) if found.as_f64() == Some(number) => {
-                out[usize::from(listed)].push(path.into());
+            Json::Number(found) if found.as_f64() == Some(self.number) => {
+                let list = if listed { &mut self.listed } else { &mut self.members };
+                list.push(self.path.clone());
             }
             Json::Array(items) => {
                 for (i, item) in items.iter().enumerate() {
-                    walk(item, &format!("{path}/{i}"), (record, number), true, out);
+                    self.step(&i.to_string(), item, true);
                 }
             }
             Json::Object(members) => {
                 for (name, member) in members {
-                    if !record.contains(&name.as_str()) {
-                        walk(member, &format!("{path}/{name}"), (record, number), false, out);
+                    if !self.record.contains(&name.as_str()) {
+                        self.step(name, member, false);
                     }
                 }
             }
             _ => {}
         }
     }
-    let mut out = [Vec::new(), Vec::new()];
-    walk(json, "", (record, number), false, &mut out);
-    out.concat()
+
+    fn step(&mut self, name: &str, json: &Json, listed: bool) {
+        let here = self.path.len();
+        self.path.push('/');
+        self.path.push_str(name);
+        self.down(json, listed);
+        self.path.truncate(here);
+    }
 }
 
-/// Adds to the numbers at these paths. An integer stays one if it can.
-pub fn add(json: &mut Json, paths: &[String], by: f64) {
-    for path in paths {
-        let Some(found) = json.pointer_mut(path) else { continue };
-        let whole = found.as_i64().filter(|_| by.fract() == 0.0);
-        *found = match whole {
-            Some(n) => (n + by as i64).into(),
-            None => (found.as_f64().unwrap_or_default() + by).into(),
-        };
-    }
+/// Adds to the number at a path. An integer stays one if it can.
+pub fn add(json: &mut Json, path: &str, by: f64) {
+    let Some(found) = json.pointer_mut(path) else { return };
+    let whole = found.as_i64().filter(|_| by.fract() == 0.0);
+    *found = match whole {
+        Some(n) => (n + by as i64).into(),
+        None => (found.as_f64().unwrap_or_default() + by).into(),
+    };
 }
 
 #[cfg(test)]
@@ -208,8 +223,9 @@ mod tests {
     fn leaves_are_found_and_moved() {
         let mut tree = json!({"a": [3, {"b": 3.0, "raw": [3]}], "c": 4, "e": 3, "raw": 3});
         assert_eq!(paths(&tree, &["raw"], 3.0), ["/a/1/b", "/e", "/a/0"]);
-        add(&mut tree, &["/a/0".into(), "/a/1/b".into()], 0.5);
-        add(&mut tree, &["/e".into()], -1.0);
+        add(&mut tree, "/a/0", 0.5);
+        add(&mut tree, "/a/1/b", 0.5);
+        add(&mut tree, "/e", -1.0);
         assert_eq!(tree, json!({"a": [3.5, {"b": 3.5, "raw": [3]}], "c": 4, "e": 2, "raw": 3}));
     }
 }

@@ -1,14 +1,14 @@
 //! Where a number is made wrong.
 
-use super::{Bench, part, same, size};
+use super::{Bench, Leaf, moved, part, same, size};
 use crate::claims::Published;
 use crate::report::values::{Number, Value};
 
 /// A place where a number can be moved.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Site {
-    /// Leaves of results: for each part its index, and paths in it.
-    Leaves(Vec<(usize, Vec<String>)>),
+    /// Numbers in the results.
+    Leaves(Vec<Leaf>),
     /// What the paper printed.
     Printed,
     /// The value itself, on its way from results to the report.
@@ -54,31 +54,51 @@ fn carrying(
     numbers: &[f64],
     parts: &[usize],
     bench: &Bench<'_>,
-) -> Option<Vec<(usize, Vec<String>)>> {
-    let found: Vec<(usize, Vec<String>)> = parts
+) -> Option<Vec<Leaf>> {
+    let leaves: Vec<Leaf> = parts
         .iter()
-        .map(|&index| {
-            let leaves = |number: &f64| bench.whole.leaves(index, *number);
-            (index, numbers.iter().flat_map(leaves).collect::<Vec<String>>())
+        .flat_map(|&index| {
+            let paths = numbers.iter().flat_map(move |number| bench.whole.leaves(index, *number));
+            paths.map(move |path| (index, path))
         })
-        .filter(|(_, paths)| !paths.is_empty())
         .collect();
-    let wanted = size::moved(&value.number, by);
-    let carries = |leaves: &Vec<(usize, Vec<String>)>| {
-        let found = bench.carried(leaves, by, &value.id);
-        found.is_some_and(|found| same(&found, &wanted, by))
-    };
     // The same double is the same number, wherever it is kept; the same integer is so by chance.
     let whole = numbers.iter().all(|number| number.fract() == 0.0);
-    if !whole && !found.is_empty() && carries(&found) {
-        return Some(found);
+    if !whole && !leaves.is_empty() && follows(value, &leaves, by, bench) {
+        return Some(leaves);
     }
-    if numbers.len() > 1 {
-        return None;
+    let single = numbers.len() == 1;
+    single.then(|| followed(value, &leaves[..leaves.len().min(TRIED)], by, bench))?
+}
+
+/// Whether a value moves by a step when these leaves do.
+fn follows(value: &Value, leaves: &[Leaf], by: f64, bench: &Bench<'_>) -> bool {
+    let followers = bench.followers(&moved(leaves, |_| by));
+    let found = followers.as_ref().and_then(|followers| followers.get(&value.id));
+    found.is_some_and(|found| same(found, &size::moved(&value.number, by), by))
+}
+
+/// A leaf that a value follows. All are moved at once, the first by one step, the next by two, and so on:
+/// the value tells whom it followed, and moves by one step with that one alone. Where it followed several, and
+/// where there is no report with so much moved, each half is asked.
+fn followed(value: &Value, leaves: &[Leaf], by: f64, bench: &Bench<'_>) -> Option<Vec<Leaf>> {
+    let alone = |i: usize| {
+        let leaf = vec![leaves[i].clone()];
+        follows(value, &leaf, by, bench).then_some(leaf)
+    };
+    if leaves.len() <= 1 {
+        return leaves.first().and_then(|_| alone(0));
     }
-    let each =
-        found.iter().flat_map(|(i, paths)| paths.iter().map(|p| vec![(*i, vec![p.clone()])]));
-    each.take(TRIED).find(carries)
+    let steps = |i: usize| (i + 1) as f64 * by;
+    if let Some(followers) = bench.followers(&moved(leaves, steps)) {
+        let found = followers.get(&value.id)?;
+        let at = |&i: &usize| same(found, &size::moved(&value.number, steps(i)), by);
+        if let Some(leaf) = (0..leaves.len()).find(at).and_then(alone) {
+            return Some(leaf);
+        }
+    }
+    let (left, right) = leaves.split_at(leaves.len() / 2);
+    followed(value, left, by, bench).or_else(|| followed(value, right, by, bench))
 }
 
 impl std::fmt::Display for Site {
@@ -87,11 +107,10 @@ impl std::fmt::Display for Site {
             Site::Printed => f.write_str("published.toml"),
             Site::Report => f.write_str("report"),
             Site::Leaves(leaves) => {
-                let count: usize = leaves.iter().map(|(_, paths)| paths.len()).sum();
-                let Some((index, paths)) = leaves.first() else { return Ok(()) };
+                let Some((index, path)) = leaves.first() else { return Ok(()) };
                 let name = part::experiments().nth(*index).unwrap_or_default();
-                write!(f, "{name}{}", paths.first().map_or("", String::as_str))?;
-                if count > 1 { write!(f, " and {} more", count - 1) } else { Ok(()) }
+                write!(f, "{name}{path}")?;
+                if leaves.len() > 1 { write!(f, " and {} more", leaves.len() - 1) } else { Ok(()) }
             }
         }
     }
