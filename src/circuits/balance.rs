@@ -21,6 +21,20 @@
 //!
 //! whatever σ and d are. It needs impacts of one gap that are so far apart that the phases have
 //! forgotten the last, and it has no finite value at r = 1: there nothing is lost.
+//!
+//! Where impacts are frequent, what the force does to a mass is lost to its neighbours before it has
+//! added up. Let neighbours move independently of each other, with velocities of variance u². Gaps close
+//! at a rate in proportion to V. So the mean push that a mass feels when it moves by w faster than it
+//! would is, from both its gaps together, −(1 + r) ν w with ν the rate of its impacts: a friction
+//! γ = (1 + r) ν. The motion that the force keeps up is σ/(D + iγΩ) and not σ/D, with D = ω² − Ω²; it takes
+//! up the power σ²γΩ²/(D² + γ²Ω²). Impacts take (1 − r²)/4 ⟨V²⟩ = (1 − r²) u² from two masses, since
+//! the weight V doubles the mean of V². So u² = 2σ²Ω²/((1 − r)(D² + γ²Ω²)). Free parts are what is left
+//! when the motion without friction is taken away: of the kept motion the difference σ/(D + iγΩ) − σ/D,
+//! and all that is random,
+//!
+//! s²/σ² = (Ω/ω)² ((1 + r)/(1 − r) + (γΩ/D)²)/(D² + γ²Ω²),
+//!
+//! the formula above for γ = 0, and (Ω/ω)²/D² where friction takes all: there the chain as a whole stands still.
 
 use super::Error;
 use super::impact_probability::ImpactProbability;
@@ -39,6 +53,14 @@ pub fn energy_change(reduced_mass: f64, restitution: f64, speed: f64, forced: f6
 /// # Errors
 /// [`Error::Input`] for r = 1, where no such state exists.
 pub fn variance_ratio(chain: &Chain) -> Result<f64, Error> {
+    variance_ratio_at(chain, 0.0)
+}
+
+/// s²/σ², the same if each mass has so many impacts in a unit of time.
+///
+/// # Errors
+/// [`Error::Input`] for r = 1, where no such state exists.
+pub fn variance_ratio_at(chain: &Chain, rate: f64) -> Result<f64, Error> {
     let r = chain.restitution;
     if !(0.0..1.0).contains(&r) {
         let problem = format!("at {r} impacts lose nothing, and no state is steady");
@@ -51,7 +73,9 @@ pub fn variance_ratio(chain: &Chain) -> Result<f64, Error> {
         chain.forcing_frequency,
     )?;
     let detuning = law.detuning.square().to_f64();
-    Ok(law.frequency_ratio.to_f64() * (1.0 + r) / (1.0 - r) / detuning)
+    let friction = (1.0 + r) * rate * chain.forcing_frequency;
+    let lost = friction * friction;
+    Ok(law.frequency_ratio.to_f64() * ((1.0 + r) / (1.0 - r) + lost / detuning) / (detuning + lost))
 }
 
 impl ImpactProbability {
@@ -87,6 +111,27 @@ mod tests {
         assert!((variance_ratio(&paper(0.8)).unwrap() - 18.0).abs() < 1e-12);
         assert!((variance_ratio(&paper(0.0)).unwrap() - 2.0).abs() < 1e-12);
         assert!(variance_ratio(&paper(1.0)).is_err() && variance_ratio(&paper(f64::NAN)).is_err());
+    }
+
+    #[test]
+    fn what_the_force_gives_through_friction_impacts_take() {
+        let chain = Chain { natural_frequency: 1.3, forcing_frequency: 0.9, ..paper(0.6) };
+        let (r, omega2, big2) = (0.6, 1.69, 0.81);
+        let detuning2: f64 = (omega2 - big2) * (omega2 - big2);
+        for rate in [0.01, 0.3, 4.0] {
+            let friction = (1.0 + r) * rate;
+            let lost = friction * friction * big2;
+            // Velocities: the random part, which is free, and what the force keeps up.
+            let free = omega2 * variance_ratio_at(&chain, rate).unwrap();
+            let random = free - big2 * lost / (detuning2 * (detuning2 + lost));
+            let speed2 = random + big2 / (detuning2 + lost);
+            let power = friction * big2 / (detuning2 + lost);
+            let loss = rate * (1.0 - r * r) / 2.0 * speed2;
+            assert!((power - loss).abs() < 1e-12 * power, "{power} {loss}");
+        }
+        let still = variance_ratio_at(&paper(0.8), 1e9).unwrap();
+        assert!((still - 2.0).abs() < 1e-9, "{still}");
+        assert_eq!(variance_ratio_at(&paper(0.8), 0.0), variance_ratio(&paper(0.8)));
     }
 
     #[test]

@@ -155,7 +155,7 @@ pub const ANALYTIC: Experiment<AnalyticParams, analytic::Analytic> = Experiment 
 /// How hot running chains are.
 pub const HEAT: Experiment<HeatParams, heat::Heat, heat::Part> = Experiment {
     need: Need::Heat,
-    module: "src/experiments/heat.rs",
+    module: "src/experiments/heat/mod.rs",
     parameters: HeatParams::new,
     how: Cut("heat", heat::CUTTING),
 };

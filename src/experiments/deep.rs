@@ -75,7 +75,8 @@ fn join(
         }
     };
     let rows = parameters.sigmas.iter().zip(&parts).map(row).collect();
-    Ok(LongMap { map: protocol::join(parameters, parts, progress)?, rows })
+    let map = protocol::join(parameters, parts, progress)?;
+    Ok(LongMap { map: ProtocolMap { means: Vec::new(), ..map }, rows })
 }
 
 /// What an audit found.

@@ -5,7 +5,7 @@ use super::progress::Stage;
 use super::{Error, Progress, rise, weights};
 use crate::dynamics::{self, Engine, Scenario};
 use crate::numerics::random::NormalPairs;
-use crate::numerics::statistics::Estimate;
+use crate::numerics::statistics::{Estimate, mean};
 use crate::params::{PRINTED_THRESHOLD, PRINTED_THRESHOLD_UNIT, ProtocolParams};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -17,6 +17,10 @@ pub struct ProtocolMap {
     pub parameters: ProtocolParams,
     /// One cell for each pair, transients outer, windows inner.
     pub cells: Vec<ProtocolCell>,
+    /// The mean count of all realisations in each cell, for each σ; none where no run reached the window.
+    /// The long map has them by σ instead.
+    #[serde(default)]
+    pub means: Vec<Vec<Option<f64>>>,
     /// Realisations that the engine ended early; they are counted in no window that they missed.
     pub failed: usize,
 }
@@ -39,7 +43,19 @@ pub struct ProtocolCell {
 impl ProtocolMap {
     /// The cell of a transient and a window.
     pub fn cell(&self, transient: f64, window: f64) -> Option<&ProtocolCell> {
-        self.cells.iter().find(|cell| cell.transient == transient && cell.window == window)
+        self.cells.get(self.place(transient, window)?)
+    }
+
+    /// (σ, mean count of all) for a transient and a window.
+    pub fn curve(&self, transient: f64, window: f64) -> Option<Vec<(f64, f64)>> {
+        let means = self.means.get(self.place(transient, window)?)?;
+        let points = self.parameters.sigmas.iter().zip(means);
+        Some(points.filter_map(|(&sigma, mean)| Some((sigma, (*mean)?))).collect())
+    }
+
+    fn place(&self, transient: f64, window: f64) -> Option<usize> {
+        let own = |cell: &ProtocolCell| cell.transient == transient && cell.window == window;
+        self.cells.iter().position(own)
     }
 }
 
@@ -171,6 +187,11 @@ pub(super) fn join(
         .transients
         .iter()
         .flat_map(|&transient| parameters.windows.iter().map(move |&window| (transient, window)));
+    let mean_of = |counts: &Counts| -> Option<f64> {
+        mean(&counts.iter().flatten().map(|&k| f64::from(k)).collect::<Vec<_>>())
+    };
+    let means =
+        by_cell.iter().map(|rows: &Vec<Counts>| rows.iter().map(mean_of).collect()).collect();
     let mut map = Vec::with_capacity(cells);
     for ((transient, window), counts) in protocols.zip(by_cell) {
         progress.check()?;
@@ -185,7 +206,7 @@ pub(super) fn join(
             prints_as_published: half_height.is_some_and(|half| prints_as_published(half.value)),
         });
     }
-    Ok(ProtocolMap { parameters: parameters.clone(), cells: map, failed })
+    Ok(ProtocolMap { parameters: parameters.clone(), cells: map, means, failed })
 }
 
 /// Whether a number rounds to the printed threshold with the printed digits.

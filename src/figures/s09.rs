@@ -6,7 +6,9 @@ use super::data::cells;
 use super::panel::{Frame, Panel};
 use super::series::Outside;
 use super::sheet::{Entry, Sheet};
-use super::style::{BLUE, Colour, Dash, GREEN, INK, LINE, Mark, ORANGE, RED, SMALL, Stroke, THIN};
+use super::style::{
+    BLUE, Colour, Dash, GREEN, INK, LINE, Mark, ORANGE, PURPLE, RED, SMALL, Stroke, THIN,
+};
 use super::{DataFile, Error, Figure};
 use crate::experiments::heat::{Heat, Warmth};
 use crate::experiments::theory::Theory;
@@ -18,12 +20,15 @@ const FROM_REST: f64 = 1.5;
 /// The σ of (a) and (c).
 const SIGMAS: (f64, f64) = (0.05, 0.45);
 
+/// The balance where impacts are frequent.
+const FRICTION: (&str, Stroke) = ("balance with friction", Stroke::solid(PURPLE, LINE));
+
 /// The half size of marks.
 const SIZE: i32 = 58;
 
 /// Draws the figure.
 pub fn draw(heat: &Heat, theory: &Theory, note: Option<&str>) -> Result<Figure, Error> {
-    let sheet = Sheet::new(9350, note)?;
+    let sheet = Sheet::new(9700, note)?;
     against_sigma(&sheet, heat)?;
     against_restitution(&sheet, heat)?;
     probabilities(&sheet, heat, theory)?;
@@ -80,6 +85,8 @@ fn against_sigma(sheet: &Sheet, heat: &Heat) -> Result<(), Error> {
         level(name, height, stroke)?;
         entries.push(Entry::line(stroke, name));
     }
+    let friction: Vec<_> = heat.rising().map(|row| (row.row.sigma, row.expected_at_rate)).collect();
+    panel.curve(FRICTION.0, &friction, FRICTION.1, Outside::Refuse)?;
     let of = |pick: fn(&Warmth) -> Option<Estimate>| -> Vec<(f64, Estimate)> {
         heat.rising().filter_map(|row| Some((row.row.sigma, pick(row)?))).collect()
     };
@@ -89,6 +96,7 @@ fn against_sigma(sheet: &Sheet, heat: &Heat) -> Result<(), Error> {
     for (name, mark, colour) in looks {
         entries.push(Entry::mark(mark, SIZE, Stroke::solid(colour, THIN), name));
     }
+    entries.push(Entry::line(FRICTION.1, FRICTION.0));
     let (lines, marks) = entries.split_at(lines.len());
     sheet.legend((2700, 600), (SMALL, 350), lines)?;
     sheet.legend((5650, 600), (SMALL, 350), marks)
@@ -104,11 +112,15 @@ fn against_restitution(sheet: &Sheet, heat: &Heat) -> Result<(), Error> {
     let line = Stroke::solid(INK, LINE);
     let curve: Vec<_> = heat.expected.iter().map(|&[r, ratio]| (r, log(ratio))).collect();
     panel.curve("balance of rare impacts", &curve, line, Outside::Cut)?;
+    let friction: Vec<_> =
+        heat.others().map(|row| (row.row.restitution, log(row.expected_at_rate))).collect();
+    panel.curve(FRICTION.0, &friction, FRICTION.1, Outside::Refuse)?;
     let points: Vec<_> =
         heat.others().filter_map(|row| Some((row.row.restitution, row.ratio_of_hit?))).collect();
     estimates(&panel, "masses that are hit", &points, (Mark::Ring, ORANGE), log)?;
     let entries = [
         Entry::line(line, "balance of rare impacts"),
+        Entry::line(FRICTION.1, FRICTION.0),
         Entry::mark(Mark::Ring, SIZE, Stroke::solid(ORANGE, THIN), "masses that are hit"),
     ];
     sheet.legend((900, 8750), (SMALL, 370), &entries)
@@ -166,9 +178,10 @@ fn description(heat: &Heat) -> String {
     format!(
         "(a) Variance of the free amplitudes over that of the force against σ, of masses that are hit and of \
          all masses, with standard errors; level lines at what the balance of rare impacts lets expect, \
-         at {FROM_REST} for a start from rest, and at 1 for Eq. (25). Masses that are hit: {}. \
+         at {FROM_REST} for a start from rest, and at 1 for Eq. (25), and a falling line for the balance with \
+         the friction of frequent impacts. Masses that are hit: {}. \
          (b) The same against the restitution r at one σ, on a logarithmic axis, below a curve that rises \
-         without bound towards r = 1: {}. (c) The probability p against σ on a logarithmic axis: rising \
+         without bound towards r = 1, with friction much less: {}. (c) The probability p against σ on a logarithmic axis: rising \
          curves, lowest Eq. (25), then the start from rest, highest the balanced variance; the measured \
          points go from the second to the third: {}.",
         rising.join(", "),
@@ -188,6 +201,8 @@ fn tables(heat: &Heat) -> Vec<DataFile> {
             "variance_ratio_of_hit (1)",
             "standard_error_of_hit (1)",
             "expected (1)",
+            "rate (omega)",
+            "expected_at_rate (1)",
             "balance (1)",
             "balance_error (1)",
             "mean_count (1)",
@@ -208,6 +223,8 @@ fn tables(heat: &Heat) -> Vec<DataFile> {
             value(row.ratio_of_hit),
             error(row.ratio_of_hit),
             row.expected,
+            row.rate,
+            row.expected_at_rate,
             value(row.balance),
             error(row.balance),
             value(row.count),

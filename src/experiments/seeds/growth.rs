@@ -11,10 +11,12 @@
 //! R(l, t) the share that is hit within t.
 
 use super::Seen;
+use crate::circuits;
+use crate::circuits::distribution::{Law, SampleSpace};
 use crate::circuits::nucleation::reach::Reach;
 use crate::experiments::estimates::{jackknife, left_out};
 use crate::numerics::statistics::{Estimate, last_rise};
-use crate::params::SeedsParams;
+use crate::params::{Chain, SeedsParams};
 use serde::{Deserialize, Serialize};
 
 /// Mean counts after one transient.
@@ -26,6 +28,9 @@ pub struct Prediction {
     pub window: f64,
     /// The mean count, for each σ.
     pub means: Vec<Estimate>,
+    /// The mean count by the graph theory, for each σ, with p the chance of a gap between masses to have
+    /// closed by itself when the window ends.
+    pub graph: Vec<f64>,
     /// The σ at which it passes half of all gaps, if it does.
     pub half_height: Option<Estimate>,
 }
@@ -51,12 +56,17 @@ pub fn closing(parameters: &SeedsParams) -> Vec<[Vec<f64>; 2]> {
     parameters.sigmas.iter().map(of).collect()
 }
 
+/// The mean count of a chain by the graph theory.
+pub fn circuits(chain: &Chain, p: f64) -> Result<f64, circuits::Error> {
+    Ok(Law::new(SampleSpace::Simple, chain.gaps(), p)?.mean())
+}
+
 /// The predictions of all transients, from what was seen at each σ by some groups of runs.
 pub fn predictions(
     parameters: &SeedsParams,
     closing: &[[Vec<f64>; 2]],
     seen: &[Vec<Seen>],
-) -> Vec<Prediction> {
+) -> Result<Vec<Prediction>, circuits::Error> {
     let groups = seen.first().map_or(0, Vec::len);
     let all: Vec<Seen> = seen.iter().map(|own| Seen::sum(own, groups)).collect();
     let without: Vec<Vec<Seen>> =
@@ -79,12 +89,17 @@ pub fn predictions(
         };
         let crossings =
             |out: Option<usize>| out.map_or_else(|| crossing(&value), |i| crossing(&others[i]));
-        Prediction {
+        let graph = |[_, inner]: &[Vec<f64>; 2]| {
+            let by_then = inner.iter().take(transient + parameters.window);
+            circuits(&parameters.chain, by_then.sum())
+        };
+        Ok(Prediction {
             transient: *transient as f64 * parameters.bin,
             window: parameters.window as f64 * parameters.bin,
             half_height: jackknife(groups, crossings),
             means: (0..value.len()).filter_map(at).collect(),
-        }
+            graph: closing.iter().map(graph).collect::<Result<_, _>>()?,
+        })
     };
     parameters.transients.iter().map(of).collect()
 }

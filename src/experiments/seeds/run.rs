@@ -3,7 +3,7 @@
 use super::Seeds;
 use super::growth;
 use crate::circuits;
-use crate::circuits::distribution::{Law, SampleSpace};
+use crate::circuits::balance::variance_ratio;
 use crate::circuits::impact_probability::ImpactProbability;
 use crate::circuits::nucleation::reach::closes_by_itself;
 use crate::dynamics::{self, Engine, Initial, Scenario};
@@ -57,8 +57,9 @@ pub struct Spread {
     pub late: u64,
     /// Runs that the engine ended early.
     pub failed: u64,
-    /// The mean count by the graph theory, with Eq. (25) and with p for a start from rest.
-    pub graph: [f64; 2],
+    /// The mean count by the graph theory: with Eq. (25), with p for a start from rest, and with that of a
+    /// chain as hot as the balance of rare impacts makes it.
+    pub graph: [f64; 3],
     /// Gaps that were hit by the last bin, of each run.
     pub spreads: Vec<u64>,
     /// Their mean.
@@ -215,7 +216,7 @@ fn join(
         seen.push(groups);
     }
     let closing = growth::closing(parameters);
-    let predictions = growth::predictions(parameters, &closing, &seen);
+    let predictions = growth::predictions(parameters, &closing, &seen).map_err(refused)?;
     let seen = seen.iter().map(|groups| Seen::sum(groups, GROUPS)).collect();
     Ok(Seeds { parameters: parameters.clone(), closing, seen, rows, predictions })
 }
@@ -298,9 +299,7 @@ fn spread(
     };
     Ok(Spread {
         sigma,
-        graph: graph(&parameters.chain, sigma).map_err(|error| {
-            Error::input("sigmas", error.to_string(), "see src/params/nucleation.rs")
-        })?,
+        graph: graph(&parameters.chain, sigma).map_err(refused)?,
         drawn: traces.iter().flatten().map(|trace| trace.drawn).sum(),
         seeds,
         late: traces.iter().flatten().filter(|trace| trace.seed.is_none()).count() as u64,
@@ -314,12 +313,17 @@ fn spread(
     })
 }
 
-/// The mean count by the graph theory, with both relations of p and σ.
-fn graph(chain: &Chain, sigma: f64) -> Result<[f64; 2], circuits::Error> {
+fn refused(error: circuits::Error) -> Error {
+    Error::input("sigmas", error.to_string(), "see src/params/nucleation.rs")
+}
+
+/// The mean count by the graph theory, with each relation of p and σ.
+fn graph(chain: &Chain, sigma: f64) -> Result<[f64; 3], circuits::Error> {
     let (d, omega, big_omega) = (chain.spacing, chain.natural_frequency, chain.forcing_frequency);
     let law = ImpactProbability::new(sigma, d, omega, big_omega)?;
-    let mean = |p| Ok(Law::new(SampleSpace::Simple, chain.gaps(), p)?.mean());
-    Ok([mean(law.p()?)?, mean(law.p_from_rest()?)?])
+    let balanced = law.heated(variance_ratio(chain)?)?;
+    let mean = |p| growth::circuits(chain, p);
+    Ok([mean(law.p()?)?, mean(law.p_from_rest()?)?, mean(balanced.p()?)?])
 }
 
 #[cfg(test)]

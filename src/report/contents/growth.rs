@@ -50,7 +50,7 @@ fn compared<'a>(
 ) -> impl Iterator<Item = (f64, f64, [f64; 3])> + 'a {
     seeds.rows.iter().zip(&own.means).filter_map(|(row, mean)| {
         let ran = sweep.rows.iter().find(|other| other.sigma == row.sigma)?;
-        let [printed, rest] = row.graph;
+        let [printed, rest, _] = row.graph;
         Some((row.sigma, ran.mean_all?, [mean.value, printed, rest]))
     })
 }

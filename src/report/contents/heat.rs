@@ -81,6 +81,13 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
         2,
     ));
     values.push(Value::real("heat_other_expected", other.expected, 2));
+    values.push(Value::real("heat_other_friction", other.expected_at_rate, 2));
+    let high = at(heat, SIGMAS[1])?;
+    values.push(Value::real("heat_rate", high.rate, 2));
+    values.push(Value::real("heat_friction", high.expected_at_rate, 2));
+    values.push(Value::integer("heat_rows", heat.rows.len()));
+    values.push(Value::real("heat_factor", factor(heat, |row| row.expected), 2));
+    values.push(Value::real("heat_factor_friction", factor(heat, |row| row.expected_at_rate), 2));
     values.push(estimate("heat_other", other.ratio, other.ratios.len()));
     values.push(Value::integer("heat_scored", heat.rising().count()));
     let of = |(name, score): (&&str, f64)| Value::real(format!("heat_score_{name}"), score, 2);
@@ -101,6 +108,14 @@ fn scores(heat: &Heat) -> [f64; 4] {
     let number = rows().count().max(1) as f64;
     let square = |i: usize| rows().map(move |(row, k)| (row.means[i] - k) * (row.means[i] - k));
     std::array::from_fn(|i| (square(i).sum::<f64>() / number).sqrt())
+}
+
+/// By which factor a formula is off in the root mean square, over all ensembles.
+fn factor(heat: &Heat, formula: fn(&Warmth) -> f64) -> f64 {
+    let of = |row: &Warmth| Some(pxfm::f_log(formula(row) / row.ratio_of_hit?.value));
+    let logs: Vec<f64> = heat.rows.iter().filter_map(of).collect();
+    let square = logs.iter().map(|log| log * log).sum::<f64>() / logs.len().max(1) as f64;
+    pxfm::f_exp(square.sqrt())
 }
 
 /// The lines of the table.

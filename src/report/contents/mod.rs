@@ -1,8 +1,9 @@
 //! What the templates can name: the values of each section, and the rows of the generated tables.
 //!
 //! A value is computed here from results and carries the path of the item that computed it. Groups
-//! are `v` (ours), `paper` (numbers that the paper chose), `printed` (numbers in its statements),
-//! `compare`, `protocol`, `long`, `nucleation`, `spread`, `growth`, `heat`, `history`, `independence`, `orbits`, `starts` and `bias` (cells of tables).
+//! are `v` (ours), `paper` (numbers that the paper chose), `printed` (numbers in its statements), and
+//! one for the cells of each table: `compare`, `protocol`, `long`, `nucleation`, `spread`, `growth`, `heat`,
+//! `scores`, `history`, `independence`, `orbits`, `starts` and `bias`.
 
 mod accuracy;
 mod comparison;
@@ -18,6 +19,7 @@ mod nucleation;
 mod orbits;
 mod paper;
 mod protocol;
+mod scores;
 mod simulation;
 mod spacetime;
 mod starts;
@@ -71,6 +73,7 @@ pub fn registry(results: &Results, published: &Published) -> Result<Registry, Er
     registry.extend(nucleation::values(results)?)?;
     registry.extend(growth::values(results)?)?;
     registry.extend(heat::values(results)?)?;
+    registry.extend(scores::values(results)?)?;
     registry.extend(history::values(results)?)?;
     registry.extend(independence::values(results)?)?;
     registry.extend(orbits::values(results)?)?;
@@ -78,11 +81,8 @@ pub fn registry(results: &Results, published: &Published) -> Result<Registry, Er
     Ok(registry)
 }
 
-/// The rows of the generated tables, by the name that templates use: `row` (a reference to each
-/// claim with its verdict), `scorecard`, `comparison_table`, `protocol_windows`, `protocol_table`,
-/// `protocol_printed`, `long_windows`, `long_table`, `long_verdict`, `nucleation_table`, `spread_table`, `growth_table`, `heat_table`, `history_times`, `history_table`, `independence_table`, `orbits_table`, `orbits_fig6`, `distance_heads`,
-/// `distance_table`, `order_table`, `starts_table`, `bias_heads`, `bias_table`, `bias_means`, `scene_heads`, `scene_table` and
-/// `target_table`.
+/// The rows of the generated tables, by the name that templates use. Beside the tables there are `row` (a
+/// reference to each claim with its verdict) and heads and words that depend on the results.
 ///
 /// # Errors
 /// If a result is missing.
@@ -108,6 +108,7 @@ pub fn rows(
         ("order_table", serde_json::to_value(large::order_table(results))?),
         ("history_times", serde_json::to_value(history::times(results)?)?),
         ("history_table", serde_json::to_value(history::table(results)?)?),
+        ("scores_table", serde_json::to_value(scores::table(results)?)?),
         ("heat_table", serde_json::to_value(heat::table(results)?)?),
         ("independence_table", serde_json::to_value(independence::table(results)?)?),
         ("orbits_table", serde_json::to_value(orbits::table(results)?)?),

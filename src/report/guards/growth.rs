@@ -167,18 +167,21 @@ fn scores(look: Look<'_>) -> Option<String> {
         .iter()
         .find(|own| own.transient == protocol.transient && own.window == protocol.window)?;
     let big_n = seeds.parameters.chain.gaps();
-    let mut squares = [0.0; 3];
+    let r = look.published.parameter("restitution").ok()?;
+    let mut squares: [f64; 3] = [0.0; 3];
     let sigma = look.number("growth_sigma")?;
     if !seeds.rows.iter().any(|row| row.sigma == sigma) {
         return Some(format!("no seeds at sigma = {sigma}"));
     }
-    let (mut number, mut worst) = (0.0, (0.0_f64, 0.0));
+    let hot = |sigma: f64| model::p_heated(sigma, 2.0 * (1.0 + r) / (1.0 - r));
+    let (mut number, mut worst) = (0.0_f64, (0.0_f64, 0.0));
     for (row, mean) in seeds.rows.iter().zip(&own.means) {
         let Some(ran) = sweep.rows.iter().find(|other| other.sigma == row.sigma) else { continue };
         let all: f64 = ran.counts.iter().map(|&c| f64::from(c)).sum();
         let sum: f64 = (0_u32..).zip(&ran.counts).map(|(k, &c)| f64::from(k) * f64::from(c)).sum();
         let graph = |p: f64| model::Law::new(big_n, p, false).mean();
-        let graphs = [graph(model::p(row.sigma)), graph(model::p_rest(row.sigma))];
+        let probabilities = [model::p(row.sigma), model::p_rest(row.sigma), hot(row.sigma)];
+        let graphs = probabilities.map(graph);
         let off = graphs.iter().zip(row.graph).find_map(|(a, b)| far("a mean of circuits", b, *a));
         if off.is_some() {
             return off;

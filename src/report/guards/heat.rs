@@ -10,6 +10,7 @@ pub const GUARDS: &[Guard] = &[
     Guard { name: "heat_as_tabled", ids: &["heat_*"], find: tabled },
     Guard { name: "energy_kept_in_books", ids: &["heat_balance_*"], find: balance },
     Guard { name: "heat_expected", ids: &["heat_expected", "heat_other_expected"], find: expected },
+    Guard { name: "heat_with_friction", ids: &["heat_rate", "heat_*"], find: friction },
     Guard { name: "p_of_hot_chains", ids: &["heat.*"], find: p },
     Guard { name: "sigma_of_hot_jump", ids: &["sigma_jump_hot"], find: jump },
     Guard { name: "heat_scores", ids: &["heat_score_*", "heat_scored"], find: scores },
@@ -108,6 +109,42 @@ fn expected(look: Look<'_>) -> Option<String> {
     let paper = look.published.parameter("restitution").ok()?;
     rows.or_else(|| look.is("heat_expected", of(paper)))
         .or_else(|| look.is("heat_other_expected", of(look.number("heat_other_restitution")?)))
+}
+
+/// At the rate of impacts force gives what restitution takes, and two formulas are as far off as is said.
+fn friction(look: Look<'_>) -> Option<String> {
+    let heat = heat(look)?;
+    let row = |row: &Warmth| {
+        let r = row.row.restitution;
+        let impacts = row.impacts.iter().sum::<u64>() as f64;
+        let rate = 2.0 * impacts / (row.hit as f64 * heat.parameters.protocol.window);
+        // ω = d = 1, Ω² = 2, (ω² − Ω²)² = 1: power and loss of a mass, both over σ².
+        let lost = 2.0 * ((1.0 + r) * rate) * ((1.0 + r) * rate);
+        let kept = 2.0 / (1.0 + lost);
+        let speed = row.expected_at_rate - kept * lost + kept;
+        far("a rate of impacts", row.rate, rate)
+            .or_else(|| far("power and loss", (1.0 + r) * kept, 0.5 * (1.0 - r * r) * speed))
+    };
+    let off = |formula: fn(&Warmth) -> f64| {
+        let found = |row: &Warmth| row.warmth_of_hit[0] / row.warmth_of_hit[1];
+        let log = |row: &Warmth| pxfm::f_log(found(row)) - pxfm::f_log(formula(row));
+        let square: f64 = heat.rows.iter().map(|row| log(row) * log(row)).sum();
+        pxfm::f_exp((square / heat.rows.len() as f64).sqrt())
+    };
+    let sigma = look.number("heat_sigma_b")?;
+    let high = heat.rising().find(|row| row.row.sigma == sigma)?;
+    let r = look.number("heat_other_restitution")?;
+    let other = heat.others().find(|row| row.row.restitution == r)?;
+    heat.rows.iter().find_map(row).or_else(|| {
+        look.are([
+            ("heat_rate", high.rate),
+            ("heat_friction", high.expected_at_rate),
+            ("heat_other_friction", other.expected_at_rate),
+            ("heat_rows", heat.rows.len() as f64),
+            ("heat_factor", off(|row| row.expected)),
+            ("heat_factor_friction", off(|row| row.expected_at_rate)),
+        ])
+    })
 }
 
 /// Probabilities of the table, by integrals.

@@ -27,6 +27,7 @@ mod printed;
 mod protocol;
 mod rare;
 mod relation;
+mod scores;
 mod simple;
 
 use super::values::{Number, Registry};
@@ -77,6 +78,7 @@ pub fn all() -> impl Iterator<Item = &'static Guard> {
         nucleation::GUARDS,
         growth::GUARDS,
         heat::GUARDS,
+        scores::GUARDS,
         history::GUARDS,
         independence::GUARDS,
         orbits::GUARDS,

@@ -1,17 +1,12 @@
 //! How hot a running chain is: the variance of the free parts, and the balance of energy that sets it.
 
+mod realisation;
+mod warmth;
+
+use self::realisation::realisation;
 use super::cutting::{Cutting, Row, Unit};
-use super::estimates::{average, average_count, ratio, sums};
 use super::progress::Stage;
 use super::{Error, Progress, weights};
-use crate::circuits;
-use crate::circuits::balance::{energy_change, variance_ratio};
-use crate::circuits::distribution::{Law, SampleSpace};
-use crate::circuits::impact_probability::{ImpactProbability, amplitude};
-use crate::circuits::jump;
-use crate::dynamics::{self, Engine, Scenario};
-use crate::numerics::bisection;
-use crate::numerics::random::NormalPairs;
 use crate::numerics::statistics::Estimate;
 use crate::params::{Chain, HeatParams, HeatRow};
 use rayon::prelude::*;
@@ -50,6 +45,10 @@ pub struct Warmth {
     pub ratio_of_hit: Option<Estimate>,
     /// s²/σ² that the balance of rare impacts lets expect.
     pub expected: f64,
+    /// Impacts of a mass with others in a unit of time, over the masses that were hit.
+    pub rate: f64,
+    /// s²/σ² that the balance lets expect at that rate.
+    pub expected_at_rate: f64,
     /// 2 ⟨V F⟩ / ((1 − r) ⟨V²⟩) over the impacts of two masses in the window: one in a steady state.
     pub balance: Option<Estimate>,
     /// Sums of V F and of (1 − r) V²/2 over those impacts.
@@ -130,7 +129,8 @@ pub struct Run {
 pub type Part = Vec<Option<Run>>;
 
 /// The experiment in units of work.
-pub const CUTTING: Cutting<HeatParams, Part, Heat> = Cutting { rows, part, fits, join };
+pub const CUTTING: Cutting<HeatParams, Part, Heat> =
+    Cutting { rows, part, fits, join: warmth::join };
 
 /// Runs all ensembles.
 ///
@@ -179,193 +179,11 @@ fn fits(parameters: &HeatParams, unit: &Unit, runs: &Part) -> bool {
     runs.len() == unit.realisations.len() && runs.iter().flatten().all(fits)
 }
 
-/// Half the sum of squares of free amplitudes.
-fn energy<'a>(parts: impl Iterator<Item = &'a [f64; 2]>) -> f64 {
-    parts.map(|[a, b]| 0.5 * (a * a + b * b)).sum()
-}
-
-/// Amplitudes of the forced part of a mass, from 1; those of a wall are zero.
-fn forced(scenario: &Scenario, mass: usize) -> [f64; 2] {
-    let (omega, big_omega) = (scenario.natural_frequency, scenario.forcing_frequency);
-    let factor = omega * omega - big_omega * big_omega;
-    let own = mass.checked_sub(1).and_then(|index| scenario.forcing.get(index));
-    own.map_or([0.0; 2], |pair| pair.map(|amplitude| amplitude / factor))
-}
-
-/// Closing speed of the forced parts of a gap.
-fn forced_closing(scenario: &Scenario, gap: usize, time: f64) -> f64 {
-    let big_omega = scenario.forcing_frequency;
-    let (sin, cos) = pxfm::f_sincos(big_omega * time);
-    let velocity = |[a, b]: [f64; 2]| big_omega * (b * cos - a * sin);
-    velocity(forced(scenario, gap)) - velocity(forced(scenario, gap + 1))
-}
-
-fn realisation(
-    parameters: &HeatParams,
-    row: &HeatRow,
-    index: u64,
-    progress: &Progress,
-) -> Result<Option<Run>, Error> {
-    progress.check()?;
-    let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, index);
-    let scenario = Scenario::draw(&chain(parameters, row), row.sigma, &mut normals);
-    let fault = |source| Error::Dynamics { experiment: "heat", source };
-    let mut engine = Engine::new(&scenario).map_err(fault)?;
-    let ended = engine.run(parameters.protocol.transient, |_| true);
-    progress.check()?;
-    match ended {
-        Ok(()) => {}
-        Err(dynamics::Error::Work { .. }) => return Ok(None),
-        Err(source) => return Err(fault(source)),
-    }
-    let before = energy(engine.free_parts().iter());
-    let contacts = engine.counters().contact_phases;
-    let masses = scenario.forcing.len();
-    let mut run = Run::default();
-    // One more at each end, for the walls.
-    let mut hit = vec![false; masses + 2];
-    let mut gaps = vec![false; masses + 1];
-    let ended = engine.run(until(parameters), |impact| {
-        let (v, r) = (impact.closing_speed, row.restitution);
-        let f = forced_closing(&scenario, impact.gap, impact.time);
-        let wall = impact.gap == 0 || impact.gap == masses;
-        let reduced = if wall { 1.0 } else { 0.5 };
-        run.gained += energy_change(reduced, r, v, f);
-        run.lost += 0.5 * reduced * (1.0 - r * r) * v * v;
-        if !wall {
-            run.impacts += 1;
-            run.squares += v * v;
-            run.products += v * f;
-        }
-        gaps[impact.gap] = true;
-        hit[impact.gap] = true;
-        hit[impact.gap + 1] = true;
-        !progress.stopped()
-    });
-    progress.check()?;
-    match ended {
-        Ok(()) => {}
-        Err(dynamics::Error::Work { .. }) => return Ok(None),
-        Err(source) => return Err(fault(source)),
-    }
-    let parts = engine.free_parts();
-    let struck = || parts.iter().zip(&hit[1..]).filter(|(_, hit)| **hit).map(|(part, _)| part);
-    run.free = energy(parts.iter());
-    run.free_of_hit = energy(struck());
-    run.hit = struck().count() as u64;
-    run.changed = run.free - before;
-    run.contact = engine.counters().contact_phases > contacts;
-    run.distinct = gaps.iter().map(|&gap| u64::from(gap)).sum();
-    run.closing = closing(&scenario, &parts);
-    Ok(Some(run))
-}
-
-/// Gaps whose amplitudes reach from one mass to the other, Y_0 + Y_1/|ω² − Ω²| ≥ d.
-fn closing(scenario: &Scenario, parts: &[[f64; 2]]) -> u64 {
-    let free = |mass: usize| {
-        let own = mass.checked_sub(1).and_then(|index| parts.get(index));
-        own.copied().unwrap_or([0.0; 2])
-    };
-    let differ = |[a, b]: [f64; 2], [c, d]: [f64; 2]| amplitude(c - a, d - b);
-    let reaches = |gap: &usize| {
-        let own = differ(free(*gap), free(gap + 1));
-        own + differ(forced(scenario, *gap), forced(scenario, gap + 1)) >= scenario.spacing
-    };
-    (0..scenario.gaps()).filter(reaches).count() as u64
-}
-
-fn join(
-    parameters: &HeatParams,
-    parts: Vec<Vec<Part>>,
-    progress: &Progress,
-) -> Result<Heat, Error> {
-    progress.check()?;
-    let big_n = parameters.chain.gaps();
-    let rows = parameters.rows.iter().zip(parts);
-    let rows = rows.map(|(row, parts)| warmth(parameters, row, &parts.concat()));
-    let rows = rows.collect::<Result<_, _>>().map_err(refused)?;
-    let jump = jump::p_jump(SampleSpace::Simple, big_n).map_err(refused)?.p;
-    let ratio = variance_ratio(&parameters.chain).map_err(refused)?;
-    let reaches = |sigma: f64| balanced(&parameters.chain, sigma, ratio).unwrap_or(0.0) >= jump;
-    let sigma_jump = bisection::bracket(0.0, 1.0, reaches)[1];
-    let sigmas = (10..=90).map(|i| f64::from(i) / 200.0);
-    let drawn = |sigma| Ok([sigma, balanced(&parameters.chain, sigma, ratio)?]);
-    let restitutions = (40..100).map(|i| f64::from(i) / 100.0);
-    let at = |r| Ok([r, variance_ratio(&Chain { restitution: r, ..parameters.chain.clone() })?]);
-    Ok(Heat {
-        parameters: parameters.clone(),
-        rows,
-        balanced: sigmas.map(drawn).collect::<Result<_, _>>().map_err(refused)?,
-        expected: restitutions.map(at).collect::<Result<_, _>>().map_err(refused)?,
-        sigma_jump,
-    })
-}
-
-fn refused(error: circuits::Error) -> Error {
-    Error::input("parameters", error.to_string(), "see src/params/heat.rs")
-}
-
-/// p of a chain whose free parts have that variance over σ².
-fn balanced(chain: &Chain, sigma: f64, ratio: f64) -> Result<f64, circuits::Error> {
-    gap(chain, sigma)?.heated(ratio)?.p()
-}
-
-fn gap(chain: &Chain, sigma: f64) -> Result<ImpactProbability, circuits::Error> {
-    let (d, omega, big_omega) = (chain.spacing, chain.natural_frequency, chain.forcing_frequency);
-    ImpactProbability::new(sigma, d, omega, big_omega)
-}
-
-fn warmth(parameters: &HeatParams, row: &HeatRow, runs: &Part) -> Result<Warmth, circuits::Error> {
-    let chain = chain(parameters, row);
-    let (masses, gaps) = (chain.masses as f64, chain.gaps());
-    let sigma2 = row.sigma * row.sigma;
-    let ran: Vec<&Run> = runs.iter().flatten().collect();
-    let ratios: Vec<f64> = ran.iter().map(|run| run.free / (masses * sigma2)).collect();
-    let of_hit: Vec<[f64; 2]> =
-        ran.iter().map(|run| [run.free_of_hit, run.hit as f64 * sigma2]).collect();
-    let loss = 0.5 * (1.0 - row.restitution);
-    let work: Vec<[f64; 2]> = ran.iter().map(|run| [run.products, loss * run.squares]).collect();
-    let imbalance = |run: &&Run| match run.lost > 0.0 {
-        true => (run.changed - run.gained).abs() / run.lost,
-        false => run.changed.abs(),
-    };
-    let each = |count: fn(&Run) -> u64| ran.iter().map(|run| count(run)).collect::<Vec<u64>>();
-    let expected = variance_ratio(&chain)?;
-    let law = gap(&chain, row.sigma)?;
-    let (p, p_rest) = (law.p()?, law.p_from_rest()?);
-    let p_balanced = balanced(&chain, row.sigma, expected)?;
-    let counts: Vec<u64> = ran.iter().map(|run| run.distinct).collect();
-    let closing = each(|run| run.closing);
-    let mean_of = |p: f64| Ok(Law::new(SampleSpace::Simple, gaps, p)?.mean());
-    let p_measured = closing.iter().sum::<u64>() as f64 / (gaps * ran.len()).max(1) as f64;
-    Ok(Warmth {
-        row: *row,
-        ratio: average(&ratios),
-        ratios,
-        hit: each(|run| run.hit).iter().sum(),
-        warmth_of_hit: sums(&of_hit, None),
-        ratio_of_hit: ratio(&of_hit),
-        expected,
-        balance: ratio(&work),
-        work: sums(&work, None),
-        impacts: each(|run| run.impacts),
-        count: average_count(&counts),
-        counts,
-        imbalance: (!ran.iter().any(|run| run.contact))
-            .then(|| ran.iter().map(imbalance).fold(0.0, f64::max)),
-        closing,
-        p_measured,
-        p,
-        p_rest,
-        p_balanced,
-        means: [mean_of(p)?, mean_of(p_rest)?, mean_of(p_balanced)?, mean_of(p_measured)?],
-        failed: runs.len() - ran.len(),
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::circuits::balance::energy_change;
+    use crate::dynamics::{Engine, Scenario};
     use crate::dynamics::{Initial, Simultaneous};
     use crate::params::{Boundary, Profile, Protocol};
 

@@ -1,0 +1,105 @@
+//! One realisation: free parts before and after a window, and what its impacts did to them.
+
+use super::{HeatParams, Run, chain, until};
+use crate::circuits::balance::energy_change;
+use crate::circuits::impact_probability::amplitude;
+use crate::dynamics::{self, Engine, Scenario};
+use crate::experiments::{Error, Progress};
+use crate::numerics::random::NormalPairs;
+use crate::params::HeatRow;
+
+/// Half the sum of squares of free amplitudes.
+fn energy<'a>(parts: impl Iterator<Item = &'a [f64; 2]>) -> f64 {
+    parts.map(|[a, b]| 0.5 * (a * a + b * b)).sum()
+}
+
+/// Amplitudes of the forced part of a mass, from 1; those of a wall are zero.
+fn forced(scenario: &Scenario, mass: usize) -> [f64; 2] {
+    let (omega, big_omega) = (scenario.natural_frequency, scenario.forcing_frequency);
+    let factor = omega * omega - big_omega * big_omega;
+    let own = mass.checked_sub(1).and_then(|index| scenario.forcing.get(index));
+    own.map_or([0.0; 2], |pair| pair.map(|amplitude| amplitude / factor))
+}
+
+/// Closing speed of the forced parts of a gap.
+fn forced_closing(scenario: &Scenario, gap: usize, time: f64) -> f64 {
+    let big_omega = scenario.forcing_frequency;
+    let (sin, cos) = pxfm::f_sincos(big_omega * time);
+    let velocity = |[a, b]: [f64; 2]| big_omega * (b * cos - a * sin);
+    velocity(forced(scenario, gap)) - velocity(forced(scenario, gap + 1))
+}
+
+/// Runs it; none if the engine gave up.
+pub fn realisation(
+    parameters: &HeatParams,
+    row: &HeatRow,
+    index: u64,
+    progress: &Progress,
+) -> Result<Option<Run>, Error> {
+    progress.check()?;
+    let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, index);
+    let scenario = Scenario::draw(&chain(parameters, row), row.sigma, &mut normals);
+    let fault = |source| Error::Dynamics { experiment: "heat", source };
+    let mut engine = Engine::new(&scenario).map_err(fault)?;
+    let ended = engine.run(parameters.protocol.transient, |_| true);
+    progress.check()?;
+    match ended {
+        Ok(()) => {}
+        Err(dynamics::Error::Work { .. }) => return Ok(None),
+        Err(source) => return Err(fault(source)),
+    }
+    let before = energy(engine.free_parts().iter());
+    let contacts = engine.counters().contact_phases;
+    let masses = scenario.forcing.len();
+    let mut run = Run::default();
+    // One more at each end, for the walls.
+    let mut hit = vec![false; masses + 2];
+    let mut gaps = vec![false; masses + 1];
+    let ended = engine.run(until(parameters), |impact| {
+        let (v, r) = (impact.closing_speed, row.restitution);
+        let f = forced_closing(&scenario, impact.gap, impact.time);
+        let wall = impact.gap == 0 || impact.gap == masses;
+        let reduced = if wall { 1.0 } else { 0.5 };
+        run.gained += energy_change(reduced, r, v, f);
+        run.lost += 0.5 * reduced * (1.0 - r * r) * v * v;
+        if !wall {
+            run.impacts += 1;
+            run.squares += v * v;
+            run.products += v * f;
+        }
+        gaps[impact.gap] = true;
+        hit[impact.gap] = true;
+        hit[impact.gap + 1] = true;
+        !progress.stopped()
+    });
+    progress.check()?;
+    match ended {
+        Ok(()) => {}
+        Err(dynamics::Error::Work { .. }) => return Ok(None),
+        Err(source) => return Err(fault(source)),
+    }
+    let parts = engine.free_parts();
+    let struck = || parts.iter().zip(&hit[1..]).filter(|(_, hit)| **hit).map(|(part, _)| part);
+    run.free = energy(parts.iter());
+    run.free_of_hit = energy(struck());
+    run.hit = struck().count() as u64;
+    run.changed = run.free - before;
+    run.contact = engine.counters().contact_phases > contacts;
+    run.distinct = gaps.iter().map(|&gap| u64::from(gap)).sum();
+    run.closing = closing(&scenario, &parts);
+    Ok(Some(run))
+}
+
+/// Gaps whose amplitudes reach from one mass to the other, Y_0 + Y_1/|ω² − Ω²| ≥ d.
+fn closing(scenario: &Scenario, parts: &[[f64; 2]]) -> u64 {
+    let free = |mass: usize| {
+        let own = mass.checked_sub(1).and_then(|index| parts.get(index));
+        own.copied().unwrap_or([0.0; 2])
+    };
+    let differ = |[a, b]: [f64; 2], [c, d]: [f64; 2]| amplitude(c - a, d - b);
+    let reaches = |gap: &usize| {
+        let own = differ(free(*gap), free(gap + 1));
+        own + differ(forced(scenario, *gap), forced(scenario, gap + 1)) >= scenario.spacing
+    };
+    (0..scenario.gaps()).filter(reaches).count() as u64
+}
