@@ -2,7 +2,7 @@
 //!
 //! A value is computed here from results and carries the path of the item that computed it. Groups
 //! are `v` (ours), `paper` (numbers that the paper chose), `printed` (numbers in its statements),
-//! `compare`, `protocol`, `long`, `nucleation`, `spread`, `growth`, `heat`, `history`, `independence`, `orbits`, `starts` and `bias` (cells of tables).
+//! `compare`, `protocol`, `long`, `nucleation`, `spread`, `growth`, `heat`, `history`, `independence`, `orbits`, `restitution`, `starts` and `bias` (cells of tables).
 
 mod accuracy;
 mod comparison;
@@ -18,6 +18,7 @@ mod nucleation;
 mod orbits;
 mod paper;
 mod protocol;
+mod restitution;
 mod simulation;
 mod spacetime;
 mod starts;
@@ -74,13 +75,14 @@ pub fn registry(results: &Results, published: &Published) -> Result<Registry, Er
     registry.extend(history::values(results)?)?;
     registry.extend(independence::values(results)?)?;
     registry.extend(orbits::values(results)?)?;
+    registry.extend(restitution::values(results)?)?;
     registry.extend(ledger::values(results))?;
     Ok(registry)
 }
 
 /// The rows of the generated tables, by the name that templates use: `row` (a reference to each
 /// claim with its verdict), `scorecard`, `comparison_table`, `protocol_windows`, `protocol_table`,
-/// `protocol_printed`, `long_windows`, `long_table`, `long_verdict`, `nucleation_table`, `spread_table`, `growth_table`, `heat_table`, `history_times`, `history_table`, `independence_table`, `orbits_table`, `orbits_fig6`, `distance_heads`,
+/// `protocol_printed`, `long_windows`, `long_table`, `long_verdict`, `nucleation_table`, `spread_table`, `growth_table`, `heat_table`, `history_times`, `history_table`, `independence_table`, `orbits_table`, `orbits_fig6`, `restitution_table`, `distance_heads`,
 /// `distance_table`, `order_table`, `starts_table`, `bias_heads`, `bias_table`, `bias_means`, `scene_heads`, `scene_table` and
 /// `target_table`.
 ///
@@ -112,6 +114,7 @@ pub fn rows(
         ("independence_table", serde_json::to_value(independence::table(results)?)?),
         ("orbits_table", serde_json::to_value(orbits::table(results)?)?),
         ("orbits_fig6", serde_json::to_value(orbits::fig6(results)?)?),
+        ("restitution_table", serde_json::to_value(restitution::table(results)?)?),
         ("starts_table", serde_json::to_value(starts::table(results)?)?),
         ("bias_heads", serde_json::to_value(accuracy::bias_heads(results)?)?),
         ("bias_table", serde_json::to_value(accuracy::bias_table(results)?)?),

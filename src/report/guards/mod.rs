@@ -27,6 +27,7 @@ mod printed;
 mod protocol;
 mod rare;
 mod relation;
+mod restitution;
 mod simple;
 
 use super::values::{Number, Registry};
@@ -80,6 +81,7 @@ pub fn all() -> impl Iterator<Item = &'static Guard> {
         history::GUARDS,
         independence::GUARDS,
         orbits::GUARDS,
+        restitution::GUARDS,
         motion::GUARDS,
         simple::GUARDS,
         relation::GUARDS,

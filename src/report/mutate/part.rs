@@ -57,7 +57,7 @@ macro_rules! looked_at {
 }
 
 /// All parts. What is computed from the main sweep in memory stands before it.
-const PARTS: [Part; 24] = [
+const PARTS: [Part; 25] = [
     looked_at!(theory),
     looked_at!(identities),
     ran!("laws", laws),
@@ -91,6 +91,7 @@ const PARTS: [Part; 24] = [
     ran!("seeds", seeds, &["seen", "closing"]),
     ran!("independence", independence, &["hits", "histogram"]),
     ran!("orbits", orbits, &["found", "ends", "singles", "each", "example"]),
+    ran!("restitution", restitution, &["runs"]),
     ran!("long_protocol", long_protocol),
 ];
 
