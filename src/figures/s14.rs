@@ -47,7 +47,7 @@ const TOUCHED: [(Mark, Colour); 4] = [
 
 /// Draws the figure.
 pub fn draw(found: &Restitution, note: Option<&str>) -> Result<Figure, Error> {
-    let sheet = Sheet::new(13_900, note)?;
+    let sheet = Sheet::new(14_000, note)?;
     rises(&sheet, found)?;
     places(&sheet, found)?;
     warmth(&sheet, found)?;
@@ -110,7 +110,7 @@ fn places(sheet: &Sheet, found: &Restitution) -> Result<(), Error> {
     let panel = sheet.panel(
         Frame::new(1150, 4700, 4150, 7200),
         Axis::linear(0.0, 1.0, 0.2, 2, "restitution *r*"),
-        Axis::linear(0.0, 0.4, 0.1, 5, "*σ* at half height"),
+        Axis::linear(0.0, 0.35, 0.1, 4, "*σ* at half height"),
     )?;
     panel.letter("(b)")?;
     let points: Vec<_> = found
@@ -148,7 +148,6 @@ fn warmth(sheet: &Sheet, found: &Restitution) -> Result<(), Error> {
     let rare = |lost: f64| (log(lost), log(2.0 * (2.0 - lost) / lost));
     let solid = Stroke::solid(INK, LINE);
     panel.curve("rare impacts", &losses().map(rare).collect::<Vec<_>>(), solid, Outside::Cut)?;
-    let mut lines = vec![Entry::line(solid, "rare impacts")];
     let mut marks = Vec::new();
     for (sigma, mark, colour) in WARM {
         let own = found.curves.iter().filter_map(|curve| {
@@ -161,17 +160,29 @@ fn warmth(sheet: &Sheet, found: &Restitution) -> Result<(), Error> {
         let name = format!("*σ* = {sigma}");
         estimates(&panel, &name, &points, (mark, colour), log)?;
         marks.push(Entry::mark(mark, SIZE, Stroke::solid(colour, THIN), &name));
-        let dashed = Stroke::dashed(colour, THIN, Dash::Long);
         // The law is for hot chains, and drawn where little is lost.
         let curve: Vec<_> = losses()
             .filter(|lost| *lost <= 0.1)
             .map(|lost| (log(lost), log(little_loss(found, sigma, lost))))
             .collect();
-        panel.curve(&format!("little loss, {name}"), &curve, dashed, Outside::Cut)?;
-        lines.push(Entry::line(dashed, &format!("little loss, {name}")));
+        panel.curve(&format!("little loss, {name}"), &curve, little(colour), Outside::Cut)?;
     }
-    sheet.legend((4600, 8150), (SMALL, 340), &lines)?;
-    sheet.legend((6900, 8830 - 680), (SMALL, 340), &marks)
+    let lines = [Entry::line(solid, "rare impacts"), Entry::line(little(INK), "little loss")];
+    sheet.legend((4850, 8150), (SMALL, 340), &lines)?;
+    sheet.legend((6800, 8150), (SMALL, 340), &marks)
+}
+
+/// The line of what little loss lets expect.
+fn little(colour: Colour) -> Stroke {
+    Stroke::dashed(colour, THIN, Dash::Long)
+}
+
+/// A line's entry above those of marks, which stand in two columns.
+fn legend(sheet: &Sheet, left: i32, line: Entry, marks: &[Entry]) -> Result<(), Error> {
+    sheet.legend((left, 12_850), (SMALL, 340), &[line])?;
+    let (first, second) = marks.split_at(marks.len().div_ceil(2));
+    sheet.legend((left, 13_190), (SMALL, 340), first)?;
+    sheet.legend((left + 1650, 13_190), (SMALL, 340), second)
 }
 
 /// The chains that are watched: that without loss first, then those next to it.
@@ -187,8 +198,8 @@ fn middle(found: &Restitution, window: usize) -> Option<f64> {
 
 fn heating(sheet: &Sheet, found: &Restitution) -> Result<(), Error> {
     let panel = sheet.panel(
-        Frame::new(1150, 9700, 4150, 12_200),
-        Axis::linear(1.4, 3.3, 0.5, 5, "log_{10} of time *t*"),
+        Frame::new(1150, 9400, 4150, 11_900),
+        Axis::decades(1, 4, 1, "time *t* (1/*ω*)"),
         Axis::decades(1, 3, 1, "impacts per unit time"),
     )?;
     panel.letter("(d)")?;
@@ -206,25 +217,18 @@ fn heating(sheet: &Sheet, found: &Restitution) -> Result<(), Error> {
         let thin = Stroke::solid(colour, THIN);
         entries.push(Entry::mark(mark, SIZE, thin, &named(row.restitution)));
     }
-    sheet.legend((500, 13_150), (SMALL, 340), &[Entry::line(solid, "hot, *r* = 1")])?;
-    let (left, right) = entries.split_at(entries.len().div_ceil(2));
-    sheet.legend((2050, 13_150), (SMALL, 340), left)?;
-    sheet.legend((3150, 13_150), (SMALL, 340), right)
+    legend(sheet, 900, Entry::line(solid, "expected at *r* = 1"), &entries)
 }
 
 fn contact(sheet: &Sheet, found: &Restitution) -> Result<(), Error> {
     let panel = sheet.panel(
-        Frame::new(5350, 9700, 8150, 12_200),
+        Frame::new(5350, 9400, 8150, 11_900),
         Axis::linear(0.1, 0.65, 0.1, 2, "*σ*"),
         Axis::decades(-4, 0, 1, "share of gaps"),
     )?;
     panel.letter("(e)")?;
     let solid = Stroke::solid(INK, LINE);
-    let sigmas = found.parameters.sigmas.iter().zip(&found.able_expected);
-    let curve: Vec<_> = sigmas
-        .filter(|(_, share)| **share > 0.0)
-        .map(|(sigma, share)| (*sigma, log(*share)))
-        .collect();
+    let curve: Vec<_> = found.able_drawn.iter().map(|&[x, share]| (x, log(share))).collect();
     panel.curve("can be pressed", &curve, solid, Outside::Cut)?;
     let mut entries = Vec::new();
     for (curve, (mark, colour)) in found.curves.iter().zip(TOUCHED) {
@@ -238,10 +242,7 @@ fn contact(sheet: &Sheet, found: &Restitution) -> Result<(), Error> {
         let thin = Stroke::solid(colour, THIN);
         entries.push(Entry::mark(mark, SIZE, thin, &named(curve.restitution)));
     }
-    sheet.legend((4450, 13_150), (SMALL, 340), &[Entry::line(solid, "|Δ*F*| > *dω*^{2}")])?;
-    let (left, right) = entries.split_at(entries.len().div_ceil(2));
-    sheet.legend((6250, 13_150), (SMALL, 340), left)?;
-    sheet.legend((7250, 13_150), (SMALL, 340), right)
+    legend(sheet, 4950, Entry::line(solid, "|Δ*F*| > *dω*^{2}"), &entries)
 }
 
 fn description(found: &Restitution) -> String {

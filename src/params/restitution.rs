@@ -41,7 +41,7 @@ impl RestitutionParams {
                 24,
             ),
             Profile::Ci => (&[0.0, 0.1, 0.8, 0.95], rise.and(9, 15, 2, 100).and(2, 6, 1, 10), 6),
-            Profile::Quick => (&[0.0, 0.8], rise.and(9, 15, 3, 100).and(30, 60, 30, 100), 3),
+            Profile::Quick => (&[0.0, 0.8], rise.and(9, 15, 6, 100).and(30, 60, 30, 100), 2),
         };
         let (heated, doublings, heated_realisations): (&[f64], _, _) = match profile {
             Profile::Full | Profile::Deep => (&[0.9, 0.98, 0.995, 1.0], 6, 8),

@@ -34,6 +34,10 @@ pub(super) fn join(
     Ok(Restitution {
         shift: shift(parameters, &curves),
         able_expected: parameters.sigmas.iter().map(|&sigma| able(parameters, sigma)).collect(),
+        able_drawn: (20..=120)
+            .map(|i| f64::from(i) / 200.0)
+            .map(|sigma| [sigma, able(parameters, sigma)])
+            .collect(),
         exponents: heated.iter().map(|own| exponent(parameters, own)).collect(),
         parameters: parameters.clone(),
         curves,

@@ -31,6 +31,8 @@ pub struct Restitution {
     /// For each σ of the curves, the share of gaps whose force can press them shut, |ΔF| > d ω², if
     /// amplitudes are normal.
     pub able_expected: Vec<f64>,
+    /// (σ, that share), to be drawn.
+    pub able_drawn: Vec<[f64; 2]>,
     /// Chains that are watched while they heat, by rising r.
     pub heated: Vec<Ensemble>,
     /// What is expected of the last of these, for each of its windows.
@@ -155,7 +157,7 @@ fn chain(parameters: &RestitutionParams, restitution: f64) -> Chain {
     Chain { restitution, ..parameters.chain.clone() }
 }
 
-/// Impacts of one realisation, within a factor of two where there are many.
+/// Impacts of one realisation, within a factor of a few where there are many.
 fn weight(parameters: &RestitutionParams, case: &Case) -> u64 {
     let until = case.ends.last().copied().unwrap_or(0.0);
     if case.restitution == 1.0 {
@@ -164,7 +166,10 @@ fn weight(parameters: &RestitutionParams, case: &Case) -> u64 {
     let paper = weights::run(&parameters.chain, case.sigma, until) as f64;
     // Masses that move faster meet more often: as the heat of the balance, but for its limit.
     let speed = |r: f64| ((1.0 + r) / (1.03 - r)).sqrt();
-    (paper * speed(case.restitution) / speed(parameters.chain.restitution)) as u64
+    // Under strong forces impacts accumulate at small r.
+    let soft = (1.0 - case.restitution / 0.15).max(0.0);
+    let sequences = 1.0 + soft * (case.sigma / 0.3).powi(2);
+    (paper * sequences * speed(case.restitution) / speed(parameters.chain.restitution)) as u64
 }
 
 fn rows(parameters: &RestitutionParams) -> Vec<Row> {

@@ -50,7 +50,7 @@ fn energy_is_balanced_below_one_and_grows_at_one() {
     let found = CUTTING.run(&small(), "test", &Progress::silent()).unwrap();
     let tame = &found.curves[1].rows[1];
     let balance = tame.balance.unwrap();
-    assert!((balance.value - 1.0).abs() < 0.1, "{balance:?}");
+    assert!((balance.value - 1.0).abs() < 0.25, "{balance:?}");
     let [near, one] = &found.heated[..] else { panic!() };
     assert!(near.balance.is_some() && one.balance.is_none());
     let last = |row: &Ensemble| row.ratios[2].unwrap().value;
@@ -85,7 +85,7 @@ fn hot_masses_diffuse_as_the_law_says() {
         square += 0.5 * v * v / (sigma * sigma) / f64::from(count);
     }
     let expected = hot(&chain, sigma, 0.0, until).ratio;
-    assert!((square / expected - 1.0).abs() < 0.25, "{square} {expected}");
+    assert!((square / expected - 1.0).abs() < 0.3, "{square} {expected}");
 }
 
 #[test]
@@ -97,7 +97,7 @@ fn work_is_guessed_within_a_factor_of_a_few() {
     for (row, case) in rows.zip(cases(&parameters)) {
         let impacts: u64 = row.runs.iter().flat_map(|run| &run.impacts).sum();
         let (own, guess) = (impacts / row.runs.len() as u64, weight(&parameters, &case));
-        let room = if row.restitution > 0.0 { 3 } else { 8 };
+        let room = 4;
         assert!(own < 5000 || own < room * guess && guess < room * own, "{case:?}: {own} {guess}");
     }
 }

@@ -114,6 +114,15 @@ fn tabled(look: Look<'_>) -> Option<String> {
             .or_else(|| is("phases", sum(&c.runs, |run| run.phases as f64)))
             .or_else(|| is("touched", (c.able_touched + c.others_touched) as f64))
     };
+    // Who has less energy meets less often, but for sequences of impacts that accumulate at small r.
+    let accumulate = || {
+        let rates = found.curves.iter().filter_map(|curve| end(&at(curve, c)?.rates));
+        let rates: Vec<f64> = rates.collect();
+        let least = rates.iter().skip(1).copied().fold(f64::INFINITY, f64::min);
+        unless(*rates.first()? > least, || {
+            format!("no accumulation, {rates:?} impacts by rising r")
+        })
+    };
     let text = || {
         let (first, last) = (at(found.curves.first()?, c)?, at(found.curves.last()?, a)?);
         let gaps = sum(&first.runs, |_| 1.0) * found.parameters.chain.gaps() as f64;
@@ -126,7 +135,7 @@ fn tabled(look: Look<'_>) -> Option<String> {
         .or_else(|| look.is("restitution_held", first.held?.value))
         .or_else(|| look.is("restitution_warm", end(&last.ratios)?))
     };
-    found.curves.iter().find_map(line).or_else(text)
+    found.curves.iter().find_map(line).or_else(text).or_else(accumulate)
 }
 
 /// At half height the curve through the means has half of all gaps, and the shift is from the first

@@ -91,7 +91,7 @@ const PARTS: [Part; 25] = [
     ran!("seeds", seeds, &["seen", "closing"]),
     ran!("independence", independence, &["hits", "histogram"]),
     ran!("orbits", orbits, &["found", "ends", "singles", "each", "example"]),
-    ran!("restitution", restitution, &["runs"]),
+    ran!("restitution", restitution, &["runs", "able_drawn"]),
     ran!("long_protocol", long_protocol),
 ];
 
