@@ -195,6 +195,13 @@ fn as_run(look: Look<'_>) -> Option<String> {
         ("restitution_r_low", first.restitution),
         ("restitution_r_high", found.curves.last()?.restitution),
     ])
+    .or_else(|| {
+        let asked: Vec<f64> = found.curves.iter().map(|curve| curve.restitution).collect();
+        let like =
+            |curve: &Curve| curve.rows.iter().all(|row| row.restitution == curve.restitution);
+        let so = asked == parameters.restitutions && found.curves.iter().all(like);
+        unless(so, || format!("curves at {asked:?}, which is not what was asked for"))
+    })
     .or_else(|| unless(one.restitution == 1.0, || "nothing was run without loss".into()))
     .or_else(|| unless(protocol == parameters.protocol, || "another protocol".into()))
 }
@@ -204,7 +211,9 @@ fn warmth(look: Look<'_>) -> Option<String> {
     let found = found(look)?;
     let of = |r: f64| 2.0 * (1.0 + r) / (1.0 - r);
     let one = |curve: &Curve| {
-        far("the expected heat", curve.balanced, of(curve.restitution)).or_else(|| {
+        // Without a quotient, which at r = 1 is far from no number.
+        let r = curve.restitution;
+        far("the expected heat", curve.balanced * (1.0 - r), 2.0 * (1.0 + r)).or_else(|| {
             let id = cell("restitution", curve.restitution, "balanced");
             look.is(&id, of(curve.restitution))
         })
