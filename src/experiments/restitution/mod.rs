@@ -6,8 +6,6 @@
 mod hot;
 mod joining;
 mod run;
-#[cfg(test)]
-mod tests;
 
 pub use hot::{Hot, hot, steady};
 
@@ -211,3 +209,6 @@ fn fits(parameters: &RestitutionParams, unit: &Unit, runs: &Part) -> bool {
     };
     runs.len() == unit.realisations.len() && runs.iter().flatten().all(fits)
 }
+
+#[cfg(test)]
+mod tests;
