@@ -81,7 +81,7 @@ fn contact(found: &Restitution, first: &Curve) -> Result<Vec<Value>, Error> {
     let all: u64 = rows().map(|row| row.able_touched).sum::<u64>() + others;
     let touched = |row: &&Ensemble| row.able_touched + row.others_touched > 0;
     let begins = first.rows.iter().find(touched).map(|row| row.sigma);
-    let ends = rows().filter(touched).map(|row| row.restitution).last();
+    let ends = rows().filter(touched).map(|row| row.restitution).next_back();
     let known = |id: &str, number: Option<f64>| match number {
         Some(number) => chosen(id, number),
         None => Value::text(id, "none"),

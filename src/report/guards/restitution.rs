@@ -86,7 +86,7 @@ fn of_runs(look: Look<'_>) -> Option<String> {
     rows(found).find_map(of)
 }
 
-fn at<'a>(curve: &'a Curve, sigma: f64) -> Option<&'a Ensemble> {
+fn at(curve: &Curve, sigma: f64) -> Option<&Ensemble> {
     curve.rows.iter().find(|row| row.sigma == sigma)
 }
 
@@ -273,7 +273,9 @@ fn contact(look: Look<'_>) -> Option<String> {
             ("restitution_touched_others", others as f64),
         ])
         .or_else(|| look.is("restitution_touched_from", first.rows.iter().find(touched)?.sigma))
-        .or_else(|| look.is("restitution_touched_to", rows().filter(touched).last()?.restitution))
+        .or_else(|| {
+            look.is("restitution_touched_to", rows().filter(touched).next_back()?.restitution)
+        })
     };
     let list = first.rows.iter().enumerate();
     let mut list = list.map(share);
