@@ -43,10 +43,8 @@ pub fn hot(chain: &Chain, sigma: f64, begin: f64, end: f64) -> Hot {
     let scale = |t: f64| f_cbrt(4.5 * sigma * sigma * d * t);
     let mean = 0.75 * (end * scale(end) - begin * scale(begin)) / (end - begin);
     let gaps = chain.gaps() as f64;
-    Hot {
-        rate: gaps * 0.5 * distance * mean / d,
-        ratio: 0.5 * square * (scale(end) / (sigma * omega)).powi(2),
-    }
+    let speed = scale(end) / (sigma * omega);
+    Hot { rate: gaps * 0.5 * distance * mean / d, ratio: 0.5 * square * speed * speed }
 }
 
 /// s²/σ² of a hot chain that loses a little, if velocities are normal with variance u²: the force

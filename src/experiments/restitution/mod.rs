@@ -166,7 +166,8 @@ fn weight(parameters: &RestitutionParams, case: &Case) -> u64 {
     let speed = |r: f64| ((1.0 + r) / (1.03 - r)).sqrt();
     // Under strong forces impacts accumulate at small r.
     let soft = (1.0 - case.restitution / 0.15).max(0.0);
-    let sequences = 1.0 + soft * (case.sigma / 0.3).powi(2);
+    let force = case.sigma / 0.3;
+    let sequences = 1.0 + soft * force * force;
     (paper * sequences * speed(case.restitution) / speed(parameters.chain.restitution)) as u64
 }
 

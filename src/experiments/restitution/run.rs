@@ -107,7 +107,8 @@ fn force(scenario: &Scenario, mass: usize) -> [f64; 2] {
 pub(super) fn presses(scenario: &Scenario, gap: usize) -> bool {
     let ([a, b], [c, d]) = (force(scenario, gap), force(scenario, gap + 1));
     let omega = scenario.natural_frequency;
-    (c - a) * (c - a) + (d - b) * (d - b) > (scenario.spacing * omega * omega).powi(2)
+    let least = scenario.spacing * omega * omega;
+    (c - a) * (c - a) + (d - b) * (d - b) > least * least
 }
 
 /// Adds what an impact of two masses does to the balance of energy.

@@ -273,9 +273,7 @@ fn contact(look: Look<'_>) -> Option<String> {
             ("restitution_touched_others", others as f64),
         ])
         .or_else(|| look.is("restitution_touched_from", first.rows.iter().find(touched)?.sigma))
-        .or_else(|| {
-            look.is("restitution_touched_to", rows().filter(touched).next_back()?.restitution)
-        })
+        .or_else(|| look.is("restitution_touched_to", rows().rfind(touched)?.restitution))
     };
     let list = first.rows.iter().enumerate();
     let mut list = list.map(share);
