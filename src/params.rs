@@ -10,6 +10,7 @@ mod history;
 mod independence;
 mod nucleation;
 mod orbits;
+mod restitution;
 mod sizes;
 mod spacetime;
 
@@ -22,6 +23,7 @@ pub use history::HistoryParams;
 pub use independence::{IndependenceParams, IndependenceRow};
 pub use nucleation::{NucleationParams, SeedsParams};
 pub use orbits::{HuntParams, OrbitsParams};
+pub use restitution::RestitutionParams;
 pub use sizes::{
     Grid, HorizonParams, ProtocolParams, StartVariant, StartsParams, SweepParams, TwoMassesParams,
 };

@@ -7,13 +7,14 @@ use std::sync::LazyLock;
 use impact_paper::experiments::accuracy::{analytic, bias, race, scale};
 use impact_paper::experiments::segments::{Segment, SegmentImpact, Segments};
 use impact_paper::experiments::{
-    Measured, Progress, Results, heat, independence, nucleation, orbits, protocol, seeds,
-    spacetime, sweep,
+    Measured, Progress, Results, heat, independence, nucleation, orbits, protocol, restitution,
+    seeds, spacetime, sweep,
 };
 use impact_paper::figures::{self, Error, Figure};
 use impact_paper::params::{
     AnalyticParams, BiasParams, HeatParams, IndependenceParams, NucleationParams, OrbitsParams,
-    Profile, ProtocolParams, RaceParams, ScaleParams, SeedsParams, SpaceTimeParams, SweepParams,
+    Profile, ProtocolParams, RaceParams, RestitutionParams, ScaleParams, SeedsParams,
+    SpaceTimeParams, SweepParams,
 };
 use roxmltree::{Document, Node};
 
@@ -61,6 +62,8 @@ fn results(profile: Profile) -> Results {
     results.independence =
         Some(independence::run(&IndependenceParams::new(quick), &quiet).unwrap());
     results.orbits = Some(orbits::run(&OrbitsParams::new(quick), &quiet).unwrap());
+    let parameters = RestitutionParams::new(quick);
+    results.restitution = Some(restitution::CUTTING.run(&parameters, "test", &quiet).unwrap());
     results.measured = Some(Measured::embedded().unwrap());
     results
 }
@@ -142,7 +145,7 @@ fn label(group: &Node) -> Label {
 #[test]
 fn every_figure_is_a_titled_and_described_picture() {
     let drawn = all(quick());
-    assert_eq!(drawn.len(), 28);
+    assert_eq!(drawn.len(), 29);
     for (number, figure) in figures::all().zip(&drawn) {
         assert_eq!(figure.id, number.id());
         let document = Document::parse(&figure.svg).unwrap();
@@ -419,7 +422,7 @@ fn less_than_the_full_profile_is_marked() {
     let quick = all(quick());
     let simulated = [
         "fig02", "fig03", "fig12", "fig15", "s01", "s02", "s03", "s04", "s05", "s06", "s09", "s10",
-        "s11", "s12", "s13",
+        "s11", "s12", "s13", "s14",
     ];
     for figure in &quick {
         let marked = figure.svg.contains("profile quick: not for citation");

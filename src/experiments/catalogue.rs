@@ -4,19 +4,20 @@ use super::Need;
 use super::accuracy::{analytic, bias, race, scale, trials};
 use super::experiment::How::{Cut, Whole};
 use super::{
-    deep, heat, history, horizon, independence, nucleation, orbits, protocol, seeds, spacetime,
-    starts, sweep, tally, two_masses, weights,
+    deep, heat, history, horizon, independence, nucleation, orbits, protocol, restitution, seeds,
+    spacetime, starts, sweep, tally, two_masses, weights,
 };
 use crate::params::{
     AnalyticParams, BiasParams, HeatParams, HistoryParams, HorizonParams, IndependenceParams,
-    NucleationParams, OrbitsParams, Profile, ProtocolParams, RaceParams, ScaleParams, SeedsParams,
-    SpaceTimeParams, StartsParams, SweepParams, TrialParams, TwoMassesParams,
+    NucleationParams, OrbitsParams, Profile, ProtocolParams, RaceParams, RestitutionParams,
+    ScaleParams, SeedsParams, SpaceTimeParams, StartsParams, SweepParams, TrialParams,
+    TwoMassesParams,
 };
 
 pub use super::experiment::{Experiment, Saved};
 
 /// The experiments that are saved, in the order in which they run.
-const ALL: [&dyn Saved; 19] = [
+const ALL: [&dyn Saved; 20] = [
     &SWEEP,
     &SECOND_SEED,
     &PROTOCOL,
@@ -35,6 +36,7 @@ const ALL: [&dyn Saved; 19] = [
     &HISTORY,
     &INDEPENDENCE,
     &ORBITS,
+    &RESTITUTION,
     &LONG_AUDIT,
 ];
 
@@ -204,6 +206,15 @@ pub const ORBITS: Experiment<OrbitsParams, orbits::Orbits> = Experiment {
     parameters: OrbitsParams::new,
     how: Whole { run: orbits::run, weight: |p| 60 * orbits::starts(p) },
 };
+
+/// Chains of several restitutions.
+pub const RESTITUTION: Experiment<RestitutionParams, restitution::Restitution, restitution::Part> =
+    Experiment {
+        need: Need::Restitution,
+        module: "src/experiments/restitution/mod.rs",
+        parameters: RestitutionParams::new,
+        how: Cut("restitution", restitution::CUTTING),
+    };
 
 /// The long end of the map over transients and windows.
 pub const LONG_PROTOCOL: Experiment<ProtocolParams, deep::LongMap, protocol::Part> = Experiment {

@@ -19,6 +19,7 @@ pub mod observe;
 pub mod orbits;
 pub mod progress;
 pub mod protocol;
+pub mod restitution;
 pub mod rise;
 pub mod run;
 pub mod seeds;

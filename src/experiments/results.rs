@@ -4,7 +4,7 @@ use super::accuracy::{analytic, bias, race, scale, trials};
 use super::{Error, Measured};
 use super::{
     deep, heat, history, horizon, identities, independence, laws, nucleation, orbits, protocol,
-    seeds, segments, spacetime, starts, sweep, theory, two_masses,
+    restitution, seeds, segments, spacetime, starts, sweep, theory, two_masses,
 };
 use crate::params::{Profile, VERTICES};
 use std::sync::LazyLock;
@@ -55,13 +55,15 @@ pub enum Need {
     Independence,
     /// [`Results::orbits`].
     Orbits,
+    /// [`Results::restitution`].
+    Restitution,
     /// [`Results::long_protocol`]: read; a sample of it is run again.
     LongProtocol,
 }
 
 impl Need {
     /// Everything: what the report needs.
-    pub const ALL: [Need; 22] = [
+    pub const ALL: [Need; 23] = [
         Need::Sweep,
         Need::SecondSeed,
         Need::Protocol,
@@ -83,6 +85,7 @@ impl Need {
         Need::History,
         Need::Independence,
         Need::Orbits,
+        Need::Restitution,
         Need::LongProtocol,
     ];
 
@@ -110,6 +113,7 @@ impl Need {
             Need::History => "history",
             Need::Independence => "independence",
             Need::Orbits => "orbits",
+            Need::Restitution => "restitution",
             Need::LongProtocol => "long_protocol",
         }
     }
@@ -166,6 +170,8 @@ pub struct Results {
     pub independence: Option<independence::Independence>,
     /// Periodic orbits of a short chain.
     pub orbits: Option<orbits::Orbits>,
+    /// Chains of several restitutions.
+    pub restitution: Option<restitution::Restitution>,
     /// The long end of the map, carried over.
     pub long_protocol: Option<deep::Carried>,
 }
@@ -229,6 +235,8 @@ asked_for! {
     independence: independence::Independence, Independence;
     /// Periodic orbits of a short chain.
     orbits: orbits::Orbits, Orbits;
+    /// Chains of several restitutions.
+    restitution: restitution::Restitution, Restitution;
     /// The long end of the map.
     long_protocol: deep::Carried, LongProtocol;
 }
@@ -271,6 +279,7 @@ impl Results {
             history: None,
             independence: None,
             orbits: None,
+            restitution: None,
             long_protocol: None,
         }
     }

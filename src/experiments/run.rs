@@ -45,7 +45,8 @@ pub fn run(
     saved!(
         second_seed: SECOND_SEED, protocol: PROTOCOL, starts: STARTS, horizon: HORIZON,
         two_masses: TWO_MASSES, spacetime: SPACE_TIME, race: RACE, biases: BIAS, trials: TRIALS,
-        scale: SCALE, analytic: ANALYTIC, heat: HEAT, nucleation: NUCLEATION, seeds: SEEDS, history: HISTORY, independence: INDEPENDENCE, orbits: ORBITS
+        scale: SCALE, analytic: ANALYTIC, heat: HEAT, nucleation: NUCLEATION, seeds: SEEDS, history: HISTORY, independence: INDEPENDENCE, orbits: ORBITS,
+        restitution: RESTITUTION
     );
     if needs(Need::LongProtocol) {
         let audit = catalogue::LONG_AUDIT.get(profile, store, progress)?;

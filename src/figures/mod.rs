@@ -43,6 +43,7 @@ mod s10;
 mod s11;
 mod s12;
 mod s13;
+mod s14;
 mod scene;
 mod series;
 mod sheet;
@@ -146,6 +147,7 @@ pub fn needs(number: Number) -> &'static [Need] {
         Number::Own(11) => &[Need::Seeds, Need::Sweep, Need::Protocol],
         Number::Own(12) => &[Need::Independence],
         Number::Own(13) => &[Need::Orbits],
+        Number::Own(14) => &[Need::Restitution],
         _ => &[],
     }
 }
@@ -200,6 +202,7 @@ pub fn draw(number: Number, results: &Results) -> Result<Figure, Error> {
         Number::Own(11) => s11::draw(results.seeds()?, results.sweep()?, results.protocol()?, note),
         Number::Own(12) => s12::draw(results.independence()?, note),
         Number::Own(13) => s13::draw(results.orbits()?, note),
+        Number::Own(14) => s14::draw(results.restitution()?, note),
         _ => Err(Error::Number(number)),
     }
 }

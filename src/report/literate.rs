@@ -87,7 +87,7 @@ pub(super) fn items(text: &str) -> Vec<(String, usize, Vec<&str>)> {
 fn end(lines: &[&str], first: usize, indent: usize) -> usize {
     let closes = |line: &str| {
         let code = line.trim_start();
-        line.len() - code.len() == indent && (code.starts_with(['}', ')', ']'])
+        line.len() - code.len() == indent && code.starts_with(['}', ')', ']'])
     };
     let whole = |line: &str| line.ends_with(['}', ';']);
     if whole(lines[first]) {

@@ -41,6 +41,7 @@ pub fn recipe(name: &str, profile: Profile) -> Option<Recipe> {
         "history" => ("heat", "experiments::history::CUTTING"),
         "independence" => ("independence", "experiments::independence::run"),
         "orbits" => ("orbits", "experiments::orbits::run"),
+        "restitution" => ("restitution", "experiments::restitution::CUTTING"),
         "long_protocol" => ("long_protocol", "experiments::deep::audit"),
         "theory" => ("theory", "experiments::theory::run"),
         _ => return None,

@@ -3,7 +3,7 @@
 //! A value is computed here from results and carries the path of the item that computed it. Groups
 //! are `v` (ours), `paper` (numbers that the paper chose), `printed` (numbers in its statements), and
 //! one for the cells of each table: `compare`, `protocol`, `long`, `nucleation`, `spread`, `growth`, `heat`,
-//! `scores`, `history`, `independence`, `orbits`, `starts` and `bias`.
+//! `scores`, `history`, `independence`, `orbits`, `restitution`, `starts` and `bias`.
 
 mod accuracy;
 mod comparison;
@@ -19,6 +19,7 @@ mod nucleation;
 mod orbits;
 mod paper;
 mod protocol;
+mod restitution;
 mod scores;
 mod simulation;
 mod spacetime;
@@ -77,6 +78,7 @@ pub fn registry(results: &Results, published: &Published) -> Result<Registry, Er
     registry.extend(history::values(results)?)?;
     registry.extend(independence::values(results)?)?;
     registry.extend(orbits::values(results)?)?;
+    registry.extend(restitution::values(results)?)?;
     registry.extend(ledger::values(results))?;
     Ok(registry)
 }
@@ -113,6 +115,7 @@ pub fn rows(
         ("independence_table", serde_json::to_value(independence::table(results)?)?),
         ("orbits_table", serde_json::to_value(orbits::table(results)?)?),
         ("orbits_fig6", serde_json::to_value(orbits::fig6(results)?)?),
+        ("restitution_table", serde_json::to_value(restitution::table(results)?)?),
         ("starts_table", serde_json::to_value(starts::table(results)?)?),
         ("bias_heads", serde_json::to_value(accuracy::bias_heads(results)?)?),
         ("bias_table", serde_json::to_value(accuracy::bias_table(results)?)?),

@@ -27,6 +27,7 @@ mod printed;
 mod protocol;
 mod rare;
 mod relation;
+mod restitution;
 mod scores;
 mod simple;
 
@@ -82,6 +83,7 @@ pub fn all() -> impl Iterator<Item = &'static Guard> {
         history::GUARDS,
         independence::GUARDS,
         orbits::GUARDS,
+        restitution::GUARDS,
         motion::GUARDS,
         simple::GUARDS,
         relation::GUARDS,

@@ -61,7 +61,7 @@ macro_rules! looked_at {
 }
 
 /// All parts. What is computed from the main sweep in memory stands before it.
-const PARTS: [Part; 24] = [
+const PARTS: [Part; 25] = [
     looked_at!(theory),
     looked_at!(identities),
     ran!("laws", laws),
@@ -99,6 +99,7 @@ const PARTS: [Part; 24] = [
     ran!("seeds", seeds, &["seen", "closing"]),
     ran!("independence", independence, &["hits", "histogram"]),
     ran!("orbits", orbits, &["found", "ends", "singles", "each", "example"]),
+    ran!("restitution", restitution, &["runs", "able_drawn"]),
     ran!("long_protocol", long_protocol),
 ];
 

@@ -1,0 +1,215 @@
+//! What restitution does to a chain: the rise, its heat, and contact.
+//!
+//! One kind of run serves all three. A curve is run at each σ through a transient and a window; a
+//! chain that is watched while it heats goes through windows of which each is as long as all before.
+
+mod hot;
+mod joining;
+mod run;
+
+pub use hot::{Hot, hot, steady};
+
+use super::cutting::{Cutting, Row, Unit};
+use super::progress::Stage;
+use super::{Error, Progress, weights};
+use crate::numerics::statistics::Estimate;
+use crate::params::{Chain, RestitutionParams};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+/// Chains of several restitutions.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Restitution {
+    /// What was run.
+    pub parameters: RestitutionParams,
+    /// One for each r of the curves, rising.
+    pub curves: Vec<Curve>,
+    /// σ of half height at the highest r less that at the lowest, of the same random numbers.
+    pub shift: Option<Estimate>,
+    /// For each σ of the curves, the share of gaps whose force can press them shut, |ΔF| > d ω², if
+    /// amplitudes are normal.
+    pub able_expected: Vec<f64>,
+    /// (σ, that share), to be drawn.
+    pub able_drawn: Vec<[f64; 2]>,
+    /// Chains that are watched while they heat, by rising r.
+    pub heated: Vec<Ensemble>,
+    /// What is expected of the last of these, for each of its windows.
+    pub hot: Vec<Hot>,
+    /// The exponent a of impacts per unit of time ∝ tᵃ over the last windows, for each of these.
+    pub exponents: Vec<Option<Estimate>>,
+}
+
+/// All σ at one restitution.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Curve {
+    /// The restitution r.
+    pub restitution: f64,
+    /// σ at which the mean count of all chains passes half of all gaps.
+    pub half_height: Option<Estimate>,
+    /// s²/σ² that the balance of rare impacts lets expect.
+    pub balanced: f64,
+    /// One for each σ, rising.
+    pub rows: Vec<Ensemble>,
+}
+
+/// One ensemble.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Ensemble {
+    /// Standard deviation σ of the amplitudes.
+    pub sigma: f64,
+    /// Restitution r.
+    pub restitution: f64,
+    /// What each realisation showed.
+    pub runs: Vec<Run>,
+    /// Mean number of different gaps with an impact in the last window.
+    pub count: Option<Estimate>,
+    /// Impacts per unit of time in each window.
+    pub rates: Vec<Option<Estimate>>,
+    /// s²/σ² at the end of each window: the mean over all masses of half the sum of squares of both
+    /// free amplitudes, over σ².
+    pub ratios: Vec<Option<Estimate>>,
+    /// 2 ⟨V F⟩ / ((1 − r) ⟨V²⟩) over the impacts of two masses in the last window; none at r = 1.
+    pub balance: Option<Estimate>,
+    /// Contact phases begun in the last window over the impacts in it.
+    pub phases: Option<Estimate>,
+    /// Share of the gaps that are in contact at some time of the last window.
+    pub touched: Option<Estimate>,
+    /// Share of the time that a gap is in contact, in the last window.
+    pub held: Option<Estimate>,
+    /// Gaps whose own force can press them shut, |ΔF| > d ω², over all realisations ...
+    pub able: u64,
+    /// ... the number of them in contact at some time of the last window ...
+    pub able_touched: u64,
+    /// ... and that of the others, which only a neighbour can press.
+    pub others_touched: u64,
+    /// Realisations that the engine ended early.
+    pub failed: usize,
+}
+
+/// One realisation.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Run {
+    /// Impacts in each window.
+    pub impacts: Vec<u64>,
+    /// Half the sum of squares of the free amplitudes of all masses, at the end of each window.
+    pub free: Vec<f64>,
+    /// Different gaps with an impact in the last window, in which all that follows is counted.
+    pub distinct: u64,
+    /// Sum of V F over impacts of two masses: closing speed times its forced part.
+    pub products: f64,
+    /// Sum of V² over them.
+    pub squares: f64,
+    /// Contact phases begun.
+    pub phases: u64,
+    /// Gaps whose own force can press them shut.
+    pub able: u64,
+    /// Of these, the ones seen in contact.
+    pub able_touched: u64,
+    /// Other gaps seen in contact.
+    pub others_touched: u64,
+    /// Gaps found in contact, summed over the looks at regular times.
+    pub held: u64,
+    /// Number of these looks.
+    pub looks: u64,
+}
+
+/// What is run with the same times: one σ and one restitution.
+#[derive(Clone, Debug, PartialEq)]
+struct Case {
+    sigma: f64,
+    restitution: f64,
+    /// Ends of the windows, rising. What ends first is a transient where there are two.
+    ends: Vec<f64>,
+    realisations: usize,
+}
+
+/// Some realisations of one ensemble; none where the engine gave up.
+pub type Part = Vec<Option<Run>>;
+
+/// The experiment in units of work.
+pub const CUTTING: Cutting<RestitutionParams, Part, Restitution> =
+    Cutting { rows, part, fits, join: joining::join };
+
+/// All ensembles: the curves, r by r, and those that are watched while they heat.
+fn cases(parameters: &RestitutionParams) -> Vec<Case> {
+    let protocol = parameters.protocol;
+    let curve = |&restitution: &f64| {
+        parameters.sigmas.iter().map(move |&sigma| Case {
+            sigma,
+            restitution,
+            ends: vec![protocol.transient, protocol.transient + protocol.window],
+            realisations: parameters.realisations,
+        })
+    };
+    let heated = |&restitution: &f64| Case {
+        sigma: parameters.heated_sigma,
+        restitution,
+        ends: parameters.ends.clone(),
+        realisations: parameters.heated_realisations,
+    };
+    let curves = parameters.restitutions.iter().flat_map(curve);
+    curves.chain(parameters.heated.iter().map(heated)).collect()
+}
+
+fn chain(parameters: &RestitutionParams, restitution: f64) -> Chain {
+    Chain { restitution, ..parameters.chain.clone() }
+}
+
+/// Impacts of one realisation, within a factor of a few where there are many.
+fn weight(parameters: &RestitutionParams, case: &Case) -> u64 {
+    let until = case.ends.last().copied().unwrap_or(0.0);
+    if case.restitution == 1.0 {
+        return (hot(&parameters.chain, case.sigma, 0.0, until).rate * until) as u64;
+    }
+    let paper = weights::run(&parameters.chain, case.sigma, until) as f64;
+    // Masses that move faster meet more often: as the heat of the balance, but for its limit.
+    let speed = |r: f64| ((1.0 + r) / (1.03 - r)).sqrt();
+    // Under strong forces impacts accumulate at small r.
+    let soft = (1.0 - case.restitution / 0.15).max(0.0);
+    let force = case.sigma / 0.3;
+    let sequences = 1.0 + soft * force * force;
+    (paper * sequences * speed(case.restitution) / speed(parameters.chain.restitution)) as u64
+}
+
+fn rows(parameters: &RestitutionParams) -> Vec<Row> {
+    let row = |case: Case| Row {
+        covers: format!("sigma = {}, r = {}", case.sigma, case.restitution),
+        realisations: case.realisations,
+        weight: weight(parameters, &case),
+    };
+    cases(parameters).into_iter().map(row).collect()
+}
+
+fn part(
+    parameters: &RestitutionParams,
+    unit: &Unit,
+    stage: &Stage,
+    progress: &Progress,
+) -> Result<Part, Error> {
+    let case = &cases(parameters)[unit.row];
+    let weight = weight(parameters, case);
+    let one = |index| {
+        let found = run::realisation(parameters, case, index as u64, progress);
+        stage.advance(weight);
+        found
+    };
+    unit.realisations.clone().into_par_iter().with_max_len(1).map(one).collect()
+}
+
+fn fits(parameters: &RestitutionParams, unit: &Unit, runs: &Part) -> bool {
+    let gaps = parameters.chain.gaps() as u64;
+    let Some(case) = cases(parameters).into_iter().nth(unit.row) else { return false };
+    let fits = |run: &Run| {
+        let touched = run.able_touched.checked_add(run.others_touched);
+        run.impacts.len() == case.ends.len()
+            && run.free.len() == case.ends.len()
+            && run.distinct <= gaps
+            && run.able <= gaps
+            && run.able_touched <= run.able
+            && touched.is_some_and(|touched| touched <= gaps)
+    };
+    runs.len() == unit.realisations.len() && runs.iter().flatten().all(fits)
+}
+
+#[cfg(test)]
+mod tests;
