@@ -21,7 +21,7 @@ const FROM_REST: f64 = 1.5;
 const SIGMAS: (f64, f64) = (0.05, 0.45);
 
 /// The balance where impacts are frequent.
-const FRICTION: (&str, Stroke) = ("balance with friction", Stroke::solid(PURPLE, LINE));
+const FRICTION: (&str, Stroke) = ("with friction", Stroke::solid(PURPLE, LINE));
 
 /// The half size of marks.
 const SIZE: i32 = 58;

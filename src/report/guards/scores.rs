@@ -40,7 +40,8 @@ fn scores(look: Look<'_>) -> Option<String> {
         let curve = map.curve(own.transient, own.window)?;
         let bins = ((own.transient + own.window) / seeds.parameters.bin).round() as usize;
         let (mut squares, mut sigmas) = ([0.0; 5], Vec::new());
-        for (i, sigma) in seeds.parameters.sigmas.iter().enumerate() {
+        for (i, row) in seeds.rows.iter().enumerate() {
+            let sigma = &row.sigma;
             let Some((_, mean)) = curve.iter().find(|(own, _)| own == sigma) else { continue };
             if !longest.iter().any(|(own, _)| own == sigma) {
                 continue;
