@@ -216,7 +216,7 @@ fn tables(orbits: &Orbits) -> Vec<DataFile> {
         }
     }
     let mut plane =
-        DataFile::new("s13c.csv", &["sigma (d omega^2)", "circuit (1)", "re (1)", "im (1)"]);
+        DataFile::new("s13c.csv", &["sigma (d omega^2)", "circuit (text)", "re (1)", "im (1)"]);
     if let Some(row) = chosen(orbits) {
         for found in &row.found {
             let circuit: Vec<String> =

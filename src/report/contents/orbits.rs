@@ -53,7 +53,7 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
         count("orbits_last_period", total(&|row| row.by_periods.last().copied().unwrap_or(0))),
         count("orbits_stable", total(&|row| row.orbits[1])),
         count("orbits_came_back", total(&|row| row.confirmed[0])),
-        count("orbits_unstable", orbits_found - total(&|row| row.orbits[1])),
+        count("orbits_unstable", orbits_found.saturating_sub(total(&|row| row.orbits[1]))),
         count("orbits_went", total(&|row| row.confirmed[1])),
         share("orbits_half", total(&|row| row.by_half) as usize, orbits_found as usize),
         Value::real("orbits_swing", swing(orbits), 2),

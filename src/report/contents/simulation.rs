@@ -23,7 +23,7 @@ pub(super) fn row(sweep: &Sweep, sigma: f64) -> Result<&SweepRow, Error> {
 
 /// Realisations of a row that ran to the end.
 pub(super) fn ran(row: &SweepRow) -> usize {
-    row.realisations - row.rejected - row.failed
+    row.realisations.saturating_sub(row.rejected + row.failed)
 }
 
 /// The mean over the kept of a row.

@@ -66,7 +66,7 @@ fn moving(scene: &Scene) -> Vec<Value> {
         Value::integer("scene_last", last),
         Value::integer("scene_from", scene.from as u64),
         Value::integer("scene_until", until),
-        Value::integer("scene_length", until - scene.from as u64),
+        Value::integer("scene_length", until.saturating_sub(scene.from as u64)),
         Value::integer("scene_left", left),
         Value::integer("scene_right", right),
         Value::integer("scene_impacts", scene.impacts.len()),

@@ -54,7 +54,7 @@ impl Subject<'_> {
     /// What is made wrong, as digests: the same ones have the same mutations.
     pub fn digests(&self) -> BTreeMap<String, String> {
         let printed = ("published.toml".into(), self.published.digest.clone());
-        Whole::of(self.results).digests().chain([printed]).collect()
+        Whole::of(self.results).digests().into_iter().chain([printed]).collect()
     }
 }
 

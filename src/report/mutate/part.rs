@@ -1,6 +1,7 @@
 //! The results in parts, each of which can be read and written as JSON.
 
 use crate::experiments::{Results, laws};
+use rayon::prelude::*;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value as Json;
@@ -114,15 +115,16 @@ pub fn experiments() -> impl Iterator<Item = &'static str> {
 impl Whole {
     /// Of complete results.
     pub fn of(results: &Results) -> Self {
-        Whole(PARTS.iter().map(|part| (part.read)(results).unwrap_or_default()).collect())
+        Whole(PARTS.par_iter().map(|part| (part.read)(results).unwrap_or_default()).collect())
     }
 
     /// SHA-256 of each part, with its number.
-    pub fn digests(&self) -> impl Iterator<Item = (String, String)> + '_ {
-        self.0.iter().enumerate().map(|(index, json)| {
+    pub fn digests(&self) -> Vec<(String, String)> {
+        let one = |(index, json): (usize, &Json)| {
             let digest = Sha256::digest(json.to_string().as_bytes());
             (format!("part {index}"), digest.iter().map(|byte| format!("{byte:02x}")).collect())
-        })
+        };
+        self.0.par_iter().enumerate().map(one).collect()
     }
 
     /// One part.

@@ -130,7 +130,27 @@ pub fn numbers(text: &str) -> Result<Vec<f64>, Error> {
 
 /// A number for PDF: no exponent, four decimals at most.
 pub fn n(x: f64) -> String {
-    let text = format!("{x:.4}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    if matches!(text, "-0" | "") { "0".into() } else { text.into() }
+    // In whole numbers, since a report has some hundred thousand of these.
+    let scaled = (x * 1e4).round();
+    if scaled.is_nan() || scaled.abs() > 1e15 {
+        return format!("{x:.0}");
+    }
+    let (sign, scaled) = (if scaled < 0.0 { "-" } else { "" }, scaled.abs() as u64);
+    match (scaled / 10_000, scaled % 10_000) {
+        (whole, 0) => format!("{sign}{whole}"),
+        (whole, part) => format!("{sign}{whole}.{part:04}").trim_end_matches('0').into(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_four_decimals_at_most() {
+        let written = [0.0, -0.00004, 1.5, -12.0625, 2.99996, 0.05, -0.3, 1e17, f64::NAN].map(n);
+        let expected =
+            ["0", "0", "1.5", "-12.0625", "3", "0.05", "-0.3", "100000000000000000", "NaN"];
+        assert_eq!(written, expected);
+    }
 }
