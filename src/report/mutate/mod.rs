@@ -147,7 +147,7 @@ struct Bench<'a> {
     before: Judged,
     idle: Mutex<Vec<Results>>,
     /// What followed when leaves were moved by so much: many values are the same small integer.
-    followers: Mutex<BTreeMap<Vec<(Leaf, u64)>, Option<Followers>>>,
+    followers: Mutex<Known>,
 }
 
 /// A number in the results: the index of its part, and its path there.
@@ -247,6 +247,9 @@ impl Bench<'_> {
 fn moved(leaves: &[Leaf], by: impl Fn(usize) -> f64) -> Vec<Move> {
     leaves.iter().enumerate().map(|(i, leaf)| (leaf.clone(), by(i))).collect()
 }
+
+/// Followers by what was moved, with the bits of each step; none where there was no report.
+type Known = BTreeMap<Vec<(Leaf, u64)>, Option<Followers>>;
 
 /// What a wrong number leads to.
 enum Wrong {
