@@ -96,8 +96,12 @@ fn end(lines: &[&str], first: usize, indent: usize) -> usize {
     // A value that begins on the next line ends there, or where its bracket closes.
     let deeper = |line: &str| line.len() - line.trim_start().len() == indent + 4;
     let below = |line: &str| lines[first].ends_with('=') && deeper(line) && line.ends_with(';');
+    // A text over several lines ends with its quotation mark, wherever that stands.
+    let of_text = lines[first].contains(": &str = ");
+    let text = |line: &str| of_text && (line.ends_with("\";") || line.ends_with("\"#;"));
     // A signature over several lines closes with `) -> T {`, which is no end.
-    let last = |i: &usize| below(lines[*i]) || closes(lines[*i]) && whole(lines[*i]);
+    let last =
+        |i: &usize| text(lines[*i]) || below(lines[*i]) || closes(lines[*i]) && whole(lines[*i]);
     (first + 1..lines.len()).find(last).unwrap_or(lines.len() - 1)
 }
 
