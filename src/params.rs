@@ -4,6 +4,7 @@
 //! of the sample sizes, and of nothing else: it never changes the model.
 
 mod accuracy;
+mod chains;
 mod chosen;
 mod heat;
 mod history;
@@ -17,6 +18,7 @@ mod spacetime;
 pub use accuracy::{
     AnalyticParams, BiasParams, MethodName, RaceParams, ScaleParams, Setting, TrialParams,
 };
+pub use chains::{ChainCurve, ChainsParams};
 pub use chosen::*;
 pub use heat::{HeatParams, HeatRow};
 pub use history::HistoryParams;

@@ -7,13 +7,13 @@ use std::sync::LazyLock;
 use impact_paper::experiments::accuracy::{analytic, bias, race, scale};
 use impact_paper::experiments::segments::{Segment, SegmentImpact, Segments};
 use impact_paper::experiments::{
-    Measured, Progress, Results, heat, independence, nucleation, orbits, protocol, restitution,
-    seeds, spacetime, sweep,
+    Measured, Progress, Results, chains, heat, independence, nucleation, orbits, protocol,
+    restitution, seeds, spacetime, sweep,
 };
 use impact_paper::figures::{self, Error, Figure};
 use impact_paper::params::{
-    AnalyticParams, BiasParams, HeatParams, IndependenceParams, NucleationParams, OrbitsParams,
-    Profile, ProtocolParams, RaceParams, RestitutionParams, ScaleParams, SeedsParams,
+    AnalyticParams, BiasParams, ChainsParams, HeatParams, IndependenceParams, NucleationParams,
+    OrbitsParams, Profile, ProtocolParams, RaceParams, RestitutionParams, ScaleParams, SeedsParams,
     SpaceTimeParams, SweepParams,
 };
 use roxmltree::{Document, Node};
@@ -64,6 +64,8 @@ fn results(profile: Profile) -> Results {
     results.orbits = Some(orbits::run(&OrbitsParams::new(quick), &quiet).unwrap());
     let parameters = RestitutionParams::new(quick);
     results.restitution = Some(restitution::CUTTING.run(&parameters, "test", &quiet).unwrap());
+    let parameters = ChainsParams::new(quick);
+    results.chains = Some(chains::CUTTING.run(&parameters, "test", &quiet).unwrap());
     results.measured = Some(Measured::embedded().unwrap());
     results
 }
@@ -145,7 +147,7 @@ fn label(group: &Node) -> Label {
 #[test]
 fn every_figure_is_a_titled_and_described_picture() {
     let drawn = all(quick());
-    assert_eq!(drawn.len(), 29);
+    assert_eq!(drawn.len(), 30);
     for (number, figure) in figures::all().zip(&drawn) {
         assert_eq!(figure.id, number.id());
         let document = Document::parse(&figure.svg).unwrap();
@@ -422,7 +424,7 @@ fn less_than_the_full_profile_is_marked() {
     let quick = all(quick());
     let simulated = [
         "fig02", "fig03", "fig12", "fig15", "s01", "s02", "s03", "s04", "s05", "s06", "s09", "s10",
-        "s11", "s12", "s13", "s14",
+        "s11", "s12", "s13", "s14", "s15",
     ];
     for figure in &quick {
         let marked = figure.svg.contains("profile quick: not for citation");

@@ -315,6 +315,31 @@ impl Scenario {
         Ok(())
     }
 
+    /// The same motion with time begun anew at `time`, from the free parts that its masses have then: every
+    /// phase is turned by what passed, and places, velocities and forces go on.
+    pub fn later(&self, free: &[[f64; 2]], time: f64) -> Scenario {
+        let turned = |pairs: &[[f64; 2]], frequency: f64| -> Vec<[f64; 2]> {
+            let (sin, cos) = pxfm::f_sincos(frequency * time);
+            pairs.iter().map(|[a, b]| [a * cos + b * sin, b * cos - a * sin]).collect()
+        };
+        let overtone = |own: &Overtone| Overtone {
+            frequency: own.frequency,
+            amplitudes: turned(&own.amplitudes, own.frequency),
+        };
+        Scenario {
+            initial: Initial::Free(turned(free, self.natural_frequency)),
+            forcing: turned(&self.forcing, self.forcing_frequency),
+            overtones: self.overtones.iter().map(overtone).collect(),
+            ..self.clone()
+        }
+    }
+
+    /// The components of the forcing: frequency, and amplitudes of each mass.
+    pub fn components(&self) -> impl Iterator<Item = (f64, &[[f64; 2]])> {
+        let further = self.overtones.iter().map(|own| (own.frequency, own.amplitudes.as_slice()));
+        std::iter::once((self.forcing_frequency, self.forcing.as_slice())).chain(further)
+    }
+
     /// The frequencies of the forcing, filled up to `M` with the first.
     pub(super) fn frequencies<const M: usize>(&self) -> [f64; M] {
         std::array::from_fn(|m| match m.checked_sub(1).and_then(|m| self.overtones.get(m)) {

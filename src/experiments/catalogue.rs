@@ -4,20 +4,20 @@ use super::Need;
 use super::accuracy::{analytic, bias, race, scale, trials};
 use super::experiment::How::{Cut, Whole};
 use super::{
-    deep, heat, history, horizon, independence, nucleation, orbits, protocol, restitution, seeds,
-    spacetime, starts, sweep, tally, two_masses, weights,
+    chains, deep, heat, history, horizon, independence, nucleation, orbits, protocol, restitution,
+    seeds, spacetime, starts, sweep, tally, two_masses, weights,
 };
 use crate::params::{
-    AnalyticParams, BiasParams, HeatParams, HistoryParams, HorizonParams, IndependenceParams,
-    NucleationParams, OrbitsParams, Profile, ProtocolParams, RaceParams, RestitutionParams,
-    ScaleParams, SeedsParams, SpaceTimeParams, StartsParams, SweepParams, TrialParams,
-    TwoMassesParams,
+    AnalyticParams, BiasParams, ChainsParams, HeatParams, HistoryParams, HorizonParams,
+    IndependenceParams, NucleationParams, OrbitsParams, Profile, ProtocolParams, RaceParams,
+    RestitutionParams, ScaleParams, SeedsParams, SpaceTimeParams, StartsParams, SweepParams,
+    TrialParams, TwoMassesParams,
 };
 
 pub use super::experiment::{Experiment, Saved};
 
 /// The experiments that are saved, in the order in which they run.
-const ALL: [&dyn Saved; 20] = [
+const ALL: [&dyn Saved; 21] = [
     &SWEEP,
     &SECOND_SEED,
     &PROTOCOL,
@@ -37,6 +37,7 @@ const ALL: [&dyn Saved; 20] = [
     &INDEPENDENCE,
     &ORBITS,
     &RESTITUTION,
+    &CHAINS,
     &LONG_AUDIT,
 ];
 
@@ -205,6 +206,14 @@ pub const ORBITS: Experiment<OrbitsParams, orbits::Orbits> = Experiment {
     module: "src/experiments/orbits/mod.rs",
     parameters: OrbitsParams::new,
     how: Whole { run: orbits::run, weight: |p| 60 * orbits::starts(p) },
+};
+
+/// Long chains, damping and other forces.
+pub const CHAINS: Experiment<ChainsParams, chains::Chains, chains::Part> = Experiment {
+    need: Need::Chains,
+    module: "src/experiments/chains/mod.rs",
+    parameters: ChainsParams::new,
+    how: Cut("long chains", chains::CUTTING),
 };
 
 /// Chains of several restitutions.

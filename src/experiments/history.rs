@@ -123,26 +123,21 @@ fn realisation(
 }
 
 /// The scenario that goes on from a time at which all forces change by a factor: places and velocities
-/// stay, so the free parts take what the forced parts lose. Time begins anew, with the phase that the
-/// forces have.
+/// stay, so the free parts take what the forced parts lose.
 fn lowered(hot: &Scenario, free: &[[f64; 2]], time: f64, factor: f64) -> Scenario {
     let (omega, big_omega) = (hot.natural_frequency, hot.forcing_frequency);
-    let detuning = omega * omega - big_omega * big_omega;
-    let (sin, cos) = pxfm::f_sincos(omega * time);
-    let (forced_sin, forced_cos) = pxfm::f_sincos(big_omega * time);
-    let turned = |[a, b]: [f64; 2], sin: f64, cos: f64| [a * cos + b * sin, b * cos - a * sin];
-    let forces: Vec<[f64; 2]> =
-        hot.forcing.iter().map(|pair| turned(*pair, forced_sin, forced_cos)).collect();
-    let part = |(force, own): (&[f64; 2], &[f64; 2])| {
-        let [a, b] = turned(*own, sin, cos);
-        let lost = (1.0 - factor) / detuning;
-        [a + lost * force[0], b + lost * big_omega / omega * force[1]]
-    };
-    Scenario {
-        initial: Initial::Free(forces.iter().zip(free).map(part).collect()),
-        forcing: forces.iter().map(|pair| pair.map(|x| factor * x)).collect(),
-        ..hot.clone()
+    let lost = (1.0 - factor) / (omega * omega - big_omega * big_omega);
+    let mut now = hot.later(free, time);
+    if let Initial::Free(parts) = &mut now.initial {
+        for ([a, b], force) in parts.iter_mut().zip(&now.forcing) {
+            *a += lost * force[0];
+            *b += lost * big_omega / omega * force[1];
+        }
     }
+    for force in &mut now.forcing {
+        *force = force.map(|x| factor * x);
+    }
+    now
 }
 
 fn fits(parameters: &HistoryParams, unit: &Unit, runs: &Part) -> bool {

@@ -2,6 +2,7 @@
 
 pub mod accuracy;
 pub mod catalogue;
+pub mod chains;
 pub mod cutting;
 pub mod deep;
 pub mod error;

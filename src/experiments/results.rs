@@ -3,8 +3,8 @@
 use super::accuracy::{analytic, bias, race, scale, trials};
 use super::{Error, Measured};
 use super::{
-    deep, heat, history, horizon, identities, independence, laws, nucleation, orbits, protocol,
-    restitution, seeds, segments, spacetime, starts, sweep, theory, two_masses,
+    chains, deep, heat, history, horizon, identities, independence, laws, nucleation, orbits,
+    protocol, restitution, seeds, segments, spacetime, starts, sweep, theory, two_masses,
 };
 use crate::params::{Profile, VERTICES};
 use std::sync::LazyLock;
@@ -57,13 +57,15 @@ pub enum Need {
     Orbits,
     /// [`Results::restitution`].
     Restitution,
+    /// [`Results::chains`].
+    Chains,
     /// [`Results::long_protocol`]: read; a sample of it is run again.
     LongProtocol,
 }
 
 impl Need {
     /// Everything: what the report needs.
-    pub const ALL: [Need; 23] = [
+    pub const ALL: [Need; 24] = [
         Need::Sweep,
         Need::SecondSeed,
         Need::Protocol,
@@ -86,6 +88,7 @@ impl Need {
         Need::Independence,
         Need::Orbits,
         Need::Restitution,
+        Need::Chains,
         Need::LongProtocol,
     ];
 
@@ -114,6 +117,7 @@ impl Need {
             Need::Independence => "independence",
             Need::Orbits => "orbits",
             Need::Restitution => "restitution",
+            Need::Chains => "chains",
             Need::LongProtocol => "long_protocol",
         }
     }
@@ -172,6 +176,8 @@ pub struct Results {
     pub orbits: Option<orbits::Orbits>,
     /// Chains of several restitutions.
     pub restitution: Option<restitution::Restitution>,
+    /// Long chains, damping and other forces.
+    pub chains: Option<chains::Chains>,
     /// The long end of the map, carried over.
     pub long_protocol: Option<deep::Carried>,
 }
@@ -237,6 +243,8 @@ asked_for! {
     orbits: orbits::Orbits, Orbits;
     /// Chains of several restitutions.
     restitution: restitution::Restitution, Restitution;
+    /// Long chains, damping and other forces.
+    chains: chains::Chains, Chains;
     /// The long end of the map.
     long_protocol: deep::Carried, LongProtocol;
 }
@@ -280,6 +288,7 @@ impl Results {
             independence: None,
             orbits: None,
             restitution: None,
+            chains: None,
             long_protocol: None,
         }
     }

@@ -46,7 +46,7 @@ pub fn run(
         second_seed: SECOND_SEED, protocol: PROTOCOL, starts: STARTS, horizon: HORIZON,
         two_masses: TWO_MASSES, spacetime: SPACE_TIME, race: RACE, biases: BIAS, trials: TRIALS,
         scale: SCALE, analytic: ANALYTIC, heat: HEAT, nucleation: NUCLEATION, seeds: SEEDS, history: HISTORY, independence: INDEPENDENCE, orbits: ORBITS,
-        restitution: RESTITUTION
+        restitution: RESTITUTION, chains: CHAINS
     );
     if needs(Need::LongProtocol) {
         let audit = catalogue::LONG_AUDIT.get(profile, store, progress)?;

@@ -44,6 +44,7 @@ mod s11;
 mod s12;
 mod s13;
 mod s14;
+mod s15;
 mod scene;
 mod series;
 mod sheet;
@@ -148,6 +149,7 @@ pub fn needs(number: Number) -> &'static [Need] {
         Number::Own(12) => &[Need::Independence],
         Number::Own(13) => &[Need::Orbits],
         Number::Own(14) => &[Need::Restitution],
+        Number::Own(15) => &[Need::Chains, Need::Protocol],
         _ => &[],
     }
 }
@@ -203,6 +205,7 @@ pub fn draw(number: Number, results: &Results) -> Result<Figure, Error> {
         Number::Own(12) => s12::draw(results.independence()?, note),
         Number::Own(13) => s13::draw(results.orbits()?, note),
         Number::Own(14) => s14::draw(results.restitution()?, note),
+        Number::Own(15) => s15::draw(results.chains()?, results.protocol()?, note),
         _ => Err(Error::Number(number)),
     }
 }

@@ -17,7 +17,7 @@ impl Number {
     pub const PAPER: u8 = 15;
 
     /// How many figures are our own.
-    pub const OWN: u8 = 14;
+    pub const OWN: u8 = 15;
 
     /// `fig03` or `s01`: the file name of the picture without its ending.
     pub fn id(self) -> String {

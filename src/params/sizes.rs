@@ -127,11 +127,13 @@ impl ProtocolParams {
     /// The map of each profile.
     pub fn new(profile: Profile) -> Self {
         let (longest, sigmas, realisations) = match profile {
-            Profile::Full | Profile::Deep => (7, Grid::default().and(34, 68, 2, 400).values(), 120),
-            Profile::Ci => (5, Grid::default().and(9, 17, 1, 100).values(), 24),
-            Profile::Quick => (4, Grid::default().and(9, 17, 1, 100).values(), 6),
+            Profile::Full | Profile::Deep => {
+                (9, Grid::default().and(34, 68, 2, 400).and(18, 22, 1, 100).values(), 120)
+            }
+            Profile::Ci => (7, Grid::default().and(9, 17, 1, 100).values(), 24),
+            Profile::Quick => (6, Grid::default().and(9, 17, 1, 100).values(), 6),
         };
-        let transients = [50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0, 4000.0];
+        let transients = [10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0, 4000.0];
         ProtocolParams {
             chain: Chain::default(),
             transients: transients[..longest].to_vec(),

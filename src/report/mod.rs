@@ -32,8 +32,7 @@ pub mod recipe;
 pub mod sums;
 pub mod templates;
 mod tex;
-#[cfg(feature = "pdf")]
-mod typeset;
+pub mod typeset;
 mod uses;
 pub mod valued;
 pub mod values;

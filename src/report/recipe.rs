@@ -42,6 +42,7 @@ pub fn recipe(name: &str, profile: Profile) -> Option<Recipe> {
         "independence" => ("independence", "experiments::independence::run"),
         "orbits" => ("orbits", "experiments::orbits::run"),
         "restitution" => ("restitution", "experiments::restitution::CUTTING"),
+        "chains" => ("chains", "experiments::chains::CUTTING"),
         "long_protocol" => ("long_protocol", "experiments::deep::audit"),
         "theory" => ("theory", "experiments::theory::run"),
         _ => return None,

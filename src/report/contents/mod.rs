@@ -3,9 +3,10 @@
 //! A value is computed here from results and carries the path of the item that computed it. Groups
 //! are `v` (ours), `paper` (numbers that the paper chose), `printed` (numbers in its statements), and
 //! one for the cells of each table: `compare`, `protocol`, `long`, `nucleation`, `spread`, `growth`, `heat`,
-//! `scores`, `history`, `independence`, `orbits`, `restitution`, `starts` and `bias`.
+//! `scores`, `history`, `independence`, `orbits`, `restitution`, `chains`, `starts` and `bias`.
 
 mod accuracy;
+mod chains;
 mod comparison;
 mod growth;
 mod heat;
@@ -79,6 +80,7 @@ pub fn registry(results: &Results, published: &Published) -> Result<Registry, Er
     registry.extend(independence::values(results)?)?;
     registry.extend(orbits::values(results)?)?;
     registry.extend(restitution::values(results)?)?;
+    registry.extend(chains::values(results)?)?;
     registry.extend(ledger::values(results))?;
     Ok(registry)
 }
@@ -116,6 +118,10 @@ pub fn rows(
         ("orbits_table", serde_json::to_value(orbits::table(results)?)?),
         ("orbits_fig6", serde_json::to_value(orbits::fig6(results)?)?),
         ("restitution_table", serde_json::to_value(restitution::table(results)?)?),
+        ("chains_lengths", serde_json::to_value(chains::lengths_table(results)?)?),
+        ("chains_times", serde_json::to_value(chains::drift_times(results)?)?),
+        ("chains_drifts", serde_json::to_value(chains::drift_table(results)?)?),
+        ("chains_forces", serde_json::to_value(chains::forces_table(results)?)?),
         ("starts_table", serde_json::to_value(starts::table(results)?)?),
         ("bias_heads", serde_json::to_value(accuracy::bias_heads(results)?)?),
         ("bias_table", serde_json::to_value(accuracy::bias_table(results)?)?),

@@ -8,6 +8,7 @@
 //! that fails, and `impact-paper mutate` measures what they notice.
 
 mod accuracy;
+mod chains;
 mod comparison;
 mod counts;
 mod growth;
@@ -84,6 +85,7 @@ pub fn all() -> impl Iterator<Item = &'static Guard> {
         independence::GUARDS,
         orbits::GUARDS,
         restitution::GUARDS,
+        chains::GUARDS,
         motion::GUARDS,
         simple::GUARDS,
         relation::GUARDS,

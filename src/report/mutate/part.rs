@@ -62,7 +62,7 @@ macro_rules! looked_at {
 }
 
 /// All parts. What is computed from the main sweep in memory stands before it.
-const PARTS: [Part; 25] = [
+const PARTS: [Part; 26] = [
     looked_at!(theory),
     looked_at!(identities),
     ran!("laws", laws),
@@ -101,6 +101,7 @@ const PARTS: [Part; 25] = [
     ran!("independence", independence, &["hits", "histogram"]),
     ran!("orbits", orbits, &["found", "ends", "singles", "each", "example"]),
     ran!("restitution", restitution, &["runs", "able_drawn"]),
+    ran!("chains", chains, &["runs"]),
     ran!("long_protocol", long_protocol),
 ];
 

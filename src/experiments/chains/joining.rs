@@ -1,0 +1,148 @@
+//! Shares, half heights and widths from what the realisations showed.
+
+use super::super::estimates::{average, jackknife};
+use super::super::{Error, Progress};
+use super::{Chains, Curve, Ensemble, Part, Run, cases, chain, pieces};
+use crate::circuits::nucleation::chain::Chances;
+use crate::circuits::nucleation::reach::Reach;
+use crate::numerics::statistics::last_rise;
+use crate::params::{Chain, ChainCurve, ChainsParams};
+
+pub(super) fn join(
+    parameters: &ChainsParams,
+    parts: Vec<Vec<Part>>,
+    progress: &Progress,
+) -> Result<Chains, Error> {
+    let mut rows = cases(parameters).zip(parts).map(|((curve, sigma), parts)| {
+        progress.check()?;
+        Ok(ensemble(&sizes(parameters, curve), sigma, parts.concat()))
+    });
+    let of = |own: &ChainCurve| {
+        let rows = rows.by_ref().take(own.sigmas.len()).collect::<Result<_, Error>>()?;
+        Ok(curve(parameters, own, rows))
+    };
+    let curves = parameters.curves.iter().map(of).collect::<Result<_, Error>>()?;
+    Ok(Chains { parameters: parameters.clone(), curves })
+}
+
+fn sizes(parameters: &ChainsParams, curve: &ChainCurve) -> Vec<usize> {
+    pieces(chain(parameters, curve).gaps(), parameters.piece)
+}
+
+/// The shares of all pieces of all runs in one window.
+fn shares<'a>(
+    runs: &'a [Run],
+    sizes: &'a [usize],
+    window: usize,
+) -> impl Iterator<Item = f64> + 'a {
+    let of = move |run: &'a Run| run.counts[window].iter().zip(sizes);
+    runs.iter().flat_map(of).map(|(&k, &size)| f64::from(k) / size as f64)
+}
+
+fn alive(run: &Run) -> bool {
+    run.counts.last().is_some_and(|own| own.iter().any(|&k| k > 0))
+}
+
+fn ensemble(sizes: &[usize], sigma: f64, found: Part) -> Ensemble {
+    let failed = found.iter().filter(|run| run.is_none()).count() as u64;
+    let runs: Vec<Run> = found.into_iter().flatten().collect();
+    let windows = runs.first().map_or(0, |run| run.counts.len());
+    let share = |window| average(&shares(&runs, sizes, window).collect::<Vec<_>>());
+    let count = |of: &dyn Fn(&Run) -> bool| runs.iter().filter(|run| of(run)).count() as u64;
+    Ensemble {
+        sigma,
+        shares: (0..windows).map(share).collect(),
+        silent: [true, false].map(|open| count(&|run| (run.open > 0) == open && !alive(run))),
+        chains: [true, false].map(|open| count(&|run| (run.open > 0) == open)),
+        failed,
+        runs,
+    }
+}
+
+fn curve(parameters: &ChainsParams, own: &ChainCurve, rows: Vec<Ensemble>) -> Curve {
+    let (sizes, chain) = (sizes(parameters, own), chain(parameters, own));
+    let reaches = reaches(parameters, own);
+    let in_window = |window: usize| -> Vec<Vec<f64>> {
+        let of = |row: &Ensemble| match row.shares.len() > window {
+            true => shares(&row.runs, &sizes, window).collect(),
+            false => Vec::new(),
+        };
+        rows.iter().map(of).collect()
+    };
+    let windows: Vec<Vec<Vec<f64>>> = (0..own.transients.len()).map(in_window).collect();
+    let lives =
+        |row: &Ensemble| row.runs.iter().map(|run| f64::from(u8::from(alive(run)))).collect();
+    let lives: Vec<Vec<f64>> = rows.iter().map(lives).collect();
+    let rise = |samples: &[Vec<f64>], out: Option<usize>, level: f64| {
+        let mean = |own: &Vec<f64>| {
+            let kept = own.iter().enumerate().filter(|(at, _)| Some(*at) != out);
+            let (n, sum) = kept.fold((0, 0.0), |(n, sum), (_, x)| (n + 1, sum + x));
+            (n > 0).then(|| sum / f64::from(n))
+        };
+        let means: Vec<Option<f64>> = samples.iter().map(mean).collect();
+        last_rise(&own.sigmas, &means, level)
+    };
+    let number = |samples: &[Vec<f64>]| samples.iter().map(Vec::len).min().unwrap_or(0);
+    let at = |samples: &Vec<Vec<f64>>, level| {
+        jackknife(number(samples), |out| rise(samples, out, level))
+    };
+    let width = |samples: &Vec<Vec<f64>>| {
+        let lead = |out| Some(rise(samples, out, 0.9)? - rise(samples, out, 0.1)?);
+        jackknife(number(samples), lead)
+    };
+    Curve {
+        name: own.name.clone(),
+        half_heights: windows.iter().map(|samples| at(samples, 0.5)).collect(),
+        widths: windows.iter().map(width).collect(),
+        kept_half: at(&lives, 0.5),
+        kept_half_expected: reaches
+            .as_ref()
+            .map(|both| both.each_ref().map(|own| half(&chain, own))),
+        kept_expected: reaches.map_or(Vec::new(), |both| {
+            drawn(&own.sigmas, |sigma| both.each_ref().map(|own| share(&chain, own, sigma)))
+        }),
+        rows,
+    }
+}
+
+/// Angles at which the reach of a gap is computed, and of which each of so many serves for neighbours.
+const ANGLES: [usize; 2] = [256, 4];
+
+/// Values at equal steps from the first σ to the last.
+fn drawn(sigmas: &[f64], shares: impl Fn(f64) -> [f64; 2]) -> Vec<[f64; 3]> {
+    let (Some(from), Some(to)) = (sigmas.first(), sigmas.last()) else { return Vec::new() };
+    let at = |i: u32| from + (to - from) * f64::from(i) / 40.0;
+    let row = |sigma| {
+        let [ever, there] = shares(sigma);
+        [sigma, ever, there]
+    };
+    (0..=40).map(at).map(row).collect()
+}
+
+/// How far a gap reaches that closes by itself, at another frequency than the paper's: in unlimited time if the
+/// frequencies have no common period, and until the end of the last window as they are.
+fn reaches(parameters: &ChainsParams, curve: &ChainCurve) -> Option<[Reach; 2]> {
+    let chain = chain(parameters, curve);
+    if chain.forcing_frequency == parameters.chain.forcing_frequency {
+        return None;
+    }
+    let until = curve.transients.last()? + parameters.window;
+    let within = Reach::within(&chain, &[until], ANGLES[0]).pop()?;
+    Some([Reach::ever(&chain, ANGLES[0]), within])
+}
+
+/// The share of the chains in which such a gap closes.
+fn share(chain: &Chain, reach: &Reach, sigma: f64) -> f64 {
+    let chances = Chances::new(chain, reach, &reach.every(ANGLES[1]), sigma);
+    chances.at_least_one(chain.masses, chain.boundary).value
+}
+
+/// The σ at which it is a half, by halving intervals of its logarithm.
+fn half(chain: &Chain, reach: &Reach) -> f64 {
+    let (mut low, mut high) = (1e-2 * chain.spacing, 10.0 * chain.spacing);
+    for _ in 0..50 {
+        let middle = (low * high).sqrt();
+        if share(chain, reach, middle) < 0.5 { low = middle } else { high = middle }
+    }
+    (low * high).sqrt()
+}

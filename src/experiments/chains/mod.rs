@@ -1,0 +1,160 @@
+//! Chains that differ from the paper's in length, damping or force.
+//!
+//! One kind of run serves all: a chain goes through several windows, and the different gaps with an
+//! impact in each are counted, those of a long chain piece by piece.
+
+mod joining;
+mod run;
+#[cfg(test)]
+mod tests;
+
+pub use run::FREQUENCIES;
+
+use super::cutting::{Cutting, Row, Unit};
+use super::progress::Stage;
+use super::{Error, Progress, weights};
+use crate::numerics::statistics::Estimate;
+use crate::params::{Chain, ChainCurve, ChainsParams};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+/// All curves.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Chains {
+    /// What was run.
+    pub parameters: ChainsParams,
+    /// In the order of the parameters.
+    pub curves: Vec<Curve>,
+}
+
+/// One kind of chain at several σ.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Curve {
+    /// As in the parameters.
+    pub name: String,
+    /// One for each σ, rising.
+    pub rows: Vec<Ensemble>,
+    /// For each transient, where the mean share of the gaps with an impact is a half ...
+    pub half_heights: Vec<Option<Estimate>>,
+    /// ... and how far the σ lie apart at which it is a tenth and nine tenths.
+    pub widths: Vec<Option<Estimate>>,
+    /// Where half of the chains have impacts in the last window.
+    pub kept_half: Option<Estimate>,
+    /// For another frequency, where half of the chains have a gap that closes by itself: if the phases came as
+    /// close to any pair as one likes, and with the phases that there are until the end.
+    pub kept_half_expected: Option<[f64; 2]>,
+    /// (σ, these two shares of the chains), to be drawn.
+    pub kept_expected: Vec<[f64; 3]>,
+}
+
+/// Chains of one kind at one σ.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Ensemble {
+    /// Standard deviation σ of the amplitudes.
+    pub sigma: f64,
+    /// What each realisation showed.
+    pub runs: Vec<Run>,
+    /// For each transient the mean share of the gaps with an impact in the window.
+    pub shares: Vec<Option<Estimate>>,
+    /// Chains without an impact in the last window: of those with an open gap, and of the others.
+    pub silent: [u64; 2],
+    /// Chains with an open gap, and the others.
+    pub chains: [u64; 2],
+    /// Realisations that the engine ended early.
+    pub failed: u64,
+}
+
+/// What one realisation showed.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Run {
+    /// Different gaps with an impact in the window after each transient, of each piece of the chain.
+    pub counts: Vec<Vec<u32>>,
+    /// Open gaps: those that the forced motion alone closes.
+    pub open: u32,
+}
+
+/// Some realisations of one row; none where the engine gave up.
+pub type Part = Vec<Option<Run>>;
+
+/// The experiment in units of work.
+pub const CUTTING: Cutting<ChainsParams, Part, Chains> =
+    Cutting { rows, part, fits, join: joining::join };
+
+impl Chains {
+    /// The curve of a name, and its parameters.
+    pub fn curve(&self, name: &str) -> Option<(&ChainCurve, &Curve)> {
+        let mut all = self.parameters.curves.iter().zip(&self.curves);
+        all.find(|(_, curve)| curve.name == name)
+    }
+}
+
+/// The chain of a curve.
+pub fn chain(parameters: &ChainsParams, curve: &ChainCurve) -> Chain {
+    Chain {
+        masses: curve.masses,
+        forcing_frequency: curve.forcing_frequency,
+        start: curve.start,
+        boundary: curve.boundary,
+        ..parameters.chain.clone()
+    }
+}
+
+/// The sizes of the pieces of a chain with so many gaps: as many as are no smaller than `piece`, of about
+/// equal size.
+pub fn pieces(gaps: usize, piece: usize) -> Vec<usize> {
+    let number = (gaps / piece.max(1)).max(1);
+    let at = |i: usize| i * gaps / number;
+    (0..number).map(|i| at(i + 1) - at(i)).collect()
+}
+
+/// Each curve with each of its σ.
+fn cases(parameters: &ChainsParams) -> impl Iterator<Item = (&ChainCurve, f64)> {
+    parameters.curves.iter().flat_map(|curve| curve.sigmas.iter().map(move |&s| (curve, s)))
+}
+
+fn weight(parameters: &ChainsParams, curve: &ChainCurve, sigma: f64) -> u64 {
+    let until = curve.transients.last().copied().unwrap_or(0.0) + parameters.window;
+    let strokes = if curve.damping > 0.0 { (until / parameters.stroke) as u64 } else { 0 };
+    // A force with several components costs each search as much more.
+    let one = weights::run(&chain(parameters, curve), sigma, until) * curve.components as u64;
+    one + strokes * curve.masses as u64
+}
+
+fn rows(parameters: &ChainsParams) -> Vec<Row> {
+    let row = |(curve, sigma): (&ChainCurve, f64)| Row {
+        covers: format!("{}, sigma = {sigma}", curve.name),
+        realisations: curve.realisations,
+        weight: weight(parameters, curve, sigma),
+    };
+    cases(parameters).map(row).collect()
+}
+
+fn part(
+    parameters: &ChainsParams,
+    unit: &Unit,
+    stage: &Stage,
+    progress: &Progress,
+) -> Result<Part, Error> {
+    let Some((curve, sigma)) = cases(parameters).nth(unit.row) else { return Ok(Vec::new()) };
+    let one = |index| {
+        let found = run::realisation(parameters, curve, sigma, index as u64, progress);
+        stage.advance(weight(parameters, curve, sigma));
+        found
+    };
+    unit.realisations.clone().into_par_iter().with_max_len(1).map(one).collect()
+}
+
+fn fits(parameters: &ChainsParams, unit: &Unit, runs: &Part) -> bool {
+    let Some((curve, _)) = cases(parameters).nth(unit.row) else { return false };
+    let gaps = chain(parameters, curve).gaps();
+    let sizes = pieces(gaps, parameters.piece);
+    let window = |own: &Vec<u32>| {
+        own.len() == sizes.len() && own.iter().zip(&sizes).all(|(&k, &size)| k as usize <= size)
+    };
+    let fits = |run: &Run| {
+        run.counts.len() == curve.transients.len()
+            && run.counts.iter().all(window)
+            && run.open as usize <= gaps
+    };
+    runs.len() == unit.realisations.len() && runs.iter().flatten().all(fits)
+}

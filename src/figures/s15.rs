@@ -1,0 +1,303 @@
+//! Fig. S15: long chains, friction, and a force with a common period.
+
+use super::axis::{Axis, log};
+use super::chart::{LETTERS, short};
+use super::data::cells;
+use super::panel::{Frame, Panel};
+use super::series::Outside;
+use super::sheet::{Entry, Sheet};
+use super::style::{
+    BLUE, Colour, Dash, GREEN, INK, LINE, Mark, ORANGE, PURPLE, RED, SMALL, Stroke, THIN,
+};
+use super::{DataFile, Error, Figure};
+use crate::experiments::chains::{Chains, Curve, Ensemble};
+use crate::experiments::protocol::ProtocolMap;
+use crate::numerics::statistics::Estimate;
+use crate::params::ChainCurve;
+
+/// Marks and colours of lengths and of frictions, from the smallest.
+const LOOKS: [(Mark, Colour); 5] = [
+    (Mark::Ring, PURPLE),
+    (Mark::Disc, BLUE),
+    (Mark::Square, GREEN),
+    (Mark::Diamond, ORANGE),
+    (Mark::Disc, RED),
+];
+
+/// The half size of marks.
+const SIZE: i32 = 52;
+
+/// The frequency of (d).
+const COMMON: &str = "frequency-2";
+
+/// Draws the figure.
+pub fn draw(chains: &Chains, map: &ProtocolMap, note: Option<&str>) -> Result<Figure, Error> {
+    let sheet = Sheet::new(10_800, note)?;
+    lengths(&sheet, chains)?;
+    times(&sheet, chains, map)?;
+    frictions(&sheet, chains, map)?;
+    period(&sheet, chains)?;
+    let title = "Long chains, friction, and a common period";
+    Ok(sheet.finish_own(15, title, description(chains, map), tables(chains, map)))
+}
+
+fn of<'a>(
+    chains: &'a Chains,
+    kind: &'static str,
+) -> impl Iterator<Item = (&'a ChainCurve, &'a Curve)> {
+    let all = chains.parameters.curves.iter().zip(&chains.curves);
+    all.filter(move |(own, _)| own.name.starts_with(kind))
+}
+
+/// The look of a length, by its order of magnitude.
+fn look(masses: usize) -> (Mark, i32, Stroke) {
+    let tens = pxfm::f_log10(masses as f64).round() as usize;
+    let (mark, colour) = LOOKS[tens.saturating_sub(1).min(LOOKS.len() - 1)];
+    (mark, SIZE, Stroke::solid(colour, THIN))
+}
+
+/// The transient that all lengths have.
+const COMMON_TIME: f64 = 500.0;
+
+/// (σ, share) of a curve at a transient.
+fn shares(own: &ChainCurve, curve: &Curve, time: f64) -> Vec<(f64, Estimate)> {
+    let Some(at) = own.transients.iter().position(|own| *own == time) else { return Vec::new() };
+    curve.rows.iter().filter_map(|row| Some((row.sigma, row.shares[at]?))).collect()
+}
+
+fn points(all: &[(f64, Estimate)]) -> Vec<(f64, f64)> {
+    all.iter().map(|(x, own)| (*x, own.value)).collect()
+}
+
+/// Points with bars of one standard error, cut to the frame.
+fn estimates(
+    panel: &Panel,
+    name: &str,
+    all: &[(f64, Estimate)],
+    look: (Mark, i32, Stroke),
+) -> Result<(), Error> {
+    let inside = |y: f64| y.clamp(panel.y.lo, panel.y.hi);
+    let bars: Vec<_> = all
+        .iter()
+        .map(|(x, own)| (*x, inside(own.value - own.error), inside(own.value + own.error)))
+        .collect();
+    panel.bars(name, &bars, 35, look.2)?;
+    panel.marks(name, &points(all), look, Outside::Cut)
+}
+
+fn lengths(sheet: &Sheet, chains: &Chains) -> Result<(), Error> {
+    let panel = sheet.panel(
+        Frame::new(1000, 430, 4050, 3730),
+        Axis::linear(0.07, 0.19, 0.02, 2, "*σ*"),
+        Axis::linear(0.0, 1.0, 0.2, 2, "share of the gaps"),
+    )?;
+    panel.letter(LETTERS[0])?;
+    let mut entries = Vec::new();
+    for (own, curve) in of(chains, "length-") {
+        let all = shares(own, curve, COMMON_TIME);
+        if all.is_empty() {
+            continue;
+        }
+        let look = look(own.masses);
+        let name = format!("*n* = {}", own.masses);
+        panel.curve(&name, &points(&all), look.2, Outside::Cut)?;
+        estimates(&panel, &name, &all, look)?;
+        entries.push(Entry::mark(look.0, look.1, look.2, &name));
+    }
+    for (i, column) in entries.chunks(3).enumerate() {
+        sheet.legend((700 + 1650 * i as i32, 4560), (SMALL, 340), column)?;
+    }
+    Ok(())
+}
+
+/// (T, half height) of the map.
+fn of_map(chains: &Chains, map: &ProtocolMap) -> Vec<(f64, Estimate)> {
+    let window = chains.parameters.window;
+    let cells = map.cells.iter().filter(|cell| cell.window == window);
+    cells.filter_map(|cell| Some((cell.transient, cell.half_height_all?))).collect()
+}
+
+/// (T, half height) of a curve.
+fn halves(own: &ChainCurve, curve: &Curve) -> Vec<(f64, Estimate)> {
+    let all = own.transients.iter().zip(&curve.half_heights);
+    all.filter_map(|(time, half)| Some((*time, (*half)?))).collect()
+}
+
+fn logarithmic(all: Vec<(f64, Estimate)>) -> Vec<(f64, Estimate)> {
+    all.into_iter().map(|(time, half)| (log(time), half)).collect()
+}
+
+fn times(sheet: &Sheet, chains: &Chains, map: &ProtocolMap) -> Result<(), Error> {
+    let panel = sheet.panel(
+        Frame::new(5250, 430, 8250, 3730),
+        Axis::decades(1, 4, 1, "transient *T*"),
+        Axis::linear(0.09, 0.16, 0.01, 2, "*σ*_{1/2}"),
+    )?;
+    panel.letter(LETTERS[1])?;
+    let stroke = Stroke::solid(INK, THIN);
+    let line = logarithmic(of_map(chains, map));
+    panel.curve("map", &points(&line), stroke, Outside::Cut)?;
+    for (own, curve) in of(chains, "length-") {
+        let name = format!("half height of {}", own.name);
+        let all = logarithmic(halves(own, curve));
+        estimates(&panel, &name, &all, look(own.masses))?;
+    }
+    let entry = Entry::line(stroke, "map of Sec. 11, *n* = 100");
+    sheet.legend((4900, 4560), (SMALL, 340), &[entry])
+}
+
+fn frictions(sheet: &Sheet, chains: &Chains, map: &ProtocolMap) -> Result<(), Error> {
+    let panel = sheet.panel(
+        Frame::new(1000, 6050, 4050, 9050),
+        Axis::decades(1, 4, 1, "transient *T*"),
+        Axis::linear(0.09, 0.16, 0.01, 2, "*σ*_{1/2}"),
+    )?;
+    panel.letter(LETTERS[2])?;
+    let stroke = Stroke::solid(INK, THIN);
+    let line = logarithmic(of_map(chains, map));
+    panel.curve("without friction", &points(&line), stroke, Outside::Cut)?;
+    let mut entries = vec![Entry::line(stroke, "*c* = 0")];
+    for ((own, curve), (mark, colour)) in of(chains, "damping-").zip(&LOOKS[1..]) {
+        let look = (*mark, SIZE, Stroke::solid(*colour, THIN));
+        let name = format!("*c* = {}", own.damping);
+        let all = logarithmic(halves(own, curve));
+        panel.curve(&name, &points(&all), look.2, Outside::Cut)?;
+        estimates(&panel, &name, &all, look)?;
+        entries.push(Entry::mark(look.0, look.1, look.2, &name));
+    }
+    for (i, column) in entries.chunks(2).enumerate() {
+        sheet.legend((700 + 1750 * i as i32, 9900), (SMALL, 340), column)?;
+    }
+    Ok(())
+}
+
+/// The share of the chains with an impact in the last window, with its binomial error.
+fn alive(row: &Ensemble) -> (f64, Estimate) {
+    let all = row.runs.len().max(1) as f64;
+    let share = 1.0 - row.silent.iter().sum::<u64>() as f64 / all;
+    let error = (share * (1.0 - share) / all).sqrt();
+    (row.sigma, crate::experiments::estimates::with_error(share, error))
+}
+
+fn period(sheet: &Sheet, chains: &Chains) -> Result<(), Error> {
+    let panel = sheet.panel(
+        Frame::new(5250, 6050, 8250, 9050),
+        Axis::linear(0.2, 0.44, 0.04, 2, "*σ*"),
+        Axis::linear(0.0, 1.0, 0.2, 2, "share of the chains"),
+    )?;
+    panel.letter(LETTERS[3])?;
+    let Some((_, curve)) = chains.curve(COMMON) else { return Ok(()) };
+    let line = |of: fn(&[f64; 3]) -> f64| -> Vec<(f64, f64)> {
+        curve.kept_expected.iter().map(|own| (own[0], of(own))).collect()
+    };
+    let (bound, there) = (Stroke::dashed(BLUE, LINE, Dash::Short), Stroke::solid(INK, LINE));
+    panel.curve("all phases", &line(|own| own[1]), bound, Outside::Cut)?;
+    panel.curve("common period", &line(|own| own[2]), there, Outside::Cut)?;
+    let all: Vec<_> = curve.rows.iter().map(alive).collect();
+    let look = (Mark::Disc, SIZE, Stroke::solid(RED, THIN));
+    estimates(&panel, "simulation", &all, look)?;
+    let entries = [
+        Entry::line(bound, "all phases, Eq. (20)"),
+        Entry::line(there, "common period"),
+        Entry::mark(look.0, look.1, look.2, "simulation"),
+    ];
+    sheet.legend((4900, 9900), (SMALL, 340), &entries)
+}
+
+fn description(chains: &Chains, map: &ProtocolMap) -> String {
+    let told = |all: Vec<(f64, Estimate)>| -> String {
+        let list: Vec<String> = all
+            .iter()
+            .map(|(time, half)| format!("{} at T = {time}", short(half.value, 4)))
+            .collect();
+        if list.is_empty() { "none".into() } else { list.join(", ") }
+    };
+    let each = |kind| -> String {
+        let list: Vec<String> = of(chains, kind)
+            .map(|(own, curve)| format!("{}: {}", own.name, told(halves(own, curve))))
+            .collect();
+        list.join("; ")
+    };
+    let period = chains.curve(COMMON).map_or("none".into(), |(_, curve)| {
+        let list = curve.rows.iter().map(alive);
+        let list: Vec<String> =
+            list.map(|(sigma, own)| format!("{} at σ = {sigma}", short(own.value, 2))).collect();
+        list.join(", ")
+    });
+    format!(
+        "(a) Share of the gaps with an impact against σ after the same transient: the curve of the shortest chain \
+         rises later, those of all others lie on one another. (b) Half heights of chains of several lengths against the \
+         transient, near the falling line of the map ({}): {}. (c) Half heights with friction: the stronger it is, the \
+         higher and the more level. {}. (d) Share of chains with an impact for Ω = 2: simulated points follow the lower \
+         of two curves, {period}.",
+        told(of_map(chains, map)),
+        each("length-"),
+        each("damping-"),
+    )
+}
+
+fn tables(chains: &Chains, map: &ProtocolMap) -> Vec<DataFile> {
+    let mut shares = DataFile::new(
+        "s15a.csv",
+        &[
+            "chain (text)",
+            "masses (1)",
+            "damping (omega)",
+            "forcing_frequency (omega)",
+            "components (1)",
+            "sigma (d omega^2)",
+            "transient (1/omega)",
+            "share (1)",
+            "standard_error (1)",
+            "chains_with_impacts (1)",
+        ],
+    );
+    let mut places = DataFile::new(
+        "s15b.csv",
+        &[
+            "chain (text)",
+            "masses (1)",
+            "damping (omega)",
+            "transient (1/omega)",
+            "half_height (d omega^2)",
+            "standard_error (d omega^2)",
+        ],
+    );
+    for (own, curve) in of(chains, "") {
+        let name = own.name.as_str();
+        for row in &curve.rows {
+            for (time, share) in own.transients.iter().zip(&row.shares) {
+                let share = share.as_ref();
+                shares.row(cells![
+                    name,
+                    own.masses,
+                    own.damping,
+                    own.forcing_frequency,
+                    own.components,
+                    row.sigma,
+                    *time,
+                    share.map(|own| own.value),
+                    share.map(|own| own.error),
+                    alive(row).1.value
+                ]);
+            }
+        }
+        for (time, half) in halves(own, curve) {
+            places.row(cells![name, own.masses, own.damping, time, half.value, half.error]);
+        }
+    }
+    for (time, half) in of_map(chains, map) {
+        let masses = map.parameters.chain.masses;
+        places.row(cells!["map", masses, 0.0, time, half.value, half.error]);
+    }
+    let mut expected = DataFile::new(
+        "s15d.csv",
+        &["chain (text)", "sigma (d omega^2)", "share_all_phases (1)", "share_common_period (1)"],
+    );
+    for (own, curve) in of(chains, "frequency-") {
+        for [sigma, ever, there] in &curve.kept_expected {
+            expected.row(cells![own.name.as_str(), *sigma, *ever, *there]);
+        }
+    }
+    vec![shares, places, expected]
+}

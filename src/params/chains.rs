@@ -1,0 +1,142 @@
+//! Long chains, damping and other forces: sizes of the experiment.
+
+use super::{Boundary, Chain, Grid, Profile, SEED, Start};
+use serde::{Deserialize, Serialize};
+
+/// Chains that differ from the paper's in length, damping or force.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ChainsParams {
+    /// The chain, but for what a curve has of its own.
+    pub chain: Chain,
+    /// Window W.
+    pub window: f64,
+    /// Time between two strokes of damping.
+    pub stroke: f64,
+    /// Gaps of a long chain that are counted together, at least.
+    pub piece: usize,
+    /// The curves.
+    pub curves: Vec<ChainCurve>,
+    /// Name of the random stream.
+    pub stream: String,
+    /// Master seed.
+    pub seed: u64,
+}
+
+/// One kind of chain at several σ.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ChainCurve {
+    /// `length-1000`, `damping-0.001`, …
+    pub name: String,
+    /// Number of masses n.
+    pub masses: usize,
+    /// The start.
+    pub start: Start,
+    /// Walls or ring.
+    pub boundary: Boundary,
+    /// Damping c of ẍ + 2cẋ + ω² x = F.
+    pub damping: f64,
+    /// Frequency Ω of the force, the first if there are several.
+    pub forcing_frequency: f64,
+    /// Number of components of the force.
+    pub components: usize,
+    /// Standard deviations σ, rising.
+    pub sigmas: Vec<f64>,
+    /// Transients T, rising, no window reaching the next.
+    pub transients: Vec<f64>,
+    /// Realisations at each σ.
+    pub realisations: usize,
+}
+
+impl ChainsParams {
+    /// The sizes of each profile.
+    pub fn new(profile: Profile) -> Self {
+        let chain = Chain::default();
+        let grid = |from, to| {
+            let step = match profile {
+                Profile::Full | Profile::Deep => 1,
+                Profile::Ci => 2,
+                Profile::Quick => 4,
+            };
+            Grid::default().and(from, to, step, 100).values()
+        };
+        let full = matches!(profile, Profile::Full | Profile::Deep);
+        let few = |n: usize| match profile {
+            Profile::Full | Profile::Deep => n,
+            Profile::Ci => n.div_ceil(4),
+            Profile::Quick => n.div_ceil(24).max(2),
+        };
+        let plain = |name: String, realisations: usize| ChainCurve {
+            name,
+            masses: chain.masses,
+            start: chain.start,
+            boundary: chain.boundary,
+            damping: 0.0,
+            forcing_frequency: chain.forcing_frequency,
+            components: 1,
+            sigmas: grid(8, 16),
+            transients: vec![500.0],
+            realisations: few(realisations),
+        };
+        let long = |masses: usize, realisations: usize, sigmas, transients: &[f64]| ChainCurve {
+            masses,
+            sigmas,
+            transients: transients.to_vec(),
+            ..plain(format!("length-{masses}"), realisations)
+        };
+        let mut curves = vec![
+            long(10, 600, grid(9, 25), &[50.0, 250.0, 500.0]),
+            long(100, 120, grid(8, 16), &[500.0]),
+        ];
+        if full {
+            curves.extend([
+                long(800, 4, grid(8, 12), &[4000.0]),
+                long(1000, 8, grid(8, 15), &[500.0, 750.0]),
+                long(10_000, 2, grid(8, 14), &[500.0, 1000.0]),
+                long(100_000, 1, grid(11, 12), &[500.0, 1250.0]),
+            ]);
+        }
+        let ends: &[f64] = if full { &[100.0, 500.0, 1000.0, 2000.0] } else { &[100.0, 500.0] };
+        let drift = |name: &str| ChainCurve {
+            sigmas: grid(9, 18),
+            transients: ends.to_vec(),
+            ..plain(format!("drift-{name}"), 24)
+        };
+        curves.extend([
+            ChainCurve { start: Start::Random, ..drift("random") },
+            ChainCurve { boundary: Boundary::Ring, ..drift("ring") },
+        ]);
+        curves.extend([0.0005, 0.002, 0.008].map(|damping| ChainCurve {
+            damping,
+            sigmas: grid(10, 18),
+            transients: ends.to_vec(),
+            ..plain(format!("damping-{damping}"), 16)
+        }));
+        curves.extend([2, 4, 8].map(|components| ChainCurve {
+            components,
+            sigmas: grid(5, 13),
+            ..plain(format!("components-{components}"), 24)
+        }));
+        curves.extend([1.5, 2.0].map(|forcing_frequency| {
+            let weak = forcing_frequency == 2.0;
+            let sigmas = if weak { grid(22, 42) } else { grid(10, 18) };
+            let sigmas = sigmas.into_iter().step_by(if weak && full { 2 } else { 1 }).collect();
+            let name = format!("frequency-{forcing_frequency}");
+            ChainCurve { forcing_frequency, sigmas, ..plain(name, 48) }
+        }));
+        curves.push(ChainCurve {
+            masses: 10,
+            sigmas: vec![0.2, 0.25, 0.3],
+            transients: vec![2000.0],
+            ..plain("silence".into(), 240)
+        });
+        ChainsParams {
+            chain,
+            window: 200.0,
+            stroke: 10.0,
+            piece: 1000,
+            curves,
+            stream: "chains".into(),
+            seed: SEED,
+        }
+    }
+}

@@ -1,0 +1,256 @@
+//! Long chains, and other forces.
+
+use super::{Error, chosen, estimate, from, mark};
+use crate::experiments::Results;
+use crate::experiments::chains::{Chains, Curve};
+use crate::experiments::protocol::ProtocolMap;
+use crate::numerics::statistics::Estimate;
+use crate::params::ChainCurve;
+use crate::report::values::Value;
+use serde::Serialize;
+
+/// The σ of which the text speaks: at the rise.
+const SIGMA: f64 = 0.12;
+
+/// One line of a table.
+#[derive(Debug, Serialize)]
+pub struct Line {
+    cells: Vec<String>,
+}
+
+/// The chains of several lengths.
+fn lengths(found: &Chains) -> impl Iterator<Item = (&ChainCurve, &Curve)> {
+    of(found, "length-")
+}
+
+fn of<'a>(
+    found: &'a Chains,
+    kind: &'static str,
+) -> impl Iterator<Item = (&'a ChainCurve, &'a Curve)> {
+    let all = found.parameters.curves.iter().zip(&found.curves);
+    all.filter(move |(own, _)| own.name.starts_with(kind))
+}
+
+/// A number in an id.
+fn part(value: f64) -> String {
+    value.to_string().replace('.', "_")
+}
+
+fn length_id(own: &ChainCurve, transient: f64, column: &str) -> String {
+    format!("chains.n{}_t{}_{column}", own.masses, transient as u64)
+}
+
+fn drift_id(own: &ChainCurve, transient: f64) -> String {
+    let name = match own.name.strip_prefix("drift-") {
+        Some(name) => name.to_string(),
+        None => format!("d{}", part(own.damping)),
+    };
+    format!("chains.{name}_t{}", transient as u64)
+}
+
+/// The same of the paper's chain, which the map has.
+fn map_id(transient: f64) -> String {
+    format!("chains.d0_t{}", transient as u64)
+}
+
+/// Chains whose half height is followed over the transients.
+fn drifts(found: &Chains) -> impl Iterator<Item = (&ChainCurve, &Curve)> {
+    of(found, "drift-").chain(of(found, "damping-"))
+}
+
+/// The name of a force in ids and, in the table, to be read.
+fn force(own: &ChainCurve) -> [String; 2] {
+    if own.components > 1 {
+        return [format!("m{}", own.components), format!("$M = {}$", own.components)];
+    }
+    let name = format!("f{}", part(own.forcing_frequency));
+    [name, format!(r"$\Omega = {}$", own.forcing_frequency)]
+}
+
+fn force_id(own: &ChainCurve, column: &str) -> String {
+    format!("chains.{}_{column}", force(own)[0])
+}
+
+pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
+    let (found, map) = (results.chains()?, results.protocol()?);
+    let window = found.parameters.window;
+    let missing = || Error::Missing("long chains");
+    let mut values = Vec::new();
+    let mut off: Option<f64> = None;
+    for (own, curve) in lengths(found) {
+        let n = own.realisations;
+        for (i, &transient) in own.transients.iter().enumerate() {
+            let (half, same) = (curve.half_heights[i], map.half_height_at(transient, window));
+            let id = |column: &str| length_id(own, transient, column);
+            values.push(Value::integer(id("n"), own.masses));
+            values.push(Value::integer(id("t"), transient as u64));
+            values.push(estimate(id("half"), half, n));
+            values.push(estimate(id("same"), same, map.parameters.realisations));
+            values.push(estimate(id("width"), curve.widths[i], n));
+            if let (true, Some(half), Some(same)) = (own.masses >= 100, half, same) {
+                let error = (half.error * half.error + same.error * same.error).sqrt();
+                let distance = (half.value - same.value).abs() / error;
+                off = Some(off.map_or(distance, |off| off.max(distance)));
+            }
+        }
+    }
+    values.push(
+        off.map_or(Value::text("chains_off", "none"), |off| Value::real("chains_off", off, 2)),
+    );
+    let ends = |of: fn(usize, usize) -> usize| lengths(found).map(|(own, _)| own.masses).reduce(of);
+    values.push(Value::integer("chains_shortest", ends(usize::min).ok_or_else(missing)?));
+    values.push(Value::integer("chains_longest", ends(usize::max).ok_or_else(missing)?));
+    values.extend(open(found).ok_or_else(missing)?);
+    values.extend(drift(found, map).ok_or_else(missing)?);
+    values.extend(forces(found).ok_or_else(missing)?);
+    Ok(from(values, "experiments::chains::CUTTING", "chains"))
+}
+
+/// Open gaps, and silence.
+fn open(found: &Chains) -> Option<Vec<Value>> {
+    let (own, curve) = found.curve("silence")?;
+    let first = curve.rows.first()?;
+    let chain = &found.parameters.chain;
+    let square = |x: f64| x * x;
+    let detuning = (square(chain.natural_frequency) - square(chain.forcing_frequency)).abs();
+    let length = pxfm::f_exp(square(0.5 * chain.spacing * detuning / SIGMA));
+    let total = |of: fn(&crate::experiments::chains::Ensemble) -> [u64; 2]| {
+        found.curves.iter().flat_map(|curve| &curve.rows).map(|row| of(row)[0]).sum::<u64>()
+    };
+    Some(vec![
+        chosen("chains_sigma", SIGMA),
+        Value::real("chains_open_length", length, 2),
+        Value::integer("chains_open", total(|row| row.chains)),
+        Value::integer("chains_open_silent", total(|row| row.silent)),
+        Value::integer("chains_silence_masses", own.masses),
+        Value::integer("chains_silence_until", *own.transients.last()? as u64),
+        chosen("chains_silence_sigma", first.sigma),
+        Value::integer("chains_shut", first.chains[1]),
+        Value::integer("chains_shut_silent", first.silent[1]),
+    ])
+}
+
+/// Half heights over the transients, those of the paper's chain from the map.
+fn drift(found: &Chains, map: &ProtocolMap) -> Option<Vec<Value>> {
+    let window = found.parameters.window;
+    let (first, _) = of(found, "damping-").next()?;
+    let (last, strongest) = of(found, "damping-").last()?;
+    let mut values = Vec::new();
+    for &time in &first.transients {
+        values.push(Value::integer(format!("chains.t{}", time as u64), time as u64));
+        let same = map.half_height_at(time, window);
+        values.push(estimate(map_id(time), same, map.parameters.realisations));
+    }
+    for (own, curve) in drifts(found) {
+        for (time, half) in own.transients.iter().zip(&curve.half_heights) {
+            values.push(estimate(drift_id(own, *time), *half, own.realisations));
+        }
+    }
+    let (from, to) = (*first.transients.get(1)?, *first.transients.last()?);
+    let same = |time| map.half_height_at(time, window);
+    let late = |i: usize| strongest.half_heights.get(i).copied().flatten();
+    values.extend([
+        fall("chains_fall", same(from), same(to), map.parameters.realisations),
+        fall("chains_fall_damped", late(1), late(last.transients.len() - 1), last.realisations),
+        chosen("chains_damping", last.damping),
+        Value::integer("chains_fall_from", from as u64),
+        Value::integer("chains_fall_to", to as u64),
+        Value::integer("chains_stroke", found.parameters.stroke as u64),
+    ]);
+    Some(values)
+}
+
+/// How far a half height falls; errors as if both were of different chains, which makes them too large.
+fn fall(id: &str, from: Option<Estimate>, to: Option<Estimate>, n: usize) -> Value {
+    let both = from.zip(to);
+    both.map_or(Value::text(id, "none"), |(from, to)| {
+        let error = (from.error * from.error + to.error * to.error).sqrt();
+        Value::ensemble(id, from.value - to.value, error, n as u64)
+    })
+}
+
+/// Forces of several components, and of frequencies with a common period.
+fn forces(found: &Chains) -> Option<Vec<Value>> {
+    let mut values = Vec::new();
+    for (own, curve) in all_forces(found) {
+        let n = own.realisations;
+        values.push(estimate(force_id(own, "half"), *curve.half_heights.last()?, n));
+        values.push(estimate(force_id(own, "kept"), curve.kept_half, n));
+        if let Some([ever, there]) = curve.kept_half_expected {
+            values.push(Value::real(force_id(own, "ever"), ever, 3));
+            values.push(Value::real(force_id(own, "there"), there, 3));
+        }
+    }
+    let (paper, curve) = found.curve("length-100")?;
+    let half = *curve.half_heights.last()?;
+    values.push(estimate("chains.m1_half", half, paper.realisations));
+    values.push(estimate("chains.m1_kept", curve.kept_half, paper.realisations));
+    values.push(Value::integer("chains_transient", *paper.transients.last()? as u64));
+    Some(values)
+}
+
+fn all_forces(found: &Chains) -> impl Iterator<Item = (&ChainCurve, &Curve)> {
+    of(found, "components-").chain(of(found, "frequency-"))
+}
+
+/// The lines of the table of lengths, by rising T and then by rising n.
+pub fn lengths_table(results: &Results) -> Result<Vec<Line>, Error> {
+    let found = results.chains()?;
+    let mut all: Vec<(&ChainCurve, f64)> =
+        lengths(found).flat_map(|(own, _)| own.transients.iter().map(move |&t| (own, t))).collect();
+    all.sort_by(|a, b| a.1.total_cmp(&b.1).then(a.0.masses.cmp(&b.0.masses)));
+    let line = |(own, time): &(&ChainCurve, f64)| Line {
+        cells: ["t", "n", "half", "same", "width"]
+            .map(|column| mark(length_id(own, *time, column)))
+            .into(),
+    };
+    Ok(all.iter().map(line).collect())
+}
+
+/// The transients, as heads of the table of drifts.
+pub fn drift_times(results: &Results) -> Result<Vec<String>, Error> {
+    let found = results.chains()?;
+    let (own, _) = of(found, "damping-").next().ok_or(Error::Missing("chains with friction"))?;
+    Ok(own.transients.iter().map(|time| mark(format!("chains.t{}", *time as u64))).collect())
+}
+
+/// The lines of the table of drifts: the paper's chain by the map, other starts and ends, friction.
+pub fn drift_table(results: &Results) -> Result<Vec<Line>, Error> {
+    let found = results.chains()?;
+    let line = |name: String, cells: Vec<String>| Line {
+        cells: [name].into_iter().chain(cells.into_iter().map(mark)).collect(),
+    };
+    let times = of(found, "damping-").next().map_or(&[][..], |(own, _)| &own.transients);
+    let paper = line("from rest, between walls".into(), times.iter().map(|&t| map_id(t)).collect());
+    let rest = drifts(found).map(|(own, _)| {
+        let name = match own.name.as_str() {
+            "drift-random" => "random free parts".into(),
+            "drift-ring" => "ring".into(),
+            _ => format!("$c = {}$", own.damping),
+        };
+        line(name, own.transients.iter().map(|&t| drift_id(own, t)).collect())
+    });
+    Ok([paper].into_iter().chain(rest).collect())
+}
+
+/// The lines of the table of forces, the paper's first.
+pub fn forces_table(results: &Results) -> Result<Vec<Line>, Error> {
+    let found = results.chains()?;
+    let paper = Line {
+        cells: [r"$M = 1$, $\Omega = \sqrt{2}$".to_string()]
+            .into_iter()
+            .chain(["chains.m1_half", "chains.m1_kept", "kept_half_predicted"].map(mark))
+            .chain(["–".to_string()])
+            .collect(),
+    };
+    let line = |(own, curve): (&ChainCurve, &Curve)| {
+        let expected = |column: &str| match curve.kept_half_expected {
+            Some(_) => mark(force_id(own, column)),
+            None => "–".into(),
+        };
+        let name = force(own)[1].clone();
+        let [half, kept] = ["half", "kept"].map(|column| mark(force_id(own, column)));
+        Line { cells: vec![name, half, kept, expected("ever"), expected("there")] }
+    };
+    Ok([paper].into_iter().chain(all_forces(found).map(line)).collect())
+}
