@@ -46,6 +46,23 @@ pub struct Unit {
     pub weight: u64,
 }
 
+impl Unit {
+    /// Runs its realisations, in any order and on any thread, and advances the stage after each.
+    pub fn each<R: Send>(
+        &self,
+        stage: &Stage,
+        run: impl Fn(u64) -> Result<R, Error> + Sync,
+    ) -> Result<Vec<R>, Error> {
+        let weight = self.weight / self.realisations.len().max(1) as u64;
+        let one = |index| {
+            let found = run(index as u64);
+            stage.advance(weight);
+            found
+        };
+        self.realisations.clone().into_par_iter().with_max_len(1).map(one).collect()
+    }
+}
+
 /// Makes a result T of parts U, for each row those of its units in order.
 type Join<P, U, T> = fn(&P, Vec<Vec<U>>, &Progress) -> Result<T, Error>;
 

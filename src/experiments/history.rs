@@ -8,7 +8,6 @@ use crate::dynamics::{self, Engine, Initial, Scenario};
 use crate::numerics::random::NormalPairs;
 use crate::numerics::statistics::Estimate;
 use crate::params::HistoryParams;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// Counts after a larger force.
@@ -71,12 +70,7 @@ fn part(
     progress: &Progress,
 ) -> Result<Part, Error> {
     let sigma = parameters.sigmas[unit.row];
-    let one = |index| {
-        let found = realisation(parameters, sigma, index as u64, progress);
-        stage.advance(weight(parameters, sigma));
-        found
-    };
-    unit.realisations.clone().into_par_iter().with_max_len(1).map(one).collect()
+    unit.each(stage, |index| realisation(parameters, sigma, index, progress))
 }
 
 fn realisation(

@@ -15,7 +15,6 @@ use super::progress::Stage;
 use super::{Error, Progress, weights};
 use crate::numerics::statistics::Estimate;
 use crate::params::{Chain, ChainCurve, ChainsParams};
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// All curves.
@@ -136,12 +135,7 @@ fn part(
     progress: &Progress,
 ) -> Result<Part, Error> {
     let Some((curve, sigma)) = cases(parameters).nth(unit.row) else { return Ok(Vec::new()) };
-    let one = |index| {
-        let found = run::realisation(parameters, curve, sigma, index as u64, progress);
-        stage.advance(weight(parameters, curve, sigma));
-        found
-    };
-    unit.realisations.clone().into_par_iter().with_max_len(1).map(one).collect()
+    unit.each(stage, |index| run::realisation(parameters, curve, sigma, index, progress))
 }
 
 fn fits(parameters: &ChainsParams, unit: &Unit, runs: &Part) -> bool {

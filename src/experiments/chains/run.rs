@@ -135,7 +135,9 @@ pub(super) fn realisation(
             motion.run(*transient, |_| !progress.stopped())?;
             let mut hit = vec![false; sizes.iter().sum()];
             motion.run(transient + parameters.window, |impact| {
-                hit[impact.gap] = true;
+                // A ring counts its gaps from 1.
+                let gap = impact.gap % hit.len();
+                hit[gap] = true;
                 !progress.stopped()
             })?;
             let mut rest = hit.as_slice();

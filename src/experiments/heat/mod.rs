@@ -9,7 +9,6 @@ use super::progress::Stage;
 use super::{Error, Progress, weights};
 use crate::numerics::statistics::Estimate;
 use crate::params::{Chain, HeatParams, HeatRow};
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// How hot chains are.
@@ -165,12 +164,7 @@ fn part(
 ) -> Result<Part, Error> {
     let row = &parameters.rows[unit.row];
     let weight = weights::run(&parameters.chain, row.sigma, until(parameters));
-    let one = |index| {
-        let found = realisation(parameters, row, index as u64, progress);
-        stage.advance(weight);
-        found
-    };
-    unit.realisations.clone().into_par_iter().with_max_len(1).map(one).collect()
+    unit.each(stage, |index| realisation(parameters, row, index, progress))
 }
 
 fn fits(parameters: &HeatParams, unit: &Unit, runs: &Part) -> bool {

@@ -11,7 +11,6 @@ use crate::dynamics::{self, Engine, Scenario};
 use crate::numerics::random::{NormalPairs, generator};
 use crate::numerics::statistics::Estimate;
 use crate::params::{Chain, IndependenceParams, IndependenceRow};
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use succession::{Matrix, distinct, hits, next};
 
@@ -214,12 +213,7 @@ fn part(
     progress: &Progress,
 ) -> Result<Part, Error> {
     let row = &parameters.rows[unit.row];
-    let one = |index| {
-        let found = realisation(parameters, row, index as u64, progress);
-        stage.advance(weight(parameters, row));
-        found
-    };
-    unit.realisations.clone().into_par_iter().with_max_len(1).map(one).collect()
+    unit.each(stage, |index| realisation(parameters, row, index, progress))
 }
 
 fn fits(parameters: &IndependenceParams, unit: &Unit, outcomes: &Part) -> bool {

@@ -14,7 +14,6 @@ use super::progress::Stage;
 use super::{Error, Progress, weights};
 use crate::numerics::statistics::Estimate;
 use crate::params::{Chain, RestitutionParams};
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// Chains of several restitutions.
@@ -187,13 +186,7 @@ fn part(
     progress: &Progress,
 ) -> Result<Part, Error> {
     let case = &cases(parameters)[unit.row];
-    let weight = weight(parameters, case);
-    let one = |index| {
-        let found = run::realisation(parameters, case, index as u64, progress);
-        stage.advance(weight);
-        found
-    };
-    unit.realisations.clone().into_par_iter().with_max_len(1).map(one).collect()
+    unit.each(stage, |index| run::realisation(parameters, case, index, progress))
 }
 
 fn fits(parameters: &RestitutionParams, unit: &Unit, runs: &Part) -> bool {
