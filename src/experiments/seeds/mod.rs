@@ -2,11 +2,17 @@
 //! nucleation and growth let expect.
 //!
 //! - [`run`](mod@run): chains with exactly one such gap, and where impacts get from there.
+//! - [`course`]: what is active, reached and alive as time goes on.
+//! - [`fronts`]: how long fronts stand, and which gaps hold them.
 //! - [`growth`]: what follows for a chain with as many of them as chance gives it.
 
+pub mod course;
+pub mod fronts;
 pub mod growth;
 pub mod run;
 
+pub use course::Moment;
+pub use fronts::{Fronts, Tally};
 pub use growth::Prediction;
 pub use run::{CUTTING, Part, Seen, Spread, Trace};
 
@@ -24,6 +30,10 @@ pub struct Seeds {
     pub seen: Vec<Seen>,
     /// What they say, for each σ.
     pub rows: Vec<Spread>,
+    /// The waits of fronts and the obstacles that they met, for each σ.
+    pub waits: Vec<Tally>,
+    /// What these say, for each σ.
+    pub fronts: Vec<Fronts>,
     /// The mean counts that follow, for each transient T.
     pub predictions: Vec<Prediction>,
 }
