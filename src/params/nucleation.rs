@@ -80,7 +80,9 @@ impl SeedsParams {
     /// The sizes of each profile.
     pub fn new(profile: Profile) -> Self {
         let (sigmas, realisations) = match profile {
-            Profile::Full | Profile::Deep => (Grid::default().and(16, 30, 1, 200).and(16, 16, 1, 100), 240),
+            Profile::Full | Profile::Deep => {
+                (Grid::default().and(16, 30, 1, 200).and(16, 16, 1, 100), 240)
+            }
             Profile::Ci => (Grid::default().and(8, 16, 1, 100), 30),
             Profile::Quick => (Grid::default().and(9, 14, 1, 100), 6),
         };

@@ -24,7 +24,7 @@ pub const PARTS: usize = 4;
 
 /// Counts of waits and obstacles, in some runs.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Tally {
+pub struct Waits {
     /// Fronts: sides of a seed that is not at the wall there.
     pub fronts: u64,
     /// Waits that ended with a step, by their length in ticks.
@@ -63,6 +63,9 @@ pub struct Fronts {
     pub memory: Option<Estimate>,
     /// The variance over fronts of the obstacles that hold, over that of independent obstacles.
     pub dispersion: Option<Estimate>,
+    /// What this would be at most if nothing but the parts of its width that a gap crosses decided, and gaps after one
+    /// that held crossed as many: the mean chance of those that held to hold, over that of all.
+    pub alike: f64,
     /// The chance that an obstacle holds, by the parts of its width that it crosses by itself.
     pub holds: [Option<Estimate>; PARTS],
 }
@@ -74,10 +77,10 @@ pub fn beat(chain: &Chain) -> f64 {
 }
 
 /// The tallies of each run.
-pub(super) fn tallies(parameters: &SeedsParams, traces: &[Option<Trace>]) -> Vec<Tally> {
+pub(super) fn tallies(parameters: &SeedsParams, traces: &[Option<Trace>]) -> Vec<Waits> {
     let of = |(seed, trace): (usize, &Trace)| {
         let ahead = |gap: usize| (trace.firsts[gap], usize::from(trace.crossed[gap]));
-        let mut tally = Tally::new(parameters.ticks());
+        let mut tally = Waits::new(parameters.ticks());
         tally.follow(parameters, (0..seed).rev().map(ahead));
         tally.follow(parameters, (seed + 1..trace.firsts.len()).map(ahead));
         tally
@@ -85,10 +88,10 @@ pub(super) fn tallies(parameters: &SeedsParams, traces: &[Option<Trace>]) -> Vec
     ran(traces).map(of).collect()
 }
 
-impl Tally {
+impl Waits {
     /// Of no run, with room for waits up to some length.
     fn new(ticks: usize) -> Self {
-        Tally { ended: vec![0; ticks + 1], cut: vec![0; ticks + 1], ..Tally::default() }
+        Waits { ended: vec![0; ticks + 1], cut: vec![0; ticks + 1], ..Waits::default() }
     }
 
     /// Counts one front, from the gaps ahead of it: the tick of the first impact of each, if it had one, and
@@ -134,20 +137,20 @@ impl Tally {
     }
 
     /// With the counts of other runs.
-    fn and(mut self, mut other: Tally) -> Self {
+    fn and(mut self, mut other: Waits) -> Self {
         self.numbers().zip(other.numbers()).for_each(|(sum, own)| *sum += *own);
         self
     }
 
     /// Without the counts of a run that it has.
-    fn without(mut self, mut run: Tally) -> Self {
+    fn without(mut self, mut run: Waits) -> Self {
         self.numbers().zip(run.numbers()).for_each(|(sum, own)| *sum -= *own);
         self
     }
 
     /// The sum over runs.
-    pub(super) fn sum(parameters: &SeedsParams, runs: &[Tally]) -> Self {
-        runs.iter().cloned().fold(Tally::new(parameters.ticks()), Tally::and)
+    pub(super) fn sum(parameters: &SeedsParams, runs: &[Waits]) -> Self {
+        runs.iter().cloned().fold(Waits::new(parameters.ticks()), Waits::and)
     }
 
     fn steps(&self) -> u64 {
@@ -163,6 +166,14 @@ impl Tally {
     fn speed(&self) -> Option<f64> {
         let waits = self.ended.iter().zip(&self.cut).enumerate();
         share(self.steps(), waits.map(|(k, (ended, cut))| k as u64 * (ended + cut)).sum())
+    }
+
+    /// The mean over obstacles that held of the chance of their like to hold, over that of all.
+    fn alike(&self) -> Option<f64> {
+        let [met, held] = [0, 1].map(|i| self.crossed.iter().map(|counts| counts[i]).sum());
+        let of = |[met, held]: &[u64; 2]| *held as f64 * share(*held, *met).unwrap_or(0.0);
+        let chance = share(held, met).filter(|chance| *chance > 0.0)?;
+        Some(self.crossed.iter().map(of).sum::<f64>() / held as f64 / chance)
     }
 
     /// The variance of holds over that of independent obstacles.
@@ -181,18 +192,18 @@ fn share(part: u64, whole: u64) -> Option<f64> {
 }
 
 /// What the runs at one σ say of their fronts.
-pub(super) fn fronts(parameters: &SeedsParams, sigma: f64, runs: &[Tally]) -> Fronts {
-    let all = Tally::sum(parameters, runs);
-    let without: Vec<Tally> = runs.iter().map(|run| all.clone().without(run.clone())).collect();
-    let estimate = |of: &dyn Fn(&Tally) -> Option<f64>| {
+pub(super) fn fronts(parameters: &SeedsParams, sigma: f64, runs: &[Waits]) -> Fronts {
+    let all = Waits::sum(parameters, runs);
+    let without: Vec<Waits> = runs.iter().map(|run| all.clone().without(run.clone())).collect();
+    let estimate = |of: &dyn Fn(&Waits) -> Option<f64>| {
         jackknife(runs.len(), |out| of(out.map_or(&all, |run| &without[run])))
     };
     let window = parameters.window_ticks();
     let beat = beat(&parameters.chain);
     let within = (beat / parameters.tick) as usize;
     let half = parameters.ticks() / 2;
-    let speed = |own: &Tally| Some(own.speed()? / parameters.tick);
-    let holds = |own: &Tally, before: usize| {
+    let speed = |own: &Waits| Some(own.speed()? / parameters.tick);
+    let holds = |own: &Waits, before: usize| {
         share(own.held[before], own.met[before]).filter(|share| *share > 0.0)
     };
     let stands = |windows: usize| {
@@ -217,7 +228,8 @@ pub(super) fn fronts(parameters: &SeedsParams, sigma: f64, runs: &[Tally]) -> Fr
             share(met - held, held)
         }),
         memory: estimate(&|own| Some(holds(own, 2)? / holds(own, 1)?)),
-        dispersion: estimate(&Tally::dispersion),
+        dispersion: estimate(&Waits::dispersion),
+        alike: all.alike().unwrap_or(1.0),
         holds: std::array::from_fn(|parts| {
             estimate(&|own| share(own.crossed[parts][1], own.crossed[parts][0]))
         }),
@@ -285,6 +297,8 @@ mod tests {
         assert_eq!(value(found.standing), 0.0);
         assert_eq!((value(found.between), value(found.memory)), (1.5, 2.0));
         assert_eq!(found.holds.map(value), [1.0, 0.0, 0.0, 0.0]);
+        // Those that held cross nothing, as whose like all hold, of all two in five.
+        assert!((found.alike - 2.5).abs() < 1e-15);
     }
 
     #[test]
@@ -300,7 +314,7 @@ mod tests {
     #[test]
     fn tallies_add_and_take_away() {
         let [one] = &tallies(&parameters(), &[Some(run())])[..] else { panic!() };
-        let three = Tally::sum(&parameters(), &[one.clone(), one.clone(), one.clone()]);
+        let three = Waits::sum(&parameters(), &[one.clone(), one.clone(), one.clone()]);
         let two = three.clone().without(one.clone());
         assert_eq!(two.products, one.products.map(|sum| 2 * sum));
         assert_eq!(two.crossed, one.crossed.map(|counts| counts.map(|count| 2 * count)));

@@ -12,7 +12,7 @@ pub mod growth;
 pub mod run;
 
 pub use course::Moment;
-pub use fronts::{Fronts, Tally};
+pub use fronts::{Fronts, Waits};
 pub use growth::Prediction;
 pub use run::{CUTTING, Part, Seen, Spread, Trace};
 
@@ -31,7 +31,7 @@ pub struct Seeds {
     /// What they say, for each σ.
     pub rows: Vec<Spread>,
     /// The waits of fronts and the obstacles that they met, for each σ.
-    pub waits: Vec<Tally>,
+    pub waits: Vec<Waits>,
     /// What these say, for each σ.
     pub fronts: Vec<Fronts>,
     /// The mean counts that follow, for each transient T.

@@ -1,6 +1,6 @@
 //! Runs of chains in which exactly one gap closes by itself.
 
-use super::{Moment, Seeds, Tally, course, fronts, growth};
+use super::{Moment, Seeds, Waits, course, fronts, growth};
 use crate::circuits;
 use crate::circuits::balance::variance_ratio;
 use crate::circuits::impact_probability::ImpactProbability;
@@ -258,7 +258,7 @@ fn join(
         seen.push(groups);
         let tallies = fronts::tallies(parameters, &traces);
         advances.push(fronts::fronts(parameters, *sigma, &tallies));
-        waits.push(Tally::sum(parameters, &tallies));
+        waits.push(Waits::sum(parameters, &tallies));
     }
     let closing = growth::closing(parameters);
     let predictions = growth::predictions(parameters, &closing, &seen).map_err(refused)?;
@@ -407,7 +407,8 @@ mod tests {
         let mut parameters = small();
         parameters.chain.masses = 2;
         (parameters.bins, parameters.window) = (4, 2);
-        let trace = Trace { drawn: 5, seed: Some(1), hits: vec![0, 0b0001, 0b1010], ..Trace::default() };
+        let trace =
+            Trace { drawn: 5, seed: Some(1), hits: vec![0, 0b0001, 0b1010], ..Trace::default() };
         let late = Trace { drawn: 1, ..Trace::default() };
         let seen = count(&parameters, &[Some(trace), None, Some(late)]);
         assert_eq!(seen.places, [1, 2, 0]);

@@ -10,6 +10,7 @@
 mod accuracy;
 mod comparison;
 mod counts;
+mod fronts;
 mod growth;
 mod heat;
 mod higher;
@@ -78,6 +79,7 @@ pub fn all() -> impl Iterator<Item = &'static Guard> {
         long::GUARDS,
         nucleation::GUARDS,
         growth::GUARDS,
+        fronts::GUARDS,
         heat::GUARDS,
         scores::GUARDS,
         history::GUARDS,
