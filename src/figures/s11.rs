@@ -245,8 +245,8 @@ fn description(seeds: &Seeds, sweep: &Sweep, map: &ProtocolMap) -> String {
          growth predict, {}; the curves of the graph theory rise steeply, one on each side of it. (b) Mean advance of \
          a front against time, on logarithmic axes: curves that rise more slowly than a constant speed would, \
          the more so the smaller σ, to {}. (c) Half height against the transient, a falling curve with \
-         simulated points near it: {}. (d) Share of waits of a front that are longer than a time, on logarithmic \
-         axes: curves that bend upwards the less the smaller σ and far above that of a constant rate for long times; \
+         simulated points near it: {}. (d) Share of waits of a front that are longer than a time, \
+         on logarithmic axes: falling curves, the lower the larger σ, that start below the curve of a constant rate and end above it; \
          longer than {} time units are {}.",
         means.join(", "),
         advances.join(", "),

@@ -1,7 +1,7 @@
 //! What becomes of one seed as time goes on.
 
 use super::run::{Trace, bits, ran};
-use super::{Seen, growth};
+use super::{ByDistance, growth};
 use crate::experiments::estimates::average_count;
 use crate::numerics::statistics::Estimate;
 use crate::params::SeedsParams;
@@ -26,7 +26,7 @@ pub struct Moment {
 pub(super) fn course(
     parameters: &SeedsParams,
     traces: &[Option<Trace>],
-    seen: &Seen,
+    seen: &ByDistance,
 ) -> Vec<Moment> {
     let moment = |&transient: &usize| {
         let end = transient + parameters.window;
@@ -48,7 +48,7 @@ pub(super) fn course(
 }
 
 /// The root mean square distance of what was reached by the end of a bin, were all places far from walls.
-pub(super) fn radius(seen: &Seen, end: usize) -> f64 {
+pub(super) fn radius(seen: &ByDistance, end: usize) -> f64 {
     let shares: Vec<f64> = growth::shares(&seen.reached[end], &seen.places).collect();
     let squares = |power: i32| -> f64 {
         let weight = |l: usize| if power == 0 { 1.0 } else { (l * l) as f64 };
@@ -70,7 +70,7 @@ mod tests {
         // The seed is hit in the first bin, a neighbour of it in the second and the fourth.
         let run = |hits: [u64; 3]| Trace { seed: Some(1), hits: hits.to_vec(), ..Trace::default() };
         let traces = [Some(run([0, 0b0001, 0b1010])), None, Some(run([0b0010, 0b0001, 0b0010]))];
-        let seen = Seen {
+        let seen = ByDistance {
             places: vec![2, 4, 0],
             reached: vec![vec![0; 3], vec![2, 0, 0], vec![2, 3, 0], vec![2, 3, 0], vec![2, 3, 0]],
             active: Vec::new(),
@@ -83,7 +83,7 @@ mod tests {
         assert_eq!(values.collect::<Vec<_>>(), [(50.0, 2.5, 2.5, 2), (100.0, 2.5, 0.5, 1)]);
         assert_eq!(found[1].radius, 1.0);
         // As many at twice the distance: the mean of one and four.
-        let far = Seen { places: vec![1, 2, 2], reached: vec![vec![1, 1, 1]], ..seen };
+        let far = ByDistance { places: vec![1, 2, 2], reached: vec![vec![1, 1, 1]], ..seen };
         assert_eq!(radius(&far, 0), 2.5_f64.sqrt());
     }
 }

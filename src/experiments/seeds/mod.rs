@@ -14,7 +14,7 @@ pub mod run;
 pub use course::Moment;
 pub use fronts::{Fronts, Waits};
 pub use growth::Prediction;
-pub use run::{CUTTING, Part, Seen, Spread, Trace};
+pub use run::{ByDistance, CUTTING, Part, Spread, Trace};
 
 use crate::params::SeedsParams;
 use serde::{Deserialize, Serialize};
@@ -27,7 +27,7 @@ pub struct Seeds {
     /// For each σ the chances that a gap at a wall, and any other, closes by itself in each bin.
     pub closing: Vec<[Vec<f64>; 2]>,
     /// The raw counts, for each σ.
-    pub seen: Vec<Seen>,
+    pub seen: Vec<ByDistance>,
     /// What they say, for each σ.
     pub rows: Vec<Spread>,
     /// The waits of fronts and the obstacles that they met, for each σ.

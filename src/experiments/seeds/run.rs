@@ -37,7 +37,7 @@ pub type Part = Vec<Option<Trace>>;
 
 /// Counts of impacts by distance from the seed, over all runs at one σ.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Seen {
+pub struct ByDistance {
     /// Gaps at each distance from a seed, to both sides.
     pub places: Vec<u64>,
     /// For the end of each bin, from none on, those that were hit by then, by distance.
@@ -253,8 +253,8 @@ fn join(
         let traces = parts.concat();
         let at = |group: usize| group * traces.len() / GROUPS;
         let groups = (0..GROUPS).map(|group| count(parameters, &traces[at(group)..at(group + 1)]));
-        let groups: Vec<Seen> = groups.collect();
-        rows.push(spread(parameters, *sigma, &traces, &Seen::sum(&groups, GROUPS))?);
+        let groups: Vec<ByDistance> = groups.collect();
+        rows.push(spread(parameters, *sigma, &traces, &ByDistance::sum(&groups, GROUPS))?);
         seen.push(groups);
         let tallies = fronts::tallies(parameters, &traces);
         advances.push(fronts::fronts(parameters, *sigma, &tallies));
@@ -262,14 +262,14 @@ fn join(
     }
     let closing = growth::closing(parameters);
     let predictions = growth::predictions(parameters, &closing, &seen).map_err(refused)?;
-    let seen = seen.iter().map(|groups| Seen::sum(groups, GROUPS)).collect();
+    let seen = seen.iter().map(|groups| ByDistance::sum(groups, GROUPS)).collect();
     let parameters = parameters.clone();
     Ok(Seeds { parameters, closing, seen, rows, waits, fronts: advances, predictions })
 }
 
-impl Seen {
+impl ByDistance {
     /// What groups of runs saw together, one of them left out if there is one of that number.
-    pub fn sum(groups: &[Seen], left_out: usize) -> Seen {
+    pub fn sum(groups: &[ByDistance], left_out: usize) -> ByDistance {
         let of = groups.iter().enumerate().filter(|(group, _)| *group != left_out);
         let mut seen = of.map(|(_, own)| own.clone());
         let first = seen.next().unwrap_or_default();
@@ -296,7 +296,7 @@ pub(super) fn bits(from: usize, count: usize) -> u64 {
     (0..count).map(|bin| 1 << (from + bin)).fold(0, |all, bit: u64| all | bit)
 }
 
-fn count(parameters: &SeedsParams, traces: &[Option<Trace>]) -> Seen {
+fn count(parameters: &SeedsParams, traces: &[Option<Trace>]) -> ByDistance {
     let (gaps, bins, window) = (parameters.chain.gaps(), parameters.bins, parameters.window);
     let in_bins = |mask: u64| {
         let mut by_distance = vec![0; gaps];
@@ -316,7 +316,7 @@ fn count(parameters: &SeedsParams, traces: &[Option<Trace>]) -> Seen {
     for (seed, trace) in ran(traces) {
         (0..trace.hits.len()).for_each(|gap| places[gap.abs_diff(seed)] += 1);
     }
-    Seen {
+    ByDistance {
         places,
         reached: (0..=bins).map(|bin| in_bins(bits(0, bin))).collect(),
         active: starts.clone().map(|from| in_bins(bits(from, window))).collect(),
@@ -328,7 +328,7 @@ fn spread(
     parameters: &SeedsParams,
     sigma: f64,
     traces: &[Option<Trace>],
-    seen: &Seen,
+    seen: &ByDistance,
 ) -> Result<Spread, Error> {
     let seeds = ran(traces).count() as u64;
     let reached = |hits: &[u64]| hits.iter().filter(|own| **own != 0).count() as u64;
@@ -415,7 +415,7 @@ mod tests {
         assert_eq!(seen.reached.concat(), [0, 0, 0, 1, 0, 0, 1, 1, 0, 1, 1, 0, 1, 1, 0]);
         assert_eq!(seen.active, [[1, 1, 0], [0, 1, 0], [0, 1, 0]]);
         assert_eq!(seen.alive, [1, 1, 1]);
-        let twice = Seen::sum(&[seen.clone(), seen.clone(), seen.clone()], 1);
+        let twice = ByDistance::sum(&[seen.clone(), seen.clone(), seen.clone()], 1);
         assert_eq!((twice.places, twice.alive), (vec![2, 4, 0], vec![2, 2, 2]));
     }
 

@@ -1,7 +1,7 @@
 //! What becomes of one seed in time, how its fronts advance, and which gaps hold them.
 
 use super::{Guard, Look, far, unless};
-use crate::experiments::seeds::{Fronts, Seeds, Seen, Spread, Waits};
+use crate::experiments::seeds::{ByDistance, Fronts, Seeds, Spread, Waits};
 use crate::numerics::statistics::Estimate;
 use crate::report::values::cell;
 use std::f64::consts::TAU;
@@ -67,7 +67,7 @@ fn waits(look: Look<'_>) -> Option<String> {
     let seeds = seeds(look)?;
     let window = seeds.parameters.window_ticks();
     let rows = seeds.rows.iter().zip(&seeds.seen).zip(&seeds.waits);
-    let one = |((row, seen), own): ((&Spread, &Seen), &Waits)| {
+    let one = |((row, seen), own): ((&Spread, &ByDistance), &Waits)| {
         let steps: u64 = row.spreads.iter().map(|gaps| gaps.saturating_sub(1)).sum();
         let long = beyond(&own.ended, window) + beyond(&own.cut, window);
         let met: u64 = own.crossed.iter().map(|counts| counts[0]).sum();
