@@ -29,6 +29,7 @@ pub mod shards;
 pub mod spacetime;
 pub mod starts;
 pub mod store;
+pub mod survival;
 pub mod sweep;
 pub mod tally;
 pub mod theory;

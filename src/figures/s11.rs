@@ -1,4 +1,4 @@
-//! Fig. S11: what one gap that closes by itself sets off, and the mean count that follows.
+//! Fig. S11: what one gap that closes by itself sets off, how its fronts stand, and the mean count that follows.
 
 use super::axis::{Axis, log};
 use super::chart::{LETTERS, short};
@@ -9,13 +9,13 @@ use super::sheet::{Entry, Sheet};
 use super::style::{BLUE, Colour, Dash, INK, LINE, Mark, ORANGE, PURPLE, RED, SMALL, Stroke, THIN};
 use super::{DataFile, Error, Figure};
 use crate::experiments::protocol::ProtocolMap;
-use crate::experiments::seeds::{Prediction, Seeds, Spread};
+use crate::experiments::seeds::{Fronts, Prediction, Seeds, Spread, Waits};
 use crate::experiments::sweep::Sweep;
 
 /// The σ of (a).
-const SIGMAS: (f64, f64) = (0.075, 0.155);
+const SIGMAS: (f64, f64) = (0.075, 0.165);
 
-/// Colours of the σ in (b).
+/// Colours of the σ in (b) and (d).
 const SPREADS: [Colour; 4] = [PURPLE, BLUE, ORANGE, RED];
 
 /// The half size of marks.
@@ -28,10 +28,11 @@ pub fn draw(
     map: &ProtocolMap,
     note: Option<&str>,
 ) -> Result<Figure, Error> {
-    let sheet = Sheet::new(9350, note)?;
+    let sheet = Sheet::new(13050, note)?;
     counts(&sheet, seeds, sweep)?;
     advances(&sheet, seeds)?;
     halves(&sheet, seeds, map)?;
+    waits(&sheet, seeds)?;
     let files = tables(seeds, sweep, map);
     let title = "From one gap to many: nucleation and growth";
     Ok(sheet.finish_own(11, title, description(seeds, sweep, map), files))
@@ -170,6 +171,49 @@ fn halves(sheet: &Sheet, seeds: &Seeds, map: &ProtocolMap) -> Result<(), Error> 
     sheet.legend((4850, 8650), (SMALL, 370), &entries)
 }
 
+/// The rows of (d), those of (b), with their waits.
+fn waiting(seeds: &Seeds) -> impl Iterator<Item = (&Fronts, &Waits)> {
+    let both = || seeds.fronts.iter().zip(&seeds.waits);
+    chosen(seeds).filter_map(move |row| both().find(|(own, _)| own.sigma == row.sigma))
+}
+
+/// (t, share that stands longer) from the first tick on.
+fn standing(seeds: &Seeds, tally: &Waits) -> impl Iterator<Item = (f64, f64)> {
+    let tick = seeds.parameters.tick;
+    let shares = tally.lasting().into_iter().enumerate().skip(1);
+    shares.map(move |(ticks, share)| (ticks as f64 * tick, share))
+}
+
+fn waits(sheet: &Sheet, seeds: &Seeds) -> Result<(), Error> {
+    let panel = sheet.panel(
+        Frame::new(1150, 10150, 8150, 12250),
+        Axis::decades(0, 3, 1, "time *t* for which a front stands"),
+        Axis::decades(-2, 0, 1, "share longer than *t*"),
+    )?;
+    panel.letter(LETTERS[3])?;
+    let mut entries = Vec::new();
+    for ((own, tally), colour) in waiting(seeds).zip(SPREADS) {
+        let shares = standing(seeds, tally).filter(|(_, share)| *share > 0.0);
+        let points: Vec<_> = shares.map(|(time, share)| (log(time), log(share))).collect();
+        let stroke = Stroke::solid(colour, LINE);
+        let name = format!("*σ* = {}", own.sigma);
+        panel.curve(&name, &points, stroke, Outside::Cut)?;
+        entries.push(Entry::line(stroke, &name));
+    }
+    // The first row, were every wait to end at the same rate.
+    if let Some(speed) = seeds.fronts.first().and_then(|own| own.speed) {
+        let decay = |step: u32| {
+            let time = pxfm::f_exp10(f64::from(step) / 40.0);
+            (log(time), -speed.value * time * std::f64::consts::LOG10_E)
+        };
+        let even = Stroke::dashed(SPREADS[0], THIN, Dash::Short);
+        let points: Vec<_> = (0..=120).map(decay).collect();
+        panel.curve("constant rate", &points, even, Outside::Cut)?;
+        entries.push(Entry::line(even, "constant rate"));
+    }
+    sheet.legend((1400, 10900), (SMALL, 270), &entries)
+}
+
 fn description(seeds: &Seeds, sweep: &Sweep, map: &ProtocolMap) -> String {
     let means: Vec<String> = of_sweep(seeds, sweep)
         .into_iter()
@@ -191,15 +235,24 @@ fn description(seeds: &Seeds, sweep: &Sweep, map: &ProtocolMap) -> String {
             format!("{} for {} at T = {time}", told(own), told(half.map(|half| half[0])))
         })
         .collect();
+    let window = seeds.parameters.window_ticks();
+    let standing: Vec<String> = waiting(seeds)
+        .filter_map(|(own, tally)| Some((own, *tally.lasting().get(window)?)))
+        .map(|(own, share)| format!("{} at σ = {}", short(share, 2), own.sigma))
+        .collect();
     format!(
         "(a) Mean count of all chains against σ: simulated points rise along the curve that nucleation and \
          growth predict, {}; the curves of the graph theory rise steeply, one on each side of it. (b) Mean advance of \
          a front against time, on logarithmic axes: curves that rise more slowly than a constant speed would, \
          the more so the smaller σ, to {}. (c) Half height against the transient, a falling curve with \
-         simulated points near it: {}.",
+         simulated points near it: {}. (d) Share of waits of a front that are longer than a time, \
+         on logarithmic axes: falling curves, the lower the larger σ, that start below the curve of a constant rate and end above it; \
+         longer than {} time units are {}.",
         means.join(", "),
         advances.join(", "),
-        halves.join(", ")
+        halves.join(", "),
+        window as f64 * seeds.parameters.tick,
+        standing.join(", ")
     )
 }
 
@@ -247,5 +300,19 @@ fn tables(seeds: &Seeds, sweep: &Sweep, map: &ProtocolMap) -> Vec<DataFile> {
     for (time, own, half) in both(seeds, map) {
         halves.row(cells![time, own, half.map(|half| half[0]), half.map(|half| half[1])]);
     }
-    vec![means, advances, halves]
+    let mut waits = DataFile::new(
+        "s11d.csv",
+        &["sigma (d omega^2)", "time (1/omega)", "ended (1)", "cut off (1)", "share longer (1)"],
+    );
+    for (own, tally) in seeds.fronts.iter().zip(&seeds.waits) {
+        let shares = tally.lasting();
+        for (ticks, share) in shares.into_iter().enumerate() {
+            let [ended, cut] = [tally.ended[ticks], tally.cut[ticks]];
+            if ended + cut > 0 {
+                let time = ticks as f64 * seeds.parameters.tick;
+                waits.row(cells![own.sigma, time, ended, cut, share]);
+            }
+        }
+    }
+    vec![means, advances, halves, waits]
 }

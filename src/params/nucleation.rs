@@ -64,6 +64,8 @@ pub struct SeedsParams {
     pub bin: f64,
     /// ... and their number, 64 at most.
     pub bins: usize,
+    /// Resolution of the times of first impacts; a bin has a whole number of ticks.
+    pub tick: f64,
     /// Window W of the counts that are predicted, in bins.
     pub window: usize,
     /// Transients T of the counts that are predicted, in bins, rising; the last window ends with the bins.
@@ -78,8 +80,10 @@ impl SeedsParams {
     /// The sizes of each profile.
     pub fn new(profile: Profile) -> Self {
         let (sigmas, realisations) = match profile {
-            Profile::Full | Profile::Deep => (Grid::default().and(16, 30, 1, 200), 240),
-            Profile::Ci => (Grid::default().and(8, 15, 1, 100), 30),
+            Profile::Full | Profile::Deep => {
+                (Grid::default().and(16, 30, 1, 200).and(16, 16, 1, 100), 240)
+            }
+            Profile::Ci => (Grid::default().and(8, 16, 1, 100), 30),
             Profile::Quick => (Grid::default().and(9, 14, 1, 100), 6),
         };
         SeedsParams {
@@ -89,10 +93,20 @@ impl SeedsParams {
             wait: 2000.0,
             bin: 25.0,
             bins: 48,
+            tick: 1.0,
             window: 8,
             transients: vec![2, 4, 8, 20, 40],
             stream: "seeds".into(),
             seed: SEED,
         }
+    }
+    /// Ticks of a run.
+    pub fn ticks(&self) -> usize {
+        (self.bin * self.bins as f64 / self.tick).round() as usize
+    }
+
+    /// Ticks of a window.
+    pub fn window_ticks(&self) -> usize {
+        (self.bin * self.window as f64 / self.tick).round() as usize
     }
 }

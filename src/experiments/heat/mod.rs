@@ -163,7 +163,6 @@ fn part(
     progress: &Progress,
 ) -> Result<Part, Error> {
     let row = &parameters.rows[unit.row];
-    let weight = weights::run(&parameters.chain, row.sigma, until(parameters));
     unit.each(stage, |index| realisation(parameters, row, index, progress))
 }
 

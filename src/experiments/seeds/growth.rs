@@ -10,7 +10,7 @@
 //! distance l that are hit in a window W which begins a time t after the first impact of a seed, and
 //! R(l, t) the share that is hit within t.
 
-use super::Seen;
+use super::ByDistance;
 use crate::circuits;
 use crate::circuits::distribution::{Law, SampleSpace};
 use crate::circuits::nucleation::reach::Reach;
@@ -65,15 +65,16 @@ pub fn circuits(chain: &Chain, p: f64) -> Result<f64, circuits::Error> {
 pub fn predictions(
     parameters: &SeedsParams,
     closing: &[[Vec<f64>; 2]],
-    seen: &[Vec<Seen>],
+    seen: &[Vec<ByDistance>],
 ) -> Result<Vec<Prediction>, circuits::Error> {
     let groups = seen.first().map_or(0, Vec::len);
-    let all: Vec<Seen> = seen.iter().map(|own| Seen::sum(own, groups)).collect();
-    let without: Vec<Vec<Seen>> =
-        (0..groups).map(|left| seen.iter().map(|own| Seen::sum(own, left)).collect()).collect();
+    let all: Vec<ByDistance> = seen.iter().map(|own| ByDistance::sum(own, groups)).collect();
+    let without: Vec<Vec<ByDistance>> = (0..groups)
+        .map(|left| seen.iter().map(|own| ByDistance::sum(own, left)).collect())
+        .collect();
     let half = 0.5 * parameters.chain.gaps() as f64;
     let of = |transient: &usize| {
-        let means = |seen: &Vec<Seen>| -> Vec<f64> {
+        let means = |seen: &Vec<ByDistance>| -> Vec<f64> {
             let both = closing.iter().zip(seen);
             both.map(|(own, seen)| expected(parameters, own, seen, *transient)).collect()
         };
@@ -108,7 +109,7 @@ pub fn predictions(
 fn expected(
     parameters: &SeedsParams,
     [wall, inner]: &[Vec<f64>; 2],
-    seen: &Seen,
+    seen: &ByDistance,
     transient: usize,
 ) -> f64 {
     let (gaps, window) = (parameters.chain.gaps(), parameters.window);
@@ -159,7 +160,7 @@ mod tests {
     #[test]
     fn seeds_that_reach_nothing_else_are_counted_alone() {
         // Whoever closes is hit once in its bin and in the next, and so is nobody else.
-        let seen = Seen {
+        let seen = ByDistance {
             places: vec![4, 8, 4],
             reached: vec![vec![0, 0, 0], vec![4, 0, 0], vec![4, 0, 0], vec![4, 0, 0]],
             active: vec![vec![4, 0, 0], vec![4, 0, 0], vec![0, 0, 0]],
@@ -176,7 +177,7 @@ mod tests {
     #[test]
     fn a_seed_that_reaches_everything_fills_the_chain() {
         let full = |n: u64| vec![n; 3];
-        let seen = Seen {
+        let seen = ByDistance {
             places: full(5),
             reached: vec![full(5); 4],
             active: vec![full(5); 3],

@@ -2,13 +2,19 @@
 //! nucleation and growth let expect.
 //!
 //! - [`run`](mod@run): chains with exactly one such gap, and where impacts get from there.
+//! - [`course`]: what is active, reached and alive as time goes on.
+//! - [`fronts`]: how long fronts stand, and which gaps hold them.
 //! - [`growth`]: what follows for a chain with as many of them as chance gives it.
 
+pub mod course;
+pub mod fronts;
 pub mod growth;
 pub mod run;
 
+pub use course::Moment;
+pub use fronts::{Fronts, Waits};
 pub use growth::Prediction;
-pub use run::{CUTTING, Part, Seen, Spread, Trace};
+pub use run::{ByDistance, CUTTING, Part, Spread, Trace};
 
 use crate::params::SeedsParams;
 use serde::{Deserialize, Serialize};
@@ -21,9 +27,13 @@ pub struct Seeds {
     /// For each σ the chances that a gap at a wall, and any other, closes by itself in each bin.
     pub closing: Vec<[Vec<f64>; 2]>,
     /// The raw counts, for each σ.
-    pub seen: Vec<Seen>,
+    pub seen: Vec<ByDistance>,
     /// What they say, for each σ.
     pub rows: Vec<Spread>,
+    /// The waits of fronts and the obstacles that they met, for each σ.
+    pub waits: Vec<Waits>,
+    /// What these say, for each σ.
+    pub fronts: Vec<Fronts>,
     /// The mean counts that follow, for each transient T.
     pub predictions: Vec<Prediction>,
 }

@@ -11,7 +11,7 @@ use crate::report::values::{Value, cell};
 use serde::Serialize;
 
 /// The σ of which the text speaks: at the rise.
-const SIGMA: f64 = 0.12;
+pub(super) const SIGMA: f64 = 0.12;
 
 /// One line of a table.
 #[derive(Debug, Serialize)]
@@ -19,7 +19,14 @@ pub struct Line {
     cells: Vec<String>,
 }
 
-const SPREADS: [&str; 4] = ["sigma", "spread", "exponent", "radius"];
+impl Line {
+    /// From its cells.
+    pub(super) fn new<const N: usize>(cells: [String; N]) -> Self {
+        Line { cells: cells.to_vec() }
+    }
+}
+
+const SPREADS: [&str; 5] = ["sigma", "spread", "active", "exponent", "radius"];
 
 const HALVES: [&str; 3] = ["transient", "predicted", "found"];
 
@@ -32,7 +39,7 @@ fn half_id(own: &Prediction, column: &str) -> String {
 }
 
 /// The rows of the table: those at whole hundredths.
-fn tabled(seeds: &Seeds) -> impl Iterator<Item = &Spread> {
+pub(super) fn tabled(seeds: &Seeds) -> impl Iterator<Item = &Spread> {
     seeds.rows.iter().filter(|row| (100.0 * row.sigma).round() / 100.0 == row.sigma)
 }
 
@@ -77,6 +84,8 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
     for row in tabled(seeds) {
         values.push(chosen(&spread_id(row, "sigma"), row.sigma));
         values.push(estimate(spread_id(row, "spread"), row.spread, row.spreads.len()));
+        let active = row.course.last().and_then(|own| own.active);
+        values.push(estimate(spread_id(row, "active"), active, row.spreads.len()));
         values.push(Value::real(spread_id(row, "exponent"), row.exponent, 2));
         values.push(Value::real(spread_id(row, "radius"), row.radius, 2));
     }
@@ -136,14 +145,12 @@ fn early(own: Option<Estimate>, found: Option<Estimate>, n: usize) -> Value {
 
 /// The lines of the table of spreading.
 pub fn spreads(results: &Results) -> Result<Vec<Line>, Error> {
-    let line =
-        |row: &Spread| Line { cells: SPREADS.map(|name| mark(spread_id(row, name))).to_vec() };
+    let line = |row: &Spread| Line::new(SPREADS.map(|name| mark(spread_id(row, name))));
     Ok(tabled(results.seeds()?).map(line).collect())
 }
 
 /// The lines of the table of half heights.
 pub fn halves(results: &Results) -> Result<Vec<Line>, Error> {
-    let line =
-        |own: &Prediction| Line { cells: HALVES.map(|name| mark(half_id(own, name))).to_vec() };
+    let line = |own: &Prediction| Line::new(HALVES.map(|name| mark(half_id(own, name))));
     Ok(results.seeds()?.predictions.iter().map(line).collect())
 }

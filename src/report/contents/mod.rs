@@ -2,12 +2,13 @@
 //!
 //! A value is computed here from results and carries the path of the item that computed it. Groups
 //! are `v` (ours), `paper` (numbers that the paper chose), `printed` (numbers in its statements), and
-//! one for the cells of each table: `compare`, `protocol`, `long`, `nucleation`, `spread`, `growth`, `heat`,
+//! one for the cells of each table: `compare`, `protocol`, `long`, `nucleation`, `spread`, `course`, `fronts`, `growth`, `heat`,
 //! `scores`, `history`, `independence`, `orbits`, `restitution`, `chains`, `starts` and `bias`.
 
 mod accuracy;
 mod chains;
 mod comparison;
+mod fronts;
 mod growth;
 mod heat;
 mod higher;
@@ -74,6 +75,7 @@ pub fn registry(results: &Results, published: &Published) -> Result<Registry, Er
     registry.extend(long::values(results)?)?;
     registry.extend(nucleation::values(results)?)?;
     registry.extend(growth::values(results)?)?;
+    registry.extend(fronts::values(results)?)?;
     registry.extend(heat::values(results)?)?;
     registry.extend(scores::values(results)?)?;
     registry.extend(history::values(results)?)?;
@@ -106,6 +108,9 @@ pub fn rows(
         ("long_verdict", serde_json::to_value(long::verdict(results)?)?),
         ("nucleation_table", serde_json::to_value(nucleation::table(results)?)?),
         ("spread_table", serde_json::to_value(growth::spreads(results)?)?),
+        ("course_table", serde_json::to_value(fronts::courses(results)?)?),
+        ("fronts_table", serde_json::to_value(fronts::speeds(results)?)?),
+        ("obstacles_table", serde_json::to_value(fronts::obstacles(results)?)?),
         ("growth_table", serde_json::to_value(growth::halves(results)?)?),
         ("distance_heads", serde_json::to_value(large::distance_heads(results))?),
         ("distance_table", serde_json::to_value(large::distance_table(results))?),

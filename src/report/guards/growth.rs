@@ -221,6 +221,7 @@ fn tabled(look: Look<'_>) -> Option<String> {
         let id = |name: &str| cell("spread", row.sigma, name);
         look.is(&id("sigma"), row.sigma)
             .or_else(|| look.is(&id("spread"), row.spread?.value))
+            .or_else(|| look.is(&id("active"), row.course.last()?.active?.value))
             .or_else(|| look.is(&id("exponent"), row.exponent))
             .or_else(|| look.is(&id("radius"), row.radius))
     };

@@ -11,6 +11,7 @@ mod accuracy;
 mod chains;
 mod comparison;
 mod counts;
+mod fronts;
 mod growth;
 mod heat;
 mod higher;
@@ -79,6 +80,7 @@ pub fn all() -> impl Iterator<Item = &'static Guard> {
         long::GUARDS,
         nucleation::GUARDS,
         growth::GUARDS,
+        fronts::GUARDS,
         heat::GUARDS,
         scores::GUARDS,
         history::GUARDS,

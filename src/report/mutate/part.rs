@@ -97,7 +97,7 @@ const PARTS: [Part; 26] = [
     ran!("heat", heat),
     ran!("nucleation", nucleation),
     ran!("history", history),
-    ran!("seeds", seeds, &["seen", "closing"]),
+    ran!("seeds", seeds, &["seen", "waits", "closing"]),
     ran!("independence", independence, &["hits", "histogram"]),
     ran!("orbits", orbits, &["found", "ends", "singles", "each", "example"]),
     ran!("restitution", restitution, &["runs", "able_drawn"]),
