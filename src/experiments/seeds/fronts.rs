@@ -321,6 +321,15 @@ mod tests {
         assert_eq!(two.without(one.clone()), *one);
     }
 
+    #[test]
+    fn the_like_of_those_that_held_by_hand() {
+        // Four of ten and one of ten: a quarter of all, and (4 · 0.4 + 0.1)/5 of the like of those that held.
+        let crossed = [[10, 4], [10, 1], [0, 0], [0, 0]];
+        let alike = |crossed| Waits { crossed, ..Waits::default() }.alike();
+        assert!((alike(crossed).unwrap() - 0.34 / 0.25).abs() < 1e-14);
+        assert_eq!(alike([[3, 0]; PARTS]), None);
+    }
+
     /// Obstacles that hold independently: both measures are one.
     #[test]
     fn independent_obstacles_have_no_memory() {
