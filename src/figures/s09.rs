@@ -3,12 +3,10 @@
 use super::axis::{Axis, log};
 use super::chart::{LETTERS, short};
 use super::data::cells;
-use super::panel::{Frame, Panel};
+use super::panel::Frame;
 use super::series::Outside;
 use super::sheet::{Entry, Sheet};
-use super::style::{
-    BLUE, Colour, Dash, GREEN, INK, LINE, Mark, ORANGE, PURPLE, RED, SMALL, Stroke, THIN,
-};
+use super::style::{BLUE, Dash, GREEN, INK, LINE, Mark, ORANGE, PURPLE, RED, SMALL, Stroke, THIN};
 use super::{DataFile, Error, Figure};
 use crate::experiments::heat::{Heat, Warmth};
 use crate::experiments::theory::Theory;
@@ -34,34 +32,6 @@ pub fn draw(heat: &Heat, theory: &Theory, note: Option<&str>) -> Result<Figure, 
     probabilities(&sheet, heat, theory)?;
     let files = tables(heat);
     Ok(sheet.finish_own(9, "How hot a running chain is", description(heat), files))
-}
-
-/// Estimates with their bars.
-fn estimates(
-    panel: &Panel,
-    name: &str,
-    points: &[(f64, Estimate)],
-    (mark, colour): (Mark, Colour),
-    y: fn(f64) -> f64,
-) -> Result<(), Error> {
-    let thin = Stroke::solid(colour, THIN);
-    let inside = |height: f64| height.clamp(panel.y.lo, panel.y.hi);
-    let bar = |(x, own): &(f64, Estimate)| {
-        // A few realisations leave bars longer than the axis.
-        (
-            *x,
-            inside(y((own.value - own.error).max(f64::MIN_POSITIVE))),
-            inside(y(own.value + own.error)),
-        )
-    };
-    panel.bars(name, &points.iter().map(bar).collect::<Vec<_>>(), 35, thin)?;
-    let at = |(x, own): &(f64, Estimate)| (*x, inside(y(own.value)));
-    panel.marks(
-        name,
-        &points.iter().map(at).collect::<Vec<_>>(),
-        (mark, SIZE, thin),
-        Outside::Refuse,
-    )
 }
 
 fn against_sigma(sheet: &Sheet, heat: &Heat) -> Result<(), Error> {
@@ -91,8 +61,18 @@ fn against_sigma(sheet: &Sheet, heat: &Heat) -> Result<(), Error> {
         heat.rising().filter_map(|row| Some((row.row.sigma, pick(row)?))).collect()
     };
     let looks = [("masses that are hit", Mark::Ring, ORANGE), ("all masses", Mark::Disc, RED)];
-    estimates(&panel, looks[0].0, &of(|row| row.ratio_of_hit), (looks[0].1, looks[0].2), |y| y)?;
-    estimates(&panel, looks[1].0, &of(|row| row.ratio), (looks[1].1, looks[1].2), |y| y)?;
+    panel.estimates(
+        looks[0].0,
+        &of(|row| row.ratio_of_hit),
+        (looks[0].1, SIZE, Stroke::solid(looks[0].2, THIN)),
+        |y| y,
+    )?;
+    panel.estimates(
+        looks[1].0,
+        &of(|row| row.ratio),
+        (looks[1].1, SIZE, Stroke::solid(looks[1].2, THIN)),
+        |y| y,
+    )?;
     for (name, mark, colour) in looks {
         entries.push(Entry::mark(mark, SIZE, Stroke::solid(colour, THIN), name));
     }
@@ -117,7 +97,12 @@ fn against_restitution(sheet: &Sheet, heat: &Heat) -> Result<(), Error> {
     panel.curve(FRICTION.0, &friction, FRICTION.1, Outside::Refuse)?;
     let points: Vec<_> =
         heat.others().filter_map(|row| Some((row.row.restitution, row.ratio_of_hit?))).collect();
-    estimates(&panel, "masses that are hit", &points, (Mark::Ring, ORANGE), log)?;
+    panel.estimates(
+        "masses that are hit",
+        &points,
+        (Mark::Ring, SIZE, Stroke::solid(ORANGE, THIN)),
+        log,
+    )?;
     let entries = [
         Entry::line(line, "balance of rare impacts"),
         Entry::line(FRICTION.1, FRICTION.0),

@@ -3,7 +3,7 @@
 use super::axis::{Axis, log};
 use super::chart::{LETTERS, short};
 use super::data::cells;
-use super::panel::{Frame, Panel};
+use super::panel::Frame;
 use super::series::Outside;
 use super::sheet::{Entry, Sheet};
 use super::style::{BLUE, Colour, Dash, INK, LINE, Mark, ORANGE, PURPLE, RED, SMALL, Stroke, THIN};
@@ -67,29 +67,12 @@ fn distances(sheet: &Sheet, found: &Independence) -> Result<(), Error> {
         let thin = Stroke::solid(colour, THIN);
         let known = (0..).zip(&row.near).filter_map(|(x, own)| Some((f64::from(x), (*own)?)));
         let known: Vec<(f64, Estimate)> = known.collect();
-        estimates(&panel, &sigma(row), &known, (mark, thin))?;
+        panel.estimates(&sigma(row), &known, (mark, SIZE, thin), |y| y)?;
         entries.push(Entry::mark(mark, SIZE, thin, &sigma(row)));
     }
     let (line, marks) = entries.split_at(1);
     sheet.legend((3300, 2250), (SMALL, 310), line)?;
     sheet.legend((5900, 2250), (SMALL, 310), marks)
-}
-
-/// Estimates with their bars.
-fn estimates(
-    panel: &Panel,
-    name: &str,
-    points: &[(f64, Estimate)],
-    (mark, stroke): (Mark, Stroke),
-) -> Result<(), Error> {
-    // A few realisations leave bars longer than the axis.
-    let inside = |height: f64| height.clamp(panel.y.lo, panel.y.hi);
-    let bar = |(x, own): &(f64, Estimate)| {
-        (*x, inside(own.value - own.error), inside(own.value + own.error))
-    };
-    panel.bars(name, &points.iter().map(bar).collect::<Vec<_>>(), 35, stroke)?;
-    let at: Vec<_> = points.iter().map(|(x, own)| (*x, inside(own.value))).collect();
-    panel.marks(name, &at, (mark, SIZE, stroke), Outside::Refuse)
 }
 
 fn circuits(sheet: &Sheet, found: &Independence) -> Result<(), Error> {

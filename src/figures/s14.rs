@@ -3,7 +3,7 @@
 use super::axis::{Axis, log};
 use super::chart::short;
 use super::data::cells;
-use super::panel::{Frame, Panel};
+use super::panel::Frame;
 use super::series::Outside;
 use super::sheet::{Entry, Sheet};
 use super::style::{
@@ -57,25 +57,6 @@ pub fn draw(found: &Restitution, note: Option<&str>) -> Result<Figure, Error> {
     Ok(sheet.finish_own(14, title, description(found), tables(found)))
 }
 
-/// Estimates with their bars, at heights that may be logarithms.
-fn estimates(
-    panel: &Panel,
-    name: &str,
-    points: &[(f64, Estimate)],
-    (mark, colour): (Mark, Colour),
-    y: fn(f64) -> f64,
-) -> Result<(), Error> {
-    let thin = Stroke::solid(colour, THIN);
-    // A few realisations leave bars longer than the axis.
-    let inside = |height: f64| height.clamp(panel.y.lo, panel.y.hi);
-    let low = |own: &Estimate| (own.value - own.error).max(f64::MIN_POSITIVE);
-    let bar =
-        |(x, own): &(f64, Estimate)| (*x, inside(y(low(own))), inside(y(own.value + own.error)));
-    panel.bars(name, &points.iter().map(bar).collect::<Vec<_>>(), 35, thin)?;
-    let at: Vec<_> = points.iter().map(|(x, own)| (*x, inside(y(own.value)))).collect();
-    panel.marks(name, &at, (mark, SIZE, thin), Outside::Refuse)
-}
-
 fn named(r: f64) -> String {
     format!("*r* = {r}")
 }
@@ -100,7 +81,7 @@ fn rises(sheet: &Sheet, found: &Restitution) -> Result<(), Error> {
         let line: Vec<_> = points.iter().map(|(x, own)| (*x, own.value)).collect();
         let thin = Stroke::solid(colour, THIN);
         panel.curve(&named(r), &line, thin, Outside::Refuse)?;
-        estimates(&panel, &named(r), &points, (mark, colour), |y| y)?;
+        panel.estimates(&named(r), &points, (mark, SIZE, Stroke::solid(colour, THIN)), |y| y)?;
         entries.push(Entry::mark(mark, SIZE, thin, &named(r)));
     }
     sheet.legend((6350, 1750), (SMALL, 310), &entries)
@@ -120,7 +101,7 @@ fn places(sheet: &Sheet, found: &Restitution) -> Result<(), Error> {
         .collect();
     let line: Vec<_> = points.iter().map(|(r, own)| (*r, own.value)).collect();
     panel.curve("half height", &line, Stroke::solid(RED, THIN), Outside::Refuse)?;
-    estimates(&panel, "half height", &points, (Mark::Disc, RED), |y| y)
+    panel.estimates("half height", &points, (Mark::Disc, SIZE, Stroke::solid(RED, THIN)), |y| y)
 }
 
 fn row(curve: &Curve, sigma: f64) -> Option<&Ensemble> {
@@ -158,7 +139,7 @@ fn warmth(sheet: &Sheet, found: &Restitution) -> Result<(), Error> {
             watched.filter_map(|row| Some((log(1.0 - row.restitution), end(&row.ratios)?)));
         let points: Vec<_> = own.chain(watched).collect();
         let name = format!("*σ* = {sigma}");
-        estimates(&panel, &name, &points, (mark, colour), log)?;
+        panel.estimates(&name, &points, (mark, SIZE, Stroke::solid(colour, THIN)), log)?;
         marks.push(Entry::mark(mark, SIZE, Stroke::solid(colour, THIN), &name));
         // The law is for hot chains, and drawn where little is lost.
         let curve: Vec<_> = losses()
@@ -213,7 +194,12 @@ fn heating(sheet: &Sheet, found: &Restitution) -> Result<(), Error> {
         let windows = row.rates.iter().enumerate();
         let points: Vec<_> =
             windows.filter_map(|(i, own)| Some((middle(found, i)?, (*own)?))).collect();
-        estimates(&panel, &named(row.restitution), &points, (mark, colour), log)?;
+        panel.estimates(
+            &named(row.restitution),
+            &points,
+            (mark, SIZE, Stroke::solid(colour, THIN)),
+            log,
+        )?;
         let thin = Stroke::solid(colour, THIN);
         entries.push(Entry::mark(mark, SIZE, thin, &named(row.restitution)));
     }
@@ -238,7 +224,12 @@ fn contact(sheet: &Sheet, found: &Restitution) -> Result<(), Error> {
             .iter()
             .filter_map(|row| Some((row.sigma, row.touched.filter(seen)?)))
             .collect();
-        estimates(&panel, &named(curve.restitution), &points, (mark, colour), log)?;
+        panel.estimates(
+            &named(curve.restitution),
+            &points,
+            (mark, SIZE, Stroke::solid(colour, THIN)),
+            log,
+        )?;
         let thin = Stroke::solid(colour, THIN);
         entries.push(Entry::mark(mark, SIZE, thin, &named(curve.restitution)));
     }

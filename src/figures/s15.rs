@@ -3,7 +3,7 @@
 use super::axis::{Axis, log};
 use super::chart::{LETTERS, short};
 use super::data::cells;
-use super::panel::{Frame, Panel};
+use super::panel::Frame;
 use super::series::Outside;
 use super::sheet::{Entry, Sheet};
 use super::style::{
@@ -69,22 +69,6 @@ fn points(all: &[(f64, Estimate)]) -> Vec<(f64, f64)> {
     all.iter().map(|(x, own)| (*x, own.value)).collect()
 }
 
-/// Points with bars of one standard error, cut to the frame.
-fn estimates(
-    panel: &Panel,
-    name: &str,
-    all: &[(f64, Estimate)],
-    look: (Mark, i32, Stroke),
-) -> Result<(), Error> {
-    let inside = |y: f64| y.clamp(panel.y.lo, panel.y.hi);
-    let bars: Vec<_> = all
-        .iter()
-        .map(|(x, own)| (*x, inside(own.value - own.error), inside(own.value + own.error)))
-        .collect();
-    panel.bars(name, &bars, 35, look.2)?;
-    panel.marks(name, &points(all), look, Outside::Cut)
-}
-
 fn lengths(sheet: &Sheet, chains: &Chains) -> Result<(), Error> {
     let panel = sheet.panel(
         Frame::new(1000, 430, 4050, 3730),
@@ -101,7 +85,7 @@ fn lengths(sheet: &Sheet, chains: &Chains) -> Result<(), Error> {
         let look = look(own.masses);
         let name = format!("*n* = {}", own.masses);
         panel.curve(&name, &points(&all), look.2, Outside::Cut)?;
-        estimates(&panel, &name, &all, look)?;
+        panel.estimates(&name, &all, look, |y| y)?;
         entries.push(Entry::mark(look.0, look.1, look.2, &name));
     }
     for (i, column) in entries.chunks(3).enumerate() {
@@ -140,7 +124,7 @@ fn times(sheet: &Sheet, chains: &Chains, map: &ProtocolMap) -> Result<(), Error>
     for (own, curve) in of(chains, "length-") {
         let name = format!("half height of {}", own.name);
         let all = logarithmic(halves(own, curve));
-        estimates(&panel, &name, &all, look(own.masses))?;
+        panel.estimates(&name, &all, look(own.masses), |y| y)?;
     }
     let entry = Entry::line(stroke, "map of Sec. 11, *n* = 100");
     sheet.legend((4900, 4560), (SMALL, 340), &[entry])
@@ -162,7 +146,7 @@ fn frictions(sheet: &Sheet, chains: &Chains, map: &ProtocolMap) -> Result<(), Er
         let name = format!("*c* = {}", own.damping);
         let all = logarithmic(halves(own, curve));
         panel.curve(&name, &points(&all), look.2, Outside::Cut)?;
-        estimates(&panel, &name, &all, look)?;
+        panel.estimates(&name, &all, look, |y| y)?;
         entries.push(Entry::mark(look.0, look.1, look.2, &name));
     }
     for (i, column) in entries.chunks(2).enumerate() {
@@ -195,7 +179,7 @@ fn period(sheet: &Sheet, chains: &Chains) -> Result<(), Error> {
     panel.curve("common period", &line(|own| own[2]), there, Outside::Cut)?;
     let all: Vec<_> = curve.rows.iter().map(alive).collect();
     let look = (Mark::Disc, SIZE, Stroke::solid(RED, THIN));
-    estimates(&panel, "simulation", &all, look)?;
+    panel.estimates("simulation", &all, look, |y| y)?;
     let entries = [
         Entry::line(bound, "all phases, Eq. (20)"),
         Entry::line(there, "common period"),

@@ -12,6 +12,7 @@ use super::element::{Area, Curve, Marks, Ticks};
 use super::panel::{Frame, Panel};
 use super::sheet::group;
 use super::style::{Colour, Mark, Stroke};
+use crate::numerics::statistics::Estimate;
 
 /// What to do with data outside the frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -153,6 +154,30 @@ impl Panel {
             }
         }
         self.series(name, &parts)
+    }
+
+    /// Estimates with bars of one standard error, at heights that may be logarithms. What lies outside the
+    /// frame is left out, and bars are cut: a few realisations leave some that are longer than the axis.
+    ///
+    /// # Errors
+    /// What drawing returns.
+    pub fn estimates(
+        &self,
+        name: &str,
+        estimates: &[(f64, Estimate)],
+        look: (Mark, i32, Stroke),
+        height: fn(f64) -> f64,
+    ) -> Result<(), Error> {
+        let at = |(x, own): &(f64, Estimate)| (*x, height(own.value));
+        let holds = |(x, y): (f64, f64)| self.x.holds(x) && self.y.holds(y);
+        let inside: Vec<_> = estimates.iter().filter(|own| holds(at(own))).collect();
+        let cut = |y: f64| height(y.max(f64::MIN_POSITIVE)).clamp(self.y.lo, self.y.hi);
+        let bar = |(x, own): &&(f64, Estimate)| {
+            (*x, cut(own.value - own.error), cut(own.value + own.error))
+        };
+        self.bars(name, &inside.iter().map(bar).collect::<Vec<_>>(), 35, look.2)?;
+        let points: Vec<_> = inside.into_iter().map(at).collect();
+        self.marks(name, &points, look, Outside::Refuse)
     }
 }
 
