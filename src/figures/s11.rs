@@ -122,7 +122,7 @@ fn advances(sheet: &Sheet, seeds: &Seeds) -> Result<(), Error> {
     panel.curve("constant speed", &[(1.0, -1.0), (4.0, 2.0)], straight, Outside::Cut)?;
     entries.push(Entry::line(straight, "∝ *t*"));
     for (i, column) in entries.chunks(3).enumerate() {
-        sheet.legend((700 + 1650 * i as i32, 8480), (SMALL, 320), column)?;
+        sheet.legend((650 + 1800 * i as i32, 8480), (SMALL, 320), column)?;
     }
     Ok(())
 }

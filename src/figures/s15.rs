@@ -32,7 +32,7 @@ const COMMON: &str = "frequency-2";
 
 /// Draws the figure.
 pub fn draw(chains: &Chains, map: &ProtocolMap, note: Option<&str>) -> Result<Figure, Error> {
-    let sheet = Sheet::new(10_800, note)?;
+    let sheet = Sheet::new(10_650, note)?;
     lengths(&sheet, chains)?;
     times(&sheet, chains, map)?;
     frictions(&sheet, chains, map)?;
@@ -71,8 +71,8 @@ fn points(all: &[(f64, Estimate)]) -> Vec<(f64, f64)> {
 
 fn lengths(sheet: &Sheet, chains: &Chains) -> Result<(), Error> {
     let panel = sheet.panel(
-        Frame::new(1000, 430, 4050, 3730),
-        Axis::linear(0.07, 0.19, 0.02, 2, "*σ*"),
+        Frame::new(1000, 430, 3900, 3730),
+        Axis::linear(0.07, 0.19, 0.03, 3, "*σ*"),
         Axis::linear(0.0, 1.0, 0.2, 2, "share of the gaps"),
     )?;
     panel.letter(LETTERS[0])?;
@@ -113,7 +113,7 @@ fn logarithmic(all: Vec<(f64, Estimate)>) -> Vec<(f64, Estimate)> {
 
 fn times(sheet: &Sheet, chains: &Chains, map: &ProtocolMap) -> Result<(), Error> {
     let panel = sheet.panel(
-        Frame::new(5250, 430, 8250, 3730),
+        Frame::new(5150, 430, 8050, 3730),
         Axis::decades(1, 4, 1, "transient *T*"),
         Axis::linear(0.09, 0.16, 0.01, 2, "*σ*_{1/2}"),
     )?;
@@ -132,7 +132,7 @@ fn times(sheet: &Sheet, chains: &Chains, map: &ProtocolMap) -> Result<(), Error>
 
 fn frictions(sheet: &Sheet, chains: &Chains, map: &ProtocolMap) -> Result<(), Error> {
     let panel = sheet.panel(
-        Frame::new(1000, 6050, 4050, 9050),
+        Frame::new(1000, 5900, 3900, 8900),
         Axis::decades(1, 4, 1, "transient *T*"),
         Axis::linear(0.09, 0.16, 0.01, 2, "*σ*_{1/2}"),
     )?;
@@ -150,7 +150,7 @@ fn frictions(sheet: &Sheet, chains: &Chains, map: &ProtocolMap) -> Result<(), Er
         entries.push(Entry::mark(look.0, look.1, look.2, &name));
     }
     for (i, column) in entries.chunks(2).enumerate() {
-        sheet.legend((700 + 1750 * i as i32, 9900), (SMALL, 340), column)?;
+        sheet.legend((600 + 1750 * i as i32, 9750), (SMALL, 340), column)?;
     }
     Ok(())
 }
@@ -165,8 +165,8 @@ fn alive(row: &Ensemble) -> (f64, Estimate) {
 
 fn period(sheet: &Sheet, chains: &Chains) -> Result<(), Error> {
     let panel = sheet.panel(
-        Frame::new(5250, 6050, 8250, 9050),
-        Axis::linear(0.2, 0.44, 0.04, 2, "*σ*"),
+        Frame::new(5150, 5900, 8050, 8900),
+        Axis::linear(0.2, 0.44, 0.1, 2, "*σ*"),
         Axis::linear(0.0, 1.0, 0.2, 2, "share of the chains"),
     )?;
     panel.letter(LETTERS[3])?;
@@ -185,7 +185,7 @@ fn period(sheet: &Sheet, chains: &Chains) -> Result<(), Error> {
         Entry::line(there, "common period"),
         Entry::mark(look.0, look.1, look.2, "simulation"),
     ];
-    sheet.legend((4900, 9900), (SMALL, 340), &entries)
+    sheet.legend((4900, 9750), (SMALL, 340), &entries)
 }
 
 fn description(chains: &Chains, map: &ProtocolMap) -> String {

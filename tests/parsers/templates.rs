@@ -145,7 +145,8 @@ fn prose_that_is_made_to_hurt() {
         let made = std::thread::spawn(move || made(&NAMED, &text)).join();
         let made = made.unwrap_or_else(|_| panic!("{shown} panics"));
         let time = began.elapsed();
-        assert!(time.as_secs() < 15, "{shown} takes {time:?}");
+        // No text hangs, on a busy machine either.
+        assert!(time.as_secs() < 60, "{shown} takes {time:?}");
         match made {
             Ok(_) => assert_eq!(word, "?", "{shown} is taken"),
             Err(error) => {

@@ -5,8 +5,6 @@
 
 mod joining;
 mod run;
-#[cfg(test)]
-mod tests;
 
 pub use run::FREQUENCIES;
 
@@ -152,3 +150,6 @@ fn fits(parameters: &ChainsParams, unit: &Unit, runs: &Part) -> bool {
     };
     runs.len() == unit.realisations.len() && runs.iter().flatten().all(fits)
 }
+
+#[cfg(test)]
+mod tests;

@@ -159,7 +159,8 @@ fn times(look: Look<'_>) -> Option<String> {
             look.are([
                 ("chains_fall_from", from),
                 ("chains_fall_to", to),
-                ("chains_damping", own.damping),
+                // As the curve is called.
+                ("chains_damping", own.name.split_once('-')?.1.parse().ok()?),
             ])
         })
 }
@@ -262,6 +263,11 @@ fn as_run(look: Look<'_>) -> Option<String> {
             let ran = row.runs.len() as u64 + row.failed;
             unless(fits && ran == own.realisations as u64, || format!("{ran} runs of {}", own.name))
         };
+        let rises = || {
+            let sigmas: Vec<f64> = curve.rows.iter().map(|row| row.sigma).collect();
+            let so = sigmas == own.sigmas && sigmas.windows(2).all(|pair| pair[0] < pair[1]);
+            unless(so, || format!("{} was run at {sigmas:?}", own.name))
+        };
         let named = |time: &f64| {
             look.is(&id(own, *time, "n")?, own.masses as f64)
                 .or_else(|| look.is(&id(own, *time, "t")?, *time))
@@ -271,6 +277,7 @@ fn as_run(look: Look<'_>) -> Option<String> {
             .rows
             .iter()
             .find_map(counted)
+            .or_else(rises)
             .or_else(|| own.transients.iter().find_map(named))
             .or_else(|| own.transients.iter().filter(|_| own.damping > 0.0).find_map(head))
     };
