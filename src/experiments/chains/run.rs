@@ -57,7 +57,7 @@ pub(super) fn open(scenario: &Scenario) -> u32 {
 /// Between strokes the motion is the engine's. At a stroke every velocity falls by the same factor
 /// e^{−2c h} that a friction 2cẋ takes in the time h between two strokes: the law of a viscous friction
 /// that acts on and off, and that law itself as h → 0.
-pub(super) struct Motion {
+pub(super) struct Journey {
     scenario: Scenario,
     engine: Engine,
     /// The engine's clock began at this time.
@@ -66,10 +66,10 @@ pub(super) struct Motion {
     strokes: Option<(u64, f64, f64)>,
 }
 
-impl Motion {
-    pub fn new(scenario: Scenario, damping: f64, stroke: f64) -> Result<Motion, dynamics::Error> {
+impl Journey {
+    pub fn new(scenario: Scenario, damping: f64, stroke: f64) -> Result<Journey, dynamics::Error> {
         let strokes = (damping > 0.0).then(|| (1, stroke, pxfm::f_exp(-2.0 * damping * stroke)));
-        Ok(Motion { engine: Engine::new(&scenario)?, scenario, begun: 0.0, strokes })
+        Ok(Journey { engine: Engine::new(&scenario)?, scenario, begun: 0.0, strokes })
     }
 
     /// Goes on until a time; impacts come with theirs.
@@ -130,7 +130,7 @@ pub(super) fn realisation(
     let sizes = pieces(scenario.gaps(), parameters.piece);
     let mut counts = Vec::with_capacity(curve.transients.len());
     let go = || {
-        let mut motion = Motion::new(scenario, curve.damping, parameters.stroke)?;
+        let mut motion = Journey::new(scenario, curve.damping, parameters.stroke)?;
         for transient in &curve.transients {
             motion.run(*transient, |_| !progress.stopped())?;
             let mut hit = vec![false; sizes.iter().sum()];

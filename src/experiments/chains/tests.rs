@@ -1,4 +1,4 @@
-use super::run::{Motion, draw, open};
+use super::run::{Journey, draw, open};
 use super::*;
 use crate::dynamics::{Engine, Initial, Scenario};
 use crate::numerics::random::NormalPairs;
@@ -61,7 +61,7 @@ fn strokes_without_damping_change_nothing() {
         })
         .unwrap();
     let mut struck = Vec::new();
-    let mut motion = Motion::new(scenario, 1e-30, 7.0).unwrap();
+    let mut motion = Journey::new(scenario, 1e-30, 7.0).unwrap();
     for until in [20.0, 55.0] {
         motion
             .run(until, |impact| {
@@ -101,7 +101,7 @@ fn small_strokes_are_a_viscous_friction() {
         y = [0, 1].map(|i| y[i] + h / 6.0 * (a[i] + 2.0 * b[i] + 2.0 * c[i] + d[i]));
     }
     let error = |stroke: f64| {
-        let mut motion = Motion::new(scenario.clone(), damping, stroke).unwrap();
+        let mut motion = Journey::new(scenario.clone(), damping, stroke).unwrap();
         motion.run(until, |_| panic!("no impact")).unwrap();
         (motion.place(until)[0] - 1.0 - y[0]).abs()
     };
