@@ -113,7 +113,7 @@ fn is_fenced(row: Node) -> bool {
         })
     };
     let mut inner = row.children().filter(Node::is_element);
-    let (first, last) = (inner.next(), inner.last());
+    let (first, last) = (inner.next(), inner.next_back());
     grows(first, "([{|⌊⌈") && grows(last, ")]}|⌋⌉")
 }
 
