@@ -44,7 +44,9 @@ pub fn files(source: &Source, root: &str) -> BTreeSet<String> {
             found.iter().flat_map(|path| defined(&code[path.as_str()])).collect();
         for (path, text) in &code {
             let layer = path.starts_with("src/experiments/") || path.starts_with("src/params/");
-            if layer && !found.contains(*path) && methods(text).any(|name| types.contains(name)) {
+            // A file with a type of its own by that name means its own.
+            let foreign = |name: &str| types.contains(name) && defined(text).all(|own| own != name);
+            if layer && !found.contains(*path) && methods(text).any(foreign) {
                 open.push(path.to_string());
             }
         }

@@ -18,7 +18,7 @@ mod spacetime;
 pub use accuracy::{
     AnalyticParams, BiasParams, MethodName, RaceParams, ScaleParams, Setting, TrialParams,
 };
-pub use chains::{ChainCurve, ChainsParams};
+pub use chains::{ChainCurve, ChainKind, ChainsParams};
 pub use chosen::*;
 pub use heat::{HeatParams, HeatRow};
 pub use history::HistoryParams;
@@ -27,6 +27,7 @@ pub use nucleation::{NucleationParams, SeedsParams};
 pub use orbits::{HuntParams, OrbitsParams};
 pub use restitution::RestitutionParams;
 pub use sizes::{
-    Grid, HorizonParams, ProtocolParams, StartVariant, StartsParams, SweepParams, TwoMassesParams,
+    Grid, HorizonParams, Level, NamedProtocol, ProtocolParams, ProtocolsParams, StartVariant,
+    StartsParams, SweepParams, TwoMassesParams,
 };
 pub use spacetime::SpaceTimeParams;

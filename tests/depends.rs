@@ -41,6 +41,8 @@ fn a_change_that_matters_is_seen_and_another_is_not() {
             "//! Beside [`super::near`].\nuse crate::params::FarParams;\n#[cfg(test)]\nmod tests { use super::super::near; }\n",
         ),
         ("src/experiments/more.rs", "impl From<u8> for super::watch::Watch {}\n"),
+        // Another type of the same name.
+        ("src/experiments/namesake.rs", "pub struct Near;\nimpl Near {}\n"),
     ]);
     let near = [
         "src/dynamics/contact.rs",

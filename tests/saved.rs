@@ -149,10 +149,13 @@ fn digest(lines: &[&str]) -> String {
 fn a_committed_result_is_carried_over_until_its_audit_fails() {
     let (folder, results) = (whole(), &*RESULTS);
     let folder = folder.path();
-    let committed = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/deep/long_protocol-deep.json");
     let deep = folder.join("deep");
     std::fs::create_dir(&deep).unwrap();
-    let text = std::fs::read_to_string(committed).unwrap();
+    let committed = files(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/benches/deep")));
+    for (name, bytes) in &committed {
+        std::fs::write(deep.join(name), bytes).unwrap();
+    }
+    let text = String::from_utf8(committed["long_protocol-deep.json"].clone()).unwrap();
     let lines: Vec<&str> = text.lines().collect();
     let put = |identity: &str, body: &str| {
         let text = format!("{}\n{identity}\n{body}\n", digest(&[identity, body]));
@@ -161,7 +164,9 @@ fn a_committed_result_is_carried_over_until_its_audit_fails() {
     let asked = || {
         let (code, text, _) = run(folder, "status --profile deep --results deep --json");
         let json: serde_json::Value = serde_json::from_str(&text).unwrap();
-        (code, json["experiments"][0].clone())
+        let lines = json["experiments"].as_array().unwrap();
+        assert_eq!(lines.len(), committed.len());
+        (code, lines.iter().find(|line| line["experiment"] == "long_protocol").unwrap().clone())
     };
     // Other code is no reason against it; other parameters are, and damage.
     put(&lines[1].replacen("engine.rs\":\"", "engine.rs\":\"0", 1), lines[2]);
@@ -188,7 +193,9 @@ fn a_committed_result_is_carried_over_until_its_audit_fails() {
     let (code, text, note) = run(folder, &check);
     assert_eq!(code, 1, "{note}");
     assert!(
-        text.contains("FAILS guard long_map_audited: the committed long map is stale"),
+        text.contains(
+            "FAILS guard carried_results_audited: the committed result long_protocol is stale"
+        ),
         "{text}"
     );
 }

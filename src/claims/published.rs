@@ -1,8 +1,8 @@
 //! What the paper printed: `templates/published.toml`.
 
+use crate::digest::sha256;
 use crate::input::{one_line, toml_fault};
 use serde::Deserialize;
-use sha2::{Digest, Sha256};
 use std::collections::BTreeSet;
 
 /// Everything that the paper printed and this edition judges or uses.
@@ -89,8 +89,7 @@ impl Published {
     pub fn parse(text: &str) -> Result<Published, PublishedError> {
         let mut published: Published = toml::from_str(text)
             .map_err(|error| PublishedError::Syntax(toml_fault(text, &error)))?;
-        let digest = Sha256::digest(text.as_bytes());
-        published.digest = digest.iter().map(|byte| format!("{byte:02x}")).collect();
+        published.digest = sha256(text);
         let parameters = published.parameters.iter().map(|p| &p.id);
         let statements = published.statements.iter().map(|s| &s.id);
         let mut seen = BTreeSet::new();

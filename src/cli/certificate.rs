@@ -2,6 +2,7 @@
 
 use super::verify::Checked;
 use super::{Failure, folder};
+use impact_paper::digest::sha256;
 use impact_paper::report::values::Number;
 use impact_paper::report::{Registry, compare, sums};
 use std::fmt::Write as _;
@@ -33,7 +34,7 @@ impl Facts {
         let values = values.map_err(|e| fault("values.json", e.to_string()))?;
         let list = text(sums::NAME)?;
         let files = sums::read(&list).map_err(|e| fault(sums::NAME, e.to_string()))?.len();
-        Ok(Facts { values, files, sums: sums::digest(list.as_bytes()) })
+        Ok(Facts { values, files, sums: sha256(list.as_bytes()) })
     }
 
     /// A value as text, or a dash.

@@ -1,10 +1,10 @@
 //! `impact-paper status`.
 
 use super::{Failure, stdout, work};
+use impact_paper::experiments::Store;
 use impact_paper::experiments::catalogue::{self, Saved};
-use impact_paper::experiments::deep::{self, Verdict};
+use impact_paper::experiments::deep;
 use impact_paper::experiments::store::{Reason, told};
-use impact_paper::experiments::{Need, Store};
 use impact_paper::params::Profile;
 use serde::Serialize;
 use std::path::PathBuf;
@@ -112,14 +112,7 @@ struct Found {
 
 impl Found {
     fn look(experiment: &'static dyn Saved, profile: Profile, store: &Store) -> Found {
-        let mut reasons = experiment.stale(profile, store);
-        let audit = match experiment.need() {
-            Need::LongProtocol => catalogue::LONG_AUDIT.saved(profile, store),
-            _ => None,
-        };
-        if audit.is_some_and(|audit| audit.verdict == Verdict::Failed) {
-            reasons.push(Reason::Failed);
-        }
+        let reasons = experiment.stale(profile, store);
         let carried = profile == Profile::Deep
             && !reasons.is_empty()
             && reasons.iter().all(Reason::is_of_source);

@@ -141,6 +141,7 @@ fn parameters(args: &Args) -> Result<SweepParams, Failure> {
         protocol: Protocol { transient: args.transient, window: args.window },
         sigmas,
         realisations: args.realisations,
+        level: None,
         stream: "sweep".into(),
         seed: args.seed,
     })

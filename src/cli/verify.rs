@@ -3,6 +3,7 @@
 use super::sources::Sources;
 use super::{Failure, certificate, folder, make, stdout, work};
 use clap::ValueEnum;
+use impact_paper::digest::sha256;
 use impact_paper::experiments::Progress;
 use impact_paper::params::Profile;
 use impact_paper::report::values::Number;
@@ -107,7 +108,7 @@ pub fn listed(root: &Path, progress: &Progress) -> Result<Checked, Failure> {
     for entry in &entries {
         progress.check()?;
         match folder::read(root, &entry.path) {
-            Ok(bytes) if sums::digest(&bytes) == entry.digest => (),
+            Ok(bytes) if sha256(&bytes) == entry.digest => (),
             Ok(_) => fault("differs", &entry.path, ""),
             Err(error) if error.kind() == ErrorKind::NotFound => fault("missing", &entry.path, ""),
             Err(error) => fault("unread", &entry.path, &format!(" ({error})")),

@@ -2,25 +2,27 @@
 
 use super::Need;
 use super::accuracy::{analytic, bias, race, scale, trials};
+use super::deep::Deep;
 use super::experiment::How::{Cut, Whole};
 use super::{
-    chains, deep, heat, history, horizon, independence, nucleation, orbits, protocol, restitution,
-    seeds, spacetime, starts, sweep, tally, two_masses, weights,
+    chains, heat, history, horizon, independence, long, nucleation, orbits, protocol, protocols,
+    restitution, seeds, spacetime, starts, sweep, tally, two_masses, weights,
 };
 use crate::params::{
     AnalyticParams, BiasParams, ChainsParams, HeatParams, HistoryParams, HorizonParams,
-    IndependenceParams, NucleationParams, OrbitsParams, Profile, ProtocolParams, RaceParams,
-    RestitutionParams, ScaleParams, SeedsParams, SpaceTimeParams, StartsParams, SweepParams,
-    TrialParams, TwoMassesParams,
+    IndependenceParams, NucleationParams, OrbitsParams, Profile, ProtocolParams, ProtocolsParams,
+    RaceParams, RestitutionParams, ScaleParams, SeedsParams, SpaceTimeParams, StartsParams,
+    SweepParams, TrialParams, TwoMassesParams,
 };
 
 pub use super::experiment::{Experiment, Saved};
 
 /// The experiments that are saved, in the order in which they run.
-const ALL: [&dyn Saved; 21] = [
+const ALL: [&dyn Saved; 22] = [
     &SWEEP,
     &SECOND_SEED,
     &PROTOCOL,
+    &PROTOCOLS,
     &STARTS,
     &HORIZON,
     &TWO_MASSES,
@@ -38,13 +40,27 @@ const ALL: [&dyn Saved; 21] = [
     &ORBITS,
     &RESTITUTION,
     &CHAINS,
-    &LONG_AUDIT,
+    &LONG_PROTOCOL,
 ];
 
-/// The experiments of a profile: the deep one has those that take long, all others have the rest.
+/// Those of them that take long: a run of the profile `deep`, which is committed.
+const LONG: [&dyn Saved; 10] = [
+    &SECOND_SEED,
+    &PROTOCOL,
+    &PROTOCOLS,
+    &STARTS,
+    &BIAS,
+    &HEAT,
+    &INDEPENDENCE,
+    &RESTITUTION,
+    &CHAINS,
+    &LONG_PROTOCOL,
+];
+
+/// The experiments of a profile: the deep one has those that take long, all others have all.
 pub fn of(profile: Profile) -> &'static [&'static dyn Saved] {
     match profile {
-        Profile::Deep => &[&LONG_PROTOCOL],
+        Profile::Deep => &LONG,
         _ => &ALL,
     }
 }
@@ -58,29 +74,48 @@ pub const SWEEP: Experiment<SweepParams, sweep::Sweep, tally::Tally> = Experimen
 };
 
 /// The rise again, with another seed.
-pub const SECOND_SEED: Experiment<SweepParams, sweep::Sweep, tally::Tally> = Experiment {
-    need: Need::SecondSeed,
-    module: "src/experiments/sweep.rs",
-    parameters: SweepParams::second_seed,
-    how: Cut("second seed", sweep::CUTTING),
-};
+pub const SECOND_SEED: Deep<SweepParams, sweep::Sweep, tally::Tally> = Deep::new(
+    Experiment {
+        need: Need::SecondSeed,
+        module: "src/experiments/sweep.rs",
+        parameters: SweepParams::second_seed,
+        how: Cut("second seed", sweep::CUTTING),
+    },
+    include_str!("../../benches/deep/second_seed-deep.json"),
+);
 
 /// Half height against transient and window.
-pub const PROTOCOL: Experiment<ProtocolParams, protocol::ProtocolMap, protocol::Part> =
+pub const PROTOCOL: Deep<ProtocolParams, protocol::ProtocolMap, protocol::Part> = Deep::new(
     Experiment {
         need: Need::Protocol,
         module: "src/experiments/protocol.rs",
         parameters: ProtocolParams::new,
         how: Cut("protocol map", protocol::CUTTING),
-    };
+    },
+    include_str!("../../benches/deep/protocol-deep.json"),
+);
+
+/// The same for other starts and ends.
+pub const PROTOCOLS: Deep<ProtocolsParams, protocols::Protocols, protocol::Part> = Deep::new(
+    Experiment {
+        need: Need::Protocols,
+        module: "src/experiments/protocols.rs",
+        parameters: ProtocolsParams::new,
+        how: Cut("maps of other chains", protocols::CUTTING),
+    },
+    include_str!("../../benches/deep/protocols-deep.json"),
+);
 
 /// Other starts, boundaries, restitutions and frequencies.
-pub const STARTS: Experiment<StartsParams, starts::Starts, tally::Tally> = Experiment {
-    need: Need::Starts,
-    module: "src/experiments/starts.rs",
-    parameters: StartsParams::new,
-    how: Cut("variants", starts::CUTTING),
-};
+pub const STARTS: Deep<StartsParams, starts::Starts, tally::Tally> = Deep::new(
+    Experiment {
+        need: Need::Starts,
+        module: "src/experiments/starts.rs",
+        parameters: StartsParams::new,
+        how: Cut("variants", starts::CUTTING),
+    },
+    include_str!("../../benches/deep/starts-deep.json"),
+);
 
 /// Chaos and its horizon.
 pub const HORIZON: Experiment<HorizonParams, horizon::Horizon> = Experiment {
@@ -121,12 +156,15 @@ pub const RACE: Experiment<RaceParams, race::Race> = Experiment {
 };
 
 /// What methods do to the mean count.
-pub const BIAS: Experiment<BiasParams, bias::Biases, bias::Part> = Experiment {
-    need: Need::Biases,
-    module: "src/experiments/accuracy/bias.rs",
-    parameters: BiasParams::new,
-    how: Cut("bias of methods", bias::CUTTING),
-};
+pub const BIAS: Deep<BiasParams, bias::Biases, bias::Part> = Deep::new(
+    Experiment {
+        need: Need::Biases,
+        module: "src/experiments/accuracy/bias.rs",
+        parameters: BiasParams::new,
+        how: Cut("bias of methods", bias::CUTTING),
+    },
+    include_str!("../../benches/deep/bias-deep.json"),
+);
 
 /// Every method in the scenes where methods fail.
 pub const TRIALS: Experiment<TrialParams, trials::Trials> = Experiment {
@@ -156,12 +194,15 @@ pub const ANALYTIC: Experiment<AnalyticParams, analytic::Analytic> = Experiment 
 };
 
 /// How hot running chains are.
-pub const HEAT: Experiment<HeatParams, heat::Heat, heat::Part> = Experiment {
-    need: Need::Heat,
-    module: "src/experiments/heat/mod.rs",
-    parameters: HeatParams::new,
-    how: Cut("heat", heat::CUTTING),
-};
+pub const HEAT: Deep<HeatParams, heat::Heat, heat::Part> = Deep::new(
+    Experiment {
+        need: Need::Heat,
+        module: "src/experiments/heat/mod.rs",
+        parameters: HeatParams::new,
+        how: Cut("heat", heat::CUTTING),
+    },
+    include_str!("../../benches/deep/heat-deep.json"),
+);
 
 /// First impacts of chains from rest.
 pub const NUCLEATION: Experiment<NucleationParams, nucleation::Nucleation, nucleation::Part> =
@@ -189,16 +230,16 @@ pub const HISTORY: Experiment<HistoryParams, history::History, history::Part> = 
 };
 
 /// Whether impacts are independent.
-pub const INDEPENDENCE: Experiment<
-    IndependenceParams,
-    independence::Independence,
-    independence::Part,
-> = Experiment {
-    need: Need::Independence,
-    module: "src/experiments/independence/mod.rs",
-    parameters: IndependenceParams::new,
-    how: Cut("independence", independence::CUTTING),
-};
+pub const INDEPENDENCE: Deep<IndependenceParams, independence::Independence, independence::Part> =
+    Deep::new(
+        Experiment {
+            need: Need::Independence,
+            module: "src/experiments/independence/mod.rs",
+            parameters: IndependenceParams::new,
+            how: Cut("independence", independence::CUTTING),
+        },
+        include_str!("../../benches/deep/independence-deep.json"),
+    );
 
 /// Periodic orbits of a short chain.
 pub const ORBITS: Experiment<OrbitsParams, orbits::Orbits> = Experiment {
@@ -209,34 +250,37 @@ pub const ORBITS: Experiment<OrbitsParams, orbits::Orbits> = Experiment {
 };
 
 /// Long chains, damping and other forces.
-pub const CHAINS: Experiment<ChainsParams, chains::Chains, chains::Part> = Experiment {
-    need: Need::Chains,
-    module: "src/experiments/chains/mod.rs",
-    parameters: ChainsParams::new,
-    how: Cut("long chains", chains::CUTTING),
-};
+pub const CHAINS: Deep<ChainsParams, chains::Chains, chains::Part> = Deep::new(
+    Experiment {
+        need: Need::Chains,
+        module: "src/experiments/chains/mod.rs",
+        parameters: ChainsParams::new,
+        how: Cut("long chains", chains::CUTTING),
+    },
+    include_str!("../../benches/deep/chains-deep.json"),
+);
 
 /// Chains of several restitutions.
-pub const RESTITUTION: Experiment<RestitutionParams, restitution::Restitution, restitution::Part> =
-    Experiment {
-        need: Need::Restitution,
-        module: "src/experiments/restitution/mod.rs",
-        parameters: RestitutionParams::new,
-        how: Cut("restitution", restitution::CUTTING),
-    };
+pub const RESTITUTION: Deep<RestitutionParams, restitution::Restitution, restitution::Part> =
+    Deep::new(
+        Experiment {
+            need: Need::Restitution,
+            module: "src/experiments/restitution/mod.rs",
+            parameters: RestitutionParams::new,
+            how: Cut("restitution", restitution::CUTTING),
+        },
+        include_str!("../../benches/deep/restitution-deep.json"),
+    );
 
 /// The long end of the map over transients and windows.
-pub const LONG_PROTOCOL: Experiment<ProtocolParams, deep::LongMap, protocol::Part> = Experiment {
-    need: Need::LongProtocol,
-    module: "src/experiments/deep.rs",
-    parameters: ProtocolParams::long,
-    how: Cut("long protocol map", deep::CUTTING),
-};
-
-/// A sample of the committed long map, run again.
-pub const LONG_AUDIT: Experiment<deep::AuditParams, deep::Audit> = Experiment {
-    need: Need::LongProtocol,
-    module: "src/experiments/deep.rs",
-    parameters: deep::AuditParams::of_committed,
-    how: Whole { run: deep::audit, weight: deep::AuditParams::weight },
+pub const LONG_PROTOCOL: Deep<ProtocolParams, long::LongMap, protocol::Part> = Deep {
+    experiment: Experiment {
+        need: Need::LongProtocol,
+        module: "src/experiments/long.rs",
+        parameters: ProtocolParams::long,
+        how: Cut("long protocol map", long::CUTTING),
+    },
+    committed: include_str!("../../benches/deep/long_protocol-deep.json"),
+    from: Profile::Quick,
+    distance: Some(long::distance),
 };

@@ -28,7 +28,8 @@ pub struct Row {
 }
 
 impl Row {
-    fn work(&self) -> u64 {
+    /// Work of all its realisations, in impacts.
+    pub fn work(&self) -> u64 {
         self.weight.saturating_mul(self.realisations as u64)
     }
 }

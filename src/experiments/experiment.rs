@@ -47,12 +47,6 @@ impl<P: Serialize + Sync, T: Json, U: Json> Experiment<P, T, U> {
         store.get(&identity, profile, progress, || self.run(&parameters, progress))
     }
 
-    /// The saved result, if it is fresh.
-    pub fn saved(&self, profile: Profile, store: &Store) -> Option<T> {
-        let text = store.look(&Saved::identity(self, profile), profile).ok()?;
-        serde_json::from_str(&text).ok()
-    }
-
     fn made_of(&self, parameters: &P) -> Identity {
         Identity::new(self.need.name(), self.module, parameters)
     }
@@ -63,6 +57,43 @@ impl<P: Serialize + Sync, T: Json, U: Json> Experiment<P, T, U> {
             How::Cut(name, cutting) => cutting.run(parameters, name, progress),
         }
     }
+
+    /// What some of its units give, if it is cut.
+    ///
+    /// # Errors
+    /// What a unit returns.
+    pub(super) fn given(
+        &self,
+        profile: Profile,
+        units: &[&Unit],
+        progress: &Progress,
+    ) -> Result<Vec<U>, Error> {
+        let parameters = (self.parameters)(profile);
+        match &self.how {
+            How::Whole { .. } => Ok(Vec::new()),
+            How::Cut(words, cutting) => {
+                let stage = progress.stage(words, units.iter().map(|unit| unit.weight).sum());
+                let part = |unit: &&Unit| (cutting.part)(&parameters, unit, &stage, progress);
+                units.par_iter().with_max_len(1).map(part).collect()
+            }
+        }
+    }
+
+    /// The result of what all units gave, if it is cut.
+    ///
+    /// # Errors
+    /// What joining returns.
+    pub(super) fn joined(
+        &self,
+        profile: Profile,
+        given: Vec<U>,
+        progress: &Progress,
+    ) -> Result<T, Error> {
+        match &self.how {
+            How::Whole { .. } => Err(Error::NotUnderstood { name: self.need.name() }),
+            How::Cut(_, cutting) => cutting.joined(&(self.parameters)(profile), given, progress),
+        }
+    }
 }
 
 /// What can be asked of every experiment, whatever its parameters and result are.
@@ -70,8 +101,13 @@ pub trait Saved: Sync {
     /// What it is needed for.
     fn need(&self) -> Need;
 
-    /// What its result depends on.
+    /// What its saved result depends on.
     fn identity(&self, profile: Profile) -> Identity;
+
+    /// With which parameters it was run, in this profile or for it.
+    fn parameters(&self, profile: Profile) -> serde_json::Value {
+        self.identity(profile).parameters
+    }
 
     /// Why its saved result is not to be used; nothing if it is fresh.
     fn stale(&self, profile: Profile, store: &Store) -> Vec<Reason>;
@@ -189,17 +225,15 @@ impl<P: Serialize + Sync, T: Json, U: Json> Saved for Experiment<P, T, U> {
         store: &Store,
         progress: &Progress,
     ) -> Result<(), Error> {
-        let parameters = (self.parameters)(profile);
-        let name = self.need.name();
-        let unread = |_| Error::NotUnderstood { name };
-        let result: T = match &self.how {
+        let unread = |_| Error::NotUnderstood { name: self.need.name() };
+        let result = match &self.how {
             How::Whole { .. } => serde_json::from_str(&texts.concat()).map_err(unread)?,
-            How::Cut(_, cutting) => {
-                let parts = texts.iter().map(|text| serde_json::from_str(text));
-                let parts: Vec<U> = parts.collect::<Result<_, _>>().map_err(unread)?;
-                cutting.joined(&parameters, parts, progress)?
+            How::Cut(..) => {
+                let given = texts.iter().map(|text| serde_json::from_str(text));
+                let given: Vec<U> = given.collect::<Result<_, _>>().map_err(unread)?;
+                self.joined(profile, given, progress)?
             }
         };
-        store.put(&self.made_of(&parameters), profile, &result)
+        store.put(&Saved::identity(self, profile), profile, &result)
     }
 }

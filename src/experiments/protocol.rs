@@ -7,7 +7,9 @@ use super::{Error, Progress, rise, weights};
 use crate::dynamics::{self, Engine, Scenario};
 use crate::numerics::random::NormalPairs;
 use crate::numerics::statistics::{Estimate, mean};
-use crate::params::{PRINTED_THRESHOLD, PRINTED_THRESHOLD_UNIT, ProtocolParams};
+use crate::params::{
+    COMPARABLE_REJECTED, PRINTED_THRESHOLD, PRINTED_THRESHOLD_UNIT, ProtocolParams,
+};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -22,7 +24,8 @@ pub struct ProtocolMap {
     /// The long map has them by σ instead.
     #[serde(default)]
     pub means: Vec<Vec<Option<f64>>>,
-    /// Realisations that the engine ended early; they are counted in no window that they missed.
+    /// Realisations whose random start overlaps, or that the engine ended early; they are counted in no
+    /// window.
     pub failed: usize,
 }
 
@@ -37,6 +40,8 @@ pub struct ProtocolCell {
     pub half_height: Option<Estimate>,
     /// Half height of the mean of all.
     pub half_height_all: Option<Estimate>,
+    /// Onset: the mean of all reaches N/20.
+    pub onset: Option<Estimate>,
     /// Whether `half_height` rounds to the printed threshold, σ ≈ 0.12.
     pub prints_as_published: bool,
 }
@@ -79,7 +84,7 @@ impl ProtocolMap {
 /// Distinct gaps that one run has in every window; none for windows that it did not reach.
 pub type Counts = Vec<Option<u32>>;
 
-/// Some realisations of one σ; none where the engine gave up.
+/// Some realisations of one σ; none where there was no run to the end.
 pub type Part = Vec<Option<Counts>>;
 
 /// The first impact of each gap after each transient: all that the windows need.
@@ -195,9 +200,15 @@ pub(super) fn join(
     let mut by_cell = vec![Vec::with_capacity(parameters.sigmas.len()); cells];
     for runs in parts {
         let runs = runs.concat();
-        failed += runs.iter().filter(|run| run.is_none()).count();
+        let none = runs.iter().filter(|run| run.is_none()).count();
+        failed += none;
+        // As in the sweep, no place is read from a row of which many starts overlapped.
+        let comparable = none as f64 <= COMPARABLE_REJECTED * runs.len() as f64;
+        let read = |run: &Option<Counts>, cell: usize| {
+            run.as_ref().filter(|_| comparable).and_then(|counts| counts[cell])
+        };
         for (cell, rows) in by_cell.iter_mut().enumerate() {
-            rows.push(runs.iter().map(|run| run.as_ref()?[cell]).collect::<Counts>());
+            rows.push(runs.iter().map(|run| read(run, cell)).collect::<Counts>());
         }
     }
     let protocols = parameters
@@ -220,6 +231,7 @@ pub(super) fn join(
             window,
             half_height,
             half_height_all: rise.half_height_all,
+            onset: rise.onset,
             prints_as_published: half_height.is_some_and(|half| prints_as_published(half.value)),
         });
     }
@@ -232,7 +244,7 @@ fn prints_as_published(sigma: f64) -> bool {
     (PRINTED_THRESHOLD - half..PRINTED_THRESHOLD + half).contains(&sigma)
 }
 
-/// One long run; none if the engine gave up.
+/// One long run; none if its start overlaps, or the engine gave up.
 pub(super) fn realisation(
     parameters: &ProtocolParams,
     sigma: f64,
@@ -243,8 +255,11 @@ pub(super) fn realisation(
     progress.check()?;
     let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, index);
     let scenario = Scenario::draw(&parameters.chain, sigma, &mut normals);
-    let mut engine = Engine::new(&scenario)
-        .map_err(|source| Error::Dynamics { experiment: "protocol map", source })?;
+    let mut engine = match Engine::new(&scenario) {
+        Ok(engine) => engine,
+        Err(dynamics::Error::Overlap { .. }) => return Ok(None),
+        Err(source) => return Err(Error::Dynamics { experiment: "protocol map", source }),
+    };
     let mut passages = FirstPassages::new(&parameters.transients, scenario.gaps());
     let mut seen = 0_u32;
     let ended = engine.run(until, |impact| {

@@ -3,10 +3,12 @@
 use super::accuracy::{analytic, bias, race, scale, trials};
 use super::{Error, Measured};
 use super::{
-    chains, deep, heat, history, horizon, identities, independence, laws, nucleation, orbits,
-    protocol, restitution, seeds, segments, spacetime, starts, sweep, theory, two_masses,
+    chains, deep, heat, history, horizon, identities, independence, laws, long, nucleation, orbits,
+    protocol, protocols, restitution, seeds, segments, spacetime, starts, sweep, theory,
+    two_masses,
 };
 use crate::params::{Profile, VERTICES};
+use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
 /// A result that a figure, a value or a claim needs. The theory need not be declared: it costs
@@ -19,6 +21,8 @@ pub enum Need {
     SecondSeed,
     /// [`Results::protocol`].
     Protocol,
+    /// [`Results::protocols`].
+    Protocols,
     /// [`Results::starts`].
     Starts,
     /// [`Results::laws`]; runs the main sweep too.
@@ -59,16 +63,17 @@ pub enum Need {
     Restitution,
     /// [`Results::chains`].
     Chains,
-    /// [`Results::long_protocol`]: read; a sample of it is run again.
+    /// [`Results::long_protocol`].
     LongProtocol,
 }
 
 impl Need {
     /// Everything: what the report needs.
-    pub const ALL: [Need; 24] = [
+    pub const ALL: [Need; 25] = [
         Need::Sweep,
         Need::SecondSeed,
         Need::Protocol,
+        Need::Protocols,
         Need::Starts,
         Need::Laws,
         Need::Horizon,
@@ -98,6 +103,7 @@ impl Need {
             Need::Sweep => "sweep",
             Need::SecondSeed => "second_seed",
             Need::Protocol => "protocol",
+            Need::Protocols => "protocols",
             Need::Starts => "starts",
             Need::Laws => "laws",
             Need::Horizon => "horizon",
@@ -138,6 +144,8 @@ pub struct Results {
     pub second_seed: Option<sweep::Sweep>,
     /// Half height against transient and window.
     pub protocol: Option<protocol::ProtocolMap>,
+    /// The same for other starts and ends.
+    pub protocols: Option<protocols::Protocols>,
     /// Other starts, boundaries, restitutions and frequencies.
     pub starts: Option<starts::Starts>,
     /// Three-way impacts and sticking.
@@ -178,8 +186,10 @@ pub struct Results {
     pub restitution: Option<restitution::Restitution>,
     /// Long chains, damping and other forces.
     pub chains: Option<chains::Chains>,
-    /// The long end of the map, carried over.
-    pub long_protocol: Option<deep::Carried>,
+    /// The long end of the map.
+    pub long_protocol: Option<long::LongMap>,
+    /// Of each result that is carried over, by the name of its experiment, what became of a sample.
+    pub audits: BTreeMap<String, deep::Audit>,
 }
 
 macro_rules! asked_for {
@@ -205,6 +215,8 @@ asked_for! {
     second_seed: sweep::Sweep, SecondSeed;
     /// The map over protocols.
     protocol: protocol::ProtocolMap, Protocol;
+    /// The maps of other chains.
+    protocols: protocols::Protocols, Protocols;
     /// The variants.
     starts: starts::Starts, Starts;
     /// The laws.
@@ -246,7 +258,7 @@ asked_for! {
     /// Long chains, damping and other forces.
     chains: chains::Chains, Chains;
     /// The long end of the map.
-    long_protocol: deep::Carried, LongProtocol;
+    long_protocol: long::LongMap, LongProtocol;
 }
 
 impl Results {
@@ -269,6 +281,7 @@ impl Results {
             sweep: None,
             second_seed: None,
             protocol: None,
+            protocols: None,
             starts: None,
             laws: None,
             horizon: None,
@@ -290,6 +303,7 @@ impl Results {
             restitution: None,
             chains: None,
             long_protocol: None,
+            audits: BTreeMap::new(),
         }
     }
 }

@@ -93,14 +93,14 @@ impl Curves {
 }
 
 /// Finds the rise in `counts[σ][realisation]` of a chain with `gaps` gaps, and the intervals of
-/// each row.
+/// each row. A row may have only the first of the realisations.
 pub fn find(
     sigmas: &[f64],
     counts: &[Vec<Option<u32>>],
     gaps: usize,
     seed: u64,
 ) -> (Rise, Vec<Intervals>) {
-    let realisations = counts.first().map_or(0, Vec::len);
+    let realisations = counts.iter().map(Vec::len).max().unwrap_or(0);
     let whole = Curves::new(sigmas, counts, gaps, &vec![1; realisations]);
     let resampled: Vec<Curves> = (0..RESAMPLES as u64)
         .into_par_iter()

@@ -1,8 +1,8 @@
 //! Runs what is needed, and nothing else; long runs are taken from the store.
 
-use super::catalogue::{self, Saved as _};
+use super::catalogue;
 use super::{Error, Measured, Need, Progress, Results, Store};
-use super::{deep, laws, segments};
+use super::{laws, segments};
 use crate::params::Profile;
 
 /// Runs the experiments behind `needs` with the sample sizes of a profile. `scenarios` gives the
@@ -42,17 +42,25 @@ pub fn run(
             })*
         };
     }
-    saved!(
-        second_seed: SECOND_SEED, protocol: PROTOCOL, starts: STARTS, horizon: HORIZON,
-        two_masses: TWO_MASSES, spacetime: SPACE_TIME, race: RACE, biases: BIAS, trials: TRIALS,
-        scale: SCALE, analytic: ANALYTIC, heat: HEAT, nucleation: NUCLEATION, seeds: SEEDS, history: HISTORY, independence: INDEPENDENCE, orbits: ORBITS,
-        restitution: RESTITUTION, chains: CHAINS
-    );
-    if needs(Need::LongProtocol) {
-        let audit = catalogue::LONG_AUDIT.get(profile, store, progress)?;
-        let now = catalogue::LONG_PROTOCOL.identity(Profile::Deep);
-        results.long_protocol = Some(deep::carried(audit, &now)?);
+    macro_rules! carried {
+        ($($field:ident: $experiment:ident),*) => {
+            $(if needs(catalogue::$experiment.experiment.need) {
+                let (result, audit) = catalogue::$experiment.get(profile, store, progress)?;
+                let name = catalogue::$experiment.experiment.need.name();
+                results.audits.extend(audit.map(|audit| (name.into(), audit)));
+                results.$field = Some(result);
+            })*
+        };
     }
+    saved!(
+        horizon: HORIZON, two_masses: TWO_MASSES, spacetime: SPACE_TIME, race: RACE, trials: TRIALS,
+        scale: SCALE, analytic: ANALYTIC, nucleation: NUCLEATION, history: HISTORY, orbits: ORBITS, seeds: SEEDS
+    );
+    carried!(
+        second_seed: SECOND_SEED, protocol: PROTOCOL, protocols: PROTOCOLS, starts: STARTS, biases: BIAS, heat: HEAT,
+        independence: INDEPENDENCE, restitution: RESTITUTION, chains: CHAINS,
+        long_protocol: LONG_PROTOCOL
+    );
     progress.check()?;
     Ok(results)
 }

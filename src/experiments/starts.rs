@@ -56,6 +56,7 @@ fn ensemble(parameters: &StartsParams, variant: &StartVariant) -> SweepParams {
         protocol: parameters.protocol,
         sigmas: variant.sigmas.clone(),
         realisations: parameters.realisations,
+        level: None,
         stream: parameters.stream.clone(),
         seed: parameters.seed,
     }

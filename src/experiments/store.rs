@@ -7,11 +7,11 @@
 
 use super::cutting::Unit;
 use super::{Error, Progress};
+use crate::digest::sha256;
 use crate::input::{LARGEST, one_line};
 use crate::params::Profile;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
-use sha2::{Digest, Sha256};
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
@@ -77,6 +77,12 @@ impl Identity {
     pub fn of_unit(&self, number: usize, unit: &Unit) -> Self {
         let (realisations, covers) = (unit.realisations.clone(), unit.covers.clone());
         Identity { unit: Some(UnitOf { number, realisations, covers }), ..self.clone() }
+    }
+
+    /// Another identity that depends on the code of this one too.
+    pub fn with_code(self, mut other: Identity) -> Identity {
+        other.code.extend(self.code);
+        other
     }
 
     /// Name of its file in a profile, without the ending.
@@ -347,12 +353,7 @@ fn save(path: &Path, identity: &Identity, body: &str) -> std::io::Result<()> {
 
 /// SHA-256 of lines, in hexadecimal.
 fn digest(lines: &[&str]) -> String {
-    let mut hash = Sha256::new();
-    for line in lines {
-        hash.update(line.as_bytes());
-        hash.update(b"\n");
-    }
-    hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+    sha256(lines.iter().flat_map(|line| [*line, "\n"]).collect::<String>())
 }
 
 #[cfg(test)]

@@ -107,7 +107,7 @@ pub fn run(parameters: &SweepParams, name: &str, progress: &Progress) -> Result<
 pub fn rows(parameters: &SweepParams) -> Vec<Row> {
     let row = |&sigma: &f64| Row {
         covers: format!("sigma = {sigma}"),
-        realisations: parameters.realisations,
+        realisations: parameters.realisations_at(sigma),
         weight: weight(parameters, sigma),
     };
     parameters.sigmas.iter().map(row).collect()
@@ -167,8 +167,7 @@ fn weight(parameters: &SweepParams, sigma: f64) -> u64 {
 
 /// Units of work of all σ, for the stage that [`at`] advances.
 pub fn work(parameters: &SweepParams) -> u64 {
-    let weights = parameters.sigmas.iter().map(|&sigma| weight(parameters, sigma));
-    weights.fold(0, u64::saturating_add).saturating_mul(parameters.realisations as u64)
+    rows(parameters).iter().map(Row::work).fold(0, u64::saturating_add)
 }
 
 /// Runs the ensemble at one σ, without bootstrap.
@@ -181,7 +180,7 @@ pub fn at(
     stage: &Stage,
     progress: &Progress,
 ) -> Result<Sample, Error> {
-    let tally = tally(parameters, sigma, 0..parameters.realisations, stage, progress)?;
+    let tally = tally(parameters, sigma, 0..parameters.realisations_at(sigma), stage, progress)?;
     Ok(reduce(parameters, sigma, tally))
 }
 

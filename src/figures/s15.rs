@@ -13,15 +13,16 @@ use super::{DataFile, Error, Figure};
 use crate::experiments::chains::{Chains, Curve, Ensemble};
 use crate::experiments::protocol::ProtocolMap;
 use crate::numerics::statistics::Estimate;
-use crate::params::ChainCurve;
+use crate::params::{ChainCurve, ChainKind};
 
 /// Marks and colours of lengths and of frictions, from the smallest.
-const LOOKS: [(Mark, Colour); 5] = [
+const LOOKS: [(Mark, Colour); 6] = [
     (Mark::Ring, PURPLE),
     (Mark::Disc, BLUE),
     (Mark::Square, GREEN),
     (Mark::Diamond, ORANGE),
     (Mark::Disc, RED),
+    (Mark::Ring, INK),
 ];
 
 /// The half size of marks.
@@ -39,14 +40,6 @@ pub fn draw(chains: &Chains, map: &ProtocolMap, note: Option<&str>) -> Result<Fi
     period(&sheet, chains)?;
     let title = "Long chains, friction, and a common period";
     Ok(sheet.finish_own(15, title, description(chains, map), tables(chains, map)))
-}
-
-fn of<'a>(
-    chains: &'a Chains,
-    kind: &'static str,
-) -> impl Iterator<Item = (&'a ChainCurve, &'a Curve)> {
-    let all = chains.parameters.curves.iter().zip(&chains.curves);
-    all.filter(move |(own, _)| own.name.starts_with(kind))
 }
 
 /// The look of a length, by its order of magnitude.
@@ -77,7 +70,7 @@ fn lengths(sheet: &Sheet, chains: &Chains) -> Result<(), Error> {
     )?;
     panel.letter(LETTERS[0])?;
     let mut entries = Vec::new();
-    for (own, curve) in of(chains, "length-") {
+    for (own, curve) in chains.of(ChainKind::Length) {
         let all = shares(own, curve, COMMON_TIME);
         if all.is_empty() {
             continue;
@@ -114,14 +107,14 @@ fn logarithmic(all: Vec<(f64, Estimate)>) -> Vec<(f64, Estimate)> {
 fn times(sheet: &Sheet, chains: &Chains, map: &ProtocolMap) -> Result<(), Error> {
     let panel = sheet.panel(
         Frame::new(5150, 430, 8050, 3730),
-        Axis::decades(1, 4, 1, "transient *T*"),
-        Axis::linear(0.09, 0.16, 0.01, 2, "*σ*_{1/2}"),
+        Axis::decades(1, 5, 1, "transient *T*"),
+        Axis::linear(0.08, 0.16, 0.01, 2, "*σ*_{1/2}"),
     )?;
     panel.letter(LETTERS[1])?;
     let stroke = Stroke::solid(INK, THIN);
     let line = logarithmic(of_map(chains, map));
     panel.curve("map", &points(&line), stroke, Outside::Cut)?;
-    for (own, curve) in of(chains, "length-") {
+    for (own, curve) in chains.of(ChainKind::Length) {
         let name = format!("half height of {}", own.name);
         let all = logarithmic(halves(own, curve));
         panel.estimates(&name, &all, look(own.masses), |y| y)?;
@@ -141,7 +134,7 @@ fn frictions(sheet: &Sheet, chains: &Chains, map: &ProtocolMap) -> Result<(), Er
     let line = logarithmic(of_map(chains, map));
     panel.curve("without friction", &points(&line), stroke, Outside::Cut)?;
     let mut entries = vec![Entry::line(stroke, "*c* = 0")];
-    for ((own, curve), (mark, colour)) in of(chains, "damping-").zip(&LOOKS[1..]) {
+    for ((own, curve), (mark, colour)) in chains.of(ChainKind::Damping).zip(&LOOKS[1..]) {
         let look = (*mark, SIZE, Stroke::solid(*colour, THIN));
         let name = format!("*c* = {}", own.damping);
         let all = logarithmic(halves(own, curve));
@@ -196,8 +189,9 @@ fn description(chains: &Chains, map: &ProtocolMap) -> String {
             .collect();
         if list.is_empty() { "none".into() } else { list.join(", ") }
     };
-    let each = |kind| -> String {
-        let list: Vec<String> = of(chains, kind)
+    let each = |kind: ChainKind| -> String {
+        let list: Vec<String> = chains
+            .of(kind)
             .map(|(own, curve)| format!("{}: {}", own.name, told(halves(own, curve))))
             .collect();
         list.join("; ")
@@ -215,8 +209,8 @@ fn description(chains: &Chains, map: &ProtocolMap) -> String {
          higher and the more level. {}. (d) Share of chains with an impact for Ω = 2: simulated points follow the lower \
          of two curves, {period}.",
         told(of_map(chains, map)),
-        each("length-"),
-        each("damping-"),
+        each(ChainKind::Length),
+        each(ChainKind::Damping),
     )
 }
 
@@ -247,7 +241,7 @@ fn tables(chains: &Chains, map: &ProtocolMap) -> Vec<DataFile> {
             "standard_error (d omega^2)",
         ],
     );
-    for (own, curve) in of(chains, "") {
+    for (own, curve) in chains.all() {
         let name = own.name.as_str();
         for row in &curve.rows {
             for (time, share) in own.transients.iter().zip(&row.shares) {
@@ -278,7 +272,7 @@ fn tables(chains: &Chains, map: &ProtocolMap) -> Vec<DataFile> {
         "s15d.csv",
         &["chain (text)", "sigma (d omega^2)", "share_all_phases (1)", "share_common_period (1)"],
     );
-    for (own, curve) in of(chains, "frequency-") {
+    for (own, curve) in chains.of(ChainKind::Frequency) {
         for [sigma, ever, there] in &curve.kept_expected {
             expected.row(cells![own.name.as_str(), *sigma, *ever, *there]);
         }

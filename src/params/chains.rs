@@ -22,9 +22,29 @@ pub struct ChainsParams {
     pub seed: u64,
 }
 
+/// In what a curve differs from the paper's chain.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ChainKind {
+    /// In its length.
+    Length,
+    /// In its start or its ends, followed over the transients.
+    Drift,
+    /// In that its flight is damped, followed over the transients.
+    Damping,
+    /// In the number of components of its force.
+    Components,
+    /// In the frequency of its force, which has a common period with ω.
+    Frequency,
+    /// Short chains, of which many fall silent.
+    Silence,
+}
+
 /// One kind of chain at several σ.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ChainCurve {
+    /// In what it differs.
+    pub kind: ChainKind,
     /// `length-1000`, `damping-0.001`, …
     pub name: String,
     /// Number of masses n.
@@ -65,7 +85,8 @@ impl ChainsParams {
             Profile::Ci => n.div_ceil(4),
             Profile::Quick => n.div_ceil(24).max(2),
         };
-        let plain = |name: String, realisations: usize| ChainCurve {
+        let plain = |kind: ChainKind, name: String, realisations: usize| ChainCurve {
+            kind,
             name,
             masses: chain.masses,
             start: chain.start,
@@ -81,25 +102,26 @@ impl ChainsParams {
             masses,
             sigmas,
             transients: transients.to_vec(),
-            ..plain(format!("length-{masses}"), realisations)
+            ..plain(ChainKind::Length, format!("length-{masses}"), realisations)
         };
         let mut curves = vec![
             long(10, 600, grid(9, 25), &[50.0, 250.0, 500.0]),
             long(100, 120, grid(8, 16), &[500.0]),
         ];
         if full {
+            // All at one T, then in proportion to ln n, then to n.
             curves.extend([
-                long(800, 4, grid(8, 12), &[4000.0]),
-                long(1000, 8, grid(8, 15), &[500.0, 750.0]),
-                long(10_000, 2, grid(8, 14), &[500.0, 1000.0]),
-                long(100_000, 1, grid(11, 12), &[500.0, 1250.0]),
+                long(1000, 8, grid(8, 15), &[500.0, 750.0, 5000.0]),
+                long(10_000, 2, grid(8, 14), &[500.0, 1000.0, 50_000.0]),
+                long(100_000, 1, grid(10, 12), &[500.0, 1250.0]),
+                long(1_000_000, 1, grid(10, 12), &[500.0, 1500.0]),
             ]);
         }
         let ends: &[f64] = if full { &[100.0, 500.0, 1000.0, 2000.0] } else { &[100.0, 500.0] };
         let drift = |name: &str| ChainCurve {
             sigmas: grid(9, 18),
             transients: ends.to_vec(),
-            ..plain(format!("drift-{name}"), 24)
+            ..plain(ChainKind::Drift, format!("drift-{name}"), 24)
         };
         curves.extend([
             ChainCurve { start: Start::Random, ..drift("random") },
@@ -109,25 +131,25 @@ impl ChainsParams {
             damping,
             sigmas: grid(10, 18),
             transients: ends.to_vec(),
-            ..plain(format!("damping-{damping}"), 16)
+            ..plain(ChainKind::Damping, format!("damping-{damping}"), 16)
         }));
         curves.extend([2, 4, 8].map(|components| ChainCurve {
             components,
             sigmas: grid(5, 13),
-            ..plain(format!("components-{components}"), 24)
+            ..plain(ChainKind::Components, format!("components-{components}"), 24)
         }));
         curves.extend([1.5, 2.0].map(|forcing_frequency| {
             let weak = forcing_frequency == 2.0;
             let sigmas = if weak { grid(22, 42) } else { grid(10, 18) };
             let sigmas = sigmas.into_iter().step_by(if weak && full { 2 } else { 1 }).collect();
             let name = format!("frequency-{forcing_frequency}");
-            ChainCurve { forcing_frequency, sigmas, ..plain(name, 48) }
+            ChainCurve { forcing_frequency, sigmas, ..plain(ChainKind::Frequency, name, 48) }
         }));
         curves.push(ChainCurve {
             masses: 10,
             sigmas: vec![0.2, 0.25, 0.3],
             transients: vec![2000.0],
-            ..plain("silence".into(), 240)
+            ..plain(ChainKind::Silence, "silence".into(), 240)
         });
         ChainsParams {
             chain,

@@ -33,16 +33,36 @@ pub struct SweepParams {
     pub sigmas: Vec<f64>,
     /// Realisations at each σ; realisation i has the same standard normals at every σ.
     pub realisations: usize,
+    /// Where fewer of them do.
+    pub level: Option<Level>,
     /// Name of the random stream.
     pub stream: String,
     /// Master seed.
     pub seed: u64,
 }
 
+/// Beyond the rise all chains count nearly the same number of gaps, and each costs most: of fewer the
+/// mean is known as well.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Level {
+    /// Above this σ ...
+    pub above: f64,
+    /// ... so many realisations are run.
+    pub realisations: usize,
+}
+
 impl SweepParams {
+    /// Realisations at a σ.
+    pub fn realisations_at(&self, sigma: f64) -> usize {
+        match self.level {
+            Some(level) if sigma > level.above => level.realisations,
+            _ => self.realisations,
+        }
+    }
+
     /// The main sweep of Sec. 2 (Figs. 2, 3, 12 and 15).
     pub fn main(profile: Profile) -> Self {
-        let (sigmas, realisations) = match profile {
+        let (sigmas, realisations, level) = match profile {
             Profile::Full | Profile::Deep => (
                 // 69 values, 0.0025 apart where the rise is.
                 Grid::default()
@@ -52,14 +72,17 @@ impl SweepParams {
                     .and(15, 20, 1, 50)
                     .values(),
                 1000,
+                100,
             ),
             Profile::Ci => (
                 Grid::default().and(2, 7, 1, 100).and(16, 36, 1, 200).and(10, 20, 1, 50).values(),
                 60,
+                20,
             ),
             Profile::Quick => (
                 Grid::default().and(2, 8, 2, 100).and(9, 16, 1, 100).and(9, 20, 2, 50).values(),
                 12,
+                6,
             ),
         };
         SweepParams {
@@ -67,6 +90,7 @@ impl SweepParams {
             protocol: Protocol::default(),
             sigmas,
             realisations,
+            level: Some(Level { above: 0.16, realisations: level }),
             stream: "sweep".into(),
             seed: SEED,
         }
@@ -126,24 +150,73 @@ impl ProtocolParams {
 
     /// The map of each profile.
     pub fn new(profile: Profile) -> Self {
-        let (longest, sigmas, realisations) = match profile {
+        let (longest, widest, sigmas, realisations) = match profile {
             Profile::Full | Profile::Deep => {
-                (9, Grid::default().and(34, 68, 2, 400).and(18, 22, 1, 100).values(), 120)
+                (9, 7, Grid::default().and(34, 68, 2, 400).and(18, 22, 1, 100).values(), 120)
             }
-            Profile::Ci => (7, Grid::default().and(9, 17, 1, 100).values(), 24),
-            Profile::Quick => (6, Grid::default().and(9, 17, 1, 100).values(), 6),
+            Profile::Ci => (7, 5, Grid::default().and(9, 17, 1, 100).values(), 24),
+            Profile::Quick => (6, 5, Grid::default().and(9, 17, 1, 100).values(), 6),
         };
         let transients = [10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0, 4000.0];
+        let windows = [20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0];
         ProtocolParams {
             chain: Chain::default(),
             transients: transients[..longest].to_vec(),
-            windows: vec![20.0, 50.0, 100.0, 200.0, 500.0],
+            windows: windows[..widest].to_vec(),
             sigmas,
             short_above: 0.131,
             short_until: 1000.0,
             realisations,
             stream: "protocol".into(),
             seed: SEED,
+        }
+    }
+}
+
+/// The map of one kind of chain.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct NamedProtocol {
+    /// Short name: `zero`, `random`, `ring`.
+    pub name: String,
+    /// What is run.
+    pub map: ProtocolParams,
+}
+
+/// The map for other starts and ends, on fewer transients and windows.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ProtocolsParams {
+    /// The maps.
+    pub maps: Vec<NamedProtocol>,
+}
+
+impl ProtocolsParams {
+    /// The sizes of each profile.
+    pub fn new(profile: Profile) -> Self {
+        let (times, step, realisations) = match profile {
+            Profile::Full | Profile::Deep => (3, 1, 80),
+            Profile::Ci => (2, 2, 8),
+            Profile::Quick => (2, 2, 3),
+        };
+        let named = |name: &str, change: fn(&mut Chain)| {
+            let mut map = ProtocolParams {
+                transients: [50.0, 500.0, 4000.0][..times].to_vec(),
+                windows: [20.0, 200.0, 2000.0][..times].to_vec(),
+                // A start without a free part rises last.
+                sigmas: Grid::default().and(8, 26, step, 100).values(),
+                short_above: 0.2,
+                realisations,
+                stream: "protocols".into(),
+                ..ProtocolParams::new(profile)
+            };
+            change(&mut map.chain);
+            NamedProtocol { name: name.into(), map }
+        };
+        ProtocolsParams {
+            maps: vec![
+                named("zero", |chain| chain.start = Start::Zero),
+                named("random", |chain| chain.start = Start::Random),
+                named("ring", |chain| chain.boundary = Boundary::Ring),
+            ],
         }
     }
 }

@@ -24,6 +24,7 @@ pub fn recipe(name: &str, profile: Profile) -> Option<Recipe> {
         "second_seed" => ("second_seed", "experiments::sweep"),
         "laws" => ("laws", "experiments::laws::run"),
         "protocol" => ("protocol", "experiments::protocol::run"),
+        "protocols" => ("protocols", "experiments::protocols::CUTTING"),
         "starts" => ("starts", "experiments::starts::run"),
         "horizon" => ("horizon", "experiments::horizon::run"),
         "two_masses" => ("two_masses", "experiments::two_masses::run"),
@@ -37,24 +38,25 @@ pub fn recipe(name: &str, profile: Profile) -> Option<Recipe> {
         "measured" => ("measured", "experiments::measured"),
         "heat" => ("heat", "experiments::heat::run"),
         "nucleation" => ("nucleation", "experiments::nucleation::CUTTING"),
-        "seeds" => ("nucleation", "experiments::seeds::run::CUTTING"),
-        "history" => ("heat", "experiments::history::CUTTING"),
+        "seeds" => ("seeds", "experiments::seeds::run::CUTTING"),
+        "history" => ("history", "experiments::history::CUTTING"),
         "independence" => ("independence", "experiments::independence::run"),
         "orbits" => ("orbits", "experiments::orbits::run"),
         "restitution" => ("restitution", "experiments::restitution::CUTTING"),
         "chains" => ("chains", "experiments::chains::CUTTING"),
-        "long_protocol" => ("long_protocol", "experiments::deep::audit"),
+        "long_protocol" => ("long_protocol", "experiments::long::CUTTING"),
+        "audits" => ("audits", "experiments::deep::Audit"),
         "theory" => ("theory", "experiments::theory::run"),
         _ => return None,
     };
     let parameters = match name {
         "theory" => serde_json::json!({"N": VERTICES}),
         // Read from the impacts of the sweep.
-        "laws" => catalogue::SWEEP.identity(profile).parameters,
+        "laws" => catalogue::SWEEP.parameters(profile),
         _ => catalogue::of(profile)
             .iter()
             .find(|experiment| experiment.need().name() == name)
-            .map_or(Json::Null, |experiment| experiment.identity(profile).parameters),
+            .map_or(Json::Null, |experiment| experiment.parameters(profile)),
     };
     let mut flat = Vec::new();
     flatten("", &parameters, &mut flat);

@@ -1,7 +1,7 @@
 //! SHA256SUMS: what a report consists of, in the form of `sha256sum`.
 
 use super::assemble::Files;
-use sha2::{Digest, Sha256};
+use crate::digest::sha256;
 use std::fmt;
 use std::path::{Component, Path};
 
@@ -34,17 +34,7 @@ impl fmt::Display for Malformed {
 
 /// Lines that `sha256sum --check` reads, sorted by path.
 pub fn write(files: &Files) -> String {
-    files.iter().map(|(path, bytes)| format!("{}  {path}\n", digest(bytes))).collect()
-}
-
-/// SHA-256 in lower-case hexadecimal.
-pub fn digest(bytes: &[u8]) -> String {
-    hexadecimal(&Sha256::digest(bytes))
-}
-
-/// Bytes in lower-case hexadecimal.
-pub fn hexadecimal(bytes: &[u8]) -> String {
-    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+    files.iter().map(|(path, bytes)| format!("{}  {path}\n", sha256(bytes))).collect()
 }
 
 /// Reads the lines. Whoever wrote them is not trusted: a path stays below the folder, at least by
@@ -108,7 +98,7 @@ mod tests {
 
     #[test]
     fn lines_of_another_form_are_named() {
-        let digest = digest(b"");
+        let digest = sha256(b"");
         let good = format!("{digest}  a\n");
         for (line, what) in [
             (digest.clone(), "not 64"),

@@ -1,6 +1,7 @@
 //! A ZIP file that appears whole or not at all, with the digest of each file in it.
 
 use super::super::Failure;
+use impact_paper::digest::sha256;
 use impact_paper::report::sums;
 use std::collections::BTreeMap;
 use std::fmt::Display;
@@ -54,7 +55,7 @@ impl Archive {
             .start_file(format!("{}/{path}", self.top), options)
             .map_err(|error| unwritable(&self.path, &error))?;
         self.zip.write_all(bytes).map_err(|error| unwritable(&self.path, &error))?;
-        self.files.insert(path.into(), (sums::digest(bytes), bytes.len()));
+        self.files.insert(path.into(), (sha256(bytes), bytes.len()));
         Ok(())
     }
 

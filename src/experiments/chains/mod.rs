@@ -12,7 +12,7 @@ use super::cutting::{Cutting, Row, Unit};
 use super::progress::Stage;
 use super::{Error, Progress, weights};
 use crate::numerics::statistics::Estimate;
-use crate::params::{Chain, ChainCurve, ChainsParams};
+use crate::params::{Chain, ChainCurve, ChainKind, ChainsParams};
 use serde::{Deserialize, Serialize};
 
 /// All curves.
@@ -80,8 +80,25 @@ pub const CUTTING: Cutting<ChainsParams, Part, Chains> =
 impl Chains {
     /// The curve of a name, and its parameters.
     pub fn curve(&self, name: &str) -> Option<(&ChainCurve, &Curve)> {
-        let mut all = self.parameters.curves.iter().zip(&self.curves);
-        all.find(|(_, curve)| curve.name == name)
+        self.all().find(|(_, curve)| curve.name == name)
+    }
+
+    /// Among the chains of several lengths the longest transient, with its place among those of its curve.
+    pub fn latest(&self) -> Option<(&ChainCurve, &Curve, usize)> {
+        let last = |own: &ChainCurve| own.transients.last().copied().unwrap_or(0.0);
+        let (own, curve) =
+            self.of(ChainKind::Length).max_by(|a, b| last(a.0).total_cmp(&last(b.0)))?;
+        Some((own, curve, own.transients.len().checked_sub(1)?))
+    }
+
+    /// All curves with their parameters.
+    pub fn all(&self) -> impl Iterator<Item = (&ChainCurve, &Curve)> {
+        self.parameters.curves.iter().zip(&self.curves)
+    }
+
+    /// The curves that differ from the paper's chain in this.
+    pub fn of(&self, kind: ChainKind) -> impl Iterator<Item = (&ChainCurve, &Curve)> {
+        self.all().filter(move |(own, _)| own.kind == kind)
     }
 }
 

@@ -6,6 +6,7 @@ use crate::params::{Boundary, Profile, Start};
 
 fn curve(masses: usize) -> ChainCurve {
     ChainCurve {
+        kind: ChainKind::Length,
         name: "test".into(),
         masses,
         start: Start::Rest,

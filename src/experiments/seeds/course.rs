@@ -1,6 +1,7 @@
 //! What becomes of one seed as time goes on.
 
-use super::run::{Trace, bits, ran};
+use super::counting::{bits, ran};
+use super::run::Trace;
 use super::{ByDistance, growth};
 use crate::experiments::estimates::average_count;
 use crate::numerics::statistics::Estimate;

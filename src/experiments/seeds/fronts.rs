@@ -11,7 +11,8 @@
 //! s (1 − s) ⟨m⟩. Only obstacles count that are met more than W before the end, so that for each it is known
 //! whether it holds.
 
-use super::run::{Trace, ran};
+use super::counting::ran;
+use super::run::Trace;
 use crate::experiments::estimates::jackknife;
 use crate::experiments::survival::kaplan_meier;
 use crate::numerics::statistics::Estimate;

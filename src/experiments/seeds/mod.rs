@@ -2,19 +2,22 @@
 //! nucleation and growth let expect.
 //!
 //! - [`run`](mod@run): chains with exactly one such gap, and where impacts get from there.
+//! - [`counting`]: their impacts by distance, and how far they spread.
 //! - [`course`]: what is active, reached and alive as time goes on.
 //! - [`fronts`]: how long fronts stand, and which gaps hold them.
 //! - [`growth`]: what follows for a chain with as many of them as chance gives it.
 
+pub mod counting;
 pub mod course;
 pub mod fronts;
 pub mod growth;
 pub mod run;
 
+pub use counting::{ByDistance, Spread};
 pub use course::Moment;
 pub use fronts::{Fronts, Waits};
 pub use growth::Prediction;
-pub use run::{ByDistance, CUTTING, Part, Spread, Trace};
+pub use run::{CUTTING, Part, Trace};
 
 use crate::params::SeedsParams;
 use serde::{Deserialize, Serialize};

@@ -5,7 +5,7 @@ use crate::experiments::Results;
 use crate::experiments::chains::{Chains, Curve};
 use crate::experiments::protocol::ProtocolMap;
 use crate::numerics::statistics::Estimate;
-use crate::params::ChainCurve;
+use crate::params::{ChainCurve, ChainKind};
 use crate::report::values::Value;
 use serde::Serialize;
 
@@ -20,15 +20,7 @@ pub struct Line {
 
 /// The chains of several lengths.
 fn lengths(found: &Chains) -> impl Iterator<Item = (&ChainCurve, &Curve)> {
-    of(found, "length-")
-}
-
-fn of<'a>(
-    found: &'a Chains,
-    kind: &'static str,
-) -> impl Iterator<Item = (&'a ChainCurve, &'a Curve)> {
-    let all = found.parameters.curves.iter().zip(&found.curves);
-    all.filter(move |(own, _)| own.name.starts_with(kind))
+    found.of(ChainKind::Length)
 }
 
 /// A number in an id.
@@ -48,6 +40,11 @@ fn drift_id(own: &ChainCurve, transient: f64) -> String {
     format!("chains.{name}_t{}", transient as u64)
 }
 
+/// Whether the map has such a transient, or longer ones.
+fn in_map(map: &ProtocolMap, transient: f64) -> bool {
+    map.parameters.transients.last().is_some_and(|last| transient <= *last)
+}
+
 /// The same of the paper's chain, which the map has.
 fn map_id(transient: f64) -> String {
     format!("chains.d0_t{}", transient as u64)
@@ -55,7 +52,7 @@ fn map_id(transient: f64) -> String {
 
 /// Chains whose half height is followed over the transients.
 fn drifts(found: &Chains) -> impl Iterator<Item = (&ChainCurve, &Curve)> {
-    of(found, "drift-").chain(of(found, "damping-"))
+    found.of(ChainKind::Drift).chain(found.of(ChainKind::Damping))
 }
 
 /// The name of a force in ids and, in the table, to be read.
@@ -85,7 +82,9 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
             values.push(Value::integer(id("n"), own.masses));
             values.push(Value::integer(id("t"), transient as u64));
             values.push(estimate(id("half"), half, n));
-            values.push(estimate(id("same"), same, map.parameters.realisations));
+            if in_map(map, transient) {
+                values.push(estimate(id("same"), same, map.parameters.realisations));
+            }
             values.push(estimate(id("width"), curve.widths[i], n));
             if let (true, Some(half), Some(same)) = (own.masses >= 100, half, same) {
                 let error = (half.error * half.error + same.error * same.error).sqrt();
@@ -100,6 +99,13 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
     let ends = |of: fn(usize, usize) -> usize| lengths(found).map(|(own, _)| own.masses).reduce(of);
     values.push(Value::integer("chains_shortest", ends(usize::min).ok_or_else(missing)?));
     values.push(Value::integer("chains_longest", ends(usize::max).ok_or_else(missing)?));
+    let (own, curve, at) = found.latest().ok_or_else(missing)?;
+    values.extend([
+        Value::integer("chains_latest_n", own.masses),
+        Value::integer("chains_latest_t", own.transients[at] as u64),
+        estimate("chains_latest_half", curve.half_heights[at], own.realisations),
+        estimate("chains_latest_width", curve.widths[at], own.realisations),
+    ]);
     values.extend(open(found).ok_or_else(missing)?);
     values.extend(drift(found, map).ok_or_else(missing)?);
     values.extend(forces(found).ok_or_else(missing)?);
@@ -133,8 +139,8 @@ fn open(found: &Chains) -> Option<Vec<Value>> {
 /// Half heights over the transients, those of the paper's chain from the map.
 fn drift(found: &Chains, map: &ProtocolMap) -> Option<Vec<Value>> {
     let window = found.parameters.window;
-    let (first, _) = of(found, "damping-").next()?;
-    let (last, strongest) = of(found, "damping-").last()?;
+    let (first, _) = found.of(ChainKind::Damping).next()?;
+    let (last, strongest) = found.of(ChainKind::Damping).last()?;
     let mut values = Vec::new();
     for &time in &first.transients {
         values.push(Value::integer(format!("chains.t{}", time as u64), time as u64));
@@ -190,7 +196,7 @@ fn forces(found: &Chains) -> Option<Vec<Value>> {
 }
 
 fn all_forces(found: &Chains) -> impl Iterator<Item = (&ChainCurve, &Curve)> {
-    of(found, "components-").chain(of(found, "frequency-"))
+    found.of(ChainKind::Components).chain(found.of(ChainKind::Frequency))
 }
 
 /// The lines of the table of lengths, by rising T and then by rising n.
@@ -199,10 +205,13 @@ pub fn lengths_table(results: &Results) -> Result<Vec<Line>, Error> {
     let mut all: Vec<(&ChainCurve, f64)> =
         lengths(found).flat_map(|(own, _)| own.transients.iter().map(move |&t| (own, t))).collect();
     all.sort_by(|a, b| a.1.total_cmp(&b.1).then(a.0.masses.cmp(&b.0.masses)));
-    let line = |(own, time): &(&ChainCurve, f64)| Line {
-        cells: ["t", "n", "half", "same", "width"]
-            .map(|column| mark(length_id(own, *time, column)))
-            .into(),
+    let map = results.protocol()?;
+    let line = |(own, time): &(&ChainCurve, f64)| {
+        let cell = |column| match column {
+            "same" if !in_map(map, *time) => "–".into(),
+            _ => mark(length_id(own, *time, column)),
+        };
+        Line { cells: ["t", "n", "half", "same", "width"].map(cell).into() }
     };
     Ok(all.iter().map(line).collect())
 }
@@ -210,7 +219,8 @@ pub fn lengths_table(results: &Results) -> Result<Vec<Line>, Error> {
 /// The transients, as heads of the table of drifts.
 pub fn drift_times(results: &Results) -> Result<Vec<String>, Error> {
     let found = results.chains()?;
-    let (own, _) = of(found, "damping-").next().ok_or(Error::Missing("chains with friction"))?;
+    let (own, _) =
+        found.of(ChainKind::Damping).next().ok_or(Error::Missing("chains with friction"))?;
     Ok(own.transients.iter().map(|time| mark(format!("chains.t{}", *time as u64))).collect())
 }
 
@@ -220,7 +230,7 @@ pub fn drift_table(results: &Results) -> Result<Vec<Line>, Error> {
     let line = |name: String, cells: Vec<String>| Line {
         cells: [name].into_iter().chain(cells.into_iter().map(mark)).collect(),
     };
-    let times = of(found, "damping-").next().map_or(&[][..], |(own, _)| &own.transients);
+    let times = found.of(ChainKind::Damping).next().map_or(&[][..], |(own, _)| &own.transients);
     let paper = line("from rest, between walls".into(), times.iter().map(|&t| map_id(t)).collect());
     let rest = drifts(found).map(|(own, _)| {
         let name = match own.name.as_str() {

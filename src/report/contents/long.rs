@@ -1,8 +1,8 @@
-//! Section 11: the long end of the map, which is committed and carried over.
+//! Section 11: the long end of the map.
 
 use super::{Error, chosen, estimate, from, mark, share};
 use crate::experiments::Results;
-use crate::experiments::deep::{LongRow, Verdict};
+use crate::experiments::long::LongRow;
 use crate::report::values::Value;
 use serde::Serialize;
 
@@ -22,7 +22,7 @@ fn cell(mean: &str, transient: f64, window: f64) -> String {
 
 pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
     let long = results.long_protocol()?;
-    let (map, audit) = (&long.map, &long.audit);
+    let map = &long.map;
     let parameters = &map.parameters;
     let head = |letter: &str, time: f64| {
         Value::integer(format!("long.{letter}{}", time as u64), time as u64)
@@ -37,12 +37,6 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
     let longest = |times: &[f64]| times.last().copied().unwrap_or(0.0);
     let (t, w) = (longest(&parameters.transients), longest(&parameters.windows));
     let last = map.cell(t, w).ok_or(Error::Missing("the longest transient"))?;
-    if audit.verdict != Verdict::Identical {
-        values.extend([
-            Value::real("long_distance", audit.distance, 2),
-            Value::real("long_allowed", audit.allowed, 2),
-        ]);
-    }
     values.extend(seeds(results)?);
     values.extend([
         Value::integer("long_realisations", n),
@@ -51,10 +45,8 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
         Value::integer("long_window", w as u64),
         estimate("long_kept", last.half_height, n),
         estimate("long_all", last.half_height_all, n),
-        Value::integer("long_audited", audit.realisations),
-        Value::integer("long_identical", audit.identical),
     ]);
-    Ok(from(values, "experiments::deep::audit", "long_protocol"))
+    Ok(from(values, "experiments::long::CUTTING", "long_protocol"))
 }
 
 /// Near the σ at which half of the chains have a gap that closes by itself: the share that has
@@ -72,11 +64,6 @@ fn seeds(results: &Results) -> Result<[Value; 3], Error> {
         share("long_seeds_kept", kept, long.map.parameters.realisations),
         Value::real("long_seeds", seeded.any_rest, 3),
     ])
-}
-
-/// What an audit of it found, in a word.
-pub fn verdict(results: &Results) -> Result<Verdict, Error> {
-    Ok(results.long_protocol()?.audit.verdict)
 }
 
 /// The heads of the columns.

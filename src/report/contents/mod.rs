@@ -2,10 +2,11 @@
 //!
 //! A value is computed here from results and carries the path of the item that computed it. Groups
 //! are `v` (ours), `paper` (numbers that the paper chose), `printed` (numbers in its statements), and
-//! one for the cells of each table: `compare`, `protocol`, `long`, `nucleation`, `spread`, `course`, `fronts`, `growth`, `heat`,
-//! `scores`, `history`, `independence`, `orbits`, `restitution`, `chains`, `starts` and `bias`.
+//! one for the cells of each table: `compare`, `protocol`, `protocols`, `long`, `nucleation`, `spread`, `course`, `fronts`, `growth`, `heat`,
+//! `scores`, `history`, `independence`, `orbits`, `restitution`, `chains`, `starts`, `bias` and `carried`.
 
 mod accuracy;
+mod carried;
 mod chains;
 mod comparison;
 mod fronts;
@@ -21,6 +22,7 @@ mod nucleation;
 mod orbits;
 mod paper;
 mod protocol;
+mod protocols;
 mod restitution;
 mod scores;
 mod simulation;
@@ -69,6 +71,7 @@ pub fn registry(results: &Results, published: &Published) -> Result<Registry, Er
     registry.extend(higher::values(results)?)?;
     registry.extend(large::values(results)?)?;
     registry.extend(protocol::values(results)?)?;
+    registry.extend(protocols::values(results)?)?;
     registry.extend(starts::values(results)?)?;
     registry.extend(spacetime::values(results)?)?;
     registry.extend(accuracy::values(results)?)?;
@@ -83,6 +86,7 @@ pub fn registry(results: &Results, published: &Published) -> Result<Registry, Er
     registry.extend(orbits::values(results)?)?;
     registry.extend(restitution::values(results)?)?;
     registry.extend(chains::values(results)?)?;
+    registry.extend(carried::values(results)?)?;
     registry.extend(ledger::values(results))?;
     Ok(registry)
 }
@@ -103,9 +107,10 @@ pub fn rows(
         ("protocol_windows", serde_json::to_value(protocol::windows(results)?)?),
         ("protocol_printed", serde_json::to_value(protocol::printed(results)?)?),
         ("protocol_table", serde_json::to_value(protocol::table(results)?)?),
+        ("protocols_windows", serde_json::to_value(protocols::windows(results)?)?),
+        ("protocols_table", serde_json::to_value(protocols::table(results)?)?),
         ("long_windows", serde_json::to_value(long::windows(results)?)?),
         ("long_table", serde_json::to_value(long::table(results)?)?),
-        ("long_verdict", serde_json::to_value(long::verdict(results)?)?),
         ("nucleation_table", serde_json::to_value(nucleation::table(results)?)?),
         ("spread_table", serde_json::to_value(growth::spreads(results)?)?),
         ("course_table", serde_json::to_value(fronts::courses(results)?)?),
@@ -133,6 +138,7 @@ pub fn rows(
         ("bias_means", serde_json::to_value(accuracy::bias_means(results)?)?),
         ("scene_heads", serde_json::to_value(accuracy::scene_heads(results)?)?),
         ("scene_table", serde_json::to_value(accuracy::scene_table(results)?)?),
+        ("carried_table", serde_json::to_value(carried::table(results)?)?),
         ("target_table", serde_json::to_value(accuracy::target_table(results)?)?),
     ]))
 }

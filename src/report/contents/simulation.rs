@@ -66,7 +66,13 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
 fn run(sweep: &Sweep) -> Vec<Value> {
     let parameters = &sweep.parameters;
     let ends = |i: usize| sweep.rows.get(i).map_or(0.0, |row| row.sigma);
-    vec![
+    let level = parameters.level.map(|level| {
+        [
+            chosen("level_above", level.above),
+            Value::integer("level_realisations", level.realisations),
+        ]
+    });
+    let run = vec![
         Value::integer("gaps", parameters.chain.gaps()),
         Value::integer("transient", parameters.protocol.transient as u64).unit(r"$1/\omega$"),
         Value::integer("window", parameters.protocol.window as u64).unit(r"$1/\omega$"),
@@ -79,7 +85,8 @@ fn run(sweep: &Sweep) -> Vec<Value> {
         Value::integer("second_seed", SECOND_SEED),
         count("sweep_impacts", sweep.rows.iter().map(|row| row.impacts).sum()),
         Value::integer("sweep_failed", sweep.rows.iter().map(|row| row.failed).sum::<usize>()),
-    ]
+    ];
+    run.into_iter().chain(level.into_iter().flatten()).collect()
 }
 
 /// Figs. 2 and 3.

@@ -3,10 +3,10 @@
 use super::places::between;
 use super::{Guard, Look, far, model, unless};
 use crate::experiments::chains::{Chains, Curve, Ensemble, Run, chain, pieces};
-use crate::params::ChainCurve;
+use crate::params::{ChainCurve, ChainKind};
 
 pub const GUARDS: &[Guard] = &[
-    Guard { name: "chains_on_curves", ids: &["chains.*"], find: places },
+    Guard { name: "chains_on_curves", ids: &["chains.*", "chains_latest_*"], find: places },
     Guard {
         name: "chains_in_the_map",
         ids: &["chains.*", "chains_off", "chains_fall*"],
@@ -21,20 +21,15 @@ fn found(look: Look<'_>) -> Option<&Chains> {
     look.results.chains.as_ref()
 }
 
-fn all(found: &Chains) -> impl Iterator<Item = (&ChainCurve, &Curve)> {
-    found.parameters.curves.iter().zip(&found.curves)
-}
-
 /// What stands in the ids of a curve: n and T of a length, a force, a friction.
 fn id(own: &ChainCurve, time: f64, column: &str) -> Option<String> {
     let text = |x: f64| x.to_string().replace('.', "_");
-    let (kind, of) = own.name.split_once('-')?;
-    Some(match (kind, column) {
-        ("length", _) => format!("chains.n{}_t{time}_{column}", own.masses),
-        ("drift", "half") => format!("chains.{of}_t{time}"),
-        ("damping", "half") => format!("chains.d{}_t{time}", text(own.damping)),
-        ("components", "half" | "kept") => format!("chains.m{}_{column}", own.components),
-        ("frequency", "half" | "kept" | "ever" | "there") => {
+    Some(match (own.kind, column) {
+        (ChainKind::Length, _) => format!("chains.n{}_t{time}_{column}", own.masses),
+        (ChainKind::Drift, "half") => format!("chains.{}_t{time}", own.name.split_once('-')?.1),
+        (ChainKind::Damping, "half") => format!("chains.d{}_t{time}", text(own.damping)),
+        (ChainKind::Components, "half" | "kept") => format!("chains.m{}_{column}", own.components),
+        (ChainKind::Frequency, "half" | "kept" | "ever" | "there") => {
             format!("chains.f{}_{column}", text(own.forcing_frequency))
         }
         _ => return None,
@@ -64,6 +59,10 @@ fn crossing(points: &[(f64, f64)], level: f64) -> Option<f64> {
 /// Shares, half heights and widths follow from the counts.
 fn places(look: Look<'_>) -> Option<String> {
     let found = found(look)?;
+    let latest = |own: &ChainCurve, time: f64| {
+        let is = |(last, _, at): (&ChainCurve, _, usize)| last == own && own.transients[at] == time;
+        found.latest().is_some_and(is)
+    };
     let one = |(own, curve): (&ChainCurve, &Curve)| {
         let window = |(i, time): (usize, &f64)| {
             let points: Vec<(f64, f64)> =
@@ -77,8 +76,9 @@ fn places(look: Look<'_>) -> Option<String> {
                 let place = crossing(&points, 0.5)?;
                 far("a half height", curve.half_heights[i]?.value, place)
                     .or_else(|| look.is(&id(own, *time, "half")?, place))
+                    .or_else(|| latest(own, *time).then(|| look.is("chains_latest_half", place))?)
                     .or_else(|| match (own.masses, *time) {
-                        (100, 500.0) if own.name.starts_with("length") => {
+                        (100, 500.0) if own.kind == ChainKind::Length => {
                             look.is("chains.m1_half", place)
                         }
                         _ => None,
@@ -88,6 +88,9 @@ fn places(look: Look<'_>) -> Option<String> {
                 let width = crossing(&points, 0.9)? - crossing(&points, 0.1)?;
                 far("a width", curve.widths[i]?.value, width)
                     .or_else(|| look.is(&id(own, *time, "width")?, width))
+                    .or_else(|| {
+                        latest(own, *time).then(|| look.is("chains_latest_width", width))?
+                    })
             };
             shares().or_else(half).or_else(width)
         };
@@ -105,7 +108,7 @@ fn places(look: Look<'_>) -> Option<String> {
         };
         own.transients.iter().enumerate().find_map(window).or_else(kept)
     };
-    all(found).find_map(one)
+    found.all().find_map(one)
 }
 
 /// The map at the same time: between two of its transients by ratios of logarithms, and exact at its own.
@@ -126,7 +129,7 @@ fn times(look: Look<'_>) -> Option<String> {
         exact.or_else(|| between(&at, pxfm::f_log2(time)))
     };
     let mut most: f64 = 0.0;
-    for (own, curve) in all(found).filter(|(own, _)| own.name.starts_with("length-")) {
+    for (own, curve) in found.of(ChainKind::Length) {
         for (time, half) in own.transients.iter().zip(&curve.half_heights) {
             let (Some(same), Some(error)) = (line(0, *time), line(1, *time)) else { continue };
             if let Some(off) = look.is(&id(own, *time, "same")?, same) {
@@ -138,7 +141,7 @@ fn times(look: Look<'_>) -> Option<String> {
             }
         }
     }
-    let damped = || all(found).filter(|(own, _)| own.name.starts_with("damping-"));
+    let damped = || found.of(ChainKind::Damping);
     let (own, strongest) = damped().last()?;
     let from = *own.transients.get(1)?;
     let to = *own.transients.last()?;
@@ -247,7 +250,7 @@ fn expected(look: Look<'_>) -> Option<String> {
             .or_else(less)
             .or_else(|| curve.rows.iter().find_map(chance))
     };
-    all(found).find_map(one)
+    found.all().find_map(one)
 }
 
 /// Sizes are those of what was run, with the window of the main sweep.
@@ -281,15 +284,19 @@ fn as_run(look: Look<'_>) -> Option<String> {
             .or_else(|| own.transients.iter().find_map(named))
             .or_else(|| own.transients.iter().filter(|_| own.damping > 0.0).find_map(head))
     };
-    let masses = all(found).filter(|(own, _)| own.name.starts_with("length-"));
+    let masses = found.of(ChainKind::Length);
     let masses: Vec<usize> = masses.map(|(own, _)| own.masses).collect();
     let (silence, _) = found.curve("silence")?;
-    all(found)
+    let order = |a: &&f64, b: &&f64| a.total_cmp(b);
+    found
+        .all()
         .find_map(sizes)
         .or_else(|| {
             look.are([
                 ("chains_shortest", *masses.iter().min()? as f64),
                 ("chains_longest", *masses.iter().max()? as f64),
+                ("chains_latest_n", found.latest()?.0.masses as f64),
+                ("chains_latest_t", *found.latest()?.0.transients.iter().max_by(order)?),
                 ("chains_silence_masses", silence.masses as f64),
                 ("chains_silence_until", *silence.transients.last()?),
                 ("chains_transient", protocol.transient),
@@ -297,4 +304,10 @@ fn as_run(look: Look<'_>) -> Option<String> {
             ])
         })
         .or_else(|| unless(protocol.window == found.parameters.window, || "another window".into()))
+        .or_else(|| {
+            // The longest transient is one in proportion to the length of its chain.
+            let (own, _, at) = found.latest()?;
+            let times = own.transients[at] / own.masses as f64;
+            unless(times.fract() == 0.0, || format!("the longest transient is {times} n"))
+        })
 }

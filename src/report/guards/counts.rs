@@ -30,7 +30,14 @@ pub const GUARDS: &[Guard] = &[
     },
     Guard {
         name: "all_accounted_for",
-        ids: &["realisations", "sweep_failed", "sigma_count", "gaps", "starts_realisations"],
+        ids: &[
+            "realisations",
+            "level_*",
+            "sweep_failed",
+            "sigma_count",
+            "gaps",
+            "starts_realisations",
+        ],
         find: all_accounted_for,
     },
     Guard { name: "whole_impacts", ids: &["window"], find: whole_impacts },
@@ -60,11 +67,14 @@ pub const GUARDS: &[Guard] = &[
 fn rows<'a>(look: Look<'a>) -> impl Iterator<Item = (&'a SweepRow, usize)> {
     let results = look.results;
     let sweeps = [&results.sweep, &results.second_seed].into_iter().flatten();
-    let sweeps = sweeps.map(|sweep| (&sweep.rows, sweep.parameters.realisations));
-    let starts = results.starts.iter().flat_map(|starts| {
-        starts.variants.iter().map(|variant| (&variant.rows, starts.parameters.realisations))
+    let sweeps = sweeps.flat_map(|sweep| {
+        sweep.rows.iter().map(|row| (row, sweep.parameters.realisations_at(row.sigma)))
     });
-    sweeps.chain(starts).flat_map(|(rows, asked)| rows.iter().map(move |row| (row, asked)))
+    let starts = results.starts.iter().flat_map(|starts| {
+        let rows = starts.variants.iter().flat_map(|variant| &variant.rows);
+        rows.map(|row| (row, starts.parameters.realisations))
+    });
+    sweeps.chain(starts)
 }
 
 /// Number and sum of all counts from `from` on.
@@ -146,13 +156,24 @@ fn all_accounted_for(look: Look<'_>) -> Option<String> {
     let lost =
         |row: &SweepRow| row.realisations as f64 - row.rejected as f64 - totals(&row.counts, 0)[0];
     let bins = sweep.rows.first()?.counts.len();
-    uneven.or_else(|| {
-        look.are([
-            ("sweep_failed", sweep.rows.iter().map(lost).sum()),
-            ("sigma_count", sweep.parameters.sigmas.len() as f64),
-            ("gaps", bins as f64 - 1.0),
-        ])
-    })
+    uneven
+        .or_else(|| {
+            look.are([
+                ("sweep_failed", sweep.rows.iter().map(lost).sum()),
+                ("sigma_count", sweep.parameters.sigmas.len() as f64),
+                ("gaps", bins as f64 - 1.0),
+            ])
+        })
+        .or_else(|| {
+            let (first, last) = (sweep.rows.first()?, sweep.rows.last()?);
+            sweep.parameters.level?;
+            let whole = sweep.rows.iter().rfind(|row| row.realisations == first.realisations)?;
+            look.are([
+                ("level_above", whole.sigma),
+                ("level_realisations", last.realisations as f64),
+                ("realisations", first.realisations as f64),
+            ])
+        })
 }
 
 /// The rate of impacts of a row, times its kept realisations and the window, is how many impacts there

@@ -4,20 +4,22 @@ use super::places::between;
 use super::protocol::heads;
 use super::{Guard, Look, far, model, unless};
 use crate::claims;
-use crate::experiments::deep::{LongRow, Verdict};
+use crate::experiments::long::LongRow;
 use crate::experiments::protocol::ProtocolCell;
 use crate::numerics::statistics::Estimate;
 use std::cmp::Ordering;
 
 pub const GUARDS: &[Guard] = &[
     Guard {
-        name: "long_map_audited",
-        ids: &["long_audited", "long_identical", "long_sigma_count"],
-        find: audited,
-    },
-    Guard {
         name: "long_half_heights",
-        ids: &["long.kept_*", "long.all_*", "long_kept", "long_all", "long_realisations"],
+        ids: &[
+            "long.kept_*",
+            "long.all_*",
+            "long_kept",
+            "long_all",
+            "long_realisations",
+            "long_sigma_count",
+        ],
         find: half_heights,
     },
     Guard { name: "long_map_meets_map", ids: &["long.kept_*", "long.all_*"], find: meets_map },
@@ -29,23 +31,6 @@ pub const GUARDS: &[Guard] = &[
         find: ends,
     },
 ];
-
-/// A committed result that this program does not give is stale: run it again.
-fn audited(look: Look<'_>) -> Option<String> {
-    let long = look.results.long_protocol.as_ref()?;
-    let audit = &long.audit;
-    let rows = long.map.parameters.sigmas.len();
-    unless(audit.verdict != Verdict::Failed, || {
-        "the committed long map is stale: run `make deep` and build again".into()
-    })
-    .or_else(|| look.is("long_audited", audit.realisations as f64))
-    .or_else(|| {
-        let all = audit.identical == audit.realisations;
-        let told = all == (audit.verdict == Verdict::Identical);
-        unless(told, || format!("{} of {} identical", audit.identical, audit.realisations))
-    })
-    .or_else(|| look.is("long_sigma_count", rows as f64))
-}
 
 /// The half heights of a cell: of the mean of the kept, and of that of all.
 fn halves(cell: &ProtocolCell) -> [Option<Estimate>; 2] {
@@ -91,7 +76,8 @@ fn falls(look: Look<'_>) -> Option<String> {
 }
 
 /// At a half height the curve through the means has half its height. Means are sums of whole counts
-/// over the number of realisations, and the mean of the kept is the same sum over fewer.
+/// over the number of realisations, and the mean of the kept is the same sum over fewer. There is a
+/// row for each sigma.
 fn half_heights(look: Look<'_>) -> Option<String> {
     let long = look.results.long_protocol.as_ref()?;
     let (map, gaps) = (&long.map, long.map.parameters.chain.gaps() as f64);
@@ -118,6 +104,7 @@ fn half_heights(look: Look<'_>) -> Option<String> {
         let all = curve(|_, n| n);
         all.iter()
             .find_map(whole)
+            .or_else(|| look.is("long_sigma_count", long.rows.len() as f64))
             .or_else(|| at(cell.half_height, &curve(|kept, _| kept as f64)))
             .or_else(|| at(cell.half_height_all, &all))
     })

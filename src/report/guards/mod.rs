@@ -8,6 +8,7 @@
 //! that fails, and `impact-paper mutate` measures what they notice.
 
 mod accuracy;
+mod carried;
 mod chains;
 mod comparison;
 mod counts;
@@ -27,6 +28,7 @@ mod orders;
 mod places;
 mod printed;
 mod protocol;
+mod protocols;
 mod rare;
 mod relation;
 mod restitution;
@@ -77,7 +79,9 @@ pub fn all() -> impl Iterator<Item = &'static Guard> {
         places::GUARDS,
         rare::GUARDS,
         protocol::GUARDS,
+        protocols::GUARDS,
         long::GUARDS,
+        carried::GUARDS,
         nucleation::GUARDS,
         growth::GUARDS,
         fronts::GUARDS,
@@ -99,6 +103,21 @@ pub fn all() -> impl Iterator<Item = &'static Guard> {
         printed::GUARDS,
     ];
     files.into_iter().flatten()
+}
+
+impl Guard {
+    /// Whether it relates this value.
+    pub fn is_about(&self, id: &str) -> bool {
+        self.ids.iter().any(|own| fits(own, id))
+    }
+}
+
+/// Whether an id is this one, or begins so if it ends with `*`.
+pub fn fits(own: &str, id: &str) -> bool {
+    match own.strip_suffix('*') {
+        Some(start) => id.starts_with(start),
+        None => id == own,
+    }
 }
 
 /// Those that fail.

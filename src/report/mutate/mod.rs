@@ -24,7 +24,7 @@ use self::part::Whole;
 use self::site::Site;
 use super::claims::scorecard;
 use super::contents;
-use super::guards::{self, Look};
+use super::guards::{self, Guard, Look};
 use super::values::{Number, Registry, Value};
 use crate::claims::{self, Claim, Published, targets};
 use crate::experiments::Results;
@@ -44,7 +44,7 @@ pub struct Mutation {
     pub by: f64,
     /// Where it was moved.
     pub place: String,
-    /// What turned red when it was larger.
+    /// What turned red when it was larger: claims and the guards that relate it; others if these did not.
     pub above: Vec<String>,
     /// What turned red when it was smaller.
     pub below: Vec<String>,
@@ -82,7 +82,8 @@ pub struct Subject<'a> {
     pub published: &'a Published,
 }
 
-/// What is computed from results: values, claims, and the names of all checks that fail.
+/// What is computed from results: values, claims, and the names of the checks that fail, guards only as far
+/// as they were asked.
 struct Judged {
     values: Registry,
     claims: Vec<Claim>,
@@ -99,18 +100,17 @@ fn judged(subject: Subject<'_>) -> Result<Judged, contents::Error> {
     let missed = |t: &&targets::Target| t.standing == targets::Standing::Missed && !t.timed;
     let targets = targets::targets(results)?;
     red.extend(targets.iter().filter(missed).map(|t| format!("target {}", t.id)));
-    red.extend(guarding(subject, &values, &claims));
     Ok(Judged { values, claims, red })
 }
 
-fn guarding<'a>(
-    subject: Subject<'a>,
-    values: &'a Registry,
-    claims: &'a [Claim],
-) -> impl Iterator<Item = String> + use<'a> {
-    let Subject { results, published } = subject;
-    let look = Look { results, published, values, claims };
-    guards::failing(look).map(|failing| format!("guard {}", failing.name))
+impl Judged {
+    /// Adds the guards that fail among some.
+    fn guard(&mut self, subject: Subject<'_>, among: impl Fn(&Guard) -> bool) {
+        let Subject { results, published } = subject;
+        let look = Look { results, published, values: &self.values, claims: &self.claims };
+        let fails = |guard: &&Guard| among(guard) && (guard.find)(look).is_some();
+        self.red.extend(guards::all().filter(fails).map(|guard| format!("guard {}", guard.name)));
+    }
 }
 
 /// Makes every wanted number wrong, one after the other; `go_on` is asked after each, and ends all by
@@ -124,7 +124,8 @@ pub fn mutate(
     go_on: &(dyn Fn() -> bool + Sync),
 ) -> Result<Mutations, contents::Error> {
     let whole = Whole::of(subject.results);
-    let before = judged(subject)?;
+    let mut before = judged(subject)?;
+    before.guard(subject, |_| true);
     let bench =
         Bench { subject, whole, before, idle: Mutex::default(), followers: Mutex::default() };
     let values: Vec<&Value> = bench.before.values.iter().filter(|value| wanted(value)).collect();
@@ -145,7 +146,7 @@ struct Bench<'a> {
     subject: Subject<'a>,
     whole: Whole,
     before: Judged,
-    idle: Mutex<Vec<Results>>,
+    idle: Mutex<Vec<(Results, Whole)>>,
     /// What followed when leaves were moved by so much: many values are the same small integer.
     followers: Mutex<Known>,
 }
@@ -169,11 +170,27 @@ impl Bench<'_> {
 
     /// What turns red that is not so without.
     fn red(&self, value: &Value, site: &Site, by: f64) -> Vec<String> {
-        let new = |red: BTreeSet<String>| red.difference(&self.before.red).cloned().collect();
         match self.at(value, site, by) {
-            Wrong::Judged(judged) => new(judged.red),
+            Wrong::Judged(judged) => judged.red.difference(&self.before.red).cloned().collect(),
             Wrong::Refused(why) => vec![why],
         }
+    }
+
+    /// What becomes of a report with a wrong number: claims, and the guards that relate it. The others are
+    /// asked only if all of these are silent.
+    fn wrong(&self, subject: Subject<'_>, id: &str) -> Wrong {
+        match judged(subject) {
+            Ok(judged) => Wrong::Judged(Box::new(self.guarded(judged, subject, id))),
+            Err(error) => Wrong::Refused(format!("report: {error}")),
+        }
+    }
+
+    fn guarded(&self, mut judged: Judged, subject: Subject<'_>, id: &str) -> Judged {
+        judged.guard(subject, |guard| guard.is_about(id));
+        if judged.red.is_subset(&self.before.red) {
+            judged.guard(subject, |guard| !guard.is_about(id));
+        }
+        judged
     }
 
     /// The report with this number moved.
@@ -181,12 +198,13 @@ impl Bench<'_> {
         match site {
             Site::Leaves(leaves) => {
                 let refused = || Wrong::Refused("type of the result".into());
-                self.with(&moved(leaves, |_| by), wrong).unwrap_or_else(refused)
+                let judge = |subject: Subject<'_>| self.wrong(subject, &value.id);
+                self.with(&moved(leaves, |_| by), judge).unwrap_or_else(refused)
             }
             Site::Printed => {
                 let mut published = self.subject.published.clone();
                 site::print(&mut published, &value.id, by);
-                wrong(Subject { published: &published, ..self.subject })
+                self.wrong(Subject { published: &published, ..self.subject }, &value.id)
             }
             Site::Report => {
                 let mut values = self.before.values.clone();
@@ -194,8 +212,8 @@ impl Bench<'_> {
                 let claims = self.before.claims.clone();
                 let mut red = self.before.red.clone();
                 red.retain(|name| !name.starts_with("guard "));
-                red.extend(guarding(self.subject, &values, &claims));
-                Wrong::Judged(Box::new(Judged { values, claims, red }))
+                let judged = Judged { values, claims, red };
+                Wrong::Judged(Box::new(self.guarded(judged, self.subject, &value.id)))
             }
         }
     }
@@ -203,19 +221,20 @@ impl Bench<'_> {
     /// What becomes of results with these leaves moved; None if they are of another shape then.
     fn with<T>(&self, moves: &[Move], judge: impl FnOnce(Subject<'_>) -> T) -> Option<T> {
         let idle = self.idle.lock().ok().and_then(|mut idle| idle.pop());
-        let mut results = idle.unwrap_or_else(|| part::copy(self.subject.results));
+        let (mut results, mut whole) =
+            idle.unwrap_or_else(|| (part::copy(self.subject.results), self.whole.clone()));
         // Leaves of one part stand together.
         let parts = || moves.chunk_by(|a, b| a.0.0 == b.0.0);
+        moves.iter().for_each(|((index, path), by)| whole.add(*index, path, *by));
         let put = parts().try_for_each(|moves| {
             let index = moves[0].0.0;
-            let mut json = self.whole.part(index).clone();
-            moves.iter().for_each(|((_, path), by)| part::add(&mut json, path, *by));
-            part::put(&mut results, index, &json)
+            part::put(&mut results, index, whole.part(index))
         });
         let found = put.ok().map(|()| judge(Subject { results: &results, ..self.subject }));
+        moves.iter().for_each(|((index, path), _)| whole.restore(*index, path, &self.whole));
         parts().for_each(|moves| part::restore(&mut results, moves[0].0.0, self.subject.results));
         if let Ok(mut idle) = self.idle.lock() {
-            idle.push(results);
+            idle.push((results, whole));
         }
         found
     }
@@ -257,13 +276,6 @@ enum Wrong {
     Judged(Box<Judged>),
     /// None: by what it is refused.
     Refused(String),
-}
-
-fn wrong(subject: Subject<'_>) -> Wrong {
-    match judged(subject) {
-        Ok(judged) => Wrong::Judged(Box::new(judged)),
-        Err(error) => Wrong::Refused(format!("report: {error}")),
-    }
 }
 
 /// Whether two numbers are the same but for rounding, on the scale of a step.

@@ -1,11 +1,11 @@
 //! The results in parts, each of which can be read and written as JSON.
 
+use crate::digest::sha256;
 use crate::experiments::{Results, laws};
 use rayon::prelude::*;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value as Json;
-use sha2::{Digest, Sha256};
 
 /// One part: the result of one experiment.
 pub struct Part {
@@ -62,7 +62,7 @@ macro_rules! looked_at {
 }
 
 /// All parts. What is computed from the main sweep in memory stands before it.
-const PARTS: [Part; 26] = [
+const PARTS: [Part; 28] = [
     looked_at!(theory),
     looked_at!(identities),
     ran!("laws", laws),
@@ -83,6 +83,7 @@ const PARTS: [Part; 26] = [
     },
     ran!("second_seed", second_seed),
     ran!("protocol", protocol),
+    ran!("protocols", protocols),
     ran!("starts", starts),
     ran!("horizon", horizon),
     ran!("two_masses", two_masses),
@@ -103,9 +104,20 @@ const PARTS: [Part; 26] = [
     ran!("restitution", restitution, &["runs", "able_drawn"]),
     ran!("chains", chains, &["runs"]),
     ran!("long_protocol", long_protocol),
+    Part {
+        experiment: "audits",
+        record: &[],
+        read: |results| json(&results.audits),
+        write: |results, json| {
+            results.audits = typed(json)?;
+            Ok(())
+        },
+        restore: |results, from| results.audits.clone_from(&from.audits),
+    },
 ];
 
 /// The parts of some results as JSON; an index is that of [`experiments`].
+#[derive(Clone)]
 pub struct Whole(Vec<Json>);
 
 /// Names of the parts' experiments, in order.
@@ -121,16 +133,28 @@ impl Whole {
 
     /// SHA-256 of each part, with its number.
     pub fn digests(&self) -> Vec<(String, String)> {
-        let one = |(index, json): (usize, &Json)| {
-            let digest = Sha256::digest(json.to_string().as_bytes());
-            (format!("part {index}"), digest.iter().map(|byte| format!("{byte:02x}")).collect())
-        };
+        let one =
+            |(index, json): (usize, &Json)| (format!("part {index}"), sha256(json.to_string()));
         self.0.par_iter().enumerate().map(one).collect()
     }
 
     /// One part.
     pub fn part(&self, index: usize) -> &Json {
         &self.0[index]
+    }
+
+    /// Adds to the number at a path of a part.
+    pub fn add(&mut self, index: usize, path: &str, by: f64) {
+        add(&mut self.0[index], path, by);
+    }
+
+    /// Takes what stands at a path of a part from others.
+    pub fn restore(&mut self, index: usize, path: &str, from: &Whole) {
+        if let (Some(own), Some(was)) =
+            (self.0[index].pointer_mut(path), from.part(index).pointer(path))
+        {
+            own.clone_from(was);
+        }
     }
 
     /// Paths in a part of all numbers that are this one.
@@ -209,7 +233,7 @@ impl Walk<'_> {
 }
 
 /// Adds to the number at a path. An integer stays one if it can.
-pub fn add(json: &mut Json, path: &str, by: f64) {
+fn add(json: &mut Json, path: &str, by: f64) {
     let Some(found) = json.pointer_mut(path) else { return };
     let whole = found.as_i64().filter(|_| by.fract() == 0.0);
     *found = match whole {

@@ -137,7 +137,8 @@ fn token(name: &str, node: Node, out: &mut String) -> Result<(), String> {
 
 /// One character as itself, whatever it means to the typesetter's own syntax.
 fn symbol(c: char) -> String {
-    if c.is_ascii() && !c.is_ascii_alphanumeric() { format!("\\{c}") } else { c.to_string() }
+    let means = c.is_ascii() && !c.is_ascii_alphanumeric() || matches!(c, '⟨' | '⟩');
+    if means { format!("\\{c}") } else { c.to_string() }
 }
 
 fn space(node: Node, out: &mut String) -> Result<(), String> {
@@ -168,6 +169,7 @@ mod tests {
             (r"0.12", "\"0.12\""),
             (r"\hat\sigma", "accent(σ, \"ˆ\")"),
             (r"a,b;c", r"a \, b \; c"),
+            (r"\langle K \rangle^2", r"\⟨ K attach(\⟩, t: 2)"),
         ] {
             assert_eq!(write(tex, false).unwrap(), typeset, "{tex}");
         }

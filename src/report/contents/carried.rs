@@ -1,0 +1,90 @@
+//! Section 22: results that are carried over, and what became of a sample of each.
+
+use super::{Error, from, mark};
+use crate::experiments::Results;
+use crate::experiments::deep::{Audit, Carriage};
+use crate::report::values::Value;
+use serde::Serialize;
+
+/// One line of the table.
+#[derive(Debug, Serialize)]
+pub struct Line {
+    /// What was run, and where it is told.
+    what: &'static str,
+    cells: Vec<String>,
+}
+
+fn id(what: &str, name: &str) -> String {
+    format!("carried.{what}_{name}")
+}
+
+pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
+    let of = |(name, audit): (&String, &Audit)| {
+        let mut values = vec![
+            Value::integer(id("units", name), audit.units),
+            Value::integer(id("again", name), audit.again),
+            Value::integer(id("identical", name), audit.identical),
+        ];
+        values.extend(audit.distance.into_iter().flat_map(|distance| {
+            [
+                Value::real(id("distance", name), distance.largest, 2),
+                Value::real(id("allowed", name), distance.allowed, 2),
+            ]
+        }));
+        values
+    };
+    let values = results.audits.iter().flat_map(of).collect();
+    Ok(from(values, "experiments::deep::Audit", "audits"))
+}
+
+/// The lines of the table.
+pub fn table(results: &Results) -> Result<Vec<Line>, Error> {
+    let line = |(name, audit): (&String, &Audit)| {
+        let cell = |what| mark(id(what, name));
+        let outcome = match audit.verdict {
+            Carriage::Identical => "identical".into(),
+            Carriage::WithinError => {
+                format!("within error: {} of {}", cell("distance"), cell("allowed"))
+            }
+            Carriage::Failed => "**stale**".into(),
+        };
+        Ok(Line {
+            what: title(name).ok_or(Error::Missing("a carried result without a title"))?,
+            cells: vec![cell("units"), cell("again"), cell("identical"), outcome],
+        })
+    };
+    results.audits.iter().map(line).collect()
+}
+
+/// What an experiment runs, in words.
+fn title(name: &str) -> Option<&'static str> {
+    Some(match name {
+        "second_seed" => "the rise with another seed ([@sec:simulation])",
+        "protocol" => "transients and windows ([@tab:protocol])",
+        "protocols" => "the same for other starts and ends ([@tab:protocols])",
+        "starts" => "other starts, ends and frequencies ([@tab:starts])",
+        "bias" => "bias of coarse methods ([@tab:bias])",
+        "heat" => "heat ([@sec:heat])",
+        "independence" => "order of impacts ([@sec:independence])",
+        "restitution" => "restitution ([@sec:restitution])",
+        "chains" => "long chains, friction, other forces ([@sec:chains])",
+        "long_protocol" => "the longest transients ([@tab:long])",
+        _ => return None,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::experiments::catalogue;
+    use crate::params::Profile;
+
+    #[test]
+    fn every_committed_result_has_a_title() {
+        for experiment in catalogue::of(Profile::Deep) {
+            let name = experiment.need().name();
+            assert!(title(name).is_some(), "{name}");
+        }
+        assert_eq!(title("sweep"), None);
+    }
+}

@@ -1,0 +1,87 @@
+//! Section 11: the map over transients and windows for other starts and ends.
+
+use super::{Error, estimate, from, mark};
+use crate::experiments::Results;
+use crate::experiments::protocol::{ProtocolCell, ProtocolMap};
+use crate::report::values::Value;
+use serde::Serialize;
+
+/// One line of the table.
+#[derive(Debug, Serialize)]
+pub struct Line {
+    what: &'static str,
+    transient: String,
+    /// Half heights, one for each window, and then onsets.
+    cells: Vec<String>,
+}
+
+/// The map of the paper's chain, and those of the others.
+fn maps(results: &Results) -> Result<Vec<(&str, &ProtocolMap)>, Error> {
+    let rest = [("rest", results.protocol()?)];
+    Ok(rest.into_iter().chain(results.protocols()?.named()).collect())
+}
+
+/// Transients and windows of the maps of the others.
+fn times(results: &Results) -> Result<(&[f64], &[f64]), Error> {
+    let first = results.protocols()?.parameters.maps.first();
+    let map = &first.ok_or(Error::Missing("maps of other starts"))?.map;
+    Ok((&map.transients, &map.windows))
+}
+
+fn id(column: &str, name: &str, transient: f64, window: f64) -> String {
+    format!("protocols.{column}_{name}_t{}_w{}", transient as u64, window as u64)
+}
+
+fn head(letter: &str, time: f64) -> String {
+    format!("protocols.{letter}{}", time as u64)
+}
+
+pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
+    let (transients, windows) = times(results)?;
+    let heads = [("t", transients), ("w", windows)];
+    let mut values: Vec<Value> = heads
+        .into_iter()
+        .flat_map(|(letter, times)| {
+            times.iter().map(move |&time| Value::integer(head(letter, time), time as u64))
+        })
+        .collect();
+    for (name, map) in maps(results)? {
+        let n = map.parameters.realisations;
+        let shown = |cell: &&ProtocolCell| {
+            transients.contains(&cell.transient) && windows.contains(&cell.window)
+        };
+        for cell in map.cells.iter().filter(shown) {
+            let id = |column: &str| id(column, name, cell.transient, cell.window);
+            values.push(estimate(id("half"), cell.half_height_all, n));
+            values.push(estimate(id("onset"), cell.onset, n));
+        }
+    }
+    let first = results.protocols()?.maps.first().map_or(0, |map| map.parameters.realisations);
+    values.push(Value::integer("protocols_realisations", first));
+    Ok(from(values, "experiments::protocols::CUTTING", "protocols"))
+}
+
+/// The windows, as heads of columns.
+pub fn windows(results: &Results) -> Result<Vec<String>, Error> {
+    Ok(times(results)?.1.iter().map(|&w| mark(head("w", w))).collect())
+}
+
+/// The lines of the table.
+pub fn table(results: &Results) -> Result<Vec<Line>, Error> {
+    let (transients, windows) = times(results)?;
+    let line = |name: &str, transient: f64| Line {
+        what: match name {
+            "rest" => "rest",
+            "zero" => "on the forced motion",
+            "random" => "random free parts",
+            _ => "rest, on a ring",
+        },
+        transient: mark(head("t", transient)),
+        cells: ["half", "onset"]
+            .iter()
+            .flat_map(|column| windows.iter().map(|&w| mark(id(column, name, transient, w))))
+            .collect(),
+    };
+    let all = maps(results)?;
+    Ok(all.iter().flat_map(|(name, _)| transients.iter().map(|&t| line(name, t))).collect())
+}
