@@ -191,22 +191,30 @@ def part_commands():
     """Wall time of whole commands, without saved results."""
     report = json.loads(ours("bench", "engine", "--masses", 1, "--until", 1)[0])
     fresh = Path(tempfile.mkdtemp(dir=WORK))
-    sweep = (TOP / "paper" / "data" / "fig02.csv").read_text().splitlines()[1:]
-    sigmas = ",".join(line.split(",")[0] for line in sweep)
-    commands = {"main sweep": ["sweep", "--sigma", sigmas, "--format", "json"]}
+    # The sweep as the report has it: beyond the rise with fewer realisations.
+    sweep = (TOP / "paper" / "data" / "fig03.csv").read_text().splitlines()[1:]
+    sigmas = {}
+    for sigma, realisations in (line.split(",")[:2] for line in sweep):
+        sigmas.setdefault(realisations, []).append(sigma)
+    commands = {"main sweep": [
+        ["sweep", "--sigma", ",".join(own), "--realisations", number, "--format", "json"]
+        for number, own in sigmas.items()
+    ]}  # fmt: skip
     for profile in ["quick", "ci", "full"]:
         folders = ["--results", fresh / profile, "--out", fresh / f"paper-{profile}"]
-        commands[profile] = ["paper", "--profile", profile, *folders]
-    for name, arguments in commands.items():
+        commands[profile] = [["paper", "--profile", profile, *folders]]
+    for name, calls in commands.items():
         say(f"  {name}")
         try:
-            text, seconds, peak = ours(*arguments, limit=900)
+            found = [ours(*arguments, limit=900) for arguments in calls]
         except Absent as reason:
             yield {"what": "absent", "name": f"commands: {name}", "note": str(reason)}
             continue
+        texts, times, peaks = zip(*found, strict=True)
+        seconds, peak = sum(times), max(peaks)
         row = {"what": "command", "name": name, "version": report["version"]}
         if name == "main sweep":
-            rows = json.loads(text)
+            rows = [row for text in texts for row in json.loads(text)]
             impacts = sum(row["impacts"] for row in rows)
             row |= {"impacts": impacts, "microseconds_per_impact": seconds / impacts * 1e6}
             row |= {"n": 100, "until": 700.0, "chains": sum(row["realisations"] for row in rows)}

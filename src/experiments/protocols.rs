@@ -97,7 +97,10 @@ mod tests {
         for (own, (name, map)) in parameters.maps.iter().zip(found.named()) {
             assert_eq!(own.name, name);
             assert_eq!(*map, protocol::run(&own.map, &quiet).unwrap(), "{name}");
-            assert!(map.means.iter().flatten().flatten().any(|mean| *mean > 0.0), "{name}");
+            // Without a free part nothing closes so soon.
+            let zero = own.map.chain.start == Start::Zero;
+            let hit = map.means.iter().flatten().flatten().any(|mean| *mean > 0.0);
+            assert!(hit || zero, "{name}");
             // Of random starts some overlap, and those are counted in no window.
             let random = own.map.chain.start == Start::Random;
             assert!(random || map.failed == 0, "{name}: {}", map.failed);

@@ -252,6 +252,7 @@ mod tests {
         let sweep = SweepParams {
             sigmas: vec![0.3],
             realisations: 3,
+            level: None,
             protocol: short,
             ..SweepParams::main(Profile::Quick)
         };

@@ -218,5 +218,5 @@ fn a_common_period_keeps_gaps_open() {
         (None, 0)
     );
     let drawn = &found.curves[0].kept_expected;
-    assert!(drawn.len() == 41 && drawn.iter().all(|[_, ever, there]| there <= ever), "{drawn:?}");
+    assert!(drawn.len() == 21 && drawn.iter().all(|[_, ever, there]| there <= ever), "{drawn:?}");
 }
