@@ -334,6 +334,7 @@ mod tests {
     use super::super::cutting::{Cutting, Row};
     use super::super::experiment::How::Cut;
     use super::*;
+    use std::sync::atomic::{AtomicUsize, Ordering};
 
     /// What a unit gives: its row and its realisations.
     type Given = Vec<usize>;
@@ -396,19 +397,26 @@ mod tests {
 
     #[test]
     fn a_program_that_gives_something_else_is_noticed() {
-        let text = committed();
+        /// The row that another program gives otherwise.
+        static ROW: AtomicUsize = AtomicUsize::new(0);
         let other = Cutting {
-            part: |_, unit, _, _| Ok(vec![10 * unit.row, 10 * unit.row + unit.row % 2]),
+            part: |_, unit, _, _| {
+                let off = usize::from(unit.row == ROW.load(Ordering::Relaxed));
+                Ok(unit.realisations.clone().map(|i| 10 * unit.row + i + off).collect())
+            },
             ..CUTTING
         };
-        let mut deep: Small = Deep::new(experiment(other), text.leak());
+        let mut deep: Small = Deep::new(experiment(other), committed().leak());
+        let units = deep.experiment.units(Profile::Deep);
+        let first = drawn(&units, work(Profile::Full))[0];
+        ROW.store(units[first].row, Ordering::Relaxed);
         let audit = found(&deep, Profile::Full).unwrap().1.unwrap();
         assert_eq!(audit.verdict, Carriage::Failed);
         assert!(0 < audit.identical && audit.identical < audit.again, "{audit:?}");
 
         deep.distance = Some(|&sum, parts| {
             assert_eq!(sum, 1332);
-            assert!(parts.iter().all(|(unit, given)| given[0] == 10 * unit.row));
+            assert!(parts.iter().all(|(unit, given)| given[0] / 10 == unit.row));
             Distance { largest: 1.0, allowed: 2.0 }
         });
         let audit = found(&deep, Profile::Full).unwrap().1.unwrap();
