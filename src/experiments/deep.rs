@@ -160,7 +160,9 @@ impl<P: Serialize + Sync, T: Json, U: Json> Deep<P, T, U> {
         let params = JoinedParams { committed: sha256(self.committed) };
         let identity = self.with_own_code(Identity::new(&joined, MODULE, &params));
         let join = || self.join(self.units_given()?, progress);
-        let result = store.derived().get(&identity, profile, progress, join)?;
+        // What is said of the audit is enough.
+        let quiet = Progress::silent();
+        let result = store.derived().get(&identity, profile, &quiet, join)?;
         Ok((result, Some(audit)))
     }
 
