@@ -162,7 +162,11 @@ impl<P: Serialize + Sync, T: Json, U: Json> Deep<P, T, U> {
         let join = || self.join(self.units_given()?, progress);
         // What is said of the audit is enough.
         let quiet = Progress::silent();
-        let result = store.derived().get(&identity, profile, &quiet, join)?;
+        let result = match store.derived().get(&identity, profile, &quiet, join) {
+            // A folder that cannot be written is no reason to fail.
+            Err(Error::Store { .. }) => join()?,
+            found => found?,
+        };
         Ok((result, Some(audit)))
     }
 
