@@ -14,8 +14,9 @@ use std::path::PathBuf;
 /// A result is fresh if it was saved whole, with the same parameters, by the same code, and with the
 /// same versions of all crates. Ends with exit code 3 if any is not.
 ///
-/// What the deep profile gave is committed, and carried over changes of code and crates: every other
-/// profile runs a sample of it again, and only if that fails is it stale.
+/// What the deep profile gave is committed, and carried over changes of code and crates: the full profile
+/// runs a sample of it again (smaller ones that of the longest transients alone), and only if that fails
+/// is it stale.
 #[derive(clap::Args)]
 pub struct Args {
     /// Sample sizes.
