@@ -14,7 +14,7 @@ use std::{env, fs, io};
 /// What is saved beside the experiments' results: `report::mutate::MODULE`.
 const MUTATIONS: &str = "src/report/mutate/mod.rs";
 
-/// Writes `dependencies.rs` for `experiments::store`.
+/// Writes `dependencies.rs` for `experiments::identity`.
 pub fn run() -> io::Result<()> {
     println!("cargo::rerun-if-changed=Cargo.lock");
     let mut files = Vec::new();

@@ -7,14 +7,14 @@ use std::sync::LazyLock;
 use impact_paper::experiments::accuracy::{analytic, bias, race, scale};
 use impact_paper::experiments::segments::{Segment, SegmentImpact, Segments};
 use impact_paper::experiments::{
-    Measured, Progress, Results, chains, heat, independence, nucleation, orbits, protocol,
-    restitution, seeds, spacetime, sweep,
+    Measured, Progress, Results, chains, heat, independence, long, nucleation, orbits, protocol,
+    protocols, restitution, seeds, spacetime, sweep,
 };
 use impact_paper::figures::{self, Error, Figure};
 use impact_paper::params::{
     AnalyticParams, BiasParams, ChainsParams, HeatParams, IndependenceParams, NucleationParams,
-    OrbitsParams, Profile, ProtocolParams, RaceParams, RestitutionParams, ScaleParams, SeedsParams,
-    SpaceTimeParams, SweepParams,
+    OrbitsParams, Profile, ProtocolParams, ProtocolsParams, RaceParams, RestitutionParams,
+    ScaleParams, SeedsParams, SpaceTimeParams, SweepParams,
 };
 use roxmltree::{Document, Node};
 
@@ -59,6 +59,14 @@ fn results(profile: Profile) -> Results {
         Some(nucleation::CUTTING.run(&NucleationParams::new(quick), "test", &quiet).unwrap());
     results.seeds = Some(seeds::CUTTING.run(&SeedsParams::new(quick), "test", &quiet).unwrap());
     results.protocol = Some(protocol::run(&ProtocolParams::new(quick), &quiet).unwrap());
+    results.protocols =
+        Some(protocols::CUTTING.run(&ProtocolsParams::new(quick), "test", &quiet).unwrap());
+    let mut parameters = ProtocolParams::long(quick);
+    parameters.chain.masses = 12;
+    parameters.transients = vec![500.0, 1000.0];
+    parameters.windows = vec![20.0, 200.0];
+    parameters.realisations = 4;
+    results.long_protocol = Some(long::CUTTING.run(&parameters, "test", &quiet).unwrap());
     results.independence =
         Some(independence::run(&IndependenceParams::new(quick), &quiet).unwrap());
     results.orbits = Some(orbits::run(&OrbitsParams::new(quick), &quiet).unwrap());
@@ -424,7 +432,7 @@ fn less_than_the_full_profile_is_marked() {
     let quick = all(quick());
     let simulated = [
         "fig02", "fig03", "fig12", "fig15", "s01", "s02", "s03", "s04", "s05", "s06", "s09", "s10",
-        "s11", "s12", "s13", "s14", "s15",
+        "s11", "s12", "s13", "s14", "s15", "s16",
     ];
     for figure in &quick {
         let marked = figure.svg.contains("profile quick: not for citation");

@@ -274,7 +274,7 @@ mod tests {
         analytic.relation.last_mut().unwrap().points[0].1 = 2e-13;
         analytic.distribution.last_mut().unwrap().points[0].error = Some(2e-13);
         let verdicts = &mut results.trials.as_mut().unwrap().scenes[0].trials[0].verdicts;
-        verdicts[0] = crate::experiments::accuracy::scenes::Verdict::Missed;
+        verdicts[0] = crate::experiments::accuracy::case::Verdict::Missed;
         let scale = results.scale.as_mut().unwrap();
         let own = |m: MethodName| m == MethodName::Certified;
         let largest = scale.rows.iter_mut().filter(|row| own(row.setting.method)).last();

@@ -3,7 +3,7 @@
 use super::sources::Sources;
 use super::{Failure, stdout, work};
 use impact_paper::claims;
-use impact_paper::experiments::store::Identity;
+use impact_paper::experiments::identity::Identity;
 use impact_paper::experiments::{Error, Need, Progress, Store};
 use impact_paper::params::Profile;
 use impact_paper::report::mutate::{self, Mutation, Mutations, Reasons, Subject, Tally};

@@ -4,7 +4,7 @@ use super::{Failure, stdout, work};
 use impact_paper::experiments::Store;
 use impact_paper::experiments::catalogue::{self, Saved};
 use impact_paper::experiments::deep;
-use impact_paper::experiments::store::{Reason, told};
+use impact_paper::experiments::identity::{Reason, told};
 use impact_paper::params::Profile;
 use serde::Serialize;
 use std::path::PathBuf;

@@ -75,45 +75,37 @@ pub const SWEEP: Experiment<SweepParams, sweep::Sweep, tally::Tally> = Experimen
 
 /// The rise again, with another seed.
 pub const SECOND_SEED: Deep<SweepParams, sweep::Sweep, tally::Tally> = Deep::new(
-    Experiment {
-        need: Need::SecondSeed,
-        module: "src/experiments/sweep.rs",
-        parameters: SweepParams::second_seed,
-        how: Cut("second seed", sweep::CUTTING),
-    },
+    Need::SecondSeed,
+    "src/experiments/sweep.rs",
+    SweepParams::second_seed,
+    ("second seed", sweep::CUTTING),
     include_str!("../../benches/deep/second_seed-deep.json"),
 );
 
 /// Half height against transient and window.
 pub const PROTOCOL: Deep<ProtocolParams, protocol::ProtocolMap, protocol::Part> = Deep::new(
-    Experiment {
-        need: Need::Protocol,
-        module: "src/experiments/protocol.rs",
-        parameters: ProtocolParams::new,
-        how: Cut("protocol map", protocol::CUTTING),
-    },
+    Need::Protocol,
+    "src/experiments/protocol.rs",
+    ProtocolParams::new,
+    ("protocol map", protocol::CUTTING),
     include_str!("../../benches/deep/protocol-deep.json"),
 );
 
 /// The same for other starts and ends.
 pub const PROTOCOLS: Deep<ProtocolsParams, protocols::Protocols, protocol::Part> = Deep::new(
-    Experiment {
-        need: Need::Protocols,
-        module: "src/experiments/protocols.rs",
-        parameters: ProtocolsParams::new,
-        how: Cut("maps of other chains", protocols::CUTTING),
-    },
+    Need::Protocols,
+    "src/experiments/protocols.rs",
+    ProtocolsParams::new,
+    ("maps of other chains", protocols::CUTTING),
     include_str!("../../benches/deep/protocols-deep.json"),
 );
 
 /// Other starts, boundaries, restitutions and frequencies.
 pub const STARTS: Deep<StartsParams, starts::Starts, tally::Tally> = Deep::new(
-    Experiment {
-        need: Need::Starts,
-        module: "src/experiments/starts.rs",
-        parameters: StartsParams::new,
-        how: Cut("variants", starts::CUTTING),
-    },
+    Need::Starts,
+    "src/experiments/starts.rs",
+    StartsParams::new,
+    ("variants", starts::CUTTING),
     include_str!("../../benches/deep/starts-deep.json"),
 );
 
@@ -157,12 +149,10 @@ pub const RACE: Experiment<RaceParams, race::Race> = Experiment {
 
 /// What methods do to the mean count.
 pub const BIAS: Deep<BiasParams, bias::Biases, bias::Part> = Deep::new(
-    Experiment {
-        need: Need::Biases,
-        module: "src/experiments/accuracy/bias.rs",
-        parameters: BiasParams::new,
-        how: Cut("bias of methods", bias::CUTTING),
-    },
+    Need::Biases,
+    "src/experiments/accuracy/bias.rs",
+    BiasParams::new,
+    ("bias of methods", bias::CUTTING),
     include_str!("../../benches/deep/bias-deep.json"),
 );
 
@@ -195,12 +185,10 @@ pub const ANALYTIC: Experiment<AnalyticParams, analytic::Analytic> = Experiment 
 
 /// How hot running chains are.
 pub const HEAT: Deep<HeatParams, heat::Heat, heat::Part> = Deep::new(
-    Experiment {
-        need: Need::Heat,
-        module: "src/experiments/heat/mod.rs",
-        parameters: HeatParams::new,
-        how: Cut("heat", heat::CUTTING),
-    },
+    Need::Heat,
+    "src/experiments/heat/mod.rs",
+    HeatParams::new,
+    ("heat", heat::CUTTING),
     include_str!("../../benches/deep/heat-deep.json"),
 );
 
@@ -232,12 +220,10 @@ pub const HISTORY: Experiment<HistoryParams, history::History, history::Part> = 
 /// Whether impacts are independent.
 pub const INDEPENDENCE: Deep<IndependenceParams, independence::Independence, independence::Part> =
     Deep::new(
-        Experiment {
-            need: Need::Independence,
-            module: "src/experiments/independence/mod.rs",
-            parameters: IndependenceParams::new,
-            how: Cut("independence", independence::CUTTING),
-        },
+        Need::Independence,
+        "src/experiments/independence/mod.rs",
+        IndependenceParams::new,
+        ("independence", independence::CUTTING),
         include_str!("../../benches/deep/independence-deep.json"),
     );
 
@@ -251,36 +237,32 @@ pub const ORBITS: Experiment<OrbitsParams, orbits::Orbits> = Experiment {
 
 /// Long chains, damping and other forces.
 pub const CHAINS: Deep<ChainsParams, chains::Chains, chains::Part> = Deep::new(
-    Experiment {
-        need: Need::Chains,
-        module: "src/experiments/chains/mod.rs",
-        parameters: ChainsParams::new,
-        how: Cut("long chains", chains::CUTTING),
-    },
+    Need::Chains,
+    "src/experiments/chains/mod.rs",
+    ChainsParams::new,
+    ("long chains", chains::CUTTING),
     include_str!("../../benches/deep/chains-deep.json"),
 );
 
 /// Chains of several restitutions.
 pub const RESTITUTION: Deep<RestitutionParams, restitution::Restitution, restitution::Part> =
     Deep::new(
-        Experiment {
-            need: Need::Restitution,
-            module: "src/experiments/restitution/mod.rs",
-            parameters: RestitutionParams::new,
-            how: Cut("restitution", restitution::CUTTING),
-        },
+        Need::Restitution,
+        "src/experiments/restitution/mod.rs",
+        RestitutionParams::new,
+        ("restitution", restitution::CUTTING),
         include_str!("../../benches/deep/restitution-deep.json"),
     );
 
 /// The long end of the map over transients and windows.
 pub const LONG_PROTOCOL: Deep<ProtocolParams, long::LongMap, protocol::Part> = Deep {
-    experiment: Experiment {
-        need: Need::LongProtocol,
-        module: "src/experiments/long.rs",
-        parameters: ProtocolParams::long,
-        how: Cut("long protocol map", long::CUTTING),
-    },
-    committed: include_str!("../../benches/deep/long_protocol-deep.json"),
     from: Profile::Quick,
     distance: Some(long::distance),
+    ..Deep::new(
+        Need::LongProtocol,
+        "src/experiments/long.rs",
+        ProtocolParams::long,
+        ("long protocol map", long::CUTTING),
+        include_str!("../../benches/deep/long_protocol-deep.json"),
+    )
 };

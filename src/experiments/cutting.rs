@@ -48,6 +48,19 @@ pub struct Unit {
 }
 
 impl Unit {
+    /// Where rows are those of several lists of these lengths, one list after another: the place of
+    /// the list that has its row, and the unit as one of that list.
+    pub fn within(&self, lengths: impl IntoIterator<Item = usize>) -> Option<(usize, Unit)> {
+        let mut row = self.row;
+        for (place, length) in lengths.into_iter().enumerate() {
+            match row.checked_sub(length) {
+                Some(rest) => row = rest,
+                None => return Some((place, Unit { row, ..self.clone() })),
+            }
+        }
+        None
+    }
+
     /// Runs its realisations, in any order and on any thread, and advances the stage after each.
     pub fn each<R: Send>(
         &self,
@@ -65,7 +78,7 @@ impl Unit {
 }
 
 /// Makes a result T of parts U, for each row those of its units in order.
-type Join<P, U, T> = fn(&P, Vec<Vec<U>>, &Progress) -> Result<T, Error>;
+pub type Join<P, U, T> = fn(&P, Vec<Vec<U>>, &Progress) -> Result<T, Error>;
 
 /// How an experiment with parameters P is cut into parts U and joined to a result T.
 pub struct Cutting<P, U, T> {
@@ -94,13 +107,25 @@ impl<P: Sync, U: Send, T> Cutting<P, U, T> {
     /// [`Error::Interrupted`], or what a part returns.
     pub fn run(&self, parameters: &P, name: &str, progress: &Progress) -> Result<T, Error> {
         let units = self.units(parameters);
-        let stage = progress.stage(name, units.iter().map(|unit| unit.weight).sum());
-        // Units share the cores with the realisations inside them; parts come in their order.
-        let run = |unit: &Unit| (self.part)(parameters, unit, &stage, progress);
-        let parts: Vec<U> =
-            units.par_iter().with_max_len(1).map(run).collect::<Result<_, Error>>()?;
-        drop(stage);
+        let parts = self.given(parameters, &units.iter().collect::<Vec<_>>(), name, progress)?;
         self.joined(parameters, parts, progress)
+    }
+
+    /// What some units give, in their order.
+    ///
+    /// # Errors
+    /// [`Error::Interrupted`], or what a part returns.
+    pub fn given(
+        &self,
+        parameters: &P,
+        units: &[&Unit],
+        name: &str,
+        progress: &Progress,
+    ) -> Result<Vec<U>, Error> {
+        let stage = progress.stage(name, units.iter().map(|unit| unit.weight).sum());
+        // Units share the cores with the realisations inside them.
+        let part = |unit: &&Unit| (self.part)(parameters, unit, &stage, progress);
+        units.par_iter().with_max_len(1).map(part).collect()
     }
 
     /// The result of the parts of all units, in order.
@@ -150,6 +175,16 @@ mod tests {
         }
         let row = Row { covers: String::new(), realisations: 100, weight: 1 };
         assert_eq!(cut(0, &row, HEAVY).len(), 1);
+    }
+
+    #[test]
+    fn rows_of_lists_one_after_another() {
+        let unit = |row| Unit { row, realisations: 3..5, covers: "here".into(), weight: 7 };
+        let found = |row| unit(row).within([2, 0, 3]);
+        assert_eq!(found(1), Some((0, unit(1))));
+        assert_eq!(found(2), Some((2, unit(0))));
+        assert_eq!(found(4), Some((2, unit(2))));
+        assert_eq!(found(5), None);
     }
 
     #[test]

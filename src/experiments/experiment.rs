@@ -1,7 +1,8 @@
 //! An experiment whose result is saved, whole or cut into units of work.
 
 use super::cutting::{Cutting, Unit};
-use super::store::{Identity, Reason, Store, told, written};
+use super::identity::{Identity, Reason, told};
+use super::store::{Store, written};
 use super::{Error, Need, Progress};
 use crate::params::Profile;
 use rayon::prelude::*;
@@ -55,43 +56,6 @@ impl<P: Serialize + Sync, T: Json, U: Json> Experiment<P, T, U> {
         match &self.how {
             How::Whole { run, .. } => run(parameters, progress),
             How::Cut(name, cutting) => cutting.run(parameters, name, progress),
-        }
-    }
-
-    /// What some of its units give, if it is cut.
-    ///
-    /// # Errors
-    /// What a unit returns.
-    pub(super) fn given(
-        &self,
-        profile: Profile,
-        units: &[&Unit],
-        progress: &Progress,
-    ) -> Result<Vec<U>, Error> {
-        let parameters = (self.parameters)(profile);
-        match &self.how {
-            How::Whole { .. } => Ok(Vec::new()),
-            How::Cut(words, cutting) => {
-                let stage = progress.stage(words, units.iter().map(|unit| unit.weight).sum());
-                let part = |unit: &&Unit| (cutting.part)(&parameters, unit, &stage, progress);
-                units.par_iter().with_max_len(1).map(part).collect()
-            }
-        }
-    }
-
-    /// The result of what all units gave, if it is cut.
-    ///
-    /// # Errors
-    /// What joining returns.
-    pub(super) fn joined(
-        &self,
-        profile: Profile,
-        given: Vec<U>,
-        progress: &Progress,
-    ) -> Result<T, Error> {
-        match &self.how {
-            How::Whole { .. } => Err(Error::NotUnderstood { name: self.need.name() }),
-            How::Cut(_, cutting) => cutting.joined(&(self.parameters)(profile), given, progress),
         }
     }
 }
@@ -228,10 +192,10 @@ impl<P: Serialize + Sync, T: Json, U: Json> Saved for Experiment<P, T, U> {
         let unread = |_| Error::NotUnderstood { name: self.need.name() };
         let result = match &self.how {
             How::Whole { .. } => serde_json::from_str(&texts.concat()).map_err(unread)?,
-            How::Cut(..) => {
+            How::Cut(_, cutting) => {
                 let given = texts.iter().map(|text| serde_json::from_str(text));
                 let given: Vec<U> = given.collect::<Result<_, _>>().map_err(unread)?;
-                self.joined(profile, given, progress)?
+                cutting.joined(&(self.parameters)(profile), given, progress)?
             }
         };
         store.put(&Saved::identity(self, profile), profile, &result)

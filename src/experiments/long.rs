@@ -2,7 +2,7 @@
 
 use super::cutting::{Cutting, Unit};
 use super::deep::Distance;
-use super::protocol::{self, Part, ProtocolMap};
+use super::protocol::{self, Part, ProtocolCell, ProtocolMap};
 use super::{Error, Progress};
 use crate::numerics::statistics::{mean, normal_quantile, standard_deviation};
 use crate::params::{LEVEL, ProtocolParams};
@@ -28,6 +28,14 @@ pub struct LongRow {
     pub means: Vec<Option<f64>>,
     /// Standard deviation of all realisations in each cell.
     pub deviations: Vec<Option<f64>>,
+}
+
+impl LongMap {
+    /// The cells whose transients are longer than those of another map.
+    pub fn beyond(&self, map: &ProtocolMap) -> impl Iterator<Item = &ProtocolCell> {
+        let last = map.parameters.transients.iter().copied().fold(0.0, f64::max);
+        self.map.cells.iter().filter(move |cell| cell.transient > last)
+    }
 }
 
 /// The map in units of work: realisations of one σ.

@@ -12,6 +12,7 @@ pub mod heat;
 pub mod history;
 pub mod horizon;
 pub mod identities;
+pub mod identity;
 pub mod independence;
 pub mod laws;
 pub mod long;
@@ -38,11 +39,13 @@ pub mod theory;
 pub mod two_masses;
 pub mod weights;
 
+mod need;
 mod results;
 
 pub use error::Error;
 pub use measured::Measured;
+pub use need::Need;
 pub use progress::Progress;
-pub use results::{Need, Results};
+pub use results::Results;
 pub use run::run;
 pub use store::Store;

@@ -37,14 +37,8 @@ fn rows(parameters: &ProtocolsParams) -> Vec<Row> {
 
 /// The map to which a unit belongs, and its unit there.
 fn within<'a>(parameters: &'a ProtocolsParams, unit: &Unit) -> Option<(&'a ProtocolParams, Unit)> {
-    let mut row = unit.row;
-    for own in &parameters.maps {
-        match row.checked_sub(own.map.sigmas.len()) {
-            Some(rest) => row = rest,
-            None => return Some((&own.map, Unit { row, ..unit.clone() })),
-        }
-    }
-    None
+    let (place, unit) = unit.within(parameters.maps.iter().map(|own| own.map.sigmas.len()))?;
+    Some((&parameters.maps[place].map, unit))
 }
 
 fn part(

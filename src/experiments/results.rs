@@ -1,7 +1,7 @@
-//! All results together, and the declaration of what a figure or a claim needs of them.
+//! All results together.
 
 use super::accuracy::{analytic, bias, race, scale, trials};
-use super::{Error, Measured};
+use super::{Error, Measured, Need};
 use super::{
     chains, deep, heat, history, horizon, identities, independence, laws, long, nucleation, orbits,
     protocol, protocols, restitution, seeds, segments, spacetime, starts, sweep, theory,
@@ -10,124 +10,6 @@ use super::{
 use crate::params::{Profile, VERTICES};
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
-
-/// A result that a figure, a value or a claim needs. The theory need not be declared: it costs
-/// hundredths of a second and is computed when first looked at.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Need {
-    /// [`Results::sweep`].
-    Sweep,
-    /// [`Results::second_seed`].
-    SecondSeed,
-    /// [`Results::protocol`].
-    Protocol,
-    /// [`Results::protocols`].
-    Protocols,
-    /// [`Results::starts`].
-    Starts,
-    /// [`Results::laws`]; runs the main sweep too.
-    Laws,
-    /// [`Results::horizon`].
-    Horizon,
-    /// [`Results::two_masses`].
-    TwoMasses,
-    /// [`Results::segments`].
-    Segments,
-    /// [`Results::spacetime`].
-    SpaceTime,
-    /// [`Results::race`].
-    Race,
-    /// [`Results::biases`].
-    Biases,
-    /// [`Results::trials`].
-    Trials,
-    /// [`Results::scale`].
-    Scale,
-    /// [`Results::analytic`].
-    Analytic,
-    /// [`Results::measured`]: read, not run.
-    Measured,
-    /// [`Results::heat`].
-    Heat,
-    /// [`Results::nucleation`].
-    Nucleation,
-    /// [`Results::seeds`].
-    Seeds,
-    /// [`Results::history`].
-    History,
-    /// [`Results::independence`].
-    Independence,
-    /// [`Results::orbits`].
-    Orbits,
-    /// [`Results::restitution`].
-    Restitution,
-    /// [`Results::chains`].
-    Chains,
-    /// [`Results::long_protocol`].
-    LongProtocol,
-}
-
-impl Need {
-    /// Everything: what the report needs.
-    pub const ALL: [Need; 25] = [
-        Need::Sweep,
-        Need::SecondSeed,
-        Need::Protocol,
-        Need::Protocols,
-        Need::Starts,
-        Need::Laws,
-        Need::Horizon,
-        Need::TwoMasses,
-        Need::Segments,
-        Need::SpaceTime,
-        Need::Race,
-        Need::Biases,
-        Need::Trials,
-        Need::Scale,
-        Need::Analytic,
-        Need::Measured,
-        Need::Heat,
-        Need::Nucleation,
-        Need::Seeds,
-        Need::History,
-        Need::Independence,
-        Need::Orbits,
-        Need::Restitution,
-        Need::Chains,
-        Need::LongProtocol,
-    ];
-
-    /// The name of the experiment, as values carry it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Need::Sweep => "sweep",
-            Need::SecondSeed => "second_seed",
-            Need::Protocol => "protocol",
-            Need::Protocols => "protocols",
-            Need::Starts => "starts",
-            Need::Laws => "laws",
-            Need::Horizon => "horizon",
-            Need::TwoMasses => "two_masses",
-            Need::Segments => "segments",
-            Need::Race => "race",
-            Need::Biases => "bias",
-            Need::Trials => "trials",
-            Need::Scale => "scale",
-            Need::Analytic => "analytic",
-            Need::Measured => "measured",
-            Need::SpaceTime => "space-time",
-            Need::Heat => "heat",
-            Need::Nucleation => "nucleation",
-            Need::Seeds => "seeds",
-            Need::History => "history",
-            Need::Independence => "independence",
-            Need::Orbits => "orbits",
-            Need::Restitution => "restitution",
-            Need::Chains => "chains",
-            Need::LongProtocol => "long_protocol",
-        }
-    }
-}
 
 /// All results: what is `None` was not asked for.
 #[derive(Debug)]

@@ -9,6 +9,9 @@ use crate::params::{LEVEL, RESAMPLES};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
+/// Share of N at which the rise has its onset.
+pub const ONSET: f64 = 0.05;
+
 /// The place of the rise on the σ axis, in several declared senses. Each is the last rise of a
 /// curve through a level, linear between rows; a curve that does not rise through it has none.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -82,7 +85,7 @@ impl Curves {
         curves.places = [
             last_rise(sigmas, &curves.mean_kept, 0.5 * height),
             all(0.5),
-            all(0.05),
+            all(ONSET),
             last_rise(sigmas, &kept_share, 0.5),
             tenth,
             nine_tenths,

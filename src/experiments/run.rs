@@ -44,9 +44,9 @@ pub fn run(
     }
     macro_rules! carried {
         ($($field:ident: $experiment:ident),*) => {
-            $(if needs(catalogue::$experiment.experiment.need) {
+            $(if needs(catalogue::$experiment.need) {
                 let (result, audit) = catalogue::$experiment.get(profile, store, progress)?;
-                let name = catalogue::$experiment.experiment.need.name();
+                let name = catalogue::$experiment.need.name();
                 results.audits.extend(audit.map(|audit| (name.into(), audit)));
                 results.$field = Some(result);
             })*

@@ -2,7 +2,8 @@
 
 use super::catalogue::{self, Saved};
 use super::cutting::Unit;
-use super::store::{Identity, Reason, Store, told};
+use super::identity::{Identity, Reason, told};
+use super::store::Store;
 use super::{Error, Progress};
 use crate::params::Profile;
 use std::cmp::Reverse;

@@ -73,14 +73,8 @@ fn rows(parameters: &StartsParams) -> Vec<Row> {
 
 /// The ensemble to which a unit belongs, and its unit there.
 fn within(parameters: &StartsParams, unit: &Unit) -> Option<(SweepParams, Unit)> {
-    let mut row = unit.row;
-    for variant in &parameters.variants {
-        match row.checked_sub(variant.sigmas.len()) {
-            Some(rest) => row = rest,
-            None => return Some((ensemble(parameters, variant), Unit { row, ..unit.clone() })),
-        }
-    }
-    None
+    let (place, unit) = unit.within(parameters.variants.iter().map(|own| own.sigmas.len()))?;
+    Some((ensemble(parameters, &parameters.variants[place]), unit))
 }
 
 fn part(

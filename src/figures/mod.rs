@@ -45,6 +45,7 @@ mod s12;
 mod s13;
 mod s14;
 mod s15;
+mod s16;
 mod scene;
 mod series;
 mod sheet;
@@ -150,6 +151,7 @@ pub fn needs(number: Number) -> &'static [Need] {
         Number::Own(13) => &[Need::Orbits],
         Number::Own(14) => &[Need::Restitution],
         Number::Own(15) => &[Need::Chains, Need::Protocol],
+        Number::Own(16) => &[Need::Protocol, Need::LongProtocol, Need::Protocols],
         _ => &[],
     }
 }
@@ -206,6 +208,12 @@ pub fn draw(number: Number, results: &Results) -> Result<Figure, Error> {
         Number::Own(13) => s13::draw(results.orbits()?, note),
         Number::Own(14) => s14::draw(results.restitution()?, note),
         Number::Own(15) => s15::draw(results.chains()?, results.protocol()?, note),
+        Number::Own(16) => {
+            let (map, long) = (results.protocol()?, results.long_protocol()?);
+            let (others, found) = (results.protocols()?, &results.identities);
+            let seeds = [found.sigma_kept_half, found.sigma_kept_onset];
+            s16::draw(s16::Maps { map, long, others, seeds }, note)
+        }
         _ => Err(Error::Number(number)),
     }
 }

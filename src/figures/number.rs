@@ -17,7 +17,7 @@ impl Number {
     pub const PAPER: u8 = 15;
 
     /// How many figures are our own.
-    pub const OWN: u8 = 15;
+    pub const OWN: u8 = 16;
 
     /// `fig03` or `s01`: the file name of the picture without its ending.
     pub fn id(self) -> String {

@@ -49,6 +49,15 @@ fn look(masses: usize) -> (Mark, i32, Stroke) {
     (mark, SIZE, Stroke::solid(colour, THIN))
 }
 
+/// A length in words: the longest as a power of ten.
+fn length(masses: usize) -> String {
+    let tens = masses.checked_ilog10().unwrap_or(0);
+    match tens >= 4 && masses == 10_usize.pow(tens) {
+        true => format!("*n* = 10^{{{tens}}}"),
+        false => format!("*n* = {masses}"),
+    }
+}
+
 /// The transient that all lengths have.
 const COMMON_TIME: f64 = 500.0;
 
@@ -76,7 +85,7 @@ fn lengths(sheet: &Sheet, chains: &Chains) -> Result<(), Error> {
             continue;
         }
         let look = look(own.masses);
-        let name = format!("*n* = {}", own.masses);
+        let name = length(own.masses);
         panel.curve(&name, &points(&all), look.2, Outside::Cut)?;
         panel.estimates(&name, &all, look, |y| y)?;
         entries.push(Entry::mark(look.0, look.1, look.2, &name));

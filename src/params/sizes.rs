@@ -136,7 +136,7 @@ impl ProtocolParams {
     pub fn long(_: Profile) -> Self {
         ProtocolParams {
             transients: vec![1e3, 4e3, 1e4, 2e4, 5e4, 1e5],
-            windows: vec![500.0, 2000.0],
+            windows: vec![20.0, 200.0, 2000.0],
             // 23 values.
             sigmas: Grid::default().and(26, 48, 1, 400).values(),
             // None is shortened.
@@ -192,18 +192,19 @@ pub struct ProtocolsParams {
 impl ProtocolsParams {
     /// The sizes of each profile.
     pub fn new(profile: Profile) -> Self {
-        let (times, step, realisations) = match profile {
-            Profile::Full | Profile::Deep => (3, 1, 80),
-            Profile::Ci => (2, 2, 8),
-            Profile::Quick => (2, 2, 3),
+        let (transients, windows, step, realisations) = match profile {
+            Profile::Full | Profile::Deep => (4, 3, 1, 80),
+            Profile::Ci => (2, 2, 2, 8),
+            Profile::Quick => (2, 2, 2, 3),
         };
-        let named = |name: &str, change: fn(&mut Chain)| {
+        // After the longer transients a map has risen where the long runs end.
+        let named = |name: &str, short_above: f64, change: fn(&mut Chain)| {
             let mut map = ProtocolParams {
-                transients: [50.0, 500.0, 4000.0][..times].to_vec(),
-                windows: [20.0, 200.0, 2000.0][..times].to_vec(),
+                transients: [50.0, 500.0, 4000.0, 1e5][..transients].to_vec(),
+                windows: [20.0, 200.0, 2000.0][..windows].to_vec(),
                 // A start without a free part rises last.
-                sigmas: Grid::default().and(8, 26, step, 100).values(),
-                short_above: 0.2,
+                sigmas: Grid::default().and(6, 26, step, 100).values(),
+                short_above,
                 realisations,
                 stream: "protocols".into(),
                 ..ProtocolParams::new(profile)
@@ -213,9 +214,9 @@ impl ProtocolsParams {
         };
         ProtocolsParams {
             maps: vec![
-                named("zero", |chain| chain.start = Start::Zero),
-                named("random", |chain| chain.start = Start::Random),
-                named("ring", |chain| chain.boundary = Boundary::Ring),
+                named("zero", 0.2, |chain| chain.start = Start::Zero),
+                named("random", 0.16, |chain| chain.start = Start::Random),
+                named("ring", 0.14, |chain| chain.boundary = Boundary::Ring),
             ],
         }
     }

@@ -1,11 +1,13 @@
 //! Results and prose → every file of paper/, as bytes. Nothing is written here.
 
+use super::Templates;
 use super::bibliography::Library;
 use super::card::Cards;
 use super::claims::{Row, scorecard};
 use super::document::Block;
+use super::filler::Filler;
 use super::lint::{Declared, Finding};
-use super::templates::{Filler, Mark, Templates};
+use super::mark::Mark;
 use super::uses::uses;
 use super::values::Registry;
 use super::{Error, appendix, html, labels, latex, ledger, lint, markdown, parse, pdf, sums};

@@ -14,6 +14,7 @@ pub mod compare;
 pub mod contents;
 pub mod document;
 pub mod equations;
+pub mod filler;
 pub mod guards;
 pub mod html;
 pub mod labels;
@@ -22,6 +23,7 @@ pub mod ledger;
 pub mod lint;
 pub mod literate;
 pub mod map;
+pub mod mark;
 pub mod markdown;
 pub mod mutate;
 pub mod parse;
@@ -190,7 +192,7 @@ Listing: What $\delta v$ does. {#lst:kick}
 
     fn tree(text: &str) -> Vec<document::Block> {
         let templates = Templates::of([("report.md", text)]);
-        let filled = templates::Filler::new(&templates, &values()).unwrap().fill("report.md");
+        let filled = filler::Filler::new(&templates, &values()).unwrap().fill("report.md");
         let mut blocks = parse::parse(&filled.unwrap(), &values()).unwrap();
         let bib = "@article{rice1945, author={Rice, S. O.}, title={Noise}, year=1945}";
         let library = bibliography::Library::read(bib).unwrap();

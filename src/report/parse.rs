@@ -17,8 +17,8 @@
 
 use super::card::words_and_maths;
 use super::document::{Align, Block, Inline};
+use super::mark::Mark;
 use super::print::print;
-use super::templates::Mark;
 use super::valued::framed;
 use super::values::Registry;
 use super::{Error, literate};

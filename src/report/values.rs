@@ -249,6 +249,11 @@ impl Registry {
         self.0.insert(value.id.clone(), value);
     }
 
+    /// Takes a value out.
+    pub fn remove(&mut self, id: &str) {
+        self.0.remove(id);
+    }
+
     /// The value with this id.
     pub fn get(&self, id: &str) -> Option<&Value> {
         self.0.get(id)

@@ -1,7 +1,7 @@
 //! Saved results: whatever is in the file, a result is what was saved, or is run again for a reason.
 
 use crate::mutants::mutant;
-use impact_paper::experiments::store::{Identity, told};
+use impact_paper::experiments::identity::{Identity, told};
 use impact_paper::experiments::{Progress, Store};
 use impact_paper::params::Profile;
 use sha2::{Digest, Sha256};

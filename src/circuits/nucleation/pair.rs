@@ -2,19 +2,19 @@
 //!
 //! Neighbours share a mass, and with it the force on that mass: both amplitude differences contain it
 //! with opposite signs, so their covariance is −σ². In polar coordinates for the radii of the two,
-//! r_1 = s cos φ and r_2 = s sin φ, the integral over s is elementary, and three angles are left:
+//! r_1 = s cos φ and r_2 = s sin φ, the integral over s is elementary, and three angles are left. Where
+//! tan φ < m_2/m_1, m_i = d/M(θ_i), the second radius decides whether both close, and with t = tan φ
 //!
-//! P = ⟨ (1/D) ∫_0^{π/2} cos φ sin φ (2/Q²)(1 + Q m²/2) e^{−Q m²/2} dφ ⟩ over θ_1 and θ_2,
-//! Q = (v_2 cos²φ + v_1 sin²φ + 2σ² cos φ sin φ cos(θ_1 − θ_2))/D,  D = v_1 v_2 − σ⁴,
-//! m = max(d/(M(θ_1) cos φ), d/(M(θ_2) sin φ)),
+//! P = ⟨ ∫_0^{m_2/m_1} (2 t D/Q²)(1 + h) e^{−h} dt ⟩ over θ_1 and θ_2, and the same with 1 and 2 exchanged,
+//! Q = v_2 + v_1 t² + 2σ² t cos(θ_1 − θ_2),  D = v_1 v_2 − σ⁴,  h = m_2² Q/(2 D t²),
 //!
-//! v_1 and v_2 being the variances of the differences.
+//! v_1 and v_2 being the variances of the differences. No function but the exponential is asked for.
 
 use super::reach::Reach;
 use crate::numerics::quadrature::GaussLegendre;
-use std::f64::consts::{FRAC_PI_2, TAU};
+use std::f64::consts::TAU;
 
-/// Points of the rule on each side of the corner of m, where it has a kink.
+/// Points of the rule on each side of the angle from which on the other radius decides.
 const POINTS: usize = 20;
 
 /// The probability that two neighbouring gaps both close by themselves, of variances v_1 and v_2
@@ -26,30 +26,29 @@ pub fn both(reach: &Reach, spacing: f64, sigma: f64, [v_1, v_2]: [f64; 2]) -> f6
     let angles = reach.radii.len();
     let cosines: Vec<f64> =
         (0..angles).map(|i| pxfm::f_cos(TAU * i as f64 / angles as f64)).collect();
+    // The part where the gap of the least radius `m` and the variance `v` decides.
+    let decides = |(m, v): (f64, f64), (other_m, other_v): (f64, f64), twice_shared: f64| {
+        rule.integrate(0.0, m / other_m, |t| {
+            let q = v + t * (twice_shared + other_v * t);
+            let half = 0.5 * m * m * q / (determinant * t * t);
+            t / (q * q) * (1.0 + half) * pxfm::f_exp(-half)
+        })
+    };
     let mut sum = 0.0;
     for (i, first) in reach.radii.iter().enumerate() {
-        for (j, second) in reach.radii.iter().enumerate() {
+        // With equal variances the order of the angles does not matter.
+        let others = if v_1 == v_2 { i + 1 } else { angles };
+        for (j, second) in reach.radii[..others].iter().enumerate() {
             if *first <= 0.0 || *second <= 0.0 {
                 continue;
             }
-            let (least_1, least_2) = (spacing / first, spacing / second);
-            let together = 2.0 * shared * cosines[(angles + i - j) % angles];
-            // On one side of the corner r_1 decides, on the other r_2.
-            let corner = pxfm::f_atan2(least_2, least_1);
-            let side = |from: f64, until: f64, decides_1: bool| {
-                rule.integrate(from, until, |phi| {
-                    let (sin, cos) = pxfm::f_sincos(phi);
-                    let q =
-                        (v_2 * cos * cos + v_1 * sin * sin + together * cos * sin) / determinant;
-                    let m = if decides_1 { least_1 / cos } else { least_2 / sin };
-                    let half = 0.5 * q * m * m;
-                    cos * sin * 2.0 / (q * q) * (1.0 + half) * pxfm::f_exp(-half)
-                })
-            };
-            sum += side(0.0, corner, false) + side(corner, FRAC_PI_2, true);
+            let (one, two) = ((spacing / first, v_1), (spacing / second, v_2));
+            let twice_shared = 2.0 * shared * cosines[(angles + i - j) % angles];
+            let both = decides(two, one, twice_shared) + decides(one, two, twice_shared);
+            sum += if v_1 == v_2 && j < i { 2.0 * both } else { both };
         }
     }
-    sum / ((angles * angles) as f64 * determinant)
+    2.0 * determinant * sum / (angles * angles) as f64
 }
 
 #[cfg(test)]

@@ -2,7 +2,8 @@
 //!
 //! - [`race`]: every method against the true motion, segment by segment and run by run.
 //! - [`bias`]: what a method does to the mean number of gaps that impact.
-//! - [`scenes`], [`trials`]: situations in which methods fail, and what each makes of them.
+//! - [`scenes`], [`case`], [`trials`]: situations in which methods fail, what must come out of each, and what
+//!   each makes of them.
 //! - [`scale`]: counted work against the number of masses.
 //! - [`analytic`]: ways to compute Eq. (25) and the distribution of Eq. (9).
 //!
@@ -11,6 +12,7 @@
 
 pub mod analytic;
 pub mod bias;
+pub mod case;
 mod exact;
 pub mod race;
 mod routes;

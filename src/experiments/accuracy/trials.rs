@@ -1,7 +1,8 @@
 //! Every method on every scene in which methods fail.
 
+use super::case::Verdict;
 use super::routes::method;
-use super::scenes::{self, Verdict};
+use super::scenes;
 use crate::experiments::{Error, Progress};
 use crate::params::{Setting, TrialParams};
 use rayon::prelude::*;

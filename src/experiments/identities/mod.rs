@@ -8,6 +8,7 @@ mod census;
 mod jump;
 mod relation;
 
+use super::rise::ONSET;
 use crate::circuits::counting::ratio_to_longest;
 use crate::circuits::distribution::{Law, SampleSpace};
 use crate::circuits::graph::Graph;
@@ -122,6 +123,9 @@ pub struct Identities {
     /// σ at which one of all N gaps closes by itself with probability one half, after a start
     /// from rest and as if gaps were independent.
     pub sigma_kept_half: f64,
+    /// The same with the probability at which the mean of all would be at its onset if all gaps of
+    /// such chains had impacts.
+    pub sigma_kept_onset: f64,
     /// σ of the random starts whose overlap is given.
     pub overlap_sigma: f64,
     /// Probability that a gap with a random free part starts overlapped, over p of Eq. (25).
@@ -171,7 +175,8 @@ pub fn run(vertices: usize) -> Result<Identities, Error> {
         eq32: census::eq32(),
         classes: census::class_ranges(&census),
         nucleation: relation::nucleation(chain.gaps())?,
-        sigma_kept_half: relation::sigma_kept_half(chain.gaps()),
+        sigma_kept_half: relation::sigma_kept(0.5, chain.gaps()),
+        sigma_kept_onset: relation::sigma_kept(ONSET, chain.gaps()),
         overlap_sigma,
         overlap_share: relation::overlap(overlap_sigma, &chain)?,
     })
@@ -215,6 +220,8 @@ mod tests {
         assert!((at(0.12).p_rest - 0.0309524).abs() < 1e-7);
         assert!((at(0.12).any_rest - 0.958).abs() < 1e-3);
         assert!(found.sigma_kept_half > 0.099 && found.sigma_kept_half < 0.1);
+        assert!((relation::sigma_kept(0.958, 101) - 0.12).abs() < 1e-4);
+        assert!(found.sigma_kept_onset > 0.07 && found.sigma_kept_onset < 0.09);
         assert!((found.mean_slope_by_variance / found.mean_slope_by_difference - 1.0).abs() < 1e-6);
     }
 }

@@ -52,12 +52,13 @@ pub(super) fn nucleation(gaps: usize) -> Result<Vec<Nucleation>, Error> {
         .collect()
 }
 
-pub(super) fn sigma_kept_half(gaps: usize) -> f64 {
-    let half = |sigma: f64| {
+/// σ at which such a share of the chains has a gap that closes by itself.
+pub(super) fn sigma_kept(share: f64, gaps: usize) -> f64 {
+    let reached = |sigma: f64| {
         let p = ImpactProbability::of_paper(sigma).and_then(|gap| gap.p_from_rest());
-        p.is_ok_and(|p| any(p, gaps) >= 0.5)
+        p.is_ok_and(|p| any(p, gaps) >= share)
     };
-    bisection::bracket(0.01, 1.0, half)[1]
+    bisection::bracket(0.01, 1.0, reached)[1]
 }
 
 /// Δ(0) = d + δα_0 − δα_1 is normal with variance 4σ² (both frequencies of the paper's chain).

@@ -5,9 +5,9 @@ use crate::claims::targets;
 use crate::experiments::Results;
 use crate::experiments::accuracy::analytic::{Analytic, Relation, Route, Way};
 use crate::experiments::accuracy::bias::{BiasRow, Biases};
+use crate::experiments::accuracy::case::Verdict;
 use crate::experiments::accuracy::race::{DISPLACED, Entry, Race};
 use crate::experiments::accuracy::scale::{Scale, ScaleRow};
-use crate::experiments::accuracy::scenes::Verdict;
 use crate::params::{MethodName, Setting};
 use crate::report::claims::sentence;
 use crate::report::values::{Kind, Value};
@@ -327,7 +327,7 @@ pub fn bias_table(results: &Results) -> Result<Vec<Line>, Error> {
     let cell = |i: usize, j: usize| {
         let id = bias_id(i, j);
         let style = crate::report::print::Style { percent: true, ..Default::default() };
-        crate::report::templates::Mark { id, style }.write()
+        crate::report::mark::Mark { id, style }.write()
     };
     let line = |(i, (setting, _)): (usize, &(Setting, usize))| Line {
         name: titled(*setting),

@@ -45,6 +45,7 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
         Value::integer("long_window", w as u64),
         estimate("long_kept", last.half_height, n),
         estimate("long_all", last.half_height_all, n),
+        estimate("long_onset", last.onset, n),
     ]);
     Ok(from(values, "experiments::long::CUTTING", "long_protocol"))
 }

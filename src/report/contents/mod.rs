@@ -30,8 +30,8 @@ mod spacetime;
 mod starts;
 mod theory;
 
+use super::mark::Mark;
 use super::print::Style;
-use super::templates::Mark;
 use super::values::{Registry, Value};
 use crate::claims::{self, Claim, Published};
 use crate::experiments::Results;
@@ -58,6 +58,36 @@ pub enum Error {
     Missing(&'static str),
 }
 
+/// Makes some values of the report from results.
+pub type Section = fn(&Results) -> Result<Vec<Value>, Error>;
+
+/// All values but what the paper printed, in the order of the report.
+pub const SECTIONS: [Section; 23] = [
+    simulation::values,
+    theory::values,
+    comparison::values,
+    higher::values,
+    large::values,
+    protocol::values,
+    protocols::values,
+    starts::values,
+    spacetime::values,
+    accuracy::values,
+    long::values,
+    nucleation::values,
+    growth::values,
+    fronts::values,
+    heat::values,
+    scores::values,
+    history::values,
+    independence::values,
+    orbits::values,
+    restitution::values,
+    chains::values,
+    carried::values,
+    |results| Ok(ledger::values(results)),
+];
+
 /// All values of the report.
 ///
 /// # Errors
@@ -65,29 +95,9 @@ pub enum Error {
 pub fn registry(results: &Results, published: &Published) -> Result<Registry, Error> {
     let mut registry = Registry::new();
     registry.extend(paper::values(published))?;
-    registry.extend(simulation::values(results)?)?;
-    registry.extend(theory::values(results)?)?;
-    registry.extend(comparison::values(results)?)?;
-    registry.extend(higher::values(results)?)?;
-    registry.extend(large::values(results)?)?;
-    registry.extend(protocol::values(results)?)?;
-    registry.extend(protocols::values(results)?)?;
-    registry.extend(starts::values(results)?)?;
-    registry.extend(spacetime::values(results)?)?;
-    registry.extend(accuracy::values(results)?)?;
-    registry.extend(long::values(results)?)?;
-    registry.extend(nucleation::values(results)?)?;
-    registry.extend(growth::values(results)?)?;
-    registry.extend(fronts::values(results)?)?;
-    registry.extend(heat::values(results)?)?;
-    registry.extend(scores::values(results)?)?;
-    registry.extend(history::values(results)?)?;
-    registry.extend(independence::values(results)?)?;
-    registry.extend(orbits::values(results)?)?;
-    registry.extend(restitution::values(results)?)?;
-    registry.extend(chains::values(results)?)?;
-    registry.extend(carried::values(results)?)?;
-    registry.extend(ledger::values(results))?;
+    for section in SECTIONS {
+        registry.extend(section(results)?)?;
+    }
     Ok(registry)
 }
 

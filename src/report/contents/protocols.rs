@@ -2,7 +2,7 @@
 
 use super::{Error, estimate, from, mark};
 use crate::experiments::Results;
-use crate::experiments::protocol::{ProtocolCell, ProtocolMap};
+use crate::experiments::protocol::ProtocolCell;
 use crate::report::values::Value;
 use serde::Serialize;
 
@@ -15,10 +15,19 @@ pub struct Line {
     cells: Vec<String>,
 }
 
-/// The map of the paper's chain, and those of the others.
-fn maps(results: &Results) -> Result<Vec<(&str, &ProtocolMap)>, Error> {
-    let rest = [("rest", results.protocol()?)];
-    Ok(rest.into_iter().chain(results.protocols()?.named()).collect())
+/// Cells with the number of chains that they are of.
+type Cells<'a> = Vec<(&'a ProtocolCell, usize)>;
+
+/// The cells of the paper's chain, with those of its long end, and of the others.
+fn maps(results: &Results) -> Result<Vec<(&str, Cells<'_>)>, Error> {
+    let (map, long) = (results.protocol()?, results.long_protocol()?);
+    let with = |n: usize| move |cell| (cell, n);
+    let late = long.beyond(map).map(with(long.map.parameters.realisations));
+    let rest = map.cells.iter().map(with(map.parameters.realisations)).chain(late).collect();
+    let others = results.protocols()?.named().map(|(name, map)| {
+        (name, map.cells.iter().map(with(map.parameters.realisations)).collect())
+    });
+    Ok([("rest", rest)].into_iter().chain(others).collect())
 }
 
 /// Transients and windows of the maps of the others.
@@ -45,12 +54,11 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
             times.iter().map(move |&time| Value::integer(head(letter, time), time as u64))
         })
         .collect();
-    for (name, map) in maps(results)? {
-        let n = map.parameters.realisations;
-        let shown = |cell: &&ProtocolCell| {
+    for (name, cells) in maps(results)? {
+        let shown = |(cell, _): &(&ProtocolCell, usize)| {
             transients.contains(&cell.transient) && windows.contains(&cell.window)
         };
-        for cell in map.cells.iter().filter(shown) {
+        for (cell, n) in cells.into_iter().filter(shown) {
             let id = |column: &str| id(column, name, cell.transient, cell.window);
             values.push(estimate(id("half"), cell.half_height_all, n));
             values.push(estimate(id("onset"), cell.onset, n));

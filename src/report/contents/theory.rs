@@ -129,6 +129,7 @@ fn relation(results: &Results) -> Result<Vec<Value>, Error> {
         Value::real("kept_predicted_a", threshold.any_rest, 3),
         Value::real("kept_predicted_b", kept.any_rest, 3),
         Value::real("kept_half_predicted", id.sigma_kept_half, 3),
+        Value::real("kept_onset_predicted", id.sigma_kept_onset, 3),
         chosen("overlap_sigma", id.overlap_sigma),
         Value::real("overlap_share", id.overlap_share, 2),
     ])

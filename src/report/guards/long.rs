@@ -2,7 +2,7 @@
 
 use super::places::between;
 use super::protocol::heads;
-use super::{Guard, Look, far, model, unless};
+use super::{Guard, Look, far, model, room, unless};
 use crate::claims;
 use crate::experiments::long::LongRow;
 use crate::experiments::protocol::ProtocolCell;
@@ -17,6 +17,7 @@ pub const GUARDS: &[Guard] = &[
             "long.all_*",
             "long_kept",
             "long_all",
+            "long_onset",
             "long_realisations",
             "long_sigma_count",
         ],
@@ -27,32 +28,35 @@ pub const GUARDS: &[Guard] = &[
     Guard { name: "long_map_needs_seeds", ids: &["long_seeds*"], find: needs_seeds },
     Guard {
         name: "long_map_ends",
-        ids: &["long_kept", "long_all", "long_until", "long_window", "long.t*", "long.w*"],
+        ids: &[
+            "long_kept",
+            "long_all",
+            "long_onset",
+            "long_until",
+            "long_window",
+            "long.t*",
+            "long.w*",
+        ],
         find: ends,
     },
 ];
 
-/// The half heights of a cell: of the mean of the kept, and of that of all.
-fn halves(cell: &ProtocolCell) -> [Option<Estimate>; 2] {
-    [cell.half_height, cell.half_height_all]
+/// The places of a cell: the half heights of the mean of the kept and of that of all, and the onset.
+fn places(cell: &ProtocolCell) -> [Option<Estimate>; 3] {
+    [cell.half_height, cell.half_height_all, cell.onset]
 }
 
-/// How far two estimates that chance alone separates may lie apart.
-fn room(own: &Estimate, other: &Estimate) -> f64 {
-    claims::level().quantile * (own.error * own.error + other.error * other.error).sqrt()
-}
-
-/// Where both maps have a cell, their half heights agree within the errors of both: they drew
+/// Where both maps have a cell, their places of the rise agree within the errors of both: they drew
 /// other random numbers.
 fn meets_map(look: Look<'_>) -> Option<String> {
     let long = &look.results.long_protocol.as_ref()?.map;
     let map = look.results.protocol.as_ref()?;
     long.cells.iter().find_map(|cell| {
         let other = map.cell(cell.transient, cell.window)?;
-        halves(cell).into_iter().zip(halves(other)).find_map(|pair| {
+        places(cell).into_iter().zip(places(other)).find_map(|pair| {
             let (own, other) = pair.0.zip(pair.1)?;
             unless((own.value - other.value).abs() <= room(&own, &other), || {
-                format!("half height {} of the long map, {} of the map", own.value, other.value)
+                format!("rise at {} in the long map, at {} in the map", own.value, other.value)
             })
         })
     })
@@ -65,19 +69,19 @@ fn falls(look: Look<'_>) -> Option<String> {
     map.cells.iter().flat_map(|early| map.cells.iter().map(move |late| (early, late))).find_map(
         |(early, late)| {
             let later = early.transient <= late.transient && early.window <= late.window;
-            halves(early).into_iter().zip(halves(late)).find_map(|pair| {
+            places(early).into_iter().zip(places(late)).find_map(|pair| {
                 let (before, after) = pair.0.zip(pair.1)?;
                 unless(!later || after.value <= before.value + room(&before, &after), || {
-                    format!("half height {} after {}", after.value, before.value)
+                    format!("rise at {} after {}", after.value, before.value)
                 })
             })
         },
     )
 }
 
-/// At a half height the curve through the means has half its height. Means are sums of whole counts
-/// over the number of realisations, and the mean of the kept is the same sum over fewer. There is a
-/// row for each sigma.
+/// At a half height the curve through the means has half its height, at an onset a twentieth. Means
+/// are sums of whole counts over the number of realisations, and the mean of the kept is the same sum
+/// over fewer. There is a row for each sigma.
 fn half_heights(look: Look<'_>) -> Option<String> {
     let long = look.results.long_protocol.as_ref()?;
     let (map, gaps) = (&long.map, long.map.parameters.chain.gaps() as f64);
@@ -94,25 +98,27 @@ fn half_heights(look: Look<'_>) -> Option<String> {
             let sum = point.1 * n;
             far("a sum of counts in the long map", sum, sum.round())
         };
-        let at = |half: Option<Estimate>, points: &[(f64, f64)]| {
-            let half = half?.value;
-            match between(points, half) {
-                Some(height) => far(&format!("the long curve at {half}"), height, 0.5 * gaps),
-                None => Some(format!("the half height {half} lies outside the long curve")),
+        let at = |place: Option<Estimate>, points: &[(f64, f64)], height: f64| {
+            let sigma = place?.value;
+            match between(points, sigma) {
+                Some(found) => far(&format!("the long curve at {sigma}"), found, height * gaps),
+                None => Some(format!("{sigma} lies outside the long curve")),
             }
         };
         let all = curve(|_, n| n);
         all.iter()
             .find_map(whole)
             .or_else(|| look.is("long_sigma_count", long.rows.len() as f64))
-            .or_else(|| at(cell.half_height, &curve(|kept, _| kept as f64)))
-            .or_else(|| at(cell.half_height_all, &all))
+            .or_else(|| at(cell.half_height, &curve(|kept, _| kept as f64), 0.5))
+            .or_else(|| at(cell.half_height_all, &all, 0.5))
+            .or_else(|| at(cell.onset, &all, 0.05))
     })
 }
 
 /// A chain has no impacts unless a gap closes by itself, however long the transient: the share of the
 /// chains that have some is nowhere larger than that of those in which one does, but for its error.
-/// The mean over all is at most N times that share, and is half of N no sooner than the share is a half.
+/// The mean over all is at most N times that share: it is half of N no sooner than the share is a half,
+/// and has its onset no sooner than the share is a twentieth.
 fn needs_seeds(look: Look<'_>) -> Option<String> {
     let long = look.results.long_protocol.as_ref()?;
     let (parameters, quantile) = (&long.map.parameters, claims::level().quantile);
@@ -127,10 +133,16 @@ fn needs_seeds(look: Look<'_>) -> Option<String> {
         })
     });
     let half = look.number("kept_half_predicted")?;
-    let mut halves = long.map.cells.iter().filter_map(|cell| cell.half_height_all);
-    let sooner = |own: Estimate| {
-        unless(own.value >= half - quantile * own.error, || {
-            format!("half height {} of all, half of which have seeds at {half}", own.value)
+    let onset = look.number("kept_onset_predicted")?;
+    let sooner = |place: Option<Estimate>, bound: f64| {
+        let own = place?;
+        unless(own.value >= bound - quantile * own.error, || {
+            format!("rise of all at {}, where too few have seeds below {bound}", own.value)
+        })
+    };
+    let rises = || {
+        long.map.cells.iter().find_map(|cell| {
+            sooner(cell.half_height_all, half).or_else(|| sooner(cell.onset, onset))
         })
     };
     let row = || {
@@ -141,7 +153,7 @@ fn needs_seeds(look: Look<'_>) -> Option<String> {
         look.is("long_seeds_kept", *row.kept.last()? as f64 / n)
             .or_else(|| look.is("long_seeds", seeded(sigma)))
     };
-    shares.or_else(|| halves.find_map(sooner)).or_else(row)
+    shares.or_else(rises).or_else(row)
 }
 
 /// The heads of the table are the times of its cells, and the text gives the last of them.
@@ -157,4 +169,5 @@ fn ends(look: Look<'_>) -> Option<String> {
         .or_else(|| look.are([("long_until", last.transient), ("long_window", last.window)]))
         .or_else(|| look.is("long_kept", last.half_height?.value))
         .or_else(|| look.is("long_all", last.half_height_all?.value))
+        .or_else(|| look.is("long_onset", last.onset?.value))
 }

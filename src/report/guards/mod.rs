@@ -36,8 +36,9 @@ mod scores;
 mod simple;
 
 use super::values::{Number, Registry};
-use crate::claims::{Claim, Published};
+use crate::claims::{self, Claim, Published};
 use crate::experiments::Results;
+use crate::numerics::statistics::Estimate;
 
 /// What a guard may look at.
 #[derive(Clone, Copy, Debug)]
@@ -164,6 +165,11 @@ fn far(what: &str, found: f64, expected: f64) -> Option<String> {
     let room = ROUNDING * found.abs().max(expected.abs());
     let near = (found - expected).abs() <= room;
     (!near).then(|| format!("{what} is {found}, and {expected} by another way"))
+}
+
+/// How far two estimates that chance alone separates may lie apart.
+fn room(own: &Estimate, other: &Estimate) -> f64 {
+    claims::level().quantile * (own.error * own.error + other.error * other.error).sqrt()
 }
 
 /// Complains unless it is so.

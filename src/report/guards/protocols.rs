@@ -2,10 +2,8 @@
 
 use super::places::between;
 use super::protocol::heads;
-use super::{Guard, Look, far, unless};
-use crate::claims;
+use super::{Guard, Look, far, room, unless};
 use crate::experiments::protocol::{ProtocolCell, ProtocolMap};
-use crate::numerics::statistics::Estimate;
 
 pub const GUARDS: &[Guard] = &[
     Guard { name: "maps_on_curves", ids: &["protocols.*"], find: on_curves },
@@ -27,28 +25,41 @@ fn maps<'a>(look: Look<'a>) -> impl Iterator<Item = (&'a str, &'a ProtocolMap)> 
 /// At a half height the curve through the means of all has half its height, at the onset a twentieth;
 /// and these are the numbers that the report shows.
 fn on_curves(look: Look<'_>) -> Option<String> {
-    maps(look).find_map(|(name, map)| {
+    let found = maps(look).find_map(|(name, map)| {
         let gaps = map.parameters.chain.gaps() as f64;
         map.cells.iter().find_map(|cell| {
             let points = map.curve(cell.transient, cell.window)?;
             let places = [("half", cell.half_height_all, 0.5), ("onset", cell.onset, 0.05)];
             places.into_iter().find_map(|(column, place, height)| {
                 let sigma = place?.value;
-                let (t, w) = (cell.transient as u64, cell.window as u64);
-                let id = format!("protocols.{column}_{name}_t{t}_w{w}");
+                let id = id(column, name, cell);
                 let what = format!("the curve of {id} at {sigma}");
                 match between(&points, sigma) {
                     Some(found) => far(&what, found, height * gaps),
                     None => Some(format!("{what} is not there")),
                 }
-                .or_else(|| look.number(&id).and_then(|_| look.is(&id, sigma)))
+                .or_else(|| shown(look, &id, sigma))
             })
+        })
+    });
+    // The curves of the long end have a guard of their own.
+    found.or_else(|| {
+        let (map, long) = (look.results.protocol.as_ref()?, look.results.long_protocol.as_ref()?);
+        long.beyond(map).find_map(|cell| {
+            let half = shown(look, &id("half", "rest", cell), cell.half_height_all?.value);
+            half.or_else(|| shown(look, &id("onset", "rest", cell), cell.onset?.value))
         })
     })
 }
 
-fn room(own: &Estimate, other: &Estimate) -> f64 {
-    claims::level().quantile * (own.error * own.error + other.error * other.error).sqrt()
+fn id(column: &str, name: &str, cell: &ProtocolCell) -> String {
+    let (t, w) = (cell.transient as u64, cell.window as u64);
+    format!("protocols.{column}_{name}_t{t}_w{w}")
+}
+
+/// Complains if a value that the report has is another number.
+fn shown(look: Look<'_>, id: &str, number: f64) -> Option<String> {
+    look.number(id).and_then(|_| look.is(id, number))
 }
 
 /// Longer waiting and longer counting move the rise down, but for errors; and a twentieth of the

@@ -24,6 +24,7 @@ pub const GUARDS: &[Guard] = &[
             "kept_predicted_a",
             "kept_predicted_b",
             "kept_half_predicted",
+            "kept_onset_predicted",
             "sigma_kept_a",
             "sigma_kept_b",
         ],
@@ -69,7 +70,10 @@ fn kept(look: Look<'_>) -> Option<String> {
     at("sigma_kept_a", "kept_predicted_a")
         .or_else(|| at("sigma_kept_b", "kept_predicted_b"))
         .or_else(|| {
-            far("the share at kept_half_predicted", any(look.number("kept_half_predicted")?), 0.5)
+            let share = |id: &str, share: f64| {
+                far(&format!("the share at {id}"), any(look.number(id)?), share)
+            };
+            share("kept_half_predicted", 0.5).or_else(|| share("kept_onset_predicted", 0.05))
         })
 }
 

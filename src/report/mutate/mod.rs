@@ -12,6 +12,7 @@
 
 mod part;
 mod reasons;
+mod sections;
 mod site;
 mod size;
 mod tally;
@@ -21,6 +22,7 @@ pub use size::last_digit;
 pub use tally::{TABLE, Tally, used};
 
 use self::part::Whole;
+use self::sections::Sections;
 use self::site::Site;
 use super::claims::scorecard;
 use super::contents;
@@ -82,32 +84,30 @@ pub struct Subject<'a> {
     pub published: &'a Published,
 }
 
-/// What is computed from results: values, claims, and the names of the checks that fail, guards only as far
-/// as they were asked.
+/// Claims, and the names of the checks that fail, guards only as far as they were asked.
 struct Judged {
-    values: Registry,
     claims: Vec<Claim>,
     red: BTreeSet<String>,
 }
 
-fn judged(subject: Subject<'_>) -> Result<Judged, contents::Error> {
+/// Judges results with their values, to which the scorecard is added.
+fn judged(subject: Subject<'_>, values: &mut Registry) -> Result<Judged, contents::Error> {
     let Subject { results, published } = subject;
-    let mut values = contents::registry(results, published)?;
     let claims = claims::all(results, published)?;
-    values.extend(scorecard(&claims))?;
+    scorecard(&claims).into_iter().for_each(|value| values.put(value));
     let mut red = BTreeSet::new();
     red.extend(claims.iter().filter(|c| c.fails()).map(|c| format!("claim {}", c.id)));
     let missed = |t: &&targets::Target| t.standing == targets::Standing::Missed && !t.timed;
     let targets = targets::targets(results)?;
     red.extend(targets.iter().filter(missed).map(|t| format!("target {}", t.id)));
-    Ok(Judged { values, claims, red })
+    Ok(Judged { claims, red })
 }
 
 impl Judged {
     /// Adds the guards that fail among some.
-    fn guard(&mut self, subject: Subject<'_>, among: impl Fn(&Guard) -> bool) {
+    fn guard(&mut self, subject: Subject<'_>, values: &Registry, among: impl Fn(&Guard) -> bool) {
         let Subject { results, published } = subject;
-        let look = Look { results, published, values: &self.values, claims: &self.claims };
+        let look = Look { results, published, values, claims: &self.claims };
         let fails = |guard: &&Guard| among(guard) && (guard.find)(look).is_some();
         self.red.extend(guards::all().filter(fails).map(|guard| format!("guard {}", guard.name)));
     }
@@ -123,12 +123,8 @@ pub fn mutate(
     wanted: &(dyn Fn(&Value) -> bool + Sync),
     go_on: &(dyn Fn() -> bool + Sync),
 ) -> Result<Mutations, contents::Error> {
-    let whole = Whole::of(subject.results);
-    let mut before = judged(subject)?;
-    before.guard(subject, |_| true);
-    let bench =
-        Bench { subject, whole, before, idle: Mutex::default(), followers: Mutex::default() };
-    let values: Vec<&Value> = bench.before.values.iter().filter(|value| wanted(value)).collect();
+    let bench = Bench::new(subject)?;
+    let values: Vec<&Value> = bench.values.iter().filter(|value| wanted(value)).collect();
     let stopped = AtomicBool::new(false);
     let one = |value: &&Value| {
         if stopped.load(Ordering::Relaxed) {
@@ -141,14 +137,33 @@ pub fn mutate(
     Ok(values.par_iter().with_max_len(1).filter_map(one).collect())
 }
 
-/// The report as it is, and copies of the results to be made wrong.
+/// The report as it is, and copies of it to be made wrong.
 struct Bench<'a> {
     subject: Subject<'a>,
     whole: Whole,
+    values: Registry,
     before: Judged,
-    idle: Mutex<Vec<(Results, Whole)>>,
+    sections: Sections,
+    idle: Mutex<Vec<Spare>>,
     /// What followed when leaves were moved by so much: many values are the same small integer.
     followers: Mutex<Known>,
+}
+
+/// A copy of the report.
+struct Spare {
+    results: Results,
+    whole: Whole,
+    values: Registry,
+}
+
+/// A copy of the report in which something is wrong.
+struct Wrongly<'a> {
+    subject: Subject<'a>,
+    values: &'a mut Registry,
+    /// Ids of the values that were computed anew.
+    new: &'a [String],
+    /// Whether there is a report.
+    outcome: Result<(), contents::Error>,
 }
 
 /// A number in the results: the index of its part, and its path there.
@@ -160,7 +175,23 @@ type Move = (Leaf, f64);
 /// The numbers that are others when leaves are moved, by the ids of their values.
 type Followers = Arc<BTreeMap<String, Number>>;
 
-impl Bench<'_> {
+impl<'a> Bench<'a> {
+    fn new(subject: Subject<'a>) -> Result<Self, contents::Error> {
+        let Subject { results, published } = subject;
+        let mut values = contents::registry(results, published)?;
+        let mut before = judged(subject, &mut values)?;
+        before.guard(subject, &values, |_| true);
+        Ok(Bench {
+            subject,
+            whole: Whole::of(results),
+            values,
+            before,
+            sections: Sections::of(results)?,
+            idle: Mutex::default(),
+            followers: Mutex::default(),
+        })
+    }
+
     fn one(&self, value: &Value) -> Option<Mutation> {
         let by = size::step(value, claims::level())?;
         let site = Site::of(value, by, self);
@@ -171,70 +202,89 @@ impl Bench<'_> {
     /// What turns red that is not so without.
     fn red(&self, value: &Value, site: &Site, by: f64) -> Vec<String> {
         match self.at(value, site, by) {
-            Wrong::Judged(judged) => judged.red.difference(&self.before.red).cloned().collect(),
+            Wrong::Judged(red) => red.difference(&self.before.red).cloned().collect(),
             Wrong::Refused(why) => vec![why],
         }
     }
 
     /// What becomes of a report with a wrong number: claims, and the guards that relate it. The others are
     /// asked only if all of these are silent.
-    fn wrong(&self, subject: Subject<'_>, id: &str) -> Wrong {
-        match judged(subject) {
-            Ok(judged) => Wrong::Judged(Box::new(self.guarded(judged, subject, id))),
-            Err(error) => Wrong::Refused(format!("report: {error}")),
+    fn wrong(&self, subject: Subject<'_>, values: &mut Registry, id: &str) -> Wrong {
+        match judged(subject, values) {
+            Ok(judged) => self.guarded(judged, subject, values, id),
+            Err(error) => refused(&error),
         }
     }
 
-    fn guarded(&self, mut judged: Judged, subject: Subject<'_>, id: &str) -> Judged {
-        judged.guard(subject, |guard| guard.is_about(id));
+    fn guarded(
+        &self,
+        mut judged: Judged,
+        subject: Subject<'_>,
+        values: &Registry,
+        id: &str,
+    ) -> Wrong {
+        judged.guard(subject, values, |guard| guard.is_about(id));
         if judged.red.is_subset(&self.before.red) {
-            judged.guard(subject, |guard| !guard.is_about(id));
+            judged.guard(subject, values, |guard| !guard.is_about(id));
         }
-        judged
+        Wrong::Judged(judged.red)
     }
 
     /// The report with this number moved.
     fn at(&self, value: &Value, site: &Site, by: f64) -> Wrong {
         match site {
             Site::Leaves(leaves) => {
-                let refused = || Wrong::Refused("type of the result".into());
-                let judge = |subject: Subject<'_>| self.wrong(subject, &value.id);
-                self.with(&moved(leaves, |_| by), judge).unwrap_or_else(refused)
+                let judge = |wrong: Wrongly<'_>| match wrong.outcome {
+                    Ok(()) => self.wrong(wrong.subject, wrong.values, &value.id),
+                    Err(error) => refused(&error),
+                };
+                let shape = || Wrong::Refused("type of the result".into());
+                self.with(&moved(leaves, |_| by), judge).unwrap_or_else(shape)
             }
             Site::Printed => {
                 let mut published = self.subject.published.clone();
                 site::print(&mut published, &value.id, by);
-                self.wrong(Subject { published: &published, ..self.subject }, &value.id)
+                let subject = Subject { published: &published, ..self.subject };
+                match contents::registry(subject.results, &published) {
+                    Ok(mut values) => self.wrong(subject, &mut values, &value.id),
+                    Err(error) => refused(&error),
+                }
             }
             Site::Report => {
-                let mut values = self.before.values.clone();
+                let mut values = self.values.clone();
                 values.put(Value { number: size::moved(&value.number, by), ..value.clone() });
                 let claims = self.before.claims.clone();
                 let mut red = self.before.red.clone();
                 red.retain(|name| !name.starts_with("guard "));
-                let judged = Judged { values, claims, red };
-                Wrong::Judged(Box::new(self.guarded(judged, self.subject, &value.id)))
+                self.guarded(Judged { claims, red }, self.subject, &values, &value.id)
             }
         }
     }
 
-    /// What becomes of results with these leaves moved; None if they are of another shape then.
-    fn with<T>(&self, moves: &[Move], judge: impl FnOnce(Subject<'_>) -> T) -> Option<T> {
+    /// What becomes of a report with these leaves moved; None if results are of another shape then.
+    fn with<T>(&self, moves: &[Move], judge: impl FnOnce(Wrongly<'_>) -> T) -> Option<T> {
         let idle = self.idle.lock().ok().and_then(|mut idle| idle.pop());
-        let (mut results, mut whole) =
-            idle.unwrap_or_else(|| (part::copy(self.subject.results), self.whole.clone()));
-        // Leaves of one part stand together.
-        let parts = || moves.chunk_by(|a, b| a.0.0 == b.0.0);
-        moves.iter().for_each(|((index, path), by)| whole.add(*index, path, *by));
-        let put = parts().try_for_each(|moves| {
-            let index = moves[0].0.0;
-            part::put(&mut results, index, whole.part(index))
+        let mut spare = idle.unwrap_or_else(|| Spare {
+            results: part::copy(self.subject.results),
+            whole: self.whole.clone(),
+            values: self.values.clone(),
         });
-        let found = put.ok().map(|()| judge(Subject { results: &results, ..self.subject }));
+        let Spare { results, whole, values } = &mut spare;
+        // Leaves of one part stand together.
+        let parts = || moves.chunk_by(|a, b| a.0.0 == b.0.0).map(|moves| moves[0].0.0);
+        moves.iter().for_each(|((index, path), by)| whole.add(*index, path, *by));
+        let put = parts().try_for_each(|index| part::put(results, index, whole.part(index)));
+        let found = put.ok().map(|()| {
+            let (exchange, outcome) = self.sections.exchange(values, results, parts());
+            let subject = Subject { results, ..self.subject };
+            let found = judge(Wrongly { subject, values, new: &exchange.new, outcome });
+            self.sections.restore(values, &exchange, &self.values);
+            found
+        });
         moves.iter().for_each(|((index, path), _)| whole.restore(*index, path, &self.whole));
-        parts().for_each(|moves| part::restore(&mut results, moves[0].0.0, self.subject.results));
+        parts().for_each(|index| part::restore(results, index, self.subject.results));
         if let Ok(mut idle) = self.idle.lock() {
-            idle.push((results, whole));
+            idle.push(spare);
         }
         found
     }
@@ -253,12 +303,16 @@ impl Bench<'_> {
     }
 
     fn follow(&self, moves: &[Move]) -> Option<Followers> {
-        let registry = |to: Subject<'_>| contents::registry(to.results, to.published).ok();
-        let values = self.with(moves, registry)??;
-        let others = values.iter().filter(|value| {
-            self.before.values.get(&value.id).is_none_or(|own| own.number != value.number)
-        });
-        Some(Arc::new(others.map(|value| (value.id.clone(), value.number.clone())).collect()))
+        let other = |wrong: Wrongly<'_>| {
+            wrong.outcome.ok()?;
+            let found = wrong.new.iter().filter_map(|id| {
+                let number = &wrong.values.get(id)?.number;
+                let same = self.values.get(id).is_some_and(|own| own.number == *number);
+                (!same).then(|| (id.clone(), number.clone()))
+            });
+            Some(Arc::new(found.collect()))
+        };
+        self.with(moves, other)?
     }
 }
 
@@ -272,10 +326,14 @@ type Known = BTreeMap<Vec<(Leaf, u64)>, Option<Followers>>;
 
 /// What a wrong number leads to.
 enum Wrong {
-    /// A report, with what is red in it.
-    Judged(Box<Judged>),
+    /// A report, and what is red in it.
+    Judged(BTreeSet<String>),
     /// None: by what it is refused.
     Refused(String),
+}
+
+fn refused(error: &contents::Error) -> Wrong {
+    Wrong::Refused(format!("report: {error}"))
 }
 
 /// Whether two numbers are the same but for rounding, on the scale of a step.

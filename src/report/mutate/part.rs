@@ -176,6 +176,11 @@ pub fn restore(results: &mut Results, index: usize, from: &Results) {
     (PARTS[index].restore)(results, from);
 }
 
+/// Whether a part can be missing: theory is computed when it is first looked at.
+pub fn can_be_missing(index: usize) -> bool {
+    PARTS[index].experiment != "theory"
+}
+
 /// Results with all parts of others.
 pub fn copy(from: &Results) -> Results {
     let mut results = Results::empty(from.profile);

@@ -3,9 +3,11 @@
 use super::reasons::{Group, fits};
 use super::{Mutations, Reasons};
 use crate::claims::Claim;
+use crate::report::Templates;
 use crate::report::claims::{Row, scorecard};
+use crate::report::filler::Filler;
+use crate::report::mark::Mark;
 use crate::report::print::Style;
-use crate::report::templates::{Filler, Mark, Templates};
 use crate::report::uses::uses;
 use crate::report::values::{Number, Registry, Value};
 use crate::report::{Error, parse};

@@ -1,0 +1,206 @@
+//! Experiments that take too long for every report.
+//!
+//! They are run now and then as the profile `deep`, and what each unit of work gave is committed. The
+//! report joins the units to a result, by the program as it is, and carries them over changes of the
+//! source as long as an audit allows: some units, drawn by lot, are run again, and what they give is
+//! compared, byte by byte, with what was committed.
+
+mod audit;
+
+pub use audit::{Audit, Carriage, Distance};
+
+use super::cutting::{Cutting, Join, Unit};
+use super::experiment::How::Cut;
+use super::experiment::{Experiment, Json, Saved};
+use super::identity::{Identity, Reason, told};
+use super::store::{self, Store};
+use super::{Error, Need, Progress};
+use crate::digest::sha256;
+use crate::params::Profile;
+use audit::Audited;
+use serde::Serialize;
+
+/// The file of this code: a result that is joined from committed units depends on it.
+const MODULE: &str = "src/experiments/deep/mod.rs";
+
+/// What to do about a result that is stale.
+pub const REMEDY: &str = "run `make deep` and build again";
+
+/// An experiment of which the units of work are committed.
+pub struct Deep<P: 'static, T: 'static, U: 'static> {
+    /// What it is needed for; its name is that of the experiment.
+    pub need: Need,
+    /// The file of its code.
+    pub(super) module: &'static str,
+    /// Its parameters in a profile.
+    pub(super) parameters: fn(Profile) -> P,
+    /// What people who wait are told, and how it is cut.
+    pub(super) cut: (&'static str, Cutting<P, U, T>),
+    /// The committed units, as they were saved.
+    pub(super) committed: &'static str,
+    /// This profile and the larger ones carry them over; smaller ones run the experiment at
+    /// a size of their own.
+    pub(super) from: Profile,
+    /// How far what units give is from the result, where an error of it is known.
+    pub(super) distance: Option<Away<T, U>>,
+}
+
+/// Measures how far what units give is from a result.
+type Away<T, U> = fn(&T, &[(&Unit, U)]) -> Distance;
+
+/// What only the committed file decides, beside the code.
+#[derive(Serialize)]
+struct JoinedParams {
+    /// SHA-256 of the committed file.
+    committed: String,
+}
+
+impl<P, T, U> Deep<P, T, U> {
+    /// What takes too long for the full profile.
+    pub(super) const fn new(
+        need: Need,
+        module: &'static str,
+        parameters: fn(Profile) -> P,
+        cut: (&'static str, Cutting<P, U, T>),
+        committed: &'static str,
+    ) -> Self {
+        Deep { need, module, parameters, cut, committed, from: Profile::Full, distance: None }
+    }
+
+    /// The experiment with another way to make a result of what its units give.
+    fn experiment<R>(&self, join: Join<P, U, R>) -> Experiment<P, R, U> {
+        let Deep { need, module, parameters, .. } = *self;
+        let (words, Cutting { rows, part, fits, .. }) = self.cut;
+        Experiment { need, module, parameters, how: Cut(words, Cutting { rows, part, fits, join }) }
+    }
+
+    /// The experiment as profiles run it that do not carry it over.
+    fn small(&self) -> Experiment<P, T, U> {
+        self.experiment(self.cut.1.join)
+    }
+
+    /// The experiment as the deep profile runs it: its result is what each unit gave.
+    fn whole(&self) -> Experiment<P, Vec<U>, U> {
+        self.experiment(|_, given, _| Ok(given.into_iter().flatten().collect()))
+    }
+}
+
+impl<P: Serialize + Sync, T: Json, U: Json> Deep<P, T, U> {
+    /// What is run and saved in a profile: the whole, an audit of it, or something smaller.
+    fn of<R>(&self, profile: Profile, ask: impl FnOnce(&dyn Saved) -> R) -> R {
+        match profile {
+            Profile::Deep => ask(&self.whole()),
+            carrying if carrying >= self.from => ask(&Audited(self)),
+            _ => ask(&self.small()),
+        }
+    }
+
+    /// The result, with the audit of one that is carried over.
+    ///
+    /// # Errors
+    /// As [`Experiment::get`]; [`Error::Input`] if the committed file cannot be read, or was run
+    /// with other parameters than those of this program.
+    pub fn get(
+        &self,
+        profile: Profile,
+        store: &Store,
+        progress: &Progress,
+    ) -> Result<(T, Option<Audit>), Error> {
+        if profile < self.from {
+            return Ok((self.small().get(profile, store, progress)?, None));
+        }
+        let audit = Audited(self).get(profile, store, progress)?;
+        let name = format!("{} joined", self.need.name());
+        let params = JoinedParams { committed: sha256(self.committed) };
+        let identity = self.made_of().with_code(Identity::new(&name, MODULE, &params));
+        let join = || self.joined(self.given()?, progress);
+        // What is said of the audit is enough.
+        let quiet = Progress::silent();
+        let result = match store.derived().get(&identity, profile, &quiet, join) {
+            // A folder that cannot be written is no reason to fail.
+            Err(Error::Store { .. }) => join()?,
+            found => found?,
+        };
+        Ok((result, Some(audit)))
+    }
+
+    /// What the whole depends on.
+    fn made_of(&self) -> Identity {
+        self.whole().identity(Profile::Deep)
+    }
+
+    /// What each unit gave that is committed.
+    fn given(&self) -> Result<Vec<U>, Error> {
+        let file = format!("benches/deep/{}-deep.json", self.need.name());
+        let unread = |what: String| Error::input(&file, what, REMEDY);
+        let (made_of, body) =
+            store::parsed(self.committed).map_err(|reasons| unread(told(&reasons)))?;
+        let reasons = self.made_of().reasons(&made_of);
+        if !reasons.iter().all(Reason::is_of_source) {
+            return Err(unread(told(&reasons)));
+        }
+        let given: Vec<U> = serde_json::from_str(body).map_err(|e| unread(e.to_string()))?;
+        match given.len() == self.cut.1.units(&(self.parameters)(Profile::Deep)).len() {
+            true => Ok(given),
+            false => Err(unread("units of work are missing, or there are too many".into())),
+        }
+    }
+
+    /// The result of what all units gave.
+    fn joined(&self, given: Vec<U>, progress: &Progress) -> Result<T, Error> {
+        self.cut.1.joined(&(self.parameters)(Profile::Deep), given, progress)
+    }
+}
+
+impl<P: Serialize + Sync, T: Json, U: Json> Saved for Deep<P, T, U> {
+    fn need(&self) -> Need {
+        self.need
+    }
+
+    fn identity(&self, profile: Profile) -> Identity {
+        self.of(profile, |own| own.identity(profile))
+    }
+
+    fn parameters(&self, profile: Profile) -> serde_json::Value {
+        self.of(profile, |own| own.parameters(profile))
+    }
+
+    fn stale(&self, profile: Profile, store: &Store) -> Vec<Reason> {
+        self.of(profile, |own| own.stale(profile, store))
+    }
+
+    fn audit(&self, profile: Profile, store: &Store, progress: &Progress) -> Result<bool, Error> {
+        self.of(profile, |own| own.audit(profile, store, progress))
+    }
+
+    fn units(&self, profile: Profile) -> Vec<Unit> {
+        self.of(profile, |own| own.units(profile))
+    }
+
+    fn run_units(
+        &self,
+        profile: Profile,
+        units: &[(&Unit, Identity)],
+        store: &Store,
+        progress: &Progress,
+    ) -> Result<(), Error> {
+        self.of(profile, |own| own.run_units(profile, units, store, progress))
+    }
+
+    fn understands(&self, profile: Profile, unit: &Unit, text: &str) -> bool {
+        self.of(profile, |own| own.understands(profile, unit, text))
+    }
+
+    fn merge(
+        &self,
+        profile: Profile,
+        texts: &[String],
+        store: &Store,
+        progress: &Progress,
+    ) -> Result<(), Error> {
+        self.of(profile, |own| own.merge(profile, texts, store, progress))
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,200 @@
+//! What a saved result was made of, and why one is not used.
+
+use super::cutting::Unit;
+use crate::input::one_line;
+use crate::params::Profile;
+use serde::{Deserialize, Serialize};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The form of saved files; a change of it makes all of them unknown.
+const SCHEMA: u32 = 2;
+
+/// What the program was built of (see `build/fingerprint.rs`).
+struct Built {
+    /// Hash of Cargo.lock.
+    lock: &'static str,
+    /// Each file of an experiment, with path and hash of every file that it depends on.
+    modules: &'static [(&'static str, &'static [(&'static str, &'static str)])],
+}
+
+static BUILT: Built = include!(concat!(env!("OUT_DIR"), "/dependencies.rs"));
+
+/// Everything that a result depends on.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Identity {
+    /// Name of the experiment.
+    pub experiment: String,
+    /// The form of the saved file.
+    schema: u32,
+    /// The parameters, seed included.
+    pub parameters: serde_json::Value,
+    /// The unit of work, if it is only a part of the result.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    unit: Option<UnitOf>,
+    /// Hash of Cargo.lock.
+    lock: String,
+    /// Hashes of the files that the experiment depends on.
+    code: BTreeMap<String, String>,
+}
+
+/// A unit of an experiment that is cut.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+struct UnitOf {
+    /// Its place among all units, from 0.
+    number: usize,
+    /// Its realisations of the row that it covers.
+    realisations: std::ops::Range<usize>,
+    /// What its row is about.
+    covers: String,
+}
+
+impl Identity {
+    /// Of an experiment in the file `module`, with these parameters and the code of this program.
+    pub fn new(experiment: &str, module: &str, parameters: &impl Serialize) -> Self {
+        let code = BUILT.modules.iter().find(|(path, _)| *path == module);
+        let code = code.map(|(_, files)| *files).unwrap_or_default();
+        Identity {
+            experiment: experiment.into(),
+            schema: SCHEMA,
+            parameters: serde_json::to_value(parameters).unwrap_or_default(),
+            unit: None,
+            lock: BUILT.lock.into(),
+            code: code.iter().map(|(path, hash)| ((*path).into(), (*hash).into())).collect(),
+        }
+    }
+
+    /// Of one unit of the experiment, at its place among all.
+    pub fn of_unit(&self, number: usize, unit: &Unit) -> Self {
+        let (realisations, covers) = (unit.realisations.clone(), unit.covers.clone());
+        Identity { unit: Some(UnitOf { number, realisations, covers }), ..self.clone() }
+    }
+
+    /// Another identity that depends on the code of this one too.
+    pub fn with_code(self, mut other: Identity) -> Identity {
+        other.code.extend(self.code);
+        other
+    }
+
+    /// Name of its file in a profile, without the ending.
+    pub fn file_stem(&self, profile: Profile) -> String {
+        let (experiment, profile) = (&self.experiment, profile.name());
+        match &self.unit {
+            Some(unit) => format!("{experiment}-{profile}-{:04}", unit.number),
+            None => format!("{experiment}-{profile}"),
+        }
+    }
+
+    /// Files of the source that the experiment depends on.
+    pub fn files(&self) -> impl Iterator<Item = &str> {
+        self.code.keys().map(String::as_str)
+    }
+
+    /// Why a result that was made of `saved` is not the one that would be made of this.
+    pub(super) fn reasons(&self, saved: &Identity) -> Vec<Reason> {
+        let mut reasons = Vec::new();
+        if saved.schema != self.schema || saved.experiment != self.experiment {
+            return vec![Reason::Schema];
+        }
+        if saved.parameters != self.parameters {
+            reasons.push(Reason::Parameters);
+        }
+        if saved.unit != self.unit {
+            reasons.push(Reason::Unit);
+        }
+        let paths: BTreeSet<&String> = self.code.keys().chain(saved.code.keys()).collect();
+        let changed =
+            paths.into_iter().filter(|path| self.code.get(*path) != saved.code.get(*path));
+        let changed: Vec<String> = changed.cloned().collect();
+        if !changed.is_empty() {
+            reasons.push(Reason::Code(changed));
+        }
+        if saved.lock != self.lock {
+            reasons.push(Reason::Dependency);
+        }
+        reasons
+    }
+}
+
+/// Why a saved result is not used.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Reason {
+    /// There is none.
+    Missing,
+    /// It has other parameters.
+    Parameters,
+    /// It is another unit of work.
+    Unit,
+    /// These files of the source are others now.
+    Code(Vec<String>),
+    /// Other versions of crates (Cargo.lock).
+    Dependency,
+    /// It was saved in another form.
+    Schema,
+    /// It cannot be trusted, and why.
+    Damaged(String),
+    /// An audit of a committed result found another than was saved.
+    Failed,
+}
+
+impl std::fmt::Display for Reason {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Reason::Missing => f.write_str("no saved result"),
+            Reason::Parameters => f.write_str("other parameters"),
+            Reason::Unit => f.write_str("another unit of work"),
+            Reason::Code(files) => match files.as_slice() {
+                [one] => write!(f, "{one} changed"),
+                [one, others @ ..] => write!(f, "{one} and {} more changed", others.len()),
+                [] => f.write_str("the code changed"),
+            },
+            Reason::Dependency => f.write_str("Cargo.lock changed"),
+            Reason::Schema => f.write_str("saved in another form"),
+            Reason::Damaged(what) => f.write_str(what),
+            Reason::Failed => f.write_str("a sample of it, run again, gave another result"),
+        }
+    }
+}
+
+impl Reason {
+    /// Whether only the program is another: what was saved may be what it would give.
+    pub fn is_of_source(&self) -> bool {
+        matches!(self, Reason::Code(_) | Reason::Dependency)
+    }
+}
+
+/// Reasons in one line.
+pub fn told(reasons: &[Reason]) -> String {
+    // A file that was saved elsewhere names its own sources.
+    one_line(&reasons.iter().map(ToString::to_string).collect::<Vec<_>>().join(", "), 1000)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn identity(parameter: f64) -> Identity {
+        Identity::new("test", "src/experiments/rise.rs", &parameter)
+    }
+
+    #[test]
+    fn each_change_has_its_reason() {
+        let now = identity(1.0);
+        let of = |other: &Identity| other.reasons(&now);
+        assert_eq!(of(&now), []);
+        assert_eq!(of(&identity(2.0)), [Reason::Parameters]);
+        let file = now.code.keys().next().expect("rise.rs depends on itself at least").clone();
+        let mut edited = now.clone();
+        edited.code.insert(file.clone(), "0".into());
+        assert_eq!(of(&edited), [Reason::Code(vec![file.clone()])]);
+        edited.code.remove(&file);
+        assert_eq!(of(&edited), [Reason::Code(vec![file])]);
+        let updated = Identity { lock: "0".into(), ..identity(2.0) };
+        let both = [Reason::Parameters, Reason::Dependency];
+        assert_eq!(of(&updated), both);
+        assert_eq!(told(&both), "other parameters, Cargo.lock changed");
+        let unit = Unit { row: 0, realisations: 0..2, covers: "here".into(), weight: 1 };
+        assert_eq!(of(&now.of_unit(0, &unit)), [Reason::Unit]);
+        let newer = Identity { schema: SCHEMA + 1, ..now.clone() };
+        assert_eq!(of(&newer), [Reason::Schema]);
+    }
+}

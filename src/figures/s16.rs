@@ -1,0 +1,262 @@
+//! Fig. S16: half height and onset against the transient.
+
+use super::axis::{Axis, log};
+use super::chart::{LETTERS, short};
+use super::data::cells;
+use super::panel::{Frame, Panel};
+use super::series::Outside;
+use super::sheet::{Entry, Sheet};
+use super::style::{BLUE, Colour, Dash, GREEN, INK, Mark, PURPLE, RED, SMALL, Stroke, THIN};
+use super::{DataFile, Error, Figure};
+use crate::experiments::long::LongMap;
+use crate::experiments::protocol::{ProtocolCell, ProtocolMap};
+use crate::experiments::protocols::Protocols;
+use crate::numerics::statistics::Estimate;
+
+/// The half size of marks.
+const SIZE: i32 = 52;
+
+/// Windows of (a) and (b), and their looks.
+const WINDOWS: [(f64, Mark, Colour); 3] =
+    [(20.0, Mark::Disc, RED), (200.0, Mark::Square, BLUE), (2000.0, Mark::Diamond, GREEN)];
+
+/// The window of (c) and (d).
+const WINDOW: f64 = 200.0;
+
+/// Names of chains, what they are, and their looks.
+const STARTS: [(&str, &str, Mark, Colour); 4] = [
+    ("rest", "rest", Mark::Disc, BLUE),
+    ("ring", "rest, on a ring", Mark::Ring, INK),
+    ("random", "random free parts", Mark::Square, RED),
+    ("zero", "on the forced motion", Mark::Diamond, PURPLE),
+];
+
+/// The axis of a half height.
+const HALF_LABEL: &str = "*σ*_{1/2}";
+
+/// The axis of an onset.
+const ONSET_LABEL: &str = "*σ*_{0}";
+
+/// A place on the rise.
+type Place = fn(&ProtocolCell) -> Option<Estimate>;
+
+const HALF: Place = |cell| cell.half_height_all;
+const KEPT: Place = |cell| cell.half_height;
+const ONSET: Place = |cell| cell.onset;
+
+/// What is drawn.
+#[derive(Clone, Copy)]
+pub struct Maps<'a> {
+    /// The map of the paper's chain.
+    pub map: &'a ProtocolMap,
+    /// Its long end.
+    pub long: &'a LongMap,
+    /// The maps of other chains.
+    pub others: &'a Protocols,
+    /// The σ at which a half, and a twentieth, of the chains from rest have a gap that closes by itself.
+    pub seeds: [f64; 2],
+}
+
+impl<'a> Maps<'a> {
+    /// The cells of a chain by rising T: those of the long end follow those of the map.
+    fn cells(self, name: &str) -> Vec<&'a ProtocolCell> {
+        if name != "rest" {
+            let other = self.others.named().find(|(own, _)| *own == name);
+            return other.iter().flat_map(|(_, map)| &map.cells).collect();
+        }
+        self.map.cells.iter().chain(self.long.beyond(self.map)).collect()
+    }
+
+    /// (T, place) of a chain at a window.
+    fn line(self, name: &str, window: f64, place: Place) -> Vec<(f64, Estimate)> {
+        let cells = self.cells(name).into_iter().filter(|cell| cell.window == window);
+        cells.filter_map(|cell| Some((cell.transient, place(cell)?))).collect()
+    }
+}
+
+/// Draws the figure.
+pub fn draw(maps: Maps<'_>, note: Option<&str>) -> Result<Figure, Error> {
+    let sheet = Sheet::new(10_650, note)?;
+    let (left, right) = ((1000, 3900), (5150, 8050));
+    let frame = |(from, to), top| Frame::new(from, top, to, top + 3200);
+    let low = |label| Axis::linear(0.07, 0.18, 0.02, 2, label);
+    let halves = panel(&sheet, 0, frame(left, 430), low(HALF_LABEL))?;
+    bounded(&halves, maps.seeds[0])?;
+    kept_curves(&halves, maps)?;
+    windows(&halves, maps, HALF)?;
+    let onsets = panel(&sheet, 1, frame(right, 430), low(ONSET_LABEL))?;
+    bounded(&onsets, maps.seeds[1])?;
+    windows(&onsets, maps, ONSET)?;
+    let mut entries: Vec<_> = WINDOWS
+        .iter()
+        .map(|(w, mark, colour)| {
+            let stroke = Stroke::solid(*colour, THIN);
+            let text = format!("*W* = {w}");
+            Entry { line: Some(stroke), mark: Some((*mark, SIZE, stroke)), text }
+        })
+        .collect();
+    entries.push(Entry::line(kept(INK), "mean of the kept"));
+    entries.push(Entry::line(bound(), "no mean of all rises before"));
+    legend(&sheet, 4560, &entries, 3)?;
+
+    let high = |label| Axis::linear(0.07, 0.21, 0.02, 2, label);
+    starts(&panel(&sheet, 2, frame(left, 5900), high(HALF_LABEL))?, maps, HALF)?;
+    starts(&panel(&sheet, 3, frame(right, 5900), high(ONSET_LABEL))?, maps, ONSET)?;
+    let entries: Vec<_> = STARTS
+        .iter()
+        .map(|(_, what, mark, colour)| {
+            let stroke = Stroke::solid(*colour, THIN);
+            Entry { line: Some(stroke), mark: Some((*mark, SIZE, stroke)), text: (*what).into() }
+        })
+        .collect();
+    legend(&sheet, 10_020, &entries, 2)?;
+    let title = "Half height and onset against the transient";
+    Ok(sheet.finish_own(16, title, description(maps), vec![table(maps)]))
+}
+
+fn panel(sheet: &Sheet, place: usize, frame: Frame, y: Axis) -> Result<Panel, Error> {
+    let panel = sheet.panel(frame, Axis::decades(1, 5, 1, "transient *T*"), y)?;
+    panel.letter(LETTERS[place])?;
+    Ok(panel)
+}
+
+/// Entries in two columns, the first of which has so many.
+fn legend(sheet: &Sheet, top: i32, entries: &[Entry], first: usize) -> Result<(), Error> {
+    let (left, right) = entries.split_at(first.min(entries.len()));
+    sheet.legend((1000, top), (SMALL, 340), left)?;
+    sheet.legend((4650, top), (SMALL, 340), right)
+}
+
+/// The line of the mean of the kept.
+fn kept(colour: Colour) -> Stroke {
+    Stroke::dashed(colour, THIN, Dash::Long)
+}
+
+/// The line of the bound that no mean over all chains passes.
+fn bound() -> Stroke {
+    Stroke::dashed(INK, THIN, Dash::Dotted)
+}
+
+/// The values of estimates against log T.
+fn values(all: &[(f64, Estimate)]) -> Vec<(f64, f64)> {
+    all.iter().map(|(time, own)| (log(*time), own.value)).collect()
+}
+
+fn estimates(
+    panel: &Panel,
+    name: &str,
+    all: &[(f64, Estimate)],
+    look: (Mark, Colour),
+) -> Result<(), Error> {
+    let stroke = Stroke::solid(look.1, THIN);
+    panel.curve(name, &values(all), stroke, Outside::Cut)?;
+    let all: Vec<_> = all.iter().map(|(time, own)| (log(*time), *own)).collect();
+    panel.estimates(name, &all, (look.0, SIZE, stroke), |y| y)
+}
+
+fn windows(panel: &Panel, maps: Maps<'_>, place: Place) -> Result<(), Error> {
+    for (window, mark, colour) in WINDOWS {
+        let line = maps.line("rest", window, place);
+        estimates(panel, &format!("*W* = {window}"), &line, (mark, colour))?;
+    }
+    Ok(())
+}
+
+fn bounded(panel: &Panel, level: f64) -> Result<(), Error> {
+    let level = [(panel.x.lo, level), (panel.x.hi, level)];
+    panel.curve("bound by seeds", &level, bound(), Outside::Cut)
+}
+
+fn kept_curves(panel: &Panel, maps: Maps<'_>) -> Result<(), Error> {
+    for (window, _, colour) in WINDOWS {
+        let line = values(&maps.line("rest", window, KEPT));
+        panel.curve(&format!("kept, *W* = {window}"), &line, kept(colour), Outside::Cut)?;
+    }
+    Ok(())
+}
+
+fn starts(panel: &Panel, maps: Maps<'_>, place: Place) -> Result<(), Error> {
+    for (name, what, mark, colour) in STARTS {
+        estimates(panel, what, &maps.line(name, WINDOW, place), (mark, colour))?;
+    }
+    Ok(())
+}
+
+fn description(maps: Maps<'_>) -> String {
+    let told = |name: &str, window: f64, place: Place| -> String {
+        let line = maps.line(name, window, place);
+        let ends = line.first().zip(line.last().filter(|_| line.len() > 1));
+        ends.map_or("none".into(), |(first, last)| {
+            format!(
+                "from {} at T = {} to {} at T = {}",
+                short(first.1.value, 4),
+                first.0,
+                short(last.1.value, 4),
+                last.0
+            )
+        })
+    };
+    let by_window = |place: Place| -> String {
+        let list = WINDOWS.iter().map(|(w, ..)| format!("{} for W = {w}", told("rest", *w, place)));
+        list.collect::<Vec<_>>().join("; ")
+    };
+    let by_start = |place: Place| -> String {
+        let list =
+            STARTS.iter().map(|(name, what, ..)| format!("{what}: {}", told(name, WINDOW, place)));
+        list.collect::<Vec<_>>().join("; ")
+    };
+    format!(
+        "(a) Half height of the mean of all chains against the transient T on a logarithmic axis, with a curve for \
+         each window W, falling and coming together above the level {}: {}. Dashed curves of the mean of the kept fall \
+         below that level. (b) Onset, likewise, above the level {}: {}. (c) Half heights of other chains, W = {WINDOW}: {}. (d) Their onsets: \
+         {}.",
+        short(maps.seeds[0], 3),
+        by_window(HALF),
+        short(maps.seeds[1], 3),
+        by_window(ONSET),
+        by_start(HALF),
+        by_start(ONSET),
+    )
+}
+
+/// The cells of a map, with a name.
+fn of<'a>(
+    name: &'a str,
+    map: &'a ProtocolMap,
+) -> impl Iterator<Item = (&'a str, &'a ProtocolCell)> {
+    map.cells.iter().map(move |cell| (name, cell))
+}
+
+fn table(maps: Maps<'_>) -> DataFile {
+    let mut table = DataFile::new(
+        "s16.csv",
+        &[
+            "chain (text)",
+            "transient (1/omega)",
+            "window (1/omega)",
+            "half_height (d omega^2)",
+            "half_height_error (d omega^2)",
+            "half_height_of_kept (d omega^2)",
+            "half_height_of_kept_error (d omega^2)",
+            "onset (d omega^2)",
+            "onset_error (d omega^2)",
+        ],
+    );
+    let rest = of("rest", maps.map).chain(of("rest, long", &maps.long.map));
+    let others = maps.others.named().flat_map(|(name, map)| of(name, map));
+    for (name, cell) in rest.chain(others) {
+        let [half, kept, onset] = [HALF, KEPT, ONSET].map(|place| place(cell));
+        table.row(cells![
+            name,
+            cell.transient,
+            cell.window,
+            half.map(|own| own.value),
+            half.map(|own| own.error),
+            kept.map(|own| own.value),
+            kept.map(|own| own.error),
+            onset.map(|own| own.value),
+            onset.map(|own| own.error)
+        ]);
+    }
+    table
+}

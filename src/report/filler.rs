@@ -1,0 +1,293 @@
+//! Filling the templates by Tera.
+//!
+//! Delimiters are `«value»`, `<% tag %>` and `<# comment #>`, because Tera's own ones break TeX.
+//! Autoescape is off: the result is Markdown.
+//!
+//! In a template `«v.half_height»` does not become digits yet but a *mark* that carries the id,
+//! and filters change the mark: `«v.kept | percent»`, `«v.p_jump | significant(digits=10)»`,
+//! `«v.p_jump | full»`, `«v.x | fixed(digits=2)»`, `«v.x | no_error»`, `«v.x | with_unit»`. The
+//! writers turn marks into digits, each in its own markup and knowing whether the mark stands in
+//! prose or in mathematics; and they know which values were named. For conditions there are plain
+//! numbers: `<% if raw.half_height < raw.printed.threshold %>`.
+//! `«code(item="circuits::jump::p_jump")»` is an item of the source, see [`super::literate`].
+
+use super::mark::Mark;
+use super::print::{Asked, MOST_DIGITS, Style};
+use super::values::{Number, Registry};
+use super::{Error, Templates, literate};
+use crate::input::LARGEST;
+use std::collections::BTreeMap;
+use std::io;
+use tera::{Context, Delimiters, Kwargs, State, Tera};
+
+/// What a template makes, up to the bound of what is read: loops and doubled texts grow fast.
+#[derive(Default)]
+struct Bounded(Vec<u8>);
+
+impl io::Write for Bounded {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        if (self.0.len() + bytes.len()) as u64 > LARGEST {
+            let what = format!("it makes more than {} MiB", LARGEST >> 20);
+            return Err(io::Error::new(io::ErrorKind::FileTooLarge, what));
+        }
+        self.0.extend_from_slice(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+/// Fills a template of `tera`.
+fn render(tera: &Tera, name: &str, context: &Context) -> Result<String, Error> {
+    let mut text = Bounded::default();
+    tera.render_to(name, context, &mut text).map_err(failure)?;
+    String::from_utf8(text.0).map_err(|_| Error::Template(format!("{name}: it makes no text")))
+}
+
+/// Tera, set up with the templates and the values.
+#[derive(Clone)]
+pub struct Filler {
+    tera: Tera,
+    context: Context,
+}
+
+impl Filler {
+    /// Sets Tera up: all `.md`, `.tex` and `.html` files can be included by their relative path.
+    ///
+    /// # Errors
+    /// A template that does not parse, with file, line and column.
+    pub fn new(templates: &Templates, values: &Registry) -> Result<Self, Error> {
+        let mut tera = Tera::new();
+        let delimiters = Delimiters {
+            block_start: "<%".into(),
+            block_end: "%>".into(),
+            variable_start: "«".into(),
+            variable_end: "»".into(),
+            comment_start: "<#".into(),
+            comment_end: "#>".into(),
+        };
+        tera.set_delimiters(delimiters).map_err(failure)?;
+        tera.autoescape_on(Vec::<&str>::new());
+        register(&mut tera);
+        let prose = |path: &str| [".md", ".tex", ".html"].iter().any(|end| path.ends_with(end));
+        let sources = templates.iter().filter(|(path, _)| prose(path));
+        tera.add_raw_templates(sources).map_err(failure)?;
+        Ok(Filler { tera, context: context(values) })
+    }
+
+    /// Adds a name that is no value: the rows of the claims, the list of figures.
+    pub fn insert<T: serde::Serialize>(&mut self, name: &'static str, rows: &T) {
+        self.context.insert(name, rows);
+    }
+
+    /// Fills one template; values are marks in the result.
+    ///
+    /// # Errors
+    /// An unknown name or a wrong filter, with file, line and column.
+    pub fn fill(&self, path: &str) -> Result<String, Error> {
+        render(&self.tera, path, &self.context)
+    }
+
+    /// Fills a text that is no file (a field of a claim); `name` stands for it in errors.
+    ///
+    /// # Errors
+    /// As [`Filler::fill`].
+    pub fn fill_text(&self, name: &str, text: &str) -> Result<String, Error> {
+        let mut tera = self.tera.clone();
+        tera.add_raw_template(name, text).map_err(failure)?;
+        render(&tera, name, &self.context)
+    }
+}
+
+/// One line: file, line, column, what is wrong, and names that begin alike.
+fn failure(error: tera::Error) -> Error {
+    use tera::ErrorKind::{RenderingError, SyntaxError};
+    let (RenderingError(report) | SyntaxError(report)) = error.kind() else {
+        return Error::Template(error.to_string());
+    };
+    let place = format!(
+        "{}:{}:{}",
+        report.filename(),
+        report.span().start_line,
+        report.span().start_col + 1
+    );
+    // Tera lists every name that there is: too many to read.
+    let Some((what, names)) = report.message().split_once(" Available fields: ") else {
+        return Error::Template(format!("{place}: {}", report.message()));
+    };
+    let asked = what.split('`').nth(1).unwrap_or_default();
+    let start: String = asked.chars().take(2).collect();
+    let alike: Vec<&str> = names.split(", ").filter(|name| name.starts_with(&start)).collect();
+    let alike = match alike.as_slice() {
+        [] => String::new(),
+        names => format!(" Names that begin alike: {}.", names.join(", ")),
+    };
+    Error::Template(format!("{place}: {what}{alike}"))
+}
+
+/// `v.name` and `group.name` are marks, `raw.name` and `raw.group.name` plain numbers.
+fn context(values: &Registry) -> Context {
+    let mut marks: BTreeMap<&str, BTreeMap<&str, String>> = BTreeMap::new();
+    let mut raw: BTreeMap<&str, serde_json::Value> = BTreeMap::new();
+    for value in values.iter() {
+        let number = match &value.number {
+            Number::Integer(n) => (*n).into(),
+            Number::Real { value, .. } => (*value).into(),
+            Number::Interval { low, high } => vec![*low, *high].into(),
+            Number::Text(text) => text.clone().into(),
+        };
+        let mark = Mark { id: value.id.clone(), style: Style::default() }.write();
+        match value.id.split_once('.') {
+            None => {
+                marks.entry("v").or_default().insert(&value.id, mark);
+                raw.insert(&value.id, number);
+            }
+            Some((group, name)) => {
+                marks.entry(group).or_default().insert(name, mark);
+                raw.entry(group).or_insert_with(|| serde_json::json!({}))[name] = number;
+            }
+        }
+    }
+    let mut context = Context::new();
+    for (group, names) in marks {
+        context.insert(group.to_string(), &names);
+    }
+    context.insert("raw", &raw);
+    context
+}
+
+/// How many digits a filter asks for.
+fn digits(arguments: &Kwargs) -> tera::TeraResult<usize> {
+    match arguments.must_get("digits")? {
+        digits if digits <= MOST_DIGITS => Ok(digits),
+        _ => Err(tera::Error::message(format!("no number has more than {MOST_DIGITS} digits"))),
+    }
+}
+
+/// The filters on values; `literal` for a number that the prose may type with a reason; and `code`
+/// for an item of the source, which [`super::parse`] makes a listing.
+fn register(tera: &mut Tera) {
+    type Change = fn(&mut Style, &Kwargs) -> tera::TeraResult<()>;
+    let changes: [(&str, Change); 6] = [
+        ("percent", |style, _| {
+            style.percent = true;
+            Ok(())
+        }),
+        ("full", |style, _| {
+            style.digits = Some(Asked::Full);
+            Ok(())
+        }),
+        ("no_error", |style, _| {
+            style.no_error = true;
+            Ok(())
+        }),
+        ("with_unit", |style, _| {
+            style.with_unit = true;
+            Ok(())
+        }),
+        ("fixed", |style, arguments| {
+            style.digits = Some(Asked::Fixed(digits(arguments)?));
+            Ok(())
+        }),
+        ("significant", |style, arguments| {
+            style.digits = Some(Asked::Significant(digits(arguments)?));
+            Ok(())
+        }),
+    ];
+    for (name, change) in changes {
+        tera.register_filter(name, move |text: &str, arguments: Kwargs, _: &State| {
+            let mut mark = Mark::read(text).ok_or_else(|| {
+                tera::Error::message(format!("`{name}` is a filter of values such as v.p_crit"))
+            })?;
+            change(&mut mark.style, &arguments)?;
+            Ok::<_, tera::Error>(mark.write())
+        });
+    }
+    tera.register_function("literal", |arguments: Kwargs, _: &State| {
+        let text: String = arguments.must_get("text")?;
+        let why: String = arguments.must_get("why")?;
+        if why.trim().is_empty() {
+            return Err(tera::Error::message("`literal` needs its reason in `why`"));
+        }
+        Ok(text)
+    });
+    tera.register_function("code", |arguments: Kwargs, _: &State| {
+        let item: String = arguments.must_get("item")?;
+        literate::item(&item).map_err(tera::Error::message)?;
+        Ok::<_, tera::Error>(format!("```rust {item}\n```"))
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Value;
+    use super::*;
+
+    fn fill(text: &str) -> Result<String, Error> {
+        let mut values = Registry::new();
+        values.add(Value::real("p_crit", 0.0122, 3)).unwrap();
+        values.add(Value::printed("printed.rise", "0.12", "Sec. 2")).unwrap();
+        let templates = Templates::of([("report.md", text)]);
+        Filler::new(&templates, &values)?.fill("report.md")
+    }
+
+    #[test]
+    fn a_value_is_a_mark_that_filters_change() {
+        let filled =
+            fill(r"$x^{{2}}$ {% «v.p_crit» and «printed.rise | percent | fixed(digits=1)»")
+                .unwrap();
+        let pieces = Mark::split(&filled);
+        assert_eq!(pieces.len(), 4);
+        assert_eq!(pieces[0], Err(r"$x^{{2}}$ {% "));
+        assert_eq!(pieces[1], Ok(Mark { id: "p_crit".into(), style: Style::default() }));
+        let style = Style { percent: true, digits: Some(Asked::Fixed(1)), ..Style::default() };
+        assert_eq!(pieces[3], Ok(Mark { id: "printed.rise".into(), style }));
+    }
+
+    #[test]
+    fn conditions_see_plain_numbers() {
+        let text = "<% if raw.p_crit < raw.printed.rise %>below<% else %>above<% endif %>";
+        assert_eq!(fill(text).unwrap(), "below");
+    }
+
+    #[test]
+    fn an_unknown_name_is_an_error_with_its_place() {
+        for text in
+            ["one\n  «v.p_krit»", "one\n  «w.p_crit»", "one\n  <% if raw.nix > 1 %>x<% endif %>"]
+        {
+            let error = fill(text).unwrap_err().to_string();
+            assert!(error.starts_with("report.md:2:"), "{error}");
+            assert!(!error.contains('\n'), "{error}");
+        }
+        let error = fill("«v.p_krit»").unwrap_err().to_string();
+        assert!(error.ends_with("Names that begin alike: p_crit."), "{error}");
+    }
+
+    #[test]
+    fn a_wrong_filter_is_an_error_with_its_place() {
+        for text in ["\n«v.p_crit | percents»", "\n«v.p_crit | fixed»", "\n«\"text\" | percent»"]
+        {
+            let error = fill(text).unwrap_err().to_string();
+            assert!(error.contains("report.md:2:"), "{error}");
+        }
+    }
+
+    #[test]
+    fn an_item_that_is_gone_is_an_error_with_its_place() {
+        assert!(fill("«code(item=\"circuits::jump::p_jump\")»").is_ok());
+        let error =
+            fill("one\n\n  «code(item=\"circuits::jump::p_yump\")»").unwrap_err().to_string();
+        assert!(error.starts_with("report.md:3:"), "{error}");
+        assert!(error.contains("no item `circuits::jump::p_yump`"), "{error}");
+        assert!(!error.contains('\n'), "{error}");
+    }
+
+    #[test]
+    fn a_literal_needs_its_reason() {
+        let text = "«literal(text=\"2007\", why=\"year of the paper\")»";
+        assert_eq!(fill(text).unwrap(), "2007");
+        assert!(fill("«literal(text=\"2007\", why=\" \")»").is_err());
+    }
+}
