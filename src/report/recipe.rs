@@ -45,7 +45,7 @@ pub fn recipe(name: &str, profile: Profile) -> Option<Recipe> {
         "restitution" => ("restitution", "experiments::restitution::CUTTING"),
         "chains" => ("chains", "experiments::chains::CUTTING"),
         "long_protocol" => ("long_protocol", "experiments::long::CUTTING"),
-        "audits" => ("audits", "experiments::deep::Audit"),
+        "audits" => ("audits", "experiments::deep::audit::Audit"),
         "theory" => ("theory", "experiments::theory::run"),
         _ => return None,
     };

@@ -34,7 +34,7 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
         values
     };
     let values = results.audits.iter().flat_map(of).collect();
-    Ok(from(values, "experiments::deep::Audit", "audits"))
+    Ok(from(values, "experiments::deep::audit::Audit", "audits"))
 }
 
 /// The lines of the table.
