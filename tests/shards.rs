@@ -86,6 +86,44 @@ fn merged_shards_are_the_bytes_of_one_machine() {
     assert!(files(&folder.join("again")) == *one);
 }
 
+/// With one experiment changed, no other need be run again.
+#[test]
+fn experiments_that_are_named_are_run_and_joined_alone() {
+    let folder = complete();
+    let folder = folder.path();
+    let (one, _) = &*MADE;
+    let own = plan(folder, " --experiment scale,bias");
+    let units = own["units"].as_array().unwrap();
+    let among =
+        |unit: &serde_json::Value| unit["experiment"] == "scale" || unit["experiment"] == "bias";
+    let all = plan(folder, "");
+    let of_all = all["units"].as_array().unwrap().iter().filter(|unit| among(unit)).count();
+    assert!(!units.is_empty() && units.iter().all(among) && units.len() == of_all, "{own:#}");
+    // What is run alone is what a run of everything gives.
+    let run_alone =
+        "run --profile quick --shard 1/1 --out alone --experiment scale --experiment bias";
+    let (code, text, note) = run(folder, run_alone);
+    assert_eq!(text, format!("alone: shard 1/1: {of_all} units run, 0 fresh\n"), "{note}");
+    assert_eq!(code, 0);
+    let merge = "merge --profile quick --experiment bias,scale --results";
+    let (code, _, note) = run(folder, &format!("{merge} alone-joined alone"));
+    assert_eq!(code, 0, "{note}");
+    let joined = files(&folder.join("alone-joined"));
+    assert_eq!(joined.keys().collect::<Vec<_>>(), ["bias-quick.json", "scale-quick.json"]);
+    assert!(joined.iter().all(|(name, bytes)| *bytes == one[name]));
+    // Units of others are passed over; what is no unit at all is still refused.
+    let (code, _, note) = run(folder, &format!("{merge} some 1 2 3"));
+    assert_eq!((code, files(&folder.join("some"))), (0, joined), "{note}");
+    std::fs::write(folder.join("2/strange-quick.json"), "{}").unwrap();
+    assert_eq!(run(folder, &format!("{merge} some 1 2 3")).0, 2);
+    for verb in ["plan", "run --shard 1/1 --out x", "merge 1"] {
+        let (code, _, note) =
+            run(folder, &format!("{verb} --profile quick --experiment sweep,swoop"));
+        assert_eq!(code, 2, "{verb}: {note}");
+        assert!(note.contains("no experiment \"swoop\"; give some of sweep, "), "{verb}: {note}");
+    }
+}
+
 #[test]
 fn a_shard_goes_on_where_it_was() {
     let folder = complete();

@@ -2,7 +2,6 @@
 
 use super::{Failure, stdout, work};
 use impact_paper::experiments::Store;
-use impact_paper::experiments::shards::Plan;
 use impact_paper::params::Profile;
 use std::path::PathBuf;
 
@@ -19,6 +18,8 @@ pub struct Args {
     /// Sample sizes.
     #[arg(long, default_value = "full")]
     profile: work::AnyProfile,
+    #[command(flatten)]
+    only: work::Only,
     /// Folder in which results of long runs are kept; without it target/results, and benches/deep for
     /// the deep profile.
     #[arg(long, value_name = "DIR")]
@@ -31,9 +32,9 @@ pub struct Args {
 /// Runs the verb.
 pub fn run(args: Args) -> Result<(), Failure> {
     let profile = Profile::from(args.profile);
+    let plan = args.only.plan(profile)?;
     let folder = work::results(args.results, profile);
     let results = Store::open(&folder)?;
-    let plan = Plan::new(profile);
     let progress = work::progress();
     work::on_threads(args.threads, || Ok(plan.merge(&args.folders, &results, &progress)?))?;
     let (number, out) = (plan.tasks.len(), folder.display());

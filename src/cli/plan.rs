@@ -2,7 +2,7 @@
 
 use super::{Failure, shard, stdout, work};
 use impact_paper::experiments::Store;
-use impact_paper::experiments::shards::{Plan, Task};
+use impact_paper::experiments::shards::Task;
 use impact_paper::params::Profile;
 use serde::Serialize;
 use std::fmt::Write as _;
@@ -22,6 +22,8 @@ pub struct Args {
     /// Sample sizes.
     #[arg(long, default_value = "full")]
     profile: work::AnyProfile,
+    #[command(flatten)]
+    only: work::Only,
     /// Say to which of N shards each unit belongs.
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     shards: Option<usize>,
@@ -71,7 +73,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     }
     let stores = args.left.iter().map(|folder| Store::open(folder));
     let stores: Vec<Store> = stores.collect::<Result<_, _>>()?;
-    let plan = Plan::new(profile);
+    let plan = args.only.plan(profile)?;
     let left = plan.left(&stores);
     let shards = args.shards.map(|of| plan.shards(of));
     let shard = |place: usize| shards.as_ref().map(|shards| shards[place]);

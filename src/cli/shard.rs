@@ -1,7 +1,7 @@
 //! `impact-paper run`.
 
 use super::{Failure, stdout, work};
-use impact_paper::experiments::shards::{MOST, Plan};
+use impact_paper::experiments::shards::MOST;
 use impact_paper::experiments::{Error, Store};
 use impact_paper::params::Profile;
 use std::path::PathBuf;
@@ -18,6 +18,8 @@ pub struct Args {
     /// Sample sizes.
     #[arg(long, default_value = "full")]
     profile: work::AnyProfile,
+    #[command(flatten)]
+    only: work::Only,
     /// Folder for what the units give, one file each; it is made when missing. Shards may share it.
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
@@ -53,8 +55,8 @@ pub fn run(args: Args) -> Result<(), Failure> {
         )),
         other => other.into(),
     };
+    let plan = args.only.plan(profile)?;
     let store = Store::open(&args.out).map_err(unwritable)?;
-    let plan = Plan::new(profile);
     let progress = work::progress();
     let ran = work::on_threads(args.threads, || {
         plan.run(args.shard, &store, &progress).map_err(unwritable)

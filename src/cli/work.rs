@@ -1,7 +1,8 @@
 //! What the verbs that take time have in common: threads, Ctrl-C, and errors as exit codes.
 
 use super::Failure;
-use impact_paper::experiments::{Error, Progress};
+use impact_paper::experiments::shards::Plan;
+use impact_paper::experiments::{Error, Progress, catalogue};
 use impact_paper::params::Profile;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -29,6 +30,29 @@ pub enum AnyProfile {
     Full,
     /// What is run now and then, committed, and carried over: half an hour.
     Deep,
+}
+
+/// Which experiments of a profile are meant.
+#[derive(clap::Args)]
+pub struct Only {
+    /// Only these experiments, by the names that `status` shows, with commas between them.
+    #[arg(long = "experiment", value_name = "NAME", value_delimiter = ',')]
+    names: Vec<String>,
+}
+
+impl Only {
+    /// The units of work of these experiments, or of all if none is named.
+    pub fn plan(&self, profile: Profile) -> Result<Plan, Failure> {
+        let known: Vec<&str> = catalogue::of(profile).iter().map(|one| one.need().name()).collect();
+        if let Some(name) = self.names.iter().find(|name| !known.contains(&name.as_str())) {
+            let (profile, known) = (profile.name(), known.join(", "));
+            return Err(Failure::input(format!(
+                "--experiment: profile {profile} has no experiment \"{name}\"; give some of {known}"
+            )));
+        }
+        let plan = Plan::new(profile);
+        Ok(if self.names.is_empty() { plan } else { plan.only(&self.names) })
+    }
 }
 
 /// Where results of a profile are kept unless a folder is given: beside the source what is committed,

@@ -62,7 +62,7 @@ fn join(
     };
     let rows = parameters.sigmas.iter().zip(&parts).map(row).collect();
     let map = protocol::join(parameters, parts, progress)?;
-    Ok(LongMap { map: ProtocolMap { means: Vec::new(), ..map }, rows })
+    Ok(LongMap { map: ProtocolMap { curves: Vec::new(), ..map }, rows })
 }
 
 /// How far realisations are from the map: the sum of their counts in each cell from what the means

@@ -46,6 +46,6 @@ pub use error::Error;
 pub use measured::Measured;
 pub use need::Need;
 pub use progress::Progress;
-pub use results::Results;
+pub use results::{Looked, Results};
 pub use run::run;
 pub use store::Store;

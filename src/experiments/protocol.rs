@@ -20,10 +20,8 @@ pub struct ProtocolMap {
     pub parameters: ProtocolParams,
     /// One cell for each pair, transients outer, windows inner.
     pub cells: Vec<ProtocolCell>,
-    /// The mean count of all realisations in each cell, for each σ; none where no run reached the window.
-    /// The long map has them by σ instead.
-    #[serde(default)]
-    pub means: Vec<Vec<Option<f64>>>,
+    /// The curves of each cell. The long map has them by σ instead.
+    pub curves: Vec<Curves>,
     /// Realisations whose random start overlaps, or that the engine ended early; they are counted in no
     /// window.
     pub failed: usize,
@@ -42,8 +40,19 @@ pub struct ProtocolCell {
     pub half_height_all: Option<Estimate>,
     /// Onset: the mean of all reaches N/20.
     pub onset: Option<Estimate>,
+    /// Half of the realisations are kept: they have an impact in the window.
+    pub kept_half: Option<Estimate>,
     /// Whether `half_height` rounds to the printed threshold, σ ≈ 0.12.
     pub prints_as_published: bool,
+}
+
+/// What rises with σ in one cell, for each σ; none where no run reached the window.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Curves {
+    /// The mean count of all realisations.
+    pub means: Vec<Option<f64>>,
+    /// The share of the realisations that are kept.
+    pub kept: Vec<Option<f64>>,
 }
 
 impl ProtocolMap {
@@ -54,9 +63,17 @@ impl ProtocolMap {
 
     /// (σ, mean count of all) for a transient and a window.
     pub fn curve(&self, transient: f64, window: f64) -> Option<Vec<(f64, f64)>> {
-        let means = self.means.get(self.place(transient, window)?)?;
-        let points = self.parameters.sigmas.iter().zip(means);
-        Some(points.filter_map(|(&sigma, mean)| Some((sigma, (*mean)?))).collect())
+        Some(self.against_sigma(&self.curves.get(self.place(transient, window)?)?.means))
+    }
+
+    /// (σ, share of the realisations that are kept) for a transient and a window.
+    pub fn kept_curve(&self, transient: f64, window: f64) -> Option<Vec<(f64, f64)>> {
+        Some(self.against_sigma(&self.curves.get(self.place(transient, window)?)?.kept))
+    }
+
+    fn against_sigma(&self, heights: &[Option<f64>]) -> Vec<(f64, f64)> {
+        let points = self.parameters.sigmas.iter().zip(heights);
+        points.filter_map(|(&sigma, height)| Some((sigma, (*height)?))).collect()
     }
 
     /// Half height of the mean of all after any transient between the first and the last: linear in ln T
@@ -215,11 +232,17 @@ pub(super) fn join(
         .transients
         .iter()
         .flat_map(|&transient| parameters.windows.iter().map(move |&window| (transient, window)));
-    let mean_of = |counts: &Counts| -> Option<f64> {
-        mean(&counts.iter().flatten().map(|&k| f64::from(k)).collect::<Vec<_>>())
+    let curve = |rows: &[Counts], of: fn(u32) -> f64| {
+        let mean_of = |counts: &Counts| -> Option<f64> {
+            mean(&counts.iter().flatten().map(|&k| of(k)).collect::<Vec<_>>())
+        };
+        rows.iter().map(mean_of).collect()
     };
-    let means =
-        by_cell.iter().map(|rows: &Vec<Counts>| rows.iter().map(mean_of).collect()).collect();
+    let curves = by_cell.iter().map(|rows: &Vec<Counts>| Curves {
+        means: curve(rows, f64::from),
+        kept: curve(rows, |k| f64::from(k.min(1))),
+    });
+    let curves = curves.collect();
     let mut map = Vec::with_capacity(cells);
     for ((transient, window), counts) in protocols.zip(by_cell) {
         progress.check()?;
@@ -232,10 +255,11 @@ pub(super) fn join(
             half_height,
             half_height_all: rise.half_height_all,
             onset: rise.onset,
+            kept_half: rise.kept_half,
             prints_as_published: half_height.is_some_and(|half| prints_as_published(half.value)),
         });
     }
-    Ok(ProtocolMap { parameters: parameters.clone(), cells: map, means, failed })
+    Ok(ProtocolMap { parameters: parameters.clone(), cells: map, curves, failed })
 }
 
 /// Whether a number rounds to the printed threshold with the printed digits.

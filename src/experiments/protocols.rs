@@ -93,7 +93,8 @@ mod tests {
             assert_eq!(*map, protocol::run(&own.map, &quiet).unwrap(), "{name}");
             // Without a free part nothing closes so soon.
             let zero = own.map.chain.start == Start::Zero;
-            let hit = map.means.iter().flatten().flatten().any(|mean| *mean > 0.0);
+            let hit =
+                map.curves.iter().flat_map(|own| &own.means).flatten().any(|mean| *mean > 0.0);
             assert!(hit || zero, "{name}");
             // Of random starts some overlap, and those are counted in no window.
             let random = own.map.chain.start == Start::Random;

@@ -11,15 +11,18 @@ use crate::params::{Profile, VERTICES};
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
+/// What is computed when it is first looked at.
+pub type Looked<T> = LazyLock<T, Box<dyn FnOnce() -> T + Send>>;
+
 /// All results: what is `None` was not asked for.
 #[derive(Debug)]
 pub struct Results {
     /// The sample sizes.
     pub profile: Profile,
     /// Secs. 3 to 9, computed when first looked at: `&results.theory.curve` is all it takes.
-    pub theory: LazyLock<theory::Theory>,
+    pub theory: Looked<theory::Theory>,
     /// Exact statements of Secs. 3 to 9 against a second route, computed when first looked at.
-    pub identities: LazyLock<identities::Identities>,
+    pub identities: Looked<identities::Identities>,
     /// The main sweep of Sec. 2.
     pub sweep: Option<sweep::Sweep>,
     /// The rise again, with another seed.
@@ -154,12 +157,12 @@ impl Results {
     pub fn empty(profile: Profile) -> Self {
         Results {
             profile,
-            theory: LazyLock::new(|| {
+            theory: LazyLock::new(Box::new(|| {
                 theory::run(VERTICES).expect("the theory exists for the paper's N")
-            }),
-            identities: LazyLock::new(|| {
+            })),
+            identities: LazyLock::new(Box::new(|| {
                 identities::run(VERTICES).expect("the theory exists for the paper's N")
-            }),
+            })),
             sweep: None,
             second_seed: None,
             protocol: None,

@@ -7,7 +7,7 @@ use super::store::Store;
 use super::{Error, Progress};
 use crate::params::Profile;
 use std::cmp::Reverse;
-use std::collections::{BTreeMap, BinaryHeap};
+use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
 use std::path::{Path, PathBuf};
 
 /// Into so many shards a profile may be divided; more would have nothing to do.
@@ -21,6 +21,8 @@ pub struct Plan {
     profile: Profile,
     /// In the order of the catalogue, and of each experiment.
     pub tasks: Vec<Task>,
+    /// Units of experiments that are not meant: their files are passed over.
+    others: BTreeSet<String>,
 }
 
 /// One unit of work of one experiment.
@@ -54,7 +56,15 @@ impl Plan {
                 Task { experiment, unit, identity, name }
             })
         });
-        Plan { profile, tasks: tasks.collect() }
+        Plan { profile, tasks: tasks.collect(), others: BTreeSet::new() }
+    }
+
+    /// The same for the experiments of these names alone.
+    pub fn only(mut self, names: &[String]) -> Self {
+        let meant = |task: &Task| names.iter().any(|name| name == task.experiment.need().name());
+        let (tasks, others): (Vec<_>, Vec<_>) = self.tasks.into_iter().partition(meant);
+        self.others.extend(others.into_iter().map(|task| task.name));
+        Plan { tasks, ..self }
     }
 
     /// The shard of each unit, from 1: the heaviest unit first, always to the shard with the least
@@ -195,6 +205,9 @@ impl Plan {
         let (mut strange, mut twice) = (Vec::new(), Vec::new());
         for (place, folder) in folders.iter().enumerate() {
             for name in names(folder)? {
+                if self.others.contains(&name) {
+                    continue;
+                }
                 if !known.contains_key(name.as_str()) {
                     strange.push(self.stranger(folder, &name));
                 } else if let Some(first) = found.insert(name.clone(), place) {

@@ -16,11 +16,11 @@ use crate::numerics::statistics::Estimate;
 /// The half size of marks.
 const SIZE: i32 = 52;
 
-/// Windows of (a) and (b), and their looks.
+/// Windows of (a) and (c), and their looks.
 const WINDOWS: [(f64, Mark, Colour); 3] =
     [(20.0, Mark::Disc, RED), (200.0, Mark::Square, BLUE), (2000.0, Mark::Diamond, GREEN)];
 
-/// The window of (c) and (d).
+/// The window of (b) and (d).
 const WINDOW: f64 = 200.0;
 
 /// Names of chains, what they are, and their looks.
@@ -31,18 +31,16 @@ const STARTS: [(&str, &str, Mark, Colour); 4] = [
     ("zero", "on the forced motion", Mark::Diamond, PURPLE),
 ];
 
-/// The axis of a half height.
-const HALF_LABEL: &str = "*σ*_{1/2}";
-
-/// The axis of an onset.
-const ONSET_LABEL: &str = "*σ*_{0}";
-
 /// A place on the rise.
 type Place = fn(&ProtocolCell) -> Option<Estimate>;
 
 const HALF: Place = |cell| cell.half_height_all;
-const KEPT: Place = |cell| cell.half_height;
 const ONSET: Place = |cell| cell.onset;
+const KEPT: Place = |cell| cell.kept_half;
+const HALF_OF_KEPT: Place = |cell| cell.half_height;
+
+/// The rows: a place, and its axis.
+const ROWS: [(Place, &str); 2] = [(HALF, "*σ*_{1/2}"), (ONSET, "*σ*_{0}")];
 
 /// What is drawn.
 #[derive(Clone, Copy)]
@@ -74,42 +72,40 @@ impl<'a> Maps<'a> {
     }
 }
 
+/// The top of the legends.
+const LEGEND: i32 = 9000;
+
 /// Draws the figure.
 pub fn draw(maps: Maps<'_>, note: Option<&str>) -> Result<Figure, Error> {
     let sheet = Sheet::new(10_650, note)?;
-    let (left, right) = ((1000, 3900), (5150, 8050));
-    let frame = |(from, to), top| Frame::new(from, top, to, top + 3200);
-    let low = |label| Axis::linear(0.07, 0.18, 0.02, 2, label);
-    let halves = panel(&sheet, 0, frame(left, 430), low(HALF_LABEL))?;
-    bounded(&halves, maps.seeds[0])?;
-    kept_curves(&halves, maps)?;
-    windows(&halves, maps, HALF)?;
-    let onsets = panel(&sheet, 1, frame(right, 430), low(ONSET_LABEL))?;
-    bounded(&onsets, maps.seeds[1])?;
-    windows(&onsets, maps, ONSET)?;
+    let (left, right) = ((1000, 4150), (4900, 8050));
+    for (row, (place, label)) in (0..).zip(ROWS) {
+        let panel = |column: usize, (from, to), label: &str| {
+            let top = 430 + 4250 * row;
+            let y = Axis::linear(0.07, 0.21, 0.02, 2, label);
+            panel(&sheet, 2 * row as usize + column, Frame::new(from, top, to, top + 3200), y)
+        };
+        let own = panel(0, left, label)?;
+        // Half of N takes half of the chains, and a twentieth of N a twentieth of them.
+        bounded(&own, maps.seeds[row as usize])?;
+        if row == 0 {
+            kept_curves(&own, maps)?;
+        }
+        windows(&own, maps, place)?;
+        starts(&panel(1, right, "")?, maps, place)?;
+    }
     let mut entries: Vec<_> = WINDOWS
         .iter()
-        .map(|(w, mark, colour)| {
-            let stroke = Stroke::solid(*colour, THIN);
-            let text = format!("*W* = {w}");
-            Entry { line: Some(stroke), mark: Some((*mark, SIZE, stroke)), text }
-        })
+        .map(|(w, mark, colour)| entry(format!("*W* = {w}"), *mark, *colour))
         .collect();
     entries.push(Entry::line(kept(INK), "mean of the kept"));
-    entries.push(Entry::line(bound(), "no mean of all rises before"));
-    legend(&sheet, 4560, &entries, 3)?;
-
-    let high = |label| Axis::linear(0.07, 0.21, 0.02, 2, label);
-    starts(&panel(&sheet, 2, frame(left, 5900), high(HALF_LABEL))?, maps, HALF)?;
-    starts(&panel(&sheet, 3, frame(right, 5900), high(ONSET_LABEL))?, maps, ONSET)?;
+    entries.push(Entry::line(bound(), "seeds in too few chains below"));
+    sheet.legend((1000, LEGEND), (SMALL, 340), &entries)?;
     let entries: Vec<_> = STARTS
         .iter()
-        .map(|(_, what, mark, colour)| {
-            let stroke = Stroke::solid(*colour, THIN);
-            Entry { line: Some(stroke), mark: Some((*mark, SIZE, stroke)), text: (*what).into() }
-        })
+        .map(|(_, what, mark, colour)| entry((*what).into(), *mark, *colour))
         .collect();
-    legend(&sheet, 10_020, &entries, 2)?;
+    sheet.legend((4900, LEGEND), (SMALL, 340), &entries)?;
     let title = "Half height and onset against the transient";
     Ok(sheet.finish_own(16, title, description(maps), vec![table(maps)]))
 }
@@ -120,11 +116,9 @@ fn panel(sheet: &Sheet, place: usize, frame: Frame, y: Axis) -> Result<Panel, Er
     Ok(panel)
 }
 
-/// Entries in two columns, the first of which has so many.
-fn legend(sheet: &Sheet, top: i32, entries: &[Entry], first: usize) -> Result<(), Error> {
-    let (left, right) = entries.split_at(first.min(entries.len()));
-    sheet.legend((1000, top), (SMALL, 340), left)?;
-    sheet.legend((4650, top), (SMALL, 340), right)
+fn entry(text: String, mark: Mark, colour: Colour) -> Entry {
+    let stroke = Stroke::solid(colour, THIN);
+    Entry { line: Some(stroke), mark: Some((mark, SIZE, stroke)), text }
 }
 
 /// The line of the mean of the kept.
@@ -169,7 +163,7 @@ fn bounded(panel: &Panel, level: f64) -> Result<(), Error> {
 
 fn kept_curves(panel: &Panel, maps: Maps<'_>) -> Result<(), Error> {
     for (window, _, colour) in WINDOWS {
-        let line = values(&maps.line("rest", window, KEPT));
+        let line = values(&maps.line("rest", window, HALF_OF_KEPT));
         panel.curve(&format!("kept, *W* = {window}"), &line, kept(colour), Outside::Cut)?;
     }
     Ok(())
@@ -205,16 +199,15 @@ fn description(maps: Maps<'_>) -> String {
             STARTS.iter().map(|(name, what, ..)| format!("{what}: {}", told(name, WINDOW, place)));
         list.collect::<Vec<_>>().join("; ")
     };
+    let [half, onset] = maps.seeds.map(|seeds| short(seeds, 3));
     format!(
         "(a) Half height of the mean of all chains against the transient T on a logarithmic axis, with a curve for \
-         each window W, falling and coming together above the level {}: {}. Dashed curves of the mean of the kept fall \
-         below that level. (b) Onset, likewise, above the level {}: {}. (c) Half heights of other chains, W = {WINDOW}: {}. (d) Their onsets: \
-         {}.",
-        short(maps.seeds[0], 3),
+         each window W, falling and coming together above the level {half}: {}. Dashed curves of the mean of the kept fall \
+         below that level. (b) Half heights of other chains, W = {WINDOW}: {}. (c) Onset, as in (a), above the level {onset}: {}. \
+         (d) Onsets of the other chains: {}.",
         by_window(HALF),
-        short(maps.seeds[1], 3),
-        by_window(ONSET),
         by_start(HALF),
+        by_window(ONSET),
         by_start(ONSET),
     )
 }
@@ -240,22 +233,27 @@ fn table(maps: Maps<'_>) -> DataFile {
             "half_height_of_kept_error (d omega^2)",
             "onset (d omega^2)",
             "onset_error (d omega^2)",
+            "half_are_kept (d omega^2)",
+            "half_are_kept_error (d omega^2)",
         ],
     );
     let rest = of("rest", maps.map).chain(of("rest, long", &maps.long.map));
     let others = maps.others.named().flat_map(|(name, map)| of(name, map));
     for (name, cell) in rest.chain(others) {
-        let [half, kept, onset] = [HALF, KEPT, ONSET].map(|place| place(cell));
+        let places = [HALF, HALF_OF_KEPT, ONSET, KEPT].map(|place| place(cell));
+        let [half, of_kept, onset, kept] = places;
         table.row(cells![
             name,
             cell.transient,
             cell.window,
             half.map(|own| own.value),
             half.map(|own| own.error),
-            kept.map(|own| own.value),
-            kept.map(|own| own.error),
+            of_kept.map(|own| own.value),
+            of_kept.map(|own| own.error),
             onset.map(|own| own.value),
-            onset.map(|own| own.error)
+            onset.map(|own| own.error),
+            kept.map(|own| own.value),
+            kept.map(|own| own.error)
         ]);
     }
     table

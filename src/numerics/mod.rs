@@ -15,6 +15,7 @@ mod polish;
 pub mod quadrature;
 pub mod random;
 pub mod regression;
+pub mod regula_falsi;
 pub mod scaled;
 pub mod screen;
 pub mod statistics;

@@ -193,14 +193,14 @@ impl ProtocolsParams {
     /// The sizes of each profile.
     pub fn new(profile: Profile) -> Self {
         let (transients, windows, step, realisations) = match profile {
-            Profile::Full | Profile::Deep => (4, 3, 1, 80),
-            Profile::Ci => (2, 2, 2, 8),
-            Profile::Quick => (2, 2, 2, 3),
+            Profile::Full | Profile::Deep => (5, 3, 1, 80),
+            Profile::Ci => (3, 2, 2, 8),
+            Profile::Quick => (3, 2, 2, 3),
         };
         // After the longer transients a map has risen where the long runs end.
         let named = |name: &str, short_above: f64, change: fn(&mut Chain)| {
             let mut map = ProtocolParams {
-                transients: [50.0, 500.0, 4000.0, 1e5][..transients].to_vec(),
+                transients: [10.0, 50.0, 500.0, 4000.0, 1e5][..transients].to_vec(),
                 windows: [20.0, 200.0, 2000.0][..windows].to_vec(),
                 // A start without a free part rises last.
                 sigmas: Grid::default().and(6, 26, step, 100).values(),

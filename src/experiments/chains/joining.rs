@@ -5,6 +5,7 @@ use super::super::{Error, Progress};
 use super::{Chains, Curve, Ensemble, Part, Run, cases, chain, pieces};
 use crate::circuits::nucleation::chain::Chances;
 use crate::circuits::nucleation::reach::Reach;
+use crate::numerics::regula_falsi::crossing;
 use crate::numerics::statistics::last_rise;
 use crate::params::{Chain, ChainCurve, ChainsParams};
 use rayon::prelude::*;
@@ -138,13 +139,9 @@ fn share(chain: &Chain, reach: &Reach, sigma: f64) -> f64 {
     chances.at_least_one(chain.masses, chain.boundary).value
 }
 
-/// The σ at which it is a half, by halving intervals of its logarithm.
+/// The σ at which it is a half, to about 1e-6 of itself, more than the angles know.
 fn half(chain: &Chain, reach: &Reach) -> f64 {
-    let (mut low, mut high) = (0.02 * chain.spacing, 2.0 * chain.spacing);
-    // To 1e-6 of itself, more than the angles know.
-    for _ in 0..22 {
-        let middle = (low * high).sqrt();
-        if share(chain, reach, middle) < 0.5 { low = middle } else { high = middle }
-    }
-    (low * high).sqrt()
+    let logarithms = [0.02, 2.0].map(|times: f64| pxfm::f_log(times * chain.spacing));
+    let above = |log_sigma| share(chain, reach, pxfm::f_exp(log_sigma)) - 0.5;
+    pxfm::f_exp(crossing(logarithms, 1e-6, above))
 }

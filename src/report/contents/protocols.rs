@@ -11,8 +11,10 @@ use serde::Serialize;
 pub struct Line {
     what: &'static str,
     transient: String,
-    /// Half heights, one for each window, and then onsets.
-    cells: Vec<String>,
+    /// One for each window.
+    half: Vec<String>,
+    onset: Vec<String>,
+    kept: Vec<String>,
 }
 
 /// Cells with the number of chains that they are of.
@@ -62,6 +64,20 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
             let id = |column: &str| id(column, name, cell.transient, cell.window);
             values.push(estimate(id("half"), cell.half_height_all, n));
             values.push(estimate(id("onset"), cell.onset, n));
+            values.push(estimate(id("kept"), cell.kept_half, n));
+        }
+    }
+    // From rest, in the first window and in the last.
+    let all = maps(results)?;
+    let rest = all.first().map_or(&[][..], |(_, cells)| cells);
+    let ends = [(transients.first(), windows.first()), (transients.last(), windows.last())];
+    for (id, (transient, window)) in ["kept_soon", "kept_late"].into_iter().zip(ends) {
+        let (Some(transient), Some(window)) = (transient, window) else { continue };
+        let own = |(cell, _): &&(&ProtocolCell, usize)| {
+            cell.transient == *transient && cell.window == *window
+        };
+        if let Some((cell, n)) = rest.iter().find(own) {
+            values.push(estimate(format!("protocols.{id}"), cell.kept_half, *n));
         }
     }
     let first = results.protocols()?.maps.first().map_or(0, |map| map.parameters.realisations);
@@ -74,9 +90,12 @@ pub fn windows(results: &Results) -> Result<Vec<String>, Error> {
     Ok(times(results)?.1.iter().map(|&w| mark(head("w", w))).collect())
 }
 
-/// The lines of the table.
+/// The lines of the tables.
 pub fn table(results: &Results) -> Result<Vec<Line>, Error> {
     let (transients, windows) = times(results)?;
+    let cells = |column: &str, name: &str, transient: f64| {
+        windows.iter().map(|&w| mark(id(column, name, transient, w))).collect()
+    };
     let line = |name: &str, transient: f64| Line {
         what: match name {
             "rest" => "rest",
@@ -85,10 +104,9 @@ pub fn table(results: &Results) -> Result<Vec<Line>, Error> {
             _ => "rest, on a ring",
         },
         transient: mark(head("t", transient)),
-        cells: ["half", "onset"]
-            .iter()
-            .flat_map(|column| windows.iter().map(|&w| mark(id(column, name, transient, w))))
-            .collect(),
+        half: cells("half", name, transient),
+        onset: cells("onset", name, transient),
+        kept: cells("kept", name, transient),
     };
     let all = maps(results)?;
     Ok(all.iter().flat_map(|(name, _)| transients.iter().map(|&t| line(name, t))).collect())

@@ -6,6 +6,7 @@ use super::{Guard, Look, far, model, room, unless};
 use crate::claims;
 use crate::experiments::long::LongRow;
 use crate::experiments::protocol::ProtocolCell;
+use crate::experiments::rise::ONSET;
 use crate::numerics::statistics::Estimate;
 use std::cmp::Ordering;
 
@@ -41,9 +42,10 @@ pub const GUARDS: &[Guard] = &[
     },
 ];
 
-/// The places of a cell: the half heights of the mean of the kept and of that of all, and the onset.
-fn places(cell: &ProtocolCell) -> [Option<Estimate>; 3] {
-    [cell.half_height, cell.half_height_all, cell.onset]
+/// The places of a cell: the half heights of the mean of the kept and of that of all, the onset, and where
+/// half of the chains are kept.
+fn places(cell: &ProtocolCell) -> [Option<Estimate>; 4] {
+    [cell.half_height, cell.half_height_all, cell.onset, cell.kept_half]
 }
 
 /// Where both maps have a cell, their places of the rise agree within the errors of both: they drew
@@ -87,6 +89,8 @@ fn half_heights(look: Look<'_>) -> Option<String> {
     let (map, gaps) = (&long.map, long.map.parameters.chain.gaps() as f64);
     let n = map.parameters.realisations as f64;
     map.cells.iter().enumerate().find_map(|(index, cell)| {
+        let share = |row: &LongRow| Some((row.sigma, *row.kept.get(index)? as f64 / n));
+        let shares: Vec<(f64, f64)> = long.rows.iter().filter_map(share).collect();
         let curve = |of: fn(usize, f64) -> f64| -> Vec<(f64, f64)> {
             let mean = |row: &LongRow| {
                 let sum = row.means.get(index).copied().flatten()? * n;
@@ -101,7 +105,7 @@ fn half_heights(look: Look<'_>) -> Option<String> {
         let at = |place: Option<Estimate>, points: &[(f64, f64)], height: f64| {
             let sigma = place?.value;
             match between(points, sigma) {
-                Some(found) => far(&format!("the long curve at {sigma}"), found, height * gaps),
+                Some(found) => far(&format!("the long curve at {sigma}"), found, height),
                 None => Some(format!("{sigma} lies outside the long curve")),
             }
         };
@@ -109,9 +113,10 @@ fn half_heights(look: Look<'_>) -> Option<String> {
         all.iter()
             .find_map(whole)
             .or_else(|| look.is("long_sigma_count", long.rows.len() as f64))
-            .or_else(|| at(cell.half_height, &curve(|kept, _| kept as f64), 0.5))
-            .or_else(|| at(cell.half_height_all, &all, 0.5))
-            .or_else(|| at(cell.onset, &all, 0.05))
+            .or_else(|| at(cell.half_height, &curve(|kept, _| kept as f64), 0.5 * gaps))
+            .or_else(|| at(cell.half_height_all, &all, 0.5 * gaps))
+            .or_else(|| at(cell.onset, &all, ONSET * gaps))
+            .or_else(|| at(cell.kept_half, &shares, 0.5))
     })
 }
 
@@ -137,12 +142,14 @@ fn needs_seeds(look: Look<'_>) -> Option<String> {
     let sooner = |place: Option<Estimate>, bound: f64| {
         let own = place?;
         unless(own.value >= bound - quantile * own.error, || {
-            format!("rise of all at {}, where too few have seeds below {bound}", own.value)
+            format!("rise at {}, where too few have seeds below {bound}", own.value)
         })
     };
     let rises = || {
         long.map.cells.iter().find_map(|cell| {
-            sooner(cell.half_height_all, half).or_else(|| sooner(cell.onset, onset))
+            sooner(cell.half_height_all, half)
+                .or_else(|| sooner(cell.kept_half, half))
+                .or_else(|| sooner(cell.onset, onset))
         })
     };
     let row = || {

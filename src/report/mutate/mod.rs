@@ -22,7 +22,7 @@ pub use size::last_digit;
 pub use tally::{TABLE, Tally, used};
 
 use self::part::Whole;
-use self::sections::Sections;
+use self::sections::{Changed, Sections};
 use self::site::Site;
 use super::claims::scorecard;
 use super::contents;
@@ -160,8 +160,8 @@ struct Spare {
 struct Wrongly<'a> {
     subject: Subject<'a>,
     values: &'a mut Registry,
-    /// Ids of the values that were computed anew.
-    new: &'a [String],
+    /// Ids of the values that are others than they were.
+    changed: &'a Changed,
     /// Whether there is a report.
     outcome: Result<(), contents::Error>,
 }
@@ -275,10 +275,10 @@ impl<'a> Bench<'a> {
         moves.iter().for_each(|((index, path), by)| whole.add(*index, path, *by));
         let put = parts().try_for_each(|index| part::put(results, index, whole.part(index)));
         let found = put.ok().map(|()| {
-            let (exchange, outcome) = self.sections.exchange(values, results, parts());
+            let (changed, outcome) = self.sections.exchange(values, results, parts());
             let subject = Subject { results, ..self.subject };
-            let found = judge(Wrongly { subject, values, new: &exchange.new, outcome });
-            self.sections.restore(values, &exchange, &self.values);
+            let found = judge(Wrongly { subject, values, changed: &changed, outcome });
+            Sections::restore(values, &changed, &self.values);
             found
         });
         moves.iter().for_each(|((index, path), _)| whole.restore(*index, path, &self.whole));
@@ -305,7 +305,7 @@ impl<'a> Bench<'a> {
     fn follow(&self, moves: &[Move]) -> Option<Followers> {
         let other = |wrong: Wrongly<'_>| {
             wrong.outcome.ok()?;
-            let found = wrong.new.iter().filter_map(|id| {
+            let found = wrong.changed.iter().filter_map(|id| {
                 let number = &wrong.values.get(id)?.number;
                 let same = self.values.get(id).is_some_and(|own| own.number == *number);
                 (!same).then(|| (id.clone(), number.clone()))

@@ -1,7 +1,8 @@
 //! The results in parts, each of which can be read and written as JSON.
 
 use crate::digest::sha256;
-use crate::experiments::{Results, laws};
+
+use crate::experiments::{Looked, Results, laws};
 use rayon::prelude::*;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -56,7 +57,10 @@ macro_rules! looked_at {
                 *results.$field = typed(json)?;
                 Ok(())
             },
-            restore: |results, from| (*results.$field).clone_from(&from.$field),
+            restore: |results, from| {
+                let known = from.$field.clone();
+                results.$field = Looked::new(Box::new(move || known));
+            },
         }
     };
 }
@@ -191,50 +195,61 @@ pub fn copy(from: &Results) -> Results {
 /// Paths of all numbers in JSON that are this one, as JSON pointers; members of objects first, for a
 /// long list of counts has every small integer many times.
 fn paths(json: &Json, record: &[&str], number: f64) -> Vec<String> {
-    let mut walk = Walk { record, number, path: String::new(), members: vec![], listed: vec![] };
-    walk.down(json, false);
+    let mut walk = Walk { record, number, way: vec![], members: vec![], listed: vec![] };
+    walk.down(json);
     [walk.members, walk.listed].concat()
+}
+
+/// The way to a number: a member of an object, or a place in a list.
+#[derive(Clone, Copy)]
+enum Step<'a> {
+    Member(&'a str),
+    Place(usize),
 }
 
 struct Walk<'a> {
     record: &'a [&'a str],
     number: f64,
-    /// Where it is.
-    path: String,
+    /// Where it is. Few numbers are the wanted one, so only their ways are written out.
+    way: Vec<Step<'a>>,
     members: Vec<String>,
     listed: Vec<String>,
 }
 
-impl Walk<'_> {
-    fn down(&mut self, json: &Json, listed: bool) {
+impl<'a> Walk<'a> {
+    fn down(&mut self, json: &'a Json) {
         match json {
             Json::Number(found) if found.as_f64() == Some(self.number) => {
+                let listed = matches!(self.way.last(), Some(Step::Place(_)));
                 let list = if listed { &mut self.listed } else { &mut self.members };
-                list.push(self.path.clone());
+                list.push(pointer(&self.way));
             }
             Json::Array(items) => {
-                for (i, item) in items.iter().enumerate() {
-                    self.step(&i.to_string(), item, true);
-                }
+                items.iter().enumerate().for_each(|(i, item)| self.step(Step::Place(i), item));
             }
             Json::Object(members) => {
-                for (name, member) in members {
-                    if !self.record.contains(&name.as_str()) {
-                        self.step(name, member, false);
-                    }
-                }
+                let record = self.record;
+                let read = members.iter().filter(|(name, _)| !record.contains(&name.as_str()));
+                read.for_each(|(name, item)| self.step(Step::Member(name), item));
             }
             _ => {}
         }
     }
 
-    fn step(&mut self, name: &str, json: &Json, listed: bool) {
-        let here = self.path.len();
-        self.path.push('/');
-        self.path.push_str(name);
-        self.down(json, listed);
-        self.path.truncate(here);
+    fn step(&mut self, step: Step<'a>, json: &'a Json) {
+        self.way.push(step);
+        self.down(json);
+        self.way.pop();
     }
+}
+
+/// A JSON pointer.
+fn pointer(way: &[Step<'_>]) -> String {
+    let written = |step: &Step<'_>| match step {
+        Step::Member(name) => format!("/{name}"),
+        Step::Place(place) => format!("/{place}"),
+    };
+    way.iter().map(written).collect()
 }
 
 /// Adds to the number at a path. An integer stays one if it can.

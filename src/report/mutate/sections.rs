@@ -8,82 +8,103 @@ use super::part;
 use crate::experiments::Results;
 use crate::report::contents::{self, SECTIONS};
 use crate::report::values::{Registry, Value};
+use rayon::prelude::*;
 use std::collections::BTreeSet;
 
 /// What is known of the sections.
 pub struct Sections {
     /// For each part, the sections that read it.
     readers: Vec<BTreeSet<usize>>,
-    /// For each section, the ids of its values.
-    ids: Vec<Vec<String>>,
+    /// The values of each section.
+    values: Vec<Vec<Value>>,
 }
 
-/// What stands in the places of sections' own values.
-pub struct Exchange {
-    sections: BTreeSet<usize>,
-    /// Ids of the new values.
-    pub new: Vec<String>,
-}
+/// The ids of the values that are others, are new or are gone.
+pub type Changed = BTreeSet<String>;
 
 impl Sections {
     /// Of the sections, tried with these results.
     pub fn of(results: &Results) -> Result<Self, contents::Error> {
-        let whole = SECTIONS.iter().map(|section| section(results));
-        let whole: Vec<Vec<Value>> = whole.collect::<Result<_, _>>()?;
-        let (mut lacking, nothing) = (part::copy(results), Results::empty(results.profile));
-        let readers = |index: usize| {
-            part::restore(&mut lacking, index, &nothing);
-            let same = |section: &usize| {
-                SECTIONS[*section](&lacking).is_ok_and(|values| values == whole[*section])
-            };
+        let values: Vec<Vec<Value>> =
+            SECTIONS.par_iter().map(|section| section(results)).collect::<Result<_, _>>()?;
+        let nothing = Results::empty(results.profile);
+        let readers = |lacking: &mut Results, index: usize| -> BTreeSet<usize> {
             let all = 0..SECTIONS.len();
-            let found = match part::can_be_missing(index) {
-                true => all.filter(|section| !same(section)).collect(),
-                false => all.collect(),
+            if !part::can_be_missing(index) {
+                return all.collect();
+            }
+            part::restore(lacking, index, &nothing);
+            let same = |section: &usize| {
+                SECTIONS[*section](lacking).is_ok_and(|found| found == values[*section])
             };
-            part::restore(&mut lacking, index, results);
+            let found = all.filter(|section| !same(section)).collect();
+            part::restore(lacking, index, results);
             found
         };
-        let readers = (0..part::experiments().count()).map(readers).collect();
-        let ids = |values: &Vec<Value>| values.iter().map(|value| value.id.clone()).collect();
-        Ok(Sections { readers, ids: whole.iter().map(ids).collect() })
+        let parts = 0..part::experiments().count();
+        // Copies are made for a few parts each.
+        let parts = parts.into_par_iter().with_min_len(7);
+        let readers = parts.map_init(|| part::copy(results), readers).collect();
+        Ok(Sections { readers, values })
     }
 
-    /// Computes all sections anew that read some of these parts, and puts their values in the places of
-    /// those that they had.
+    /// Computes all sections anew that read some of these parts, and puts what is other than it was in
+    /// its place.
     ///
     /// # Errors
-    /// As [`contents::registry`], beside what stands there then.
+    /// As [`contents::registry`], beside what was put there before.
     pub fn exchange(
         &self,
         values: &mut Registry,
         results: &Results,
         parts: impl Iterator<Item = usize>,
-    ) -> (Exchange, Result<(), contents::Error>) {
+    ) -> (Changed, Result<(), contents::Error>) {
         let sections: BTreeSet<usize> =
             parts.flat_map(|index| self.readers[index].iter().copied()).collect();
-        self.ids(&sections).for_each(|id| values.remove(id));
-        let mut new = Vec::new();
-        let put = sections.iter().try_for_each(|section| {
-            SECTIONS[*section](results)?.into_iter().try_for_each(|value| {
-                let id = value.id.clone();
-                values.add(value)?;
-                new.push(id);
-                Ok(())
+        let mut changed = Changed::new();
+        let put = self.compute(sections, results).and_then(|(gone, come)| {
+            gone.iter().for_each(|id| values.remove(id));
+            changed.extend(gone.into_iter().map(String::from));
+            come.into_iter().try_for_each(|value| {
+                changed.insert(value.id.clone());
+                Ok(values.add(value)?)
             })
         });
-        (Exchange { sections, new }, put)
+        (changed, put)
     }
 
-    /// Puts the own values of sections back.
-    pub fn restore(&self, values: &mut Registry, exchange: &Exchange, before: &Registry) {
-        exchange.new.iter().for_each(|id| values.remove(id));
-        let own = self.ids(&exchange.sections).filter_map(|id| before.get(id));
-        own.for_each(|value| values.put(value.clone()));
+    /// The ids of the values that go, and the values that come. Nearly all stay what they were.
+    fn compute(
+        &self,
+        sections: BTreeSet<usize>,
+        results: &Results,
+    ) -> Result<(Vec<&str>, Vec<Value>), contents::Error> {
+        let (mut gone, mut come) = (Vec::new(), Vec::new());
+        for section in sections {
+            let (own, found) = (&self.values[section], SECTIONS[section](results)?);
+            let with_same_ids = own.iter().map(|v| &v.id).eq(found.iter().map(|v| &v.id));
+            if with_same_ids {
+                let others = own.iter().zip(found).filter(|(own, found)| *own != found);
+                others.for_each(|(own, found)| {
+                    gone.push(own.id.as_str());
+                    come.push(found);
+                });
+            } else {
+                gone.extend(own.iter().map(|value| value.id.as_str()));
+                come.extend(found);
+            }
+        }
+        Ok((gone, come))
     }
 
-    fn ids(&self, sections: &BTreeSet<usize>) -> impl Iterator<Item = &String> {
-        sections.iter().flat_map(|section| &self.ids[*section])
+    /// Puts back what stood there before.
+    pub fn restore(values: &mut Registry, changed: &Changed, before: &Registry) {
+        for id in changed {
+            match before.get(id) {
+                Some(value) => values.put(value.clone()),
+                None => values.remove(id),
+            }
+        }
     }
 }
 
@@ -93,17 +114,29 @@ mod tests {
     use crate::params::Profile;
 
     #[test]
-    fn a_section_that_fails_takes_its_values_along_until_they_are_restored() {
+    fn a_section_that_fails_changes_nothing() {
         let mut before = Registry::new();
         before.extend(["a", "b", "c"].map(|id| Value::integer(id, 1))).unwrap();
-        let ids = vec![vec!["a".into(), "b".into()], vec!["c".into()]];
-        let sections = Sections { readers: vec![[1].into(), [0].into()], ids };
+        let values = [&["a", "b"][..], &["c"]]
+            .map(|ids| ids.iter().map(|id| Value::integer(*id, 1)).collect())
+            .to_vec();
+        let sections = Sections { readers: vec![[1].into(), [0].into()], values };
         let mut values = before.clone();
         let nothing = Results::empty(Profile::Quick);
-        let (exchange, outcome) = sections.exchange(&mut values, &nothing, [1].into_iter());
+        let (changed, outcome) = sections.exchange(&mut values, &nothing, [1].into_iter());
         assert!(matches!(outcome, Err(contents::Error::Experiment(_))), "{outcome:?}");
-        assert_eq!(values.iter().map(|value| &value.id).collect::<Vec<_>>(), ["c"]);
-        sections.restore(&mut values, &exchange, &before);
+        assert!(changed.is_empty() && values == before);
+    }
+
+    #[test]
+    fn values_that_changed_are_put_back() {
+        let mut before = Registry::new();
+        before.extend(["a", "b", "c"].map(|id| Value::integer(id, 1))).unwrap();
+        let mut values = before.clone();
+        values.remove("a");
+        values.put(Value::integer("b", 2));
+        values.put(Value::integer("d", 1));
+        Sections::restore(&mut values, &["a", "b", "d"].map(String::from).into(), &before);
         assert_eq!(values, before);
     }
 }

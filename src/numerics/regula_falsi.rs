@@ -1,0 +1,59 @@
+//! A crossing of a function that is dear to evaluate.
+
+/// Most evaluations; a few are enough where the function is smooth.
+const MOST: usize = 100;
+
+/// Where a continuous function crosses zero from below, to about `tolerance`: false position, in which an
+/// end that stays for a second time counts with half its height, so that it does not stay for ever (the Illinois method;
+/// Dowell and Jarratt 1971).
+///
+/// `f` must be negative at `low` and positive at `high`; it is evaluated there too.
+pub fn crossing([low, high]: [f64; 2], tolerance: f64, mut f: impl FnMut(f64) -> f64) -> f64 {
+    let ((mut low, mut below), (mut high, mut above)) = ((low, f(low)), (high, f(high)));
+    let (mut last, mut rose) = (f64::INFINITY, None);
+    for _ in 0..MOST {
+        let middle = (low * above - high * below) / (above - below);
+        if (middle - last).abs() <= tolerance {
+            return middle;
+        }
+        last = middle;
+        let found = f(middle);
+        let again = rose.replace(found < 0.0) == Some(found < 0.0);
+        let other = if again { 0.5 } else { 1.0 };
+        if found < 0.0 {
+            (low, below, above) = (middle, found, other * above);
+        } else {
+            (high, above, below) = (middle, found, other * below);
+        }
+    }
+    last
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn few_evaluations_find_the_root_of_two() {
+        let mut count = 0;
+        let root = crossing([0.0, 100.0], 1e-9, |x| {
+            count += 1;
+            x * x - 2.0
+        });
+        assert!((root - 2.0_f64.sqrt()).abs() < 1e-9, "{root}");
+        assert!(count < 25, "{count}");
+    }
+
+    #[test]
+    fn a_flat_function_and_a_step_end() {
+        // A share that is nothing below and everything above, as at the end of a steep rise.
+        let steep = crossing([-4.0, 1.0], 1e-7, |x| 1.0 / (1.0 + (-40.0 * x).exp()) - 0.5);
+        assert!(steep.abs() < 1e-7, "{steep}");
+        let mut count = 0;
+        let step = crossing([0.0, 1.0], 1e-3, |x| {
+            count += 1;
+            if x < 0.7 { -0.5 } else { 0.5 }
+        });
+        assert!((step - 0.7).abs() < 2e-3 && count <= MOST + 2, "{step} {count}");
+    }
+}
