@@ -116,6 +116,9 @@ fn experiments_that_are_named_are_run_and_joined_alone() {
     assert_eq!((code, files(&folder.join("some"))), (0, joined), "{note}");
     std::fs::write(folder.join("2/strange-quick.json"), "{}").unwrap();
     assert_eq!(run(folder, &format!("{merge} some 1 2 3")).0, 2);
+    let (code, _, note) = run(folder, &format!("{merge} some 1"));
+    assert_eq!(code, 3, "{note}");
+    assert!(note.contains("plan --profile quick --experiment bias,scale --shards N"), "{note}");
     for verb in ["plan", "run --shard 1/1 --out x", "merge 1"] {
         let (code, _, note) =
             run(folder, &format!("{verb} --profile quick --experiment sweep,swoop"));

@@ -1,4 +1,4 @@
-//! What the verbs that take time have in common: threads, Ctrl-C, and errors as exit codes.
+//! What the verbs that take time have in common: experiments by name, threads, Ctrl-C, and errors as exit codes.
 
 use super::Failure;
 use impact_paper::experiments::shards::Plan;
@@ -35,7 +35,8 @@ pub enum AnyProfile {
 /// Which experiments of a profile are meant.
 #[derive(clap::Args)]
 pub struct Only {
-    /// Only these experiments, by the names that `status` shows, with commas between them.
+    /// Only these experiments, by the names that `status` shows, with commas between them. Shards are those of
+    /// the units of these: `plan`, `run` and `merge` must name the same.
     #[arg(long = "experiment", value_name = "NAME", value_delimiter = ',')]
     names: Vec<String>,
 }

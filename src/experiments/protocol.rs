@@ -21,7 +21,7 @@ pub struct ProtocolMap {
     /// One cell for each pair, transients outer, windows inner.
     pub cells: Vec<ProtocolCell>,
     /// The curves of each cell. The long map has them by σ instead.
-    pub curves: Vec<Curves>,
+    pub curves: Vec<CellCurves>,
     /// Realisations whose random start overlaps, or that the engine ended early; they are counted in no
     /// window.
     pub failed: usize,
@@ -46,9 +46,10 @@ pub struct ProtocolCell {
     pub prints_as_published: bool,
 }
 
-/// What rises with σ in one cell, for each σ; none where no run reached the window.
+/// What rises with σ in one cell, for each σ; none where no run reached the window, and where too many starts
+/// overlap for the row to be comparable.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Curves {
+pub struct CellCurves {
     /// The mean count of all realisations.
     pub means: Vec<Option<f64>>,
     /// The share of the realisations that are kept.
@@ -238,7 +239,7 @@ pub(super) fn join(
         };
         rows.iter().map(mean_of).collect()
     };
-    let curves = by_cell.iter().map(|rows: &Vec<Counts>| Curves {
+    let curves = by_cell.iter().map(|rows: &Vec<Counts>| CellCurves {
         means: curve(rows, f64::from),
         kept: curve(rows, |k| f64::from(k.min(1))),
     });

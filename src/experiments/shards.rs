@@ -21,7 +21,9 @@ pub struct Plan {
     profile: Profile,
     /// In the order of the catalogue, and of each experiment.
     pub tasks: Vec<Task>,
-    /// Units of experiments that are not meant: their files are passed over.
+    /// The experiments that are meant; none if all are.
+    only: Vec<String>,
+    /// Units of the others: their files are passed over.
     others: BTreeSet<String>,
 }
 
@@ -56,7 +58,7 @@ impl Plan {
                 Task { experiment, unit, identity, name }
             })
         });
-        Plan { profile, tasks: tasks.collect(), others: BTreeSet::new() }
+        Plan { profile, tasks: tasks.collect(), only: Vec::new(), others: BTreeSet::new() }
     }
 
     /// The same for the experiments of these names alone.
@@ -64,7 +66,7 @@ impl Plan {
         let meant = |task: &Task| names.iter().any(|name| name == task.experiment.need().name());
         let (tasks, others): (Vec<_>, Vec<_>) = self.tasks.into_iter().partition(meant);
         self.others.extend(others.into_iter().map(|task| task.name));
-        Plan { tasks, ..self }
+        Plan { tasks, only: names.to_vec(), ..self }
     }
 
     /// The shard of each unit, from 1: the heaviest unit first, always to the shard with the least
@@ -177,9 +179,13 @@ impl Plan {
             return Err(Error::Units { what: listed(&bad), remedy: remedy.into() });
         }
         if !missing.is_empty() {
+            let only = match self.only.as_slice() {
+                [] => String::new(),
+                names => format!(" --experiment {}", names.join(",")),
+            };
             let remedy = format!(
-                "`impact-paper plan --profile {profile} --shards N --left DIR…` names the shards to \
-                 run again"
+                "`impact-paper plan --profile {profile}{only} --shards N --left DIR…` names the shards \
+                 to run again"
             );
             let what = format!("missing units of work: {}", listed(&missing));
             return Err(Error::Units { what, remedy });

@@ -72,6 +72,9 @@ impl<'a> Maps<'a> {
     }
 }
 
+/// The tops of the rows.
+const TOPS: [i32; 2] = [430, 4680];
+
 /// The top of the legends.
 const LEGEND: i32 = 9000;
 
@@ -79,15 +82,15 @@ const LEGEND: i32 = 9000;
 pub fn draw(maps: Maps<'_>, note: Option<&str>) -> Result<Figure, Error> {
     let sheet = Sheet::new(10_650, note)?;
     let (left, right) = ((1000, 4150), (4900, 8050));
-    for (row, (place, label)) in (0..).zip(ROWS) {
+    // Half of N takes half of the chains, and a twentieth of N a twentieth of them.
+    for (row, ((place, label), seeds)) in ROWS.into_iter().zip(maps.seeds).enumerate() {
+        let top = TOPS[row];
         let panel = |column: usize, (from, to), label: &str| {
-            let top = 430 + 4250 * row;
             let y = Axis::linear(0.07, 0.21, 0.02, 2, label);
-            panel(&sheet, 2 * row as usize + column, Frame::new(from, top, to, top + 3200), y)
+            panel(&sheet, 2 * row + column, Frame::new(from, top, to, top + 3200), y)
         };
         let own = panel(0, left, label)?;
-        // Half of N takes half of the chains, and a twentieth of N a twentieth of them.
-        bounded(&own, maps.seeds[row as usize])?;
+        bounded(&own, seeds)?;
         if row == 0 {
             kept_curves(&own, maps)?;
         }
@@ -99,7 +102,7 @@ pub fn draw(maps: Maps<'_>, note: Option<&str>) -> Result<Figure, Error> {
         .map(|(w, mark, colour)| entry(format!("*W* = {w}"), *mark, *colour))
         .collect();
     entries.push(Entry::line(kept(INK), "mean of the kept"));
-    entries.push(Entry::line(bound(), "seeds in too few chains below"));
+    entries.push(Entry::line(bound(), "bound for the mean of all"));
     sheet.legend((1000, LEGEND), (SMALL, 340), &entries)?;
     let entries: Vec<_> = STARTS
         .iter()

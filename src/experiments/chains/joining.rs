@@ -139,7 +139,7 @@ fn share(chain: &Chain, reach: &Reach, sigma: f64) -> f64 {
     chances.at_least_one(chain.masses, chain.boundary).value
 }
 
-/// The σ at which it is a half, to about 1e-6 of itself, more than the angles know.
+/// The σ at which the share is a half, to about 1e-6 of itself; the sum over angles is less exact.
 fn half(chain: &Chain, reach: &Reach) -> f64 {
     let logarithms = [0.02, 2.0].map(|times: f64| pxfm::f_log(times * chain.spacing));
     let above = |log_sigma| share(chain, reach, pxfm::f_exp(log_sigma)) - 0.5;

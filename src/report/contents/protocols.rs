@@ -3,6 +3,7 @@
 use super::{Error, estimate, from, mark};
 use crate::experiments::Results;
 use crate::experiments::protocol::ProtocolCell;
+use crate::numerics::statistics::Estimate;
 use crate::report::values::Value;
 use serde::Serialize;
 
@@ -17,17 +18,27 @@ pub struct Line {
     kept: Vec<String>,
 }
 
-/// Cells with the number of chains that they are of.
-type Cells<'a> = Vec<(&'a ProtocolCell, usize)>;
+/// Cells of one experiment.
+#[derive(Clone, Copy)]
+struct Own<'a> {
+    cell: &'a ProtocolCell,
+    /// The number of chains.
+    n: usize,
+    /// The item that computed it, and the experiment.
+    source: (&'static str, &'static str),
+}
 
 /// The cells of the paper's chain, with those of its long end, and of the others.
-fn maps(results: &Results) -> Result<Vec<(&str, Cells<'_>)>, Error> {
+fn maps(results: &Results) -> Result<Vec<(&str, Vec<Own<'_>>)>, Error> {
     let (map, long) = (results.protocol()?, results.long_protocol()?);
-    let with = |n: usize| move |cell| (cell, n);
-    let late = long.beyond(map).map(with(long.map.parameters.realisations));
-    let rest = map.cells.iter().map(with(map.parameters.realisations)).chain(late).collect();
+    let of = |source, n| move |cell| Own { cell, n, source };
+    let early = of(("experiments::protocol::run", "protocol"), map.parameters.realisations);
+    let late =
+        of(("experiments::long::CUTTING", "long_protocol"), long.map.parameters.realisations);
+    let rest = map.cells.iter().map(early).chain(long.beyond(map).map(late)).collect();
     let others = results.protocols()?.named().map(|(name, map)| {
-        (name, map.cells.iter().map(with(map.parameters.realisations)).collect())
+        let source = ("experiments::protocols::CUTTING", "protocols");
+        (name, map.cells.iter().map(of(source, map.parameters.realisations)).collect())
     });
     Ok([("rest", rest)].into_iter().chain(others).collect())
 }
@@ -56,28 +67,30 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
             times.iter().map(move |&time| Value::integer(head(letter, time), time as u64))
         })
         .collect();
-    for (name, cells) in maps(results)? {
-        let shown = |(cell, _): &(&ProtocolCell, usize)| {
-            transients.contains(&cell.transient) && windows.contains(&cell.window)
+    let all = maps(results)?;
+    let place = |id: String, own: &Own<'_>, place: Option<Estimate>| {
+        estimate(id, place, own.n).source(own.source.0, own.source.1)
+    };
+    for (name, cells) in &all {
+        let shown = |own: &&Own<'_>| {
+            transients.contains(&own.cell.transient) && windows.contains(&own.cell.window)
         };
-        for (cell, n) in cells.into_iter().filter(shown) {
+        for own in cells.iter().filter(shown) {
+            let cell = own.cell;
             let id = |column: &str| id(column, name, cell.transient, cell.window);
-            values.push(estimate(id("half"), cell.half_height_all, n));
-            values.push(estimate(id("onset"), cell.onset, n));
-            values.push(estimate(id("kept"), cell.kept_half, n));
+            values.push(place(id("half"), own, cell.half_height_all));
+            values.push(place(id("onset"), own, cell.onset));
+            values.push(place(id("kept"), own, cell.kept_half));
         }
     }
     // From rest, in the first window and in the last.
-    let all = maps(results)?;
     let rest = all.first().map_or(&[][..], |(_, cells)| cells);
     let ends = [(transients.first(), windows.first()), (transients.last(), windows.last())];
     for (id, (transient, window)) in ["kept_soon", "kept_late"].into_iter().zip(ends) {
-        let (Some(transient), Some(window)) = (transient, window) else { continue };
-        let own = |(cell, _): &&(&ProtocolCell, usize)| {
-            cell.transient == *transient && cell.window == *window
-        };
-        if let Some((cell, n)) = rest.iter().find(own) {
-            values.push(estimate(format!("protocols.{id}"), cell.kept_half, *n));
+        let (Some(&transient), Some(&window)) = (transient, window) else { continue };
+        let is_it = |own: &&Own<'_>| own.cell.transient == transient && own.cell.window == window;
+        if let Some(own) = rest.iter().find(is_it) {
+            values.push(place(format!("protocols.{id}"), own, own.cell.kept_half));
         }
     }
     let first = results.protocols()?.maps.first().map_or(0, |map| map.parameters.realisations);

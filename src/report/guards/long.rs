@@ -21,6 +21,7 @@ pub const GUARDS: &[Guard] = &[
             "long_onset",
             "long_realisations",
             "long_sigma_count",
+            "protocols.*",
         ],
         find: half_heights,
     },

@@ -146,8 +146,8 @@ fn over_phases(sigma: f64) -> f64 {
     RULE.integrate_panels(0.0, FRAC_PI_2, PANELS, at) / FRAC_PI_2
 }
 
-/// That a gap closes by itself, for each start, Ω² = 2 ω²: on its forced motion if Y₁ > d, which has the
-/// tail of Eq. (22).
+/// The chance that a gap closes by itself after each start, Ω² = 2 ω². On the forced motion it does if
+/// Y₁ > d, with the tail of Eq. (22); of random starts those that overlap count.
 pub fn p_of_start(start: Start, sigma: f64) -> f64 {
     match start {
         Start::Rest => p_rest(sigma),

@@ -12,7 +12,7 @@ pub const GUARDS: &[Guard] = &[
     Guard { name: "maps_on_curves", ids: &["protocols.*"], find: on_curves },
     Guard { name: "maps_fall", ids: &["protocols.*"], find: fall },
     Guard { name: "maps_meet_starts", ids: &["protocols.*"], find: meet_starts },
-    Guard { name: "maps_need_seeds", ids: &["protocols.kept_*"], find: need_seeds },
+    Guard { name: "maps_need_seeds", ids: &["protocols.*"], find: need_seeds },
     Guard {
         name: "heads_of_the_maps",
         ids: &[
@@ -26,10 +26,22 @@ pub const GUARDS: &[Guard] = &[
     },
 ];
 
-/// What the report calls the places of a cell: half height and onset of the mean of all, and where half
-/// of the chains are kept.
-fn places(cell: &ProtocolCell) -> [(&'static str, Option<Estimate>); 3] {
-    [("half", cell.half_height_all), ("onset", cell.onset), ("kept", cell.kept_half)]
+/// A place of a cell, by the name that the report has for it.
+struct Place {
+    column: &'static str,
+    at: Option<Estimate>,
+    /// The share of N that the mean of all has there, or the share of the chains that are kept.
+    level: f64,
+    of_chains: bool,
+}
+
+/// Half height and onset of the mean of all, and where half of the chains are kept.
+fn places(cell: &ProtocolCell) -> [Place; 3] {
+    [
+        Place { column: "half", at: cell.half_height_all, level: 0.5, of_chains: false },
+        Place { column: "onset", at: cell.onset, level: ONSET, of_chains: false },
+        Place { column: "kept", at: cell.kept_half, level: 0.5, of_chains: true },
+    ]
 }
 
 /// All maps, that of the paper's chain first.
@@ -45,25 +57,24 @@ fn on_curves(look: Look<'_>) -> Option<String> {
     let found = maps(look).find_map(|(name, map)| {
         let gaps = map.parameters.chain.gaps() as f64;
         map.cells.iter().find_map(|cell| {
-            let means = map.curve(cell.transient, cell.window)?;
-            let kept = map.kept_curve(cell.transient, cell.window)?;
-            let levels = [
-                (&means, cell.half_height_all, 0.5 * gaps),
-                (&means, cell.onset, ONSET * gaps),
-                (&kept, cell.kept_half, 0.5),
-            ];
-            let mut on_curve = levels.into_iter().filter_map(|(points, place, level)| {
-                let sigma = place?.value;
-                let what = format!(
-                    "the curve of {name}, {} and {} at {sigma}",
-                    cell.transient, cell.window
-                );
+            let (t, w) = (cell.transient, cell.window);
+            let Some((means, kept)) = map.curve(t, w).zip(map.kept_curve(t, w)) else {
+                return Some(format!("{name}: T = {t}, W = {w} has no curves"));
+            };
+            let on_curve = |place: Place| {
+                let sigma = place.at?.value;
+                let what =
+                    format!("the curve of {} of {name}, {t} and {w}, at {sigma}", place.column);
+                let (points, height) = match place.of_chains {
+                    true => (&kept, place.level),
+                    false => (&means, place.level * gaps),
+                };
                 match between(points, sigma) {
-                    Some(found) => far(&what, found, level),
+                    Some(found) => far(&what, found, height),
                     None => Some(format!("{what} is not there")),
                 }
-            });
-            on_curve.next().or_else(|| all_shown(look, name, cell))
+            };
+            places(cell).into_iter().find_map(on_curve).or_else(|| all_shown(look, name, cell))
         })
     });
     // The curves of the long end have a guard of their own.
@@ -75,10 +86,10 @@ fn on_curves(look: Look<'_>) -> Option<String> {
 
 /// Complains if a place of a cell that the report has is another number there.
 fn all_shown(look: Look<'_>, name: &str, cell: &ProtocolCell) -> Option<String> {
-    places(cell).into_iter().find_map(|(column, place)| {
+    places(cell).into_iter().find_map(|place| {
         let (t, w) = (cell.transient as u64, cell.window as u64);
-        let id = format!("protocols.{column}_{name}_t{t}_w{w}");
-        look.number(&id).and_then(|_| look.is(&id, place?.value))
+        let id = format!("protocols.{}_{name}_t{t}_w{w}", place.column);
+        look.number(&id).and_then(|_| look.is(&id, place.at?.value))
     })
 }
 
@@ -90,8 +101,7 @@ fn fall(look: Look<'_>) -> Option<String> {
         let falls = pairs.filter(|(a, b)| a.transient <= b.transient && a.window <= b.window);
         let mut rises = falls.filter_map(|(a, b)| {
             places(a).into_iter().zip(places(b)).find_map(|pair| {
-                let ((_, before), (_, after)) = pair;
-                let (before, after) = before.zip(after)?;
+                let (before, after) = pair.0.at.zip(pair.1.at)?;
                 (after.value > before.value + room(&before, &after)).then_some((a, b))
             })
         });
@@ -119,8 +129,8 @@ fn meet_starts(look: Look<'_>) -> Option<String> {
         let other = starts.variant(name)?.rise;
         let cell = map.cell(protocol.transient, protocol.window)?;
         let others = [other.half_height_all, other.onset, other.kept_half];
-        places(cell).into_iter().zip(others).find_map(|((_, own), other)| {
-            let (own, other) = own.zip(other)?;
+        places(cell).into_iter().zip(others).find_map(|(own, other)| {
+            let (own, other) = own.at.zip(other)?;
             unless((own.value - other.value).abs() <= room(&own, &other), || {
                 format!("{name}: {} in its map, {} by itself", own.value, other.value)
             })
@@ -128,16 +138,17 @@ fn meet_starts(look: Look<'_>) -> Option<String> {
     })
 }
 
-/// No more chains have impacts than have a gap that closes by itself: where half of them do, that has a
-/// chance of a half at least, but for errors.
+/// No more chains have impacts than have a gap that closes by itself, and no mean of all is a larger share of
+/// N than they are of the chains: where it has a height, so large a share has such a gap, but for errors.
 fn need_seeds(look: Look<'_>) -> Option<String> {
     let quantile = claims::level().quantile;
     maps(look).find_map(|(name, map)| {
         let chain = &map.parameters.chain;
         let seeded = |sigma| model::any(model::p_of_start(chain.start, sigma), chain.gaps() as f64);
-        map.cells.iter().filter_map(|cell| cell.kept_half).find_map(|own| {
-            unless(seeded(own.value + quantile * own.error) >= 0.5, || {
-                format!("{name}: half of the chains at {}, where too few have seeds", own.value)
+        map.cells.iter().flat_map(places).find_map(|place| {
+            let own = place.at?;
+            unless(seeded(own.value + quantile * own.error) >= place.level, || {
+                format!("{name}: {} at {}, where too few have seeds", place.column, own.value)
             })
         })
     })
@@ -157,14 +168,19 @@ fn ends(look: Look<'_>) -> Option<String> {
             })
         })
         .or_else(|| {
-            let all = || all.maps.iter().flat_map(|map| &map.cells);
-            let least = |of: fn(&ProtocolCell) -> f64| all().map(of).fold(f64::MAX, f64::min);
-            let most = |of: fn(&ProtocolCell) -> f64| all().map(of).fold(0.0, f64::max);
-            let of = |pick: &dyn Fn(fn(&ProtocolCell) -> f64) -> f64| {
-                let (t, w) = (pick(|cell| cell.transient), pick(|cell| cell.window));
-                look.number(&format!("protocols.kept_rest_t{t}_w{w}"))
+            let (map, long) =
+                (look.results.protocol.as_ref()?, look.results.long_protocol.as_ref()?);
+            let cells = || map.cells.iter().chain(long.beyond(map));
+            let end = |pick: fn(&ProtocolCell) -> f64, further: fn(f64, f64) -> f64| {
+                all.maps.iter().flat_map(|map| map.cells.iter().map(pick)).reduce(further)
             };
-            let late = || look.is("protocols.kept_late", of(&most)?);
-            look.is("protocols.kept_soon", of(&least)?).or_else(late)
+            let is = |id: &str, further: fn(f64, f64) -> f64| {
+                let transient = end(|cell| cell.transient, further)?;
+                let window = end(|cell| cell.window, further)?;
+                let own =
+                    |cell: &&ProtocolCell| cell.transient == transient && cell.window == window;
+                look.is(id, cells().find(own)?.kept_half?.value)
+            };
+            is("protocols.kept_soon", f64::min).or_else(|| is("protocols.kept_late", f64::max))
         })
 }

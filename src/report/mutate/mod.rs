@@ -160,7 +160,7 @@ struct Spare {
 struct Wrongly<'a> {
     subject: Subject<'a>,
     values: &'a mut Registry,
-    /// Ids of the values that are others than they were.
+    /// Ids of the values that changed.
     changed: &'a Changed,
     /// Whether there is a report.
     outcome: Result<(), contents::Error>,

@@ -1,7 +1,6 @@
 //! The results in parts, each of which can be read and written as JSON.
 
 use crate::digest::sha256;
-
 use crate::experiments::{Looked, Results, laws};
 use rayon::prelude::*;
 use serde::Serialize;

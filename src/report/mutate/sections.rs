@@ -19,7 +19,7 @@ pub struct Sections {
     values: Vec<Vec<Value>>,
 }
 
-/// The ids of the values that are others, are new or are gone.
+/// The ids of the values that differ, are new or are gone.
 pub type Changed = BTreeSet<String>;
 
 impl Sections {
@@ -52,7 +52,7 @@ impl Sections {
     /// its place.
     ///
     /// # Errors
-    /// As [`contents::registry`], beside what was put there before.
+    /// As [`contents::registry`], beside what changed until then.
     pub fn exchange(
         &self,
         values: &mut Registry,
@@ -126,6 +126,39 @@ mod tests {
         let (changed, outcome) = sections.exchange(&mut values, &nothing, [1].into_iter());
         assert!(matches!(outcome, Err(contents::Error::Experiment(_))), "{outcome:?}");
         assert!(changed.is_empty() && values == before);
+    }
+
+    /// A section of the theory, which needs no experiment, was other than it is.
+    #[test]
+    fn what_changed_is_exchanged_and_nothing_else() {
+        let results = Results::empty(Profile::Quick);
+        let section = (0..SECTIONS.len())
+            .find(|section| SECTIONS[*section](&results).is_ok_and(|values| values.len() > 2))
+            .unwrap();
+        let now = SECTIONS[section](&results).unwrap();
+        let mut own = now.clone();
+        own[1].note = "other".into();
+        let mut gone = now.clone();
+        gone[0].id = "gone".into();
+        let other = [now[1].id.clone()].into();
+        let all = now.iter().chain(&gone).map(|value| value.id.clone()).collect();
+        for (before, expected) in [(own, other), (gone, all)] {
+            let mut values = vec![Vec::new(); SECTIONS.len()];
+            values[section].clone_from(&before);
+            let sections = Sections { readers: vec![[section].into()], values };
+            let registry = |values: &[Value]| {
+                let mut registry = Registry::new();
+                registry.extend(values.iter().cloned()).unwrap();
+                registry
+            };
+            let (was, is) = (registry(&before), registry(&now));
+            let mut found = was.clone();
+            let (changed, outcome) = sections.exchange(&mut found, &results, [0].into_iter());
+            assert!(outcome.is_ok() && found == is, "{outcome:?}");
+            assert_eq!(changed, expected);
+            Sections::restore(&mut found, &changed, &was);
+            assert_eq!(found, was);
+        }
     }
 
     #[test]

@@ -112,15 +112,12 @@ fn row(scenario: &Scenario, reference: &Value, until: f64, tolerance: f64) -> Re
     let n = scenario.forcing.len();
     let rest = vec![0.0; 2 * n];
     let (mut impacts, mut best, mut spent) = (Vec::new(), f64::INFINITY, 0.0);
-    for _ in 0..20 {
+    while spent <= ENOUGH {
         let began = Instant::now();
         impacts = run(scenario, tolerance, 0.0, &rest, until, false)?;
         let took = began.elapsed().as_secs_f64();
         best = best.min(took);
         spent += took;
-        if spent > ENOUGH {
-            break;
-        }
     }
     let right = |own: Option<&(f64, usize)>, t: f64, gap: u64| {
         own.is_some_and(|own| own.1 as u64 == gap && (own.0 - t).abs() <= CLOSE)
