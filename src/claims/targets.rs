@@ -204,7 +204,7 @@ fn segments(race: &Race) -> Vec<Target> {
     let missed = ("misses", "impacts missed from exact states");
     let waiting = (
         "waiting",
-        "largest error of a waiting time, in units of $\\epsilon (d + R_1 + R_2)/\\lvert\\dot\\Delta\\rvert$",
+        "largest error of a waiting time, in units of ε (d + R₁ + R₂) over the closing speed",
     );
     vec![at_most(missed, (0.0, ""), misses, false), at_most(waiting, (UNITS, ""), units, false)]
 }
@@ -237,8 +237,8 @@ pub(crate) fn distribution_error(analytic: &Analytic, way: Way) -> Option<f64> {
 fn digits(analytic: &Analytic) -> Vec<Target> {
     let relation = relation_error(analytic, Route::ClosedForm);
     let products = distribution_error(analytic, Way::Products);
-    let first = ("relation", "largest relative error of $p(\\sigma)$, [@eq:25]");
-    let second = ("distribution", "largest relative error of $P(X = k)$ and $\\mu$, [@eq:9]");
+    let first = ("relation", "largest relative error of p(σ), Eq. (25)");
+    let second = ("distribution", "largest relative error of P(X = k) and μ, Eq. (9)");
     vec![
         at_most(first, (DIGITS, ""), relation, false),
         at_most(second, (DIGITS, ""), products, false),

@@ -167,8 +167,8 @@ fn description(heat: &Heat) -> String {
          the friction of frequent impacts. Masses that are hit: {}. \
          (b) The same against the restitution r at one σ, on a logarithmic axis, below a curve that rises \
          without bound towards r = 1, with friction much less: {}. (c) The probability p against σ on a logarithmic axis: rising \
-         curves, lowest Eq. (25), then the start from rest, highest the balanced variance; the measured \
-         points go from the second to the third: {}.",
+         curves, at the rise lowest Eq. (25), then the start from rest, highest the balanced variance; the \
+         measured points go from the second to the third: {}.",
         rising.join(", "),
         others.join(", "),
         p.join(", ")

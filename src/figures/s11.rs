@@ -242,7 +242,7 @@ fn description(seeds: &Seeds, sweep: &Sweep, map: &ProtocolMap) -> String {
         .collect();
     format!(
         "(a) Mean count of all chains against σ: simulated points rise along the curve that nucleation and \
-         growth predict, {}; the curves of the graph theory rise steeply, one on each side of it. (b) Mean advance of \
+         growth predict, {}; the curves of the graph theory rise steeply, at half height one on each side of it. (b) Mean advance of \
          a front against time, on logarithmic axes: curves that rise more slowly than a constant speed would, \
          the more so the smaller σ, to {}. (c) Half height against the transient, a falling curve with \
          simulated points near it: {}. (d) Share of waits of a front that are longer than a time, \

@@ -40,11 +40,13 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
     for (letter, place) in ["a", "b"].into_iter().zip([0, parameters.transients.len() - 1]) {
         let half = history.half_heights.get(place).copied().flatten();
         let transient = parameters.transients[place];
-        let cell = map.cell(transient, parameters.window).and_then(|cell| cell.half_height);
+        // Of the mean of all, as the other: that of the kept knows no bound.
+        let cell = map.cell(transient, parameters.window).and_then(|cell| cell.half_height_all);
         values.push(Value::integer(format!("history_transient_{letter}"), transient as u64));
         values.push(estimate(format!("history_half_{letter}"), half, n));
         let rest = format!("history_rest_{letter}");
-        values.push(estimate(rest, cell, map.parameters.realisations));
+        let rest = estimate(rest, cell, map.parameters.realisations);
+        values.push(rest.source("experiments::protocol::run", "protocol"));
     }
     for row in &history.rows {
         values.push(chosen(&id(row, "sigma"), row.sigma));

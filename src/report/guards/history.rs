@@ -80,7 +80,7 @@ fn halves(look: Look<'_>) -> Option<String> {
         let rest = || {
             let map = look.results.protocol.as_ref()?;
             let cell = map.cell(transients[i], history.parameters.window)?;
-            look.is(&format!("history_rest_{letter}"), cell.half_height?.value)
+            look.is(&format!("history_rest_{letter}"), cell.half_height_all?.value)
         };
         look.is(&format!("history_half_{letter}"), history.half_heights[i]?.value).or_else(rest)
     };
