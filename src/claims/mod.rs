@@ -7,6 +7,7 @@
 //! Each verdict is a function of numbers, and can fail: a number leaves its tolerance, or a
 //! difference that we explain no longer has the size that the explanation predicts.
 
+mod basis;
 mod ledger;
 mod level;
 mod published;
@@ -19,11 +20,13 @@ pub(crate) mod sec5;
 pub(crate) mod sec6;
 mod sec7;
 pub(crate) mod sec8;
+pub(crate) mod sec8_chains;
 pub(crate) mod sec9;
 pub mod targets;
 mod text;
 mod verdict;
 
+pub use basis::{Basis, split};
 pub use ledger::{all, level, needs, one, rows, scorecard};
 pub use level::{FAMILY_LEVEL, Level};
 pub use published::{Parameter, Published, PublishedError, Statement};
@@ -50,6 +53,8 @@ pub struct Claim {
     pub tolerance: Text,
     /// Why the tolerance has this size.
     pub reason: String,
+    /// What the verdict rests on.
+    pub basis: Basis,
     /// The verdict.
     pub verdict: Verdict,
     /// What explains a difference, or what should be known besides.

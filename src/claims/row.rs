@@ -1,6 +1,6 @@
 //! How a row of the ledger is made: evidence in, finding out.
 
-use super::{Claim, Judgement, Level, Published, PublishedError, Statement, Text};
+use super::{Basis, Claim, Judgement, Level, Published, PublishedError, Statement, Text};
 use crate::experiments::{self, Need, Results};
 
 /// What a claim may look at.
@@ -44,38 +44,36 @@ pub enum Error {
 pub struct Row {
     /// Id of the statement that it judges.
     pub id: &'static str,
+    /// What its verdict rests on.
+    pub basis: Basis,
     /// Whether it compares random numbers within their standard errors.
     pub statistical: bool,
     /// The experiments that it needs, the theory apart.
     pub needs: &'static [Need],
     /// Computes the finding.
-    pub find: fn(&Evidence, &Statement) -> Result<Finding, Error>,
+    pub find: Find,
 }
 
-/// A claim about the theory: exact, and without a run.
-pub const fn exact(
-    id: &'static str,
-    find: fn(&Evidence, &Statement) -> Result<Finding, Error>,
-) -> Row {
-    Row { id, statistical: false, needs: &[], find }
+type Find = fn(&Evidence, &Statement) -> Result<Finding, Error>;
+
+/// A claim about the theory, without a run.
+pub const fn theory(id: &'static str, basis: Basis, find: Find) -> Row {
+    Row { id, basis, statistical: false, needs: &[], find }
 }
 
 /// A claim about runs that compares no errors.
-pub const fn measured(
-    id: &'static str,
-    needs: &'static [Need],
-    find: fn(&Evidence, &Statement) -> Result<Finding, Error>,
-) -> Row {
-    Row { id, statistical: false, needs, find }
+pub const fn measured(id: &'static str, basis: Basis, needs: &'static [Need], find: Find) -> Row {
+    Row { id, basis, statistical: false, needs, find }
 }
 
-/// A claim about runs whose tolerance is a number of standard errors.
+/// A claim about runs whose tolerance has room for standard errors.
 pub const fn statistical(
     id: &'static str,
+    basis: Basis,
     needs: &'static [Need],
-    find: fn(&Evidence, &Statement) -> Result<Finding, Error>,
+    find: Find,
 ) -> Row {
-    Row { id, statistical: true, needs, find }
+    Row { id, basis, statistical: true, needs, find }
 }
 
 impl Row {
@@ -94,6 +92,7 @@ impl Row {
             ours: finding.ours,
             tolerance: finding.tolerance,
             reason: finding.reason.into(),
+            basis: self.basis,
             verdict: finding.judgement.verdict(),
             note: finding.note,
         })

@@ -1,6 +1,7 @@
 //! Section 10: conclusions.
 
-use super::row::{Error, Evidence, Finding, Row, exact, measured, open};
+use super::Basis::OwnThreshold;
+use super::row::{Error, Evidence, Finding, Row, measured, open};
 use super::sec8::{LARGE_SIGMA, at};
 use super::{Judgement, Statement, Text};
 use crate::experiments::Need;
@@ -8,30 +9,7 @@ use crate::experiments::sweep::Sweep;
 use crate::experiments::theory::{Curve, CurveRow};
 
 /// The rows of this section.
-pub const ROWS: &[Row] = &[
-    exact("sec10_expected_jump", expected_jump),
-    measured("sec10_improves", &[Need::Sweep], improves),
-];
-
-fn expected_jump(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let id = &e.results.identities;
-    let (variance, difference) = (id.mean_slope_by_variance, id.mean_slope_by_difference);
-    Ok(Finding {
-        ours: Text::words("dμ/dp = ").significant(difference, 4).say(" at p_jump"),
-        tolerance: Text::words("no finite slope"),
-        reason: "a jump has none",
-        judgement: Judgement::Explained {
-            agrees: !difference.is_finite(),
-            holds: (difference / variance - 1.0).abs() < 1e-6,
-        },
-        note: Text::words(
-            "Only the mode jumps. For weights in proportion to p^k the slope of the mean is the \
-             variance over p, ",
-        )
-        .significant(variance, 4)
-        .say(" there, and finite for every finite N."),
-    })
-}
+pub const ROWS: &[Row] = &[measured("sec10_improves", OwnThreshold, &[Need::Sweep], improves)];
 
 /// Root mean square distance of a theory curve from the simulated means, from the first row with
 /// kept realisations up to where σ is large.

@@ -3,10 +3,10 @@
 use super::row::{Error, Evidence, Finding, open};
 use super::sec2::LAST_DIGIT;
 use super::{Judgement, Statement, Text};
-use crate::params::{NEAR_SIMULTANEOUS, SLOW};
+use crate::params::{ChainKind, NEAR_SIMULTANEOUS, SLOW};
 
 /// Share of impacts that may be called negligible (ours).
-const NEGLIGIBLE: f64 = 1e-3;
+pub(super) const NEGLIGIBLE: f64 = 1e-3;
 
 pub(super) fn three_way(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
     let totals = &e.results.laws()?.totals;
@@ -34,7 +34,7 @@ pub(super) fn three_way(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
         judgement: Judgement::Plain {
             agrees: share <= NEGLIGIBLE && -room <= excess && excess <= room + passed_on,
         },
-        note: Text::words("The share within δ falls in proportion to δ; the law lets expect ")
+        note: Text::words("The share within δ falls in proportion to δ; the fitted law predicts ")
             .significant(expected, 2)
             .say(" such impacts, and none at δ = 0."),
     })
@@ -113,4 +113,30 @@ pub(super) fn walls_like_masses(e: &Evidence, _: &Statement) -> Result<Finding, 
         },
         note: Text::words("A ring has N = n gaps, a chain between walls N = n + 1."),
     })
+}
+
+/// The threshold of percolation sharpens with size. The paper names the likeness and no quantity.
+pub(super) fn percolation(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
+    let chains = e.results.chains()?;
+    let widths = chains.of(ChainKind::Length).filter_map(|(own, found)| {
+        let width = own.transients.iter().zip(&found.widths).next()?.1.as_ref()?;
+        Some((own.masses, *width))
+    });
+    let widths: Vec<_> = widths.filter(|(masses, _)| *masses >= 100).collect();
+    let ours = match (widths.first(), widths.last()) {
+        (Some((n, own)), Some((most, long))) if most > n => Text::words("width of the rise ")
+            .with_error(own.value, own.error)
+            .say(" for n = ")
+            .integer(*n)
+            .say(", ")
+            .with_error(long.value, long.error)
+            .say(" for n = ")
+            .integer(*most),
+        _ => Text::words("chains of one length only"),
+    };
+    Ok(open(
+        ours,
+        "A likeness in words, of which no number follows. The threshold of percolation becomes sharp in \
+         a large system; this rise, after the same transient, does not.",
+    ))
 }

@@ -1,13 +1,17 @@
-//! Section 3: the graph.
+//! Sections 3 and 4: the graph, and what its circuits stand for.
 
-use super::row::{Error, Evidence, Finding, Row, all_cases, exact};
+use super::Basis::{Exact, OwnThreshold};
+use super::row::{Error, Evidence, Finding, Row, all_cases, open, statistical, theory};
+use super::sec2::{gaps, small};
 use super::{Judgement, Statement, Text};
+use crate::experiments::Need;
 
 /// The rows of this section.
 pub const ROWS: &[Row] = &[
-    exact("sec3_impact_types", impact_types),
-    exact("sec3_vertices", |e, s| size(e.results.identities.graph_vertices, s)),
-    exact("sec3_edges", |e, s| size(e.results.identities.graph_edges, s)),
+    theory("sec3_impact_types", Exact, impact_types),
+    theory("sec3_vertices", Exact, |e, s| size(e.results.identities.graph_vertices, s)),
+    theory("sec3_edges", Exact, |e, s| size(e.results.identities.graph_edges, s)),
+    statistical("sec4_few_and_many", OwnThreshold, &[Need::Sweep], few_and_many),
 ];
 
 fn impact_types(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
@@ -22,5 +26,35 @@ fn size(found: usize, s: &Statement) -> Result<Finding, Error> {
         reason: "an integer is exact",
         judgement: Judgement::Plain { agrees: found as f64 == s.number()? },
         note: Text::default(),
+    })
+}
+
+/// Different impacts of a chain in the window, as Sec. 6 counts them.
+fn few_and_many(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
+    let sweep = e.results.sweep()?;
+    let mean = |row: &crate::experiments::sweep::SweepRow| {
+        Some((row.sigma, row.mean_distinct?, row.standard_error?))
+    };
+    let (Some((low, few, error)), Some((high, many, many_error))) =
+        (small(e)?.and_then(mean), sweep.rows.last().and_then(mean))
+    else {
+        return Ok(open(Text::words("too few kept realisations"), "A row has no error."));
+    };
+    let quarter = gaps(sweep) / 4.0;
+    Ok(Finding {
+        ours: Text::with_error(Text::default(), few, error)
+            .say(" different impacts at σ = ")
+            .chosen(low)
+            .say(", ")
+            .with_error(many, many_error)
+            .say(" at ")
+            .chosen(high),
+        tolerance: Text::words("below a quarter, and above three quarters, of all gaps"),
+        reason: "ours: “few” and “many” as the quarters by which the rise is judged in Section 2; and \
+                 the statistical error",
+        judgement: Judgement::Plain {
+            agrees: few <= quarter + e.level.quantile * error && many >= 3.0 * quarter,
+        },
+        note: Text::words("Means of the kept. That the orbits are periodic is an assumption."),
     })
 }

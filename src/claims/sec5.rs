@@ -1,6 +1,7 @@
 //! Section 5: counting orbits.
 
-use super::row::{Error, Evidence, Finding, Row, all_cases, exact, measured};
+use super::Basis::{Exact, OwnThreshold};
+use super::row::{Error, Evidence, Finding, Row, all_cases, measured, theory};
 use super::{Judgement, Statement, Text};
 use crate::experiments::Need;
 use crate::experiments::segments::Segment;
@@ -8,13 +9,13 @@ use std::collections::BTreeSet;
 
 /// The rows of this section.
 pub const ROWS: &[Row] = &[
-    measured("sec5_fig5", &[Need::Segments], |e, s| motion(&e.results.segments()?.fig05, s)),
-    measured("sec5_fig6", &[Need::Segments], |e, s| motion(&e.results.segments()?.fig06, s)),
-    measured("sec5_masses_of_circuit", &[Need::Segments], masses_of_circuit),
-    exact("sec5_eq6", |e, _| cases(e.results.identities.eq6)),
-    exact("sec5_eq7", |e, _| cases(e.results.identities.eq7)),
-    exact("sec5_eq8", eq8),
-    exact("sec5_majority", majority),
+    measured("sec5_fig5", Exact, &[Need::Segments], |e, s| motion(&e.results.segments()?.fig05, s)),
+    measured("sec5_fig6", Exact, &[Need::Segments], |e, s| motion(&e.results.segments()?.fig06, s)),
+    measured("sec5_masses_of_circuit", Exact, &[Need::Segments], masses_of_circuit),
+    theory("sec5_eq6", Exact, |e, _| cases(e.results.identities.eq6)),
+    theory("sec5_eq7", Exact, |e, _| cases(e.results.identities.eq7)),
+    theory("sec5_eq8", OwnThreshold, eq8),
+    theory("sec5_majority", OwnThreshold, majority),
 ];
 
 const ENUMERATION: &str = "Formula against enumeration on graphs of one to six vertices.";
@@ -112,7 +113,7 @@ fn majority(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
             .say(" of all within three of N; the peak at k = ")
             .integer(slips.longest_peak),
         tolerance: Text::words("more than half"),
-        reason: "a majority",
+        reason: "ours: “about N” as within three of it; “majority” as more than half",
         judgement: Judgement::Plain { agrees: slips.share_near_end > 0.5 },
         note: Text::default(),
     })

@@ -1,34 +1,43 @@
 //! Section 7: the discontinuity of the most likely number.
 
-use super::row::{Error, Evidence, Finding, Row, all_cases, exact, rounding};
+use super::Basis::{Exact, OwnThreshold, Rounding};
+use super::row::{Error, Evidence, Finding, Row, all_cases, rounding, theory};
 use super::{Judgement, Statement, Text};
 
 /// The rows of this section.
 pub const ROWS: &[Row] = &[
-    exact("sec7_eq11", |e, _| {
+    theory("sec7_eq11", Exact, |e, _| {
         let cases = e.results.identities.eq11;
         Ok(all_cases(cases.compared, cases.failed, "Every k at ten values of p."))
     }),
-    exact("sec7_eq13", |e, _| {
+    theory("sec7_eq13", Rounding, |e, _| {
         Ok(rounding(e.results.identities.eq13, 1e-13, "f at its zeros, over its largest term."))
     }),
-    exact("sec7_eq14_15", |e, _| {
+    theory("sec7_eq14_15", Rounding, |e, _| {
         Ok(rounding(e.results.identities.eq14_15, 1e-13, "At ten values of p."))
     }),
-    exact("sec7_eq16_17", |e, _| {
+    theory("sec7_eq16_17", Exact, |e, _| {
         let cases = e.results.identities.eq16_17;
         Ok(all_cases(cases.compared, cases.failed, "Sign and slope at every k."))
     }),
-    exact("sec7_start", start),
-    exact("sec7_phi_at_zero", phi_at_zero),
-    exact("sec7_p_crit", p_crit),
-    exact("sec7_still_one", still_one),
-    exact("sec7_jump", jump),
-    exact("sec7_monotone", |e, _| {
+    theory("sec7_start", Exact, start),
+    theory("sec7_maximum", Rounding, |e, _| {
+        Ok(rounding(e.results.identities.f_maximum, 1e-13, "f is even about that place."))
+    }),
+    theory("sec7_p_crit", Rounding, p_crit),
+    theory("sec7_other_root", Exact, |e, _| {
+        let cases = e.results.identities.other_root;
+        Ok(all_cases(cases.compared, cases.failed, "Every N up to the number of cases."))
+    }),
+    theory("sec7_inflexion", Rounding, inflexion),
+    theory("sec7_extrema", Exact, extrema),
+    theory("sec7_still_one", Exact, still_one),
+    theory("sec7_jump", OwnThreshold, jump),
+    theory("sec7_monotone", Exact, |e, _| {
         let cases = e.results.identities.monotone;
         Ok(all_cases(cases.compared, cases.failed, "On a grid of p from the jump to one."))
     }),
-    exact("sec7_limit", limit),
+    theory("sec7_limit", Exact, limit),
 ];
 
 const INTEGER: &str = "an integer is exact";
@@ -44,27 +53,48 @@ fn start(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
     })
 }
 
-fn phi_at_zero(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let at_zero = e.results.identities.falling_at_zero;
-    let above = e.results.identities.falling_below_crit;
+/// As differences have it: Φ(k + 1) − Φ(k), continued to all k, touches zero and does not change sign.
+fn inflexion(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
+    let id = &e.results.identities;
+    let falling = id.falling_below_crit;
+    let allowed = 1e-13;
     Ok(Finding {
-        ours: Text::words("at ")
-            .integer((at_zero.compared - at_zero.failed) as usize)
+        ours: Text::words("f is −p (k − k₀)² with k₀ = ")
+            .significant(id.k_touch, 4)
+            .say(", within ")
+            .significant(id.inflexion, 1)
+            .say("; Φ falls at ")
+            .integer((falling.compared - falling.failed) as usize)
             .say(" of ")
-            .integer(at_zero.compared as usize)
-            .say(" steps"),
-        tolerance: Text::words("none"),
-        reason: INTEGER,
-        judgement: Judgement::Explained {
-            agrees: at_zero.failed == 0,
-            holds: at_zero.failed == at_zero.compared && above.failed == 0 && above.compared > 0,
+            .integer(falling.compared as usize)
+            .say(" steps up to p_crit"),
+        tolerance: Text::default().significant(allowed, 1).say(" relative, and all steps"),
+        reason: "rounding; integers are exact",
+        judgement: Judgement::Plain {
+            agrees: id.inflexion <= allowed && falling.failed == 0 && falling.compared > 0,
         },
         note: Text::words(
-            "Each Φ has a factor p^k and vanishes at p = 0. The statement holds for every p \
-             between 0 and p_crit: ",
+            "The flat place lies between two integers, so on the integers Φ is not stationary.",
+        ),
+    })
+}
+
+fn extrema(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
+    let cases = e.results.identities.extrema;
+    let first = e.results.theory.slips.first_local_maximum.p;
+    let Finding { ours, tolerance, reason, judgement, .. } =
+        all_cases(cases.compared, cases.failed, "");
+    Ok(Finding {
+        ours,
+        tolerance,
+        reason,
+        judgement,
+        note: Text::words(
+            "Neighbours of ⌈k₋⌉ and ⌈k₊⌉, since f is a forward difference. The first local maximum on the \
+             integers appears at p = ",
         )
-        .integer(above.compared as usize)
-        .say(" steps on a grid all fall."),
+        .significant(first, 8)
+        .say(", a little above p_crit."),
     })
 }
 

@@ -20,6 +20,8 @@ const LOOK_EVERY: u64 = 4096;
 pub struct Observed {
     /// Distinct gaps that impact in the window (T, T + W].
     pub distinct: u32,
+    /// Masses that are hit in the window.
+    pub masses: u32,
     /// Impacts in the window.
     pub window_impacts: u64,
     /// All impacts, transient included.
@@ -107,9 +109,18 @@ impl Watch {
 
     fn end(mut self, engine: &Engine) -> Observed {
         self.observed.distinct = self.hit.iter().map(|&hit| u32::from(hit)).sum();
+        self.observed.masses = masses_hit(&self.hit, self.ring);
         self.observed.contact_phases = engine.counters().contact_phases;
         self.observed
     }
+}
+
+/// Masses with an impact on one side or both: mass j lies between gaps j − 1 and j, and on a ring the
+/// last one between the last gap and the first.
+fn masses_hit(hit: &[bool], ring: bool) -> u32 {
+    let last = ring && hit.first().zip(hit.last()).is_some_and(|(first, last)| *first || *last);
+    let inner = hit.windows(2).map(|sides| u32::from(sides[0] || sides[1])).sum::<u32>();
+    inner + u32::from(last)
 }
 
 /// Runs realisation `index` of a chain at σ = `sigma` and observes it.
@@ -166,6 +177,22 @@ mod tests {
         let watch = watch_all(4, false, 1.0, &impacts);
         assert_eq!(watch.hit, [false, true, false, false]);
         assert_eq!((watch.observed.impacts, watch.observed.window_impacts), (3, 2));
+    }
+
+    /// Gaps 0 and 4 of a row of four masses are at its walls. On a ring of five the masses at both
+    /// ends of gap 0 (or 5) are the last and the first.
+    #[test]
+    fn masses_between_gaps_by_hand() {
+        for (hit, row, ring) in [
+            ([true, false, false, false, false], 1, 2),
+            ([true, true, false, false, false], 2, 3),
+            ([true, false, false, false, true], 2, 3),
+            ([false, true, false, true, false], 4, 4),
+            ([true; 5], 4, 5),
+            ([false; 5], 0, 0),
+        ] {
+            assert_eq!((masses_hit(&hit, false), masses_hit(&hit, true)), (row, ring), "{hit:?}");
+        }
     }
 
     #[test]

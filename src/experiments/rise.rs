@@ -30,6 +30,8 @@ pub struct Rise {
     pub nine_tenths: Option<Estimate>,
     /// Width of the rise: from a tenth to nine tenths.
     pub width: Option<Estimate>,
+    /// The mean of the kept from N/4 to 3N/4: it is never as low as a tenth where any are kept.
+    pub kept_width: Option<Estimate>,
 }
 
 /// Bootstrap intervals of one row.
@@ -49,7 +51,7 @@ struct Curves {
     mean_all: Vec<Option<f64>>,
     mode: Vec<Option<usize>>,
     /// The places of [`Rise`], in its order.
-    places: [Option<f64>; 7],
+    places: [Option<f64>; 8],
 }
 
 impl Curves {
@@ -59,7 +61,7 @@ impl Curves {
             mean_kept: Vec::with_capacity(sigmas.len()),
             mean_all: Vec::with_capacity(sigmas.len()),
             mode: Vec::with_capacity(sigmas.len()),
-            places: [None; 7],
+            places: [None; 8],
         };
         let ratio = |sum: u64, of: u64| (of > 0).then(|| sum as f64 / of as f64);
         let mut histogram = vec![0; gaps + 1];
@@ -81,15 +83,18 @@ impl Curves {
         }
         let height = gaps as f64;
         let all = |share: f64| last_rise(sigmas, &curves.mean_all, share * height);
+        let kept = |share: f64| last_rise(sigmas, &curves.mean_kept, share * height);
         let (tenth, nine_tenths) = (all(0.1), all(0.9));
+        let between = |low: Option<f64>, high: Option<f64>| Some(high? - low?);
         curves.places = [
-            last_rise(sigmas, &curves.mean_kept, 0.5 * height),
+            kept(0.5),
             all(0.5),
             all(ONSET),
             last_rise(sigmas, &kept_share, 0.5),
             tenth,
             nine_tenths,
-            tenth.zip(nine_tenths).map(|(low, high)| high - low),
+            between(tenth, nine_tenths),
+            between(kept(0.25), kept(0.75)),
         ];
         curves
     }
@@ -111,7 +116,7 @@ pub fn find(
             Curves::new(sigmas, counts, gaps, &bootstrap::weights(seed, index, realisations))
         })
         .collect();
-    let mut places = (0..7).map(|i| {
+    let mut places = (0..8).map(|i| {
         let of_resamples: Vec<_> = resampled.iter().map(|curves| curves.places[i]).collect();
         bootstrap::estimate(whole.places[i], &of_resamples, LEVEL)
     });
@@ -124,6 +129,7 @@ pub fn find(
         tenth: next(),
         nine_tenths: next(),
         width: next(),
+        kept_width: next(),
     };
     let interval = |value, pick: &dyn Fn(&Curves) -> Option<f64>| {
         let of_resamples: Vec<_> = resampled.iter().map(pick).collect();
@@ -176,6 +182,7 @@ mod tests {
             0.2 + 0.1 / 6.0, // 1 between 0.5 and 3.5
             0.4 + 0.1 * 0.6, // 9 between 7.5 and 10
             0.46 - 0.2 - 0.1 / 6.0,
+            0.3 + 0.1 - 0.2 - 0.1 * 0.5 / (14.0 / 3.0 - 2.0),
         ];
         for (place, expected) in curves.places.iter().zip(expected) {
             assert!((place.unwrap() - expected).abs() < 1e-15, "{place:?} {expected}");

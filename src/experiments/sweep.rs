@@ -62,6 +62,10 @@ pub struct SweepRow {
     pub mode_interval: Option<[usize; 2]>,
     /// 5, 25, 50, 75 and 95 % quantiles of the kept.
     pub quantiles: Option<[usize; 5]>,
+    /// Impacts in the window: mean of the kept, and its standard error.
+    pub impacts_in_window: Option<[f64; 2]>,
+    /// Masses hit in the window: mean of the kept, and its standard error.
+    pub masses_hit: Option<[f64; 2]>,
     /// Impacts per unit time and kept realisation, in the window.
     pub impacts_per_time: Option<f64>,
     /// All impacts simulated, transient and failed realisations included.
@@ -208,7 +212,8 @@ fn tally(
 
 /// Reduces the tally of one σ.
 fn reduce(parameters: &SweepParams, sigma: f64, tally: Tally) -> Sample {
-    let Tally { distinct, kept_impacts, rejected, failed, first_failure, total } = tally;
+    let Tally { distinct, kept_impacts, kept_masses, rejected, failed, first_failure, total } =
+        tally;
     let mut counts = vec![0; parameters.chain.gaps() + 1];
     distinct.iter().flatten().for_each(|&k| counts[k as usize] += 1);
     let ran: Vec<f64> = distinct.iter().flatten().map(|&k| f64::from(k)).collect();
@@ -237,7 +242,10 @@ fn reduce(parameters: &SweepParams, sigma: f64, tally: Tally) -> Sample {
             [Some(a), Some(b), Some(c), Some(d), Some(e)] => Some([a, b, c, d, e]),
             _ => None,
         },
-        impacts_per_time: (time > 0.0).then(|| kept_impacts as f64 / time),
+        // Realisations without impact add nothing to either sum.
+        impacts_in_window: stat::mean_of_sums(kept.len(), kept_impacts),
+        masses_hit: stat::mean_of_sums(kept.len(), kept_masses),
+        impacts_per_time: (time > 0.0).then(|| kept_impacts[0] as f64 / time),
         impacts: total.impacts,
         near_simultaneous: total.near[NEAR_DECADES.len() - 1],
         slow: total.slow[SLOW_DECADES.len() - 1],
@@ -259,7 +267,14 @@ mod tests {
 
     fn counted(distinct: u32, window_impacts: u64) -> Outcome {
         let impacts = 2 * window_impacts;
-        Outcome::Counted(Observed { distinct, window_impacts, impacts, ..Observed::default() })
+        let masses = distinct.saturating_sub(1);
+        Outcome::Counted(Observed {
+            distinct,
+            masses,
+            window_impacts,
+            impacts,
+            ..Observed::default()
+        })
     }
 
     #[test]
@@ -284,6 +299,8 @@ mod tests {
         assert_eq!(row.standard_error, Some(2.0)); // s = √12, over √3
         assert_eq!((row.mode_distinct, row.quantiles), (Some(4), Some([4, 4, 4, 10, 10])));
         assert_eq!(row.impacts_per_time, Some(240.0 / (3.0 * 200.0)));
+        assert_eq!(row.impacts_in_window, Some([80.0, (3200.0_f64 / 2.0 / 3.0).sqrt()]));
+        assert_eq!(row.masses_hit, Some([5.0, 2.0]));
         assert_eq!(row.impacts, 485);
         assert_eq!(row.counts, [1, 0, 0, 0, 2, 0, 0, 0, 0, 0, 1]);
     }

@@ -9,15 +9,17 @@ use serde::{Deserialize, Serialize};
 pub struct Tally {
     /// Distinct gaps of each realisation; none if it did not run to the end.
     pub distinct: Vec<Option<u32>>,
-    /// Impacts in the window of those that ran to the end.
-    pub kept_impacts: u64,
+    /// Impacts in the window of those that ran to the end: sum, and sum of squares.
+    pub kept_impacts: [u64; 2],
+    /// Masses hit in the window, likewise.
+    pub kept_masses: [u64; 2],
     /// With an overlapping start.
     pub rejected: usize,
     /// Ended by the engine before T + W.
     pub failed: usize,
     /// What the engine said of the first of these.
     pub first_failure: Option<String>,
-    /// All counts, of failed realisations too. Its `distinct` and `window_impacts` stay 0.
+    /// All counts, of failed realisations too. Its `distinct`, `masses` and `window_impacts` stay 0.
     pub total: Observed,
 }
 
@@ -27,7 +29,10 @@ impl Tally {
         let mut whole = Tally::default();
         for tally in tallies {
             whole.distinct.extend(tally.distinct);
-            whole.kept_impacts += tally.kept_impacts;
+            for i in 0..2 {
+                whole.kept_impacts[i] += tally.kept_impacts[i];
+                whole.kept_masses[i] += tally.kept_masses[i];
+            }
             whole.rejected += tally.rejected;
             whole.failed += tally.failed;
             whole.first_failure = whole.first_failure.or(tally.first_failure);
@@ -53,7 +58,13 @@ impl<'a> FromIterator<&'a Outcome> for Tally {
             tally.distinct.push(match outcome {
                 Outcome::Counted(seen) => {
                     add(&mut tally.total, seen);
-                    tally.kept_impacts += seen.window_impacts;
+                    let powers = |x: u64| [x, x * x];
+                    let (impacts, masses) =
+                        (powers(seen.window_impacts), powers(seen.masses.into()));
+                    for i in 0..2 {
+                        tally.kept_impacts[i] += impacts[i];
+                        tally.kept_masses[i] += masses[i];
+                    }
                     Some(seen.distinct)
                 }
                 Outcome::Rejected => {
@@ -89,6 +100,7 @@ mod tests {
     fn cut_anywhere_the_tally_is_the_same() {
         let seen = |distinct, impacts| Observed {
             distinct,
+            masses: distinct + 1,
             impacts,
             window_impacts: impacts / 2,
             near: [impacts; 9],
@@ -107,7 +119,8 @@ mod tests {
         ];
         let whole: Tally = outcomes.iter().collect();
         assert_eq!(whole.distinct, [Some(4), None, None, Some(0), None, Some(7)]);
-        assert_eq!((whole.kept_impacts, whole.total.impacts), (55, 124));
+        assert_eq!((whole.kept_impacts, whole.total.impacts), ([55, 20 * 20 + 35 * 35], 124));
+        assert_eq!(whole.kept_masses, [5 + 1 + 8, 25 + 1 + 64]);
         assert_eq!((whole.rejected, whole.failed), (1, 2));
         assert_eq!(whole.first_failure, Some(error(3).to_string()));
         for first in 0..=outcomes.len() {

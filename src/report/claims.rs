@@ -3,7 +3,7 @@
 use super::markdown;
 use super::print::{Style, print};
 use super::values::{Digits, Number, Value};
-use crate::claims::{Claim, Digits as ClaimDigits, Piece, Text, Verdict};
+use crate::claims::{Basis, Claim, Digits as ClaimDigits, Piece, Text, Verdict, split};
 use serde::Serialize;
 
 /// One claim for a template: every field is Markdown, its numbers printed with their digits.
@@ -23,6 +23,8 @@ pub struct Row {
     pub tolerance: String,
     /// Why the tolerance has this size.
     pub reason: String,
+    /// What the verdict rests on, in words.
+    pub basis: String,
     /// The verdict in words.
     pub verdict: String,
     /// What explains a difference.
@@ -41,6 +43,7 @@ impl Row {
             ours: sentence(&claim.ours),
             tolerance: sentence(&claim.tolerance),
             reason: words(&claim.reason),
+            basis: claim.basis.words().to_string(),
             verdict: claim.verdict.words().to_string(),
             note: sentence(&claim.note),
         }
@@ -77,14 +80,21 @@ fn digits_of(number: &crate::claims::Number) -> Number {
 }
 
 /// The scorecard as values: `score.total`, `score.reproduced`, `score.differs_and_explained`,
-/// `score.differs`, `score.cannot_be_judged`.
+/// `score.differs`, `score.cannot_be_judged`, and for each basis `score.exact`, … those reproduced
+/// and `score.exact_of`, … all.
 pub fn scorecard(claims: &[Claim]) -> Vec<Value> {
     let value = |name: &str, count: usize| {
         Value::integer(format!("score.{name}"), count).source("claims", "").data_only()
     };
     let count = |verdict| claims.iter().filter(|claim| claim.verdict == verdict).count();
     let verdict = |verdict: &Verdict| value(&verdict.words().replace(' ', "_"), count(*verdict));
-    Verdict::ALL.iter().map(verdict).chain([value("total", claims.len())]).collect()
+    let bases = Basis::ALL.iter().zip(split(claims)).flat_map(|(basis, counts)| {
+        let name = basis.words().replace(' ', "_");
+        let all = counts.iter().sum();
+        [value(&name, counts[0]), value(&format!("{name}_of"), all)]
+    });
+    let verdicts = Verdict::ALL.iter().map(verdict);
+    verdicts.chain([value("total", claims.len())]).chain(bases).collect()
 }
 
 #[cfg(test)]

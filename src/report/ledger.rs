@@ -31,6 +31,7 @@ pub struct ClaimEntry {
     pub ours: String,
     pub tolerance: String,
     pub reason: String,
+    pub basis: String,
     pub verdict: String,
     pub note: String,
     /// Ids of the values of the report that it states or is held against.
@@ -86,6 +87,7 @@ pub fn ledger(
         ours: plain(&claim.ours),
         tolerance: plain(&claim.tolerance),
         reason: claim.reason.clone(),
+        basis: claim.basis.words().to_string(),
         verdict: claim.verdict.words().to_string(),
         note: plain(&claim.note),
         values: uses.get(&claim.id).cloned().unwrap_or_default(),
@@ -139,13 +141,14 @@ pub fn json(ledger: &Ledger) -> serde_json::Result<String> {
 pub fn markdown(ledger: &Ledger) -> String {
     let mut out = String::from(
         "# Ledger\n\nEvery quantitative statement, figure and numbered equation of the paper, and \
-         what became of it here. Written by the program, as [ledger.json](ledger.json) is.\n\n\
-         ## Statements\n\n| Place | Statement | Printed | Ours | Verdict | Id |\n|---|---|---|---|---|---|\n",
+         the verdict on it. Written by the program, as [ledger.json](ledger.json) is.\n\n\
+         ## Statements\n\n| Place | Statement | Printed | Ours | Verdict | Rests on | Id |\n|---|---|---|---|---|---|---|\n",
     );
     for claim in &ledger.claims {
         let words = [&claim.place, &claim.statement, &claim.printed, &claim.ours];
         let cells = words.map(|text| escaped(text)).join(" | ");
-        out.push_str(&format!("| {cells} | {} | `{}` |\n", claim.verdict, claim.id));
+        let (verdict, basis, id) = (&claim.verdict, &claim.basis, &claim.id);
+        out.push_str(&format!("| {cells} | {verdict} | {basis} | `{id}` |\n"));
     }
     out.push_str("\n## Figures\n\n| Figure | Title | Data | Drawn by |\n|---|---|---|---|\n");
     for figure in &ledger.figures {

@@ -54,6 +54,7 @@ pub fn json(entries: &[Entry], targets: &[Target], failing: &[Failing]) -> Strin
                 "id": claim.id, "place": claim.place, "statement": claim.statement,
                 "printed": claim.printed, "found": plain(&claim.ours),
                 "tolerance": plain(&claim.tolerance), "reason": claim.reason,
+                "basis": claim.basis.words(),
                 "verdict": claim.verdict.words(), "fails": claim.fails(),
                 "note": plain(&claim.note), "file": FILE, "line": line,
             })

@@ -85,7 +85,10 @@ pub fn run(args: Args) -> Result<(), Failure> {
         judged.iter().map(entry).collect();
     let entries = entries.map_err(|error| Failure::input(error.to_string()))?;
     match args.format {
-        Format::Text => stdout::written(print(&judged, &targets, &failing))?,
+        Format::Text => {
+            let relations = whole.then(|| guards::all().count());
+            stdout::written(print(&judged, &targets, &failing, relations))?
+        }
         Format::Json => stdout::print(&forms::json(&entries, &targets, &failing))?,
         Format::Junit => stdout::print(&forms::junit(&entries, &failing))?,
         Format::Sarif => stdout::print(&forms::sarif(&entries))?,
@@ -148,12 +151,19 @@ fn summarise(text: &str) -> Result<(), Failure> {
     })
 }
 
-/// A block of lines for each claim, and the scorecard.
-fn print(judged: &[Claim], targets: &[Target], failing: &[Failing]) -> io::Result<()> {
+/// A block of lines for each claim, and the scores: of the paper's statements, and of our own checks
+/// (`relations` of them, where they were asked).
+fn print(
+    judged: &[Claim],
+    targets: &[Target],
+    failing: &[Failing],
+    relations: Option<usize>,
+) -> io::Result<()> {
     let mut out = io::BufWriter::new(io::stdout().lock());
     for claim in judged {
         let mark = if claim.fails() { "FAILS" } else { "ok" };
-        writeln!(out, "{:5} {} ({}): {}", mark, claim.id, claim.place, claim.verdict.words())?;
+        let (verdict, basis) = (claim.verdict.words(), claim.basis.words());
+        writeln!(out, "{mark:5} {} ({}): {verdict} ({basis})", claim.id, claim.place)?;
         writeln!(out, "      {}", claim.statement)?;
         let fields = [
             ("printed", claim.printed.clone()),
@@ -182,7 +192,18 @@ fn print(judged: &[Claim], targets: &[Target], failing: &[Failing]) -> io::Resul
         .zip(claims::scorecard(judged))
         .map(|(verdict, count)| format!("{count} {}", verdict.words()))
         .collect();
-    let noun = if judged.len() == 1 { "claim" } else { "claims" };
-    writeln!(out, "{} {noun}: {}", judged.len(), score.join(", "))?;
+    let noun = if judged.len() == 1 { "statement" } else { "statements" };
+    writeln!(out, "{} {noun} of the paper: {}", judged.len(), score.join(", "))?;
+    let bases = claims::Basis::ALL.iter().zip(claims::split(judged));
+    let bases = bases.map(|(basis, counts)| (basis.words(), counts[0], counts.iter().sum()));
+    let bases: Vec<String> = bases
+        .filter(|(_, _, all): &(_, _, usize)| *all > 0)
+        .map(|(basis, reproduced, all)| format!("{reproduced} of {all} {basis}"))
+        .collect();
+    writeln!(out, "reproduced, by what the verdict rests on: {}", bases.join(", "))?;
+    if let Some(relations) = relations {
+        let held = relations - failing.len();
+        writeln!(out, "our own checks: {held} of {relations} relations between numbers hold")?;
+    }
     out.flush()
 }

@@ -120,6 +120,31 @@ pub(super) fn eq32() -> Cases {
     cases
 }
 
+/// Circuits of all five classes with k different vertices, wherever no formula of Eq. (38) is used
+/// below the range that is printed with it: from k = 3 on, since Eq. (37) has length k + 2 > 4.
+pub(super) fn eq38(census: &Census) -> Cases {
+    let mut cases = Cases::default();
+    for (n, longest) in (1..).zip(LONGEST) {
+        for k in (3..=n).take_while(|k| k + 3 <= longest) {
+            let printed = [
+                phi(n, k).map(|count| Fraction::new(count, 1)),
+                doubled(n, k + 1),
+                three_visits(n, k + 2),
+                four_visits(n, k + 3),
+                two_doubled(n, k + 2),
+            ];
+            let printed: Option<u128> =
+                printed.into_iter().map(|count| count.and_then(Fraction::integer)).sum();
+            let classes: [(usize, &[usize]); 5] =
+                [(0, &[]), (1, &[1]), (2, &[0, 1]), (3, &[0, 0, 1]), (2, &[2])];
+            let found: u64 =
+                classes.iter().map(|(more, class)| counted(census, n, k + more, class)).sum();
+            cases.see(printed == Some(u128::from(found)));
+        }
+    }
+    cases
+}
+
 /// A formula for N vertices and length k.
 type Formula = fn(usize, usize) -> Option<Fraction>;
 

@@ -37,9 +37,7 @@ pub(super) fn eq13(n: usize) -> f64 {
     let mut largest = 0.0_f64;
     for p in GRID {
         for k in jump::zeros(n, p).into_iter().flatten() {
-            let terms = [p * k * k, (n as f64 * p - 1.0) * k, 1.0];
-            let size = terms.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
-            largest = largest.max(jump::f(n, p, k).abs() / size);
+            largest = largest.max(jump::f(n, p, k).abs() / size(n, p, k));
         }
     }
     largest
@@ -86,15 +84,70 @@ pub(super) fn monotone(n: usize, from: f64) -> Result<Cases, Error> {
     Ok(cases)
 }
 
-/// At p = 0 the weights proper, p times those of [`Law`], are all zero.
-pub(super) fn falling_at_zero(n: usize) -> Result<Cases, Error> {
+/// The size of the terms of f at k.
+fn size(n: usize, p: f64, k: f64) -> f64 {
+    [p * k * k, (n as f64 * p - 1.0) * k, 1.0].iter().fold(0.0, |a, b| b.abs().max(a))
+}
+
+/// A parabola is even about the place of its largest value.
+pub(super) fn maximum(n: usize) -> f64 {
+    let mut largest = 0.0_f64;
+    for p in GRID {
+        let top = (n as f64 * p - 1.0) / (2.0 * p);
+        for away in [0.5, 3.0, 40.0] {
+            let difference = jump::f(n, p, top + away) - jump::f(n, p, top - away);
+            let terms = size(n, p, top + away).max(size(n, p, top - away));
+            largest = largest.max(difference.abs() / terms);
+        }
+    }
+    largest
+}
+
+/// p = ((1 − √(N + 1))/N)², where f has a double zero too.
+pub(super) fn other_root() -> Cases {
     let mut cases = Cases::default();
-    let law = Law::new(SampleSpace::Simple, n, 0.0)?;
-    let proper = |k| Ok::<_, Error>(0.0 * law.weight(k)?.to_f64());
-    for k in 1..n {
-        cases.see(proper(k)? > proper(k + 1)?);
+    for n in 1..=1000 {
+        let root = (1.0 - f64::from(n + 1).sqrt()) / f64::from(n);
+        let p = root * root;
+        let slope = f64::from(n) * p - 1.0;
+        let touches = (slope * slope - 4.0 * p).abs() < 1e-13;
+        cases.see(touches && slope / (2.0 * p) < 0.0);
+    }
+    cases
+}
+
+/// The weights themselves around ⌈k₋⌉ and ⌈k₊⌉; at the ends of 1..=N one neighbour is enough.
+pub(super) fn extrema(n: usize) -> Result<Cases, Error> {
+    let mut cases = Cases::default();
+    let first = jump::first_local_maximum(n).map_or(1.0, |(_, [a, b])| a as f64 / b as f64);
+    // At the first p itself a minimum and a maximum are level.
+    for i in 1..=200 {
+        let p = first * pxfm::f_exp(-pxfm::f_log(first) * f64::from(i) / 200.0);
+        let law = Law::new(SampleSpace::Simple, n, p.min(1.0))?;
+        let Some(zeros) = jump::zeros(n, p.min(1.0)) else {
+            cases.see(false);
+            continue;
+        };
+        let [low, high] = zeros.map(|k| (k.ceil() as usize).clamp(1, n));
+        let neighbours = |k: usize| [k - 1, k + 1].into_iter().filter(|&k| k >= 1 && k <= n);
+        for other in neighbours(low) {
+            cases.see(law.weight(other)? >= law.weight(low)?);
+        }
+        for other in neighbours(high) {
+            cases.see(law.weight(other)? <= law.weight(high)?);
+        }
     }
     Ok(cases)
+}
+
+/// With a double zero f is −p (k − k_touch)²: Φ flattens there and falls on both sides.
+pub(super) fn inflexion(n: usize, crit: f64) -> f64 {
+    let touch = (n as f64 * crit - 1.0) / (2.0 * crit);
+    (1..=n).fold(0.0, |largest: f64, k| {
+        let k = k as f64;
+        let difference = jump::f(n, crit, k) + crit * (k - touch) * (k - touch);
+        largest.max(difference.abs() / size(n, crit, k))
+    })
 }
 
 pub(super) fn falling(n: usize, crit: f64) -> Cases {

@@ -59,6 +59,9 @@ pub struct Nucleation {
     pub p_rest: f64,
     /// Probability that one of all N gaps does, if they were independent and alike.
     pub any_rest: f64,
+    /// The same by p of Eq. (25), for random free parts, gaps at the walls by their own p: an upper bound,
+    /// since normal variables make symmetric convex events no less likely together than one by one.
+    pub any_random: f64,
 }
 
 /// All comparisons.
@@ -90,11 +93,20 @@ pub struct Identities {
     pub p_crit_by_bisection: f64,
     /// Eq. (18): the place of the double zero.
     pub k_touch: f64,
+    /// Eq. (12): the largest value of f lies at (N p − 1)/2p, so f is even about it: the largest
+    /// difference of both sides over the largest of its terms.
+    pub f_maximum: f64,
+    /// Eq. (18): the other root of (N p − 1)² = 4 p, N from 1 to 1000: how many have their double zero
+    /// at k < 0.
+    pub other_root: Cases,
+    /// Eq. (13): local minimum of Φ at ⌈k₋⌉ and local maximum at ⌈k₊⌉, on a grid of p from the first
+    /// integer maximum to one.
+    pub extrema: Cases,
+    /// At p_crit: largest distance of f from −p (k − k_touch)², over the largest of its terms.
+    pub inflexion: f64,
     /// Steps of k* with p, on a grid of [p_jump, 1]: how many do not fall.
     pub monotone: Cases,
-    /// Steps Φ(k) > Φ(k + 1) at p = 0.
-    pub falling_at_zero: Cases,
-    /// Steps Φ(k) > Φ(k + 1) at every p of a grid between 0 and p_crit.
+    /// Steps Φ(k) > Φ(k + 1) at every p of a grid from above 0 to p_crit, included.
     pub falling_below_crit: Cases,
     /// k* at p_crit and half way to p_jump.
     pub k_star_before_jump: [usize; 2],
@@ -102,8 +114,15 @@ pub struct Identities {
     pub mean_slope_by_variance: f64,
     /// The same from values of μ on both sides of p_jump.
     pub mean_slope_by_difference: f64,
-    /// Eqs. (22) and (23): largest distance of the integrals from one.
-    pub densities: f64,
+    /// Eq. (19): largest difference between the separation as printed and the equations of motion
+    /// solved by variation of constants, over d.
+    pub separation: f64,
+    /// Eq. (21): largest relative difference between the amplitude and the root mean square of the
+    /// harmonic over a period, times √2.
+    pub amplitude: f64,
+    /// Eqs. (22) and (23): largest difference between the integral of a density up to x and the
+    /// probability of a disc of radius x under the two normal densities.
+    pub distributions: f64,
     /// Eq. (25): largest relative difference between closed form and double integral.
     pub eq25: f64,
     /// Eq. (29) against enumeration, for both loops given.
@@ -118,6 +137,8 @@ pub struct Identities {
     pub eq32: Cases,
     /// Eqs. (33), (35), (36) and (37) against enumeration.
     pub classes: Vec<ClassRange>,
+    /// Eq. (38) against enumeration, where all its formulas are used within their range (k ≥ 3).
+    pub eq38: Cases,
     /// Gaps that close by themselves, at the σ of the main sweep of every profile.
     pub nucleation: Vec<Nucleation>,
     /// σ at which one of all N gaps closes by itself with probability one half, after a start
@@ -160,13 +181,18 @@ pub fn run(vertices: usize) -> Result<Identities, Error> {
         eq16_17: jump::slopes(vertices),
         p_crit_by_bisection: jump::touching(vertices),
         k_touch: (vertices as f64 * crit - 1.0) / (2.0 * crit),
+        f_maximum: jump::maximum(vertices),
+        other_root: jump::other_root(),
+        extrema: jump::extrema(vertices)?,
+        inflexion: jump::inflexion(vertices, crit),
         monotone: jump::monotone(vertices, leap.bracket[1])?,
-        falling_at_zero: jump::falling_at_zero(vertices)?,
         falling_below_crit: jump::falling(vertices, crit),
         k_star_before_jump: [law(before[0])?.k_star(), law(before[1])?.k_star()],
         mean_slope_by_variance: by_variance,
         mean_slope_by_difference: by_difference,
-        densities: relation::densities(),
+        separation: relation::separation(),
+        amplitude: relation::amplitudes(),
+        distributions: relation::distributions(),
         eq25: relation::eq25()?,
         eq29: census::eq29(),
         eq30_printed: doubled_as_printed(3, 3).map_or(f64::NAN, Fraction::to_f64),
@@ -174,6 +200,7 @@ pub fn run(vertices: usize) -> Result<Identities, Error> {
         eq30_times_n: census::eq30_times_n(&census),
         eq32: census::eq32(),
         classes: census::class_ranges(&census),
+        eq38: census::eq38(&census),
         nucleation: relation::nucleation(chain.gaps())?,
         sigma_kept_half: relation::sigma_kept(0.5, chain.gaps()),
         sigma_kept_onset: relation::sigma_kept(ONSET, chain.gaps()),
@@ -197,11 +224,18 @@ mod tests {
             ("16, 17", found.eq16_17),
             ("monotone", found.monotone),
             ("falling", found.falling_below_crit),
+            ("18, other root", found.other_root),
+            ("13, extrema", found.extrema),
             ("29", found.eq29),
             ("30 times N", found.eq30_times_n),
             ("32", found.eq32),
         ] {
             assert!(cases.compared > 5 && cases.failed == 0, "({name}): {cases:?}");
+        }
+        // (N, k) = (3, 3), (4, 3), (4, 4), (5, 3), (6, 3).
+        assert_eq!((found.eq38.compared, found.eq38.failed), (5, 0));
+        for x in [found.f_maximum, found.inflexion, found.separation, found.distributions] {
+            assert!(x < 1e-13, "{x}");
         }
         assert_eq!((found.graph_vertices, found.graph_edges), (4, 16));
         // φ_N(97..=99)/φ_N(100) = 100/(97·6), 100/(98·2), 100/99; at 96 it is 100/(96·24) = 0.043.

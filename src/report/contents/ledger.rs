@@ -1,7 +1,7 @@
 //! What the text says about all claims together, and about this copy of the report.
 
 use super::mark;
-use crate::claims::{self, Claim, FAMILY_LEVEL, Verdict};
+use crate::claims::{self, Basis, Claim, FAMILY_LEVEL, Verdict};
 use crate::experiments::Results;
 use crate::report::values::Value;
 use std::collections::BTreeMap;
@@ -39,6 +39,15 @@ pub fn scorecard(claims: &[Claim]) -> Vec<ScoreLine> {
         }
     };
     Verdict::ALL.iter().map(line).collect()
+}
+
+/// How the verdicts split by what they rest on: basis, statements, and how many are reproduced.
+pub fn bases() -> Vec<[String; 3]> {
+    let line = |basis: &Basis| {
+        let name = basis.words().replace(' ', "_");
+        [basis.words().into(), mark(format!("score.{name}_of")), mark(format!("score.{name}"))]
+    };
+    Basis::ALL.iter().map(line).collect()
 }
 
 /// The level of the claims, and what this copy was made with.

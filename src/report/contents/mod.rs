@@ -2,7 +2,7 @@
 //!
 //! A value is computed here from results and carries the path of the item that computed it. Groups
 //! are `v` (ours), `paper` (numbers that the paper chose), `printed` (numbers in its statements), and
-//! one for the cells of each table: `compare`, `protocol`, `protocols`, `long`, `nucleation`, `spread`, `course`, `fronts`, `growth`, `heat`,
+//! one for the cells of each table: `readings`, `compare`, `protocol`, `protocols`, `long`, `nucleation`, `spread`, `course`, `fronts`, `growth`, `heat`,
 //! `scores`, `history`, `independence`, `orbits`, `restitution`, `chains`, `starts`, `bias` and `carried`.
 
 mod accuracy;
@@ -112,7 +112,9 @@ pub fn rows(
 ) -> Result<BTreeMap<&'static str, serde_json::Value>, Error> {
     Ok(BTreeMap::from([
         ("scorecard", serde_json::to_value(ledger::scorecard(claims))?),
+        ("basis_table", serde_json::to_value(ledger::bases())?),
         ("row", serde_json::to_value(ledger::references(claims))?),
+        ("readings_table", serde_json::to_value(simulation::readings_table())?),
         ("comparison_table", serde_json::to_value(comparison::table(results)?)?),
         ("protocol_windows", serde_json::to_value(protocol::windows(results)?)?),
         ("protocol_printed", serde_json::to_value(protocol::printed(results)?)?),

@@ -1,11 +1,11 @@
 //! Section 2 and what other sections take from the main sweep.
 
-use super::{Error, chosen, count, estimate, from, share};
+use super::{Error, chosen, count, estimate, from, mark, share};
 use crate::claims::sec2;
 use crate::experiments::Results;
 use crate::experiments::sweep::{Sweep, SweepRow};
-use crate::params::{LEVEL, NEAR_SIMULTANEOUS, SECOND_SEED, SEED, SLOW};
-use crate::report::values::Value;
+use crate::params::{LEVEL, NEAR_SIMULTANEOUS, PRINTED_THRESHOLD, SECOND_SEED, SEED, SLOW};
+use crate::report::values::{Value, cell};
 
 /// A σ below the rise, where the text tells how little happens.
 const BELOW: f64 = 0.08;
@@ -13,6 +13,34 @@ const BELOW: f64 = 0.08;
 const ABOVE: f64 = 0.2;
 /// A σ at which masses begin to be able to stick.
 const STICKING: f64 = 0.3;
+
+/// The readings of "number of impacts", by column of their table.
+const READINGS: [&str; 3] = ["impacts", "gaps", "masses"];
+
+/// The rows of their table: below, at and above the rise.
+fn readings(sweep: &Sweep) -> Result<Vec<Value>, Error> {
+    let mut values = Vec::new();
+    for sigma in [BELOW, PRINTED_THRESHOLD, ABOVE] {
+        let row = row(sweep, sigma)?;
+        let gaps = row.mean_distinct.zip(row.standard_error).map(<[f64; 2]>::from);
+        values.push(chosen(&cell("readings", sigma, "sigma"), row.sigma));
+        for (name, found) in READINGS.iter().zip([row.impacts_in_window, gaps, row.masses_hit]) {
+            let id = cell("readings", sigma, name);
+            values.push(match found {
+                Some([mean, error]) => Value::ensemble(id, mean, error, row.kept as u64),
+                None => Value::text(id, "none"),
+            });
+        }
+    }
+    Ok(values)
+}
+
+/// The lines of that table.
+pub fn readings_table() -> Vec<Vec<String>> {
+    let columns = || ["sigma"].into_iter().chain(READINGS);
+    let line = |sigma| columns().map(|name| mark(cell("readings", sigma, name))).collect();
+    [BELOW, PRINTED_THRESHOLD, ABOVE].into_iter().map(line).collect()
+}
 
 /// The row nearest to σ.
 pub(super) fn row(sweep: &Sweep, sigma: f64) -> Result<&SweepRow, Error> {
@@ -47,6 +75,7 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
     let sweep = results.sweep()?;
     let mut values = from(run(sweep), "params::sizes::SweepParams::main", "sweep");
     values.extend(from(rise(results, sweep)?, "experiments::rise::find", "sweep"));
+    values.extend(from(readings(sweep)?, "experiments::sweep::reduce", "sweep"));
     values.extend(from(laws(results, sweep)?, "experiments::laws::run", "laws"));
     let found = results.two_masses()?;
     let longest = found.excess.last().ok_or(Error::Missing("two masses"))?;
@@ -177,7 +206,7 @@ fn laws(results: &Results, sweep: &Sweep) -> Result<Vec<Value>, Error> {
         count("slow_impacts", last(&laws.totals.slow_decades)),
         Value::real("slow_limit", SLOW, 1),
         Value::real("slow_expected", laws.totals.expected_slow, 1),
-        Value::real("stick_rise", stick(crate::params::PRINTED_THRESHOLD), 1),
+        Value::real("stick_rise", stick(PRINTED_THRESHOLD), 1),
         chosen("sigma_stick_above", STICKING),
         Value::real("stick_above", stick(STICKING), 1),
         chosen("sigma_contact", ABOVE),

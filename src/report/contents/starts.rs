@@ -1,7 +1,7 @@
 //! Section 11: other starts, ends, restitutions and frequencies.
 
 use super::{Error, chosen, estimate, from, mark};
-use crate::claims::sec8;
+use crate::claims::sec8_chains;
 use crate::experiments::Results;
 use crate::experiments::starts::{Starts, Variant};
 use crate::params::{Boundary, COMPARABLE_REJECTED, Chain, Start};
@@ -57,7 +57,7 @@ fn random(results: &Results, starts: &Starts) -> Result<Vec<Value>, Error> {
         chosen("rejected_random_at", last.sigma),
         chosen("rejected_limit", COMPARABLE_REJECTED),
         part.map_or(Value::text("share_of_start", "none"), |(rest, random)| {
-            let share = sec8::share_of_start(rest.value, random.value, theory);
+            let share = sec8_chains::share_of_start(rest.value, random.value, theory);
             Value::real("share_of_start", share, 2)
         }),
     ])

@@ -143,7 +143,8 @@ fn simulated(results: &Results) -> Result<Vec<Value>, Error> {
     let predicted = sec8::at(&theory.curve, between.sigma, |r| r.simple)
         .ok_or(Error::Missing("the theory within the rise"))?;
     let largest = sec8::largest_distance(sweep, &theory.curve);
-    let [increase, _, _] = sec8::increases(sweep).ok_or(Error::Missing("rows of the rise"))?;
+    let [increase, _, _] =
+        sec8::increases(sweep, |row| row.mean_all).ok_or(Error::Missing("rows of the rise"))?;
     let inside = sweep.rise.tenth.zip(sweep.rise.nine_tenths).map_or(0, |(low, high)| {
         let within = |sigma: f64| low.value <= sigma && sigma <= high.value;
         sweep.rows.iter().filter(|r| within(r.sigma)).count()

@@ -2,6 +2,7 @@
 
 use super::counts::{kept, totals};
 use super::{Guard, Look, far, unless};
+use crate::claims;
 use crate::experiments::rise::Rise;
 use crate::experiments::sweep::{Sweep, SweepRow};
 use crate::numerics::statistics::Estimate;
@@ -22,7 +23,11 @@ pub const GUARDS: &[Guard] = &[
         ids: &["starts.*", "share_of_start", "sigma_half_theory"],
         find: differences,
     },
-    Guard { name: "two_seeds", ids: &["second_seed_largest"], find: two_seeds },
+    Guard {
+        name: "two_seeds",
+        ids: &["second_seed_largest", "half_height_second"],
+        find: two_seeds,
+    },
     Guard { name: "modes", ids: &["mode_half", "mode_noise", "mode_noise_sigma"], find: modes },
     Guard { name: "rise_rows", ids: &["rise_rows", "largest_increase", "gaps"], find: rise_rows },
 ];
@@ -106,7 +111,8 @@ fn differences(look: Look<'_>) -> Option<String> {
 }
 
 /// The largest difference of two seeds in standard errors bounds all of them and is one of them,
-/// with means and errors from the histograms; rows with fewer than thirty kept do not count.
+/// with means and errors from the histograms; rows with fewer than thirty kept do not count. It
+/// and the difference of the two half heights are what chance allows.
 fn two_seeds(look: Look<'_>) -> Option<String> {
     let (first, second) = look.results.sweep.as_ref().zip(look.results.second_seed.as_ref())?;
     let normal = |row: &SweepRow| {
@@ -124,23 +130,40 @@ fn two_seeds(look: Look<'_>) -> Option<String> {
         let ([m, s], [n, t]) = normal(a).zip(normal(b))?;
         (s + t > 0.0).then(|| (m - n).abs() / (s + t).sqrt())
     };
-    let largest = second.rows.iter().filter_map(pair).reduce(f64::max)?;
-    look.is("second_seed_largest", largest)
+    let differences: Vec<f64> = second.rows.iter().filter_map(pair).collect();
+    let halves = first.rise.half_height.zip(second.rise.half_height);
+    let apart = halves.and_then(|(a, b)| {
+        let room = super::room(&a, &b);
+        unless((a.value - b.value).abs() <= room, || {
+            format!("half heights of two seeds are {} and {}", a.value, b.value)
+        })
+    });
+    apart.or_else(|| {
+        let largest = differences.iter().copied().reduce(f64::max)?;
+        let limit = claims::level().among(differences.len());
+        look.is("second_seed_largest", largest).or_else(|| {
+            unless(largest <= limit, || {
+                format!("two seeds are {largest} standard errors apart, and {limit} are allowed")
+            })
+        })
+    })
 }
 
-/// Below the range in which the mode passes one half no interval of the mode reaches it, above it
-/// all do, and at both ends they straddle. The widest interval is that of its row.
+/// Below the range in which the mode passes one half no interval of the mode reaches it; from its
+/// end on all lie above, and the one before does not. The widest interval is that of its row.
 fn modes(look: Look<'_>) -> Option<String> {
     let sweep: &Sweep = look.results.sweep.as_ref()?;
     let half = (sweep.rows.first()?.counts.len() as f64 - 1.0) / 2.0;
     let known = || sweep.rows.iter().filter_map(|row| Some((row.sigma, row.mode_interval?)));
     let passes = look.interval("mode_half").and_then(|[low, high]| {
         let right = known().all(|(sigma, [from, to])| {
-            (sigma >= low || (to as f64) < half) && (sigma <= high || from as f64 >= half)
+            (sigma >= low || (to as f64) < half) && (sigma < high || from as f64 >= half)
         });
         let at = |end: f64| known().find(|(sigma, _)| *sigma == end).map(|(_, ends)| ends);
+        let before = known().take_while(|(sigma, _)| *sigma < high).last();
         let ends = at(low).is_some_and(|[_, to]| to as f64 >= half)
-            && at(high).is_some_and(|[from, _]| (from as f64) < half);
+            && at(high).is_some()
+            && before.is_some_and(|(_, [from, _])| (from as f64) < half);
         unless(right && ends, || format!("the mode passes one half outside [{low}, {high}]"))
     });
     passes.or_else(|| {

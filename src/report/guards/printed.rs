@@ -2,6 +2,7 @@
 
 use super::{Guard, Look, far, model, unless};
 use crate::claims::targets::{self, Standing};
+use crate::claims::{Basis, Verdict};
 
 pub const GUARDS: &[Guard] = &[
     Guard { name: "printed_as_it_reads", ids: &["printed.*"], find: as_it_reads },
@@ -43,13 +44,20 @@ fn as_it_reads(look: Look<'_>) -> Option<String> {
     })
 }
 
-/// Each claim has one verdict.
+/// The verdicts are those of all statements, and so are the things that they rest on; reproduced is
+/// counted alike by both.
 fn scores(look: Look<'_>) -> Option<String> {
-    let own =
-        |value: &&crate::report::Value| value.id.starts_with("score.") && value.id != "score.total";
-    let parts = look.values.iter().filter(own);
-    let sum: f64 = parts.filter_map(|value| look.number(&value.id)).sum();
-    look.is("score.total", sum).or_else(|| far("score.total", sum, look.claims.len() as f64))
+    let score = |name: &str| look.number(&format!("score.{}", name.replace(' ', "_")));
+    let all = look.claims.len() as f64;
+    let verdicts: Option<f64> = Verdict::ALL.iter().map(|own| score(own.words())).sum();
+    let bases = |end: &str| -> Option<f64> {
+        Basis::ALL.iter().map(|own| score(&format!("{}{end}", own.words()))).sum()
+    };
+    let reproduced = Verdict::Reproduced.words();
+    look.is("score.total", all)
+        .or_else(|| far("the sum over all verdicts", verdicts?, all))
+        .or_else(|| far("the sum over what verdicts rest on", bases("_of")?, all))
+        .or_else(|| far("the reproduced", bases("")?, score(reproduced)?))
 }
 
 /// Targets that are met, missed or not measured are all targets.

@@ -78,7 +78,7 @@ fn named(look: Look<'_>, times: &[f64], ids: [&str; 2]) -> Option<String> {
 /// the paper printed, is what the paper printed.
 fn printed(look: Look<'_>) -> Option<String> {
     let map = look.results.protocol.as_ref()?;
-    let statement = look.published.statement("sec2_protocols").ok()?;
+    let statement = look.published.statement("sec2_half_height").ok()?;
     let places = usize::from(statement.decimals);
     let text = |x: f64| format!("{x:.places$}");
     let number = text(statement.number().ok()?);

@@ -1,0 +1,51 @@
+//! What a verdict rests on.
+
+use super::{Claim, Verdict};
+use serde::Serialize;
+
+/// What decides whether a finding agrees with a statement. Where several things do, the weakest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Basis {
+    /// Whole numbers, orders and inequalities, which agree or do not.
+    Exact,
+    /// Agreement within the rounding of double precision.
+    Rounding,
+    /// Half a unit of the last digit that the paper printed.
+    PrintedDigit,
+    /// Standard errors at the level of the table.
+    Statistics,
+    /// A threshold of our own, for a statement in words.
+    OwnThreshold,
+}
+
+impl Basis {
+    /// Every basis, the strongest first.
+    pub const ALL: [Basis; 5] = [
+        Basis::Exact,
+        Basis::Rounding,
+        Basis::PrintedDigit,
+        Basis::Statistics,
+        Basis::OwnThreshold,
+    ];
+
+    /// The basis in words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Basis::Exact => "exact",
+            Basis::Rounding => "rounding",
+            Basis::PrintedDigit => "printed digit",
+            Basis::Statistics => "statistics",
+            Basis::OwnThreshold => "own threshold",
+        }
+    }
+}
+
+/// How many claims of each basis have each verdict, in the orders of [`Basis::ALL`] and
+/// [`Verdict::ALL`].
+pub fn split(claims: &[Claim]) -> [[usize; 4]; 5] {
+    Basis::ALL.map(|basis| {
+        let own = |verdict| move |c: &&Claim| c.basis == basis && c.verdict == verdict;
+        Verdict::ALL.map(|verdict| claims.iter().filter(own(verdict)).count())
+    })
+}

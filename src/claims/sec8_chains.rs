@@ -1,0 +1,227 @@
+//! Section 8: what the relation leaves out, held against chains that have it or not.
+
+use super::row::{Error, Evidence, Finding, open};
+use super::sec2_rare::NEGLIGIBLE;
+use super::{Judgement, Statement, Text};
+use crate::numerics::statistics::{Estimate, wilson};
+
+/// Eq. (20) in the simulation: a chain with random free parts that overlaps at its start, or has an
+/// impact later, has a gap with Y₀ + Y₁/|ω² − Ω²| ≥ d.
+pub(super) fn no_impact(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
+    let Some(random) = e.results.starts()?.variant("random") else {
+        return Ok(open(Text::words("no run"), "No chain has started with random free parts."));
+    };
+    let level = 1.0 - e.level.each;
+    let mut seen = Vec::new();
+    for row in &random.rows {
+        let nucleation = &e.results.identities.nucleation;
+        let ran = row.realisations - row.failed;
+        let some = row.kept + row.rejected;
+        let Some(predicted) = nucleation.iter().find(|n| n.sigma == row.sigma) else { continue };
+        let Some(interval) = wilson(some as u64, ran as u64, level) else { continue };
+        seen.push((row, some as f64 / ran as f64, predicted.any_random, interval));
+    }
+    let telling = || seen.iter().filter(|(.., bound, _)| (0.05..0.95).contains(bound));
+    let above = seen.iter().filter(|(.., bound, [low, _])| low > bound).count();
+    let least = telling().map(|(_, share, bound, _)| share / bound).fold(f64::INFINITY, f64::min);
+    let low = telling().filter(|(.., bound, [_, high])| *high < 2.0 / 3.0 * bound).count();
+    if telling().count() < 3 {
+        return Ok(open(
+            Text::words("fewer than three σ where the bound tells"),
+            "The bound lies between a twentieth and nineteen twentieths at too few σ.",
+        ));
+    }
+    let text = telling().fold(Text::words("share of chains"), |text, (row, share, bound, _)| {
+        let ran = (row.realisations - row.failed) as f64;
+        let first = text.0.len() == 1;
+        let text = text.say(if first { " " } else { "; " });
+        text.with_error(*share, (share * (1.0 - share) / ran).sqrt())
+            .say(" of ")
+            .significant(*bound, 2)
+            .say(" at σ = ")
+            .chosen(row.sigma)
+    });
+    let overlaps: usize = telling().map(|(row, ..)| row.rejected).sum();
+    let some: usize = telling().map(|(row, ..)| row.rejected + row.kept).sum();
+    Ok(Finding {
+        ours: text,
+        tolerance: Text::words("none above its bound, none below two thirds of it"),
+        reason: "intervals at the level of the table; two thirds are ours, for gaps that share a mass \
+                 and come near their infimum too late",
+        judgement: Judgement::Plain { agrees: above == 0 && low == 0 },
+        note: Text::words("Chains with random free parts, as Eq. (20) supposes. ")
+            .integer(overlaps)
+            .say(" of these ")
+            .integer(some)
+            .say(
+                " chains overlap at the start, which Eq. (20) counts as impacts. The bound is \
+                 1 − ∏ (1 − p) over all gaps with p of Eq. (25); chains come to at least ",
+            )
+            .significant(least, 2)
+            .say(" of it."),
+    })
+}
+
+/// How much of the distance between theory and simulation the start explains: half heights from
+/// rest, from random free parts, and of the theory.
+pub(crate) fn share_of_start(rest: f64, random: f64, theory: f64) -> f64 {
+    (random - rest) / (theory - rest)
+}
+
+/// Half heights of the mean of all, from rest and with random free parts, for each transient that
+/// both were run to.
+fn of_both_starts(e: &Evidence) -> Result<Vec<(f64, Estimate, Estimate)>, Error> {
+    let (map, chains) = (e.results.protocol()?, e.results.chains()?);
+    let Some((own, found)) = chains.curve("drift-random") else { return Ok(Vec::new()) };
+    let window = chains.parameters.window;
+    let both = own.transients.iter().zip(&found.half_heights).filter_map(|(&time, random)| {
+        let rest = map.cell(time, window)?.half_height_all?;
+        Some((time, rest, (*random)?))
+    });
+    Ok(both.collect())
+}
+
+pub(super) fn threshold_shift(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
+    let both = of_both_starts(e)?;
+    let Some(half) = e.results.sweep()?.rise.half_height_all.filter(|_| both.len() > 1) else {
+        return Ok(open(
+            Text::words("no two transients"),
+            "Chains of both starts did not rise after two transients or more.",
+        ));
+    };
+    let theory = e.results.theory.scalars.sigma_half;
+    let [low, high] = e.published.statement("sec2_half_height")?.rounding()?;
+    let room = e.level.among(both.len());
+    let mut holds = true;
+    let mut note = Text::words(
+        "Means of all. Eq. (25) assumes random free parts. From rest and with them the half height is ",
+    );
+    for (i, (time, rest, random)) in both.iter().enumerate() {
+        let share = share_of_start(rest.value, random.value, theory);
+        let error =
+            (random.error * random.error + rest.error * rest.error).sqrt() / (theory - rest.value);
+        holds &= share > 0.5 - room * error;
+        note = note
+            .say(if i == 0 { "" } else { ", " })
+            .with_error(rest.value, rest.error)
+            .say(" and ")
+            .with_error(random.value, random.error)
+            .say(" at T = ")
+            .integer(*time as usize);
+    }
+    Ok(Finding {
+        ours: Text::words("half height of the theory at σ = ")
+            .significant(theory, 4)
+            .say(", of the simulation at ")
+            .with_error(half.value, half.error),
+        tolerance: Text::words("± ").significant((high - low) / 2.0, 1),
+        reason: "half a unit of the last digit in which the paper prints the threshold",
+        judgement: Judgement::Explained {
+            agrees: (theory - half.value).abs() <= (high - low) / 2.0,
+            holds,
+        },
+        note: note.say(
+            ". The explanation asks that the start make up more than half of the difference at each T. The \
+             simulation goes on falling with T, and the theory knows no time.",
+        ),
+    })
+}
+
+/// The range of σ over which something that Eq. (25) leaves out moves the half height of all.
+fn range(places: impl Iterator<Item = Option<Estimate>>) -> Option<Estimate> {
+    let places: Vec<Estimate> = places.flatten().collect();
+    let least = places.iter().min_by(|a, b| a.value.total_cmp(&b.value))?;
+    let most = places.iter().max_by(|a, b| a.value.total_cmp(&b.value))?;
+    let error = (least.error * least.error + most.error * most.error).sqrt();
+    let (value, room) = (most.value - least.value, 1.96 * error);
+    Some(Estimate { value, error, interval: [value - room, value + room] })
+}
+
+pub(super) fn restitution_omitted(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
+    let found = e.results.restitution()?;
+    let starts = e.results.starts()?;
+    let of_start = |name| starts.variant(name).and_then(|variant| variant.rise.half_height_all);
+    let cells = &e.results.protocol()?.cells;
+    let ranges = (
+        range(found.curves.iter().map(|curve| curve.half_height)),
+        range(cells.iter().map(|cell| cell.half_height_all)),
+        range(["rest", "random"].into_iter().map(of_start)),
+    );
+    let (Some(restitution), Some(time), Some(start)) = ranges else {
+        return Ok(open(Text::words("no rise"), "A mean does not pass half of all gaps."));
+    };
+    let rs = &found.parameters.restitutions;
+    let more = |other: &Estimate| {
+        let error = (restitution.error * restitution.error + other.error * other.error).sqrt();
+        restitution.value >= other.value - e.level.quantile * error
+    };
+    Ok(Finding {
+        ours: Text::words("the half height moves by ")
+            .with_error(restitution.value, restitution.error)
+            .say(" with r, by ")
+            .with_error(time.value, time.error)
+            .say(" with the times of the protocol, by ")
+            .with_error(start.value, start.error)
+            .say(" with the start"),
+        tolerance: Text::words("most with r"),
+        reason: "ours: the ranges over which each was run; and the statistical error",
+        judgement: Judgement::Plain { agrees: more(&time) && more(&start) },
+        note: Text::words("Means of all; r from ")
+            .chosen(rs.first().copied().unwrap_or(f64::NAN))
+            .say(" to ")
+            .chosen(rs.last().copied().unwrap_or(f64::NAN))
+            .say(". The paper says “perhaps”."),
+    })
+}
+
+pub(super) fn restitution_ensures(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
+    let found = e.results.restitution()?;
+    let own = e.published.parameter("restitution")?;
+    let largest = e.results.sweep()?.rows.last().map_or(0.0, |row| row.sigma);
+    let sigmas = || found.parameters.sigmas.iter().copied().filter(|&sigma| sigma <= largest);
+    let Some(strongest) = sigmas().reduce(f64::max) else {
+        return Ok(open(Text::words("no run"), "No chain was run at the σ of the paper."));
+    };
+    let phases = |r: f64, sigma: f64| {
+        let curve = found.curves.iter().find(|curve| curve.restitution == r)?;
+        let row = curve.rows.iter().find(|row| row.sigma == sigma)?;
+        Some(row.phases.map_or(0.0, |phases| phases.value))
+    };
+    let lowest = found.parameters.restitutions.first().copied().unwrap_or(own);
+    let (Some(ours), Some(without)) = (phases(own, strongest), phases(lowest, strongest)) else {
+        return Ok(open(
+            Text::words("no run"),
+            "No chain was run with the restitution of the paper.",
+        ));
+    };
+    // Up to this σ no restitution that was run has any contact.
+    let free = |sigma: f64| {
+        found.parameters.restitutions.iter().all(|&r| phases(r, sigma).is_some_and(|x| x == 0.0))
+    };
+    let without_contact = sigmas().take_while(|&sigma| free(sigma)).last();
+    let note = Text::words("Contact phases over impacts.");
+    Ok(Finding {
+        ours: Text::words("at σ = ")
+            .chosen(strongest)
+            .say(" a share of ")
+            .significant(ours, 1)
+            .say(" at r = ")
+            .chosen(own)
+            .say(", ")
+            .significant(without, 1)
+            .say(" at r = ")
+            .chosen(lowest),
+        tolerance: Text::words("at most ")
+            .significant(NEGLIGIBLE, 1)
+            .say(" at the paper's r, more at another"),
+        reason: "ours: one in a thousand, as for sticking in Section 2",
+        judgement: Judgement::Plain { agrees: ours <= NEGLIGIBLE && without > NEGLIGIBLE },
+        note: match without_contact {
+            Some(sigma) => note.say(" Up to σ = ").chosen(sigma).say(
+                " no r that was run has any: there the force is too weak to press two masses together, \
+                 whatever r is.",
+            ),
+            None => note,
+        },
+    })
+}
