@@ -2,6 +2,7 @@
 
 mod program;
 
+use impact_paper::claims::Basis;
 use program::{PROGRAM, TEMPLATES, program, told};
 use std::path::Path;
 use std::process::Command;
@@ -33,10 +34,17 @@ fn every_form_has_every_claim_at_its_line() {
         .filter(|line| line.starts_with("ok ") || line.starts_with("FAILS"))
         .map(|line| {
             let (head, verdict) = line[6..].rsplit_once(": ").unwrap();
+            let (verdict, basis) = verdict.split_once(" (").unwrap();
+            assert!(Basis::ALL.iter().any(|own| format!("{})", own.words()) == basis), "{line}");
             (head.split(' ').next().unwrap().to_string(), verdict.to_string())
         })
         .collect();
-    assert_eq!(verdicts.len(), 68, "{text}");
+    assert_eq!(verdicts.len(), 71, "{text}");
+    // The statements of the paper and our own checks are scored apart.
+    let scores: Vec<&str> = text.lines().rev().take(3).collect();
+    assert!(scores[2].starts_with("71 statements of the paper: "), "{text}");
+    assert!(scores[1].starts_with("reproduced, by what the verdict rests on: "), "{text}");
+    assert!(scores[0].starts_with("our own checks: "), "{text}");
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/templates/published.toml");
     let published = std::fs::read_to_string(file).unwrap();
     let lines: Vec<&str> = published.lines().collect();
@@ -51,6 +59,8 @@ fn every_form_has_every_claim_at_its_line() {
             (claim["id"].as_str(), claim["verdict"].as_str()),
             (Some(&**id), Some(&**verdict))
         );
+        let basis = claim["basis"].as_str();
+        assert!(Basis::ALL.iter().any(|own| Some(own.words()) == basis), "{claim}");
         let line = claim["line"].as_u64().unwrap() as usize;
         assert_eq!(lines[line - 1], format!("id = \"{id}\""));
     }

@@ -35,7 +35,7 @@ fn every_claim_is_spoken_of_once_in_the_text() {
 #[test]
 fn claims_fail_when_the_results_say_so() {
     let none = |_: &str| Err("not needed".to_string());
-    let needs = [Need::Sweep, Need::Laws];
+    let needs = [Need::Sweep, Need::Laws, Need::Starts];
     let mut results =
         run(&needs, Profile::Quick, none, &Store::nowhere(), &Progress::silent()).unwrap();
     let published = Published::parse(Published::EMBEDDED).unwrap();
@@ -59,6 +59,36 @@ fn claims_fail_when_the_results_say_so() {
     assert_eq!(verdict("sec2_onset", &results), Verdict::Differs);
     assert_eq!(verdict("sec2_sticking", &results), Verdict::Differs);
     assert_eq!(verdict("sec2_parameters", &results), Verdict::Differs);
+
+    // The paper discards chains without impacts: the mean of the kept is judged, and that of all explains.
+    let small = |kept: f64, all: f64, results: &mut Results| {
+        let rows = &mut results.sweep.as_mut().unwrap().rows;
+        let row = rows.iter_mut().rfind(|row| row.sigma < 0.0804).unwrap();
+        (row.mean_distinct, row.standard_error) = (Some(kept), Some(0.01));
+        row.mean_all = Some(all);
+        row.counts = vec![0; row.counts.len()];
+        row.counts[0] = 10_000;
+    };
+    for (kept, all, expected) in [
+        (14.0, 0.6, Verdict::DiffersAndExplained),
+        (14.0, 13.0, Verdict::Differs),
+        (0.7, 0.6, Verdict::Reproduced),
+    ] {
+        small(kept, all, &mut results);
+        assert_eq!(verdict("sec2_few_below", &results), expected, "{kept} {all}");
+    }
+
+    // More chains with impacts than Eq. (20) lets have any, and fewer than two thirds of them.
+    assert_eq!(verdict("sec8_no_impact", &results), Verdict::Reproduced);
+    for share in [1, 0] {
+        let starts = results.starts.as_mut().unwrap();
+        let random = starts.variants.iter_mut().find(|own| own.name == "random").unwrap();
+        for row in &mut random.rows {
+            row.realisations = 1000;
+            (row.kept, row.rejected) = (700 * share, 200 * share);
+        }
+        assert_eq!(verdict("sec8_no_impact", &results), Verdict::Differs, "{share}");
+    }
 
     results.sweep.as_mut().unwrap().rise.half_height = None;
     assert_eq!(verdict("sec2_half_height", &results), Verdict::CannotBeJudged);
