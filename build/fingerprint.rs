@@ -18,7 +18,7 @@ const MUTATIONS: &str = "src/report/mutate/mod.rs";
 pub fn run() -> io::Result<()> {
     println!("cargo::rerun-if-changed=Cargo.lock");
     let mut files = Vec::new();
-    collect(Path::new("src"), &mut files)?;
+    collect(Path::new("src"), &["rs"], &mut files)?;
     let mut source = Source::new();
     for file in files {
         source.insert(file.to_string_lossy().replace('\\', "/"), fs::read_to_string(&file)?);

@@ -13,7 +13,7 @@ const REPORT: &str = "../../../paper/report.html";
 pub fn run() -> io::Result<()> {
     println!("cargo::rerun-if-changed=src");
     let mut files = Vec::new();
-    collect(Path::new("src"), &mut files)?;
+    collect(Path::new("src"), &["rs"], &mut files)?;
     files.sort();
     let mut out = String::from("&[\n");
     let mut rows = Vec::new();
@@ -35,13 +35,13 @@ pub fn run() -> io::Result<()> {
     fs::write(folder.join("homes.rs"), out)
 }
 
-/// All Rust files below a folder.
-pub fn collect(folder: &Path, into: &mut Vec<PathBuf>) -> io::Result<()> {
+/// All files below a folder with one of these endings.
+pub fn collect(folder: &Path, endings: &[&str], into: &mut Vec<PathBuf>) -> io::Result<()> {
     for entry in fs::read_dir(folder)? {
         let path = entry?.path();
         if path.is_dir() {
-            collect(&path, into)?;
-        } else if path.extension().is_some_and(|end| end == "rs") {
+            collect(&path, endings, into)?;
+        } else if path.extension().is_some_and(|end| endings.iter().any(|own| end == *own)) {
             into.push(path);
         }
     }

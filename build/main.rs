@@ -1,7 +1,8 @@
-//! What the program must know of its own source: a fingerprint, the homes of equations,
-//! and the source that the report quotes.
+//! What the program must know of its own source: a fingerprint, the homes of equations, the source that the report
+//! quotes, and, with the feature `embed`, what it else reads when it runs.
 
 mod depends;
+mod embedded;
 mod fingerprint;
 mod homes;
 mod sources;
@@ -9,5 +10,6 @@ mod sources;
 fn main() -> std::io::Result<()> {
     fingerprint::run()?;
     homes::run()?;
-    sources::run()
+    sources::run()?;
+    embedded::run()
 }

@@ -9,7 +9,7 @@ use std::{env, fs, io};
 /// Writes `sources.rs` for `report::literate`.
 pub fn run() -> io::Result<()> {
     let mut files = Vec::new();
-    collect(Path::new("src"), &mut files)?;
+    collect(Path::new("src"), &["rs"], &mut files)?;
     files.sort();
     let mut out = String::from("&[\n");
     for file in files {

@@ -29,6 +29,7 @@
 
 pub mod circuits;
 pub mod claims;
+pub mod committed;
 pub mod digest;
 pub mod dynamics;
 pub mod experiments;

@@ -74,7 +74,7 @@ fn results(profile: Profile) -> Results {
     results.restitution = Some(restitution::CUTTING.run(&parameters, "test", &quiet).unwrap());
     let parameters = ChainsParams::new(quick);
     results.chains = Some(chains::CUTTING.run(&parameters, "test", &quiet).unwrap());
-    results.measured = Some(Measured::embedded().unwrap());
+    results.measured = Some(Measured::committed().unwrap());
     results
 }
 

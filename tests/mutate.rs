@@ -147,7 +147,7 @@ fn guards_relate_values_of_the_report() {
     };
     let (store, quiet) = (Store::open(RESULTS.path()).unwrap(), Progress::silent());
     let results = run(&Need::ALL, Profile::Quick, scenario, &store, &quiet).unwrap();
-    let published = Published::parse(Published::EMBEDDED).unwrap();
+    let published = Published::committed().unwrap();
     let mut values = contents::registry(&results, &published).unwrap();
     values.extend(scorecard(&claims::all(&results, &published).unwrap())).unwrap();
     let mut names = BTreeSet::new();

@@ -38,7 +38,7 @@ fn claims_fail_when_the_results_say_so() {
     let needs = [Need::Sweep, Need::Laws, Need::Starts];
     let mut results =
         run(&needs, Profile::Quick, none, &Store::nowhere(), &Progress::silent()).unwrap();
-    let published = Published::parse(Published::EMBEDDED).unwrap();
+    let published = Published::committed().unwrap();
     let verdict =
         |id: &str, results: &Results| claims::one(id, results, &published).unwrap().verdict;
 

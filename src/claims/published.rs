@@ -1,5 +1,6 @@
 //! What the paper printed: `templates/published.toml`.
 
+use crate::committed;
 use crate::digest::sha256;
 use crate::input::{one_line, toml_fault};
 use serde::Deserialize;
@@ -56,6 +57,9 @@ pub struct Statement {
 /// What is wrong with a file of published statements.
 #[derive(Debug, thiserror::Error)]
 pub enum PublishedError {
+    /// It cannot be read.
+    #[error("published.toml: {0}")]
+    Unread(std::io::Error),
     /// It is not the TOML that is expected: line and fault.
     #[error("published.toml:{0}")]
     Syntax(String),
@@ -79,8 +83,14 @@ pub enum PublishedError {
 }
 
 impl Published {
-    /// The file that this binary was built with.
-    pub const EMBEDDED: &str = include_str!("../../templates/published.toml");
+    /// The committed file.
+    ///
+    /// # Errors
+    /// As [`Published::parse`]; and if the file cannot be read.
+    pub fn committed() -> Result<Published, PublishedError> {
+        let text = committed::text("templates/published.toml");
+        Published::parse(&text.map_err(PublishedError::Unread)?)
+    }
 
     /// Reads the file.
     ///
@@ -161,8 +171,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_embedded_file_reads() {
-        let published = Published::parse(Published::EMBEDDED).unwrap();
+    fn the_committed_file_reads() {
+        let published = Published::committed().unwrap();
         assert_eq!(published.parameter("restitution").unwrap(), 0.8);
         let [low, high] = published.statement("sec2_half_height").unwrap().rounding().unwrap();
         assert!((low - 0.115).abs() < 1e-15 && (high - 0.125).abs() < 1e-15);

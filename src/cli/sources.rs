@@ -15,7 +15,7 @@ pub struct Sources {
     /// Number of threads; all cores without it. It changes no bit of the result.
     #[arg(long, value_name = "K", allow_hyphen_values = true)]
     pub threads: Option<usize>,
-    /// Folder of the prose [default: templates, or the copy inside the program].
+    /// Folder of the prose [default: templates of the checkout, or the copy inside the program].
     #[arg(long, value_name = "DIR")]
     templates: Option<PathBuf>,
     /// Folder in which results of long runs are kept.

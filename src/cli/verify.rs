@@ -31,7 +31,7 @@ pub struct Args {
     /// Take results of long runs from this folder, where they are fresh, and keep them there.
     #[arg(long, value_name = "DIR", requires = "rerun")]
     results: Option<PathBuf>,
-    /// Folder of the prose [default: templates, or the copy inside the program].
+    /// Folder of the prose [default: templates of the checkout, or the copy inside the program].
     #[arg(long, value_name = "DIR", requires = "rerun")]
     templates: Option<PathBuf>,
     /// Number of threads; all cores without it. It changes no bit of the result.

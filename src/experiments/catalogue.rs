@@ -79,7 +79,6 @@ pub const SECOND_SEED: Deep<SweepParams, sweep::Sweep, tally::Tally> = Deep::new
     "src/experiments/sweep.rs",
     SweepParams::second_seed,
     ("second seed", sweep::CUTTING),
-    include_str!("../../benches/deep/second_seed-deep.json"),
 );
 
 /// Half height against transient and window.
@@ -88,7 +87,6 @@ pub const PROTOCOL: Deep<ProtocolParams, protocol::ProtocolMap, protocol::Part> 
     "src/experiments/protocol.rs",
     ProtocolParams::new,
     ("protocol map", protocol::CUTTING),
-    include_str!("../../benches/deep/protocol-deep.json"),
 );
 
 /// The same for other starts and ends.
@@ -97,7 +95,6 @@ pub const PROTOCOLS: Deep<ProtocolsParams, protocols::Protocols, protocol::Part>
     "src/experiments/protocols.rs",
     ProtocolsParams::new,
     ("maps of other chains", protocols::CUTTING),
-    include_str!("../../benches/deep/protocols-deep.json"),
 );
 
 /// Other starts, boundaries, restitutions and frequencies.
@@ -106,7 +103,6 @@ pub const STARTS: Deep<StartsParams, starts::Starts, tally::Tally> = Deep::new(
     "src/experiments/starts.rs",
     StartsParams::new,
     ("variants", starts::CUTTING),
-    include_str!("../../benches/deep/starts-deep.json"),
 );
 
 /// Chaos and its horizon.
@@ -153,7 +149,6 @@ pub const BIAS: Deep<BiasParams, bias::Biases, bias::Part> = Deep::new(
     "src/experiments/accuracy/bias.rs",
     BiasParams::new,
     ("bias of methods", bias::CUTTING),
-    include_str!("../../benches/deep/bias-deep.json"),
 );
 
 /// Every method in the scenes where methods fail.
@@ -184,13 +179,8 @@ pub const ANALYTIC: Experiment<AnalyticParams, analytic::Analytic> = Experiment 
 };
 
 /// How hot running chains are.
-pub const HEAT: Deep<HeatParams, heat::Heat, heat::Part> = Deep::new(
-    Need::Heat,
-    "src/experiments/heat/mod.rs",
-    HeatParams::new,
-    ("heat", heat::CUTTING),
-    include_str!("../../benches/deep/heat-deep.json"),
-);
+pub const HEAT: Deep<HeatParams, heat::Heat, heat::Part> =
+    Deep::new(Need::Heat, "src/experiments/heat/mod.rs", HeatParams::new, ("heat", heat::CUTTING));
 
 /// First impacts of chains from rest.
 pub const NUCLEATION: Experiment<NucleationParams, nucleation::Nucleation, nucleation::Part> =
@@ -224,7 +214,6 @@ pub const INDEPENDENCE: Deep<IndependenceParams, independence::Independence, ind
         "src/experiments/independence/mod.rs",
         IndependenceParams::new,
         ("independence", independence::CUTTING),
-        include_str!("../../benches/deep/independence-deep.json"),
     );
 
 /// Periodic orbits of a short chain.
@@ -241,7 +230,6 @@ pub const CHAINS: Deep<ChainsParams, chains::Chains, chains::Part> = Deep::new(
     "src/experiments/chains/mod.rs",
     ChainsParams::new,
     ("long chains", chains::CUTTING),
-    include_str!("../../benches/deep/chains-deep.json"),
 );
 
 /// Chains of several restitutions.
@@ -251,7 +239,6 @@ pub const RESTITUTION: Deep<RestitutionParams, restitution::Restitution, restitu
         "src/experiments/restitution/mod.rs",
         RestitutionParams::new,
         ("restitution", restitution::CUTTING),
-        include_str!("../../benches/deep/restitution-deep.json"),
     );
 
 /// The long end of the map over transients and windows.
@@ -263,6 +250,5 @@ pub const LONG_PROTOCOL: Deep<ProtocolParams, long::LongMap, protocol::Part> = D
         "src/experiments/long.rs",
         ProtocolParams::long,
         ("long protocol map", long::CUTTING),
-        include_str!("../../benches/deep/long_protocol-deep.json"),
     )
 };

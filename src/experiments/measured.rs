@@ -4,12 +4,9 @@
 //! depends on them. `make measure` writes them, with date and machine, and they are committed; the
 //! report only reads them, and so keeps its bytes until somebody measures again.
 
-use crate::input::{self, one_line};
+use crate::committed;
+use crate::input::one_line;
 use serde::{Deserialize, Serialize};
-use std::path::Path;
-
-/// The copy that is built into the program.
-const EMBEDDED: &str = include_str!("../../benches/measured.json");
 
 /// Where the file lies, seen from the top of the project.
 pub const FILE: &str = "benches/measured.json";
@@ -125,24 +122,12 @@ pub struct MeasuredError {
 const AGAIN: &str = "run make measure again, or restore the file";
 
 impl Measured {
-    /// The copy that is built into the program.
-    ///
-    /// # Errors
-    /// As [`Measured::parse`].
-    pub fn embedded() -> Result<Self, MeasuredError> {
-        Measured::parse(EMBEDDED)
-    }
-
-    /// The file below the current folder if it is there, else the embedded copy.
+    /// The committed file.
     ///
     /// # Errors
     /// As [`Measured::parse`]; and if the file cannot be read.
-    pub fn find() -> Result<Self, MeasuredError> {
-        let path = Path::new(FILE);
-        if !path.is_file() {
-            return Measured::embedded();
-        }
-        let text = input::read(path).map_err(|e| wrong("file", e.to_string()))?;
+    pub fn committed() -> Result<Self, MeasuredError> {
+        let text = committed::text(FILE).map_err(|e| wrong("file", e.to_string()))?;
         Measured::parse(&text)
     }
 
@@ -238,7 +223,7 @@ mod tests {
 
     #[test]
     fn the_committed_file_reads() {
-        let measured = Measured::embedded().unwrap();
+        let measured = Measured::committed().unwrap();
         assert!(measured.of(What::Engine).count() > 0);
         let text = serde_json::to_string(&measured).unwrap();
         assert_eq!(Measured::parse(&text).unwrap(), measured);
@@ -247,14 +232,14 @@ mod tests {
 
     /// The committed file with one text replaced by another.
     fn with(old: &str, new: &str) -> String {
-        let text = serde_json::to_string(&Measured::embedded().unwrap()).unwrap();
+        let text = serde_json::to_string(&Measured::committed().unwrap()).unwrap();
         assert!(text.contains(old), "{old} is not in the file");
         text.replacen(old, new, 1)
     }
 
     #[test]
     fn what_is_wrong_is_named() {
-        let measured = Measured::embedded().unwrap();
+        let measured = Measured::committed().unwrap();
         let row = &measured.rows[0];
         let name = format!("\"name\":{:?}", row.name);
         let date = format!("\"date\":{:?}", measured.date);
@@ -279,7 +264,7 @@ mod tests {
 
     #[test]
     fn counts_agree() {
-        let mut row = Measured::embedded().unwrap().rows.remove(0);
+        let mut row = Measured::committed().unwrap().rows.remove(0);
         (row.segments, row.segment_misses) = (Some(3), Some(4));
         assert_eq!(row.check().unwrap_err().0, "segment_misses");
         (row.segments, row.segment_misses) = (None, Some(4));

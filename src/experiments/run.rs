@@ -27,7 +27,7 @@ pub fn run(
         results.segments = Some(segments::run([&fig05?, &fig06?])?);
     }
     if needs(Need::Measured) {
-        results.measured = Some(Measured::find()?);
+        results.measured = Some(Measured::committed()?);
     }
     if needs(Need::Sweep) || needs(Need::Laws) {
         results.sweep = Some(catalogue::SWEEP.get(profile, store, progress)?);

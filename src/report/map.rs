@@ -40,9 +40,9 @@ const SECTIONS: [Section; 10] = [
 /// The two tables, as Markdown with links relative to the top of the repository.
 ///
 /// # Errors
-/// When the embedded published.toml does not read.
+/// When published.toml does not read.
 pub fn markdown() -> Result<String, PublishedError> {
-    let published = Published::parse(Published::EMBEDDED)?;
+    let published = Published::committed()?;
     let mut out = String::from(
         "| Section of the paper | Equations | Code | Figures | Statements |\n|---|---|---|---|---|\n",
     );

@@ -1,26 +1,14 @@
 //! The templates: people's prose, read at run time; [`super::filler`] fills them.
 
 use super::Error;
+use crate::committed;
 use crate::input::{self, LARGEST};
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// The copy that is built into the program: path relative to `templates/`, and text.
-const EMBEDDED: &[(&str, &str)] = &[
-    ("literals.toml", include_str!("../../templates/literals.toml")),
-    ("unguarded.toml", include_str!("../../templates/unguarded.toml")),
-    ("published.toml", include_str!("../../templates/published.toml")),
-    ("references.bib", include_str!("../../templates/references.bib")),
-    ("report.css", include_str!("../../templates/report.css")),
-    ("report.html", include_str!("../../templates/report.html")),
-    ("report.md", include_str!("../../templates/report.md")),
-    ("report.tex", include_str!("../../templates/report.tex")),
-    ("report.typ", include_str!("../../templates/report.typ")),
-    ("scene.js", include_str!("../../templates/scene.js")),
-    ("scenarios/fig05.json", include_str!("../../templates/scenarios/fig05.json")),
-    ("scenarios/fig06.json", include_str!("../../templates/scenarios/fig06.json")),
-];
+/// The prose: where it is, its folder is.
+const PROSE: &str = "templates/report.md";
 
 /// Endings of the files that are templates or data for them (fonts live there too).
 const TEXT: [&str; 9] = [".md", ".tex", ".typ", ".bib", ".toml", ".html", ".css", ".js", ".json"];
@@ -30,11 +18,6 @@ const TEXT: [&str; 9] = [".md", ".tex", ".typ", ".bib", ".toml", ".html", ".css"
 pub struct Templates(BTreeMap<String, String>);
 
 impl Templates {
-    /// The copy that is built into the program.
-    pub fn embedded() -> Self {
-        Templates::of(EMBEDDED.iter().copied())
-    }
-
     /// Templates from texts.
     pub fn of<'a>(files: impl IntoIterator<Item = (&'a str, &'a str)>) -> Self {
         let own = |(path, text): (&str, &str)| (path.to_string(), text.to_string());
@@ -51,17 +34,21 @@ impl Templates {
         Ok(Templates(walk.files))
     }
 
-    /// The given folder; without one `./templates` if it is there, else the embedded copy.
+    /// The given folder, or else the committed one.
     ///
     /// # Errors
-    /// As [`Templates::read`].
+    /// As [`Templates::read`]; and if there is no folder.
     pub fn find(folder: Option<&Path>) -> Result<Self, Error> {
-        let default = Path::new("templates");
-        match folder {
-            Some(folder) => Templates::read(folder),
-            None if default.join("report.md").is_file() => Templates::read(default),
-            None => Ok(Templates::embedded()),
+        if let Some(folder) = folder {
+            return Templates::read(folder);
         }
+        if let Some(folder) = committed::find(PROSE).as_deref().and_then(Path::parent) {
+            return Templates::read(folder);
+        }
+        // Its error says what to do where there is no copy inside either.
+        let fail = |source| Error::Read { path: PROSE.into(), source };
+        committed::text(PROSE).map_err(fail)?;
+        Ok(Templates::of(committed::embedded("templates")))
     }
 
     /// The text of one file.
@@ -120,16 +107,5 @@ impl Walk {
             }
         }
         Ok(())
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_embedded_copy_is_the_folder() {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("templates");
-        assert_eq!(Templates::embedded(), Templates::read(&folder).unwrap());
     }
 }

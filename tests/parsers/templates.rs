@@ -23,7 +23,7 @@ static NAMED: LazyLock<Named> = LazyLock::new(|| {
     let scenario = |file: &str| Ok(committed(&format!("templates/{file}")));
     let results =
         run(&Need::ALL, Profile::Quick, scenario, &Store::nowhere(), &Progress::silent()).unwrap();
-    let published = Published::parse(Published::EMBEDDED).unwrap();
+    let published = Published::committed().unwrap();
     let judged = claims::all(&results, &published).unwrap();
     let mut values = contents::registry(&results, &published).unwrap();
     values.extend(impact_paper::report::claims::scorecard(&judged)).unwrap();

@@ -6,7 +6,6 @@ use super::super::identity::{Identity, Reason, told};
 use super::super::store::{Store, written};
 use super::super::{Error, Need, Progress};
 use super::Deep;
-use crate::digest::sha256;
 use crate::numerics::random::generator;
 use crate::params::{Profile, SEED};
 use rand::seq::SliceRandom;
@@ -158,7 +157,7 @@ impl<P: Serialize + Sync, T: Json, U: Json> Saved for Audited<'_, P, T, U> {
     }
 
     fn identity(&self, profile: Profile) -> Identity {
-        let audit = AuditParams { committed: sha256(self.0.committed), work: work(profile) };
+        let audit = AuditParams { committed: self.0.digest(), work: work(profile) };
         self.0.made_of().with_code(Identity::new(self.need().name(), MODULE, &audit))
     }
 

@@ -15,16 +15,19 @@ use super::experiment::{Experiment, Json, Saved};
 use super::identity::{Identity, Reason, told};
 use super::store::{self, Store};
 use super::{Error, Need, Progress};
+use crate::committed;
 use crate::digest::sha256;
 use crate::params::Profile;
 use audit::Audited;
 use serde::Serialize;
+use std::borrow::Cow;
+use std::io;
 
 /// The file of this code: a result that is joined from committed units depends on it.
 const MODULE: &str = "src/experiments/deep/mod.rs";
 
 /// What to do about a result that is stale.
-pub const REMEDY: &str = "run `make deep` and build again";
+pub const REMEDY: &str = "run `make deep`";
 
 /// An experiment of which the units of work are committed.
 pub struct Deep<P: 'static, T: 'static, U: 'static> {
@@ -36,8 +39,8 @@ pub struct Deep<P: 'static, T: 'static, U: 'static> {
     pub(super) parameters: fn(Profile) -> P,
     /// What people who wait are told, and how it is cut.
     pub(super) cut: (&'static str, Cutting<P, U, T>),
-    /// The committed units, as they were saved.
-    pub(super) committed: &'static str,
+    /// What was committed, where it is not in the file of that name.
+    pub(super) text: Option<&'static str>,
     /// This profile and the larger ones carry them over; smaller ones run the experiment at
     /// a size of their own.
     pub(super) from: Profile,
@@ -62,9 +65,23 @@ impl<P, T, U> Deep<P, T, U> {
         module: &'static str,
         parameters: fn(Profile) -> P,
         cut: (&'static str, Cutting<P, U, T>),
-        committed: &'static str,
     ) -> Self {
-        Deep { need, module, parameters, cut, committed, from: Profile::Full, distance: None }
+        Deep { need, module, parameters, cut, text: None, from: Profile::Full, distance: None }
+    }
+
+    /// The file of the committed units.
+    fn file(&self) -> String {
+        format!("benches/deep/{}-deep.json", self.need.name())
+    }
+
+    /// The committed units, as they were saved.
+    fn committed(&self) -> io::Result<Cow<'static, str>> {
+        self.text.map_or_else(|| committed::text(&self.file()), |text| Ok(Cow::Borrowed(text)))
+    }
+
+    /// SHA-256 of them; that of nothing if there are none.
+    fn digest(&self) -> String {
+        sha256(self.committed().unwrap_or_default().as_ref())
     }
 
     /// The experiment with another way to make a result of what its units give.
@@ -111,7 +128,7 @@ impl<P: Serialize + Sync, T: Json, U: Json> Deep<P, T, U> {
         }
         let audit = Audited(self).get(profile, store, progress)?;
         let name = format!("{} joined", self.need.name());
-        let params = JoinedParams { committed: sha256(self.committed) };
+        let params = JoinedParams { committed: self.digest() };
         let identity = self.made_of().with_code(Identity::new(&name, MODULE, &params));
         let join = || self.joined(self.given()?, progress);
         // What is said of the audit is enough.
@@ -131,10 +148,10 @@ impl<P: Serialize + Sync, T: Json, U: Json> Deep<P, T, U> {
 
     /// What each unit gave that is committed.
     fn given(&self) -> Result<Vec<U>, Error> {
-        let file = format!("benches/deep/{}-deep.json", self.need.name());
-        let unread = |what: String| Error::input(&file, what, REMEDY);
+        let unread = |what: String| Error::input(&self.file(), what, REMEDY);
+        let committed = self.committed().map_err(|error| unread(error.to_string()))?;
         let (made_of, body) =
-            store::parsed(self.committed).map_err(|reasons| unread(told(&reasons)))?;
+            store::parsed(&committed).map_err(|reasons| unread(told(&reasons)))?;
         let reasons = self.made_of().reasons(&made_of);
         if !reasons.iter().all(Reason::is_of_source) {
             return Err(unread(told(&reasons)));

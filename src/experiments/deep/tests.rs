@@ -23,7 +23,11 @@ const CUTTING: Cutting<u64, Given, usize> = Cutting {
 fn deep(cutting: Cutting<u64, Given, usize>, committed: &str) -> Small {
     let parameters = |profile| if profile == Profile::Deep { 12 } else { 2 };
     let committed = String::from(committed).leak();
-    Deep::new(Need::TwoMasses, "src/experiments/rise.rs", parameters, ("test", cutting), committed)
+    let cut = ("test", cutting);
+    Deep {
+        text: Some(committed),
+        ..Deep::new(Need::TwoMasses, "src/experiments/rise.rs", parameters, cut)
+    }
 }
 
 fn small(committed: &str) -> Small {

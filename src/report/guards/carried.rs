@@ -26,7 +26,7 @@ fn audited(look: Look<'_>) -> Option<String> {
         };
         let id = |what: &str| format!("carried.{what}_{name}");
         unless(*verdict != Carriage::Failed, || {
-            format!("the committed result {name} is stale: run `make deep` and build again")
+            format!("the committed result {name} is stale: run `make deep`")
         })
         .or_else(|| {
             unless(*verdict == expected && *again > 0 && again <= units && *units == cut, || {
