@@ -168,7 +168,13 @@ fn print(
         let fields = [
             ("printed", claim.printed.clone()),
             ("ours", plain(&claim.ours)),
-            ("within", format!("{} ({})", plain(&claim.tolerance), claim.reason)),
+            (
+                "within",
+                match claim.reason.as_str() {
+                    "" => String::new(),
+                    reason => format!("{} ({reason})", plain(&claim.tolerance)),
+                },
+            ),
             ("note", plain(&claim.note)),
         ];
         for (name, text) in fields.iter().filter(|(_, text)| !text.is_empty()) {

@@ -42,12 +42,14 @@ pub fn scorecard(claims: &[Claim]) -> Vec<ScoreLine> {
 }
 
 /// How the verdicts split by what they rest on: basis, statements, and how many are reproduced.
-pub fn bases() -> Vec<[String; 3]> {
+/// What none rests on has no line.
+pub fn bases(claims: &[Claim]) -> Vec<[String; 3]> {
+    let own = |basis: &&Basis| claims.iter().any(|claim| claim.basis == **basis);
     let line = |basis: &Basis| {
         let name = basis.words().replace(' ', "_");
         [basis.words().into(), mark(format!("score.{name}_of")), mark(format!("score.{name}"))]
     };
-    Basis::ALL.iter().map(line).collect()
+    Basis::ALL.iter().filter(own).map(line).collect()
 }
 
 /// The level of the claims, and what this copy was made with.

@@ -112,7 +112,7 @@ pub fn rows(
 ) -> Result<BTreeMap<&'static str, serde_json::Value>, Error> {
     Ok(BTreeMap::from([
         ("scorecard", serde_json::to_value(ledger::scorecard(claims))?),
-        ("basis_table", serde_json::to_value(ledger::bases())?),
+        ("basis_table", serde_json::to_value(ledger::bases(claims))?),
         ("row", serde_json::to_value(ledger::references(claims))?),
         ("readings_table", serde_json::to_value(simulation::readings_table())?),
         ("comparison_table", serde_json::to_value(comparison::table(results)?)?),

@@ -145,7 +145,8 @@ fn rise(results: &Results, sweep: &Sweep) -> Result<Vec<Value>, Error> {
         ),
         estimate("onset", places.onset, n),
         estimate("kept_half", places.kept_half, n),
-        or_none("mode_half", mode.map(|ends| Value::interval("mode_half", ends))),
+        or_none("mode_half_low", mode.map(|[low, _]| chosen("mode_half_low", low))),
+        or_none("mode_half_high", mode.map(|[_, high]| chosen("mode_half_high", high))),
         or_none("mode_noise_sigma", noise.map(|r| chosen("mode_noise_sigma", r.sigma))),
         or_none(
             "mode_noise",

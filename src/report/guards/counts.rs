@@ -25,6 +25,7 @@ pub const GUARDS: &[Guard] = &[
             "sigma_between",
             "mean_between",
             "compare.*",
+            "readings.*",
         ],
         find: rows_named,
     },
@@ -40,6 +41,7 @@ pub const GUARDS: &[Guard] = &[
         ],
         find: all_accounted_for,
     },
+    Guard { name: "impacts_by_rate", ids: &["readings.*"], find: impacts_by_rate },
     Guard { name: "whole_impacts", ids: &["window"], find: whole_impacts },
     Guard { name: "seeds_that_ran", ids: &["seed", "second_seed"], find: seeds },
     Guard {
@@ -113,8 +115,13 @@ fn rows_named(look: Look<'_>) -> Option<String> {
     ];
     let named = named.map(|(a, b, c, d)| [a, b, c, d].map(String::from));
     let compared = look.values.iter().filter_map(|value| {
-        let line = value.id.strip_suffix("_sigma").filter(|line| line.starts_with("compare."))?;
-        Some([value.id.clone(), String::new(), format!("{line}_simulated"), String::new()])
+        let line = value.id.strip_suffix("_sigma")?;
+        let mean = match line.split_once('.')?.0 {
+            "compare" => "simulated",
+            "readings" => "gaps",
+            _ => return None,
+        };
+        Some([value.id.clone(), String::new(), format!("{line}_{mean}"), String::new()])
     });
     let below = look.number("sigma_below").and_then(|sigma| {
         let claim = look.claims.iter().find(|claim| claim.id == "sec2_few_below")?;
@@ -139,6 +146,18 @@ fn rows_named(look: Look<'_>) -> Option<String> {
             .or_else(|| look.is(&all, over(0)))
     };
     below.or_else(|| named.find_map(off))
+}
+
+/// Impacts in the window are their rate times its length.
+fn impacts_by_rate(look: Look<'_>) -> Option<String> {
+    let sweep = look.results.sweep.as_ref()?;
+    look.values.iter().find_map(|value| {
+        let line =
+            value.id.strip_suffix("_impacts").filter(|line| line.starts_with("readings."))?;
+        let sigma = look.number(&format!("{line}_sigma"))?;
+        let row = sweep.rows.iter().find(|row| row.sigma == sigma)?;
+        look.is(&value.id, row.impacts_per_time? * sweep.parameters.protocol.window)
+    })
 }
 
 /// Each realisation is counted, rejected or given up; the histogram has a bin for each number of

@@ -28,7 +28,11 @@ pub const GUARDS: &[Guard] = &[
         ids: &["second_seed_largest", "half_height_second"],
         find: two_seeds,
     },
-    Guard { name: "modes", ids: &["mode_half", "mode_noise", "mode_noise_sigma"], find: modes },
+    Guard {
+        name: "modes",
+        ids: &["mode_half_low", "mode_half_high", "mode_noise", "mode_noise_sigma"],
+        find: modes,
+    },
     Guard { name: "rise_rows", ids: &["rise_rows", "largest_increase", "gaps"], find: rise_rows },
 ];
 
@@ -155,17 +159,18 @@ fn modes(look: Look<'_>) -> Option<String> {
     let sweep: &Sweep = look.results.sweep.as_ref()?;
     let half = (sweep.rows.first()?.counts.len() as f64 - 1.0) / 2.0;
     let known = || sweep.rows.iter().filter_map(|row| Some((row.sigma, row.mode_interval?)));
-    let passes = look.interval("mode_half").and_then(|[low, high]| {
-        let right = known().all(|(sigma, [from, to])| {
-            (sigma >= low || (to as f64) < half) && (sigma < high || from as f64 >= half)
+    let passes =
+        look.number("mode_half_low").zip(look.number("mode_half_high")).and_then(|(low, high)| {
+            let right = known().all(|(sigma, [from, to])| {
+                (sigma >= low || (to as f64) < half) && (sigma < high || from as f64 >= half)
+            });
+            let at = |end: f64| known().find(|(sigma, _)| *sigma == end).map(|(_, ends)| ends);
+            let before = known().take_while(|(sigma, _)| *sigma < high).last();
+            let ends = at(low).is_some_and(|[_, to]| to as f64 >= half)
+                && at(high).is_some()
+                && before.is_some_and(|(_, [from, _])| (from as f64) < half);
+            unless(right && ends, || format!("the mode passes one half outside [{low}, {high}]"))
         });
-        let at = |end: f64| known().find(|(sigma, _)| *sigma == end).map(|(_, ends)| ends);
-        let before = known().take_while(|(sigma, _)| *sigma < high).last();
-        let ends = at(low).is_some_and(|[_, to]| to as f64 >= half)
-            && at(high).is_some()
-            && before.is_some_and(|(_, [from, _])| (from as f64) < half);
-        unless(right && ends, || format!("the mode passes one half outside [{low}, {high}]"))
-    });
     passes.or_else(|| {
         let ([low, high], at) = look.interval("mode_noise").zip(look.number("mode_noise_sigma"))?;
         let own = known().find(|(sigma, _)| *sigma == at).map(|(_, ends)| ends.map(|k| k as f64));
