@@ -12,6 +12,7 @@ const RELATIONS: &str = "=<>≤≥≈≠∼∝→∈≪≫≲≳≡+−±";
 const OPENING: &str = "([{⟨⌈⌊";
 const CLOSING: &str = ")]}⟩⌉⌋!";
 const LARGE: &str = "∫∮∑∏";
+const PRODUCTS: &str = "·⋅×";
 /// Blanks of this width in em and more part a formula from its condition.
 const WIDE: f64 = 1.0;
 
@@ -30,15 +31,16 @@ pub fn rows(mathml: &str) -> Result<Vec<Vec<Row>>, Error> {
     let parts: Vec<Node<'_, '_>> = root.children().filter(Node::is_element).collect();
     if let [table] = parts[..]
         && table.has_tag_name("mtable")
-        && table.children().map(|row| row.children().count()).max() == Some(2)
+        && let Some(columns) = table.children().map(|row| row.children().count()).max()
+        && matches!(columns, 2 | 4)
     {
         let cell = |(i, cell): (usize, Node<'_, '_>)| {
             let parts: Vec<_> = cell.children().filter(Node::is_element).collect();
-            terms(mathml, &parts, i > 0)
+            terms(mathml, &parts, i % 2 == 1)
         };
         let row = |row: Node<'_, '_>| {
             let mut cells: Vec<Row> = row.children().enumerate().map(cell).collect();
-            cells.resize(2, Row::new());
+            cells.resize(columns, Row::new());
             cells
         };
         return Ok(table.children().map(row).collect());
@@ -55,6 +57,8 @@ enum Part {
     Opening,
     Closing,
     Fraction,
+    /// The sign of a product.
+    Product,
     /// Other operators: what follows stays with them.
     Binding,
     /// An integral or a sum.
@@ -80,9 +84,10 @@ fn terms(mathml: &str, parts: &[Node<'_, '_>], goes_on: bool) -> Row {
         });
         let parts = outside
             && before.is_some_and(|before| match kind {
-                Part::Relation => true,
+                Part::Relation | Part::Product => true,
                 Part::Large | Part::Function => {
-                    !matches!(before, Part::Binding | Part::Relation | Part::Large)
+                    use Part::{Binding, Large, Product, Relation};
+                    !matches!(before, Binding | Product | Relation | Large)
                 }
                 Part::Bracket => matches!(before, Part::Closing | Part::Fraction | Part::Bracket),
                 Part::Opening => before == Part::Closing,
@@ -97,7 +102,7 @@ fn terms(mathml: &str, parts: &[Node<'_, '_>], goes_on: bool) -> Row {
         let text = &mathml[part.range()];
         if let Some(piece) = row.last_mut().and_then(|term| term.last_mut()) {
             // The first operator of a row would lose the blanks about it.
-            let operator = kind == Part::Relation && piece.is_empty();
+            let operator = matches!(kind, Part::Relation | Part::Product) && piece.is_empty();
             let begins = operator && (before.is_some() || goes_on);
             match text.strip_prefix("<mo>").filter(|_| begins) {
                 Some(rest) => piece.push_str(&format!("<mo form=\"infix\">{rest}")),
@@ -137,6 +142,7 @@ fn kind(part: &Node<'_, '_>) -> Part {
         "mo" if among(OPENING) => Part::Opening,
         // A sign has no blanks about it.
         "mo" if among(RELATIONS) && part.attribute("lspace").is_none() => Part::Relation,
+        "mo" if among(PRODUCTS) => Part::Product,
         "mo" if word.chars().count() > 1 => Part::Function,
         "mo" => Part::Binding,
         _ => Part::Plain,
@@ -178,11 +184,14 @@ mod tests {
             (r"p \int_0^d \int_0^x t \exp\left(-t\right)", "p | ∫0d∫0xt | exp(−t)"),
             (r"(N - 1)(N - 2) \cdots (N - k)", "(N−1) | (N−2)⋯(N−k)"),
             (r"N! \left( a \right)", "N! | (a)"),
+            (r"(a) \cdots (b) \cdot 1 \cdot (c)", "(a)⋯(b) | ⋅1 | ⋅(c)"),
         ] {
             assert_eq!(shape(tex), [expected], "{tex}");
         }
         let aligned = shape(r"\begin{aligned} a = b &+ c \\ &- d \end{aligned}");
         assert_eq!(aligned, ["a || =b & +c", " & −d"]);
+        let two = shape(r"\begin{aligned} a &= b & c &= d \\ e &= f \end{aligned}");
+        assert_eq!(two, ["a & =b & c & =d", "e & =f &  & "]);
     }
 
     #[test]

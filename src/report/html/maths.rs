@@ -120,9 +120,10 @@ pub fn display(page: &Page<'_>, tex: &str) -> Result<String, Error> {
         format!("<div class=\"terms\">{terms}</div>")
     };
     let lines = rows.iter().flatten().map(cell).collect::<String>();
-    Ok(match rows.as_slice() {
-        [row] if row.len() == 1 => lines,
-        _ => format!("<div class=\"aligned\">{lines}</div>"),
+    Ok(match rows.first().map_or(1, Vec::len) {
+        1 => lines,
+        2 => format!("<div class=\"aligned\">{lines}</div>"),
+        _ => format!("<div class=\"aligned two\">{lines}</div>"),
     })
 }
 
