@@ -29,6 +29,12 @@ pub fn find(path: &str) -> Option<PathBuf> {
     program.ancestors().skip(1).map(|above| above.join(path)).find(|path| path.is_file())
 }
 
+/// Whether a file or folder of the project is there. Without a checkout nobody can say, and it is believed.
+pub fn exists(path: &str) -> bool {
+    let checkout = find("src/committed.rs");
+    checkout.is_none_or(|own| own.ancestors().nth(2).is_none_or(|top| top.join(path).exists()))
+}
+
 /// The text of a file, by its path from the top of the project.
 ///
 /// # Errors

@@ -209,7 +209,7 @@ fn prose_has_no_naked_numerals() {
     let declared = impact_paper::report::lint::Declared::read(&declared).unwrap();
     let found: Vec<String> = files("templates", &[".md"])
         .iter()
-        .flat_map(|(path, text)| impact_paper::report::lint::numerals(path, text, &declared))
+        .flat_map(|(path, text)| impact_paper::report::lint::findings(path, text, &declared))
         .map(|finding| finding.to_string())
         .collect();
     assert!(found.is_empty(), "{}", found.join("\n"));

@@ -83,7 +83,7 @@ fn show(cards: &[Card], as_json: bool) -> io::Result<()> {
     if as_json {
         let one = |card: &Card| {
             let rows: Vec<_> = card.rows.iter().map(row_json).collect();
-            json!({"id": card.id, "title": title(card), "rows": rows})
+            json!({"id": card.id, "title": title(card), "lead": card.lead, "rows": rows})
         };
         let all: Vec<_> = cards.iter().map(one).collect();
         return writeln!(out, "{:#}", json!(all));
@@ -93,6 +93,9 @@ fn show(cards: &[Card], as_json: bool) -> io::Result<()> {
             writeln!(out)?;
         }
         writeln!(out, "{}: {}", card.id, title(card))?;
+        if !card.lead.is_empty() {
+            writeln!(out, "  {}", card.lead)?;
+        }
         for row in card.rows.iter().filter(|row| row.name != "id") {
             write!(out, "  {:15} {}", row.name, plain(&row.text))?;
             if let Some((file, line)) = stands(row) {

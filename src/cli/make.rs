@@ -24,6 +24,7 @@ pub fn whole(
         return Err(Failure::input(report::Error::NoTypesetter.to_string()));
     }
     let templates = sources.templates()?;
+    report::lint::check(&templates).map_err(|error| Failure::input(error.to_string()))?;
     // Faults of the templates are told before the long runs, not after them.
     let published = sources.published(&templates)?;
     let reasons = sources.reasons(&templates)?.for_profile(profile);

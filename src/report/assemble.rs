@@ -4,14 +4,15 @@ use super::Templates;
 use super::bibliography::Library;
 use super::card::Cards;
 use super::claims::{Row, scorecard};
-use super::document::Block;
+use super::document::{self, Block, Inline};
 use super::filler::Filler;
-use super::lint::{Declared, Finding};
+use super::labels::Labels;
 use super::mark::Mark;
 use super::uses::uses;
 use super::values::Registry;
 use super::{Error, appendix, html, labels, latex, ledger, lint, markdown, parse, pdf, sums};
 use crate::claims::Claim;
+use crate::committed;
 use crate::figures::{self, Figure, Scene};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
@@ -54,7 +55,7 @@ pub struct Report {
 /// A naked numeral, an unknown or unused value, a reference to nothing, a figure that is missing
 /// or not shown, markup or a character that a format lacks.
 pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
-    check_numerals(input.templates)?;
+    lint::check(input.templates)?;
     let mut values = input.values.clone();
     values.extend(scorecard(input.claims))?;
     let mut filler = Filler::new(input.templates, &values)?;
@@ -63,13 +64,14 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
     for (name, rows) in input.rows {
         filler.insert(name, rows);
     }
-    let filled = filler.fill("report.md")?;
-    check_unused(&values, &filled)?;
+    let filled = filler.prose("report.md")?;
+    check_unused(&values, &filled.text)?;
 
-    let mut blocks = parse::parse(&filled, &values)?;
-    illustrate(&mut blocks, input.figures)?;
+    let (mut blocks, places) = parse::parse(&filled, &values)?;
+    let tell = |error| places.tell(error);
+    illustrate(&mut blocks, input.figures).map_err(tell)?;
     let library = Library::read(input.templates.text("references.bib")?)?;
-    labels::resolve(&mut blocks, &library)?;
+    let labels = labels::resolve(&mut blocks, &library).map_err(tell)?;
 
     let mut committed = Files::new();
     let mut put = |path: String, text: String| committed.insert(path, text.into_bytes());
@@ -101,6 +103,7 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
         beside.insert("report.pdf".into(), typeset(&printed, input)?);
     }
     committed.insert(sums::NAME.into(), sums::write(&committed).into_bytes());
+    check_links(&blocks, &labels, &committed).map_err(tell)?;
     Ok(Report { committed, beside })
 }
 
@@ -121,21 +124,6 @@ pub fn files_of(figure: &Figure) -> Files {
     std::iter::once(picture).chain(data).collect()
 }
 
-fn check_numerals(templates: &Templates) -> Result<(), Error> {
-    let prose = templates.iter().filter(|(path, _)| path.ends_with(".md"));
-    let declared =
-        templates.text("literals.toml").map_or(Ok(Declared::default()), Declared::read)?;
-    let found: Vec<Finding> =
-        prose.flat_map(|(path, text)| lint::numerals(path, text, &declared)).collect();
-    if !found.is_empty() {
-        return Err(Error::Numerals(found));
-    }
-    match declared.unmet().as_slice() {
-        [] => Ok(()),
-        unmet => Err(Error::Template(format!("literals.toml: no prose has {unmet:?}; remove it"))),
-    }
-}
-
 fn check_unused(values: &Registry, filled: &str) -> Result<(), Error> {
     let used: BTreeSet<String> =
         Mark::split(filled).into_iter().flatten().map(|mark| mark.id).collect();
@@ -147,6 +135,27 @@ fn check_unused(values: &Registry, filled: &str) -> Result<(), Error> {
     if unused.is_empty() { Ok(()) } else { Err(Error::Unused(unused.join(", "))) }
 }
 
+/// Each link leads to a place of the report, a file or folder of it, a file of the project, or out.
+fn check_links(blocks: &[Block], labels: &Labels, files: &Files) -> Result<(), Error> {
+    let leads =
+        |to: &str| match (to.split_once("://"), to.strip_prefix('#'), to.strip_prefix("../")) {
+            (Some(_), ..) => true,
+            (_, Some(id), _) => labels.number(&id.replacen('-', ":", 1)).is_some(),
+            (.., Some(path)) => committed::exists(path),
+            _ => files.keys().any(|path| path == to || path.starts_with(&format!("{to}/"))),
+        };
+    let mut result = Ok(());
+    document::visit(blocks, &mut |inline| {
+        if let Inline::Link { to, .. } = inline
+            && result.is_ok()
+            && !leads(to)
+        {
+            result = Err(Error::NoFile(to.clone()));
+        }
+    });
+    result
+}
+
 /// Gives the figures in the prose their alternative text and data; each is shown exactly once
 /// ([`labels::resolve`] refuses twice).
 fn illustrate(blocks: &mut [Block], figures: &[Figure]) -> Result<(), Error> {
@@ -155,7 +164,7 @@ fn illustrate(blocks: &mut [Block], figures: &[Figure]) -> Result<(), Error> {
         if let Block::Figure { path, alt, data, experiments, .. } = block {
             let figure =
                 figures.iter().find(|figure| *path == format!("figures/{}.svg", figure.id));
-            let figure = figure.ok_or_else(|| Error::Reference(path.clone()))?;
+            let figure = figure.ok_or_else(|| Error::NoFile(path.clone()))?;
             *alt = figure.description.clone();
             *data = figure.data.iter().map(|d| format!("data/{}", d.name)).collect();
             let number = figures::Number::of_id(&figure.id);

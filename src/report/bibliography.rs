@@ -57,7 +57,7 @@ impl Library {
     }
 
     fn entry(&self, key: &str) -> Result<&Entry, Error> {
-        let unknown = || Error::Reference(format!("@{key} (not in references.bib)"));
+        let unknown = || Error::Reference(key.to_string());
         self.0.iter().find(|entry| entry.key == key).ok_or_else(unknown)
     }
 

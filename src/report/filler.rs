@@ -12,6 +12,7 @@
 //! `«code(item="circuits::jump::p_jump")»` is an item of the source, see [`super::literate`].
 
 use super::mark::Mark;
+use super::origin::{Filled, marked};
 use super::print::{Asked, MOST_DIGITS, Style};
 use super::values::{Number, Registry};
 use super::{Error, Templates, literate};
@@ -50,6 +51,9 @@ fn render(tera: &Tera, name: &str, context: &Context) -> Result<String, Error> {
 #[derive(Clone)]
 pub struct Filler {
     tera: Tera,
+    /// The prose, and the same set up with marks that tell where it stands.
+    templates: Templates,
+    marked: Tera,
     context: Context,
 }
 
@@ -72,9 +76,13 @@ impl Filler {
         tera.autoescape_on(Vec::<&str>::new());
         register(&mut tera);
         let prose = |path: &str| [".md", ".tex", ".html"].iter().any(|end| path.ends_with(end));
-        let sources = templates.iter().filter(|(path, _)| prose(path));
-        tera.add_raw_templates(sources).map_err(failure)?;
-        Ok(Filler { tera, context: context(values) })
+        let mut with_marks = tera.clone();
+        let sources: Vec<_> = templates.iter().filter(|(path, _)| prose(path)).collect();
+        tera.add_raw_templates(sources.iter().copied()).map_err(failure)?;
+        let sources = sources.iter().map(|(path, text)| (*path, marked(text)));
+        with_marks.add_raw_templates(sources).map_err(failure)?;
+        let templates = templates.clone();
+        Ok(Filler { tera, templates, marked: with_marks, context: context(values) })
     }
 
     /// Adds a name that is no value: the rows of the claims, the list of figures.
@@ -88,6 +96,18 @@ impl Filler {
     /// An unknown name or a wrong filter, with file, line and column.
     pub fn fill(&self, path: &str) -> Result<String, Error> {
         render(&self.tera, path, &self.context)
+    }
+
+    /// Fills a template, and keeps where each piece of it stands.
+    ///
+    /// # Errors
+    /// As [`Filler::fill`].
+    pub fn prose(&self, path: &str) -> Result<Filled, Error> {
+        match render(&self.marked, path, &self.context) {
+            Ok(filled) => Ok(Filled::read(path, self.templates.text(path)?, &filled)),
+            // Without marks the same error has the right column.
+            Err(error) => self.fill(path).map_or_else(Err, |_| Err(error)),
+        }
     }
 
     /// Fills a text that is no file (a field of a claim); `name` stands for it in errors.

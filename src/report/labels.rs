@@ -167,10 +167,8 @@ fn refer(
                 _ => (id.as_str(), String::new()),
             },
         };
-        let number = labels.number(target).ok_or_else(|| Error::Reference(id.clone()))?;
-        if number.is_empty() {
-            return Err(Error::Reference(id));
-        }
+        let number = labels.number(target).filter(|number| !number.is_empty());
+        let number = number.ok_or_else(|| Error::Reference(ids[i].clone()))?;
         let number = if lower == "eq" { format!("({number})") } else { format!("{number}{part}") };
         if i > 0 {
             out.push(words(if i + 1 == ids.len() { " and " } else { ", " }));

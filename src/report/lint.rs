@@ -1,4 +1,5 @@
-//! No naked numerals: a digit in prose is a value, part of mathematics, a reference, or declared.
+//! No naked numerals: a digit in prose is a value, part of mathematics, a reference, or declared. And no
+//! delimiter without its end, which would show numerals elsewhere as naked.
 //!
 //! The lint reads templates before they are filled. Exempt are tags and comments of Tera (so
 //! `«v.id»` and `«literal(text="2007", why="…")»`), mathematics, code, `[@references]`,
@@ -11,13 +12,13 @@
 //! as *two-sided*, passes. Whatever the model itself fixes (*two masses* meet in an impact) is declared
 //! once, as a phrase with its reason, in `literals.toml`; a phrase that no prose has is refused.
 
-use super::Error;
+use super::{Error, Templates};
 use crate::input::toml_fault;
 use serde::Deserialize;
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 
-/// A numeral that nobody computed.
+/// A numeral that nobody computed, or a delimiter without its end.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Finding {
     /// Template file.
@@ -26,13 +27,31 @@ pub struct Finding {
     pub line: usize,
     /// Column in characters, from 1.
     pub column: usize,
-    /// The numeral.
-    pub numeral: String,
+    /// What it is.
+    pub fault: Fault,
+}
+
+/// What the lint finds.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Fault {
+    /// A numeral.
+    Numeral(String),
+    /// A delimiter, and the one that ought to end it.
+    Open(&'static str, &'static str),
 }
 
 impl std::fmt::Display for Finding {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Finding { path, line, column, numeral } = self;
+        let Finding { path, line, column, fault } = self;
+        let numeral = match fault {
+            Fault::Numeral(numeral) => numeral,
+            Fault::Open(open, close) => {
+                return write!(
+                    f,
+                    "{path}:{line}:{column}: {open} is not closed; put {close} where it ends"
+                );
+            }
+        };
         write!(f, "{path}:{line}:{column}: the naked numeral {numeral}; name a value «v.…», ")?;
         if numeral.starts_with(char::is_alphabetic) {
             write!(f, "or declare the phrase around it, with its reason, in literals.toml")
@@ -42,22 +61,50 @@ impl std::fmt::Display for Finding {
     }
 }
 
-/// Pairs of delimiters between which digits are exempt, in the order in which they are tried.
-const EXEMPT: [(&str, &str); 13] = [
-    ("<#", "#>"),
-    ("<%", "%>"),
-    ("«", "»"),
-    ("<!--", "-->"),
-    ("```", "```"),
-    ("`", "`"),
-    ("$$", "$$"),
-    ("$", "$"),
-    ("[@", "]"),
-    ("[!", "]"),
-    ("{#", "}"),
-    ("](", ")"),
-    ("<http", ">"),
+/// Pairs of delimiters between which digits are exempt, in the order in which they are tried, and whether
+/// what is between them may go over several paragraphs.
+const EXEMPT: [(&str, &str, bool); 13] = [
+    ("<#", "#>", true),
+    ("<%", "%>", true),
+    ("«", "»", true),
+    ("<!--", "-->", true),
+    ("```", "```", true),
+    ("`", "`", false),
+    ("$$", "$$", false),
+    ("$", "$", false),
+    ("[@", "]", false),
+    ("[!", "]", false),
+    ("{#", "}", false),
+    ("](", ")", false),
+    ("<http", ">", false),
 ];
+
+/// Where what a delimiter opens ends: the length of what is between. A single dollar stands right at its
+/// formula on both sides.
+fn length(inner: &str, (open, close, long): (&str, &str, bool)) -> Option<usize> {
+    let scope = if long { inner } else { inner.split("\n\n").next().unwrap_or(inner) };
+    let ends = |at: &usize| open != "$" || *at > 0 && !scope[..*at].ends_with([' ', '\n', '\\']);
+    scope.match_indices(close).map(|(at, _)| at).find(ends)
+}
+
+/// Holds all prose against the lint.
+///
+/// # Errors
+/// [`Error::Lint`] with every finding; a phrase of literals.toml that no prose has.
+pub fn check(templates: &Templates) -> Result<(), Error> {
+    let prose = templates.iter().filter(|(path, _)| path.ends_with(".md"));
+    let declared =
+        templates.text("literals.toml").map_or(Ok(Declared::default()), Declared::read)?;
+    let found: Vec<Finding> =
+        prose.flat_map(|(path, text)| findings(path, text, &declared)).collect();
+    if !found.is_empty() {
+        return Err(Error::Lint(found));
+    }
+    match declared.unmet().as_slice() {
+        [] => Ok(()),
+        unmet => Err(Error::Template(format!("literals.toml: no prose has {unmet:?}; remove it"))),
+    }
+}
 
 /// Words that are numbers and nothing else.
 const WORDS: &str = "two three four five six seven eight nine ten eleven twelve thirteen fourteen \
@@ -126,13 +173,11 @@ impl Declared {
     }
 }
 
-/// All naked numerals of a text.
-pub fn numerals(path: &str, text: &str, declared: &Declared) -> Vec<Finding> {
+/// The first delimiter of a text without its end, or else all naked numerals.
+pub fn findings(path: &str, text: &str, declared: &Declared) -> Vec<Finding> {
     let mut findings = Vec::new();
     let mut position = Position { line: 1, column: 1 };
     let mut rest = text;
-    // Delimiters whose end was looked for in vain, so that it is not looked for again and again.
-    let mut endless = [false; EXEMPT.len()];
     // The word that the position is in, and whether it began with a letter.
     let mut word: Option<bool> = None;
     while let Some(c) = rest.chars().next() {
@@ -140,21 +185,21 @@ pub fn numerals(path: &str, text: &str, declared: &Declared) -> Vec<Finding> {
             rest = position.past(rest, 2);
             continue;
         }
-        if let Some(kind) = EXEMPT.iter().position(|(open, _)| rest.starts_with(open))
-            && !endless[kind]
-        {
-            let (open, close) = EXEMPT[kind];
+        let opens = |(open, ..): &&(&str, _, _)| rest.starts_with(open);
+        // A dollar before a blank is a sign of money.
+        let money = rest.strip_prefix('$').is_some_and(|rest| rest.starts_with([' ', '\n']));
+        if let Some(&kind) = EXEMPT.iter().find(opens).filter(|_| !money) {
+            let (open, close, _) = kind;
             let inner = &rest[open.len()..];
-            // Without its end a delimiter is a character like any other.
-            if let Some(length) = inner.find(close) {
-                if open == "$" && is_number(&inner[..length]) {
-                    findings.push(position.finding(path, &inner[..length]));
-                }
-                rest = position.past(rest, open.len() + length + close.len());
-                word = None;
-                continue;
+            let Some(length) = length(inner, kind) else {
+                return vec![position.finding(path, Fault::Open(open, close))];
+            };
+            if open == "$" && is_number(&inner[..length]) {
+                findings.push(position.numeral(path, &inner[..length]));
             }
-            endless[kind] = true;
+            rest = position.past(rest, open.len() + length + close.len());
+            word = None;
+            continue;
         }
         if position.column == 1 {
             let marker = list_marker(rest);
@@ -171,14 +216,14 @@ pub fn numerals(path: &str, text: &str, declared: &Declared) -> Vec<Finding> {
                     && !names_a_kind(text, start, &whole)
                     && !declared.allows(text, start, &whole)
                 {
-                    findings.push(position.finding(path, &whole));
+                    findings.push(position.numeral(path, &whole));
                 }
             }
             let begins_with_letter = *word.get_or_insert(c.is_alphabetic() || c == '_');
             if c.is_numeric() && !begins_with_letter {
                 let numeral: String = rest.chars().take_while(|c| in_numeral(*c)).collect();
                 let numeral = numeral.trim_end_matches(['.', ',']).to_string();
-                findings.push(position.finding(path, &numeral));
+                findings.push(position.numeral(path, &numeral));
                 rest = position.past(rest, numeral.len());
                 continue;
             }
@@ -246,9 +291,12 @@ impl Position {
         &rest[bytes..]
     }
 
-    fn finding(&self, path: &str, numeral: &str) -> Finding {
-        let numeral = numeral.to_string();
-        Finding { path: path.to_string(), line: self.line, column: self.column, numeral }
+    fn finding(&self, path: &str, fault: Fault) -> Finding {
+        Finding { path: path.to_string(), line: self.line, column: self.column, fault }
+    }
+
+    fn numeral(&self, path: &str, numeral: &str) -> Finding {
+        self.finding(path, Fault::Numeral(numeral.to_string()))
     }
 }
 
@@ -257,8 +305,11 @@ mod tests {
     use super::*;
 
     fn found(text: &str) -> Vec<(usize, usize, String)> {
-        let place = |f: Finding| (f.line, f.column, f.numeral);
-        numerals("x.md", text, &Declared::default()).into_iter().map(place).collect()
+        let place = |f: Finding| match f.fault {
+            Fault::Numeral(numeral) => (f.line, f.column, numeral),
+            Fault::Open(open, _) => (f.line, f.column, format!("open {open}")),
+        };
+        findings("x.md", text, &Declared::default()).into_iter().map(place).collect()
     }
 
     #[test]
@@ -290,9 +341,25 @@ mod tests {
         let file =
             "[[literal]]\nwhy = \"an impact has them\"\nphrases = [\"two masses\", \"not there\"]";
         let declared = Declared::read(file).unwrap();
-        assert_eq!(numerals("x.md", "The two masses. Two masses; two", &declared).len(), 1);
+        assert_eq!(findings("x.md", "The two masses. Two masses; two", &declared).len(), 1);
         assert_eq!(declared.unmet(), ["not there"]);
         assert!(Declared::read("[[literal]]\nwhy = \" \"\nphrases = [\"two\"]").is_err());
+    }
+
+    #[test]
+    fn what_is_not_closed_is_told_and_no_numeral_elsewhere() {
+        for (text, at) in [
+            ("a\n\nb «v.x of\n$k = 3$", (3, 3, "«")),
+            ("with $k = 3 and $l = 4$\n\nthe $m = 5$", (1, 6, "$")),
+            ("with `k = 3\n\nthe `m = 5`", (1, 6, "`")),
+            ("$$\na = 3\n\nthe $m = 5$", (1, 1, "$$")),
+            ("see [@fig:3\n\nor [@fig:4]", (1, 5, "[@")),
+            ("<% if 3\nx", (1, 1, "<%")),
+            ("x [data](a.csv\n\n3", (1, 8, "](")),
+        ] {
+            let (line, column, open) = at;
+            assert_eq!(found(text), [(line, column, format!("open {open}"))], "{text}");
+        }
     }
 
     #[test]

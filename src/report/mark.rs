@@ -16,6 +16,11 @@ const OPEN: char = '\u{e000}';
 const CLOSE: char = '\u{e001}';
 const NEXT: char = '\u{e002}';
 
+/// Does a mark end with this character?
+pub fn ends(c: char) -> bool {
+    c == CLOSE
+}
+
 impl Mark {
     /// The mark as text.
     pub fn write(&self) -> String {

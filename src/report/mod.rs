@@ -20,12 +20,15 @@ pub mod html;
 pub mod labels;
 pub mod latex;
 pub mod ledger;
+mod leftover;
 pub mod lint;
 pub mod literate;
+mod macros;
 pub mod map;
 pub mod mark;
 pub mod markdown;
 pub mod mutate;
+pub mod origin;
 pub mod parse;
 pub mod pdf;
 pub mod place;
@@ -75,9 +78,20 @@ pub enum Error {
         /// What the system said.
         source: std::io::Error,
     },
-    /// Markup that the report does not have.
-    #[error("the report has no such markup: {}; see report::parse for what it has", one_line(.0, 200))]
+    /// Markup that the report does not have, or that says nothing.
+    #[error("{}; see report::parse for the markup that there is", one_line(.0, 200))]
     Markup(String),
+    /// What is wrong with a piece of the prose, and where that stands.
+    #[error("{place}: {error}")]
+    At {
+        /// File, line and column in the templates.
+        place: String,
+        /// What is wrong.
+        error: Box<Error>,
+    },
+    /// A link to a file that is not there.
+    #[error("a link to {}: there is no such file or place; correct or remove it", one_line(.0, 200))]
+    NoFile(String),
     /// Two things with one id.
     #[error("{}: two things in the report have this id; give one of them another", one_line(.0, 200))]
     Label(String),
@@ -106,15 +120,25 @@ pub enum Error {
     /// A PDF from a binary that cannot make one.
     #[error("--pdf: this binary was built without the typesetter; run make pdf")]
     NoTypesetter,
-    /// Numerals that nobody computed.
+    /// Numerals that nobody computed, or markup without its end.
     #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
-    Numerals(Vec<lint::Finding>),
+    Lint(Vec<lint::Finding>),
     /// A figure that the prose does not show.
     #[error("{0} is not shown; put ![caption](figures/{0}.svg) into the prose")]
     NotShown(String),
     /// Values that nothing names.
     #[error("no template and no claim names {0}; use or remove it, or declare it data_only()")]
     Unused(String),
+}
+
+impl Error {
+    /// The error with its place, unless it has one.
+    pub(crate) fn at(self, place: String) -> Error {
+        match self {
+            Error::At { .. } => self,
+            error => Error::At { place, error: Box::new(error) },
+        }
+    }
 }
 
 #[cfg(test)]
@@ -192,8 +216,8 @@ Listing: What $\delta v$ does. {#lst:kick}
 
     fn tree(text: &str) -> Vec<document::Block> {
         let templates = Templates::of([("report.md", text)]);
-        let filled = filler::Filler::new(&templates, &values()).unwrap().fill("report.md");
-        let mut blocks = parse::parse(&filled.unwrap(), &values()).unwrap();
+        let filled = filler::Filler::new(&templates, &values()).unwrap().prose("report.md");
+        let (mut blocks, _) = parse::parse(&filled.unwrap(), &values()).unwrap();
         let bib = "@article{rice1945, author={Rice, S. O.}, title={Noise}, year=1945}";
         let library = bibliography::Library::read(bib).unwrap();
         labels::resolve(&mut blocks, &library).unwrap();
@@ -253,6 +277,12 @@ Listing: What $\delta v$ does. {#lst:kick}
         ] {
             assert!(appendix.contains(part), "{part:?} is not in\n{appendix}");
         }
+    }
+
+    /// The tree of Markdown that nothing was filled into.
+    fn parsed(text: &str) -> Result<Vec<document::Block>, Error> {
+        let values = values();
+        Ok(parse::parse(&origin::Filled::plain("report.md", text), &values)?.0)
     }
 
     fn figure() -> Figure {
@@ -357,22 +387,73 @@ Listing: What $\delta v$ does. {#lst:kick}
 
     #[test]
     fn a_report_with_a_mistake_is_refused() {
-        let fails = |from: &str, to: &str| assembled(&PROSE.replace(from, to)).unwrap_err();
-        assert!(matches!(fails("At", "At 0.12,"), Error::Numerals(_)));
+        let fails = |from: &str, to: &str| match assembled(&PROSE.replace(from, to)).unwrap_err() {
+            Error::At { error, .. } => *error,
+            error => error,
+        };
+        assert!(matches!(fails("At", "At 0.12,"), Error::Lint(_)));
         assert!(
             matches!(fails("«v.half_height»", "half"), Error::Unused(id) if id == "half_height")
         );
         assert!(matches!(fails("v.half", "v.hulf"), Error::Template(_)));
         assert!(matches!(fails("rice1945", "mice1945"), Error::Reference(_)));
-        assert!(matches!(fails("fig03.svg", "fig04.svg"), Error::Reference(_)));
+        assert!(matches!(fails("fig03.svg", "fig04.svg"), Error::NoFile(_)));
         assert!(matches!(fails("![The rise.](figures/fig03.svg)", ""), Error::NotShown(_)));
         assert!(matches!(fails("Title", "漢"), Error::NoLatex('漢')));
+    }
+
+    /// What Markdown would show raw, or not at all, is told with its place in the template.
+    #[test]
+    fn broken_prose_is_told_with_its_place() {
+        for (broken, place, words) in [
+            (r"at $\frac{1}{2$ of", "12:4", "a formula without its end"),
+            (r"at $\operatorname{erf} x$", "12:4", r"write \mathrm"),
+            (r"at $\nosuch x$", "12:4", r"\nosuch"),
+            (r"at $\left( x$", "12:4", "no MathML"),
+            ("at «v.half_height»$x$", "12:19", "right behind a word or a number"),
+            ("# Another title", "12:1", "a second title"),
+            ("#### Deep", "12:1", "steps over a level"),
+            ("##", "12:1", "a heading without words"),
+            ("## A {#sec:a .unnumbred}", "12:1", ".unnumbered"),
+            ("## A {#sec:a}\n\n## B {#sec:a}", "14:1", "sec:a: two things"),
+            ("see [@fig:9] or", "12:5", "[@fig:9]: nothing"),
+            ("see [@fig:3; @rice1945]", "12:5", "nothing in the report"),
+            ("[data](data/no.csv)", "12:1", "a link to data/no.csv"),
+            ("[code](../src/no.rs)", "12:1", "a link to ../src/no.rs"),
+            ("[place](#sec-no)", "12:1", "a link to #sec-no"),
+            ("[](data)", "12:1", "a link without words"),
+            ("[data]()", "12:1", "leads nowhere"),
+            ("![Words.](figures/fig09.svg)", "12:1", "figures/fig09.svg"),
+            ("words ![Words.](figures/fig03.svg)", "12:1", "a picture stands alone"),
+            ("a *word", "12:3", "emphasis"),
+            ("a **word** and __word", "12:16", "emphasis"),
+            ("a word[^a]", "12:7", "footnotes"),
+            ("a «v.half_height»» b", "12:18", "the end of a value"),
+            ("<b>bold</b>", "12:1", "HTML"),
+            ("<!-- a comment --> and words", "12:1", "hides text"),
+            ("a *word with $x$*", "12:14", "inside emphasis"),
+            ("---", "12:1", "shown nowhere"),
+            ("[a]: https://x.org", "12:1", "a definition of a link"),
+            ("~~~\ncode", "12:1", "a block of code without its end"),
+            ("Table: Words. {#tab:b}\n\nwords", "12:1", "a caption without its table"),
+            ("words {#sec:b}", "12:7", "an id {#…}"),
+            ("| a | b |\n|---|---|\n| c | d | «v.half_height» |", "14:1", "a row of 3 cells"),
+            ("- item\n\n  - a *b", "14:7", "emphasis"),
+            ("see 漢", "12:5", "'漢'"),
+        ] {
+            let error = assembled(&format!("{PROSE}\n\n{broken}\n")).unwrap_err().to_string();
+            assert!(error.starts_with(&format!("report.md:{place}: ")), "{broken}: {error}");
+            assert!(error.contains(words) && !error.contains('\n'), "{broken}: {error}");
+        }
+        let good = "Words \\*, \\_, \\$, a * b, a_b, [a, b], <!-- a comment --> and\n\n<!-- another -->\n\n\
+            [data](data), [code](../src/lib.rs), [out](https://x.org/a), `*` and $a_b * c^*$.";
+        assembled(&format!("{PROSE}\n\n{good}\n")).unwrap();
     }
 
     #[test]
     fn what_cannot_be_resolved_is_an_error() {
         let fails = |text: &str| {
-            let mut blocks = parse::parse(text, &values()).unwrap();
+            let mut blocks = parsed(text).unwrap();
             let library = bibliography::Library::default();
             labels::resolve(&mut blocks, &library).unwrap_err().to_string()
         };
@@ -380,13 +461,13 @@ Listing: What $\delta v$ does. {#lst:kick}
         assert!(fails("see [@rice1945]").contains("rice1945"));
         assert!(fails("$$a \\tag{1}$$\n\n$$b \\tag{1}$$").contains("eq:1"));
         assert!(fails("## A {#sec:a}\n\nSee [@sec:a; @eq:1].").contains("eq:1"));
-        assert!(parse::parse("<b>html</b>", &values()).is_err());
+        assert!(parsed("<b>html</b>").is_err());
         let code = "```rust dynamics::flight::Motion::kick\n```";
-        assert!(parse::parse(&format!("Listing: A. {{#lst:a}}\n\n{code}"), &values()).is_ok());
+        assert!(parsed(&format!("Listing: A. {{#lst:a}}\n\n{code}")).is_ok());
         for text in [format!("Words.\n\n{code}"), format!("Listing: No id.\n\n{code}")] {
-            let error = parse::parse(&text, &values()).unwrap_err().to_string();
+            let error = parsed(&text).unwrap_err().to_string();
             assert!(error.contains("Motion::kick") && error.contains("Listing: "), "{error}");
         }
-        assert!(parse::parse("see ![x](figures/fig01.svg)", &values()).is_err());
+        assert!(parsed("see ![x](figures/fig01.svg)").is_err());
     }
 }

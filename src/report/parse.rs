@@ -16,156 +16,269 @@
 //! - `[@bibliography]` alone in a paragraph: the list of what was cited.
 
 use super::card::words_and_maths;
-use super::document::{Align, Block, Inline};
-use super::mark::Mark;
+use super::document::{Align, Block, Inline, plain};
+use super::mark::{self, Mark};
+use super::origin::{Filled, Places};
 use super::print::print;
-use super::valued::framed;
+use super::valued::{bare, framed};
 use super::values::Registry;
-use super::{Error, literate};
+use super::{Error, html, leftover, literate, macros, tex};
 use pulldown_cmark::{Alignment, BrokenLink, CowStr, Event, LinkType, Options, Parser, Tag};
+use std::ops::Range;
 
-/// Parses filled Markdown; `values` turn marks into what is shown.
+/// Parses filled Markdown; `values` turn marks into what is shown. The places are those of what has an id
+/// and of what names one.
 ///
 /// # Errors
-/// Markup that the report does not have, with the text near it.
-pub fn parse(text: &str, values: &Registry) -> Result<Vec<Block>, Error> {
+/// Markup that the report does not have, is not whole or says nothing, with its place in the template.
+pub fn parse<'a>(
+    filled: &'a Filled,
+    values: &'a Registry,
+) -> Result<(Vec<Block>, Places<'a>), Error> {
     let options =
         Options::ENABLE_MATH | Options::ENABLE_TABLES | Options::ENABLE_HEADING_ATTRIBUTES;
     let callback = |link: BrokenLink<'_>| {
         let own = link.reference.starts_with('@') || link.reference.starts_with('!');
         own.then(|| (CowStr::from(link.reference.to_string()), CowStr::from("")))
     };
-    let parser = Parser::new_with_broken_link_callback(text, options, Some(callback));
-    let events: Vec<Event<'_>> = parser.collect();
-    shallow(&events)?;
-    let mut reader = Reader { events: events.into_iter().peekable(), values };
-    let mut blocks = reader.blocks()?;
-    captions(&mut blocks)?;
-    Ok(blocks)
+    let parser = Parser::new_with_broken_link_callback(&filled.text, options, Some(callback));
+    if let Some((_, definition)) = parser.reference_definitions().iter().next() {
+        let error = Error::Markup("a definition of a link is shown nowhere".into());
+        return Err(error.at(filled.place(definition.span.start)));
+    }
+    let events: Vec<(Event<'_>, Range<usize>)> = parser.into_offset_iter().collect();
+    let mut reader = Reader {
+        events: events.into_iter().peekable(),
+        filled,
+        values,
+        at: 0,
+        attribute: None,
+        inside: 0,
+        titled: false,
+        level: 1,
+        places: Places::of(filled),
+    };
+    match reader.shallow().and_then(|()| reader.blocks()) {
+        Ok(blocks) => Ok((blocks, reader.places)),
+        Err(error) => Err(error.at(filled.place(reader.at))),
+    }
 }
 
 /// Lists, quotations and spans within each other, at most: what reads and writes them calls itself.
 const DEEPEST: usize = 40;
 
-/// Refuses what is nested deeper than any prose.
-fn shallow(events: &[Event<'_>]) -> Result<(), Error> {
-    let mut depth: usize = 0;
-    for event in events {
-        match event {
-            Event::Start(_) => depth += 1,
-            Event::End(_) => depth = depth.saturating_sub(1),
-            _ => {}
-        }
-        if depth > DEEPEST {
-            return Err(Error::Markup(format!("more than {DEEPEST} levels within each other")));
-        }
-    }
-    Ok(())
-}
-
 struct Reader<'a> {
-    events: std::iter::Peekable<std::vec::IntoIter<Event<'a>>>,
+    events: std::iter::Peekable<std::vec::IntoIter<(Event<'a>, Range<usize>)>>,
+    filled: &'a Filled,
     values: &'a Registry,
+    /// Where in the filled text what is being read begins.
+    at: usize,
+    /// Where the last `{#id}` stands that nothing has taken yet.
+    attribute: Option<usize>,
+    /// Emphasis and links about what is being read.
+    inside: usize,
+    /// Whether there is a title already, and the level of the last heading.
+    titled: bool,
+    level: u8,
+    places: Places<'a>,
 }
 
-impl Reader<'_> {
+impl<'a> Reader<'a> {
+    /// Refuses what is nested deeper than any prose.
+    fn shallow(&mut self) -> Result<(), Error> {
+        let mut depth: usize = 0;
+        for (event, range) in self.events.clone() {
+            match event {
+                Event::Start(_) => depth += 1,
+                Event::End(_) => depth = depth.saturating_sub(1),
+                _ => {}
+            }
+            if depth > DEEPEST {
+                self.at = range.start;
+                return Err(markup(format!("more than {DEEPEST} levels within each other")));
+            }
+        }
+        Ok(())
+    }
+
+    fn peek(&mut self) -> Option<&Event<'a>> {
+        self.events.peek().map(|(event, _)| event)
+    }
+
+    /// The next event; what is wrong with it stands where it begins.
+    fn next(&mut self) -> Option<(Event<'a>, Range<usize>)> {
+        let found = self.events.next()?;
+        if !matches!(found.0, Event::End(_)) {
+            self.at = found.1.start;
+        }
+        Some(found)
+    }
+
+    /// The source of a part of the filled text.
+    fn source(&self, range: &Range<usize>) -> &'a str {
+        &self.filled.text[range.clone()]
+    }
+
     /// Blocks up to the end of what contains them.
     fn blocks(&mut self) -> Result<Vec<Block>, Error> {
         let mut blocks = Vec::new();
-        while let Some(event) = self.events.peek() {
-            match event {
+        // Where a caption begins that waits for its table or listing.
+        let mut caption = None;
+        while let Some(event) = self.peek() {
+            let new = match event {
                 Event::End(_) => break,
-                Event::Start(tag) if is_block(tag) => {
-                    if let Some(Event::Start(tag)) = self.events.next() {
-                        blocks.extend(self.block(tag)?);
-                    }
-                }
+                Event::Start(tag) if is_block(tag) => match self.next() {
+                    Some((Event::Start(tag), range)) => self.block(tag, range)?,
+                    _ => None,
+                },
                 Event::Rule => {
-                    self.events.next();
+                    self.next();
+                    return Err(markup("a line across the page is shown nowhere"));
                 }
-                Event::Html(html) => return Err(Error::Markup(html.to_string())),
                 // Text right inside an item of a tight list.
-                _ => blocks.push(Block::Paragraph(self.inlines()?)),
+                _ => Some(Block::Paragraph(self.inlines()?)),
+            };
+            let Some(mut block) = new else { continue };
+            let begun = self.at;
+            let joined = join(&mut blocks, &mut block)?;
+            if let (Some(id), Some(offset)) = (&joined, caption) {
+                self.attribute = None;
+                id.iter().for_each(|id| self.places.add(format!("#{id}"), offset));
+            } else if let Some(offset) = caption {
+                self.at = offset;
+                return Err(markup("a caption without its table or code right behind it"));
+            }
+            caption = opens_caption(&block).then_some(begun);
+            if let Some(offset) = self.attribute.filter(|_| caption.is_none()) {
+                self.at = offset;
+                return Err(markup(
+                    "an id {#…} stands behind a heading or at the end of a caption",
+                ));
+            }
+            blocks.push(block);
+        }
+        match caption {
+            None => Ok(blocks),
+            Some(offset) => {
+                self.at = offset;
+                Err(markup("a caption without its table or code right behind it"))
             }
         }
-        Ok(blocks)
     }
 
-    fn block(&mut self, tag: Tag<'_>) -> Result<Option<Block>, Error> {
+    fn block(&mut self, tag: Tag<'_>, range: Range<usize>) -> Result<Option<Block>, Error> {
         let block = match tag {
-            Tag::Paragraph => paragraph(self.inlines()?)?,
-            Tag::Heading { level, id, classes, .. } => {
+            Tag::Paragraph => {
+                let inlines = self.inlines()?;
+                self.at = range.start;
+                let block = paragraph(inlines)?;
+                if let Block::Figure { id, path, .. } = &block {
+                    self.places.add(format!("#{id}"), range.start);
+                    self.places.add(format!("({path}"), range.start);
+                }
+                block
+            }
+            Tag::Heading { level, id, classes, attrs } => {
+                let level = level as u8;
                 let unnumbered = classes.iter().any(|class| &**class == "unnumbered");
-                let number = (!unnumbered && level as u8 > 1).then(String::new);
+                if !attrs.is_empty() || classes.iter().any(|class| &**class != "unnumbered") {
+                    return Err(markup("a heading has {#id} and .unnumbered, and nothing else"));
+                }
+                if level == 1 && std::mem::replace(&mut self.titled, true) {
+                    return Err(markup("a second title: sections begin with ##"));
+                }
+                if level > self.level + 1 {
+                    return Err(markup("a heading steps over a level"));
+                }
+                self.level = level;
                 let text = self.inlines()?;
-                Block::Heading { level: level as u8, number, id: id.map(|i| i.to_string()), text }
+                self.at = range.start;
+                if plain(&text).trim().is_empty() {
+                    return Err(markup("a heading without words"));
+                }
+                let id = id.map(|id| id.to_string());
+                id.iter().for_each(|id| self.places.add(format!("#{id}"), range.start));
+                let number = (!unnumbered && level > 1).then(String::new);
+                Block::Heading { level, number, id, text }
             }
             Tag::BlockQuote(_) => Block::Quote(self.blocks()?),
             Tag::List(start) => {
                 let mut items = Vec::new();
-                while let Some(Event::Start(Tag::Item)) = self.events.peek() {
-                    self.events.next();
+                while let Some(Event::Start(Tag::Item)) = self.peek() {
+                    self.next();
                     items.push(self.blocks()?);
-                    self.events.next();
+                    self.next();
                 }
                 Block::List { start, items }
             }
             Tag::CodeBlock(kind) => {
+                let fenced = kind.is_fenced();
                 let language = match kind {
                     pulldown_cmark::CodeBlockKind::Fenced(language) => language.to_string(),
                     pulldown_cmark::CodeBlockKind::Indented => String::new(),
                 };
                 let mut text = String::new();
-                while let Some(Event::Text(piece)) = self.events.peek() {
+                while let Some(Event::Text(piece)) = self.peek() {
                     text.push_str(piece);
-                    self.events.next();
+                    self.next();
+                }
+                self.at = range.start;
+                let last = self.source(&range).trim_end().lines().skip(1).last();
+                if fenced && !last.is_some_and(|line| line.trim_start().starts_with(['`', '~'])) {
+                    return Err(markup("a block of code without its end"));
                 }
                 match language.split_once(' ') {
                     Some((_, item)) => listing(item)?,
                     None => Block::Code { language, text: self.written(&text)? },
                 }
             }
-            Tag::Table(columns) => self.table(&columns)?,
+            Tag::Table(columns) => {
+                let table = self.table(&columns)?;
+                self.at = range.start;
+                table
+            }
             Tag::HtmlBlock => {
                 // Comments are for writers; other HTML has no place in four formats.
                 let mut html = String::new();
-                while let Some(Event::Html(piece)) = self.events.peek() {
+                while let Some(Event::Html(piece)) = self.peek() {
                     html.push_str(piece);
-                    self.events.next();
+                    self.next();
                 }
-                if !html.trim_start().starts_with("<!--") {
-                    return Err(Error::Markup(html));
-                }
-                self.events.next();
+                self.at = range.start;
+                comment(html.trim())?;
+                self.next();
                 return Ok(None);
             }
-            other => return Err(Error::Markup(format!("{other:?}"))),
+            other => return Err(markup(format!("no such markup: {other:?}"))),
         };
-        self.events.next();
+        self.next();
         Ok(Some(block))
     }
 
     fn table(&mut self, columns: &[Alignment]) -> Result<Block, Error> {
-        let columns = columns
-            .iter()
-            .map(|column| match column {
-                Alignment::Right => Align::Right,
-                Alignment::Center => Align::Centre,
-                Alignment::Left | Alignment::None => Align::Left,
-            })
-            .collect();
         let mut rows = Vec::new();
-        while let Some(Event::Start(Tag::TableHead | Tag::TableRow)) = self.events.peek() {
-            self.events.next();
-            let mut cells = Vec::new();
-            while let Some(Event::Start(Tag::TableCell)) = self.events.peek() {
-                self.events.next();
-                cells.push(self.inlines()?);
-                self.events.next();
+        while let Some(Event::Start(Tag::TableHead | Tag::TableRow)) = self.peek() {
+            let Some((_, range)) = self.next() else { break };
+            // Markdown cuts and fills rows in silence.
+            let (own, all) = (cells_of(self.source(&range)), columns.len());
+            if own != all {
+                return Err(markup(format!("a row of {own} cells in a table of {all} columns")));
             }
-            self.events.next();
+            let mut cells = Vec::new();
+            while let Some(Event::Start(Tag::TableCell)) = self.peek() {
+                self.next();
+                cells.push(self.inlines()?);
+                self.next();
+            }
+            self.next();
             rows.push(cells);
         }
+        let align = |column: &Alignment| match column {
+            Alignment::Right => Align::Right,
+            Alignment::Center => Align::Centre,
+            Alignment::Left | Alignment::None => Align::Left,
+        };
+        let columns = columns.iter().map(align).collect();
         let head = if rows.is_empty() { Vec::new() } else { rows.remove(0) };
         Ok(Block::Table { id: None, number: None, caption: Vec::new(), columns, head, rows })
     }
@@ -173,45 +286,107 @@ impl Reader<'_> {
     /// Running text up to the end of what contains it, or the next block.
     fn inlines(&mut self) -> Result<Vec<Inline>, Error> {
         let mut out = Vec::new();
-        while let Some(event) = self.events.peek() {
+        while let Some(event) = self.peek() {
             match event {
                 Event::End(_) => break,
                 Event::Start(tag) if is_block(tag) => break,
                 _ => {}
             }
-            let Some(event) = self.events.next() else { break };
+            let Some((event, range)) = self.next() else { break };
             match event {
-                Event::Text(text) => self.text(&text, &mut out)?,
+                Event::Text(text) => {
+                    self.whole(&text, &range)?;
+                    self.text(&text, &mut out)?;
+                }
                 Event::Code(text) => out.push(Inline::Code(self.written(&text)?)),
-                Event::InlineMath(tex) => out.push(Inline::Maths(self.maths(&tex)?)),
-                Event::DisplayMath(tex) => out.push(display(&self.maths(&tex)?)?),
+                Event::InlineMath(_) if self.inside > 0 => {
+                    return Err(markup("hosts see no formula inside emphasis or a link"));
+                }
+                Event::InlineMath(tex) => {
+                    self.stands_free(&range)?;
+                    out.push(Inline::Maths(self.maths(&tex)?));
+                }
+                Event::DisplayMath(tex) => out.push(self.display(&tex)?),
                 Event::SoftBreak => out.push(Inline::Soft),
                 Event::HardBreak => out.push(Inline::Break),
-                Event::InlineHtml(html) if html.starts_with("<!--") => {}
-                Event::Start(tag) => out.push(self.span(tag)?),
-                other => return Err(Error::Markup(format!("{other:?}"))),
+                Event::InlineHtml(html) => comment(&html)?,
+                Event::Start(tag) => out.push(self.span(tag, range)?),
+                other => return Err(markup(format!("no such markup: {other:?}"))),
             }
         }
         Ok(out)
     }
 
-    fn span(&mut self, tag: Tag<'_>) -> Result<Inline, Error> {
+    /// Refuses markup that was left over as text, since its other end is missing.
+    fn whole(&mut self, text: &str, range: &Range<usize>) -> Result<(), Error> {
+        let source = &self.filled.text;
+        // Behind a backslash a sign is meant as it stands.
+        let escaped = source[..range.start].ends_with('\\');
+        if let Some((offset, what)) = leftover::find(source, range.start, text, escaped) {
+            self.at = offset;
+            return Err(markup(what));
+        }
+        // Characters for private use frame values.
+        let odd = |c: char| !c.is_ascii() && !('\u{e000}'..='\u{f8ff}').contains(&c);
+        for (i, c) in text.char_indices().filter(|(_, c)| odd(*c)) {
+            tex::text(c.encode_utf8(&mut [0; 4])).inspect_err(|_| self.at = range.start + i)?;
+        }
+        if let Some(offset) = text.find("{#").filter(|_| !escaped) {
+            self.attribute = Some(range.start + offset);
+        }
+        Ok(())
+    }
+
+    /// Hosts see a formula in the line only behind a blank or an opening bracket.
+    fn stands_free(&self, range: &Range<usize>) -> Result<(), Error> {
+        let before = self.filled.text[..range.start].chars().next_back();
+        let touches =
+            |c: char| c.is_alphanumeric() || matches!(c, ')' | ']' | '$') || mark::ends(c);
+        match before.is_some_and(touches) {
+            true => Err(markup(
+                "hosts see no formula right behind a word or a number: move it inside, or set it apart",
+            )),
+            false => Ok(()),
+        }
+    }
+
+    fn span(&mut self, tag: Tag<'_>, range: Range<usize>) -> Result<Inline, Error> {
+        let hides = matches!(tag, Tag::Emphasis | Tag::Link { .. });
+        self.inside += usize::from(hides);
         let inner = self.inlines()?;
-        self.events.next();
+        self.inside -= usize::from(hides);
+        self.at = range.start;
+        self.next();
+        let empty = plain(&inner).trim().is_empty();
         Ok(match tag {
             Tag::Emphasis => Inline::Emphasis(inner),
             Tag::Strong => Inline::Strong(inner),
             Tag::Link { link_type: LinkType::ShortcutUnknown, dest_url, .. } => {
-                own_link(&dest_url)?
+                let link = own_link(&dest_url)?;
+                match &link {
+                    Inline::Anchor { id, .. } => self.places.add(format!("#{id}"), range.start),
+                    Inline::Unresolved(ids) => {
+                        let all = ids.iter().cloned().chain([ids.join("; ")]);
+                        all.for_each(|id| self.places.add(format!("@{id}"), range.start));
+                    }
+                    _ => {}
+                }
+                link
+            }
+            Tag::Link { .. } if empty => return Err(markup("a link without words")),
+            Tag::Link { dest_url, .. } | Tag::Image { dest_url, .. } if dest_url.is_empty() => {
+                return Err(markup("a link or picture that leads nowhere"));
             }
             Tag::Link { dest_url, .. } => {
-                Inline::Link { to: self.written(&dest_url)?, shown: inner }
+                let to = self.written(&dest_url)?;
+                self.places.add(format!("({to}"), range.start);
+                Inline::Link { to, shown: inner }
             }
             // Becomes a figure if it stands alone in its paragraph, else an error there.
             Tag::Image { dest_url, .. } => {
                 Inline::Link { to: format!("{IMAGE}{dest_url}"), shown: inner }
             }
-            other => return Err(Error::Markup(format!("{other:?}"))),
+            other => return Err(markup(format!("no such markup: {other:?}"))),
         })
     }
 
@@ -232,8 +407,26 @@ impl Reader<'_> {
         Ok(())
     }
 
+    /// TeX that every format can show.
     fn maths(&self, tex: &str) -> Result<String, Error> {
-        self.replaced(tex, Target::Maths)
+        let tex = self.replaced(tex, Target::Maths)?;
+        let bare = bare(&tex);
+        match macros::refused(&bare) {
+            Some(what) => Err(Error::Maths { tex: bare, what }),
+            None => tex::maths(&bare).and_then(|_| html::reads(&bare)).map(|()| tex),
+        }
+    }
+
+    /// Cuts `\tag{18}` out of an equation.
+    fn display(&mut self, tex: &str) -> Result<Inline, Error> {
+        let Some((before, after)) = tex.split_once(r"\tag{") else {
+            return Ok(Inline::Display { tex: self.maths(tex.trim())?, tag: None });
+        };
+        let (tag, after) =
+            after.split_once('}').ok_or_else(|| markup(r"a \tag{ without its end"))?;
+        let tex = self.maths(format!("{}{}", before.trim(), after.trim_end()).trim())?;
+        self.places.add(format!("#eq:{tag}"), self.at);
+        Ok(Inline::Display { tex, tag: Some(tag.to_string()) })
     }
 
     fn written(&self, text: &str) -> Result<String, Error> {
@@ -290,14 +483,27 @@ fn is_block(tag: &Tag<'_>) -> bool {
     )
 }
 
-/// Cuts `\tag{18}` out of an equation.
-fn display(tex: &str) -> Result<Inline, Error> {
-    let Some((before, after)) = tex.split_once(r"\tag{") else {
-        return Ok(Inline::Display { tex: tex.trim().to_string(), tag: None });
-    };
-    let (tag, after) = after.split_once('}').ok_or_else(|| Error::Markup(tex.to_string()))?;
-    let tex = format!("{}{}", before.trim(), after.trim_end());
-    Ok(Inline::Display { tex: tex.trim().to_string(), tag: Some(tag.to_string()) })
+fn markup(what: impl Into<String>) -> Error {
+    Error::Markup(what.into())
+}
+
+/// Comments are for writers; other HTML has no place in four formats.
+fn comment(html: &str) -> Result<(), Error> {
+    match (html.starts_with("<!--"), html.ends_with("-->") && html.len() >= 7) {
+        (true, true) => Ok(()),
+        (true, false) => {
+            Err(markup("a comment <!-- without --> at the end of its last line hides text"))
+        }
+        (false, _) => Err(markup(format!("HTML has no place in four formats: {html}"))),
+    }
+}
+
+/// Cells of a row of a table, by its bars.
+fn cells_of(row: &str) -> usize {
+    let row = row.trim();
+    let row = row.strip_prefix('|').unwrap_or(row);
+    let row = row.strip_suffix('|').filter(|rest| !rest.ends_with('\\')).unwrap_or(row);
+    row.matches('|').count() - row.matches(r"\|").count() + 1
 }
 
 /// `@fig:2; @fig:3` or `!claim:rise`.
@@ -363,31 +569,35 @@ fn listing(path: &str) -> Result<Block, Error> {
     })
 }
 
-/// Joins `Table: …` and `Listing: …` paragraphs to what stands behind them.
-fn captions(blocks: &mut Vec<Block>) -> Result<(), Error> {
-    let mut out: Vec<Block> = Vec::with_capacity(blocks.len());
-    for mut block in std::mem::take(blocks) {
-        match &mut block {
-            Block::Table { id, number, caption, .. } => {
-                if let Some((words, attribute)) = caption_before(&mut out, "Table: ") {
-                    (*caption, *id) = (words, attribute);
-                    *number = Some(String::new());
-                }
-            }
-            Block::Listing { id, caption, item, .. } => {
-                let Some((words, Some(attribute))) = caption_before(&mut out, "Listing: ") else {
-                    return Err(Error::Markup(format!(
-                        "code of `{item}` without the paragraph `Listing: caption {{#lst:id}}` before it"
-                    )));
-                };
-                (*caption, *id) = (words, attribute);
-            }
-            _ => {}
+const CAPTIONS: [&str; 2] = ["Table: ", "Listing: "];
+
+/// Is it a paragraph that a table or a listing has to follow?
+fn opens_caption(block: &Block) -> bool {
+    let Block::Paragraph(words) = block else { return false };
+    matches!(words.first(), Some(Inline::Text(first)) if CAPTIONS.iter().any(|word| first.starts_with(word)))
+}
+
+/// Joins a paragraph `Table: …` or `Listing: …` before it to a table or listing: the id if it took one.
+fn join(blocks: &mut Vec<Block>, block: &mut Block) -> Result<Option<Option<String>>, Error> {
+    match block {
+        Block::Table { id, number, caption, .. } => {
+            let found = caption_before(blocks, CAPTIONS[0]);
+            let Some((words, attribute)) = found else { return Ok(None) };
+            (*caption, *id) = (words, attribute);
+            *number = Some(String::new());
+            Ok(Some(id.clone()))
         }
-        out.push(block);
+        Block::Listing { id, caption, item, .. } => {
+            let Some((words, Some(attribute))) = caption_before(blocks, CAPTIONS[1]) else {
+                return Err(markup(format!(
+                    "code of `{item}` without the paragraph `Listing: caption {{#lst:id}}` before it"
+                )));
+            };
+            (*caption, *id) = (words, attribute);
+            Ok(Some(Some(id.clone())))
+        }
+        _ => Ok(None),
     }
-    *blocks = out;
-    Ok(())
 }
 
 /// Takes the last block if it is a paragraph that begins so: its words and its `{#id}`.

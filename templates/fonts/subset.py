@@ -1,7 +1,8 @@
 """Makes the fonts of report.html: python3 subset.py FOLDER, where FOLDER holds the originals.
 
-Needs fontTools and brotli from PyPI, and Libertinus Serif 7.051 (regular, italic, bold) and
-NewCMMath-Regular 4.0 as they stand in the crate typst-assets 0.15.1. Run once; the results are
+Needs fontTools and brotli from PyPI, Libertinus Serif 7.051 (regular, italic, bold) as it stands in the
+crate typst-assets 0.15.1, and Libertinus Math 7.040 as it stands in Debian's texlive-fonts-extra
+2022.20230122. Originals that are missing are left as they are. Run once; the results are
 committed. The block U+1D400-1D7FF has the italic, double-struck and other letters of MathML.
 """
 
@@ -19,7 +20,7 @@ FONTS = {
     "LibertinusSerif-Regular": TEXT,
     "LibertinusSerif-Italic": TEXT,
     "LibertinusSerif-Bold": TEXT,
-    "NewCMMath-Regular": MATHS,
+    "LibertinusMath-Regular": MATHS,
 }
 
 
@@ -29,12 +30,19 @@ def codes(ranges):
         yield from range(int(first, 16), int(last or first, 16) + 1)
 
 
-def rename(font, name):
-    """The licence of New Computer Modern asks that a changed font has a name of its own."""
-    for record in font["name"].names:
-        if record.nameID in (1, 3, 4, 6, 16):
-            record.string = name.replace(" ", "") if record.nameID == 6 else name
-    font["CFF "].cff.fontNames = [name.replace(" ", "")]
+def level(font):
+    """Browsers lower a subscript with the descender of its letter, by this much more: p and n would not agree."""
+    font["MATH"].table.MathConstants.SubscriptBaselineDropMin.Value = -40
+
+
+def widen(font):
+    """Browsers know no italic correction: without most of it in the width the next letter is touched."""
+    correction = font["MATH"].table.MathGlyphInfo.MathItalicsCorrectionInfo
+    letters = {name for code, name in font.getBestCmap().items() if 0x1D400 <= code <= 0x1D7FF}
+    for name, value in zip(correction.Coverage.glyphs, correction.ItalicsCorrection):
+        if name in letters:
+            width, left = font["hmtx"][name]
+            font["hmtx"][name] = (width + 2 * value.Value // 3, left)
 
 
 for source, ranges in FONTS.items():
@@ -44,13 +52,15 @@ for source, ranges in FONTS.items():
     options.hinting = False
     options.name_IDs = [0, 1, 2, 3, 4, 5, 6, 13, 14, 16, 17]
     options.notdef_outline = True
-    font = load_font(str(Path(sys.argv[1]) / f"{source}.otf"), options)
+    original = Path(sys.argv[1]) / f"{source}.otf"
+    if not original.exists():
+        continue
+    font = load_font(str(original), options)
     font.recalcTimestamp = False
     subsetter = Subsetter(options)
     subsetter.populate(unicodes=list(codes(ranges)))
     subsetter.subset(font)
-    target = source
-    if source.startswith("NewCM"):
-        target = "ImpactMath-Regular"
-        rename(font, "Impact Math")
-    save_font(font, str(Path(__file__).parent / f"{target}.woff2"), options)
+    if "MATH" in font:
+        level(font)
+        widen(font)
+    save_font(font, str(Path(__file__).parent / f"{source}.woff2"), options)

@@ -94,6 +94,50 @@ async function stays_narrow(page, name) {
   check(towers.length === 0, `${name}: ${towers.length} cells of tables are towers: ${towers.slice(0, 3).join(" | ")}`);
 }
 
+/** No displayed equation is wider than its box, on the screen or on paper. */
+async function equations_fit(page, name) {
+  for (const media of ["screen", "print"]) {
+    await page.emulateMedia({ media });
+    const [count, wide] = await page.evaluate(() => {
+      const all = [...document.querySelectorAll(".equation")];
+      const over = (equation) => {
+        const box = equation.querySelector(".scroll");
+        const inner = [...box.querySelectorAll("math, button")].map((part) => part.getBoundingClientRect());
+        const { left, right } = box.getBoundingClientRect();
+        return Math.max(box.scrollWidth - box.clientWidth, ...inner.map((part) => Math.max(part.right - right, left - part.left)));
+      };
+      const wide = all.filter((equation) => over(equation) > 1);
+      return [all.length, wide.map((equation) => `${equation.id} ${equation.textContent.slice(0, 40)} by ${over(equation).toFixed(0)}`)];
+    });
+    check(count > 38, `${name}, ${media}: ${count} equations`);
+    check(wide.length === 0, `${name}, ${media}: ${wide.length} equations are wider than their boxes: ${wide.join(" | ")}`);
+  }
+  await page.emulateMedia({ media: "screen" });
+}
+
+/** The card of a number lies inside the window, and closes. */
+async function cards_stay_inside(page, name) {
+  const buttons = page.locator("button.value");
+  const count = await buttons.count();
+  for (let i = 0; i < count; i += i < 40 ? 4 : 100) {
+    const button = buttons.nth(i);
+    for (const block of ["start", "center", "end"]) {
+      await button.evaluate((node, block) => node.scrollIntoView({ block, behavior: "instant" }), block);
+      if (!(await button.isVisible())) continue;
+      await button.evaluate((node) => node.click());
+      const card = page.locator(`#${await button.getAttribute("popovertarget")}`);
+      const box = await card.boundingBox();
+      const view = page.viewportSize();
+      const inside = box && box.x >= -1 && box.y >= -1 && box.x + box.width <= view.width + 1 && box.y + box.height <= view.height + 1;
+      check(inside && box.height > 60, `${name}: the card of ${await button.innerText()} is out of sight: ${JSON.stringify(box)}`);
+      const lead = await card.locator("> p").innerText();
+      check(/^[A-Z].*\.$/.test(lead), `${name}: a card begins with ${lead}`);
+      await card.getByRole("button", { name: "Close" }).click();
+      check(!(await card.isVisible()), `${name}: Close closes no card`);
+    }
+  }
+}
+
 /** A number is reached and opened by keyboard alone, and closes again. */
 async function opens_by_keyboard(page, name) {
   const button = page.locator("button.value").first();
@@ -186,14 +230,16 @@ async function accessible(page, name) {
 }
 
 for (const [name, width, scheme] of [
-  ["wide-light", 1280, "light"],
+  ["wide-light", 1440, "light"],
   ["wide-dark", 1280, "dark"],
-  ["narrow-light", 400, "light"],
+  ["narrow-light", 390, "light"],
   ["narrow-dark", 320, "dark"],
 ]) {
   const page = await open(width, scheme);
   await reads_well(page, name);
   await stays_narrow(page, name);
+  await equations_fit(page, name);
+  await cards_stay_inside(page, name);
   await opens_by_keyboard(page, name);
   await moves(page, name, false);
   await accessible(page, name);

@@ -8,7 +8,8 @@ use impact_paper::experiments::{Measured, segments};
 use impact_paper::report::bibliography::Library;
 use impact_paper::report::card::Cards;
 use impact_paper::report::ledger::{self, Ledger};
-use impact_paper::report::lint::{Declared, numerals};
+use impact_paper::report::lint::{Declared, findings};
+use impact_paper::report::origin::Filled;
 use impact_paper::report::print::{Asked, Style, print};
 use impact_paper::report::{
     Error, Registry, Value, appendix, compare, html, labels, latex, markdown, parse, sums,
@@ -66,7 +67,7 @@ pub fn published(text: &str) -> Result<(), String> {
 
 pub fn literals(text: &str) -> Result<(), String> {
     let declared = Declared::read(text).map_err(line)?;
-    numerals("x.md", "The two masses, three walls and twenty-five more", &declared);
+    findings("x.md", "The two masses, three walls and twenty-five more", &declared);
     declared.unmet();
     Ok(())
 }
@@ -130,7 +131,8 @@ static LIBRARY: LazyLock<Library> =
 
 /// What is written of it in every form, but for pictures: how many bytes.
 pub fn written(text: &str, values: &Registry) -> Result<usize, Error> {
-    let mut blocks = parse::parse(text, values)?;
+    let filled = Filled::plain("report.md", text);
+    let (mut blocks, _) = parse::parse(&filled, values)?;
     labels::resolve(&mut blocks, &LIBRARY)?;
     let ledger = Ledger::default();
     let cards = Cards { values, ledger: &ledger };

@@ -6,7 +6,7 @@ use impact_paper::claims::{self, Published};
 use impact_paper::experiments::{Need, Progress, Store, run::run};
 use impact_paper::params::Profile;
 use impact_paper::report::filler::Filler;
-use impact_paper::report::lint::{Declared, numerals};
+use impact_paper::report::lint::{Declared, findings};
 use impact_paper::report::mutate::{Reasons, TABLE, Tally};
 use impact_paper::report::{Error, Registry, Templates, claims::Row, contents};
 use std::collections::BTreeMap;
@@ -85,7 +85,7 @@ Listing: What $\delta v$ does. {#lst:kick}
 /// What the assembly makes of a text, but for pictures.
 fn made(named: &Named, text: &str) -> Result<usize, Error> {
     let declared = Declared::read(&committed("templates/literals.toml"))?;
-    numerals("report.md", text, &declared);
+    findings("report.md", text, &declared);
     let templates = Templates::of([("report.md", text)]);
     let mut filler = Filler::new(&templates, &named.values)?;
     filler.insert("claims", &named.claims);

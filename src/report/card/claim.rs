@@ -6,7 +6,8 @@ impl Cards<'_> {
     pub(super) fn claim(&self, id: &str) -> Option<Card> {
         let claim = self.ledger.claims.iter().find(|claim| claim.id == id)?;
         let title = words_and_maths(&claim.statement);
-        let mut card = Card { id: format!("claim:{id}"), title, rows: Vec::new() };
+        let mut card =
+            Card { id: format!("claim:{id}"), title, lead: String::new(), rows: Vec::new() };
         card.words("stands in", claim.place.clone());
         card.words("printed", claim.printed.clone());
         card.words("found", claim.ours.clone());

@@ -6,7 +6,8 @@ impl Cards<'_> {
     pub(super) fn equation(&self, number: u32) -> Option<Card> {
         let equation = self.ledger.equations.iter().find(|equation| equation.number == number)?;
         let title = words_and_maths(&equation.what);
-        let mut card = Card { id: format!("eq:{number}"), title, rows: Vec::new() };
+        let mut card =
+            Card { id: format!("eq:{number}"), title, lead: String::new(), rows: Vec::new() };
         card.words("stands in", format!("Sec. {}", equation.section));
         card.item("home", &equation.home);
         if let Some(towards) = &equation.step_towards {

@@ -14,7 +14,7 @@ impl Cards<'_> {
     pub(super) fn figure(&self, asked: &str) -> Option<Card> {
         let figure = self.ledger.figures.iter().find(|figure| id(&figure.id) == asked)?;
         let title = vec![Inline::Text(figure.title.clone())];
-        let mut card = Card { id: id(&figure.id), title, rows: Vec::new() };
+        let mut card = Card { id: id(&figure.id), title, lead: String::new(), rows: Vec::new() };
         card.words("shows", figure.description.clone());
         card.row("picture", links([&figure.picture]));
         card.row("data", links(&figure.data));

@@ -22,6 +22,8 @@ pub struct Card {
     pub id: String,
     /// What it is about, as the report shows it.
     pub title: Vec<Inline>,
+    /// What it is in one plain sentence; may be empty.
+    pub lead: String,
     /// What is known of it.
     pub rows: Vec<Row>,
 }

@@ -13,13 +13,11 @@ impl Cards<'_> {
             title.push(Inline::Text("\u{a0}".into()));
             title.extend(words_and_maths(&value.unit));
         }
-        let mut card = Card { id: value.id.clone(), title, rows: Vec::new() };
-        card.row("id", vec![Inline::Code(value.id.clone())]);
+        let mut card = Card { id: value.id.clone(), title, lead: lead(value), rows: Vec::new() };
         if !matches!(value.number, Number::Text(_) | Number::Integer(_)) {
             let full = Style { digits: Some(Asked::Full), ..Style::default() };
             card.words("in full", print(&value.number, full).plain());
         }
-        card.words("kind", kind(value));
         if let Kind::Ensemble { realisations, standard_error } = &value.kind {
             card.words("standard error", format!("{standard_error}"));
             card.words("n", format!("{realisations}"));
@@ -57,21 +55,32 @@ impl Cards<'_> {
             used.push(Inline::Text(format!(" ({}): {}", claim.place, claim.verdict)));
         }
         card.row("claims", used);
+        card.row("id", vec![Inline::Code(value.id.clone())]);
         Some(card)
     }
 }
 
-fn kind(value: &Value) -> &'static str {
-    match (&value.kind, &value.number) {
-        (Kind::Exact, Number::Text(_)) => "words",
-        (Kind::Exact, _) => "exact",
-        (Kind::Deterministic, Number::Interval { .. }) => "an interval",
+/// What kind of number it is, and where it comes from.
+fn lead(value: &Value) -> String {
+    let what = match (&value.kind, &value.number) {
+        (Kind::Exact, Number::Text(_)) => "Words that were computed".into(),
+        (Kind::Exact, _) => "An exact number".into(),
+        (Kind::Deterministic, Number::Interval { .. }) => "An interval".into(),
         (Kind::Deterministic, Number::Real { digits: Digits::Significant(_), .. }) => {
-            "computed without chance, rounded"
+            "A number computed without chance and rounded".into()
         }
-        (Kind::Deterministic, _) => "computed without chance",
-        (Kind::Ensemble { .. }, _) => "an average over realisations",
-        (Kind::Printed { .. }, _) => "printed in the paper",
-        (Kind::Measured, _) => "measured once, and an input since",
+        (Kind::Deterministic, _) => "A number computed without chance".into(),
+        (Kind::Ensemble { realisations, .. }, _) => {
+            format!(
+                "An average over {realisations} realisations with its standard error in brackets"
+            )
+        }
+        (Kind::Printed { .. }, _) => return "A number that the paper prints.".into(),
+        (Kind::Measured, _) => "A number measured once, and an input since".into(),
+    };
+    match value.experiment.as_str() {
+        "" => format!("{what}."),
+        "theory" => format!("{what}, from the theory."),
+        name => format!("{what}, from the experiment “{}”.", name.replace('_', " ")),
     }
 }

@@ -30,9 +30,14 @@ impl Page<'_> {
         let id = target(&card.id);
         let mut out = format!(
             "<div popover=\"auto\" id=\"{id}\" class=\"card\" role=\"dialog\" \
-             aria-labelledby=\"{id}-title\"><p id=\"{id}-title\">{}</p><dl>",
+             aria-labelledby=\"{id}-title\"><header><span id=\"{id}-title\">{}</span><button \
+             popovertarget=\"{id}\" popovertargetaction=\"hide\" aria-label=\"Close\">×</button></header>",
             self.inlines(&card.title)?
         );
+        if !card.lead.is_empty() {
+            let _ = write!(out, "<p>{}</p>", escape::text(&card.lead));
+        }
+        out.push_str("<dl>");
         for row in &card.rows {
             let _ = write!(out, "<dt>{}</dt><dd>{}</dd>", row.name, self.inlines(&row.text)?);
         }

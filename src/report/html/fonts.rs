@@ -23,10 +23,10 @@ const FACES: [(&str, &str, &str, &[u8]); 4] = [
         include_bytes!("../../../templates/fonts/LibertinusSerif-Bold.woff2"),
     ),
     (
-        "Impact Math",
+        "Libertinus Math",
         "normal",
         "400",
-        include_bytes!("../../../templates/fonts/ImpactMath-Regular.woff2"),
+        include_bytes!("../../../templates/fonts/LibertinusMath-Regular.woff2"),
     ),
 ];
 

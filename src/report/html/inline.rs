@@ -33,7 +33,7 @@ impl Page<'_> {
             }
             Inline::Emphasis(inner) => format!("<em>{}</em>", self.inlines(inner)?),
             Inline::Strong(inner) => format!("<strong>{}</strong>", self.inlines(inner)?),
-            Inline::Maths(tex) => maths::write(self, tex, false)?,
+            Inline::Maths(tex) => maths::write(self, tex)?,
             Inline::Display { tex, tag } => self.display(tex, tag.as_deref())?,
             Inline::Value { id, shown } => {
                 let part = |inline: &Inline| match inline {
@@ -55,18 +55,18 @@ impl Page<'_> {
         })
     }
 
-    /// An equation, which scrolls by itself where it is too wide, and its number.
+    /// An equation, which goes on in the next line or scrolls by itself where it is too wide, and its number.
     fn display(&self, tex: &str, tag: Option<&str>) -> Result<String, Error> {
-        let formula = maths::write(self, tex, true)?;
+        let formula = maths::display(self, tex)?;
         Ok(match tag {
             Some(tag) => format!(
                 "<div class=\"equation\" id=\"eq-{tag}\"><div class=\"scroll\" tabindex=\"0\" \
-                 role=\"group\" aria-label=\"Equation {tag}\"><div>{formula}</div></div>\
+                 role=\"group\" aria-label=\"Equation {tag}\">{formula}</div>\
                  <a class=\"number\" href=\"#eq-{tag}\">({tag})</a></div>\n"
             ),
             None => format!(
                 "<div class=\"equation\"><div class=\"scroll\" tabindex=\"0\" role=\"group\" \
-                 aria-label=\"Equation without number\"><div>{formula}</div></div></div>\n"
+                 aria-label=\"Equation without number\">{formula}</div></div>\n"
             ),
         })
     }

@@ -1,7 +1,6 @@
 //! TeX → MathML Core.
 
-use super::Page;
-use super::escape;
+use super::{Page, escape, lines};
 use crate::report::Error;
 use crate::report::valued::{Piece, bare, pieces};
 use math_core::{LatexToMathML, MathCoreConfig, MathDisplay};
@@ -47,15 +46,22 @@ fn convert(tex: &str, display: MathDisplay) -> Result<String, Error> {
     made.map(|made| made.mathml).map_err(|error| fail(error.to_string()))
 }
 
-/// Mathematics, cut at its values, which are buttons between the parts: readers of a screen take a
+/// A piece of mathematics that was cut at its values.
+enum Part {
+    /// TeX between values.
+    Tex(String),
+    /// The button of a value.
+    Button(String),
+}
+
+/// Cuts mathematics at its values, which are buttons between the parts: readers of a screen take a
 /// formula as a whole and would not reach a button inside it. A value in a script, a root or a
 /// fraction stays in the formula and opens nothing.
 ///
 /// # Errors
 /// As [`convert`].
-pub fn write(page: &Page<'_>, tex: &str, block: bool) -> Result<String, Error> {
-    let display = if block { MathDisplay::Block } else { MathDisplay::Inline };
-    let mut out = String::new();
+fn parts(page: &Page<'_>, tex: &str) -> Result<Vec<Part>, Error> {
+    let mut out = Vec::new();
     let (mut part, mut depth) = (String::new(), 0);
     for piece in pieces(tex) {
         match piece {
@@ -67,21 +73,95 @@ pub fn write(page: &Page<'_>, tex: &str, block: bool) -> Result<String, Error> {
             Piece::Value { id, digits: tex } => {
                 if !part.trim().is_empty() {
                     // The empty group keeps the space of a relation at the cut.
-                    out.push_str(&convert(&format!("{part}{{}}"), display)?);
-                    // A relation keeps its distance, a bracket has none.
-                    if !part.trim_end().ends_with(['(', '[']) {
-                        out.push('\u{2009}');
-                    }
+                    out.push(Part::Tex(format!("{part}{{}}")));
                 }
-                out.push_str(&page.button(id, &digits(tex)?));
+                // A relation keeps its distance, a bracket has none.
+                let close = part.trim().is_empty() || part.trim_end().ends_with(['(', '[']);
+                let blank = if close { "" } else { "\u{2009}" };
+                out.push(Part::Button(blank.to_string() + &page.button(id, &digits(tex)?)));
                 part = String::from("{}");
             }
         }
     }
     if !matches!(part.trim(), "" | "{}") {
-        out.push_str(&convert(&part, display)?);
+        out.push(Part::Tex(part));
     }
     Ok(out)
+}
+
+/// Mathematics in the line.
+///
+/// # Errors
+/// As [`convert`].
+pub fn write(page: &Page<'_>, tex: &str) -> Result<String, Error> {
+    let one = |part| match part {
+        Part::Tex(tex) => convert(&tex, MathDisplay::Inline),
+        Part::Button(button) => Ok(button),
+    };
+    parts(page, tex)?.into_iter().map(one).collect()
+}
+
+/// A displayed equation, in the lines that [`lines`] lets it have.
+///
+/// # Errors
+/// As [`convert`].
+pub fn display(page: &Page<'_>, tex: &str) -> Result<String, Error> {
+    let mut rows: Vec<Vec<lines::Row>> = vec![vec![vec![Vec::new()]]];
+    for part in parts(page, tex)? {
+        let new = match part {
+            Part::Button(button) => vec![vec![vec![vec![button]]]],
+            Part::Tex(tex) => formulas(lines::rows(&displayed(&tex)?)?),
+        };
+        append(&mut rows, new);
+    }
+    let span = |inner: String| format!("<span>{inner}</span>");
+    let cell = |row: &lines::Row| {
+        let terms: String = row.iter().map(|term| span(term.concat())).collect();
+        format!("<div class=\"terms\">{terms}</div>")
+    };
+    let lines = rows.iter().flatten().map(cell).collect::<String>();
+    Ok(match rows.first().map_or(1, Vec::len) {
+        1 => lines,
+        2 => format!("<div class=\"aligned\">{lines}</div>"),
+        _ => format!("<div class=\"aligned two\">{lines}</div>"),
+    })
+}
+
+/// The MathML of a displayed equation.
+///
+/// # Errors
+/// As [`convert`].
+pub(super) fn displayed(tex: &str) -> Result<String, Error> {
+    convert(tex, MathDisplay::Block)
+}
+
+/// Each factor as a formula of its own.
+fn formulas(rows: Vec<Vec<lines::Row>>) -> Vec<Vec<lines::Row>> {
+    let formula = |factor: String| format!("<math display=\"block\">{factor}</math>");
+    let term =
+        |term: Vec<String>| term.into_iter().filter(|f| !f.is_empty()).map(formula).collect();
+    let cell = |row: lines::Row| row.into_iter().map(term).collect();
+    rows.into_iter().map(|row| row.into_iter().map(cell).collect()).collect()
+}
+
+/// Goes on with `new` where `rows` end: its first term is a part of their last one, unless it begins with
+/// an operator.
+fn append(rows: &mut Vec<Vec<lines::Row>>, mut new: Vec<Vec<lines::Row>>) {
+    if let (Some(end), Some(start)) = (
+        rows.last_mut().and_then(|row| row.last_mut()),
+        new.first_mut().and_then(|row| row.first_mut()),
+    ) {
+        let mut terms = std::mem::take(start).into_iter();
+        if let (Some(last), Some(first)) = (end.last_mut(), terms.next()) {
+            last.extend(first);
+        }
+        end.extend(terms);
+    }
+    let mut new = new.into_iter();
+    if let (Some(last), Some(first)) = (rows.last_mut(), new.next()) {
+        last.extend(first.into_iter().skip(1));
+    }
+    rows.extend(new);
 }
 
 /// Opening braces less closing ones, `\left` and environments among them.

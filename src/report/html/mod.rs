@@ -11,6 +11,7 @@ mod figure;
 mod fonts;
 mod inline;
 mod keep;
+mod lines;
 mod maths;
 mod picture;
 mod scene;
@@ -24,6 +25,14 @@ use crate::figures::Figure;
 use serde::Serialize;
 use std::cell::RefCell;
 use std::collections::BTreeSet;
+
+/// Whether a browser can show this TeX.
+///
+/// # Errors
+/// [`Error::Maths`].
+pub fn reads(tex: &str) -> Result<(), Error> {
+    maths::displayed(tex).map(|_| ())
+}
 
 /// What the shell has places for.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -151,9 +151,9 @@ pub fn used(
         filler.insert(name, rows);
     }
     filler.insert(TABLE, &Tally::default().rows(reasons));
-    let filled = filler.fill("report.md")?;
-    let blocks = parse::parse(&filled, &values)?;
-    let shown = Mark::split(&filled).into_iter().flatten().map(|mark| mark.id);
+    let filled = filler.prose("report.md")?;
+    let (blocks, _) = parse::parse(&filled, &values)?;
+    let shown = Mark::split(&filled.text).into_iter().flatten().map(|mark| mark.id);
     let stated = uses(claims, &values, &blocks).into_values().flatten();
     let number = |id: &String| {
         let words = |value: &Value| matches!(value.number, Number::Text(_));

@@ -1,0 +1,90 @@
+//! Markup that Markdown took for text, since its other end is missing or it is none here.
+
+/// Signs of markup, and what is wrong where one is left over in text.
+const SIGNS: [(&str, &str); 16] = [
+    ("$", "a formula without its end, or with brackets that do not match; write \\$ for the sign"),
+    ("`", "code without its end; write \\` for the sign"),
+    ("*", "emphasis without its other end; write \\* for the sign"),
+    ("_", "emphasis without its other end; write \\_ for the sign"),
+    ("«", "a value without its end"),
+    ("»", "the end of a value that does not begin"),
+    ("<%", "a tag without its end"),
+    ("%>", "the end of a tag that does not begin"),
+    ("<#", "a comment without its end"),
+    ("#>", "the end of a comment that does not begin"),
+    ("<!--", "a comment without its end"),
+    ("-->", "the end of a comment that does not begin"),
+    ("](", "a link that is not whole"),
+    ("[@", "a reference without its end"),
+    ("[!", "a place without its end"),
+    ("[^", "footnotes are no part of the report"),
+];
+
+/// The first leftover in a piece of text that stands at `start` of the source: its offset, and what is
+/// wrong. The first sign of an `escaped` piece is meant as it stands.
+pub fn find(
+    source: &str,
+    start: usize,
+    text: &str,
+    escaped: bool,
+) -> Option<(usize, &'static str)> {
+    let skip = usize::from(escaped);
+    // Brackets come in pieces of their own: a sign may go on behind this one.
+    let rest = source.get(start..).filter(|rest| rest.starts_with(text)).unwrap_or(text);
+    let beyond: usize = rest[text.len()..].chars().take(3).map(char::len_utf8).sum();
+    let window = &rest[..text.len() + beyond];
+    let of = |(sign, what): &(&str, &'static str)| {
+        let mut found = window.match_indices(sign).map(|(i, _)| i);
+        let i =
+            found.find(|i| (skip..text.len()).contains(i) && is_markup(source, start + i, sign))?;
+        Some((start + i, *what))
+    };
+    SIGNS.iter().filter_map(of).min_by_key(|(offset, _)| *offset)
+}
+
+/// Would the sign, where it stands, begin or end something? A star between blanks would not, nor a low
+/// line inside a word.
+fn is_markup(source: &str, at: usize, sign: &str) -> bool {
+    if !matches!(sign, "*" | "_") {
+        return true;
+    }
+    let Some((before, after)) = source.split_at_checked(at) else { return false };
+    let word = |c: Option<char>| c.is_some_and(char::is_alphanumeric);
+    let blank = |c: Option<char>| c.is_none_or(char::is_whitespace);
+    let own = |c: char| c == '*' || c == '_';
+    let before = before.trim_end_matches(own).chars().next_back();
+    let after = after.trim_start_matches(own).chars().next();
+    match sign {
+        "*" => !(blank(before) && blank(after)),
+        _ => word(before) != word(after),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_left_over_is_found_where_it_stands() {
+        for (text, at) in [
+            ("a $x", 2),
+            ("`b", 0),
+            ("*fast and", 0),
+            ("fast* and", 4),
+            ("**fast", 0),
+            ("a _b c", 2),
+            ("3» x", 1),
+            ("[a](b", 2),
+            ("[^1]", 0),
+            ("x --> y", 2),
+            ("[@fig:3", 0),
+        ] {
+            assert_eq!(find(text, 0, text, false).map(|(at, _)| at), Some(at), "{text}");
+        }
+        for text in ["a * b", "a_b", "[0, 1]", "a (b) c", "1 < 2 > 1", "50 % of it", "# 3"] {
+            assert_eq!(find(text, 0, text, false), None, "{text}");
+        }
+        assert_eq!(find(r"\$ 5", 1, "$ 5", true), None);
+        assert_eq!(find(r"\$ 5 $x", 1, "$ 5 $x", true).map(|(at, _)| at), Some(5));
+    }
+}

@@ -1,0 +1,108 @@
+//! The TeX that every format of the report shows.
+//!
+//! The largest host of Markdown draws mathematics by MathJax 3 with some packages taken away (those that
+//! define macros, or bring HTML, actions and boxes) and refuses a formula that names one of a list of
+//! macros, `\operatorname` among them; of a macro that is not known it shows the source in red. So
+//! mathematics is held against a list of what is known there, to LaTeX with amsmath, and to math-core.
+
+/// Macros, by kind.
+const ALLOWED: &str = "
+    alpha beta gamma delta epsilon varepsilon zeta eta theta vartheta iota kappa lambda mu nu xi pi rho
+    varrho sigma varsigma tau upsilon phi varphi chi psi omega
+    Gamma Delta Theta Lambda Xi Pi Sigma Upsilon Phi Psi Omega
+    frac dfrac tfrac binom sqrt sum prod int iint oint partial nabla infty ell hbar prime
+    le leq ge geq lt gt ne neq ll gg lesssim gtrsim approx sim simeq equiv propto in notin subset to mapsto
+    rightarrow leftarrow Rightarrow iff implies land lor forall exists cup cap setminus mid perp
+    pm mp times div cdot cdots dots ldots vdots ddots ast star circ oplus otimes
+    left right bigl bigr Bigl Bigr biggl biggr big Big langle rangle lceil rceil lfloor rfloor
+    lbrace rbrace lvert rvert lVert rVert vert Vert
+    sin cos tan cot sinh cosh tanh coth arcsin arccos arctan exp ln log max min sup inf lim det arg Re Im
+    bar hat tilde vec dot ddot overline underline widehat widetilde overbrace underbrace
+    mathrm mathbf mathbb mathcal mathit mathsf boldsymbol text textrm
+    quad qquad thinspace negthinspace limits nolimits displaystyle textstyle tag begin end cr";
+
+/// Environments of displayed equations.
+const ENVIRONMENTS: &str = "aligned cases matrix pmatrix bmatrix";
+
+/// What is wrong with a formula: its first macro or environment that not every format shows.
+pub fn refused(tex: &str) -> Option<String> {
+    let known = |list: &str, name: &str| list.split_whitespace().any(|own| own == name);
+    let mut rest = tex;
+    while let Some((_, after)) = rest.split_once('\\') {
+        let name = &after[..after.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(after.len())];
+        rest = &after[name.len()..];
+        if name.is_empty() {
+            // `\,` and its like: one character, which may be a backslash.
+            rest = after.get(after.chars().next().map_or(0, char::len_utf8)..).unwrap_or_default();
+        } else if name == "operatorname" {
+            return Some(r"\operatorname is refused by hosts; write \mathrm{…}".into());
+        } else if !known(ALLOWED, name) {
+            return Some(format!(
+                r"\{name} is not among the macros that every format shows; write it otherwise, or add it to report::macros"
+            ));
+        } else if name == "begin" {
+            let inner = rest.strip_prefix('{').and_then(|rest| rest.split_once('}'));
+            let environment = inner.map_or("", |(name, _)| name);
+            if !known(ENVIRONMENTS, environment) {
+                return Some(format!(
+                    r"the environment {environment:?} is not one that every format shows; use {}",
+                    ENVIRONMENTS.replace(' ', ", ")
+                ));
+            }
+        }
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_hosts_refuse_is_named() {
+        for tex in [
+            r"\frac{1}{2}\,\mathrm{erf}(x)",
+            r"a \\ b",
+            r"\begin{aligned} a \end{aligned}",
+            r"\{x\}",
+            "x",
+        ] {
+            assert_eq!(refused(tex), None, "{tex}");
+        }
+        for (tex, name) in [
+            (r"x + \operatorname{erf} x", "mathrm"),
+            (r"\phantom{x}", r"\phantom "),
+            (r"\newcommand{\a}{b}", r"\newcommand "),
+            (r"\,\bbox{x}", r"\bbox "),
+            (r"\\\sigmma", r"\sigmma "),
+            (r"\begin{align} a \end{align}", "\"align\""),
+        ] {
+            let told = refused(tex).unwrap_or_default();
+            assert!(told.contains(name), "{tex}: {told}");
+        }
+    }
+
+    /// Each macro is one that math-core reads too.
+    #[test]
+    fn what_is_allowed_is_read() {
+        let with_brackets = |name: &str| match name {
+            "frac" | "dfrac" | "tfrac" | "binom" => format!(r"\{name}{{a}}{{b}}"),
+            "left" | "right" => r"\left( a \right)".into(),
+            "begin" | "end" => r"\begin{aligned} a &= b \cr c &= d \end{aligned}".into(),
+            "cr" | "tag" => "a".into(),
+            name if name.starts_with(['b', 'B']) && name.to_lowercase().starts_with("big") => {
+                format!(r"\{name}(")
+            }
+            "limits" | "nolimits" => format!(r"\int\{name}_a"),
+            name => format!(r"\{name} {{a}}"),
+        };
+        for name in ALLOWED.split_whitespace() {
+            let tex = with_brackets(name);
+            assert!(
+                super::super::html::reads(&tex).is_ok(),
+                "{tex}: {:?}",
+                super::super::html::reads(&tex)
+            );
+        }
+    }
+}

@@ -1,0 +1,161 @@
+//! Where in the templates each piece of filled text stands, so that what is wrong with it can be mended.
+//!
+//! Before a template is filled, marks with offsets are put about its tags ([`marked`]); afterwards they
+//! are taken out of the text again ([`Filled::read`]). Between two tags the text is that of the
+//! template; what a tag wrote stands where the tag does.
+
+use super::Error;
+use std::fmt::Write as _;
+
+const OPEN: char = '\u{e006}';
+const CLOSE: char = '\u{e007}';
+
+/// Tags and comments of Tera.
+pub const TAGS: [(&str, &str); 3] = [("«", "»"), ("<%", "%>"), ("<#", "#>")];
+
+/// A template with a mark before and after each tag: the offset there, and whether a tag begins.
+pub fn marked(text: &str) -> String {
+    let mut out = String::with_capacity(2 * text.len());
+    let mark = |out: &mut String, offset: usize, kind: char| {
+        let _ = write!(out, "{OPEN}{offset}{kind}{CLOSE}");
+    };
+    let mut at = 0;
+    while let Some((start, end)) = next_tag(text, at) {
+        // A tag with a minus eats the blanks at its side: the mark must not stop it.
+        let before = text[at..start].trim_end().len() + at;
+        let cut = if text[start..end].trim_start_matches(['<', '%', '#', '«']).starts_with('-') {
+            before
+        } else {
+            start
+        };
+        out.push_str(&text[at..cut]);
+        mark(&mut out, start, 't');
+        out.push_str(&text[cut..end]);
+        let eats = text[start..end].trim_end_matches(['>', '%', '#', '»']).ends_with('-');
+        let after = if eats { text.len() - text[end..].trim_start().len() } else { end };
+        out.push_str(&text[end..after]);
+        mark(&mut out, after, 'x');
+        at = after;
+    }
+    out + &text[at..]
+}
+
+/// Start and end of the first tag from `at` on.
+fn next_tag(text: &str, at: usize) -> Option<(usize, usize)> {
+    let first = |(open, close): &(&str, &'static str)| Some((text[at..].find(open)? + at, *close));
+    let (start, close) = TAGS.iter().filter_map(first).min()?;
+    Some((start, start + text[start..].find(close)? + close.len()))
+}
+
+/// A template and the text that was made of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Filled {
+    /// The text.
+    pub text: String,
+    path: String,
+    /// Offsets at which the lines of the template begin.
+    lines: Vec<usize>,
+    template: String,
+    /// From an offset in the text on: the offset in the template, and whether a tag wrote what follows.
+    pieces: Vec<(usize, usize, bool)>,
+}
+
+impl Filled {
+    /// What a template made after [`marked`].
+    pub fn read(path: &str, template: &str, filled: &str) -> Filled {
+        let (mut text, mut pieces) = (String::with_capacity(filled.len()), vec![(0, 0, false)]);
+        let mut rest = filled;
+        while let Some((before, after)) = rest.split_once(OPEN) {
+            text.push_str(before);
+            let Some((mark, after)) = after.split_once(CLOSE) else { break };
+            let offset = mark.trim_end_matches(['t', 'x']).parse().unwrap_or_default();
+            pieces.push((text.len(), offset, mark.ends_with('t')));
+            rest = after;
+        }
+        text.push_str(rest);
+        let lines = template.match_indices('\n').map(|(i, _)| i + 1);
+        let lines = std::iter::once(0).chain(lines).collect();
+        Filled { text, path: path.into(), lines, template: template.into(), pieces }
+    }
+
+    /// Text that nothing was filled into.
+    pub fn plain(path: &str, text: &str) -> Filled {
+        Filled::read(path, text, text)
+    }
+
+    /// File, line and column in the template, from 1, of an offset in the text.
+    pub fn place(&self, offset: usize) -> String {
+        let last = self.pieces.partition_point(|(start, ..)| *start <= offset).saturating_sub(1);
+        let (start, origin, tag) = self.pieces.get(last).copied().unwrap_or_default();
+        let offset = if tag { origin } else { origin + (offset - start) }.min(self.template.len());
+        let line = self.lines.partition_point(|start| *start <= offset);
+        let start = self.lines.get(line - 1).copied().unwrap_or_default();
+        let column = self.template.get(start..offset).unwrap_or_default().chars().count() + 1;
+        format!("{}:{line}:{column}", self.path)
+    }
+}
+
+/// Where the things stand that a report has or names: `#fig:3` what can be referred to, `@fig:3` a
+/// reference, `(path` a link.
+#[derive(Clone, Debug)]
+pub struct Places<'a> {
+    filled: &'a Filled,
+    found: Vec<(String, usize)>,
+}
+
+impl<'a> Places<'a> {
+    /// None yet.
+    pub fn of(filled: &'a Filled) -> Self {
+        Places { filled, found: Vec::new() }
+    }
+
+    /// Adds a thing at an offset of the filled text.
+    pub fn add(&mut self, thing: String, offset: usize) {
+        self.found.push((thing, offset));
+    }
+
+    /// The error with the place of what it names. Of two things with one id the second is meant.
+    pub fn tell(&self, error: Error) -> Error {
+        let thing = match &error {
+            Error::Label(id) => format!("#{id}"),
+            Error::Reference(id) => format!("@{id}"),
+            Error::NoFile(path) => format!("({path}"),
+            _ => return error,
+        };
+        match self.found.iter().rev().find(|(own, _)| *own == thing) {
+            Some((_, offset)) => error.at(self.filled.place(*offset)),
+            None => error,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_piece_knows_its_place() {
+        let template = "one «a» two\n<% for x in y -%>\n  | «x» |\n<%- endfor %>\nend $σ";
+        let made = marked(template);
+        assert!(made.ends_with("end $σ") && made.contains("two\n"), "{made}");
+        // What Tera makes of it, by hand.
+        let filled = made.replace("«a»", "VALUE").replace("<% for x in y -%>\n  ", "");
+        let filled = filled.replace("«x»", "cell").replace("\n<%- endfor %>", "");
+        let filled = Filled::read("report.md", template, &filled);
+        assert_eq!(filled.text, "one VALUE two\n| cell |\nend $σ");
+        let place = |word: &str| filled.place(filled.text.find(word).unwrap());
+        for (word, expected) in [
+            ("one", "1:1"),
+            ("LUE", "1:5"),
+            ("two", "1:9"),
+            ("| ", "3:3"),
+            ("ell", "3:5"),
+            ("end", "5:1"),
+            ("σ", "5:6"),
+        ] {
+            assert_eq!(place(word), format!("report.md:{expected}"), "{word}");
+        }
+        let plain = Filled::plain("x.md", "a\nb «c»");
+        assert_eq!((plain.text.as_str(), plain.place(4)), ("a\nb «c»", "x.md:2:3".into()));
+    }
+}
