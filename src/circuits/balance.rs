@@ -30,11 +30,14 @@
 //! up the power σ²γΩ²/(D² + γ²Ω²). Impacts take (1 − r²)/4 ⟨V²⟩ = (1 − r²) u² from two masses, since
 //! the weight V doubles the mean of V². So u² = 2σ²Ω²/((1 − r)(D² + γ²Ω²)). Free parts are what is left
 //! when the motion without friction is taken away: of the kept motion the difference σ/(D + iγΩ) − σ/D,
-//! and all that is random,
+//! and all that is random. A free part at x with velocity v has a² + b² = x² + v²/ω². At random x² and
+//! v²/ω² are alike in the mean; at the frequency Ω they are as ω² to Ω², which gives the difference a factor
+//! (1 + Ω²/ω²)/2. Together
 //!
-//! s²/σ² = (Ω/ω)² ((1 + r)/(1 − r) + (γΩ/D)²)/(D² + γ²Ω²),
+//! s²/σ² = ((Ω/ω)² (1 + r)/(1 − r) + (1 + Ω²/ω²)/2 (γΩ/D)²)/(D² + γ²Ω²),
 //!
-//! the formula above for γ = 0, and (Ω/ω)²/D² where friction takes all: there the chain as a whole stands still.
+//! the formula above for γ = 0, and (1 + Ω²/ω²)/2D² where friction takes all: there the chain as a whole
+//! stands still, and its free parts are those of a start from rest.
 
 use super::Error;
 use super::impact_probability::ImpactProbability;
@@ -75,7 +78,9 @@ pub fn variance_ratio_at(chain: &Chain, rate: f64) -> Result<f64, Error> {
     let detuning = law.detuning.square().to_f64();
     let friction = (1.0 + r) * rate * chain.forcing_frequency;
     let lost = friction * friction;
-    Ok(law.frequency_ratio.to_f64() * ((1.0 + r) / (1.0 - r) + lost / detuning) / (detuning + lost))
+    let ratio = law.frequency_ratio.to_f64();
+    let (random, kept) = (ratio * (1.0 + r) / (1.0 - r), 0.5 * (1.0 + ratio) * lost / detuning);
+    Ok((random + kept) / (detuning + lost))
 }
 
 impl ImpactProbability {
@@ -121,16 +126,23 @@ mod tests {
         for rate in [0.01, 0.3, 4.0] {
             let friction = (1.0 + r) * rate;
             let lost = friction * friction * big2;
-            // Velocities: the random part, which is free, and what the force keeps up.
-            let free = omega2 * variance_ratio_at(&chain, rate).unwrap();
-            let random = free - big2 * lost / (detuning2 * (detuning2 + lost));
+            // Of the free parts one is what friction leaves out of the forced motion, of amplitude 1/(D + iγΩ) − 1/D
+            // at the frequency Ω; its (x² + v²/ω²)/2 is averaged over a period. The rest is random.
+            let phase = |i: u32| (2.0 * std::f64::consts::PI * f64::from(i) / 64.0).sin_cos();
+            let kept = lost / (detuning2 * (detuning2 + lost));
+            let half = |(sin, cos): (f64, f64)| 0.5 * (cos * cos + sin * sin * big2 / omega2);
+            // Both amplitudes of a force are random, so the mean over a period counts twice.
+            let kept = 2.0 * kept * (0..64).map(|i| half(phase(i))).sum::<f64>() / 64.0;
+            let random = omega2 * (variance_ratio_at(&chain, rate).unwrap() - kept);
             let speed2 = random + big2 / (detuning2 + lost);
             let power = friction * big2 / (detuning2 + lost);
             let loss = rate * (1.0 - r * r) / 2.0 * speed2;
             assert!((power - loss).abs() < 1e-12 * power, "{power} {loss}");
         }
-        let still = variance_ratio_at(&paper(0.8), 1e9).unwrap();
-        assert!((still - 2.0).abs() < 1e-9, "{still}");
+        // A chain that stands still is a chain at rest: its free amplitudes are −α and −Ω/ω β over D.
+        let still = variance_ratio_at(&chain, 1e9).unwrap();
+        let rest = 0.5 * (1.0 + big2 / omega2) / detuning2;
+        assert!((still / rest - 1.0).abs() < 1e-9, "{still} {rest}");
         assert_eq!(variance_ratio_at(&paper(0.8), 0.0), variance_ratio(&paper(0.8)));
     }
 

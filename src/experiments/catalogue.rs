@@ -18,7 +18,7 @@ use crate::params::{
 pub use super::experiment::{Experiment, Saved};
 
 /// The experiments that are saved, in the order in which they run.
-const ALL: [&dyn Saved; 22] = [
+const ALL: [&dyn Saved; 23] = [
     &SWEEP,
     &SECOND_SEED,
     &PROTOCOL,
@@ -41,10 +41,11 @@ const ALL: [&dyn Saved; 22] = [
     &RESTITUTION,
     &CHAINS,
     &LONG_PROTOCOL,
+    &SIZES,
 ];
 
 /// Those of them that take long: a run of the profile `deep`, which is committed.
-const LONG: [&dyn Saved; 10] = [
+const LONG: [&dyn Saved; 11] = [
     &SECOND_SEED,
     &PROTOCOL,
     &PROTOCOLS,
@@ -55,6 +56,7 @@ const LONG: [&dyn Saved; 10] = [
     &RESTITUTION,
     &CHAINS,
     &LONG_PROTOCOL,
+    &SIZES,
 ];
 
 /// The experiments of a profile: the deep one has those that take long, all others have all.
@@ -250,5 +252,16 @@ pub const LONG_PROTOCOL: Deep<ProtocolParams, long::LongMap, protocol::Part> = D
         "src/experiments/long.rs",
         ProtocolParams::long,
         ("long protocol map", long::CUTTING),
+    )
+};
+
+/// Chains of several lengths after several transients.
+pub const SIZES: Deep<ChainsParams, chains::Chains, chains::Part> = Deep {
+    from: Profile::Quick,
+    ..Deep::new(
+        Need::Sizes,
+        "src/experiments/chains/mod.rs",
+        ChainsParams::sizes,
+        ("length and transient", chains::CUTTING),
     )
 };

@@ -54,11 +54,13 @@ pub enum Need {
     Chains,
     /// [`super::Results::long_protocol`].
     LongProtocol,
+    /// [`super::Results::sizes`].
+    Sizes,
 }
 
 impl Need {
     /// Everything: what the report needs.
-    pub const ALL: [Need; 25] = [
+    pub const ALL: [Need; 26] = [
         Need::Sweep,
         Need::SecondSeed,
         Need::Protocol,
@@ -84,6 +86,7 @@ impl Need {
         Need::Restitution,
         Need::Chains,
         Need::LongProtocol,
+        Need::Sizes,
     ];
 
     /// The name of the experiment, as values carry it.
@@ -114,6 +117,7 @@ impl Need {
             Need::Restitution => "restitution",
             Need::Chains => "chains",
             Need::LongProtocol => "long_protocol",
+            Need::Sizes => "sizes",
         }
     }
 }

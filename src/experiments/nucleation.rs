@@ -4,6 +4,7 @@ use super::cutting::{Cutting, Row, Unit};
 use super::progress::Stage;
 use super::{Error, Progress};
 use crate::circuits::impact_probability::ImpactProbability;
+use crate::circuits::nucleation::chain::half;
 pub use crate::circuits::nucleation::chain::{AtLeastOne, Chances};
 use crate::circuits::nucleation::reach::{Reach, closes_by_itself};
 use crate::dynamics::{self, Engine, Scenario};
@@ -21,6 +22,8 @@ pub struct Nucleation {
     pub gaps: Vec<Gaps>,
     /// For each length and σ what chains do: length by length.
     pub chains: Vec<Chains>,
+    /// The σ at which half of the paper's chains have a gap that closes by itself in unlimited time.
+    pub half: f64,
 }
 
 /// Gaps at one σ.
@@ -180,7 +183,12 @@ fn join(
             ever: expected(&own.ever),
         }
     });
-    Ok(Nucleation { parameters: parameters.clone(), chains: chains.collect(), gaps })
+    Ok(Nucleation {
+        parameters: parameters.clone(),
+        chains: chains.collect(),
+        gaps,
+        half: half(chain, &ever, &ever),
+    })
 }
 
 /// Angles of the rule for neighbours.

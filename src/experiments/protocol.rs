@@ -1,7 +1,6 @@
 //! The influence of the counting protocol: half height against transient T and window W.
 
 use super::cutting::{Cutting, Row, Unit};
-use super::estimates::with_error;
 use super::progress::Stage;
 use super::{Error, Progress, rise, weights};
 use crate::dynamics::{self, Engine, Scenario};
@@ -75,22 +74,6 @@ impl ProtocolMap {
     fn against_sigma(&self, heights: &[Option<f64>]) -> Vec<(f64, f64)> {
         let points = self.parameters.sigmas.iter().zip(heights);
         points.filter_map(|(&sigma, height)| Some((sigma, (*height)?))).collect()
-    }
-
-    /// Half height of the mean of all after any transient between the first and the last: linear in ln T
-    /// between those of the map, and so its error.
-    pub fn half_height_at(&self, transient: f64, window: f64) -> Option<Estimate> {
-        let own = |time: f64| self.cell(time, window)?.half_height_all;
-        let times = &self.parameters.transients;
-        let after = times.iter().position(|time| *time >= transient)?;
-        if times[after] == transient {
-            return own(transient);
-        }
-        let (from, to) = (times[after.checked_sub(1)?], times[after]);
-        let part = pxfm::f_log(transient / from) / pxfm::f_log(to / from);
-        let (low, high) = (own(from)?, own(to)?);
-        let at = |low: f64, high: f64| low + part * (high - low);
-        Some(with_error(at(low.value, high.value), at(low.error, high.error)))
     }
 
     fn place(&self, transient: f64, window: f64) -> Option<usize> {

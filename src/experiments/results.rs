@@ -73,6 +73,8 @@ pub struct Results {
     pub chains: Option<chains::Chains>,
     /// The long end of the map.
     pub long_protocol: Option<long::LongMap>,
+    /// Chains of several lengths after several transients.
+    pub sizes: Option<chains::Chains>,
     /// Of each result that is carried over, by the name of its experiment, what became of a sample.
     pub audits: BTreeMap<String, deep::Audit>,
 }
@@ -144,6 +146,8 @@ asked_for! {
     chains: chains::Chains, Chains;
     /// The long end of the map.
     long_protocol: long::LongMap, LongProtocol;
+    /// Length and transient.
+    sizes: chains::Chains, Sizes;
 }
 
 impl Results {
@@ -188,6 +192,7 @@ impl Results {
             restitution: None,
             chains: None,
             long_protocol: None,
+            sizes: None,
             audits: BTreeMap::new(),
         }
     }

@@ -59,7 +59,7 @@ pub fn run(
     carried!(
         second_seed: SECOND_SEED, protocol: PROTOCOL, protocols: PROTOCOLS, starts: STARTS, biases: BIAS, heat: HEAT,
         independence: INDEPENDENCE, restitution: RESTITUTION, chains: CHAINS,
-        long_protocol: LONG_PROTOCOL
+        long_protocol: LONG_PROTOCOL, sizes: SIZES
     );
     progress.check()?;
     Ok(results)

@@ -150,7 +150,7 @@ pub fn needs(number: Number) -> &'static [Need] {
         Number::Own(12) => &[Need::Independence],
         Number::Own(13) => &[Need::Orbits],
         Number::Own(14) => &[Need::Restitution],
-        Number::Own(15) => &[Need::Chains, Need::Protocol],
+        Number::Own(15) => &[Need::Chains, Need::Sizes, Need::Protocol],
         Number::Own(16) => &[Need::Protocol, Need::LongProtocol, Need::Protocols],
         _ => &[],
     }
@@ -207,7 +207,9 @@ pub fn draw(number: Number, results: &Results) -> Result<Figure, Error> {
         Number::Own(12) => s12::draw(results.independence()?, note),
         Number::Own(13) => s13::draw(results.orbits()?, note),
         Number::Own(14) => s14::draw(results.restitution()?, note),
-        Number::Own(15) => s15::draw(results.chains()?, results.protocol()?, note),
+        Number::Own(15) => {
+            s15::draw(results.chains()?, results.sizes()?, results.protocol()?, note)
+        }
         Number::Own(16) => {
             let (map, long) = (results.protocol()?, results.long_protocol()?);
             let (others, found) = (results.protocols()?, &results.identities);

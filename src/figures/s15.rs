@@ -14,6 +14,7 @@ use crate::experiments::chains::{Chains, Curve, Ensemble};
 use crate::experiments::protocol::ProtocolMap;
 use crate::numerics::statistics::Estimate;
 use crate::params::{ChainCurve, ChainKind};
+use std::collections::BTreeMap;
 
 /// Marks and colours of lengths and of frictions, from the smallest.
 const LOOKS: [(Mark, Colour); 6] = [
@@ -32,14 +33,19 @@ const SIZE: i32 = 52;
 const COMMON: &str = "frequency-2";
 
 /// Draws the figure.
-pub fn draw(chains: &Chains, map: &ProtocolMap, note: Option<&str>) -> Result<Figure, Error> {
+pub fn draw(
+    chains: &Chains,
+    sizes: &Chains,
+    map: &ProtocolMap,
+    note: Option<&str>,
+) -> Result<Figure, Error> {
     let sheet = Sheet::new(10_650, note)?;
     lengths(&sheet, chains)?;
-    times(&sheet, chains, map)?;
+    times(&sheet, &by_length(chains, sizes), &of_map(chains, map))?;
     frictions(&sheet, chains, map)?;
     period(&sheet, chains)?;
     let title = "Long chains, friction, and a common period";
-    Ok(sheet.finish_own(15, title, description(chains, map), tables(chains, map)))
+    Ok(sheet.finish_own(15, title, description(chains, sizes, map), tables(chains, sizes, map)))
 }
 
 /// The look of a length, by its order of magnitude.
@@ -113,7 +119,22 @@ fn logarithmic(all: Vec<(f64, Estimate)>) -> Vec<(f64, Estimate)> {
     all.into_iter().map(|(time, half)| (log(time), half)).collect()
 }
 
-fn times(sheet: &Sheet, chains: &Chains, map: &ProtocolMap) -> Result<(), Error> {
+/// (T, half height) of each length, of those that were measured anew by these alone.
+fn by_length(chains: &Chains, sizes: &Chains) -> BTreeMap<usize, Vec<(f64, Estimate)>> {
+    let anew = |masses| sizes.all().any(|(own, _)| own.masses == masses);
+    let others = chains.of(ChainKind::Length).filter(|(own, _)| !anew(own.masses));
+    let mut all = BTreeMap::<usize, Vec<(f64, Estimate)>>::new();
+    for (own, curve) in others.chain(sizes.all()) {
+        all.entry(own.masses).or_default().extend(halves(own, curve));
+    }
+    all
+}
+
+fn times(
+    sheet: &Sheet,
+    lengths: &BTreeMap<usize, Vec<(f64, Estimate)>>,
+    map: &[(f64, Estimate)],
+) -> Result<(), Error> {
     let panel = sheet.panel(
         Frame::new(5150, 430, 8050, 3730),
         Axis::decades(1, 5, 1, "transient *T*"),
@@ -121,12 +142,13 @@ fn times(sheet: &Sheet, chains: &Chains, map: &ProtocolMap) -> Result<(), Error>
     )?;
     panel.letter(LETTERS[1])?;
     let stroke = Stroke::solid(INK, THIN);
-    let line = logarithmic(of_map(chains, map));
+    let line = logarithmic(map.to_vec());
     panel.curve("map", &points(&line), stroke, Outside::Cut)?;
-    for (own, curve) in chains.of(ChainKind::Length) {
-        let name = format!("half height of {}", own.name);
-        let all = logarithmic(halves(own, curve));
-        panel.estimates(&name, &all, look(own.masses), |y| y)?;
+    for (masses, all) in lengths {
+        let (name, look) = (format!("half height of {masses} masses"), look(*masses));
+        let all = logarithmic(all.clone());
+        panel.curve(&name, &points(&all), look.2, Outside::Cut)?;
+        panel.estimates(&name, &all, look, |y| y)?;
     }
     let entry = Entry::line(stroke, "map of Sec. 11, *n* = 100");
     sheet.legend((4900, 4560), (SMALL, 340), &[entry])
@@ -190,7 +212,7 @@ fn period(sheet: &Sheet, chains: &Chains) -> Result<(), Error> {
     sheet.legend((4900, 9750), (SMALL, 340), &entries)
 }
 
-fn description(chains: &Chains, map: &ProtocolMap) -> String {
+fn description(chains: &Chains, sizes: &Chains, map: &ProtocolMap) -> String {
     let told = |all: Vec<(f64, Estimate)>| -> String {
         let list: Vec<String> = all
             .iter()
@@ -198,13 +220,12 @@ fn description(chains: &Chains, map: &ProtocolMap) -> String {
             .collect();
         if list.is_empty() { "none".into() } else { list.join(", ") }
     };
-    let each = |kind: ChainKind| -> String {
-        let list: Vec<String> = chains
-            .of(kind)
-            .map(|(own, curve)| format!("{}: {}", own.name, told(halves(own, curve))))
-            .collect();
-        list.join("; ")
-    };
+    let list = |all: Vec<String>| all.join("; ");
+    let lengths = by_length(chains, sizes).into_iter();
+    let lengths = list(lengths.map(|(n, all)| format!("n = {n}: {}", told(all))).collect());
+    let damped = chains.of(ChainKind::Damping);
+    let damped = damped.map(|(own, curve)| format!("{}: {}", own.name, told(halves(own, curve))));
+    let damped = list(damped.collect());
     let period = chains.curve(COMMON).map_or("none".into(), |(_, curve)| {
         let list = curve.rows.iter().map(alive);
         let list: Vec<String> =
@@ -214,16 +235,14 @@ fn description(chains: &Chains, map: &ProtocolMap) -> String {
     format!(
         "(a) Share of the gaps with an impact against σ after the same transient: the curve of the shortest chain \
          rises later, those of all others lie on one another. (b) Half heights of chains of several lengths against the \
-         transient, near the falling line of the map ({}): {}. (c) Half heights with friction: the stronger it is, the \
-         higher and the more level. {}. (d) Share of chains with an impact for Ω = 2: simulated points follow the lower \
+         transient, falling the further the longer the chain, beside the line of the map ({}): {lengths}. (c) Half heights with friction: the stronger it is, the \
+         higher and the more level. {damped}. (d) Share of chains with an impact for Ω = 2: simulated points follow the lower \
          of two curves, {period}.",
         told(of_map(chains, map)),
-        each(ChainKind::Length),
-        each(ChainKind::Damping),
     )
 }
 
-fn tables(chains: &Chains, map: &ProtocolMap) -> Vec<DataFile> {
+fn tables(chains: &Chains, sizes: &Chains, map: &ProtocolMap) -> Vec<DataFile> {
     let mut shares = DataFile::new(
         "s15a.csv",
         &[
@@ -250,7 +269,7 @@ fn tables(chains: &Chains, map: &ProtocolMap) -> Vec<DataFile> {
             "standard_error (d omega^2)",
         ],
     );
-    for (own, curve) in chains.all() {
+    for (own, curve) in chains.all().chain(sizes.all()) {
         let name = own.name.as_str();
         for row in &curve.rows {
             for (time, share) in own.transients.iter().zip(&row.shares) {

@@ -161,4 +161,39 @@ impl ChainsParams {
             seed: SEED,
         }
     }
+
+    /// Half heights of three lengths after three transients, near enough to tell 0.002 apart; the same
+    /// in every profile.
+    pub fn sizes(_: Profile) -> Self {
+        let shape = Self::new(Profile::Quick);
+        let curve = |transient: f64, masses: usize, realisations, middle: u32| ChainCurve {
+            kind: ChainKind::Length,
+            name: format!("{masses} masses, T = {transient}"),
+            masses,
+            start: shape.chain.start,
+            boundary: shape.chain.boundary,
+            damping: 0.0,
+            forcing_frequency: shape.chain.forcing_frequency,
+            components: 1,
+            // Three σ about the place where shorter runs put the half height.
+            sigmas: Grid::default().and(middle - 4, middle + 4, 4, 1000).values(),
+            transients: vec![transient],
+            realisations,
+        };
+        ChainsParams {
+            curves: vec![
+                curve(500.0, 100, 1200, 117),
+                curve(500.0, 1000, 120, 117),
+                curve(500.0, 10_000, 12, 117),
+                curve(5000.0, 100, 1000, 107),
+                curve(5000.0, 1000, 100, 103),
+                curve(5000.0, 10_000, 10, 103),
+                curve(50_000.0, 100, 800, 103),
+                curve(50_000.0, 1000, 40, 96),
+                curve(50_000.0, 10_000, 5, 96),
+            ],
+            stream: "sizes".into(),
+            ..shape
+        }
+    }
 }

@@ -21,6 +21,8 @@ pub struct HeatParams {
     pub protocol: Protocol,
     /// First the paper's restitution at rising σ, then other restitutions at one σ.
     pub rows: Vec<HeatRow>,
+    /// Ensembles on a ring, which has no walls.
+    pub ring: Vec<HeatRow>,
     /// Realisations of each.
     pub realisations: usize,
     /// Name of the random stream.
@@ -49,10 +51,12 @@ impl HeatParams {
         let chain = Chain::default();
         let paper = chain.restitution;
         let sigmas = sigmas.iter().map(|&sigma| HeatRow { sigma, restitution: paper });
+        let ring = sigmas.clone().collect();
         let others = restitutions.iter().map(|&r| HeatRow { sigma: Self::SIGMA, restitution: r });
         HeatParams {
             protocol: Protocol { transient, window: transient / 4.0 },
             rows: sigmas.chain(others).collect(),
+            ring,
             chain,
             realisations,
             stream: "heat".into(),

@@ -44,6 +44,7 @@ pub fn recipe(name: &str, profile: Profile) -> Option<Recipe> {
         "orbits" => ("orbits", "experiments::orbits::run"),
         "restitution" => ("restitution", "experiments::restitution::CUTTING"),
         "chains" => ("chains", "experiments::chains::CUTTING"),
+        "sizes" => ("sizes", "experiments::chains::CUTTING"),
         "long_protocol" => ("long_protocol", "experiments::long::CUTTING"),
         "audits" => ("audits", "experiments::deep::audit::Audit"),
         "theory" => ("theory", "experiments::theory::run"),

@@ -3,9 +3,8 @@
 use super::super::estimates::{average, jackknife};
 use super::super::{Error, Progress};
 use super::{Chains, Curve, Ensemble, Part, Run, cases, chain, pieces};
-use crate::circuits::nucleation::chain::Chances;
+use crate::circuits::nucleation::chain::{Chances, half};
 use crate::circuits::nucleation::reach::Reach;
-use crate::numerics::regula_falsi::crossing;
 use crate::numerics::statistics::last_rise;
 use crate::params::{Chain, ChainCurve, ChainsParams};
 use rayon::prelude::*;
@@ -99,7 +98,7 @@ fn curve(parameters: &ChainsParams, own: &ChainCurve, rows: Vec<Ensemble>) -> Cu
         kept_half: at(&lives, 0.5),
         kept_half_expected: reaches
             .as_ref()
-            .map(|[ever, there]| rayon::join(|| half(&chain, ever), || half(&chain, there)).into()),
+            .map(|both| both.each_ref().map(|own| half(&chain, own, &own.every(ANGLES[1])))),
         kept_expected: reaches.map_or(Vec::new(), |both| {
             drawn(&own.sigmas, |sigma| both.each_ref().map(|own| share(&chain, own, sigma)))
         }),
@@ -137,11 +136,4 @@ fn reaches(parameters: &ChainsParams, curve: &ChainCurve) -> Option<[Reach; 2]> 
 fn share(chain: &Chain, reach: &Reach, sigma: f64) -> f64 {
     let chances = Chances::new(chain, reach, &reach.every(ANGLES[1]), sigma);
     chances.at_least_one(chain.masses, chain.boundary).value
-}
-
-/// The σ at which the share is a half, to about 1e-6 of itself; the sum over angles is less exact.
-fn half(chain: &Chain, reach: &Reach) -> f64 {
-    let logarithms = [0.02, 2.0].map(|times: f64| pxfm::f_log(times * chain.spacing));
-    let above = |log_sigma| share(chain, reach, pxfm::f_exp(log_sigma)) - 0.5;
-    pxfm::f_exp(crossing(logarithms, 1e-6, above))
 }

@@ -83,14 +83,6 @@ impl Chains {
         self.all().find(|(_, curve)| curve.name == name)
     }
 
-    /// Among the chains of several lengths the longest transient, with its place among those of its curve.
-    pub fn latest(&self) -> Option<(&ChainCurve, &Curve, usize)> {
-        let last = |own: &ChainCurve| own.transients.last().copied().unwrap_or(0.0);
-        let (own, curve) =
-            self.of(ChainKind::Length).max_by(|a, b| last(a.0).total_cmp(&last(b.0)))?;
-        Some((own, curve, own.transients.len().checked_sub(1)?))
-    }
-
     /// All curves with their parameters.
     pub fn all(&self) -> impl Iterator<Item = (&ChainCurve, &Curve)> {
         self.parameters.curves.iter().zip(&self.curves)

@@ -8,7 +8,7 @@ use super::cutting::{Cutting, Row, Unit};
 use super::progress::Stage;
 use super::{Error, Progress, weights};
 use crate::numerics::statistics::Estimate;
-use crate::params::{Chain, HeatParams, HeatRow};
+use crate::params::{Boundary, Chain, HeatParams, HeatRow};
 use serde::{Deserialize, Serialize};
 
 /// How hot chains are.
@@ -18,6 +18,10 @@ pub struct Heat {
     pub parameters: HeatParams,
     /// One for each ensemble.
     pub rows: Vec<Warmth>,
+    /// One for each ensemble on a ring.
+    pub ring: Vec<Warmth>,
+    /// The mean of [`Warmth::balance`] over the ensembles with impacts, between walls and on a ring.
+    pub balance: [Option<Estimate>; 2],
     /// (σ, p) with the balanced variance, to be drawn.
     pub balanced: Vec<[f64; 2]>,
     /// (r, s²/σ²) that the balance of rare impacts lets expect, to be drawn.
@@ -48,11 +52,11 @@ pub struct Warmth {
     pub rate: f64,
     /// s²/σ² that the balance lets expect at that rate.
     pub expected_at_rate: f64,
-    /// 2 ⟨V F⟩ / ((1 − r) ⟨V²⟩) over the impacts of two masses in the window: one in a steady state.
+    /// 2 ⟨M V F⟩ / ((1 − r) ⟨M V²⟩) over all impacts in the window: one in a steady state.
     pub balance: Option<Estimate>,
-    /// Sums of V F and of (1 − r) V²/2 over those impacts.
+    /// Sums of M V F and of (1 − r) M V²/2 over them.
     pub work: [f64; 2],
-    /// Number of those impacts, of each realisation.
+    /// Number of impacts of two masses, of each realisation.
     pub impacts: Vec<u64>,
     /// The largest difference between the change of energy in the window and the sum of the changes at
     /// impacts, over the energy lost at them; none where masses stayed in contact.
@@ -71,9 +75,6 @@ pub struct Warmth {
     pub p_rest: f64,
     /// p with free parts as hot as the balance says.
     pub p_balanced: f64,
-    /// Expected number of different impacts of N gaps: by [`Warmth::p`], [`Warmth::p_rest`],
-    /// [`Warmth::p_balanced`] and the measured share of closing gaps.
-    pub means: [f64; 4],
     /// Realisations that the engine ended early.
     pub failed: usize,
 }
@@ -112,9 +113,9 @@ pub struct Run {
     lost: f64,
     /// Impacts of two masses in the window.
     impacts: u64,
-    /// Sum of V² over them.
+    /// Sum of M V² over all impacts in the window.
     squares: f64,
-    /// Sum of V F.
+    /// Sum of M V F.
     products: f64,
     /// Different gaps with an impact in the window.
     distinct: u64,
@@ -143,17 +144,28 @@ fn until(parameters: &HeatParams) -> f64 {
     parameters.protocol.transient + parameters.protocol.window
 }
 
-fn chain(parameters: &HeatParams, row: &HeatRow) -> Chain {
-    Chain { restitution: row.restitution, ..parameters.chain.clone() }
+/// Each ensemble with its chain, those on a ring last.
+fn ensembles(parameters: &HeatParams) -> impl Iterator<Item = (&HeatRow, Chain)> {
+    let of = |boundary| {
+        move |row: &HeatRow| Chain {
+            restitution: row.restitution,
+            boundary,
+            ..parameters.chain.clone()
+        }
+    };
+    let between_walls = of(parameters.chain.boundary);
+    let walls = parameters.rows.iter().map(move |row| (row, between_walls(row)));
+    let on_ring = of(Boundary::Ring);
+    walls.chain(parameters.ring.iter().map(move |row| (row, on_ring(row))))
 }
 
 fn rows(parameters: &HeatParams) -> Vec<Row> {
-    let row = |row: &HeatRow| Row {
-        covers: format!("sigma = {}, r = {}", row.sigma, row.restitution),
+    let row = |(row, chain): (&HeatRow, Chain)| Row {
+        covers: format!("sigma = {}, r = {}, {:?}", row.sigma, row.restitution, chain.boundary),
         realisations: parameters.realisations,
-        weight: weights::run(&parameters.chain, row.sigma, until(parameters)),
+        weight: weights::run(&chain, row.sigma, until(parameters)),
     };
-    parameters.rows.iter().map(row).collect()
+    ensembles(parameters).map(row).collect()
 }
 
 fn part(
@@ -162,8 +174,8 @@ fn part(
     stage: &Stage,
     progress: &Progress,
 ) -> Result<Part, Error> {
-    let row = &parameters.rows[unit.row];
-    unit.each(stage, |index| realisation(parameters, row, index, progress))
+    let Some((row, chain)) = ensembles(parameters).nth(unit.row) else { return Ok(Vec::new()) };
+    unit.each(stage, |index| realisation(parameters, row, &chain, index, progress))
 }
 
 fn fits(parameters: &HeatParams, unit: &Unit, runs: &Part) -> bool {
@@ -178,7 +190,7 @@ mod tests {
     use crate::circuits::balance::energy_change;
     use crate::dynamics::{Engine, Scenario};
     use crate::dynamics::{Initial, Simultaneous};
-    use crate::params::{Boundary, Profile, Protocol};
+    use crate::params::{Profile, Protocol};
 
     fn small() -> HeatParams {
         let mut parameters = HeatParams::new(Profile::Quick);
@@ -189,6 +201,7 @@ mod tests {
             HeatRow { sigma: 0.3, restitution: 0.8 },
             HeatRow { sigma: 0.3, restitution: 0.5 },
         ];
+        parameters.ring = parameters.rows[1..2].to_vec();
         parameters.realisations = 5;
         parameters
     }
@@ -249,11 +262,16 @@ mod tests {
         let ratio = quiet.ratio.unwrap();
         assert!((ratio.value - 1.5).abs() < 5.0 * ratio.error && ratio.error < 0.4, "{ratio:?}");
         assert_eq!(quiet.imbalance, Some(0.0));
-        for row in [hot, tame] {
+        for row in [hot, tame, &heat.ring[0]] {
             assert!(row.imbalance.is_none_or(|off| off < 1e-10), "{:?}", row.imbalance);
             assert!(row.impacts.iter().all(|&n| n > 50) && row.hit > 50, "{row:?}");
         }
         assert!(hot.imbalance.is_some());
+        // What a chain gains is what its balance is above one: changes of both over what restitution took.
+        let [walls, ring] = heat.balance.map(|own| own.unwrap().value);
+        assert_eq!(ring, heat.ring[0].balance.unwrap().value);
+        let both = 0.5 * (hot.balance.unwrap().value + tame.balance.unwrap().value);
+        assert!((walls - both).abs() < 1e-12 && (walls - 1.0).abs() < 0.2, "{walls} {both}");
         assert!(hot.ratio.unwrap().value > tame.ratio.unwrap().value);
         assert!(hot.p_measured > 0.5 && hot.p_balanced > hot.p_rest && hot.p_rest > hot.p);
         assert!((hot.expected - 18.0).abs() < 1e-12 && (tame.expected - 6.0).abs() < 1e-12);

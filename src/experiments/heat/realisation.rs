@@ -1,12 +1,12 @@
 //! One realisation: free parts before and after a window, and what its impacts did to them.
 
-use super::{HeatParams, Run, chain, until};
+use super::{HeatParams, Run, until};
 use crate::circuits::balance::energy_change;
 use crate::circuits::impact_probability::amplitude;
 use crate::dynamics::{self, Engine, Scenario};
 use crate::experiments::{Error, Progress};
 use crate::numerics::random::NormalPairs;
-use crate::params::HeatRow;
+use crate::params::{Boundary, Chain, HeatRow};
 
 /// Half the sum of squares of free amplitudes.
 fn energy<'a>(parts: impl Iterator<Item = &'a [f64; 2]>) -> f64 {
@@ -21,24 +21,32 @@ fn forced(scenario: &Scenario, mass: usize) -> [f64; 2] {
     own.map_or([0.0; 2], |pair| pair.map(|amplitude| amplitude / factor))
 }
 
+/// The masses to the left and to the right of a gap; between walls 0 and n + 1 are these.
+fn sides(scenario: &Scenario, gap: usize) -> [usize; 2] {
+    let closed = scenario.boundary == Boundary::Ring && gap == scenario.forcing.len();
+    [gap, if closed { 1 } else { gap + 1 }]
+}
+
 /// Closing speed of the forced parts of a gap.
 fn forced_closing(scenario: &Scenario, gap: usize, time: f64) -> f64 {
     let big_omega = scenario.forcing_frequency;
     let (sin, cos) = pxfm::f_sincos(big_omega * time);
     let velocity = |[a, b]: [f64; 2]| big_omega * (b * cos - a * sin);
-    velocity(forced(scenario, gap)) - velocity(forced(scenario, gap + 1))
+    let [left, right] = sides(scenario, gap).map(|mass| velocity(forced(scenario, mass)));
+    left - right
 }
 
 /// Runs it; none if the engine gave up.
 pub fn realisation(
     parameters: &HeatParams,
     row: &HeatRow,
+    chain: &Chain,
     index: u64,
     progress: &Progress,
 ) -> Result<Option<Run>, Error> {
     progress.check()?;
     let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, index);
-    let scenario = Scenario::draw(&chain(parameters, row), row.sigma, &mut normals);
+    let scenario = Scenario::draw(chain, row.sigma, &mut normals);
     let fault = |source| Error::Dynamics { experiment: "heat", source };
     let mut engine = Engine::new(&scenario).map_err(fault)?;
     let ended = engine.run(parameters.protocol.transient, |_| true);
@@ -58,18 +66,18 @@ pub fn realisation(
     let ended = engine.run(until(parameters), |impact| {
         let (v, r) = (impact.closing_speed, row.restitution);
         let f = forced_closing(&scenario, impact.gap, impact.time);
-        let wall = impact.gap == 0 || impact.gap == masses;
+        let sides = sides(&scenario, impact.gap);
+        let wall = sides[0] == 0 || sides[1] > masses;
         let reduced = if wall { 1.0 } else { 0.5 };
         run.gained += energy_change(reduced, r, v, f);
         run.lost += 0.5 * reduced * (1.0 - r * r) * v * v;
-        if !wall {
-            run.impacts += 1;
-            run.squares += v * v;
-            run.products += v * f;
-        }
+        run.squares += reduced * v * v;
+        run.products += reduced * v * f;
+        run.impacts += u64::from(!wall);
         gaps[impact.gap] = true;
-        hit[impact.gap] = true;
-        hit[impact.gap + 1] = true;
+        for mass in sides {
+            hit[mass] = true;
+        }
         !progress.stopped()
     });
     progress.check()?;
@@ -79,7 +87,8 @@ pub fn realisation(
         Err(source) => return Err(fault(source)),
     }
     let parts = engine.free_parts();
-    let struck = || parts.iter().zip(&hit[1..]).filter(|(_, hit)| **hit).map(|(part, _)| part);
+    let struck =
+        || parts.iter().zip(&hit[1..=masses]).filter(|(_, hit)| **hit).map(|(part, _)| part);
     run.free = energy(parts.iter());
     run.free_of_hit = energy(struck());
     run.hit = struck().count() as u64;
@@ -98,8 +107,11 @@ fn closing(scenario: &Scenario, parts: &[[f64; 2]]) -> u64 {
     };
     let differ = |[a, b]: [f64; 2], [c, d]: [f64; 2]| amplitude(c - a, d - b);
     let reaches = |gap: &usize| {
-        let own = differ(free(*gap), free(gap + 1));
-        own + differ(forced(scenario, *gap), forced(scenario, gap + 1)) >= scenario.spacing
+        let [left, right] = sides(scenario, *gap);
+        let own = differ(free(left), free(right));
+        own + differ(forced(scenario, left), forced(scenario, right)) >= scenario.spacing
     };
-    (0..scenario.gaps()).filter(reaches).count() as u64
+    // A ring counts its gaps from 1.
+    let first = usize::from(scenario.boundary == Boundary::Ring);
+    (first..first + scenario.gaps()).filter(reaches).count() as u64
 }

@@ -68,6 +68,7 @@ fn title(name: &str) -> Option<&'static str> {
         "independence" => "order of impacts ([@sec:independence])",
         "restitution" => "restitution ([@sec:restitution])",
         "chains" => "long chains, friction, other forces ([@sec:chains])",
+        "sizes" => "lengths and transients ([@tab:sizes])",
         "long_protocol" => "the longest transients ([@tab:long])",
         _ => return None,
     })

@@ -1,10 +1,9 @@
 //! Long chains, and other forces.
 
-use super::{Error, chosen, estimate, from, mark};
+use super::{Error, chosen, difference, estimate, from, mark};
 use crate::experiments::Results;
 use crate::experiments::chains::{Chains, Curve};
 use crate::experiments::protocol::ProtocolMap;
-use crate::numerics::statistics::Estimate;
 use crate::params::{ChainCurve, ChainKind};
 use crate::report::values::Value;
 use serde::Serialize;
@@ -40,12 +39,7 @@ fn drift_id(own: &ChainCurve, transient: f64) -> String {
     format!("chains.{name}_t{}", transient as u64)
 }
 
-/// Whether the map has such a transient, or longer ones.
-fn in_map(map: &ProtocolMap, transient: f64) -> bool {
-    map.parameters.transients.last().is_some_and(|last| transient <= *last)
-}
-
-/// The same of the paper's chain, which the map has.
+/// A half height of the paper's chain, which the map has.
 fn map_id(transient: f64) -> String {
     format!("chains.d0_t{}", transient as u64)
 }
@@ -70,42 +64,21 @@ fn force_id(own: &ChainCurve, column: &str) -> String {
 
 pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
     let (found, map) = (results.chains()?, results.protocol()?);
-    let window = found.parameters.window;
     let missing = || Error::Missing("long chains");
     let mut values = Vec::new();
-    let mut off: Option<f64> = None;
     for (own, curve) in lengths(found) {
         let n = own.realisations;
         for (i, &transient) in own.transients.iter().enumerate() {
-            let (half, same) = (curve.half_heights[i], map.half_height_at(transient, window));
             let id = |column: &str| length_id(own, transient, column);
             values.push(Value::integer(id("n"), own.masses));
             values.push(Value::integer(id("t"), transient as u64));
-            values.push(estimate(id("half"), half, n));
-            if in_map(map, transient) {
-                values.push(estimate(id("same"), same, map.parameters.realisations));
-            }
+            values.push(estimate(id("half"), curve.half_heights[i], n));
             values.push(estimate(id("width"), curve.widths[i], n));
-            if let (true, Some(half), Some(same)) = (own.masses >= 100, half, same) {
-                let error = (half.error * half.error + same.error * same.error).sqrt();
-                let distance = (half.value - same.value).abs() / error;
-                off = Some(off.map_or(distance, |off| off.max(distance)));
-            }
         }
     }
-    values.push(
-        off.map_or(Value::text("chains_off", "none"), |off| Value::real("chains_off", off, 2)),
-    );
     let ends = |of: fn(usize, usize) -> usize| lengths(found).map(|(own, _)| own.masses).reduce(of);
     values.push(Value::integer("chains_shortest", ends(usize::min).ok_or_else(missing)?));
     values.push(Value::integer("chains_longest", ends(usize::max).ok_or_else(missing)?));
-    let (own, curve, at) = found.latest().ok_or_else(missing)?;
-    values.extend([
-        Value::integer("chains_latest_n", own.masses),
-        Value::integer("chains_latest_t", own.transients[at] as u64),
-        estimate("chains_latest_half", curve.half_heights[at], own.realisations),
-        estimate("chains_latest_width", curve.widths[at], own.realisations),
-    ]);
     values.extend(open(found).ok_or_else(missing)?);
     values.extend(drift(found, map).ok_or_else(missing)?);
     values.extend(forces(found).ok_or_else(missing)?);
@@ -139,12 +112,13 @@ fn open(found: &Chains) -> Option<Vec<Value>> {
 /// Half heights over the transients, those of the paper's chain from the map.
 fn drift(found: &Chains, map: &ProtocolMap) -> Option<Vec<Value>> {
     let window = found.parameters.window;
+    let of_map = |time| map.cell(time, window)?.half_height_all;
     let (first, _) = found.of(ChainKind::Damping).next()?;
     let (last, strongest) = found.of(ChainKind::Damping).last()?;
     let mut values = Vec::new();
     for &time in &first.transients {
         values.push(Value::integer(format!("chains.t{}", time as u64), time as u64));
-        let same = map.half_height_at(time, window);
+        let same = of_map(time);
         values.push(estimate(map_id(time), same, map.parameters.realisations));
     }
     for (own, curve) in drifts(found) {
@@ -153,26 +127,22 @@ fn drift(found: &Chains, map: &ProtocolMap) -> Option<Vec<Value>> {
         }
     }
     let (from, to) = (*first.transients.get(1)?, *first.transients.last()?);
-    let same = |time| map.half_height_at(time, window);
     let late = |i: usize| strongest.half_heights.get(i).copied().flatten();
     values.extend([
-        fall("chains_fall", same(from), same(to), map.parameters.realisations),
-        fall("chains_fall_damped", late(1), late(last.transients.len() - 1), last.realisations),
+        // Errors as if both were of different chains, which makes them too large.
+        difference("chains_fall", of_map(from), of_map(to), map.parameters.realisations),
+        difference(
+            "chains_fall_damped",
+            late(1),
+            late(last.transients.len() - 1),
+            last.realisations,
+        ),
         chosen("chains_damping", last.damping),
         Value::integer("chains_fall_from", from as u64),
         Value::integer("chains_fall_to", to as u64),
         Value::integer("chains_stroke", found.parameters.stroke as u64),
     ]);
     Some(values)
-}
-
-/// How far a half height falls; errors as if both were of different chains, which makes them too large.
-fn fall(id: &str, from: Option<Estimate>, to: Option<Estimate>, n: usize) -> Value {
-    let both = from.zip(to);
-    both.map_or(Value::text(id, "none"), |(from, to)| {
-        let error = (from.error * from.error + to.error * to.error).sqrt();
-        Value::ensemble(id, from.value - to.value, error, n as u64)
-    })
 }
 
 /// Forces of several components, and of frequencies with a common period.
@@ -205,13 +175,9 @@ pub fn lengths_table(results: &Results) -> Result<Vec<Line>, Error> {
     let mut all: Vec<(&ChainCurve, f64)> =
         lengths(found).flat_map(|(own, _)| own.transients.iter().map(move |&t| (own, t))).collect();
     all.sort_by(|a, b| a.1.total_cmp(&b.1).then(a.0.masses.cmp(&b.0.masses)));
-    let map = results.protocol()?;
     let line = |(own, time): &(&ChainCurve, f64)| {
-        let cell = |column| match column {
-            "same" if !in_map(map, *time) => "–".into(),
-            _ => mark(length_id(own, *time, column)),
-        };
-        Line { cells: ["t", "n", "half", "same", "width"].map(cell).into() }
+        let cell = |column| mark(length_id(own, *time, column));
+        Line { cells: ["t", "n", "half", "width"].map(cell).into() }
     };
     Ok(all.iter().map(line).collect())
 }

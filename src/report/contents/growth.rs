@@ -1,7 +1,7 @@
 //! Section 12, second half: what one gap sets off, and the mean count that follows.
 
 use super::simulation::mean_all;
-use super::{Error, chosen, estimate, from, mark, share};
+use super::{Error, chosen, difference, estimate, from, mark, share};
 use crate::experiments::Results;
 use crate::experiments::protocol::ProtocolMap;
 use crate::experiments::seeds::{Prediction, Seeds, Spread};
@@ -48,17 +48,15 @@ fn found(map: &ProtocolMap, own: &Prediction) -> Option<Estimate> {
     map.cell(own.transient, own.window)?.half_height_all
 }
 
-/// For each σ that both have, what the simulation found, what nucleation and growth predict, and
-/// what the graph theory does.
+/// For each σ that both have, by how much the predicted mean is above the simulated one.
 fn compared<'a>(
     seeds: &'a Seeds,
     own: &'a Prediction,
     sweep: &'a Sweep,
-) -> impl Iterator<Item = (f64, f64, [f64; 3])> + 'a {
+) -> impl Iterator<Item = (f64, f64)> + 'a {
     seeds.rows.iter().zip(&own.means).filter_map(|(row, mean)| {
         let ran = sweep.rows.iter().find(|other| other.sigma == row.sigma)?;
-        let [printed, rest, _] = row.graph;
-        Some((row.sigma, ran.mean_all?, [mean.value, printed, rest]))
+        Some((row.sigma, mean.value - ran.mean_all?))
     })
 }
 
@@ -108,39 +106,18 @@ fn comparison(seeds: &Seeds, sweep: &Sweep, n: usize) -> Result<Vec<Value>, Erro
     let at_rise = seeds.rows.iter().zip(&own.means).find(|(row, _)| row.sigma == SIGMA);
     let (_, mean) = at_rise.ok_or(Error::Missing("seeds at the rise"))?;
     let ran = super::simulation::row(sweep, SIGMA)?;
-    let rows: Vec<_> = compared(seeds, own, sweep).collect();
-    let off = |(_, found, [grown, ..]): &(f64, f64, [f64; 3])| grown - found;
-    let worst = rows.iter().max_by(|a, b| off(a).abs().total_cmp(&off(b).abs()));
+    let worst = compared(seeds, own, sweep).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
     let worst = worst.ok_or(Error::Missing("seeds at a sigma of the main sweep"))?;
-    let score = |i: usize| {
-        let squares = rows.iter().map(|(_, found, own)| (own[i] - found) * (own[i] - found));
-        (squares.sum::<f64>() / rows.len() as f64).sqrt()
-    };
     Ok(vec![
         chosen("growth_sigma", SIGMA),
         estimate("growth_mean", Some(*mean), n),
         mean_all("growth_mean_found", ran),
         estimate("growth_half", own.half_height, n),
         estimate("growth_half_found", sweep.rise.half_height_all, sweep.parameters.realisations),
-        early(own.half_height, sweep.rise.half_height_all, n),
-        Value::integer("growth_compared", rows.len()),
-        Value::real("growth_worst", off(worst).abs(), 2),
+        difference("growth_early", sweep.rise.half_height_all, own.half_height, n),
+        Value::real("growth_worst", worst.1.abs(), 2),
         chosen("growth_worst_sigma", worst.0),
-        Value::real("growth_score", score(0), 2),
-        Value::real("growth_score_p", score(1), 2),
-        Value::real("growth_score_rest", score(2), 2),
     ])
-}
-
-/// By how much the predicted half height comes before the simulated one.
-fn early(own: Option<Estimate>, found: Option<Estimate>, n: usize) -> Value {
-    match own.zip(found) {
-        Some((own, found)) => {
-            let error = (own.error * own.error + found.error * found.error).sqrt();
-            Value::ensemble("growth_early", found.value - own.value, error, n as u64)
-        }
-        None => Value::text("growth_early", "none"),
-    }
 }
 
 /// The lines of the table of spreading.

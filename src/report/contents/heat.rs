@@ -1,6 +1,6 @@
-//! Section 12: how hot a running chain is.
+//! Section 15: how hot a running chain is.
 
-use super::{Error, chosen, count, estimate, from, mark};
+use super::{Error, chosen, estimate, from, mark};
 use crate::experiments::Results;
 use crate::experiments::heat::{Heat, Warmth};
 use crate::params::HeatParams;
@@ -57,18 +57,10 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
         let named = |name: &str| format!("heat_{name}_{letter}");
         values.push(chosen(&named("sigma"), sigma));
         values.push(estimate(named("ratio"), row.ratio, row.ratios.len()));
-        values.push(estimate(named("balance"), row.balance, row.ratios.len()));
-        values.push(count(&named("impacts"), row.impacts.iter().sum()));
+        values.push(Value::real(named("friction"), row.expected_at_rate, 2));
     }
     let row = at(heat, SIGMAS[0])?;
     values.push(estimate("heat_hit", row.ratio_of_hit, row.ratios.len()));
-    values.push(match row.ratio_of_hit {
-        Some(own) => {
-            let [share, error] = [own.value, own.error].map(|x| x / row.expected);
-            Value::ensemble("heat_share", share, error, row.ratios.len() as u64)
-        }
-        None => Value::text("heat_share", "none"),
-    });
     let lowest = heat.rising().next().ok_or(Error::Missing("how hot chains are"))?;
     values.push(chosen("heat_lowest_sigma", lowest.row.sigma));
     values.push(estimate("heat_lowest_hit", lowest.ratio_of_hit, lowest.ratios.len()));
@@ -84,14 +76,13 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
     values.push(Value::real("heat_other_friction", other.expected_at_rate, 2));
     let high = at(heat, SIGMAS[1])?;
     values.push(Value::real("heat_rate", high.rate, 2));
-    values.push(Value::real("heat_friction", high.expected_at_rate, 2));
     values.push(Value::integer("heat_rows", heat.rows.len()));
     values.push(Value::real("heat_factor", factor(heat, |row| row.expected), 2));
     values.push(Value::real("heat_factor_friction", factor(heat, |row| row.expected_at_rate), 2));
+    let [walls, ring] = heat.balance;
+    values.push(estimate("heat_balance", walls, n));
+    values.push(estimate("heat_balance_ring", ring, n));
     values.push(estimate("heat_other", other.ratio, other.ratios.len()));
-    values.push(Value::integer("heat_scored", heat.rising().count()));
-    let of = |(name, score): (&&str, f64)| Value::real(format!("heat_score_{name}"), score, 2);
-    values.extend(COLUMNS.iter().zip(scores(heat)).map(of));
     Ok(from(values, "experiments::heat::run", "heat"))
 }
 
@@ -99,15 +90,6 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
 fn at(heat: &Heat, sigma: f64) -> Result<&Warmth, Error> {
     let row = heat.rising().find(|row| row.row.sigma == sigma);
     row.ok_or(Error::Missing("how hot chains are at every sigma of the text"))
-}
-
-/// For each relation of p and σ the root mean square distance of its expected number of impacts from
-/// the mean count of the same runs.
-fn scores(heat: &Heat) -> [f64; 4] {
-    let rows = || heat.rising().filter_map(|row| Some((row, row.count?.value)));
-    let number = rows().count().max(1) as f64;
-    let square = |i: usize| rows().map(move |(row, k)| (row.means[i] - k) * (row.means[i] - k));
-    std::array::from_fn(|i| (square(i).sum::<f64>() / number).sqrt())
 }
 
 /// By which factor a formula is off in the root mean square, over all ensembles.

@@ -3,7 +3,7 @@
 //! A value is computed here from results and carries the path of the item that computed it. Groups
 //! are `v` (ours), `paper` (numbers that the paper chose), `printed` (numbers in its statements), and
 //! one for the cells of each table: `readings`, `compare`, `protocol`, `protocols`, `long`, `nucleation`, `spread`, `course`, `fronts`, `growth`, `heat`,
-//! `scores`, `history`, `independence`, `orbits`, `restitution`, `chains`, `starts`, `bias` and `carried`.
+//! `scores`, `history`, `independence`, `orbits`, `restitution`, `chains`, `sizes`, `starts`, `bias` and `carried`.
 
 mod accuracy;
 mod carried;
@@ -26,6 +26,7 @@ mod protocols;
 mod restitution;
 mod scores;
 mod simulation;
+mod sizes;
 mod spacetime;
 mod starts;
 mod theory;
@@ -62,7 +63,7 @@ pub enum Error {
 pub type Section = fn(&Results) -> Result<Vec<Value>, Error>;
 
 /// All values but what the paper printed, in the order of the report.
-pub const SECTIONS: [Section; 23] = [
+pub const SECTIONS: [Section; 24] = [
     simulation::values,
     theory::values,
     comparison::values,
@@ -84,6 +85,7 @@ pub const SECTIONS: [Section; 23] = [
     orbits::values,
     restitution::values,
     chains::values,
+    sizes::values,
     carried::values,
     |results| Ok(ledger::values(results)),
 ];
@@ -141,6 +143,8 @@ pub fn rows(
         ("orbits_fig6", serde_json::to_value(orbits::fig6(results)?)?),
         ("restitution_table", serde_json::to_value(restitution::table(results)?)?),
         ("chains_lengths", serde_json::to_value(chains::lengths_table(results)?)?),
+        ("sizes_heads", serde_json::to_value(sizes::heads(results)?)?),
+        ("sizes_table", serde_json::to_value(sizes::table(results)?)?),
         ("chains_times", serde_json::to_value(chains::drift_times(results)?)?),
         ("chains_drifts", serde_json::to_value(chains::drift_table(results)?)?),
         ("chains_forces", serde_json::to_value(chains::forces_table(results)?)?),
@@ -159,6 +163,22 @@ pub fn rows(
 fn estimate(id: impl Into<String>, found: Option<Estimate>, realisations: usize) -> Value {
     match found {
         Some(e) => Value::ensemble(id, e.value, e.error, realisations as u64),
+        None => Value::text(id, "none"),
+    }
+}
+
+/// How much the one is larger than the other, with the error of independent samples.
+fn difference(
+    id: impl Into<String>,
+    own: Option<Estimate>,
+    other: Option<Estimate>,
+    realisations: usize,
+) -> Value {
+    match own.zip(other) {
+        Some((own, other)) => {
+            let error = (own.error * own.error + other.error * other.error).sqrt();
+            Value::ensemble(id, own.value - other.value, error, realisations as u64)
+        }
         None => Value::text(id, "none"),
     }
 }

@@ -51,6 +51,7 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
     let lowest = lengths().min().unwrap_or(0);
     let mut values = vec![
         chosen("nucleation_sigma", SIGMA),
+        Value::real("nucleation_half", found.half, 4),
         Value::real("nucleation_p", row.ever.p, 3),
         Value::real("nucleation_wall", row.ever.wall, 2),
         Value::real("nucleation_random", row.random, 2),

@@ -3,15 +3,12 @@
 use super::places::between;
 use super::{Guard, Look, far, model, unless};
 use crate::experiments::chains::{Chains, Curve, Ensemble, Run, chain, pieces};
+use crate::experiments::protocol::ProtocolCell;
 use crate::params::{ChainCurve, ChainKind};
 
 pub const GUARDS: &[Guard] = &[
-    Guard { name: "chains_on_curves", ids: &["chains.*", "chains_latest_*"], find: places },
-    Guard {
-        name: "chains_in_the_map",
-        ids: &["chains.*", "chains_off", "chains_fall*"],
-        find: times,
-    },
+    Guard { name: "chains_on_curves", ids: &["chains.*"], find: places },
+    Guard { name: "chains_in_the_map", ids: &["chains.*", "chains_fall*"], find: times },
     Guard { name: "chains_silent", ids: &["chains_open*", "chains_shut*"], find: silent },
     Guard { name: "chains_by_expectation", ids: &["chains.f*"], find: expected },
     Guard { name: "chains_as_run", ids: &["chains.*", "chains_*"], find: as_run },
@@ -37,7 +34,7 @@ fn id(own: &ChainCurve, time: f64, column: &str) -> Option<String> {
 }
 
 /// The mean share of the gaps in a window, once more from the counts: a piece counts as much as another.
-fn share(found: &Chains, own: &ChainCurve, row: &Ensemble, window: usize) -> f64 {
+pub(super) fn share(found: &Chains, own: &ChainCurve, row: &Ensemble, window: usize) -> f64 {
     let gaps = chain(&found.parameters, own).gaps();
     let sizes = pieces(gaps, found.parameters.piece);
     let of = |run: &Run| -> f64 {
@@ -48,7 +45,7 @@ fn share(found: &Chains, own: &ChainCurve, row: &Ensemble, window: usize) -> f64
 }
 
 /// Where a curve comes from below a level for the last time.
-fn crossing(points: &[(f64, f64)], level: f64) -> Option<f64> {
+pub(super) fn crossing(points: &[(f64, f64)], level: f64) -> Option<f64> {
     let last = points.windows(2).rev().find(|pair| pair[0].1 < level && pair[1].1 >= level)?;
     let [(a, low), (b, high)] = [last[0], last[1]];
     // It must stay there.
@@ -59,10 +56,6 @@ fn crossing(points: &[(f64, f64)], level: f64) -> Option<f64> {
 /// Shares, half heights and widths follow from the counts.
 fn places(look: Look<'_>) -> Option<String> {
     let found = found(look)?;
-    let latest = |own: &ChainCurve, time: f64| {
-        let is = |(last, _, at): (&ChainCurve, _, usize)| last == own && own.transients[at] == time;
-        found.latest().is_some_and(is)
-    };
     let one = |(own, curve): (&ChainCurve, &Curve)| {
         let window = |(i, time): (usize, &f64)| {
             let points: Vec<(f64, f64)> =
@@ -76,7 +69,6 @@ fn places(look: Look<'_>) -> Option<String> {
                 let place = crossing(&points, 0.5)?;
                 far("a half height", curve.half_heights[i]?.value, place)
                     .or_else(|| look.is(&id(own, *time, "half")?, place))
-                    .or_else(|| latest(own, *time).then(|| look.is("chains_latest_half", place))?)
                     .or_else(|| match (own.masses, *time) {
                         (100, 500.0) if own.kind == ChainKind::Length => {
                             look.is("chains.m1_half", place)
@@ -88,9 +80,6 @@ fn places(look: Look<'_>) -> Option<String> {
                 let width = crossing(&points, 0.9)? - crossing(&points, 0.1)?;
                 far("a width", curve.widths[i]?.value, width)
                     .or_else(|| look.is(&id(own, *time, "width")?, width))
-                    .or_else(|| {
-                        latest(own, *time).then(|| look.is("chains_latest_width", width))?
-                    })
             };
             shares().or_else(half).or_else(width)
         };
@@ -111,36 +100,15 @@ fn places(look: Look<'_>) -> Option<String> {
     found.all().find_map(one)
 }
 
-/// The map at the same time: between two of its transients by ratios of logarithms, and exact at its own.
+/// Half heights of the paper's chain are those of the map, and a fall is what is between two of them.
 fn times(look: Look<'_>) -> Option<String> {
     let found = found(look)?;
     let map = look.results.protocol.as_ref()?;
     let window = found.parameters.window;
-    let points: Vec<(f64, [f64; 2])> = map
-        .cells
-        .iter()
-        .filter(|cell| cell.window == window)
-        .filter_map(|cell| Some((cell.transient, cell.half_height_all?)))
-        .map(|(time, half)| (time, [half.value, half.error]))
-        .collect();
-    let line = |place: usize, time: f64| {
-        let at: Vec<_> = points.iter().map(|(t, half)| (pxfm::f_log2(*t), half[place])).collect();
-        let exact = points.iter().find(|(t, _)| *t == time).map(|(_, half)| half[place]);
-        exact.or_else(|| between(&at, pxfm::f_log2(time)))
+    let line = |time: f64| {
+        let own = |cell: &&ProtocolCell| (cell.transient, cell.window) == (time, window);
+        Some(map.cells.iter().find(own)?.half_height_all?.value)
     };
-    let mut most: f64 = 0.0;
-    for (own, curve) in found.of(ChainKind::Length) {
-        for (time, half) in own.transients.iter().zip(&curve.half_heights) {
-            let (Some(same), Some(error)) = (line(0, *time), line(1, *time)) else { continue };
-            if let Some(off) = look.is(&id(own, *time, "same")?, same) {
-                return Some(off);
-            }
-            if let (true, Some(half)) = (own.masses >= 100, half) {
-                let square = half.error * half.error + error * error;
-                most = most.max(((half.value - same) * (half.value - same) / square).sqrt());
-            }
-        }
-    }
     let damped = || found.of(ChainKind::Damping);
     let (own, strongest) = damped().last()?;
     let from = *own.transients.get(1)?;
@@ -150,13 +118,10 @@ fn times(look: Look<'_>) -> Option<String> {
         let [a, b] = [1, last].map(|i| strongest.half_heights[i]);
         look.is("chains_fall_damped", a?.value - b?.value)
     };
-    look.is("chains_off", most)
-        .or_else(|| {
-            own.transients
-                .iter()
-                .find_map(|&time| look.is(&format!("chains.d0_t{time}"), line(0, time)?))
-        })
-        .or_else(|| look.is("chains_fall", line(0, from)? - line(0, to)?))
+    own.transients
+        .iter()
+        .find_map(|&time| look.is(&format!("chains.d0_t{time}"), line(time)?))
+        .or_else(|| look.is("chains_fall", line(from)? - line(to)?))
         .or_else(fall)
         .or_else(|| {
             look.are([
@@ -287,7 +252,6 @@ fn as_run(look: Look<'_>) -> Option<String> {
     let masses = found.of(ChainKind::Length);
     let masses: Vec<usize> = masses.map(|(own, _)| own.masses).collect();
     let (silence, _) = found.curve("silence")?;
-    let order = |a: &&f64, b: &&f64| a.total_cmp(b);
     found
         .all()
         .find_map(sizes)
@@ -295,8 +259,6 @@ fn as_run(look: Look<'_>) -> Option<String> {
             look.are([
                 ("chains_shortest", *masses.iter().min()? as f64),
                 ("chains_longest", *masses.iter().max()? as f64),
-                ("chains_latest_n", found.latest()?.0.masses as f64),
-                ("chains_latest_t", *found.latest()?.0.transients.iter().max_by(order)?),
                 ("chains_silence_masses", silence.masses as f64),
                 ("chains_silence_until", *silence.transients.last()?),
                 ("chains_transient", protocol.transient),
@@ -304,10 +266,4 @@ fn as_run(look: Look<'_>) -> Option<String> {
             ])
         })
         .or_else(|| unless(protocol.window == found.parameters.window, || "another window".into()))
-        .or_else(|| {
-            // The longest transient is one in proportion to the length of its chain.
-            let (own, _, at) = found.latest()?;
-            let times = own.transients[at] / own.masses as f64;
-            unless(times.fract() == 0.0, || format!("the longest transient is {times} n"))
-        })
 }

@@ -14,7 +14,7 @@ pub const GUARDS: &[Guard] = &[
         ids: &["growth.*", "growth_half", "growth_half_found"],
         find: halves,
     },
-    Guard { name: "growth_scores", ids: &["growth_*"], find: scores },
+    Guard { name: "growth_distances", ids: &["growth_*"], find: distances },
     Guard { name: "spreading_as_tabled", ids: &["spread.*", "seeds_*"], find: tabled },
 ];
 
@@ -157,8 +157,8 @@ fn halves(look: Look<'_>) -> Option<String> {
     })
 }
 
-/// Distances from the simulation, by the histograms of the main sweep.
-fn scores(look: Look<'_>) -> Option<String> {
+/// The largest distance from the simulation, by the histograms of the main sweep, and means of circuits by other sums.
+fn distances(look: Look<'_>) -> Option<String> {
     let seeds = seeds(look)?;
     let sweep = look.results.sweep.as_ref()?;
     let protocol = sweep.parameters.protocol;
@@ -168,13 +168,12 @@ fn scores(look: Look<'_>) -> Option<String> {
         .find(|own| own.transient == protocol.transient && own.window == protocol.window)?;
     let big_n = seeds.parameters.chain.gaps();
     let r = look.published.parameter("restitution").ok()?;
-    let mut squares: [f64; 3] = [0.0; 3];
     let sigma = look.number("growth_sigma")?;
     if !seeds.rows.iter().any(|row| row.sigma == sigma) {
         return Some(format!("no seeds at sigma = {sigma}"));
     }
     let hot = |sigma: f64| model::p_heated(sigma, 2.0 * (1.0 + r) / (1.0 - r));
-    let (mut number, mut worst) = (0.0_f64, (0.0_f64, 0.0));
+    let mut worst = (0.0_f64, 0.0);
     for (row, mean) in seeds.rows.iter().zip(&own.means) {
         let Some(ran) = sweep.rows.iter().find(|other| other.sigma == row.sigma) else { continue };
         let all: f64 = ran.counts.iter().map(|&c| f64::from(c)).sum();
@@ -186,11 +185,9 @@ fn scores(look: Look<'_>) -> Option<String> {
         if off.is_some() {
             return off;
         }
-        let distances = [mean.value, graphs[0], graphs[1]].map(|own| own - sum / all);
-        (0..3).for_each(|i| squares[i] += distances[i] * distances[i]);
-        number += 1.0;
-        if distances[0].abs() > worst.0 {
-            worst = (distances[0].abs(), row.sigma);
+        let distance = (mean.value - sum / all).abs();
+        if distance > worst.0 {
+            worst = (distance, row.sigma);
         }
         if sigma == row.sigma {
             let told = look.is("growth_mean", mean.value);
@@ -200,15 +197,7 @@ fn scores(look: Look<'_>) -> Option<String> {
             }
         }
     }
-    let score = squares.map(|sum| (sum / number).sqrt());
-    look.are([
-        ("growth_compared", number),
-        ("growth_worst", worst.0),
-        ("growth_worst_sigma", worst.1),
-        ("growth_score", score[0]),
-        ("growth_score_p", score[1]),
-        ("growth_score_rest", score[2]),
-    ])
+    look.are([("growth_worst", worst.0), ("growth_worst_sigma", worst.1)])
 }
 
 /// The text and the table say what the results do.

@@ -8,12 +8,11 @@ use crate::report::values::cell;
 pub const GUARDS: &[Guard] = &[
     Guard { name: "heat_of_realisations", ids: &["heat.*", "heat_ratio_*"], find: sums },
     Guard { name: "heat_as_tabled", ids: &["heat_*"], find: tabled },
-    Guard { name: "energy_kept_in_books", ids: &["heat_balance_*"], find: balance },
+    Guard { name: "energy_kept_in_books", ids: &["heat_balance*"], find: balance },
     Guard { name: "heat_expected", ids: &["heat_expected", "heat_other_expected"], find: expected },
     Guard { name: "heat_with_friction", ids: &["heat_rate", "heat_*"], find: friction },
     Guard { name: "p_of_hot_chains", ids: &["heat.*"], find: p },
     Guard { name: "sigma_of_hot_jump", ids: &["sigma_jump_hot"], find: jump },
-    Guard { name: "heat_scores", ids: &["heat_score_*", "heat_scored"], find: scores },
 ];
 
 fn heat(look: Look<'_>) -> Option<&Heat> {
@@ -24,10 +23,14 @@ fn heat(look: Look<'_>) -> Option<&Heat> {
 /// that were asked for.
 fn sums(look: Look<'_>) -> Option<String> {
     let heat = heat(look)?;
-    let asked: Vec<_> = heat.rows.iter().map(|row| row.row).collect();
-    let gaps = heat.parameters.chain.gaps() as f64;
-    let uneven = unless(asked == heat.parameters.rows, || "other ensembles than asked for".into());
-    let row = |row: &Warmth| {
+    let ran = |rows: &[Warmth]| rows.iter().map(|row| row.row).collect::<Vec<_>>();
+    let asked = [&heat.parameters.rows, &heat.parameters.ring];
+    let uneven = unless([ran(&heat.rows), ran(&heat.ring)].each_ref() == asked, || {
+        "other ensembles than asked for".into()
+    });
+    // A ring has no wall, and as many gaps as masses.
+    let masses = heat.parameters.chain.masses as f64;
+    let row = |row: &Warmth, gaps: f64| {
         let n = row.ratios.len() as f64;
         let ratio = |[above, below]: [f64; 2]| above / below;
         let total = |counts: &[u64]| counts.iter().sum::<u64>() as f64;
@@ -38,7 +41,9 @@ fn sums(look: Look<'_>) -> Option<String> {
             .or_else(|| far("heat of those hit", row.ratio_of_hit?.value, ratio(row.warmth_of_hit)))
             .or_else(|| far("a balance", row.balance?.value, ratio(row.work)))
     };
-    uneven.or_else(|| heat.rows.iter().find_map(row))
+    uneven
+        .or_else(|| heat.rows.iter().find_map(|own| row(own, masses + 1.0)))
+        .or_else(|| heat.ring.iter().find_map(|own| row(own, masses)))
 }
 
 /// The text speaks of rows of the table.
@@ -53,15 +58,13 @@ fn tabled(look: Look<'_>) -> Option<String> {
         let hit = || match letter {
             "a" => {
                 let hit = row.warmth_of_hit[0] / row.warmth_of_hit[1];
-                look.are([("heat_hit", hit), ("heat_share", hit / row.expected)])
-                    .or_else(|| look.is("heat_measured", row.p_measured))
+                look.is("heat_hit", hit).or_else(|| look.is("heat_measured", row.p_measured))
             }
             _ => None,
         };
         look.is(&named("ratio"), row.ratios.iter().sum::<f64>() / row.ratios.len() as f64)
             .or_else(hit)
-            .or_else(|| look.is(&named("balance"), row.work[0] / row.work[1]))
-            .or_else(|| look.is(&named("impacts"), row.impacts.iter().sum::<u64>() as f64))
+            .or_else(|| look.is(&named("friction"), row.expected_at_rate))
     };
     let other = || {
         let r = look.number("heat_other_restitution")?;
@@ -88,13 +91,27 @@ fn tabled(look: Look<'_>) -> Option<String> {
         .or_else(other)
 }
 
-/// What the free parts of a chain gain in the window is what impacts gave them.
+/// What the free parts of a chain gain in the window is what impacts gave them, and what those of all chains
+/// gain is what their balance is above one.
 fn balance(look: Look<'_>) -> Option<String> {
-    heat(look)?.rows.iter().find_map(|row| {
+    let heat = heat(look)?;
+    let books = |row: &Warmth| {
         let off = row.imbalance?;
         unless(off.abs() <= super::ROUNDING, || {
             format!("energy is off by {off} of what impacts took at {:?}", row.row)
         })
+    };
+    let pooled = |rows: &[Warmth]| {
+        let ratios: Vec<f64> = rows
+            .iter()
+            .filter(|row| row.work[1] > 0.0)
+            .map(|row| row.work[0] / row.work[1])
+            .collect();
+        ratios.iter().rev().sum::<f64>() / ratios.len() as f64
+    };
+    let rows = || heat.rows.iter().chain(&heat.ring);
+    rows().find_map(books).or_else(|| {
+        look.are([("heat_balance", pooled(&heat.rows)), ("heat_balance_ring", pooled(&heat.ring))])
     })
 }
 
@@ -121,7 +138,8 @@ fn friction(look: Look<'_>) -> Option<String> {
         // ω = d = 1, Ω² = 2, (ω² − Ω²)² = 1: power and loss of a mass, both over σ².
         let lost = 2.0 * ((1.0 + r) * rate) * ((1.0 + r) * rate);
         let kept = 2.0 / (1.0 + lost);
-        let speed = row.expected_at_rate - kept * lost + kept;
+        // Of a² + b² = x² + v²/ω² what friction leaves out of the forced motion has three quarters of 2 v².
+        let speed = row.expected_at_rate - 0.75 * kept * lost + kept;
         far("a rate of impacts", row.rate, rate)
             .or_else(|| far("power and loss", (1.0 + r) * kept, 0.5 * (1.0 - r * r) * speed))
     };
@@ -138,7 +156,6 @@ fn friction(look: Look<'_>) -> Option<String> {
     heat.rows.iter().find_map(row).or_else(|| {
         look.are([
             ("heat_rate", high.rate),
-            ("heat_friction", high.expected_at_rate),
             ("heat_other_friction", other.expected_at_rate),
             ("heat_rows", heat.rows.len() as f64),
             ("heat_factor", off(|row| row.expected)),
@@ -166,26 +183,4 @@ fn jump(look: Look<'_>) -> Option<String> {
     let ratio = heat.rows.first()?.expected;
     let p = model::p_heated(look.number("sigma_jump_hot")?, ratio);
     far("p at sigma_jump_hot", p, look.results.theory.scalars_walls.p_jump)
-}
-
-/// Each score by means that were computed another way.
-fn scores(look: Look<'_>) -> Option<String> {
-    let heat = heat(look)?;
-    let big_n = heat.parameters.chain.gaps();
-    let rows: Vec<&Warmth> = heat.rising().collect();
-    let score = |p: fn(&Warmth) -> f64| {
-        let square = |row: &&Warmth| {
-            let off =
-                model::Law::new(big_n, p(row), false).mean() - row.count.map_or(0.0, |k| k.value);
-            off * off
-        };
-        (rows.iter().map(square).sum::<f64>() / rows.len() as f64).sqrt()
-    };
-    look.are([
-        ("heat_scored", rows.len() as f64),
-        ("heat_score_p", score(|row| row.p)),
-        ("heat_score_rest", score(|row| row.p_rest)),
-        ("heat_score_balanced", score(|row| row.p_balanced)),
-        ("heat_score_measured", score(|row| row.p_measured)),
-    ])
 }

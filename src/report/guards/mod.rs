@@ -34,6 +34,7 @@ mod relation;
 mod restitution;
 mod scores;
 mod simple;
+mod sizes;
 
 use super::values::{Number, Registry};
 use crate::claims::{self, Claim, Published};
@@ -93,6 +94,7 @@ pub fn all() -> impl Iterator<Item = &'static Guard> {
         orbits::GUARDS,
         restitution::GUARDS,
         chains::GUARDS,
+        sizes::GUARDS,
         motion::GUARDS,
         simple::GUARDS,
         relation::GUARDS,

@@ -7,6 +7,7 @@ use crate::report::values::cell;
 pub const GUARDS: &[Guard] = &[
     Guard { name: "p_of_single_gaps", ids: &["nucleation_*", "nucleation.*"], find: p },
     Guard { name: "clumps_of_gaps", ids: &["nucleation.*", "nucleation_*"], find: clumps },
+    Guard { name: "half_of_chains_by_clumps", ids: &["nucleation_half"], find: half },
     Guard { name: "first_impacts_as_expected", ids: &["nucleation.*"], find: as_expected },
     Guard { name: "first_impacts_in_order", ids: &["nucleation.*"], find: in_order },
     Guard { name: "nucleation_as_tabled", ids: &["nucleation_*", "nucleation.*"], find: tabled },
@@ -75,6 +76,21 @@ fn bound(masses: usize, own: &Chances, expected: &AtLeastOne) -> f64 {
     };
     let sum: f64 = (0..=masses).flat_map(of).sum();
     sum * expected.value / expected.clumps
+}
+
+/// Half of the chains have a gap that closes where the mean number of clumps is ln 2. Its logarithm is nearly a
+/// line against 1/σ², and dependence puts it above where independent gaps would.
+fn half(look: Look<'_>) -> Option<String> {
+    let found = nucleation(look)?;
+    let rows = found.chains.iter().filter(|row| row.masses == found.parameters.chain.masses);
+    let line: Vec<(f64, f64)> =
+        rows.map(|row| (pxfm::f_log(row.ever.clumps), -1.0 / (row.sigma * row.sigma))).collect();
+    let place = (-1.0 / super::places::between(&line, pxfm::f_log(std::f64::consts::LN_2))?).sqrt();
+    let least = look.number("kept_half_predicted")?;
+    unless((found.half - place).abs() < 1e-4 && found.half > least, || {
+        format!("half of the chains at {}, not at {place}, above {least}", found.half)
+    })
+    .or_else(|| look.is("nucleation_half", found.half))
 }
 
 /// As many chains have an impact as are expected to, but for the bound and chance: five standard errors, and five

@@ -65,7 +65,7 @@ macro_rules! looked_at {
 }
 
 /// All parts. What is computed from the main sweep in memory stands before it.
-const PARTS: [Part; 28] = [
+const PARTS: [Part; 29] = [
     looked_at!(theory),
     looked_at!(identities),
     ran!("laws", laws),
@@ -107,6 +107,7 @@ const PARTS: [Part; 28] = [
     ran!("restitution", restitution, &["runs", "able_drawn"]),
     ran!("chains", chains, &["runs"]),
     ran!("long_protocol", long_protocol),
+    ran!("sizes", sizes, &["runs"]),
     Part {
         experiment: "audits",
         record: &[],
