@@ -40,7 +40,7 @@ identity: ## the same bytes for any threads, folder, locale, C library and build
 	.ci/identity
 
 bundle: ## all that it takes to make the report again, in target/impact-paper.zip (after make paper)
-	cargo run --release --locked -- bundle target/impact-paper.zip
+	cargo run --release --locked -- bundle --force target/impact-paper.zip
 
 fuzz: ## every parser against texts that a fuzzer thinks out (needs Rust nightly; minutes to build)
 	.ci/fuzz

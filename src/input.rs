@@ -1,8 +1,9 @@
-//! Text from outside: files are read up to a bound, and what is wrong with them is told in one line.
+//! Files: they are read up to a bound, what is wrong with them is told in one line, and they appear whole.
 
 use std::fs::File;
 use std::io::{Error, ErrorKind, Read};
 use std::path::Path;
+use tempfile::NamedTempFile;
 
 /// No file that is read may be longer, in bytes: all of it is kept in memory. The largest that the
 /// program writes has some hundred kilobytes.
@@ -14,13 +15,34 @@ pub const LARGEST: u64 = 64 << 20;
 /// What the system says, and files that are no UTF-8 or longer than [`LARGEST`] (a device without
 /// end is).
 pub fn read(path: &Path) -> Result<String, Error> {
+    read_from(File::open(path)?)
+}
+
+/// The same of anything that can be read.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_from(file: impl Read) -> Result<String, Error> {
     let mut bytes = Vec::new();
-    File::open(path)?.take(LARGEST + 1).read_to_end(&mut bytes)?;
+    file.take(LARGEST + 1).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > LARGEST {
         let what = format!("it is longer than {} MiB", LARGEST >> 20);
         return Err(Error::new(ErrorKind::FileTooLarge, what));
     }
     String::from_utf8(bytes).map_err(|_| Error::new(ErrorKind::InvalidData, "it is no UTF-8 text"))
+}
+
+/// A temporary file in the folder of `path`, to be renamed to it when it is complete. Whoever the umask
+/// allows may read it, as with any other file.
+///
+/// # Errors
+/// What the system says.
+pub fn new_beside(path: &Path) -> Result<NamedTempFile, Error> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let mut builder = tempfile::Builder::new();
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    builder.tempfile_in(folder.unwrap_or(Path::new(".")))
 }
 
 /// A message in one line of at most `most` characters: parsers repeat what they were given. Of a

@@ -53,6 +53,8 @@ fn the_good_scenario_is_taken() {
     assert!(output.status.success() && output.stderr.is_empty());
     let text = String::from_utf8(output.stdout).unwrap();
     assert!(text.starts_with("time,gap,closing_speed\n") && text.lines().count() > 5, "{text}");
+    let piped = command().args(["trace", "-", "--until", "30"]).write_stdin(GOOD).output().unwrap();
+    assert_eq!(String::from_utf8(piped.stdout).unwrap(), text);
     let mut last = 0.0;
     for line in text.lines().skip(1) {
         let cells: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();
@@ -70,6 +72,7 @@ fn files_that_are_none() {
     let error = refusal(&[folder.path().to_str().unwrap(), "--until", "5"]);
     assert!(error.lines().count() == 1, "a directory: {error}");
     refused([0xff, 0xfe, 0x00, 0x9f], &[]);
+    assert!(refusal(&["-", "--until", "5"]).starts_with("impact-paper: -: "));
 }
 
 #[test]
@@ -181,7 +184,7 @@ fn outputs_that_cannot_be_written() {
     if let Ok(full) = std::fs::OpenOptions::new().write(true).open("/dev/full") {
         let output = run().stdout(full).output().unwrap();
         let error = String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(2), "{error}");
+        assert_eq!(output.status.code(), Some(4), "{error}");
         assert_eq!(error.lines().count(), 1, "{error}");
     }
     // A reader that goes away, as `head` does: a quiet end.

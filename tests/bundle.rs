@@ -7,6 +7,7 @@ use std::fs::{self, File};
 use std::io::Read;
 use std::path::Path;
 use std::process::Command;
+use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_impact-paper");
@@ -164,7 +165,13 @@ fn what_cannot_be_packed_is_said_in_one_line() {
     let folder = clone.path();
     let small = format!("out.zip {SMALL}");
     refused(folder, "nowhere/out.zip", 2, "its folder is not there");
-    refused(folder, "paper", 2, "archive");
+    refused(folder, "paper", 2, "is there already");
+    refused(
+        folder,
+        "CITATION.cff",
+        2,
+        "CITATION.cff is there already; give another file, or --force",
+    );
     refused(&folder.join("paper"), &small, 2, "inside a clone");
     refused(folder, "out.zip --without crates", 3, "sweep");
     fs::write(folder.join("note.txt"), "").unwrap();
@@ -175,6 +182,45 @@ fn what_cannot_be_packed_is_said_in_one_line() {
     refused(folder, &small, 1, "differs  figures/fig03.svg");
     let elsewhere = tempfile::tempdir().unwrap();
     refused(elsewhere.path(), &small, 2, "no clone");
+}
+
+/// A full disk is told in words, and Ctrl-C is obeyed while another program collects crates.
+#[test]
+fn a_full_disk_and_ctrl_c_end_it() {
+    let clone = clone();
+    let out = tempfile::tempdir().unwrap();
+    let at = |name: &str| out.path().join(name);
+    let full = format!(
+        "trap '' XFSZ; ulimit -f 1; exec \"$0\" bundle {} {SMALL}",
+        at("full.zip").display()
+    );
+    let mut command = Command::new("bash");
+    let output = command.current_dir(clone.path()).args(["-c", &full, PROGRAM]).output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(4), "{said}");
+    assert!(said.contains("File too large") && !said.contains("{"), "{said}");
+
+    fs::write(at("cargo"), "#!/bin/sh\nsleep 60\n").unwrap();
+    #[cfg(unix)]
+    fs::set_permissions(at("cargo"), std::os::unix::fs::PermissionsExt::from_mode(0o755)).unwrap();
+    let mut child = Command::new(PROGRAM)
+        .current_dir(clone.path())
+        .env("CARGO", at("cargo"))
+        .arg("bundle")
+        .arg(at("out.zip"))
+        .args(["--without", "results"])
+        .stderr(std::process::Stdio::null())
+        .spawn()
+        .unwrap();
+    std::thread::sleep(Duration::from_millis(1500));
+    assert_eq!(child.try_wait().unwrap(), None);
+    let asked = Instant::now();
+    let kill = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+    assert!(kill.unwrap().success());
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert!(asked.elapsed() < Duration::from_secs(1), "{:?}", asked.elapsed());
+    let left = fs::read_dir(out.path()).unwrap().map(|entry| entry.unwrap().file_name());
+    assert_eq!(left.collect::<Vec<_>>(), ["cargo"]);
 }
 
 /// Builds without a network and makes the report again: minutes.

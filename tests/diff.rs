@@ -138,7 +138,7 @@ fn overlays_are_drawn_for_what_differs() {
         .map(|entry| entry.unwrap().file_name().into_string().unwrap())
         .collect();
     names.sort();
-    assert_eq!(names, ["fig12-theory.svg"]);
+    assert_eq!(names, ["SHA256SUMS.local", "fig12-theory.svg"]);
     let svg = fs::read_to_string(folder.path().join("pictures/of/fig12-theory.svg")).unwrap();
     let document = roxmltree::Document::parse(&svg).unwrap();
     let series = |name: &str| {
@@ -152,6 +152,16 @@ fn overlays_are_drawn_for_what_differs() {
     let (code, _, note) = run(folder.path(), &["a", "b", "--overlay", "a/report.md"]);
     assert_eq!(code, 2);
     assert!(note.contains("--overlay: a/report.md: "), "{note}");
+    // Again into its own folder; not into one of others, nor over what was changed.
+    fine(folder.path(), &["a", "b", "--overlay", "pictures/of"]);
+    fs::write(folder.path().join("pictures/of/fig12-theory.svg"), "edited").unwrap();
+    for (place, named) in [("pictures/of", "fig12-theory.svg"), ("a/figures", "a/figures")] {
+        let before = fs::read_dir(folder.path().join(place)).unwrap().count();
+        let (code, _, note) = run(folder.path(), &["a", "b", "--overlay", place]);
+        assert_eq!((code, note.lines().count()), (2, 1), "{note}");
+        assert!(note.contains(named) && note.contains("--force"), "{note}");
+        assert_eq!(fs::read_dir(folder.path().join(place)).unwrap().count(), before);
+    }
 }
 
 #[test]
@@ -182,6 +192,10 @@ fn revisions_of_git_are_compared() {
     let (code, _, note) = run(here, &["v1", "a"]);
     assert_eq!(code, 2);
     assert!(note.contains("v1: this revision has no folder paper/"), "{note}");
+    // What git itself says, where it knows better.
+    let mut broken = command(&sub, &["v1", "paper"]);
+    let (code, _, note) = told(&broken.env("GIT_DIR", "nowhere").output().unwrap());
+    assert!(code == 2 && note.contains("not a git repository: 'nowhere'"), "{note}");
     for odd in ["nothing", "v1:sub", "v1..v2", "", "v1 v2", "-v", "--output=x", "a/report.md"] {
         let (code, out, note) = run(&sub, &["--", odd, "paper"]);
         assert_eq!((code, out.as_str()), (2, ""), "{odd}: {note}");

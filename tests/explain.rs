@@ -54,9 +54,11 @@ fn values_figures_equations_and_claims_are_explained() {
         ("fig:s1", vec!["experiments::accuracy::race::run (src/experiments/accuracy/race.rs:"]),
         ("eq:18", vec!["circuits::jump::p_crit (src/circuits/jump.rs:", "p_crit, p_crit_walls"]),
         ("claim:sec7_jump", vec!["verdict", "tolerance", "p_jump"]),
+        ("eq:12", vec!["f_(N,p)(k)"]),
     ] {
         let (code, told, note) = explain(&[id]);
         assert_eq!((code, note.as_str()), (0, ""), "{id}");
+        assert!(!told.contains("\\mathrm") && !told.contains("\\Phi"), "{told}");
         for part in parts {
             assert!(told.contains(part), "{id}: {part:?} is not in\n{told}");
         }

@@ -55,7 +55,8 @@ fn only_the_figure_that_was_asked_for_is_written() {
     assert_eq!(code, 0);
     let written = tree(&folder.path().join("f"));
     assert!(written.contains_key("figures/fig03.svg"), "{:?}", written.keys());
-    assert!(written.keys().all(|name| name.contains("fig03")), "{:?}", written.keys());
+    let expected = |name: &String| name.contains("fig03") || name == "SHA256SUMS.local";
+    assert!(written.keys().all(expected), "{:?}", written.keys());
     let saved: Vec<String> = tree(&folder.path().join("r")).into_keys().collect();
     assert!(saved.len() == 1 && saved[0].starts_with("sweep-"), "{saved:?}");
 }
@@ -86,9 +87,33 @@ fn threads_and_saved_results_change_no_byte_and_lesser_profiles_replace_no_full_
         times
     };
     let before = times("r1");
+    // What a killed run left is gone afterwards.
+    std::fs::create_dir_all(at("one/.staging-dead/data")).unwrap();
+    std::fs::write(at("one/.staging-dead/data/half.csv"), "1,").unwrap();
+    assert_eq!(program::run(folder.path(), "verify one").0, 0);
     let (code, told, _) = run(folder.path(), "paper --profile quick --out one --results r1");
     assert_eq!((code, times("r1")), (0, before));
-    assert!(told.contains("no value differs from"), "{told}");
+    assert!(told.contains("no number and no verdict differs"), "{told}");
+    assert!(told.contains("report.html") && told.contains(" statements of the paper: "), "{told}");
+    assert!(report == tree(&at("one")));
+
+    // What was edited is refused at once by its name; forced, it is told what changed, in one screen.
+    let ledger = String::from_utf8(report["ledger.json"].clone()).unwrap();
+    let edited = ledger.replace("\"verdict\": \"reproduced\"", "\"verdict\": \"differs\"");
+    std::fs::write(at("one/ledger.json"), &edited).unwrap();
+    let again = "paper --profile quick --out one --results r1";
+    let (code, told, note) = run(folder.path(), again);
+    assert_eq!((code, told.as_str(), note.lines().count()), (2, "", 1), "{note}");
+    assert!(note.contains("ledger.json") && note.contains("--force"), "{note}");
+    assert_eq!(std::fs::read_to_string(at("one/ledger.json")).unwrap(), edited);
+    let (code, told, note) = run(folder.path(), &format!("{again} --force"));
+    assert_eq!(code, 0, "{note}");
+    assert!(note.contains("--force: wrote over ledger.json"), "{note}");
+    assert!(
+        told.contains(" verdicts differ") && told.contains(": differs -> reproduced"),
+        "{told}"
+    );
+    assert!(told.contains("and ") && told.lines().count() <= 15, "{told}");
     assert!(report == tree(&at("one")));
 
     // A damaged result is told and run again, to the same bytes.
@@ -130,7 +155,7 @@ fn ctrl_c_leaves_nothing_half_written() {
     std::thread::sleep(Duration::from_millis(1500));
     assert_eq!(child.try_wait().unwrap(), None, "the full profile takes minutes");
     let asked = Instant::now();
-    let kill = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    let kill = Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap();
     assert!(kill.success());
     let code = child.wait().unwrap().code();
     assert_eq!(code, Some(130));
@@ -143,12 +168,15 @@ fn ctrl_c_leaves_nothing_half_written() {
 fn bad_input_gets_one_line_and_exit_code_2() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("file"), "").unwrap();
+    std::os::unix::fs::symlink("loop", folder.path().join("loop")).unwrap();
     for (arguments, field) in [
         ("paper --figure 16", "--figure"),
         ("paper --figure 0", "--figure"),
         ("paper --figure x", "--figure"),
         ("paper --profile deep", "--profile"),
         ("paper --threads 0 --figure 4", "--threads"),
+        ("paper --pdf --figure 4", "--pdf"),
+        ("paper --figure 4 --out loop", "link"),
         ("paper --figure 4 --out file", "--out"),
         ("paper --figure 4 --out file/below", "--out"),
         ("paper --profile quick --figure 3 --results file", "--results"),
@@ -184,4 +212,153 @@ fn one_claim_runs_no_more_than_it_needs() {
     assert_eq!(code, 0, "{told}");
     assert!(told.contains(&exact.id) && told.contains("1 claim: "), "{told}");
     assert!(!folder.path().join("target").exists());
+}
+
+/// Whatever writes, writes over nothing that it did not make itself.
+#[test]
+fn what_others_made_is_left_as_it_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    std::fs::create_dir_all(here.join("t/figures")).unwrap();
+    std::fs::create_dir(here.join("r")).unwrap();
+    let listed = format!("{}  report.md\n", "0".repeat(64));
+    for (name, text) in [
+        ("README.md", "by hand"),
+        ("t/report.md", "by hand"),
+        ("t/figures/fig04.svg", "by hand"),
+        ("t/SHA256SUMS", listed.as_str()),
+        ("r/analytic-quick.json", "{\"by\": \"hand\"}"),
+    ] {
+        std::fs::write(here.join(name), text).unwrap();
+    }
+    let before = tree(here);
+    for (arguments, says) in [
+        ("paper --profile quick --out .", "--out: ."),
+        ("paper --profile quick --out t", "--out: t"),
+        ("paper --figure 4 --out t", "--out: t"),
+        ("paper --figure 4 --out t/figures", "fig04.svg"),
+    ] {
+        let (code, told, note) = run(here, arguments);
+        assert_eq!((code, told.as_str(), note.lines().count()), (2, "", 1), "{arguments}: {note}");
+        assert!(note.contains(says) && note.contains("--force"), "{arguments}: {note}");
+    }
+    for (arguments, says) in [
+        ("bundle README.md", "README.md is there already"),
+        (
+            "run --profile quick --shard 1/1 --experiment analytic --out r",
+            "r/analytic-quick.json: this file is no saved result",
+        ),
+    ] {
+        let (code, told, note) = program::run(here, arguments);
+        assert_eq!((code, told.as_str()), (2, ""), "{arguments}: {note}");
+        assert!(note.contains(says), "{arguments}: {note}");
+    }
+    assert!(tree(here) == before, "{:?}", tree(here).keys());
+    // Forced, it says what it wrote over, and a folder of its own is written again without.
+    let (code, _, note) = run(here, "paper --figure 4 --out t --force");
+    assert_eq!(code, 0, "{note}");
+    assert!(note.contains("wrote over figures/fig04.svg") && !note.contains("report"), "{note}");
+    assert_eq!(run(here, "paper --figure 4 --figure 5 --out t").0, 0);
+    std::fs::write(here.join("t/figures/fig05.svg"), "drawn over").unwrap();
+    let (code, _, note) = run(here, "paper --figure 4 --figure 5 --out t");
+    assert!(code == 2 && note.contains(": figures/fig05.svg;"), "{note}");
+    assert_eq!(std::fs::read_to_string(here.join("t/report.md")).unwrap(), "by hand");
+}
+
+/// The exit codes of `--help` and DESIGN.md, one row for each way to get there.
+#[test]
+fn exit_codes_are_those_of_the_table() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    // The templates with one file changed.
+    let templates = |name: &str, file: &str, from: &str, to: &str| {
+        let copied = Command::new("cp").arg("-r").arg(TEMPLATES).arg(here.join(name)).status();
+        assert!(copied.unwrap().success());
+        let path = here.join(name).join(file);
+        let text = std::fs::read_to_string(&path).unwrap();
+        assert!(text.contains(from), "{from}");
+        std::fs::write(path, text.replacen(from, to, 1)).unwrap();
+    };
+    templates("good", "report.md", "# ", "# ");
+    templates("numeral", "report.md", "\n## ", "\nThere are 17 of them.\n\n## ");
+    templates("broken", "published.toml", "[[statement]]", "[[statement");
+    templates("renamed", "published.toml", "id = \"sec3_edges\"", "id = \"sec3_bends\"");
+    let text = std::fs::read_to_string(Path::new(TEMPLATES).join("published.toml")).unwrap();
+    let edges = &text[text.find("id = \"sec3_edges\"").unwrap()..];
+    let edges = &edges[..edges.find("value = ").unwrap() + "value = ".len()];
+    templates("differs", "published.toml", edges, &format!("{edges}9"));
+    std::fs::create_dir(here.join("empty")).unwrap();
+    let paper = |templates: &str| {
+        format!("paper --profile quick --out p --results r --templates {templates}")
+    };
+    let full = |limited: &str| format!("trap '' XFSZ; ulimit -f 1; exec \"$0\" {limited}");
+    let rows = [
+        (0, paper("good"), " statements of the paper: "),
+        (0, "verify p".into(), "all as SHA256SUMS lists them"),
+        (0, "diff p p --exit-code".into(), "nothing differs"),
+        (1, paper("differs"), "sec3_edges"),
+        (1, "check --profile quick --results r --templates differs".into(), "sec3_edges"),
+        (1, "verify p --rerun --results r --templates good".into(), "ledger.json"),
+        (1, paper("numeral"), "17"),
+        (2, paper("broken"), "published.toml"),
+        (2, "check --profile quick --results r --templates broken".into(), "published.toml"),
+        (2, paper("renamed"), "published.toml"),
+        (2, "check --profile quick --results r --templates renamed".into(), "published.toml"),
+        (2, "paper --pdf --figure 3".into(), "--figure"),
+        (2, "verify nowhere".into(), "nowhere"),
+        (3, "status --profile quick --results empty".into(), "stale"),
+        (3, "audit --profile quick --results empty".into(), "paper --profile quick"),
+        (3, "audit --profile deep --results empty".into(), "make deep"),
+        (4, full("paper --figure 4 --out f --templates good"), "f: "),
+        (4, full("run --profile quick --shard 1/1 --experiment bias --out g"), "g"),
+        (4, "explain --paper p >/dev/full".into(), "standard output"),
+    ];
+    for (expected, arguments, says) in rows {
+        let line =
+            if arguments.contains("exec") { arguments } else { format!("\"$0\" {arguments}") };
+        let mut command = Command::new("bash");
+        command.current_dir(here).args(["-c", &line, program::PROGRAM]);
+        let (code, told, note) = told(&command.output().unwrap());
+        assert_eq!(code, expected, "{line}: {told}{note}");
+        assert!(
+            told.contains(says) || note.lines().last().unwrap().contains(says),
+            "{line}: {note}"
+        );
+        assert!(!note.contains("panicked"), "{note}");
+        if line.ends_with("--templates differs") && line.contains("paper") {
+            // Written all the same.
+            let ledger = std::fs::read_to_string(here.join("p/ledger.json")).unwrap();
+            assert!(ledger.contains("\"verdict\": \"differs\""));
+        }
+    }
+    let help = told(&Command::new(program::PROGRAM).arg("--help").output().unwrap()).1;
+    let design = std::fs::read_to_string("DESIGN.md").unwrap();
+    for (code, words) in
+        [(0, "fine"), (1, "lint"), (2, "usage"), (3, "stale"), (4, "disk"), (130, "SIGTERM")]
+    {
+        let says = |line: &str| line.contains(words);
+        let row = |line: &&str| line.trim_start().starts_with(&format!("{code} ")) && says(line);
+        assert!(help.lines().any(|line| row(&line)), "{help}");
+        let row = format!("| {code} | ");
+        assert!(design.lines().any(|line| line.starts_with(&row) && says(line)), "{code}");
+    }
+}
+
+/// The version names the commit of a checkout, and nothing else depends on it.
+#[test]
+fn the_version_names_the_commit() {
+    let folder = tempfile::tempdir().unwrap();
+    let (code, told, _) = program::run(folder.path(), "--version");
+    assert_eq!(code, 0);
+    let version = concat!("impact-paper ", env!("CARGO_PKG_VERSION"));
+    let rest = told.trim_end().strip_prefix(version).expect("the version");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    if root.join(".git").exists() {
+        let commit = rest.trim().trim_matches(['(', ')']).trim_end_matches('+');
+        let known = Command::new("git").args(["cat-file", "-e", &format!("{commit}^{{commit}}")]);
+        assert!(commit.len() >= 12, "{told}");
+        assert!({ known }.current_dir(root).status().unwrap().success(), "{told}");
+    } else {
+        assert_eq!(rest, "");
+    }
 }

@@ -40,6 +40,16 @@ static RESULTS: LazyLock<Files> = LazyLock::new(|| {
     let (code, _, note) = run(folder.path(), PAPER);
     let results = saved(folder.path());
     assert_eq!((code, results.len()), (0, EXPERIMENTS), "{note}");
+    // Whom the umask allows may read them.
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        let plain = folder.path().join("plain");
+        std::fs::write(&plain, "").unwrap();
+        let mode = |path: &Path| path.metadata().unwrap().permissions().mode();
+        let result = folder.path().join("results/sweep-quick.json");
+        assert_eq!(mode(&result), mode(&plain));
+    }
     results
 });
 
@@ -231,7 +241,7 @@ fn a_full_disk_is_told_and_leaves_nothing_half() {
     let limited = format!("trap '' XFSZ; ulimit -f 1; exec {PROGRAM} {PAPER}");
     let output = Command::new("bash").args(["-c", &limited]).current_dir(folder.path()).output();
     let (code, _, note) = told(&output.unwrap());
-    assert_eq!(code, 2, "{note}");
+    assert_eq!(code, 4, "{note}");
     let last = note.lines().last().unwrap();
     assert!(last.contains("results/") && last.contains("--results"), "{note}");
     let names: Vec<_> = std::fs::read_dir(folder.path().join("results")).unwrap().collect();

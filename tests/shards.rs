@@ -58,6 +58,10 @@ fn merged_shards_are_the_bytes_of_one_machine() {
     // Each unit of the plan in its shard, and nothing else.
     let listed = plan(folder, " --shards 3");
     let units = listed["units"].as_array().unwrap();
+    let (_, table, _) = run(folder, "plan --profile quick --shards 3");
+    let head: Vec<&str> = table.lines().next().unwrap().split_whitespace().collect();
+    assert_eq!(head, ["unit", "shard", "weight", "covers"]);
+    assert_eq!(table.lines().count(), units.len() + 2, "{table}");
     for (i, shard) in shards.iter().enumerate() {
         let of = |unit: &&serde_json::Value| unit["shard"] == i + 1;
         let names =
@@ -259,16 +263,20 @@ fn what_is_not_one_whole_set_is_refused_by_name() {
         let _ = std::fs::remove_dir(&path);
         std::fs::write(&path, whole).unwrap();
     }
-    // The same unit twice, from another folder or the same.
-    std::fs::write(other.join(name), whole).unwrap();
+    // A unit twice, otherwise: which is right?
+    let old = forged(whole, 1, simulation, "\"src/dynamics/simulation.rs\":\"0");
+    std::fs::write(other.join(name), old).unwrap();
     let (code, _, note) = run(folder, MERGE);
     assert_eq!(code, 2, "{note}");
     assert!(note.contains("sweep-quick-0007 is in ") && note.contains(&shown), "{note}");
     assert_eq!(note.matches(name).count(), 2, "{note}");
+    assert!(!folder.join("joined").exists());
+    // Twice the same is no question.
+    std::fs::write(other.join(name), whole).unwrap();
+    let (code, _, note) = run(folder, "merge --profile quick --results twice 1 2 3 3");
+    assert_eq!(code, 0, "{note}");
+    assert!(files(&folder.join("twice")) == MADE.0);
     std::fs::remove_file(other.join(name)).unwrap();
-    let (code, _, note) = run(folder, &format!("{MERGE} 3"));
-    assert_eq!(code, 2, "{note}");
-    assert!(note.contains(" is in 3/") && note.contains(" more;"), "{note}");
     // What is no unit here.
     for (stranger, says) in [
         ("sweep-ci-0007.json", "3/sweep-ci-0007.json is of profile ci;"),

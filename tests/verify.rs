@@ -29,11 +29,28 @@ fn small() -> (tempfile::TempDir, String) {
 #[test]
 fn what_is_as_listed_is_fine_with_what_is_built_beside() {
     let (folder, _) = small();
-    fs::write(folder.path().join("paper/report.html"), "").unwrap();
-    fs::write(folder.path().join("paper/data/a.pdf"), "").unwrap();
+    let paper = folder.path().join("paper");
+    fs::write(paper.join("report.html"), "page").unwrap();
+    fs::write(paper.join("data/a.pdf"), "").unwrap();
+    // Of a revision that was here before, but for what is built beside.
+    let (page, pdf, other) = (digest("page"), digest(""), digest("other"));
+    let local =
+        format!("{pdf}  data/a.pdf\n{page}  report.html\n{other}  report.md\n{pdf}  report.pdf\n");
+    fs::write(paper.join("SHA256SUMS.local"), local).unwrap();
+    fs::create_dir(paper.join(".staging-1")).unwrap();
+    fs::write(paper.join(".staging-1/report.md"), "half").unwrap();
     let (code, told, note) = run(folder.path(), "verify");
     assert_eq!((code, note.as_str()), (0, ""), "{told}");
-    assert_eq!(told, "paper: 2 files, all as SHA256SUMS lists them\n");
+    assert_eq!(told, "paper: 4 files, all as SHA256SUMS lists them\n");
+    // A page that somebody else put there, in place of ours or where none was made.
+    fs::write(paper.join("report.html"), "planted").unwrap();
+    let (code, told, note) = run(folder.path(), "verify");
+    assert_eq!((code, told.as_str()), (1, "differs  report.html\n"));
+    assert!(note.contains("--force"), "{note}");
+    fs::remove_file(paper.join("SHA256SUMS.local")).unwrap();
+    let (code, told, note) = run(folder.path(), "verify");
+    assert_eq!((code, told.as_str()), (1, "unlisted data/a.pdf\nunlisted report.html\n"));
+    assert!(note.contains("remove what is not listed"), "{note}");
 }
 
 #[test]
@@ -93,8 +110,8 @@ fn nothing_leads_out_of_the_folder() {
     assert_eq!(
         lines,
         [
-            &format!("unread   link {link}"),
             &format!("unread   door/x {link}"),
+            &format!("unread   link {link}"),
             "unread   pipe (not a file)",
             "unlisted door",
         ]
@@ -164,7 +181,12 @@ fn a_rerun_finds_what_the_list_cannot() {
     let forged = format!("{forged}{}  more.csv\n", digest(""));
     fs::write(here.join("r/SHA256SUMS"), forged).unwrap();
     assert_eq!(run(here, "verify r").0, 0);
+    // A person may have signed what stands there.
     let (code, told, note) = run(here, &rerun);
+    assert_eq!((code, told.as_str()), (2, ""), "{note}");
+    assert!(note.contains("--certificate: c.md is there already"), "{note}");
+    assert_eq!(fs::read_to_string(here.join("c.md")).unwrap(), certificate);
+    let (code, told, note) = run(here, &format!("{rerun} --force"));
     assert_eq!(code, 1, "{told}{note}");
     let certificate = fs::read_to_string(here.join("c.md")).unwrap();
     assert!(certificate.contains("**3 faults**"), "{certificate}");

@@ -1,8 +1,7 @@
 //! `impact-paper audit`.
 
 use super::{Failure, stdout, work};
-use impact_paper::experiments::Store;
-use impact_paper::experiments::catalogue;
+use impact_paper::experiments::{Error, Store, catalogue};
 use impact_paper::numerics::random::generator;
 use impact_paper::params::Profile;
 use rand::seq::SliceRandom;
@@ -56,7 +55,13 @@ pub fn run(args: Args) -> Result<(), Failure> {
         let mut differ = Vec::new();
         for experiment in chosen {
             let name = experiment.need().name();
-            let same = experiment.audit(profile, &store, &progress)?;
+            let same =
+                experiment.audit(profile, &store, &progress).map_err(|error| match error {
+                    Error::Stale { .. } => {
+                        Failure::stale(format!("{error}; {}", work::remedy(profile)))
+                    }
+                    other => other.into(),
+                })?;
             stdout::print(&format!("{name}: {}\n", if same { "identical" } else { "differs" }))?;
             if !same {
                 differ.push(name);
@@ -70,5 +75,5 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let remedy = "delete them from the results folder, and find out what changed them";
     let message =
         format!("saved results that a run does not give: {}; {remedy}", differ.join(", "));
-    Err(Failure { code: 1, message })
+    Err(Failure::check(message))
 }

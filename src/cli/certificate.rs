@@ -1,8 +1,10 @@
 //! A certificate that a check was made: what the program can say, and places for a person's hand.
 
+use super::output::{self, Force};
 use super::verify::Checked;
 use super::{Failure, folder};
 use impact_paper::digest::sha256;
+use impact_paper::input;
 use impact_paper::report::values::Number;
 use impact_paper::report::{Registry, compare, sums};
 use std::fmt::Write as _;
@@ -114,19 +116,30 @@ pub fn text(facts: &Facts, found: Option<(&Checked, &Checked)>) -> String {
     out
 }
 
-/// Writes the certificate of a rerun; what stood there before is replaced whole.
+/// Refuses, before a long rerun, to write over a file that is no draft: a person may have signed it.
 ///
 /// # Errors
-/// Exit code 2 if the file cannot be written.
-pub fn write(path: &Path, root: &Path, listed: &Checked, again: &Checked) -> Result<(), Failure> {
-    let text = text(&Facts::of(root)?, Some((listed, again)));
+/// Exit code 2 with its name, or if the report cannot be read.
+pub fn free(path: &Path, root: &Path, force: Force) -> Result<(), Failure> {
+    let draft = || Ok::<_, Failure>(text(&Facts::of(root)?, None));
+    match input::read(path) {
+        Ok(standing) if standing == draft()? => Ok(()),
+        _ => output::free("--certificate", path, force),
+    }
+}
+
+/// Writes the certificate of a rerun.
+///
+/// # Errors
+/// Exit code 2 or 4 if the file cannot be written.
+pub fn write(path: &Path, root: &Path, found: (&Checked, &Checked)) -> Result<(), Failure> {
+    let text = text(&Facts::of(root)?, Some(found));
     let failed = |error: std::io::Error| {
         let path = path.display();
-        Failure::input(format!("--certificate: {path}: {error}; give a file that can be written"))
+        let remedy = "give a file that can be written";
+        Failure::io(&error, format!("--certificate: {path}: {error}; {remedy}"))
     };
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-    let mut file =
-        tempfile::NamedTempFile::new_in(folder.unwrap_or(Path::new("."))).map_err(failed)?;
+    let mut file = input::new_beside(path).map_err(failed)?;
     file.write_all(text.as_bytes()).map_err(failed)?;
     file.persist(path).map_err(|e| failed(e.error))?;
     Ok(())

@@ -2,7 +2,7 @@
 
 use super::{Failure, stdout};
 use impact_paper::report::card::{Card, Cards, Row};
-use impact_paper::report::document::plain;
+use impact_paper::report::document::spelt;
 use impact_paper::report::ledger::Ledger;
 use impact_paper::report::place::place;
 use impact_paper::report::{Registry, compare};
@@ -97,7 +97,7 @@ fn show(cards: &[Card], as_json: bool) -> io::Result<()> {
             writeln!(out, "  {}", card.lead)?;
         }
         for row in card.rows.iter().filter(|row| row.name != "id") {
-            write!(out, "  {:15} {}", row.name, plain(&row.text))?;
+            write!(out, "  {:15} {}", row.name, spelt(&row.text))?;
             if let Some((file, line)) = stands(row) {
                 write!(out, " ({file}:{line})")?;
             }
@@ -108,11 +108,11 @@ fn show(cards: &[Card], as_json: bool) -> io::Result<()> {
 }
 
 fn title(card: &Card) -> String {
-    plain(&card.title)
+    spelt(&card.title)
 }
 
 fn row_json(row: &Row) -> serde_json::Value {
-    let mut out = json!({"name": row.name, "text": plain(&row.text)});
+    let mut out = json!({"name": row.name, "text": spelt(&row.text)});
     if let Some((file, line)) = stands(row) {
         out["file"] = json!(file);
         out["line"] = json!(line);

@@ -1,6 +1,8 @@
 //! The files of a report's folder, as they stand there: nobody vouches for them.
 
 use super::Failure;
+use super::output::STAGING;
+use impact_paper::report::sums;
 use std::io::{self, Read};
 use std::path::Path;
 
@@ -8,7 +10,7 @@ use std::path::Path;
 const LARGEST: u64 = 64 << 20;
 
 /// Paths of everything below a folder that is no folder itself, sorted, with slashes. Links are
-/// listed and not followed.
+/// listed and not followed. What a killed run left half-done is passed over: the next run removes it.
 ///
 /// # Errors
 /// Exit code 2 if a folder cannot be listed.
@@ -23,6 +25,9 @@ pub fn walk(folder: &Path) -> Result<Vec<String>, Failure> {
         for entry in std::fs::read_dir(&at).map_err(unreadable)? {
             let entry = entry.map_err(unreadable)?;
             let path = format!("{prefix}{}", entry.file_name().to_string_lossy());
+            if path.starts_with(STAGING) {
+                continue;
+            }
             if entry.file_type().map_err(unreadable)?.is_dir() {
                 open.push((entry.path(), format!("{path}/")));
             } else {
@@ -34,9 +39,10 @@ pub fn walk(folder: &Path) -> Result<Vec<String>, Failure> {
     Ok(paths)
 }
 
-/// Built beside the files of a report, and never a part of it: .gitignore names them.
+/// Built beside the files of a report, or the list of what is, and never a part of it: .gitignore names
+/// them.
 pub fn is_beside(path: &str) -> bool {
-    path.ends_with(".pdf") || path.ends_with(".html")
+    path.ends_with(".pdf") || path.ends_with(".html") || path == sums::LOCAL
 }
 
 /// A file below a folder, whole. No link is followed on the way, since it might lead out of the

@@ -1,5 +1,6 @@
 //! The whole report, from experiments to files in memory.
 
+use super::judged::Judged;
 use super::sources::Sources;
 use super::{Failure, mutate};
 use impact_paper::claims;
@@ -10,18 +11,18 @@ use impact_paper::report::mutate::{Subject, TABLE, Tally};
 use impact_paper::report::{self, Report, contents};
 use rayon::prelude::*;
 
-/// Runs every experiment and makes every file; with `pdf`, report.pdf too.
+/// Runs every experiment and makes every file; with `pdf`, report.pdf too. Says also what holds.
 ///
 /// # Errors
-/// Exit codes 2, 4 and 130.
+/// Exit codes 1 (a lint), 2, 4 and 130.
 pub fn whole(
     sources: &Sources,
     profile: Profile,
     pdf: bool,
     progress: &Progress,
-) -> Result<Report, Failure> {
+) -> Result<(Report, Judged), Failure> {
     if pdf && cfg!(not(feature = "pdf")) {
-        return Err(Failure::input(report::Error::NoTypesetter.to_string()));
+        return Err(report::Error::NoTypesetter.into());
     }
     let templates = sources.templates()?;
     report::lint::check(&templates).map_err(|error| Failure::input(error.to_string()))?;
@@ -29,35 +30,35 @@ pub fn whole(
     let published = sources.published(&templates)?;
     let reasons = sources.reasons(&templates)?.for_profile(profile);
     let results = sources.run(&Need::ALL.into(), profile, &templates, progress)?;
-    let fault = |error: &dyn std::error::Error| Failure::run(error.to_string());
     results.look();
     let draw = |number| {
         progress.check()?;
-        figures::draw(number, &results).map_err(|e| fault(&e))
+        Ok(figures::draw(number, &results)?)
     };
     let numbers: Vec<figures::Number> = figures::all().collect();
     let drawn: Vec<Figure> = numbers.into_par_iter().map(draw).collect::<Result<_, Failure>>()?;
-    let claims = claims::all(&results, &published).map_err(|e| fault(&e))?;
-    let mut values = contents::registry(&results, &published).map_err(|e| fault(&e))?;
-    let mut rows = contents::rows(&results, &claims).map_err(|e| fault(&e))?;
+    let claims = claims::all(&results, &published)?;
+    let mut values = contents::registry(&results, &published)?;
+    let mut rows = contents::rows(&results, &claims)?;
+    let judged = Judged::all(&results, &published, values.clone(), claims)?;
+    let claims = &judged.claims;
     let subject = Subject { results: &results, published: &published };
     let found = mutate::found(sources, profile, subject, progress)?;
-    let told = |error: report::Error| Failure::input(error.to_string());
-    let used = report::mutate::used(&templates, &values, &rows, &claims, &reasons).map_err(told)?;
+    let used = report::mutate::used(&templates, &values, &rows, claims, &reasons)?;
     let tally = Tally::of(&used, &found, &reasons, &values);
-    values.extend(tally.values(&reasons)).map_err(told)?;
-    let lines = serde_json::to_value(tally.rows(&reasons)).map_err(|e| fault(&e))?;
+    values.extend(tally.values(&reasons))?;
+    let lines = serde_json::to_value(tally.rows(&reasons)).map_err(contents::Error::Rows)?;
     rows.insert(TABLE, lines);
-    let scene = Scene::of(results.spacetime().map_err(|e| fault(&e))?);
+    let scene = Scene::of(results.spacetime()?);
     progress.check()?;
-    report::assemble(&report::Input {
+    let report = report::assemble(&report::Input {
         templates: &templates,
         values: &values,
         rows: &rows,
-        claims: &claims,
+        claims,
         figures: &drawn,
         scene: scene.as_ref(),
         pdf,
-    })
-    .map_err(|error| Failure::input(error.to_string()))
+    })?;
+    Ok((report, judged))
 }

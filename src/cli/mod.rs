@@ -10,6 +10,7 @@ mod eval;
 mod explain;
 mod folder;
 mod git;
+mod judged;
 mod make;
 mod merge;
 mod method;
@@ -28,14 +29,28 @@ mod verify;
 mod work;
 
 use clap::{Parser, Subcommand};
+use std::io;
 use std::process::ExitCode;
+
+/// The contract; DESIGN.md has the same table.
+const EXIT_CODES: &str = "Exit codes:
+  0    fine
+  1    a claim, target, check, lint or comparison failed; what was asked for is written all the same
+  2    wrong usage or input, or a place that cannot be written
+  3    saved results are stale or missing
+  4    a run failed, or the system did: a full disk, an I/O error
+  130  ended by Ctrl-C or SIGTERM";
+
+/// Version, and the commit in a build from a checkout: that of the last change of the source.
+const VERSION: &str =
+    concat!(env!("CARGO_PKG_VERSION"), include_str!(concat!(env!("OUT_DIR"), "/commit.txt")));
 
 /// The literate, reproducible edition of Homer & Hogan (2007), Impact Dynamics of Large
 /// Dimensional Systems.
 #[derive(Parser)]
 #[command(
-    version,
-    after_help = "Exit codes: 0 fine, 1 a claim, lint or comparison failed, 2 wrong usage or input, 3 stale, 4 a run failed, 130 ended by Ctrl-C."
+    version = VERSION,
+    after_help = EXIT_CODES
 )]
 struct Cli {
     #[command(subcommand)]
@@ -65,7 +80,7 @@ enum Verb {
 /// Why a verb ended without success: an exit code of the contract and one line for stderr.
 #[derive(Debug)]
 pub struct Failure {
-    /// 1 a claim, lint or comparison failed, 2 wrong usage or input, 3 stale, 4 a run failed, 130 Ctrl-C.
+    /// As in [`EXIT_CODES`].
     pub code: u8,
     /// One line: which number, where, and what to do.
     pub message: String,
@@ -75,6 +90,21 @@ impl Failure {
     /// Wrong usage or input: exit code 2.
     pub fn input(message: impl Into<String>) -> Self {
         Failure { code: 2, message: message.into() }
+    }
+
+    /// Something was held against something else and failed: exit code 1.
+    pub fn check(message: impl Into<String>) -> Self {
+        Failure { code: 1, message: message.into() }
+    }
+
+    /// The system refused to read or write: exit code 4 where no other place or name would help.
+    pub fn io(error: &io::Error, message: impl Into<String>) -> Self {
+        use io::ErrorKind::{FileTooLarge, OutOfMemory, QuotaExceeded, StorageFull, WriteZero};
+        let full = [FileTooLarge, OutOfMemory, QuotaExceeded, StorageFull, WriteZero];
+        // EIO has no kind of its own.
+        let broken = cfg!(unix) && error.raw_os_error() == Some(5);
+        let code = if full.contains(&error.kind()) || broken { 4 } else { 2 };
+        Failure { code, message: message.into() }
     }
 
     /// Saved results are stale: exit code 3.

@@ -75,12 +75,10 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let (found, used, values) = work::on_threads(args.sources.threads, || {
         let results = args.sources.run(&Need::ALL.into(), profile, &templates, &progress)?;
         results.look();
-        let fault = |error: &dyn std::error::Error| Failure::run(error.to_string());
-        let claims = claims::all(&results, &published).map_err(|e| fault(&e))?;
-        let values = contents::registry(&results, &published).map_err(|e| fault(&e))?;
-        let rows = contents::rows(&results, &claims).map_err(|e| fault(&e))?;
-        let used = mutate::used(&templates, &values, &rows, &claims, &reasons);
-        let mut used = used.map_err(|error| Failure::input(error.to_string()))?;
+        let claims = claims::all(&results, &published)?;
+        let values = contents::registry(&results, &published)?;
+        let rows = contents::rows(&results, &claims)?;
+        let mut used = mutate::used(&templates, &values, &rows, &claims, &reasons)?;
         if let Some(id) = args.value.iter().find(|id| !used.contains(*id)) {
             let message = format!("--value: neither prose nor a claim uses a number {id:?}");
             return Err(Failure::input(message));
@@ -116,7 +114,7 @@ fn failure(tally: &Tally) -> Option<Failure> {
             tally.needless.join(", ")
         ));
     }
-    (!faults.is_empty()).then(|| Failure { code: 1, message: faults.join("; ") })
+    (!faults.is_empty()).then(|| Failure::check(faults.join("; ")))
 }
 
 /// What becomes of a number, in a word or with its reason.

@@ -1,74 +1,200 @@
-//! Files that appear whole or not at all.
+//! What the program writes for people: whole or not at all, and over nothing but its own.
+//!
+//! The rule has its home here. A file that stands there may be replaced if the program wrote it and
+//! nobody changed it since: two lists say so, SHA256SUMS of a report and SHA256SUMS.local of whatever
+//! was last written into the folder. Everything else is refused by name, unless --force.
 
-use super::Failure;
+use super::{Failure, folder};
+use impact_paper::digest::sha256;
 use impact_paper::experiments::Progress;
-use impact_paper::input::one_line;
+use impact_paper::input::{self, one_line};
 use impact_paper::report::{Files, sums};
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs::File;
 use std::io;
 use std::path::Path;
-use tempfile::TempDir;
+use std::time::Duration;
 
-/// A folder with a temporary one in it, into which everything goes first.
+/// Folders in which files wait until all are there begin with this.
+pub const STAGING: &str = ".staging-";
+
+/// Of a longer list of names only so many are told.
+const TOLD: usize = 5;
+
+/// What all verbs call the option.
+#[derive(Clone, Copy, clap::Args)]
+pub struct Force {
+    /// Write over files that this program did not make, or that were changed since; says which.
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// The last steps of writing into a folder.
 ///
-/// The temporary folder is gone in the end, whatever happens; and so is the folder itself if it
-/// was made here and nothing came into it.
+/// A folder that was made here, and into which nothing came, is gone in the end.
 #[derive(Debug)]
 pub struct Staging<'a> {
     folder: &'a Path,
     /// The option that names the folder, for messages.
     option: &'static str,
+    force: bool,
     made: bool,
-    /// Inside the folder, so on its file system: there a rename is one step.
-    temporary: Option<TempDir>,
 }
 
 impl<'a> Staging<'a> {
     /// Prepares to write below `folder`: before a long run, not after it, one wants to hear that
-    /// this is impossible.
+    /// this is impossible. Removes what killed runs left there.
     ///
     /// # Errors
-    /// Exit code 2 if the folder cannot be made or written.
-    pub fn below(folder: &'a Path, option: &'static str) -> Result<Self, Failure> {
-        let failed = |error: io::Error| unwritable(option, folder, &error);
+    /// Exit code 2 if the folder has content and none of our lists, exit code 2 or 4 if it cannot be
+    /// made or written.
+    pub fn below(
+        folder: &'a Path,
+        option: &'static str,
+        Force { force }: Force,
+    ) -> Result<Self, Failure> {
+        if folder.is_symlink() && folder.metadata().is_err() {
+            let what = "a symbolic link that leads to no folder; remove it, or give another";
+            return Err(Failure::input(format!("{option}: {}: {what}", folder.display())));
+        }
         let made = !folder.exists();
+        let staging = Staging { folder, option, force, made };
+        let failed = |error: io::Error| staging.failed(&error);
         std::fs::create_dir_all(folder).map_err(failed)?;
-        let mut staging = Staging { folder, option, made, temporary: None };
-        let temporary = tempfile::Builder::new().prefix(".staging-").tempdir_in(folder);
-        staging.temporary = Some(temporary.map_err(failed)?);
+        let own = Own::read(folder);
+        let strange = |name: &String| !name.starts_with(STAGING);
+        let strange = names(folder).map_err(failed)?.into_iter().find(strange);
+        if let (Some(name), None, false) = (strange, &own, force) {
+            return Err(Failure::input(format!(
+                "{option}: {} has files that this program did not make ({}); give a new or empty folder, or \
+                 --force to write among them",
+                folder.display(),
+                one_line(&name, 100)
+            )));
+        }
+        let _alone = alone(folder).map_err(failed)?;
+        // Whoever writes holds the lock, so nobody who lives needs these.
+        for name in names(folder).map_err(failed)?.iter().filter(|name| name.starts_with(STAGING)) {
+            let path = folder.join(name);
+            // What cannot be removed is in nobody's way.
+            let _ = if path.is_dir() && !path.is_symlink() {
+                std::fs::remove_dir_all(path)
+            } else {
+                std::fs::remove_file(path)
+            };
+        }
+        tempfile::Builder::new().prefix(STAGING).tempdir_in(folder).map_err(failed)?;
         Ok(staging)
     }
 
-    /// Writes `files` to the temporary folder and, when that is complete and nobody has asked to
-    /// stop, renames each into its place.
+    /// Refuses, before a long run, a report of which a file was changed.
     ///
     /// # Errors
-    /// Exit code 2 if something cannot be written, 130 on Ctrl-C.
+    /// Exit code 2 with the names.
+    pub fn refuse_changed(&self) -> Result<(), Failure> {
+        let own = Own::read(self.folder).unwrap_or_default();
+        let changed = |path: &&String| {
+            folder::read(self.folder, path).is_ok_and(|bytes| !own.wrote(path, &bytes))
+        };
+        // The page was made before there was a list of it.
+        let page = "report.html".to_string();
+        let all = own.digests.keys().chain(std::iter::once(&page));
+        let changed: BTreeSet<&str> = all.filter(changed).map(String::as_str).collect();
+        self.refuse(changed.into_iter().collect())
+    }
+
+    /// Writes `files` to a temporary folder and, when that is complete and nobody has asked to stop,
+    /// renames each into its place. With a SHA256SUMS among them they are a whole report: then files
+    /// that the list before names, and this one does not, are removed.
+    ///
+    /// # Errors
+    /// Exit code 2 for a file that is not ours to replace, 2 or 4 if something cannot be written, 130
+    /// on Ctrl-C.
     pub fn place(mut self, files: &Files, progress: &Progress) -> Result<(), Failure> {
-        let failed = |error: io::Error| unwritable(self.option, self.folder, &error);
-        let Some(temporary) = &self.temporary else { return Ok(()) };
-        for (path, bytes) in files {
-            inside(self.folder, path)?;
+        let failed = |error: io::Error| self.failed(&error);
+        let _alone = alone(self.folder).map_err(failed)?;
+        let own = Own::read(self.folder).unwrap_or_default();
+        let is_report = files.contains_key(sums::NAME);
+        let gone = own.report.iter().filter(|path| is_report && !files.contains_key(*path));
+        let gone: Vec<&String> = gone.collect();
+        files.keys().chain(gone.iter().copied()).try_for_each(|path| self.inside(path))?;
+        let stands = |path: &str| self.folder.join(path).symlink_metadata().is_ok();
+        let is_own = |path: &str| {
+            let bytes = folder::read(self.folder, path);
+            bytes.is_ok_and(|bytes| own.wrote(path, &bytes) || files.get(path) == Some(&bytes))
+        };
+        let theirs = |path: &&String| stands(path) && !is_own(path);
+        let theirs: Vec<&str> =
+            files.keys().chain(gone.iter().copied()).filter(theirs).map(String::as_str).collect();
+        self.refuse(theirs.clone())?;
+
+        let temporary = tempfile::Builder::new().prefix(STAGING).tempdir_in(self.folder);
+        let temporary = temporary.map_err(failed)?;
+        // First of all: whoever is killed half-way finds old and new files in these lists.
+        let mut all = BTreeMap::from([(sums::LOCAL, own.local(files, stands).into_bytes())]);
+        all.extend(files.iter().map(|(path, bytes)| (path.as_str(), bytes.clone())));
+        for (path, bytes) in &all {
             let staged = temporary.path().join(path);
             std::fs::create_dir_all(staged.parent().unwrap_or(self.folder)).map_err(failed)?;
             std::fs::write(&staged, bytes).map_err(failed)?;
         }
         progress.check()?;
-        for path in files.keys() {
-            inside(self.folder, path)?;
-        }
-        for path in files.keys() {
+        let local = std::iter::once(sums::LOCAL);
+        for path in local.chain(files.keys().map(String::as_str)) {
             let target = self.folder.join(path);
             std::fs::create_dir_all(target.parent().unwrap_or(self.folder)).map_err(failed)?;
             std::fs::rename(temporary.path().join(path), &target).map_err(failed)?;
         }
+        for path in gone.into_iter().filter(|path| stands(path) && is_own(path)) {
+            std::fs::remove_file(self.folder.join(path)).map_err(failed)?;
+        }
+        let over: Vec<&str> = theirs.into_iter().filter(|path| files.contains_key(*path)).collect();
+        if !over.is_empty() {
+            progress.say(&format!("impact-paper: --force: wrote over {}", over.join(", ")));
+        }
         self.made = false;
         Ok(())
+    }
+
+    /// Refuses to touch what is not ours, unless forced.
+    fn refuse(&self, theirs: Vec<&str>) -> Result<(), Failure> {
+        if theirs.is_empty() || self.force {
+            return Ok(());
+        }
+        let (option, folder) = (self.option, self.folder.display());
+        let what = "not as this program last wrote it";
+        let remedy = "move it away, or write over it with --force";
+        Err(Failure::input(format!("{option}: {folder}: {what}: {}; {remedy}", listed(&theirs))))
+    }
+
+    fn failed(&self, error: &io::Error) -> Failure {
+        let (option, folder) = (self.option, self.folder.display());
+        let remedy = "give a folder that can be written";
+        Failure::io(error, format!("{option}: {folder}: {error}; {remedy}"))
+    }
+
+    /// Refuses a path that would leave the folder: one with `..` or from the root, and one through a
+    /// symbolic link to a folder. (The folder itself may be a link; a file that is one is replaced, not
+    /// followed.)
+    fn inside(&self, path: &str) -> Result<(), Failure> {
+        let option = self.option;
+        if !sums::is_inside(path) {
+            let path = one_line(path, 200);
+            return Err(Failure::input(format!("{option}: {path:?} is no path inside the folder")));
+        }
+        let above = Path::new(path).ancestors().skip(1).filter(|above| *above != Path::new(""));
+        match above.map(|above| self.folder.join(above)).find(|above| above.is_symlink()) {
+            None => Ok(()),
+            Some(link) => Err(Failure::input(format!(
+                "{option}: {} is a symbolic link out of the folder; remove it, or give another folder",
+                link.display()
+            ))),
+        }
     }
 }
 
 impl Drop for Staging<'_> {
     fn drop(&mut self) {
-        drop(self.temporary.take());
         if self.made {
             // Fails, as it should, if the folder is not empty.
             let _ = std::fs::remove_dir(self.folder);
@@ -76,53 +202,114 @@ impl Drop for Staging<'_> {
     }
 }
 
-fn unwritable(option: &str, folder: &Path, error: &io::Error) -> Failure {
-    let folder = folder.display();
-    Failure::input(format!("{option}: {folder}: {error}; give a folder that can be written"))
-}
-
-/// Refuses a path that would leave `folder`: one with `..` or from the root, and one through a
-/// symbolic link to a folder. (The folder itself may be a link; a file that is one is replaced, not
-/// followed.)
-fn inside(folder: &Path, path: &str) -> Result<(), Failure> {
-    if !sums::is_inside(path) {
-        let path = one_line(path, 200);
-        return Err(Failure::input(format!("--out: {path:?} is no path inside the folder")));
-    }
-    for above in Path::new(path).ancestors().skip(1).filter(|above| !above.as_os_str().is_empty()) {
-        let above = folder.join(above);
-        if above.is_symlink() {
-            return Err(Failure::input(format!(
-                "--out: {} is a symbolic link out of the folder; remove it, or give another folder",
-                above.display()
-            )));
-        }
-    }
-    Ok(())
-}
-
-/// Removes what the SHA256SUMS of an earlier run lists and this one no longer writes. Files that
-/// no run wrote are left alone.
+/// Refuses, before a long run, a single file that stands there already, unless forced.
 ///
 /// # Errors
-/// Exit code 2 if a file cannot be removed.
-pub fn remove_stale(folder: &Path, sums_before: &str, files: &Files) -> Result<(), Failure> {
-    for (_, path) in sums_before.lines().filter_map(|line| line.split_once("  ")) {
-        if inside(folder, path).is_err() || files.contains_key(path) {
-            continue;
+/// Exit code 2 with its name.
+pub fn free(what: &str, path: &Path, Force { force }: Force) -> Result<(), Failure> {
+    if force || path.symlink_metadata().is_err() {
+        return Ok(());
+    }
+    let path = path.display();
+    Err(Failure::input(format!("{what}: {path} is there already; give another file, or --force")))
+}
+
+/// What the program knows that it wrote into a folder.
+#[derive(Debug, Default)]
+struct Own {
+    /// Digests by path, of one list or of both.
+    digests: BTreeMap<String, Vec<String>>,
+    /// Paths that the list of a report has.
+    report: Vec<String>,
+    /// The list of what was last written.
+    local: BTreeMap<String, String>,
+}
+
+impl Own {
+    /// From the lists in a folder; none if it has none. Other people have lists of this name too: one
+    /// of a report names its values and its ledger.
+    fn read(folder: &Path) -> Option<Own> {
+        let list = |name: &str| sums::read(&input::read(&folder.join(name)).ok()?).ok();
+        let has = |list: &Vec<sums::Entry>, path: &str| list.iter().any(|entry| entry.path == path);
+        let report =
+            list(sums::NAME).filter(|list| has(list, "values.json") && has(list, "ledger.json"));
+        let local = list(sums::LOCAL);
+        if report.is_none() && local.is_none() {
+            return None;
         }
-        match std::fs::remove_file(folder.join(path)) {
-            Err(error) if error.kind() != io::ErrorKind::NotFound => {
-                let path = folder.join(path);
-                return Err(Failure::input(format!(
-                    "--out: {}: {error}; remove this file, it is of an earlier version",
-                    path.display()
-                )));
+        let mut own = Own::default();
+        for entry in report.iter().chain(&local).flatten() {
+            own.digests.entry(entry.path.clone()).or_default().push(entry.digest.clone());
+        }
+        own.report = report.iter().flatten().map(|entry| entry.path.clone()).collect();
+        let line = |entry: sums::Entry| (entry.path, entry.digest);
+        own.local = local.into_iter().flatten().map(line).collect();
+        Some(own)
+    }
+
+    /// Whether it wrote these bytes under this path. A list of a report says nothing that is not made
+    /// again.
+    fn wrote(&self, path: &str, bytes: &[u8]) -> bool {
+        if path == sums::NAME {
+            return !self.report.is_empty();
+        }
+        self.digests.get(path).is_some_and(|digests| digests.contains(&sha256(bytes)))
+    }
+
+    /// The list of what was last written, with `files`, and without what is not there any more.
+    fn local(&self, files: &Files, stands: impl Fn(&str) -> bool) -> String {
+        let kept = self.local.iter().filter(|(path, _)| !files.contains_key(*path) && stands(path));
+        let kept = kept.map(|(path, digest)| (path.as_str(), digest.clone()));
+        let new = files.iter().filter(|(path, _)| *path != sums::NAME);
+        let new = new.map(|(path, bytes)| (path.as_str(), sha256(bytes)));
+        let lines: BTreeMap<&str, String> = kept.chain(new).collect();
+        lines.into_iter().map(|(path, digest)| format!("{digest}  {path}\n")).collect()
+    }
+}
+
+/// Names of what is in a folder.
+fn names(folder: &Path) -> io::Result<Vec<String>> {
+    let name = |entry: io::Result<std::fs::DirEntry>| {
+        entry.map(|entry| entry.file_name().to_string_lossy().into_owned())
+    };
+    std::fs::read_dir(folder)?.map(name).collect()
+}
+
+/// The first few, and how many more.
+fn listed(names: &[&str]) -> String {
+    let first = names.iter().take(TOLD).copied().collect::<Vec<_>>().join(", ");
+    match names.len().saturating_sub(TOLD) {
+        0 => first,
+        more => format!("{first} and {more} more"),
+    }
+}
+
+/// A lock on the folder itself, which ends with whoever holds it and leaves no file. It is held for
+/// moments; file systems without locks go without.
+#[cfg(unix)]
+fn alone(folder: &Path) -> io::Result<Option<File>> {
+    let file = File::open(folder)?;
+    for _ in 0..500 {
+        match file.try_lock() {
+            Ok(()) => return Ok(Some(file)),
+            Err(std::fs::TryLockError::WouldBlock) => {
+                std::thread::sleep(Duration::from_millis(20));
             }
-            _ => (),
+            Err(std::fs::TryLockError::Error(error))
+                if error.kind() == io::ErrorKind::Unsupported =>
+            {
+                return Ok(None);
+            }
+            Err(std::fs::TryLockError::Error(error)) => return Err(error),
         }
     }
-    Ok(())
+    Err(io::Error::other("another program has been writing there for ten seconds"))
+}
+
+/// Folders are not locked here.
+#[cfg(not(unix))]
+fn alone(_: &Path) -> io::Result<Option<File>> {
+    Ok(None)
 }
 
 #[cfg(test)]
@@ -131,57 +318,144 @@ mod tests {
     use std::sync::Arc;
     use std::sync::atomic::AtomicBool;
 
+    const ASK: Force = Force { force: false };
+
     fn files(names: &[&str]) -> Files {
         names.iter().map(|name| (name.to_string(), name.as_bytes().to_vec())).collect()
     }
 
-    fn names(folder: &Path) -> Vec<String> {
-        let mut names: Vec<_> = std::fs::read_dir(folder)
-            .unwrap()
-            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-            .collect();
+    /// With a list, so that they are a report.
+    fn report(names: &[&str]) -> Files {
+        let mut files = files(&[names, &["values.json", "ledger.json"]].concat());
+        files.insert(sums::NAME.into(), sums::write(&files).into_bytes());
+        files
+    }
+
+    fn place(folder: &Path, files: &Files) -> Result<(), Failure> {
+        Staging::below(folder, "--out", ASK)?.place(files, &Progress::silent())
+    }
+
+    fn sorted(folder: &Path) -> Vec<String> {
+        let mut names = names(folder).unwrap();
         names.sort();
         names
     }
 
     #[test]
-    fn files_replace_older_ones_and_leave_strangers() {
+    fn own_files_are_replaced_and_removed_and_strangers_left() {
         let out = tempfile::tempdir().unwrap();
         let folder = out.path().join("paper");
-        std::fs::create_dir_all(folder.join("data")).unwrap();
-        for stranger in ["data/old.csv", "notes.txt", "data/kept.csv"] {
-            std::fs::write(folder.join(stranger), "before").unwrap();
+        place(&folder, &report(&["data/old.csv", "data/kept.csv"])).unwrap();
+        std::fs::write(folder.join("notes.txt"), "a stranger").unwrap();
+        place(&folder, &report(&["data/kept.csv", "report.md"])).unwrap();
+        let own = ["SHA256SUMS", "SHA256SUMS.local", "data", "ledger.json", "notes.txt"];
+        assert_eq!(sorted(&folder), [&own[..], &["report.md", "values.json"]].concat());
+        assert_eq!(sorted(&folder.join("data")), ["kept.csv"]);
+        // What only one list knows: a checkout has no local one.
+        std::fs::remove_file(folder.join(sums::LOCAL)).unwrap();
+        place(&folder, &report(&["report.md"])).unwrap();
+        assert!(!folder.join("data/kept.csv").exists());
+        // Another revision is checked out: files and list agree, and the local list is of this one.
+        let local = std::fs::read(folder.join(sums::LOCAL)).unwrap();
+        place(&folder, &report(&["other.md", "report.md"])).unwrap();
+        let mut other = report(&["other.md"]);
+        other.insert("report.md".into(), b"of another revision".to_vec());
+        other.insert(sums::NAME.into(), Vec::new());
+        let listed = sums::write(
+            &other
+                .iter()
+                .filter(|(path, _)| *path != sums::NAME)
+                .map(|(path, bytes)| (path.clone(), bytes.clone()))
+                .collect(),
+        );
+        other.insert(sums::NAME.into(), listed.into_bytes());
+        for (path, bytes) in &other {
+            std::fs::write(folder.join(path), bytes).unwrap();
         }
-        let files = files(&["report.md", "data/kept.csv"]);
-        Staging::below(&folder, "--out").unwrap().place(&files, &Progress::silent()).unwrap();
-        let sums = "00  data/old.csv\n00  data/kept.csv\n00  ../outside\n00  never-there\n";
-        std::fs::write(out.path().join("outside"), "").unwrap();
-        remove_stale(&folder, sums, &files).unwrap();
-        assert_eq!(names(&folder), ["data", "notes.txt", "report.md"]);
-        assert_eq!(names(&folder.join("data")), ["kept.csv"]);
-        assert_eq!(std::fs::read_to_string(folder.join("data/kept.csv")).unwrap(), "data/kept.csv");
-        assert!(out.path().join("outside").exists());
+        std::fs::write(folder.join(sums::LOCAL), local).unwrap();
+        Staging::below(&folder, "--out", ASK).unwrap().refuse_changed().unwrap();
+        place(&folder, &report(&["report.md"])).unwrap();
+        assert!(!folder.join("other.md").exists());
+        // A few files into a folder of their own, twice.
+        let few = out.path().join("few");
+        for name in ["a", "b"] {
+            place(&few, &files(&[name])).unwrap();
+        }
+        assert_eq!(sorted(&few), ["SHA256SUMS.local", "a", "b"]);
+    }
+
+    #[test]
+    fn what_others_wrote_is_refused_by_name_and_nothing_changes() {
+        let out = tempfile::tempdir().unwrap();
+        let folder = out.path();
+        std::fs::write(folder.join("report.md"), "by hand").unwrap();
+        let refused = |files: &Files, name: &str| {
+            let before = sorted(folder);
+            let failure = place(folder, files).unwrap_err();
+            assert_eq!(failure.code, 2);
+            assert!(failure.message.contains(name), "{}", failure.message);
+            assert!(failure.message.contains("--force"), "{}", failure.message);
+            assert_eq!(sorted(folder), before);
+        };
+        refused(&report(&["report.md"]), "(report.md)");
+        // A list of somebody else makes nothing ours.
+        let theirs = sums::write(&[("report.md".to_string(), b"by hand".to_vec())].into());
+        std::fs::write(folder.join(sums::NAME), theirs).unwrap();
+        refused(&report(&["new.md"]), "did not make");
+        let force = Staging::below(folder, "--out", Force { force: true }).unwrap();
+        force.place(&report(&["report.md", "old.md"]), &Progress::silent()).unwrap();
+        assert_eq!(std::fs::read_to_string(folder.join("report.md")).unwrap(), "report.md");
+        // Changed since, by hand or by a merge: one that would be replaced, and one that would go.
+        for name in ["report.md", "old.md"] {
+            std::fs::write(folder.join(name), "<<<<<<<").unwrap();
+            refused(&report(&["report.md", "more.md"]), name);
+            let staging = Staging::below(folder, "--out", ASK).unwrap();
+            assert!(staging.refuse_changed().unwrap_err().message.contains(name));
+            std::fs::write(folder.join(name), name).unwrap();
+        }
+        // The same bytes cost nobody anything.
+        std::fs::write(folder.join("more.md"), "more.md").unwrap();
+        place(folder, &report(&["report.md", "more.md"])).unwrap();
     }
 
     #[test]
     fn an_interruption_before_the_end_changes_nothing() {
         let out = tempfile::tempdir().unwrap();
         let stopped = Progress::on_stderr(Arc::new(AtomicBool::new(true)));
-        std::fs::write(out.path().join("report.md"), "before").unwrap();
-        let staging = Staging::below(out.path(), "--out").unwrap();
-        let failure = staging.place(&files(&["report.md"]), &stopped).unwrap_err();
-        assert_eq!(failure.code, 130);
-        assert_eq!(names(out.path()), ["report.md"]);
-        assert_eq!(std::fs::read_to_string(out.path().join("report.md")).unwrap(), "before");
+        place(out.path(), &files(&["report.md"])).unwrap();
+        let before = sorted(out.path());
+        let staging = Staging::below(out.path(), "--out", ASK).unwrap();
+        let failure = staging.place(&files(&["a", "report.md"]), &stopped).unwrap_err();
+        assert_eq!((failure.code, sorted(out.path())), (130, before));
         let new = out.path().join("new");
-        assert!(Staging::below(&new, "--out").unwrap().place(&files(&["x"]), &stopped).is_err());
+        let staging = Staging::below(&new, "--out", ASK).unwrap();
+        assert!(staging.place(&files(&["x"]), &stopped).is_err());
         assert!(!new.exists());
+    }
+
+    /// Leftovers of the killed go, those of the living stay.
+    #[test]
+    fn leftovers_go_when_nobody_writes() {
+        let out = tempfile::tempdir().unwrap();
+        let left = out.path().join(".staging-abc");
+        std::fs::create_dir_all(left.join("data")).unwrap();
+        std::fs::write(left.join("data/a.csv"), "half").unwrap();
+        let living = alone(out.path()).unwrap();
+        let waiting = std::thread::scope(|scope| {
+            let other = scope.spawn(|| Staging::below(out.path(), "--out", ASK).map(|_| ()));
+            std::thread::sleep(Duration::from_millis(200));
+            let waits = left.exists() && !other.is_finished();
+            drop(living);
+            other.join().unwrap().unwrap();
+            waits
+        });
+        assert!(waiting && !left.exists());
     }
 
     #[test]
     fn what_cannot_be_written_is_named() {
         let file = tempfile::NamedTempFile::new().unwrap();
-        let failure = Staging::below(file.path(), "--out").unwrap_err();
+        let failure = Staging::below(file.path(), "--out", ASK).unwrap_err();
         assert_eq!(failure.code, 2);
         assert!(failure.message.starts_with("--out: "), "{}", failure.message);
     }

@@ -1,14 +1,18 @@
 //! `impact-paper paper`.
 
-use super::output::{Staging, remove_stale};
+use super::diff::{count, fate};
+use super::judged::Judged;
+use super::output::{self, Staging};
 use super::sources::Sources;
-use super::{Failure, make, work};
+use super::{Failure, folder, make, work};
+use impact_paper::claims::targets::Standing;
 use impact_paper::experiments::Progress;
 use impact_paper::figures;
 use impact_paper::input;
 use impact_paper::params::Profile;
+use impact_paper::report::compare::{self, Parts};
 use impact_paper::report::values::Number;
-use impact_paper::report::{self, Files, Registry, compare, sums};
+use impact_paper::report::{self, Files, Registry};
 use std::collections::BTreeSet;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -17,7 +21,9 @@ use std::time::{Duration, Instant};
 /// Runs every experiment, draws all figures and writes the report.
 ///
 /// Results of long runs are saved and used again as long as parameters and simulating code are the
-/// same. Files are moved into place at the very end: Ctrl-C (exit code 130) changes nothing.
+/// same. Files are moved into place at the very end: Ctrl-C (exit code 130) changes nothing. Only files
+/// that an earlier run wrote, and nobody changed since, are replaced. Ends with exit code 1 if a claim,
+/// a target of accuracy or counted work, or a check fails; the report is written all the same.
 #[derive(clap::Args)]
 pub struct Args {
     /// Sample sizes.
@@ -29,15 +35,21 @@ pub struct Args {
     /// Folder to write into [default: paper for the full profile, else target/paper-PROFILE].
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    force: output::Force,
     /// Write report.pdf too (needs a binary with the feature pdf: make pdf).
-    #[arg(long)]
+    #[arg(long, conflicts_with = "figure")]
     pdf: bool,
     #[command(flatten)]
     sources: Sources,
 }
 
-/// The file in which a report keeps its values.
+/// The files in which a report keeps its values and its verdicts.
 const VALUES: &str = "values.json";
+const LEDGER: &str = "ledger.json";
+
+/// Of more verdicts that changed only so many are told: the whole is one screen.
+const MOVED: usize = 6;
 
 /// Runs the verb.
 pub fn run(args: Args) -> Result<(), Failure> {
@@ -49,30 +61,76 @@ pub fn run(args: Args) -> Result<(), Failure> {
         args.figure.iter().map(read).collect::<Result<BTreeSet<figures::Number>, Failure>>()?;
     refuse_over_full(profile, &out)?;
     let progress = work::progress();
-    let staging = Staging::below(&out, "--out")?;
-    let files = work::on_threads(args.sources.threads, || {
-        if args.figure.is_empty() {
-            let report = make::whole(&args.sources, profile, args.pdf, &progress)?;
-            Ok(report.committed.into_iter().chain(report.beside).collect())
+    let staging = Staging::below(&out, "--out", args.force)?;
+    let whole = args.figure.is_empty();
+    if whole {
+        staging.refuse_changed()?;
+    }
+    let (files, judged) = work::on_threads(args.sources.threads, || {
+        if whole {
+            let (report, judged) = make::whole(&args.sources, profile, args.pdf, &progress)?;
+            let files: Files = report.committed.into_iter().chain(report.beside).collect();
+            Ok((files, judged))
         } else {
-            some(&args.sources, &numbers, profile, &progress)
+            Ok((some(&args.sources, &numbers, profile, &progress)?, Judged::default()))
         }
     })?;
     // What was there before is compared first: it is about to be replaced.
-    let changes = if args.figure.is_empty() { changes(&out, &files) } else { Vec::new() };
-    let sums_before = input::read(&out.join(sums::NAME)).unwrap_or_default();
+    let told = if whole { told(&out, &files, &judged) } else { String::new() };
     staging.place(&files, &progress)?;
-    if args.figure.is_empty() {
-        remove_stale(&out, &sums_before, &files)?;
-    }
-    // A closed standard output is no failure: the files are written.
-    let mut told = std::io::stdout().lock();
-    for line in changes {
-        let _ = writeln!(told, "{line}");
-    }
     let time = duration(began.elapsed());
-    let _ = writeln!(told, "{}: {} files in {time}", out.display(), files.len());
-    Ok(())
+    let documents = files.keys().filter(|path| path.starts_with("report.")).cloned();
+    let documents = documents.collect::<Vec<_>>().join(", ");
+    let documents = if whole { format!(": {documents}") } else { String::new() };
+    let head = format!("{}: {} files in {time}{documents}\n", out.display(), files.len());
+    // A closed standard output is no failure: the files are written.
+    let _ = std::io::stdout().lock().write_all((head + &told).as_bytes());
+    judged.verdict()
+}
+
+/// What holds, and what came out otherwise than in the report before: some lines.
+fn told(out: &Path, files: &Files, judged: &Judged) -> String {
+    let standing = |standing| judged.targets.iter().filter(|one| one.standing == standing).count();
+    let [met, missed, open] = [Standing::Met, Standing::Missed, Standing::Open].map(standing);
+    let timed = judged.targets.iter().filter(|one| one.timed && one.standing == Standing::Missed);
+    let mut lines = judged.scores();
+    lines.push(format!(
+        "{} targets: {met} met, {missed} missed ({} of these by the clock), {open} not measured",
+        judged.targets.len(),
+        timed.count()
+    ));
+    lines.extend(changes(out, files));
+    lines.into_iter().map(|line| format!("{line}\n")).collect()
+}
+
+/// What the report in `out` said otherwise, if there is one.
+fn changes(out: &Path, files: &Files) -> Vec<String> {
+    let read = |name: &str| Some((name.to_string(), folder::read(out, name).ok()?));
+    let Some(before) = [VALUES, LEDGER].into_iter().map(read).collect::<Option<Files>>() else {
+        return Vec::new();
+    };
+    let parts = (Parts::of("before", &before), Parts::of("now", files));
+    let (Ok(old), Ok(new)) = parts else { return Vec::new() };
+    let Ok(diff) = compare::diff(&old, &new) else { return Vec::new() };
+    let before = out.display();
+    if diff.numbers.is_empty() && diff.verdicts.is_empty() {
+        return vec![format!(
+            "no number and no verdict differs from the report before in {before}"
+        )];
+    }
+    let moved: Vec<_> =
+        diff.verdicts.iter().filter(|change| change.before != change.after).collect();
+    let line = |change: &&compare::ClaimChange| format!("  {}", fate(change));
+    let mut lines = vec![format!(
+        "{} and {} differ from the report before in {before}; `impact-paper diff OLD NEW` tells them",
+        count(diff.numbers.len(), "number"),
+        count(moved.len(), "verdict"),
+    )];
+    lines.extend(moved.iter().take(MOVED).map(line));
+    if moved.len() > MOVED {
+        lines.push(format!("  and {} more", moved.len() - MOVED));
+    }
+    lines
 }
 
 /// Where a profile writes unless told otherwise.
@@ -115,31 +173,9 @@ fn some(
     let mut files = Files::new();
     for &number in numbers {
         progress.check()?;
-        let figure = figures::draw(number, &results).map_err(|e| Failure::run(e.to_string()))?;
-        files.extend(report::files_of(&figure));
+        files.extend(report::files_of(&figures::draw(number, &results)?));
     }
     Ok(files)
-}
-
-/// Which values changed against the report in `out`, or else against the committed one.
-fn changes(out: &Path, files: &Files) -> Vec<String> {
-    let committed = default_folder(Profile::Full);
-    let Some((folder, before)) = [out, &committed]
-        .into_iter()
-        .find_map(|folder| Some((folder.join(VALUES), values_in(folder)?)))
-    else {
-        return vec!["there is no earlier report to compare with".into()];
-    };
-    let after = files.get(VALUES).and_then(|bytes| std::str::from_utf8(bytes).ok());
-    let Some(Ok(after)) = after.map(compare::read) else { return Vec::new() };
-    let changes = compare::changes(&before, &after);
-    let number = changes.len();
-    let summary = match number {
-        0 => format!("no value differs from {}", folder.display()),
-        1 => format!("1 value differs from {}", folder.display()),
-        _ => format!("{number} values differ from {}", folder.display()),
-    };
-    changes.iter().map(ToString::to_string).chain([summary]).collect()
 }
 
 /// `3 min 20 s` or `4.2 s`.

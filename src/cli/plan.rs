@@ -99,7 +99,9 @@ pub fn run(args: Args) -> Result<(), Failure> {
 }
 
 fn table(lines: &[Line]) -> String {
-    let mut out = String::new();
+    let shard = lines.iter().any(|line| line.shard.is_some());
+    let shard = if shard { "  shard" } else { "" };
+    let mut out = format!("{:22}{shard} {:>10}  covers\n", "unit", "weight");
     for Line { unit, covers, realisations, weight, shard, .. } in lines {
         let realisations =
             realisations.map_or(String::new(), |[first, last]| format!(", {first} to {last}"));

@@ -49,10 +49,11 @@ pub fn number(option: &str, of: usize) -> Result<(), Failure> {
 pub fn run(args: Args) -> Result<(), Failure> {
     let profile = Profile::from(args.profile);
     let unwritable = |error: Error| match error {
-        Error::Store { path, source } => Failure::input(format!(
-            "--out: {}: {source}; give a folder that can be written",
-            path.display()
-        )),
+        Error::Store { path, source } => {
+            let path = path.display();
+            let remedy = "give a folder that can be written";
+            Failure::io(&source, format!("--out: {path}: {source}; {remedy}"))
+        }
         other => other.into(),
     };
     let plan = args.only.plan(profile)?;

@@ -1,7 +1,7 @@
 //! Where `paper` and `check` read prose and keep results.
 
 use super::Failure;
-use impact_paper::claims::Published;
+use impact_paper::claims::{self, Published};
 use impact_paper::experiments::{self, Need, Progress, Results, Store};
 use impact_paper::params::Profile;
 use impact_paper::report::Templates;
@@ -34,7 +34,7 @@ impl Sources {
     /// # Errors
     /// Exit code 2 if they cannot be read.
     pub fn templates(&self) -> Result<Templates, Failure> {
-        Templates::find(self.templates.as_deref()).map_err(|e| Failure::input(e.to_string()))
+        Ok(Templates::find(self.templates.as_deref())?)
     }
 
     /// What the paper printed.
@@ -42,8 +42,7 @@ impl Sources {
     /// # Errors
     /// Exit code 2 if the file is broken.
     pub fn published(&self, templates: &Templates) -> Result<Published, Failure> {
-        let text = templates.text("published.toml").map_err(|e| Failure::input(e.to_string()))?;
-        Published::parse(text).map_err(|e| Failure::input(e.to_string()))
+        Ok(Published::parse(templates.text("published.toml")?).map_err(claims::Error::from)?)
     }
 
     /// Why some numbers have no check.
@@ -51,8 +50,7 @@ impl Sources {
     /// # Errors
     /// Exit code 2 if the file is broken.
     pub fn reasons(&self, templates: &Templates) -> Result<Reasons, Failure> {
-        let text = templates.text("unguarded.toml").map_err(|e| Failure::input(e.to_string()))?;
-        Reasons::read(text).map_err(|e| Failure::input(e.to_string()))
+        Ok(Reasons::read(templates.text("unguarded.toml")?)?)
     }
 
     /// Runs what is needed. The folder of results is made only if something long is run.

@@ -3,7 +3,6 @@
 use super::{Failure, stdout, work};
 use impact_paper::experiments::Store;
 use impact_paper::experiments::catalogue::{self, Saved};
-use impact_paper::experiments::deep;
 use impact_paper::experiments::identity::{Reason, told};
 use impact_paper::params::Profile;
 use serde::Serialize;
@@ -95,10 +94,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     if stale == 0 {
         return Ok(());
     }
-    let remedy = match profile {
-        Profile::Deep => deep::REMEDY.into(),
-        _ => format!("`impact-paper paper --profile {}` runs them", profile.name()),
-    };
+    let remedy = work::remedy(profile);
     Err(Failure::stale(format!("{stale} of {} results are stale; {remedy}", found.len())))
 }
 

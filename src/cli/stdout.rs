@@ -6,12 +6,12 @@ use std::io::{self, ErrorKind, Write};
 /// What became of writing to standard output: who closed the pipe has read enough.
 ///
 /// # Errors
-/// Exit code 2 if it cannot be written.
+/// Exit code 2 or 4 if it cannot be written.
 pub fn written(result: io::Result<()>) -> Result<(), Failure> {
     match result {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
             let remedy = "direct it to a file that can be written";
-            Err(Failure::input(format!("standard output: {error}; {remedy}")))
+            Err(Failure::io(&error, format!("standard output: {error}; {remedy}")))
         }
         _ => Ok(()),
     }

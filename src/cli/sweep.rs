@@ -7,7 +7,6 @@ use impact_paper::numerics::clock::LATEST;
 use impact_paper::params::{Boundary, Chain, Protocol, SEED, Start, SweepParams};
 use serde::Serialize;
 use std::io::{self, Write};
-use std::time::Instant;
 
 /// Runs an ensemble of random chains at each σ and prints one row a σ.
 ///
@@ -86,7 +85,6 @@ struct Row {
     near_simultaneous: u64,
     slow: u64,
     contact_phases: u64,
-    seconds: f64,
 }
 
 /// Runs the verb.
@@ -147,14 +145,12 @@ fn parameters(args: &Args) -> Result<SweepParams, Failure> {
     })
 }
 
-/// Runs σ after σ: the wall time of each is a column.
+/// Runs σ after σ.
 fn rows(parameters: &SweepParams, progress: &Progress) -> Result<Vec<Row>, Failure> {
     let stage = progress.stage("sweep", sweep::work(parameters));
     let mut rows = Vec::with_capacity(parameters.sigmas.len());
     for &sigma in &parameters.sigmas {
-        let began = Instant::now();
         let row = sweep::at(parameters, sigma, &stage, progress)?.row;
-        let seconds = began.elapsed().as_micros() as f64 / 1e6;
         if let Some(first) = &row.first_failure {
             stage.say(&format!(
                 "impact-paper: sigma {sigma:?}: {} of {} realisations ended early and are in no \
@@ -182,7 +178,6 @@ fn rows(parameters: &SweepParams, progress: &Progress) -> Result<Vec<Row>, Failu
             near_simultaneous: row.near_simultaneous,
             slow: row.slow,
             contact_phases: row.contact_phases,
-            seconds,
         });
     }
     Ok(rows)

@@ -3,9 +3,10 @@
 use super::{Failure, method, stdout};
 use impact_paper::dynamics::methods::State;
 use impact_paper::dynamics::{Certificate, Error, Impact, Scenario, Simultaneous, certify};
+use impact_paper::input;
 use impact_paper::numerics::clock::LATEST;
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Prints the impacts of one scenario as CSV: time, gap, closing speed.
 ///
@@ -17,7 +18,7 @@ use std::path::PathBuf;
 #[derive(clap::Args)]
 #[command(after_help = FORM)]
 pub struct Args {
-    /// File with the scenario as JSON (the form is below).
+    /// File with the scenario as JSON (the form is below); - for standard input.
     #[arg(value_name = "SCENARIO.json")]
     scenario: PathBuf,
     /// Time at which to stop, from 0 to 1e12.
@@ -86,7 +87,10 @@ pub fn run(args: Args) -> Result<(), Failure> {
         return Err(Failure::input(message));
     }
     let name = args.scenario.display();
-    let text = impact_paper::input::read(&args.scenario).map_err(|error| {
+    let path = args.scenario.as_path();
+    let text =
+        if path == Path::new("-") { input::read_from(io::stdin()) } else { input::read(path) };
+    let text = text.map_err(|error| {
         Failure::input(format!("{name}: {error}; give the path of a readable scenario file"))
     })?;
     let in_file = |error: Error| match error {

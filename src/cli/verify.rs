@@ -1,5 +1,6 @@
 //! `impact-paper verify`.
 
+use super::output::Force;
 use super::sources::Sources;
 use super::{Failure, certificate, folder, make, stdout, work};
 use clap::ValueEnum;
@@ -7,16 +8,17 @@ use impact_paper::digest::sha256;
 use impact_paper::experiments::Progress;
 use impact_paper::params::Profile;
 use impact_paper::report::values::Number;
-use impact_paper::report::{Files, compare, sums};
-use std::collections::BTreeSet;
+use impact_paper::report::{compare, sums};
+use std::collections::BTreeMap;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// Says whether a report is what its SHA256SUMS lists, and with --rerun whether it is what this
 /// program makes.
 ///
-/// Every digest is computed anew. Ends with exit code 1 if a file differs, is missing, or stands
-/// there without being listed; PDFs and HTML are built beside and may. Writes nothing.
+/// Every digest is computed anew. PDFs and HTML are built beside and not committed: SHA256SUMS.local
+/// lists them. Ends with exit code 1 if a file differs, is missing, or stands there without being
+/// listed. Writes nothing but a certificate.
 #[derive(clap::Args)]
 pub struct Args {
     /// Folder of the report.
@@ -40,10 +42,15 @@ pub struct Args {
     /// Write what came out into this file, as a certificate that a person can sign.
     #[arg(long, value_name = "FILE", requires = "rerun")]
     certificate: Option<PathBuf>,
+    #[command(flatten)]
+    force: Force,
 }
 
 /// Runs the verb.
 pub fn run(args: Args) -> Result<(), Failure> {
+    if let Some(path) = &args.certificate {
+        certificate::free(path, &args.folder, args.force)?;
+    }
     let progress = work::progress();
     let mut checked = listed(&args.folder, &progress)?;
     checked.tell(&args.folder)?;
@@ -51,7 +58,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
         let again = rerun(&args, &progress)?;
         again.tell(&args.folder)?;
         if let Some(path) = &args.certificate {
-            certificate::write(path, &args.folder, &checked, &again)?;
+            certificate::write(path, &args.folder, (&checked, &again))?;
         }
         checked.faults.extend(again.faults);
     }
@@ -60,9 +67,15 @@ pub fn run(args: Args) -> Result<(), Failure> {
         1 => "1 fault (standard output names it)".to_string(),
         faults => format!("{faults} faults (standard output names them)"),
     };
-    let remedy = "`impact-paper paper` writes a report anew, `impact-paper diff` says what differs";
-    let message = format!("{}: {them}; {remedy}", args.folder.display());
-    Err(Failure { code: 1, message })
+    let strange =
+        |fault: &String| fault.starts_with("unlisted") || fault.starts_with("rerun: not made");
+    let remedy = if checked.faults.iter().all(strange) {
+        "remove what is not listed, or put it elsewhere"
+    } else {
+        "`impact-paper diff` says what differs, `impact-paper paper --force` writes the report anew; what is \
+         not listed is for you to remove"
+    };
+    Err(Failure::check(format!("{}: {them}; {remedy}", args.folder.display())))
 }
 
 /// What a comparison of all files found.
@@ -102,27 +115,35 @@ pub fn listed(root: &Path, progress: &Progress) -> Result<Checked, Failure> {
     let text = folder::read(root, sums::NAME).map_err(|e| unusable(e.to_string()))?;
     let text = String::from_utf8(text).map_err(|e| unusable(e.to_string()))?;
     let entries = sums::read(&text).map_err(|e| unusable(e.to_string()))?;
+    let mut known: BTreeMap<&str, &str> = BTreeMap::new();
+    // Of what was last written, what is built beside: the rest may be of another revision by now.
+    let local = folder::read(root, sums::LOCAL).ok().and_then(|text| String::from_utf8(text).ok());
+    let local = local.and_then(|text| sums::read(&text).ok()).unwrap_or_default();
+    let beside =
+        |entry: &&sums::Entry| folder::is_beside(&entry.path) && found.contains(&entry.path);
+    for entry in local.iter().filter(beside).chain(&entries) {
+        known.insert(&entry.path, &entry.digest);
+    }
     let mut faults = Vec::new();
     let mut fault =
         |what: &str, path: &str, more: &str| faults.push(format!("{what:8} {path}{more}"));
-    for entry in &entries {
+    for (path, digest) in &known {
         progress.check()?;
-        match folder::read(root, &entry.path) {
-            Ok(bytes) if sha256(&bytes) == entry.digest => (),
-            Ok(_) => fault("differs", &entry.path, ""),
-            Err(error) if error.kind() == ErrorKind::NotFound => fault("missing", &entry.path, ""),
-            Err(error) => fault("unread", &entry.path, &format!(" ({error})")),
+        match folder::read(root, path) {
+            Ok(bytes) if sha256(&bytes) == *digest => (),
+            Ok(_) => fault("differs", path, ""),
+            Err(error) if error.kind() == ErrorKind::NotFound => fault("missing", path, ""),
+            Err(error) => fault("unread", path, &format!(" ({error})")),
         }
     }
-    let known: BTreeSet<&str> = entries.iter().map(|entry| entry.path.as_str()).collect();
-    let strange = |path: &&String| {
-        *path != sums::NAME && !folder::is_beside(path) && !known.contains(path.as_str())
-    };
+    let lists = [sums::NAME, sums::LOCAL];
+    let strange =
+        |path: &&String| !lists.contains(&path.as_str()) && !known.contains_key(path.as_str());
     for path in found.iter().filter(strange) {
         fault("unlisted", path, "");
     }
     let fine = format!(", all as {} lists them", sums::NAME);
-    Ok(Checked { files: entries.len(), fine, faults })
+    Ok(Checked { files: known.len(), fine, faults })
 }
 
 /// Makes the report again and compares.
@@ -133,16 +154,20 @@ fn rerun(args: &Args, progress: &Progress) -> Result<Checked, Failure> {
     };
     // Removed in the end, whatever happens.
     let temporary = tempfile::tempdir().map_err(|e| {
-        Failure::input(format!("a temporary folder: {e}; name one that can be written in TMPDIR"))
+        let remedy = "name one that can be written in TMPDIR";
+        Failure::io(&e, format!("a temporary folder: {e}; {remedy}"))
     })?;
     let results = args.results.clone().unwrap_or_else(|| temporary.path().join("results"));
     let sources = Sources::of(args.threads, args.templates.clone(), results);
-    let made: Files = work::on_threads(args.threads, || {
-        Ok(make::whole(&sources, profile, false, progress)?.committed)
-    })?;
+    let (made, _) =
+        work::on_threads(args.threads, || make::whole(&sources, profile, false, progress))?;
+    // What is built beside may be missing, but not be another.
+    let mut files = made.committed;
+    let stands = |path: &String| args.folder.join(path).symlink_metadata().is_ok();
+    files.extend(made.beside.into_iter().filter(|(path, _)| stands(path)));
     let mut faults = Vec::new();
     let mut fault = |what: &str, path: &str| faults.push(format!("rerun: {what:8} {path}"));
-    for (path, bytes) in &made {
+    for (path, bytes) in &files {
         match folder::read(&args.folder, path) {
             Ok(standing) if standing == *bytes => (),
             Ok(_) => fault("differs", path),
@@ -150,12 +175,12 @@ fn rerun(args: &Args, progress: &Progress) -> Result<Checked, Failure> {
         }
     }
     for path in folder::walk(&args.folder)? {
-        if !folder::is_beside(&path) && !made.contains_key(&path) {
+        if !folder::is_beside(&path) && !files.contains_key(&path) {
             fault("not made", &path);
         }
     }
     let fine = format!(" made again with the {} profile, the same bytes", profile.name());
-    Ok(Checked { files: made.len(), fine, faults })
+    Ok(Checked { files: files.len(), fine, faults })
 }
 
 /// The profile that the report's values name.

@@ -2,8 +2,10 @@
 
 use super::Failure;
 use impact_paper::experiments::shards::Plan;
-use impact_paper::experiments::{Error, Progress, catalogue};
+use impact_paper::experiments::{Error, Progress, catalogue, deep};
 use impact_paper::params::Profile;
+use impact_paper::report::{self, contents};
+use impact_paper::{claims, figures};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -65,6 +67,14 @@ pub fn results(given: Option<PathBuf>, profile: Profile) -> PathBuf {
     })
 }
 
+/// How stale results of a profile are made fresh.
+pub fn remedy(profile: Profile) -> String {
+    match profile {
+        Profile::Deep => deep::REMEDY.into(),
+        _ => format!("`impact-paper paper --profile {}` runs them", profile.name()),
+    }
+}
+
 impl From<AnyProfile> for Profile {
     fn from(name: AnyProfile) -> Self {
         match name {
@@ -118,14 +128,54 @@ impl From<Error> for Failure {
     fn from(error: Error) -> Self {
         let code = match &error {
             Error::Interrupted => INTERRUPTED,
-            Error::Input { .. }
-            | Error::Scenario { .. }
-            | Error::Store { .. }
-            | Error::Measured(_) => 2,
+            Error::Store { source, .. } => Failure::io(source, "").code,
+            Error::Input { .. } | Error::Scenario { .. } | Error::Measured(_) => 2,
             Error::Dynamics { source: impact_paper::dynamics::Error::Input { .. }, .. } => 2,
             Error::Stale { .. } | Error::Units { .. } | Error::NotUnderstood { .. } => 3,
             _ => 4,
         };
         Failure { code, message: error.to_string() }
+    }
+}
+
+impl From<claims::Error> for Failure {
+    fn from(error: claims::Error) -> Self {
+        match error {
+            claims::Error::Published(error) => Failure::input(error.to_string()),
+            claims::Error::Experiment(error) => error.into(),
+        }
+    }
+}
+
+impl From<contents::Error> for Failure {
+    fn from(error: contents::Error) -> Self {
+        match error {
+            contents::Error::Claims(error) => error.into(),
+            contents::Error::Experiment(error) => error.into(),
+            contents::Error::Report(error) => error.into(),
+            contents::Error::Rows(_) | contents::Error::Missing(_) => {
+                Failure::run(error.to_string())
+            }
+        }
+    }
+}
+
+impl From<figures::Error> for Failure {
+    fn from(error: figures::Error) -> Self {
+        match error {
+            figures::Error::Experiment(error) => error.into(),
+            other => Failure::run(other.to_string()),
+        }
+    }
+}
+
+impl From<report::Error> for Failure {
+    fn from(error: report::Error) -> Self {
+        use report::Error::{NotShown, Numerals, Unused};
+        match error {
+            // What can be read, and breaks a rule of the prose.
+            Numerals(_) | NotShown(_) | Unused(_) => Failure::check(error.to_string()),
+            _ => Failure::input(error.to_string()),
+        }
     }
 }

@@ -50,7 +50,7 @@ pub enum Error {
         experiment: String,
     },
     /// An audit needs a result that is fresh.
-    #[error("{name}: there is nothing to audit: {why}; run `impact-paper paper` first")]
+    #[error("{name}: there is nothing to audit: {why}")]
     Stale {
         /// The experiment.
         name: &'static str,

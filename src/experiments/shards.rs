@@ -148,7 +148,7 @@ impl Plan {
     ///
     /// # Errors
     /// [`Error::Input`] for a folder that cannot be read, a file that is no unit of this plan, and a
-    /// unit in two folders; [`Error::Units`] for units that are missing, damaged or made of
+    /// unit that two folders have with different bytes; [`Error::Units`] for units that are missing, damaged or made of
     /// something else; what joining and saving return.
     pub fn merge(
         &self,
@@ -218,7 +218,11 @@ impl Plan {
                     strange.push(self.stranger(folder, &name));
                 } else if let Some(first) = found.insert(name.clone(), place) {
                     let [a, b] = [first, place].map(|place| path(&folders[place], &name));
-                    twice.push(format!("{name} is in {} and in {}", a.display(), b.display()));
+                    let same = |a: std::io::Result<Vec<u8>>| a.ok() == std::fs::read(&b).ok();
+                    if !same(std::fs::read(&a)) {
+                        let (a, b) = (a.display(), b.display());
+                        twice.push(format!("{name} is in {a} and, otherwise, in {b}"));
+                    }
                 }
             }
         }
@@ -231,7 +235,7 @@ impl Plan {
             );
         }
         if !twice.is_empty() {
-            return refused(&twice, "give each unit once: leave out one of the folders");
+            return refused(&twice, "leave out the folder that has the wrong one");
         }
         Ok(found)
     }

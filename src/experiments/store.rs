@@ -8,11 +8,11 @@
 use super::identity::{Identity, Reason, told};
 use super::{Error, Progress};
 use crate::digest::sha256;
-use crate::input::LARGEST;
+use crate::input::{LARGEST, new_beside};
 use crate::params::Profile;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
-use std::io::{ErrorKind, Write};
+use std::io::{ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 
 /// Where results are saved.
@@ -91,6 +91,7 @@ impl Store {
             Err(reasons) => progress.say(&format!("{name}: run ({})", told(&reasons))),
         }
         self.prepare()?;
+        refuse_foreign(&path)?;
         let result = run()?;
         self.put(identity, profile, &result)?;
         Ok(result)
@@ -117,6 +118,7 @@ impl Store {
         T: Serialize + DeserializeOwned + PartialEq,
     {
         let Some(path) = self.path(identity, profile) else { return Ok(()) };
+        refuse_foreign(&path)?;
         let body = written(&identity.experiment, result)?;
         save(&path, identity, &body).map_err(|source| Error::Store { path, source })
     }
@@ -178,10 +180,23 @@ where
     }
 }
 
+/// Refuses to replace what was never a result, damaged or not: these begin with a digest, other people's
+/// JSON with a bracket.
+fn refuse_foreign(path: &Path) -> Result<(), Error> {
+    let mut first = [0];
+    let read = std::fs::File::open(path).and_then(|mut file| file.read(&mut first));
+    if read.is_ok() && matches!(first, [b'{' | b'[']) {
+        let what = "this file is no saved result, and would be overwritten";
+        let source = std::io::Error::new(ErrorKind::AlreadyExists, what);
+        return Err(Error::Store { path: path.into(), source });
+    }
+    Ok(())
+}
+
 /// Writes a temporary file and renames it: at no time is there half a result under the name.
 fn save(path: &Path, identity: &Identity, body: &str) -> std::io::Result<()> {
     let identity = serde_json::to_string(identity)?;
-    let mut file = tempfile::NamedTempFile::new_in(path.parent().unwrap_or(Path::new(".")))?;
+    let mut file = new_beside(path)?;
     write!(file, "{}\n{identity}\n{body}\n", digest(&[&identity, body]))?;
     file.as_file().sync_all()?;
     file.persist(path)?;
@@ -290,6 +305,22 @@ mod tests {
         }
         std::fs::write(&path, [0xff, 0xfe]).unwrap();
         assert!(ask(folder.path(), 1.0, &whole).1);
+    }
+
+    #[test]
+    fn what_was_never_a_result_is_left() {
+        let folder = tempfile::tempdir().unwrap();
+        ask(folder.path(), 1.0, &[Some(1.0)]);
+        let path = only_file(folder.path());
+        let store = Store::open(folder.path()).unwrap();
+        for theirs in ["{\"my\": 1}", "[1]"] {
+            std::fs::write(&path, theirs).unwrap();
+            let run = || -> Result<f64, Error> { panic!("it cannot be saved") };
+            let got = store.get(&identity(1.0), Profile::Quick, &Progress::silent(), run);
+            assert!(got.unwrap_err().to_string().contains("no saved result"));
+            assert!(store.put(&identity(1.0), Profile::Quick, &1.0).is_err());
+            assert_eq!(std::fs::read_to_string(&path).unwrap(), theirs);
+        }
     }
 
     #[test]

@@ -4,6 +4,7 @@
 //! to and resolves references, and each format has one writer that walks it. Writers decide on
 //! markup only: numbers, words of references and digits of values are in the tree already.
 
+use super::spell;
 use super::valued::bare;
 
 /// A block of the report.
@@ -258,15 +259,24 @@ fn rewrite_inlines<E>(
 
 /// The words alone, for alternative text and widths of columns.
 pub fn plain(inlines: &[Inline]) -> String {
+    words(inlines, &bare)
+}
+
+/// The words for a terminal, mathematics among them.
+pub fn spelt(inlines: &[Inline]) -> String {
+    words(inlines, &|tex| spell::maths(&bare(tex)))
+}
+
+fn words(inlines: &[Inline], maths: &dyn Fn(&str) -> String) -> String {
     let mut out = String::new();
     for inline in inlines {
         match inline {
             Inline::Text(text) | Inline::Code(text) => out.push_str(text),
-            Inline::Maths(tex) | Inline::Display { tex, .. } => out.push_str(&bare(tex)),
+            Inline::Maths(tex) | Inline::Display { tex, .. } => out.push_str(&maths(tex)),
             Inline::Soft | Inline::Break => out.push(' '),
-            Inline::Emphasis(inner) | Inline::Strong(inner) => out.push_str(&plain(inner)),
+            Inline::Emphasis(inner) | Inline::Strong(inner) => out.push_str(&words(inner, maths)),
             Inline::Link { shown, .. } | Inline::Value { shown, .. } => {
-                out.push_str(&plain(shown));
+                out.push_str(&words(shown, maths));
             }
             Inline::Reference { shown, .. } => out.push_str(shown),
             Inline::Anchor { number, .. } => out.push_str(number),

@@ -34,6 +34,7 @@ pub mod pdf;
 pub mod place;
 pub mod print;
 pub mod recipe;
+pub mod spell;
 pub mod sums;
 pub mod templates;
 mod tex;

@@ -1,4 +1,5 @@
-//! SHA256SUMS: what a report consists of, in the form of `sha256sum`.
+//! SHA256SUMS: what a report consists of, in the form of `sha256sum`; and SHA256SUMS.local: what was last
+//! written into a folder, with what is built beside a report and never committed.
 
 use super::assemble::Files;
 use crate::digest::sha256;
@@ -7,6 +8,9 @@ use std::path::{Component, Path};
 
 /// The file's name in the report's folder.
 pub const NAME: &str = "SHA256SUMS";
+
+/// The name of the list of everything that was last written into a folder; it is never committed.
+pub const LOCAL: &str = "SHA256SUMS.local";
 
 /// One line.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -56,7 +60,7 @@ pub fn read(text: &str) -> Result<Vec<Entry>, Malformed> {
         if !is_inside(path) {
             return Err(malformed("its path is not one of a file below this folder"));
         }
-        if path == NAME {
+        if path == NAME || path == LOCAL {
             return Err(malformed("the list cannot list itself"));
         }
         if !paths.insert(path) {

@@ -121,7 +121,7 @@ fn nothing_is_written_outside_the_output() {
         entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
     };
     symlink("../outside", folder.join("out/data")).unwrap();
-    let paper = ["paper", "--profile=quick", "--figure=4", "--out=out"];
+    let paper = ["paper", "--profile=quick", "--figure=4", "--out=out", "--force"];
     refused(folder, &paper, &["--out", "data", "symbolic link"]);
     assert_eq!(names("outside"), Vec::<String>::new());
     assert_eq!(names("out"), ["data"], "nothing is half-written");
@@ -130,7 +130,8 @@ fn nothing_is_written_outside_the_output() {
     std::fs::create_dir(folder.join("good/data")).unwrap();
     symlink("../../outside/kept", folder.join("good/data/fig04.csv")).unwrap();
     symlink("good", folder.join("link")).unwrap();
-    let (code, error) = run(folder, &["paper", "--profile=quick", "--figure=4", "--out=link"]);
+    let paper = ["paper", "--profile=quick", "--figure=4", "--out=link", "--force"];
+    let (code, error) = run(folder, &paper);
     assert_eq!(code, Some(0), "{error}");
     assert_eq!(std::fs::read_to_string(folder.join("outside/kept")).unwrap(), "kept");
     assert!(!folder.join("good/data/fig04.csv").is_symlink());

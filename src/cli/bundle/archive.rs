@@ -2,10 +2,10 @@
 
 use super::super::Failure;
 use impact_paper::digest::sha256;
+use impact_paper::input::new_beside;
 use impact_paper::report::sums;
 use std::collections::BTreeMap;
-use std::fmt::Display;
-use std::io::Write;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 use zip::write::SimpleFileOptions;
@@ -25,14 +25,15 @@ impl Archive {
     /// An empty archive, which will be at `path` once it is complete.
     ///
     /// # Errors
-    /// Exit code 2 if nothing can be written there.
+    /// Exit code 2 or 4 if nothing can be written there.
     pub fn at(path: &Path, top: &str) -> Result<Self, Failure> {
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
         let folder = folder.unwrap_or(Path::new("."));
         if !folder.is_dir() || path.is_dir() {
-            return Err(unwritable(path, &"its folder is not there, or it is one itself"));
+            let what = "its folder is not there, or it is one itself";
+            return Err(failed(path, io::Error::new(io::ErrorKind::NotADirectory, what)));
         }
-        let file = NamedTempFile::new_in(folder).map_err(|error| unwritable(path, &error))?;
+        let file = new_beside(path).map_err(|error| failed(path, error))?;
         let (path, top) = (path.to_path_buf(), top.to_string());
         Ok(Archive { path, top, zip: ZipWriter::new(file), files: BTreeMap::new() })
     }
@@ -40,7 +41,7 @@ impl Archive {
     /// Adds a file.
     ///
     /// # Errors
-    /// Exit code 2 if it cannot be written, or if there is one under this path.
+    /// Exit code 2 or 4 if it cannot be written, 2 if there is one under this path.
     pub fn add(&mut self, path: &str, bytes: &[u8], is_program: bool) -> Result<(), Failure> {
         if self.files.contains_key(path) {
             let what =
@@ -53,8 +54,8 @@ impl Archive {
             .unix_permissions(if is_program { 0o755 } else { 0o644 });
         self.zip
             .start_file(format!("{}/{path}", self.top), options)
-            .map_err(|error| unwritable(&self.path, &error))?;
-        self.zip.write_all(bytes).map_err(|error| unwritable(&self.path, &error))?;
+            .map_err(|error| failed(&self.path, error.into()))?;
+        self.zip.write_all(bytes).map_err(|error| failed(&self.path, error))?;
         self.files.insert(path.into(), (sha256(bytes), bytes.len()));
         Ok(())
     }
@@ -73,14 +74,14 @@ impl Archive {
     /// size in bytes.
     ///
     /// # Errors
-    /// Exit code 2 if it cannot be written.
+    /// Exit code 2 or 4 if it cannot be written.
     pub fn finish(mut self) -> Result<(usize, u64), Failure> {
         let line = |(path, (digest, _)): (&String, &(String, usize))| format!("{digest}  {path}\n");
         let list: String = self.files.iter().map(line).collect();
         self.add(sums::NAME, list.as_bytes(), false)?;
         let path = self.path;
-        let file = self.zip.finish().map_err(|error| unwritable(&path, &error))?;
-        let failed = |error: std::io::Error| unwritable(&path, &error);
+        let failed = |error: io::Error| failed(&path, error);
+        let file = self.zip.finish().map_err(|error| failed(error.into()))?;
         file.as_file().sync_all().map_err(failed)?;
         let size = file.as_file().metadata().map_err(failed)?.len();
         file.persist(&path).map_err(|error| failed(error.error))?;
@@ -88,7 +89,7 @@ impl Archive {
     }
 }
 
-fn unwritable(path: &Path, error: &dyn Display) -> Failure {
+fn failed(path: &Path, error: io::Error) -> Failure {
     let path = path.display();
-    Failure::input(format!("{path}: {error}; give an archive that can be written"))
+    Failure::io(&error, format!("{path}: {error}; give an archive that can be written"))
 }

@@ -7,6 +7,7 @@ mod told;
 mod tree;
 mod vendored;
 
+use super::output::{self, Force};
 use super::sources::Sources;
 use super::{Failure, certificate, folder, make, stdout, verify, work};
 use archive::Archive;
@@ -32,6 +33,8 @@ pub struct Args {
     /// Folder of the saved results; they must be fresh.
     #[arg(long, value_name = "DIR", default_value = "target/results")]
     results: PathBuf,
+    #[command(flatten)]
+    force: Force,
     /// Leave something out; may be repeated.
     #[arg(long, value_name = "WHAT")]
     without: Vec<Part>,
@@ -51,16 +54,14 @@ const PAPER: &str = "paper";
 
 /// Runs the verb.
 pub fn run(args: Args) -> Result<(), Failure> {
+    output::free("bundle", &args.out, args.force)?;
     let progress = work::progress();
     let tree = Tree::here()?;
     let report = Path::new(PAPER);
     let listed = verify::listed(report, &progress)?;
     if let Some(first) = listed.faults.first() {
         let what = format!("bundle: paper/ is not what its {} lists ({first})", sums::NAME);
-        return Err(Failure {
-            code: 1,
-            message: format!("{what}; make it anew with `make paper`"),
-        });
+        return Err(Failure::check(format!("{what}; make it anew with `make paper`")));
     }
     let facts = certificate::Facts::of(report)?;
     let top = format!("impact-paper-{}", env!("CARGO_PKG_VERSION"));
@@ -100,15 +101,17 @@ pub fn run(args: Args) -> Result<(), Failure> {
 /// Exit code 1 if the results give another report than the committed one.
 fn beside(args: &Args, profile: Profile, progress: &Progress) -> Result<Files, Failure> {
     let sources = Sources::of(None, None, args.results.clone());
-    let made = make::whole(&sources, profile, cfg!(feature = "pdf"), progress)?;
+    let (made, _) = make::whole(&sources, profile, cfg!(feature = "pdf"), progress)?;
     for (path, bytes) in &made.committed {
         if folder::read(Path::new(PAPER), path).ok().as_ref() != Some(bytes) {
             let what = format!("bundle: the results do not give paper/{path} as it is committed");
-            let message = format!("{what}; make it anew with `make paper` and commit it");
-            return Err(Failure { code: 1, message });
+            return Err(Failure::check(format!(
+                "{what}; make it anew with `make paper` and commit it"
+            )));
         }
     }
-    Ok(made.beside)
+    let list = sums::write(&made.beside).into_bytes();
+    Ok(made.beside.into_iter().chain([(sums::LOCAL.to_string(), list)]).collect())
 }
 
 fn read(root: &Path, path: &str) -> Result<Vec<u8>, Failure> {

@@ -52,6 +52,7 @@ fn of_output(path: &str) -> String {
         "values.json" => "Every number that the report states, with its origin.",
         "ledger.md" | "ledger.json" => "Every claim of the paper with its verdict.",
         "SHA256SUMS" => "SHA-256 of every other file of the report.",
+        "SHA256SUMS.local" => "SHA-256 of what is built beside the report.",
         _ => {
             let name = path.rsplit('/').next().unwrap_or(path);
             let figure = figure(name);

@@ -1,6 +1,7 @@
 //! The committed source, as git lists it.
 
 use super::super::{Failure, git};
+use impact_paper::input::one_line;
 use impact_paper::report::sums;
 use std::io::ErrorKind;
 
@@ -21,8 +22,11 @@ impl Tree {
         let remedy = "run it in the top folder of a clone of impact-paper";
         let needed = |what: String| Failure::input(format!("bundle: {what}; {remedy}"));
         let ask = |arguments: &[&str]| match git::git(arguments) {
-            Ok(Some(bytes)) => Ok(String::from_utf8_lossy(&bytes).into_owned()),
-            Ok(None) => Err(needed("this is no clone of git with a commit".into())),
+            Ok(Ok(bytes)) => Ok(String::from_utf8_lossy(&bytes).into_owned()),
+            Ok(Err(told)) => Err(needed(format!(
+                "this is no clone of git with a commit ({})",
+                one_line(&told, 200)
+            ))),
             Err(error) if error.kind() == ErrorKind::NotFound => Err(Failure::input(
                 "bundle: it packs what is committed, and there is no git; install git",
             )),

@@ -4,8 +4,10 @@ use super::super::{Failure, folder};
 use super::archive::Archive;
 use super::read;
 use impact_paper::experiments::Progress;
+use std::fs::File;
 use std::path::Path;
-use std::process::Command;
+use std::process::{Command, Stdio};
+use std::time::Duration;
 
 /// Where cargo looks for it; a setting in the source would be in the way of this one.
 const SETTINGS: &str = ".cargo/config.toml";
@@ -35,14 +37,31 @@ pub fn add(archive: &mut Archive, progress: &Progress) -> Result<(), Failure> {
     let vendor = temporary.path().join("vendor");
     progress.say("collecting the source of all crates");
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let output = Command::new(cargo)
+    // Into a file: a pipe that nobody reads could fill up and stop it.
+    let log = temporary.path().join("log");
+    let log_file = File::create(&log).map_err(|e| failed(&e.to_string()))?;
+    let mut child = Command::new(cargo)
         .args(["vendor", "--locked", "--versioned-dirs", "--quiet"])
         .arg(&vendor)
-        .output()
+        .stdout(Stdio::null())
+        .stderr(log_file)
+        .spawn()
         .map_err(|e| failed(&e.to_string()))?;
+    let status = loop {
+        if let Some(status) = child.try_wait().map_err(|e| failed(&e.to_string()))? {
+            break status;
+        }
+        if progress.stopped() {
+            // It may have ended by itself, of the same Ctrl-C.
+            let _ = child.kill();
+            let _ = child.wait();
+        }
+        progress.check()?;
+        std::thread::sleep(Duration::from_millis(50));
+    };
     progress.check()?;
-    if !output.status.success() {
-        let told = String::from_utf8_lossy(&output.stderr);
+    if !status.success() {
+        let told = std::fs::read_to_string(&log).unwrap_or_default();
         let line = told.lines().find(|line| line.starts_with("error")).unwrap_or("it failed");
         return Err(failed(line));
     }

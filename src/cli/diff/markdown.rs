@@ -4,6 +4,7 @@ use super::text::{amount, fate};
 use super::{count, signed};
 use impact_paper::report::compare::{Change, ClaimChange, Diff, TableChange};
 use impact_paper::report::markdown::escaped;
+use impact_paper::report::spell;
 
 /// Of more rows the largest are shown.
 const ROWS: usize = 40;
@@ -102,10 +103,11 @@ fn weight(change: &Change) -> f64 {
 
 /// One line of plain words for a cell.
 fn cell(text: &str) -> String {
-    let line: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+    let line: String =
+        spell::text(text).chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
     let cut = line.char_indices().nth(WIDTH).map(|(i, _)| format!("{}…", &line[..i]));
-    // Dollars would begin mathematics, an at-sign would call somebody.
-    escaped(&cut.unwrap_or(line).replace('$', "").replace('@', "@\u{200b}"))
+    // An at-sign would call somebody.
+    escaped(&cut.unwrap_or(line).replace('@', "@\u{200b}"))
 }
 
 fn pair(pair: &Option<[String; 2]>) -> String {

@@ -4,7 +4,7 @@ mod markdown;
 mod revision;
 mod text;
 
-use super::output::Staging;
+use super::output::{Force, Staging};
 use super::{Failure, folder, stdout, work};
 use impact_paper::report::Files;
 use impact_paper::report::compare::{self, Diff, Parts};
@@ -36,6 +36,8 @@ pub struct Args {
     /// Draw the data of figures that differ into this folder, old and new over each other.
     #[arg(long, value_name = "DIR")]
     overlay: Option<PathBuf>,
+    #[command(flatten)]
+    force: Force,
     /// End with exit code 1 if anything differs.
     #[arg(long)]
     exit_code: bool,
@@ -72,7 +74,8 @@ pub fn run(args: Args) -> Result<(), Failure> {
     if let Some(folder) = &args.overlay {
         let drawn = compare::overlays(&diff, &before, &after).map_err(unusable)?;
         if !drawn.is_empty() {
-            Staging::below(folder, "--overlay")?.place(&drawn, &work::progress())?;
+            let staging = Staging::below(folder, "--overlay", args.force)?;
+            staging.place(&drawn, &work::progress())?;
         }
     }
     stdout::print(&match args.format() {
@@ -83,7 +86,12 @@ pub fn run(args: Args) -> Result<(), Failure> {
     if diff.is_empty() || !args.exit_code {
         return Ok(());
     }
-    Err(Failure { code: 1, message: format!("{} and {} differ", args.old, args.new) })
+    Err(Failure::check(format!("{} and {} differ", args.old, args.new)))
+}
+
+/// `sec7_jump: reproduced -> differs`.
+pub fn fate(change: &compare::ClaimChange) -> String {
+    format!("{}: {}", change.id, text::fate(change.before.as_deref(), change.after.as_deref()))
 }
 
 /// The files of a report by its folder or revision, without what is built beside.
@@ -111,7 +119,7 @@ fn json(old: &str, new: &str, diff: &Diff) -> String {
 }
 
 /// `3 numbers`, `1 number`, `no number`.
-fn count(number: usize, noun: &str) -> String {
+pub fn count(number: usize, noun: &str) -> String {
     match number {
         0 => format!("no {noun}"),
         1 => format!("1 {noun}"),

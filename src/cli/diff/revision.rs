@@ -1,6 +1,7 @@
 //! The report of a revision of git, read by the git command.
 
 use super::super::Failure;
+use impact_paper::input::one_line;
 use impact_paper::report::{Files, sums};
 use std::io::ErrorKind;
 
@@ -12,36 +13,40 @@ const FOLDER: &str = "./paper";
 /// # Errors
 /// Exit code 2 if there is no such folder or revision, or no git.
 pub fn files(name: &str) -> Result<Files, Failure> {
-    let neither = || {
-        let what = "neither a folder nor a revision of git here";
+    let neither = |told: String| {
+        let told = if told.is_empty() { told } else { format!(" ({})", one_line(&told, 200)) };
+        let what = format!("neither a folder nor a revision of git here{told}");
         Failure::input(format!("{name}: {what}; give the folder of a report, a tag or a commit"))
     };
     // What git would take for an option, a path or a range is no revision.
     let odd = |c: char| c.is_control() || c.is_whitespace() || c == ':';
     if name.is_empty() || name.starts_with('-') || name.contains(odd) || name.contains("..") {
-        return Err(neither());
+        return Err(neither(String::new()));
     }
     let commit = format!("{name}^{{commit}}");
-    let commit = git(name, &["rev-parse", "--verify", "--quiet", &commit])?.ok_or_else(neither)?;
+    let commit = git(name, &["rev-parse", "--verify", &commit])?.map_err(neither)?;
     let commit = String::from_utf8_lossy(&commit).trim().to_string();
     if commit.is_empty() || !commit.bytes().all(|byte| byte.is_ascii_hexdigit()) {
-        return Err(neither());
+        return Err(neither(String::new()));
     }
-    let no_report = || Failure::input(format!("{name}: this revision has no folder paper/ here"));
+    let no_report = |told: String| {
+        let told = one_line(&told, 200);
+        Failure::input(format!("{name}: this revision has no folder paper/ here ({told})"))
+    };
     let tree = format!("{commit}:{FOLDER}");
     let list = git(name, &["ls-tree", "-r", "-z", "--full-tree", "--name-only", &tree])?;
-    let list = String::from_utf8_lossy(&list.ok_or_else(no_report)?).into_owned();
+    let list = String::from_utf8_lossy(&list.map_err(no_report)?).into_owned();
     let mut files = Files::new();
     for path in list.split('\0').filter(|path| sums::is_inside(path)) {
         // As it is stored: `git show` might convert it.
         let bytes = git(name, &["cat-file", "blob", &format!("{commit}:{FOLDER}/{path}")])?;
-        files.insert(path.to_string(), bytes.ok_or_else(no_report)?);
+        files.insert(path.to_string(), bytes.map_err(no_report)?);
     }
     Ok(files)
 }
 
-/// What git prints; None if it fails.
-fn git(name: &str, arguments: &[&str]) -> Result<Option<Vec<u8>>, Failure> {
+/// What git prints, or why it does not.
+fn git(name: &str, arguments: &[&str]) -> Result<Result<Vec<u8>, String>, Failure> {
     super::super::git::git(arguments).map_err(|error| match error.kind() {
         ErrorKind::NotFound => Failure::input(format!(
             "{name}: no such folder, and there is no git to ask for a revision; install git, or give a folder"

@@ -2,6 +2,7 @@
 
 use super::{count, signed};
 use impact_paper::report::compare::{Change, ClaimChange, Diff, Largest, Row, TableChange};
+use impact_paper::report::spell;
 
 /// All of it.
 pub fn text(old: &str, new: &str, diff: &Diff) -> String {
@@ -41,19 +42,19 @@ pub fn fate(before: Option<&str>, after: Option<&str>) -> String {
 }
 
 fn claim(change: &ClaimChange) -> String {
-    let verdict = fate(change.before.as_deref(), change.after.as_deref());
     let fields =
         [("ours", &change.ours), ("printed", &change.printed), ("tolerance", &change.tolerance)];
     let told = fields.into_iter().filter_map(|(name, pair)| {
         pair.as_ref().map(|[before, after]| format!("; {name}: {before} -> {after}"))
     });
-    format!("{}: {verdict}{}", change.id, told.collect::<String>())
+    super::fate(change) + &told.collect::<String>()
 }
 
 fn value(change: &Change) -> String {
     let difference = change.difference.filter(|_| change.before != change.after);
     let difference = difference.map(|d| format!("; Δ {}", signed(d))).unwrap_or_default();
     let sigmas = change.sigmas.map(|s| format!(", {} σ", signed(s))).unwrap_or_default();
+    let change = spell::text(&change.to_string());
     format!("{change}{difference}{}", if difference.is_empty() { "" } else { &sigmas })
 }
 

@@ -1,0 +1,118 @@
+//! Mathematics for terminals: the little TeX of titles, notes and values as characters.
+
+/// Text in which mathematics stands between dollars.
+pub fn text(text: &str) -> String {
+    let piece =
+        |(i, piece): (usize, &str)| if i % 2 == 0 { piece.to_string() } else { maths(piece) };
+    text.split('$').enumerate().map(piece).collect()
+}
+
+/// `p_{\mathrm{crit}}` as `p_crit`, `f_{N,p}` as `f_(N,p)`, `\sigma^{-3}` as `σ^-3`. A name that is not
+/// known stands without its backslash.
+pub fn maths(tex: &str) -> String {
+    let mut out = String::new();
+    let mut rest = tex;
+    while let Some(c) = rest.chars().next() {
+        rest = &rest[c.len_utf8()..];
+        match c {
+            '\\' => {
+                let end = rest.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(rest.len());
+                let end = if end > 0 { end } else { rest.chars().next().map_or(0, char::len_utf8) };
+                let (name, after) = rest.split_at(end);
+                rest = after;
+                out.push_str(named(name));
+            }
+            '_' | '^' => {
+                let (low, after) = group(rest);
+                rest = after;
+                let low = maths(low);
+                let word = |c: char| c.is_alphanumeric() || "+-−±*'.".contains(c);
+                out.push(c);
+                out.push_str(&if low.chars().all(word) { low } else { format!("({low})") });
+            }
+            '{' | '}' => (),
+            '~' => out.push(' '),
+            c => out.push(c),
+        }
+    }
+    out
+}
+
+/// What a subscript holds, and what comes after it: a group, a name or one character.
+fn group(text: &str) -> (&str, &str) {
+    let mut depth = 0;
+    for (i, c) in text.char_indices() {
+        match c {
+            '{' => depth += 1,
+            '}' => depth -= 1,
+            _ => (),
+        }
+        if depth == 0 {
+            let end = i + c.len_utf8();
+            let name = text[end..].find(|c: char| !c.is_ascii_alphabetic());
+            let name = name.map_or(text.len(), |length| end + length);
+            return text.split_at(if c == '\\' { name } else { end });
+        }
+    }
+    (text, "")
+}
+
+fn named(name: &str) -> &str {
+    match name {
+        "alpha" => "α",
+        "beta" => "β",
+        "gamma" => "γ",
+        "Gamma" => "Γ",
+        "delta" => "δ",
+        "Delta" => "Δ",
+        "epsilon" | "varepsilon" => "ε",
+        "kappa" => "κ",
+        "lambda" => "λ",
+        "mu" => "µ",
+        "nu" => "ν",
+        "pi" => "π",
+        "rho" => "ρ",
+        "sigma" => "σ",
+        "tau" => "τ",
+        "phi" | "varphi" => "φ",
+        "Phi" => "Φ",
+        "omega" => "ω",
+        "Omega" => "Ω",
+        "infty" => "∞",
+        "pm" => "±",
+        "times" => "×",
+        "cdot" => "·",
+        "approx" => "≈",
+        "le" | "leq" => "≤",
+        "ge" | "geq" => "≥",
+        "to" => "→",
+        "dots" | "ldots" => "…",
+        "mathrm" | "mathit" | "mathbf" | "text" | "left" | "right" | "operatorname" | "!" => "",
+        "," | ";" | ":" | " " | "quad" | "thinspace" => " ",
+        other => other,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tex_is_read_aloud() {
+        for (tex, told) in [
+            (r"p_{\mathrm{crit}}", "p_crit"),
+            (r"f_{N,p}(k)", "f_(N,p)(k)"),
+            (r"\mathrm{tol} = 10^{-3}", "tol = 10^-3"),
+            (r"k_\pm", "k_±"),
+            (r"\phi_N^1(k)", "φ_N^1(k)"),
+            (r"\Delta_j(t)", "Δ_j(t)"),
+            (r"8.87\times10^{-4}\,\%", "8.87×10^-4 %"),
+            (r"a_{b", "a_b"),
+            ("x^", "x^"),
+            ("\\", ""),
+        ] {
+            assert_eq!(maths(tex), told);
+        }
+        assert_eq!(text(r"Runge–Kutta with $\sigma_i$, 3"), "Runge–Kutta with σ_i, 3");
+    }
+}
