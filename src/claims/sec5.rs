@@ -56,15 +56,20 @@ fn motion(segment: &Segment, s: &Statement) -> Result<Finding, Error> {
 }
 
 /// The masses that take part in impacts of these gaps, in a chain of `masses` masses.
-pub(crate) fn masses_in(gaps: impl Iterator<Item = usize>, masses: usize) -> usize {
+fn masses_in(gaps: impl Iterator<Item = usize>, masses: usize) -> usize {
     let both_sides = gaps.flat_map(|gap| [gap, gap + 1]);
     both_sides.filter(|body| (1..=masses).contains(body)).collect::<BTreeSet<_>>().len()
+}
+
+/// The masses that take part in the impacts of a segment.
+pub(crate) fn masses_of(segment: &Segment) -> usize {
+    masses_in(segment.impacts.iter().map(|impact| impact.gap), segment.masses)
 }
 
 fn masses_of_circuit(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
     let segment = &e.results.segments()?.fig05;
     let gaps: BTreeSet<usize> = segment.impacts.iter().map(|i| i.gap).collect();
-    let found = masses_in(gaps.iter().copied(), segment.masses);
+    let found = masses_of(segment);
     // Each run of neighbouring gaps has one body more than gaps; walls are bodies but no masses.
     let runs = gaps.iter().filter(|&&gap| gap == 0 || !gaps.contains(&(gap - 1))).count();
     let walls = gaps.iter().filter(|&&gap| gap == 0 || gap == segment.masses).count();

@@ -140,7 +140,7 @@ fn fits(parameters: &HistoryParams, unit: &Unit, runs: &Part) -> bool {
     runs.len() == unit.realisations.len() && runs.iter().flatten().all(fits)
 }
 
-fn join(
+pub(crate) fn join(
     parameters: &HistoryParams,
     parts: Vec<Vec<Part>>,
     progress: &Progress,

@@ -42,7 +42,7 @@ impl LongMap {
 pub const CUTTING: Cutting<ProtocolParams, Part, LongMap> =
     Cutting { rows: protocol::rows, part: protocol::part, fits: protocol::fits, join };
 
-fn join(
+pub(crate) fn join(
     parameters: &ProtocolParams,
     parts: Vec<Vec<Part>>,
     progress: &Progress,

@@ -142,7 +142,7 @@ fn fits(parameters: &NucleationParams, unit: &Unit, firsts: &Part) -> bool {
     firsts.len() == unit.realisations.len() && firsts.iter().all(fits)
 }
 
-fn join(
+pub(crate) fn join(
     parameters: &NucleationParams,
     parts: Vec<Vec<Part>>,
     progress: &Progress,

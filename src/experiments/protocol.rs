@@ -190,7 +190,7 @@ pub(super) fn fits(parameters: &ProtocolParams, unit: &Unit, runs: &Part) -> boo
     runs.len() == unit.realisations.len() && runs.iter().flatten().all(fits)
 }
 
-pub(super) fn join(
+pub(crate) fn join(
     parameters: &ProtocolParams,
     parts: Vec<Vec<Part>>,
     progress: &Progress,

@@ -57,7 +57,7 @@ fn fits(parameters: &ProtocolsParams, unit: &Unit, runs: &Part) -> bool {
     within(parameters, unit).is_some_and(|(map, unit)| protocol::fits(map, &unit, runs))
 }
 
-fn join(
+pub(crate) fn join(
     parameters: &ProtocolsParams,
     parts: Vec<Vec<Part>>,
     progress: &Progress,

@@ -211,7 +211,7 @@ fn tally(
 }
 
 /// Reduces the tally of one σ.
-fn reduce(parameters: &SweepParams, sigma: f64, tally: Tally) -> Sample {
+pub(crate) fn reduce(parameters: &SweepParams, sigma: f64, tally: Tally) -> Sample {
     let Tally { distinct, kept_impacts, kept_masses, rejected, failed, first_failure, total } =
         tally;
     let mut counts = vec![0; parameters.chain.gaps() + 1];

@@ -2,7 +2,7 @@
 
 use super::markdown;
 use super::print::{Style, print};
-use super::values::{Digits, Number, Value};
+use super::values::{Digits, Number, Value, origin};
 use crate::claims::{Basis, Claim, Digits as ClaimDigits, Piece, Text, Verdict, split};
 use serde::Serialize;
 
@@ -84,7 +84,7 @@ fn digits_of(number: &crate::claims::Number) -> Number {
 /// and `score.exact_of`, … all.
 pub fn scorecard(claims: &[Claim]) -> Vec<Value> {
     let value = |name: &str, count: usize| {
-        Value::integer(format!("score.{name}"), count).source("claims", "").data_only()
+        Value::integer(format!("score.{name}"), count).source(origin(scorecard), "").data_only()
     };
     let count = |verdict| claims.iter().filter(|claim| claim.verdict == verdict).count();
     let verdict = |verdict: &Verdict| value(&verdict.words().replace(' ', "_"), count(*verdict));

@@ -151,7 +151,9 @@ fn failure(error: tera::Error) -> Error {
 fn context(values: &Registry) -> Context {
     let mut marks: BTreeMap<&str, BTreeMap<&str, String>> = BTreeMap::new();
     let mut raw: BTreeMap<&str, serde_json::Value> = BTreeMap::new();
-    for value in values.iter() {
+    let own = values.iter().map(|value| (value.id.as_str(), value));
+    let others = values.names().filter_map(|(name, value)| Some((name, value?)));
+    for (name, value) in own.chain(others) {
         let number = match &value.number {
             Number::Integer(n) => (*n).into(),
             Number::Real { value, .. } => (*value).into(),
@@ -159,10 +161,10 @@ fn context(values: &Registry) -> Context {
             Number::Text(text) => text.clone().into(),
         };
         let mark = Mark { id: value.id.clone(), style: Style::default() }.write();
-        match value.id.split_once('.') {
+        match name.split_once('.') {
             None => {
-                marks.entry("v").or_default().insert(&value.id, mark);
-                raw.insert(&value.id, number);
+                marks.entry("v").or_default().insert(name, mark);
+                raw.insert(name, number);
             }
             Some((group, name)) => {
                 marks.entry(group).or_default().insert(name, mark);

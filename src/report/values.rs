@@ -90,6 +90,9 @@ pub struct Value {
     /// What a reader should know beside it.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub note: String,
+    /// The id of the value that this name stands for: it is no value of its own then.
+    #[serde(skip)]
+    pub(super) same: Option<String>,
     /// Kept in `values.json` for readers of the data; no template needs to name it.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub for_data_only: bool,
@@ -105,8 +108,15 @@ impl Value {
             source: String::new(),
             experiment: String::new(),
             note: String::new(),
+            same: None,
             for_data_only: false,
         }
+    }
+
+    /// Another name, for templates, of the value `of`: a number has one id.
+    pub fn same(id: impl Into<String>, of: impl Into<String>) -> Self {
+        let words = Number::Text(String::new());
+        Value { same: Some(of.into()), ..Value::new(id, words, Kind::Exact) }
     }
 
     /// An exact integer.
@@ -176,8 +186,8 @@ impl Value {
     }
 
     /// With the path of the item that computed it and the experiment it was read from.
-    pub fn source(mut self, item: impl Into<String>, experiment: impl Into<String>) -> Self {
-        self.source = item.into();
+    pub fn source(mut self, item: Origin, experiment: impl Into<String>) -> Self {
+        self.source = item.0;
         self.experiment = experiment.into();
         self
     }
@@ -205,9 +215,29 @@ impl Value {
     }
 }
 
-/// All values of a report, by id.
+/// The path of the function that computes a value.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Origin(String);
+
+/// The origin of what a function computes. The compiler knows the function, so its path is never
+/// typed: it follows a function that moves, and one that is gone is an error.
+pub fn origin<F>(_: F) -> Origin {
+    let path = std::any::type_name::<F>().replace(concat!(env!("CARGO_CRATE_NAME"), "::"), "");
+    let (Some(from), Some(to)) = (path.find('<'), path.rfind('>')) else { return Origin(path) };
+    // A method that stands in another module than its type is `module::<impl other::Type>::method`; of one
+    // of a generic type the parameters go.
+    let other = path[from..to].strip_prefix("<impl ").and_then(|own| own.rsplit("::").next());
+    Origin(format!("{}{}{}", &path[..from], other.unwrap_or_default(), &path[to + 1..]))
+}
+
+/// All values of a report, by id, and other names that templates have for some.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Registry(BTreeMap<String, Value>);
+#[serde(transparent)]
+pub struct Registry {
+    values: BTreeMap<String, Value>,
+    #[serde(skip)]
+    names: BTreeMap<String, String>,
+}
 
 impl Registry {
     /// An empty registry.
@@ -227,13 +257,11 @@ impl Registry {
         if !value.is_finite() {
             return Err(Error::NotFinite(value.id));
         }
-        match self.0.entry(value.id.clone()) {
-            std::collections::btree_map::Entry::Occupied(_) => Err(Error::DuplicateId(value.id)),
-            std::collections::btree_map::Entry::Vacant(place) => {
-                place.insert(value);
-                Ok(())
-            }
+        if self.values.contains_key(&value.id) || self.names.contains_key(&value.id) {
+            return Err(Error::DuplicateId(value.id));
         }
+        self.put(value);
+        Ok(())
     }
 
     /// Adds several values.
@@ -246,32 +274,52 @@ impl Registry {
 
     /// Puts a value in the place of the one with its id.
     pub fn put(&mut self, value: Value) {
-        self.0.insert(value.id.clone(), value);
+        match value.same {
+            Some(of) => self.names.insert(value.id, of).map(|_| ()),
+            None => self.values.insert(value.id.clone(), value).map(|_| ()),
+        };
     }
 
-    /// Takes a value out.
+    /// Puts back what `before` has under an id or a name.
+    pub fn restore(&mut self, id: &str, before: &Registry) {
+        self.remove(id);
+        if let Some(of) = before.names.get(id) {
+            self.names.insert(id.into(), of.clone());
+        }
+        if let Some(value) = before.values.get(id) {
+            self.values.insert(id.into(), value.clone());
+        }
+    }
+
+    /// Takes a value or a name out.
     pub fn remove(&mut self, id: &str) {
-        self.0.remove(id);
+        self.values.remove(id);
+        self.names.remove(id);
     }
 
-    /// The value with this id.
+    /// The value with this id or name.
     pub fn get(&self, id: &str) -> Option<&Value> {
-        self.0.get(id)
+        self.values.get(self.names.get(id).map_or(id, String::as_str))
+    }
+
+    /// Other names, and the values that they stand for (none for one that is not there).
+    pub fn names(&self) -> impl Iterator<Item = (&str, Option<&Value>)> {
+        self.names.iter().map(|(name, of)| (name.as_str(), self.values.get(of)))
     }
 
     /// All values, sorted by id.
     pub fn iter(&self) -> impl Iterator<Item = &Value> {
-        self.0.values()
+        self.values.values()
     }
 
     /// How many there are.
     pub fn len(&self) -> usize {
-        self.0.len()
+        self.values.len()
     }
 
     /// None at all?
     pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
+        self.values.is_empty()
     }
 }
 

@@ -9,7 +9,7 @@ use crate::numerics::statistics::last_rise;
 use crate::params::{Chain, ChainCurve, ChainsParams};
 use rayon::prelude::*;
 
-pub(super) fn join(
+pub(crate) fn join(
     parameters: &ChainsParams,
     parts: Vec<Vec<Part>>,
     progress: &Progress,
@@ -60,7 +60,7 @@ fn ensemble(sizes: &[usize], sigma: f64, found: Part) -> Ensemble {
     }
 }
 
-fn curve(parameters: &ChainsParams, own: &ChainCurve, rows: Vec<Ensemble>) -> Curve {
+pub(crate) fn curve(parameters: &ChainsParams, own: &ChainCurve, rows: Vec<Ensemble>) -> Curve {
     let (sizes, chain) = (sizes(parameters, own), chain(parameters, own));
     let reaches = reaches(parameters, own);
     let in_window = |window: usize| -> Vec<Vec<f64>> {

@@ -3,7 +3,7 @@
 //! One kind of run serves all: a chain goes through several windows, and the different gaps with an
 //! impact in each are counted, those of a long chain piece by piece.
 
-mod joining;
+pub(crate) mod joining;
 mod run;
 
 pub use run::FREQUENCIES;

@@ -90,7 +90,7 @@ pub(super) fn drawn(units: &[Unit], work: u64) -> Vec<usize> {
 
 /// The audit of an experiment as an experiment of its own: one unit of work, the result is an
 /// [`Audit`].
-pub(super) struct Audited<'a, P: 'static, T: 'static, U: 'static>(pub &'a Deep<P, T, U>);
+pub(crate) struct Audited<'a, P: 'static, T: 'static, U: 'static>(pub &'a Deep<P, T, U>);
 
 impl<P: Serialize + Sync, T: Json, U: Json> Audited<'_, P, T, U> {
     /// The audit: the saved one if it is fresh, else a new one.

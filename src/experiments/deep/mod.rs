@@ -5,7 +5,7 @@
 //! source as long as an audit allows: some units, drawn by lot, are run again, and what they give is
 //! compared, byte by byte, with what was committed.
 
-mod audit;
+pub(crate) mod audit;
 
 pub use audit::{Audit, Carriage, Distance};
 

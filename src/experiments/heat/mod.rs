@@ -1,7 +1,7 @@
 //! How hot a running chain is: the variance of the free parts, and the balance of energy that sets it.
 
 mod realisation;
-mod warmth;
+pub(crate) mod warmth;
 
 use self::realisation::realisation;
 use super::cutting::{Cutting, Row, Unit};

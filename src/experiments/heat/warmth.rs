@@ -57,7 +57,7 @@ fn work(row: &HeatRow, run: &Run) -> [f64; 2] {
 }
 
 /// The mean over ensembles of the ratio of the two sums; a realisation has the same forces in all.
-fn balance(realisations: usize, rows: &[HeatRow], parts: &[Part]) -> Option<Estimate> {
+pub(crate) fn balance(realisations: usize, rows: &[HeatRow], parts: &[Part]) -> Option<Estimate> {
     let all: Vec<Vec<[f64; 2]>> = rows
         .iter()
         .zip(parts)
@@ -82,7 +82,7 @@ fn gap(chain: &Chain, sigma: f64) -> Result<ImpactProbability, circuits::Error> 
     ImpactProbability::new(sigma, d, omega, big_omega)
 }
 
-fn warmth(
+pub(crate) fn warmth(
     parameters: &HeatParams,
     row: &HeatRow,
     chain: &Chain,

@@ -148,7 +148,7 @@ pub(super) fn eq38(census: &Census) -> Cases {
 /// A formula for N vertices and length k.
 type Formula = fn(usize, usize) -> Option<Fraction>;
 
-pub(super) fn class_ranges(census: &Census) -> Vec<ClassRange> {
+pub(crate) fn class_ranges(census: &Census) -> Vec<ClassRange> {
     let printed: [(u32, Formula, &[usize]); 4] = [
         (33, doubled, &[1]),
         (35, three_visits, &[0, 1]),

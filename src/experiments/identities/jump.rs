@@ -63,7 +63,7 @@ pub(super) fn slopes(n: usize) -> Cases {
     cases
 }
 
-pub(super) fn touching(n: usize) -> f64 {
+pub(crate) fn touching(n: usize) -> f64 {
     // f has real zeros for k > 0 where its largest value, at k = (N p − 1)/2p, is not negative.
     let top = |p: f64| {
         let k = (n as f64 * p - 1.0) / (2.0 * p);

@@ -4,9 +4,9 @@
 //! Cheap and in memory, as the theory is; what a claim judges is how many cases fail, or by how
 //! much.
 
-mod census;
-mod jump;
-mod relation;
+pub(crate) mod census;
+pub(crate) mod jump;
+pub(crate) mod relation;
 
 use super::rise::ONSET;
 use crate::circuits::counting::ratio_to_longest;

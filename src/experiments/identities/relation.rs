@@ -85,7 +85,7 @@ pub(super) fn distributions() -> f64 {
 /// The σ at which the double integral still has some digits of p left.
 const EQ25_SIGMAS: [f64; 5] = [0.15, 0.2, 0.3, 0.5, 1.0];
 
-pub(super) fn eq25() -> Result<f64, Error> {
+pub(crate) fn eq25() -> Result<f64, Error> {
     let mut largest = 0.0_f64;
     for sigma in EQ25_SIGMAS {
         let gap = ImpactProbability::of_paper(sigma)?;
@@ -95,12 +95,12 @@ pub(super) fn eq25() -> Result<f64, Error> {
 }
 
 /// Probability that one of `gaps` independent gaps closes by itself.
-pub(super) fn any(p: f64, gaps: usize) -> f64 {
+pub(crate) fn any(p: f64, gaps: usize) -> f64 {
     -pxfm::f_expm1(gaps as f64 * pxfm::f_log1p(-p))
 }
 
 /// At the σ of the main sweeps of all profiles.
-pub(super) fn nucleation(gaps: usize) -> Result<Vec<Nucleation>, Error> {
+pub(crate) fn nucleation(gaps: usize) -> Result<Vec<Nucleation>, Error> {
     let profiles = [Profile::Quick, Profile::Ci, Profile::Full];
     let mut sigmas = profiles.map(|profile| SweepParams::main(profile).sigmas).concat();
     sigmas.sort_by(f64::total_cmp);
@@ -122,7 +122,7 @@ pub(super) fn nucleation(gaps: usize) -> Result<Vec<Nucleation>, Error> {
 }
 
 /// σ at which such a share of the chains has a gap that closes by itself.
-pub(super) fn sigma_kept(share: f64, gaps: usize) -> f64 {
+pub(crate) fn sigma_kept(share: f64, gaps: usize) -> f64 {
     let reached = |sigma: f64| {
         let p = ImpactProbability::of_paper(sigma).and_then(|gap| gap.p_from_rest());
         p.is_ok_and(|p| any(p, gaps) >= share)
@@ -131,7 +131,7 @@ pub(super) fn sigma_kept(share: f64, gaps: usize) -> f64 {
 }
 
 /// Δ(0) = d + δα_0 − δα_1 is normal with variance 4σ² (both frequencies of the paper's chain).
-pub(super) fn overlap(sigma: f64, chain: &Chain) -> Result<f64, Error> {
+pub(crate) fn overlap(sigma: f64, chain: &Chain) -> Result<f64, Error> {
     let deviations = chain.spacing / (2.0 * sigma);
     let overlapped = 0.5 * pxfm::f_erfc(deviations / std::f64::consts::SQRT_2);
     Ok(overlapped / ImpactProbability::of_paper(sigma)?.p()?)

@@ -1,6 +1,6 @@
 //! Are impacts independent: sequences of impacts beside the fully connected graph of Secs. 3 to 6.
 
-mod joining;
+pub(crate) mod joining;
 mod succession;
 mod surrogate;
 

@@ -172,7 +172,7 @@ fn over(sample: &[f64]) -> Estimate {
     average(sample).unwrap_or_else(|| with_error(mean(sample).unwrap_or(0.0), 0.0))
 }
 
-fn row(
+pub(crate) fn row(
     parameters: &OrbitsParams,
     circuits: &[Vec<usize>],
     sigma: f64,

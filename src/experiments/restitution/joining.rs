@@ -12,7 +12,7 @@ use pxfm::{f_exp, f_log};
 /// Windows at the end over which an exponent is fitted.
 pub(super) const LAST: usize = 4;
 
-pub(super) fn join(
+pub(crate) fn join(
     parameters: &RestitutionParams,
     parts: Vec<Vec<Part>>,
     progress: &Progress,
@@ -48,7 +48,7 @@ pub(super) fn join(
 
 /// The share of gaps with |ΔF| > d ω²: the amplitudes of ΔF are normal with the variance 2 σ² between
 /// masses, and σ² at a wall, so that its square over twice that is exponential.
-fn able(parameters: &RestitutionParams, sigma: f64) -> f64 {
+pub(crate) fn able(parameters: &RestitutionParams, sigma: f64) -> f64 {
     let (d, omega) = (parameters.chain.spacing, parameters.chain.natural_frequency);
     let least = d * omega * omega / sigma;
     let (inner, gaps) = (f_exp(-0.25 * least * least), parameters.chain.gaps() as f64);
@@ -56,7 +56,7 @@ fn able(parameters: &RestitutionParams, sigma: f64) -> f64 {
     ((gaps - 2.0) * inner + 2.0 * wall) / gaps
 }
 
-fn curve(
+pub(crate) fn curve(
     parameters: &RestitutionParams,
     restitution: f64,
     rows: Vec<Ensemble>,
@@ -83,7 +83,7 @@ fn counts(row: &Ensemble) -> Vec<u64> {
 }
 
 /// The difference of both ends' half heights: each realisation is left out of both together.
-fn shift(parameters: &RestitutionParams, curves: &[Curve]) -> Option<Estimate> {
+pub(crate) fn shift(parameters: &RestitutionParams, curves: &[Curve]) -> Option<Estimate> {
     let ends = [curves.first()?, curves.last()?];
     let all = ends.map(|curve| curve.rows.iter().map(counts).collect::<Vec<_>>());
     let realisations = all.iter().flatten().map(Vec::len).min()?;

@@ -4,7 +4,7 @@
 //! chain that is watched while it heats goes through windows of which each is as long as all before.
 
 mod hot;
-mod joining;
+pub(crate) mod joining;
 mod run;
 
 pub use hot::{Hot, hot, steady};

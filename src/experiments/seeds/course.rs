@@ -24,7 +24,7 @@ pub struct Moment {
 }
 
 /// The ends of the windows after each transient.
-pub(super) fn course(
+pub(crate) fn course(
     parameters: &SeedsParams,
     traces: &[Option<Trace>],
     seen: &ByDistance,

@@ -193,7 +193,7 @@ fn share(part: u64, whole: u64) -> Option<f64> {
 }
 
 /// What the runs at one σ say of their fronts.
-pub(super) fn fronts(parameters: &SeedsParams, sigma: f64, runs: &[Waits]) -> Fronts {
+pub(crate) fn fronts(parameters: &SeedsParams, sigma: f64, runs: &[Waits]) -> Fronts {
     let all = Waits::sum(parameters, runs);
     let without: Vec<Waits> = runs.iter().map(|run| all.clone().without(run.clone())).collect();
     let estimate = |of: &dyn Fn(&Waits) -> Option<f64>| {

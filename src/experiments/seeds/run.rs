@@ -185,7 +185,7 @@ fn outwards(parameters: &SeedsParams, seed: usize, firsts: &[Option<u32>]) -> bo
 /// Groups of runs, each of which is left out in turn for the errors of what all say together.
 const GROUPS: usize = 8;
 
-fn join(
+pub(crate) fn join(
     parameters: &SeedsParams,
     parts: Vec<Vec<Part>>,
     progress: &Progress,

@@ -4,13 +4,13 @@
 //! Cheap and in memory: [`run`] takes some tenths of a second at most and nothing is saved.
 //! Distributions are vectors over k = 1..=N (index i holds k = i + 1).
 
-mod curves;
-mod distributions;
-mod jump;
-mod large;
-mod orders;
+pub(crate) mod curves;
+pub(crate) mod distributions;
+pub(crate) mod jump;
+pub(crate) mod large;
+pub(crate) mod orders;
 mod results;
-mod slips;
+pub(crate) mod slips;
 
 pub use large::{Large, LargeJump, LargeShares, PoissonCell, PoissonRow};
 pub use orders::{AllOrders, ClassShares, OrderJump, OrderRemarks, OrderShares};

@@ -50,7 +50,7 @@ fn first_local_maximum(vertices: usize) -> FirstLocalMaximum {
 }
 
 /// Weight of simple circuits over that of all five classes.
-fn simple_share(vertices: usize, p: f64) -> Result<f64, Error> {
+pub(crate) fn simple_share(vertices: usize, p: f64) -> Result<f64, Error> {
     let law = Law::new(FiveClasses, vertices, p)?;
     Ok(sum(law.contribution(&CLASSES[0]).into_iter()))
 }

@@ -2,15 +2,16 @@
 
 use super::{Error, chosen, from, mark};
 use crate::claims::targets;
-use crate::experiments::Results;
+use crate::experiments::accuracy as methods;
 use crate::experiments::accuracy::analytic::{Analytic, Relation, Route, Way};
 use crate::experiments::accuracy::bias::{BiasRow, Biases};
 use crate::experiments::accuracy::case::Verdict;
 use crate::experiments::accuracy::race::{DISPLACED, Entry, Race};
 use crate::experiments::accuracy::scale::{Scale, ScaleRow};
+use crate::experiments::{Measured, Results};
 use crate::params::{MethodName, Setting};
 use crate::report::claims::sentence;
-use crate::report::values::{Kind, Value};
+use crate::report::values::{Kind, Value, origin};
 use serde::Serialize;
 
 /// What a method is called in a table.
@@ -49,18 +50,18 @@ fn power(value: f64) -> String {
 
 pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
     let race = results.race()?;
-    let mut values = from(whole(race)?, "experiments::accuracy::race::run", "race");
-    values.extend(from(bias(results.biases()?)?, "experiments::accuracy::bias::run", "bias"));
-    values.extend(from(scale(results.scale()?)?, "experiments::accuracy::scale::run", "scale"));
+    let mut values = from(whole(race)?, origin(methods::race::run), "race");
+    values.extend(from(bias(results.biases()?)?, origin(methods::bias::run), "bias"));
+    values.extend(from(scale(results.scale()?)?, origin(methods::scale::run), "scale"));
     let analytic = results.analytic()?;
-    let item = "experiments::accuracy::analytic::run";
+    let item = origin(methods::analytic::run);
     values.extend(from(theory(analytic)?, item, "analytic"));
-    values.extend(from(clock(results)?, "experiments::measured::Measured", "measured"));
+    values.extend(from(clock(results)?, origin(Measured::parse), "measured"));
     let targets = targets::targets(results)?;
     let met = targets.iter().filter(|t| t.standing == targets::Standing::Met).count();
     values.extend(from(
         vec![Value::integer("targets_met", met), Value::integer("targets_all", targets.len())],
-        "claims::targets",
+        origin(targets::targets),
         "",
     ));
     Ok(values)

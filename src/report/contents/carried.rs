@@ -1,9 +1,9 @@
 //! Section 22: results that are carried over, and what became of a sample of each.
 
 use super::{Error, from, mark};
-use crate::experiments::Results;
 use crate::experiments::deep::{Audit, Carriage};
-use crate::report::values::Value;
+use crate::experiments::{Results, deep};
+use crate::report::values::{Value, origin};
 use serde::Serialize;
 
 /// One line of the table.
@@ -34,7 +34,7 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
         values
     };
     let values = results.audits.iter().flat_map(of).collect();
-    Ok(from(values, "experiments::deep::audit::Audit", "audits"))
+    Ok(from(values, origin(deep::audit::Audited::<(), (), ()>::get), "audits"))
 }
 
 /// The lines of the table.

@@ -1,11 +1,11 @@
 //! Long chains, and other forces.
 
 use super::{Error, chosen, difference, estimate, from, mark};
-use crate::experiments::Results;
 use crate::experiments::chains::{Chains, Curve};
 use crate::experiments::protocol::ProtocolMap;
+use crate::experiments::{Results, chains};
 use crate::params::{ChainCurve, ChainKind};
-use crate::report::values::Value;
+use crate::report::values::{Value, origin};
 use serde::Serialize;
 
 /// The σ of which the text speaks: at the rise.
@@ -82,7 +82,7 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
     values.extend(open(found).ok_or_else(missing)?);
     values.extend(drift(found, map).ok_or_else(missing)?);
     values.extend(forces(found).ok_or_else(missing)?);
-    Ok(from(values, "experiments::chains::CUTTING", "chains"))
+    Ok(from(values, origin(chains::joining::curve), "chains"))
 }
 
 /// Open gaps, and silence.

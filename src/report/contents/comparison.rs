@@ -1,12 +1,12 @@
 //! Section 8: simulated and theoretical expected numbers side by side.
 
-use super::simulation::mean_kept;
+use super::simulation::mean_id;
 use super::{Error, chosen, from, mark};
 use crate::claims::sec8;
-use crate::experiments::Results;
-use crate::experiments::sweep::SweepRow;
+use crate::experiments::sweep::{Sweep, SweepRow};
 use crate::experiments::theory::CurveRow;
-use crate::report::values::{Value, cell};
+use crate::experiments::{Results, theory};
+use crate::report::values::{Value, cell, origin};
 use serde::Serialize;
 
 /// The σ of the lines, as far as the sweep has them.
@@ -29,24 +29,23 @@ fn id(row: &SweepRow, column: &str) -> String {
     cell("compare", row.sigma, column)
 }
 
-fn lines(results: &Results) -> Result<Vec<&SweepRow>, Error> {
-    let rows = results.sweep()?.rows.iter();
-    Ok(rows.filter(|row| SIGMAS.contains(&row.sigma) && row.kept > 0).collect())
+pub(super) fn lines(sweep: &Sweep) -> Vec<&SweepRow> {
+    sweep.rows.iter().filter(|row| SIGMAS.contains(&row.sigma) && row.kept > 0).collect()
 }
 
 pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
     let curve = &results.theory.curve;
     let mut values = Vec::new();
-    for row in lines(results)? {
+    for row in lines(results.sweep()?) {
         values.push(chosen(&id(row, "sigma"), row.sigma));
-        values.push(mean_kept(&id(row, "simulated"), row));
+        values.push(Value::same(id(row, "simulated"), mean_id(row)));
         for (name, column) in THEORIES {
             let theory = sec8::at(curve, row.sigma, column);
             let theory = theory.ok_or(Error::Missing("the theory at every simulated sigma"))?;
             values.push(Value::real(id(row, name), theory, 3));
         }
     }
-    Ok(from(values, "experiments::theory::run", "sweep"))
+    Ok(from(values, origin(theory::curves::curve), "theory"))
 }
 
 /// The lines of the table.
@@ -56,5 +55,5 @@ pub fn table(results: &Results) -> Result<Vec<Line>, Error> {
         simulated: mark(id(row, "simulated")),
         theories: THEORIES.iter().map(|(name, _)| mark(id(row, name))).collect(),
     };
-    Ok(lines(results)?.into_iter().map(line).collect())
+    Ok(lines(results.sweep()?).into_iter().map(line).collect())
 }

@@ -2,9 +2,9 @@
 
 use super::growth::{Line, SIGMA, tabled};
 use super::{Error, count, estimate, from, mark, share};
-use crate::experiments::Results;
 use crate::experiments::seeds::{Fronts, Moment, Seeds, Spread, Waits, fronts};
-use crate::report::values::{Value, cell};
+use crate::experiments::{Results, seeds};
+use crate::report::values::{Value, cell, origin};
 
 /// Gaps to each side in the example of the text: half of a chain of 600 masses.
 const FAR: u32 = 300;
@@ -43,7 +43,7 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
     let seeds = results.seeds()?;
     let mut values = course(seeds)?;
     values.extend(advances(seeds)?);
-    Ok(from(values, "experiments::seeds::fronts::Fronts", "seeds"))
+    Ok(from(values, origin(seeds::fronts::fronts), "seeds"))
 }
 
 /// The table of one σ, and the share of what was reached that is active at the end, at both ends of the range.
@@ -67,8 +67,8 @@ fn course(seeds: &Seeds) -> Result<Vec<Value>, Error> {
         let both = own.active.zip(own.reached).ok_or(Error::Missing("seeds"))?;
         values.push(Value::real(id, both.0.value / both.1.value, 2));
     }
-    let item = "experiments::seeds::course::course";
-    Ok(values.into_iter().map(|value| value.source(item, "seeds")).collect())
+    let item = origin(seeds::course::course);
+    Ok(values.into_iter().map(|value| value.source(item.clone(), "seeds")).collect())
 }
 
 fn advances(seeds: &Seeds) -> Result<Vec<Value>, Error> {

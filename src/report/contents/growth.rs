@@ -2,12 +2,12 @@
 
 use super::simulation::mean_all;
 use super::{Error, chosen, difference, estimate, from, mark, share};
-use crate::experiments::Results;
 use crate::experiments::protocol::ProtocolMap;
 use crate::experiments::seeds::{Prediction, Seeds, Spread};
 use crate::experiments::sweep::Sweep;
+use crate::experiments::{Results, seeds};
 use crate::numerics::statistics::Estimate;
-use crate::report::values::{Value, cell};
+use crate::report::values::{Value, cell, origin};
 use serde::Serialize;
 
 /// The σ of which the text speaks: at the rise.
@@ -93,7 +93,7 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
         values.push(estimate(half_id(own, "found"), found(map, own), map.parameters.realisations));
     }
     values.extend(comparison(seeds, sweep, n)?);
-    Ok(from(values, "experiments::seeds::growth::predictions", "seeds"))
+    Ok(from(values, origin(seeds::growth::predictions), "seeds"))
 }
 
 /// With the protocol of the main sweep.
@@ -112,7 +112,7 @@ fn comparison(seeds: &Seeds, sweep: &Sweep, n: usize) -> Result<Vec<Value>, Erro
         chosen("growth_sigma", SIGMA),
         estimate("growth_mean", Some(*mean), n),
         mean_all("growth_mean_found", ran),
-        estimate("growth_half", own.half_height, n),
+        Value::same("growth_half", half_id(own, "predicted")),
         estimate("growth_half_found", sweep.rise.half_height_all, sweep.parameters.realisations),
         difference("growth_early", sweep.rise.half_height_all, own.half_height, n),
         Value::real("growth_worst", worst.1.abs(), 2),

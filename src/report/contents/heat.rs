@@ -1,10 +1,10 @@
 //! Section 15: how hot a running chain is.
 
 use super::{Error, chosen, estimate, from, mark};
-use crate::experiments::Results;
 use crate::experiments::heat::{Heat, Warmth};
+use crate::experiments::{Results, heat};
 use crate::params::HeatParams;
-use crate::report::values::{Value, cell};
+use crate::report::values::{Value, cell, origin};
 use serde::Serialize;
 
 /// The σ of which the text speaks: at the rise, and far above.
@@ -56,7 +56,7 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
         let row = at(heat, sigma)?;
         let named = |name: &str| format!("heat_{name}_{letter}");
         values.push(chosen(&named("sigma"), sigma));
-        values.push(estimate(named("ratio"), row.ratio, row.ratios.len()));
+        values.push(Value::same(named("ratio"), id(row, "ratio")));
         values.push(Value::real(named("friction"), row.expected_at_rate, 2));
     }
     let row = at(heat, SIGMAS[0])?;
@@ -64,7 +64,7 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
     let lowest = heat.rising().next().ok_or(Error::Missing("how hot chains are"))?;
     values.push(chosen("heat_lowest_sigma", lowest.row.sigma));
     values.push(estimate("heat_lowest_hit", lowest.ratio_of_hit, lowest.ratios.len()));
-    values.push(Value::real("heat_measured", row.p_measured, 2));
+    values.push(Value::same("heat_measured", id(row, "measured")));
     let other = |row: &&Warmth| row.row.restitution == RESTITUTION;
     let other = heat.others().find(other).ok_or(Error::Missing("another restitution"))?;
     values.push(Value::real(
@@ -83,7 +83,7 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
     values.push(estimate("heat_balance", walls, n));
     values.push(estimate("heat_balance_ring", ring, n));
     values.push(estimate("heat_other", other.ratio, other.ratios.len()));
-    Ok(from(values, "experiments::heat::run", "heat"))
+    Ok(from(values, origin(heat::warmth::warmth), "heat"))
 }
 
 /// The row of a σ that the text speaks of.

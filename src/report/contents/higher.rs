@@ -2,12 +2,12 @@
 
 use super::{Error, chosen, from};
 use crate::claims::{sec9, sec10};
-use crate::experiments::Results;
-use crate::report::values::Value;
+use crate::experiments::{Results, theory};
+use crate::report::values::{Value, origin};
 
 pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
-    let mut values = from(classes(results)?, "circuits::higher_order", "theory");
-    values.extend(from(compared(results)?, "claims::sec9", "sweep"));
+    let mut values = from(classes(results)?, origin(theory::distributions::higher), "theory");
+    values.extend(from(compared(results)?, origin(sec9::largest_change), "theory"));
     Ok(values)
 }
 

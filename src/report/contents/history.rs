@@ -2,9 +2,9 @@
 
 use super::simulation::mean_all;
 use super::{Error, chosen, estimate, from, mark};
-use crate::experiments::Results;
 use crate::experiments::history::{History, Lowered};
-use crate::report::values::{Value, cell};
+use crate::experiments::{Results, history, protocol};
+use crate::report::values::{Value, cell, origin};
 use serde::Serialize;
 
 /// One line of the table.
@@ -38,15 +38,15 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
         values.push(estimate(format!("history.half_{name}"), *half, n));
     }
     for (letter, place) in ["a", "b"].into_iter().zip([0, parameters.transients.len() - 1]) {
-        let half = history.half_heights.get(place).copied().flatten();
         let transient = parameters.transients[place];
         // Of the mean of all, as the other: that of the kept knows no bound.
         let cell = map.cell(transient, parameters.window).and_then(|cell| cell.half_height_all);
         values.push(Value::integer(format!("history_transient_{letter}"), transient as u64));
-        values.push(estimate(format!("history_half_{letter}"), half, n));
+        let own = format!("history.half_{}", after(transient));
+        values.push(Value::same(format!("history_half_{letter}"), own));
         let rest = format!("history_rest_{letter}");
         let rest = estimate(rest, cell, map.parameters.realisations);
-        values.push(rest.source("experiments::protocol::run", "protocol"));
+        values.push(rest.source(origin(protocol::join), "protocol"));
     }
     for row in &history.rows {
         values.push(chosen(&id(row, "sigma"), row.sigma));
@@ -60,7 +60,7 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
     let coldest = history.rows.first().ok_or(Error::Missing("chains that were heated"))?;
     values.push(chosen("history_coldest", coldest.sigma));
     values.push(estimate("history_coldest_count", coldest.means.last().copied().flatten(), n));
-    Ok(from(values, "experiments::history::CUTTING", "history"))
+    Ok(from(values, origin(history::join), "history"))
 }
 
 /// The transients, as heads of the table.

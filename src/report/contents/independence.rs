@@ -1,11 +1,11 @@
 //! Section 12: are impacts independent?
 
 use super::{Error, chosen, count, estimate, from, mark};
-use crate::experiments::Results;
 use crate::experiments::independence::{Dependence, Distinct, Independence};
+use crate::experiments::{Results, independence};
 use crate::numerics::statistics::Estimate;
 use crate::params::IndependenceParams;
-use crate::report::values::{Value, line};
+use crate::report::values::{Value, line, origin};
 use serde::Serialize;
 
 /// The ensembles of which the text speaks, as (n, σ): the chain at the rise and far above, and one
@@ -76,7 +76,7 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
     for (letter, masses, sigma) in TEXT {
         told(&mut values, letter, at(found, masses, sigma)?)?;
     }
-    Ok(from(values, "experiments::independence::run", "independence"))
+    Ok(from(values, origin(independence::joining::join), "independence"))
 }
 
 /// What the text says of a row beside the cells of the table.

@@ -1,9 +1,9 @@
 //! Sections 12 and 13, beyond the paper: the theory for many vertices, and circuits of all orders.
 
 use super::{Error, chosen, from, mark};
-use crate::experiments::Results;
 use crate::experiments::theory::{AllOrders, Large, PoissonRow};
-use crate::report::values::Value;
+use crate::experiments::{Results, theory};
+use crate::report::values::{Value, origin};
 use serde::Serialize;
 
 /// Columns of the table of distances, among the numbers of vertices that were computed.
@@ -30,9 +30,9 @@ pub struct OrderLine {
 
 pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
     let theory = &results.theory;
-    let mut values = from(jump(&theory.large)?, "circuits::large", "theory");
-    values.extend(from(distances(&theory.large)?, "circuits::large::Missing", "theory"));
-    values.extend(from(orders(&theory.orders), "circuits::higher_order::orders::Orders", "theory"));
+    let mut values = from(jump(&theory.large)?, origin(theory::large::large), "theory");
+    values.extend(from(distances(&theory.large)?, origin(theory::large::large), "theory"));
+    values.extend(from(orders(&theory.orders), origin(theory::orders::orders), "theory"));
     Ok(values)
 }
 

@@ -3,7 +3,7 @@
 use super::mark;
 use crate::claims::{self, Basis, Claim, FAMILY_LEVEL, Verdict};
 use crate::experiments::Results;
-use crate::report::values::Value;
+use crate::report::values::{Value, origin};
 use std::collections::BTreeMap;
 
 /// For each claim, a reference to its row with the verdict: `«row.sec7_jump»`.
@@ -62,5 +62,5 @@ pub fn values(results: &Results) -> Vec<Value> {
         Value::text("profile", results.profile.name()),
         Value::text("version", env!("CARGO_PKG_VERSION")),
     ];
-    super::from(values, "claims::level", "")
+    super::from(values, origin(claims::level), "")
 }

@@ -1,9 +1,9 @@
 //! Section 11: the long end of the map.
 
 use super::{Error, chosen, estimate, from, mark, share};
-use crate::experiments::Results;
 use crate::experiments::long::LongRow;
-use crate::report::values::Value;
+use crate::experiments::{Results, protocol};
+use crate::report::values::{Value, origin};
 use serde::Serialize;
 
 /// One line of the table.
@@ -43,11 +43,11 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
         Value::integer("long_sigma_count", parameters.sigmas.len()),
         Value::integer("long_until", t as u64),
         Value::integer("long_window", w as u64),
-        estimate("long_kept", last.half_height, n),
-        estimate("long_all", last.half_height_all, n),
+        Value::same("long_kept", cell("kept", t, w)),
+        Value::same("long_all", cell("all", t, w)),
         estimate("long_onset", last.onset, n),
     ]);
-    Ok(from(values, "experiments::long::CUTTING", "long_protocol"))
+    Ok(from(values, origin(protocol::join), "long_protocol"))
 }
 
 /// Near the σ at which half of the chains have a gap that closes by itself: the share that has

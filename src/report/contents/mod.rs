@@ -1,6 +1,7 @@
 //! What the templates can name: the values of each section, and the rows of the generated tables.
 //!
-//! A value is computed here from results and carries the path of the item that computed it. Groups
+//! A value is computed here from results and carries the path of the function that computed it, which the
+//! compiler gives ([`super::values::origin`]). Groups
 //! are `v` (ours), `paper` (numbers that the paper chose), `printed` (numbers in its statements), and
 //! one for the cells of each table: `readings`, `compare`, `protocol`, `protocols`, `long`, `nucleation`, `spread`, `course`, `fronts`, `growth`, `heat`,
 //! `scores`, `history`, `independence`, `orbits`, `restitution`, `chains`, `sizes`, `starts`, `bias` and `carried`.
@@ -33,7 +34,7 @@ mod theory;
 
 use super::mark::Mark;
 use super::print::Style;
-use super::values::{Registry, Value};
+use super::values::{Origin, Registry, Value};
 use crate::claims::{self, Claim, Published};
 use crate::experiments::Results;
 use crate::numerics::statistics::Estimate;
@@ -100,7 +101,12 @@ pub fn registry(results: &Results, published: &Published) -> Result<Registry, Er
     for section in SECTIONS {
         registry.extend(section(results)?)?;
     }
-    Ok(registry)
+    let lost =
+        registry.names().find(|(_, value)| value.is_none()).map(|(name, _)| name.to_string());
+    match lost {
+        Some(name) => Err(super::Error::BadId(name).into()),
+        None => Ok(registry),
+    }
 }
 
 /// The rows of the generated tables, by the name that templates use. Beside the tables there are `row` (a
@@ -205,9 +211,10 @@ fn mark(id: impl Into<String>) -> String {
 }
 
 /// With the item that computed them, for all values of one place that do not name their own.
-fn from(values: Vec<Value>, item: &str, experiment: &str) -> Vec<Value> {
-    let one = |value: Value| {
-        if value.source.is_empty() { value.source(item, experiment) } else { value }
+fn from(values: Vec<Value>, item: Origin, experiment: &str) -> Vec<Value> {
+    let one = |value: Value| match value.source.is_empty() {
+        true => value.source(item.clone(), experiment),
+        false => value,
     };
     values.into_iter().map(one).collect()
 }

@@ -1,10 +1,9 @@
 //! Section 12, first half: gaps that close by themselves.
 
-use super::simulation::ran;
 use super::{Error, chosen, from, mark, share};
-use crate::experiments::Results;
 use crate::experiments::nucleation::{Chains, Nucleation};
-use crate::report::values::{Value, cell};
+use crate::experiments::{Results, nucleation};
+use crate::report::values::{Value, cell, origin};
 use serde::Serialize;
 
 /// The σ of which the text speaks: at the rise.
@@ -52,7 +51,7 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
     let mut values = vec![
         chosen("nucleation_sigma", SIGMA),
         Value::real("nucleation_half", found.half, 4),
-        Value::real("nucleation_p", row.ever.p, 3),
+        Value::same("nucleation_p", cell("nucleation", SIGMA, "p")),
         Value::real("nucleation_wall", row.ever.wall, 2),
         Value::real("nucleation_random", row.random, 2),
         Value::real("nucleation_zero", row.zero, 2),
@@ -87,11 +86,11 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
         values.push(share(id(row, "found"), hit, row.realisations as usize));
         let kept = sweep.rows.iter().find(|own| own.sigma == row.sigma);
         values.push(match kept {
-            Some(own) => share(id(row, "kept"), own.kept, ran(own)),
+            Some(own) => super::simulation::kept(&id(row, "kept"), own),
             None => Value::text(id(row, "kept"), "none"),
         });
     }
-    Ok(from(values, "experiments::nucleation::CUTTING", "nucleation"))
+    Ok(from(values, origin(nucleation::join), "nucleation"))
 }
 
 /// The lines of the table.

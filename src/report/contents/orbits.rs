@@ -1,9 +1,9 @@
 //! Periodic orbits from circuits.
 
 use super::{Error, chosen, count, estimate, from, mark, share};
-use crate::experiments::Results;
 use crate::experiments::orbits::{Hunt, Orbits, Row};
-use crate::report::values::{Value, cell};
+use crate::experiments::{Results, orbits};
+use crate::report::values::{Value, cell, origin};
 use serde::Serialize;
 
 /// The σ of which the text speaks, beside the lowest.
@@ -81,7 +81,7 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
     values.push(Value::real("orbits_single_expected", lowest.single_expected, 2));
     values.extend(at_sigma(orbits)?);
     values.extend(figures(orbits)?);
-    Ok(from(values, "experiments::orbits::run", "orbits"))
+    Ok(from(values, origin(orbits::row), "orbits"))
 }
 
 /// What the text says of the circuits at one σ.

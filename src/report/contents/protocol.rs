@@ -1,9 +1,9 @@
 //! Section 11: the map over transients and windows.
 
 use super::{Error, estimate, from, mark};
-use crate::experiments::Results;
 use crate::experiments::protocol::ProtocolMap;
-use crate::report::values::Value;
+use crate::experiments::{Results, protocol};
+use crate::report::values::{Value, origin};
 use serde::Serialize;
 
 /// One line of the table.
@@ -56,7 +56,7 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
         ),
         Value::integer("protocols_total", map.cells.len()),
     ]);
-    Ok(from(values, "experiments::protocol::run", "protocol"))
+    Ok(from(values, origin(protocol::join), "protocol"))
 }
 
 fn extreme(map: &ProtocolMap, better: fn(f64, f64) -> bool) -> Option<f64> {

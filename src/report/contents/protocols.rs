@@ -1,10 +1,10 @@
 //! Section 11: the map over transients and windows for other starts and ends.
 
 use super::{Error, estimate, from, mark};
-use crate::experiments::Results;
 use crate::experiments::protocol::ProtocolCell;
+use crate::experiments::{Results, protocol};
 use crate::numerics::statistics::Estimate;
-use crate::report::values::Value;
+use crate::report::values::{Value, origin};
 use serde::Serialize;
 
 /// One line of the table.
@@ -24,21 +24,18 @@ struct Own<'a> {
     cell: &'a ProtocolCell,
     /// The number of chains.
     n: usize,
-    /// The item that computed it, and the experiment.
-    source: (&'static str, &'static str),
+    experiment: &'static str,
 }
 
 /// The cells of the paper's chain, with those of its long end, and of the others.
 fn maps(results: &Results) -> Result<Vec<(&str, Vec<Own<'_>>)>, Error> {
     let (map, long) = (results.protocol()?, results.long_protocol()?);
-    let of = |source, n| move |cell| Own { cell, n, source };
-    let early = of(("experiments::protocol::run", "protocol"), map.parameters.realisations);
-    let late =
-        of(("experiments::long::CUTTING", "long_protocol"), long.map.parameters.realisations);
+    let of = |experiment, n| move |cell| Own { cell, n, experiment };
+    let early = of("protocol", map.parameters.realisations);
+    let late = of("long_protocol", long.map.parameters.realisations);
     let rest = map.cells.iter().map(early).chain(long.beyond(map).map(late)).collect();
     let others = results.protocols()?.named().map(|(name, map)| {
-        let source = ("experiments::protocols::CUTTING", "protocols");
-        (name, map.cells.iter().map(of(source, map.parameters.realisations)).collect())
+        (name, map.cells.iter().map(of("protocols", map.parameters.realisations)).collect())
     });
     Ok([("rest", rest)].into_iter().chain(others).collect())
 }
@@ -69,7 +66,7 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
         .collect();
     let all = maps(results)?;
     let place = |id: String, own: &Own<'_>, place: Option<Estimate>| {
-        estimate(id, place, own.n).source(own.source.0, own.source.1)
+        estimate(id, place, own.n).source(origin(protocol::join), own.experiment)
     };
     for (name, cells) in &all {
         let shown = |own: &&Own<'_>| {
@@ -88,14 +85,15 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
     let ends = [(transients.first(), windows.first()), (transients.last(), windows.last())];
     for (id, (transient, window)) in ["kept_soon", "kept_late"].into_iter().zip(ends) {
         let (Some(&transient), Some(&window)) = (transient, window) else { continue };
-        let is_it = |own: &&Own<'_>| own.cell.transient == transient && own.cell.window == window;
-        if let Some(own) = rest.iter().find(is_it) {
-            values.push(place(format!("protocols.{id}"), own, own.cell.kept_half));
+        let is_it = |own: &Own<'_>| own.cell.transient == transient && own.cell.window == window;
+        if rest.iter().any(is_it) {
+            let same = self::id("kept", "rest", transient, window);
+            values.push(Value::same(format!("protocols.{id}"), same));
         }
     }
     let first = results.protocols()?.maps.first().map_or(0, |map| map.parameters.realisations);
     values.push(Value::integer("protocols_realisations", first));
-    Ok(from(values, "experiments::protocols::CUTTING", "protocols"))
+    Ok(from(values, origin(protocol::join), "protocols"))
 }
 
 /// The windows, as heads of columns.

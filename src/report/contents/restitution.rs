@@ -1,10 +1,10 @@
 //! What restitution does to a chain.
 
 use super::{Error, chosen, count, estimate, from, mark};
-use crate::experiments::Results;
 use crate::experiments::restitution::{Curve, Ensemble, Restitution, steady};
+use crate::experiments::{Results, restitution};
 use crate::params::Chain;
-use crate::report::values::{Value, cell};
+use crate::report::values::{Value, cell, origin};
 use serde::Serialize;
 
 /// The σ of which the table and the text speak: at the rise of the paper's chain, far above, and where
@@ -61,14 +61,13 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
     for (name, curve) in [("low", first), ("high", last)] {
         let named = |what: &str| format!("restitution_{what}_{name}");
         values.push(chosen(&named("r"), curve.restitution));
-        values.push(estimate(named("half"), curve.half_height, n));
+        values.push(Value::same(named("half"), id(curve, "half")));
     }
-    let row = at(last, SIGMAS[0])?;
-    values.push(estimate("restitution_warm", row.ratios.last().copied().flatten(), n));
-    values.push(Value::real("restitution_warm_balanced", last.balanced, 2));
+    values.push(Value::same("restitution_warm", id(last, "ratio_a")));
+    values.push(Value::same("restitution_warm_balanced", id(last, "balanced")));
     values.extend(contact(found, first)?);
     values.extend(hot(found).ok_or_else(missing)?);
-    Ok(from(values, "experiments::restitution::CUTTING", "restitution"))
+    Ok(from(values, origin(restitution::joining::curve), "restitution"))
 }
 
 /// Contact, most of it at the lowest restitution.

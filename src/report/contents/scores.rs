@@ -4,7 +4,7 @@ use super::{Error, chosen, from, mark};
 use crate::experiments::Results;
 use crate::experiments::protocol::ProtocolMap;
 use crate::experiments::seeds::{Prediction, Seeds};
-use crate::report::values::Value;
+use crate::report::values::{Value, origin};
 use serde::Serialize;
 
 /// One line of the table.
@@ -59,21 +59,21 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
     let (Some(first), Some(last)) = (sigmas.first(), sigmas.last()) else {
         return Err(Error::Missing("seeds at a sigma of the protocol map"));
     };
-    let mut values = vec![
+    let mut all = vec![
         Value::integer("scores_compared", sigmas.len()),
         chosen("scores_low", *first),
         chosen("scores_high", *last),
     ];
     for (own, found) in tabled(seeds, map) {
         let rows: Vec<_> = compared(seeds, own, &found, &sigmas).collect();
-        values.push(Value::integer(id(own, "transient"), own.transient as u64));
+        all.push(Value::integer(id(own, "transient"), own.transient as u64));
         for (i, column) in COLUMNS.iter().enumerate() {
             let off = rows.iter().map(|(mean, predicted)| predicted[i] - mean);
             let square = off.map(|off| off * off).sum::<f64>() / rows.len() as f64;
-            values.push(Value::real(id(own, column), square.sqrt(), 2));
+            all.push(Value::real(id(own, column), square.sqrt(), 2));
         }
     }
-    Ok(from(values, "experiments::seeds::growth::predictions", "seeds"))
+    Ok(from(all, origin(values), "seeds"))
 }
 
 /// The lines of the table.

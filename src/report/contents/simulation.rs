@@ -2,10 +2,12 @@
 
 use super::{Error, chosen, count, estimate, from, mark, share};
 use crate::claims::sec2;
-use crate::experiments::Results;
-use crate::experiments::sweep::{Sweep, SweepRow};
-use crate::params::{LEVEL, NEAR_SIMULTANEOUS, PRINTED_THRESHOLD, SECOND_SEED, SEED, SLOW};
-use crate::report::values::{Value, cell};
+use crate::experiments::sweep::{self, Sweep, SweepRow};
+use crate::experiments::{Results, horizon, laws, rise, two_masses};
+use crate::params::{
+    LEVEL, NEAR_SIMULTANEOUS, PRINTED_THRESHOLD, SECOND_SEED, SEED, SLOW, SweepParams,
+};
+use crate::report::values::{Value, cell, origin};
 
 /// A σ below the rise, where the text tells how little happens.
 const BELOW: f64 = 0.08;
@@ -14,17 +16,32 @@ const ABOVE: f64 = 0.2;
 /// A σ at which masses begin to be able to stick.
 const STICKING: f64 = 0.3;
 
-/// The readings of "number of impacts", by column of their table.
-const READINGS: [&str; 3] = ["impacts", "gaps", "masses"];
+/// The id of the mean over the kept of a row.
+pub(super) fn mean_id(row: &SweepRow) -> String {
+    cell("sweep", row.sigma, "mean")
+}
+
+/// The rows of the sweep of which the report shows the mean: those of its tables and sentences.
+fn shown(sweep: &Sweep) -> Result<Vec<&SweepRow>, Error> {
+    let named = [BELOW, PRINTED_THRESHOLD, ABOVE, super::theory::BETWEEN];
+    let mut rows = named.iter().map(|&sigma| row(sweep, sigma)).collect::<Result<Vec<_>, _>>()?;
+    rows.extend(super::comparison::lines(sweep));
+    rows.sort_by(|a, b| a.sigma.total_cmp(&b.sigma));
+    rows.dedup_by(|a, b| a.sigma == b.sigma);
+    Ok(rows)
+}
+
+/// The other readings of "number of impacts", by column of their table.
+const READINGS: [&str; 2] = ["impacts", "masses"];
 
 /// The rows of their table: below, at and above the rise.
 fn readings(sweep: &Sweep) -> Result<Vec<Value>, Error> {
     let mut values = Vec::new();
     for sigma in [BELOW, PRINTED_THRESHOLD, ABOVE] {
         let row = row(sweep, sigma)?;
-        let gaps = row.mean_distinct.zip(row.standard_error).map(<[f64; 2]>::from);
         values.push(chosen(&cell("readings", sigma, "sigma"), row.sigma));
-        for (name, found) in READINGS.iter().zip([row.impacts_in_window, gaps, row.masses_hit]) {
+        values.push(Value::same(cell("readings", sigma, "gaps"), mean_id(row)));
+        for (name, found) in READINGS.iter().zip([row.impacts_in_window, row.masses_hit]) {
             let id = cell("readings", sigma, name);
             values.push(match found {
                 Some([mean, error]) => Value::ensemble(id, mean, error, row.kept as u64),
@@ -37,8 +54,8 @@ fn readings(sweep: &Sweep) -> Result<Vec<Value>, Error> {
 
 /// The lines of that table.
 pub fn readings_table() -> Vec<Vec<String>> {
-    let columns = || ["sigma"].into_iter().chain(READINGS);
-    let line = |sigma| columns().map(|name| mark(cell("readings", sigma, name))).collect();
+    let columns = ["sigma", "impacts", "gaps", "masses"];
+    let line = |sigma| columns.iter().map(|name| mark(cell("readings", sigma, name))).collect();
     [BELOW, PRINTED_THRESHOLD, ABOVE].into_iter().map(line).collect()
 }
 
@@ -54,29 +71,37 @@ pub(super) fn ran(row: &SweepRow) -> usize {
     row.realisations.saturating_sub(row.rejected + row.failed)
 }
 
+/// The share of the kept of a row.
+pub(super) fn kept(id: &str, row: &SweepRow) -> Value {
+    share(id, row.kept, ran(row)).source(origin(sweep::reduce), "sweep")
+}
+
 /// The mean over the kept of a row.
 pub(super) fn mean_kept(id: &str, row: &SweepRow) -> Value {
-    match (row.mean_distinct, row.standard_error) {
+    let mean = match (row.mean_distinct, row.standard_error) {
         (Some(mean), Some(error)) => Value::ensemble(id, mean, error, row.kept as u64),
         (Some(mean), None) => Value::real(id, mean, 2),
         _ => Value::text(id, "none"),
-    }
+    };
+    mean.source(origin(sweep::reduce), "sweep")
 }
 
 /// The mean over all of a row.
 pub(super) fn mean_all(id: &str, row: &SweepRow) -> Value {
-    match sec2::mean_all(row) {
+    let mean = match sec2::mean_all(row) {
         Some([mean, error]) => Value::ensemble(id, mean, error, ran(row) as u64),
         None => Value::text(id, "none"),
-    }
+    };
+    mean.source(origin(sweep::reduce), "sweep")
 }
 
 pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
     let sweep = results.sweep()?;
-    let mut values = from(run(sweep), "params::sizes::SweepParams::main", "sweep");
-    values.extend(from(rise(results, sweep)?, "experiments::rise::find", "sweep"));
-    values.extend(from(readings(sweep)?, "experiments::sweep::reduce", "sweep"));
-    values.extend(from(laws(results, sweep)?, "experiments::laws::run", "laws"));
+    let mut values = from(run(sweep), origin(SweepParams::main), "sweep");
+    values.extend(from(rise(results, sweep)?, origin(rise::find), "sweep"));
+    values.extend(shown(sweep)?.into_iter().map(|row| mean_kept(&mean_id(row), row)));
+    values.extend(from(readings(sweep)?, origin(sweep::reduce), "sweep"));
+    values.extend(from(laws(results, sweep)?, origin(laws::run), "laws"));
     let found = results.two_masses()?;
     let longest = found.excess.last().ok_or(Error::Missing("two masses"))?;
     let two_masses = vec![
@@ -86,8 +111,8 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
         Value::real("two_masses_least", longest.least, 6),
         Value::real("two_masses_greatest", longest.greatest, 6),
     ];
-    values.extend(from(two_masses, "experiments::two_masses::run", "two_masses"));
-    values.extend(from(horizon(results)?, "experiments::horizon::run", "horizon"));
+    values.extend(from(two_masses, origin(two_masses::run), "two_masses"));
+    values.extend(from(horizon(results)?, origin(horizon::run), "horizon"));
     Ok(values)
 }
 
@@ -112,8 +137,10 @@ fn run(sweep: &Sweep) -> Vec<Value> {
         Value::real("confidence", LEVEL, 2),
         Value::integer("seed", SEED),
         Value::integer("second_seed", SECOND_SEED),
-        count("sweep_impacts", sweep.rows.iter().map(|row| row.impacts).sum()),
-        Value::integer("sweep_failed", sweep.rows.iter().map(|row| row.failed).sum::<usize>()),
+        count("sweep_impacts", sweep.rows.iter().map(|row| row.impacts).sum())
+            .source(origin(sweep::reduce), "sweep"),
+        Value::integer("sweep_failed", sweep.rows.iter().map(|row| row.failed).sum::<usize>())
+            .source(origin(sweep::reduce), "sweep"),
     ];
     run.into_iter().chain(level.into_iter().flatten()).collect()
 }
@@ -131,12 +158,12 @@ fn rise(results: &Results, sweep: &Sweep) -> Result<Vec<Value>, Error> {
     let or_none = |id: &str, value: Option<Value>| value.unwrap_or_else(|| Value::text(id, "none"));
     Ok(vec![
         chosen("sigma_below", below.sigma),
-        share("kept_below", below.kept, ran(below)),
-        mean_kept("mean_kept_below", below),
+        kept("kept_below", below),
+        Value::same("mean_kept_below", mean_id(below)),
         mean_all("mean_all_below", below),
         chosen("sigma_above", above.sigma),
-        share("kept_above", above.kept, ran(above)),
-        mean_kept("mean_above", above),
+        kept("kept_above", above),
+        Value::same("mean_above", mean_id(above)),
         estimate("rise_width", places.width, n),
         estimate("half_height", places.half_height, n),
         or_none(
@@ -145,8 +172,10 @@ fn rise(results: &Results, sweep: &Sweep) -> Result<Vec<Value>, Error> {
         ),
         estimate("onset", places.onset, n),
         estimate("kept_half", places.kept_half, n),
-        or_none("mode_half_low", mode.map(|[low, _]| chosen("mode_half_low", low))),
-        or_none("mode_half_high", mode.map(|[_, high]| chosen("mode_half_high", high))),
+        or_none("mode_half_low", mode.map(|[low, _]| chosen("mode_half_low", low)))
+            .source(origin(sec2::mode_half), "sweep"),
+        or_none("mode_half_high", mode.map(|[_, high]| chosen("mode_half_high", high)))
+            .source(origin(sec2::mode_half), "sweep"),
         or_none("mode_noise_sigma", noise.map(|r| chosen("mode_noise_sigma", r.sigma))),
         or_none(
             "mode_noise",
@@ -155,11 +184,11 @@ fn rise(results: &Results, sweep: &Sweep) -> Result<Vec<Value>, Error> {
                 .map(|[low, high]| Value::interval("mode_noise", [low as f64, high as f64])),
         ),
         estimate("half_height_second", second.rise.half_height, second.parameters.realisations)
-            .source("experiments::rise::find", "second_seed"),
+            .source(origin(rise::find), "second_seed"),
         or_none(
             "second_seed_largest",
             largest.map(|(errors, _)| {
-                let item = "claims::sec2::largest_between_seeds";
+                let item = origin(sec2::largest_between_seeds);
                 Value::real("second_seed_largest", errors, 2).source(item, "second_seed")
             }),
         ),
@@ -171,6 +200,11 @@ fn noisiest_mode(sweep: &Sweep) -> Option<&SweepRow> {
     let width =
         |row: &SweepRow| row.mode_interval.map_or(0, |[low, high]| high.saturating_sub(low));
     sweep.rows.iter().filter(|row| width(row) > 0).max_by_key(|row| width(row))
+}
+
+/// The probability that the forces on a pair can press it together: |ΔF| > d ω².
+fn can_stick(sigma: f64) -> f64 {
+    pxfm::f_exp(-0.25 / (sigma * sigma))
 }
 
 /// Three at a time, and sticking.
@@ -193,7 +227,6 @@ fn laws(results: &Results, sweep: &Sweep) -> Result<Vec<Value>, Error> {
         let rows = sweep.rows.iter().filter(|row| row.sigma <= below);
         rows.map(|row| row.contact_phases).sum()
     };
-    let stick = |sigma: f64| pxfm::f_exp(-0.25 / (sigma * sigma));
     let last = |decades: &[u64]| decades.last().copied().unwrap_or(0);
     let largest = sweep.rows.last().map_or(f64::INFINITY, |row| row.sigma);
     Ok(vec![
@@ -207,12 +240,12 @@ fn laws(results: &Results, sweep: &Sweep) -> Result<Vec<Value>, Error> {
         count("slow_impacts", last(&laws.totals.slow_decades)),
         Value::real("slow_limit", SLOW, 1),
         Value::real("slow_expected", laws.totals.expected_slow, 1),
-        Value::real("stick_rise", stick(PRINTED_THRESHOLD), 1),
+        Value::real("stick_rise", can_stick(PRINTED_THRESHOLD), 1).source(origin(can_stick), ""),
         chosen("sigma_stick_above", STICKING),
-        Value::real("stick_above", stick(STICKING), 1),
+        Value::real("stick_above", can_stick(STICKING), 1).source(origin(can_stick), ""),
         chosen("sigma_contact", ABOVE),
-        count("contact_phases_rise", contacts(ABOVE)),
-        count("contact_phases", contacts(largest)),
+        count("contact_phases_rise", contacts(ABOVE)).source(origin(sweep::reduce), "sweep"),
+        count("contact_phases", contacts(largest)).source(origin(sweep::reduce), "sweep"),
     ])
 }
 

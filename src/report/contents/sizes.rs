@@ -1,11 +1,11 @@
 //! Section 19: half heights by length and transient.
 
 use super::{Error, difference, estimate, from, mark};
-use crate::experiments::Results;
 use crate::experiments::chains::{Chains, Curve};
+use crate::experiments::{Results, chains};
 use crate::numerics::statistics::Estimate;
 use crate::params::ChainCurve;
-use crate::report::values::Value;
+use crate::report::values::{Value, origin};
 use serde::Serialize;
 use std::collections::BTreeSet;
 
@@ -63,7 +63,7 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
             values.push(difference(own.lead(), own.half, last, n));
         }
     }
-    Ok(from(values, "experiments::chains::CUTTING", "sizes"))
+    Ok(from(values, origin(chains::joining::curve), "sizes"))
 }
 
 /// The lengths, as heads of the table.

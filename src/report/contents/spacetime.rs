@@ -1,9 +1,9 @@
 //! Section 11: one long run in space and time.
 
 use super::{Error, chosen, count, from};
-use crate::experiments::Results;
+use crate::experiments::{Results, spacetime};
 use crate::figures::Scene;
-use crate::report::values::Value;
+use crate::report::values::{Value, origin};
 
 /// How many of the most active gaps the text speaks of.
 const BUSIEST: usize = 10;
@@ -51,8 +51,8 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
     let Some(scene) = Scene::of(run) else {
         return Err(Error::Missing("a scene of the long run"));
     };
-    let mut all = from(values, "experiments::spacetime::run", "space-time");
-    all.extend(from(moving(&scene), "figures::scene::Scene::of", "space-time"));
+    let mut all = from(values, origin(spacetime::run), "space-time");
+    all.extend(from(moving(&scene), origin(Scene::of), "space-time"));
     Ok(all)
 }
 

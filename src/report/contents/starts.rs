@@ -2,10 +2,10 @@
 
 use super::{Error, chosen, estimate, from, mark};
 use crate::claims::sec8_chains;
-use crate::experiments::Results;
 use crate::experiments::starts::{Starts, Variant};
+use crate::experiments::{Results, rise, sweep};
 use crate::params::{Boundary, COMPARABLE_REJECTED, Chain, Start};
-use crate::report::values::Value;
+use crate::report::values::{Value, origin};
 use serde::Serialize;
 
 /// One line of the table.
@@ -38,8 +38,8 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
         });
     }
     let values = values.into_iter().map(Value::data_only).collect();
-    let mut values = from(values, "experiments::starts::run", "starts");
-    values.extend(from(random(results, starts)?, "experiments::starts::run", "starts"));
+    let mut values = from(values, origin(rise::find), "starts");
+    values.extend(from(random(results, starts)?, origin(sweep::reduce), "starts"));
     Ok(values)
 }
 

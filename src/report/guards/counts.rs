@@ -26,6 +26,7 @@ pub const GUARDS: &[Guard] = &[
             "mean_between",
             "compare.*",
             "readings.*",
+            "sweep.*",
         ],
         find: rows_named,
     },

@@ -100,10 +100,7 @@ impl Sections {
     /// Puts back what stood there before.
     pub fn restore(values: &mut Registry, changed: &Changed, before: &Registry) {
         for id in changed {
-            match before.get(id) {
-                Some(value) => values.put(value.clone()),
-                None => values.remove(id),
-            }
+            values.restore(id, before);
         }
     }
 }

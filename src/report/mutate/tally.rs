@@ -9,7 +9,7 @@ use crate::report::filler::Filler;
 use crate::report::mark::Mark;
 use crate::report::print::Style;
 use crate::report::uses::uses;
-use crate::report::values::{Number, Registry, Value};
+use crate::report::values::{Number, Registry, Value, origin};
 use crate::report::{Error, parse};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -87,7 +87,7 @@ impl Tally {
         let kinds = reasons.groups().iter().map(|group| (id(&group.kind), self.count(&group.kind)));
         let value = |(id, count): (String, usize)| {
             let only_in_table = id.contains('.');
-            let value = Value::integer(id, count).source("report::mutate::mutate", "");
+            let value = Value::integer(id, count).source(origin(super::mutate), "");
             if only_in_table { value.data_only() } else { value }
         };
         all.chain(kinds).map(value).collect()
