@@ -64,7 +64,7 @@ impl Judged {
 
     /// Exit code 1, with names, for what does not hold. Times of the clock decide nothing.
     pub fn verdict(&self) -> Result<(), Failure> {
-        let Judged { claims, targets, failing } = self;
+        let Judged { claims, targets, failing, .. } = self;
         let differ: Vec<&str> =
             claims.iter().filter(|claim| claim.fails()).map(|claim| claim.id.as_str()).collect();
         let missed = |target: &&Target| target.standing == Standing::Missed && !target.timed;

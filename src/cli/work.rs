@@ -171,10 +171,10 @@ impl From<figures::Error> for Failure {
 
 impl From<report::Error> for Failure {
     fn from(error: report::Error) -> Self {
-        use report::Error::{NotShown, Numerals, Unused};
+        use report::Error::{Lint, NotShown, Unused};
         match error {
             // What can be read, and breaks a rule of the prose.
-            Numerals(_) | NotShown(_) | Unused(_) => Failure::check(error.to_string()),
+            Lint(_) | NotShown(_) | Unused(_) => Failure::check(error.to_string()),
             _ => Failure::input(error.to_string()),
         }
     }

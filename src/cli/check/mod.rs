@@ -80,7 +80,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
         let values = contents::registry(&results, &published)?;
         Judged::all(&results, &published, values, claims)
     })?;
-    let Judged { claims, targets, failing } = &judged;
+    let Judged { claims, targets, failing, .. } = &judged;
     let line = |id: &str| Ok(published.line(templates.text("published.toml")?, id));
     let entry = |claim| Ok(Entry { claim, line: line(&claim.id)? });
     let entries: Result<Vec<Entry>, impact_paper::report::Error> =
