@@ -25,7 +25,7 @@ pub fn whole(
         return Err(report::Error::NoTypesetter.into());
     }
     let templates = sources.templates()?;
-    report::lint::check(&templates).map_err(|error| Failure::input(error.to_string()))?;
+    report::lint::check(&templates)?;
     // Faults of the templates are told before the long runs, not after them.
     let published = sources.published(&templates)?;
     let reasons = sources.reasons(&templates)?.for_profile(profile);

@@ -79,12 +79,16 @@ const EXEMPT: [(&str, &str, bool); 13] = [
     ("<http", ">", false),
 ];
 
-/// Where what a delimiter opens ends: the length of what is between. A single dollar stands right at its
-/// formula on both sides.
+/// Where what a delimiter opens ends: the length of what is between. A dollar that ends a formula has no
+/// blank before it.
 fn length(inner: &str, (open, close, long): (&str, &str, bool)) -> Option<usize> {
     let scope = if long { inner } else { inner.split("\n\n").next().unwrap_or(inner) };
-    let ends = |at: &usize| open != "$" || *at > 0 && !scope[..*at].ends_with([' ', '\n', '\\']);
-    scope.match_indices(close).map(|(at, _)| at).find(ends)
+    let mut ends = scope.match_indices(close).map(|(at, _)| at);
+    if open != "$" {
+        return ends.next();
+    }
+    let end = ends.find(|at| !scope[..*at].ends_with('\\'))?;
+    (!scope[..end].is_empty() && !scope[..end].ends_with([' ', '\n'])).then_some(end)
 }
 
 /// Holds all prose against the lint.

@@ -17,9 +17,9 @@ const ALLOWED: &str = "
     left right bigl bigr Bigl Bigr biggl biggr big Big langle rangle lceil rceil lfloor rfloor
     lbrace rbrace lvert rvert lVert rVert vert Vert
     sin cos tan cot sinh cosh tanh coth arcsin arccos arctan exp ln log max min sup inf lim det arg Re Im
-    bar hat tilde vec dot ddot overline underline widehat widetilde overbrace underbrace
+    bar hat tilde vec dot ddot overline underline widehat overbrace underbrace
     mathrm mathbf mathbb mathcal mathit mathsf boldsymbol text textrm
-    quad qquad thinspace negthinspace limits nolimits displaystyle textstyle tag begin end cr";
+    quad qquad thinspace negthinspace limits nolimits displaystyle textstyle tag begin end";
 
 /// Environments of displayed equations.
 const ENVIRONMENTS: &str = "aligned cases matrix pmatrix bmatrix";
@@ -88,8 +88,8 @@ mod tests {
         let with_brackets = |name: &str| match name {
             "frac" | "dfrac" | "tfrac" | "binom" => format!(r"\{name}{{a}}{{b}}"),
             "left" | "right" => r"\left( a \right)".into(),
-            "begin" | "end" => r"\begin{aligned} a &= b \cr c &= d \end{aligned}".into(),
-            "cr" | "tag" => "a".into(),
+            "begin" | "end" => r"\begin{aligned} a &= b \\ c &= d \end{aligned}".into(),
+            "tag" => "a".into(),
             name if name.starts_with(['b', 'B']) && name.to_lowercase().starts_with("big") => {
                 format!(r"\{name}(")
             }

@@ -145,7 +145,7 @@ impl Error {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::claims::{Claim, Text, Verdict};
+    use crate::claims::{Basis, Claim, Text, Verdict};
     use crate::figures::{DataFile, Figure};
 
     /// One document with everything that the prose may use.
@@ -309,6 +309,7 @@ Listing: What $\delta v$ does. {#lst:kick}
             tolerance: Text::default().decimals(0.005, 3),
             reason: "half a unit".into(),
             verdict: Verdict::Reproduced,
+            basis: Basis::Statistics,
             note: Text::default(),
         }
     }

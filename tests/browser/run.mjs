@@ -158,6 +158,9 @@ async function opens_by_keyboard(page, name) {
     `${name}: the card is out of sight: ${JSON.stringify(box)}`,
   );
   if (pictures) await page.screenshot({ path: `${pictures}/card-${name}.png` });
+  await page.emulateMedia({ media: "print" });
+  check(!(await page.locator(`#${id}`).isVisible()), `${name}: an open card is printed on each page`);
+  await page.emulateMedia({ media: "screen" });
   await page.keyboard.press("Escape");
   check(!(await shown()), `${name}: Escape closes no card`);
 }
