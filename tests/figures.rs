@@ -74,6 +74,10 @@ fn results(profile: Profile) -> Results {
     results.restitution = Some(restitution::CUTTING.run(&parameters, "test", &quiet).unwrap());
     let parameters = ChainsParams::new(quick);
     results.chains = Some(chains::CUTTING.run(&parameters, "test", &quiet).unwrap());
+    let mut parameters = ChainsParams::sizes(quick);
+    parameters.curves.retain(|own| own.transients == [500.0] && own.masses <= 1000);
+    parameters.curves.iter_mut().for_each(|own| own.realisations = 4);
+    results.sizes = Some(chains::CUTTING.run(&parameters, "test", &quiet).unwrap());
     results.measured = Some(Measured::committed().unwrap());
     results
 }

@@ -118,7 +118,8 @@ mod tests {
         let chain = Chain { masses: 30, ..Chain::default() };
         let reach = Reach::ever(&chain, 32);
         let draws = 4000;
-        for (sigma, index) in [(0.08, 0), (0.11, 1)] {
+        let half = half(&chain, &reach, &reach);
+        for (sigma, index) in [(0.08, 0), (0.11, 1), (half, 2)] {
             let mut normals = NormalPairs::new("test of clumps", 1, index);
             let (mut some, mut clumps) = (0_u32, 0_u32);
             for _ in 0..draws {
@@ -147,6 +148,9 @@ mod tests {
             assert!((share - found.value).abs() < 0.01 + 5.0 * error, "{share} {found:?}");
             assert!((mean - found.clumps).abs() < 5.0 * (mean / n).sqrt(), "{mean} {found:?}");
             assert!(found.independent > found.value);
+            // That independent gaps are a bound is the Gaussian correlation inequality.
+            assert!(share < found.independent + 3.0 * error, "{share} {found:?}");
+            assert!(sigma != half || (found.value - 0.5).abs() < 1e-5, "{found:?}");
         }
     }
 

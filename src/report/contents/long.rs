@@ -1,7 +1,6 @@
 //! Section 11: the long end of the map.
 
-use super::{Error, chosen, estimate, from, mark, share};
-use crate::experiments::long::LongRow;
+use super::{Error, estimate, from, mark};
 use crate::experiments::{Results, protocol};
 use crate::report::values::{Value, origin};
 use serde::Serialize;
@@ -37,7 +36,6 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
     let longest = |times: &[f64]| times.last().copied().unwrap_or(0.0);
     let (t, w) = (longest(&parameters.transients), longest(&parameters.windows));
     let last = map.cell(t, w).ok_or(Error::Missing("the longest transient"))?;
-    values.extend(seeds(results)?);
     values.extend([
         Value::integer("long_realisations", n),
         Value::integer("long_sigma_count", parameters.sigmas.len()),
@@ -48,23 +46,6 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
         estimate("long_onset", last.onset, n),
     ]);
     Ok(from(values, origin(protocol::join), "long_protocol"))
-}
-
-/// Near the σ at which half of the chains have a gap that closes by itself: the share that has
-/// impacts at the longest times, and the share that would if gaps were independent.
-fn seeds(results: &Results) -> Result<[Value; 3], Error> {
-    let (long, found) = (results.long_protocol()?, &results.identities);
-    let near = |row: &LongRow| (row.sigma - found.sigma_kept_half).abs();
-    let row = long.rows.iter().min_by(|a, b| near(a).total_cmp(&near(b)));
-    let row = row.ok_or(Error::Missing("the rows of the long map"))?;
-    let seeded = found.nucleation.iter().find(|other| other.sigma == row.sigma);
-    let seeded = seeded.ok_or(Error::Missing("gaps that close by themselves at such a sigma"))?;
-    let kept = row.kept.last().copied().unwrap_or(0);
-    Ok([
-        chosen("long_seeds_sigma", row.sigma),
-        share("long_seeds_kept", kept, long.map.parameters.realisations),
-        Value::real("long_seeds", seeded.any_rest, 3),
-    ])
 }
 
 /// The heads of the columns.

@@ -27,7 +27,11 @@ pub const GUARDS: &[Guard] = &[
     },
     Guard { name: "long_map_meets_map", ids: &["long.kept_*", "long.all_*"], find: meets_map },
     Guard { name: "long_map_falls", ids: &["long.kept_*", "long.all_*"], find: falls },
-    Guard { name: "long_map_needs_seeds", ids: &["long_seeds*"], find: needs_seeds },
+    Guard {
+        name: "long_map_needs_seeds",
+        ids: &["long.all_*", "long_all", "long_onset"],
+        find: needs_seeds,
+    },
     Guard {
         name: "long_map_ends",
         ids: &[
@@ -153,15 +157,7 @@ fn needs_seeds(look: Look<'_>) -> Option<String> {
                 .or_else(|| sooner(cell.onset, onset))
         })
     };
-    let row = || {
-        let sigma = look.number("long_seeds_sigma")?;
-        let Some(row) = long.rows.iter().find(|row| row.sigma == sigma) else {
-            return Some(format!("no row of the long map at {sigma}"));
-        };
-        look.is("long_seeds_kept", *row.kept.last()? as f64 / n)
-            .or_else(|| look.is("long_seeds", seeded(sigma)))
-    };
-    shares.or_else(rises).or_else(row)
+    shares.or_else(rises)
 }
 
 /// The heads of the table are the times of its cells, and the text gives the last of them.
