@@ -7,8 +7,8 @@ use impact_paper::params::Profile;
 use impact_paper::report::{self, contents};
 use impact_paper::{claims, figures};
 use std::path::PathBuf;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
 /// Sample sizes, as named on the command line.
@@ -127,8 +127,29 @@ pub fn memory(needed: u128, option: &str, remedy: &str) -> Result<(), Failure> {
 /// What a shell calls a program that Ctrl-C ended: 128 + SIGINT.
 const INTERRUPTED: u8 = 130;
 
-/// Progress on stderr. Ctrl-C (or SIGTERM) raises a flag that all work looks at, so that it ends
-/// within a moment at a place where nothing is half-written. A second one ends the program at once.
+/// The flag of the work under way, and how long it may take to see it.
+static WORK: OnceLock<(Arc<AtomicBool>, Option<Duration>)> = OnceLock::new();
+
+/// From now on Ctrl-C (or SIGTERM) raises the flag that work with [`Progress`] looks at; without such
+/// work, or the second time, it ends the program at once. Always with exit code 130.
+pub fn obey_signals() {
+    let end = || {
+        eprintln!("impact-paper: interrupted");
+        std::process::exit(i32::from(INTERRUPTED))
+    };
+    // A handler can only be refused if there is one already; then a signal just ends the program.
+    let _ = ctrlc::set_handler(move || match WORK.get() {
+        Some((stop, patience)) if !stop.swap(true, Ordering::Relaxed) => {
+            if let Some(patience) = patience {
+                std::thread::sleep(*patience);
+                end();
+            }
+        }
+        _ => end(),
+    });
+}
+
+/// Progress on stderr of work that a signal ends within a moment, at a place where nothing is half-written.
 pub fn progress() -> Progress {
     handled(None)
 }
@@ -140,23 +161,7 @@ pub fn progress_or_end() -> Progress {
 }
 
 fn handled(patience: Option<Duration>) -> Progress {
-    let stop = Arc::new(AtomicBool::new(false));
-    let raised = Arc::clone(&stop);
-    let end = || {
-        eprintln!("impact-paper: interrupted");
-        std::process::exit(i32::from(INTERRUPTED))
-    };
-    // A handler can only be refused if there is one already; then Ctrl-C just ends the program.
-    let _ = ctrlc::set_handler(move || {
-        if raised.swap(true, Ordering::Relaxed) {
-            end();
-        }
-        if let Some(patience) = patience {
-            std::thread::sleep(patience);
-            end();
-        }
-    });
-    Progress::on_stderr(stop)
+    Progress::on_stderr(Arc::clone(&WORK.get_or_init(|| (Arc::default(), patience)).0))
 }
 
 /// Threads for each core that may be asked for: more share the same cores, and cost memory.
