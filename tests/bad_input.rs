@@ -3,6 +3,7 @@
 
 use assert_cmd::Command;
 use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 
 const GOOD: &str = r#"{"forcing":[[0.9,-0.4],[-0.7,0.8],[0.3,0.9]]}"#;
 
@@ -193,4 +194,80 @@ fn outputs_that_cannot_be_written() {
     let output = child.wait_with_output().unwrap();
     let error = String::from_utf8(output.stderr).unwrap();
     assert!(error.is_empty() && output.status.code().is_some(), "{error}");
+}
+
+/// Near resonance the motion is a small difference of large parts: it is refused where nothing is left of it,
+/// and standard error says by how much rounding moves it where it matters.
+#[test]
+fn near_resonance() {
+    let folder = tempfile::tempdir().unwrap();
+    for frequency in ["1.0000000000000002", "1.000000000001", "0.9999999999"] {
+        let text = with(&format!(r#""forcing_frequency":{frequency}"#));
+        refused(text, &["forcing: ", "rounding may move a gap by", "1e-6", "further from"]);
+    }
+    refused(r#"{"forcing":[[0,1e9]]}"#, &["smaller amplitudes"]);
+    let said = |frequency: &str, more: &[&str]| {
+        let path = file(folder.path(), with(&format!(r#""forcing_frequency":{frequency}"#)));
+        let output =
+            command().arg("trace").arg(path).args(["--until", "20"]).args(more).output().unwrap();
+        let error = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.success() && output.stdout.len() > 100, "{error}");
+        error
+    };
+    for more in [&[][..], &["--certify"]] {
+        let error = said("1.0000001", more);
+        assert!(
+            error.lines().count() == 1 && error.contains("closing speed v by 6.1e-7/v"),
+            "{error}"
+        );
+        let error = said("1.1", more);
+        assert!(!error.contains("/v"), "{error}");
+    }
+    assert_eq!(said("1.0000001", &["--method", "verlet"]), "");
+}
+
+/// Sizes are refused before the work begins, by the name of their option and with a bound.
+#[test]
+fn sizes_without_bound() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = file(folder.path(), GOOD);
+    let path = path.to_str().unwrap();
+    let trace = |option: &'static str, value: &'static str| {
+        vec!["trace", path, "--until", "1", "--method", "verlet", option, value]
+    };
+    let most = usize::MAX.to_string();
+    for (arguments, words) in [
+        (vec!["sweep", "--sigma", "0.1", "--masses", "1000000000000"], "--masses: about"),
+        (vec!["sweep", "--sigma", "0.1", "--masses", &most], "--masses: about"),
+        (
+            vec!["sweep", "--sigma", "0.1", "--realisations", "1000000000000000000"],
+            "--realisations: about",
+        ),
+        (vec!["sweep", "--sigma", "0.1", "--threads", "10000"], "cores; give 1 to "),
+        (vec!["sweep", "--sigma", "1e308"], "--sigma: 1e308"),
+        (vec!["bench", "engine", "--masses", "1000000000000"], "--masses: about"),
+        (vec!["bench", "engine", "--masses", "10", "--chains", &most], "--chains: about"),
+        (
+            vec!["bench", "engine", "--masses", "10", "--threads", "1000000000"],
+            "--threads: 1000000000",
+        ),
+        (vec!["bench", "engine", "--chains", "-1"], "'--chains <C>'"),
+        (vec!["bench", "scenario", "--masses", "1000000000000"], "--masses: about"),
+        (vec!["bench", "methods", "--masses", "1000000000000"], "--masses: about"),
+        (vec!["run", "--shard", "1/3", "--out", "nowhere", "--threads", "10000"], "--threads"),
+        (trace("--step", "-1"), "--step: -1.0 is out of range"),
+        (trace("--max-impacts", "-1"), "'--max-impacts <M>'"),
+    ] {
+        let began = Instant::now();
+        let output = command().current_dir(&folder).args(&arguments).output().unwrap();
+        let error = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {error}");
+        assert!(output.stdout.is_empty() && error.lines().count() == 1, "{error}");
+        assert!(error.contains(words), "{arguments:?}: {error}");
+        assert!(began.elapsed() < Duration::from_secs(5), "{arguments:?}");
+    }
+    if cfg!(unix) {
+        let error = refusal(&["/dev/zero", "--until", "5"]);
+        assert!(error.contains("longer than"), "{error}");
+    }
 }

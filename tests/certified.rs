@@ -7,8 +7,8 @@
 mod reference;
 mod roundings;
 
-use impact_paper::dynamics::rounding::{SPEED, STAGES, TIME, TRANSVERSAL};
-use impact_paper::dynamics::{Engine, Impact, Initial, Scenario, Simultaneous};
+use impact_paper::dynamics::rounding::{self, SPEED, STAGES, TIME, TRANSVERSAL};
+use impact_paper::dynamics::{Engine, Error, Impact, Initial, Overtone, Scenario, Simultaneous};
 use impact_paper::numerics::random::NormalPairs;
 use impact_paper::params::{Boundary, Chain};
 use reference::{Dd, Hit, Real, Reference};
@@ -42,11 +42,17 @@ struct Unit {
 
 impl Unit {
     fn new(start: &Reference<Dd>, scenario: &Scenario, gap: usize) -> Unit {
-        let [w, big_w] = [scenario.natural_frequency, scenario.forcing_frequency];
+        let w = scenario.natural_frequency;
+        // Where Δ is zero, Δ'' is ω² d and the forcing of both neighbours at most.
+        let sides = start.sides(gap).into_iter().flatten();
+        let forces: f64 = sides
+            .flat_map(|j| scenario.components().map(move |(_, own)| own[j][0].hypot(own[j][1])))
+            .sum();
+        let near_root = w * w * scenario.spacing * (1.0 + 1e-4) + forces;
         Unit {
             rounding: f64::EPSILON * start.scale(gap),
-            bend: start.gap(gap).bend(),
-            fastest: w.max(big_w),
+            bend: start.gap(gap).bend().min(near_root),
+            fastest: scenario.components().map(|(big_w, _)| big_w).fold(w, f64::max),
         }
     }
 
@@ -65,6 +71,10 @@ impl Unit {
 
 /// The largest |δs| of an impact in the first frame of its gap, from its very amplitudes.
 fn own_bound(scenario: &Scenario, start: &Reference<Dd>, hit: &Hit<Dd>) -> Option<f64> {
+    // Counted for one component and given free parts.
+    if !scenario.overtones.is_empty() || !matches!(scenario.initial, Initial::Free(_)) {
+        return None;
+    }
     let frequencies = [scenario.natural_frequency, scenario.forcing_frequency];
     let fastest = frequencies[0].max(frequencies[1]);
     let root = hit.time.near() * fastest / RANGE;
@@ -214,6 +224,76 @@ fn corner_biased_segments_have_no_miss_and_no_ghost() {
     assert!(tally.segments >= 10_000 && tally.impacts > 4000, "{tally:?}");
     assert!(tally.undecidable * 100 < tally.segments, "{tally:?}");
     assert!(tally.own > 2000, "{tally:?}");
+}
+
+/// Ω/ω − 1 from 2⁻⁵² to 0.1 and of both signs, alone or with components near and far, from rest and with free
+/// parts: amplitudes that keep the bound are taken, and it holds; others are refused by its number.
+#[test]
+fn near_resonance_the_bound_holds_or_the_scenario_is_refused() {
+    let (mut tally, mut refused, mut large) = (Tally::default(), 0, 0);
+    for index in 0..2600 {
+        let mut normals = NormalPairs::new("resonance", 1, index);
+        let i = index as i32;
+        let distance = 0.1f64.min(2f64.powi(-(i % 50) - 3)) * if i % 2 == 0 { 1.0 } else { -1.0 };
+        let omega = [1.0, 1.0, 0.25, 3.0][index as usize / 50 % 4];
+        // Amplitudes for which α/(ω² − Ω²) is about 10 to 10⁹ spacings, but no force above 1.
+        let size = (10f64.powi(1 + i % 9) * distance.abs()).min(1.0) * omega * omega;
+        let n = 1 + index as usize % 3;
+        let mut draw = |size: f64| -> Vec<[f64; 2]> {
+            (0..n).map(|_| normals.pair().map(|x| x * size)).collect()
+        };
+        let forcing = draw(size);
+        let overtones = match i / 7 % 4 {
+            0 => vec![(1.0 - 1.5 * distance, draw(size)), (2.7, draw(3.0 * omega * omega))],
+            1 => vec![(std::f64::consts::SQRT_2, draw(omega * omega))],
+            _ => Vec::new(),
+        };
+        let initial = if i % 4 == 1 { Initial::Free(draw(0.1)) } else { Initial::Rest };
+        let scenario = Scenario {
+            spacing: 1.0,
+            natural_frequency: omega,
+            forcing_frequency: omega * (1.0 + distance),
+            restitution: 0.8,
+            boundary: if n == 3 && i % 5 == 0 { Boundary::Ring } else { Boundary::Walls },
+            initial,
+            forcing,
+            overtones: overtones
+                .into_iter()
+                .map(|(ratio, amplitudes)| Overtone { frequency: ratio * omega, amplitudes })
+                .collect(),
+            simultaneous: Simultaneous::default(),
+        };
+        if scenario.components().any(|(frequency, _)| frequency == omega) {
+            continue;
+        }
+        let chain = Reference::<Dd>::new(&scenario);
+        let widest = (0..=n).map(|gap| chain.scale(gap)).fold(0.0, f64::max);
+        let width = rounding::width(&scenario);
+        let exact = TIME * f64::EPSILON * widest;
+        assert!(width > 0.999 * exact && width < 4.0 * exact, "{width:e} {exact:e}: {scenario:?}");
+        match Engine::new(&scenario) {
+            Err(Error::Input { field, problem, .. }) => {
+                assert!(field == "forcing" && width > rounding::MOST, "{problem}: {width:e}");
+                assert!(problem.contains(&format!("{width:.1e}")), "{problem}");
+                refused += 1;
+            }
+            Err(Error::Overlap { .. }) => {}
+            other => {
+                assert!(width <= rounding::MOST, "{width:e} was taken");
+                large += i32::from(width > rounding::TOLD);
+                // On beyond the first impact, where there is nothing to compare with: it ends.
+                let mut left = 1000;
+                let ended = other.unwrap().run(200.0 / omega, |_| {
+                    left -= 1;
+                    left > 0
+                });
+                assert!(ended.is_ok() || matches!(ended, Err(Error::Work { .. })), "{ended:?}");
+                hold(&scenario, 25.0 / omega, &mut tally);
+            }
+        }
+    }
+    println!("{tally:?}, {refused} refused, {large} large");
+    assert!(tally.impacts > 1000 && refused > 200 && large > 200, "{tally:?} {refused} {large}");
 }
 
 #[test]

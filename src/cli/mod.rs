@@ -124,6 +124,7 @@ pub fn main() -> ExitCode {
         Ok(cli) => cli.verb,
         Err(error) => return usage(&error),
     };
+    work::obey_signals();
     let result = match verb {
         Verb::Audit(args) => audit::run(args),
         Verb::Bench(args) => bench::run(args),

@@ -3,6 +3,9 @@
 /// More values than this are taken for a slip.
 const MOST: usize = 100_000;
 
+/// With larger ones rounding would hide the spacing of 1 (see `dynamics::rounding`).
+pub const LARGEST: f64 = 1e6;
+
 /// Reads a list or a range of standard deviations.
 ///
 /// A range is A + i·STEP, computed in decimals, so that 0.1..0.2:0.02 holds the same double
@@ -20,8 +23,13 @@ pub fn parse(text: &str) -> Result<Vec<f64>, String> {
         }
         None => text.split(',').map(number).collect::<Result<_, _>>()?,
     };
-    match values.iter().find(|sigma| **sigma < 0.0) {
-        Some(sigma) => Err(format!("--sigma: {sigma:?} is negative; give values of 0 or more")),
+    match values.iter().find(|sigma| !(0.0..=LARGEST).contains(*sigma)) {
+        Some(sigma) if *sigma < 0.0 => {
+            Err(format!("--sigma: {sigma:?} is negative; give values of 0 or more"))
+        }
+        Some(sigma) => {
+            Err(format!("--sigma: {sigma:?} is too large; give values up to {LARGEST:?}"))
+        }
         None => Ok(values),
     }
 }
@@ -115,6 +123,8 @@ mod tests {
             ("NaN", "not a finite number"),
             ("inf", "not a finite number"),
             ("-0.1", "negative"),
+            ("1e308", "too large"),
+            ("0..2e6:1e6", "too large"),
             ("-0.1..0.1:0.1", "negative"),
             ("0.2..0.1:0.01", "empty"),
             ("0.1..0.2:0", "step"),

@@ -1,6 +1,7 @@
 //! `impact-paper sweep`.
 
 use super::{Failure, sigmas, stdout, work};
+use impact_paper::dynamics::Engine;
 use impact_paper::experiments::{Progress, sweep};
 use impact_paper::input::one_line;
 use impact_paper::numerics::clock::LATEST;
@@ -90,7 +91,8 @@ struct Row {
 /// Runs the verb.
 pub fn run(args: Args) -> Result<(), Failure> {
     let parameters = parameters(&args)?;
-    let progress = work::progress();
+    fits(&args)?;
+    let progress = work::progress_or_end();
     let rows = work::on_threads(args.threads, || rows(&parameters, &progress))?;
     stdout::written(write(&rows, args.format))
 }
@@ -143,6 +145,19 @@ fn parameters(args: &Args) -> Result<SweepParams, Failure> {
         stream: "sweep".into(),
         seed: args.seed,
     })
+}
+
+/// Bytes that a realisation leaves until its row is reduced.
+const OUTCOME: u128 = 1 << 10;
+
+/// Refuses an ensemble that is too large for the memory: each thread has a chain, and a few words for each of
+/// its gaps besides.
+fn fits(args: &Args) -> Result<(), Failure> {
+    let threads = args.threads.unwrap_or_else(work::cores) as u128;
+    let chains = threads * (Engine::memory(args.masses, 1) + 64 * args.masses as u128);
+    work::memory(chains, "--masses", "give fewer masses or threads")?;
+    let needed = chains + OUTCOME * args.realisations as u128;
+    work::memory(needed, "--realisations", "give fewer, with other values of --seed")
 }
 
 /// Runs σ after σ.

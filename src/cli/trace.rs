@@ -1,8 +1,10 @@
 //! `impact-paper trace`.
 
-use super::{Failure, method, stdout};
+use super::{Failure, method, stdout, work};
 use impact_paper::dynamics::methods::State;
-use impact_paper::dynamics::{Certificate, Error, Impact, Scenario, Simultaneous, certify};
+use impact_paper::dynamics::{
+    Certificate, Engine, Error, Impact, Scenario, Simultaneous, TWINS, certify, rounding,
+};
 use impact_paper::input;
 use impact_paper::numerics::clock::LATEST;
 use std::io::{self, Write};
@@ -14,7 +16,9 @@ use std::path::{Path, PathBuf};
 /// lies between masses n and 1. Neighbouring gaps that close at exactly the same instant (a three-way
 /// impact) follow the law "simultaneous" of the scenario; how often there were such is said on
 /// standard error, if there were any. Past some 150 units of time a chaotic chain depends on the last
-/// bit: only statistics are reproducible there. --certify says where that begins.
+/// bit: only statistics are reproducible there. --certify says where that begins. Amplitudes so large
+/// (near resonance, say) that rounding may move a gap by more than 1e-6 of the spacing are refused; where it
+/// may by more than 1e-9, standard error says by how much.
 #[derive(clap::Args)]
 #[command(after_help = FORM)]
 pub struct Args {
@@ -22,10 +26,10 @@ pub struct Args {
     #[arg(value_name = "SCENARIO.json")]
     scenario: PathBuf,
     /// Time at which to stop, from 0 to 1e12.
-    #[arg(long, value_name = "T")]
+    #[arg(long, value_name = "T", allow_negative_numbers = true)]
     until: f64,
     /// Stop after this many impacts.
-    #[arg(long, value_name = "M")]
+    #[arg(long, value_name = "M", allow_negative_numbers = true)]
     max_impacts: Option<u64>,
     /// Say on standard error, in one line at the end, up to which impact the run can be trusted:
     /// before any of 8 twins, which differ in the last bit of every amplitude, has another gap or a
@@ -50,6 +54,16 @@ simultaneous: when neighbouring gaps close at exactly the same instant, "sequent
 initial:  "rest" (at equilibrium), "zero" (no free part),
           {"free": [[a_1, b_1], ...]} (x_j = j d + a_j cos wt + b_j sin wt + forced response),
           {"random": {"sigma": s, "seed": k}} (normal free parts)."#;
+
+/// What rounding does to the times of a scenario with large amplitudes; nothing where it is little.
+fn rounded(scenario: &Scenario) -> Option<String> {
+    let width = rounding::width(scenario);
+    (width > rounding::TOLD * scenario.spacing).then(|| {
+        format!(
+            "rounding of large amplitudes may move an impact at closing speed v by {width:.1e}/v"
+        )
+    })
+}
 
 /// What a certificate says, of a run with so many impacts in all.
 fn line(certificate: &Certificate, printed: u64) -> String {
@@ -101,6 +115,10 @@ pub fn run(args: Args) -> Result<(), Failure> {
         Error::Input { .. } | Error::Overlap { .. } => Failure::input(format!("{name}: {error}")),
     };
     let scenario = Scenario::from_json(&text).map_err(in_file)?;
+    let engines = if args.certify { 1 + TWINS } else { 1 };
+    let (masses, components) = (scenario.forcing.len(), 1 + scenario.overtones.len());
+    let needed = u128::from(engines) * Engine::memory(masses, components);
+    work::memory(needed, &name.to_string(), "give fewer masses")?;
     let (method, start) = (args.method.method()?, State::of(&scenario));
     if args.certify && !args.method.is_certified() {
         let name = method.name();
@@ -145,8 +163,12 @@ pub fn run(args: Args) -> Result<(), Failure> {
             if ties > 0 {
                 eprintln!("{}", simultaneous(ties, scenario.simultaneous));
             }
-            if let Some(certificate) = certificate {
-                eprintln!("{}", line(&certificate, most - left));
+            let rounded = rounded(&scenario).filter(|_| args.method.is_certified());
+            match (certificate.map(|own| line(&own, most - left)), rounded) {
+                (Some(line), Some(rounded)) => eprintln!("{line}; {rounded}"),
+                (Some(line), None) => eprintln!("{line}"),
+                (None, Some(rounded)) => eprintln!("impact-paper: {rounded}"),
+                (None, None) => {}
             }
             Ok(())
         }

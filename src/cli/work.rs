@@ -7,8 +7,9 @@ use impact_paper::params::Profile;
 use impact_paper::report::{self, contents};
 use impact_paper::{claims, figures};
 use std::path::PathBuf;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, OnceLock};
+use std::time::Duration;
 
 /// Sample sizes, as named on the command line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -96,17 +97,79 @@ impl From<ProfileName> for Profile {
     }
 }
 
+/// Memory that the system has to give, in bytes: Linux tells it, elsewhere 4 GiB are taken for granted.
+fn at_hand() -> u128 {
+    let told = || {
+        let text = std::fs::read_to_string("/proc/meminfo").ok()?;
+        let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
+        line.trim().strip_suffix("kB")?.trim().parse::<u128>().ok().map(|kib| kib << 10)
+    };
+    // Half of the addresses are what a process can hope for.
+    told().unwrap_or(4 << 30).min(usize::MAX as u128 / 2)
+}
+
+/// Refuses work that needs more memory than there is, before any of it is taken: an estimate in bytes, the
+/// option that asks for it, and what to give instead.
+///
+/// # Errors
+/// Exit code 2.
+pub fn memory(needed: u128, option: &str, remedy: &str) -> Result<(), Failure> {
+    let (gib, at_hand) = (|bytes: u128| bytes as f64 / f64::from(1 << 30), at_hand());
+    if needed <= at_hand {
+        return Ok(());
+    }
+    let (needed, at_hand) = (gib(needed), gib(at_hand));
+    Err(Failure::input(format!(
+        "{option}: about {needed:.1} GiB of memory are needed and {at_hand:.1} are at hand; {remedy}"
+    )))
+}
+
 /// What a shell calls a program that Ctrl-C ended: 128 + SIGINT.
 const INTERRUPTED: u8 = 130;
 
-/// Progress on stderr. Ctrl-C (or SIGTERM) raises a flag that all work looks at, so that it ends
-/// within a moment at a place where nothing is half-written.
+/// The flag of the work under way, and how long it may take to see it.
+static WORK: OnceLock<(Arc<AtomicBool>, Option<Duration>)> = OnceLock::new();
+
+/// From now on Ctrl-C (or SIGTERM) raises the flag that work with [`Progress`] looks at; without such
+/// work, or the second time, it ends the program at once. Always with exit code 130.
+pub fn obey_signals() {
+    let end = || {
+        eprintln!("impact-paper: interrupted");
+        std::process::exit(i32::from(INTERRUPTED))
+    };
+    // A handler can only be refused if there is one already; then a signal just ends the program.
+    let _ = ctrlc::set_handler(move || match WORK.get() {
+        Some((stop, patience)) if !stop.swap(true, Ordering::Relaxed) => {
+            if let Some(patience) = patience {
+                std::thread::sleep(*patience);
+                end();
+            }
+        }
+        _ => end(),
+    });
+}
+
+/// Progress on stderr of work that a signal ends within a moment, at a place where nothing is half-written.
 pub fn progress() -> Progress {
-    let stop = Arc::new(AtomicBool::new(false));
-    let raised = Arc::clone(&stop);
-    // A handler can only be refused if there is one already; then Ctrl-C just ends the program.
-    let _ = ctrlc::set_handler(move || raised.store(true, Ordering::Relaxed));
-    Progress::on_stderr(stop)
+    handled(None)
+}
+
+/// The same for work that writes nothing before its end and may be of any size: what has not looked at the flag
+/// soon, such as a chain of many masses, is ended all the same.
+pub fn progress_or_end() -> Progress {
+    handled(Some(Duration::from_millis(700)))
+}
+
+fn handled(patience: Option<Duration>) -> Progress {
+    Progress::on_stderr(Arc::clone(&WORK.get_or_init(|| (Arc::default(), patience)).0))
+}
+
+/// Threads for each core that may be asked for: more share the same cores, and cost memory.
+const THREADS_A_CORE: usize = 4;
+
+/// Cores at hand.
+pub fn cores() -> usize {
+    std::thread::available_parallelism().map_or(1, usize::from)
 }
 
 /// Runs `work` on that many threads; none means all cores.
@@ -116,6 +179,13 @@ pub fn on_threads<T: Send>(
 ) -> Result<T, Failure> {
     if threads == Some(0) {
         return Err(Failure::input("--threads: 0 threads do no work; give 1 or more"));
+    }
+    let cores = cores();
+    if let Some(given) = threads.filter(|given| *given > THREADS_A_CORE * cores) {
+        let most = THREADS_A_CORE * cores;
+        return Err(Failure::input(format!(
+            "--threads: {given} are too many for {cores} cores; give 1 to {most}"
+        )));
     }
     let builder = rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0));
     let pool = builder.build().map_err(|error| {

@@ -1,8 +1,11 @@
 //! The exact event-driven engine.
 
+use super::flight::Motion;
+use super::force::Force;
 use super::scenario::COMPONENTS;
-use super::simulation::Simulation;
+use super::simulation::{Gap, Simulation};
 use super::{Error, Scenario};
+use crate::numerics::earliest::Earliest;
 
 /// One impact.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,6 +74,12 @@ impl Engine {
         }))
     }
 
+    /// Bytes that a simulation of so many masses and components takes, its scenario included.
+    pub fn memory(masses: usize, components: usize) -> u128 {
+        let each = if components == 1 { bytes::<1>() } else { bytes::<COMPONENTS>() };
+        masses as u128 * (each + size_of::<[f64; 2]>() * (1 + components)) as u128
+    }
+
     /// Runs until time `until`, and hands each impact to `sink` in order; stops early, right
     /// after that impact, when `sink` returns false. May be called again with a later time.
     ///
@@ -110,4 +119,13 @@ impl Engine {
     pub fn counters(&self) -> Counters {
         inside!(&self.0, simulation => simulation.counters())
     }
+}
+
+/// Bytes of one mass with its gap. The queue has a key and two nodes for each gap of the next power of two.
+fn bytes<const M: usize>() -> usize {
+    size_of::<Motion<M>>()
+        + size_of::<[[f64; 2]; M]>()
+        + size_of::<Gap<M>>()
+        + size_of::<Force<M>>()
+        + 2 * Earliest::BYTES
 }

@@ -1,6 +1,6 @@
 //! A scenario: one chain, its forcing and its start, complete and checked.
 
-use super::{Error, Simultaneous};
+use super::{Error, Simultaneous, rounding};
 use crate::numerics::random::NormalPairs;
 use crate::params::{Boundary, Chain, Start};
 use serde::Deserialize;
@@ -312,7 +312,18 @@ impl Scenario {
             }
             pairs("initial.free", free)?;
         }
-        Ok(())
+        let (width, most) = (rounding::width(self), rounding::MOST * self.spacing);
+        if width <= most {
+            return Ok(());
+        }
+        Err(Error::input(
+            "forcing",
+            format!(
+                "amplitudes of the motion (alpha/(w^2 - W^2) and the free parts) are so large that rounding \
+                 may move a gap by {width:.1e}, which is more than {most:?}"
+            ),
+            "give frequencies further from the natural one, or smaller amplitudes",
+        ))
     }
 
     /// The same motion with time begun anew at `time`, from the free parts that its masses have then: every

@@ -19,17 +19,11 @@ use crate::numerics::first_root::{Next, Search, Work};
 use crate::numerics::local_frame::{Frame, Frequencies};
 use crate::numerics::window::next_window;
 
-/// The response (c, s) of an undamped oscillator to each component of Eq. (3), with ω² − Ω² as
+/// The response (c, s) of an undamped oscillator to a component of Eq. (3), with ω² − Ω² as
 /// (ω − Ω)(ω + Ω).
-fn response<const M: usize>(
-    w: f64,
-    big_omegas: &[f64; M],
-    amplitudes: &[[f64; 2]; M],
-) -> [[f64; 2]; M] {
-    std::array::from_fn(|m| {
-        let factor = (w - big_omegas[m]) * (w + big_omegas[m]);
-        amplitudes[m].map(|amplitude| amplitude / factor)
-    })
+pub(super) fn response(w: f64, big_w: f64, amplitudes: [f64; 2]) -> [f64; 2] {
+    let factor = (w - big_w) * (w + big_w);
+    amplitudes.map(|amplitude| amplitude / factor)
 }
 
 /// What a gap waits for.
@@ -110,7 +104,9 @@ impl<const M: usize> Simulation<M> {
         let mut motions = vec![Motion::STILL; n + 2];
         let mut responses = vec![[[0.0; 2]; M]; n + 2];
         for j in 0..n {
-            let forced = response(w, &frequencies.big_omegas, &scenario.amplitudes(j));
+            let amplitudes = scenario.amplitudes::<M>(j);
+            let forced: [[f64; 2]; M] =
+                std::array::from_fn(|m| response(w, frequencies.big_omegas[m], amplitudes[m]));
             let [a, b] = match &scenario.initial {
                 Initial::Rest => frequencies
                     .big_omegas

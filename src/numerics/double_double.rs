@@ -91,7 +91,11 @@ impl From<f64> for DoubleDouble {
 
 impl From<usize> for DoubleDouble {
     fn from(x: usize) -> Self {
-        if x < 1 << 53 { DoubleDouble::from(x as f64) } else { DoubleDouble::from(x as u128) }
+        if x as u128 <= 1 << 53 {
+            DoubleDouble::from(x as f64)
+        } else {
+            DoubleDouble::from(x as u128)
+        }
     }
 }
 

@@ -25,6 +25,9 @@ struct Entry {
 }
 
 impl Earliest {
+    /// Bytes for each key, of a power of two of them.
+    pub const BYTES: usize = size_of::<Instant>() + 2 * size_of::<Entry>();
+
     /// `len` ≥ 1 keys, all [`Instant::NEVER`].
     pub fn new(len: usize) -> Self {
         let width = len.next_power_of_two();

@@ -19,25 +19,25 @@ use std::time::Instant;
 #[derive(clap::Args)]
 pub struct Args {
     /// Number of masses n.
-    #[arg(long, value_name = "n", default_value_t = 20)]
+    #[arg(long, value_name = "n", default_value_t = 20, allow_hyphen_values = true)]
     masses: usize,
     /// Standard deviation σ of the forcing.
     #[arg(long, value_name = "σ", default_value_t = 0.3, allow_hyphen_values = true)]
     sigma: f64,
     /// Number i of the chain.
-    #[arg(long, value_name = "i", default_value_t = 0)]
+    #[arg(long, value_name = "i", default_value_t = 0, allow_hyphen_values = true)]
     chain: u64,
     /// Seed of the forcing.
-    #[arg(long, value_name = "S", default_value_t = 1)]
+    #[arg(long, value_name = "S", default_value_t = 1, allow_hyphen_values = true)]
     seed: u64,
     /// Simulated time T.
-    #[arg(long, value_name = "T", default_value_t = 200.0)]
+    #[arg(long, value_name = "T", default_value_t = 200.0, allow_hyphen_values = true)]
     until: f64,
     /// True impacts and segments, as `cargo bench --bench reference` prints them.
     #[arg(long, value_name = "FILE")]
     reference: Option<PathBuf>,
     /// Seconds in which a setting is run again for its best time; it is run once at least.
-    #[arg(long, value_name = "s", default_value_t = 1.0)]
+    #[arg(long, value_name = "s", default_value_t = 1.0, allow_hyphen_values = true)]
     seconds: f64,
 }
 

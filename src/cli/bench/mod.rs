@@ -2,7 +2,7 @@
 
 mod methods;
 
-use super::{Failure, stdout, work};
+use super::{Failure, sigmas, stdout, work};
 use impact_paper::dynamics::{Counters, Engine, Error, Scenario};
 use impact_paper::numerics::clock::LATEST;
 use impact_paper::numerics::random::NormalPairs;
@@ -42,7 +42,7 @@ enum What {
   impact-paper bench engine --masses 1000000 --repetitions 1         memory at scale")]
 struct EngineArgs {
     /// Numbers of masses n, one case each.
-    #[arg(long, value_name = "n,…", value_delimiter = ',', default_values_t = [20, 100, 1_000, 10_000, 100_000, 1_000_000])]
+    #[arg(long, value_name = "n,…", value_delimiter = ',', default_values_t = [20, 100, 1_000, 10_000, 100_000, 1_000_000], allow_hyphen_values = true)]
     masses: Vec<usize>,
     /// Standard deviation σ of the forcing.
     #[arg(long, value_name = "σ", default_value_t = 0.3, allow_hyphen_values = true)]
@@ -54,19 +54,19 @@ struct EngineArgs {
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     until: Option<f64>,
     /// Number i of the first chain.
-    #[arg(long, value_name = "i", default_value_t = 0)]
+    #[arg(long, value_name = "i", default_value_t = 0, allow_hyphen_values = true)]
     chain: u64,
     /// Chains in each repetition; they are shared out over the threads.
-    #[arg(long, value_name = "C", default_value_t = 1)]
+    #[arg(long, value_name = "C", default_value_t = 1, allow_hyphen_values = true)]
     chains: usize,
     /// Number of threads.
-    #[arg(long, value_name = "K", default_value_t = 1)]
+    #[arg(long, value_name = "K", default_value_t = 1, allow_hyphen_values = true)]
     threads: usize,
     /// Repetitions: the best and the median of them are printed.
-    #[arg(long, value_name = "k", default_value_t = 5)]
+    #[arg(long, value_name = "k", default_value_t = 5, allow_hyphen_values = true)]
     repetitions: usize,
     /// Seed of the forcing.
-    #[arg(long, value_name = "S", default_value_t = 1)]
+    #[arg(long, value_name = "S", default_value_t = 1, allow_hyphen_values = true)]
     seed: u64,
 }
 
@@ -74,7 +74,7 @@ struct EngineArgs {
 #[derive(clap::Args)]
 struct ScenarioArgs {
     /// Number of masses n.
-    #[arg(long, value_name = "n", default_value_t = 20)]
+    #[arg(long, value_name = "n", default_value_t = 20, allow_hyphen_values = true)]
     masses: usize,
     /// Standard deviation σ of the forcing.
     #[arg(long, value_name = "σ", default_value_t = 0.3, allow_hyphen_values = true)]
@@ -83,10 +83,10 @@ struct ScenarioArgs {
     #[arg(long, value_name = "r", default_value_t = 0.8, allow_hyphen_values = true)]
     restitution: f64,
     /// Seed of the forcing.
-    #[arg(long, value_name = "S", default_value_t = 1)]
+    #[arg(long, value_name = "S", default_value_t = 1, allow_hyphen_values = true)]
     seed: u64,
     /// Number i of the chain.
-    #[arg(long, value_name = "i", default_value_t = 0)]
+    #[arg(long, value_name = "i", default_value_t = 0, allow_hyphen_values = true)]
     chain: u64,
 }
 
@@ -144,7 +144,8 @@ fn draw(n: usize, sigma: f64, r: f64, seed: u64, index: u64) -> Result<Scenario,
     if n == 0 {
         return Err(Failure::input("--masses: 0 is not allowed; give 1 or more"));
     }
-    if !(0.0..=1e6).contains(&sigma) {
+    work::memory(Engine::memory(n, 1), "--masses", "give fewer masses")?;
+    if !(0.0..=sigmas::LARGEST).contains(&sigma) {
         let message = format!("--sigma: {sigma:?} is out of range; give a number from 0 to 1e6");
         return Err(Failure::input(message));
     }
@@ -166,6 +167,10 @@ fn case(args: &EngineArgs, n: usize) -> Result<Case, Failure> {
             return Err(Failure::input(format!("--{name}: 0 measures nothing; give 1 or more")));
         }
     }
+    // All chains at their start, and the copies that run.
+    let copies = if args.repetitions > 1 { 2 } else { 1 };
+    let needed = Engine::memory(n, 1).saturating_mul(copies * args.chains as u128);
+    work::memory(needed, "--masses, --chains", "give fewer masses or chains")?;
     let began = Instant::now();
     let engines = work::on_threads(Some(args.threads), || {
         let start = |index: usize| {
