@@ -166,7 +166,10 @@ fn circuits(look: Look<'_>) -> Option<String> {
     let visits = |segment: &Segment| {
         let mut found = vec![0_usize; segment.masses + 1];
         let all = segment.impacts.split_last().map_or(&[][..], |(_, others)| others);
-        all.iter().for_each(|impact| found[impact.gap] += 1);
+        // A gap that the chain does not have counts for nothing, and is missed in the length.
+        for impact in all {
+            found.get_mut(impact.gap).into_iter().for_each(|visits| *visits += 1);
+        }
         found
     };
     let five = visits(&segments.fig05);
