@@ -292,6 +292,10 @@ fn a_read_only_folder_is_read() {
         command.current_dir(folder).args(PAPER.replace("report", "open/report").split(' '));
         told(&command.output().unwrap())
     };
+    // What the program reads when it runs, for one that lies in no checkout.
+    let benches = concat!(env!("CARGO_MANIFEST_DIR"), "/benches");
+    let status = Command::new("cp").args(["-r", benches, "."]).current_dir(folder).status();
+    assert!(status.unwrap().success());
     std::fs::create_dir(folder.join("open")).unwrap();
     set(&folder.join("open"), 0o777);
     set(folder, 0o755);

@@ -4,7 +4,7 @@ use assert_cmd::Command;
 use impact_paper::experiments::{Progress, sweep};
 use impact_paper::params::{Profile, Start, SweepParams};
 use std::io::Read;
-use std::process::{Child, Stdio};
+use std::process::Stdio;
 use std::time::{Duration, Instant};
 
 fn program() -> Command {

@@ -70,7 +70,8 @@ fn list(cards: &[Card], as_json: bool) -> io::Result<()> {
     if as_json {
         let ids: Vec<_> =
             cards.iter().map(|card| json!({"id": card.id, "title": title(card)})).collect();
-        return writeln!(out, "{:#}", json!(ids));
+        writeln!(out, "{:#}", json!(ids))?;
+        return out.flush();
     }
     for card in cards {
         writeln!(out, "{:28} {}", card.id, title(card))?;
@@ -86,7 +87,8 @@ fn show(cards: &[Card], as_json: bool) -> io::Result<()> {
             json!({"id": card.id, "title": title(card), "lead": card.lead, "rows": rows})
         };
         let all: Vec<_> = cards.iter().map(one).collect();
-        return writeln!(out, "{:#}", json!(all));
+        writeln!(out, "{:#}", json!(all))?;
+        return out.flush();
     }
     for (i, card) in cards.iter().enumerate() {
         if i > 0 {

@@ -148,7 +148,7 @@ impl<P: Serialize + Sync, T: Json, U: Json> Deep<P, T, U> {
 
     /// What each unit gave that is committed.
     fn given(&self) -> Result<Vec<U>, Error> {
-        let unread = |what: String| Error::input(&self.file(), what, REMEDY);
+        let unread = |what: String| Error::input(self.file(), what, REMEDY);
         let committed = self.committed().map_err(|error| unread(error.to_string()))?;
         let (made_of, body) =
             store::parsed(&committed).map_err(|reasons| unread(told(&reasons)))?;
