@@ -57,7 +57,7 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
         let named = |name: &str| format!("heat_{name}_{letter}");
         values.push(chosen(&named("sigma"), sigma));
         values.push(Value::same(named("ratio"), id(row, "ratio")));
-        values.push(Value::real(named("friction"), row.expected_at_rate, 2));
+        values.push(Value::real(named("friction"), row.expected_at_rate, 3));
     }
     let row = at(heat, SIGMAS[0])?;
     values.push(estimate("heat_hit", row.ratio_of_hit, row.ratios.len()));
