@@ -217,7 +217,7 @@ fn near_resonance() {
     for more in [&[][..], &["--certify"]] {
         let error = said("1.0000001", more);
         assert!(
-            error.lines().count() == 1 && error.contains("closing speed v by 6.1e-7/v"),
+            error.lines().count() == 1 && error.contains("closing speed v by 3.0e-7/v"),
             "{error}"
         );
         let error = said("1.1", more);

@@ -231,7 +231,7 @@ fn corner_biased_segments_have_no_miss_and_no_ghost() {
 #[test]
 fn near_resonance_the_bound_holds_or_the_scenario_is_refused() {
     let (mut tally, mut refused, mut large) = (Tally::default(), 0, 0);
-    for index in 0..2600 {
+    for index in 0..1600 {
         let mut normals = NormalPairs::new("resonance", 1, index);
         let i = index as i32;
         let distance = 0.1f64.min(2f64.powi(-(i % 50) - 3)) * if i % 2 == 0 { 1.0 } else { -1.0 };
@@ -293,7 +293,7 @@ fn near_resonance_the_bound_holds_or_the_scenario_is_refused() {
         }
     }
     println!("{tally:?}, {refused} refused, {large} large");
-    assert!(tally.impacts > 1000 && refused > 200 && large > 200, "{tally:?} {refused} {large}");
+    assert!(tally.impacts > 600 && refused > 100 && large > 200, "{tally:?} {refused} {large}");
 }
 
 #[test]

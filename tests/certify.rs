@@ -68,7 +68,11 @@ fn of_many_runs_none_is_trusted_too_long() {
     let many = 12;
     let (mut trusted, mut true_ones, mut wrong) = (0, 0, 0);
     for index in 10..10 + many {
-        let scenario = draw(&Chain { masses: 12, ..Chain::default() }, 0.35, index);
+        // Some of them so near resonance that the twins' first roundings are as large as they may be.
+        let near = |chain| Chain { forcing_frequency: 1.0 - 5e-8, ..chain };
+        let chain = Chain { masses: 12, ..Chain::default() };
+        let chain = if index % 4 == 0 { near(chain) } else { chain };
+        let scenario = draw(&chain, 0.35, index);
         let mut ours = Vec::new();
         let certificate = certify(&scenario, 250.0, |impact| {
             ours.push(impact);

@@ -91,11 +91,7 @@ impl From<f64> for DoubleDouble {
 
 impl From<usize> for DoubleDouble {
     fn from(x: usize) -> Self {
-        if x as u128 <= 1 << 53 {
-            DoubleDouble::from(x as f64)
-        } else {
-            DoubleDouble::from(x as u128)
-        }
+        if (x as u64) < 1 << 53 { Self::from(x as f64) } else { Self::from(x as u128) }
     }
 }
 
@@ -198,7 +194,7 @@ mod tests {
 
     #[test]
     fn large_integers_keep_their_last_bit() {
-        let n = (1_usize << 60) + 1;
+        let n = usize::MAX / 2;
         let d = DoubleDouble::from(n);
         assert_eq!(d.hi as i128 + d.lo as i128, n as i128);
         let n = (1_u128 << 105) - 1;
