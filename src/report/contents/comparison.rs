@@ -38,7 +38,6 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
     let mut values = Vec::new();
     for row in lines(results.sweep()?) {
         values.push(chosen(&id(row, "sigma"), row.sigma));
-        values.push(Value::same(id(row, "simulated"), mean_id(row)));
         for (name, column) in THEORIES {
             let theory = sec8::at(curve, row.sigma, column);
             let theory = theory.ok_or(Error::Missing("the theory at every simulated sigma"))?;
@@ -52,7 +51,7 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
 pub fn table(results: &Results) -> Result<Vec<Line>, Error> {
     let line = |row: &SweepRow| Line {
         sigma: mark(id(row, "sigma")),
-        simulated: mark(id(row, "simulated")),
+        simulated: mark(mean_id(row)),
         theories: THEORIES.iter().map(|(name, _)| mark(id(row, name))).collect(),
     };
     Ok(lines(results.sweep()?).into_iter().map(line).collect())

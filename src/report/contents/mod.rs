@@ -122,7 +122,7 @@ pub fn rows(
         ("scorecard", serde_json::to_value(ledger::scorecard(claims))?),
         ("basis_table", serde_json::to_value(ledger::bases(claims))?),
         ("row", serde_json::to_value(ledger::references(claims))?),
-        ("readings_table", serde_json::to_value(simulation::readings_table())?),
+        ("readings_table", serde_json::to_value(simulation::readings_table(results.sweep()?)?)?),
         ("comparison_table", serde_json::to_value(comparison::table(results)?)?),
         ("protocol_windows", serde_json::to_value(protocol::windows(results)?)?),
         ("protocol_printed", serde_json::to_value(protocol::printed(results)?)?),

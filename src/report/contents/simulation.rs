@@ -2,8 +2,9 @@
 
 use super::{Error, chosen, count, estimate, from, mark, share};
 use crate::claims::sec2;
+use crate::experiments::laws::{self, LawsRow};
 use crate::experiments::sweep::{self, Sweep, SweepRow};
-use crate::experiments::{Results, horizon, laws, rise, two_masses};
+use crate::experiments::{Results, horizon, rise, two_masses};
 use crate::params::{
     LEVEL, NEAR_SIMULTANEOUS, PRINTED_THRESHOLD, SECOND_SEED, SEED, SLOW, SweepParams,
 };
@@ -34,13 +35,16 @@ fn shown(sweep: &Sweep) -> Result<Vec<&SweepRow>, Error> {
 /// The other readings of "number of impacts", by column of their table.
 const READINGS: [&str; 2] = ["impacts", "masses"];
 
-/// The rows of their table: below, at and above the rise.
+/// The σ of its lines, below, at and above the rise, and the ids that the text has for them.
+const LINES: [(f64, &str); 3] =
+    [(BELOW, "sigma_below"), (PRINTED_THRESHOLD, "sigma_kept_a"), (ABOVE, "sigma_above")];
+
+/// The values of that table.
 fn readings(sweep: &Sweep) -> Result<Vec<Value>, Error> {
     let mut values = Vec::new();
-    for sigma in [BELOW, PRINTED_THRESHOLD, ABOVE] {
+    for (sigma, named) in LINES {
         let row = row(sweep, sigma)?;
-        values.push(chosen(&cell("readings", sigma, "sigma"), row.sigma));
-        values.push(Value::same(cell("readings", sigma, "gaps"), mean_id(row)));
+        values.push(Value::same(cell("readings", sigma, "sigma"), named));
         for (name, found) in READINGS.iter().zip([row.impacts_in_window, row.masses_hit]) {
             let id = cell("readings", sigma, name);
             values.push(match found {
@@ -53,10 +57,13 @@ fn readings(sweep: &Sweep) -> Result<Vec<Value>, Error> {
 }
 
 /// The lines of that table.
-pub fn readings_table() -> Vec<Vec<String>> {
-    let columns = ["sigma", "impacts", "gaps", "masses"];
-    let line = |sigma| columns.iter().map(|name| mark(cell("readings", sigma, name))).collect();
-    [BELOW, PRINTED_THRESHOLD, ABOVE].into_iter().map(line).collect()
+pub fn readings_table(sweep: &Sweep) -> Result<Vec<[String; 4]>, Error> {
+    let line = |(sigma, named): (f64, &str)| {
+        let own = |column| mark(cell("readings", sigma, column));
+        let gaps = mean_id(row(sweep, sigma)?);
+        Ok([mark(named.to_string()), own("impacts"), mark(gaps), own("masses")])
+    };
+    LINES.into_iter().map(line).collect()
 }
 
 /// The row nearest to σ.
@@ -101,7 +108,7 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
     values.extend(from(rise(results, sweep)?, origin(rise::find), "sweep"));
     values.extend(shown(sweep)?.into_iter().map(|row| mean_kept(&mean_id(row), row)));
     values.extend(from(readings(sweep)?, origin(sweep::reduce), "sweep"));
-    values.extend(from(laws(results, sweep)?, origin(laws::run), "laws"));
+    values.extend(from(laws(results)?, origin(laws::run), "laws"));
     let found = results.two_masses()?;
     let longest = found.excess.last().ok_or(Error::Missing("two masses"))?;
     let two_masses = vec![
@@ -208,7 +215,7 @@ fn can_stick(sigma: f64) -> f64 {
 }
 
 /// Three at a time, and sticking.
-fn laws(results: &Results, sweep: &Sweep) -> Result<Vec<Value>, Error> {
+fn laws(results: &Results) -> Result<Vec<Value>, Error> {
     let laws = results.laws()?;
     let distance = |sigma: f64| (sigma - ABOVE).abs();
     let fitted = laws
@@ -223,12 +230,9 @@ fn laws(results: &Results, sweep: &Sweep) -> Result<Vec<Value>, Error> {
     let (Some(near), Some(slow)) = (near, slow) else {
         return Err(Error::Missing("laws of rare impacts"));
     };
-    let contacts = |below: f64| -> u64 {
-        let rows = sweep.rows.iter().filter(|row| row.sigma <= below);
-        rows.map(|row| row.contact_phases).sum()
-    };
+    let contacts = |row: &LawsRow| row.contact_phases_per_impact * row.impacts as f64;
+    let on_rise: f64 = laws.rows.iter().filter(|row| row.sigma <= ABOVE).map(contacts).sum();
     let last = |decades: &[u64]| decades.last().copied().unwrap_or(0);
-    let largest = sweep.rows.last().map_or(f64::INFINITY, |row| row.sigma);
     Ok(vec![
         chosen("laws_sigma", sigma),
         Value::ensemble("near_exponent", near.exponent, near.exponent_error, impacts),
@@ -244,8 +248,8 @@ fn laws(results: &Results, sweep: &Sweep) -> Result<Vec<Value>, Error> {
         chosen("sigma_stick_above", STICKING),
         Value::real("stick_above", can_stick(STICKING), 1).source(origin(can_stick), ""),
         chosen("sigma_contact", ABOVE),
-        count("contact_phases_rise", contacts(ABOVE)).source(origin(sweep::reduce), "sweep"),
-        count("contact_phases", contacts(largest)).source(origin(sweep::reduce), "sweep"),
+        count("contact_phases_rise", on_rise.round() as u64),
+        count("contact_phases", laws.totals.contact_phases),
     ])
 }
 

@@ -5,6 +5,9 @@ use crate::claims::Piece;
 use crate::experiments::sweep::SweepRow;
 use crate::numerics::statistics::Estimate;
 
+/// Tables of which each line is a σ of the sweep.
+const LINES: [&str; 2] = ["compare", "readings"];
+
 pub const GUARDS: &[Guard] = &[
     Guard { name: "means_of_counts", ids: &["compare.*", "mean_*"], find: means_of_counts },
     Guard {
@@ -115,14 +118,11 @@ fn rows_named(look: Look<'_>) -> Option<String> {
         ("sigma_between", "", "mean_between", ""),
     ];
     let named = named.map(|(a, b, c, d)| [a, b, c, d].map(String::from));
-    let compared = look.values.iter().filter_map(|value| {
-        let line = value.id.strip_suffix("_sigma")?;
-        let mean = match line.split_once('.')?.0 {
-            "compare" => "simulated",
-            "readings" => "gaps",
-            _ => return None,
-        };
-        Some([value.id.clone(), String::new(), format!("{line}_{mean}"), String::new()])
+    let own = look.values.iter().map(|value| value.id.as_str());
+    let compared = own.chain(look.values.names().map(|(name, _)| name)).filter_map(|id| {
+        let line = id.strip_suffix("_sigma")?;
+        let (_, at) = line.split_once('.').filter(|(table, _)| LINES.contains(table))?;
+        Some([id.into(), String::new(), format!("sweep.{at}_mean"), String::new()])
     });
     let below = look.number("sigma_below").and_then(|sigma| {
         let claim = look.claims.iter().find(|claim| claim.id == "sec2_few_below")?;

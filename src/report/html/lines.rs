@@ -161,8 +161,8 @@ mod tests {
             let document = Document::parse(&text).unwrap();
             document
                 .descendants()
-                .filter_map(|node| node.is_text().then(|| node.text()))
-                .flatten()
+                .filter(|node| node.is_text())
+                .filter_map(|node| node.text())
                 .collect::<String>()
         };
         let row = |row: &Row| {
