@@ -51,7 +51,7 @@ fn values_figures_equations_and_claims_are_explained() {
                 "seed: 2007",
             ],
         ),
-        ("fig:s1", vec!["experiments::accuracy::race::run (src/experiments/accuracy/race.rs:"]),
+        ("fig:s1", vec!["experiments::accuracy::race (src/experiments/accuracy/race.rs:"]),
         ("eq:18", vec!["circuits::jump::p_crit (src/circuits/jump.rs:", "p_crit, p_crit_walls"]),
         ("claim:sec7_jump", vec!["verdict", "tolerance", "p_jump"]),
         ("eq:12", vec!["f_(N,p)(k)"]),
@@ -103,4 +103,31 @@ fn an_unknown_id_is_one_line_with_the_nearest() {
     assert_eq!(code, 2);
     assert!(note.contains("--paper") && note.trim_end().lines().count() == 1, "{note}");
     assert!(!Path::new("no-such-folder").exists());
+}
+
+/// An origin names the function that computed the number: no constant, structure or module.
+#[test]
+fn every_origin_is_a_function() {
+    let text = std::fs::read_to_string(PAPER.path().join("paper/values.json")).unwrap();
+    let values: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let values = values.as_object().unwrap();
+    let ids: Vec<&str> = values
+        .iter()
+        .filter(|(_, value)| value["source"].is_string())
+        .map(|(id, _)| &**id)
+        .collect();
+    assert!(ids.len() > 900, "{}", ids.len());
+    let (code, cards, note) = explain(&[&["--json"], ids.as_slice()].concat());
+    assert_eq!((code, note.as_str()), (0, ""));
+    let cards: serde_json::Value = serde_json::from_str(&cards).unwrap();
+    for card in cards.as_array().unwrap() {
+        let row = |name: &str| card["rows"].as_array().unwrap().iter().find(|r| r["name"] == name);
+        let by = row("computed by").unwrap_or_else(|| panic!("{card}"));
+        let source = std::fs::read_to_string(by["file"].as_str().unwrap()).unwrap();
+        let line = by["line"].as_u64().unwrap() as usize - 1;
+        let line = source.lines().nth(line).unwrap();
+        assert!(line.contains("fn "), "{}: {line}", card["id"]);
+    }
+    let mean = &values["sweep.s0_2_mean"];
+    assert_eq!(mean["source"], "experiments::sweep::reduce");
 }

@@ -125,11 +125,11 @@ pub fn files_of(figure: &Figure) -> Files {
 }
 
 fn check_unused(values: &Registry, filled: &str) -> Result<(), Error> {
-    let used: BTreeSet<String> =
-        Mark::split(filled).into_iter().flatten().map(|mark| mark.id).collect();
+    let marks: Vec<Mark> = Mark::split(filled).into_iter().flatten().collect();
+    let used: BTreeSet<&str> = marks.iter().map(|mark| values.id(&mark.id)).collect();
     let unused: Vec<&str> = values
         .iter()
-        .filter(|value| !value.for_data_only && !used.contains(&value.id))
+        .filter(|value| !value.for_data_only && !used.contains(value.id.as_str()))
         .map(|value| value.id.as_str())
         .collect();
     if unused.is_empty() { Ok(()) } else { Err(Error::Unused(unused.join(", "))) }

@@ -400,7 +400,8 @@ impl<'a> Reader<'a> {
                 },
                 Ok(mark) => {
                     let shown = words_and_maths(&self.shown(&mark, Target::Prose)?);
-                    out.push(Inline::Value { id: mark.id, shown });
+                    let id = self.values.id(&mark.id).to_string();
+                    out.push(Inline::Value { id, shown });
                 }
             }
         }

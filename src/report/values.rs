@@ -297,14 +297,20 @@ impl Registry {
         self.names.remove(id);
     }
 
+    /// The id of the value with this id or name; a name may stand for another.
+    pub fn id<'a>(&'a self, name: &'a str) -> &'a str {
+        let next = |name: &&'a str| self.names.get(*name).map(String::as_str);
+        std::iter::successors(Some(name), next).take(self.names.len() + 1).last().unwrap_or(name)
+    }
+
     /// The value with this id or name.
     pub fn get(&self, id: &str) -> Option<&Value> {
-        self.values.get(self.names.get(id).map_or(id, String::as_str))
+        self.values.get(self.id(id))
     }
 
     /// Other names, and the values that they stand for (none for one that is not there).
     pub fn names(&self) -> impl Iterator<Item = (&str, Option<&Value>)> {
-        self.names.iter().map(|(name, of)| (name.as_str(), self.values.get(of)))
+        self.names.keys().map(|name| (name.as_str(), self.get(name)))
     }
 
     /// All values, sorted by id.
@@ -353,6 +359,17 @@ mod tests {
         registry.add(Value::integer("edges", 16)).unwrap();
         assert!(matches!(registry.add(Value::integer("edges", 17)), Err(Error::DuplicateId(_))));
         assert_eq!(registry.get("edges"), Some(&Value::integer("edges", 16)));
+    }
+
+    #[test]
+    fn a_name_leads_to_one_value() {
+        let mut registry = Registry::new();
+        registry.extend([Value::same("c", "b"), Value::same("b", "a")]).unwrap();
+        assert_eq!(registry.get("c"), None);
+        registry.add(Value::integer("a", 1)).unwrap();
+        assert_eq!((registry.id("c"), registry.len()), ("a", 1));
+        registry.extend([Value::same("x", "y"), Value::same("y", "x")]).unwrap();
+        assert_eq!(registry.get("x"), None);
     }
 
     #[test]

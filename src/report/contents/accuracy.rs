@@ -188,31 +188,32 @@ fn bias(biases: &Biases) -> Result<Vec<Value>, Error> {
         return Err(Error::Missing("the bias of methods"));
     };
     let worst = at(low.sigma).max_by(|a, b| a.1[0].abs().total_cmp(&b.1[0].abs()));
-    let Some((worst, [bias, error])) = worst else {
+    let Some((worst, _)) = worst else {
         return Err(Error::Missing("the bias of methods at the threshold"));
     };
     // Within one per cent, one standard error allowed for.
     let good = at(high.sigma).filter(|(_, [bias, error])| bias.abs() - error <= 0.01).count();
     let coarse = Setting { method: MethodName::Verlet, value: 0.1 };
     let coarse = |sigma: f64| at(sigma).find(|(row, _)| row.setting == coarse);
-    let (Some((row, [far, far_error])), Some((_, [near, near_error]))) =
-        (coarse(high.sigma), coarse(low.sigma))
-    else {
+    let (Some((row, _)), Some((near, _))) = (coarse(high.sigma), coarse(low.sigma)) else {
         return Err(Error::Missing("the bias of Verlet's scheme"));
     };
-    let of = |id: &str, bias: f64, error: f64| match error > 0.0 {
-        true => Value::ensemble(id, bias, error, row.pairs),
-        false => Value::real(id, bias, 1),
+    // Cells of the table.
+    let of = |id: &str, row: &BiasRow| -> Result<Value, Error> {
+        let setting = biases.parameters.settings.iter().position(|own| own.0 == row.setting);
+        let scene = biases.certified.iter().position(|own| own.sigma == row.sigma);
+        let cell = setting.zip(scene).map(|(setting, scene)| bias_id(setting, scene));
+        Ok(Value::same(id, cell.ok_or(Error::Missing("the bias of methods"))?))
     };
     values.extend([
-        of("coarse_far", far, far_error),
-        of("coarse_near", near, near_error),
+        of("coarse_far", row)?,
+        of("coarse_near", near)?,
         chosen("coarse_step", row.setting.value),
         or_none("coarse_work", row.evaluations_per_impact, 2),
         chosen("bias_low", low.sigma),
         chosen("bias_high", high.sigma),
         Value::text("bias_worst", titled(worst.setting).replace(", $", " with $")),
-        Value::ensemble("bias_worst_share", bias, error, worst.pairs),
+        of("bias_worst_share", worst)?,
         Value::integer("bias_good", good),
         Value::integer("bias_settings", at(high.sigma).count()),
     ]);

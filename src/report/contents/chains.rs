@@ -118,8 +118,7 @@ fn drift(found: &Chains, map: &ProtocolMap) -> Option<Vec<Value>> {
     let mut values = Vec::new();
     for &time in &first.transients {
         values.push(Value::integer(format!("chains.t{}", time as u64), time as u64));
-        let same = of_map(time);
-        values.push(estimate(map_id(time), same, map.parameters.realisations));
+        values.push(super::protocol::all_as(map_id(time), map, time, window));
     }
     for (own, curve) in drifts(found) {
         for (time, half) in own.transients.iter().zip(&curve.half_heights) {
@@ -158,10 +157,10 @@ fn forces(found: &Chains) -> Option<Vec<Value>> {
         }
     }
     let (paper, curve) = found.curve("length-100")?;
-    let half = *curve.half_heights.last()?;
-    values.push(estimate("chains.m1_half", half, paper.realisations));
+    let last = *paper.transients.last()?;
+    values.push(Value::same("chains.m1_half", length_id(paper, last, "half")));
     values.push(estimate("chains.m1_kept", curve.kept_half, paper.realisations));
-    values.push(Value::integer("chains_transient", *paper.transients.last()? as u64));
+    values.push(Value::integer("chains_transient", last as u64));
     Some(values)
 }
 

@@ -41,7 +41,11 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
         for (name, column) in THEORIES {
             let theory = sec8::at(curve, row.sigma, column);
             let theory = theory.ok_or(Error::Missing("the theory at every simulated sigma"))?;
-            values.push(Value::real(id(row, name), theory, 3));
+            let id = id(row, name);
+            values.push(match (row.sigma == super::theory::BETWEEN, name) {
+                (true, "simple") => Value::same(id, "theory_between"),
+                _ => Value::real(id, theory, 3),
+            });
         }
     }
     Ok(from(values, origin(theory::curves::curve), "theory"))

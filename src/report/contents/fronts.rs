@@ -20,7 +20,7 @@ const OBSTACLES: [&str; 7] =
 const HOLDS: [&str; fronts::PARTS] =
     ["fronts_holds_a", "fronts_holds_b", "fronts_holds_c", "fronts_holds_d"];
 
-fn moment_id(own: &Moment, column: &str) -> String {
+pub(super) fn moment_id(own: &Moment, column: &str) -> String {
     format!("course.t{}_{column}", own.until as u64)
 }
 

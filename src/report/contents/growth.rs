@@ -1,12 +1,12 @@
 //! Section 12, second half: what one gap sets off, and the mean count that follows.
 
+use super::fronts::moment_id;
+use super::protocol::all_as;
 use super::simulation::mean_all;
 use super::{Error, chosen, difference, estimate, from, mark, share};
-use crate::experiments::protocol::ProtocolMap;
 use crate::experiments::seeds::{Prediction, Seeds, Spread};
 use crate::experiments::sweep::Sweep;
 use crate::experiments::{Results, seeds};
-use crate::numerics::statistics::Estimate;
 use crate::report::values::{Value, cell, origin};
 use serde::Serialize;
 
@@ -40,12 +40,11 @@ fn half_id(own: &Prediction, column: &str) -> String {
 
 /// The rows of the table: those at whole hundredths.
 pub(super) fn tabled(seeds: &Seeds) -> impl Iterator<Item = &Spread> {
-    seeds.rows.iter().filter(|row| (100.0 * row.sigma).round() / 100.0 == row.sigma)
+    seeds.rows.iter().filter(|row| in_table(row))
 }
 
-/// The half height of the mean of all that the map found with the same transient and window.
-fn found(map: &ProtocolMap, own: &Prediction) -> Option<Estimate> {
-    map.cell(own.transient, own.window)?.half_height_all
+fn in_table(row: &Spread) -> bool {
+    (100.0 * row.sigma).round() / 100.0 == row.sigma
 }
 
 /// For each σ that both have, by how much the predicted mean is above the simulated one.
@@ -60,8 +59,16 @@ fn compared<'a>(
     })
 }
 
+/// The exponent at one end of the range, which the table has where it has that end.
+fn exponent(id: &str, row: &Spread) -> Value {
+    match in_table(row) {
+        true => Value::same(id, spread_id(row, "exponent")),
+        false => Value::real(id, row.exponent, 2),
+    }
+}
+
 pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
-    let (seeds, sweep, map) = (results.seeds()?, results.sweep()?, results.protocol()?);
+    let (seeds, sweep) = (results.seeds()?, results.sweep()?);
     let parameters = &seeds.parameters;
     let n = parameters.realisations;
     let first = seeds.rows.first().ok_or(Error::Missing("seeds"))?;
@@ -75,22 +82,36 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
         chosen("seeds_sigma_low", first.sigma),
         chosen("seeds_sigma_high", last.sigma),
         Value::integer("seeds_until", (parameters.bin * parameters.bins as f64) as u64),
-        share("seeds_survival", lived, least.seeds as usize),
-        Value::real("seeds_exponent_low", first.exponent, 2),
-        Value::real("seeds_exponent_high", last.exponent, 2),
+        exponent("seeds_exponent_low", first),
+        exponent("seeds_exponent_high", last),
     ];
+    values.push(match least.course.last() {
+        Some(own) if least.sigma == SIGMA => Value::same("seeds_survival", moment_id(own, "alive")),
+        _ => share("seeds_survival", lived, least.seeds as usize),
+    });
     for row in tabled(seeds) {
         values.push(chosen(&spread_id(row, "sigma"), row.sigma));
         values.push(estimate(spread_id(row, "spread"), row.spread, row.spreads.len()));
-        let active = row.course.last().and_then(|own| own.active);
-        values.push(estimate(spread_id(row, "active"), active, row.spreads.len()));
         values.push(Value::real(spread_id(row, "exponent"), row.exponent, 2));
-        values.push(Value::real(spread_id(row, "radius"), row.radius, 2));
+        let last = row.course.last();
+        values.extend(match last.filter(|_| row.sigma == SIGMA) {
+            Some(own) => ["active", "radius"]
+                .map(|column| Value::same(spread_id(row, column), moment_id(own, column))),
+            None => [
+                estimate(
+                    spread_id(row, "active"),
+                    last.and_then(|own| own.active),
+                    row.spreads.len(),
+                ),
+                Value::real(spread_id(row, "radius"), row.radius, 2),
+            ],
+        });
     }
     for own in &seeds.predictions {
         values.push(Value::integer(half_id(own, "transient"), own.transient as u64));
         values.push(estimate(half_id(own, "predicted"), own.half_height, n));
-        values.push(estimate(half_id(own, "found"), found(map, own), map.parameters.realisations));
+        let found = half_id(own, "found");
+        values.push(all_as(found, results.protocol()?, own.transient, own.window));
     }
     values.extend(comparison(seeds, sweep, n)?);
     Ok(from(values, origin(seeds::growth::predictions), "seeds"))

@@ -3,7 +3,7 @@
 use super::{Error, chosen, estimate, from, mark};
 use crate::experiments::heat::{Heat, Warmth};
 use crate::experiments::{Results, heat};
-use crate::params::HeatParams;
+use crate::params::{Chain, HeatParams, PRINTED_THRESHOLD};
 use crate::report::values::{Value, cell, origin};
 use serde::Serialize;
 
@@ -33,6 +33,25 @@ fn probabilities(row: &Warmth) -> [f64; 4] {
     [row.p, row.p_rest, row.p_balanced, row.p_measured]
 }
 
+/// The id of what the balance gives for a restitution of which the text speaks.
+pub(super) fn expected(restitution: f64) -> Option<&'static str> {
+    match restitution {
+        _ if restitution == Chain::default().restitution => Some("heat_expected"),
+        RESTITUTION => Some("heat_other_expected"),
+        _ => None,
+    }
+}
+
+/// The ids of the probabilities that the text gives.
+fn printed(sigma: f64, column: &str) -> Option<&'static str> {
+    match (sigma, column) {
+        (PRINTED_THRESHOLD, "p") => Some("p_012"),
+        (PRINTED_THRESHOLD, "rest") => Some("p_rest_012"),
+        (0.15, "p") => Some("p_015"),
+        _ => None,
+    }
+}
+
 pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
     let heat = results.heat()?;
     let protocol = heat.parameters.protocol;
@@ -50,7 +69,10 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
         values.push(estimate(id(row, "ratio"), row.ratio, row.ratios.len()));
         values.push(estimate(id(row, "count"), row.count, row.counts.len()));
         let probabilities = COLUMNS.iter().zip(probabilities(row));
-        values.extend(probabilities.map(|(name, p)| Value::real(id(row, name), p, 2)));
+        values.extend(probabilities.map(|(name, p)| match printed(row.row.sigma, name) {
+            Some(same) => Value::same(id(row, name), same),
+            None => Value::real(id(row, name), p, 2),
+        }));
     }
     for (letter, sigma) in ["a", "b"].iter().zip(SIGMAS) {
         let row = at(heat, sigma)?;

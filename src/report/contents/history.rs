@@ -1,9 +1,10 @@
 //! How hot a running chain is: what its past does to the count.
 
+use super::protocol::all_as;
 use super::simulation::mean_all;
 use super::{Error, chosen, estimate, from, mark};
 use crate::experiments::history::{History, Lowered};
-use crate::experiments::{Results, history, protocol};
+use crate::experiments::{Results, history};
 use crate::report::values::{Value, cell, origin};
 use serde::Serialize;
 
@@ -23,7 +24,7 @@ fn after(transient: f64) -> String {
 }
 
 pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
-    let (history, sweep, map) = (results.history()?, results.sweep()?, results.protocol()?);
+    let (history, sweep) = (results.history()?, results.sweep()?);
     let parameters = &history.parameters;
     let n = parameters.realisations;
     let mut values = vec![
@@ -39,14 +40,12 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
     }
     for (letter, place) in ["a", "b"].into_iter().zip([0, parameters.transients.len() - 1]) {
         let transient = parameters.transients[place];
-        // Of the mean of all, as the other: that of the kept knows no bound.
-        let cell = map.cell(transient, parameters.window).and_then(|cell| cell.half_height_all);
         values.push(Value::integer(format!("history_transient_{letter}"), transient as u64));
         let own = format!("history.half_{}", after(transient));
         values.push(Value::same(format!("history_half_{letter}"), own));
+        // Of the mean of all, as the other: that of the kept knows no bound.
         let rest = format!("history_rest_{letter}");
-        let rest = estimate(rest, cell, map.parameters.realisations);
-        values.push(rest.source(origin(protocol::join), "protocol"));
+        values.push(all_as(rest, results.protocol()?, transient, parameters.window));
     }
     for row in &history.rows {
         values.push(chosen(&id(row, "sigma"), row.sigma));

@@ -86,8 +86,11 @@ fn orders(orders: &AllOrders) -> Vec<Value> {
     let mut values = Vec::new();
     for (i, jump) in orders.jumps.iter().enumerate() {
         values.push(Value::integer(format!("orders.e{i}"), jump.most.unwrap_or_default()));
-        values.push(Value::real(format!("orders.p{i}"), jump.p, 5));
-        values.push(Value::integer(format!("orders.k{i}"), jump.k_after));
+        let (p, k) = (format!("orders.p{i}"), format!("orders.k{i}"));
+        values.extend(match jump.most {
+            Some(0) => [Value::same(p, "p_jump"), Value::same(k, "k_after_jump")],
+            _ => [Value::real(p, jump.p, 5), Value::integer(k, jump.k_after)],
+        });
     }
     let remarks = &orders.remarks;
     values.extend([

@@ -15,7 +15,7 @@ pub struct Line {
     all: Vec<String>,
 }
 
-fn cell(mean: &str, transient: f64, window: f64) -> String {
+pub(super) fn cell(mean: &str, transient: f64, window: f64) -> String {
     format!("long.{mean}_t{}_w{}", transient as u64, window as u64)
 }
 

@@ -53,7 +53,7 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
         Value::real("nucleation_half", found.half, 4),
         Value::same("nucleation_p", cell("nucleation", SIGMA, "p")),
         Value::real("nucleation_wall", row.ever.wall, 2),
-        Value::real("nucleation_random", row.random, 2),
+        Value::same("nucleation_random", "p_012"),
         Value::real("nucleation_zero", row.zero, 2),
         Value::real("nucleation_neighbour", row.ever.pair / row.ever.p, 2),
         Value::integer("nucleation_shortest", lowest),

@@ -1,7 +1,7 @@
 //! Section 11: the map over transients and windows.
 
 use super::{Error, estimate, from, mark};
-use crate::experiments::protocol::ProtocolMap;
+use crate::experiments::protocol::{ProtocolCell, ProtocolMap};
 use crate::experiments::{Results, protocol};
 use crate::report::values::{Value, origin};
 use serde::Serialize;
@@ -17,6 +17,19 @@ fn cell(transient: f64, window: f64) -> String {
     format!("protocol.t{}_w{}", transient as u64, window as u64)
 }
 
+/// The half height of the mean of all in a cell.
+fn all(transient: f64, window: f64) -> String {
+    format!("{}_all", cell(transient, window))
+}
+
+/// The same by the name that another section has for it.
+pub(super) fn all_as(id: String, map: &ProtocolMap, transient: f64, window: f64) -> Value {
+    match map.cell(transient, window) {
+        Some(_) => Value::same(id, all(transient, window)),
+        None => Value::text(id, "none"),
+    }
+}
+
 pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
     let map = results.protocol()?;
     let parameters = &map.parameters;
@@ -30,11 +43,11 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
     }
     let cells = map.cells.iter().map(|c| estimate(cell(c.transient, c.window), c.half_height, n));
     values.extend(cells);
-    let lowest = extreme(map, |a, b| a < b);
-    let highest = extreme(map, |a, b| a > b);
+    let of_all = |c: &ProtocolCell| estimate(all(c.transient, c.window), c.half_height_all, n);
+    values.extend(map.cells.iter().map(of_all).map(Value::data_only));
     let ends = |list: &[f64]| [list.first().copied(), list.last().copied()];
-    let real = |id: &str, x: Option<f64>, digits| match x {
-        Some(x) => Value::real(id, x, digits),
+    let extreme = |id: &str, better: fn(f64, f64) -> bool| match extreme(map, better) {
+        Some(own) => Value::same(id, cell(own.transient, own.window)),
         None => Value::text(id, "none"),
     };
     let time = |id: &str, x: Option<f64>| Value::integer(id, x.unwrap_or(0.0) as u64);
@@ -42,8 +55,8 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
     let [w_low, w_high] = ends(&parameters.windows);
     values.extend([
         // The largest threshold first: it falls with both times.
-        real("protocol_low", highest, 3),
-        real("protocol_high", lowest, 3),
+        extreme("protocol_low", |a, b| a > b),
+        extreme("protocol_high", |a, b| a < b),
         time("protocol_transient_low", t_low),
         time("protocol_transient_high", t_high),
         time("protocol_window_low", w_low),
@@ -59,9 +72,9 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
     Ok(from(values, origin(protocol::join), "protocol"))
 }
 
-fn extreme(map: &ProtocolMap, better: fn(f64, f64) -> bool) -> Option<f64> {
-    let halves = map.cells.iter().filter_map(|c| Some(c.half_height?.value));
-    halves.reduce(|best, x| if better(x, best) { x } else { best })
+fn extreme(map: &ProtocolMap, better: fn(f64, f64) -> bool) -> Option<&ProtocolCell> {
+    let halves = map.cells.iter().filter_map(|c| Some((c.half_height?.value, c)));
+    halves.reduce(|best, own| if better(own.0, best.0) { own } else { best }).map(|own| own.1)
 }
 
 /// The protocols that print as the paper does: each transient with its windows.

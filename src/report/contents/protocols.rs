@@ -1,6 +1,7 @@
 //! Section 11: the map over transients and windows for other starts and ends.
 
-use super::{Error, estimate, from, mark};
+use super::protocol::all_as;
+use super::{Error, estimate, from, long, mark};
 use crate::experiments::protocol::ProtocolCell;
 use crate::experiments::{Results, protocol};
 use crate::numerics::statistics::Estimate;
@@ -75,8 +76,17 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
         for own in cells.iter().filter(shown) {
             let cell = own.cell;
             let id = |column: &str| id(column, name, cell.transient, cell.window);
-            values.push(place(id("half"), own, cell.half_height_all));
-            values.push(place(id("onset"), own, cell.onset));
+            let (t, w) = (cell.transient, cell.window);
+            let last = results.long_protocol()?.map.cells.last();
+            values.push(match own.experiment {
+                "protocol" => all_as(id("half"), results.protocol()?, t, w),
+                "long_protocol" => Value::same(id("half"), long::cell("all", t, w)),
+                _ => place(id("half"), own, cell.half_height_all),
+            });
+            values.push(match last.is_some_and(|last| std::ptr::eq(last, cell)) {
+                true => Value::same(id("onset"), "long_onset"),
+                false => place(id("onset"), own, cell.onset),
+            });
             values.push(place(id("kept"), own, cell.kept_half));
         }
     }

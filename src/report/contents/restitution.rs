@@ -50,7 +50,10 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
         values.push(estimate(id(curve, "half"), curve.half_height, n));
         values.push(estimate(id(curve, "ratio_a"), a.ratios.last().copied().flatten(), n));
         values.push(estimate(id(curve, "ratio_b"), b.ratios.last().copied().flatten(), n));
-        values.push(Value::real(id(curve, "balanced"), curve.balanced, 2));
+        values.push(match super::heat::expected(curve.restitution) {
+            Some(same) => Value::same(id(curve, "balanced"), same),
+            None => Value::real(id(curve, "balanced"), curve.balanced, 2),
+        });
         values.push(estimate(id(curve, "balance"), b.balance, n));
         values.push(estimate(id(curve, "rate"), c.rates.last().copied().flatten(), n));
         let phases = c.runs.iter().map(|run| run.phases).sum();

@@ -180,7 +180,7 @@ fn simulated(results: &Results) -> Result<Vec<Value>, Error> {
         mean_all("mean_all_threshold", a),
         chosen("sigma_between", between.sigma),
         Value::same("mean_between", mean_id(between)),
-        Value::real("theory_between", predicted, 2).source(origin(theory::curves::curve), "theory"),
+        Value::real("theory_between", predicted, 3).source(origin(theory::curves::curve), "theory"),
         chosen("large_sigma", sec8::LARGE_SIGMA),
         largest.map_or(Value::text("large_distance", "none"), |[distance, _]| {
             Value::real("large_distance", distance, 2)

@@ -153,7 +153,8 @@ pub fn used(
     filler.insert(TABLE, &Tally::default().rows(reasons));
     let filled = filler.prose("report.md")?;
     let (blocks, _) = parse::parse(&filled, &values)?;
-    let shown = Mark::split(&filled.text).into_iter().flatten().map(|mark| mark.id);
+    let shown = Mark::split(&filled.text).into_iter().flatten();
+    let shown = shown.map(|mark| values.id(&mark.id).to_string());
     let stated = uses(claims, &values, &blocks).into_values().flatten();
     let number = |id: &String| {
         let words = |value: &Value| matches!(value.number, Number::Text(_));
