@@ -26,6 +26,8 @@
 //! # Where each equation lives
 #![doc = ""]
 #![doc = include_str!(concat!(env!("OUT_DIR"), "/map.md"))]
+// What writes to a closed pipe or a full disk by a macro panics: `experiments::say` does not.
+#![warn(clippy::print_stderr, clippy::print_stdout)]
 
 pub mod circuits;
 pub mod claims;

@@ -245,8 +245,8 @@ fn sizes_without_bound() {
         ),
         (vec!["sweep", "--sigma", "0.1", "--threads", "10000"], "cores; give 1 to "),
         (vec!["sweep", "--sigma", "1e308"], "--sigma: 1e308"),
-        (vec!["bench", "engine", "--masses", "1000000000000"], "--masses: about"),
-        (vec!["bench", "engine", "--masses", "10", "--chains", &most], "--chains: about"),
+        (vec!["bench", "engine", "--masses", "1000000000000"], "--masses, --chains: about"),
+        (vec!["bench", "engine", "--masses", "10", "--chains", &most], "--masses, --chains: about"),
         (
             vec!["bench", "engine", "--masses", "10", "--threads", "1000000000"],
             "--threads: 1000000000",

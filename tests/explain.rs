@@ -42,7 +42,7 @@ fn values_figures_equations_and_claims_are_explained() {
         ),
         ("half_height_second", vec!["seed: 7002"]),
         ("p_crit", vec!["0.0122099", "circuits::jump::p_crit (src/circuits/jump.rs:", "(18)"]),
-        ("printed.sec2_half_height", vec!["printed in the paper", "Sec. 2"]),
+        ("printed.sec2_half_height", vec!["that the paper prints", "Sec. 2"]),
         (
             "fig:3",
             vec![

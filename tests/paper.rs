@@ -88,8 +88,8 @@ fn threads_and_saved_results_change_no_byte_and_lesser_profiles_replace_no_full_
     };
     let before = times("r1");
     // What a killed run left is gone afterwards.
-    std::fs::create_dir_all(at("one/.staging-dead/data")).unwrap();
-    std::fs::write(at("one/.staging-dead/data/half.csv"), "1,").unwrap();
+    std::fs::create_dir_all(at("one/.staging-impact-paper-dead/data")).unwrap();
+    std::fs::write(at("one/.staging-impact-paper-dead/data/half.csv"), "1,").unwrap();
     assert_eq!(program::run(folder.path(), "verify one").0, 0);
     let (code, told, _) = run(folder.path(), "paper --profile quick --out one --results r1");
     assert_eq!((code, times("r1")), (0, before));
@@ -242,7 +242,7 @@ fn what_others_made_is_left_as_it_is() {
         assert_eq!((code, told.as_str(), note.lines().count()), (2, "", 1), "{arguments}: {note}");
         assert!(note.contains(says) && note.contains("--force"), "{arguments}: {note}");
     }
-    let foreign = "r/sweep-quick.json: this file is no saved result";
+    let foreign = "r/sweep-quick.json: this is no saved result";
     for (arguments, says) in [
         ("bundle README.md", "README.md is there already"),
         ("paper --profile quick --figure 3 --out f --results r", foreign),

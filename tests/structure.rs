@@ -46,7 +46,7 @@ const MAY_IMPORT: [(&str, &[&str]); 8] = [
     ("experiments", &["params", "numerics", "dynamics", "circuits"]),
     ("figures", &["params", "numerics", "experiments"]),
     ("claims", &["params", "numerics", "experiments"]),
-    ("report", &["params", "numerics", "experiments", "figures", "claims"]),
+    ("report", &["params", "numerics", "circuits", "experiments", "figures", "claims"]),
 ];
 
 /// Layers that a line of code names: `crate::layer`, or `super::…::layer` that climbs to the top.

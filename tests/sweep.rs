@@ -108,7 +108,7 @@ fn bad_input_gets_one_line_and_exit_code_2() {
         ("--sigma x", "--sigma"),
         ("--sigma 0.2..0.1:0.01", "--sigma"),
         ("--sigma 0.1..0.2:0", "--sigma"),
-        ("--sigma 1e300", "forcing"),
+        ("--sigma 1e300", "--sigma"),
         ("--sigma 0.1 --masses 0", "--masses"),
         ("--sigma 0.1 --masses -3", "--masses"),
         ("--sigma 0.1 --realisations 0", "--realisations"),
@@ -161,6 +161,31 @@ fn ended(signal: &str, arguments: &[&str]) -> String {
     note
 }
 
+/// Where messages cannot be written, they are lost and nothing else: codes stay, and signals end what runs.
+#[cfg(target_os = "linux")]
+#[test]
+fn messages_that_cannot_be_written_change_nothing() {
+    let full = || std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+    let sweep = |arguments: &[&str]| {
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_impact-paper"));
+        command.arg("sweep").args(arguments).stdout(Stdio::null()).stderr(full());
+        command
+    };
+    assert_eq!(sweep(&["--sigma", "x"]).status().unwrap().code(), Some(2));
+    assert_eq!(sweep(&["--sigma", "0.3", "--realisations", "2"]).status().unwrap().code(), Some(0));
+    let mut child = sweep(&["--sigma", "0.3", "--realisations", "1000000"]).spawn().unwrap();
+    std::thread::sleep(Duration::from_millis(700));
+    let kill = std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+    assert!(kill.unwrap().success());
+    let asked = Instant::now();
+    while child.try_wait().unwrap().is_none() && asked.elapsed() < Duration::from_secs(5) {
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    let code = child.try_wait().unwrap().map(|status| status.code());
+    let _ = child.kill();
+    assert_eq!(code, Some(Some(130)));
+}
+
 #[cfg(unix)]
 #[test]
 fn signals_end_a_sweep_of_any_size_within_a_second() {
@@ -171,7 +196,7 @@ fn signals_end_a_sweep_of_any_size_within_a_second() {
         // One chain that is long to set up, and one in which nothing happens for very long.
         let one = ["--realisations", "1", "--sigma"];
         ended(signal, &[&one[..], &["0.3", "--masses", "2000000", "--transient", "1e11"]].concat());
-        ended(signal, &[&one[..], &["0.07", "--masses", "1000", "--transient", "9e11"]].concat());
+        ended(signal, &[&one[..], &["0.085", "--masses", "1000", "--transient", "9e11"]].concat());
     }
 }
 

@@ -1,7 +1,7 @@
 //! The files of a report's folder, as they stand there: nobody vouches for them.
 
 use super::Failure;
-use super::output::STAGING;
+use super::output::is_staging;
 use impact_paper::report::sums;
 use std::io::{self, Read};
 use std::path::Path;
@@ -25,7 +25,7 @@ pub fn walk(folder: &Path) -> Result<Vec<String>, Failure> {
         for entry in std::fs::read_dir(&at).map_err(unreadable)? {
             let entry = entry.map_err(unreadable)?;
             let path = format!("{prefix}{}", entry.file_name().to_string_lossy());
-            if path.starts_with(STAGING) {
+            if prefix.is_empty() && is_staging(folder, &path) {
                 continue;
             }
             if entry.file_type().map_err(unreadable)?.is_dir() {

@@ -29,6 +29,7 @@ mod verify;
 mod work;
 
 use clap::{Parser, Subcommand};
+use impact_paper::experiments::say;
 use std::io;
 use std::process::ExitCode;
 
@@ -146,7 +147,7 @@ pub fn main() -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
-            eprintln!("impact-paper: {}", failure.message);
+            say(&format!("impact-paper: {}", failure.message));
             ExitCode::from(failure.code)
         }
     }
@@ -163,6 +164,6 @@ fn usage(error: &clap::Error) -> ExitCode {
     let text = error.to_string();
     let lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
     let line = lines.collect::<Vec<_>>().join("; ");
-    eprintln!("impact-paper: {}", line.strip_prefix("error: ").unwrap_or(&line));
+    say(&format!("impact-paper: {}", line.strip_prefix("error: ").unwrap_or(&line)));
     ExitCode::from(2)
 }

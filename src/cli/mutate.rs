@@ -79,7 +79,8 @@ pub fn run(args: Args) -> Result<(), Failure> {
         let values = contents::registry(&results, &published)?;
         let rows = contents::rows(&results, &claims)?;
         let mut used = mutate::used(&templates, &values, &rows, &claims, &reasons)?;
-        if let Some(id) = args.value.iter().find(|id| !used.contains(*id)) {
+        let asked: Vec<&str> = args.value.iter().map(|name| values.id(name)).collect();
+        if let Some(id) = asked.iter().find(|id| !used.contains(**id)) {
             let message = format!("--value: neither prose nor a claim uses a number {id:?}");
             return Err(Failure::input(message));
         }
@@ -87,7 +88,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
         let found = if args.value.is_empty() {
             found(&args.sources, profile, subject, &progress)?
         } else {
-            used.retain(|id| args.value.contains(id));
+            used.retain(|id| asked.contains(&id.as_str()));
             all(subject, &|value| used.contains(&value.id), &progress)?
         };
         Ok((found, used, values))

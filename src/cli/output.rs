@@ -7,7 +7,7 @@
 use super::{Failure, folder};
 use impact_paper::digest::sha256;
 use impact_paper::experiments::Progress;
-use impact_paper::input::{self, one_line};
+use impact_paper::input::one_line;
 use impact_paper::report::{Files, sums};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
@@ -16,7 +16,7 @@ use std::path::Path;
 use std::time::Duration;
 
 /// Folders in which files wait until all are there begin with this.
-pub const STAGING: &str = ".staging-";
+const STAGING: &str = ".staging-impact-paper-";
 
 /// Of a longer list of names only so many are told.
 const TOLD: usize = 5;
@@ -62,7 +62,7 @@ impl<'a> Staging<'a> {
         let failed = |error: io::Error| staging.failed(&error);
         std::fs::create_dir_all(folder).map_err(failed)?;
         let own = Own::read(folder);
-        let strange = |name: &String| !name.starts_with(STAGING);
+        let strange = |name: &String| !is_staging(folder, name);
         let strange = names(folder).map_err(failed)?.into_iter().find(strange);
         if let (Some(name), None, false) = (strange, &own, force) {
             return Err(Failure::input(format!(
@@ -74,14 +74,9 @@ impl<'a> Staging<'a> {
         }
         let _alone = alone(folder).map_err(failed)?;
         // Whoever writes holds the lock, so nobody who lives needs these.
-        for name in names(folder).map_err(failed)?.iter().filter(|name| name.starts_with(STAGING)) {
-            let path = folder.join(name);
+        for name in names(folder).map_err(failed)?.iter().filter(|name| is_staging(folder, name)) {
             // What cannot be removed is in nobody's way.
-            let _ = if path.is_dir() && !path.is_symlink() {
-                std::fs::remove_dir_all(path)
-            } else {
-                std::fs::remove_file(path)
-            };
+            let _ = std::fs::remove_dir_all(folder.join(name));
         }
         tempfile::Builder::new().prefix(STAGING).tempdir_in(folder).map_err(failed)?;
         Ok(staging)
@@ -229,7 +224,8 @@ impl Own {
     /// From the lists in a folder; none if it has none. Other people have lists of this name too: one
     /// of a report names its values and its ledger.
     fn read(folder: &Path) -> Option<Own> {
-        let list = |name: &str| sums::read(&input::read(&folder.join(name)).ok()?).ok();
+        let text = |name: &str| String::from_utf8(folder::read(folder, name).ok()?).ok();
+        let list = |name: &str| sums::read(&text(name)?).ok();
         let has = |list: &Vec<sums::Entry>, path: &str| list.iter().any(|entry| entry.path == path);
         let report =
             list(sums::NAME).filter(|list| has(list, "values.json") && has(list, "ledger.json"));
@@ -265,6 +261,12 @@ impl Own {
         let lines: BTreeMap<&str, String> = kept.chain(new).collect();
         lines.into_iter().map(|(path, digest)| format!("{digest}  {path}\n")).collect()
     }
+}
+
+/// Is it a folder in which files of ours waited?
+pub fn is_staging(folder: &Path, name: &str) -> bool {
+    name.starts_with(STAGING)
+        && folder.join(name).symlink_metadata().is_ok_and(|found| found.is_dir())
 }
 
 /// Names of what is in a folder.
@@ -437,7 +439,7 @@ mod tests {
     #[test]
     fn leftovers_go_when_nobody_writes() {
         let out = tempfile::tempdir().unwrap();
-        let left = out.path().join(".staging-abc");
+        let left = out.path().join(format!("{STAGING}abc"));
         std::fs::create_dir_all(left.join("data")).unwrap();
         std::fs::write(left.join("data/a.csv"), "half").unwrap();
         let living = alone(out.path()).unwrap();
@@ -450,6 +452,23 @@ mod tests {
             waits
         });
         assert!(waiting && !left.exists());
+    }
+
+    #[test]
+    fn what_only_looks_like_leftovers_is_a_stranger() {
+        let out = tempfile::tempdir().unwrap();
+        let theirs = out.path().join(".staging-site");
+        std::fs::create_dir(&theirs).unwrap();
+        std::fs::write(theirs.join("index.md"), "theirs").unwrap();
+        let failure = place(out.path(), &files(&["a"])).unwrap_err();
+        assert!(failure.message.contains("(.staging-site)"), "{}", failure.message);
+        assert!(theirs.join("index.md").exists());
+        std::fs::rename(&theirs, out.path().join("site")).unwrap();
+        let file = out.path().join(format!("{STAGING}notes.md"));
+        std::fs::write(&file, "theirs").unwrap();
+        let force = Staging::below(out.path(), "--out", Force { force: true }).unwrap();
+        force.place(&files(&["a"]), &Progress::silent()).unwrap();
+        assert!(file.exists() && out.path().join("site/index.md").exists());
     }
 
     #[test]

@@ -5,6 +5,7 @@ use impact_paper::dynamics::methods::State;
 use impact_paper::dynamics::{
     Certificate, Engine, Error, Impact, Scenario, Simultaneous, TWINS, certify, rounding,
 };
+use impact_paper::experiments::say;
 use impact_paper::input;
 use impact_paper::numerics::clock::LATEST;
 use std::io::{self, Write};
@@ -161,13 +162,13 @@ pub fn run(args: Args) -> Result<(), Failure> {
         Err(error) => stdout::written(Err(error)),
         Ok(()) => {
             if ties > 0 {
-                eprintln!("{}", simultaneous(ties, scenario.simultaneous));
+                say(&simultaneous(ties, scenario.simultaneous));
             }
             let rounded = rounded(&scenario).filter(|_| args.method.is_certified());
             match (certificate.map(|own| line(&own, most - left)), rounded) {
-                (Some(line), Some(rounded)) => eprintln!("{line}; {rounded}"),
-                (Some(line), None) => eprintln!("{line}"),
-                (None, Some(rounded)) => eprintln!("impact-paper: {rounded}"),
+                (Some(line), Some(rounded)) => say(&format!("{line}; {rounded}")),
+                (Some(line), None) => say(&line),
+                (None, Some(rounded)) => say(&format!("impact-paper: {rounded}")),
                 (None, None) => {}
             }
             Ok(())

@@ -2,7 +2,7 @@
 
 use super::Failure;
 use impact_paper::experiments::shards::Plan;
-use impact_paper::experiments::{Error, Progress, catalogue, deep};
+use impact_paper::experiments::{Error, Progress, catalogue, deep, say};
 use impact_paper::params::Profile;
 use impact_paper::report::{self, contents};
 use impact_paper::{claims, figures};
@@ -134,7 +134,7 @@ static WORK: OnceLock<(Arc<AtomicBool>, Option<Duration>)> = OnceLock::new();
 /// work, or the second time, it ends the program at once. Always with exit code 130.
 pub fn obey_signals() {
     let end = || {
-        eprintln!("impact-paper: interrupted");
+        say("impact-paper: interrupted");
         std::process::exit(i32::from(INTERRUPTED))
     };
     // A handler can only be refused if there is one already; then a signal just ends the program.

@@ -45,7 +45,7 @@ mod results;
 pub use error::Error;
 pub use measured::Measured;
 pub use need::Need;
-pub use progress::Progress;
+pub use progress::{Progress, say};
 pub use results::{Looked, Results};
 pub use run::run;
 pub use store::Store;

@@ -5,7 +5,7 @@
 
 use super::Error;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use std::io::IsTerminal;
+use std::io::{IsTerminal, Write};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
@@ -78,9 +78,14 @@ impl Progress {
     /// Says one plain line, whatever the way of showing, except to nobody.
     pub fn say(&self, line: &str) {
         if self.show != Show::Nothing {
-            eprintln!("{line}");
+            say(line);
         }
     }
+}
+
+/// Says one line on standard error. If nobody can be told (a full disk, a closed pipe), no work ends for that.
+pub fn say(line: &str) {
+    let _ = writeln!(std::io::stderr(), "{line}");
 }
 
 /// One stage of an experiment. Shared by the threads that work on it.
@@ -110,8 +115,8 @@ impl Stage {
     /// Says one plain line in the middle of the stage, above its bar if there is one.
     pub fn say(&self, line: &str) {
         match &self.bar {
-            Some(bar) => bar.suspend(|| eprintln!("{line}")),
-            None if self.lines => eprintln!("{line}"),
+            Some(bar) => bar.suspend(|| say(line)),
+            None if self.lines => say(line),
             None => (),
         }
     }
@@ -127,7 +132,7 @@ impl Stage {
         let moved =
             self.next_line.compare_exchange(mark, next, Ordering::Relaxed, Ordering::Relaxed);
         if moved.is_ok() {
-            eprintln!("{}", plain_line(&self.name, done, self.total, elapsed));
+            say(&plain_line(&self.name, done, self.total, elapsed));
         }
     }
 }

@@ -180,17 +180,31 @@ where
     }
 }
 
-/// Refuses to replace what was never a result, damaged or not: these begin with a digest, other people's
-/// JSON with a bracket.
+/// Refuses to replace what was never a result, damaged or not: one is a file whose first line is a digest.
 fn refuse_foreign(path: &Path) -> Result<(), Error> {
-    let mut first = [0];
-    let read = std::fs::File::open(path).and_then(|mut file| file.read(&mut first));
-    if read.is_ok() && matches!(first, [b'{' | b'[']) {
-        let what = "this file is no saved result, and would be overwritten";
-        let source = std::io::Error::new(ErrorKind::AlreadyExists, what);
-        return Err(Error::Store { path: path.into(), source });
+    let is_ours = match std::fs::symlink_metadata(path) {
+        Err(_) => true,
+        Ok(found) if !found.is_file() => false,
+        Ok(found) => found.len() == 0 || begins_with_digest(path).unwrap_or(false),
+    };
+    if is_ours {
+        return Ok(());
     }
-    Ok(())
+    let what = "this is no saved result, and would be overwritten; move it away";
+    let source = std::io::Error::new(ErrorKind::AlreadyExists, what);
+    Err(Error::Store { path: path.into(), source })
+}
+
+/// Whether the first line has the form of a digest, or its length: files are cut short, and letters change.
+fn begins_with_digest(path: &Path) -> std::io::Result<bool> {
+    let mut first = Vec::new();
+    std::fs::File::open(path)?.take(65).read_to_end(&mut first)?;
+    let digest = &first[..first.len().min(64)];
+    let hexadecimal = digest.iter().all(|b| matches!(b, b'0'..=b'9' | b'a'..=b'f'));
+    Ok(match first.get(64) {
+        None => hexadecimal,
+        Some(end) => *end == b'\n' && !digest.contains(&b'\n'),
+    })
 }
 
 /// Writes a temporary file and renames it: at no time is there half a result under the name.
@@ -313,7 +327,7 @@ mod tests {
         ask(folder.path(), 1.0, &[Some(1.0)]);
         let path = only_file(folder.path());
         let store = Store::open(folder.path()).unwrap();
-        for theirs in ["{\"my\": 1}", "[1]"] {
+        for theirs in ["{\"my\": 1}", "[1]", "# Notes\n", " {}", "\u{feff}{}"] {
             std::fs::write(&path, theirs).unwrap();
             let run = || -> Result<f64, Error> { panic!("it cannot be saved") };
             let got = store.get(&identity(1.0), Profile::Quick, &Progress::silent(), run);

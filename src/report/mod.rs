@@ -8,6 +8,7 @@
 pub mod appendix;
 pub mod assemble;
 pub mod bibliography;
+mod captions;
 pub mod card;
 pub mod claims;
 pub mod compare;

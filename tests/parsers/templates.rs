@@ -131,7 +131,7 @@ fn prose_that_is_made_to_hurt() {
         (maths("\\begin{cases}", "\\end{cases}"), "?"),
         (maths("\\sqrt", ""), "?"),
         (maths("x^", ""), "?"),
-        (format!("# T\n\n$$\n{}x\n$$\n", "\\sqrt".repeat(9000)), "longer"),
+        (format!("# T\n\n$$\n{} x\n$$\n", "\\sqrt".repeat(9000)), "longer"),
         ("# T\n\n$$\n\\begin{aligned} a &^{N} d \\end{aligned}\n$$\n".into(), "?"),
         ("# T\n\n«v.half_height | fixed(digits=70000)»\n".into(), "digits"),
         ("# T\n\n«v.half_height | significant(digits=99999999999)»\n".into(), "digits"),

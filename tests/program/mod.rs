@@ -14,7 +14,7 @@ pub const PROGRAM: &str = env!("CARGO_BIN_EXE_impact-paper");
 pub const TEMPLATES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/templates");
 
 /// Number of the experiments that are saved in every profile but the deep one.
-pub const EXPERIMENTS: usize = 22;
+pub const EXPERIMENTS: usize = 23;
 
 /// The program in a folder, with arguments between which a blank stands.
 pub fn program(folder: &Path, arguments: &str) -> Command {

@@ -234,7 +234,7 @@ fn a_full_disk_is_an_error_and_no_panic() {
     let program = env!("CARGO_BIN_EXE_impact-paper");
     let mut command = std::process::Command::new(program);
     let output = command.args(["eval", "p-crit"]).stdout(full).output().unwrap();
-    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(output.status.code(), Some(4));
     let text = String::from_utf8(output.stderr).unwrap();
     assert!(text.contains("standard output") && text.lines().count() == 1, "{text}");
 }

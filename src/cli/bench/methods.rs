@@ -6,6 +6,7 @@ use impact_paper::dynamics::methods::{
 };
 use impact_paper::dynamics::{Error, Impact, Scenario};
 use impact_paper::experiments::measured::{Row, What};
+use impact_paper::experiments::say;
 use impact_paper::input;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -83,7 +84,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         .iter()
         .map(|(method, setting)| {
             let row = row(args, &scenario, reference.as_ref(), method.as_ref(), setting);
-            eprintln!("{} {setting}", method.name());
+            say(&format!("{} {setting}", method.name()));
             row
         })
         .collect();
