@@ -29,8 +29,7 @@ pub struct Args {
     /// Sample sizes.
     #[arg(long, default_value = "full")]
     profile: work::ProfileName,
-    /// Draw this figure only (1 to 15, s1 to s8; may be repeated): its SVG and its CSV are written.
-    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, help = figure_help())]
     figure: Vec<String>,
     /// Folder to write into [default: paper for the full profile, else target/paper-PROFILE].
     #[arg(long, value_name = "DIR")]
@@ -47,6 +46,11 @@ pub struct Args {
 /// The files in which a report keeps its values and its verdicts.
 const VALUES: &str = "values.json";
 const LEDGER: &str = "ledger.json";
+
+fn figure_help() -> String {
+    let (paper, own) = (figures::Number::PAPER, figures::Number::OWN);
+    format!("Draw this figure only (1 to {paper}, s1 to s{own}; may be repeated): its SVG and its CSV are written")
+}
 
 /// Of more verdicts that changed only so many are told: the whole is one screen.
 const MOVED: usize = 6;
