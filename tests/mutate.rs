@@ -69,7 +69,7 @@ fn the_check_that_should_notice_does() {
         ("p_jump", "theory/", "guard equal_weights_at_jump"),
         ("sigma_jump", "theory/scalars/sigma_jump", "guard sigmas_of_jumps"),
         ("onset", "sweep/rise/onset/value", "guard places_on_curves"),
-        ("mean_above", "sweep/rows/", "guard means_of_counts"),
+        ("sweep.s0_22_mean", "sweep/rows/", "guard means_of_counts"),
         ("horizon_order", "horizon/order/value", "guard means_of_twins"),
         ("large_k_jump", "theory/large/jumps", "guard jump_at_large_n"),
         ("large_rule", "theory/large/jumps", "guard rule_of_large_jumps"),

@@ -49,7 +49,9 @@ const LEDGER: &str = "ledger.json";
 
 fn figure_help() -> String {
     let (paper, own) = (figures::Number::PAPER, figures::Number::OWN);
-    format!("Draw this figure only (1 to {paper}, s1 to s{own}; may be repeated): its SVG and its CSV are written")
+    format!(
+        "Draw this figure only (1 to {paper}, s1 to s{own}; may be repeated): its SVG and its CSV are written"
+    )
 }
 
 /// Of more verdicts that changed only so many are told: the whole is one screen.

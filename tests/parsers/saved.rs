@@ -26,7 +26,7 @@ fn saved_results_of_any_text() {
     let file = folder.path().join("test-quick.json");
     let good = std::fs::read_to_string(&file).unwrap();
     let body = store.look(&identity, Profile::Quick).unwrap();
-    let (mut refused, mut forged) = (0, 0);
+    let (mut refused, mut forged, mut foreign) = (0, 0, 0);
     for index in 1..800 {
         let text = mutant("saved", index, std::slice::from_ref(&good));
         // With a checksum that fits, as nobody has by accident.
@@ -47,8 +47,17 @@ fn saved_results_of_any_text() {
                 assert!(!line.contains(char::is_control) && line.len() < 2000, "{line:?}");
             }
         }
-        let found = get().unwrap();
-        assert!(found == result || index % 2 == 0, "{text}");
+        match get() {
+            Ok(found) => assert!(found == result || index % 2 == 0, "{text}"),
+            // What has nothing of a result any more is nobody's to replace.
+            Err(error) => {
+                assert!(error.to_string().contains("no saved result"), "{error}: {text}");
+                assert_eq!(std::fs::read_to_string(&file).unwrap(), fitting);
+                foreign += 1;
+                std::fs::write(&file, &good).unwrap();
+            }
+        }
     }
     assert!(refused > 250 && forged > 100, "{refused} refused, {forged} forged");
+    assert!(foreign < refused / 2, "{foreign} foreign");
 }

@@ -9,7 +9,7 @@ use crate::numerics::statistics::Estimate;
 const LINES: [&str; 2] = ["compare", "readings"];
 
 pub const GUARDS: &[Guard] = &[
-    Guard { name: "means_of_counts", ids: &["compare.*", "mean_*"], find: means_of_counts },
+    Guard { name: "means_of_counts", ids: &["sweep.*", "mean_*"], find: means_of_counts },
     Guard {
         name: "rows_named",
         ids: &[
