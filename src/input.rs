@@ -32,17 +32,41 @@ pub fn read_from(file: impl Read) -> Result<String, Error> {
     String::from_utf8(bytes).map_err(|_| Error::new(ErrorKind::InvalidData, "it is no UTF-8 text"))
 }
 
+/// Files and folders that wait until they are complete begin with this.
+pub const STAGING: &str = ".staging-impact-paper-";
+
 /// A temporary file in the folder of `path`, to be renamed to it when it is complete. Whoever the umask
-/// allows may read it, as with any other file.
+/// allows may read it, as with any other file. It is locked as long as it lives: see [`remove_leftovers`].
 ///
 /// # Errors
 /// What the system says.
 pub fn new_beside(path: &Path) -> Result<NamedTempFile, Error> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
     let mut builder = tempfile::Builder::new();
+    builder.prefix(STAGING);
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder.tempfile_in(folder.unwrap_or(Path::new(".")))
+    let file = builder.tempfile_in(folder.unwrap_or(Path::new(".")))?;
+    // Where there are no locks, leftovers stay.
+    let _ = file.as_file().try_lock();
+    Ok(file)
+}
+
+/// Removes what killed runs left of [`new_beside`] in a folder: nobody holds its lock. What is younger than a second
+/// may be about to be locked.
+pub fn remove_leftovers(folder: &Path) {
+    let is_left = |path: &Path| {
+        let file = File::open(path).ok().filter(|file| file.try_lock().is_ok());
+        let found = file.and_then(|file| file.metadata().ok()).filter(|found| found.is_file());
+        let age = found.and_then(|found| found.modified().ok()?.elapsed().ok());
+        age.is_some_and(|age| age.as_secs() >= 1)
+    };
+    for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
+        let ours = entry.file_name().to_string_lossy().starts_with(STAGING);
+        if ours && entry.file_type().is_ok_and(|kind| kind.is_file()) && is_left(&entry.path()) {
+            let _ = std::fs::remove_file(entry.path());
+        }
+    }
 }
 
 /// A message in one line of at most `most` characters: parsers repeat what they were given. Of a
@@ -75,6 +99,24 @@ pub fn toml_fault(text: &str, error: &toml::de::Error) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn leftovers_of_the_killed_go() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        let left = path(&format!("{STAGING}dead"));
+        let old = std::time::SystemTime::now() - std::time::Duration::from_secs(60);
+        let age = |path: &Path| File::options().write(true).open(path)?.set_modified(old);
+        std::fs::write(&left, "half").unwrap();
+        std::fs::write(path("notes"), "theirs").unwrap();
+        let living = new_beside(&path("a")).unwrap();
+        remove_leftovers(folder.path());
+        assert!(left.exists(), "it may be about to be locked");
+        [&left, &path("notes"), living.path()].map(|path| age(path).unwrap());
+        remove_leftovers(folder.path());
+        assert!(!left.exists() && path("notes").exists() && living.path().exists());
+        living.persist(path("a")).unwrap();
+    }
 
     #[test]
     fn long_and_broken_lines_are_one_short_line() {

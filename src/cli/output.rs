@@ -7,16 +7,13 @@
 use super::{Failure, folder};
 use impact_paper::digest::sha256;
 use impact_paper::experiments::Progress;
-use impact_paper::input::one_line;
+use impact_paper::input::{STAGING, one_line};
 use impact_paper::report::{Files, sums};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
 use std::io;
 use std::path::Path;
 use std::time::Duration;
-
-/// Folders in which files wait until all are there begin with this.
-const STAGING: &str = ".staging-impact-paper-";
 
 /// Of a longer list of names only so many are told.
 const TOLD: usize = 5;
@@ -125,24 +122,34 @@ impl<'a> Staging<'a> {
 
         let temporary = tempfile::Builder::new().prefix(STAGING).tempdir_in(self.folder);
         let temporary = temporary.map_err(failed)?;
-        // First of all: whoever is killed half-way finds old and new files in these lists.
-        let mut all = BTreeMap::from([(sums::LOCAL, own.local(files, stands).into_bytes())]);
-        all.extend(files.iter().map(|(path, bytes)| (path.as_str(), bytes.clone())));
-        for (path, bytes) in &all {
+        let stage = |path: &str, bytes: &[u8]| {
             let staged = temporary.path().join(path);
-            std::fs::create_dir_all(staged.parent().unwrap_or(self.folder)).map_err(failed)?;
-            std::fs::write(&staged, bytes).map_err(failed)?;
-        }
-        progress.check()?;
-        let local = std::iter::once(sums::LOCAL);
-        for path in local.chain(files.keys().map(String::as_str)) {
+            std::fs::create_dir_all(staged.parent().unwrap_or(self.folder))?;
+            std::fs::write(&staged, bytes)
+        };
+        let put = |path: &str| {
             let target = self.folder.join(path);
-            std::fs::create_dir_all(target.parent().unwrap_or(self.folder)).map_err(failed)?;
-            std::fs::rename(temporary.path().join(path), &target).map_err(failed)?;
+            std::fs::create_dir_all(target.parent().unwrap_or(self.folder))?;
+            std::fs::rename(temporary.path().join(path), &target)
+        };
+        for (path, bytes) in files {
+            stage(path, bytes).map_err(failed)?;
+        }
+        // Whoever is killed half-way leaves old and new files: at each moment the lists know both.
+        stage(sums::LOCAL, own.local(files, stands, true).as_bytes()).map_err(failed)?;
+        progress.check()?;
+        put(sums::LOCAL).map_err(failed)?;
+        for path in files.keys().filter(|path| *path != sums::NAME) {
+            put(path).map_err(failed)?;
         }
         for path in gone.into_iter().filter(|path| stands(path) && is_own(path)) {
             std::fs::remove_file(self.folder.join(path)).map_err(failed)?;
         }
+        if is_report {
+            put(sums::NAME).map_err(failed)?;
+        }
+        stage(sums::LOCAL, own.local(files, stands, false).as_bytes()).map_err(failed)?;
+        put(sums::LOCAL).map_err(failed)?;
         let over: Vec<&str> = theirs.into_iter().filter(|path| files.contains_key(*path)).collect();
         if !over.is_empty() {
             progress.say(&format!("impact-paper: --force: wrote over {}", over.join(", ")));
@@ -217,7 +224,7 @@ struct Own {
     /// Paths that the list of a report has.
     report: Vec<String>,
     /// The list of what was last written.
-    local: BTreeMap<String, String>,
+    local: Vec<sums::Entry>,
 }
 
 impl Own {
@@ -225,7 +232,7 @@ impl Own {
     /// of a report names its values and its ledger.
     fn read(folder: &Path) -> Option<Own> {
         let text = |name: &str| String::from_utf8(folder::read(folder, name).ok()?).ok();
-        let list = |name: &str| sums::read(&text(name)?).ok();
+        let list = |name: &str| sums::lines(&text(name)?).ok();
         let has = |list: &Vec<sums::Entry>, path: &str| list.iter().any(|entry| entry.path == path);
         let report =
             list(sums::NAME).filter(|list| has(list, "values.json") && has(list, "ledger.json"));
@@ -238,8 +245,7 @@ impl Own {
             own.digests.entry(entry.path.clone()).or_default().push(entry.digest.clone());
         }
         own.report = report.iter().flatten().map(|entry| entry.path.clone()).collect();
-        let line = |entry: sums::Entry| (entry.path, entry.digest);
-        own.local = local.into_iter().flatten().map(line).collect();
+        own.local = local.unwrap_or_default();
         Some(own)
     }
 
@@ -252,13 +258,17 @@ impl Own {
         self.digests.get(path).is_some_and(|digests| digests.contains(&sha256(bytes)))
     }
 
-    /// The list of what was last written, with `files`, and without what is not there any more.
-    fn local(&self, files: &Files, stands: impl Fn(&str) -> bool) -> String {
-        let kept = self.local.iter().filter(|(path, _)| !files.contains_key(*path) && stands(path));
-        let kept = kept.map(|(path, digest)| (path.as_str(), digest.clone()));
+    /// The list of what was last written, with `files`, and without what is not there any more. `both`: with the
+    /// digests of what these replace.
+    fn local(&self, files: &Files, stands: impl Fn(&str) -> bool, both: bool) -> String {
+        let stays = |path: &str| stands(path) && (both || !files.contains_key(path));
+        let kept = self.local.iter().filter(|entry| stays(&entry.path));
+        let kept = kept.map(|entry| (entry.path.as_str(), entry.digest.clone()));
         let new = files.iter().filter(|(path, _)| *path != sums::NAME);
         let new = new.map(|(path, bytes)| (path.as_str(), sha256(bytes)));
-        let lines: BTreeMap<&str, String> = kept.chain(new).collect();
+        let mut lines: Vec<(&str, String)> = kept.chain(new).collect();
+        // The old digest of a path before the new one.
+        lines.sort_by_key(|(path, _)| *path);
         lines.into_iter().map(|(path, digest)| format!("{digest}  {path}\n")).collect()
     }
 }
@@ -433,6 +443,37 @@ mod tests {
         let staging = Staging::below(&new, "--out", ASK).unwrap();
         assert!(staging.place(&files(&["x"]), &stopped).is_err());
         assert!(!new.exists());
+    }
+
+    /// At each moment at which a run may be killed, the next one knows its files.
+    #[test]
+    fn a_run_that_was_killed_between_two_files_is_gone_on_with() {
+        let with = |word: &str| {
+            let mut files = report(&["data/a.csv", "report.md"]);
+            for path in ["data/a.csv", "report.md", "values.json"] {
+                files.insert(path.into(), word.into());
+            }
+            files.remove(sums::NAME);
+            files.insert(sums::NAME.into(), sums::write(&files).into_bytes());
+            // Beside the report: no list but the local one has it.
+            files.insert("report.html".into(), word.into());
+            files
+        };
+        let (old, new) = (with("old"), with("new"));
+        let order: Vec<&String> = old.keys().filter(|path| *path != sums::NAME).collect();
+        for replaced in 0..=order.len() {
+            let out = tempfile::tempdir().unwrap();
+            place(out.path(), &old).unwrap();
+            let own = Own::read(out.path()).unwrap();
+            std::fs::write(out.path().join(sums::LOCAL), own.local(&new, |_| true, true)).unwrap();
+            for path in &order[..replaced] {
+                std::fs::write(out.path().join(path), &new[*path]).unwrap();
+            }
+            Staging::below(out.path(), "--out", ASK).unwrap().refuse_changed().unwrap();
+            place(out.path(), &with("newer")).unwrap();
+            let local = std::fs::read_to_string(out.path().join(sums::LOCAL)).unwrap();
+            assert_eq!(sums::read(&local).unwrap().len(), old.len() - 1);
+        }
     }
 
     /// Leftovers of the killed go, those of the living stay.

@@ -1,6 +1,6 @@
 //! Writing to standard output, which may be closed or full.
 
-use super::Failure;
+use super::{Failure, work};
 use std::io::{self, ErrorKind, Write};
 
 /// What became of writing to standard output: who closed the pipe has read enough.
@@ -22,6 +22,7 @@ pub fn written(result: io::Result<()>) -> Result<(), Failure> {
 /// # Errors
 /// As [`written`].
 pub fn print(text: &str) -> Result<(), Failure> {
+    let _idle = work::idle();
     let mut out = io::stdout().lock();
     written(out.write_all(text.as_bytes()).and_then(|()| out.flush()))
 }

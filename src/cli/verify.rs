@@ -118,7 +118,7 @@ pub fn listed(root: &Path, progress: &Progress) -> Result<Checked, Failure> {
     let mut known: BTreeMap<&str, &str> = BTreeMap::new();
     // Of what was last written, what is built beside: the rest may be of another revision by now.
     let local = folder::read(root, sums::LOCAL).ok().and_then(|text| String::from_utf8(text).ok());
-    let local = local.and_then(|text| sums::read(&text).ok()).unwrap_or_default();
+    let local = local.and_then(|text| sums::lines(&text).ok()).unwrap_or_default();
     let beside =
         |entry: &&sums::Entry| folder::is_beside(&entry.path) && found.contains(&entry.path);
     for entry in local.iter().filter(beside).chain(&entries) {

@@ -139,7 +139,9 @@ pub fn obey_signals() {
     };
     // A handler can only be refused if there is one already; then a signal just ends the program.
     let _ = ctrlc::set_handler(move || match WORK.get() {
-        Some((stop, patience)) if !stop.swap(true, Ordering::Relaxed) => {
+        Some((stop, patience))
+            if !IDLE.load(Ordering::Relaxed) && !stop.swap(true, Ordering::Relaxed) =>
+        {
             if let Some(patience) = patience {
                 std::thread::sleep(*patience);
                 end();
@@ -147,6 +149,24 @@ pub fn obey_signals() {
         }
         _ => end(),
     });
+}
+
+/// Nothing is under way that would have to come to an end first.
+static IDLE: AtomicBool = AtomicBool::new(false);
+
+/// As long as this lives, the first signal ends the program: its text may wait for a reader for ever.
+pub struct Idle;
+
+/// Says that nothing is under way.
+pub fn idle() -> Idle {
+    IDLE.store(true, Ordering::Relaxed);
+    Idle
+}
+
+impl Drop for Idle {
+    fn drop(&mut self) {
+        IDLE.store(false, Ordering::Relaxed);
+    }
 }
 
 /// Progress on stderr of work that a signal ends within a moment, at a place where nothing is half-written.

@@ -8,7 +8,7 @@
 use super::identity::{Identity, Reason, told};
 use super::{Error, Progress};
 use crate::digest::sha256;
-use crate::input::{LARGEST, new_beside};
+use crate::input::{LARGEST, new_beside, remove_leftovers};
 use crate::params::Profile;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -104,7 +104,8 @@ impl Store {
     pub fn prepare(&self) -> Result<(), Error> {
         let Some(folder) = &self.folder else { return Ok(()) };
         let tried = std::fs::create_dir_all(folder)
-            .and_then(|()| tempfile::NamedTempFile::new_in(folder).map(drop));
+            .and_then(|()| new_beside(&folder.join("result")).map(drop));
+        remove_leftovers(folder);
         tried.map_err(|source| Error::Store { path: folder.clone(), source })
     }
 

@@ -41,14 +41,27 @@ pub fn write(files: &Files) -> String {
     files.iter().map(|(path, bytes)| format!("{}  {path}\n", sha256(bytes))).collect()
 }
 
+/// Reads the lines of a list in which each path stands once.
+///
+/// # Errors
+/// As [`lines`], and for a path that stands twice.
+pub fn read(text: &str) -> Result<Vec<Entry>, Malformed> {
+    let entries = lines(text)?;
+    let mut paths = std::collections::BTreeSet::new();
+    match entries.iter().position(|entry| !paths.insert(&entry.path)) {
+        Some(i) => Err(Malformed { line: i + 1, what: "its path is listed twice" }),
+        None => Ok(entries),
+    }
+}
+
 /// Reads the lines. Whoever wrote them is not trusted: a path stays below the folder, at least by
-/// its letters (links are for the caller to refuse), and none is listed twice.
+/// its letters (links are for the caller to refuse). While files are replaced, [`LOCAL`] has the old digest of
+/// each before the new one.
 ///
 /// # Errors
 /// The first line that cannot be used.
-pub fn read(text: &str) -> Result<Vec<Entry>, Malformed> {
+pub fn lines(text: &str) -> Result<Vec<Entry>, Malformed> {
     let mut entries: Vec<Entry> = Vec::new();
-    let mut paths = std::collections::BTreeSet::new();
     for (i, line) in text.lines().enumerate() {
         let malformed = |what| Malformed { line: i + 1, what };
         let form = "it is not 64 hexadecimal digits, two blanks and a path";
@@ -62,9 +75,6 @@ pub fn read(text: &str) -> Result<Vec<Entry>, Malformed> {
         }
         if path == NAME || path == LOCAL {
             return Err(malformed("the list cannot list itself"));
-        }
-        if !paths.insert(path) {
-            return Err(malformed("its path is listed twice"));
         }
         entries.push(Entry { path: path.into(), digest: digest.into() });
     }

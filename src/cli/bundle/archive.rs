@@ -2,7 +2,7 @@
 
 use super::super::Failure;
 use impact_paper::digest::sha256;
-use impact_paper::input::new_beside;
+use impact_paper::input::{new_beside, remove_leftovers};
 use impact_paper::report::sums;
 use std::collections::BTreeMap;
 use std::io::{self, Write};
@@ -33,6 +33,7 @@ impl Archive {
             let what = "its folder is not there, or it is one itself";
             return Err(failed(path, io::Error::new(io::ErrorKind::NotADirectory, what)));
         }
+        remove_leftovers(folder);
         let file = new_beside(path).map_err(|error| failed(path, error))?;
         let (path, top) = (path.to_path_buf(), top.to_string());
         Ok(Archive { path, top, zip: ZipWriter::new(file), files: BTreeMap::new() })
