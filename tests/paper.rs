@@ -97,6 +97,21 @@ fn threads_and_saved_results_change_no_byte_and_lesser_profiles_replace_no_full_
     assert!(told.contains("report.html") && told.contains(" statements of the paper: "), "{told}");
     assert!(report == tree(&at("one")));
 
+    // What would spoil a report is refused before anything is run.
+    for (arguments, says) in [
+        ("paper --profile ci --figure 4 --out one", "holds a report of the quick profile"),
+        ("paper --profile quick --out one --results one", "are one folder"),
+        ("verify one --rerun --certificate one/c.md", "lies in one"),
+        ("verify one --rerun --certificate gone/c.md", "--certificate: gone/c.md"),
+        ("paper --profile quick --out file", "it is a file"),
+    ] {
+        std::fs::write(at("file"), "").unwrap();
+        let (code, told, note) = run(folder.path(), arguments);
+        assert_eq!((code, told.as_str(), note.lines().count()), (2, "", 1), "{arguments}: {note}");
+        assert!(note.contains(says), "{arguments}: {note}");
+    }
+    assert!(report == tree(&at("one")));
+
     // What was edited is refused at once by its name; forced, it is told what changed, in one screen.
     let ledger = String::from_utf8(report["ledger.json"].clone()).unwrap();
     let edited = ledger.replace("\"verdict\": \"reproduced\"", "\"verdict\": \"differs\"");

@@ -321,6 +321,7 @@ fn wrong_usage_is_one_line() {
         ("plan --left file", "file"),
         ("merge", "DIR"),
         ("merge file", "file: "),
+        ("merge . --results .", "is a folder of a shard"),
     ] {
         let (code, text, note) = run(folder, arguments);
         assert_eq!((code, text.as_str(), note.lines().count()), (2, "", 1), "{arguments}: {note}");

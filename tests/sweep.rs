@@ -116,7 +116,7 @@ fn bad_input_gets_one_line_and_exit_code_2() {
         ("--sigma 0.1 --transient NaN", "--transient"),
         ("--sigma 0.1 --transient 1e13", "--transient"),
         ("--sigma 0.1 --window 0", "--window"),
-        ("--sigma 0.1 --window inf", "--transient"),
+        ("--sigma 0.1 --window inf", "--window"),
         ("--sigma 0.1 --restitution 1.1", "--restitution"),
         ("--sigma 0.1 --restitution -0.1", "--restitution"),
         ("--sigma 0.1 --restitution NaN", "--restitution"),

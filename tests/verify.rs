@@ -180,6 +180,11 @@ fn a_rerun_finds_what_the_list_cannot() {
     assert_ne!(forged, list);
     let forged = format!("{forged}{}  more.csv\n", digest(""));
     fs::write(here.join("r/SHA256SUMS"), forged).unwrap();
+    // A page of theirs, in the list of what is built beside.
+    fs::write(here.join("r/planted.html"), "").unwrap();
+    let local = fs::read_to_string(here.join("r/SHA256SUMS.local")).unwrap();
+    let local = format!("{local}{}  planted.html\n", digest(""));
+    fs::write(here.join("r/SHA256SUMS.local"), local).unwrap();
     assert_eq!(run(here, "verify r").0, 0);
     // A person may have signed what stands there.
     let (code, told, note) = run(here, &rerun);
@@ -189,11 +194,16 @@ fn a_rerun_finds_what_the_list_cannot() {
     let (code, told, note) = run(here, &format!("{rerun} --force"));
     assert_eq!(code, 1, "{told}{note}");
     let certificate = fs::read_to_string(here.join("c.md")).unwrap();
-    assert!(certificate.contains("**3 faults**"), "{certificate}");
+    assert!(certificate.contains("**4 faults**"), "{certificate}");
     assert!(certificate.contains("rerun: differs  data/fig02.csv\n"), "{certificate}");
     assert!(note.contains("sweep: fresh"), "{note}");
     let lines: Vec<&str> = told.lines().skip(1).collect();
-    let names = ["differs  SHA256SUMS", "differs  data/fig02.csv", "not made more.csv"];
+    let names = [
+        "differs  SHA256SUMS",
+        "differs  data/fig02.csv",
+        "not made more.csv",
+        "not made planted.html",
+    ];
     assert_eq!(lines, names.map(|name| format!("rerun: {name}")));
 }
 

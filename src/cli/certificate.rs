@@ -121,6 +121,20 @@ pub fn text(facts: &Facts, found: Option<(&Checked, &Checked)>) -> String {
 /// # Errors
 /// Exit code 2 with its name, or if the report cannot be read.
 pub fn free(path: &Path, root: &Path, force: Force) -> Result<(), Failure> {
+    let above = path.parent().filter(|above| !above.as_os_str().is_empty());
+    let above = above.unwrap_or(Path::new("."));
+    if above
+        .canonicalize()
+        .is_ok_and(|above| root.canonicalize().is_ok_and(|root| above.starts_with(root)))
+    {
+        let (path, root) = (path.display(), root.display());
+        let message = format!(
+            "--certificate: {path} lies in {root}, whose files are all listed; put it elsewhere"
+        );
+        return Err(Failure::input(message));
+    }
+    // Whether it can be written is asked before a long rerun.
+    input::new_beside(path).map_err(|error| failed(path, &error))?;
     let draft = || Ok::<_, Failure>(text(&Facts::of(root)?, None));
     match input::read(path) {
         Ok(standing) if standing == draft()? => Ok(()),
@@ -134,13 +148,13 @@ pub fn free(path: &Path, root: &Path, force: Force) -> Result<(), Failure> {
 /// Exit code 2 or 4 if the file cannot be written.
 pub fn write(path: &Path, root: &Path, found: (&Checked, &Checked)) -> Result<(), Failure> {
     let text = text(&Facts::of(root)?, Some(found));
-    let failed = |error: std::io::Error| {
-        let path = path.display();
-        let remedy = "give a file that can be written";
-        Failure::io(&error, format!("--certificate: {path}: {error}; {remedy}"))
-    };
-    let mut file = input::new_beside(path).map_err(failed)?;
-    file.write_all(text.as_bytes()).map_err(failed)?;
-    file.persist(path).map_err(|e| failed(e.error))?;
+    let mut file = input::new_beside(path).map_err(|error| failed(path, &error))?;
+    file.write_all(text.as_bytes()).map_err(|error| failed(path, &error))?;
+    file.persist(path).map_err(|error| failed(path, &error.error))?;
     Ok(())
+}
+
+fn failed(path: &Path, error: &std::io::Error) -> Failure {
+    let (path, remedy) = (path.display(), "give a file that can be written");
+    Failure::io(error, format!("--certificate: {path}: {error}; {remedy}"))
 }

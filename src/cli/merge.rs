@@ -3,7 +3,7 @@
 use super::{Failure, stdout, work};
 use impact_paper::experiments::Store;
 use impact_paper::params::Profile;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Joins the folders of all shards to saved results, byte for byte those of one machine.
 ///
@@ -34,6 +34,12 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let profile = Profile::from(args.profile);
     let plan = args.only.plan(profile)?;
     let folder = work::results(args.results, profile);
+    let real = |path: &Path| path.canonicalize().ok();
+    if args.folders.iter().any(|own| real(own).is_some() && real(own) == real(&folder)) {
+        let message =
+            format!("--results: {} is a folder of a shard; give another", folder.display());
+        return Err(Failure::input(message));
+    }
     let results = Store::open(&folder)?;
     let progress = work::progress();
     work::on_threads(args.threads, || Ok(plan.merge(&args.folders, &results, &progress)?))?;

@@ -4,6 +4,7 @@
 //! nobody changed it since: two lists say so, SHA256SUMS of a report and SHA256SUMS.local of whatever
 //! was last written into the folder. Everything else is refused by name, unless --force.
 
+use super::work::{self, Now};
 use super::{Failure, folder};
 use impact_paper::digest::sha256;
 use impact_paper::experiments::Progress;
@@ -54,6 +55,10 @@ impl<'a> Staging<'a> {
             let what = "a symbolic link that leads to no folder; remove it, or give another";
             return Err(Failure::input(format!("{option}: {}: {what}", folder.display())));
         }
+        if folder.exists() && !folder.is_dir() {
+            let what = "it is a file; give a folder";
+            return Err(Failure::input(format!("{option}: {}: {what}", folder.display())));
+        }
         let made = !folder.exists();
         let staging = Staging { folder, option, force, made };
         let failed = |error: io::Error| staging.failed(&error);
@@ -79,15 +84,28 @@ impl<'a> Staging<'a> {
         Ok(staging)
     }
 
+    /// Refuses to put files that are no part of a report among those of one.
+    ///
+    /// # Errors
+    /// Exit code 2 if there is a report.
+    pub fn refuse_report(&self) -> Result<(), Failure> {
+        if Own::read(self.folder).is_none_or(|own| own.report.is_empty()) {
+            return Ok(());
+        }
+        let (option, folder) = (self.option, self.folder.display());
+        Err(Failure::input(format!("{option}: {folder} holds a report; give another folder")))
+    }
+
     /// Refuses, before a long run, a report of which a file was changed.
     ///
     /// # Errors
     /// Exit code 2 with the names.
     pub fn refuse_changed(&self) -> Result<(), Failure> {
         let own = Own::read(self.folder).unwrap_or_default();
-        let changed = |path: &&String| {
-            folder::read(self.folder, path).is_ok_and(|bytes| !own.wrote(path, &bytes))
-        };
+        let stands = |path: &str| self.folder.join(path).symlink_metadata().is_ok();
+        let wrote =
+            |path: &str| folder::read(self.folder, path).is_ok_and(|bytes| own.wrote(path, &bytes));
+        let changed = |path: &&String| stands(path) && !wrote(path);
         // The page was made before there was a list of it.
         let page = "report.html".to_string();
         let all = own.digests.keys().chain(std::iter::once(&page));
@@ -137,6 +155,7 @@ impl<'a> Staging<'a> {
         }
         // Whoever is killed half-way leaves old and new files: at each moment the lists know both.
         stage(sums::LOCAL, own.local(files, stands, true).as_bytes()).map_err(failed)?;
+        let _placing = work::moment(Now::Placing);
         progress.check()?;
         put(sums::LOCAL).map_err(failed)?;
         for path in files.keys().filter(|path| *path != sums::NAME) {
@@ -443,6 +462,16 @@ mod tests {
         let staging = Staging::below(&new, "--out", ASK).unwrap();
         assert!(staging.place(&files(&["x"]), &stopped).is_err());
         assert!(!new.exists());
+    }
+
+    #[test]
+    fn a_report_has_no_other_files() {
+        let out = tempfile::tempdir().unwrap();
+        place(out.path(), &files(&["a.svg"])).unwrap();
+        Staging::below(out.path(), "--overlay", ASK).unwrap().refuse_report().unwrap();
+        place(out.path(), &report(&["report.md"])).unwrap();
+        let staging = Staging::below(out.path(), "--overlay", ASK).unwrap();
+        assert!(staging.refuse_report().unwrap_err().message.contains("holds a report"));
     }
 
     /// At each moment at which a run may be killed, the next one knows its files.

@@ -65,7 +65,12 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let read = |text: &String| text.parse().map_err(|e| Failure::input(format!("--figure: {e}")));
     let numbers =
         args.figure.iter().map(read).collect::<Result<BTreeSet<figures::Number>, Failure>>()?;
-    refuse_over_full(profile, &out)?;
+    refuse_over_other(profile, &out, !args.figure.is_empty())?;
+    if same(&out, &args.sources.results) {
+        let message =
+            "--out and --results are one folder; give two, since a report has no other files";
+        return Err(Failure::input(message));
+    }
     let progress = work::progress();
     let staging = Staging::below(&out, "--out", args.force)?;
     let whole = args.figure.is_empty();
@@ -153,18 +158,27 @@ fn values_in(folder: &Path) -> Option<Registry> {
     compare::read(&input::read(&folder.join(VALUES)).ok()?).ok()
 }
 
-/// Lesser samples must not take the place of the committed report.
-fn refuse_over_full(profile: Profile, out: &Path) -> Result<(), Failure> {
-    let is_full = |values: Registry| {
-        values.get("profile").is_some_and(|v| v.number == Number::Text("full".into()))
+/// Are these one folder?
+fn same(a: &Path, b: &Path) -> bool {
+    a == b || a.canonicalize().ok().is_some_and(|a| b.canonicalize().ok() == Some(a))
+}
+
+/// Lesser samples must not take the place of the committed report, and single figures not stand among those
+/// of other samples.
+fn refuse_over_other(profile: Profile, out: &Path, figures: bool) -> Result<(), Failure> {
+    let name = |values: Registry| match &values.get("profile")?.number {
+        Number::Text(name) => Some(name.clone()),
+        _ => None,
     };
-    if profile == Profile::Full || !values_in(out).is_some_and(is_full) {
-        return Ok(());
+    match values_in(out).and_then(name) {
+        Some(name) if name != profile.name() && (figures || name == Profile::Full.name()) => {
+            Err(Failure::input(format!(
+                "--out: {} holds a report of the {name} profile; give another folder, or --profile {name}",
+                out.display()
+            )))
+        }
+        _ => Ok(()),
     }
-    Err(Failure::input(format!(
-        "--out: {} holds a report of the full profile; give another folder, or --profile full",
-        out.display()
-    )))
 }
 
 /// The figures that were asked for, and nothing else.

@@ -1,6 +1,7 @@
 //! Writing to standard output, which may be closed or full.
 
-use super::{Failure, work};
+use super::Failure;
+use super::work::{self, Now};
 use std::io::{self, ErrorKind, Write};
 
 /// What became of writing to standard output: who closed the pipe has read enough.
@@ -22,7 +23,7 @@ pub fn written(result: io::Result<()>) -> Result<(), Failure> {
 /// # Errors
 /// As [`written`].
 pub fn print(text: &str) -> Result<(), Failure> {
-    let _idle = work::idle();
+    let _idle = work::moment(Now::Idle);
     let mut out = io::stdout().lock();
     written(out.write_all(text.as_bytes()).and_then(|()| out.flush()))
 }

@@ -92,7 +92,7 @@ struct Row {
 pub fn run(args: Args) -> Result<(), Failure> {
     let parameters = parameters(&args)?;
     fits(&args)?;
-    let progress = work::progress_or_end();
+    let progress = work::progress();
     let rows = work::on_threads(args.threads, || rows(&parameters, &progress))?;
     stdout::written(write(&rows, args.format))
 }
@@ -110,7 +110,7 @@ fn parameters(args: &Args) -> Result<SweepParams, Failure> {
         let message = format!("--transient: {:?} is not allowed; give 0 or more", args.transient);
         return Err(Failure::input(message));
     }
-    if args.window.is_nan() || args.window <= 0.0 {
+    if !args.window.is_finite() || args.window <= 0.0 {
         let message = format!("--window: {:?} is not allowed; give more than 0", args.window);
         return Err(Failure::input(message));
     }

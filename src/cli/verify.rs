@@ -51,7 +51,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     if let Some(path) = &args.certificate {
         certificate::free(path, &args.folder, args.force)?;
     }
-    let progress = work::progress();
+    let progress = work::progress_that_tidies();
     let mut checked = listed(&args.folder, &progress)?;
     checked.tell(&args.folder)?;
     if args.rerun {
@@ -146,6 +146,9 @@ pub fn listed(root: &Path, progress: &Progress) -> Result<Checked, Failure> {
     Ok(Checked { files: known.len(), fine, faults })
 }
 
+/// What only a binary with the typesetter makes.
+const PDF: &str = "report.pdf";
+
 /// Makes the report again and compares.
 fn rerun(args: &Args, progress: &Progress) -> Result<Checked, Failure> {
     let profile = match args.profile {
@@ -158,9 +161,11 @@ fn rerun(args: &Args, progress: &Progress) -> Result<Checked, Failure> {
         Failure::io(&e, format!("a temporary folder: {e}; {remedy}"))
     })?;
     let results = args.results.clone().unwrap_or_else(|| temporary.path().join("results"));
+    let pdf = args.folder.join(PDF).symlink_metadata().is_ok();
+    let typeset = pdf && cfg!(feature = "pdf");
     let sources = Sources::of(args.threads, args.templates.clone(), results);
     let (made, _) =
-        work::on_threads(args.threads, || make::whole(&sources, profile, false, progress))?;
+        work::on_threads(args.threads, || make::whole(&sources, profile, typeset, progress))?;
     // What is built beside may be missing, but not be another.
     let mut files = made.committed;
     let stands = |path: &String| args.folder.join(path).symlink_metadata().is_ok();
@@ -175,11 +180,15 @@ fn rerun(args: &Args, progress: &Progress) -> Result<Checked, Failure> {
         }
     }
     for path in folder::walk(&args.folder)? {
-        if !folder::is_beside(&path) && !files.contains_key(&path) {
+        let known = path == sums::LOCAL || (path == PDF && !typeset);
+        if !known && !files.contains_key(&path) {
             fault("not made", &path);
         }
     }
     let fine = format!(" made again with the {} profile, the same bytes", profile.name());
+    let open =
+        if pdf && !typeset { "; report.pdf needs a binary with the feature pdf" } else { "" };
+    let fine = fine + open;
     Ok(Checked { files: files.len(), fine, faults })
 }
 

@@ -8,7 +8,7 @@ use impact_paper::report::{self, contents};
 use impact_paper::{claims, figures};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::Duration;
 
 /// Sample sizes, as named on the command line.
@@ -97,15 +97,29 @@ impl From<ProfileName> for Profile {
     }
 }
 
-/// Memory that the system has to give, in bytes: Linux tells it, elsewhere 4 GiB are taken for granted.
+/// Memory that the system has to give, in bytes: Linux tells it, elsewhere 4 GiB are taken for granted. Less where
+/// the process or its group may not have as much.
 fn at_hand() -> u128 {
-    let told = || {
-        let text = std::fs::read_to_string("/proc/meminfo").ok()?;
-        let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
-        line.trim().strip_suffix("kB")?.trim().parse::<u128>().ok().map(|kib| kib << 10)
+    let text = |path: &str| std::fs::read_to_string(path).ok();
+    let line = |path: &str, name: &str| {
+        text(path)?
+            .lines()
+            .find_map(|line| line.strip_prefix(name).map(|rest| rest.trim().to_string()))
     };
+    let first = |text: String| text.split_whitespace().next()?.parse::<u128>().ok();
+    let kib = |path, name| Some(first(line(path, name)?)? << 10);
+    let addresses = || {
+        let most = first(line("/proc/self/limits", "Max address space")?)?;
+        Some(most.saturating_sub(kib("/proc/self/status", "VmSize:")?))
+    };
+    let group = || {
+        let at = |name: &str| first(text(&format!("/sys/fs/cgroup/{name}"))?);
+        Some(at("memory.max")?.saturating_sub(at("memory.current")?))
+    };
+    let free = kib("/proc/meminfo", "MemAvailable:").unwrap_or(4 << 30);
     // Half of the addresses are what a process can hope for.
-    told().unwrap_or(4 << 30).min(usize::MAX as u128 / 2)
+    let limits = [addresses(), group(), Some(usize::MAX as u128 / 2)];
+    limits.into_iter().flatten().fold(free, u128::min)
 }
 
 /// Refuses work that needs more memory than there is, before any of it is taken: an estimate in bytes, the
@@ -127,8 +141,20 @@ pub fn memory(needed: u128, option: &str, remedy: &str) -> Result<(), Failure> {
 /// What a shell calls a program that Ctrl-C ended: 128 + SIGINT.
 const INTERRUPTED: u8 = 130;
 
-/// The flag of the work under way, and how long it may take to see it.
-static WORK: OnceLock<(Arc<AtomicBool>, Option<Duration>)> = OnceLock::new();
+/// The flag of the work under way, and how it is ended by whom it does not see.
+static WORK: OnceLock<(Arc<AtomicBool>, Ending)> = OnceLock::new();
+
+/// What happens to work that has not seen its flag.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Ending {
+    /// It is ended after a moment: what it leaves, the next run removes.
+    Soon,
+    /// It has something to remove itself, and looks often.
+    ByItself,
+}
+
+/// How long work may take to see its flag.
+const PATIENCE: Duration = Duration::from_millis(700);
 
 /// From now on Ctrl-C (or SIGTERM) raises the flag that work with [`Progress`] looks at; without such
 /// work, or the second time, it ends the program at once. Always with exit code 130.
@@ -139,11 +165,15 @@ pub fn obey_signals() {
     };
     // A handler can only be refused if there is one already; then a signal just ends the program.
     let _ = ctrlc::set_handler(move || match WORK.get() {
-        Some((stop, patience))
-            if !IDLE.load(Ordering::Relaxed) && !stop.swap(true, Ordering::Relaxed) =>
+        Some((stop, ending))
+            if *NOW.lock().unwrap_or_else(PoisonError::into_inner) != Now::Idle
+                && !stop.swap(true, Ordering::Relaxed) =>
         {
-            if let Some(patience) = patience {
-                std::thread::sleep(*patience);
+            if *ending == Ending::Soon {
+                std::thread::sleep(PATIENCE);
+                while *NOW.lock().unwrap_or_else(PoisonError::into_inner) == Now::Placing {
+                    std::thread::sleep(Duration::from_millis(10));
+                }
                 end();
             }
         }
@@ -151,37 +181,47 @@ pub fn obey_signals() {
     });
 }
 
-/// Nothing is under way that would have to come to an end first.
-static IDLE: AtomicBool = AtomicBool::new(false);
-
-/// As long as this lives, the first signal ends the program: its text may wait for a reader for ever.
-pub struct Idle;
-
-/// Says that nothing is under way.
-pub fn idle() -> Idle {
-    IDLE.store(true, Ordering::Relaxed);
-    Idle
+/// What a signal has to know of the moment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Now {
+    /// Work is under way.
+    Working,
+    /// Text is printed, and may wait for a reader for ever: the first signal ends the program.
+    Idle,
+    /// Files are moved into place, which is a matter of moments: the signal waits.
+    Placing,
 }
 
-impl Drop for Idle {
+static NOW: Mutex<Now> = Mutex::new(Now::Working);
+
+/// As long as this lives, the moment is what it was said to be.
+pub struct Moment(());
+
+/// Says what the moment is.
+pub fn moment(now: Now) -> Moment {
+    *NOW.lock().unwrap_or_else(PoisonError::into_inner) = now;
+    Moment(())
+}
+
+impl Drop for Moment {
     fn drop(&mut self) {
-        IDLE.store(false, Ordering::Relaxed);
+        *NOW.lock().unwrap_or_else(PoisonError::into_inner) = Now::Working;
     }
 }
 
-/// Progress on stderr of work that a signal ends within a moment, at a place where nothing is half-written.
+/// Progress on stderr of work that a signal ends within a moment. What has not looked at the flag by then, such as a
+/// chain of many masses, is ended all the same.
 pub fn progress() -> Progress {
-    handled(None)
+    handled(Ending::Soon)
 }
 
-/// The same for work that writes nothing before its end and may be of any size: what has not looked at the flag
-/// soon, such as a chain of many masses, is ended all the same.
-pub fn progress_or_end() -> Progress {
-    handled(Some(Duration::from_millis(700)))
+/// The same for work with a temporary folder elsewhere, which nobody else would remove.
+pub fn progress_that_tidies() -> Progress {
+    handled(Ending::ByItself)
 }
 
-fn handled(patience: Option<Duration>) -> Progress {
-    Progress::on_stderr(Arc::clone(&WORK.get_or_init(|| (Arc::default(), patience)).0))
+fn handled(ending: Ending) -> Progress {
+    Progress::on_stderr(Arc::clone(&WORK.get_or_init(|| (Arc::default(), ending)).0))
 }
 
 /// Threads for each core that may be asked for: more share the same cores, and cost memory.

@@ -5,7 +5,7 @@ use impact_paper::digest::sha256;
 use impact_paper::input::{new_beside, remove_leftovers};
 use impact_paper::report::sums;
 use std::collections::BTreeMap;
-use std::io::{self, Write};
+use std::io::{self, Cursor, Write};
 use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 use zip::write::SimpleFileOptions;
@@ -16,7 +16,10 @@ pub struct Archive {
     path: PathBuf,
     /// The folder that all files are in.
     top: String,
-    zip: ZipWriter<NamedTempFile>,
+    /// In memory: some tens of megabytes, and a disk that fills up is met once, at the end.
+    zip: ZipWriter<Cursor<Vec<u8>>>,
+    /// Where it will be written.
+    file: NamedTempFile,
     /// Digest and size by path.
     files: BTreeMap<String, (String, usize)>,
 }
@@ -36,7 +39,8 @@ impl Archive {
         remove_leftovers(folder);
         let file = new_beside(path).map_err(|error| failed(path, error))?;
         let (path, top) = (path.to_path_buf(), top.to_string());
-        Ok(Archive { path, top, zip: ZipWriter::new(file), files: BTreeMap::new() })
+        let zip = ZipWriter::new(Cursor::new(Vec::new()));
+        Ok(Archive { path, top, zip, file, files: BTreeMap::new() })
     }
 
     /// Adds a file.
@@ -82,11 +86,11 @@ impl Archive {
         self.add(sums::NAME, list.as_bytes(), false)?;
         let path = self.path;
         let failed = |error: io::Error| failed(&path, error);
-        let file = self.zip.finish().map_err(|error| failed(error.into()))?;
-        file.as_file().sync_all().map_err(failed)?;
-        let size = file.as_file().metadata().map_err(failed)?.len();
+        let bytes = self.zip.finish().map_err(|error| failed(error.into()))?.into_inner();
+        let mut file = self.file;
+        file.write_all(&bytes).and_then(|()| file.as_file().sync_all()).map_err(failed)?;
         file.persist(&path).map_err(|error| failed(error.error))?;
-        Ok((self.files.len(), size))
+        Ok((self.files.len(), bytes.len() as u64))
     }
 }
 

@@ -55,7 +55,7 @@ const PAPER: &str = "paper";
 /// Runs the verb.
 pub fn run(args: Args) -> Result<(), Failure> {
     output::free("bundle", &args.out, args.force)?;
-    let progress = work::progress();
+    let progress = work::progress_that_tidies();
     let tree = Tree::here()?;
     let report = Path::new(PAPER);
     let listed = verify::listed(report, &progress)?;
@@ -89,7 +89,11 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let metadata = metadata::text(&archive, &tree.revision, &released);
     archive.add(metadata::NAME, metadata.as_bytes(), false)?;
     progress.check()?;
+    let over = args.out.symlink_metadata().is_ok();
     let (files, size) = archive.finish()?;
+    if over {
+        progress.say(&format!("impact-paper: --force: wrote over {}", args.out.display()));
+    }
     let size = size as f64 / 1e6;
     stdout::print(&format!("{}: {files} files, {size:.1} MB\n", args.out.display()))
 }

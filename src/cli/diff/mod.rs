@@ -75,6 +75,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
         let drawn = compare::overlays(&diff, &before, &after).map_err(unusable)?;
         if !drawn.is_empty() {
             let staging = Staging::below(folder, "--overlay", args.force)?;
+            staging.refuse_report()?;
             staging.place(&drawn, &work::progress())?;
         }
     }
