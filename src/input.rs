@@ -112,7 +112,9 @@ mod tests {
         let living = new_beside(&path("a")).unwrap();
         remove_leftovers(folder.path());
         assert!(left.exists(), "it may be about to be locked");
-        [&left, &path("notes"), living.path()].map(|path| age(path).unwrap());
+        for path in [&left, &path("notes"), living.path()] {
+            age(path).unwrap();
+        }
         remove_leftovers(folder.path());
         assert!(!left.exists() && path("notes").exists() && living.path().exists());
         living.persist(path("a")).unwrap();

@@ -51,7 +51,7 @@ fn values_figures_equations_and_claims_are_explained() {
                 "seed: 2007",
             ],
         ),
-        ("fig:s1", vec!["experiments::accuracy::race (src/experiments/accuracy/race.rs:"]),
+        ("fig:s12", vec!["experiments::accuracy::race (src/experiments/accuracy/race.rs:"]),
         ("eq:18", vec!["circuits::jump::p_crit (src/circuits/jump.rs:", "p_crit, p_crit_walls"]),
         ("claim:sec7_jump", vec!["verdict", "tolerance", "p_jump"]),
         ("eq:12", vec!["f_(N,p)(k)"]),

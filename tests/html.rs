@@ -215,7 +215,7 @@ fn the_scene_is_complete_without_its_script() {
     let mut engine = Engine::new(&scenario).unwrap();
     let mut hits = Vec::new();
     engine.run(from, |_| true).unwrap();
-    let table = String::from_utf8(QUICK.report.committed["data/s06c.csv"].clone()).unwrap();
+    let table = String::from_utf8(QUICK.report.committed["data/s02c.csv"].clone()).unwrap();
     assert!(table.starts_with(&format!("time (1/omega),x_{first} (d),")), "{table}");
     assert_eq!(table.lines().count(), 26);
     for line in table.lines().skip(1) {

@@ -22,6 +22,19 @@ fn the_report_has_every_equation_and_figure() {
     }
 }
 
+/// A reader meets our own figures in the order of their numbers.
+#[test]
+fn own_figures_are_numbered_by_first_mention() {
+    let template = QUICK.templates.text("report.md").unwrap();
+    let first = |n: usize| {
+        let named = [format!("ig:S{n}]"), format!("ig:S{n};"), format!("figures/s{n:02}.svg")];
+        let first = named.iter().filter_map(|name| template.find(name)).min();
+        first.unwrap_or_else(|| panic!("Fig. S{n} is not mentioned"))
+    };
+    let first: Vec<usize> = (1..=figures::Number::OWN.into()).map(first).collect();
+    assert!(first.is_sorted(), "{first:?}");
+}
+
 #[test]
 fn every_claim_is_spoken_of_once_in_the_text() {
     let template = QUICK.templates.text("report.md").unwrap();

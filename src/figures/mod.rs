@@ -138,27 +138,27 @@ pub fn needs(number: Number) -> &'static [Need] {
     match number {
         Number::Paper(2 | 3 | 12 | 15) => &[Need::Sweep],
         Number::Paper(5 | 6) => &[Need::Segments],
-        Number::Own(1) => &[Need::Race],
-        Number::Own(2) => &[Need::Race, Need::Measured],
-        Number::Own(3) => &[Need::Biases],
-        Number::Own(4) => &[Need::Scale, Need::Measured],
-        Number::Own(5) => &[Need::Analytic],
-        Number::Own(6) => &[Need::SpaceTime],
-        Number::Own(9) => &[Need::Heat],
-        Number::Own(10) => &[Need::Nucleation, Need::Sweep],
-        Number::Own(11) => &[Need::Seeds, Need::Sweep, Need::Protocol],
-        Number::Own(12) => &[Need::Independence],
-        Number::Own(13) => &[Need::Orbits],
-        Number::Own(14) => &[Need::Restitution],
-        Number::Own(15) => &[Need::Chains, Need::Sizes, Need::Protocol],
-        Number::Own(16) => &[Need::Protocol, Need::LongProtocol, Need::Protocols],
+        Number::Own(1) => &[Need::Protocol, Need::LongProtocol, Need::Protocols],
+        Number::Own(2) => &[Need::SpaceTime],
+        Number::Own(3) => &[Need::Nucleation, Need::Sweep],
+        Number::Own(4) => &[Need::Seeds, Need::Sweep, Need::Protocol],
+        Number::Own(7) => &[Need::Heat],
+        Number::Own(8) => &[Need::Independence],
+        Number::Own(9) => &[Need::Orbits],
+        Number::Own(10) => &[Need::Restitution],
+        Number::Own(11) => &[Need::Chains, Need::Sizes, Need::Protocol],
+        Number::Own(12) => &[Need::Race],
+        Number::Own(13) => &[Need::Race, Need::Measured],
+        Number::Own(14) => &[Need::Biases],
+        Number::Own(15) => &[Need::Scale, Need::Measured],
+        Number::Own(16) => &[Need::Analytic],
         _ => &[],
     }
 }
 
 /// The names of the experiments whose results a figure shows; none for a schematic.
 pub fn experiments(number: Number) -> Vec<&'static str> {
-    let theory = matches!(number, Number::Paper(7..=15) | Number::Own(7 | 8)).then_some("theory");
+    let theory = matches!(number, Number::Paper(7..=15) | Number::Own(5 | 6)).then_some("theory");
     needs(number).iter().map(|need| need.name()).chain(theory).collect()
 }
 
@@ -193,29 +193,29 @@ pub fn draw(number: Number, results: &Results) -> Result<Figure, Error> {
         Number::Paper(13) => fig13::draw(&results.theory),
         Number::Paper(14) => fig14::draw(&results.theory),
         Number::Paper(15) => fig15::draw(results.sweep()?, &results.theory, note),
-        Number::Own(1) => s01::draw(results.race()?, note),
-        Number::Own(2) => s02::draw(results.race()?, results.measured()?, note),
-        Number::Own(3) => s03::draw(results.biases()?, note),
-        Number::Own(4) => s04::draw(results.scale()?, results.measured()?, note),
-        Number::Own(5) => s05::draw(results.analytic()?, note),
-        Number::Own(6) => s06::draw(results.spacetime()?, note),
-        Number::Own(7) => s07::draw(&results.theory.large),
-        Number::Own(8) => s08::draw(&results.theory),
-        Number::Own(9) => s09::draw(results.heat()?, &results.theory, note),
-        Number::Own(10) => s10::draw(results.nucleation()?, results.sweep()?, note),
-        Number::Own(11) => s11::draw(results.seeds()?, results.sweep()?, results.protocol()?, note),
-        Number::Own(12) => s12::draw(results.independence()?, note),
-        Number::Own(13) => s13::draw(results.orbits()?, note),
-        Number::Own(14) => s14::draw(results.restitution()?, note),
-        Number::Own(15) => {
-            s15::draw(results.chains()?, results.sizes()?, results.protocol()?, note)
-        }
-        Number::Own(16) => {
+        Number::Own(1) => {
             let (map, long) = (results.protocol()?, results.long_protocol()?);
             let (others, found) = (results.protocols()?, &results.identities);
             let seeds = [found.sigma_kept_half, found.sigma_kept_onset];
-            s16::draw(s16::Maps { map, long, others, seeds }, note)
+            s01::draw(s01::Maps { map, long, others, seeds }, note)
         }
+        Number::Own(2) => s02::draw(results.spacetime()?, note),
+        Number::Own(3) => s03::draw(results.nucleation()?, results.sweep()?, note),
+        Number::Own(4) => s04::draw(results.seeds()?, results.sweep()?, results.protocol()?, note),
+        Number::Own(5) => s05::draw(&results.theory.large),
+        Number::Own(6) => s06::draw(&results.theory),
+        Number::Own(7) => s07::draw(results.heat()?, &results.theory, note),
+        Number::Own(8) => s08::draw(results.independence()?, note),
+        Number::Own(9) => s09::draw(results.orbits()?, note),
+        Number::Own(10) => s10::draw(results.restitution()?, note),
+        Number::Own(11) => {
+            s11::draw(results.chains()?, results.sizes()?, results.protocol()?, note)
+        }
+        Number::Own(12) => s12::draw(results.race()?, note),
+        Number::Own(13) => s13::draw(results.race()?, results.measured()?, note),
+        Number::Own(14) => s14::draw(results.biases()?, note),
+        Number::Own(15) => s15::draw(results.scale()?, results.measured()?, note),
+        Number::Own(16) => s16::draw(results.analytic()?, note),
         _ => Err(Error::Number(number)),
     }
 }

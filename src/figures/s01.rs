@@ -1,159 +1,263 @@
-//! Fig. S1: error and misses of the next impact against counted work, for every method.
-
-use plotters::style::text_anchor::{HPos, VPos};
+//! Fig. S1: half height and onset against the transient.
 
 use super::axis::{Axis, log};
 use super::chart::{LETTERS, short};
 use super::data::cells;
-use super::panel::Frame;
-use super::rivals::{by_method, decades_around, entries, look, name};
+use super::panel::{Frame, Panel};
 use super::series::Outside;
-use super::sheet::Sheet;
-use super::style::{Dash, GREY, HAIR, INK, SMALL, Stroke, TINY};
+use super::sheet::{Entry, Sheet};
+use super::style::{BLUE, Colour, Dash, GREEN, INK, Mark, PURPLE, RED, SMALL, Stroke, THIN};
 use super::{DataFile, Error, Figure};
-use crate::experiments::accuracy::race::{DISPLACED, Entry, Race};
-use crate::params::MethodName;
+use crate::experiments::long::LongMap;
+use crate::experiments::protocol::{ProtocolCell, ProtocolMap};
+use crate::experiments::protocols::Protocols;
+use crate::numerics::statistics::Estimate;
 
-/// Lowest error that is drawn.
-const FLOOR: f64 = 1e-18;
+/// The half size of marks.
+const SIZE: i32 = 52;
 
-/// Draws the figure.
-pub fn draw(race: &Race, note: Option<&str>) -> Result<Figure, Error> {
-    let sheet = Sheet::new(9500, note)?;
-    let costs = || race.entries.iter().filter_map(|entry| entry.evaluations_per_impact);
-    let cost_axis = || decades_around(costs(), 1, "evaluations per impact");
-    let errors = sheet.panel(
-        Frame::new(1300, 430, 8150, 4030),
-        cost_axis().bare(),
-        Axis::decades(-18, 0, 3, "error of the next impact’s time"),
-    )?;
-    errors.letter(LETTERS[0])?;
-    let guide = Stroke::dashed(GREY, HAIR, Dash::Short);
-    let across = |y: f64| [(errors.x.lo, y), (errors.x.hi, y)];
-    errors.curve("counts as missed", &across(log(DISPLACED)), guide, Outside::Refuse)?;
-    let words = (TINY, INK, HPos::Left, VPos::Bottom);
-    let place = (errors.x.lo, log(DISPLACED));
-    errors.note("missed above", place, (110, -60), words)?;
+/// Windows of (a) and (c), and their looks.
+const WINDOWS: [(f64, Mark, Colour); 3] =
+    [(20.0, Mark::Disc, RED), (200.0, Mark::Square, BLUE), (2000.0, Mark::Diamond, GREEN)];
 
-    let lowest = race.entries.iter().map(|e| e.segments.tried).max().unwrap_or(1) as f64;
-    let bottom = -(log(lowest).ceil() as i32) - 1;
-    let mut axis = Axis::decades(bottom, 0, 1, "share missed");
-    // Below one in all that were tried there is nothing but zero.
-    axis.ticks.retain(|tick| tick.at <= axis.lo + 1e-9 || tick.at >= axis.lo + 1.0 - 1e-9);
-    if let Some(first) = axis.ticks.first_mut() {
-        first.label = Some("none".into());
-    }
-    let misses = sheet.panel(Frame::new(1300, 4650, 8150, 7250), cost_axis(), axis)?;
-    misses.letter(LETTERS[1])?;
+/// The window of (b) and (d).
+const WINDOW: f64 = 200.0;
 
-    let spread = |e: &Entry| {
-        let [_, _, largest] = e.segments.errors?;
-        Some((log(e.evaluations_per_impact?), log(largest.max(FLOOR))))
-    };
-    let middle = |e: &Entry| {
-        let [median, _, _] = e.segments.errors?;
-        Some((log(e.evaluations_per_impact?), log(median.max(FLOOR))))
-    };
-    let missed = |e: &Entry| {
-        let share = e.segments.misses() as f64 / e.segments.tried.max(1) as f64;
-        let y = if share > 0.0 { log(share) } else { f64::from(bottom) };
-        Some((log(e.evaluations_per_impact?), y))
-    };
-    let medians = by_method(&race.entries, |e| e.setting, middle);
-    for ((method, points), (_, ends)) in
-        medians.iter().zip(by_method(&race.entries, |e| e.setting, spread))
-    {
-        let look = look(*method);
-        let bars: Vec<_> = points.iter().zip(&ends).map(|(a, b)| (a.0, a.1, b.1)).collect();
-        errors.bars(name(*method), &bars, 0, Stroke::solid(look.colour, HAIR))?;
-        errors.curve(name(*method), points, look.line(), Outside::Refuse)?;
-        errors.marks(name(*method), points, look.marker(), Outside::Refuse)?;
-    }
-    for (method, points) in by_method(&race.entries, |e| e.setting, missed) {
-        let look = look(method);
-        misses.curve(name(method), &points, look.line(), Outside::Refuse)?;
-        misses.marks(name(method), &points, look.marker(), Outside::Refuse)?;
-    }
-    let entries = entries(|method| medians.iter().any(|(m, _)| *m == method));
-    for (i, column) in entries.chunks(3).enumerate() {
-        sheet.legend((700 + 2650 * i as i32, 8450), (SMALL, 370), column)?;
-    }
-    Ok(sheet.finish_own(
-        1,
-        "Error and misses of the next impact",
-        description(race),
-        vec![table(race)],
-    ))
+/// Names of chains, what they are, and their looks.
+const STARTS: [(&str, &str, Mark, Colour); 4] = [
+    ("rest", "rest", Mark::Disc, BLUE),
+    ("ring", "rest, on a ring", Mark::Ring, INK),
+    ("random", "random free parts", Mark::Square, RED),
+    ("zero", "on the forced motion", Mark::Diamond, PURPLE),
+];
+
+/// A place on the rise.
+type Place = fn(&ProtocolCell) -> Option<Estimate>;
+
+const HALF: Place = |cell| cell.half_height_all;
+const ONSET: Place = |cell| cell.onset;
+const KEPT: Place = |cell| cell.kept_half;
+const HALF_OF_KEPT: Place = |cell| cell.half_height;
+
+/// The rows: a place, and its axis.
+const ROWS: [(Place, &str); 2] = [(HALF, "*σ*_{1/2}"), (ONSET, "*σ*_{0}")];
+
+/// What is drawn.
+#[derive(Clone, Copy)]
+pub struct Maps<'a> {
+    /// The map of the paper's chain.
+    pub map: &'a ProtocolMap,
+    /// Its long end.
+    pub long: &'a LongMap,
+    /// The maps of other chains.
+    pub others: &'a Protocols,
+    /// The σ at which a half, and a twentieth, of the chains from rest have a gap that closes by itself.
+    pub seeds: [f64; 2],
 }
 
-fn description(race: &Race) -> String {
-    let told = |entry: &Entry| {
-        let [median, _, largest] = entry.segments.errors?;
-        Some(format!(
-            "{}{}: {} evaluations per impact, median error {}, largest {}, {} of {} missed",
-            name(entry.setting.method),
-            setting(entry.setting.value),
-            short(entry.evaluations_per_impact?, 2),
-            short(median, 2),
-            short(largest, 2),
-            entry.segments.misses(),
-            entry.segments.tried
-        ))
+impl<'a> Maps<'a> {
+    /// The cells of a chain by rising T: those of the long end follow those of the map.
+    fn cells(self, name: &str) -> Vec<&'a ProtocolCell> {
+        if name != "rest" {
+            let other = self.others.named().find(|(own, _)| *own == name);
+            return other.iter().flat_map(|(_, map)| &map.cells).collect();
+        }
+        self.map.cells.iter().chain(self.long.beyond(self.map)).collect()
+    }
+
+    /// (T, place) of a chain at a window.
+    fn line(self, name: &str, window: f64, place: Place) -> Vec<(f64, Estimate)> {
+        let cells = self.cells(name).into_iter().filter(|cell| cell.window == window);
+        cells.filter_map(|cell| Some((cell.transient, place(cell)?))).collect()
+    }
+}
+
+/// The tops of the rows.
+const TOPS: [i32; 2] = [430, 4680];
+
+/// The top of the legends.
+const LEGEND: i32 = 9000;
+
+/// Draws the figure.
+pub fn draw(maps: Maps<'_>, note: Option<&str>) -> Result<Figure, Error> {
+    let sheet = Sheet::new(10_650, note)?;
+    let (left, right) = ((1000, 4150), (4900, 8050));
+    // Half of N takes half of the chains, and a twentieth of N a twentieth of them.
+    for (row, ((place, label), seeds)) in ROWS.into_iter().zip(maps.seeds).enumerate() {
+        let top = TOPS[row];
+        let panel = |column: usize, (from, to), label: &str| {
+            let y = Axis::linear(0.07, 0.21, 0.02, 2, label);
+            panel(&sheet, 2 * row + column, Frame::new(from, top, to, top + 3200), y)
+        };
+        let own = panel(0, left, label)?;
+        bounded(&own, seeds)?;
+        if row == 0 {
+            kept_curves(&own, maps)?;
+        }
+        windows(&own, maps, place)?;
+        starts(&panel(1, right, "")?, maps, place)?;
+    }
+    let mut entries: Vec<_> = WINDOWS
+        .iter()
+        .map(|(w, mark, colour)| entry(format!("*W* = {w}"), *mark, *colour))
+        .collect();
+    entries.push(Entry::line(kept(INK), "mean of the kept"));
+    entries.push(Entry::line(bound(), "bound for the mean of all"));
+    sheet.legend((1000, LEGEND), (SMALL, 340), &entries)?;
+    let entries: Vec<_> = STARTS
+        .iter()
+        .map(|(_, what, mark, colour)| entry((*what).into(), *mark, *colour))
+        .collect();
+    sheet.legend((4900, LEGEND), (SMALL, 340), &entries)?;
+    let title = "Half height and onset against the transient";
+    Ok(sheet.finish_own(1, title, description(maps), vec![table(maps)]))
+}
+
+fn panel(sheet: &Sheet, place: usize, frame: Frame, y: Axis) -> Result<Panel, Error> {
+    let panel = sheet.panel(frame, Axis::decades(1, 5, 1, "transient *T*"), y)?;
+    panel.letter(LETTERS[place])?;
+    Ok(panel)
+}
+
+fn entry(text: String, mark: Mark, colour: Colour) -> Entry {
+    let stroke = Stroke::solid(colour, THIN);
+    Entry { line: Some(stroke), mark: Some((mark, SIZE, stroke)), text }
+}
+
+/// The line of the mean of the kept.
+fn kept(colour: Colour) -> Stroke {
+    Stroke::dashed(colour, THIN, Dash::Long)
+}
+
+/// The line of the bound that no mean over all chains passes.
+fn bound() -> Stroke {
+    Stroke::dashed(INK, THIN, Dash::Dotted)
+}
+
+/// The values of estimates against log T.
+fn values(all: &[(f64, Estimate)]) -> Vec<(f64, f64)> {
+    all.iter().map(|(time, own)| (log(*time), own.value)).collect()
+}
+
+fn estimates(
+    panel: &Panel,
+    name: &str,
+    all: &[(f64, Estimate)],
+    look: (Mark, Colour),
+) -> Result<(), Error> {
+    let stroke = Stroke::solid(look.1, THIN);
+    panel.curve(name, &values(all), stroke, Outside::Cut)?;
+    let all: Vec<_> = all.iter().map(|(time, own)| (log(*time), *own)).collect();
+    panel.estimates(name, &all, (look.0, SIZE, stroke), |y| y)
+}
+
+fn windows(panel: &Panel, maps: Maps<'_>, place: Place) -> Result<(), Error> {
+    for (window, mark, colour) in WINDOWS {
+        let line = maps.line("rest", window, place);
+        estimates(panel, &format!("*W* = {window}"), &line, (mark, colour))?;
+    }
+    Ok(())
+}
+
+fn bounded(panel: &Panel, level: f64) -> Result<(), Error> {
+    let level = [(panel.x.lo, level), (panel.x.hi, level)];
+    panel.curve("bound by seeds", &level, bound(), Outside::Cut)
+}
+
+fn kept_curves(panel: &Panel, maps: Maps<'_>) -> Result<(), Error> {
+    for (window, _, colour) in WINDOWS {
+        let line = values(&maps.line("rest", window, HALF_OF_KEPT));
+        panel.curve(&format!("kept, *W* = {window}"), &line, kept(colour), Outside::Cut)?;
+    }
+    Ok(())
+}
+
+fn starts(panel: &Panel, maps: Maps<'_>, place: Place) -> Result<(), Error> {
+    for (name, what, mark, colour) in STARTS {
+        estimates(panel, what, &maps.line(name, WINDOW, place), (mark, colour))?;
+    }
+    Ok(())
+}
+
+fn description(maps: Maps<'_>) -> String {
+    let told = |name: &str, window: f64, place: Place| -> String {
+        let line = maps.line(name, window, place);
+        let ends = line.first().zip(line.last().filter(|_| line.len() > 1));
+        ends.map_or("none".into(), |(first, last)| {
+            format!(
+                "from {} at T = {} to {} at T = {}",
+                short(first.1.value, 4),
+                first.0,
+                short(last.1.value, 4),
+                last.0
+            )
+        })
     };
-    let all: Vec<String> = race.entries.iter().filter_map(told).collect();
+    let by_window = |place: Place| -> String {
+        let list = WINDOWS.iter().map(|(w, ..)| format!("{} for W = {w}", told("rest", *w, place)));
+        list.collect::<Vec<_>>().join("; ")
+    };
+    let by_start = |place: Place| -> String {
+        let list =
+            STARTS.iter().map(|(name, what, ..)| format!("{what}: {}", told(name, WINDOW, place)));
+        list.collect::<Vec<_>>().join("; ")
+    };
+    let [half, onset] = maps.seeds.map(|seeds| short(seeds, 3));
     format!(
-        "Two charts against counted work, both axes logarithmic, one marker for each method and \
-         step or tolerance, from n = {} and σ = {}. (a) The error of the time of the next impact \
-         from an exact state: the marker is the median, a line reaches up to the largest. (b) The \
-         share of states from which the next impact is not found within {}. {}.",
-        race.parameters.chain.masses,
-        race.parameters.sigma,
-        short(DISPLACED, 1),
-        all.join("; ")
+        "(a) Half height of the mean of all chains against the transient T on a logarithmic axis, with a curve for \
+         each window W, falling and coming together above the level {half}: {}. Dashed curves of the mean of the kept fall \
+         below that level. (b) Half heights of other chains, W = {WINDOW}: {}. (c) Onset, as in (a), above the level {onset}: {}. \
+         (d) Onsets of the other chains: {}.",
+        by_window(HALF),
+        by_start(HALF),
+        by_window(ONSET),
+        by_start(ONSET),
     )
 }
 
-/// A step or tolerance behind a name.
-pub fn setting(value: f64) -> String {
-    if value > 0.0 { format!(" at {}", short(value, 1)) } else { String::new() }
+/// The cells of a map, with a name.
+fn of<'a>(
+    name: &'a str,
+    map: &'a ProtocolMap,
+) -> impl Iterator<Item = (&'a str, &'a ProtocolCell)> {
+    map.cells.iter().map(move |cell| (name, cell))
 }
 
-fn table(race: &Race) -> DataFile {
-    let mut file = DataFile::new(
+fn table(maps: Maps<'_>) -> DataFile {
+    let mut table = DataFile::new(
         "s01.csv",
         &[
-            "method",
-            "step_or_tolerance (1/omega)",
-            "evaluations_per_impact (1)",
-            "steps_per_impact (1)",
-            "segments (1)",
-            "unseen (1)",
-            "wrong_gap (1)",
-            "displaced (1)",
-            "failed (1)",
-            "error_median (1/omega)",
-            "error_90 (1/omega)",
-            "error_largest (1/omega)",
+            "chain (text)",
+            "transient (1/omega)",
+            "window (1/omega)",
+            "half_height (d omega^2)",
+            "half_height_error (d omega^2)",
+            "half_height_of_kept (d omega^2)",
+            "half_height_of_kept_error (d omega^2)",
+            "onset (d omega^2)",
+            "onset_error (d omega^2)",
+            "half_are_kept (d omega^2)",
+            "half_are_kept_error (d omega^2)",
         ],
     );
-    for entry in &race.entries {
-        let s = &entry.segments;
-        let error = |i: usize| s.errors.map(|errors| errors[i]);
-        let value = (entry.setting.method != MethodName::Certified).then_some(entry.setting.value);
-        file.row(cells![
-            name(entry.setting.method),
-            value,
-            entry.evaluations_per_impact,
-            entry.steps_per_impact,
-            s.tried,
-            s.unseen,
-            s.wrong_gap,
-            s.displaced,
-            s.failed,
-            error(0),
-            error(1),
-            error(2)
+    let rest = of("rest", maps.map).chain(of("rest, long", &maps.long.map));
+    let others = maps.others.named().flat_map(|(name, map)| of(name, map));
+    for (name, cell) in rest.chain(others) {
+        let places = [HALF, HALF_OF_KEPT, ONSET, KEPT].map(|place| place(cell));
+        let [half, of_kept, onset, kept] = places;
+        table.row(cells![
+            name,
+            cell.transient,
+            cell.window,
+            half.map(|own| own.value),
+            half.map(|own| own.error),
+            of_kept.map(|own| own.value),
+            of_kept.map(|own| own.error),
+            onset.map(|own| own.value),
+            onset.map(|own| own.error),
+            kept.map(|own| own.value),
+            kept.map(|own| own.error)
         ]);
     }
-    file
+    table
 }

@@ -1,202 +1,139 @@
-//! Fig. S2: how long a run is true, against its work, its error and its time.
+//! Fig. S2: one long run, gap against time, a tick for each impact.
 
-use plotters::style::text_anchor::{HPos, VPos};
-
-use super::axis::{Axis, log};
+use super::axis::Axis;
 use super::chart::{LETTERS, short};
 use super::data::cells;
 use super::panel::{Frame, Panel};
-use super::rivals::{
-    Timed, by_method, called, decades_around, entries, entries_of_others, look, look_of,
-    most_accurate, name, others, timed,
-};
-use super::s01::setting;
+use super::scene::Scene;
 use super::series::Outside;
-use super::sheet::Sheet;
-use super::style::{Dash, GREY, INK, LINE, PALE, SMALL, Stroke, TINY};
+use super::sheet::{Entry, Sheet};
+use super::style::{HAIR, INK, Mark, RED, SMALL, Stroke, WHITE};
 use super::{DataFile, Error, Figure};
-use crate::experiments::Measured;
-use crate::experiments::accuracy::race::{DISPLACED, Entry, Race};
-use crate::params::MethodName;
+use crate::experiments::spacetime::SpaceTime;
 
-/// The rounding of doubles, 2⁻⁵³.
-const ROUNDING: f64 = f64::EPSILON / 2.0;
+/// How much of the run the second panel shows.
+const DETAIL: f64 = 400.0;
 
-/// Time after which an error ε has grown to [`DISPLACED`]: ln(10⁻³/ε)/λ, with λ and its error.
-fn allowed(race: &Race, log10_error: f64) -> Option<[f64; 3]> {
-    let growth = race.growth.growth?;
-    let folds = (log(DISPLACED) - log10_error).max(0.0) * std::f64::consts::LN_10;
-    Some([growth.interval[1], growth.value, growth.interval[0]].map(|rate| folds / rate))
-}
+/// A gap at which impacts start.
+const START: (Mark, i32, Stroke) = (Mark::Disc, 62, Stroke::solid(WHITE, HAIR));
 
 /// Draws the figure.
-pub fn draw(race: &Race, measured: &Measured, note: Option<&str>) -> Result<Figure, Error> {
-    let sheet = Sheet::new(9950, note)?;
-    let top = (race.parameters.until / 50.0).ceil() * 50.0;
-    let time = |label: &str| Axis::linear(0.0, top, if top > 60.0 { 50.0 } else { 10.0 }, 1, label);
-    let costs = race.entries.iter().filter_map(|entry| entry.evaluations_per_impact);
-    let by_cost = sheet.panel(
-        Frame::new(1100, 430, 8150, 3500),
-        decades_around(costs, 1, "evaluations per impact"),
-        time("horizon *t*"),
-    )?;
-    by_cost.letter(LETTERS[0])?;
-    let by_error = sheet.panel(
-        Frame::new(1100, 4900, 4300, 7350),
-        Axis::decades(-16, 0, 4, "error of the next impact"),
-        time("horizon *t*"),
-    )?;
-    by_error.letter(LETTERS[1])?;
-
-    let points = |place: &dyn Fn(&Entry) -> Option<f64>| {
-        by_method(&race.entries, |e| e.setting, |e| Some((place(e)?, e.horizon?[0])))
+pub fn draw(run: &SpaceTime, note: Option<&str>) -> Result<Figure, Error> {
+    let sheet = Sheet::new(9750, note)?;
+    let until = run.parameters.until;
+    let gaps = || {
+        let last = (run.width() - 1) as f64;
+        Axis::linear(-1.0, last + 1.0, 20.0, 2, "gap")
     };
-    chaos(&by_error, race)?;
-    let ceiling = allowed(race, log(ROUNDING));
-    if let Some([_, ceiling, _]) = ceiling.filter(|c| c[1] < top) {
-        let line = Stroke::dashed(GREY, LINE, Dash::Short);
-        let across = [(by_cost.x.lo, ceiling), (by_cost.x.hi, ceiling)];
-        by_cost.curve("what chaos allows to doubles", &across, line, Outside::Refuse)?;
-        let look = (TINY, INK, HPos::Right, VPos::Bottom);
-        by_cost.note("what chaos allows to doubles", (by_cost.x.hi, ceiling), (0, -70), look)?;
-    }
-    let by_work = |e: &Entry| e.evaluations_per_impact.map(log);
-    let by_median = |e: &Entry| e.segments.errors.map(|errors| log(errors[0].max(1e-16)));
-    for (panel, place) in
-        [(&by_cost, &by_work as &dyn Fn(&Entry) -> Option<f64>), (&by_error, &by_median)]
-    {
-        let bars = by_method(&race.entries, |e| e.setting, |e| Some((place(e)?, e.horizon?[1])));
-        for ((method, points), (_, errors)) in points(place).iter().zip(bars) {
-            let look = look(*method);
-            let bars: Vec<_> = points
-                .iter()
-                .zip(errors)
-                .map(|(p, e)| (p.0, (p.1 - e.1).max(0.0), (p.1 + e.1).min(top)))
-                .collect();
-            panel.bars(name(*method), &bars, 0, look.line())?;
-            if std::ptr::eq(panel, &by_cost) {
-                panel.curve(name(*method), points, look.line(), Outside::Refuse)?;
-            }
-            panel.marks(name(*method), points, look.marker(), Outside::Refuse)?;
-        }
-    }
-    let present = points(&by_work);
-    let programs = timed(measured);
-    let mut legend = entries(|method| present.iter().any(|(m, _)| *m == method));
-    legend.extend(entries_of_others(&others(&programs)));
-    for (i, column) in legend.chunks(4).enumerate() {
-        sheet.legend((500 + 2650 * i as i32, 8600), (SMALL, 370), column)?;
-    }
-    let masses = race.parameters.chain.masses;
-    let files = vec![table(race), clock(&sheet, measured, masses, top)?];
-    Ok(sheet.finish_own(2, "How long a run is true", description(race, measured), files))
+    let time = |from: f64, to: f64, step: f64| Axis::linear(from, to, step, 2, "time *t* (1/*ω*)");
+
+    let whole =
+        sheet.panel(Frame::new(1200, 430, 8150, 4130), time(0.0, until, until / 4.0), gaps())?;
+    whole.letter(LETTERS[0])?;
+    let impacts = points(run, 0.0, until);
+    let row = (whole.frame.bottom - whole.frame.top) / (run.width() as i32 + 1);
+    whole.ticks("impacts", &impacts, 12, Stroke::solid(INK, row as u32))?;
+    starts(&whole, run, until)?;
+
+    let (from, to) = detail(run);
+    let near =
+        sheet.panel(Frame::new(1200, 5250, 8150, 8550), time(from, to, DETAIL / 4.0), gaps())?;
+    near.letter(LETTERS[1])?;
+    near.ticks("first impacts", &points(run, from, to), 14, Stroke::solid(INK, 30))?;
+    starts(&near, run, to)?;
+
+    let tick =
+        Entry { line: None, mark: Some((Mark::Square, 16, INK_LINE)), text: "impact".into() };
+    let disc = Entry::mark(START.0, START.1, RED_DISC, "no neighbour was hit before");
+    sheet.legend((1500, 9500), (SMALL, 370), &[tick])?;
+    sheet.legend((3900, 9500), (SMALL, 370), &[disc])?;
+    Ok(sheet.finish_own(2, "One long run", description(run), tables(run)))
 }
 
-/// The line that chaos allows, with the band of λ's interval.
-fn chaos(panel: &Panel, race: &Race) -> Result<(), Error> {
-    let at = |x: f64| allowed(race, x).map(|t| (x, t));
-    let grid: Vec<_> = (0..=64).filter_map(|i| at(-16.0 + 0.25 * f64::from(i))).collect();
-    let cut = |t: f64| t.min(panel.y.hi);
-    let below = grid.iter().map(|(x, t)| (*x, cut(t[0])));
-    let above = grid.iter().rev().map(|(x, t)| (*x, cut(t[2])));
-    panel.area("interval of the growth", &below.chain(above).collect::<Vec<_>>(), PALE, 100)?;
-    let line: Vec<_> = grid.iter().map(|(x, t)| (*x, t[1])).collect();
-    let stroke = Stroke::dashed(GREY, LINE, Dash::Short);
-    panel.curve("what chaos allows", &line, stroke, Outside::Cut)
+const INK_LINE: Stroke = Stroke::solid(INK, HAIR);
+const RED_DISC: Stroke = Stroke::solid(RED, HAIR);
+
+/// Where the second panel begins and ends: a round time before the first impact.
+fn detail(run: &SpaceTime) -> (f64, f64) {
+    let first = run.times.first().copied().unwrap_or(0.0);
+    let from = (first / 10.0).floor() * 10.0;
+    (from, from + DETAIL)
 }
 
-/// Panel (c): the horizon of programs on one chain against the time they take, as measured.
-fn clock(sheet: &Sheet, measured: &Measured, masses: usize, top: f64) -> Result<DataFile, Error> {
-    let mut file = DataFile::new(
-        "s02-measured.csv",
-        &[
-            "program",
-            "version (text)",
-            "settings (text)",
-            "microseconds_per_impact (us)",
-            "horizon (1/omega)",
-            "impacts_compared (1)",
-        ],
-    );
-    let compared = |row: &Timed| row.masses as usize == masses && row.horizon.is_some();
-    let rows: Vec<Timed> = timed(measured).into_iter().filter(compared).collect();
-    let panel = sheet.panel(
-        Frame::new(5300, 4900, 8150, 7350),
-        decades_around(rows.iter().map(|row| row.microseconds), 1, "measured µs per impact"),
-        Axis::linear(0.0, top, if top > 60.0 { 50.0 } else { 10.0 }, 1, ""),
-    )?;
-    panel.letter(LETTERS[2])?;
-    let others = others(&rows);
-    for row in &rows {
-        let horizon = row.horizon.unwrap_or(0.0);
-        let point = [(log(row.microseconds), horizon.min(top))];
-        panel.marks(&row.name, &point, look_of(row, &others).marker(), Outside::Refuse)?;
-        file.row(cells![
-            row.name.as_str(),
-            row.version.as_str(),
-            row.settings.as_str(),
-            row.microseconds,
-            horizon,
-            row.compared
-        ]);
-    }
-    Ok(file)
+fn points(run: &SpaceTime, from: f64, to: f64) -> Vec<(f64, f64)> {
+    let all = run.times.iter().zip(&run.gaps).map(|(&time, &gap)| (time, f64::from(gap)));
+    all.filter(|(time, _)| (from..=to).contains(time)).collect()
 }
 
-fn description(race: &Race, measured: &Measured) -> String {
-    let masses = race.parameters.chain.masses as u64;
-    let compared: Vec<Timed> =
-        timed(measured).into_iter().filter(|t| t.masses == masses && t.horizon.is_some()).collect();
-    let programs: Vec<String> = most_accurate(&compared)
-        .into_iter()
-        .map(|row| {
-            let (time, end) = (short(row.microseconds, 2), short(row.horizon.unwrap_or(0.0), 3));
-            format!("{} {time} µs and t = {end}", called(row))
-        })
-        .collect();
-    let told = |entry: &Entry| {
-        let [mean, error] = entry.horizon?;
-        Some(format!(
-            "{}{}: {} ± {}",
-            name(entry.setting.method),
-            setting(entry.setting.value),
-            short(mean, 3),
-            short(error, 1)
-        ))
+/// A disc at the first impact of each gap at which impacts start.
+fn starts(panel: &Panel, run: &SpaceTime, until: f64) -> Result<(), Error> {
+    let firsts = run.firsts();
+    let own = run.starts().into_iter().filter_map(|gap| Some((firsts[gap]?, gap as f64)));
+    let own: Vec<_> = own.filter(|(time, _)| *time <= until).collect();
+    let (mark, half, _) = START;
+    // A white rim lifts the disc off the ticks.
+    panel.marks("rims", &own, (Mark::Disc, half + 22, START.2), Outside::Refuse)?;
+    panel.marks("starts", &own, (mark, half, RED_DISC), Outside::Refuse)
+}
+
+fn description(run: &SpaceTime) -> String {
+    let (n, parameters) = (run.width(), &run.parameters);
+    let (from, to) = detail(run);
+    let quarter = parameters.until / 4.0;
+    let advances = run.advances();
+    let delay = |i: Option<usize>| i.and_then(|i| advances.get(i)).map(|a| (a.gap, a.delay));
+    let fronts = match (delay(Some(advances.len() / 2)), delay(advances.len().checked_sub(1))) {
+        (Some(middle), Some(last)) => format!(
+            "half of the steps of a front to the next gap take less than {} units of time, the \
+             longest, to gap {}, takes {}",
+            short(middle.1, 2),
+            last.0,
+            short(last.1, 3)
+        ),
+        _ => "no front moves".into(),
     };
-    let all: Vec<String> = race.entries.iter().filter_map(told).collect();
-    let growth = race.growth.growth.map_or("unknown".into(), |g| short(g.value, 3));
+    let places: Vec<String> = run.starts().iter().map(usize::to_string).collect();
+    let firsts = run.firsts();
+    let first = firsts.iter().flatten().copied().reduce(f64::min).unwrap_or(0.0);
     format!(
-        "The time up to which a run has every impact within {} of the true motion, mean of {} \
-         chains with n = {} and σ = {}: (a) against evaluations per impact, (b) against the median \
-         error of a single impact, with the line ln(10⁻³/ε)/λ for the measured growth λ = {growth}, \
-         (c) against measured time, for programs that were measured on one chain. In (a) and (b): \
-         {}. In (c), each program at its most accurate: {}.",
-        short(DISPLACED, 1),
-        race.impacts.len(),
-        race.parameters.chain.masses,
-        race.parameters.sigma,
-        all.join("; "),
-        programs.join("; ")
+        "Gap, from 0 to {}, against time: a dark tick for each of the {} impacts of one run of {} \
+         masses at σ = {}. (a) The whole run to t = {}. Impacts form dark horizontal bands that \
+         begin at {} red discs, in gaps {}, the first at t = {}, and widen in bursts: {} gaps are \
+         reached by t = {}, {} of {n} by the end; {fronts}. (b) The part from t = {} to {}: each \
+         impact a tick, {} of them, in {} gaps.",
+        n - 1,
+        run.times.len(),
+        parameters.chain.masses,
+        parameters.sigma,
+        parameters.until,
+        places.len(),
+        places.join(", "),
+        short(first, 3),
+        run.reached_by(quarter),
+        quarter,
+        run.reached(),
+        from,
+        to,
+        points(run, from, to).len(),
+        run.reached_by(to),
     )
 }
 
-fn table(race: &Race) -> DataFile {
-    let mut file = DataFile::new(
-        "s02.csv",
-        &[
-            "method",
-            "step_or_tolerance (1/omega)",
-            "chain (1)",
-            "first_wrong_impact (1)",
-            "horizon (1/omega)",
-        ],
-    );
-    for entry in &race.entries {
-        let value = (entry.setting.method != MethodName::Certified).then_some(entry.setting.value);
-        for (i, run) in entry.runs.iter().enumerate() {
-            file.row(cells![name(entry.setting.method), value, i + 1, run.impact, run.time]);
-        }
+fn tables(run: &SpaceTime) -> Vec<DataFile> {
+    // Thousandths are finer than the picture, and a file of all digits would be twice as long.
+    let mut impacts = DataFile::new("s02a.csv", &["time_to_thousandths (1/omega)", "gap (1)"]);
+    for (&time, &gap) in run.times.iter().zip(&run.gaps) {
+        impacts.row(cells![(time * 1000.0).round() / 1000.0, gap as usize]);
     }
-    file
+    let mut gaps = DataFile::new(
+        "s02b.csv",
+        &["gap (1)", "first_time (1/omega)", "count (1)", "starts_by_itself (1)"],
+    );
+    let starts = run.starts();
+    for (gap, first) in run.firsts().into_iter().enumerate() {
+        let count = run.gaps.iter().filter(|own| **own as usize == gap).count();
+        gaps.row(cells![gap, first, count, usize::from(starts.contains(&gap))]);
+    }
+    let positions = Scene::of(run).map(|scene| scene.table("s02c.csv"));
+    [impacts, gaps].into_iter().chain(positions).collect()
 }

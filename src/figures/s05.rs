@@ -1,137 +1,168 @@
-//! Fig. S5: digits of the ways to compute p(σ) and P(X = k).
+//! Fig. S5: what becomes of the most likely number, its jump and its distribution for many vertices.
 
 use super::axis::{Axis, log};
 use super::chart::{LETTERS, short};
 use super::data::cells;
 use super::panel::Frame;
-use super::rivals::decades_around;
 use super::series::Outside;
 use super::sheet::{Entry, Sheet};
-use super::style::{BLUE, Colour, Dash, GREEN, LINE, Mark, ORANGE, RED, SMALL, Stroke, THIN};
+use super::style::{
+    BLUE, Colour, Dash, GREEN, INK, LINE, Mark, ORANGE, PURPLE, RED, SMALL, Stroke, THIN,
+};
 use super::{DataFile, Error, Figure};
-use crate::experiments::accuracy::analytic::{Analytic, Relation, Route, Way};
+use crate::experiments::theory::{Large, PoissonCell, PoissonRow};
 
-/// Errors are drawn from here to one; an error above one has no digit left.
-const LOWEST: i32 = -18;
+/// The p N in (a): around the onset, where the sizes differ.
+const RANGE: (f64, f64) = (0.75, 2.25);
 
-/// Smaller errors are luck.
-const FLOOR: f64 = 1e-17;
+/// Colours of the numbers of vertices in (a).
+const SIZES: [(Colour, Dash); 3] =
+    [(ORANGE, Dash::Solid), (BLUE, Dash::Solid), (GREEN, Dash::Solid)];
 
-fn route(route: Route) -> (String, Stroke) {
-    match route {
-        Route::DoubleIntegral { panels: 1 } => {
-            ("one minus the double integral".into(), Stroke::dashed(ORANGE, LINE, Dash::Short))
-        }
-        Route::DoubleIntegral { panels } => (
-            format!("the same, {panels} × {panels} panels"),
-            Stroke::dashed(BLUE, LINE, Dash::Long),
-        ),
-        Route::SingleIntegral => {
-            ("one minus a single integral".into(), Stroke::dashed(GREEN, LINE, Dash::Dotted))
-        }
-        Route::ClosedForm => ("closed form".into(), Stroke::solid(RED, LINE)),
-    }
-}
-
-fn way(way: Way) -> (&'static str, Colour, Mark) {
-    match way {
-        Way::Factorials => ("factorials", ORANGE, Mark::Square),
-        Way::LogGamma => ("log-gamma", BLUE, Mark::Ring),
-        Way::Ratios => ("ratios of terms", GREEN, Mark::Diamond),
-        Way::Products => ("products, 106 bits", RED, Mark::Disc),
-    }
-}
+/// Looks of the values of p N in (c).
+const LOOKS: [(Colour, Mark); 4] =
+    [(RED, Mark::Disc), (ORANGE, Mark::Square), (BLUE, Mark::Diamond), (PURPLE, Mark::Triangle)];
 
 /// Draws the figure.
-pub fn draw(analytic: &Analytic, note: Option<&str>) -> Result<Figure, Error> {
-    let sheet = Sheet::new(10_300, note)?;
-    let errors = || Axis::decades(LOWEST, 0, 3, "relative error");
-    let sigmas = analytic.parameters.sigmas.iter().copied();
-    let sigma = decades_around(sigmas, 1, "standard deviation *σ* of the forcing");
-    let relation = sheet.panel(Frame::new(1250, 430, 8150, 3330), sigma, errors())?;
-    relation.letter(LETTERS[0])?;
-    let shown = |error: f64| log(error.max(FLOOR)).min(0.0);
-    let mut entries = Vec::new();
-    for own in &analytic.relation {
-        let (name, stroke) = route(own.route);
-        let points: Vec<_> = own.points.iter().map(|p| (log(p.0), shown(p.1))).collect();
-        relation.curve(&name, &points, stroke, Outside::Refuse)?;
-        entries.push(Entry::line(stroke, &name));
-    }
-    for (i, column) in entries.chunks(2).enumerate() {
-        sheet.legend((400 + 4250 * i as i32, 4500), (SMALL, 370), column)?;
-    }
-
-    let sizes = analytic.parameters.sizes.iter().map(|&n| n as f64);
-    let big_n = decades_around(sizes, 1, "number of vertices *N*");
-    let distribution = sheet.panel(Frame::new(1250, 5700, 8150, 8600), big_n, errors())?;
-    distribution.letter(LETTERS[1])?;
-    let mut entries = Vec::new();
-    for own in &analytic.distribution {
-        let (name, colour, mark) = way(own.way);
-        let points: Vec<_> = own
-            .points
-            .iter()
-            .filter_map(|p| Some((log(p.big_n as f64), shown(p.error?))))
-            .collect();
-        let look = (mark, 58, Stroke::solid(colour, THIN));
-        distribution.curve(name, &points, Stroke::solid(colour, THIN), Outside::Refuse)?;
-        distribution.marks(name, &points, look, Outside::Refuse)?;
-        entries.push(Entry::mark(mark, 58, look.2, name));
-    }
-    for (i, column) in entries.chunks(2).enumerate() {
-        sheet.legend((400 + 4250 * i as i32, 9750), (SMALL, 370), column)?;
-    }
-    let files = tables(analytic);
-    Ok(sheet.finish_own(5, "Digits of the analytic methods", description(analytic), files))
+pub fn draw(large: &Large) -> Result<Figure, Error> {
+    let sheet = Sheet::new(9350, None)?;
+    shares(&sheet, large)?;
+    jumps(&sheet, large)?;
+    poisson(&sheet, large)?;
+    Ok(sheet.finish_own(5, "The theory at large N", description(large), tables(large)))
 }
 
-fn description(analytic: &Analytic) -> String {
-    let at = |own: &Relation, sigma: f64| {
-        let point = own.points.iter().find(|p| p.0 >= sigma);
-        point.map_or("none".into(), |p| format!("{} at σ = {}", short(p.1, 1), short(p.0, 2)))
-    };
-    let routes: Vec<String> = analytic
-        .relation
+/// A power of ten as the figures write it.
+fn power(vertices: usize) -> String {
+    format!("10^{{{}}}", vertices.ilog10())
+}
+
+fn shares(sheet: &Sheet, large: &Large) -> Result<(), Error> {
+    let panel = sheet.panel(
+        Frame::new(1150, 430, 8150, 3730),
+        Axis::linear(RANGE.0, RANGE.1, 0.25, 5, "*p N*"),
+        Axis::linear(0.0, 0.6, 0.1, 2, "*k*^{∗}/*N*"),
+    )?;
+    panel.letter(LETTERS[0])?;
+    let mut entries = Vec::new();
+    for (own, (colour, dash)) in large.shares.iter().zip(SIZES) {
+        let points: Vec<_> = own.rows.iter().map(|row| (row.x, row.y)).collect();
+        let stroke = Stroke::dashed(colour, LINE, dash);
+        panel.curve(&format!("N = {}", own.vertices), &points, stroke, Outside::Cut)?;
+        entries.push(Entry::line(stroke, &format!("*N* = {}", power(own.vertices))));
+    }
+    let limit: Vec<_> = large.limit.iter().map(|row| (row.x, row.y)).collect();
+    let stroke = Stroke::dashed(INK, THIN, Dash::Short);
+    panel.curve("limit", &limit, stroke, Outside::Cut)?;
+    entries.push(Entry::line(stroke, "max(0, 1 − 1/*p N*)"));
+    sheet.legend((5500, 2350), (SMALL, 370), &entries)
+}
+
+fn jumps(sheet: &Sheet, large: &Large) -> Result<(), Error> {
+    let panel = sheet.panel(
+        Frame::new(1150, 5250, 4050, 7650),
+        Axis::decades(1, 6, 1, "*N*"),
+        Axis::decades(-3, 0, 1, "*k*^{∗}/*N* at the jump"),
+    )?;
+    panel.letter(LETTERS[1])?;
+    let rule: Vec<_> = large
+        .jumps
         .iter()
-        .map(|own| format!("{}: {}, {}", route(own.route).0, at(own, 0.05), at(own, 0.2)))
+        .filter_map(|own| Some((log(own.vertices as f64), log(own.rule? / own.vertices as f64))))
         .collect();
-    let ways: Vec<String> = analytic
-        .distribution
+    let line = Stroke::solid(INK, THIN);
+    panel.curve("rule", &rule, line, Outside::Refuse)?;
+    let exact: Vec<_> =
+        large.jumps.iter().map(|own| (log(own.vertices as f64), log(own.share))).collect();
+    let disc = (Mark::Disc, 55, Stroke::solid(GREEN, THIN));
+    panel.marks("exact", &exact, disc, Outside::Refuse)?;
+    let entries = [
+        Entry::mark(disc.0, disc.1, disc.2, "exact"),
+        Entry::line(line, "*k*^{2} = 2*N*(ln *k* − 1)"),
+    ];
+    sheet.legend((900, 8750), (SMALL, 370), &entries)
+}
+
+fn poisson(sheet: &Sheet, large: &Large) -> Result<(), Error> {
+    let panel = sheet.panel(
+        Frame::new(5350, 5250, 8150, 7650),
+        Axis::decades(2, 6, 1, "*N*"),
+        Axis::decades(-4, 0, 1, "distance from Poisson"),
+    )?;
+    panel.letter(LETTERS[2])?;
+    let mut entries = Vec::new();
+    for (own, (colour, mark)) in large.poisson.iter().zip(LOOKS) {
+        let name = format!("p N = {}", short(own.p_n, 2));
+        let at = |of: fn(&PoissonCell) -> f64| -> Vec<(f64, f64)> {
+            own.cells.iter().map(|cell| (log(cell.vertices as f64), log(of(cell)))).collect()
+        };
+        let bound = Stroke::dashed(colour, THIN, Dash::Dotted);
+        panel.curve(&format!("bound, {name}"), &at(|cell| cell.bound), bound, Outside::Refuse)?;
+        let look = (mark, 55, Stroke::solid(colour, THIN));
+        panel.marks(&name, &at(|cell| cell.variation), look, Outside::Refuse)?;
+        entries.push(Entry::mark(
+            look.0,
+            look.1,
+            look.2,
+            &format!("*p N* = {}", short(own.p_n, 2)),
+        ));
+    }
+    for (i, column) in entries.chunks(2).enumerate() {
+        sheet.legend((4650 + 1800 * i as i32, 8750), (SMALL, 370), column)?;
+    }
+    Ok(())
+}
+
+fn description(large: &Large) -> String {
+    let jumps: Vec<String> = large
+        .jumps
         .iter()
+        .filter(|own| own.vertices.to_string().starts_with('1'))
         .map(|own| {
-            let last = own.points.iter().rev().find_map(|p| Some((p.big_n, p.error?)));
-            let last = last.map_or("none".into(), |(n, e)| format!("{} at N = {n}", short(e, 1)));
-            format!("{}: {last}", way(own.way).0)
+            format!("k* = {} or {} of N = {}", own.k_after, short(own.share, 2), own.vertices)
         })
         .collect();
+    let ends = |row: &PoissonRow| {
+        let end = |cell: Option<&PoissonCell>| cell.map_or(0.0, |cell| cell.variation);
+        format!(
+            "from {} to {} for p N = {}",
+            short(end(row.cells.first()), 2),
+            short(end(row.cells.last()), 2),
+            short(row.p_n, 2)
+        )
+    };
+    let distances: Vec<String> = large.poisson.iter().map(ends).collect();
     format!(
-        "Relative errors on logarithmic axes; an error of one or more is drawn at the upper edge. \
-         (a) Of p(σ) against σ: {}. (b) Of P(X = k) and its mean against N with N p = {}, at the \
-         largest N that each way reaches: {}.",
-        routes.join("; "),
-        analytic.parameters.mean_degree,
-        ways.join("; ")
+        "(a) The most likely number over N against p N: zero, a jump soon after p N = 1, then a curve that \
+         bends towards one. The larger N, the smaller the jump, and the nearer the curve to \
+         the broken line max(0, 1 − 1/(p N)), on which that for the largest N lies. (b) The height of the \
+         jump over N, on logarithmic axes: {}; the line of the rule goes through the points. (c) Total \
+         variation distance of N − X from a Poisson variable, on logarithmic axes, falls with the \
+         root of N, {}; dotted lines a little above are bounds.",
+        jumps.join(", "),
+        distances.join(", ")
     )
 }
 
-fn tables(analytic: &Analytic) -> Vec<DataFile> {
-    let mut relation = DataFile::new(
-        "s05a.csv",
-        &["way (text)", "evaluations (1)", "sigma (d omega^2)", "relative_error (1)"],
-    );
-    for own in &analytic.relation {
-        for &(sigma, error) in &own.points {
-            let name = route(own.route).0;
-            relation.row(cells![name.as_str(), own.evaluations, sigma, error]);
+fn tables(large: &Large) -> Vec<DataFile> {
+    let mut shares = DataFile::new("s05a.csv", &["N (1)", "p_N (1)", "k_star_over_N (1)"]);
+    for own in &large.shares {
+        for row in &own.rows {
+            shares.row(cells![own.vertices, row.x, row.y]);
         }
     }
-    let mut distribution =
-        DataFile::new("s05b.csv", &["way (text)", "N (1)", "terms (1)", "relative_error (1)"]);
-    for own in &analytic.distribution {
-        for point in &own.points {
-            distribution.row(cells![way(own.way).0, point.big_n, point.terms, point.error]);
+    let header = ["N (1)", "p_jump (1)", "k_star_after (1)", "k_star_over_N (1)", "k_rule (1)"];
+    let mut jumps = DataFile::new("s05b.csv", &header);
+    for own in &large.jumps {
+        jumps.row(cells![own.vertices, own.p, own.k_after, own.share, own.rule]);
+    }
+    let header =
+        ["p_N (1)", "N (1)", "total_variation (1)", "bound (1)", "N_minus_1_over_p_minus_mean (1)"];
+    let mut poisson = DataFile::new("s05c.csv", &header);
+    for row in &large.poisson {
+        for cell in &row.cells {
+            poisson.row(cells![row.p_n, cell.vertices, cell.variation, cell.bound, cell.mean_gap]);
         }
     }
-    vec![relation, distribution]
+    vec![shares, jumps, poisson]
 }

@@ -1,139 +1,169 @@
-//! Fig. S6: one long run, gap against time, a tick for each impact.
+//! Fig. S6: the five classes of Sec. 9 among circuits of all orders.
 
-use super::axis::Axis;
+use plotters::style::text_anchor::{HPos, VPos};
+
+use super::axis::{Axis, log};
 use super::chart::{LETTERS, short};
 use super::data::cells;
+use super::fig13::CLASSES;
 use super::panel::{Frame, Panel};
-use super::scene::Scene;
 use super::series::Outside;
 use super::sheet::{Entry, Sheet};
-use super::style::{HAIR, INK, Mark, RED, SMALL, Stroke, WHITE};
+use super::style::{
+    BLUE, Colour, Dash, GREEN, GREY, INK, LINE, Mark, ORANGE, PURPLE, RED, SMALL, Stroke, THIN,
+    TINY,
+};
 use super::{DataFile, Error, Figure};
-use crate::experiments::spacetime::SpaceTime;
+use crate::experiments::theory::{AllOrders, Theory};
 
-/// How much of the run the second panel shows.
-const DETAIL: f64 = 400.0;
+/// Looks of the numbers of different vertices in (b), from few to many.
+const LOOKS: [(Colour, Dash); 5] = [
+    (PURPLE, Dash::Long),
+    (ORANGE, Dash::Short),
+    (BLUE, Dash::Alternate),
+    (GREEN, Dash::Twice),
+    (INK, Dash::Dotted),
+];
 
-/// A gap at which impacts start.
-const START: (Mark, i32, Stroke) = (Mark::Disc, 62, Stroke::solid(WHITE, HAIR));
+/// Upper end of the shares' axes: above one, so that curves stay clear of what stands there.
+const TOP: f64 = 1.1;
 
 /// Draws the figure.
-pub fn draw(run: &SpaceTime, note: Option<&str>) -> Result<Figure, Error> {
-    let sheet = Sheet::new(9750, note)?;
-    let until = run.parameters.until;
-    let gaps = || {
-        let last = (run.width() - 1) as f64;
-        Axis::linear(-1.0, last + 1.0, 20.0, 2, "gap")
+pub fn draw(theory: &Theory) -> Result<Figure, Error> {
+    let sheet = Sheet::new(11_900, None)?;
+    let orders = &theory.orders;
+    let x = || Axis::decades(-3, -1, 1, "*p*");
+    let share = || Axis::linear(0.0, TOP, 0.2, 2, "share");
+    let classes = sheet.panel(Frame::new(1150, 480, 4250, 3380), x(), share())?;
+    classes.letter(LETTERS[0])?;
+    let mut entries = Vec::new();
+    for (i, &(name, symbol, colour, dash)) in CLASSES.iter().enumerate() {
+        let at = |shares: &Vec<f64>| shares.get(i).copied().unwrap_or(0.0);
+        let points: Vec<_> = orders.classes.iter().map(|c| (log(c.p), at(&c.shares))).collect();
+        let stroke = Stroke::dashed(colour, LINE, dash);
+        classes.curve(name, &points, stroke, Outside::Refuse)?;
+        entries.push(Entry::line(stroke, &format!("{name}, {symbol}")));
+    }
+    sheet.legend((4480, 1000), (SMALL, 400), &entries)?;
+
+    let whole = sheet.panel(Frame::new(1150, 4680, 4250, 7580), x(), share())?;
+    whole.letter(LETTERS[1])?;
+    let mut entries = Vec::new();
+    for (own, (colour, dash)) in orders.shares.iter().zip(LOOKS) {
+        let points: Vec<_> = own.rows.iter().map(|row| (log(row.x), row.y)).collect();
+        let stroke = Stroke::dashed(colour, LINE, dash);
+        whole.curve(&format!("K = {}", own.k), &points, stroke, Outside::Cut)?;
+        entries.push(Entry::line(stroke, &format!("of *K* = {} vertices", own.k)));
+    }
+    let points: Vec<_> = orders.whole.iter().map(|row| (log(row.x), row.y)).collect();
+    let all = Stroke::solid(RED, LINE);
+    whole.curve("all circuits", &points, all, Outside::Refuse)?;
+    entries.push(Entry::line(all, "of all circuits"));
+    for panel in [&classes, &whole] {
+        guide(panel, orders.pole, "1/*N*", HPos::Right)?;
+        guide(panel, theory.scalars.p_jump, "*p*_{jump}", HPos::Left)?;
+    }
+    sheet.legend((4480, 5200), (SMALL, 400), &entries)?;
+    distributions(&sheet, theory)?;
+    let files = tables(orders);
+    Ok(sheet.finish_own(6, "Circuits of all orders", description(theory), files))
+}
+
+/// An upright line at a place of p, with its name above.
+fn guide(panel: &Panel, p: f64, name: &str, side: HPos) -> Result<(), Error> {
+    let stroke = Stroke::dashed(GREY, THIN, Dash::Dotted);
+    panel.curve(name, &[(log(p), 0.0), (log(p), TOP)], stroke, Outside::Refuse)?;
+    let dx = if matches!(side, HPos::Left) { 20 } else { -20 };
+    panel.note(name, (log(p), TOP), (dx, -80), (TINY, INK, side, VPos::Bottom))
+}
+
+fn distributions(sheet: &Sheet, theory: &Theory) -> Result<(), Error> {
+    let orders = &theory.orders;
+    let n = theory.vertices as f64;
+    let panel = sheet.panel(
+        Frame::new(1150, 8880, 8150, 10_780),
+        Axis::linear(0.0, n + 1.0, 20.0, 2, "*k*"),
+        Axis::decades(-4, 0, 1, "*P*(*X* = *k*)"),
+    )?;
+    panel.letter(LETTERS[2])?;
+    let look = |mark, colour| (mark, 42, Stroke::solid(colour, THIN));
+    let series = [
+        ("simple circuits", &orders.simple_at_jump, look(Mark::Ring, GREEN)),
+        ("all circuits", &orders.at_jump, look(Mark::Disc, RED)),
+    ];
+    for (name, values, look) in series {
+        let points: Vec<_> = (1..)
+            .zip(values)
+            .filter(|(_, p)| **p > 0.0)
+            .map(|(k, p)| (f64::from(k), log(*p)))
+            .collect();
+        panel.marks(name, &points, look, Outside::Cut)?;
+    }
+    let entry = |i: usize, p: f64| {
+        let (name, _, (mark, half, stroke)) = series[i];
+        Entry::mark(mark, half, stroke, &format!("{name} at *p* = {}", short(p, 4)))
     };
-    let time = |from: f64, to: f64, step: f64| Axis::linear(from, to, step, 2, "time *t* (1/*ω*)");
-
-    let whole =
-        sheet.panel(Frame::new(1200, 430, 8150, 4130), time(0.0, until, until / 4.0), gaps())?;
-    whole.letter(LETTERS[0])?;
-    let impacts = points(run, 0.0, until);
-    let row = (whole.frame.bottom - whole.frame.top) / (run.width() as i32 + 1);
-    whole.ticks("impacts", &impacts, 12, Stroke::solid(INK, row as u32))?;
-    starts(&whole, run, until)?;
-
-    let (from, to) = detail(run);
-    let near =
-        sheet.panel(Frame::new(1200, 5250, 8150, 8550), time(from, to, DETAIL / 4.0), gaps())?;
-    near.letter(LETTERS[1])?;
-    near.ticks("first impacts", &points(run, from, to), 14, Stroke::solid(INK, 30))?;
-    starts(&near, run, to)?;
-
-    let tick =
-        Entry { line: None, mark: Some((Mark::Square, 16, INK_LINE)), text: "impact".into() };
-    let disc = Entry::mark(START.0, START.1, RED_DISC, "no neighbour was hit before");
-    sheet.legend((1500, 9500), (SMALL, 370), &[tick])?;
-    sheet.legend((3900, 9500), (SMALL, 370), &[disc])?;
-    Ok(sheet.finish_own(6, "One long run", description(run), tables(run)))
+    sheet.legend((700, 11_750), (SMALL, 400), &[entry(0, theory.scalars.p_jump)])?;
+    sheet.legend((4400, 11_750), (SMALL, 400), &[entry(1, orders.jump.p)])
 }
 
-const INK_LINE: Stroke = Stroke::solid(INK, HAIR);
-const RED_DISC: Stroke = Stroke::solid(RED, HAIR);
-
-/// Where the second panel begins and ends: a round time before the first impact.
-fn detail(run: &SpaceTime) -> (f64, f64) {
-    let first = run.times.first().copied().unwrap_or(0.0);
-    let from = (first / 10.0).floor() * 10.0;
-    (from, from + DETAIL)
-}
-
-fn points(run: &SpaceTime, from: f64, to: f64) -> Vec<(f64, f64)> {
-    let all = run.times.iter().zip(&run.gaps).map(|(&time, &gap)| (time, f64::from(gap)));
-    all.filter(|(time, _)| (from..=to).contains(time)).collect()
-}
-
-/// A disc at the first impact of each gap at which impacts start.
-fn starts(panel: &Panel, run: &SpaceTime, until: f64) -> Result<(), Error> {
-    let firsts = run.firsts();
-    let own = run.starts().into_iter().filter_map(|gap| Some((firsts[gap]?, gap as f64)));
-    let own: Vec<_> = own.filter(|(time, _)| *time <= until).collect();
-    let (mark, half, _) = START;
-    // A white rim lifts the disc off the ticks.
-    panel.marks("rims", &own, (Mark::Disc, half + 22, START.2), Outside::Refuse)?;
-    panel.marks("starts", &own, (mark, half, RED_DISC), Outside::Refuse)
-}
-
-fn description(run: &SpaceTime) -> String {
-    let (n, parameters) = (run.width(), &run.parameters);
-    let (from, to) = detail(run);
-    let quarter = parameters.until / 4.0;
-    let advances = run.advances();
-    let delay = |i: Option<usize>| i.and_then(|i| advances.get(i)).map(|a| (a.gap, a.delay));
-    let fronts = match (delay(Some(advances.len() / 2)), delay(advances.len().checked_sub(1))) {
-        (Some(middle), Some(last)) => format!(
-            "half of the steps of a front to the next gap take less than {} units of time, the \
-             longest, to gap {}, takes {}",
-            short(middle.1, 2),
-            last.0,
-            short(last.1, 3)
-        ),
-        _ => "no front moves".into(),
+fn description(theory: &Theory) -> String {
+    let orders = &theory.orders;
+    let shares = |p: f64| {
+        let near = |c: &&crate::experiments::theory::ClassShares| c.p >= p * (1.0 - 1e-9);
+        let found = orders.classes.iter().find(near);
+        let shares = found.map(|c| c.shares.iter().map(|s| short(*s, 2)).collect::<Vec<_>>());
+        shares.unwrap_or_default().join(", ")
     };
-    let places: Vec<String> = run.starts().iter().map(usize::to_string).collect();
-    let firsts = run.firsts();
-    let first = firsts.iter().flatten().copied().reduce(f64::min).unwrap_or(0.0);
+    let poles: Vec<String> = orders.shares.iter().map(|own| short(1.0 / own.k as f64, 2)).collect();
+    let ends = |values: &[f64]| {
+        let least = values.iter().copied().fold(1.0, f64::min);
+        (short(values.first().copied().unwrap_or(0.0), 2), short(least, 2))
+    };
+    let (first, least) = ends(&orders.at_jump);
     format!(
-        "Gap, from 0 to {}, against time: a dark tick for each of the {} impacts of one run of {} \
-         masses at σ = {}. (a) The whole run to t = {}. Impacts form dark horizontal bands that \
-         begin at {} red discs, in gaps {}, the first at t = {}, and widen in bursts: {} gaps are \
-         reached by t = {}, {} of {n} by the end; {fronts}. (b) The part from t = {} to {}: each \
-         impact a tick, {} of them, in {} gaps.",
-        n - 1,
-        run.times.len(),
-        parameters.chain.masses,
-        parameters.sigma,
-        parameters.until,
-        places.len(),
-        places.join(", "),
-        short(first, 3),
-        run.reached_by(quarter),
-        quarter,
-        run.reached(),
-        from,
-        to,
-        points(run, from, to).len(),
-        run.reached_by(to),
+        "(a) The shares of the five classes among themselves against p on a logarithmic axis, N = {}: {} \
+         at p = 0.001, {} at p = 0.1. Simple circuits give way to those with two vertices twice. (b) The share of the \
+         five classes among all circuits with K different vertices: curves that fall from one to zero at p = 1/K, which is {}; \
+         among all circuits it falls to zero at 1/N. (c) P(X = k) at the jump: \
+         with simple circuits two humps, as high at k = {} as at k = 1; with all \
+         circuits a trough, {first} at both ends and {least} at its lowest.",
+        theory.vertices,
+        shares(1e-3),
+        shares(1e-1),
+        poles.join(", "),
+        theory.scalars.k_after_jump,
     )
 }
 
-fn tables(run: &SpaceTime) -> Vec<DataFile> {
-    // Thousandths are finer than the picture, and a file of all digits would be twice as long.
-    let mut impacts = DataFile::new("s06a.csv", &["time_to_thousandths (1/omega)", "gap (1)"]);
-    for (&time, &gap) in run.times.iter().zip(&run.gaps) {
-        impacts.row(cells![(time * 1000.0).round() / 1000.0, gap as usize]);
+fn tables(orders: &AllOrders) -> Vec<DataFile> {
+    let header = [
+        "p (1)",
+        "simple_eq7 (1)",
+        "one_vertex_twice_eq33 (1)",
+        "one_vertex_thrice_eq35 (1)",
+        "one_vertex_four_times_eq36 (1)",
+        "two_vertices_twice_eq37 (1)",
+    ];
+    let mut classes = DataFile::new("s06a.csv", &header);
+    for row in &orders.classes {
+        let share = |i: usize| row.shares.get(i).copied();
+        classes.row(cells![row.p, share(0), share(1), share(2), share(3), share(4)]);
     }
-    let mut gaps = DataFile::new(
-        "s06b.csv",
-        &["gap (1)", "first_time (1/omega)", "count (1)", "starts_by_itself (1)"],
-    );
-    let starts = run.starts();
-    for (gap, first) in run.firsts().into_iter().enumerate() {
-        let count = run.gaps.iter().filter(|own| **own as usize == gap).count();
-        gaps.row(cells![gap, first, count, usize::from(starts.contains(&gap))]);
+    let mut shares = DataFile::new("s06b.csv", &["K (1)", "p (1)", "share_of_five_classes (1)"]);
+    for own in &orders.shares {
+        for row in &own.rows {
+            shares.row(cells![own.k, row.x, row.y]);
+        }
     }
-    let positions = Scene::of(run).map(|scene| scene.table("s06c.csv"));
-    [impacts, gaps].into_iter().chain(positions).collect()
+    let mut whole = DataFile::new("s06b-all.csv", &["p (1)", "share_of_five_classes (1)"]);
+    for row in &orders.whole {
+        whole.row(cells![row.x, row.y]);
+    }
+    let header = ["k (1)", "probability_simple (1)", "probability_all (1)"];
+    let mut jump = DataFile::new("s06c.csv", &header);
+    for (i, (&simple, &all)) in orders.simple_at_jump.iter().zip(&orders.at_jump).enumerate() {
+        jump.row(cells![i + 1, simple, all]);
+    }
+    vec![classes, shares, whole, jump]
 }

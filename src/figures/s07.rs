@@ -1,4 +1,4 @@
-//! Fig. S7: what becomes of the most likely number, its jump and its distribution for many vertices.
+//! Fig. S7: how hot a running chain is, and what that does to p.
 
 use super::axis::{Axis, log};
 use super::chart::{LETTERS, short};
@@ -6,163 +6,222 @@ use super::data::cells;
 use super::panel::Frame;
 use super::series::Outside;
 use super::sheet::{Entry, Sheet};
-use super::style::{
-    BLUE, Colour, Dash, GREEN, INK, LINE, Mark, ORANGE, PURPLE, RED, SMALL, Stroke, THIN,
-};
+use super::style::{BLUE, Dash, GREEN, INK, LINE, Mark, ORANGE, PURPLE, RED, SMALL, Stroke, THIN};
 use super::{DataFile, Error, Figure};
-use crate::experiments::theory::{Large, PoissonCell, PoissonRow};
+use crate::experiments::heat::{Heat, Warmth};
+use crate::experiments::theory::Theory;
+use crate::numerics::statistics::Estimate;
 
-/// The p N in (a): around the onset, where the sizes differ.
-const RANGE: (f64, f64) = (0.75, 2.25);
+/// The free parts of a chain that starts from rest, over σ², in the mean: (1 + (Ω/ω)²)/2.
+const FROM_REST: f64 = 1.5;
 
-/// Colours of the numbers of vertices in (a).
-const SIZES: [(Colour, Dash); 3] =
-    [(ORANGE, Dash::Solid), (BLUE, Dash::Solid), (GREEN, Dash::Solid)];
+/// The σ of (a) and (c).
+const SIGMAS: (f64, f64) = (0.05, 0.45);
 
-/// Looks of the values of p N in (c).
-const LOOKS: [(Colour, Mark); 4] =
-    [(RED, Mark::Disc), (ORANGE, Mark::Square), (BLUE, Mark::Diamond), (PURPLE, Mark::Triangle)];
+/// The balance where impacts are frequent.
+const FRICTION: (&str, Stroke) = ("with friction", Stroke::solid(PURPLE, LINE));
+
+/// The half size of marks.
+const SIZE: i32 = 58;
 
 /// Draws the figure.
-pub fn draw(large: &Large) -> Result<Figure, Error> {
-    let sheet = Sheet::new(9350, None)?;
-    shares(&sheet, large)?;
-    jumps(&sheet, large)?;
-    poisson(&sheet, large)?;
-    Ok(sheet.finish_own(7, "The theory at large N", description(large), tables(large)))
+pub fn draw(heat: &Heat, theory: &Theory, note: Option<&str>) -> Result<Figure, Error> {
+    let sheet = Sheet::new(9700, note)?;
+    against_sigma(&sheet, heat)?;
+    against_restitution(&sheet, heat)?;
+    probabilities(&sheet, heat, theory)?;
+    let files = tables(heat);
+    Ok(sheet.finish_own(7, "How hot a running chain is", description(heat), files))
 }
 
-/// A power of ten as the figures write it.
-fn power(vertices: usize) -> String {
-    format!("10^{{{}}}", vertices.ilog10())
-}
-
-fn shares(sheet: &Sheet, large: &Large) -> Result<(), Error> {
+fn against_sigma(sheet: &Sheet, heat: &Heat) -> Result<(), Error> {
     let panel = sheet.panel(
         Frame::new(1150, 430, 8150, 3730),
-        Axis::linear(RANGE.0, RANGE.1, 0.25, 5, "*p N*"),
-        Axis::linear(0.0, 0.6, 0.1, 2, "*k*^{∗}/*N*"),
+        Axis::linear(SIGMAS.0, SIGMAS.1, 0.05, 5, "standard deviation *σ* of the forcing"),
+        Axis::linear(0.0, 30.0, 5.0, 5, "*s*^{2}/*σ*^{2}"),
     )?;
     panel.letter(LETTERS[0])?;
+    let level = |name: &str, height: f64, stroke| {
+        panel.curve(name, &[(SIGMAS.0, height), (SIGMAS.1, height)], stroke, Outside::Refuse)
+    };
+    let expected = heat.rising().map(|row| row.expected).fold(0.0, f64::max);
+    let lines = [
+        ("balance of rare impacts", expected, Stroke::solid(INK, LINE)),
+        ("start from rest", FROM_REST, Stroke::dashed(GREEN, LINE, Dash::Long)),
+        ("Eq. (25)", 1.0, Stroke::dashed(BLUE, LINE, Dash::Short)),
+    ];
     let mut entries = Vec::new();
-    for (own, (colour, dash)) in large.shares.iter().zip(SIZES) {
-        let points: Vec<_> = own.rows.iter().map(|row| (row.x, row.y)).collect();
-        let stroke = Stroke::dashed(colour, LINE, dash);
-        panel.curve(&format!("N = {}", own.vertices), &points, stroke, Outside::Cut)?;
-        entries.push(Entry::line(stroke, &format!("*N* = {}", power(own.vertices))));
+    for (name, height, stroke) in lines.iter().copied() {
+        level(name, height, stroke)?;
+        entries.push(Entry::line(stroke, name));
     }
-    let limit: Vec<_> = large.limit.iter().map(|row| (row.x, row.y)).collect();
-    let stroke = Stroke::dashed(INK, THIN, Dash::Short);
-    panel.curve("limit", &limit, stroke, Outside::Cut)?;
-    entries.push(Entry::line(stroke, "max(0, 1 − 1/*p N*)"));
-    sheet.legend((5500, 2350), (SMALL, 370), &entries)
+    let friction: Vec<_> = heat.rising().map(|row| (row.row.sigma, row.expected_at_rate)).collect();
+    panel.curve(FRICTION.0, &friction, FRICTION.1, Outside::Refuse)?;
+    let of = |pick: fn(&Warmth) -> Option<Estimate>| -> Vec<(f64, Estimate)> {
+        heat.rising().filter_map(|row| Some((row.row.sigma, pick(row)?))).collect()
+    };
+    let looks = [("masses that are hit", Mark::Ring, ORANGE), ("all masses", Mark::Disc, RED)];
+    panel.estimates(
+        looks[0].0,
+        &of(|row| row.ratio_of_hit),
+        (looks[0].1, SIZE, Stroke::solid(looks[0].2, THIN)),
+        |y| y,
+    )?;
+    panel.estimates(
+        looks[1].0,
+        &of(|row| row.ratio),
+        (looks[1].1, SIZE, Stroke::solid(looks[1].2, THIN)),
+        |y| y,
+    )?;
+    for (name, mark, colour) in looks {
+        entries.push(Entry::mark(mark, SIZE, Stroke::solid(colour, THIN), name));
+    }
+    entries.push(Entry::line(FRICTION.1, FRICTION.0));
+    let (lines, marks) = entries.split_at(lines.len());
+    sheet.legend((2700, 600), (SMALL, 350), lines)?;
+    sheet.legend((5650, 600), (SMALL, 350), marks)
 }
 
-fn jumps(sheet: &Sheet, large: &Large) -> Result<(), Error> {
+fn against_restitution(sheet: &Sheet, heat: &Heat) -> Result<(), Error> {
     let panel = sheet.panel(
         Frame::new(1150, 5250, 4050, 7650),
-        Axis::decades(1, 6, 1, "*N*"),
-        Axis::decades(-3, 0, 1, "*k*^{∗}/*N* at the jump"),
+        Axis::linear(0.4, 1.0, 0.2, 4, "restitution *r*"),
+        Axis::decades(0, 2, 1, "*s*^{2}/*σ*^{2}"),
     )?;
     panel.letter(LETTERS[1])?;
-    let rule: Vec<_> = large
-        .jumps
-        .iter()
-        .filter_map(|own| Some((log(own.vertices as f64), log(own.rule? / own.vertices as f64))))
-        .collect();
-    let line = Stroke::solid(INK, THIN);
-    panel.curve("rule", &rule, line, Outside::Refuse)?;
-    let exact: Vec<_> =
-        large.jumps.iter().map(|own| (log(own.vertices as f64), log(own.share))).collect();
-    let disc = (Mark::Disc, 55, Stroke::solid(GREEN, THIN));
-    panel.marks("exact", &exact, disc, Outside::Refuse)?;
+    let line = Stroke::solid(INK, LINE);
+    let curve: Vec<_> = heat.expected.iter().map(|&[r, ratio]| (r, log(ratio))).collect();
+    panel.curve("balance of rare impacts", &curve, line, Outside::Cut)?;
+    let friction: Vec<_> =
+        heat.others().map(|row| (row.row.restitution, log(row.expected_at_rate))).collect();
+    panel.curve(FRICTION.0, &friction, FRICTION.1, Outside::Refuse)?;
+    let points: Vec<_> =
+        heat.others().filter_map(|row| Some((row.row.restitution, row.ratio_of_hit?))).collect();
+    panel.estimates(
+        "masses that are hit",
+        &points,
+        (Mark::Ring, SIZE, Stroke::solid(ORANGE, THIN)),
+        log,
+    )?;
     let entries = [
-        Entry::mark(disc.0, disc.1, disc.2, "exact"),
-        Entry::line(line, "*k*^{2} = 2*N*(ln *k* − 1)"),
+        Entry::line(line, "balance of rare impacts"),
+        Entry::line(FRICTION.1, FRICTION.0),
+        Entry::mark(Mark::Ring, SIZE, Stroke::solid(ORANGE, THIN), "masses that are hit"),
     ];
     sheet.legend((900, 8750), (SMALL, 370), &entries)
 }
 
-fn poisson(sheet: &Sheet, large: &Large) -> Result<(), Error> {
+fn probabilities(sheet: &Sheet, heat: &Heat, theory: &Theory) -> Result<(), Error> {
     let panel = sheet.panel(
         Frame::new(5350, 5250, 8150, 7650),
-        Axis::decades(2, 6, 1, "*N*"),
-        Axis::decades(-4, 0, 1, "distance from Poisson"),
+        Axis::linear(SIGMAS.0, SIGMAS.1, 0.1, 2, "*σ*"),
+        Axis::decades(-5, 0, 1, "*p*"),
     )?;
     panel.letter(LETTERS[2])?;
+    let relation = theory.relation.iter().filter(|row| row.p > 0.0);
+    let (eq25, rest): (Vec<_>, Vec<_>) =
+        relation.map(|row| ((row.sigma, log(row.p)), (row.sigma, log(row.p_rest)))).unzip();
+    let hot: Vec<_> = heat.balanced.iter().map(|&[sigma, p]| (sigma, log(p))).collect();
+    let lines = [
+        ("Eq. (25)", eq25, Stroke::dashed(BLUE, LINE, Dash::Short)),
+        ("from rest", rest, Stroke::dashed(GREEN, LINE, Dash::Long)),
+        ("balanced", hot, Stroke::solid(INK, LINE)),
+    ];
     let mut entries = Vec::new();
-    for (own, (colour, mark)) in large.poisson.iter().zip(LOOKS) {
-        let name = format!("p N = {}", short(own.p_n, 2));
-        let at = |of: fn(&PoissonCell) -> f64| -> Vec<(f64, f64)> {
-            own.cells.iter().map(|cell| (log(cell.vertices as f64), log(of(cell)))).collect()
-        };
-        let bound = Stroke::dashed(colour, THIN, Dash::Dotted);
-        panel.curve(&format!("bound, {name}"), &at(|cell| cell.bound), bound, Outside::Refuse)?;
-        let look = (mark, 55, Stroke::solid(colour, THIN));
-        panel.marks(&name, &at(|cell| cell.variation), look, Outside::Refuse)?;
-        entries.push(Entry::mark(
-            look.0,
-            look.1,
-            look.2,
-            &format!("*p N* = {}", short(own.p_n, 2)),
-        ));
+    for (name, points, stroke) in lines {
+        panel.curve(name, &points, stroke, Outside::Cut)?;
+        entries.push(Entry::line(stroke, name));
     }
+    let measured = heat.rising().filter(|row| row.p_measured > 0.0);
+    let measured: Vec<_> = measured.map(|row| (row.row.sigma, log(row.p_measured))).collect();
+    let look = (Mark::Disc, SIZE, Stroke::solid(RED, THIN));
+    panel.marks("measured", &measured, look, Outside::Refuse)?;
+    entries.push(Entry::mark(look.0, look.1, look.2, "measured"));
     for (i, column) in entries.chunks(2).enumerate() {
-        sheet.legend((4650 + 1800 * i as i32, 8750), (SMALL, 370), column)?;
+        sheet.legend((4850 + 1750 * i as i32, 8750), (SMALL, 370), column)?;
     }
     Ok(())
 }
 
-fn description(large: &Large) -> String {
-    let jumps: Vec<String> = large
-        .jumps
-        .iter()
-        .filter(|own| own.vertices.to_string().starts_with('1'))
-        .map(|own| {
-            format!("k* = {} or {} of N = {}", own.k_after, short(own.share, 2), own.vertices)
+fn description(heat: &Heat) -> String {
+    let told = |own: Option<Estimate>| own.map_or("none".into(), |own| short(own.value, 3));
+    let rising: Vec<String> = heat
+        .rising()
+        .map(|row| format!("{} at σ = {}", told(row.ratio_of_hit), row.row.sigma))
+        .collect();
+    let others: Vec<String> = heat
+        .others()
+        .map(|row| {
+            let expected = short(row.expected, 3);
+            format!("{} of {expected} at r = {}", told(row.ratio_of_hit), row.row.restitution)
         })
         .collect();
-    let ends = |row: &PoissonRow| {
-        let end = |cell: Option<&PoissonCell>| cell.map_or(0.0, |cell| cell.variation);
-        format!(
-            "from {} to {} for p N = {}",
-            short(end(row.cells.first()), 2),
-            short(end(row.cells.last()), 2),
-            short(row.p_n, 2)
-        )
-    };
-    let distances: Vec<String> = large.poisson.iter().map(ends).collect();
+    let p: Vec<String> = heat
+        .rising()
+        .map(|row| format!("{} at σ = {}", short(row.p_measured, 2), row.row.sigma))
+        .collect();
     format!(
-        "(a) The most likely number over N against p N: zero, a jump soon after p N = 1, then a curve that \
-         bends towards one. The larger N, the smaller the jump, and the nearer the curve to \
-         the broken line max(0, 1 − 1/(p N)), on which that for the largest N lies. (b) The height of the \
-         jump over N, on logarithmic axes: {}; the line of the rule goes through the points. (c) Total \
-         variation distance of N − X from a Poisson variable, on logarithmic axes, falls with the \
-         root of N, {}; dotted lines a little above are bounds.",
-        jumps.join(", "),
-        distances.join(", ")
+        "(a) Variance of the free amplitudes over that of the force against σ, of masses that are hit and of \
+         all masses, with standard errors; level lines at what the balance of rare impacts lets expect, \
+         at {FROM_REST} for a start from rest, and at 1 for Eq. (25), and a falling line for the balance with \
+         the friction of frequent impacts. Masses that are hit: {}. \
+         (b) The same against the restitution r at one σ, on a logarithmic axis, below a curve that rises \
+         without bound towards r = 1, with friction much less: {}. (c) The probability p against σ on a logarithmic axis: rising \
+         curves, at the rise lowest Eq. (25), then the start from rest, highest the balanced variance; the \
+         measured points go from the second to the third: {}.",
+        rising.join(", "),
+        others.join(", "),
+        p.join(", ")
     )
 }
 
-fn tables(large: &Large) -> Vec<DataFile> {
-    let mut shares = DataFile::new("s07a.csv", &["N (1)", "p_N (1)", "k_star_over_N (1)"]);
-    for own in &large.shares {
-        for row in &own.rows {
-            shares.row(cells![own.vertices, row.x, row.y]);
-        }
+fn tables(heat: &Heat) -> Vec<DataFile> {
+    let mut rows = DataFile::new(
+        "s07.csv",
+        &[
+            "sigma (d omega^2)",
+            "r (1)",
+            "variance_ratio (1)",
+            "standard_error (1)",
+            "variance_ratio_of_hit (1)",
+            "standard_error_of_hit (1)",
+            "expected (1)",
+            "rate (omega)",
+            "expected_at_rate (1)",
+            "balance (1)",
+            "balance_error (1)",
+            "mean_count (1)",
+            "p (1)",
+            "p_rest (1)",
+            "p_balanced (1)",
+            "p_measured (1)",
+        ],
+    );
+    let value = |own: Option<Estimate>| own.map(|own| own.value);
+    let error = |own: Option<Estimate>| own.map(|own| own.error);
+    for row in &heat.rows {
+        rows.row(cells![
+            row.row.sigma,
+            row.row.restitution,
+            value(row.ratio),
+            error(row.ratio),
+            value(row.ratio_of_hit),
+            error(row.ratio_of_hit),
+            row.expected,
+            row.rate,
+            row.expected_at_rate,
+            value(row.balance),
+            error(row.balance),
+            value(row.count),
+            row.p,
+            row.p_rest,
+            row.p_balanced,
+            row.p_measured
+        ]);
     }
-    let header = ["N (1)", "p_jump (1)", "k_star_after (1)", "k_star_over_N (1)", "k_rule (1)"];
-    let mut jumps = DataFile::new("s07b.csv", &header);
-    for own in &large.jumps {
-        jumps.row(cells![own.vertices, own.p, own.k_after, own.share, own.rule]);
-    }
-    let header =
-        ["p_N (1)", "N (1)", "total_variation (1)", "bound (1)", "N_minus_1_over_p_minus_mean (1)"];
-    let mut poisson = DataFile::new("s07c.csv", &header);
-    for row in &large.poisson {
-        for cell in &row.cells {
-            poisson.row(cells![row.p_n, cell.vertices, cell.variation, cell.bound, cell.mean_gap]);
-        }
-    }
-    vec![shares, jumps, poisson]
+    let mut balanced = DataFile::new("s07c.csv", &["sigma (d omega^2)", "p_balanced (1)"]);
+    heat.balanced.iter().for_each(|&[sigma, p]| balanced.row(cells![sigma, p]));
+    let mut expected = DataFile::new("s07b.csv", &["r (1)", "expected (1)"]);
+    heat.expected.iter().for_each(|&[r, ratio]| expected.row(cells![r, ratio]));
+    vec![rows, expected, balanced]
 }

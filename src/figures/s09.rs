@@ -1,227 +1,231 @@
-//! Fig. S9: how hot a running chain is, and what that does to p.
+//! Fig. S9: periodic orbits from circuits.
 
-use super::axis::{Axis, log};
-use super::chart::{LETTERS, short};
+use super::axis::Axis;
+use super::chart::{LETTERS, short, upwards_from_zero};
 use super::data::cells;
-use super::panel::Frame;
+use super::panel::{Frame, Panel};
 use super::series::Outside;
 use super::sheet::{Entry, Sheet};
-use super::style::{BLUE, Dash, GREEN, INK, LINE, Mark, ORANGE, PURPLE, RED, SMALL, Stroke, THIN};
+use super::style::{
+    BLUE, Colour, Dash, GREEN, GREY, HAIR, INK, LINE, Mark, ORANGE, RED, SMALL, Stroke, THIN,
+};
 use super::{DataFile, Error, Figure};
-use crate::experiments::heat::{Heat, Warmth};
-use crate::experiments::theory::Theory;
-use crate::numerics::statistics::Estimate;
+use crate::experiments::orbits::{Example, Orbits, Row};
 
-/// The free parts of a chain that starts from rest, over σ², in the mean: (1 + (Ω/ω)²)/2.
-const FROM_REST: f64 = 1.5;
-
-/// The σ of (a) and (c).
-const SIGMAS: (f64, f64) = (0.05, 0.45);
-
-/// The balance where impacts are frequent.
-const FRICTION: (&str, Stroke) = ("with friction", Stroke::solid(PURPLE, LINE));
+/// The colours of masses, and of lengths.
+const COLOURS: [Colour; 4] = [BLUE, RED, GREEN, ORANGE];
 
 /// The half size of marks.
-const SIZE: i32 = 58;
+const SIZE: i32 = 52;
+
+/// The end of the axes of (c): multipliers beyond it are told by their number.
+const REACH: f64 = 2.0;
+
+/// The σ of (c), or the last if it was not run.
+const SIGMA: f64 = 0.3;
 
 /// Draws the figure.
-pub fn draw(heat: &Heat, theory: &Theory, note: Option<&str>) -> Result<Figure, Error> {
-    let sheet = Sheet::new(9700, note)?;
-    against_sigma(&sheet, heat)?;
-    against_restitution(&sheet, heat)?;
-    probabilities(&sheet, heat, theory)?;
-    let files = tables(heat);
-    Ok(sheet.finish_own(9, "How hot a running chain is", description(heat), files))
+pub fn draw(orbits: &Orbits, note: Option<&str>) -> Result<Figure, Error> {
+    let sheet = Sheet::new(9500, note)?;
+    if let Some(example) = &orbits.example {
+        motion(&sheet, example)?;
+    }
+    shares(&sheet, orbits)?;
+    plane(&sheet, orbits)?;
+    let files = tables(orbits);
+    Ok(sheet.finish_own(9, "Periodic orbits from circuits", description(orbits), files))
 }
 
-fn against_sigma(sheet: &Sheet, heat: &Heat) -> Result<(), Error> {
+fn motion(sheet: &Sheet, example: &Example) -> Result<(), Error> {
+    let masses = example.positions.len();
+    let wall = (masses + 1) as f64;
+    // A mass may be anywhere between the walls.
     let panel = sheet.panel(
-        Frame::new(1150, 430, 8150, 3730),
-        Axis::linear(SIGMAS.0, SIGMAS.1, 0.05, 5, "standard deviation *σ* of the forcing"),
-        Axis::linear(0.0, 30.0, 5.0, 5, "*s*^{2}/*σ*^{2}"),
+        Frame::new(1150, 430, 8150, 3630),
+        Axis::linear(0.0, example.period, 0.5, 1, "time *t* in one period"),
+        Axis::linear(0.0, wall, 1.0, 2, "position *x*"),
     )?;
     panel.letter(LETTERS[0])?;
-    let level = |name: &str, height: f64, stroke| {
-        panel.curve(name, &[(SIGMAS.0, height), (SIGMAS.1, height)], stroke, Outside::Refuse)
-    };
-    let expected = heat.rising().map(|row| row.expected).fold(0.0, f64::max);
-    let lines = [
-        ("balance of rare impacts", expected, Stroke::solid(INK, LINE)),
-        ("start from rest", FROM_REST, Stroke::dashed(GREEN, LINE, Dash::Long)),
-        ("Eq. (25)", 1.0, Stroke::dashed(BLUE, LINE, Dash::Short)),
-    ];
-    let mut entries = Vec::new();
-    for (name, height, stroke) in lines.iter().copied() {
-        level(name, height, stroke)?;
-        entries.push(Entry::line(stroke, name));
+    let top = [(0.0, wall), (example.period, wall)];
+    panel.curve("right wall", &top, Stroke::solid(INK, HAIR), Outside::Refuse)?;
+    for (place, colour) in example.positions.iter().zip(COLOURS) {
+        let points: Vec<_> = example.times.iter().copied().zip(place.iter().copied()).collect();
+        panel.curve("mass", &points, Stroke::solid(colour, LINE), Outside::Cut)?;
     }
-    let friction: Vec<_> = heat.rising().map(|row| (row.row.sigma, row.expected_at_rate)).collect();
-    panel.curve(FRICTION.0, &friction, FRICTION.1, Outside::Refuse)?;
-    let of = |pick: fn(&Warmth) -> Option<Estimate>| -> Vec<(f64, Estimate)> {
-        heat.rising().filter_map(|row| Some((row.row.sigma, pick(row)?))).collect()
-    };
-    let looks = [("masses that are hit", Mark::Ring, ORANGE), ("all masses", Mark::Disc, RED)];
-    panel.estimates(
-        looks[0].0,
-        &of(|row| row.ratio_of_hit),
-        (looks[0].1, SIZE, Stroke::solid(looks[0].2, THIN)),
-        |y| y,
-    )?;
-    panel.estimates(
-        looks[1].0,
-        &of(|row| row.ratio),
-        (looks[1].1, SIZE, Stroke::solid(looks[1].2, THIN)),
-        |y| y,
-    )?;
-    for (name, mark, colour) in looks {
-        entries.push(Entry::mark(mark, SIZE, Stroke::solid(colour, THIN), name));
-    }
-    entries.push(Entry::line(FRICTION.1, FRICTION.0));
-    let (lines, marks) = entries.split_at(lines.len());
-    sheet.legend((2700, 600), (SMALL, 350), lines)?;
-    sheet.legend((5650, 600), (SMALL, 350), marks)
+    let impacts: Vec<_> = impacts(example).collect();
+    panel.marks("impacts", &impacts, (Mark::Disc, SIZE, Stroke::solid(INK, THIN)), Outside::Cut)
 }
 
-fn against_restitution(sheet: &Sheet, heat: &Heat) -> Result<(), Error> {
+/// Where the impacts of an example are: at a mass of the gap, or at the wall.
+fn impacts(example: &Example) -> impl Iterator<Item = (f64, f64)> + '_ {
+    example.impacts.iter().zip(&example.circuit).map(|(&time, &gap)| {
+        let left = gap.checked_sub(1).and_then(|j| example.positions.get(j));
+        let at = example.times.iter().position(|t| *t == time);
+        (time, left.zip(at).map_or(0.0, |(places, at)| places[at]))
+    })
+}
+
+fn shares(sheet: &Sheet, orbits: &Orbits) -> Result<(), Error> {
+    let all = || orbits.rows.iter().flat_map(|row| &row.lengths);
+    let largest = all().map(|own| own.admissible.value + own.admissible.error).fold(0.1, f64::max);
+    let last = orbits.rows.iter().map(|row| row.sigma).fold(0.0, f64::max);
     let panel = sheet.panel(
-        Frame::new(1150, 5250, 4050, 7650),
-        Axis::linear(0.4, 1.0, 0.2, 4, "restitution *r*"),
-        Axis::decades(0, 2, 1, "*s*^{2}/*σ*^{2}"),
+        Frame::new(1150, 4950, 4150, 7750),
+        Axis::linear(0.0, if last > 0.35 { 0.7 } else { 0.35 }, 0.1, 2, "*σ*"),
+        upwards_from_zero(largest, "share of circuits"),
     )?;
     panel.letter(LETTERS[1])?;
-    let line = Stroke::solid(INK, LINE);
-    let curve: Vec<_> = heat.expected.iter().map(|&[r, ratio]| (r, log(ratio))).collect();
-    panel.curve("balance of rare impacts", &curve, line, Outside::Cut)?;
-    let friction: Vec<_> =
-        heat.others().map(|row| (row.row.restitution, log(row.expected_at_rate))).collect();
-    panel.curve(FRICTION.0, &friction, FRICTION.1, Outside::Refuse)?;
-    let points: Vec<_> =
-        heat.others().filter_map(|row| Some((row.row.restitution, row.ratio_of_hit?))).collect();
-    panel.estimates(
-        "masses that are hit",
-        &points,
-        (Mark::Ring, SIZE, Stroke::solid(ORANGE, THIN)),
-        log,
-    )?;
-    let entries = [
-        Entry::line(line, "balance of rare impacts"),
-        Entry::line(FRICTION.1, FRICTION.0),
-        Entry::mark(Mark::Ring, SIZE, Stroke::solid(ORANGE, THIN), "masses that are hit"),
-    ];
-    sheet.legend((900, 8750), (SMALL, 370), &entries)
+    let mut entries = Vec::new();
+    let lengths = orbits.rows.first().map_or(0, |row| row.lengths.len());
+    for (k, colour) in (1..=lengths).zip(COLOURS) {
+        let own = |row: &Row| row.lengths.iter().find(|own| own.k == k).cloned();
+        let of: Vec<_> =
+            orbits.rows.iter().filter_map(|row| Some((row.sigma, own(row)?))).collect();
+        let name = format!("length {k}");
+        let thin = Stroke::solid(colour, THIN);
+        let bars: Vec<_> = of
+            .iter()
+            .map(|(x, own)| (x, own.admissible.value, own.admissible.error))
+            .map(|(x, y, e)| (*x, (y - e).max(0.0), y + e))
+            .collect();
+        panel.bars(&name, &bars, 35, thin)?;
+        series(
+            &panel,
+            &name,
+            &of.iter().map(|(x, own)| (*x, own.admissible.value)).collect::<Vec<_>>(),
+            Mark::Disc,
+            Stroke::solid(colour, LINE),
+        )?;
+        series(
+            &panel,
+            &name,
+            &of.iter().map(|(x, own)| (*x, own.stable.value)).collect::<Vec<_>>(),
+            Mark::Ring,
+            Stroke::dashed(colour, THIN, Dash::Short),
+        )?;
+        entries.push(Entry::mark(Mark::Disc, SIZE, thin, &format!("*k* = {k}")));
+    }
+    let (left, right) = entries.split_at(entries.len().div_ceil(2));
+    sheet.legend((900, 8750), (SMALL, 370), left)?;
+    sheet.legend((2200, 8750), (SMALL, 370), right)?;
+    let open = Entry::mark(Mark::Ring, SIZE, Stroke::solid(INK, THIN), "stable");
+    sheet.legend((3500, 8750), (SMALL, 370), &[open])
 }
 
-fn probabilities(sheet: &Sheet, heat: &Heat, theory: &Theory) -> Result<(), Error> {
+fn series(
+    panel: &Panel,
+    name: &str,
+    points: &[(f64, f64)],
+    mark: Mark,
+    stroke: Stroke,
+) -> Result<(), Error> {
+    panel.curve(name, points, stroke, Outside::Refuse)?;
+    panel.marks(name, points, (mark, SIZE, Stroke { dash: Dash::Solid, ..stroke }), Outside::Refuse)
+}
+
+/// The row whose multipliers are drawn.
+fn chosen(orbits: &Orbits) -> Option<&Row> {
+    orbits.rows.iter().find(|row| row.sigma == SIGMA).or(orbits.rows.last())
+}
+
+fn plane(sheet: &Sheet, orbits: &Orbits) -> Result<(), Error> {
     let panel = sheet.panel(
-        Frame::new(5350, 5250, 8150, 7650),
-        Axis::linear(SIGMAS.0, SIGMAS.1, 0.1, 2, "*σ*"),
-        Axis::decades(-5, 0, 1, "*p*"),
+        Frame::new(5350, 4950, 8150, 7750),
+        Axis::linear(-REACH, REACH, 1.0, 2, "Re *λ*"),
+        Axis::linear(-REACH, REACH, 1.0, 2, "Im *λ*"),
     )?;
     panel.letter(LETTERS[2])?;
-    let relation = theory.relation.iter().filter(|row| row.p > 0.0);
-    let (eq25, rest): (Vec<_>, Vec<_>) =
-        relation.map(|row| ((row.sigma, log(row.p)), (row.sigma, log(row.p_rest)))).unzip();
-    let hot: Vec<_> = heat.balanced.iter().map(|&[sigma, p]| (sigma, log(p))).collect();
-    let lines = [
-        ("Eq. (25)", eq25, Stroke::dashed(BLUE, LINE, Dash::Short)),
-        ("from rest", rest, Stroke::dashed(GREEN, LINE, Dash::Long)),
-        ("balanced", hot, Stroke::solid(INK, LINE)),
-    ];
-    let mut entries = Vec::new();
-    for (name, points, stroke) in lines {
-        panel.curve(name, &points, stroke, Outside::Cut)?;
-        entries.push(Entry::line(stroke, name));
-    }
-    let measured = heat.rising().filter(|row| row.p_measured > 0.0);
-    let measured: Vec<_> = measured.map(|row| (row.row.sigma, log(row.p_measured))).collect();
-    let look = (Mark::Disc, SIZE, Stroke::solid(RED, THIN));
-    panel.marks("measured", &measured, look, Outside::Refuse)?;
-    entries.push(Entry::mark(look.0, look.1, look.2, "measured"));
-    for (i, column) in entries.chunks(2).enumerate() {
-        sheet.legend((4850 + 1750 * i as i32, 8750), (SMALL, 370), column)?;
+    let circle: Vec<_> = (0..=180)
+        .map(|i| pxfm::f_sincos(f64::from(i) * std::f64::consts::PI / 90.0))
+        .map(|(sin, cos)| (cos, sin))
+        .collect();
+    panel.curve("unit circle", &circle, Stroke::solid(GREY, THIN), Outside::Refuse)?;
+    let Some(row) = chosen(orbits) else { return Ok(()) };
+    let looks =
+        [("unstable orbits", Mark::Ring, ORANGE, false), ("stable orbits", Mark::Disc, BLUE, true)];
+    for (place, (name, mark, colour, stable)) in looks.into_iter().enumerate() {
+        let own = row.found.iter().filter(|f| (f.radius < 1.0) == stable);
+        let points: Vec<_> =
+            own.flat_map(|f| f.multipliers.iter().map(|[re, im]| (*re, *im))).collect();
+        let stroke = Stroke::solid(colour, THIN);
+        panel.marks(name, &points, (mark, 32, stroke), Outside::Cut)?;
+        let entry = Entry::mark(mark, SIZE, stroke, name);
+        sheet.legend((5750, 8750 + 370 * place as i32), (SMALL, 370), &[entry])?;
     }
     Ok(())
 }
 
-fn description(heat: &Heat) -> String {
-    let told = |own: Option<Estimate>| own.map_or("none".into(), |own| short(own.value, 3));
-    let rising: Vec<String> = heat
-        .rising()
-        .map(|row| format!("{} at σ = {}", told(row.ratio_of_hit), row.row.sigma))
-        .collect();
-    let others: Vec<String> = heat
-        .others()
-        .map(|row| {
-            let expected = short(row.expected, 3);
-            format!("{} of {expected} at r = {}", told(row.ratio_of_hit), row.row.restitution)
-        })
-        .collect();
-    let p: Vec<String> = heat
-        .rising()
-        .map(|row| format!("{} at σ = {}", short(row.p_measured, 2), row.row.sigma))
-        .collect();
+fn description(orbits: &Orbits) -> String {
+    let example = orbits.example.as_ref().map_or("No stable orbit was found.".into(), |own| {
+        format!(
+            "Its impacts are those of the circuit {:?} at σ = {}, and its largest multiplier has the modulus {}.",
+            own.circuit,
+            own.sigma,
+            short(own.radius, 2)
+        )
+    });
+    let row = |row: &Row| {
+        let lengths: Vec<String> =
+            row.lengths.iter().map(|own| short(own.admissible.value, 2)).collect();
+        format!("{} at σ = {}", lengths.join(", "), row.sigma)
+    };
+    let rows: Vec<String> = orbits.rows.iter().map(row).collect();
+    let outside = chosen(orbits).map_or(0, |row| {
+        let out = |m: &&[f64; 2]| m.iter().any(|x| x.abs() > REACH);
+        row.found.iter().flat_map(|f| &f.multipliers).filter(out).count()
+    });
     format!(
-        "(a) Variance of the free amplitudes over that of the force against σ, of masses that are hit and of \
-         all masses, with standard errors; level lines at what the balance of rare impacts lets expect, \
-         at {FROM_REST} for a start from rest, and at 1 for Eq. (25), and a falling line for the balance with \
-         the friction of frequent impacts. Masses that are hit: {}. \
-         (b) The same against the restitution r at one σ, on a logarithmic axis, below a curve that rises \
-         without bound towards r = 1, with friction much less: {}. (c) The probability p against σ on a logarithmic axis: rising \
-         curves, at the rise lowest Eq. (25), then the start from rest, highest the balanced variance; the \
-         measured points go from the second to the third: {}.",
-        rising.join(", "),
-        others.join(", "),
-        p.join(", ")
+        "(a) Positions of the masses between two walls over one period of a stable orbit, with a disc at each \
+         impact. {example} (b) Share of the simple circuits with an orbit against σ, falling with their length; dashed, \
+         far below: with a stable orbit. By length: {}. (c) Multipliers in the complex plane with the unit circle: \
+         of stable orbits many on a circle inside it, of unstable ones along the real axis; {outside} \
+         lie beyond the frame.",
+        rows.join("; ")
     )
 }
 
-fn tables(heat: &Heat) -> Vec<DataFile> {
-    let mut rows = DataFile::new(
-        "s09.csv",
+fn tables(orbits: &Orbits) -> Vec<DataFile> {
+    let mut motion = DataFile::new("s09a.csv", &["time (1/omega)", "mass (1)", "position (d)"]);
+    if let Some(example) = &orbits.example {
+        for (mass, places) in example.positions.iter().enumerate() {
+            let places = example.times.iter().zip(places);
+            places.for_each(|(time, place)| motion.row(cells![*time, mass + 1, *place]));
+        }
+    }
+    let mut shares = DataFile::new(
+        "s09b.csv",
         &[
             "sigma (d omega^2)",
-            "r (1)",
-            "variance_ratio (1)",
+            "length (1)",
+            "share_with_orbit (1)",
             "standard_error (1)",
-            "variance_ratio_of_hit (1)",
-            "standard_error_of_hit (1)",
-            "expected (1)",
-            "rate (omega)",
-            "expected_at_rate (1)",
-            "balance (1)",
-            "balance_error (1)",
-            "mean_count (1)",
-            "p (1)",
-            "p_rest (1)",
-            "p_balanced (1)",
-            "p_measured (1)",
+            "share_with_stable_orbit (1)",
+            "standard_error_stable (1)",
         ],
     );
-    let value = |own: Option<Estimate>| own.map(|own| own.value);
-    let error = |own: Option<Estimate>| own.map(|own| own.error);
-    for row in &heat.rows {
-        rows.row(cells![
-            row.row.sigma,
-            row.row.restitution,
-            value(row.ratio),
-            error(row.ratio),
-            value(row.ratio_of_hit),
-            error(row.ratio_of_hit),
-            row.expected,
-            row.rate,
-            row.expected_at_rate,
-            value(row.balance),
-            error(row.balance),
-            value(row.count),
-            row.p,
-            row.p_rest,
-            row.p_balanced,
-            row.p_measured
-        ]);
+    for row in &orbits.rows {
+        for own in &row.lengths {
+            shares.row(cells![
+                row.sigma,
+                own.k,
+                own.admissible.value,
+                own.admissible.error,
+                own.stable.value,
+                own.stable.error
+            ]);
+        }
     }
-    let mut balanced = DataFile::new("s09c.csv", &["sigma (d omega^2)", "p_balanced (1)"]);
-    heat.balanced.iter().for_each(|&[sigma, p]| balanced.row(cells![sigma, p]));
-    let mut expected = DataFile::new("s09b.csv", &["r (1)", "expected (1)"]);
-    heat.expected.iter().for_each(|&[r, ratio]| expected.row(cells![r, ratio]));
-    vec![rows, expected, balanced]
+    let mut plane =
+        DataFile::new("s09c.csv", &["sigma (d omega^2)", "circuit (text)", "re (1)", "im (1)"]);
+    if let Some(row) = chosen(orbits) {
+        for found in &row.found {
+            let circuit: Vec<String> =
+                orbits.circuits[found.circuit].iter().map(usize::to_string).collect();
+            let circuit = circuit.join("-");
+            for [re, im] in &found.multipliers {
+                plane.row(cells![row.sigma, circuit.as_str(), *re, *im]);
+            }
+        }
+    }
+    vec![motion, shares, plane]
 }

@@ -1,4 +1,4 @@
-//! Fig. S11: what one gap that closes by itself sets off, how its fronts stand, and the mean count that follows.
+//! Fig. S11: long chains, friction, and a force with a common period.
 
 use super::axis::{Axis, log};
 use super::chart::{LETTERS, short};
@@ -6,313 +6,304 @@ use super::data::cells;
 use super::panel::Frame;
 use super::series::Outside;
 use super::sheet::{Entry, Sheet};
-use super::style::{BLUE, Colour, Dash, INK, LINE, Mark, ORANGE, PURPLE, RED, SMALL, Stroke, THIN};
+use super::style::{
+    BLUE, Colour, Dash, GREEN, INK, LINE, Mark, ORANGE, PURPLE, RED, SMALL, Stroke, THIN,
+};
 use super::{DataFile, Error, Figure};
+use crate::experiments::chains::{Chains, Curve, Ensemble};
 use crate::experiments::protocol::ProtocolMap;
-use crate::experiments::seeds::{Fronts, Prediction, Seeds, Spread, Waits};
-use crate::experiments::sweep::Sweep;
+use crate::numerics::statistics::Estimate;
+use crate::params::{ChainCurve, ChainKind};
+use std::collections::BTreeMap;
 
-/// The σ of (a).
-const SIGMAS: (f64, f64) = (0.075, 0.165);
-
-/// Colours of the σ in (b) and (d).
-const SPREADS: [Colour; 4] = [PURPLE, BLUE, ORANGE, RED];
+/// Marks and colours of lengths and of frictions, from the smallest.
+const LOOKS: [(Mark, Colour); 6] = [
+    (Mark::Ring, PURPLE),
+    (Mark::Disc, BLUE),
+    (Mark::Square, GREEN),
+    (Mark::Diamond, ORANGE),
+    (Mark::Disc, RED),
+    (Mark::Ring, INK),
+];
 
 /// The half size of marks.
-const SIZE: i32 = 58;
+const SIZE: i32 = 52;
+
+/// The frequency of (d).
+const COMMON: &str = "frequency-2";
 
 /// Draws the figure.
 pub fn draw(
-    seeds: &Seeds,
-    sweep: &Sweep,
+    chains: &Chains,
+    sizes: &Chains,
     map: &ProtocolMap,
     note: Option<&str>,
 ) -> Result<Figure, Error> {
-    let sheet = Sheet::new(13050, note)?;
-    counts(&sheet, seeds, sweep)?;
-    advances(&sheet, seeds)?;
-    halves(&sheet, seeds, map)?;
-    waits(&sheet, seeds)?;
-    let files = tables(seeds, sweep, map);
-    let title = "From one gap to many: nucleation and growth";
-    Ok(sheet.finish_own(11, title, description(seeds, sweep, map), files))
+    let sheet = Sheet::new(10_650, note)?;
+    lengths(&sheet, chains)?;
+    times(&sheet, &by_length(chains, sizes), &of_map(chains, map))?;
+    frictions(&sheet, chains, map)?;
+    period(&sheet, chains)?;
+    let title = "Long chains, friction, and a common period";
+    Ok(sheet.finish_own(11, title, description(chains, sizes, map), tables(chains, sizes, map)))
 }
 
-/// The prediction for the transient of the main sweep.
-fn of_sweep<'a>(seeds: &'a Seeds, sweep: &Sweep) -> Option<&'a Prediction> {
-    let protocol = sweep.parameters.protocol;
-    let same =
-        |own: &&Prediction| own.transient == protocol.transient && own.window == protocol.window;
-    seeds.predictions.iter().find(same)
+/// The look of a length, by its order of magnitude.
+fn look(masses: usize) -> (Mark, i32, Stroke) {
+    let tens = pxfm::f_log10(masses as f64).round() as usize;
+    let (mark, colour) = LOOKS[tens.saturating_sub(1).min(LOOKS.len() - 1)];
+    (mark, SIZE, Stroke::solid(colour, THIN))
 }
 
-fn counts(sheet: &Sheet, seeds: &Seeds, sweep: &Sweep) -> Result<(), Error> {
+/// A length in words: the longest as a power of ten.
+fn length(masses: usize) -> String {
+    let tens = masses.checked_ilog10().unwrap_or(0);
+    match tens >= 4 && masses == 10_usize.pow(tens) {
+        true => format!("*n* = 10^{{{tens}}}"),
+        false => format!("*n* = {masses}"),
+    }
+}
+
+/// The transient that all lengths have.
+const COMMON_TIME: f64 = 500.0;
+
+/// (σ, share) of a curve at a transient.
+fn shares(own: &ChainCurve, curve: &Curve, time: f64) -> Vec<(f64, Estimate)> {
+    let Some(at) = own.transients.iter().position(|own| *own == time) else { return Vec::new() };
+    curve.rows.iter().filter_map(|row| Some((row.sigma, row.shares[at]?))).collect()
+}
+
+fn points(all: &[(f64, Estimate)]) -> Vec<(f64, f64)> {
+    all.iter().map(|(x, own)| (*x, own.value)).collect()
+}
+
+fn lengths(sheet: &Sheet, chains: &Chains) -> Result<(), Error> {
     let panel = sheet.panel(
-        Frame::new(1150, 430, 8150, 3730),
-        Axis::linear(SIGMAS.0, SIGMAS.1, 0.01, 2, "standard deviation *σ* of the forcing"),
-        Axis::linear(0.0, 105.0, 20.0, 2, "mean count of all"),
+        Frame::new(1000, 430, 3900, 3730),
+        Axis::linear(0.07, 0.19, 0.03, 3, "*σ*"),
+        Axis::linear(0.0, 1.0, 0.2, 2, "share of the gaps"),
     )?;
     panel.letter(LETTERS[0])?;
-    let against = |ys: &mut dyn Iterator<Item = f64>| -> Vec<(f64, f64)> {
-        seeds.rows.iter().map(|row| row.sigma).zip(ys).collect()
-    };
-    let grown =
-        of_sweep(seeds, sweep).into_iter().flat_map(|own| own.means.iter().map(|own| own.value));
-    let lines = [
-        ("nucleation and growth", against(&mut { grown }), Stroke::solid(INK, LINE)),
-        (
-            "circuits, Eq. (25)",
-            against(&mut seeds.rows.iter().map(|row| row.graph[0])),
-            Stroke::dashed(BLUE, LINE, Dash::Short),
-        ),
-        (
-            "circuits, from rest",
-            against(&mut seeds.rows.iter().map(|row| row.graph[1])),
-            Stroke::dashed(PURPLE, LINE, Dash::Long),
-        ),
-    ];
     let mut entries = Vec::new();
-    for (name, points, stroke) in lines {
-        panel.curve(name, &points, stroke, Outside::Refuse)?;
-        entries.push(Entry::line(stroke, name));
+    for (own, curve) in chains.of(ChainKind::Length) {
+        let all = shares(own, curve, COMMON_TIME);
+        if all.is_empty() {
+            continue;
+        }
+        let look = look(own.masses);
+        let name = length(own.masses);
+        panel.curve(&name, &points(&all), look.2, Outside::Cut)?;
+        panel.estimates(&name, &all, look, |y| y)?;
+        entries.push(Entry::mark(look.0, look.1, look.2, &name));
     }
-    let inside = sweep.rows.iter().filter(|row| row.sigma > SIGMAS.0 && row.sigma < SIGMAS.1);
-    let bars: Vec<_> =
-        inside.filter_map(|row| Some((row.sigma, row.mean_all?, row.mean_all_interval?))).collect();
-    let look = (Mark::Disc, SIZE, Stroke::solid(RED, THIN));
-    let ends: Vec<_> = bars.iter().map(|(x, _, [low, high])| (*x, *low, *high)).collect();
-    panel.bars("simulation", &ends, 35, look.2)?;
-    let points: Vec<_> = bars.iter().map(|(x, y, _)| (*x, *y)).collect();
-    panel.marks("simulation", &points, look, Outside::Refuse)?;
-    entries.push(Entry::mark(look.0, look.1, look.2, "simulation"));
-    sheet.legend((1400, 700), (SMALL, 370), &entries)
-}
-
-/// The rows at some σ: the lowest, the highest, and two between.
-fn chosen(seeds: &Seeds) -> impl Iterator<Item = &Spread> {
-    let last = seeds.rows.len().saturating_sub(1);
-    [0, last / 3, 2 * last / 3, last].into_iter().filter_map(|i| seeds.rows.get(i))
-}
-
-/// (t, advance) from the first bin on.
-fn advance(seeds: &Seeds, row: &Spread) -> impl Iterator<Item = (f64, f64)> {
-    let bin = seeds.parameters.bin;
-    row.advance.clone().into_iter().enumerate().skip(1).map(move |(i, own)| (i as f64 * bin, own))
-}
-
-fn advances(sheet: &Sheet, seeds: &Seeds) -> Result<(), Error> {
-    let panel = sheet.panel(
-        Frame::new(1150, 5250, 4050, 7650),
-        Axis::decades(1, 4, 1, "time since the first impact"),
-        Axis::decades(-1, 2, 1, "advance of a front"),
-    )?;
-    panel.letter(LETTERS[1])?;
-    let mut entries = Vec::new();
-    for (row, colour) in chosen(seeds).zip(SPREADS) {
-        let points: Vec<_> = advance(seeds, row)
-            .filter(|(_, own)| *own > 0.0)
-            .map(|(time, own)| (log(time), log(own)))
-            .collect();
-        let stroke = Stroke::solid(colour, LINE);
-        let name = format!("*σ* = {}", row.sigma);
-        panel.curve(&name, &points, stroke, Outside::Cut)?;
-        entries.push(Entry::line(stroke, &name));
-    }
-    let straight = Stroke::dashed(INK, THIN, Dash::Short);
-    panel.curve("constant speed", &[(1.0, -1.0), (4.0, 2.0)], straight, Outside::Cut)?;
-    entries.push(Entry::line(straight, "∝ *t*"));
     for (i, column) in entries.chunks(3).enumerate() {
-        sheet.legend((650 + 1800 * i as i32, 8480), (SMALL, 320), column)?;
+        sheet.legend((700 + 1650 * i as i32, 4560), (SMALL, 340), column)?;
     }
     Ok(())
 }
 
-/// (T, predicted, simulated half height) for each transient.
-fn both(
-    seeds: &Seeds,
-    map: &ProtocolMap,
-) -> impl Iterator<Item = (f64, Option<f64>, Option<[f64; 2]>)> {
-    seeds.predictions.iter().map(|own| {
-        let cell = map
-            .cells
-            .iter()
-            .find(|cell| cell.transient == own.transient && cell.window == own.window);
-        let half = cell.and_then(|cell| cell.half_height_all).map(|half| [half.value, half.error]);
-        (own.transient, own.half_height.map(|half| half.value), half)
-    })
+/// (T, half height) of the map.
+fn of_map(chains: &Chains, map: &ProtocolMap) -> Vec<(f64, Estimate)> {
+    let window = chains.parameters.window;
+    let cells = map.cells.iter().filter(|cell| cell.window == window);
+    cells.filter_map(|cell| Some((cell.transient, cell.half_height_all?))).collect()
 }
 
-fn halves(sheet: &Sheet, seeds: &Seeds, map: &ProtocolMap) -> Result<(), Error> {
+/// (T, half height) of a curve.
+fn halves(own: &ChainCurve, curve: &Curve) -> Vec<(f64, Estimate)> {
+    let all = own.transients.iter().zip(&curve.half_heights);
+    all.filter_map(|(time, half)| Some((*time, (*half)?))).collect()
+}
+
+fn logarithmic(all: Vec<(f64, Estimate)>) -> Vec<(f64, Estimate)> {
+    all.into_iter().map(|(time, half)| (log(time), half)).collect()
+}
+
+/// (T, half height) of each length, of those that were measured anew by these alone.
+fn by_length(chains: &Chains, sizes: &Chains) -> BTreeMap<usize, Vec<(f64, Estimate)>> {
+    let anew = |masses| sizes.all().any(|(own, _)| own.masses == masses);
+    let others = chains.of(ChainKind::Length).filter(|(own, _)| !anew(own.masses));
+    let mut all = BTreeMap::<usize, Vec<(f64, Estimate)>>::new();
+    for (own, curve) in others.chain(sizes.all()) {
+        all.entry(own.masses).or_default().extend(halves(own, curve));
+    }
+    all
+}
+
+fn times(
+    sheet: &Sheet,
+    lengths: &BTreeMap<usize, Vec<(f64, Estimate)>>,
+    map: &[(f64, Estimate)],
+) -> Result<(), Error> {
     let panel = sheet.panel(
-        Frame::new(5350, 5250, 8150, 7650),
+        Frame::new(5150, 430, 8050, 3730),
+        Axis::decades(1, 5, 1, "transient *T*"),
+        Axis::linear(0.08, 0.16, 0.01, 2, "*σ*_{1/2}"),
+    )?;
+    panel.letter(LETTERS[1])?;
+    let stroke = Stroke::solid(INK, THIN);
+    let line = logarithmic(map.to_vec());
+    panel.curve("map", &points(&line), stroke, Outside::Cut)?;
+    for (masses, all) in lengths {
+        let (name, look) = (format!("half height of {masses} masses"), look(*masses));
+        let all = logarithmic(all.clone());
+        panel.curve(&name, &points(&all), look.2, Outside::Cut)?;
+        panel.estimates(&name, &all, look, |y| y)?;
+    }
+    let entry = Entry::line(stroke, "map of Sec. 11, *n* = 100");
+    sheet.legend((4900, 4560), (SMALL, 340), &[entry])
+}
+
+fn frictions(sheet: &Sheet, chains: &Chains, map: &ProtocolMap) -> Result<(), Error> {
+    let panel = sheet.panel(
+        Frame::new(1000, 5900, 3900, 8900),
         Axis::decades(1, 4, 1, "transient *T*"),
-        Axis::linear(0.1, 0.15, 0.01, 2, "*σ*_{1/2} of all"),
+        Axis::linear(0.09, 0.16, 0.01, 2, "*σ*_{1/2}"),
     )?;
     panel.letter(LETTERS[2])?;
-    let inside = |height: f64| height.clamp(panel.y.lo, panel.y.hi);
-    let line = Stroke::solid(INK, LINE);
-    let grown: Vec<_> =
-        both(seeds, map).filter_map(|(time, own, _)| Some((log(time), inside(own?)))).collect();
-    panel.curve("nucleation and growth", &grown, line, Outside::Refuse)?;
-    let look = (Mark::Disc, SIZE, Stroke::solid(RED, THIN));
-    let found: Vec<_> =
-        both(seeds, map).filter_map(|(time, _, half)| Some((log(time), half?))).collect();
-    let bars: Vec<_> = found
-        .iter()
-        .map(|(x, [half, error])| (*x, inside(half - error), inside(half + error)))
-        .collect();
-    panel.bars("simulation", &bars, 35, look.2)?;
-    let points: Vec<_> = found.iter().map(|(x, [half, _])| (*x, inside(*half))).collect();
-    panel.marks("simulation", &points, look, Outside::Refuse)?;
-    let entries = [
-        Entry::line(line, "nucleation and growth"),
-        Entry::mark(look.0, look.1, look.2, "simulation"),
-    ];
-    sheet.legend((4850, 8650), (SMALL, 370), &entries)
+    let stroke = Stroke::solid(INK, THIN);
+    let line = logarithmic(of_map(chains, map));
+    panel.curve("without friction", &points(&line), stroke, Outside::Cut)?;
+    let mut entries = vec![Entry::line(stroke, "*c* = 0")];
+    for ((own, curve), (mark, colour)) in chains.of(ChainKind::Damping).zip(&LOOKS[1..]) {
+        let look = (*mark, SIZE, Stroke::solid(*colour, THIN));
+        let name = format!("*c* = {}", own.damping);
+        let all = logarithmic(halves(own, curve));
+        panel.curve(&name, &points(&all), look.2, Outside::Cut)?;
+        panel.estimates(&name, &all, look, |y| y)?;
+        entries.push(Entry::mark(look.0, look.1, look.2, &name));
+    }
+    for (i, column) in entries.chunks(2).enumerate() {
+        sheet.legend((600 + 1750 * i as i32, 9750), (SMALL, 340), column)?;
+    }
+    Ok(())
 }
 
-/// The rows of (d), those of (b), with their waits.
-fn waiting(seeds: &Seeds) -> impl Iterator<Item = (&Fronts, &Waits)> {
-    let both = || seeds.fronts.iter().zip(&seeds.waits);
-    chosen(seeds).filter_map(move |row| both().find(|(own, _)| own.sigma == row.sigma))
+/// The share of the chains with an impact in the last window, with its binomial error.
+fn alive(row: &Ensemble) -> (f64, Estimate) {
+    let all = row.runs.len().max(1) as f64;
+    let share = 1.0 - row.silent.iter().sum::<u64>() as f64 / all;
+    let error = (share * (1.0 - share) / all).sqrt();
+    (row.sigma, crate::experiments::estimates::with_error(share, error))
 }
 
-/// (t, share that stands longer) from the first tick on.
-fn standing(seeds: &Seeds, tally: &Waits) -> impl Iterator<Item = (f64, f64)> {
-    let tick = seeds.parameters.tick;
-    let shares = tally.lasting().into_iter().enumerate().skip(1);
-    shares.map(move |(ticks, share)| (ticks as f64 * tick, share))
-}
-
-fn waits(sheet: &Sheet, seeds: &Seeds) -> Result<(), Error> {
+fn period(sheet: &Sheet, chains: &Chains) -> Result<(), Error> {
     let panel = sheet.panel(
-        Frame::new(1150, 10150, 8150, 12250),
-        Axis::decades(0, 3, 1, "time *t* for which a front stands"),
-        Axis::decades(-2, 0, 1, "share longer than *t*"),
+        Frame::new(5150, 5900, 8050, 8900),
+        Axis::linear(0.2, 0.44, 0.1, 2, "*σ*"),
+        Axis::linear(0.0, 1.0, 0.2, 2, "share of the chains"),
     )?;
     panel.letter(LETTERS[3])?;
-    let mut entries = Vec::new();
-    for ((own, tally), colour) in waiting(seeds).zip(SPREADS) {
-        let shares = standing(seeds, tally).filter(|(_, share)| *share > 0.0);
-        let points: Vec<_> = shares.map(|(time, share)| (log(time), log(share))).collect();
-        let stroke = Stroke::solid(colour, LINE);
-        let name = format!("*σ* = {}", own.sigma);
-        panel.curve(&name, &points, stroke, Outside::Cut)?;
-        entries.push(Entry::line(stroke, &name));
-    }
-    // The first row, were every wait to end at the same rate.
-    if let Some(speed) = seeds.fronts.first().and_then(|own| own.speed) {
-        let decay = |step: u32| {
-            let time = pxfm::f_exp10(f64::from(step) / 40.0);
-            (log(time), -speed.value * time * std::f64::consts::LOG10_E)
-        };
-        let even = Stroke::dashed(SPREADS[0], THIN, Dash::Short);
-        let points: Vec<_> = (0..=120).map(decay).collect();
-        panel.curve("constant rate", &points, even, Outside::Cut)?;
-        entries.push(Entry::line(even, "constant rate"));
-    }
-    sheet.legend((1400, 10900), (SMALL, 270), &entries)
+    let Some((_, curve)) = chains.curve(COMMON) else { return Ok(()) };
+    let line = |of: fn(&[f64; 3]) -> f64| -> Vec<(f64, f64)> {
+        curve.kept_expected.iter().map(|own| (own[0], of(own))).collect()
+    };
+    let (bound, there) = (Stroke::dashed(BLUE, LINE, Dash::Short), Stroke::solid(INK, LINE));
+    panel.curve("all phases", &line(|own| own[1]), bound, Outside::Cut)?;
+    panel.curve("common period", &line(|own| own[2]), there, Outside::Cut)?;
+    let all: Vec<_> = curve.rows.iter().map(alive).collect();
+    let look = (Mark::Disc, SIZE, Stroke::solid(RED, THIN));
+    panel.estimates("simulation", &all, look, |y| y)?;
+    let entries = [
+        Entry::line(bound, "all phases, Eq. (20)"),
+        Entry::line(there, "common period"),
+        Entry::mark(look.0, look.1, look.2, "simulation"),
+    ];
+    sheet.legend((4900, 9750), (SMALL, 340), &entries)
 }
 
-fn description(seeds: &Seeds, sweep: &Sweep, map: &ProtocolMap) -> String {
-    let means: Vec<String> = of_sweep(seeds, sweep)
-        .into_iter()
-        .flat_map(|own| own.means.iter().zip(&seeds.rows))
-        .map(|(mean, row)| {
-            let ran = sweep.rows.iter().find(|own| own.sigma == row.sigma);
-            let ran = ran.and_then(|own| own.mean_all);
-            let ran = ran.map_or("none".into(), |own| short(own, 3));
-            format!("{} for {ran} at σ = {}", short(mean.value, 3), row.sigma)
-        })
-        .collect();
-    let advances: Vec<String> = chosen(seeds)
-        .filter_map(|row| Some((row, advance(seeds, row).last()?)))
-        .map(|(row, (time, own))| format!("{} by t = {time} at σ = {}", short(own, 3), row.sigma))
-        .collect();
-    let halves: Vec<String> = both(seeds, map)
-        .map(|(time, own, half)| {
-            let told = |value: Option<f64>| value.map_or("none".into(), |own| short(own, 3));
-            format!("{} for {} at T = {time}", told(own), told(half.map(|half| half[0])))
-        })
-        .collect();
-    let window = seeds.parameters.window_ticks();
-    let standing: Vec<String> = waiting(seeds)
-        .filter_map(|(own, tally)| Some((own, *tally.lasting().get(window)?)))
-        .map(|(own, share)| format!("{} at σ = {}", short(share, 2), own.sigma))
-        .collect();
+fn description(chains: &Chains, sizes: &Chains, map: &ProtocolMap) -> String {
+    let told = |all: Vec<(f64, Estimate)>| -> String {
+        let list: Vec<String> = all
+            .iter()
+            .map(|(time, half)| format!("{} at T = {time}", short(half.value, 4)))
+            .collect();
+        if list.is_empty() { "none".into() } else { list.join(", ") }
+    };
+    let list = |all: Vec<String>| all.join("; ");
+    let lengths = by_length(chains, sizes).into_iter();
+    let lengths = list(lengths.map(|(n, all)| format!("n = {n}: {}", told(all))).collect());
+    let damped = chains.of(ChainKind::Damping);
+    let damped = damped.map(|(own, curve)| format!("{}: {}", own.name, told(halves(own, curve))));
+    let damped = list(damped.collect());
+    let period = chains.curve(COMMON).map_or("none".into(), |(_, curve)| {
+        let list = curve.rows.iter().map(alive);
+        let list: Vec<String> =
+            list.map(|(sigma, own)| format!("{} at σ = {sigma}", short(own.value, 2))).collect();
+        list.join(", ")
+    });
     format!(
-        "(a) Mean count of all chains against σ: simulated points rise along the curve that nucleation and \
-         growth predict, {}; the curves of the graph theory rise steeply, at half height one on each side of it. (b) Mean advance of \
-         a front against time, on logarithmic axes: curves that rise more slowly than a constant speed would, \
-         the more so the smaller σ, to {}. (c) Half height against the transient, a falling curve with \
-         simulated points near it: {}. (d) Share of waits of a front that are longer than a time, \
-         on logarithmic axes: falling curves, the lower the larger σ, that start below the curve of a constant rate and end above it; \
-         longer than {} time units are {}.",
-        means.join(", "),
-        advances.join(", "),
-        halves.join(", "),
-        window as f64 * seeds.parameters.tick,
-        standing.join(", ")
+        "(a) Share of the gaps with an impact against σ after the same transient: the curve of the shortest chain \
+         rises later, those of all others lie on one another. (b) Half heights of chains of several lengths against the \
+         transient, falling the further the longer the chain, beside the line of the map ({}): {lengths}. (c) Half heights with friction: the stronger it is, the \
+         higher and the more level. {damped}. (d) Share of chains with an impact for Ω = 2: simulated points follow the lower \
+         of two curves, {period}.",
+        told(of_map(chains, map)),
     )
 }
 
-fn tables(seeds: &Seeds, sweep: &Sweep, map: &ProtocolMap) -> Vec<DataFile> {
-    let mut means = DataFile::new(
-        "s11.csv",
+fn tables(chains: &Chains, sizes: &Chains, map: &ProtocolMap) -> Vec<DataFile> {
+    let mut shares = DataFile::new(
+        "s11a.csv",
         &[
+            "chain (text)",
+            "masses (1)",
+            "damping (omega)",
+            "forcing_frequency (omega)",
+            "components (1)",
             "sigma (d omega^2)",
             "transient (1/omega)",
-            "predicted_mean (1)",
-            "graph_mean_25 (1)",
-            "graph_mean_rest (1)",
-            "simulated_mean (1)",
+            "share (1)",
+            "standard_error (1)",
+            "chains_with_impacts (1)",
         ],
     );
-    for own in &seeds.predictions {
-        let same = of_sweep(seeds, sweep).is_some_and(|other| other.transient == own.transient);
-        for (row, mean) in seeds.rows.iter().zip(&own.means) {
-            let ran = sweep.rows.iter().find(|own| own.sigma == row.sigma).filter(|_| same);
-            let ran = ran.and_then(|own| own.mean_all);
-            means.row(cells![
-                row.sigma,
-                own.transient,
-                mean.value,
-                row.graph[0],
-                row.graph[1],
-                ran
-            ]);
-        }
-    }
-    let mut advances =
-        DataFile::new("s11b.csv", &["sigma (d omega^2)", "time (1/omega)", "advance (d)"]);
-    for row in &seeds.rows {
-        advance(seeds, row).for_each(|(time, own)| advances.row(cells![row.sigma, time, own]));
-    }
-    let mut halves = DataFile::new(
-        "s11c.csv",
+    let mut places = DataFile::new(
+        "s11b.csv",
         &[
+            "chain (text)",
+            "masses (1)",
+            "damping (omega)",
             "transient (1/omega)",
-            "predicted_half_height (d omega^2)",
-            "simulated_half_height (d omega^2)",
+            "half_height (d omega^2)",
             "standard_error (d omega^2)",
         ],
     );
-    for (time, own, half) in both(seeds, map) {
-        halves.row(cells![time, own, half.map(|half| half[0]), half.map(|half| half[1])]);
-    }
-    let mut waits = DataFile::new(
-        "s11d.csv",
-        &["sigma (d omega^2)", "time (1/omega)", "ended (1)", "cut off (1)", "share longer (1)"],
-    );
-    for (own, tally) in seeds.fronts.iter().zip(&seeds.waits) {
-        let shares = tally.lasting();
-        for (ticks, share) in shares.into_iter().enumerate() {
-            let [ended, cut] = [tally.ended[ticks], tally.cut[ticks]];
-            if ended + cut > 0 {
-                let time = ticks as f64 * seeds.parameters.tick;
-                waits.row(cells![own.sigma, time, ended, cut, share]);
+    for (own, curve) in chains.all().chain(sizes.all()) {
+        let name = own.name.as_str();
+        for row in &curve.rows {
+            for (time, share) in own.transients.iter().zip(&row.shares) {
+                let share = share.as_ref();
+                shares.row(cells![
+                    name,
+                    own.masses,
+                    own.damping,
+                    own.forcing_frequency,
+                    own.components,
+                    row.sigma,
+                    *time,
+                    share.map(|own| own.value),
+                    share.map(|own| own.error),
+                    alive(row).1.value
+                ]);
             }
         }
+        for (time, half) in halves(own, curve) {
+            places.row(cells![name, own.masses, own.damping, time, half.value, half.error]);
+        }
     }
-    vec![means, advances, halves, waits]
+    for (time, half) in of_map(chains, map) {
+        let masses = map.parameters.chain.masses;
+        places.row(cells!["map", masses, 0.0, time, half.value, half.error]);
+    }
+    let mut expected = DataFile::new(
+        "s11d.csv",
+        &["chain (text)", "sigma (d omega^2)", "share_all_phases (1)", "share_common_period (1)"],
+    );
+    for (own, curve) in chains.of(ChainKind::Frequency) {
+        for [sigma, ever, there] in &curve.kept_expected {
+            expected.row(cells![own.name.as_str(), *sigma, *ever, *there]);
+        }
+    }
+    vec![shares, places, expected]
 }

@@ -1,231 +1,202 @@
-//! Fig. S13: periodic orbits from circuits.
+//! Fig. S13: how long a run is true, against its work, its error and its time.
 
-use super::axis::Axis;
-use super::chart::{LETTERS, short, upwards_from_zero};
+use plotters::style::text_anchor::{HPos, VPos};
+
+use super::axis::{Axis, log};
+use super::chart::{LETTERS, short};
 use super::data::cells;
 use super::panel::{Frame, Panel};
-use super::series::Outside;
-use super::sheet::{Entry, Sheet};
-use super::style::{
-    BLUE, Colour, Dash, GREEN, GREY, HAIR, INK, LINE, Mark, ORANGE, RED, SMALL, Stroke, THIN,
+use super::rivals::{
+    Timed, by_method, called, decades_around, entries, entries_of_others, look, look_of,
+    most_accurate, name, others, timed,
 };
+use super::s12::setting;
+use super::series::Outside;
+use super::sheet::Sheet;
+use super::style::{Dash, GREY, INK, LINE, PALE, SMALL, Stroke, TINY};
 use super::{DataFile, Error, Figure};
-use crate::experiments::orbits::{Example, Orbits, Row};
+use crate::experiments::Measured;
+use crate::experiments::accuracy::race::{DISPLACED, Entry, Race};
+use crate::params::MethodName;
 
-/// The colours of masses, and of lengths.
-const COLOURS: [Colour; 4] = [BLUE, RED, GREEN, ORANGE];
+/// The rounding of doubles, 2⁻⁵³.
+const ROUNDING: f64 = f64::EPSILON / 2.0;
 
-/// The half size of marks.
-const SIZE: i32 = 52;
-
-/// The end of the axes of (c): multipliers beyond it are told by their number.
-const REACH: f64 = 2.0;
-
-/// The σ of (c), or the last if it was not run.
-const SIGMA: f64 = 0.3;
+/// Time after which an error ε has grown to [`DISPLACED`]: ln(10⁻³/ε)/λ, with λ and its error.
+fn allowed(race: &Race, log10_error: f64) -> Option<[f64; 3]> {
+    let growth = race.growth.growth?;
+    let folds = (log(DISPLACED) - log10_error).max(0.0) * std::f64::consts::LN_10;
+    Some([growth.interval[1], growth.value, growth.interval[0]].map(|rate| folds / rate))
+}
 
 /// Draws the figure.
-pub fn draw(orbits: &Orbits, note: Option<&str>) -> Result<Figure, Error> {
-    let sheet = Sheet::new(9500, note)?;
-    if let Some(example) = &orbits.example {
-        motion(&sheet, example)?;
-    }
-    shares(&sheet, orbits)?;
-    plane(&sheet, orbits)?;
-    let files = tables(orbits);
-    Ok(sheet.finish_own(13, "Periodic orbits from circuits", description(orbits), files))
-}
-
-fn motion(sheet: &Sheet, example: &Example) -> Result<(), Error> {
-    let masses = example.positions.len();
-    let wall = (masses + 1) as f64;
-    // A mass may be anywhere between the walls.
-    let panel = sheet.panel(
-        Frame::new(1150, 430, 8150, 3630),
-        Axis::linear(0.0, example.period, 0.5, 1, "time *t* in one period"),
-        Axis::linear(0.0, wall, 1.0, 2, "position *x*"),
+pub fn draw(race: &Race, measured: &Measured, note: Option<&str>) -> Result<Figure, Error> {
+    let sheet = Sheet::new(9950, note)?;
+    let top = (race.parameters.until / 50.0).ceil() * 50.0;
+    let time = |label: &str| Axis::linear(0.0, top, if top > 60.0 { 50.0 } else { 10.0 }, 1, label);
+    let costs = race.entries.iter().filter_map(|entry| entry.evaluations_per_impact);
+    let by_cost = sheet.panel(
+        Frame::new(1100, 430, 8150, 3500),
+        decades_around(costs, 1, "evaluations per impact"),
+        time("horizon *t*"),
     )?;
-    panel.letter(LETTERS[0])?;
-    let top = [(0.0, wall), (example.period, wall)];
-    panel.curve("right wall", &top, Stroke::solid(INK, HAIR), Outside::Refuse)?;
-    for (place, colour) in example.positions.iter().zip(COLOURS) {
-        let points: Vec<_> = example.times.iter().copied().zip(place.iter().copied()).collect();
-        panel.curve("mass", &points, Stroke::solid(colour, LINE), Outside::Cut)?;
-    }
-    let impacts: Vec<_> = impacts(example).collect();
-    panel.marks("impacts", &impacts, (Mark::Disc, SIZE, Stroke::solid(INK, THIN)), Outside::Cut)
-}
-
-/// Where the impacts of an example are: at a mass of the gap, or at the wall.
-fn impacts(example: &Example) -> impl Iterator<Item = (f64, f64)> + '_ {
-    example.impacts.iter().zip(&example.circuit).map(|(&time, &gap)| {
-        let left = gap.checked_sub(1).and_then(|j| example.positions.get(j));
-        let at = example.times.iter().position(|t| *t == time);
-        (time, left.zip(at).map_or(0.0, |(places, at)| places[at]))
-    })
-}
-
-fn shares(sheet: &Sheet, orbits: &Orbits) -> Result<(), Error> {
-    let all = || orbits.rows.iter().flat_map(|row| &row.lengths);
-    let largest = all().map(|own| own.admissible.value + own.admissible.error).fold(0.1, f64::max);
-    let last = orbits.rows.iter().map(|row| row.sigma).fold(0.0, f64::max);
-    let panel = sheet.panel(
-        Frame::new(1150, 4950, 4150, 7750),
-        Axis::linear(0.0, if last > 0.35 { 0.7 } else { 0.35 }, 0.1, 2, "*σ*"),
-        upwards_from_zero(largest, "share of circuits"),
+    by_cost.letter(LETTERS[0])?;
+    let by_error = sheet.panel(
+        Frame::new(1100, 4900, 4300, 7350),
+        Axis::decades(-16, 0, 4, "error of the next impact"),
+        time("horizon *t*"),
     )?;
-    panel.letter(LETTERS[1])?;
-    let mut entries = Vec::new();
-    let lengths = orbits.rows.first().map_or(0, |row| row.lengths.len());
-    for (k, colour) in (1..=lengths).zip(COLOURS) {
-        let own = |row: &Row| row.lengths.iter().find(|own| own.k == k).cloned();
-        let of: Vec<_> =
-            orbits.rows.iter().filter_map(|row| Some((row.sigma, own(row)?))).collect();
-        let name = format!("length {k}");
-        let thin = Stroke::solid(colour, THIN);
-        let bars: Vec<_> = of
-            .iter()
-            .map(|(x, own)| (x, own.admissible.value, own.admissible.error))
-            .map(|(x, y, e)| (*x, (y - e).max(0.0), y + e))
-            .collect();
-        panel.bars(&name, &bars, 35, thin)?;
-        series(
-            &panel,
-            &name,
-            &of.iter().map(|(x, own)| (*x, own.admissible.value)).collect::<Vec<_>>(),
-            Mark::Disc,
-            Stroke::solid(colour, LINE),
-        )?;
-        series(
-            &panel,
-            &name,
-            &of.iter().map(|(x, own)| (*x, own.stable.value)).collect::<Vec<_>>(),
-            Mark::Ring,
-            Stroke::dashed(colour, THIN, Dash::Short),
-        )?;
-        entries.push(Entry::mark(Mark::Disc, SIZE, thin, &format!("*k* = {k}")));
+    by_error.letter(LETTERS[1])?;
+
+    let points = |place: &dyn Fn(&Entry) -> Option<f64>| {
+        by_method(&race.entries, |e| e.setting, |e| Some((place(e)?, e.horizon?[0])))
+    };
+    chaos(&by_error, race)?;
+    let ceiling = allowed(race, log(ROUNDING));
+    if let Some([_, ceiling, _]) = ceiling.filter(|c| c[1] < top) {
+        let line = Stroke::dashed(GREY, LINE, Dash::Short);
+        let across = [(by_cost.x.lo, ceiling), (by_cost.x.hi, ceiling)];
+        by_cost.curve("what chaos allows to doubles", &across, line, Outside::Refuse)?;
+        let look = (TINY, INK, HPos::Right, VPos::Bottom);
+        by_cost.note("what chaos allows to doubles", (by_cost.x.hi, ceiling), (0, -70), look)?;
     }
-    let (left, right) = entries.split_at(entries.len().div_ceil(2));
-    sheet.legend((900, 8750), (SMALL, 370), left)?;
-    sheet.legend((2200, 8750), (SMALL, 370), right)?;
-    let open = Entry::mark(Mark::Ring, SIZE, Stroke::solid(INK, THIN), "stable");
-    sheet.legend((3500, 8750), (SMALL, 370), &[open])
+    let by_work = |e: &Entry| e.evaluations_per_impact.map(log);
+    let by_median = |e: &Entry| e.segments.errors.map(|errors| log(errors[0].max(1e-16)));
+    for (panel, place) in
+        [(&by_cost, &by_work as &dyn Fn(&Entry) -> Option<f64>), (&by_error, &by_median)]
+    {
+        let bars = by_method(&race.entries, |e| e.setting, |e| Some((place(e)?, e.horizon?[1])));
+        for ((method, points), (_, errors)) in points(place).iter().zip(bars) {
+            let look = look(*method);
+            let bars: Vec<_> = points
+                .iter()
+                .zip(errors)
+                .map(|(p, e)| (p.0, (p.1 - e.1).max(0.0), (p.1 + e.1).min(top)))
+                .collect();
+            panel.bars(name(*method), &bars, 0, look.line())?;
+            if std::ptr::eq(panel, &by_cost) {
+                panel.curve(name(*method), points, look.line(), Outside::Refuse)?;
+            }
+            panel.marks(name(*method), points, look.marker(), Outside::Refuse)?;
+        }
+    }
+    let present = points(&by_work);
+    let programs = timed(measured);
+    let mut legend = entries(|method| present.iter().any(|(m, _)| *m == method));
+    legend.extend(entries_of_others(&others(&programs)));
+    for (i, column) in legend.chunks(4).enumerate() {
+        sheet.legend((500 + 2650 * i as i32, 8600), (SMALL, 370), column)?;
+    }
+    let masses = race.parameters.chain.masses;
+    let files = vec![table(race), clock(&sheet, measured, masses, top)?];
+    Ok(sheet.finish_own(13, "How long a run is true", description(race, measured), files))
 }
 
-fn series(
-    panel: &Panel,
-    name: &str,
-    points: &[(f64, f64)],
-    mark: Mark,
-    stroke: Stroke,
-) -> Result<(), Error> {
-    panel.curve(name, points, stroke, Outside::Refuse)?;
-    panel.marks(name, points, (mark, SIZE, Stroke { dash: Dash::Solid, ..stroke }), Outside::Refuse)
+/// The line that chaos allows, with the band of λ's interval.
+fn chaos(panel: &Panel, race: &Race) -> Result<(), Error> {
+    let at = |x: f64| allowed(race, x).map(|t| (x, t));
+    let grid: Vec<_> = (0..=64).filter_map(|i| at(-16.0 + 0.25 * f64::from(i))).collect();
+    let cut = |t: f64| t.min(panel.y.hi);
+    let below = grid.iter().map(|(x, t)| (*x, cut(t[0])));
+    let above = grid.iter().rev().map(|(x, t)| (*x, cut(t[2])));
+    panel.area("interval of the growth", &below.chain(above).collect::<Vec<_>>(), PALE, 100)?;
+    let line: Vec<_> = grid.iter().map(|(x, t)| (*x, t[1])).collect();
+    let stroke = Stroke::dashed(GREY, LINE, Dash::Short);
+    panel.curve("what chaos allows", &line, stroke, Outside::Cut)
 }
 
-/// The row whose multipliers are drawn.
-fn chosen(orbits: &Orbits) -> Option<&Row> {
-    orbits.rows.iter().find(|row| row.sigma == SIGMA).or(orbits.rows.last())
-}
-
-fn plane(sheet: &Sheet, orbits: &Orbits) -> Result<(), Error> {
+/// Panel (c): the horizon of programs on one chain against the time they take, as measured.
+fn clock(sheet: &Sheet, measured: &Measured, masses: usize, top: f64) -> Result<DataFile, Error> {
+    let mut file = DataFile::new(
+        "s13-measured.csv",
+        &[
+            "program",
+            "version (text)",
+            "settings (text)",
+            "microseconds_per_impact (us)",
+            "horizon (1/omega)",
+            "impacts_compared (1)",
+        ],
+    );
+    let compared = |row: &Timed| row.masses as usize == masses && row.horizon.is_some();
+    let rows: Vec<Timed> = timed(measured).into_iter().filter(compared).collect();
     let panel = sheet.panel(
-        Frame::new(5350, 4950, 8150, 7750),
-        Axis::linear(-REACH, REACH, 1.0, 2, "Re *λ*"),
-        Axis::linear(-REACH, REACH, 1.0, 2, "Im *λ*"),
+        Frame::new(5300, 4900, 8150, 7350),
+        decades_around(rows.iter().map(|row| row.microseconds), 1, "measured µs per impact"),
+        Axis::linear(0.0, top, if top > 60.0 { 50.0 } else { 10.0 }, 1, ""),
     )?;
     panel.letter(LETTERS[2])?;
-    let circle: Vec<_> = (0..=180)
-        .map(|i| pxfm::f_sincos(f64::from(i) * std::f64::consts::PI / 90.0))
-        .map(|(sin, cos)| (cos, sin))
-        .collect();
-    panel.curve("unit circle", &circle, Stroke::solid(GREY, THIN), Outside::Refuse)?;
-    let Some(row) = chosen(orbits) else { return Ok(()) };
-    let looks =
-        [("unstable orbits", Mark::Ring, ORANGE, false), ("stable orbits", Mark::Disc, BLUE, true)];
-    for (place, (name, mark, colour, stable)) in looks.into_iter().enumerate() {
-        let own = row.found.iter().filter(|f| (f.radius < 1.0) == stable);
-        let points: Vec<_> =
-            own.flat_map(|f| f.multipliers.iter().map(|[re, im]| (*re, *im))).collect();
-        let stroke = Stroke::solid(colour, THIN);
-        panel.marks(name, &points, (mark, 32, stroke), Outside::Cut)?;
-        let entry = Entry::mark(mark, SIZE, stroke, name);
-        sheet.legend((5750, 8750 + 370 * place as i32), (SMALL, 370), &[entry])?;
+    let others = others(&rows);
+    for row in &rows {
+        let horizon = row.horizon.unwrap_or(0.0);
+        let point = [(log(row.microseconds), horizon.min(top))];
+        panel.marks(&row.name, &point, look_of(row, &others).marker(), Outside::Refuse)?;
+        file.row(cells![
+            row.name.as_str(),
+            row.version.as_str(),
+            row.settings.as_str(),
+            row.microseconds,
+            horizon,
+            row.compared
+        ]);
     }
-    Ok(())
+    Ok(file)
 }
 
-fn description(orbits: &Orbits) -> String {
-    let example = orbits.example.as_ref().map_or("No stable orbit was found.".into(), |own| {
-        format!(
-            "Its impacts are those of the circuit {:?} at σ = {}, and its largest multiplier has the modulus {}.",
-            own.circuit,
-            own.sigma,
-            short(own.radius, 2)
-        )
-    });
-    let row = |row: &Row| {
-        let lengths: Vec<String> =
-            row.lengths.iter().map(|own| short(own.admissible.value, 2)).collect();
-        format!("{} at σ = {}", lengths.join(", "), row.sigma)
+fn description(race: &Race, measured: &Measured) -> String {
+    let masses = race.parameters.chain.masses as u64;
+    let compared: Vec<Timed> =
+        timed(measured).into_iter().filter(|t| t.masses == masses && t.horizon.is_some()).collect();
+    let programs: Vec<String> = most_accurate(&compared)
+        .into_iter()
+        .map(|row| {
+            let (time, end) = (short(row.microseconds, 2), short(row.horizon.unwrap_or(0.0), 3));
+            format!("{} {time} µs and t = {end}", called(row))
+        })
+        .collect();
+    let told = |entry: &Entry| {
+        let [mean, error] = entry.horizon?;
+        Some(format!(
+            "{}{}: {} ± {}",
+            name(entry.setting.method),
+            setting(entry.setting.value),
+            short(mean, 3),
+            short(error, 1)
+        ))
     };
-    let rows: Vec<String> = orbits.rows.iter().map(row).collect();
-    let outside = chosen(orbits).map_or(0, |row| {
-        let out = |m: &&[f64; 2]| m.iter().any(|x| x.abs() > REACH);
-        row.found.iter().flat_map(|f| &f.multipliers).filter(out).count()
-    });
+    let all: Vec<String> = race.entries.iter().filter_map(told).collect();
+    let growth = race.growth.growth.map_or("unknown".into(), |g| short(g.value, 3));
     format!(
-        "(a) Positions of the masses between two walls over one period of a stable orbit, with a disc at each \
-         impact. {example} (b) Share of the simple circuits with an orbit against σ, falling with their length; dashed, \
-         far below: with a stable orbit. By length: {}. (c) Multipliers in the complex plane with the unit circle: \
-         of stable orbits many on a circle inside it, of unstable ones along the real axis; {outside} \
-         lie beyond the frame.",
-        rows.join("; ")
+        "The time up to which a run has every impact within {} of the true motion, mean of {} \
+         chains with n = {} and σ = {}: (a) against evaluations per impact, (b) against the median \
+         error of a single impact, with the line ln(10⁻³/ε)/λ for the measured growth λ = {growth}, \
+         (c) against measured time, for programs that were measured on one chain. In (a) and (b): \
+         {}. In (c), each program at its most accurate: {}.",
+        short(DISPLACED, 1),
+        race.impacts.len(),
+        race.parameters.chain.masses,
+        race.parameters.sigma,
+        all.join("; "),
+        programs.join("; ")
     )
 }
 
-fn tables(orbits: &Orbits) -> Vec<DataFile> {
-    let mut motion = DataFile::new("s13a.csv", &["time (1/omega)", "mass (1)", "position (d)"]);
-    if let Some(example) = &orbits.example {
-        for (mass, places) in example.positions.iter().enumerate() {
-            let places = example.times.iter().zip(places);
-            places.for_each(|(time, place)| motion.row(cells![*time, mass + 1, *place]));
-        }
-    }
-    let mut shares = DataFile::new(
-        "s13b.csv",
+fn table(race: &Race) -> DataFile {
+    let mut file = DataFile::new(
+        "s13.csv",
         &[
-            "sigma (d omega^2)",
-            "length (1)",
-            "share_with_orbit (1)",
-            "standard_error (1)",
-            "share_with_stable_orbit (1)",
-            "standard_error_stable (1)",
+            "method",
+            "step_or_tolerance (1/omega)",
+            "chain (1)",
+            "first_wrong_impact (1)",
+            "horizon (1/omega)",
         ],
     );
-    for row in &orbits.rows {
-        for own in &row.lengths {
-            shares.row(cells![
-                row.sigma,
-                own.k,
-                own.admissible.value,
-                own.admissible.error,
-                own.stable.value,
-                own.stable.error
-            ]);
+    for entry in &race.entries {
+        let value = (entry.setting.method != MethodName::Certified).then_some(entry.setting.value);
+        for (i, run) in entry.runs.iter().enumerate() {
+            file.row(cells![name(entry.setting.method), value, i + 1, run.impact, run.time]);
         }
     }
-    let mut plane =
-        DataFile::new("s13c.csv", &["sigma (d omega^2)", "circuit (text)", "re (1)", "im (1)"]);
-    if let Some(row) = chosen(orbits) {
-        for found in &row.found {
-            let circuit: Vec<String> =
-                orbits.circuits[found.circuit].iter().map(usize::to_string).collect();
-            let circuit = circuit.join("-");
-            for [re, im] in &found.multipliers {
-                plane.row(cells![row.sigma, circuit.as_str(), *re, *im]);
-            }
-        }
-    }
-    vec![motion, shares, plane]
+    file
 }

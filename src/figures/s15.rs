@@ -1,309 +1,191 @@
-//! Fig. S15: long chains, friction, and a force with a common period.
+//! Fig. S15: what an impact costs against the number of masses, counted and measured.
 
-use super::axis::{Axis, log};
+use plotters::style::text_anchor::{HPos, VPos};
+
+use super::axis::log;
 use super::chart::{LETTERS, short};
 use super::data::cells;
 use super::panel::Frame;
+use super::rivals::{
+    HALF, Timed, by_method, called, decades_around, entries, entries_of_others, look, look_of,
+    most_accurate, name, others, timed,
+};
+use super::s12::setting;
 use super::series::Outside;
 use super::sheet::{Entry, Sheet};
-use super::style::{
-    BLUE, Colour, Dash, GREEN, INK, LINE, Mark, ORANGE, PURPLE, RED, SMALL, Stroke, THIN,
-};
+use super::style::{INK, Mark, SMALL, Stroke, THIN, TINY};
 use super::{DataFile, Error, Figure};
-use crate::experiments::chains::{Chains, Curve, Ensemble};
-use crate::experiments::protocol::ProtocolMap;
-use crate::numerics::statistics::Estimate;
-use crate::params::{ChainCurve, ChainKind};
-use std::collections::BTreeMap;
+use crate::experiments::Measured;
+use crate::experiments::accuracy::scale::{Scale, ScaleRow};
+use crate::experiments::measured::{Row, What};
+use crate::params::MethodName;
 
-/// Marks and colours of lengths and of frictions, from the smallest.
-const LOOKS: [(Mark, Colour); 6] = [
-    (Mark::Ring, PURPLE),
-    (Mark::Disc, BLUE),
-    (Mark::Square, GREEN),
-    (Mark::Diamond, ORANGE),
-    (Mark::Disc, RED),
-    (Mark::Ring, INK),
-];
-
-/// The half size of marks.
-const SIZE: i32 = 52;
-
-/// The frequency of (d).
-const COMMON: &str = "frequency-2";
+/// The engine's own measured rows with their evaluations: one chain, one thread.
+fn own(measured: &Measured) -> Vec<&Row> {
+    measured.of(What::Engine).filter(|row| row.chains == 1 && row.note.is_empty()).collect()
+}
 
 /// Draws the figure.
-pub fn draw(
-    chains: &Chains,
-    sizes: &Chains,
-    map: &ProtocolMap,
-    note: Option<&str>,
-) -> Result<Figure, Error> {
-    let sheet = Sheet::new(10_650, note)?;
-    lengths(&sheet, chains)?;
-    times(&sheet, &by_length(chains, sizes), &of_map(chains, map))?;
-    frictions(&sheet, chains, map)?;
-    period(&sheet, chains)?;
-    let title = "Long chains, friction, and a common period";
-    Ok(sheet.finish_own(15, title, description(chains, sizes, map), tables(chains, sizes, map)))
-}
-
-/// The look of a length, by its order of magnitude.
-fn look(masses: usize) -> (Mark, i32, Stroke) {
-    let tens = pxfm::f_log10(masses as f64).round() as usize;
-    let (mark, colour) = LOOKS[tens.saturating_sub(1).min(LOOKS.len() - 1)];
-    (mark, SIZE, Stroke::solid(colour, THIN))
-}
-
-/// A length in words: the longest as a power of ten.
-fn length(masses: usize) -> String {
-    let tens = masses.checked_ilog10().unwrap_or(0);
-    match tens >= 4 && masses == 10_usize.pow(tens) {
-        true => format!("*n* = 10^{{{tens}}}"),
-        false => format!("*n* = {masses}"),
-    }
-}
-
-/// The transient that all lengths have.
-const COMMON_TIME: f64 = 500.0;
-
-/// (σ, share) of a curve at a transient.
-fn shares(own: &ChainCurve, curve: &Curve, time: f64) -> Vec<(f64, Estimate)> {
-    let Some(at) = own.transients.iter().position(|own| *own == time) else { return Vec::new() };
-    curve.rows.iter().filter_map(|row| Some((row.sigma, row.shares[at]?))).collect()
-}
-
-fn points(all: &[(f64, Estimate)]) -> Vec<(f64, f64)> {
-    all.iter().map(|(x, own)| (*x, own.value)).collect()
-}
-
-fn lengths(sheet: &Sheet, chains: &Chains) -> Result<(), Error> {
-    let panel = sheet.panel(
-        Frame::new(1000, 430, 3900, 3730),
-        Axis::linear(0.07, 0.19, 0.03, 3, "*σ*"),
-        Axis::linear(0.0, 1.0, 0.2, 2, "share of the gaps"),
+pub fn draw(scale: &Scale, measured: &Measured, note: Option<&str>) -> Result<Figure, Error> {
+    let sheet = Sheet::new(9550, note)?;
+    let own = own(measured);
+    let sizes = scale.rows.iter().map(|row| row.masses as f64);
+    let sizes = || sizes.clone().chain(own.iter().map(|row| row.n as f64));
+    let masses = || decades_around(sizes(), 1, "number of masses *n*");
+    let work = scale.rows.iter().map(|row| row.evaluations_per_impact);
+    let counted = sheet.panel(
+        Frame::new(1200, 430, 8150, 3230),
+        masses().bare(),
+        decades_around(work, 1, "evaluations per impact"),
     )?;
-    panel.letter(LETTERS[0])?;
-    let mut entries = Vec::new();
-    for (own, curve) in chains.of(ChainKind::Length) {
-        let all = shares(own, curve, COMMON_TIME);
-        if all.is_empty() {
-            continue;
-        }
-        let look = look(own.masses);
-        let name = length(own.masses);
-        panel.curve(&name, &points(&all), look.2, Outside::Cut)?;
-        panel.estimates(&name, &all, look, |y| y)?;
-        entries.push(Entry::mark(look.0, look.1, look.2, &name));
+    counted.letter(LETTERS[0])?;
+    let point = |row: &ScaleRow| Some((log(row.masses as f64), log(row.evaluations_per_impact)));
+    let all = by_method(&scale.rows, |row| row.setting, point);
+    for (method, points) in &all {
+        let look = look(*method);
+        counted.curve(name(*method), points, look.line(), Outside::Refuse)?;
+        counted.marks(name(*method), points, look.marker(), Outside::Refuse)?;
     }
-    for (i, column) in entries.chunks(3).enumerate() {
-        sheet.legend((700 + 1650 * i as i32, 4560), (SMALL, 340), column)?;
-    }
-    Ok(())
-}
+    // Sizes beyond what the report runs, counted when they were timed.
+    let largest = scale.rows.iter().map(|row| row.masses as u64).max().unwrap_or(0);
+    let beyond: Vec<_> = own
+        .iter()
+        .filter(|row| row.n > largest)
+        .filter_map(|row| Some((log(row.n as f64), log(row.evaluations_per_impact?))))
+        .collect();
+    let red = look(MethodName::Certified);
+    let open = (Mark::Ring, HALF, Stroke::solid(red.colour, THIN));
+    counted.marks("counted when timed", &beyond, open, Outside::Cut)?;
 
-/// (T, half height) of the map.
-fn of_map(chains: &Chains, map: &ProtocolMap) -> Vec<(f64, Estimate)> {
-    let window = chains.parameters.window;
-    let cells = map.cells.iter().filter(|cell| cell.window == window);
-    cells.filter_map(|cell| Some((cell.transient, cell.half_height_all?))).collect()
-}
-
-/// (T, half height) of a curve.
-fn halves(own: &ChainCurve, curve: &Curve) -> Vec<(f64, Estimate)> {
-    let all = own.transients.iter().zip(&curve.half_heights);
-    all.filter_map(|(time, half)| Some((*time, (*half)?))).collect()
-}
-
-fn logarithmic(all: Vec<(f64, Estimate)>) -> Vec<(f64, Estimate)> {
-    all.into_iter().map(|(time, half)| (log(time), half)).collect()
-}
-
-/// (T, half height) of each length, of those that were measured anew by these alone.
-fn by_length(chains: &Chains, sizes: &Chains) -> BTreeMap<usize, Vec<(f64, Estimate)>> {
-    let anew = |masses| sizes.all().any(|(own, _)| own.masses == masses);
-    let others = chains.of(ChainKind::Length).filter(|(own, _)| !anew(own.masses));
-    let mut all = BTreeMap::<usize, Vec<(f64, Estimate)>>::new();
-    for (own, curve) in others.chain(sizes.all()) {
-        all.entry(own.masses).or_default().extend(halves(own, curve));
-    }
-    all
-}
-
-fn times(
-    sheet: &Sheet,
-    lengths: &BTreeMap<usize, Vec<(f64, Estimate)>>,
-    map: &[(f64, Estimate)],
-) -> Result<(), Error> {
-    let panel = sheet.panel(
-        Frame::new(5150, 430, 8050, 3730),
-        Axis::decades(1, 5, 1, "transient *T*"),
-        Axis::linear(0.08, 0.16, 0.01, 2, "*σ*_{1/2}"),
+    let programs: Vec<Timed> = timed(measured)
+        .into_iter()
+        .filter(|row| row.method != Some(MethodName::Certified) && row.horizon.is_some())
+        .collect();
+    let programs = most_accurate(&programs);
+    let times = own.iter().filter_map(|row| row.microseconds_per_impact);
+    let times = times.chain(programs.iter().map(|row| row.microseconds));
+    let clock = sheet.panel(
+        Frame::new(1200, 3950, 8150, 6550),
+        masses(),
+        decades_around(times, 1, "measured µs per impact"),
     )?;
-    panel.letter(LETTERS[1])?;
-    let stroke = Stroke::solid(INK, THIN);
-    let line = logarithmic(map.to_vec());
-    panel.curve("map", &points(&line), stroke, Outside::Cut)?;
-    for (masses, all) in lengths {
-        let (name, look) = (format!("half height of {masses} masses"), look(*masses));
-        let all = logarithmic(all.clone());
-        panel.curve(&name, &points(&all), look.2, Outside::Cut)?;
-        panel.estimates(&name, &all, look, |y| y)?;
+    clock.letter(LETTERS[1])?;
+    let line: Vec<_> = own
+        .iter()
+        .filter_map(|row| Some((log(row.n as f64), log(row.microseconds_per_impact?))))
+        .collect();
+    clock.curve("this engine", &line, red.line(), Outside::Refuse)?;
+    clock.marks("this engine", &line, red.marker(), Outside::Refuse)?;
+    let whole = timed(measured);
+    let others = others(&whole);
+    for row in &programs {
+        let at = [(log(row.masses as f64), log(row.microseconds))];
+        clock.marks(&row.name, &at, look_of(row, &others).marker(), Outside::Refuse)?;
     }
-    let entry = Entry::line(stroke, "map of Sec. 11, *n* = 100");
-    sheet.legend((4900, 4560), (SMALL, 340), &[entry])
-}
+    let words = (TINY, INK, HPos::Right, VPos::Bottom);
+    let told = format!("measured on {}", measured.date);
+    clock.note(&told, (clock.x.hi, clock.y.hi), (0, -80), words)?;
 
-fn frictions(sheet: &Sheet, chains: &Chains, map: &ProtocolMap) -> Result<(), Error> {
-    let panel = sheet.panel(
-        Frame::new(1000, 5900, 3900, 8900),
-        Axis::decades(1, 4, 1, "transient *T*"),
-        Axis::linear(0.09, 0.16, 0.01, 2, "*σ*_{1/2}"),
-    )?;
-    panel.letter(LETTERS[2])?;
-    let stroke = Stroke::solid(INK, THIN);
-    let line = logarithmic(of_map(chains, map));
-    panel.curve("without friction", &points(&line), stroke, Outside::Cut)?;
-    let mut entries = vec![Entry::line(stroke, "*c* = 0")];
-    for ((own, curve), (mark, colour)) in chains.of(ChainKind::Damping).zip(&LOOKS[1..]) {
-        let look = (*mark, SIZE, Stroke::solid(*colour, THIN));
-        let name = format!("*c* = {}", own.damping);
-        let all = logarithmic(halves(own, curve));
-        panel.curve(&name, &points(&all), look.2, Outside::Cut)?;
-        panel.estimates(&name, &all, look, |y| y)?;
-        entries.push(Entry::mark(look.0, look.1, look.2, &name));
+    let timed_too = |method| programs.iter().any(|row| row.method == Some(method));
+    let counted_too = |method| all.iter().any(|(m, _)| *m == method);
+    let mut legend = entries(|method| counted_too(method) || timed_too(method));
+    legend.extend(entries_of_others(&others));
+    legend.push(Entry::mark(Mark::Ring, HALF, Stroke::solid(red.colour, THIN), "when timed"));
+    for (i, column) in legend.chunks(5).enumerate() {
+        sheet.legend((500 + 2650 * i as i32, 7800), (SMALL, 370), column)?;
     }
-    for (i, column) in entries.chunks(2).enumerate() {
-        sheet.legend((600 + 1750 * i as i32, 9750), (SMALL, 340), column)?;
+    let files = vec![table(scale), clock_table(measured)];
+    Ok(sheet.finish_own(15, "Cost of an impact against n", description(scale, measured), files))
+}
+
+fn description(scale: &Scale, measured: &Measured) -> String {
+    let mut told = Vec::new();
+    for (method, points) in by_method(
+        &scale.rows,
+        |row| row.setting,
+        |row| Some((row.masses as f64, row.evaluations_per_impact)),
+    ) {
+        let value = scale.rows.iter().find(|row| row.setting.method == method);
+        let ends = [points.first(), points.last()].into_iter().flatten();
+        let ends: Vec<String> =
+            ends.map(|(n, work)| format!("{} at n = {n}", short(*work, 2))).collect();
+        let at = value.map_or(String::new(), |row| setting(row.setting.value));
+        told.push(format!("{}{at}: {}", name(method), ends.join(" and ")));
     }
-    Ok(())
-}
-
-/// The share of the chains with an impact in the last window, with its binomial error.
-fn alive(row: &Ensemble) -> (f64, Estimate) {
-    let all = row.runs.len().max(1) as f64;
-    let share = 1.0 - row.silent.iter().sum::<u64>() as f64 / all;
-    let error = (share * (1.0 - share) / all).sqrt();
-    (row.sigma, crate::experiments::estimates::with_error(share, error))
-}
-
-fn period(sheet: &Sheet, chains: &Chains) -> Result<(), Error> {
-    let panel = sheet.panel(
-        Frame::new(5150, 5900, 8050, 8900),
-        Axis::linear(0.2, 0.44, 0.1, 2, "*σ*"),
-        Axis::linear(0.0, 1.0, 0.2, 2, "share of the chains"),
-    )?;
-    panel.letter(LETTERS[3])?;
-    let Some((_, curve)) = chains.curve(COMMON) else { return Ok(()) };
-    let line = |of: fn(&[f64; 3]) -> f64| -> Vec<(f64, f64)> {
-        curve.kept_expected.iter().map(|own| (own[0], of(own))).collect()
-    };
-    let (bound, there) = (Stroke::dashed(BLUE, LINE, Dash::Short), Stroke::solid(INK, LINE));
-    panel.curve("all phases", &line(|own| own[1]), bound, Outside::Cut)?;
-    panel.curve("common period", &line(|own| own[2]), there, Outside::Cut)?;
-    let all: Vec<_> = curve.rows.iter().map(alive).collect();
-    let look = (Mark::Disc, SIZE, Stroke::solid(RED, THIN));
-    panel.estimates("simulation", &all, look, |y| y)?;
-    let entries = [
-        Entry::line(bound, "all phases, Eq. (20)"),
-        Entry::line(there, "common period"),
-        Entry::mark(look.0, look.1, look.2, "simulation"),
-    ];
-    sheet.legend((4900, 9750), (SMALL, 340), &entries)
-}
-
-fn description(chains: &Chains, sizes: &Chains, map: &ProtocolMap) -> String {
-    let told = |all: Vec<(f64, Estimate)>| -> String {
-        let list: Vec<String> = all
-            .iter()
-            .map(|(time, half)| format!("{} at T = {time}", short(half.value, 4)))
-            .collect();
-        if list.is_empty() { "none".into() } else { list.join(", ") }
-    };
-    let list = |all: Vec<String>| all.join("; ");
-    let lengths = by_length(chains, sizes).into_iter();
-    let lengths = list(lengths.map(|(n, all)| format!("n = {n}: {}", told(all))).collect());
-    let damped = chains.of(ChainKind::Damping);
-    let damped = damped.map(|(own, curve)| format!("{}: {}", own.name, told(halves(own, curve))));
-    let damped = list(damped.collect());
-    let period = chains.curve(COMMON).map_or("none".into(), |(_, curve)| {
-        let list = curve.rows.iter().map(alive);
-        let list: Vec<String> =
-            list.map(|(sigma, own)| format!("{} at σ = {sigma}", short(own.value, 2))).collect();
-        list.join(", ")
-    });
+    let times: Vec<String> = own(measured)
+        .iter()
+        .filter_map(|row| {
+            Some(format!("{} at n = {}", short(row.microseconds_per_impact?, 2), row.n))
+        })
+        .collect();
+    let rivals: Vec<Timed> = timed(measured)
+        .into_iter()
+        .filter(|row| row.method != Some(MethodName::Certified) && row.horizon.is_some())
+        .collect();
+    let rivals: Vec<String> = most_accurate(&rivals)
+        .into_iter()
+        .map(|row| format!("{} {} at n = {}", called(row), short(row.microseconds, 2), row.masses))
+        .collect();
     format!(
-        "(a) Share of the gaps with an impact against σ after the same transient: the curve of the shortest chain \
-         rises later, those of all others lie on one another. (b) Half heights of chains of several lengths against the \
-         transient, falling the further the longer the chain, beside the line of the map ({}): {lengths}. (c) Half heights with friction: the stronger it is, the \
-         higher and the more level. {damped}. (d) Share of chains with an impact for Ω = 2: simulated points follow the lower \
-         of two curves, {period}.",
-        told(of_map(chains, map)),
+        "Two charts against the number of masses n, all axes logarithmic. (a) Evaluations per \
+         impact: {}. (b) Measured microseconds per impact of this engine: {}; of others at their most \
+         accurate: {}.",
+        told.join("; "),
+        times.join(", "),
+        rivals.join(", ")
     )
 }
 
-fn tables(chains: &Chains, sizes: &Chains, map: &ProtocolMap) -> Vec<DataFile> {
-    let mut shares = DataFile::new(
-        "s15a.csv",
+fn table(scale: &Scale) -> DataFile {
+    let mut file = DataFile::new(
+        "s15.csv",
         &[
-            "chain (text)",
-            "masses (1)",
-            "damping (omega)",
-            "forcing_frequency (omega)",
-            "components (1)",
-            "sigma (d omega^2)",
-            "transient (1/omega)",
-            "share (1)",
-            "standard_error (1)",
-            "chains_with_impacts (1)",
+            "method",
+            "step_or_tolerance (1/omega)",
+            "n (1)",
+            "time (1/omega)",
+            "impacts (1)",
+            "steps_per_impact (1)",
+            "evaluations_per_impact (1)",
         ],
     );
-    let mut places = DataFile::new(
-        "s15b.csv",
+    for row in &scale.rows {
+        let value = (row.setting.method != MethodName::Certified).then_some(row.setting.value);
+        file.row(cells![
+            name(row.setting.method),
+            value,
+            row.masses,
+            row.until,
+            row.impacts,
+            row.steps_per_impact,
+            row.evaluations_per_impact
+        ]);
+    }
+    file
+}
+
+fn clock_table(measured: &Measured) -> DataFile {
+    let mut file = DataFile::new(
+        "s15-measured.csv",
         &[
-            "chain (text)",
-            "masses (1)",
-            "damping (omega)",
-            "transient (1/omega)",
-            "half_height (d omega^2)",
-            "standard_error (d omega^2)",
+            "program",
+            "version (text)",
+            "settings (text)",
+            "n (1)",
+            "microseconds_per_impact (us)",
+            "evaluations_per_impact (1)",
         ],
     );
-    for (own, curve) in chains.all().chain(sizes.all()) {
-        let name = own.name.as_str();
-        for row in &curve.rows {
-            for (time, share) in own.transients.iter().zip(&row.shares) {
-                let share = share.as_ref();
-                shares.row(cells![
-                    name,
-                    own.masses,
-                    own.damping,
-                    own.forcing_frequency,
-                    own.components,
-                    row.sigma,
-                    *time,
-                    share.map(|own| own.value),
-                    share.map(|own| own.error),
-                    alive(row).1.value
-                ]);
-            }
-        }
-        for (time, half) in halves(own, curve) {
-            places.row(cells![name, own.masses, own.damping, time, half.value, half.error]);
-        }
+    let timed = measured.rows.iter().filter(|row| row.chains == 1);
+    for row in timed.filter(|row| row.microseconds_per_impact.is_some()) {
+        file.row(cells![
+            row.name.as_str(),
+            row.version.as_str(),
+            row.settings.as_str(),
+            row.n,
+            row.microseconds_per_impact,
+            row.evaluations_per_impact
+        ]);
     }
-    for (time, half) in of_map(chains, map) {
-        let masses = map.parameters.chain.masses;
-        places.row(cells!["map", masses, 0.0, time, half.value, half.error]);
-    }
-    let mut expected = DataFile::new(
-        "s15d.csv",
-        &["chain (text)", "sigma (d omega^2)", "share_all_phases (1)", "share_common_period (1)"],
-    );
-    for (own, curve) in chains.of(ChainKind::Frequency) {
-        for [sigma, ever, there] in &curve.kept_expected {
-            expected.row(cells![own.name.as_str(), *sigma, *ever, *there]);
-        }
-    }
-    vec![shares, places, expected]
+    file
 }

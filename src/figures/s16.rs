@@ -1,263 +1,137 @@
-//! Fig. S16: half height and onset against the transient.
+//! Fig. S16: digits of the ways to compute p(σ) and P(X = k).
 
 use super::axis::{Axis, log};
 use super::chart::{LETTERS, short};
 use super::data::cells;
-use super::panel::{Frame, Panel};
+use super::panel::Frame;
+use super::rivals::decades_around;
 use super::series::Outside;
 use super::sheet::{Entry, Sheet};
-use super::style::{BLUE, Colour, Dash, GREEN, INK, Mark, PURPLE, RED, SMALL, Stroke, THIN};
+use super::style::{BLUE, Colour, Dash, GREEN, LINE, Mark, ORANGE, RED, SMALL, Stroke, THIN};
 use super::{DataFile, Error, Figure};
-use crate::experiments::long::LongMap;
-use crate::experiments::protocol::{ProtocolCell, ProtocolMap};
-use crate::experiments::protocols::Protocols;
-use crate::numerics::statistics::Estimate;
+use crate::experiments::accuracy::analytic::{Analytic, Relation, Route, Way};
 
-/// The half size of marks.
-const SIZE: i32 = 52;
+/// Errors are drawn from here to one; an error above one has no digit left.
+const LOWEST: i32 = -18;
 
-/// Windows of (a) and (c), and their looks.
-const WINDOWS: [(f64, Mark, Colour); 3] =
-    [(20.0, Mark::Disc, RED), (200.0, Mark::Square, BLUE), (2000.0, Mark::Diamond, GREEN)];
+/// Smaller errors are luck.
+const FLOOR: f64 = 1e-17;
 
-/// The window of (b) and (d).
-const WINDOW: f64 = 200.0;
-
-/// Names of chains, what they are, and their looks.
-const STARTS: [(&str, &str, Mark, Colour); 4] = [
-    ("rest", "rest", Mark::Disc, BLUE),
-    ("ring", "rest, on a ring", Mark::Ring, INK),
-    ("random", "random free parts", Mark::Square, RED),
-    ("zero", "on the forced motion", Mark::Diamond, PURPLE),
-];
-
-/// A place on the rise.
-type Place = fn(&ProtocolCell) -> Option<Estimate>;
-
-const HALF: Place = |cell| cell.half_height_all;
-const ONSET: Place = |cell| cell.onset;
-const KEPT: Place = |cell| cell.kept_half;
-const HALF_OF_KEPT: Place = |cell| cell.half_height;
-
-/// The rows: a place, and its axis.
-const ROWS: [(Place, &str); 2] = [(HALF, "*σ*_{1/2}"), (ONSET, "*σ*_{0}")];
-
-/// What is drawn.
-#[derive(Clone, Copy)]
-pub struct Maps<'a> {
-    /// The map of the paper's chain.
-    pub map: &'a ProtocolMap,
-    /// Its long end.
-    pub long: &'a LongMap,
-    /// The maps of other chains.
-    pub others: &'a Protocols,
-    /// The σ at which a half, and a twentieth, of the chains from rest have a gap that closes by itself.
-    pub seeds: [f64; 2],
-}
-
-impl<'a> Maps<'a> {
-    /// The cells of a chain by rising T: those of the long end follow those of the map.
-    fn cells(self, name: &str) -> Vec<&'a ProtocolCell> {
-        if name != "rest" {
-            let other = self.others.named().find(|(own, _)| *own == name);
-            return other.iter().flat_map(|(_, map)| &map.cells).collect();
+fn route(route: Route) -> (String, Stroke) {
+    match route {
+        Route::DoubleIntegral { panels: 1 } => {
+            ("one minus the double integral".into(), Stroke::dashed(ORANGE, LINE, Dash::Short))
         }
-        self.map.cells.iter().chain(self.long.beyond(self.map)).collect()
-    }
-
-    /// (T, place) of a chain at a window.
-    fn line(self, name: &str, window: f64, place: Place) -> Vec<(f64, Estimate)> {
-        let cells = self.cells(name).into_iter().filter(|cell| cell.window == window);
-        cells.filter_map(|cell| Some((cell.transient, place(cell)?))).collect()
+        Route::DoubleIntegral { panels } => (
+            format!("the same, {panels} × {panels} panels"),
+            Stroke::dashed(BLUE, LINE, Dash::Long),
+        ),
+        Route::SingleIntegral => {
+            ("one minus a single integral".into(), Stroke::dashed(GREEN, LINE, Dash::Dotted))
+        }
+        Route::ClosedForm => ("closed form".into(), Stroke::solid(RED, LINE)),
     }
 }
 
-/// The tops of the rows.
-const TOPS: [i32; 2] = [430, 4680];
-
-/// The top of the legends.
-const LEGEND: i32 = 9000;
+fn way(way: Way) -> (&'static str, Colour, Mark) {
+    match way {
+        Way::Factorials => ("factorials", ORANGE, Mark::Square),
+        Way::LogGamma => ("log-gamma", BLUE, Mark::Ring),
+        Way::Ratios => ("ratios of terms", GREEN, Mark::Diamond),
+        Way::Products => ("products, 106 bits", RED, Mark::Disc),
+    }
+}
 
 /// Draws the figure.
-pub fn draw(maps: Maps<'_>, note: Option<&str>) -> Result<Figure, Error> {
-    let sheet = Sheet::new(10_650, note)?;
-    let (left, right) = ((1000, 4150), (4900, 8050));
-    // Half of N takes half of the chains, and a twentieth of N a twentieth of them.
-    for (row, ((place, label), seeds)) in ROWS.into_iter().zip(maps.seeds).enumerate() {
-        let top = TOPS[row];
-        let panel = |column: usize, (from, to), label: &str| {
-            let y = Axis::linear(0.07, 0.21, 0.02, 2, label);
-            panel(&sheet, 2 * row + column, Frame::new(from, top, to, top + 3200), y)
-        };
-        let own = panel(0, left, label)?;
-        bounded(&own, seeds)?;
-        if row == 0 {
-            kept_curves(&own, maps)?;
-        }
-        windows(&own, maps, place)?;
-        starts(&panel(1, right, "")?, maps, place)?;
+pub fn draw(analytic: &Analytic, note: Option<&str>) -> Result<Figure, Error> {
+    let sheet = Sheet::new(10_300, note)?;
+    let errors = || Axis::decades(LOWEST, 0, 3, "relative error");
+    let sigmas = analytic.parameters.sigmas.iter().copied();
+    let sigma = decades_around(sigmas, 1, "standard deviation *σ* of the forcing");
+    let relation = sheet.panel(Frame::new(1250, 430, 8150, 3330), sigma, errors())?;
+    relation.letter(LETTERS[0])?;
+    let shown = |error: f64| log(error.max(FLOOR)).min(0.0);
+    let mut entries = Vec::new();
+    for own in &analytic.relation {
+        let (name, stroke) = route(own.route);
+        let points: Vec<_> = own.points.iter().map(|p| (log(p.0), shown(p.1))).collect();
+        relation.curve(&name, &points, stroke, Outside::Refuse)?;
+        entries.push(Entry::line(stroke, &name));
     }
-    let mut entries: Vec<_> = WINDOWS
+    for (i, column) in entries.chunks(2).enumerate() {
+        sheet.legend((400 + 4250 * i as i32, 4500), (SMALL, 370), column)?;
+    }
+
+    let sizes = analytic.parameters.sizes.iter().map(|&n| n as f64);
+    let big_n = decades_around(sizes, 1, "number of vertices *N*");
+    let distribution = sheet.panel(Frame::new(1250, 5700, 8150, 8600), big_n, errors())?;
+    distribution.letter(LETTERS[1])?;
+    let mut entries = Vec::new();
+    for own in &analytic.distribution {
+        let (name, colour, mark) = way(own.way);
+        let points: Vec<_> = own
+            .points
+            .iter()
+            .filter_map(|p| Some((log(p.big_n as f64), shown(p.error?))))
+            .collect();
+        let look = (mark, 58, Stroke::solid(colour, THIN));
+        distribution.curve(name, &points, Stroke::solid(colour, THIN), Outside::Refuse)?;
+        distribution.marks(name, &points, look, Outside::Refuse)?;
+        entries.push(Entry::mark(mark, 58, look.2, name));
+    }
+    for (i, column) in entries.chunks(2).enumerate() {
+        sheet.legend((400 + 4250 * i as i32, 9750), (SMALL, 370), column)?;
+    }
+    let files = tables(analytic);
+    Ok(sheet.finish_own(16, "Digits of the analytic methods", description(analytic), files))
+}
+
+fn description(analytic: &Analytic) -> String {
+    let at = |own: &Relation, sigma: f64| {
+        let point = own.points.iter().find(|p| p.0 >= sigma);
+        point.map_or("none".into(), |p| format!("{} at σ = {}", short(p.1, 1), short(p.0, 2)))
+    };
+    let routes: Vec<String> = analytic
+        .relation
         .iter()
-        .map(|(w, mark, colour)| entry(format!("*W* = {w}"), *mark, *colour))
+        .map(|own| format!("{}: {}, {}", route(own.route).0, at(own, 0.05), at(own, 0.2)))
         .collect();
-    entries.push(Entry::line(kept(INK), "mean of the kept"));
-    entries.push(Entry::line(bound(), "bound for the mean of all"));
-    sheet.legend((1000, LEGEND), (SMALL, 340), &entries)?;
-    let entries: Vec<_> = STARTS
+    let ways: Vec<String> = analytic
+        .distribution
         .iter()
-        .map(|(_, what, mark, colour)| entry((*what).into(), *mark, *colour))
-        .collect();
-    sheet.legend((4900, LEGEND), (SMALL, 340), &entries)?;
-    let title = "Half height and onset against the transient";
-    Ok(sheet.finish_own(16, title, description(maps), vec![table(maps)]))
-}
-
-fn panel(sheet: &Sheet, place: usize, frame: Frame, y: Axis) -> Result<Panel, Error> {
-    let panel = sheet.panel(frame, Axis::decades(1, 5, 1, "transient *T*"), y)?;
-    panel.letter(LETTERS[place])?;
-    Ok(panel)
-}
-
-fn entry(text: String, mark: Mark, colour: Colour) -> Entry {
-    let stroke = Stroke::solid(colour, THIN);
-    Entry { line: Some(stroke), mark: Some((mark, SIZE, stroke)), text }
-}
-
-/// The line of the mean of the kept.
-fn kept(colour: Colour) -> Stroke {
-    Stroke::dashed(colour, THIN, Dash::Long)
-}
-
-/// The line of the bound that no mean over all chains passes.
-fn bound() -> Stroke {
-    Stroke::dashed(INK, THIN, Dash::Dotted)
-}
-
-/// The values of estimates against log T.
-fn values(all: &[(f64, Estimate)]) -> Vec<(f64, f64)> {
-    all.iter().map(|(time, own)| (log(*time), own.value)).collect()
-}
-
-fn estimates(
-    panel: &Panel,
-    name: &str,
-    all: &[(f64, Estimate)],
-    look: (Mark, Colour),
-) -> Result<(), Error> {
-    let stroke = Stroke::solid(look.1, THIN);
-    panel.curve(name, &values(all), stroke, Outside::Cut)?;
-    let all: Vec<_> = all.iter().map(|(time, own)| (log(*time), *own)).collect();
-    panel.estimates(name, &all, (look.0, SIZE, stroke), |y| y)
-}
-
-fn windows(panel: &Panel, maps: Maps<'_>, place: Place) -> Result<(), Error> {
-    for (window, mark, colour) in WINDOWS {
-        let line = maps.line("rest", window, place);
-        estimates(panel, &format!("*W* = {window}"), &line, (mark, colour))?;
-    }
-    Ok(())
-}
-
-fn bounded(panel: &Panel, level: f64) -> Result<(), Error> {
-    let level = [(panel.x.lo, level), (panel.x.hi, level)];
-    panel.curve("bound by seeds", &level, bound(), Outside::Cut)
-}
-
-fn kept_curves(panel: &Panel, maps: Maps<'_>) -> Result<(), Error> {
-    for (window, _, colour) in WINDOWS {
-        let line = values(&maps.line("rest", window, HALF_OF_KEPT));
-        panel.curve(&format!("kept, *W* = {window}"), &line, kept(colour), Outside::Cut)?;
-    }
-    Ok(())
-}
-
-fn starts(panel: &Panel, maps: Maps<'_>, place: Place) -> Result<(), Error> {
-    for (name, what, mark, colour) in STARTS {
-        estimates(panel, what, &maps.line(name, WINDOW, place), (mark, colour))?;
-    }
-    Ok(())
-}
-
-fn description(maps: Maps<'_>) -> String {
-    let told = |name: &str, window: f64, place: Place| -> String {
-        let line = maps.line(name, window, place);
-        let ends = line.first().zip(line.last().filter(|_| line.len() > 1));
-        ends.map_or("none".into(), |(first, last)| {
-            format!(
-                "from {} at T = {} to {} at T = {}",
-                short(first.1.value, 4),
-                first.0,
-                short(last.1.value, 4),
-                last.0
-            )
+        .map(|own| {
+            let last = own.points.iter().rev().find_map(|p| Some((p.big_n, p.error?)));
+            let last = last.map_or("none".into(), |(n, e)| format!("{} at N = {n}", short(e, 1)));
+            format!("{}: {last}", way(own.way).0)
         })
-    };
-    let by_window = |place: Place| -> String {
-        let list = WINDOWS.iter().map(|(w, ..)| format!("{} for W = {w}", told("rest", *w, place)));
-        list.collect::<Vec<_>>().join("; ")
-    };
-    let by_start = |place: Place| -> String {
-        let list =
-            STARTS.iter().map(|(name, what, ..)| format!("{what}: {}", told(name, WINDOW, place)));
-        list.collect::<Vec<_>>().join("; ")
-    };
-    let [half, onset] = maps.seeds.map(|seeds| short(seeds, 3));
+        .collect();
     format!(
-        "(a) Half height of the mean of all chains against the transient T on a logarithmic axis, with a curve for \
-         each window W, falling and coming together above the level {half}: {}. Dashed curves of the mean of the kept fall \
-         below that level. (b) Half heights of other chains, W = {WINDOW}: {}. (c) Onset, as in (a), above the level {onset}: {}. \
-         (d) Onsets of the other chains: {}.",
-        by_window(HALF),
-        by_start(HALF),
-        by_window(ONSET),
-        by_start(ONSET),
+        "Relative errors on logarithmic axes; an error of one or more is drawn at the upper edge. \
+         (a) Of p(σ) against σ: {}. (b) Of P(X = k) and its mean against N with N p = {}, at the \
+         largest N that each way reaches: {}.",
+        routes.join("; "),
+        analytic.parameters.mean_degree,
+        ways.join("; ")
     )
 }
 
-/// The cells of a map, with a name.
-fn of<'a>(
-    name: &'a str,
-    map: &'a ProtocolMap,
-) -> impl Iterator<Item = (&'a str, &'a ProtocolCell)> {
-    map.cells.iter().map(move |cell| (name, cell))
-}
-
-fn table(maps: Maps<'_>) -> DataFile {
-    let mut table = DataFile::new(
-        "s16.csv",
-        &[
-            "chain (text)",
-            "transient (1/omega)",
-            "window (1/omega)",
-            "half_height (d omega^2)",
-            "half_height_error (d omega^2)",
-            "half_height_of_kept (d omega^2)",
-            "half_height_of_kept_error (d omega^2)",
-            "onset (d omega^2)",
-            "onset_error (d omega^2)",
-            "half_are_kept (d omega^2)",
-            "half_are_kept_error (d omega^2)",
-        ],
+fn tables(analytic: &Analytic) -> Vec<DataFile> {
+    let mut relation = DataFile::new(
+        "s16a.csv",
+        &["way (text)", "evaluations (1)", "sigma (d omega^2)", "relative_error (1)"],
     );
-    let rest = of("rest", maps.map).chain(of("rest, long", &maps.long.map));
-    let others = maps.others.named().flat_map(|(name, map)| of(name, map));
-    for (name, cell) in rest.chain(others) {
-        let places = [HALF, HALF_OF_KEPT, ONSET, KEPT].map(|place| place(cell));
-        let [half, of_kept, onset, kept] = places;
-        table.row(cells![
-            name,
-            cell.transient,
-            cell.window,
-            half.map(|own| own.value),
-            half.map(|own| own.error),
-            of_kept.map(|own| own.value),
-            of_kept.map(|own| own.error),
-            onset.map(|own| own.value),
-            onset.map(|own| own.error),
-            kept.map(|own| own.value),
-            kept.map(|own| own.error)
-        ]);
+    for own in &analytic.relation {
+        for &(sigma, error) in &own.points {
+            let name = route(own.route).0;
+            relation.row(cells![name.as_str(), own.evaluations, sigma, error]);
+        }
     }
-    table
+    let mut distribution =
+        DataFile::new("s16b.csv", &["way (text)", "N (1)", "terms (1)", "relative_error (1)"]);
+    for own in &analytic.distribution {
+        for point in &own.points {
+            distribution.row(cells![way(own.way).0, point.big_n, point.terms, point.error]);
+        }
+    }
+    vec![relation, distribution]
 }

@@ -167,7 +167,7 @@ async function opens_by_keyboard(page, name) {
 
 /** Positions of the masses as the program computed them: a time and the places of all bodies in each row. */
 function saved_positions() {
-  const lines = readFileSync(join(dirname(report), "data/s06c.csv"), "utf8").trim().split("\n").slice(1);
+  const lines = readFileSync(join(dirname(report), "data/s02c.csv"), "utf8").trim().split("\n").slice(1);
   return lines.map((line) => line.split(",").map(Number)).map(([t, ...places]) => ({ t, places }));
 }
 

@@ -17,7 +17,7 @@ pub struct Quick {
     pub templates: Templates,
     pub figures: Vec<Figure>,
     pub report: Report,
-    /// The run that figure S6 and the scene show.
+    /// The run that figure S2 and the scene show.
     pub run: SpaceTime,
 }
 

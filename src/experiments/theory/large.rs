@@ -1,4 +1,4 @@
-//! The theory for many vertices: Fig. S7.
+//! The theory for many vertices: Fig. S5.
 
 use super::Point;
 use super::jump::sigma_of;

@@ -1,4 +1,4 @@
-//! Circuits of all orders: Fig. S8.
+//! Circuits of all orders: Fig. S6.
 
 use super::distributions::sum;
 use super::{Point, Scalars};

@@ -86,7 +86,7 @@ fn horizon(id: &str, entry: &Entry) -> Value {
     }
 }
 
-/// Figs. S1 and S2.
+/// Figs. S12 and S13.
 fn whole(race: &Race) -> Result<Vec<Value>, Error> {
     let (own, _) = of(race, MethodName::Certified)?;
     let (newton, _) = of(race, MethodName::Newton)?;
@@ -154,7 +154,7 @@ fn bias_row(biases: &Biases, setting: Setting, sigma: f64) -> Option<&BiasRow> {
     biases.rows.iter().find(|row| row.setting == setting && row.sigma == sigma)
 }
 
-/// Fig. S3 and its table.
+/// Fig. S14 and its table.
 fn bias(biases: &Biases) -> Result<Vec<Value>, Error> {
     let mut values = Vec::new();
     for (j, own) in biases.certified.iter().enumerate() {
@@ -220,7 +220,7 @@ fn bias(biases: &Biases) -> Result<Vec<Value>, Error> {
     Ok(values)
 }
 
-/// Fig. S4.
+/// Fig. S15.
 fn scale(scale: &Scale) -> Result<Vec<Value>, Error> {
     let ends = |method: MethodName| -> Result<[&ScaleRow; 2], Error> {
         let mut own = scale.rows.iter().filter(|row| row.setting.method == method);
@@ -243,7 +243,7 @@ fn scale(scale: &Scale) -> Result<Vec<Value>, Error> {
     ])
 }
 
-/// Fig. S5.
+/// Fig. S16.
 fn theory(analytic: &Analytic) -> Result<Vec<Value>, Error> {
     let missing = || Error::Missing("the analytic methods");
     let printed = |own: &&Relation| matches!(own.route, Route::DoubleIntegral { .. });

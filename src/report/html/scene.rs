@@ -59,7 +59,7 @@ impl Page<'_> {
              <input type=\"range\" aria-label=\"Time of the scene\" min=\"{from}\" max=\"{}\" \
              step=\"0.1\" value=\"{from}\"/><span aria-hidden=\"true\"></span></div>\n\
              <figcaption><strong>Scene.</strong> {} <span class=\"origin\">Data: \
-             <a href=\"data/s06c.csv\">s06c.csv</a>. Code: {}. Experiment: {}.</span></figcaption>\n\
+             <a href=\"data/s02c.csv\">s02c.csv</a>. Code: {}. Experiment: {}.</span></figcaption>\n\
              <script type=\"application/json\">{data}</script>\n\
              <script>//<![CDATA[\n{script}//]]></script></figure>\n",
             picture(scene, bar),
