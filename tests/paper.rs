@@ -293,6 +293,7 @@ fn exit_codes_are_those_of_the_table() {
         std::fs::write(path, text.replacen(from, to, 1)).unwrap();
     };
     templates("good", "report.md", "# ", "# ");
+    templates("open", "report.md", "\n## ", "\nIt is «v.half_height now.\n\n## ");
     templates("numeral", "report.md", "\n## ", "\nThere are 17 of them.\n\n## ");
     templates("broken", "published.toml", "[[statement]]", "[[statement");
     templates("renamed", "published.toml", "id = \"sec3_edges\"", "id = \"sec3_bends\"");
@@ -313,6 +314,7 @@ fn exit_codes_are_those_of_the_table() {
         (1, "check --profile quick --results r --templates differs".into(), "sec3_edges"),
         (1, "verify p --rerun --results r --templates good".into(), "ledger.json"),
         (1, paper("numeral"), "17"),
+        (2, paper("open"), "« is not closed"),
         (2, paper("broken"), "published.toml"),
         (2, "check --profile quick --results r --templates broken".into(), "published.toml"),
         (2, paper("renamed"), "published.toml"),
@@ -347,7 +349,7 @@ fn exit_codes_are_those_of_the_table() {
     let help = told(&Command::new(program::PROGRAM).arg("--help").output().unwrap()).1;
     let design = std::fs::read_to_string("DESIGN.md").unwrap();
     for (code, words) in
-        [(0, "fine"), (1, "lint"), (2, "usage"), (3, "stale"), (4, "disk"), (130, "SIGTERM")]
+        [(0, "fine"), (1, "check"), (2, "usage"), (3, "stale"), (4, "disk"), (130, "SIGTERM")]
     {
         let says = |line: &str| line.contains(words);
         let row = |line: &&str| line.trim_start().starts_with(&format!("{code} ")) && says(line);

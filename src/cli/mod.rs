@@ -36,8 +36,9 @@ use std::process::ExitCode;
 /// The contract; DESIGN.md has the same table.
 const EXIT_CODES: &str = "Exit codes:
   0    fine
-  1    a claim, target, check, lint or comparison failed; what was asked for is written all the same
-  2    wrong usage or input, or a place that cannot be written
+  1    a claim, target, check or comparison failed, and what was asked for is written all the same; or a rule of
+       the prose is broken (a naked numeral, an unused value), and nothing is
+  2    wrong usage or input, broken prose too, or a place that cannot be written
   3    saved results are stale or missing
   4    a run failed, or the system did: a full disk, an I/O error
   130  ended by Ctrl-C or SIGTERM";

@@ -302,7 +302,11 @@ impl From<figures::Error> for Failure {
 impl From<report::Error> for Failure {
     fn from(error: report::Error) -> Self {
         use report::Error::{Lint, NotShown, Unused};
+        use report::lint::Fault;
         match error {
+            Lint(ref found) if !found.iter().all(|one| matches!(one.fault, Fault::Numeral(_))) => {
+                Failure::input(error.to_string())
+            }
             // What can be read, and breaks a rule of the prose.
             Lint(_) | NotShown(_) | Unused(_) => Failure::check(error.to_string()),
             _ => Failure::input(error.to_string()),

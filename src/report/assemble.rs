@@ -55,6 +55,9 @@ pub struct Report {
 /// A naked numeral, an unknown or unused value, a reference to nothing, a figure that is missing
 /// or not shown, markup or a character that a format lacks.
 pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
+    if input.templates.text("report.md")?.trim().is_empty() {
+        return Err(Error::Template("report.md: it is empty; write the report".into()));
+    }
     lint::check(input.templates)?;
     let mut values = input.values.clone();
     values.extend(scorecard(input.claims))?;
@@ -91,6 +94,12 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
     let moving = |scene| Ok(html::Moving { scene, script: input.templates.text("scene.js")? });
     let moving = input.scene.map(moving).transpose()?;
     filler.insert("page", &html::write(&blocks, input.figures, moving, cards)?);
+    for path in ["report.css", "scene.js"] {
+        // It would end the element that it stands in.
+        if input.templates.text(path).is_ok_and(|text| text.contains("</")) {
+            return Err(Error::Template(format!("{path}: </ ends it in the page; write <\\/")));
+        }
+    }
     filler.insert("style", &input.templates.text("report.css")?);
     beside.insert("report.html".into(), filler.fill("report.html")?.into_bytes());
     for figure in input.figures {

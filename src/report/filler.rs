@@ -12,12 +12,12 @@
 //! `«code(item="circuits::jump::p_jump")»` is an item of the source, see [`super::literate`].
 
 use super::mark::Mark;
-use super::origin::{Filled, marked};
+use super::origin::{Filled, marked, next_tag};
 use super::print::{Asked, MOST_DIGITS, Style};
 use super::values::{Number, Registry};
 use super::{Error, Templates, literate};
 use crate::input::LARGEST;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 use tera::{Context, Delimiters, Kwargs, State, Tera};
 
@@ -55,6 +55,9 @@ pub struct Filler {
     templates: Templates,
     marked: Tera,
     context: Context,
+    /// Names of values that templates may use, and what stands before their dots.
+    names: BTreeSet<String>,
+    roots: BTreeSet<String>,
 }
 
 impl Filler {
@@ -82,12 +85,46 @@ impl Filler {
         let sources = sources.iter().map(|(path, text)| (*path, marked(text)));
         with_marks.add_raw_templates(sources).map_err(failure)?;
         let templates = templates.clone();
-        Ok(Filler { tera, templates, marked: with_marks, context: context(values) })
+        let names = names(values);
+        let root = |name: &String| name.split('.').next().unwrap_or_default().to_string();
+        let roots = names.iter().map(root).collect();
+        let context = context(values);
+        Ok(Filler { tera, templates, marked: with_marks, context, names, roots })
     }
 
     /// Adds a name that is no value: the rows of the claims, the list of figures.
     pub fn insert<T: serde::Serialize>(&mut self, name: &'static str, rows: &T) {
         self.context.insert(name, rows);
+    }
+
+    /// Holds names of values in tags against what there is: in a condition Tera takes one that it does not have for
+    /// *false*.
+    fn known(&self) -> Result<(), Error> {
+        for (path, text) in self.templates.iter().filter(|(path, _)| path.ends_with(".md")) {
+            let mut at = 0;
+            while let Some((start, end)) = next_tag(text, at) {
+                at = end;
+                // What is quoted is no name.
+                let bare = text[start..end].split('"').step_by(2);
+                let other = |c: char| !(c.is_ascii_alphanumeric() || c == '_' || c == '.');
+                let mut words = bare.flat_map(|part| part.split(other));
+                let unknown = |word: &&str| {
+                    let root = word.split_once('.').map(|(root, _)| root);
+                    root.is_some_and(|root| self.roots.contains(root))
+                        && !self.names.contains(*word)
+                };
+                if let Some(word) = words.find(unknown).filter(|_| !text[start..].starts_with("<#"))
+                {
+                    let before = &text[..start];
+                    let line = before.matches('\n').count() + 1;
+                    let column = before.rsplit('\n').next().unwrap_or_default().chars().count() + 1;
+                    return Err(Error::Template(format!(
+                        "{path}:{line}:{column}: there is no value {word}; `explain` lists all"
+                    )));
+                }
+            }
+        }
+        Ok(())
     }
 
     /// Fills one template; values are marks in the result.
@@ -103,6 +140,11 @@ impl Filler {
     /// # Errors
     /// As [`Filler::fill`].
     pub fn prose(&self, path: &str) -> Result<Filled, Error> {
+        let filled = self.prose_of_any_name(path)?;
+        self.known().map(|()| filled)
+    }
+
+    fn prose_of_any_name(&self, path: &str) -> Result<Filled, Error> {
         match render(&self.marked, path, &self.context) {
             Ok(filled) => Ok(Filled::read(path, self.templates.text(path)?, &filled)),
             // Without marks the same error has the right column.
@@ -145,6 +187,17 @@ fn failure(error: tera::Error) -> Error {
         names => format!(" Names that begin alike: {}.", names.join(", ")),
     };
     Error::Template(format!("{place}: {what}{alike}"))
+}
+
+/// All names with a dot that [`context`] has.
+fn names(values: &Registry) -> BTreeSet<String> {
+    let own = values.iter().map(|value| value.id.as_str());
+    let all = own.chain(values.names().map(|(name, _)| name));
+    let both = |name: &str| {
+        let mark = if name.contains('.') { name.into() } else { format!("v.{name}") };
+        [mark, format!("raw.{name}")]
+    };
+    all.flat_map(both).collect()
 }
 
 /// `v.name` and `group.name` are marks, `raw.name` and `raw.group.name` plain numbers.

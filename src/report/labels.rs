@@ -11,6 +11,11 @@ pub struct Labels(BTreeMap<String, String>);
 
 impl Labels {
     fn add(&mut self, id: &str, number: &str) -> Result<(), Error> {
+        let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, ':' | '-' | '_' | '.');
+        if !id.chars().all(plain) {
+            let what = format!("the id {id:?} has more than letters, digits and any of : - _ .");
+            return Err(Error::Markup(what));
+        }
         match self.0.insert(id.to_string(), number.to_string()) {
             None => Ok(()),
             Some(_) => Err(Error::Label(id.to_string())),

@@ -1,7 +1,7 @@
 //! Markup that Markdown took for text, since its other end is missing or it is none here.
 
 /// Signs of markup, and what is wrong where one is left over in text.
-const SIGNS: [(&str, &str); 16] = [
+const SIGNS: [(&str, &str); 21] = [
     ("$", "a formula without its end, or with brackets that do not match; write \\$ for the sign"),
     ("`", "code without its end; write \\` for the sign"),
     ("*", "emphasis without its other end; write \\* for the sign"),
@@ -18,6 +18,11 @@ const SIGNS: [(&str, &str); 16] = [
     ("[@", "a reference without its end"),
     ("[!", "a place without its end"),
     ("[^", "footnotes are no part of the report"),
+    ("][", "a link by reference; write [words](target)"),
+    ("~~", "struck-out text is no part of the report"),
+    ("#######", "a heading has at most six signs"),
+    ("[ ]", "lists of tasks are no part of the report"),
+    ("[x]", "lists of tasks are no part of the report"),
 ];
 
 /// The first leftover in a piece of text that stands at `start` of the source: its offset, and what is
@@ -78,6 +83,10 @@ mod tests {
             ("[^1]", 0),
             ("x --> y", 2),
             ("[@fig:3", 0),
+            ("[a][b]", 2),
+            ("~~a~~", 0),
+            ("####### a", 0),
+            ("[ ] a", 0),
         ] {
             assert_eq!(find(text, 0, text, false).map(|(at, _)| at), Some(at), "{text}");
         }

@@ -38,6 +38,8 @@ pub enum Fault {
     Numeral(String),
     /// A delimiter, and the one that ought to end it.
     Open(&'static str, &'static str),
+    /// A character that is none of a text, by its number.
+    Control(char),
 }
 
 impl std::fmt::Display for Finding {
@@ -45,6 +47,13 @@ impl std::fmt::Display for Finding {
         let Finding { path, line, column, fault } = self;
         let numeral = match fault {
             Fault::Numeral(numeral) => numeral,
+            Fault::Control(c) => {
+                let number = u32::from(*c);
+                return write!(
+                    f,
+                    "{path}:{line}:{column}: the control character U+{number:04X}; remove it"
+                );
+            }
             Fault::Open(open, close) => {
                 return write!(
                     f,
@@ -84,6 +93,10 @@ const EXEMPT: [(&str, &str, bool); 13] = [
 fn length(inner: &str, (open, close, long): (&str, &str, bool)) -> Option<usize> {
     let scope = if long { inner } else { inner.split("\n\n").next().unwrap_or(inner) };
     let mut ends = scope.match_indices(close).map(|(at, _)| at);
+    if open == "«" {
+        // Another begins before it ends.
+        return ends.next().filter(|end| !scope[..*end].contains(open));
+    }
     if open != "$" {
         return ends.next();
     }
@@ -185,6 +198,9 @@ pub fn findings(path: &str, text: &str, declared: &Declared) -> Vec<Finding> {
     // The word that the position is in, and whether it began with a letter.
     let mut word: Option<bool> = None;
     while let Some(c) = rest.chars().next() {
+        if c.is_control() && !matches!(c, '\n' | '\r' | '\t') {
+            return vec![position.finding(path, Fault::Control(c))];
+        }
         if rest.starts_with(r"\$") {
             rest = position.past(rest, 2);
             continue;
@@ -198,6 +214,10 @@ pub fn findings(path: &str, text: &str, declared: &Declared) -> Vec<Finding> {
             let Some(length) = length(inner, kind) else {
                 return vec![position.finding(path, Fault::Open(open, close))];
             };
+            let control = |c: char| c.is_control() && !matches!(c, '\n' | '\r' | '\t');
+            if let Some(c) = inner[..length].chars().find(|c| control(*c)) {
+                return vec![position.finding(path, Fault::Control(c))];
+            }
             if open == "$" && is_number(&inner[..length]) {
                 findings.push(position.numeral(path, &inner[..length]));
             }
@@ -312,8 +332,16 @@ mod tests {
         let place = |f: Finding| match f.fault {
             Fault::Numeral(numeral) => (f.line, f.column, numeral),
             Fault::Open(open, _) => (f.line, f.column, format!("open {open}")),
+            Fault::Control(c) => (f.line, f.column, format!("control {}", u32::from(c))),
         };
         findings("x.md", text, &Declared::default()).into_iter().map(place).collect()
+    }
+
+    #[test]
+    fn what_is_no_text_is_found_with_its_place() {
+        assert_eq!(found("a\n«v.x and\n«v.y»"), [(2, 1, "open «".into())]);
+        assert_eq!(found("a\nb\u{8}c 3"), [(2, 2, "control 8".into())]);
+        assert_eq!(found("a\r\n\tb\0"), [(2, 3, "control 0".into())]);
     }
 
     #[test]

@@ -28,7 +28,10 @@ const ENVIRONMENTS: &str = "aligned cases matrix pmatrix bmatrix";
 pub fn refused(tex: &str) -> Option<String> {
     let known = |list: &str, name: &str| list.split_whitespace().any(|own| own == name);
     let mut rest = tex;
-    while let Some((_, after)) = rest.split_once('\\') {
+    while let Some((before, after)) = rest.split_once('\\') {
+        if let Some(what) = bare(before) {
+            return Some(what);
+        }
         let name = &after[..after.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(after.len())];
         rest = &after[name.len()..];
         if name.is_empty() {
@@ -51,7 +54,13 @@ pub fn refused(tex: &str) -> Option<String> {
             }
         }
     }
-    None
+    bare(rest)
+}
+
+/// The first sign with a meaning of its own in LaTeX between macros. (Columns of an environment keep their &.)
+fn bare(between: &str) -> Option<String> {
+    let sign = between.chars().find(|c| matches!(c, '%' | '#' | '$'))?;
+    Some(format!("a bare {sign} is no sign in LaTeX; write \\{sign}"))
 }
 
 #[cfg(test)]
@@ -65,6 +74,7 @@ mod tests {
             r"a \\ b",
             r"\begin{aligned} a \end{aligned}",
             r"\{x\}",
+            r"50\,\% \& \# x",
             "x",
         ] {
             assert_eq!(refused(tex), None, "{tex}");
@@ -74,6 +84,9 @@ mod tests {
             (r"\phantom{x}", r"\phantom "),
             (r"\newcommand{\a}{b}", r"\newcommand "),
             (r"\,\bbox{x}", r"\bbox "),
+            ("50 % x", r"write \%"),
+            (r"\alpha % x", r"write \%"),
+            (r"n # \alpha", r"write \#"),
             (r"\\\sigmma", r"\sigmma "),
             (r"\begin{align} a \end{align}", "\"align\""),
         ] {

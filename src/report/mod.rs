@@ -443,6 +443,17 @@ Listing: What $\delta v$ does. {#lst:kick}
             ("| a | b |\n|---|---|\n| c | d | «v.half_height» |", "14:1", "a row of 3 cells"),
             ("- item\n\n  - a *b", "14:7", "emphasis"),
             ("see 漢", "12:5", "'漢'"),
+            ("at $50 % x$ of", "12:4", r"write \%"),
+            ("<% if raw.half_heigth != 1 %>a<% endif %>", "12:1", "raw.half_heigth"),
+            ("<% if rav.half_height %>a<% endif %>", "12:7", "`rav` is not defined"),
+            ("<% if v.half_heigth %>a<% else %>b<% endif %>", "12:1", "v.half_heigth"),
+            ("«v.half_heigth | default(value=1)»", "12:1", "v.half_heigth"),
+            ("a \u{8} b", "12:3", "U+0008"),
+            ("[a][undefined]", "12:3", "[words](target)"),
+            ("~~a~~", "12:1", "struck-out"),
+            ("####### a", "12:1", "at most six"),
+            ("- [ ] a", "12:3", "tasks"),
+            ("at «v.half_height and\n\n«v.half_height»", "12:4", "is not closed"),
         ] {
             let error = assembled(&format!("{PROSE}\n\n{broken}\n")).unwrap_err().to_string();
             assert!(error.starts_with(&format!("report.md:{place}: ")), "{broken}: {error}");
@@ -461,6 +472,8 @@ Listing: What $\delta v$ does. {#lst:kick}
             labels::resolve(&mut blocks, &library).unwrap_err().to_string()
         };
         assert!(fails("see [@fig:3]").contains("fig:3"));
+        assert!(fails("## T {#sec:a\"onclick=\"x}").contains("more than letters"));
+        assert!(fails("## T {#sec:a\"onclick=\"x}").contains("more than letters"));
         assert!(fails("see [@rice1945]").contains("rice1945"));
         assert!(fails("$$a \\tag{1}$$\n\n$$b \\tag{1}$$").contains("eq:1"));
         assert!(fails("## A {#sec:a}\n\nSee [@sec:a; @eq:1].").contains("eq:1"));

@@ -41,7 +41,7 @@ pub fn marked(text: &str) -> String {
 }
 
 /// Start and end of the first tag from `at` on.
-fn next_tag(text: &str, at: usize) -> Option<(usize, usize)> {
+pub(super) fn next_tag(text: &str, at: usize) -> Option<(usize, usize)> {
     let first = |(open, close): &(&str, &'static str)| Some((text[at..].find(open)? + at, *close));
     let (start, close) = TAGS.iter().filter_map(first).min()?;
     Some((start, start + text[start..].find(close)? + close.len()))
