@@ -162,7 +162,7 @@ fn description(heat: &Heat) -> String {
         .collect();
     format!(
         "(a) Variance of the free amplitudes over that of the force against σ, of masses that are hit and of \
-         all masses, with standard errors; level lines at what the balance of rare impacts lets expect, \
+         all masses, with standard errors; level lines at what the balance of rare impacts gives, \
          at {FROM_REST} for a start from rest, and at 1 for Eq. (25), and a falling line for the balance with \
          the friction of frequent impacts. Masses that are hit: {}. \
          (b) The same against the restitution r at one σ, on a logarithmic axis, below a curve that rises \

@@ -107,7 +107,7 @@ fn circuits(sheet: &Sheet, found: &Independence) -> Result<(), Error> {
     sheet.legend((4950, 8420), (SMALL, 340), &marks)
 }
 
-/// The line of what the measured transition matrix lets expect.
+/// The line of the measured transition matrix.
 fn matrix(colour: Colour) -> Stroke {
     Stroke::dashed(colour, THIN, Dash::Short)
 }

@@ -153,7 +153,7 @@ fn warmth(sheet: &Sheet, found: &Restitution) -> Result<(), Error> {
     sheet.legend((6800, 8150), (SMALL, 340), &marks)
 }
 
-/// The line of what little loss lets expect.
+/// The line of the law for little loss.
 fn little(colour: Colour) -> Stroke {
     Stroke::dashed(colour, THIN, Dash::Long)
 }

@@ -94,7 +94,7 @@ fn information(look: Look<'_>) -> Option<String> {
     })
 }
 
-/// Successions that independence lets expect at a distance.
+/// Successions at a distance, if gaps are independent.
 fn expected(row: &Dependence, distance: usize) -> f64 {
     // Either of two gaps may be the first.
     let orders = if distance == 0 { 1.0 } else { 2.0 };
@@ -105,7 +105,7 @@ fn expected(row: &Dependence, distance: usize) -> f64 {
     row.hits.iter().map(of).sum()
 }
 
-/// Successions at a distance over those that independence lets expect, and impacts of which the next
+/// Successions at a distance over those of independent gaps, and impacts of which the next
 /// of their masses is at the same gap.
 fn near(look: Look<'_>) -> Option<String> {
     found(look)?.rows.iter().find_map(|row| {

@@ -78,7 +78,7 @@ fn exponents(look: Look<'_>) -> Option<String> {
         .or_else(|| off("slow_exponent", row.slow?.exponent_error, 2.0))
 }
 
-/// The law in proportion to δ lets expect as many impacts within the time from which it was fitted
+/// The law in proportion to δ predicts as many impacts within the time from which it was fitted
 /// as there were, with the error of such a count.
 fn coefficient(look: Look<'_>) -> Option<String> {
     let row = fitted(look)?;
@@ -87,7 +87,7 @@ fn coefficient(look: Look<'_>) -> Option<String> {
     let expected = look.number("near_coefficient")? * NEAR_DECADES[1] * own.impacts as f64;
     let seen = own.near_decades[1] as f64;
     unless((expected - seen).abs() <= claims::level().quantile * seen.sqrt(), || {
-        format!("the law lets expect {expected} near impacts where there were {seen}")
+        format!("the law predicts {expected} near impacts where there were {seen}")
     })
 }
 
