@@ -40,3 +40,5 @@ pub mod input;
 pub mod numerics;
 pub mod params;
 pub mod report;
+pub mod table;
+pub mod value;

@@ -3,6 +3,7 @@
 use super::row::{Error, Evidence, Finding, open};
 use super::sec2_rare::NEGLIGIBLE;
 use super::{Judgement, Statement, Text};
+use crate::experiments::Need;
 use crate::numerics::statistics::{Estimate, wilson};
 
 /// Eq. (20) in the simulation: a chain with random free parts that overlaps at its start, or has an
@@ -139,11 +140,12 @@ fn range(places: impl Iterator<Item = Option<Estimate>>) -> Option<Estimate> {
 
 pub(super) fn restitution_omitted(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
     let found = e.results.restitution()?;
+    let curves = e.results.table(Need::Restitution, "restitution.curves")?;
     let starts = e.results.starts()?;
     let of_start = |name| starts.variant(name).and_then(|variant| variant.rise.half_height_all);
     let cells = &e.results.protocol()?.cells;
     let ranges = (
-        range(found.curves.iter().map(|curve| curve.half_height)),
+        range(curves.estimates(&[], "r", "half_height").into_iter().map(|(_, own)| Some(own))),
         range(cells.iter().map(|cell| cell.half_height_all)),
         range(["rest", "random"].into_iter().map(of_start)),
     );
@@ -182,10 +184,12 @@ pub(super) fn restitution_ensures(e: &Evidence, _: &Statement) -> Result<Finding
     let Some(strongest) = sigmas().reduce(f64::max) else {
         return Ok(open(Text::words("no run"), "No chain was run at the σ of the paper."));
     };
+    let rise = e.results.table(Need::Restitution, "restitution.rise")?;
+    // Without an impact there is no contact phase.
     let phases = |r: f64, sigma: f64| {
-        let curve = found.curves.iter().find(|curve| curve.restitution == r)?;
-        let row = curve.rows.iter().find(|row| row.sigma == sigma)?;
-        Some(row.phases.map_or(0.0, |phases| phases.value))
+        let keys = [("r", r), ("sigma", sigma)];
+        rise.cell(&keys, "phases").ok()?;
+        Some(rise.number(&keys, "phases_per_impact").unwrap_or(0.0))
     };
     let lowest = found.parameters.restitutions.first().copied().unwrap_or(own);
     let (Some(ours), Some(without)) = (phases(own, strongest), phases(lowest, strongest)) else {

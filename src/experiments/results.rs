@@ -8,8 +8,9 @@ use super::{
     two_masses,
 };
 use crate::params::{Profile, VERTICES};
+use crate::table::Table;
 use std::collections::BTreeMap;
-use std::sync::LazyLock;
+use std::sync::{Arc, LazyLock, OnceLock};
 
 /// What is computed when it is first looked at.
 pub type Looked<T> = LazyLock<T, Box<dyn FnOnce() -> T + Send>>;
@@ -75,6 +76,8 @@ pub struct Results {
     pub long_protocol: Option<long::LongMap>,
     /// Chains of several lengths after several transients.
     pub sizes: Option<chains::Chains>,
+    /// Tables of the results, made when first looked at.
+    pub tables: OnceLock<BTreeMap<&'static str, Arc<Table>>>,
     /// Of each result that is carried over, by the name of its experiment, what became of a sample.
     pub audits: BTreeMap<String, deep::Audit>,
 }
@@ -157,6 +160,22 @@ impl Results {
         rayon::join(|| LazyLock::force(&self.theory), || LazyLock::force(&self.identities));
     }
 
+    /// The tables of all results that there are, by name.
+    pub fn tables(&self) -> &BTreeMap<&'static str, Arc<Table>> {
+        self.tables.get_or_init(|| {
+            let restitution = self.restitution.iter().flat_map(restitution::tables::tables);
+            restitution.map(|table| (table.name(), Arc::new(table))).collect()
+        })
+    }
+
+    /// One of the tables.
+    ///
+    /// # Errors
+    /// [`Error::NotRun`] if its experiment was not asked for.
+    pub fn table(&self, need: Need, name: &str) -> Result<&Table, Error> {
+        self.tables().get(name).map(Arc::as_ref).ok_or(Error::NotRun(need))
+    }
+
     /// Results of which nothing was run yet.
     pub fn empty(profile: Profile) -> Self {
         Results {
@@ -193,6 +212,7 @@ impl Results {
             chains: None,
             long_protocol: None,
             sizes: None,
+            tables: OnceLock::new(),
             audits: BTreeMap::new(),
         }
     }

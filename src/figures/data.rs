@@ -1,5 +1,7 @@
 //! The data behind a figure, as CSV.
 
+use crate::table::Table;
+
 /// One CSV file with a header that names each column and its unit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DataFile {
@@ -16,6 +18,12 @@ impl DataFile {
     pub fn new(name: &str, header: &[&str]) -> Self {
         let header = header.iter().map(|h| (*h).to_string()).collect();
         DataFile { name: name.into(), header, rows: Vec::new() }
+    }
+
+    /// A table of an experiment, whole.
+    pub fn of(table: &Table) -> Self {
+        let (header, rows) = table.data();
+        DataFile { name: format!("{}.csv", table.name().replace('.', "-")), header, rows }
     }
 
     /// Adds a row.

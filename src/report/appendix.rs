@@ -9,7 +9,8 @@ use std::collections::BTreeSet;
 
 /// Id of the place in the appendix that tells of a value.
 pub fn id(value: &str) -> String {
-    format!("value:{value}")
+    // What an address has beside names would end a label of TeX.
+    format!("value:{}", value.replace(['[', ']', '=', ','], "-"))
 }
 
 /// The appendix of values: those that the report shows, in the order of their first mention, and

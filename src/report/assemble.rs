@@ -68,7 +68,9 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
         filler.insert(name, rows);
     }
     let filled = filler.prose("report.md")?;
-    check_unused(&values, &filled.text)?;
+    let marks: Vec<Mark> = Mark::split(&filled.text).into_iter().flatten().collect();
+    check_unused(&values, &marks)?;
+    values.keep_cells(marks.iter().map(|mark| mark.id.as_str()));
 
     let (mut blocks, places) = parse::parse(&filled, &values)?;
     let tell = |error| places.tell(error);
@@ -133,8 +135,7 @@ pub fn files_of(figure: &Figure) -> Files {
     std::iter::once(picture).chain(data).collect()
 }
 
-fn check_unused(values: &Registry, filled: &str) -> Result<(), Error> {
-    let marks: Vec<Mark> = Mark::split(filled).into_iter().flatten().collect();
+fn check_unused(values: &Registry, marks: &[Mark]) -> Result<(), Error> {
     let used: BTreeSet<&str> = marks.iter().map(|mark| values.id(&mark.id)).collect();
     let unused: Vec<&str> = values
         .iter()

@@ -9,14 +9,19 @@
 //! writers turn marks into digits, each in its own markup and knowing whether the mark stands in
 //! prose or in mathematics; and they know which values were named. For conditions there are plain
 //! numbers: `<% if raw.half_height < raw.printed.threshold %>`.
+//! A cell of a table is named by the keys of its row and its column, `«restitution.rise["r=0.8,sigma=0.3"].impacts»`,
+//! and `first`, `last` and `last-1` stand for values of a key ([`crate::table::Table::named`]); a loop goes through the
+//! values of a key by `<% for r in keys.restitution.rise.r %>`.
 //! `«code(item="circuits::jump::p_jump")»` is an item of the source, see [`super::literate`].
 
 use super::mark::Mark;
 use super::origin::{Filled, marked, next_tag};
 use super::print::{Asked, MOST_DIGITS, Style};
-use super::values::{Number, Registry};
+use super::values::{Number, Registry, Value};
 use super::{Error, Templates, literate};
 use crate::input::LARGEST;
+use crate::table::Table;
+use serde_json::Value as Json;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 use tera::{Context, Delimiters, Kwargs, State, Tera};
@@ -197,39 +202,71 @@ fn names(values: &Registry) -> BTreeSet<String> {
         let mark = if name.contains('.') { name.into() } else { format!("v.{name}") };
         [mark, format!("raw.{name}")]
     };
-    all.flat_map(both).collect()
+    let keys = |table: &Table| {
+        let name = table.name();
+        let rows = [name.to_string(), format!("raw.{name}")];
+        let single = table.named().remove("").into_iter().flatten();
+        let cells = single.flat_map(move |(column, _)| {
+            [format!("{name}.{column}"), format!("raw.{name}.{column}")]
+        });
+        let keys = table.keys().map(move |key| format!("keys.{name}.{key}"));
+        rows.into_iter().chain(cells).chain(keys).collect::<Vec<_>>()
+    };
+    all.flat_map(both).chain(values.tables().flat_map(keys)).collect()
 }
 
-/// `v.name` and `group.name` are marks, `raw.name` and `raw.group.name` plain numbers.
+fn raw(value: &Value) -> Json {
+    match &value.number {
+        Number::Integer(n) => (*n).into(),
+        Number::Real { value, .. } => (*value).into(),
+        Number::Interval { low, high } => vec![*low, *high].into(),
+        Number::Text(text) => text.clone().into(),
+    }
+}
+
+fn mark(value: &Value) -> Json {
+    Mark { id: value.id.clone(), style: Style::default() }.write().into()
+}
+
+/// Puts something under a name with dots into a tree of objects.
+fn put(tree: &mut Json, name: &str, thing: Json) {
+    let place = name.split('.').fold(tree, |tree, part| &mut tree[part]);
+    *place = thing;
+}
+
+/// `v.name` and `group.name` are marks, `raw.name` and `raw.group.name` plain numbers; tables stand beside them.
 fn context(values: &Registry) -> Context {
-    let mut marks: BTreeMap<&str, BTreeMap<&str, String>> = BTreeMap::new();
-    let mut raw: BTreeMap<&str, serde_json::Value> = BTreeMap::new();
+    let (mut marks, mut numbers, mut keys) = (Json::Null, Json::Null, Json::Null);
     let own = values.iter().map(|value| (value.id.as_str(), value));
     let others = values.names().filter_map(|(name, value)| Some((name, value?)));
     for (name, value) in own.chain(others) {
-        let number = match &value.number {
-            Number::Integer(n) => (*n).into(),
-            Number::Real { value, .. } => (*value).into(),
-            Number::Interval { low, high } => vec![*low, *high].into(),
-            Number::Text(text) => text.clone().into(),
+        let group = if name.contains('.') { "" } else { "v." };
+        put(&mut marks, &format!("{group}{name}"), mark(value));
+        put(&mut numbers, name, raw(value));
+    }
+    for table in values.tables() {
+        let rows = |of: fn(&Value) -> Json| {
+            let row = |cells: BTreeMap<&str, &Value>| {
+                cells.into_iter().map(|(column, cell)| (column.to_string(), of(cell))).collect()
+            };
+            let mut rows: BTreeMap<String, Json> =
+                table.named().into_iter().map(|(name, cells)| (name, row(cells))).collect();
+            // A table of one row without keys is that row.
+            rows.remove("").unwrap_or_else(|| rows.into_iter().collect())
         };
-        let mark = Mark { id: value.id.clone(), style: Style::default() }.write();
-        match name.split_once('.') {
-            None => {
-                marks.entry("v").or_default().insert(name, mark);
-                raw.insert(name, number);
-            }
-            Some((group, name)) => {
-                marks.entry(group).or_default().insert(name, mark);
-                raw.entry(group).or_insert_with(|| serde_json::json!({}))[name] = number;
-            }
+        put(&mut marks, table.name(), rows(mark));
+        put(&mut numbers, table.name(), rows(raw));
+        for key in table.keys() {
+            let values: Vec<String> = table.values(key).iter().map(f64::to_string).collect();
+            put(&mut keys, &format!("{}.{key}", table.name()), values.into());
         }
     }
     let mut context = Context::new();
-    for (group, names) in marks {
-        context.insert(group.to_string(), &names);
+    for (group, names) in marks.as_object().into_iter().flatten() {
+        context.insert(group.clone(), names);
     }
-    context.insert("raw", &raw);
+    context.insert("raw", &numbers);
+    context.insert("keys", &keys);
     context
 }
 

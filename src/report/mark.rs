@@ -16,6 +16,9 @@ const OPEN: char = '\u{e000}';
 const CLOSE: char = '\u{e001}';
 const NEXT: char = '\u{e002}';
 
+/// Brackets of an address, into which Markdown would read a link.
+const BRACKETS: [(&str, &str); 2] = [("[", "\u{e008}"), ("]", "\u{e009}")];
+
 /// Does a mark end with this character?
 pub fn ends(c: char) -> bool {
     c == CLOSE
@@ -24,7 +27,8 @@ pub fn ends(c: char) -> bool {
 impl Mark {
     /// The mark as text.
     pub fn write(&self) -> String {
-        let mut out = format!("{OPEN}{}", self.id);
+        let id = BRACKETS.iter().fold(self.id.clone(), |id, (own, kept)| id.replace(own, kept));
+        let mut out = format!("{OPEN}{id}");
         let mut flag = |text: String| {
             out.push(NEXT);
             out.push_str(&text);
@@ -53,6 +57,7 @@ impl Mark {
         let inner = text.strip_prefix(OPEN)?.strip_suffix(CLOSE)?;
         let mut parts = inner.split(NEXT);
         let id = parts.next()?.to_string();
+        let id = BRACKETS.iter().fold(id, |id, (own, kept)| id.replace(kept, own));
         let mut style = Style::default();
         for flag in parts {
             let number = |prefix: &str| flag.strip_prefix(prefix)?.parse().ok();

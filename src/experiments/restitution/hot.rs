@@ -13,10 +13,9 @@
 use crate::numerics::quadrature::GaussLegendre;
 use crate::params::Chain;
 use pxfm::{f_cbrt, f_exp};
-use serde::{Deserialize, Serialize};
 
 /// A hot chain without loss, in one window.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hot {
     /// Impacts per unit of time, in the mean over the window.
     pub rate: f64,

@@ -3,86 +3,25 @@
 //! One kind of run serves all three. A curve is run at each σ through a transient and a window; a
 //! chain that is watched while it heats goes through windows of which each is as long as all before.
 
-mod hot;
-pub(crate) mod joining;
+pub mod hot;
 mod run;
+pub mod tables;
 
-pub use hot::{Hot, hot, steady};
+use hot::hot;
 
 use super::cutting::{Cutting, Row, Unit};
 use super::progress::Stage;
 use super::{Error, Progress, weights};
-use crate::numerics::statistics::Estimate;
 use crate::params::{Chain, RestitutionParams};
 use serde::{Deserialize, Serialize};
 
-/// Chains of several restitutions.
+/// What was run: for each row its realisations, none where the engine gave up.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Restitution {
-    /// What was run.
+    /// The sizes.
     pub parameters: RestitutionParams,
-    /// One for each r of the curves, rising.
-    pub curves: Vec<Curve>,
-    /// σ of half height at the highest r less that at the lowest, of the same random numbers.
-    pub shift: Option<Estimate>,
-    /// For each σ of the curves, the share of gaps whose force can press them shut, |ΔF| > d ω², if
-    /// amplitudes are normal.
-    pub able_expected: Vec<f64>,
-    /// (σ, that share), to be drawn.
-    pub able_drawn: Vec<[f64; 2]>,
-    /// Chains that are watched while they heat, by rising r.
-    pub heated: Vec<Ensemble>,
-    /// What is expected of the last of these, for each of its windows.
-    pub hot: Vec<Hot>,
-    /// The exponent a of impacts per unit of time ∝ tᵃ over the last windows, for each of these.
-    pub exponents: Vec<Option<Estimate>>,
-}
-
-/// All σ at one restitution.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Curve {
-    /// The restitution r.
-    pub restitution: f64,
-    /// σ at which the mean count of all chains passes half of all gaps.
-    pub half_height: Option<Estimate>,
-    /// s²/σ² that the balance of rare impacts lets expect.
-    pub balanced: f64,
-    /// One for each σ, rising.
-    pub rows: Vec<Ensemble>,
-}
-
-/// One ensemble.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Ensemble {
-    /// Standard deviation σ of the amplitudes.
-    pub sigma: f64,
-    /// Restitution r.
-    pub restitution: f64,
-    /// What each realisation showed.
-    pub runs: Vec<Run>,
-    /// Mean number of different gaps with an impact in the last window.
-    pub count: Option<Estimate>,
-    /// Impacts per unit of time in each window.
-    pub rates: Vec<Option<Estimate>>,
-    /// s²/σ² at the end of each window: the mean over all masses of half the sum of squares of both
-    /// free amplitudes, over σ².
-    pub ratios: Vec<Option<Estimate>>,
-    /// 2 ⟨V F⟩ / ((1 − r) ⟨V²⟩) over the impacts of two masses in the last window; none at r = 1.
-    pub balance: Option<Estimate>,
-    /// Contact phases begun in the last window over the impacts in it.
-    pub phases: Option<Estimate>,
-    /// Share of the gaps that are in contact at some time of the last window.
-    pub touched: Option<Estimate>,
-    /// Share of the time that a gap is in contact, in the last window.
-    pub held: Option<Estimate>,
-    /// Gaps whose own force can press them shut, |ΔF| > d ω², over all realisations ...
-    pub able: u64,
-    /// ... the number of them in contact at some time of the last window ...
-    pub able_touched: u64,
-    /// ... and that of the others, which only a neighbour can press.
-    pub others_touched: u64,
-    /// Realisations that the engine ended early.
-    pub failed: usize,
+    /// First the curves, r by r and σ by σ, then the chains that are watched while they heat, by rising r.
+    pub rows: Vec<Part>,
 }
 
 /// One realisation.
@@ -127,7 +66,7 @@ pub type Part = Vec<Option<Run>>;
 
 /// The experiment in units of work.
 pub const CUTTING: Cutting<RestitutionParams, Part, Restitution> =
-    Cutting { rows, part, fits, join: joining::join };
+    Cutting { rows, part, fits, join };
 
 /// All ensembles: the curves, r by r, and those that are watched while they heat.
 fn cases(parameters: &RestitutionParams) -> Vec<Case> {
@@ -148,6 +87,15 @@ fn cases(parameters: &RestitutionParams) -> Vec<Case> {
     };
     let curves = parameters.restitutions.iter().flat_map(curve);
     curves.chain(parameters.heated.iter().map(heated)).collect()
+}
+
+fn join(
+    parameters: &RestitutionParams,
+    parts: Vec<Vec<Part>>,
+    _: &Progress,
+) -> Result<Restitution, Error> {
+    let rows = parts.into_iter().map(|parts| parts.concat()).collect();
+    Ok(Restitution { parameters: parameters.clone(), rows })
 }
 
 fn chain(parameters: &RestitutionParams, restitution: f64) -> Chain {

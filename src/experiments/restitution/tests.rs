@@ -1,7 +1,12 @@
+use super::hot::hot;
+use super::tables::{able, tables};
 use super::*;
 use crate::dynamics::Scenario;
+use crate::numerics::quadrature::GaussLegendre;
 use crate::numerics::random::NormalPairs;
 use crate::params::{Profile, Protocol};
+use crate::table::Table;
+use pxfm::{f_cbrt, f_exp, f_lgamma, f_log};
 
 fn small() -> RestitutionParams {
     let mut parameters = RestitutionParams::new(Profile::Quick);
@@ -15,21 +20,29 @@ fn small() -> RestitutionParams {
     parameters
 }
 
+fn found(parameters: &RestitutionParams) -> (Restitution, [Table; 5]) {
+    let found = CUTTING.run(parameters, "test", &Progress::silent()).unwrap();
+    let tables = tables(&found).try_into().unwrap();
+    (found, tables)
+}
+
 #[test]
 fn only_a_force_that_presses_makes_contact_without_neighbours() {
-    let found = CUTTING.run(&small(), "test", &Progress::silent()).unwrap();
-    let [soft, hard] = &found.curves[..] else { panic!() };
-    let [quiet, _, strong] = &soft.rows[..] else { panic!() };
-    assert_eq!((quiet.able, quiet.able_touched, quiet.others_touched), (0, 0, 0));
-    assert!(strong.able > 0 && strong.able_touched > 0, "{strong:?}");
-    let held = strong.held.unwrap().value;
-    assert!(held > 0.0 && held < strong.touched.unwrap().value, "{held}");
+    let (_, [rise, ..]) = found(&small());
+    let of = |r: f64, sigma: f64, column: &str| {
+        rise.number(&[("r", r), ("sigma", sigma)], column).unwrap()
+    };
+    assert_eq!((of(0.0, 0.03, "able"), of(0.0, 0.03, "touched")), (0.0, 0.0));
+    assert!(of(0.0, 0.6, "able") > 0.0 && of(0.0, 0.6, "able_touched") > 0.0);
+    let held = of(0.0, 0.6, "share_of_time");
+    assert!(held > 0.0 && held < of(0.0, 0.6, "share_in_contact"), "{held}");
     // Forces are common to all r, and at r = 0.8 no chatter ends before the pressure does.
-    assert_eq!(strong.able, hard.rows[2].able);
-    assert!(hard.rows[2].able_touched <= strong.able_touched);
+    assert_eq!(of(0.0, 0.6, "able"), of(0.8, 0.6, "able"));
+    assert!(of(0.8, 0.6, "able_touched") <= of(0.0, 0.6, "able_touched"));
     // 78 gaps at σ = 0.6, of which half can be pressed.
-    let share = strong.able as f64 / 78.0;
-    assert!((share - found.able_expected[2]).abs() < 0.3, "{share} {:?}", found.able_expected);
+    assert_eq!(of(0.0, 0.6, "gaps"), 78.0);
+    let share = of(0.0, 0.6, "able") / 78.0;
+    assert!((share - of(0.0, 0.6, "share_able")).abs() < 0.3, "{share}");
 }
 
 #[test]
@@ -47,15 +60,122 @@ fn a_gap_is_pressed_by_the_difference_of_its_forces() {
 
 #[test]
 fn energy_is_balanced_below_one_and_grows_at_one() {
-    let found = CUTTING.run(&small(), "test", &Progress::silent()).unwrap();
-    let tame = &found.curves[1].rows[1];
-    let balance = tame.balance.unwrap();
-    assert!((balance.value - 1.0).abs() < 0.25, "{balance:?}");
-    let [near, one] = &found.heated[..] else { panic!() };
-    assert!(near.balance.is_some() && one.balance.is_none());
-    let last = |row: &Ensemble| row.ratios[2].unwrap().value;
-    assert!(last(one) > 1.5 * last(near), "{} {}", last(one), last(near));
-    assert!(found.curves[0].balanced == 2.0 && (found.curves[1].balanced - 18.0).abs() < 1e-12);
+    let (_, [rise, curves, heating, heated, _]) = found(&small());
+    let balance = rise.number(&[("r", 0.8), ("sigma", 0.3)], "balance").unwrap();
+    assert!((balance - 1.0).abs() < 0.25, "{balance}");
+    let last = |r| heating.number(&[("r", r), ("window_end", 100.0)], "variance_ratio").unwrap();
+    assert!(last(1.0) > 1.5 * last(0.9), "{} {}", last(1.0), last(0.9));
+    assert_eq!(curves.number(&[("r", 0.0)], "balanced").unwrap(), 2.0);
+    assert!((curves.number(&[("r", 0.8)], "balanced").unwrap() - 18.0).abs() < 1e-12);
+    // No state is steady at r = 1.
+    assert!(heated.number(&[("r", 1.0)], "variance_ratio_balanced").is_err());
+    assert!(heated.number(&[("r", 1.0)], "variance_ratio_steady").is_err());
+}
+
+/// Runs that are made up, so that means, ratios and half heights are known.
+#[test]
+fn tables_follow_from_the_runs_as_by_hand() {
+    let mut parameters = small();
+    parameters.restitutions = vec![0.5, 0.8];
+    parameters.sigmas = vec![0.1, 0.2];
+    parameters.realisations = 2;
+    parameters.heated = vec![0.9];
+    let run = |distinct, impacts: &[u64]| {
+        let impacts = impacts.to_vec();
+        let free = vec![0.12; impacts.len()];
+        Some(Run {
+            distinct,
+            impacts,
+            free,
+            products: 1.5,
+            squares: 4.0,
+            looks: 1,
+            ..Run::default()
+        })
+    };
+    // 13 gaps: half is 6.5. Means 1 and 12 at r = 0.5, 5.5 and 6.5 at r = 0.8.
+    let row = |a, b| vec![run(a, &[0, 3]), run(b, &[9, 6])];
+    let rows = vec![
+        row(0, 2),
+        row(11, 13),
+        row(5, 6),
+        row(6, 7),
+        vec![run(1, &[50, 100, 400]), run(1, &[50, 100, 400])],
+    ];
+    let made = Restitution { parameters: parameters.clone(), rows };
+    let [rise, curves, heating, heated, all] = tables(&made).try_into().unwrap();
+    let near =
+        |own: f64, expected: f64| assert!((own - expected).abs() < 1e-12, "{own} {expected}");
+    let keys = [("r", 0.5), ("sigma", 0.1)];
+    near(rise.number(&keys, "mean_count").unwrap(), 1.0);
+    near(rise.number(&keys, "impacts").unwrap(), 4.5 / 60.0);
+    near(rise.number(&keys, "balance").unwrap(), 3.0 / (0.25 * 8.0));
+    near(rise.number(&keys, "variance_ratio").unwrap(), 0.12 / (12.0 * 0.01));
+    near(curves.number(&[("r", 0.5)], "half_height").unwrap(), 0.1 + 0.1 * 5.5 / 11.0);
+    near(curves.number(&[("r", 0.8)], "half_height").unwrap(), 0.2);
+    near(all.number(&[], "shift").unwrap(), 0.05);
+    let at = |end: f64| heating.number(&[("r", 0.9), ("window_end", end)], "impacts").unwrap();
+    [(25.0, 2.0), (50.0, 4.0), (100.0, 8.0)]
+        .into_iter()
+        .for_each(|(end, rate)| near(at(end), rate));
+    near(heated.number(&[("r", 0.9)], "exponent").unwrap(), 1.0);
+}
+
+/// Equal steps of ln t: the slope by least squares from the differences of all pairs, each weighed by its distance.
+#[test]
+fn an_exponent_by_pairs() {
+    let (_, [.., heating, heated, _]) = found(&small());
+    let points = heating.points(&[("r", 0.9)], "window_end", "impacts");
+    let points: Vec<_> = points[1..].iter().map(|(t, rate)| (f_log(*t), f_log(*rate))).collect();
+    let (mut above, mut below) = (0.0, 0.0);
+    for (x, y) in &points {
+        for (other, height) in &points {
+            above += (x - other) * (y - height);
+            below += (x - other) * (x - other);
+        }
+    }
+    let found = heated.number(&[("r", 0.9)], "exponent").unwrap();
+    assert!((found - above / below).abs() < 1e-12, "{found} {}", above / below);
+}
+
+/// Amplitudes of a difference of forces follow the law of Rayleigh.
+#[test]
+fn gaps_that_can_be_pressed_by_quadrature() {
+    let parameters = small();
+    let rule = GaussLegendre::new(16);
+    for sigma in [0.2, 0.6] {
+        let above = |scale: f64| {
+            let density = |x: f64| x / (scale * scale) * f_exp(-0.5 * (x / scale) * (x / scale));
+            rule.integrate_panels(1.0, 1.0 + 12.0 * scale, 32, density)
+        };
+        let by_hand = (11.0 * above(sigma * std::f64::consts::SQRT_2) + 2.0 * above(sigma)) / 13.0;
+        let found = able(&parameters, sigma);
+        assert!((found / by_hand - 1.0).abs() < 1e-11, "{found} {by_hand}");
+    }
+}
+
+/// ω = d = 1 and the density exp(−|v|³/c), c = 9 σ² t/2: the mean distance over pairs, and the second moment as
+/// a ratio of values of Γ.
+#[test]
+fn hot_chains_by_other_integrals() {
+    let chain = crate::params::Chain::default();
+    let rule = GaussLegendre::new(16);
+    let weight = |x: f64| f_exp(-x * x * x);
+    let all = f_exp(f_lgamma(1.0 / 3.0)) / 3.0;
+    // Of equal signs |x − y|, of unequal ones x + y: together the larger of both.
+    let below = |x: f64| weight(x) * rule.integrate_panels(0.0, x, 32, |y| x * weight(y));
+    let distance = 2.0 * rule.integrate_panels(0.0, 4.0, 32, below) / (all * all);
+    for (begin, end) in [(0.0, 25.0), (400.0, 800.0)] {
+        let (sigma, found) = (0.3, hot(&chain, 0.3, begin, end));
+        // t = x³ takes the root out of the integrand.
+        let times = rule.integrate_panels(f_cbrt(begin), f_cbrt(end), 1, |x| 3.0 * x * x * x);
+        let mean = times / (end - begin);
+        let rate = chain.gaps() as f64 * 0.5 * distance * mean * f_cbrt(4.5 * sigma * sigma);
+        assert!((found.rate / rate - 1.0).abs() < 1e-9, "{} {rate}", found.rate);
+        let scale = f_exp(2.0 / 3.0 * f_log(4.5 * sigma * sigma * end));
+        let ratio = 0.5 * scale / f_exp(f_lgamma(1.0 / 3.0)) / (sigma * sigma);
+        assert!((found.ratio / ratio - 1.0).abs() < 1e-9, "{} {ratio}", found.ratio);
+    }
 }
 
 #[test]
@@ -92,11 +212,10 @@ fn hot_masses_diffuse_as_the_law_says() {
 fn work_is_guessed_within_a_factor_of_a_few() {
     let parameters =
         RestitutionParams { realisations: 2, ..RestitutionParams::new(Profile::Quick) };
-    let found = CUTTING.run(&parameters, "test", &Progress::silent()).unwrap();
-    let rows = found.curves.iter().flat_map(|curve| &curve.rows).chain(&found.heated);
-    for (row, case) in rows.zip(cases(&parameters)) {
-        let impacts: u64 = row.runs.iter().flat_map(|run| &run.impacts).sum();
-        let (own, guess) = (impacts / row.runs.len() as u64, weight(&parameters, &case));
+    let (found, _) = found(&parameters);
+    for (row, case) in found.rows.iter().zip(cases(&parameters)) {
+        let impacts: u64 = row.iter().flatten().flat_map(|run| &run.impacts).sum();
+        let (own, guess) = (impacts / row.len() as u64, weight(&parameters, &case));
         let room = 4;
         assert!(own < 5000 || own < room * guess && guess < room * own, "{case:?}: {own} {guess}");
     }

@@ -3,7 +3,7 @@
 use super::{Error, chosen, estimate, from, mark};
 use crate::experiments::heat::{Heat, Warmth};
 use crate::experiments::{Results, heat};
-use crate::params::{Chain, HeatParams, PRINTED_THRESHOLD};
+use crate::params::{HeatParams, PRINTED_THRESHOLD};
 use crate::report::values::{Value, cell, origin};
 use serde::Serialize;
 
@@ -31,15 +31,6 @@ const COLUMNS: [&str; 4] = ["p", "rest", "balanced", "measured"];
 
 fn probabilities(row: &Warmth) -> [f64; 4] {
     [row.p, row.p_rest, row.p_balanced, row.p_measured]
-}
-
-/// The id of what the balance gives for a restitution of which the text speaks.
-pub(super) fn expected(restitution: f64) -> Option<&'static str> {
-    match restitution {
-        _ if restitution == Chain::default().restitution => Some("heat_expected"),
-        RESTITUTION => Some("heat_other_expected"),
-        _ => None,
-    }
 }
 
 /// The ids of the probabilities that the text gives.

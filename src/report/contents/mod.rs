@@ -4,7 +4,7 @@
 //! compiler gives ([`super::values::origin`]). Groups
 //! are `v` (ours), `paper` (numbers that the paper chose), `printed` (numbers in its statements), and
 //! one for the cells of each table: `readings`, `compare`, `protocol`, `protocols`, `long`, `nucleation`, `spread`, `course`, `fronts`, `growth`, `heat`,
-//! `scores`, `history`, `independence`, `orbits`, `restitution`, `chains`, `sizes`, `starts`, `bias` and `carried`.
+//! `scores`, `history`, `independence`, `orbits`, `chains`, `sizes`, `starts`, `bias` and `carried`.
 
 mod accuracy;
 mod carried;
@@ -24,7 +24,6 @@ mod orbits;
 mod paper;
 mod protocol;
 mod protocols;
-mod restitution;
 mod scores;
 mod simulation;
 mod sizes;
@@ -64,7 +63,7 @@ pub enum Error {
 pub type Section = fn(&Results) -> Result<Vec<Value>, Error>;
 
 /// All values but what the paper printed, in the order of the report.
-pub const SECTIONS: [Section; 24] = [
+pub const SECTIONS: [Section; 23] = [
     simulation::values,
     theory::values,
     comparison::values,
@@ -84,7 +83,6 @@ pub const SECTIONS: [Section; 24] = [
     history::values,
     independence::values,
     orbits::values,
-    restitution::values,
     chains::values,
     sizes::values,
     carried::values,
@@ -101,6 +99,7 @@ pub fn registry(results: &Results, published: &Published) -> Result<Registry, Er
     for section in SECTIONS {
         registry.extend(section(results)?)?;
     }
+    results.tables().values().try_for_each(|table| registry.add_table(table.clone()))?;
     let lost =
         registry.names().find(|(_, value)| value.is_none()).map(|(name, _)| name.to_string());
     match lost {
@@ -147,7 +146,6 @@ pub fn rows(
         ("independence_table", serde_json::to_value(independence::table(results)?)?),
         ("orbits_table", serde_json::to_value(orbits::table(results)?)?),
         ("orbits_fig6", serde_json::to_value(orbits::fig6(results)?)?),
-        ("restitution_table", serde_json::to_value(restitution::table(results)?)?),
         ("chains_lengths", serde_json::to_value(chains::lengths_table(results)?)?),
         ("sizes_heads", serde_json::to_value(sizes::heads(results)?)?),
         ("sizes_table", serde_json::to_value(sizes::table(results)?)?),

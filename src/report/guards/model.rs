@@ -163,33 +163,6 @@ pub fn rayleigh_above(height: f64, scale: f64) -> f64 {
     RULE.integrate_panels(height, height + 12.0 * scale, PANELS, density)
 }
 
-/// Impacts of one gap per unit of time between two times in a hot chain without loss, ω = d = 1: half
-/// the mean distance of velocities with the density exp(−|v|³/c), c = 9 σ² t/2, over pairs and times.
-pub fn hot_rate(sigma: f64, begin: f64, end: f64) -> f64 {
-    static KNOWN: Known<(), f64> = Known::new();
-    let distance = KNOWN.get((), || {
-        let weight = |x: f64| f_exp(-x * x * x);
-        let all = f_exp(f_lgamma(1.0 / 3.0)) / 3.0;
-        // Of equal signs |x − y|, of unequal ones x + y: together the larger of both.
-        let below = |x: f64| {
-            let inner = |y: f64| x * weight(y);
-            weight(x) * RULE.integrate_panels(0.0, x, PANELS, inner)
-        };
-        2.0 * RULE.integrate_panels(0.0, 4.0, PANELS, below) / (all * all)
-    });
-    // t = x³ takes the root out of the integrand.
-    let root = |t: f64| pxfm::f_cbrt(t);
-    let mean =
-        RULE.integrate_panels(root(begin), root(end), 1, |x| 3.0 * x * x * x) / (end - begin);
-    0.5 * distance * mean * pxfm::f_cbrt(4.5 * sigma * sigma)
-}
-
-/// ⟨v²⟩/(2 σ²) of the same at one time: the second moment is a ratio of values of Γ.
-pub fn hot_ratio(sigma: f64, time: f64) -> f64 {
-    let scale = f_exp(2.0 / 3.0 * f_log(4.5 * sigma * sigma * time));
-    0.5 * scale / f_exp(f_lgamma(1.0 / 3.0)) / (sigma * sigma)
-}
-
 /// One of so many independent gaps, each with this probability.
 pub fn any(p: f64, gaps: f64) -> f64 {
     1.0 - f_exp(gaps * f_log(1.0 - p))

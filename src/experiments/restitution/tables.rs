@@ -1,0 +1,288 @@
+//! What follows from the runs.
+
+use super::super::estimates::{average, half_height, jackknife, ratio};
+use super::hot::{hot, steady};
+use super::{Case, Restitution, Run, cases, chain};
+use crate::circuits::balance::variance_ratio;
+use crate::numerics::regression::line;
+use crate::numerics::statistics::{Estimate, last_rise};
+use crate::params::RestitutionParams;
+use crate::table::Table;
+use pxfm::{f_exp, f_log};
+
+/// Windows at the end over which an exponent is fitted.
+const LAST: usize = 4;
+
+/// One ensemble.
+struct Row<'a> {
+    parameters: &'a RestitutionParams,
+    case: Case,
+    runs: Vec<&'a Run>,
+}
+
+/// All tables.
+pub fn tables(found: &Restitution) -> Vec<Table> {
+    let parameters = &found.parameters;
+    let row = |(case, part)| -> Row<'_> {
+        let part: &Vec<Option<Run>> = part;
+        Row { parameters, case, runs: part.iter().flatten().collect() }
+    };
+    let rows: Vec<Row<'_>> = cases(parameters).into_iter().zip(&found.rows).map(row).collect();
+    let (rise, heated) = rows.split_at(parameters.restitutions.len() * parameters.sigmas.len());
+    let curves: Vec<&[Row<'_>]> = rise.chunks(parameters.sigmas.len()).collect();
+    vec![
+        rise_table(rise),
+        curve_table(&curves),
+        heating_table(heated),
+        heated_table(heated),
+        totals(parameters, rise),
+    ]
+}
+
+/// Each (r, σ), in the window after the transient.
+fn rise_table(rows: &[Row<'_>]) -> Table {
+    Table::of("restitution.rise", rows, Row::realisations)
+        .key("r", "1", |row| row.case.restitution)
+        .key("sigma", "d omega^2", |row| row.case.sigma)
+        .estimate("mean_count", "1", "different gaps with an impact", |row| {
+            row.mean(|run| run.distinct as f64)
+        })
+        .estimate("variance_ratio", "1", VARIANCE_RATIO, |row| row.variance_ratio(row.last()))
+        .real("variance_ratio_steady", "1", 2, STEADY, |row| {
+            steady(&chain(row.parameters, row.case.restitution), row.case.sigma)
+        })
+        .estimate(
+            "balance",
+            "1",
+            "2 ⟨V F⟩ / ((1 − r) ⟨V²⟩) over the impacts of two masses; none at r = 1",
+            |row| row.ratio(|run| [run.products, 0.5 * (1.0 - row.case.restitution) * run.squares]),
+        )
+        .estimate("impacts", "omega", IMPACTS, |row| row.rate(row.last()))
+        .estimate("phases_per_impact", "1", "contact phases over impacts", |row| {
+            row.ratio(|run| [run.phases as f64, run.impacts.last().map_or(0.0, |&n| n as f64)])
+        })
+        .estimate("share_of_time", "1", "share of its time that a gap is in contact", |row| {
+            row.ratio(|run| [run.held as f64, run.looks as f64 * row.gaps()])
+        })
+        .estimate("share_in_contact", "1", "share of gaps in contact at some time", |row| {
+            row.mean(|run| (run.able_touched + run.others_touched) as f64 / row.gaps())
+        })
+        .real("share_able", "1", 3, "expected share of gaps with |ΔF| > d ω²", |row| {
+            able(row.parameters, row.case.sigma)
+        })
+        .count("phases", "contact phases", |row| row.sum(|run| run.phases))
+        .count("gaps", "gaps of all chains", |row| (row.gaps() * row.runs.len() as f64) as u64)
+        .count("able", "gaps that their own force can press shut, |ΔF| > d ω²", |row| {
+            row.sum(|run| run.able)
+        })
+        .count("able_touched", "of these, the gaps in contact at some time", |row| {
+            row.sum(|run| run.able_touched)
+        })
+        .count("touched", "gaps in contact at some time", Row::touched)
+        .done()
+}
+
+const VARIANCE_RATIO: &str = "s²/σ² at the end: mean over all masses of half the sum of squares of both free \
+    amplitudes, over σ²";
+const STEADY: &str = "the same for hot chains that lose little";
+const BALANCED: &str = "the same by the balance of rare impacts";
+const IMPACTS: &str = "impacts per unit of time";
+
+/// Each r.
+fn curve_table(curves: &[&[Row<'_>]]) -> Table {
+    let first = |curve: &&[Row<'_>]| curve.first().map_or(0.0, |row| row.case.restitution);
+    Table::of("restitution.curves", curves, |curve| curve.first().map_or(0, Row::realisations))
+        .key("r", "1", first)
+        .estimate(
+            "half_height",
+            "d omega^2",
+            "σ where the mean count of all chains passes half of all gaps",
+            |curve| {
+                let counts: Vec<Vec<u64>> = curve.iter().map(Row::counts).collect();
+                let counts: Vec<&[u64]> = counts.iter().map(Vec::as_slice).collect();
+                let parameters = curve.first()?.parameters;
+                half_height(&parameters.sigmas, &counts, half(parameters))
+            },
+        )
+        .real("balanced", "1", 2, BALANCED, |curve| curve.first().map_or(f64::NAN, Row::balanced))
+        .done()
+}
+
+/// Chains that are watched while they heat, in each window.
+fn heating_table(heated: &[Row<'_>]) -> Table {
+    let windows = |row| (0..Row::ends(row).len()).map(move |window| (row, window));
+    let rows: Vec<(&Row<'_>, usize)> = heated.iter().flat_map(windows).collect();
+    let lossless = |(row, window): &(&Row<'_>, usize)| {
+        let begin = window.checked_sub(1).map_or(0.0, |before| row.ends()[before]);
+        hot(&row.parameters.chain, row.case.sigma, begin, row.ends()[*window])
+    };
+    Table::of("restitution.heating", &rows, |(row, _)| row.realisations())
+        .key("r", "1", |(row, _)| row.case.restitution)
+        .key("window_end", "1/omega", |(row, window)| row.ends()[*window])
+        .estimate("impacts", "omega", IMPACTS, |(row, window)| row.rate(*window))
+        .real("impacts_lossless", "omega", 3, "the same for a hot chain at r = 1", |at| {
+            lossless(at).rate
+        })
+        .estimate("variance_ratio", "1", VARIANCE_RATIO, |(row, window)| {
+            row.variance_ratio(*window)
+        })
+        .real("variance_ratio_lossless", "1", 3, "the same for a hot chain at r = 1", |at| {
+            lossless(at).ratio
+        })
+        .done()
+}
+
+/// The same over all windows.
+fn heated_table(heated: &[Row<'_>]) -> Table {
+    Table::of("restitution.heated", heated, Row::realisations)
+        .key("r", "1", |row| row.case.restitution)
+        .chosen("sigma", "d omega^2", "", |row| Some(row.case.sigma))
+        .count("realisations", "chains", |row| row.case.realisations as u64)
+        .estimate(
+            "exponent",
+            "1",
+            "a of impacts per unit of time ∝ tᵃ, over the last windows",
+            exponent,
+        )
+        .real("variance_ratio_balanced", "1", 2, BALANCED, Row::balanced)
+        .real("variance_ratio_steady", "1", 2, STEADY, |row| {
+            steady(&chain(row.parameters, row.case.restitution), row.case.sigma)
+        })
+        .done()
+}
+
+/// Numbers of all curves together.
+fn totals(parameters: &RestitutionParams, rise: &[Row<'_>]) -> Table {
+    let touched = || rise.iter().filter(|row| row.touched() > 0);
+    let softest = parameters.restitutions.first().copied();
+    Table::of("restitution.all", &[parameters], |own| own.realisations)
+        .count("realisations", "chains at each r and σ", |own| own.realisations as u64)
+        .count("sigmas", "values of σ", |own| own.sigmas.len() as u64)
+        .estimate("shift", "d omega^2", "half height at the last r less that at the first", |_| {
+            shift(parameters, rise)
+        })
+        .count("touched", "gaps in contact at some time, of all chains", |_| {
+            rise.iter().map(Row::touched).sum()
+        })
+        .count(
+            "others_touched",
+            "of these, the ones that their own force cannot press shut",
+            |_| rise.iter().map(|row| row.sum(|run| run.others_touched)).sum(),
+        )
+        .chosen("touched_from", "d omega^2", "the least σ with contact, at the first r", |_| {
+            let mut soft = touched().filter(|row| Some(row.case.restitution) == softest);
+            soft.next().map(|row| row.case.sigma)
+        })
+        .chosen("touched_to", "1", "the largest r with contact", |_| {
+            touched().next_back().map(|row| row.case.restitution)
+        })
+        .done()
+}
+
+fn half(parameters: &RestitutionParams) -> f64 {
+    0.5 * parameters.chain.gaps() as f64
+}
+
+/// The difference of both ends' half heights: each realisation is left out of both together.
+fn shift(parameters: &RestitutionParams, rise: &[Row<'_>]) -> Option<Estimate> {
+    let curve = |at: usize| -> Vec<Vec<u64>> {
+        let sigmas = parameters.sigmas.len();
+        rise.iter().skip(at * sigmas).take(sigmas).map(Row::counts).collect()
+    };
+    let ends = [curve(0), curve(parameters.restitutions.len().saturating_sub(1))];
+    let realisations = ends.iter().flatten().map(Vec::len).min()?;
+    jackknife(realisations, |out| {
+        let place = |rows: &[Vec<u64>]| {
+            let mean = |own: &Vec<u64>| {
+                let kept = own.iter().enumerate().filter(|(at, _)| Some(*at) != out);
+                let (n, sum) = kept.fold((0, 0), |(n, sum), (_, k)| (n + 1, sum + k));
+                (n > 0).then(|| sum as f64 / f64::from(n))
+            };
+            let means: Vec<Option<f64>> = rows.iter().map(mean).collect();
+            last_rise(&parameters.sigmas, &means, half(parameters))
+        };
+        Some(place(&ends[1])? - place(&ends[0])?)
+    })
+}
+
+/// Over the last windows, whose lengths and middles double, ln of the impacts per unit of time grows in
+/// a straight line with ln t if it is a power of t.
+fn exponent(row: &Row<'_>) -> Option<Estimate> {
+    let ends = row.ends();
+    let first = ends.len().saturating_sub(LAST).max(1);
+    jackknife(row.runs.len(), |out| {
+        let point = |place: usize| {
+            let kept = row.runs.iter().enumerate().filter(|(at, _)| Some(*at) != out);
+            let impacts: u64 = kept.map(|(_, run)| run.impacts[place]).sum();
+            let rate = impacts as f64 / (ends[place] - ends[place - 1]);
+            (rate > 0.0).then(|| (f_log(ends[place]), f_log(rate), 1.0))
+        };
+        let points: Option<Vec<_>> = (first..ends.len()).map(point).collect();
+        Some(line(&points?)?.slope)
+    })
+}
+
+/// The share of gaps with |ΔF| > d ω²: the amplitudes of ΔF are normal with the variance 2 σ² between
+/// masses, and σ² at a wall, so that its square over twice that is exponential.
+pub fn able(parameters: &RestitutionParams, sigma: f64) -> f64 {
+    let (d, omega) = (parameters.chain.spacing, parameters.chain.natural_frequency);
+    let least = d * omega * omega / sigma;
+    let (inner, gaps) = (f_exp(-0.25 * least * least), parameters.chain.gaps() as f64);
+    let wall = f_exp(-0.5 * least * least);
+    ((gaps - 2.0) * inner + 2.0 * wall) / gaps
+}
+
+impl Row<'_> {
+    fn realisations(&self) -> usize {
+        self.case.realisations
+    }
+
+    fn gaps(&self) -> f64 {
+        self.parameters.chain.gaps() as f64
+    }
+
+    fn ends(&self) -> &[f64] {
+        &self.case.ends
+    }
+
+    /// The last window.
+    fn last(&self) -> usize {
+        self.case.ends.len() - 1
+    }
+
+    fn mean(&self, of: impl Fn(&Run) -> f64) -> Option<Estimate> {
+        average(&self.runs.iter().map(|run| of(run)).collect::<Vec<_>>())
+    }
+
+    fn ratio(&self, of: impl Fn(&Run) -> [f64; 2]) -> Option<Estimate> {
+        ratio(&self.runs.iter().map(|run| of(run)).collect::<Vec<_>>())
+    }
+
+    fn sum(&self, of: impl Fn(&Run) -> u64) -> u64 {
+        self.runs.iter().map(|run| of(run)).sum()
+    }
+
+    fn counts(&self) -> Vec<u64> {
+        self.runs.iter().map(|run| run.distinct).collect()
+    }
+
+    fn touched(&self) -> u64 {
+        self.sum(|run| run.able_touched + run.others_touched)
+    }
+
+    fn rate(&self, window: usize) -> Option<Estimate> {
+        let begin = window.checked_sub(1).map_or(0.0, |before| self.case.ends[before]);
+        let time = self.case.ends[window] - begin;
+        self.mean(|run| run.impacts[window] as f64 / time)
+    }
+
+    fn variance_ratio(&self, window: usize) -> Option<Estimate> {
+        let heat = self.parameters.chain.masses as f64 * self.case.sigma * self.case.sigma;
+        self.mean(|run| run.free[window] / heat)
+    }
+
+    /// s²/σ² by the balance of rare impacts; not a number at r = 1, where there is none.
+    fn balanced(&self) -> f64 {
+        variance_ratio(&chain(self.parameters, self.case.restitution)).unwrap_or(f64::NAN)
+    }
+}

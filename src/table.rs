@@ -1,0 +1,472 @@
+//! Tables: rows that keys name, and columns that say once what each cell is.
+//!
+//! An experiment saves what its runs gave, and nothing that follows from it. What follows stands in tables:
+//! [`Table::of`] takes one thing for each row, keys are the parameters by which a row is found, and each further
+//! column has a name, a unit, a meaning and the code that computes it. A cell is a [`Value`] from then on, with its
+//! error, digits and origin, under its address: `experiment.table[key=value,…].column`, and without brackets where a
+//! table has one row and no keys. Prose, figures, data files, claims and cards take cells by their addresses or keys,
+//! so no number is computed or named twice. Rows are found by equal keys, never by near ones.
+
+use crate::numerics::statistics::Estimate;
+use crate::value::{Digits, Kind, Number, Value, origin_of};
+use std::collections::BTreeMap;
+
+/// Rows with keys, and columns.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table {
+    name: &'static str,
+    columns: Vec<Column>,
+    /// How many of the columns are keys; they come first.
+    keys: usize,
+    /// For each row its address within the table (`r=0.8,sigma=0.3`), and its cells.
+    rows: Vec<(String, Vec<Value>)>,
+}
+
+/// What all cells below one another are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Column {
+    name: &'static str,
+    /// As data files write it: `d omega^2`, and `1` for a pure number.
+    unit: &'static str,
+}
+
+/// There is no such cell, or it has no number.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "{address}: there is no such number in the results; run a fuller profile, or mend the address in {place}"
+)]
+pub struct Missing {
+    /// What was asked for.
+    address: String,
+    /// File and line that ask.
+    place: String,
+}
+
+/// A table that is being made, of rows R.
+pub struct Building<'a, R> {
+    rows: &'a [R],
+    experiment: &'static str,
+    /// Realisations of a row.
+    number: fn(&R) -> usize,
+    table: Table,
+}
+
+/// Keys of a row, with their values.
+pub type Keys<'a> = &'a [(&'a str, f64)];
+
+/// `experiment.table` of a cell's address; none of what is no address.
+pub fn table_of(address: &str) -> Option<&str> {
+    match address.split_once('[') {
+        Some((table, rest)) => rest.contains("].").then_some(table),
+        None => {
+            address.rsplit_once('.').map(|(table, _)| table).filter(|table| table.contains('.'))
+        }
+    }
+}
+
+impl Table {
+    /// Begins a table `experiment.what` with one row for each of `rows`, of so many realisations.
+    pub fn of<'a, R>(
+        name: &'static str,
+        rows: &'a [R],
+        number: fn(&R) -> usize,
+    ) -> Building<'a, R> {
+        let experiment = name.split('.').next().unwrap_or_default();
+        let empty = rows.iter().map(|_| (String::new(), Vec::new())).collect();
+        let table = Table { name, columns: Vec::new(), keys: 0, rows: empty };
+        Building { rows, experiment, number, table }
+    }
+
+    /// Its name: `experiment.table`.
+    pub fn name(&self) -> &'static str {
+        self.name
+    }
+
+    /// The cell with this address.
+    pub fn at(&self, address: &str) -> Option<&Value> {
+        let mut cells = self.rows.iter().flat_map(|(_, cells)| cells);
+        cells.find(|cell| cell.id == address)
+    }
+
+    fn column(&self, name: &str) -> Option<usize> {
+        self.columns.iter().position(|column| column.name == name)
+    }
+
+    /// Rows with these keys, in order: all that agree where keys are left out.
+    fn select<'a>(&'a self, keys: Keys<'a>) -> impl Iterator<Item = &'a [Value]> {
+        let agrees = move |cells: &[Value]| {
+            let is = |(name, wanted): &(&str, f64)| {
+                self.column(name).and_then(|at| plain(&cells[at])) == Some(*wanted)
+            };
+            keys.iter().all(is)
+        };
+        self.rows.iter().map(|(_, cells)| cells.as_slice()).filter(move |cells| agrees(cells))
+    }
+
+    /// The one cell in the row with these keys.
+    ///
+    /// # Errors
+    /// [`Missing`] with the place of the caller.
+    #[track_caller]
+    pub fn cell<'a>(&'a self, keys: Keys<'a>, column: &str) -> Result<&'a Value, Missing> {
+        let place = std::panic::Location::caller();
+        let cell = self.column(column).and_then(|at| self.select(keys).next()?.get(at));
+        cell.ok_or_else(|| {
+            let keys: Vec<String> =
+                keys.iter().map(|(name, key)| format!("{name}={key}")).collect();
+            let address = format!("{}[{}].{column}", self.name, keys.join(","));
+            Missing { address, place: format!("{}:{}", place.file(), place.line()) }
+        })
+    }
+
+    /// The number of a cell.
+    ///
+    /// # Errors
+    /// [`Missing`] if there is no such cell, or it says that there is no number.
+    #[track_caller]
+    pub fn number<'a>(&'a self, keys: Keys<'a>, column: &str) -> Result<f64, Missing> {
+        let cell = self.cell(keys, column)?;
+        let place = std::panic::Location::caller();
+        let place = format!("{}:{}", place.file(), place.line());
+        plain(cell).ok_or(Missing { address: cell.id.clone(), place })
+    }
+
+    /// The numbers of a column where there are any, each with that of another column.
+    pub fn points(&self, keys: Keys<'_>, x: &str, y: &str) -> Vec<(f64, f64)> {
+        self.estimates(keys, x, y).into_iter().map(|(x, own)| (x, own.value)).collect()
+    }
+
+    /// The same with standard errors, zero where a number has none; the interval is one error to each side.
+    pub fn estimates(&self, keys: Keys<'_>, x: &str, y: &str) -> Vec<(f64, Estimate)> {
+        let Some((x, y)) = self.column(x).zip(self.column(y)) else { return Vec::new() };
+        self.select(keys)
+            .filter_map(|cells| Some((plain(&cells[x])?, estimate(&cells[y])?)))
+            .collect()
+    }
+
+    /// The different values of a column, in order of the rows.
+    pub fn values(&self, column: &str) -> Vec<f64> {
+        let mut found = Vec::new();
+        if let Some(at) = self.column(column) {
+            for value in self.rows.iter().filter_map(|(_, cells)| plain(&cells[at])) {
+                if !found.contains(&value) {
+                    found.push(value);
+                }
+            }
+        }
+        found
+    }
+
+    /// Names of the keys.
+    pub fn keys(&self) -> impl Iterator<Item = &'static str> {
+        self.columns[..self.keys].iter().map(|column| column.name)
+    }
+
+    /// Every way in which a template can name a row, with its cells by column: for a key its value, or
+    /// `first`, `last` and `last-1` of all its values. One empty name where there are no keys.
+    pub fn named(&self) -> BTreeMap<String, BTreeMap<&'static str, &Value>> {
+        let mut found = BTreeMap::new();
+        for (_, cells) in &self.rows {
+            let row: BTreeMap<_, _> =
+                self.columns.iter().map(|column| column.name).zip(cells).collect();
+            let mut names = vec![String::new()];
+            for (at, key) in self.keys().enumerate() {
+                let ways = self.ways(key, &cells[at]);
+                let join = |before: &String, way: &String| match before.as_str() {
+                    "" => format!("{key}={way}"),
+                    before => format!("{before},{key}={way}"),
+                };
+                names = names
+                    .iter()
+                    .flat_map(|name| ways.iter().map(move |way| join(name, way)))
+                    .collect();
+            }
+            found.extend(names.into_iter().map(|name| (name, row.clone())));
+        }
+        found
+    }
+
+    fn ways(&self, key: &str, cell: &Value) -> Vec<String> {
+        let all = self.values(key);
+        let own = plain(cell);
+        let place = all.iter().position(|value| Some(*value) == own).unwrap_or_default();
+        let ends = [("first", 0), ("last", all.len() - 1), ("last-1", all.len().wrapping_sub(2))];
+        let ends =
+            ends.into_iter().filter(|(_, at)| *at == place).map(|(name, _)| name.to_string());
+        own.map(|own| own.to_string()).into_iter().chain(ends).collect()
+    }
+
+    /// Column names with units, and the cells as data files write them: every bit of each number, and a column
+    /// of its own for each standard error.
+    pub fn data(&self) -> (Vec<String>, Vec<Vec<String>>) {
+        let error = |at: usize| {
+            let is =
+                |(_, cells): &(String, Vec<Value>)| matches!(cells[at].kind, Kind::Ensemble { .. });
+            self.rows.iter().any(is)
+        };
+        let (mut header, mut rows) = (Vec::new(), vec![Vec::new(); self.rows.len()]);
+        for (at, Column { name, unit }) in self.columns.iter().enumerate() {
+            header.push(format!("{name} ({unit})"));
+            header.extend(error(at).then(|| format!("{name}_error ({unit})")));
+            for (row, (_, cells)) in rows.iter_mut().zip(&self.rows) {
+                row.push(written(&cells[at].number));
+                row.extend(error(at).then(|| match cells[at].kind {
+                    Kind::Ensemble { standard_error, .. } => format!("{standard_error:?}"),
+                    _ => String::new(),
+                }));
+            }
+        }
+        (header, rows)
+    }
+}
+
+/// The number of a cell; none of words.
+fn plain(cell: &Value) -> Option<f64> {
+    match cell.number {
+        Number::Integer(n) => Some(n as f64),
+        Number::Real { value, .. } => Some(value),
+        Number::Interval { .. } | Number::Text(_) => None,
+    }
+}
+
+fn estimate(cell: &Value) -> Option<Estimate> {
+    let value = plain(cell)?;
+    let error = match cell.kind {
+        Kind::Ensemble { standard_error, .. } => standard_error,
+        _ => 0.0,
+    };
+    Some(Estimate { value, error, interval: [value - error, value + error] })
+}
+
+fn written(number: &Number) -> String {
+    match number {
+        Number::Integer(n) => n.to_string(),
+        Number::Real { value, .. } => format!("{value:?}"),
+        Number::Interval { .. } | Number::Text(_) => String::new(),
+    }
+}
+
+/// A unit as Markdown.
+fn markdown(unit: &str) -> String {
+    match unit {
+        "1" => String::new(),
+        unit => format!("${}$", unit.replace("omega", r"\omega ").replace(" ^", "^").trim_end()),
+    }
+}
+
+/// A number that was chosen, with all its digits: an integer where it is one.
+fn chosen(value: f64) -> Number {
+    if value.fract() == 0.0 && value.abs() < 1e15 {
+        return Number::Integer(value as i64);
+    }
+    let mantissa = format!("{:e}", value.abs());
+    let digits = mantissa.split('e').next().unwrap_or_default();
+    Number::Real {
+        value,
+        digits: Digits::Significant(digits.bytes().filter(u8::is_ascii_digit).count()),
+    }
+}
+
+impl<R> Building<'_, R> {
+    fn put(
+        mut self,
+        (name, unit): (&'static str, &'static str),
+        meaning: &str,
+        item: crate::value::Origin,
+        cell: impl Fn(&R) -> Value,
+    ) -> Self {
+        self.table.columns.push(Column { name, unit });
+        for (row, (_, cells)) in self.rows.iter().zip(&mut self.table.rows) {
+            let cell = cell(row).unit(markdown(unit)).note(meaning);
+            cells.push(cell.source(item.clone(), self.experiment));
+        }
+        self
+    }
+
+    /// A key: a parameter by which rows are found.
+    pub fn key<F: Fn(&R) -> f64>(mut self, name: &'static str, unit: &'static str, of: F) -> Self {
+        assert_eq!(self.table.keys, self.table.columns.len(), "{name}: keys come first");
+        self.table.keys += 1;
+        let cell = |row: &R| {
+            let value = of(row);
+            Value::real("", value, 1).with_number(chosen(value))
+        };
+        self.put((name, unit), "", origin_of::<F>(), cell)
+    }
+
+    /// A number from chance with its standard error, or the word *none* where the sample decides nothing.
+    pub fn estimate<F: Fn(&R) -> Option<Estimate>>(
+        self,
+        name: &'static str,
+        unit: &'static str,
+        meaning: &str,
+        of: F,
+    ) -> Self {
+        let number = self.number;
+        let cell = |row: &R| match of(row) {
+            Some(own) => Value::ensemble("", own.value, own.error, number(row) as u64),
+            None => Value::text("", "none"),
+        };
+        let item = origin_of::<F>();
+        self.put((name, unit), meaning, item, cell)
+    }
+
+    /// A number that no chance has part in, with so many significant digits; *none* if it is not finite.
+    pub fn real<F: Fn(&R) -> f64>(
+        self,
+        name: &'static str,
+        unit: &'static str,
+        digits: usize,
+        meaning: &str,
+        of: F,
+    ) -> Self {
+        let cell = |row: &R| match of(row) {
+            value if value.is_finite() => Value::real("", value, digits),
+            _ => Value::text("", "none"),
+        };
+        let item = origin_of::<F>();
+        self.put((name, unit), meaning, item, cell)
+    }
+
+    /// A parameter, with all its digits, or *none*.
+    pub fn chosen<F: Fn(&R) -> Option<f64>>(
+        self,
+        name: &'static str,
+        unit: &'static str,
+        meaning: &str,
+        of: F,
+    ) -> Self {
+        let cell = |row: &R| match of(row) {
+            Some(value) => Value::real("", value, 1).with_number(chosen(value)),
+            None => Value::text("", "none"),
+        };
+        let item = origin_of::<F>();
+        self.put((name, unit), meaning, item, cell)
+    }
+
+    /// A count, shown as an integer up to a million and with its leading digits beyond.
+    pub fn count<F: Fn(&R) -> u64>(self, name: &'static str, meaning: &str, of: F) -> Self {
+        let cell = |row: &R| match of(row) {
+            n if n < 1_000_000 => Value::integer("", n),
+            n => Value::real("", n as f64, 2),
+        };
+        let item = origin_of::<F>();
+        self.put((name, "1"), meaning, item, cell)
+    }
+
+    /// The table.
+    ///
+    /// # Panics
+    /// If two rows have the same keys.
+    pub fn done(self) -> Table {
+        let mut table = self.table;
+        let columns = table.columns.clone();
+        let mut seen = std::collections::BTreeSet::new();
+        for (name, cells) in &mut table.rows {
+            let keys = columns.iter().zip(&*cells).take(table.keys);
+            let keys: Vec<String> = keys
+                .map(|(key, cell)| format!("{}={}", key.name, plain(cell).unwrap_or(f64::NAN)))
+                .collect();
+            *name = keys.join(",");
+            assert!(seen.insert(name.clone()), "{}: two rows with {name}", table.name);
+            let row = if name.is_empty() { String::new() } else { format!("[{name}]") };
+            for (column, cell) in columns.iter().zip(cells) {
+                cell.id = format!("{}{row}.{}", table.name, column.name);
+            }
+        }
+        table
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn mean(row: &(f64, f64, Vec<f64>)) -> Option<Estimate> {
+        let value = row.2.iter().sum::<f64>() / row.2.len() as f64;
+        (row.2.len() > 1).then_some(Estimate { value, error: 0.5, interval: [value, value] })
+    }
+
+    fn table() -> Table {
+        let rows = [
+            (0.0, 0.1, vec![1.0, 2.0]),
+            (0.0, 0.3, vec![]),
+            (0.8, 0.1, vec![3.0, 5.0]),
+            (0.8, 0.3, vec![7.0, 8.0]),
+        ];
+        Table::of("test.rise", &rows, |row| row.2.len())
+            .key("r", "1", |row| row.0)
+            .key("sigma", "d omega^2", |row| row.1)
+            .estimate("mean", "1", "the mean", mean)
+            .count("runs", "how many", |row| row.2.len() as u64)
+            .real("inverse", "1/omega", 3, "one over r", |row| 1.0 / row.0)
+            .done()
+    }
+
+    #[test]
+    fn a_cell_has_one_address_with_all_that_is_known_of_it() {
+        let table = table();
+        let cell = table.cell(&[("r", 0.8), ("sigma", 0.3)], "mean").unwrap();
+        assert_eq!(cell.id, "test.rise[r=0.8,sigma=0.3].mean");
+        assert_eq!(cell.kind, Kind::Ensemble { realisations: 2, standard_error: 0.5 });
+        assert_eq!(
+            (cell.source.as_str(), cell.experiment.as_str()),
+            ("table::tests::mean", "test")
+        );
+        assert_eq!(cell.note, "the mean");
+        assert_eq!(table.at(&cell.id), Some(cell));
+        assert_eq!(table_of(&cell.id), Some("test.rise"));
+        assert_eq!(table.number(&[("r", 0.8), ("sigma", 0.3)], "mean"), Ok(7.5));
+        // A closure's item is the function in which it stands.
+        let runs = table.cell(&[("r", 0.0), ("sigma", 0.1)], "runs").unwrap();
+        assert_eq!(runs.source, "table::tests::table");
+        let inverse = table.cell(&[("r", 0.8), ("sigma", 0.1)], "inverse").unwrap();
+        assert_eq!(inverse.unit, r"$1/\omega$");
+        assert_eq!(table.cell(&[("sigma", 0.1)], "sigma").unwrap().unit, r"$d \omega^2$");
+    }
+
+    #[test]
+    fn what_is_not_there_is_an_error_with_the_place_that_asks() {
+        let table = table();
+        let lost = table.cell(&[("r", 0.8), ("sigma", 0.30000000000000004)], "mean").unwrap_err();
+        assert_eq!(lost.address, "test.rise[r=0.8,sigma=0.30000000000000004].mean");
+        assert!(lost.place.starts_with("src/table.rs:"), "{}", lost.place);
+        assert!(table.cell(&[("r", 0.8)], "meen").is_err());
+        // There is a cell, and it has no number.
+        assert!(table.number(&[("r", 0.0), ("sigma", 0.3)], "mean").is_err());
+        assert!(table.number(&[("r", 0.0), ("sigma", 0.1)], "inverse").is_err());
+        for no in ["half_height", "v.half_height", "a[b]c"] {
+            assert_eq!(table_of(no), None, "{no}");
+        }
+        assert_eq!(table_of("test.run.shift"), Some("test.run"));
+    }
+
+    #[test]
+    fn rows_have_names_for_templates() {
+        let named = table().named();
+        for name in ["r=0.8,sigma=0.3", "r=last,sigma=0.3", "r=0.8,sigma=last", "r=last,sigma=last"]
+        {
+            assert_eq!(named[name]["mean"].id, "test.rise[r=0.8,sigma=0.3].mean", "{name}");
+        }
+        assert_eq!(named["r=first,sigma=last-1"]["mean"].id, "test.rise[r=0,sigma=0.1].mean");
+        assert_eq!(table().values("r"), [0.0, 0.8]);
+    }
+
+    #[test]
+    fn figures_and_data_take_columns() {
+        let table = table();
+        assert_eq!(table.points(&[("r", 0.0)], "sigma", "mean"), [(0.1, 1.5)]);
+        let found = table.estimates(&[("r", 0.8)], "sigma", "mean");
+        assert_eq!((found.len(), found[1].0, found[1].1.error), (2, 0.3, 0.5));
+        let (header, rows) = table.data();
+        assert_eq!(header[1..4], ["sigma (d omega^2)", "mean (1)", "mean_error (1)"]);
+        assert_eq!(rows[1], ["0", "0.3", "", "", "0", ""]);
+        assert_eq!(rows[3], ["0.8", "0.3", "7.5", "0.5", "2", "1.25"]);
+    }
+
+    #[test]
+    #[should_panic(expected = "two rows with r=1")]
+    fn no_two_rows_have_the_same_keys() {
+        Table::of("test.twice", &[1.0, 1.0], |_| 1).key("r", "1", |row| *row).done();
+    }
+}
