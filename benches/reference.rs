@@ -7,7 +7,7 @@
 //! all masses, rounded to doubles, and the impact that follows. There are at most a thousand,
 //! evenly spaced.
 
-#[path = "../tests/reference/mod.rs"]
+#[path = "../tests/physics/reference/mod.rs"]
 mod reference;
 
 use impact_paper::dynamics::Scenario;

@@ -27,7 +27,7 @@
 //!
 //! To first order a rounding adds at most u = 2⁻⁵³ of what it rounds, times the derivative of the end by it. All that is
 //! rounded is linear in d and the amplitudes, so the sum of the moduli, all signs being the worst, is at most a number times S:
-//! the largest of the coefficients of d, Q₁ and Q₂. `tests/roundings` goes this way on numbers that remember what
+//! the largest of the coefficients of d, Q₁ and Q₂. `tests/physics/roundings` goes this way on numbers that remember what
 //! they were made of, takes the worst direction of each pair of amplitudes, phase, ratio Ω/ω and place of the root in
 //! the reach, and holds the table against it. In units of u S for Δ, and of u S max(ω, Ω) for Δ':
 //!

@@ -1,6 +1,6 @@
 //! The map of README.md: where each section, equation, figure and statement of the paper lives.
 //!
-//! `tests/structure.rs` compares it with the README; with `IMPACT_PAPER_REWRITE=1` in the
+//! `tests/report/structure.rs` compares it with the README; with `IMPACT_PAPER_REWRITE=1` in the
 //! environment that test writes it.
 
 use super::equations::{EQUATIONS, homes};

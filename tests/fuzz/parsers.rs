@@ -3,7 +3,7 @@
 
 #![no_main]
 
-#[path = "../parsers/entries.rs"]
+#[path = "../report/parsers/entries.rs"]
 mod entries;
 
 use entries::{ALL, Parser};

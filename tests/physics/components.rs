@@ -1,0 +1,170 @@
+//! Forcing of several components, Eq. (3), against the reference; and what is refused.
+
+use crate::reference::{Big, Dd, Real, Reference};
+use impact_paper::dynamics::{Engine, Impact, Initial, Overtone, Scenario};
+use impact_paper::numerics::random::NormalPairs;
+use impact_paper::params::{Boundary, Chain, Start};
+
+/// A chain whose components share the mean square displacement that σ = `sigma` gives.
+fn drawn(chain: &Chain, sigma: f64, frequencies: &[f64], index: u64) -> Scenario {
+    let mut normals = NormalPairs::new("components", 1, index);
+    let mut scenario = Scenario::draw(chain, sigma, &mut normals);
+    let w = scenario.natural_frequency;
+    let share = sigma / (frequencies.len() as f64).sqrt();
+    let mut component = |frequency: f64| -> Vec<[f64; 2]> {
+        let size = share * (w * w - frequency * frequency).abs();
+        (0..chain.masses).map(|_| normals.pair().map(|x| size * x)).collect()
+    };
+    scenario.forcing_frequency = frequencies[0];
+    scenario.forcing = component(frequencies[0]);
+    scenario.overtones = frequencies[1..]
+        .iter()
+        .map(|&frequency| Overtone { frequency, amplitudes: component(frequency) })
+        .collect();
+    scenario
+}
+
+fn trace(scenario: &Scenario, until: f64) -> Vec<Impact> {
+    let mut impacts = Vec::new();
+    let mut engine = Engine::new(scenario).unwrap();
+    engine
+        .run(until, |impact| {
+            impacts.push(impact);
+            true
+        })
+        .unwrap();
+    impacts
+}
+
+/// Eight incommensurable frequencies on both sides of ω = 1.
+const EIGHT: [f64; 8] = [std::f64::consts::SQRT_2, 0.3, 0.618, 0.9, 1.17, 2.23, 3.7, 5.1];
+
+#[test]
+fn two_and_eight_components_have_the_impacts_of_the_reference() {
+    let chain = |masses| Chain { masses, ..Chain::default() };
+    let cases = [
+        (chain(12), 0.3, &EIGHT[..2], 60.0),
+        (chain(5), 0.3, &EIGHT[..], 30.0),
+        (Chain { start: Start::Zero, ..chain(4) }, 0.35, &EIGHT[..], 30.0),
+        (Chain { boundary: Boundary::Ring, restitution: 0.3, ..chain(8) }, 0.5, &EIGHT[1..4], 60.0),
+        (Chain { natural_frequency: 1.3, spacing: 2.0, ..chain(6) }, 1.0, &[0.7, 2.9], 40.0),
+    ];
+    let (mut worst, mut early_ones): (f64, usize) = (0.0, 0);
+    for (i, (chain, sigma, frequencies, until)) in cases.into_iter().enumerate() {
+        // The first that starts without overlap and is not too quiet.
+        let busy = |scenario: &Scenario| {
+            Engine::new(scenario).is_ok() && trace(scenario, until).len() > 30
+        };
+        let mut draws = (0..50).map(|index| drawn(&chain, sigma, frequencies, index));
+        let scenario = draws.find(busy).expect("a busy chain");
+        let (ours, theirs) =
+            (trace(&scenario, until), Reference::<Dd>::new(&scenario).run(until).unwrap());
+        let few = theirs.iter().filter(|hit| hit.time.near() < 4.0).count();
+        println!("case {i}: {} impacts, {few} of them early", theirs.len());
+        early_ones += few;
+        assert_eq!(ours.len(), theirs.len(), "case {i}");
+        for (a, b) in ours.iter().zip(&theirs) {
+            assert_eq!(a.gap, b.gap, "case {i} at t = {}", a.time);
+            let error = (Dd::of(a.time) - b.time).near().abs();
+            let speed = (Dd::of(a.closing_speed) - b.closing_speed).near().abs();
+            assert!(error < 1e-9 && speed < 1e-8, "case {i}: {a:?} {error:e} {speed:e}");
+            // Before chaos has had time, all digits are right.
+            let early = a.time > 4.0 || error * b.closing_speed.near() < 4e-14;
+            assert!(early, "case {i}: {a:?} {error:e}");
+            worst = worst.max(error);
+        }
+    }
+    println!("largest error of a time: {worst:.1e}");
+    assert!(early_ones > 10, "{early_ones}");
+}
+
+#[test]
+fn every_component_keeps_its_phase() {
+    let scenario = drawn(&Chain { masses: 4, ..Chain::default() }, 0.03, &EIGHT, 0);
+    let mut engine = Engine::new(&scenario).unwrap();
+    for t in [1.0, 1e4 + 0.3, 1e8 + 0.1, 1e12 - 0.7] {
+        engine.run(t, |_| true).unwrap();
+        let exact = Reference::<Big>::new(&scenario).state(&Big::of(t));
+        for (j, (x, [u, _])) in engine.positions(t).into_iter().zip(&exact).enumerate() {
+            let error = (Big::of(x) - Big::of((j + 1) as f64) - u.clone()).near().abs();
+            assert!(error < 4.0 * f64::EPSILON * x, "mass {j} at {t}: {error:e}");
+        }
+    }
+    assert_eq!(engine.counters().impacts, 0, "the phases are looked at in one flight");
+}
+
+#[test]
+fn one_component_given_either_way_is_the_same_to_the_last_bit() {
+    let pairs = "[[0.9,-0.4],[-0.7,0.8],[0.3,0.9]]";
+    for more in ["", r#","restitution":0.3,"boundary":"ring""#, r#","initial":"zero""#] {
+        let one = format!(r#"{{"forcing_frequency":1.7,"forcing":{pairs}{more}}}"#);
+        let list = format!(r#"{{"forcing_frequencies":[1.7],"forcing":[{pairs}]{more}}}"#);
+        let [one, list] = [one, list].map(|text| Scenario::from_json(&text).unwrap());
+        assert_eq!(one, list);
+        let impacts = trace(&one, 60.0);
+        assert!(impacts.len() > 10 && impacts == trace(&list, 60.0));
+    }
+}
+
+/// A second component without amplitude takes the code of several components, and rounds otherwise.
+#[test]
+fn a_silent_component_changes_nothing_but_roundings() {
+    let plain = drawn(&Chain { masses: 8, ..Chain::default() }, 0.3, &EIGHT[..1], 1);
+    let amplitudes = vec![[0.0; 2]; 8];
+    let silent =
+        Scenario { overtones: vec![Overtone { frequency: 2.5, amplitudes }], ..plain.clone() };
+    let [plain, silent] = [plain, silent].map(|scenario| trace(&scenario, 30.0));
+    assert!(plain.len() > 20 && plain.len() == silent.len());
+    for (a, b) in plain.iter().zip(&silent) {
+        assert!(a.gap == b.gap && (a.time - b.time).abs() < 1e-9, "{a:?} {b:?}");
+    }
+}
+
+#[test]
+fn what_is_no_list_of_components_is_refused() {
+    let refused = |text: &str, words: &[&str]| {
+        let error = Scenario::from_json(text).expect_err(text).to_string();
+        assert!(words.iter().all(|word| error.contains(word)), "{text}: {error}");
+    };
+    let lists = |count: usize| vec!["[[1,2],[3,4]]"; count].join(",");
+    let with = |frequencies: &str, count: usize| {
+        format!(r#"{{"forcing_frequencies":[{frequencies}],"forcing":[{}]}}"#, lists(count))
+    };
+    Scenario::from_json(&with("2,3,4,5,6,7,8,9", 8)).unwrap();
+    refused(&with("2,3,4,5,6,7,8,9,10", 9), &["forcing_frequencies", "there are 9", "1 to 8"]);
+    refused(&with("2,3", 1), &["forcing_frequencies", "2 of them", "1 lists"]);
+    refused(&with("2", 2), &["forcing_frequencies", "1 of them", "2 lists"]);
+    refused(&with("", 0), &["forcing_frequencies", "0 of them"]);
+    for wrong in ["0", "-1.5", "1e300", "5e-324", "1"] {
+        refused(&with(&format!("2,{wrong}"), 2), &["forcing_frequencies[1]"]);
+        refused(&with(&format!("{wrong},2"), 2), &["forcing_frequencies[0]"]);
+        refused(&with(wrong, 1), &["forcing_frequency"]);
+    }
+    for wrong in ["NaN", "null", "\"2\"", "[2]", "1e999"] {
+        assert!(Scenario::from_json(&with(&format!("2,{wrong}"), 2)).is_err(), "{wrong}");
+    }
+    let uneven = r#"{"forcing_frequencies":[2,3],"forcing":[[[1,2],[3,4]],[[1,2]]]}"#;
+    refused(uneven, &["forcing[1]", "1 pairs", "forcing[0] has 2"]);
+    refused(r#"{"forcing_frequencies":[2,3],"forcing":[[[1,2]],[[1,1e300]]]}"#, &["forcing[1][0]"]);
+    refused(r#"{"forcing_frequencies":[2,3],"forcing":[[],[]]}"#, &["forcing", "no mass"]);
+    let both = r#"{"forcing_frequency":2,"forcing_frequencies":[2],"forcing":[[[1,2]]]}"#;
+    refused(both, &["forcing_frequency", "one of the two"]);
+    refused(r#"{"forcing_frequencies":[2],"forcing":[[1,2]]}"#, &["forcing"]);
+    // From the library, where a double may be anything.
+    let good = Scenario::from_json(&with("2,3", 2)).unwrap();
+    for wrong in [f64::NAN, f64::INFINITY, -1.0, 0.0, 1.0] {
+        let mut bad = good.clone();
+        bad.overtones[0].frequency = wrong;
+        let error = Engine::new(&bad).expect_err("no frequency").to_string();
+        assert!(error.contains("forcing_frequencies[1]"), "{error}");
+        let mut bad = good.clone();
+        bad.overtones[0].amplitudes[1][0] = wrong;
+        assert_eq!(Engine::new(&bad).is_err(), !wrong.is_finite(), "{wrong}");
+    }
+    let mut many = Scenario { initial: Initial::Rest, ..good };
+    many.overtones = (0..8)
+        .map(|m| Overtone { frequency: 2.0 + f64::from(m), amplitudes: vec![[0.0; 2]; 2] })
+        .collect();
+    let error = Engine::new(&many).expect_err("nine components").to_string();
+    assert!(error.contains("forcing_frequencies") && error.contains('8'), "{error}");
+}

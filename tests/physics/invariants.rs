@@ -1,0 +1,289 @@
+//! What must hold whatever the arithmetic: conservation, symmetry, and the declared impact law.
+
+use crate::reference::{Big, Dd, Real, Reference};
+use impact_paper::dynamics::{Engine, Impact, Initial, Scenario};
+use impact_paper::numerics::random::NormalPairs;
+use impact_paper::numerics::trig::small_sin_cos;
+use impact_paper::params::{Boundary, Chain};
+
+fn draw(masses: usize, sigma: f64, index: u64) -> Scenario {
+    let chain = Chain { masses, ..Chain::default() };
+    Scenario::draw(&chain, sigma, &mut NormalPairs::new("physics", 1, index))
+}
+
+fn trace(scenario: &Scenario, until: f64) -> Vec<Impact> {
+    let mut impacts = Vec::new();
+    let mut engine = Engine::new(scenario).unwrap();
+    engine
+        .run(until, |impact| {
+            impacts.push(impact);
+            true
+        })
+        .unwrap();
+    impacts
+}
+
+/// Energy of the free motions, which is all there is without forcing.
+fn energy(engine: &Engine) -> f64 {
+    engine.free_parts().iter().map(|[a, b]| 0.5 * (a * a + b * b)).sum()
+}
+
+/// Fast masses, a little out of place, without forcing.
+fn unforced(masses: usize, restitution: f64, index: u64) -> Scenario {
+    let drawn = draw(masses, 1.0, index);
+    let free = drawn.forcing.iter().map(|[x, y]| [0.05 * x, 1.5 * y]).collect();
+    let forcing = vec![[0.0; 2]; masses];
+    Scenario { initial: Initial::Free(free), forcing, restitution, ..drawn }
+}
+
+/// Runs ten rounds of elastic impacts without forcing.
+///
+/// Rounding errors of independent sign add up as √impacts; each is a few ε of one mass's share. A
+/// bias of the speeds, by the hundredth part of a rounding, would add up as the impacts do.
+fn conserve(round_of: u32) {
+    let mut engine = Engine::new(&unforced(20, 1.0, 0)).unwrap();
+    let start = energy(&engine);
+    for round in 1..=10u32 {
+        let mut left = round_of;
+        engine
+            .run(f64::from(round) * 1e8, |_| {
+                left -= 1;
+                left > 0
+            })
+            .unwrap();
+        let impacts = engine.counters().impacts;
+        assert_eq!(impacts, u64::from(round) * u64::from(round_of), "the chain keeps on hitting");
+        let drift = (energy(&engine) / start - 1.0).abs();
+        let n = impacts as f64;
+        let walk = f64::EPSILON * (2.0 * n.sqrt() + 0.01 * n);
+        if round == 10 {
+            println!("energy after {impacts} impacts: off by {drift:.1e}, random walk {walk:.1e}");
+        }
+        assert!(drift < walk, "{impacts} impacts: {drift:e}, random walk {walk:e}");
+    }
+}
+
+#[test]
+fn elastic_impacts_conserve_energy() {
+    conserve(100_000);
+}
+
+#[test]
+#[ignore = "1e8 impacts: a minute"]
+fn a_hundred_million_elastic_impacts_conserve_energy() {
+    conserve(10_000_000);
+}
+
+#[test]
+fn an_inelastic_impact_takes_the_energy_that_restitution_says() {
+    let scenario = unforced(10, 0.8, 1);
+    let mut engine = Engine::new(&scenario).unwrap();
+    let mut before = energy(&engine);
+    for _ in 0..30 {
+        let mut hit = None;
+        engine
+            .run(1e3, |impact| {
+                hit = Some(impact);
+                false
+            })
+            .unwrap();
+        let hit = hit.expect("an impact");
+        // Reduced mass 1/2 between masses, 1 at a wall.
+        let reduced = if hit.gap == 0 || hit.gap == 10 { 1.0 } else { 0.5 };
+        let lost = 0.5 * reduced * (1.0 - 0.8f64 * 0.8) * hit.closing_speed * hit.closing_speed;
+        let after = energy(&engine);
+        assert!((before - after - lost).abs() < 1e-14 * before, "{hit:?}");
+        before = after;
+    }
+}
+
+#[test]
+fn flight_never_changes_a_free_part() {
+    // Quiet: to the last bit over 1e8 units of time.
+    let mut quiet = Engine::new(&draw(20, 0.05, 0)).unwrap();
+    let before = quiet.free_parts();
+    quiet.run(1e8, |_| true).unwrap();
+    assert_eq!(quiet.counters().impacts, 0);
+    assert_eq!(quiet.free_parts(), before);
+    // Busy: an impact changes the two masses beside its gap and no other bit.
+    let mut engine = Engine::new(&draw(20, 0.3, 0)).unwrap();
+    for _ in 0..500 {
+        let before = engine.free_parts();
+        let mut gap = usize::MAX;
+        engine
+            .run(1e3, |impact| {
+                gap = impact.gap;
+                false
+            })
+            .unwrap();
+        for (j, (old, new)) in before.iter().zip(engine.free_parts()).enumerate() {
+            let touched = j + 1 == gap || j == gap;
+            assert_eq!(*old != new, touched, "mass {} at an impact of gap {gap}", j + 1);
+        }
+    }
+}
+
+/// The same chain seen from the other side.
+fn mirrored(scenario: &Scenario) -> Scenario {
+    let turn = |pairs: &[[f64; 2]]| -> Vec<[f64; 2]> {
+        pairs.iter().rev().map(|[x, y]| [-x, -y]).collect()
+    };
+    let initial = match &scenario.initial {
+        Initial::Free(free) => Initial::Free(turn(free)),
+        other => other.clone(),
+    };
+    Scenario { initial, forcing: turn(&scenario.forcing), ..scenario.clone() }
+}
+
+#[test]
+fn the_mirrored_chain_has_the_mirrored_trace_to_the_last_bit() {
+    for (n, r, until) in [(20, 0.8, 300.0), (7, 0.0, 300.0), (8, 1.0, 100.0)] {
+        let scenario = Scenario { restitution: r, ..draw(n, 0.3, 1) };
+        let here = trace(&scenario, until);
+        assert!(here.len() > 100, "{}", here.len());
+        let there: Vec<Impact> = trace(&mirrored(&scenario), until)
+            .into_iter()
+            .map(|impact| Impact { gap: n - impact.gap, ..impact })
+            .collect();
+        assert_eq!(here, there, "n = {n}, r = {r}");
+    }
+}
+
+#[test]
+fn a_ring_has_no_first_mass() {
+    let ring = Scenario { boundary: Boundary::Ring, ..draw(12, 0.3, 2) };
+    let here = trace(&ring, 200.0);
+    assert!(here.len() > 300);
+    for shift in [1, 5, 11] {
+        let mut turned = ring.clone();
+        turned.forcing.rotate_left(shift);
+        let there: Vec<Impact> = trace(&turned, 200.0)
+            .into_iter()
+            .map(|impact| Impact { gap: (impact.gap + shift - 1) % 12 + 1, ..impact })
+            .collect();
+        assert_eq!(here, there, "turned by {shift}");
+    }
+}
+
+#[test]
+fn a_mirror_symmetric_chain_stays_so() {
+    // Gaps j and 20 - j tie to the last bit; the order in which a tie is taken must not matter.
+    let mut scenario = draw(20, 0.3, 3);
+    for j in 0..10 {
+        scenario.forcing[19 - j] = scenario.forcing[j].map(|x| -x);
+    }
+    let mut engine = Engine::new(&scenario).unwrap();
+    let mut impacts = Vec::new();
+    engine
+        .run(300.0, |impact| {
+            impacts.push(impact);
+            true
+        })
+        .unwrap();
+    assert!(impacts.len() > 500);
+    let mut pending: Vec<Impact> = Vec::new();
+    for impact in impacts {
+        if impact.gap == 10 {
+            continue;
+        }
+        let twin = pending.iter().position(|p| *p == Impact { gap: 20 - impact.gap, ..impact });
+        match twin {
+            Some(i) => drop(pending.remove(i)),
+            None => pending.push(impact),
+        }
+    }
+    assert!(pending.is_empty(), "without a twin: {pending:?}");
+    let x = engine.positions(300.0);
+    for j in 0..10 {
+        assert!((x[j] + x[19 - j] - 21.0).abs() < 1e-14, "mass {}", j + 1);
+    }
+}
+
+/// Newton's law one gap after the other, lowest gap first, until none closes: the declared law.
+fn sequential(mut v: [f64; 3], r: f64) -> Vec<(usize, f64)> {
+    let mut hits = Vec::new();
+    while let Some(gap) = (1..=2).find(|&gap| v[gap] < v[gap - 1] - 1e-12) {
+        let closing = v[gap - 1] - v[gap];
+        v[gap - 1] -= 0.5 * (1.0 + r) * closing;
+        v[gap] += 0.5 * (1.0 + r) * closing;
+        hits.push((gap, closing));
+        assert!(hits.len() < 100);
+    }
+    hits
+}
+
+#[test]
+fn an_exact_three_way_impact_is_taken_lowest_gap_first() {
+    let forcing = vec![[0.4, 0.3], [0.0, 0.0], [-0.4, -0.3]];
+    for r in [0.8, 0.5, 1.0] {
+        let scenario = Scenario { forcing: forcing.clone(), restitution: r, ..draw(3, 1.0, 0) };
+        let impacts = trace(&scenario, 40.0);
+        let first = impacts.iter().position(|i| i.gap == 1 || i.gap == 2).expect("a three-way hit");
+        let time = impacts[first].time;
+        let block: Vec<(usize, f64)> = impacts[first..]
+            .iter()
+            .take_while(|i| i.time - time < 1e-14)
+            .map(|i| (i.gap, i.closing_speed))
+            .collect();
+        let v = block[0].1;
+        let expected = sequential([v, 0.0, -v], r);
+        assert!(expected.len() >= 3, "gap 1, gap 2, gap 1 again");
+        let gaps = |hits: &[(usize, f64)]| hits.iter().map(|h| h.0).collect::<Vec<_>>();
+        assert_eq!(gaps(&block), gaps(&expected), "r = {r}");
+        for (a, b) in block.iter().zip(&expected) {
+            assert!((a.1 - b.1).abs() < 1e-13, "r = {r}: {a:?} {b:?}");
+        }
+        // The reference follows the same law.
+        let theirs = Reference::<Dd>::new(&scenario).run(time + 0.1).unwrap();
+        let gaps: Vec<usize> = theirs.iter().map(|h| h.gap).collect();
+        let ours: Vec<usize> =
+            impacts.iter().take_while(|i| i.time < time + 0.1).map(|i| i.gap).collect();
+        assert_eq!(ours, gaps, "r = {r}");
+    }
+}
+
+#[test]
+fn phases_keep_their_digits_at_any_time() {
+    let mut worst: f64 = 0.0;
+    for (w, big_w) in [(1.0, std::f64::consts::SQRT_2), (1.3, 0.7), (0.77, 5.1)] {
+        let scenario =
+            Scenario { natural_frequency: w, forcing_frequency: big_w, ..draw(6, 0.05, 4) };
+        let mut engine = Engine::new(&scenario).unwrap();
+        for t in [1.0, 12345.678, 1e8 + 0.1, 1e10 / 3.0, 1e12 - 0.7] {
+            engine.run(t, |_| true).unwrap();
+            let exact = Reference::<Big>::new(&scenario).state(&Big::of(t));
+            let (x, v) = (engine.positions(t), engine.velocities(t));
+            for (j, [u, speed]) in exact.iter().enumerate() {
+                let place = Big::of((j + 1) as f64);
+                worst = worst.max((Big::of(x[j]) - place - u.clone()).near().abs() / x[j]);
+                worst = worst.max((Big::of(v[j]) - speed.clone()).near().abs());
+            }
+        }
+    }
+    println!("largest error of a position (relative) or velocity up to t = 1e12: {worst:.1e}");
+    assert!(worst < 4.0 * f64::EPSILON, "{worst:e}");
+}
+
+#[test]
+fn a_turn_keeps_lengths_without_bias() {
+    // Mean errors, far below a rounding, of sin x − x, 1 − cos x and sin² + cos² over each eighth.
+    let (n, mut worst) = (20_000, 0.0f64);
+    for eighth in 0..8 {
+        let mut means = [0.0; 3];
+        for i in 0..n {
+            let x = 0.25 * (f64::from(eighth) + (f64::from(i) + 0.37) / f64::from(n));
+            let [s, c] = small_sin_cos(x);
+            let (sine, cosine) = Dd::of(x).sin_cos();
+            let [sin, cos] = [x + s, 1.0 - c].map(Dd::of);
+            let errors = [
+                Dd::of(s) - (sine - Dd::of(x)),
+                Dd::of(c) - (Dd::of(1.0) - cosine),
+                sin * sin + cos * cos - Dd::of(1.0),
+            ];
+            means.iter_mut().zip(errors).for_each(|(m, e)| *m += e.near() / f64::from(n));
+        }
+        worst = means.iter().fold(worst, |w, m| w.max(m.abs()));
+    }
+    println!("largest mean error of sine, cosine or length: {worst:.1e}");
+    assert!(worst < 4e-18, "{worst:e}");
+}

@@ -1,0 +1,43 @@
+//! The saved scenarios of Figs. 5 and 6 show their circuits, in the engine and in the reference.
+
+use crate::reference::{Dd, Real, Reference};
+use impact_paper::dynamics::{Engine, Scenario};
+
+/// The impacts of a figure as gaps: L-1, 1-2, 2-3 and 3-R are 0, 1, 2 and 3.
+fn replay(figure: &str, order: &[usize]) {
+    let path = format!("{}/templates/scenarios/{figure}.json", env!("CARGO_MANIFEST_DIR"));
+    let text = std::fs::read_to_string(&path).unwrap();
+    let saved: serde_json::Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(saved["order"], serde_json::json!(order));
+    let (from, until) = (saved["from"].as_f64().unwrap(), saved["until"].as_f64().unwrap());
+    let scenario = Scenario::from_json(&saved["scenario"].to_string()).unwrap();
+    let mut hits: Vec<(f64, usize)> = Vec::new();
+    let mut engine = Engine::new(&scenario).unwrap();
+    engine
+        .run(until, |impact| {
+            hits.push((impact.time, impact.gap));
+            assert!(impact.closing_speed > 0.1, "a grazing impact is no clear picture: {impact:?}");
+            true
+        })
+        .unwrap();
+    assert!(hits.iter().all(|(t, _)| *t >= from), "{hits:?}");
+    assert_eq!(hits.iter().map(|h| h.1).collect::<Vec<_>>(), order);
+    for pair in hits.windows(2) {
+        assert!(pair[1].0 - pair[0].0 > 0.15, "{hits:?}");
+    }
+    let exact = Reference::<Dd>::new(&scenario).run(until).unwrap();
+    assert_eq!(exact.len(), hits.len());
+    for (a, b) in hits.iter().zip(&exact) {
+        assert!(a.1 == b.gap && (a.0 - b.time.near()).abs() < 1e-12, "{a:?}");
+    }
+}
+
+#[test]
+fn fig_5_is_a_simple_circuit_that_closes() {
+    replay("fig05", &[0, 1, 3, 0]);
+}
+
+#[test]
+fn fig_6_is_the_circuit_of_section_5_that_is_not_simple_and_closes() {
+    replay("fig06", &[0, 0, 1, 0, 2, 1, 3, 3, 0]);
+}

@@ -1,0 +1,149 @@
+//! `impact-paper check` for machines: every form says of every claim what the text says.
+
+use crate::{PROGRAM, TEMPLATES, program, told};
+use impact_paper::claims::Basis;
+use std::path::Path;
+use std::process::Command;
+
+fn check(folder: &Path, arguments: &[&str], summary: Option<&Path>) -> (i32, String, String) {
+    let mut command = program(folder, "check --profile quick --results r --templates");
+    command.arg(TEMPLATES).args(arguments).env_remove("GITHUB_STEP_SUMMARY");
+    if let Some(summary) = summary {
+        command.env("GITHUB_STEP_SUMMARY", summary);
+    }
+    told(&command.output().unwrap())
+}
+
+fn json(text: &str) -> serde_json::Value {
+    serde_json::from_str(text).unwrap()
+}
+
+fn list<'a>(value: &'a serde_json::Value, pointer: &str) -> &'a Vec<serde_json::Value> {
+    value.pointer(pointer).and_then(|found| found.as_array()).unwrap_or_else(|| panic!("{pointer}"))
+}
+
+#[test]
+fn every_form_has_every_claim_at_its_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let form = |name| check(folder.path(), &["--format", name], None);
+    let (code, text, _) = form("text");
+    let verdicts: Vec<(String, String)> = text
+        .lines()
+        .filter(|line| line.starts_with("ok ") || line.starts_with("FAILS"))
+        .map(|line| {
+            let (head, verdict) = line[6..].rsplit_once(": ").unwrap();
+            let (verdict, basis) = verdict.split_once(" (").unwrap();
+            assert!(Basis::ALL.iter().any(|own| format!("{})", own.words()) == basis), "{line}");
+            (head.split(' ').next().unwrap().to_string(), verdict.to_string())
+        })
+        .collect();
+    assert_eq!(verdicts.len(), 71, "{text}");
+    // The statements of the paper and our own checks are scored apart.
+    let scores: Vec<&str> = text.lines().rev().take(3).collect();
+    assert!(scores[2].starts_with("71 statements of the paper: "), "{text}");
+    assert!(scores[1].starts_with("reproduced, by what the verdict rests on: "), "{text}");
+    assert!(scores[0].starts_with("our own checks: "), "{text}");
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/templates/published.toml");
+    let published = std::fs::read_to_string(file).unwrap();
+    let lines: Vec<&str> = published.lines().collect();
+
+    let (same, out, _) = form("json");
+    assert_eq!(same, code);
+    let all = json(&out);
+    let claims = list(&all, "/claims");
+    assert_eq!(claims.len(), verdicts.len());
+    for (claim, (id, verdict)) in claims.iter().zip(&verdicts) {
+        assert_eq!(
+            (claim["id"].as_str(), claim["verdict"].as_str()),
+            (Some(&**id), Some(&**verdict))
+        );
+        let basis = claim["basis"].as_str();
+        assert!(Basis::ALL.iter().any(|own| Some(own.words()) == basis), "{claim}");
+        let line = claim["line"].as_u64().unwrap() as usize;
+        assert_eq!(lines[line - 1], format!("id = \"{id}\""));
+    }
+    assert!(list(&all, "/targets").len() > 10);
+
+    let (_, out, _) = form("junit");
+    let suite = roxmltree::Document::parse(&out).unwrap();
+    let count = |name| suite.descendants().filter(|node| node.has_tag_name(name)).count();
+    let with = |wanted: &str| verdicts.iter().filter(|(_, verdict)| verdict == wanted).count();
+    assert_eq!(count("testcase"), verdicts.len());
+    assert_eq!(count("failure"), with("differs"));
+    assert_eq!(count("skipped"), with("cannot be judged"));
+    assert!(count("skipped") > 0, "the quick profile leaves some open");
+
+    let (_, out, _) = form("sarif");
+    let log = json(&out);
+    assert_eq!(log["version"], "2.1.0");
+    let results = list(&log, "/runs/0/results");
+    assert_eq!(list(&log, "/runs/0/tool/driver/rules").len(), verdicts.len());
+    for (result, (id, verdict)) in results.iter().zip(&verdicts) {
+        assert_eq!(result["ruleId"].as_str(), Some(&**id));
+        assert_eq!(result["kind"] == "pass", verdict == "reproduced", "{id}");
+        let place = &result["locations"][0]["physicalLocation"];
+        assert_eq!(place["artifactLocation"]["uri"], "templates/published.toml");
+        assert!(place["region"]["startLine"].as_u64().unwrap() > 1);
+    }
+
+    let (_, out, _) = form("markdown");
+    let rows = out.lines().filter(|line| line.starts_with("| sec"));
+    assert_eq!(rows.count(), verdicts.len(), "{out}");
+    let columns = |line: &str| line.replace("\\|", "").matches('|').count();
+    assert!(out.lines().filter(|line| line.starts_with("| sec")).all(|line| columns(line) == 7));
+
+    let summary = folder.path().join("summary.md");
+    std::fs::write(&summary, "before\n").unwrap();
+    let (_, out, _) = check(folder.path(), &["--format", "github"], Some(&summary));
+    let told = std::fs::read_to_string(&summary).unwrap();
+    assert!(
+        told.starts_with("before\n## Claims") && told.contains("| sec2_half_height |"),
+        "{told}"
+    );
+    let annotations: Vec<&str> = out.lines().collect();
+    assert_eq!(annotations.len(), 10, "{out}");
+    // The worst come first.
+    let rank =
+        |line: &&str| ["::error", "::warning", "::notice"].iter().position(|k| line.starts_with(k));
+    assert!(annotations.is_sorted_by_key(|line| rank(line).unwrap()), "{out}");
+    assert!(annotations[0].contains("file=templates/published.toml,line="), "{out}");
+}
+
+/// A number of the paper that was other than it is: every form shows it, and the exit code is 1.
+#[test]
+fn a_claim_that_differs_is_an_error_in_every_form() {
+    let folder = tempfile::tempdir().unwrap();
+    let templates = folder.path().join("t");
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("templates");
+    let status = Command::new("cp").arg("-r").arg(source).arg(&templates).status();
+    assert!(status.unwrap().success());
+    let file = templates.join("published.toml");
+    let text = std::fs::read_to_string(&file).unwrap();
+    let at = text.find("id = \"sec3_edges\"").unwrap();
+    let value = at + text[at..].find("value = ").unwrap() + "value = ".len();
+    std::fs::write(&file, format!("{}9{}", &text[..value], &text[value..])).unwrap();
+    let form = |name| {
+        let mut command = Command::new(PROGRAM);
+        command.current_dir(folder.path()).args([
+            "check",
+            "--profile",
+            "quick",
+            "--templates",
+            "t",
+        ]);
+        let output = command.args(["--claim", "sec3_edges", "--format", name]).output().unwrap();
+        (output.status.code().unwrap(), String::from_utf8(output.stdout).unwrap())
+    };
+    for (name, sign) in [
+        ("text", "FAILS sec3_edges"),
+        ("json", "\"fails\": true"),
+        ("junit", "<failure message=\"differs\">"),
+        ("sarif", "\"level\": \"error\""),
+        ("github", "::error file=templates/published.toml,line="),
+        ("markdown", "**differs**"),
+    ] {
+        let (code, out) = form(name);
+        assert_eq!(code, 1, "{out}");
+        assert!(out.contains(sign), "{sign}: {out}");
+    }
+}

@@ -1,0 +1,135 @@
+//! `impact-paper explain` as a user meets it, on the report of the quick profile.
+
+use crate::{PROGRAM, told};
+use std::path::Path;
+use std::process::Command;
+use std::sync::LazyLock;
+
+static PAPER: LazyLock<tempfile::TempDir> = LazyLock::new(|| {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("paper");
+    let results = folder.path().join("results");
+    let (out, results) = (out.to_str().unwrap(), results.to_str().unwrap());
+    let (code, _, note) = run(&["paper", "--profile", "quick", "--out", out, "--results", results]);
+    assert_eq!(code, 0, "{note}");
+    folder
+});
+
+fn run(arguments: &[&str]) -> (i32, String, String) {
+    told(&Command::new(PROGRAM).args(arguments).output().unwrap())
+}
+
+fn explain(arguments: &[&str]) -> (i32, String, String) {
+    let paper = PAPER.path().join("paper");
+    run(&[&["explain", "--paper", paper.to_str().unwrap()], arguments].concat())
+}
+
+#[test]
+fn values_figures_equations_and_claims_are_explained() {
+    for (id, parts) in [
+        (
+            "half_height",
+            vec![
+                "standard error",
+                "experiments::rise::find (src/experiments/rise.rs:",
+                "seed: 2007",
+                "chain masses: 100",
+                "fig03.csv",
+                "reproduced",
+            ],
+        ),
+        ("half_height_second", vec!["seed: 7002"]),
+        ("p_crit", vec!["0.0122099", "circuits::jump::p_crit (src/circuits/jump.rs:", "(18)"]),
+        ("printed.sec2_half_height", vec!["that the paper prints", "Sec. 2"]),
+        (
+            "fig:3",
+            vec![
+                "figures/fig03.svg".split('/').next_back().unwrap(),
+                "figures::fig03 (src/figures/fig03.rs:1)",
+                "seed: 2007",
+            ],
+        ),
+        ("fig:s12", vec!["experiments::accuracy::race (src/experiments/accuracy/race.rs:"]),
+        ("eq:18", vec!["circuits::jump::p_crit (src/circuits/jump.rs:", "p_crit, p_crit_walls"]),
+        ("claim:sec7_jump", vec!["verdict", "tolerance", "p_jump"]),
+        ("eq:12", vec!["f_(N,p)(k)"]),
+    ] {
+        let (code, told, note) = explain(&[id]);
+        assert_eq!((code, note.as_str()), (0, ""), "{id}");
+        assert!(!told.contains("\\mathrm") && !told.contains("\\Phi"), "{told}");
+        for part in parts {
+            assert!(told.contains(part), "{id}: {part:?} is not in\n{told}");
+        }
+    }
+}
+
+/// The line is that of the working copy, where the item is declared.
+#[test]
+fn the_line_is_that_of_the_item() {
+    let (_, told, _) = explain(&["p_jump"]);
+    let line = told.split("src/circuits/jump.rs:").nth(1).unwrap().split(')').next().unwrap();
+    let text = std::fs::read_to_string("src/circuits/jump.rs").unwrap();
+    let line = text.lines().nth(line.parse::<usize>().unwrap() - 1).unwrap();
+    assert!(line.contains("fn p_jump"), "{line}");
+}
+
+#[test]
+fn all_are_listed_and_as_json() {
+    let (code, told, _) = explain(&[]);
+    assert_eq!(code, 0);
+    for id in ["half_height ", "fig:15 ", "fig:s1 ", "eq:38 ", "claim:sec2_onset "] {
+        assert!(told.lines().any(|line| line.starts_with(id)), "{id}");
+    }
+    let (_, told, _) = explain(&["--json", "half_height", "eq:18"]);
+    let cards: serde_json::Value = serde_json::from_str(&told).unwrap();
+    assert_eq!(cards[0]["id"], "half_height");
+    let rows = cards[0]["rows"].as_array().unwrap();
+    let computed = rows.iter().find(|row| row["name"] == "computed by").unwrap();
+    assert_eq!(computed["file"], "src/experiments/rise.rs");
+    assert!(computed["line"].as_u64().unwrap() > 1);
+}
+
+#[test]
+fn an_unknown_id_is_one_line_with_the_nearest() {
+    for (id, near) in [("half_hight", "half_height"), ("eq:99", "eq:9"), ("sec7_jmp", "sec7_jump")]
+    {
+        let (code, told, note) = explain(&[id]);
+        assert_eq!((code, told.as_str()), (2, ""), "{note}");
+        assert!(note.contains(near) && note.trim_end().lines().count() == 1, "{note}");
+    }
+    let (code, _, note) = run(&["explain", "--paper", "no-such-folder", "x"]);
+    assert_eq!(code, 2);
+    assert!(note.contains("--paper") && note.trim_end().lines().count() == 1, "{note}");
+    assert!(!Path::new("no-such-folder").exists());
+}
+
+/// An origin names the function that computed the number: no constant, structure or module.
+#[test]
+fn every_origin_is_a_function() {
+    let text = std::fs::read_to_string(PAPER.path().join("paper/values.json")).unwrap();
+    let values: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let values = values.as_object().unwrap();
+    let ids: Vec<&str> = values
+        .iter()
+        .filter(|(_, value)| value["source"].is_string())
+        .map(|(id, _)| &**id)
+        .collect();
+    assert!(ids.len() > 900, "{}", ids.len());
+    let (code, cards, note) = explain(&[&["--json"], ids.as_slice()].concat());
+    assert_eq!((code, note.as_str()), (0, ""));
+    let cards: serde_json::Value = serde_json::from_str(&cards).unwrap();
+    for card in cards.as_array().unwrap() {
+        let row = |name: &str| card["rows"].as_array().unwrap().iter().find(|r| r["name"] == name);
+        let by = row("computed by").unwrap_or_else(|| panic!("{card}"));
+        let source = std::fs::read_to_string(by["file"].as_str().unwrap()).unwrap();
+        let line = by["line"].as_u64().unwrap() as usize - 1;
+        let line = source.lines().nth(line).unwrap();
+        assert!(line.contains("fn "), "{}: {line}", card["id"]);
+    }
+    let means = |id: &&String| id.starts_with("sweep.") && id.ends_with("_mean");
+    let means: Vec<&String> = values.keys().filter(means).collect();
+    assert!(means.len() > 1, "{means:?}");
+    for mean in means {
+        assert_eq!(values[mean]["source"], "experiments::sweep::reduce");
+    }
+}

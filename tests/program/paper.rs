@@ -1,0 +1,378 @@
+//! `impact-paper paper` and `check` as a user meets them: what runs, what is written, what is not.
+
+use crate::{TEMPLATES, told};
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+/// The program in a folder of its own, with the templates of the project.
+fn program(folder: &Path, arguments: &str) -> Command {
+    crate::program(folder, &format!("{arguments} --templates {TEMPLATES}"))
+}
+
+fn run(folder: &Path, arguments: &str) -> (i32, String, String) {
+    told(&program(folder, arguments).output().unwrap())
+}
+
+/// All files below a folder, hidden ones included.
+fn tree(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    fn walk(root: &Path, folder: &Path, into: &mut BTreeMap<String, Vec<u8>>) {
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                walk(root, &path, into);
+            } else {
+                let name = path.strip_prefix(root).unwrap().to_str().unwrap().to_string();
+                into.insert(name, std::fs::read(&path).unwrap());
+            }
+        }
+    }
+    let mut files = BTreeMap::new();
+    walk(folder, folder, &mut files);
+    files
+}
+
+#[test]
+fn a_schematic_and_a_closed_form_run_no_simulation() {
+    let folder = tempfile::tempdir().unwrap();
+    for number in [4, 11] {
+        let (code, told, note) = run(folder.path(), &format!("paper --figure {number} --out f"));
+        assert_eq!((code, note.as_str()), (0, ""), "{told}");
+        assert!(told.starts_with("f: ") && told.contains(" files in "), "{told}");
+        let picture = folder.path().join(format!("f/figures/fig{number:02}.svg"));
+        assert!(picture.is_file());
+        assert!(!folder.path().join("target").exists(), "nothing was run and saved");
+    }
+}
+
+#[test]
+fn only_the_figure_that_was_asked_for_is_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let (code, ..) = run(folder.path(), "paper --profile quick --figure 3 --out f --results r");
+    assert_eq!(code, 0);
+    let written = tree(&folder.path().join("f"));
+    assert!(written.contains_key("figures/fig03.svg"), "{:?}", written.keys());
+    let expected = |name: &String| name.contains("fig03") || name == "SHA256SUMS.local";
+    assert!(written.keys().all(expected), "{:?}", written.keys());
+    let saved: Vec<String> = tree(&folder.path().join("r")).into_keys().collect();
+    assert!(saved.len() == 1 && saved[0].starts_with("sweep-"), "{saved:?}");
+}
+
+#[test]
+fn threads_and_saved_results_change_no_byte_and_lesser_profiles_replace_no_full_report() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    for (out, results, threads) in [("one", "r1", 1), ("four", "r4", 4)] {
+        let (code, _, note) = run(
+            folder.path(),
+            &format!("paper --profile quick --out {out} --results {results} --threads {threads}"),
+        );
+        assert_eq!(code, 0, "{note}");
+    }
+    let report = tree(&at("one"));
+    assert!(report.contains_key("report.md") && report.len() > 40, "{:?}", report.keys());
+    assert!(report == tree(&at("four")), "1 and 4 threads differ");
+    let saved = tree(&at("r1"));
+    assert_eq!(saved, tree(&at("r4")));
+
+    // Again: nothing is run, nothing changes, not even the saved files' times.
+    let times = |name: &str| -> Vec<_> {
+        let files = std::fs::read_dir(at(name)).unwrap().map(|file| file.unwrap().path());
+        let mut times: Vec<_> =
+            files.map(|f| (f.clone(), f.metadata().unwrap().modified().unwrap())).collect();
+        times.sort();
+        times
+    };
+    let before = times("r1");
+    // What a killed run left is gone afterwards.
+    std::fs::create_dir_all(at("one/.staging-impact-paper-dead/data")).unwrap();
+    std::fs::write(at("one/.staging-impact-paper-dead/data/half.csv"), "1,").unwrap();
+    assert_eq!(crate::run(folder.path(), "verify one").0, 0);
+    let (code, told, _) = run(folder.path(), "paper --profile quick --out one --results r1");
+    assert_eq!((code, times("r1")), (0, before));
+    assert!(told.contains("no number and no verdict differs"), "{told}");
+    assert!(told.contains("report.html") && told.contains(" statements of the paper: "), "{told}");
+    assert!(report == tree(&at("one")));
+
+    // What would spoil a report is refused before anything is run.
+    for (arguments, says) in [
+        ("paper --profile ci --figure 4 --out one", "holds a report of the quick profile"),
+        ("paper --profile quick --out one --results one", "are one folder"),
+        ("verify one --rerun --certificate one/c.md", "lies in one"),
+        ("verify one --rerun --certificate gone/c.md", "--certificate: gone/c.md"),
+        ("paper --profile quick --out file", "it is a file"),
+    ] {
+        std::fs::write(at("file"), "").unwrap();
+        let (code, told, note) = run(folder.path(), arguments);
+        assert_eq!((code, told.as_str(), note.lines().count()), (2, "", 1), "{arguments}: {note}");
+        assert!(note.contains(says), "{arguments}: {note}");
+    }
+    assert!(report == tree(&at("one")));
+
+    // What was edited is refused at once by its name; forced, it is told what changed, in one screen.
+    let ledger = String::from_utf8(report["ledger.json"].clone()).unwrap();
+    let edited = ledger.replace("\"verdict\": \"reproduced\"", "\"verdict\": \"differs\"");
+    std::fs::write(at("one/ledger.json"), &edited).unwrap();
+    let again = "paper --profile quick --out one --results r1";
+    let (code, told, note) = run(folder.path(), again);
+    assert_eq!((code, told.as_str(), note.lines().count()), (2, "", 1), "{note}");
+    assert!(note.contains("ledger.json") && note.contains("--force"), "{note}");
+    assert_eq!(std::fs::read_to_string(at("one/ledger.json")).unwrap(), edited);
+    let (code, told, note) = run(folder.path(), &format!("{again} --force"));
+    assert_eq!(code, 0, "{note}");
+    assert!(note.contains("--force: wrote over ledger.json"), "{note}");
+    assert!(
+        told.contains(" verdicts differ") && told.contains(": differs -> reproduced"),
+        "{told}"
+    );
+    assert!(told.contains("and ") && told.lines().count() <= 15, "{told}");
+    assert!(report == tree(&at("one")));
+
+    // A damaged result is told and run again, to the same bytes.
+    let name = saved.keys().find(|name| name.starts_with("protocol-")).unwrap();
+    std::fs::write(at("r1").join(name), &saved[name][..saved[name].len() / 2]).unwrap();
+    let (code, _, note) = run(folder.path(), "paper --profile quick --out one --results r1");
+    assert_eq!(code, 0);
+    assert!(note.contains("cut short"), "{note}");
+    assert!(report == tree(&at("one")) && saved == tree(&at("r1")));
+
+    // check takes the same saved results.
+    let (code, told, note) = run(folder.path(), "check --profile quick --results r1");
+    assert_eq!(code, i32::from(told.contains("FAILS")), "{note}");
+    assert!(told.contains(" statements of the paper: "), "{told}");
+    assert!(saved == tree(&at("r1")));
+
+    // Over a report of the full profile a lesser one is refused, a figure of it too.
+    let values = String::from_utf8(report["values.json"].clone()).unwrap();
+    let full = values.replace("\"text\": \"quick\"", "\"text\": \"full\"");
+    assert_ne!(full, values);
+    std::fs::write(at("one/values.json"), full).unwrap();
+    let before = tree(&at("one"));
+    for arguments in ["--profile quick", "--profile ci", "--profile quick --figure 4"] {
+        let (code, told, note) = run(folder.path(), &format!("paper {arguments} --out one"));
+        assert_eq!((code, told.as_str()), (2, ""), "{note}");
+        assert!(note.contains("full profile") && note.trim_end().lines().count() == 1, "{note}");
+    }
+    assert!(before == tree(&at("one")));
+}
+
+#[test]
+fn ctrl_c_leaves_nothing_half_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut child = program(folder.path(), "paper --figure 3 --out paper --results r --threads 2")
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    std::thread::sleep(Duration::from_millis(1500));
+    assert_eq!(child.try_wait().unwrap(), None, "the full profile takes minutes");
+    let asked = Instant::now();
+    let kill = Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap();
+    assert!(kill.success());
+    let code = child.wait().unwrap().code();
+    assert_eq!(code, Some(130));
+    assert!(asked.elapsed() < Duration::from_secs(10), "{:?}", asked.elapsed());
+    assert!(!folder.path().join("paper").exists());
+    assert_eq!(tree(&folder.path().join("r")).len(), 0);
+}
+
+#[test]
+fn bad_input_gets_one_line_and_exit_code_2() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("file"), "").unwrap();
+    std::os::unix::fs::symlink("loop", folder.path().join("loop")).unwrap();
+    for (arguments, field) in [
+        ("paper --figure 16", "--figure"),
+        ("paper --figure 0", "--figure"),
+        ("paper --figure x", "--figure"),
+        ("paper --profile deep", "--profile"),
+        ("paper --threads 0 --figure 4", "--threads"),
+        ("paper --pdf --figure 4", "--pdf"),
+        ("paper --figure 4 --out loop", "link"),
+        ("paper --figure 4 --out file", "--out"),
+        ("paper --figure 4 --out file/below", "--out"),
+        ("paper --profile quick --figure 3 --results file", "--results"),
+        ("check --claim no-such-claim", "--claim"),
+        ("check --profile quick --results file", "--results"),
+    ] {
+        let (code, told, note) = run(folder.path(), arguments);
+        assert_eq!((code, told.as_str()), (2, ""), "{arguments}: {note}");
+        assert_eq!(note.trim_end().lines().count(), 1, "{arguments}: {note}");
+        assert!(note.contains(field), "{arguments}: {note}");
+    }
+    let missing = Command::new(env!("CARGO_BIN_EXE_impact-paper"))
+        .current_dir(folder.path())
+        .args(["paper", "--templates", "nowhere"])
+        .output()
+        .unwrap();
+    assert_eq!(missing.status.code(), Some(2));
+    assert!(String::from_utf8(missing.stderr).unwrap().contains("nowhere"));
+}
+
+#[test]
+fn one_claim_runs_no_more_than_it_needs() {
+    let folder = tempfile::tempdir().unwrap();
+    let templates = concat!(env!("CARGO_MANIFEST_DIR"), "/templates/published.toml");
+    let published = std::fs::read_to_string(templates).unwrap();
+    let published = impact_paper::claims::Published::parse(&published).unwrap();
+    let exact = published
+        .statements
+        .iter()
+        .find(|statement| impact_paper::claims::needs(&statement.id).is_empty())
+        .unwrap();
+    let (code, told, _) = run(folder.path(), &format!("check --claim {}", exact.id));
+    assert_eq!(code, 0, "{told}");
+    assert!(told.contains(&exact.id) && told.contains("1 statement of the paper: "), "{told}");
+    assert!(!folder.path().join("target").exists());
+}
+
+/// Whatever writes, writes over nothing that it did not make itself.
+#[test]
+fn what_others_made_is_left_as_it_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    std::fs::create_dir_all(here.join("t/figures")).unwrap();
+    std::fs::create_dir(here.join("r")).unwrap();
+    let listed = format!("{}  report.md\n", "0".repeat(64));
+    for (name, text) in [
+        ("README.md", "by hand"),
+        ("t/report.md", "by hand"),
+        ("t/figures/fig04.svg", "by hand"),
+        ("t/SHA256SUMS", listed.as_str()),
+        ("r/sweep-quick.json", "{\"by\": \"hand\"}"),
+    ] {
+        std::fs::write(here.join(name), text).unwrap();
+    }
+    let before = tree(here);
+    for (arguments, says) in [
+        ("paper --profile quick --out .", "--out: ."),
+        ("paper --profile quick --out t", "--out: t"),
+        ("paper --figure 4 --out t", "--out: t"),
+        ("paper --figure 4 --out t/figures", "fig04.svg"),
+    ] {
+        let (code, told, note) = run(here, arguments);
+        assert_eq!((code, told.as_str(), note.lines().count()), (2, "", 1), "{arguments}: {note}");
+        assert!(note.contains(says) && note.contains("--force"), "{arguments}: {note}");
+    }
+    let foreign = "r/sweep-quick.json: this is no saved result";
+    for (arguments, says) in [
+        ("bundle README.md", "README.md is there already"),
+        ("paper --profile quick --figure 3 --out f --results r", foreign),
+    ] {
+        let (code, told, note) = crate::run(here, arguments);
+        assert_eq!((code, told.as_str()), (2, ""), "{arguments}: {note}");
+        assert!(note.contains(says), "{arguments}: {note}");
+    }
+    assert!(tree(here) == before, "{:?}", tree(here).keys());
+    // Forced, it says what it wrote over, and a folder of its own is written again without.
+    let (code, _, note) = run(here, "paper --figure 4 --out t --force");
+    assert_eq!(code, 0, "{note}");
+    assert!(note.contains("wrote over figures/fig04.svg") && !note.contains("report"), "{note}");
+    assert_eq!(run(here, "paper --figure 4 --figure 5 --out t").0, 0);
+    std::fs::write(here.join("t/figures/fig05.svg"), "drawn over").unwrap();
+    let (code, _, note) = run(here, "paper --figure 4 --figure 5 --out t");
+    assert!(code == 2 && note.contains(": figures/fig05.svg;"), "{note}");
+    assert_eq!(std::fs::read_to_string(here.join("t/report.md")).unwrap(), "by hand");
+}
+
+/// The exit codes of `--help` and DESIGN.md, one row for each way to get there.
+#[test]
+fn exit_codes_are_those_of_the_table() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    // The templates with one file changed.
+    let templates = |name: &str, file: &str, from: &str, to: &str| {
+        let copied = Command::new("cp").arg("-r").arg(TEMPLATES).arg(here.join(name)).status();
+        assert!(copied.unwrap().success());
+        let path = here.join(name).join(file);
+        let text = std::fs::read_to_string(&path).unwrap();
+        assert!(text.contains(from), "{from}");
+        std::fs::write(path, text.replacen(from, to, 1)).unwrap();
+    };
+    templates("good", "report.md", "# ", "# ");
+    templates("open", "report.md", "\n## ", "\nIt is «v.half_height now.\n\n## ");
+    templates("numeral", "report.md", "\n## ", "\nThere are 17 of them.\n\n## ");
+    templates("broken", "published.toml", "[[statement]]", "[[statement");
+    templates("renamed", "published.toml", "id = \"sec3_edges\"", "id = \"sec3_bends\"");
+    let text = std::fs::read_to_string(Path::new(TEMPLATES).join("published.toml")).unwrap();
+    let edges = &text[text.find("id = \"sec3_edges\"").unwrap()..];
+    let edges = &edges[..edges.find("value = ").unwrap() + "value = ".len()];
+    templates("differs", "published.toml", edges, &format!("{edges}9"));
+    std::fs::create_dir(here.join("empty")).unwrap();
+    let paper = |templates: &str| {
+        format!("paper --profile quick --out p --results r --templates {templates}")
+    };
+    let full = |limited: &str| format!("trap '' XFSZ; ulimit -f 1; exec \"$0\" {limited}");
+    let rows = [
+        (0, paper("good"), " statements of the paper: "),
+        (0, "verify p".into(), "all as SHA256SUMS lists them"),
+        (0, "diff p p --exit-code".into(), "nothing differs"),
+        (1, paper("differs"), "sec3_edges"),
+        (1, "check --profile quick --results r --templates differs".into(), "sec3_edges"),
+        (1, "verify p --rerun --results r --templates good".into(), "ledger.json"),
+        (1, paper("numeral"), "17"),
+        (2, paper("open"), "« is not closed"),
+        (2, paper("broken"), "published.toml"),
+        (2, "check --profile quick --results r --templates broken".into(), "published.toml"),
+        (2, paper("renamed"), "published.toml"),
+        (2, "check --profile quick --results r --templates renamed".into(), "published.toml"),
+        (2, "paper --pdf --figure 3".into(), "--figure"),
+        (2, "verify nowhere".into(), "nowhere"),
+        (3, "status --profile quick --results empty".into(), "stale"),
+        (3, "audit --profile quick --results empty".into(), "paper --profile quick"),
+        (3, "audit --profile deep --results empty".into(), "make deep"),
+        (4, full("paper --figure 4 --out f --templates good"), "f: "),
+        (4, full("run --profile quick --shard 1/1 --experiment two_masses --out g"), "g"),
+        (4, "explain --paper p >/dev/full".into(), "standard output"),
+    ];
+    for (expected, arguments, says) in rows {
+        let line =
+            if arguments.contains("exec") { arguments } else { format!("\"$0\" {arguments}") };
+        let mut command = Command::new("bash");
+        command.current_dir(here).args(["-c", &line, crate::PROGRAM]);
+        let (code, told, note) = told(&command.output().unwrap());
+        assert_eq!(code, expected, "{line}: {told}{note}");
+        assert!(
+            told.contains(says) || note.lines().last().unwrap().contains(says),
+            "{line}: {note}"
+        );
+        assert!(!note.contains("panicked"), "{note}");
+        if line.ends_with("--templates differs") && line.contains("paper") {
+            // Written all the same.
+            let ledger = std::fs::read_to_string(here.join("p/ledger.json")).unwrap();
+            assert!(ledger.contains("\"verdict\": \"differs\""));
+        }
+    }
+    let help = told(&Command::new(crate::PROGRAM).arg("--help").output().unwrap()).1;
+    let design = std::fs::read_to_string("DESIGN.md").unwrap();
+    for (code, words) in
+        [(0, "fine"), (1, "check"), (2, "usage"), (3, "stale"), (4, "disk"), (130, "SIGTERM")]
+    {
+        let says = |line: &str| line.contains(words);
+        let row = |line: &&str| line.trim_start().starts_with(&format!("{code} ")) && says(line);
+        assert!(help.lines().any(|line| row(&line)), "{help}");
+        let row = format!("| {code} | ");
+        assert!(design.lines().any(|line| line.starts_with(&row) && says(line)), "{code}");
+    }
+}
+
+/// The version names the commit of a checkout, and nothing else depends on it.
+#[test]
+fn the_version_names_the_commit() {
+    let folder = tempfile::tempdir().unwrap();
+    let (code, told, _) = crate::run(folder.path(), "--version");
+    assert_eq!(code, 0);
+    let version = concat!("impact-paper ", env!("CARGO_PKG_VERSION"));
+    let rest = told.trim_end().strip_prefix(version).expect("the version");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    if root.join(".git").exists() {
+        let commit = rest.trim().trim_matches(['(', ')']).trim_end_matches('+');
+        assert!(commit.len() >= 12, "{told}");
+        let mut git = Command::new("git");
+        git.current_dir(root).args(["cat-file", "-e", &format!("{commit}^{{commit}}")]);
+        assert!(git.status().unwrap().success(), "{told}");
+    } else {
+        assert_eq!(rest, "");
+    }
+}

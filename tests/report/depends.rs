@@ -1,0 +1,101 @@
+//! What an experiment depends on, as the build script reads it.
+
+#[path = "../../build/depends.rs"]
+mod depends;
+
+use depends::{Source, files};
+
+fn source(files: &[(&str, &str)]) -> Source {
+    files.iter().map(|(path, text)| ((*path).to_string(), (*text).to_string())).collect()
+}
+
+fn found(source: &Source, root: &str) -> Vec<String> {
+    files(source, root).into_iter().collect()
+}
+
+#[test]
+fn a_change_that_matters_is_seen_and_another_is_not() {
+    let source = source(&[
+        ("src/params.rs", "mod chosen;\nmod far;\npub use chosen::*;\npub use far::FarParams;\n"),
+        ("src/params/chosen.rs", "pub struct Chain;\npub const SEED: u64 = 1;\n"),
+        ("src/params/far.rs", "pub struct FarParams;\n"),
+        ("src/dynamics/mod.rs", "mod engine;\nmod contact;\npub use engine::Engine;\n"),
+        ("src/dynamics/engine.rs", "use crate::numerics::clock;\npub struct Engine;\n"),
+        // Methods of a type stand where they belong, not where it is defined.
+        ("src/dynamics/contact.rs", "impl super::Engine {}\n"),
+        ("src/numerics/mod.rs", "pub mod clock;\n"),
+        ("src/numerics/clock.rs", ""),
+        ("src/circuits/mod.rs", ""),
+        (
+            "src/experiments/mod.rs",
+            "pub mod near;\npub mod far;\npub mod error;\npub mod watch;\npub use error::Error;\n",
+        ),
+        ("src/experiments/error.rs", "use crate::circuits;\npub enum Error {}\n"),
+        (
+            "src/experiments/near.rs",
+            "use super::{Error, watch::{self, Watch as Seen}};\nuse crate::params::{Chain, SEED};\nuse crate::dynamics::Engine;\npub struct Near;\n",
+        ),
+        ("src/experiments/watch.rs", "pub struct Watch;\n"),
+        (
+            "src/experiments/far.rs",
+            "//! Beside [`super::near`].\nuse crate::params::FarParams;\n#[cfg(test)]\nmod tests { use super::super::near; }\n",
+        ),
+        ("src/experiments/more.rs", "impl From<u8> for super::watch::Watch {}\n"),
+        // Another type of the same name.
+        ("src/experiments/namesake.rs", "pub struct Near;\nimpl Near {}\n"),
+    ]);
+    let near = [
+        "src/dynamics/contact.rs",
+        "src/dynamics/engine.rs",
+        "src/dynamics/mod.rs",
+        "src/experiments/more.rs",
+        "src/experiments/near.rs",
+        "src/experiments/watch.rs",
+        "src/numerics/clock.rs",
+        "src/numerics/mod.rs",
+        "src/params/chosen.rs",
+    ];
+    assert_eq!(found(&source, "src/experiments/near.rs"), near);
+    let far = ["src/experiments/far.rs", "src/params/far.rs"];
+    assert_eq!(found(&source, "src/experiments/far.rs"), far);
+}
+
+/// The real source: every experiment that simulates depends on the engine, and on no other
+/// experiment unless it runs it.
+#[test]
+fn the_sweep_depends_on_the_engine_and_not_on_the_scenes() {
+    let mut source = Source::new();
+    read(std::path::Path::new(env!("CARGO_MANIFEST_DIR")), "src", &mut source);
+    let sweep = found(&source, "src/experiments/sweep.rs");
+    for path in [
+        "dynamics/simulation",
+        "dynamics/contact",
+        "numerics/screen",
+        "experiments/rise",
+        "params/chosen",
+    ] {
+        let path = format!("src/{path}.rs");
+        assert!(sweep.contains(&path), "{path} is not among {sweep:?}");
+    }
+    for path in [
+        "experiments/horizon",
+        "experiments/accuracy/scenes",
+        "experiments/results",
+        "params/spacetime",
+    ] {
+        let path = format!("src/{path}.rs");
+        assert!(source.contains_key(&path) && !sweep.contains(&path), "{path}");
+    }
+}
+
+fn read(root: &std::path::Path, folder: &str, into: &mut Source) {
+    for entry in std::fs::read_dir(root.join(folder)).unwrap() {
+        let name = entry.unwrap().file_name().into_string().unwrap();
+        let path = format!("{folder}/{name}");
+        if name.ends_with(".rs") {
+            into.insert(path.clone(), std::fs::read_to_string(root.join(&path)).unwrap());
+        } else if root.join(&path).is_dir() {
+            read(root, &path, into);
+        }
+    }
+}

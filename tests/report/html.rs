@@ -1,0 +1,340 @@
+//! report.html as a browser and a reader meet it: read by an XML parser, with the results of the
+//! quick profile.
+
+use crate::quick::QUICK;
+use impact_paper::dynamics::{Engine, Scenario};
+use impact_paper::numerics::random::NormalPairs;
+use impact_paper::params::Profile;
+use impact_paper::report::{compare, recipe};
+use roxmltree::{Document, Node, ParsingOptions};
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+use std::sync::LazyLock;
+
+static HTML: LazyLock<String> =
+    LazyLock::new(|| String::from_utf8(QUICK.report.beside["report.html"].clone()).unwrap());
+
+fn page() -> Document<'static> {
+    let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
+    Document::parse_with_options(&HTML, options).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn elements<'a>(page: &'a Document<'a>, name: &str) -> Vec<Node<'a, 'a>> {
+    page.descendants().filter(|node| node.tag_name().name() == name).collect()
+}
+
+fn ids<'a>(page: &'a Document<'a>) -> BTreeSet<&'a str> {
+    page.descendants().filter_map(|node| node.attribute("id")).collect()
+}
+
+fn words(node: Node<'_, '_>) -> String {
+    node.descendants().filter(Node::is_text).filter_map(|text| text.text()).collect()
+}
+
+#[test]
+fn every_id_is_unique_and_every_link_lands() {
+    let page = page();
+    let mut seen = BTreeSet::new();
+    for id in page.descendants().filter_map(|node| node.attribute("id")) {
+        assert!(seen.insert(id), "the id {id} stands twice");
+    }
+    let mut inside = 0;
+    for link in elements(&page, "a").into_iter().chain(elements(&page, "use")) {
+        let to = link.attribute("href").unwrap();
+        if let Some(id) = to.strip_prefix('#') {
+            inside += 1;
+            assert!(seen.contains(id), "no {to}, to which {:?} links", words(link));
+        } else if !to.contains("://") {
+            let source = to.strip_prefix("../").map(|path| Path::new(path).exists());
+            let made =
+                QUICK.report.committed.contains_key(to) || to == "SHA256SUMS" || to == "data";
+            assert!(source.unwrap_or(made), "no file {to}");
+        }
+        assert!(!words(link).trim().is_empty() || link.tag_name().name() == "use", "{to}");
+    }
+    assert!(inside > 500, "{inside}");
+    for node in page.descendants() {
+        for name in ["aria-labelledby", "aria-describedby"] {
+            for id in node.attribute(name).iter().flat_map(|ids| ids.split(' ')) {
+                assert!(seen.contains(id), "{name}={id}");
+            }
+        }
+    }
+}
+
+#[test]
+fn every_value_has_one_card() {
+    let page = page();
+    let mut buttons = elements(&page, "button");
+    buttons.retain(|button| button.attribute("class") == Some("value"));
+    assert!(buttons.len() > 400, "{}", buttons.len());
+    let targets: BTreeSet<_> =
+        buttons.iter().map(|b| b.attribute("popovertarget").unwrap()).collect();
+    let cards: Vec<_> =
+        page.descendants().filter(|node| node.attribute("popover").is_some()).collect();
+    let have: BTreeSet<_> = cards.iter().map(|card| card.attribute("id").unwrap()).collect();
+    assert_eq!(cards.len(), have.len());
+    assert_eq!(targets, have, "a card without a number, or a number without its card");
+    assert!(buttons.iter().all(|button| !words(*button).trim().is_empty()));
+    let values = std::str::from_utf8(&QUICK.report.committed["values.json"]).unwrap();
+    for value in compare::read(values).unwrap().iter().filter(|v| !v.experiment.is_empty()) {
+        let known = recipe::recipe(&value.experiment, Profile::Quick).is_some();
+        assert!(known, "{}: no recipe of {:?}", value.id, value.experiment);
+    }
+    // A path of an item that leads to no file was renamed or misspelt.
+    for card in &cards {
+        let own = |code: &Node<'_, '_>| {
+            format!("card-{}", words(*code).replace('.', "-")) == card.attribute("id").unwrap()
+        };
+        let codes = card.descendants().filter(|node| node.tag_name().name() == "code");
+        for code in codes.filter(|code| !own(code)) {
+            let linked = code.parent().is_some_and(|outer| outer.tag_name().name() == "a");
+            assert!(linked, "{} names {}", card.attribute("id").unwrap(), words(code));
+        }
+    }
+    // The headline number stands in an equation, and opens there too.
+    let card = cards.iter().find(|card| card.attribute("id") == Some("card-half_height")).unwrap();
+    let text = words(*card);
+    for part in ["experiments::rise::find", "standard error", "seed: 2007", "reproduced"] {
+        assert!(text.contains(part), "{part:?} is not in {text:?}");
+    }
+    let displayed = |node: &Node<'_, '_>| {
+        node.ancestors().any(|outer| outer.attribute("class") == Some("equation"))
+    };
+    let opens = |b: &Node<'_, '_>| b.attribute("popovertarget") == Some("card-half_height");
+    assert!(buttons.iter().any(|button| opens(button) && displayed(button)));
+    for button in &buttons {
+        assert!(button.ancestors().all(|outer| outer.tag_name().name() != "math"));
+    }
+}
+
+#[test]
+fn every_figure_says_what_is_seen_with_its_numbers() {
+    let page = page();
+    let pictures: BTreeMap<_, _> = elements(&page, "svg")
+        .into_iter()
+        .filter(|svg| svg.attribute("role") == Some("img"))
+        .map(|svg| (svg.attribute("aria-labelledby").unwrap_or_default(), svg))
+        .collect();
+    assert_eq!(pictures.len(), QUICK.figures.len() + 1);
+    assert!(pictures.contains_key("scene-title scene-desc"));
+    for figure in &QUICK.figures {
+        let (title, description) = (format!("{}-title", figure.id), format!("{}-desc", figure.id));
+        let svg = pictures[format!("{title} {description}").as_str()];
+        let text =
+            |id: &str| words(svg.children().find(|node| node.attribute("id") == Some(id)).unwrap());
+        assert_eq!(text(&title), figure.title);
+        assert_eq!(text(&description), figure.description.trim());
+        assert!(figure.description.contains(|c: char| c.is_ascii_digit()), "{}", figure.id);
+        let outer = words(svg.ancestors().find(|n| n.tag_name().name() == "figure").unwrap());
+        for origin in ["Picture: ", "Data: ", "Code: "] {
+            assert!(outer.contains(origin), "{}: no {origin:?}", figure.id);
+        }
+    }
+}
+
+#[test]
+fn nothing_is_loaded_and_no_colour_is_fixed() {
+    let page = page();
+    for node in page.descendants() {
+        let name = node.tag_name().name();
+        assert!(!["img", "iframe", "object", "embed"].contains(&name), "{name}");
+        assert_eq!(node.attribute("src"), None);
+        // MathML aligns the columns of its tables so.
+        let style = node.attribute("style").unwrap_or_default();
+        let maths = node.ancestors().any(|outer| outer.tag_name().name() == "math");
+        assert!(style.is_empty() || maths && !style.contains("color"), "{style}");
+        if name == "link" {
+            assert_eq!(node.attribute("href"), Some("data:,"));
+        }
+        for colour in ["fill", "stroke"] {
+            let value = node.attribute(colour).unwrap_or("none");
+            assert_eq!(value, "none", "a colour that does not know light from dark");
+        }
+    }
+    let style: String = elements(&page, "style").into_iter().map(words).collect();
+    for address in style.split("url(").skip(1) {
+        assert!(address.starts_with("data:font/woff2;base64,"), "{}", &address[..40]);
+    }
+    assert!(!style.contains("@import"));
+    assert!(HTML.len() < 4_000_000, "{} bytes", HTML.len());
+}
+
+/// On a narrow screen the rows of a wide table are lists: each cell brings the name of its column.
+#[test]
+fn cells_of_wide_tables_know_their_column() {
+    let page = page();
+    let mut tables = elements(&page, "table");
+    tables.retain(|table| table.attribute("class") == Some("lists"));
+    assert!(!tables.is_empty());
+    for table in tables {
+        let inside = |name: &'static str| {
+            table.descendants().filter(move |node| node.tag_name().name() == name)
+        };
+        let heads: Vec<String> = inside("th").map(words).collect();
+        assert!(heads.len() >= 6, "{heads:?}");
+        for row in inside("tr").skip(1) {
+            let named = row.children().map(|cell| cell.attribute("data-name").unwrap_or_default());
+            assert!(named.eq(heads.iter().map(String::as_str)), "{}", words(row));
+        }
+    }
+}
+
+/// The only scripts move the masses. Without them the picture, its caption and its description are
+/// there, and controls that would do nothing are not.
+#[test]
+fn the_scene_is_complete_without_its_script() {
+    let page = page();
+    let scene = page.descendants().find(|node| node.attribute("id") == Some("scene")).unwrap();
+    let inside = |name: &str| -> Vec<_> {
+        scene.descendants().filter(|node| node.tag_name().name() == name).collect()
+    };
+    assert_eq!(inside("script").len(), 2);
+    assert_eq!(elements(&page, "script").len(), 2);
+    assert_eq!(elements(&page, "input").len(), 1);
+    let controls = scene.children().find(|n| n.attribute("class") == Some("controls")).unwrap();
+    assert_eq!(controls.attribute("hidden"), Some(""));
+    assert!(inside("input")[0].has_attribute("aria-label"));
+    assert!(words(inside("figcaption")[0]).len() > 200);
+
+    let data = words(inside("script")[0]);
+    assert!(data.len() < 200_000, "{}", data.len());
+    let data: serde_json::Value = serde_json::from_str(&data).unwrap();
+    let number = |value: &serde_json::Value| value.as_f64().unwrap();
+    let bodies = data["bodies"].as_array().unwrap();
+    assert_eq!(bodies.len(), 22);
+    let [from, until] = ["from", "until"].map(|name| number(&data[name]));
+    let first = data["first"].as_u64().unwrap() as usize;
+
+    // The saved numbers put every mass where the engine has it, at times that the table gives.
+    let parameters = &QUICK.run.parameters;
+    let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, QUICK.run.realisation);
+    let scenario = Scenario::draw(&parameters.chain, parameters.sigma, &mut normals);
+    let mut engine = Engine::new(&scenario).unwrap();
+    let mut hits = Vec::new();
+    engine.run(from, |_| true).unwrap();
+    let table = String::from_utf8(QUICK.report.committed["data/s02c.csv"].clone()).unwrap();
+    assert!(table.starts_with(&format!("time (1/omega),x_{first} (d),")), "{table}");
+    assert_eq!(table.lines().count(), 26);
+    for line in table.lines().skip(1) {
+        let mut cells = line.split(',').map(|cell| cell.parse::<f64>().unwrap());
+        let time = cells.next().unwrap();
+        let seen = |impact: impact_paper::dynamics::Impact| {
+            let gap = impact.gap.wrapping_sub(first);
+            hits.extend((gap < bodies.len() - 1).then_some((impact.time, gap)));
+            true
+        };
+        engine.run(time, seen).unwrap();
+        let walls = [0.0, (parameters.chain.masses + 1) as f64];
+        let all: Vec<f64> = [vec![walls[0]], engine.positions(time), vec![walls[1]]].concat();
+        for (k, (body, shown)) in bodies.iter().zip(cells).enumerate() {
+            let pair = |value: &serde_json::Value| [0, 1].map(|i| number(&value[i]));
+            let ([omega, big_omega], [c, s]) = (pair(&data["rates"]), pair(&body["forced"]));
+            let free = body["free"].as_array().unwrap();
+            let last = free.iter().rfind(|event| number(&event[0]) <= time).unwrap();
+            let x = number(&body["rest"])
+                + number(&last[1]) * (omega * time).cos()
+                + number(&last[2]) * (omega * time).sin()
+                + c * (big_omega * time).cos()
+                + s * (big_omega * time).sin();
+            let truth = all[first + k];
+            assert!((x - truth).abs() < 1e-9, "body {k} at {time}: {x} {truth}");
+            assert!((shown - truth).abs() < 1e-9, "body {k} at {time}: {shown} {truth}");
+        }
+    }
+    let listed: Vec<(f64, usize)> = serde_json::from_value(data["impacts"].clone()).unwrap();
+    assert_eq!(listed, hits);
+    assert!(listed.len() > 10 && listed.iter().all(|(t, _)| (from..=until).contains(t)));
+
+    let rects = |class: &str| {
+        let group = scene.descendants().find(|n| n.attribute("class") == Some(class)).unwrap();
+        group.children().filter(|n| n.tag_name().name() == "rect").collect::<Vec<_>>()
+    };
+    let places: Vec<f64> =
+        rects("masses").iter().map(|r| r.attribute("x").unwrap().parse().unwrap()).collect();
+    assert_eq!(places.len(), bodies.len());
+    // Each block stands where its mass is at first, by the scale that the script moves it with.
+    let begin = Engine::new(&scenario).map(|mut engine| {
+        engine.run(from, |_| true).unwrap();
+        let walls = [0.0, (parameters.chain.masses + 1) as f64];
+        [vec![walls[0]], engine.positions(from), vec![walls[1]]].concat()
+    });
+    let begin = begin.unwrap();
+    let (scale, bar) = (number(&data["scale"]), number(&data["bar"]));
+    for (k, x) in places.iter().enumerate() {
+        let expected = 60.0 + 50.0 * k as f64 + scale * (begin[first + k] - first as f64);
+        assert!((x - expected).abs() < 0.051, "block {k}: {x} {expected}");
+    }
+    // A bar for each gap, pale and to its full length, and its number below.
+    let group = scene.descendants().find(|n| n.attribute("class") == Some("counts")).unwrap();
+    let numbers: Vec<usize> = group
+        .children()
+        .filter(|n| n.tag_name().name() == "text")
+        .map(|n| words(n).trim().parse().unwrap())
+        .collect();
+    let counted = |gap| hits.iter().filter(|(_, own)| *own == gap).count();
+    assert_eq!(numbers, (0..bodies.len() - 1).map(counted).collect::<Vec<_>>());
+    let height = |n: &Node<'_, '_>| n.attribute("height").unwrap().parse::<f64>().unwrap();
+    let pale = rects("counts").into_iter().step_by(2).map(|n| height(&n));
+    let heights: Vec<f64> = pale.collect();
+    assert!(heights.iter().zip(&numbers).all(|(h, n)| (h - bar * *n as f64).abs() < 1e-9));
+    let tallest = heights.iter().copied().fold(0.0, f64::max);
+    assert!((tallest - 240.0).abs() < 1e-9, "{tallest}");
+    // No block lies on another: the distance of two blocks is their gap.
+    assert!(places.windows(2).all(|pair| pair[1] - pair[0] > 49.9), "{places:?}");
+}
+
+/// All equations of the paper with their numbers, as MathML.
+#[test]
+fn equations_are_mathml() {
+    let page = page();
+    let ids = ids(&page);
+    for number in 1..=38 {
+        assert!(ids.contains(format!("eq-{number}").as_str()), "Eq. ({number})");
+    }
+    assert!(elements(&page, "math").len() > 400);
+    assert!(elements(&page, "merror").is_empty());
+    let is_code = |node: &Node<'_, '_>| {
+        node.parent_element().is_some_and(|outer| outer.tag_name().name() == "script")
+    };
+    let texts = page.descendants().filter(|node| node.is_text() && !is_code(node));
+    for text in texts.filter_map(|node| node.text()) {
+        assert!(!text.contains(['\u{e000}', '\u{e003}', '\u{e005}', '$']), "{text:?}");
+    }
+}
+
+/// The ratio of luminances (WCAG 2.2) of each colour of the figures to the page.
+#[test]
+fn colours_stand_out_in_light_and_dark() {
+    let css = std::fs::read_to_string("templates/report.css").unwrap();
+    let schemes: Vec<&str> = css.split(":root {").skip(1).collect();
+    assert_eq!(schemes.len(), 2);
+    for scheme in schemes {
+        let colour = |name: &str| {
+            let code = scheme.split(&format!("--{name}: #")).nth(1);
+            let code = code.unwrap_or_else(|| panic!("--{name} is not in {scheme}"));
+            let channel = |i: usize| {
+                let c = f64::from(u8::from_str_radix(&code[i..i + 2], 16).unwrap()) / 255.0;
+                if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
+            };
+            0.2126 * channel(0) + 0.7152 * channel(2) + 0.0722 * channel(4)
+        };
+        let contrast = |a: &str, b: &str| {
+            let (a, b) = (colour(a), colour(b));
+            (a.max(b) + 0.05) / (a.min(b) + 0.05)
+        };
+        for (name, _) in impact_paper::figures::palette() {
+            let least = match name {
+                "page" => continue,
+                // Fills behind other things.
+                "pale" => 1.2,
+                "ink" | "grey" => 4.5,
+                _ => 3.0,
+            };
+            assert!(contrast(name, "page") >= least, "{name}: {}", contrast(name, "page"));
+        }
+        for name in ["ink", "grey", "link"] {
+            assert!(contrast(name, "soft") >= 4.5, "{name}: {}", contrast(name, "soft"));
+        }
+    }
+}

@@ -1,0 +1,159 @@
+//! The prose: numerals, Tera, Markdown, references, and all that is written of it.
+
+use super::entries::written;
+use super::mutants::{committed, survives};
+use impact_paper::claims::{self, Published};
+use impact_paper::experiments::{Need, Progress, Store, run::run};
+use impact_paper::params::Profile;
+use impact_paper::report::filler::Filler;
+use impact_paper::report::lint::{Declared, findings};
+use impact_paper::report::mutate::{Reasons, TABLE, Tally};
+use impact_paper::report::{Error, Registry, Templates, claims::Row, contents};
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
+
+/// What the prose of the quick profile may name.
+struct Named {
+    values: Registry,
+    claims: Vec<Row>,
+    rows: BTreeMap<&'static str, serde_json::Value>,
+}
+
+static NAMED: LazyLock<Named> = LazyLock::new(|| {
+    let scenario = |file: &str| Ok(committed(&format!("templates/{file}")));
+    let results =
+        run(&Need::ALL, Profile::Quick, scenario, &Store::nowhere(), &Progress::silent()).unwrap();
+    let published = Published::committed().unwrap();
+    let judged = claims::all(&results, &published).unwrap();
+    let mut values = contents::registry(&results, &published).unwrap();
+    values.extend(impact_paper::report::claims::scorecard(&judged)).unwrap();
+    let mut rows = contents::rows(&results, &judged).unwrap();
+    let reasons = Reasons::read(&committed("templates/unguarded.toml")).unwrap();
+    values.extend(Tally::default().values(&reasons)).unwrap();
+    rows.insert(TABLE, serde_json::to_value(Tally::default().rows(&reasons)).unwrap());
+    Named { values, claims: judged.iter().map(Row::of).collect(), rows }
+});
+
+/// Everything that prose can have, in little.
+const SMALL: &str = r#"# A title
+
+## Introduction {#sec:introduction}
+
+Masses in a row ([@rice1945]; see [@fig:3], [@eq:18; @eq:25] and [@sec:protocol]). With
+«v.half_height» and $\sigma = «v.half_height»$, the $n$-th mass of $f_{N,p}(k)$ and
+$\Phi'_{N,p}\,(k) < 1$ moves *fast*, **very** fast, at 100 % of `a_b` [here](https://x.org).
+
+$$
+p_{\mathrm{crit}} = \left(\frac{1 + \sqrt{N+1}}{N}\right)^2 \tag{18}
+$$
+
+where $N$ is large, so
+$$
+\begin{aligned} a &= b \\ c &= \binom{n}{k} \sum_{k=1}^{N} d \end{aligned} \tag{25}
+$$
+
+![The rise, at «v.half_height | significant(digits=3)» or $\sigma$ ≥ 0.12.](figures/fig03.svg)
+
+### The protocol {#sec:protocol}
+
+Table: What σ gives {#tab:sigma}
+
+| Claim | Statement | Ours |
+|:--|---|--:|
+<% for c in claims %><% if loop.index < 4 %>| [!claim:«c.id»] | «c.statement»: «c.ours» | «v.half_height | percent | fixed(digits=1)» |
+<% endif %><% endfor %>
+1. one
+2. two
+
+   more
+- x
+  - y
+
+> An aside.
+
+Scene: They move.
+
+Listing: What $\delta v$ does. {#lst:kick}
+
+«code(item="dynamics::flight::Motion::kick")»
+
+## References {.unnumbered}
+
+[@bibliography]
+"#;
+
+/// What the assembly makes of a text, but for pictures.
+fn made(named: &Named, text: &str) -> Result<usize, Error> {
+    let declared = Declared::read(&committed("templates/literals.toml"))?;
+    findings("report.md", text, &declared);
+    let templates = Templates::of([("report.md", text)]);
+    let mut filler = Filler::new(&templates, &named.values)?;
+    filler.insert("claims", &named.claims);
+    for (name, rows) in &named.rows {
+        filler.insert(name, rows);
+    }
+    written(&filler.fill("report.md")?, &named.values)
+}
+
+#[test]
+fn prose_of_any_text() {
+    let good = [committed("templates/report.md"), SMALL.into(), SMALL.into(), SMALL.into()];
+    LazyLock::force(&NAMED);
+    survives("prose", &good, 600, &[""], |text| {
+        let long = made(&NAMED, text).map_err(|error| error.to_string())?;
+        assert!(long < 1 << 26, "{long} bytes");
+        Ok(())
+    });
+}
+
+/// Texts that once broke something, or that nest and repeat beyond what chance finds; the words
+/// of the refusal, or `?` where it is enough that there is an answer.
+#[test]
+fn prose_that_is_made_to_hurt() {
+    let nested = |open: &str, close: &str| {
+        let (open, close) = (open.repeat(50_000), close.repeat(50_000));
+        format!("# T\n\n{open}x{close}\n")
+    };
+    let maths = |open: &str, close: &str| {
+        let times = 3900 / (open.len() + close.len());
+        let (open, close) = (open.repeat(times), close.repeat(times));
+        format!("# T\n\n$$\n{open}x{close}\n$$\n")
+    };
+    for (text, word) in [
+        (nested("> ", ""), "levels"),
+        (nested("- ", ""), "levels"),
+        (nested("*a ", " a*"), "levels"),
+        (nested("<% if true %>", "<% endif %>"), "too deep"),
+        (nested("«(", ")»"), "?"),
+        (maths("{", "}"), "brackets"),
+        (maths("\\sqrt{", "}"), "brackets"),
+        (maths("\\left(", "\\right)"), "brackets"),
+        (maths("\\begin{cases}", "\\end{cases}"), "?"),
+        (maths("\\sqrt", ""), "?"),
+        (maths("x^", ""), "?"),
+        (format!("# T\n\n$$\n{} x\n$$\n", "\\sqrt".repeat(9000)), "longer"),
+        ("# T\n\n$$\n\\begin{aligned} a &^{N} d \\end{aligned}\n$$\n".into(), "?"),
+        ("# T\n\n«v.half_height | fixed(digits=70000)»\n".into(), "digits"),
+        ("# T\n\n«v.half_height | significant(digits=99999999999)»\n".into(), "digits"),
+        ("# T\n\n\u{e000}half_height\u{e002}fixed99999999\u{e001}\n".into(), "?"),
+        ("<% include \"report.md\" %>".into(), "ircular"),
+        ("<% for a in range(end=100000) %><% for b in range(end=100000) %>xxxxxxxxxxxxxxxx<% endfor %><% endfor %>".into(), "FileTooLarge"),
+        ("# T\n\n".to_string() + &"<# $ ` {# [@ ".repeat(40_000), "?"),
+    ] {
+        let shown: String = text.chars().take(60).collect();
+        let began = std::time::Instant::now();
+        let made = std::thread::spawn(move || made(&NAMED, &text)).join();
+        let made = made.unwrap_or_else(|_| panic!("{shown} panics"));
+        let time = began.elapsed();
+        // No text hangs, on a busy machine either.
+        assert!(time.as_secs() < 60, "{shown} takes {time:?}");
+        match made {
+            Ok(_) => assert_eq!(word, "?", "{shown} is taken"),
+            Err(error) => {
+                let line = error.to_string();
+                assert!(word == "?" || line.contains(word), "{shown}: {line}");
+                assert!(!line.contains(char::is_control) && line.len() < 2000, "{shown}: {line}");
+            }
+        }
+    }
+}

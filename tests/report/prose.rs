@@ -1,0 +1,108 @@
+//! The prose with the results of the quick profile: it fills, it names no unknown value and leaves
+//! none unused (the assembly refuses both, and naked numerals), it has every equation and figure of
+//! the paper, and every claim has its place in it.
+
+use crate::quick::QUICK;
+use impact_paper::claims::{self, Published, Verdict};
+use impact_paper::experiments::{Need, Progress, Results, Store, run::run};
+use impact_paper::figures;
+use impact_paper::params::Profile;
+
+#[test]
+fn the_report_has_every_equation_and_figure() {
+    let report = &QUICK.report;
+    let text = String::from_utf8(report.committed["report.md"].clone()).unwrap();
+    for number in 1..=38 {
+        assert_eq!(text.matches(&format!("\\tag{{{number}}}")).count(), 1, "Eq. ({number})");
+    }
+    for number in figures::all().map(|number| number.to_string().to_uppercase()) {
+        assert_eq!(text.matches(&format!("**Figure {number}.**")).count(), 1, "Fig. {number}");
+    }
+}
+
+/// A reader meets our own figures in the order of their numbers.
+#[test]
+fn own_figures_are_numbered_by_first_mention() {
+    let template = QUICK.templates.text("report.md").unwrap();
+    let first = |n: usize| {
+        let named = [format!("ig:S{n}]"), format!("ig:S{n};"), format!("figures/s{n:02}.svg")];
+        let first = named.iter().filter_map(|name| template.find(name)).min();
+        first.unwrap_or_else(|| panic!("Fig. S{n} is not mentioned"))
+    };
+    let first: Vec<usize> = (1..=figures::Number::OWN.into()).map(first).collect();
+    assert!(first.is_sorted(), "{first:?}");
+}
+
+#[test]
+fn every_claim_is_spoken_of_once_in_the_text() {
+    let template = QUICK.templates.text("report.md").unwrap();
+    for row in claims::rows() {
+        let tag = format!("«row.{}»", row.id);
+        assert_eq!(template.matches(&tag).count(), 1, "{tag}");
+    }
+}
+
+/// Verdicts follow the simulated numbers: shift, flatten or crowd them, and the claims fail.
+#[test]
+fn claims_fail_when_the_results_say_so() {
+    let none = |_: &str| Err("not needed".to_string());
+    let needs = [Need::Sweep, Need::Laws, Need::Starts];
+    let mut results =
+        run(&needs, Profile::Quick, none, &Store::nowhere(), &Progress::silent()).unwrap();
+    let published = Published::committed().unwrap();
+    let verdict =
+        |id: &str, results: &Results| claims::one(id, results, &published).unwrap().verdict;
+
+    assert_eq!(verdict("sec2_half_height", &results), Verdict::Reproduced);
+    assert_eq!(verdict("sec2_onset", &results), Verdict::DiffersAndExplained);
+    assert_eq!(verdict("sec2_sticking", &results), Verdict::Reproduced);
+    assert_eq!(verdict("sec2_parameters", &results), Verdict::Reproduced);
+    let sweep = results.sweep.as_mut().unwrap();
+    for place in [&mut sweep.rise.half_height, &mut sweep.rise.kept_half] {
+        place.as_mut().unwrap().value += 0.05;
+    }
+    sweep.parameters.chain.restitution = 0.7;
+    for row in &mut sweep.rows {
+        row.contact_phases = row.impacts / 100;
+    }
+    assert_eq!(verdict("sec2_half_height", &results), Verdict::Differs);
+    // The onset still differs, but what explained it no longer holds.
+    assert_eq!(verdict("sec2_onset", &results), Verdict::Differs);
+    assert_eq!(verdict("sec2_sticking", &results), Verdict::Differs);
+    assert_eq!(verdict("sec2_parameters", &results), Verdict::Differs);
+
+    // The paper discards chains without impacts: the mean of the kept is judged, and that of all explains.
+    let small = |kept: f64, all: f64, results: &mut Results| {
+        let rows = &mut results.sweep.as_mut().unwrap().rows;
+        let row = rows.iter_mut().rfind(|row| row.sigma < 0.0804).unwrap();
+        (row.mean_distinct, row.standard_error) = (Some(kept), Some(0.01));
+        row.mean_all = Some(all);
+        row.counts = vec![0; row.counts.len()];
+        row.counts[0] = 10_000;
+    };
+    for (kept, all, expected) in [
+        (14.0, 0.6, Verdict::DiffersAndExplained),
+        (14.0, 13.0, Verdict::Differs),
+        (0.7, 0.6, Verdict::Reproduced),
+    ] {
+        small(kept, all, &mut results);
+        assert_eq!(verdict("sec2_few_below", &results), expected, "{kept} {all}");
+    }
+
+    // More chains with impacts than Eq. (20) lets have any, and fewer than two thirds of them.
+    assert_eq!(verdict("sec8_no_impact", &results), Verdict::Reproduced);
+    for share in [1, 0] {
+        let starts = results.starts.as_mut().unwrap();
+        let random = starts.variants.iter_mut().find(|own| own.name == "random").unwrap();
+        for row in &mut random.rows {
+            row.realisations = 1000;
+            (row.kept, row.rejected) = (700 * share, 200 * share);
+        }
+        assert_eq!(verdict("sec8_no_impact", &results), Verdict::Differs, "{share}");
+    }
+
+    results.sweep.as_mut().unwrap().rise.half_height = None;
+    assert_eq!(verdict("sec2_half_height", &results), Verdict::CannotBeJudged);
+    results.laws.as_mut().unwrap().totals.near_decades.iter_mut().for_each(|n| *n += 1000);
+    assert_eq!(verdict("sec2_three_way", &results), Verdict::Differs);
+}

@@ -1,0 +1,249 @@
+//! Rules about the source that no compiler checks: who imports whom, portable arithmetic, homes of
+//! equations, prose without naked numerals, and a README that is current.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// All files below a folder with one of these endings, as (path from the top, text).
+fn files(folder: &str, endings: &[&str]) -> Vec<(String, String)> {
+    fn walk(folder: &Path, into: &mut Vec<PathBuf>) {
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() { walk(&path, into) } else { into.push(path) }
+        }
+    }
+    let mut paths = Vec::new();
+    walk(&root().join(folder), &mut paths);
+    paths.sort();
+    let wanted = |path: &PathBuf| endings.iter().any(|e| path.to_string_lossy().ends_with(e));
+    let read = |path: PathBuf| {
+        let name = path.strip_prefix(root()).unwrap().to_string_lossy().into_owned();
+        (name, fs::read_to_string(&path).unwrap())
+    };
+    paths.into_iter().filter(wanted).map(read).collect()
+}
+
+/// Lines of code with their numbers: no comments, nothing after the unit tests begin.
+fn code(text: &str) -> impl Iterator<Item = (usize, &str)> {
+    let lines = text.lines().enumerate().map(|(i, line)| (i + 1, line));
+    lines
+        .take_while(|(_, line)| *line != "#[cfg(test)]")
+        .filter(|(_, line)| !line.trim_start().starts_with("//"))
+}
+
+/// Who may import whom, besides itself: no arrow goes back, and figures and claims know results,
+/// never models.
+const MAY_IMPORT: [(&str, &[&str]); 8] = [
+    ("params", &["numerics"]),
+    ("numerics", &[]),
+    ("dynamics", &["params", "numerics"]),
+    ("circuits", &["params", "numerics"]),
+    ("experiments", &["params", "numerics", "dynamics", "circuits"]),
+    ("figures", &["params", "numerics", "experiments"]),
+    ("claims", &["params", "numerics", "experiments"]),
+    ("report", &["params", "numerics", "circuits", "experiments", "figures", "claims"]),
+];
+
+/// Layers that a line of code names: `crate::layer`, or `super::…::layer` that climbs to the top.
+fn layers_named(line: &str, depth: usize) -> Vec<String> {
+    let mut named = Vec::new();
+    let word = |text: &str| -> String {
+        text.chars().take_while(|c| c.is_ascii_alphanumeric() || *c == '_').collect()
+    };
+    for (i, _) in line.match_indices("crate::") {
+        let rest = &line[i + "crate::".len()..];
+        match rest.strip_prefix('{') {
+            Some(list) => {
+                named.extend(list.split('}').next().unwrap().split(',').map(|p| word(p.trim())))
+            }
+            None => named.push(word(rest)),
+        }
+    }
+    let climb = "super::".repeat(depth);
+    if let Some(i) = line.find(&climb).filter(|_| depth > 0) {
+        named.push(word(&line[i + climb.len()..]));
+    }
+    named
+}
+
+#[test]
+fn imports_flow_one_way() {
+    let mut violations = Vec::new();
+    let layers: Vec<&str> = MAY_IMPORT.iter().map(|(layer, _)| *layer).collect();
+    for (path, text) in files("src", &[".rs"]) {
+        let parts: Vec<&str> = path.trim_end_matches(".rs").split('/').skip(1).collect();
+        let Some((_, allowed)) = MAY_IMPORT.iter().find(|(layer, _)| *layer == parts[0]) else {
+            continue;
+        };
+        let depth = parts.len() - usize::from(parts.last() == Some(&"mod"));
+        for (number, line) in code(&text) {
+            for layer in layers_named(line, depth) {
+                let known = layers.contains(&layer.as_str());
+                if known && layer != parts[0] && !allowed.contains(&layer.as_str()) {
+                    violations.push(format!("{path}:{number}: {} imports {layer}", parts[0]));
+                }
+            }
+        }
+    }
+    assert!(violations.is_empty(), "{}", violations.join("\n"));
+}
+
+#[test]
+fn imports_are_read_right() {
+    let named = |line, depth| layers_named(line, depth);
+    assert_eq!(named("use crate::circuits::jump;", 2), ["circuits"]);
+    assert_eq!(named("use crate::{claims::Claim, figures};", 2), ["claims", "figures"]);
+    assert_eq!(named("use super::super::dynamics::Engine;", 2), ["dynamics"]);
+    assert_eq!(named("use super::dynamics;", 2), Vec::<String>::new());
+    assert_eq!(named("let x = crate::report::print(y);", 1), ["report"]);
+}
+
+/// Methods of f64 that ask the platform's mathematical library, or fuse operations.
+const PLATFORM: [&str; 29] = [
+    "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sin_cos", "sinh", "cosh", "tanh",
+    "asinh", "acosh", "atanh", "exp", "exp2", "exp_m1", "ln", "ln_1p", "log", "log2", "log10",
+    "powf", "powi", "cbrt", "hypot", "mul_add", "gamma", "ln_gamma",
+];
+
+/// (file, method, why its bits do not depend on the machine).
+const OWN_METHODS: [(&str, &str, &str); 5] = [
+    ("src/dynamics/flight.rs", "sin_cos", "the clock's own kernel"),
+    ("src/circuits/impact_probability.rs", "exp", "of DoubleDouble"),
+    ("src/circuits/from_rest.rs", "exp", "of DoubleDouble"),
+    ("src/circuits/counting.rs", "ln", "of Scaled"),
+    ("src/circuits/distribution.rs", "ln", "of Scaled"),
+];
+
+#[test]
+fn no_bit_depends_on_the_platform() {
+    let mut found = Vec::new();
+    let mut used = BTreeSet::new();
+    for (path, text) in files("src", &[".rs"]) {
+        for (number, line) in code(&text) {
+            for method in PLATFORM {
+                let called = line.contains(&format!(".{method}("))
+                    || line.contains(&format!("f64::{method}"));
+                let own = OWN_METHODS.iter().find(|(file, m, _)| *file == path && *m == method);
+                match own {
+                    _ if !called => {}
+                    Some(own) => {
+                        used.insert(own);
+                    }
+                    None => found.push(format!("{path}:{number}: {method}: {}", line.trim())),
+                }
+            }
+        }
+    }
+    assert!(found.is_empty(), "use pxfm or declare an own method:\n{}", found.join("\n"));
+    for own in &OWN_METHODS {
+        assert!(used.contains(own), "{own:?} is an exception that nothing needs any more");
+    }
+}
+
+/// A file is about one thing. One that is longer than this is a question whether it holds two,
+/// and the test says so; no file may be longer than the second number.
+const LONG: usize = 400;
+const TOO_LONG: usize = 600;
+
+#[test]
+fn files_end() {
+    let lines = |text: &str| text.lines().take_while(|line| *line != "#[cfg(test)]").count();
+    let mut found: Vec<(usize, String)> =
+        files("src", &[".rs"]).into_iter().map(|(path, text)| (lines(&text), path)).collect();
+    found.retain(|(lines, _)| *lines > LONG);
+    for (lines, path) in &found {
+        eprintln!("{path}: {lines} lines before its tests; does it hold two things?");
+    }
+    found.retain(|(lines, _)| *lines > TOO_LONG);
+    assert!(found.is_empty(), "split these: {found:?}");
+}
+
+/// The first page of `cargo doc` leads to sections of the report that exist.
+#[test]
+fn links_of_the_documentation_land() {
+    let page = fs::read_to_string(root().join("src/lib.rs")).unwrap();
+    let prose = fs::read_to_string(root().join("templates/report.md")).unwrap();
+    let links: Vec<&str> = page
+        .split("../../../paper/report.html#")
+        .skip(1)
+        .map(|rest| rest.split(')').next().unwrap())
+        .collect();
+    assert!(links.len() >= 8, "{links:?}");
+    for link in links {
+        let id = link.replacen('-', ":", 1);
+        assert!(prose.contains(&format!("{{#{id}}}")), "{link}");
+    }
+}
+
+#[test]
+fn no_path_of_a_machine() {
+    // In two parts, so that this file does not find itself.
+    let paths = ["/wo:rk/", "/ro:ot/", "/ho:me/", "/tm:p/", "/Us:ers/"].map(|p| p.replace(':', ""));
+    let mut texts = files("src", &[".rs"]);
+    texts.extend(files("build", &[".rs"]));
+    texts.extend(files("tests", &[".rs"]));
+    texts.extend(files("templates", &[".md", ".tex", ".toml", ".bib", ".json"]));
+    texts.extend(files(".ci", &["run"]));
+    for name in ["README.md", "DESIGN.md", "CHANGELOG.md", "Makefile", "Cargo.toml", "CITATION.cff"]
+    {
+        texts.push((name.into(), fs::read_to_string(root().join(name)).unwrap()));
+    }
+    if root().join("paper").is_dir() {
+        texts.extend(files("paper", &[".md", ".tex", ".json", ".csv", ".svg"]));
+    }
+    for (name, text) in texts {
+        for path in &paths {
+            assert!(!text.contains(path.as_str()), "{name} has {path}");
+        }
+    }
+}
+
+#[test]
+fn prose_has_no_naked_numerals() {
+    let declared = fs::read_to_string(root().join("templates/literals.toml")).unwrap();
+    let declared = impact_paper::report::lint::Declared::read(&declared).unwrap();
+    let found: Vec<String> = files("templates", &[".md"])
+        .iter()
+        .flat_map(|(path, text)| impact_paper::report::lint::findings(path, text, &declared))
+        .map(|finding| finding.to_string())
+        .collect();
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+const MAP: [&str; 2] = ["<!-- map: generated -->\n", "<!-- map: end -->\n"];
+
+#[test]
+fn the_map_in_the_readme_is_current() {
+    let path = root().join("README.md");
+    let readme = fs::read_to_string(&path).unwrap();
+    let start = readme.find(MAP[0]).expect("the README has the map's first marker") + MAP[0].len();
+    let end = readme.find(MAP[1]).expect("the README has the map's last marker");
+    let map = format!("\n{}\n", impact_paper::report::map::markdown().unwrap());
+    if std::env::var_os("IMPACT_PAPER_REWRITE").is_some() {
+        let text = format!("{}{map}{}", &readme[..start], &readme[end..]);
+        fs::write(&path, text).unwrap();
+        return;
+    }
+    assert!(
+        readme[start..end] == map,
+        "the map is stale: IMPACT_PAPER_REWRITE=1 cargo test --test report structure"
+    );
+}
+
+/// Links of the map and of the README lead to files of the project.
+#[test]
+fn links_of_the_readme_land() {
+    let readme = fs::read_to_string(root().join("README.md")).unwrap();
+    for part in readme.split("](").skip(1) {
+        let target = part.split(')').next().unwrap();
+        // paper/ is written by the program, and may not be there yet.
+        if !target.contains("://") && !target.starts_with("paper/") {
+            assert!(root().join(target).exists(), "the README links to {target}");
+        }
+    }
+}
