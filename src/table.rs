@@ -443,13 +443,14 @@ mod tests {
 
     #[test]
     fn rows_have_names_for_templates() {
-        let named = table().named();
+        let table = table();
+        let named = table.named();
         for name in ["r=0.8,sigma=0.3", "r=last,sigma=0.3", "r=0.8,sigma=last", "r=last,sigma=last"]
         {
             assert_eq!(named[name]["mean"].id, "test.rise[r=0.8,sigma=0.3].mean", "{name}");
         }
         assert_eq!(named["r=first,sigma=last-1"]["mean"].id, "test.rise[r=0,sigma=0.1].mean");
-        assert_eq!(table().values("r"), [0.0, 0.8]);
+        assert_eq!(table.values("r"), [0.0, 0.8]);
     }
 
     #[test]

@@ -38,15 +38,20 @@ fn code(text: &str) -> impl Iterator<Item = (usize, &str)> {
 
 /// Who may import whom, besides itself: no arrow goes back, and figures and claims know results,
 /// never models.
-const MAY_IMPORT: [(&str, &[&str]); 8] = [
+const MAY_IMPORT: [(&str, &[&str]); 10] = [
+    ("value", &[]),
+    ("table", &["numerics", "value"]),
     ("params", &["numerics"]),
     ("numerics", &[]),
     ("dynamics", &["params", "numerics"]),
     ("circuits", &["params", "numerics"]),
-    ("experiments", &["params", "numerics", "dynamics", "circuits"]),
-    ("figures", &["params", "numerics", "experiments"]),
-    ("claims", &["params", "numerics", "experiments"]),
-    ("report", &["params", "numerics", "circuits", "experiments", "figures", "claims"]),
+    ("experiments", &["params", "numerics", "dynamics", "circuits", "table"]),
+    ("figures", &["params", "numerics", "experiments", "table"]),
+    ("claims", &["params", "numerics", "experiments", "table"]),
+    (
+        "report",
+        &["params", "numerics", "circuits", "experiments", "figures", "claims", "table", "value"],
+    ),
 ];
 
 /// Layers that a line of code names: `crate::layer`, or `super::…::layer` that climbs to the top.
