@@ -354,6 +354,16 @@ impl<R> Building<'_, R> {
         self.put((name, "1"), meaning, item, cell)
     }
 
+    /// Gives cells of a column the id of the number that they are: one that another table or a value has already.
+    pub fn same(mut self, column: &str, of: impl Fn(&R) -> Option<String>) -> Self {
+        if let Some(at) = self.table.column(column) {
+            for (row, (_, cells)) in self.rows.iter().zip(&mut self.table.rows) {
+                cells[at].id = of(row).unwrap_or_default();
+            }
+        }
+        self
+    }
+
     /// The table.
     ///
     /// # Panics
@@ -371,7 +381,9 @@ impl<R> Building<'_, R> {
             assert!(seen.insert(name.clone()), "{}: two rows with {name}", table.name);
             let row = if name.is_empty() { String::new() } else { format!("[{name}]") };
             for (column, cell) in columns.iter().zip(cells) {
-                cell.id = format!("{}{row}.{}", table.name, column.name);
+                if cell.id.is_empty() {
+                    cell.id = format!("{}{row}.{}", table.name, column.name);
+                }
             }
         }
         table
@@ -400,6 +412,7 @@ mod tests {
             .estimate("mean", "1", "the mean", mean)
             .count("runs", "how many", |row| row.2.len() as u64)
             .real("inverse", "1/omega", 3, "one over r", |row| 1.0 / row.0)
+            .same("inverse", |row| (row.1 == 0.3).then(|| "other".into()))
             .done()
     }
 
@@ -421,7 +434,11 @@ mod tests {
         let runs = table.cell(&[("r", 0.0), ("sigma", 0.1)], "runs").unwrap();
         assert_eq!(runs.source, "table::tests::table");
         let inverse = table.cell(&[("r", 0.8), ("sigma", 0.1)], "inverse").unwrap();
-        assert_eq!(inverse.unit, r"$1/\omega$");
+        assert_eq!(
+            (inverse.unit.as_str(), inverse.id.as_str()),
+            (r"$1/\omega$", "test.rise[r=0.8,sigma=0.1].inverse")
+        );
+        assert_eq!(table.cell(&[("r", 0.8), ("sigma", 0.3)], "inverse").unwrap().id, "other");
         assert_eq!(table.cell(&[("sigma", 0.1)], "sigma").unwrap().unit, r"$d \omega^2$");
     }
 

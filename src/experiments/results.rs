@@ -163,8 +163,9 @@ impl Results {
     /// The tables of all results that there are, by name.
     pub fn tables(&self) -> &BTreeMap<&'static str, Arc<Table>> {
         self.tables.get_or_init(|| {
+            let heat = self.heat.iter().flat_map(heat::tables::tables);
             let restitution = self.restitution.iter().flat_map(restitution::tables::tables);
-            restitution.map(|table| (table.name(), Arc::new(table))).collect()
+            heat.chain(restitution).map(|table| (table.name(), Arc::new(table))).collect()
         })
     }
 

@@ -2,15 +2,16 @@
 
 use super::axis::{Axis, log};
 use super::chart::{LETTERS, short};
-use super::data::cells;
 use super::panel::Frame;
 use super::series::Outside;
 use super::sheet::{Entry, Sheet};
 use super::style::{BLUE, Dash, GREEN, INK, LINE, Mark, ORANGE, PURPLE, RED, SMALL, Stroke, THIN};
 use super::{DataFile, Error, Figure};
-use crate::experiments::heat::{Heat, Warmth};
+use crate::experiments::heat::tables::{balanced_p, balanced_ratio};
 use crate::experiments::theory::Theory;
-use crate::numerics::statistics::Estimate;
+use crate::experiments::{Need, Results};
+use crate::params::HeatParams;
+use crate::table::Table;
 
 /// The free parts of a chain that starts from rest, over σ², in the mean: (1 + (Ω/ω)²)/2.
 const FROM_REST: f64 = 1.5;
@@ -24,17 +25,32 @@ const FRICTION: (&str, Stroke) = ("with friction", Stroke::solid(PURPLE, LINE));
 /// The half size of marks.
 const SIZE: i32 = 58;
 
-/// Draws the figure.
-pub fn draw(heat: &Heat, theory: &Theory, note: Option<&str>) -> Result<Figure, Error> {
-    let sheet = Sheet::new(9700, note)?;
-    against_sigma(&sheet, heat)?;
-    against_restitution(&sheet, heat)?;
-    probabilities(&sheet, heat, theory)?;
-    let files = tables(heat);
-    Ok(sheet.finish_own(7, "How hot a running chain is", description(heat), files))
+/// What is drawn.
+struct Shown<'a> {
+    parameters: &'a HeatParams,
+    theory: &'a Theory,
+    rising: &'a Table,
+    others: &'a Table,
 }
 
-fn against_sigma(sheet: &Sheet, heat: &Heat) -> Result<(), Error> {
+/// Draws the figure.
+pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
+    let table = |name| results.table(Need::Heat, name);
+    let shown = Shown {
+        parameters: &results.heat()?.parameters,
+        theory: &results.theory,
+        rising: table("heat.rising")?,
+        others: table("heat.others")?,
+    };
+    let sheet = Sheet::new(9700, note)?;
+    against_sigma(&sheet, &shown)?;
+    against_restitution(&sheet, &shown)?;
+    probabilities(&sheet, &shown)?;
+    let data = [shown.rising, shown.others].map(DataFile::of);
+    Ok(sheet.finish_own(7, "How hot a running chain is", description(&shown), data.into()))
+}
+
+fn against_sigma(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
     let panel = sheet.panel(
         Frame::new(1150, 430, 8150, 3730),
         Axis::linear(SIGMAS.0, SIGMAS.1, 0.05, 5, "standard deviation *σ* of the forcing"),
@@ -44,7 +60,7 @@ fn against_sigma(sheet: &Sheet, heat: &Heat) -> Result<(), Error> {
     let level = |name: &str, height: f64, stroke| {
         panel.curve(name, &[(SIGMAS.0, height), (SIGMAS.1, height)], stroke, Outside::Refuse)
     };
-    let expected = heat.rising().map(|row| row.expected).fold(0.0, f64::max);
+    let expected = shown.rising.values("balanced").into_iter().fold(0.0, f64::max);
     let lines = [
         ("balance of rare impacts", expected, Stroke::solid(INK, LINE)),
         ("start from rest", FROM_REST, Stroke::dashed(GREEN, LINE, Dash::Long)),
@@ -55,21 +71,18 @@ fn against_sigma(sheet: &Sheet, heat: &Heat) -> Result<(), Error> {
         level(name, height, stroke)?;
         entries.push(Entry::line(stroke, name));
     }
-    let friction: Vec<_> = heat.rising().map(|row| (row.row.sigma, row.expected_at_rate)).collect();
+    let friction = shown.rising.points(&[], "sigma", "balanced_at_rate");
     panel.curve(FRICTION.0, &friction, FRICTION.1, Outside::Refuse)?;
-    let of = |pick: fn(&Warmth) -> Option<Estimate>| -> Vec<(f64, Estimate)> {
-        heat.rising().filter_map(|row| Some((row.row.sigma, pick(row)?))).collect()
-    };
     let looks = [("masses that are hit", Mark::Ring, ORANGE), ("all masses", Mark::Disc, RED)];
     panel.estimates(
         looks[0].0,
-        &of(|row| row.ratio_of_hit),
+        &shown.rising.estimates(&[], "sigma", "variance_ratio_of_hit"),
         (looks[0].1, SIZE, Stroke::solid(looks[0].2, THIN)),
         |y| y,
     )?;
     panel.estimates(
         looks[1].0,
-        &of(|row| row.ratio),
+        &shown.rising.estimates(&[], "sigma", "variance_ratio"),
         (looks[1].1, SIZE, Stroke::solid(looks[1].2, THIN)),
         |y| y,
     )?;
@@ -82,7 +95,7 @@ fn against_sigma(sheet: &Sheet, heat: &Heat) -> Result<(), Error> {
     sheet.legend((5650, 600), (SMALL, 350), marks)
 }
 
-fn against_restitution(sheet: &Sheet, heat: &Heat) -> Result<(), Error> {
+fn against_restitution(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
     let panel = sheet.panel(
         Frame::new(1150, 5250, 4050, 7650),
         Axis::linear(0.4, 1.0, 0.2, 4, "restitution *r*"),
@@ -90,13 +103,13 @@ fn against_restitution(sheet: &Sheet, heat: &Heat) -> Result<(), Error> {
     )?;
     panel.letter(LETTERS[1])?;
     let line = Stroke::solid(INK, LINE);
-    let curve: Vec<_> = heat.expected.iter().map(|&[r, ratio]| (r, log(ratio))).collect();
+    let curve: Vec<_> =
+        balanced_ratio(shown.parameters).into_iter().map(|(r, ratio)| (r, log(ratio))).collect();
     panel.curve("balance of rare impacts", &curve, line, Outside::Cut)?;
-    let friction: Vec<_> =
-        heat.others().map(|row| (row.row.restitution, log(row.expected_at_rate))).collect();
+    let friction = shown.others.points(&[], "r", "balanced_at_rate");
+    let friction: Vec<_> = friction.into_iter().map(|(r, ratio)| (r, log(ratio))).collect();
     panel.curve(FRICTION.0, &friction, FRICTION.1, Outside::Refuse)?;
-    let points: Vec<_> =
-        heat.others().filter_map(|row| Some((row.row.restitution, row.ratio_of_hit?))).collect();
+    let points = shown.others.estimates(&[], "r", "variance_ratio_of_hit");
     panel.estimates(
         "masses that are hit",
         &points,
@@ -111,17 +124,18 @@ fn against_restitution(sheet: &Sheet, heat: &Heat) -> Result<(), Error> {
     sheet.legend((900, 8750), (SMALL, 370), &entries)
 }
 
-fn probabilities(sheet: &Sheet, heat: &Heat, theory: &Theory) -> Result<(), Error> {
+fn probabilities(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
     let panel = sheet.panel(
         Frame::new(5350, 5250, 8150, 7650),
         Axis::linear(SIGMAS.0, SIGMAS.1, 0.1, 2, "*σ*"),
         Axis::decades(-5, 0, 1, "*p*"),
     )?;
     panel.letter(LETTERS[2])?;
-    let relation = theory.relation.iter().filter(|row| row.p > 0.0);
+    let relation = shown.theory.relation.iter().filter(|row| row.p > 0.0);
     let (eq25, rest): (Vec<_>, Vec<_>) =
         relation.map(|row| ((row.sigma, log(row.p)), (row.sigma, log(row.p_rest)))).unzip();
-    let hot: Vec<_> = heat.balanced.iter().map(|&[sigma, p]| (sigma, log(p))).collect();
+    let hot: Vec<_> =
+        balanced_p(shown.parameters).into_iter().map(|(sigma, p)| (sigma, log(p))).collect();
     let lines = [
         ("Eq. (25)", eq25, Stroke::dashed(BLUE, LINE, Dash::Short)),
         ("from rest", rest, Stroke::dashed(GREEN, LINE, Dash::Long)),
@@ -132,8 +146,9 @@ fn probabilities(sheet: &Sheet, heat: &Heat, theory: &Theory) -> Result<(), Erro
         panel.curve(name, &points, stroke, Outside::Cut)?;
         entries.push(Entry::line(stroke, name));
     }
-    let measured = heat.rising().filter(|row| row.p_measured > 0.0);
-    let measured: Vec<_> = measured.map(|row| (row.row.sigma, log(row.p_measured))).collect();
+    let mut measured = shown.rising.points(&[], "sigma", "p_measured");
+    measured.retain(|(_, p)| *p > 0.0);
+    let measured: Vec<_> = measured.into_iter().map(|(sigma, p)| (sigma, log(p))).collect();
     let look = (Mark::Disc, SIZE, Stroke::solid(RED, THIN));
     panel.marks("measured", &measured, look, Outside::Refuse)?;
     entries.push(Entry::mark(look.0, look.1, look.2, "measured"));
@@ -143,23 +158,16 @@ fn probabilities(sheet: &Sheet, heat: &Heat, theory: &Theory) -> Result<(), Erro
     Ok(())
 }
 
-fn description(heat: &Heat) -> String {
-    let told = |own: Option<Estimate>| own.map_or("none".into(), |own| short(own.value, 3));
-    let rising: Vec<String> = heat
-        .rising()
-        .map(|row| format!("{} at σ = {}", told(row.ratio_of_hit), row.row.sigma))
-        .collect();
-    let others: Vec<String> = heat
-        .others()
-        .map(|row| {
-            let expected = short(row.expected, 3);
-            format!("{} of {expected} at r = {}", told(row.ratio_of_hit), row.row.restitution)
-        })
-        .collect();
-    let p: Vec<String> = heat
-        .rising()
-        .map(|row| format!("{} at σ = {}", short(row.p_measured, 2), row.row.sigma))
-        .collect();
+fn description(shown: &Shown<'_>) -> String {
+    let told = |points: Vec<(f64, f64)>, key: &str, digits| {
+        let one = |(at, own): &(f64, f64)| format!("{} at {key} = {at}", short(*own, digits));
+        points.iter().map(one).collect::<Vec<_>>().join(", ")
+    };
+    let of_hit = shown.others.points(&[], "r", "variance_ratio_of_hit");
+    let others = of_hit.iter().map(|(r, ratio)| {
+        let expected = shown.others.number(&[("r", *r)], "balanced").unwrap_or_default();
+        format!("{} of {} at r = {r}", short(*ratio, 3), short(expected, 3))
+    });
     format!(
         "(a) Variance of the free amplitudes over that of the force against σ, of masses that are hit and of \
          all masses, with standard errors; level lines at what the balance of rare impacts gives, \
@@ -169,59 +177,8 @@ fn description(heat: &Heat) -> String {
          without bound towards r = 1, with friction much less: {}. (c) The probability p against σ on a logarithmic axis: rising \
          curves, at the rise lowest Eq. (25), then the start from rest, highest the balanced variance; the \
          measured points go from the second to the third: {}.",
-        rising.join(", "),
-        others.join(", "),
-        p.join(", ")
+        told(shown.rising.points(&[], "sigma", "variance_ratio_of_hit"), "σ", 3),
+        others.collect::<Vec<_>>().join(", "),
+        told(shown.rising.points(&[], "sigma", "p_measured"), "σ", 2),
     )
-}
-
-fn tables(heat: &Heat) -> Vec<DataFile> {
-    let mut rows = DataFile::new(
-        "s07.csv",
-        &[
-            "sigma (d omega^2)",
-            "r (1)",
-            "variance_ratio (1)",
-            "standard_error (1)",
-            "variance_ratio_of_hit (1)",
-            "standard_error_of_hit (1)",
-            "expected (1)",
-            "rate (omega)",
-            "expected_at_rate (1)",
-            "balance (1)",
-            "balance_error (1)",
-            "mean_count (1)",
-            "p (1)",
-            "p_rest (1)",
-            "p_balanced (1)",
-            "p_measured (1)",
-        ],
-    );
-    let value = |own: Option<Estimate>| own.map(|own| own.value);
-    let error = |own: Option<Estimate>| own.map(|own| own.error);
-    for row in &heat.rows {
-        rows.row(cells![
-            row.row.sigma,
-            row.row.restitution,
-            value(row.ratio),
-            error(row.ratio),
-            value(row.ratio_of_hit),
-            error(row.ratio_of_hit),
-            row.expected,
-            row.rate,
-            row.expected_at_rate,
-            value(row.balance),
-            error(row.balance),
-            value(row.count),
-            row.p,
-            row.p_rest,
-            row.p_balanced,
-            row.p_measured
-        ]);
-    }
-    let mut balanced = DataFile::new("s07c.csv", &["sigma (d omega^2)", "p_balanced (1)"]);
-    heat.balanced.iter().for_each(|&[sigma, p]| balanced.row(cells![sigma, p]));
-    let mut expected = DataFile::new("s07b.csv", &["r (1)", "expected (1)"]);
-    heat.expected.iter().for_each(|&[r, ratio]| expected.row(cells![r, ratio]));
-    vec![rows, expected, balanced]
 }

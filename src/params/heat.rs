@@ -35,6 +35,9 @@ impl HeatParams {
     /// The σ at which restitutions are compared.
     pub const SIGMA: f64 = 0.15;
 
+    /// The restitution of which the text speaks, beside the paper's; every profile has it.
+    pub const RESTITUTION: f64 = 0.9;
+
     /// The sizes of each profile.
     pub fn new(profile: Profile) -> Self {
         let (sigmas, restitutions, realisations, transient): (&[f64], &[f64], _, _) = match profile

@@ -1,99 +1,22 @@
 //! How hot a running chain is: the variance of the free parts, and the balance of energy that sets it.
 
 mod realisation;
-pub(crate) mod warmth;
+pub mod tables;
 
 use self::realisation::realisation;
 use super::cutting::{Cutting, Row, Unit};
 use super::progress::Stage;
 use super::{Error, Progress, weights};
-use crate::numerics::statistics::Estimate;
 use crate::params::{Boundary, Chain, HeatParams, HeatRow};
 use serde::{Deserialize, Serialize};
 
-/// How hot chains are.
+/// What was run: for each ensemble its realisations, none where the engine gave up.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Heat {
-    /// What was run.
+    /// The sizes.
     pub parameters: HeatParams,
-    /// One for each ensemble.
-    pub rows: Vec<Warmth>,
-    /// One for each ensemble on a ring.
-    pub ring: Vec<Warmth>,
-    /// The mean of [`Warmth::balance`] over the ensembles with impacts, between walls and on a ring.
-    pub balance: [Option<Estimate>; 2],
-    /// (σ, p) with the balanced variance, to be drawn.
-    pub balanced: Vec<[f64; 2]>,
-    /// (r, s²/σ²) that the balance of rare impacts lets expect, to be drawn.
-    pub expected: Vec<[f64; 2]>,
-    /// σ at which p with the balanced variance reaches the jump of the most likely number, for N gaps.
-    pub sigma_jump: f64,
-}
-
-/// One ensemble.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Warmth {
-    /// Which.
-    pub row: HeatRow,
-    /// s²/σ² of each realisation when the window ends: the mean over its masses of half the sum of
-    /// the squares of both free amplitudes, over σ².
-    pub ratios: Vec<f64>,
-    /// Their mean.
-    pub ratio: Option<Estimate>,
-    /// Masses that were hit in the window, over all realisations.
-    pub hit: u64,
-    /// Half the sum of squares of their free amplitudes, and their number times σ².
-    pub warmth_of_hit: [f64; 2],
-    /// s²/σ² of these alone.
-    pub ratio_of_hit: Option<Estimate>,
-    /// s²/σ² that the balance of rare impacts lets expect.
-    pub expected: f64,
-    /// Impacts of a mass with others in a unit of time, over the masses that were hit.
-    pub rate: f64,
-    /// s²/σ² that the balance lets expect at that rate.
-    pub expected_at_rate: f64,
-    /// 2 ⟨M V F⟩ / ((1 − r) ⟨M V²⟩) over all impacts in the window: one in a steady state.
-    pub balance: Option<Estimate>,
-    /// Sums of M V F and of (1 − r) M V²/2 over them.
-    pub work: [f64; 2],
-    /// Number of impacts of two masses, of each realisation.
-    pub impacts: Vec<u64>,
-    /// The largest difference between the change of energy in the window and the sum of the changes at
-    /// impacts, over the energy lost at them; none where masses stayed in contact.
-    pub imbalance: Option<f64>,
-    /// Different gaps with an impact in the window, of each realisation.
-    pub counts: Vec<u64>,
-    /// Their mean.
-    pub count: Option<Estimate>,
-    /// Gaps that can close by themselves when the window ends (Y_0 + Y_1 ≥ d), of each realisation.
-    pub closing: Vec<u64>,
-    /// Their share of all gaps.
-    pub p_measured: f64,
-    /// Eq. (25).
-    pub p: f64,
-    /// p for a start from rest.
-    pub p_rest: f64,
-    /// p with free parts as hot as the balance says.
-    pub p_balanced: f64,
-    /// Realisations that the engine ended early.
-    pub failed: usize,
-}
-
-impl Heat {
-    /// The rows at the paper's restitution, with rising σ.
-    pub fn rising(&self) -> impl Iterator<Item = &Warmth> {
-        self.rows.iter().take(self.number_rising())
-    }
-
-    /// The rows at one σ, with rising restitution.
-    pub fn others(&self) -> impl Iterator<Item = &Warmth> {
-        self.rows.iter().skip(self.number_rising())
-    }
-
-    fn number_rising(&self) -> usize {
-        let rise = |pair: &&[Warmth]| pair[0].row.sigma < pair[1].row.sigma;
-        (1 + self.rows.windows(2).take_while(rise).count()).min(self.rows.len())
-    }
+    /// First those between walls, then those on a ring.
+    pub rows: Vec<Part>,
 }
 
 /// One realisation.
@@ -129,8 +52,7 @@ pub struct Run {
 pub type Part = Vec<Option<Run>>;
 
 /// The experiment in units of work.
-pub const CUTTING: Cutting<HeatParams, Part, Heat> =
-    Cutting { rows, part, fits, join: warmth::join };
+pub const CUTTING: Cutting<HeatParams, Part, Heat> = Cutting { rows, part, fits, join };
 
 /// Runs all ensembles.
 ///
@@ -138,6 +60,11 @@ pub const CUTTING: Cutting<HeatParams, Part, Heat> =
 /// [`Error::Interrupted`]; [`Error::Dynamics`] if the chain is not allowed.
 pub fn run(parameters: &HeatParams, progress: &Progress) -> Result<Heat, Error> {
     CUTTING.run(parameters, "heat", progress)
+}
+
+fn join(parameters: &HeatParams, parts: Vec<Vec<Part>>, _: &Progress) -> Result<Heat, Error> {
+    let rows = parts.into_iter().map(|parts| parts.concat()).collect();
+    Ok(Heat { parameters: parameters.clone(), rows })
 }
 
 fn until(parameters: &HeatParams) -> f64 {
@@ -254,26 +181,72 @@ mod tests {
     #[test]
     fn energy_is_accounted_for_and_a_quiet_chain_is_as_it_started() {
         let heat = run(&small(), &Progress::silent()).unwrap();
-        let [quiet, hot, tame] = &heat.rows[..] else { panic!() };
-        assert_eq!((quiet.hit, quiet.p_measured, quiet.balance), (0, 0.0, None));
-        assert_eq!(quiet.impacts, [0; 5]);
+        let [rising, others, ring, all] = tables::tables(&heat).try_into().unwrap();
+        let of = |sigma: f64, column| rising.number(&[("sigma", sigma)], column);
+        assert_eq!((of(0.03, "impacts"), of(0.03, "p_measured")), (Ok(0.0), Ok(0.0)));
+        assert!(of(0.03, "balance").is_err());
         // From rest a free part has amplitudes −α and −Ω/ω β: (1 + 2)/2 of σ² in the mean. Twelve
         // masses, five times: the mean of 120 squares.
-        let ratio = quiet.ratio.unwrap();
+        let ratio = rising.estimates(&[("sigma", 0.03)], "sigma", "variance_ratio")[0].1;
         assert!((ratio.value - 1.5).abs() < 5.0 * ratio.error && ratio.error < 0.4, "{ratio:?}");
-        assert_eq!(quiet.imbalance, Some(0.0));
-        for row in [hot, tame, &heat.ring[0]] {
-            assert!(row.imbalance.is_none_or(|off| off < 1e-10), "{:?}", row.imbalance);
-            assert!(row.impacts.iter().all(|&n| n > 50) && row.hit > 50, "{row:?}");
-        }
-        assert!(hot.imbalance.is_some());
+        assert_eq!(of(0.03, "imbalance"), Ok(0.0));
+        assert!(of(0.3, "imbalance").unwrap() < 1e-10);
+        assert!(
+            heat.rows[1..].iter().flatten().flatten().all(|run| run.impacts > 50 && run.hit > 5)
+        );
         // What a chain gains is what its balance is above one: changes of both over what restitution took.
-        let [walls, ring] = heat.balance.map(|own| own.unwrap().value);
-        assert_eq!(ring, heat.ring[0].balance.unwrap().value);
-        let both = 0.5 * (hot.balance.unwrap().value + tame.balance.unwrap().value);
+        let tame = |column| others.number(&[("r", 0.5)], column).unwrap();
+        let walls = all.number(&[], "balance").unwrap();
+        assert_eq!(all.number(&[], "balance_on_ring"), ring.number(&[("sigma", 0.3)], "balance"));
+        let both = 0.5 * (of(0.3, "balance").unwrap() + tame("balance"));
         assert!((walls - both).abs() < 1e-12 && (walls - 1.0).abs() < 0.2, "{walls} {both}");
-        assert!(hot.ratio.unwrap().value > tame.ratio.unwrap().value);
-        assert!(hot.p_measured > 0.5 && hot.p_balanced > hot.p_rest && hot.p_rest > hot.p);
-        assert!((hot.expected - 18.0).abs() < 1e-12 && (tame.expected - 6.0).abs() < 1e-12);
+        assert!(of(0.3, "variance_ratio").unwrap() > tame("variance_ratio"));
+        let p = |column| of(0.3, column).unwrap();
+        assert!(p("p_measured") > 0.5 && p("p_balanced") > p("p_rest") && p("p_rest") > p("p"));
+        assert!((p("balanced") - 18.0).abs() < 1e-12 && (tame("balanced") - 6.0).abs() < 1e-12);
+        // ω = d = 1, Ω² = 2, (ω² − Ω²)² = 1: at the rate of impacts force gives what restitution takes.
+        for (r, rate, expected) in
+            [(0.8, p("rate"), p("balanced_at_rate")), (0.5, tame("rate"), tame("balanced_at_rate"))]
+        {
+            let lost = 2.0 * ((1.0 + r) * rate) * ((1.0 + r) * rate);
+            let kept = 2.0 / (1.0 + lost);
+            // Of a² + b² = x² + v²/ω² what friction leaves out of the forced motion has three quarters of 2 v².
+            let speed = expected - 0.75 * kept * lost + kept;
+            let (given, taken) = ((1.0 + r) * kept, 0.5 * (1.0 - r * r) * speed);
+            assert!((given / taken - 1.0).abs() < 1e-12, "{given} {taken}");
+        }
+    }
+
+    /// Runs that are made up, so that means and ratios are known.
+    #[test]
+    fn tables_follow_from_the_runs_as_by_hand() {
+        let mut parameters = small();
+        parameters.realisations = 2;
+        let run = |free: f64, hit, impacts, products| {
+            let free_of_hit = 0.5 * free;
+            Some(Run {
+                free,
+                free_of_hit,
+                hit,
+                impacts,
+                products,
+                squares: 10.0,
+                closing: 3,
+                ..Run::default()
+            })
+        };
+        let part = vec![run(1.08, 4, 30, 2.0), run(3.24, 5, 60, 1.0), None];
+        let heat = Heat { parameters, rows: vec![part; 4] };
+        let [rising, ..] = <[_; 4]>::try_from(tables::tables(&heat)).unwrap();
+        for (column, expected) in [
+            ("variance_ratio", 2.16 / (12.0 * 0.09)),
+            ("variance_ratio_of_hit", 2.16 / (9.0 * 0.09)),
+            ("rate", 2.0 * 90.0 / (9.0 * 60.0)),
+            ("balance", 3.0 / (0.5 * 0.2 * 20.0)),
+            ("p_measured", 6.0 / 26.0),
+        ] {
+            let found = rising.number(&[("sigma", 0.3)], column).unwrap();
+            assert!((found - expected).abs() < 1e-12, "{column}: {found} {expected}");
+        }
     }
 }

@@ -6,7 +6,7 @@ use super::{Case, Restitution, Run, cases, chain};
 use crate::circuits::balance::variance_ratio;
 use crate::numerics::regression::line;
 use crate::numerics::statistics::{Estimate, last_rise};
-use crate::params::RestitutionParams;
+use crate::params::{Chain, HeatParams, RestitutionParams};
 use crate::table::Table;
 use pxfm::{f_exp, f_log};
 
@@ -105,6 +105,14 @@ fn curve_table(curves: &[&[Row<'_>]]) -> Table {
             },
         )
         .real("balanced", "1", 2, BALANCED, |curve| curve.first().map_or(f64::NAN, Row::balanced))
+        // The text speaks of these among the chains of another experiment.
+        .same("balanced", |curve| {
+            let r = first(curve);
+            let paper = Chain::default().restitution;
+            [paper, HeatParams::RESTITUTION]
+                .contains(&r)
+                .then(|| format!("heat.others[r={r}].balanced"))
+        })
         .done()
 }
 

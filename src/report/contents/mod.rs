@@ -3,7 +3,7 @@
 //! A value is computed here from results and carries the path of the function that computed it, which the
 //! compiler gives ([`super::values::origin`]). Groups
 //! are `v` (ours), `paper` (numbers that the paper chose), `printed` (numbers in its statements), and
-//! one for the cells of each table: `readings`, `compare`, `protocol`, `protocols`, `long`, `nucleation`, `spread`, `course`, `fronts`, `growth`, `heat`,
+//! one for the cells of each table: `readings`, `compare`, `protocol`, `protocols`, `long`, `nucleation`, `spread`, `course`, `fronts`, `growth`,
 //! `scores`, `history`, `independence`, `orbits`, `chains`, `sizes`, `starts`, `bias` and `carried`.
 
 mod accuracy;
@@ -12,7 +12,6 @@ mod chains;
 mod comparison;
 mod fronts;
 mod growth;
-mod heat;
 mod higher;
 mod history;
 mod independence;
@@ -63,7 +62,7 @@ pub enum Error {
 pub type Section = fn(&Results) -> Result<Vec<Value>, Error>;
 
 /// All values but what the paper printed, in the order of the report.
-pub const SECTIONS: [Section; 23] = [
+pub const SECTIONS: [Section; 22] = [
     simulation::values,
     theory::values,
     comparison::values,
@@ -78,7 +77,6 @@ pub const SECTIONS: [Section; 23] = [
     nucleation::values,
     growth::values,
     fronts::values,
-    heat::values,
     scores::values,
     history::values,
     independence::values,
@@ -142,7 +140,6 @@ pub fn rows(
         ("history_times", serde_json::to_value(history::times(results)?)?),
         ("history_table", serde_json::to_value(history::table(results)?)?),
         ("scores_table", serde_json::to_value(scores::table(results)?)?),
-        ("heat_table", serde_json::to_value(heat::table(results)?)?),
         ("independence_table", serde_json::to_value(independence::table(results)?)?),
         ("orbits_table", serde_json::to_value(orbits::table(results)?)?),
         ("orbits_fig6", serde_json::to_value(orbits::fig6(results)?)?),

@@ -1,0 +1,231 @@
+//! What follows from the runs.
+
+use super::super::estimates::{average, jackknife, ratio, sums};
+use super::{Heat, Part, Run, ensembles};
+use crate::circuits;
+use crate::circuits::balance::{variance_ratio, variance_ratio_at};
+use crate::circuits::distribution::SampleSpace;
+use crate::circuits::impact_probability::ImpactProbability;
+use crate::circuits::jump;
+use crate::numerics::bisection;
+use crate::numerics::statistics::{Estimate, mean};
+use crate::params::{Chain, HeatParams, HeatRow, PRINTED_THRESHOLD};
+use crate::table::Table;
+
+/// One ensemble.
+struct Row<'a> {
+    parameters: &'a HeatParams,
+    row: &'a HeatRow,
+    chain: Chain,
+    part: &'a Part,
+    runs: Vec<&'a Run>,
+}
+
+/// All tables.
+pub fn tables(heat: &Heat) -> Vec<Table> {
+    let parameters = &heat.parameters;
+    let mut rows = Vec::new();
+    for ((row, chain), part) in ensembles(parameters).zip(&heat.rows) {
+        rows.push(Row { parameters, row, chain, part, runs: part.iter().flatten().collect() });
+    }
+    let (walls, ring) = rows.split_at(parameters.rows.len());
+    // First the paper's restitution at rising σ, then other restitutions at one σ.
+    let rises = |pair: &&[Row<'_>]| pair[0].row.sigma < pair[1].row.sigma;
+    let rising = (1 + walls.windows(2).take_while(rises).count()).min(walls.len());
+    let (rising, others) = walls.split_at(rising);
+    let sigma = |row: &Row<'_>| row.row.sigma;
+    vec![
+        ensembles_by("heat.rising", rising, ("sigma", "d omega^2"), sigma),
+        ensembles_by("heat.others", others, ("r", "1"), |row| row.row.restitution),
+        ensembles_by("heat.ring", ring, ("sigma", "d omega^2"), sigma),
+        all(parameters, walls, ring),
+    ]
+}
+
+/// Ensembles by one parameter.
+fn ensembles_by(
+    name: &'static str,
+    rows: &[Row<'_>],
+    (key, unit): (&'static str, &'static str),
+    by: fn(&Row<'_>) -> f64,
+) -> Table {
+    Table::of(name, rows, |row| row.runs.len())
+        .key(key, unit, by)
+        .estimate(
+            "variance_ratio",
+            "1",
+            "s²/σ² when the window ends: mean over all masses of half the sum of squares of both free amplitudes, over σ²",
+            |row| row.mean(|run| run.free / (row.chain.masses as f64 * row.sigma2())),
+        )
+        .estimate("variance_ratio_of_hit", "1", "the same of the masses that were hit in the window", |row| {
+            row.ratio(|run| [run.free_of_hit, run.hit as f64 * row.sigma2()])
+        })
+        .real("balanced", "1", 2, "the same by the balance of rare impacts", |row| {
+            variance_ratio(&row.chain).unwrap_or(f64::NAN)
+        })
+        .real("rate", "omega", 2, "impacts of a mass with others per unit of time, over the masses that were hit", Row::rate)
+        .real("balanced_at_rate", "1", 3, "s²/σ² by the balance at that rate", |row| {
+            variance_ratio_at(&row.chain, row.rate()).unwrap_or(f64::NAN)
+        })
+        .estimate(
+            "balance",
+            "1",
+            "2 ⟨M V F⟩ / ((1 − r) ⟨M V²⟩) over all impacts in the window: one in a steady state",
+            |row| row.ratio(|run| work(row.row, run)),
+        )
+        .real("imbalance", "1", 1, "change of energy less what impacts gave, over what they took; none with lasting contact", Row::imbalance)
+        .estimate("mean_count", "1", "different gaps with an impact", |row| row.mean(|run| run.distinct as f64))
+        .count("impacts", "impacts of two masses in the window", |row| row.sum(|run| run.impacts))
+        .real("p", "1", 2, "Eq. (25)", |row| number(gap(&row.chain, row.row.sigma).and_then(|gap| gap.p())))
+        .same("p", |row| match row.row.sigma {
+            PRINTED_THRESHOLD => Some("p_012".into()),
+            0.15 if row.row.restitution == Chain::default().restitution => Some("p_015".into()),
+            _ => None,
+        })
+        .real("p_rest", "1", 2, "p for a start from rest", |row| {
+            number(gap(&row.chain, row.row.sigma).and_then(|gap| gap.p_from_rest()))
+        })
+        .same("p_rest", |row| (row.row.sigma == PRINTED_THRESHOLD).then(|| "p_rest_012".into()))
+        .real("p_balanced", "1", 2, "p with free parts as hot as the balance says", |row| {
+            number(variance_ratio(&row.chain).and_then(|ratio| balanced(&row.chain, row.row.sigma, ratio)))
+        })
+        .real("p_measured", "1", 2, "share of gaps that can close by themselves when the window ends, Y₀ + Y₁ ≥ d", |row| {
+            row.sum(|run| run.closing) as f64 / (row.chain.gaps() * row.runs.len()).max(1) as f64
+        })
+        .done()
+}
+
+/// Numbers of all ensembles together.
+fn all(parameters: &HeatParams, walls: &[Row<'_>], ring: &[Row<'_>]) -> Table {
+    Table::of("heat.all", &[parameters], |own| own.realisations)
+        .count("realisations", "chains of each ensemble", |own| own.realisations as u64)
+        .chosen("transient", "1/omega", "", |own| Some(own.protocol.transient))
+        .chosen("window", "1/omega", "", |own| Some(own.protocol.window))
+        .chosen("sigma", "d omega^2", "where restitutions are compared", |_| {
+            Some(HeatParams::SIGMA)
+        })
+        .count("ensembles", "ensembles between walls", |_| walls.len() as u64)
+        .real(
+            "factor",
+            "1",
+            2,
+            "factor by which the balance of rare impacts is off, root mean square of all",
+            |_| factor(walls, |row| variance_ratio(&row.chain)),
+        )
+        .real("factor_at_rate", "1", 2, "the same of the balance at the rate of impacts", |_| {
+            factor(walls, |row| variance_ratio_at(&row.chain, row.rate()))
+        })
+        .estimate("balance", "1", "mean of the balance over the ensembles with impacts", |own| {
+            balance(own.realisations, walls)
+        })
+        .estimate("balance_on_ring", "1", "the same on a ring", |own| {
+            balance(own.realisations, ring)
+        })
+        .real(
+            "sigma_jump",
+            "d omega^2",
+            3,
+            "σ at which p with the balanced variance is that of the jump",
+            |own| number(sigma_jump(&own.chain)),
+        )
+        .done()
+}
+
+fn number(found: Result<f64, circuits::Error>) -> f64 {
+    found.unwrap_or(f64::NAN)
+}
+
+/// σ at which p with the balanced variance reaches the jump of the most likely number, for N gaps.
+fn sigma_jump(chain: &Chain) -> Result<f64, circuits::Error> {
+    let jump = jump::p_jump(SampleSpace::Simple, chain.gaps())?.p;
+    let ratio = variance_ratio(chain)?;
+    let reaches = |sigma: f64| balanced(chain, sigma, ratio).unwrap_or(0.0) >= jump;
+    Ok(bisection::bracket(0.0, 1.0, reaches)[1])
+}
+
+/// (σ, p) with the balanced variance, to be drawn.
+pub fn balanced_p(parameters: &HeatParams) -> Vec<(f64, f64)> {
+    let chain = &parameters.chain;
+    let at = |sigma| Some((sigma, balanced(chain, sigma, variance_ratio(chain).ok()?).ok()?));
+    (10..=90).filter_map(|i| at(f64::from(i) / 200.0)).collect()
+}
+
+/// (r, s²/σ²) by the balance of rare impacts, to be drawn.
+pub fn balanced_ratio(parameters: &HeatParams) -> Vec<(f64, f64)> {
+    let of = |restitution| Chain { restitution, ..parameters.chain.clone() };
+    (40..100).map(|i| f64::from(i) / 100.0).map(|r| (r, number(variance_ratio(&of(r))))).collect()
+}
+
+/// p of a chain whose free parts have that variance over σ².
+fn balanced(chain: &Chain, sigma: f64, ratio: f64) -> Result<f64, circuits::Error> {
+    gap(chain, sigma)?.heated(ratio)?.p()
+}
+
+fn gap(chain: &Chain, sigma: f64) -> Result<ImpactProbability, circuits::Error> {
+    let (d, omega, big_omega) = (chain.spacing, chain.natural_frequency, chain.forcing_frequency);
+    ImpactProbability::new(sigma, d, omega, big_omega)
+}
+
+/// Sums of M V F and of (1 − r) M V²/2 over the impacts of a realisation.
+fn work(row: &HeatRow, run: &Run) -> [f64; 2] {
+    [run.products, 0.5 * (1.0 - row.restitution) * run.squares]
+}
+
+/// The mean over ensembles of the ratio of the two sums; a realisation has the same forces in all.
+fn balance(realisations: usize, rows: &[Row<'_>]) -> Option<Estimate> {
+    let own = |row: &Row<'_>| -> Vec<[f64; 2]> {
+        row.part.iter().map(|run| run.map_or([0.0; 2], |run| work(row.row, &run))).collect()
+    };
+    let all: Vec<_> = rows.iter().map(own).collect();
+    jackknife(realisations, |out| {
+        let ratios = all.iter().map(|own| sums(own, out)).filter(|[_, below]| *below > 0.0);
+        let ratios: Vec<f64> = ratios.map(|[above, below]| above / below).collect();
+        mean(&ratios)
+    })
+}
+
+/// By which factor a formula is off for the masses that were hit, in the root mean square over all ensembles.
+fn factor(rows: &[Row<'_>], formula: fn(&Row<'_>) -> Result<f64, circuits::Error>) -> f64 {
+    let of = |row: &Row<'_>| {
+        let found = row.ratio(|run| [run.free_of_hit, run.hit as f64 * row.sigma2()])?;
+        Some(pxfm::f_log(number(formula(row)) / found.value))
+    };
+    let logs: Vec<f64> = rows.iter().filter_map(of).collect();
+    let square = logs.iter().map(|log| log * log).sum::<f64>() / logs.len().max(1) as f64;
+    pxfm::f_exp(square.sqrt())
+}
+
+impl Row<'_> {
+    fn sigma2(&self) -> f64 {
+        self.row.sigma * self.row.sigma
+    }
+
+    fn mean(&self, of: impl Fn(&Run) -> f64) -> Option<Estimate> {
+        average(&self.runs.iter().map(|run| of(run)).collect::<Vec<_>>())
+    }
+
+    fn ratio(&self, of: impl Fn(&Run) -> [f64; 2]) -> Option<Estimate> {
+        ratio(&self.runs.iter().map(|run| of(run)).collect::<Vec<_>>())
+    }
+
+    fn sum(&self, of: impl Fn(&Run) -> u64) -> u64 {
+        self.runs.iter().map(|run| of(run)).sum()
+    }
+
+    /// Each impact is one of two masses.
+    fn rate(&self) -> f64 {
+        let hit = self.sum(|run| run.hit).max(1) as f64;
+        2.0 * self.sum(|run| run.impacts) as f64 / (hit * self.parameters.protocol.window)
+    }
+
+    fn imbalance(&self) -> f64 {
+        if self.runs.iter().any(|run| run.contact) {
+            return f64::NAN;
+        }
+        let one = |run: &&Run| match run.lost > 0.0 {
+            true => (run.changed - run.gained).abs() / run.lost,
+            false => run.changed.abs(),
+        };
+        self.runs.iter().map(one).fold(0.0, f64::max)
+    }
+}
