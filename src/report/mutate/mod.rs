@@ -178,6 +178,8 @@ type Followers = Arc<BTreeMap<String, Number>>;
 impl<'a> Bench<'a> {
     fn new(subject: Subject<'a>) -> Result<Self, contents::Error> {
         let Subject { results, published } = subject;
+        // Copies take the tables over.
+        results.tables();
         let mut values = contents::registry(results, published)?;
         let mut before = judged(subject, &mut values)?;
         before.guard(subject, &values, |_| true);

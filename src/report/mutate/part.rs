@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value as Json;
+use std::sync::OnceLock;
 
 /// One part: the result of one experiment.
 pub struct Part {
@@ -98,13 +99,13 @@ const PARTS: [Part; 29] = [
     ran!("scale", scale),
     ran!("analytic", analytic),
     ran!("measured", measured),
-    ran!("heat", heat),
+    ran!("heat", heat, &["rows"]),
     ran!("nucleation", nucleation),
     ran!("history", history),
     ran!("seeds", seeds, &["seen", "waits", "closing"]),
     ran!("independence", independence, &["hits", "histogram"]),
     ran!("orbits", orbits, &["found", "ends", "singles", "each", "example"]),
-    ran!("restitution", restitution, &["runs", "able_drawn"]),
+    ran!("restitution", restitution, &["rows"]),
     ran!("chains", chains, &["runs"]),
     ran!("long_protocol", long_protocol),
     ran!("sizes", sizes, &["runs"]),
@@ -172,12 +173,22 @@ impl Whole {
 /// # Errors
 /// When it is not of the part's shape: a negative count.
 pub fn put(results: &mut Results, index: usize, part: &Json) -> serde_json::Result<()> {
+    if tabled(results, index) {
+        results.tables = OnceLock::new();
+    }
     (PARTS[index].write)(results, part)
+}
+
+/// Whether tables are made of a part.
+fn tabled(results: &Results, index: usize) -> bool {
+    let of = |name: &&str| name.split('.').next() == Some(PARTS[index].experiment);
+    results.tables().keys().any(|name| of(&name))
 }
 
 /// Gives results a part of others.
 pub fn restore(results: &mut Results, index: usize, from: &Results) {
     (PARTS[index].restore)(results, from);
+    results.tables = from.tables.clone();
 }
 
 /// Whether a part can be missing: theory is computed when it is first looked at.
