@@ -34,11 +34,15 @@ pub fn tables(heat: &Heat) -> Vec<Table> {
     let rising = (1 + walls.windows(2).take_while(rises).count()).min(walls.len());
     let (rising, others) = walls.split_at(rising);
     let sigma = |row: &Row<'_>| row.row.sigma;
+    // The paper's restitution stands among the others too.
+    let again = |row: &&Row<'_>| rising.iter().any(|own| own.row == row.row);
+    let different: Vec<&Row<'_>> =
+        rising.iter().chain(others.iter().filter(|row| !again(row))).collect();
     vec![
         ensembles_by("heat.rising", rising, ("sigma", "d omega^2"), sigma),
         ensembles_by("heat.others", others, ("r", "1"), |row| row.row.restitution),
         ensembles_by("heat.ring", ring, ("sigma", "d omega^2"), sigma),
-        all(parameters, walls, ring),
+        all(parameters, &different, &ring.iter().collect::<Vec<_>>()),
     ]
 }
 
@@ -96,7 +100,7 @@ fn ensembles_by(
 }
 
 /// Numbers of all ensembles together.
-fn all(parameters: &HeatParams, walls: &[Row<'_>], ring: &[Row<'_>]) -> Table {
+fn all(parameters: &HeatParams, walls: &[&Row<'_>], ring: &[&Row<'_>]) -> Table {
     Table::of("heat.all", &[parameters], |own| own.realisations)
         .count("realisations", "chains of each ensemble", |own| own.realisations as u64)
         .chosen("transient", "1/omega", "", |own| Some(own.protocol.transient))
@@ -104,7 +108,7 @@ fn all(parameters: &HeatParams, walls: &[Row<'_>], ring: &[Row<'_>]) -> Table {
         .chosen("sigma", "d omega^2", "where restitutions are compared", |_| {
             Some(HeatParams::SIGMA)
         })
-        .count("ensembles", "ensembles between walls", |_| walls.len() as u64)
+        .count("ensembles", "different ensembles between walls", |_| walls.len() as u64)
         .real(
             "factor",
             "1",
@@ -172,8 +176,8 @@ fn work(row: &HeatRow, run: &Run) -> [f64; 2] {
 }
 
 /// The mean over ensembles of the ratio of the two sums; a realisation has the same forces in all.
-fn balance(realisations: usize, rows: &[Row<'_>]) -> Option<Estimate> {
-    let own = |row: &Row<'_>| -> Vec<[f64; 2]> {
+fn balance(realisations: usize, rows: &[&Row<'_>]) -> Option<Estimate> {
+    let own = |row: &&Row<'_>| -> Vec<[f64; 2]> {
         row.part.iter().map(|run| run.map_or([0.0; 2], |run| work(row.row, &run))).collect()
     };
     let all: Vec<_> = rows.iter().map(own).collect();
@@ -185,8 +189,8 @@ fn balance(realisations: usize, rows: &[Row<'_>]) -> Option<Estimate> {
 }
 
 /// By which factor a formula is off for the masses that were hit, in the root mean square over all ensembles.
-fn factor(rows: &[Row<'_>], formula: fn(&Row<'_>) -> Result<f64, circuits::Error>) -> f64 {
-    let of = |row: &Row<'_>| {
+fn factor(rows: &[&Row<'_>], formula: fn(&Row<'_>) -> Result<f64, circuits::Error>) -> f64 {
+    let of = |row: &&Row<'_>| {
         let found = row.ratio(|run| [run.free_of_hit, run.hit as f64 * row.sigma2()])?;
         Some(pxfm::f_log(number(formula(row)) / found.value))
     };
