@@ -210,11 +210,13 @@ fn inline(inline: &Inline) -> Result<String, Error> {
     })
 }
 
-/// Long paths in code may break after `::`, `/` and `\_`.
+/// Long paths and addresses in code may break after `::`, `/`, `\_` and `,`, and before `[`.
 fn breakable(code: &str) -> String {
     code.replace("::", "::\\allowbreak{}")
         .replace('/', "/\\allowbreak{}")
         .replace(r"\_", r"\_\allowbreak{}")
+        .replace(',', r",\allowbreak{}")
+        .replace('[', r"\allowbreak{}[")
 }
 
 /// An address inside `\href`.

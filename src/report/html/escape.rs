@@ -17,5 +17,5 @@ pub fn text(text: &str) -> String {
 
 /// `fig:3` → `fig-3`, `card:printed.p_15` → `card-printed-p_15`.
 pub fn id(id: &str) -> String {
-    id.replace([':', '.'], "-")
+    id.replace([':', '.', '[', ']', '=', ','], "-")
 }

@@ -29,6 +29,7 @@ impl Page<'_> {
             // Long paths may break at their joints.
             Inline::Code(code) => {
                 let code = escape::text(code).replace('/', "/\u{200b}").replace("::", "::\u{200b}");
+                let code = code.replace(',', ",\u{200b}").replace('[', "\u{200b}[");
                 format!("<code>{}</code>", code.replace('\u{200b}', "<wbr/>"))
             }
             Inline::Emphasis(inner) => format!("<em>{}</em>", self.inlines(inner)?),
