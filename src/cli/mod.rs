@@ -3,7 +3,6 @@
 mod audit;
 mod bench;
 mod bundle;
-mod certificate;
 mod check;
 mod diff;
 mod eval;

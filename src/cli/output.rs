@@ -84,18 +84,6 @@ impl<'a> Staging<'a> {
         Ok(staging)
     }
 
-    /// Refuses to put files that are no part of a report among those of one.
-    ///
-    /// # Errors
-    /// Exit code 2 if there is a report.
-    pub fn refuse_report(&self) -> Result<(), Failure> {
-        if Own::read(self.folder).is_none_or(|own| own.report.is_empty()) {
-            return Ok(());
-        }
-        let (option, folder) = (self.option, self.folder.display());
-        Err(Failure::input(format!("{option}: {folder} holds a report; give another folder")))
-    }
-
     /// Refuses, before a long run, a report of which a file was changed.
     ///
     /// # Errors
@@ -462,16 +450,6 @@ mod tests {
         let staging = Staging::below(&new, "--out", ASK).unwrap();
         assert!(staging.place(&files(&["x"]), &stopped).is_err());
         assert!(!new.exists());
-    }
-
-    #[test]
-    fn a_report_has_no_other_files() {
-        let out = tempfile::tempdir().unwrap();
-        place(out.path(), &files(&["a.svg"])).unwrap();
-        Staging::below(out.path(), "--overlay", ASK).unwrap().refuse_report().unwrap();
-        place(out.path(), &report(&["report.md"])).unwrap();
-        let staging = Staging::below(out.path(), "--overlay", ASK).unwrap();
-        assert!(staging.refuse_report().unwrap_err().message.contains("holds a report"));
     }
 
     /// At each moment at which a run may be killed, the next one knows its files.

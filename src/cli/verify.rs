@@ -1,8 +1,7 @@
 //! `impact-paper verify`.
 
-use super::output::Force;
 use super::sources::Sources;
-use super::{Failure, certificate, folder, make, stdout, work};
+use super::{Failure, folder, make, stdout, work};
 use clap::ValueEnum;
 use impact_paper::digest::sha256;
 use impact_paper::experiments::Progress;
@@ -18,7 +17,7 @@ use std::path::{Path, PathBuf};
 ///
 /// Every digest is computed anew. PDFs and HTML are built beside and not committed: SHA256SUMS.local
 /// lists them. Ends with exit code 1 if a file differs, is missing, or stands there without being
-/// listed. Writes nothing but a certificate.
+/// listed. Writes nothing.
 #[derive(clap::Args)]
 pub struct Args {
     /// Folder of the report.
@@ -39,27 +38,16 @@ pub struct Args {
     /// Number of threads; all cores without it. It changes no bit of the result.
     #[arg(long, value_name = "K", allow_hyphen_values = true, requires = "rerun")]
     threads: Option<usize>,
-    /// Write what came out into this file, as a certificate that a person can sign.
-    #[arg(long, value_name = "FILE", requires = "rerun")]
-    certificate: Option<PathBuf>,
-    #[command(flatten)]
-    force: Force,
 }
 
 /// Runs the verb.
 pub fn run(args: Args) -> Result<(), Failure> {
-    if let Some(path) = &args.certificate {
-        certificate::free(path, &args.folder, args.force)?;
-    }
     let progress = work::progress_that_tidies();
     let mut checked = listed(&args.folder, &progress)?;
     checked.tell(&args.folder)?;
     if args.rerun {
         let again = rerun(&args, &progress)?;
         again.tell(&args.folder)?;
-        if let Some(path) = &args.certificate {
-            certificate::write(path, &args.folder, (&checked, &again))?;
-        }
         checked.faults.extend(again.faults);
     }
     let them = match checked.faults.len() {

@@ -27,7 +27,6 @@ mod graph;
 mod markup;
 mod motion;
 mod number;
-mod overlay;
 mod panel;
 mod rivals;
 mod s01;
@@ -54,7 +53,6 @@ mod style;
 
 pub use data::DataFile;
 pub use number::Number;
-pub use overlay::{Overlay, OverlayPane, overlay};
 pub use scene::Scene;
 
 use plotters::drawing::DrawingAreaErrorKind;

@@ -86,8 +86,6 @@ fn the_same_report_twice_differs_in_nothing() {
         serde_json::from_str(&fine(folder.path(), &["a", "b", "--json"])).unwrap();
     assert_eq!(json["same"], true);
     assert_eq!(run(folder.path(), &["a", "b", "--exit-code"]).0, 0);
-    fine(folder.path(), &["a", "b", "--overlay", "o"]);
-    assert!(!folder.path().join("o").exists());
 }
 
 #[test]
@@ -125,41 +123,6 @@ fn number_verdict_data_and_files_are_told() {
     assert_eq!(diff["verdicts"][0]["after"], "differs");
     assert!((diff["numbers"][0]["sigmas"].as_f64().unwrap() - 3.0).abs() < 1e-9, "{diff}");
     assert_eq!(diff["lost"], serde_json::json!(["data/fig01.csv"]));
-}
-
-#[test]
-fn overlays_are_drawn_for_what_differs() {
-    let folder = changed();
-    fine(folder.path(), &["a", "b", "--overlay", "pictures/of"]);
-    let mut names: Vec<_> = fs::read_dir(folder.path().join("pictures/of"))
-        .unwrap()
-        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-        .collect();
-    names.sort();
-    assert_eq!(names, ["SHA256SUMS.local", "fig12-theory.svg"]);
-    let svg = fs::read_to_string(folder.path().join("pictures/of/fig12-theory.svg")).unwrap();
-    let document = roxmltree::Document::parse(&svg).unwrap();
-    let series = |name: &str| {
-        document.descendants().filter(|node| node.attribute("data-name") == Some(name)).count()
-    };
-    // Over σ, with a curve for each N.
-    let sizes = fs::read_to_string(folder.path().join("a/data/fig12-theory.csv")).unwrap();
-    let sizes: std::collections::BTreeSet<&str> =
-        sizes.lines().skip(1).map(|line| line.split(',').next().unwrap()).collect();
-    assert_eq!((series("before"), series("now")), (sizes.len(), sizes.len()));
-    let (code, _, note) = run(folder.path(), &["a", "b", "--overlay", "a/report.md"]);
-    assert_eq!(code, 2);
-    assert!(note.contains("--overlay: a/report.md: "), "{note}");
-    // Again into its own folder; not into one of others, nor over what was changed.
-    fine(folder.path(), &["a", "b", "--overlay", "pictures/of"]);
-    fs::write(folder.path().join("pictures/of/fig12-theory.svg"), "edited").unwrap();
-    for (place, named) in [("pictures/of", "fig12-theory.svg"), ("a/figures", "a/figures")] {
-        let before = fs::read_dir(folder.path().join(place)).unwrap().count();
-        let (code, _, note) = run(folder.path(), &["a", "b", "--overlay", place]);
-        assert_eq!((code, note.lines().count()), (2, 1), "{note}");
-        assert!(note.contains(named) && note.contains("--force"), "{note}");
-        assert_eq!(fs::read_dir(folder.path().join(place)).unwrap().count(), before);
-    }
 }
 
 #[test]
@@ -227,7 +190,7 @@ fn what_is_no_report_gets_one_line() {
         let good = keep(path);
         fs::write(at(path), bad).unwrap();
         if bad.contains('\0') {
-            assert_eq!(run(here, &["a", "b", "--overlay", "o"]).0, 0);
+            assert_eq!(run(here, &["a", "b"]).0, 0);
         } else {
             refused(path);
         }

@@ -176,7 +176,6 @@ fn check_names_a_guard_that_fails() {
     for (form, sign) in [
         ("text", "FAILS guard printed_as_it_reads: "),
         ("json", "\"guard\": \"printed_as_it_reads\""),
-        ("junit", "<testcase name=\"printed_as_it_reads\" classname=\"guards\"><failure"),
         ("github", "::error title=guard printed_as_it_reads::"),
         ("markdown", "| printed_as_it_reads | "),
     ] {

@@ -99,8 +99,6 @@ fn threads_and_saved_results_change_no_byte_and_lesser_profiles_replace_no_full_
     for (arguments, says) in [
         ("paper --profile ci --figure 4 --out one", "holds a report of the quick profile"),
         ("paper --profile quick --out one --results one", "are one folder"),
-        ("verify one --rerun --certificate one/c.md", "lies in one"),
-        ("verify one --rerun --certificate gone/c.md", "--certificate: gone/c.md"),
         ("paper --profile quick --out file", "it is a file"),
     ] {
         std::fs::write(at("file"), "").unwrap();

@@ -156,17 +156,8 @@ fn a_rerun_finds_what_the_list_cannot() {
     let counts: Vec<usize> = told.lines().map(count).collect();
     // The list is made again too, and does not list itself.
     assert_eq!(counts, [counts[0], counts[0] + 1]);
-    let score = |text: &str| {
-        let found = text.lines().find(|line| line.starts_with("| Claims of the paper |"));
-        found.expect("a line on claims").to_string()
-    };
-    let rerun = format!("verify r --rerun --results saved --certificate c.md {templates}");
+    let rerun = format!("verify r --rerun --results saved {templates}");
     assert_eq!(run(here, &rerun).0, 0);
-    let certificate = fs::read_to_string(here.join("c.md")).unwrap();
-    let line = format!("| Files made again | {} files made again", counts[1]);
-    assert!(certificate.contains(&line), "{certificate}");
-    assert!(!score(&certificate).contains('–'), "{certificate}");
-    assert!(certificate.contains("| Signature | |"), "{certificate}");
 
     // A forger who keeps the list right.
     let path = here.join("r/data/fig02.csv");
@@ -184,16 +175,9 @@ fn a_rerun_finds_what_the_list_cannot() {
     let local = format!("{local}{}  planted.html\n", digest(""));
     fs::write(here.join("r/SHA256SUMS.local"), local).unwrap();
     assert_eq!(run(here, "verify r").0, 0);
-    // A person may have signed what stands there.
     let (code, told, note) = run(here, &rerun);
-    assert_eq!((code, told.as_str()), (2, ""), "{note}");
-    assert!(note.contains("--certificate: c.md is there already"), "{note}");
-    assert_eq!(fs::read_to_string(here.join("c.md")).unwrap(), certificate);
-    let (code, told, note) = run(here, &format!("{rerun} --force"));
     assert_eq!(code, 1, "{told}{note}");
-    let certificate = fs::read_to_string(here.join("c.md")).unwrap();
-    assert!(certificate.contains("**4 faults**"), "{certificate}");
-    assert!(certificate.contains("rerun: differs  data/fig02.csv\n"), "{certificate}");
+    assert!(note.contains("4 faults"), "{note}");
     assert!(note.contains("sweep: fresh"), "{note}");
     let lines: Vec<&str> = told.lines().skip(1).collect();
     let names = [

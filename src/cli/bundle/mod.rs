@@ -1,7 +1,6 @@
 //! `impact-paper bundle`.
 
 mod archive;
-mod codecheck;
 mod metadata;
 mod told;
 mod tree;
@@ -9,7 +8,7 @@ mod vendored;
 
 use super::output::{self, Force};
 use super::sources::Sources;
-use super::{Failure, certificate, folder, make, stdout, verify, work};
+use super::{Failure, folder, make, stdout, verify, work};
 use archive::Archive;
 use clap::ValueEnum;
 use impact_paper::experiments::{Progress, Store, catalogue};
@@ -22,9 +21,8 @@ use tree::Tree;
 ///
 /// In it: the committed source, the source of every crate with the settings that let cargo build
 /// without a network, the toolchain file, saved results, paper/ with what is built beside it from
-/// these results, SHA256SUMS of everything, RO-Crate 1.2 metadata, CITATION.cff, codecheck.yml, and the draft of a
-/// certificate that `verify --rerun --certificate` fills in. The same revision and results give the
-/// same bytes. Run it in a clone without uncommitted changes.
+/// these results, SHA256SUMS of everything, RO-Crate 1.2 metadata and CITATION.cff. The same revision and
+/// results give the same bytes. Run it in a clone without uncommitted changes.
 #[derive(clap::Args)]
 pub struct Args {
     /// The archive.
@@ -63,7 +61,6 @@ pub fn run(args: Args) -> Result<(), Failure> {
         let what = format!("bundle: paper/ is not what its {} lists ({first})", sums::NAME);
         return Err(Failure::check(format!("{what}; make it anew with `make paper`")));
     }
-    let facts = certificate::Facts::of(report)?;
     let top = format!("impact-paper-{}", env!("CARGO_PKG_VERSION"));
     let mut archive = Archive::at(&args.out, &top)?;
     let released = metadata::released(Path::new("."))?;
@@ -84,8 +81,6 @@ pub fn run(args: Args) -> Result<(), Failure> {
     if !args.without.contains(&Part::Crates) {
         vendored::add(&mut archive, &progress)?;
     }
-    archive.add("CERTIFICATE.md", certificate::text(&facts, None).as_bytes(), false)?;
-    archive.add("codecheck.yml", codecheck::text(&archive).as_bytes(), false)?;
     let metadata = metadata::text(&archive, &tree.revision, &released);
     archive.add(metadata::NAME, metadata.as_bytes(), false)?;
     progress.check()?;

@@ -26,8 +26,6 @@ pub fn description(path: &str) -> String {
         "DESIGN.md" => "Why things are as they are.",
         "CHANGELOG.md" => "What changed.",
         "CITATION.cff" => "How to cite it.",
-        "CERTIFICATE.md" => "The draft of a certificate that the report was reproduced.",
-        "codecheck.yml" => "The outputs that a person compares, for CODECHECK.",
         "LICENSE-MIT" | "LICENSE-APACHE" => "Licence, at the choice of who uses it.",
         "SHA256SUMS" => "SHA-256 of every other file.",
         _ => match path.split_once('/').map(|(folder, _)| folder) {

@@ -3,7 +3,7 @@
 use impact_paper::claims::targets::Target;
 use impact_paper::claims::{Claim, Verdict, scorecard};
 use impact_paper::report::claims::plain;
-use impact_paper::report::guards::{self, Failing};
+use impact_paper::report::guards::Failing;
 use serde_json::json;
 use std::fmt::Write as _;
 
@@ -85,97 +85,6 @@ pub fn json(entries: &[Entry], targets: &[Target], failing: &[Failing]) -> Strin
 fn scores(entries: &[Entry]) -> Vec<(Verdict, usize)> {
     let claims: Vec<Claim> = entries.iter().map(|entry| entry.claim.clone()).collect();
     Verdict::ALL.into_iter().zip(scorecard(&claims)).collect()
-}
-
-/// Test suites of JUnit's XML: a claim that differs fails, one that cannot be judged is skipped; and
-/// the guards, where any was asked.
-pub fn junit(entries: &[Entry], failing: &[Failing]) -> String {
-    let of = |verdict| entries.iter().filter(|entry| entry.claim.verdict == verdict).count();
-    let mut out = format!(
-        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n\
-         <testsuite name=\"claims\" tests=\"{}\" failures=\"{}\" errors=\"0\" skipped=\"{}\">\n",
-        entries.len(),
-        of(Verdict::Differs),
-        of(Verdict::CannotBeJudged)
-    );
-    for Entry { claim, line } in entries {
-        let told = escaped(&message(claim));
-        let inside = match claim.verdict {
-            Verdict::Differs => format!("<failure message=\"differs\">{told}</failure>"),
-            Verdict::CannotBeJudged => format!("<skipped message=\"{told}\"/>"),
-            Verdict::Reproduced | Verdict::DiffersAndExplained => {
-                format!("<system-out>{}: {told}</system-out>", claim.verdict.words())
-            }
-        };
-        let (name, place) = (escaped(&claim.id), escaped(&claim.place));
-        let _ = writeln!(
-            out,
-            "<testcase name=\"{name}\" classname=\"{place}\" file=\"{FILE}\" line=\"{line}\">{inside}</testcase>"
-        );
-    }
-    out.push_str("</testsuite>\n");
-    if !failing.is_empty() {
-        let (tests, failures) = (guards::all().count(), failing.len());
-        let _ = writeln!(
-            out,
-            "<testsuite name=\"guards\" tests=\"{tests}\" failures=\"{failures}\" errors=\"0\" skipped=\"0\">"
-        );
-        for guard in guards::all() {
-            let fault = failing.iter().find(|failing| failing.name == guard.name);
-            let inside = fault.map(|fault| {
-                format!("<failure message=\"fails\">{}</failure>", escaped(&fault.what))
-            });
-            let inside = inside.unwrap_or_default();
-            let name = guard.name;
-            let _ =
-                writeln!(out, "<testcase name=\"{name}\" classname=\"guards\">{inside}</testcase>");
-        }
-        out.push_str("</testsuite>\n");
-    }
-    out + "</testsuites>\n"
-}
-
-fn escaped(text: &str) -> String {
-    let text = text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
-    text.replace('"', "&quot;")
-}
-
-/// SARIF 2.1.0: a rule for each claim, a result for each that is not simply reproduced.
-pub fn sarif(entries: &[Entry]) -> String {
-    let rule = |Entry { claim, .. }: &Entry| {
-        json!({
-            "id": claim.id,
-            "shortDescription": { "text": claim.statement },
-            "help": { "text": format!("{}; tolerance: {}", claim.place, claim.reason) },
-        })
-    };
-    let result = |(index, Entry { claim, line }): (usize, &Entry)| {
-        let place = json!({
-            "physicalLocation": {
-                "artifactLocation": { "uri": FILE, "uriBaseId": "%SRCROOT%" },
-                "region": { "startLine": line },
-            },
-        });
-        json!({
-            "ruleId": claim.id, "ruleIndex": index,
-            "kind": if claim.verdict == Verdict::Reproduced { "pass" } else { "fail" },
-            "level": level(claim.verdict).unwrap_or("none"),
-            "message": { "text": format!("{}. {}", claim.verdict.words(), message(claim)) },
-            "locations": [place],
-        })
-    };
-    let driver = json!({
-        "name": "impact-paper", "version": env!("CARGO_PKG_VERSION"),
-        "rules": entries.iter().map(rule).collect::<Vec<_>>(),
-    });
-    let run = json!({
-        "tool": { "driver": driver },
-        "results": entries.iter().enumerate().map(result).collect::<Vec<_>>(),
-    });
-    let log = json!({
-        "$schema": "https://json.schemastore.org/sarif-2.1.0.json", "version": "2.1.0", "runs": [run],
-    });
-    format!("{log:#}\n")
 }
 
 /// Most annotations that are worth a reader's time.

@@ -42,8 +42,6 @@ pub struct Args {
 enum Format {
     Text,
     Json,
-    Junit,
-    Sarif,
     Github,
     Markdown,
 }
@@ -89,8 +87,6 @@ pub fn run(args: Args) -> Result<(), Failure> {
     match args.format {
         Format::Text => stdout::written(print(&judged))?,
         Format::Json => stdout::print(&forms::json(&entries, targets, failing))?,
-        Format::Junit => stdout::print(&forms::junit(&entries, failing))?,
-        Format::Sarif => stdout::print(&forms::sarif(&entries))?,
         Format::Markdown => stdout::print(&forms::markdown(&entries, targets, failing))?,
         Format::Github => {
             stdout::print(&forms::github(&entries, failing))?;

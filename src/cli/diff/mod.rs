@@ -4,12 +4,11 @@ mod markdown;
 mod revision;
 mod text;
 
-use super::output::{Force, Staging};
-use super::{Failure, folder, stdout, work};
+use super::{Failure, folder, stdout};
 use impact_paper::report::Files;
 use impact_paper::report::compare::{self, Diff, Parts};
 use serde_json::json;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Says what differs between two reports: verdicts, numbers with their errors, the data of figures,
 /// files.
@@ -33,11 +32,6 @@ pub struct Args {
     /// The same as --format json.
     #[arg(long, conflicts_with_all = ["format", "markdown"])]
     json: bool,
-    /// Draw the data of figures that differ into this folder, old and new over each other.
-    #[arg(long, value_name = "DIR")]
-    overlay: Option<PathBuf>,
-    #[command(flatten)]
-    force: Force,
     /// End with exit code 1 if anything differs.
     #[arg(long)]
     exit_code: bool,
@@ -71,14 +65,6 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let before = Parts::of(&args.old, &old).map_err(unusable)?;
     let after = Parts::of(&args.new, &new).map_err(unusable)?;
     let diff = compare::diff(&before, &after).map_err(unusable)?;
-    if let Some(folder) = &args.overlay {
-        let drawn = compare::overlays(&diff, &before, &after).map_err(unusable)?;
-        if !drawn.is_empty() {
-            let staging = Staging::below(folder, "--overlay", args.force)?;
-            staging.refuse_report()?;
-            staging.place(&drawn, &work::progress())?;
-        }
-    }
     stdout::print(&match args.format() {
         Format::Text => text::text(&args.old, &args.new, &diff),
         Format::Markdown => markdown::markdown(&args.old, &args.new, &diff),

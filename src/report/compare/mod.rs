@@ -2,7 +2,6 @@
 
 mod claims;
 mod numbers;
-mod overlay;
 mod table;
 
 pub use claims::ClaimChange;
@@ -11,7 +10,6 @@ pub use table::{Largest, Row, TableChange};
 
 use super::{Files, Registry, sums};
 use claims::Claims;
-use overlay::overlay;
 use serde::Serialize;
 use std::collections::BTreeSet;
 use table::Table;
@@ -99,23 +97,6 @@ pub fn diff(before: &Parts<'_>, after: &Parts<'_>) -> Result<Diff, String> {
             out.data.push(TableChange::between(path, &before, &after));
         } else {
             out.differing.push(path.clone());
-        }
-    }
-    Ok(out)
-}
-
-/// Pictures of the data that differ, by file name: before and after over each other. None for data
-/// without numbers.
-///
-/// # Errors
-/// A table that is none, or one that cannot be drawn.
-pub fn overlays(diff: &Diff, before: &Parts<'_>, after: &Parts<'_>) -> Result<Files, String> {
-    let mut out = Files::new();
-    for change in &diff.data {
-        let drawn = overlay(change, &before.table(&change.path)?, &after.table(&change.path)?);
-        if let Some(svg) = drawn.map_err(|error| format!("{}: {error}", change.path))? {
-            let name = change.path.trim_start_matches("data/").trim_end_matches(".csv");
-            out.insert(format!("{}.svg", name.replace('/', "-")), svg.into_bytes());
         }
     }
     Ok(out)

@@ -151,23 +151,3 @@ fn what_is_no_report_is_named() {
     let digits = report(vec![Value::real("x", 1.0, usize::MAX)], r#"{"claims":[]}"#, "");
     assert!(of(&digits, &good).unwrap_err().contains("x: 18446744073709551615 digits"));
 }
-
-#[test]
-fn a_picture_for_data_with_numbers() {
-    let claims = r#"{"claims":[]}"#;
-    let before = report(vec![], claims, "n,x,y,w\n1,0,3,a\n1,1,4,b\n2,0,5,c\n");
-    let drawn = |data: &str| {
-        let after = report(vec![], claims, data);
-        let (before, after) = (Parts::of("", &before).unwrap(), Parts::of("", &after).unwrap());
-        overlays(&diff(&before, &after).unwrap(), &before, &after).unwrap()
-    };
-    let files = drawn("n,x,y,w\n1,0,3,a\n1,1,4,b\n2,0,6,c\n");
-    let svg = String::from_utf8(files["a.svg"].clone()).unwrap();
-    // One pane, of y over x, with a curve for each n.
-    assert_eq!((svg.matches("data-name=\"before\"").count(), files.len()), (4, 1), "{svg}");
-    assert!(drawn("w\na\n").is_empty(), "columns that are gone are told, not drawn");
-    let words = report(vec![], claims, "w\na\n");
-    let other = report(vec![], claims, "w\nb\n");
-    let (words, other) = (Parts::of("", &words).unwrap(), Parts::of("", &other).unwrap());
-    assert!(overlays(&diff(&words, &other).unwrap(), &words, &other).unwrap().is_empty());
-}
