@@ -7,6 +7,15 @@ mod cli;
 
 use std::process::ExitCode;
 
+/// Of the thread that works, in bytes: the system may give the first one less.
+const STACK: usize = 8 << 20;
+
 fn main() -> ExitCode {
-    cli::main()
+    let thread = std::thread::Builder::new().stack_size(STACK).spawn(cli::main);
+    match thread.map(std::thread::JoinHandle::join) {
+        Ok(Ok(code)) => code,
+        // What panicked has told it.
+        Ok(Err(_)) => ExitCode::from(101),
+        Err(_) => cli::main(),
+    }
 }

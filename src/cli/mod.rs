@@ -29,6 +29,7 @@ mod work;
 
 use clap::{Parser, Subcommand};
 use impact_paper::experiments::say;
+use impact_paper::input::one_line;
 use std::io;
 use std::process::ExitCode;
 
@@ -78,6 +79,9 @@ enum Verb {
     Verify(verify::Args),
 }
 
+/// Characters of a message at most.
+const LONGEST: usize = 4000;
+
 /// Why a verb ended without success: an exit code of the contract and one line for stderr.
 #[derive(Debug)]
 pub struct Failure {
@@ -106,6 +110,14 @@ impl Failure {
         let broken = cfg!(unix) && error.raw_os_error() == Some(5);
         let code = if full.contains(&error.kind()) || broken { 4 } else { 2 };
         Failure { code, message: message.into() }
+    }
+
+    /// Tells it on standard error.
+    fn tell(self) -> ExitCode {
+        // Findings in the prose have a line each; names of files may have line breaks.
+        let message = if self.code == 1 { self.message } else { one_line(&self.message, LONGEST) };
+        say(&format!("impact-paper: {message}"));
+        ExitCode::from(self.code)
     }
 
     /// Saved results are stale: exit code 3.
@@ -146,10 +158,7 @@ pub fn main() -> ExitCode {
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => {
-            say(&format!("impact-paper: {}", failure.message));
-            ExitCode::from(failure.code)
-        }
+        Err(failure) => failure.tell(),
     }
 }
 
@@ -157,9 +166,10 @@ pub fn main() -> ExitCode {
 fn usage(error: &clap::Error) -> ExitCode {
     use clap::error::ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand;
     if !error.use_stderr() || error.kind() == DisplayHelpOnMissingArgumentOrSubcommand {
-        // A closed standard output is no reason to fail: nobody reads the help.
-        let _ = error.print();
-        return ExitCode::from(error.exit_code() as u8);
+        return match stdout::written(error.print()) {
+            Ok(()) => ExitCode::from(error.exit_code() as u8),
+            Err(failure) => failure.tell(),
+        };
     }
     let text = error.to_string();
     let lines = text.lines().map(str::trim).filter(|line| !line.is_empty());

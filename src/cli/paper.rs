@@ -4,7 +4,7 @@ use super::diff::{count, fate};
 use super::judged::Judged;
 use super::output::{self, Staging};
 use super::sources::Sources;
-use super::{Failure, folder, make, work};
+use super::{Failure, folder, make, stdout, work};
 use impact_paper::claims::targets::Standing;
 use impact_paper::experiments::Progress;
 use impact_paper::figures;
@@ -14,7 +14,6 @@ use impact_paper::report::compare::{self, Parts};
 use impact_paper::report::values::Number;
 use impact_paper::report::{self, Files, Registry};
 use std::collections::BTreeSet;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -94,9 +93,9 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let documents = documents.collect::<Vec<_>>().join(", ");
     let documents = if whole { format!(": {documents}") } else { String::new() };
     let head = format!("{}: {} files in {time}{documents}\n", out.display(), files.len());
-    // A closed standard output is no failure: the files are written.
-    let _ = std::io::stdout().lock().write_all((head + &told).as_bytes());
-    judged.verdict()
+    // It is told also where a check fails.
+    let printed = stdout::print(&(head + &told));
+    judged.verdict().and(printed)
 }
 
 /// What holds, and what came out otherwise than in the report before: some lines.

@@ -1,6 +1,6 @@
 //! Where `paper` and `check` read prose and keep results.
 
-use super::Failure;
+use super::{Failure, work};
 use impact_paper::claims::{self, Published};
 use impact_paper::experiments::{self, Need, Progress, Results, Store};
 use impact_paper::params::Profile;
@@ -8,6 +8,9 @@ use impact_paper::report::Templates;
 use impact_paper::report::mutate::Reasons;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
+
+/// Memory that results, figures and documents need at least, in bytes: measured, with a little room.
+const LEAST: u128 = 256 << 20;
 
 /// Options common to `paper` and `check`.
 #[derive(clap::Args)]
@@ -64,6 +67,11 @@ impl Sources {
         templates: &Templates,
         progress: &Progress,
     ) -> Result<Results, Failure> {
+        work::memory(
+            LEAST,
+            "the results",
+            "raise the limits of the process, or end other programs",
+        )?;
         let needs: Vec<Need> = needs.iter().copied().collect();
         let short = [Need::Segments, Need::Measured];
         let long = needs.iter().any(|need| !short.contains(need));

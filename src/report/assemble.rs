@@ -55,10 +55,8 @@ pub struct Report {
 /// A naked numeral, an unknown or unused value, a reference to nothing, a figure that is missing
 /// or not shown, markup or a character that a format lacks.
 pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
-    if input.templates.text("report.md")?.trim().is_empty() {
-        return Err(Error::Template("report.md: it is empty; write the report".into()));
-    }
     lint::check(input.templates)?;
+    skins(input.templates)?;
     let mut values = input.values.clone();
     values.extend(scorecard(input.claims))?;
     let mut filler = Filler::new(input.templates, &values)?;
@@ -96,12 +94,6 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
     let moving = |scene| Ok(html::Moving { scene, script: input.templates.text("scene.js")? });
     let moving = input.scene.map(moving).transpose()?;
     filler.insert("page", &html::write(&blocks, input.figures, moving, cards)?);
-    for path in ["report.css", "scene.js"] {
-        // It would end the element that it stands in.
-        if input.templates.text(path).is_ok_and(|text| text.contains("</")) {
-            return Err(Error::Template(format!("{path}: </ ends it in the page; write <\\/")));
-        }
-    }
     filler.insert("style", &input.templates.text("report.css")?);
     beside.insert("report.html".into(), filler.fill("report.html")?.into_bytes());
     for figure in input.figures {
@@ -126,6 +118,40 @@ fn typeset(blocks: &[Block], input: &Input<'_>) -> Result<Vec<u8>, Error> {
 #[cfg(not(feature = "pdf"))]
 fn typeset(_: &[Block], _: &Input<'_>) -> Result<Vec<u8>, Error> {
     Err(Error::NoTypesetter)
+}
+
+/// What stands around the text of the documents: it has a place for the text, and leaves nothing open and
+/// nothing outside the one file that the page is.
+fn skins(templates: &Templates) -> Result<(), Error> {
+    let fault = |what: String| Err(Error::Template(what));
+    for (path, body) in [("report.tex", "body"), ("report.html", "page.body")] {
+        if !templates.text(path)?.contains(&format!("«{body}»")) {
+            return fault(format!(
+                "{path}: it has no «{body}», where the text of the report stands"
+            ));
+        }
+    }
+    for path in ["report.css", "scene.js"] {
+        let Ok(text) = templates.text(path) else { continue };
+        // It would end the element that it stands in.
+        if text.contains("</") {
+            return fault(format!("{path}: </ ends it in the page; write <\\/"));
+        }
+        let [open, close] = ['{', '}'].map(|brace| text.matches(brace).count());
+        if open != close {
+            return fault(format!("{path}: {open} times {{ and {close} times }}; one is missing"));
+        }
+    }
+    let style = templates.text("report.css").unwrap_or_default();
+    match ["@import", "url(http", "url(//", "url(\"http", "url('http"]
+        .iter()
+        .find(|what| style.contains(**what))
+    {
+        Some(what) => fault(format!(
+            "report.css: {what}: the page is one file; put here what is to be imported"
+        )),
+        None => Ok(()),
+    }
 }
 
 /// The picture of a figure and its data.

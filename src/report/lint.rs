@@ -107,8 +107,11 @@ fn length(inner: &str, (open, close, long): (&str, &str, bool)) -> Option<usize>
 /// Holds all prose against the lint.
 ///
 /// # Errors
-/// [`Error::Lint`] with every finding; a phrase of literals.toml that no prose has.
+/// A report.md that is missing or empty; [`Error::Lint`] with every finding; a phrase of literals.toml that no prose has.
 pub fn check(templates: &Templates) -> Result<(), Error> {
+    if templates.text("report.md")?.trim().is_empty() {
+        return Err(Error::Template("report.md: it is empty; write the report".into()));
+    }
     let prose = templates.iter().filter(|(path, _)| path.ends_with(".md"));
     let declared =
         templates.text("literals.toml").map_or(Ok(Declared::default()), Declared::read)?;

@@ -412,6 +412,7 @@ Listing: What $\delta v$ does. {#lst:kick}
             (r"at $\frac{1}{2$ of", "12:4", "a formula without its end"),
             (r"at $\operatorname{erf} x$", "12:4", r"write \mathrm"),
             (r"at $\nosuch x$", "12:4", r"\nosuch"),
+            ("| a | b |\n|---|\n| x | y |", "12:1", "a line of dashes"),
             (r"at $\left( x$", "12:4", "no MathML"),
             ("at «v.half_height»$x$", "12:19", "right behind a word or a number"),
             ("# Another title", "12:1", "a second title"),

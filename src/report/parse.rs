@@ -323,6 +323,14 @@ impl<'a> Reader<'a> {
         let source = &self.filled.text;
         // Behind a backslash a sign is meant as it stands.
         let escaped = source[..range.start].ends_with('\\');
+        let begins =
+            source[..range.start].rsplit('\n').next().is_some_and(|line| line.trim().is_empty());
+        if begins && text.starts_with('|') {
+            self.at = range.start;
+            return Err(markup(
+                "a table needs a line of dashes below its head with as many columns; write \\| for the sign",
+            ));
+        }
         if let Some((offset, what)) = leftover::find(source, range.start, text, escaped) {
             self.at = offset;
             return Err(markup(what));
