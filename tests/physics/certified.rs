@@ -4,10 +4,11 @@
 //! closing speeds are held to the bounds of `dynamics::rounding`, whose table is counted again here,
 //! and misses and ghosts are counted.
 
+use crate::first;
 use crate::reference::{Dd, Hit, Real, Reference};
 use crate::roundings::{self, COUNTED, Case, Parts, RANGE};
 use impact_paper::dynamics::rounding::{self, SPEED, STAGES, TIME, TRANSVERSAL};
-use impact_paper::dynamics::{Engine, Error, Impact, Initial, Overtone, Scenario, Simultaneous};
+use impact_paper::dynamics::{Engine, Error, Initial, Overtone, Scenario, Simultaneous};
 use impact_paper::numerics::random::NormalPairs;
 use impact_paper::params::{Boundary, Chain};
 
@@ -99,24 +100,12 @@ fn own_bound(scenario: &Scenario, start: &Reference<Dd>, hit: &Hit<Dd>) -> Optio
     Some(0.5 * f64::EPSILON * bound * (1.0 + 1.0 / TRANSVERSAL) / speed)
 }
 
-fn first(scenario: &Scenario, until: f64) -> Option<Impact> {
-    let mut found = None;
-    Engine::new(scenario)
-        .unwrap()
-        .run(until, |impact| {
-            found = Some(impact);
-            false
-        })
-        .unwrap();
-    found
-}
-
 /// Holds one segment against the reference.
 fn hold(scenario: &Scenario, until: f64, tally: &mut Tally) {
     let start = Reference::<Dd>::new(scenario);
     let mut chain = start.clone();
     let Ok(theirs) = chain.step(&Dd::of(until)) else { return };
-    let ours = first(scenario, until);
+    let ours = first(&mut Engine::new(scenario).unwrap(), until);
     tally.segments += 1;
     let unit = |gap: usize| Unit::new(&start, scenario, gap);
     match (ours, theirs) {

@@ -1,6 +1,7 @@
 //! Contact of pairs and clusters: how it comes about, what holds it, when it ends. Ω = 2 and cosine
 //! forcing only, so a mass under F cos Ωt is at j d + a − F/3 at t = 0, and forces are known.
 
+use crate::run;
 use impact_paper::dynamics::{Engine, Impact, Initial, Scenario, Simultaneous};
 use impact_paper::params::Boundary;
 
@@ -23,17 +24,6 @@ fn scene(masses: &[(f64, f64)], forces: &[f64], restitution: f64) -> Scenario {
         forcing: forces.iter().map(|f| [*f, 0.0]).collect(),
         overtones: Vec::new(),
     }
-}
-
-fn run(engine: &mut Engine, until: f64) -> Vec<Impact> {
-    let mut impacts = Vec::new();
-    engine
-        .run(until, |impact| {
-            impacts.push(impact);
-            true
-        })
-        .unwrap();
-    impacts
 }
 
 /// The gaps in contact at a time, all with a force that presses.

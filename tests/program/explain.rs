@@ -1,27 +1,17 @@
 //! `impact-paper explain` as a user meets it, on the report of the quick profile.
 
-use crate::{PROGRAM, told};
+use crate::{PROGRAM, QUICK, outcome, put};
 use std::path::Path;
 use std::process::Command;
-use std::sync::LazyLock;
-
-static PAPER: LazyLock<tempfile::TempDir> = LazyLock::new(|| {
-    let folder = tempfile::tempdir().unwrap();
-    let out = folder.path().join("paper");
-    let results = folder.path().join("results");
-    let (out, results) = (out.to_str().unwrap(), results.to_str().unwrap());
-    let (code, _, note) = run(&["paper", "--profile", "quick", "--out", out, "--results", results]);
-    assert_eq!(code, 0, "{note}");
-    folder
-});
 
 fn run(arguments: &[&str]) -> (i32, String, String) {
-    told(&Command::new(PROGRAM).args(arguments).output().unwrap())
+    outcome(Command::new(PROGRAM).args(arguments))
 }
 
 fn explain(arguments: &[&str]) -> (i32, String, String) {
-    let paper = PAPER.path().join("paper");
-    run(&[&["explain", "--paper", paper.to_str().unwrap()], arguments].concat())
+    let folder = tempfile::tempdir().unwrap();
+    put(folder.path(), &QUICK.report);
+    run(&[&["explain", "--paper", folder.path().to_str().unwrap()], arguments].concat())
 }
 
 #[test]
@@ -106,8 +96,7 @@ fn an_unknown_id_is_one_line_with_the_nearest() {
 /// An origin names the function that computed the number: no constant, structure or module.
 #[test]
 fn every_origin_is_a_function() {
-    let text = std::fs::read_to_string(PAPER.path().join("paper/values.json")).unwrap();
-    let values: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let values: serde_json::Value = serde_json::from_slice(&QUICK.report["values.json"]).unwrap();
     let values = values.as_object().unwrap();
     let ids: Vec<&str> = values
         .iter()
