@@ -4,11 +4,11 @@
 //! closing speeds are held to the bounds of `dynamics::rounding`, whose table is counted again here,
 //! and misses and ghosts are counted.
 
-use crate::first;
 use crate::reference::{Dd, Hit, Real, Reference};
 use crate::roundings::{self, COUNTED, Case, Parts, RANGE};
+use crate::{first, given};
 use impact_paper::dynamics::rounding::{self, SPEED, STAGES, TIME, TRANSVERSAL};
-use impact_paper::dynamics::{Engine, Error, Initial, Overtone, Scenario, Simultaneous};
+use impact_paper::dynamics::{Engine, Error, Initial, Overtone, Scenario};
 use impact_paper::numerics::random::NormalPairs;
 use impact_paper::params::{Boundary, Chain};
 
@@ -187,10 +187,7 @@ fn corner(index: u64) -> Option<Scenario> {
         forcing_frequency: forcing,
         restitution,
         boundary,
-        initial: Initial::Free(free),
-        forcing: forced,
-        overtones: Vec::new(),
-        simultaneous: Simultaneous::default(),
+        ..given(free, forced)
     };
     Engine::new(&scenario).is_ok().then_some(scenario)
 }
@@ -236,18 +233,15 @@ fn near_resonance_the_bound_holds_or_the_scenario_is_refused() {
         };
         let initial = if i % 4 == 1 { Initial::Free(draw(0.1)) } else { Initial::Rest };
         let scenario = Scenario {
-            spacing: 1.0,
             natural_frequency: omega,
             forcing_frequency: omega * (1.0 + distance),
-            restitution: 0.8,
             boundary: if n == 3 && i % 5 == 0 { Boundary::Ring } else { Boundary::Walls },
             initial,
-            forcing,
             overtones: overtones
                 .into_iter()
                 .map(|(ratio, amplitudes)| Overtone { frequency: ratio * omega, amplitudes })
                 .collect(),
-            simultaneous: Simultaneous::default(),
+            ..given(Vec::new(), forcing)
         };
         if scenario.components().any(|(frequency, _)| frequency == omega) {
             continue;

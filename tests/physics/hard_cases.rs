@@ -2,7 +2,7 @@
 //! at all, too much work. Each scene is built so that the outcome is known beforehand.
 
 use crate::reference::{Big, Dd, Gap, Real, Reference};
-use crate::{first, run};
+use crate::{first, given, run};
 use impact_paper::dynamics::methods::State;
 use impact_paper::dynamics::{Counters, Engine, Error, Initial, Scenario, Simultaneous};
 use impact_paper::numerics::first_root::{Next, Search, Work};
@@ -12,17 +12,7 @@ use impact_paper::params::{Boundary, Chain};
 
 /// One mass between walls, with free part (a, b) and forcing (α, β).
 fn one(free: [f64; 2], forcing: [f64; 2], restitution: f64) -> Scenario {
-    Scenario {
-        spacing: 1.0,
-        natural_frequency: 1.0,
-        forcing_frequency: std::f64::consts::SQRT_2,
-        restitution,
-        boundary: Boundary::Walls,
-        initial: Initial::Free(vec![free]),
-        forcing: vec![forcing],
-        overtones: Vec::new(),
-        simultaneous: Simultaneous::default(),
-    }
+    Scenario { restitution, ..given(vec![free], vec![forcing]) }
 }
 
 #[test]

@@ -15,13 +15,19 @@ mod segments;
 mod simultaneous;
 mod traces;
 
-use impact_paper::dynamics::{Engine, Impact, Scenario};
+use impact_paper::dynamics::{Engine, Impact, Initial, Scenario};
 use impact_paper::numerics::random::NormalPairs;
 use impact_paper::params::Chain;
 
 /// A chain drawn from a stream of random numbers.
 fn drawn(chain: &Chain, sigma: f64, stream: &str, index: u64) -> Scenario {
     Scenario::draw(chain, sigma, &mut NormalPairs::new(stream, 1, index))
+}
+
+/// A chain of the paper's parameters with given free parts and forcing.
+fn given(free: Vec<[f64; 2]>, forcing: Vec<[f64; 2]>) -> Scenario {
+    let initial = Initial::Free(free);
+    Scenario { initial, forcing, ..drawn(&Chain::default(), 0.0, "given", 0) }
 }
 
 /// Its impacts from where an engine is to a time.

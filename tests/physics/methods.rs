@@ -1,6 +1,6 @@
 //! The rivals of the engine: each converges at its order, and fails where its documentation says.
 
-use crate::{drawn, first, run};
+use crate::{drawn, first, given, run};
 use impact_paper::dynamics::methods::{
     Certified, Cost, Method, MoreauJean, Newton, Penalty, RungeKutta, Sampled, State, Verlet,
 };
@@ -13,12 +13,7 @@ fn chain(masses: usize, boundary: Boundary, sigma: f64, index: u64) -> Scenario 
 
 /// One mass between walls, or more, without forcing and from given free parts.
 fn free(parts: &[[f64; 2]], restitution: f64) -> Scenario {
-    Scenario {
-        restitution,
-        initial: Initial::Free(parts.to_vec()),
-        forcing: vec![[0.0; 2]; parts.len()],
-        ..chain(1, Boundary::Walls, 0.0, 0)
-    }
+    Scenario { restitution, ..given(parts.to_vec(), vec![[0.0; 2]; parts.len()]) }
 }
 
 /// A mass that is pressed to the walls, where it chatters and comes to rest.
