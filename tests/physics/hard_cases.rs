@@ -4,11 +4,11 @@
 use crate::reference::{Big, Dd, Gap, Real, Reference};
 use crate::{first, given, run};
 use impact_paper::dynamics::methods::State;
-use impact_paper::dynamics::{Counters, Engine, Error, Initial, Scenario, Simultaneous};
+use impact_paper::dynamics::{Counters, Engine, Error, Initial, Scenario};
 use impact_paper::numerics::first_root::{Next, Search, Work};
 use impact_paper::numerics::local_frame::{Frame, Frequencies};
 use impact_paper::numerics::random::NormalPairs;
-use impact_paper::params::{Boundary, Chain};
+use impact_paper::params::Chain;
 
 /// One mass between walls, with free part (a, b) and forcing (α, β).
 fn one(free: [f64; 2], forcing: [f64; 2], restitution: f64) -> Scenario {

@@ -4,7 +4,7 @@ use crate::{drawn, first, given, run};
 use impact_paper::dynamics::methods::{
     Certified, Cost, Method, MoreauJean, Newton, Penalty, RungeKutta, Sampled, State, Verlet,
 };
-use impact_paper::dynamics::{Engine, Error, Impact, Initial, Scenario};
+use impact_paper::dynamics::{Engine, Error, Impact, Scenario};
 use impact_paper::params::{Boundary, Chain};
 
 fn chain(masses: usize, boundary: Boundary, sigma: f64, index: u64) -> Scenario {
