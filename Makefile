@@ -30,7 +30,7 @@ browser: ## paper/report.html in headless Chromium, as readers use it (Chromium 
 test: ## all tests but the long ones
 	cargo test --locked
 
-test-long: ## the long tests only (searches, large samples, a job array on Slurm, which root installs when missing)
+test-long: ## the long tests only (large samples, a job array on Slurm, which root installs when missing)
 	cargo test --release --locked -- --ignored
 
 lint: ## formatting, clippy and documentation, warnings denied

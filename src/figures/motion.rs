@@ -166,7 +166,7 @@ const PLACES: [(i32, i32); 12] = [
     (-260, 260),
 ];
 
-/// Numbers the impacts, each at the first place where no path and no other number is in its way.
+/// Numbers the impacts, each at the first place where no path, no equilibrium and no other number is in its way.
 fn number_impacts(
     panel: &Panel,
     hits: &[(f64, f64)],
@@ -186,9 +186,11 @@ fn number_impacts(
                 && px < frame.right - 90
                 && py > frame.top + 110
                 && py < frame.bottom - 110;
-            let crossed = lines.iter().any(|line| {
-                line.windows(2).any(|w| (0..=8).any(|k| near(between(w[0], w[1], k), 95, 120)))
-            });
+            let rests = |j: usize| (panel.at(0.0, j as f64).1 - py).abs() < 120;
+            let crossed = (1..=paths.len()).any(rests)
+                || lines.iter().any(|line| {
+                    line.windows(2).any(|w| (0..=8).any(|k| near(between(w[0], w[1], k), 95, 120)))
+                });
             let others = marks.iter().enumerate().any(|(j, &m)| j != i && near(m, 150, 170));
             inside && !crossed && !others && !taken.iter().any(|&t| near(t, 170, 210))
         };

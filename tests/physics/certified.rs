@@ -6,8 +6,9 @@
 
 use crate::reference::{Dd, Hit, Real, Reference};
 use crate::roundings::{self, COUNTED, Case, Parts, RANGE};
+use crate::{first, given};
 use impact_paper::dynamics::rounding::{self, SPEED, STAGES, TIME, TRANSVERSAL};
-use impact_paper::dynamics::{Engine, Error, Impact, Initial, Overtone, Scenario, Simultaneous};
+use impact_paper::dynamics::{Engine, Error, Initial, Overtone, Scenario};
 use impact_paper::numerics::random::NormalPairs;
 use impact_paper::params::{Boundary, Chain};
 
@@ -99,24 +100,12 @@ fn own_bound(scenario: &Scenario, start: &Reference<Dd>, hit: &Hit<Dd>) -> Optio
     Some(0.5 * f64::EPSILON * bound * (1.0 + 1.0 / TRANSVERSAL) / speed)
 }
 
-fn first(scenario: &Scenario, until: f64) -> Option<Impact> {
-    let mut found = None;
-    Engine::new(scenario)
-        .unwrap()
-        .run(until, |impact| {
-            found = Some(impact);
-            false
-        })
-        .unwrap();
-    found
-}
-
 /// Holds one segment against the reference.
 fn hold(scenario: &Scenario, until: f64, tally: &mut Tally) {
     let start = Reference::<Dd>::new(scenario);
     let mut chain = start.clone();
     let Ok(theirs) = chain.step(&Dd::of(until)) else { return };
-    let ours = first(scenario, until);
+    let ours = first(&mut Engine::new(scenario).unwrap(), until);
     tally.segments += 1;
     let unit = |gap: usize| Unit::new(&start, scenario, gap);
     match (ours, theirs) {
@@ -198,10 +187,7 @@ fn corner(index: u64) -> Option<Scenario> {
         forcing_frequency: forcing,
         restitution,
         boundary,
-        initial: Initial::Free(free),
-        forcing: forced,
-        overtones: Vec::new(),
-        simultaneous: Simultaneous::default(),
+        ..given(free, forced)
     };
     Engine::new(&scenario).is_ok().then_some(scenario)
 }
@@ -247,18 +233,15 @@ fn near_resonance_the_bound_holds_or_the_scenario_is_refused() {
         };
         let initial = if i % 4 == 1 { Initial::Free(draw(0.1)) } else { Initial::Rest };
         let scenario = Scenario {
-            spacing: 1.0,
             natural_frequency: omega,
             forcing_frequency: omega * (1.0 + distance),
-            restitution: 0.8,
             boundary: if n == 3 && i % 5 == 0 { Boundary::Ring } else { Boundary::Walls },
             initial,
-            forcing,
             overtones: overtones
                 .into_iter()
                 .map(|(ratio, amplitudes)| Overtone { frequency: ratio * omega, amplitudes })
                 .collect(),
-            simultaneous: Simultaneous::default(),
+            ..given(Vec::new(), forcing)
         };
         if scenario.components().any(|(frequency, _)| frequency == omega) {
             continue;

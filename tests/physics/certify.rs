@@ -1,10 +1,10 @@
 //! `trace --certify`: what it says can be trusted is true, and what is regular is trusted.
 
 use crate::reference::{Dd, Real, Reference};
-use assert_cmd::Command;
 use impact_paper::dynamics::{Impact, Initial, Scenario, TOLERANCE, certify};
 use impact_paper::numerics::random::NormalPairs;
 use impact_paper::params::{Boundary, Chain};
+use std::process::Command;
 
 fn draw(chain: &Chain, sigma: f64, index: u64) -> Scenario {
     Scenario::draw(chain, sigma, &mut NormalPairs::new("certificates", 1, index))

@@ -1,8 +1,8 @@
 //! Contact of pairs and clusters: how it comes about, what holds it, when it ends. Ω = 2 and cosine
 //! forcing only, so a mass under F cos Ωt is at j d + a − F/3 at t = 0, and forces are known.
 
-use impact_paper::dynamics::{Engine, Impact, Initial, Scenario, Simultaneous};
-use impact_paper::params::Boundary;
+use crate::{given, run};
+use impact_paper::dynamics::{Engine, Impact, Initial, Scenario};
 
 /// Masses at these places, with these velocities, under these forces.
 fn scene(masses: &[(f64, f64)], forces: &[f64], restitution: f64) -> Scenario {
@@ -12,28 +12,8 @@ fn scene(masses: &[(f64, f64)], forces: &[f64], restitution: f64) -> Scenario {
         .enumerate()
         .map(|(i, ((x, v), force))| [x - (i + 1) as f64 + force / 3.0, *v])
         .collect();
-    Scenario {
-        spacing: 1.0,
-        natural_frequency: 1.0,
-        forcing_frequency: 2.0,
-        restitution,
-        boundary: Boundary::Walls,
-        simultaneous: Simultaneous::Sequential,
-        initial: Initial::Free(free),
-        forcing: forces.iter().map(|f| [*f, 0.0]).collect(),
-        overtones: Vec::new(),
-    }
-}
-
-fn run(engine: &mut Engine, until: f64) -> Vec<Impact> {
-    let mut impacts = Vec::new();
-    engine
-        .run(until, |impact| {
-            impacts.push(impact);
-            true
-        })
-        .unwrap();
-    impacts
+    let forcing = forces.iter().map(|f| [*f, 0.0]).collect();
+    Scenario { forcing_frequency: 2.0, restitution, ..given(free, forcing) }
 }
 
 /// The gaps in contact at a time, all with a force that presses.

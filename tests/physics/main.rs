@@ -5,12 +5,50 @@ mod certified;
 mod certify;
 mod components;
 mod contact;
+mod ensemble;
 mod hard_cases;
 mod invariants;
 mod methods;
 mod reference;
 mod roundings;
-mod search_segments;
-mod segments_replay;
+mod segments;
 mod simultaneous;
 mod traces;
+
+use impact_paper::dynamics::{Engine, Impact, Initial, Scenario};
+use impact_paper::numerics::random::NormalPairs;
+use impact_paper::params::Chain;
+
+/// A chain drawn from a stream of random numbers.
+fn drawn(chain: &Chain, sigma: f64, stream: &str, index: u64) -> Scenario {
+    Scenario::draw(chain, sigma, &mut NormalPairs::new(stream, 1, index))
+}
+
+/// A chain of the paper's parameters with given free parts and forcing.
+fn given(free: Vec<[f64; 2]>, forcing: Vec<[f64; 2]>) -> Scenario {
+    let initial = Initial::Free(free);
+    Scenario { initial, forcing, ..drawn(&Chain::default(), 0.0, "given", 0) }
+}
+
+/// Its impacts from where an engine is to a time.
+fn run(engine: &mut Engine, until: f64) -> Vec<Impact> {
+    let mut impacts = Vec::new();
+    let all = |impact| {
+        impacts.push(impact);
+        true
+    };
+    engine.run(until, all).unwrap();
+    impacts
+}
+
+/// The next of them.
+fn first(engine: &mut Engine, until: f64) -> Option<Impact> {
+    let mut found = None;
+    engine.run(until, |impact| found.replace(impact).is_some()).unwrap();
+    found
+}
+
+/// All impacts of a scenario up to a time.
+fn trace(scenario: &Scenario, until: f64) -> Vec<Impact> {
+    run(&mut Engine::new(scenario).unwrap(), until)
+}

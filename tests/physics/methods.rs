@@ -1,26 +1,19 @@
 //! The rivals of the engine: each converges at its order, and fails where its documentation says.
 
-use assert_cmd::Command;
+use crate::{drawn, first, given, run};
 use impact_paper::dynamics::methods::{
     Certified, Cost, Method, MoreauJean, Newton, Penalty, RungeKutta, Sampled, State, Verlet,
 };
-use impact_paper::dynamics::{Engine, Error, Impact, Initial, Scenario};
-use impact_paper::numerics::random::NormalPairs;
+use impact_paper::dynamics::{Engine, Error, Impact, Scenario};
 use impact_paper::params::{Boundary, Chain};
 
 fn chain(masses: usize, boundary: Boundary, sigma: f64, index: u64) -> Scenario {
-    let chain = Chain { masses, boundary, ..Chain::default() };
-    Scenario::draw(&chain, sigma, &mut NormalPairs::new("methods", 1, index))
+    drawn(&Chain { masses, boundary, ..Chain::default() }, sigma, "methods", index)
 }
 
 /// One mass between walls, or more, without forcing and from given free parts.
 fn free(parts: &[[f64; 2]], restitution: f64) -> Scenario {
-    Scenario {
-        restitution,
-        initial: Initial::Free(parts.to_vec()),
-        forcing: vec![[0.0; 2]; parts.len()],
-        ..chain(1, Boundary::Walls, 0.0, 0)
-    }
+    Scenario { restitution, ..given(parts.to_vec(), vec![[0.0; 2]; parts.len()]) }
 }
 
 /// A mass that is pressed to the walls, where it chatters and comes to rest.
@@ -144,14 +137,7 @@ fn segments(method: &dyn Method, masses: usize, sigma: f64, count: usize) -> (us
     let (mut missed, mut worst) = (0, 0.0f64);
     let mut start = State::of(&scenario);
     for _ in 0..count {
-        let mut next = None;
-        engine
-            .run(1e4, |impact| {
-                next = Some(impact);
-                false
-            })
-            .unwrap();
-        let exact = next.unwrap();
+        let exact = first(&mut engine, 1e4).unwrap();
         let mut found: Option<Impact> = None;
         method
             .run(&scenario, &start, exact.time + 1e-3, &mut |impact| {
@@ -315,13 +301,7 @@ fn runs_stop_and_go_on() {
         positions: engine.positions(30.0),
         velocities: engine.velocities(30.0),
     };
-    let mut exact = Vec::new();
-    engine
-        .run(35.0, |impact| {
-            exact.push(impact);
-            true
-        })
-        .unwrap();
+    let exact = run(&mut engine, 35.0);
     for method in all() {
         let mut found = Vec::new();
         let cost = method.run(&scenario, &start, 35.0, &mut |impact| {
@@ -407,44 +387,4 @@ fn no_method_loops_or_panics_on_bad_data() {
         let error = trace(&RungeKutta { tolerance: step }, &good, 1.0).1.unwrap_err().to_string();
         assert!(error.starts_with("tolerance: "), "{error}");
     }
-}
-
-#[test]
-fn trace_runs_the_method_that_is_named() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("scenario.json");
-    std::fs::write(&path, r#"{"forcing":[[0.9,-0.4],[-0.7,0.8],[0.3,0.9]]}"#).unwrap();
-    let run = |arguments: &[&str]| {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_impact-paper"));
-        let output =
-            command.arg("trace").arg(&path).args(["--until", "10"]).args(arguments).output();
-        let output = output.unwrap();
-        let text = |bytes| String::from_utf8(bytes).unwrap();
-        (output.status.code(), text(output.stdout), text(output.stderr))
-    };
-    let plain = run(&[]);
-    assert_eq!(plain, run(&["--method", "certified"]));
-    for method in all() {
-        let (code, out, error) = run(&["--method", method.name()]);
-        assert_eq!((code, error.as_str()), (Some(0), ""), "{}", method.name());
-        assert!(out.lines().count() > 5, "{out}");
-        assert_eq!(out == plain.1, method.name() == "certified");
-    }
-    assert_ne!(run(&["--method", "verlet"]), run(&["--method", "verlet", "--step", "0.01"]));
-    assert_ne!(
-        run(&["--method", "runge-kutta"]),
-        run(&["--method", "runge-kutta", "--tolerance", "1e-4"])
-    );
-    let refused = |arguments: &[&str], words: &[&str]| {
-        let (code, out, error) = run(arguments);
-        assert_eq!((code, out.as_str(), error.lines().count()), (Some(2), "", 1), "{error}");
-        assert!(words.iter().all(|word| error.contains(word)), "{error}");
-    };
-    refused(&["--method", "euler"], &["euler", "verlet", "certified"]);
-    refused(&["--method", "verlet", "--step", "0"], &["--step: 0.0", "give a number"]);
-    refused(&["--method", "verlet", "--step", "soon"], &["--step", "soon"]);
-    refused(&["--method", "runge-kutta", "--tolerance=-1"], &["--tolerance: -1.0"]);
-    refused(&["--step", "0.1"], &["--step", "certified", "leave it out"]);
-    refused(&["--method", "runge-kutta", "--step", "0.1"], &["--step", "--tolerance"]);
-    refused(&["--method", "verlet", "--tolerance", "0.1"], &["--tolerance", "--step"]);
 }

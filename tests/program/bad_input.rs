@@ -1,44 +1,17 @@
 //! `impact-paper trace` and what people get wrong: exit code 2, one line on stderr that names the
 //! field and the remedy, nothing on stdout, never a panic.
 
-use assert_cmd::Command;
-use std::path::{Path, PathBuf};
+use crate::{SCENARIO, program, run};
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-const GOOD: &str = r#"{"forcing":[[0.9,-0.4],[-0.7,0.8],[0.3,0.9]]}"#;
-
-fn command() -> Command {
-    Command::new(env!("CARGO_BIN_EXE_impact-paper"))
-}
-
-fn file(folder: &Path, text: impl AsRef<[u8]>) -> PathBuf {
-    let path = folder.join("scenario.json");
-    std::fs::write(&path, text).unwrap();
-    path
-}
-
-/// The one line that a refused command leaves on stderr.
-fn refusal(arguments: &[&str]) -> String {
-    let output = command().arg("trace").args(arguments).output().unwrap();
-    let error = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(2), "{arguments:?}: {error}");
-    assert!(output.stdout.is_empty(), "{arguments:?} printed on stdout");
-    assert!(!error.contains("panicked"), "{error}");
-    error
-}
-
-/// Refuses `text` as a scenario with one line that holds all of `words`.
+/// Refuses `text` as a scenario with one line that has all of `words`.
 fn refused(text: impl AsRef<[u8]>, words: &[&str]) {
     let folder = tempfile::tempdir().unwrap();
-    let path = file(folder.path(), &text);
-    let error = refusal(&[path.to_str().unwrap(), "--until", "5"]);
-    let shown = String::from_utf8_lossy(text.as_ref());
-    let shown: String = shown.chars().take(80).collect();
-    assert_eq!(error.trim_end().lines().count(), 1, "{shown}: {error}");
-    assert!(error.len() < 600, "{shown}: the line is {} long", error.len());
-    for word in words {
-        assert!(error.contains(word), "{shown}: \"{word}\" is not in: {error}");
-    }
+    fs::write(folder.path().join("s.json"), text).unwrap();
+    crate::refused(folder.path(), "trace s.json --until 5", words);
 }
 
 /// A scenario of one mass with one more field.
@@ -47,44 +20,15 @@ fn with(field: &str) -> String {
 }
 
 #[test]
-fn the_good_scenario_is_taken() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = file(folder.path(), GOOD);
-    let output = command().arg("trace").arg(path).args(["--until", "30"]).output().unwrap();
-    assert!(output.status.success() && output.stderr.is_empty());
-    let text = String::from_utf8(output.stdout).unwrap();
-    assert!(text.starts_with("time,gap,closing_speed\n") && text.lines().count() > 5, "{text}");
-    let piped = command().args(["trace", "-", "--until", "30"]).write_stdin(GOOD).output().unwrap();
-    assert_eq!(String::from_utf8(piped.stdout).unwrap(), text);
-    let mut last = 0.0;
-    for line in text.lines().skip(1) {
-        let cells: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();
-        assert!(cells[0] >= last && cells[1] <= 3.0 && cells[2] >= 0.0, "{line}");
-        last = cells[0];
-    }
-}
-
-#[test]
-fn files_that_are_none() {
-    let folder = tempfile::tempdir().unwrap();
-    let missing = folder.path().join("missing.json");
-    let error = refusal(&[missing.to_str().unwrap(), "--until", "5"]);
-    assert!(error.contains("missing.json") && error.lines().count() == 1, "{error}");
-    let error = refusal(&[folder.path().to_str().unwrap(), "--until", "5"]);
-    assert!(error.lines().count() == 1, "a directory: {error}");
-    refused([0xff, 0xfe, 0x00, 0x9f], &[]);
-    assert!(refusal(&["-", "--until", "5"]).starts_with("impact-paper: -: "));
-}
-
-#[test]
 fn text_that_is_no_scenario() {
+    refused([0xff, 0xfe, 0x00, 0x9f], &[]);
     refused("", &["line 1"]);
     refused("{", &["line 1"]);
     refused(r#"{"forcing":[[1,2]"#, &["line 1"]);
-    refused("[]", &["scenario"]);
-    refused("null", &["scenario"]);
-    refused("17", &["scenario"]);
-    refused(format!("{GOOD} {GOOD}"), &["one JSON object"]);
+    refused("[]", &["forcing: it names no mass"]);
+    refused("null", &["line 1"]);
+    refused("17", &["line 1"]);
+    refused(format!("{SCENARIO} {SCENARIO}"), &["one JSON object"]);
     for (open, close) in [("[", "]"), (r#"{"initial":"#, "}"), (r#"{"forcing":["#, "]}")] {
         refused(open.repeat(100_000), &[]);
         refused(format!("{}{}", open.repeat(100_000), close.repeat(100_000)), &[]);
@@ -152,50 +96,6 @@ fn starts_that_overlap() {
     refused(pair, &["initial", "gap 1", "overlap"]);
 }
 
-#[test]
-fn options_out_of_range() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = file(folder.path(), GOOD);
-    let path = path.to_str().unwrap();
-    for until in ["-1", "NaN", "inf", "-inf", "1e300", "", "soon"] {
-        let error = refusal(&[path, &format!("--until={until}")]);
-        assert!(error.contains("--until"), "{until}: {error}");
-    }
-    for most in ["-1", "1.5", "many", "99999999999999999999"] {
-        let error = refusal(&[path, "--until", "5", &format!("--max-impacts={most}")]);
-        assert!(error.contains("--max-impacts"), "{most}: {error}");
-    }
-    refusal(&[path]);
-    refusal(&["--until", "5"]);
-    refusal(&[path, "--until", "5", "--untill", "6"]);
-}
-
-#[cfg(unix)]
-#[test]
-fn outputs_that_cannot_be_written() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = file(folder.path(), GOOD);
-    let run = || {
-        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_impact-paper"));
-        command.arg("trace").arg(&path).args(["--until", "1e5"]);
-        command.stderr(std::process::Stdio::piped());
-        command
-    };
-    // A full device: refused, and said so.
-    if let Ok(full) = std::fs::OpenOptions::new().write(true).open("/dev/full") {
-        let output = run().stdout(full).output().unwrap();
-        let error = String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(4), "{error}");
-        assert_eq!(error.lines().count(), 1, "{error}");
-    }
-    // A reader that goes away, as `head` does: a quiet end.
-    let mut child = run().stdout(std::process::Stdio::piped()).spawn().unwrap();
-    drop(child.stdout.take());
-    let output = child.wait_with_output().unwrap();
-    let error = String::from_utf8(output.stderr).unwrap();
-    assert!(error.is_empty() && output.status.code().is_some(), "{error}");
-}
-
 /// Near resonance the motion is a small difference of large parts: it is refused where nothing is left of it,
 /// and standard error says by how much rounding moves it where it matters.
 #[test]
@@ -206,68 +106,288 @@ fn near_resonance() {
         refused(text, &["forcing: ", "rounding may move a gap by", "1e-6", "further from"]);
     }
     refused(r#"{"forcing":[[0,1e9]]}"#, &["smaller amplitudes"]);
-    let said = |frequency: &str, more: &[&str]| {
-        let path = file(folder.path(), with(&format!(r#""forcing_frequency":{frequency}"#)));
-        let output =
-            command().arg("trace").arg(path).args(["--until", "20"]).args(more).output().unwrap();
-        let error = String::from_utf8(output.stderr).unwrap();
-        assert!(output.status.success() && output.stdout.len() > 100, "{error}");
-        error
+    let said = |frequency: &str, more: &str| {
+        let text = with(&format!(r#""forcing_frequency":{frequency}"#));
+        fs::write(folder.path().join("s.json"), text).unwrap();
+        let (code, out, note) = run(folder.path(), &format!("trace s.json --until 20{more}"));
+        assert!(code == 0 && out.len() > 100, "{note}");
+        note
     };
-    for more in [&[][..], &["--certify"]] {
-        let error = said("1.0000001", more);
+    for more in ["", " --certify"] {
+        let note = said("1.0000001", more);
         assert!(
-            error.lines().count() == 1 && error.contains("closing speed v by 3.0e-7/v"),
-            "{error}"
+            note.lines().count() == 1 && note.contains("closing speed v by 3.0e-7/v"),
+            "{note}"
         );
-        let error = said("1.1", more);
-        assert!(!error.contains("/v"), "{error}");
+        assert!(!said("1.1", more).contains("/v"));
     }
-    assert_eq!(said("1.0000001", &["--method", "verlet"]), "");
+    assert_eq!(said("1.0000001", " --method verlet"), "");
 }
 
-/// Sizes are refused before the work begins, by the name of their option and with a bound.
+/// What the verbs refuse, and words that the line says of it: the field, the bound or the remedy. Of values with
+/// bars between, each stands there once.
+const REFUSED: &str = "
+trace s.json => --until
+trace --until 5 => SCENARIO
+trace missing.json --until 5 => missing.json:
+trace empty --until 5 => empty:
+trace - --until 5 => impact-paper: -:
+trace s.json --until 5 --untill 6 => --untill
+trace s.json --until=-1|NaN|inf|-inf|1e300||soon => --until
+trace s.json --until 5 --max-impacts=-1|1.5|many|99999999999999999999 => --max-impacts
+trace s.json --until 5 --step 0.1 => --step; certified; leave it out
+trace s.json --until 5 --method verlet --step -1 => --step: -1.0 is out of range
+trace s.json --until 5 --method verlet --step 0 => --step: 0.0; give a number
+trace s.json --until 5 --method verlet --step soon => --step; soon
+trace s.json --until 5 --method verlet --tolerance 0.1 => --tolerance; --step
+trace s.json --until 5 --method runge-kutta --tolerance=-1 => --tolerance: -1.0
+trace s.json --until 5 --method runge-kutta --step 0.1 => --step; --tolerance
+trace s.json --until 5 --method euler => euler; verlet; certified
+sweep --masses 5 => --sigma
+sweep --sigma -0.1|NaN|x|0.2..0.1:0.01|0.1..0.2:0|1e300|1e308 => --sigma
+sweep --sigma 0.1 --masses 0|-3 => --masses
+sweep --sigma 0.1 --masses 1000000000000|18446744073709551615 => --masses: about
+sweep --sigma 0.1 --realisations 0 => --realisations
+sweep --sigma 0.1 --realisations 1000000000000000000 => --realisations: about
+sweep --sigma 0.1 --transient -1|NaN|1e13 => --transient
+sweep --sigma 0.1 --window 0|inf => --window
+sweep --sigma 0.1 --restitution 1.1|-0.1|NaN => --restitution
+sweep --sigma 0.1 --initial moving => --initial
+sweep --sigma 0.1 --boundary none => --boundary
+sweep --sigma 0.1 --seed -1 => --seed
+sweep --sigma 0.1 --threads 0 => --threads
+sweep --sigma 0.1 --threads 10000 => cores; give 1 to
+sweep --sigma 0.1 --format xml => --format
+sweep --sigma 0.1 --unknown 1 => --unknown
+bench engine --masses 0 => --masses: 0
+bench engine --masses x => --masses
+bench engine --masses 1000000000000 => --masses, --chains: about
+bench engine --masses 10 --chains 18446744073709551615 => --masses, --chains: about
+bench engine --chains 0 => --chains: 0
+bench engine --chains -1 => '--chains <C>'
+bench engine --sigma NaN => --sigma: NaN
+bench engine --restitution 1.5 => --restitution: 1.5
+bench engine --until -1 => --until: -1.0
+bench engine --threads 0 => --threads: 0
+bench engine --masses 10 --threads 1000000000 => --threads: 1000000000
+bench engine --repetitions 0 => --repetitions: 0
+bench scenario --masses 0 => --masses: 0
+bench scenario|methods --masses 1000000000000 => --masses: about
+bench methods --until NaN => --until: NaN
+bench methods --reference nowhere.json => --reference: nowhere.json
+paper --figure 16|0|x => --figure
+paper --profile deep => --profile
+paper --threads 0 --figure 4 => --threads
+paper --pdf --figure 4 => --pdf
+paper --figure 4 --out loop => link
+paper --figure 4 --out file|file/below => --out
+paper --profile quick --out file => it is a file
+paper --profile quick --figure 3 --results file => --results
+paper --templates nowhere => nowhere
+check --claim no-such-claim => --claim
+check --profile quick --results file => --results
+verify => paper:
+verify empty => empty/SHA256SUMS
+verify file => file:
+verify --profile quick => --rerun
+verify --rerun --profile deep => --profile
+run --profile quick --shard 0/3|4/3 --out d => 1 <= i <= N
+run --profile quick --shard 2 --out d => like 2/3
+run --profile quick --out d => --shard
+run --profile quick --shard 1/3 => --out
+run --profile quick --shard 1/3 --out file => --out: file
+run --profile quick --shard 1/3 --out file/below => --out: file/below
+run --profile quick --shard 1/3 --out d --threads 0|10000 => --threads
+plan --shards 0 => --shards: 0
+plan --array => --shards
+plan --left file => file
+merge => DIR
+merge file => file:
+merge . --results . => is a folder of a shard
+eval => QUANTITY
+eval no-such-thing => no-such-thing; --list
+eval p-crit --no-such-option => --no-such-option
+eval p-crit extra => extra
+eval k-star|higher-mean-impacts --p -0.1 => p:; 0 ≤ p ≤ 1
+eval k-star --p -0.1|1.5|nan|inf|-inf|1e999 => p:; 0 ≤ p ≤ 1
+eval k-star --p abc => p:; abc; decimal
+eval k-star --p 0,5 => p:; 0,5
+eval k-star --p => --p
+eval k-star --p 0.1 --p 0.2 => --p
+eval p-of-sigma|log-p-of-sigma --sigma -1 => sigma:; > 0
+eval p-of-sigma --sigma 0|-1|nan|inf|1e400 => sigma:; > 0
+eval p-of-sigma --sigma 0.1 --omega 0|-1|nan|inf|1e400 => omega:; > 0
+eval p-of-sigma --sigma 0.1 --forcing-frequency 0|-1|nan|inf|1e400 => forcing-frequency:; > 0
+eval p-of-sigma --sigma 0.1 --spacing 0|-1|nan|inf|1e400 => spacing:; > 0
+eval p-of-sigma --sigma x => sigma
+eval p-of-sigma --sigma 0.1 --omega x => omega
+eval p-of-sigma --sigma 0.1 --forcing-frequency x => forcing-frequency
+eval p-of-sigma --sigma 0.1 --spacing x => spacing
+eval p-crit --vertices 0|100000001|99999999999999999999999 => vertices; give
+eval p-crit --masses 0|100000001|99999999999999999999999 => masses; give
+eval p-crit --vertices -1|1.5|1e3|abc|nan => vertices:; whole number
+eval p-crit --masses -1|1.5|1e3|abc|nan => masses:; whole number
+eval p-jump --masses 100 --vertices 101 => masses; vertices; one of them
+eval probability|higher-probability --p 0.5 --k 0 => k:; 1 ≤ k ≤ 100
+eval probability --p 0.5 --k 0|101 => k:; 1 ≤ k ≤ 100
+eval probability --p 0.5 --k -1|2.5 => k:; whole number
+eval log-circuits --k 0|101 => k:; 1 ≤ k ≤ 100
+eval k-star => p:; --p
+eval probability --p 0.1 => k:; --k
+eval p-of-sigma => sigma:; --sigma
+eval log-circuits => k:
+eval p-jump --vertices 1|2|3 => vertices:; no jump; N ≥ 4
+eval k-after-jump --vertices 1|2|3 => vertices:; no jump; N ≥ 4
+eval p-jump --masses 2 => masses; no jump
+eval higher-p-jump --vertices 1 => vertices:; no jump; N ≥ 2
+eval p-of-sigma --sigma 0.01 => sigma:; below the range; log-p-of-sigma
+eval log-p-of-sigma --sigma 1e-160 => sigma:; larger
+eval p-of-sigma --sigma 0.1 --omega 2 --forcing-frequency 2 => forcing-frequency:; ω
+eval log-p-of-sigma --sigma 1 --omega 1.4142135623730951 => forcing-frequency:
+eval p-crit --p 0.1 => p:; leave --p out
+eval p-crit --sigma 0.1 => sigma:
+eval k-star --p 0.1 --k 3 => k:
+eval p-of-sigma --sigma 0.1 --vertices 5 => vertices:
+eval p-of-sigma --sigma 0.1 --masses 5 => masses:
+eval p-crit --omega 2 => omega:
+eval p-crit --forcing-frequency 2 => forcing-frequency:
+eval p-crit --spacing 2 => spacing:";
+
 #[test]
-fn sizes_without_bound() {
+fn options_out_of_range() {
     let folder = tempfile::tempdir().unwrap();
-    let path = file(folder.path(), GOOD);
-    let path = path.to_str().unwrap();
-    let trace = |option: &'static str, value: &'static str| {
-        vec!["trace", path, "--until", "1", "--method", "verlet", option, value]
+    let here = folder.path();
+    fs::write(here.join("s.json"), SCENARIO).unwrap();
+    fs::write(here.join("file"), "").unwrap();
+    fs::create_dir(here.join("empty")).unwrap();
+    std::os::unix::fs::symlink("loop", here.join("loop")).unwrap();
+    let mut count = 0;
+    for line in REFUSED.lines().skip(1) {
+        let (arguments, words) = line.split_once(" => ").unwrap();
+        let words: Vec<&str> = words.split("; ").collect();
+        let group = arguments.split(' ').find(|word| word.contains('|')).unwrap_or(arguments);
+        let option = group.find('=').filter(|_| group != arguments).map_or(0, |at| at + 1);
+        for value in group[option..].split('|') {
+            let value = format!("{}{value}", &group[..option]);
+            let began = Instant::now();
+            crate::refused(here, &arguments.replace(group, &value), &words);
+            assert!(began.elapsed() < Duration::from_secs(20), "{arguments}");
+            count += 1;
+        }
+    }
+    assert!(count > 170, "{count}");
+    assert!(!here.join("d").exists() && !here.join("SHA256SUMS").exists(), "nothing is made");
+}
+
+/// A full device is refused, and said so; a reader that goes away, as `head` does, is a quiet end.
+#[cfg(target_os = "linux")]
+#[test]
+fn outputs_that_cannot_be_written() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("s.json"), SCENARIO).unwrap();
+    for arguments in ["trace s.json --until 1e5", "eval p-crit"] {
+        let mut command = program(folder.path(), arguments);
+        let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+        let output = command.stdout(full).stderr(Stdio::piped()).spawn().unwrap();
+        let (code, _, note) = crate::told(&output.wait_with_output().unwrap());
+        assert_eq!((code, note.lines().count()), (4, 1), "{note}");
+        assert!(note.contains("standard output"), "{note}");
+    }
+    let mut command = program(folder.path(), "trace s.json --until 1e5");
+    let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    drop(child.stdout.take());
+    let (code, _, note) = crate::told(&child.wait_with_output().unwrap());
+    assert!(note.is_empty() && code != -1, "{note}");
+}
+
+#[test]
+fn files_without_end_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let long = |path: &str| {
+        let file = fs::File::create(folder.join(path)).unwrap();
+        file.set_len((64 << 20) + 1).unwrap();
     };
-    let most = usize::MAX.to_string();
-    for (arguments, words) in [
-        (vec!["sweep", "--sigma", "0.1", "--masses", "1000000000000"], "--masses: about"),
-        (vec!["sweep", "--sigma", "0.1", "--masses", &most], "--masses: about"),
-        (
-            vec!["sweep", "--sigma", "0.1", "--realisations", "1000000000000000000"],
-            "--realisations: about",
-        ),
-        (vec!["sweep", "--sigma", "0.1", "--threads", "10000"], "cores; give 1 to "),
-        (vec!["sweep", "--sigma", "1e308"], "--sigma: 1e308"),
-        (vec!["bench", "engine", "--masses", "1000000000000"], "--masses, --chains: about"),
-        (vec!["bench", "engine", "--masses", "10", "--chains", &most], "--masses, --chains: about"),
-        (
-            vec!["bench", "engine", "--masses", "10", "--threads", "1000000000"],
-            "--threads: 1000000000",
-        ),
-        (vec!["bench", "engine", "--chains", "-1"], "'--chains <C>'"),
-        (vec!["bench", "scenario", "--masses", "1000000000000"], "--masses: about"),
-        (vec!["bench", "methods", "--masses", "1000000000000"], "--masses: about"),
-        (vec!["run", "--shard", "1/3", "--out", "nowhere", "--threads", "10000"], "--threads"),
-        (trace("--step", "-1"), "--step: -1.0 is out of range"),
-        (trace("--max-impacts", "-1"), "'--max-impacts <M>'"),
-    ] {
-        let began = Instant::now();
-        let output = command().current_dir(&folder).args(&arguments).output().unwrap();
-        let error = String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {error}");
-        assert!(output.stdout.is_empty() && error.lines().count() == 1, "{error}");
-        assert!(error.contains(words), "{arguments:?}: {error}");
-        assert!(began.elapsed() < Duration::from_secs(5), "{arguments:?}");
+    long("long.json");
+    crate::refused(folder, "trace long.json --until=5", &["long.json", "64 MiB"]);
+    for name in ["report", "templates"] {
+        fs::create_dir(folder.join(name)).unwrap();
     }
-    if cfg!(unix) {
-        let error = refusal(&["/dev/zero", "--until", "5"]);
-        assert!(error.contains("longer than"), "{error}");
+    long("report/values.json");
+    crate::refused(folder, "explain --paper=report", &["values.json", "64 MiB"]);
+    long("templates/report.md");
+    let check = "check --profile=quick --claim=sec3_edges --templates=templates";
+    crate::refused(folder, check, &["report.md", "64 MiB"]);
+    // Together, though none alone.
+    for name in ["report.md", "one.md", "two.md"] {
+        let file = fs::File::create(folder.join("templates").join(name)).unwrap();
+        file.set_len(30 << 20).unwrap();
     }
+    crate::refused(folder, check, &["templates", "64 MiB"]);
+    if Path::new("/dev/zero").exists() {
+        crate::refused(folder, "trace /dev/zero --until=5", &["/dev/zero", "64 MiB"]);
+    }
+}
+
+#[test]
+fn broken_files_are_told_in_one_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    fs::create_dir(folder.join("t")).unwrap();
+    fs::write(folder.join("t/published.toml"), "# none\n[[statement]]\nid = 3\n").unwrap();
+    let check = "check --profile=quick --templates=t";
+    crate::refused(folder, check, &["impact-paper: published.toml:3: "]);
+    fs::write(folder.join("name.json"), "{\"a\\nb\":1}").unwrap();
+    crate::refused(folder, "trace name.json --until=5", &["name.json", "a b"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn templates_that_lead_round_in_circles_are_refused() {
+    use std::os::unix::fs::symlink;
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    fs::create_dir(folder.join("t")).unwrap();
+    for name in ["t/a", "t/b", "t/c"] {
+        symlink(".", folder.join(name)).unwrap();
+    }
+    let check = "check --profile=quick --templates=t";
+    crate::refused(folder, check, &["read before"]);
+    for name in ["t/a", "t/b", "t/c"] {
+        fs::remove_file(folder.join(name)).unwrap();
+    }
+    let made = Command::new("mkfifo").arg(folder.join("t/pipe.md")).status();
+    if made.is_ok_and(|status| status.success()) {
+        crate::refused(folder, check, &["pipe.md", "no regular file"]);
+    }
+}
+
+/// A folder of the output that is a link leads out of it; a file that is one is replaced.
+#[cfg(unix)]
+#[test]
+fn nothing_is_written_outside_the_output() {
+    use std::os::unix::fs::symlink;
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    for name in ["out", "outside", "good"] {
+        fs::create_dir(folder.join(name)).unwrap();
+    }
+    let names = |path: &str| -> Vec<String> {
+        let entries = fs::read_dir(folder.join(path)).unwrap();
+        entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
+    };
+    symlink("../outside", folder.join("out/data")).unwrap();
+    let paper = "paper --profile=quick --figure=4 --out=out --force";
+    crate::refused(folder, paper, &["--out", "data", "symbolic link"]);
+    assert_eq!(names("outside"), Vec::<String>::new());
+    assert_eq!(names("out"), ["data"], "nothing is half-written");
+
+    fs::write(folder.join("outside/kept"), "kept").unwrap();
+    fs::create_dir(folder.join("good/data")).unwrap();
+    symlink("../../outside/kept", folder.join("good/data/fig04.csv")).unwrap();
+    symlink("good", folder.join("link")).unwrap();
+    let paper = "paper --profile=quick --figure=4 --out=link --force";
+    assert_eq!(run(folder, paper).0, 0);
+    assert_eq!(fs::read_to_string(folder.join("outside/kept")).unwrap(), "kept");
+    assert!(!folder.join("good/data/fig04.csv").is_symlink());
 }

@@ -1,16 +1,15 @@
 //! `impact-paper bundle`: an archive that needs nothing but itself.
 
+use crate::{PROGRAM, digest, ended, outcome, program, run};
 use serde_json::Value;
-use sha2::{Digest, Sha256};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File};
 use std::io::Read;
 use std::path::Path;
-use std::process::Command;
-use std::time::{Duration, Instant};
+use std::process::{Command, Stdio};
+use std::time::Duration;
 use tempfile::TempDir;
 
-const PROGRAM: &str = env!("CARGO_BIN_EXE_impact-paper");
 const SOURCE: &str = env!("CARGO_MANIFEST_DIR");
 /// The folder that everything is in.
 const TOP: &str = concat!("impact-paper-", env!("CARGO_PKG_VERSION"), "/");
@@ -35,9 +34,7 @@ fn clone() -> TempDir {
     let mut sums = String::new();
     for name in ["figures/fig03.svg", "values.json"] {
         fs::copy(Path::new(SOURCE).join("paper").join(name), at("paper").join(name)).unwrap();
-        let digest = Sha256::digest(fs::read(at("paper").join(name)).unwrap());
-        let digest: String = digest.iter().map(|byte| format!("{byte:02x}")).collect();
-        sums += &format!("{digest}  {name}\n");
+        sums += &format!("{}  {name}\n", digest(fs::read(at("paper").join(name)).unwrap()));
     }
     fs::write(at("paper/SHA256SUMS"), sums).unwrap();
     fs::create_dir(at(".ci")).unwrap();
@@ -54,10 +51,8 @@ fn clone() -> TempDir {
 
 /// Exit code and stderr.
 fn bundle(folder: &Path, arguments: &str) -> (i32, String) {
-    let mut command = Command::new(PROGRAM);
-    let output =
-        command.current_dir(folder).arg("bundle").args(arguments.split(' ')).output().unwrap();
-    (output.status.code().unwrap(), String::from_utf8(output.stderr).unwrap())
+    let (code, _, note) = run(folder, &format!("bundle {arguments}"));
+    (code, note)
 }
 
 /// Bytes and mode of every file of an archive, by its path below the top folder.
@@ -102,8 +97,7 @@ fn everything_is_listed_described_and_the_same_twice() {
         .map(|(sum, path)| (path, sum))
         .collect();
     for (path, (bytes, _)) in files.iter().filter(|(path, _)| *path != "SHA256SUMS") {
-        let digest: String = Sha256::digest(bytes).iter().map(|b| format!("{b:02x}")).collect();
-        assert_eq!(listed.get(path.as_str()), Some(&digest.as_str()), "{path}");
+        assert_eq!(listed.get(path.as_str()), Some(&digest(bytes).as_str()), "{path}");
     }
     assert_eq!(listed.len() + 1, files.len());
 
@@ -191,30 +185,18 @@ fn a_full_disk_and_ctrl_c_end_it() {
         at("full.zip").display()
     );
     let mut command = Command::new("bash");
-    let output = command.current_dir(clone.path()).args(["-c", &full, PROGRAM]).output().unwrap();
-    let said = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(4), "{said}");
+    command.current_dir(clone.path()).args(["-c", &full, PROGRAM]);
+    let (code, _, said) = outcome(&mut command);
+    assert_eq!(code, 4, "{said}");
     assert!(said.contains("File too large") && !said.contains("{"), "{said}");
 
     fs::write(at("cargo"), "#!/bin/sh\nsleep 60\n").unwrap();
     #[cfg(unix)]
     fs::set_permissions(at("cargo"), std::os::unix::fs::PermissionsExt::from_mode(0o755)).unwrap();
-    let mut child = Command::new(PROGRAM)
-        .current_dir(clone.path())
-        .env("CARGO", at("cargo"))
-        .arg("bundle")
-        .arg(at("out.zip"))
-        .args(["--without", "results"])
-        .stderr(std::process::Stdio::null())
-        .spawn()
-        .unwrap();
-    std::thread::sleep(Duration::from_millis(1500));
-    assert_eq!(child.try_wait().unwrap(), None);
-    let asked = Instant::now();
-    let kill = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
-    assert!(kill.unwrap().success());
-    assert_eq!(child.wait().unwrap().code(), Some(130));
-    assert!(asked.elapsed() < Duration::from_secs(1), "{:?}", asked.elapsed());
+    let bundle = format!("bundle {} --without results", at("out.zip").display());
+    let mut command = program(clone.path(), &bundle);
+    command.env("CARGO", at("cargo")).stderr(Stdio::null());
+    ended(&mut command, "-INT", Duration::from_secs(1));
     let left = fs::read_dir(out.path()).unwrap().map(|entry| entry.unwrap().file_name());
     assert_eq!(left.collect::<Vec<_>>(), ["cargo"]);
 }

@@ -1,9 +1,8 @@
 //! `impact-paper check` for machines: every form says of every claim what the text says.
 
-use crate::{PROGRAM, TEMPLATES, program, told};
+use crate::{TEMPLATES, outcome, program, run};
 use impact_paper::claims::Basis;
 use std::path::Path;
-use std::process::Command;
 
 fn check(folder: &Path, arguments: &[&str], summary: Option<&Path>) -> (i32, String, String) {
     let mut command = program(folder, "check --profile quick --results r --templates");
@@ -11,7 +10,7 @@ fn check(folder: &Path, arguments: &[&str], summary: Option<&Path>) -> (i32, Str
     if let Some(summary) = summary {
         command.env("GITHUB_STEP_SUMMARY", summary);
     }
-    told(&command.output().unwrap())
+    outcome(&mut command)
 }
 
 fn json(text: &str) -> serde_json::Value {
@@ -92,25 +91,15 @@ fn every_form_has_every_claim_at_its_line() {
 fn a_claim_that_differs_is_an_error_in_every_form() {
     let folder = tempfile::tempdir().unwrap();
     let templates = folder.path().join("t");
-    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("templates");
-    let status = Command::new("cp").arg("-r").arg(source).arg(&templates).status();
-    assert!(status.unwrap().success());
-    let file = templates.join("published.toml");
-    let text = std::fs::read_to_string(&file).unwrap();
-    let at = text.find("id = \"sec3_edges\"").unwrap();
-    let value = at + text[at..].find("value = ").unwrap() + "value = ".len();
-    std::fs::write(&file, format!("{}9{}", &text[..value], &text[value..])).unwrap();
+    crate::templates(&templates, "published.toml", |text| {
+        let at = text.find("id = \"sec3_edges\"").unwrap();
+        let value = at + text[at..].find("value = ").unwrap() + "value = ".len();
+        format!("{}9{}", &text[..value], &text[value..])
+    });
     let form = |name| {
-        let mut command = Command::new(PROGRAM);
-        command.current_dir(folder.path()).args([
-            "check",
-            "--profile",
-            "quick",
-            "--templates",
-            "t",
-        ]);
-        let output = command.args(["--claim", "sec3_edges", "--format", name]).output().unwrap();
-        (output.status.code().unwrap(), String::from_utf8(output.stdout).unwrap())
+        let check = "check --profile quick --templates t --claim sec3_edges --format";
+        let (code, out, _) = run(folder.path(), &format!("{check} {name}"));
+        (code, out)
     };
     for (name, sign) in [
         ("text", "FAILS sec3_edges"),

@@ -1,18 +1,10 @@
 //! A job array on a real Slurm gives the bytes of one machine, even if a task is killed on its way.
 
-use crate::{EXPERIMENTS, Files, PROGRAM, TEMPLATES, files, run};
-use sha2::{Digest, Sha256};
-use std::collections::BTreeMap;
+use crate::{EXPERIMENTS, PROGRAM, TEMPLATES, digest, files, run};
 use std::path::Path;
 use std::process::Command;
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
-
-/// SHA-256 of each saved result, by name.
-fn sums(files: Files) -> BTreeMap<String, String> {
-    let sum = |bytes: Vec<u8>| Sha256::digest(bytes).iter().map(|b| format!("{b:02x}")).collect();
-    files.into_iter().map(|(name, bytes)| (name, sum(bytes))).collect()
-}
 
 /// Starts munged, slurmctld and slurmd on this machine (root installs them when missing), and stops
 /// them. Half a minute in a release build, most of it the profile ci twice.
@@ -36,7 +28,10 @@ fn a_job_array_with_a_killed_task_gives_the_bytes_of_one_machine() {
     let paper = "paper --profile ci --out report --results local --templates";
     let (code, _, note) = run(folder.path(), &format!("{paper} {TEMPLATES}"));
     assert_eq!(code, 0, "{note}");
-    let made = |name: &str| sums(files(&folder.path().join(name)));
+    let made = |name: &str| -> Vec<_> {
+        let sum = |(name, bytes): (String, Vec<u8>)| (name, digest(bytes));
+        files(&folder.path().join(name)).into_iter().map(sum).collect()
+    };
     let merged = made("results");
     assert_eq!(merged.len(), EXPERIMENTS);
     assert_eq!(merged, made("local"));

@@ -1,6 +1,6 @@
 //! `impact-paper diff`: two reports, by folder or by revision of git.
 
-use crate::{PROGRAM, told};
+use crate::{PROGRAM, outcome, put, tree};
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -12,7 +12,7 @@ fn command(folder: &Path, arguments: &[&str]) -> Command {
 }
 
 fn run(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
-    told(&command(folder, arguments).output().unwrap())
+    outcome(&mut command(folder, arguments))
 }
 
 /// What the commands print that must not fail.
@@ -32,15 +32,7 @@ fn twice() -> tempfile::TempDir {
 }
 
 fn copy(from: &Path, to: &Path) {
-    fs::create_dir_all(to).unwrap();
-    for entry in fs::read_dir(from).unwrap() {
-        let entry = entry.unwrap();
-        if entry.path().is_dir() {
-            copy(&entry.path(), &to.join(entry.file_name()));
-        } else {
-            fs::copy(entry.path(), to.join(entry.file_name())).unwrap();
-        }
-    }
+    put(to, &tree(from));
 }
 
 /// Replaces the first occurrence in a file.
@@ -155,7 +147,7 @@ fn revisions_of_git_are_compared() {
     assert!(note.contains("v1: this revision has no folder paper/"), "{note}");
     // What git itself says, where it knows better.
     let mut broken = command(&sub, &["v1", "paper"]);
-    let (code, _, note) = told(&broken.env("GIT_DIR", "nowhere").output().unwrap());
+    let (code, _, note) = outcome(broken.env("GIT_DIR", "nowhere"));
     assert!(code == 2 && note.contains("not a git repository: 'nowhere'"), "{note}");
     for odd in ["nothing", "v1:sub", "v1..v2", "", "v1 v2", "-v", "--output=x", "a/report.md"] {
         let (code, out, note) = run(&sub, &["--", odd, "paper"]);
@@ -163,7 +155,7 @@ fn revisions_of_git_are_compared() {
         assert!(note.contains("neither a folder nor a revision"), "{odd}: {note}");
         assert_eq!(note.lines().count(), 1, "{odd}: {note}");
     }
-    let (code, _, note) = told(&command(&sub, &["v1", "v2"]).env("PATH", "").output().unwrap());
+    let (code, _, note) = outcome(command(&sub, &["v1", "v2"]).env("PATH", ""));
     assert_eq!(code, 2);
     assert!(note.contains("no git to ask") && note.lines().count() == 1, "{note}");
 }

@@ -1,63 +1,40 @@
 //! `impact-paper explain` as a user meets it, on the report of the quick profile.
 
-use crate::{PROGRAM, told};
+use crate::{PROGRAM, QUICK, outcome, put};
 use std::path::Path;
 use std::process::Command;
-use std::sync::LazyLock;
-
-static PAPER: LazyLock<tempfile::TempDir> = LazyLock::new(|| {
-    let folder = tempfile::tempdir().unwrap();
-    let out = folder.path().join("paper");
-    let results = folder.path().join("results");
-    let (out, results) = (out.to_str().unwrap(), results.to_str().unwrap());
-    let (code, _, note) = run(&["paper", "--profile", "quick", "--out", out, "--results", results]);
-    assert_eq!(code, 0, "{note}");
-    folder
-});
 
 fn run(arguments: &[&str]) -> (i32, String, String) {
-    told(&Command::new(PROGRAM).args(arguments).output().unwrap())
+    outcome(Command::new(PROGRAM).args(arguments))
 }
 
 fn explain(arguments: &[&str]) -> (i32, String, String) {
-    let paper = PAPER.path().join("paper");
-    run(&[&["explain", "--paper", paper.to_str().unwrap()], arguments].concat())
+    let folder = tempfile::tempdir().unwrap();
+    put(folder.path(), &QUICK.report);
+    run(&[&["explain", "--paper", folder.path().to_str().unwrap()], arguments].concat())
 }
+
+/// What is asked for, and parts of what is told.
+const CARDS: &str = "\
+half_height => standard error; experiments::rise::find (src/experiments/rise.rs:; seed: 2007
+half_height => chain masses: 100; fig03.csv; reproduced
+half_height_second => seed: 7002
+p_crit => 0.0122099; circuits::jump::p_crit (src/circuits/jump.rs:; (18)
+printed.sec2_half_height => that the paper prints; Sec. 2
+fig:3 => fig03.svg; figures::fig03 (src/figures/fig03.rs:1); seed: 2007
+fig:s12 => experiments::accuracy::race (src/experiments/accuracy/race.rs:
+eq:18 => circuits::jump::p_crit (src/circuits/jump.rs:; p_crit, p_crit_walls
+claim:sec7_jump => verdict; tolerance; p_jump
+eq:12 => f_(N,p)(k)";
 
 #[test]
 fn values_figures_equations_and_claims_are_explained() {
-    for (id, parts) in [
-        (
-            "half_height",
-            vec![
-                "standard error",
-                "experiments::rise::find (src/experiments/rise.rs:",
-                "seed: 2007",
-                "chain masses: 100",
-                "fig03.csv",
-                "reproduced",
-            ],
-        ),
-        ("half_height_second", vec!["seed: 7002"]),
-        ("p_crit", vec!["0.0122099", "circuits::jump::p_crit (src/circuits/jump.rs:", "(18)"]),
-        ("printed.sec2_half_height", vec!["that the paper prints", "Sec. 2"]),
-        (
-            "fig:3",
-            vec![
-                "figures/fig03.svg".split('/').next_back().unwrap(),
-                "figures::fig03 (src/figures/fig03.rs:1)",
-                "seed: 2007",
-            ],
-        ),
-        ("fig:s12", vec!["experiments::accuracy::race (src/experiments/accuracy/race.rs:"]),
-        ("eq:18", vec!["circuits::jump::p_crit (src/circuits/jump.rs:", "p_crit, p_crit_walls"]),
-        ("claim:sec7_jump", vec!["verdict", "tolerance", "p_jump"]),
-        ("eq:12", vec!["f_(N,p)(k)"]),
-    ] {
+    for line in CARDS.lines() {
+        let (id, parts) = line.split_once(" => ").unwrap();
         let (code, told, note) = explain(&[id]);
         assert_eq!((code, note.as_str()), (0, ""), "{id}");
         assert!(!told.contains("\\mathrm") && !told.contains("\\Phi"), "{told}");
-        for part in parts {
+        for part in parts.split("; ") {
             assert!(told.contains(part), "{id}: {part:?} is not in\n{told}");
         }
     }
@@ -106,8 +83,7 @@ fn an_unknown_id_is_one_line_with_the_nearest() {
 /// An origin names the function that computed the number: no constant, structure or module.
 #[test]
 fn every_origin_is_a_function() {
-    let text = std::fs::read_to_string(PAPER.path().join("paper/values.json")).unwrap();
-    let values: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let values: serde_json::Value = serde_json::from_slice(&QUICK.report["values.json"]).unwrap();
     let values = values.as_object().unwrap();
     let ids: Vec<&str> = values
         .iter()

@@ -6,58 +6,184 @@ mod bundle;
 mod check;
 mod cluster;
 mod diff;
+mod eval;
 mod explain;
 mod mutate;
 mod paper;
 mod saved;
 mod shards;
 mod sweep;
+mod trace;
 mod verify;
 
+use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
+use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
+use std::sync::{LazyLock, RwLock};
+use std::time::{Duration, Instant};
 
 /// The program.
-pub const PROGRAM: &str = env!("CARGO_BIN_EXE_impact-paper");
+const PROGRAM: &str = env!("CARGO_BIN_EXE_impact-paper");
 
 /// The project's templates.
-pub const TEMPLATES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/templates");
+const TEMPLATES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/templates");
 
 /// Number of the experiments that are saved in every profile but the deep one.
-pub const EXPERIMENTS: usize = 23;
+const EXPERIMENTS: usize = 23;
+
+/// A chain of three masses.
+const SCENARIO: &str = r#"{"forcing":[[0.9,-0.4],[-0.7,0.8],[0.3,0.9]]}"#;
+
+/// Written by a test that measures a time: no other runs the program meanwhile.
+static ALONE: RwLock<()> = RwLock::new(());
 
 /// The program in a folder, with arguments between which a blank stands.
-pub fn program(folder: &Path, arguments: &str) -> Command {
+fn program(folder: &Path, arguments: &str) -> Command {
     let mut command = Command::new(PROGRAM);
     command.current_dir(folder).args(arguments.split(' '));
     command
 }
 
 /// Exit code, stdout and stderr; −1 for a program that a signal ended.
-pub fn told(output: &Output) -> (i32, String, String) {
+fn told(output: &Output) -> (i32, String, String) {
     let text = |bytes: &Vec<u8>| String::from_utf8_lossy(bytes).into_owned();
     (output.status.code().unwrap_or(-1), text(&output.stdout), text(&output.stderr))
 }
 
+/// The same of a command.
+fn outcome(command: &mut Command) -> (i32, String, String) {
+    let _others = ALONE.read().unwrap();
+    told(&command.output().unwrap())
+}
+
 /// The same of a run in a folder.
-pub fn run(folder: &Path, arguments: &str) -> (i32, String, String) {
-    told(&program(folder, arguments).output().unwrap())
+fn run(folder: &Path, arguments: &str) -> (i32, String, String) {
+    outcome(&mut program(folder, arguments))
+}
+
+/// The standard output of a run that succeeds and says nothing else.
+fn answer(folder: &Path, arguments: &str) -> String {
+    let (code, out, note) = run(folder, arguments);
+    assert_eq!((code, note.as_str()), (0, ""), "{arguments}: {out}");
+    out
+}
+
+/// Holds a run to its refusal: exit code 2, nothing on stdout, and one line on stderr, which has these
+/// words.
+fn refused(folder: &Path, arguments: &str, words: &[&str]) {
+    let (code, out, note) = run(folder, arguments);
+    let shown = (code, out.as_str(), note.lines().count());
+    assert_eq!(shown, (2, "", 1), "{arguments}: {note}");
+    assert!(note.len() < 2000 && !note.contains("panicked"), "{arguments}: {note}");
+    for word in words {
+        assert!(note.contains(word), "{arguments}: {word:?} is not in {note}");
+    }
+}
+
+/// Starts a command, sends it a signal a while after, and holds it to the code 130 and a time to end; its
+/// stdout, and its stderr if that is piped.
+fn ended(command: &mut Command, signal: &str, within: Duration) -> [String; 2] {
+    let alone = ALONE.write().unwrap();
+    let mut child = command.stdout(Stdio::piped()).spawn().unwrap();
+    std::thread::sleep(Duration::from_secs(1));
+    let early = child.try_wait().unwrap();
+    let asked = Instant::now();
+    let kill = Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap();
+    while child.try_wait().unwrap().is_none() && asked.elapsed() < Duration::from_secs(20) {
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    let took = asked.elapsed();
+    let _ = child.kill();
+    let output = child.wait_with_output().unwrap();
+    drop(alone);
+    assert!(early.is_none() && kill.success(), "it must still be running: {early:?}");
+    let (code, out, note) = told(&output);
+    assert!(code == 130 && took < within, "{code} after {took:?}: {out}{note}");
+    [out, note]
+}
+
+/// Leaves a program so many milliseconds, and kills it without a chance to tidy up.
+fn killed(command: &mut Command, wait: u64) {
+    let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    std::thread::sleep(Duration::from_millis(wait));
+    let _ = child.kill();
+    child.wait().unwrap();
+}
+
+/// SHA-256 in hexadecimal digits.
+fn digest(bytes: impl AsRef<[u8]>) -> String {
+    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// A saved result with other text in its second or third line, and a checksum that is right.
+fn forged(bytes: &[u8], line: usize, from: &str, to: &str) -> String {
+    let text = std::str::from_utf8(bytes).unwrap();
+    let mut lines: Vec<&str> = text.lines().collect();
+    let changed = lines[line].replacen(from, to, 1);
+    assert_ne!(changed, lines[line], "there is no {from}");
+    lines[line] = &changed;
+    let made_of = format!("{}\n{}\n", lines[1], lines[2]);
+    format!("{}\n{made_of}", digest(&made_of))
+}
+
+/// Copies the project's templates, and changes one of their files.
+fn templates(to: &Path, file: &str, change: impl Fn(&str) -> String) {
+    assert!(Command::new("cp").arg("-r").arg(TEMPLATES).arg(to).status().unwrap().success());
+    let text = fs::read_to_string(to.join(file)).unwrap();
+    fs::write(to.join(file), change(&text)).unwrap();
 }
 
 /// Files by name.
-pub type Files = BTreeMap<String, Vec<u8>>;
+type Files = BTreeMap<String, Vec<u8>>;
 
-/// The JSON files of a folder by name; none if it is not there. Temporary files that a killed program
-/// left are not among them.
-pub fn files(folder: &Path) -> Files {
-    let Ok(entries) = std::fs::read_dir(folder) else { return Files::new() };
-    entries
-        .map(|entry| entry.unwrap().path())
-        .filter(|path| path.extension().is_some_and(|end| end == "json"))
-        .map(|path| {
-            let name = path.file_name().unwrap().to_string_lossy().into_owned();
-            (name, std::fs::read(&path).unwrap())
-        })
-        .collect()
+/// All files below a folder, hidden ones included; none if it is not there.
+fn tree(folder: &Path) -> Files {
+    let mut files = Files::new();
+    for entry in fs::read_dir(folder).into_iter().flatten() {
+        let path = entry.unwrap().path();
+        let name = path.file_name().unwrap().to_str().unwrap().to_string();
+        if path.is_dir() {
+            let below = tree(&path).into_iter();
+            files.extend(below.map(|(path, bytes)| (format!("{name}/{path}"), bytes)));
+        } else {
+            files.insert(name, fs::read(&path).unwrap());
+        }
+    }
+    files
 }
+
+/// The JSON files of a folder. Temporary files that a killed program left are not among them.
+fn files(folder: &Path) -> Files {
+    let here = |name: &str| name.ends_with(".json") && !name.contains('/');
+    tree(folder).into_iter().filter(|(name, _)| here(name)).collect()
+}
+
+/// Writes files into a new folder.
+fn put(folder: &Path, files: &Files) {
+    for (name, bytes) in files {
+        fs::create_dir_all(folder.join(name).parent().unwrap()).unwrap();
+        fs::write(folder.join(name), bytes).unwrap();
+    }
+}
+
+/// What an undisturbed run of the quick profile makes.
+struct Quick {
+    report: Files,
+    results: Files,
+}
+
+static QUICK: LazyLock<Quick> = LazyLock::new(|| {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let paper = "paper --profile quick --out report --results results --threads 4 --templates";
+    let (code, _, note) = run(here, &format!("{paper} {TEMPLATES}"));
+    assert_eq!(code, 0, "{note}");
+    // Whom the umask allows may read it.
+    fs::write(here.join("plain"), "").unwrap();
+    let [plain, result] = ["plain", "results/sweep-quick.json"]
+        .map(|path| here.join(path).metadata().unwrap().permissions());
+    assert_eq!(plain, result);
+    Quick { report: tree(&here.join("report")), results: files(&here.join("results")) }
+});

@@ -1,7 +1,7 @@
 //! `impact-paper mutate`: a number that is wrong is noticed by the check that should, and a number that
 //! nobody would miss needs a reason.
 
-use crate::{PROGRAM, told};
+use crate::{PROGRAM, QUICK, outcome, put};
 use impact_paper::claims::{self, Published};
 use impact_paper::experiments::{Need, Progress, Store, run::run};
 use impact_paper::params::Profile;
@@ -14,26 +14,27 @@ use std::sync::LazyLock;
 use tempfile::TempDir;
 
 /// Results of the quick profile, for all tests of this file.
-static RESULTS: LazyLock<TempDir> = LazyLock::new(|| tempfile::tempdir().unwrap());
+static RESULTS: LazyLock<TempDir> = LazyLock::new(|| {
+    let folder = tempfile::tempdir().unwrap();
+    put(folder.path(), &QUICK.results);
+    folder
+});
 
 fn mutate(arguments: &[&str]) -> (i32, String, String) {
     let results = RESULTS.path().to_str().unwrap();
     let mut command = Command::new(PROGRAM);
     command.args(["mutate", "--profile", "quick", "--results", results]).args(arguments);
-    told(&command.output().unwrap())
+    outcome(&mut command)
 }
 
 /// The project's templates with one file changed, in a folder of its own.
 fn templates(name: &str, change: impl Fn(&str) -> String) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
-    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("templates");
-    let status = Command::new("cp").arg("-r").arg(source).arg(folder.path().join("t")).status();
-    assert!(status.unwrap().success());
-    let file = folder.path().join("t").join(name);
-    let text = std::fs::read_to_string(&file).unwrap();
-    let changed = change(&text);
-    assert_ne!(text, changed);
-    std::fs::write(&file, changed).unwrap();
+    crate::templates(&folder.path().join("t"), name, |text| {
+        let changed = change(text);
+        assert_ne!(text, changed);
+        changed
+    });
     folder
 }
 
@@ -116,7 +117,7 @@ fn all_are_guarded_or_have_a_reason_that_they_need() {
     // Each number that is used has its line.
     let lines = text.lines().filter(|line| line.contains(" ± ")).count();
     assert!(text.contains(&format!("\n{lines} numbers: ")) && lines > 300, "{text}");
-    assert_eq!(mutate(&[]).1, text, "saved or computed, it is the same");
+    assert_eq!(mutate(&[]).1, text, "the same twice");
 
     // A reason is taken away: its number is told.
     let missing = templates("unguarded.toml", |text| text.replacen("\"own_work\", ", "", 1));
@@ -169,9 +170,7 @@ fn check_names_a_guard_that_fails() {
         let mut command = Command::new(PROGRAM);
         command.args(["check", "--profile", "quick", "--format", form]);
         command.arg("--results").arg(RESULTS.path());
-        let output = command.arg("--templates").arg(folder.path().join("t")).output().unwrap();
-        let text = |bytes| String::from_utf8(bytes).unwrap();
-        (output.status.code(), text(output.stdout), text(output.stderr))
+        outcome(command.arg("--templates").arg(folder.path().join("t")))
     };
     for (form, sign) in [
         ("text", "FAILS guard printed_as_it_reads: "),
@@ -180,7 +179,7 @@ fn check_names_a_guard_that_fails() {
         ("markdown", "| printed_as_it_reads | "),
     ] {
         let (code, out, note) = check(form);
-        assert_eq!(code, Some(1), "{note}");
+        assert_eq!(code, 1, "{note}");
         assert!(out.contains(sign), "{sign}: {out}");
         assert!(note.contains("do not hold: printed_as_it_reads"), "{note}");
     }

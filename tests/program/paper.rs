@@ -1,36 +1,20 @@
 //! `impact-paper paper` and `check` as a user meets them: what runs, what is written, what is not.
 
-use crate::{TEMPLATES, told};
-use std::collections::BTreeMap;
+use crate::{
+    EXPERIMENTS, QUICK, TEMPLATES, answer, ended, files, outcome, program, templates, tree,
+};
 use std::path::Path;
 use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// The program in a folder of its own, with the templates of the project.
-fn program(folder: &Path, arguments: &str) -> Command {
-    crate::program(folder, &format!("{arguments} --templates {TEMPLATES}"))
-}
-
 fn run(folder: &Path, arguments: &str) -> (i32, String, String) {
-    told(&program(folder, arguments).output().unwrap())
+    crate::run(folder, &format!("{arguments} --templates {TEMPLATES}"))
 }
 
-/// All files below a folder, hidden ones included.
-fn tree(folder: &Path) -> BTreeMap<String, Vec<u8>> {
-    fn walk(root: &Path, folder: &Path, into: &mut BTreeMap<String, Vec<u8>>) {
-        for entry in std::fs::read_dir(folder).unwrap() {
-            let path = entry.unwrap().path();
-            if path.is_dir() {
-                walk(root, &path, into);
-            } else {
-                let name = path.strip_prefix(root).unwrap().to_str().unwrap().to_string();
-                into.insert(name, std::fs::read(&path).unwrap());
-            }
-        }
-    }
-    let mut files = BTreeMap::new();
-    walk(folder, folder, &mut files);
-    files
+/// Refuses the same.
+fn refused(folder: &Path, arguments: &str, words: &[&str]) {
+    crate::refused(folder, &format!("{arguments} --templates {TEMPLATES}"), words);
 }
 
 #[test]
@@ -63,18 +47,13 @@ fn only_the_figure_that_was_asked_for_is_written() {
 fn threads_and_saved_results_change_no_byte_and_lesser_profiles_replace_no_full_report() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
-    for (out, results, threads) in [("one", "r1", 1), ("four", "r4", 4)] {
-        let (code, _, note) = run(
-            folder.path(),
-            &format!("paper --profile quick --out {out} --results {results} --threads {threads}"),
-        );
-        assert_eq!(code, 0, "{note}");
-    }
-    let report = tree(&at("one"));
+    let paper = "paper --profile quick --out one --results r1";
+    let (code, _, note) = run(folder.path(), &format!("{paper} --threads 1"));
+    assert_eq!(code, 0, "{note}");
+    let (report, saved) = (tree(&at("one")), files(&at("r1")));
     assert!(report.contains_key("report.md") && report.len() > 40, "{:?}", report.keys());
-    assert!(report == tree(&at("four")), "1 and 4 threads differ");
-    let saved = tree(&at("r1"));
-    assert_eq!(saved, tree(&at("r4")));
+    assert_eq!(saved.len(), EXPERIMENTS);
+    assert!(report == QUICK.report && saved == QUICK.results, "1 and 4 threads differ");
 
     // Again: nothing is run, nothing changes, not even the saved files' times.
     let times = |name: &str| -> Vec<_> {
@@ -89,7 +68,7 @@ fn threads_and_saved_results_change_no_byte_and_lesser_profiles_replace_no_full_
     std::fs::create_dir_all(at("one/.staging-impact-paper-dead/data")).unwrap();
     std::fs::write(at("one/.staging-impact-paper-dead/data/half.csv"), "1,").unwrap();
     assert_eq!(crate::run(folder.path(), "verify one").0, 0);
-    let (code, told, _) = run(folder.path(), "paper --profile quick --out one --results r1");
+    let (code, told, _) = run(folder.path(), paper);
     assert_eq!((code, times("r1")), (0, before));
     assert!(told.contains("no number and no verdict differs"), "{told}");
     assert!(told.contains("report.html") && told.contains(" statements of the paper: "), "{told}");
@@ -99,12 +78,8 @@ fn threads_and_saved_results_change_no_byte_and_lesser_profiles_replace_no_full_
     for (arguments, says) in [
         ("paper --profile ci --figure 4 --out one", "holds a report of the quick profile"),
         ("paper --profile quick --out one --results one", "are one folder"),
-        ("paper --profile quick --out file", "it is a file"),
     ] {
-        std::fs::write(at("file"), "").unwrap();
-        let (code, told, note) = run(folder.path(), arguments);
-        assert_eq!((code, told.as_str(), note.lines().count()), (2, "", 1), "{arguments}: {note}");
-        assert!(note.contains(says), "{arguments}: {note}");
+        refused(folder.path(), arguments, &[says]);
     }
     assert!(report == tree(&at("one")));
 
@@ -112,12 +87,9 @@ fn threads_and_saved_results_change_no_byte_and_lesser_profiles_replace_no_full_
     let ledger = String::from_utf8(report["ledger.json"].clone()).unwrap();
     let edited = ledger.replace("\"verdict\": \"reproduced\"", "\"verdict\": \"differs\"");
     std::fs::write(at("one/ledger.json"), &edited).unwrap();
-    let again = "paper --profile quick --out one --results r1";
-    let (code, told, note) = run(folder.path(), again);
-    assert_eq!((code, told.as_str(), note.lines().count()), (2, "", 1), "{note}");
-    assert!(note.contains("ledger.json") && note.contains("--force"), "{note}");
+    refused(folder.path(), paper, &["ledger.json", "--force"]);
     assert_eq!(std::fs::read_to_string(at("one/ledger.json")).unwrap(), edited);
-    let (code, told, note) = run(folder.path(), &format!("{again} --force"));
+    let (code, told, note) = run(folder.path(), &format!("{paper} --force"));
     assert_eq!(code, 0, "{note}");
     assert!(note.contains("--force: wrote over ledger.json"), "{note}");
     assert!(
@@ -130,16 +102,16 @@ fn threads_and_saved_results_change_no_byte_and_lesser_profiles_replace_no_full_
     // A damaged result is told and run again, to the same bytes.
     let name = saved.keys().find(|name| name.starts_with("protocol-")).unwrap();
     std::fs::write(at("r1").join(name), &saved[name][..saved[name].len() / 2]).unwrap();
-    let (code, _, note) = run(folder.path(), "paper --profile quick --out one --results r1");
+    let (code, _, note) = run(folder.path(), paper);
     assert_eq!(code, 0);
     assert!(note.contains("cut short"), "{note}");
-    assert!(report == tree(&at("one")) && saved == tree(&at("r1")));
+    assert!(report == tree(&at("one")) && saved == files(&at("r1")));
 
     // check takes the same saved results.
     let (code, told, note) = run(folder.path(), "check --profile quick --results r1");
     assert_eq!(code, i32::from(told.contains("FAILS")), "{note}");
     assert!(told.contains(" statements of the paper: "), "{told}");
-    assert!(saved == tree(&at("r1")));
+    assert!(saved == files(&at("r1")));
 
     // Over a report of the full profile a lesser one is refused, a figure of it too.
     let values = String::from_utf8(report["values.json"].clone()).unwrap();
@@ -148,9 +120,7 @@ fn threads_and_saved_results_change_no_byte_and_lesser_profiles_replace_no_full_
     std::fs::write(at("one/values.json"), full).unwrap();
     let before = tree(&at("one"));
     for arguments in ["--profile quick", "--profile ci", "--profile quick --figure 4"] {
-        let (code, told, note) = run(folder.path(), &format!("paper {arguments} --out one"));
-        assert_eq!((code, told.as_str()), (2, ""), "{note}");
-        assert!(note.contains("full profile") && note.trim_end().lines().count() == 1, "{note}");
+        refused(folder.path(), &format!("paper {arguments} --out one"), &["full profile"]);
     }
     assert!(before == tree(&at("one")));
 }
@@ -158,62 +128,17 @@ fn threads_and_saved_results_change_no_byte_and_lesser_profiles_replace_no_full_
 #[test]
 fn ctrl_c_leaves_nothing_half_written() {
     let folder = tempfile::tempdir().unwrap();
-    let mut child = program(folder.path(), "paper --figure 3 --out paper --results r --threads 2")
-        .stdout(Stdio::null())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    std::thread::sleep(Duration::from_millis(1500));
-    assert_eq!(child.try_wait().unwrap(), None, "the full profile takes minutes");
-    let asked = Instant::now();
-    let kill = Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap();
-    assert!(kill.success());
-    let code = child.wait().unwrap().code();
-    assert_eq!(code, Some(130));
-    assert!(asked.elapsed() < Duration::from_secs(10), "{:?}", asked.elapsed());
+    let paper = "paper --figure 3 --out paper --results r --threads 2 --templates";
+    let mut command = program(folder.path(), &format!("{paper} {TEMPLATES}"));
+    ended(command.stderr(Stdio::null()), "-TERM", Duration::from_secs(10));
     assert!(!folder.path().join("paper").exists());
     assert_eq!(tree(&folder.path().join("r")).len(), 0);
 }
 
 #[test]
-fn bad_input_gets_one_line_and_exit_code_2() {
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("file"), "").unwrap();
-    std::os::unix::fs::symlink("loop", folder.path().join("loop")).unwrap();
-    for (arguments, field) in [
-        ("paper --figure 16", "--figure"),
-        ("paper --figure 0", "--figure"),
-        ("paper --figure x", "--figure"),
-        ("paper --profile deep", "--profile"),
-        ("paper --threads 0 --figure 4", "--threads"),
-        ("paper --pdf --figure 4", "--pdf"),
-        ("paper --figure 4 --out loop", "link"),
-        ("paper --figure 4 --out file", "--out"),
-        ("paper --figure 4 --out file/below", "--out"),
-        ("paper --profile quick --figure 3 --results file", "--results"),
-        ("check --claim no-such-claim", "--claim"),
-        ("check --profile quick --results file", "--results"),
-    ] {
-        let (code, told, note) = run(folder.path(), arguments);
-        assert_eq!((code, told.as_str()), (2, ""), "{arguments}: {note}");
-        assert_eq!(note.trim_end().lines().count(), 1, "{arguments}: {note}");
-        assert!(note.contains(field), "{arguments}: {note}");
-    }
-    let missing = Command::new(env!("CARGO_BIN_EXE_impact-paper"))
-        .current_dir(folder.path())
-        .args(["paper", "--templates", "nowhere"])
-        .output()
-        .unwrap();
-    assert_eq!(missing.status.code(), Some(2));
-    assert!(String::from_utf8(missing.stderr).unwrap().contains("nowhere"));
-}
-
-#[test]
 fn one_claim_runs_no_more_than_it_needs() {
     let folder = tempfile::tempdir().unwrap();
-    let templates = concat!(env!("CARGO_MANIFEST_DIR"), "/templates/published.toml");
-    let published = std::fs::read_to_string(templates).unwrap();
-    let published = impact_paper::claims::Published::parse(&published).unwrap();
+    let published = impact_paper::claims::Published::committed().unwrap();
     let exact = published
         .statements
         .iter()
@@ -249,19 +174,12 @@ fn what_others_made_is_left_as_it_is() {
         ("paper --figure 4 --out t", "--out: t"),
         ("paper --figure 4 --out t/figures", "fig04.svg"),
     ] {
-        let (code, told, note) = run(here, arguments);
-        assert_eq!((code, told.as_str(), note.lines().count()), (2, "", 1), "{arguments}: {note}");
-        assert!(note.contains(says) && note.contains("--force"), "{arguments}: {note}");
+        refused(here, arguments, &[says, "--force"]);
     }
+    crate::refused(here, "bundle README.md", &["README.md is there already"]);
     let foreign = "r/sweep-quick.json: this is no saved result";
-    for (arguments, says) in [
-        ("bundle README.md", "README.md is there already"),
-        ("paper --profile quick --figure 3 --out f --results r", foreign),
-    ] {
-        let (code, told, note) = crate::run(here, arguments);
-        assert_eq!((code, told.as_str()), (2, ""), "{arguments}: {note}");
-        assert!(note.contains(says), "{arguments}: {note}");
-    }
+    let (code, _, note) = crate::run(here, "paper --profile quick --figure 3 --out f --results r");
+    assert!(code == 2 && note.contains(foreign), "{note}");
     assert!(tree(here) == before, "{:?}", tree(here).keys());
     // Forced, it says what it wrote over, and a folder of its own is written again without.
     let (code, _, note) = run(here, "paper --figure 4 --out t --force");
@@ -279,14 +197,11 @@ fn what_others_made_is_left_as_it_is() {
 fn exit_codes_are_those_of_the_table() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
-    // The templates with one file changed.
     let templates = |name: &str, file: &str, from: &str, to: &str| {
-        let copied = Command::new("cp").arg("-r").arg(TEMPLATES).arg(here.join(name)).status();
-        assert!(copied.unwrap().success());
-        let path = here.join(name).join(file);
-        let text = std::fs::read_to_string(&path).unwrap();
-        assert!(text.contains(from), "{from}");
-        std::fs::write(path, text.replacen(from, to, 1)).unwrap();
+        templates(&here.join(name), file, |text| {
+            assert!(text.contains(from), "{from}");
+            text.replacen(from, to, 1)
+        });
     };
     templates("good", "report.md", "# ", "# ");
     templates("open", "report.md", "\n## ", "\nIt is «v.half_height now.\n\n## ");
@@ -329,7 +244,7 @@ fn exit_codes_are_those_of_the_table() {
             if arguments.contains("exec") { arguments } else { format!("\"$0\" {arguments}") };
         let mut command = Command::new("bash");
         command.current_dir(here).args(["-c", &line, crate::PROGRAM]);
-        let (code, told, note) = told(&command.output().unwrap());
+        let (code, told, note) = outcome(&mut command);
         assert_eq!(code, expected, "{line}: {told}{note}");
         assert!(
             told.contains(says) || note.lines().last().unwrap().contains(says),
@@ -342,7 +257,7 @@ fn exit_codes_are_those_of_the_table() {
             assert!(ledger.contains("\"verdict\": \"differs\""));
         }
     }
-    let help = told(&Command::new(crate::PROGRAM).arg("--help").output().unwrap()).1;
+    let help = answer(here, "--help");
     let design = std::fs::read_to_string("DESIGN.md").unwrap();
     for (code, words) in
         [(0, "fine"), (1, "check"), (2, "usage"), (3, "stale"), (4, "disk"), (130, "SIGTERM")]

@@ -1,10 +1,11 @@
 //! Work shared out to several machines gives the bytes of one, and nothing else is taken for it.
 
-use crate::{EXPERIMENTS, Files, TEMPLATES, files, program, run};
+use crate::{
+    EXPERIMENTS, Files, QUICK, TEMPLATES, files, forged, killed, program, put, refused, run,
+};
+use std::fs;
 use std::path::Path;
-use std::process::Stdio;
 use std::sync::LazyLock;
-use std::time::Duration;
 
 const MERGE: &str = "merge --profile quick --results joined 1 2 3";
 
@@ -12,32 +13,21 @@ fn shard(folder: &Path, i: usize) -> (i32, String, String) {
     run(folder, &format!("run --profile quick --shard {i}/3 --out {i} --threads {i}"))
 }
 
-/// What an ordinary run saves, and what three shards do.
-static MADE: LazyLock<(Files, [Files; 3])> = LazyLock::new(|| {
+/// What three shards do, in another order and on other numbers of threads.
+static SHARDS: LazyLock<[Files; 3]> = LazyLock::new(|| {
     let folder = tempfile::tempdir().unwrap();
-    let folder = folder.path();
-    let paper = format!("paper --profile quick --out r --results one --templates {TEMPLATES}");
-    let (code, _, note) = run(folder, &paper);
-    let one = files(&folder.join("one"));
-    assert_eq!((code, one.len()), (0, EXPERIMENTS), "{note}");
-    // In another order, on other numbers of threads.
-    let shards = [3, 1, 2].map(|i| {
-        let (code, text, note) = shard(folder, i);
+    for i in [3, 1, 2] {
+        let (code, text, note) = shard(folder.path(), i);
         assert_eq!(code, 0, "{text}{note}");
-        (i, files(&folder.join(i.to_string())))
-    });
-    (one, [1, 2, 3].map(|i| shards.iter().find(|(j, _)| *j == i).unwrap().1.clone()))
+    }
+    [1, 2, 3].map(|i| files(&folder.path().join(i.to_string())))
 });
 
 /// A folder with the three shards, complete.
 fn complete() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
-    for (i, shard) in MADE.1.iter().enumerate() {
-        let place = folder.path().join((i + 1).to_string());
-        std::fs::create_dir(&place).unwrap();
-        for (name, bytes) in shard {
-            std::fs::write(place.join(name), bytes).unwrap();
-        }
+    for (i, shard) in SHARDS.iter().enumerate() {
+        put(&folder.path().join((i + 1).to_string()), shard);
     }
     folder
 }
@@ -52,7 +42,7 @@ fn plan(folder: &Path, more: &str) -> serde_json::Value {
 fn merged_shards_are_the_bytes_of_one_machine() {
     let folder = complete();
     let folder = folder.path();
-    let (one, shards) = &*MADE;
+    let (one, shards) = (&QUICK.results, &*SHARDS);
     // Each unit of the plan in its shard, and nothing else.
     let listed = plan(folder, " --shards 3");
     let units = listed["units"].as_array().unwrap();
@@ -71,7 +61,7 @@ fn merged_shards_are_the_bytes_of_one_machine() {
     }
     assert!(units.len() > 60 && units.iter().any(|unit| unit["experiment"] == "bias"));
     // Logs beside the units are nobody's concern.
-    std::fs::write(folder.join("2/array-7_2.log"), "a log").unwrap();
+    fs::write(folder.join("2/array-7_2.log"), "a log").unwrap();
     let (code, _, note) = run(folder, MERGE);
     assert_eq!(code, 0, "{note}");
     assert!(files(&folder.join("joined")) == *one);
@@ -93,7 +83,7 @@ fn merged_shards_are_the_bytes_of_one_machine() {
 fn experiments_that_are_named_are_run_and_joined_alone() {
     let folder = complete();
     let folder = folder.path();
-    let (one, _) = &*MADE;
+    let one = &QUICK.results;
     let own = plan(folder, " --experiment scale,bias");
     let units = own["units"].as_array().unwrap();
     let among =
@@ -116,16 +106,14 @@ fn experiments_that_are_named_are_run_and_joined_alone() {
     // Units of others are passed over; what is no unit at all is still refused.
     let (code, _, note) = run(folder, &format!("{merge} some 1 2 3"));
     assert_eq!((code, files(&folder.join("some"))), (0, joined), "{note}");
-    std::fs::write(folder.join("2/strange-quick.json"), "{}").unwrap();
+    fs::write(folder.join("2/strange-quick.json"), "{}").unwrap();
     assert_eq!(run(folder, &format!("{merge} some 1 2 3")).0, 2);
     let (code, _, note) = run(folder, &format!("{merge} some 1"));
     assert_eq!(code, 3, "{note}");
     assert!(note.contains("plan --profile quick --experiment bias,scale --shards N"), "{note}");
     for verb in ["plan", "run --shard 1/1 --out x", "merge 1"] {
-        let (code, _, note) =
-            run(folder, &format!("{verb} --profile quick --experiment sweep,swoop"));
-        assert_eq!(code, 2, "{verb}: {note}");
-        assert!(note.contains("no experiment \"swoop\"; give some of sweep, "), "{verb}: {note}");
+        let arguments = format!("{verb} --profile quick --experiment sweep,swoop");
+        refused(folder, &arguments, &["no experiment \"swoop\"; give some of sweep, "]);
     }
 }
 
@@ -133,12 +121,12 @@ fn experiments_that_are_named_are_run_and_joined_alone() {
 fn a_shard_goes_on_where_it_was() {
     let folder = complete();
     let folder = folder.path();
-    let second = &MADE.1[1];
+    let second = &SHARDS[1];
     assert_eq!(shard(folder, 2).1, format!("2: shard 2/3: 0 units run, {} fresh\n", second.len()));
     let mut names = second.keys();
     let (gone, cut) = (names.next().unwrap(), names.next().unwrap());
-    std::fs::remove_file(folder.join("2").join(gone)).unwrap();
-    std::fs::write(folder.join("2").join(cut), &second[cut][..second[cut].len() / 2]).unwrap();
+    fs::remove_file(folder.join("2").join(gone)).unwrap();
+    fs::write(folder.join("2").join(cut), &second[cut][..second[cut].len() / 2]).unwrap();
     let left = plan(folder, " --shards 3 --left 1 2 3 never-there");
     assert_eq!(left["units"].as_array().unwrap().len(), 2, "{left:#}");
     let array = "plan --profile quick --shards 3 --array --left";
@@ -157,17 +145,10 @@ fn a_shard_goes_on_where_it_was() {
 fn a_killed_shard_leaves_whole_units() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
-    let second = &MADE.1[1];
+    let second = &SHARDS[1];
     let mut before = 0;
     for wait in [5, 30, 80, 150, 300, 300] {
-        let mut child = program(folder, "run --profile quick --shard 2/3 --out 2")
-            .stdout(Stdio::null())
-            .stderr(Stdio::null())
-            .spawn()
-            .unwrap();
-        std::thread::sleep(Duration::from_millis(wait));
-        let _ = child.kill();
-        child.wait().unwrap();
+        killed(&mut program(folder, "run --profile quick --shard 2/3 --out 2"), wait);
         let now = files(&folder.join("2"));
         assert!(now.iter().all(|(name, bytes)| *bytes == second[name]), "after {wait} ms");
         assert!(now.len() >= before, "after {wait} ms");
@@ -178,21 +159,8 @@ fn a_killed_shard_leaves_whole_units() {
     assert!(files(&folder.join("2")) == *second);
 }
 
-/// A saved file with other text in its second or third line, and a checksum that is right.
-fn forged(bytes: &[u8], line: usize, from: &str, to: &str) -> Vec<u8> {
-    use sha2::{Digest, Sha256};
-    let text = String::from_utf8(bytes.to_vec()).unwrap();
-    let mut lines: Vec<String> = text.lines().map(String::from).collect();
-    let changed = lines[line].replacen(from, to, 1);
-    assert_ne!(changed, lines[line], "there is no {from}");
-    lines[line] = changed;
-    let sum = Sha256::digest(format!("{}\n{}\n", lines[1], lines[2]).as_bytes());
-    lines[0] = sum.iter().map(|byte| format!("{byte:02x}")).collect();
-    format!("{}\n", lines.join("\n")).into_bytes()
-}
-
-/// The change of a unit, the exit code of merge, and what it says.
-type Case<'a> = (&'a dyn Fn(&Path, &[u8]), i32, &'a str);
+/// The change of a unit, and what merge says.
+type Case<'a> = (&'a dyn Fn(&Path, &[u8]), &'a str);
 
 #[test]
 fn what_is_not_one_whole_set_is_refused_by_name() {
@@ -200,131 +168,79 @@ fn what_is_not_one_whole_set_is_refused_by_name() {
     let folder = folder.path();
     // A unit of the sweep, wherever it is.
     let name = "sweep-quick-0007.json";
-    let place = MADE.1.iter().position(|shard| shard.contains_key(name)).unwrap();
-    let whole = &MADE.1[place][name];
+    let place = SHARDS.iter().position(|shard| shard.contains_key(name)).unwrap();
+    let whole = &SHARDS[place][name];
     let path = folder.join((place + 1).to_string()).join(name);
     let shown = format!("{}/{name}", place + 1);
     let other = folder.join(((place + 1) % 3 + 1).to_string());
     let forge = |line: usize, from: &'static str, to: &'static str| {
         move |path: &Path, bytes: &[u8]| {
-            std::fs::write(path, forged(bytes, line, from, to)).unwrap();
+            fs::write(path, forged(bytes, line, from, to)).unwrap();
         }
     };
     let simulation = "\"src/dynamics/simulation.rs\":\"";
+    let other_simulation = "\"src/dynamics/simulation.rs\":\"0";
     let cases: [Case; 12] = [
+        (&|path, _| fs::remove_file(path).unwrap(), "missing units of work: sweep-quick-0007;"),
+        (&|path, bytes| fs::write(path, &bytes[..bytes.len() - 9]).unwrap(), "cut short"),
         (
-            &|path, _| std::fs::remove_file(path).unwrap(),
-            3,
-            "missing units of work: sweep-quick-0007;",
-        ),
-        (&|path, bytes| std::fs::write(path, &bytes[..bytes.len() - 9]).unwrap(), 3, "cut short"),
-        (
-            &|path, bytes| {
-                let mut bytes = bytes.to_vec();
-                let last = bytes.len() - 4;
-                bytes[last] ^= 1;
-                std::fs::write(path, bytes).unwrap();
-            },
-            3,
+            &|path, bytes| fs::write(path, [&bytes[..bytes.len() - 4], b"?]\n"].concat()).unwrap(),
             "checksum",
         ),
-        (&|path, _| std::fs::write(path, "").unwrap(), 3, "cut short"),
-        (
-            &forge(1, simulation, "\"src/dynamics/simulation.rs\":\"0"),
-            3,
-            "src/dynamics/simulation.rs changed",
-        ),
-        (&forge(1, "\"lock\":\"", "\"lock\":\"0"), 3, "Cargo.lock changed"),
-        (&forge(1, "\"seed\":", "\"seed\":1"), 3, "other parameters"),
-        (&forge(1, "\"number\":7", "\"number\":8"), 3, "another unit of work"),
-        (&forge(1, "\"schema\":", "\"schema\":9"), 3, "saved in another form"),
+        (&|path, _| fs::write(path, "").unwrap(), "cut short"),
+        (&forge(1, simulation, other_simulation), "src/dynamics/simulation.rs changed"),
+        (&forge(1, "\"lock\":\"", "\"lock\":\"0"), "Cargo.lock changed"),
+        (&forge(1, "\"seed\":", "\"seed\":1"), "other parameters"),
+        (&forge(1, "\"number\":7", "\"number\":8"), "another unit of work"),
+        (&forge(1, "\"schema\":", "\"schema\":9"), "saved in another form"),
         // One realisation less, and a count that no chain has: the parts would not join.
-        (&forge(2, "\"distinct\":[", "\"distinct\":[3,"), 3, "saved in another form"),
-        (&forge(2, "\"rejected\":0", "\"rejected\":1"), 3, "saved in another form"),
-        (
-            &|path, _| {
-                std::fs::remove_file(path).unwrap();
-                std::fs::create_dir(path).unwrap();
-            },
-            3,
-            "no file",
-        ),
+        (&forge(2, "\"distinct\":[", "\"distinct\":[3,"), "saved in another form"),
+        (&forge(2, "\"rejected\":0", "\"rejected\":1"), "saved in another form"),
+        (&|path, _| fs::remove_file(path).and_then(|()| fs::create_dir(path)).unwrap(), "no file"),
     ];
-    for (change, expected, says) in cases {
+    for (change, says) in cases {
         change(&path, whole);
         let (code, text, note) = run(folder, MERGE);
-        assert_eq!((code, text.as_str()), (expected, ""), "{says}: {note}");
+        assert_eq!((code, text.as_str()), (3, ""), "{says}: {note}");
         assert_eq!(note.lines().count(), 1, "{note}");
         assert!(note.contains(says) && note.contains("; "), "{says}: {note}");
         assert!(note.contains(&shown) || says.contains("missing"), "{note}");
         assert!(!folder.join("joined").exists(), "{says}");
-        let _ = std::fs::remove_dir(&path);
-        std::fs::write(&path, whole).unwrap();
+        let _ = fs::remove_dir(&path);
+        fs::write(&path, whole).unwrap();
     }
     // A unit twice, otherwise: which is right?
-    let old = forged(whole, 1, simulation, "\"src/dynamics/simulation.rs\":\"0");
-    std::fs::write(other.join(name), old).unwrap();
+    let old = forged(whole, 1, simulation, other_simulation);
+    fs::write(other.join(name), old).unwrap();
     let (code, _, note) = run(folder, MERGE);
     assert_eq!(code, 2, "{note}");
     assert!(note.contains("sweep-quick-0007 is in ") && note.contains(&shown), "{note}");
     assert_eq!(note.matches(name).count(), 2, "{note}");
     assert!(!folder.join("joined").exists());
     // Twice the same is no question.
-    std::fs::write(other.join(name), whole).unwrap();
+    fs::write(other.join(name), whole).unwrap();
     let (code, _, note) = run(folder, "merge --profile quick --results twice 1 2 3 3");
     assert_eq!(code, 0, "{note}");
-    assert!(files(&folder.join("twice")) == MADE.0);
-    std::fs::remove_file(other.join(name)).unwrap();
+    assert!(files(&folder.join("twice")) == QUICK.results);
+    fs::remove_file(other.join(name)).unwrap();
     // What is no unit here.
     for (stranger, says) in [
         ("sweep-ci-0007.json", "3/sweep-ci-0007.json is of profile ci;"),
         ("sweep-quick-0099.json", "3/sweep-quick-0099.json is no unit of work of profile quick;"),
         ("sweep-quick.json", "3/sweep-quick.json is no unit of work of profile quick;"),
     ] {
-        std::fs::write(folder.join("3").join(stranger), whole).unwrap();
-        let (code, _, note) = run(folder, MERGE);
-        assert_eq!(code, 2, "{note}");
-        assert!(note.contains(says), "{note}");
-        std::fs::remove_file(folder.join("3").join(stranger)).unwrap();
+        fs::write(folder.join("3").join(stranger), whole).unwrap();
+        refused(folder, MERGE, &[says]);
+        fs::remove_file(folder.join("3").join(stranger)).unwrap();
     }
     // A whole shard, and one of another number of shards.
     let (code, _, note) = run(folder, "merge --profile quick --results joined 1 3");
     assert_eq!(code, 3, "{note}");
     assert!(note.contains(" more; `impact-paper plan --profile quick"), "{note}");
-    let (code, _, note) = run(folder, "merge --profile quick --results joined 1 2 3 never-there");
-    assert_eq!(code, 2, "{note}");
-    assert!(note.contains("never-there: "), "{note}");
+    let lost = "merge --profile quick --results joined 1 2 3 never-there";
+    refused(folder, lost, &["never-there: "]);
     assert!(!folder.join("joined").exists());
     let (code, _, note) = run(folder, MERGE);
     assert_eq!(code, 0, "{note}");
-    assert!(files(&folder.join("joined")) == MADE.0);
-}
-
-#[test]
-fn wrong_usage_is_one_line() {
-    let folder = tempfile::tempdir().unwrap();
-    let folder = folder.path();
-    std::fs::write(folder.join("file"), "").unwrap();
-    for (arguments, says) in [
-        ("run --profile quick --shard 0/3 --out d", "1 <= i <= N"),
-        ("run --profile quick --shard 4/3 --out d", "1 <= i <= N"),
-        ("run --profile quick --shard 2 --out d", "like 2/3"),
-        ("run --profile quick --out d", "--shard"),
-        ("run --profile quick --shard 1/3", "--out"),
-        ("run --profile quick --shard 1/3 --out file", "--out: file"),
-        ("run --profile quick --shard 1/3 --out file/below", "--out: file/below"),
-        ("run --profile quick --shard 1/3 --out d --threads 0", "--threads"),
-        ("plan --shards 0", "--shards: 0"),
-        ("plan --array", "--shards"),
-        ("plan --left file", "file"),
-        ("merge", "DIR"),
-        ("merge file", "file: "),
-        ("merge . --results .", "is a folder of a shard"),
-    ] {
-        let (code, text, note) = run(folder, arguments);
-        assert_eq!((code, text.as_str(), note.lines().count()), (2, "", 1), "{arguments}: {note}");
-        assert!(note.contains(says), "{arguments}: {note}");
-    }
-    assert_eq!(files(folder), Files::new());
-    assert!(!folder.join("d").exists());
+    assert!(files(&folder.join("joined")) == QUICK.results);
 }

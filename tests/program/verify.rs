@@ -1,14 +1,9 @@
 //! `impact-paper verify`: what a folder says of itself, held against what stands in it.
 
-use crate::{PROGRAM, TEMPLATES, run};
-use sha2::{Digest, Sha256};
+use crate::{QUICK, TEMPLATES, digest, ended, program, put, refused, run};
 use std::fs;
 use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
-
-fn digest(text: &str) -> String {
-    Sha256::digest(text).iter().map(|byte| format!("{byte:02x}")).collect()
-}
+use std::time::Duration;
 
 /// A folder that looks like a report, and its list.
 fn small() -> (tempfile::TempDir, String) {
@@ -77,13 +72,12 @@ fn lists_that_cannot_be_trusted_are_refused_with_their_line() {
         format!("{outside}  report.md"),
     ] {
         fs::write(folder.path().join("paper/SHA256SUMS"), format!("{list}{line}\n")).unwrap();
-        let (code, told, note) = run(folder.path(), "verify");
-        assert_eq!((code, told.as_str()), (2, ""), "{line}: {note}");
-        assert!(note.contains("SHA256SUMS: line 3: "), "{line}: {note}");
-        assert_eq!(note.trim_end().lines().count(), 1, "{note}");
+        refused(folder.path(), "verify", &["SHA256SUMS: line 3: "]);
     }
     fs::write(folder.path().join("paper/SHA256SUMS"), b"\xff\xfe").unwrap();
     assert_eq!(run(folder.path(), "verify").0, 2);
+    let (code, _, note) = run(small().0.path(), "verify --rerun");
+    assert!(code == 2 && note.contains("--profile"), "{note}");
 }
 
 /// Neither a link to a file, nor one to a folder, nor a pipe that would never end.
@@ -117,35 +111,12 @@ fn nothing_leads_out_of_the_folder() {
 }
 
 #[test]
-fn what_is_no_report_gets_one_line() {
-    let folder = tempfile::tempdir().unwrap();
-    fs::create_dir(folder.path().join("empty")).unwrap();
-    fs::write(folder.path().join("file"), "").unwrap();
-    for (arguments, named) in [
-        ("verify", "paper: "),
-        ("verify empty", "empty/SHA256SUMS"),
-        ("verify file", "file: "),
-        ("verify --profile quick", "--rerun"),
-        ("verify --rerun --profile deep", "--profile"),
-    ] {
-        let (code, told, note) = run(folder.path(), arguments);
-        assert_eq!((code, told.as_str()), (2, ""), "{arguments}: {note}");
-        assert!(note.contains(named), "{arguments}: {note}");
-        assert_eq!(note.trim_end().lines().count(), 1, "{arguments}: {note}");
-    }
-    let (other, _) = small();
-    let (code, _, note) = run(other.path(), "verify --rerun");
-    assert_eq!(code, 2);
-    assert!(note.contains("--profile"), "{note}");
-}
-
-#[test]
 fn a_rerun_finds_what_the_list_cannot() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
     let templates = format!("--templates {TEMPLATES}");
-    let paper = format!("paper --profile quick --out r --results saved {templates}");
-    assert_eq!(run(here, &paper).0, 0);
+    put(&here.join("r"), &QUICK.report);
+    put(&here.join("saved"), &QUICK.results);
 
     // Without saved results, by the profile that the report names, on another number of threads.
     let (code, told, note) = run(here, &format!("verify r --rerun --threads 3 {templates}"));
@@ -194,21 +165,9 @@ fn ctrl_c_ends_a_rerun() {
     let (folder, _) = small();
     let temporary = folder.path().join("tmp");
     fs::create_dir(&temporary).unwrap();
-    let mut child = Command::new(PROGRAM)
-        .current_dir(folder.path())
-        .env("TMPDIR", &temporary)
-        .args(["verify", "--rerun", "--profile", "full", "--templates", TEMPLATES])
-        .stdout(Stdio::null())
-        .stderr(Stdio::null())
-        .spawn()
-        .unwrap();
-    std::thread::sleep(Duration::from_millis(1500));
-    assert_eq!(child.try_wait().unwrap(), None, "the full profile takes minutes");
-    let asked = Instant::now();
-    assert!(
-        Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success()
-    );
-    assert_eq!(child.wait().unwrap().code(), Some(130));
-    assert!(asked.elapsed() < Duration::from_secs(10), "{:?}", asked.elapsed());
+    let rerun = format!("verify --rerun --profile full --templates {TEMPLATES}");
+    let mut command = program(folder.path(), &rerun);
+    command.env("TMPDIR", &temporary).stderr(Stdio::null());
+    ended(&mut command, "-INT", Duration::from_secs(10));
     assert_eq!(fs::read_dir(temporary).unwrap().count(), 0);
 }

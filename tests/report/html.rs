@@ -207,8 +207,9 @@ fn the_scene_is_complete_without_its_script() {
     let first = data["first"].as_u64().unwrap() as usize;
 
     // The saved numbers put every mass where the engine has it, at times that the table gives.
-    let parameters = &QUICK.run.parameters;
-    let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, QUICK.run.realisation);
+    let run = QUICK.results.spacetime.as_ref().unwrap();
+    let parameters = &run.parameters;
+    let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, run.realisation);
     let scenario = Scenario::draw(&parameters.chain, parameters.sigma, &mut normals);
     let mut engine = Engine::new(&scenario).unwrap();
     let mut hits = Vec::new();

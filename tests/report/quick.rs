@@ -1,15 +1,12 @@
 //! The whole report of the quick profile in memory, for the tests that read it.
 
-// Each test file compiles this for itself, and reads a part of it.
-#![allow(dead_code)]
-
-use impact_paper::claims::{self, Published};
-use impact_paper::experiments::spacetime::SpaceTime;
-use impact_paper::experiments::{Need, Progress, Store, run::run};
+use impact_paper::claims::{self, Claim, Published};
+use impact_paper::experiments::{Need, Progress, Results, Store, run::run};
 use impact_paper::figures::{self, Figure};
 use impact_paper::params::Profile;
 use impact_paper::report::mutate::{Reasons, TABLE, Tally};
-use impact_paper::report::{Input, Report, Templates, assemble, contents};
+use impact_paper::report::{Input, Registry, Report, Templates, assemble, contents};
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::LazyLock;
 
@@ -17,8 +14,12 @@ pub struct Quick {
     pub templates: Templates,
     pub figures: Vec<Figure>,
     pub report: Report,
-    /// The run that figure S2 and the scene show.
-    pub run: SpaceTime,
+    pub results: Results,
+    pub values: Registry,
+    pub rows: BTreeMap<&'static str, serde_json::Value>,
+    pub claims: Vec<Claim>,
+    /// The figures that the same results would give if they were of the full profile.
+    pub full: Vec<Figure>,
 }
 
 pub static QUICK: LazyLock<Quick> = LazyLock::new(|| {
@@ -26,8 +27,12 @@ pub static QUICK: LazyLock<Quick> = LazyLock::new(|| {
     let scenario = |file: &str| {
         std::fs::read_to_string(Path::new("templates").join(file)).map_err(|e| e.to_string())
     };
-    let results =
-        run(&Need::ALL, Profile::Quick, scenario, &Store::nowhere(), &Progress::silent()).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let store = Store::open(folder.path()).unwrap();
+    // Run, then read again as it was saved.
+    let [results, mut full] = [(); 2]
+        .map(|()| run(&Need::ALL, Profile::Quick, scenario, &store, &Progress::silent()).unwrap());
+    full.profile = Profile::Full;
     let published = Published::parse(templates.text("published.toml").unwrap()).unwrap();
     let claims = claims::all(&results, &published).unwrap();
     let mut values = contents::registry(&results, &published).unwrap();
@@ -37,7 +42,9 @@ pub static QUICK: LazyLock<Quick> = LazyLock::new(|| {
     values.extend(Tally::default().values(&reasons)).unwrap();
     rows.insert(TABLE, serde_json::to_value(Tally::default().rows(&reasons)).unwrap());
     let scene = figures::Scene::of(results.spacetime().unwrap());
-    let figures: Vec<_> = figures::all().map(|n| figures::draw(n, &results).unwrap()).collect();
+    let [figures, full] = [&results, &full].map(|results| -> Vec<_> {
+        figures::all().map(|number| figures::draw(number, results).unwrap()).collect()
+    });
     let input = Input {
         templates: &templates,
         values: &values,
@@ -49,5 +56,5 @@ pub static QUICK: LazyLock<Quick> = LazyLock::new(|| {
     };
     let report = assemble(&input).unwrap_or_else(|error| panic!("{error}"));
     assert!(report == assemble(&input).unwrap(), "the same input gives other bytes");
-    Quick { templates, figures, report, run: results.spacetime.unwrap() }
+    Quick { templates, figures, report, results, values, rows, claims, full }
 });

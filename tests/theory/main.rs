@@ -1,8 +1,7 @@
 //! The theory of Secs. 3 to 9 against second routes: exact and 67-digit arithmetic, enumeration,
-//! quadrature, and the command line around it.
+//! quadrature.
 
 mod distribution;
-mod eval;
 mod high_precision;
 mod jump;
 mod relation;

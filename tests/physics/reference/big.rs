@@ -11,33 +11,18 @@ const BITS: usize = 256;
 #[derive(Clone, Debug, PartialEq, PartialOrd)]
 pub struct Big(FBig<HalfEven, 2>);
 
-impl Add for Big {
-    type Output = Big;
-    fn add(self, b: Big) -> Big {
-        Big(self.0 + b.0)
-    }
+macro_rules! operator {
+    ($($operator:ident $method:ident)*) => {$(
+        impl $operator for Big {
+            type Output = Big;
+            fn $method(self, b: Big) -> Big {
+                Big($operator::$method(self.0, b.0))
+            }
+        }
+    )*};
 }
 
-impl Sub for Big {
-    type Output = Big;
-    fn sub(self, b: Big) -> Big {
-        Big(self.0 - b.0)
-    }
-}
-
-impl Mul for Big {
-    type Output = Big;
-    fn mul(self, b: Big) -> Big {
-        Big(self.0 * b.0)
-    }
-}
-
-impl Div for Big {
-    type Output = Big;
-    fn div(self, b: Big) -> Big {
-        Big(self.0 / b.0)
-    }
-}
+operator! { Add add Sub sub Mul mul Div div }
 
 impl Neg for Big {
     type Output = Big;

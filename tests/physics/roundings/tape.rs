@@ -82,34 +82,22 @@ impl Neg for Num {
     }
 }
 
-impl Add for Num {
-    type Output = Num;
-    fn add(self, other: Num) -> Num {
-        let [a, b] = [self.value(), other.value()];
-        push(a + b, [(self.0, 1.0), (other.0, 1.0)], true)
-    }
+/// An operation with its derivatives by both numbers.
+macro_rules! operator {
+    ($($operator:ident $method:ident |$a:ident, $b:ident| $by_a:expr, $by_b:expr;)*) => {$(
+        impl $operator for Num {
+            type Output = Num;
+            fn $method(self, other: Num) -> Num {
+                let [$a, $b] = [self.value(), other.value()];
+                push($operator::$method($a, $b), [(self.0, $by_a), (other.0, $by_b)], true)
+            }
+        }
+    )*};
 }
 
-impl Sub for Num {
-    type Output = Num;
-    fn sub(self, other: Num) -> Num {
-        let [a, b] = [self.value(), other.value()];
-        push(a - b, [(self.0, 1.0), (other.0, -1.0)], true)
-    }
-}
-
-impl Mul for Num {
-    type Output = Num;
-    fn mul(self, other: Num) -> Num {
-        let [a, b] = [self.value(), other.value()];
-        push(a * b, [(self.0, b), (other.0, a)], true)
-    }
-}
-
-impl Div for Num {
-    type Output = Num;
-    fn div(self, other: Num) -> Num {
-        let [a, b] = [self.value(), other.value()];
-        push(a / b, [(self.0, 1.0 / b), (other.0, -a / (b * b))], true)
-    }
+operator! {
+    Add add |_a, _b| 1.0, 1.0;
+    Sub sub |_a, _b| 1.0, -1.0;
+    Mul mul |a, b| b, a;
+    Div div |a, b| 1.0 / b, -a / (b * b);
 }

@@ -2,36 +2,18 @@
 
 use super::entries::written;
 use super::mutants::{committed, survives};
-use impact_paper::claims::{self, Published};
-use impact_paper::experiments::{Need, Progress, Store, run::run};
-use impact_paper::params::Profile;
+use crate::quick::QUICK;
+use impact_paper::report::claims::{Row, scorecard};
 use impact_paper::report::filler::Filler;
 use impact_paper::report::lint::{Declared, findings};
-use impact_paper::report::mutate::{Reasons, TABLE, Tally};
-use impact_paper::report::{Error, Registry, Templates, claims::Row, contents};
-use std::collections::BTreeMap;
+use impact_paper::report::{Error, Registry, Templates};
 use std::sync::LazyLock;
 
 /// What the prose of the quick profile may name.
-struct Named {
-    values: Registry,
-    claims: Vec<Row>,
-    rows: BTreeMap<&'static str, serde_json::Value>,
-}
-
-static NAMED: LazyLock<Named> = LazyLock::new(|| {
-    let scenario = |file: &str| Ok(committed(&format!("templates/{file}")));
-    let results =
-        run(&Need::ALL, Profile::Quick, scenario, &Store::nowhere(), &Progress::silent()).unwrap();
-    let published = Published::committed().unwrap();
-    let judged = claims::all(&results, &published).unwrap();
-    let mut values = contents::registry(&results, &published).unwrap();
-    values.extend(impact_paper::report::claims::scorecard(&judged)).unwrap();
-    let mut rows = contents::rows(&results, &judged).unwrap();
-    let reasons = Reasons::read(&committed("templates/unguarded.toml")).unwrap();
-    values.extend(Tally::default().values(&reasons)).unwrap();
-    rows.insert(TABLE, serde_json::to_value(Tally::default().rows(&reasons)).unwrap());
-    Named { values, claims: judged.iter().map(Row::of).collect(), rows }
+static NAMED: LazyLock<(Registry, Vec<Row>)> = LazyLock::new(|| {
+    let mut values = QUICK.values.clone();
+    values.extend(scorecard(&QUICK.claims)).unwrap();
+    (values, QUICK.claims.iter().map(Row::of).collect())
 });
 
 /// Everything that prose can have, in little.
@@ -83,16 +65,17 @@ Listing: What $\delta v$ does. {#lst:kick}
 "#;
 
 /// What the assembly makes of a text, but for pictures.
-fn made(named: &Named, text: &str) -> Result<usize, Error> {
+fn made(text: &str) -> Result<usize, Error> {
     let declared = Declared::read(&committed("templates/literals.toml"))?;
     findings("report.md", text, &declared);
     let templates = Templates::of([("report.md", text)]);
-    let mut filler = Filler::new(&templates, &named.values)?;
-    filler.insert("claims", &named.claims);
-    for (name, rows) in &named.rows {
+    let (values, claims) = &*NAMED;
+    let mut filler = Filler::new(&templates, values)?;
+    filler.insert("claims", claims);
+    for (name, rows) in &QUICK.rows {
         filler.insert(name, rows);
     }
-    written(&filler.fill("report.md")?, &named.values)
+    written(&filler.fill("report.md")?, values)
 }
 
 #[test]
@@ -100,7 +83,7 @@ fn prose_of_any_text() {
     let good = [committed("templates/report.md"), SMALL.into(), SMALL.into(), SMALL.into()];
     LazyLock::force(&NAMED);
     survives("prose", &good, 600, &[""], |text| {
-        let long = made(&NAMED, text).map_err(|error| error.to_string())?;
+        let long = made(text).map_err(|error| error.to_string())?;
         assert!(long < 1 << 26, "{long} bytes");
         Ok(())
     });
@@ -142,7 +125,7 @@ fn prose_that_is_made_to_hurt() {
     ] {
         let shown: String = text.chars().take(60).collect();
         let began = std::time::Instant::now();
-        let made = std::thread::spawn(move || made(&NAMED, &text)).join();
+        let made = std::thread::spawn(move || made(&text)).join();
         let made = made.unwrap_or_else(|_| panic!("{shown} panics"));
         let time = began.elapsed();
         // No text hangs, on a busy machine either.

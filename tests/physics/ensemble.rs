@@ -1,0 +1,33 @@
+//! Ensembles: what an independent simulator measured, and random numbers that σ does not change.
+
+use crate::drawn;
+use impact_paper::experiments::{Progress, sweep};
+use impact_paper::params::{Chain, Profile, Start, SweepParams};
+
+/// The same normals at every σ: scaled by 2^1 the amplitudes are exactly doubled.
+#[test]
+fn realisations_are_common_to_all_sigma() {
+    let forcing = |sigma, index| drawn(&Chain::default(), sigma, "sweep", index).forcing;
+    let doubled: Vec<[f64; 2]> = forcing(0.1, 5).iter().map(|x| x.map(|x| 2.0 * x)).collect();
+    assert_eq!(forcing(0.2, 5), doubled);
+    assert_ne!(forcing(0.1, 5), forcing(0.1, 6));
+}
+
+#[test]
+fn the_rise_lies_where_it_was_measured_elsewhere() {
+    // An independent simulator, 1000 realisations, rest start, T = 500, W = 200: 0.1165(4).
+    let parameters = SweepParams {
+        sigmas: (18..=28).map(|i| f64::from(i) / 200.0).collect(),
+        realisations: 60,
+        ..SweepParams::main(Profile::Full)
+    };
+    assert_eq!(parameters.chain.start, Start::Rest);
+    let found = sweep::run(&parameters, "test", &Progress::silent()).unwrap();
+    let half = found.rise.half_height.unwrap();
+    // Four standard errors of both together; a wrong law of impact moves it by ten.
+    let error = (half.error * half.error + 4e-4 * 4e-4).sqrt();
+    assert!(half.error < 2e-3, "{half:?}");
+    assert!((half.value - 0.1165).abs() < 4.0 * error, "{half:?}");
+    let onset = found.rise.kept_half.unwrap().value;
+    assert!(onset < half.value, "half of the chains impact long before half of the gaps: {onset}");
+}

@@ -1,0 +1,128 @@
+//! `impact-paper eval`: the contract of its output, and each kind of bad input.
+
+use impact_paper::circuits::distribution::{Law, SampleSpace};
+use impact_paper::circuits::impact_probability::ImpactProbability;
+use impact_paper::circuits::{LARGEST_N, counting, jump};
+use serde_json::{Value, json};
+use std::path::Path;
+
+fn eval(arguments: &str) -> String {
+    crate::answer(Path::new("."), &format!("eval {arguments}"))
+}
+
+/// The one JSON object of a good call.
+fn answer(arguments: &str) -> Value {
+    let text = eval(arguments);
+    assert!(text.ends_with('\n') && text.lines().count() == 1);
+    serde_json::from_str(&text).unwrap()
+}
+
+fn float(arguments: &str) -> f64 {
+    let value = &answer(arguments)["value"];
+    assert!(value.is_f64(), "{arguments}: {value} is printed as a float");
+    value.as_f64().unwrap()
+}
+
+fn integer(arguments: &str) -> u64 {
+    answer(arguments)["value"].as_u64().expect("an integer is printed as one")
+}
+
+fn refused(arguments: &str, words: &[&str]) {
+    crate::refused(Path::new("."), &format!("eval {arguments}"), words);
+}
+
+#[test]
+fn every_quantity_prints_what_the_library_computes() {
+    let (simple, five) = (SampleSpace::Simple, SampleSpace::FiveClasses);
+    let law = |space| Law::new(space, 41, 0.07).unwrap();
+    let relation = ImpactProbability::new(0.2, 1.5, 1.1, 0.6).unwrap();
+    assert_eq!(float("p-crit --vertices 41"), jump::p_crit(41).unwrap());
+    assert_eq!(float("p-jump --vertices 41"), jump::p_jump(simple, 41).unwrap().p);
+    assert_eq!(float("higher-p-jump --vertices 41"), jump::p_jump(five, 41).unwrap().p);
+    let after = |space| jump::p_jump(space, 41).unwrap().k_after as u64;
+    assert_eq!(integer("k-after-jump --vertices 41"), after(simple));
+    assert_eq!(integer("higher-k-after-jump --vertices 41"), after(five));
+    for (prefix, space) in [("", simple), ("higher-", five)] {
+        let of = |quantity: &str| format!("{prefix}{quantity} --vertices 41 --p 0.07");
+        assert_eq!(integer(&of("k-star")), law(space).k_star() as u64);
+        assert_eq!(float(&of("mean-impacts")), law(space).mean());
+        assert_eq!(float(&(of("probability") + " --k 7")), law(space).probability(7).unwrap());
+    }
+    assert_eq!(float("log-circuits --vertices 41 --k 7"), counting::log_phi(41, 7).unwrap());
+    let given = "--sigma 0.2 --spacing 1.5 --omega 1.1 --forcing-frequency 0.6";
+    assert_eq!(float(&format!("p-of-sigma {given}")), relation.p().unwrap());
+    assert_eq!(float(&format!("log-p-of-sigma {given}")), relation.log_p().unwrap());
+}
+
+#[test]
+fn the_answer_is_one_object_of_three_members_in_order() {
+    let mean = Law::new(SampleSpace::Simple, 41, 1.0).unwrap().mean();
+    let expected = format!(
+        "{{\"quantity\":\"mean-impacts\",\"value\":{mean:?},\
+         \"inputs\":{{\"masses\":40,\"vertices\":41,\"p\":1.0}}}}\n"
+    );
+    assert_eq!(eval("mean-impacts --masses 40 --p 1"), expected);
+    let inputs = answer("p-of-sigma --sigma 0.15")["inputs"].clone();
+    let default = std::f64::consts::SQRT_2;
+    let expected =
+        json!({"sigma": 0.15, "omega": 1.0, "forcing_frequency": default, "spacing": 1.0});
+    assert_eq!(inputs, expected);
+}
+
+#[test]
+fn vertices_default_to_a_hundred_and_masses_give_one_more() {
+    assert_eq!(answer("p-crit")["inputs"], json!({"vertices": 100}));
+    assert_eq!(float("p-jump --masses 100"), float("p-jump --vertices 101"));
+    assert_ne!(float("p-jump"), float("p-jump --masses 100"));
+}
+
+#[test]
+fn p_zero_is_the_limit() {
+    assert_eq!(float("mean-impacts --p 0"), 1.0);
+    assert_eq!(float("mean-impacts --p -0.0"), 1.0);
+    assert_eq!(integer("k-star --p 0"), 1);
+    assert_eq!(float("probability --p 0 --k 1"), 1.0);
+    assert_eq!(float("higher-probability --p 0 --k 2"), 0.0);
+    assert_eq!(answer("k-star --p -0.0")["inputs"]["p"].to_string(), "0.0");
+}
+
+#[test]
+fn large_graphs_are_answered_at_once() {
+    // Values against high precision are in the tests of the library; here they must arrive.
+    assert_eq!(integer("k-star --vertices 1000000 --p 0.3"), 999_997);
+    assert!(float("mean-impacts --vertices 1000000 --p 0.3") < 999_998.0);
+    assert!(float("higher-p-jump --vertices 1000000") > 1e-6);
+    assert!(float("log-circuits --vertices 1000000 --k 1000000") > 1.28e7);
+    assert_eq!(float("probability --vertices 1000000 --p 0.3 --k 1"), 0.0);
+}
+
+#[test]
+fn list_names_every_quantity_with_its_equation() {
+    let text = eval("--list");
+    let names: Vec<&str> = text.lines().filter_map(|l| l.split_whitespace().next()).collect();
+    let simple = ["p-jump", "k-after-jump", "k-star", "mean-impacts", "probability"];
+    for name in simple {
+        assert!(names.contains(&name) && names.contains(&format!("higher-{name}").as_str()));
+    }
+    for name in ["p-crit", "log-circuits", "p-of-sigma", "log-p-of-sigma"] {
+        assert!(names.contains(&name));
+    }
+    assert_eq!(names.len(), 14);
+    assert!(text.lines().all(|l| l.contains("Eq") || l.contains("Sec.")));
+}
+
+#[test]
+fn bounds_are_those_of_the_library() {
+    let most = LARGEST_N + 1;
+    refused(&format!("mean-impacts --p 0.1 --vertices {most}"), &["vertices:"]);
+    refused(&format!("mean-impacts --p 0.1 --masses {LARGEST_N}"), &["masses:"]);
+    assert!(float("p-jump --vertices 4") < 1.0 && float("higher-p-jump --vertices 2") < 1.0);
+}
+
+#[test]
+fn help_teaches() {
+    let text = eval("--help");
+    for word in ["higher-k-star", "Eq. (18)", "Options that a quantity does not", "--sigma"] {
+        assert!(text.contains(word), "{word}");
+    }
+}
