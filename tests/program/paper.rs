@@ -212,6 +212,11 @@ fn exit_codes_are_those_of_the_table() {
     let edges = &text[text.find("id = \"sec3_edges\"").unwrap()..];
     let edges = &edges[..edges.find("value = ").unwrap() + "value = ".len()];
     templates("differs", "published.toml", edges, &format!("{edges}9"));
+    templates("skin", "report.html", "«page.body»", "");
+    templates("style", "report.css", "}", "");
+    templates("import", "report.css", "}", "} @import \"more.css\";");
+    templates("none", "report.md", "# ", "# ");
+    std::fs::remove_file(here.join("none/report.md")).unwrap();
     std::fs::create_dir(here.join("empty")).unwrap();
     let paper = |templates: &str| {
         format!("paper --profile quick --out p --results r --templates {templates}")
@@ -230,6 +235,13 @@ fn exit_codes_are_those_of_the_table() {
         (2, "check --profile quick --results r --templates broken".into(), "published.toml"),
         (2, paper("renamed"), "published.toml"),
         (2, "check --profile quick --results r --templates renamed".into(), "published.toml"),
+        (2, paper("skin"), "report.html: it has no «page.body»"),
+        (2, paper("style"), "report.css: "),
+        (2, paper("import"), "report.css: @import"),
+        (2, paper("none"), "report.md: no such file"),
+        (2, format!("ulimit -v 200000; exec \"$0\" {}", paper("good")), "of memory are needed"),
+        (0, "ulimit -s 64; exec \"$0\" sweep --sigma 0.2 --realisations 3".into(), "0.2,"),
+        (2, "trace --until 1 $'no\nsuch'".into(), "no such: "),
         (2, "paper --pdf --figure 3".into(), "--figure"),
         (2, "verify nowhere".into(), "nowhere"),
         (3, "status --profile quick --results empty".into(), "stale"),
@@ -238,6 +250,8 @@ fn exit_codes_are_those_of_the_table() {
         (4, full("paper --figure 4 --out f --templates good"), "f: "),
         (4, full("run --profile quick --shard 1/1 --experiment two_masses --out g"), "g"),
         (4, "explain --paper p >/dev/full".into(), "standard output"),
+        (4, "paper --figure 4 --out h --templates good >/dev/full".into(), "standard output"),
+        (4, "--help >/dev/full".into(), "standard output"),
     ];
     for (expected, arguments, says) in rows {
         let line =
