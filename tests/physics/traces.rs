@@ -88,7 +88,9 @@ pub fn held(scenario: &Scenario, until: f64, of: &str) -> Vec<Hit<Dd>> {
         // Before chaos has had time, times and speeds are off by a few roundings and no more.
         let digits = [error, speed].map(|x| x * b.closing_speed.near());
         assert!(a.time > 4.0 || digits[0] < 4e-14, "{of}: {a:?} {digits:?}");
-        assert!(a.time > 5.0 || digits[0].max(digits[1]) < 1e-13, "{of}: {a:?} {digits:?}");
+        let plain = scenario.overtones.is_empty();
+        let few = digits[0].max(digits[1]) < 1e-13;
+        assert!(!plain || a.time > 5.0 || few, "{of}: {a:?} {digits:?}");
         worst = worst.max(error);
     }
     println!("{of}: {} impacts, largest error of a time {worst:.1e}", theirs.len());

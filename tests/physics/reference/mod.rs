@@ -5,7 +5,7 @@
 //! of forward stretches, and is generic over its numbers: [`dd::Dd`] (106 bits, own sine and
 //! cosine, fast) and [`big::Big`] (256 bits, dashu's sine and cosine) check each other.
 
-// Each test binary uses its own part of this module.
+// benches/reference.rs uses a part of this module.
 #![allow(dead_code, unused_imports)]
 
 pub mod big;
