@@ -19,7 +19,7 @@ mod tally;
 
 pub use reasons::Reasons;
 pub use size::last_digit;
-pub use tally::{TABLE, Tally, used};
+pub use tally::{Tally, used};
 
 use self::part::Whole;
 use self::sections::{Changed, Sections};
@@ -31,16 +31,12 @@ use super::values::{Number, Registry, Value};
 use crate::claims::{self, Claim, Published, targets};
 use crate::experiments::Results;
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 
-/// The file that saved mutations depend on, with all that it needs.
-pub const MODULE: &str = "src/report/mutate/mod.rs";
-
 /// What became of one number that was made wrong.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Mutation {
     /// By how much it was moved to both sides.
     pub by: f64,
@@ -50,14 +46,6 @@ pub struct Mutation {
     pub above: Vec<String>,
     /// What turned red when it was smaller.
     pub below: Vec<String>,
-}
-
-impl Subject<'_> {
-    /// What is made wrong, as digests: the same ones have the same mutations.
-    pub fn digests(&self) -> BTreeMap<String, String> {
-        let printed = ("published.toml".into(), self.published.digest.clone());
-        Whole::of(self.results).digests().into_iter().chain([printed]).collect()
-    }
 }
 
 impl Mutation {
