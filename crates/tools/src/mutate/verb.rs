@@ -1,11 +1,11 @@
-//! `impact-paper mutate`.
+//! `impact-paper-tools mutate`.
 
-use super::sources::Sources;
-use super::{Failure, stdout, work};
+use super::{Mutation, Mutations, Reasons, Subject, Tally, mutate, used};
 use impact_paper::claims;
 use impact_paper::experiments::{Error, Need, Progress};
 use impact_paper::params::Profile;
-use impact_paper::report::mutate::{self, Mutation, Mutations, Reasons, Subject, Tally};
+use impact_paper::program::sources::Sources;
+use impact_paper::program::{Failure, stdout, work};
 use impact_paper::report::{Value, contents};
 use serde_json::json;
 use std::fmt::Write as _;
@@ -38,7 +38,7 @@ fn found(
     progress: &Progress,
 ) -> Result<Mutations, Error> {
     let stage = progress.stage("mutations", 1);
-    let found = mutate::mutate(subject, wanted, &|| !progress.stopped());
+    let found = mutate(subject, wanted, &|| !progress.stopped());
     stage.advance(1);
     progress.check()?;
     found.map_err(|error| Error::input("results", error.to_string(), "run a fuller profile"))
@@ -49,7 +49,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let profile = Profile::from(args.profile);
     let templates = args.sources.templates()?;
     let published = args.sources.published(&templates)?;
-    let reasons = args.sources.reasons(&templates)?.for_profile(profile);
+    let reasons = Reasons::read(templates.text("unguarded.toml")?)?.for_profile(profile);
     let progress = work::progress();
     let (found, used, values) = work::on_threads(args.sources.threads, || {
         let results = args.sources.run(&Need::ALL.into(), profile, &templates, &progress)?;
@@ -57,7 +57,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
         let claims = claims::all(&results, &published)?;
         let values = contents::registry(&results, &published)?;
         let rows = contents::rows(&results, &claims)?;
-        let mut used = mutate::used(&templates, &values, &rows, &claims)?;
+        let mut used = used(&templates, &values, &rows, &claims)?;
         let asked: Vec<&str> = args.value.iter().map(|name| values.id(name)).collect();
         if let Some(id) = asked.iter().find(|id| !used.contains(**id)) {
             let message = format!("--value: neither prose nor a claim uses a number {id:?}");

@@ -1,6 +1,6 @@
 //! The results in parts, each of which can be read and written as JSON.
 
-use crate::experiments::{Looked, Results, laws};
+use impact_paper::experiments::{Looked, Results, laws};
 use rayon::prelude::*;
 use serde::Serialize;
 use serde::de::DeserializeOwned;

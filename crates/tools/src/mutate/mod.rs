@@ -7,7 +7,7 @@
 //! there. Nothing is simulated again.
 //!
 //! A check is what makes `impact-paper check` or `impact-paper paper` fail: a claim, a target that no clock
-//! decides, a guard ([`super::guards`]), a report that cannot be made, or a type (no count is negative).
+//! decides, a guard ([`impact_paper::report::guards`]), a report that cannot be made, or a type (no count is negative).
 //! A comparison with stored bytes is none. A number is guarded if one notices in both directions.
 
 mod part;
@@ -16,20 +16,20 @@ mod sections;
 mod site;
 mod size;
 mod tally;
+pub mod verb;
 
-pub use reasons::Reasons;
-pub use size::last_digit;
-pub use tally::{Tally, used};
+use reasons::Reasons;
+use tally::{Tally, used};
 
 use self::part::Whole;
 use self::sections::{Changed, Sections};
 use self::site::Site;
-use super::claims::scorecard;
-use super::contents;
-use super::guards::{self, Guard, Look};
-use super::values::{Number, Registry, Value};
-use crate::claims::{self, Claim, Published, targets};
-use crate::experiments::Results;
+use impact_paper::claims::{self, Claim, Published, targets};
+use impact_paper::experiments::Results;
+use impact_paper::report::claims::scorecard;
+use impact_paper::report::contents;
+use impact_paper::report::guards::{self, Guard, Look};
+use impact_paper::report::values::{Number, Registry, Value};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -52,11 +52,6 @@ impl Mutation {
     /// Whether something notices in both directions.
     pub fn guarded(&self) -> bool {
         !self.above.is_empty() && !self.below.is_empty()
-    }
-
-    /// Everything that turned red, in order.
-    pub fn red(&self) -> BTreeSet<&str> {
-        self.above.iter().chain(&self.below).map(String::as_str).collect()
     }
 }
 
@@ -242,7 +237,9 @@ impl<'a> Bench<'a> {
             }
             Site::Report => {
                 let mut values = self.values.clone();
-                values.put(Value { number: size::moved(&value.number, by), ..value.clone() });
+                let mut wrong = value.clone();
+                wrong.number = size::moved(&value.number, by);
+                values.put(wrong);
                 let claims = self.before.claims.clone();
                 let mut red = self.before.red.clone();
                 red.retain(|name| !name.starts_with("guard "));

@@ -2,14 +2,14 @@
 
 use super::reasons::fits;
 use super::{Mutations, Reasons};
-use crate::claims::Claim;
-use crate::report::Templates;
-use crate::report::claims::{Row, scorecard};
-use crate::report::filler::Filler;
-use crate::report::mark::Mark;
-use crate::report::uses::uses;
-use crate::report::values::{Number, Registry, Value};
-use crate::report::{Error, parse};
+use impact_paper::claims::Claim;
+use impact_paper::report::Templates;
+use impact_paper::report::claims::{Row, scorecard};
+use impact_paper::report::filler::Filler;
+use impact_paper::report::mark::Mark;
+use impact_paper::report::uses::uses;
+use impact_paper::report::values::{Number, Registry, Value};
+use impact_paper::report::{Error, parse};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What is known of the numbers that prose or claims use.
