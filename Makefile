@@ -16,7 +16,7 @@ deep: ## what is too long for every report, again, into benches/deep/: half an h
 	cargo run --release --locked -- run --profile deep --shard 1/1 --out target/deep && cargo run --release --locked -- merge --profile deep target/deep
 
 mutate: ## which check notices when a number of the report is wrong; fails if none does and no reason is given
-	cargo run --release --locked -- mutate
+	cargo run --release --locked -p impact-paper-tools -- mutate
 
 pdf: ## make paper, and paper/report.pdf too: typeset in the program, minutes more to build
 	cargo run --release --locked --features pdf -- paper --pdf
@@ -28,13 +28,13 @@ browser: ## paper/report.html in headless Chromium, as readers use it (Chromium 
 	.ci/browser
 
 test: ## all tests but the long ones
-	cargo test --locked
+	cargo test --locked -p impact-paper -p impact-paper-tools
 
 test-long: ## the long tests only (large samples, a job array on Slurm, which root installs when missing)
 	cargo test --release --locked -- --ignored
 
 lint: ## formatting, clippy and documentation, warnings denied
-	cargo fmt --check && cargo clippy --locked --all-targets -- -D warnings && RUSTDOCFLAGS="-D warnings" cargo doc --locked --no-deps --document-private-items
+	cargo fmt --check && cargo clippy --locked -p impact-paper -p impact-paper-tools --all-targets -- -D warnings && RUSTDOCFLAGS="-D warnings" cargo doc --locked --no-deps --document-private-items
 
 identity: ## the same bytes for any threads, folder, locale, C library and build (quick profile; minutes to build)
 	.ci/identity

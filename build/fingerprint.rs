@@ -11,9 +11,6 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
 
-/// What is saved beside the experiments' results: `report::mutate::MODULE`.
-const MUTATIONS: &str = "src/report/mutate/mod.rs";
-
 /// Writes `dependencies.rs` for `experiments::identity`.
 pub fn run() -> io::Result<()> {
     println!("cargo::rerun-if-changed=Cargo.lock");
@@ -25,7 +22,7 @@ pub fn run() -> io::Result<()> {
     }
     let mut out =
         format!("Built {{\n    lock: {:?},\n    modules: &[\n", hash(&fs::read("Cargo.lock")?));
-    let saved = |path: &&String| path.starts_with("src/experiments/") || *path == MUTATIONS;
+    let saved = |path: &&String| path.starts_with("src/experiments/");
     for path in source.keys().filter(saved) {
         let _ = writeln!(out, "    ({path:?}, &[");
         for file in depends::files(&source, path) {

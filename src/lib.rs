@@ -21,7 +21,7 @@
 //!   [speed and accuracy](../../../paper/report.html#sec-accuracy).
 //!
 //! Imports flow one way: `numerics` → `dynamics`, `circuits` → `experiments` → `figures`,
-//! `claims` → `report`; `params` may be read by all.
+//! `claims` → `report` → `program`; `params` may be read by all.
 //!
 //! # Where each equation lives
 #![doc = ""]
@@ -39,6 +39,9 @@ pub mod figures;
 pub mod input;
 pub mod numerics;
 pub mod params;
+// A browser sends no signals, and reads no command line.
+#[cfg(not(target_family = "wasm"))]
+pub mod program;
 pub mod report;
 pub mod table;
 pub mod value;

@@ -1,6 +1,6 @@
 //! The command line of the literate paper.
 
-// What writes to a closed pipe or a full disk by a macro panics: `say` and `cli::stdout` do not.
+// What writes to a closed pipe or a full disk by a macro panics: `say` and `program::stdout` do not.
 #![warn(clippy::print_stderr, clippy::print_stdout)]
 
 mod cli;

@@ -1,13 +1,12 @@
 //! The whole report, from experiments to files in memory.
 
+use super::Failure;
 use super::judged::Judged;
 use super::sources::Sources;
-use super::{Failure, mutate};
 use impact_paper::claims;
 use impact_paper::experiments::{Need, Progress};
 use impact_paper::figures::{self, Figure, Scene};
 use impact_paper::params::Profile;
-use impact_paper::report::mutate::{Subject, TABLE, Tally};
 use impact_paper::report::{self, Report, contents};
 use rayon::prelude::*;
 
@@ -28,7 +27,6 @@ pub fn whole(
     report::lint::check(&templates)?;
     // Faults of the templates are told before the long runs, not after them.
     let published = sources.published(&templates)?;
-    let reasons = sources.reasons(&templates)?.for_profile(profile);
     let results = sources.run(&Need::ALL.into(), profile, &templates, progress)?;
     results.look();
     let draw = |number| {
@@ -38,17 +36,10 @@ pub fn whole(
     let numbers: Vec<figures::Number> = figures::all().collect();
     let drawn: Vec<Figure> = numbers.into_par_iter().map(draw).collect::<Result<_, Failure>>()?;
     let claims = claims::all(&results, &published)?;
-    let mut values = contents::registry(&results, &published)?;
-    let mut rows = contents::rows(&results, &claims)?;
+    let values = contents::registry(&results, &published)?;
+    let rows = contents::rows(&results, &claims)?;
     let judged = Judged::all(&results, &published, values.clone(), claims)?;
     let claims = &judged.claims;
-    let subject = Subject { results: &results, published: &published };
-    let found = mutate::found(sources, profile, subject, progress)?;
-    let used = report::mutate::used(&templates, &values, &rows, claims, &reasons)?;
-    let tally = Tally::of(&used, &found, &reasons, &values);
-    values.extend(tally.values(&reasons))?;
-    let lines = serde_json::to_value(tally.rows(&reasons)).map_err(contents::Error::Rows)?;
-    rows.insert(TABLE, lines);
     let scene = Scene::of(results.spacetime()?);
     progress.check()?;
     let report = report::assemble(&report::Input {

@@ -28,7 +28,6 @@ mod macros;
 pub mod map;
 pub mod mark;
 pub mod markdown;
-pub mod mutate;
 pub mod origin;
 pub mod parse;
 pub mod pdf;
@@ -40,7 +39,7 @@ pub mod sums;
 pub mod templates;
 mod tex;
 pub mod typeset;
-mod uses;
+pub mod uses;
 pub mod valued;
 pub mod values;
 

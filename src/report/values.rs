@@ -158,6 +158,30 @@ pub fn line(sigma: f64) -> String {
     format!("s{}", sigma.to_string().replace('.', "_"))
 }
 
+/// A unit of the last printed digit of a deterministic real number.
+pub fn last_digit(value: &Value) -> Option<f64> {
+    match value.number {
+        Number::Real { value, digits: Digits::Significant(digits) } => {
+            Some(ten_to(place(value, digits)))
+        }
+        Number::Real { digits: Digits::Decimals(decimals), .. } => Some(ten_to(-(decimals as i32))),
+        _ => None,
+    }
+}
+
+/// The power of ten of the last of so many significant digits.
+pub fn place(x: f64, digits: usize) -> i32 {
+    let places = digits.clamp(1, 17) - 1;
+    let text = format!("{:.*e}", places, x.abs());
+    let leading = text.split_once('e').and_then(|(_, power)| power.parse::<i32>().ok());
+    leading.unwrap_or(0) - places as i32
+}
+
+/// A power of ten, as the literal is.
+pub fn ten_to(power: i32) -> f64 {
+    format!("1e{power}").parse().unwrap_or(f64::MIN_POSITIVE)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

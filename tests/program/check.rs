@@ -1,8 +1,14 @@
 //! `impact-paper check` for machines: every form says of every claim what the text says.
 
-use crate::{TEMPLATES, outcome, program, run};
-use impact_paper::claims::Basis;
+use crate::{PROGRAM, TEMPLATES, outcome, program, run};
+use impact_paper::claims::{self, Basis, Published};
+use impact_paper::experiments::{self, Need, Progress, Store};
+use impact_paper::params::Profile;
+use impact_paper::report::claims::scorecard;
+use impact_paper::report::{contents, guards};
+use std::collections::BTreeSet;
 use std::path::Path;
+use std::process::Command;
 
 fn check(folder: &Path, arguments: &[&str], summary: Option<&Path>) -> (i32, String, String) {
     let mut command = program(folder, "check --profile quick --results r --templates");
@@ -110,5 +116,58 @@ fn a_claim_that_differs_is_an_error_in_every_form() {
         let (code, out) = form(name);
         assert_eq!(code, 1, "{out}");
         assert!(out.contains(sign), "{sign}: {out}");
+    }
+}
+
+/// Guards have names of their own, and relate values that there are.
+#[test]
+fn guards_relate_values_of_the_report() {
+    let scenario = |file: &str| {
+        std::fs::read_to_string(Path::new("templates").join(file)).map_err(|e| e.to_string())
+    };
+    let (store, quiet) = (Store::nowhere(), Progress::silent());
+    let results = experiments::run(&Need::ALL, Profile::Quick, scenario, &store, &quiet).unwrap();
+    let published = Published::committed().unwrap();
+    let mut values = contents::registry(&results, &published).unwrap();
+    values.extend(scorecard(&claims::all(&results, &published).unwrap())).unwrap();
+    let mut names = BTreeSet::new();
+    for guard in guards::all() {
+        assert!(names.insert(guard.name), "two guards are {}", guard.name);
+        for id in guard.ids {
+            let mut known = values.iter().map(|value| value.id.as_str());
+            let known = known.any(|own| guards::fits(id, own))
+                || values.names().any(|(name, _)| guards::fits(id, name));
+            assert!(known, "{} has no {id}", guard.name);
+        }
+    }
+    assert!(names.len() > 40, "{names:?}");
+}
+
+/// What is wrong in what is read makes `check` fail by the name of the guard, in every form.
+#[test]
+fn check_names_a_guard_that_fails() {
+    let folder = tempfile::tempdir().unwrap();
+    let own = folder.path().join("t");
+    crate::templates(&own, "published.toml", |text| {
+        let changed = text.replacen("σ ≈ 0.12", "σ ≈ 0.13", 1);
+        assert_ne!(text, changed);
+        changed
+    });
+    let check = |form: &str| {
+        let mut command = Command::new(PROGRAM);
+        command.args(["check", "--profile", "quick", "--format", form]);
+        command.arg("--results").arg(folder.path().join("r"));
+        outcome(command.arg("--templates").arg(&own))
+    };
+    for (form, sign) in [
+        ("text", "FAILS guard printed_as_it_reads: "),
+        ("json", "\"guard\": \"printed_as_it_reads\""),
+        ("github", "::error title=guard printed_as_it_reads::"),
+        ("markdown", "| printed_as_it_reads | "),
+    ] {
+        let (code, out, note) = check(form);
+        assert_eq!(code, 1, "{note}");
+        assert!(out.contains(sign), "{sign}: {out}");
+        assert!(note.contains("do not hold: printed_as_it_reads"), "{note}");
     }
 }

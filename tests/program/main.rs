@@ -8,7 +8,6 @@ mod cluster;
 mod diff;
 mod eval;
 mod explain;
-mod mutate;
 mod paper;
 mod saved;
 mod shards;

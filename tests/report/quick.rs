@@ -4,7 +4,6 @@ use impact_paper::claims::{self, Claim, Published};
 use impact_paper::experiments::{Need, Progress, Results, Store, run::run};
 use impact_paper::figures::{self, Figure};
 use impact_paper::params::Profile;
-use impact_paper::report::mutate::{Reasons, TABLE, Tally};
 use impact_paper::report::{Input, Registry, Report, Templates, assemble, contents};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -35,12 +34,8 @@ pub static QUICK: LazyLock<Quick> = LazyLock::new(|| {
     full.profile = Profile::Full;
     let published = Published::parse(templates.text("published.toml").unwrap()).unwrap();
     let claims = claims::all(&results, &published).unwrap();
-    let mut values = contents::registry(&results, &published).unwrap();
-    let mut rows = contents::rows(&results, &claims).unwrap();
-    // How much checks notice takes seconds to measure, and the form of the report does not need it.
-    let reasons = Reasons::read(templates.text("unguarded.toml").unwrap()).unwrap();
-    values.extend(Tally::default().values(&reasons)).unwrap();
-    rows.insert(TABLE, serde_json::to_value(Tally::default().rows(&reasons)).unwrap());
+    let values = contents::registry(&results, &published).unwrap();
+    let rows = contents::rows(&results, &claims).unwrap();
     let scene = figures::Scene::of(results.spacetime().unwrap());
     let [figures, full] = [&results, &full].map(|results| -> Vec<_> {
         figures::all().map(|number| figures::draw(number, results).unwrap()).collect()

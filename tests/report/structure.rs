@@ -38,7 +38,7 @@ fn code(text: &str) -> impl Iterator<Item = (usize, &str)> {
 
 /// Who may import whom, besides itself: no arrow goes back, and figures and claims know results,
 /// never models.
-const MAY_IMPORT: [(&str, &[&str]); 10] = [
+const MAY_IMPORT: [(&str, &[&str]); 11] = [
     ("value", &[]),
     ("table", &["numerics", "value"]),
     ("params", &["numerics"]),
@@ -52,6 +52,7 @@ const MAY_IMPORT: [(&str, &[&str]); 10] = [
         "report",
         &["params", "numerics", "circuits", "experiments", "figures", "claims", "table", "value"],
     ),
+    ("program", &["params", "dynamics", "experiments", "figures", "claims", "report"]),
 ];
 
 /// Layers that a line of code names: `crate::layer`, or `super::…::layer` that climbs to the top.

@@ -10,6 +10,7 @@ pub fn description(path: &str) -> String {
     let what = match path {
         "src/" => "The program: experiments, calculations, figures, report, checks.",
         "build/" => "The build script: homes of equations, and what results depend on.",
+        "crates/" => "Tools of the project that no reader runs.",
         "templates/" => {
             "The prose with places for numbers, the numbers that the paper printed, fonts."
         }
@@ -29,7 +30,7 @@ pub fn description(path: &str) -> String {
         "LICENSE-MIT" | "LICENSE-APACHE" => "Licence, at the choice of who uses it.",
         "SHA256SUMS" => "SHA-256 of every other file.",
         _ => match path.split_once('/').map(|(folder, _)| folder) {
-            Some("src" | "build") => "Source of the program.",
+            Some("src" | "build" | "crates") => "Source of the program.",
             Some("tests" | "benches") => "Source of a test or benchmark.",
             Some("templates") => "Prose, printed numbers, fonts or scenarios.",
             Some("results") => "Saved result of an experiment, with all that it was made of.",

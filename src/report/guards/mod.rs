@@ -5,7 +5,7 @@
 //! equation, a closed form against a sum of its own. None compares a number with a copy of itself, or
 //! with bytes of an earlier run; what a guard computes anew it computes by another way than the code
 //! that it guards, from a record or from first principles (`guards::model`). `impact-paper check` names each
-//! that fails, and `impact-paper mutate` measures what they notice.
+//! that fails, and `make mutate` measures what they notice.
 
 mod accuracy;
 mod carried;

@@ -75,7 +75,7 @@ fn levels(look: Look<'_>) -> Option<String> {
     [("p_tenth", 0.1), ("p_nine_tenths", 0.9)].into_iter().find_map(|(id, share)| {
         let value = look.values.get(id)?;
         let p = look.number(id)?;
-        let unit = crate::report::mutate::last_digit(value)?;
+        let unit = crate::report::values::last_digit(value)?;
         let share_at = |p: f64| Law::new(big_n, p, false).mean() / big_n as f64;
         unless(share_at(p - unit) < share && share < share_at(p + unit), || {
             format!("the mean does not pass {share} N at {id} = {p}")

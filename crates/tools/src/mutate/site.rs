@@ -1,8 +1,8 @@
 //! Where a number is made wrong.
 
 use super::{Bench, Leaf, moved, part, same, size};
-use crate::claims::Published;
-use crate::report::values::{Number, Value};
+use impact_paper::claims::Published;
+use impact_paper::report::values::{Number, Value};
 
 /// A place where a number can be moved.
 #[derive(Clone, Debug, PartialEq)]

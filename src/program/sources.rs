@@ -1,11 +1,10 @@
 //! Where `paper` and `check` read prose and keep results.
 
 use super::{Failure, work};
-use impact_paper::claims::{self, Published};
-use impact_paper::experiments::{self, Need, Progress, Results, Store};
-use impact_paper::params::Profile;
-use impact_paper::report::Templates;
-use impact_paper::report::mutate::Reasons;
+use crate::claims::{self, Published};
+use crate::experiments::{self, Need, Progress, Results, Store};
+use crate::params::Profile;
+use crate::report::Templates;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
@@ -46,14 +45,6 @@ impl Sources {
     /// Exit code 2 if the file is broken.
     pub fn published(&self, templates: &Templates) -> Result<Published, Failure> {
         Ok(Published::parse(templates.text("published.toml")?).map_err(claims::Error::from)?)
-    }
-
-    /// Why some numbers have no check.
-    ///
-    /// # Errors
-    /// Exit code 2 if the file is broken.
-    pub fn reasons(&self, templates: &Templates) -> Result<Reasons, Failure> {
-        Ok(Reasons::read(templates.text("unguarded.toml")?)?)
     }
 
     /// Runs what is needed. The folder of results is made only if something long is run.

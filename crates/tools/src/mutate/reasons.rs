@@ -1,8 +1,8 @@
 //! Why a number may stay without a check: `unguarded.toml`.
 
-use crate::input::toml_fault;
-use crate::params::Profile;
-use crate::report::Error;
+use impact_paper::input::toml_fault;
+use impact_paper::params::Profile;
+use impact_paper::report::Error;
 use serde::Deserialize;
 
 /// Reasons, each for some ids.

@@ -1,12 +1,11 @@
-//! `impact-paper mutate`.
+//! `impact-paper-tools mutate`.
 
-use super::sources::Sources;
-use super::{Failure, stdout, work};
+use super::{Mutation, Mutations, Reasons, Subject, Tally, mutate, used};
 use impact_paper::claims;
-use impact_paper::experiments::identity::Identity;
-use impact_paper::experiments::{Error, Need, Progress, Store};
+use impact_paper::experiments::{Error, Need, Progress};
 use impact_paper::params::Profile;
-use impact_paper::report::mutate::{self, Mutation, Mutations, Reasons, Subject, Tally};
+use impact_paper::program::sources::Sources;
+use impact_paper::program::{Failure, stdout, work};
 use impact_paper::report::{Value, contents};
 use serde_json::json;
 use std::fmt::Write as _;
@@ -32,34 +31,14 @@ pub struct Args {
     sources: Sources,
 }
 
-/// What becomes of every number of the report; saved like a result, in the folder `derived` among them,
-/// and taken from there if nothing that it follows from has changed.
-///
-/// # Errors
-/// Exit codes 2 and 130.
-pub fn found(
-    sources: &Sources,
-    profile: Profile,
-    subject: Subject<'_>,
-    progress: &Progress,
-) -> Result<Mutations, Failure> {
-    let identity = Identity::new("mutations", mutate::MODULE, &subject.digests());
-    let run = || all(subject, &|_| true, progress);
-    let store = Store::open(&sources.results)?.derived();
-    match store.get(&identity, profile, &Progress::silent(), run) {
-        // A folder that cannot be written is no reason to fail.
-        Err(Error::Store { .. }) => Ok(run()?),
-        found => Ok(found?),
-    }
-}
-
-fn all(
+/// What becomes of each wanted number of the report.
+fn found(
     subject: Subject<'_>,
     wanted: &(dyn Fn(&Value) -> bool + Sync),
     progress: &Progress,
 ) -> Result<Mutations, Error> {
     let stage = progress.stage("mutations", 1);
-    let found = mutate::mutate(subject, wanted, &|| !progress.stopped());
+    let found = mutate(subject, wanted, &|| !progress.stopped());
     stage.advance(1);
     progress.check()?;
     found.map_err(|error| Error::input("results", error.to_string(), "run a fuller profile"))
@@ -70,7 +49,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let profile = Profile::from(args.profile);
     let templates = args.sources.templates()?;
     let published = args.sources.published(&templates)?;
-    let reasons = args.sources.reasons(&templates)?.for_profile(profile);
+    let reasons = Reasons::read(templates.text("unguarded.toml")?)?.for_profile(profile);
     let progress = work::progress();
     let (found, used, values) = work::on_threads(args.sources.threads, || {
         let results = args.sources.run(&Need::ALL.into(), profile, &templates, &progress)?;
@@ -78,19 +57,18 @@ pub fn run(args: Args) -> Result<(), Failure> {
         let claims = claims::all(&results, &published)?;
         let values = contents::registry(&results, &published)?;
         let rows = contents::rows(&results, &claims)?;
-        let mut used = mutate::used(&templates, &values, &rows, &claims, &reasons)?;
+        let mut used = used(&templates, &values, &rows, &claims)?;
         let asked: Vec<&str> = args.value.iter().map(|name| values.id(name)).collect();
         if let Some(id) = asked.iter().find(|id| !used.contains(**id)) {
             let message = format!("--value: neither prose nor a claim uses a number {id:?}");
             return Err(Failure::input(message));
         }
         let subject = Subject { results: &results, published: &published };
-        let found = if args.value.is_empty() {
-            found(&args.sources, profile, subject, &progress)?
-        } else {
+        if !asked.is_empty() {
             used.retain(|id| asked.contains(&id.as_str()));
-            all(subject, &|value| used.contains(&value.id), &progress)?
-        };
+        }
+        let wanted = |value: &Value| asked.is_empty() || used.contains(&value.id);
+        let found = found(subject, &wanted, &progress)?;
         Ok((found, used, values))
     })?;
     let reasons = if args.value.is_empty() { reasons } else { Reasons::default() };

@@ -1,7 +1,6 @@
 //! The results in parts, each of which can be read and written as JSON.
 
-use crate::digest::sha256;
-use crate::experiments::{Looked, Results, laws};
+use impact_paper::experiments::{Looked, Results, laws};
 use rayon::prelude::*;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -134,13 +133,6 @@ impl Whole {
     /// Of complete results.
     pub fn of(results: &Results) -> Self {
         Whole(PARTS.par_iter().map(|part| (part.read)(results).unwrap_or_default()).collect())
-    }
-
-    /// SHA-256 of each part, with its number.
-    pub fn digests(&self) -> Vec<(String, String)> {
-        let one =
-            |(index, json): (usize, &Json)| (format!("part {index}"), sha256(json.to_string()));
-        self.0.par_iter().enumerate().map(one).collect()
     }
 
     /// One part.

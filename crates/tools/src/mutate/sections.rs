@@ -5,9 +5,9 @@
 //! reads a part is tried: without the part it fails, or has other values.
 
 use super::part;
-use crate::experiments::Results;
-use crate::report::contents::{self, SECTIONS};
-use crate::report::values::{Registry, Value};
+use impact_paper::experiments::Results;
+use impact_paper::report::contents::{self, SECTIONS};
+use impact_paper::report::values::{Registry, Value};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 
@@ -108,7 +108,7 @@ impl Sections {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::params::Profile;
+    use impact_paper::params::Profile;
 
     #[test]
     fn a_section_that_fails_changes_nothing() {

@@ -1,11 +1,11 @@
 //! What the verbs that take time have in common: experiments by name, threads, Ctrl-C, and errors as exit codes.
 
 use super::Failure;
-use impact_paper::experiments::shards::Plan;
-use impact_paper::experiments::{Error, Progress, catalogue, deep, say};
-use impact_paper::params::Profile;
-use impact_paper::report::{self, contents};
-use impact_paper::{claims, figures};
+use crate::experiments::shards::Plan;
+use crate::experiments::{Error, Progress, catalogue, deep, say};
+use crate::params::Profile;
+use crate::report::{self, contents};
+use crate::{claims, figures};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -260,7 +260,7 @@ impl From<Error> for Failure {
             Error::Interrupted => INTERRUPTED,
             Error::Store { source, .. } => Failure::io(source, "").code,
             Error::Input { .. } | Error::Scenario { .. } | Error::Measured(_) => 2,
-            Error::Dynamics { source: impact_paper::dynamics::Error::Input { .. }, .. } => 2,
+            Error::Dynamics { source: crate::dynamics::Error::Input { .. }, .. } => 2,
             Error::Stale { .. } | Error::Units { .. } | Error::NotUnderstood { .. } => 3,
             _ => 4,
         };

@@ -7,7 +7,7 @@
 //! there. Nothing is simulated again.
 //!
 //! A check is what makes `impact-paper check` or `impact-paper paper` fail: a claim, a target that no clock
-//! decides, a guard ([`super::guards`]), a report that cannot be made, or a type (no count is negative).
+//! decides, a guard ([`impact_paper::report::guards`]), a report that cannot be made, or a type (no count is negative).
 //! A comparison with stored bytes is none. A number is guarded if one notices in both directions.
 
 mod part;
@@ -16,31 +16,27 @@ mod sections;
 mod site;
 mod size;
 mod tally;
+pub mod verb;
 
-pub use reasons::Reasons;
-pub use size::last_digit;
-pub use tally::{TABLE, Tally, used};
+use reasons::Reasons;
+use tally::{Tally, used};
 
 use self::part::Whole;
 use self::sections::{Changed, Sections};
 use self::site::Site;
-use super::claims::scorecard;
-use super::contents;
-use super::guards::{self, Guard, Look};
-use super::values::{Number, Registry, Value};
-use crate::claims::{self, Claim, Published, targets};
-use crate::experiments::Results;
+use impact_paper::claims::{self, Claim, Published, targets};
+use impact_paper::experiments::Results;
+use impact_paper::report::claims::scorecard;
+use impact_paper::report::contents;
+use impact_paper::report::guards::{self, Guard, Look};
+use impact_paper::report::values::{Number, Registry, Value};
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 
-/// The file that saved mutations depend on, with all that it needs.
-pub const MODULE: &str = "src/report/mutate/mod.rs";
-
 /// What became of one number that was made wrong.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Mutation {
     /// By how much it was moved to both sides.
     pub by: f64,
@@ -52,23 +48,10 @@ pub struct Mutation {
     pub below: Vec<String>,
 }
 
-impl Subject<'_> {
-    /// What is made wrong, as digests: the same ones have the same mutations.
-    pub fn digests(&self) -> BTreeMap<String, String> {
-        let printed = ("published.toml".into(), self.published.digest.clone());
-        Whole::of(self.results).digests().into_iter().chain([printed]).collect()
-    }
-}
-
 impl Mutation {
     /// Whether something notices in both directions.
     pub fn guarded(&self) -> bool {
         !self.above.is_empty() && !self.below.is_empty()
-    }
-
-    /// Everything that turned red, in order.
-    pub fn red(&self) -> BTreeSet<&str> {
-        self.above.iter().chain(&self.below).map(String::as_str).collect()
     }
 }
 
@@ -254,7 +237,9 @@ impl<'a> Bench<'a> {
             }
             Site::Report => {
                 let mut values = self.values.clone();
-                values.put(Value { number: size::moved(&value.number, by), ..value.clone() });
+                let mut wrong = value.clone();
+                wrong.number = size::moved(&value.number, by);
+                values.put(wrong);
                 let claims = self.before.claims.clone();
                 let mut red = self.before.red.clone();
                 red.retain(|name| !name.starts_with("guard "));

@@ -1,7 +1,7 @@
 //! How wrong a number is made: by more than its tolerance, which follows from what the number is.
 
-use crate::claims::Level;
-use crate::report::values::{Digits, Kind, Number, Value};
+use impact_paper::claims::Level;
+use impact_paper::report::values::{Digits, Kind, Number, Value, place, ten_to};
 
 /// A real number is moved by so many tolerances to either side (ours).
 const BEYOND: f64 = 2.0;
@@ -32,29 +32,6 @@ pub fn step(value: &Value, level: Level) -> Option<f64> {
         Number::Interval { low, high } if high > low => high - low,
         Number::Interval { low, .. } => BEYOND * ten_to(place(low, 1)),
     })
-}
-
-/// A unit of the last printed digit of a deterministic real number.
-pub fn last_digit(value: &Value) -> Option<f64> {
-    match value.number {
-        Number::Real { value, digits: Digits::Significant(digits) } => {
-            Some(ten_to(place(value, digits)))
-        }
-        Number::Real { digits: Digits::Decimals(decimals), .. } => Some(ten_to(-(decimals as i32))),
-        _ => None,
-    }
-}
-
-/// The power of ten of the last of so many significant digits.
-fn place(x: f64, digits: usize) -> i32 {
-    let places = digits.clamp(1, 17) - 1;
-    let text = format!("{:.*e}", places, x.abs());
-    let leading = text.split_once('e').and_then(|(_, power)| power.parse::<i32>().ok());
-    leading.unwrap_or(0) - places as i32
-}
-
-fn ten_to(power: i32) -> f64 {
-    format!("1e{power}").parse().unwrap_or(f64::MIN_POSITIVE)
 }
 
 /// The number moved by this much.

@@ -1,24 +1,16 @@
 //! Which numbers are used, and how many of them are guarded.
 
-use super::reasons::{Group, fits};
+use super::reasons::fits;
 use super::{Mutations, Reasons};
-use crate::claims::Claim;
-use crate::report::Templates;
-use crate::report::claims::{Row, scorecard};
-use crate::report::filler::Filler;
-use crate::report::mark::Mark;
-use crate::report::print::Style;
-use crate::report::uses::uses;
-use crate::report::values::{Number, Registry, Value, origin};
-use crate::report::{Error, parse};
-use serde::Serialize;
+use impact_paper::claims::Claim;
+use impact_paper::report::Templates;
+use impact_paper::report::claims::{Row, scorecard};
+use impact_paper::report::filler::Filler;
+use impact_paper::report::mark::Mark;
+use impact_paper::report::uses::uses;
+use impact_paper::report::values::{Number, Registry, Value};
+use impact_paper::report::{Error, parse};
 use std::collections::{BTreeMap, BTreeSet};
-
-/// Ids of the counts themselves: they are added to the values when all is counted.
-pub const IDS: [&str; 4] = ["mutated", "guarded", "unguarded", "guards"];
-
-/// The name of the rows of [`Tally::rows`] in templates.
-pub const TABLE: &str = "unguarded_table";
 
 /// What is known of the numbers that prose or claims use.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -78,57 +70,10 @@ impl Tally {
     pub fn unguarded(&self) -> usize {
         self.bare.len() + self.excused.values().map(BTreeSet::len).sum::<usize>()
     }
-
-    /// The counts as values: those of all numbers, and one for each kind of reason.
-    pub fn values(&self, reasons: &Reasons) -> Vec<Value> {
-        let guards = crate::report::guards::all().count();
-        let counts = [self.used(), self.guarded.len(), self.unguarded(), guards];
-        let all = IDS.into_iter().map(String::from).zip(counts);
-        let kinds = reasons.groups().iter().map(|group| (id(&group.kind), self.count(&group.kind)));
-        let value = |(id, count): (String, usize)| {
-            let only_in_table = id.contains('.');
-            let value = Value::integer(id, count).source(origin(super::mutate), "");
-            if only_in_table { value.data_only() } else { value }
-        };
-        all.chain(kinds).map(value).collect()
-    }
-
-    /// The lines of the table: what is not guarded, how many of it, and why.
-    pub fn rows(&self, reasons: &Reasons) -> Vec<Line> {
-        let line = |group: &Group| Line {
-            kind: group.kind.clone(),
-            count: Mark { id: id(&group.kind), style: Style::default() }.write(),
-            why: group.why.clone(),
-        };
-        let met = reasons.groups().iter().filter(|group| self.count(&group.kind) > 0);
-        met.map(line).collect()
-    }
-
-    fn count(&self, kind: &str) -> usize {
-        self.excused.get(kind).map_or(0, BTreeSet::len)
-    }
-}
-
-/// A line of the table of what is not guarded: each field is Markdown.
-#[derive(Debug, Serialize)]
-pub struct Line {
-    kind: String,
-    count: String,
-    why: String,
-}
-
-/// Id of the count of a kind.
-fn id(kind: &str) -> String {
-    format!("excused.{}", kind.to_lowercase().replace(|c: char| !c.is_ascii_lowercase(), "_"))
-}
-
-/// The id is that of a count of this module.
-fn counts(id: &str) -> bool {
-    IDS.contains(&id) || id.starts_with("excused.")
 }
 
 /// Ids of the numbers that prose or claims use: what a template shows, and what a claim states or is
-/// held against. Words are left out, and so are the counts of a [`Tally`].
+/// held against. Words are left out.
 ///
 /// # Errors
 /// If the prose cannot be filled or read.
@@ -137,20 +82,16 @@ pub fn used(
     values: &Registry,
     rows: &BTreeMap<&'static str, serde_json::Value>,
     claims: &[Claim],
-    reasons: &Reasons,
 ) -> Result<BTreeSet<String>, Error> {
     let mut values = values.clone();
     if values.get("score.total").is_none() {
         values.extend(scorecard(claims))?;
     }
-    // Nothing is counted yet, but the prose names the counts.
-    values.extend(Tally::default().values(reasons))?;
     let mut filler = Filler::new(templates, &values)?;
     filler.insert("claims", &claims.iter().map(Row::of).collect::<Vec<Row>>());
     for (name, rows) in rows {
         filler.insert(name, rows);
     }
-    filler.insert(TABLE, &Tally::default().rows(reasons));
     let filled = filler.prose("report.md")?;
     let (blocks, _) = parse::parse(&filled, &values)?;
     let shown = Mark::split(&filled.text).into_iter().flatten();
@@ -158,7 +99,7 @@ pub fn used(
     let stated = uses(claims, &values, &blocks).into_values().flatten();
     let number = |id: &String| {
         let words = |value: &Value| matches!(value.number, Number::Text(_));
-        values.get(id).is_some_and(|value| !words(value)) && !counts(id)
+        values.get(id).is_some_and(|value| !words(value))
     };
     Ok(shown.chain(stated).filter(number).collect())
 }

@@ -1,0 +1,31 @@
+//! What the project asks of itself, and no reader runs.
+
+#![warn(clippy::print_stderr, clippy::print_stdout)]
+
+mod mutate;
+
+use clap::{Parser, Subcommand};
+use impact_paper::program::{ended, usage, work};
+use std::process::ExitCode;
+
+/// What the project asks of itself, and no reader runs. Exit codes are those of impact-paper.
+#[derive(Parser)]
+#[command(version)]
+struct Cli {
+    #[command(subcommand)]
+    verb: Verb,
+}
+
+#[derive(Subcommand)]
+enum Verb {
+    Mutate(mutate::verb::Args),
+}
+
+fn main() -> ExitCode {
+    let Verb::Mutate(args) = match Cli::try_parse() {
+        Ok(cli) => cli.verb,
+        Err(error) => return usage(&error),
+    };
+    work::obey_signals();
+    ended(mutate::verb::run(args))
+}

@@ -1,0 +1,87 @@
+//! What the programs of this project share: exit codes, signals, threads, standard output, and where prose
+//! and results lie.
+
+pub mod sources;
+pub mod stdout;
+pub mod work;
+
+use crate::experiments::say;
+use crate::input::one_line;
+use std::io;
+use std::process::ExitCode;
+
+/// Characters of a message at most.
+const LONGEST: usize = 4000;
+
+/// Why a verb ended without success: an exit code of the contract and one line for stderr.
+#[derive(Debug)]
+pub struct Failure {
+    /// As in the table of DESIGN.md.
+    pub code: u8,
+    /// One line: which number, where, and what to do.
+    pub message: String,
+}
+
+impl Failure {
+    /// Wrong usage or input: exit code 2.
+    pub fn input(message: impl Into<String>) -> Self {
+        Failure { code: 2, message: message.into() }
+    }
+
+    /// Something was held against something else and failed: exit code 1.
+    pub fn check(message: impl Into<String>) -> Self {
+        Failure { code: 1, message: message.into() }
+    }
+
+    /// The system refused to read or write: exit code 4 where no other place or name would help.
+    pub fn io(error: &io::Error, message: impl Into<String>) -> Self {
+        use io::ErrorKind::{FileTooLarge, OutOfMemory, QuotaExceeded, StorageFull, WriteZero};
+        let full = [FileTooLarge, OutOfMemory, QuotaExceeded, StorageFull, WriteZero];
+        // EIO has no kind of its own.
+        let broken = cfg!(unix) && error.raw_os_error() == Some(5);
+        let code = if full.contains(&error.kind()) || broken { 4 } else { 2 };
+        Failure { code, message: message.into() }
+    }
+
+    /// Tells it on standard error.
+    fn tell(self) -> ExitCode {
+        // Findings in the prose have a line each; names of files may have line breaks.
+        let message = if self.code == 1 { self.message } else { one_line(&self.message, LONGEST) };
+        say(&format!("impact-paper: {message}"));
+        ExitCode::from(self.code)
+    }
+
+    /// Saved results are stale: exit code 3.
+    pub fn stale(message: impl Into<String>) -> Self {
+        Failure { code: 3, message: message.into() }
+    }
+
+    /// A run failed: exit code 4.
+    pub fn run(message: impl Into<String>) -> Self {
+        Failure { code: 4, message: message.into() }
+    }
+}
+
+/// The exit code of a verb; why it failed goes to stderr.
+pub fn ended(result: Result<(), Failure>) -> ExitCode {
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => failure.tell(),
+    }
+}
+
+/// Help and version go to standard output; a wrong command line becomes one line, exit code 2.
+pub fn usage(error: &clap::Error) -> ExitCode {
+    use clap::error::ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand;
+    if !error.use_stderr() || error.kind() == DisplayHelpOnMissingArgumentOrSubcommand {
+        return match stdout::written(error.print()) {
+            Ok(()) => ExitCode::from(error.exit_code() as u8),
+            Err(failure) => failure.tell(),
+        };
+    }
+    let text = error.to_string();
+    let lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
+    let line = lines.collect::<Vec<_>>().join("; ");
+    say(&format!("impact-paper: {}", line.strip_prefix("error: ").unwrap_or(&line)));
+    ExitCode::from(2)
+}
