@@ -136,7 +136,8 @@ fn guards_relate_values_of_the_report() {
         for id in guard.ids {
             let mut known = values.iter().map(|value| value.id.as_str());
             let known = known.any(|own| guards::fits(id, own))
-                || values.names().any(|(name, _)| guards::fits(id, name));
+                || values.names().any(|(name, _)| guards::fits(id, name))
+                || values.tables().any(|table| guards::fits(id, table.name()));
             assert!(known, "{} has no {id}", guard.name);
         }
     }

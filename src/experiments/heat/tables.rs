@@ -51,7 +51,7 @@ fn ensembles_by(
     name: &'static str,
     rows: &[Row<'_>],
     (key, unit): (&'static str, &'static str),
-    by: fn(&Row<'_>) -> f64,
+    by: impl Fn(&Row<'_>) -> f64,
 ) -> Table {
     Table::of(name, rows, |row| row.runs.len())
         .key(key, unit, by)

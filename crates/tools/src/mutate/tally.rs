@@ -10,6 +10,7 @@ use impact_paper::report::mark::Mark;
 use impact_paper::report::uses::uses;
 use impact_paper::report::values::{Number, Registry, Value};
 use impact_paper::report::{Error, parse};
+use impact_paper::table::table_of;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What is known of the numbers that prose or claims use.
@@ -73,7 +74,8 @@ impl Tally {
 }
 
 /// Ids of the numbers that prose or claims use: what a template shows, and what a claim states or is
-/// held against. Words are left out.
+/// held against. Words are left out, and so are cells of tables: what a cell is stands once, in its column, and the
+/// tests of its experiment hold the column to what it says.
 ///
 /// # Errors
 /// If the prose cannot be filled or read.
@@ -98,6 +100,9 @@ pub fn used(
     let shown = shown.map(|mark| values.id(&mark.id).to_string());
     let stated = uses(claims, &values, &blocks).into_values().flatten();
     let number = |id: &String| {
+        if table_of(id).is_some() {
+            return false;
+        }
         let words = |value: &Value| matches!(value.number, Number::Text(_));
         values.get(id).is_some_and(|value| !words(value))
     };
