@@ -80,7 +80,8 @@ fn layers_named(line: &str, depth: usize) -> Vec<String> {
             None => named.push(word(rest)),
         }
     }
-    let crates = CRATES.iter().filter(|(name, _)| line.contains(&format!("{name}::")));
+    let code = line.replace("\"impact_", "\"");
+    let crates = CRATES.iter().filter(|(name, _)| code.contains(&format!("{name}::")));
     named.extend(crates.map(|(_, layer)| (*layer).to_string()));
     let climb = "super::".repeat(depth);
     if let Some(i) = line.find(&climb).filter(|_| depth > 0) {
@@ -119,6 +120,7 @@ fn imports_are_read_right() {
     assert_eq!(named("use super::super::dynamics::Engine;", 2), ["dynamics"]);
     assert_eq!(named("use super::dynamics;", 2), Vec::<String>::new());
     assert_eq!(named("pub use impact_chain::{Chain, Start};", 0), ["dynamics"]);
+    assert_eq!(named("let name = \"impact_chain::\";", 1), Vec::<String>::new());
     assert_eq!(named("let x = crate::report::print(y);", 1), ["report"]);
 }
 
