@@ -15,7 +15,7 @@ pub fn run() -> io::Result<()> {
     };
     let top = git(&["rev-parse", "--show-prefix"]).filter(|prefix| prefix.is_empty());
     let commit = top.and_then(|_| git(&["rev-parse", "--short=12", "HEAD"]));
-    let own = ["status", "--porcelain", "--", "src", "build", "Cargo.toml", "Cargo.lock"];
+    let own = ["status", "--porcelain", "--", "src", "crates", "build", "Cargo.toml", "Cargo.lock"];
     let changed = git(&own).is_some_and(|list| !list.is_empty());
     let plus = if changed { "+" } else { "" };
     let text = commit.map(|commit| format!(" ({commit}{plus})")).unwrap_or_default();

@@ -7,8 +7,24 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+/// A crate of this workspace.
+pub struct Crate {
+    /// Its name in code.
+    pub name: &'static str,
+    /// Where its source lies.
+    pub folder: &'static str,
+    /// The module that it is in the program.
+    pub module: &'static str,
+}
+
+/// The crates below the program.
+pub const CRATES: [Crate; 2] = [
+    Crate { name: "impact_numerics", folder: "crates/numerics/src", module: "numerics" },
+    Crate { name: "impact_chain", folder: "crates/impact-chain/src", module: "dynamics" },
+];
+
 /// Layers that count as one.
-const WHOLE: [&str; 3] = ["src/numerics/", "src/dynamics/", "src/circuits/"];
+const WHOLE: [&str; 3] = ["crates/numerics/src/", "crates/impact-chain/src/", "src/circuits/"];
 
 /// What changes no result: words for people.
 const SILENT: [&str; 2] = ["src/experiments/progress.rs", "src/experiments/error.rs"];
@@ -66,14 +82,19 @@ fn code(text: &str) -> String {
         .collect()
 }
 
-/// `src/a/b.rs` and `src/a/b/mod.rs` are [a, b].
-fn module(path: &str) -> Vec<String> {
-    let path = path.trim_start_matches("src/").trim_end_matches(".rs");
-    let parts: Vec<String> = path.split('/').map(String::from).collect();
-    match parts.last().map(String::as_str) {
-        Some("mod" | "lib") => parts[..parts.len() - 1].to_vec(),
-        _ => parts,
-    }
+/// The crate that a file belongs to; none if it is of the program itself.
+pub fn of_crate(path: &str) -> Option<&'static Crate> {
+    CRATES.iter().find(|own| path.starts_with(own.folder))
+}
+
+/// `src/a/b.rs` and `src/a/b/mod.rs` are [a, b]; a crate is one of the program's modules.
+pub fn module(path: &str) -> Vec<String> {
+    let own = of_crate(path);
+    let path = path.trim_start_matches(own.map_or("src", |own| own.folder)).trim_end_matches(".rs");
+    let mut parts: Vec<&str> = own.map(|own| own.module).into_iter().collect();
+    parts.extend(path.split('/').skip(1));
+    parts.pop_if(|last| ["mod", "lib"].contains(last));
+    parts.into_iter().map(String::from).collect()
 }
 
 fn word(text: &str) -> &str {
@@ -81,11 +102,19 @@ fn word(text: &str) -> &str {
     &text[..end]
 }
 
-/// All paths from the top that code names by `crate::` and `super::`; a last "*" is a whole module.
+/// All paths from the top that code names by `crate::`, by `super::` and by the name of a crate; a last "*" is a
+/// whole module.
 fn paths(code: &str, module: &[String]) -> Vec<Vec<String>> {
     let mut out = Vec::new();
-    for (i, _) in code.match_indices("crate::") {
-        tree(&code[i + 7..], Vec::new(), &mut out);
+    let mut top = |name: &str, prefix: Vec<String>| {
+        for (i, _) in code.match_indices(&format!("{name}::")) {
+            tree(&code[i + name.len() + 2..], prefix.clone(), &mut out);
+        }
+    };
+    let own = module.first().filter(|first| CRATES.iter().any(|own| own.module == *first));
+    top("crate", own.into_iter().cloned().collect());
+    for other in &CRATES {
+        top(other.name, vec![other.module.into()]);
     }
     for (i, _) in code.match_indices("super::") {
         if code[..i].ends_with("super::") {
@@ -159,8 +188,10 @@ fn children(code: &str) -> Vec<String> {
 
 /// The files that a path leads to.
 fn resolve(source: &Source, code: &BTreeMap<&str, String>, path: &[String]) -> Vec<String> {
-    let mut at = String::from("src");
-    let mut file: Option<String> = None;
+    let own = CRATES.iter().find(|own| path.first().is_some_and(|first| first == own.module));
+    let mut at = own.map_or("src", |own| own.folder).to_string();
+    let mut file = own.map(|own| format!("{}/lib.rs", own.folder));
+    let path = &path[usize::from(own.is_some())..];
     for (i, name) in path.iter().enumerate() {
         let [flat, folder] = [format!("{at}/{name}.rs"), format!("{at}/{name}/mod.rs")];
         let next = [flat, folder].into_iter().find(|path| source.contains_key(path));
@@ -184,7 +215,7 @@ fn whole(source: &Source, file: &str, at: &str) -> Vec<String> {
     std::iter::once(file.to_string()).chain(inside).collect()
 }
 
-/// Where a module has an item from: a child that it takes it from, or itself.
+/// Where a module has an item from: a child or a crate that it takes it from, or itself.
 fn home(
     source: &Source,
     code: &BTreeMap<&str, String>,
@@ -193,13 +224,12 @@ fn home(
     item: &[String],
 ) -> String {
     let text = code[file].as_str();
-    for child in children(text) {
-        let Some(child_file) = [format!("{at}/{child}.rs"), format!("{at}/{child}/mod.rs")]
-            .into_iter()
-            .find(|path| source.contains_key(path))
-        else {
-            continue;
-        };
+    let child = |child: String| {
+        let files = [format!("{at}/{child}.rs"), format!("{at}/{child}/mod.rs")];
+        Some((child, files.into_iter().find(|path| source.contains_key(path))?))
+    };
+    let crates = CRATES.iter().map(|own| (own.name.into(), format!("{}/lib.rs", own.folder)));
+    for (child, child_file) in children(text).into_iter().filter_map(child).chain(crates) {
         let taken = format!("pub use {child}::");
         for (i, _) in text.match_indices(&taken) {
             let mut named = Vec::new();

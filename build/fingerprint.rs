@@ -5,19 +5,17 @@
 //! change of prose, of a figure, of the theory or of another experiment leaves them as they are.
 
 use super::depends::{self, Source};
-use super::homes::collect;
+use super::homes::source_files;
 use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::{env, fs, io};
 
 /// Writes `dependencies.rs` for `experiments::identity`.
 pub fn run() -> io::Result<()> {
     println!("cargo::rerun-if-changed=Cargo.lock");
-    let mut files = Vec::new();
-    collect(Path::new("src"), &["rs"], &mut files)?;
     let mut source = Source::new();
-    for file in files {
+    for file in source_files()? {
         source.insert(file.to_string_lossy().replace('\\', "/"), fs::read_to_string(&file)?);
     }
     let mut out =

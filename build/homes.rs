@@ -1,7 +1,8 @@
-//! Lists the homes of the numbered equations: every doc comment with `**Eq. (n)**` in src/, as
+//! Lists the homes of the numbered equations: every doc comment with `**Eq. (n)**`, as
 //! (n, path of the item, what the comment says behind it, file). The report and the README's map read
 //! this list, so that neither can disagree with the source.
 
+use super::depends::{self, CRATES, of_crate};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
@@ -11,19 +12,19 @@ const REPORT: &str = "../../../paper/report.html";
 
 /// Writes `homes.rs` for `report::equations`, and `map.md` for the first page of `cargo doc`.
 pub fn run() -> io::Result<()> {
-    println!("cargo::rerun-if-changed=src");
-    let mut files = Vec::new();
-    collect(Path::new("src"), &["rs"], &mut files)?;
-    files.sort();
     let mut out = String::from("&[\n");
     let mut rows = Vec::new();
-    for file in files {
+    for file in source_files()? {
         for (number, item, note) in homes(&module(&file), &fs::read_to_string(&file)?) {
             let path = file.to_string_lossy();
             let _ = writeln!(out, "    ({number}, {item:?}, {note:?}, {path:?}),");
             let link = format!("[({number})]({REPORT}#eq-{number})");
             // The page of the source: an item may be private, and has no page of its own then.
-            let source = format!("../src/impact_paper/{}.html", path.trim_start_matches("src/"));
+            let (own, folder) = match of_crate(&path) {
+                Some(own) => (own.name, own.folder),
+                None => ("impact_paper", "src"),
+            };
+            let source = format!("../src/{own}{}.html", path.trim_start_matches(folder));
             rows.push((number, format!("| {link} | [`{item}`]({source}) |\n")));
         }
     }
@@ -33,6 +34,17 @@ pub fn run() -> io::Result<()> {
     let folder = env::var_os("OUT_DIR").map(PathBuf::from).unwrap_or_default();
     fs::write(folder.join("map.md"), format!("| equation | home |\n|---|---|\n{map}"))?;
     fs::write(folder.join("homes.rs"), out)
+}
+
+/// The source of the program and of its crates, sorted.
+pub fn source_files() -> io::Result<Vec<PathBuf>> {
+    let mut files = Vec::new();
+    for folder in CRATES.iter().map(|own| own.folder).chain(["src"]) {
+        println!("cargo::rerun-if-changed={folder}");
+        collect(Path::new(folder), &["rs"], &mut files)?;
+    }
+    files.sort();
+    Ok(files)
 }
 
 /// All files below a folder with one of these endings.
@@ -50,10 +62,7 @@ pub fn collect(folder: &Path, endings: &[&str], into: &mut Vec<PathBuf>) -> io::
 
 /// src/circuits/jump.rs → circuits::jump, src/circuits/mod.rs → circuits.
 pub fn module(file: &Path) -> String {
-    let parts = file.iter().skip(1).filter_map(|part| part.to_str());
-    let path = parts.collect::<Vec<_>>().join("::");
-    let path = path.trim_end_matches(".rs");
-    path.strip_suffix("::mod").unwrap_or(path).to_string()
+    depends::module(&file.to_string_lossy()).join("::")
 }
 
 fn homes(module: &str, text: &str) -> Vec<(u32, String, String)> {

@@ -20,8 +20,8 @@
 //!   [the method](../../../paper/report.html#sec-method) and its
 //!   [speed and accuracy](../../../paper/report.html#sec-accuracy).
 //!
-//! Imports flow one way: `numerics` → `dynamics`, `circuits` → `experiments` → `figures`,
-//! `claims` → `report` → `program`; `params` may be read by all.
+//! Imports flow one way: `numerics` → `dynamics` (crates of their own), `circuits` → `experiments` →
+//! `figures`, `claims` → `report` → `program`; `params` may be read by all.
 //!
 //! # Where each equation lives
 #![doc = ""]
@@ -33,11 +33,9 @@ pub mod circuits;
 pub mod claims;
 pub mod committed;
 pub mod digest;
-pub mod dynamics;
 pub mod experiments;
 pub mod figures;
 pub mod input;
-pub mod numerics;
 pub mod params;
 // A browser sends no signals, and reads no command line.
 #[cfg(not(target_family = "wasm"))]
@@ -45,3 +43,5 @@ pub mod program;
 pub mod report;
 pub mod table;
 pub mod value;
+
+pub use {impact_chain as dynamics, impact_numerics as numerics};

@@ -22,6 +22,7 @@ pub use chains::{ChainCurve, ChainKind, ChainsParams};
 pub use chosen::*;
 pub use heat::{HeatParams, HeatRow};
 pub use history::HistoryParams;
+pub use impact_chain::{Boundary, Chain, Start};
 pub use independence::{IndependenceParams, IndependenceRow};
 pub use nucleation::{NucleationParams, SeedsParams};
 pub use orbits::{HuntParams, OrbitsParams};

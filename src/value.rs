@@ -232,6 +232,9 @@ pub fn origin<F>(_: F) -> Origin {
 /// The same for a function that is known by its type.
 pub fn origin_of<F>() -> Origin {
     let path = std::any::type_name::<F>().replace(concat!(env!("CARGO_CRATE_NAME"), "::"), "");
+    // Other crates go by the names under which this one shows them.
+    let path =
+        path.replace("impact_chain::", "dynamics::").replace("impact_numerics::", "numerics::");
     // What a closure computes, the function computes in which it stands.
     let path = path.replace("::{{closure}}", "");
     let (Some(from), Some(to)) = (path.find('<'), path.rfind('>')) else { return Origin(path) };

@@ -150,9 +150,19 @@ mod tests {
         for (path, file, first, last) in [
             ("circuits::jump::p_jump", "src/circuits/jump.rs", "pub fn p_jump(", "}"),
             ("circuits::jump::Jump", "src/circuits/jump.rs", "pub struct Jump {", "}"),
-            ("dynamics::impact::jumps", "src/dynamics/impact.rs", "pub fn jumps(", "}"),
-            ("dynamics::flight::Motion::kick", "src/dynamics/flight.rs", "pub fn kick(", "}"),
-            ("numerics::first_root::LEVELS", "src/numerics/first_root.rs", "const LEVELS", "= 2;"),
+            ("dynamics::impact::jumps", "crates/impact-chain/src/impact.rs", "pub fn jumps(", "}"),
+            (
+                "dynamics::flight::Motion::kick",
+                "crates/impact-chain/src/flight.rs",
+                "pub fn kick(",
+                "}",
+            ),
+            (
+                "numerics::first_root::LEVELS",
+                "crates/numerics/src/first_root.rs",
+                "const LEVELS",
+                "= 2;",
+            ),
         ] {
             let item = item(path).unwrap();
             assert_eq!(item.file, file);

@@ -4,6 +4,7 @@
 //! environment that test writes it.
 
 use super::equations::{EQUATIONS, homes};
+use super::literate::SOURCES;
 use crate::claims::{Published, PublishedError};
 use std::fmt::Write as _;
 
@@ -26,7 +27,12 @@ const fn section(
 
 const SECTIONS: [Section; 10] = [
     section(1, "The chain", &[], &[1]),
-    section(2, "Simulations", &["src/dynamics/engine.rs", "src/experiments/sweep.rs"], &[2, 3]),
+    section(
+        2,
+        "Simulations",
+        &["crates/impact-chain/src/engine.rs", "src/experiments/sweep.rs"],
+        &[2, 3],
+    ),
     section(3, "The graph", &["src/circuits/graph.rs", "src/experiments/segments.rs"], &[4, 5, 6]),
     section(4, "Periodic orbits", &["src/circuits/graph.rs"], &[]),
     section(5, "Distribution of orbits", &[], &[7]),
@@ -89,7 +95,7 @@ pub fn markdown() -> Result<String, PublishedError> {
 
 /// `src/circuits/jump.rs` → a link that is called `circuits::jump`.
 fn link(file: &str) -> String {
-    let path = file.trim_start_matches("src/").trim_end_matches(".rs").replace('/', "::");
-    let path = path.trim_end_matches("::mod");
-    format!("[`{path}`]({file})")
+    let module =
+        SOURCES.iter().find(|(_, own, _)| *own == file).map_or(file, |(module, ..)| module);
+    format!("[`{module}`]({file})")
 }

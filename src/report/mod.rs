@@ -243,7 +243,7 @@ Listing: What $\delta v$ does. {#lst:kick}
             "```rust\nfn f() -> σ { 1 }\n```\n",
             "\nBy [Listing\u{a0}1](#lst-kick), in words.\n",
             "<a id=\"lst-kick\"></a>**Listing 1.** What $\\delta v$ does.\n\n<details>\n<summary><code>dynamics::flight::Motion::kick</code></summary>\n\n```rust\n/// ",
-            "\n    self.b += kick * p.cos;\n}\n```\n\n<sub>From [src/dynamics/flight.rs](../src/dynamics/flight.rs).</sub>\n\n</details>\n",
+            "\n    self.b += kick * p.cos;\n}\n```\n\n<sub>From [crates/impact-chain/src/flight.rs](../crates/impact-chain/src/flight.rs).</sub>\n\n</details>\n",
             "- <a id=\"ref-rice1945\"></a>Rice, S. O. (1945). *Noise*.\n",
         ] {
             assert!(text.contains(part), "{part:?} is not in\n{text}");

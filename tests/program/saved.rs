@@ -71,8 +71,8 @@ fn status_gives_each_reason_and_audit_compares_bytes() {
         let text = forged(&results[name], line, from, to);
         fs::write(folder.join("results").join(name), text).unwrap();
     };
-    let simulation = "\"src/dynamics/simulation.rs\":\"";
-    forge("horizon-quick.json", 1, simulation, "\"src/dynamics/simulation.rs\":\"0");
+    let simulation = "\"crates/impact-chain/src/simulation.rs\":\"";
+    forge("horizon-quick.json", 1, simulation, "\"crates/impact-chain/src/simulation.rs\":\"0");
     forge("starts-quick.json", 1, "\"lock\":\"", "\"lock\":\"0");
     forge("scale-quick.json", 1, "\"seed\":", "\"seed\":1");
     forge("race-quick.json", 1, "\"schema\":", "\"schema\":9");
@@ -92,12 +92,12 @@ fn status_gives_each_reason_and_audit_compares_bytes() {
     }
     let horizon =
         json["experiments"].as_array().unwrap().iter().find(|e| e["code"] == true).unwrap();
-    assert_eq!(horizon["changed"], serde_json::json!(["src/dynamics/simulation.rs"]));
+    assert_eq!(horizon["changed"], serde_json::json!(["crates/impact-chain/src/simulation.rs"]));
     // The next run says why, runs these six and no other, and all is as before.
     let (_, _, note) = run(folder, PAPER);
     assert_eq!(note.matches(": fresh").count(), EXPERIMENTS - 6, "{note}");
     for line in [
-        "horizon: run (src/dynamics/simulation.rs changed)",
+        "horizon: run (crates/impact-chain/src/simulation.rs changed)",
         "starts: run (Cargo.lock changed)",
         "scale: run (other parameters)",
         "race: run (saved in another form)",

@@ -178,8 +178,8 @@ fn what_is_not_one_whole_set_is_refused_by_name() {
             fs::write(path, forged(bytes, line, from, to)).unwrap();
         }
     };
-    let simulation = "\"src/dynamics/simulation.rs\":\"";
-    let other_simulation = "\"src/dynamics/simulation.rs\":\"0";
+    let simulation = "\"crates/impact-chain/src/simulation.rs\":\"";
+    let other_simulation = "\"crates/impact-chain/src/simulation.rs\":\"0";
     let cases: [Case; 12] = [
         (&|path, _| fs::remove_file(path).unwrap(), "missing units of work: sweep-quick-0007;"),
         (&|path, bytes| fs::write(path, &bytes[..bytes.len() - 9]).unwrap(), "cut short"),
@@ -188,7 +188,7 @@ fn what_is_not_one_whole_set_is_refused_by_name() {
             "checksum",
         ),
         (&|path, _| fs::write(path, "").unwrap(), "cut short"),
-        (&forge(1, simulation, other_simulation), "src/dynamics/simulation.rs changed"),
+        (&forge(1, simulation, other_simulation), "crates/impact-chain/src/simulation.rs changed"),
         (&forge(1, "\"lock\":\"", "\"lock\":\"0"), "Cargo.lock changed"),
         (&forge(1, "\"seed\":", "\"seed\":1"), "other parameters"),
         (&forge(1, "\"number\":7", "\"number\":8"), "another unit of work"),

@@ -16,15 +16,18 @@ fn found(source: &Source, root: &str) -> Vec<String> {
 #[test]
 fn a_change_that_matters_is_seen_and_another_is_not() {
     let source = source(&[
-        ("src/params.rs", "mod chosen;\nmod far;\npub use chosen::*;\npub use far::FarParams;\n"),
-        ("src/params/chosen.rs", "pub struct Chain;\npub const SEED: u64 = 1;\n"),
+        (
+            "src/params.rs",
+            "mod chosen;\nmod far;\npub use chosen::*;\npub use far::FarParams;\npub use impact_chain::Chain;\n",
+        ),
+        ("src/params/chosen.rs", "pub const SEED: u64 = 1;\n"),
         ("src/params/far.rs", "pub struct FarParams;\n"),
-        ("src/dynamics/mod.rs", "mod engine;\nmod contact;\npub use engine::Engine;\n"),
-        ("src/dynamics/engine.rs", "use crate::numerics::clock;\npub struct Engine;\n"),
+        ("crates/impact-chain/src/lib.rs", "mod engine;\nmod contact;\npub use engine::Engine;\n"),
+        ("crates/impact-chain/src/engine.rs", "use impact_numerics::clock;\npub struct Engine;\n"),
         // Methods of a type stand where they belong, not where it is defined.
-        ("src/dynamics/contact.rs", "impl super::Engine {}\n"),
-        ("src/numerics/mod.rs", "pub mod clock;\n"),
-        ("src/numerics/clock.rs", ""),
+        ("crates/impact-chain/src/contact.rs", "impl super::Engine {}\n"),
+        ("crates/numerics/src/lib.rs", "pub mod clock;\n"),
+        ("crates/numerics/src/clock.rs", ""),
         ("src/circuits/mod.rs", ""),
         (
             "src/experiments/mod.rs",
@@ -36,6 +39,7 @@ fn a_change_that_matters_is_seen_and_another_is_not() {
             "use super::{Error, watch::{self, Watch as Seen}};\nuse crate::params::{Chain, SEED};\nuse crate::dynamics::Engine;\npub struct Near;\n",
         ),
         ("src/experiments/watch.rs", "pub struct Watch;\n"),
+        ("src/experiments/chain.rs", "use crate::params::Chain;\n"),
         (
             "src/experiments/far.rs",
             "//! Beside [`super::near`].\nuse crate::params::FarParams;\n#[cfg(test)]\nmod tests { use super::super::near; }\n",
@@ -45,17 +49,20 @@ fn a_change_that_matters_is_seen_and_another_is_not() {
         ("src/experiments/namesake.rs", "pub struct Near;\nimpl Near {}\n"),
     ]);
     let near = [
-        "src/dynamics/contact.rs",
-        "src/dynamics/engine.rs",
-        "src/dynamics/mod.rs",
+        "crates/impact-chain/src/contact.rs",
+        "crates/impact-chain/src/engine.rs",
+        "crates/impact-chain/src/lib.rs",
+        "crates/numerics/src/clock.rs",
+        "crates/numerics/src/lib.rs",
         "src/experiments/more.rs",
         "src/experiments/near.rs",
         "src/experiments/watch.rs",
-        "src/numerics/clock.rs",
-        "src/numerics/mod.rs",
         "src/params/chosen.rs",
     ];
     assert_eq!(found(&source, "src/experiments/near.rs"), near);
+    // The chain's own types stand beside the engine, whoever hands them on; and a crate is one thing.
+    let chain = [&near[..5], &["src/experiments/chain.rs"]].concat();
+    assert_eq!(found(&source, "src/experiments/chain.rs"), chain);
     let far = ["src/experiments/far.rs", "src/params/far.rs"];
     assert_eq!(found(&source, "src/experiments/far.rs"), far);
 }
@@ -65,17 +72,18 @@ fn a_change_that_matters_is_seen_and_another_is_not() {
 #[test]
 fn the_sweep_depends_on_the_engine_and_not_on_the_scenes() {
     let mut source = Source::new();
-    read(std::path::Path::new(env!("CARGO_MANIFEST_DIR")), "src", &mut source);
+    for folder in ["src", "crates"] {
+        read(std::path::Path::new(env!("CARGO_MANIFEST_DIR")), folder, &mut source);
+    }
     let sweep = found(&source, "src/experiments/sweep.rs");
     for path in [
-        "dynamics/simulation",
-        "dynamics/contact",
-        "numerics/screen",
-        "experiments/rise",
-        "params/chosen",
+        "crates/impact-chain/src/simulation.rs",
+        "crates/impact-chain/src/contact.rs",
+        "crates/numerics/src/screen.rs",
+        "src/experiments/rise.rs",
+        "src/params/chosen.rs",
     ] {
-        let path = format!("src/{path}.rs");
-        assert!(sweep.contains(&path), "{path} is not among {sweep:?}");
+        assert!(sweep.contains(&path.into()), "{path} is not among {sweep:?}");
     }
     for path in [
         "experiments/horizon",

@@ -1,0 +1,220 @@
+//! Up to which impact a run can be trusted: twins that differ from it in the last bit.
+//!
+//! Every operation of a run rounds, and where a chain is chaotic the roundings grow until another
+//! gap is hit. Twins whose amplitudes differ in the last bit round differently everywhere, so they
+//! leave the run, and one another, as fast as the run leaves the truth, but for errors that they
+//! share with it. They are therefore held to a [`MARGIN`] of the [`TOLERANCE`] that is promised of
+//! the run. It is an estimate all the same, and no proof. A run without chaos keeps its twins to
+//! its end.
+
+use super::growth::Growth;
+use super::{Engine, Error, Impact, Initial, Scenario};
+
+/// Twins beside a run.
+pub const TWINS: u64 = 8;
+
+/// Difference of the times of one impact, in units of 1/ω, beyond which it is another impact.
+pub const TOLERANCE: f64 = 1e-3;
+
+/// Part of the tolerance within which the twins must stay. What they share with the run, such as
+/// the error of a sine of almost the same argument, does not set them apart: when impact speeds
+/// had a common error of 0.06 ε, twins without a margin trusted a run 15 impacts too long.
+const MARGIN: f64 = 0.1;
+
+/// What the twins say of a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Certificate {
+    /// Impacts that can be trusted, from the first on.
+    pub impacts: u64,
+    /// Time of the first that cannot, in the run or in a twin; nothing if all can be trusted.
+    pub horizon: Option<f64>,
+    /// Rate λ at which differences grow as e^λt, per unit of time; nothing if they hardly do.
+    pub growth: Option<f64>,
+    /// Runs of neighbouring gaps that closed at exactly the same instant.
+    pub simultaneous: u64,
+}
+
+/// Runs a scenario with its twins beside it, and hands each impact to `sink` as
+/// [`Engine::run`] does, trusted or not. Costs nine runs up to the horizon, one beyond it.
+///
+/// # Errors
+/// As [`Engine::new`] and [`Engine::run`].
+pub fn certify(
+    scenario: &Scenario,
+    until: f64,
+    mut sink: impl FnMut(Impact) -> bool,
+) -> Result<Certificate, Error> {
+    let mut engine = Engine::new(scenario)?;
+    let mut watch = Watch::new(scenario, until);
+    let mut stopped = false;
+    engine.run(until, |impact| {
+        watch.see(&impact);
+        stopped = !sink(impact);
+        !stopped
+    })?;
+    if !stopped {
+        watch.end();
+    }
+    Ok(watch.certificate(engine.counters().simultaneous))
+}
+
+/// The twins of a run, and what was seen of them.
+struct Watch {
+    twins: Vec<Engine>,
+    /// 1/ω.
+    unit: f64,
+    until: f64,
+    impacts: u64,
+    horizon: Option<f64>,
+    growth: Growth,
+}
+
+impl Watch {
+    fn new(scenario: &Scenario, until: f64) -> Self {
+        let twins: Result<Vec<Engine>, Error> =
+            (1..=TWINS).map(|pattern| Engine::new(&twin(scenario, pattern))).collect();
+        Watch {
+            // A start that the last bit makes impossible is nothing to trust.
+            horizon: twins.is_err().then_some(0.0),
+            twins: twins.unwrap_or_default(),
+            unit: 1.0 / scenario.natural_frequency,
+            until,
+            impacts: 0,
+            growth: Growth::default(),
+        }
+    }
+
+    /// Holds an impact of the run against the next one of each twin.
+    fn see(&mut self, own: &Impact) {
+        if self.horizon.is_some() {
+            return;
+        }
+        let tolerance = MARGIN * TOLERANCE * self.unit;
+        // The twins may be a little late.
+        let until = self.until + tolerance;
+        let mut largest = 0.0f64;
+        for twin in &mut self.twins {
+            let other = next(twin, until);
+            let difference = other.map_or(f64::INFINITY, |other| (own.time - other.time).abs());
+            if other.is_none_or(|other| other.gap != own.gap) || difference > tolerance {
+                self.part(own.time.min(other.map_or(f64::INFINITY, |other| other.time)));
+                return;
+            }
+            largest = largest.max(difference);
+        }
+        self.growth.see(own.time / self.unit, largest / self.unit);
+        self.impacts += 1;
+    }
+
+    /// The run has come to its end: so must the twins have.
+    fn end(&mut self) {
+        let until = self.until - MARGIN * TOLERANCE * self.unit;
+        let early = self.twins.iter_mut().filter_map(|twin| next(twin, until));
+        let first = early.map(|impact| impact.time).fold(f64::INFINITY, f64::min);
+        if first < f64::INFINITY {
+            self.part(first);
+        }
+    }
+
+    /// From this time on, nothing is to be trusted.
+    fn part(&mut self, time: f64) {
+        self.horizon = Some(time);
+        self.twins.clear();
+    }
+
+    fn certificate(&self, simultaneous: u64) -> Certificate {
+        let growth = self.growth.rate().map(|rate| rate / self.unit);
+        Certificate { impacts: self.impacts, horizon: self.horizon, growth, simultaneous }
+    }
+}
+
+/// The next impact of a twin up to a time. One that needs too much work has none.
+fn next(twin: &mut Engine, until: f64) -> Option<Impact> {
+    let mut found = None;
+    let run = twin.run(until, |impact| {
+        found = Some(impact);
+        false
+    });
+    run.ok().and(found)
+}
+
+/// The scenario with each amplitude changed in its last bit, up or down as `pattern` has it.
+///
+/// Equal numbers stay equal, and zeros zero: an exact symmetry of the scenario is one of its twins.
+fn twin(scenario: &Scenario, pattern: u64) -> Scenario {
+    let mut twin = scenario.clone();
+    let overtones = twin.overtones.iter_mut().flat_map(|overtone| &mut overtone.amplitudes);
+    let free = match &mut twin.initial {
+        Initial::Free(parts) => &mut parts[..],
+        Initial::Rest | Initial::Zero => &mut [],
+    };
+    for amplitude in twin.forcing.iter_mut().chain(overtones).chain(free).flatten() {
+        *amplitude = disturbed(*amplitude, pattern);
+    }
+    twin
+}
+
+/// The next number away from zero or towards it, as the number and the pattern have it.
+fn disturbed(x: f64, pattern: u64) -> f64 {
+    if x == 0.0 {
+        return x;
+    }
+    // The output function of SplitMix64 (Steele, Lea and Flood, 2014).
+    let mut z = x.abs().to_bits() ^ pattern.wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    let away = (z ^ (z >> 31)) & 1 == 1;
+    f64::from_bits(if away { x.to_bits() + 1 } else { x.to_bits() - 1 })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Chain, Start};
+    use impact_numerics::random::NormalPairs;
+
+    fn drawn(masses: usize, sigma: f64) -> Scenario {
+        let chain = Chain { masses, start: Start::Random, ..Chain::default() };
+        Scenario::draw(&chain, sigma, &mut NormalPairs::new("certify", 1, 0))
+    }
+
+    /// Eight different patterns, each with every number one bit off and the mirror image kept.
+    #[test]
+    fn twins_differ_in_the_last_bit_of_every_amplitude() {
+        let mut scenario = drawn(20, 0.1);
+        scenario.forcing[19] = scenario.forcing[0].map(|x| -x);
+        let mut ups = Vec::new();
+        for pattern in 1..=TWINS {
+            let twin = twin(&scenario, pattern);
+            let (Initial::Free(own), Initial::Free(other)) = (&scenario.initial, &twin.initial)
+            else {
+                panic!("a random start has free parts");
+            };
+            let pairs = |a: &[[f64; 2]], b: &[[f64; 2]]| -> Vec<(f64, f64)> {
+                a.iter().flatten().copied().zip(b.iter().flatten().copied()).collect()
+            };
+            let mut all = pairs(&scenario.forcing, &twin.forcing);
+            all.extend(pairs(own, other));
+            assert!(all.iter().all(|(a, b)| a.to_bits().abs_diff(b.to_bits()) == 1));
+            assert_eq!(twin.forcing[19], twin.forcing[0].map(|x| -x));
+            let up: Vec<bool> = all.iter().map(|(a, b)| b.abs() > a.abs()).collect();
+            let count = up.iter().filter(|up| **up).count();
+            assert!((20..60).contains(&count) && !ups.contains(&up), "{count}");
+            ups.push(up);
+        }
+        assert_eq!(disturbed(0.0, 3), 0.0);
+    }
+
+    /// A sink that ends the run early leaves nothing to say of what would have come.
+    #[test]
+    fn a_run_cut_short_is_certified_as_far_as_it_went() {
+        let scenario = Scenario { initial: Initial::Rest, ..drawn(20, 0.3) };
+        let mut left = 10;
+        let certificate = certify(&scenario, 1e3, |_| {
+            left -= 1;
+            left > 0
+        });
+        let certificate = certificate.unwrap();
+        assert_eq!((certificate.impacts, certificate.horizon), (10, None));
+    }
+}

@@ -1,0 +1,70 @@
+//! The chain of Sec. 2: what it is, without its forcing.
+
+use serde::{Deserialize, Serialize};
+
+/// What stands at the two ends of the row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Boundary {
+    /// Rigid walls at 0 and (n + 1) d: n + 1 gaps (Fig. 1).
+    Walls,
+    /// Mass n is the left neighbour of mass 1: n gaps, all alike.
+    Ring,
+}
+
+/// How a realisation starts (Sec. 2 leaves it open; Sec. 8 assumes [`Start::Random`]).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Start {
+    /// At rest at equilibrium, when the forcing sets in.
+    Rest,
+    /// Without a free part: on the forced response.
+    Zero,
+    /// With a free part whose two amplitudes are normal with standard deviation σ.
+    Random,
+}
+
+/// The chain of Sec. 2, without the amplitudes of its forcing.
+///
+/// **Eq. (4)** (step towards (2)): the scaling d = m = ω = 1 is this type's default.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Chain {
+    /// Number of masses n (Sec. 2: 100).
+    pub masses: usize,
+    /// Distance d between equilibria (Sec. 2: 1).
+    pub spacing: f64,
+    /// Natural frequency ω (Sec. 2: 1).
+    pub natural_frequency: f64,
+    /// Forcing frequency Ω (Sec. 2: √2).
+    pub forcing_frequency: f64,
+    /// Coefficient of restitution r (Sec. 2: 0.8).
+    pub restitution: f64,
+    /// Walls or ring (Fig. 1: walls).
+    pub boundary: Boundary,
+    /// The start (ours: rest).
+    pub start: Start,
+}
+
+impl Default for Chain {
+    fn default() -> Self {
+        Chain {
+            masses: 100,
+            spacing: 1.0,
+            natural_frequency: 1.0,
+            forcing_frequency: std::f64::consts::SQRT_2,
+            restitution: 0.8,
+            boundary: Boundary::Walls,
+            start: Start::Rest,
+        }
+    }
+}
+
+impl Chain {
+    /// Number of gaps, the N of Sec. 3: n + 1 between walls, n on a ring.
+    pub fn gaps(&self) -> usize {
+        match self.boundary {
+            Boundary::Walls => self.masses + 1,
+            Boundary::Ring => self.masses,
+        }
+    }
+}

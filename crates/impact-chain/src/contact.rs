@@ -1,0 +1,345 @@
+//! Contact: chattering that has come to rest, sticking under pressure, release.
+//!
+//! When a gap bounces off more slowly than [`CONTACT_SPEED`] d ω, its remaining impacts fall within
+//! a time far below the rounding of t, and the run of gaps that are shut and slow is *settled*:
+//! their masses take a common velocity (momentum is kept), and the contact forces of the whole
+//! run decide which gaps are pressed. These form rigid clusters; the others open. Contact is
+//! decided for the cluster, not pair by pair: a neighbour's pressure may hold a gap shut that
+//! would open alone.
+//!
+//! In a cluster each contact force is L₀ + L₁ cos Ωt + L₂ sin Ωt exactly, so its first zero is
+//! found by the same certified search as an impact. A hit from outside frees the masses of the
+//! cluster, is carried through it by the impact law, and what is slow is settled again.
+
+use super::flight::{Motion, Phases};
+use super::force::Force;
+use super::gap;
+use super::linear::contact_forces;
+use super::simulation::{Awaits, Simulation};
+use super::simultaneous::Simultaneous;
+use impact_numerics::clock::Instant;
+use impact_numerics::first_root::Next;
+use impact_numerics::window::next_window;
+
+/// Separation speed, in units of d ω, below which a chatter is taken to have come to rest.
+pub const CONTACT_SPEED: f64 = 1e-10;
+
+/// In the settled run, gaps may still move this much faster, and be this wide in units of d.
+const SLOW: f64 = 10.0 * CONTACT_SPEED;
+const SHUT: f64 = 1e-16;
+
+/// One gap of a run that is being settled: its index, width and rate.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Resting {
+    pub k: usize,
+    pub f0: f64,
+    pub g0: f64,
+}
+
+impl<const M: usize> Simulation<M> {
+    /// Whether the impact of gap k at `speed` needs more than the impact law.
+    pub(super) fn is_contact_matter(&self, k: usize, speed: f64) -> bool {
+        let near = self.topology.adjacent(k);
+        self.is_slow(self.restitution * speed)
+            || near.into_iter().flatten().any(|near| self.gaps[near].in_contact)
+    }
+
+    /// Whether a gap that opens at `rate` is taken to have come to rest.
+    #[inline(always)]
+    pub(super) fn is_slow(&self, rate: f64) -> bool {
+        rate <= CONTACT_SPEED * self.spacing * self.search.frequencies.omega
+    }
+
+    /// An impact that is slow, or that hits a cluster.
+    pub(super) fn collide_in_contact(&mut self, k: usize, speed: f64, phases: &Phases<M>) {
+        if self.collide_tied(k, phases) {
+            return;
+        }
+        if self.ties.law == Simultaneous::Joint {
+            return self.collide_jointly(k, phases);
+        }
+        let mut freed = Vec::new();
+        for near in self.topology.adjacent(k).into_iter().flatten() {
+            if self.gaps[near].in_contact {
+                freed.extend(self.free_cluster(near, phases));
+            }
+        }
+        let jumps = self.kick_neighbours(k, speed, phases);
+        let mut resting: Vec<Resting> = freed
+            .into_iter()
+            .map(|near| Resting { k: near, f0: 0.0, g0: self.jump_of_gap(near, k, jumps) })
+            .collect();
+        resting.push(Resting { k, f0: 0.0, g0: self.restitution * speed });
+        for near in self.topology.adjacent(k).into_iter().flatten() {
+            if resting.iter().all(|r| r.k != near) {
+                resting.push(self.resting(near, phases, self.jump_of_gap(near, k, jumps)));
+            }
+        }
+        self.settle_runs(resting, phases, None);
+    }
+
+    /// The force of gap `k`, or of another gap of its cluster, has come to zero.
+    pub(super) fn release(&mut self, k: usize, phases: &Phases<M>) {
+        let freed = self.free_cluster(k, phases);
+        self.settle(phases, &freed, Some(k));
+    }
+
+    /// Settles gaps that are shut and at rest; `released` is not pressed any more.
+    pub(super) fn settle(&mut self, p: &Phases<M>, shut: &[usize], released: Option<usize>) {
+        let resting = shut.iter().map(|&k| Resting { k, f0: 0.0, g0: 0.0 }).collect();
+        self.settle_runs(resting, p, released);
+    }
+
+    /// Width and rate of gap k now.
+    pub(super) fn resting(&self, k: usize, phases: &Phases<M>, jump: f64) -> Resting {
+        let frame = self.look(k, phases);
+        let [f0, g0] = self.carried(k, &frame, jump).unwrap_or([frame.f0, frame.g0]);
+        Resting { k, f0, g0 }
+    }
+
+    fn is_settled(&self, r: &Resting) -> bool {
+        r.f0 <= SHUT * self.spacing
+            && r.g0.abs() <= SLOW * self.spacing * self.search.frequencies.omega
+    }
+
+    /// Takes the gaps whose state has just changed, grows them to whole runs of shut and slow
+    /// gaps, settles each run, and frames all that was touched.
+    pub(super) fn settle_runs(
+        &mut self,
+        mut known: Vec<Resting>,
+        p: &Phases<M>,
+        released: Option<usize>,
+    ) {
+        // Grow: neighbours of settled gaps that are themselves shut and slow.
+        let mut i = 0;
+        while i < known.len() {
+            if self.is_settled(&known[i]) {
+                for near in self.topology.adjacent(known[i].k).into_iter().flatten() {
+                    if known.iter().all(|r| r.k != near) && !self.gaps[near].in_contact {
+                        let found = self.resting(near, p, 0.0);
+                        known.push(found);
+                    }
+                }
+            }
+            i += 1;
+        }
+        known.sort_by_key(|r| r.k);
+        let settled: Vec<bool> = known.iter().map(|r| self.is_settled(r)).collect();
+        for run in self.runs(&known, |i| settled[i]) {
+            self.settle_run(&mut known, &run, p, released);
+        }
+        // The motions are final now: frame everything else that was touched.
+        for r in &known {
+            if !self.gaps[r.k].in_contact {
+                self.set_frame(r.k, p, r.f0, r.g0);
+            }
+        }
+        let touched: Vec<usize> = known.iter().map(|r| r.k).collect();
+        for &k in &touched {
+            for near in self.topology.adjacent(k).into_iter().flatten() {
+                if !touched.contains(&near) && !self.gaps[near].in_contact {
+                    self.reframe(near, p, 0.0);
+                }
+            }
+        }
+    }
+
+    /// Splits `known` (sorted) into maximal runs of adjacent gaps for which `keep` holds, as lists
+    /// of positions from left to right. On a ring a run may pass from the last gap to the first.
+    fn runs(&self, known: &[Resting], keep: impl Fn(usize) -> bool) -> Vec<Vec<usize>> {
+        let mut runs: Vec<Vec<usize>> = Vec::new();
+        for i in (0..known.len()).filter(|&i| keep(i)) {
+            match runs.last_mut() {
+                Some(run) if self.follows(known[run[run.len() - 1]].k, known[i].k) => run.push(i),
+                _ => runs.push(vec![i]),
+            }
+        }
+        if runs.len() > 1 {
+            let last = &runs[runs.len() - 1];
+            if self.follows(known[last[last.len() - 1]].k, known[runs[0][0]].k) {
+                let first = runs.remove(0);
+                runs.last_mut().expect("there were two").extend(first);
+            }
+        }
+        runs
+    }
+
+    fn follows(&self, k: usize, next: usize) -> bool {
+        self.topology.adjacent(k)[1] == Some(next)
+    }
+
+    /// Settles one run: common velocity, then the forces say which gaps stay shut.
+    fn settle_run(
+        &mut self,
+        known: &mut [Resting],
+        run: &[usize],
+        p: &Phases<M>,
+        released: Option<usize>,
+    ) {
+        let gaps: Vec<usize> = run.iter().map(|&i| known[i].k).collect();
+        let allowed: Vec<bool> = gaps.iter().map(|&k| Some(k) != released).collect();
+        let accelerations = self.accelerations(&gaps);
+        let frequencies = &self.search.frequencies;
+        let forces =
+            contact_forces(&accelerations, &self.stiffness(&gaps), &allowed, p, frequencies);
+        let pressed: Vec<bool> = forces.iter().map(Option::is_some).collect();
+        let alone = gaps.len() == 1;
+        if alone && (known[run[0]].g0 < 0.0 || !pressed[0]) {
+            return;
+        }
+        if !alone {
+            // Perfectly inelastic end of a chatter or collapse: one velocity for all.
+            self.make_rigid(&gaps);
+            self.make_free(&gaps, p);
+            for &i in run {
+                (known[i].f0, known[i].g0) = (0.0, 0.0);
+            }
+        }
+        let mut cluster = Vec::new();
+        for (i, &k) in gaps.iter().enumerate() {
+            if let Some(force) = forces[i] {
+                self.forces[k] = force;
+                cluster.push(k);
+            }
+            let ends = i + 1 == gaps.len() || forces[i + 1].is_none();
+            if ends && !cluster.is_empty() {
+                self.make_rigid(&cluster);
+                for k in std::mem::take(&mut cluster) {
+                    self.contact_phases += u64::from(self.gaps[k].awaits != Awaits::Release);
+                    self.gaps[k].in_contact = true;
+                    self.watch_contact(k, p);
+                }
+            }
+        }
+    }
+
+    /// Acceleration of each gap without contact forces, at width zero: ω² d + ΔF_j(t).
+    fn accelerations(&self, gaps: &[usize]) -> Vec<Force<M>> {
+        let w = self.search.frequencies.omega;
+        let force = |k: usize| {
+            let [left, right] = self.topology.sides(k).map(|m| self.forced[m]);
+            let forced = std::array::from_fn(|m| {
+                let big_w = self.search.frequencies.big_omegas[m];
+                let factor = (w - big_w) * (w + big_w);
+                [0, 1].map(|i| factor * (right[m][i] - left[m][i]))
+            });
+            Force { constant: w * w * self.spacing, forced }
+        };
+        gaps.iter().map(|&k| force(k)).collect()
+    }
+
+    /// What a unit of contact force does to its own gap: the sum of the inverse masses.
+    pub(super) fn stiffness(&self, gaps: &[usize]) -> Vec<f64> {
+        let own = |k: usize| {
+            self.topology.sides(k).into_iter().map(|m| self.topology.inverse_mass(m)).sum()
+        };
+        gaps.iter().map(|&k| own(k)).collect()
+    }
+
+    /// Gives the masses along `gaps` (adjacent, left to right) one common motion.
+    fn make_rigid(&mut self, gaps: &[usize]) {
+        let members = self.members(gaps);
+        let place = |i: usize| i as f64 * self.spacing;
+        let wall = members.iter().position(|&m| self.topology.is_wall(m));
+        let mut common = Motion::STILL;
+        // The centre, counted from the first member's place.
+        let centre = if let Some(wall) = wall {
+            place(wall)
+        } else {
+            let share = 1.0 / members.len() as f64;
+            for &m in &members {
+                let motion = &self.motions[m];
+                common.a += share * motion.a;
+                common.b += share * motion.b;
+                for (common, own) in common.forced.iter_mut().zip(self.forced[m]) {
+                    common[0] += share * own[0];
+                    common[1] += share * own[1];
+                }
+            }
+            share * (0..members.len()).map(place).sum::<f64>()
+        };
+        for (i, &m) in members.iter().enumerate() {
+            if !self.topology.is_wall(m) {
+                self.motions[m] = Motion { offset: centre - place(i), ..common };
+            }
+        }
+    }
+
+    /// Gives the masses along `gaps` their own forcing back, at unchanged place and velocity.
+    fn make_free(&mut self, gaps: &[usize], p: &Phases<M>) {
+        for m in self.members(gaps) {
+            if self.topology.is_wall(m) {
+                continue;
+            }
+            let was = self.motions[m];
+            let own = Motion { forced: self.forced[m], ..Motion::STILL };
+            let (seen, forced) = (was.seen(p), own.seen(p));
+            let (mut u, mut quadrature) = (was.offset + seen.u, seen.u_quadrature);
+            for (i, (seen, own)) in seen.forced.iter().zip(forced.forced).enumerate() {
+                let frequencies = &self.search.frequencies;
+                u += seen[0] - own[0];
+                quadrature += frequencies.big_omegas[i] / frequencies.omega * (seen[1] - own[1]);
+            }
+            self.motions[m] = own;
+            self.motions[m].set_free(u, quadrature, p);
+        }
+    }
+
+    /// The masses (and walls) along adjacent gaps, left to right.
+    pub(super) fn members(&self, gaps: &[usize]) -> Vec<usize> {
+        let first = self.topology.sides(gaps[0])[0];
+        std::iter::once(first).chain(gaps.iter().map(|&k| self.topology.sides(k)[1])).collect()
+    }
+
+    /// Frees the cluster that gap k belongs to; returns its gaps, left to right.
+    pub(super) fn free_cluster(&mut self, k: usize, phases: &Phases<M>) -> Vec<usize> {
+        let mut gaps = std::collections::VecDeque::from([k]);
+        let contact = |side: usize, k: usize| {
+            self.topology.adjacent(k)[side].filter(|&near| self.gaps[near].in_contact)
+        };
+        while let Some(before) = contact(0, gaps[0]) {
+            gaps.push_front(before);
+        }
+        while let Some(after) = contact(1, gaps[gaps.len() - 1]) {
+            gaps.push_back(after);
+        }
+        let gaps = Vec::from(gaps);
+        self.make_free(&gaps, phases);
+        for &k in &gaps {
+            self.gaps[k].in_contact = false;
+            self.gaps[k].awaits = Awaits::Release;
+        }
+        gaps
+    }
+
+    /// Waits for the zero of the contact force of gap k.
+    pub(super) fn watch_contact(&mut self, k: usize, p: &Phases<M>) {
+        let force = self.forces[k];
+        let frequencies = &self.search.frequencies;
+        let motion = Motion { forced: force.forced, ..Motion::STILL };
+        let frame = gap::frame(force.constant, &motion, p, frequencies);
+        let wait = next_window(force.constant, [0.0; 2], &frame.forced, frequencies);
+        let (awaits, key) = if wait.is_none() {
+            (Awaits::Release, Instant::NEVER)
+        } else {
+            match self.search.first_root(&frame, &mut self.work) {
+                Next::Root { s, .. } => (Awaits::Release, self.now.after(s)),
+                Next::Clear { s } => (Awaits::Search { whole_reach: false }, self.now.after(s)),
+            }
+        };
+        self.gaps[k].frame = frame;
+        self.gaps[k].origin = self.now;
+        self.gaps[k].awaits = awaits;
+        self.queue.set(k, [key]);
+    }
+
+    /// The gaps in contact and their contact forces at `time` (≥ 0 while it lasts), exact between
+    /// the last event and the next.
+    pub fn contacts(&self, time: f64) -> Vec<(usize, f64)> {
+        let p = Phases::at(&self.rates, Instant::at(time));
+        (0..self.gaps.len())
+            .filter(|&k| self.gaps[k].in_contact)
+            .map(|k| (self.topology.label(k), self.forces[k].at(&p)))
+            .collect()
+    }
+}

@@ -1,0 +1,135 @@
+//! The exact event-driven engine.
+
+use super::flight::Motion;
+use super::force::Force;
+use super::scenario::COMPONENTS;
+use super::simulation::{Gap, Simulation};
+use super::{Error, Scenario};
+use impact_numerics::earliest::Earliest;
+
+/// One impact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Impact {
+    /// Time t, in the units of the scenario.
+    pub time: f64,
+    /// The gap that closed: 0 is left wall–mass 1, j is mass j–mass j + 1.
+    pub gap: usize,
+    /// Closing speed −Δ' just before the impact, ≥ 0.
+    pub closing_speed: f64,
+}
+
+/// Who is handed the impacts of a run; false stops it.
+pub(super) type Sink<'a> = &'a mut dyn FnMut(Impact) -> bool;
+
+/// Counted work of a run: deterministic, and a result like any other.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counters {
+    /// Impacts.
+    pub impacts: u64,
+    /// Contact phases begun, one per gap.
+    pub contact_phases: u64,
+    /// Searches started.
+    pub searches: u64,
+    /// Pieces screened by a polynomial, without a sine.
+    pub pieces: u64,
+    /// Searches that went on by certified steps, where the screen could not decide.
+    pub stepped: u64,
+    /// Evaluations of a gap by the root search.
+    pub evaluations: u64,
+    /// Decisions taken inside the undecidable band of the search.
+    pub undecided: u64,
+    /// Runs of two or more neighbouring gaps that closed at exactly the same instant.
+    pub simultaneous: u64,
+}
+
+/// The simulation of one scenario.
+#[derive(Clone, Debug)]
+pub struct Engine(Kind);
+
+/// One component of the forcing is the model of the paper, and has its own code for speed.
+#[derive(Clone, Debug)]
+enum Kind {
+    One(Box<Simulation<1>>),
+    Several(Box<Simulation<COMPONENTS>>),
+}
+
+/// The same call on the simulation inside.
+macro_rules! inside {
+    ($engine:expr, $simulation:ident => $call:expr) => {
+        match $engine {
+            Kind::One($simulation) => $call,
+            Kind::Several($simulation) => $call,
+        }
+    };
+}
+
+impl Engine {
+    /// Sets a scenario at t = 0.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for values outside the model, [`Error::Overlap`] for an overlapping start.
+    pub fn new(scenario: &Scenario) -> Result<Engine, Error> {
+        scenario.validate()?;
+        Ok(Engine(if scenario.overtones.is_empty() {
+            Kind::One(Box::new(Simulation::new(scenario)?))
+        } else {
+            Kind::Several(Box::new(Simulation::new(scenario)?))
+        }))
+    }
+
+    /// Bytes that a simulation of so many masses and components takes, its scenario included.
+    pub fn memory(masses: usize, components: usize) -> u128 {
+        let each = if components == 1 { bytes::<1>() } else { bytes::<COMPONENTS>() };
+        masses as u128 * (each + size_of::<[f64; 2]>() * (1 + components)) as u128
+    }
+
+    /// Runs until time `until`, and hands each impact to `sink` in order; stops early, right
+    /// after that impact, when `sink` returns false. May be called again with a later time.
+    ///
+    /// # Errors
+    /// [`Error::Work`] when the bound on work is exceeded.
+    pub fn run(&mut self, until: f64, mut sink: impl FnMut(Impact) -> bool) -> Result<(), Error> {
+        // One code for every receiver: it is compiled here, not where it is called.
+        inside!(&mut self.0, simulation => simulation.run(until, &mut sink))
+    }
+
+    /// Positions x_1..x_n at `time`, exact between the last event and the next.
+    pub fn positions(&self, time: f64) -> Vec<f64> {
+        inside!(&self.0, simulation => simulation.positions(time))
+    }
+
+    /// Velocities of the masses 1..n at `time`, exact between the last event and the next.
+    pub fn velocities(&self, time: f64) -> Vec<f64> {
+        inside!(&self.0, simulation => simulation.velocities(time))
+    }
+
+    /// Free parts (a_j, b_j) of the masses 1..n; those in contact share that of their cluster.
+    pub fn free_parts(&self) -> Vec<[f64; 2]> {
+        inside!(&self.0, simulation => simulation.free_parts())
+    }
+
+    /// The gaps in contact and their contact forces at `time` (≥ 0 while it lasts), exact between
+    /// the last event and the next.
+    pub fn contacts(&self, time: f64) -> Vec<(usize, f64)> {
+        inside!(&self.0, simulation => simulation.contacts(time))
+    }
+
+    /// Time of the last event.
+    pub fn time(&self) -> f64 {
+        inside!(&self.0, simulation => simulation.time())
+    }
+
+    /// Counted work so far.
+    pub fn counters(&self) -> Counters {
+        inside!(&self.0, simulation => simulation.counters())
+    }
+}
+
+/// Bytes of one mass with its gap. The queue has a key and two nodes for each gap of the next power of two.
+fn bytes<const M: usize>() -> usize {
+    size_of::<Motion<M>>()
+        + size_of::<[[f64; 2]; M]>()
+        + size_of::<Gap<M>>()
+        + size_of::<Force<M>>()
+        + 2 * Earliest::BYTES
+}

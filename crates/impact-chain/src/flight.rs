@@ -1,0 +1,130 @@
+//! Flight: the motion of a mass between its impacts, in closed form.
+
+use impact_numerics::clock::{Instant, Rate};
+use impact_numerics::local_frame::Frequencies;
+
+/// Sine and cosine of the phases ωt and Ωt of each component of the forcing at one instant.
+#[derive(Clone, Copy, Debug)]
+pub struct Phases<const M: usize> {
+    /// sin ωt.
+    pub sin: f64,
+    /// cos ωt.
+    pub cos: f64,
+    /// (sin Ωt, cos Ωt).
+    pub forced: [[f64; 2]; M],
+}
+
+/// The rates of ω and of each Ω.
+#[derive(Clone, Copy, Debug)]
+pub struct Rates<const M: usize> {
+    free: Rate,
+    forced: [Rate; M],
+}
+
+impl<const M: usize> Rates<M> {
+    /// Of the given frequencies.
+    pub fn new(frequencies: &Frequencies<M>) -> Self {
+        Rates { free: Rate::new(frequencies.omega), forced: frequencies.big_omegas.map(Rate::new) }
+    }
+}
+
+impl<const M: usize> Phases<M> {
+    /// The phases at an instant.
+    #[inline(always)]
+    pub fn at(rates: &Rates<M>, instant: Instant) -> Self {
+        let (sin, cos) = rates.free.sin_cos(instant);
+        let forced = rates.forced.map(|rate| rate.sin_cos(instant).into());
+        Phases { sin, cos, forced }
+    }
+}
+
+/// The motion of one mass (or of a rigid cluster of masses in contact).
+///
+/// **Eq. (2)** solved: x_j(t) = j d + offset + a cos ωt + b sin ωt + Σ (c cos Ωt + s sin Ωt).
+/// The whole state is the free part (a, b), which only impacts of this mass change.
+#[derive(Clone, Copy, Debug)]
+pub struct Motion<const M: usize> {
+    /// a, free part along cos ωt.
+    pub a: f64,
+    /// b, free part along sin ωt.
+    pub b: f64,
+    /// Forced response of each component: c = α/(ω² − Ω²) along cos Ωt, s = β/(ω² − Ω²) along sin Ωt.
+    pub forced: [[f64; 2]; M],
+    /// Distance of the centre of motion from j d: 0, except in a cluster.
+    pub offset: f64,
+}
+
+/// A motion seen at one instant, each part with its quadrature.
+#[derive(Clone, Copy, Debug)]
+pub struct Seen<const M: usize> {
+    /// Free part u.
+    pub u: f64,
+    /// Its velocity over ω.
+    pub u_quadrature: f64,
+    /// Forced responses v, and their velocities over Ω.
+    pub forced: [[f64; 2]; M],
+}
+
+impl<const M: usize> Motion<M> {
+    /// A wall, or a mass without forcing at rest at its centre.
+    pub const STILL: Motion<M> = Motion { a: 0.0, b: 0.0, forced: [[0.0; 2]; M], offset: 0.0 };
+
+    /// `self` − `other`: the motion of the gap between two neighbours, without d.
+    #[inline(always)]
+    pub fn minus(&self, other: &Motion<M>) -> Motion<M> {
+        Motion {
+            a: self.a - other.a,
+            b: self.b - other.b,
+            forced: std::array::from_fn(|m| {
+                let ([c, s], [other_c, other_s]) = (self.forced[m], other.forced[m]);
+                [c - other_c, s - other_s]
+            }),
+            offset: self.offset - other.offset,
+        }
+    }
+
+    /// The motion at an instant.
+    #[inline(always)]
+    pub fn seen(&self, p: &Phases<M>) -> Seen<M> {
+        Seen {
+            u: self.a * p.cos + self.b * p.sin,
+            u_quadrature: self.b * p.cos - self.a * p.sin,
+            forced: std::array::from_fn(|m| {
+                let ([c, s], [sin, cos]) = (self.forced[m], p.forced[m]);
+                [c * cos + s * sin, s * cos - c * sin]
+            }),
+        }
+    }
+
+    /// Sets the free part from its value and quadrature at an instant.
+    #[inline(always)]
+    pub fn set_free(&mut self, u: f64, u_quadrature: f64, p: &Phases<M>) {
+        self.a = u * p.cos - u_quadrature * p.sin;
+        self.b = u * p.sin + u_quadrature * p.cos;
+    }
+
+    /// A jump of the velocity by ω `kick` at an instant: it only rotates into the free part.
+    #[inline(always)]
+    pub fn kick(&mut self, kick: f64, p: &Phases<M>) {
+        self.a -= kick * p.sin;
+        self.b += kick * p.cos;
+    }
+}
+
+impl<const M: usize> Seen<M> {
+    /// Distance from the centre of motion.
+    #[inline(always)]
+    pub fn place(&self) -> f64 {
+        self.forced.iter().fold(self.u, |sum, part| sum + part[0])
+    }
+
+    /// Velocity.
+    #[inline(always)]
+    pub fn velocity(&self, frequencies: &Frequencies<M>) -> f64 {
+        let mut sum = frequencies.omega * self.u_quadrature;
+        for m in 0..M {
+            sum += frequencies.big_omegas[m] * self.forced[m][1];
+        }
+        sum
+    }
+}

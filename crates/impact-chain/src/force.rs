@@ -1,0 +1,75 @@
+//! A contact force, or the acceleration it fights: a constant and what oscillates with the forcing.
+
+use super::flight::Phases;
+use impact_numerics::local_frame::Frequencies;
+use std::ops::{Add, Div, Neg, Sub};
+
+/// L + Σ (C cos Ωt + S sin Ωt), with one pair (C, S) for each component of the forcing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Force<const M: usize> {
+    /// L.
+    pub constant: f64,
+    /// (C, S).
+    pub forced: [[f64; 2]; M],
+}
+
+impl<const M: usize> Force<M> {
+    /// No force.
+    pub const ZERO: Force<M> = Force { constant: 0.0, forced: [[0.0; 2]; M] };
+
+    fn zip(self, other: Self, of: impl Fn(f64, f64) -> f64) -> Self {
+        Force {
+            constant: of(self.constant, other.constant),
+            forced: std::array::from_fn(|m| {
+                [0, 1].map(|i| of(self.forced[m][i], other.forced[m][i]))
+            }),
+        }
+    }
+
+    /// The oscillating parts as seen at an instant: value and quadrature of each.
+    pub fn seen(&self, p: &Phases<M>) -> [[f64; 2]; M] {
+        std::array::from_fn(|m| {
+            let ([cosine, sine], [sin, cos]) = (self.forced[m], p.forced[m]);
+            [cosine * cos + sine * sin, sine * cos - cosine * sin]
+        })
+    }
+
+    /// The value at an instant.
+    pub fn at(&self, p: &Phases<M>) -> f64 {
+        self.seen(p).iter().fold(self.constant, |sum, part| sum + part[0])
+    }
+
+    /// The rate of change at an instant.
+    pub fn rate(&self, p: &Phases<M>, frequencies: &Frequencies<M>) -> f64 {
+        let parts = self.seen(p).into_iter().zip(frequencies.big_omegas);
+        parts.fold(0.0, |sum, ([_, quadrature], big_omega)| sum + big_omega * quadrature)
+    }
+}
+
+impl<const M: usize> Add for Force<M> {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        self.zip(other, |a, b| a + b)
+    }
+}
+
+impl<const M: usize> Sub for Force<M> {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        self.zip(other, |a, b| a - b)
+    }
+}
+
+impl<const M: usize> Neg for Force<M> {
+    type Output = Self;
+    fn neg(self) -> Self {
+        self.zip(self, |a, _| -a)
+    }
+}
+
+impl<const M: usize> Div<f64> for Force<M> {
+    type Output = Self;
+    fn div(self, by: f64) -> Self {
+        self.zip(self, |a, _| a / by)
+    }
+}

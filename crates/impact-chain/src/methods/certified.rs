@@ -1,0 +1,155 @@
+//! The engine of this project, under the trait of its rivals.
+
+use super::tally::check_end;
+use super::{Cost, Method, State};
+use crate::topology::Topology;
+use crate::{Engine, Error, Impact, Scenario};
+
+/// The exact event-driven engine: flight in closed form, the first root of each gap certified.
+///
+/// - Source: this project, [`crate::Engine`].
+/// - Order: none, it has no step. The error of an impact's time is a few roundings of the gap over
+///   its closing speed.
+/// - Fails: nowhere within the model; a run that needs more events than its bound is an error.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Certified;
+
+/// Closing speed, in units of d ω, that only rounding of a start explains.
+const AT_REST: f64 = 1e-12;
+
+impl Method for Certified {
+    fn name(&self) -> &'static str {
+        "certified"
+    }
+
+    fn run(
+        &self,
+        scenario: &Scenario,
+        start: &State,
+        until: f64,
+        sink: &mut dyn FnMut(Impact) -> bool,
+    ) -> Result<Cost, Error> {
+        check_end(until)?;
+        let mut cost = Cost::default();
+        let own = *start == State::of(scenario);
+        let moved = if own { None } else { Some(start.as_scenario(scenario)?) };
+        let mut engine = Engine::new(moved.as_ref().unwrap_or(scenario))?;
+        let resting = if own { Vec::new() } else { resting(scenario, start) };
+        let speed = AT_REST * scenario.spacing * scenario.natural_frequency;
+        engine
+            .run(until - start.time, |impact| {
+                if impact.closing_speed <= speed && resting.contains(&impact.gap) {
+                    return true;
+                }
+                cost.impacts += 1;
+                sink(Impact { time: start.time + impact.time, ..impact })
+            })
+            .map_err(|error| match error {
+                Error::Work { gap, time, bound } => {
+                    Error::Work { gap, time: start.time + time, bound }
+                }
+                other => other,
+            })?;
+        let counters = engine.counters();
+        Ok(Cost {
+            steps: counters.searches,
+            evaluations: counters.evaluations,
+            simultaneous: counters.simultaneous,
+            ..cost
+        })
+    }
+}
+
+/// The gaps that are shut and at rest but for rounding: in contact, or hit with r = 0. Rounding may
+/// close them again at once, which is no impact.
+fn resting(scenario: &Scenario, start: &State) -> Vec<usize> {
+    let topology = Topology::new(scenario.forcing.len(), scenario.boundary);
+    let d = scenario.spacing;
+    let place = |m: usize| match topology.is_wall(m) {
+        true => [0.0; 2],
+        false => [start.positions[m - 1] - m as f64 * d, start.velocities[m - 1]],
+    };
+    let is_resting = |k: &usize| {
+        let [left, right] = topology.sides(*k).map(place);
+        let width = d + (right[0] - left[0]);
+        let beside = |i: usize| left[i].abs().max(right[i].abs());
+        width.abs() <= start.rounding((k + 1) as f64 * d + beside(0), beside(1))
+            && (right[1] - left[1]).abs() <= AT_REST * d * scenario.natural_frequency
+    };
+    (0..topology.gaps()).filter(is_resting).map(|k| topology.label(k)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Initial;
+    use crate::{Boundary, Chain};
+    use impact_numerics::random::NormalPairs;
+
+    fn next(scenario: &Scenario, start: &State) -> Option<Impact> {
+        let mut found = None;
+        let mut sink = |impact| {
+            found = Some(impact);
+            false
+        };
+        Certified.run(scenario, start, start.time + 100.0, &mut sink).unwrap();
+        found
+    }
+
+    /// Started anew right after each impact, it finds the next one of the whole run, and the gap
+    /// just hit is not hit again.
+    #[test]
+    fn segments_make_up_the_run() {
+        for (boundary, r) in [(Boundary::Walls, 0.8), (Boundary::Ring, 0.8), (Boundary::Walls, 0.0)]
+        {
+            let chain = Chain { masses: 20, boundary, restitution: r, ..Chain::default() };
+            let scenario = Scenario::draw(&chain, 0.3, &mut NormalPairs::new("segments", 1, 0));
+            let mut engine = Engine::new(&scenario).unwrap();
+            let mut start = State::of(&scenario);
+            for count in 0..200 {
+                let mut hit = None;
+                engine
+                    .run(1e3, |impact| {
+                        hit = Some(impact);
+                        false
+                    })
+                    .unwrap();
+                let (hit, found) = (hit.unwrap(), next(&scenario, &start).unwrap());
+                assert_eq!(hit.gap, found.gap, "impact {count} at {}, r = {r}", hit.time);
+                let error = (hit.time - found.time).abs();
+                assert!(error * hit.closing_speed < 1e-13, "{count}: {error:e} at {hit:?}");
+                start = State {
+                    time: hit.time,
+                    positions: engine.positions(hit.time),
+                    velocities: engine.velocities(hit.time),
+                };
+            }
+        }
+    }
+
+    /// A mass that is pressed to the wall stays there until the force turns.
+    #[test]
+    fn a_start_in_contact_is_in_contact() {
+        let scenario = Scenario {
+            initial: Initial::Rest,
+            ..Scenario::from_json(r#"{"forcing":[[5.88,-4.94]],"restitution":0.2}"#).unwrap()
+        };
+        let mut engine = Engine::new(&scenario).unwrap();
+        let mut time = 0.0;
+        while engine.contacts(time).is_empty() {
+            time += 0.01;
+            engine.run(time, |_| true).unwrap();
+        }
+        let start =
+            State { time, positions: engine.positions(time), velocities: engine.velocities(time) };
+        let mut hit = None;
+        engine
+            .run(100.0, |impact| {
+                hit = Some(impact);
+                false
+            })
+            .unwrap();
+        let (hit, found) = (hit.unwrap(), next(&scenario, &start).unwrap());
+        assert!(hit.gap == found.gap && (hit.time - found.time).abs() < 1e-12, "{hit:?} {found:?}");
+    }
+}

@@ -1,0 +1,170 @@
+//! The pair of Dormand and Prince: its coefficients, one step, its dense output.
+
+use super::row::Row;
+use impact_numerics::clock::Instant;
+
+/// Nodes c_i of the stages 2 to 7.
+const NODES: [f64; 6] = [1.0 / 5.0, 3.0 / 10.0, 4.0 / 5.0, 8.0 / 9.0, 1.0, 1.0];
+
+/// Coefficients a_ij of the stages 2 to 7; the last row is the solution of order 5.
+const STAGES: [[f64; 6]; 6] = [
+    [1.0 / 5.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+    [3.0 / 40.0, 9.0 / 40.0, 0.0, 0.0, 0.0, 0.0],
+    [44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0, 0.0, 0.0, 0.0],
+    [19372.0 / 6561.0, -25360.0 / 2187.0, 64448.0 / 6561.0, -212.0 / 729.0, 0.0, 0.0],
+    [9017.0 / 3168.0, -355.0 / 33.0, 46732.0 / 5247.0, 49.0 / 176.0, -5103.0 / 18656.0, 0.0],
+    [35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0],
+];
+
+/// Order 5 less order 4.
+const ERROR: [f64; 7] = [
+    71.0 / 57600.0,
+    0.0,
+    -71.0 / 16695.0,
+    71.0 / 1920.0,
+    -17253.0 / 339200.0,
+    22.0 / 525.0,
+    -1.0 / 40.0,
+];
+
+/// The dense output's last coefficient, of order 4.
+const DENSE: [f64; 7] = [
+    -12715105075.0 / 11282082432.0,
+    0.0,
+    87487479700.0 / 32700410799.0,
+    -10690763975.0 / 1880347072.0,
+    701980252875.0 / 199316789632.0,
+    -1453857185.0 / 822651844.0,
+    69997945.0 / 29380423.0,
+];
+
+/// One step from `y` to `next`: displacements of all bodies, then their velocities.
+pub struct Stages {
+    /// The state at the beginning.
+    pub y: Vec<f64>,
+    /// The state at the end.
+    pub next: Vec<f64>,
+    /// The derivatives k_1..k_7.
+    k: [Vec<f64>; 7],
+    h: f64,
+}
+
+impl Stages {
+    /// Of a state with `row`'s displacements and velocities.
+    pub fn new(row: &Row, at: Instant) -> Stages {
+        let y: Vec<f64> = row.u.iter().chain(&row.v).copied().collect();
+        let zero = vec![0.0; y.len()];
+        let k = std::array::from_fn(|_| zero.clone());
+        let mut stages = Stages { next: y.clone(), y, k, h: 0.0 };
+        stages.restart(row, at);
+        stages
+    }
+
+    /// Begins anew at `y`, which an impact has changed.
+    pub fn restart(&mut self, row: &Row, at: Instant) {
+        derivative(row, at, &self.y, &mut self.k[0]);
+    }
+
+    /// Tries a step of length `h`. Returns its error in units of what `tolerance` allows: root mean
+    /// square over all components, absolute and relative.
+    pub fn attempt(&mut self, row: &Row, from: Instant, h: f64, tolerance: f64) -> f64 {
+        self.h = h;
+        for (stage, coefficients) in STAGES.iter().enumerate() {
+            match stage {
+                0 => self.combine::<1>(coefficients),
+                1 => self.combine::<2>(coefficients),
+                2 => self.combine::<3>(coefficients),
+                3 => self.combine::<4>(coefficients),
+                4 => self.combine::<5>(coefficients),
+                _ => self.combine::<6>(coefficients),
+            }
+            derivative(row, from.after(NODES[stage] * h), &self.next, &mut self.k[stage + 1]);
+        }
+        let mut sum = 0.0;
+        let k = self.slopes::<7>();
+        for (i, (y, next)) in self.y.iter().zip(&self.next).enumerate() {
+            let error = h * weighted(&ERROR, &k, i);
+            let allowed = tolerance * (1.0 + y.abs().max(next.abs()));
+            sum += (error / allowed) * (error / allowed);
+        }
+        (sum / self.y.len() as f64).sqrt()
+    }
+
+    /// The first S derivatives.
+    fn slopes<const S: usize>(&self) -> [&[f64]; S] {
+        std::array::from_fn(|j| &self.k[j][..self.y.len()])
+    }
+
+    /// `next` = y + h Σ a_j k_j over the first S derivatives.
+    fn combine<const S: usize>(&mut self, coefficients: &[f64; 6]) {
+        let coefficients: [f64; S] = std::array::from_fn(|j| coefficients[j]);
+        let mut next = std::mem::take(&mut self.next);
+        let k = self.slopes::<S>();
+        for (i, (next, y)) in next.iter_mut().zip(&self.y).enumerate() {
+            *next = y + self.h * weighted(&coefficients, &k, i);
+        }
+        self.next = next;
+    }
+
+    /// Component i at the part θ of the step.
+    pub fn dense(&self, i: usize, theta: f64) -> f64 {
+        let (h, rest) = (self.h, 1.0 - theta);
+        let difference = self.next[i] - self.y[i];
+        let bend = h * self.k[0][i] - difference;
+        let third = difference - h * self.k[6][i] - bend;
+        let fourth = h * weighted(&DENSE, &self.slopes(), i);
+        self.y[i] + theta * (difference + rest * (bend + theta * (third + rest * fourth)))
+    }
+
+    /// Goes on from the end of the step.
+    pub fn accept(&mut self) {
+        std::mem::swap(&mut self.y, &mut self.next);
+        self.k.swap(0, 6);
+    }
+
+    /// Goes back to the part θ of the step; [`Stages::restart`] must follow.
+    pub fn cut(&mut self, theta: f64) {
+        for i in 0..self.y.len() {
+            self.next[i] = self.dense(i, theta);
+        }
+        std::mem::swap(&mut self.y, &mut self.next);
+    }
+}
+
+/// Σ a_j k_j of component i.
+#[inline(always)]
+fn weighted<const S: usize>(a: &[f64; S], k: &[&[f64]; S], i: usize) -> f64 {
+    let mut sum = 0.0;
+    for j in 0..S {
+        sum += a[j] * k[j][i];
+    }
+    sum
+}
+
+/// (u, v)' = (v, −ω² u + forcing).
+fn derivative(row: &Row, at: Instant, y: &[f64], out: &mut [f64]) {
+    let bodies = row.u.len();
+    out[..bodies].copy_from_slice(&y[bodies..]);
+    row.accelerations(at, &y[..bodies], &mut out[bodies..]);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Each stage is consistent, and the solution has order 5: Σ b_i c_i^m = 1/(m + 1).
+    #[test]
+    fn coefficients_satisfy_their_conditions() {
+        for (node, row) in NODES.iter().zip(&STAGES) {
+            assert!((row.iter().sum::<f64>() - node).abs() < 1e-14);
+        }
+        let nodes: Vec<f64> = std::iter::once(0.0).chain(NODES).collect();
+        for m in 0..5 {
+            let sum: f64 = STAGES[5].iter().zip(&nodes).map(|(b, c)| b * c.powi(m)).sum();
+            assert!((sum - 1.0 / f64::from(m + 1)).abs() < 1e-14, "{m}");
+            let error: f64 = ERROR.iter().zip(&nodes).map(|(e, c)| e * c.powi(m)).sum();
+            assert!((error.abs() < 1e-14) == (m < 4), "{m}: {error}");
+        }
+        assert!(DENSE.iter().sum::<f64>().abs() < 1e-14);
+    }
+}

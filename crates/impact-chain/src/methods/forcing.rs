@@ -1,0 +1,103 @@
+//! The forcing of a scenario as the rivals see it: the one place that knows its components.
+
+use crate::Scenario;
+pub use crate::scenario::COMPONENTS;
+use impact_numerics::clock::{Instant, Rate};
+use impact_numerics::trig::sin_cos_turn;
+
+/// The components α_j cos Ωt + β_j sin Ωt of a scenario: Ω, and the amplitudes of the masses.
+fn parts(scenario: &Scenario) -> impl Iterator<Item = (f64, &[[f64; 2]])> {
+    let overtones = scenario.overtones.iter();
+    std::iter::once((scenario.forcing_frequency, &scenario.forcing[..]))
+        .chain(overtones.map(|overtone| (overtone.frequency, &overtone.amplitudes[..])))
+}
+
+/// The same, to be changed.
+fn parts_mut(scenario: &mut Scenario) -> impl Iterator<Item = (f64, &mut [[f64; 2]])> {
+    let overtones = scenario.overtones.iter_mut();
+    std::iter::once((scenario.forcing_frequency, &mut scenario.forcing[..]))
+        .chain(overtones.map(|overtone| (overtone.frequency, &mut overtone.amplitudes[..])))
+}
+
+/// The largest of ω and Ω.
+pub fn fastest(scenario: &Scenario) -> f64 {
+    parts(scenario).fold(scenario.natural_frequency, |fastest, (big_w, _)| fastest.max(big_w))
+}
+
+/// ω² − Ω², by which a forcing is divided for its response.
+fn factor(scenario: &Scenario, big_w: f64) -> f64 {
+    let w = scenario.natural_frequency;
+    (w - big_w) * (w + big_w)
+}
+
+/// The forced response of each mass at t = 0: displacement and velocity.
+pub fn response(scenario: &Scenario) -> Vec<[f64; 2]> {
+    let mut response = vec![[0.0; 2]; scenario.forcing.len()];
+    for (big_w, amplitudes) in parts(scenario) {
+        let factor = factor(scenario, big_w);
+        for ([x, v], [alpha, beta]) in response.iter_mut().zip(amplitudes) {
+            *x += alpha / factor;
+            *v += big_w * (beta / factor);
+        }
+    }
+    response
+}
+
+/// Rotates the forcing so that it is at t = 0 what it was at the instant `at`.
+pub fn turn(scenario: &mut Scenario, at: Instant) {
+    for (big_w, amplitudes) in parts_mut(scenario) {
+        let (sin, cos) = sin_cos_turn(Rate::new(big_w).turn(at));
+        for [alpha, beta] in amplitudes {
+            (*alpha, *beta) = (*alpha * cos + *beta * sin, *beta * cos - *alpha * sin);
+        }
+    }
+}
+
+/// One component with an amplitude of cos Ωt and one of sin Ωt for each body, 0 for the walls.
+#[derive(Clone)]
+pub struct Component {
+    /// Ω.
+    pub frequency: f64,
+    /// Its phase.
+    pub rate: Rate,
+    /// Amplitudes of cos Ωt.
+    pub cos: Vec<f64>,
+    /// Amplitudes of sin Ωt.
+    pub sin: Vec<f64>,
+}
+
+impl Component {
+    /// The components of the forcing.
+    pub fn of(scenario: &Scenario) -> Vec<Component> {
+        let padded = |pairs: &[[f64; 2]], part: usize| -> Vec<f64> {
+            let amplitudes = pairs.iter().map(|pair| pair[part]);
+            std::iter::once(0.0).chain(amplitudes).chain([0.0]).collect()
+        };
+        parts(scenario)
+            .map(|(frequency, pairs)| Component {
+                frequency,
+                rate: Rate::new(frequency),
+                cos: padded(pairs, 0),
+                sin: padded(pairs, 1),
+            })
+            .collect()
+    }
+
+    /// The components of the forced response.
+    pub fn response(scenario: &Scenario) -> Vec<Component> {
+        let mut components = Component::of(scenario);
+        for component in &mut components {
+            let factor = factor(scenario, component.frequency);
+            for amplitude in component.cos.iter_mut().chain(&mut component.sin) {
+                *amplitude /= factor;
+            }
+        }
+        components
+    }
+
+    /// (sin, cos) of its phase at an instant.
+    #[inline]
+    pub fn phase(&self, at: Instant) -> (f64, f64) {
+        sin_cos_turn(self.rate.turn(at))
+    }
+}

@@ -1,0 +1,174 @@
+//! The row of masses as an integrator sees it: displacements, velocities, forces, impact law.
+
+use super::forcing::Component;
+use super::tally::{Grid, Step, Stop, Tally};
+use super::{Cost, State};
+use crate::Boundary;
+use crate::impact::jumps;
+use crate::topology::Topology;
+use crate::{Error, Impact, Scenario};
+use impact_numerics::clock::Instant;
+
+/// A state with its forces; bodies are numbered from the left wall (0) to the right one (n + 1).
+pub struct Row {
+    pub topology: Topology,
+    is_ring: bool,
+    pub spacing: f64,
+    pub restitution: f64,
+    /// ω².
+    pub stiffness: f64,
+    forcing: Vec<Component>,
+    /// Displacements from the places j d; 0 for the walls.
+    pub u: Vec<f64>,
+    /// Velocities; 0 for the walls.
+    pub v: Vec<f64>,
+}
+
+impl Row {
+    /// # Errors
+    /// As [`super::Method::run`].
+    pub fn new(scenario: &Scenario, start: &State) -> Result<Row, Error> {
+        let u = start.displacements(scenario)?;
+        let masses = scenario.forcing.len();
+        let mut row = Row {
+            topology: Topology::new(masses, scenario.boundary),
+            is_ring: scenario.boundary == Boundary::Ring,
+            spacing: scenario.spacing,
+            restitution: scenario.restitution,
+            stiffness: scenario.natural_frequency * scenario.natural_frequency,
+            forcing: Component::of(scenario),
+            v: vec![0.0; u.len()],
+            u,
+        };
+        row.v[1..=masses].copy_from_slice(&start.velocities);
+        Ok(row)
+    }
+
+    /// Width of gap k at displacements `u`.
+    #[inline]
+    pub fn width_at(&self, k: usize, u: &[f64]) -> f64 {
+        let [left, right] = self.topology.sides(k);
+        self.spacing + (u[right] - u[left])
+    }
+
+    /// Width of gap k.
+    #[inline]
+    pub fn width(&self, k: usize) -> f64 {
+        self.width_at(k, &self.u)
+    }
+
+    /// Rate of gap k.
+    #[inline]
+    pub fn rate(&self, k: usize) -> f64 {
+        let [left, right] = self.topology.sides(k);
+        self.v[right] - self.v[left]
+    }
+
+    /// The inverse masses beside gap k.
+    #[inline]
+    pub fn inverse_masses(&self, k: usize) -> [f64; 2] {
+        self.topology.sides(k).map(|m| self.topology.inverse_mass(m))
+    }
+
+    /// An impulse P ≥ 0 that opens gap k, for masses 1/`lightness`.
+    #[inline]
+    pub fn push(&mut self, k: usize, impulse: f64, lightness: f64) {
+        let [left, right] = self.topology.sides(k);
+        let [of_left, of_right] = self.inverse_masses(k);
+        self.v[left] -= impulse * of_left * lightness;
+        self.v[right] += impulse * of_right * lightness;
+    }
+
+    /// The impact law at gap k.
+    pub fn hit(&mut self, k: usize, speed: f64) {
+        let [left, right] = self.topology.sides(k);
+        let jumps = jumps(speed, self.restitution, self.inverse_masses(k));
+        self.v[left] += jumps[0];
+        self.v[right] += jumps[1];
+    }
+
+    /// The forcing of every body at an instant.
+    pub fn forces(&self, at: Instant, out: &mut [f64]) {
+        for (i, component) in self.forcing.iter().enumerate() {
+            let (sin, cos) = component.phase(at);
+            let amplitudes = component.cos.iter().zip(&component.sin);
+            for (out, (alpha, beta)) in out.iter_mut().zip(amplitudes) {
+                let force = alpha * cos + beta * sin;
+                *out = if i == 0 { force } else { *out + force };
+            }
+        }
+    }
+
+    /// The accelerations in flight at displacements `u` and an instant. The walls have none.
+    pub fn accelerations(&self, at: Instant, u: &[f64], out: &mut [f64]) {
+        self.forces(at, out);
+        for (out, u) in out.iter_mut().zip(u) {
+            *out -= self.stiffness * u;
+        }
+    }
+
+    /// Whether any gap would be narrower than zero after `ahead` at its present rate: a look at all
+    /// gaps that is cheap, because mostly none is.
+    pub fn any_shut(&self, ahead: f64) -> bool {
+        let (u, v) = (&self.u, &self.v);
+        let is_shut = |left: usize, right: usize| {
+            self.spacing + (u[right] - u[left]) + ahead * (v[right] - v[left]) <= 0.0
+        };
+        // Neighbours in the array are neighbours in the row; a ring has one gap more.
+        let bodies = if self.is_ring { 1..u.len() - 1 } else { 0..u.len() };
+        let pairs = u[bodies.clone()].windows(2).zip(v[bodies.clone()].windows(2));
+        let mut any = self.is_ring && is_shut(bodies.end - 1, bodies.start);
+        for (u, v) in pairs {
+            any |= self.spacing + (u[1] - u[0]) + ahead * (v[1] - v[0]) <= 0.0;
+        }
+        any
+    }
+
+    /// Number of masses, as counted work.
+    pub fn masses(&self) -> u64 {
+        self.u.len() as u64 - 2
+    }
+}
+
+/// One method with a fixed step.
+pub trait Stepper {
+    /// Advances the row by one step and hands its impacts to the tally.
+    fn step(&mut self, row: &mut Row, step: &Step, tally: &mut Tally) -> Result<(), Stop>;
+}
+
+/// Runs a method with a fixed step, made by `begin` from the start.
+pub fn run_steps<S: Stepper>(
+    (scenario, start): (&Scenario, &State),
+    until: f64,
+    step: f64,
+    sink: &mut dyn FnMut(Impact) -> bool,
+    begin: impl FnOnce(&Row) -> S,
+) -> Result<Cost, Error> {
+    let mut row = Row::new(scenario, start)?;
+    let grid = Grid::new(scenario, start, until, step)?;
+    let mut tally = Tally::new(scenario, sink);
+    let mut stepper = begin(&row);
+    let ended = grid.steps().try_for_each(|step| {
+        tally.cost.steps += 1;
+        stepper.step(&mut row, &step, &mut tally)
+    });
+    tally.finish(ended)
+}
+
+/// Error of velocity and place of a forced mass that meets nothing, after flying for 10.24 with steps
+/// of `h`.
+#[cfg(test)]
+pub fn flight_error<S: Stepper>(h: f64, begin: impl Fn(&Row, Instant) -> S) -> f64 {
+    let scenario = Scenario::from_json(r#"{"forcing":[[0.1,0.2]]}"#).unwrap();
+    let start = State { time: 5.0, ..State::of(&scenario) };
+    let mut row = Row::new(&scenario, &start).unwrap();
+    let mut stepper = begin(&row, Instant::at(start.time));
+    let mut sink = |_| panic!("it meets nothing");
+    let mut tally = Tally::new(&scenario, &mut sink);
+    for step in Grid::new(&scenario, &start, start.time + 10.24, h).unwrap().steps() {
+        assert!(stepper.step(&mut row, &step, &mut tally).is_ok());
+    }
+    let engine = crate::Engine::new(&start.as_scenario(&scenario).unwrap()).unwrap();
+    let [x, v] = [engine.positions(10.24)[0], engine.velocities(10.24)[0]];
+    (row.u[1] + 1.0 - x).abs().max((row.v[1] - v).abs())
+}

@@ -1,0 +1,181 @@
+//! A state of the masses at any time, and the scenario that starts there.
+
+use super::forcing;
+use crate::topology::Topology;
+use crate::{Error, Initial, Scenario};
+use impact_numerics::clock::{Instant, LATEST};
+
+/// Positions and velocities of the masses 1..n at a time: what a method starts from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct State {
+    /// Time t, from 0 to 1e12.
+    pub time: f64,
+    /// x_1..x_n, counted from the left wall.
+    pub positions: Vec<f64>,
+    /// Their rates.
+    pub velocities: Vec<f64>,
+}
+
+/// A gap is shut but for rounding when its width is below this many roundings of its place, of a
+/// displacement beside it, and of the way that it goes while the time is rounded.
+const UNITS: f64 = 16.0;
+
+impl State {
+    /// The start of a scenario, at t = 0.
+    pub fn of(scenario: &Scenario) -> State {
+        let w = scenario.natural_frequency;
+        let mut state = State { time: 0.0, positions: Vec::new(), velocities: Vec::new() };
+        for (j, [x, v]) in forcing::response(scenario).into_iter().enumerate() {
+            let [u, v] = match &scenario.initial {
+                Initial::Rest => [0.0; 2],
+                Initial::Zero => [x, v],
+                Initial::Free(parts) => {
+                    let [a, b] = parts.get(j).copied().unwrap_or_default();
+                    [a + x, w * b + v]
+                }
+            };
+            state.positions.push((j + 1) as f64 * scenario.spacing + u);
+            state.velocities.push(v);
+        }
+        state
+    }
+
+    /// The displacements of all bodies from their places j d, from the left wall (0) to the right
+    /// one (n + 1), with gaps that overlap by no more than rounding shut exactly.
+    ///
+    /// # Errors
+    /// [`Error::Input`] if scenario or state are outside the model, [`Error::Overlap`].
+    pub(super) fn displacements(&self, scenario: &Scenario) -> Result<Vec<f64>, Error> {
+        scenario.validate()?;
+        self.validate(scenario.forcing.len())?;
+        let topology = Topology::new(scenario.forcing.len(), scenario.boundary);
+        let d = scenario.spacing;
+        let mut u = vec![0.0; self.positions.len() + 2];
+        for (j, x) in self.positions.iter().enumerate() {
+            u[j + 1] = x - (j + 1) as f64 * d;
+        }
+        for k in 0..topology.gaps() {
+            let [left, right] = topology.sides(k);
+            let width = d + (u[right] - u[left]);
+            if width >= 0.0 {
+                continue;
+            }
+            let place = (k + 1) as f64 * d + u[left].abs().max(u[right].abs());
+            let speed = |m: usize| self.velocities.get(m.wrapping_sub(1)).map_or(0.0, |v| v.abs());
+            if width < -self.rounding(place, speed(left).max(speed(right))) {
+                return Err(Error::Overlap { gap: topology.label(k), depth: -width });
+            }
+            if topology.is_wall(right) {
+                u[left] += width;
+            } else {
+                u[right] -= width;
+            }
+        }
+        Ok(u)
+    }
+
+    /// How wide a gap from the place `place` on may be by rounding of this state, `speed` being that
+    /// of the faster of its sides.
+    pub(super) fn rounding(&self, place: f64, speed: f64) -> f64 {
+        UNITS * f64::EPSILON * (place.abs() + self.time * speed)
+    }
+
+    fn validate(&self, n: usize) -> Result<(), Error> {
+        if !(0.0..=LATEST).contains(&self.time) {
+            let problem = format!("{:?} is out of range", self.time);
+            return Err(Error::input("start.time", problem, "give a time from 0 to 1e12"));
+        }
+        for (field, values) in [("positions", &self.positions), ("velocities", &self.velocities)] {
+            if values.len() != n || values.iter().any(|x| !x.is_finite()) {
+                let problem = format!("{} values for {n} masses", values.len());
+                let remedy = "give one finite number for each mass";
+                return Err(Error::input(format!("start.{field}"), problem, remedy));
+            }
+        }
+        Ok(())
+    }
+
+    /// The scenario that starts at t = 0 exactly where this state is: the forcing rotated by Ωt,
+    /// the free parts derived.
+    ///
+    /// # Errors
+    /// As [`super::Method::run`].
+    pub fn as_scenario(&self, scenario: &Scenario) -> Result<Scenario, Error> {
+        let u = self.displacements(scenario)?;
+        let mut moved = scenario.clone();
+        forcing::turn(&mut moved, Instant::at(self.time));
+        let forced = forcing::response(&moved);
+        let own = u[1..].iter().zip(&self.velocities).zip(forced);
+        let free = own.map(|((u, v), [x, y])| [u - x, (v - y) / scenario.natural_frequency]);
+        let free = free.collect();
+        moved.initial = Initial::Free(free);
+        Ok(moved)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Engine;
+    use crate::{Boundary, Chain, Start};
+    use impact_numerics::random::NormalPairs;
+
+    fn drawn(boundary: Boundary, start: Start, sigma: f64) -> Scenario {
+        let chain = Chain { masses: 7, boundary, start, ..Chain::default() };
+        Scenario::draw(&chain, sigma, &mut NormalPairs::new("state", 1, 0))
+    }
+
+    #[test]
+    fn a_start_is_what_the_engine_has() {
+        for start in [Start::Rest, Start::Zero, Start::Random] {
+            let scenario = drawn(Boundary::Walls, start, 0.1);
+            let (state, engine) = (State::of(&scenario), Engine::new(&scenario).unwrap());
+            let near = |a: &[f64], b: Vec<f64>| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-14);
+            assert!(near(&state.positions, engine.positions(0.0)), "{start:?}");
+            assert!(near(&state.velocities, engine.velocities(0.0)), "{start:?}");
+        }
+    }
+
+    /// From a state in the middle of a flight, the moved scenario flies on as the first one does.
+    #[test]
+    fn the_moved_scenario_flies_on() {
+        let scenario = drawn(Boundary::Ring, Start::Rest, 0.1);
+        let engine = Engine::new(&scenario).unwrap();
+        let at = |time| State {
+            time,
+            positions: engine.positions(time),
+            velocities: engine.velocities(time),
+        };
+        let moved = Engine::new(&at(1234.5).as_scenario(&scenario).unwrap()).unwrap();
+        for s in [0.0, 0.75, 3.0] {
+            let later = at(1234.5 + s);
+            for (x, y) in moved.positions(s).iter().zip(&later.positions) {
+                assert!((x - y).abs() < 1e-14, "{x} {y}");
+            }
+            for (x, y) in moved.velocities(s).iter().zip(&later.velocities) {
+                assert!((x - y).abs() < 1e-14, "{x} {y}");
+            }
+        }
+    }
+
+    #[test]
+    fn states_outside_the_model_are_refused() {
+        let scenario = drawn(Boundary::Walls, Start::Rest, 0.1);
+        let good = State::of(&scenario);
+        let refused = |change: fn(&mut State)| {
+            let mut state = good.clone();
+            change(&mut state);
+            state.as_scenario(&scenario).unwrap_err().to_string()
+        };
+        assert!(refused(|s| s.time = -1.0).starts_with("start.time"));
+        assert!(refused(|s| s.time = f64::NAN).starts_with("start.time"));
+        assert!(refused(|s| s.positions[2] = f64::NAN).starts_with("start.positions"));
+        assert!(refused(|s| s.velocities.truncate(3)).starts_with("start.velocities: 3 values"));
+        assert!(refused(|s| s.positions[2] = s.positions[3] + 1e-6).contains("gap 3"));
+        let mut touching = good.clone();
+        touching.positions[2] = touching.positions[3].next_up();
+        let moved = touching.as_scenario(&scenario).unwrap();
+        let x = Engine::new(&moved).unwrap().positions(0.0);
+        assert!((x[3] - x[2]).abs() < 1e-15, "shut but for rounding is shut");
+    }
+}

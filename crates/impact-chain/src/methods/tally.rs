@@ -1,0 +1,214 @@
+//! What all rivals share around their steps: the grid of time, the count of work and its bounds.
+
+use super::forcing::fastest;
+use super::{Cost, State};
+use crate::topology::Topology;
+use crate::{Error, Impact, Scenario};
+use impact_numerics::clock::{Instant, LATEST};
+
+/// Events that one gap may need within one unit of time 1/ω on average before a run is given up. A
+/// rival that cannot rest in contact sees infinitely many impacts in a finite time there.
+const EVENTS_PER_GAP: u64 = 10_000;
+
+/// Steps that one run may take.
+const MOST_STEPS: f64 = 1e10;
+
+/// The shortest step.
+const SHORTEST: f64 = 1e-9;
+
+/// Why a run ends before its time.
+pub enum Stop {
+    /// The receiver of the impacts wants no more.
+    Asked,
+    /// An error.
+    Failed(Error),
+}
+
+impl From<Error> for Stop {
+    fn from(error: Error) -> Stop {
+        Stop::Failed(error)
+    }
+}
+
+/// The count of a run's work; impacts pass through it.
+pub struct Tally<'a> {
+    pub cost: Cost,
+    sink: &'a mut dyn FnMut(Impact) -> bool,
+    topology: Topology,
+    unit: f64,
+    bound: u64,
+    /// End of the current unit of time, and the events left in it.
+    end: f64,
+    left: u64,
+}
+
+impl<'a> Tally<'a> {
+    pub fn new(scenario: &Scenario, sink: &'a mut dyn FnMut(Impact) -> bool) -> Self {
+        let topology = Topology::new(scenario.forcing.len(), scenario.boundary);
+        let bound = EVENTS_PER_GAP * topology.gaps() as u64;
+        Tally {
+            cost: Cost::default(),
+            sink,
+            topology,
+            unit: 1.0 / scenario.natural_frequency,
+            bound,
+            end: f64::NEG_INFINITY,
+            left: bound,
+        }
+    }
+
+    /// Takes an event of gap k from the budget of the current unit of time.
+    pub fn spend(&mut self, k: usize, time: f64) -> Result<(), Stop> {
+        if time >= self.end {
+            self.end = time + self.unit;
+            self.left = self.bound;
+        }
+        if self.left == 0 {
+            let gap = self.topology.label(k);
+            return Err(Error::Work { gap, time, bound: self.bound }.into());
+        }
+        self.left -= 1;
+        Ok(())
+    }
+
+    /// Hands out an impact of gap k.
+    pub fn impact(&mut self, k: usize, time: f64, closing_speed: f64) -> Result<(), Stop> {
+        self.spend(k, time)?;
+        self.cost.impacts += 1;
+        match (self.sink)(Impact { time, gap: self.topology.label(k), closing_speed }) {
+            true => Ok(()),
+            false => Err(Stop::Asked),
+        }
+    }
+
+    /// Counts one more step of an integrator that chooses its steps.
+    pub fn step(&mut self) -> Result<(), Stop> {
+        self.cost.steps += 1;
+        if self.cost.steps as f64 > MOST_STEPS {
+            let problem = format!("more than {MOST_STEPS:e} steps are needed");
+            let remedy = "give a larger tolerance or an earlier end";
+            return Err(Error::input("tolerance", problem, remedy).into());
+        }
+        Ok(())
+    }
+
+    /// The cost of a run that has ended so.
+    pub fn finish(self, ended: Result<(), Stop>) -> Result<Cost, Error> {
+        match ended {
+            Err(Stop::Failed(error)) => Err(error),
+            Err(Stop::Asked) | Ok(()) => Ok(self.cost),
+        }
+    }
+}
+
+/// Equal steps from a start to an end; the last one may be shorter.
+pub struct Grid {
+    start: Instant,
+    until: Instant,
+    step: f64,
+    count: u64,
+}
+
+/// One step of a [`Grid`].
+#[derive(Clone, Copy)]
+pub struct Step {
+    /// Its beginning.
+    pub from: Instant,
+    /// Its end.
+    pub to: Instant,
+    /// Its length.
+    pub h: f64,
+}
+
+impl Grid {
+    /// Divides the time from `start` to `until` into steps of `step`.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a step that is none, that is longer than 1/max(ω, Ω), or too short.
+    pub fn new(scenario: &Scenario, start: &State, until: f64, step: f64) -> Result<Grid, Error> {
+        let longest = 1.0 / fastest(scenario);
+        if !(SHORTEST..=longest).contains(&step) {
+            let problem = format!("{step:?} is out of range");
+            let remedy = format!("give a number from {SHORTEST:?} to 1/max(w, W) = {longest:?}");
+            return Err(Error::input("step", problem, remedy));
+        }
+        check_end(until)?;
+        let length = (until - start.time).max(0.0);
+        let count = (length / step).ceil();
+        if count > MOST_STEPS {
+            let problem = format!("{count:.1e} steps of {step:?} are needed");
+            let remedy = format!("give a step or an end for at most {MOST_STEPS:e} steps");
+            return Err(Error::input("step", problem, remedy));
+        }
+        let (from, to) = (Instant::at(start.time), Instant::at(until));
+        Ok(Grid { start: from, until: to, step, count: count as u64 })
+    }
+
+    /// The steps in order.
+    pub fn steps(&self) -> impl Iterator<Item = Step> {
+        let mut from = self.start;
+        (1..=self.count).map(move |i| {
+            let step = if i < self.count {
+                Step { from, to: self.start.after(i as f64 * self.step), h: self.step }
+            } else {
+                Step { from, to: self.until, h: self.until.since(from).max(0.0) }
+            };
+            from = step.to;
+            step
+        })
+    }
+}
+
+/// Refuses an end that is no time.
+pub fn check_end(until: f64) -> Result<(), Error> {
+    if until.abs() <= LATEST {
+        return Ok(());
+    }
+    Err(Error::input("until", format!("{until:?} is out of range"), "give a time from 0 to 1e12"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn scenario() -> Scenario {
+        Scenario::from_json(r#"{"forcing":[[0.5,0.5]]}"#).unwrap()
+    }
+
+    #[test]
+    fn a_grid_ends_at_its_end() {
+        let scenario = scenario();
+        let start = State { time: 3.0, ..State::of(&scenario) };
+        let steps: Vec<Step> = Grid::new(&scenario, &start, 4.05, 0.1).unwrap().steps().collect();
+        assert_eq!(steps.len(), 11);
+        assert!(steps.windows(2).all(|pair| pair[0].to == pair[1].from));
+        assert_eq!((steps[0].from.time(), steps[10].to.time()), (3.0, 4.05));
+        assert!((steps[10].h - 0.05).abs() < 1e-15 && steps[9].h == 0.1);
+        assert_eq!(Grid::new(&scenario, &start, 2.0, 0.1).unwrap().steps().count(), 0);
+        for step in [0.0, -0.1, f64::NAN, 0.8, 1e-10, f64::INFINITY] {
+            let error = Grid::new(&scenario, &start, 4.0, step).err().unwrap();
+            assert!(error.to_string().starts_with("step: "), "{error}");
+        }
+        let error = Grid::new(&scenario, &start, 1e12, 0.1).err().unwrap();
+        assert!(error.to_string().contains("1.0e13 steps"), "{error}");
+        assert!(Grid::new(&scenario, &start, f64::NAN, 0.1).is_err());
+    }
+
+    #[test]
+    fn the_budget_is_that_of_one_unit_of_time() {
+        let scenario = scenario();
+        let mut heard = 0u64;
+        let mut sink = |_| {
+            heard += 1;
+            true
+        };
+        let mut tally = Tally::new(&scenario, &mut sink);
+        for i in 0..100_000 {
+            assert!(tally.impact(0, f64::from(i) * 1e-4, 1.0).is_ok());
+        }
+        let ended = (0..100_000).try_for_each(|_| tally.impact(1, 20.0, 1.0));
+        let error = tally.finish(ended).unwrap_err();
+        assert_eq!(error, Error::Work { gap: 1, time: 20.0, bound: 20_000 });
+        assert_eq!(heard, 120_000);
+    }
+}

@@ -1,0 +1,377 @@
+//! A scenario: one chain, its forcing and its start, complete and checked.
+
+use super::{Error, Simultaneous, rounding};
+use crate::{Boundary, Chain, Start};
+use impact_numerics::random::NormalPairs;
+use serde::Deserialize;
+
+/// The start of one scenario.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Initial {
+    /// At rest at equilibrium.
+    Rest,
+    /// No free part.
+    Zero,
+    /// Given free parts (a_j, b_j): x_j = j d + a_j cos ωt + b_j sin ωt + forced response.
+    Free(Vec<[f64; 2]>),
+}
+
+/// Components of the forcing that a scenario may have at most.
+pub const COMPONENTS: usize = 8;
+
+/// The form of a scenario file, with forcing `F`: one component, or several with their frequencies.
+#[derive(Deserialize)]
+#[serde(default, deny_unknown_fields)]
+struct Form<F: Default> {
+    spacing: f64,
+    natural_frequency: f64,
+    forcing_frequency: Option<f64>,
+    forcing_frequencies: Option<Vec<f64>>,
+    restitution: f64,
+    boundary: Boundary,
+    simultaneous: Simultaneous,
+    initial: InitialForm,
+    forcing: F,
+}
+
+/// One component: a pair for each mass.
+type Pairs = Vec<[f64; 2]>;
+
+/// The start as a scenario file names it.
+#[derive(Deserialize)]
+#[serde(rename_all = "lowercase", deny_unknown_fields)]
+enum InitialForm {
+    Rest,
+    Zero,
+    Free(Vec<[f64; 2]>),
+    Random { sigma: f64, seed: u64 },
+}
+
+impl<F: Default> Default for Form<F> {
+    fn default() -> Self {
+        let chain = Chain::default();
+        Form {
+            spacing: chain.spacing,
+            natural_frequency: chain.natural_frequency,
+            forcing_frequency: None,
+            forcing_frequencies: None,
+            restitution: chain.restitution,
+            boundary: chain.boundary,
+            simultaneous: Simultaneous::default(),
+            initial: InitialForm::Rest,
+            forcing: F::default(),
+        }
+    }
+}
+
+impl<F: Default> Form<F> {
+    /// Reads a form.
+    fn read<'a>(text: &'a str) -> Result<Self, Error>
+    where
+        F: Deserialize<'a>,
+    {
+        let mut reader = serde_json::Deserializer::from_str(text);
+        let form = serde_path_to_error::deserialize(&mut reader).map_err(|error| {
+            let path = error.path().to_string();
+            let field = if path == "." { "scenario".to_string() } else { path };
+            let problem = error.into_inner().to_string();
+            Error::input(field, problem, "see the form in `impact-paper trace --help`")
+        })?;
+        reader.end().map_err(|error| {
+            let remedy = "write one JSON object and nothing after it";
+            Error::input("scenario", error.to_string(), remedy)
+        })?;
+        Ok(form)
+    }
+
+    /// The scenario with these components of the forcing.
+    fn with(self, components: Vec<(f64, Pairs)>) -> Result<Scenario, Error> {
+        let masses = components.first().map_or(0, |(_, pairs)| pairs.len());
+        let initial = match self.initial {
+            InitialForm::Rest => Initial::Rest,
+            InitialForm::Zero => Initial::Zero,
+            InitialForm::Free(parts) => Initial::Free(parts),
+            InitialForm::Random { sigma, seed } => {
+                if !(0.0..=1e9).contains(&sigma) {
+                    return Err(Error::input(
+                        "initial.random.sigma",
+                        format!("{sigma:?} is no standard deviation"),
+                        "give a number from 0.0 to 1e9",
+                    ));
+                }
+                let mut normals = NormalPairs::new("trace", seed, 0);
+                Initial::Free(scaled_pairs(masses, sigma, &mut normals))
+            }
+        };
+        let mut components = components.into_iter();
+        let (forcing_frequency, forcing) = components.next().unwrap_or_default();
+        Ok(Scenario {
+            spacing: self.spacing,
+            natural_frequency: self.natural_frequency,
+            forcing_frequency,
+            restitution: self.restitution,
+            boundary: self.boundary,
+            simultaneous: self.simultaneous,
+            initial,
+            forcing,
+            overtones: components
+                .map(|(frequency, amplitudes)| Overtone { frequency, amplitudes })
+                .collect(),
+        })
+    }
+}
+
+impl Form<Vec<Pairs>> {
+    /// The scenario of a form with `forcing_frequencies`.
+    fn scenario(mut self) -> Result<Scenario, Error> {
+        let frequencies = self.forcing_frequencies.take().unwrap_or_default();
+        if self.forcing_frequency.is_some() {
+            return Err(Error::input(
+                "forcing_frequency",
+                "it stands beside forcing_frequencies",
+                "give one of the two",
+            ));
+        }
+        let forcing = std::mem::take(&mut self.forcing);
+        if frequencies.len() != forcing.len() || forcing.is_empty() || forcing.len() > COMPONENTS {
+            let (given, lists) = (frequencies.len(), forcing.len());
+            return Err(Error::input(
+                "forcing_frequencies",
+                format!("there are {given} of them and {lists} lists in forcing"),
+                format!("give 1 to {COMPONENTS}, and one list of pairs for each"),
+            ));
+        }
+        self.with(frequencies.into_iter().zip(forcing).collect())
+    }
+}
+
+/// `masses` pairs of normals with standard deviation `sigma`.
+fn scaled_pairs(masses: usize, sigma: f64, normals: &mut NormalPairs) -> Vec<[f64; 2]> {
+    (0..masses).map(|_| normals.pair().map(|x| sigma * x)).collect()
+}
+
+/// One chain with the amplitudes of its forcing.
+///
+/// **Eq. (3)**: the forcing is a sum over components; the paper goes on with one, Eq. (5).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scenario {
+    /// Distance d between equilibria.
+    pub spacing: f64,
+    /// Natural frequency ω.
+    pub natural_frequency: f64,
+    /// Forcing frequency Ω.
+    pub forcing_frequency: f64,
+    /// Coefficient of restitution r.
+    pub restitution: f64,
+    /// Walls or ring.
+    pub boundary: Boundary,
+    /// What happens when neighbouring gaps close at the same instant. The rivals of the engine have
+    /// their own ways and do not look at it.
+    pub simultaneous: Simultaneous,
+    /// The start.
+    pub initial: Initial,
+    /// Amplitudes (α_j, β_j) of Eq. (5), one pair a mass.
+    pub forcing: Vec<[f64; 2]>,
+    /// Further components of the forcing, Eq. (3); the paper has none.
+    pub overtones: Vec<Overtone>,
+}
+
+/// A further component of the forcing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Overtone {
+    /// Its frequency Ω.
+    pub frequency: f64,
+    /// Its amplitudes (α_j, β_j), one pair a mass.
+    pub amplitudes: Vec<[f64; 2]>,
+}
+
+impl Scenario {
+    /// **Eq. (5)**
+    ///
+    /// Draws the amplitudes α_j, β_j of the forcing α_j cos Ωt + β_j sin Ωt with standard deviation `sigma` from `normals`: first the
+    /// n pairs of the forcing, then, for a random start, the n pairs of the free part.
+    pub fn draw(chain: &Chain, sigma: f64, normals: &mut NormalPairs) -> Scenario {
+        let forcing = scaled_pairs(chain.masses, sigma, normals);
+        let initial = match chain.start {
+            Start::Rest => Initial::Rest,
+            Start::Zero => Initial::Zero,
+            Start::Random => Initial::Free(scaled_pairs(chain.masses, sigma, normals)),
+        };
+        Scenario {
+            spacing: chain.spacing,
+            natural_frequency: chain.natural_frequency,
+            forcing_frequency: chain.forcing_frequency,
+            restitution: chain.restitution,
+            boundary: chain.boundary,
+            simultaneous: Simultaneous::default(),
+            initial,
+            forcing,
+            overtones: Vec::new(),
+        }
+    }
+
+    /// Reads a scenario from JSON (the form is in `impact-paper trace --help`).
+    ///
+    /// # Errors
+    /// [`Error::Input`] names the field and the remedy.
+    pub fn from_json(text: &str) -> Result<Scenario, Error> {
+        /// Which of the two forms a file has.
+        #[derive(Deserialize)]
+        struct Kind {
+            forcing_frequencies: Option<serde::de::IgnoredAny>,
+        }
+        let several =
+            serde_json::from_str::<Kind>(text).is_ok_and(|kind| kind.forcing_frequencies.is_some());
+        let scenario = if several {
+            Form::<Vec<Pairs>>::read(text)?.scenario()?
+        } else {
+            let mut form = Form::<Pairs>::read(text)?;
+            let frequency = form.forcing_frequency.take();
+            let frequency = frequency.unwrap_or(Chain::default().forcing_frequency);
+            let pairs = std::mem::take(&mut form.forcing);
+            form.with(vec![(frequency, pairs)])?
+        };
+        scenario.validate()?;
+        Ok(scenario)
+    }
+
+    /// Checks every field against the model.
+    ///
+    /// # Errors
+    /// [`Error::Input`] names the first field that is out of bounds.
+    pub fn validate(&self) -> Result<(), Error> {
+        let within = |field: &str, x: f64, low: f64, high: f64| {
+            if x >= low && x <= high {
+                return Ok(());
+            }
+            let remedy = format!("give a number from {low:?} to {high:?}");
+            Err(Error::input(field, format!("{x:?} is out of range"), remedy))
+        };
+        within("spacing", self.spacing, 1e-6, 1e6)?;
+        within("natural_frequency", self.natural_frequency, 1e-3, 1e3)?;
+        within("restitution", self.restitution, 0.0, 1.0)?;
+        let single = self.overtones.is_empty();
+        if self.overtones.len() >= COMPONENTS {
+            return Err(Error::input(
+                "forcing_frequencies",
+                format!("there are {} of them", self.overtones.len() + 1),
+                format!("give 1 to {COMPONENTS}"),
+            ));
+        }
+        let frequencies = std::iter::once(self.forcing_frequency)
+            .chain(self.overtones.iter().map(|overtone| overtone.frequency));
+        for (m, frequency) in frequencies.enumerate() {
+            let field = match single {
+                true => "forcing_frequency".to_string(),
+                false => format!("forcing_frequencies[{m}]"),
+            };
+            within(&field, frequency, 1e-3, 1e3)?;
+            if frequency == self.natural_frequency {
+                return Err(Error::input(
+                    field,
+                    format!("{frequency:?} equals the natural frequency (resonance)"),
+                    "the undamped response grows without bound; choose another frequency",
+                ));
+            }
+        }
+        if self.forcing.is_empty() {
+            return Err(Error::input(
+                "forcing",
+                "it names no mass",
+                "give one pair [alpha, beta] for each mass, at least one",
+            ));
+        }
+        let pairs = |field: &str, pairs: &[[f64; 2]]| {
+            for (j, pair) in pairs.iter().enumerate() {
+                for x in pair {
+                    within(&format!("{field}[{j}]"), *x, -1e9, 1e9)?;
+                }
+            }
+            Ok(())
+        };
+        pairs(if single { "forcing" } else { "forcing[0]" }, &self.forcing)?;
+        for (m, overtone) in self.overtones.iter().enumerate() {
+            let field = format!("forcing[{}]", m + 1);
+            if overtone.amplitudes.len() != self.forcing.len() {
+                let (own, first) = (overtone.amplitudes.len(), self.forcing.len());
+                return Err(Error::input(
+                    field,
+                    format!("it has {own} pairs, forcing[0] has {first}"),
+                    "give one pair [alpha, beta] for each mass in each list",
+                ));
+            }
+            pairs(&field, &overtone.amplitudes)?;
+        }
+        if let Initial::Free(free) = &self.initial {
+            if free.len() != self.forcing.len() {
+                return Err(Error::input(
+                    "initial.free",
+                    format!("it has {} pairs for {} masses", free.len(), self.forcing.len()),
+                    "give one pair [a, b] for each mass",
+                ));
+            }
+            pairs("initial.free", free)?;
+        }
+        let (width, most) = (rounding::width(self), rounding::MOST * self.spacing);
+        if width <= most {
+            return Ok(());
+        }
+        Err(Error::input(
+            "forcing",
+            format!(
+                "amplitudes of the motion (alpha/(w^2 - W^2) and the free parts) are so large that rounding \
+                 may move a gap by {width:.1e}, which is more than {most:?}"
+            ),
+            "give frequencies further from the natural one, or smaller amplitudes",
+        ))
+    }
+
+    /// The same motion with time begun anew at `time`, from the free parts that its masses have then: every
+    /// phase is turned by what passed, and places, velocities and forces go on.
+    pub fn later(&self, free: &[[f64; 2]], time: f64) -> Scenario {
+        let turned = |pairs: &[[f64; 2]], frequency: f64| -> Vec<[f64; 2]> {
+            let (sin, cos) = pxfm::f_sincos(frequency * time);
+            pairs.iter().map(|[a, b]| [a * cos + b * sin, b * cos - a * sin]).collect()
+        };
+        let overtone = |own: &Overtone| Overtone {
+            frequency: own.frequency,
+            amplitudes: turned(&own.amplitudes, own.frequency),
+        };
+        Scenario {
+            initial: Initial::Free(turned(free, self.natural_frequency)),
+            forcing: turned(&self.forcing, self.forcing_frequency),
+            overtones: self.overtones.iter().map(overtone).collect(),
+            ..self.clone()
+        }
+    }
+
+    /// The components of the forcing: frequency, and amplitudes of each mass.
+    pub fn components(&self) -> impl Iterator<Item = (f64, &[[f64; 2]])> {
+        let further = self.overtones.iter().map(|own| (own.frequency, own.amplitudes.as_slice()));
+        std::iter::once((self.forcing_frequency, self.forcing.as_slice())).chain(further)
+    }
+
+    /// The frequencies of the forcing, filled up to `M` with the first.
+    pub(super) fn frequencies<const M: usize>(&self) -> [f64; M] {
+        std::array::from_fn(|m| match m.checked_sub(1).and_then(|m| self.overtones.get(m)) {
+            Some(overtone) => overtone.frequency,
+            None => self.forcing_frequency,
+        })
+    }
+
+    /// The amplitudes (α_j, β_j) of mass j, counted from 0, filled up to `M` with zeros.
+    pub(super) fn amplitudes<const M: usize>(&self, j: usize) -> [[f64; 2]; M] {
+        std::array::from_fn(|m| match m.checked_sub(1) {
+            None => self.forcing[j],
+            Some(m) => self.overtones.get(m).map_or([0.0; 2], |o| o.amplitudes[j]),
+        })
+    }
+
+    /// Number of gaps.
+    pub fn gaps(&self) -> usize {
+        match self.boundary {
+            Boundary::Walls => self.forcing.len() + 1,
+            Boundary::Ring => self.forcing.len(),
+        }
+    }
+}

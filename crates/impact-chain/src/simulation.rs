@@ -1,0 +1,486 @@
+//! The exact event-driven engine.
+//!
+//! Nothing is integrated. Each gap knows the instant of its next impact, found by the certified
+//! search from its own local frame; the earliest is taken from a winner tree, two masses are
+//! kicked, and the three gaps that they border are framed anew. What happens when neighbouring gaps
+//! close at the same instant is in `simultaneous`.
+
+use super::engine::{Counters, Impact, Sink};
+use super::flight::{Motion, Phases, Rates};
+use super::force::Force;
+use super::gap;
+use super::impact::jumps;
+use super::simultaneous::Ties;
+use super::topology::Topology;
+use super::{Error, Initial, Scenario};
+use impact_numerics::clock::Instant;
+use impact_numerics::earliest::Earliest;
+use impact_numerics::first_root::{Next, Search, Work};
+use impact_numerics::local_frame::{Frame, Frequencies};
+use impact_numerics::window::next_window;
+
+/// The response (c, s) of an undamped oscillator to a component of Eq. (3), with ω² − Ω² as
+/// (ω − Ω)(ω + Ω).
+pub(super) fn response(w: f64, big_w: f64, amplitudes: [f64; 2]) -> [f64; 2] {
+    let factor = (w - big_w) * (w + big_w);
+    amplitudes.map(|amplitude| amplitude / factor)
+}
+
+/// What a gap waits for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Awaits {
+    /// It cannot close until a neighbour is hit.
+    Nothing,
+    /// An impact at this speed.
+    Impact(f64),
+    /// Certified open until then; the search goes on from there. `whole_reach` if that is the
+    /// end of a frame which came from the motions.
+    Search { whole_reach: bool },
+    /// In contact, until the contact force vanishes (or, with `Search`, is looked at again).
+    Release,
+}
+
+/// A gap with its local frame.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Gap<const M: usize> {
+    /// The gap (or in contact its contact force) seen from `origin`.
+    pub frame: Frame<M>,
+    pub origin: Instant,
+    pub awaits: Awaits,
+    pub in_contact: bool,
+}
+
+/// Events that one gap may need within one unit of time 1/ω on average before a run is given up.
+/// A hot chain has about one impact a gap; a chatter with r = 0.99 takes some 2500.
+const EVENTS_PER_GAP: u64 = 100_000;
+
+/// Below this fraction of d a gap is carried on in its own frame when a neighbour is hit: as a
+/// difference of two positions it would have lost its digits.
+const NEARLY_SHUT: f64 = 1e-9;
+
+/// Overlap, as a fraction of d + R₁ + R₂, beyond which a gap cannot be explained by rounding.
+const ROUNDING: f64 = 1e-12;
+
+/// Below this part of what its positions are made of at t = 0, a gap may be exactly shut: roundings
+/// of amplitudes and sums add up to 5 · 2^-53 (see `rounding`).
+const SHUT: f64 = 4.0 * f64::EPSILON;
+
+/// The simulation of one scenario with `M` components of the forcing.
+#[derive(Clone, Debug)]
+pub(super) struct Simulation<const M: usize> {
+    pub(super) spacing: f64,
+    pub(super) restitution: f64,
+    pub(super) search: Search<M>,
+    pub(super) rates: Rates<M>,
+    pub(super) topology: Topology,
+    /// Masses 1..n; 0 and n + 1 are the walls.
+    pub(super) motions: Vec<Motion<M>>,
+    /// The forced response (c, s) of each mass on its own.
+    pub(super) forced: Vec<[[f64; 2]; M]>,
+    pub(super) gaps: Vec<Gap<M>>,
+    /// Contact force of each gap in contact: constant, cos Ωt and sin Ωt parts.
+    pub(super) forces: Vec<Force<M>>,
+    pub(super) queue: Earliest,
+    pub(super) now: Instant,
+    pub(super) work: Work,
+    impacts: u64,
+    pub(super) contact_phases: u64,
+    pub(super) ties: Ties,
+    budget_end: Instant,
+    budget_left: u64,
+}
+
+impl<const M: usize> Simulation<M> {
+    /// Sets a scenario at t = 0.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for values outside the model, [`Error::Overlap`] for an overlapping start.
+    pub fn new(scenario: &Scenario) -> Result<Self, Error> {
+        scenario.validate()?;
+        let w = scenario.natural_frequency;
+        let frequencies = Frequencies::new(w, scenario.frequencies());
+        let n = scenario.forcing.len();
+        let topology = Topology::new(n, scenario.boundary);
+        let mut motions = vec![Motion::STILL; n + 2];
+        let mut responses = vec![[[0.0; 2]; M]; n + 2];
+        for j in 0..n {
+            let amplitudes = scenario.amplitudes::<M>(j);
+            let forced: [[f64; 2]; M] =
+                std::array::from_fn(|m| response(w, frequencies.big_omegas[m], amplitudes[m]));
+            let [a, b] = match &scenario.initial {
+                Initial::Rest => frequencies
+                    .big_omegas
+                    .iter()
+                    .zip(forced)
+                    .fold([0.0; 2], |[a, b], (big_w, [c, s])| [a - c, b - big_w / w * s]),
+                Initial::Zero => [0.0; 2],
+                Initial::Free(parts) => parts[j],
+            };
+            motions[j + 1] = Motion { a, b, forced, offset: 0.0 };
+            responses[j + 1] = forced;
+        }
+        let gap = Gap {
+            frame: Frame::ZERO,
+            origin: Instant::ZERO,
+            awaits: Awaits::Nothing,
+            in_contact: false,
+        };
+        let gaps = topology.gaps();
+        let mut simulation = Simulation {
+            spacing: scenario.spacing,
+            restitution: scenario.restitution,
+            search: Search::new(frequencies),
+            rates: Rates::new(&frequencies),
+            topology,
+            motions,
+            forced: responses,
+            gaps: vec![gap; gaps],
+            forces: vec![Force::ZERO; gaps],
+            queue: Earliest::new(gaps),
+            now: Instant::ZERO,
+            work: Work::default(),
+            impacts: 0,
+            contact_phases: 0,
+            ties: Ties::new(scenario.simultaneous),
+            budget_end: Instant::ZERO.after(1.0 / w),
+            budget_left: EVENTS_PER_GAP * gaps as u64,
+        };
+        simulation.start()?;
+        Ok(simulation)
+    }
+
+    /// Frames all gaps at t = 0; those shut and at rest are settled together.
+    fn start(&mut self) -> Result<(), Error> {
+        let phases = Phases::at(&self.rates, self.now);
+        let mut shut = Vec::new();
+        for k in 0..self.gaps.len() {
+            let frame = self.look(k, &phases);
+            if frame.f0 < -ROUNDING * frame.size {
+                return Err(Error::Overlap { gap: self.topology.label(k), depth: -frame.f0 });
+            }
+            let f0 = if frame.f0 <= SHUT * self.made_of(k) { 0.0 } else { frame.f0 };
+            if f0 == 0.0 && frame.g0 == 0.0 {
+                shut.push(k);
+            }
+            if f0 == 0.0 || !self.waits(k, &phases) {
+                self.set_frame(k, &phases, f0, frame.g0);
+            }
+        }
+        if !shut.is_empty() {
+            self.settle(&phases, &shut, None);
+        }
+        Ok(())
+    }
+
+    /// d and the parts of both neighbours' positions at t = 0, summed: what rounding follows there.
+    fn made_of(&self, k: usize) -> f64 {
+        let parts = |side: usize| {
+            let motion = &self.motions[side];
+            motion.forced.iter().fold(motion.a.abs(), |sum, [c, _]| sum + c.abs())
+        };
+        self.topology.sides(k).into_iter().fold(self.spacing, |sum, side| sum + parts(side))
+    }
+
+    /// Runs until time `until`, and hands each impact to `sink` in order; stops early, right
+    /// after that impact, when `sink` returns false. May be called again with a later time.
+    ///
+    /// # Errors
+    /// [`Error::Work`] when the bound on work is exceeded.
+    pub fn run(&mut self, until: f64, sink: Sink) -> Result<(), Error> {
+        let end = Instant::at(until);
+        if !self.ties.left.is_empty() && !self.hand_out(sink) {
+            return Ok(());
+        }
+        while let Some(k) = self.next_event(end) {
+            if let Some(impact) = self.step(k)?
+                && (!sink(impact) || !self.ties.left.is_empty() && !self.hand_out(sink))
+            {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// Goes to the next event up to `end`; returns its gap.
+    #[inline(always)]
+    pub(super) fn next_event(&mut self, end: Instant) -> Option<usize> {
+        let (k, at) = self.queue.first();
+        if at > end {
+            return None;
+        }
+        self.now = at;
+        Some(k)
+    }
+
+    /// What gap k waited for has come, at the instant `now`; returns the impact if it is one.
+    #[inline(always)]
+    pub(super) fn step(&mut self, k: usize) -> Result<Option<Impact>, Error> {
+        match self.gaps[k].awaits {
+            Awaits::Impact(speed) => {
+                let impact = self.count_impact(k, speed)?;
+                let phases = Phases::at(&self.rates, self.now);
+                if !(self.queue.ties_beside(k) && self.collide_tied(k, &phases)) {
+                    self.collide(k, speed, &phases);
+                }
+                return Ok(Some(impact));
+            }
+            Awaits::Search { whole_reach: true } if !self.gaps[k].in_contact => {
+                // The next frame will come from the motions, which do not drift, and with an eye
+                // to a longer wait.
+                let gap = &mut self.gaps[k];
+                gap.frame = gap.frame.advanced(&self.search.frequencies);
+                let key = self.search(k, false);
+                self.queue.set(k, [key]);
+            }
+            Awaits::Search { .. } => {
+                if self.now == self.gaps[k].origin {
+                    self.spend(k)?;
+                }
+                let phases = Phases::at(&self.rates, self.now);
+                if self.gaps[k].in_contact {
+                    self.watch_contact(k, &phases);
+                } else if !self.waits(k, &phases) {
+                    self.reframe(k, &phases, 0.0);
+                }
+            }
+            Awaits::Release => {
+                self.spend(k)?;
+                let phases = Phases::at(&self.rates, self.now);
+                self.release(k, &phases);
+            }
+            Awaits::Nothing => unreachable!("a gap that awaits nothing has the key NEVER"),
+        }
+        Ok(None)
+    }
+
+    /// Counts the impact of gap k now, and takes it from the budget.
+    #[inline(always)]
+    pub(super) fn count_impact(&mut self, k: usize, closing_speed: f64) -> Result<Impact, Error> {
+        self.spend(k)?;
+        self.impacts += 1;
+        Ok(Impact { time: self.now.time(), gap: self.topology.label(k), closing_speed })
+    }
+
+    /// Counts another impact at the same instant; should the budget be spent, the next event says so.
+    pub(super) fn count_another(&mut self, k: usize, closing_speed: f64) -> Impact {
+        self.budget_left = self.budget_left.saturating_sub(1);
+        self.impacts += 1;
+        Impact { time: self.now.time(), gap: self.topology.label(k), closing_speed }
+    }
+
+    /// Takes one event from the budget of the current unit of time.
+    fn spend(&mut self, k: usize) -> Result<(), Error> {
+        let bound = EVENTS_PER_GAP * self.gaps.len() as u64;
+        if self.now >= self.budget_end {
+            self.budget_end = self.now.after(1.0 / self.search.frequencies.omega);
+            self.budget_left = bound;
+        }
+        if self.budget_left == 0 {
+            return Err(Error::Work { gap: self.topology.label(k), time: self.now.time(), bound });
+        }
+        self.budget_left -= 1;
+        Ok(())
+    }
+
+    /// The impact of gap k at `speed`.
+    fn collide(&mut self, k: usize, speed: f64, phases: &Phases<M>) {
+        if self.is_contact_matter(k, speed) {
+            return self.collide_in_contact(k, speed, phases);
+        }
+        let jumps = self.kick_neighbours(k, speed, phases);
+        if k > 0 && k + 1 < self.gaps.len() {
+            // Each neighbour shares one mass with the gap.
+            self.look_again(k - 1, phases, jumps[0]);
+            self.look_again(k + 1, phases, -jumps[1]);
+            let mut own = self.look(k, phases);
+            (own.f0, own.g0) = (0.0, self.restitution * speed);
+            self.gaps[k].frame = own;
+            let mut keys = [Instant::NEVER; 3];
+            for (near, key) in (k - 1..).zip(&mut keys) {
+                *key = self.search(near, true);
+            }
+            return self.queue.set(k - 1, keys);
+        }
+        self.set_frame(k, phases, 0.0, self.restitution * speed);
+        let [before, after] = self.topology.adjacent(k);
+        for near in [before, after].into_iter().flatten() {
+            self.reframe(near, phases, self.jump_of_gap(near, k, jumps));
+            if before == after {
+                break;
+            }
+        }
+    }
+
+    /// Applies the impact law to the two neighbours of gap k; returns the jumps of their velocity.
+    pub(super) fn kick_neighbours(&mut self, k: usize, speed: f64, p: &Phases<M>) -> [f64; 2] {
+        let sides = self.topology.sides(k);
+        let inverse = sides.map(|m| self.topology.inverse_mass(m));
+        let jumps = jumps(speed, self.restitution, inverse);
+        for (side, jump) in sides.into_iter().zip(jumps) {
+            self.motions[side].kick(jump / self.search.frequencies.omega, p);
+        }
+        jumps
+    }
+
+    /// The jump of the rate of gap `near` when the neighbours of gap `k` jump by `jumps`.
+    pub(super) fn jump_of_gap(&self, near: usize, k: usize, jumps: [f64; 2]) -> f64 {
+        let sides = self.topology.sides(k);
+        let of = |m: usize| {
+            sides
+                .iter()
+                .zip(jumps)
+                .filter(|(side, _)| **side == m)
+                .map(|(_, jump)| jump)
+                .sum::<f64>()
+        };
+        let [left, right] = self.topology.sides(near);
+        of(right) - of(left)
+    }
+
+    /// The frame of gap k from the motions of its neighbours.
+    #[inline(always)]
+    pub(super) fn look(&self, k: usize, phases: &Phases<M>) -> Frame<M> {
+        let [left, right] = self.topology.sides(k);
+        let motion = self.motions[right].minus(&self.motions[left]);
+        gap::frame(self.spacing, &motion, phases, &self.search.frequencies)
+    }
+
+    /// Takes the frame of gap k anew, `jump` being what its rate has just jumped by.
+    #[inline(always)]
+    fn look_again(&mut self, k: usize, phases: &Phases<M>, jump: f64) {
+        let mut frame = self.look(k, phases);
+        if let Some([f0, g0]) = self.carried(k, &frame, jump) {
+            (frame.f0, frame.g0) = (f0, g0);
+        }
+        // A width below zero by rounding is zero unless the gap is closing, and then due now.
+        if frame.g0 >= 0.0 {
+            frame.f0 = frame.f0.max(0.0);
+        }
+        self.gaps[k].frame = frame;
+    }
+
+    /// The same, and looks for the next impact of gap k.
+    pub(super) fn reframe(&mut self, k: usize, phases: &Phases<M>, jump: f64) {
+        self.look_again(k, phases, jump);
+        let key = self.search(k, true);
+        self.queue.set(k, [key]);
+    }
+
+    /// Frames gap k now with width `f0` and rate `g0`, which are known better than by looking, and
+    /// looks for its next impact.
+    pub(super) fn set_frame(&mut self, k: usize, phases: &Phases<M>, f0: f64, g0: f64) {
+        let mut frame = self.look(k, phases);
+        (frame.f0, frame.g0) = (if g0 >= 0.0 { f0.max(0.0) } else { f0 }, g0);
+        self.gaps[k].frame = frame;
+        let key = self.search(k, true);
+        self.queue.set(k, [key]);
+    }
+
+    /// Width and rate of a nearly shut gap from its own last frame.
+    #[inline(always)]
+    pub(super) fn carried(&self, k: usize, seen: &Frame<M>, jump: f64) -> Option<[f64; 2]> {
+        if seen.f0 >= NEARLY_SHUT * self.spacing || self.gaps[k].in_contact {
+            return None;
+        }
+        self.carried_on(k, jump)
+    }
+
+    #[cold]
+    fn carried_on(&self, k: usize, jump: f64) -> Option<[f64; 2]> {
+        let old = &self.gaps[k];
+        let s = self.now.since(old.origin);
+        let p = if s == 0.0 {
+            old.frame.start(&self.search.frequencies)
+        } else if s <= self.search.frequencies.reach {
+            old.frame.at(s, &self.search.frequencies)
+        } else {
+            return None;
+        };
+        Some([p.f, p.g + jump])
+    }
+
+    /// Searches the frame of gap k, taken at this instant; returns the key of what it now awaits.
+    /// `looked` if the frame came from the motions.
+    #[inline(always)]
+    fn search(&mut self, k: usize, looked: bool) -> Instant {
+        let gap = &mut self.gaps[k];
+        gap.origin = self.now;
+        gap.in_contact = false;
+        match self.search.first_root(&gap.frame, &mut self.work) {
+            Next::Root { s, speed } => {
+                gap.awaits = Awaits::Impact(speed);
+                self.now.after(s)
+            }
+            Next::Clear { s } => {
+                let whole_reach = looked && s == self.search.frequencies.reach;
+                gap.awaits = Awaits::Search { whole_reach };
+                self.now.after(s)
+            }
+        }
+    }
+
+    /// Lets gap k, which is open, wait without a search for as long as it certainly stays open, if
+    /// that is longer than a search can see.
+    fn waits(&mut self, k: usize, phases: &Phases<M>) -> bool {
+        let [left, right] = self.topology.sides(k);
+        let motion = self.motions[right].minus(&self.motions[left]);
+        let seen = motion.seen(phases);
+        let mean = self.spacing + motion.offset;
+        let free = [seen.u, seen.u_quadrature];
+        let frequencies = &self.search.frequencies;
+        let (awaits, key) = match next_window(mean, free, &seen.forced, frequencies) {
+            None => (Awaits::Nothing, Instant::NEVER),
+            Some(s) if s > frequencies.reach => {
+                (Awaits::Search { whole_reach: false }, self.now.after(s))
+            }
+            Some(_) => return false,
+        };
+        self.gaps[k].awaits = awaits;
+        self.gaps[k].origin = self.now;
+        self.queue.set(k, [key]);
+        true
+    }
+
+    /// Positions x_1..x_n at `time`, exact between the last event and the next.
+    pub fn positions(&self, time: f64) -> Vec<f64> {
+        let phases = Phases::at(&self.rates, Instant::at(time));
+        self.masses(|j, motion| {
+            j as f64 * self.spacing + motion.offset + motion.seen(&phases).place()
+        })
+    }
+
+    /// Velocities of the masses 1..n at `time`, exact between the last event and the next.
+    pub fn velocities(&self, time: f64) -> Vec<f64> {
+        let phases = Phases::at(&self.rates, Instant::at(time));
+        self.masses(|_, motion| motion.seen(&phases).velocity(&self.search.frequencies))
+    }
+
+    /// Free parts (a_j, b_j) of the masses 1..n; those in contact share that of their cluster.
+    pub fn free_parts(&self) -> Vec<[f64; 2]> {
+        self.masses(|_, motion| [motion.a, motion.b])
+    }
+
+    fn masses<T>(&self, of: impl Fn(usize, &Motion<M>) -> T) -> Vec<T> {
+        let n = self.motions.len() - 2;
+        (1..=n).map(|j| of(j, &self.motions[j])).collect()
+    }
+
+    /// Time of the last event.
+    pub fn time(&self) -> f64 {
+        self.now.time()
+    }
+
+    /// Counted work so far.
+    pub fn counters(&self) -> Counters {
+        Counters {
+            impacts: self.impacts,
+            contact_phases: self.contact_phases,
+            searches: self.work.searches,
+            pieces: self.work.pieces,
+            stepped: self.work.stepped,
+            evaluations: self.work.evaluations,
+            undecided: self.work.undecided,
+            simultaneous: self.ties.count,
+        }
+    }
+}

@@ -1,0 +1,70 @@
+//! Who is next to whom.
+
+use crate::Boundary;
+
+/// The neighbourhood of masses and gaps, which are numbered 0..N inside the engine.
+///
+/// Masses are 1..=n; between walls, 0 and n + 1 stand for the walls.
+#[derive(Clone, Copy, Debug)]
+pub struct Topology {
+    masses: usize,
+    boundary: Boundary,
+}
+
+impl Topology {
+    /// For n ≥ 1 masses.
+    pub fn new(masses: usize, boundary: Boundary) -> Self {
+        Topology { masses, boundary }
+    }
+
+    /// Number of gaps N.
+    pub fn gaps(&self) -> usize {
+        match self.boundary {
+            Boundary::Walls => self.masses + 1,
+            Boundary::Ring => self.masses,
+        }
+    }
+
+    /// The name of gap k for the outside: 0..=n between walls, 1..=n on a ring.
+    #[inline]
+    pub fn label(&self, k: usize) -> usize {
+        match self.boundary {
+            Boundary::Walls => k,
+            Boundary::Ring => k + 1,
+        }
+    }
+
+    /// The neighbours (left, right) of gap k.
+    #[inline]
+    pub fn sides(&self, k: usize) -> [usize; 2] {
+        match self.boundary {
+            Boundary::Walls => [k, k + 1],
+            Boundary::Ring => [k + 1, if k + 1 == self.masses { 1 } else { k + 2 }],
+        }
+    }
+
+    /// The gaps (before, after) that share a mass with gap k.
+    #[inline]
+    pub fn adjacent(&self, k: usize) -> [Option<usize>; 2] {
+        let last = self.gaps() - 1;
+        match self.boundary {
+            Boundary::Walls => [k.checked_sub(1), (k < last).then_some(k + 1)],
+            Boundary::Ring if last == 0 => [None, None],
+            Boundary::Ring => {
+                [Some(if k == 0 { last } else { k - 1 }), Some(if k == last { 0 } else { k + 1 })]
+            }
+        }
+    }
+
+    /// Whether `m` stands for a wall.
+    #[inline]
+    pub fn is_wall(&self, m: usize) -> bool {
+        m == 0 || m > self.masses
+    }
+
+    /// 1 for a mass, 0 for a wall.
+    #[inline]
+    pub fn inverse_mass(&self, m: usize) -> f64 {
+        if self.is_wall(m) { 0.0 } else { 1.0 }
+    }
+}

@@ -1,0 +1,295 @@
+//! The certified first root of a sum of sinusoids and a constant, in its local frame.
+
+use super::local_frame::{Frame, Frequencies};
+use super::polish::refine;
+use super::screen::Piece;
+use super::stepping::first_root_by_steps;
+
+/// What a search found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Next {
+    /// The first root, at `s`, where f falls with `speed` = −f'(s) ≥ 0.
+    Root {
+        /// Time since the frame's instant.
+        s: f64,
+        /// −f' at the root.
+        speed: f64,
+    },
+    /// No root in (0, s].
+    Clear {
+        /// Certified up to here.
+        s: f64,
+    },
+}
+
+/// Counted work of searches.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Work {
+    /// Searches started.
+    pub searches: u64,
+    /// Pieces screened: one polynomial certificate each, without a sine.
+    pub pieces: u64,
+    /// Evaluations of f with its sines (the start costs none).
+    pub evaluations: u64,
+    /// Searches that the screen could not decide.
+    pub stepped: u64,
+    /// Decisions taken inside the undecidable band.
+    pub undecided: u64,
+}
+
+/// How often the reach is halved: pieces of 1, 1/2, … 2^-LEVELS of it.
+const LEVELS: usize = 2;
+
+/// The search for first roots at given frequencies.
+#[derive(Clone, Debug)]
+pub struct Search<const M: usize> {
+    /// The frequencies.
+    pub frequencies: Frequencies<M>,
+    /// The whole reach, its halves, its quarters, …: piece k is halved into 2k + 1 and 2k + 2.
+    pieces: [Piece<M>; (1 << (LEVELS + 1)) - 1],
+}
+
+impl<const M: usize> Search<M> {
+    /// For the given frequencies.
+    pub fn new(frequencies: Frequencies<M>) -> Self {
+        let pieces = std::array::from_fn(|k| {
+            let level = (k + 1).ilog2();
+            let width = frequencies.reach / f64::from(1u32 << level);
+            let index = k + 1 - (1 << level);
+            Piece::new(index as f64 * width, width, &frequencies)
+        });
+        Search { frequencies, pieces }
+    }
+
+    /// The first root of the frame's function after s = 0, or the proof that there is none up to
+    /// the reach.
+    ///
+    /// f₀ > 0: the first root. f₀ = 0: the first root after s = 0 if f leaves zero upwards, and
+    /// s = 0 itself if it moves down. f₀ < 0 is a root at s = 0.
+    #[inline(always)]
+    pub fn first_root(&self, frame: &Frame<M>, work: &mut Work) -> Next {
+        if let Some(next) = self.glance(frame, work) {
+            return next;
+        }
+        let sight = self.look_closer(frame, work);
+        self.settle(frame, sight, work)
+    }
+
+    /// The first step of a search, which ends most of them: the whole reach at one look.
+    #[inline(always)]
+    pub fn glance(&self, frame: &Frame<M>, work: &mut Work) -> Option<Next> {
+        work.searches += 1;
+        if frame.f0 < 0.0 || (frame.f0 == 0.0 && frame.g0 < 0.0) {
+            return Some(Next::Root { s: 0.0, speed: -frame.g0 });
+        }
+        work.pieces += 1;
+        let open = self.pieces[0].coefficients(frame).open();
+        open.then_some(Next::Clear { s: self.frequencies.reach })
+    }
+
+    /// The second step: the halves of the reach, and the halves of what they leave open.
+    #[inline(always)]
+    pub fn look_closer(&self, frame: &Frame<M>, work: &mut Work) -> Sight {
+        let mut first = frame.f0;
+        let mut k = 1;
+        loop {
+            let piece = &self.pieces[k];
+            let coefficients = piece.coefficients(frame);
+            work.pieces += 1;
+            if coefficients.open() {
+                first = coefficients.last();
+                // On to the next piece, the widest that begins here.
+                while k > 0 && k % 2 == 0 {
+                    k = (k - 2) / 2;
+                }
+                if k == 0 {
+                    return Sight::Clear;
+                }
+                k += 1;
+                continue;
+            }
+            if first > 0.0
+                && let Some(guess) = piece.only_root(frame, first, &coefficients)
+            {
+                return Sight::Root { guess, clear: piece.start };
+            }
+            if 2 * k + 1 >= self.pieces.len() {
+                return Sight::Blurred { clear: piece.start };
+            }
+            k = 2 * k + 1;
+        }
+    }
+
+    /// The last step: a root in sight to full accuracy, and certified steps where nothing else
+    /// decides.
+    #[inline(always)]
+    pub fn settle(&self, frame: &Frame<M>, sight: Sight, work: &mut Work) -> Next {
+        let reach = self.frequencies.reach;
+        let clear = match sight {
+            Sight::Clear => return Next::Clear { s: reach },
+            Sight::Root { guess, clear } => match self.close_in(frame, guess, work) {
+                Some((s, speed)) => return Next::Root { s, speed },
+                None => clear,
+            },
+            Sight::Blurred { clear } => clear,
+        };
+        work.stepped += 1;
+        first_root_by_steps(frame, clear, reach, &self.frequencies, work)
+    }
+
+    /// The root near a guess, to full accuracy.
+    #[inline(always)]
+    fn close_in(&self, frame: &Frame<M>, guess: f64, work: &mut Work) -> Option<(f64, f64)> {
+        let mut s = guess;
+        for _ in 0..4 {
+            work.evaluations += 1;
+            let p = frame.at(s, &self.frequencies);
+            match refine(s, &p, &self.frequencies) {
+                Ok(found) => return Some(found),
+                Err(h) => s += h,
+            }
+            if !(s > 0.0 && s < self.frequencies.reach) {
+                return None;
+            }
+        }
+        None
+    }
+}
+
+/// What the screen shows of a frame that it could not clear at a glance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Sight {
+    /// No root in the whole reach.
+    Clear,
+    /// The first root lies in a piece over which f falls, near `guess`; no root before `clear`.
+    Root {
+        /// A guess of the root.
+        guess: f64,
+        /// Certified up to here.
+        clear: f64,
+    },
+    /// No root before `clear`; beyond it the pieces are too coarse.
+    Blurred {
+        /// Certified up to here.
+        clear: f64,
+    },
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::random::NormalPairs;
+
+    const OMEGAS: [[f64; 2]; 4] =
+        [[1.0, std::f64::consts::SQRT_2], [1.3, 0.7], [0.2, 3.0], [1.0, 1.0001]];
+
+    /// A frame with normal amplitudes; every third starts shut, every fifth barely.
+    fn frame(i: u64, frequencies: &Frequencies<1>) -> Frame<1> {
+        let mut normals = NormalPairs::new("frames", 1, i);
+        let [alpha, q] = normals.pair();
+        let [gamma, delta] = normals.pair();
+        let [width, slope] = normals.pair();
+        let (w, big_w) = (frequencies.omega, frequencies.big_omegas[0]);
+        let f0 = match i {
+            i if i % 3 == 0 => 0.0,
+            i if i % 5 == 0 => 1e-12 * width.abs(),
+            _ => width.abs(),
+        };
+        let g0 = if f0 == 0.0 { slope.abs() } else { q };
+        let r1 = alpha.hypot(g0 / w - big_w / w * delta);
+        let r2 = gamma.hypot(delta);
+        let bound = w.powi(4) * r1 + big_w.powi(4) * r2;
+        let size = (f0 - alpha - gamma).abs() + r1 + (1.0 + 2.0 * big_w / w) * r2;
+        Frame { f0, g0, alpha, forced: [[gamma, delta]], bound, size }
+    }
+
+    /// The frame's function in absolute form, with the platform's sine and cosine.
+    fn absolute(frame: &Frame<1>, frequencies: &Frequencies<1>) -> impl Fn(f64) -> f64 + use<> {
+        let (w, big_w) = (frequencies.omega, frequencies.big_omegas[0]);
+        let Frame { f0, g0, alpha, forced: [[gamma, delta]], .. } = *frame;
+        let q = g0 / w - big_w / w * delta;
+        move |s: f64| {
+            f0 - alpha - gamma
+                + alpha * (w * s).cos()
+                + q * (w * s).sin()
+                + gamma * (big_w * s).cos()
+                + delta * (big_w * s).sin()
+        }
+    }
+
+    /// The second route: f on a fine grid.
+    #[test]
+    fn no_sign_change_is_skipped() {
+        let (mut roots, mut total) = (0, Work::default());
+        for [w, big_w] in OMEGAS {
+            let search = Search::new(Frequencies::new(w, [big_w]));
+            let reach = search.frequencies.reach;
+            for i in 0..3000 {
+                let frame = frame(i, &search.frequencies);
+                let f = absolute(&frame, &search.frequencies);
+                let next = search.first_root(&frame, &mut total);
+                let end = match next {
+                    Next::Root { s, speed } => {
+                        roots += 1;
+                        assert!(f(s).abs() < 2e-14, "frame {i}: f = {:e}", f(s));
+                        let numeric = -(f(s + 1e-5) - f(s - 1e-5)) / 2e-5;
+                        assert!((speed - numeric).abs() < 1e-8, "{speed} {numeric}");
+                        s
+                    }
+                    Next::Clear { s } => {
+                        assert_eq!(s, reach);
+                        reach
+                    }
+                };
+                for k in 1..1000 {
+                    let s = end * f64::from(k) / 1000.0;
+                    assert!(f(s) > -1e-15, "frame {i} of {w}, {big_w}: root before {s}");
+                }
+            }
+        }
+        assert!((2000..10_000).contains(&roots), "{roots}");
+        // Counted work: a change of the algorithm shows here.
+        assert!(total.evaluations < 2 * roots, "{total:?}, {roots} roots");
+        assert!(total.stepped < 12_000 / 8, "{total:?}");
+    }
+
+    /// Screen and steps are two ways to the same root.
+    #[test]
+    fn steps_alone_find_the_same_roots() {
+        for [w, big_w] in OMEGAS {
+            let search = Search::new(Frequencies::new(w, [big_w]));
+            let reach = search.frequencies.reach;
+            for i in 0..3000 {
+                let frame = frame(i, &search.frequencies);
+                let mut work = Work::default();
+                let quick = search.first_root(&frame, &mut work);
+                let frequencies = &search.frequencies;
+                let sure = first_root_by_steps(&frame, 0.0, reach, frequencies, &mut work);
+                match (quick, sure) {
+                    (Next::Root { s, speed }, Next::Root { s: sure, speed: own }) => {
+                        let close = 1e-13 / speed.max(1e-3);
+                        assert!((s - sure).abs() < close, "frame {i}: {s} {sure}");
+                        assert!((speed - own).abs() < 1e-12 / speed.max(1e-3), "frame {i}");
+                    }
+                    _ => assert_eq!(quick, sure, "frame {i} of {w}, {big_w}"),
+                }
+            }
+        }
+    }
+
+    /// An advanced frame is the same function seen later.
+    #[test]
+    fn a_frame_advances_by_its_reach() {
+        let frequencies = Frequencies::new(1.0, [std::f64::consts::SQRT_2]);
+        for i in 0..300 {
+            let frame = frame(i, &frequencies);
+            let (early, late) = (
+                absolute(&frame, &frequencies),
+                absolute(&frame.advanced(&frequencies), &frequencies),
+            );
+            for s in [0.0, 0.3, 1.7] {
+                assert!((late(s) - early(s + frequencies.reach)).abs() < 1e-14, "frame {i}");
+            }
+        }
+    }
+}

@@ -1,0 +1,32 @@
+//! Mathematics that knows no physics: portable kernels, certified searches, sums, statistics and
+//! random streams. Everything here gives the same bits on every machine: only + − × ÷ √ and the
+//! functions of `pxfm` are used, never the platform's libm.
+//!
+//! - The first root of a sum of sinusoids in slow motion, found with a proof that none was missed:
+//!   [`first_root`], in frames ([`local_frame`]) that lose no digits, screened by polynomials
+//!   ([`screen`]); phases without drift from a [`clock`] of 96 bits; the next event of many from [`earliest`].
+//! - Numbers beyond f64: [`double_double`] has 32 digits, [`scaled`] the exponents of factorials.
+//! - Roots, integrals and matrices: [`bisection`], [`regula_falsi`], [`quadrature`], [`dense`], [`eigenvalues`].
+//! - Samples: [`random`] streams that depend on nothing but their names, [`statistics`], [`regression`] and the
+//!   [`bootstrap`].
+
+pub mod bisection;
+pub mod bootstrap;
+pub mod clock;
+pub mod dense;
+pub mod double_double;
+pub mod earliest;
+pub mod eigenvalues;
+pub mod first_root;
+pub mod local_frame;
+mod polish;
+pub mod quadrature;
+pub mod random;
+pub mod regression;
+pub mod regula_falsi;
+pub mod scaled;
+pub mod screen;
+pub mod statistics;
+mod stepping;
+pub mod trig;
+pub mod window;

@@ -1,0 +1,229 @@
+//! A quick certificate: does a function stay open over a piece of its frame, or close just once?
+//!
+//! On a piece [a, a + w] the function f is compared with the polynomial p of degree seven that
+//! shares its value and first three derivatives at both ends (Hermite). The difference is at most
+//! M₈ (s − a)⁴ (a + w − s)⁴ / 8!, a polynomial of degree eight with one Bernstein coefficient, so
+//! p minus the difference is below f and its nine Bernstein coefficients bound it from below. They
+//! are linear in f₀, g₀, α, γ and δ, with factors that depend on the frequencies and the piece
+//! alone: a table, made once, replaces every sine.
+
+use super::local_frame::{Frame, Frequencies};
+use super::trig::small_sin_cos;
+use wide::f64x2;
+
+/// Degree of the Bernstein form.
+const N: usize = 8;
+
+/// One number for each of the coefficients b₁ … b₈.
+type Row = [f64x2; N / 2];
+
+/// The factors of one piece.
+#[derive(Clone, Copy, Debug)]
+pub struct Piece<const M: usize> {
+    /// a, where the piece begins.
+    pub start: f64,
+    /// w, its width.
+    pub width: f64,
+    slope: Row,
+    alpha: Row,
+    forced: [[Row; 2]; M],
+    /// The largest difference between f and p over M₄, as it enters b₄, and 0 for b₃.
+    difference: f64x2,
+    /// What the same difference does to b_{i+1} − b_i at most.
+    difference_of_slope: f64,
+}
+
+/// The Bernstein coefficients of one piece.
+#[derive(Clone, Copy, Debug)]
+pub struct Coefficients {
+    row: Row,
+    /// What rounding can have done to each of them, twice.
+    slack: f64,
+}
+
+/// C(i, k) (8 − k)!/8! wᵏ: what the k-th derivative at an end adds to the i-th coefficient.
+fn weight(i: usize, k: usize, w: f64) -> f64 {
+    let mut out = 1.0;
+    for m in 0..k {
+        out *= (i - m) as f64 / (m + 1) as f64 * w / (N - m) as f64;
+    }
+    out
+}
+
+/// b₁ … b₈ of the Hermite polynomial with the given value and derivatives at both ends.
+fn hermite(left: [f64; 4], right: [f64; 4], w: f64) -> Row {
+    let mut b = [0.0; N + 1];
+    for i in 0..4 {
+        for k in 0..=i {
+            b[i] += weight(i, k, w) * left[k];
+            b[N - i] += weight(i, k, -w) * right[k];
+        }
+    }
+    // Degree seven: the eighth difference vanishes.
+    b[4] =
+        (56.0 * (b[3] + b[5]) - 28.0 * (b[2] + b[6]) + 8.0 * (b[1] + b[7]) - (b[0] + b[8])) / 70.0;
+    row(b[1..].try_into().expect("eight of nine"))
+}
+
+fn row(b: [f64; N]) -> Row {
+    std::array::from_fn(|i| f64x2::from([b[2 * i], b[2 * i + 1]]))
+}
+
+impl<const M: usize> Piece<M> {
+    /// The piece of `frequencies` that begins at `start` and is `width` wide, within the reach.
+    pub fn new(start: f64, width: f64, frequencies: &Frequencies<M>) -> Self {
+        let w = frequencies.omega;
+        // Value and three derivatives of 1 − cos νs and of sin νs − ρ sin ωs at s.
+        let versine = |nu: f64, s: f64| {
+            let [rest, versine] = small_sin_cos(nu * s);
+            let (sin, cos) = (nu * s + rest, 1.0 - versine);
+            [versine, nu * sin, nu * nu * cos, -(nu * nu * nu * sin)]
+        };
+        let sine = |nu: f64, s: f64| {
+            let [rest, versine] = small_sin_cos(nu * s);
+            let (sin, cos) = (nu * s + rest, 1.0 - versine);
+            [sin, nu * cos, -(nu * nu * sin), -(nu * nu * nu * cos)]
+        };
+        let end = start + width;
+        let of = |f: &dyn Fn(f64) -> [f64; 4]| hermite(f(start), f(end), width);
+        let fast2 = frequencies.fastest * frequencies.fastest;
+        let width2 = width * width;
+        let eighth = fast2 * fast2 * (width2 * width2) * (width2 * width2) / 40_320.0;
+        Piece {
+            start,
+            width,
+            slope: of(&|s| sine(w, s).map(|x| x / w)),
+            alpha: of(&|s| versine(w, s).map(|x| -x)),
+            forced: std::array::from_fn(|m| {
+                let nu = frequencies.big_omegas[m];
+                let difference = |s: f64| {
+                    let (fast, slow) = (sine(nu, s), sine(w, s));
+                    std::array::from_fn(|k| fast[k] - nu / w * slow[k])
+                };
+                [of(&|s| versine(nu, s).map(|x| -x)), of(&difference)]
+            }),
+            difference: f64x2::from([0.0, eighth / 70.0]),
+            // |f' − p'| ≤ M₈ max |t³ (w − t)³ (t − ξ)|/7! ≤ M₈ w⁷/(64 · 7!), times w/8.
+            difference_of_slope: eighth / 64.0,
+        }
+    }
+
+    /// The coefficients b₁ … b₈ of p over this piece; b₀ is f(a).
+    #[inline(always)]
+    pub fn coefficients(&self, frame: &Frame<M>) -> Coefficients {
+        let mut row: Row = std::array::from_fn(|i| {
+            let mut b = f64x2::splat(frame.f0)
+                + f64x2::splat(frame.g0) * self.slope[i]
+                + f64x2::splat(frame.alpha) * self.alpha[i];
+            for m in 0..M {
+                b = b
+                    + f64x2::splat(frame.forced[m][0]) * self.forced[m][0][i]
+                    + f64x2::splat(frame.forced[m][1]) * self.forced[m][1][i];
+            }
+            b
+        });
+        row[1] -= f64x2::splat(frame.bound) * self.difference;
+        Coefficients { row, slack: SLACK * frame.size }
+    }
+
+    /// Whether f falls over the whole piece, to below zero at its end; `first` is f(a) > 0. If so,
+    /// a guess of its root, counted from the frame's instant.
+    #[inline(always)]
+    pub fn only_root(&self, frame: &Frame<M>, first: f64, c: &Coefficients) -> Option<f64> {
+        let b = c.all(first);
+        let slack = c.slack + self.difference_of_slope * frame.bound;
+        let falls = b[N] < -c.slack && (0..N).all(|i| b[i + 1] < b[i] - slack);
+        if !falls {
+            return None;
+        }
+        // The parabola with value, slope and curvature of p at the end that is nearer to zero.
+        let at_left = b[0] < -b[N];
+        let [near, next, third] = if at_left { [b[0], b[1], b[2]] } else { [b[8], b[7], b[6]] };
+        let slope = 8.0 * (near - next);
+        let curvature = 56.0 * (near - 2.0 * next + third);
+        let root = (slope * slope - 2.0 * near * curvature).max(0.0).sqrt();
+        // Inwards, f falls from the left end and rises from the right one.
+        let inwards = 2.0 * near.abs() / (slope.abs() + root);
+        let inwards = inwards.min(1.0);
+        let inside = if at_left { inwards } else { 1.0 - inwards };
+        Some(self.start + self.width * inside)
+    }
+}
+
+/// Rounding of a coefficient: at most a dozen roundings of terms that are each below a few sizes.
+const SLACK: f64 = 64.0 * f64::EPSILON;
+
+impl Coefficients {
+    /// f > 0 on (a, a + w], given that f(a) ≥ 0.
+    #[inline(always)]
+    pub fn open(&self) -> bool {
+        let [a, b, c, d] = self.row;
+        let least = a.fast_min(b).fast_min(c.fast_min(d));
+        least.simd_gt(f64x2::splat(self.slack)).all()
+    }
+
+    /// b₈, the value at the end of the piece.
+    #[inline(always)]
+    pub fn last(&self) -> f64 {
+        self.row[N / 2 - 1].to_array()[1]
+    }
+
+    fn all(&self, first: f64) -> [f64; N + 1] {
+        let [[a, b], [c, d], [e, f], [g, h]] = self.row.map(f64x2::to_array);
+        [first, a, b, c, d, e, f, g, h]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::random::NormalPairs;
+
+    /// What every certificate rests on: the polynomial of the coefficients lies below f. The second
+    /// route is f in absolute form, with the platform's sine and cosine.
+    #[test]
+    fn the_polynomial_lies_below_the_function() {
+        const BINOMIALS: [f64; N + 1] = [1.0, 8.0, 28.0, 56.0, 70.0, 56.0, 28.0, 8.0, 1.0];
+        let mut closest = f64::INFINITY;
+        for i in 0..500 {
+            let omegas = [[1.0, std::f64::consts::SQRT_2], [1.3, 0.7], [0.2, 3.0]][i % 3];
+            let frequencies = Frequencies::new(omegas[0], [omegas[1]]);
+            let [w, big_w] = omegas;
+            let mut normals = NormalPairs::new("below", 1, i as u64);
+            let ([alpha, q], [gamma, delta]) = (normals.pair(), normals.pair());
+            let (r1, r2) = (alpha.hypot(q), gamma.hypot(delta));
+            let frame = Frame {
+                f0: 1.0 + alpha + gamma,
+                g0: w * q + big_w * delta,
+                alpha,
+                forced: [[gamma, delta]],
+                bound: w.powi(4) * r1 + big_w.powi(4) * r2,
+                size: 1.0 + r1 + r2,
+            };
+            let f = |s: f64| {
+                let (x, y) = (w * s, big_w * s);
+                1.0 + alpha * x.cos() + q * x.sin() + gamma * y.cos() + delta * y.sin()
+            };
+            let reach = frequencies.reach;
+            for (start, width) in [(0.0, reach), (0.0, 0.5 * reach), (0.5 * reach, 0.5 * reach)] {
+                let piece = Piece::new(start, width, &frequencies);
+                let b = piece.coefficients(&frame).all(f(start));
+                for step in 0..=40 {
+                    let t = f64::from(step) / 40.0;
+                    let polynomial: f64 = (0..=N)
+                        .map(|i| {
+                            b[i] * BINOMIALS[i] * t.powi(i as i32) * (1.0 - t).powi((N - i) as i32)
+                        })
+                        .sum();
+                    let above = (f(start + t * width) - polynomial) / frame.size;
+                    assert!(above > -1e-13, "{i}: {above:e} at {t} of {start} + {width}");
+                    if step == 20 {
+                        closest = closest.min(above);
+                    }
+                }
+            }
+        }
+        // And not far below.
+        assert!(closest < 1e-6, "{closest}");
+    }
+}

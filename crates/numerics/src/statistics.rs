@@ -1,0 +1,172 @@
+//! Estimates from samples: means, modes, quantiles, proportions and their errors.
+
+use serde::{Deserialize, Serialize};
+use statrs::distribution::{ContinuousCDF, Normal};
+
+/// A number with its uncertainty.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Estimate {
+    /// The estimate from the whole sample.
+    pub value: f64,
+    /// Its standard error.
+    pub error: f64,
+    /// Its interval, at the level that was asked for.
+    pub interval: [f64; 2],
+}
+
+/// The mean; none of an empty sample.
+pub fn mean(sample: &[f64]) -> Option<f64> {
+    (!sample.is_empty()).then(|| sample.iter().sum::<f64>() / sample.len() as f64)
+}
+
+/// The standard deviation with n − 1 degrees of freedom; none below two values.
+pub fn standard_deviation(sample: &[f64]) -> Option<f64> {
+    let centre = mean(sample)?;
+    let squares: f64 = sample.iter().map(|x| (x - centre) * (x - centre)).sum();
+    (sample.len() > 1).then(|| (squares / (sample.len() - 1) as f64).sqrt())
+}
+
+/// The standard error of the mean; none below two values.
+pub fn standard_error(sample: &[f64]) -> Option<f64> {
+    Some(standard_deviation(sample)? / (sample.len() as f64).sqrt())
+}
+
+/// The mean and its standard error of `count` whole numbers, from their sum and sum of squares.
+pub fn mean_of_sums(count: usize, [sum, squares]: [u64; 2]) -> Option<[f64; 2]> {
+    let n = count as f64;
+    let mean = sum as f64 / n;
+    let variance = (squares as f64 - mean * sum as f64) / (n - 1.0);
+    (count > 1).then(|| [mean, (variance.max(0.0) / n).sqrt()])
+}
+
+/// The quantile of a sorted sample, linear between order statistics (Hyndman and Fan's type 7).
+pub fn quantile(sorted: &[f64], share: f64) -> Option<f64> {
+    let last = sorted.len().checked_sub(1)?;
+    let place = share.clamp(0.0, 1.0) * last as f64;
+    let below = (place as usize).min(last);
+    let above = (below + 1).min(last);
+    let rest = place - below as f64;
+    Some(sorted[below] + rest * (sorted[above] - sorted[below]))
+}
+
+/// The quantile of whole numbers given as a histogram: the smallest k such that at least `share`
+/// of all lies at or below it.
+pub fn count_quantile(histogram: &[u32], share: f64) -> Option<usize> {
+    let total: u64 = histogram.iter().copied().map(u64::from).sum();
+    let mut below = 0;
+    histogram.iter().position(|&count| {
+        below += u64::from(count);
+        total > 0 && below > 0 && below as f64 >= share * total as f64
+    })
+}
+
+/// The most frequent whole number of a histogram; of several, the lowest. None if all are empty.
+pub fn mode(histogram: &[u32]) -> Option<usize> {
+    let most = *histogram.iter().max()?;
+    (most > 0).then(|| histogram.iter().position(|&count| count == most))?
+}
+
+/// The two-sided standard normal quantile: the z with P(|Z| < z) = `level`.
+///
+/// Rounded to 1e−9, because its algorithm asks the platform for logarithms: so the last bits of
+/// statrs do not reach a file.
+pub fn normal_quantile(level: f64) -> f64 {
+    let z = Normal::standard().inverse_cdf(0.5 + 0.5 * level);
+    (z * 1e9).round() / 1e9
+}
+
+/// Wilson's interval of a proportion; none without trials.
+pub fn wilson(successes: u64, trials: u64, level: f64) -> Option<[f64; 2]> {
+    if trials == 0 {
+        return None;
+    }
+    let z = normal_quantile(level);
+    let n = trials as f64;
+    let share = successes as f64 / n;
+    let scale = 1.0 + z * z / n;
+    let centre = share + z * z / (2.0 * n);
+    let half = z * (share * (1.0 - share) / n + z * z / (4.0 * n * n)).sqrt();
+    let low = if successes == 0 { 0.0 } else { (centre - half) / scale };
+    let high = if successes == trials { 1.0 } else { (centre + half) / scale };
+    Some([low, high])
+}
+
+/// Where y(x) comes up to `level` for good: the last x from which on all values are at or above
+/// it, linear between the points. Points without a value are passed over. None if y ends below the
+/// level or never lies below it.
+pub fn last_rise(x: &[f64], y: &[Option<f64>], level: f64) -> Option<f64> {
+    let points: Vec<(f64, f64)> = x.iter().zip(y).filter_map(|(&x, &y)| Some((x, y?))).collect();
+    let below = points.iter().rposition(|&(_, y)| y < level)?;
+    let ((x0, y0), &(x1, y1)) = (points[below], points.get(below + 1)?);
+    Some(x0 + (x1 - x0) * (level - y0) / (y1 - y0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn small_samples_by_hand() {
+        // 1, 2, 4, 5: mean 3, squares 4 + 1 + 1 + 4 = 10, variance 10/3.
+        let sample = [1.0, 2.0, 4.0, 5.0];
+        assert_eq!(mean(&sample), Some(3.0));
+        assert_eq!(standard_deviation(&sample), Some((10.0_f64 / 3.0).sqrt()));
+        assert_eq!(standard_error(&sample), Some((10.0_f64 / 3.0).sqrt() / 2.0));
+        assert_eq!((mean(&[]), standard_error(&[7.0])), (None, None));
+    }
+
+    #[test]
+    fn quantiles_by_hand() {
+        let sorted = [0.0, 10.0, 20.0, 30.0, 40.0];
+        assert_eq!(quantile(&sorted, 0.5), Some(20.0));
+        assert_eq!(quantile(&sorted, 0.1), Some(4.0));
+        assert_eq!(quantile(&sorted, 1.0), Some(40.0));
+        assert_eq!(quantile(&[], 0.5), None);
+        // Two 0, one 1, one 3: sorted 0 0 1 3.
+        let histogram = [2, 1, 0, 1];
+        assert_eq!(count_quantile(&histogram, 0.5), Some(0));
+        assert_eq!(count_quantile(&histogram, 0.51), Some(1));
+        assert_eq!(count_quantile(&histogram, 1.0), Some(3));
+        assert_eq!(count_quantile(&[0, 3], 0.0), Some(1));
+        assert_eq!(count_quantile(&[0, 0], 0.5), None);
+    }
+
+    #[test]
+    fn of_equal_modes_the_lowest() {
+        assert_eq!(mode(&[0, 2, 5, 1, 5]), Some(2));
+        assert_eq!(mode(&[0, 0]), None);
+        assert_eq!(mode(&[]), None);
+    }
+
+    #[test]
+    fn wilson_against_printed_values() {
+        // Wilson's score interval is the set of p with |s − n p| ≤ z √(n p (1 − p)): both ends
+        // must solve that equation, which is the second route.
+        let z = normal_quantile(0.95);
+        // Tables give 1.959964.
+        assert!((z - 1.959_964).abs() < 5e-7);
+        for (s, n) in [(3, 10), (45, 100), (999, 1000)] {
+            for p in wilson(s, n, 0.95).unwrap() {
+                let (s, n) = (s as f64, n as f64);
+                assert!(((s - n * p).abs() - z * (n * p * (1.0 - p)).sqrt()).abs() < 1e-9);
+            }
+        }
+        assert_eq!(wilson(0, 10, 0.95).unwrap()[0], 0.0);
+        assert_eq!(wilson(10, 10, 0.95).unwrap()[1], 1.0);
+        assert_eq!(wilson(0, 0, 0.95), None);
+    }
+
+    #[test]
+    fn the_last_rise_counts() {
+        let x = [1.0, 2.0, 3.0, 4.0, 5.0];
+        // Up, down again, and up for good between 3 and 4, at a quarter of the way.
+        let y = [Some(0.0), Some(9.0), Some(4.0), Some(8.0), Some(9.0)];
+        assert_eq!(last_rise(&x, &y, 5.0), Some(3.25));
+        // A missing point is passed over: the line goes from (2, 0) to (4, 8).
+        let y = [None, Some(0.0), None, Some(8.0), Some(9.0)];
+        assert_eq!(last_rise(&x, &y, 4.0), Some(3.0));
+        assert_eq!(last_rise(&x, &[Some(9.0); 5], 4.0), None);
+        assert_eq!(last_rise(&x, &[Some(1.0); 5], 4.0), None);
+        assert_eq!(last_rise(&[], &[], 4.0), None);
+    }
+}

@@ -1,0 +1,126 @@
+//! Long waits: when can all parts of a sum of sinusoids be low at once?
+
+use super::local_frame::Frequencies;
+
+/// One sinusoid R cos(νs + θ), as value u and quadrature u̇/ν at s = 0.
+#[derive(Clone, Copy, Debug)]
+struct Part {
+    frequency: f64,
+    amplitude: f64,
+    /// θ − π.
+    angle: f64,
+    /// The sum can reach zero only while νs + θ is within this of π, modulo 2π.
+    half_width: f64,
+}
+
+/// Windows are widened by this much, far more than rounding can move their edges.
+const WIDENED: f64 = 1e-9;
+
+/// Windows passed in one call.
+const HOPS: u32 = 64;
+
+/// A time s ≥ 0 before which `mean` + Σ R cos(νs + θ) > 0 is certain; nothing if it is so for ever.
+///
+/// The part with amplitude R is low enough only while R cos(νs + θ) ≤ −(mean − Σ of the other
+/// amplitudes): in one window a period. Before s no instant lies in the windows of all parts.
+/// The cost is one comparison a window, however long the wait.
+pub fn next_window<const M: usize>(
+    mean: f64,
+    free: [f64; 2],
+    forced: &[[f64; 2]; M],
+    frequencies: &Frequencies<M>,
+) -> Option<f64> {
+    let amplitude = |[u, quadrature]: [f64; 2]| (u * u + quadrature * quadrature).sqrt();
+    let amplitudes: [f64; M] = std::array::from_fn(|m| amplitude(forced[m]));
+    let own = amplitude(free);
+    let total = amplitudes.iter().fold(own, |sum, r| sum + r) * (1.0 + 1e-12);
+    if total < mean {
+        return None;
+    }
+    let part = |frequency: f64, [u, quadrature]: [f64; 2], r: f64| {
+        let cosine = (mean - (total - r)) / r - 1e-12;
+        // Always low enough if there is no angle at which it is too high.
+        let narrow = cosine > -1.0 && cosine < 1.0;
+        let half_width = if narrow { pxfm::f_acos(cosine) + WIDENED } else { 4.0 };
+        let angle = if narrow { pxfm::f_atan2(quadrature, -u) } else { 0.0 };
+        Part { frequency, amplitude: r, angle, half_width }
+    };
+    let free = part(frequencies.omega, free, own);
+    let forced: [Part; M] =
+        std::array::from_fn(|m| part(frequencies.big_omegas[m], forced[m], amplitudes[m]));
+    let mut s = 0.0;
+    for _ in 0..HOPS {
+        let before = s;
+        for part in std::iter::once(&free).chain(&forced) {
+            s += part.wait(s);
+        }
+        if s == before {
+            break;
+        }
+    }
+    Some(s)
+}
+
+impl Part {
+    /// How long after `s` the next window opens; 0 in a window.
+    fn wait(&self, s: f64) -> f64 {
+        const TURN: f64 = std::f64::consts::TAU;
+        if self.half_width >= 3.5 || self.amplitude == 0.0 {
+            return 0.0;
+        }
+        let angle = self.angle + self.frequency * s;
+        // Behind the middle of the last window, 0 ≤ behind < 2π.
+        let turns = angle / TURN;
+        let behind = angle - TURN * ((turns as i64 - i64::from(turns < 0.0)) as f64);
+        let closes_at = self.half_width + 1e-3 * WIDENED;
+        if behind <= closes_at || behind >= TURN - closes_at {
+            return 0.0;
+        }
+        (TURN - self.half_width - behind) / self.frequency
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::random::NormalPairs;
+
+    /// On a fine grid nothing is below zero before the window, and much later something is.
+    #[test]
+    fn nothing_closes_before_the_window() {
+        let frequencies = Frequencies::new(1.0, [std::f64::consts::SQRT_2]);
+        let (mut longest, mut never, mut closed) = (0.0f64, 0, 0);
+        for i in 0..400 {
+            let mut normals = NormalPairs::new("windows", 1, i);
+            let (free, forced) = (normals.pair(), normals.pair());
+            let r = free[0].hypot(free[1]) + forced[0].hypot(forced[1]);
+            // Just closable, easily closable, or never.
+            let mean = r * [0.999, 0.9, 1.001][i as usize % 3];
+            let f = |s: f64| {
+                let y = frequencies.big_omegas[0] * s;
+                mean + free[0] * s.cos()
+                    + free[1] * s.sin()
+                    + forced[0] * y.cos()
+                    + forced[1] * y.sin()
+            };
+            let Some(wait) = next_window(mean, free, &[forced], &frequencies) else {
+                never += 1;
+                assert!(mean > r);
+                continue;
+            };
+            if wait == 0.0 {
+                continue;
+            }
+            longest = longest.max(wait);
+            for k in 0..=20_000 {
+                let s = wait * f64::from(k) / 20_000.0;
+                assert!(f(s) > -1e-12, "{i}: f({s}) = {:e} before {wait}", f(s));
+            }
+            // And the wait is not needlessly short: soon after a window opens, f may be low.
+            closed += i32::from((0..2000).any(|k| f(wait + 0.002 * f64::from(k)) < 0.2 * mean));
+        }
+        assert_eq!(never, 133);
+        assert!(longest > 60.0, "{longest}");
+        assert!(closed > 100, "{closed}");
+    }
+}
