@@ -89,8 +89,13 @@ impl Engine {
     /// # Errors
     /// [`Error::Work`] when the bound on work is exceeded.
     pub fn run(&mut self, until: f64, mut sink: impl FnMut(Impact) -> bool) -> Result<(), Error> {
-        // One code for every receiver: it is compiled here, not where it is called.
-        inside!(&mut self.0, simulation => simulation.run(until, &mut sink))
+        self.run_to(until, &mut sink)
+    }
+
+    /// One code for every receiver: with one for each, all below would be compiled where it is called, as fast as that
+    /// crate is.
+    fn run_to(&mut self, until: f64, sink: Sink) -> Result<(), Error> {
+        inside!(&mut self.0, simulation => simulation.run(until, sink))
     }
 
     /// Positions x_1..x_n at `time`, exact between the last event and the next.

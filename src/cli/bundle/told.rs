@@ -10,7 +10,9 @@ pub fn description(path: &str) -> String {
     let what = match path {
         "src/" => "The program: experiments, calculations, figures, report, checks.",
         "build/" => "The build script: homes of equations, and what results depend on.",
-        "crates/" => "What the program is built on, its mathematics and the simulation of chains; and the project's tools.",
+        "crates/" => {
+            "What the program is built on, its mathematics and the simulation of chains; and the project's tools."
+        }
         "templates/" => {
             "The prose with places for numbers, the numbers that the paper printed, fonts."
         }
