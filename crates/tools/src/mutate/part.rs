@@ -173,8 +173,8 @@ pub fn put(results: &mut Results, index: usize, part: &Json) -> serde_json::Resu
 
 /// Whether tables are made of a part.
 fn tabled(results: &Results, index: usize) -> bool {
-    let of = |name: &&str| name.split('.').next() == Some(PARTS[index].experiment);
-    results.tables().keys().any(|name| of(&name))
+    let of = |name: &str| name.split('.').next() == Some(PARTS[index].experiment);
+    results.tables().keys().any(|name| of(name))
 }
 
 /// Gives results a part of others.
