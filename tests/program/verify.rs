@@ -136,7 +136,7 @@ fn a_rerun_finds_what_the_list_cannot() {
     fs::write(&path, format!("{before}9\n")).unwrap();
     fs::write(here.join("r/more.csv"), "").unwrap();
     let list = fs::read_to_string(here.join("r/SHA256SUMS")).unwrap();
-    let forged = list.replace(&digest(&before), &digest(&format!("{before}9\n")));
+    let forged = list.replace(&digest(&before), &digest(format!("{before}9\n")));
     assert_ne!(forged, list);
     let forged = format!("{forged}{}  more.csv\n", digest(""));
     fs::write(here.join("r/SHA256SUMS"), forged).unwrap();
