@@ -1,9 +1,9 @@
 //! What an experiment depends on, as the build script reads it.
 
 #[path = "../../build/depends.rs"]
-mod depends;
+mod build;
 
-use depends::{Source, files};
+use build::{Source, files};
 
 fn source(files: &[(&str, &str)]) -> Source {
     files.iter().map(|(path, text)| ((*path).to_string(), (*text).to_string())).collect()
