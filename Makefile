@@ -28,13 +28,13 @@ browser: ## paper/report.html in headless Chromium, as readers use it (Chromium 
 	.ci/browser
 
 test: ## all tests but the long ones
-	cargo test --locked -p impact-paper -p impact-paper-tools
+	cargo test --locked --workspace --exclude impact-paper-fuzz
 
 test-long: ## the long tests only (large samples, a job array on Slurm, which root installs when missing)
 	cargo test --release --locked -- --ignored
 
 lint: ## formatting, clippy and documentation, warnings denied
-	cargo fmt --check && cargo clippy --locked -p impact-paper -p impact-paper-tools --all-targets -- -D warnings && RUSTDOCFLAGS="-D warnings" cargo doc --locked --no-deps --document-private-items
+	cargo fmt --check && cargo clippy --locked --workspace --exclude impact-paper-fuzz --all-targets -- -D warnings && RUSTDOCFLAGS="-D warnings" cargo doc --locked --no-deps --document-private-items
 
 identity: ## the same bytes for any threads, folder, locale, C library and build (quick profile; minutes to build)
 	.ci/identity
