@@ -4,12 +4,12 @@ use super::Basis::OwnThreshold;
 use super::row::{Error, Evidence, Finding, Row, measured, open};
 use super::sec8::{LARGE_SIGMA, at};
 use super::{Judgement, Statement, Text};
-use crate::experiments::Need;
+use crate::experiments::catalogue::SWEEP;
 use crate::experiments::sweep::Sweep;
 use crate::experiments::theory::{Curve, CurveRow};
 
 /// The rows of this section.
-pub const ROWS: &[Row] = &[measured("sec10_improves", OwnThreshold, &[Need::Sweep], improves)];
+pub const ROWS: &[Row] = &[measured("sec10_improves", OwnThreshold, &[&SWEEP], improves)];
 
 /// Root mean square distance of a theory curve from the simulated means, from the first row with
 /// kept realisations up to where σ is large.

@@ -4,24 +4,24 @@ use super::Basis::{Exact, OwnThreshold, PrintedDigit};
 use super::row::{Error, Evidence, Finding, Row, measured, open, statistical};
 use super::sec2_rare::{percolation, sticking, three_way, two_masses, walls_like_masses};
 use super::{Judgement, Statement, Text};
-use crate::experiments::Need;
+use crate::experiments::catalogue::{CHAINS, STARTS, SWEEP, TWO_MASSES};
 use crate::experiments::sweep::{Sweep, SweepRow};
 use crate::numerics::statistics::Estimate;
 use crate::params::Protocol;
 
 /// The rows of this section.
 pub const ROWS: &[Row] = &[
-    measured("sec2_parameters", Exact, &[Need::Sweep], parameters),
-    statistical("sec2_few_below", OwnThreshold, &[Need::Sweep], few_below),
-    statistical("sec2_rise_exists", OwnThreshold, &[Need::Sweep], rise_exists),
-    statistical("sec2_half_height", PrintedDigit, &[Need::Sweep], half_height),
-    statistical("sec2_onset", PrintedDigit, &[Need::Sweep], onset),
-    measured("sec2_mode_rise", PrintedDigit, &[Need::Sweep], mode_rise),
-    statistical("sec2_three_way", OwnThreshold, &[Need::Sweep, Need::Laws], three_way),
-    measured("sec2_sticking", OwnThreshold, &[Need::Sweep], sticking),
-    measured("sec2_two_masses", Exact, &[Need::TwoMasses], two_masses),
-    measured("sec2_percolation", OwnThreshold, &[Need::Chains], percolation),
-    statistical("sec2_walls_like_masses", PrintedDigit, &[Need::Starts], walls_like_masses),
+    measured("sec2_parameters", Exact, &[&SWEEP], parameters),
+    statistical("sec2_few_below", OwnThreshold, &[&SWEEP], few_below),
+    statistical("sec2_rise_exists", OwnThreshold, &[&SWEEP], rise_exists),
+    statistical("sec2_half_height", PrintedDigit, &[&SWEEP], half_height),
+    statistical("sec2_onset", PrintedDigit, &[&SWEEP], onset),
+    measured("sec2_mode_rise", PrintedDigit, &[&SWEEP], mode_rise),
+    statistical("sec2_three_way", OwnThreshold, &[&SWEEP], three_way),
+    measured("sec2_sticking", OwnThreshold, &[&SWEEP], sticking),
+    measured("sec2_two_masses", Exact, &[&TWO_MASSES], two_masses),
+    measured("sec2_percolation", OwnThreshold, &[&CHAINS], percolation),
+    statistical("sec2_walls_like_masses", PrintedDigit, &[&STARTS], walls_like_masses),
 ];
 
 /// Number of gaps N of the swept chain.

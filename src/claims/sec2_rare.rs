@@ -9,7 +9,7 @@ use crate::params::{ChainKind, NEAR_SIMULTANEOUS, SLOW};
 pub(super) const NEGLIGIBLE: f64 = 1e-3;
 
 pub(super) fn three_way(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let totals = &e.results.laws()?.totals;
+    let totals = e.results.laws()?.totals;
     let Some(&seen) = totals.near_decades.last() else {
         return Ok(open(Text::words("no impacts"), "The sweep has no impacts."));
     };

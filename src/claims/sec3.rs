@@ -4,14 +4,14 @@ use super::Basis::{Exact, OwnThreshold};
 use super::row::{Error, Evidence, Finding, Row, all_cases, open, statistical, theory};
 use super::sec2::{gaps, small};
 use super::{Judgement, Statement, Text};
-use crate::experiments::Need;
+use crate::experiments::catalogue::SWEEP;
 
 /// The rows of this section.
 pub const ROWS: &[Row] = &[
     theory("sec3_impact_types", Exact, impact_types),
     theory("sec3_vertices", Exact, |e, s| size(e.results.identities.graph_vertices, s)),
     theory("sec3_edges", Exact, |e, s| size(e.results.identities.graph_edges, s)),
-    statistical("sec4_few_and_many", OwnThreshold, &[Need::Sweep], few_and_many),
+    statistical("sec4_few_and_many", OwnThreshold, &[&SWEEP], few_and_many),
 ];
 
 fn impact_types(e: &Evidence, _: &Statement) -> Result<Finding, Error> {

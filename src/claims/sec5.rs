@@ -3,15 +3,15 @@
 use super::Basis::{Exact, OwnThreshold};
 use super::row::{Error, Evidence, Finding, Row, all_cases, measured, theory};
 use super::{Judgement, Statement, Text};
-use crate::experiments::Need;
+use crate::experiments::catalogue::SEGMENTS;
 use crate::experiments::segments::Segment;
 use std::collections::BTreeSet;
 
 /// The rows of this section.
 pub const ROWS: &[Row] = &[
-    measured("sec5_fig5", Exact, &[Need::Segments], |e, s| motion(&e.results.segments()?.fig05, s)),
-    measured("sec5_fig6", Exact, &[Need::Segments], |e, s| motion(&e.results.segments()?.fig06, s)),
-    measured("sec5_masses_of_circuit", Exact, &[Need::Segments], masses_of_circuit),
+    measured("sec5_fig5", Exact, &[&SEGMENTS], |e, s| motion(&e.results.segments()?.fig05, s)),
+    measured("sec5_fig6", Exact, &[&SEGMENTS], |e, s| motion(&e.results.segments()?.fig06, s)),
+    measured("sec5_masses_of_circuit", Exact, &[&SEGMENTS], masses_of_circuit),
     theory("sec5_eq6", Exact, |e, _| cases(e.results.identities.eq6)),
     theory("sec5_eq7", Exact, |e, _| cases(e.results.identities.eq7)),
     theory("sec5_eq8", OwnThreshold, eq8),

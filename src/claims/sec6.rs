@@ -4,7 +4,7 @@ use super::Basis::{OwnThreshold, Rounding};
 use super::row::{Error, Evidence, Finding, Row, measured, open, rounding, theory};
 use super::sec2;
 use super::{Judgement, Statement, Text};
-use crate::experiments::Need;
+use crate::experiments::catalogue::SWEEP;
 
 /// The rows of this section.
 pub const ROWS: &[Row] = &[
@@ -14,7 +14,7 @@ pub const ROWS: &[Row] = &[
     theory("sec6_fig8_few", OwnThreshold, few),
     theory("sec6_fig8_rise", OwnThreshold, rise),
     theory("sec6_fig9_step", OwnThreshold, step),
-    measured("sec6_like_simulation", OwnThreshold, &[Need::Sweep], like_simulation),
+    measured("sec6_like_simulation", OwnThreshold, &[&SWEEP], like_simulation),
 ];
 
 fn few(e: &Evidence, _: &Statement) -> Result<Finding, Error> {

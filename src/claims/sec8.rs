@@ -5,13 +5,13 @@ use super::row::{Error, Evidence, Finding, Row, measured, open, rounding, statis
 use super::sec2;
 use super::sec8_chains::{no_impact, restitution_ensures, restitution_omitted, threshold_shift};
 use super::{Judgement, Statement, Text};
-use crate::experiments::Need;
+use crate::experiments::catalogue::{CHAINS, PROTOCOL, RESTITUTION, STARTS, SWEEP};
 use crate::experiments::sweep::{Sweep, SweepRow};
 use crate::experiments::theory::{Curve, CurveRow};
 
 /// The rows of this section.
 pub const ROWS: &[Row] = &[
-    measured("sec8_expected_jump", OwnThreshold, &[Need::Sweep], expected_jump),
+    measured("sec8_expected_jump", OwnThreshold, &[&SWEEP], expected_jump),
     theory("sec8_separation", Rounding, |e, _| {
         Ok(rounding(
             e.results.identities.separation,
@@ -19,7 +19,7 @@ pub const ROWS: &[Row] = &[
             "Against the equations of motion solved by variation of constants, at five times.",
         ))
     }),
-    statistical("sec8_no_impact", OwnThreshold, &[Need::Starts], no_impact),
+    statistical("sec8_no_impact", OwnThreshold, &[&STARTS], no_impact),
     theory("sec8_amplitude", Rounding, |e, _| {
         Ok(rounding(
             e.results.identities.amplitude,
@@ -43,24 +43,24 @@ pub const ROWS: &[Row] = &[
         ))
     }),
     theory("sec8_p_small", OwnThreshold, p_small),
-    measured("sec8_large_sigma", OwnThreshold, &[Need::Sweep], large_sigma),
+    measured("sec8_large_sigma", OwnThreshold, &[&SWEEP], large_sigma),
     statistical(
         "sec8_threshold_shift",
         PrintedDigit,
-        &[Need::Sweep, Need::Protocol, Need::Chains],
+        &[&SWEEP, &PROTOCOL, &CHAINS],
         threshold_shift,
     ),
-    measured("sec8_mean_is_easier", OwnThreshold, &[Need::Sweep], mean_is_easier),
+    measured("sec8_mean_is_easier", OwnThreshold, &[&SWEEP], mean_is_easier),
     statistical(
         "sec8_restitution_omitted",
         OwnThreshold,
-        &[Need::Restitution, Need::Starts, Need::Protocol],
+        &[&RESTITUTION, &STARTS, &PROTOCOL],
         restitution_omitted,
     ),
     measured(
         "sec8_restitution_ensures",
         OwnThreshold,
-        &[Need::Sweep, Need::Restitution],
+        &[&SWEEP, &RESTITUTION],
         restitution_ensures,
     ),
 ];

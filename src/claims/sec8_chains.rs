@@ -3,7 +3,6 @@
 use super::row::{Error, Evidence, Finding, open};
 use super::sec2_rare::NEGLIGIBLE;
 use super::{Judgement, Statement, Text};
-use crate::experiments::Need;
 use crate::numerics::statistics::{Estimate, wilson};
 
 /// Eq. (20) in the simulation: a chain with random free parts that overlaps at its start, or has an
@@ -140,7 +139,7 @@ fn range(places: impl Iterator<Item = Option<Estimate>>) -> Option<Estimate> {
 
 pub(super) fn restitution_omitted(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
     let found = e.results.restitution()?;
-    let curves = e.results.table(Need::Restitution, "restitution.curves")?;
+    let curves = e.results.table("restitution.curves")?;
     let starts = e.results.starts()?;
     let of_start = |name| starts.variant(name).and_then(|variant| variant.rise.half_height_all);
     let cells = &e.results.protocol()?.cells;
@@ -184,7 +183,7 @@ pub(super) fn restitution_ensures(e: &Evidence, _: &Statement) -> Result<Finding
     let Some(strongest) = sigmas().reduce(f64::max) else {
         return Ok(open(Text::words("no run"), "No chain was run at the σ of the paper."));
     };
-    let rise = e.results.table(Need::Restitution, "restitution.rise")?;
+    let rise = e.results.table("restitution.rise")?;
     // Without an impact there is no contact phase.
     let phases = |r: f64, sigma: f64| {
         let keys = [("r", r), ("sigma", sigma)];

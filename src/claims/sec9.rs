@@ -4,13 +4,13 @@ use super::Basis::{Exact, OwnThreshold};
 use super::row::{Error, Evidence, Finding, Row, all_cases, measured, open, theory};
 use super::sec5;
 use super::{Judgement, Statement, Text};
-use crate::experiments::Need;
+use crate::experiments::catalogue::SEGMENTS;
 use crate::experiments::theory::{Curve, HigherDistribution, Theory};
 use std::collections::BTreeMap;
 
 /// The rows of this section.
 pub const ROWS: &[Row] = &[
-    measured("sec9_fig6_repeats", Exact, &[Need::Segments], fig6_repeats),
+    measured("sec9_fig6_repeats", Exact, &[&SEGMENTS], fig6_repeats),
     theory("sec9_eq29", Exact, |e, _| {
         let cases = e.results.identities.eq29;
         Ok(all_cases(

@@ -6,6 +6,7 @@
 use super::{Error, Text};
 use crate::experiments::accuracy::analytic::{Analytic, Route, Way};
 use crate::experiments::accuracy::race::{Entry, Race};
+use crate::experiments::catalogue::{ANALYTIC, MEASURED, RACE, SCALE, TRIALS};
 use crate::experiments::measured::{Row, What};
 use crate::experiments::{Measured, Need, Results};
 use crate::params::MethodName;
@@ -56,7 +57,7 @@ pub struct Target {
 }
 
 /// The experiments that the targets need.
-pub const NEEDS: &[Need] = &[Need::Race, Need::Analytic, Need::Scale, Need::Trials, Need::Measured];
+pub const NEEDS: &[Need] = &[&RACE, &ANALYTIC, &SCALE, &TRIALS, &MEASURED];
 
 /// Largest error of p(σ), and of P(X = k) and its mean, that is allowed.
 pub const DIGITS: f64 = 1e-13;
@@ -253,7 +254,7 @@ mod tests {
 
     fn results() -> Results {
         let none = |_: &str| Err("not needed".to_string());
-        run(NEEDS, Profile::Quick, none, &Store::nowhere(), &Progress::silent()).unwrap()
+        run(NEEDS, Profile::Quick, &none, &Store::nowhere(), &Progress::silent()).unwrap()
     }
 
     fn standing(results: &Results, id: &str) -> Standing {
@@ -267,15 +268,15 @@ mod tests {
         for id in ["misses", "waiting", "scenes", "work", "relation", "distribution"] {
             assert_eq!(standing(&results, id), Standing::Met, "{id}");
         }
-        let race = results.race.as_mut().unwrap();
+        let race = results.of_mut(&RACE).unwrap();
         race.entries[0].segments.unseen += 1;
         race.entries[0].segments.units = Some(9.0);
-        let analytic = results.analytic.as_mut().unwrap();
+        let analytic = results.of_mut(&ANALYTIC).unwrap();
         analytic.relation.last_mut().unwrap().points[0].1 = 2e-13;
         analytic.distribution.last_mut().unwrap().points[0].error = Some(2e-13);
-        let verdicts = &mut results.trials.as_mut().unwrap().scenes[0].trials[0].verdicts;
+        let verdicts = &mut results.of_mut(&TRIALS).unwrap().scenes[0].trials[0].verdicts;
         verdicts[0] = crate::experiments::accuracy::case::Verdict::Missed;
-        let scale = results.scale.as_mut().unwrap();
+        let scale = results.of_mut(&SCALE).unwrap();
         let own = |m: MethodName| m == MethodName::Certified;
         let largest = scale.rows.iter_mut().filter(|row| own(row.setting.method)).last();
         largest.unwrap().evaluations_per_impact *= 3.0;
@@ -287,7 +288,7 @@ mod tests {
     #[test]
     fn times_decide_and_their_absence_leaves_open() {
         let mut results = results();
-        let measured = results.measured.as_mut().unwrap();
+        let measured = results.of_mut(&MEASURED).unwrap();
         let mut row = measured.of(What::Engine).find(|row| row.n == 100).unwrap().clone();
         measured.rows.clear();
         for id in ["one_chain", "ensemble", "heyoka_20", "size", "full", "memory"] {
@@ -300,12 +301,12 @@ mod tests {
             microseconds_per_impact: Some(19.0),
             ..row.clone()
         };
-        results.measured.as_mut().unwrap().rows = vec![row, peer];
+        results.of_mut(&MEASURED).unwrap().rows = vec![row, peer];
         assert_eq!(standing(&results, "one_chain"), Standing::Met);
         assert_eq!(standing(&results, "heyoka_100"), Standing::Missed, "95 times faster");
-        results.measured.as_mut().unwrap().rows[1].microseconds_per_impact = Some(21.0);
+        results.of_mut(&MEASURED).unwrap().rows[1].microseconds_per_impact = Some(21.0);
         assert_eq!(standing(&results, "heyoka_100"), Standing::Met);
-        results.measured.as_mut().unwrap().rows[0].horizon_impact = Some(2);
+        results.of_mut(&MEASURED).unwrap().rows[0].horizon_impact = Some(2);
         assert_eq!(standing(&results, "heyoka_100"), Standing::Missed, "a shorter horizon");
     }
 }

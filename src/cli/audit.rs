@@ -47,14 +47,14 @@ fn share(text: &str) -> Result<f64, String> {
 pub fn run(args: Args) -> Result<(), Failure> {
     let profile = Profile::from(args.profile);
     let store = Store::open(&work::results(args.results, profile))?;
-    let mut chosen = catalogue::of(profile).to_vec();
+    let mut chosen = catalogue::of(profile);
     chosen.shuffle(&mut generator("audit", args.seed, 0));
     chosen.truncate((args.sample * chosen.len() as f64).ceil() as usize);
     let progress = work::progress();
     let differ = work::on_threads(args.threads, || {
         let mut differ = Vec::new();
         for experiment in chosen {
-            let name = experiment.need().name();
+            let name = experiment.name();
             let same =
                 experiment.audit(profile, &store, &progress).map_err(|error| match error {
                     Error::Stale { .. } => {

@@ -4,7 +4,7 @@ use super::Failure;
 use super::judged::Judged;
 use super::sources::Sources;
 use impact_paper::claims;
-use impact_paper::experiments::{Need, Progress};
+use impact_paper::experiments::{Progress, catalogue::ALL};
 use impact_paper::figures::{self, Figure, Scene};
 use impact_paper::params::Profile;
 use impact_paper::report::{self, Report, contents};
@@ -27,7 +27,7 @@ pub fn whole(
     report::lint::check(&templates)?;
     // Faults of the templates are told before the long runs, not after them.
     let published = sources.published(&templates)?;
-    let results = sources.run(&Need::ALL.into(), profile, &templates, progress)?;
+    let results = sources.run(&ALL, profile, &templates, progress)?;
     results.look();
     let draw = |number| {
         progress.check()?;

@@ -187,7 +187,7 @@ fn some(
     profile: Profile,
     progress: &Progress,
 ) -> Result<Files, Failure> {
-    let needs = numbers.iter().flat_map(|&number| figures::needs(number)).copied().collect();
+    let needs: Vec<_> = numbers.iter().flat_map(|&number| figures::needs(number)).collect();
     let results = sources.run(&needs, profile, &sources.templates()?, progress)?;
     let mut files = Files::new();
     for &number in numbers {

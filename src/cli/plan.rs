@@ -56,7 +56,7 @@ impl<'a> Line<'a> {
         let range = &task.unit.realisations;
         Line {
             unit: &task.name,
-            experiment: task.experiment.need().name(),
+            experiment: task.experiment.name(),
             covers: &task.unit.covers,
             realisations: range.end.checked_sub(1).map(|last| [range.start, last]),
             weight: task.unit.weight,

@@ -57,7 +57,7 @@ impl Line {
             _ => Vec::new(),
         };
         Line {
-            experiment: experiment.need().name(),
+            experiment: experiment.name(),
             fresh: reasons.is_empty(),
             carried,
             failed: has(|reason| *reason == Reason::Failed),
@@ -87,7 +87,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
         });
         format!("{json:#}\n")
     } else {
-        let line = |one: &Found| format!("{:13} {}\n", one.experiment.need().name(), one.told());
+        let line = |one: &Found| format!("{:13} {}\n", one.experiment.name(), one.told());
         found.iter().map(line).collect()
     };
     stdout::print(&text)?;

@@ -1,12 +1,12 @@
-//! The experiments that take long: their names, parameters and runs, in one list.
+//! The list of experiments: names, parameters, runs and tables. An experiment that stands here is known
+//! to the whole program.
 
-use super::Need;
 use super::accuracy::{analytic, bias, race, scale, trials};
 use super::deep::Deep;
-use super::experiment::How::{Cut, Whole};
+use super::experiment::How::{Cut, Read, Whole};
 use super::{
-    chains, heat, history, horizon, independence, long, nucleation, orbits, protocol, protocols,
-    restitution, seeds, spacetime, starts, sweep, tally, two_masses, weights,
+    Measured, chains, heat, history, horizon, independence, long, nucleation, orbits, protocol,
+    protocols, restitution, seeds, segments, spacetime, starts, sweep, tally, two_masses, weights,
 };
 use crate::params::{
     AnalyticParams, BiasParams, ChainsParams, HeatParams, HistoryParams, HorizonParams,
@@ -15,10 +15,16 @@ use crate::params::{
     SweepParams, TrialParams, TwoMassesParams,
 };
 
-pub use super::experiment::{Experiment, Saved};
+pub use super::experiment::{Entry, Experiment, Saved};
 
-/// The experiments that are saved, in the order in which they run.
-const ALL: [&dyn Saved; 23] = [
+/// An experiment that a figure, a value or a claim needs. The theory need not be declared: it costs
+/// hundredths of a second and is computed when first looked at.
+pub type Need = &'static dyn Entry;
+
+/// All experiments, in the order in which they run.
+pub const ALL: [Need; 25] = [
+    &SEGMENTS,
+    &MEASURED,
     &SWEEP,
     &SECOND_SEED,
     &PROTOCOL,
@@ -44,203 +50,232 @@ const ALL: [&dyn Saved; 23] = [
     &SIZES,
 ];
 
-/// Those of them that take long: a run of the profile `deep`, which is committed.
-const LONG: [&dyn Saved; 11] = [
-    &SECOND_SEED,
-    &PROTOCOL,
-    &PROTOCOLS,
-    &STARTS,
-    &BIAS,
-    &HEAT,
-    &INDEPENDENCE,
-    &RESTITUTION,
-    &CHAINS,
-    &LONG_PROTOCOL,
-    &SIZES,
-];
-
-/// The experiments of a profile: the deep one has those that take long, all others have all.
-pub fn of(profile: Profile) -> &'static [&'static dyn Saved] {
-    match profile {
-        Profile::Deep => &LONG,
-        _ => &ALL,
-    }
+/// The experiments that a profile saves: the deep one those that take long, all others all.
+pub fn of(profile: Profile) -> Vec<Need> {
+    let own = |one: &Need| match profile {
+        Profile::Deep => one.carried().is_some(),
+        _ => one.is_saved(),
+    };
+    ALL.iter().copied().filter(own).collect()
 }
+
+/// The motions of Figs. 5(b) and 6(b).
+pub const SEGMENTS: Experiment<(), segments::Segments> = Experiment {
+    name: "segments",
+    module: "src/experiments/segments.rs",
+    parameters: |_| (),
+    how: Read(segments::read),
+    tables: |_| Vec::new(),
+};
+
+/// Times that were measured once.
+pub const MEASURED: Experiment<(), Measured> = Experiment {
+    name: "measured",
+    module: "src/experiments/measured.rs",
+    parameters: |_| (),
+    how: Read(|_| Ok(Measured::committed()?)),
+    tables: |_| Vec::new(),
+};
 
 /// The main sweep of Sec. 2.
 pub const SWEEP: Experiment<SweepParams, sweep::Sweep, tally::Tally> = Experiment {
-    need: Need::Sweep,
+    name: "sweep",
     module: "src/experiments/sweep.rs",
     parameters: SweepParams::main,
     how: Cut("main sweep", sweep::CUTTING),
+    tables: |_| Vec::new(),
 };
 
 /// The rise again, with another seed.
 pub const SECOND_SEED: Deep<SweepParams, sweep::Sweep, tally::Tally> = Deep::new(
-    Need::SecondSeed,
+    ("second_seed", "the rise with another seed ([@sec:simulation])"),
     "src/experiments/sweep.rs",
     SweepParams::second_seed,
     ("second seed", sweep::CUTTING),
+    |_| Vec::new(),
 );
 
 /// Half height against transient and window.
 pub const PROTOCOL: Deep<ProtocolParams, protocol::ProtocolMap, protocol::Part> = Deep::new(
-    Need::Protocol,
+    ("protocol", "transients and windows ([@tab:protocol])"),
     "src/experiments/protocol.rs",
     ProtocolParams::new,
     ("protocol map", protocol::CUTTING),
+    |_| Vec::new(),
 );
 
 /// The same for other starts and ends.
 pub const PROTOCOLS: Deep<ProtocolsParams, protocols::Protocols, protocol::Part> = Deep::new(
-    Need::Protocols,
+    ("protocols", "the same for other starts and ends ([@tab:protocols])"),
     "src/experiments/protocols.rs",
     ProtocolsParams::new,
     ("maps of other chains", protocols::CUTTING),
+    |_| Vec::new(),
 );
 
 /// Other starts, boundaries, restitutions and frequencies.
 pub const STARTS: Deep<StartsParams, starts::Starts, tally::Tally> = Deep::new(
-    Need::Starts,
+    ("starts", "other starts, ends and frequencies ([@tab:starts])"),
     "src/experiments/starts.rs",
     StartsParams::new,
     ("variants", starts::CUTTING),
+    |_| Vec::new(),
 );
 
 /// Chaos and its horizon.
 pub const HORIZON: Experiment<HorizonParams, horizon::Horizon> = Experiment {
-    need: Need::Horizon,
+    name: "horizon",
     module: "src/experiments/horizon.rs",
     parameters: HorizonParams::new,
     how: Whole {
         run: horizon::run,
         weight: |p| 3 * p.realisations as u64 * weights::run(&p.chain, p.sigma, p.until) / 2,
     },
+    tables: |_| Vec::new(),
 };
 
 /// Two masses under a low force.
 pub const TWO_MASSES: Experiment<TwoMassesParams, two_masses::TwoMasses> = Experiment {
-    need: Need::TwoMasses,
+    name: "two_masses",
     module: "src/experiments/two_masses.rs",
     parameters: TwoMassesParams::new,
     how: Whole {
         run: two_masses::run,
         weight: |p| p.directions as u64 * p.times.iter().map(|time| *time as u64).sum::<u64>() / 3,
     },
+    tables: |_| Vec::new(),
 };
 
 /// One long run.
 pub const SPACE_TIME: Experiment<SpaceTimeParams, spacetime::SpaceTime> = Experiment {
-    need: Need::SpaceTime,
+    name: "space-time",
     module: "src/experiments/spacetime.rs",
     parameters: SpaceTimeParams::new,
     how: Whole { run: spacetime::run, weight: |p| 8 * weights::run(&p.chain, p.sigma, p.until) },
+    tables: |_| Vec::new(),
 };
 
 /// Every method against the true motion.
 pub const RACE: Experiment<RaceParams, race::Race> = Experiment {
-    need: Need::Race,
+    name: "race",
     module: "src/experiments/accuracy/race.rs",
     parameters: RaceParams::new,
     how: Whole { run: race::run, weight: |p| 30_000 * (p.chains * p.settings.len()) as u64 },
+    tables: |_| Vec::new(),
 };
 
 /// What methods do to the mean count.
 pub const BIAS: Deep<BiasParams, bias::Biases, bias::Part> = Deep::new(
-    Need::Biases,
+    ("bias", "bias of coarse methods ([@tab:bias])"),
     "src/experiments/accuracy/bias.rs",
     BiasParams::new,
     ("bias of methods", bias::CUTTING),
+    |_| Vec::new(),
 );
 
 /// Every method in the scenes where methods fail.
 pub const TRIALS: Experiment<TrialParams, trials::Trials> = Experiment {
-    need: Need::Trials,
+    name: "trials",
     module: "src/experiments/accuracy/trials.rs",
     parameters: TrialParams::new,
     how: Whole {
         run: trials::run,
         weight: |p| if p.short { 100_000 } else { 1_100_000 } * p.settings.len() as u64,
     },
+    tables: |_| Vec::new(),
 };
 
 /// Counted work against the number of masses.
 pub const SCALE: Experiment<ScaleParams, scale::Scale> = Experiment {
-    need: Need::Scale,
+    name: "scale",
     module: "src/experiments/accuracy/scale.rs",
     parameters: ScaleParams::new,
     how: Whole { run: scale::run, weight: |p| 300_000 + 7 * p.masses.iter().sum::<usize>() as u64 },
+    tables: |_| Vec::new(),
 };
 
 /// Ways to compute Eqs. (9) and (25).
 pub const ANALYTIC: Experiment<AnalyticParams, analytic::Analytic> = Experiment {
-    need: Need::Analytic,
+    name: "analytic",
     module: "src/experiments/accuracy/analytic.rs",
     parameters: AnalyticParams::new,
     how: Whole { run: analytic::run, weight: |p| 3 * p.sizes.iter().sum::<usize>() as u64 / 2 },
+    tables: |_| Vec::new(),
 };
 
 /// How hot running chains are.
-pub const HEAT: Deep<HeatParams, heat::Heat, heat::Part> =
-    Deep::new(Need::Heat, "src/experiments/heat/mod.rs", HeatParams::new, ("heat", heat::CUTTING));
+pub const HEAT: Deep<HeatParams, heat::Heat, heat::Part> = Deep::new(
+    ("heat", "heat ([@sec:heat])"),
+    "src/experiments/heat/mod.rs",
+    HeatParams::new,
+    ("heat", heat::CUTTING),
+    heat::tables::tables,
+);
 
 /// First impacts of chains from rest.
 pub const NUCLEATION: Experiment<NucleationParams, nucleation::Nucleation, nucleation::Part> =
     Experiment {
-        need: Need::Nucleation,
+        name: "nucleation",
         module: "src/experiments/nucleation.rs",
         parameters: NucleationParams::new,
         how: Cut("first impacts", nucleation::CUTTING),
+        tables: |_| Vec::new(),
     };
 
 /// What one gap that closes by itself sets off.
 pub const SEEDS: Experiment<SeedsParams, seeds::Seeds, seeds::Part> = Experiment {
-    need: Need::Seeds,
+    name: "seeds",
     module: "src/experiments/seeds/mod.rs",
     parameters: SeedsParams::new,
     how: Cut("seeds", seeds::CUTTING),
+    tables: |_| Vec::new(),
 };
 
 /// Chains that are heated first.
 pub const HISTORY: Experiment<HistoryParams, history::History, history::Part> = Experiment {
-    need: Need::History,
+    name: "history",
     module: "src/experiments/history.rs",
     parameters: HistoryParams::new,
     how: Cut("history", history::CUTTING),
+    tables: |_| Vec::new(),
 };
 
 /// Whether impacts are independent.
 pub const INDEPENDENCE: Deep<IndependenceParams, independence::Independence, independence::Part> =
     Deep::new(
-        Need::Independence,
+        ("independence", "order of impacts ([@sec:independence])"),
         "src/experiments/independence/mod.rs",
         IndependenceParams::new,
         ("independence", independence::CUTTING),
+        |_| Vec::new(),
     );
 
 /// Periodic orbits of a short chain.
 pub const ORBITS: Experiment<OrbitsParams, orbits::Orbits> = Experiment {
-    need: Need::Orbits,
+    name: "orbits",
     module: "src/experiments/orbits/mod.rs",
     parameters: OrbitsParams::new,
     how: Whole { run: orbits::run, weight: |p| 60 * orbits::starts(p) },
+    tables: |_| Vec::new(),
 };
 
 /// Long chains, damping and other forces.
 pub const CHAINS: Deep<ChainsParams, chains::Chains, chains::Part> = Deep::new(
-    Need::Chains,
+    ("chains", "long chains, friction, other forces ([@sec:chains])"),
     "src/experiments/chains/mod.rs",
     ChainsParams::new,
     ("long chains", chains::CUTTING),
+    |_| Vec::new(),
 );
 
 /// Chains of several restitutions.
 pub const RESTITUTION: Deep<RestitutionParams, restitution::Restitution, restitution::Part> =
     Deep::new(
-        Need::Restitution,
+        ("restitution", "restitution ([@sec:restitution])"),
         "src/experiments/restitution/mod.rs",
         RestitutionParams::new,
         ("restitution", restitution::CUTTING),
+        restitution::tables::tables,
     );
 
 /// The long end of the map over transients and windows.
@@ -248,10 +283,11 @@ pub const LONG_PROTOCOL: Deep<ProtocolParams, long::LongMap, protocol::Part> = D
     from: Profile::Quick,
     distance: Some(long::distance),
     ..Deep::new(
-        Need::LongProtocol,
+        ("long_protocol", "the longest transients ([@tab:long])"),
         "src/experiments/long.rs",
         ProtocolParams::long,
         ("long protocol map", long::CUTTING),
+        |_| Vec::new(),
     )
 };
 
@@ -259,9 +295,10 @@ pub const LONG_PROTOCOL: Deep<ProtocolParams, long::LongMap, protocol::Part> = D
 pub const SIZES: Deep<ChainsParams, chains::Chains, chains::Part> = Deep {
     from: Profile::Quick,
     ..Deep::new(
-        Need::Sizes,
+        ("sizes", "lengths and transients ([@tab:sizes])"),
         "src/experiments/chains/mod.rs",
         ChainsParams::sizes,
         ("length and transient", chains::CUTTING),
+        |_| Vec::new(),
     )
 };

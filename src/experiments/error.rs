@@ -39,8 +39,8 @@ pub enum Error {
     #[error(transparent)]
     Measured(#[from] super::measured::MeasuredError),
     /// A result was asked for that was not run.
-    #[error("the results of {0:?} were not run; declare them among what is needed")]
-    NotRun(super::Need),
+    #[error("the results of {0} were not run; declare them among what is needed")]
+    NotRun(&'static str),
     /// A result holds a number that is not finite, or that does not survive saving.
     #[error(
         "{experiment}: a result is not finite, so it was not saved; this is a fault of the program"

@@ -1,27 +1,36 @@
-//! An experiment whose result is saved, whole or cut into units of work.
+//! An experiment: a name, parameters, a way to run it, and the tables that follow.
 
 use super::cutting::{Cutting, Unit};
+use super::deep::Audit;
 use super::identity::{Identity, Reason, told};
 use super::store::{Store, written};
-use super::{Error, Need, Progress};
+use super::{Error, Progress};
 use crate::params::Profile;
+use crate::table::Table;
 use rayon::prelude::*;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
+use serde_json::Value as JsonValue;
+use std::any::Any;
+use std::sync::Arc;
 
 /// An experiment with parameters P and result T; U is what a unit of one that is cut gives.
 pub struct Experiment<P: 'static, T: 'static, U: 'static = ()> {
-    /// What it is needed for; its name is that of the experiment.
-    pub need: Need,
+    /// Its name, as values and saved files carry it.
+    pub name: &'static str,
     /// The file of its code.
     pub(super) module: &'static str,
     /// Its parameters in a profile.
     pub(super) parameters: fn(Profile) -> P,
     pub(super) how: How<P, T, U>,
+    /// What follows from its result.
+    pub(super) tables: fn(&T) -> Vec<Table>,
 }
 
 /// How an experiment is run.
 pub(super) enum How<P, T, U> {
+    /// Read from a file that is committed, and never saved.
+    Read(fn(Given<'_>) -> Result<T, Error>),
     /// As one unit of work.
     Whole {
         run: fn(&P, &Progress) -> Result<T, Error>,
@@ -32,10 +41,16 @@ pub(super) enum How<P, T, U> {
     Cut(&'static str, Cutting<P, U, T>),
 }
 
-/// What is saved as JSON.
-pub trait Json: Serialize + DeserializeOwned + PartialEq + Send {}
+/// Gives the text of a file of the templates, or says why there is none.
+pub type Given<'a> = &'a dyn Fn(&str) -> Result<String, String>;
 
-impl<T: Serialize + DeserializeOwned + PartialEq + Send> Json for T {}
+/// What is saved as JSON.
+pub trait Json: Serialize + DeserializeOwned + PartialEq + Send + Sync + 'static {}
+
+impl<T: Serialize + DeserializeOwned + PartialEq + Send + Sync + 'static> Json for T {}
+
+/// A result of any experiment.
+pub type Found = Arc<dyn Any + Send + Sync>;
 
 impl<P: Serialize + Sync, T: Json, U: Json> Experiment<P, T, U> {
     /// The result: the saved one if it is fresh, else that of a run.
@@ -49,21 +64,119 @@ impl<P: Serialize + Sync, T: Json, U: Json> Experiment<P, T, U> {
     }
 
     fn made_of(&self, parameters: &P) -> Identity {
-        Identity::new(self.need.name(), self.module, parameters)
+        Identity::new(self.name, self.module, parameters)
     }
 
     fn run(&self, parameters: &P, progress: &Progress) -> Result<T, Error> {
         match &self.how {
+            How::Read(_) => Err(Error::NotRun(self.name)),
             How::Whole { run, .. } => run(parameters, progress),
             How::Cut(name, cutting) => cutting.run(parameters, name, progress),
         }
     }
 }
 
-/// What can be asked of every experiment, whatever its parameters and result are.
+/// What is known of every experiment, whatever its parameters and result are.
+pub trait Entry: Saved {
+    /// Path of the item that is its code.
+    fn item(&self) -> String;
+
+    /// Whether its result is saved; else it is read from a committed file.
+    fn is_saved(&self) -> bool {
+        true
+    }
+
+    /// What it runs, in words with a reference, if it takes so long that its result is committed.
+    fn carried(&self) -> Option<&'static str> {
+        None
+    }
+
+    /// Its result, with the audit of one that is carried over.
+    ///
+    /// # Errors
+    /// As [`Experiment::get`].
+    fn found(
+        &self,
+        profile: Profile,
+        given: Given<'_>,
+        store: &Store,
+        progress: &Progress,
+    ) -> Result<(Found, Option<Audit>), Error>;
+
+    /// The tables of a result.
+    fn tables(&self, found: &Found) -> Vec<Table>;
+
+    /// A result as JSON.
+    fn json(&self, found: &Found) -> Option<JsonValue>;
+
+    /// A result from JSON.
+    ///
+    /// # Errors
+    /// When it has another shape.
+    fn typed(&self, json: &JsonValue) -> serde_json::Result<Found>;
+}
+
+/// An experiment whose result has a type that is known.
+pub trait Typed: Entry {
+    /// The type.
+    type Result: Json;
+}
+
+/// The path of the item that a file is: `src/experiments/heat/mod.rs` is `experiments::heat`.
+pub(super) fn item(module: &str) -> String {
+    let path = module.trim_start_matches("src/").trim_end_matches(".rs").trim_end_matches("/mod");
+    path.replace('/', "::")
+}
+
+/// A result of a type that is known, if it is one.
+pub(super) fn typed<T: Json>(found: &Found) -> Option<&T> {
+    found.downcast_ref()
+}
+
+impl<P: Serialize + Sync, T: Json, U: Json> Entry for Experiment<P, T, U> {
+    fn item(&self) -> String {
+        item(self.module)
+    }
+
+    fn is_saved(&self) -> bool {
+        !matches!(self.how, How::Read(_))
+    }
+
+    fn found(
+        &self,
+        profile: Profile,
+        given: Given<'_>,
+        store: &Store,
+        progress: &Progress,
+    ) -> Result<(Found, Option<Audit>), Error> {
+        let found = match &self.how {
+            How::Read(read) => read(given)?,
+            _ => self.get(profile, store, progress)?,
+        };
+        Ok((Arc::new(found), None))
+    }
+
+    fn tables(&self, found: &Found) -> Vec<Table> {
+        typed(found).map_or_else(Vec::new, self.tables)
+    }
+
+    fn json(&self, found: &Found) -> Option<JsonValue> {
+        serde_json::to_value(typed::<T>(found)?).ok()
+    }
+
+    fn typed(&self, json: &JsonValue) -> serde_json::Result<Found> {
+        Ok(Arc::new(T::deserialize(json)?))
+    }
+}
+
+impl<P: Serialize + Sync, T: Json, U: Json> Typed for Experiment<P, T, U> {
+    type Result = T;
+}
+
+/// What can be asked of every experiment that is saved.
 pub trait Saved: Sync {
-    /// What it is needed for.
-    fn need(&self) -> Need;
+    /// Its name, as values and saved files carry it.
+    fn name(&self) -> &'static str;
 
     /// What its saved result depends on.
     fn identity(&self, profile: Profile) -> Identity;
@@ -115,8 +228,8 @@ pub trait Saved: Sync {
 }
 
 impl<P: Serialize + Sync, T: Json, U: Json> Saved for Experiment<P, T, U> {
-    fn need(&self) -> Need {
-        self.need
+    fn name(&self) -> &'static str {
+        self.name
     }
 
     fn identity(&self, profile: Profile) -> Identity {
@@ -132,7 +245,7 @@ impl<P: Serialize + Sync, T: Json, U: Json> Saved for Experiment<P, T, U> {
     }
 
     fn audit(&self, profile: Profile, store: &Store, progress: &Progress) -> Result<bool, Error> {
-        let name = self.need.name();
+        let name = self.name;
         let saved = store.look(&Saved::identity(self, profile), profile);
         let saved = saved.map_err(|reasons| Error::Stale { name, why: told(&reasons) })?;
         let again = self.run(&(self.parameters)(profile), progress)?;
@@ -142,6 +255,7 @@ impl<P: Serialize + Sync, T: Json, U: Json> Saved for Experiment<P, T, U> {
     fn units(&self, profile: Profile) -> Vec<Unit> {
         let parameters = (self.parameters)(profile);
         match &self.how {
+            How::Read(_) => Vec::new(),
             How::Whole { weight, .. } => vec![Unit {
                 row: 0,
                 realisations: 0..0,
@@ -161,6 +275,7 @@ impl<P: Serialize + Sync, T: Json, U: Json> Saved for Experiment<P, T, U> {
     ) -> Result<(), Error> {
         let parameters = (self.parameters)(profile);
         match &self.how {
+            How::Read(_) => Ok(()),
             How::Whole { run, .. } => units.iter().try_for_each(|(_, identity)| {
                 store.put(identity, profile, &run(&parameters, progress)?)
             }),
@@ -176,7 +291,7 @@ impl<P: Serialize + Sync, T: Json, U: Json> Saved for Experiment<P, T, U> {
 
     fn understands(&self, profile: Profile, unit: &Unit, text: &str) -> bool {
         match &self.how {
-            How::Whole { .. } => serde_json::from_str::<T>(text).is_ok(),
+            How::Read(_) | How::Whole { .. } => serde_json::from_str::<T>(text).is_ok(),
             How::Cut(_, cutting) => serde_json::from_str::<U>(text)
                 .is_ok_and(|part| (cutting.fits)(&(self.parameters)(profile), unit, &part)),
         }
@@ -189,9 +304,11 @@ impl<P: Serialize + Sync, T: Json, U: Json> Saved for Experiment<P, T, U> {
         store: &Store,
         progress: &Progress,
     ) -> Result<(), Error> {
-        let unread = |_| Error::NotUnderstood { name: self.need.name() };
+        let unread = |_| Error::NotUnderstood { name: self.name };
         let result = match &self.how {
-            How::Whole { .. } => serde_json::from_str(&texts.concat()).map_err(unread)?,
+            How::Read(_) | How::Whole { .. } => {
+                serde_json::from_str(&texts.concat()).map_err(unread)?
+            }
             How::Cut(_, cutting) => {
                 let given = texts.iter().map(|text| serde_json::from_str(text));
                 let given: Vec<U> = given.collect::<Result<_, _>>().map_err(unread)?;

@@ -39,12 +39,11 @@ pub mod theory;
 pub mod two_masses;
 pub mod weights;
 
-mod need;
 mod results;
 
+pub use catalogue::Need;
 pub use error::Error;
 pub use measured::Measured;
-pub use need::Need;
 pub use progress::{Progress, say};
 pub use results::{Looked, Results};
 pub use run::run;

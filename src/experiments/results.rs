@@ -1,7 +1,9 @@
 //! All results together.
 
 use super::accuracy::{analytic, bias, race, scale, trials};
-use super::{Error, Measured, Need};
+use super::catalogue::{self, ALL};
+use super::experiment::{Found, Typed};
+use super::{Error, Measured};
 use super::{
     chains, deep, heat, history, horizon, identities, independence, laws, long, nucleation, orbits,
     protocol, protocols, restitution, seeds, segments, spacetime, starts, sweep, theory,
@@ -15,7 +17,7 @@ use std::sync::{Arc, LazyLock, OnceLock};
 /// What is computed when it is first looked at.
 pub type Looked<T> = LazyLock<T, Box<dyn FnOnce() -> T + Send>>;
 
-/// All results: what is `None` was not asked for.
+/// The results of the experiments that were asked for.
 #[derive(Debug)]
 pub struct Results {
     /// The sample sizes.
@@ -24,60 +26,10 @@ pub struct Results {
     pub theory: Looked<theory::Theory>,
     /// Exact statements of Secs. 3 to 9 against a second route, computed when first looked at.
     pub identities: Looked<identities::Identities>,
-    /// The main sweep of Sec. 2.
-    pub sweep: Option<sweep::Sweep>,
-    /// The rise again, with another seed.
-    pub second_seed: Option<sweep::Sweep>,
-    /// Half height against transient and window.
-    pub protocol: Option<protocol::ProtocolMap>,
-    /// The same for other starts and ends.
-    pub protocols: Option<protocols::Protocols>,
-    /// Other starts, boundaries, restitutions and frequencies.
-    pub starts: Option<starts::Starts>,
-    /// Three-way impacts and sticking.
-    pub laws: Option<laws::Laws>,
-    /// Chaos and its horizon.
-    pub horizon: Option<horizon::Horizon>,
-    /// Two masses under a low force.
-    pub two_masses: Option<two_masses::TwoMasses>,
-    /// The motions of Figs. 5(b) and 6(b).
-    pub segments: Option<segments::Segments>,
-    /// One long run.
-    pub spacetime: Option<spacetime::SpaceTime>,
-    /// Every method against the true motion.
-    pub race: Option<race::Race>,
-    /// What methods do to the mean count.
-    pub biases: Option<bias::Biases>,
-    /// Every method in the scenes where methods fail.
-    pub trials: Option<trials::Trials>,
-    /// Counted work against the number of masses.
-    pub scale: Option<scale::Scale>,
-    /// Ways to compute Eqs. (9) and (25).
-    pub analytic: Option<analytic::Analytic>,
-    /// Times that were measured once.
-    pub measured: Option<Measured>,
-    /// How hot running chains are.
-    pub heat: Option<heat::Heat>,
-    /// First impacts of chains from rest.
-    pub nucleation: Option<nucleation::Nucleation>,
-    /// What one gap that closes by itself sets off.
-    pub seeds: Option<seeds::Seeds>,
-    /// Counts after a larger force.
-    pub history: Option<history::History>,
-    /// Whether impacts are independent.
-    pub independence: Option<independence::Independence>,
-    /// Periodic orbits of a short chain.
-    pub orbits: Option<orbits::Orbits>,
-    /// Chains of several restitutions.
-    pub restitution: Option<restitution::Restitution>,
-    /// Long chains, damping and other forces.
-    pub chains: Option<chains::Chains>,
-    /// The long end of the map.
-    pub long_protocol: Option<long::LongMap>,
-    /// Chains of several lengths after several transients.
-    pub sizes: Option<chains::Chains>,
+    /// Of each experiment that was run, by its name.
+    found: BTreeMap<&'static str, Found>,
     /// Tables of the results, made when first looked at.
-    pub tables: OnceLock<BTreeMap<&'static str, Arc<Table>>>,
+    tables: OnceLock<BTreeMap<&'static str, Arc<Table>>>,
     /// Of each result that is carried over, by the name of its experiment, what became of a sample.
     pub audits: BTreeMap<String, deep::Audit>,
 }
@@ -91,7 +43,7 @@ macro_rules! asked_for {
                 /// # Errors
                 /// [`Error::NotRun`] if it was not asked for.
                 pub fn $name(&self) -> Result<&$type, Error> {
-                    self.$name.as_ref().ok_or(Error::NotRun(Need::$need))
+                    self.of(&catalogue::$need)
                 }
             )*
         }
@@ -100,60 +52,101 @@ macro_rules! asked_for {
 
 asked_for! {
     /// The main sweep.
-    sweep: sweep::Sweep, Sweep;
+    sweep: sweep::Sweep, SWEEP;
     /// The repetition with another seed.
-    second_seed: sweep::Sweep, SecondSeed;
+    second_seed: sweep::Sweep, SECOND_SEED;
     /// The map over protocols.
-    protocol: protocol::ProtocolMap, Protocol;
+    protocol: protocol::ProtocolMap, PROTOCOL;
     /// The maps of other chains.
-    protocols: protocols::Protocols, Protocols;
+    protocols: protocols::Protocols, PROTOCOLS;
     /// The variants.
-    starts: starts::Starts, Starts;
-    /// The laws.
-    laws: laws::Laws, Laws;
+    starts: starts::Starts, STARTS;
     /// The horizon.
-    horizon: horizon::Horizon, Horizon;
+    horizon: horizon::Horizon, HORIZON;
     /// Two masses.
-    two_masses: two_masses::TwoMasses, TwoMasses;
+    two_masses: two_masses::TwoMasses, TWO_MASSES;
     /// The segments.
-    segments: segments::Segments, Segments;
+    segments: segments::Segments, SEGMENTS;
     /// The long run.
-    spacetime: spacetime::SpaceTime, SpaceTime;
+    spacetime: spacetime::SpaceTime, SPACE_TIME;
     /// The methods against the truth.
-    race: race::Race, Race;
+    race: race::Race, RACE;
     /// The bias of the methods.
-    biases: bias::Biases, Biases;
+    biases: bias::Biases, BIAS;
     /// The scenes where methods fail.
-    trials: trials::Trials, Trials;
+    trials: trials::Trials, TRIALS;
     /// Work against size.
-    scale: scale::Scale, Scale;
+    scale: scale::Scale, SCALE;
     /// The analytic methods.
-    analytic: analytic::Analytic, Analytic;
+    analytic: analytic::Analytic, ANALYTIC;
     /// The measured times.
-    measured: Measured, Measured;
+    measured: Measured, MEASURED;
     /// How hot running chains are.
-    heat: heat::Heat, Heat;
+    heat: heat::Heat, HEAT;
     /// First impacts.
-    nucleation: nucleation::Nucleation, Nucleation;
+    nucleation: nucleation::Nucleation, NUCLEATION;
     /// What one gap sets off.
-    seeds: seeds::Seeds, Seeds;
+    seeds: seeds::Seeds, SEEDS;
     /// Counts after a larger force.
-    history: history::History, History;
+    history: history::History, HISTORY;
     /// Whether impacts are independent.
-    independence: independence::Independence, Independence;
+    independence: independence::Independence, INDEPENDENCE;
     /// Periodic orbits of a short chain.
-    orbits: orbits::Orbits, Orbits;
+    orbits: orbits::Orbits, ORBITS;
     /// Chains of several restitutions.
-    restitution: restitution::Restitution, Restitution;
+    restitution: restitution::Restitution, RESTITUTION;
     /// Long chains, damping and other forces.
-    chains: chains::Chains, Chains;
+    chains: chains::Chains, CHAINS;
     /// The long end of the map.
-    long_protocol: long::LongMap, LongProtocol;
+    long_protocol: long::LongMap, LONG_PROTOCOL;
     /// Length and transient.
-    sizes: chains::Chains, Sizes;
+    sizes: chains::Chains, SIZES;
 }
 
 impl Results {
+    /// The result of an experiment.
+    ///
+    /// # Errors
+    /// [`Error::NotRun`] if it was not asked for.
+    pub fn of<E: Typed>(&self, experiment: &E) -> Result<&E::Result, Error> {
+        let found = self.found.get(experiment.name()).and_then(|found| found.downcast_ref());
+        found.ok_or(Error::NotRun(experiment.name()))
+    }
+
+    /// Three-way impacts and sticking, from the rows of the main sweep.
+    ///
+    /// # Errors
+    /// [`Error::NotRun`] if the sweep was not asked for.
+    pub fn laws(&self) -> Result<laws::Laws, Error> {
+        Ok(laws::run(&self.of(&catalogue::SWEEP)?.rows))
+    }
+
+    /// A result by the name of its experiment.
+    pub fn found(&self, name: &str) -> Option<&Found> {
+        self.found.get(name)
+    }
+
+    /// Puts the result of an experiment in place.
+    pub fn put(&mut self, name: &'static str, found: Found) {
+        self.tables = OnceLock::new();
+        self.found.insert(name, found);
+    }
+
+    /// The result of an experiment, to be changed where nobody else holds it; its tables are made anew.
+    pub fn of_mut<E: Typed>(&mut self, experiment: &E) -> Option<&mut E::Result> {
+        self.tables = OnceLock::new();
+        Arc::get_mut(self.found.get_mut(experiment.name())?)?.downcast_mut()
+    }
+
+    /// Takes the result of an experiment from others that are the same otherwise.
+    pub fn restore(&mut self, name: &'static str, from: &Results) {
+        match from.found.get(name) {
+            Some(found) => self.found.insert(name, found.clone()),
+            None => self.found.remove(name),
+        };
+        self.tables = from.tables.clone();
+    }
+
     /// Computes what is otherwise computed when first looked at. Who works on several threads looks
     /// first.
     pub fn look(&self) {
@@ -163,9 +156,10 @@ impl Results {
     /// The tables of all results that there are, by name.
     pub fn tables(&self) -> &BTreeMap<&'static str, Arc<Table>> {
         self.tables.get_or_init(|| {
-            let heat = self.heat.iter().flat_map(heat::tables::tables);
-            let restitution = self.restitution.iter().flat_map(restitution::tables::tables);
-            heat.chain(restitution).map(|table| (table.name(), Arc::new(table))).collect()
+            let of = |experiment: &catalogue::Need| {
+                self.found(experiment.name()).map_or_else(Vec::new, |own| experiment.tables(own))
+            };
+            ALL.iter().flat_map(of).map(|table| (table.name(), Arc::new(table))).collect()
         })
     }
 
@@ -173,8 +167,9 @@ impl Results {
     ///
     /// # Errors
     /// [`Error::NotRun`] if its experiment was not asked for.
-    pub fn table(&self, need: Need, name: &str) -> Result<&Table, Error> {
-        self.tables().get(name).map(Arc::as_ref).ok_or(Error::NotRun(need))
+    pub fn table(&self, name: &'static str) -> Result<&Table, Error> {
+        let experiment = name.split('.').next().unwrap_or(name);
+        self.tables().get(name).map(Arc::as_ref).ok_or(Error::NotRun(experiment))
     }
 
     /// Results of which nothing was run yet.
@@ -187,34 +182,22 @@ impl Results {
             identities: LazyLock::new(Box::new(|| {
                 identities::run(VERTICES).expect("the theory exists for the paper's N")
             })),
-            sweep: None,
-            second_seed: None,
-            protocol: None,
-            protocols: None,
-            starts: None,
-            laws: None,
-            horizon: None,
-            two_masses: None,
-            segments: None,
-            spacetime: None,
-            race: None,
-            biases: None,
-            trials: None,
-            scale: None,
-            analytic: None,
-            measured: None,
-            heat: None,
-            nucleation: None,
-            seeds: None,
-            history: None,
-            independence: None,
-            orbits: None,
-            restitution: None,
-            chains: None,
-            long_protocol: None,
-            sizes: None,
+            found: BTreeMap::new(),
             tables: OnceLock::new(),
             audits: BTreeMap::new(),
+        }
+    }
+
+    /// The same results again; those of experiments are shared.
+    pub fn shared(&self) -> Self {
+        let (theory, identities) = (self.theory.clone(), self.identities.clone());
+        Results {
+            profile: self.profile,
+            theory: Looked::new(Box::new(move || theory)),
+            identities: Looked::new(Box::new(move || identities)),
+            found: self.found.clone(),
+            tables: self.tables.clone(),
+            audits: self.audits.clone(),
         }
     }
 }
@@ -226,6 +209,7 @@ mod tests {
     #[test]
     fn what_was_not_run_is_an_error() {
         let results = Results::empty(Profile::Quick);
-        assert!(matches!(results.laws(), Err(Error::NotRun(Need::Laws))));
+        assert!(matches!(results.sweep(), Err(Error::NotRun("sweep"))));
+        assert!(matches!(results.table("heat.rising"), Err(Error::NotRun("heat"))));
     }
 }

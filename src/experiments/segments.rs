@@ -1,6 +1,7 @@
 //! The motions of Figs. 5(b) and 6(b): saved scenarios, replayed by the engine.
 
 use super::Error;
+use super::experiment::Given;
 use crate::dynamics::{Engine, Impact, Scenario};
 use crate::input::one_line;
 use serde::{Deserialize, Serialize};
@@ -85,14 +86,17 @@ struct Saved {
     order: Vec<usize>,
 }
 
-/// Replays both segments from the texts of [`FILES`].
+/// Replays both segments from the files of [`FILES`].
 ///
 /// # Errors
-/// [`Error::Scenario`] names the file if it is broken, if the engine refuses it, or if its impacts
-/// are not those of the paper's figure.
-pub fn run(texts: [&str; 2]) -> Result<Segments, Error> {
-    let [fig05, fig06] = [0, 1].map(|i| replay(FILES[i], texts[i], ORDERS[i]));
-    Ok(Segments { fig05: fig05?, fig06: fig06? })
+/// [`Error::Scenario`] names the file if it is missing or broken, if the engine refuses it, or if its
+/// impacts are not those of the paper's figure.
+pub fn read(given: Given<'_>) -> Result<Segments, Error> {
+    let one = |i: usize| {
+        let fault = |problem| Error::Scenario { file: FILES[i].into(), problem };
+        replay(FILES[i], &given(FILES[i]).map_err(fault)?, ORDERS[i])
+    };
+    Ok(Segments { fig05: one(0)?, fig06: one(1)? })
 }
 
 fn replay(file: &str, text: &str, order: &[usize]) -> Result<Segment, Error> {

@@ -1,6 +1,6 @@
 //! The work of a profile as a list of units, shared out to machines and joined again.
 
-use super::catalogue::{self, Saved};
+use super::catalogue::{self, Need};
 use super::cutting::Unit;
 use super::identity::{Identity, Reason, told};
 use super::store::Store;
@@ -30,7 +30,7 @@ pub struct Plan {
 /// One unit of work of one experiment.
 pub struct Task {
     /// The experiment.
-    pub experiment: &'static dyn Saved,
+    pub experiment: Need,
     /// The unit.
     pub unit: Unit,
     /// What it is made of.
@@ -50,7 +50,7 @@ pub struct Ran {
 impl Plan {
     /// The plan of a profile.
     pub fn new(profile: Profile) -> Self {
-        let tasks = catalogue::of(profile).iter().flat_map(|&experiment| {
+        let tasks = catalogue::of(profile).into_iter().flat_map(|experiment| {
             let whole = experiment.identity(profile);
             experiment.units(profile).into_iter().enumerate().map(move |(number, unit)| {
                 let identity = whole.of_unit(number, &unit);
@@ -63,7 +63,7 @@ impl Plan {
 
     /// The same for the experiments of these names alone.
     pub fn only(mut self, names: &[String]) -> Self {
-        let meant = |task: &Task| names.iter().any(|name| name == task.experiment.need().name());
+        let meant = |task: &Task| names.iter().any(|name| name == task.experiment.name());
         let (tasks, others): (Vec<_>, Vec<_>) = self.tasks.into_iter().partition(meant);
         self.others.extend(others.into_iter().map(|task| task.name));
         Plan { tasks, only: names.to_vec(), ..self }
@@ -135,7 +135,7 @@ impl Plan {
         }
         let run = open.len();
         progress.say(&format!("shard {shard}/{of}: {run} units to run, {fresh} fresh"));
-        for experiment in open.chunk_by(|a, b| a.experiment.need() == b.experiment.need()) {
+        for experiment in open.chunk_by(|a, b| a.experiment.name() == b.experiment.name()) {
             progress.check()?;
             let units: Vec<(&Unit, Identity)> =
                 experiment.iter().map(|task| (&task.unit, task.identity.clone())).collect();
@@ -192,11 +192,11 @@ impl Plan {
         }
         results.prepare()?;
         let mut texts = texts.into_iter();
-        for tasks in self.tasks.chunk_by(|a, b| a.experiment.need() == b.experiment.need()) {
+        for tasks in self.tasks.chunk_by(|a, b| a.experiment.name() == b.experiment.name()) {
             let own: Vec<String> = texts.by_ref().take(tasks.len()).collect();
             let experiment = tasks[0].experiment;
             experiment.merge(self.profile, &own, results, progress)?;
-            let (name, number) = (experiment.need().name(), own.len());
+            let (name, number) = (experiment.name(), own.len());
             let units = if number == 1 { "unit" } else { "units" };
             progress.say(&format!("{name}: joined from {number} {units} of work"));
         }

@@ -59,6 +59,10 @@ use plotters::drawing::DrawingAreaErrorKind;
 use plotters_backend::DrawingErrorKind;
 use thiserror::Error;
 
+use crate::experiments::catalogue::{
+    ANALYTIC, BIAS, CHAINS, HEAT, INDEPENDENCE, LONG_PROTOCOL, MEASURED, NUCLEATION, ORBITS,
+    PROTOCOL, PROTOCOLS, RACE, RESTITUTION, SCALE, SEEDS, SEGMENTS, SIZES, SPACE_TIME, SWEEP,
+};
 use crate::experiments::{self, Need, Results};
 use crate::params::Profile;
 
@@ -132,32 +136,32 @@ impl From<DrawingAreaErrorKind<Error>> for Error {
 }
 
 /// The experiments that a figure needs, beside the theory, which costs nothing.
-pub fn needs(number: Number) -> &'static [Need] {
+pub fn needs(number: Number) -> Vec<Need> {
     match number {
-        Number::Paper(2 | 3 | 12 | 15) => &[Need::Sweep],
-        Number::Paper(5 | 6) => &[Need::Segments],
-        Number::Own(1) => &[Need::Protocol, Need::LongProtocol, Need::Protocols],
-        Number::Own(2) => &[Need::SpaceTime],
-        Number::Own(3) => &[Need::Nucleation, Need::Sweep],
-        Number::Own(4) => &[Need::Seeds, Need::Sweep, Need::Protocol],
-        Number::Own(7) => &[Need::Heat],
-        Number::Own(8) => &[Need::Independence],
-        Number::Own(9) => &[Need::Orbits],
-        Number::Own(10) => &[Need::Restitution],
-        Number::Own(11) => &[Need::Chains, Need::Sizes, Need::Protocol],
-        Number::Own(12) => &[Need::Race],
-        Number::Own(13) => &[Need::Race, Need::Measured],
-        Number::Own(14) => &[Need::Biases],
-        Number::Own(15) => &[Need::Scale, Need::Measured],
-        Number::Own(16) => &[Need::Analytic],
-        _ => &[],
+        Number::Paper(2 | 3 | 12 | 15) => vec![&SWEEP],
+        Number::Paper(5 | 6) => vec![&SEGMENTS],
+        Number::Own(1) => vec![&PROTOCOL, &LONG_PROTOCOL, &PROTOCOLS],
+        Number::Own(2) => vec![&SPACE_TIME],
+        Number::Own(3) => vec![&NUCLEATION, &SWEEP],
+        Number::Own(4) => vec![&SEEDS, &SWEEP, &PROTOCOL],
+        Number::Own(7) => vec![&HEAT],
+        Number::Own(8) => vec![&INDEPENDENCE],
+        Number::Own(9) => vec![&ORBITS],
+        Number::Own(10) => vec![&RESTITUTION],
+        Number::Own(11) => vec![&CHAINS, &SIZES, &PROTOCOL],
+        Number::Own(12) => vec![&RACE],
+        Number::Own(13) => vec![&RACE, &MEASURED],
+        Number::Own(14) => vec![&BIAS],
+        Number::Own(15) => vec![&SCALE, &MEASURED],
+        Number::Own(16) => vec![&ANALYTIC],
+        _ => vec![],
     }
 }
 
 /// The names of the experiments whose results a figure shows; none for a schematic.
 pub fn experiments(number: Number) -> Vec<&'static str> {
     let theory = matches!(number, Number::Paper(7..=15) | Number::Own(5 | 6)).then_some("theory");
-    needs(number).iter().map(|need| need.name()).chain(theory).collect()
+    needs(number).into_iter().map(|need| need.name()).chain(theory).collect()
 }
 
 /// The colours of all figures: the name that style sheets use, and the colour as `#rrggbb`.

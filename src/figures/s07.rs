@@ -7,9 +7,9 @@ use super::series::Outside;
 use super::sheet::{Entry, Sheet};
 use super::style::{BLUE, Dash, GREEN, INK, LINE, Mark, ORANGE, PURPLE, RED, SMALL, Stroke, THIN};
 use super::{DataFile, Error, Figure};
+use crate::experiments::Results;
 use crate::experiments::heat::tables::{balanced_p, balanced_ratio};
 use crate::experiments::theory::Theory;
-use crate::experiments::{Need, Results};
 use crate::params::HeatParams;
 use crate::table::Table;
 
@@ -35,7 +35,7 @@ struct Shown<'a> {
 
 /// Draws the figure.
 pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
-    let table = |name| results.table(Need::Heat, name);
+    let table = |name| results.table(name);
     let shown = Shown {
         parameters: &results.heat()?.parameters,
         theory: &results.theory,

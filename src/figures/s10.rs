@@ -9,10 +9,10 @@ use super::style::{
     BLUE, Colour, Dash, GREEN, INK, LINE, Mark, ORANGE, PURPLE, RED, SMALL, Stroke, THIN,
 };
 use super::{DataFile, Error, Figure};
+use crate::experiments::Results;
 use crate::experiments::restitution::Restitution;
 use crate::experiments::restitution::hot::steady;
 use crate::experiments::restitution::tables::able;
-use crate::experiments::{Need, Results};
 use crate::params::Chain;
 use crate::table::Table;
 
@@ -50,7 +50,7 @@ struct Shown<'a> {
 
 /// Draws the figure.
 pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
-    let table = |name| results.table(Need::Restitution, name);
+    let table = |name| results.table(name);
     let shown = Shown {
         found: results.restitution()?,
         rise: table("restitution.rise")?,

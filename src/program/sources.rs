@@ -5,7 +5,6 @@ use crate::claims::{self, Published};
 use crate::experiments::{self, Need, Progress, Results, Store};
 use crate::params::Profile;
 use crate::report::Templates;
-use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 /// Memory that results, figures and documents need at least, in bytes: measured, with a little room.
@@ -53,7 +52,7 @@ impl Sources {
     /// Exit codes 2, 4 and 130.
     pub fn run(
         &self,
-        needs: &BTreeSet<Need>,
+        needs: &[Need],
         profile: Profile,
         templates: &Templates,
         progress: &Progress,
@@ -63,14 +62,12 @@ impl Sources {
             "the results",
             "raise the limits of the process, or end other programs",
         )?;
-        let needs: Vec<Need> = needs.iter().copied().collect();
-        let short = [Need::Segments, Need::Measured];
-        let long = needs.iter().any(|need| !short.contains(need));
+        let long = needs.iter().any(|need| need.is_saved());
         let store = if long { Store::open(&self.results)? } else { Store::nowhere() };
         let scenario = |file: &str| {
             let text = templates.text(file).map(String::from);
             text.map_err(|_| "this file is missing from the templates".to_string())
         };
-        Ok(experiments::run(&needs, profile, scenario, &store, progress)?)
+        Ok(experiments::run(needs, profile, &scenario, &store, progress)?)
     }
 }

@@ -47,7 +47,7 @@ pub struct Only {
 impl Only {
     /// The units of work of these experiments, or of all if none is named.
     pub fn plan(&self, profile: Profile) -> Result<Plan, Failure> {
-        let known: Vec<&str> = catalogue::of(profile).iter().map(|one| one.need().name()).collect();
+        let known: Vec<&str> = catalogue::of(profile).iter().map(|one| one.name()).collect();
         if let Some(name) = self.names.iter().find(|name| !known.contains(&name.as_str())) {
             let (profile, known) = (profile.name(), known.join(", "));
             return Err(Failure::input(format!(

@@ -62,7 +62,7 @@ pub(super) fn items(text: &str) -> Vec<(String, usize, Vec<&str>)> {
         if code.starts_with("///") || code.starts_with("#[") {
             first.get_or_insert(i);
         } else if indent == 0 && code.starts_with("impl") {
-            owner = Some(subject(code));
+            owner = (!code.ends_with("{}")).then(|| subject(code));
             first = None;
         } else if line == "}" {
             owner = None;

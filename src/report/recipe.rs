@@ -1,7 +1,7 @@
 //! Experiments by the names that values carry: where their code is, and with which parameters
 //! they run. The parameters are those of [`crate::params`], field by field.
 
-use crate::experiments::catalogue::{self, Saved};
+use crate::experiments::catalogue::ALL;
 use crate::params::{Profile, VERTICES};
 use serde::Serialize;
 use serde_json::Value as Json;
@@ -12,52 +12,20 @@ pub struct Recipe {
     /// Its name, as "second_seed".
     pub name: &'static str,
     /// The path of its module.
-    pub item: &'static str,
+    pub item: String,
     /// Name and setting of each parameter, the seed among them.
     pub parameters: Vec<(String, String)>,
 }
 
 /// The recipe of a name; None for a name that no experiment has.
 pub fn recipe(name: &str, profile: Profile) -> Option<Recipe> {
-    let (name, item) = match name {
-        "sweep" => ("sweep", "experiments::sweep"),
-        "second_seed" => ("second_seed", "experiments::sweep"),
-        "laws" => ("laws", "experiments::laws"),
-        "protocol" => ("protocol", "experiments::protocol"),
-        "protocols" => ("protocols", "experiments::protocols"),
-        "starts" => ("starts", "experiments::starts"),
-        "horizon" => ("horizon", "experiments::horizon"),
-        "two_masses" => ("two_masses", "experiments::two_masses"),
-        "race" => ("race", "experiments::accuracy::race"),
-        "bias" => ("bias", "experiments::accuracy::bias"),
-        "trials" => ("trials", "experiments::accuracy::trials"),
-        "scale" => ("scale", "experiments::accuracy::scale"),
-        "analytic" => ("analytic", "experiments::accuracy::analytic"),
-        "space-time" => ("space-time", "experiments::spacetime"),
-        "segments" => ("segments", "experiments::segments"),
-        "measured" => ("measured", "experiments::measured"),
-        "heat" => ("heat", "experiments::heat"),
-        "nucleation" => ("nucleation", "experiments::nucleation"),
-        "seeds" => ("seeds", "experiments::seeds"),
-        "history" => ("history", "experiments::history"),
-        "independence" => ("independence", "experiments::independence"),
-        "orbits" => ("orbits", "experiments::orbits"),
-        "restitution" => ("restitution", "experiments::restitution"),
-        "chains" => ("chains", "experiments::chains"),
-        "sizes" => ("sizes", "experiments::chains"),
-        "long_protocol" => ("long_protocol", "experiments::long"),
-        "audits" => ("audits", "experiments::deep::audit"),
-        "theory" => ("theory", "experiments::theory"),
-        _ => return None,
-    };
-    let parameters = match name {
-        "theory" => serde_json::json!({"N": VERTICES}),
-        // Read from the impacts of the sweep.
-        "laws" => catalogue::SWEEP.parameters(profile),
-        _ => catalogue::of(profile)
-            .iter()
-            .find(|experiment| experiment.need().name() == name)
-            .map_or(Json::Null, |experiment| experiment.parameters(profile)),
+    let (name, item, parameters) = match name {
+        "theory" => ("theory", "experiments::theory".into(), serde_json::json!({"N": VERTICES})),
+        "audits" => ("audits", "experiments::deep::audit".into(), Json::Null),
+        _ => {
+            let experiment = ALL.iter().find(|experiment| experiment.name() == name)?;
+            (experiment.name(), experiment.item(), experiment.parameters(profile))
+        }
     };
     let mut flat = Vec::new();
     flatten("", &parameters, &mut flat);
@@ -105,7 +73,6 @@ fn shown(value: &Json) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::experiments::Need;
     use crate::report::place;
 
     #[test]
@@ -119,10 +86,9 @@ mod tests {
         assert_eq!(of("chain masses"), Some("100"));
         assert_eq!(of("protocol transient"), Some("500"));
         assert!(of("sigmas").unwrap().contains(" from 0.02 to 0.4"), "{:?}", of("sigmas"));
-        for need in Need::ALL {
-            let recipe = super::recipe(need.name(), Profile::Full);
-            let recipe = recipe.unwrap_or_else(|| panic!("{} has no recipe", need.name()));
-            assert!(place::file(recipe.item).is_some(), "there is no {}", recipe.item);
+        for experiment in ALL {
+            let recipe = super::recipe(experiment.name(), Profile::Full).unwrap();
+            assert!(place::file(&recipe.item).is_some(), "there is no {}", recipe.item);
         }
         assert_eq!(super::recipe("no such", Profile::Full), None);
     }

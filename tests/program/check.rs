@@ -2,7 +2,8 @@
 
 use crate::{PROGRAM, TEMPLATES, outcome, program, run};
 use impact_paper::claims::{self, Basis, Published};
-use impact_paper::experiments::{self, Need, Progress, Store};
+use impact_paper::experiments::catalogue::ALL;
+use impact_paper::experiments::{self, Progress, Store};
 use impact_paper::params::Profile;
 use impact_paper::report::claims::scorecard;
 use impact_paper::report::{contents, guards};
@@ -126,7 +127,7 @@ fn guards_relate_values_of_the_report() {
         std::fs::read_to_string(Path::new("templates").join(file)).map_err(|e| e.to_string())
     };
     let (store, quiet) = (Store::nowhere(), Progress::silent());
-    let results = experiments::run(&Need::ALL, Profile::Quick, scenario, &store, &quiet).unwrap();
+    let results = experiments::run(&ALL, Profile::Quick, &scenario, &store, &quiet).unwrap();
     let published = Published::committed().unwrap();
     let mut values = contents::registry(&results, &published).unwrap();
     values.extend(scorecard(&claims::all(&results, &published).unwrap())).unwrap();

@@ -247,7 +247,7 @@ fn no_data_lies_outside_its_frame() {
 fn data_files_have_headers_with_units_and_the_rows_of_what_is_drawn() {
     let results = &QUICK.results;
     let (n, theory) = (results.theory.vertices, &results.theory);
-    let sigmas = results.sweep.as_ref().unwrap().rows.len();
+    let sigmas = results.sweep().unwrap().rows.len();
     let mut names = BTreeSet::new();
     let mut rows = BTreeMap::new();
     for figure in &QUICK.figures {
@@ -284,7 +284,7 @@ fn data_files_have_headers_with_units_and_the_rows_of_what_is_drawn() {
         ("fig03.csv", sigmas),
         ("fig04.csv", 16),
         ("fig05a.csv", 3),
-        ("fig05b.csv", results.segments.as_ref().unwrap().fig05.times.len()),
+        ("fig05b.csv", results.segments().unwrap().fig05.times.len()),
         ("fig06b-impacts.csv", 9),
         ("fig07.csv", n),
         ("fig08d.csv", n),
@@ -305,7 +305,7 @@ fn data_files_have_headers_with_units_and_the_rows_of_what_is_drawn() {
 /// Thousands of impacts are strokes, not thousands of elements, and cover exactly the impacts.
 #[test]
 fn the_long_run_is_drawn_compactly_and_completely() {
-    let run = QUICK.results.spacetime.as_ref().unwrap();
+    let run = QUICK.results.spacetime().unwrap();
     let figure = QUICK.figures.iter().find(|figure| figure.id == "s02").unwrap();
     assert!(figure.svg.len() < 300_000, "{} bytes", figure.svg.len());
     assert_eq!(figure.data[0].rows.len(), run.times.len());

@@ -208,7 +208,7 @@ fn the_scene_is_complete_without_its_script() {
     let first = data["first"].as_u64().unwrap() as usize;
 
     // The saved numbers put every mass where the engine has it, at times that the table gives.
-    let run = QUICK.results.spacetime.as_ref().unwrap();
+    let run = QUICK.results.spacetime().unwrap();
     let parameters = &run.parameters;
     let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, run.realisation);
     let scenario = Scenario::draw(&parameters.chain, parameters.sigma, &mut normals);

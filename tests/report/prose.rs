@@ -4,6 +4,7 @@
 
 use crate::quick::QUICK;
 use impact_paper::claims::{self, Published, Verdict};
+use impact_paper::experiments::catalogue::{STARTS, SWEEP};
 use impact_paper::experiments::{Need, Progress, Results, Store, run::run};
 use impact_paper::figures;
 use impact_paper::params::Profile;
@@ -46,9 +47,9 @@ fn every_claim_is_spoken_of_once_in_the_text() {
 #[test]
 fn claims_fail_when_the_results_say_so() {
     let none = |_: &str| Err("not needed".to_string());
-    let needs = [Need::Sweep, Need::Laws, Need::Starts];
+    let needs: [Need; 2] = [&SWEEP, &STARTS];
     let mut results =
-        run(&needs, Profile::Quick, none, &Store::nowhere(), &Progress::silent()).unwrap();
+        run(&needs, Profile::Quick, &none, &Store::nowhere(), &Progress::silent()).unwrap();
     let published = Published::committed().unwrap();
     let verdict =
         |id: &str, results: &Results| claims::one(id, results, &published).unwrap().verdict;
@@ -57,7 +58,7 @@ fn claims_fail_when_the_results_say_so() {
     assert_eq!(verdict("sec2_onset", &results), Verdict::DiffersAndExplained);
     assert_eq!(verdict("sec2_sticking", &results), Verdict::Reproduced);
     assert_eq!(verdict("sec2_parameters", &results), Verdict::Reproduced);
-    let sweep = results.sweep.as_mut().unwrap();
+    let sweep = results.of_mut(&SWEEP).unwrap();
     for place in [&mut sweep.rise.half_height, &mut sweep.rise.kept_half] {
         place.as_mut().unwrap().value += 0.05;
     }
@@ -73,7 +74,7 @@ fn claims_fail_when_the_results_say_so() {
 
     // The paper discards chains without impacts: the mean of the kept is judged, and that of all explains.
     let small = |kept: f64, all: f64, results: &mut Results| {
-        let rows = &mut results.sweep.as_mut().unwrap().rows;
+        let rows = &mut results.of_mut(&SWEEP).unwrap().rows;
         let row = rows.iter_mut().rfind(|row| row.sigma < 0.0804).unwrap();
         (row.mean_distinct, row.standard_error) = (Some(kept), Some(0.01));
         row.mean_all = Some(all);
@@ -92,7 +93,7 @@ fn claims_fail_when_the_results_say_so() {
     // More chains with impacts than Eq. (20) lets have any, and fewer than two thirds of them.
     assert_eq!(verdict("sec8_no_impact", &results), Verdict::Reproduced);
     for share in [1, 0] {
-        let starts = results.starts.as_mut().unwrap();
+        let starts = results.of_mut(&STARTS).unwrap();
         let random = starts.variants.iter_mut().find(|own| own.name == "random").unwrap();
         for row in &mut random.rows {
             row.realisations = 1000;
@@ -101,8 +102,9 @@ fn claims_fail_when_the_results_say_so() {
         assert_eq!(verdict("sec8_no_impact", &results), Verdict::Differs, "{share}");
     }
 
-    results.sweep.as_mut().unwrap().rise.half_height = None;
+    results.of_mut(&SWEEP).unwrap().rise.half_height = None;
     assert_eq!(verdict("sec2_half_height", &results), Verdict::CannotBeJudged);
-    results.laws.as_mut().unwrap().totals.near_decades.iter_mut().for_each(|n| *n += 1000);
+    let rows = &mut results.of_mut(&SWEEP).unwrap().rows;
+    rows.iter_mut().flat_map(|row| row.near_decades.last_mut()).for_each(|n| *n += 1000);
     assert_eq!(verdict("sec2_three_way", &results), Verdict::Differs);
 }

@@ -1,7 +1,8 @@
 //! The whole report of the quick profile in memory, for the tests that read it.
 
 use impact_paper::claims::{self, Claim, Published};
-use impact_paper::experiments::{Need, Progress, Results, Store, run::run};
+use impact_paper::experiments::catalogue::ALL;
+use impact_paper::experiments::{Progress, Results, Store, run::run};
 use impact_paper::figures::{self, Figure};
 use impact_paper::params::Profile;
 use impact_paper::report::{Input, Registry, Report, Templates, assemble, contents};
@@ -30,7 +31,7 @@ pub static QUICK: LazyLock<Quick> = LazyLock::new(|| {
     let store = Store::open(folder.path()).unwrap();
     // Run, then read again as it was saved.
     let [results, mut full] = [(); 2]
-        .map(|()| run(&Need::ALL, Profile::Quick, scenario, &store, &Progress::silent()).unwrap());
+        .map(|()| run(&ALL, Profile::Quick, &scenario, &store, &Progress::silent()).unwrap());
     full.profile = Profile::Full;
     let published = Published::parse(templates.text("published.toml").unwrap()).unwrap();
     let claims = claims::all(&results, &published).unwrap();

@@ -126,14 +126,11 @@ fn read(root: &Path, path: &str) -> Result<Vec<u8>, Failure> {
 /// Exit code 3 if one of them is not what this program would run to.
 fn fresh(results: &Path, profile: Profile) -> Result<Vec<String>, Failure> {
     let store = Store::open(results)?;
-    let stale = |experiment: &&&dyn catalogue::Saved| !experiment.stale(profile, &store).is_empty();
-    let stale: Vec<&str> = catalogue::of(profile)
-        .iter()
-        .filter(stale)
-        .map(|experiment| experiment.need().name())
-        .collect();
+    let stale = |experiment: &&catalogue::Need| !experiment.stale(profile, &store).is_empty();
+    let stale: Vec<&str> =
+        catalogue::of(profile).iter().filter(stale).map(|experiment| experiment.name()).collect();
     if stale.is_empty() {
-        let name = |experiment: &&dyn catalogue::Saved| {
+        let name = |experiment: &catalogue::Need| {
             format!("{}.json", experiment.identity(profile).file_stem(profile))
         };
         return Ok(catalogue::of(profile).iter().map(name).collect());

@@ -7,12 +7,11 @@ use super::judged::Judged;
 use super::sources::Sources;
 use super::{Failure, stdout, work};
 use impact_paper::claims::{self, Claim};
-use impact_paper::experiments::Need;
+use impact_paper::experiments::catalogue::ALL;
 use impact_paper::params::Profile;
 use impact_paper::report::claims::plain;
 use impact_paper::report::contents;
 use impact_paper::report::guards::Failing;
-use std::collections::BTreeSet;
 use std::io::{self, Write};
 
 /// Holds every quantitative statement of the paper against what is computed here, the targets of
@@ -61,11 +60,11 @@ pub fn run(args: Args) -> Result<(), Failure> {
         [] => all,
         some => all.into_iter().filter(|id| some.iter().any(|one| one == id)).collect(),
     };
-    let mut needs: BTreeSet<_> = asked.iter().flat_map(|id| claims::needs(id)).copied().collect();
+    let mut needs: Vec<_> = asked.iter().flat_map(|id| claims::needs(id)).copied().collect();
     // Targets and guards belong to the whole.
     let whole = args.claim.is_empty();
     if whole {
-        needs.extend(Need::ALL);
+        needs = ALL.into();
     }
     let progress = work::progress();
     let judged = work::on_threads(args.sources.threads, || {

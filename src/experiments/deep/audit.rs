@@ -4,7 +4,7 @@ use super::super::cutting::Unit;
 use super::super::experiment::{Json, Saved};
 use super::super::identity::{Identity, Reason, told};
 use super::super::store::{Store, written};
-use super::super::{Error, Need, Progress};
+use super::super::{Error, Progress};
 use super::Deep;
 use crate::numerics::random::generator;
 use crate::params::{Profile, SEED};
@@ -118,7 +118,7 @@ impl<P: Serialize + Sync, T: Json, U: Json> Audited<'_, P, T, U> {
         let (words, cutting) = &self.0.cut;
         let parameters = (self.0.parameters)(Profile::Deep);
         let again = cutting.given(&parameters, &chosen, words, progress)?;
-        let bytes = |own: &U| written(self.need().name(), own);
+        let bytes = |own: &U| written(self.name(), own);
         let mut identical = 0;
         for (&place, own) in drawn.iter().zip(&again) {
             identical += usize::from(bytes(own)? == bytes(&given[place])?);
@@ -141,7 +141,7 @@ impl<P: Serialize + Sync, T: Json, U: Json> Audited<'_, P, T, U> {
     }
 
     fn read(&self, text: &str) -> Result<Audit, Error> {
-        serde_json::from_str(text).map_err(|_| Error::NotUnderstood { name: self.need().name() })
+        serde_json::from_str(text).map_err(|_| Error::NotUnderstood { name: self.name() })
     }
 
     /// A saved audit that is fresh.
@@ -152,13 +152,13 @@ impl<P: Serialize + Sync, T: Json, U: Json> Audited<'_, P, T, U> {
 }
 
 impl<P: Serialize + Sync, T: Json, U: Json> Saved for Audited<'_, P, T, U> {
-    fn need(&self) -> Need {
-        self.0.need
+    fn name(&self) -> &'static str {
+        self.0.name
     }
 
     fn identity(&self, profile: Profile) -> Identity {
         let audit = AuditParams { committed: self.0.digest(), work: work(profile) };
-        self.0.made_of().with_code(Identity::new(self.need().name(), MODULE, &audit))
+        self.0.made_of().with_code(Identity::new(self.name(), MODULE, &audit))
     }
 
     fn parameters(&self, _: Profile) -> serde_json::Value {
@@ -174,7 +174,7 @@ impl<P: Serialize + Sync, T: Json, U: Json> Saved for Audited<'_, P, T, U> {
     }
 
     fn audit(&self, profile: Profile, store: &Store, progress: &Progress) -> Result<bool, Error> {
-        let stale = |why: Vec<Reason>| Error::Stale { name: self.need().name(), why: told(&why) };
+        let stale = |why: Vec<Reason>| Error::Stale { name: self.name(), why: told(&why) };
         Ok(self.look(profile, store).map_err(stale)? == self.run(profile, progress)?)
     }
 

@@ -11,17 +11,19 @@ pub use audit::{Audit, Carriage, Distance};
 
 use super::cutting::{Cutting, Join, Unit};
 use super::experiment::How::Cut;
-use super::experiment::{Experiment, Json, Saved};
+use super::experiment::{Entry, Experiment, Found, Given, Json, Saved, Typed, item, typed};
 use super::identity::{Identity, Reason, told};
 use super::store::{self, Store};
-use super::{Error, Need, Progress};
+use super::{Error, Progress};
 use crate::committed;
 use crate::digest::sha256;
 use crate::params::Profile;
+use crate::table::Table;
 use audit::Audited;
 use serde::Serialize;
 use std::borrow::Cow;
 use std::io;
+use std::sync::Arc;
 
 /// The file of this code: a result that is joined from committed units depends on it.
 const MODULE: &str = "src/experiments/deep/mod.rs";
@@ -31,8 +33,10 @@ pub const REMEDY: &str = "run `make deep`";
 
 /// An experiment of which the units of work are committed.
 pub struct Deep<P: 'static, T: 'static, U: 'static> {
-    /// What it is needed for; its name is that of the experiment.
-    pub need: Need,
+    /// Its name, as values and saved files carry it.
+    pub name: &'static str,
+    /// What it runs, in words, with a reference to where that is told.
+    pub(super) title: &'static str,
     /// The file of its code.
     pub(super) module: &'static str,
     /// Its parameters in a profile.
@@ -46,6 +50,8 @@ pub struct Deep<P: 'static, T: 'static, U: 'static> {
     pub(super) from: Profile,
     /// How far what units give is from the result, where an error of it is known.
     pub(super) distance: Option<Away<T, U>>,
+    /// What follows from its result.
+    pub(super) tables: fn(&T) -> Vec<Table>,
 }
 
 /// Measures how far what units give is from a result.
@@ -61,17 +67,19 @@ struct JoinedParams {
 impl<P, T, U> Deep<P, T, U> {
     /// What takes too long for the full profile.
     pub(super) const fn new(
-        need: Need,
+        (name, title): (&'static str, &'static str),
         module: &'static str,
         parameters: fn(Profile) -> P,
         cut: (&'static str, Cutting<P, U, T>),
+        tables: fn(&T) -> Vec<Table>,
     ) -> Self {
-        Deep { need, module, parameters, cut, text: None, from: Profile::Full, distance: None }
+        let (text, from, distance) = (None, Profile::Full, None);
+        Deep { name, title, module, parameters, cut, text, from, distance, tables }
     }
 
     /// The file of the committed units.
     fn file(&self) -> String {
-        format!("benches/deep/{}-deep.json", self.need.name())
+        format!("benches/deep/{}-deep.json", self.name)
     }
 
     /// The committed units, as they were saved.
@@ -86,9 +94,10 @@ impl<P, T, U> Deep<P, T, U> {
 
     /// The experiment with another way to make a result of what its units give.
     fn experiment<R>(&self, join: Join<P, U, R>) -> Experiment<P, R, U> {
-        let Deep { need, module, parameters, .. } = *self;
+        let Deep { name, module, parameters, .. } = *self;
         let (words, Cutting { rows, part, fits, .. }) = self.cut;
-        Experiment { need, module, parameters, how: Cut(words, Cutting { rows, part, fits, join }) }
+        let how = Cut(words, Cutting { rows, part, fits, join });
+        Experiment { name, module, parameters, how, tables: |_| Vec::new() }
     }
 
     /// The experiment as profiles run it that do not carry it over.
@@ -127,7 +136,7 @@ impl<P: Serialize + Sync, T: Json, U: Json> Deep<P, T, U> {
             return Ok((self.small().get(profile, store, progress)?, None));
         }
         let audit = Audited(self).get(profile, store, progress)?;
-        let name = format!("{} joined", self.need.name());
+        let name = format!("{} joined", self.name);
         let params = JoinedParams { committed: self.digest() };
         let identity = self.made_of().with_code(Identity::new(&name, MODULE, &params));
         let join = || self.joined(self.given()?, progress);
@@ -169,9 +178,46 @@ impl<P: Serialize + Sync, T: Json, U: Json> Deep<P, T, U> {
     }
 }
 
+impl<P: Serialize + Sync, T: Json, U: Json> Entry for Deep<P, T, U> {
+    fn item(&self) -> String {
+        item(self.module)
+    }
+
+    fn carried(&self) -> Option<&'static str> {
+        Some(self.title)
+    }
+
+    fn found(
+        &self,
+        profile: Profile,
+        _: Given<'_>,
+        store: &Store,
+        progress: &Progress,
+    ) -> Result<(Found, Option<Audit>), Error> {
+        let (result, audit) = self.get(profile, store, progress)?;
+        Ok((Arc::new(result), audit))
+    }
+
+    fn tables(&self, found: &Found) -> Vec<Table> {
+        typed(found).map_or_else(Vec::new, self.tables)
+    }
+
+    fn json(&self, found: &Found) -> Option<serde_json::Value> {
+        serde_json::to_value(typed::<T>(found)?).ok()
+    }
+
+    fn typed(&self, json: &serde_json::Value) -> serde_json::Result<Found> {
+        Ok(Arc::new(T::deserialize(json)?))
+    }
+}
+
+impl<P: Serialize + Sync, T: Json, U: Json> Typed for Deep<P, T, U> {
+    type Result = T;
+}
+
 impl<P: Serialize + Sync, T: Json, U: Json> Saved for Deep<P, T, U> {
-    fn need(&self) -> Need {
-        self.need
+    fn name(&self) -> &'static str {
+        self.name
     }
 
     fn identity(&self, profile: Profile) -> Identity {

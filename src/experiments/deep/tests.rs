@@ -26,7 +26,7 @@ fn deep(cutting: Cutting<u64, Given, usize>, committed: &str) -> Small {
     let cut = ("test", cutting);
     Deep {
         text: Some(committed),
-        ..Deep::new(Need::TwoMasses, "src/experiments/rise.rs", parameters, cut)
+        ..Deep::new(("two_masses", ""), "src/experiments/rise.rs", parameters, cut, |_| Vec::new())
     }
 }
 

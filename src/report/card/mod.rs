@@ -66,7 +66,7 @@ impl Card {
     /// Rows for an experiment: where it is, and its parameters.
     fn experiment(&mut self, name: &str, profile: Profile) {
         let Some(Recipe { name, item, parameters }) = recipe(name, profile) else { return };
-        self.item("experiment", item);
+        self.item("experiment", &item);
         let pairs: Vec<String> =
             parameters.iter().map(|(name, setting)| format!("{name}: {setting}")).collect();
         self.words("its parameters", pairs.join("; "));

@@ -2,7 +2,7 @@
 
 use super::{Error, from, mark};
 use crate::experiments::deep::{Audit, Carriage};
-use crate::experiments::{Results, deep};
+use crate::experiments::{Results, catalogue, deep};
 use crate::report::values::{Value, origin};
 use serde::Serialize;
 
@@ -49,43 +49,13 @@ pub fn table(results: &Results) -> Result<Vec<Line>, Error> {
             Carriage::Failed => "**stale**".into(),
         };
         Ok(Line {
-            what: title(name).ok_or(Error::Missing("a carried result without a title"))?,
+            what: catalogue::ALL
+                .iter()
+                .find(|experiment| experiment.name() == name)
+                .and_then(|experiment| experiment.carried())
+                .ok_or(Error::Missing("a carried result without a title"))?,
             cells: vec![cell("units"), cell("again"), cell("identical"), outcome],
         })
     };
     results.audits.iter().map(line).collect()
-}
-
-/// What an experiment runs, in words.
-fn title(name: &str) -> Option<&'static str> {
-    Some(match name {
-        "second_seed" => "the rise with another seed ([@sec:simulation])",
-        "protocol" => "transients and windows ([@tab:protocol])",
-        "protocols" => "the same for other starts and ends ([@tab:protocols])",
-        "starts" => "other starts, ends and frequencies ([@tab:starts])",
-        "bias" => "bias of coarse methods ([@tab:bias])",
-        "heat" => "heat ([@sec:heat])",
-        "independence" => "order of impacts ([@sec:independence])",
-        "restitution" => "restitution ([@sec:restitution])",
-        "chains" => "long chains, friction, other forces ([@sec:chains])",
-        "sizes" => "lengths and transients ([@tab:sizes])",
-        "long_protocol" => "the longest transients ([@tab:long])",
-        _ => return None,
-    })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::experiments::catalogue;
-    use crate::params::Profile;
-
-    #[test]
-    fn every_committed_result_has_a_title() {
-        for experiment in catalogue::of(Profile::Deep) {
-            let name = experiment.need().name();
-            assert!(title(name).is_some(), "{name}");
-        }
-        assert_eq!(title("sweep"), None);
-    }
 }

@@ -108,7 +108,7 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
     values.extend(from(rise(results, sweep)?, origin(rise::find), "sweep"));
     values.extend(shown(sweep)?.into_iter().map(|row| mean_kept(&mean_id(row), row)));
     values.extend(from(readings(sweep)?, origin(sweep::reduce), "sweep"));
-    values.extend(from(laws(results)?, origin(laws::run), "laws"));
+    values.extend(from(laws(results)?, origin(laws::run), "sweep"));
     let found = results.two_masses()?;
     let longest = found.excess.last().ok_or(Error::Missing("two masses"))?;
     let two_masses = vec![

@@ -47,12 +47,12 @@ pub const GUARDS: &[Guard] = &[
 ];
 
 fn entries(look: Look<'_>) -> impl Iterator<Item = &Entry> {
-    look.results.race.iter().flat_map(|race| &race.entries)
+    look.results.race().into_iter().flat_map(|race| &race.entries)
 }
 
 /// A horizon is the mean time at which runs end; each method follows every chain.
 fn horizons(look: Look<'_>) -> Option<String> {
-    let chains = look.results.race.as_ref()?.parameters.chains;
+    let chains = look.results.race().ok()?.parameters.chains;
     let off = entries(look).find_map(|entry| {
         let sum: f64 = entry.runs.iter().map(|run| run.time).sum();
         let what = format!("a horizon of {:?}", entry.setting.method);
@@ -65,7 +65,7 @@ fn horizons(look: Look<'_>) -> Option<String> {
 /// Every method is asked for the next impact from the same states, and an impact that is displaced is
 /// one whose error is above the limit.
 fn states(look: Look<'_>) -> Option<String> {
-    let asked = look.results.race.as_ref()?.parameters.segments as u64;
+    let asked = look.results.race().ok()?.parameters.segments as u64;
     let tried: Vec<u64> = entries(look).map(|entry| entry.segments.tried).collect();
     let all = tried.iter().all(|n| *n == tried[0] && *n <= asked);
     unless(all, || format!("methods are asked from different numbers of states: {tried:?}"))
@@ -81,7 +81,7 @@ fn states(look: Look<'_>) -> Option<String> {
 /// Points and rows stand at the sizes that were asked for, each once for a method; the ends that are named are
 /// the ends of what was asked for.
 fn sizes(look: Look<'_>) -> Option<String> {
-    let (analytic, scale) = look.results.analytic.as_ref().zip(look.results.scale.as_ref())?;
+    let (analytic, scale) = look.results.analytic().ok().zip(look.results.scale().ok())?;
     let lists = analytic.distribution.iter().map(|own| own.points.iter().map(|p| p.big_n));
     let uneven = lists.into_iter().any(|sizes| sizes.ne(analytic.parameters.sizes.iter().copied()));
     let rows =
@@ -108,7 +108,7 @@ fn sizes(look: Look<'_>) -> Option<String> {
 /// What the sentences say of biases is what the cells of the table say: the largest of the first column,
 /// and how many of the last are within one per cent, their errors allowed for.
 fn bias(look: Look<'_>) -> Option<String> {
-    let columns = look.results.biases.as_ref()?.certified.len();
+    let columns = look.results.biases().ok()?.certified.len();
     let cells = |column: usize| {
         let own = move |value: &&crate::report::Value| {
             let cell = value.id.strip_prefix("bias.m").and_then(|rest| rest.split_once("_s"));

@@ -15,7 +15,7 @@ fn audited(look: Look<'_>) -> Option<String> {
         let Audit { verdict, units, again, identical, distance } = audit;
         let cut = catalogue::of(Profile::Deep)
             .iter()
-            .find(|experiment| experiment.need().name() == name.as_str())?
+            .find(|experiment| experiment.name() == name.as_str())?
             .units(Profile::Deep)
             .len();
         let near = distance.is_some_and(|Distance { largest, allowed }| largest <= allowed);

@@ -15,7 +15,7 @@ pub const GUARDS: &[Guard] = &[
 ];
 
 fn found(look: Look<'_>) -> Option<&Chains> {
-    look.results.chains.as_ref()
+    look.results.chains().ok()
 }
 
 /// What stands in the ids of a curve: n and T of a length, a force, a friction.
@@ -103,7 +103,7 @@ fn places(look: Look<'_>) -> Option<String> {
 /// Half heights of the paper's chain are those of the map, and a fall is what is between two of them.
 fn times(look: Look<'_>) -> Option<String> {
     let found = found(look)?;
-    let map = look.results.protocol.as_ref()?;
+    let map = look.results.protocol().ok()?;
     let window = found.parameters.window;
     let line = |time: f64| {
         let own = |cell: &&ProtocolCell| (cell.transient, cell.window) == (time, window);
@@ -221,7 +221,7 @@ fn expected(look: Look<'_>) -> Option<String> {
 /// Sizes are those of what was run, with the window of the main sweep.
 fn as_run(look: Look<'_>) -> Option<String> {
     let found = found(look)?;
-    let protocol = look.results.sweep.as_ref()?.parameters.protocol;
+    let protocol = look.results.sweep().ok()?.parameters.protocol;
     let sizes = |(own, curve): (&ChainCurve, &Curve)| {
         // Of a chain between walls one gap more than masses is counted, all in all.
         let counted = |row: &Ensemble| {

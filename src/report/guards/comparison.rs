@@ -65,7 +65,7 @@ fn simulated(row: &SweepRow) -> Option<f64> {
 /// The root of the mean square is that of the square of the mean and the variance of the differences;
 /// the largest distance beyond a σ is reached and never passed.
 fn distances(look: Look<'_>) -> Option<String> {
-    let sweep = look.results.sweep.as_ref()?;
+    let sweep = look.results.sweep().ok()?;
     let large = look.number("large_sigma")?;
     let differences = |column: Column, beyond: bool| -> Vec<f64> {
         let rows = sweep.rows.iter().filter(|row| (row.sigma >= large) == beyond);

@@ -72,11 +72,11 @@ pub const GUARDS: &[Guard] = &[
 /// Rows of all ensembles, with the number of realisations that was asked for.
 fn rows<'a>(look: Look<'a>) -> impl Iterator<Item = (&'a SweepRow, usize)> {
     let results = look.results;
-    let sweeps = [&results.sweep, &results.second_seed].into_iter().flatten();
+    let sweeps = [results.sweep(), results.second_seed()].into_iter().flatten();
     let sweeps = sweeps.flat_map(|sweep| {
         sweep.rows.iter().map(|row| (row, sweep.parameters.realisations_at(row.sigma)))
     });
-    let starts = results.starts.iter().flat_map(|starts| {
+    let starts = results.starts().into_iter().flat_map(|starts| {
         let rows = starts.variants.iter().flat_map(|variant| &variant.rows);
         rows.map(|row| (row, starts.parameters.realisations))
     });
@@ -109,7 +109,7 @@ fn means_of_counts(look: Look<'_>) -> Option<String> {
 /// Where the text names a σ with a share or a mean, there is a row at this very σ, and its
 /// histogram gives share and mean. Below the rise it is the σ of which the claim speaks.
 fn rows_named(look: Look<'_>) -> Option<String> {
-    let sweep = look.results.sweep.as_ref()?;
+    let sweep = look.results.sweep().ok()?;
     let named = [
         ("sigma_below", "kept_below", "mean_kept_below", "mean_all_below"),
         ("sigma_above", "kept_above", "mean_above", ""),
@@ -151,7 +151,7 @@ fn rows_named(look: Look<'_>) -> Option<String> {
 
 /// Impacts in the window are their rate times its length.
 fn impacts_by_rate(look: Look<'_>) -> Option<String> {
-    let sweep = look.results.sweep.as_ref()?;
+    let sweep = look.results.sweep().ok()?;
     look.values.iter().find_map(|value| {
         let line =
             value.id.strip_suffix("_impacts").filter(|line| line.starts_with("readings."))?;
@@ -172,7 +172,7 @@ fn all_accounted_for(look: Look<'_>) -> Option<String> {
             format!("at sigma = {} {all} realisations ended somehow, of {asked}", row.sigma)
         })
     });
-    let sweep = look.results.sweep.as_ref()?;
+    let sweep = look.results.sweep().ok()?;
     let lost =
         |row: &SweepRow| row.realisations as f64 - row.rejected as f64 - totals(&row.counts, 0)[0];
     let bins = sweep.rows.first()?.counts.len();
@@ -200,7 +200,7 @@ fn all_accounted_for(look: Look<'_>) -> Option<String> {
 /// were: a whole number in every row.
 fn whole_impacts(look: Look<'_>) -> Option<String> {
     let window = look.number("window")?;
-    look.results.sweep.as_ref()?.rows.iter().find_map(|row| {
+    look.results.sweep().ok()?.rows.iter().find_map(|row| {
         let impacts = row.impacts_per_time? * row.kept as f64 * window;
         far(&format!("the number of impacts at sigma = {}", row.sigma), impacts, impacts.round())
     })
@@ -208,7 +208,7 @@ fn whole_impacts(look: Look<'_>) -> Option<String> {
 
 /// The seeds that are named are those with which the sweeps were run.
 fn seeds(look: Look<'_>) -> Option<String> {
-    let (sweep, second) = look.results.sweep.as_ref().zip(look.results.second_seed.as_ref())?;
+    let (sweep, second) = look.results.sweep().ok().zip(look.results.second_seed().ok())?;
     look.are([
         ("seed", sweep.parameters.seed as f64),
         ("second_seed", second.parameters.seed as f64),
@@ -217,7 +217,7 @@ fn seeds(look: Look<'_>) -> Option<String> {
 
 /// The share of random starts that overlap, from the realisations that have no count.
 fn rejected(look: Look<'_>) -> Option<String> {
-    let variant = look.results.starts.as_ref()?.variant("random")?;
+    let variant = look.results.starts().ok()?.variant("random")?;
     let at = look.number("rejected_random_at")?;
     let Some(row) = variant.rows.iter().find(|row| row.sigma == at) else {
         return Some(format!("no random starts were drawn at sigma = {at}"));
@@ -229,8 +229,8 @@ fn rejected(look: Look<'_>) -> Option<String> {
 /// An estimate lies inside its own interval, which comes from resamples and not from it.
 fn estimates(look: Look<'_>) -> Option<String> {
     let results = look.results;
-    let sweeps = [&results.sweep, &results.second_seed].into_iter().flatten().map(|s| &s.rise);
-    let variants = results.starts.iter().flat_map(|s| s.variants.iter().map(|v| &v.rise));
+    let sweeps = [results.sweep(), results.second_seed()].into_iter().flatten().map(|s| &s.rise);
+    let variants = results.starts().into_iter().flat_map(|s| s.variants.iter().map(|v| &v.rise));
     let rises = sweeps.chain(variants).flat_map(|rise| {
         [
             rise.half_height,
@@ -242,9 +242,9 @@ fn estimates(look: Look<'_>) -> Option<String> {
             rise.width,
         ]
     });
-    let cells = results.protocol.iter().flat_map(|map| &map.cells);
+    let cells = results.protocol().into_iter().flat_map(|map| &map.cells);
     let cells = cells.flat_map(|cell| [cell.half_height, cell.half_height_all]);
-    let horizons = [results.horizon.as_ref(), results.race.as_ref().map(|race| &race.growth)];
+    let horizons = [results.horizon().ok(), results.race().ok().map(|race| &race.growth)];
     let horizons = horizons.into_iter().flatten().flat_map(|horizon| {
         [horizon.order, horizon.order_impacts, horizon.time, horizon.growth, horizon.tenfold]
     });

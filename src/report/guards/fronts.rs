@@ -17,7 +17,7 @@ pub const GUARDS: &[Guard] = &[
 ];
 
 fn seeds(look: Look<'_>) -> Option<&Seeds> {
-    look.results.seeds.as_ref()
+    look.results.seeds().ok()
 }
 
 /// Complains about an estimate that is not this number; none at all agrees.

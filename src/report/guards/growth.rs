@@ -19,7 +19,7 @@ pub const GUARDS: &[Guard] = &[
 ];
 
 fn seeds(look: Look<'_>) -> Option<&Seeds> {
-    look.results.seeds.as_ref()
+    look.results.seeds().ok()
 }
 
 /// What is told of each σ follows from the counts by distance.
@@ -92,7 +92,7 @@ fn grown(look: Look<'_>) -> Option<String> {
 /// gaps, and to no more than those in unlimited time.
 fn closing(look: Look<'_>) -> Option<String> {
     let seeds = seeds(look)?;
-    let found = look.results.nucleation.as_ref()?;
+    let found = look.results.nucleation().ok()?;
     seeds.rows.iter().zip(&seeds.closing).find_map(|(row, [wall, inner])| {
         let all: f64 = inner.iter().sum();
         let most = model::p_rest(row.sigma);
@@ -125,13 +125,13 @@ fn id(own: &Prediction, name: &str) -> String {
 fn halves(look: Look<'_>) -> Option<String> {
     let seeds = seeds(look)?;
     let half = 0.5 * seeds.parameters.chain.gaps() as f64;
-    let sweep = look.results.sweep.as_ref()?;
+    let sweep = look.results.sweep().ok()?;
     let protocol = sweep.parameters.protocol;
     seeds.predictions.iter().find_map(|own| {
         let points: Vec<_> =
             seeds.rows.iter().zip(&own.means).map(|(row, mean)| (row.sigma, mean.value)).collect();
         let at = |sigma: f64| between(&points, sigma);
-        let cell = look.results.protocol.as_ref()?.cell(own.transient, own.window);
+        let cell = look.results.protocol().ok()?.cell(own.transient, own.window);
         let of_report = own.transient == protocol.transient && own.window == protocol.window;
         let told = || match at(own.half_height?.value) {
             Some(mean) => far("the mean at half height", mean, half),
@@ -160,7 +160,7 @@ fn halves(look: Look<'_>) -> Option<String> {
 /// The largest distance from the simulation, by the histograms of the main sweep, and means of circuits by other sums.
 fn distances(look: Look<'_>) -> Option<String> {
     let seeds = seeds(look)?;
-    let sweep = look.results.sweep.as_ref()?;
+    let sweep = look.results.sweep().ok()?;
     let protocol = sweep.parameters.protocol;
     let own = seeds
         .predictions

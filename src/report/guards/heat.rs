@@ -2,7 +2,6 @@
 
 use super::model;
 use super::{Guard, Look, far, unless};
-use crate::experiments::Need;
 
 pub const GUARDS: &[Guard] = &[
     Guard { name: "energy_kept_in_books", ids: &["heat.*"], find: balance },
@@ -11,8 +10,8 @@ pub const GUARDS: &[Guard] = &[
 
 /// What the free parts of a chain gain in the window is what impacts gave them.
 fn balance(look: Look<'_>) -> Option<String> {
-    let books = |name: &str, key: &str| {
-        let table = look.results.table(Need::Heat, name).ok()?;
+    let books = |name: &'static str, key: &str| {
+        let table = look.results.table(name).ok()?;
         table.points(&[], key, "imbalance").into_iter().find_map(|(at, off)| {
             unless(off.abs() <= super::ROUNDING, || {
                 format!("energy is off by {off} of what impacts took at {key} = {at} of {name}")
@@ -25,7 +24,7 @@ fn balance(look: Look<'_>) -> Option<String> {
 
 /// Probabilities of the table by integrals, and p with the balanced variance at the jump.
 fn p(look: Look<'_>) -> Option<String> {
-    let table = look.results.table(Need::Heat, "heat.rising").ok()?;
+    let table = look.results.table("heat.rising").ok()?;
     let one = |sigma: f64| {
         let of = |column| table.number(&[("sigma", sigma)], column).ok();
         far("p", of("p")?, model::p(sigma))
@@ -35,7 +34,7 @@ fn p(look: Look<'_>) -> Option<String> {
             })
     };
     let jump = || {
-        let all = look.results.table(Need::Heat, "heat.all").ok()?;
+        let all = look.results.table("heat.all").ok()?;
         let ratio = *table.values("balanced").first()?;
         let p = model::p_heated(all.number(&[], "sigma_jump").ok()?, ratio);
         far("p at the hot jump", p, look.results.theory.scalars_walls.p_jump)

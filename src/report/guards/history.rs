@@ -17,7 +17,7 @@ pub const GUARDS: &[Guard] = &[
 ];
 
 fn history(look: Look<'_>) -> Option<&History> {
-    look.results.history.as_ref()
+    look.results.history().ok()
 }
 
 fn mean(counts: &[u64]) -> f64 {
@@ -33,7 +33,7 @@ fn counts(look: Look<'_>) -> Option<String> {
     let history = history(look)?;
     let transients = &history.parameters.transients;
     let row = |row: &Lowered| {
-        let swept = look.results.sweep.as_ref()?.rows.iter().find(|own| own.sigma == row.sigma);
+        let swept = look.results.sweep().ok()?.rows.iter().find(|own| own.sigma == row.sigma);
         let rest = || {
             let own = swept?;
             let all: u32 = own.counts.iter().sum();
@@ -78,7 +78,7 @@ fn halves(look: Look<'_>) -> Option<String> {
     };
     let named = |(letter, i): (&str, usize)| {
         let rest = || {
-            let map = look.results.protocol.as_ref()?;
+            let map = look.results.protocol().ok()?;
             let cell = map.cell(transients[i], history.parameters.window)?;
             look.is(&format!("history_rest_{letter}"), cell.half_height_all?.value)
         };
@@ -101,7 +101,7 @@ fn as_run(look: Look<'_>) -> Option<String> {
         look.is("history_realisations", ran as f64)
     };
     // The first column is read with the protocol of the main sweep, beside which it stands.
-    let protocol = look.results.sweep.as_ref()?.parameters.protocol;
+    let protocol = look.results.sweep().ok()?.parameters.protocol;
     let heads = parameters.transients.iter();
     let mut heads = heads.map(|time| look.is(&format!("history.t{}", *time as u64), *time));
     history
@@ -119,7 +119,7 @@ fn as_run(look: Look<'_>) -> Option<String> {
 fn more_than_rest(look: Look<'_>) -> Option<String> {
     let history = history(look)?;
     history.rows.iter().find_map(|row| {
-        let swept = look.results.sweep.as_ref()?.rows.iter().find(|own| own.sigma == row.sigma)?;
+        let swept = look.results.sweep().ok()?.rows.iter().find(|own| own.sigma == row.sigma)?;
         let [rest, error] = crate::claims::sec2::mean_all(swept)?;
         let own = row.means.first().copied()??;
         let room = 5.0 * (error * error + own.error * own.error).sqrt();

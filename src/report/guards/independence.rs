@@ -18,7 +18,7 @@ pub const GUARDS: &[Guard] = &[
 ];
 
 fn found(look: Look<'_>) -> Option<&Independence> {
-    look.results.independence.as_ref()
+    look.results.independence().ok()
 }
 
 fn sum(counts: &[u64]) -> f64 {

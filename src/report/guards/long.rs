@@ -56,8 +56,8 @@ fn places(cell: &ProtocolCell) -> [Option<Estimate>; 4] {
 /// Where both maps have a cell, their places of the rise agree within the errors of both: they drew
 /// other random numbers.
 fn meets_map(look: Look<'_>) -> Option<String> {
-    let long = &look.results.long_protocol.as_ref()?.map;
-    let map = look.results.protocol.as_ref()?;
+    let long = &look.results.long_protocol().ok()?.map;
+    let map = look.results.protocol().ok()?;
     long.cells.iter().find_map(|cell| {
         let other = map.cell(cell.transient, cell.window)?;
         places(cell).into_iter().zip(places(other)).find_map(|pair| {
@@ -72,7 +72,7 @@ fn meets_map(look: Look<'_>) -> Option<String> {
 /// A longer transient gives impacts more time to spread, and a longer window counts no fewer gaps:
 /// the half height falls with both, but for its error.
 fn falls(look: Look<'_>) -> Option<String> {
-    let map = &look.results.long_protocol.as_ref()?.map;
+    let map = &look.results.long_protocol().ok()?.map;
     map.cells.iter().flat_map(|early| map.cells.iter().map(move |late| (early, late))).find_map(
         |(early, late)| {
             let later = early.transient <= late.transient && early.window <= late.window;
@@ -90,7 +90,7 @@ fn falls(look: Look<'_>) -> Option<String> {
 /// are sums of whole counts over the number of realisations, and the mean of the kept is the same sum
 /// over fewer. There is a row for each sigma.
 fn half_heights(look: Look<'_>) -> Option<String> {
-    let long = look.results.long_protocol.as_ref()?;
+    let long = look.results.long_protocol().ok()?;
     let (map, gaps) = (&long.map, long.map.parameters.chain.gaps() as f64);
     let n = map.parameters.realisations as f64;
     map.cells.iter().enumerate().find_map(|(index, cell)| {
@@ -130,7 +130,7 @@ fn half_heights(look: Look<'_>) -> Option<String> {
 /// The mean over all is at most N times that share: it is half of N no sooner than the share is a half,
 /// and has its onset no sooner than the share is a twentieth.
 fn needs_seeds(look: Look<'_>) -> Option<String> {
-    let long = look.results.long_protocol.as_ref()?;
+    let long = look.results.long_protocol().ok()?;
     let (parameters, quantile) = (&long.map.parameters, claims::level().quantile);
     let n = parameters.realisations as f64;
     let seeded = |sigma: f64| model::any(model::p_rest(sigma), parameters.chain.gaps() as f64);
@@ -162,7 +162,7 @@ fn needs_seeds(look: Look<'_>) -> Option<String> {
 
 /// The heads of the table are the times of its cells, and the text gives the last of them.
 fn ends(look: Look<'_>) -> Option<String> {
-    let map = &look.results.long_protocol.as_ref()?.map;
+    let map = &look.results.long_protocol().ok()?.map;
     let late = |a: &&ProtocolCell, b: &&ProtocolCell| {
         (a.transient, a.window).partial_cmp(&(b.transient, b.window)).unwrap_or(Ordering::Equal)
     };

@@ -58,7 +58,7 @@ fn spreading(order: &[(f64, u32)]) -> (Vec<(f64, u32, f64)>, usize) {
 
 /// Impacts, gaps reached in all and within parts of the time, and starts, from a list of each gap's times.
 fn run(look: Look<'_>) -> Option<String> {
-    let run = look.results.spacetime.as_ref()?;
+    let run = look.results.spacetime().ok()?;
     let own = by_gap(run);
     let order = order(&own);
     let until = run.parameters.until;
@@ -82,7 +82,7 @@ fn run(look: Look<'_>) -> Option<String> {
 
 /// The waits of the fronts, from gaps in the order in which they are reached.
 fn fronts(look: Look<'_>) -> Option<String> {
-    let run = look.results.spacetime.as_ref()?;
+    let run = look.results.spacetime().ok()?;
     let (delays, _) = spreading(&order(&by_gap(run)));
     let (longest, gap, time) = *delays.last()?;
     look.are([
@@ -95,7 +95,7 @@ fn fronts(look: Look<'_>) -> Option<String> {
 
 /// The longest time between two impacts of one gap, gap by gap.
 fn silence(look: Look<'_>) -> Option<String> {
-    let run = look.results.spacetime.as_ref()?;
+    let run = look.results.spacetime().ok()?;
     let waits = by_gap(run).into_iter().flat_map(|(gap, times)| {
         let waits: Vec<(f64, u32, f64)> =
             times.windows(2).map(|w| (w[1] - w[0], gap, w[1])).collect();
@@ -108,7 +108,7 @@ fn silence(look: Look<'_>) -> Option<String> {
 /// The share of the gaps with most impacts: so many gaps have it, and one gap more or less has
 /// another share.
 fn busiest(look: Look<'_>) -> Option<String> {
-    let run = look.results.spacetime.as_ref()?;
+    let run = look.results.spacetime().ok()?;
     let mut counts: Vec<usize> = by_gap(run).iter().map(|(_, times)| times.len()).collect();
     counts.sort_unstable();
     let many = look.number("run_busiest")? as usize;
@@ -118,7 +118,7 @@ fn busiest(look: Look<'_>) -> Option<String> {
 
 /// The run was chosen because it has impacts in its last part, and ends at its end.
 fn late(look: Look<'_>) -> Option<String> {
-    let run = look.results.spacetime.as_ref()?;
+    let run = look.results.spacetime().ok()?;
     let (until, last) = look.number("run_until").zip(look.number("run_last"))?;
     let end = *run.times.last()?;
     unless(until - last < end && end <= until, || {
@@ -129,7 +129,7 @@ fn late(look: Look<'_>) -> Option<String> {
 /// The row of the scene: its impacts from the events of its gaps, and halves that make up the whole
 /// but for a gap in the middle; masses that are neighbours; times that follow one another.
 fn scene(look: Look<'_>) -> Option<String> {
-    let run = look.results.spacetime.as_ref()?;
+    let run = look.results.spacetime().ok()?;
     let scene = Scene::of(run)?;
     let [first, last, masses] =
         ["scene_first", "scene_last", "scene_masses"].map(|id| look.number(id).unwrap_or(0.0));
@@ -162,7 +162,7 @@ fn scene(look: Look<'_>) -> Option<String> {
 /// Visits of each impact in a circuit: they add up to its length, and those beyond the first are the
 /// repeats. A mass takes part if a gap on one of its sides closes.
 fn circuits(look: Look<'_>) -> Option<String> {
-    let segments = look.results.segments.as_ref()?;
+    let segments = look.results.segments().ok()?;
     let visits = |segment: &Segment| {
         let mut found = vec![0_usize; segment.masses + 1];
         let all = segment.impacts.split_last().map_or(&[][..], |(_, others)| others);

@@ -14,7 +14,7 @@ pub const GUARDS: &[Guard] = &[
 ];
 
 fn nucleation(look: Look<'_>) -> Option<&Nucleation> {
-    look.results.nucleation.as_ref()
+    look.results.nucleation().ok()
 }
 
 /// In unlimited time, by integrals; at a wall only one of the forces differs from zero.
@@ -162,7 +162,7 @@ fn tabled(look: Look<'_>) -> Option<String> {
 fn line(look: Look<'_>, row: &Chains) -> Option<String> {
     let id = |name: &str| cell("nucleation", row.sigma, name);
     let last = row.expected.last()?;
-    let swept = look.results.sweep.as_ref()?.rows.iter().find(|own| own.sigma == row.sigma);
+    let swept = look.results.sweep().ok()?.rows.iter().find(|own| own.sigma == row.sigma);
     look.is(&id("sigma"), row.sigma)
         .or_else(|| look.is(&id("p"), model::p_rest(row.sigma)))
         .or_else(|| look.is(&id("clumps"), last.value))

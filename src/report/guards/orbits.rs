@@ -20,7 +20,7 @@ pub const GUARDS: &[Guard] = &[
 ];
 
 fn orbits(look: Look<'_>) -> Option<&Orbits> {
-    look.results.orbits.as_ref()
+    look.results.orbits().ok()
 }
 
 /// Σ N!/(k (N − k)!), Eqs. (6) and (7), and no circuit is another one turned.

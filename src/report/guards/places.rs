@@ -53,9 +53,10 @@ pub(super) fn between(points: &[(f64, f64)], sigma: f64) -> Option<f64> {
 /// the rows, has it there. The width is between two such places.
 fn places(look: Look<'_>) -> Option<String> {
     let results = look.results;
-    let sweeps = [&results.sweep, &results.second_seed].into_iter().flatten();
+    let sweeps = [results.sweep(), results.second_seed()].into_iter().flatten();
     let sweeps = sweeps.map(|sweep| (&sweep.rows, &sweep.rise));
-    let starts = results.starts.iter().flat_map(|s| s.variants.iter().map(|v| (&v.rows, &v.rise)));
+    let starts =
+        results.starts().into_iter().flat_map(|s| s.variants.iter().map(|v| (&v.rows, &v.rise)));
     sweeps.chain(starts).find_map(|(rows, rise)| off_curve(rows, rise))
 }
 
@@ -118,7 +119,7 @@ fn differences(look: Look<'_>) -> Option<String> {
 /// with means and errors from the histograms; rows with fewer than thirty kept do not count. It
 /// and the difference of the two half heights are what chance allows.
 fn two_seeds(look: Look<'_>) -> Option<String> {
-    let (first, second) = look.results.sweep.as_ref().zip(look.results.second_seed.as_ref())?;
+    let (first, second) = look.results.sweep().ok().zip(look.results.second_seed().ok())?;
     let normal = |row: &SweepRow| {
         let [n, sum] = totals(&row.counts, 1);
         let squares: f64 = (0_u32..)
@@ -156,7 +157,7 @@ fn two_seeds(look: Look<'_>) -> Option<String> {
 /// Below the range in which the mode passes one half no interval of the mode reaches it; from its
 /// end on all lie above, and the one before does not. The widest interval is that of its row.
 fn modes(look: Look<'_>) -> Option<String> {
-    let sweep: &Sweep = look.results.sweep.as_ref()?;
+    let sweep: &Sweep = look.results.sweep().ok()?;
     let half = (sweep.rows.first()?.counts.len() as f64 - 1.0) / 2.0;
     let known = || sweep.rows.iter().filter_map(|row| Some((row.sigma, row.mode_interval?)));
     let passes =
@@ -184,7 +185,7 @@ fn modes(look: Look<'_>) -> Option<String> {
 /// The rows within the rise are those whose mean of all, from the histogram, lies between a tenth and
 /// nine tenths of all gaps, as that mean rises; no step of the finest grid is larger than the largest.
 fn rise_rows(look: Look<'_>) -> Option<String> {
-    let sweep = look.results.sweep.as_ref()?;
+    let sweep = look.results.sweep().ok()?;
     let gaps = sweep.rows.first()?.counts.len() as f64 - 1.0;
     let mean = |row: &SweepRow| {
         let [n, sum] = totals(&row.counts, 0);

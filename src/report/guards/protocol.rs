@@ -19,7 +19,7 @@ pub const GUARDS: &[Guard] = &[
 /// between the two extremes, and each extreme is one of them. The heads of the table are the times
 /// of its cells.
 fn ends(look: Look<'_>) -> Option<String> {
-    let map = look.results.protocol.as_ref()?;
+    let map = look.results.protocol().ok()?;
     let parameters = &map.parameters;
     let mut asked =
         parameters.transients.iter().flat_map(|&t| parameters.windows.iter().map(move |&w| (t, w)));
@@ -77,7 +77,7 @@ fn named(look: Look<'_>, times: &[f64], ids: [&str; 2]) -> Option<String> {
 /// Protocols that print as the paper does are those whose half height, written with the decimals that
 /// the paper printed, is what the paper printed.
 fn printed(look: Look<'_>) -> Option<String> {
-    let map = look.results.protocol.as_ref()?;
+    let map = look.results.protocol().ok()?;
     let statement = look.published.statement("sec2_half_height").ok()?;
     let places = usize::from(statement.decimals);
     let text = |x: f64| format!("{x:.places$}");
@@ -89,7 +89,7 @@ fn printed(look: Look<'_>) -> Option<String> {
 /// The mean over the kept is nowhere below that over all, for what is left out counts nothing: so it
 /// passes one half no later.
 fn kept_before_all(look: Look<'_>) -> Option<String> {
-    look.results.protocol.as_ref()?.cells.iter().find_map(|cell| {
+    look.results.protocol().ok()?.cells.iter().find_map(|cell| {
         let (kept, all) = cell.half_height.zip(cell.half_height_all)?;
         unless(kept.value <= all.value, || {
             format!("kept chains pass one half at {}, all at {}", kept.value, all.value)
@@ -100,7 +100,7 @@ fn kept_before_all(look: Look<'_>) -> Option<String> {
 /// The cell with the protocol of the main sweep has drawn other random numbers, and agrees with it
 /// within the errors of both.
 fn meets_sweep(look: Look<'_>) -> Option<String> {
-    let (map, sweep) = look.results.protocol.as_ref().zip(look.results.sweep.as_ref())?;
+    let (map, sweep) = look.results.protocol().ok().zip(look.results.sweep().ok())?;
     let own = sweep.parameters.protocol;
     let (cell, main) =
         map.cell(own.transient, own.window)?.half_height.zip(sweep.rise.half_height)?;

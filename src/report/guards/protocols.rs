@@ -46,8 +46,8 @@ fn places(cell: &ProtocolCell) -> [Place; 3] {
 
 /// All maps, that of the paper's chain first.
 fn maps<'a>(look: Look<'a>) -> impl Iterator<Item = (&'a str, &'a ProtocolMap)> {
-    let rest = look.results.protocol.iter().map(|map| ("rest", map));
-    rest.chain(look.results.protocols.iter().flat_map(|all| all.named()))
+    let rest = look.results.protocol().into_iter().map(|map| ("rest", map));
+    rest.chain(look.results.protocols().into_iter().flat_map(|all| all.named()))
 }
 
 /// At a half height the curve through the means of all has half its height, at the onset a twentieth,
@@ -79,7 +79,7 @@ fn on_curves(look: Look<'_>) -> Option<String> {
     });
     // The curves of the long end have a guard of their own.
     found.or_else(|| {
-        let (map, long) = (look.results.protocol.as_ref()?, look.results.long_protocol.as_ref()?);
+        let (map, long) = (look.results.protocol().ok()?, look.results.long_protocol().ok()?);
         long.beyond(map).find_map(|cell| all_shown(look, "rest", cell))
     })
 }
@@ -123,7 +123,7 @@ fn fall(look: Look<'_>) -> Option<String> {
 /// In the protocol of the main sweep a map agrees with the ensemble of the same start and end, which
 /// drew other random numbers, within the errors of both.
 fn meet_starts(look: Look<'_>) -> Option<String> {
-    let (starts, all) = look.results.starts.as_ref().zip(look.results.protocols.as_ref())?;
+    let (starts, all) = look.results.starts().ok().zip(look.results.protocols().ok())?;
     let protocol = starts.parameters.protocol;
     all.named().find_map(|(name, map)| {
         let other = starts.variant(name)?.rise;
@@ -156,7 +156,7 @@ fn need_seeds(look: Look<'_>) -> Option<String> {
 
 /// The heads of the tables are the times of the maps, all of which have as many chains.
 fn ends(look: Look<'_>) -> Option<String> {
-    let all = look.results.protocols.as_ref()?;
+    let all = look.results.protocols().ok()?;
     let times = |pick: fn(&ProtocolCell) -> f64| {
         all.maps.iter().flat_map(|map| map.cells.iter().map(pick)).collect()
     };
@@ -168,8 +168,7 @@ fn ends(look: Look<'_>) -> Option<String> {
             })
         })
         .or_else(|| {
-            let (map, long) =
-                (look.results.protocol.as_ref()?, look.results.long_protocol.as_ref()?);
+            let (map, long) = (look.results.protocol().ok()?, look.results.long_protocol().ok()?);
             let cells = || map.cells.iter().chain(long.beyond(map));
             let end = |pick: fn(&ProtocolCell) -> f64, further: fn(f64, f64) -> f64| {
                 all.maps.iter().flat_map(|map| map.cells.iter().map(pick)).reduce(further)

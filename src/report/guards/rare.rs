@@ -57,9 +57,9 @@ pub const GUARDS: &[Guard] = &[
     },
 ];
 
-fn fitted<'a>(look: Look<'a>) -> Option<&'a LawsRow> {
+fn fitted(look: Look<'_>) -> Option<LawsRow> {
     let sigma = look.number("laws_sigma")?;
-    look.results.laws.as_ref()?.rows.iter().find(|row| row.sigma == sigma)
+    look.results.laws().ok()?.rows.into_iter().find(|row| row.sigma == sigma)
 }
 
 /// What chance makes of events that need no coincidence beyond being near: the share within a time
@@ -82,7 +82,7 @@ fn exponents(look: Look<'_>) -> Option<String> {
 /// as there were, with the error of such a count.
 fn coefficient(look: Look<'_>) -> Option<String> {
     let row = fitted(look)?;
-    let sweep = look.results.sweep.as_ref()?;
+    let sweep = look.results.sweep().ok()?;
     let own = sweep.rows.iter().find(|own| own.sigma == row.sigma)?;
     let expected = look.number("near_coefficient")? * NEAR_DECADES[1] * own.impacts as f64;
     let seen = own.near_decades[1] as f64;
@@ -95,7 +95,7 @@ fn coefficient(look: Look<'_>) -> Option<String> {
 /// decade; the contact phases below and above a σ make up all. The limits that are named are the last
 /// decades that were counted.
 fn totals(look: Look<'_>) -> Option<String> {
-    let (sweep, laws) = look.results.sweep.as_ref().zip(look.results.laws.as_ref())?;
+    let (sweep, laws) = look.results.sweep().ok().zip(look.results.laws().ok())?;
     let sum = |pick: &dyn Fn(&crate::experiments::sweep::SweepRow) -> u64| {
         sweep.rows.iter().map(pick).sum::<u64>() as f64
     };
@@ -138,7 +138,7 @@ fn mean(twins: &[Twins], pick: impl Fn(&Twins) -> Option<f64>) -> Option<f64> {
 /// Times and impacts up to which two copies agree, from the pairs; none agrees for less than the
 /// first; and all pairs that were asked for are there.
 fn twins(look: Look<'_>) -> Option<String> {
-    let found: &Horizon = look.results.horizon.as_ref()?;
+    let found: &Horizon = look.results.horizon().ok()?;
     let mut orders: Vec<f64> = found.twins.iter().filter_map(|pair| pair.order).collect();
     orders.sort_by(f64::total_cmp);
     let impacts = |pair: &Twins| Some(pair.order_impacts? as f64);
@@ -151,12 +151,12 @@ fn twins(look: Look<'_>) -> Option<String> {
 /// An error that grows at the rate λ is ten times as large after the tenfold time, and grows from the
 /// rounding of a double to the limit within the time that chaos allows.
 fn growth(look: Look<'_>) -> Option<String> {
-    let rate = look.results.horizon.as_ref().and_then(|found| found.growth);
+    let rate = look.results.horizon().ok().and_then(|found| found.growth);
     let tenfold = look.number("horizon_tenfold").zip(rate).and_then(|(time, rate)| {
         far("growth within horizon_tenfold", pxfm::f_exp(rate.value * time), 10.0)
     });
     tenfold.or_else(|| {
-        let race = &look.results.race.as_ref()?.growth;
+        let race = &look.results.race().ok()?.growth;
         let (time, rate) = look.number("chaos_ceiling").zip(look.number("growth_rate"))?;
         let own = mean(&race.twins, |pair| pair.growth)?;
         let reached = 0.5 * f64::EPSILON * pxfm::f_exp(rate * time);
@@ -168,7 +168,7 @@ fn growth(look: Look<'_>) -> Option<String> {
 /// The normal interval of an estimate leaves out the share of the distribution that the confidence
 /// leaves out.
 fn confidence(look: Look<'_>) -> Option<String> {
-    let order = look.results.horizon.as_ref()?.order?;
+    let order = look.results.horizon().ok()?.order?;
     let errors = 0.5 * (order.interval[1] - order.interval[0]) / order.error;
     // The quantile of the normal distribution has nine digits.
     let left = 1.0 - model::both_tails(errors);
@@ -182,7 +182,7 @@ fn confidence(look: Look<'_>) -> Option<String> {
 /// amplitude 2F d/(2F) that reaches d exactly: (1 + Ω/ω) 2F = |ω² − Ω²| d. And no time is named at
 /// which nothing was asked.
 fn bound(look: Look<'_>) -> Option<String> {
-    let found = look.results.two_masses.as_ref()?;
+    let found = look.results.two_masses().ok()?;
     let chain = &found.parameters.chain;
     let (w, big_w) = (chain.natural_frequency, chain.forcing_frequency);
     let reach = (1.0 + big_w / w) * 2.0 * look.number("two_masses_bound")?;

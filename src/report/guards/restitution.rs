@@ -1,7 +1,6 @@
 //! What restitution does to a chain: what chance must not break.
 
 use super::{Guard, Look, far, unless};
-use crate::experiments::Need;
 use crate::numerics::statistics::Estimate;
 use crate::table::Table;
 
@@ -15,8 +14,8 @@ pub const GUARDS: &[Guard] = &[
     Guard { name: "no_loss_no_rest", ids: &["restitution.heating*"], find: heating },
 ];
 
-fn table<'a>(look: Look<'a>, name: &str) -> Option<&'a Table> {
-    look.results.table(Need::Restitution, name).ok()
+fn table<'a>(look: Look<'a>, name: &'static str) -> Option<&'a Table> {
+    look.results.table(name).ok()
 }
 
 /// No mean is at half of all gaps before half of the chains can have an impact at all; and the shift, for which

@@ -11,7 +11,7 @@ pub const GUARDS: &[Guard] = &[
 
 /// Half heights of the map are where its means pass half of all gaps.
 fn means(look: Look<'_>) -> Option<String> {
-    let map = look.results.protocol.as_ref()?;
+    let map = look.results.protocol().ok()?;
     let half = 0.5 * map.parameters.chain.gaps() as f64;
     map.cells.iter().find_map(|cell| {
         let sigma = cell.half_height_all?.value;
@@ -24,8 +24,8 @@ fn means(look: Look<'_>) -> Option<String> {
 
 /// Each distance by means that were computed another way.
 fn scores(look: Look<'_>) -> Option<String> {
-    let seeds = look.results.seeds.as_ref()?;
-    let map = look.results.protocol.as_ref()?;
+    let seeds = look.results.seeds().ok()?;
+    let map = look.results.protocol().ok()?;
     let big_n = seeds.parameters.chain.gaps();
     let r = look.published.parameter("restitution").ok()?;
     let graph = |p: f64| model::Law::new(big_n, p, false).mean();

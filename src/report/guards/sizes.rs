@@ -13,7 +13,7 @@ pub const GUARDS: &[Guard] = &[
 
 /// Half heights follow from the counts, and leads from half heights.
 fn places(look: Look<'_>) -> Option<String> {
-    let found = look.results.sizes.as_ref()?;
+    let found = look.results.sizes().ok()?;
     let half = |(own, curve): (&ChainCurve, &Curve)| {
         let of = |row| (share(found, own, row, 0), row);
         let points: Vec<(f64, f64)> =
@@ -35,7 +35,7 @@ fn places(look: Look<'_>) -> Option<String> {
 
 /// A longer transient gives impacts more time to spread, at every length: the half height falls with it, but for its error.
 fn falls(look: Look<'_>) -> Option<String> {
-    let found = look.results.sizes.as_ref()?;
+    let found = look.results.sizes().ok()?;
     found.all().flat_map(|early| found.all().map(move |late| (early, late))).find_map(
         |((a, early), (b, late))| {
             let (before, after) = early.half_heights[0].zip(late.half_heights[0])?;
@@ -49,8 +49,8 @@ fn falls(look: Look<'_>) -> Option<String> {
 
 /// The table has what was run, with the window of the main sweep.
 fn as_run(look: Look<'_>) -> Option<String> {
-    let found = look.results.sizes.as_ref()?;
-    let window = look.results.sweep.as_ref()?.parameters.protocol.window;
+    let found = look.results.sizes().ok()?;
+    let window = look.results.sweep().ok()?.parameters.protocol.window;
     let head = |(own, curve): (&ChainCurve, &Curve)| {
         let ran = |row: &crate::experiments::chains::Ensemble| row.runs.len() + row.failed as usize;
         let all = curve.rows.iter().all(|row| ran(row) == own.realisations);

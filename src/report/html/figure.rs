@@ -45,7 +45,7 @@ fn origin(id: &str, path: &str, data: &[String], experiments: &[&str]) -> String
         let one = |name: &&str| {
             let shown = name.replace('_', " ");
             let item = recipe(name, Profile::Full).map(|recipe| recipe.item);
-            match item.and_then(place::file) {
+            match item.and_then(|item| place::file(&item)) {
                 Some(file) => link(&format!("../{file}"), &shown),
                 None => escape::text(&shown),
             }

@@ -252,7 +252,7 @@ impl<'a> Bench<'a> {
     fn with<T>(&self, moves: &[Move], judge: impl FnOnce(Wrongly<'_>) -> T) -> Option<T> {
         let idle = self.idle.lock().ok().and_then(|mut idle| idle.pop());
         let mut spare = idle.unwrap_or_else(|| Spare {
-            results: part::copy(self.subject.results),
+            results: self.subject.results.shared(),
             whole: self.whole.clone(),
             values: self.values.clone(),
         });

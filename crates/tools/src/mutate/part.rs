@@ -1,124 +1,60 @@
 //! The results in parts, each of which can be read and written as JSON.
 
-use impact_paper::experiments::{Looked, Results, laws};
+use impact_paper::experiments::catalogue::ALL;
+use impact_paper::experiments::{Need, Results};
 use rayon::prelude::*;
-use serde::Serialize;
-use serde::de::DeserializeOwned;
 use serde_json::Value as Json;
-use std::sync::OnceLock;
 
-/// One part: the result of one experiment.
-pub struct Part {
-    /// The experiment, as values name it; theory and identities are one to them.
-    pub experiment: &'static str,
-    /// Members, at any depth, that are its raw record: lists of events, none of which is a number of
-    /// the report.
-    record: &'static [&'static str],
-    read: fn(&Results) -> Option<Json>,
-    write: fn(&mut Results, &Json) -> serde_json::Result<()>,
-    /// From results that have it to others.
-    restore: fn(&mut Results, &Results),
+/// One part: the theory, its identities, the audits, or the result of one experiment.
+#[derive(Clone, Copy)]
+enum Part {
+    Theory,
+    Identities,
+    Audits,
+    Of(Need),
 }
 
-fn json<T: Serialize>(result: &T) -> Option<Json> {
-    serde_json::to_value(result).ok()
-}
-
-fn typed<T: DeserializeOwned>(json: &Json) -> serde_json::Result<T> {
-    T::deserialize(json)
-}
-
-macro_rules! ran {
-    ($name:literal, $field:ident) => {
-        ran!($name, $field, &[])
-    };
-    ($name:literal, $field:ident, $record:expr) => {
-        Part {
-            experiment: $name,
-            record: $record,
-            read: |results| results.$field.as_ref().and_then(json),
-            write: |results, json| {
-                results.$field = Some(typed(json)?);
-                Ok(())
-            },
-            restore: |results, from| results.$field = from.$field.clone(),
-        }
-    };
-}
-
-macro_rules! looked_at {
-    ($field:ident) => {
-        Part {
-            experiment: "theory",
-            record: &[],
-            read: |results| json(&*results.$field),
-            write: |results, json| {
-                *results.$field = typed(json)?;
-                Ok(())
-            },
-            restore: |results, from| {
-                let known = from.$field.clone();
-                results.$field = Looked::new(Box::new(move || known));
-            },
-        }
-    };
-}
-
-/// All parts. What is computed from the main sweep in memory stands before it.
-const PARTS: [Part; 29] = [
-    looked_at!(theory),
-    looked_at!(identities),
-    ran!("laws", laws),
-    Part {
-        experiment: "sweep",
-        record: &[],
-        read: |results| results.sweep.as_ref().and_then(json),
-        write: |results, json| {
-            results.sweep = Some(typed(json)?);
-            // The laws follow from the rows.
-            results.laws = results.sweep.as_ref().map(|sweep| laws::run(&sweep.rows));
-            Ok(())
-        },
-        restore: |results, from| {
-            results.sweep = from.sweep.clone();
-            results.laws = from.laws.clone();
-        },
-    },
-    ran!("second_seed", second_seed),
-    ran!("protocol", protocol),
-    ran!("protocols", protocols),
-    ran!("starts", starts),
-    ran!("horizon", horizon),
-    ran!("two_masses", two_masses),
-    ran!("segments", segments),
-    ran!("space-time", spacetime, &["times", "gaps", "scene"]),
-    ran!("race", race),
-    ran!("bias", biases),
-    ran!("trials", trials),
-    ran!("scale", scale),
-    ran!("analytic", analytic),
-    ran!("measured", measured),
-    ran!("heat", heat, &["rows"]),
-    ran!("nucleation", nucleation),
-    ran!("history", history),
-    ran!("seeds", seeds, &["seen", "waits", "closing"]),
-    ran!("independence", independence, &["hits", "histogram"]),
-    ran!("orbits", orbits, &["found", "ends", "singles", "each", "example"]),
-    ran!("restitution", restitution, &["rows"]),
-    ran!("chains", chains, &["runs"]),
-    ran!("long_protocol", long_protocol),
-    ran!("sizes", sizes, &["runs"]),
-    Part {
-        experiment: "audits",
-        record: &[],
-        read: |results| json(&results.audits),
-        write: |results, json| {
-            results.audits = typed(json)?;
-            Ok(())
-        },
-        restore: |results, from| results.audits.clone_from(&from.audits),
-    },
+/// Members, at any depth, that are the raw record of an experiment: lists of events, none of which is a
+/// number of the report.
+const RECORDS: [(&str, &[&str]); 8] = [
+    ("space-time", &["times", "gaps", "scene"]),
+    ("heat", &["rows"]),
+    ("seeds", &["seen", "waits", "closing"]),
+    ("independence", &["hits", "histogram"]),
+    ("orbits", &["found", "ends", "singles", "each", "example"]),
+    ("restitution", &["rows"]),
+    ("chains", &["runs"]),
+    ("sizes", &["runs"]),
 ];
+
+impl Part {
+    /// The experiment, as values name it; theory and identities are one to them.
+    fn experiment(self) -> &'static str {
+        match self {
+            Part::Theory | Part::Identities => "theory",
+            Part::Audits => "audits",
+            Part::Of(experiment) => experiment.name(),
+        }
+    }
+
+    fn read(self, results: &Results) -> Option<Json> {
+        match self {
+            Part::Theory => serde_json::to_value(&*results.theory).ok(),
+            Part::Identities => serde_json::to_value(&*results.identities).ok(),
+            Part::Audits => serde_json::to_value(&results.audits).ok(),
+            Part::Of(experiment) => experiment.json(results.found(experiment.name())?),
+        }
+    }
+}
+
+/// All parts.
+fn parts() -> impl Iterator<Item = Part> {
+    [Part::Theory, Part::Identities].into_iter().chain(ALL.map(Part::Of)).chain([Part::Audits])
+}
+
+fn part(index: usize) -> Part {
+    parts().nth(index).unwrap_or(Part::Theory)
+}
 
 /// The parts of some results as JSON; an index is that of [`experiments`].
 #[derive(Clone)]
@@ -126,13 +62,14 @@ pub struct Whole(Vec<Json>);
 
 /// Names of the parts' experiments, in order.
 pub fn experiments() -> impl Iterator<Item = &'static str> {
-    PARTS.iter().map(|part| part.experiment)
+    parts().map(Part::experiment)
 }
 
 impl Whole {
     /// Of complete results.
     pub fn of(results: &Results) -> Self {
-        Whole(PARTS.par_iter().map(|part| (part.read)(results).unwrap_or_default()).collect())
+        let parts: Vec<Part> = parts().collect();
+        Whole(parts.par_iter().map(|part| part.read(results).unwrap_or_default()).collect())
     }
 
     /// One part.
@@ -156,7 +93,9 @@ impl Whole {
 
     /// Paths in a part of all numbers that are this one.
     pub fn leaves(&self, index: usize, number: f64) -> Vec<String> {
-        paths(self.part(index), PARTS[index].record, number)
+        let experiment = part(index).experiment();
+        let record = RECORDS.iter().find(|(name, _)| *name == experiment);
+        paths(self.part(index), record.map_or(&[], |(_, own)| own), number)
     }
 }
 
@@ -164,35 +103,29 @@ impl Whole {
 ///
 /// # Errors
 /// When it is not of the part's shape: a negative count.
-pub fn put(results: &mut Results, index: usize, part: &Json) -> serde_json::Result<()> {
-    if tabled(results, index) {
-        results.tables = OnceLock::new();
+pub fn put(results: &mut Results, index: usize, json: &Json) -> serde_json::Result<()> {
+    match part(index) {
+        Part::Theory => *results.theory = serde::Deserialize::deserialize(json)?,
+        Part::Identities => *results.identities = serde::Deserialize::deserialize(json)?,
+        Part::Audits => results.audits = serde::Deserialize::deserialize(json)?,
+        Part::Of(experiment) => results.put(experiment.name(), experiment.typed(json)?),
     }
-    (PARTS[index].write)(results, part)
-}
-
-/// Whether tables are made of a part.
-fn tabled(results: &Results, index: usize) -> bool {
-    let of = |name: &str| name.split('.').next() == Some(PARTS[index].experiment);
-    results.tables().keys().any(|name| of(name))
+    Ok(())
 }
 
 /// Gives results a part of others.
 pub fn restore(results: &mut Results, index: usize, from: &Results) {
-    (PARTS[index].restore)(results, from);
-    results.tables = from.tables.clone();
+    match part(index) {
+        Part::Theory => (*results.theory).clone_from(&from.theory),
+        Part::Identities => (*results.identities).clone_from(&from.identities),
+        Part::Audits => results.audits.clone_from(&from.audits),
+        Part::Of(experiment) => results.restore(experiment.name(), from),
+    }
 }
 
 /// Whether a part can be missing: theory is computed when it is first looked at.
 pub fn can_be_missing(index: usize) -> bool {
-    PARTS[index].experiment != "theory"
-}
-
-/// Results with all parts of others.
-pub fn copy(from: &Results) -> Results {
-    let mut results = Results::empty(from.profile);
-    (0..PARTS.len()).for_each(|index| restore(&mut results, index, from));
-    results
+    part(index).experiment() != "theory"
 }
 
 /// Paths of all numbers in JSON that are this one, as JSON pointers; members of objects first, for a

@@ -44,7 +44,7 @@ impl Sections {
         let parts = 0..part::experiments().count();
         // Copies are made for a few parts each.
         let parts = parts.into_par_iter().with_min_len(7);
-        let readers = parts.map_init(|| part::copy(results), readers).collect();
+        let readers = parts.map_init(|| results.shared(), readers).collect();
         Ok(Sections { readers, values })
     }
 

@@ -2,7 +2,7 @@
 
 use super::{Mutation, Mutations, Reasons, Subject, Tally, mutate, used};
 use impact_paper::claims;
-use impact_paper::experiments::{Error, Need, Progress};
+use impact_paper::experiments::{Error, Progress, catalogue::ALL};
 use impact_paper::params::Profile;
 use impact_paper::program::sources::Sources;
 use impact_paper::program::{Failure, stdout, work};
@@ -52,7 +52,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let reasons = Reasons::read(templates.text("unguarded.toml")?)?.for_profile(profile);
     let progress = work::progress();
     let (found, used, values) = work::on_threads(args.sources.threads, || {
-        let results = args.sources.run(&Need::ALL.into(), profile, &templates, &progress)?;
+        let results = args.sources.run(&ALL, profile, &templates, &progress)?;
         results.look();
         let claims = claims::all(&results, &published)?;
         let values = contents::registry(&results, &published)?;
