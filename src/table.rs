@@ -8,7 +8,7 @@
 //! so no number is computed or named twice. Rows are found by equal keys, never by near ones.
 
 use crate::numerics::statistics::Estimate;
-use crate::value::{Digits, Kind, Number, Value, origin_of};
+use crate::value::{Digits, Kind, Number, Origin, Value, origin_of};
 use std::collections::BTreeMap;
 
 /// Rows with keys, and columns.
@@ -48,6 +48,8 @@ pub struct Building<'a, R> {
     experiment: &'static str,
     /// Realisations of a row.
     number: fn(&R) -> usize,
+    /// What computed the cells, if that is not the code of their column.
+    origin: Option<Origin>,
     table: Table,
 }
 
@@ -74,7 +76,7 @@ impl Table {
         let experiment = name.split('.').next().unwrap_or_default();
         let empty = rows.iter().map(|_| (String::new(), Vec::new())).collect();
         let table = Table { name, columns: Vec::new(), keys: 0, rows: empty };
-        Building { rows, experiment, number, table }
+        Building { rows, experiment, number, origin: None, table }
     }
 
     /// Its name: `experiment.table`.
@@ -242,7 +244,8 @@ fn written(number: &Number) -> String {
     match number {
         Number::Integer(n) => n.to_string(),
         Number::Real { value, .. } => format!("{value:?}"),
-        Number::Interval { .. } | Number::Text(_) => String::new(),
+        Number::Interval { low, high } => format!("{low:?} to {high:?}"),
+        Number::Text(_) => String::new(),
     }
 }
 
@@ -272,14 +275,27 @@ impl<R> Building<'_, R> {
         mut self,
         (name, unit): (&'static str, &'static str),
         meaning: &str,
-        item: crate::value::Origin,
+        item: Origin,
         cell: impl Fn(&R) -> Value,
     ) -> Self {
         self.table.columns.push(Column { name, unit });
         for (row, (_, cells)) in self.rows.iter().zip(&mut self.table.rows) {
             let cell = cell(row).unit(markdown(unit)).note(meaning);
+            let item = self.origin.as_ref().unwrap_or(&item);
             cells.push(cell.source(item.clone(), self.experiment));
         }
+        self
+    }
+
+    /// Columns from here on are of so many realisations.
+    pub fn over(mut self, number: fn(&R) -> usize) -> Self {
+        self.number = number;
+        self
+    }
+
+    /// Columns from here on show what this item computed.
+    pub fn computed_by(mut self, item: Origin) -> Self {
+        self.origin = Some(item);
         self
     }
 
@@ -323,6 +339,22 @@ impl<R> Building<'_, R> {
         let cell = |row: &R| match of(row) {
             value if value.is_finite() => Value::real("", value, digits),
             _ => Value::text("", "none"),
+        };
+        let item = origin_of::<F>();
+        self.put((name, unit), meaning, item, cell)
+    }
+
+    /// An interval, or *none*.
+    pub fn interval<F: Fn(&R) -> Option<[f64; 2]>>(
+        self,
+        name: &'static str,
+        unit: &'static str,
+        meaning: &str,
+        of: F,
+    ) -> Self {
+        let cell = |row: &R| match of(row) {
+            Some(ends) => Value::interval("", ends),
+            None => Value::text("", "none"),
         };
         let item = origin_of::<F>();
         self.put((name, unit), meaning, item, cell)

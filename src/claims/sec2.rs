@@ -5,6 +5,7 @@ use super::row::{Error, Evidence, Finding, Row, measured, open, statistical};
 use super::sec2_rare::{percolation, sticking, three_way, two_masses, walls_like_masses};
 use super::{Judgement, Statement, Text};
 use crate::experiments::catalogue::{CHAINS, STARTS, SWEEP, TWO_MASSES};
+use crate::experiments::sweep::tables::{mean_all, mode_half};
 use crate::experiments::sweep::{Sweep, SweepRow};
 use crate::numerics::statistics::Estimate;
 use crate::params::Protocol;
@@ -27,17 +28,6 @@ pub const ROWS: &[Row] = &[
 /// Number of gaps N of the swept chain.
 pub(super) fn gaps(sweep: &Sweep) -> f64 {
     sweep.parameters.chain.gaps() as f64
-}
-
-/// Mean over all that ran, and its standard error, from the counts of a row.
-pub(crate) fn mean_all(row: &SweepRow) -> Option<[f64; 2]> {
-    let ran: f64 = row.counts.iter().map(|&c| f64::from(c)).sum();
-    let mean = row.mean_all?;
-    let squares: f64 = (0_u32..)
-        .zip(&row.counts)
-        .map(|(k, &c)| f64::from(c) * (f64::from(k) - mean) * (f64::from(k) - mean))
-        .sum();
-    (ran > 1.0).then(|| [mean, (squares / (ran - 1.0) / ran).sqrt()])
 }
 
 fn parameters(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
@@ -225,17 +215,6 @@ fn onset(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
     })
 }
 
-/// Between which σ the mode passes half of all gaps: below the first it is surely under one half,
-/// from the second on surely over it, as far as its bootstrap intervals tell.
-pub(crate) fn mode_half(sweep: &Sweep) -> Option<[f64; 2]> {
-    let half = gaps(sweep) / 2.0;
-    let intervals: Vec<(f64, [usize; 2])> =
-        sweep.rows.iter().filter_map(|row| Some((row.sigma, row.mode_interval?))).collect();
-    let low = intervals.iter().find(|(_, [_, top])| *top as f64 >= half)?;
-    let below = intervals.iter().rposition(|(_, [bottom, _])| (*bottom as f64) < half)?;
-    Some([low.0, intervals.get(below + 1)?.0])
-}
-
 fn mode_rise(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
     let sweep = e.results.sweep()?;
     let Some([low, high]) = mode_half(sweep) else {
@@ -252,28 +231,4 @@ fn mode_rise(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
             "The counts are spread so widely below the rise that their mode is not determined.",
         ),
     })
-}
-
-/// Fewest kept realisations for a mean whose error is taken as normal.
-const FEWEST: usize = 30;
-
-/// The largest difference between the curves of two seeds, in standard errors, and the rows.
-pub(crate) fn largest_between_seeds(first: &Sweep, second: &Sweep) -> Option<(f64, usize)> {
-    let mut largest: Option<f64> = None;
-    let mut rows = 0;
-    for b in &second.rows {
-        let Some(a) = first.rows.iter().find(|a| a.sigma == b.sigma) else { continue };
-        if a.kept.min(b.kept) < FEWEST {
-            continue;
-        }
-        let means = a.mean_distinct.zip(b.mean_distinct);
-        let errors = a.standard_error.zip(b.standard_error);
-        let (Some((m, n)), Some((s, t))) = (means, errors) else { continue };
-        let error = (square(s) + square(t)).sqrt();
-        if error > 0.0 {
-            rows += 1;
-            largest = Some(largest.unwrap_or(0.0).max((m - n).abs() / error));
-        }
-    }
-    Some((largest?, rows))
 }

@@ -3,13 +3,14 @@
 use super::row::{Error, Evidence, Finding, open};
 use super::sec2::LAST_DIGIT;
 use super::{Judgement, Statement, Text};
+use crate::experiments::sweep::laws;
 use crate::params::{ChainKind, NEAR_SIMULTANEOUS, SLOW};
 
 /// Share of impacts that may be called negligible (ours).
 pub(super) const NEGLIGIBLE: f64 = 1e-3;
 
 pub(super) fn three_way(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let totals = e.results.laws()?.totals;
+    let totals = laws::run(&e.results.sweep()?.rows).totals;
     let Some(&seen) = totals.near_decades.last() else {
         return Ok(open(Text::words("no impacts"), "The sweep has no impacts."));
     };

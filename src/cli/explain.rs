@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 
 /// Says where a number, a figure, an equation or a claim of the report comes from.
 ///
-/// An ID is the name of a value (half_height), `fig:3`, `fig:s1`, `eq:18` or `claim:sec7_jump`;
+/// An ID is the address of a value (sweep.rise.half_height), `fig:3`, `fig:s1`, `eq:18` or `claim:sec7_jump`;
 /// without one, all are listed. Nothing is run: the answer is read from the report's folder, and
 /// lines of the source are looked up in ./src, or else as they were when the program was built.
 #[derive(clap::Args)]

@@ -5,8 +5,9 @@ use super::accuracy::{analytic, bias, race, scale, trials};
 use super::deep::Deep;
 use super::experiment::How::{Cut, Read, Whole};
 use super::{
-    Measured, chains, heat, history, horizon, independence, long, nucleation, orbits, protocol,
-    protocols, restitution, seeds, segments, spacetime, starts, sweep, tally, two_masses, weights,
+    Measured, Results, chains, heat, history, horizon, independence, long, nucleation, orbits,
+    protocol, protocols, restitution, seeds, segments, spacetime, starts, sweep, tally, two_masses,
+    weights,
 };
 use crate::params::{
     AnalyticParams, BiasParams, ChainsParams, HeatParams, HistoryParams, HorizonParams,
@@ -14,6 +15,7 @@ use crate::params::{
     RaceParams, RestitutionParams, ScaleParams, SeedsParams, SpaceTimeParams, StartsParams,
     SweepParams, TrialParams, TwoMassesParams,
 };
+use crate::table::Table;
 
 pub use super::experiment::{Entry, Experiment, Saved};
 
@@ -50,6 +52,9 @@ pub const ALL: [Need; 25] = [
     &SIZES,
 ];
 
+/// Tables of several experiments together; none where one of them was not asked for.
+pub const TOGETHER: [fn(&Results) -> Option<Vec<Table>>; 1] = [sweep::tables::of_both];
+
 /// The experiments that a profile saves: the deep one those that take long, all others all.
 pub fn of(profile: Profile) -> Vec<Need> {
     let own = |one: &Need| match profile {
@@ -80,19 +85,19 @@ pub const MEASURED: Experiment<(), Measured> = Experiment {
 /// The main sweep of Sec. 2.
 pub const SWEEP: Experiment<SweepParams, sweep::Sweep, tally::Tally> = Experiment {
     name: "sweep",
-    module: "src/experiments/sweep.rs",
+    module: "src/experiments/sweep/mod.rs",
     parameters: SweepParams::main,
     how: Cut("main sweep", sweep::CUTTING),
-    tables: |_| Vec::new(),
+    tables: sweep::tables::tables,
 };
 
 /// The rise again, with another seed.
 pub const SECOND_SEED: Deep<SweepParams, sweep::Sweep, tally::Tally> = Deep::new(
     ("second_seed", "the rise with another seed ([@sec:simulation])"),
-    "src/experiments/sweep.rs",
+    "src/experiments/sweep/mod.rs",
     SweepParams::second_seed,
     ("second seed", sweep::CUTTING),
-    |_| Vec::new(),
+    sweep::tables::of_second_seed,
 );
 
 /// Half height against transient and window.
@@ -131,7 +136,7 @@ pub const HORIZON: Experiment<HorizonParams, horizon::Horizon> = Experiment {
         run: horizon::run,
         weight: |p| 3 * p.realisations as u64 * weights::run(&p.chain, p.sigma, p.until) / 2,
     },
-    tables: |_| Vec::new(),
+    tables: horizon::tables,
 };
 
 /// Two masses under a low force.
@@ -143,7 +148,7 @@ pub const TWO_MASSES: Experiment<TwoMassesParams, two_masses::TwoMasses> = Exper
         run: two_masses::run,
         weight: |p| p.directions as u64 * p.times.iter().map(|time| *time as u64).sum::<u64>() / 3,
     },
-    tables: |_| Vec::new(),
+    tables: two_masses::tables,
 };
 
 /// One long run.

@@ -9,6 +9,8 @@ use crate::dynamics::{Engine, Growth, Impact, Scenario};
 use crate::numerics::random::NormalPairs;
 use crate::numerics::statistics::Estimate;
 use crate::params::HorizonParams;
+use crate::table::Table;
+use crate::value::origin;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -76,6 +78,22 @@ pub fn run(parameters: &HorizonParams, progress: &Progress) -> Result<Horizon, E
         tenfold: growth.map(tenfold),
         twins,
     })
+}
+
+/// What follows: means over the twins.
+pub fn tables(found: &Horizon) -> Vec<Table> {
+    let table = Table::of("horizon.twins", &[found], |own| own.twins.len())
+        .computed_by(origin(run))
+        .count("pairs", "pairs of twins", |own| own.twins.len() as u64)
+        .chosen("sigma", "d omega^2", "", |own| Some(own.parameters.sigma))
+        .estimate("order", "1/omega", "time of the first impact of another gap", |own| own.order)
+        .estimate("impacts", "1", "impacts before it", |own| own.order_impacts)
+        .estimate("tenfold", "1/omega", "time in which differences grow tenfold", |own| own.tenfold)
+        .real("first_order", "1/omega", 3, "least time of the first impact of another gap", |own| {
+            own.twins.iter().filter_map(|pair| pair.order).fold(f64::INFINITY, f64::min)
+        })
+        .done();
+    vec![table]
 }
 
 /// ln 10 / λ, with the error carried over to first order.

@@ -14,7 +14,6 @@ pub mod horizon;
 pub mod identities;
 pub mod identity;
 pub mod independence;
-pub mod laws;
 pub mod long;
 pub mod measured;
 pub mod nucleation;

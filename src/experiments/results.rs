@@ -1,11 +1,11 @@
 //! All results together.
 
 use super::accuracy::{analytic, bias, race, scale, trials};
-use super::catalogue::{self, ALL};
+use super::catalogue::{self, ALL, TOGETHER};
 use super::experiment::{Found, Typed};
 use super::{Error, Measured};
 use super::{
-    chains, deep, heat, history, horizon, identities, independence, laws, long, nucleation, orbits,
+    chains, deep, heat, history, horizon, identities, independence, long, nucleation, orbits,
     protocol, protocols, restitution, seeds, segments, spacetime, starts, sweep, theory,
     two_masses,
 };
@@ -113,14 +113,6 @@ impl Results {
         found.ok_or(Error::NotRun(experiment.name()))
     }
 
-    /// Three-way impacts and sticking, from the rows of the main sweep.
-    ///
-    /// # Errors
-    /// [`Error::NotRun`] if the sweep was not asked for.
-    pub fn laws(&self) -> Result<laws::Laws, Error> {
-        Ok(laws::run(&self.of(&catalogue::SWEEP)?.rows))
-    }
-
     /// A result by the name of its experiment.
     pub fn found(&self, name: &str) -> Option<&Found> {
         self.found.get(name)
@@ -159,7 +151,9 @@ impl Results {
             let of = |experiment: &catalogue::Need| {
                 self.found(experiment.name()).map_or_else(Vec::new, |own| experiment.tables(own))
             };
-            ALL.iter().flat_map(of).map(|table| (table.name(), Arc::new(table))).collect()
+            let together = TOGETHER.iter().filter_map(|tables| tables(self)).flatten();
+            let all = ALL.iter().flat_map(of).chain(together);
+            all.map(|table| (table.name(), Arc::new(table))).collect()
         })
     }
 

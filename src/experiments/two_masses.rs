@@ -11,6 +11,8 @@ use crate::numerics::bootstrap;
 use crate::numerics::random::NormalPairs;
 use crate::numerics::statistics::{Estimate, quantile};
 use crate::params::{Boundary, Chain, LEVEL, RESAMPLES, TwoMassesParams};
+use crate::table::Table;
+use crate::value::origin;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -98,6 +100,32 @@ pub fn run(parameters: &TwoMassesParams, progress: &Progress) -> Result<TwoMasse
             .collect(),
         violations,
     })
+}
+
+/// What follows: the bound, and how near to its own bound each direction has an impact.
+pub fn tables(found: &TwoMasses) -> Vec<Table> {
+    let bound = Table::of("two_masses.bound", &[found], |_| 0)
+        .computed_by(origin(safe_force))
+        .real("force", "d omega^2", 4, "force amplitude below which two masses never hit", |own| {
+            own.safe_force
+        })
+        .count("directions", "random directions of the forcing", |own| {
+            own.parameters.directions as u64
+        })
+        .done();
+    let excess = Table::of("two_masses.excess", &found.excess, |_| 0)
+        .key("time", "1/omega", |own| own.time.floor())
+        .computed_by(origin(excess))
+        .real(
+            "least",
+            "1",
+            6,
+            "least force with an impact within the time, over its bound",
+            |own| own.least,
+        )
+        .real("greatest", "1", 6, "the same, largest of all directions", |own| own.greatest)
+        .done();
+    vec![bound, excess]
 }
 
 /// The amplitude of each of two neighbouring masses below which R1 + R2 < d in their gap for every
@@ -238,6 +266,14 @@ mod tests {
             let forcing = [unit(normals.pair()), unit(normals.pair())];
             assert!(bound(&chain, &forcing) >= safe * (1.0 - 1e-14));
         }
+    }
+
+    #[test]
+    fn opposite_forces_of_that_size_reach_the_distance() {
+        let chain = Chain::default();
+        let (w, big_w) = (chain.natural_frequency, chain.forcing_frequency);
+        let reach = (1.0 + big_w / w) * 2.0 * safe_force(&chain) / (w * w - big_w * big_w).abs();
+        assert!((reach / chain.spacing - 1.0).abs() < 1e-12, "{reach}");
     }
 
     #[test]

@@ -80,7 +80,12 @@ impl SweepParams {
                 20,
             ),
             Profile::Quick => (
-                Grid::default().and(2, 8, 2, 100).and(9, 16, 1, 100).and(9, 20, 2, 50).values(),
+                Grid::default()
+                    .and(2, 8, 2, 100)
+                    .and(9, 16, 1, 100)
+                    .and(9, 9, 1, 50)
+                    .and(4, 8, 1, 20)
+                    .values(),
                 12,
                 6,
             ),

@@ -30,7 +30,7 @@ const SECTIONS: [Section; 10] = [
     section(
         2,
         "Simulations",
-        &["crates/impact-chain/src/engine.rs", "src/experiments/sweep.rs"],
+        &["crates/impact-chain/src/engine.rs", "src/experiments/sweep/mod.rs"],
         &[2, 3],
     ),
     section(3, "The graph", &["src/circuits/graph.rs", "src/experiments/segments.rs"], &[4, 5, 6]),

@@ -1,8 +1,8 @@
 //! Which values a claim states or is held against.
 //!
 //! A claim's text carries its numbers as they were computed, and so does a value: the same double
-//! is the same number. Integers agree by chance, so they count only where the prose names claim
-//! and value in one paragraph.
+//! is the same number. Integers and numbers of few digits agree by chance, so they count only where the
+//! prose names claim and value in one paragraph.
 
 use super::document::{Block, Inline, visit};
 use super::valued::{Piece, pieces};
@@ -21,24 +21,23 @@ pub fn uses(
         let numbers: Vec<f64> =
             [&claim.ours, &claim.tolerance, &claim.note].into_iter().flat_map(numbers).collect();
         let near = together.get(&claim.id);
+        let near = |id: &String| near.is_some_and(|near| near.contains(id));
         let states = |number: &Number, id: &String| match number {
-            Number::Integer(n) => {
-                near.is_some_and(|near| near.contains(id)) && numbers.contains(&(*n as f64))
-            }
-            Number::Real { value, .. } if value.fract() == 0.0 => {
-                near.is_some_and(|near| near.contains(id)) && numbers.contains(value)
-            }
-            Number::Real { value, .. } => numbers.contains(value),
+            Number::Integer(n) => near(id) && numbers.contains(&(*n as f64)),
+            Number::Real { value, .. } => (is_long(*value) || near(id)) && numbers.contains(value),
             Number::Interval { low, high } => numbers.contains(low) && numbers.contains(high),
             Number::Text(_) => false,
         };
         let printed = format!("printed.{}", claim.id);
-        let used = values.iter().filter(|value| {
-            value.id == printed || !value.id.contains('.') && states(&value.number, &value.id)
-        });
+        let used = values.iter().filter(|own| own.id == printed || states(&own.number, &own.id));
         (claim.id.clone(), used.map(|value| value.id.clone()).collect())
     };
     claims.iter().map(one).collect()
+}
+
+/// Whether a number has so many digits that no other agrees with it by chance.
+fn is_long(value: f64) -> bool {
+    format!("{value:e}").split('e').next().is_some_and(|mantissa| mantissa.len() > 8)
 }
 
 fn numbers(text: &Text) -> impl Iterator<Item = f64> + '_ {

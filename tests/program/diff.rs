@@ -51,8 +51,9 @@ fn changed() -> tempfile::TempDir {
         serde_json::from_str(&fs::read_to_string(at(path)).unwrap()).unwrap()
     };
     let mut values = json("values.json");
-    let error = values["half_height"]["kind"]["ensemble"]["standard_error"].as_f64().unwrap();
-    let value = &mut values["half_height"]["number"]["real"]["value"];
+    let error =
+        values["sweep.rise.half_height"]["kind"]["ensemble"]["standard_error"].as_f64().unwrap();
+    let value = &mut values["sweep.rise.half_height"]["number"]["real"]["value"];
     *value = (value.as_f64().unwrap() + 3.0 * error * 2f64.sqrt()).into();
     fs::write(at("values.json"), format!("{values:#}\n")).unwrap();
     let mut ledger = json("ledger.json");
@@ -103,8 +104,12 @@ fn number_verdict_data_and_files_are_told() {
 
     let markdown = fine(folder.path(), &["a", "b", "--markdown"]);
     assert_eq!(markdown, fine(folder.path(), &["a", "b", "--format", "markdown"]));
-    for part in ["reproduced → differs", "| half_height |", "± 0.005 → ± 0.0001 \\| more", "+3 |"]
-    {
+    for part in [
+        "reproduced → differs",
+        "| sweep.rise.half_height |",
+        "± 0.005 → ± 0.0001 \\| more",
+        "+3 |",
+    ] {
         assert!(markdown.contains(part), "{part}: {markdown}");
     }
     let json: serde_json::Value =

@@ -16,9 +16,9 @@ fn explain(arguments: &[&str]) -> (i32, String, String) {
 
 /// What is asked for, and parts of what is told.
 const CARDS: &str = "\
-half_height => standard error; experiments::rise::find (src/experiments/rise.rs:; seed: 2007
-half_height => chain masses: 100; fig03.csv; reproduced
-half_height_second => seed: 7002
+sweep.rise.half_height => standard error; experiments::rise::find (src/experiments/rise.rs:; seed: 2007
+sweep.rise.half_height => chain masses: 100; fig03.csv; reproduced
+second_seed.rise.half_height => seed: 7002
 p_crit => 0.0122099; circuits::jump::p_crit (src/circuits/jump.rs:; (18)
 printed.sec2_half_height => that the paper prints; Sec. 2
 fig:3 => fig03.svg; figures::fig03 (src/figures/fig03.rs:1); seed: 2007
@@ -54,12 +54,12 @@ fn the_line_is_that_of_the_item() {
 fn all_are_listed_and_as_json() {
     let (code, told, _) = explain(&[]);
     assert_eq!(code, 0);
-    for id in ["half_height ", "fig:15 ", "fig:s1 ", "eq:38 ", "claim:sec2_onset "] {
+    for id in ["sweep.rise.half_height ", "fig:15 ", "fig:s1 ", "eq:38 ", "claim:sec2_onset "] {
         assert!(told.lines().any(|line| line.starts_with(id)), "{id}");
     }
-    let (_, told, _) = explain(&["--json", "half_height", "eq:18"]);
+    let (_, told, _) = explain(&["--json", "sweep.rise.half_height", "eq:18"]);
     let cards: serde_json::Value = serde_json::from_str(&told).unwrap();
-    assert_eq!(cards[0]["id"], "half_height");
+    assert_eq!(cards[0]["id"], "sweep.rise.half_height");
     let rows = cards[0]["rows"].as_array().unwrap();
     let computed = rows.iter().find(|row| row["name"] == "computed by").unwrap();
     assert_eq!(computed["file"], "src/experiments/rise.rs");
@@ -68,8 +68,11 @@ fn all_are_listed_and_as_json() {
 
 #[test]
 fn an_unknown_id_is_one_line_with_the_nearest() {
-    for (id, near) in [("half_hight", "half_height"), ("eq:99", "eq:9"), ("sec7_jmp", "sec7_jump")]
-    {
+    for (id, near) in [
+        ("sweep.rise.half_hight", "sweep.rise.half_height"),
+        ("eq:99", "eq:9"),
+        ("sec7_jmp", "sec7_jump"),
+    ] {
         let (code, told, note) = explain(&[id]);
         assert_eq!((code, told.as_str()), (2, ""), "{note}");
         assert!(note.contains(near) && note.trim_end().lines().count() == 1, "{note}");
@@ -102,7 +105,7 @@ fn every_origin_is_a_function() {
         let line = source.lines().nth(line).unwrap();
         assert!(line.contains("fn "), "{}: {line}", card["id"]);
     }
-    let means = |id: &&String| id.starts_with("sweep.") && id.ends_with("_mean");
+    let means = |id: &&String| id.starts_with("sweep.rows") && id.ends_with(".mean");
     let means: Vec<&String> = values.keys().filter(means).collect();
     assert!(means.len() > 1, "{means:?}");
     for mean in means {

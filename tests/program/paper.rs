@@ -204,7 +204,7 @@ fn exit_codes_are_those_of_the_table() {
         });
     };
     templates("good", "report.md", "# ", "# ");
-    templates("open", "report.md", "\n## ", "\nIt is «v.half_height now.\n\n## ");
+    templates("open", "report.md", "\n## ", "\nIt is «sweep.rise.half_height now.\n\n## ");
     templates("numeral", "report.md", "\n## ", "\nThere are 17 of them.\n\n## ");
     templates("broken", "published.toml", "[[statement]]", "[[statement");
     templates("renamed", "published.toml", "id = \"sec3_edges\"", "id = \"sec3_bends\"");

@@ -75,7 +75,7 @@ fn the_sweep_depends_on_the_engine_and_not_on_the_scenes() {
     for folder in ["src", "crates"] {
         read(std::path::Path::new(env!("CARGO_MANIFEST_DIR")), folder, &mut source);
     }
-    let sweep = found(&source, "src/experiments/sweep.rs");
+    let sweep = found(&source, "src/experiments/sweep/mod.rs");
     for path in [
         "crates/impact-chain/src/simulation.rs",
         "crates/impact-chain/src/contact.rs",

@@ -94,7 +94,10 @@ fn every_value_has_one_card() {
         }
     }
     // The headline number stands in an equation, and opens there too.
-    let card = cards.iter().find(|card| card.attribute("id") == Some("card-half_height")).unwrap();
+    let card = cards
+        .iter()
+        .find(|card| card.attribute("id") == Some("card-sweep-rise-half_height"))
+        .unwrap();
     let text = words(*card);
     for part in ["experiments::rise::find", "standard error", "seed: 2007", "reproduced"] {
         assert!(text.contains(part), "{part:?} is not in {text:?}");
@@ -102,7 +105,8 @@ fn every_value_has_one_card() {
     let displayed = |node: &Node<'_, '_>| {
         node.ancestors().any(|outer| outer.attribute("class") == Some("equation"))
     };
-    let opens = |b: &Node<'_, '_>| b.attribute("popovertarget") == Some("card-half_height");
+    let opens =
+        |b: &Node<'_, '_>| b.attribute("popovertarget") == Some("card-sweep-rise-half_height");
     assert!(buttons.iter().any(|button| opens(button) && displayed(button)));
     for button in &buttons {
         assert!(button.ancestors().all(|outer| outer.tag_name().name() != "math"));

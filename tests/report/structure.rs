@@ -55,7 +55,7 @@ const MAY_IMPORT: [(&str, &[&str]); 11] = [
     ("numerics", &[]),
     ("dynamics", &["numerics"]),
     ("circuits", &["params", "numerics"]),
-    ("experiments", &["params", "numerics", "dynamics", "circuits", "table"]),
+    ("experiments", &["params", "numerics", "dynamics", "circuits", "table", "value"]),
     ("figures", &["params", "numerics", "experiments", "table"]),
     ("claims", &["params", "numerics", "experiments", "table"]),
     (

@@ -1,7 +1,6 @@
 //! Section 8: simulated and theoretical expected numbers side by side.
 
-use super::simulation::mean_id;
-use super::{Error, chosen, from, mark};
+use super::{Error, from, mark};
 use crate::claims::sec8;
 use crate::experiments::sweep::{Sweep, SweepRow};
 use crate::experiments::theory::CurveRow;
@@ -20,8 +19,7 @@ const THEORIES: [Column; 3] =
 /// One line of the table.
 #[derive(Debug, Serialize)]
 pub struct Line {
-    sigma: String,
-    simulated: String,
+    row: String,
     theories: Vec<String>,
 }
 
@@ -37,7 +35,6 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
     let curve = &results.theory.curve;
     let mut values = Vec::new();
     for row in lines(results.sweep()?) {
-        values.push(chosen(&id(row, "sigma"), row.sigma));
         for (name, column) in THEORIES {
             let theory = sec8::at(curve, row.sigma, column);
             let theory = theory.ok_or(Error::Missing("the theory at every simulated sigma"))?;
@@ -54,8 +51,7 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
 /// The lines of the table.
 pub fn table(results: &Results) -> Result<Vec<Line>, Error> {
     let line = |row: &SweepRow| Line {
-        sigma: mark(id(row, "sigma")),
-        simulated: mark(mean_id(row)),
+        row: format!("sigma={}", row.sigma),
         theories: THEORIES.iter().map(|(name, _)| mark(id(row, name))).collect(),
     };
     Ok(lines(results.sweep()?).into_iter().map(line).collect())

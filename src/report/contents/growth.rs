@@ -1,8 +1,8 @@
 //! Section 12, second half: what one gap sets off, and the mean count that follows.
 
 use super::fronts::moment_id;
+use super::mean_all;
 use super::protocol::all_as;
-use super::simulation::mean_all;
 use super::{Error, chosen, difference, estimate, from, mark, share};
 use crate::experiments::seeds::{Prediction, Seeds, Spread};
 use crate::experiments::sweep::Sweep;
@@ -126,7 +126,8 @@ fn comparison(seeds: &Seeds, sweep: &Sweep, n: usize) -> Result<Vec<Value>, Erro
     let own = own.ok_or(Error::Missing("a prediction for the protocol of the report"))?;
     let at_rise = seeds.rows.iter().zip(&own.means).find(|(row, _)| row.sigma == SIGMA);
     let (_, mean) = at_rise.ok_or(Error::Missing("seeds at the rise"))?;
-    let ran = super::simulation::row(sweep, SIGMA)?;
+    let ran = sweep.rows.iter().find(|row| row.sigma == SIGMA);
+    let ran = ran.ok_or(Error::Missing("a row of the main sweep"))?;
     let worst = compared(seeds, own, sweep).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
     let worst = worst.ok_or(Error::Missing("seeds at a sigma of the main sweep"))?;
     Ok(vec![

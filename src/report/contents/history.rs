@@ -1,7 +1,7 @@
 //! How hot a running chain is: what its past does to the count.
 
+use super::mean_all;
 use super::protocol::all_as;
-use super::simulation::mean_all;
 use super::{Error, chosen, estimate, from, mark};
 use crate::experiments::history::{History, Lowered};
 use crate::experiments::{Results, history};

@@ -24,7 +24,6 @@ mod paper;
 mod protocol;
 mod protocols;
 mod scores;
-mod simulation;
 mod sizes;
 mod spacetime;
 mod starts;
@@ -32,9 +31,10 @@ mod theory;
 
 use super::mark::Mark;
 use super::print::Style;
-use super::values::{Origin, Registry, Value};
+use super::values::{Origin, Registry, Value, origin};
 use crate::claims::{self, Claim, Published};
 use crate::experiments::Results;
+use crate::experiments::sweep::{self, SweepRow};
 use crate::numerics::statistics::Estimate;
 use std::collections::BTreeMap;
 
@@ -62,8 +62,7 @@ pub enum Error {
 pub type Section = fn(&Results) -> Result<Vec<Value>, Error>;
 
 /// All values but what the paper printed, in the order of the report.
-pub const SECTIONS: [Section; 22] = [
-    simulation::values,
+pub const SECTIONS: [Section; 21] = [
     theory::values,
     comparison::values,
     higher::values,
@@ -119,7 +118,6 @@ pub fn rows(
         ("scorecard", serde_json::to_value(ledger::scorecard(claims))?),
         ("basis_table", serde_json::to_value(ledger::bases(claims))?),
         ("row", serde_json::to_value(ledger::references(claims))?),
-        ("readings_table", serde_json::to_value(simulation::readings_table(results.sweep()?)?)?),
         ("comparison_table", serde_json::to_value(comparison::table(results)?)?),
         ("protocol_windows", serde_json::to_value(protocol::windows(results)?)?),
         ("protocol_printed", serde_json::to_value(protocol::printed(results)?)?),
@@ -198,6 +196,22 @@ fn chosen(id: &str, value: f64) -> Value {
 /// A count, shown as an integer up to a million and with its leading digits beyond.
 fn count(id: &str, n: u64) -> Value {
     if n < 1_000_000 { Value::integer(id, n) } else { Value::real(id, n as f64, 2) }
+}
+
+/// The share of the kept of a row of the sweep.
+fn kept(id: &str, row: &SweepRow) -> Value {
+    let ran = row.realisations.saturating_sub(row.rejected + row.failed);
+    share(id, row.kept, ran).source(origin(sweep::reduce), "sweep")
+}
+
+/// The mean over all of a row of the sweep.
+fn mean_all(id: &str, row: &SweepRow) -> Value {
+    let ran = row.realisations.saturating_sub(row.rejected + row.failed);
+    let mean = match sweep::tables::mean_all(row) {
+        Some([mean, error]) => Value::ensemble(id, mean, error, ran as u64),
+        None => Value::text(id, "none"),
+    };
+    mean.source(origin(sweep::reduce), "sweep")
 }
 
 /// The value with this id, as a template writes it.

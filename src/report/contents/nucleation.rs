@@ -86,7 +86,7 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
         values.push(share(id(row, "found"), hit, row.realisations as usize));
         let kept = sweep.rows.iter().find(|own| own.sigma == row.sigma);
         values.push(match kept {
-            Some(own) => super::simulation::kept(&id(row, "kept"), own),
+            Some(own) => super::kept(&id(row, "kept"), own),
             None => Value::text(id(row, "kept"), "none"),
         });
     }

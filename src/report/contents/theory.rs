@@ -1,6 +1,5 @@
 //! Sections 3 to 8: graph, counting, distribution, jump, relation.
 
-use super::simulation::{kept, mean_all, mean_id, row};
 use super::{Error, chosen, from};
 use crate::circuits::distribution::Law;
 use crate::circuits::graph::Graph;
@@ -143,8 +142,6 @@ fn relation(results: &Results) -> Result<Vec<Value>, Error> {
             .source(origin(ImpactProbability::p_from_rest), "theory"),
         Value::real("self_closing", gaps * threshold.p_rest, 2)
             .source(origin(ImpactProbability::p_from_rest), "theory"),
-        chosen("sigma_kept_a", threshold.sigma),
-        chosen("sigma_kept_b", kept.sigma),
         Value::real("kept_predicted_a", threshold.any_rest, 3)
             .source(origin(identities::relation::any), "theory"),
         Value::real("kept_predicted_b", kept.any_rest, 3)
@@ -162,9 +159,7 @@ fn relation(results: &Results) -> Result<Vec<Value>, Error> {
 /// Theory beside simulation.
 fn simulated(results: &Results) -> Result<Vec<Value>, Error> {
     let (sweep, theory) = (results.sweep()?, &results.theory);
-    let (a, b) = (row(sweep, PRINTED_THRESHOLD)?, row(sweep, KEPT)?);
-    let between = row(sweep, BETWEEN)?;
-    let predicted = sec8::at(&theory.curve, between.sigma, |r| r.simple)
+    let predicted = sec8::at(&theory.curve, BETWEEN, |r| r.simple)
         .ok_or(Error::Missing("the theory within the rise"))?;
     let largest = sec8::largest_distance(sweep, &theory.curve);
     let [increase, _, _] =
@@ -175,11 +170,6 @@ fn simulated(results: &Results) -> Result<Vec<Value>, Error> {
     });
     let half = sweep.rise.half_height.map(|half| theory.scalars.sigma_half - half.value);
     Ok(vec![
-        kept("kept_a", a),
-        kept("kept_b", b),
-        mean_all("mean_all_threshold", a),
-        chosen("sigma_between", between.sigma),
-        Value::same("mean_between", mean_id(between)),
         Value::real("theory_between", predicted, 3).source(origin(theory::curves::curve), "theory"),
         chosen("large_sigma", sec8::LARGE_SIGMA),
         largest.map_or(Value::text("large_distance", "none"), |[distance, _]| {

@@ -1,6 +1,5 @@
 //! Theory beside simulation: means from histograms, and from distributions by logarithms.
 
-use super::counts::totals;
 use super::model::{Column, mean_at};
 use super::{Guard, Look, far, unless};
 use crate::experiments::sweep::SweepRow;
@@ -16,11 +15,7 @@ pub const GUARDS: &[Guard] = &[
         ids: &["rms_*", "large_distance", "large_sigma"],
         find: distances,
     },
-    Guard {
-        name: "gap_of_half_heights",
-        ids: &["sigma_gap", "half_height", "sigma_half_theory"],
-        find: gap,
-    },
+    Guard { name: "gap_of_half_heights", ids: &["sigma_gap", "sigma_half_theory"], find: gap },
     Guard {
         name: "change_by_higher_orders",
         ids: &["fig15_*", "relation_over_higher"],
@@ -90,7 +85,7 @@ fn distances(look: Look<'_>) -> Option<String> {
 /// From the simulated half height by the gap to where the theory's mean is half way.
 fn gap(look: Look<'_>) -> Option<String> {
     let theory = &look.results.theory;
-    let there = look.number("half_height")? + look.number("sigma_gap")?;
+    let there = look.number("sweep.rise.half_height")? + look.number("sigma_gap")?;
     let mean = mean_at(theory.vertices, there, Column::Simple);
     far(
         "the mean at sigma_gap beyond the simulated half height",
@@ -134,4 +129,10 @@ fn change(look: Look<'_>) -> Option<String> {
             let off = near.fold(f64::INFINITY, f64::min);
             unless(off <= super::ROUNDING, || "relation_over_higher leads to no jump".into())
         })
+}
+
+/// Number and sum of all counts from `from` on.
+fn totals(counts: &[u32], from: usize) -> [f64; 2] {
+    let own = counts.iter().enumerate().skip(from);
+    own.fold([0.0, 0.0], |[n, sum], (k, &c)| [n + f64::from(c), sum + k as f64 * f64::from(c)])
 }

@@ -120,7 +120,7 @@ fn more_than_rest(look: Look<'_>) -> Option<String> {
     let history = history(look)?;
     history.rows.iter().find_map(|row| {
         let swept = look.results.sweep().ok()?.rows.iter().find(|own| own.sigma == row.sigma)?;
-        let [rest, error] = crate::claims::sec2::mean_all(swept)?;
+        let [rest, error] = crate::experiments::sweep::tables::mean_all(swept)?;
         let own = row.means.first().copied()??;
         let room = 5.0 * (error * error + own.error * own.error).sqrt();
         unless(own.value >= rest - room, || {

@@ -11,7 +11,6 @@ mod accuracy;
 mod carried;
 mod chains;
 mod comparison;
-mod counts;
 mod fronts;
 mod growth;
 mod heat;
@@ -29,12 +28,12 @@ mod places;
 mod printed;
 mod protocol;
 mod protocols;
-mod rare;
 mod relation;
 mod restitution;
 mod scores;
 mod simple;
 mod sizes;
+mod sweep;
 
 use super::values::{Number, Registry};
 use crate::claims::{self, Claim, Published};
@@ -77,9 +76,8 @@ pub struct Failing {
 /// All guards.
 pub fn all() -> impl Iterator<Item = &'static Guard> {
     let files = [
-        counts::GUARDS,
+        sweep::GUARDS,
         places::GUARDS,
-        rare::GUARDS,
         protocol::GUARDS,
         protocols::GUARDS,
         long::GUARDS,
@@ -135,14 +133,6 @@ impl Look<'_> {
             Number::Integer(n) => Some(n as f64),
             Number::Real { value, .. } => Some(value),
             Number::Interval { .. } | Number::Text(_) => None,
-        }
-    }
-
-    /// The interval of a value.
-    fn interval(&self, id: &str) -> Option<[f64; 2]> {
-        match self.values.get(id)?.number {
-            Number::Interval { low, high } => Some([low, high]),
-            _ => None,
         }
     }
 

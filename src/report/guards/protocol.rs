@@ -12,7 +12,7 @@ pub const GUARDS: &[Guard] = &[
     },
     Guard { name: "protocols_printed", ids: &["protocols_printed"], find: printed },
     Guard { name: "kept_before_all", ids: &["protocol.*"], find: kept_before_all },
-    Guard { name: "map_meets_sweep", ids: &["protocol.*", "half_height"], find: meets_sweep },
+    Guard { name: "map_meets_sweep", ids: &["protocol.*"], find: meets_sweep },
 ];
 
 /// The cells are those of all transients and windows that were asked for; every half height lies

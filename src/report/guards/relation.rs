@@ -25,8 +25,6 @@ pub const GUARDS: &[Guard] = &[
             "kept_predicted_b",
             "kept_half_predicted",
             "kept_onset_predicted",
-            "sigma_kept_a",
-            "sigma_kept_b",
         ],
         find: kept,
     },
@@ -67,8 +65,8 @@ fn kept(look: Look<'_>) -> Option<String> {
     let gaps = look.published.parameter("masses").ok()? + 1.0;
     let any = |sigma: f64| model::any(model::p_rest(sigma), gaps);
     let at = |sigma: &str, share: &str| look.is(share, any(look.number(sigma)?));
-    at("sigma_kept_a", "kept_predicted_a")
-        .or_else(|| at("sigma_kept_b", "kept_predicted_b"))
+    at("sweep.rows[sigma=0.12].sigma", "kept_predicted_a")
+        .or_else(|| at("sweep.rows[sigma=0.1].sigma", "kept_predicted_b"))
         .or_else(|| {
             let share = |id: &str, share: f64| {
                 far(&format!("the share at {id}"), any(look.number(id)?), share)

@@ -22,7 +22,7 @@ const SMALL: &str = r#"# A title
 ## Introduction {#sec:introduction}
 
 Masses in a row ([@rice1945]; see [@fig:3], [@eq:18; @eq:25] and [@sec:protocol]). With
-«v.half_height» and $\sigma = «v.half_height»$, the $n$-th mass of $f_{N,p}(k)$ and
+«sweep.rise.half_height» and $\sigma = «sweep.rise.half_height»$, the $n$-th mass of $f_{N,p}(k)$ and
 $\Phi'_{N,p}\,(k) < 1$ moves *fast*, **very** fast, at 100 % of `a_b` [here](https://x.org).
 
 $$
@@ -34,7 +34,7 @@ $$
 \begin{aligned} a &= b \\ c &= \binom{n}{k} \sum_{k=1}^{N} d \end{aligned} \tag{25}
 $$
 
-![The rise, at «v.half_height | significant(digits=3)» or $\sigma$ ≥ 0.12.](figures/fig03.svg)
+![The rise, at «sweep.rise.half_height | significant(digits=3)» or $\sigma$ ≥ 0.12.](figures/fig03.svg)
 
 ### The protocol {#sec:protocol}
 
@@ -42,7 +42,7 @@ Table: What σ gives {#tab:sigma}
 
 | Claim | Statement | Ours |
 |:--|---|--:|
-<% for c in claims %><% if loop.index < 4 %>| [!claim:«c.id»] | «c.statement»: «c.ours» | «v.half_height | percent | fixed(digits=1)» |
+<% for c in claims %><% if loop.index < 4 %>| [!claim:«c.id»] | «c.statement»: «c.ours» | «sweep.rise.half_height | percent | fixed(digits=1)» |
 <% endif %><% endfor %>
 1. one
 2. two
@@ -116,8 +116,8 @@ fn prose_that_is_made_to_hurt() {
         (maths("x^", ""), "?"),
         (format!("# T\n\n$$\n{} x\n$$\n", "\\sqrt".repeat(9000)), "longer"),
         ("# T\n\n$$\n\\begin{aligned} a &^{N} d \\end{aligned}\n$$\n".into(), "?"),
-        ("# T\n\n«v.half_height | fixed(digits=70000)»\n".into(), "digits"),
-        ("# T\n\n«v.half_height | significant(digits=99999999999)»\n".into(), "digits"),
+        ("# T\n\n«sweep.rise.half_height | fixed(digits=70000)»\n".into(), "digits"),
+        ("# T\n\n«sweep.rise.half_height | significant(digits=99999999999)»\n".into(), "digits"),
         ("# T\n\n\u{e000}half_height\u{e002}fixed99999999\u{e001}\n".into(), "?"),
         ("<% include \"report.md\" %>".into(), "ircular"),
         ("<% for a in range(end=100000) %><% for b in range(end=100000) %>xxxxxxxxxxxxxxxx<% endfor %><% endfor %>".into(), "FileTooLarge"),

@@ -3,6 +3,9 @@
 //! All cores share the realisations; what they show is collected in the order of the realisations
 //! and reduced by one thread, so neither the number of threads nor that of machines changes a bit.
 
+pub mod laws;
+pub mod tables;
+
 use super::cutting::{Cutting, Row, Unit};
 use super::observe::{NEAR_DECADES, SLOW_DECADES, realisation};
 use super::progress::Stage;
