@@ -10,6 +10,7 @@
 use crate::numerics::statistics::Estimate;
 use crate::value::{Digits, Kind, Number, Origin, Value, origin_of};
 use std::collections::BTreeMap;
+use std::rc::Rc;
 
 /// Rows with keys, and columns.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,7 +48,7 @@ pub struct Building<'a, R> {
     rows: &'a [R],
     experiment: &'static str,
     /// Realisations of a row.
-    number: fn(&R) -> usize,
+    number: Rc<dyn Fn(&R) -> usize + 'a>,
     /// What computed the cells, if that is not the code of their column.
     origin: Option<Origin>,
     table: Table,
@@ -71,12 +72,12 @@ impl Table {
     pub fn of<'a, R>(
         name: &'static str,
         rows: &'a [R],
-        number: fn(&R) -> usize,
+        number: impl Fn(&R) -> usize + 'a,
     ) -> Building<'a, R> {
         let experiment = name.split('.').next().unwrap_or_default();
         let empty = rows.iter().map(|_| (String::new(), Vec::new())).collect();
         let table = Table { name, columns: Vec::new(), keys: 0, rows: empty };
-        Building { rows, experiment, number, origin: None, table }
+        Building { rows, experiment, number: Rc::new(number), origin: None, table }
     }
 
     /// Its name: `experiment.table`.
@@ -168,12 +169,13 @@ impl Table {
     /// `first`, `last` and `last-1` of all its values. One empty name where there are no keys.
     pub fn named(&self) -> BTreeMap<String, BTreeMap<&'static str, &Value>> {
         let mut found = BTreeMap::new();
+        let keys: Vec<(&str, Vec<f64>)> = self.keys().map(|key| (key, self.values(key))).collect();
         for (_, cells) in &self.rows {
             let row: BTreeMap<_, _> =
                 self.columns.iter().map(|column| column.name).zip(cells).collect();
             let mut names = vec![String::new()];
-            for (at, key) in self.keys().enumerate() {
-                let ways = self.ways(key, &cells[at]);
+            for ((key, all), cell) in keys.iter().zip(cells) {
+                let ways = ways(all, cell);
                 let join = |before: &String, way: &String| match before.as_str() {
                     "" => format!("{key}={way}"),
                     before => format!("{before},{key}={way}"),
@@ -188,31 +190,18 @@ impl Table {
         found
     }
 
-    fn ways(&self, key: &str, cell: &Value) -> Vec<String> {
-        let all = self.values(key);
-        let own = plain(cell);
-        let place = all.iter().position(|value| Some(*value) == own).unwrap_or_default();
-        let ends = [("first", 0), ("last", all.len() - 1), ("last-1", all.len().wrapping_sub(2))];
-        let ends =
-            ends.into_iter().filter(|(_, at)| *at == place).map(|(name, _)| name.to_string());
-        own.map(|own| own.to_string()).into_iter().chain(ends).collect()
-    }
-
     /// Column names with units, and the cells as data files write them: every bit of each number, and a column
     /// of its own for each standard error.
     pub fn data(&self) -> (Vec<String>, Vec<Vec<String>>) {
-        let error = |at: usize| {
-            let is =
-                |(_, cells): &(String, Vec<Value>)| matches!(cells[at].kind, Kind::Ensemble { .. });
-            self.rows.iter().any(is)
-        };
         let (mut header, mut rows) = (Vec::new(), vec![Vec::new(); self.rows.len()]);
         for (at, Column { name, unit }) in self.columns.iter().enumerate() {
+            let mut cells = self.rows.iter().map(|(_, cells)| &cells[at]);
+            let error = cells.any(|cell| matches!(cell.kind, Kind::Ensemble { .. }));
             header.push(format!("{name} ({unit})"));
-            header.extend(error(at).then(|| format!("{name}_error ({unit})")));
+            header.extend(error.then(|| format!("{name}_error ({unit})")));
             for (row, (_, cells)) in rows.iter_mut().zip(&self.rows) {
                 row.push(written(&cells[at].number));
-                row.extend(error(at).then(|| match cells[at].kind {
+                row.extend(error.then(|| match cells[at].kind {
                     Kind::Ensemble { standard_error, .. } => format!("{standard_error:?}"),
                     _ => String::new(),
                 }));
@@ -220,6 +209,15 @@ impl Table {
         }
         (header, rows)
     }
+}
+
+/// The names of a key's value, of all that it has.
+fn ways(all: &[f64], cell: &Value) -> Vec<String> {
+    let own = plain(cell);
+    let place = all.iter().position(|value| Some(*value) == own).unwrap_or_default();
+    let ends = [("first", 0), ("last", all.len() - 1), ("last-1", all.len().wrapping_sub(2))];
+    let ends = ends.into_iter().filter(|(_, at)| *at == place).map(|(name, _)| name.to_string());
+    own.map(|own| own.to_string()).into_iter().chain(ends).collect()
 }
 
 /// The number of a cell; none of words.
@@ -270,7 +268,7 @@ fn chosen(value: f64) -> Number {
     }
 }
 
-impl<R> Building<'_, R> {
+impl<'a, R> Building<'a, R> {
     fn put(
         mut self,
         (name, unit): (&'static str, &'static str),
@@ -288,8 +286,8 @@ impl<R> Building<'_, R> {
     }
 
     /// Columns from here on are of so many realisations.
-    pub fn over(mut self, number: fn(&R) -> usize) -> Self {
-        self.number = number;
+    pub fn over(mut self, number: impl Fn(&R) -> usize + 'a) -> Self {
+        self.number = Rc::new(number);
         self
     }
 
@@ -318,7 +316,7 @@ impl<R> Building<'_, R> {
         meaning: &str,
         of: F,
     ) -> Self {
-        let number = self.number;
+        let number = self.number.clone();
         let cell = |row: &R| match of(row) {
             Some(own) => Value::ensemble("", own.value, own.error, number(row) as u64),
             None => Value::text("", "none"),

@@ -52,8 +52,11 @@ pub const ALL: [Need; 25] = [
     &SIZES,
 ];
 
-/// Tables of several experiments together; none where one of them was not asked for.
-pub const TOGETHER: [fn(&Results) -> Option<Vec<Table>>; 1] = [sweep::tables::of_both];
+/// Makes tables of the results of several experiments and of their own tables; none where one was not asked for.
+pub type Together = fn(&Results, &[Table]) -> Option<Vec<Table>>;
+
+/// What follows from several experiments together.
+pub const TOGETHER: [Together; 2] = [sweep::tables::of_both, seeds::compared::tables];
 
 /// The experiments that a profile saves: the deep one those that take long, all others all.
 pub fn of(profile: Profile) -> Vec<Need> {
@@ -233,7 +236,7 @@ pub const SEEDS: Experiment<SeedsParams, seeds::Seeds, seeds::Part> = Experiment
     module: "src/experiments/seeds/mod.rs",
     parameters: SeedsParams::new,
     how: Cut("seeds", seeds::CUTTING),
-    tables: |_| Vec::new(),
+    tables: seeds::tables::tables,
 };
 
 /// Chains that are heated first.

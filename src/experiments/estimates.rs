@@ -19,6 +19,18 @@ pub fn average_count(counts: &[u64]) -> Option<Estimate> {
     average(&counts.iter().map(|&k| k as f64).collect::<Vec<_>>())
 }
 
+/// A share of so many, with its binomial error; none of nothing.
+pub fn share(part: u64, whole: u64) -> Option<Estimate> {
+    let (p, n) = (part as f64 / whole as f64, whole as f64);
+    (whole > 0).then(|| with_error(p, (p * (1.0 - p) / n).sqrt()))
+}
+
+/// How much the one is larger than the other, of independent samples.
+pub fn difference(own: Estimate, other: Estimate) -> Estimate {
+    let error = (own.error * own.error + other.error * other.error).sqrt();
+    with_error(own.value - other.value, error)
+}
+
 /// A number with the error that follows from what it is when each member of the sample is left out in
 /// turn; none of fewer than two members.
 pub fn left_out(value: f64, without: &[f64]) -> Option<Estimate> {

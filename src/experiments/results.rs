@@ -151,9 +151,11 @@ impl Results {
             let of = |experiment: &catalogue::Need| {
                 self.found(experiment.name()).map_or_else(Vec::new, |own| experiment.tables(own))
             };
-            let together = TOGETHER.iter().filter_map(|tables| tables(self)).flatten();
-            let all = ALL.iter().flat_map(of).chain(together);
-            all.map(|table| (table.name(), Arc::new(table))).collect()
+            let mut all: Vec<Table> = ALL.iter().flat_map(of).collect();
+            for tables in TOGETHER {
+                all.extend(tables(self, &all).into_iter().flatten());
+            }
+            all.into_iter().map(|table| (table.name(), Arc::new(table))).collect()
         })
     }
 

@@ -203,7 +203,7 @@ pub fn draw(number: Number, results: &Results) -> Result<Figure, Error> {
         }
         Number::Own(2) => s02::draw(results.spacetime()?, note),
         Number::Own(3) => s03::draw(results.nucleation()?, results.sweep()?, note),
-        Number::Own(4) => s04::draw(results.seeds()?, results.sweep()?, results.protocol()?, note),
+        Number::Own(4) => s04::draw(results, note),
         Number::Own(5) => s05::draw(&results.theory.large),
         Number::Own(6) => s06::draw(&results.theory),
         Number::Own(7) => s07::draw(results, note),

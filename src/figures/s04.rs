@@ -2,15 +2,15 @@
 
 use super::axis::{Axis, log};
 use super::chart::{LETTERS, short};
-use super::data::cells;
 use super::panel::Frame;
 use super::series::Outside;
 use super::sheet::{Entry, Sheet};
 use super::style::{BLUE, Colour, Dash, INK, LINE, Mark, ORANGE, PURPLE, RED, SMALL, Stroke, THIN};
 use super::{DataFile, Error, Figure};
-use crate::experiments::protocol::ProtocolMap;
-use crate::experiments::seeds::{Fronts, Prediction, Seeds, Spread, Waits};
+use crate::experiments::Results;
+use crate::experiments::seeds::tables::spread;
 use crate::experiments::sweep::Sweep;
+use crate::table::Table;
 
 /// The σ of (a).
 const SIGMAS: (f64, f64) = (0.075, 0.165);
@@ -22,57 +22,38 @@ const SPREADS: [Colour; 4] = [PURPLE, BLUE, ORANGE, RED];
 const SIZE: i32 = 58;
 
 /// Draws the figure.
-pub fn draw(
-    seeds: &Seeds,
-    sweep: &Sweep,
-    map: &ProtocolMap,
-    note: Option<&str>,
-) -> Result<Figure, Error> {
+pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
+    let table = |name| results.table(name);
+    let (means, rise, scores) =
+        (table("seeds.means")?, table("seeds.rise")?, table("seeds.scores")?);
+    let (advance, waits, fronts) =
+        (table("seeds.advance")?, table("seeds.waits")?, table("seeds.fronts")?);
     let sheet = Sheet::new(13050, note)?;
-    counts(&sheet, seeds, sweep)?;
-    advances(&sheet, seeds)?;
-    halves(&sheet, seeds, map)?;
-    waits(&sheet, seeds)?;
-    let files = tables(seeds, sweep, map);
+    counts(&sheet, means, results.sweep()?)?;
+    advances(&sheet, advance)?;
+    halves(&sheet, rise, scores)?;
+    standing(&sheet, waits, fronts, results.seeds()?.parameters.tick)?;
+    let files = [means, table("seeds.against_sweep")?, advance, rise, scores, waits];
     let title = "From one gap to many: nucleation and growth";
-    Ok(sheet.finish_own(4, title, description(seeds, sweep, map), files))
+    Ok(sheet.finish_own(4, title, description(rise, waits), files.map(DataFile::of).into()))
 }
 
-/// The prediction for the transient of the main sweep.
-fn of_sweep<'a>(seeds: &'a Seeds, sweep: &Sweep) -> Option<&'a Prediction> {
-    let protocol = sweep.parameters.protocol;
-    let same =
-        |own: &&Prediction| own.transient == protocol.transient && own.window == protocol.window;
-    seeds.predictions.iter().find(same)
-}
-
-fn counts(sheet: &Sheet, seeds: &Seeds, sweep: &Sweep) -> Result<(), Error> {
+fn counts(sheet: &Sheet, means: &Table, sweep: &Sweep) -> Result<(), Error> {
     let panel = sheet.panel(
         Frame::new(1150, 430, 8150, 3730),
         Axis::linear(SIGMAS.0, SIGMAS.1, 0.01, 2, "standard deviation *σ* of the forcing"),
         Axis::linear(0.0, 105.0, 20.0, 2, "mean count of all"),
     )?;
     panel.letter(LETTERS[0])?;
-    let against = |ys: &mut dyn Iterator<Item = f64>| -> Vec<(f64, f64)> {
-        seeds.rows.iter().map(|row| row.sigma).zip(ys).collect()
-    };
-    let grown =
-        of_sweep(seeds, sweep).into_iter().flat_map(|own| own.means.iter().map(|own| own.value));
+    let transient = [("transient", sweep.parameters.protocol.transient)];
     let lines = [
-        ("nucleation and growth", against(&mut { grown }), Stroke::solid(INK, LINE)),
-        (
-            "circuits, Eq. (25)",
-            against(&mut seeds.rows.iter().map(|row| row.graph[0])),
-            Stroke::dashed(BLUE, LINE, Dash::Short),
-        ),
-        (
-            "circuits, from rest",
-            against(&mut seeds.rows.iter().map(|row| row.graph[1])),
-            Stroke::dashed(PURPLE, LINE, Dash::Long),
-        ),
+        ("nucleation and growth", "grown", Stroke::solid(INK, LINE)),
+        ("circuits, Eq. (25)", "eq25", Stroke::dashed(BLUE, LINE, Dash::Short)),
+        ("circuits, from rest", "from_rest", Stroke::dashed(PURPLE, LINE, Dash::Long)),
     ];
     let mut entries = Vec::new();
-    for (name, points, stroke) in lines {
+    for (name, column, stroke) in lines {
+        let points = means.points(&transient, "sigma", column);
         panel.curve(name, &points, stroke, Outside::Refuse)?;
         entries.push(Entry::line(stroke, name));
     }
@@ -88,19 +69,11 @@ fn counts(sheet: &Sheet, seeds: &Seeds, sweep: &Sweep) -> Result<(), Error> {
     sheet.legend((1400, 700), (SMALL, 370), &entries)
 }
 
-/// The rows at some σ: the lowest, the highest, and two between.
-fn chosen(seeds: &Seeds) -> impl Iterator<Item = &Spread> {
-    let last = seeds.rows.len().saturating_sub(1);
-    [0, last / 3, 2 * last / 3, last].into_iter().filter_map(|i| seeds.rows.get(i))
+fn named(sigma: f64) -> String {
+    format!("*σ* = {sigma}")
 }
 
-/// (t, advance) from the first bin on.
-fn advance(seeds: &Seeds, row: &Spread) -> impl Iterator<Item = (f64, f64)> {
-    let bin = seeds.parameters.bin;
-    row.advance.clone().into_iter().enumerate().skip(1).map(move |(i, own)| (i as f64 * bin, own))
-}
-
-fn advances(sheet: &Sheet, seeds: &Seeds) -> Result<(), Error> {
+fn advances(sheet: &Sheet, advance: &Table) -> Result<(), Error> {
     let panel = sheet.panel(
         Frame::new(1150, 5250, 4050, 7650),
         Axis::decades(1, 4, 1, "time since the first impact"),
@@ -108,13 +81,12 @@ fn advances(sheet: &Sheet, seeds: &Seeds) -> Result<(), Error> {
     )?;
     panel.letter(LETTERS[1])?;
     let mut entries = Vec::new();
-    for (row, colour) in chosen(seeds).zip(SPREADS) {
-        let points: Vec<_> = advance(seeds, row)
-            .filter(|(_, own)| *own > 0.0)
-            .map(|(time, own)| (log(time), log(own)))
-            .collect();
+    for (sigma, colour) in spread(&advance.values("sigma")).zip(SPREADS) {
+        let points = advance.points(&[("sigma", *sigma)], "time", "advance");
+        let points = points.into_iter().filter(|(_, own)| *own > 0.0);
+        let points: Vec<_> = points.map(|(time, own)| (log(time), log(own))).collect();
         let stroke = Stroke::solid(colour, LINE);
-        let name = format!("*σ* = {}", row.sigma);
+        let name = named(*sigma);
         panel.curve(&name, &points, stroke, Outside::Cut)?;
         entries.push(Entry::line(stroke, &name));
     }
@@ -127,22 +99,7 @@ fn advances(sheet: &Sheet, seeds: &Seeds) -> Result<(), Error> {
     Ok(())
 }
 
-/// (T, predicted, simulated half height) for each transient.
-fn both(
-    seeds: &Seeds,
-    map: &ProtocolMap,
-) -> impl Iterator<Item = (f64, Option<f64>, Option<[f64; 2]>)> {
-    seeds.predictions.iter().map(|own| {
-        let cell = map
-            .cells
-            .iter()
-            .find(|cell| cell.transient == own.transient && cell.window == own.window);
-        let half = cell.and_then(|cell| cell.half_height_all).map(|half| [half.value, half.error]);
-        (own.transient, own.half_height.map(|half| half.value), half)
-    })
-}
-
-fn halves(sheet: &Sheet, seeds: &Seeds, map: &ProtocolMap) -> Result<(), Error> {
+fn halves(sheet: &Sheet, rise: &Table, scores: &Table) -> Result<(), Error> {
     let panel = sheet.panel(
         Frame::new(5350, 5250, 8150, 7650),
         Axis::decades(1, 4, 1, "transient *T*"),
@@ -151,18 +108,20 @@ fn halves(sheet: &Sheet, seeds: &Seeds, map: &ProtocolMap) -> Result<(), Error> 
     panel.letter(LETTERS[2])?;
     let inside = |height: f64| height.clamp(panel.y.lo, panel.y.hi);
     let line = Stroke::solid(INK, LINE);
-    let grown: Vec<_> =
-        both(seeds, map).filter_map(|(time, own, _)| Some((log(time), inside(own?)))).collect();
+    let grown = rise.points(&[], "transient", "half_height");
+    let grown: Vec<_> = grown.iter().map(|(time, own)| (log(*time), inside(*own))).collect();
     panel.curve("nucleation and growth", &grown, line, Outside::Refuse)?;
     let look = (Mark::Disc, SIZE, Stroke::solid(RED, THIN));
-    let found: Vec<_> =
-        both(seeds, map).filter_map(|(time, _, half)| Some((log(time), half?))).collect();
+    let found = scores.estimates(&[], "transient", "half_height");
     let bars: Vec<_> = found
         .iter()
-        .map(|(x, [half, error])| (*x, inside(half - error), inside(half + error)))
+        .map(|(time, half)| {
+            (log(*time), inside(half.value - half.error), inside(half.value + half.error))
+        })
         .collect();
     panel.bars("simulation", &bars, 35, look.2)?;
-    let points: Vec<_> = found.iter().map(|(x, [half, _])| (*x, inside(*half))).collect();
+    let points: Vec<_> =
+        found.iter().map(|(time, half)| (log(*time), inside(half.value))).collect();
     panel.marks("simulation", &points, look, Outside::Refuse)?;
     let entries = [
         Entry::line(line, "nucleation and growth"),
@@ -171,20 +130,15 @@ fn halves(sheet: &Sheet, seeds: &Seeds, map: &ProtocolMap) -> Result<(), Error> 
     sheet.legend((4850, 8650), (SMALL, 370), &entries)
 }
 
-/// The rows of (d), those of (b), with their waits.
-fn waiting(seeds: &Seeds) -> impl Iterator<Item = (&Fronts, &Waits)> {
-    let both = || seeds.fronts.iter().zip(&seeds.waits);
-    chosen(seeds).filter_map(move |row| both().find(|(own, _)| own.sigma == row.sigma))
+/// (t, share that stands longer) at each tick from the first on: it falls where waits end, and is level between.
+fn longer(waits: &Table, sigma: f64, tick: f64) -> Vec<(f64, f64)> {
+    let known = waits.points(&[("sigma", sigma)], "time", "longer");
+    let last = known.last().map_or(0, |(time, _)| (time / tick).round() as u32);
+    let at = |time: f64| known.iter().rev().find(|(own, _)| *own <= time).map_or(1.0, |own| own.1);
+    (1..=last).map(|ticks| f64::from(ticks) * tick).map(|time| (time, at(time))).collect()
 }
 
-/// (t, share that stands longer) from the first tick on.
-fn standing(seeds: &Seeds, tally: &Waits) -> impl Iterator<Item = (f64, f64)> {
-    let tick = seeds.parameters.tick;
-    let shares = tally.lasting().into_iter().enumerate().skip(1);
-    shares.map(move |(ticks, share)| (ticks as f64 * tick, share))
-}
-
-fn waits(sheet: &Sheet, seeds: &Seeds) -> Result<(), Error> {
+fn standing(sheet: &Sheet, waits: &Table, fronts: &Table, tick: f64) -> Result<(), Error> {
     let panel = sheet.panel(
         Frame::new(1150, 10150, 8150, 12250),
         Axis::decades(0, 3, 1, "time *t* for which a front stands"),
@@ -192,19 +146,19 @@ fn waits(sheet: &Sheet, seeds: &Seeds) -> Result<(), Error> {
     )?;
     panel.letter(LETTERS[3])?;
     let mut entries = Vec::new();
-    for ((own, tally), colour) in waiting(seeds).zip(SPREADS) {
-        let shares = standing(seeds, tally).filter(|(_, share)| *share > 0.0);
+    for (sigma, colour) in waits.values("sigma").into_iter().zip(SPREADS) {
+        let shares = longer(waits, sigma, tick).into_iter().filter(|(_, share)| *share > 0.0);
         let points: Vec<_> = shares.map(|(time, share)| (log(time), log(share))).collect();
         let stroke = Stroke::solid(colour, LINE);
-        let name = format!("*σ* = {}", own.sigma);
+        let name = named(sigma);
         panel.curve(&name, &points, stroke, Outside::Cut)?;
         entries.push(Entry::line(stroke, &name));
     }
     // The first row, were every wait to end at the same rate.
-    if let Some(speed) = seeds.fronts.first().and_then(|own| own.speed) {
+    if let Some((_, speed)) = fronts.points(&[], "sigma", "speed").first() {
         let decay = |step: u32| {
             let time = pxfm::f_exp10(f64::from(step) / 40.0);
-            (log(time), -speed.value * time * std::f64::consts::LOG10_E)
+            (log(time), -speed * time * std::f64::consts::LOG10_E)
         };
         let even = Stroke::dashed(SPREADS[0], THIN, Dash::Short);
         let points: Vec<_> = (0..=120).map(decay).collect();
@@ -214,105 +168,14 @@ fn waits(sheet: &Sheet, seeds: &Seeds) -> Result<(), Error> {
     sheet.legend((1400, 10900), (SMALL, 270), &entries)
 }
 
-fn description(seeds: &Seeds, sweep: &Sweep, map: &ProtocolMap) -> String {
-    let means: Vec<String> = of_sweep(seeds, sweep)
-        .into_iter()
-        .flat_map(|own| own.means.iter().zip(&seeds.rows))
-        .map(|(mean, row)| {
-            let ran = sweep.rows.iter().find(|own| own.sigma == row.sigma);
-            let ran = ran.and_then(|own| own.mean_all);
-            let ran = ran.map_or("none".into(), |own| short(own, 3));
-            format!("{} for {ran} at σ = {}", short(mean.value, 3), row.sigma)
-        })
-        .collect();
-    let advances: Vec<String> = chosen(seeds)
-        .filter_map(|row| Some((row, advance(seeds, row).last()?)))
-        .map(|(row, (time, own))| format!("{} by t = {time} at σ = {}", short(own, 3), row.sigma))
-        .collect();
-    let halves: Vec<String> = both(seeds, map)
-        .map(|(time, own, half)| {
-            let told = |value: Option<f64>| value.map_or("none".into(), |own| short(own, 3));
-            format!("{} for {} at T = {time}", told(own), told(half.map(|half| half[0])))
-        })
-        .collect();
-    let window = seeds.parameters.window_ticks();
-    let standing: Vec<String> = waiting(seeds)
-        .filter_map(|(own, tally)| Some((own, *tally.lasting().get(window)?)))
-        .map(|(own, share)| format!("{} at σ = {}", short(share, 2), own.sigma))
-        .collect();
+fn description(rise: &Table, waits: &Table) -> String {
+    let told = |(time, own): (f64, f64)| format!("{} at T = {time}", short(own, 3));
+    let halves = rise.points(&[], "transient", "half_height").into_iter().map(told);
     format!(
-        "(a) Mean count of all chains against σ: simulated points rise along the curve that nucleation and \
-         growth predict, {}; the curves of the graph theory rise steeply, at half height one on each side of it. (b) Mean advance of \
-         a front against time, on logarithmic axes: curves that rise more slowly than a constant speed would, \
-         the more so the smaller σ, to {}. (c) Half height against the transient, a falling curve with \
-         simulated points near it: {}. (d) Share of waits of a front that are longer than a time, \
-         on logarithmic axes: falling curves, the lower the larger σ, that start below the curve of a constant rate and end above it; \
-         longer than {} time units are {}.",
-        means.join(", "),
-        advances.join(", "),
-        halves.join(", "),
-        window as f64 * seeds.parameters.tick,
-        standing.join(", ")
+        "(a) Mean count of all against σ: simulated points along the curve of nucleation and growth; those of circuits are \
+         steeper, one on each side. (b) Advance against time: slower than ∝ t, the more so the smaller σ. (c) Half height, \
+         falling with T: {}. (d) Share of longer waits: first below a constant rate, then above it, from σ = {} down.",
+        halves.collect::<Vec<_>>().join(", "),
+        waits.values("sigma").first().copied().unwrap_or_default(),
     )
-}
-
-fn tables(seeds: &Seeds, sweep: &Sweep, map: &ProtocolMap) -> Vec<DataFile> {
-    let mut means = DataFile::new(
-        "s04.csv",
-        &[
-            "sigma (d omega^2)",
-            "transient (1/omega)",
-            "predicted_mean (1)",
-            "graph_mean_25 (1)",
-            "graph_mean_rest (1)",
-            "simulated_mean (1)",
-        ],
-    );
-    for own in &seeds.predictions {
-        let same = of_sweep(seeds, sweep).is_some_and(|other| other.transient == own.transient);
-        for (row, mean) in seeds.rows.iter().zip(&own.means) {
-            let ran = sweep.rows.iter().find(|own| own.sigma == row.sigma).filter(|_| same);
-            let ran = ran.and_then(|own| own.mean_all);
-            means.row(cells![
-                row.sigma,
-                own.transient,
-                mean.value,
-                row.graph[0],
-                row.graph[1],
-                ran
-            ]);
-        }
-    }
-    let mut advances =
-        DataFile::new("s04b.csv", &["sigma (d omega^2)", "time (1/omega)", "advance (d)"]);
-    for row in &seeds.rows {
-        advance(seeds, row).for_each(|(time, own)| advances.row(cells![row.sigma, time, own]));
-    }
-    let mut halves = DataFile::new(
-        "s04c.csv",
-        &[
-            "transient (1/omega)",
-            "predicted_half_height (d omega^2)",
-            "simulated_half_height (d omega^2)",
-            "standard_error (d omega^2)",
-        ],
-    );
-    for (time, own, half) in both(seeds, map) {
-        halves.row(cells![time, own, half.map(|half| half[0]), half.map(|half| half[1])]);
-    }
-    let mut waits = DataFile::new(
-        "s04d.csv",
-        &["sigma (d omega^2)", "time (1/omega)", "ended (1)", "cut off (1)", "share longer (1)"],
-    );
-    for (own, tally) in seeds.fronts.iter().zip(&seeds.waits) {
-        let shares = tally.lasting();
-        for (ticks, share) in shares.into_iter().enumerate() {
-            let [ended, cut] = [tally.ended[ticks], tally.cut[ticks]];
-            if ended + cut > 0 {
-                let time = ticks as f64 * seeds.parameters.tick;
-                waits.row(cells![own.sigma, time, ended, cut, share]);
-            }
-        }
-    }
-    vec![means, advances, halves, waits]
 }

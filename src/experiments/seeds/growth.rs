@@ -11,40 +11,43 @@
 //! R(l, t) the share that is hit within t.
 
 use super::ByDistance;
-use crate::circuits;
-use crate::circuits::distribution::{Law, SampleSpace};
 use crate::circuits::nucleation::reach::Reach;
-use crate::experiments::estimates::{jackknife, left_out};
+use crate::experiments::estimates::jackknife;
 use crate::numerics::statistics::{Estimate, last_rise};
-use crate::params::{Chain, SeedsParams};
-use serde::{Deserialize, Serialize};
-
-/// Mean counts after one transient.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Prediction {
-    /// Transient T.
-    pub transient: f64,
-    /// Window W.
-    pub window: f64,
-    /// The mean count, for each σ.
-    pub means: Vec<Estimate>,
-    /// The mean count by the graph theory, for each σ, with p the chance of a gap between masses to have
-    /// closed by itself when the window ends.
-    pub graph: Vec<f64>,
-    /// The σ at which it passes half of all gaps, if it does.
-    pub half_height: Option<Estimate>,
-}
+use crate::params::SeedsParams;
 
 /// Angles at which the reach of a gap is computed.
 const ANGLES: usize = 256;
 
-/// Shares by distance; a distance that no gap has counts for nothing.
-pub fn shares<'a>(own: &'a [u64], of: &'a [u64]) -> impl Iterator<Item = f64> + 'a {
-    own.iter().zip(of).map(|(own, all)| if *all > 0 { *own as f64 / *all as f64 } else { 0.0 })
+/// Groups of runs, each of which is left out in turn for the errors of what all say together.
+pub(super) const GROUPS: usize = 8;
+
+/// Mean counts after one transient.
+pub(super) struct Prediction {
+    /// The transient, in bins.
+    pub transient: usize,
+    /// Without each group in turn, and last with all of them, for each σ.
+    means: Vec<Vec<f64>>,
+}
+
+impl Prediction {
+    /// The mean count at the σ of that place.
+    pub fn mean(&self, sigma: usize) -> Option<Estimate> {
+        jackknife(GROUPS, |out| Some(self.means[out.unwrap_or(GROUPS)][sigma]))
+    }
+
+    /// The σ at which it passes half of all gaps, if it does.
+    pub fn half_height(&self, parameters: &SeedsParams) -> Option<Estimate> {
+        let half = 0.5 * parameters.chain.gaps() as f64;
+        jackknife(GROUPS, |out| {
+            let means = self.means[out.unwrap_or(GROUPS)].iter().copied().map(Some);
+            last_rise(&parameters.sigmas, &means.collect::<Vec<_>>(), half)
+        })
+    }
 }
 
 /// For each σ the chances that a gap at a wall, and any other, closes by itself in each bin.
-pub fn closing(parameters: &SeedsParams) -> Vec<[Vec<f64>; 2]> {
+pub(super) fn closing(parameters: &SeedsParams) -> Vec<[Vec<f64>; 2]> {
     let edges: Vec<f64> = (1..=parameters.bins).map(|bin| bin as f64 * parameters.bin).collect();
     let reaches = Reach::within(&parameters.chain, &edges, ANGLES);
     let by = |variance: f64| {
@@ -56,51 +59,20 @@ pub fn closing(parameters: &SeedsParams) -> Vec<[Vec<f64>; 2]> {
     parameters.sigmas.iter().map(of).collect()
 }
 
-/// The mean count of a chain by the graph theory.
-pub fn circuits(chain: &Chain, p: f64) -> Result<f64, circuits::Error> {
-    Ok(Law::new(SampleSpace::Simple, chain.gaps(), p)?.mean())
-}
-
-/// The predictions of all transients, from what was seen at each σ by some groups of runs.
-pub fn predictions(
+/// The predictions of all transients, from what groups of runs saw at each σ.
+pub(super) fn predictions(
     parameters: &SeedsParams,
     closing: &[[Vec<f64>; 2]],
     seen: &[Vec<ByDistance>],
-) -> Result<Vec<Prediction>, circuits::Error> {
-    let groups = seen.first().map_or(0, Vec::len);
-    let all: Vec<ByDistance> = seen.iter().map(|own| ByDistance::sum(own, groups)).collect();
-    let without: Vec<Vec<ByDistance>> = (0..groups)
-        .map(|left| seen.iter().map(|own| ByDistance::sum(own, left)).collect())
-        .collect();
-    let half = 0.5 * parameters.chain.gaps() as f64;
-    let of = |transient: &usize| {
-        let means = |seen: &Vec<ByDistance>| -> Vec<f64> {
+) -> Vec<Prediction> {
+    let sum = |left| seen.iter().map(|own| ByDistance::sum(own, left)).collect();
+    let sums: Vec<Vec<ByDistance>> = (0..=GROUPS).map(sum).collect();
+    let of = |&transient: &usize| {
+        let means = |seen: &Vec<ByDistance>| {
             let both = closing.iter().zip(seen);
-            both.map(|(own, seen)| expected(parameters, own, seen, *transient)).collect()
+            both.map(|(own, seen)| expected(parameters, own, seen, transient)).collect()
         };
-        let value = means(&all);
-        let others: Vec<Vec<f64>> = without.iter().map(means).collect();
-        let at = |i: usize| {
-            let others: Vec<f64> = others.iter().map(|means| means[i]).collect();
-            left_out(value[i], &others)
-        };
-        let crossing = |means: &Vec<f64>| {
-            let means: Vec<Option<f64>> = means.iter().copied().map(Some).collect();
-            last_rise(&parameters.sigmas, &means, half)
-        };
-        let crossings =
-            |out: Option<usize>| out.map_or_else(|| crossing(&value), |i| crossing(&others[i]));
-        let graph = |[_, inner]: &[Vec<f64>; 2]| {
-            let by_then = inner.iter().take(transient + parameters.window);
-            circuits(&parameters.chain, by_then.sum())
-        };
-        Ok(Prediction {
-            transient: *transient as f64 * parameters.bin,
-            window: parameters.window as f64 * parameters.bin,
-            half_height: jackknife(groups, crossings),
-            means: (0..value.len()).filter_map(at).collect(),
-            graph: closing.iter().map(graph).collect::<Result<_, _>>()?,
-        })
+        Prediction { transient, means: sums.iter().map(means).collect() }
     };
     parameters.transients.iter().map(of).collect()
 }
@@ -117,7 +89,7 @@ fn expected(
     let sends = |closing: &[f64]| -> Vec<f64> {
         let mut all = vec![0.0; gaps];
         let mut add = |chance: f64, own: &[u64]| {
-            for (sum, share) in all.iter_mut().zip(shares(own, &seen.places)) {
+            for (sum, share) in all.iter_mut().zip(seen.shares(own)) {
                 *sum += 0.5 * chance * share;
             }
         };
@@ -164,7 +136,6 @@ mod tests {
             places: vec![4, 8, 4],
             reached: vec![vec![0, 0, 0], vec![4, 0, 0], vec![4, 0, 0], vec![4, 0, 0]],
             active: vec![vec![4, 0, 0], vec![4, 0, 0], vec![0, 0, 0]],
-            alive: vec![4, 4, 0],
         };
         // Walls close in the first bin, the gap between in the second.
         let closing = [vec![0.5, 0.0, 0.0], vec![0.0, 0.25, 0.0]];
@@ -177,14 +148,59 @@ mod tests {
     #[test]
     fn a_seed_that_reaches_everything_fills_the_chain() {
         let full = |n: u64| vec![n; 3];
-        let seen = ByDistance {
-            places: full(5),
-            reached: vec![full(5); 4],
-            active: vec![full(5); 3],
-            alive: full(5),
-        };
+        let seen =
+            ByDistance { places: full(5), reached: vec![full(5); 4], active: vec![full(5); 3] };
         let closing = [vec![0.1, 0.0, 0.0], vec![0.2, 0.0, 0.0]];
         let found = expected(&parameters(), &closing, &seen, 2);
         assert!((found - 3.0 * (1.0 - 0.9 * 0.9 * 0.8)).abs() < 1e-12, "{found}");
+    }
+
+    /// Gap by gap and seed by seed, with products as sums of logarithms and walls as what they change.
+    #[test]
+    fn the_mean_count_by_logarithms() {
+        let mut parameters = SeedsParams::new(Profile::Quick);
+        parameters.chain.masses = 8;
+        (parameters.bins, parameters.window, parameters.sigmas) = (4, 2, vec![0.12]);
+        let gaps = parameters.chain.gaps();
+        let fall = |scale: u64| (0..9).map(|l| scale * (9 - l) / 9).collect::<Vec<u64>>();
+        let seen = ByDistance {
+            places: vec![40, 70, 60, 50, 40, 30, 20, 10, 5],
+            reached: [0, 10, 9, 8, 9].map(fall).into(),
+            active: [7, 6, 5].map(fall).into(),
+        };
+        let closing = [vec![0.02, 0.01, 0.0, 0.01], vec![0.05, 0.02, 0.01, 0.03]];
+        let (transient, window) = (1, 2);
+        let logs = closing.each_ref().map(|closing| -> Vec<f64> {
+            let sends = |l: usize| {
+                let of = |since: usize| match transient >= since {
+                    true => seen.active[transient - since][l],
+                    false => seen.reached[transient + window - since][l],
+                };
+                let bins = closing.iter().enumerate().take(transient + window);
+                let hits: f64 = bins.map(|(bin, p)| p * (of(bin) + of(bin + 1)) as f64).sum();
+                hits / (2.0 * seen.places[l] as f64)
+            };
+            (0..gaps).map(|l| pxfm::f_log1p(-sends(l))).collect()
+        });
+        let silent = |x: usize| {
+            let all: f64 = (0..gaps).map(|y| logs[1][x.abs_diff(y)]).sum();
+            let wall = |l: usize| logs[0][l] - logs[1][l];
+            pxfm::f_exp(all + wall(x) + wall(gaps - 1 - x))
+        };
+        let mean = gaps as f64 - (0..gaps).map(silent).sum::<f64>();
+        let found = expected(&parameters, &closing, &seen, transient);
+        assert!((found - mean).abs() < 1e-12 && mean > 0.5, "{found} {mean}");
+    }
+
+    /// By the last bin nearly as many gaps have closed as ever will, by the integral for a start from rest.
+    #[test]
+    fn bins_add_up_to_unlimited_time() {
+        use crate::circuits::impact_probability::ImpactProbability;
+        let parameters = SeedsParams::new(Profile::Quick);
+        for (sigma, [_, inner]) in parameters.sigmas.iter().zip(closing(&parameters)) {
+            let law = ImpactProbability::of_paper(*sigma).unwrap();
+            let share = inner.iter().sum::<f64>() / law.p_from_rest().unwrap();
+            assert!((0.99..1.0 + 1e-9).contains(&share), "{sigma}: {share}");
+        }
     }
 }

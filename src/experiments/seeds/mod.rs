@@ -3,20 +3,18 @@
 //!
 //! - [`run`](mod@run): chains with exactly one such gap, and where impacts get from there.
 //! - [`counting`]: their impacts by distance, and how far they spread.
-//! - [`course`]: what is active, reached and alive as time goes on.
 //! - [`fronts`]: how long fronts stand, and which gaps hold them.
 //! - [`growth`]: what follows for a chain with as many of them as chance gives it.
+//! - [`tables`]: the numbers of all this, and [`compared`]: beside the main sweep and the map of the protocol.
 
+pub mod compared;
 pub mod counting;
-pub mod course;
 pub mod fronts;
 pub mod growth;
 pub mod run;
+pub mod tables;
 
-pub use counting::{ByDistance, Spread};
-pub use course::Moment;
-pub use fronts::{Fronts, Waits};
-pub use growth::Prediction;
+pub use counting::ByDistance;
 pub use run::{CUTTING, Part, Trace};
 
 use crate::params::SeedsParams;
@@ -27,16 +25,6 @@ use serde::{Deserialize, Serialize};
 pub struct Seeds {
     /// What was run.
     pub parameters: SeedsParams,
-    /// For each σ the chances that a gap at a wall, and any other, closes by itself in each bin.
-    pub closing: Vec<[Vec<f64>; 2]>,
-    /// The raw counts, for each σ.
-    pub seen: Vec<ByDistance>,
-    /// What they say, for each σ.
-    pub rows: Vec<Spread>,
-    /// The waits of fronts and the obstacles that they met, for each σ.
-    pub waits: Vec<Waits>,
-    /// What these say, for each σ.
-    pub fronts: Vec<Fronts>,
-    /// The mean counts that follow, for each transient T.
-    pub predictions: Vec<Prediction>,
+    /// For each σ its runs.
+    pub rows: Vec<Part>,
 }

@@ -1,7 +1,6 @@
 //! Runs of chains in which exactly one gap closes by itself.
 
-use super::counting::{count, refused, spread};
-use super::{ByDistance, Seeds, Waits, fronts, growth};
+use super::{Seeds, fronts};
 use crate::circuits::nucleation::reach::closes_by_itself;
 use crate::dynamics::{self, Engine, Initial, Scenario};
 use crate::experiments::cutting::{Cutting, Row, Unit};
@@ -182,40 +181,19 @@ fn outwards(parameters: &SeedsParams, seed: usize, firsts: &[Option<u32>]) -> bo
         && (seed + 1..firsts.len()).all(|gap| tick(gap - 1) <= tick(gap))
 }
 
-/// Groups of runs, each of which is left out in turn for the errors of what all say together.
-const GROUPS: usize = 8;
-
-pub(crate) fn join(
-    parameters: &SeedsParams,
-    parts: Vec<Vec<Part>>,
-    progress: &Progress,
-) -> Result<Seeds, Error> {
-    let (mut seen, mut rows) = (Vec::new(), Vec::new());
-    let (mut waits, mut advances) = (Vec::new(), Vec::new());
-    for (sigma, parts) in parameters.sigmas.iter().zip(parts) {
-        progress.check()?;
-        let traces = parts.concat();
-        let at = |group: usize| group * traces.len() / GROUPS;
-        let groups = (0..GROUPS).map(|group| count(parameters, &traces[at(group)..at(group + 1)]));
-        let groups: Vec<ByDistance> = groups.collect();
-        rows.push(spread(parameters, *sigma, &traces, &ByDistance::sum(&groups, GROUPS))?);
-        seen.push(groups);
-        let tallies = fronts::tallies(parameters, &traces);
-        advances.push(fronts::fronts(parameters, *sigma, &tallies));
-        waits.push(Waits::sum(parameters, &tallies));
-    }
-    let closing = growth::closing(parameters);
-    let predictions = growth::predictions(parameters, &closing, &seen).map_err(refused)?;
-    let seen = seen.iter().map(|groups| ByDistance::sum(groups, GROUPS)).collect();
-    let parameters = parameters.clone();
-    Ok(Seeds { parameters, closing, seen, rows, waits, fronts: advances, predictions })
+fn join(parameters: &SeedsParams, parts: Vec<Vec<Part>>, _: &Progress) -> Result<Seeds, Error> {
+    let rows = parts.into_iter().map(|parts| parts.concat()).collect();
+    Ok(Seeds { parameters: parameters.clone(), rows })
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::counting::ran;
+    use super::super::fronts::Waits;
+    use super::super::tables::tables;
     use super::*;
-    use crate::experiments::nucleation::differences;
     use crate::params::Profile;
+    use crate::table::Table;
 
     fn small() -> SeedsParams {
         let mut parameters = SeedsParams::new(Profile::Quick);
@@ -278,25 +256,34 @@ mod tests {
     fn impacts_spread_from_the_seed_and_the_prediction_knows_its_limits() {
         let parameters = small();
         let found = CUTTING.run(&parameters, "test", &Progress::silent()).unwrap();
-        for (row, seen) in found.rows.iter().zip(&found.seen) {
-            assert_eq!(row.seeds + row.late + row.failed, 60);
-            assert!(row.spreads.iter().all(|gaps| (1..=21).contains(gaps)), "{row:?}");
-            assert!(row.advance.windows(2).all(|pair| pair[0] <= pair[1]), "{row:?}");
-            assert_eq!(seen.reached[1][0], row.seeds);
+        let tables = tables(&found);
+        let table = |name: &str| tables.iter().find(|table| table.name() == name).unwrap();
+        let at = |table: &Table, sigma: f64, key: (&'static str, f64), column| {
+            table.number(&[("sigma", sigma), key], column).unwrap()
+        };
+        let (course, advance, means) =
+            (table("seeds.course"), table("seeds.advance"), table("seeds.means"));
+        for (sigma, part) in [0.1, 0.14].into_iter().zip(&found.rows) {
+            assert_eq!(part.len(), 60);
+            let runs: Vec<(usize, &Trace)> = ran(part).collect();
+            let reached = |trace: &Trace| trace.hits.iter().filter(|own| **own != 0).count();
+            let all: usize = runs.iter().map(|(_, trace)| reached(trace)).sum();
+            let mean = all as f64 / runs.len() as f64;
+            assert!((at(course, sigma, ("until", 120.0), "reached") - mean).abs() < 1e-12);
+            let advances = advance.points(&[("sigma", sigma)], "time", "advance");
+            assert!(advances.len() == 12 && advances.is_sorted_by(|a, b| a.1 <= b.1));
+            // Each gap that was reached, but for the seed, is a step of a front, and each wait has an end.
+            let waits: Vec<Waits> = runs.iter().map(|run| Waits::of(&parameters, *run)).collect();
+            assert_eq!(waits.iter().map(Waits::steps).sum::<u64>(), (all - runs.len()) as u64);
+            assert!(waits.iter().all(|own| own.cut.len() as u64 <= own.fronts && own.fronts <= 2));
         }
-        // Each gap that was reached, but for the seed, is a step of a front, and each wait has an end.
-        for (row, waits) in found.rows.iter().zip(&found.waits) {
-            let [steps, cut] = [&waits.ended, &waits.cut].map(|own| own.iter().sum::<u64>());
-            assert_eq!(steps, row.spreads.iter().sum::<u64>() - row.seeds);
-            assert!(cut <= waits.fronts && waits.fronts <= 2 * row.seeds);
-        }
-        let [low, high] = &found.rows[..] else { panic!() };
-        assert!(high.spread.unwrap().value > low.spread.unwrap().value);
-        // Without a transient all that is reached counts: later windows see more of the spreading, and
-        // no count exceeds the gaps.
-        for prediction in &found.predictions {
-            let means: Vec<f64> = prediction.means.iter().map(|own| own.value).collect();
-            assert!(0.0 < means[0] && means[0] < means[1] && means[1] <= 21.0, "{means:?}");
+        let [low, high] = [0.1, 0.14].map(|sigma| at(course, sigma, ("until", 120.0), "reached"));
+        assert!(high > low);
+        // Later windows see more of the spreading, and no count exceeds the gaps.
+        for transient in [0.0, 40.0, 90.0] {
+            let mean = |sigma| at(means, sigma, ("transient", transient), "grown");
+            let [low, high] = [0.1, 0.14].map(mean);
+            assert!(0.0 < low && low < high && high <= 21.0, "{low} {high}");
         }
     }
 }

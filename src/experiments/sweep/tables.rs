@@ -32,7 +32,7 @@ pub fn of_second_seed(sweep: &Sweep) -> Vec<Table> {
 }
 
 /// What follows from both.
-pub fn of_both(results: &Results) -> Option<Vec<Table>> {
+pub fn of_both(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
     let (first, second) = results.sweep().ok().zip(results.second_seed().ok())?;
     let found = largest_between_seeds(first, second);
     let table = Table::of("second_seed.beside_first", &[()], |()| 0)

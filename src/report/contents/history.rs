@@ -86,7 +86,7 @@ pub fn table(results: &Results) -> Result<Vec<Line>, Error> {
     let halves =
         transients.iter().map(|transient| mark(format!("history.half_{}", after(*transient))));
     let halves = Line {
-        cells: [r"$\sigma_{1/2}$".to_string(), mark("growth_half_found")]
+        cells: [r"$\sigma_{1/2}$".to_string(), mark("sweep.rise.half_height_all")]
             .into_iter()
             .chain(halves)
             .collect(),

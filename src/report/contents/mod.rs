@@ -3,15 +3,13 @@
 //! A value is computed here from results and carries the path of the function that computed it, which the
 //! compiler gives ([`super::values::origin`]). Groups
 //! are `v` (ours), `paper` (numbers that the paper chose), `printed` (numbers in its statements), and
-//! one for the cells of each table: `readings`, `compare`, `protocol`, `protocols`, `long`, `nucleation`, `spread`, `course`, `fronts`, `growth`,
-//! `scores`, `history`, `independence`, `orbits`, `chains`, `sizes`, `starts`, `bias` and `carried`.
+//! one for the cells of each table: `readings`, `compare`, `protocol`, `protocols`, `long`, `nucleation`,
+//! `history`, `independence`, `orbits`, `chains`, `sizes`, `starts`, `bias` and `carried`.
 
 mod accuracy;
 mod carried;
 mod chains;
 mod comparison;
-mod fronts;
-mod growth;
 mod higher;
 mod history;
 mod independence;
@@ -23,7 +21,6 @@ mod orbits;
 mod paper;
 mod protocol;
 mod protocols;
-mod scores;
 mod sizes;
 mod spacetime;
 mod starts;
@@ -62,7 +59,7 @@ pub enum Error {
 pub type Section = fn(&Results) -> Result<Vec<Value>, Error>;
 
 /// All values but what the paper printed, in the order of the report.
-pub const SECTIONS: [Section; 21] = [
+pub const SECTIONS: [Section; 18] = [
     theory::values,
     comparison::values,
     higher::values,
@@ -74,9 +71,6 @@ pub const SECTIONS: [Section; 21] = [
     accuracy::values,
     long::values,
     nucleation::values,
-    growth::values,
-    fronts::values,
-    scores::values,
     history::values,
     independence::values,
     orbits::values,
@@ -127,17 +121,11 @@ pub fn rows(
         ("long_windows", serde_json::to_value(long::windows(results)?)?),
         ("long_table", serde_json::to_value(long::table(results)?)?),
         ("nucleation_table", serde_json::to_value(nucleation::table(results)?)?),
-        ("spread_table", serde_json::to_value(growth::spreads(results)?)?),
-        ("course_table", serde_json::to_value(fronts::courses(results)?)?),
-        ("fronts_table", serde_json::to_value(fronts::speeds(results)?)?),
-        ("obstacles_table", serde_json::to_value(fronts::obstacles(results)?)?),
-        ("growth_table", serde_json::to_value(growth::halves(results)?)?),
         ("distance_heads", serde_json::to_value(large::distance_heads(results))?),
         ("distance_table", serde_json::to_value(large::distance_table(results))?),
         ("order_table", serde_json::to_value(large::order_table(results))?),
         ("history_times", serde_json::to_value(history::times(results)?)?),
         ("history_table", serde_json::to_value(history::table(results)?)?),
-        ("scores_table", serde_json::to_value(scores::table(results)?)?),
         ("independence_table", serde_json::to_value(independence::table(results)?)?),
         ("orbits_table", serde_json::to_value(orbits::table(results)?)?),
         ("orbits_fig6", serde_json::to_value(orbits::fig6(results)?)?),

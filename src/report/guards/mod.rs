@@ -11,8 +11,6 @@ mod accuracy;
 mod carried;
 mod chains;
 mod comparison;
-mod fronts;
-mod growth;
 mod heat;
 mod higher;
 mod history;
@@ -30,7 +28,6 @@ mod protocol;
 mod protocols;
 mod relation;
 mod restitution;
-mod scores;
 mod simple;
 mod sizes;
 mod sweep;
@@ -83,10 +80,7 @@ pub fn all() -> impl Iterator<Item = &'static Guard> {
         long::GUARDS,
         carried::GUARDS,
         nucleation::GUARDS,
-        growth::GUARDS,
-        fronts::GUARDS,
         heat::GUARDS,
-        scores::GUARDS,
         history::GUARDS,
         independence::GUARDS,
         orbits::GUARDS,

@@ -1,0 +1,93 @@
+//! What is predicted beside what was simulated: by the main sweep, and after several transients by the map of the
+//! protocol.
+
+use crate::experiments::Results;
+use crate::experiments::estimates::difference;
+use crate::numerics::statistics::Estimate;
+use crate::table::Table;
+
+/// One transient, by its half height in the map and its means there, with the cells that predict them.
+struct Line<'a> {
+    transient: f64,
+    half_height: Option<Estimate>,
+    /// Simulated means at the σ that all transients have.
+    found: Vec<(f64, f64)>,
+    means: &'a Table,
+}
+
+/// The tables; none where an experiment was not run.
+pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
+    let of = |name: &str| all.iter().find(|table| table.name() == name);
+    let (means, rise, found) = (of("seeds.means")?, of("seeds.rise")?, of("sweep.rows")?);
+    let (seeds, map) = (&results.seeds().ok()?.parameters, results.protocol().ok()?);
+    let window = seeds.window as f64 * seeds.bin;
+    let curve = |&transient: &f64| Some((transient, map.curve(transient, window)?));
+    let curves: Vec<_> = rise.values("transient").iter().filter_map(curve).collect();
+    let common =
+        |sigma: &f64| curves.iter().all(|(_, found)| found.iter().any(|at| at.0 == *sigma));
+    let sigmas: Vec<f64> = seeds.sigmas.iter().copied().filter(common).collect();
+    let line = |(transient, mut found): (f64, Vec<(f64, f64)>)| {
+        found.retain(|(sigma, _)| sigmas.contains(sigma));
+        let half_height = map.cell(transient, window).and_then(|cell| cell.half_height_all);
+        Line { transient, half_height, found, means }
+    };
+    let lines: Vec<Line<'_>> = curves.into_iter().map(line).collect();
+    let scores = Table::of("seeds.scores", &lines, |_| map.parameters.realisations)
+        .key("transient", "1/omega", |line| line.transient)
+        .estimate("half_height", "d omega^2", "", |line| line.half_height)
+        .same("half_height", |line| {
+            Some(format!("protocol.t{}_w{}_all", line.transient as u64, window as u64))
+        })
+        .real("eq25", "1", 2, OFF, |line| line.off("eq25"))
+        .real("from_rest", "1", 2, OFF, |line| line.off("from_rest"))
+        .real("by_then", "1", 2, OFF, |line| line.off("by_then"))
+        .real("balanced", "1", 2, OFF, |line| line.off("balanced"))
+        .real("grown", "1", 2, OFF, |line| line.off("grown"))
+        .done();
+    // With the protocol of the main sweep.
+    let transient = of("sweep.run")?.number(&[], "transient").ok()?;
+    let excess = |(sigma, grown): (f64, f64)| {
+        let simulated = found.number(&[("sigma", sigma)], "mean_all").ok()?;
+        Some((sigma, simulated, grown - simulated))
+    };
+    let grown = means.points(&[("transient", transient)], "sigma", "grown");
+    let against: Vec<(f64, f64, f64)> = grown.into_iter().filter_map(excess).collect();
+    let worst = against.iter().max_by(|a, b| a.2.abs().total_cmp(&b.2.abs()));
+    let half = rise.estimates(&[("transient", transient)], "transient", "half_height");
+    let swept = of("sweep.rise")?.estimates(&[], "half_height_all", "half_height_all");
+    let against_sweep = Table::of("seeds.against_sweep", &against, |_| 1)
+        .key("sigma", "d omega^2", |at| at.0)
+        .real("simulated", "1", 3, "mean count of all in the main sweep", |at| at.1)
+        .real("excess", "1", 2, "the one by nucleation and growth less this", |at| at.2)
+        .done();
+    let compared = Table::of("seeds.compared", &[()], |()| seeds.realisations)
+        .count("sigmas", "values of σ that seeds and map have", |()| sigmas.len() as u64)
+        .chosen("from", "d omega^2", "the first of them", |()| sigmas.first().copied())
+        .chosen("to", "d omega^2", "the last", |()| sigmas.last().copied())
+        .estimate(
+            "early",
+            "d omega^2",
+            "half height of the main sweep less that by nucleation and growth",
+            |()| Some(difference(swept.first()?.1, half.first()?.1)),
+        )
+        .real("largest", "1", 2, "largest distance of mean counts from the main sweep", |()| {
+            worst.map_or(f64::NAN, |at| at.2.abs())
+        })
+        .chosen("largest_at", "d omega^2", "where that is", |()| worst.map(|at| at.0))
+        .done();
+    Some(vec![scores, against_sweep, compared])
+}
+
+const OFF: &str =
+    "root mean square distance of the predicted mean counts from the simulated ones, in gaps";
+
+impl Line<'_> {
+    fn off(&self, column: &str) -> f64 {
+        let square = |(sigma, mean): &(f64, f64)| {
+            let keys = [("transient", self.transient), ("sigma", *sigma)];
+            let off = self.means.number(&keys, column).map_or(f64::NAN, |own| own - mean);
+            off * off
+        };
+        (self.found.iter().map(square).sum::<f64>() / self.found.len() as f64).sqrt()
+    }
+}

@@ -1,0 +1,311 @@
+//! What follows from the runs.
+
+use super::counting::{bits, ran};
+use super::fronts::{Fronts, PARTS, Waits, beat};
+use super::growth::{GROUPS, Prediction, closing, predictions};
+use super::{ByDistance, Seeds, Trace};
+use crate::circuits;
+use crate::circuits::balance::variance_ratio;
+use crate::circuits::distribution::{Law, SampleSpace};
+use crate::circuits::impact_probability::ImpactProbability;
+use crate::experiments::estimates::{average_count, share, with_error};
+use crate::experiments::survival::kaplan_meier;
+use crate::numerics::statistics::Estimate;
+use crate::params::SeedsParams;
+use crate::table::Table;
+
+/// Gaps to each side in the example of the text: half of a chain of 600 masses.
+const FAR: u64 = 300;
+
+const SIGMA: &str = "d omega^2";
+const TIME: &str = "1/omega";
+
+/// What tells gaps by how much of their width their own motion crosses.
+const CROSSED: [(&str, &str); PARTS] = [
+    ("long_at_0", "less than a quarter"),
+    ("long_at_1", "a quarter"),
+    ("long_at_2", "half"),
+    ("long_at_3", "three quarters"),
+];
+
+/// The runs at one σ.
+struct Row<'a> {
+    parameters: &'a SeedsParams,
+    sigma: f64,
+    closing: &'a [Vec<f64>; 2],
+    runs: Vec<(usize, &'a Trace)>,
+    seen: ByDistance,
+    fronts: Fronts<'a>,
+}
+
+/// All tables.
+pub fn tables(seeds: &Seeds) -> Vec<Table> {
+    let parameters = &seeds.parameters;
+    let closing = closing(parameters);
+    let groups: Vec<Vec<ByDistance>> = seeds
+        .rows
+        .iter()
+        .map(|part| {
+            let at = |group: usize| group * part.len() / GROUPS;
+            let group = |group| ByDistance::count(parameters, &part[at(group)..at(group + 1)]);
+            (0..GROUPS).map(group).collect()
+        })
+        .collect();
+    let mut rows = Vec::new();
+    for (place, (&sigma, part)) in parameters.sigmas.iter().zip(&seeds.rows).enumerate() {
+        let runs: Vec<(usize, &Trace)> = ran(part).collect();
+        let waits = runs.iter().map(|run| Waits::of(parameters, *run)).collect();
+        let fronts = Fronts { parameters, runs: waits };
+        let seen = ByDistance::sum(&groups[place], GROUPS);
+        rows.push(Row { parameters, sigma, closing: &closing[place], runs, seen, fronts });
+    }
+    let predicted = predictions(parameters, &closing, &groups);
+    vec![
+        course(&rows),
+        advance(&rows),
+        fronts(&rows),
+        waits(&rows),
+        means(&rows, &predicted),
+        rise(parameters, &predicted),
+        all(parameters, &rows),
+    ]
+}
+
+/// How things stand when the window after each transient ends.
+fn course(rows: &[Row<'_>]) -> Table {
+    let rows: Vec<(&Row<'_>, usize)> = rows
+        .iter()
+        .flat_map(|row| row.parameters.transients.iter().map(move |&from| (row, from)))
+        .collect();
+    Table::of("seeds.course", &rows, |(row, _)| row.runs.len())
+        .key("sigma", SIGMA, |(row, _)| row.sigma)
+        .key("until", TIME, |(row, from)| row.end(*from) as f64 * row.parameters.bin)
+        .estimate("reached", "1", "gaps that were hit by then", |(row, from)| {
+            row.hit(0, row.end(*from))
+        })
+        .estimate("active", "1", "gaps that were hit in the window", |(row, from)| {
+            row.hit(*from, row.parameters.window)
+        })
+        .real("active_share", "1", 2, "active gaps over those that were reached", |(row, from)| {
+            let both = row.hit(*from, row.parameters.window).zip(row.hit(0, row.end(*from)));
+            both.map_or(f64::NAN, |(active, reached)| active.value / reached.value)
+        })
+        .estimate("alive", "1", "share of the runs with an impact in the window", |(row, from)| {
+            share(row.alive(*from), row.runs.len() as u64)
+        })
+        .real(
+            "distance",
+            "1",
+            2,
+            "root mean square distance of what was reached, in gaps",
+            |(row, from)| row.seen.radius(row.end(*from)),
+        )
+        .done()
+}
+
+/// The advance against time.
+fn advance(rows: &[Row<'_>]) -> Table {
+    let rows: Vec<(&Row<'_>, usize)> =
+        rows.iter().flat_map(|row| (1..=row.parameters.bins).map(move |bin| (row, bin))).collect();
+    Table::of("seeds.advance", &rows, |(row, _)| row.runs.len())
+        .key("sigma", SIGMA, |(row, _)| row.sigma)
+        .key("time", TIME, |(row, bin)| *bin as f64 * row.parameters.bin)
+        .real(
+            "advance",
+            "1",
+            3,
+            "gaps that a front has passed, to one side of a long chain",
+            |(row, bin)| row.seen.advance(*bin),
+        )
+        .done()
+}
+
+/// What fronts do, at whole hundredths.
+fn fronts(rows: &[Row<'_>]) -> Table {
+    let whole = |row: &&Row<'_>| (100.0 * row.sigma).round() / 100.0 == row.sigma;
+    let rows: Vec<&Row<'_>> = rows.iter().filter(whole).collect();
+    let mut table = Table::of("seeds.fronts", &rows, |row| row.runs.len())
+        .key("sigma", SIGMA, |row| row.sigma)
+        .real("exponent", "1", 2, "d ln(advance)/d ln t over the last three quarters", |row| {
+            row.seen.exponent()
+        })
+        .estimate("speed", "omega", "steps over the time of all waits", |row| row.fronts.speed())
+        .estimate("bursts", "1", "share of steps within a beat", |row| row.fronts.bursts())
+        .real("even", "1", 2, "the same at a constant hazard and this speed", |row| {
+            row.fronts.even()
+        })
+        .estimate("standing", "1", "share of fronts without a step in the second half", |row| {
+            row.fronts.standing()
+        })
+        .estimate("long", "1", "share of waits longer than a window", |row| row.fronts.stands(0))
+        .estimate("longer", "1", "share of these that last a second window", |row| {
+            row.fronts.stands(1)
+        })
+        .estimate("longest", "1", "share of these that last a third one", |row| {
+            row.fronts.stands(2)
+        })
+        .estimate("between", "1", "mean number of steps between long waits", |row| {
+            row.fronts.between()
+        })
+        .estimate(
+            "memory",
+            "1",
+            "chance of a long wait after a long one, over after a short one",
+            |row| row.fronts.memory(),
+        )
+        .estimate(
+            "dispersion",
+            "1",
+            "variance of the number of long waits, over independent ones",
+            |row| row.fronts.dispersion(),
+        )
+        .real(
+            "alike",
+            "1",
+            3,
+            "chance of the like of what was waited at for long, over that of all",
+            |row| row.fronts.alike(),
+        );
+    for (parts, (name, width)) in CROSSED.into_iter().enumerate() {
+        let meaning = format!("chance of a long wait at a gap that crosses {width} of its width");
+        table = table.estimate(name, "1", &meaning, move |row| row.fronts.holds(parts));
+    }
+    table.done()
+}
+
+/// Four of so many, or all, from the first to the last.
+pub fn spread<T>(all: &[T]) -> impl Iterator<Item = &T> {
+    let last = all.len().saturating_sub(1);
+    let mut places = vec![0, last / 3, 2 * last / 3, last];
+    places.dedup();
+    places.into_iter().filter_map(|place| all.get(place))
+}
+
+/// The waits of fronts, where some end, at four σ.
+fn waits(rows: &[Row<'_>]) -> Table {
+    let mut lengths = Vec::new();
+    for row in spread(rows) {
+        let [ended, cut] = row.fronts.histograms(None);
+        let lasting = kaplan_meier(&ended, &cut);
+        for (ticks, share) in lasting.into_iter().enumerate() {
+            if ended[ticks] + cut[ticks] > 0 {
+                lengths.push((row, ticks, [ended[ticks], cut[ticks]], share));
+            }
+        }
+    }
+    Table::of("seeds.waits", &lengths, |(row, ..)| row.runs.len())
+        .key("sigma", SIGMA, |(row, ..)| row.sigma)
+        .key("time", TIME, |(row, ticks, ..)| *ticks as f64 * row.parameters.tick)
+        .count("ended", "waits that ended with a step", |(_, _, counts, _)| counts[0])
+        .count("cut", "waits that the end of the run cut off", |(_, _, counts, _)| counts[1])
+        .real("longer", "1", 3, "share of waits that last longer", |(.., lasting)| *lasting)
+        .done()
+}
+
+/// The mean counts that follow, and those of circuits.
+fn means(rows: &[Row<'_>], predicted: &[Prediction]) -> Table {
+    let sigmas = |own| rows.iter().enumerate().map(move |(place, row)| (own, place, row));
+    let rows: Vec<(&Prediction, usize, &Row<'_>)> = predicted.iter().flat_map(sigmas).collect();
+    Table::of("seeds.means", &rows, |(.., row)| row.parameters.realisations)
+        .key("transient", TIME, |(own, _, row)| own.transient as f64 * row.parameters.bin)
+        .key("sigma", SIGMA, |(.., row)| row.sigma)
+        .estimate("grown", "1", "mean count by nucleation and growth", |(own, place, _)| {
+            own.mean(*place)
+        })
+        .real("eq25", "1", 3, "the same by circuits with p of Eq. (25)", |(.., row)| {
+            row.circuits(|law| law.p())
+        })
+        .real("from_rest", "1", 3, "with p for a start from rest", |(.., row)| {
+            row.circuits(|law| law.p_from_rest())
+        })
+        .real(
+            "by_then",
+            "1",
+            3,
+            "with the share of gaps that have closed by themselves at the end",
+            |(own, _, row)| {
+                row.circuits(|_| Ok(row.closing[1].iter().take(row.end(own.transient)).sum()))
+            },
+        )
+        .real("balanced", "1", 3, "with p of a chain as hot as the balance says", |(.., row)| {
+            row.circuits(|law| law.heated(variance_ratio(&row.parameters.chain)?)?.p())
+        })
+        .done()
+}
+
+/// Where they pass half of all gaps.
+fn rise(parameters: &SeedsParams, predicted: &[Prediction]) -> Table {
+    Table::of("seeds.rise", predicted, |_| parameters.realisations)
+        .key("transient", TIME, |own| own.transient as f64 * parameters.bin)
+        .estimate("half_height", SIGMA, "σ where that is half of all gaps", |own| {
+            own.half_height(parameters)
+        })
+        .done()
+}
+
+/// Numbers of all σ together.
+fn all(parameters: &SeedsParams, rows: &[Row<'_>]) -> Table {
+    let last = parameters.transients.last().copied().unwrap_or(0);
+    let alive = |row: &Row<'_>| row.alive(last) as f64 / row.runs.len().max(1) as f64;
+    let least = rows.iter().min_by(|a, b| alive(a).total_cmp(&alive(b)));
+    let fastest = || rows.last()?.fronts.speed().filter(|speed| speed.value > 0.0);
+    let spacing = || rows.last().map_or(f64::NAN, |row| 1.0 / row.closing[1].iter().sum::<f64>());
+    let count = |of: fn(&Waits) -> u64| rows.iter().flat_map(|row| &row.fronts.runs).map(of).sum();
+    Table::of("seeds.all", &[parameters], |own| own.realisations)
+        .count("realisations", "chains at each σ", |own| own.realisations as u64)
+        .count("sigmas", "values of σ", |own| own.sigmas.len() as u64)
+        .chosen("until", TIME, "time since the first impact", |own| Some(own.bin * own.bins as f64))
+        .chosen("window", TIME, "", |own| Some(own.bin * own.window as f64))
+        .estimate("least_alive", "1", "", |_| {
+            least.and_then(|row| share(row.alive(last), row.runs.len() as u64))
+        })
+        .same("least_alive", |own| {
+            let end = (last + own.window) as f64 * own.bin;
+            Some(format!("seeds.course[sigma={},until={end}].alive", least?.sigma))
+        })
+        .real("beat", TIME, 3, "2π/|Ω − ω|", |own| beat(&own.chain))
+        .count("fronts", "fronts of all runs", |_| count(|run| run.fronts))
+        .count("steps", "steps of all of them", |_| count(Waits::steps))
+        .count("far", "gaps to each side of a long chain", |_| FAR)
+        .estimate("far_time", TIME, "time for these at the speed at the highest σ", |_| {
+            let (speed, far) = (fastest()?, FAR as f64);
+            Some(with_error(far / speed.value, far / speed.value * speed.error / speed.value))
+        })
+        .real("spacing", "1", 2, "gaps from one that closes by itself to the next, there", |_| {
+            spacing()
+        })
+        .real("meeting_time", TIME, 2, "the time for half of that way", |_| {
+            fastest().map_or(f64::NAN, |speed| 0.5 * spacing() / speed.value)
+        })
+        .done()
+}
+
+impl Row<'_> {
+    /// The bin with which the window after a transient ends.
+    fn end(&self, transient: usize) -> usize {
+        transient + self.parameters.window
+    }
+
+    /// Gaps of a run with an impact in some bins.
+    fn hit(&self, from: usize, count: usize) -> Option<Estimate> {
+        let mask = bits(from, count);
+        let of = |trace: &Trace| trace.hits.iter().filter(|own| **own & mask != 0).count() as u64;
+        average_count(&self.runs.iter().map(|(_, trace)| of(trace)).collect::<Vec<_>>())
+    }
+
+    /// Runs with an impact in the window after a transient.
+    fn alive(&self, transient: usize) -> u64 {
+        let mask = bits(transient, self.parameters.window);
+        let within = |trace: &Trace| trace.hits.iter().any(|own| own & mask != 0);
+        self.runs.iter().filter(|(_, trace)| within(trace)).count() as u64
+    }
+
+    /// The mean count by the graph theory.
+    fn circuits(&self, p: impl Fn(&ImpactProbability) -> Result<f64, circuits::Error>) -> f64 {
+        let chain = &self.parameters.chain;
+        let (omega, big_omega) = (chain.natural_frequency, chain.forcing_frequency);
+        let law = ImpactProbability::new(self.sigma, chain.spacing, omega, big_omega);
+        let law = law.and_then(|law| Law::new(SampleSpace::Simple, chain.gaps(), p(&law)?));
+        law.map_or(f64::NAN, |law| law.mean())
+    }
+}
