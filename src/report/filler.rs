@@ -90,10 +90,13 @@ impl Filler {
         let sources = sources.iter().map(|(path, text)| (*path, marked(text)));
         with_marks.add_raw_templates(sources).map_err(failure)?;
         let templates = templates.clone();
-        let names = names(values);
+        // Tables for figures alone are long, and no template needs them.
+        let named = |table: &&Table| templates.iter().any(|(_, text)| text.contains(table.name()));
+        let tables: Vec<&Table> = values.tables().filter(named).collect();
+        let names = names(values, &tables);
         let root = |name: &String| name.split('.').next().unwrap_or_default().to_string();
         let roots = names.iter().map(root).collect();
-        let context = context(values);
+        let context = context(values, &tables);
         Ok(Filler { tera, templates, marked: with_marks, context, names, roots })
     }
 
@@ -195,14 +198,14 @@ fn failure(error: tera::Error) -> Error {
 }
 
 /// All names with a dot that [`context`] has.
-fn names(values: &Registry) -> BTreeSet<String> {
+fn names(values: &Registry, tables: &[&Table]) -> BTreeSet<String> {
     let own = values.iter().map(|value| value.id.as_str());
     let all = own.chain(values.names().map(|(name, _)| name));
     let both = |name: &str| {
         let mark = if name.contains('.') { name.into() } else { format!("v.{name}") };
         [mark, format!("raw.{name}")]
     };
-    let keys = |table: &Table| {
+    let keys = |table: &&Table| {
         let name = table.name();
         let rows = [name.to_string(), format!("raw.{name}")];
         let single = table.named().remove("").into_iter().flatten();
@@ -212,7 +215,7 @@ fn names(values: &Registry) -> BTreeSet<String> {
         let keys = table.keys().map(move |key| format!("keys.{name}.{key}"));
         rows.into_iter().chain(cells).chain(keys).collect::<Vec<_>>()
     };
-    all.flat_map(both).chain(values.tables().flat_map(keys)).collect()
+    all.flat_map(both).chain(tables.iter().flat_map(keys)).collect()
 }
 
 fn raw(value: &Value) -> Json {
@@ -235,7 +238,7 @@ fn put(tree: &mut Json, name: &str, thing: Json) {
 }
 
 /// `v.name` and `group.name` are marks, `raw.name` and `raw.group.name` plain numbers; tables stand beside them.
-fn context(values: &Registry) -> Context {
+fn context(values: &Registry, tables: &[&Table]) -> Context {
     let (mut marks, mut numbers, mut keys) = (Json::Null, Json::Null, Json::Null);
     let own = values.iter().map(|value| (value.id.as_str(), value));
     let others = values.names().filter_map(|(name, value)| Some((name, value?)));
@@ -244,7 +247,7 @@ fn context(values: &Registry) -> Context {
         put(&mut marks, &format!("{group}{name}"), mark(value));
         put(&mut numbers, name, raw(value));
     }
-    for table in values.tables() {
+    for table in tables {
         let rows = |of: fn(&Value) -> Json| {
             let row = |cells: BTreeMap<&str, &Value>| {
                 cells.into_iter().map(|(column, cell)| (column.to_string(), of(cell))).collect()
