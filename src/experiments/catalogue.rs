@@ -56,7 +56,8 @@ pub const ALL: [Need; 25] = [
 pub type Together = fn(&Results, &[Table]) -> Option<Vec<Table>>;
 
 /// What follows from several experiments together.
-pub const TOGETHER: [Together; 2] = [sweep::tables::of_both, seeds::compared::tables];
+pub const TOGETHER: [Together; 3] =
+    [sweep::tables::of_both, seeds::compared::tables, history::tables::beside];
 
 /// The experiments that a profile saves: the deep one those that take long, all others all.
 pub fn of(profile: Profile) -> Vec<Need> {
@@ -242,10 +243,10 @@ pub const SEEDS: Experiment<SeedsParams, seeds::Seeds, seeds::Part> = Experiment
 /// Chains that are heated first.
 pub const HISTORY: Experiment<HistoryParams, history::History, history::Part> = Experiment {
     name: "history",
-    module: "src/experiments/history.rs",
+    module: "src/experiments/history/mod.rs",
     parameters: HistoryParams::new,
     how: Cut("history", history::CUTTING),
-    tables: |_| Vec::new(),
+    tables: history::tables::tables,
 };
 
 /// Whether impacts are independent.

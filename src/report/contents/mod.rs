@@ -4,14 +4,13 @@
 //! compiler gives ([`super::values::origin`]). Groups
 //! are `v` (ours), `paper` (numbers that the paper chose), `printed` (numbers in its statements), and
 //! one for the cells of each table: `readings`, `compare`, `protocol`, `protocols`, `long`, `nucleation`,
-//! `history`, `independence`, `orbits`, `chains`, `sizes`, `starts`, `bias` and `carried`.
+//! `independence`, `orbits`, `chains`, `sizes`, `starts`, `bias` and `carried`.
 
 mod accuracy;
 mod carried;
 mod chains;
 mod comparison;
 mod higher;
-mod history;
 mod independence;
 mod large;
 mod ledger;
@@ -59,7 +58,7 @@ pub enum Error {
 pub type Section = fn(&Results) -> Result<Vec<Value>, Error>;
 
 /// All values but what the paper printed, in the order of the report.
-pub const SECTIONS: [Section; 18] = [
+pub const SECTIONS: [Section; 17] = [
     theory::values,
     comparison::values,
     higher::values,
@@ -71,7 +70,6 @@ pub const SECTIONS: [Section; 18] = [
     accuracy::values,
     long::values,
     nucleation::values,
-    history::values,
     independence::values,
     orbits::values,
     chains::values,
@@ -124,8 +122,6 @@ pub fn rows(
         ("distance_heads", serde_json::to_value(large::distance_heads(results))?),
         ("distance_table", serde_json::to_value(large::distance_table(results))?),
         ("order_table", serde_json::to_value(large::order_table(results))?),
-        ("history_times", serde_json::to_value(history::times(results)?)?),
-        ("history_table", serde_json::to_value(history::table(results)?)?),
         ("independence_table", serde_json::to_value(independence::table(results)?)?),
         ("orbits_table", serde_json::to_value(orbits::table(results)?)?),
         ("orbits_fig6", serde_json::to_value(orbits::fig6(results)?)?),
@@ -190,16 +186,6 @@ fn count(id: &str, n: u64) -> Value {
 fn kept(id: &str, row: &SweepRow) -> Value {
     let ran = row.realisations.saturating_sub(row.rejected + row.failed);
     share(id, row.kept, ran).source(origin(sweep::reduce), "sweep")
-}
-
-/// The mean over all of a row of the sweep.
-fn mean_all(id: &str, row: &SweepRow) -> Value {
-    let ran = row.realisations.saturating_sub(row.rejected + row.failed);
-    let mean = match sweep::tables::mean_all(row) {
-        Some([mean, error]) => Value::ensemble(id, mean, error, ran as u64),
-        None => Value::text(id, "none"),
-    };
-    mean.source(origin(sweep::reduce), "sweep")
 }
 
 /// The value with this id, as a template writes it.

@@ -1,12 +1,12 @@
 //! Whether the count depends on the past: chains that run under a large force, which is then lowered.
 
+pub mod tables;
+
 use super::cutting::{Cutting, Row, Unit};
-use super::estimates::{average_count, half_height};
 use super::progress::Stage;
 use super::{Error, Progress, weights};
 use crate::dynamics::{self, Engine, Initial, Scenario};
 use crate::numerics::random::NormalPairs;
-use crate::numerics::statistics::Estimate;
 use crate::params::HistoryParams;
 use serde::{Deserialize, Serialize};
 
@@ -15,25 +15,8 @@ use serde::{Deserialize, Serialize};
 pub struct History {
     /// What was run.
     pub parameters: HistoryParams,
-    /// One for each σ, rising.
-    pub rows: Vec<Lowered>,
-    /// The σ at which the mean count passes half of all gaps, for each transient.
-    pub half_heights: Vec<Option<Estimate>>,
-}
-
-/// Chains whose force was lowered to one σ.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Lowered {
-    /// Standard deviation σ of the lowered force.
-    pub sigma: f64,
-    /// Different gaps with an impact in the window after each transient, of each realisation.
-    pub counts: Vec<Vec<u64>>,
-    /// Their mean.
-    pub means: Vec<Option<Estimate>>,
-    /// Realisations with an impact in that window.
-    pub alive: Vec<u64>,
-    /// Realisations that the engine ended early.
-    pub failed: u64,
+    /// For each σ, rising, its realisations.
+    pub rows: Vec<Vec<Counts>>,
 }
 
 /// Counts of one realisation, for each transient; none where the engine gave up.
@@ -146,28 +129,8 @@ pub(crate) fn join(
     progress: &Progress,
 ) -> Result<History, Error> {
     progress.check()?;
-    let row = |(sigma, parts): (&f64, Vec<Part>)| {
-        let runs = parts.concat();
-        let counts: Vec<Vec<u64>> = (0..parameters.transients.len())
-            .map(|i| runs.iter().flatten().map(|counts| counts[i]).collect())
-            .collect();
-        let alive = |counts: &Vec<u64>| counts.iter().filter(|&&k| k > 0).count() as u64;
-        Lowered {
-            sigma: *sigma,
-            means: counts.iter().map(|counts| average_count(counts)).collect(),
-            alive: counts.iter().map(alive).collect(),
-            counts,
-            failed: runs.iter().filter(|run| run.is_none()).count() as u64,
-        }
-    };
-    let rows: Vec<Lowered> = parameters.sigmas.iter().zip(parts).map(row).collect();
-    let half_heights = (0..parameters.transients.len())
-        .map(|i| {
-            let counts: Vec<&[u64]> = rows.iter().map(|row| &row.counts[i][..]).collect();
-            half_height(&parameters.sigmas, &counts, 0.5 * parameters.chain.gaps() as f64)
-        })
-        .collect();
-    Ok(History { parameters: parameters.clone(), rows, half_heights })
+    let rows = parts.into_iter().map(|parts| parts.concat()).collect();
+    Ok(History { parameters: parameters.clone(), rows })
 }
 
 #[cfg(test)]
@@ -235,10 +198,15 @@ mod tests {
         parameters.sigmas = vec![0.01, 0.07, 0.2];
         (parameters.transients, parameters.window) = (vec![100.0, 300.0], 100.0);
         let found = CUTTING.run(&parameters, "test", &Progress::silent()).unwrap();
-        let [cold, low, same] = &found.rows[..] else { panic!() };
-        assert!(same.counts[0].iter().all(|&k| k > 28), "{same:?}");
+        let alive = |at: usize| found.rows[at].iter().flatten().filter(|run| run[0] > 0).count();
+        let tables = tables::tables(&found);
+        let mean = |sigma: f64, transient: f64| {
+            let keys = [("sigma", sigma), ("transient", transient)];
+            tables[0].number(&keys, "mean_count").unwrap()
+        };
+        assert!(found.rows[2].iter().flatten().all(|run| run[0] > 28), "{found:?}");
         // From rest a gap closes by itself at σ = 0.07 in one chain of sixty.
-        assert!(low.alive[0] == 3 && low.means[0].unwrap().value > 3.0, "{low:?}");
-        assert!(cold.means[1].unwrap().value <= cold.means[0].unwrap().value, "{cold:?}");
+        assert!(alive(1) == 3 && mean(0.07, 100.0) > 3.0, "{found:?}");
+        assert!(mean(0.01, 300.0) <= mean(0.01, 100.0), "{found:?}");
     }
 }

@@ -1,0 +1,91 @@
+//! What follows from the counts, and what they stand beside.
+
+use super::super::Results;
+use super::super::estimates::{average_count, half_height};
+use super::super::sweep::tables::mean_all;
+use super::{Counts, History};
+use crate::numerics::statistics::Estimate;
+use crate::table::Table;
+
+/// Chains at one σ, in the window after one transient.
+struct Row<'a> {
+    history: &'a History,
+    sigma: f64,
+    /// Place of the transient.
+    after: usize,
+    runs: &'a [Counts],
+}
+
+impl Row<'_> {
+    fn transient(&self) -> f64 {
+        self.history.parameters.transients[self.after]
+    }
+
+    fn counts(&self) -> Vec<u64> {
+        self.runs.iter().flatten().map(|counts| counts[self.after]).collect()
+    }
+}
+
+fn row(history: &History, at: usize, after: usize) -> Row<'_> {
+    Row { history, sigma: history.parameters.sigmas[at], after, runs: &history.rows[at] }
+}
+
+/// All tables.
+pub fn tables(history: &History) -> Vec<Table> {
+    let parameters = &history.parameters;
+    let transients = 0..parameters.transients.len();
+    let rows: Vec<Row<'_>> = (0..history.rows.len())
+        .flat_map(|at| transients.clone().map(move |after| row(history, at, after)))
+        .collect();
+    let lowered = Table::of("history.lowered", &rows, |row| row.runs.len())
+        .key("sigma", "d omega^2", |row| row.sigma)
+        .key("transient", "1/omega", Row::transient)
+        .estimate("mean_count", "1", "different gaps with an impact, mean of all", |row| {
+            average_count(&row.counts())
+        })
+        .done();
+    let whole: Vec<usize> = transients.collect();
+    let rise = Table::of("history.rise", &whole, |_| parameters.realisations)
+        .key("transient", "1/omega", |after| parameters.transients[*after])
+        .estimate("half_height", "d omega^2", "the mean of all passes half of all gaps", |after| {
+            let counts: Vec<Vec<u64>> =
+                (0..history.rows.len()).map(|at| row(history, at, *after).counts()).collect();
+            let counts: Vec<&[u64]> = counts.iter().map(Vec::as_slice).collect();
+            half_height(&parameters.sigmas, &counts, 0.5 * parameters.chain.gaps() as f64)
+        })
+        .done();
+    let run = Table::of("history.run", &[parameters], |own| own.realisations)
+        .chosen("hot", "d omega^2", "σ of the force at first", |own| Some(own.hot))
+        .chosen("heating", "1/omega", "for so long", |own| Some(own.heating))
+        .chosen("window", "1/omega", "", |own| Some(own.window))
+        .count("realisations", "chains at each σ", |own| own.realisations as u64)
+        .done();
+    vec![lowered, rise, run]
+}
+
+/// Chains from rest: counts of the main sweep at each σ, and half heights of the map after each transient.
+pub fn beside(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
+    let (history, sweep) = (&results.history().ok()?.parameters, results.sweep().ok()?);
+    let map = results.protocol().ok()?;
+    let found = |sigma: &f64| {
+        let row = sweep.rows.iter().find(|row| row.sigma == *sigma)?;
+        mean_all(row).map(|[value, error]| Estimate { value, error, interval: [value; 2] })
+    };
+    let counts = Table::of("history.from_rest", &history.sigmas, |_| 0)
+        .key("sigma", "d omega^2", |sigma| *sigma)
+        .estimate("mean_count", "1", "different gaps with an impact, mean of all", found)
+        .same("mean_count", |sigma| {
+            found(sigma).map(|_| format!("sweep.rows[sigma={sigma}].mean_all"))
+        })
+        .done();
+    let half = |transient: &f64| map.cell(*transient, history.window)?.half_height_all;
+    let rise = Table::of("history.rise_from_rest", &history.transients, |_| 0)
+        .key("transient", "1/omega", |transient| *transient)
+        .estimate("half_height", "d omega^2", "the mean of all passes half of all gaps", half)
+        .same("half_height", |transient| {
+            let (t, w) = (*transient as u64, history.window as u64);
+            half(transient).map(|_| format!("protocol.t{t}_w{w}_all"))
+        })
+        .done();
+    Some(vec![counts, rise])
+}
