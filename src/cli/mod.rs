@@ -79,6 +79,9 @@ pub fn main() -> ExitCode {
         Err(error) => return program::usage(&error),
     };
     work::obey_signals();
+    if let Err(failure) = work::environment() {
+        return program::ended(Err(failure));
+    }
     let result = match verb {
         Verb::Audit(args) => audit::run(args),
         Verb::Bench(args) => bench::run(args),

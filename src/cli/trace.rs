@@ -76,6 +76,7 @@ fn line(certificate: &Certificate, printed: u64) -> String {
         ),
     };
     match certificate.growth {
+        Some(rate) if rate <= 0.0 => format!("impact-paper: {trusted}; errors do not grow"),
         Some(rate) => format!("impact-paper: {trusted}; errors grow as exp({rate:.3} t)"),
         None => format!("impact-paper: {trusted}; errors are too small to see them grow"),
     }
@@ -93,6 +94,9 @@ fn simultaneous(count: u64, law: Simultaneous) -> String {
          they were taken {taken}"
     )
 }
+
+/// So much is printed at once, in bytes.
+const BLOCK: usize = 16 << 10;
 
 /// Runs the verb.
 pub fn run(args: Args) -> Result<(), Failure> {
@@ -135,7 +139,8 @@ pub fn run(args: Args) -> Result<(), Failure> {
         );
         return Err(Failure::input(message));
     }
-    let mut out = io::BufWriter::new(io::stdout().lock());
+    // Written in whole lines: a signal that ends the program leaves no half of a number.
+    let (mut out, mut lines) = (io::stdout().lock(), String::new());
     let mut written = Ok(());
     let mut header = "time,gap,closing_speed\n";
     let most = args.max_impacts.unwrap_or(u64::MAX);
@@ -144,8 +149,12 @@ pub fn run(args: Args) -> Result<(), Failure> {
         if left > 0 {
             // A run that is refused at its start prints nothing.
             let header = std::mem::take(&mut header);
-            written = writeln!(out, "{header}{time:?},{gap},{closing_speed:?}");
+            lines.push_str(&format!("{header}{time:?},{gap},{closing_speed:?}\n"));
             left -= 1;
+            if lines.len() >= BLOCK {
+                written = out.write_all(lines.as_bytes());
+                lines.clear();
+            }
         }
         left > 0 && written.is_ok()
     };
@@ -157,7 +166,8 @@ pub fn run(args: Args) -> Result<(), Failure> {
         let cost = method.run(&scenario, &start, until, &mut sink).map_err(in_file)?;
         (None, cost.simultaneous)
     };
-    let written = written.and_then(|()| out.write_all(header.as_bytes()));
+    lines.push_str(header);
+    let written = written.and_then(|()| out.write_all(lines.as_bytes()));
     match written.and_then(|()| out.flush()) {
         Err(error) => stdout::written(Err(error)),
         Ok(()) => {

@@ -232,6 +232,29 @@ pub fn cores() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
 }
 
+/// The variable by which the library of threads takes their number.
+const THREADS: &str = "RAYON_NUM_THREADS";
+
+/// Refuses more threads than work can use, whoever asks for them.
+fn few_enough(asked_by: &str, threads: Option<usize>) -> Result<(), Failure> {
+    let (cores, most) = (cores(), THREADS_A_CORE * cores());
+    match threads.filter(|given| *given > most) {
+        None => Ok(()),
+        Some(given) => Err(Failure::input(format!(
+            "{asked_by}: {given} are too many for {cores} cores; give 1 to {most}"
+        ))),
+    }
+}
+
+/// Holds the environment to the bounds that options have.
+///
+/// # Errors
+/// Exit code 2.
+pub fn environment() -> Result<(), Failure> {
+    let threads = std::env::var(THREADS).ok().and_then(|threads| threads.parse().ok());
+    few_enough(THREADS, threads)
+}
+
 /// Runs `work` on that many threads; none means all cores.
 pub fn on_threads<T: Send>(
     threads: Option<usize>,
@@ -240,13 +263,7 @@ pub fn on_threads<T: Send>(
     if threads == Some(0) {
         return Err(Failure::input("--threads: 0 threads do no work; give 1 or more"));
     }
-    let cores = cores();
-    if let Some(given) = threads.filter(|given| *given > THREADS_A_CORE * cores) {
-        let most = THREADS_A_CORE * cores;
-        return Err(Failure::input(format!(
-            "--threads: {given} are too many for {cores} cores; give 1 to {most}"
-        )));
-    }
+    few_enough("--threads", threads)?;
     let builder = rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0));
     let pool = builder.build().map_err(|error| {
         Failure::input(format!("--threads: {error}; give a smaller number of threads"))

@@ -95,7 +95,9 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
     let moving = input.scene.map(moving).transpose()?;
     filler.insert("page", &html::write(&blocks, input.figures, moving, cards)?);
     filler.insert("style", &input.templates.text("report.css")?);
-    beside.insert("report.html".into(), filler.fill("report.html")?.into_bytes());
+    let page = filler.fill("report.html")?;
+    html::is_whole(&page)?;
+    beside.insert("report.html".into(), page.into_bytes());
     for figure in input.figures {
         committed.extend(files_of(figure));
     }
@@ -124,12 +126,22 @@ fn typeset(_: &[Block], _: &Input<'_>) -> Result<Vec<u8>, Error> {
 /// nothing outside the one file that the page is.
 fn skins(templates: &Templates) -> Result<(), Error> {
     let fault = |what: String| Err(Error::Template(what));
-    for (path, body) in [("report.tex", "body"), ("report.html", "page.body")] {
-        if !templates.text(path)?.contains(&format!("«{body}»")) {
-            return fault(format!(
-                "{path}: it has no «{body}», where the text of the report stands"
-            ));
+    // The text, the cards that its buttons open, the end of a document, and where the page's first link leads.
+    let once = [
+        ("report.tex", "«body»"),
+        ("report.tex", "\\end{document}"),
+        ("report.html", "«page.body»"),
+        ("report.html", "«page.cards»"),
+        ("report.html", "id=\"text\""),
+    ];
+    for (path, what) in once {
+        let times = templates.text(path)?.matches(what).count();
+        if times != 1 {
+            return fault(format!("{path}: it has {what} {times} times; write it once"));
         }
+    }
+    if templates.text("report.html")?.contains("<script src") {
+        return fault("report.html: <script src: the page is one file; put the script here".into());
     }
     for path in ["report.css", "scene.js"] {
         let Ok(text) = templates.text(path) else { continue };

@@ -25,6 +25,15 @@ impl Library {
     /// What is no BibTeX, two entries with one key, and an entry without author or year, each with
     /// its line or key.
     pub fn read(text: &str) -> Result<Self, Error> {
+        for (number, line) in text.lines().enumerate() {
+            // The reader follows them without end where they lead back.
+            if let Some(word) = refers(line) {
+                return Err(Error::Template(format!(
+                    "references.bib:{}: {word} takes fields from elsewhere; write them out",
+                    number + 1
+                )));
+            }
+        }
         let read = from_biblatex_str(text).map_err(|errors| {
             let told: Vec<String> = errors.iter().map(|error| explained(error, text)).collect();
             Error::Template(told.join("; "))
@@ -33,6 +42,10 @@ impl Library {
             if entry.authors().is_none_or(<[_]>::is_empty) || entry.date().is_none() {
                 let key = entry.key();
                 return Err(Error::Template(format!("references.bib: {key} lacks author or year")));
+            }
+            if entry.title().is_none() {
+                let key = entry.key();
+                return Err(Error::Template(format!("references.bib: {key} lacks its title")));
             }
         }
         let style = style()?;
@@ -91,6 +104,16 @@ fn style() -> Result<IndependentStyle, Error> {
     };
     (style.citation.layout.prefix, style.citation.layout.suffix) = (None, None);
     Ok(style)
+}
+
+/// A field or command by which an entry takes what another place has.
+fn refers(line: &str) -> Option<&'static str> {
+    let line = line.to_lowercase();
+    let given = |word: &str| {
+        let mut found = line.match_indices(word);
+        found.any(|(at, _)| line[at + word.len()..].trim_start().starts_with(['=', '{', '(']))
+    };
+    ["crossref", "xdata", "xref", "@string"].into_iter().find(|word| given(word))
 }
 
 /// A fault of the file with its line.
@@ -178,6 +201,15 @@ mod tests {
     fn mistakes_have_their_line() {
         let error = Library::read("\n\n@book{a, year = {1").unwrap_err().to_string();
         assert!(error.contains("references.bib:3"), "{error}");
+        for loops in ["@book{a, crossref = {a}}", "@book{a, XData={b}}", "@string(a = a)"] {
+            let error = Library::read(&format!("\n{loops}")).unwrap_err().to_string();
+            assert!(
+                error.contains("references.bib:2") && error.contains("write them out"),
+                "{error}"
+            );
+        }
+        let error = Library::read("@book{a, author={A}, year={1999}}").unwrap_err().to_string();
+        assert!(error.contains("a lacks its title"), "{error}");
         let twice = "@book{a, author={A}, year={1}}\n@book{a, author={A}, year={2}}";
         let error = Library::read(twice).unwrap_err().to_string();
         assert!(error.contains("references.bib:2"), "{error}");

@@ -149,7 +149,8 @@ impl Filler {
     /// As [`Filler::fill`].
     pub fn prose(&self, path: &str) -> Result<Filled, Error> {
         let filled = self.prose_of_any_name(path)?;
-        self.known().map(|()| filled)
+        self.known()?;
+        filled.refuse_dumps().map(|()| filled)
     }
 
     fn prose_of_any_name(&self, path: &str) -> Result<Filled, Error> {

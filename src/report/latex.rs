@@ -118,7 +118,7 @@ fn write_block(block: &Block) -> Result<String, Error> {
                 out.push_str(&format!("\\setcounter{{enumi}}{{{}}}\n", start.saturating_sub(1)));
             }
             for item in items {
-                out.push_str(&format!("\\item {}\n", write(item)?.trim_end()));
+                out.push_str(&format!("\\item {}\n", apart(write(item)?.trim_end())));
             }
             format!("{out}\\end{{{kind}}}")
         }
@@ -169,9 +169,17 @@ fn inlines(list: &[Inline]) -> Result<String, Error> {
         if *piece == Inline::Soft && (beside(i + 1) || i > 0 && beside(i - 1)) {
             continue;
         }
-        out.push_str(&inline(piece)?);
+        let text = inline(piece)?;
+        let broken = i > 0 && list[i - 1] == Inline::Break;
+        out.push_str(&if broken { apart(&text) } else { text });
     }
     Ok(out)
+}
+
+/// Behind `\\` and `\item` TeX takes a bracket or a star for its own.
+fn apart(text: &str) -> String {
+    let taken = text.starts_with(['[', '*']);
+    if taken { format!("{{}}{text}") } else { text.to_string() }
 }
 
 fn inline(inline: &Inline) -> Result<String, Error> {
@@ -258,7 +266,7 @@ fn table(
     let row = |cells: &[Vec<Inline>]| -> Result<String, Error> {
         let cells: Vec<String> =
             cells.iter().map(|cell| inlines(cell)).collect::<Result<_, _>>()?;
-        Ok(format!("{} \\\\\n", cells.join(" & ").replace('\n', " ")))
+        Ok(format!("{} \\\\\n", apart(&cells.join(" & ").replace('\n', " "))))
     };
     let mut out = String::from(if across { "\\begin{landscape}\n" } else { "" });
     let layout = layout(columns, &widths, &words, line);

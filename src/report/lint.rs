@@ -93,7 +93,7 @@ const EXEMPT: [(&str, &str, bool); 13] = [
 fn length(inner: &str, (open, close, long): (&str, &str, bool)) -> Option<usize> {
     let scope = if long { inner } else { inner.split("\n\n").next().unwrap_or(inner) };
     let mut ends = scope.match_indices(close).map(|(at, _)| at);
-    if open == "«" {
+    if ["«", "<%"].contains(&open) {
         // Another begins before it ends.
         return ends.next().filter(|end| !scope[..*end].contains(open));
     }

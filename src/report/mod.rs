@@ -317,8 +317,8 @@ Listing: What $\delta v$ does. {#lst:kick}
     /// Assembles a report with one figure, one claim and one value from this prose.
     fn assembled(prose: &str) -> Result<Report, Error> {
         let bib = "@article{rice1945, author={Rice, S. O.}, title={Noise}, year=1945}";
-        let tex = "\\title{«title»}«body»";
-        let html = "<html><title>«page.title»</title>«page.body»«page.cards»</html>";
+        let tex = "\\title{«title»}«body»\\end{document}";
+        let html = "<html><title>«page.title»</title><main id=\"text\">«page.body»</main>«page.cards»</html>";
         let files = [
             ("report.md", prose),
             ("references.bib", bib),
@@ -404,6 +404,16 @@ Listing: What $\delta v$ does. {#lst:kick}
         assert!(matches!(fails("Title", "漢"), Error::NoLatex('漢')));
     }
 
+    /// Behind a line's end TeX takes a bracket or a star for its own.
+    #[test]
+    fn tex_takes_no_bracket_for_its_own() {
+        let text = "# T\n\n| a | b |\n|---|---|\n| [q] | c |\n\nwords\\\n[y] or\n\n- [z] a\n";
+        let text = latex::write(&tree(text)).unwrap();
+        for kept in ["\n{}[q] & c", "\\\\\n{}[y] or", "\\item {}[z] a"] {
+            assert!(text.contains(kept), "{kept}: {text}");
+        }
+    }
+
     /// What Markdown would show raw, or not at all, is told with its place in the template.
     #[test]
     fn broken_prose_is_told_with_its_place() {
@@ -454,6 +464,11 @@ Listing: What $\delta v$ does. {#lst:kick}
             ("####### a", "12:1", "at most six"),
             ("- [ ] a", "12:3", "tasks"),
             ("at «v.half_height and\n\n«v.half_height»", "12:4", "is not closed"),
+            ("if <% if raw.x\n\n<% endif %>", "12:4", "is not closed"),
+            ("at «raw.half_height»", "12:4", "a plain number"),
+            ("at «40 + 2»", "12:4", "a plain number"),
+            ("at «v»", "12:4", "a whole row"),
+            ("$$ $$", "12:1", "a formula without anything"),
         ] {
             let error = assembled(&format!("{PROSE}\n\n{broken}\n")).unwrap_err().to_string();
             assert!(error.starts_with(&format!("report.md:{place}: ")), "{broken}: {error}");

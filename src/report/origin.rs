@@ -47,6 +47,12 @@ pub(super) fn next_tag(text: &str, at: usize) -> Option<(usize, usize)> {
     Some((start, start + text[start..].find(close)? + close.len()))
 }
 
+/// Whether a tag computes with plain numbers: those are for conditions.
+fn computes(tag: &str) -> bool {
+    let inner = tag.trim_start_matches(['«', '-', ' ', '(']);
+    inner.starts_with("raw.") || inner.starts_with(|c: char| c.is_ascii_digit())
+}
+
 /// A template and the text that was made of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Filled {
@@ -76,6 +82,31 @@ impl Filled {
         let lines = template.match_indices('\n').map(|(i, _)| i + 1);
         let lines = std::iter::once(0).chain(lines).collect();
         Filled { text, path: path.into(), lines, template: template.into(), pieces }
+    }
+
+    /// Refuses a tag that wrote no value and no words: a whole row or table, or a plain number.
+    ///
+    /// # Errors
+    /// [`Error::Template`] with its place.
+    pub fn refuse_dumps(&self) -> Result<(), Error> {
+        let ends = self.pieces.iter().skip(1).map(|(start, ..)| *start).chain([self.text.len()]);
+        for ((start, origin, tag), end) in self.pieces.iter().zip(ends) {
+            let (wrote, from) = (&self.text[*start..end], &self.template[*origin..]);
+            if !*tag || !from.starts_with('«') {
+                continue;
+            }
+            let what = match () {
+                () if ["{\"", "[\"", "[{", "[["].iter().any(|dump| wrote.starts_with(dump)) => {
+                    "a whole row or table; name a column of a row"
+                }
+                () if wrote.parse::<f64>().is_ok() && computes(from) => {
+                    "a plain number; name a value, so that it has its digits and its card"
+                }
+                () => continue,
+            };
+            return Err(Error::Template(format!("{}: this is {what}", self.place(*start))));
+        }
+        Ok(())
     }
 
     /// Text that nothing was filled into.

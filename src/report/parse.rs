@@ -421,6 +421,9 @@ impl<'a> Reader<'a> {
     fn maths(&self, tex: &str) -> Result<String, Error> {
         let tex = self.replaced(tex, Target::Maths)?;
         let bare = bare(&tex);
+        if bare.trim().is_empty() {
+            return Err(markup("a formula without anything in it"));
+        }
         match macros::refused(&bare) {
             Some(what) => Err(Error::Maths { tex: bare, what }),
             None => tex::maths(&bare).and_then(|_| html::reads(&bare)).map(|()| tex),

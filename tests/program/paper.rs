@@ -213,6 +213,9 @@ fn exit_codes_are_those_of_the_table() {
     let edges = &edges[..edges.find("value = ").unwrap() + "value = ".len()];
     templates("differs", "published.toml", edges, &format!("{edges}9"));
     templates("skin", "report.html", "«page.body»", "");
+    templates("open-skin", "report.html", "«page.body»", "«page.body»<div>");
+    templates("end", "report.tex", "\\end{document}", "");
+    templates("loop", "references.bib", "volume  = {17}", "volume  = {17}, crossref = {homer2007}");
     templates("style", "report.css", "}", "");
     templates("import", "report.css", "}", "} @import \"more.css\";");
     templates("none", "report.md", "# ", "# ");
@@ -235,11 +238,15 @@ fn exit_codes_are_those_of_the_table() {
         (2, "check --profile quick --results r --templates broken".into(), "published.toml"),
         (2, paper("renamed"), "published.toml"),
         (2, "check --profile quick --results r --templates renamed".into(), "published.toml"),
-        (2, paper("skin"), "report.html: it has no «page.body»"),
+        (2, paper("skin"), "report.html: it has «page.body» 0 times"),
+        (2, paper("open-skin"), "report.html: the page is not whole"),
+        (2, paper("end"), "report.tex: it has \\end{document} 0 times"),
+        (2, paper("loop"), "references.bib:6: crossref"),
+        (2, "export RAYON_NUM_THREADS=999; exec \"$0\" check".into(), "RAYON_NUM_THREADS: 999"),
         (2, paper("style"), "report.css: "),
         (2, paper("import"), "report.css: @import"),
         (2, paper("none"), "report.md: no such file"),
-        (2, format!("ulimit -v 200000; exec \"$0\" {}", paper("good")), "of memory are needed"),
+        (2, format!("ulimit -v 250000; exec \"$0\" {}", paper("good")), "of memory are needed"),
         (0, "ulimit -s 64; exec \"$0\" sweep --sigma 0.2 --realisations 3".into(), "0.2,"),
         (2, "trace --until 1 $'no\nsuch'".into(), "no such: "),
         (2, "paper --pdf --figure 3".into(), "--figure"),

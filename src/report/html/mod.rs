@@ -34,6 +34,17 @@ pub fn reads(tex: &str) -> Result<(), Error> {
     maths::displayed(tex).map(|_| ())
 }
 
+/// Whether a page is well-formed: what the shell opens is closed.
+///
+/// # Errors
+/// [`Error::Template`] with what is wrong.
+pub fn is_whole(page: &str) -> Result<(), Error> {
+    let options = roxmltree::ParsingOptions { allow_dtd: true, ..Default::default() };
+    let found = roxmltree::Document::parse_with_options(page, options);
+    let told = |error| Error::Template(format!("report.html: the page is not whole: {error}"));
+    found.map(|_| ()).map_err(told)
+}
+
 /// What the shell has places for.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Parts {
