@@ -126,6 +126,11 @@ impl<'a> Staging<'a> {
             files.keys().chain(gone.iter().copied()).filter(theirs).map(String::as_str).collect();
         self.refuse(theirs.clone())?;
 
+        if let Some(folder) = files.keys().find(|path| self.folder.join(path).is_dir()) {
+            let what = "is a folder where a file of the report belongs; move it away";
+            return Err(Failure::input(format!("{}: {folder} {what}", self.option)));
+        }
+
         let temporary = tempfile::Builder::new().prefix(STAGING).tempdir_in(self.folder);
         let temporary = temporary.map_err(failed)?;
         let stage = |path: &str, bytes: &[u8]| {

@@ -19,7 +19,8 @@ use std::path::{Path, PathBuf};
 /// standard error, if there were any. Past some 150 units of time a chaotic chain depends on the last
 /// bit: only statistics are reproducible there. --certify says where that begins. Amplitudes so large
 /// (near resonance, say) that rounding may move a gap by more than 1e-6 of the spacing are refused; where it
-/// may by more than 1e-9, standard error says by how much.
+/// may by more than 1e-9, standard error says by how much. A chatter has come to rest
+/// when its bodies part more slowly than 1e-10 d w; they then stay in contact as long as forces press them.
 #[derive(clap::Args)]
 #[command(after_help = FORM)]
 pub struct Args {

@@ -60,8 +60,8 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let remedy = if checked.faults.iter().all(strange) {
         "remove what is not listed, or put it elsewhere"
     } else {
-        "`impact-paper diff` says what differs, `impact-paper paper --force` writes the report anew; what is \
-         not listed is for you to remove"
+        "`impact-paper paper --force` writes the report anew, `impact-paper diff` compares two of them (but \
+         not what is built beside); what is not listed is for you to remove"
     };
     Err(Failure::check(format!("{}: {them}; {remedy}", args.folder.display())))
 }

@@ -186,7 +186,12 @@ fn failure(error: tera::Error) -> Error {
     );
     // Tera lists every name that there is: too many to read.
     let Some((what, names)) = report.message().split_once(" Available fields: ") else {
-        return Error::Template(format!("{place}: {}", report.message()));
+        let what = report.message();
+        let hint = match what.contains("nexpected end of input") {
+            true => "; a tag before has no end: <% endif %>, <% endfor %> or the like",
+            false => "",
+        };
+        return Error::Template(format!("{place}: {what}{hint}"));
     };
     let asked = what.split('`').nth(1).unwrap_or_default();
     let start: String = asked.chars().take(2).collect();

@@ -41,7 +41,7 @@ pub fn refused(tex: &str) -> Option<String> {
             return Some(r"\operatorname is refused by hosts; write \mathrm{…}".into());
         } else if !known(ALLOWED, name) {
             return Some(format!(
-                r"\{name} is not among the macros that every format shows; write it otherwise, or add it to report::macros"
+                r"\{name} is not among the macros that every format shows (report::macros lists them)"
             ));
         } else if name == "begin" {
             let inner = rest.strip_prefix('{').and_then(|rest| rest.split_once('}'));
