@@ -256,7 +256,7 @@ pub const INDEPENDENCE: Deep<IndependenceParams, independence::Independence, ind
         "src/experiments/independence/mod.rs",
         IndependenceParams::new,
         ("independence", independence::CUTTING),
-        |_| Vec::new(),
+        independence::tables::tables,
     );
 
 /// Periodic orbits of a short chain.

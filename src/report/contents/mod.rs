@@ -4,14 +4,13 @@
 //! compiler gives ([`super::values::origin`]). Groups
 //! are `v` (ours), `paper` (numbers that the paper chose), `printed` (numbers in its statements), and
 //! one for the cells of each table: `readings`, `compare`, `protocol`, `protocols`, `long`, `nucleation`,
-//! `independence`, `orbits`, `chains`, `sizes`, `starts`, `bias` and `carried`.
+//! `orbits`, `chains`, `sizes`, `starts`, `bias` and `carried`.
 
 mod accuracy;
 mod carried;
 mod chains;
 mod comparison;
 mod higher;
-mod independence;
 mod large;
 mod ledger;
 mod long;
@@ -58,7 +57,7 @@ pub enum Error {
 pub type Section = fn(&Results) -> Result<Vec<Value>, Error>;
 
 /// All values but what the paper printed, in the order of the report.
-pub const SECTIONS: [Section; 17] = [
+pub const SECTIONS: [Section; 16] = [
     theory::values,
     comparison::values,
     higher::values,
@@ -70,7 +69,6 @@ pub const SECTIONS: [Section; 17] = [
     accuracy::values,
     long::values,
     nucleation::values,
-    independence::values,
     orbits::values,
     chains::values,
     sizes::values,
@@ -122,7 +120,6 @@ pub fn rows(
         ("distance_heads", serde_json::to_value(large::distance_heads(results))?),
         ("distance_table", serde_json::to_value(large::distance_table(results))?),
         ("order_table", serde_json::to_value(large::order_table(results))?),
-        ("independence_table", serde_json::to_value(independence::table(results)?)?),
         ("orbits_table", serde_json::to_value(orbits::table(results)?)?),
         ("orbits_fig6", serde_json::to_value(orbits::fig6(results)?)?),
         ("chains_lengths", serde_json::to_value(chains::lengths_table(results)?)?),

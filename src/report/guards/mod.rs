@@ -14,7 +14,6 @@ mod comparison;
 mod heat;
 mod higher;
 mod history;
-mod independence;
 mod large;
 mod long;
 mod model;
@@ -82,7 +81,6 @@ pub fn all() -> impl Iterator<Item = &'static Guard> {
         nucleation::GUARDS,
         heat::GUARDS,
         history::GUARDS,
-        independence::GUARDS,
         orbits::GUARDS,
         restitution::GUARDS,
         chains::GUARDS,
