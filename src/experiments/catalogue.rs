@@ -225,10 +225,10 @@ pub const HEAT: Deep<HeatParams, heat::Heat, heat::Part> = Deep::new(
 pub const NUCLEATION: Experiment<NucleationParams, nucleation::Nucleation, nucleation::Part> =
     Experiment {
         name: "nucleation",
-        module: "src/experiments/nucleation.rs",
+        module: "src/experiments/nucleation/mod.rs",
         parameters: NucleationParams::new,
         how: Cut("first impacts", nucleation::CUTTING),
-        tables: |_| Vec::new(),
+        tables: nucleation::tables::tables,
     };
 
 /// What one gap that closes by itself sets off.

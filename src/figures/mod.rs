@@ -202,7 +202,7 @@ pub fn draw(number: Number, results: &Results) -> Result<Figure, Error> {
             s01::draw(s01::Maps { map, long, others, seeds }, note)
         }
         Number::Own(2) => s02::draw(results.spacetime()?, note),
-        Number::Own(3) => s03::draw(results.nucleation()?, results.sweep()?, note),
+        Number::Own(3) => s03::draw(results, note),
         Number::Own(4) => s04::draw(results, note),
         Number::Own(5) => s05::draw(&results.theory.large),
         Number::Own(6) => s06::draw(&results.theory),

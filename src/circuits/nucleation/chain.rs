@@ -164,4 +164,31 @@ mod tests {
             assert!(found.bound > 0.0 && found.bound < 0.01, "{found:?}");
         }
     }
+
+    /// The bound by double sums over all gaps, and the mean number of clumps as that of gaps less that of neighbours
+    /// that both close.
+    #[test]
+    fn clumps_and_their_bound_by_double_sums() {
+        let own = Chances { p: 0.03, wall: 0.01, pair: 0.004, wall_pair: 0.002 };
+        let n = 12;
+        let closes = |gap: usize| if gap.is_multiple_of(n) { own.wall } else { own.p };
+        let begins = |gap: usize| match gap {
+            0 => own.wall,
+            12 => own.wall - own.wall_pair,
+            1 => own.p - own.wall_pair,
+            _ => own.p - own.pair,
+        };
+        let mut sum = 0.0;
+        for gap in 0..=n {
+            for other in gap.saturating_sub(2)..=(gap + 2).min(n) {
+                let apart = gap.abs_diff(other) == 2;
+                sum += begins(gap) * begins(other);
+                sum += if apart { closes(gap) * closes(other) } else { 0.0 };
+            }
+        }
+        let found = own.at_least_one(n, Boundary::Walls);
+        let pairs = 2.0 * own.wall_pair + 10.0 * own.pair;
+        assert!((found.clumps - (2.0 * own.wall + 11.0 * own.p - pairs)).abs() < 1e-15);
+        assert!((found.bound - sum * found.value / found.clumps).abs() < 1e-15, "{found:?}");
+    }
 }

@@ -3,7 +3,7 @@
 //! A value is computed here from results and carries the path of the function that computed it, which the
 //! compiler gives ([`super::values::origin`]). Groups
 //! are `v` (ours), `paper` (numbers that the paper chose), `printed` (numbers in its statements), and
-//! one for the cells of each table: `readings`, `compare`, `protocol`, `protocols`, `long`, `nucleation`,
+//! one for the cells of each table: `readings`, `compare`, `protocol`, `protocols`, `long`,
 //! `orbits`, `chains`, `sizes`, `starts`, `bias` and `carried`.
 
 mod accuracy;
@@ -14,7 +14,6 @@ mod higher;
 mod large;
 mod ledger;
 mod long;
-mod nucleation;
 mod orbits;
 mod paper;
 mod protocol;
@@ -26,10 +25,9 @@ mod theory;
 
 use super::mark::Mark;
 use super::print::Style;
-use super::values::{Origin, Registry, Value, origin};
+use super::values::{Origin, Registry, Value};
 use crate::claims::{self, Claim, Published};
 use crate::experiments::Results;
-use crate::experiments::sweep::{self, SweepRow};
 use crate::numerics::statistics::Estimate;
 use std::collections::BTreeMap;
 
@@ -57,7 +55,7 @@ pub enum Error {
 pub type Section = fn(&Results) -> Result<Vec<Value>, Error>;
 
 /// All values but what the paper printed, in the order of the report.
-pub const SECTIONS: [Section; 16] = [
+pub const SECTIONS: [Section; 15] = [
     theory::values,
     comparison::values,
     higher::values,
@@ -68,7 +66,6 @@ pub const SECTIONS: [Section; 16] = [
     spacetime::values,
     accuracy::values,
     long::values,
-    nucleation::values,
     orbits::values,
     chains::values,
     sizes::values,
@@ -116,7 +113,6 @@ pub fn rows(
         ("protocols_table", serde_json::to_value(protocols::table(results)?)?),
         ("long_windows", serde_json::to_value(long::windows(results)?)?),
         ("long_table", serde_json::to_value(long::table(results)?)?),
-        ("nucleation_table", serde_json::to_value(nucleation::table(results)?)?),
         ("distance_heads", serde_json::to_value(large::distance_heads(results))?),
         ("distance_table", serde_json::to_value(large::distance_table(results))?),
         ("order_table", serde_json::to_value(large::order_table(results))?),
@@ -177,12 +173,6 @@ fn chosen(id: &str, value: f64) -> Value {
 /// A count, shown as an integer up to a million and with its leading digits beyond.
 fn count(id: &str, n: u64) -> Value {
     if n < 1_000_000 { Value::integer(id, n) } else { Value::real(id, n as f64, 2) }
-}
-
-/// The share of the kept of a row of the sweep.
-fn kept(id: &str, row: &SweepRow) -> Value {
-    let ran = row.realisations.saturating_sub(row.rejected + row.failed);
-    share(id, row.kept, ran).source(origin(sweep::reduce), "sweep")
 }
 
 /// The value with this id, as a template writes it.

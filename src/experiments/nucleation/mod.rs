@@ -1,0 +1,147 @@
+//! First impacts: how many chains have one by some time, against what the reach of single gaps says.
+
+pub mod tables;
+
+use super::cutting::{Cutting, Row, Unit};
+use super::progress::Stage;
+use super::{Error, Progress};
+use crate::circuits::nucleation::reach::closes_by_itself;
+use crate::dynamics::{self, Engine, Scenario};
+use crate::numerics::random::NormalPairs;
+use crate::params::{Chain, NucleationParams};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+/// First impacts of chains from rest.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Nucleation {
+    /// What was run.
+    pub parameters: NucleationParams,
+    /// For each length and σ its chains: length by length.
+    pub rows: Vec<Part>,
+}
+
+/// One chain: whether it has a gap that closes by itself, and the time of its first impact.
+pub type First = (bool, Option<f64>);
+
+/// Some chains of one row.
+pub type Part = Vec<First>;
+
+/// The experiment in units of work.
+pub const CUTTING: Cutting<NucleationParams, Part, Nucleation> = Cutting { rows, part, fits, join };
+
+/// The ensembles in their order.
+fn ensembles(parameters: &NucleationParams) -> impl Iterator<Item = (usize, usize, f64)> {
+    let of = |&(masses, realisations): &(usize, usize)| {
+        parameters.sigmas.iter().map(move |&sigma| (masses, realisations, sigma))
+    };
+    parameters.lengths.iter().flat_map(of)
+}
+
+fn rows(parameters: &NucleationParams) -> Vec<Row> {
+    let row = |(masses, realisations, sigma)| Row {
+        covers: format!("n = {masses}, sigma = {sigma}"),
+        realisations,
+        // A search of a gap costs about what an impact does.
+        weight: masses as u64 + 1,
+    };
+    ensembles(parameters).map(row).collect()
+}
+
+fn part(
+    parameters: &NucleationParams,
+    unit: &Unit,
+    stage: &Stage,
+    progress: &Progress,
+) -> Result<Part, Error> {
+    let ensemble = ensembles(parameters).nth(unit.row);
+    let (masses, _, sigma) = ensemble.unwrap_or_default();
+    let chain = Chain { masses, ..parameters.chain.clone() };
+    let one = |index| {
+        let found = first(parameters, &chain, sigma, index as u64, progress);
+        stage.advance(masses as u64 + 1);
+        found
+    };
+    unit.realisations.clone().into_par_iter().with_max_len(64).map(one).collect()
+}
+
+fn first(
+    parameters: &NucleationParams,
+    chain: &Chain,
+    sigma: f64,
+    index: u64,
+    progress: &Progress,
+) -> Result<First, Error> {
+    progress.check()?;
+    let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, index);
+    let scenario = Scenario::draw(chain, sigma, &mut normals);
+    let able = differences(&scenario.forcing).any(|delta| closes_by_itself(chain, delta));
+    let fault = |source: dynamics::Error| Error::Dynamics { experiment: "nucleation", source };
+    let mut time = None;
+    Engine::new(&scenario)
+        .map_err(fault)?
+        .run(parameters.times.last().copied().unwrap_or(0.0), |impact| {
+            time = Some(impact.time);
+            false
+        })
+        .map_err(fault)?;
+    Ok((able, time))
+}
+
+/// The differences of the amplitudes on both sides of each gap of a chain between walls, which are
+/// not forced.
+pub(super) fn differences(forcing: &[[f64; 2]]) -> impl Iterator<Item = [f64; 2]> {
+    let wall = || std::iter::once([0.0; 2]);
+    let left = wall().chain(forcing.iter().copied());
+    let right = forcing.iter().copied().chain(wall());
+    left.zip(right).map(|(a, b)| [b[0] - a[0], b[1] - a[1]])
+}
+
+fn fits(parameters: &NucleationParams, unit: &Unit, firsts: &Part) -> bool {
+    let last = parameters.times.last().copied().unwrap_or(0.0);
+    let fits = |(able, time): &First| time.is_none_or(|time| *able && (0.0..=last).contains(&time));
+    firsts.len() == unit.realisations.len() && firsts.iter().all(fits)
+}
+
+fn join(
+    parameters: &NucleationParams,
+    parts: Vec<Vec<Part>>,
+    _: &Progress,
+) -> Result<Nucleation, Error> {
+    let rows = parts.into_iter().map(|parts| parts.concat()).collect();
+    Ok(Nucleation { parameters: parameters.clone(), rows })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::params::Profile;
+
+    #[test]
+    fn the_first_impact_is_in_a_gap_that_closes_by_itself() {
+        let mut parameters = NucleationParams::new(Profile::Quick);
+        parameters.lengths = vec![(1, 40), (30, 40)];
+        parameters.sigmas = vec![0.1, 0.16, 0.3];
+        let found = CUTTING.run(&parameters, "test", &Progress::silent()).unwrap();
+        let [_, _, chains, _] = &tables::tables(&found)[..] else { panic!() };
+        let hits = |masses: f64, sigma: f64, time: f64| {
+            let keys = [("masses", masses), ("sigma", sigma), ("time", time)];
+            let [able, found] = ["able", "found"].map(|of| chains.number(&keys, of).unwrap());
+            [able, 40.0 * found]
+        };
+        for (masses, sigma) in [1.0, 30.0].map(|n| [(n, 0.1), (n, 0.16), (n, 0.3)]).concat() {
+            // By T = 500 nearly all that can have closed, and no others.
+            let [able, hit] = hits(masses, sigma, 500.0);
+            assert!(hit <= able && able <= hit + 2.0, "{hit} {able}");
+        }
+        let early =
+            [(1.0, 0.1), (30.0, 0.1), (30.0, 0.3)].map(|(n, sigma)| hits(n, sigma, 10.0)[1]);
+        assert!(early[0] < 5.0 && early[1] < 25.0 && early[2] == 40.0, "{early:?}");
+    }
+
+    #[test]
+    fn gaps_lie_between_neighbours_and_unforced_walls() {
+        let found: Vec<_> = differences(&[[1.0, 2.0], [4.0, -1.0]]).collect();
+        assert_eq!(found, [[1.0, 2.0], [3.0, -3.0], [-4.0, 1.0]]);
+    }
+}

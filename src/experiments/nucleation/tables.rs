@@ -1,0 +1,157 @@
+//! What follows from first impacts, beside what the reach of single gaps says.
+
+use super::{Nucleation, Part, ensembles};
+use crate::circuits::impact_probability::ImpactProbability;
+use crate::circuits::nucleation::chain::{AtLeastOne, Chances, half};
+use crate::circuits::nucleation::reach::Reach;
+use crate::experiments::estimates::share;
+use crate::params::{Chain, NucleationParams};
+use crate::table::Table;
+use rayon::prelude::*;
+
+/// Angles of the rule for neighbours, which takes their square.
+const COARSE: usize = 64;
+
+const SIGMA: &str = "d omega^2";
+
+/// Gaps at one σ: what they do within each time, and in unlimited time.
+struct Gaps {
+    sigma: f64,
+    within: Vec<Chances>,
+    ever: Chances,
+}
+
+/// Chains of one length at one σ by some time.
+struct Chains<'a> {
+    masses: usize,
+    sigma: f64,
+    time: f64,
+    part: &'a Part,
+    expected: AtLeastOne,
+}
+
+/// All tables.
+pub fn tables(found: &Nucleation) -> Vec<Table> {
+    let parameters = &found.parameters;
+    let chain = &parameters.chain;
+    let within = Reach::within(chain, &parameters.times, parameters.angles);
+    let fewer = |reach: &Reach| reach.every(parameters.angles / COARSE);
+    let fewer: Vec<Reach> = within.iter().map(fewer).collect();
+    let ever = Reach::ever(chain, COARSE);
+    let gaps = |&sigma: &f64| {
+        let both = within.iter().zip(&fewer);
+        let within = both.map(|(all, few)| Chances::new(chain, all, few, sigma)).collect();
+        Gaps { sigma, within, ever: Chances::new(chain, &ever, &ever, sigma) }
+    };
+    let gaps: Vec<Gaps> = parameters.sigmas.par_iter().map(gaps).collect();
+    let mut chains = Vec::new();
+    for (row, ((masses, _, sigma), part)) in ensembles(parameters).zip(&found.rows).enumerate() {
+        let own = &gaps[row % gaps.len()];
+        for (&time, chances) in parameters.times.iter().zip(&own.within) {
+            let expected = chances.at_least_one(masses, chain.boundary);
+            chains.push(Chains { masses, sigma, time, part, expected });
+        }
+    }
+    vec![
+        single(chain, &gaps),
+        times(parameters, &gaps),
+        chains_table(&chains),
+        all(parameters, &chains, half(chain, &ever, &ever)),
+    ]
+}
+
+/// Single gaps and neighbours in unlimited time.
+fn single(chain: &Chain, gaps: &[Gaps]) -> Table {
+    let (omega, big_omega) = (chain.natural_frequency, chain.forcing_frequency);
+    Table::of("nucleation.gaps", gaps, |_| 0)
+        .key("sigma", SIGMA, |row| row.sigma)
+        .real("p", "1", 2, "chance of a gap between masses to close by itself", |row| row.ever.p)
+        .real("wall", "1", 2, "that of a gap at a wall", |row| row.ever.wall)
+        .real("pair", "1", 2, "that of two neighbouring gaps between masses", |row| row.ever.pair)
+        .real("wall_pair", "1", 2, "that of a gap at a wall and its neighbour", |row| {
+            row.ever.wall_pair
+        })
+        .real("neighbour", "1", 2, "that of a gap between masses if its neighbour does", |row| {
+            row.ever.pair / row.ever.p
+        })
+        .real("random", "1", 2, "Eq. (25), for random free parts", |row| {
+            let law = ImpactProbability::new(row.sigma, chain.spacing, omega, big_omega);
+            law.and_then(|law| law.p()).unwrap_or(f64::NAN)
+        })
+        .real("zero", "1", 2, "P(Y₁ ≥ d): without a free part", |row| {
+            let least = chain.spacing * (omega * omega - big_omega * big_omega) / (2.0 * row.sigma);
+            pxfm::f_exp(-least * least)
+        })
+        .done()
+}
+
+/// What a finite time misses.
+fn times(parameters: &NucleationParams, gaps: &[Gaps]) -> Table {
+    let rows: Vec<(&Gaps, f64, Chances)> = gaps
+        .iter()
+        .flat_map(|row| parameters.times.iter().zip(&row.within).map(move |at| (row, *at.0, *at.1)))
+        .collect();
+    Table::of("nucleation.times", &rows, |_| 0)
+        .key("sigma", SIGMA, |(row, ..)| row.sigma)
+        .key("time", "1/omega", |(_, time, _)| *time)
+        .real("missing", "1", 2, "share of p that is missing by then", |(row, _, within)| {
+            1.0 - within.p / row.ever.p
+        })
+        .done()
+}
+
+/// Chains with an impact, found and expected.
+fn chains_table(rows: &[Chains<'_>]) -> Table {
+    Table::of("nucleation.chains", rows, |row| row.part.len())
+        .key("masses", "1", |row| row.masses as f64)
+        .key("sigma", SIGMA, |row| row.sigma)
+        .key("time", "1/omega", |row| row.time)
+        .count("able", "chains with a gap that closes by itself in unlimited time", |row| {
+            row.part.iter().filter(|(able, _)| *able).count() as u64
+        })
+        .estimate("found", "1", "share of the chains with an impact by then", |row| {
+            share(row.hit(), row.part.len() as u64)
+        })
+        .real("independent", "1", 3, "expected if gaps were independent", |row| {
+            row.expected.independent
+        })
+        .real("clumps", "1", 3, "expected with clumps", |row| row.expected.value)
+        .real("bound", "1", 1, "what that may be off by", |row| row.expected.bound)
+        .done()
+}
+
+/// Numbers of all of them.
+fn all(parameters: &NucleationParams, chains: &[Chains<'_>], half: f64) -> Table {
+    let lengths = || parameters.lengths.iter().map(|(masses, _)| *masses);
+    let shortest = lengths().min().unwrap_or(0);
+    let last = parameters.times.last().copied();
+    let off = |masses: usize| {
+        let rows = chains.iter().filter(|row| row.masses == masses && Some(row.time) == last);
+        let off = |row: &Chains<'_>| row.hit() as f64 / row.part.len() as f64 - row.expected.value;
+        rows.map(|row| off(row).abs()).fold(0.0, f64::max)
+    };
+    Table::of("nucleation.all", &[parameters], |_| 0)
+        .real(
+            "half",
+            SIGMA,
+            4,
+            "σ where half of the chains have a gap that closes by itself",
+            |_| half,
+        )
+        .count("shortest", "masses of the shortest chains", |_| shortest as u64)
+        .count("longest", "masses of the longest", |_| lengths().max().unwrap_or(0) as u64)
+        .chosen("until", "1/omega", "the latest time", |_| last)
+        .real("off", "1", 1, "largest distance of found and expected shares by then", |own| {
+            off(own.chain.masses)
+        })
+        .real("off_shortest", "1", 1, "the same of the shortest chains", |_| off(shortest))
+        .done()
+}
+
+impl Chains<'_> {
+    /// Chains with an impact by the time.
+    fn hit(&self) -> u64 {
+        let by_then = |(_, first): &&(bool, Option<f64>)| first.is_some_and(|at| at <= self.time);
+        self.part.iter().filter(by_then).count() as u64
+    }
+}
