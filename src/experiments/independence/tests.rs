@@ -135,7 +135,7 @@ fn circuits_of_equal_gaps_by_enumeration() {
     (0..5).for_each(|gap| follow(&mut vec![gap], &mut seen));
     let equal = equal(5);
     // Each of the k gaps, and then the first again.
-    let weight = |k: usize| 5.0_f64.powi(-(k as i32) - 1);
+    let weight = |k: usize| (0..=k).fold(1.0, |weight, _| weight / 5.0);
     for (k, own) in (1..).zip(&equal) {
         assert!((own - f64::from(seen[k][0]) * weight(k)).abs() < 1e-15, "{k}: {own}");
     }
