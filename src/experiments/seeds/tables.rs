@@ -309,3 +309,44 @@ impl Row<'_> {
         law.map_or(f64::NAN, |law| law.mean())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::params::Profile;
+
+    #[test]
+    fn two_runs_by_hand() {
+        let mut parameters = SeedsParams::new(Profile::Quick);
+        (parameters.chain.masses, parameters.sigmas) = (2, vec![0.1]);
+        (parameters.bins, parameters.window, parameters.transients) = (4, 2, vec![0, 2]);
+        // The seed is hit in the first bin, its neighbours in the second and the fourth, or one of them at all.
+        let run = |hits: [u64; 3], firsts: [Option<u32>; 3]| {
+            let (hits, firsts, crossed) = (hits.to_vec(), firsts.to_vec(), vec![0; 3]);
+            Some(Trace { drawn: 1, seed: Some(1), hits, firsts, crossed })
+        };
+        let rows = vec![vec![
+            run([0, 0b0001, 0b1010], [None, Some(0), Some(30)]),
+            None,
+            run([0b0010, 0b0001, 0b0010], [Some(30), Some(0), Some(40)]),
+        ]];
+        let found = tables(&Seeds { parameters, rows });
+        let [course, advance, fronts, waits, _, _, all] = &found[..] else { panic!() };
+        let at = |until: f64, column| course.number(&[("until", until)], column).unwrap();
+        let columns = ["reached", "active", "active_share", "alive", "distance"];
+        assert_eq!(columns.map(|column| at(50.0, column)), [2.5, 2.5, 1.0, 1.0, 1.0]);
+        assert_eq!(columns.map(|column| at(100.0, column)), [2.5, 0.5, 0.2, 0.5, 1.0]);
+        // To each side there are two neighbours, of which three of four are hit.
+        let advance = advance.points(&[], "time", "advance");
+        assert_eq!(advance, [(25.0, 0.0), (50.0, 0.75), (75.0, 0.75), (100.0, 0.75)]);
+        // Waits of 30, 30 and 40, and one that is cut off at 100.
+        let longer = waits.points(&[], "time", "longer");
+        assert_eq!(longer, [(30.0, 0.5), (40.0, 0.25), (100.0, 0.25)]);
+        let speed = fronts.number(&[("sigma", 0.1)], "speed").unwrap();
+        assert_eq!(speed, 3.0 / 200.0);
+        let of = |column| all.number(&[], column).unwrap();
+        assert_eq!([of("fronts"), of("steps"), of("least_alive")], [4.0, 3.0, 0.5]);
+        assert_eq!(of("far_time"), 300.0 / speed);
+        assert!((of("meeting_time") * 2.0 * speed / of("spacing") - 1.0).abs() < 1e-14);
+    }
+}
