@@ -41,11 +41,12 @@ pub fn tables(found: &Independence) -> Vec<Table> {
     let parameters = &found.parameters;
     let (mut rising, mut shorter) = (Vec::new(), Vec::new());
     for (row, part) in parameters.rows.iter().zip(&found.rows) {
-        let ran = |outcome| match outcome {
-            &Outcome::Ran(ref run) => Some(run.as_ref()),
-            _ => None,
-        };
-        let runs: Vec<&Run> = part.iter().filter_map(ran).collect();
+        let mut runs: Vec<&Run> = Vec::new();
+        for outcome in part {
+            if let Outcome::Ran(run) = outcome {
+                runs.push(run);
+            }
+        }
         let gaps = chain(parameters, row).gaps();
         let impacts = runs.iter().map(|run| total(&run.hits)).collect();
         let blocks = blocks(parameters, gaps).collect();
