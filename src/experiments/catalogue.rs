@@ -6,8 +6,8 @@ use super::deep::Deep;
 use super::experiment::How::{Cut, Read, Whole};
 use super::{
     Measured, Results, chains, heat, history, horizon, independence, long, nucleation, orbits,
-    protocol, protocols, restitution, seeds, segments, spacetime, starts, sweep, tally, two_masses,
-    weights,
+    protocol, protocol_tables, protocols, restitution, seeds, segments, spacetime, starts, sweep,
+    tally, two_masses, weights,
 };
 use crate::params::{
     AnalyticParams, BiasParams, ChainsParams, HeatParams, HistoryParams, HorizonParams,
@@ -56,8 +56,12 @@ pub const ALL: [Need; 25] = [
 pub type Together = fn(&Results, &[Table]) -> Option<Vec<Table>>;
 
 /// What follows from several experiments together.
-pub const TOGETHER: [Together; 3] =
-    [sweep::tables::of_both, seeds::compared::tables, history::tables::beside];
+pub const TOGETHER: [Together; 4] = [
+    sweep::tables::of_both,
+    seeds::compared::tables,
+    history::tables::beside,
+    protocol_tables::of_rest,
+];
 
 /// The experiments that a profile saves: the deep one those that take long, all others all.
 pub fn of(profile: Profile) -> Vec<Need> {
@@ -110,7 +114,7 @@ pub const PROTOCOL: Deep<ProtocolParams, protocol::ProtocolMap, protocol::Part> 
     "src/experiments/protocol.rs",
     ProtocolParams::new,
     ("protocol map", protocol::CUTTING),
-    |_| Vec::new(),
+    protocol_tables::of_map,
 );
 
 /// The same for other starts and ends.
@@ -119,7 +123,7 @@ pub const PROTOCOLS: Deep<ProtocolsParams, protocols::Protocols, protocol::Part>
     "src/experiments/protocols.rs",
     ProtocolsParams::new,
     ("maps of other chains", protocols::CUTTING),
-    |_| Vec::new(),
+    protocol_tables::of_others,
 );
 
 /// Other starts, boundaries, restitutions and frequencies.
@@ -296,7 +300,7 @@ pub const LONG_PROTOCOL: Deep<ProtocolParams, long::LongMap, protocol::Part> = D
         "src/experiments/long.rs",
         ProtocolParams::long,
         ("long protocol map", long::CUTTING),
-        |_| Vec::new(),
+        protocol_tables::of_long,
     )
 };
 

@@ -21,6 +21,7 @@ pub mod observe;
 pub mod orbits;
 pub mod progress;
 pub mod protocol;
+pub mod protocol_tables;
 pub mod protocols;
 pub mod restitution;
 pub mod rise;

@@ -195,12 +195,7 @@ pub fn draw(number: Number, results: &Results) -> Result<Figure, Error> {
         Number::Paper(13) => fig13::draw(&results.theory),
         Number::Paper(14) => fig14::draw(&results.theory),
         Number::Paper(15) => fig15::draw(results.sweep()?, &results.theory, note),
-        Number::Own(1) => {
-            let (map, long) = (results.protocol()?, results.long_protocol()?);
-            let (others, found) = (results.protocols()?, &results.identities);
-            let seeds = [found.sigma_kept_half, found.sigma_kept_onset];
-            s01::draw(s01::Maps { map, long, others, seeds }, note)
-        }
+        Number::Own(1) => s01::draw(results, note),
         Number::Own(2) => s02::draw(results.spacetime()?, note),
         Number::Own(3) => s03::draw(results, note),
         Number::Own(4) => s04::draw(results, note),

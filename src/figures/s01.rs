@@ -2,12 +2,12 @@
 
 use super::axis::{Axis, log};
 use super::chart::{LETTERS, short};
-use super::data::cells;
 use super::panel::{Frame, Panel};
 use super::series::Outside;
 use super::sheet::{Entry, Sheet};
 use super::style::{BLUE, Colour, Dash, GREEN, INK, Mark, PURPLE, RED, SMALL, Stroke, THIN};
 use super::{DataFile, Error, Figure};
+use crate::experiments::Results;
 use crate::experiments::long::LongMap;
 use crate::experiments::protocol::{ProtocolCell, ProtocolMap};
 use crate::experiments::protocols::Protocols;
@@ -36,23 +36,31 @@ type Place = fn(&ProtocolCell) -> Option<Estimate>;
 
 const HALF: Place = |cell| cell.half_height_all;
 const ONSET: Place = |cell| cell.onset;
-const KEPT: Place = |cell| cell.kept_half;
 const HALF_OF_KEPT: Place = |cell| cell.half_height;
 
 /// The rows: a place, and its axis.
 const ROWS: [(Place, &str); 2] = [(HALF, "*σ*_{1/2}"), (ONSET, "*σ*_{0}")];
 
+/// The numbers that it shows.
+const TABLES: [&str; 5] = [
+    "protocol.cells",
+    "long_protocol.cells",
+    "protocols.zero",
+    "protocols.random",
+    "protocols.ring",
+];
+
 /// What is drawn.
 #[derive(Clone, Copy)]
-pub struct Maps<'a> {
+struct Maps<'a> {
     /// The map of the paper's chain.
-    pub map: &'a ProtocolMap,
+    map: &'a ProtocolMap,
     /// Its long end.
-    pub long: &'a LongMap,
+    long: &'a LongMap,
     /// The maps of other chains.
-    pub others: &'a Protocols,
+    others: &'a Protocols,
     /// The σ at which a half, and a twentieth, of the chains from rest have a gap that closes by itself.
-    pub seeds: [f64; 2],
+    seeds: [f64; 2],
 }
 
 impl<'a> Maps<'a> {
@@ -79,7 +87,14 @@ const TOPS: [i32; 2] = [430, 4680];
 const LEGEND: i32 = 9000;
 
 /// Draws the figure.
-pub fn draw(maps: Maps<'_>, note: Option<&str>) -> Result<Figure, Error> {
+pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
+    let found = &results.identities;
+    let maps = Maps {
+        map: results.protocol()?,
+        long: results.long_protocol()?,
+        others: results.protocols()?,
+        seeds: [found.sigma_kept_half, found.sigma_kept_onset],
+    };
     let sheet = Sheet::new(10_650, note)?;
     let (left, right) = ((1000, 4150), (4900, 8050));
     // Half of N takes half of the chains, and a twentieth of N a twentieth of them.
@@ -110,7 +125,9 @@ pub fn draw(maps: Maps<'_>, note: Option<&str>) -> Result<Figure, Error> {
         .collect();
     sheet.legend((4900, LEGEND), (SMALL, 340), &entries)?;
     let title = "Half height and onset against the transient";
-    Ok(sheet.finish_own(1, title, description(maps), vec![table(maps)]))
+    let data = TABLES.map(|name| results.table(name).map(DataFile::of));
+    let data = data.into_iter().collect::<Result<_, _>>()?;
+    Ok(sheet.finish_own(1, title, description(maps), data))
 }
 
 fn panel(sheet: &Sheet, place: usize, frame: Frame, y: Axis) -> Result<Panel, Error> {
@@ -180,84 +197,19 @@ fn starts(panel: &Panel, maps: Maps<'_>, place: Place) -> Result<(), Error> {
 }
 
 fn description(maps: Maps<'_>) -> String {
-    let told = |name: &str, window: f64, place: Place| -> String {
-        let line = maps.line(name, window, place);
+    let ends = |name: &str, place: Place| -> String {
+        let line = maps.line(name, WINDOW, place);
         let ends = line.first().zip(line.last().filter(|_| line.len() > 1));
         ends.map_or("none".into(), |(first, last)| {
-            format!(
-                "from {} at T = {} to {} at T = {}",
-                short(first.1.value, 4),
-                first.0,
-                short(last.1.value, 4),
-                last.0
-            )
+            format!("from {} to {}", short(first.1.value, 4), short(last.1.value, 4))
         })
-    };
-    let by_window = |place: Place| -> String {
-        let list = WINDOWS.iter().map(|(w, ..)| format!("{} for W = {w}", told("rest", *w, place)));
-        list.collect::<Vec<_>>().join("; ")
-    };
-    let by_start = |place: Place| -> String {
-        let list =
-            STARTS.iter().map(|(name, what, ..)| format!("{what}: {}", told(name, WINDOW, place)));
-        list.collect::<Vec<_>>().join("; ")
     };
     let [half, onset] = maps.seeds.map(|seeds| short(seeds, 3));
     format!(
-        "(a) Half height of the mean of all chains against the transient T on a logarithmic axis, with a curve for \
-         each window W, falling and coming together above the level {half}: {}. Dashed curves of the mean of the kept fall \
-         below that level. (b) Half heights of other chains, W = {WINDOW}: {}. (c) Onset, as in (a), above the level {onset}: {}. \
-         (d) Onsets of the other chains: {}.",
-        by_window(HALF),
-        by_start(HALF),
-        by_window(ONSET),
-        by_start(ONSET),
+        "Against the transient T: (a) half height of the mean of all, falling with T and with the window towards the \
+         level {half}, {} at W = {WINDOW}; dashed, of the kept, below it. (b) Other chains: a ring as the row, random starts later. (c) Onset, \
+         {}, above {onset}. (d) Onsets of other chains.",
+        ends("rest", HALF),
+        ends("rest", ONSET),
     )
-}
-
-/// The cells of a map, with a name.
-fn of<'a>(
-    name: &'a str,
-    map: &'a ProtocolMap,
-) -> impl Iterator<Item = (&'a str, &'a ProtocolCell)> {
-    map.cells.iter().map(move |cell| (name, cell))
-}
-
-fn table(maps: Maps<'_>) -> DataFile {
-    let mut table = DataFile::new(
-        "s01.csv",
-        &[
-            "chain (text)",
-            "transient (1/omega)",
-            "window (1/omega)",
-            "half_height (d omega^2)",
-            "half_height_error (d omega^2)",
-            "half_height_of_kept (d omega^2)",
-            "half_height_of_kept_error (d omega^2)",
-            "onset (d omega^2)",
-            "onset_error (d omega^2)",
-            "half_are_kept (d omega^2)",
-            "half_are_kept_error (d omega^2)",
-        ],
-    );
-    let rest = of("rest", maps.map).chain(of("rest, long", &maps.long.map));
-    let others = maps.others.named().flat_map(|(name, map)| of(name, map));
-    for (name, cell) in rest.chain(others) {
-        let places = [HALF, HALF_OF_KEPT, ONSET, KEPT].map(|place| place(cell));
-        let [half, of_kept, onset, kept] = places;
-        table.row(cells![
-            name,
-            cell.transient,
-            cell.window,
-            half.map(|own| own.value),
-            half.map(|own| own.error),
-            of_kept.map(|own| own.value),
-            of_kept.map(|own| own.error),
-            onset.map(|own| own.value),
-            onset.map(|own| own.error),
-            kept.map(|own| own.value),
-            kept.map(|own| own.error)
-        ]);
-    }
-    table
 }

@@ -2,6 +2,7 @@
 
 use super::super::Results;
 use super::super::estimates::{average_count, half_height};
+use super::super::protocol_tables::address;
 use super::super::sweep::tables::mean_all;
 use super::{Counts, History};
 use crate::numerics::statistics::Estimate;
@@ -83,8 +84,9 @@ pub fn beside(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
         .key("transient", "1/omega", |transient| *transient)
         .estimate("half_height", "d omega^2", "the mean of all passes half of all gaps", half)
         .same("half_height", |transient| {
-            let (t, w) = (*transient as u64, history.window as u64);
-            half(transient).map(|_| format!("protocol.t{t}_w{w}_all"))
+            let cell =
+                map.cell(*transient, history.window).filter(|_| half(transient).is_some())?;
+            Some(address("protocol", cell, "half_height_all"))
         })
         .done();
     Some(vec![counts, rise])

@@ -3,6 +3,7 @@
 
 use crate::experiments::Results;
 use crate::experiments::estimates::difference;
+use crate::experiments::protocol_tables::address;
 use crate::numerics::statistics::Estimate;
 use crate::table::Table;
 
@@ -36,7 +37,7 @@ pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
         .key("transient", "1/omega", |line| line.transient)
         .estimate("half_height", "d omega^2", "", |line| line.half_height)
         .same("half_height", |line| {
-            Some(format!("protocol.t{}_w{}_all", line.transient as u64, window as u64))
+            map.cell(line.transient, window).map(|own| address("protocol", own, "half_height_all"))
         })
         .real("eq25", "1", 2, OFF, |line| line.off("eq25"))
         .real("from_rest", "1", 2, OFF, |line| line.off("from_rest"))

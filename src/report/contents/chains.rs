@@ -3,6 +3,7 @@
 use super::{Error, chosen, difference, estimate, from, mark};
 use crate::experiments::chains::{Chains, Curve};
 use crate::experiments::protocol::ProtocolMap;
+use crate::experiments::protocol_tables::address;
 use crate::experiments::{Results, chains};
 use crate::params::{ChainCurve, ChainKind};
 use crate::report::values::{Value, origin};
@@ -118,7 +119,10 @@ fn drift(found: &Chains, map: &ProtocolMap) -> Option<Vec<Value>> {
     let mut values = Vec::new();
     for &time in &first.transients {
         values.push(Value::integer(format!("chains.t{}", time as u64), time as u64));
-        values.push(super::protocol::all_as(map_id(time), map, time, window));
+        values.push(match map.cell(time, window) {
+            Some(own) => Value::same(map_id(time), address("protocol", own, "half_height_all")),
+            None => Value::text(map_id(time), "none"),
+        });
     }
     for (own, curve) in drifts(found) {
         for (time, half) in own.transients.iter().zip(&curve.half_heights) {

@@ -13,11 +13,8 @@ mod comparison;
 mod higher;
 mod large;
 mod ledger;
-mod long;
 mod orbits;
 mod paper;
-mod protocol;
-mod protocols;
 mod sizes;
 mod spacetime;
 mod starts;
@@ -55,17 +52,14 @@ pub enum Error {
 pub type Section = fn(&Results) -> Result<Vec<Value>, Error>;
 
 /// All values but what the paper printed, in the order of the report.
-pub const SECTIONS: [Section; 15] = [
+pub const SECTIONS: [Section; 12] = [
     theory::values,
     comparison::values,
     higher::values,
     large::values,
-    protocol::values,
-    protocols::values,
     starts::values,
     spacetime::values,
     accuracy::values,
-    long::values,
     orbits::values,
     chains::values,
     sizes::values,
@@ -106,13 +100,6 @@ pub fn rows(
         ("basis_table", serde_json::to_value(ledger::bases(claims))?),
         ("row", serde_json::to_value(ledger::references(claims))?),
         ("comparison_table", serde_json::to_value(comparison::table(results)?)?),
-        ("protocol_windows", serde_json::to_value(protocol::windows(results)?)?),
-        ("protocol_printed", serde_json::to_value(protocol::printed(results)?)?),
-        ("protocol_table", serde_json::to_value(protocol::table(results)?)?),
-        ("protocols_windows", serde_json::to_value(protocols::windows(results)?)?),
-        ("protocols_table", serde_json::to_value(protocols::table(results)?)?),
-        ("long_windows", serde_json::to_value(long::windows(results)?)?),
-        ("long_table", serde_json::to_value(long::table(results)?)?),
         ("distance_heads", serde_json::to_value(large::distance_heads(results))?),
         ("distance_table", serde_json::to_value(large::distance_table(results))?),
         ("order_table", serde_json::to_value(large::order_table(results))?),

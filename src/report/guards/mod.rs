@@ -15,7 +15,7 @@ mod heat;
 mod higher;
 mod history;
 mod large;
-mod long;
+mod maps;
 mod model;
 mod motion;
 mod nucleation;
@@ -23,8 +23,6 @@ mod orbits;
 mod orders;
 mod places;
 mod printed;
-mod protocol;
-mod protocols;
 mod relation;
 mod restitution;
 mod simple;
@@ -73,10 +71,8 @@ pub struct Failing {
 pub fn all() -> impl Iterator<Item = &'static Guard> {
     let files = [
         sweep::GUARDS,
+        maps::GUARDS,
         places::GUARDS,
-        protocol::GUARDS,
-        protocols::GUARDS,
-        long::GUARDS,
         carried::GUARDS,
         nucleation::GUARDS,
         heat::GUARDS,

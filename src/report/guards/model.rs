@@ -3,7 +3,6 @@
 //! polynomials. Slower and less exact; enough to say whether a printed digit is right.
 
 use crate::numerics::quadrature::GaussLegendre;
-use crate::params::Start;
 use pxfm::{f_erfc, f_exp, f_lgamma, f_log, f_sqrt1pm1};
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
@@ -144,16 +143,6 @@ fn over_phases(sigma: f64) -> f64 {
         f_exp(-(rate / reach) * (rate / reach))
     };
     RULE.integrate_panels(0.0, FRAC_PI_2, PANELS, at) / FRAC_PI_2
-}
-
-/// The chance that a gap closes by itself after each start, Ω² = 2 ω². On the forced motion it does if
-/// Y₁ > d, with the tail of Eq. (22); of random starts those that overlap count.
-pub fn p_of_start(start: Start, sigma: f64) -> f64 {
-    match start {
-        Start::Rest => p_rest(sigma),
-        Start::Random => p(sigma),
-        Start::Zero => f_exp(-0.25 / (sigma * sigma)),
-    }
 }
 
 /// The chance that the length of two normal amplitudes of that scale exceeds a height: their density

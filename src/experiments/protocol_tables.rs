@@ -1,0 +1,112 @@
+//! Tables of the maps over transients and windows: that of the paper's chain, its long end, and those of
+//! other starts and ends.
+
+use super::Results;
+use super::long::LongMap;
+use super::protocol::{ProtocolCell, ProtocolMap, join};
+use super::protocols::Protocols;
+use crate::numerics::statistics::Estimate;
+use crate::table::{Building, Table};
+use crate::value::origin;
+
+/// Of the map of the paper's chain.
+pub fn of_map(map: &ProtocolMap) -> Vec<Table> {
+    let halves = || map.cells.iter().filter_map(|own| Some((own.half_height?, own)));
+    let least = halves().min_by(|a, b| a.0.value.total_cmp(&b.0.value)).map(|(_, own)| own);
+    let most = halves().max_by(|a, b| a.0.value.total_cmp(&b.0.value)).map(|(_, own)| own);
+    let half = |own: Option<&ProtocolCell>| own.and_then(|own| own.half_height);
+    let same = |own: Option<&ProtocolCell>| own.map(|own| address("protocol", own, "half_height"));
+    let all = Table::of("protocol.all", &[map], |own| own.parameters.realisations)
+        .count("realisations", "chains at each σ", |own| own.parameters.realisations as u64)
+        .count("sigmas", "values of σ", |own| own.parameters.sigmas.len() as u64)
+        .count("combinations", "transients times windows", |own| own.cells.len() as u64)
+        .count("as_printed", "of these, half heights that round to the printed one", |_| {
+            map.cells.iter().filter(|own| own.prints_as_published).count() as u64
+        })
+        .estimate("largest", "d omega^2", "largest half height", |_| half(most))
+        .same("largest", |_| same(most))
+        .estimate("least", "d omega^2", "least half height", |_| half(least))
+        .same("least", |_| same(least))
+        .done();
+    vec![cells("protocol.cells", map), all]
+}
+
+/// Of its long end.
+pub fn of_long(long: &LongMap) -> Vec<Table> {
+    let all = Table::of("long_protocol.all", &[&long.map.parameters], |own| own.realisations)
+        .count("realisations", "chains at each σ", |own| own.realisations as u64)
+        .count("sigmas", "values of σ", |own| own.sigmas.len() as u64)
+        .done();
+    vec![cells("long_protocol.cells", &long.map), all]
+}
+
+/// Of other starts and ends.
+pub fn of_others(found: &Protocols) -> Vec<Table> {
+    let named = |(name, map): (&str, &ProtocolMap)| {
+        let table = match name {
+            "zero" => "protocols.zero",
+            "random" => "protocols.random",
+            _ => "protocols.ring",
+        };
+        cells(table, map)
+    };
+    let all = Table::of("protocols.all", &found.maps[..1], |own| own.parameters.realisations)
+        .count("realisations", "chains at each σ", |own| own.parameters.realisations as u64)
+        .done();
+    found.named().map(named).chain([all]).collect()
+}
+
+/// The paper's chain in the cells that the others have: those of its map, and beyond it those of its long end.
+pub fn of_rest(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
+    let (map, long) = (results.protocol().ok()?, results.long_protocol().ok()?);
+    let others = results.protocols().ok()?.maps.first()?;
+    let early = map.cells.iter().map(|own| ("protocol", own));
+    let late = long.beyond(map).map(|own| ("long_protocol", own));
+    let among = |(_, own): &(&str, &ProtocolCell)| others.cell(own.transient, own.window).is_some();
+    let cells: Vec<_> = early.chain(late).filter(among).collect();
+    let mut table =
+        places(Table::of("protocols.rest", &cells, |_| map.parameters.realisations), |(_, own)| {
+            own
+        });
+    for (column, ..) in PLACES {
+        table = table.same(column, |(of, own)| Some(address(of, own, column)));
+    }
+    Some(vec![table.done()])
+}
+
+/// The address of a number of a cell.
+pub fn address(experiment: &str, own: &ProtocolCell, column: &str) -> String {
+    let ProtocolCell { transient, window, .. } = own;
+    format!("{experiment}.cells[transient={transient},window={window}].{column}")
+}
+
+/// A column: its name, what it is, and the place of a cell.
+type Place = (&'static str, &'static str, fn(&ProtocolCell) -> Option<Estimate>);
+
+const PLACES: [Place; 4] = [
+    ("half_height", "σ where the mean of the kept passes half of all gaps", |own| own.half_height),
+    ("half_height_all", "σ where the mean of all passes half of all gaps", |own| {
+        own.half_height_all
+    }),
+    ("onset", "σ where the mean of all passes a twentieth of all gaps", |own| own.onset),
+    ("kept_half", "σ at which half of the chains have an impact in the window", |own| {
+        own.kept_half
+    }),
+];
+
+fn cells(name: &'static str, map: &ProtocolMap) -> Table {
+    places(Table::of(name, &map.cells, |_| map.parameters.realisations), |own| own).done()
+}
+
+fn places<'a, R>(
+    table: Building<'a, R>,
+    cell: impl Fn(&R) -> &ProtocolCell + Copy,
+) -> Building<'a, R> {
+    let table = table
+        .key("transient", "1/omega", |row| cell(row).transient)
+        .key("window", "1/omega", |row| cell(row).window)
+        .computed_by(origin(join));
+    PLACES.into_iter().fold(table, |table, (name, meaning, place)| {
+        table.estimate(name, "d omega^2", meaning, |row| place(cell(row)))
+    })
+}

@@ -1,0 +1,98 @@
+//! The maps over transients and windows: what chance must not break.
+
+use super::{Guard, Look, room, unless};
+use crate::claims;
+use crate::experiments::protocol::{ProtocolCell, ProtocolMap};
+use crate::experiments::rise::Rise;
+use crate::numerics::statistics::Estimate;
+
+pub const GUARDS: &[Guard] = &[
+    Guard { name: "maps_meet", ids: &["protocol*", "long_protocol*", "starts*"], find: meet },
+    Guard { name: "maps_fall", ids: &["protocol*", "long_protocol*"], find: fall },
+    Guard { name: "maps_need_seeds", ids: &["protocol*", "long_protocol*"], find: need_seeds },
+];
+
+/// The half heights of the mean of the kept and of all, the onset, and where half of the chains are kept.
+type Places = [Option<Estimate>; 4];
+
+fn places(cell: &ProtocolCell) -> Places {
+    [cell.half_height, cell.half_height_all, cell.onset, cell.kept_half]
+}
+
+fn of_rise(rise: &Rise) -> Places {
+    [rise.half_height, rise.half_height_all, rise.onset, rise.kept_half]
+}
+
+/// All maps, by what they were run with.
+fn maps<'a>(look: Look<'a>) -> impl Iterator<Item = (&'a str, &'a ProtocolMap)> {
+    let rest = look.results.protocol().into_iter().map(|map| ("rest", map));
+    let long = look.results.long_protocol().into_iter().map(|long| ("long", &long.map));
+    rest.chain(long).chain(look.results.protocols().into_iter().flat_map(|all| all.named()))
+}
+
+/// Samples that drew other random numbers agree within the errors of both: the map with the main sweep and
+/// with its long end, and those of other chains with the ensembles of the same start and end.
+fn meet(look: Look<'_>) -> Option<String> {
+    let apart = |what: &str, own: Places, other: Places| {
+        own.into_iter().zip(other).find_map(|(own, other)| {
+            let (own, other) = own.zip(other)?;
+            unless((own.value - other.value).abs() <= room(&own, &other), || {
+                format!("{what}: {} in one sample, {} in another", own.value, other.value)
+            })
+        })
+    };
+    let sweep = look.results.sweep().ok()?;
+    let protocol = sweep.parameters.protocol;
+    maps(look).find_map(|(name, map)| {
+        let at = map.cell(protocol.transient, protocol.window);
+        let other = match name {
+            "rest" => Some(&sweep.rise),
+            _ => look.results.starts().ok()?.variant(name).map(|variant| &variant.rise),
+        };
+        let swept = at.zip(other).and_then(|(at, other)| apart(name, places(at), of_rise(other)));
+        let rest = look.results.protocol().ok().filter(|_| name == "long")?;
+        swept.or_else(|| {
+            map.cells.iter().find_map(|own| {
+                apart(name, places(own), places(rest.cell(own.transient, own.window)?))
+            })
+        })
+    })
+}
+
+/// Longer waiting and longer counting move the rise down, but for errors.
+fn fall(look: Look<'_>) -> Option<String> {
+    maps(look).find_map(|(name, map)| {
+        let pairs = map.cells.iter().flat_map(|a| map.cells.iter().map(move |b| (a, b)));
+        let mut falls = pairs.filter(|(a, b)| a.transient <= b.transient && a.window <= b.window);
+        falls.find_map(|(a, b)| {
+            places(a).into_iter().zip(places(b)).find_map(|(before, after)| {
+                let (before, after) = before.zip(after)?;
+                unless(after.value <= before.value + room(&before, &after), || {
+                    format!("{name}: {} after {} at later times", after.value, before.value)
+                })
+            })
+        })
+    })
+}
+
+/// From rest no more chains have impacts than have a gap that closes by itself, however long one waits: the
+/// mean of all is half of N no sooner than half of the chains have such a gap, and a twentieth of it no
+/// sooner than a twentieth of them.
+fn need_seeds(look: Look<'_>) -> Option<String> {
+    let seeds = &look.results.identities;
+    let quantile = claims::level().quantile;
+    let from_rest = maps(look).filter(|(name, _)| ["rest", "long", "ring"].contains(name));
+    from_rest.flat_map(|(_, map)| &map.cells).find_map(|cell| {
+        let bounds = [
+            (cell.half_height_all, seeds.sigma_kept_half),
+            (cell.kept_half, seeds.sigma_kept_half),
+            (cell.onset, seeds.sigma_kept_onset),
+        ];
+        bounds.into_iter().find_map(|(own, bound)| {
+            let own = own?;
+            unless(own.value >= bound - quantile * own.error, || {
+                format!("rise at {}, where too few have seeds below {bound}", own.value)
+            })
+        })
+    })
+}
