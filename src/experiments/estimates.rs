@@ -31,20 +31,15 @@ pub fn difference(own: Estimate, other: Estimate) -> Estimate {
     with_error(own.value - other.value, error)
 }
 
-/// A number with the error that follows from what it is when each member of the sample is left out in
-/// turn; none of fewer than two members.
-pub fn left_out(value: f64, without: &[f64]) -> Option<Estimate> {
-    Some(with_error(value, standard_error(without)? * (without.len() as f64 - 1.0)))
-}
-
-/// A statistic of so many realisations, given the one that is left out; none if it does not exist
-/// without each of them.
+/// A statistic of so many realisations, given the one that is left out, with the error that follows from what it is
+/// when each is left out in turn; none if it does not exist without each of them, or there are fewer than two.
 pub fn jackknife(
     realisations: usize,
     statistic: impl Fn(Option<usize>) -> Option<f64>,
 ) -> Option<Estimate> {
     let without: Option<Vec<f64>> = (0..realisations).map(|out| statistic(Some(out))).collect();
-    left_out(statistic(None)?, &without?)
+    let error = standard_error(&without?)? * (realisations as f64 - 1.0);
+    Some(with_error(statistic(None)?, error))
 }
 
 /// The sums of both members of all pairs but one.
@@ -96,7 +91,8 @@ mod tests {
         let same = ratio(&[[1.0, 2.0], [2.0, 4.0], [3.0, 6.0]]).unwrap();
         assert_eq!((same.value, same.error), (0.5, 0.0));
         // Means of two of {1, 2, 3}.
-        let found = left_out(2.0, &[2.5, 2.0, 1.5]).unwrap();
+        let means = [2.5, 2.0, 1.5];
+        let found = jackknife(3, |out| Some(out.map_or(2.0, |out| means[out]))).unwrap();
         assert!((found.error - (1.0_f64 / 3.0).sqrt()).abs() < 1e-15);
     }
 

@@ -160,16 +160,6 @@ impl Filler {
             Err(error) => self.fill(path).map_or_else(Err, |_| Err(error)),
         }
     }
-
-    /// Fills a text that is no file (a field of a claim); `name` stands for it in errors.
-    ///
-    /// # Errors
-    /// As [`Filler::fill`].
-    pub fn fill_text(&self, name: &str, text: &str) -> Result<String, Error> {
-        let mut tera = self.tera.clone();
-        tera.add_raw_template(name, text).map_err(failure)?;
-        render(&tera, name, &self.context)
-    }
 }
 
 /// One line: file, line, column, what is wrong, and names that begin alike.

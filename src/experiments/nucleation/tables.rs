@@ -131,13 +131,7 @@ fn all(parameters: &NucleationParams, chains: &[Chains<'_>], half: f64) -> Table
         rows.map(|row| off(row).abs()).fold(0.0, f64::max)
     };
     Table::of("nucleation.all", &[parameters], |_| 0)
-        .real(
-            "half",
-            SIGMA,
-            4,
-            "σ where half of the chains have a gap that closes by itself",
-            |_| half,
-        )
+        .real("half", SIGMA, 4, "σ where half of the chains have such a gap", |_| half)
         .count("shortest", "masses of the shortest chains", |_| shortest as u64)
         .count("longest", "masses of the longest", |_| lengths().max().unwrap_or(0) as u64)
         .chosen("until", "1/omega", "the latest time", |_| last)

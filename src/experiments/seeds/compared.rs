@@ -65,12 +65,9 @@ pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
         .count("sigmas", "values of σ that seeds and map have", |()| sigmas.len() as u64)
         .chosen("from", "d omega^2", "the first of them", |()| sigmas.first().copied())
         .chosen("to", "d omega^2", "the last", |()| sigmas.last().copied())
-        .estimate(
-            "early",
-            "d omega^2",
-            "half height of the main sweep less that by nucleation and growth",
-            |()| Some(difference(swept.first()?.1, half.first()?.1)),
-        )
+        .estimate("early", "d omega^2", "half height of the main sweep less this", |()| {
+            Some(difference(swept.first()?.1, half.first()?.1))
+        })
         .real("largest", "1", 2, "largest distance of mean counts from the main sweep", |()| {
             worst.map_or(f64::NAN, |at| at.2.abs())
         })

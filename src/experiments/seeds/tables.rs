@@ -93,13 +93,9 @@ fn course(rows: &[Row<'_>]) -> Table {
         .estimate("alive", "1", "share of the runs with an impact in the window", |(row, from)| {
             share(row.alive(*from), row.runs.len() as u64)
         })
-        .real(
-            "distance",
-            "1",
-            2,
-            "root mean square distance of what was reached, in gaps",
-            |(row, from)| row.seen.radius(row.end(*from)),
-        )
+        .real("distance", "1", 2, "root mean square distance of those reached", |(row, from)| {
+            row.seen.radius(row.end(*from))
+        })
         .done()
 }
 
@@ -110,13 +106,9 @@ fn advance(rows: &[Row<'_>]) -> Table {
     Table::of("seeds.advance", &rows, |(row, _)| row.runs.len())
         .key("sigma", SIGMA, |(row, _)| row.sigma)
         .key("time", TIME, |(row, bin)| *bin as f64 * row.parameters.bin)
-        .real(
-            "advance",
-            "1",
-            3,
-            "gaps that a front has passed, to one side of a long chain",
-            |(row, bin)| row.seen.advance(*bin),
-        )
+        .real("advance", "1", 3, "gaps that a front has passed, to one side", |(row, bin)| {
+            row.seen.advance(*bin)
+        })
         .done()
 }
 
@@ -147,25 +139,15 @@ fn fronts(rows: &[Row<'_>]) -> Table {
         .estimate("between", "1", "mean number of steps between long waits", |row| {
             row.fronts.between()
         })
-        .estimate(
-            "memory",
-            "1",
-            "chance of a long wait after a long one, over after a short one",
-            |row| row.fronts.memory(),
-        )
-        .estimate(
-            "dispersion",
-            "1",
-            "variance of the number of long waits, over independent ones",
-            |row| row.fronts.dispersion(),
-        )
-        .real(
-            "alike",
-            "1",
-            3,
-            "chance of the like of what was waited at for long, over that of all",
-            |row| row.fronts.alike(),
-        );
+        .estimate("memory", "1", "long waits after long ones over those after short ones", |row| {
+            row.fronts.memory()
+        })
+        .estimate("dispersion", "1", "variance of their number over independent ones", |row| {
+            row.fronts.dispersion()
+        })
+        .real("alike", "1", 3, "long waits of the like of what held, over all", |row| {
+            row.fronts.alike()
+        });
     for (parts, (name, width)) in CROSSED.into_iter().enumerate() {
         let meaning = format!("chance of a long wait at a gap that crosses {width} of its width");
         table = table.estimate(name, "1", &meaning, move |row| row.fronts.holds(parts));
@@ -222,7 +204,7 @@ fn means(rows: &[Row<'_>], predicted: &[Prediction]) -> Table {
             "by_then",
             "1",
             3,
-            "with the share of gaps that have closed by themselves at the end",
+            "with the share of gaps that have closed by then",
             |(own, _, row)| {
                 row.circuits(|_| Ok(row.closing[1].iter().take(row.end(own.transient)).sum()))
             },
