@@ -160,6 +160,19 @@ impl Table {
         found
     }
 
+    /// The different values of a key as addresses write them, in order of the rows.
+    pub fn called(&self, key: &str) -> Vec<String> {
+        let mut found = Vec::new();
+        if let Some(at) = self.column(key) {
+            for name in self.rows.iter().map(|(_, cells)| called(&cells[at])) {
+                if !found.contains(&name) {
+                    found.push(name);
+                }
+            }
+        }
+        found
+    }
+
     /// Names of the keys.
     pub fn keys(&self) -> impl Iterator<Item = &'static str> {
         self.columns[..self.keys].iter().map(|column| column.name)
@@ -169,7 +182,7 @@ impl Table {
     /// `first`, `last` and `last-1` of all its values. One empty name where there are no keys.
     pub fn named(&self) -> BTreeMap<String, BTreeMap<&'static str, &Value>> {
         let mut found = BTreeMap::new();
-        let keys: Vec<(&str, Vec<f64>)> = self.keys().map(|key| (key, self.values(key))).collect();
+        let keys: Vec<_> = self.keys().map(|key| (key, self.called(key))).collect();
         for (_, cells) in &self.rows {
             let row: BTreeMap<_, _> =
                 self.columns.iter().map(|column| column.name).zip(cells).collect();
@@ -212,12 +225,20 @@ impl Table {
 }
 
 /// The names of a key's value, of all that it has.
-fn ways(all: &[f64], cell: &Value) -> Vec<String> {
-    let own = plain(cell);
-    let place = all.iter().position(|value| Some(*value) == own).unwrap_or_default();
+fn ways(all: &[String], cell: &Value) -> Vec<String> {
+    let own = called(cell);
+    let place = all.iter().position(|name| *name == own).unwrap_or_default();
     let ends = [("first", 0), ("last", all.len() - 1), ("last-1", all.len().wrapping_sub(2))];
     let ends = ends.into_iter().filter(|(_, at)| *at == place).map(|(name, _)| name.to_string());
-    own.map(|own| own.to_string()).into_iter().chain(ends).collect()
+    std::iter::once(own).chain(ends).collect()
+}
+
+/// A key as addresses write it.
+fn called(cell: &Value) -> String {
+    match &cell.number {
+        Number::Text(words) => words.clone(),
+        _ => plain(cell).unwrap_or(f64::NAN).to_string(),
+    }
 }
 
 /// The number of a cell; none of words.
@@ -243,7 +264,8 @@ fn written(number: &Number) -> String {
         Number::Integer(n) => n.to_string(),
         Number::Real { value, .. } => format!("{value:?}"),
         Number::Interval { low, high } => format!("{low:?} to {high:?}"),
-        Number::Text(_) => String::new(),
+        Number::Text(words) if words == "none" => String::new(),
+        Number::Text(words) => words.clone(),
     }
 }
 
@@ -306,6 +328,13 @@ impl<'a, R> Building<'a, R> {
             Value::real("", value, 1).with_number(chosen(value))
         };
         self.put((name, unit), "", origin_of::<F>(), cell)
+    }
+
+    /// A key that is a name.
+    pub fn text_key<F: Fn(&R) -> String>(mut self, name: &'static str, of: F) -> Self {
+        assert_eq!(self.table.keys, self.table.columns.len(), "{name}: keys come first");
+        self.table.keys += 1;
+        self.put((name, "text"), "", origin_of::<F>(), |row: &R| Value::text("", of(row)))
     }
 
     /// A number from chance with its standard error, or the word *none* where the sample decides nothing.
@@ -404,9 +433,8 @@ impl<'a, R> Building<'a, R> {
         let mut seen = std::collections::BTreeSet::new();
         for (name, cells) in &mut table.rows {
             let keys = columns.iter().zip(&*cells).take(table.keys);
-            let keys: Vec<String> = keys
-                .map(|(key, cell)| format!("{}={}", key.name, plain(cell).unwrap_or(f64::NAN)))
-                .collect();
+            let keys: Vec<String> =
+                keys.map(|(key, cell)| format!("{}={}", key.name, called(cell))).collect();
             *name = keys.join(",");
             assert!(seen.insert(name.clone()), "{}: two rows with {name}", table.name);
             let row = if name.is_empty() { String::new() } else { format!("[{name}]") };

@@ -3,6 +3,7 @@
 use super::row::{Error, Evidence, Finding, open};
 use super::sec2_rare::NEGLIGIBLE;
 use super::{Judgement, Statement, Text};
+use crate::experiments::starts_tables::share_of_start;
 use crate::numerics::statistics::{Estimate, wilson};
 
 /// Eq. (20) in the simulation: a chain with random free parts that overlaps at its start, or has an
@@ -60,12 +61,6 @@ pub(super) fn no_impact(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
             .significant(least, 2)
             .say(" of it."),
     })
-}
-
-/// How much of the distance between theory and simulation the start explains: half heights from
-/// rest, from random free parts, and of the theory.
-pub(crate) fn share_of_start(rest: f64, random: f64, theory: f64) -> f64 {
-    (random - rest) / (theory - rest)
 }
 
 /// Half heights of the mean of all, from rest and with random free parts, for each transient that

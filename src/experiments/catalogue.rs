@@ -6,8 +6,8 @@ use super::deep::Deep;
 use super::experiment::How::{Cut, Read, Whole};
 use super::{
     Measured, Results, chains, heat, history, horizon, independence, long, nucleation, orbits,
-    protocol, protocol_tables, protocols, restitution, seeds, segments, spacetime, starts, sweep,
-    tally, two_masses, weights,
+    protocol, protocol_tables, protocols, restitution, seeds, segments, spacetime, starts,
+    starts_tables, sweep, tally, two_masses, weights,
 };
 use crate::params::{
     AnalyticParams, BiasParams, ChainsParams, HeatParams, HistoryParams, HorizonParams,
@@ -56,11 +56,12 @@ pub const ALL: [Need; 25] = [
 pub type Together = fn(&Results, &[Table]) -> Option<Vec<Table>>;
 
 /// What follows from several experiments together.
-pub const TOGETHER: [Together; 4] = [
+pub const TOGETHER: [Together; 5] = [
     sweep::tables::of_both,
     seeds::compared::tables,
     history::tables::beside,
     protocol_tables::of_rest,
+    starts_tables::beside_theory,
 ];
 
 /// The experiments that a profile saves: the deep one those that take long, all others all.
@@ -132,7 +133,7 @@ pub const STARTS: Deep<StartsParams, starts::Starts, tally::Tally> = Deep::new(
     "src/experiments/starts.rs",
     StartsParams::new,
     ("variants", starts::CUTTING),
-    |_| Vec::new(),
+    starts_tables::tables,
 );
 
 /// Chaos and its horizon.

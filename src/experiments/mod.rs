@@ -31,6 +31,7 @@ pub mod segments;
 pub mod shards;
 pub mod spacetime;
 pub mod starts;
+pub mod starts_tables;
 pub mod store;
 pub mod survival;
 pub mod sweep;

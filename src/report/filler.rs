@@ -256,8 +256,7 @@ fn context(values: &Registry, tables: &[&Table]) -> Context {
         put(&mut marks, table.name(), rows(mark));
         put(&mut numbers, table.name(), rows(raw));
         for key in table.keys() {
-            let values: Vec<String> = table.values(key).iter().map(f64::to_string).collect();
-            put(&mut keys, &format!("{}.{key}", table.name()), values.into());
+            put(&mut keys, &format!("{}.{key}", table.name()), table.called(key).into());
         }
     }
     let mut context = Context::new();

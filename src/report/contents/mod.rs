@@ -17,7 +17,6 @@ mod orbits;
 mod paper;
 mod sizes;
 mod spacetime;
-mod starts;
 mod theory;
 
 use super::mark::Mark;
@@ -52,12 +51,11 @@ pub enum Error {
 pub type Section = fn(&Results) -> Result<Vec<Value>, Error>;
 
 /// All values but what the paper printed, in the order of the report.
-pub const SECTIONS: [Section; 12] = [
+pub const SECTIONS: [Section; 11] = [
     theory::values,
     comparison::values,
     higher::values,
     large::values,
-    starts::values,
     spacetime::values,
     accuracy::values,
     orbits::values,
@@ -111,7 +109,6 @@ pub fn rows(
         ("chains_times", serde_json::to_value(chains::drift_times(results)?)?),
         ("chains_drifts", serde_json::to_value(chains::drift_table(results)?)?),
         ("chains_forces", serde_json::to_value(chains::forces_table(results)?)?),
-        ("starts_table", serde_json::to_value(starts::table(results)?)?),
         ("bias_heads", serde_json::to_value(accuracy::bias_heads(results)?)?),
         ("bias_table", serde_json::to_value(accuracy::bias_table(results)?)?),
         ("bias_means", serde_json::to_value(accuracy::bias_means(results)?)?),

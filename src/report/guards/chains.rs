@@ -1,6 +1,5 @@
 //! Long chains, friction and other forces.
 
-use super::places::between;
 use super::{Guard, Look, far, model, unless};
 use crate::experiments::chains::{Chains, Curve, Ensemble, Run, chain, pieces};
 use crate::experiments::protocol::ProtocolCell;
@@ -266,4 +265,11 @@ fn as_run(look: Look<'_>) -> Option<String> {
             ])
         })
         .or_else(|| unless(protocol.window == found.parameters.window, || "another window".into()))
+}
+
+/// Between the points of a curve on both sides of σ, in a straight line.
+fn between(points: &[(f64, f64)], sigma: f64) -> Option<f64> {
+    let above = points.iter().position(|point| point.0 >= sigma)?;
+    let (b, a) = (points[above], points[above.checked_sub(1)?]);
+    Some(((b.0 - sigma) * a.1 + (sigma - a.0) * b.1) / (b.0 - a.0))
 }

@@ -21,7 +21,6 @@ mod motion;
 mod nucleation;
 mod orbits;
 mod orders;
-mod places;
 mod printed;
 mod relation;
 mod restitution;
@@ -72,7 +71,6 @@ pub fn all() -> impl Iterator<Item = &'static Guard> {
     let files = [
         sweep::GUARDS,
         maps::GUARDS,
-        places::GUARDS,
         carried::GUARDS,
         nucleation::GUARDS,
         heat::GUARDS,
