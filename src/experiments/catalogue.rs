@@ -270,7 +270,7 @@ pub const ORBITS: Experiment<OrbitsParams, orbits::Orbits> = Experiment {
     module: "src/experiments/orbits/mod.rs",
     parameters: OrbitsParams::new,
     how: Whole { run: orbits::run, weight: |p| 60 * orbits::starts(p) },
-    tables: |_| Vec::new(),
+    tables: orbits::tables::tables,
 };
 
 /// Long chains, damping and other forces.

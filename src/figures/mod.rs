@@ -203,7 +203,7 @@ pub fn draw(number: Number, results: &Results) -> Result<Figure, Error> {
         Number::Own(6) => s06::draw(&results.theory),
         Number::Own(7) => s07::draw(results, note),
         Number::Own(8) => s08::draw(results, note),
-        Number::Own(9) => s09::draw(results.orbits()?, note),
+        Number::Own(9) => s09::draw(results, note),
         Number::Own(10) => s10::draw(results, note),
         Number::Own(11) => {
             s11::draw(results.chains()?, results.sizes()?, results.protocol()?, note)

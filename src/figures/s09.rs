@@ -10,6 +10,7 @@ use super::style::{
     BLUE, Colour, Dash, GREEN, GREY, HAIR, INK, LINE, Mark, ORANGE, RED, SMALL, Stroke, THIN,
 };
 use super::{DataFile, Error, Figure};
+use crate::experiments::Results;
 use crate::experiments::orbits::{Example, Orbits, Row};
 
 /// The colours of masses, and of lengths.
@@ -25,14 +26,16 @@ const REACH: f64 = 2.0;
 const SIGMA: f64 = 0.3;
 
 /// Draws the figure.
-pub fn draw(orbits: &Orbits, note: Option<&str>) -> Result<Figure, Error> {
+pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
+    let orbits = results.orbits()?;
     let sheet = Sheet::new(9500, note)?;
     if let Some(example) = &orbits.example {
         motion(&sheet, example)?;
     }
     shares(&sheet, orbits)?;
     plane(&sheet, orbits)?;
-    let files = tables(orbits);
+    let mut files = tables(orbits);
+    files.push(DataFile::of(results.table("orbits.lengths")?));
     Ok(sheet.finish_own(9, "Periodic orbits from circuits", description(orbits), files))
 }
 
@@ -192,29 +195,6 @@ fn tables(orbits: &Orbits) -> Vec<DataFile> {
             places.for_each(|(time, place)| motion.row(cells![*time, mass + 1, *place]));
         }
     }
-    let mut shares = DataFile::new(
-        "s09b.csv",
-        &[
-            "sigma (d omega^2)",
-            "length (1)",
-            "share_with_orbit (1)",
-            "standard_error (1)",
-            "share_with_stable_orbit (1)",
-            "standard_error_stable (1)",
-        ],
-    );
-    for row in &orbits.rows {
-        for own in &row.lengths {
-            shares.row(cells![
-                row.sigma,
-                own.k,
-                own.admissible.value,
-                own.admissible.error,
-                own.stable.value,
-                own.stable.error
-            ]);
-        }
-    }
     let mut plane =
         DataFile::new("s09c.csv", &["sigma (d omega^2)", "circuit (text)", "re (1)", "im (1)"]);
     if let Some(row) = chosen(orbits) {
@@ -227,5 +207,5 @@ fn tables(orbits: &Orbits) -> Vec<DataFile> {
             }
         }
     }
-    vec![motion, shares, plane]
+    vec![motion, plane]
 }

@@ -3,6 +3,7 @@
 mod ends;
 mod hunt;
 mod search;
+pub mod tables;
 
 pub use ends::{End, Ends};
 pub use hunt::{Hunt, Prey};

@@ -13,7 +13,6 @@ mod comparison;
 mod higher;
 mod large;
 mod ledger;
-mod orbits;
 mod paper;
 mod sizes;
 mod spacetime;
@@ -51,14 +50,13 @@ pub enum Error {
 pub type Section = fn(&Results) -> Result<Vec<Value>, Error>;
 
 /// All values but what the paper printed, in the order of the report.
-pub const SECTIONS: [Section; 11] = [
+pub const SECTIONS: [Section; 10] = [
     theory::values,
     comparison::values,
     higher::values,
     large::values,
     spacetime::values,
     accuracy::values,
-    orbits::values,
     chains::values,
     sizes::values,
     carried::values,
@@ -101,8 +99,6 @@ pub fn rows(
         ("distance_heads", serde_json::to_value(large::distance_heads(results))?),
         ("distance_table", serde_json::to_value(large::distance_table(results))?),
         ("order_table", serde_json::to_value(large::order_table(results))?),
-        ("orbits_table", serde_json::to_value(orbits::table(results)?)?),
-        ("orbits_fig6", serde_json::to_value(orbits::fig6(results)?)?),
         ("chains_lengths", serde_json::to_value(chains::lengths_table(results)?)?),
         ("sizes_heads", serde_json::to_value(sizes::heads(results)?)?),
         ("sizes_table", serde_json::to_value(sizes::table(results)?)?),
@@ -141,12 +137,6 @@ fn difference(
         }
         None => Value::text(id, "none"),
     }
-}
-
-/// A share of a number of realisations, with its binomial standard error.
-fn share(id: impl Into<String>, part: usize, whole: usize) -> Value {
-    let p = part as f64 / whole.max(1) as f64;
-    Value::ensemble(id, p, (p * (1.0 - p) / whole.max(1) as f64).sqrt(), whole as u64)
 }
 
 /// A number that was chosen, with all its digits.
