@@ -6,8 +6,8 @@ use super::deep::Deep;
 use super::experiment::How::{Cut, Read, Whole};
 use super::{
     Measured, Results, chains, heat, history, horizon, independence, long, nucleation, orbits,
-    protocol, protocols, restitution, seeds, segments, spacetime, starts, sweep, tally, two_masses,
-    weights,
+    protocol, protocols, restitution, seeds, segments, spacetime, starts, sweep, tally, theory,
+    two_masses, weights,
 };
 use crate::params::{
     AnalyticParams, BiasParams, ChainsParams, HeatParams, HistoryParams, HorizonParams,
@@ -56,8 +56,13 @@ pub const ALL: [Need; 25] = [
 pub type Together = fn(&Results, &[Table]) -> Option<Vec<Table>>;
 
 /// What follows from several experiments together.
-pub const TOGETHER: [Together; 3] =
-    [sweep::tables::of_both, seeds::compared::tables, history::tables::beside];
+pub const TOGETHER: [Together; 5] = [
+    theory::tables::tables,
+    theory::beside::tables,
+    sweep::tables::of_both,
+    seeds::compared::tables,
+    history::tables::beside,
+];
 
 /// The experiments that a profile saves: the deep one those that take long, all others all.
 pub fn of(profile: Profile) -> Vec<Need> {
@@ -74,7 +79,7 @@ pub const SEGMENTS: Experiment<(), segments::Segments> = Experiment {
     module: "src/experiments/segments.rs",
     parameters: |_| (),
     how: Read(segments::read),
-    tables: |_| Vec::new(),
+    tables: segments::tables,
 };
 
 /// Times that were measured once.

@@ -10,8 +10,6 @@ mod accuracy;
 mod carried;
 mod chains;
 mod comparison;
-mod higher;
-mod large;
 mod ledger;
 mod long;
 mod orbits;
@@ -21,7 +19,6 @@ mod protocols;
 mod sizes;
 mod spacetime;
 mod starts;
-mod theory;
 
 use super::mark::Mark;
 use super::print::Style;
@@ -55,11 +52,8 @@ pub enum Error {
 pub type Section = fn(&Results) -> Result<Vec<Value>, Error>;
 
 /// All values but what the paper printed, in the order of the report.
-pub const SECTIONS: [Section; 15] = [
-    theory::values,
+pub const SECTIONS: [Section; 12] = [
     comparison::values,
-    higher::values,
-    large::values,
     protocol::values,
     protocols::values,
     starts::values,
@@ -113,9 +107,6 @@ pub fn rows(
         ("protocols_table", serde_json::to_value(protocols::table(results)?)?),
         ("long_windows", serde_json::to_value(long::windows(results)?)?),
         ("long_table", serde_json::to_value(long::table(results)?)?),
-        ("distance_heads", serde_json::to_value(large::distance_heads(results))?),
-        ("distance_table", serde_json::to_value(large::distance_table(results))?),
-        ("order_table", serde_json::to_value(large::order_table(results))?),
         ("orbits_table", serde_json::to_value(orbits::table(results)?)?),
         ("orbits_fig6", serde_json::to_value(orbits::fig6(results)?)?),
         ("chains_lengths", serde_json::to_value(chains::lengths_table(results)?)?),

@@ -142,8 +142,8 @@ fn needs_seeds(look: Look<'_>) -> Option<String> {
             format!("{kept} chains with impacts at {}, where {most} can have seeds", row.sigma)
         })
     });
-    let half = look.number("kept_half_predicted")?;
-    let onset = look.number("kept_onset_predicted")?;
+    let half = look.number("theory.relation.sigma_kept_half")?;
+    let onset = look.number("theory.relation.sigma_kept_onset")?;
     let sooner = |place: Option<Estimate>, bound: f64| {
         let own = place?;
         unless(own.value >= bound - quantile * own.error, || {

@@ -10,24 +10,18 @@
 mod accuracy;
 mod carried;
 mod chains;
-mod comparison;
 mod heat;
-mod higher;
 mod history;
-mod large;
 mod long;
 mod model;
 mod motion;
 mod nucleation;
 mod orbits;
-mod orders;
 mod places;
 mod printed;
 mod protocol;
 mod protocols;
-mod relation;
 mod restitution;
-mod simple;
 mod sizes;
 mod sweep;
 
@@ -86,12 +80,6 @@ pub fn all() -> impl Iterator<Item = &'static Guard> {
         chains::GUARDS,
         sizes::GUARDS,
         motion::GUARDS,
-        simple::GUARDS,
-        relation::GUARDS,
-        comparison::GUARDS,
-        higher::GUARDS,
-        large::GUARDS,
-        orders::GUARDS,
         accuracy::GUARDS,
         printed::GUARDS,
     ];

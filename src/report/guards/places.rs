@@ -4,7 +4,7 @@ use super::{Guard, Look, far};
 
 pub const GUARDS: &[Guard] = &[Guard {
     name: "differences_of_starts",
-    ids: &["starts.*", "share_of_start", "sigma_half_theory"],
+    ids: &["starts.*", "share_of_start", "theory.relation.sigma_half"],
     find: differences,
 }];
 
@@ -26,7 +26,7 @@ fn differences(look: Look<'_>) -> Option<String> {
     });
     ends.or_else(|| {
         let share = look.number("share_of_start")?;
-        let theory = look.number("sigma_half_theory")?;
+        let theory = look.number("theory.relation.sigma_half")?;
         far("share_of_start", rest + share * (theory - rest), look.number("starts.random")?)
     })
 }
