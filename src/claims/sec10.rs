@@ -2,28 +2,12 @@
 
 use super::Basis::OwnThreshold;
 use super::row::{Error, Evidence, Finding, Row, measured, open};
-use super::sec8::{LARGE_SIGMA, at};
 use super::{Judgement, Statement, Text};
 use crate::experiments::catalogue::SWEEP;
-use crate::experiments::sweep::Sweep;
-use crate::experiments::theory::{Curve, CurveRow};
+use crate::experiments::theory::beside::{LARGE_SIGMA, distance};
 
 /// The rows of this section.
 pub const ROWS: &[Row] = &[measured("sec10_improves", OwnThreshold, &[&SWEEP], improves)];
-
-/// Root mean square distance of a theory curve from the simulated means, from the first row with
-/// kept realisations up to where σ is large.
-pub(crate) fn distance(sweep: &Sweep, curve: &Curve, column: fn(&CurveRow) -> f64) -> Option<f64> {
-    let rows = sweep.rows.iter().filter(|row| row.sigma < LARGE_SIGMA);
-    let squares: Vec<f64> = rows
-        .filter_map(|row| {
-            let difference = row.mean_distinct? - at(curve, row.sigma, column)?;
-            Some(difference * difference)
-        })
-        .collect();
-    let count = squares.len();
-    (count > 0).then(|| (squares.into_iter().sum::<f64>() / count as f64).sqrt())
-}
 
 fn improves(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
     let (sweep, curve) = (e.results.sweep()?, &e.results.theory.curve);

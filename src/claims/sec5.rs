@@ -24,18 +24,8 @@ fn cases(cases: crate::experiments::identities::Cases) -> Result<Finding, Error>
     Ok(all_cases(cases.compared, cases.failed, ENUMERATION))
 }
 
-/// The impacts of a segment by the names of the paper: `L-1, 1-2, 3-R`.
-pub(crate) fn names(segment: &Segment) -> Vec<String> {
-    let body = |j: usize| match j {
-        0 => "L".to_string(),
-        j if j > segment.masses => "R".to_string(),
-        j => j.to_string(),
-    };
-    segment.circuit().iter().map(|i| format!("{}-{}", body(i.gap), body(i.gap + 1))).collect()
-}
-
 fn motion(segment: &Segment, s: &Statement) -> Result<Finding, Error> {
-    let found = names(segment);
+    let found = segment.names();
     // The statement names the sequence at its end, after "as".
     let asked = s.statement.rsplit_once(" as ").map_or("", |(_, names)| names);
     let asked: Vec<&str> = asked.trim_end_matches('.').split(", ").collect();
@@ -55,21 +45,10 @@ fn motion(segment: &Segment, s: &Statement) -> Result<Finding, Error> {
     })
 }
 
-/// The masses that take part in impacts of these gaps, in a chain of `masses` masses.
-fn masses_in(gaps: impl Iterator<Item = usize>, masses: usize) -> usize {
-    let both_sides = gaps.flat_map(|gap| [gap, gap + 1]);
-    both_sides.filter(|body| (1..=masses).contains(body)).collect::<BTreeSet<_>>().len()
-}
-
-/// The masses that take part in the impacts of a segment.
-pub(crate) fn masses_of(segment: &Segment) -> usize {
-    masses_in(segment.impacts.iter().map(|impact| impact.gap), segment.masses)
-}
-
 fn masses_of_circuit(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
     let segment = &e.results.segments()?.fig05;
     let gaps: BTreeSet<usize> = segment.impacts.iter().map(|i| i.gap).collect();
-    let found = masses_of(segment);
+    let found = segment.masses_hit();
     // Each run of neighbouring gaps has one body more than gaps; walls are bodies but no masses.
     let runs = gaps.iter().filter(|&&gap| gap == 0 || !gaps.contains(&(gap - 1))).count();
     let walls = gaps.iter().filter(|&&gap| gap == 0 || gap == segment.masses).count();

@@ -5,6 +5,7 @@ use super::row::{Error, Evidence, Finding, Row, measured, open, rounding, theory
 use super::sec2;
 use super::{Judgement, Statement, Text};
 use crate::experiments::catalogue::SWEEP;
+use crate::experiments::theory::tables::two_largest_steps;
 
 /// The rows of this section.
 pub const ROWS: &[Row] = &[
@@ -57,14 +58,6 @@ fn rise(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
         judgement: Judgement::Plain { agrees: a.mean < 0.1 * n && c.mean > 0.75 * n },
         note: Text::default(),
     })
-}
-
-/// The steps of k*(p) upwards: the largest, the second largest.
-pub(crate) fn two_largest_steps(steps: &[crate::experiments::theory::Step]) -> [usize; 2] {
-    let mut heights: Vec<usize> =
-        steps.windows(2).map(|w| w[1].k_star.saturating_sub(w[0].k_star)).collect();
-    heights.sort_unstable_by(|a, b| b.cmp(a));
-    [heights.first().copied().unwrap_or(0), heights.get(1).copied().unwrap_or(0)]
 }
 
 fn step(e: &Evidence, _: &Statement) -> Result<Finding, Error> {

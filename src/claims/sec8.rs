@@ -6,8 +6,8 @@ use super::sec2;
 use super::sec8_chains::{no_impact, restitution_ensures, restitution_omitted, threshold_shift};
 use super::{Judgement, Statement, Text};
 use crate::experiments::catalogue::{CHAINS, PROTOCOL, RESTITUTION, STARTS, SWEEP};
-use crate::experiments::sweep::{Sweep, SweepRow};
-use crate::experiments::theory::{Curve, CurveRow};
+use crate::experiments::sweep::Sweep;
+use crate::experiments::theory::beside::{self, LARGE_SIGMA, increases, largest_distance};
 
 /// The rows of this section.
 pub const ROWS: &[Row] = &[
@@ -64,25 +64,6 @@ pub const ROWS: &[Row] = &[
         restitution_ensures,
     ),
 ];
-
-/// The largest increase of a mean within one and within two steps of the grid, in gaps, with the σ
-/// at which the single step begins; over the finest part of the grid.
-pub(crate) fn increases(sweep: &Sweep, mean: fn(&SweepRow) -> Option<f64>) -> Option<[f64; 3]> {
-    let points: Vec<(f64, f64)> =
-        sweep.rows.iter().filter_map(|row| Some((row.sigma, mean(row)?))).collect();
-    let finest = points.windows(2).map(|w| w[1].0 - w[0].0).fold(f64::INFINITY, f64::min);
-    let fine = |step: f64| step < 1.01 * finest;
-    let mut found: Option<[f64; 3]> = None;
-    for w in points.windows(3) {
-        let [(x, a), (y, b), (z, c)] = [w[0], w[1], w[2]];
-        if fine(y - x) && fine(z - y) {
-            let [one, two, at] = found.unwrap_or([0.0, 0.0, x]);
-            let at = if b - a > one { x } else { at };
-            found = Some([one.max(b - a).max(c - b), two.max(c - a), at]);
-        }
-    }
-    found
-}
 
 /// A jump stays in one step of the grid, however fine; a slope is shared by all. And weights in
 /// proportion to p^k have a mean with the slope Var(X)/p.
@@ -142,29 +123,6 @@ fn p_small(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
     })
 }
 
-/// A column of a theory curve at any σ in its range, linear between its rows.
-pub(crate) fn at(curve: &Curve, sigma: f64, column: fn(&CurveRow) -> f64) -> Option<f64> {
-    let w = curve.rows.windows(2).find(|w| w[0].sigma <= sigma && sigma <= w[1].sigma)?;
-    let share = (sigma - w[0].sigma) / (w[1].sigma - w[0].sigma);
-    Some(column(&w[0]) + share * (column(&w[1]) - column(&w[0])))
-}
-
-/// From here on σ is called large (ours).
-pub(crate) const LARGE_SIGMA: f64 = 0.2;
-
-/// Largest distance of theory and simulation at large σ, in gaps, and where.
-pub(crate) fn largest_distance(sweep: &Sweep, curve: &Curve) -> Option<[f64; 2]> {
-    let rows = sweep.rows.iter().filter(|row| row.sigma >= LARGE_SIGMA);
-    let distances = rows.filter_map(|row| {
-        let theory = at(curve, row.sigma, |r| r.simple)?;
-        Some([(row.mean_distinct? - theory).abs(), row.sigma])
-    });
-    distances.fold(None, |most: Option<[f64; 2]>, one| match most {
-        Some(most) if most[0] >= one[0] => Some(most),
-        _ => Some(one),
-    })
-}
-
 fn large_sigma(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
     let sweep = e.results.sweep()?;
     let Some([distance, at]) = largest_distance(sweep, &e.results.theory.curve) else {
@@ -173,7 +131,7 @@ fn large_sigma(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
     let limit = sec2::gaps(sweep) / 10.0;
     let found = sweep.rows.iter().find(|row| row.sigma == at).and_then(|row| row.mean_distinct);
     let missed = found.map_or(f64::NAN, |mean| sec2::gaps(sweep) - mean);
-    let theory = super::sec8::at(&e.results.theory.curve, at, |row| row.simple);
+    let theory = beside::at(&e.results.theory.curve, at, |row| row.simple);
     let short = theory.map_or(f64::NAN, |mean| e.results.theory.vertices as f64 - mean);
     Ok(Finding {
         ours: Text::words("largest distance from σ = ")
@@ -199,7 +157,7 @@ fn large_sigma(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
 }
 
 /// Width of the mode's bootstrap interval over that of the mean, in the rise: the median.
-pub(crate) fn mode_over_mean(sweep: &Sweep) -> Option<f64> {
+fn mode_over_mean(sweep: &Sweep) -> Option<f64> {
     let rise = [sweep.rise.onset?.value, sweep.rise.half_height_all?.value];
     let rows = sweep.rows.iter().filter(|row| rise[0] <= row.sigma && row.sigma <= rise[1]);
     let mut ratios: Vec<f64> = rows

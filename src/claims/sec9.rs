@@ -2,11 +2,11 @@
 
 use super::Basis::{Exact, OwnThreshold};
 use super::row::{Error, Evidence, Finding, Row, all_cases, measured, open, theory};
-use super::sec5;
 use super::{Judgement, Statement, Text};
 use crate::experiments::catalogue::SEGMENTS;
-use crate::experiments::theory::{Curve, HigherDistribution, Theory};
-use std::collections::BTreeMap;
+use crate::experiments::theory::Theory;
+use crate::experiments::theory::beside::LARGE_SIGMA;
+use crate::experiments::theory::tables::{largest_change, largest_mean_difference, moves};
 
 /// The rows of this section.
 pub const ROWS: &[Row] = &[
@@ -49,20 +49,8 @@ pub const ROWS: &[Row] = &[
 
 const INTEGER: &str = "integers are exact";
 
-/// How often each different impact of Fig. 6 is repeated beyond its first time, most first.
-pub(crate) fn repeats(segment: &crate::experiments::segments::Segment) -> Vec<(String, usize)> {
-    let mut visits: BTreeMap<String, usize> = BTreeMap::new();
-    for name in sec5::names(segment) {
-        *visits.entry(name).or_insert(0) += 1;
-    }
-    let mut repeated: Vec<(String, usize)> =
-        visits.into_iter().filter(|(_, n)| *n > 1).map(|(name, n)| (name, n - 1)).collect();
-    repeated.sort_by(|a, b| b.1.cmp(&a.1).then(a.0.cmp(&b.0)));
-    repeated
-}
-
 fn fig6_repeats(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
-    let found = repeats(&e.results.segments()?.fig06);
+    let found = e.results.segments()?.fig06.repeats();
     let text = found.iter().enumerate().fold(Text::default(), |text, (i, (name, times))| {
         text.say(if i == 0 { "" } else { ", " }).say(format!("{name}: ")).integer(*times)
     });
@@ -248,14 +236,6 @@ fn mean_large_p(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
     })
 }
 
-/// The largest relative difference of the two means, and the p where it is.
-pub(crate) fn largest_mean_difference(theory: &Theory) -> [f64; 2] {
-    theory.most_likely.mean_inset.iter().fold([0.0, 0.0], |most, row| {
-        let difference = (row.mean_higher / row.mean - 1.0).abs();
-        if difference > most[0] { [difference, row.p] } else { most }
-    })
-}
-
 fn mean_small_p(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
     let [difference, at] = largest_mean_difference(&e.results.theory);
     Ok(Finding {
@@ -268,14 +248,6 @@ fn mean_small_p(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
         judgement: Judgement::Plain { agrees: difference >= 0.1 },
         note: Text::default(),
     })
-}
-
-/// Weight of circuits with one doubled vertex over that of simple ones, at the same number of
-/// different vertices k: found, and p k²/2.
-pub(crate) fn doubling(panel: &HigherDistribution, k: usize) -> Option<[f64; 2]> {
-    let class = |i: usize| panel.classes.get(i)?.probability.get(k - 1).copied();
-    let k = k as f64;
-    Some([class(1)? / class(0)?, panel.p * k * k / 2.0])
 }
 
 fn higher_jump(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
@@ -297,14 +269,6 @@ fn higher_jump(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
     })
 }
 
-/// The largest change of the expected number by higher orders, and the σ where it is.
-pub(crate) fn largest_change(curve: &Curve) -> [f64; 2] {
-    curve.rows.iter().fold([0.0, 0.0], |most, row| {
-        let change = (row.higher - row.simple).abs();
-        if change > most[0] { [change, row.sigma] } else { most }
-    })
-}
-
 fn fig15_modest(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
     let theory = &e.results.theory;
     let [change, at] = largest_change(&theory.curve);
@@ -318,25 +282,16 @@ fn fig15_modest(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
             .say("; the half height moves by ")
             .significant(shift, 2),
         tolerance: Text::words("below σ = ")
-            .significant(super::sec8::LARGE_SIGMA, 1)
+            .significant(LARGE_SIGMA, 1)
             .say("; by at most ")
             .significant((high - low) / 2.0, 1),
         reason: "ours: “small σ” as what is not large in Section 8; “modest” as half a unit of the \
                  digit in which the paper prints the threshold",
         judgement: Judgement::Plain {
-            agrees: at < super::sec8::LARGE_SIGMA && shift.abs() <= (high - low) / 2.0,
+            agrees: at < LARGE_SIGMA && shift.abs() <= (high - low) / 2.0,
         },
         note: Text::default(),
     })
-}
-
-/// How far the jump moves in σ: by the relation for a start from rest, and by higher orders.
-pub(crate) fn moves(theory: &Theory) -> [f64; 2] {
-    let scalars = &theory.scalars;
-    [
-        (scalars.sigma_jump_rest - scalars.sigma_jump).abs(),
-        (scalars.higher_sigma_jump - scalars.sigma_jump).abs(),
-    ]
 }
 
 fn relation_matters(e: &Evidence, _: &Statement) -> Result<Finding, Error> {

@@ -7,7 +7,7 @@ use super::experiment::How::{Cut, Read, Whole};
 use super::{
     Measured, Results, chains, heat, history, horizon, independence, long, nucleation, orbits,
     protocol, protocol_tables, protocols, restitution, seeds, segments, spacetime, starts,
-    starts_tables, sweep, tally, two_masses, weights,
+    starts_tables, sweep, tally, theory, two_masses, weights,
 };
 use crate::params::{
     AnalyticParams, BiasParams, ChainsParams, HeatParams, HistoryParams, HorizonParams,
@@ -56,7 +56,9 @@ pub const ALL: [Need; 25] = [
 pub type Together = fn(&Results, &[Table]) -> Option<Vec<Table>>;
 
 /// What follows from several experiments together.
-pub const TOGETHER: [Together; 5] = [
+pub const TOGETHER: [Together; 7] = [
+    theory::tables::tables,
+    theory::beside::tables,
     sweep::tables::of_both,
     seeds::compared::tables,
     history::tables::beside,
@@ -79,7 +81,7 @@ pub const SEGMENTS: Experiment<(), segments::Segments> = Experiment {
     module: "src/experiments/segments.rs",
     parameters: |_| (),
     how: Read(segments::read),
-    tables: |_| Vec::new(),
+    tables: segments::tables,
 };
 
 /// Times that were measured once.

@@ -130,6 +130,12 @@ impl Results {
         Arc::get_mut(self.found.get_mut(experiment.name())?)?.downcast_mut()
     }
 
+    /// The theory and its identities, to be changed; tables are made anew.
+    pub fn theory_mut(&mut self) -> (&mut theory::Theory, &mut identities::Identities) {
+        self.tables = OnceLock::new();
+        (&mut self.theory, &mut self.identities)
+    }
+
     /// Takes the result of an experiment from others that are the same otherwise.
     pub fn restore(&mut self, name: &'static str, from: &Results) {
         match from.found.get(name) {

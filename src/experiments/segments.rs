@@ -4,7 +4,10 @@ use super::Error;
 use super::experiment::Given;
 use crate::dynamics::{Engine, Impact, Scenario};
 use crate::input::one_line;
+use crate::table::Table;
+use crate::value::origin;
 use serde::{Deserialize, Serialize};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The two segments.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -61,6 +64,54 @@ impl Segment {
             _ => &self.impacts,
         }
     }
+
+    /// Its impacts by the names of the paper: `L-1, 1-2, 3-R`.
+    pub fn names(&self) -> Vec<String> {
+        let body = |j: usize| match j {
+            0 => "L".to_string(),
+            j if j > self.masses => "R".to_string(),
+            j => j.to_string(),
+        };
+        self.circuit().iter().map(|i| format!("{}-{}", body(i.gap), body(i.gap + 1))).collect()
+    }
+
+    /// How often each different impact is repeated beyond its first time, most first.
+    pub fn repeats(&self) -> Vec<(String, usize)> {
+        let mut visits: BTreeMap<String, usize> = BTreeMap::new();
+        for name in self.names() {
+            *visits.entry(name).or_insert(0) += 1;
+        }
+        let mut repeated: Vec<(String, usize)> =
+            visits.into_iter().filter(|(_, n)| *n > 1).map(|(name, n)| (name, n - 1)).collect();
+        repeated.sort_by(|a, b| b.1.cmp(&a.1).then(a.0.cmp(&b.0)));
+        repeated
+    }
+
+    /// How many masses take part in its impacts.
+    pub fn masses_hit(&self) -> usize {
+        let both_sides = self.impacts.iter().flat_map(|impact| [impact.gap, impact.gap + 1]);
+        let masses = both_sides.filter(|body| (1..=self.masses).contains(body));
+        masses.collect::<BTreeSet<_>>().len()
+    }
+
+    fn gaps(&self) -> BTreeSet<usize> {
+        self.impacts.iter().map(|impact| impact.gap).collect()
+    }
+}
+
+/// The circuits of both segments.
+pub fn tables(segments: &Segments) -> Vec<Table> {
+    let both = [(5.0, &segments.fig05), (6.0, &segments.fig06)];
+    let table = Table::of("segments.circuits", &both, |_| 1)
+        .key("figure", "1", |(figure, _)| *figure)
+        .computed_by(origin(Segment::masses_hit))
+        .count("masses", "that take part", |(_, own)| own.masses_hit() as u64)
+        .computed_by(origin(Segment::circuit))
+        .count("length", "impacts", |(_, own)| own.circuit().len() as u64)
+        .count("distinct", "different impacts", |(_, own)| own.gaps().len() as u64)
+        .count("repeated", "of them repeated", |(_, own)| own.repeats().len() as u64)
+        .done();
+    vec![table]
 }
 
 /// The files of the saved scenarios, below the templates directory.

@@ -61,20 +61,11 @@ fn red(ids: &[&str]) -> Vec<(String, String, String)> {
 fn the_check_that_should_notice_does() {
     let expected = [
         // Leaves of results, and what is held against them.
-        ("graph_edges", "theory/graph_edges", "claim sec3_edges"),
-        ("p_crit", "theory/", "claim sec7_p_crit"),
-        ("p_jump", "theory/", "guard equal_weights_at_jump"),
-        ("sigma_jump", "theory/scalars/sigma_jump", "guard sigmas_of_jumps"),
+        ("theory.graph.edges", "theory/graph_edges", "claim sec3_edges"),
+        ("theory.jump.p_crit", "theory/", "claim sec7_p_crit"),
         ("onset", "sweep/rise/onset/value", "guard places_on_curves"),
         ("sweep.s0_22_mean", "sweep/rows/", "guard means_of_counts"),
         ("horizon_order", "horizon/order/value", "guard means_of_twins"),
-        ("large_k_jump", "theory/large/jumps", "guard jump_at_large_n"),
-        ("large_rule", "theory/large/jumps", "guard rule_of_large_jumps"),
-        ("poisson.d1_4", "theory/large/poisson", "guard distances_from_poisson"),
-        ("orders.p4", "theory/orders/jumps", "guard jumps_of_orders"),
-        ("all_p_jump", "theory/orders/jump", "guard jump_of_all_orders"),
-        ("five_at_jump", "theory/orders/remarks", "guard five_of_all_orders"),
-        ("first_maximum_numerator", "theory/slips/", "guard first_maximum"),
         // Computed on the way to the report.
         ("kept_above", "report", "guard rows_named"),
         ("run_silence", "report", "guard silence_of_the_run"),
@@ -95,10 +86,10 @@ fn the_check_that_should_notice_does() {
 
 #[test]
 fn a_number_that_nobody_would_miss_is_listed() {
-    let (code, text, note) = mutate(&["--value", "own_work", "--value", "graph_edges"]);
+    let (code, text, note) = mutate(&["--value", "own_work", "--value", "theory.graph.edges"]);
     assert_eq!(code, 1, "{text}");
     assert!(
-        text.contains("UNGUARDED own_work") && text.contains("guarded   graph_edges"),
+        text.contains("UNGUARDED own_work") && text.contains("guarded   theory.graph.edges"),
         "{text}"
     );
     assert!(text.contains("2 numbers: 1 guarded, 1 not, 1 of these without a reason"), "{text}");
@@ -124,12 +115,16 @@ fn all_are_guarded_or_have_a_reason_that_they_need() {
 
     // Reasons without need: of a number that is guarded, and of one that is not there.
     let needless = templates("unguarded.toml", |text| {
-        text.replacen("\"own_work\", ", "\"own_work\", \"p_crit\", \"p_krit\", ", 1)
+        text.replacen(
+            "\"own_work\", ",
+            "\"own_work\", \"theory.jump.p_crit\", \"theory.jump.p_krit\", ",
+            1,
+        )
     });
     let (code, _, note) = with(&needless, &[]);
     assert_eq!(code, 1, "{note}");
-    assert!(note.contains("\"p_crit\" (guarded)"), "{note}");
-    assert!(note.contains("\"p_krit\" (there is no such value)"), "{note}");
+    assert!(note.contains("\"theory.jump.p_crit\" (guarded)"), "{note}");
+    assert!(note.contains("\"theory.jump.p_krit\" (there is no such value)"), "{note}");
     let empty = templates("unguarded.toml", |text| text.replacen("why = \"", "why = \"\" #", 1));
     let (code, _, note) = with(&empty, &[]);
     assert!(code == 2 && note.contains("unguarded.toml: no reason for"), "{note}");

@@ -82,14 +82,14 @@ fn ensembles_by(
         .count("impacts", "impacts of two masses in the window", |row| row.sum(|run| run.impacts))
         .real("p", "1", 2, "Eq. (25)", |row| number(gap(&row.chain, row.row.sigma).and_then(|gap| gap.p())))
         .same("p", |row| match row.row.sigma {
-            PRINTED_THRESHOLD => Some("p_012".into()),
-            0.15 if row.row.restitution == Chain::default().restitution => Some("p_015".into()),
+            PRINTED_THRESHOLD => Some("theory.gap[sigma=0.12].p".into()),
+            0.15 if row.row.restitution == Chain::default().restitution => Some("theory.gap[sigma=0.15].p".into()),
             _ => None,
         })
         .real("p_rest", "1", 2, "p for a start from rest", |row| {
             number(gap(&row.chain, row.row.sigma).and_then(|gap| gap.p_from_rest()))
         })
-        .same("p_rest", |row| (row.row.sigma == PRINTED_THRESHOLD).then(|| "p_rest_012".into()))
+        .same("p_rest", |row| (row.row.sigma == PRINTED_THRESHOLD).then(|| "theory.gap[sigma=0.12].p_rest".into()))
         .real("p_balanced", "1", 2, "p with free parts as hot as the balance says", |row| {
             number(variance_ratio(&row.chain).and_then(|ratio| balanced(&row.chain, row.row.sigma, ratio)))
         })

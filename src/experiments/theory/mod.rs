@@ -4,6 +4,7 @@
 //! Cheap and in memory: [`run`] takes some tenths of a second at most and nothing is saved.
 //! Distributions are vectors over k = 1..=N (index i holds k = i + 1).
 
+pub(crate) mod beside;
 pub(crate) mod curves;
 pub(crate) mod distributions;
 pub(crate) mod jump;
@@ -11,6 +12,7 @@ pub(crate) mod large;
 pub(crate) mod orders;
 mod results;
 pub(crate) mod slips;
+pub(crate) mod tables;
 
 pub use large::{Large, LargeJump, LargeShares, PoissonCell, PoissonRow};
 pub use orders::{AllOrders, ClassShares, OrderJump, OrderRemarks, OrderShares};

@@ -218,7 +218,9 @@ pub fn forces_table(results: &Results) -> Result<Vec<Line>, Error> {
     let paper = Line {
         cells: [r"$M = 1$, $\Omega = \sqrt{2}$".to_string()]
             .into_iter()
-            .chain(["chains.m1_half", "chains.m1_kept", "kept_half_predicted"].map(mark))
+            .chain(
+                ["chains.m1_half", "chains.m1_kept", "theory.relation.sigma_kept_half"].map(mark),
+            )
             .chain(["–".to_string()])
             .collect(),
     };

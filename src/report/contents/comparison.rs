@@ -1,9 +1,9 @@
 //! Section 8: simulated and theoretical expected numbers side by side.
 
 use super::{Error, from, mark};
-use crate::claims::sec8;
 use crate::experiments::sweep::{Sweep, SweepRow};
 use crate::experiments::theory::CurveRow;
+use crate::experiments::theory::beside::{BETWEEN, at};
 use crate::experiments::{Results, theory};
 use crate::report::values::{Value, cell, origin};
 use serde::Serialize;
@@ -36,11 +36,11 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
     let mut values = Vec::new();
     for row in lines(results.sweep()?) {
         for (name, column) in THEORIES {
-            let theory = sec8::at(curve, row.sigma, column);
+            let theory = at(curve, row.sigma, column);
             let theory = theory.ok_or(Error::Missing("the theory at every simulated sigma"))?;
             let id = id(row, name);
-            values.push(match (row.sigma == super::theory::BETWEEN, name) {
-                (true, "simple") => Value::same(id, "theory_between"),
+            values.push(match (row.sigma == BETWEEN, name) {
+                (true, "simple") => Value::same(id, "sweep.beside_theory.between"),
                 _ => Value::real(id, theory, 3),
             });
         }

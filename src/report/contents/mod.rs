@@ -10,13 +10,10 @@ mod accuracy;
 mod carried;
 mod chains;
 mod comparison;
-mod higher;
-mod large;
 mod ledger;
 mod paper;
 mod sizes;
 mod spacetime;
-mod theory;
 
 use super::mark::Mark;
 use super::print::Style;
@@ -50,11 +47,8 @@ pub enum Error {
 pub type Section = fn(&Results) -> Result<Vec<Value>, Error>;
 
 /// All values but what the paper printed, in the order of the report.
-pub const SECTIONS: [Section; 10] = [
-    theory::values,
+pub const SECTIONS: [Section; 7] = [
     comparison::values,
-    higher::values,
-    large::values,
     spacetime::values,
     accuracy::values,
     chains::values,
@@ -96,9 +90,6 @@ pub fn rows(
         ("basis_table", serde_json::to_value(ledger::bases(claims))?),
         ("row", serde_json::to_value(ledger::references(claims))?),
         ("comparison_table", serde_json::to_value(comparison::table(results)?)?),
-        ("distance_heads", serde_json::to_value(large::distance_heads(results))?),
-        ("distance_table", serde_json::to_value(large::distance_table(results))?),
-        ("order_table", serde_json::to_value(large::order_table(results))?),
         ("chains_lengths", serde_json::to_value(chains::lengths_table(results)?)?),
         ("sizes_heads", serde_json::to_value(sizes::heads(results)?)?),
         ("sizes_table", serde_json::to_value(sizes::table(results)?)?),

@@ -10,21 +10,15 @@
 mod accuracy;
 mod carried;
 mod chains;
-mod comparison;
 mod heat;
-mod higher;
 mod history;
-mod large;
 mod maps;
 mod model;
 mod motion;
 mod nucleation;
 mod orbits;
-mod orders;
 mod printed;
-mod relation;
 mod restitution;
-mod simple;
 mod sizes;
 mod sweep;
 
@@ -80,12 +74,6 @@ pub fn all() -> impl Iterator<Item = &'static Guard> {
         chains::GUARDS,
         sizes::GUARDS,
         motion::GUARDS,
-        simple::GUARDS,
-        relation::GUARDS,
-        comparison::GUARDS,
-        higher::GUARDS,
-        large::GUARDS,
-        orders::GUARDS,
         accuracy::GUARDS,
         printed::GUARDS,
     ];

@@ -1,108 +1,14 @@
-//! The theory of Secs. 6 to 9 once more, by other formulas than the program's: logarithms of the gamma
-//! function in place of products, integrals in place of closed forms, sequences in place of
-//! polynomials. Slower and less exact; enough to say whether a printed digit is right.
+//! The relation of p and σ once more, by integrals in place of closed forms. Slower and less exact; enough
+//! to say whether a printed digit is right.
 
 use crate::numerics::quadrature::GaussLegendre;
-use pxfm::{f_erfc, f_exp, f_lgamma, f_log, f_sqrt1pm1};
+use pxfm::{f_erfc, f_exp, f_log, f_sqrt1pm1};
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
-use std::sync::{Arc, LazyLock, Mutex};
+use std::sync::{LazyLock, Mutex};
 
 /// Sixteen points: exact to rounding on each panel of what is integrated here.
 static RULE: LazyLock<GaussLegendre> = LazyLock::new(|| GaussLegendre::new(16));
-
-/// Visits of the repeated vertices in each of the five classes.
-const CLASSES: [&[usize]; 5] = [&[], &[2], &[3], &[4], &[2, 2]];
-
-/// ln x!.
-pub fn log_factorial(x: usize) -> f64 {
-    f_lgamma(x as f64 + 1.0)
-}
-
-/// ln of the number of simple circuits of length k, N!/(k (N − k)!).
-pub fn log_simple(big_n: usize, k: usize) -> f64 {
-    log_factorial(big_n) - log_factorial(big_n - k) - f_log(k as f64)
-}
-
-/// Circuits of a class over simple ones with as many different vertices, each edge beyond theirs
-/// weighing p: cyclic sequences, less those that are a shorter one repeated.
-pub fn over_simple(class: &[usize], k: usize, p: f64) -> f64 {
-    let excess: usize = class.iter().map(|visits| visits - 1).sum();
-    match (class, k) {
-        (_, k) if k < class.len().max(1) => return 0.0,
-        ([], _) => return 1.0,
-        // One vertex run over and over.
-        ([_], 1) => return 0.0,
-        // Of two vertices twice each, abab is ab twice.
-        ([2, 2], 2) => return p * p,
-        _ => {}
-    }
-    let choices: f64 = (0..class.len()).map(|i| (k - i) as f64 / (i + 1) as f64).product();
-    let orders = class.iter().map(|visits| log_factorial(*visits)).sum::<f64>();
-    let sequences = log_factorial(k + excess - 1) - orders - log_factorial(k - 1);
-    choices * f_exp(sequences + excess as f64 * f_log(p))
-}
-
-/// A distribution over the number of different impacts.
-#[derive(Debug)]
-pub struct Law {
-    /// P(X = k) at index k − 1, for each class.
-    pub classes: Vec<[f64; 5]>,
-}
-
-impl Law {
-    /// Of simple circuits, or of five classes. Guards ask for the same ones again and again, so that
-    /// they are remembered.
-    pub fn new(big_n: usize, p: f64, five: bool) -> Arc<Self> {
-        static KNOWN: Known<(usize, u64, bool), Arc<Law>> = Known::new();
-        KNOWN.get((big_n, p.to_bits(), five), || Arc::new(Law::compute(big_n, p, five)))
-    }
-
-    fn compute(big_n: usize, p: f64, five: bool) -> Self {
-        let logs: Vec<f64> =
-            (1..=big_n).map(|k| log_simple(big_n, k) + k as f64 * f_log(p)).collect();
-        let top = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let count = if five { CLASSES.len() } else { 1 };
-        let mut classes = vec![[0.0; 5]; big_n];
-        for (index, (own, log)) in classes.iter_mut().zip(logs).enumerate() {
-            let simple = f_exp(log - top);
-            for (weight, class) in own.iter_mut().zip(CLASSES).take(count) {
-                *weight = simple * over_simple(class, index + 1, p);
-            }
-        }
-        let whole: f64 = classes.iter().flatten().sum();
-        classes.iter_mut().flatten().for_each(|weight| *weight /= whole);
-        Law { classes }
-    }
-
-    /// P(X = k), at index k − 1.
-    pub fn whole(&self) -> Vec<f64> {
-        self.classes.iter().map(|own| own.iter().sum()).collect()
-    }
-
-    /// The mean.
-    pub fn mean(&self) -> f64 {
-        let terms = self.classes.iter().enumerate();
-        terms.map(|(i, own)| (i + 1) as f64 * own.iter().sum::<f64>()).sum()
-    }
-
-    /// The share of a class.
-    pub fn share(&self, class: usize) -> f64 {
-        self.classes.iter().map(|own| own[class]).sum()
-    }
-
-    /// Most likely k from `from` on.
-    pub fn peak(&self, from: usize) -> usize {
-        let whole = self.whole();
-        let rest = (from..=whole.len()).max_by(|a, b| whole[a - 1].total_cmp(&whole[b - 1]));
-        rest.unwrap_or(from)
-    }
-}
-
-/// Half the sum of the differences of two distributions.
-pub fn variation(a: &Law, b: &Law) -> f64 {
-    0.5 * a.whole().iter().zip(b.whole()).map(|(a, b)| (a - b).abs()).sum::<f64>()
-}
 
 /// Panels of the integrals: the integrands are narrow for small σ.
 const PANELS: usize = 24;
@@ -162,23 +68,6 @@ pub fn both_tails(z: f64) -> f64 {
     f_erfc(z * std::f64::consts::FRAC_1_SQRT_2)
 }
 
-/// A relation of p and σ with a sample space: the columns of theory beside the simulation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Column {
-    /// Eq. (25), simple circuits.
-    Simple,
-    /// Eq. (25), five classes.
-    Higher,
-    /// A start from rest, simple circuits.
-    Rest,
-}
-
-/// μ at σ.
-pub fn mean_at(big_n: usize, sigma: f64, column: Column) -> f64 {
-    let p = if column == Column::Rest { p_rest(sigma) } else { p(sigma) };
-    Law::new(big_n, p, column == Column::Higher).mean()
-}
-
 /// Numbers that follow from a key alone.
 pub struct Known<K, V>(Mutex<BTreeMap<K, V>>);
 
@@ -207,18 +96,6 @@ impl<K: Ord, V: Clone> Known<K, V> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn small_cases_by_hand() {
-        // N = 2: two loops of weight p, one circuit of both with p².
-        let law = Law::new(2, 0.5, false);
-        assert!((law.mean() - (1.0 + 0.25 * 2.0) / 1.25).abs() < 1e-12);
-        // With five classes: aab and abb p³, aaab and abbb p⁴, aaaab and abbbb p⁵, aabb p⁴.
-        let law = Law::new(2, 0.5, true);
-        let pair = 0.25 + 2.0 * 0.125 + 2.0 * 0.0625 + 2.0 * 0.03125 + 0.0625;
-        assert!((law.whole()[1] - pair / (1.0 + pair)).abs() < 1e-12);
-        assert_eq!(law.peak(2), 2);
-    }
 
     /// From 40-digit arithmetic: p(0.12) and p_rest(0.12).
     #[test]

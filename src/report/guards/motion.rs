@@ -1,7 +1,6 @@
 //! The long run and the two segments, counted once more from their records.
 
 use super::{Guard, Look, unless};
-use crate::experiments::segments::Segment;
 use crate::experiments::spacetime::SpaceTime;
 use crate::figures::Scene;
 use std::collections::BTreeMap;
@@ -17,7 +16,6 @@ pub const GUARDS: &[Guard] = &[
     Guard { name: "busiest_of_the_run", ids: &["run_busiest*"], find: busiest },
     Guard { name: "late_impacts", ids: &["run_until", "run_last"], find: late },
     Guard { name: "counts_of_the_scene", ids: &["scene_*"], find: scene },
-    Guard { name: "visits_of_circuits", ids: &["fig5_masses", "fig6_*"], find: circuits },
 ];
 
 /// Times of the impacts of each gap, for those that have any.
@@ -156,29 +154,5 @@ fn scene(look: Look<'_>) -> Option<String> {
         ("scene_from", run.scene.from.floor()),
         ("scene_until", run.scene.until.floor()),
         ("scene_length", run.scene.until.floor() - run.scene.from.floor()),
-    ])
-}
-
-/// Visits of each impact in a circuit: they add up to its length, and those beyond the first are the
-/// repeats. A mass takes part if a gap on one of its sides closes.
-fn circuits(look: Look<'_>) -> Option<String> {
-    let segments = look.results.segments().ok()?;
-    let visits = |segment: &Segment| {
-        let mut found = vec![0_usize; segment.masses + 1];
-        let all = segment.impacts.split_last().map_or(&[][..], |(_, others)| others);
-        // A gap that the chain does not have counts for nothing, and is missed in the length.
-        for impact in all {
-            found.get_mut(impact.gap).into_iter().for_each(|visits| *visits += 1);
-        }
-        found
-    };
-    let five = visits(&segments.fig05);
-    let touched = (1..five.len()).filter(|&mass| five[mass - 1] + five[mass] > 0).count();
-    let six = visits(&segments.fig06);
-    look.are([
-        ("fig5_masses", touched as f64),
-        ("fig6_length", six.iter().sum::<usize>() as f64),
-        ("fig6_distinct", six.iter().filter(|&&n| n > 0).count() as f64),
-        ("fig6_repeated", six.iter().filter(|&&n| n > 1).count() as f64),
     ])
 }

@@ -3,8 +3,20 @@
 use super::{Guard, Look, far, model, unless};
 use crate::claims::targets::{self, Standing};
 use crate::claims::{Basis, Verdict};
+use crate::params::{CONVERGENCE_P, DISTRIBUTION_P, HIGHER_P};
 
 pub const GUARDS: &[Guard] = &[
+    Guard {
+        name: "probabilities_printed",
+        ids: &[
+            "paper.fig8_p_*",
+            "paper.fig13_p_*",
+            "paper.fig14_p_*",
+            "paper.vertices",
+            "paper.graph_masses",
+        ],
+        find: probabilities,
+    },
     Guard { name: "printed_as_it_reads", ids: &["printed.*"], find: as_it_reads },
     Guard { name: "scores_add_up", ids: &["score.*"], find: scores },
     Guard { name: "targets_add_up", ids: &["targets_met", "targets_all"], find: met },
@@ -14,6 +26,23 @@ pub const GUARDS: &[Guard] = &[
         find: level,
     },
 ];
+
+/// What is computed for a figure of the paper is computed for the p that the paper names there, and
+/// for its N.
+fn probabilities(look: Look<'_>) -> Option<String> {
+    let panels = |name: &'static str, letters: &'static str| {
+        letters.chars().map(move |letter| format!("paper.{name}_p_{letter}"))
+    };
+    // Panels (a) and (b) of Fig. 13 have one p.
+    let ids = panels("fig8", "abcd").chain(panels("fig13", "acd")).chain(panels("fig14", "ab"));
+    let chosen = DISTRIBUTION_P.iter().chain(&HIGHER_P).chain(&CONVERGENCE_P);
+    let mut pairs = ids.zip(chosen);
+    let masses = look.results.identities.graph_vertices as f64 - 1.0;
+    pairs
+        .find_map(|(id, p)| look.is(&id, *p))
+        .or_else(|| look.is("paper.vertices", look.results.theory.vertices as f64))
+        .or_else(|| look.is("paper.graph_masses", masses))
+}
 
 /// Numbers in a text, as they are written; not those that a formula adds to a letter.
 fn numbers(text: &str) -> impl Iterator<Item = &str> {

@@ -7,7 +7,7 @@ use crate::table::Table;
 pub const GUARDS: &[Guard] = &[
     Guard {
         name: "no_half_before_an_impact",
-        ids: &["restitution.curves*", "kept_half_predicted"],
+        ids: &["restitution.curves*", "theory.relation.sigma_kept_half"],
         find: halves,
     },
     Guard { name: "contact_needs_force", ids: &["restitution.rise*"], find: contact },
@@ -22,7 +22,7 @@ fn table<'a>(look: Look<'a>, name: &'static str) -> Option<&'a Table> {
 /// realisations are left out of both ends together, is the difference of the ends.
 fn halves(look: Look<'_>) -> Option<String> {
     let halves = table(look, "restitution.curves")?.estimates(&[], "r", "half_height");
-    let bound = look.number("kept_half_predicted")?;
+    let bound = look.number("theory.relation.sigma_kept_half")?;
     let early = |at: &&(f64, Estimate)| at.1.value <= bound - 5.0 * at.1.error;
     let shift = || {
         let own = table(look, "restitution.all")?.number(&[], "shift").ok()?;

@@ -105,8 +105,8 @@ impl Whole {
 /// When it is not of the part's shape: a negative count.
 pub fn put(results: &mut Results, index: usize, json: &Json) -> serde_json::Result<()> {
     match part(index) {
-        Part::Theory => *results.theory = serde::Deserialize::deserialize(json)?,
-        Part::Identities => *results.identities = serde::Deserialize::deserialize(json)?,
+        Part::Theory => *results.theory_mut().0 = serde::Deserialize::deserialize(json)?,
+        Part::Identities => *results.theory_mut().1 = serde::Deserialize::deserialize(json)?,
         Part::Audits => results.audits = serde::Deserialize::deserialize(json)?,
         Part::Of(experiment) => results.put(experiment.name(), experiment.typed(json)?),
     }
@@ -116,8 +116,8 @@ pub fn put(results: &mut Results, index: usize, json: &Json) -> serde_json::Resu
 /// Gives results a part of others.
 pub fn restore(results: &mut Results, index: usize, from: &Results) {
     match part(index) {
-        Part::Theory => (*results.theory).clone_from(&from.theory),
-        Part::Identities => (*results.identities).clone_from(&from.identities),
+        Part::Theory => results.theory_mut().0.clone_from(&from.theory),
+        Part::Identities => results.theory_mut().1.clone_from(&from.identities),
         Part::Audits => results.audits.clone_from(&from.audits),
         Part::Of(experiment) => results.restore(experiment.name(), from),
     }

@@ -1,0 +1,111 @@
+//! The theory beside the simulation.
+
+use super::{Curve, CurveRow, curves};
+use crate::experiments::sweep::{Sweep, SweepRow};
+use crate::experiments::{Results, rise};
+use crate::table::Table;
+use crate::value::origin;
+
+/// Where the text compares theory and simulation within the rise.
+pub(crate) const BETWEEN: f64 = 0.13;
+
+/// From here on σ is called large (ours).
+pub(crate) const LARGE_SIGMA: f64 = 0.2;
+
+/// A column of a theory curve at any σ in its range, linear between its rows.
+pub(crate) fn at(curve: &Curve, sigma: f64, column: fn(&CurveRow) -> f64) -> Option<f64> {
+    let w = curve.rows.windows(2).find(|w| w[0].sigma <= sigma && sigma <= w[1].sigma)?;
+    let share = (sigma - w[0].sigma) / (w[1].sigma - w[0].sigma);
+    Some(column(&w[0]) + share * (column(&w[1]) - column(&w[0])))
+}
+
+/// Largest distance of theory and simulation at large σ, in gaps, and where.
+pub(crate) fn largest_distance(sweep: &Sweep, curve: &Curve) -> Option<[f64; 2]> {
+    let rows = sweep.rows.iter().filter(|row| row.sigma >= LARGE_SIGMA);
+    let distances = rows.filter_map(|row| {
+        let theory = at(curve, row.sigma, |r| r.simple)?;
+        Some([(row.mean_distinct? - theory).abs(), row.sigma])
+    });
+    distances.fold(None, |most: Option<[f64; 2]>, one| match most {
+        Some(most) if most[0] >= one[0] => Some(most),
+        _ => Some(one),
+    })
+}
+
+/// The largest increase of a mean within one and within two steps of the grid, in gaps, with the σ
+/// at which the single step begins; over the finest part of the grid.
+pub(crate) fn increases(sweep: &Sweep, mean: fn(&SweepRow) -> Option<f64>) -> Option<[f64; 3]> {
+    let points: Vec<(f64, f64)> =
+        sweep.rows.iter().filter_map(|row| Some((row.sigma, mean(row)?))).collect();
+    let finest = points.windows(2).map(|w| w[1].0 - w[0].0).fold(f64::INFINITY, f64::min);
+    let fine = |step: f64| step < 1.01 * finest;
+    let mut found: Option<[f64; 3]> = None;
+    for w in points.windows(3) {
+        let [(x, a), (y, b), (z, c)] = [w[0], w[1], w[2]];
+        if fine(y - x) && fine(z - y) {
+            let [one, two, at] = found.unwrap_or([0.0, 0.0, x]);
+            let at = if b - a > one { x } else { at };
+            found = Some([one.max(b - a).max(c - b), two.max(c - a), at]);
+        }
+    }
+    found
+}
+
+/// Root mean square distance of a theory curve from the simulated means, from the first row with
+/// kept realisations up to where σ is large.
+pub(crate) fn distance(sweep: &Sweep, curve: &Curve, column: fn(&CurveRow) -> f64) -> Option<f64> {
+    let rows = sweep.rows.iter().filter(|row| row.sigma < LARGE_SIGMA);
+    let squares: Vec<f64> = rows
+        .filter_map(|row| {
+            let difference = row.mean_distinct? - at(curve, row.sigma, column)?;
+            Some(difference * difference)
+        })
+        .collect();
+    let count = squares.len();
+    (count > 0).then(|| (squares.into_iter().sum::<f64>() / count as f64).sqrt())
+}
+
+/// What the text says of both.
+pub fn tables(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
+    let (sweep, theory) = (results.sweep().ok()?, &results.theory);
+    let curve = &theory.curve;
+    let inside = sweep.rise.tenth.zip(sweep.rise.nine_tenths).map_or(0, |(low, high)| {
+        let within = |sigma: f64| low.value <= sigma && sigma <= high.value;
+        sweep.rows.iter().filter(|row| within(row.sigma)).count()
+    });
+    let found = |number: Option<f64>| number.unwrap_or(f64::NAN);
+    let root = |column| found(distance(sweep, curve, column));
+    let table = Table::of("sweep.beside_theory", &[()], |()| 0)
+        .computed_by(origin(curves::curve))
+        .real("between", "1", 3, "μ at a σ within the rise", |()| {
+            found(at(curve, BETWEEN, |row| row.simple))
+        })
+        .computed_by(origin(largest_distance))
+        .chosen("large_sigma", "d omega^2", "from here on σ is called large", |()| {
+            Some(LARGE_SIGMA)
+        })
+        .real("large_distance", "1", 2, "largest distance of both means at large σ", |()| {
+            found(largest_distance(sweep, curve).map(|[distance, _]| distance))
+        })
+        .computed_by(origin(increases))
+        .real("largest_increase", "1", 2, "of the simulated mean from one σ to the next", |()| {
+            found(increases(sweep, |row| row.mean_all).map(|[one, ..]| one))
+        })
+        .computed_by(origin(rise::find))
+        .count("rows", "values of σ from a tenth to nine tenths of the rise", |()| inside as u64)
+        .real(
+            "half_gap",
+            "d omega^2",
+            2,
+            "half height of the theory less that of the simulation",
+            |()| found(sweep.rise.half_height.map(|half| theory.scalars.sigma_half - half.value)),
+        )
+        .computed_by(origin(distance))
+        .real("simple", "1", 3, "root mean square distance of the means, simple circuits", |()| {
+            root(|row| row.simple)
+        })
+        .real("higher", "1", 3, "the same with five classes", |()| root(|row| row.higher))
+        .real("rest", "1", 3, "the same from rest", |()| root(|row| row.simple_rest))
+        .done();
+    Some(vec![table])
+}
