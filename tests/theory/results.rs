@@ -153,11 +153,6 @@ fn slips_of_the_paper_by_other_routes() {
         all += n * (power(k) + single * higher + two * power(k + 2));
     }
     assert!((share / (simple / all) - 1.0).abs() < 1e-9, "{share} {}", simple / all);
-    for failure in &slips.class_failures {
-        assert_eq!(failure.vertices, ENUMERATED_VERTICES);
-        assert!((failure.printed - failure.primitive as f64).abs() > 0.5, "{failure:?}");
-    }
-    assert_eq!(slips.class_failures.len(), 4);
 }
 
 #[test]

@@ -6,8 +6,8 @@ use crate::experiments::{Results, rise};
 use crate::table::Table;
 use crate::value::origin;
 
-/// Where the text compares theory and simulation within the rise.
-pub(crate) const BETWEEN: f64 = 0.13;
+/// The σ at which the text sets means side by side, as far as the sweep has them.
+const SIGMAS: [f64; 8] = [0.1, 0.11, 0.12, 0.13, 0.14, 0.15, 0.2, 0.3];
 
 /// From here on σ is called large (ours).
 pub(crate) const LARGE_SIGMA: f64 = 0.2;
@@ -75,11 +75,17 @@ pub fn tables(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
     });
     let found = |number: Option<f64>| number.unwrap_or(f64::NAN);
     let root = |column| found(distance(sweep, curve, column));
-    let table = Table::of("sweep.beside_theory", &[()], |()| 0)
+    let rows: Vec<&SweepRow> =
+        sweep.rows.iter().filter(|row| SIGMAS.contains(&row.sigma) && row.kept > 0).collect();
+    let mean = |row: &SweepRow, column| found(at(curve, row.sigma, column));
+    let means = Table::of("sweep.theory", &rows, |_| 0)
+        .key("sigma", "d omega^2", |row| row.sigma)
         .computed_by(origin(curves::curve))
-        .real("between", "1", 3, "μ at a σ within the rise", |()| {
-            found(at(curve, BETWEEN, |row| row.simple))
-        })
+        .real("simple", "1", 3, "μ, simple circuits", |row| mean(row, |own| own.simple))
+        .real("higher", "1", 3, "μ, five classes", |row| mean(row, |own| own.higher))
+        .real("rest", "1", 3, "μ from rest, simple circuits", |row| mean(row, |own| own.simple_rest))
+        .done();
+    let table = Table::of("sweep.beside_theory", &[()], |()| 0)
         .computed_by(origin(largest_distance))
         .chosen("large_sigma", "d omega^2", "from here on σ is called large", |()| {
             Some(LARGE_SIGMA)
@@ -107,5 +113,42 @@ pub fn tables(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
         .real("higher", "1", 3, "the same with five classes", |()| root(|row| row.higher))
         .real("rest", "1", 3, "the same from rest", |()| root(|row| row.simple_rest))
         .done();
-    Some(vec![table])
+    Some(vec![means, table])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::params::{Profile, SweepParams};
+
+    /// A sweep with these mean counts.
+    fn sweep(means: &[(f64, f64)]) -> Sweep {
+        let parameters = SweepParams::main(Profile::Quick);
+        let row = |(sigma, mean): &(f64, f64)| SweepRow {
+            sigma: *sigma,
+            mean_distinct: Some(*mean),
+            ..SweepRow::default()
+        };
+        Sweep { parameters, rows: means.iter().map(row).collect(), rise: rise::Rise::default() }
+    }
+
+    #[test]
+    fn distances_are_taken_between_the_rows_of_the_curve() {
+        let row = |sigma, simple| CurveRow { sigma, simple, higher: 0.0, simple_rest: 0.0 };
+        let curve = Curve { vertices: 100, rows: vec![row(0.0, 0.0), row(0.4, 40.0)] };
+        let close = |a: Option<f64>, b: f64| (a.unwrap() - b).abs() < 1e-12;
+        assert!(close(at(&curve, 0.1, |row| row.simple), 10.0));
+        assert_eq!(at(&curve, 0.5, |row| row.simple), None);
+        let sweep = sweep(&[(0.1, 13.0), (0.15, 11.0), (0.2, 22.0), (0.3, 25.0), (0.5, 90.0)]);
+        // Below 0.2 the differences are 3 and −4, from there on 2 and −5.
+        assert!(close(distance(&sweep, &curve, |row| row.simple), 12.5_f64.sqrt()));
+        let [most, sigma] = largest_distance(&sweep, &curve).unwrap();
+        assert!(close(Some(most), 5.0) && sigma == 0.3);
+    }
+
+    #[test]
+    fn increases_are_those_of_the_finest_grid() {
+        let sweep = sweep(&[(0.1, 0.0), (0.11, 1.0), (0.12, 4.0), (0.13, 5.0), (0.2, 90.0)]);
+        assert_eq!(increases(&sweep, |row| row.mean_distinct), Some([3.0, 4.0, 0.11]));
+    }
 }

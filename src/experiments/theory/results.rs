@@ -244,10 +244,6 @@ pub struct Slips {
     pub simple_shares: Vec<SimpleShare>,
     /// Total variation between simple and five-class distributions, at several p.
     pub total_variations: Vec<Point>,
-    /// Expected number of doubled vertices, about p k²/2 at k = μ, at several p.
-    pub doubled_vertices: Vec<Point>,
-    /// Printed formula against primitive count where they part.
-    pub class_failures: Vec<ClassFailure>,
     /// Eq. (30) as printed against Eq. (33), at k = 3: they differ by the factor N.
     pub missing_factor: f64,
 }
@@ -272,19 +268,4 @@ pub struct SimpleShare {
     pub p: f64,
     /// Weight of simple circuits over the weight of the five classes.
     pub share: f64,
-}
-
-/// A printed class formula below its smallest length.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ClassFailure {
-    /// The printed equation.
-    pub equation: u32,
-    /// Length k of the circuits.
-    pub length: usize,
-    /// Number of vertices N of the example.
-    pub vertices: usize,
-    /// The printed formula's value.
-    pub printed: f64,
-    /// The number of primitive circuits (also found by enumeration).
-    pub primitive: u64,
 }

@@ -1,13 +1,12 @@
 //! Calculations behind the slips and ambiguities of the printed paper.
 
 use super::distributions::{sum, total_variation};
-use super::{ClassFailure, FirstLocalMaximum, Point, SimpleShare, Slips};
+use super::{FirstLocalMaximum, Point, SimpleShare, Slips};
 use crate::circuits::distribution::{Law, SampleSpace};
-use crate::circuits::graph::Graph;
 use crate::circuits::higher_order::{self, CLASSES};
 use crate::circuits::impact_probability::ImpactProbability;
 use crate::circuits::{Error, Fraction, counting, jump};
-use crate::params::{ENUMERATED_VERTICES, REMARK_P};
+use crate::params::REMARK_P;
 use SampleSpace::{FiveClasses, Simple};
 
 /// All of them, for one N.
@@ -28,8 +27,6 @@ pub fn slips(vertices: usize) -> Result<Slips, Error> {
         p_at_015: ImpactProbability::of_paper(0.15)?.p()?,
         simple_shares: each_p(|p| Ok(SimpleShare { p, share: simple_share(vertices, p)? }))?,
         total_variations: each_p(|p| Ok(Point { x: p, y: distance(vertices, p)? }))?,
-        doubled_vertices: each_p(|p| Ok(Point { x: p, y: doubled_vertices(vertices, p)? }))?,
-        class_failures: class_failures(),
         missing_factor: missing_factor(vertices, 3),
     })
 }
@@ -58,33 +55,6 @@ pub(crate) fn simple_share(vertices: usize, p: f64) -> Result<f64, Error> {
 fn distance(vertices: usize, p: f64) -> Result<f64, Error> {
     let five = Law::new(FiveClasses, vertices, p)?.probabilities();
     Ok(total_variation(&five, &Law::new(Simple, vertices, p)?.probabilities()))
-}
-
-/// p k²/2 at k = μ: how many times more weight circuits with one doubled vertex have than simple
-/// ones with as many different vertices, by Eqs. (7) and (33). With weights of all orders the
-/// number of doubled vertices is about Poisson distributed around it.
-fn doubled_vertices(vertices: usize, p: f64) -> Result<f64, Error> {
-    let mean = Law::new(Simple, vertices, p)?.mean();
-    Ok(0.5 * p * mean * mean)
-}
-
-/// The printed class formulas at the lengths where they fail, against a list of all circuits.
-fn class_failures() -> Vec<ClassFailure> {
-    type Printed = fn(usize, usize) -> Option<Fraction>;
-    let cases: [(u32, usize, Printed, &[usize]); 4] = [
-        (33, 2, higher_order::doubled, &[1]),
-        (35, 3, higher_order::three_visits, &[0, 1]),
-        (36, 4, higher_order::four_visits, &[0, 0, 1]),
-        (37, 4, higher_order::two_doubled, &[2]),
-    ];
-    let vertices = ENUMERATED_VERTICES;
-    let all: Vec<_> = Graph::of_chain(vertices - 1).circuits(4).collect();
-    let row = |(equation, length, formula, repeats): (u32, usize, Printed, &[usize])| {
-        let found = all.iter().filter(|c| c.length() == length && c.repeats() == repeats).count();
-        let printed = formula(vertices, length)?.to_f64();
-        Some(ClassFailure { equation, length, vertices, printed, primitive: found as u64 })
-    };
-    cases.into_iter().filter_map(row).collect()
 }
 
 /// Eq. (33) over Eq. (30) as printed, at length k; 0 if either is beyond 128 bits.

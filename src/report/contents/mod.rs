@@ -9,7 +9,6 @@
 mod accuracy;
 mod carried;
 mod chains;
-mod comparison;
 mod ledger;
 mod paper;
 mod sizes;
@@ -47,8 +46,7 @@ pub enum Error {
 pub type Section = fn(&Results) -> Result<Vec<Value>, Error>;
 
 /// All values but what the paper printed, in the order of the report.
-pub const SECTIONS: [Section; 7] = [
-    comparison::values,
+pub const SECTIONS: [Section; 6] = [
     spacetime::values,
     accuracy::values,
     chains::values,
@@ -89,7 +87,6 @@ pub fn rows(
         ("scorecard", serde_json::to_value(ledger::scorecard(claims))?),
         ("basis_table", serde_json::to_value(ledger::bases(claims))?),
         ("row", serde_json::to_value(ledger::references(claims))?),
-        ("comparison_table", serde_json::to_value(comparison::table(results)?)?),
         ("chains_lengths", serde_json::to_value(chains::lengths_table(results)?)?),
         ("sizes_heads", serde_json::to_value(sizes::heads(results)?)?),
         ("sizes_table", serde_json::to_value(sizes::table(results)?)?),
