@@ -26,6 +26,22 @@ impl DataFile {
         DataFile { name: format!("{}.csv", table.name().replace('.', "-")), header, rows }
     }
 
+    /// Columns over k = 1, 2, …, all for one p if there is one.
+    pub fn over_k(name: &str, p: Option<f64>, columns: &[(&str, &[f64])]) -> Self {
+        let names = columns.iter().map(|(name, _)| *name);
+        let header: Vec<&str> =
+            p.map(|_| "p (1)").into_iter().chain(["k (1)"]).chain(names).collect();
+        let mut file = DataFile::new(name, &header);
+        let longest = columns.iter().map(|(_, values)| values.len()).max().unwrap_or(0);
+        for at in 0..longest {
+            let mut row: Vec<Cell> = p.map(Cell::from).into_iter().collect();
+            row.push(Cell::from(at + 1));
+            row.extend(columns.iter().map(|(_, values)| Cell::from(values.get(at).copied())));
+            file.rows.push(row.into_iter().map(|cell| cell.0).collect());
+        }
+        file
+    }
+
     /// Adds a row.
     pub fn row<const K: usize>(&mut self, cells: [Cell; K]) {
         self.rows.push(cells.into_iter().map(|c| c.0).collect());

@@ -53,11 +53,9 @@ pub fn draw() -> Result<Figure, Error> {
     data.row(cells!["j", "mass j", "mass j+1", 1usize]);
     data.row(cells!["n", "mass n", "right wall", 1usize]);
     let description =
-        "A row of n equal masses, drawn as discs on elastic stems, between a left and \
-        a right wall that stand at 0 and (n + 1)d. The stems are rooted at the equilibria d, 2d, \
-        …, (n − 1)d, nd, a distance d apart; each mass is bent away from its equilibrium along \
-        the x-axis. Marked are the spacing d, the position x1(t) of the first mass, the gap Δ1(t) \
-        between the masses 1 and 2, and the force F2(t) on mass 2."
+        "A row of n equal masses on elastic stems, rooted a distance d apart between walls at 0 and (n + 1)d; \
+         each is bent away from its equilibrium. Marked are d, the position x1(t), the gap Δ1(t) between the \
+         first two masses, and the force F2(t) on the second."
             .to_string();
     Ok(sheet.finish(1, "The chain of masses between two walls", description, vec![data]))
 }

@@ -1,11 +1,10 @@
 //! Fig. 2: the most likely number of impacts against σ, simulated.
 
-use super::chart::short;
 use super::data::cells;
 use super::panel::Frame;
 use super::sheet::{Entry, Sheet};
 use super::simulated::{
-    CROSS, CROSS_HALF, comparable, count_axis, crosses, last_sigma, sigma_axis, split, spoken,
+    CROSS, CROSS_HALF, comparable, count_axis, crosses, last_sigma, sigma_axis, split,
 };
 use super::style::{GREY, HAIR, Mark, SMALL, Stroke, THIN};
 use super::{DataFile, Error, Figure};
@@ -67,18 +66,11 @@ pub fn draw(sweep: &Sweep, note: Option<&str>) -> Result<Figure, Error> {
             quantile(4)
         ]);
     }
-    let settled = modes.iter().rev().take_while(|m| m.1 == n as f64).last();
     let description = format!(
-        "Red crosses: the most likely number of different gaps that impact, against the standard \
-         deviation σ of the forcing, from simulations of {} masses; grey bars: 95 % bootstrap \
-         intervals of the mode. Below the rise the mode is small and badly determined; {}. \
-         Some values: {}.",
-        sweep.parameters.chain.masses,
-        settled.map_or("it does not reach all gaps".into(), |m| format!(
-            "from σ = {} on it is {n}, every gap",
-            short(m.0, 4)
-        )),
-        spoken(&modes),
+        "Most likely number of different gaps that impact against σ, simulated with {} masses; bars are 95 % \
+         bootstrap intervals. Below the rise the mode is small and badly determined, beyond it nearly all {n} gaps \
+         impact.",
+        sweep.parameters.chain.masses
     );
     Ok(sheet.finish(2, "Most likely number of impacts", description, vec![data]))
 }

@@ -10,7 +10,6 @@ use super::series::Outside;
 use super::sheet::{Entry, Sheet};
 use super::simulated::{
     CROSS, CROSS_HALF, comparable, count_axis, crosses, last_sigma, means, sigma_axis, split,
-    spoken,
 };
 use super::style::{Dash, GREY, HAIR, INK, LINE, Mark, SMALL, Stroke, THIN, TINY};
 use super::{DataFile, Error, Figure};
@@ -73,26 +72,16 @@ pub fn draw(sweep: &Sweep, note: Option<&str>) -> Result<Figure, Error> {
     share.marks("kept fraction", &fraction, dot, Outside::Refuse)?;
 
     let description = format!(
-        "(a) Red crosses with bars: the mean number of different gaps that impact, of the \
-         realisations with at least one impact, against the standard deviation σ of the forcing, \
-         from simulations of {} masses, with 95 % bootstrap intervals; a broken grey line: the \
-         mean of all realisations. The mean of the kept is {}{}; the mean of all is {}. (b) The kept share rises from {} \
-         at σ = {}{} to {} at σ = {}.",
+        "(a) Mean number of different gaps that impact against σ, simulated with {} masses: of the realisations with an impact \
+         (crosses, 95 % intervals) it {}; of all realisations (broken line) it starts near zero. (b) The share with an \
+         impact rises from {} to {}.",
         sweep.parameters.chain.masses,
-        spoken(&kept),
-        sweep.rise.half_height.map_or(String::new(), |half| format!(
-            "; it reaches half of {n} at σ = {}",
+        sweep.rise.half_height.map_or("rises".into(), |half| format!(
+            "passes half of {n} at σ = {}",
             short(half.value, 4)
         )),
-        spoken(&all),
         fraction.first().map_or("0".into(), |f| short(f.1, 2)),
-        fraction.first().map_or("0".into(), |f| short(f.0, 3)),
-        sweep.rise.kept_half.map_or(String::new(), |half| format!(
-            " through a half at σ = {}",
-            short(half.value, 4)
-        )),
         fraction.last().map_or("1".into(), |f| short(f.1, 3)),
-        fraction.last().map_or("0".into(), |f| short(f.0, 3)),
     );
     Ok(sheet.finish(3, "Expected number of impacts", description, vec![table(sweep)]))
 }

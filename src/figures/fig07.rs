@@ -6,7 +6,6 @@ use plotters::style::text_anchor::{HPos, VPos};
 
 use super::axis::Axis;
 use super::chart::{columns, largest, over_k, short, upwards_from_zero};
-use super::data::cells;
 use super::panel::Frame;
 use super::series::Outside;
 use super::sheet::Sheet;
@@ -47,24 +46,18 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     let look = (TINY, INK, HPos::Right, VPos::Bottom);
     inset.note("the same, logarithmic", (inset.x.hi, inset.y.lo), (0, -110), look)?;
 
-    let mut data = DataFile::new(
-        "fig07.csv",
-        &["k (1)", "share_of_simple_circuits (1)", "log10_share (1)", "ln_phi (1)"],
-    );
-    for (i, &share) in circuits.share.iter().enumerate() {
-        data.row(cells![i + 1, share, logs[i], circuits.log_count[i]]);
-    }
+    let columns: [(&str, &[f64]); 3] = [
+        ("share_of_simple_circuits (1)", &circuits.share),
+        ("log10_share (1)", &logs),
+        ("ln_phi (1)", &circuits.log_count),
+    ];
+    let data = DataFile::over_k("fig07.csv", None, &columns);
     let peak = circuits.share.iter().position(|&s| s == top).unwrap_or(0) + 1;
-    let near_end: f64 = circuits.share.iter().rev().take(4).sum();
     let description = format!(
-        "Columns over the length k = 1 … {n}: the number of simple circuits of length k in a fully \
-         connected graph of N = {n} vertices, divided by the number of all. The columns are \
-         invisible up to k ≈ {}, the highest stands at k = {peak} with {}, and the last four \
-         together hold {}. An inset with a logarithmic axis shows the same numbers fall to about \
-         10^{} at k = 1.",
-        n.saturating_sub(8),
+        "Columns over k = 1 … {n}: the share of all simple circuits of a fully connected graph of N = {n} vertices that have \
+         length k. Only the last few are visible; the highest, {}, stands at k = {peak}. An inset shows the logarithm, which \
+         falls to about 10^{} at k = 1.",
         short(top, 3),
-        short(near_end, 3),
         logs.first().copied().unwrap_or(0.0).round() as i64,
     );
     Ok(sheet.finish(7, "Number of simple circuits of each length", description, vec![data]))

@@ -4,7 +4,6 @@ use plotters::style::text_anchor::HPos;
 
 use super::axis::Axis;
 use super::chart::{FOUR, LETTERS, columns, corner, heading, largest, short, upwards_from_zero};
-use super::data::cells;
 use super::series::Outside;
 use super::sheet::Sheet;
 use super::style::{GREEN, Stroke, THIN};
@@ -34,23 +33,14 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
         // The words go where the columns are low.
         let side = if k_star > n / 2 { HPos::Left } else { HPos::Right };
         corner(&panel, side, &lines)?;
-        let letter = LETTERS[i].trim_matches(['(', ')']);
-        let mut file =
-            DataFile::new(&format!("fig08{letter}.csv"), &["p (1)", "k (1)", "probability (1)"]);
-        for (j, &probability) in distribution.probability.iter().enumerate() {
-            file.row(cells![distribution.p, j + 1, probability]);
-        }
-        data.push(file);
-        seen.push(format!(
-            "{} p = {p}: the highest column, {}, stands at k = {k_star}, the mean is {mean}",
-            LETTERS[i],
-            short(top, 3)
-        ));
+        let file = format!("fig08{}.csv", LETTERS[i].trim_matches(['(', ')']));
+        let columns: [(&str, &[f64]); 1] = [("probability (1)", &distribution.probability)];
+        data.push(DataFile::over_k(&file, Some(distribution.p), &columns));
+        seen.push(format!("{} p = {p}: mean {mean}", LETTERS[i]));
     }
     let description = format!(
-        "Four charts of columns over k = 1 … {n}: the probability of k different impacts for \
-         simple circuits and N = {n}. {}. From one panel to the next the weight moves from single \
-         impacts to nearly the whole system.",
+        "Columns over k = 1 … {n}: the probability of k different impacts for simple circuits, N = {n}. From panel to panel \
+         the weight moves from single impacts to nearly the whole system. {}.",
         seen.join("; ")
     );
     Ok(sheet.finish(8, "Distribution of the number of impacts", description, data))

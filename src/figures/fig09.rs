@@ -93,16 +93,12 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
         }
         files.push(file);
     }
-    let last = theory.most_likely.steps.last().map_or(0, |s| s.k_star);
     let description = format!(
-        "Two curves against the edge probability p from 0 to 1, for N = {n}, each with an inset \
-         for p up to {SMALL_P}. (a) The most likely number of impacts k* is 1 up to p = {}, jumps \
-         there to {}, and then climbs in steps of one, steeply at first, to {last}. (b) The \
-         expected number μ starts at 1, rises without a jump through {} at p = 0.02, and levels \
-         off towards {n}.",
+        "Against the edge probability p, for N = {n}, with insets for small p: (a) the most likely number of impacts is 1 up \
+         to p = {}, jumps there to {} and climbs on in steps of one; (b) the expected number rises from 1 without a jump \
+         and levels off towards {n}.",
         short(scalars.p_jump, 4),
         scalars.k_after_jump,
-        fine.iter().find(|p| p.0 >= 0.02).map_or("about 50".into(), |p| short(p.1, 3)),
     );
     Ok(sheet.finish(9, "Most likely and expected number of impacts", description, files))
 }

@@ -20,7 +20,6 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     let last_zero = rows.iter().filter_map(|row| row.zeros).map(|z| z[1]).fold(20.0, f64::max);
     let shown = ((1.8 * last_zero / 10.0).ceil() * 10.0).min(theory.vertices as f64);
     let mut data = Vec::new();
-    let mut seen = Vec::new();
     for (i, row) in rows.iter().enumerate() {
         let y = 550 + 2350 * i as i32;
         let last = i + 1 == rows.len();
@@ -55,29 +54,22 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
         for point in &row.f {
             f.row(cells![row.p, point.x, point.y]);
         }
-        let mut phi = DataFile::new(
+        let phi = DataFile::over_k(
             &format!("fig10{letter}-phi.csv"),
-            &["p (1)", "k (1)", "phi_over_gamma (1)", "phi_over_phi_1 (1)"],
+            Some(row.p),
+            &[
+                ("phi_over_gamma (1)", &row.phi_over_gamma),
+                ("phi_over_phi_1 (1)", &row.phi_over_first),
+            ],
         );
-        for (j, &value) in row.phi_over_gamma.iter().enumerate() {
-            phi.row(cells![row.p, j + 1, value, row.phi_over_first[j]]);
-        }
         data.extend([f, phi]);
-        let zeros = match row.zeros {
-            Some([a, b]) if a == b => format!("touches zero at k = {}", short(a, 3)),
-            Some([a, b]) => format!("is positive between k = {} and {}", short(a, 3), short(b, 3)),
-            None => "is negative throughout".into(),
-        };
-        let name = if i == 0 { "p → 0".into() } else { format!("p = {}", short(row.p, 4)) };
-        seen.push(format!("{} {name}: f {zeros}, and k* = {}", LETTERS[i], row.k_star));
     }
     let description = format!(
-        "Four rows of two charts over k from 0 to {shown}, p increasing downwards, N = {}. Left, \
-         the function f whose sign tells whether the weight Φ grows from k to k + 1; right, \
-         columns of Φ divided by its sum Γ, with a broken line at the height of the first column \
-         and a red disc on the highest. {}.",
+        "Four rows for rising p, N = {}, over k. Left, the function f, whose sign tells whether the weight Φ grows from k to \
+         k + 1; right, Φ divided by its sum. Where f turns positive a second maximum grows, until it overtakes the first \
+         column: the most likely numbers are {}.",
         theory.vertices,
-        seen.join("; ")
+        rows.iter().map(|row| row.k_star.to_string()).collect::<Vec<_>>().join(", ")
     );
     Ok(sheet.finish(10, "The mechanism of the jump", description, data))
 }

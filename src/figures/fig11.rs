@@ -92,21 +92,10 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     for row in rows {
         data.row(cells![row.sigma, row.p, row.log_p, row.p_rest]);
     }
-    let value_at =
-        |sigma: f64| rows.iter().find(|r| r.sigma >= sigma).map_or((0.0, 0.0), |r| (r.sigma, r.p));
-    let (s1, p1) = value_at(0.1);
-    let (s2, p2) = value_at(0.2);
     let description = format!(
-        "The probability p that two neighbours meet, against the standard deviation σ of the \
-         forcing, from σ = 0 to {end}. (a) On a linear axis p stays at zero up to about σ = 0.13 and \
-         then rises to {}. (b) On a logarithmic axis it falls ever faster towards small σ: {} at \
-         σ = {}, {} at σ = {}. It reaches {}, where k* jumps, at σ = {}. A broken grey curve \
-         for a start from rest lies above it up to σ = {}.",
-        rows.last().map_or("1".into(), |r| short(r.p, 3)),
-        short(p2, 3),
-        short(s2, 3),
-        short(p1, 3),
-        short(s1, 3),
+        "Probability p that two neighbours meet against σ, on (a) a linear and (b) a logarithmic axis: it stays at zero and then \
+         rises steeply, and passes {}, where k* jumps, at σ = {}. A broken curve for a start from rest lies above it \
+         up to σ = {}.",
         short(scalars.p_jump, 4),
         short(scalars.sigma_jump, 4),
         rows.iter().rev().find(|r| r.p_rest > r.p).map_or("0".into(), |r| short(r.sigma, 2)),

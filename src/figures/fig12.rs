@@ -5,8 +5,7 @@ use super::panel::Frame;
 use super::series::Outside;
 use super::sheet::{Entry, Sheet};
 use super::simulated::{
-    CROSS, CROSS_HALF, count_axis, crosses, curve, last_sigma, means, means_file, sigma_axis,
-    spoken,
+    CROSS, CROSS_HALF, at, count_axis, crosses, curve, last_sigma, means, means_file, sigma_axis,
 };
 use super::style::{GREEN, LINE, Mark, SMALL, Stroke, THIN};
 use super::{DataFile, Error, Figure};
@@ -49,12 +48,11 @@ pub fn draw(sweep: &Sweep, theory: &Theory, note: Option<&str>) -> Result<Figure
         }
     }
     let description = format!(
-        "The expected number of impacts against the standard deviation σ of the forcing. Red \
-         crosses, the simulation: {}. A green line, the graph theory for N = {big_n} with p(σ) of \
-         Eq. (25): {}; a thin green line for N = {big_n_walls} lies next to it. The simulation rises \
-         at a smaller σ than the theory; for large σ the two come together.",
-        spoken(&simulated),
-        spoken(&simple),
+        "Expected number of impacts against σ: crosses for the simulation, {} at σ = 0.12; a line for the graph theory with N = \
+         {big_n}, {} there, and a thin one for N = {big_n_walls} beside it. The simulation rises at a smaller σ than the theory; for \
+         large σ the two come together.",
+        at(&simulated, 0.12),
+        at(&simple, 0.12),
     );
     let files = vec![means_file("fig12-simulation.csv", sweep), data];
     Ok(sheet.finish(12, "Simulation against graph theory", description, files))

@@ -2,7 +2,6 @@
 
 use super::axis::Axis;
 use super::chart::{FOUR, LETTERS, heading, largest, over_k, short, upwards_from_zero};
-use super::data::cells;
 use super::panel::Panel;
 use super::series::Outside;
 use super::sheet::{Entry, Sheet};
@@ -27,6 +26,15 @@ pub(super) const CLASSES: [Class; 5] = [
     ("two vertices twice", "*ϕ*_{*N*}^{2}", PURPLE, Dash::Alternate),
 ];
 
+/// Their columns in data files.
+pub(super) const CLASS_COLUMNS: [&str; 5] = [
+    "simple_eq7 (1)",
+    "one_vertex_twice_eq33 (1)",
+    "one_vertex_thrice_eq35 (1)",
+    "one_vertex_four_times_eq36 (1)",
+    "two_vertices_twice_eq37 (1)",
+];
+
 /// Draws the figure.
 pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     let sheet = Sheet::new(8050, None)?;
@@ -38,7 +46,6 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
         });
     };
     let mut data = Vec::new();
-    let mut seen = Vec::new();
     for (i, (distribution, shown)) in
         [(small, n), (small, DETAIL), (middle, n), (large, n)].into_iter().enumerate()
     {
@@ -65,9 +72,6 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
         heading(&panel, LETTERS[i], &format!("*p* = {p}{detail}"))?;
         series(&panel, distribution, shown)?;
         data.push(table(LETTERS[i], distribution, shown));
-        if shown != DETAIL {
-            seen.push(words(LETTERS[i], distribution));
-        }
     }
     let mut entries = vec![Entry::line(Stroke::solid(RED, LINE), "all five classes")];
     entries.extend(CLASSES.iter().map(|&(name, symbol, colour, dash)| {
@@ -76,20 +80,16 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     for (i, half) in entries.chunks(3).enumerate() {
         sheet.legend(([400, 4500][i], 6950), (SMALL, 400), half)?;
     }
-    // What the detail is there for: the class that is highest in it.
-    let higher = CLASSES.iter().zip(&small.classes).skip(1);
-    let peaks = higher.filter_map(|((name, ..), class)| {
-        let at = |(k, p): (usize, &f64)| (*name, k + 1, *p);
-        class.probability.iter().enumerate().map(at).max_by(|a, b| a.2.total_cmp(&b.2))
-    });
-    let peak = peaks.max_by(|a, b| a.2.total_cmp(&b.2)).map_or(String::new(), |(name, k, p)| {
-        format!(", of which those with {name} reach {} at k = {k}", short(p, 2))
-    });
+    let share = |of: &HigherDistribution| short(of.classes.first().map_or(0.0, |c| c.share), 2);
     let description = format!(
-        "Four charts of the probability of k different impacts, N = {n}, for a sample space of \
-         five classes of circuits: a red line for the sum, broken lines for the classes where they stand out from zero. {}. (b) \
-         is a detail of (a) for k up to {DETAIL}, high enough for the higher orders only{peak}.",
-        seen.join("; ")
+        "Probability of k different impacts, N = {n}, for five classes of circuits: a red line for the sum, broken lines for the \
+         classes. (b) is a detail of (a). Simple circuits hold {} of the whole at p = {}, {} at p = {} and {} at p = {}.",
+        share(small),
+        short(small.p, 3),
+        share(middle),
+        short(middle.p, 3),
+        share(large),
+        short(large.p, 3),
     );
     Ok(sheet.finish(13, "Distributions with higher-order circuits", description, data))
 }
@@ -122,44 +122,9 @@ fn visible(probability: &[f64], top: f64) -> Vec<(f64, f64)> {
 
 fn table(letter: &str, distribution: &HigherDistribution, shown: usize) -> DataFile {
     let name = format!("fig13{}.csv", letter.trim_matches(['(', ')']));
-    let mut file = DataFile::new(
-        &name,
-        &[
-            "p (1)",
-            "k (1)",
-            "probability_all (1)",
-            "simple_eq7 (1)",
-            "one_vertex_twice_eq33 (1)",
-            "one_vertex_thrice_eq35 (1)",
-            "one_vertex_four_times_eq36 (1)",
-            "two_vertices_twice_eq37 (1)",
-        ],
-    );
-    for (i, &total) in distribution.total.iter().take(shown).enumerate() {
-        let class =
-            |c: usize| distribution.classes.get(c).and_then(|c| c.probability.get(i)).copied();
-        file.row(cells![
-            distribution.p,
-            i + 1,
-            total,
-            class(0),
-            class(1),
-            class(2),
-            class(3),
-            class(4)
-        ]);
-    }
-    file
-}
-
-fn words(letter: &str, distribution: &HigherDistribution) -> String {
-    let share = distribution.classes.first().map_or(0.0, |c| c.share);
-    format!(
-        "{letter} p = {}: simple circuits hold {} of the whole, the sum is highest at k = {} and its \
-         mean is {}",
-        short(distribution.p, 3),
-        short(share, 2),
-        distribution.k_star,
-        short(distribution.mean, 3)
-    )
+    let names = CLASS_COLUMNS.into_iter();
+    let mut columns: Vec<(&str, &[f64])> = vec![("probability_all (1)", &distribution.total)];
+    columns.extend(names.zip(distribution.classes.iter().map(|class| &*class.probability)));
+    columns.iter_mut().for_each(|(_, values)| *values = &values[..shown.min(values.len())]);
+    DataFile::over_k(&name, Some(distribution.p), &columns)
 }

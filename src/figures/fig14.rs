@@ -2,7 +2,6 @@
 
 use super::axis::Axis;
 use super::chart::{LETTERS, heading, largest, over_k, short, upwards_from_zero};
-use super::data::cells;
 use super::panel::Frame;
 use super::series::Outside;
 use super::sheet::{Entry, Sheet};
@@ -31,28 +30,19 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
         panel.curve("five classes", &over_k(&pair.total), higher, Outside::Refuse)?;
         panel.curve("simple circuits", &over_k(&pair.simple), simple, Outside::Refuse)?;
         let name = format!("fig14{}.csv", LETTERS[i].trim_matches(['(', ')']));
-        let mut file = DataFile::new(
-            &name,
-            &["p (1)", "k (1)", "probability_simple (1)", "probability_five_classes (1)"],
-        );
-        for (j, (&a, &b)) in pair.simple.iter().zip(&pair.total).enumerate() {
-            file.row(cells![pair.p, j + 1, a, b]);
-        }
-        data.push(file);
-        seen.push(format!(
-            "{} p = {p}: the means are {} and {}, the total variation distance is {}",
-            LETTERS[i],
-            short(pair.mean_simple, 3),
-            short(pair.mean, 3),
-            short(pair.total_variation, 3)
-        ));
+        let columns: [(&str, &[f64]); 2] = [
+            ("probability_simple (1)", &pair.simple),
+            ("probability_five_classes (1)", &pair.total),
+        ];
+        data.push(DataFile::over_k(&name, Some(pair.p), &columns));
+        let distance = short(pair.total_variation, 3);
+        seen.push(format!("{} p = {p}: total variation distance {distance}", LETTERS[i]));
     }
     sheet.legend((1300, 3850), (SMALL, 400), &[Entry::line(simple, "simple circuits")])?;
     sheet.legend((4900, 3850), (SMALL, 400), &[Entry::line(higher, "with higher orders")])?;
     let description = format!(
-        "Two charts of the probability of k different impacts, N = {n}: a broken green line for \
-         simple circuits, a blue line for the sample space with higher orders. {}. The two curves \
-         lie apart in (a) and nearly on each other in (b).",
+        "Probability of k different impacts, N = {n}, of simple circuits (broken line) and with higher orders. The two curves \
+         lie apart in (a) and nearly on each other in (b). {}.",
         seen.join("; ")
     );
     Ok(sheet.finish(14, "Simple and higher-order distributions converge", description, data))

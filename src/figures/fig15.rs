@@ -5,8 +5,7 @@ use super::panel::Frame;
 use super::series::Outside;
 use super::sheet::{Entry, Sheet};
 use super::simulated::{
-    CROSS, CROSS_HALF, count_axis, crosses, curve, last_sigma, means, means_file, sigma_axis,
-    spoken,
+    CROSS, CROSS_HALF, at, count_axis, crosses, curve, last_sigma, means, means_file, sigma_axis,
 };
 use super::style::{BLUE, Dash, GREEN, LINE, Mark, SMALL, Stroke};
 use super::{DataFile, Error, Figure};
@@ -49,15 +48,12 @@ pub fn draw(sweep: &Sweep, theory: &Theory, note: Option<&str>) -> Result<Figure
         data.row(cells![theory.curve.vertices, row.sigma, row.simple, row.higher]);
     }
     let description = format!(
-        "The expected number of impacts against the standard deviation σ of the forcing. Red \
-         crosses, the simulation: {}. A broken green line, simple circuits only, N = {}: {}. A \
-         blue line, higher-order circuits included: {}. The blue line rises a little earlier than the \
-         green one, far less than the simulation does; beyond the rise the two lines cannot be \
-         told apart.",
-        spoken(&simulated),
-        theory.curve.vertices,
-        spoken(&simple),
-        spoken(&higher),
+        "Expected number of impacts against σ: crosses for the simulation, {} at σ = 0.12; lines for the theory with simple \
+         circuits only, {} there, and with higher orders, {}. The higher orders rise a little earlier, far less than the \
+         simulation does; beyond the rise the lines cannot be told apart.",
+        at(&simulated, 0.12),
+        at(&simple, 0.12),
+        at(&higher, 0.12),
     );
     let files = vec![means_file("fig15-simulation.csv", sweep), data];
     Ok(sheet.finish(15, "Simulation against both theories", description, files))

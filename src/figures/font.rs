@@ -1,11 +1,11 @@
 //! Labels as glyph outlines of the two shipped faces, so that a figure looks the same anywhere.
 
-use std::fmt::Write as _;
 use std::sync::OnceLock;
 
 use ab_glyph::{Font, FontRef, GlyphId, OutlineCurve, Point};
 
 use super::Error;
+use super::drawing::Step;
 use super::markup::{self, Face, Level};
 
 /// Units of an em in both faces; the outlines and the layout below are in these units.
@@ -135,30 +135,32 @@ pub fn id(placed: &Placed) -> String {
     }
 }
 
-/// The outline of a glyph as SVG path data in em units, y upwards.
+/// The outline of a glyph in em units, y upwards.
 ///
 /// # Errors
 /// If a shipped font cannot be read.
-pub fn outline(placed: &Placed) -> Result<String, Error> {
-    let mut d = String::new();
+pub fn outline(placed: &Placed) -> Result<Vec<Step>, Error> {
+    let mut steps = Vec::new();
     let mut at: Option<Point> = None;
-    let p = |v: &Point| format!("{} {}", v.x.round(), v.y.round());
+    let p = |v: &Point| (v.x.round() as i32, v.y.round() as i32);
     let curves = font(placed.face)?.outline(GlyphId(placed.glyph)).map(|o| o.curves);
     for curve in curves.unwrap_or_default() {
         let (from, to, step) = match &curve {
-            OutlineCurve::Line(a, b) => (a, b, format!("L{}", p(b))),
-            OutlineCurve::Quad(a, b, c) => (a, c, format!("Q{} {}", p(b), p(c))),
-            OutlineCurve::Cubic(a, b, c, e) => (a, e, format!("C{} {} {}", p(b), p(c), p(e))),
+            OutlineCurve::Line(a, b) => (a, b, Step::Line(p(b))),
+            OutlineCurve::Cubic(a, b, c, e) => (a, e, Step::Curve([p(b), p(c), p(e)])),
+            OutlineCurve::Quad(..) => {
+                return Err(Error::Drawing("the shipped fonts have cubic curves only".into()));
+            }
         };
         if at != Some(*from) {
-            let close = if at.is_some() { "Z" } else { "" };
-            let _ = write!(d, "{close}M{}", p(from));
+            steps.extend(at.map(|_| Step::Close));
+            steps.push(Step::Begin(p(from)));
         }
-        d.push_str(&step);
+        steps.push(step);
         at = Some(*to);
     }
-    d.push('Z');
-    Ok(d)
+    steps.push(Step::Close);
+    Ok(steps)
 }
 
 #[cfg(test)]
@@ -190,7 +192,9 @@ mod tests {
     #[test]
     fn outlines_are_closed_paths() {
         let line = set("B").unwrap();
-        let d = outline(&line.glyphs[0]).unwrap();
-        assert!(d.starts_with('M') && d.ends_with('Z') && d.matches('M').count() == 3, "{d}");
+        let steps = outline(&line.glyphs[0]).unwrap();
+        let count = |of: fn(&Step) -> bool| steps.iter().filter(|step| of(step)).count();
+        assert_eq!(count(|step| matches!(step, Step::Begin(_))), 3);
+        assert_eq!(count(|step| *step == Step::Close), 3);
     }
 }

@@ -2,10 +2,10 @@
 //! string and its data.
 
 mod axis;
-mod backend;
 mod chart;
 mod clip;
 mod data;
+mod drawing;
 mod element;
 mod fig01;
 mod fig02;
@@ -28,6 +28,7 @@ mod markup;
 mod motion;
 mod number;
 mod panel;
+mod pdf;
 mod rivals;
 mod s01;
 mod s02;
@@ -50,10 +51,13 @@ mod series;
 mod sheet;
 mod simulated;
 mod style;
+mod svg;
 
 pub use data::DataFile;
+pub use drawing::{Drawing, Glyphs};
 pub use number::Number;
 pub use scene::Scene;
+pub use svg::{escape, path_data};
 
 use plotters::drawing::DrawingAreaErrorKind;
 use plotters_backend::DrawingErrorKind;
@@ -82,6 +86,8 @@ pub struct Figure {
     pub description: String,
     /// The picture, a whole SVG document.
     pub svg: String,
+    /// The picture as a list, for its other forms.
+    pub drawing: Drawing,
     /// Its data.
     pub data: Vec<DataFile>,
 }

@@ -57,25 +57,12 @@ pub fn draw(circuit: &Circuit, segment: &Segment) -> Result<Figure, Error> {
 
     let names: Vec<&str> = circuit.order.iter().map(|&gap| NAMES[gap]).collect();
     let description = format!(
-        "(a) The graph of three masses with a {} circuit drawn in red, its {} steps numbered: {}. \
-         (b) The positions of the three masses between the walls at 0 and {walls} against time, \
-         mass 1 a blue line, mass 2 a broken green, mass 3 a dotted and broken orange one, \
-         over {} time units of a simulated motion, a segment and not a periodic orbit; the \
-         impacts, marked by circles numbered as the steps that follow them, are {}.",
+        "(a) The graph of three masses with a {} circuit in red: {}. (b) Positions of the three masses against time, \
+         over {} time units of a simulated motion, a segment and not a periodic orbit; its impacts are numbered as \
+         the steps of the circuit.",
         circuit.kind,
-        circuit.order.len(),
         names.join(", "),
         short(duration, 3),
-        segment
-            .impacts
-            .iter()
-            .map(|hit| format!(
-                "{} at {}",
-                NAMES.get(hit.gap).unwrap_or(&"?"),
-                short(hit.time - segment.from, 3)
-            ))
-            .collect::<Vec<_>>()
-            .join(", "),
     );
     let data = tables(circuit, segment);
     Ok(sheet.finish(circuit.figure, circuit.title, description, data))

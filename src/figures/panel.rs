@@ -8,8 +8,8 @@ use plotters::element::{Drawable, PointCollection, Text};
 use plotters::style::text_anchor::{HPos, VPos};
 
 use super::axis::Axis;
-use super::backend::Svg;
-use super::element::Curve;
+use super::drawing::Drawing;
+use super::element::{Drawn, Look};
 use super::style::{self, Colour, HAIR, INK, SMALL, Stroke, TEXT};
 use super::{Error, font};
 
@@ -37,8 +37,8 @@ impl Frame {
 
 /// Axes in a frame; data is given in axis coordinates.
 pub struct Panel {
-    pub(super) sheet: DrawingArea<Svg, Shift>,
-    pub(super) plane: DrawingArea<Svg, Plane>,
+    pub(super) sheet: DrawingArea<Drawing, Shift>,
+    pub(super) plane: DrawingArea<Drawing, Plane>,
     /// Where it stands.
     pub frame: Frame,
     /// Horizontal axis.
@@ -55,7 +55,7 @@ const GAP: i32 = 70;
 
 impl Panel {
     /// A panel without anything in it yet, not even its axes.
-    pub fn new(sheet: &DrawingArea<Svg, Shift>, frame: Frame, x: Axis, y: Axis) -> Self {
+    pub fn new(sheet: &DrawingArea<Drawing, Shift>, frame: Frame, x: Axis, y: Axis) -> Self {
         let plane = sheet.clone().apply_coord_spec(Plane::new(
             x.lo..x.hi,
             y.lo..y.hi,
@@ -71,15 +71,14 @@ impl Panel {
 
     fn put<E>(&self, element: &E) -> Result<(), Error>
     where
-        E: Drawable<Svg>,
+        E: Drawable<Drawing>,
         for<'a> &'a E: PointCollection<'a, (i32, i32)>,
     {
         Ok(self.sheet.draw(element)?)
     }
 
     fn line(&self, a: (i32, i32), b: (i32, i32)) -> Result<(), Error> {
-        let stroke = Stroke::solid(INK, HAIR);
-        self.put(&Curve { points: vec![a, b], stroke, arrow: false })
+        self.put(&Drawn(vec![a, b], Look::Curve(Stroke::solid(INK, HAIR))))
     }
 
     fn text(&self, text: &str, at: (i32, i32), size: i32, h: HPos, v: VPos) -> Result<(), Error> {

@@ -1,7 +1,7 @@
 //! Fig. S2: one long run, gap against time, a tick for each impact.
 
 use super::axis::Axis;
-use super::chart::{LETTERS, short};
+use super::chart::LETTERS;
 use super::data::cells;
 use super::panel::{Frame, Panel};
 use super::scene::Scene;
@@ -77,45 +77,15 @@ fn starts(panel: &Panel, run: &SpaceTime, until: f64) -> Result<(), Error> {
 }
 
 fn description(run: &SpaceTime) -> String {
-    let (n, parameters) = (run.width(), &run.parameters);
-    let (from, to) = detail(run);
-    let quarter = parameters.until / 4.0;
-    let advances = run.advances();
-    let delay = |i: Option<usize>| i.and_then(|i| advances.get(i)).map(|a| (a.gap, a.delay));
-    let fronts = match (delay(Some(advances.len() / 2)), delay(advances.len().checked_sub(1))) {
-        (Some(middle), Some(last)) => format!(
-            "half of the steps of a front to the next gap take less than {} units of time, the \
-             longest, to gap {}, takes {}",
-            short(middle.1, 2),
-            last.0,
-            short(last.1, 3)
-        ),
-        _ => "no front moves".into(),
-    };
-    let places: Vec<String> = run.starts().iter().map(usize::to_string).collect();
-    let firsts = run.firsts();
-    let first = firsts.iter().flatten().copied().reduce(f64::min).unwrap_or(0.0);
     format!(
-        "Gap, from 0 to {}, against time: a dark tick for each of the {} impacts of one run of {} \
-         masses at σ = {}. (a) The whole run to t = {}. Impacts form dark horizontal bands that \
-         begin at {} red discs, in gaps {}, the first at t = {}, and widen in bursts: {} gaps are \
-         reached by t = {}, {} of {n} by the end; {fronts}. (b) The part from t = {} to {}: each \
-         impact a tick, {} of them, in {} gaps.",
-        n - 1,
+        "Gap against time, a tick for each of {} impacts of one run of {} masses at σ = {}. Impacts form horizontal bands that \
+         begin at {} red discs and widen in bursts; {} of {} gaps are reached by the end. (b) A part of it, finer.",
         run.times.len(),
-        parameters.chain.masses,
-        parameters.sigma,
-        parameters.until,
-        places.len(),
-        places.join(", "),
-        short(first, 3),
-        run.reached_by(quarter),
-        quarter,
+        run.parameters.chain.masses,
+        run.parameters.sigma,
+        run.starts().len(),
         run.reached(),
-        from,
-        to,
-        points(run, from, to).len(),
-        run.reached_by(to),
+        run.width(),
     )
 }
 

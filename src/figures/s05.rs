@@ -10,7 +10,7 @@ use super::style::{
     BLUE, Colour, Dash, GREEN, INK, LINE, Mark, ORANGE, PURPLE, RED, SMALL, Stroke, THIN,
 };
 use super::{DataFile, Error, Figure};
-use crate::experiments::theory::{Large, PoissonCell, PoissonRow};
+use crate::experiments::theory::{Large, PoissonCell};
 
 /// The p N in (a): around the onset, where the sizes differ.
 const RANGE: (f64, f64) = (0.75, 2.25);
@@ -29,7 +29,7 @@ pub fn draw(large: &Large) -> Result<Figure, Error> {
     shares(&sheet, large)?;
     jumps(&sheet, large)?;
     poisson(&sheet, large)?;
-    Ok(sheet.finish_own(5, "The theory at large N", description(large), tables(large)))
+    Ok(sheet.finish_own(5, "The theory at large N", DESCRIPTION.into(), tables(large)))
 }
 
 /// A power of ten as the figures write it.
@@ -113,36 +113,9 @@ fn poisson(sheet: &Sheet, large: &Large) -> Result<(), Error> {
     Ok(())
 }
 
-fn description(large: &Large) -> String {
-    let jumps: Vec<String> = large
-        .jumps
-        .iter()
-        .filter(|own| own.vertices.to_string().starts_with('1'))
-        .map(|own| {
-            format!("k* = {} or {} of N = {}", own.k_after, short(own.share, 2), own.vertices)
-        })
-        .collect();
-    let ends = |row: &PoissonRow| {
-        let end = |cell: Option<&PoissonCell>| cell.map_or(0.0, |cell| cell.variation);
-        format!(
-            "from {} to {} for p N = {}",
-            short(end(row.cells.first()), 2),
-            short(end(row.cells.last()), 2),
-            short(row.p_n, 2)
-        )
-    };
-    let distances: Vec<String> = large.poisson.iter().map(ends).collect();
-    format!(
-        "(a) The most likely number over N against p N: zero, a jump soon after p N = 1, then a curve that \
-         bends towards one. The larger N, the smaller the jump, and the nearer the curve to \
-         the broken line max(0, 1 − 1/(p N)), on which that for the largest N lies. (b) The height of the \
-         jump over N, on logarithmic axes: {}; the line of the rule goes through the points. (c) Total \
-         variation distance of N − X from a Poisson variable, on logarithmic axes, falls with the \
-         root of N, {}; dotted lines a little above are bounds.",
-        jumps.join(", "),
-        distances.join(", ")
-    )
-}
+const DESCRIPTION: &str = "(a) The most likely number over N against p N: zero, a jump soon after p N = 1, then a curve. \
+     The larger N, the smaller the jump and the nearer the curve to max(0, 1 − 1/(p N)). (b) Height of the jump against N, \
+     with the rule. (c) Distance of N − X from a Poisson variable, falling with the root of N below its bounds.";
 
 fn tables(large: &Large) -> Vec<DataFile> {
     let mut shares = DataFile::new("s05a.csv", &["N (1)", "p_N (1)", "k_star_over_N (1)"]);

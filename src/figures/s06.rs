@@ -5,7 +5,7 @@ use plotters::style::text_anchor::{HPos, VPos};
 use super::axis::{Axis, log};
 use super::chart::{LETTERS, short};
 use super::data::cells;
-use super::fig13::CLASSES;
+use super::fig13::{CLASS_COLUMNS, CLASSES};
 use super::panel::{Frame, Panel};
 use super::series::Outside;
 use super::sheet::{Entry, Sheet};
@@ -108,43 +108,16 @@ fn distributions(sheet: &Sheet, theory: &Theory) -> Result<(), Error> {
 }
 
 fn description(theory: &Theory) -> String {
-    let orders = &theory.orders;
-    let shares = |p: f64| {
-        let near = |c: &&crate::experiments::theory::ClassShares| c.p >= p * (1.0 - 1e-9);
-        let found = orders.classes.iter().find(near);
-        let shares = found.map(|c| c.shares.iter().map(|s| short(*s, 2)).collect::<Vec<_>>());
-        shares.unwrap_or_default().join(", ")
-    };
-    let poles: Vec<String> = orders.shares.iter().map(|own| short(1.0 / own.k as f64, 2)).collect();
-    let ends = |values: &[f64]| {
-        let least = values.iter().copied().fold(1.0, f64::min);
-        (short(values.first().copied().unwrap_or(0.0), 2), short(least, 2))
-    };
-    let (first, least) = ends(&orders.at_jump);
     format!(
-        "(a) The shares of the five classes among themselves against p on a logarithmic axis, N = {}: {} \
-         at p = 0.001, {} at p = 0.1. Simple circuits give way to those with two vertices twice. (b) The share of the \
-         five classes among all circuits with K different vertices: curves that fall from one to zero at p = 1/K, which is {}; \
-         among all circuits it falls to zero at 1/N. (c) P(X = k) at the jump: \
-         with simple circuits two humps, as high at k = {} as at k = 1; with all \
-         circuits a trough, {first} at both ends and {least} at its lowest.",
+        "(a) Shares of the five classes against p, N = {}: simple circuits give way to those with two vertices twice. (b) Share of \
+         the five classes among all circuits with K vertices, falling from one to zero at p = 1/K. (c) P(X = k) at the jump: \
+         two humps with simple circuits, with all circuits a trough.",
         theory.vertices,
-        shares(1e-3),
-        shares(1e-1),
-        poles.join(", "),
-        theory.scalars.k_after_jump,
     )
 }
 
 fn tables(orders: &AllOrders) -> Vec<DataFile> {
-    let header = [
-        "p (1)",
-        "simple_eq7 (1)",
-        "one_vertex_twice_eq33 (1)",
-        "one_vertex_thrice_eq35 (1)",
-        "one_vertex_four_times_eq36 (1)",
-        "two_vertices_twice_eq37 (1)",
-    ];
+    let header: Vec<&str> = ["p (1)"].into_iter().chain(CLASS_COLUMNS).collect();
     let mut classes = DataFile::new("s06a.csv", &header);
     for row in &orders.classes {
         let share = |i: usize| row.shares.get(i).copied();
@@ -160,10 +133,10 @@ fn tables(orders: &AllOrders) -> Vec<DataFile> {
     for row in &orders.whole {
         whole.row(cells![row.x, row.y]);
     }
-    let header = ["k (1)", "probability_simple (1)", "probability_all (1)"];
-    let mut jump = DataFile::new("s06c.csv", &header);
-    for (i, (&simple, &all)) in orders.simple_at_jump.iter().zip(&orders.at_jump).enumerate() {
-        jump.row(cells![i + 1, simple, all]);
-    }
+    let columns: [(&str, &[f64]); 2] = [
+        ("probability_simple (1)", &orders.simple_at_jump),
+        ("probability_all (1)", &orders.at_jump),
+    ];
+    let jump = DataFile::over_k("s06c.csv", None, &columns);
     vec![classes, shares, whole, jump]
 }

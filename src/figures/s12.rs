@@ -87,29 +87,15 @@ pub fn draw(race: &Race, note: Option<&str>) -> Result<Figure, Error> {
 }
 
 fn description(race: &Race) -> String {
-    let told = |entry: &Entry| {
-        let [median, _, largest] = entry.segments.errors?;
-        Some(format!(
-            "{}{}: {} evaluations per impact, median error {}, largest {}, {} of {} missed",
-            name(entry.setting.method),
-            setting(entry.setting.value),
-            short(entry.evaluations_per_impact?, 2),
-            short(median, 2),
-            short(largest, 2),
-            entry.segments.misses(),
-            entry.segments.tried
-        ))
-    };
-    let all: Vec<String> = race.entries.iter().filter_map(told).collect();
+    let certified = race.entries.iter().find(|e| e.setting.method == MethodName::Certified);
+    let largest = certified.and_then(|entry| Some(entry.segments.errors?[2]));
     format!(
-        "Two charts against counted work, both axes logarithmic, one marker for each method and \
-         step or tolerance, from n = {} and σ = {}. (a) The error of the time of the next impact \
-         from an exact state: the marker is the median, a line reaches up to the largest. (b) The \
-         share of states from which the next impact is not found within {}. {}.",
+        "Against counted work, a marker for each method and step or tolerance, n = {}, σ = {}: (a) median error of the time of the next \
+         impact, with a line up to the largest, which for certified events is {}; (b) the share of states from which the \
+         next impact is missed.",
         race.parameters.chain.masses,
         race.parameters.sigma,
-        short(DISPLACED, 1),
-        all.join("; ")
+        largest.map_or("unknown".into(), |error| short(error, 2)),
     )
 }
 

@@ -3,14 +3,10 @@
 //! plotters moves points that lie outside a range onto the frame, which makes curves silently
 //! false. Here such a point is an error, unless the caller asks for a cut at the frame.
 
-use plotters::element::{Drawable, PointCollection};
-
 use super::Error;
-use super::backend::{Svg, escape};
 use super::clip::clip;
-use super::element::{Area, Curve, Marks, Ticks};
-use super::panel::{Frame, Panel};
-use super::sheet::group;
+use super::element::{Drawn, Look};
+use super::panel::Panel;
 use super::style::{Colour, Mark, Stroke};
 use crate::numerics::statistics::Estimate;
 
@@ -31,20 +27,10 @@ impl Panel {
         }
     }
 
-    fn series<E>(&self, name: &str, elements: &[E]) -> Result<(), Error>
-    where
-        E: Drawable<Svg>,
-        for<'a> &'a E: PointCollection<'a, (f64, f64)>,
-    {
-        let Frame { left, top, right, bottom } = self.frame;
-        group(
-            &self.sheet,
-            &format!(
-                "class=\"data\" data-name=\"{}\" data-frame=\"{left} {top} {right} {bottom}\"",
-                escape(name)
-            ),
-            || elements.iter().try_for_each(|e| self.plane.draw(e).map_err(Error::from)),
-        )
+    fn series(&self, name: &str, elements: &[Drawn<(f64, f64)>]) -> Result<(), Error> {
+        self.sheet.draw(&Drawn(vec![], Look::Open(name.into(), self.frame)))?;
+        elements.iter().try_for_each(|element| self.plane.draw(element))?;
+        Ok(self.sheet.draw(&Drawn(vec![], Look::Close))?)
     }
 
     /// A curve.
@@ -74,7 +60,7 @@ impl Panel {
         };
         let parts = clip(&inside, (self.x.lo, self.x.hi), (self.y.lo, self.y.hi));
         let curves: Vec<_> =
-            parts.into_iter().map(|points| Curve { points, stroke, arrow: false }).collect();
+            parts.into_iter().map(|points| Drawn(points, Look::Curve(stroke))).collect();
         self.series(name, &curves)
     }
 
@@ -94,7 +80,7 @@ impl Panel {
         }
         let points =
             points.iter().copied().filter(|p| self.x.holds(p.0) && self.y.holds(p.1)).collect();
-        self.series(name, &[Marks { points, mark, half, stroke }])
+        self.series(name, &[Drawn(points, Look::Marks(mark, half, stroke))])
     }
 
     /// Upright ticks of the given width at many points, all inside the frame; the thickness of the
@@ -110,7 +96,7 @@ impl Panel {
         stroke: Stroke,
     ) -> Result<(), Error> {
         self.check(name, points)?;
-        self.series(name, &[Ticks { points: points.to_vec(), width, stroke }])
+        self.series(name, &[Drawn(points.to_vec(), Look::Ticks(width, stroke))])
     }
 
     /// A filled polygon, all of it inside the frame.
@@ -125,7 +111,7 @@ impl Panel {
         opacity: u8,
     ) -> Result<(), Error> {
         self.check(name, points)?;
-        self.series(name, &[Area { points: points.to_vec(), fill, opacity }])
+        self.series(name, &[Drawn(points.to_vec(), Look::Area(fill, opacity))])
     }
 
     /// Bars from `low` to `high` at each x, with caps of the given half width.
@@ -143,7 +129,7 @@ impl Panel {
         self.check(name, &ends)?;
         let width = (self.x.hi - self.x.lo) / f64::from(self.frame.right - self.frame.left);
         let cap = f64::from(half) * width;
-        let line = |a, b| Curve { points: vec![a, b], stroke, arrow: false };
+        let line = |a, b| Drawn(vec![a, b], Look::Curve(stroke));
         let mut parts = Vec::new();
         for &(x, low, high) in bars {
             parts.push(line((x, low), (x, high)));
@@ -185,6 +171,7 @@ impl Panel {
 mod tests {
     use super::*;
     use crate::figures::axis::Axis;
+    use crate::figures::panel::Frame;
     use crate::figures::sheet::Sheet;
     use crate::figures::style::GREEN;
 

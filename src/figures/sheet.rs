@@ -5,21 +5,21 @@ use std::rc::Rc;
 
 use plotters::coord::Shift;
 use plotters::drawing::DrawingArea;
-use plotters::element::{Circle, Drawable, PointCollection, Rectangle, Text};
+use plotters::element::{Circle, Rectangle, Text};
 use plotters::style::text_anchor::{HPos, VPos};
 use plotters::style::{Color, RGBColor, ShapeStyle};
 
 use super::axis::Axis;
-use super::backend::Svg;
-use super::element::{Curve, Marks};
+use super::drawing::Drawing;
+use super::element::{Drawn, Look};
 use super::panel::{Frame, Panel};
 use super::style::{self, Colour, GREY, INK, Mark, Stroke, TINY, WIDTH};
 use super::{DataFile, Error, Figure, Number};
 
 /// A figure in the making.
 pub struct Sheet {
-    svg: Rc<RefCell<Svg>>,
-    area: DrawingArea<Svg, Shift>,
+    drawing: Rc<RefCell<Drawing>>,
+    area: DrawingArea<Drawing, Shift>,
 }
 
 /// One entry of a legend.
@@ -45,44 +45,6 @@ impl Entry {
     }
 }
 
-/// Runs `draw` inside an SVG group.
-pub(super) fn group(
-    area: &DrawingArea<Svg, Shift>,
-    attributes: &str,
-    draw: impl FnOnce() -> Result<(), Error>,
-) -> Result<(), Error> {
-    area.draw(&Brackets(Some(attributes.into())))?;
-    draw()?;
-    area.draw(&Brackets(None))?;
-    Ok(())
-}
-
-/// Opens or closes a group: an element without points that only talks to the backend.
-struct Brackets(Option<String>);
-
-impl<'a> PointCollection<'a, (i32, i32)> for &'a Brackets {
-    type Point = &'a (i32, i32);
-    type IntoIter = &'a [(i32, i32)];
-    fn point_iter(self) -> &'a [(i32, i32)] {
-        &[]
-    }
-}
-
-impl Drawable<Svg> for Brackets {
-    fn draw<I: Iterator<Item = (i32, i32)>>(
-        &self,
-        _: I,
-        svg: &mut Svg,
-        _: (u32, u32),
-    ) -> Result<(), plotters_backend::DrawingErrorKind<Error>> {
-        match &self.0 {
-            Some(attributes) => svg.open(attributes),
-            None => svg.close(),
-        }
-        Ok(())
-    }
-}
-
 impl Sheet {
     /// An empty sheet of column width; a `note` about its provenance adds a line at the foot.
     ///
@@ -90,9 +52,9 @@ impl Sheet {
     /// If the note has a character that the shipped fonts lack.
     pub fn new(height: u32, note: Option<&str>) -> Result<Self, Error> {
         let foot = if note.is_some() { 330 } else { 0 };
-        let svg = Rc::new(RefCell::new(Svg::new(height + foot)));
-        let area = DrawingArea::from(&svg);
-        let sheet = Sheet { svg, area };
+        let drawing = Rc::new(RefCell::new(Drawing::new(height + foot)));
+        let area = DrawingArea::from(&drawing);
+        let sheet = Sheet { drawing, area };
         if let Some(note) = note {
             let at = (WIDTH as i32 - 120, (height + foot) as i32 - 110);
             sheet.text(note, at, (TINY, GREY, HPos::Right, VPos::Bottom))?;
@@ -140,7 +102,7 @@ impl Sheet {
     /// # Errors
     /// If drawing fails.
     pub fn line(&self, points: &[(i32, i32)], stroke: Stroke) -> Result<(), Error> {
-        Ok(self.area.draw(&Curve { points: points.to_vec(), stroke, arrow: false })?)
+        Ok(self.area.draw(&Drawn(points.to_vec(), Look::Curve(stroke)))?)
     }
 
     /// A line that ends in an arrow head.
@@ -148,7 +110,7 @@ impl Sheet {
     /// # Errors
     /// If drawing fails.
     pub fn arrow(&self, points: &[(i32, i32)], stroke: Stroke) -> Result<(), Error> {
-        Ok(self.area.draw(&Curve { points: points.to_vec(), stroke, arrow: true })?)
+        Ok(self.area.draw(&Drawn(points.to_vec(), Look::Arrow(stroke)))?)
     }
 
     /// A filled circle with an edge.
@@ -198,8 +160,8 @@ impl Sheet {
                 self.line(&[(x, y), (x + SAMPLE, y)], stroke)?;
             }
             if let Some((mark, half, stroke)) = entry.mark {
-                let points = vec![(x + SAMPLE / 2, y)];
-                self.area.draw(&Marks { points, mark, half, stroke })?;
+                let look = Look::Marks(mark, half, stroke);
+                self.area.draw(&Drawn(vec![(x + SAMPLE / 2, y)], look))?;
             }
             let look = (size, INK, HPos::Left, VPos::Center);
             self.text(&entry.text, (x + SAMPLE + 130, y), look)?;
@@ -229,11 +191,6 @@ impl Sheet {
         self.close(Number::Own(number), title, description, data)
     }
 
-    /// Closes what is no figure of the report, as an SVG document.
-    pub fn document(self, id: &str, title: &str, description: &str) -> String {
-        self.svg.borrow().document(id, title, description)
-    }
-
     fn close(
         self,
         number: Number,
@@ -241,8 +198,8 @@ impl Sheet {
         description: String,
         data: Vec<DataFile>,
     ) -> Figure {
-        let id = number.id();
-        let svg = self.document(&id, title, &description);
-        Figure { id, title: title.into(), description, svg, data }
+        let (id, drawing) = (number.id(), self.drawing.take());
+        let svg = drawing.svg(&id, title, &description);
+        Figure { id, title: title.into(), description, svg, drawing, data }
     }
 }

@@ -85,14 +85,7 @@ pub fn value_at(points: &[(f64, f64)], sigma: f64) -> Option<f64> {
     })
 }
 
-/// Words such as "27 at σ = 0.1" for a few σ, for descriptions.
-pub fn spoken(points: &[(f64, f64)]) -> String {
-    let words: Vec<String> = [0.1, 0.12, 0.15, 0.2, 0.3]
-        .into_iter()
-        .filter_map(|sigma| {
-            let value = super::chart::short(value_at(points, sigma)?, 3);
-            Some(format!("{value} at σ = {sigma}"))
-        })
-        .collect();
-    words.join(", ")
+/// The value of a curve at some σ in words.
+pub fn at(points: &[(f64, f64)], sigma: f64) -> String {
+    value_at(points, sigma).map_or("nothing".into(), |value| super::chart::short(value, 3))
 }

@@ -117,15 +117,15 @@ impl Stroke {
         Stroke { colour, width, dash }
     }
 
-    /// The dash as an SVG attribute with a leading blank, or nothing.
-    pub fn dash_array(&self) -> String {
+    /// Lengths of strokes and of what is clear between them; none for an unbroken line.
+    pub fn dashes(&self) -> &'static [u32] {
         match self.dash {
-            Dash::Solid => String::new(),
-            Dash::Long => " stroke-dasharray=\"150 75\"".into(),
-            Dash::Short => " stroke-dasharray=\"70 50\"".into(),
-            Dash::Dotted => " stroke-dasharray=\"24 54\"".into(),
-            Dash::Twice => " stroke-dasharray=\"120 50 26 50 26 50\"".into(),
-            Dash::Alternate => " stroke-dasharray=\"150 60 26 60\"".into(),
+            Dash::Solid => &[],
+            Dash::Long => &[150, 75],
+            Dash::Short => &[70, 50],
+            Dash::Dotted => &[24, 54],
+            Dash::Twice => &[120, 50, 26, 50, 26, 50],
+            Dash::Alternate => &[150, 60, 26, 60],
         }
     }
 }

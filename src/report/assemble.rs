@@ -10,7 +10,7 @@ use super::labels::Labels;
 use super::mark::Mark;
 use super::uses::uses;
 use super::values::Registry;
-use super::{Error, appendix, html, labels, latex, ledger, lint, markdown, parse, pdf, sums};
+use super::{Error, appendix, html, labels, latex, ledger, lint, markdown, parse, sums};
 use crate::claims::Claim;
 use crate::committed;
 use crate::figures::{self, Figure, Scene};
@@ -102,8 +102,8 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
         committed.extend(files_of(figure));
     }
     let pdf =
-        |figure: &Figure| Ok((format!("figures/{}.pdf", figure.id), pdf::from_svg(&figure.svg)?));
-    beside.extend(input.figures.par_iter().map(pdf).collect::<Result<Vec<_>, Error>>()?);
+        |figure: &Figure| (format!("figures/{}.pdf", figure.id), figure.drawing.pdf(&figure.title));
+    beside.extend(input.figures.par_iter().map(pdf).collect::<Vec<_>>());
     if input.pdf {
         beside.insert("report.pdf".into(), typeset(&printed, input)?);
     }

@@ -30,7 +30,6 @@ pub mod mark;
 pub mod markdown;
 pub mod origin;
 pub mod parse;
-pub mod pdf;
 pub mod place;
 pub mod print;
 pub mod recipe;
@@ -104,9 +103,6 @@ pub enum Error {
         "no LaTeX is known for the character {0:?}; write it otherwise, or add it to report::tex"
     )]
     NoLatex(char),
-    /// A picture that another format cannot take.
-    #[error("a figure for LaTeX or HTML: {0}; draw it otherwise, or teach it to report::pdf")]
-    Picture(String),
     /// Mathematics that cannot become MathML.
     #[error("no MathML for ${}$: {}; write it otherwise", one_line(tex, 200), one_line(what, 200))]
     Maths {
@@ -146,7 +142,7 @@ impl Error {
 mod tests {
     use super::*;
     use crate::claims::{Basis, Claim, Text, Verdict};
-    use crate::figures::{DataFile, Figure};
+    use crate::figures::{DataFile, Drawing, Figure};
 
     /// One document with everything that the prose may use.
     const SAMPLE: &str = r#"# A title
@@ -287,14 +283,15 @@ Listing: What $\delta v$ does. {#lst:kick}
     }
 
     fn figure() -> Figure {
-        let svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"8\" height=\"4\" viewBox=\"0 0 8 4\"/>";
+        let drawing = Drawing::new(400);
         let mut data = DataFile::new("fig03.csv", &["sigma", "mean"]);
         data.rows.push(vec!["0.1".into(), "2".into()]);
         Figure {
             id: "fig03".into(),
             title: "The rise".into(),
             description: "It rises [steeply].".into(),
-            svg: svg.into(),
+            svg: drawing.svg("fig03", "The rise", "It rises [steeply]."),
+            drawing,
             data: vec![data],
         }
     }

@@ -128,6 +128,11 @@ fn every_figure_says_what_is_seen_with_its_numbers() {
         let svg = pictures[format!("{title} {description}").as_str()];
         let text =
             |id: &str| words(svg.children().find(|node| node.attribute("id") == Some(id)).unwrap());
+        // A colour that has no name in the palette would not follow the style sheet.
+        let coloured = |node: Node| {
+            ["fill", "stroke"].iter().any(|key| node.attribute(*key).is_some_and(|c| c != "none"))
+        };
+        assert!(!svg.descendants().any(coloured), "{}: a colour without a name", figure.id);
         assert_eq!(text(&title), figure.title);
         assert_eq!(text(&description), figure.description.trim());
         assert!(figure.description.contains(|c: char| c.is_ascii_digit()), "{}", figure.id);

@@ -1,6 +1,6 @@
 //! A figure: the picture inside the page, its caption, and where it comes from.
 
-use super::{Page, escape, picture};
+use super::{Page, escape};
 use crate::params::Profile;
 use crate::report::document::Block;
 use crate::report::recipe::recipe;
@@ -14,7 +14,8 @@ impl Page<'_> {
         let own = |figure: &&crate::figures::Figure| *path == format!("figures/{}.svg", figure.id);
         let figure = self.figures.iter().find(own);
         let figure = figure.ok_or_else(|| Error::Reference(path.clone()))?;
-        let svg = picture::inline(&figure.svg, &mut self.glyphs.borrow_mut())?;
+        self.glyphs.borrow_mut().extend(figure.drawing.glyphs.clone());
+        let svg = figure.drawing.on_page(&figure.id, &figure.title, &figure.description);
         Ok(format!(
             "<figure id=\"{}\"><div class=\"scroll\" tabindex=\"0\" role=\"group\" \
              aria-label=\"Figure {number}\">{svg}</div><figcaption><strong>Figure {number}.</strong> {} \

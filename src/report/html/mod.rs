@@ -21,7 +21,7 @@ pub use scene::Moving;
 use super::Error;
 use super::card::Cards;
 use super::document::{Block, plain};
-use crate::figures::Figure;
+use crate::figures::{Figure, Glyphs};
 use serde::Serialize;
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -70,7 +70,7 @@ struct Page<'a> {
     moving: Option<Moving<'a>>,
     /// Values that were shown, so that each gets its card.
     named: RefCell<BTreeSet<String>>,
-    glyphs: RefCell<picture::Glyphs>,
+    glyphs: RefCell<Glyphs>,
 }
 
 /// Writes all parts of the page.
