@@ -69,7 +69,7 @@ pub const ROWS: &[Row] = &[
 /// proportion to p^k have a mean with the slope Var(X)/p.
 fn expected_jump(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
     let sweep = e.results.sweep()?;
-    let (Some([one, two, _]), Some([all, ..])) =
+    let (Some([one, two]), Some([all, _])) =
         (increases(sweep, |row| row.mean_distinct), increases(sweep, |row| row.mean_all))
     else {
         return Ok(open(Text::words("too few rows"), "The grid of σ is too coarse."));

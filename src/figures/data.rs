@@ -23,7 +23,12 @@ impl DataFile {
     /// A table of an experiment, whole.
     pub fn of(table: &Table) -> Self {
         let (header, rows) = table.data();
-        DataFile { name: format!("{}.csv", table.name().replace('.', "-")), header, rows }
+        DataFile { name: Self::name_of(table), header, rows }
+    }
+
+    /// What the file of a table is called.
+    pub fn name_of(table: &Table) -> String {
+        format!("{}.csv", table.name().replace('.', "-"))
     }
 
     /// Columns over k = 1, 2, …, all for one p if there is one.

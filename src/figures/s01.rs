@@ -206,7 +206,7 @@ fn description(maps: Maps<'_>) -> String {
     };
     let [half, onset] = maps.seeds.map(|seeds| short(seeds, 3));
     format!(
-        "Against the transient T: (a) half height of the mean of all, falling with T and with the window towards the \
+        "Against T: (a) half height of the mean of all, falling with T and with the window towards the \
          level {half}, {} at W = {WINDOW}; dashed, of the kept, below it. (b) Other chains: a ring as the row, random starts later. (c) Onset, \
          {}, above {onset}. (d) Onsets of other chains.",
         ends("rest", HALF),

@@ -1,7 +1,7 @@
 //! Fig. S3: gaps that close by themselves, and chains with one of them.
 
 use super::axis::{Axis, log};
-use super::chart::{LETTERS, short};
+use super::chart::LETTERS;
 use super::panel::Frame;
 use super::series::Outside;
 use super::sheet::{Entry, Sheet};
@@ -136,14 +136,12 @@ fn times(sheet: &Sheet, found: &Table) -> Result<(), Error> {
 }
 
 fn description(missing: &Table) -> String {
-    let at_end = three(missing).filter_map(|sigma| {
-        let (time, part) = missing.points(&[("sigma", sigma)], "time", "missing").pop()?;
-        Some(format!("{} at T = {time} for σ = {sigma}", short(part, 2)))
-    });
+    let sigmas = missing.values("sigma");
     format!(
-        "(a) Share of chains with an impact against σ: measured points on steep curves from 0 to 1, farther left for longer \
-         chains, and rings of the main sweep on one of them. (b) p: highest from rest between masses, then Eq. (25), at a \
-         wall, without free part. (c) What is missing of p by T: lines like T to the power −2, to {}.",
-        at_end.collect::<Vec<_>>().join(", ")
+        "(a) Share of chains with an impact against σ: measured points on steep curves, farther left for longer chains. (b) The \
+         probability p of a gap: highest from rest, then Eq. (25), at a wall, without a free part. (c) What is missing of p after \
+         T, for σ from {} to {}: lines like 1/T².",
+        sigmas.first().copied().unwrap_or_default(),
+        sigmas.last().copied().unwrap_or_default(),
     )
 }

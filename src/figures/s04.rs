@@ -1,7 +1,7 @@
 //! Fig. S4: what one gap that closes by itself sets off, how its fronts stand, and the mean count that follows.
 
 use super::axis::{Axis, log};
-use super::chart::{LETTERS, short};
+use super::chart::LETTERS;
 use super::panel::Frame;
 use super::series::Outside;
 use super::sheet::{Entry, Sheet};
@@ -35,7 +35,7 @@ pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
     standing(&sheet, waits, fronts, results.seeds()?.parameters.tick)?;
     let files = [means, table("seeds.against_sweep")?, advance, rise, scores, waits];
     let title = "From one gap to many: nucleation and growth";
-    Ok(sheet.finish_own(4, title, description(rise, waits), files.map(DataFile::of).into()))
+    Ok(sheet.finish_own(4, title, description(waits), files.map(DataFile::of).into()))
 }
 
 fn counts(sheet: &Sheet, means: &Table, sweep: &Sweep) -> Result<(), Error> {
@@ -168,14 +168,11 @@ fn standing(sheet: &Sheet, waits: &Table, fronts: &Table, tick: f64) -> Result<(
     sheet.legend((1400, 10900), (SMALL, 270), &entries)
 }
 
-fn description(rise: &Table, waits: &Table) -> String {
-    let told = |(time, own): (f64, f64)| format!("{} at T = {time}", short(own, 3));
-    let halves = rise.points(&[], "transient", "half_height").into_iter().map(told);
+fn description(waits: &Table) -> String {
     format!(
-        "(a) Mean count of all against σ: simulated points along the curve of nucleation and growth; those of circuits are \
-         steeper, one on each side. (b) Advance against time: slower than ∝ t, the more so the smaller σ. (c) Half height, \
-         falling with T: {}. (d) Share of longer waits: first below a constant rate, then above it, from σ = {} down.",
-        halves.collect::<Vec<_>>().join(", "),
+        "(a) Mean count of all against σ: simulated points along the curve of nucleation and growth; circuits are steeper. (b) Advance \
+         against time: slower than ∝ t, the more so the smaller σ. (c) Half height falls with T. (d) Share of longer waits: first \
+         below a constant rate, then above it, from σ = {} down.",
         waits.values("sigma").first().copied().unwrap_or_default(),
     )
 }

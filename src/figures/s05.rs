@@ -113,9 +113,9 @@ fn poisson(sheet: &Sheet, large: &Large) -> Result<(), Error> {
     Ok(())
 }
 
-const DESCRIPTION: &str = "(a) The most likely number over N against p N: zero, a jump soon after p N = 1, then a curve. \
-     The larger N, the smaller the jump and the nearer the curve to max(0, 1 − 1/(p N)). (b) Height of the jump against N, \
-     with the rule. (c) Distance of N − X from a Poisson variable, falling with the root of N below its bounds.";
+const DESCRIPTION: &str = "(a) The most likely number over N against p N: zero, a jump soon after p N = 1, then a curve; the larger N, the \
+     smaller the jump. (b) Height of the jump against N, with the rule. (c) Distance of N − X from a Poisson variable, \
+     falling with the root of N below its bounds.";
 
 fn tables(large: &Large) -> Vec<DataFile> {
     let mut shares = DataFile::new("s05a.csv", &["N (1)", "p_N (1)", "k_star_over_N (1)"]);

@@ -159,26 +159,11 @@ fn probabilities(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
 }
 
 fn description(shown: &Shown<'_>) -> String {
-    let told = |points: Vec<(f64, f64)>, key: &str, digits| {
-        let one = |(at, own): &(f64, f64)| format!("{} at {key} = {at}", short(*own, digits));
-        points.iter().map(one).collect::<Vec<_>>().join(", ")
-    };
-    let of_hit = shown.others.points(&[], "r", "variance_ratio_of_hit");
-    let others = of_hit.iter().map(|(r, ratio)| {
-        let expected = shown.others.number(&[("r", *r)], "balanced").unwrap_or_default();
-        format!("{} of {} at r = {r}", short(*ratio, 3), short(expected, 3))
-    });
+    let last = shown.rising.points(&[], "sigma", "variance_ratio_of_hit").pop();
     format!(
-        "(a) Variance of the free amplitudes over that of the force against σ, of masses that are hit and of \
-         all masses, with standard errors; level lines at what the balance of rare impacts gives, \
-         at {FROM_REST} for a start from rest, and at 1 for Eq. (25), and a falling line for the balance with \
-         the friction of frequent impacts. Masses that are hit: {}. \
-         (b) The same against the restitution r at one σ, on a logarithmic axis, below a curve that rises \
-         without bound towards r = 1, with friction much less: {}. (c) The probability p against σ on a logarithmic axis: rising \
-         curves, at the rise lowest Eq. (25), then the start from rest, highest the balanced variance; the \
-         measured points go from the second to the third: {}.",
-        told(shown.rising.points(&[], "sigma", "variance_ratio_of_hit"), "σ", 3),
-        others.collect::<Vec<_>>().join(", "),
-        told(shown.rising.points(&[], "sigma", "p_measured"), "σ", 2),
+        "(a) Variance of the free amplitudes over that of the force against σ: it falls below the level of rare impacts, towards the line \
+         with friction{}. (b) The same against r, below a curve without bound towards r = 1. (c) The probability p against σ: \
+         measured points go from the start from rest to the balanced variance.",
+        last.map_or(String::new(), |(sigma, own)| format!(", to {} at σ = {sigma}", short(own, 3))),
     )
 }

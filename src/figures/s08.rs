@@ -35,7 +35,7 @@ pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
     different(&sheet, blocks, *rising.values("gaps").first().unwrap_or(&1.0))?;
     let data = [near, frequencies, blocks].map(DataFile::of);
     let title = "Successive impacts beside independent ones";
-    Ok(sheet.finish_own(8, title, description(near, rising), data.into()))
+    Ok(sheet.finish_own(8, title, description(rising), data.into()))
 }
 
 fn looked(table: &Table) -> Vec<(f64, (Mark, Colour))> {
@@ -137,22 +137,13 @@ fn different(sheet: &Sheet, found: &Table, gaps: f64) -> Result<(), Error> {
     Ok(())
 }
 
-fn description(near: &Table, rising: &Table) -> String {
-    let next = near.points(&[("distance", 1.0)], "sigma", "over_independent");
-    let next: Vec<String> =
-        next.iter().map(|(sigma, own)| format!("{} at σ = {sigma}", short(*own, 2))).collect();
-    let lengths =
-        [("length", "measured"), ("length_equal", "for equal gaps")].map(|(column, what)| {
-            format!(
-                "{} {what}",
-                rising.values(column).last().map_or("none".into(), |own| short(*own, 2))
-            )
-        });
+fn description(rising: &Table) -> String {
+    let last = |column| rising.values(column).last().map_or("none".into(), |own| short(*own, 2));
     format!(
-        "(a) Successions over those of independent impacts: none at distance zero, few at one ({}), near one beyond. (b) Shares \
-         of circuits of length k: points below the curve of equal gaps for short ones, far above it for long ones; dashed \
-         matrices close to it. Mean lengths: {}. (c) Different gaps among m impacts, points above the dashed curves.",
-        next.join(", "),
-        lengths.join(", "),
+        "(a) Successions over those of independent impacts: none at distance 0, few at 1, near one beyond. (b) Share of circuits of \
+         length k: below equal gaps for short ones, far above for long ones, of mean length {} for {}. (c) Different gaps among m \
+         impacts: points above the dashed curves.",
+        last("length"),
+        last("length_equal"),
     )
 }

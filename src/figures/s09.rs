@@ -159,31 +159,13 @@ fn plane(sheet: &Sheet, orbits: &Orbits) -> Result<(), Error> {
 }
 
 fn description(orbits: &Orbits) -> String {
-    let example = orbits.example.as_ref().map_or("No stable orbit was found.".into(), |own| {
-        format!(
-            "Its impacts are those of the circuit {:?} at σ = {}, and its largest multiplier has the modulus {}.",
-            own.circuit,
-            own.sigma,
-            short(own.radius, 2)
-        )
-    });
-    let row = |row: &Row| {
-        let lengths: Vec<String> =
-            row.lengths.iter().map(|own| short(own.admissible.value, 2)).collect();
-        format!("{} at σ = {}", lengths.join(", "), row.sigma)
-    };
-    let rows: Vec<String> = orbits.rows.iter().map(row).collect();
-    let outside = chosen(orbits).map_or(0, |row| {
-        let out = |m: &&[f64; 2]| m.iter().any(|x| x.abs() > REACH);
-        row.found.iter().flat_map(|f| &f.multipliers).filter(out).count()
+    let example = orbits.example.as_ref().map_or("none was found".into(), |own| {
+        format!("σ = {}, largest multiplier {}", own.sigma, short(own.radius, 2))
     });
     format!(
-        "(a) Positions of the masses between two walls over one period of a stable orbit, with a disc at each \
-         impact. {example} (b) Share of the simple circuits with an orbit against σ, falling with their length; dashed, \
-         far below: with a stable orbit. By length: {}. (c) Multipliers in the complex plane with the unit circle: \
-         of stable orbits many on a circle inside it, of unstable ones along the real axis; {outside} \
-         lie beyond the frame.",
-        rows.join("; ")
+        "(a) Positions of the masses over one period of a stable orbit ({example}), with a disc at each impact. (b) Share of simple \
+         circuits with an orbit against σ, falling with their length; far below, dashed, with a stable one. (c) Multipliers: stable \
+         ones inside the unit circle, unstable ones along the real axis.",
     )
 }
 

@@ -221,25 +221,15 @@ fn contact(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
 }
 
 fn description(shown: &Shown<'_>) -> String {
-    let told = |points: Vec<(f64, f64)>| {
-        let one = |(r, own): &(f64, f64)| format!("{} at r = {r}", short(*own, 3));
-        points.iter().map(one).collect::<Vec<_>>().join(", ")
+    let halves = shown.curves.points(&[], "r", "half_height");
+    let end = |at: Option<&(f64, f64)>| {
+        at.map_or("none".into(), |(r, own)| format!("{} at r = {r}", short(*own, 3)))
     };
-    let rates = |r: f64| {
-        let rates = shown.heating.points(&[("r", r)], "window_end", "impacts");
-        let rates: Vec<String> = rates.iter().map(|(_, own)| short(*own, 3)).collect();
-        format!("{} at r = {r}", rates.join(", "))
-    };
-    let last = shown.rise.values("sigma").last().copied().unwrap_or_default();
     format!(
-        "(a) Mean number of different gaps with an impact against σ: the smaller r, the later and the slower the \
-         curve rises. (b) σ at half height, falling with r: {}. (c) s²/σ² against 1 − r on logarithmic axes: points \
-         below the line of rare impacts, the farther the nearer r is to one, where they follow flatter dashed lines. \
-         (d) Impacts per unit of time in windows that double, on logarithmic axes: level after a while but for r = 1, \
-         where they go on rising close to the line. By window: {}. (e) Share of gaps that forces can press shut against σ, \
-         and of those seen in contact, far below and mostly at r = 0. The latter at σ = {last}: {}.",
-        told(shown.curves.points(&[], "r", "half_height")),
-        shown.heating.values("r").into_iter().map(rates).collect::<Vec<_>>().join("; "),
-        told(shown.rise.points(&[("sigma", last)], "r", "share_in_contact")),
+        "(a) Mean count against σ: the smaller r, the later it rises. (b) Half height, from {} to {}. (c) s²/σ² against 1 − r, below the \
+         line of rare impacts. (d) Impacts per time in windows that double: level, but for r = 1. (e) Gaps that forces can press \
+         shut, and those in contact.",
+        end(halves.first()),
+        end(halves.last()),
     )
 }

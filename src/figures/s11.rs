@@ -1,7 +1,7 @@
 //! Fig. S11: long chains, friction, and a force with a common period.
 
 use super::axis::{Axis, log};
-use super::chart::{LETTERS, short};
+use super::chart::LETTERS;
 use super::data::cells;
 use super::panel::Frame;
 use super::series::Outside;
@@ -45,7 +45,7 @@ pub fn draw(
     frictions(&sheet, chains, map)?;
     period(&sheet, chains)?;
     let title = "Long chains, friction, and a common period";
-    Ok(sheet.finish_own(11, title, description(chains, sizes, map), tables(chains, sizes, map)))
+    Ok(sheet.finish_own(11, title, description(sizes), tables(chains, sizes, map)))
 }
 
 /// The look of a length, by its order of magnitude.
@@ -212,33 +212,12 @@ fn period(sheet: &Sheet, chains: &Chains) -> Result<(), Error> {
     sheet.legend((4900, 9750), (SMALL, 340), &entries)
 }
 
-fn description(chains: &Chains, sizes: &Chains, map: &ProtocolMap) -> String {
-    let told = |all: Vec<(f64, Estimate)>| -> String {
-        let list: Vec<String> = all
-            .iter()
-            .map(|(time, half)| format!("{} at T = {time}", short(half.value, 4)))
-            .collect();
-        if list.is_empty() { "none".into() } else { list.join(", ") }
-    };
-    let list = |all: Vec<String>| all.join("; ");
-    let lengths = by_length(chains, sizes).into_iter();
-    let lengths = list(lengths.map(|(n, all)| format!("n = {n}: {}", told(all))).collect());
-    let damped = chains.of(ChainKind::Damping);
-    let damped = damped.map(|(own, curve)| format!("{}: {}", own.name, told(halves(own, curve))));
-    let damped = list(damped.collect());
-    let period = chains.curve(COMMON).map_or("none".into(), |(_, curve)| {
-        let list = curve.rows.iter().map(alive);
-        let list: Vec<String> =
-            list.map(|(sigma, own)| format!("{} at σ = {sigma}", short(own.value, 2))).collect();
-        list.join(", ")
-    });
+fn description(sizes: &Chains) -> String {
+    let longest = sizes.all().map(|(own, _)| own.masses).max().unwrap_or_default();
     format!(
-        "(a) Share of the gaps with an impact against σ after the same transient: the curve of the shortest chain \
-         rises later, those of all others lie on one another. (b) Half heights of chains of several lengths against the \
-         transient, falling the further the longer the chain, beside the line of the map ({}): {lengths}. (c) Half heights with friction: the stronger it is, the \
-         higher and the more level. {damped}. (d) Share of chains with an impact for Ω = 2: simulated points follow the lower \
-         of two curves, {period}.",
-        told(of_map(chains, map)),
+        "(a) Share of gaps with an impact against σ after one transient: the shortest chain rises later, all others, up to {longest} \
+         masses, lie on one another. (b) Half height against T, falling the further the longer the chain. (c) With friction: higher \
+         and more level. (d) Chains with an impact for Ω = 2: on the lower of two curves."
     )
 }
 

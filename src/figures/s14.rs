@@ -7,7 +7,6 @@ use super::chart::{LETTERS, short};
 use super::data::cells;
 use super::panel::Frame;
 use super::rivals::{decades_around, entries, look, name};
-use super::s12::setting;
 use super::series::Outside;
 use super::sheet::Sheet;
 use super::style::{GREY, HAIR, INK, PALE, SMALL, Stroke};
@@ -86,24 +85,12 @@ pub fn draw(biases: &Biases, note: Option<&str>) -> Result<Figure, Error> {
 }
 
 fn description(biases: &Biases) -> String {
-    let told = |row: &BiasRow| {
-        let [bias, error] = percent(row)?;
-        Some(format!(
-            "{}{} at σ = {}: {} ± {}",
-            name(row.setting.method),
-            setting(row.setting.value),
-            row.sigma,
-            short(bias, 2),
-            short(error, 1)
-        ))
-    };
-    let all: Vec<String> = biases.rows.iter().filter_map(told).collect();
+    let largest = biases.rows.iter().filter_map(percent).map(|[bias, _]| bias.abs());
     format!(
-        "One chart for each σ: the difference of a method’s mean number of impacting gaps from the \
-         certified engine’s on the same chains, in per cent of the latter, with paired standard \
-         errors, against evaluations per impact on a logarithmic axis; a grey band is one per cent \
-         wide to both sides. Bias in per cent: {}.",
-        all.join("; ")
+        "One chart for each σ: a method’s mean number of impacting gaps less that of the certified engine on the same chains, in per cent, \
+         with paired standard errors, against evaluations per impact. Coarse settings are off by up to {}; fine ones lie in \
+         a grey band, one per cent to both sides, as far as their errors tell.",
+        short(largest.fold(0.0, f64::max), 2)
     )
 }
 

@@ -149,7 +149,7 @@ fn experiment(name: &str, cards: Cards<'_>) -> Option<Vec<Vec<Inline>>> {
         recipe.parameters.iter().map(|(name, setting)| format!("{name}: {setting}")).collect();
     Some(vec![
         vec![words(recipe.name)],
-        vec![Inline::Code(recipe.item.into())],
+        vec![Inline::Code(recipe.item)],
         vec![words(&pairs.join("; "))],
     ])
 }

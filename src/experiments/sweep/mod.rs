@@ -31,7 +31,7 @@ pub struct Sweep {
 
 /// The ensemble at one σ. Means, mode and quantiles are of the number of distinct gaps that
 /// impact in the window; "kept" are the realisations with at least one.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct SweepRow {
     /// Standard deviation σ of the amplitudes.
     pub sigma: f64,

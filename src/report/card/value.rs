@@ -1,6 +1,7 @@
 //! The card of a value.
 
 use super::{Card, Cards, link, words_and_maths};
+use crate::figures::DataFile;
 use crate::report::document::Inline;
 use crate::report::print::{Asked, Style, print};
 use crate::report::values::{Digits, Kind, Number, Value};
@@ -39,7 +40,13 @@ impl Cards<'_> {
         let shows = |names: &[String]| names.contains(&value.experiment);
         let figures = self.ledger.figures.iter().filter(|figure| shows(&figure.experiments));
         let csv: Vec<&String> = figures.flat_map(|figure| &figure.data).collect();
-        if value.experiment != "theory" && !csv.is_empty() {
+        // A cell has the file of its table; what has no table has those of its experiment.
+        let table = self.values.tables().find(|table| table.at(&value.id).is_some());
+        let own = table.map(|table| format!("data/{}", DataFile::name_of(table)));
+        if let Some(own) = csv.iter().find(|file| Some(**file) == own.as_ref()) {
+            data.push(Inline::Text(", ".into()));
+            data.extend(super::links(vec![*own]));
+        } else if own.is_none() && value.experiment != "theory" && !csv.is_empty() {
             data.push(Inline::Text("; of the same experiment: ".into()));
             data.extend(super::links(csv));
         }

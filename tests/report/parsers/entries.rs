@@ -144,7 +144,7 @@ pub fn written(text: &str, values: &Registry) -> Result<usize, Error> {
     let page = match page {
         Ok(page) => page.body.len(),
         // No figure was given.
-        Err(Error::Reference(_) | Error::Picture(_)) => 0,
+        Err(Error::Reference(_)) => 0,
         Err(error) => return Err(error),
     };
     Ok(markdown::write(&blocks).len() + latex + page)

@@ -1,7 +1,6 @@
 //! Why a number may stay without a check: `unguarded.toml`.
 
 use impact_paper::input::toml_fault;
-use impact_paper::params::Profile;
 use impact_paper::report::Error;
 use serde::Deserialize;
 
@@ -26,9 +25,6 @@ pub struct Group {
     pub why: String,
     /// The ids; a `*` at the end stands for any ending.
     pub ids: Vec<String>,
-    /// Only smaller samples than those of the full profile have this reason.
-    #[serde(default)]
-    pub small_samples: bool,
 }
 
 impl Group {
@@ -67,12 +63,6 @@ impl Reasons {
         }
     }
 
-    /// The reasons that hold for a profile.
-    pub fn for_profile(mut self, profile: Profile) -> Self {
-        self.0.retain(|group| !group.small_samples || profile != Profile::Full);
-        self
-    }
-
     /// The group that gives a reason for an id.
     pub fn of(&self, id: &str) -> Option<&Group> {
         self.0.iter().find(|group| group.pattern(id).is_some())
@@ -94,9 +84,6 @@ mod tests {
         let reasons = Reasons::read(text).unwrap();
         assert_eq!(reasons.of("s_1").unwrap().why, "chosen");
         assert!(reasons.of("n").is_some() && reasons.of("n2").is_none());
-        let small = Reasons::read(&format!("{text}\nsmall_samples = true")).unwrap();
-        assert!(small.clone().for_profile(Profile::Full).of("n").is_none());
-        assert!(small.for_profile(Profile::Quick).of("n").is_some());
         for broken in [
             text.replace("chosen", " "),
             text.replace("s_*", "n"),

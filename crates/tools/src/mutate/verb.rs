@@ -49,7 +49,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let profile = Profile::from(args.profile);
     let templates = args.sources.templates()?;
     let published = args.sources.published(&templates)?;
-    let reasons = Reasons::read(templates.text("unguarded.toml")?)?.for_profile(profile);
+    let reasons = Reasons::read(templates.text("unguarded.toml")?)?;
     let progress = work::progress();
     let (found, used, values) = work::on_threads(args.sources.threads, || {
         let results = args.sources.run(&ALL, profile, &templates, &progress)?;
