@@ -5,6 +5,7 @@
 //! a backend of plotters.
 
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 
 use plotters_backend::text_anchor::{HPos, VPos};
 use plotters_backend::{
@@ -165,8 +166,8 @@ impl Drawing {
         for placed in &mut glyphs {
             (placed.x, placed.y) = (placed.x + dx, placed.y + dy);
             let id = font::id(placed);
-            if !self.glyphs.contains_key(&id) {
-                self.glyphs.insert(id, font::outline(placed)?);
+            if let Entry::Vacant(place) = self.glyphs.entry(id) {
+                place.insert(font::outline(placed)?);
             }
         }
         let words = markup::plain(text);

@@ -161,9 +161,9 @@ fn probabilities(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
 fn description(shown: &Shown<'_>) -> String {
     let last = shown.rising.points(&[], "sigma", "variance_ratio_of_hit").pop();
     format!(
-        "(a) Variance of the free amplitudes over that of the force against σ: it falls below the level of rare impacts, towards the line \
-         with friction{}. (b) The same against r, below a curve without bound towards r = 1. (c) The probability p against σ: \
-         measured points go from the start from rest to the balanced variance.",
+        "(a) Variance of the free amplitudes over that of the force against σ falls{}, below the level of rare \
+         impacts. (b) The same against r, below a curve without bound towards r = 1. (c) The probability p against σ: measured \
+         points go from the start from rest to the balanced variance.",
         last.map_or(String::new(), |(sigma, own)| format!(", to {} at σ = {sigma}", short(own, 3))),
     )
 }

@@ -227,8 +227,8 @@ fn description(shown: &Shown<'_>) -> String {
     };
     format!(
         "(a) Mean count against σ: the smaller r, the later it rises. (b) Half height, from {} to {}. (c) s²/σ² against 1 − r, below the \
-         line of rare impacts. (d) Impacts per time in windows that double: level, but for r = 1. (e) Gaps that forces can press \
-         shut, and those in contact.",
+         line of rare impacts. (d) Impacts per time in windows that double: level, but for r = 1. (e) Gaps in contact against \
+         σ.",
         end(halves.first()),
         end(halves.last()),
     )

@@ -215,7 +215,7 @@ fn period(sheet: &Sheet, chains: &Chains) -> Result<(), Error> {
 fn description(sizes: &Chains) -> String {
     let longest = sizes.all().map(|(own, _)| own.masses).max().unwrap_or_default();
     format!(
-        "(a) Share of gaps with an impact against σ after one transient: the shortest chain rises later, all others, up to {longest} \
+        "(a) Share of gaps with an impact against σ after one transient: the shortest chain rises later, others, up to {longest} \
          masses, lie on one another. (b) Half height against T, falling the further the longer the chain. (c) With friction: higher \
          and more level. (d) Chains with an impact for Ω = 2: on the lower of two curves."
     )

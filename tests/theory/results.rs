@@ -4,7 +4,7 @@ use impact_paper::circuits::distribution::{Law, SampleSpace};
 use impact_paper::circuits::impact_probability::ImpactProbability;
 use impact_paper::circuits::{counting, jump};
 use impact_paper::experiments::theory::{self, Theory};
-use impact_paper::params::{ENUMERATED_VERTICES, VERTICES};
+use impact_paper::params::VERTICES;
 use std::sync::LazyLock;
 
 static THEORY: LazyLock<Theory> = LazyLock::new(|| theory::run(VERTICES).expect("N = 100"));
