@@ -38,10 +38,6 @@ pub const CONVERGENCE_P: [f64; 2] = [0.015, 0.04];
 /// Edge probabilities of the remarks on Sec. 9 (ours, from the rise of the theory outwards).
 pub const REMARK_P: [f64; 7] = [0.001, 0.005, 0.01, 0.015, 0.02, 0.04, 0.05];
 
-/// Number of vertices N at which printed class formulas are set against enumeration (ours: small
-/// enough to list all circuits, and coprime to 2, 3 and 4).
-pub const ENUMERATED_VERTICES: usize = 5;
-
 /// Numbers of vertices at which the jump is followed to large N (ours: two to a decade).
 pub const LARGE_VERTICES: [usize; 11] =
     [10, 30, 100, 300, 1000, 3000, 10_000, 30_000, 100_000, 300_000, 1_000_000];

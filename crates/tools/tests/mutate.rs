@@ -63,7 +63,7 @@ fn the_check_that_should_notice_does() {
         // Leaves of results, and what is held against them.
         ("chains.m8_half", "chains/", "guard chains_on_curves"),
         ("verlet_fine_horizon", "race/entries/", "guard horizons_of_runs"),
-        ("sizes.t500_n1000_lead", "sizes/", "guard sizes_on_curves"),
+        ("sizes.t5000_n100", "sizes/", "guard sizes_on_curves"),
         // Computed on the way to the report.
         ("score.total", "report", "guard scores_add_up"),
         // What the paper printed.
