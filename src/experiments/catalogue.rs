@@ -164,11 +164,11 @@ pub const TWO_MASSES: Experiment<TwoMassesParams, two_masses::TwoMasses> = Exper
 
 /// One long run.
 pub const SPACE_TIME: Experiment<SpaceTimeParams, spacetime::SpaceTime> = Experiment {
-    name: "space-time",
-    module: "src/experiments/spacetime.rs",
+    name: "spacetime",
+    module: "src/experiments/spacetime/mod.rs",
     parameters: SpaceTimeParams::new,
     how: Whole { run: spacetime::run, weight: |p| 8 * weights::run(&p.chain, p.sigma, p.until) },
-    tables: |_| Vec::new(),
+    tables: spacetime::tables::tables,
 };
 
 /// Every method against the true motion.

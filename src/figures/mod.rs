@@ -46,7 +46,6 @@ mod s13;
 mod s14;
 mod s15;
 mod s16;
-mod scene;
 mod series;
 mod sheet;
 mod simulated;
@@ -56,7 +55,6 @@ mod svg;
 pub use data::DataFile;
 pub use drawing::{Drawing, Glyphs};
 pub use number::Number;
-pub use scene::Scene;
 pub use svg::{escape, path_data};
 
 use plotters::drawing::DrawingAreaErrorKind;

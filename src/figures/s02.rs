@@ -4,12 +4,12 @@ use super::axis::Axis;
 use super::chart::LETTERS;
 use super::data::cells;
 use super::panel::{Frame, Panel};
-use super::scene::Scene;
 use super::series::Outside;
 use super::sheet::{Entry, Sheet};
 use super::style::{HAIR, INK, Mark, RED, SMALL, Stroke, WHITE};
 use super::{DataFile, Error, Figure};
 use crate::experiments::spacetime::SpaceTime;
+use crate::experiments::spacetime::scene::Scene;
 
 /// How much of the run the second panel shows.
 const DETAIL: f64 = 400.0;
@@ -104,6 +104,22 @@ fn tables(run: &SpaceTime) -> Vec<DataFile> {
         let count = run.gaps.iter().filter(|own| **own as usize == gap).count();
         gaps.row(cells![gap, first, count, usize::from(starts.contains(&gap))]);
     }
-    let positions = Scene::of(run).map(|scene| scene.table("s02c.csv"));
-    [impacts, gaps].into_iter().chain(positions).collect()
+    let places = Scene::of(run).map(|scene| positions(&scene));
+    [impacts, gaps].into_iter().chain(places).collect()
+}
+
+/// Steps of the table of positions.
+const STEPS: u32 = 24;
+
+/// Positions of all bodies at times that are evenly spread over the scene.
+fn positions(scene: &Scene) -> DataFile {
+    let names = (scene.first..).take(scene.bodies.len()).map(|number| format!("x_{number} (d)"));
+    let mut file = DataFile::new("s02c.csv", &[]);
+    file.header = std::iter::once("time (1/omega)".to_string()).chain(names).collect();
+    for step in 0..=STEPS {
+        let time = scene.from + (scene.until - scene.from) * f64::from(step) / f64::from(STEPS);
+        let places = scene.positions(time).into_iter().map(|x| x / scene.spacing);
+        file.rows.push(std::iter::once(time).chain(places).map(|x| format!("{x:?}")).collect());
+    }
+    file
 }

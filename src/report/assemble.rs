@@ -13,7 +13,8 @@ use super::values::Registry;
 use super::{Error, appendix, html, labels, latex, ledger, lint, markdown, parse, sums};
 use crate::claims::Claim;
 use crate::committed;
-use crate::figures::{self, Figure, Scene};
+use crate::experiments::spacetime::scene::Scene;
+use crate::figures::{self, Figure};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 

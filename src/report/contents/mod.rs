@@ -12,7 +12,6 @@ mod chains;
 mod ledger;
 mod paper;
 mod sizes;
-mod spacetime;
 
 use super::mark::Mark;
 use super::print::Style;
@@ -46,14 +45,10 @@ pub enum Error {
 pub type Section = fn(&Results) -> Result<Vec<Value>, Error>;
 
 /// All values but what the paper printed, in the order of the report.
-pub const SECTIONS: [Section; 6] = [
-    spacetime::values,
-    accuracy::values,
-    chains::values,
-    sizes::values,
-    carried::values,
-    |results| Ok(ledger::values(results)),
-];
+pub const SECTIONS: [Section; 5] =
+    [accuracy::values, chains::values, sizes::values, carried::values, |results| {
+        Ok(ledger::values(results))
+    }];
 
 /// All values of the report.
 ///
@@ -130,11 +125,6 @@ fn difference(
 /// A number that was chosen, with all its digits.
 fn chosen(id: &str, value: f64) -> Value {
     Value::real(id, value, usize::from(claims::digits_of(value)))
-}
-
-/// A count, shown as an integer up to a million and with its leading digits beyond.
-fn count(id: &str, n: u64) -> Value {
-    if n < 1_000_000 { Value::integer(id, n) } else { Value::real(id, n as f64, 2) }
 }
 
 /// The value with this id, as a template writes it.

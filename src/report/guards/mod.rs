@@ -14,7 +14,6 @@ mod heat;
 mod history;
 mod maps;
 mod model;
-mod motion;
 mod nucleation;
 mod orbits;
 mod printed;
@@ -73,7 +72,6 @@ pub fn all() -> impl Iterator<Item = &'static Guard> {
         restitution::GUARDS,
         chains::GUARDS,
         sizes::GUARDS,
-        motion::GUARDS,
         accuracy::GUARDS,
         printed::GUARDS,
     ];

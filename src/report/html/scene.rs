@@ -2,7 +2,7 @@
 //! controls, numbers and script that move it.
 
 use super::{Page, escape};
-use crate::figures::Scene;
+use crate::experiments::spacetime::scene::Scene;
 use crate::report::document::Inline;
 use crate::report::{Error, place};
 use serde::Serialize;
@@ -65,7 +65,7 @@ impl Page<'_> {
             picture(scene, bar),
             scene.until,
             self.inlines(caption)?,
-            link(&code("figures::scene")),
+            link(&code("experiments::spacetime::scene")),
             link(&code("experiments::spacetime")),
             from = scene.from,
         ))
@@ -81,7 +81,7 @@ fn picture(scene: &Scene, bar: f64) -> String {
     let mut out = format!(
         "<svg role=\"img\" aria-labelledby=\"scene-title scene-desc\" viewBox=\"0 0 {width} 740\">\
          <title id=\"scene-title\">Moving masses</title><desc id=\"scene-desc\">{}</desc>\n<g>",
-        escape::text(&scene.description())
+        escape::text(&description(scene))
     );
     let [one, last] = scene.masses();
     for k in 0..bodies {
@@ -124,4 +124,22 @@ fn picture(scene: &Scene, bar: f64) -> String {
         );
     }
     out + "</g></svg>"
+}
+
+/// What is seen before anything moves, with its numbers.
+fn description(scene: &Scene) -> String {
+    let places = scene.positions(scene.from);
+    let widths = places.windows(2).map(|pair| (pair[1] - pair[0]) / scene.spacing);
+    let (narrow, wide) =
+        widths.fold((f64::MAX, 0.0_f64), |(low, high), w| (low.min(w), high.max(w)));
+    let [one, last] = scene.masses();
+    format!(
+        "A row of {} blocks, masses {one} to {last} and a neighbour at each end, as they stand at t = {}; the gaps between \
+         them are {narrow:.2} d to {wide:.2} d wide. A bar hangs below each gap, as long as the number of its impacts until \
+         t = {}, at most {}.",
+        scene.bodies.len(),
+        scene.from,
+        scene.until,
+        scene.counts().into_iter().max().unwrap_or(0),
+    )
 }

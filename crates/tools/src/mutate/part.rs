@@ -17,7 +17,7 @@ enum Part {
 /// Members, at any depth, that are the raw record of an experiment: lists of events, none of which is a
 /// number of the report.
 const RECORDS: [(&str, &[&str]); 8] = [
-    ("space-time", &["times", "gaps", "scene"]),
+    ("spacetime", &["times", "gaps", "scene"]),
     ("heat", &["rows"]),
     ("seeds", &["seen", "waits", "closing"]),
     ("independence", &["hits", "histogram"]),

@@ -4,17 +4,13 @@
 //! Which masses are shown is not a matter of taste: it is the row whose halves differ most in
 //! impacts, so that moving freely and hitting are seen beside each other.
 
-use super::DataFile;
-use crate::experiments::spacetime::SpaceTime;
+use super::SpaceTime;
 use crate::params::Boundary;
 use pxfm::{f_cos, f_sin};
 use serde::Serialize;
 
 /// Masses between the first and the last body, which are there as their neighbours.
 const MASSES: usize = 20;
-
-/// Steps of the table of positions.
-const STEPS: u32 = 24;
 
 /// A row of bodies for a part of the run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -122,42 +118,6 @@ impl Scene {
     /// Numbers of the first and the last mass that is not there as a neighbour.
     pub fn masses(&self) -> [usize; 2] {
         [self.first + 1, self.first + self.bodies.len().saturating_sub(2)]
-    }
-
-    /// What is seen before anything moves, with its numbers.
-    pub fn description(&self) -> String {
-        let places = self.positions(self.from);
-        let widths = places.windows(2).map(|pair| (pair[1] - pair[0]) / self.spacing);
-        let (narrow, wide) =
-            widths.fold((f64::MAX, 0.0_f64), |(low, high), w| (low.min(w), high.max(w)));
-        let counts: Vec<String> = self.counts().iter().map(usize::to_string).collect();
-        let [one, last] = self.masses();
-        format!(
-            "A row of {} blocks, masses {one} to {last} and a neighbour at each end, as they stand \
-             at t = {}; the gaps between them are {} d to {} d wide. A bar hangs below each gap, \
-             as long as the number of its impacts until t = {}, from left to right: {}.",
-            self.bodies.len(),
-            self.from,
-            super::chart::short(narrow, 2),
-            super::chart::short(wide, 2),
-            self.until,
-            counts.join(", "),
-        )
-    }
-
-    /// Positions of all bodies at times that are evenly spread over the scene.
-    pub(super) fn table(&self, name: &str) -> DataFile {
-        let names = (self.first..).take(self.bodies.len()).map(|number| format!("x_{number} (d)"));
-        let header: Vec<String> =
-            std::iter::once("time (1/omega)".to_string()).chain(names).collect();
-        let mut file = DataFile::new(name, &[]);
-        file.header = header;
-        for step in 0..=STEPS {
-            let time = self.from + (self.until - self.from) * f64::from(step) / f64::from(STEPS);
-            let places = self.positions(time).into_iter().map(|x| x / self.spacing);
-            file.rows.push(std::iter::once(time).chain(places).map(|x| format!("{x:?}")).collect());
-        }
-        file
     }
 }
 

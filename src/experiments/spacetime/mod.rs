@@ -4,6 +4,9 @@
 //! Which run is shown is not a matter of taste: it is the first realisation of its stream that
 //! still has impacts in the last part of the run.
 
+pub mod scene;
+pub mod tables;
+
 use super::{Error, Progress};
 use crate::dynamics::{Engine, Scenario};
 use crate::numerics::random::NormalPairs;
@@ -22,13 +25,13 @@ pub struct SpaceTime {
     /// Gap of each impact, from 0.
     pub gaps: Vec<u32>,
     /// A part of it, mass by mass.
-    pub scene: Scene,
+    pub scene: Record,
 }
 
 /// A part of the run, complete enough to know where every mass is at every time of it:
 /// x_j(t) = (j + 1) d + a cos ωt + b sin ωt + (α cos Ωt + β sin Ωt)/(ω² − Ω²) for j from 0.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Scene {
+pub struct Record {
     /// Its first time.
     pub from: f64,
     /// Its last time; earlier than asked for if masses came to rest against each other.
@@ -68,8 +71,8 @@ pub struct Advance {
 /// # Errors
 /// [`Error::Interrupted`]; [`Error::Dynamics`] if a run fails.
 pub fn run(parameters: &SpaceTimeParams, progress: &Progress) -> Result<SpaceTime, Error> {
-    let stage = progress.stage("space-time", 1);
-    let failed = |source| Error::Dynamics { experiment: "space-time", source };
+    let stage = progress.stage("spacetime", 1);
+    let failed = |source| Error::Dynamics { experiment: "spacetime", source };
     for realisation in 0..REALISATIONS {
         progress.check()?;
         let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, realisation);
@@ -104,7 +107,7 @@ const REALISATIONS: u64 = 1000;
 fn scene(
     parameters: &SpaceTimeParams,
     scenario: &Scenario,
-) -> Result<Scene, crate::dynamics::Error> {
+) -> Result<Record, crate::dynamics::Error> {
     let from = (parameters.until - parameters.scene).max(0.0);
     let mut until = parameters.until;
     let mut engine = Engine::new(scenario)?;
@@ -133,7 +136,7 @@ fn scene(
         events.push(SceneEvent { time: impact.time, gap: impact.gap as u32, after });
         now = next;
     }
-    Ok(Scene { from, until, forcing: scenario.forcing.clone(), free, events })
+    Ok(Record { from, until, forcing: scenario.forcing.clone(), free, events })
 }
 
 impl SpaceTime {
@@ -233,7 +236,7 @@ mod tests {
             realisation: 0,
             times: vec![10.0, 12.0, 13.0, 14.0, 50.0, 60.0, 61.0],
             gaps: vec![1, 2, 1, 0, 4, 1, 1],
-            scene: Scene {
+            scene: Record {
                 from: 0.0,
                 until: 0.0,
                 forcing: Vec::new(),
