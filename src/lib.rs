@@ -20,7 +20,7 @@
 //!   [the method](../../../paper/report.html#sec-method) and its
 //!   [speed and accuracy](../../../paper/report.html#sec-accuracy).
 //!
-//! Imports flow one way: `numerics` → `dynamics` (crates of their own), `circuits` → `experiments` →
+//! Imports flow one way: `numerics` → `dynamics` → `circuits` (crates of their own) → `experiments` →
 //! `figures`, `claims` → `report` → `program`; `params` may be read by all.
 //!
 //! # Where each equation lives
@@ -29,7 +29,6 @@
 // What writes to a closed pipe or a full disk by a macro panics: `experiments::say` does not.
 #![warn(clippy::print_stderr, clippy::print_stdout)]
 
-pub mod circuits;
 pub mod claims;
 pub mod committed;
 pub mod digest;
@@ -44,4 +43,4 @@ pub mod report;
 pub mod table;
 pub mod value;
 
-pub use {impact_chain as dynamics, impact_numerics as numerics};
+pub use {impact_chain as dynamics, impact_circuits as circuits, impact_numerics as numerics};

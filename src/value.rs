@@ -233,8 +233,10 @@ pub fn origin<F>(_: F) -> Origin {
 pub fn origin_of<F>() -> Origin {
     let path = std::any::type_name::<F>().replace(concat!(env!("CARGO_CRATE_NAME"), "::"), "");
     // Other crates go by the names under which this one shows them.
-    let path =
-        path.replace("impact_chain::", "dynamics::").replace("impact_numerics::", "numerics::");
+    let path = path
+        .replace("impact_chain::", "dynamics::")
+        .replace("impact_circuits::", "circuits::")
+        .replace("impact_numerics::", "numerics::");
     // What a closure computes, the function computes in which it stands.
     let path = path.replace("::{{closure}}", "");
     let (Some(from), Some(to)) = (path.find('<'), path.rfind('>')) else { return Origin(path) };

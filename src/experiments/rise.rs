@@ -66,14 +66,8 @@ impl Curves {
         let ratio = |sum: u64, of: u64| (of > 0).then(|| sum as f64 / of as f64);
         let mut histogram = vec![0; gaps + 1];
         for row in counts {
-            histogram.fill(0);
-            for (&count, &weight) in row.iter().zip(weights) {
-                if let Some(k) = count {
-                    histogram[k as usize] += weight;
-                }
-            }
-            let ran: u64 = histogram.iter().copied().map(u64::from).sum();
-            let sum = (0_u64..).zip(&histogram).map(|(k, &h)| k * u64::from(h)).sum();
+            bootstrap::histogram(row, weights, &mut histogram);
+            let [ran, sum] = bootstrap::total(&histogram);
             let kept = ran - u64::from(histogram[0]);
             histogram[0] = 0;
             curves.mean_kept.push(ratio(sum, kept));

@@ -73,7 +73,7 @@ pub fn homes(number: u32) -> impl Iterator<Item = Home> {
 pub struct Home {
     /// Path of the item, as `circuits::jump::p_crit`.
     pub item: &'static str,
-    /// The file, as `src/circuits/jump.rs`.
+    /// The file, as `crates/circuits/src/jump.rs`.
     pub file: &'static str,
     /// What the comment says behind the number; "(step towards (18))" where coding the equation
     /// itself would be pointless.

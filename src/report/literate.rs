@@ -148,8 +148,8 @@ mod tests {
     #[test]
     fn the_text_is_that_of_the_file() {
         for (path, file, first, last) in [
-            ("circuits::jump::p_jump", "src/circuits/jump.rs", "pub fn p_jump(", "}"),
-            ("circuits::jump::Jump", "src/circuits/jump.rs", "pub struct Jump {", "}"),
+            ("circuits::jump::p_jump", "crates/circuits/src/jump.rs", "pub fn p_jump(", "}"),
+            ("circuits::jump::Jump", "crates/circuits/src/jump.rs", "pub struct Jump {", "}"),
             ("dynamics::impact::jumps", "crates/impact-chain/src/impact.rs", "pub fn jumps(", "}"),
             (
                 "dynamics::flight::Motion::kick",

@@ -33,8 +33,13 @@ const SECTIONS: [Section; 10] = [
         &["crates/impact-chain/src/engine.rs", "src/experiments/sweep/mod.rs"],
         &[2, 3],
     ),
-    section(3, "The graph", &["src/circuits/graph.rs", "src/experiments/segments.rs"], &[4, 5, 6]),
-    section(4, "Periodic orbits", &["src/circuits/graph.rs"], &[]),
+    section(
+        3,
+        "The graph",
+        &["crates/circuits/src/graph.rs", "src/experiments/segments.rs"],
+        &[4, 5, 6],
+    ),
+    section(4, "Periodic orbits", &["crates/circuits/src/graph.rs"], &[]),
     section(5, "Distribution of orbits", &[], &[7]),
     section(6, "Probability", &[], &[8, 9]),
     section(7, "The jump", &[], &[10]),
@@ -93,7 +98,7 @@ pub fn markdown() -> Result<String, PublishedError> {
     Ok(out)
 }
 
-/// `src/circuits/jump.rs` → a link that is called `circuits::jump`.
+/// `crates/circuits/src/jump.rs` → a link that is called `circuits::jump`.
 fn link(file: &str) -> String {
     let module =
         SOURCES.iter().find(|(_, own, _)| *own == file).map_or(file, |(module, ..)| module);

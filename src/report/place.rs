@@ -39,7 +39,7 @@ mod tests {
     #[test]
     fn items_and_modules_have_a_place() {
         let jump = place("circuits::jump::p_jump", |_| None).unwrap();
-        assert_eq!(jump.file, "src/circuits/jump.rs");
+        assert_eq!(jump.file, "crates/circuits/src/jump.rs");
         let text = std::fs::read_to_string(jump.file).unwrap();
         assert!(text.lines().nth(jump.line - 1).unwrap().contains("fn p_jump"));
         // Two lines more at the top of the working copy.

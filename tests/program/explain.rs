@@ -19,11 +19,11 @@ const CARDS: &str = "\
 sweep.rise.half_height => standard error; experiments::rise::find (src/experiments/rise.rs:; seed: 2007
 sweep.rise.half_height => chain masses: 100; fig03.csv; reproduced
 second_seed.rise.half_height => seed: 7002
-theory.jump.p_crit => 0.0122099; circuits::jump::p_crit (src/circuits/jump.rs:; (18)
+theory.jump.p_crit => 0.0122099; circuits::jump::p_crit (crates/circuits/src/jump.rs:; (18)
 printed.sec2_half_height => that the paper prints; Sec. 2
 fig:3 => fig03.svg; figures::fig03 (src/figures/fig03.rs:1); seed: 2007
 fig:s12 => experiments::accuracy::race (src/experiments/accuracy/race.rs:
-eq:18 => circuits::jump::p_crit (src/circuits/jump.rs:; theory.jump.p_crit, theory.jump.p_crit_walls
+eq:18 => circuits::jump::p_crit (crates/circuits/src/jump.rs:; theory.jump.p_crit, theory.jump.p_crit_walls
 claim:sec7_jump => verdict; tolerance; theory.jump.p_jump
 eq:12 => f_(N,p)(k)";
 
@@ -44,8 +44,9 @@ fn values_figures_equations_and_claims_are_explained() {
 #[test]
 fn the_line_is_that_of_the_item() {
     let (_, told, _) = explain(&["theory.jump.p_jump"]);
-    let line = told.split("src/circuits/jump.rs:").nth(1).unwrap().split(')').next().unwrap();
-    let text = std::fs::read_to_string("src/circuits/jump.rs").unwrap();
+    let line =
+        told.split("crates/circuits/src/jump.rs:").nth(1).unwrap().split(')').next().unwrap();
+    let text = std::fs::read_to_string("crates/circuits/src/jump.rs").unwrap();
     let line = text.lines().nth(line.parse::<usize>().unwrap() - 1).unwrap();
     assert!(line.contains("fn p_jump"), "{line}");
 }

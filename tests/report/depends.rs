@@ -28,7 +28,7 @@ fn a_change_that_matters_is_seen_and_another_is_not() {
         ("crates/impact-chain/src/contact.rs", "impl super::Engine {}\n"),
         ("crates/numerics/src/lib.rs", "pub mod clock;\n"),
         ("crates/numerics/src/clock.rs", ""),
-        ("src/circuits/mod.rs", ""),
+        ("crates/circuits/src/lib.rs", ""),
         (
             "src/experiments/mod.rs",
             "pub mod near;\npub mod far;\npub mod error;\npub mod watch;\npub use error::Error;\n",

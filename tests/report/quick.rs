@@ -37,7 +37,8 @@ pub static QUICK: LazyLock<Quick> = LazyLock::new(|| {
     let claims = claims::all(&results, &published).unwrap();
     let values = contents::registry(&results, &published).unwrap();
     let rows = contents::rows(&results, &claims).unwrap();
-    let scene = impact_paper::experiments::spacetime::scene::Scene::of(results.spacetime().unwrap());
+    let scene =
+        impact_paper::experiments::spacetime::scene::Scene::of(results.spacetime().unwrap());
     let [figures, full] = [&results, &full].map(|results| -> Vec<_> {
         figures::all().map(|number| figures::draw(number, results).unwrap()).collect()
     });

@@ -18,6 +18,23 @@ pub fn weights(seed: u64, index: u64, size: usize) -> Vec<u32> {
     weights
 }
 
+/// The histogram of a resample: how often each number was counted, by the weights of the members; a member that counted
+/// nothing is left out. The histogram is as long as numbers are large.
+pub fn histogram(counts: &[Option<u32>], weights: &[u32], histogram: &mut [u32]) {
+    histogram.fill(0);
+    for (&count, &weight) in counts.iter().zip(weights) {
+        if let Some(k) = count {
+            histogram[k as usize] += weight;
+        }
+    }
+}
+
+/// How many there are in a histogram, and the sum of their numbers.
+pub fn total(histogram: &[u32]) -> [u64; 2] {
+    let one = |[n, sum]: [u64; 2], (k, &h): (u64, &u32)| [n + u64::from(h), sum + k * u64::from(h)];
+    (0_u64..).zip(histogram).fold([0; 2], one)
+}
+
 /// Share of resamples without a value above which there is no interval.
 const MISSING: f64 = 0.01;
 
@@ -50,6 +67,13 @@ mod tests {
         assert_eq!(first, weights(1, 2, 50));
         assert_ne!(first, weights(1, 3, 50));
         assert!(weights(1, 2, 0).is_empty());
+    }
+
+    #[test]
+    fn a_histogram_by_hand() {
+        let mut found = [7; 4];
+        histogram(&[Some(0), Some(3), None, Some(3), Some(1)], &[2, 1, 5, 1, 3], &mut found);
+        assert_eq!((found, total(&found)), ([2, 3, 0, 2], [7, 9]));
     }
 
     #[test]

@@ -12,10 +12,10 @@
 //! a sum of positive terms: nothing cancels, for any ω, Ω, d and σ.
 
 use super::Error;
-use crate::numerics::double_double::DoubleDouble;
-use crate::numerics::quadrature::GaussLegendre;
-use crate::numerics::scaled::Scaled;
-use crate::params::Chain;
+use impact_chain::Chain;
+use impact_numerics::double_double::DoubleDouble;
+use impact_numerics::quadrature::GaussLegendre;
+use impact_numerics::scaled::Scaled;
 use std::f64::consts::{PI, SQRT_2};
 
 /// Beyond this v, 1 − e^{−v²} is 1 to the last bit.
@@ -255,7 +255,7 @@ impl ImpactProbability {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numerics::random::NormalPairs;
+    use impact_numerics::random::NormalPairs;
 
     #[test]
     fn closed_form_convolution_and_printed_integral_agree() {

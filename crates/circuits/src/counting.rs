@@ -2,7 +2,7 @@
 //! logarithms or [`Scaled`] numbers, which hold for every N.
 
 use super::{Error, check_k, check_vertices};
-use crate::numerics::scaled::Scaled;
+use impact_numerics::scaled::Scaled;
 
 /// N (N − 1) … (N − count + 1) exactly: ordered choices of `count` of N vertices. Nothing if it
 /// exceeds 128 bits.
@@ -79,7 +79,7 @@ pub fn shares(big_n: usize) -> (Vec<f64>, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::circuits::graph::Graph;
+    use crate::graph::Graph;
 
     #[test]
     fn formula_counts_the_simple_circuits_of_the_graph() {

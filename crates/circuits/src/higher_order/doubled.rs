@@ -1,7 +1,7 @@
 //! Exactly one vertex visited twice: Eqs. (26) to (33).
 
-use crate::circuits::Fraction;
-use crate::circuits::counting::arrangements;
+use crate::Fraction;
+use crate::counting::arrangements;
 
 /// **Eq. (26)** (step towards (30))
 ///

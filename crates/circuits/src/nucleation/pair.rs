@@ -11,7 +11,7 @@
 //! v_1 and v_2 being the variances of the differences. No function but the exponential is asked for.
 
 use super::reach::Reach;
-use crate::numerics::quadrature::GaussLegendre;
+use impact_numerics::quadrature::GaussLegendre;
 use std::f64::consts::TAU;
 
 /// Points of the rule on each side of the angle from which on the other radius decides.
@@ -54,9 +54,9 @@ pub fn both(reach: &Reach, spacing: f64, sigma: f64, [v_1, v_2]: [f64; 2]) -> f6
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::circuits::nucleation::reach::closes_by_itself;
-    use crate::numerics::random::NormalPairs;
-    use crate::params::Chain;
+    use crate::nucleation::reach::closes_by_itself;
+    use impact_chain::Chain;
+    use impact_numerics::random::NormalPairs;
 
     #[test]
     fn sampled_neighbours_close_as_often() {

@@ -18,7 +18,7 @@
 //! closes late only if it closes barely: the phases that it needs form an ellipse of size √ε, for ρ M = d + ε,
 //! which a straight line of length T in the torus of phases misses for ε of order T^{−2} only.
 
-use crate::params::Chain;
+use impact_chain::Chain;
 use std::f64::consts::TAU;
 
 /// M_T(θ) at equally spaced angles θ from 0, in units of length per unit of amplitude of the force.
@@ -143,7 +143,7 @@ fn top(chain: &Chain, direction: [f64; 2], mut from: f64, mut until: f64) -> f64
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::circuits::impact_probability::ImpactProbability;
+    use crate::impact_probability::ImpactProbability;
 
     #[test]
     fn the_curve_is_the_motion_of_a_chain_at_rest() {

@@ -5,8 +5,8 @@
 //! with 106 bits and an exponent of its own, so N = 10^6 costs neither digits nor range.
 
 use super::{Error, check_k, check_p, check_vertices, higher_order, jump};
-use crate::numerics::double_double::DoubleDouble;
-use crate::numerics::scaled::Scaled;
+use impact_numerics::double_double::DoubleDouble;
+use impact_numerics::scaled::Scaled;
 
 /// Which circuits are possible at all.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

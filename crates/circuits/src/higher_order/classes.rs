@@ -1,7 +1,7 @@
 //! Any class of circuits, by how many vertices are visited how often: Eqs. (34) to (37).
 
-use crate::circuits::counting::arrangements;
-use crate::circuits::fraction::{Fraction, gcd};
+use crate::counting::arrangements;
+use crate::fraction::{Fraction, gcd};
 
 /// **Eq. (34)**
 ///
@@ -145,8 +145,8 @@ pub fn two_doubled(big_n: usize, k: usize) -> Option<Fraction> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::circuits::graph::Graph;
-    use crate::circuits::higher_order::doubled;
+    use crate::graph::Graph;
+    use crate::higher_order::doubled;
     use std::collections::BTreeMap;
 
     /// All primitive circuits of a small graph, counted by class and length.

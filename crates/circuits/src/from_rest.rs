@@ -10,8 +10,8 @@
 
 use super::Error;
 use super::impact_probability::ImpactProbability;
-use crate::numerics::double_double::DoubleDouble;
-use crate::numerics::scaled::Scaled;
+use impact_numerics::double_double::DoubleDouble;
+use impact_numerics::scaled::Scaled;
 use std::f64::consts::FRAC_PI_2;
 
 impl ImpactProbability {
@@ -76,8 +76,8 @@ fn half_period_mean(f: impl Fn(f64) -> f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numerics::quadrature::GaussLegendre;
-    use crate::numerics::random::NormalPairs;
+    use impact_numerics::quadrature::GaussLegendre;
+    use impact_numerics::random::NormalPairs;
     use std::f64::consts::SQRT_2;
 
     #[test]

@@ -6,7 +6,7 @@
 //! computes with that. [`jump_bounds`] and [`jump_rule`] say where the jump leads to.
 
 use super::{Error, check_p, check_vertices};
-use crate::numerics::bisection;
+use impact_numerics::bisection;
 use pxfm::f_log;
 
 /// The limit of k*/N and of μ/N for N → ∞ with p N fixed: max(0, 1 − 1/(p N)).
@@ -130,8 +130,8 @@ pub fn jump_rule(big_n: usize) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::circuits::distribution::{Law, SampleSpace};
-    use crate::circuits::jump;
+    use crate::distribution::{Law, SampleSpace};
+    use crate::jump;
 
     /// Second route: Eq. (9) itself, with 106 bits, and Poisson probabilities from e^{−λ} upwards.
     #[test]

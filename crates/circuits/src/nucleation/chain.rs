@@ -19,8 +19,8 @@
 
 use super::pair::both;
 use super::reach::Reach;
-use crate::numerics::regula_falsi::crossing;
-use crate::params::{Boundary, Chain};
+use impact_chain::{Boundary, Chain};
+use impact_numerics::regula_falsi::crossing;
 use serde::{Deserialize, Serialize};
 
 /// How likely it is that single gaps and neighbours close by themselves, of a chain from rest.
@@ -110,8 +110,8 @@ pub fn half(chain: &Chain, reach: &Reach, fewer: &Reach) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::circuits::nucleation::reach::closes_by_itself;
-    use crate::numerics::random::NormalPairs;
+    use crate::nucleation::reach::closes_by_itself;
+    use impact_numerics::random::NormalPairs;
 
     #[test]
     fn drawn_chains_stay_within_the_bound_and_near_the_value() {

@@ -7,9 +7,9 @@
 //! e with weights p^e converges for p K < 1 and for no other p.
 
 use super::classes::moebius;
-use crate::circuits::distribution::{Law, SampleSpace};
-use crate::circuits::{Error, check_vertices, jump};
-use crate::numerics::bisection;
+use crate::distribution::{Law, SampleSpace};
+use crate::{Error, check_vertices, jump};
+use impact_numerics::bisection;
 use pxfm::f_log1p;
 
 /// Stirling's numbers S(K + e, K) for K = 1..=N and e up to a largest one, over K^e.
@@ -197,9 +197,9 @@ pub fn primitive_of_length(big_n: usize, length: usize) -> Option<u128> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::circuits::graph::Graph;
-    use crate::circuits::higher_order::{Class, SHARED, multiplicity};
-    use crate::numerics::double_double::DoubleDouble;
+    use crate::graph::Graph;
+    use crate::higher_order::{Class, SHARED, multiplicity};
+    use impact_numerics::double_double::DoubleDouble;
 
     /// All primitive circuits of small graphs, listed: by length and number of different vertices.
     fn listed(big_n: usize, longest: usize) -> Vec<Vec<u128>> {

@@ -2,9 +2,9 @@
 
 use super::distribution::{Law, SampleSpace, Weights};
 use super::{Error, check_vertices};
-use crate::numerics::bisection;
-use crate::numerics::double_double::{DoubleDouble, two_product};
-use crate::numerics::scaled::Scaled;
+use impact_numerics::bisection;
+use impact_numerics::double_double::{DoubleDouble, two_product};
+use impact_numerics::scaled::Scaled;
 
 /// **Eq. (11)**
 ///

@@ -1,8 +1,8 @@
 //! The sample space of five classes: Eq. (38).
 
 use super::classes::Class;
-use crate::circuits::distribution::SampleSpace;
-use crate::numerics::double_double::DoubleDouble;
+use crate::distribution::SampleSpace;
+use impact_numerics::double_double::DoubleDouble;
 
 /// One of the five classes of Eq. (38).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -82,9 +82,9 @@ pub fn multiplicity(space: SampleSpace, p: DoubleDouble, k: usize) -> DoubleDoub
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::circuits::counting::phi;
-    use crate::circuits::graph::Graph;
-    use crate::circuits::higher_order::{doubled, four_visits, three_visits, two_doubled};
+    use crate::counting::phi;
+    use crate::graph::Graph;
+    use crate::higher_order::{doubled, four_visits, three_visits, two_doubled};
 
     #[test]
     fn five_classes_by_enumeration() {
@@ -106,7 +106,7 @@ mod tests {
     #[test]
     fn polynomials_are_quotients_of_counts() {
         let printed = |e: u32, n: usize, k: usize| match e {
-            7 => phi(n, k).map(|c| crate::circuits::Fraction::new(c, 1)),
+            7 => phi(n, k).map(|c| crate::Fraction::new(c, 1)),
             33 => doubled(n, k),
             35 => three_visits(n, k),
             36 => four_visits(n, k),

@@ -41,7 +41,7 @@
 
 use super::Error;
 use super::impact_probability::ImpactProbability;
-use crate::params::Chain;
+use impact_chain::Chain;
 
 /// ΔE, the change of the energy of the free parts at an impact, from the reduced mass M, the
 /// closing speed V and its forced part F; masses are 1.
@@ -104,7 +104,7 @@ impl ImpactProbability {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numerics::random::NormalPairs;
+    use impact_numerics::random::NormalPairs;
 
     fn paper(restitution: f64) -> Chain {
         Chain { restitution, ..Chain::default() }
