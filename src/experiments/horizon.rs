@@ -3,9 +3,9 @@
 //! A change of one amplitude alone would be the smaller disturbance: in one run of four it is
 //! rounded away. Every operation of a run rounds, in every mass, so the twins differ in all.
 
-use super::estimates::average;
 use super::{Error, Progress};
 use crate::dynamics::{Engine, Growth, Impact, Scenario};
+use crate::numerics::estimates::average;
 use crate::numerics::random::NormalPairs;
 use crate::numerics::statistics::Estimate;
 use crate::params::HorizonParams;

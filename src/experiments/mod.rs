@@ -6,7 +6,6 @@ pub mod chains;
 pub mod cutting;
 pub mod deep;
 pub mod error;
-pub mod estimates;
 pub mod experiment;
 pub mod heat;
 pub mod history;

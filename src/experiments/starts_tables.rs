@@ -3,7 +3,7 @@
 use super::Results;
 use super::starts::{Starts, Variant};
 use super::{rise, sweep};
-use crate::experiments::estimates::difference;
+use crate::numerics::estimates::difference;
 use crate::numerics::statistics::Estimate;
 use crate::params::COMPARABLE_REJECTED;
 use crate::table::Table;
@@ -44,7 +44,7 @@ pub fn tables(starts: &Starts) -> Vec<Table> {
         .computed_by(origin(sweep::reduce))
         .estimate("rejected", "1", "share of the random starts there that overlap", |last| {
             last.and_then(|row| {
-                super::estimates::share(row.rejected as u64, row.realisations as u64)
+                crate::numerics::estimates::share(row.rejected as u64, row.realisations as u64)
             })
         })
         .done();

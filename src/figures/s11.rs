@@ -184,7 +184,7 @@ fn alive(row: &Ensemble) -> (f64, Estimate) {
     let all = row.runs.len().max(1) as f64;
     let share = 1.0 - row.silent.iter().sum::<u64>() as f64 / all;
     let error = (share * (1.0 - share) / all).sqrt();
-    (row.sigma, crate::experiments::estimates::with_error(share, error))
+    (row.sigma, crate::numerics::estimates::with_error(share, error))
 }
 
 fn period(sheet: &Sheet, chains: &Chains) -> Result<(), Error> {

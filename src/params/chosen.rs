@@ -103,6 +103,3 @@ pub const COMPARABLE_REJECTED: f64 = 0.1;
 
 /// Bootstrap resamples behind each interval (ours).
 pub const RESAMPLES: usize = 1000;
-
-/// Level of the intervals (ours).
-pub const LEVEL: f64 = 0.95;

@@ -17,6 +17,7 @@ use crate::input::toml_fault;
 use serde::Deserialize;
 use std::cell::RefCell;
 use std::collections::BTreeSet;
+use std::sync::LazyLock;
 
 /// A numeral that nobody computed, or a delimiter without its end.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -263,8 +264,8 @@ pub fn findings(path: &str, text: &str, declared: &Declared) -> Vec<Finding> {
 }
 
 fn is_number_word(word: &str) -> bool {
-    let word = word.to_lowercase();
-    WORDS.split_whitespace().any(|known| known == word)
+    static KNOWN: LazyLock<BTreeSet<&str>> = LazyLock::new(|| WORDS.split_whitespace().collect());
+    KNOWN.contains(word.to_lowercase().as_str())
 }
 
 /// Is the word tied by a hyphen to one that is no number: *two-sided*, not *twenty-five*?

@@ -42,8 +42,16 @@ pub fn marked(text: &str) -> String {
 
 /// Start and end of the first tag from `at` on.
 pub(super) fn next_tag(text: &str, at: usize) -> Option<(usize, usize)> {
-    let first = |(open, close): &(&str, &'static str)| Some((text[at..].find(open)? + at, *close));
-    let (start, close) = TAGS.iter().filter_map(first).min()?;
+    let mut found = None;
+    // What comes after a tag that is found need not be searched for others.
+    let mut end = text.len();
+    for (open, close) in TAGS {
+        if let Some(start) = text[at..end].find(open) {
+            end = at + start;
+            found = Some((end, close));
+        }
+    }
+    let (start, close) = found?;
     Some((start, start + text[start..].find(close)? + close.len()))
 }
 

@@ -1,11 +1,10 @@
 //! Shares, half heights and widths from what the realisations showed.
 
-use super::super::estimates::{average, jackknife};
 use super::super::{Error, Progress};
 use super::{Chains, Curve, Ensemble, Part, Run, cases, chain, pieces};
 use crate::circuits::nucleation::chain::{Chances, half};
 use crate::circuits::nucleation::reach::Reach;
-use crate::numerics::statistics::last_rise;
+use crate::numerics::estimates::{average, half_height, width};
 use crate::params::{Chain, ChainCurve, ChainsParams};
 use rayon::prelude::*;
 
@@ -74,27 +73,11 @@ pub(crate) fn curve(parameters: &ChainsParams, own: &ChainCurve, rows: Vec<Ensem
     let lives =
         |row: &Ensemble| row.runs.iter().map(|run| f64::from(u8::from(alive(run)))).collect();
     let lives: Vec<Vec<f64>> = rows.iter().map(lives).collect();
-    let rise = |samples: &[Vec<f64>], out: Option<usize>, level: f64| {
-        let mean = |own: &Vec<f64>| {
-            let kept = own.iter().enumerate().filter(|(at, _)| Some(*at) != out);
-            let (n, sum) = kept.fold((0, 0.0), |(n, sum), (_, x)| (n + 1, sum + x));
-            (n > 0).then(|| sum / f64::from(n))
-        };
-        let means: Vec<Option<f64>> = samples.iter().map(mean).collect();
-        last_rise(&own.sigmas, &means, level)
-    };
-    let number = |samples: &[Vec<f64>]| samples.iter().map(Vec::len).min().unwrap_or(0);
-    let at = |samples: &Vec<Vec<f64>>, level| {
-        jackknife(number(samples), |out| rise(samples, out, level))
-    };
-    let width = |samples: &Vec<Vec<f64>>| {
-        let lead = |out| Some(rise(samples, out, 0.9)? - rise(samples, out, 0.1)?);
-        jackknife(number(samples), lead)
-    };
+    let at = |samples: &Vec<Vec<f64>>, level| half_height(&own.sigmas, samples, level);
     Curve {
         name: own.name.clone(),
         half_heights: windows.iter().map(|samples| at(samples, 0.5)).collect(),
-        widths: windows.iter().map(width).collect(),
+        widths: windows.iter().map(|samples| width(&own.sigmas, samples, [0.1, 0.9])).collect(),
         kept_half: at(&lives, 0.5),
         kept_half_expected: reaches
             .as_ref()

@@ -1,6 +1,5 @@
 //! What follows from the runs.
 
-use super::super::estimates::{average, jackknife, ratio, sums};
 use super::{Heat, Part, Run, ensembles};
 use crate::circuits;
 use crate::circuits::balance::{variance_ratio, variance_ratio_at};
@@ -8,6 +7,7 @@ use crate::circuits::distribution::SampleSpace;
 use crate::circuits::impact_probability::ImpactProbability;
 use crate::circuits::jump;
 use crate::numerics::bisection;
+use crate::numerics::estimates::{average, jackknife, ratio, sums};
 use crate::numerics::statistics::{Estimate, mean};
 use crate::params::{Chain, HeatParams, HeatRow, PRINTED_THRESHOLD};
 use crate::table::Table;

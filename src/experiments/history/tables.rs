@@ -1,10 +1,10 @@
 //! What follows from the counts, and what they stand beside.
 
 use super::super::Results;
-use super::super::estimates::{average_count, half_height};
 use super::super::protocol_tables::address;
 use super::super::sweep::tables::mean_all;
 use super::{Counts, History};
+use crate::numerics::estimates::{average, half_height};
 use crate::numerics::statistics::Estimate;
 use crate::table::Table;
 
@@ -22,8 +22,8 @@ impl Row<'_> {
         self.history.parameters.transients[self.after]
     }
 
-    fn counts(&self) -> Vec<u64> {
-        self.runs.iter().flatten().map(|counts| counts[self.after]).collect()
+    fn counts(&self) -> Vec<f64> {
+        self.runs.iter().flatten().map(|counts| counts[self.after] as f64).collect()
     }
 }
 
@@ -42,16 +42,15 @@ pub fn tables(history: &History) -> Vec<Table> {
         .key("sigma", "d omega^2", |row| row.sigma)
         .key("transient", "1/omega", Row::transient)
         .estimate("mean_count", "1", "different gaps with an impact, mean of all", |row| {
-            average_count(&row.counts())
+            average(&row.counts())
         })
         .done();
     let whole: Vec<usize> = transients.collect();
     let rise = Table::of("history.rise", &whole, |_| parameters.realisations)
         .key("transient", "1/omega", |after| parameters.transients[*after])
         .estimate("half_height", "d omega^2", "the mean of all passes half of all gaps", |after| {
-            let counts: Vec<Vec<u64>> =
+            let counts: Vec<Vec<f64>> =
                 (0..history.rows.len()).map(|at| row(history, at, *after).counts()).collect();
-            let counts: Vec<&[u64]> = counts.iter().map(Vec::as_slice).collect();
             half_height(&parameters.sigmas, &counts, 0.5 * parameters.chain.gaps() as f64)
         })
         .done();

@@ -3,7 +3,7 @@
 use super::{Independence, Outcome, Run, blocks, chain};
 use crate::circuits::distribution::SampleSpace;
 use crate::circuits::{commuting, jump};
-use crate::experiments::estimates::{jackknife, ratio, sums, with_error};
+use crate::numerics::estimates::{jackknife, ratio, sums, with_error};
 use crate::numerics::statistics::Estimate;
 use crate::params::{IndependenceParams, IndependenceRow, VERTICES};
 use crate::table::{Building, Table};

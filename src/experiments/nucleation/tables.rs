@@ -4,7 +4,7 @@ use super::{Nucleation, Part, ensembles};
 use crate::circuits::impact_probability::ImpactProbability;
 use crate::circuits::nucleation::chain::{AtLeastOne, Chances, half};
 use crate::circuits::nucleation::reach::Reach;
-use crate::experiments::estimates::share;
+use crate::numerics::estimates::share;
 use crate::params::{Chain, NucleationParams};
 use crate::table::Table;
 use rayon::prelude::*;

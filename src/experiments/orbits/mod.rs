@@ -9,11 +9,11 @@ pub use ends::{End, Ends};
 pub use hunt::{Hunt, Prey};
 pub use search::Found;
 
-use super::estimates::{average, with_error};
 use super::segments::ORDERS;
 use super::{Error, Progress};
 use crate::dynamics::orbit::least_amplitude;
 use crate::dynamics::{self, Engine, Initial, Scenario};
+use crate::numerics::estimates::{average, with_error};
 use crate::numerics::random::NormalPairs;
 use crate::numerics::statistics::{Estimate, mean};
 use crate::params::OrbitsParams;

@@ -1,7 +1,7 @@
 //! What the orbits of all forcings say together.
 
 use super::{Hunt, Orbits, Row};
-use crate::experiments::estimates::share;
+use crate::numerics::estimates::share;
 use crate::numerics::statistics::Estimate;
 use crate::table::Table;
 

@@ -1,11 +1,11 @@
 //! What follows from the runs.
 
-use super::super::estimates::{average, half_height, jackknife, ratio};
 use super::hot::{hot, steady};
 use super::{Case, Restitution, Run, cases, chain};
 use crate::circuits::balance::variance_ratio;
+use crate::numerics::estimates::{self, average, half_height, jackknife, ratio};
 use crate::numerics::regression::line;
-use crate::numerics::statistics::{Estimate, last_rise};
+use crate::numerics::statistics::Estimate;
 use crate::params::{Chain, HeatParams, RestitutionParams};
 use crate::table::Table;
 use pxfm::{f_exp, f_log};
@@ -98,8 +98,7 @@ fn curve_table(curves: &[&[Row<'_>]]) -> Table {
             "d omega^2",
             "σ where the mean count of all chains passes half of all gaps",
             |curve| {
-                let counts: Vec<Vec<u64>> = curve.iter().map(Row::counts).collect();
-                let counts: Vec<&[u64]> = counts.iter().map(Vec::as_slice).collect();
+                let counts: Vec<Vec<f64>> = curve.iter().map(Row::counts).collect();
                 let parameters = curve.first()?.parameters;
                 half_height(&parameters.sigmas, &counts, half(parameters))
             },
@@ -193,24 +192,15 @@ fn half(parameters: &RestitutionParams) -> f64 {
 
 /// The difference of both ends' half heights: each realisation is left out of both together.
 fn shift(parameters: &RestitutionParams, rise: &[Row<'_>]) -> Option<Estimate> {
-    let curve = |at: usize| -> Vec<Vec<u64>> {
+    let curve = |at: usize| -> Vec<Vec<f64>> {
         let sigmas = parameters.sigmas.len();
         rise.iter().skip(at * sigmas).take(sigmas).map(Row::counts).collect()
     };
-    let ends = [curve(0), curve(parameters.restitutions.len().saturating_sub(1))];
-    let realisations = ends.iter().flatten().map(Vec::len).min()?;
-    jackknife(realisations, |out| {
-        let place = |rows: &[Vec<u64>]| {
-            let mean = |own: &Vec<u64>| {
-                let kept = own.iter().enumerate().filter(|(at, _)| Some(*at) != out);
-                let (n, sum) = kept.fold((0, 0), |(n, sum), (_, k)| (n + 1, sum + k));
-                (n > 0).then(|| sum as f64 / f64::from(n))
-            };
-            let means: Vec<Option<f64>> = rows.iter().map(mean).collect();
-            last_rise(&parameters.sigmas, &means, half(parameters))
-        };
-        Some(place(&ends[1])? - place(&ends[0])?)
-    })
+    let [first, last] = [curve(0), curve(parameters.restitutions.len().saturating_sub(1))];
+    let realisations = first.iter().chain(&last).map(Vec::len).min()?;
+    let half =
+        |own: &[Vec<f64>], out| estimates::rise(&parameters.sigmas, own, half(parameters), out);
+    jackknife(realisations, |out| Some(half(&last, out)? - half(&first, out)?))
 }
 
 /// Over the last windows, whose lengths and middles double, ln of the impacts per unit of time grows in
@@ -270,8 +260,8 @@ impl Row<'_> {
         self.runs.iter().map(|run| of(run)).sum()
     }
 
-    fn counts(&self) -> Vec<u64> {
-        self.runs.iter().map(|run| run.distinct).collect()
+    fn counts(&self) -> Vec<f64> {
+        self.runs.iter().map(|run| run.distinct as f64).collect()
     }
 
     fn touched(&self) -> u64 {

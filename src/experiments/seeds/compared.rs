@@ -2,8 +2,8 @@
 //! protocol.
 
 use crate::experiments::Results;
-use crate::experiments::estimates::difference;
 use crate::experiments::protocol_tables::address;
+use crate::numerics::estimates::difference;
 use crate::numerics::statistics::Estimate;
 use crate::table::Table;
 

@@ -12,8 +12,8 @@
 //! whether it holds.
 
 use super::run::Trace;
-use crate::experiments::estimates::{jackknife, ratio};
 use crate::experiments::survival::kaplan_meier;
+use crate::numerics::estimates::{jackknife, ratio};
 use crate::numerics::statistics::Estimate;
 use crate::params::{Chain, SeedsParams};
 use std::f64::consts::TAU;

@@ -12,7 +12,7 @@
 
 use super::ByDistance;
 use crate::circuits::nucleation::reach::Reach;
-use crate::experiments::estimates::jackknife;
+use crate::numerics::estimates::jackknife;
 use crate::numerics::statistics::{Estimate, last_rise};
 use crate::params::SeedsParams;
 

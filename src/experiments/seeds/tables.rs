@@ -8,8 +8,8 @@ use crate::circuits;
 use crate::circuits::balance::variance_ratio;
 use crate::circuits::distribution::{Law, SampleSpace};
 use crate::circuits::impact_probability::ImpactProbability;
-use crate::experiments::estimates::{average_count, share, with_error};
 use crate::experiments::survival::kaplan_meier;
+use crate::numerics::estimates::{average, share, with_error};
 use crate::numerics::statistics::Estimate;
 use crate::params::SeedsParams;
 use crate::table::Table;
@@ -271,8 +271,8 @@ impl Row<'_> {
     /// Gaps of a run with an impact in some bins.
     fn hit(&self, from: usize, count: usize) -> Option<Estimate> {
         let mask = bits(from, count);
-        let of = |trace: &Trace| trace.hits.iter().filter(|own| **own & mask != 0).count() as u64;
-        average_count(&self.runs.iter().map(|(_, trace)| of(trace)).collect::<Vec<_>>())
+        let of = |trace: &Trace| trace.hits.iter().filter(|own| **own & mask != 0).count() as f64;
+        average(&self.runs.iter().map(|(_, trace)| of(trace)).collect::<Vec<_>>())
     }
 
     /// Runs with an impact in the window after a transient.

@@ -41,7 +41,7 @@ impl Cards<'_> {
         let figures = self.ledger.figures.iter().filter(|figure| shows(&figure.experiments));
         let csv: Vec<&String> = figures.flat_map(|figure| &figure.data).collect();
         // A cell has the file of its table; what has no table has those of its experiment.
-        let table = self.values.tables().find(|table| table.at(&value.id).is_some());
+        let table = self.values.table_of(&value.id);
         let own = table.map(|table| format!("data/{}", DataFile::name_of(table)));
         if let Some(own) = csv.iter().find(|file| Some(**file) == own.as_ref()) {
             data.push(Inline::Text(", ".into()));
