@@ -11,6 +11,19 @@
 //! - [`commuting`]: orders of impacts that no mass notices (ours).
 //! - [`large`]: Eq. (10) and its jump for many vertices (ours).
 //! - [`nucleation`]: gaps of a chain at rest that close by themselves (ours).
+//!
+//! ```
+//! use impact_circuits::distribution::{Law, SampleSpace};
+//! use impact_circuits::jump;
+//!
+//! // A hundred gaps: where Φ has a double zero, and how many gaps are most likely hit just beyond the jump.
+//! let p_crit = jump::p_crit(100)?;
+//! assert!((p_crit - 0.0122099).abs() < 1e-7);
+//! let law = Law::new(SampleSpace::Simple, 100, 0.02)?;
+//! let total: f64 = law.probabilities().iter().sum();
+//! assert!((total - 1.0).abs() < 1e-12);
+//! # Ok::<(), impact_circuits::Error>(())
+//! ```
 
 pub mod balance;
 pub mod commuting;
