@@ -178,6 +178,11 @@ impl Table {
         self.columns[..self.keys].iter().map(|column| column.name)
     }
 
+    /// The names of all rows, in order.
+    pub fn rows(&self) -> impl Iterator<Item = &str> {
+        self.rows.iter().map(|(name, _)| name.as_str())
+    }
+
     /// Every way in which a template can name a row, with its cells by column: for a key its value, or
     /// `first`, `last` and `last-1` of all its values. One empty name where there are no keys.
     pub fn named(&self) -> BTreeMap<String, BTreeMap<&'static str, &Value>> {

@@ -56,7 +56,7 @@ pub const ALL: [Need; 25] = [
 pub type Together = fn(&Results, &[Table]) -> Option<Vec<Table>>;
 
 /// What follows from several experiments together.
-pub const TOGETHER: [Together; 7] = [
+pub const TOGETHER: [Together; 8] = [
     theory::tables::tables,
     theory::beside::tables,
     sweep::tables::of_both,
@@ -64,6 +64,7 @@ pub const TOGETHER: [Together; 7] = [
     history::tables::beside,
     protocol_tables::of_rest,
     starts_tables::beside_theory,
+    chains::tables::beside_map,
 ];
 
 /// The experiments that a profile saves: the deep one those that take long, all others all.
@@ -281,7 +282,7 @@ pub const CHAINS: Deep<ChainsParams, chains::Chains, chains::Part> = Deep::new(
     "src/experiments/chains/mod.rs",
     ChainsParams::new,
     ("long chains", chains::CUTTING),
-    |_| Vec::new(),
+    chains::tables::tables,
 );
 
 /// Chains of several restitutions.
@@ -315,6 +316,6 @@ pub const SIZES: Deep<ChainsParams, chains::Chains, chains::Part> = Deep {
         "src/experiments/chains/mod.rs",
         ChainsParams::sizes,
         ("length and transient", chains::CUTTING),
-        |_| Vec::new(),
+        chains::tables::sizes,
     )
 };

@@ -11,7 +11,7 @@
 //! numbers: `<% if raw.half_height < raw.printed.threshold %>`.
 //! A cell of a table is named by the keys of its row and its column, `«restitution.rise["r=0.8,sigma=0.3"].impacts»`,
 //! and `first`, `last` and `last-1` stand for values of a key ([`crate::table::Table::named`]); a loop goes through the
-//! values of a key by `<% for r in keys.restitution.rise.r %>`.
+//! values of a key by `<% for r in keys.restitution.rise.r %>`, and the names of all rows by `keys.restitution.rise.rows`.
 //! `«code(item="circuits::jump::p_jump")»` is an item of the source, see [`super::literate`].
 
 use super::mark::Mark;
@@ -208,7 +208,7 @@ fn names(values: &Registry, tables: &[&Table]) -> BTreeSet<String> {
         let cells = single.flat_map(move |(column, _)| {
             [format!("{name}.{column}"), format!("raw.{name}.{column}")]
         });
-        let keys = table.keys().map(move |key| format!("keys.{name}.{key}"));
+        let keys = table.keys().chain(["rows"]).map(move |key| format!("keys.{name}.{key}"));
         rows.into_iter().chain(cells).chain(keys).collect::<Vec<_>>()
     };
     all.flat_map(both).chain(tables.iter().flat_map(keys)).collect()
@@ -255,6 +255,7 @@ fn context(values: &Registry, tables: &[&Table]) -> Context {
         };
         put(&mut marks, table.name(), rows(mark));
         put(&mut numbers, table.name(), rows(raw));
+        put(&mut keys, &format!("{}.rows", table.name()), table.rows().collect());
         for key in table.keys() {
             put(&mut keys, &format!("{}.{key}", table.name()), table.called(key).into());
         }

@@ -5,6 +5,7 @@
 
 pub(crate) mod joining;
 mod run;
+pub mod tables;
 
 pub use run::FREQUENCIES;
 

@@ -8,17 +8,14 @@
 
 mod accuracy;
 mod carried;
-mod chains;
 mod ledger;
 mod paper;
-mod sizes;
 
 use super::mark::Mark;
 use super::print::Style;
 use super::values::{Origin, Registry, Value};
 use crate::claims::{self, Claim, Published};
 use crate::experiments::Results;
-use crate::numerics::statistics::Estimate;
 use std::collections::BTreeMap;
 
 /// What can go wrong between results and values.
@@ -45,10 +42,8 @@ pub enum Error {
 pub type Section = fn(&Results) -> Result<Vec<Value>, Error>;
 
 /// All values but what the paper printed, in the order of the report.
-pub const SECTIONS: [Section; 5] =
-    [accuracy::values, chains::values, sizes::values, carried::values, |results| {
-        Ok(ledger::values(results))
-    }];
+pub const SECTIONS: [Section; 3] =
+    [accuracy::values, carried::values, |results| Ok(ledger::values(results))];
 
 /// All values of the report.
 ///
@@ -82,12 +77,6 @@ pub fn rows(
         ("scorecard", serde_json::to_value(ledger::scorecard(claims))?),
         ("basis_table", serde_json::to_value(ledger::bases(claims))?),
         ("row", serde_json::to_value(ledger::references(claims))?),
-        ("chains_lengths", serde_json::to_value(chains::lengths_table(results)?)?),
-        ("sizes_heads", serde_json::to_value(sizes::heads(results)?)?),
-        ("sizes_table", serde_json::to_value(sizes::table(results)?)?),
-        ("chains_times", serde_json::to_value(chains::drift_times(results)?)?),
-        ("chains_drifts", serde_json::to_value(chains::drift_table(results)?)?),
-        ("chains_forces", serde_json::to_value(chains::forces_table(results)?)?),
         ("bias_heads", serde_json::to_value(accuracy::bias_heads(results)?)?),
         ("bias_table", serde_json::to_value(accuracy::bias_table(results)?)?),
         ("bias_means", serde_json::to_value(accuracy::bias_means(results)?)?),
@@ -96,30 +85,6 @@ pub fn rows(
         ("carried_table", serde_json::to_value(carried::table(results)?)?),
         ("target_table", serde_json::to_value(accuracy::target_table(results)?)?),
     ]))
-}
-
-/// A value with its standard error, or the word "none" where the sample decides nothing.
-fn estimate(id: impl Into<String>, found: Option<Estimate>, realisations: usize) -> Value {
-    match found {
-        Some(e) => Value::ensemble(id, e.value, e.error, realisations as u64),
-        None => Value::text(id, "none"),
-    }
-}
-
-/// How much the one is larger than the other, with the error of independent samples.
-fn difference(
-    id: impl Into<String>,
-    own: Option<Estimate>,
-    other: Option<Estimate>,
-    realisations: usize,
-) -> Value {
-    match own.zip(other) {
-        Some((own, other)) => {
-            let error = (own.error * own.error + other.error * other.error).sqrt();
-            Value::ensemble(id, own.value - other.value, error, realisations as u64)
-        }
-        None => Value::text(id, "none"),
-    }
 }
 
 /// A number that was chosen, with all its digits.

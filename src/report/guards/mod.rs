@@ -18,7 +18,6 @@ mod nucleation;
 mod orbits;
 mod printed;
 mod restitution;
-mod sizes;
 mod sweep;
 
 use super::values::{Number, Registry};
@@ -71,7 +70,6 @@ pub fn all() -> impl Iterator<Item = &'static Guard> {
         orbits::GUARDS,
         restitution::GUARDS,
         chains::GUARDS,
-        sizes::GUARDS,
         accuracy::GUARDS,
         printed::GUARDS,
     ];
@@ -112,11 +110,6 @@ impl Look<'_> {
     /// there is no such number, and agrees.
     fn is(&self, id: &str, expected: f64) -> Option<String> {
         far(id, self.number(id)?, expected)
-    }
-
-    /// The same for several values.
-    fn are<const N: usize>(&self, expected: [(&str, f64); N]) -> Option<String> {
-        expected.into_iter().find_map(|(id, expected)| self.is(id, expected))
     }
 }
 
