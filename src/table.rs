@@ -392,6 +392,19 @@ impl<'a, R> Building<'a, R> {
         self.put((name, unit), meaning, item, cell)
     }
 
+    /// Words that were computed.
+    pub fn words<F: Fn(&R) -> String>(self, name: &'static str, meaning: &str, of: F) -> Self {
+        self.put((name, "text"), meaning, origin_of::<F>(), |row: &R| Value::text("", of(row)))
+    }
+
+    /// All cells so far were measured, and are an input.
+    pub fn measured(mut self) -> Self {
+        for cell in self.table.rows.iter_mut().flat_map(|(_, cells)| cells) {
+            cell.kind = Kind::Measured;
+        }
+        self
+    }
+
     /// A parameter, with all its digits, or *none*.
     pub fn chosen<F: Fn(&R) -> Option<f64>>(
         self,

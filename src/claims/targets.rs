@@ -223,21 +223,9 @@ fn scenes(results: &Results) -> Result<Target, Error> {
     Ok(at_most(name, (0.0, ""), Some(wrong as f64), false))
 }
 
-/// Largest error of the closed form of Eq. (25) over σ.
-pub(crate) fn relation_error(analytic: &Analytic, route: Route) -> Option<f64> {
-    let own = analytic.relation.iter().find(|own| own.route == route)?;
-    own.points.iter().map(|point| point.1).max_by(f64::total_cmp)
-}
-
-/// Largest error of a way to the distribution over N.
-pub(crate) fn distribution_error(analytic: &Analytic, way: Way) -> Option<f64> {
-    let own = analytic.distribution.iter().find(|own| own.way == way)?;
-    own.points.iter().filter_map(|point| point.error).max_by(f64::total_cmp)
-}
-
 fn digits(analytic: &Analytic) -> Vec<Target> {
-    let relation = relation_error(analytic, Route::ClosedForm);
-    let products = distribution_error(analytic, Way::Products);
+    let relation = analytic.relation_error(Route::ClosedForm);
+    let products = analytic.distribution_error(Way::Products);
     let first = ("relation", "largest relative error of p(σ), Eq. (25)");
     let second = ("distribution", "largest relative error of P(X = k) and μ, Eq. (9)");
     vec![

@@ -1,7 +1,7 @@
 //! The list of experiments: names, parameters, runs and tables. An experiment that stands here is known
 //! to the whole program.
 
-use super::accuracy::{analytic, bias, race, scale, trials};
+use super::accuracy::{analytic, bias, race, scale, tables, trials};
 use super::deep::Deep;
 use super::experiment::How::{Cut, Read, Whole};
 use super::{
@@ -91,7 +91,7 @@ pub const MEASURED: Experiment<(), Measured> = Experiment {
     module: "src/experiments/measured.rs",
     parameters: |_| (),
     how: Read(|_| Ok(Measured::committed()?)),
-    tables: |_| Vec::new(),
+    tables: tables::measured,
 };
 
 /// The main sweep of Sec. 2.
@@ -178,7 +178,7 @@ pub const RACE: Experiment<RaceParams, race::Race> = Experiment {
     module: "src/experiments/accuracy/race.rs",
     parameters: RaceParams::new,
     how: Whole { run: race::run, weight: |p| 30_000 * (p.chains * p.settings.len()) as u64 },
-    tables: |_| Vec::new(),
+    tables: tables::race,
 };
 
 /// What methods do to the mean count.
@@ -187,7 +187,7 @@ pub const BIAS: Deep<BiasParams, bias::Biases, bias::Part> = Deep::new(
     "src/experiments/accuracy/bias.rs",
     BiasParams::new,
     ("bias of methods", bias::CUTTING),
-    |_| Vec::new(),
+    tables::bias,
 );
 
 /// Every method in the scenes where methods fail.
@@ -208,7 +208,7 @@ pub const SCALE: Experiment<ScaleParams, scale::Scale> = Experiment {
     module: "src/experiments/accuracy/scale.rs",
     parameters: ScaleParams::new,
     how: Whole { run: scale::run, weight: |p| 300_000 + 7 * p.masses.iter().sum::<usize>() as u64 },
-    tables: |_| Vec::new(),
+    tables: tables::scale,
 };
 
 /// Ways to compute Eqs. (9) and (25).
@@ -217,7 +217,7 @@ pub const ANALYTIC: Experiment<AnalyticParams, analytic::Analytic> = Experiment 
     module: "src/experiments/accuracy/analytic.rs",
     parameters: AnalyticParams::new,
     how: Whole { run: analytic::run, weight: |p| 3 * p.sizes.iter().sum::<usize>() as u64 / 2 },
-    tables: |_| Vec::new(),
+    tables: tables::analytic,
 };
 
 /// How hot running chains are.

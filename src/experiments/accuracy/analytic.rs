@@ -95,6 +95,20 @@ const COMPARED: f64 = 1e-12;
 const NEGLIGIBLE: f64 = 1e-18;
 const NEGLIGIBLE_TO_REFERENCE: f64 = 1e-33;
 
+impl Analytic {
+    /// Largest error of a route to p(σ).
+    pub fn relation_error(&self, route: Route) -> Option<f64> {
+        let own = self.relation.iter().find(|own| own.route == route)?;
+        own.points.iter().map(|point| point.1).max_by(f64::total_cmp)
+    }
+
+    /// Largest error of a way to the distribution over N.
+    pub fn distribution_error(&self, way: Way) -> Option<f64> {
+        let own = self.distribution.iter().find(|own| own.way == way)?;
+        own.points.iter().filter_map(|point| point.error).max_by(f64::total_cmp)
+    }
+}
+
 /// Runs everything.
 ///
 /// # Errors

@@ -6,6 +6,7 @@
 //!   each makes of them.
 //! - [`scale`]: counted work against the number of masses.
 //! - [`analytic`]: ways to compute Eq. (25) and the distribution of Eq. (9).
+//! - [`tables`]: what all of these say.
 //!
 //! Cost is counted work here, which is the same on every machine; times of the clock are in
 //! [`super::measured`].
@@ -18,5 +19,6 @@ pub mod race;
 mod routes;
 pub mod scale;
 pub mod scenes;
+pub mod tables;
 pub mod trials;
 pub mod truth;

@@ -77,19 +77,11 @@ pub fn rows(
         ("scorecard", serde_json::to_value(ledger::scorecard(claims))?),
         ("basis_table", serde_json::to_value(ledger::bases(claims))?),
         ("row", serde_json::to_value(ledger::references(claims))?),
-        ("bias_heads", serde_json::to_value(accuracy::bias_heads(results)?)?),
-        ("bias_table", serde_json::to_value(accuracy::bias_table(results)?)?),
-        ("bias_means", serde_json::to_value(accuracy::bias_means(results)?)?),
         ("scene_heads", serde_json::to_value(accuracy::scene_heads(results)?)?),
         ("scene_table", serde_json::to_value(accuracy::scene_table(results)?)?),
         ("carried_table", serde_json::to_value(carried::table(results)?)?),
         ("target_table", serde_json::to_value(accuracy::target_table(results)?)?),
     ]))
-}
-
-/// A number that was chosen, with all its digits.
-fn chosen(id: &str, value: f64) -> Value {
-    Value::real(id, value, usize::from(claims::digits_of(value)))
 }
 
 /// The value with this id, as a template writes it.

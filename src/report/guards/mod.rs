@@ -7,7 +7,6 @@
 //! that it guards, from a record or from first principles (`guards::model`). `impact-paper check` names each
 //! that fails, and `make mutate` measures what they notice.
 
-mod accuracy;
 mod carried;
 mod chains;
 mod heat;
@@ -70,7 +69,6 @@ pub fn all() -> impl Iterator<Item = &'static Guard> {
         orbits::GUARDS,
         restitution::GUARDS,
         chains::GUARDS,
-        accuracy::GUARDS,
         printed::GUARDS,
     ];
     files.into_iter().flatten()
