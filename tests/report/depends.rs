@@ -96,6 +96,29 @@ fn the_sweep_depends_on_the_engine_and_not_on_the_scenes() {
     }
 }
 
+/// Tables are made of results, so a column can change without a run: nothing that runs may read them.
+#[test]
+fn what_runs_reads_no_table() {
+    let mut source = Source::new();
+    read(std::path::Path::new(env!("CARGO_MANIFEST_DIR")), "src/experiments", &mut source);
+    let (mut tables, mut runs) = (0, 0);
+    for (path, text) in &source {
+        if path.ends_with("tables.rs") {
+            tables += 1;
+            continue;
+        }
+        // The list hands tables out, and what is compared stands beside tables.
+        if path.ends_with("catalogue.rs") || path.ends_with("compared.rs") {
+            continue;
+        }
+        runs += 1;
+        let code = text.split("#[cfg(test)]").next().unwrap();
+        let tests = path.ends_with("tests.rs");
+        assert!(tests || !code.contains("tables::"), "{path} reads tables");
+    }
+    assert!(tables > 10 && runs > 60, "{tables} and {runs}");
+}
+
 fn read(root: &std::path::Path, folder: &str, into: &mut Source) {
     for entry in std::fs::read_dir(root.join(folder)).unwrap() {
         let name = entry.unwrap().file_name().into_string().unwrap();

@@ -61,7 +61,7 @@ fn red(ids: &[&str]) -> Vec<(String, String, String)> {
 fn the_check_that_should_notice_does() {
     let expected = [
         // Leaves of results, and what is held against them.
-        ("verlet_fine_horizon", "race/entries/", "guard horizons_of_runs"),
+        ("carried.units_sizes", "audits/sizes/", "guard carried_results_audited"),
         // Computed on the way to the report.
         ("score.total", "report", "guard scores_add_up"),
         // What the paper printed.
@@ -80,14 +80,21 @@ fn the_check_that_should_notice_does() {
 
 #[test]
 fn a_number_that_nobody_would_miss_is_listed() {
-    let (code, text, note) = mutate(&["--value", "own_work", "--value", "verlet_fine_horizon"]);
+    let (code, text, note) =
+        mutate(&["--value", "printed.sec5_masses_of_circuit", "--value", "score.total"]);
     assert_eq!(code, 1, "{text}");
     assert!(
-        text.contains("UNGUARDED own_work") && text.contains("guarded   verlet_fine_horizon"),
+        text.contains("UNGUARDED printed.sec5_masses_of_circuit")
+            && text.contains("guarded   score.total"),
         "{text}"
     );
     assert!(text.contains("2 numbers: 1 guarded, 1 not, 1 of these without a reason"), "{text}");
-    assert!(note.contains("own_work; guard them, or give a reason in unguarded.toml"), "{note}");
+    assert!(
+        note.contains(
+            "printed.sec5_masses_of_circuit; guard them, or give a reason in unguarded.toml"
+        ),
+        "{note}"
+    );
     let (code, text, note) = mutate(&["--value", "nobody"]);
     assert_eq!((code, text.as_str()), (2, ""), "{note}");
 }
@@ -96,29 +103,35 @@ fn a_number_that_nobody_would_miss_is_listed() {
 fn all_are_guarded_or_have_a_reason_that_they_need() {
     let (code, text, note) = mutate(&[]);
     assert_eq!(code, 0, "{note}");
-    assert!(!text.contains("UNGUARDED") && text.contains("excused, counted work: "), "{text}");
+    assert!(!text.contains("UNGUARDED") && text.contains("excused, readings of words: "), "{text}");
     // Each number that is used has its line.
     let lines = text.lines().filter(|line| line.contains(" ± ")).count();
     assert!(text.contains(&format!("\n{lines} numbers: ")) && lines > 50, "{text}");
 
     // A reason is taken away: its number is told.
-    let missing = templates("unguarded.toml", |text| text.replacen("\"own_work\", ", "", 1));
+    let missing = templates("unguarded.toml", |text| {
+        text.replacen("\"printed.sec5_masses_of_circuit\"", "", 1)
+    });
     let (code, text, note) = with(&missing, &[]);
     assert_eq!(code, 1, "{note}");
-    assert!(text.contains("UNGUARDED own_work") && note.contains(": own_work;"), "{note}");
+    assert!(
+        text.contains("UNGUARDED printed.sec5_masses_of_circuit")
+            && note.contains(": printed.sec5_masses_of_circuit;"),
+        "{note}"
+    );
 
     // Reasons without need: of a number that is guarded, and of one that is not there.
     let needless = templates("unguarded.toml", |text| {
         text.replacen(
-            "\"own_work\", ",
-            "\"own_work\", \"verlet_fine_horizon\", \"verlet_fine_horizno\", ",
+            "\"printed.sec5_masses_of_circuit\"",
+            "\"printed.sec5_masses_of_circuit\", \"score.total\", \"score.totla\"",
             1,
         )
     });
     let (code, _, note) = with(&needless, &[]);
     assert_eq!(code, 1, "{note}");
-    assert!(note.contains("\"verlet_fine_horizon\" (guarded)"), "{note}");
-    assert!(note.contains("\"verlet_fine_horizno\" (there is no such value)"), "{note}");
+    assert!(note.contains("\"score.total\" (guarded)"), "{note}");
+    assert!(note.contains("\"score.totla\" (there is no such value)"), "{note}");
     let empty = templates("unguarded.toml", |text| text.replacen("why = \"", "why = \"\" #", 1));
     let (code, _, note) = with(&empty, &[]);
     assert!(code == 2 && note.contains("unguarded.toml: no reason for"), "{note}");

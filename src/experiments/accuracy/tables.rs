@@ -60,7 +60,7 @@ pub fn race(race: &Race) -> Vec<Table> {
     let coarsest: Vec<&Entry> =
         MethodName::ALL.into_iter().filter_map(|method| of(method).next()).collect();
     let finest: Vec<&Entry> =
-        MethodName::ALL.into_iter().filter_map(|method| of(method).last()).collect();
+        MethodName::ALL.into_iter().filter_map(|method| of(method).next_back()).collect();
     vec![entries("race.coarsest", &coarsest), entries("race.finest", &finest), all(race)]
 }
 
@@ -197,7 +197,7 @@ pub fn scale(scale: &Scale) -> Vec<Table> {
     let of = |method| scale.rows.iter().filter(move |row| row.setting.method == method);
     let methods = MethodName::ALL.into_iter();
     let ends: Vec<[&ScaleRow; 2]> =
-        methods.filter_map(|method| Some([of(method).next()?, of(method).last()?])).collect();
+        methods.filter_map(|method| Some([of(method).next()?, of(method).next_back()?])).collect();
     let table = Table::of("scale.ends", &ends, |_| 1)
         .text_key("method", |[own, _]| own.setting.method.id().into())
         .chosen("setting", "1/omega", "step or tolerance", |[own, _]| Some(own.setting.value))
