@@ -124,14 +124,14 @@ fn all_are_guarded_or_have_a_reason_that_they_need() {
     let needless = templates("unguarded.toml", |text| {
         text.replacen(
             "\"printed.sec5_masses_of_circuit\"",
-            "\"printed.sec5_masses_of_circuit\", \"score.total\", \"score.totla\"",
+            "\"printed.sec5_masses_of_circuit\", \"printed.sec3_vertices\", \"printed.sec3_vertix\"",
             1,
         )
     });
     let (code, _, note) = with(&needless, &[]);
     assert_eq!(code, 1, "{note}");
-    assert!(note.contains("\"score.total\" (guarded)"), "{note}");
-    assert!(note.contains("\"score.totla\" (there is no such value)"), "{note}");
+    assert!(note.contains("\"printed.sec3_vertices\" (guarded)"), "{note}");
+    assert!(note.contains("\"printed.sec3_vertix\" (there is no such value)"), "{note}");
     let empty = templates("unguarded.toml", |text| text.replacen("why = \"", "why = \"\" #", 1));
     let (code, _, note) = with(&empty, &[]);
     assert!(code == 2 && note.contains("unguarded.toml: no reason for"), "{note}");
