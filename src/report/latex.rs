@@ -225,6 +225,7 @@ fn breakable(code: &str) -> String {
         .replace(r"\_", r"\_\allowbreak{}")
         .replace(',', r",\allowbreak{}")
         .replace('[', r"\allowbreak{}[")
+        .replace(']', r"]\allowbreak{}")
 }
 
 /// An address inside `\href`.
