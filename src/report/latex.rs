@@ -218,7 +218,7 @@ fn inline(inline: &Inline) -> Result<String, Error> {
     })
 }
 
-/// Long paths and addresses in code may break after `::`, `/`, `\_` and `,`, and before `[`.
+/// Long paths and addresses in code may break after `::`, `/`, `\_`, `,` and `]`, and before `[`.
 fn breakable(code: &str) -> String {
     code.replace("::", "::\\allowbreak{}")
         .replace('/', "/\\allowbreak{}")
