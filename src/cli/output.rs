@@ -94,9 +94,9 @@ impl<'a> Staging<'a> {
         let wrote =
             |path: &str| folder::read(self.folder, path).is_ok_and(|bytes| own.wrote(path, &bytes));
         let changed = |path: &&String| stands(path) && !wrote(path);
-        // The page was made before there was a list of it.
-        let page = "report.html".to_string();
-        let all = own.digests.keys().chain(std::iter::once(&page));
+        // The page was made before there was a list of it; and a list may be somebody else's.
+        let others = ["report.html", sums::NAME].map(String::from);
+        let all = own.digests.keys().chain(&others);
         let changed: BTreeSet<&str> = all.filter(changed).map(String::as_str).collect();
         self.refuse(changed.into_iter().collect())
     }
@@ -426,6 +426,8 @@ mod tests {
         let theirs = sums::write(&[("report.md".to_string(), b"by hand".to_vec())].into());
         std::fs::write(folder.join(sums::NAME), theirs).unwrap();
         refused(&report(&["new.md"]), "did not make");
+        let early = Staging::below(folder, "--out", ASK).unwrap().refuse_changed().unwrap_err();
+        assert!(early.message.contains(sums::NAME), "{}", early.message);
         let force = Staging::below(folder, "--out", Force { force: true }).unwrap();
         force.place(&report(&["report.md", "old.md"]), &Progress::silent()).unwrap();
         assert_eq!(std::fs::read_to_string(folder.join("report.md")).unwrap(), "report.md");

@@ -122,19 +122,27 @@ fn at_hand() -> u128 {
     limits.into_iter().flatten().fold(free, u128::min)
 }
 
+/// Bytes in GiB or, where they are fewer, MiB.
+fn size(bytes: u128) -> String {
+    match bytes as f64 / f64::from(1 << 20) {
+        mib if mib < 1024.0 => format!("{mib:.0} MiB"),
+        mib => format!("{:.1} GiB", mib / 1024.0),
+    }
+}
+
 /// Refuses work that needs more memory than there is, before any of it is taken: an estimate in bytes, the
 /// option that asks for it, and what to give instead.
 ///
 /// # Errors
 /// Exit code 2.
 pub fn memory(needed: u128, option: &str, remedy: &str) -> Result<(), Failure> {
-    let (gib, at_hand) = (|bytes: u128| bytes as f64 / f64::from(1 << 30), at_hand());
+    let at_hand = at_hand();
     if needed <= at_hand {
         return Ok(());
     }
-    let (needed, at_hand) = (gib(needed), gib(at_hand));
+    let (needed, at_hand) = (size(needed), size(at_hand));
     Err(Failure::input(format!(
-        "{option}: about {needed:.1} GiB of memory are needed and {at_hand:.1} are at hand; {remedy}"
+        "{option}: about {needed} of memory are needed and {at_hand} are at hand; {remedy}"
     )))
 }
 

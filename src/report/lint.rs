@@ -114,8 +114,7 @@ pub fn check(templates: &Templates) -> Result<(), Error> {
         return Err(Error::Template("report.md: it is empty; write the report".into()));
     }
     let prose = templates.iter().filter(|(path, _)| path.ends_with(".md"));
-    let declared =
-        templates.text("literals.toml").map_or(Ok(Declared::default()), Declared::read)?;
+    let declared = Declared::read(templates.text("literals.toml")?)?;
     let found: Vec<Finding> =
         prose.flat_map(|(path, text)| findings(path, text, &declared)).collect();
     if !found.is_empty() {

@@ -322,6 +322,7 @@ Listing: What $\delta v$ does. {#lst:kick}
             ("report.tex", tex),
             ("report.html", html),
             ("report.css", ""),
+            ("literals.toml", "literal = []"),
         ];
         let mut values = Registry::new();
         values.add(Value::ensemble("half_height", 0.11652, 0.0004, 1000))?;

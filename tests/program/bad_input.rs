@@ -137,6 +137,7 @@ trace s.json --until=-1|NaN|inf|-inf|1e300||soon => --until
 trace s.json --until 5 --max-impacts=-1|1.5|many|99999999999999999999 => --max-impacts
 trace s.json --until 5 --step 0.1 => --step; certified; leave it out
 trace s.json --until 5 --method verlet --step -1 => --step: -1.0 is out of range
+bench methods --masses 5 --seconds nan => --seconds: NaN is out of range; give 0 to 1e4
 trace s.json --until 5 --method verlet --step 0 => --step: 0.0; give a number
 trace s.json --until 5 --method verlet --step soon => --step; soon
 trace s.json --until 5 --method verlet --tolerance 0.1 => --tolerance; --step

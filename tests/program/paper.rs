@@ -220,6 +220,8 @@ fn exit_codes_are_those_of_the_table() {
     templates("import", "report.css", "}", "} @import \"more.css\";");
     templates("none", "report.md", "# ", "# ");
     std::fs::remove_file(here.join("none/report.md")).unwrap();
+    templates("phrases", "report.md", "# ", "# ");
+    std::fs::remove_file(here.join("phrases/literals.toml")).unwrap();
     std::fs::create_dir(here.join("empty")).unwrap();
     let paper = |templates: &str| {
         format!("paper --profile quick --out p --results r --templates {templates}")
@@ -246,7 +248,8 @@ fn exit_codes_are_those_of_the_table() {
         (2, paper("style"), "report.css: "),
         (2, paper("import"), "report.css: @import"),
         (2, paper("none"), "report.md: no such file"),
-        (2, format!("ulimit -v 250000; exec \"$0\" {}", paper("good")), "of memory are needed"),
+        (2, paper("phrases"), "literals.toml: no such file"),
+        (2, format!("ulimit -v 250000; exec \"$0\" {}", paper("good")), "MiB of memory are needed"),
         (0, "ulimit -s 64; exec \"$0\" sweep --sigma 0.2 --realisations 3".into(), "0.2,"),
         (2, "trace --until 1 $'no\nsuch'".into(), "no such: "),
         (2, "paper --pdf --figure 3".into(), "--figure"),

@@ -78,6 +78,10 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         let message = format!("--until: {:?} is out of range; give 0 to 1e6", args.until);
         return Err(Failure::input(message));
     }
+    if !(0.0..=1e4).contains(&args.seconds) {
+        let message = format!("--seconds: {:?} is out of range; give 0 to 1e4", args.seconds);
+        return Err(Failure::input(message));
+    }
     let scenario = draw(args.masses, args.sigma, 0.8, args.seed, args.chain)?;
     let reference = args.reference.as_deref().map(read).transpose()?;
     let rows = settings()
