@@ -31,16 +31,13 @@
 
 pub mod claims;
 pub mod committed;
-pub mod digest;
 pub mod experiments;
 pub mod figures;
-pub mod input;
 pub mod params;
 // A browser sends no signals, and reads no command line.
 #[cfg(not(target_family = "wasm"))]
 pub mod program;
 pub mod report;
-pub mod table;
-pub mod value;
 
+pub use literate::{digest, input, table, value};
 pub use {impact_chain as dynamics, impact_circuits as circuits, impact_numerics as numerics};

@@ -7,10 +7,7 @@
 //! Each verdict is a function of numbers, and can fail: a number leaves its tolerance, or a
 //! difference that we explain no longer has the size that the explanation predicts.
 
-mod basis;
 mod ledger;
-mod level;
-mod published;
 mod row;
 pub(crate) mod sec10;
 pub(crate) mod sec2;
@@ -23,48 +20,19 @@ pub(crate) mod sec8;
 pub(crate) mod sec8_chains;
 pub(crate) mod sec9;
 pub mod targets;
-mod text;
-mod verdict;
 
-pub use basis::{Basis, split};
+use crate::committed;
+
+pub use literate::claims::*;
+
 pub use ledger::{all, level, needs, one, rows, scorecard};
-pub use level::{FAMILY_LEVEL, Level};
-pub use published::{Parameter, Published, PublishedError, Statement};
 pub use row::{Error, Evidence, Finding, Row};
-pub use text::{Digits, Number, Piece, Text, digits_of};
-pub use verdict::{Judgement, Verdict};
 
-use serde::Serialize;
-
-/// One statement of the paper with our finding and the verdict.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Claim {
-    /// The id of the statement, as in `templates/published.toml`.
-    pub id: String,
-    /// Where it stands in the paper.
-    pub place: String,
-    /// The statement, in our words.
-    pub statement: String,
-    /// What can be read there, in its shortest form.
-    pub printed: String,
-    /// What we find, with its error.
-    pub ours: Text,
-    /// How far from the printed value a finding may lie.
-    pub tolerance: Text,
-    /// Why the tolerance has this size.
-    pub reason: String,
-    /// What the verdict rests on.
-    pub basis: Basis,
-    /// The verdict.
-    pub verdict: Verdict,
-    /// What explains a difference, or what should be known besides.
-    pub note: Text,
-}
-
-impl Claim {
-    /// Whether this row makes `impact-paper check` fail: a difference that nothing explains, or
-    /// whose explanation no longer holds.
-    pub fn fails(&self) -> bool {
-        self.verdict == Verdict::Differs
-    }
+/// What the paper printed, as it is committed.
+///
+/// # Errors
+/// As [`Published::parse`]; and if the file cannot be read.
+pub fn published() -> Result<Published, PublishedError> {
+    let text = committed::text("templates/published.toml");
+    Published::parse(&text.map_err(PublishedError::Unread)?)
 }

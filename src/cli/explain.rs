@@ -1,10 +1,10 @@
 //! `impact-paper explain`.
 
 use super::{Failure, stdout};
+use impact_paper::report::PROGRAM;
 use impact_paper::report::card::{Card, Cards, Row};
 use impact_paper::report::document::spelt;
 use impact_paper::report::ledger::Ledger;
-use impact_paper::report::place::place;
 use impact_paper::report::{Registry, compare};
 use serde_json::json;
 use std::io::{self, Write};
@@ -32,7 +32,7 @@ pub struct Args {
 pub fn run(args: Args) -> Result<(), Failure> {
     let values = values(&args.paper)?;
     let ledger = ledger(&args.paper)?;
-    let cards = Cards { values: &values, ledger: &ledger };
+    let cards = Cards { values: &values, ledger: &ledger, program: PROGRAM };
     let get = |id: &String| cards.get(id).ok_or_else(|| unknown(id, &cards.ids()));
     let result = if args.ids.is_empty() {
         let all: Vec<Card> = cards.ids().iter().filter_map(|id| cards.get(id)).collect();
@@ -127,7 +127,7 @@ fn stands(row: &Row) -> Option<(&'static str, usize)> {
     let here = |file: &str| std::fs::read_to_string(file).ok();
     // What was moved in the working copy may still be found in the built one.
     let item = row.item.as_ref()?;
-    let found = place(item, here).or_else(|| place(item, |_| None))?;
+    let found = PROGRAM.place(item, here).or_else(|| PROGRAM.place(item, |_| None))?;
     Some((found.file, found.line))
 }
 

@@ -8,7 +8,7 @@ use impact_paper::experiments::spacetime::scene::Scene;
 use impact_paper::experiments::{Progress, catalogue::ALL};
 use impact_paper::figures::{self, Figure};
 use impact_paper::params::Profile;
-use impact_paper::report::{self, Report, contents};
+use impact_paper::report::{self, PROGRAM, Report, contents, equations};
 use rayon::prelude::*;
 
 /// Runs every experiment and makes every file; with `pdf`, report.pdf too. Says also what holds.
@@ -42,6 +42,8 @@ pub fn whole(
     let judged = Judged::all(&results, &published, values.clone(), claims)?;
     let claims = &judged.claims;
     let scene = Scene::of(results.spacetime()?);
+    let scene = scene.as_ref().map(report::scene::moving).transpose();
+    let scene = scene.map_err(|error| Failure::run(error.to_string()))?;
     progress.check()?;
     let report = report::assemble(&report::Input {
         templates: &templates,
@@ -49,8 +51,10 @@ pub fn whole(
         rows: &rows,
         claims,
         figures: &drawn,
+        equations: &equations::entries(),
         scene: scene.as_ref(),
         pdf,
+        program: PROGRAM,
     })?;
     Ok((report, judged))
 }

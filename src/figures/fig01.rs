@@ -57,7 +57,7 @@ pub fn draw() -> Result<Figure, Error> {
          each is bent away from its equilibrium. Marked are d, the position x1(t), the gap Δ1(t) between the \
          first two masses, and the force F2(t) on the second."
             .to_string();
-    Ok(sheet.finish(1, "The chain of masses between two walls", description, vec![data]))
+    Ok(sheet.finish("fig01", "The chain of masses between two walls", description, vec![data]))
 }
 
 fn walls(sheet: &Sheet, right: i32) -> Result<(), Error> {

@@ -72,5 +72,5 @@ pub fn draw(sweep: &Sweep, note: Option<&str>) -> Result<Figure, Error> {
          impact.",
         sweep.parameters.chain.masses
     );
-    Ok(sheet.finish(2, "Most likely number of impacts", description, vec![data]))
+    Ok(sheet.finish("fig02", "Most likely number of impacts", description, vec![data]))
 }

@@ -83,7 +83,7 @@ pub fn draw(sweep: &Sweep, note: Option<&str>) -> Result<Figure, Error> {
         fraction.first().map_or("0".into(), |f| short(f.1, 2)),
         fraction.last().map_or("1".into(), |f| short(f.1, 3)),
     );
-    Ok(sheet.finish(3, "Expected number of impacts", description, vec![table(sweep)]))
+    Ok(sheet.finish("fig03", "Expected number of impacts", description, vec![table(sweep)]))
 }
 
 fn kept_fraction(row: &SweepRow) -> Option<f64> {

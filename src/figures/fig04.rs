@@ -25,5 +25,5 @@ pub fn draw() -> Result<Figure, Error> {
         right wall. Its 16 edges join every vertex to every vertex: 4 loops and 12 arrows, two of \
         opposite direction between each of the 6 pairs."
             .to_string();
-    Ok(sheet.finish(4, "The graph of three masses between walls", description, vec![data]))
+    Ok(sheet.finish("fig04", "The graph of three masses between walls", description, vec![data]))
 }

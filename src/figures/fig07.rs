@@ -60,5 +60,5 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
         short(top, 3),
         logs.first().copied().unwrap_or(0.0).round() as i64,
     );
-    Ok(sheet.finish(7, "Number of simple circuits of each length", description, vec![data]))
+    Ok(sheet.finish("fig07", "Number of simple circuits of each length", description, vec![data]))
 }

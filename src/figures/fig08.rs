@@ -43,5 +43,5 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
          the weight moves from single impacts to nearly the whole system. {}.",
         seen.join("; ")
     );
-    Ok(sheet.finish(8, "Distribution of the number of impacts", description, data))
+    Ok(sheet.finish("fig08", "Distribution of the number of impacts", description, data))
 }

@@ -100,7 +100,7 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
         short(scalars.p_jump, 4),
         scalars.k_after_jump,
     );
-    Ok(sheet.finish(9, "Most likely and expected number of impacts", description, files))
+    Ok(sheet.finish("fig09", "Most likely and expected number of impacts", description, files))
 }
 
 fn points(rows: &[MeanRow]) -> Vec<(f64, f64)> {

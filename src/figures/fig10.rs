@@ -71,7 +71,7 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
         theory.vertices,
         rows.iter().map(|row| row.k_star.to_string()).collect::<Vec<_>>().join(", ")
     );
-    Ok(sheet.finish(10, "The mechanism of the jump", description, data))
+    Ok(sheet.finish("fig10", "The mechanism of the jump", description, data))
 }
 
 /// The axis of f: around zero, as high as its maximum.

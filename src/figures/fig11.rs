@@ -100,5 +100,5 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
         short(scalars.sigma_jump, 4),
         rows.iter().rev().find(|r| r.p_rest > r.p).map_or("0".into(), |r| short(r.sigma, 2)),
     );
-    Ok(sheet.finish(11, "Impact probability against forcing", description, vec![data]))
+    Ok(sheet.finish("fig11", "Impact probability against forcing", description, vec![data]))
 }

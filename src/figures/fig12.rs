@@ -55,5 +55,5 @@ pub fn draw(sweep: &Sweep, theory: &Theory, note: Option<&str>) -> Result<Figure
         at(&simple, 0.12),
     );
     let files = vec![means_file("fig12-simulation.csv", sweep), data];
-    Ok(sheet.finish(12, "Simulation against graph theory", description, files))
+    Ok(sheet.finish("fig12", "Simulation against graph theory", description, files))
 }

@@ -8,7 +8,7 @@ use super::sheet::{Entry, Sheet};
 use super::style::{
     BLUE, Colour, Dash, GREEN, INK, LINE, Mark, ORANGE, PURPLE, RED, SMALL, Stroke, THIN,
 };
-use super::{DataFile, Error, Figure, Number};
+use super::{DataFile, Error, Figure};
 use crate::experiments::theory::{HigherDistribution, Theory};
 
 /// Largest k of the detail in (b).
@@ -41,7 +41,7 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     let n = theory.vertices;
     let [small, middle, large] = theory.higher.as_slice() else {
         return Err(Error::Shape {
-            figure: Number::Paper(13),
+            figure: "13",
             expected: "higher-order distributions at three p",
         });
     };
@@ -91,7 +91,7 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
         share(large),
         short(large.p, 3),
     );
-    Ok(sheet.finish(13, "Distributions with higher-order circuits", description, data))
+    Ok(sheet.finish("fig13", "Distributions with higher-order circuits", description, data))
 }
 
 fn series(panel: &Panel, distribution: &HigherDistribution, shown: usize) -> Result<(), Error> {

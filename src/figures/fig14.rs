@@ -45,5 +45,5 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
          lie apart in (a) and nearly on each other in (b). {}.",
         seen.join("; ")
     );
-    Ok(sheet.finish(14, "Simple and higher-order distributions converge", description, data))
+    Ok(sheet.finish("fig14", "Simple and higher-order distributions converge", description, data))
 }

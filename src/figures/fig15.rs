@@ -56,5 +56,5 @@ pub fn draw(sweep: &Sweep, theory: &Theory, note: Option<&str>) -> Result<Figure
         at(&higher, 0.12),
     );
     let files = vec![means_file("fig15-simulation.csv", sweep), data];
-    Ok(sheet.finish(15, "Simulation against both theories", description, files))
+    Ok(sheet.finish("fig15", "Simulation against both theories", description, files))
 }

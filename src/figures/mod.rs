@@ -1,12 +1,6 @@
 //! The fifteen figures of the paper and those of this edition, one a file; each returns an SVG
 //! string and its data.
 
-mod axis;
-mod chart;
-mod clip;
-mod data;
-mod drawing;
-mod element;
 mod fig01;
 mod fig02;
 mod fig03;
@@ -22,13 +16,9 @@ mod fig12;
 mod fig13;
 mod fig14;
 mod fig15;
-mod font;
 mod graph;
-mod markup;
 mod motion;
 mod number;
-mod panel;
-mod pdf;
 mod rivals;
 mod s01;
 mod s02;
@@ -46,20 +36,11 @@ mod s13;
 mod s14;
 mod s15;
 mod s16;
-mod series;
-mod sheet;
 mod simulated;
-mod style;
-mod svg;
 
-pub use data::DataFile;
-pub use drawing::{Drawing, Glyphs};
+pub use literate::figures::*;
 pub use number::Number;
-pub use svg::{escape, path_data};
 
-use plotters::drawing::DrawingAreaErrorKind;
-use plotters_backend::DrawingErrorKind;
-use thiserror::Error;
 
 use crate::experiments::catalogue::{
     ANALYTIC, BIAS, CHAINS, HEAT, INDEPENDENCE, LONG_PROTOCOL, MEASURED, NUCLEATION, ORBITS,
@@ -73,69 +54,9 @@ pub fn all() -> impl Iterator<Item = Number> {
     (1..=Number::PAPER).map(Number::Paper).chain((1..=Number::OWN).map(Number::Own))
 }
 
-/// A figure: the picture, what it shows in words, and its data.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Figure {
-    /// `fig01` … `fig15`, `s01` …; the picture's file name without its ending.
-    pub id: String,
-    /// A short name.
-    pub title: String,
-    /// What is seen, with its numbers, for those who do not see it.
-    pub description: String,
-    /// The picture, a whole SVG document.
-    pub svg: String,
-    /// The picture as a list, for its other forms.
-    pub drawing: Drawing,
-    /// Its data.
-    pub data: Vec<DataFile>,
-}
-
-/// Why a figure cannot be drawn.
-#[derive(Debug, Error)]
-pub enum Error {
-    /// There is none of that number.
-    #[error("there is no figure {0}; --figure lists those that there are")]
-    Number(Number),
-    /// Its experiment was not run.
-    #[error("a figure lacks its data: {0}")]
-    Experiment(#[from] experiments::Error),
-    /// A result has another shape than the figure was made for.
-    #[error("figure {figure} expects {expected}")]
-    Shape {
-        /// The figure.
-        figure: Number,
-        /// What it expects.
-        expected: &'static str,
-    },
-    /// Data lies outside its frame.
-    #[error("{series}: the point ({x}, {y}) lies outside its frame; widen the axis")]
-    Outside {
-        /// The series.
-        series: String,
-        /// Horizontal value.
-        x: f64,
-        /// Vertical value.
-        y: f64,
-    },
-    /// A label has a character that the shipped fonts lack.
-    #[error("the shipped fonts have no glyph for {character:?} in the label {label:?}")]
-    Glyph {
-        /// The character.
-        character: char,
-        /// The label.
-        label: String,
-    },
-    /// Anything else that went wrong while drawing.
-    #[error("drawing failed: {0}")]
-    Drawing(String),
-}
-
-impl From<DrawingAreaErrorKind<Error>> for Error {
-    fn from(error: DrawingAreaErrorKind<Error>) -> Self {
-        match error {
-            DrawingAreaErrorKind::BackendError(DrawingErrorKind::DrawingError(inner)) => inner,
-            other => Error::Drawing(other.to_string()),
-        }
+impl From<experiments::Error> for Error {
+    fn from(error: experiments::Error) -> Self {
+        Error::Data(Box::new(error))
     }
 }
 
@@ -168,22 +89,17 @@ pub fn experiments(number: Number) -> Vec<&'static str> {
     needs(number).into_iter().map(|need| need.name()).chain(theory).collect()
 }
 
-/// The colours of all figures: the name that style sheets use, and the colour as `#rrggbb`.
-pub fn palette() -> impl Iterator<Item = (&'static str, String)> {
-    style::PALETTE.into_iter().map(|(name, colour)| (name, colour.to_string()))
-}
-
 /// Draws one figure.
 ///
 /// # Errors
-/// [`Error::Number`] if there is none, [`Error::Experiment`] without the results that it needs.
+/// [`Error::Number`] if there is none, [`Error::Data`] without the results that it needs.
 pub fn draw(number: Number, results: &Results) -> Result<Figure, Error> {
     let note = match results.profile {
         Profile::Full | Profile::Deep => None,
         Profile::Ci => Some("profile ci: not for citation"),
         Profile::Quick => Some("profile quick: not for citation"),
     };
-    match number {
+    let figure = match number {
         Number::Paper(1) => fig01::draw(),
         Number::Paper(2) => fig02::draw(results.sweep()?, note),
         Number::Paper(3) => fig03::draw(results.sweep()?, note),
@@ -217,6 +133,8 @@ pub fn draw(number: Number, results: &Results) -> Result<Figure, Error> {
         Number::Own(14) => s14::draw(results.biases()?, note),
         Number::Own(15) => s15::draw(results.scale()?, results.measured()?, note),
         Number::Own(16) => s16::draw(results.analytic()?, note),
-        _ => Err(Error::Number(number)),
-    }
+        _ => Err(Error::Number(number.to_string())),
+    }?;
+    let source = format!("figures::{}", figure.id);
+    Ok(Figure { source, experiments: experiments(number), ..figure })
 }

@@ -65,7 +65,7 @@ pub fn draw(circuit: &Circuit, segment: &Segment) -> Result<Figure, Error> {
         short(duration, 3),
     );
     let data = tables(circuit, segment);
-    Ok(sheet.finish(circuit.figure, circuit.title, description, data))
+    Ok(sheet.finish(&format!("fig{:02}", circuit.figure), circuit.title, description, data))
 }
 
 fn time_axis(duration: f64) -> Axis {

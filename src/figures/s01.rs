@@ -127,7 +127,7 @@ pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
     let title = "Half height and onset against the transient";
     let data = TABLES.map(|name| results.table(name).map(DataFile::of));
     let data = data.into_iter().collect::<Result<_, _>>()?;
-    Ok(sheet.finish_own(1, title, description(maps), data))
+    Ok(sheet.finish("s01", title, description(maps), data))
 }
 
 fn panel(sheet: &Sheet, place: usize, frame: Frame, y: Axis) -> Result<Panel, Error> {

@@ -47,7 +47,7 @@ pub fn draw(run: &SpaceTime, note: Option<&str>) -> Result<Figure, Error> {
     let disc = Entry::mark(START.0, START.1, RED_DISC, "no neighbour was hit before");
     sheet.legend((1500, 9500), (SMALL, 370), &[tick])?;
     sheet.legend((3900, 9500), (SMALL, 370), &[disc])?;
-    Ok(sheet.finish_own(2, "One long run", description(run), tables(run)))
+    Ok(sheet.finish("s02", "One long run", description(run), tables(run)))
 }
 
 const INK_LINE: Stroke = Stroke::solid(INK, HAIR);

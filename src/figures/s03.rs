@@ -36,7 +36,7 @@ pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
     times(&sheet, missing)?;
     let files = [found, single, missing].map(DataFile::of);
     let title = "Gaps that close by themselves";
-    Ok(sheet.finish_own(3, title, description(missing), files.into()))
+    Ok(sheet.finish("s03", title, description(missing), files.into()))
 }
 
 fn chains(sheet: &Sheet, found: &Table, sweep: &Table) -> Result<(), Error> {

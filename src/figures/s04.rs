@@ -35,7 +35,7 @@ pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
     standing(&sheet, waits, fronts, results.seeds()?.parameters.tick)?;
     let files = [means, table("seeds.against_sweep")?, advance, rise, scores, waits];
     let title = "From one gap to many: nucleation and growth";
-    Ok(sheet.finish_own(4, title, description(waits), files.map(DataFile::of).into()))
+    Ok(sheet.finish("s04", title, description(waits), files.map(DataFile::of).into()))
 }
 
 fn counts(sheet: &Sheet, means: &Table, sweep: &Sweep) -> Result<(), Error> {

@@ -29,7 +29,7 @@ pub fn draw(large: &Large) -> Result<Figure, Error> {
     shares(&sheet, large)?;
     jumps(&sheet, large)?;
     poisson(&sheet, large)?;
-    Ok(sheet.finish_own(5, "The theory at large N", DESCRIPTION.into(), tables(large)))
+    Ok(sheet.finish("s05", "The theory at large N", DESCRIPTION.into(), tables(large)))
 }
 
 /// A power of ten as the figures write it.

@@ -66,7 +66,7 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     sheet.legend((4480, 5200), (SMALL, 400), &entries)?;
     distributions(&sheet, theory)?;
     let files = tables(orders);
-    Ok(sheet.finish_own(6, "Circuits of all orders", description(theory), files))
+    Ok(sheet.finish("s06", "Circuits of all orders", description(theory), files))
 }
 
 /// An upright line at a place of p, with its name above.

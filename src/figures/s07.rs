@@ -47,7 +47,7 @@ pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
     against_restitution(&sheet, &shown)?;
     probabilities(&sheet, &shown)?;
     let data = [shown.rising, shown.others].map(DataFile::of);
-    Ok(sheet.finish_own(7, "How hot a running chain is", description(&shown), data.into()))
+    Ok(sheet.finish("s07", "How hot a running chain is", description(&shown), data.into()))
 }
 
 fn against_sigma(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {

@@ -35,7 +35,7 @@ pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
     different(&sheet, blocks, *rising.values("gaps").first().unwrap_or(&1.0))?;
     let data = [near, frequencies, blocks].map(DataFile::of);
     let title = "Successive impacts beside independent ones";
-    Ok(sheet.finish_own(8, title, description(rising), data.into()))
+    Ok(sheet.finish("s08", title, description(rising), data.into()))
 }
 
 fn looked(table: &Table) -> Vec<(f64, (Mark, Colour))> {

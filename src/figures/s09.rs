@@ -36,7 +36,7 @@ pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
     plane(&sheet, orbits)?;
     let mut files = tables(orbits);
     files.push(DataFile::of(results.table("orbits.lengths")?));
-    Ok(sheet.finish_own(9, "Periodic orbits from circuits", description(orbits), files))
+    Ok(sheet.finish("s09", "Periodic orbits from circuits", description(orbits), files))
 }
 
 fn motion(sheet: &Sheet, example: &Example) -> Result<(), Error> {

@@ -66,7 +66,7 @@ pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
     contact(&sheet, &shown)?;
     let title = "The rise, the heat and contact at several restitutions";
     let data = [shown.rise, shown.curves, shown.heating, shown.heated].map(DataFile::of);
-    Ok(sheet.finish_own(10, title, description(&shown), data.into()))
+    Ok(sheet.finish("s10", title, description(&shown), data.into()))
 }
 
 fn named(r: f64) -> String {

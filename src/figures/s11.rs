@@ -45,7 +45,7 @@ pub fn draw(
     frictions(&sheet, chains, map)?;
     period(&sheet, chains)?;
     let title = "Long chains, friction, and a common period";
-    Ok(sheet.finish_own(11, title, description(sizes), tables(chains, sizes, map)))
+    Ok(sheet.finish("s11", title, description(sizes), tables(chains, sizes, map)))
 }
 
 /// The look of a length, by its order of magnitude.

@@ -78,8 +78,8 @@ pub fn draw(race: &Race, note: Option<&str>) -> Result<Figure, Error> {
     for (i, column) in entries.chunks(3).enumerate() {
         sheet.legend((700 + 2650 * i as i32, 8450), (SMALL, 370), column)?;
     }
-    Ok(sheet.finish_own(
-        12,
+    Ok(sheet.finish(
+        "s12",
         "Error and misses of the next impact",
         description(race),
         vec![table(race)],

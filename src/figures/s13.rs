@@ -88,7 +88,7 @@ pub fn draw(race: &Race, measured: &Measured, note: Option<&str>) -> Result<Figu
     }
     let masses = race.parameters.chain.masses;
     let files = vec![table(race), clock(&sheet, measured, masses, top)?];
-    Ok(sheet.finish_own(13, "How long a run is true", description(race), files))
+    Ok(sheet.finish("s13", "How long a run is true", description(race), files))
 }
 
 /// The line that chaos allows, with the band of λ's interval.

@@ -81,7 +81,7 @@ pub fn draw(biases: &Biases, note: Option<&str>) -> Result<Figure, Error> {
     for (i, column) in entries(present).chunks(3).enumerate() {
         sheet.legend((1300 + 3200 * i as i32, bottom + 700), (SMALL, 370), column)?;
     }
-    Ok(sheet.finish_own(14, "Bias of the mean count", description(biases), vec![table(biases)]))
+    Ok(sheet.finish("s14", "Bias of the mean count", description(biases), vec![table(biases)]))
 }
 
 fn description(biases: &Biases) -> String {

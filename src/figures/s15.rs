@@ -94,7 +94,7 @@ pub fn draw(scale: &Scale, measured: &Measured, note: Option<&str>) -> Result<Fi
         sheet.legend((500 + 2650 * i as i32, 7800), (SMALL, 370), column)?;
     }
     let files = vec![table(scale), clock_table(measured)];
-    Ok(sheet.finish_own(15, "Cost of an impact against n", description(scale, measured), files))
+    Ok(sheet.finish("s15", "Cost of an impact against n", description(scale, measured), files))
 }
 
 fn description(scale: &Scale, measured: &Measured) -> String {

@@ -83,7 +83,7 @@ pub fn draw(analytic: &Analytic, note: Option<&str>) -> Result<Figure, Error> {
         sheet.legend((400 + 4250 * i as i32, 9750), (SMALL, 370), column)?;
     }
     let files = tables(analytic);
-    Ok(sheet.finish_own(16, "Digits of the analytic methods", description(analytic), files))
+    Ok(sheet.finish("s16", "Digits of the analytic methods", description(analytic), files))
 }
 
 fn description(analytic: &Analytic) -> String {

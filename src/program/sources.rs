@@ -1,14 +1,18 @@
 //! Where `paper` and `check` read prose and keep results.
 
 use super::{Failure, work};
+use crate::committed;
 use crate::claims::{self, Published};
 use crate::experiments::{self, Need, Progress, Results, Store};
 use crate::params::Profile;
-use crate::report::Templates;
-use std::path::PathBuf;
+use crate::report::{self, Templates};
+use std::path::{Path, PathBuf};
 
 /// Memory that results, figures and documents need at least, in bytes: measured, with a little room.
 const LEAST: u128 = 256 << 20;
+
+/// The prose: where it is, its folder is.
+const PROSE: &str = "templates/report.md";
 
 /// Options common to `paper` and `check`.
 #[derive(clap::Args)]
@@ -35,7 +39,7 @@ impl Sources {
     /// # Errors
     /// Exit code 2 if they cannot be read.
     pub fn templates(&self) -> Result<Templates, Failure> {
-        Ok(Templates::find(self.templates.as_deref())?)
+        Ok(find(self.templates.as_deref())?)
     }
 
     /// What the paper printed.
@@ -70,4 +74,18 @@ impl Sources {
         };
         Ok(experiments::run(needs, profile, &scenario, &store, progress)?)
     }
+}
+
+/// The given folder, or else the committed one.
+fn find(folder: Option<&Path>) -> Result<Templates, report::Error> {
+    if let Some(folder) = folder {
+        return Templates::read(folder);
+    }
+    if let Some(folder) = committed::find(PROSE).as_deref().and_then(Path::parent) {
+        return Templates::read(folder);
+    }
+    // Its error says what to do where there is no copy inside either.
+    let fail = |source| report::Error::Read { path: PROSE.into(), source };
+    committed::text(PROSE).map_err(fail)?;
+    Ok(Templates::of(committed::embedded("templates")))
 }

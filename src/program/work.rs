@@ -317,9 +317,13 @@ impl From<contents::Error> for Failure {
 
 impl From<figures::Error> for Failure {
     fn from(error: figures::Error) -> Self {
+        let told = error.to_string();
         match error {
-            figures::Error::Experiment(error) => error.into(),
-            other => Failure::run(other.to_string()),
+            figures::Error::Data(error) => match error.downcast::<crate::experiments::Error>() {
+                Ok(error) => Failure::from(*error),
+                Err(_) => Failure::run(told),
+            },
+            _ => Failure::run(told),
         }
     }
 }

@@ -1,5 +1,7 @@
 //! The numbered equations of the paper, and where each lives in the source.
 
+use super::ledger::EquationEntry;
+
 /// One numbered equation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Equation {
@@ -56,6 +58,19 @@ pub const EQUATIONS: [Equation; 38] = [
     equation(37, 9, "circuits with two doubled vertices"),
     equation(38, 9, "circuits of five classes with k different vertices"),
 ];
+
+/// All equations with their homes, as the ledger has them.
+pub fn entries() -> Vec<EquationEntry> {
+    let entry = |equation: Equation, home: Home| EquationEntry {
+        number: equation.number,
+        section: equation.section,
+        what: equation.what.into(),
+        home: home.item.into(),
+        step_towards: home.step_towards().map(String::from),
+    };
+    let of = |equation: Equation| homes(equation.number).map(move |home| entry(equation, home));
+    EQUATIONS.into_iter().flat_map(of).collect()
+}
 
 /// Every home in the source: (number, path of the item, what its comment says behind the number,
 /// file).

@@ -4,8 +4,8 @@
 //! environment that test writes it.
 
 use super::equations::{EQUATIONS, homes};
-use super::literate::SOURCES;
-use crate::claims::{Published, PublishedError};
+use super::PROGRAM;
+use crate::claims::{self, PublishedError};
 use std::fmt::Write as _;
 
 struct Section {
@@ -53,7 +53,7 @@ const SECTIONS: [Section; 10] = [
 /// # Errors
 /// When published.toml does not read.
 pub fn markdown() -> Result<String, PublishedError> {
-    let published = Published::committed()?;
+    let published = claims::published()?;
     let mut out = String::from(
         "| Section of the paper | Equations | Code | Figures | Statements |\n|---|---|---|---|---|\n",
     );
@@ -101,6 +101,6 @@ pub fn markdown() -> Result<String, PublishedError> {
 /// `crates/circuits/src/jump.rs` → a link that is called `circuits::jump`.
 fn link(file: &str) -> String {
     let module =
-        SOURCES.iter().find(|(_, own, _)| *own == file).map_or(file, |(module, ..)| module);
+        PROGRAM.sources.iter().find(|(_, own, _)| *own == file).map_or(file, |(module, ..)| module);
     format!("[`{module}`]({file})")
 }

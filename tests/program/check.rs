@@ -128,7 +128,7 @@ fn guards_relate_values_of_the_report() {
     };
     let (store, quiet) = (Store::nowhere(), Progress::silent());
     let results = experiments::run(&ALL, Profile::Quick, &scenario, &store, &quiet).unwrap();
-    let published = Published::committed().unwrap();
+    let published = claims::published().unwrap();
     let mut values = contents::registry(&results, &published).unwrap();
     values.extend(scorecard(&claims::all(&results, &published).unwrap())).unwrap();
     let mut names = BTreeSet::new();

@@ -138,7 +138,7 @@ fn ctrl_c_leaves_nothing_half_written() {
 #[test]
 fn one_claim_runs_no_more_than_it_needs() {
     let folder = tempfile::tempdir().unwrap();
-    let published = impact_paper::claims::Published::committed().unwrap();
+    let published = impact_paper::claims::published().unwrap();
     let exact = published
         .statements
         .iter()

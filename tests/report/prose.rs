@@ -50,7 +50,7 @@ fn claims_fail_when_the_results_say_so() {
     let needs: [Need; 2] = [&SWEEP, &STARTS];
     let mut results =
         run(&needs, Profile::Quick, &none, &Store::nowhere(), &Progress::silent()).unwrap();
-    let published = Published::committed().unwrap();
+    let published = claims::published().unwrap();
     let verdict =
         |id: &str, results: &Results| claims::one(id, results, &published).unwrap().verdict;
 

@@ -56,7 +56,7 @@ mod topology;
 pub use certify::{Certificate, TOLERANCE, TWINS, certify};
 pub use chain::{Boundary, Chain, Start};
 pub use engine::{Counters, Engine, Impact};
-pub use error::{Error, one_line};
+pub use error::Error;
 pub use growth::Growth;
 pub use scenario::{Initial, Overtone, Scenario};
 pub use simultaneous::Simultaneous;

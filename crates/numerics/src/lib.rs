@@ -29,5 +29,6 @@ pub mod scaled;
 pub mod screen;
 pub mod statistics;
 mod stepping;
+pub mod text;
 pub mod trig;
 pub mod window;

@@ -3,6 +3,7 @@
 use super::reasons::fits;
 use super::{Mutations, Reasons};
 use impact_paper::claims::Claim;
+use impact_paper::report::PROGRAM;
 use impact_paper::report::Templates;
 use impact_paper::report::claims::{Row, scorecard};
 use impact_paper::report::filler::Filler;
@@ -89,13 +90,13 @@ pub fn used(
     if values.get("score.total").is_none() {
         values.extend(scorecard(claims))?;
     }
-    let mut filler = Filler::new(templates, &values)?;
+    let mut filler = Filler::new(templates, &values, PROGRAM)?;
     filler.insert("claims", &claims.iter().map(Row::of).collect::<Vec<Row>>());
     for (name, rows) in rows {
         filler.insert(name, rows);
     }
     let filled = filler.prose("report.md")?;
-    let (blocks, _) = parse::parse(&filled, &values)?;
+    let (blocks, _) = parse::parse(&filled, &values, PROGRAM)?;
     let shown = Mark::split(&filled.text).into_iter().flatten();
     let shown = shown.map(|mark| values.id(&mark.id).to_string());
     let stated = uses(claims, &values, &blocks).into_values().flatten();

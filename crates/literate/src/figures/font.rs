@@ -1,0 +1,200 @@
+//! Labels as glyph outlines of the two shipped faces, so that a figure looks the same anywhere.
+
+use std::sync::OnceLock;
+
+use ab_glyph::{Font, FontRef, GlyphId, OutlineCurve, Point};
+
+use super::Error;
+use super::drawing::Step;
+use super::markup::{self, Face, Level};
+
+/// Units of an em in both faces; the outlines and the layout below are in these units.
+pub const EM: i32 = 1000;
+
+/// Height of a capital in units of the em, for vertical centring.
+pub const CAP_HEIGHT: i32 = 645;
+
+/// Size of a lowered or raised piece, in thousandths.
+pub const SCRIPT: i32 = 700;
+
+const SUB_SHIFT: i32 = -200;
+const SUP_SHIFT: i32 = 380;
+/// How far two stacked scripts are pushed apart.
+const STACK_SHIFT: i32 = 45;
+/// Clear space behind a script before the base line goes on.
+const SCRIPT_SPACE: i32 = 30;
+/// Clear space between a slanted letter and an upright one (the italic correction's place).
+const SLANT_SPACE: i32 = 40;
+
+/// One glyph of a label, its origin in em units with y upwards.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Placed {
+    /// The face.
+    pub face: Face,
+    /// Glyph number in the face.
+    pub glyph: u16,
+    /// Horizontal origin.
+    pub x: i32,
+    /// Vertical origin.
+    pub y: i32,
+    /// Whether it is set at [`SCRIPT`] size.
+    pub small: bool,
+}
+
+/// A label set in type: glyphs and the advance of the whole, in em units.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Line {
+    /// The glyphs in reading order, blanks left out.
+    pub glyphs: Vec<Placed>,
+    /// Width of the label.
+    pub width: i32,
+}
+
+fn font(face: Face) -> Result<&'static FontRef<'static>, Error> {
+    static REGULAR: OnceLock<Option<FontRef<'static>>> = OnceLock::new();
+    static ITALIC: OnceLock<Option<FontRef<'static>>> = OnceLock::new();
+    let (cell, bytes): (_, &'static [u8]) = match face {
+        Face::Regular => {
+            (&REGULAR, include_bytes!("../../fonts/LibertinusSerif-Regular.otf"))
+        }
+        Face::Italic => {
+            (&ITALIC, include_bytes!("../../fonts/LibertinusSerif-Italic.otf"))
+        }
+    };
+    cell.get_or_init(|| FontRef::try_from_slice(bytes).ok())
+        .as_ref()
+        .ok_or_else(|| Error::Drawing("a shipped font file cannot be read".into()))
+}
+
+/// Sets a label in type.
+///
+/// # Errors
+/// [`Error::Glyph`] names a character that the face lacks: a figure with a missing letter is wrong.
+pub fn set(label: &str) -> Result<Line, Error> {
+    let mut line = Line::default();
+    // `x` is the pen; `below` is where a lowered part began, for a raised part above it.
+    let (mut x, mut below, mut before) = (0, None, (Face::Regular, Level::Base));
+    let (mut end_of_scripts, mut lift) = (0, 0);
+    for piece in markup::parse(label) {
+        let face = font(piece.face)?;
+        match (before.1, piece.level) {
+            (Level::Base, Level::Sub) => below = Some(x),
+            (Level::Sub, Level::Sup) => {
+                if let Some(start) = below.take() {
+                    let lowered = line.glyphs.iter_mut().rev().take_while(|g| g.y < 0);
+                    lowered.for_each(|g| g.y -= STACK_SHIFT);
+                    (x, lift) = (start, STACK_SHIFT);
+                }
+            }
+            (Level::Sub | Level::Sup, Level::Base) => {
+                x = x.max(end_of_scripts) + SCRIPT_SPACE;
+                (below, end_of_scripts, lift) = (None, 0, 0);
+            }
+            _ => {}
+        }
+        let slanted = before.0 == Face::Italic && piece.face == Face::Regular;
+        let raised = piece.level == Level::Sup && before.1 == Level::Base;
+        if slanted && (before.1 == piece.level || raised) {
+            x += SLANT_SPACE;
+        }
+        let (scale, y) = match piece.level {
+            Level::Base => (EM, 0),
+            Level::Sub => (SCRIPT, SUB_SHIFT),
+            Level::Sup => (SCRIPT, SUP_SHIFT + lift),
+        };
+        for character in piece.text.chars() {
+            let id = face.glyph_id(character);
+            if id.0 == 0 {
+                return Err(Error::Glyph { character, label: label.into() });
+            }
+            if !character.is_whitespace() {
+                line.glyphs.push(Placed {
+                    face: piece.face,
+                    glyph: id.0,
+                    x,
+                    y,
+                    small: scale != EM,
+                });
+            }
+            x += (face.h_advance_unscaled(id) * scale as f32 / EM as f32).round() as i32;
+        }
+        if piece.level != Level::Base {
+            end_of_scripts = end_of_scripts.max(x);
+        }
+        before = (piece.face, piece.level);
+    }
+    line.width = x.max(end_of_scripts);
+    Ok(line)
+}
+
+/// Name of a glyph inside a drawing.
+pub fn id(placed: &Placed) -> String {
+    match placed.face {
+        Face::Regular => format!("r{}", placed.glyph),
+        Face::Italic => format!("i{}", placed.glyph),
+    }
+}
+
+/// The outline of a glyph in em units, y upwards.
+///
+/// # Errors
+/// If a shipped font cannot be read.
+pub fn outline(placed: &Placed) -> Result<Vec<Step>, Error> {
+    let mut steps = Vec::new();
+    let mut at: Option<Point> = None;
+    let p = |v: &Point| (v.x.round() as i32, v.y.round() as i32);
+    let curves = font(placed.face)?.outline(GlyphId(placed.glyph)).map(|o| o.curves);
+    for curve in curves.unwrap_or_default() {
+        let (from, to, step) = match &curve {
+            OutlineCurve::Line(a, b) => (a, b, Step::Line(p(b))),
+            OutlineCurve::Cubic(a, b, c, e) => (a, e, Step::Curve([p(b), p(c), p(e)])),
+            OutlineCurve::Quad(..) => {
+                return Err(Error::Drawing("the shipped fonts have cubic curves only".into()));
+            }
+        };
+        if at != Some(*from) {
+            steps.extend(at.map(|_| Step::Close));
+            steps.push(Step::Begin(p(from)));
+        }
+        steps.push(step);
+        at = Some(*to);
+    }
+    steps.push(Step::Close);
+    Ok(steps)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_missing_character_is_an_error() {
+        assert!(matches!(set("⌊k⌋"), Err(Error::Glyph { character: '⌊', .. })));
+    }
+
+    #[test]
+    fn every_letter_that_labels_need_is_there() {
+        for label in ["*σωμϕγαβδ*ΩΦΓΔ", "−×±≤≥≈→∞√∗·–…′∈≪", "*k*_{±}^{∗}", "0123456789.,()[]/%"]
+        {
+            set(label).unwrap();
+        }
+    }
+
+    #[test]
+    fn a_raised_part_stands_above_a_lowered_one() {
+        let line = set("*k*_{*N*}^{∗}").unwrap();
+        assert_eq!(line.glyphs.len(), 3);
+        assert_eq!(line.glyphs[1].x, line.glyphs[2].x);
+        assert!(line.glyphs[1].y < 0 && line.glyphs[2].y > 0);
+        assert!(line.width > line.glyphs[1].x);
+    }
+
+    #[test]
+    fn outlines_are_closed_paths() {
+        let line = set("B").unwrap();
+        let steps = outline(&line.glyphs[0]).unwrap();
+        let count = |of: fn(&Step) -> bool| steps.iter().filter(|step| of(step)).count();
+        assert_eq!(count(|step| matches!(step, Step::Begin(_))), 3);
+        assert_eq!(count(|step| *step == Step::Close), 3);
+    }
+}

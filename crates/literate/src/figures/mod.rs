@@ -1,0 +1,100 @@
+//! Figures: frames, axes, curves and labels as one list of shapes, written as SVG, into a page and as PDF.
+
+pub mod axis;
+pub mod chart;
+pub mod clip;
+pub mod data;
+pub mod drawing;
+pub mod element;
+pub mod font;
+pub mod markup;
+pub mod panel;
+pub mod pdf;
+pub mod series;
+pub mod sheet;
+pub mod style;
+pub mod svg;
+
+pub use data::DataFile;
+pub use drawing::{Drawing, Glyphs};
+pub use svg::{escape, path_data};
+
+use plotters::drawing::DrawingAreaErrorKind;
+use plotters_backend::DrawingErrorKind;
+use thiserror::Error;
+
+/// A figure: the picture, what it shows in words, and its data.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figure {
+    /// `fig01` … `fig15`, `s01` …; the picture's file name without its ending.
+    pub id: String,
+    /// A short name.
+    pub title: String,
+    /// What is seen, with its numbers, for those who do not see it.
+    pub description: String,
+    /// The picture, a whole SVG document.
+    pub svg: String,
+    /// The picture as a list, for its other forms.
+    pub drawing: Drawing,
+    /// Its data.
+    pub data: Vec<DataFile>,
+    /// Path of the item that draws it.
+    pub source: String,
+    /// Names of the experiments whose results it shows.
+    pub experiments: Vec<&'static str>,
+}
+
+/// Why a figure cannot be drawn.
+#[derive(Debug, Error)]
+pub enum Error {
+    /// There is none of that number.
+    #[error("there is no figure {0}; --figure lists those that there are")]
+    Number(String),
+    /// Its experiment was not run.
+    #[error("a figure lacks its data: {0}")]
+    Data(Box<dyn std::error::Error + Send + Sync>),
+    /// A result has another shape than the figure was made for.
+    #[error("figure {figure} expects {expected}")]
+    Shape {
+        /// The figure.
+        figure: &'static str,
+        /// What it expects.
+        expected: &'static str,
+    },
+    /// Data lies outside its frame.
+    #[error("{series}: the point ({x}, {y}) lies outside its frame; widen the axis")]
+    Outside {
+        /// The series.
+        series: String,
+        /// Horizontal value.
+        x: f64,
+        /// Vertical value.
+        y: f64,
+    },
+    /// A label has a character that the shipped fonts lack.
+    #[error("the shipped fonts have no glyph for {character:?} in the label {label:?}")]
+    Glyph {
+        /// The character.
+        character: char,
+        /// The label.
+        label: String,
+    },
+    /// Anything else that went wrong while drawing.
+    #[error("drawing failed: {0}")]
+    Drawing(String),
+}
+
+impl From<DrawingAreaErrorKind<Error>> for Error {
+    fn from(error: DrawingAreaErrorKind<Error>) -> Self {
+        match error {
+            DrawingAreaErrorKind::BackendError(DrawingErrorKind::DrawingError(inner)) => inner,
+            other => Error::Drawing(other.to_string()),
+        }
+    }
+}
+
+/// The colours of all figures: the name that style sheets use, and the colour as `#rrggbb`.
+pub fn palette() -> impl Iterator<Item = (&'static str, String)> {
+    style::PALETTE.into_iter().map(|(name, colour)| (name, colour.to_string()))
+}
+

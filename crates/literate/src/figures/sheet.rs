@@ -1,0 +1,179 @@
+//! The sheet that a figure is drawn on: panels, and free drawing for schematics.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use plotters::coord::Shift;
+use plotters::drawing::DrawingArea;
+use plotters::element::{Circle, Rectangle, Text};
+use plotters::style::text_anchor::{HPos, VPos};
+use plotters::style::{Color, RGBColor, ShapeStyle};
+
+use super::axis::Axis;
+use super::drawing::Drawing;
+use super::element::{Drawn, Look};
+use super::panel::{Frame, Panel};
+use super::style::{self, Colour, GREY, INK, Mark, Stroke, TINY, WIDTH};
+use super::{DataFile, Error, Figure};
+
+/// A figure in the making.
+pub struct Sheet {
+    drawing: Rc<RefCell<Drawing>>,
+    area: DrawingArea<Drawing, Shift>,
+}
+
+/// One entry of a legend.
+#[derive(Clone, Debug)]
+pub struct Entry {
+    /// Line, if the series has one.
+    pub line: Option<Stroke>,
+    /// Marker with half width, if the series has one.
+    pub mark: Option<(Mark, i32, Stroke)>,
+    /// Words, with mark-up.
+    pub text: String,
+}
+
+impl Entry {
+    /// An entry for a curve.
+    pub fn line(stroke: Stroke, text: &str) -> Self {
+        Entry { line: Some(stroke), mark: None, text: text.into() }
+    }
+
+    /// An entry for markers.
+    pub fn mark(mark: Mark, half: i32, stroke: Stroke, text: &str) -> Self {
+        Entry { line: None, mark: Some((mark, half, stroke)), text: text.into() }
+    }
+}
+
+impl Sheet {
+    /// An empty sheet of column width; a `note` about its provenance adds a line at the foot.
+    ///
+    /// # Errors
+    /// If the note has a character that the shipped fonts lack.
+    pub fn new(height: u32, note: Option<&str>) -> Result<Self, Error> {
+        let foot = if note.is_some() { 330 } else { 0 };
+        let drawing = Rc::new(RefCell::new(Drawing::new(height + foot)));
+        let area = DrawingArea::from(&drawing);
+        let sheet = Sheet { drawing, area };
+        if let Some(note) = note {
+            let at = (WIDTH as i32 - 120, (height + foot) as i32 - 110);
+            sheet.text(note, at, (TINY, GREY, HPos::Right, VPos::Bottom))?;
+        }
+        Ok(sheet)
+    }
+
+    /// A panel with its axes drawn.
+    ///
+    /// # Errors
+    /// If a label has a character that the shipped fonts lack.
+    pub fn panel(&self, frame: Frame, x: Axis, y: Axis) -> Result<Panel, Error> {
+        let panel = Panel::new(&self.area, frame, x, y);
+        panel.axes()?;
+        Ok(panel)
+    }
+
+    /// An inset: smaller numbers on a white ground that covers what is behind.
+    ///
+    /// # Errors
+    /// If a label has a character that the shipped fonts lack.
+    pub fn inset(&self, frame: Frame, x: Axis, y: Axis) -> Result<Panel, Error> {
+        let mut panel = Panel::new(&self.area, frame, x, y);
+        panel.numbers = TINY;
+        panel.axes()?;
+        Ok(panel)
+    }
+
+    /// Words on the sheet: size, colour and anchor.
+    ///
+    /// # Errors
+    /// If a label has a character that the shipped fonts lack.
+    pub fn text(
+        &self,
+        text: &str,
+        at: (i32, i32),
+        (size, colour, h, v): (i32, Colour, HPos, VPos),
+    ) -> Result<(), Error> {
+        let look = style::text(size, colour, h, v);
+        Ok(self.area.draw(&Text::new(text.to_string(), at, look))?)
+    }
+
+    /// A line through points of the sheet.
+    ///
+    /// # Errors
+    /// If drawing fails.
+    pub fn line(&self, points: &[(i32, i32)], stroke: Stroke) -> Result<(), Error> {
+        Ok(self.area.draw(&Drawn(points.to_vec(), Look::Curve(stroke)))?)
+    }
+
+    /// A line that ends in an arrow head.
+    ///
+    /// # Errors
+    /// If drawing fails.
+    pub fn arrow(&self, points: &[(i32, i32)], stroke: Stroke) -> Result<(), Error> {
+        Ok(self.area.draw(&Drawn(points.to_vec(), Look::Arrow(stroke)))?)
+    }
+
+    /// A filled circle with an edge.
+    ///
+    /// # Errors
+    /// If drawing fails.
+    pub fn disc(
+        &self,
+        centre: (i32, i32),
+        radius: i32,
+        fill: Colour,
+        edge: Stroke,
+    ) -> Result<(), Error> {
+        let fill = RGBColor::from(fill).filled();
+        self.area.draw(&Circle::new(centre, radius, fill))?;
+        let edge = ShapeStyle {
+            color: RGBColor::from(edge.colour).to_rgba(),
+            filled: false,
+            stroke_width: edge.width,
+        };
+        Ok(self.area.draw(&Circle::new(centre, radius, edge))?)
+    }
+
+    /// A filled rectangle.
+    ///
+    /// # Errors
+    /// If drawing fails.
+    pub fn rectangle(&self, frame: Frame, fill: Colour) -> Result<(), Error> {
+        let corners = [(frame.left, frame.top), (frame.right, frame.bottom)];
+        Ok(self.area.draw(&Rectangle::new(corners, RGBColor::from(fill).filled()))?)
+    }
+
+    /// A legend; `at` is the left end of its first sample line.
+    ///
+    /// # Errors
+    /// If a label has a character that the shipped fonts lack.
+    pub fn legend(
+        &self,
+        at: (i32, i32),
+        (size, spacing): (i32, i32),
+        entries: &[Entry],
+    ) -> Result<(), Error> {
+        const SAMPLE: i32 = 560;
+        for (i, entry) in entries.iter().enumerate() {
+            let (x, y) = (at.0, at.1 + i as i32 * spacing);
+            if let Some(stroke) = entry.line {
+                self.line(&[(x, y), (x + SAMPLE, y)], stroke)?;
+            }
+            if let Some((mark, half, stroke)) = entry.mark {
+                let look = Look::Marks(mark, half, stroke);
+                self.area.draw(&Drawn(vec![(x + SAMPLE / 2, y)], look))?;
+            }
+            let look = (size, INK, HPos::Left, VPos::Center);
+            self.text(&entry.text, (x + SAMPLE + 130, y), look)?;
+        }
+        Ok(())
+    }
+
+    /// Closes a figure; its `id` is the picture's file name without its ending.
+    pub fn finish(self, id: &str, title: &str, description: String, data: Vec<DataFile>) -> Figure {
+        let drawing = self.drawing.take();
+        let svg = drawing.svg(id, title, &description);
+        let (id, title) = (id.to_string(), title.to_string());
+        Figure { id, title, description, svg, drawing, data, source: String::new(), experiments: Vec::new() }
+    }
+}

@@ -1,0 +1,117 @@
+//! Files: they are read up to a bound, what is wrong with them is told in one line, and they appear whole.
+
+pub use impact_numerics::text::one_line;
+use std::fs::File;
+use std::io::{Error, ErrorKind, Read};
+use std::path::Path;
+use tempfile::NamedTempFile;
+
+/// No file that is read may be longer, in bytes: all of it is kept in memory. The largest that the
+/// program writes has some hundred kilobytes.
+pub const LARGEST: u64 = 64 << 20;
+
+/// Reads a text file.
+///
+/// # Errors
+/// What the system says, and files that are no UTF-8 or longer than [`LARGEST`] (a device without
+/// end is).
+pub fn read(path: &Path) -> Result<String, Error> {
+    read_from(File::open(path)?)
+}
+
+/// The same of anything that can be read.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_from(file: impl Read) -> Result<String, Error> {
+    let mut bytes = Vec::new();
+    file.take(LARGEST + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > LARGEST {
+        let what = format!("it is longer than {} MiB", LARGEST >> 20);
+        return Err(Error::new(ErrorKind::FileTooLarge, what));
+    }
+    String::from_utf8(bytes).map_err(|_| Error::new(ErrorKind::InvalidData, "it is no UTF-8 text"))
+}
+
+/// Files and folders that wait until they are complete begin with this.
+pub const STAGING: &str = ".staging-impact-paper-";
+
+/// A temporary file in the folder of `path`, to be renamed to it when it is complete. Whoever the umask
+/// allows may read it, as with any other file. It is locked as long as it lives: see [`remove_leftovers`].
+///
+/// # Errors
+/// What the system says.
+pub fn new_beside(path: &Path) -> Result<NamedTempFile, Error> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(STAGING);
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    let file = builder.tempfile_in(folder.unwrap_or(Path::new(".")))?;
+    // Where there are no locks, leftovers stay.
+    let _ = file.as_file().try_lock();
+    Ok(file)
+}
+
+/// Removes what killed runs left of [`new_beside`] in a folder: nobody holds its lock. What is younger than a second
+/// may be about to be locked.
+pub fn remove_leftovers(folder: &Path) {
+    let is_left = |path: &Path| {
+        let file = File::open(path).ok().filter(|file| file.try_lock().is_ok());
+        let found = file.and_then(|file| file.metadata().ok()).filter(|found| found.is_file());
+        let age = found.and_then(|found| found.modified().ok()?.elapsed().ok());
+        age.is_some_and(|age| age.as_secs() >= 1)
+    };
+    for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
+        let ours = entry.file_name().to_string_lossy().starts_with(STAGING);
+        if ours && entry.file_type().is_ok_and(|kind| kind.is_file()) && is_left(&entry.path()) {
+            let _ = std::fs::remove_file(entry.path());
+        }
+    }
+}
+
+/// A fault of TOML with its line, from 1: `12: missing field …`.
+pub fn toml_fault(text: &str, error: &toml::de::Error) -> String {
+    let before = error.span().and_then(|span| text.get(..span.start)).unwrap_or_default();
+    let line = before.matches('\n').count() + 1;
+    format!("{line}: {}", one_line(error.message(), 300))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn leftovers_of_the_killed_go() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        let left = path(&format!("{STAGING}dead"));
+        let old = std::time::SystemTime::now() - std::time::Duration::from_secs(60);
+        let age = |path: &Path| File::options().write(true).open(path)?.set_modified(old);
+        std::fs::write(&left, "half").unwrap();
+        std::fs::write(path("notes"), "theirs").unwrap();
+        let living = new_beside(&path("a")).unwrap();
+        remove_leftovers(folder.path());
+        assert!(left.exists(), "it may be about to be locked");
+        for path in [&left, &path("notes"), living.path()] {
+            age(path).unwrap();
+        }
+        remove_leftovers(folder.path());
+        assert!(!left.exists() && path("notes").exists() && living.path().exists());
+        living.persist(path("a")).unwrap();
+    }
+
+    #[test]
+    fn files_are_read_up_to_the_bound() {
+        let file = tempfile::NamedTempFile::new().unwrap();
+        file.as_file().set_len(LARGEST).unwrap();
+        assert_eq!(read(file.path()).unwrap().len() as u64, LARGEST);
+        file.as_file().set_len(LARGEST + 1).unwrap();
+        assert_eq!(read(file.path()).unwrap_err().to_string(), "it is longer than 64 MiB");
+        std::fs::write(file.path(), [b'a', 0xff]).unwrap();
+        assert_eq!(read(file.path()).unwrap_err().to_string(), "it is no UTF-8 text");
+        if Path::new("/dev/zero").exists() {
+            assert_eq!(read(Path::new("/dev/zero")).unwrap_err().kind(), ErrorKind::FileTooLarge);
+        }
+    }
+}

@@ -1,0 +1,111 @@
+//! What stands alone in its paragraph (a figure, a scene, the references), and captions that stand before
+//! what they belong to.
+
+use super::document::{Block, Inline};
+use super::Error;
+use crate::source::Program;
+
+/// Before the path of a picture.
+pub(super) const IMAGE: &str = "image:";
+
+/// A paragraph, or the figure or the list of references that stands alone in it.
+pub(super) fn paragraph(mut inlines: Vec<Inline>) -> Result<Block, Error> {
+    if let [Inline::Unresolved(ids)] = inlines.as_slice()
+        && ids == &["bibliography"]
+    {
+        return Ok(Block::Bibliography(Vec::new()));
+    }
+    if let Some(Inline::Text(first)) = inlines.first_mut()
+        && let Some(words) = first.strip_prefix("Scene: ")
+    {
+        *first = words.to_string();
+        return Ok(Block::Scene { caption: inlines });
+    }
+    let image =
+        |inline: &Inline| matches!(inline, Inline::Link { to, .. } if to.starts_with(IMAGE));
+    if inlines.iter().any(image) {
+        let (Some(Inline::Link { to, shown }), true) = (inlines.pop(), inlines.is_empty()) else {
+            return Err(Error::Markup("a picture stands alone in its paragraph".into()));
+        };
+        let path = to.trim_start_matches(IMAGE).to_string();
+        let number = number_of_figure(&path);
+        let id = format!("fig:{number}");
+        let (alt, data, experiments) = (String::new(), Vec::new(), Vec::new());
+        return Ok(Block::Figure { id, number, path, alt, data, experiments, caption: shown });
+    }
+    Ok(Block::Paragraph(inlines))
+}
+
+/// figures/fig03.svg → 3, figures/s01.svg → S1.
+pub(super) fn number_of_figure(path: &str) -> String {
+    let stem = path.rsplit('/').next().unwrap_or(path);
+    let stem = stem.split('.').next().unwrap_or(stem);
+    let digits = stem.trim_start_matches(|c: char| c.is_ascii_alphabetic());
+    let prefix = &stem[..stem.len() - digits.len()];
+    let digits = digits.trim_start_matches('0');
+    if prefix == "fig" { digits.to_string() } else { format!("{}{digits}", prefix.to_uppercase()) }
+}
+
+/// The listing of an item; its caption stands before it.
+pub(super) fn listing(path: &str, program: &Program) -> Result<Block, Error> {
+    let found = program.item(path).map_err(Error::Markup)?;
+    Ok(Block::Listing {
+        id: String::new(),
+        number: String::new(),
+        caption: Vec::new(),
+        item: path.to_string(),
+        file: found.file.to_string(),
+        text: found.text,
+    })
+}
+
+const CAPTIONS: [&str; 2] = ["Table: ", "Listing: "];
+
+/// Is it a paragraph that a table or a listing has to follow?
+pub(super) fn opens_caption(block: &Block) -> bool {
+    let Block::Paragraph(words) = block else { return false };
+    matches!(words.first(), Some(Inline::Text(first)) if CAPTIONS.iter().any(|word| first.starts_with(word)))
+}
+
+/// Joins a paragraph `Table: …` or `Listing: …` before it to a table or listing: the id if it took one.
+pub(super) fn join(
+    blocks: &mut Vec<Block>,
+    block: &mut Block,
+) -> Result<Option<Option<String>>, Error> {
+    match block {
+        Block::Table { id, number, caption, .. } => {
+            let found = caption_before(blocks, CAPTIONS[0]);
+            let Some((words, attribute)) = found else { return Ok(None) };
+            (*caption, *id) = (words, attribute);
+            *number = Some(String::new());
+            Ok(Some(id.clone()))
+        }
+        Block::Listing { id, caption, item, .. } => {
+            let Some((words, Some(attribute))) = caption_before(blocks, CAPTIONS[1]) else {
+                return Err(Error::Markup(format!(
+                    "code of `{item}` without the paragraph `Listing: caption {{#lst:id}}` before it"
+                )));
+            };
+            (*caption, *id) = (words, attribute);
+            Ok(Some(Some(id.clone())))
+        }
+        _ => Ok(None),
+    }
+}
+
+/// Takes the last block if it is a paragraph that begins so: its words and its `{#id}`.
+fn caption_before(blocks: &mut Vec<Block>, opening: &str) -> Option<(Vec<Inline>, Option<String>)> {
+    let Some(Block::Paragraph(words)) = blocks.last_mut() else { return None };
+    let Some(Inline::Text(first)) = words.first_mut() else { return None };
+    *first = first.strip_prefix(opening)?.to_string();
+    let mut id = None;
+    if let Some(Inline::Text(last)) = words.last_mut()
+        && let Some((before, attribute)) = last.trim_end().rsplit_once("{#")
+    {
+        id = Some(attribute.trim_end_matches('}').to_string());
+        *last = before.trim_end().to_string();
+    }
+    let words = std::mem::take(words);
+    blocks.pop();
+    Some((words, id))
+}

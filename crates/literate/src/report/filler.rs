@@ -1,0 +1,405 @@
+//! Filling the templates by Tera.
+//!
+//! Delimiters are `«value»`, `<% tag %>` and `<# comment #>`, because Tera's own ones break TeX.
+//! Autoescape is off: the result is Markdown.
+//!
+//! In a template `«v.half_height»` does not become digits yet but a *mark* that carries the id,
+//! and filters change the mark: `«v.kept | percent»`, `«v.p_jump | significant(digits=10)»`,
+//! `«v.p_jump | full»`, `«v.x | fixed(digits=2)»`, `«v.x | no_error»`, `«v.x | with_unit»`. The
+//! writers turn marks into digits, each in its own markup and knowing whether the mark stands in
+//! prose or in mathematics; and they know which values were named. For conditions there are plain
+//! numbers: `<% if raw.half_height < raw.printed.threshold %>`.
+//! A cell of a table is named by the keys of its row and its column, `«restitution.rise["r=0.8,sigma=0.3"].impacts»`,
+//! and `first`, `last` and `last-1` stand for values of a key ([`crate::table::Table::named`]); a loop goes through the
+//! values of a key by `<% for r in keys.restitution.rise.r %>`, and the names of all rows by `keys.restitution.rise.rows`.
+//! `«code(item="circuits::jump::p_jump")»` is an item of the source, see [`Program::item`].
+
+use super::mark::Mark;
+use super::origin::{Filled, marked, next_tag};
+use super::print::{Asked, MOST_DIGITS, Style};
+use super::values::{Number, Registry, Value};
+use super::{Error, Templates};
+use crate::input::LARGEST;
+use crate::source::Program;
+use crate::table::Table;
+use serde_json::Value as Json;
+use std::collections::{BTreeMap, BTreeSet};
+use std::io;
+use tera::{Context, Delimiters, Kwargs, State, Tera};
+
+/// What a template makes, up to the bound of what is read: loops and doubled texts grow fast.
+#[derive(Default)]
+struct Bounded(Vec<u8>);
+
+impl io::Write for Bounded {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        if (self.0.len() + bytes.len()) as u64 > LARGEST {
+            let what = format!("it makes more than {} MiB", LARGEST >> 20);
+            return Err(io::Error::new(io::ErrorKind::FileTooLarge, what));
+        }
+        self.0.extend_from_slice(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+/// Fills a template of `tera`.
+fn render(tera: &Tera, name: &str, context: &Context) -> Result<String, Error> {
+    let mut text = Bounded::default();
+    tera.render_to(name, context, &mut text).map_err(failure)?;
+    String::from_utf8(text.0).map_err(|_| Error::Template(format!("{name}: it makes no text")))
+}
+
+/// Tera, set up with the templates and the values.
+#[derive(Clone)]
+pub struct Filler {
+    tera: Tera,
+    /// The prose, and the same set up with marks that tell where it stands.
+    templates: Templates,
+    marked: Tera,
+    context: Context,
+    /// Names of values that templates may use, and what stands before their dots.
+    names: BTreeSet<String>,
+    roots: BTreeSet<String>,
+}
+
+impl Filler {
+    /// Sets Tera up: all `.md`, `.tex` and `.html` files can be included by their relative path.
+    ///
+    /// # Errors
+    /// A template that does not parse, with file, line and column.
+    pub fn new(templates: &Templates, values: &Registry, program: Program) -> Result<Self, Error> {
+        let mut tera = Tera::new();
+        let delimiters = Delimiters {
+            block_start: "<%".into(),
+            block_end: "%>".into(),
+            variable_start: "«".into(),
+            variable_end: "»".into(),
+            comment_start: "<#".into(),
+            comment_end: "#>".into(),
+        };
+        tera.set_delimiters(delimiters).map_err(failure)?;
+        tera.autoescape_on(Vec::<&str>::new());
+        register(&mut tera, program);
+        let prose = |path: &str| [".md", ".tex", ".html"].iter().any(|end| path.ends_with(end));
+        let mut with_marks = tera.clone();
+        let sources: Vec<_> = templates.iter().filter(|(path, _)| prose(path)).collect();
+        tera.add_raw_templates(sources.iter().copied()).map_err(failure)?;
+        let sources = sources.iter().map(|(path, text)| (*path, marked(text)));
+        with_marks.add_raw_templates(sources).map_err(failure)?;
+        let templates = templates.clone();
+        // Tables for figures alone are long, and no template needs them.
+        let named = |table: &&Table| templates.iter().any(|(_, text)| text.contains(table.name()));
+        let tables: Vec<&Table> = values.tables().filter(named).collect();
+        let names = names(values, &tables);
+        let root = |name: &String| name.split('.').next().unwrap_or_default().to_string();
+        let roots = names.iter().map(root).collect();
+        let context = context(values, &tables);
+        Ok(Filler { tera, templates, marked: with_marks, context, names, roots })
+    }
+
+    /// Adds a name that is no value: the rows of the claims, the list of figures.
+    pub fn insert<T: serde::Serialize>(&mut self, name: &'static str, rows: &T) {
+        self.context.insert(name, rows);
+    }
+
+    /// Holds names of values in tags against what there is: in a condition Tera takes one that it does not have for
+    /// *false*.
+    fn known(&self) -> Result<(), Error> {
+        for (path, text) in self.templates.iter().filter(|(path, _)| path.ends_with(".md")) {
+            let mut at = 0;
+            while let Some((start, end)) = next_tag(text, at) {
+                at = end;
+                // What is quoted is no name.
+                let bare = text[start..end].split('"').step_by(2);
+                let other = |c: char| !(c.is_ascii_alphanumeric() || c == '_' || c == '.');
+                let mut words = bare.flat_map(|part| part.split(other));
+                let unknown = |word: &&str| {
+                    let root = word.split_once('.').map(|(root, _)| root);
+                    root.is_some_and(|root| self.roots.contains(root))
+                        && !self.names.contains(*word)
+                };
+                if let Some(word) = words.find(unknown).filter(|_| !text[start..].starts_with("<#"))
+                {
+                    let before = &text[..start];
+                    let line = before.matches('\n').count() + 1;
+                    let column = before.rsplit('\n').next().unwrap_or_default().chars().count() + 1;
+                    return Err(Error::Template(format!(
+                        "{path}:{line}:{column}: there is no value {word}; `explain` lists all"
+                    )));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Fills one template; values are marks in the result.
+    ///
+    /// # Errors
+    /// An unknown name or a wrong filter, with file, line and column.
+    pub fn fill(&self, path: &str) -> Result<String, Error> {
+        render(&self.tera, path, &self.context)
+    }
+
+    /// Fills a template, and keeps where each piece of it stands.
+    ///
+    /// # Errors
+    /// As [`Filler::fill`].
+    pub fn prose(&self, path: &str) -> Result<Filled, Error> {
+        let filled = self.prose_of_any_name(path)?;
+        self.known()?;
+        filled.refuse_dumps().map(|()| filled)
+    }
+
+    fn prose_of_any_name(&self, path: &str) -> Result<Filled, Error> {
+        match render(&self.marked, path, &self.context) {
+            Ok(filled) => Ok(Filled::read(path, self.templates.text(path)?, &filled)),
+            // Without marks the same error has the right column.
+            Err(error) => self.fill(path).map_or_else(Err, |_| Err(error)),
+        }
+    }
+}
+
+/// One line: file, line, column, what is wrong, and names that begin alike.
+fn failure(error: tera::Error) -> Error {
+    use tera::ErrorKind::{RenderingError, SyntaxError};
+    let (RenderingError(report) | SyntaxError(report)) = error.kind() else {
+        return Error::Template(error.to_string());
+    };
+    let place = format!(
+        "{}:{}:{}",
+        report.filename(),
+        report.span().start_line,
+        report.span().start_col + 1
+    );
+    // Tera lists every name that there is: too many to read.
+    let Some((what, names)) = report.message().split_once(" Available fields: ") else {
+        let what = report.message();
+        let hint = match what.contains("nexpected end of input") {
+            true => "; a tag before has no end: <% endif %>, <% endfor %> or the like",
+            false => "",
+        };
+        return Error::Template(format!("{place}: {what}{hint}"));
+    };
+    let asked = what.split('`').nth(1).unwrap_or_default();
+    let start: String = asked.chars().take(2).collect();
+    let alike: Vec<&str> = names.split(", ").filter(|name| name.starts_with(&start)).collect();
+    let alike = match alike.as_slice() {
+        [] => String::new(),
+        names => format!(" Names that begin alike: {}.", names.join(", ")),
+    };
+    Error::Template(format!("{place}: {what}{alike}"))
+}
+
+/// All names with a dot that [`context`] has.
+fn names(values: &Registry, tables: &[&Table]) -> BTreeSet<String> {
+    let own = values.iter().map(|value| value.id.as_str());
+    let all = own.chain(values.names().map(|(name, _)| name));
+    let both = |name: &str| {
+        let mark = if name.contains('.') { name.into() } else { format!("v.{name}") };
+        [mark, format!("raw.{name}")]
+    };
+    let keys = |table: &&Table| {
+        let name = table.name();
+        let rows = [name.to_string(), format!("raw.{name}")];
+        let single = table.named().remove("").into_iter().flatten();
+        let cells = single.flat_map(move |(column, _)| {
+            [format!("{name}.{column}"), format!("raw.{name}.{column}")]
+        });
+        let keys = table.keys().chain(["rows"]).map(move |key| format!("keys.{name}.{key}"));
+        rows.into_iter().chain(cells).chain(keys).collect::<Vec<_>>()
+    };
+    all.flat_map(both).chain(tables.iter().flat_map(keys)).collect()
+}
+
+fn raw(value: &Value) -> Json {
+    match &value.number {
+        Number::Integer(n) => (*n).into(),
+        Number::Real { value, .. } => (*value).into(),
+        Number::Interval { low, high } => vec![*low, *high].into(),
+        Number::Text(text) => text.clone().into(),
+    }
+}
+
+fn mark(value: &Value) -> Json {
+    Mark { id: value.id.clone(), style: Style::default() }.write().into()
+}
+
+/// Puts something under a name with dots into a tree of objects.
+fn put(tree: &mut Json, name: &str, thing: Json) {
+    let place = name.split('.').fold(tree, |tree, part| &mut tree[part]);
+    *place = thing;
+}
+
+/// `v.name` and `group.name` are marks, `raw.name` and `raw.group.name` plain numbers; tables stand beside them.
+fn context(values: &Registry, tables: &[&Table]) -> Context {
+    let (mut marks, mut numbers, mut keys) = (Json::Null, Json::Null, Json::Null);
+    let own = values.iter().map(|value| (value.id.as_str(), value));
+    let others = values.names().filter_map(|(name, value)| Some((name, value?)));
+    for (name, value) in own.chain(others) {
+        let group = if name.contains('.') { "" } else { "v." };
+        put(&mut marks, &format!("{group}{name}"), mark(value));
+        put(&mut numbers, name, raw(value));
+    }
+    for table in tables {
+        let rows = |of: fn(&Value) -> Json| {
+            let row = |cells: BTreeMap<&str, &Value>| {
+                cells.into_iter().map(|(column, cell)| (column.to_string(), of(cell))).collect()
+            };
+            let mut rows: BTreeMap<String, Json> =
+                table.named().into_iter().map(|(name, cells)| (name, row(cells))).collect();
+            // A table of one row without keys is that row.
+            rows.remove("").unwrap_or_else(|| rows.into_iter().collect())
+        };
+        put(&mut marks, table.name(), rows(mark));
+        put(&mut numbers, table.name(), rows(raw));
+        put(&mut keys, &format!("{}.rows", table.name()), table.rows().collect());
+        for key in table.keys() {
+            put(&mut keys, &format!("{}.{key}", table.name()), table.called(key).into());
+        }
+    }
+    let mut context = Context::new();
+    for (group, names) in marks.as_object().into_iter().flatten() {
+        context.insert(group.clone(), names);
+    }
+    context.insert("raw", &numbers);
+    context.insert("keys", &keys);
+    context
+}
+
+/// How many digits a filter asks for.
+fn digits(arguments: &Kwargs) -> tera::TeraResult<usize> {
+    match arguments.must_get("digits")? {
+        digits if digits <= MOST_DIGITS => Ok(digits),
+        _ => Err(tera::Error::message(format!("no number has more than {MOST_DIGITS} digits"))),
+    }
+}
+
+/// The filters on values; `literal` for a number that the prose may type with a reason; and `code`
+/// for an item of the source, which [`super::parse`] makes a listing.
+fn register(tera: &mut Tera, program: Program) {
+    type Change = fn(&mut Style, &Kwargs) -> tera::TeraResult<()>;
+    let changes: [(&str, Change); 6] = [
+        ("percent", |style, _| {
+            style.percent = true;
+            Ok(())
+        }),
+        ("full", |style, _| {
+            style.digits = Some(Asked::Full);
+            Ok(())
+        }),
+        ("no_error", |style, _| {
+            style.no_error = true;
+            Ok(())
+        }),
+        ("with_unit", |style, _| {
+            style.with_unit = true;
+            Ok(())
+        }),
+        ("fixed", |style, arguments| {
+            style.digits = Some(Asked::Fixed(digits(arguments)?));
+            Ok(())
+        }),
+        ("significant", |style, arguments| {
+            style.digits = Some(Asked::Significant(digits(arguments)?));
+            Ok(())
+        }),
+    ];
+    for (name, change) in changes {
+        tera.register_filter(name, move |text: &str, arguments: Kwargs, _: &State| {
+            let mut mark = Mark::read(text).ok_or_else(|| {
+                tera::Error::message(format!("`{name}` is a filter of values such as v.p_crit"))
+            })?;
+            change(&mut mark.style, &arguments)?;
+            Ok::<_, tera::Error>(mark.write())
+        });
+    }
+    tera.register_function("literal", |arguments: Kwargs, _: &State| {
+        let text: String = arguments.must_get("text")?;
+        let why: String = arguments.must_get("why")?;
+        if why.trim().is_empty() {
+            return Err(tera::Error::message("`literal` needs its reason in `why`"));
+        }
+        Ok(text)
+    });
+    tera.register_function("code", move |arguments: Kwargs, _: &State| {
+        let item: String = arguments.must_get("item")?;
+        program.item(&item).map_err(tera::Error::message)?;
+        Ok::<_, tera::Error>(format!("```rust {item}\n```"))
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Value;
+    use super::*;
+
+    fn fill(text: &str) -> Result<String, Error> {
+        let mut values = Registry::new();
+        values.add(Value::real("p_crit", 0.0122, 3)).unwrap();
+        values.add(Value::printed("printed.rise", "0.12", "Sec. 2")).unwrap();
+        let templates = Templates::of([("report.md", text)]);
+        Filler::new(&templates, &values)?.fill("report.md")
+    }
+
+    #[test]
+    fn a_value_is_a_mark_that_filters_change() {
+        let filled =
+            fill(r"$x^{{2}}$ {% «v.p_crit» and «printed.rise | percent | fixed(digits=1)»")
+                .unwrap();
+        let pieces = Mark::split(&filled);
+        assert_eq!(pieces.len(), 4);
+        assert_eq!(pieces[0], Err(r"$x^{{2}}$ {% "));
+        assert_eq!(pieces[1], Ok(Mark { id: "p_crit".into(), style: Style::default() }));
+        let style = Style { percent: true, digits: Some(Asked::Fixed(1)), ..Style::default() };
+        assert_eq!(pieces[3], Ok(Mark { id: "printed.rise".into(), style }));
+    }
+
+    #[test]
+    fn conditions_see_plain_numbers() {
+        let text = "<% if raw.p_crit < raw.printed.rise %>below<% else %>above<% endif %>";
+        assert_eq!(fill(text).unwrap(), "below");
+    }
+
+    #[test]
+    fn an_unknown_name_is_an_error_with_its_place() {
+        for text in
+            ["one\n  «v.p_krit»", "one\n  «w.p_crit»", "one\n  <% if raw.nix > 1 %>x<% endif %>"]
+        {
+            let error = fill(text).unwrap_err().to_string();
+            assert!(error.starts_with("report.md:2:"), "{error}");
+            assert!(!error.contains('\n'), "{error}");
+        }
+        let error = fill("«v.p_krit»").unwrap_err().to_string();
+        assert!(error.ends_with("Names that begin alike: p_crit."), "{error}");
+    }
+
+    #[test]
+    fn a_wrong_filter_is_an_error_with_its_place() {
+        for text in ["\n«v.p_crit | percents»", "\n«v.p_crit | fixed»", "\n«\"text\" | percent»"]
+        {
+            let error = fill(text).unwrap_err().to_string();
+            assert!(error.contains("report.md:2:"), "{error}");
+        }
+    }
+
+    #[test]
+    fn an_item_that_is_gone_is_an_error_with_its_place() {
+        assert!(fill("«code(item=\"circuits::jump::p_jump\")»").is_ok());
+        let error =
+            fill("one\n\n  «code(item=\"circuits::jump::p_yump\")»").unwrap_err().to_string();
+        assert!(error.starts_with("report.md:3:"), "{error}");
+        assert!(error.contains("no item `circuits::jump::p_yump`"), "{error}");
+        assert!(!error.contains('\n'), "{error}");
+    }
+
+    #[test]
+    fn a_literal_needs_its_reason() {
+        let text = "«literal(text=\"2007\", why=\"year of the paper\")»";
+        assert_eq!(fill(text).unwrap(), "2007");
+        assert!(fill("«literal(text=\"2007\", why=\" \")»").is_err());
+    }
+}

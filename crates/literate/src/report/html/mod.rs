@@ -1,0 +1,107 @@
+//! The tree → the parts of report.html; its shell and its style sheet are templates.
+//!
+//! One file, readable from a disk: pictures, fonts and styles are inside it, nothing is loaded and
+//! no script is needed (one plays a scene). It is well-formed XML too, so that tests can read it.
+
+mod block;
+mod card;
+mod contents;
+mod escape;
+mod figure;
+mod fonts;
+mod inline;
+mod keep;
+mod lines;
+mod maths;
+mod picture;
+mod scene;
+
+pub use scene::Moving;
+
+use super::Error;
+use super::card::Cards;
+use super::document::{Block, plain};
+use crate::figures::{Figure, Glyphs};
+use crate::source::Program;
+use serde::Serialize;
+use std::cell::RefCell;
+use std::collections::BTreeSet;
+
+/// Whether a browser can show this TeX.
+///
+/// # Errors
+/// [`Error::Maths`].
+pub fn reads(tex: &str) -> Result<(), Error> {
+    maths::displayed(tex).map(|_| ())
+}
+
+/// Whether a page is well-formed: what the shell opens is closed.
+///
+/// # Errors
+/// [`Error::Template`] with what is wrong.
+pub fn is_whole(page: &str) -> Result<(), Error> {
+    let options = roxmltree::ParsingOptions { allow_dtd: true, ..Default::default() };
+    let found = roxmltree::Document::parse_with_options(page, options);
+    let told = |error| Error::Template(format!("report.html: the page is not whole: {error}"));
+    found.map(|_| ()).map_err(told)
+}
+
+/// What the shell has places for.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Parts {
+    /// The title as words.
+    pub title: String,
+    /// The title with its mathematics.
+    pub heading: String,
+    /// The table of contents.
+    pub contents: String,
+    /// The text.
+    pub body: String,
+    /// The cards of the values.
+    pub cards: String,
+    /// The outlines that figures share.
+    pub glyphs: String,
+    /// Fonts and colours of the figures as CSS.
+    pub style: String,
+}
+
+/// A page in the making: what its pieces share.
+struct Page<'a> {
+    figures: &'a [Figure],
+    /// What moves, and the script.
+    moving: Option<(&'a Moving, &'a str)>,
+    program: Program,
+    /// Values that were shown, so that each gets its card.
+    named: RefCell<BTreeSet<String>>,
+    glyphs: RefCell<Glyphs>,
+}
+
+/// Writes all parts of the page.
+///
+/// # Errors
+/// Mathematics, pictures or references that cannot be written.
+pub fn write(
+    blocks: &[Block],
+    figures: &[Figure],
+    moving: Option<(&Moving, &str)>,
+    cards: Cards<'_>,
+) -> Result<Parts, Error> {
+    let program = cards.program;
+    let page = Page { figures, moving, program, named: RefCell::default(), glyphs: RefCell::default() };
+    let is_title = |block: &&Block| matches!(block, Block::Heading { level: 1, .. });
+    let Some(Block::Heading { text, .. }) = blocks.iter().find(is_title) else {
+        return Err(Error::Markup("a report begins with its title, `# Words`".into()));
+    };
+    let heading = page.inlines(text)?;
+    let body = page.blocks(blocks)?;
+    let contents = page.contents(blocks)?;
+    Ok(Parts {
+        title: escape::text(&plain(text)),
+        heading,
+        contents,
+        body,
+        cards: page.cards(cards)?,
+        glyphs: picture::shared(&page.glyphs.borrow()),
+        style: fonts::rules() + &picture::rules(),
+    })
+}

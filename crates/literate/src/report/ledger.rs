@@ -1,0 +1,161 @@
+//! The ledger: every claim, figure and numbered equation of the paper, and its status.
+
+use super::Error;
+use super::claims::plain;
+use super::markdown::escaped;
+use crate::claims::Claim;
+use crate::figures::Figure;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// All entries.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Ledger {
+    /// The judged statements.
+    pub claims: Vec<ClaimEntry>,
+    /// The figures.
+    pub figures: Vec<FigureEntry>,
+    /// The numbered equations of the paper.
+    pub equations: Vec<EquationEntry>,
+}
+
+/// A statement; the fields are those of [`Claim`], as text.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[expect(missing_docs, reason = "the fields are documented at Claim")]
+pub struct ClaimEntry {
+    pub id: String,
+    pub place: String,
+    pub statement: String,
+    pub printed: String,
+    pub ours: String,
+    pub tolerance: String,
+    pub reason: String,
+    pub basis: String,
+    pub verdict: String,
+    pub note: String,
+    /// Ids of the values of the report that it states or is held against.
+    pub values: Vec<String>,
+}
+
+/// A figure.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FigureEntry {
+    /// Id as `fig03`.
+    pub id: String,
+    /// A short name.
+    pub title: String,
+    /// What is seen, with its numbers.
+    pub description: String,
+    /// Path of the picture.
+    pub picture: String,
+    /// Paths of its data.
+    pub data: Vec<String>,
+    /// Path of the item that draws it.
+    pub source: String,
+    /// Names of the experiments whose results it shows.
+    pub experiments: Vec<String>,
+}
+
+/// A numbered equation of the paper.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct EquationEntry {
+    /// Its number.
+    pub number: u32,
+    /// The section where it stands.
+    pub section: u32,
+    /// What it says, in a few words.
+    pub what: String,
+    /// The item that is its home.
+    pub home: String,
+    /// The equation that the home leads to, where coding this one would be pointless.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub step_towards: Option<String>,
+}
+
+/// The ledger of claims, figures and equations; `uses` has the values of each claim.
+pub fn ledger(
+    claims: &[Claim],
+    figures: &[Figure],
+    equations: &[EquationEntry],
+    uses: &BTreeMap<String, Vec<String>>,
+) -> Ledger {
+    let claim = |claim: &Claim| ClaimEntry {
+        id: claim.id.clone(),
+        place: claim.place.clone(),
+        statement: claim.statement.clone(),
+        printed: claim.printed.clone(),
+        ours: plain(&claim.ours),
+        tolerance: plain(&claim.tolerance),
+        reason: claim.reason.clone(),
+        basis: claim.basis.words().to_string(),
+        verdict: claim.verdict.words().to_string(),
+        note: plain(&claim.note),
+        values: uses.get(&claim.id).cloned().unwrap_or_default(),
+    };
+    let figure = |figure: &Figure| FigureEntry {
+        id: figure.id.clone(),
+        title: figure.title.clone(),
+        description: figure.description.clone(),
+        picture: format!("figures/{}.svg", figure.id),
+        data: figure.data.iter().map(|data| format!("data/{}", data.name)).collect(),
+        source: figure.source.clone(),
+        experiments: figure.experiments.iter().copied().map(String::from).collect(),
+    };
+    Ledger {
+        claims: claims.iter().map(claim).collect(),
+        figures: figures.iter().map(figure).collect(),
+        equations: equations.to_vec(),
+    }
+}
+
+/// Reads a ledger.json.
+///
+/// # Errors
+/// When it is not one.
+pub fn read(text: &str) -> Result<Ledger, Error> {
+    serde_json::from_str(text).map_err(|e| Error::Template(format!("ledger.json: {e}")))
+}
+
+/// ledger.json.
+///
+/// # Errors
+/// None that can arise from a ledger.
+pub fn json(ledger: &Ledger) -> serde_json::Result<String> {
+    Ok(serde_json::to_string_pretty(ledger)? + "\n")
+}
+
+/// ledger.md.
+pub fn markdown(ledger: &Ledger) -> String {
+    let mut out = String::from(
+        "# Ledger\n\nEvery quantitative statement, figure and numbered equation of the paper, and \
+         the verdict on it. Written by the program, as [ledger.json](ledger.json) is.\n\n\
+         ## Statements\n\n| Place | Statement | Printed | Ours | Verdict | Rests on | Id |\n|---|---|---|---|---|---|---|\n",
+    );
+    for claim in &ledger.claims {
+        let words = [&claim.place, &claim.statement, &claim.printed, &claim.ours];
+        let cells = words.map(|text| escaped(text)).join(" | ");
+        let (verdict, basis, id) = (&claim.verdict, &claim.basis, &claim.id);
+        out.push_str(&format!("| {cells} | {verdict} | {basis} | `{id}` |\n"));
+    }
+    out.push_str("\n## Figures\n\n| Figure | Title | Data | Drawn by |\n|---|---|---|---|\n");
+    for figure in &ledger.figures {
+        let link = |path: &String| format!("[{path}]({path})");
+        let data: Vec<String> = figure.data.iter().map(link).collect();
+        let (title, picture) = (escaped(&figure.title), &figure.picture);
+        let data = data.join(", ");
+        out.push_str(&format!(
+            "| [{}]({picture}) | {title} | {data} | `{}` |\n",
+            figure.id, figure.source
+        ));
+    }
+    out.push_str(
+        "\n## Equations\n\n| Equation | Section | What it says | Home |\n|---|---|---|---|\n",
+    );
+    for equation in &ledger.equations {
+        let step = equation.step_towards.as_ref();
+        let step = step.map(|n| format!(", step towards {n}")).unwrap_or_default();
+        let (number, section, what) = (equation.number, equation.section, escaped(&equation.what));
+        out.push_str(&format!("| ({number}) | {section} | {what} | `{}`{step} |\n", equation.home));
+    }
+    out
+}

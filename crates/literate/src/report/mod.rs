@@ -1,0 +1,495 @@
+//! Values for the templates, and Markdown and LaTeX from them.
+//!
+//! The flow: experiments' results become [`Value`]s in a [`Registry`]; [`templates`] (people's
+//! prose) name them; [`parse`] makes a tree of the filled Markdown, [`labels`] resolves references
+//! in it, [`markdown`], [`latex`] and [`html`] write it; [`assemble()`] does all that and adds figures, data,
+//! values, ledger and checksums: every file of paper/ as bytes, written by the command line.
+
+pub mod appendix;
+pub mod assemble;
+pub mod bibliography;
+mod captions;
+pub mod card;
+pub mod claims;
+pub mod compare;
+pub mod document;
+pub mod filler;
+pub mod html;
+pub mod labels;
+pub mod latex;
+pub mod ledger;
+mod leftover;
+pub mod lint;
+mod macros;
+pub mod mark;
+pub mod markdown;
+pub mod origin;
+pub mod parse;
+pub mod print;
+pub mod spell;
+pub mod sums;
+pub mod templates;
+mod tex;
+pub mod typeset;
+pub mod uses;
+pub mod valued;
+pub mod values;
+
+pub use assemble::{Files, Input, Report, assemble, files_of};
+pub use templates::Templates;
+pub use values::{Registry, Value};
+
+use crate::input::one_line;
+
+/// Characters that a message may have.
+const LINE: usize = 1000;
+
+/// What is wrong with the report, with the place where it can be mended.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// Two values claim one id.
+    #[error("value {0}: the id is taken; give one of the two values another id")]
+    DuplicateId(String),
+    /// An id that a template could not name.
+    #[error(
+        "value {0}: an id is `name` or `group.name` of a-z, 0-9 and _, beginning with a letter"
+    )]
+    BadId(String),
+    /// NaN or infinity.
+    #[error(
+        "value {0}: not a finite number; leave the value out or say why there is none in words"
+    )]
+    NotFinite(String),
+    /// A template that cannot be read, parsed or filled; the message has file, line and column.
+    #[error("{}", one_line(.0, LINE))]
+    Template(String),
+    /// Files that cannot be read.
+    #[error("{path}: {source}; check --templates")]
+    Read {
+        /// The file or folder.
+        path: String,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// Markup that the report does not have, or that says nothing.
+    #[error("{}; see report::parse for the markup that there is", one_line(.0, 200))]
+    Markup(String),
+    /// What is wrong with a piece of the prose, and where that stands.
+    #[error("{place}: {error}")]
+    At {
+        /// File, line and column in the templates.
+        place: String,
+        /// What is wrong.
+        error: Box<Error>,
+    },
+    /// A link to a file that is not there.
+    #[error("a link to {}: there is no such file or place; correct or remove it", one_line(.0, 200))]
+    NoFile(String),
+    /// Two things with one id.
+    #[error("{}: two things in the report have this id; give one of them another", one_line(.0, 200))]
+    Label(String),
+    /// A reference to nothing.
+    #[error("[@{}]: nothing in the report has this id; correct or remove the reference", one_line(.0, 200))]
+    Reference(String),
+    /// A character that pdflatex does not know.
+    #[error(
+        "no LaTeX is known for the character {0:?}; write it otherwise, or add it to report::tex"
+    )]
+    NoLatex(char),
+    /// Mathematics that cannot become MathML.
+    #[error("no MathML for ${}$: {}; write it otherwise", one_line(tex, 200), one_line(what, 200))]
+    Maths {
+        /// The TeX.
+        tex: String,
+        /// What is wrong with it.
+        what: String,
+    },
+    /// What the typesetter of the PDF refuses.
+    #[error("report.pdf: {0}")]
+    Typeset(String),
+    /// A PDF from a binary that cannot make one.
+    #[error("--pdf: this binary was built without the typesetter; run make pdf")]
+    NoTypesetter,
+    /// Numerals that nobody computed, or markup without its end.
+    #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
+    Lint(Vec<lint::Finding>),
+    /// A figure that the prose does not show.
+    #[error("{0} is not shown; put ![caption](figures/{0}.svg) into the prose")]
+    NotShown(String),
+    /// Values that nothing names.
+    #[error("no template and no claim names {0}; use or remove it, or declare it data_only()")]
+    Unused(String),
+}
+
+impl Error {
+    /// The error with its place, unless it has one.
+    pub(crate) fn at(self, place: String) -> Error {
+        match self {
+            Error::At { .. } => self,
+            error => Error::At { place, error: Box::new(error) },
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::claims::{Basis, Claim, Text, Verdict};
+    use crate::figures::{DataFile, Drawing, Figure};
+
+    /// One document with everything that the prose may use.
+    const SAMPLE: &str = r#"# A title
+
+## Introduction {#sec:introduction}
+
+Masses in a row ([@rice1945]; see [@fig:3], [@eq:18; @eq:25] and [@sec:protocol]). With
+«v.half_height» and $\sigma = «v.half_height»$, far below «v.tiny», the $n$-th mass of
+$f_{N,p}(k)$ and $\Phi'_{N,p}\,(k) < 1$ moves *fast*, **very** fast, at 100 % of `a_b`.
+
+$$
+p_{\mathrm{crit}} = \left(\frac{1 + \sqrt{N+1}}{N}\right)^2 \tag{18}
+$$
+
+where $N$ is large, so
+$$
+\begin{aligned} a &= b \\ c &= d \end{aligned} \tag{25}
+$$
+
+![The rise, at «v.half_height» or $\sigma$ ≥ 0.12.](figures/fig03.svg)
+
+### The protocol {#sec:protocol}
+
+Table: What σ gives {#tab:sigma}
+
+| Claim | Statement | Ours |
+|:--|---|--:|
+| [!claim:rise] | A threshold exists near 0.12 | «v.half_height» |
+| [!claim:jump] | a_b * c | «v.kept | percent» |
+
+«v.count»
+. and [@Claim:jump] of [@tab:sigma] and [@fig:3a].
+
+1. one
+2. two
+
+   more
+- x
+  - y
+
+> An aside.
+
+Scene: They move.
+
+```rust
+fn f() -> σ { 1 }
+```
+
+By [@lst:kick], in words.
+
+Listing: What $\delta v$ does. {#lst:kick}
+
+«code(item="dynamics::flight::Motion::kick")»
+
+## References {.unnumbered}
+
+[@bibliography]
+"#;
+
+    fn values() -> Registry {
+        let mut values = Registry::new();
+        let half = Value::ensemble("half_height", 0.11652, 0.0004, 1000);
+        let tiny = Value::real("tiny", 8.87e-4, 3);
+        let kept = Value::ensemble("kept", 0.945, 0.008, 400);
+        values.extend([half, tiny, kept, Value::integer("count", 12345)]).unwrap();
+        values
+    }
+
+    fn tree(text: &str) -> Vec<document::Block> {
+        let templates = Templates::of([("report.md", text)]);
+        let filled = filler::Filler::new(&templates, &values()).unwrap().prose("report.md");
+        let (mut blocks, _) = parse::parse(&filled.unwrap(), &values()).unwrap();
+        let bib = "@article{rice1945, author={Rice, S. O.}, title={Noise}, year=1945}";
+        let library = bibliography::Library::read(bib).unwrap();
+        labels::resolve(&mut blocks, &library).unwrap();
+        blocks
+    }
+
+    #[test]
+    fn markdown_for_a_host() {
+        let text = markdown::write(&tree(SAMPLE));
+        for part in [
+            "## <a id=\"sec-introduction\"></a>1 Introduction\n",
+            "([[Rice, 1945](#ref-rice1945)]; see [Fig.\u{a0}3](#fig-3), Eqs.\u{a0}[(18)](#eq-18) and",
+            "\n0.1165(4) and $\\sigma = 0.1165(4)$, far below $8.87\\times10^{-4}$, the $n\\text{-th}$",
+            "$\\Phi'_{N,p}\\thinspace(k) \\lt 1$ moves *fast*, **very** fast",
+            "<a id=\"eq-18\"></a>\n\n$$\np_{\\mathrm{crit}} = \\left(\\frac{1 + \\sqrt{N+1}}{N}\\right)^2\n\\tag{18}\n$$\n",
+            "\n\\begin{aligned} a &= b \\cr c &= d \\end{aligned}\n",
+            "<a id=\"fig-3\"></a>\n![](figures/fig03.svg)\n\n**Figure 3.** The rise, at 0.1165(4) or",
+            "<a id=\"tab-sigma\"></a>**Table 1.** What σ gives\n\n| Claim | Statement | Ours |\n|---|---|--:|\n",
+            "| <a id=\"claim-jump\"></a>2 | a_b \\* c | 94.5(8)\u{a0}% |\n",
+            "\n. and [Claim\u{a0}2](#claim-jump) of [Table\u{a0}1](#tab-sigma) and [Fig.\u{a0}3(a)](#fig-3).\n",
+            "1. one\n2. two\n\n   more\n",
+            "```rust\nfn f() -> σ { 1 }\n```\n",
+            "\nBy [Listing\u{a0}1](#lst-kick), in words.\n",
+            "<a id=\"lst-kick\"></a>**Listing 1.** What $\\delta v$ does.\n\n<details>\n<summary><code>dynamics::flight::Motion::kick</code></summary>\n\n```rust\n/// ",
+            "\n    self.b += kick * p.cos;\n}\n```\n\n<sub>From [crates/impact-chain/src/flight.rs](../crates/impact-chain/src/flight.rs).</sub>\n\n</details>\n",
+            "- <a id=\"ref-rice1945\"></a>Rice, S. O. (1945). *Noise*.\n",
+        ] {
+            assert!(text.contains(part), "{part:?} is not in\n{text}");
+        }
+        assert!(!text.contains("They move") && !text.contains("\n\n\n"), "{text}");
+    }
+
+    #[test]
+    fn latex_for_pdflatex() {
+        let text = latex::write(&tree(SAMPLE)).unwrap();
+        for part in [
+            "\\section{Introduction}\\label{sec:introduction}\n\nMasses",
+            "see \\hyperref[fig:3]{Fig.~3}, Eqs.~\\hyperref[eq:18]{(18)} and",
+            "at 100 \\% of \\texttt{a\\_\\allowbreak{}b}.\n\\begin{equation}\np_{",
+            "\\tag{18}\\label{eq:18}\n\\end{equation}\nwhere $N$ is large, so\n\\begin{equation}\n",
+            "\\includegraphics[width=0.8\\linewidth,height=0.62\\textheight,keepaspectratio]{figures/fig03.pdf}",
+            "\\caption{The rise, at \\hyperref[value:half_height]{0.1165(4)} or $\\sigma$ \\ensuremath{\\ge} 0.12.}\\label{fig:3}",
+            "\\begin{longtable}{llr}\n\\caption{What \\ensuremath{\\sigma} gives}\\label{tab:sigma}\\\\\n",
+            "\\phantomsection\\label{claim:jump}2 & a\\_b * c & \\hyperref[value:kept]{94.5(8)~\\%} \\\\\n",
+            "\\phantomsection\\section*{References}",
+            "\nBy \\hyperref[lst:kick]{Listing~1}, in words.\n",
+        ] {
+            assert!(text.contains(part), "{part:?} is not in\n{text}");
+        }
+        assert!(!text.contains("self.b +=") && !text.contains("They move"), "{text}");
+        let appendix = latex::listings(&tree(SAMPLE)).unwrap();
+        for part in [
+            "\\section*{Listings}",
+            "\\phantomsection\\label{lst:kick}\\textbf{Listing 1.} What $\\delta v$ does. \\texttt{dynamics::\\allowbreak{}flight",
+            "\\begin{alltt}\n/// A jump of the velocity by \\ensuremath{\\omega} `kick`",
+            "(&mut self, kick: f64, p: &Phases<M>) \\{\n    self.a -= kick * p.sin;\n",
+        ] {
+            assert!(appendix.contains(part), "{part:?} is not in\n{appendix}");
+        }
+    }
+
+    /// The tree of Markdown that nothing was filled into.
+    fn parsed(text: &str) -> Result<Vec<document::Block>, Error> {
+        let values = values();
+        Ok(parse::parse(&origin::Filled::plain("report.md", text), &values)?.0)
+    }
+
+    fn figure() -> Figure {
+        let drawing = Drawing::new(400);
+        let mut data = DataFile::new("fig03.csv", &["sigma", "mean"]);
+        data.rows.push(vec!["0.1".into(), "2".into()]);
+        Figure {
+            id: "fig03".into(),
+            title: "The rise".into(),
+            description: "It rises [steeply].".into(),
+            svg: drawing.svg("fig03", "The rise", "It rises [steeply]."),
+            drawing,
+            data: vec![data],
+        }
+    }
+
+    fn claim() -> Claim {
+        Claim {
+            id: "rise".into(),
+            place: "Sec. 2".into(),
+            statement: "A threshold | exists".into(),
+            printed: "σ ≈ 0.12".into(),
+            ours: Text::default().with_error(0.11652, 0.0004),
+            tolerance: Text::default().decimals(0.005, 3),
+            reason: "half a unit".into(),
+            verdict: Verdict::Reproduced,
+            basis: Basis::Statistics,
+            note: Text::default(),
+        }
+    }
+
+    /// Assembles a report with one figure, one claim and one value from this prose.
+    fn assembled(prose: &str) -> Result<Report, Error> {
+        let bib = "@article{rice1945, author={Rice, S. O.}, title={Noise}, year=1945}";
+        let tex = "\\title{«title»}«body»\\end{document}";
+        let html = "<html><title>«page.title»</title><main id=\"text\">«page.body»</main>«page.cards»</html>";
+        let files = [
+            ("report.md", prose),
+            ("references.bib", bib),
+            ("report.tex", tex),
+            ("report.html", html),
+            ("report.css", ""),
+            ("literals.toml", "literal = []"),
+        ];
+        let mut values = Registry::new();
+        values.add(Value::ensemble("half_height", 0.11652, 0.0004, 1000))?;
+        values.add(Value::integer("spare", 3).data_only())?;
+        assemble(&Input {
+            templates: &Templates::of(files),
+            values: &values,
+            rows: &Default::default(),
+            claims: &[claim()],
+            figures: &[figure()],
+            scene: None,
+            pdf: false,
+        })
+    }
+
+    const PROSE: &str = "# Title\n\nAt «v.half_height», [@rice1945].\n\n\
+        ![The rise.](figures/fig03.svg)\n\n| Id | Claim |\n|---|---|\n\
+        <% for c in claims %>| [!claim:«c.id»] | «c.statement»: «c.ours», «c.verdict» |\n<% endfor %>";
+
+    #[test]
+    fn a_report_is_all_its_files() {
+        let report = assembled(PROSE).unwrap();
+        let paths: Vec<&str> = report.committed.keys().map(String::as_str).collect();
+        let expected = [
+            "SHA256SUMS",
+            "data/fig03.csv",
+            "figures/fig03.svg",
+            "ledger.json",
+            "ledger.md",
+            "report.md",
+            "report.tex",
+            "values.json",
+        ];
+        assert_eq!(paths, expected);
+        let text = |path: &str| String::from_utf8(report.committed[path].clone()).unwrap();
+        let markdown = text("report.md");
+        assert!(markdown.contains("![It rises \\[steeply\\].](figures/fig03.svg)"), "{markdown}");
+        assert!(
+            markdown.contains("1 | A threshold \\| exists: 0.1165(4), reproduced |"),
+            "{markdown}"
+        );
+        assert!(markdown.contains("[fig03.csv](data/fig03.csv)"), "{markdown}");
+        assert!(text("report.tex").starts_with("\\title{Title}"));
+        // On paper a number leads to its line in the appendix; elsewhere it has a card.
+        for part in [
+            "At \\hyperref[value:half_height]{0.1165(4)}, ",
+            "\\label{value:half_height}1 & 0.1165(4) & \\texttt{half\\_\\allowbreak{}height} & 0.11652; \
+             ensemble, n = 1000, standard error 0.0004 & ",
+        ] {
+            assert!(text("report.tex").contains(part), "{part}: {}", text("report.tex"));
+        }
+        assert!(!markdown.contains("value:"), "{markdown}");
+        assert!(text("values.json").contains("\"score.reproduced\""));
+        assert!(text("ledger.md").contains("| (18) | 7 |"));
+        assert_eq!(text("SHA256SUMS").lines().count(), paths.len() - 1);
+        let sum =
+            "5fbfa3bf9031ae769b4cb3a5cd6b9e1c235880438f409f9ec99217b60b1ecb17  data/fig03.csv\n";
+        assert!(text("SHA256SUMS").contains(sum), "{}", text("SHA256SUMS"));
+        assert_eq!(report.beside.keys().collect::<Vec<_>>(), ["figures/fig03.pdf", "report.html"]);
+        assert_eq!(assembled(PROSE).unwrap(), report);
+    }
+
+    #[test]
+    fn a_report_with_a_mistake_is_refused() {
+        let fails = |from: &str, to: &str| match assembled(&PROSE.replace(from, to)).unwrap_err() {
+            Error::At { error, .. } => *error,
+            error => error,
+        };
+        assert!(matches!(fails("At", "At 0.12,"), Error::Lint(_)));
+        assert!(
+            matches!(fails("«v.half_height»", "half"), Error::Unused(id) if id == "half_height")
+        );
+        assert!(matches!(fails("v.half", "v.hulf"), Error::Template(_)));
+        assert!(matches!(fails("rice1945", "mice1945"), Error::Reference(_)));
+        assert!(matches!(fails("fig03.svg", "fig04.svg"), Error::NoFile(_)));
+        assert!(matches!(fails("![The rise.](figures/fig03.svg)", ""), Error::NotShown(_)));
+        assert!(matches!(fails("Title", "漢"), Error::NoLatex('漢')));
+    }
+
+    /// Behind a line's end TeX takes a bracket or a star for its own.
+    #[test]
+    fn tex_takes_no_bracket_for_its_own() {
+        let text = "# T\n\n| a | b |\n|---|---|\n| [q] | c |\n\nwords\\\n[y] or\n\n- [z] a\n";
+        let text = latex::write(&tree(text)).unwrap();
+        for kept in ["\n{}[q] & c", "\\\\\n{}[y] or", "\\item {}[z] a"] {
+            assert!(text.contains(kept), "{kept}: {text}");
+        }
+    }
+
+    /// What Markdown would show raw, or not at all, is told with its place in the template.
+    #[test]
+    fn broken_prose_is_told_with_its_place() {
+        for (broken, place, words) in [
+            (r"at $\frac{1}{2$ of", "12:4", "a formula without its end"),
+            (r"at $\operatorname{erf} x$", "12:4", r"write \mathrm"),
+            (r"at $\nosuch x$", "12:4", r"\nosuch"),
+            ("| a | b |\n|---|\n| x | y |", "12:1", "a line of dashes"),
+            (r"at $\left( x$", "12:4", "no MathML"),
+            ("at «v.half_height»$x$", "12:19", "right behind a word or a number"),
+            ("# Another title", "12:1", "a second title"),
+            ("#### Deep", "12:1", "steps over a level"),
+            ("##", "12:1", "a heading without words"),
+            ("## A {#sec:a .unnumbred}", "12:1", ".unnumbered"),
+            ("## A {#sec:a}\n\n## B {#sec:a}", "14:1", "sec:a: two things"),
+            ("see [@fig:9] or", "12:5", "[@fig:9]: nothing"),
+            ("see [@fig:3; @rice1945]", "12:5", "nothing in the report"),
+            ("[data](data/no.csv)", "12:1", "a link to data/no.csv"),
+            ("[code](../src/no.rs)", "12:1", "a link to ../src/no.rs"),
+            ("[place](#sec-no)", "12:1", "a link to #sec-no"),
+            ("[](data)", "12:1", "a link without words"),
+            ("[data]()", "12:1", "leads nowhere"),
+            ("![Words.](figures/fig09.svg)", "12:1", "figures/fig09.svg"),
+            ("words ![Words.](figures/fig03.svg)", "12:1", "a picture stands alone"),
+            ("a *word", "12:3", "emphasis"),
+            ("a **word** and __word", "12:16", "emphasis"),
+            ("a word[^a]", "12:7", "footnotes"),
+            ("a «v.half_height»» b", "12:18", "the end of a value"),
+            ("<b>bold</b>", "12:1", "HTML"),
+            ("<!-- a comment --> and words", "12:1", "hides text"),
+            ("a *word with $x$*", "12:14", "inside emphasis"),
+            ("---", "12:1", "shown nowhere"),
+            ("[a]: https://x.org", "12:1", "a definition of a link"),
+            ("~~~\ncode", "12:1", "a block of code without its end"),
+            ("Table: Words. {#tab:b}\n\nwords", "12:1", "a caption without its table"),
+            ("words {#sec:b}", "12:7", "an id {#…}"),
+            ("| a | b |\n|---|---|\n| c | d | «v.half_height» |", "14:1", "a row of 3 cells"),
+            ("- item\n\n  - a *b", "14:7", "emphasis"),
+            ("see 漢", "12:5", "'漢'"),
+            ("at $50 % x$ of", "12:4", r"write \%"),
+            ("<% if raw.half_heigth != 1 %>a<% endif %>", "12:1", "raw.half_heigth"),
+            ("<% if rav.half_height %>a<% endif %>", "12:7", "`rav` is not defined"),
+            ("<% if v.half_heigth %>a<% else %>b<% endif %>", "12:1", "v.half_heigth"),
+            ("«v.half_heigth | default(value=1)»", "12:1", "v.half_heigth"),
+            ("a \u{8} b", "12:3", "U+0008"),
+            ("[a][undefined]", "12:3", "[words](target)"),
+            ("~~a~~", "12:1", "struck-out"),
+            ("####### a", "12:1", "at most six"),
+            ("- [ ] a", "12:3", "tasks"),
+            ("at «v.half_height and\n\n«v.half_height»", "12:4", "is not closed"),
+            ("if <% if raw.x\n\n<% endif %>", "12:4", "is not closed"),
+            ("at «raw.half_height»", "12:4", "a plain number"),
+            ("at «40 + 2»", "12:4", "a plain number"),
+            ("at «v»", "12:4", "a whole row"),
+            ("$$ $$", "12:1", "a formula without anything"),
+        ] {
+            let error = assembled(&format!("{PROSE}\n\n{broken}\n")).unwrap_err().to_string();
+            assert!(error.starts_with(&format!("report.md:{place}: ")), "{broken}: {error}");
+            assert!(error.contains(words) && !error.contains('\n'), "{broken}: {error}");
+        }
+        let good = "Words \\*, \\_, \\$, a * b, a_b, [a, b], <!-- a comment --> and\n\n<!-- another -->\n\n\
+            [data](data), [code](../src/lib.rs), [out](https://x.org/a), `*` and $a_b * c^*$.";
+        assembled(&format!("{PROSE}\n\n{good}\n")).unwrap();
+    }
+
+    #[test]
+    fn what_cannot_be_resolved_is_an_error() {
+        let fails = |text: &str| {
+            let mut blocks = parsed(text).unwrap();
+            let library = bibliography::Library::default();
+            labels::resolve(&mut blocks, &library).unwrap_err().to_string()
+        };
+        assert!(fails("see [@fig:3]").contains("fig:3"));
+        assert!(fails("## T {#sec:a\"onclick=\"x}").contains("more than letters"));
+        assert!(fails("## T {#sec:a\"onclick=\"x}").contains("more than letters"));
+        assert!(fails("see [@rice1945]").contains("rice1945"));
+        assert!(fails("$$a \\tag{1}$$\n\n$$b \\tag{1}$$").contains("eq:1"));
+        assert!(fails("## A {#sec:a}\n\nSee [@sec:a; @eq:1].").contains("eq:1"));
+        assert!(parsed("<b>html</b>").is_err());
+        let code = "```rust dynamics::flight::Motion::kick\n```";
+        assert!(parsed(&format!("Listing: A. {{#lst:a}}\n\n{code}")).is_ok());
+        for text in [format!("Words.\n\n{code}"), format!("Listing: No id.\n\n{code}")] {
+            let error = parsed(&text).unwrap_err().to_string();
+            assert!(error.contains("Motion::kick") && error.contains("Listing: "), "{error}");
+        }
+        assert!(parsed("see ![x](figures/fig01.svg)").is_err());
+    }
+}

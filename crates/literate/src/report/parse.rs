@@ -1,0 +1,534 @@
+//! Filled Markdown → the tree of [`super::document`].
+//!
+//! The prose is CommonMark with tables, `$…$` and `$$…$$`, and these forms of our own:
+//!
+//! - `## Words {#sec:id}`: a section; numbers are given in order; `{#sec:id .unnumbered}` has none.
+//! - `$$ … \tag{18} $$`: a numbered equation; its id is `eq:18`.
+//! - `![caption](figures/fig03.svg)` alone in a paragraph: a figure; its id is `fig:3`.
+//! - `Table: caption {#tab:id}`, a paragraph right before a table: its caption.
+//! - `Listing: caption {#lst:id}`, a paragraph right before `«code(item="path::of::item")»`: a
+//!   listing of that item of the source.
+//! - `Scene: caption`, a paragraph: the moving masses, where a format can show them, else nothing.
+//! - `[!claim:id]`: a place that can be referred to; it shows its number.
+//! - `[@eq:18]`, `[@fig:2; @fig:3]`, `[@sec:id]`, `[@tab:id]`, `[@lst:id]`, `[@claim:id]`: references, written
+//!   out as "Eq. (18)" and so on; with a capital, as `[@Fig:2]`, in full as at the start of a sentence.
+//! - `[@rice1945]`: a citation of `references.bib`.
+//! - `[@bibliography]` alone in a paragraph: the list of what was cited.
+
+use crate::source::Program;
+use super::captions::{IMAGE, join, listing, opens_caption, paragraph};
+use super::card::words_and_maths;
+use super::document::{Align, Block, Inline, plain};
+use super::mark::{self, Mark};
+use super::origin::{Filled, Places};
+use super::print::print;
+use super::valued::{bare, framed};
+use super::values::Registry;
+use super::{Error, html, leftover, macros, tex};
+use pulldown_cmark::{Alignment, BrokenLink, CowStr, Event, LinkType, Options, Parser, Tag};
+use std::ops::Range;
+
+/// Parses filled Markdown; `values` turn marks into what is shown. The places are those of what has an id
+/// and of what names one.
+///
+/// # Errors
+/// Markup that the report does not have, is not whole or says nothing, with its place in the template.
+pub fn parse<'a>(
+    filled: &'a Filled,
+    values: &'a Registry,
+    program: Program,
+) -> Result<(Vec<Block>, Places<'a>), Error> {
+    let options =
+        Options::ENABLE_MATH | Options::ENABLE_TABLES | Options::ENABLE_HEADING_ATTRIBUTES;
+    let callback = |link: BrokenLink<'_>| {
+        let own = link.reference.starts_with('@') || link.reference.starts_with('!');
+        own.then(|| (CowStr::from(link.reference.to_string()), CowStr::from("")))
+    };
+    let parser = Parser::new_with_broken_link_callback(&filled.text, options, Some(callback));
+    if let Some((_, definition)) = parser.reference_definitions().iter().next() {
+        let error = Error::Markup("a definition of a link is shown nowhere".into());
+        return Err(error.at(filled.place(definition.span.start)));
+    }
+    let events: Vec<(Event<'_>, Range<usize>)> = parser.into_offset_iter().collect();
+    let mut reader = Reader {
+        events: events.into_iter().peekable(),
+        filled,
+        values,
+        program,
+        at: 0,
+        attribute: None,
+        inside: 0,
+        titled: false,
+        level: 1,
+        places: Places::of(filled),
+    };
+    match reader.shallow().and_then(|()| reader.blocks()) {
+        Ok(blocks) => Ok((blocks, reader.places)),
+        Err(error) => Err(error.at(filled.place(reader.at))),
+    }
+}
+
+/// Lists, quotations and spans within each other, at most: what reads and writes them calls itself.
+const DEEPEST: usize = 40;
+
+struct Reader<'a> {
+    events: std::iter::Peekable<std::vec::IntoIter<(Event<'a>, Range<usize>)>>,
+    filled: &'a Filled,
+    program: Program,
+    values: &'a Registry,
+    /// Where in the filled text what is being read begins.
+    at: usize,
+    /// Where the last `{#id}` stands that nothing has taken yet.
+    attribute: Option<usize>,
+    /// Emphasis and links about what is being read.
+    inside: usize,
+    /// Whether there is a title already, and the level of the last heading.
+    titled: bool,
+    level: u8,
+    places: Places<'a>,
+}
+
+impl<'a> Reader<'a> {
+    /// Refuses what is nested deeper than any prose.
+    fn shallow(&mut self) -> Result<(), Error> {
+        let mut depth: usize = 0;
+        for (event, range) in self.events.clone() {
+            match event {
+                Event::Start(_) => depth += 1,
+                Event::End(_) => depth = depth.saturating_sub(1),
+                _ => {}
+            }
+            if depth > DEEPEST {
+                self.at = range.start;
+                return Err(markup(format!("more than {DEEPEST} levels within each other")));
+            }
+        }
+        Ok(())
+    }
+
+    fn peek(&mut self) -> Option<&Event<'a>> {
+        self.events.peek().map(|(event, _)| event)
+    }
+
+    /// The next event; what is wrong with it stands where it begins.
+    fn next(&mut self) -> Option<(Event<'a>, Range<usize>)> {
+        let found = self.events.next()?;
+        if !matches!(found.0, Event::End(_)) {
+            self.at = found.1.start;
+        }
+        Some(found)
+    }
+
+    /// The source of a part of the filled text.
+    fn source(&self, range: &Range<usize>) -> &'a str {
+        &self.filled.text[range.clone()]
+    }
+
+    /// Blocks up to the end of what contains them.
+    fn blocks(&mut self) -> Result<Vec<Block>, Error> {
+        let mut blocks = Vec::new();
+        // Where a caption begins that waits for its table or listing.
+        let mut caption = None;
+        while let Some(event) = self.peek() {
+            let new = match event {
+                Event::End(_) => break,
+                Event::Start(tag) if is_block(tag) => match self.next() {
+                    Some((Event::Start(tag), range)) => self.block(tag, range)?,
+                    _ => None,
+                },
+                Event::Rule => {
+                    self.next();
+                    return Err(markup("a line across the page is shown nowhere"));
+                }
+                // Text right inside an item of a tight list.
+                _ => Some(Block::Paragraph(self.inlines()?)),
+            };
+            let Some(mut block) = new else { continue };
+            let begun = self.at;
+            let joined = join(&mut blocks, &mut block)?;
+            if let (Some(id), Some(offset)) = (&joined, caption) {
+                self.attribute = None;
+                id.iter().for_each(|id| self.places.add(format!("#{id}"), offset));
+            } else if let Some(offset) = caption {
+                self.at = offset;
+                return Err(markup("a caption without its table or code right behind it"));
+            }
+            caption = opens_caption(&block).then_some(begun);
+            if let Some(offset) = self.attribute.filter(|_| caption.is_none()) {
+                self.at = offset;
+                return Err(markup(
+                    "an id {#…} stands behind a heading or at the end of a caption",
+                ));
+            }
+            blocks.push(block);
+        }
+        match caption {
+            None => Ok(blocks),
+            Some(offset) => {
+                self.at = offset;
+                Err(markup("a caption without its table or code right behind it"))
+            }
+        }
+    }
+
+    fn block(&mut self, tag: Tag<'_>, range: Range<usize>) -> Result<Option<Block>, Error> {
+        let block = match tag {
+            Tag::Paragraph => {
+                let inlines = self.inlines()?;
+                self.at = range.start;
+                let block = paragraph(inlines)?;
+                if let Block::Figure { id, path, .. } = &block {
+                    self.places.add(format!("#{id}"), range.start);
+                    self.places.add(format!("({path}"), range.start);
+                }
+                block
+            }
+            Tag::Heading { level, id, classes, attrs } => {
+                let level = level as u8;
+                let unnumbered = classes.iter().any(|class| &**class == "unnumbered");
+                if !attrs.is_empty() || classes.iter().any(|class| &**class != "unnumbered") {
+                    return Err(markup("a heading has {#id} and .unnumbered, and nothing else"));
+                }
+                if level == 1 && std::mem::replace(&mut self.titled, true) {
+                    return Err(markup("a second title: sections begin with ##"));
+                }
+                if level > self.level + 1 {
+                    return Err(markup("a heading steps over a level"));
+                }
+                self.level = level;
+                let text = self.inlines()?;
+                self.at = range.start;
+                if plain(&text).trim().is_empty() {
+                    return Err(markup("a heading without words"));
+                }
+                let id = id.map(|id| id.to_string());
+                id.iter().for_each(|id| self.places.add(format!("#{id}"), range.start));
+                let number = (!unnumbered && level > 1).then(String::new);
+                Block::Heading { level, number, id, text }
+            }
+            Tag::BlockQuote(_) => Block::Quote(self.blocks()?),
+            Tag::List(start) => {
+                let mut items = Vec::new();
+                while let Some(Event::Start(Tag::Item)) = self.peek() {
+                    self.next();
+                    items.push(self.blocks()?);
+                    self.next();
+                }
+                Block::List { start, items }
+            }
+            Tag::CodeBlock(kind) => {
+                let fenced = kind.is_fenced();
+                let language = match kind {
+                    pulldown_cmark::CodeBlockKind::Fenced(language) => language.to_string(),
+                    pulldown_cmark::CodeBlockKind::Indented => String::new(),
+                };
+                let mut text = String::new();
+                while let Some(Event::Text(piece)) = self.peek() {
+                    text.push_str(piece);
+                    self.next();
+                }
+                self.at = range.start;
+                let last = self.source(&range).trim_end().lines().skip(1).last();
+                if fenced && !last.is_some_and(|line| line.trim_start().starts_with(['`', '~'])) {
+                    return Err(markup("a block of code without its end"));
+                }
+                match language.split_once(' ') {
+                    Some((_, item)) => listing(item, &self.program)?,
+                    None => Block::Code { language, text: self.written(&text)? },
+                }
+            }
+            Tag::Table(columns) => {
+                let table = self.table(&columns)?;
+                self.at = range.start;
+                table
+            }
+            Tag::HtmlBlock => {
+                // Comments are for writers; other HTML has no place in four formats.
+                let mut html = String::new();
+                while let Some(Event::Html(piece)) = self.peek() {
+                    html.push_str(piece);
+                    self.next();
+                }
+                self.at = range.start;
+                comment(html.trim())?;
+                self.next();
+                return Ok(None);
+            }
+            other => return Err(markup(format!("no such markup: {other:?}"))),
+        };
+        self.next();
+        Ok(Some(block))
+    }
+
+    fn table(&mut self, columns: &[Alignment]) -> Result<Block, Error> {
+        let mut rows = Vec::new();
+        while let Some(Event::Start(Tag::TableHead | Tag::TableRow)) = self.peek() {
+            let Some((_, range)) = self.next() else { break };
+            // Markdown cuts and fills rows in silence.
+            let (own, all) = (cells_of(self.source(&range)), columns.len());
+            if own != all {
+                return Err(markup(format!("a row of {own} cells in a table of {all} columns")));
+            }
+            let mut cells = Vec::new();
+            while let Some(Event::Start(Tag::TableCell)) = self.peek() {
+                self.next();
+                cells.push(self.inlines()?);
+                self.next();
+            }
+            self.next();
+            rows.push(cells);
+        }
+        let align = |column: &Alignment| match column {
+            Alignment::Right => Align::Right,
+            Alignment::Center => Align::Centre,
+            Alignment::Left | Alignment::None => Align::Left,
+        };
+        let columns = columns.iter().map(align).collect();
+        let head = if rows.is_empty() { Vec::new() } else { rows.remove(0) };
+        Ok(Block::Table { id: None, number: None, caption: Vec::new(), columns, head, rows })
+    }
+
+    /// Running text up to the end of what contains it, or the next block.
+    fn inlines(&mut self) -> Result<Vec<Inline>, Error> {
+        let mut out = Vec::new();
+        while let Some(event) = self.peek() {
+            match event {
+                Event::End(_) => break,
+                Event::Start(tag) if is_block(tag) => break,
+                _ => {}
+            }
+            let Some((event, range)) = self.next() else { break };
+            match event {
+                Event::Text(text) => {
+                    self.whole(&text, &range)?;
+                    self.text(&text, &mut out)?;
+                }
+                Event::Code(text) => out.push(Inline::Code(self.written(&text)?)),
+                Event::InlineMath(_) if self.inside > 0 => {
+                    return Err(markup("hosts see no formula inside emphasis or a link"));
+                }
+                Event::InlineMath(tex) => {
+                    self.stands_free(&range)?;
+                    out.push(Inline::Maths(self.maths(&tex)?));
+                }
+                Event::DisplayMath(tex) => out.push(self.display(&tex)?),
+                Event::SoftBreak => out.push(Inline::Soft),
+                Event::HardBreak => out.push(Inline::Break),
+                Event::InlineHtml(html) => comment(&html)?,
+                Event::Start(tag) => out.push(self.span(tag, range)?),
+                other => return Err(markup(format!("no such markup: {other:?}"))),
+            }
+        }
+        Ok(out)
+    }
+
+    /// Refuses markup that was left over as text, since its other end is missing.
+    fn whole(&mut self, text: &str, range: &Range<usize>) -> Result<(), Error> {
+        let source = &self.filled.text;
+        // Behind a backslash a sign is meant as it stands.
+        let escaped = source[..range.start].ends_with('\\');
+        let begins =
+            source[..range.start].rsplit('\n').next().is_some_and(|line| line.trim().is_empty());
+        if begins && text.starts_with('|') {
+            self.at = range.start;
+            return Err(markup(
+                "a table needs a line of dashes below its head with as many columns; write \\| for the sign",
+            ));
+        }
+        if let Some((offset, what)) = leftover::find(source, range.start, text, escaped) {
+            self.at = offset;
+            return Err(markup(what));
+        }
+        // Characters for private use frame values.
+        let odd = |c: char| !c.is_ascii() && !('\u{e000}'..='\u{f8ff}').contains(&c);
+        for (i, c) in text.char_indices().filter(|(_, c)| odd(*c)) {
+            tex::text(c.encode_utf8(&mut [0; 4])).inspect_err(|_| self.at = range.start + i)?;
+        }
+        if let Some(offset) = text.find("{#").filter(|_| !escaped) {
+            self.attribute = Some(range.start + offset);
+        }
+        Ok(())
+    }
+
+    /// Hosts see a formula in the line only behind a blank or an opening bracket.
+    fn stands_free(&self, range: &Range<usize>) -> Result<(), Error> {
+        let before = self.filled.text[..range.start].chars().next_back();
+        let touches =
+            |c: char| c.is_alphanumeric() || matches!(c, ')' | ']' | '$') || mark::ends(c);
+        match before.is_some_and(touches) {
+            true => Err(markup(
+                "hosts see no formula right behind a word or a number: move it inside, or set it apart",
+            )),
+            false => Ok(()),
+        }
+    }
+
+    fn span(&mut self, tag: Tag<'_>, range: Range<usize>) -> Result<Inline, Error> {
+        let hides = matches!(tag, Tag::Emphasis | Tag::Link { .. });
+        self.inside += usize::from(hides);
+        let inner = self.inlines()?;
+        self.inside -= usize::from(hides);
+        self.at = range.start;
+        self.next();
+        let empty = plain(&inner).trim().is_empty();
+        Ok(match tag {
+            Tag::Emphasis => Inline::Emphasis(inner),
+            Tag::Strong => Inline::Strong(inner),
+            Tag::Link { link_type: LinkType::ShortcutUnknown, dest_url, .. } => {
+                let link = own_link(&dest_url)?;
+                match &link {
+                    Inline::Anchor { id, .. } => self.places.add(format!("#{id}"), range.start),
+                    Inline::Unresolved(ids) => {
+                        let all = ids.iter().cloned().chain([ids.join("; ")]);
+                        all.for_each(|id| self.places.add(format!("@{id}"), range.start));
+                    }
+                    _ => {}
+                }
+                link
+            }
+            Tag::Link { .. } if empty => return Err(markup("a link without words")),
+            Tag::Link { dest_url, .. } | Tag::Image { dest_url, .. } if dest_url.is_empty() => {
+                return Err(markup("a link or picture that leads nowhere"));
+            }
+            Tag::Link { dest_url, .. } => {
+                let to = self.written(&dest_url)?;
+                self.places.add(format!("({to}"), range.start);
+                Inline::Link { to, shown: inner }
+            }
+            // Becomes a figure if it stands alone in its paragraph, else an error there.
+            Tag::Image { dest_url, .. } => {
+                Inline::Link { to: format!("{IMAGE}{dest_url}"), shown: inner }
+            }
+            other => return Err(markup(format!("no such markup: {other:?}"))),
+        })
+    }
+
+    /// Text with marks → words and values.
+    fn text(&self, text: &str, out: &mut Vec<Inline>) -> Result<(), Error> {
+        for piece in Mark::split(text) {
+            match piece {
+                Err(words) => match out.last_mut() {
+                    Some(Inline::Text(before)) => before.push_str(words),
+                    _ => out.push(Inline::Text(words.to_string())),
+                },
+                Ok(mark) => {
+                    let shown = words_and_maths(&self.shown(&mark, Target::Prose)?);
+                    let id = self.values.id(&mark.id).to_string();
+                    out.push(Inline::Value { id, shown });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// TeX that every format can show.
+    fn maths(&self, tex: &str) -> Result<String, Error> {
+        let tex = self.replaced(tex, Target::Maths)?;
+        let bare = bare(&tex);
+        if bare.trim().is_empty() {
+            return Err(markup("a formula without anything in it"));
+        }
+        match macros::refused(&bare) {
+            Some(what) => Err(Error::Maths { tex: bare, what }),
+            None => tex::maths(&bare).and_then(|_| html::reads(&bare)).map(|()| tex),
+        }
+    }
+
+    /// Cuts `\tag{18}` out of an equation.
+    fn display(&mut self, tex: &str) -> Result<Inline, Error> {
+        let Some((before, after)) = tex.split_once(r"\tag{") else {
+            return Ok(Inline::Display { tex: self.maths(tex.trim())?, tag: None });
+        };
+        let (tag, after) =
+            after.split_once('}').ok_or_else(|| markup(r"a \tag{ without its end"))?;
+        let tex = self.maths(format!("{}{}", before.trim(), after.trim_end()).trim())?;
+        self.places.add(format!("#eq:{tag}"), self.at);
+        Ok(Inline::Display { tex, tag: Some(tag.to_string()) })
+    }
+
+    fn written(&self, text: &str) -> Result<String, Error> {
+        self.replaced(text, Target::Plain)
+    }
+
+    fn replaced(&self, text: &str, target: Target) -> Result<String, Error> {
+        let one = |piece| match piece {
+            Ok(mark) => self.shown(&mark, target),
+            Err(text) => Ok(str::to_string(text)),
+        };
+        Mark::split(text).into_iter().map(one).collect()
+    }
+
+    fn shown(&self, mark: &Mark, target: Target) -> Result<String, Error> {
+        let unknown = || Error::Template(format!("there is no value {}", mark.id));
+        let value = self.values.get(&mark.id).ok_or_else(unknown)?;
+        let printed = print(&value.number, mark.style);
+        let unit = if mark.style.with_unit { value.unit.as_str() } else { "" };
+        Ok(match (target, unit) {
+            (Target::Prose, "") => printed.markdown(),
+            (Target::Prose, unit) => format!("{}\u{a0}{unit}", printed.markdown()),
+            (Target::Maths, "") => framed(&mark.id, &printed.maths()),
+            (Target::Maths, unit) => {
+                format!(r"{}\,{}", framed(&mark.id, &printed.maths()), unit.trim_matches('$'))
+            }
+            (Target::Plain, "") => printed.plain(),
+            (Target::Plain, unit) => format!("{} {unit}", printed.plain()),
+        })
+    }
+}
+
+#[derive(Clone, Copy)]
+enum Target {
+    Prose,
+    Maths,
+    Plain,
+}
+
+fn is_block(tag: &Tag<'_>) -> bool {
+    use Tag::{BlockQuote, CodeBlock, Heading, HtmlBlock, Item, List, Paragraph, Table};
+    matches!(
+        tag,
+        Paragraph
+            | Heading { .. }
+            | BlockQuote(_)
+            | CodeBlock(_)
+            | HtmlBlock
+            | List(_)
+            | Item
+            | Table(_)
+    )
+}
+
+fn markup(what: impl Into<String>) -> Error {
+    Error::Markup(what.into())
+}
+
+/// Comments are for writers; other HTML has no place in four formats.
+fn comment(html: &str) -> Result<(), Error> {
+    match (html.starts_with("<!--"), html.ends_with("-->") && html.len() >= 7) {
+        (true, true) => Ok(()),
+        (true, false) => {
+            Err(markup("a comment <!-- without --> at the end of its last line hides text"))
+        }
+        (false, _) => Err(markup(format!("HTML has no place in four formats: {html}"))),
+    }
+}
+
+/// Cells of a row of a table, by its bars.
+fn cells_of(row: &str) -> usize {
+    let row = row.trim();
+    let row = row.strip_prefix('|').unwrap_or(row);
+    let row = row.strip_suffix('|').filter(|rest| !rest.ends_with('\\')).unwrap_or(row);
+    row.matches('|').count() - row.matches(r"\|").count() + 1
+}
+
+/// `@fig:2; @fig:3` or `!claim:rise`.
+fn own_link(reference: &str) -> Result<Inline, Error> {
+    if let Some(id) = reference.strip_prefix('!') {
+        return Ok(Inline::Anchor { id: id.to_string(), number: String::new() });
+    }
+    let one = |id: &str| {
+        let id = id.trim().strip_prefix('@').map(str::to_string);
+        id.ok_or_else(|| Error::Reference(reference.to_string()))
+    };
+    reference.split(';').map(one).collect::<Result<_, _>>().map(Inline::Unresolved)
+}

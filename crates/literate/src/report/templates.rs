@@ -1,0 +1,90 @@
+//! The templates: people's prose, read at run time; [`super::filler`] fills them.
+
+use super::Error;
+use crate::input::{self, LARGEST};
+use std::collections::{BTreeMap, BTreeSet};
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Endings of the files that are templates or data for them (fonts live there too).
+const TEXT: [&str; 9] = [".md", ".tex", ".typ", ".bib", ".toml", ".html", ".css", ".js", ".json"];
+
+/// All template files, by path relative to their folder.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Templates(BTreeMap<String, String>);
+
+impl Templates {
+    /// Templates from texts.
+    pub fn of<'a>(files: impl IntoIterator<Item = (&'a str, &'a str)>) -> Self {
+        let own = |(path, text): (&str, &str)| (path.to_string(), text.to_string());
+        Templates(files.into_iter().map(own).collect())
+    }
+
+    /// Reads all templates of a folder.
+    ///
+    /// # Errors
+    /// When a file or folder cannot be read.
+    pub fn read(folder: &Path) -> Result<Self, Error> {
+        let mut walk = Walk::default();
+        walk.folder(folder, "")?;
+        Ok(Templates(walk.files))
+    }
+
+    /// The text of one file.
+    ///
+    /// # Errors
+    /// When there is none of that name.
+    pub fn text(&self, path: &str) -> Result<&str, Error> {
+        let missing = || Error::Template(format!("{path}: no such file in the templates"));
+        self.0.get(path).map(String::as_str).ok_or_else(missing)
+    }
+
+    /// Paths and texts, sorted.
+    pub fn iter(&self) -> impl Iterator<Item = (&str, &str)> {
+        self.0.iter().map(|(path, text)| (path.as_str(), text.as_str()))
+    }
+}
+
+/// A folder being read.
+#[derive(Default)]
+struct Walk {
+    files: BTreeMap<String, String>,
+    bytes: usize,
+    /// Folders so far: symbolic links may lead to one of them again, without end.
+    folders: BTreeSet<PathBuf>,
+}
+
+impl Walk {
+    fn folder(&mut self, folder: &Path, prefix: &str) -> Result<(), Error> {
+        let fail = |path: &Path, source| Error::Read { path: path.display().to_string(), source };
+        let refuse = |path: &Path, kind, what: &str| Err(fail(path, io::Error::new(kind, what)));
+        if !self.folders.insert(folder.canonicalize().map_err(|e| fail(folder, e))?) {
+            return refuse(
+                folder,
+                io::ErrorKind::Other,
+                "it leads to a folder that was read before",
+            );
+        }
+        for entry in std::fs::read_dir(folder).map_err(|e| fail(folder, e))? {
+            let path = entry.map_err(|e| fail(folder, e))?.path();
+            let Some(name) = path.file_name().and_then(|name| name.to_str()) else { continue };
+            let relative = format!("{prefix}{name}");
+            if path.is_dir() {
+                self.folder(&path, &format!("{relative}/"))?;
+            } else if TEXT.iter().any(|end| name.ends_with(end)) {
+                // Whoever opens a pipe waits for its other end.
+                if std::fs::metadata(&path).is_ok_and(|found| !found.is_file()) {
+                    return refuse(&path, io::ErrorKind::InvalidInput, "it is no regular file");
+                }
+                let text = input::read(&path).map_err(|e| fail(&path, e))?;
+                self.bytes += text.len();
+                if self.bytes as u64 > LARGEST {
+                    let what = format!("the templates are longer than {} MiB", LARGEST >> 20);
+                    return refuse(&path, io::ErrorKind::FileTooLarge, &what);
+                }
+                self.files.insert(relative, text);
+            }
+        }
+        Ok(())
+    }
+}

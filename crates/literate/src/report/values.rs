@@ -1,0 +1,246 @@
+//! All values of a report: those with a name of their own, and the cells of tables under their addresses.
+
+use super::Error;
+use crate::source::Program;
+use crate::table::Table;
+pub use crate::value::{Digits, Kind, Number, Origin, Value, origin};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// All values of a report, by id, and other names that templates have for some.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Registry {
+    values: BTreeMap<String, Value>,
+    #[serde(skip)]
+    names: BTreeMap<String, String>,
+    #[serde(skip)]
+    tables: BTreeMap<String, Arc<Table>>,
+}
+
+impl Registry {
+    /// An empty registry.
+    pub fn new() -> Self {
+        Registry::default()
+    }
+
+    /// Adds a value.
+    ///
+    /// # Errors
+    /// When the id is taken, is neither an address nor a name of the form `name` or `group.name` in lower case,
+    /// or the number is not finite.
+    pub fn add(&mut self, value: Value) -> Result<(), Error> {
+        if !is_id(&value.id) && crate::table::table_of(&value.id).is_none() {
+            return Err(Error::BadId(value.id));
+        }
+        if !value.is_finite() {
+            return Err(Error::NotFinite(value.id));
+        }
+        if self.values.contains_key(&value.id) || self.names.contains_key(&value.id) {
+            return Err(Error::DuplicateId(value.id));
+        }
+        self.put(value);
+        Ok(())
+    }
+
+    /// Adds a table: its cells are found by their addresses.
+    ///
+    /// # Errors
+    /// When there is a table of that name.
+    pub fn add_table(&mut self, table: Arc<Table>) -> Result<(), Error> {
+        match self.tables.insert(table.name().to_string(), table) {
+            Some(before) => Err(Error::DuplicateId(before.name().to_string())),
+            None => Ok(()),
+        }
+    }
+
+    /// All tables, by name.
+    pub fn tables(&self) -> impl Iterator<Item = &Table> {
+        self.tables.values().map(Arc::as_ref)
+    }
+
+    /// Makes the cells values that something names: those are listed, the others stand in the data.
+    pub fn keep_cells<'a>(&mut self, named: impl IntoIterator<Item = &'a str>) {
+        for address in named {
+            if let Some(cell) = self.cell(address).cloned() {
+                self.values.insert(address.to_string(), cell);
+            }
+        }
+    }
+
+    /// Shows the paths of items as documents do.
+    pub fn shorten(&mut self, program: Program) {
+        for value in self.values.values_mut() {
+            value.source = program.short(&value.source);
+        }
+    }
+
+    /// The table of a cell.
+    pub fn table_of(&self, address: &str) -> Option<&Table> {
+        Some(self.tables.get(crate::table::table_of(address)?)?.as_ref())
+    }
+
+    fn cell(&self, address: &str) -> Option<&Value> {
+        self.table_of(address)?.at(address)
+    }
+
+    /// Adds several values.
+    ///
+    /// # Errors
+    /// As [`Registry::add`].
+    pub fn extend(&mut self, values: impl IntoIterator<Item = Value>) -> Result<(), Error> {
+        values.into_iter().try_for_each(|value| self.add(value))
+    }
+
+    /// Puts a value in the place of the one with its id.
+    pub fn put(&mut self, value: Value) {
+        match value.same {
+            Some(of) => self.names.insert(value.id, of).map(|_| ()),
+            None => self.values.insert(value.id.clone(), value).map(|_| ()),
+        };
+    }
+
+    /// Puts back what `before` has under an id or a name.
+    pub fn restore(&mut self, id: &str, before: &Registry) {
+        self.remove(id);
+        if let Some(of) = before.names.get(id) {
+            self.names.insert(id.into(), of.clone());
+        }
+        if let Some(value) = before.values.get(id) {
+            self.values.insert(id.into(), value.clone());
+        }
+    }
+
+    /// Takes a value or a name out.
+    pub fn remove(&mut self, id: &str) {
+        self.values.remove(id);
+        self.names.remove(id);
+    }
+
+    /// The id of the value with this id or name; a name may stand for another.
+    pub fn id<'a>(&'a self, name: &'a str) -> &'a str {
+        let next = |name: &&'a str| self.names.get(*name).map(String::as_str);
+        std::iter::successors(Some(name), next).take(self.names.len() + 1).last().unwrap_or(name)
+    }
+
+    /// The value with this id or name.
+    pub fn get(&self, id: &str) -> Option<&Value> {
+        let id = self.id(id);
+        self.values.get(id).or_else(|| self.cell(id))
+    }
+
+    /// Other names, and the values that they stand for (none for one that is not there).
+    pub fn names(&self) -> impl Iterator<Item = (&str, Option<&Value>)> {
+        self.names.keys().map(|name| (name.as_str(), self.get(name)))
+    }
+
+    /// All values, sorted by id.
+    pub fn iter(&self) -> impl Iterator<Item = &Value> {
+        self.values.values()
+    }
+
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.values.len()
+    }
+
+    /// None at all?
+    pub fn is_empty(&self) -> bool {
+        self.values.is_empty()
+    }
+}
+
+/// `name` or `group.name`, each of lower-case letters, digits and `_`, beginning with a letter.
+fn is_id(id: &str) -> bool {
+    let mut parts = id.split('.');
+    let name = |part: &str| {
+        part.starts_with(|c: char| c.is_ascii_lowercase())
+            && part.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_')
+    };
+    parts.clone().count() <= 2 && parts.all(name)
+}
+
+/// The id of a table's cell, in the line of a σ: `heat.s0_12_ratio`.
+pub fn cell(table: &str, sigma: f64, column: &str) -> String {
+    format!("{table}.{}_{column}", line(sigma))
+}
+
+/// The name of a table's line by its σ: `s0_12`.
+pub fn line(sigma: f64) -> String {
+    format!("s{}", sigma.to_string().replace('.', "_"))
+}
+
+/// A unit of the last printed digit of a deterministic real number.
+pub fn last_digit(value: &Value) -> Option<f64> {
+    match value.number {
+        Number::Real { value, digits: Digits::Significant(digits) } => {
+            Some(ten_to(place(value, digits)))
+        }
+        Number::Real { digits: Digits::Decimals(decimals), .. } => Some(ten_to(-(decimals as i32))),
+        _ => None,
+    }
+}
+
+/// The power of ten of the last of so many significant digits.
+pub fn place(x: f64, digits: usize) -> i32 {
+    let places = digits.clamp(1, 17) - 1;
+    let text = format!("{:.*e}", places, x.abs());
+    let leading = text.split_once('e').and_then(|(_, power)| power.parse::<i32>().ok());
+    leading.unwrap_or(0) - places as i32
+}
+
+/// A power of ten, as the literal is.
+pub fn ten_to(power: i32) -> f64 {
+    format!("1e{power}").parse().unwrap_or(f64::MIN_POSITIVE)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_id_has_one_owner() {
+        let mut registry = Registry::new();
+        registry.add(Value::integer("edges", 16)).unwrap();
+        assert!(matches!(registry.add(Value::integer("edges", 17)), Err(Error::DuplicateId(_))));
+        assert_eq!(registry.get("edges"), Some(&Value::integer("edges", 16)));
+    }
+
+    #[test]
+    fn a_name_leads_to_one_value() {
+        let mut registry = Registry::new();
+        registry.extend([Value::same("c", "b"), Value::same("b", "a")]).unwrap();
+        assert_eq!(registry.get("c"), None);
+        registry.add(Value::integer("a", 1)).unwrap();
+        assert_eq!((registry.id("c"), registry.len()), ("a", 1));
+        registry.extend([Value::same("x", "y"), Value::same("y", "x")]).unwrap();
+        assert_eq!(registry.get("x"), None);
+    }
+
+    #[test]
+    fn ids_are_names_of_templates() {
+        for good in ["a", "half_height", "printed.p_15", "params.n"] {
+            assert!(is_id(good), "{good}");
+        }
+        for bad in ["", "A", "1a", "a.b.c", "a-b", "a..b", ".a", "a b"] {
+            assert!(!is_id(bad), "{bad}");
+        }
+    }
+
+    #[test]
+    fn what_is_not_finite_is_refused() {
+        let mut registry = Registry::new();
+        assert!(registry.add(Value::real("x", f64::NAN, 3)).is_err());
+        assert!(registry.add(Value::ensemble("x", 1.0, f64::INFINITY, 3)).is_err());
+        assert!(registry.add(Value::interval("x", [0.0, f64::NAN])).is_err());
+    }
+
+    /// Formatting panics beyond 65535 digits.
+    #[test]
+    fn digits_that_no_number_has_are_not_printed() {
+        assert!(Value::real("x", 0.1, 70_000).plain().starts_with("0.1000"));
+        let long = format!("0.{}", "1".repeat(70_000));
+        assert!(Value::printed("x", &long, "Sec. 2").plain().len() < 2000);
+    }
+}

@@ -1,0 +1,259 @@
+//! A number of the report with its unit, kind and origin.
+//!
+//! A number in prose is never typed. An experiment's table ([`crate::table`]) or a section computes it, it
+//! becomes a [`Value`] with an id, and a template names that id: `«v.half_height»`. The printed digits
+//! follow from the value itself, so that prose, tables and `values.json` agree.
+
+use serde::{Deserialize, Serialize};
+
+/// The number itself, with what decides how many digits of it are printed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Number {
+    /// An exact integer.
+    Integer(i64),
+    /// A real number.
+    Real {
+        /// The number, to full precision.
+        value: f64,
+        /// How many digits of it are meant.
+        digits: Digits,
+    },
+    /// An interval, printed with the digits that its width allows.
+    Interval {
+        /// Lower end.
+        low: f64,
+        /// Upper end.
+        high: f64,
+    },
+    /// Words, for the few values that are not numbers (a version, a profile, a list).
+    Text(String),
+}
+
+/// What decides how many digits of a real number are printed.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Digits {
+    /// A standard error: the number is printed as 0.1165(4).
+    Error(f64),
+    /// A number of significant digits (deterministic reals).
+    Significant(usize),
+    /// A number of decimals (numbers that somebody printed so).
+    Decimals(usize),
+}
+
+/// Where a number comes from, and so how far it can be trusted.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Kind {
+    /// An integer or a text that follows without rounding, or a parameter that was chosen.
+    Exact,
+    /// Computed without chance: a closed form, a root, a sum.
+    Deterministic,
+    /// An average over realisations.
+    Ensemble {
+        /// Number of realisations behind it.
+        realisations: u64,
+        /// Its standard error.
+        standard_error: f64,
+    },
+    /// Printed in the paper, at this place.
+    Printed {
+        /// Section, figure or equation of the paper.
+        place: String,
+    },
+    /// Measured once on a machine (times), and an input since then.
+    Measured,
+}
+
+/// One number of the report.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Value {
+    /// The name: `half_height` is `«v.half_height»` in templates, and `printed.threshold`, with
+    /// one dot, is `«printed.threshold»`.
+    pub id: String,
+    /// The number.
+    pub number: Number,
+    /// Its unit as Markdown, empty for a pure number; shown by the filter `with_unit`.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub unit: String,
+    /// Where it comes from.
+    pub kind: Kind,
+    /// Path of the item that computed it, as `circuits::jump::p_jump`.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub source: String,
+    /// The experiment whose results it was read from; empty for parameters.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub experiment: String,
+    /// What a reader should know beside it.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub note: String,
+    /// The id of the value that this name stands for: it is no value of its own then.
+    #[serde(skip)]
+    pub(crate) same: Option<String>,
+    /// Kept in `values.json` for readers of the data; no template needs to name it.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub for_data_only: bool,
+}
+
+impl Value {
+    fn new(id: impl Into<String>, number: Number, kind: Kind) -> Self {
+        Value {
+            id: id.into(),
+            number,
+            unit: String::new(),
+            kind,
+            source: String::new(),
+            experiment: String::new(),
+            note: String::new(),
+            same: None,
+            for_data_only: false,
+        }
+    }
+
+    /// Another name, for templates, of the value `of`: a number has one id.
+    pub fn same(id: impl Into<String>, of: impl Into<String>) -> Self {
+        let words = Number::Text(String::new());
+        Value { same: Some(of.into()), ..Value::new(id, words, Kind::Exact) }
+    }
+
+    /// An exact integer.
+    pub fn integer(id: impl Into<String>, n: impl TryInto<i64>) -> Self {
+        // A count beyond i64 cannot arise: nothing here counts for 10^18 steps.
+        let n = n.try_into().unwrap_or(i64::MAX);
+        Value::new(id, Number::Integer(n), Kind::Exact)
+    }
+
+    /// A real number that was computed without chance, printed with `significant` digits.
+    pub fn real(id: impl Into<String>, value: f64, significant: usize) -> Self {
+        let digits = Digits::Significant(significant);
+        Value::new(id, Number::Real { value, digits }, Kind::Deterministic)
+    }
+
+    /// An average over `realisations`, printed with the digits that its standard error allows.
+    pub fn ensemble(
+        id: impl Into<String>,
+        value: f64,
+        standard_error: f64,
+        realisations: u64,
+    ) -> Self {
+        let digits = Digits::Error(standard_error);
+        let kind = Kind::Ensemble { realisations, standard_error };
+        Value::new(id, Number::Real { value, digits }, kind)
+    }
+
+    /// An interval (of confidence, or of agreement).
+    pub fn interval(id: impl Into<String>, [low, high]: [f64; 2]) -> Self {
+        Value::new(id, Number::Interval { low, high }, Kind::Deterministic)
+    }
+
+    /// Words.
+    pub fn text(id: impl Into<String>, text: impl Into<String>) -> Self {
+        Value::new(id, Number::Text(text.into()), Kind::Exact)
+    }
+
+    /// A number as somebody printed it ("0.12", "100"), with the place where it stands; all its
+    /// printed digits are kept. What is not a number becomes a text.
+    pub fn printed(id: impl Into<String>, text: &str, place: impl Into<String>) -> Self {
+        let number = match (text.parse::<i64>(), text.parse::<f64>()) {
+            (Ok(n), _) => Number::Integer(n),
+            (_, Ok(value)) if value.is_finite() && !text.contains(['e', 'E']) => {
+                let decimals = text.split_once('.').map_or(0, |(_, after)| after.len());
+                Number::Real { value, digits: Digits::Decimals(decimals) }
+            }
+            (_, Ok(value)) if value.is_finite() => {
+                let mantissa = text.split(['e', 'E']).next().unwrap_or(text);
+                let significant = mantissa.chars().filter(char::is_ascii_digit).count();
+                Number::Real { value, digits: Digits::Significant(significant) }
+            }
+            _ => Number::Text(text.to_string()),
+        };
+        Value::new(id, number, Kind::Printed { place: place.into() })
+    }
+
+    /// With another number.
+    pub fn with_number(mut self, number: Number) -> Self {
+        self.number = number;
+        self
+    }
+
+    /// With a unit (Markdown, as `$1/\omega$`).
+    pub fn unit(mut self, unit: impl Into<String>) -> Self {
+        self.unit = unit.into();
+        self
+    }
+
+    /// With another kind.
+    pub fn kind(mut self, kind: Kind) -> Self {
+        self.kind = kind;
+        self
+    }
+
+    /// With the path of the item that computed it and the experiment it was read from.
+    pub fn source(mut self, item: Origin, experiment: impl Into<String>) -> Self {
+        self.source = item.0;
+        self.experiment = experiment.into();
+        self
+    }
+
+    /// With a note.
+    pub fn note(mut self, note: impl Into<String>) -> Self {
+        self.note = note.into();
+        self
+    }
+
+    /// Kept for readers of `values.json`; templates need not name it.
+    pub fn data_only(mut self) -> Self {
+        self.for_data_only = true;
+        self
+    }
+
+    /// All finite? JSON and readers know no NaN.
+    pub(crate) fn is_finite(&self) -> bool {
+        match self.number {
+            Number::Integer(_) | Number::Text(_) => true,
+            Number::Real { value, digits: Digits::Error(e) } => value.is_finite() && e.is_finite(),
+            Number::Real { value, .. } => value.is_finite(),
+            Number::Interval { low, high } => low.is_finite() && high.is_finite(),
+        }
+    }
+}
+
+/// The path of the function that computes a value.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Origin(String);
+
+/// The origin of what a function computes. The compiler knows the function, so its path is never
+/// typed: it follows a function that moves, and one that is gone is an error.
+pub fn origin<F>(_: F) -> Origin {
+    origin_of::<F>()
+}
+
+/// The same for a function that is known by its type.
+pub fn origin_of<F>() -> Origin {
+    let path = std::any::type_name::<F>();
+    // What a closure computes, the function computes in which it stands.
+    let path = path.replace("::{{closure}}", "");
+    let (Some(from), Some(to)) = (path.find('<'), path.rfind('>')) else { return Origin(path) };
+    // A method that stands in another module than its type is `module::<impl other::Type>::method`; of one
+    // of a generic type the parameters go.
+    let other = path[from..to].strip_prefix("<impl ").and_then(|own| own.rsplit("::").next());
+    Origin(format!("{}{}{}", &path[..from], other.unwrap_or_default(), &path[to + 1..]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn printed_numbers_keep_their_digits() {
+        let number = |text| Value::printed("x", text, "Sec. 2").number;
+        assert_eq!(number("100"), Number::Integer(100));
+        assert_eq!(number("0.120"), Number::Real { value: 0.12, digits: Digits::Decimals(3) });
+        assert_eq!(
+            number("1.50e-4"),
+            Number::Real { value: 1.5e-4, digits: Digits::Significant(3) }
+        );
+        assert_eq!(number("seldom"), Number::Text("seldom".into()));
+    }
+}
