@@ -30,8 +30,12 @@ const WHOLE: [&str; 3] =
     ["crates/numerics/src/", "crates/impact-chain/src/", "crates/circuits/src/"];
 
 /// What changes no result: words for people, and what tables are made of.
-const SILENT: [&str; 4] =
-    ["src/experiments/progress.rs", "src/experiments/error.rs", "crates/literate/src/table.rs", "crates/literate/src/value.rs"];
+const SILENT: [&str; 4] = [
+    "src/experiments/progress.rs",
+    "src/experiments/error.rs",
+    "crates/literate/src/table.rs",
+    "crates/literate/src/value.rs",
+];
 
 /// Whether a file changes no result. Tables are made of results anew each time.
 fn silent(path: &str) -> bool {

@@ -69,7 +69,7 @@ mod tests {
 
     #[test]
     fn every_statement_has_its_row_and_every_row_its_statement() {
-        let published = claims::published().unwrap();
+        let published = crate::claims::published().unwrap();
         let printed: Vec<&str> = published.statements.iter().map(|s| s.id.as_str()).collect();
         let judged: Vec<&str> = rows().map(|row| row.id).collect();
         assert_eq!(printed, judged);
@@ -78,7 +78,7 @@ mod tests {
     /// Every claim that needs no run, on the paper's own numbers.
     #[test]
     fn exact_claims_hold_or_are_explained() {
-        let published = claims::published().unwrap();
+        let published = crate::claims::published().unwrap();
         let results = Results::empty(Profile::Quick);
         let exact = rows().filter(|row| row.needs.is_empty());
         let claims: Vec<Claim> =
@@ -94,7 +94,7 @@ mod tests {
     #[test]
     fn a_wrong_printed_number_is_noticed() {
         let results = Results::empty(Profile::Quick);
-        let mut published = claims::published().unwrap();
+        let mut published = crate::claims::published().unwrap();
         let before = one("sec3_edges", &results, &published).unwrap();
         assert_eq!(before.verdict, Verdict::Reproduced);
         let edges = published.statements.iter_mut().find(|s| s.id == "sec3_edges").unwrap();
@@ -108,7 +108,7 @@ mod tests {
 
     #[test]
     fn what_is_missing_is_an_error() {
-        let published = claims::published().unwrap();
+        let published = crate::claims::published().unwrap();
         let results = Results::empty(Profile::Quick);
         assert!(matches!(one("sec2_onset", &results, &published), Err(Error::Experiment(_))));
         assert!(matches!(one("sec99", &results, &published), Err(Error::Published(_))));

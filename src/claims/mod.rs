@@ -36,3 +36,14 @@ pub fn published() -> Result<Published, PublishedError> {
     let text = committed::text("templates/published.toml");
     Published::parse(&text.map_err(PublishedError::Unread)?)
 }
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn the_committed_file_reads() {
+        let published = super::published().unwrap();
+        assert_eq!(published.parameter("restitution").unwrap(), 0.8);
+        let [low, high] = published.statement("sec2_half_height").unwrap().rounding().unwrap();
+        assert!((low - 0.115).abs() < 1e-15 && (high - 0.125).abs() < 1e-15);
+    }
+}

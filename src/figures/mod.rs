@@ -41,7 +41,6 @@ mod simulated;
 pub use literate::figures::*;
 pub use number::Number;
 
-
 use crate::experiments::catalogue::{
     ANALYTIC, BIAS, CHAINS, HEAT, INDEPENDENCE, LONG_PROTOCOL, MEASURED, NUCLEATION, ORBITS,
     PROTOCOL, PROTOCOLS, RACE, RESTITUTION, SCALE, SEEDS, SEGMENTS, SIZES, SPACE_TIME, SWEEP,

@@ -1,8 +1,8 @@
 //! Where `paper` and `check` read prose and keep results.
 
 use super::{Failure, work};
-use crate::committed;
 use crate::claims::{self, Published};
+use crate::committed;
 use crate::experiments::{self, Need, Progress, Results, Store};
 use crate::params::Profile;
 use crate::report::{self, Templates};

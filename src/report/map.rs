@@ -3,8 +3,8 @@
 //! `tests/report/structure.rs` compares it with the README; with `IMPACT_PAPER_REWRITE=1` in the
 //! environment that test writes it.
 
-use super::equations::{EQUATIONS, homes};
 use super::PROGRAM;
+use super::equations::{EQUATIONS, homes};
 use crate::claims::{self, PublishedError};
 use std::fmt::Write as _;
 

@@ -18,3 +18,93 @@ pub const PROGRAM: Program = Program {
     judge: |claim| format!("claims::{}", claim.split('_').next().unwrap_or_default()),
     exists: committed::exists,
 };
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use literate::source::{declared, items};
+    use std::path::Path;
+
+    /// The text stands in the file as it is on disk, line by line.
+    #[test]
+    fn the_text_is_that_of_the_file() {
+        for (path, file, first, last) in [
+            ("circuits::jump::p_jump", "crates/circuits/src/jump.rs", "pub fn p_jump(", "}"),
+            ("circuits::jump::Jump", "crates/circuits/src/jump.rs", "pub struct Jump {", "}"),
+            ("dynamics::impact::jumps", "crates/impact-chain/src/impact.rs", "pub fn jumps(", "}"),
+            (
+                "dynamics::flight::Motion::kick",
+                "crates/impact-chain/src/flight.rs",
+                "pub fn kick(",
+                "}",
+            ),
+            (
+                "numerics::first_root::LEVELS",
+                "crates/numerics/src/first_root.rs",
+                "const LEVELS",
+                "= 2;",
+            ),
+        ] {
+            let item = PROGRAM.item(path).unwrap();
+            assert_eq!(item.file, file);
+            let on_disk =
+                std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(file)).unwrap();
+            assert!(item.text.lines().any(|line| line.starts_with(first)), "{}", item.text);
+            assert!(item.text.starts_with("/// ") && item.text.ends_with(last), "{}", item.text);
+            let opened = |c| item.text.matches(c).count();
+            assert_eq!(opened('{'), opened('}'), "{}", item.text);
+            for line in item.text.lines() {
+                assert!(on_disk.contains(line), "{line:?} is not in {file}");
+            }
+        }
+    }
+
+    #[test]
+    fn every_item_is_whole() {
+        let quoted = |module: &&str| {
+            PROGRAM.quoted.iter().any(|layer| format!("{module}::").starts_with(layer))
+        };
+        for (module, _, text) in PROGRAM.sources.iter().filter(|(module, ..)| quoted(module)) {
+            for (name, _, lines) in items(text) {
+                let text = lines.join("\n");
+                let count = |c| text.matches(c).count();
+                assert_eq!(count('{'), count('}'), "{module}::{name}:\n{text}");
+            }
+        }
+    }
+
+    #[test]
+    fn no_item_hides_in_the_one_before() {
+        for (module, _, text) in PROGRAM.sources {
+            let items = items(text);
+            let lines = text.lines().take_while(|line| *line != "#[cfg(test)]");
+            let outside = |line: &str| !line.starts_with(' ') && declared(line).is_some();
+            for (i, line) in lines.enumerate().filter(|(_, line)| outside(line)) {
+                assert!(items.iter().any(|(_, at, _)| *at == i), "{module}: {line}");
+            }
+        }
+    }
+
+    /// A module has the place of its file.
+    #[test]
+    fn items_have_a_place() {
+        let jump = PROGRAM.place("circuits::jump::p_jump", |_| None).unwrap();
+        assert_eq!(jump.file, "crates/circuits/src/jump.rs");
+        let text = std::fs::read_to_string(jump.file).unwrap();
+        assert!(text.lines().nth(jump.line - 1).unwrap().contains("fn p_jump"));
+        assert_eq!(PROGRAM.place("claims::sec8", |_| None).unwrap().line, 1);
+    }
+
+    #[test]
+    fn a_renamed_item_is_refused() {
+        let error = PROGRAM.item("circuits::jump::p_yump").unwrap_err();
+        assert!(error.contains("`p_yump`") && error.contains("p_jump, "), "{error}");
+        assert!(PROGRAM.item("circuits::yump::p_jump").unwrap_err().contains("there is no item"));
+        let error = PROGRAM.item("cli::run").unwrap_err();
+        assert!(
+            error.contains("no such module; begin with one of numerics::…, dynamics::…"),
+            "{error}"
+        );
+        assert!(PROGRAM.item("dynamics::flight::Phases::kick").is_err());
+    }
+}

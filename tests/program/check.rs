@@ -1,7 +1,7 @@
 //! `impact-paper check` for machines: every form says of every claim what the text says.
 
 use crate::{PROGRAM, TEMPLATES, outcome, program, run};
-use impact_paper::claims::{self, Basis, Published};
+use impact_paper::claims::{self, Basis};
 use impact_paper::experiments::catalogue::ALL;
 use impact_paper::experiments::{self, Progress, Store};
 use impact_paper::params::Profile;

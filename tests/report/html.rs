@@ -4,7 +4,6 @@
 use crate::quick::QUICK;
 use impact_paper::dynamics::{Engine, Scenario};
 use impact_paper::numerics::random::NormalPairs;
-use impact_paper::params::Profile;
 use impact_paper::report::{compare, recipe};
 use roxmltree::{Document, Node, ParsingOptions};
 use std::collections::{BTreeMap, BTreeSet};
@@ -78,7 +77,7 @@ fn every_value_has_one_card() {
     assert!(buttons.iter().all(|button| !words(*button).trim().is_empty()));
     let values = std::str::from_utf8(&QUICK.report.committed["values.json"]).unwrap();
     for value in compare::read(values).unwrap().iter().filter(|v| !v.experiment.is_empty()) {
-        let known = recipe::recipe(&value.experiment, Profile::Quick).is_some();
+        let known = recipe::recipe(&value.experiment, "quick").is_some();
         assert!(known, "{}: no recipe of {:?}", value.id, value.experiment);
     }
     // A path of an item that leads to no file was renamed or misspelt.

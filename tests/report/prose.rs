@@ -3,7 +3,7 @@
 //! the paper, and every claim has its place in it.
 
 use crate::quick::QUICK;
-use impact_paper::claims::{self, Published, Verdict};
+use impact_paper::claims::{self, Verdict};
 use impact_paper::experiments::catalogue::{STARTS, SWEEP};
 use impact_paper::experiments::{Need, Progress, Results, Store, run::run};
 use impact_paper::figures;

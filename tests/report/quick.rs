@@ -2,10 +2,13 @@
 
 use impact_paper::claims::{self, Claim, Published};
 use impact_paper::experiments::catalogue::ALL;
+use impact_paper::experiments::spacetime::scene::Scene;
 use impact_paper::experiments::{Progress, Results, Store, run::run};
 use impact_paper::figures::{self, Figure};
 use impact_paper::params::Profile;
-use impact_paper::report::{Input, Registry, Report, Templates, assemble, contents};
+use impact_paper::report::{
+    self, Input, PROGRAM, Registry, Report, Templates, assemble, contents, equations,
+};
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::LazyLock;
@@ -37,8 +40,8 @@ pub static QUICK: LazyLock<Quick> = LazyLock::new(|| {
     let claims = claims::all(&results, &published).unwrap();
     let values = contents::registry(&results, &published).unwrap();
     let rows = contents::rows(&results, &claims).unwrap();
-    let scene =
-        impact_paper::experiments::spacetime::scene::Scene::of(results.spacetime().unwrap());
+    let scene = Scene::of(results.spacetime().unwrap());
+    let scene = scene.as_ref().map(|scene| report::scene::moving(scene).unwrap());
     let [figures, full] = [&results, &full].map(|results| -> Vec<_> {
         figures::all().map(|number| figures::draw(number, results).unwrap()).collect()
     });
@@ -48,8 +51,10 @@ pub static QUICK: LazyLock<Quick> = LazyLock::new(|| {
         rows: &rows,
         claims: &claims,
         figures: &figures,
+        equations: &equations::entries(),
         scene: scene.as_ref(),
         pdf: false,
+        program: PROGRAM,
     };
     let report = assemble(&input).unwrap_or_else(|error| panic!("{error}"));
     assert!(report == assemble(&input).unwrap(), "the same input gives other bytes");

@@ -41,6 +41,22 @@ impl std::fmt::Debug for Program {
     }
 }
 
+/// A program for tests.
+#[cfg(test)]
+pub(crate) const TOY: Program = Program {
+    sources: &[(
+        "toy::flight",
+        "src/flight.rs",
+        "//! Free flight.\n\n/// A phase.\npub struct Motion {\n    a: f64,\n}\n\nimpl Motion {\n    \
+         /// A jump of the velocity by ω `kick`.\n    pub fn kick<const M: usize>(&mut self, kick: f64, p: &Phases<M>) {\n        \
+         self.a -= kick * p.sin;\n        self.b += kick * p.cos;\n    }\n}\n",
+    )],
+    crates: &[("toy_paper::", "")],
+    quoted: &["toy::"],
+    exists: |path| path == "src/lib.rs",
+    ..PLAIN
+};
+
 /// An item of the source.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Item {
@@ -84,11 +100,12 @@ impl Recipe {
 impl Program {
     /// A path as the documents show it, from that of the compiler.
     pub fn short(&self, path: &str) -> String {
-        let own = self.crates.iter().find_map(|(own, shown)| Some((path.strip_prefix(own)?, shown)));
+        let own =
+            self.crates.iter().find_map(|(own, shown)| Some((path.strip_prefix(own)?, shown)));
         own.map_or(path.to_string(), |(rest, shown)| format!("{shown}{rest}"))
     }
 
-    /// The item of a path: `circuits::jump::p_jump`, `dynamics::flight::Motion::kick`.
+    /// The item of a path: `jump::p_jump`, `flight::Motion::kick`.
     ///
     /// # Errors
     /// One line that says what is unknown, and names what the module has.
@@ -98,8 +115,11 @@ impl Program {
             .filter(|_| self.quoted.iter().any(|layer| path.starts_with(layer)))
             .min_by_key(|(name, ..)| name.len());
         let Some((name, module, file, text)) = longest else {
-            let names = self.quoted.iter().map(|layer| format!("{layer}…")).collect::<Vec<_>>().join(", ");
-            return Err(format!("there is no item `{path}`: no such module; begin with one of {names}"));
+            let names =
+                self.quoted.iter().map(|layer| format!("{layer}…")).collect::<Vec<_>>().join(", ");
+            return Err(format!(
+                "there is no item `{path}`: no such module; begin with one of {names}"
+            ));
         };
         let found = items(text);
         match found.iter().find(|(own, ..)| own == name) {
@@ -120,7 +140,9 @@ impl Program {
         path: &'a str,
     ) -> impl Iterator<Item = (&'a str, &'static str, &'static str, &'static str)> {
         let name = move |module: &str| path.strip_prefix(module)?.strip_prefix("::");
-        self.sources.iter().filter_map(move |(module, file, text)| Some((name(module)?, *module, *file, *text)))
+        self.sources
+            .iter()
+            .filter_map(move |(module, file, text)| Some((name(module)?, *module, *file, *text)))
     }
 
     /// The place of an item or a module, in the files as `read` gives them, or else as they were when
@@ -270,3 +292,47 @@ fn shown(value: &Json) -> String {
     }
 }
 
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_item_is_found_by_its_path() {
+        let item = TOY.item("toy::flight::Motion::kick").unwrap();
+        assert_eq!(item.file, "src/flight.rs");
+        assert!(
+            item.text.starts_with("/// A jump") && item.text.ends_with("p.cos;\n}"),
+            "{}",
+            item.text
+        );
+        let error = TOY.item("toy::flight::kik").unwrap_err();
+        assert!(error.contains("`kik`") && error.contains("Motion, Motion::kick"), "{error}");
+        assert!(TOY.item("toy::fly::kick").unwrap_err().contains("there is no item"));
+        assert!(TOY.item("other::kick").unwrap_err().contains("begin with one of toy::"));
+    }
+
+    #[test]
+    fn items_and_modules_have_a_place() {
+        let place = |path, read: fn(&str) -> Option<String>| TOY.place(path, read);
+        assert_eq!(place("toy::flight", |_| None).unwrap().line, 1);
+        assert_eq!(place("toy::flight::Motion", |_| None).unwrap().line, 4);
+        // In the working copy the lines have moved.
+        let moved = |_: &str| Some("//! a\n//! b\n\n\n\n\npub struct Motion;\n".to_string());
+        assert_eq!(place("toy::flight::Motion", moved).unwrap().line, 7);
+        assert_eq!(place("toy::flight::Motor", |_| None), None);
+    }
+
+    #[test]
+    fn paths_are_those_of_the_documents() {
+        assert_eq!(TOY.short("toy_paper::run::mean"), "run::mean");
+        assert_eq!(TOY.short("other::run"), "other::run");
+    }
+
+    #[test]
+    fn parameters_of_parameters_have_both_names() {
+        let parameters = serde_json::json!({"seed": 7, "chain": {"masses": 3}, "r": [0.5, 0.25]});
+        let recipe = Recipe::of("run", "run".into(), &parameters);
+        let told: Vec<String> = recipe.parameters.iter().map(|(k, v)| format!("{k}={v}")).collect();
+        assert_eq!(told, ["chain masses=3", "r=0.5, 0.25", "seed=7"]);
+    }
+}

@@ -500,7 +500,7 @@ mod tests {
         assert_eq!(cell.kind, Kind::Ensemble { realisations: 2, standard_error: 0.5 });
         assert_eq!(
             (cell.source.as_str(), cell.experiment.as_str()),
-            ("table::tests::mean", "test")
+            ("literate::table::tests::mean", "test")
         );
         assert_eq!(cell.note, "the mean");
         assert_eq!(table.at(&cell.id), Some(cell));
@@ -508,7 +508,7 @@ mod tests {
         assert_eq!(table.number(&[("r", 0.8), ("sigma", 0.3)], "mean"), Ok(7.5));
         // A closure's item is the function in which it stands.
         let runs = table.cell(&[("r", 0.0), ("sigma", 0.1)], "runs").unwrap();
-        assert_eq!(runs.source, "table::tests::table");
+        assert_eq!(runs.source, "literate::table::tests::table");
         let inverse = table.cell(&[("r", 0.8), ("sigma", 0.1)], "inverse").unwrap();
         assert_eq!(
             (inverse.unit.as_str(), inverse.id.as_str()),
@@ -523,7 +523,7 @@ mod tests {
         let table = table();
         let lost = table.cell(&[("r", 0.8), ("sigma", 0.30000000000000004)], "mean").unwrap_err();
         assert_eq!(lost.address, "test.rise[r=0.8,sigma=0.30000000000000004].mean");
-        assert!(lost.place.starts_with("src/table.rs:"), "{}", lost.place);
+        assert!(lost.place.starts_with("crates/literate/src/table.rs:"), "{}", lost.place);
         assert!(table.cell(&[("r", 0.8)], "meen").is_err());
         // There is a cell, and it has no number.
         assert!(table.number(&[("r", 0.0), ("sigma", 0.3)], "mean").is_err());

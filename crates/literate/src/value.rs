@@ -79,7 +79,7 @@ pub struct Value {
     pub unit: String,
     /// Where it comes from.
     pub kind: Kind,
-    /// Path of the item that computed it, as `circuits::jump::p_jump`.
+    /// Path of the item that computed it, as the compiler writes it: `my_paper::jump::p_jump`.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub source: String,
     /// The experiment whose results it was read from; empty for parameters.

@@ -12,7 +12,7 @@ use impact_paper::report::lint::{Declared, findings};
 use impact_paper::report::origin::Filled;
 use impact_paper::report::print::{Asked, Style, print};
 use impact_paper::report::{
-    Error, Registry, Value, appendix, compare, html, labels, latex, markdown, parse, sums,
+    Error, PROGRAM, Registry, Value, appendix, compare, html, labels, latex, markdown, parse, sums,
 };
 use std::sync::LazyLock;
 
@@ -101,7 +101,7 @@ pub fn values(text: &str) -> Result<(), String> {
 
 pub fn ledger(text: &str) -> Result<(), String> {
     let ledger = ledger::read(text).map_err(line)?;
-    let cards = Cards { values: &VALUES, ledger: &ledger };
+    let cards = Cards { values: &VALUES, ledger: &ledger, program: PROGRAM };
     for id in cards.ids() {
         cards.get(&id);
     }
@@ -133,10 +133,10 @@ static LIBRARY: LazyLock<Library> =
 /// What is written of it in every form, but for pictures: how many bytes.
 pub fn written(text: &str, values: &Registry) -> Result<usize, Error> {
     let filled = Filled::plain("report.md", text);
-    let (mut blocks, _) = parse::parse(&filled, values)?;
+    let (mut blocks, _) = parse::parse(&filled, values, PROGRAM)?;
     labels::resolve(&mut blocks, &LIBRARY)?;
     let ledger = Ledger::default();
-    let cards = Cards { values, ledger: &ledger };
+    let cards = Cards { values, ledger: &ledger, program: PROGRAM };
     let page = html::write(&blocks, &[], None, cards);
     let printed = [blocks.as_slice(), &appendix::values(&blocks, cards)].concat();
     let latex = latex::write(&printed)?.len() + latex::listings(&blocks)?.len();

@@ -6,7 +6,7 @@ use crate::quick::QUICK;
 use impact_paper::report::claims::{Row, scorecard};
 use impact_paper::report::filler::Filler;
 use impact_paper::report::lint::{Declared, findings};
-use impact_paper::report::{Error, Registry, Templates};
+use impact_paper::report::{Error, PROGRAM, Registry, Templates};
 use std::sync::LazyLock;
 
 /// What the prose of the quick profile may name.
@@ -70,7 +70,7 @@ fn made(text: &str) -> Result<usize, Error> {
     findings("report.md", text, &declared);
     let templates = Templates::of([("report.md", text)]);
     let (values, claims) = &*NAMED;
-    let mut filler = Filler::new(&templates, values)?;
+    let mut filler = Filler::new(&templates, values, PROGRAM)?;
     filler.insert("claims", claims);
     for (name, rows) in &QUICK.rows {
         filler.insert(name, rows);

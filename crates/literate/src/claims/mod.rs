@@ -40,7 +40,7 @@ pub struct Claim {
 }
 
 impl Claim {
-    /// Whether this row makes `impact-paper check` fail: a difference that nothing explains, or
+    /// Whether this row makes a check fail: a difference that nothing explains, or
     /// whose explanation no longer holds.
     pub fn fails(&self) -> bool {
         self.verdict == Verdict::Differs

@@ -54,12 +54,8 @@ fn font(face: Face) -> Result<&'static FontRef<'static>, Error> {
     static REGULAR: OnceLock<Option<FontRef<'static>>> = OnceLock::new();
     static ITALIC: OnceLock<Option<FontRef<'static>>> = OnceLock::new();
     let (cell, bytes): (_, &'static [u8]) = match face {
-        Face::Regular => {
-            (&REGULAR, include_bytes!("../../fonts/LibertinusSerif-Regular.otf"))
-        }
-        Face::Italic => {
-            (&ITALIC, include_bytes!("../../fonts/LibertinusSerif-Italic.otf"))
-        }
+        Face::Regular => (&REGULAR, include_bytes!("../../fonts/LibertinusSerif-Regular.otf")),
+        Face::Italic => (&ITALIC, include_bytes!("../../fonts/LibertinusSerif-Italic.otf")),
     };
     cell.get_or_init(|| FontRef::try_from_slice(bytes).ok())
         .as_ref()

@@ -97,4 +97,3 @@ impl From<DrawingAreaErrorKind<Error>> for Error {
 pub fn palette() -> impl Iterator<Item = (&'static str, String)> {
     style::PALETTE.into_iter().map(|(name, colour)| (name, colour.to_string()))
 }
-

@@ -174,6 +174,15 @@ impl Sheet {
         let drawing = self.drawing.take();
         let svg = drawing.svg(id, title, &description);
         let (id, title) = (id.to_string(), title.to_string());
-        Figure { id, title, description, svg, drawing, data, source: String::new(), experiments: Vec::new() }
+        Figure {
+            id,
+            title,
+            description,
+            svg,
+            drawing,
+            data,
+            source: String::new(),
+            experiments: Vec::new(),
+        }
     }
 }

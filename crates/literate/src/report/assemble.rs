@@ -191,7 +191,12 @@ fn check_unused(values: &Registry, marks: &[Mark]) -> Result<(), Error> {
 }
 
 /// Each link leads to a place of the report, a file or folder of it, a file of the project, or out.
-fn check_links(blocks: &[Block], labels: &Labels, files: &Files, program: Program) -> Result<(), Error> {
+fn check_links(
+    blocks: &[Block],
+    labels: &Labels,
+    files: &Files,
+    program: Program,
+) -> Result<(), Error> {
     let leads =
         |to: &str| match (to.split_once("://"), to.strip_prefix('#'), to.strip_prefix("../")) {
             (Some(_), ..) => true,

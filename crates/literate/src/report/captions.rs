@@ -1,8 +1,8 @@
 //! What stands alone in its paragraph (a figure, a scene, the references), and captions that stand before
 //! what they belong to.
 
-use super::document::{Block, Inline};
 use super::Error;
+use super::document::{Block, Inline};
 use crate::source::Program;
 
 /// Before the path of a picture.

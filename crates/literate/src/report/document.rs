@@ -79,14 +79,14 @@ pub enum Block {
         number: String,
         /// What it does, in words.
         caption: Vec<Inline>,
-        /// Path of the item, as `circuits::jump::p_jump`.
+        /// Path of the item, as `jump::p_jump`.
         item: String,
         /// Its file, from the top of the project.
         file: String,
         /// The lines.
         text: String,
     },
-    /// The place where masses move, in formats in which they can.
+    /// The place of what moves, in formats in which it can.
     Scene {
         /// The caption.
         caption: Vec<Inline>,

@@ -9,10 +9,10 @@
 //! writers turn marks into digits, each in its own markup and knowing whether the mark stands in
 //! prose or in mathematics; and they know which values were named. For conditions there are plain
 //! numbers: `<% if raw.half_height < raw.printed.threshold %>`.
-//! A cell of a table is named by the keys of its row and its column, `«restitution.rise["r=0.8,sigma=0.3"].impacts»`,
+//! A cell of a table is named by the keys of its row and its column, `«run.rise["r=0.8,x=0.3"].mean»`,
 //! and `first`, `last` and `last-1` stand for values of a key ([`crate::table::Table::named`]); a loop goes through the
-//! values of a key by `<% for r in keys.restitution.rise.r %>`, and the names of all rows by `keys.restitution.rise.rows`.
-//! `«code(item="circuits::jump::p_jump")»` is an item of the source, see [`Program::item`].
+//! values of a key by `<% for r in keys.run.rise.r %>`, and the names of all rows by `keys.run.rise.rows`.
+//! `«code(item="module::Type::method")»` is an item of the source, see [`Program::item`].
 
 use super::mark::Mark;
 use super::origin::{Filled, marked, next_tag};
@@ -336,13 +336,14 @@ fn register(tera: &mut Tera, program: Program) {
 mod tests {
     use super::super::Value;
     use super::*;
+    use crate::source::TOY;
 
     fn fill(text: &str) -> Result<String, Error> {
         let mut values = Registry::new();
         values.add(Value::real("p_crit", 0.0122, 3)).unwrap();
         values.add(Value::printed("printed.rise", "0.12", "Sec. 2")).unwrap();
         let templates = Templates::of([("report.md", text)]);
-        Filler::new(&templates, &values)?.fill("report.md")
+        Filler::new(&templates, &values, TOY)?.fill("report.md")
     }
 
     #[test]
@@ -388,11 +389,11 @@ mod tests {
 
     #[test]
     fn an_item_that_is_gone_is_an_error_with_its_place() {
-        assert!(fill("«code(item=\"circuits::jump::p_jump\")»").is_ok());
+        assert!(fill("«code(item=\"toy::flight::Motion::kick\")»").is_ok());
         let error =
-            fill("one\n\n  «code(item=\"circuits::jump::p_yump\")»").unwrap_err().to_string();
+            fill("one\n\n  «code(item=\"toy::flight::Motion::kik\")»").unwrap_err().to_string();
         assert!(error.starts_with("report.md:3:"), "{error}");
-        assert!(error.contains("no item `circuits::jump::p_yump`"), "{error}");
+        assert!(error.contains("no item `toy::flight::Motion::kik`"), "{error}");
         assert!(!error.contains('\n'), "{error}");
     }
 

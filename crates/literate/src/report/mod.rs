@@ -136,6 +136,7 @@ mod tests {
     use super::*;
     use crate::claims::{Basis, Claim, Text, Verdict};
     use crate::figures::{DataFile, Drawing, Figure};
+    use crate::source::TOY;
 
     /// One document with everything that the prose may use.
     const SAMPLE: &str = r#"# A title
@@ -188,7 +189,7 @@ By [@lst:kick], in words.
 
 Listing: What $\delta v$ does. {#lst:kick}
 
-«code(item="dynamics::flight::Motion::kick")»
+«code(item="toy::flight::Motion::kick")»
 
 ## References {.unnumbered}
 
@@ -206,8 +207,8 @@ Listing: What $\delta v$ does. {#lst:kick}
 
     fn tree(text: &str) -> Vec<document::Block> {
         let templates = Templates::of([("report.md", text)]);
-        let filled = filler::Filler::new(&templates, &values()).unwrap().prose("report.md");
-        let (mut blocks, _) = parse::parse(&filled.unwrap(), &values()).unwrap();
+        let filled = filler::Filler::new(&templates, &values(), TOY).unwrap().prose("report.md");
+        let (mut blocks, _) = parse::parse(&filled.unwrap(), &values(), TOY).unwrap();
         let bib = "@article{rice1945, author={Rice, S. O.}, title={Noise}, year=1945}";
         let library = bibliography::Library::read(bib).unwrap();
         labels::resolve(&mut blocks, &library).unwrap();
@@ -231,8 +232,8 @@ Listing: What $\delta v$ does. {#lst:kick}
             "1. one\n2. two\n\n   more\n",
             "```rust\nfn f() -> σ { 1 }\n```\n",
             "\nBy [Listing\u{a0}1](#lst-kick), in words.\n",
-            "<a id=\"lst-kick\"></a>**Listing 1.** What $\\delta v$ does.\n\n<details>\n<summary><code>dynamics::flight::Motion::kick</code></summary>\n\n```rust\n/// ",
-            "\n    self.b += kick * p.cos;\n}\n```\n\n<sub>From [crates/impact-chain/src/flight.rs](../crates/impact-chain/src/flight.rs).</sub>\n\n</details>\n",
+            "<a id=\"lst-kick\"></a>**Listing 1.** What $\\delta v$ does.\n\n<details>\n<summary><code>toy::flight::Motion::kick</code></summary>\n\n```rust\n/// ",
+            "\n    self.b += kick * p.cos;\n}\n```\n\n<sub>From [src/flight.rs](../src/flight.rs).</sub>\n\n</details>\n",
             "- <a id=\"ref-rice1945\"></a>Rice, S. O. (1945). *Noise*.\n",
         ] {
             assert!(text.contains(part), "{part:?} is not in\n{text}");
@@ -261,7 +262,7 @@ Listing: What $\delta v$ does. {#lst:kick}
         let appendix = latex::listings(&tree(SAMPLE)).unwrap();
         for part in [
             "\\section*{Listings}",
-            "\\phantomsection\\label{lst:kick}\\textbf{Listing 1.} What $\\delta v$ does. \\texttt{dynamics::\\allowbreak{}flight",
+            "\\phantomsection\\label{lst:kick}\\textbf{Listing 1.} What $\\delta v$ does. \\texttt{toy::\\allowbreak{}flight",
             "\\begin{alltt}\n/// A jump of the velocity by \\ensuremath{\\omega} `kick`",
             "(&mut self, kick: f64, p: &Phases<M>) \\{\n    self.a -= kick * p.sin;\n",
         ] {
@@ -272,7 +273,7 @@ Listing: What $\delta v$ does. {#lst:kick}
     /// The tree of Markdown that nothing was filled into.
     fn parsed(text: &str) -> Result<Vec<document::Block>, Error> {
         let values = values();
-        Ok(parse::parse(&origin::Filled::plain("report.md", text), &values)?.0)
+        Ok(parse::parse(&origin::Filled::plain("report.md", text), &values, TOY)?.0)
     }
 
     fn figure() -> Figure {
@@ -286,6 +287,8 @@ Listing: What $\delta v$ does. {#lst:kick}
             svg: drawing.svg("fig03", "The rise", "It rises [steeply]."),
             drawing,
             data: vec![data],
+            source: String::new(),
+            experiments: Vec::new(),
         }
     }
 
@@ -326,8 +329,16 @@ Listing: What $\delta v$ does. {#lst:kick}
             rows: &Default::default(),
             claims: &[claim()],
             figures: &[figure()],
+            equations: &[ledger::EquationEntry {
+                number: 18,
+                section: 7,
+                what: "the jump".into(),
+                home: "toy::flight".into(),
+                step_towards: None,
+            }],
             scene: None,
             pdf: false,
+            program: TOY,
         })
     }
 
@@ -484,7 +495,7 @@ Listing: What $\delta v$ does. {#lst:kick}
         assert!(fails("$$a \\tag{1}$$\n\n$$b \\tag{1}$$").contains("eq:1"));
         assert!(fails("## A {#sec:a}\n\nSee [@sec:a; @eq:1].").contains("eq:1"));
         assert!(parsed("<b>html</b>").is_err());
-        let code = "```rust dynamics::flight::Motion::kick\n```";
+        let code = "```rust toy::flight::Motion::kick\n```";
         assert!(parsed(&format!("Listing: A. {{#lst:a}}\n\n{code}")).is_ok());
         for text in [format!("Words.\n\n{code}"), format!("Listing: No id.\n\n{code}")] {
             let error = parsed(&text).unwrap_err().to_string();

@@ -8,14 +8,13 @@
 //! - `Table: caption {#tab:id}`, a paragraph right before a table: its caption.
 //! - `Listing: caption {#lst:id}`, a paragraph right before `«code(item="path::of::item")»`: a
 //!   listing of that item of the source.
-//! - `Scene: caption`, a paragraph: the moving masses, where a format can show them, else nothing.
+//! - `Scene: caption`, a paragraph: what moves, where a format can show it, else nothing.
 //! - `[!claim:id]`: a place that can be referred to; it shows its number.
 //! - `[@eq:18]`, `[@fig:2; @fig:3]`, `[@sec:id]`, `[@tab:id]`, `[@lst:id]`, `[@claim:id]`: references, written
 //!   out as "Eq. (18)" and so on; with a capital, as `[@Fig:2]`, in full as at the start of a sentence.
 //! - `[@rice1945]`: a citation of `references.bib`.
 //! - `[@bibliography]` alone in a paragraph: the list of what was cited.
 
-use crate::source::Program;
 use super::captions::{IMAGE, join, listing, opens_caption, paragraph};
 use super::card::words_and_maths;
 use super::document::{Align, Block, Inline, plain};
@@ -25,6 +24,7 @@ use super::print::print;
 use super::valued::{bare, framed};
 use super::values::Registry;
 use super::{Error, html, leftover, macros, tex};
+use crate::source::Program;
 use pulldown_cmark::{Alignment, BrokenLink, CowStr, Event, LinkType, Options, Parser, Tag};
 use std::ops::Range;
 

@@ -161,16 +161,6 @@ fn is_id(id: &str) -> bool {
     parts.clone().count() <= 2 && parts.all(name)
 }
 
-/// The id of a table's cell, in the line of a σ: `heat.s0_12_ratio`.
-pub fn cell(table: &str, sigma: f64, column: &str) -> String {
-    format!("{table}.{}_{column}", line(sigma))
-}
-
-/// The name of a table's line by its σ: `s0_12`.
-pub fn line(sigma: f64) -> String {
-    format!("s{}", sigma.to_string().replace('.', "_"))
-}
-
 /// A unit of the last printed digit of a deterministic real number.
 pub fn last_digit(value: &Value) -> Option<f64> {
     match value.number {

@@ -1,7 +1,7 @@
 //! What a reader is told about one thing: the card that opens in HTML and in the terminal.
 //!
 //! Cards are made of values.json and ledger.json alone, with the parameters of the profile, so that
-//! `impact-paper explain` needs no run.
+//! no run is needed.
 
 mod claim;
 mod equation;

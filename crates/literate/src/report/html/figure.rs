@@ -1,8 +1,8 @@
 //! A figure: the picture inside the page, its caption, and where it comes from.
 
 use super::{Page, escape};
-use crate::report::document::Block;
 use crate::report::Error;
+use crate::report::document::Block;
 use crate::source::Program;
 
 impl Page<'_> {
@@ -27,7 +27,13 @@ impl Page<'_> {
 }
 
 /// Links to the picture as a file, its data, its drawing code and the experiments.
-fn origin(source: &str, path: &str, data: &[String], experiments: &[&str], program: Program) -> String {
+fn origin(
+    source: &str,
+    path: &str,
+    data: &[String],
+    experiments: &[&str],
+    program: Program,
+) -> String {
     let link = |to: &str, shown: &str| {
         format!("<a href=\"{}\">{}</a>", escape::text(to), escape::text(shown))
     };

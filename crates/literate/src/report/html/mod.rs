@@ -87,7 +87,8 @@ pub fn write(
     cards: Cards<'_>,
 ) -> Result<Parts, Error> {
     let program = cards.program;
-    let page = Page { figures, moving, program, named: RefCell::default(), glyphs: RefCell::default() };
+    let page =
+        Page { figures, moving, program, named: RefCell::default(), glyphs: RefCell::default() };
     let is_title = |block: &&Block| matches!(block, Block::Heading { level: 1, .. });
     let Some(Block::Heading { text, .. }) = blocks.iter().find(is_title) else {
         return Err(Error::Markup("a report begins with its title, `# Words`".into()));
