@@ -31,8 +31,8 @@ const WHOLE: [&str; 3] =
 
 /// What changes no result: words for people, and what tables are made of.
 const SILENT: [&str; 4] = [
-    "src/experiments/progress.rs",
-    "src/experiments/error.rs",
+    "crates/literate/src/experiments/progress.rs",
+    "crates/literate/src/experiments/error.rs",
     "crates/literate/src/table.rs",
     "crates/literate/src/value.rs",
 ];
@@ -211,8 +211,9 @@ fn resolve(source: &Source, code: &BTreeMap<&str, String>, path: &[String]) -> V
         let Some(next) = next else {
             return match file {
                 Some(file) if name == "*" => whole(source, &file, &at),
-                Some(file) => vec![home(source, code, &file, &at, &path[i..])],
-                None => Vec::new(),
+                Some(file) => home(source, code, &file, &at, &path[i..]),
+                None => taken(code, "src/lib.rs", &path[i..])
+                    .map_or_else(Vec::new, |path| resolve(source, code, &path)),
             };
         };
         at = format!("{at}/{name}");
@@ -228,6 +229,20 @@ fn whole(source: &Source, file: &str, at: &str) -> Vec<String> {
     std::iter::once(file.to_string()).chain(inside).collect()
 }
 
+/// The path from the top of an item that a file takes from another crate.
+fn taken(code: &BTreeMap<&str, String>, file: &str, item: &[String]) -> Option<Vec<String>> {
+    let text = code[file].as_str();
+    CRATES.iter().find_map(|own| {
+        let taken = format!("pub use {}::", own.name);
+        text.match_indices(&taken).find_map(|(i, _)| {
+            let mut named = Vec::new();
+            tree(&text[i + taken.len()..], Vec::new(), &mut named);
+            let path = named.into_iter().find(|path| path.last() == item.first())?;
+            Some([&[own.module.to_string()], path.as_slice(), &item[1..]].concat())
+        })
+    })
+}
+
 /// Where a module has an item from: a child or a crate that it takes it from, or itself.
 fn home(
     source: &Source,
@@ -235,14 +250,16 @@ fn home(
     file: &str,
     at: &str,
     item: &[String],
-) -> String {
+) -> Vec<String> {
+    if let Some(path) = taken(code, file, item) {
+        return resolve(source, code, &path);
+    }
     let text = code[file].as_str();
     let child = |child: String| {
         let files = [format!("{at}/{child}.rs"), format!("{at}/{child}/mod.rs")];
         Some((child, files.into_iter().find(|path| source.contains_key(path))?))
     };
-    let crates = CRATES.iter().map(|own| (own.name.into(), format!("{}/lib.rs", own.folder)));
-    for (child, child_file) in children(text).into_iter().filter_map(child).chain(crates) {
+    for (child, child_file) in children(text).into_iter().filter_map(child) {
         let taken = format!("pub use {child}::");
         for (i, _) in text.match_indices(&taken) {
             let mut named = Vec::new();
@@ -250,11 +267,11 @@ fn home(
             let name = |path: &Vec<String>| path.last() == item.first();
             let all = named.iter().any(|path| path.last().is_some_and(|last| last == "*"));
             if named.iter().any(name) || all && defines(&code[child_file.as_str()], &item[0]) {
-                return child_file;
+                return vec![child_file];
             }
         }
     }
-    file.to_string()
+    vec![file.to_string()]
 }
 
 const KINDS: [&str; 8] =

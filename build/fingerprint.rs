@@ -18,9 +18,11 @@ pub fn run() -> io::Result<()> {
     for file in source_files()? {
         source.insert(file.to_string_lossy().replace('\\', "/"), fs::read_to_string(&file)?);
     }
-    let mut out =
-        format!("Built {{\n    lock: {:?},\n    modules: &[\n", hash(&fs::read("Cargo.lock")?));
-    let saved = |path: &&String| path.starts_with("src/experiments/");
+    let mut out = format!("({:?}, &[\n", hash(&fs::read("Cargo.lock")?));
+    let saved = |path: &&String| {
+        path.starts_with("src/experiments/")
+            || path.starts_with("crates/literate/src/experiments/deep/")
+    };
     for path in source.keys().filter(saved) {
         let _ = writeln!(out, "    ({path:?}, &[");
         for file in depends::files(&source, path) {
@@ -28,7 +30,7 @@ pub fn run() -> io::Result<()> {
         }
         out.push_str("    ]),\n");
     }
-    out.push_str("    ],\n}\n");
+    out.push_str("])\n");
     let folder = env::var_os("OUT_DIR").map(PathBuf::from).unwrap_or_default();
     fs::write(folder.join("dependencies.rs"), out)
 }

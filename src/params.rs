@@ -25,6 +25,7 @@ pub use history::HistoryParams;
 pub use impact_chain::{Boundary, Chain, Start};
 pub use impact_numerics::estimates::LEVEL;
 pub use independence::{IndependenceParams, IndependenceRow};
+pub use literate::experiments::Profile;
 pub use nucleation::{NucleationParams, SeedsParams};
 pub use orbits::{HuntParams, OrbitsParams};
 pub use restitution::RestitutionParams;

@@ -2,8 +2,8 @@
 
 use super::{Failure, shard, stdout, work};
 use impact_paper::experiments::Store;
-use impact_paper::experiments::shards::Task;
 use impact_paper::params::Profile;
+use literate::experiments::shards::Task;
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::path::PathBuf;

@@ -1,9 +1,9 @@
 //! `impact-paper run`.
 
 use super::{Failure, stdout, work};
-use impact_paper::experiments::shards::MOST;
 use impact_paper::experiments::{Error, Store};
 use impact_paper::params::Profile;
+use literate::experiments::shards::MOST;
 use std::path::PathBuf;
 
 /// Runs one shard of a profile: its share of the units of work that `plan` lists.

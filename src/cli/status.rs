@@ -3,8 +3,8 @@
 use super::{Failure, stdout, work};
 use impact_paper::experiments::Store;
 use impact_paper::experiments::catalogue::{self, Saved};
-use impact_paper::experiments::identity::{Reason, told};
 use impact_paper::params::Profile;
+use literate::experiments::identity::{Reason, told};
 use serde::Serialize;
 use std::path::PathBuf;
 

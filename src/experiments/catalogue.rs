@@ -2,8 +2,7 @@
 //! to the whole program.
 
 use super::accuracy::{analytic, bias, race, scale, tables, trials};
-use super::deep::Deep;
-use super::experiment::How::{Cut, Read, Whole};
+use super::built::code;
 use super::{
     Measured, Results, chains, heat, history, horizon, independence, long, nucleation, orbits,
     protocol, protocol_tables, protocols, restitution, seeds, segments, spacetime, starts,
@@ -17,11 +16,9 @@ use crate::params::{
 };
 use crate::table::Table;
 
-pub use super::experiment::{Entry, Experiment, Saved};
-
-/// An experiment that a figure, a value or a claim needs. The theory need not be declared: it costs
-/// hundredths of a second and is computed when first looked at.
-pub type Need = &'static dyn Entry;
+use literate::experiments::deep::Deep;
+use literate::experiments::experiment::How::{Cut, Read, Whole};
+pub use literate::experiments::{Entry, Experiment, Need, Saved};
 
 /// All experiments, in the order in which they run.
 pub const ALL: [Need; 25] = [
@@ -79,7 +76,7 @@ pub fn of(profile: Profile) -> Vec<Need> {
 /// The motions of Figs. 5(b) and 6(b).
 pub const SEGMENTS: Experiment<(), segments::Segments> = Experiment {
     name: "segments",
-    module: "src/experiments/segments.rs",
+    code: code("src/experiments/segments.rs"),
     parameters: |_| (),
     how: Read(segments::read),
     tables: segments::tables,
@@ -88,16 +85,16 @@ pub const SEGMENTS: Experiment<(), segments::Segments> = Experiment {
 /// Times that were measured once.
 pub const MEASURED: Experiment<(), Measured> = Experiment {
     name: "measured",
-    module: "src/experiments/measured.rs",
+    code: code("src/experiments/measured.rs"),
     parameters: |_| (),
-    how: Read(|_| Ok(Measured::committed()?)),
+    how: Read(|_| Measured::committed()),
     tables: tables::measured,
 };
 
 /// The main sweep of Sec. 2.
 pub const SWEEP: Experiment<SweepParams, sweep::Sweep, tally::Tally> = Experiment {
     name: "sweep",
-    module: "src/experiments/sweep/mod.rs",
+    code: code("src/experiments/sweep/mod.rs"),
     parameters: SweepParams::main,
     how: Cut("main sweep", sweep::CUTTING),
     tables: sweep::tables::tables,
@@ -106,7 +103,7 @@ pub const SWEEP: Experiment<SweepParams, sweep::Sweep, tally::Tally> = Experimen
 /// The rise again, with another seed.
 pub const SECOND_SEED: Deep<SweepParams, sweep::Sweep, tally::Tally> = Deep::new(
     ("second_seed", "the rise with another seed ([@sec:simulation])"),
-    "src/experiments/sweep/mod.rs",
+    code("src/experiments/sweep/mod.rs"),
     SweepParams::second_seed,
     ("second seed", sweep::CUTTING),
     sweep::tables::of_second_seed,
@@ -115,7 +112,7 @@ pub const SECOND_SEED: Deep<SweepParams, sweep::Sweep, tally::Tally> = Deep::new
 /// Half height against transient and window.
 pub const PROTOCOL: Deep<ProtocolParams, protocol::ProtocolMap, protocol::Part> = Deep::new(
     ("protocol", "transients and windows ([@tab:protocol])"),
-    "src/experiments/protocol.rs",
+    code("src/experiments/protocol.rs"),
     ProtocolParams::new,
     ("protocol map", protocol::CUTTING),
     protocol_tables::of_map,
@@ -124,7 +121,7 @@ pub const PROTOCOL: Deep<ProtocolParams, protocol::ProtocolMap, protocol::Part> 
 /// The same for other starts and ends.
 pub const PROTOCOLS: Deep<ProtocolsParams, protocols::Protocols, protocol::Part> = Deep::new(
     ("protocols", "the same for other starts and ends ([@tab:protocols])"),
-    "src/experiments/protocols.rs",
+    code("src/experiments/protocols.rs"),
     ProtocolsParams::new,
     ("maps of other chains", protocols::CUTTING),
     protocol_tables::of_others,
@@ -133,7 +130,7 @@ pub const PROTOCOLS: Deep<ProtocolsParams, protocols::Protocols, protocol::Part>
 /// Other starts, boundaries, restitutions and frequencies.
 pub const STARTS: Deep<StartsParams, starts::Starts, tally::Tally> = Deep::new(
     ("starts", "other starts, ends and frequencies ([@tab:starts])"),
-    "src/experiments/starts.rs",
+    code("src/experiments/starts.rs"),
     StartsParams::new,
     ("variants", starts::CUTTING),
     starts_tables::tables,
@@ -142,7 +139,7 @@ pub const STARTS: Deep<StartsParams, starts::Starts, tally::Tally> = Deep::new(
 /// Chaos and its horizon.
 pub const HORIZON: Experiment<HorizonParams, horizon::Horizon> = Experiment {
     name: "horizon",
-    module: "src/experiments/horizon.rs",
+    code: code("src/experiments/horizon.rs"),
     parameters: HorizonParams::new,
     how: Whole {
         run: horizon::run,
@@ -154,7 +151,7 @@ pub const HORIZON: Experiment<HorizonParams, horizon::Horizon> = Experiment {
 /// Two masses under a low force.
 pub const TWO_MASSES: Experiment<TwoMassesParams, two_masses::TwoMasses> = Experiment {
     name: "two_masses",
-    module: "src/experiments/two_masses.rs",
+    code: code("src/experiments/two_masses.rs"),
     parameters: TwoMassesParams::new,
     how: Whole {
         run: two_masses::run,
@@ -166,7 +163,7 @@ pub const TWO_MASSES: Experiment<TwoMassesParams, two_masses::TwoMasses> = Exper
 /// One long run.
 pub const SPACE_TIME: Experiment<SpaceTimeParams, spacetime::SpaceTime> = Experiment {
     name: "spacetime",
-    module: "src/experiments/spacetime/mod.rs",
+    code: code("src/experiments/spacetime/mod.rs"),
     parameters: SpaceTimeParams::new,
     how: Whole { run: spacetime::run, weight: |p| 8 * weights::run(&p.chain, p.sigma, p.until) },
     tables: spacetime::tables::tables,
@@ -175,7 +172,7 @@ pub const SPACE_TIME: Experiment<SpaceTimeParams, spacetime::SpaceTime> = Experi
 /// Every method against the true motion.
 pub const RACE: Experiment<RaceParams, race::Race> = Experiment {
     name: "race",
-    module: "src/experiments/accuracy/race.rs",
+    code: code("src/experiments/accuracy/race.rs"),
     parameters: RaceParams::new,
     how: Whole { run: race::run, weight: |p| 30_000 * (p.chains * p.settings.len()) as u64 },
     tables: tables::race,
@@ -184,7 +181,7 @@ pub const RACE: Experiment<RaceParams, race::Race> = Experiment {
 /// What methods do to the mean count.
 pub const BIAS: Deep<BiasParams, bias::Biases, bias::Part> = Deep::new(
     ("bias", "bias of coarse methods ([@tab:bias])"),
-    "src/experiments/accuracy/bias.rs",
+    code("src/experiments/accuracy/bias.rs"),
     BiasParams::new,
     ("bias of methods", bias::CUTTING),
     tables::bias,
@@ -193,7 +190,7 @@ pub const BIAS: Deep<BiasParams, bias::Biases, bias::Part> = Deep::new(
 /// Every method in the scenes where methods fail.
 pub const TRIALS: Experiment<TrialParams, trials::Trials> = Experiment {
     name: "trials",
-    module: "src/experiments/accuracy/trials.rs",
+    code: code("src/experiments/accuracy/trials.rs"),
     parameters: TrialParams::new,
     how: Whole {
         run: trials::run,
@@ -205,7 +202,7 @@ pub const TRIALS: Experiment<TrialParams, trials::Trials> = Experiment {
 /// Counted work against the number of masses.
 pub const SCALE: Experiment<ScaleParams, scale::Scale> = Experiment {
     name: "scale",
-    module: "src/experiments/accuracy/scale.rs",
+    code: code("src/experiments/accuracy/scale.rs"),
     parameters: ScaleParams::new,
     how: Whole { run: scale::run, weight: |p| 300_000 + 7 * p.masses.iter().sum::<usize>() as u64 },
     tables: tables::scale,
@@ -214,7 +211,7 @@ pub const SCALE: Experiment<ScaleParams, scale::Scale> = Experiment {
 /// Ways to compute Eqs. (9) and (25).
 pub const ANALYTIC: Experiment<AnalyticParams, analytic::Analytic> = Experiment {
     name: "analytic",
-    module: "src/experiments/accuracy/analytic.rs",
+    code: code("src/experiments/accuracy/analytic.rs"),
     parameters: AnalyticParams::new,
     how: Whole { run: analytic::run, weight: |p| 3 * p.sizes.iter().sum::<usize>() as u64 / 2 },
     tables: tables::analytic,
@@ -223,7 +220,7 @@ pub const ANALYTIC: Experiment<AnalyticParams, analytic::Analytic> = Experiment 
 /// How hot running chains are.
 pub const HEAT: Deep<HeatParams, heat::Heat, heat::Part> = Deep::new(
     ("heat", "heat ([@sec:heat])"),
-    "src/experiments/heat/mod.rs",
+    code("src/experiments/heat/mod.rs"),
     HeatParams::new,
     ("heat", heat::CUTTING),
     heat::tables::tables,
@@ -233,7 +230,7 @@ pub const HEAT: Deep<HeatParams, heat::Heat, heat::Part> = Deep::new(
 pub const NUCLEATION: Experiment<NucleationParams, nucleation::Nucleation, nucleation::Part> =
     Experiment {
         name: "nucleation",
-        module: "src/experiments/nucleation/mod.rs",
+        code: code("src/experiments/nucleation/mod.rs"),
         parameters: NucleationParams::new,
         how: Cut("first impacts", nucleation::CUTTING),
         tables: nucleation::tables::tables,
@@ -242,7 +239,7 @@ pub const NUCLEATION: Experiment<NucleationParams, nucleation::Nucleation, nucle
 /// What one gap that closes by itself sets off.
 pub const SEEDS: Experiment<SeedsParams, seeds::Seeds, seeds::Part> = Experiment {
     name: "seeds",
-    module: "src/experiments/seeds/mod.rs",
+    code: code("src/experiments/seeds/mod.rs"),
     parameters: SeedsParams::new,
     how: Cut("seeds", seeds::CUTTING),
     tables: seeds::tables::tables,
@@ -251,7 +248,7 @@ pub const SEEDS: Experiment<SeedsParams, seeds::Seeds, seeds::Part> = Experiment
 /// Chains that are heated first.
 pub const HISTORY: Experiment<HistoryParams, history::History, history::Part> = Experiment {
     name: "history",
-    module: "src/experiments/history/mod.rs",
+    code: code("src/experiments/history/mod.rs"),
     parameters: HistoryParams::new,
     how: Cut("history", history::CUTTING),
     tables: history::tables::tables,
@@ -261,7 +258,7 @@ pub const HISTORY: Experiment<HistoryParams, history::History, history::Part> = 
 pub const INDEPENDENCE: Deep<IndependenceParams, independence::Independence, independence::Part> =
     Deep::new(
         ("independence", "order of impacts ([@sec:independence])"),
-        "src/experiments/independence/mod.rs",
+        code("src/experiments/independence/mod.rs"),
         IndependenceParams::new,
         ("independence", independence::CUTTING),
         independence::tables::tables,
@@ -270,7 +267,7 @@ pub const INDEPENDENCE: Deep<IndependenceParams, independence::Independence, ind
 /// Periodic orbits of a short chain.
 pub const ORBITS: Experiment<OrbitsParams, orbits::Orbits> = Experiment {
     name: "orbits",
-    module: "src/experiments/orbits/mod.rs",
+    code: code("src/experiments/orbits/mod.rs"),
     parameters: OrbitsParams::new,
     how: Whole { run: orbits::run, weight: |p| 60 * orbits::starts(p) },
     tables: orbits::tables::tables,
@@ -279,7 +276,7 @@ pub const ORBITS: Experiment<OrbitsParams, orbits::Orbits> = Experiment {
 /// Long chains, damping and other forces.
 pub const CHAINS: Deep<ChainsParams, chains::Chains, chains::Part> = Deep::new(
     ("chains", "long chains, friction, other forces ([@sec:chains])"),
-    "src/experiments/chains/mod.rs",
+    code("src/experiments/chains/mod.rs"),
     ChainsParams::new,
     ("long chains", chains::CUTTING),
     chains::tables::tables,
@@ -289,7 +286,7 @@ pub const CHAINS: Deep<ChainsParams, chains::Chains, chains::Part> = Deep::new(
 pub const RESTITUTION: Deep<RestitutionParams, restitution::Restitution, restitution::Part> =
     Deep::new(
         ("restitution", "restitution ([@sec:restitution])"),
-        "src/experiments/restitution/mod.rs",
+        code("src/experiments/restitution/mod.rs"),
         RestitutionParams::new,
         ("restitution", restitution::CUTTING),
         restitution::tables::tables,
@@ -301,7 +298,7 @@ pub const LONG_PROTOCOL: Deep<ProtocolParams, long::LongMap, protocol::Part> = D
     distance: Some(long::distance),
     ..Deep::new(
         ("long_protocol", "the longest transients ([@tab:long])"),
-        "src/experiments/long.rs",
+        code("src/experiments/long.rs"),
         ProtocolParams::long,
         ("long protocol map", long::CUTTING),
         protocol_tables::of_long,
@@ -313,9 +310,42 @@ pub const SIZES: Deep<ChainsParams, chains::Chains, chains::Part> = Deep {
     from: Profile::Quick,
     ..Deep::new(
         ("sizes", "lengths and transients ([@tab:sizes])"),
-        "src/experiments/chains/mod.rs",
+        code("src/experiments/chains/mod.rs"),
         ChainsParams::sizes,
         ("length and transient", chains::CUTTING),
         chains::tables::sizes,
     )
 };
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use literate::experiments::shards::Plan;
+    use std::collections::BTreeMap;
+
+    #[test]
+    fn names_of_units_differ_and_their_weights_are_shared_evenly() {
+        for profile in Profile::ALL {
+            let plan = Plan::new(of, profile);
+            let names: BTreeMap<&str, u64> =
+                plan.tasks.iter().map(|task| (task.name.as_str(), task.unit.weight)).collect();
+            assert_eq!(names.len(), plan.tasks.len());
+            let whole: u64 = names.values().sum();
+            let heaviest = names.values().max().unwrap();
+            for shards in [1, 3, 7] {
+                let mut loads = vec![0; shards];
+                for (task, shard) in plan.tasks.iter().zip(plan.shards(shards)) {
+                    loads[shard - 1] += task.unit.weight;
+                }
+                let even = whole / shards as u64;
+                assert!(loads.iter().all(|&load| load <= even + heaviest), "{loads:?}");
+                assert!(loads.iter().all(|&load| load + heaviest >= even), "{loads:?}");
+            }
+        }
+        // The cuts are the same whatever the number of machines; so many have one unit each.
+        let plan = Plan::new(of, Profile::Quick);
+        let mut alone = plan.shards(plan.tasks.len());
+        alone.sort_unstable();
+        assert_eq!(alone, (1..=plan.tasks.len()).collect::<Vec<_>>());
+    }
+}

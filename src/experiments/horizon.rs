@@ -52,7 +52,7 @@ const DISPLACED: f64 = 1e-9;
 /// Runs the twins.
 ///
 /// # Errors
-/// [`Error::Interrupted`]; [`Error::Dynamics`] if a run fails.
+/// [`Error::Interrupted`]; [`Error::Failed`] if a run fails.
 pub fn run(parameters: &HorizonParams, progress: &Progress) -> Result<Horizon, Error> {
     let stage = progress.stage("horizon", parameters.realisations as u64);
     let twins: Vec<Twins> = (0..parameters.realisations)
@@ -114,7 +114,7 @@ fn pair(parameters: &HorizonParams, index: u64) -> Result<Twins, Error> {
     for (j, amplitude) in twin.forcing.iter_mut().flatten().enumerate() {
         *amplitude = if j % 2 == 0 { amplitude.next_up() } else { amplitude.next_down() };
     }
-    let failed = |source| Error::Dynamics { experiment: "horizon", source };
+    let failed = |source| Error::failed("horizon", source);
     let mut first = Vec::new();
     let mut engine = Engine::new(&scenario).map_err(failed)?;
     engine

@@ -1,11 +1,11 @@
 //! The long end of the protocol map: runs of up to 10⁵ time units.
 
-use super::cutting::{Cutting, Unit};
-use super::deep::Distance;
 use super::protocol::{self, Part, ProtocolCell, ProtocolMap};
 use super::{Error, Progress};
 use crate::numerics::statistics::{mean, normal_quantile, standard_deviation};
 use crate::params::{LEVEL, ProtocolParams};
+use literate::experiments::cutting::{Cutting, Unit};
+use literate::experiments::deep::Distance;
 use serde::{Deserialize, Serialize};
 
 /// The map with its ensembles.

@@ -4,6 +4,7 @@
 //! depends on them. `make measure` writes them, with date and machine, and they are committed; the
 //! report only reads them, and so keeps its bytes until somebody measures again.
 
+use super::Error;
 use crate::committed;
 use crate::input::one_line;
 use serde::{Deserialize, Serialize};
@@ -106,18 +107,6 @@ pub struct Row {
     pub note: String,
 }
 
-/// What is wrong with a file of measurements.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("measured.json: {field}: {problem}; {remedy}")]
-pub struct MeasuredError {
-    /// The field, e.g. `rows[3].microseconds_per_impact`.
-    pub field: String,
-    /// What is wrong, with the value.
-    pub problem: String,
-    /// What to do.
-    pub remedy: &'static str,
-}
-
 /// What to do about any broken file.
 const AGAIN: &str = "run make measure again, or restore the file";
 
@@ -126,7 +115,7 @@ impl Measured {
     ///
     /// # Errors
     /// As [`Measured::parse`]; and if the file cannot be read.
-    pub fn committed() -> Result<Self, MeasuredError> {
+    pub fn committed() -> Result<Self, Error> {
         let text = committed::text(FILE).map_err(|e| wrong("file", e.to_string()))?;
         Measured::parse(&text)
     }
@@ -134,8 +123,8 @@ impl Measured {
     /// Reads and checks the file.
     ///
     /// # Errors
-    /// [`MeasuredError`] names the first field that is missing, unknown or out of bounds.
-    pub fn parse(text: &str) -> Result<Self, MeasuredError> {
+    /// [`Error::Input`] names the first field that is missing, unknown or out of bounds.
+    pub fn parse(text: &str) -> Result<Self, Error> {
         let mut reader = serde_json::Deserializer::from_str(text);
         let measured: Measured =
             serde_path_to_error::deserialize(&mut reader).map_err(|error| {
@@ -152,7 +141,7 @@ impl Measured {
         self.rows.iter().filter(move |row| row.what == what)
     }
 
-    fn check(&self) -> Result<(), MeasuredError> {
+    fn check(&self) -> Result<(), Error> {
         let digits = |part: &str, n| part.len() == n && part.bytes().all(|b| b.is_ascii_digit());
         let parts: Vec<&str> = self.date.split('-').collect();
         if !matches!(parts[..], [y, m, d] if digits(y, 4) && digits(m, 2) && digits(d, 2)) {
@@ -213,8 +202,9 @@ impl Row {
     }
 }
 
-fn wrong(field: &str, problem: String) -> MeasuredError {
-    MeasuredError { field: one_line(field, 80), problem: one_line(&problem, 1000), remedy: AGAIN }
+fn wrong(field: &str, problem: String) -> Error {
+    let field = format!("measured.json: {}", one_line(field, 80));
+    Error::input(field, one_line(&problem, 1000), AGAIN)
 }
 
 #[cfg(test)]

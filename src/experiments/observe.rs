@@ -126,7 +126,7 @@ fn masses_hit(hit: &[bool], ring: bool) -> u32 {
 /// Runs realisation `index` of a chain at σ = `sigma` and observes it.
 ///
 /// # Errors
-/// [`Error::Interrupted`], or [`Error::Dynamics`] if the chain itself is not allowed. A start that
+/// [`Error::Interrupted`], or [`Error::Failed`] if the chain itself is not allowed. A start that
 /// overlaps and an engine that gives up are outcomes, not errors.
 pub fn realisation(
     chain: &Chain,
@@ -141,7 +141,7 @@ pub fn realisation(
     let mut engine = match Engine::new(&scenario) {
         Ok(engine) => engine,
         Err(dynamics::Error::Overlap { .. }) => return Ok(Outcome::Rejected),
-        Err(source) => return Err(Error::Dynamics { experiment: "sweep", source }),
+        Err(source) => return Err(Error::failed("sweep", source)),
     };
     let ring = chain.boundary == crate::params::Boundary::Ring;
     let mut watch = Watch::new(scenario.gaps(), ring, protocol.transient);

@@ -1,7 +1,5 @@
 //! The influence of the counting protocol: half height against transient T and window W.
 
-use super::cutting::{Cutting, Row, Unit};
-use super::progress::Stage;
 use super::{Error, Progress, rise, weights};
 use crate::dynamics::{self, Engine, Scenario};
 use crate::numerics::random::NormalPairs;
@@ -9,6 +7,8 @@ use crate::numerics::statistics::{Estimate, mean};
 use crate::params::{
     COMPARABLE_REJECTED, PRINTED_THRESHOLD, PRINTED_THRESHOLD_UNIT, ProtocolParams,
 };
+use literate::experiments::cutting::{Cutting, Row, Unit};
+use literate::experiments::progress::Stage;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -135,7 +135,7 @@ pub const CUTTING: Cutting<ProtocolParams, Part, ProtocolMap> = Cutting { rows, 
 /// Runs the map.
 ///
 /// # Errors
-/// [`Error::Interrupted`]; [`Error::Dynamics`] if the chain is not allowed.
+/// [`Error::Interrupted`]; [`Error::Failed`] if the chain is not allowed.
 pub fn run(parameters: &ProtocolParams, progress: &Progress) -> Result<ProtocolMap, Error> {
     CUTTING.run(parameters, "protocol map", progress)
 }
@@ -266,7 +266,7 @@ pub(super) fn realisation(
     let mut engine = match Engine::new(&scenario) {
         Ok(engine) => engine,
         Err(dynamics::Error::Overlap { .. }) => return Ok(None),
-        Err(source) => return Err(Error::Dynamics { experiment: "protocol map", source }),
+        Err(source) => return Err(Error::failed("protocol map", source)),
     };
     let mut passages = FirstPassages::new(&parameters.transients, scenario.gaps());
     let mut seen = 0_u32;
@@ -279,7 +279,7 @@ pub(super) fn realisation(
     match ended {
         Ok(()) => Ok(Some(passages.counts(&parameters.windows, until))),
         Err(dynamics::Error::Work { .. }) => Ok(None),
-        Err(source) => Err(Error::Dynamics { experiment: "protocol map", source }),
+        Err(source) => Err(Error::failed("protocol map", source)),
     }
 }
 

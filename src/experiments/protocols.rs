@@ -1,10 +1,10 @@
 //! The map over transients and windows for other starts and ends.
 
-use super::cutting::{Cutting, Row, Unit};
-use super::progress::Stage;
 use super::protocol::{self, Part, ProtocolMap};
 use super::{Error, Progress};
 use crate::params::{NamedProtocol, ProtocolParams, ProtocolsParams};
+use literate::experiments::cutting::{Cutting, Row, Unit};
+use literate::experiments::progress::Stage;
 use serde::{Deserialize, Serialize};
 
 /// A map for each kind of chain.

@@ -2,15 +2,15 @@
 
 use super::accuracy::{analytic, bias, race, scale, trials};
 use super::catalogue::{self, ALL, TOGETHER};
-use super::experiment::{Found, Typed};
 use super::{Error, Measured};
 use super::{
-    chains, deep, heat, history, horizon, identities, independence, long, nucleation, orbits,
-    protocol, protocols, restitution, seeds, segments, spacetime, starts, sweep, theory,
-    two_masses,
+    chains, heat, history, horizon, identities, independence, long, nucleation, orbits, protocol,
+    protocols, restitution, seeds, segments, spacetime, starts, sweep, theory, two_masses,
 };
 use crate::params::{Profile, VERTICES};
 use crate::table::Table;
+use literate::experiments::deep::Audit;
+use literate::experiments::{Found, Typed};
 use std::collections::BTreeMap;
 use std::sync::{Arc, LazyLock, OnceLock};
 
@@ -31,7 +31,7 @@ pub struct Results {
     /// Tables of the results, made when first looked at.
     tables: OnceLock<BTreeMap<&'static str, Arc<Table>>>,
     /// Of each result that is carried over, by the name of its experiment, what became of a sample.
-    pub audits: BTreeMap<String, deep::Audit>,
+    pub audits: BTreeMap<String, Audit>,
 }
 
 macro_rules! asked_for {

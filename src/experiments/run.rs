@@ -1,9 +1,9 @@
 //! Runs what is needed, and nothing else; long runs are taken from the store.
 
 use super::catalogue::{ALL, Need};
-use super::experiment::Given;
 use super::{Error, Progress, Results, Store};
 use crate::params::Profile;
+use literate::experiments::experiment::Given;
 
 /// Runs the experiments that are needed with the sample sizes of a profile. `given` gives the text of a
 /// file of the templates; it is asked only by experiments that read one.

@@ -1,11 +1,11 @@
 //! The motions of Figs. 5(b) and 6(b): saved scenarios, replayed by the engine.
 
 use super::Error;
-use super::experiment::Given;
 use crate::dynamics::{Engine, Impact, Scenario};
 use crate::input::one_line;
 use crate::table::Table;
 use crate::value::origin;
+use literate::experiments::experiment::Given;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -137,14 +137,17 @@ struct Saved {
     order: Vec<usize>,
 }
 
+/// What to do about a file that is not as it was saved.
+const REMEDY: &str = "restore it, or find it anew by the directed search";
+
 /// Replays both segments from the files of [`FILES`].
 ///
 /// # Errors
-/// [`Error::Scenario`] names the file if it is missing or broken, if the engine refuses it, or if its
+/// [`Error::Input`] names the file if it is missing or broken, if the engine refuses it, or if its
 /// impacts are not those of the paper's figure.
 pub fn read(given: Given<'_>) -> Result<Segments, Error> {
     let one = |i: usize| {
-        let fault = |problem| Error::Scenario { file: FILES[i].into(), problem };
+        let fault = |problem| Error::input(FILES[i], problem, REMEDY);
         replay(FILES[i], &given(FILES[i]).map_err(fault)?, ORDERS[i])
     };
     Ok(Segments { fig05: one(0)?, fig06: one(1)? })
@@ -153,7 +156,7 @@ pub fn read(given: Given<'_>) -> Result<Segments, Error> {
 fn replay(file: &str, text: &str, order: &[usize]) -> Result<Segment, Error> {
     let fault = |problem: String| {
         let problem = one_line(&problem, 500);
-        Error::Scenario { file: file.into(), problem }
+        Error::input(file, problem, REMEDY)
     };
     let saved: Saved = serde_json::from_str(text).map_err(|error| fault(error.to_string()))?;
     let inner = saved.scenario.to_string();

@@ -1,12 +1,12 @@
 //! What the choices that the paper leaves open change: the start, walls or ring, r and Ω.
 
-use super::cutting::{Cutting, Row, Unit};
-use super::progress::Stage;
 use super::rise::Rise;
 use super::sweep::{self, SweepRow};
 use super::tally::Tally;
 use super::{Error, Progress};
 use crate::params::{Chain, StartVariant, StartsParams, SweepParams};
+use literate::experiments::cutting::{Cutting, Row, Unit};
+use literate::experiments::progress::Stage;
 use serde::{Deserialize, Serialize};
 
 /// The variants, the paper's chain first.
@@ -44,7 +44,7 @@ pub const CUTTING: Cutting<StartsParams, Tally, Starts> = Cutting { rows, part, 
 /// Runs all variants.
 ///
 /// # Errors
-/// [`Error::Interrupted`]; [`Error::Dynamics`] if a chain is not allowed.
+/// [`Error::Interrupted`]; [`Error::Failed`] if a chain is not allowed.
 pub fn run(parameters: &StartsParams, progress: &Progress) -> Result<Starts, Error> {
     CUTTING.run(parameters, "variants", progress)
 }

@@ -62,7 +62,7 @@ const BELOW: f64 = 1.0 - 1e-9;
 /// Runs the experiment.
 ///
 /// # Errors
-/// [`Error::Interrupted`]; [`Error::Dynamics`] if a run fails.
+/// [`Error::Interrupted`]; [`Error::Failed`] if a run fails.
 pub fn run(parameters: &TwoMassesParams, progress: &Progress) -> Result<TwoMasses, Error> {
     let chain = &parameters.chain;
     let stage = progress.stage("two masses", parameters.directions as u64);
@@ -182,7 +182,7 @@ impl Direction<'_> {
             overtones: Vec::new(),
             simultaneous: Simultaneous::default(),
         };
-        let failed = |source| Error::Dynamics { experiment: "two masses", source };
+        let failed = |source| Error::failed("two masses", source);
         let mut time = None;
         let mut engine = Engine::new(&scenario).map_err(failed)?;
         engine

@@ -45,18 +45,12 @@ use crate::experiments::catalogue::{
     ANALYTIC, BIAS, CHAINS, HEAT, INDEPENDENCE, LONG_PROTOCOL, MEASURED, NUCLEATION, ORBITS,
     PROTOCOL, PROTOCOLS, RACE, RESTITUTION, SCALE, SEEDS, SEGMENTS, SIZES, SPACE_TIME, SWEEP,
 };
-use crate::experiments::{self, Need, Results};
+use crate::experiments::{Need, Results};
 use crate::params::Profile;
 
 /// All figures: first the paper's, then our own.
 pub fn all() -> impl Iterator<Item = Number> {
     (1..=Number::PAPER).map(Number::Paper).chain((1..=Number::OWN).map(Number::Own))
-}
-
-impl From<experiments::Error> for Error {
-    fn from(error: experiments::Error) -> Self {
-        Error::Data(Box::new(error))
-    }
 }
 
 /// The experiments that a figure needs, beside the theory, which costs nothing.

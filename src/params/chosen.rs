@@ -63,35 +63,6 @@ pub const NEAR_SIMULTANEOUS: f64 = 1e-9;
 /// An impact with a closing speed below this counts as slow (ours, d ω).
 pub const SLOW: f64 = 1e-8;
 
-/// How much is sampled: small to try out, large for the committed report.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Profile {
-    /// To try out: seconds.
-    Quick,
-    /// For pull requests: half a minute.
-    Ci,
-    /// The committed report.
-    Full,
-    /// What takes long: run now and then, committed, and carried over.
-    Deep,
-}
-
-impl Profile {
-    /// All of them, rising.
-    pub const ALL: [Profile; 4] = [Profile::Quick, Profile::Ci, Profile::Full, Profile::Deep];
-
-    /// Its name on the command line, in reports and in names of files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Profile::Quick => "quick",
-            Profile::Ci => "ci",
-            Profile::Full => "full",
-            Profile::Deep => "deep",
-        }
-    }
-}
-
 /// Length of the steps in which the paper prints its threshold, σ ≈ 0.12 (Sec. 2).
 pub const PRINTED_THRESHOLD_UNIT: f64 = 0.01;
 

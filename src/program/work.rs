@@ -1,11 +1,12 @@
 //! What the verbs that take time have in common: experiments by name, threads, Ctrl-C, and errors as exit codes.
 
 use super::Failure;
-use crate::experiments::shards::Plan;
-use crate::experiments::{Error, Progress, catalogue, deep, say};
+use crate::experiments::{Error, Progress, catalogue, say};
 use crate::params::Profile;
 use crate::report::{self, contents};
-use crate::{claims, figures};
+use crate::{claims, dynamics, figures};
+use literate::experiments::deep;
+use literate::experiments::shards::Plan;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -54,7 +55,7 @@ impl Only {
                 "--experiment: profile {profile} has no experiment \"{name}\"; give some of {known}"
             )));
         }
-        let plan = Plan::new(profile);
+        let plan = Plan::new(catalogue::of, profile);
         Ok(if self.names.is_empty() { plan } else { plan.only(&self.names) })
     }
 }
@@ -284,13 +285,18 @@ impl From<Error> for Failure {
         let code = match &error {
             Error::Interrupted => INTERRUPTED,
             Error::Store { source, .. } => Failure::io(source, "").code,
-            Error::Input { .. } | Error::Scenario { .. } | Error::Measured(_) => 2,
-            Error::Dynamics { source: crate::dynamics::Error::Input { .. }, .. } => 2,
+            Error::Input { .. } => 2,
+            Error::Failed { source, .. } if is_input(source.as_ref()) => 2,
             Error::Stale { .. } | Error::Units { .. } | Error::NotUnderstood { .. } => 3,
             _ => 4,
         };
         Failure { code, message: error.to_string() }
     }
+}
+
+/// Whether a run was refused for what it was given.
+fn is_input(error: &(dyn std::error::Error + Send + Sync + 'static)) -> bool {
+    matches!(error.downcast_ref(), Some(dynamics::Error::Input { .. }))
 }
 
 impl From<claims::Error> for Failure {
@@ -319,10 +325,7 @@ impl From<figures::Error> for Failure {
     fn from(error: figures::Error) -> Self {
         let told = error.to_string();
         match error {
-            figures::Error::Data(error) => match error.downcast::<crate::experiments::Error>() {
-                Ok(error) => Failure::from(*error),
-                Err(_) => Failure::run(told),
-            },
+            figures::Error::Data(error) => error.into(),
             _ => Failure::run(told),
         }
     }

@@ -7,8 +7,8 @@
 //! table has one row and no keys. Prose, figures, data files, claims and cards take cells by their addresses or keys,
 //! so no number is computed or named twice. Rows are found by equal keys, never by near ones.
 
-use crate::numerics::statistics::Estimate;
 use crate::value::{Digits, Kind, Number, Origin, Value, origin_of};
+use impact_numerics::statistics::Estimate;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 

@@ -4,12 +4,12 @@
 use super::routes::method;
 use crate::dynamics::methods::{Cost, State};
 use crate::dynamics::{Impact, Scenario};
-use crate::experiments::cutting::{Cutting, Row, Unit};
-use crate::experiments::progress::Stage;
 use crate::experiments::{Error, Progress, weights};
 use crate::numerics::random::NormalPairs;
 use crate::numerics::statistics::{mean, standard_error};
 use crate::params::{BiasParams, Chain, MethodName, Protocol, Setting};
+use literate::experiments::cutting::{Cutting, Row, Unit};
+use literate::experiments::progress::Stage;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 

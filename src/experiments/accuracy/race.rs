@@ -100,10 +100,10 @@ struct Course {
 /// Runs everything.
 ///
 /// # Errors
-/// [`Error::Interrupted`]; [`Error::Dynamics`] if the truth cannot be computed.
+/// [`Error::Interrupted`]; [`Error::Failed`] if the truth cannot be computed.
 pub fn run(parameters: &RaceParams, progress: &Progress) -> Result<Race, Error> {
     let growth = horizon::run(&parameters.growth, progress)?;
-    let failed = |source| Error::Dynamics { experiment: "race", source };
+    let failed = |source| Error::failed("race", source);
     let courses: Vec<Course> = (0..parameters.chains)
         .into_par_iter()
         .with_max_len(1)
@@ -148,7 +148,7 @@ struct Target {
 /// States right after impacts of the true motion. Each is moved to t = 0, the forcing with it, so
 /// that the rounding of a late time hides no error.
 fn targets(parameters: &RaceParams, courses: &[Course]) -> Result<Vec<Target>, Error> {
-    let failed = |source| Error::Dynamics { experiment: "race", source };
+    let failed = |source| Error::failed("race", source);
     let wanted = parameters.segments / courses.len().max(1);
     let mut targets = Vec::with_capacity(parameters.segments);
     for Course { scenario, hits } in courses {

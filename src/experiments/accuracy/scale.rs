@@ -38,7 +38,7 @@ pub struct ScaleRow {
 /// Runs everything.
 ///
 /// # Errors
-/// [`Error::Interrupted`]; [`Error::Dynamics`] if a method gives up.
+/// [`Error::Interrupted`]; [`Error::Failed`] if a method gives up.
 pub fn run(parameters: &ScaleParams, progress: &Progress) -> Result<Scale, Error> {
     let cases: Vec<(Setting, usize)> = parameters
         .settings
@@ -61,7 +61,7 @@ pub fn run(parameters: &ScaleParams, progress: &Progress) -> Result<Scale, Error
             let mut go_on = |_: Impact| !progress.stopped();
             let cost = method(setting).run(&scenario, &State::of(&scenario), until, &mut go_on);
             progress.check()?;
-            let cost = cost.map_err(|source| Error::Dynamics { experiment: "scale", source })?;
+            let cost = cost.map_err(|source| Error::failed("scale", source))?;
             stage.advance(1);
             let per_impact = |count: u64| count as f64 / cost.impacts.max(1) as f64;
             Ok(ScaleRow {

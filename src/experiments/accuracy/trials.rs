@@ -62,9 +62,9 @@ impl Trial {
 /// Runs everything.
 ///
 /// # Errors
-/// [`Error::Interrupted`]; [`Error::Dynamics`] if a scene cannot be built.
+/// [`Error::Interrupted`]; [`Error::Failed`] if a scene cannot be built.
 pub fn run(parameters: &TrialParams, progress: &Progress) -> Result<Trials, Error> {
-    let failed = |source| Error::Dynamics { experiment: "trials", source };
+    let failed = |source| Error::failed("trials", source);
     let scenes = scenes::all(parameters.short, &parameters.clusters).map_err(failed)?;
     let pairs: Vec<(usize, usize)> = (0..scenes.len())
         .flat_map(|scene| (0..parameters.settings.len()).map(move |setting| (scene, setting)))

@@ -9,11 +9,11 @@ pub mod tables;
 
 pub use run::FREQUENCIES;
 
-use super::cutting::{Cutting, Row, Unit};
-use super::progress::Stage;
 use super::{Error, Progress, weights};
 use crate::numerics::statistics::Estimate;
 use crate::params::{Chain, ChainCurve, ChainKind, ChainsParams};
+use literate::experiments::cutting::{Cutting, Row, Unit};
+use literate::experiments::progress::Stage;
 use serde::{Deserialize, Serialize};
 
 /// All curves.

@@ -156,6 +156,6 @@ pub(super) fn realisation(
         Ok(()) => Ok(Some(Run { counts, open })),
         // Masses in contact at a stroke may be left an ulp inside each other.
         Err(dynamics::Error::Work { .. } | dynamics::Error::Overlap { .. }) => Ok(None),
-        Err(source) => Err(Error::Dynamics { experiment: "chains", source }),
+        Err(source) => Err(Error::failed("chains", source)),
     }
 }

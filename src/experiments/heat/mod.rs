@@ -4,10 +4,10 @@ mod realisation;
 pub mod tables;
 
 use self::realisation::realisation;
-use super::cutting::{Cutting, Row, Unit};
-use super::progress::Stage;
 use super::{Error, Progress, weights};
 use crate::params::{Boundary, Chain, HeatParams, HeatRow};
+use literate::experiments::cutting::{Cutting, Row, Unit};
+use literate::experiments::progress::Stage;
 use serde::{Deserialize, Serialize};
 
 /// What was run: for each ensemble its realisations, none where the engine gave up.
@@ -57,7 +57,7 @@ pub const CUTTING: Cutting<HeatParams, Part, Heat> = Cutting { rows, part, fits,
 /// Runs all ensembles.
 ///
 /// # Errors
-/// [`Error::Interrupted`]; [`Error::Dynamics`] if the chain is not allowed.
+/// [`Error::Interrupted`]; [`Error::Failed`] if the chain is not allowed.
 pub fn run(parameters: &HeatParams, progress: &Progress) -> Result<Heat, Error> {
     CUTTING.run(parameters, "heat", progress)
 }

@@ -47,7 +47,7 @@ pub fn realisation(
     progress.check()?;
     let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, index);
     let scenario = Scenario::draw(chain, row.sigma, &mut normals);
-    let fault = |source| Error::Dynamics { experiment: "heat", source };
+    let fault = |source| Error::failed("heat", source);
     let mut engine = Engine::new(&scenario).map_err(fault)?;
     let ended = engine.run(parameters.protocol.transient, |_| true);
     progress.check()?;

@@ -2,12 +2,12 @@
 
 pub mod tables;
 
-use super::cutting::{Cutting, Row, Unit};
-use super::progress::Stage;
 use super::{Error, Progress, weights};
 use crate::dynamics::{self, Engine, Initial, Scenario};
 use crate::numerics::random::NormalPairs;
 use crate::params::HistoryParams;
+use literate::experiments::cutting::{Cutting, Row, Unit};
+use literate::experiments::progress::Stage;
 use serde::{Deserialize, Serialize};
 
 /// Counts after a larger force.
@@ -65,7 +65,7 @@ fn realisation(
     progress.check()?;
     let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, index);
     let hot = Scenario::draw(&parameters.chain, parameters.hot, &mut normals);
-    let fault = |source| Error::Dynamics { experiment: "history", source };
+    let fault = |source| Error::failed("history", source);
     let ended = |ended: Result<(), dynamics::Error>| match ended {
         Ok(()) => Ok(true),
         Err(dynamics::Error::Work { .. }) => Ok(false),

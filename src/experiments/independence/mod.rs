@@ -4,12 +4,12 @@ mod succession;
 mod surrogate;
 pub mod tables;
 
-use super::cutting::{Cutting, Row, Unit};
-use super::progress::Stage;
 use super::{Error, Progress, weights};
 use crate::dynamics::{self, Engine, Scenario};
 use crate::numerics::random::{NormalPairs, generator};
 use crate::params::{Chain, IndependenceParams, IndependenceRow};
+use literate::experiments::cutting::{Cutting, Row, Unit};
+use literate::experiments::progress::Stage;
 use serde::{Deserialize, Serialize};
 use succession::{Matrix, distinct, hits, next};
 
@@ -133,7 +133,7 @@ fn realisation(
     progress.check()?;
     let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, index);
     let scenario = Scenario::draw(&chain(parameters, row), row.sigma, &mut normals);
-    let fault = |source| Error::Dynamics { experiment: "independence", source };
+    let fault = |source| Error::failed("independence", source);
     let mut engine = Engine::new(&scenario).map_err(fault)?;
     let mut gaps = Vec::new();
     let protocol = parameters.protocol;

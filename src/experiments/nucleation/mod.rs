@@ -2,13 +2,13 @@
 
 pub mod tables;
 
-use super::cutting::{Cutting, Row, Unit};
-use super::progress::Stage;
 use super::{Error, Progress};
 use crate::circuits::nucleation::reach::closes_by_itself;
 use crate::dynamics::{self, Engine, Scenario};
 use crate::numerics::random::NormalPairs;
 use crate::params::{Chain, NucleationParams};
+use literate::experiments::cutting::{Cutting, Row, Unit};
+use literate::experiments::progress::Stage;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -76,7 +76,7 @@ fn first(
     let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, index);
     let scenario = Scenario::draw(chain, sigma, &mut normals);
     let able = differences(&scenario.forcing).any(|delta| closes_by_itself(chain, delta));
-    let fault = |source: dynamics::Error| Error::Dynamics { experiment: "nucleation", source };
+    let fault = |source: dynamics::Error| Error::failed("nucleation", source);
     let mut time = None;
     Engine::new(&scenario)
         .map_err(fault)?

@@ -109,7 +109,7 @@ pub fn starts(parameters: &OrbitsParams) -> u64 {
 /// Runs the experiment.
 ///
 /// # Errors
-/// [`Error::Interrupted`]; [`Error::Dynamics`] if the chain is not allowed.
+/// [`Error::Interrupted`]; [`Error::Failed`] if the chain is not allowed.
 pub fn run(parameters: &OrbitsParams, progress: &Progress) -> Result<Orbits, Error> {
     let circuits = circuits(parameters.chain.gaps());
     let forcings = (parameters.sigmas.len() * parameters.forcings) as u64;
@@ -141,7 +141,7 @@ pub fn run(parameters: &OrbitsParams, progress: &Progress) -> Result<Orbits, Err
 }
 
 fn fault(source: dynamics::Error) -> Error {
-    Error::Dynamics { experiment: "orbits", source }
+    Error::failed("orbits", source)
 }
 
 /// The forcing of one number, scaled to σ.

@@ -9,10 +9,10 @@ pub mod tables;
 
 use hot::hot;
 
-use super::cutting::{Cutting, Row, Unit};
-use super::progress::Stage;
 use super::{Error, Progress, weights};
 use crate::params::{Chain, RestitutionParams};
+use literate::experiments::cutting::{Cutting, Row, Unit};
+use literate::experiments::progress::Stage;
 use serde::{Deserialize, Serialize};
 
 /// What was run: for each row its realisations, none where the engine gave up.

@@ -18,7 +18,7 @@ pub(super) fn realisation(
     progress.check()?;
     let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, index);
     let scenario = Scenario::draw(&chain(parameters, case.restitution), case.sigma, &mut normals);
-    let fault = |source| Error::Dynamics { experiment: "restitution", source };
+    let fault = |source| Error::failed("restitution", source);
     let mut engine = Engine::new(&scenario).map_err(fault)?;
     let mut run = Run::default();
     let mut begin = 0.0;

@@ -3,12 +3,12 @@
 use super::{Seeds, fronts};
 use crate::circuits::nucleation::reach::closes_by_itself;
 use crate::dynamics::{self, Engine, Initial, Scenario};
-use crate::experiments::cutting::{Cutting, Row, Unit};
 use crate::experiments::nucleation::differences;
-use crate::experiments::progress::Stage;
 use crate::experiments::{Error, Progress, weights};
 use crate::numerics::random::NormalPairs;
 use crate::params::{Chain, SeedsParams};
+use literate::experiments::cutting::{Cutting, Row, Unit};
+use literate::experiments::progress::Stage;
 use serde::{Deserialize, Serialize};
 
 /// One run, in time since its first impact.
@@ -117,7 +117,7 @@ fn trace(
     let still = Chain { masses: 0, ..chain.clone() };
     let scenario =
         Scenario { forcing, initial: Initial::Rest, ..Scenario::draw(&still, sigma, &mut normals) };
-    let fault = |source| Error::Dynamics { experiment: "seeds", source };
+    let fault = |source| Error::failed("seeds", source);
     let mut engine = Engine::new(&scenario).map_err(fault)?;
     let mut first = None;
     let begun = engine.run(parameters.wait, |impact| {

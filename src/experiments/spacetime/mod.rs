@@ -69,10 +69,10 @@ pub struct Advance {
 /// Runs realisations until one keeps hitting.
 ///
 /// # Errors
-/// [`Error::Interrupted`]; [`Error::Dynamics`] if a run fails.
+/// [`Error::Interrupted`]; [`Error::Failed`] if a run fails.
 pub fn run(parameters: &SpaceTimeParams, progress: &Progress) -> Result<SpaceTime, Error> {
     let stage = progress.stage("spacetime", 1);
-    let failed = |source| Error::Dynamics { experiment: "spacetime", source };
+    let failed = |source| Error::failed("spacetime", source);
     for realisation in 0..REALISATIONS {
         progress.check()?;
         let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, realisation);

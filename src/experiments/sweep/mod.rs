@@ -6,14 +6,14 @@
 pub mod laws;
 pub mod tables;
 
-use super::cutting::{Cutting, Row, Unit};
 use super::observe::{NEAR_DECADES, SLOW_DECADES, realisation};
-use super::progress::Stage;
 use super::rise::{self, Rise};
 use super::tally::Tally;
 use super::{Error, Progress, weights};
 use crate::numerics::statistics as stat;
 use crate::params::{COMPARABLE_REJECTED, LEVEL, Protocol, SweepParams};
+use literate::experiments::cutting::{Cutting, Row, Unit};
+use literate::experiments::progress::Stage;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
@@ -105,7 +105,7 @@ pub const CUTTING: Cutting<SweepParams, Tally, Sweep> = Cutting { rows, part, fi
 /// Runs the ensemble over all σ.
 ///
 /// # Errors
-/// [`Error::Interrupted`]; [`Error::Dynamics`] if the chain is not allowed.
+/// [`Error::Interrupted`]; [`Error::Failed`] if the chain is not allowed.
 pub fn run(parameters: &SweepParams, name: &str, progress: &Progress) -> Result<Sweep, Error> {
     CUTTING.run(parameters, name, progress)
 }

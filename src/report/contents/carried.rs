@@ -1,9 +1,10 @@
 //! Section 22: results that are carried over, and what became of a sample of each.
 
 use super::{Error, from, mark};
-use crate::experiments::deep::{Audit, Carriage};
-use crate::experiments::{Results, catalogue, deep};
+use crate::experiments::{Results, catalogue};
 use crate::report::values::{Value, origin};
+use literate::experiments::deep;
+use literate::experiments::deep::{Audit, Carriage};
 use serde::Serialize;
 
 /// One line of the table.

@@ -2,8 +2,8 @@
 
 use super::{Guard, Look, unless};
 use crate::experiments::catalogue;
-use crate::experiments::deep::{Audit, Carriage, Distance};
 use crate::params::Profile;
+use literate::experiments::deep::{Audit, Carriage, Distance};
 
 pub const GUARDS: &[Guard] =
     &[Guard { name: "carried_results_audited", ids: &["carried.*"], find: audited }];

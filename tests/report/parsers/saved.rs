@@ -1,9 +1,10 @@
 //! Saved results: whatever is in the file, a result is what was saved, or is run again for a reason.
 
 use super::mutants::mutant;
-use impact_paper::experiments::identity::{Identity, told};
+use impact_paper::experiments::built::code;
 use impact_paper::experiments::{Progress, Store};
 use impact_paper::params::Profile;
+use literate::experiments::identity::{Identity, told};
 use sha2::{Digest, Sha256};
 
 type Saved = Vec<(String, Option<f64>, [u32; 2])>;
@@ -18,7 +19,7 @@ fn digest(lines: &[&str]) -> String {
 fn saved_results_of_any_text() {
     let folder = tempfile::tempdir().unwrap();
     let store = Store::open(folder.path()).unwrap();
-    let identity = Identity::new("test", "src/experiments/rise.rs", &[1.5, 0.25]);
+    let identity = Identity::new("test", code("src/experiments/rise.rs"), &[1.5, 0.25]);
     let result: Saved =
         (0..20).map(|i| (format!("row {i}"), Some(f64::from(i) / 7.0), [i, i * i])).collect();
     let get = || store.get(&identity, Profile::Quick, &Progress::silent(), || Ok(result.clone()));

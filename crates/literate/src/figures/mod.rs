@@ -19,6 +19,7 @@ pub use data::DataFile;
 pub use drawing::{Drawing, Glyphs};
 pub use svg::{escape, path_data};
 
+use crate::experiments;
 use plotters::drawing::DrawingAreaErrorKind;
 use plotters_backend::DrawingErrorKind;
 use thiserror::Error;
@@ -52,7 +53,7 @@ pub enum Error {
     Number(String),
     /// Its experiment was not run.
     #[error("a figure lacks its data: {0}")]
-    Data(Box<dyn std::error::Error + Send + Sync>),
+    Data(#[from] experiments::Error),
     /// A result has another shape than the figure was made for.
     #[error("figure {figure} expects {expected}")]
     Shape {

@@ -8,7 +8,7 @@ use super::clip::clip;
 use super::element::{Drawn, Look};
 use super::panel::Panel;
 use super::style::{Colour, Mark, Stroke};
-use crate::numerics::statistics::Estimate;
+use impact_numerics::statistics::Estimate;
 
 /// What to do with data outside the frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

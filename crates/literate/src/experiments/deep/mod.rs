@@ -5,7 +5,7 @@
 //! source as long as an audit allows: some units, drawn by lot, are run again, and what they give is
 //! compared, byte by byte, with what was committed.
 
-pub(crate) mod audit;
+pub mod audit;
 
 pub use audit::{Audit, Carriage, Distance};
 
@@ -14,10 +14,8 @@ use super::experiment::How::Cut;
 use super::experiment::{Entry, Experiment, Found, Given, Json, Saved, Typed, item, typed};
 use super::identity::{Identity, Reason, told};
 use super::store::{self, Store};
-use super::{Error, Progress};
-use crate::committed;
+use super::{Code, Error, Profile, Progress};
 use crate::digest::sha256;
-use crate::params::Profile;
 use crate::table::Table;
 use audit::Audited;
 use serde::Serialize;
@@ -26,7 +24,7 @@ use std::io;
 use std::sync::Arc;
 
 /// The file of this code: a result that is joined from committed units depends on it.
-const MODULE: &str = "src/experiments/deep/mod.rs";
+const FILE: &str = "crates/literate/src/experiments/deep/mod.rs";
 
 /// What to do about a result that is stale.
 pub const REMEDY: &str = "run `make deep`";
@@ -36,26 +34,26 @@ pub struct Deep<P: 'static, T: 'static, U: 'static> {
     /// Its name, as values and saved files carry it.
     pub name: &'static str,
     /// What it runs, in words, with a reference to where that is told.
-    pub(super) title: &'static str,
-    /// The file of its code.
-    pub(super) module: &'static str,
+    pub title: &'static str,
+    /// Its code.
+    pub code: Code,
     /// Its parameters in a profile.
-    pub(super) parameters: fn(Profile) -> P,
+    pub parameters: fn(Profile) -> P,
     /// What people who wait are told, and how it is cut.
-    pub(super) cut: (&'static str, Cutting<P, U, T>),
+    pub cut: (&'static str, Cutting<P, U, T>),
     /// What was committed, where it is not in the file of that name.
-    pub(super) text: Option<&'static str>,
+    pub text: Option<&'static str>,
     /// This profile and the larger ones carry them over; smaller ones run the experiment at
     /// a size of their own.
-    pub(super) from: Profile,
+    pub from: Profile,
     /// How far what units give is from the result, where an error of it is known.
-    pub(super) distance: Option<Away<T, U>>,
+    pub distance: Option<Away<T, U>>,
     /// What follows from its result.
-    pub(super) tables: fn(&T) -> Vec<Table>,
+    pub tables: fn(&T) -> Vec<Table>,
 }
 
 /// Measures how far what units give is from a result.
-type Away<T, U> = fn(&T, &[(&Unit, U)]) -> Distance;
+pub type Away<T, U> = fn(&T, &[(&Unit, U)]) -> Distance;
 
 /// What only the committed file decides, beside the code.
 #[derive(Serialize)]
@@ -66,15 +64,15 @@ struct JoinedParams {
 
 impl<P, T, U> Deep<P, T, U> {
     /// What takes too long for the full profile.
-    pub(super) const fn new(
+    pub const fn new(
         (name, title): (&'static str, &'static str),
-        module: &'static str,
+        code: Code,
         parameters: fn(Profile) -> P,
         cut: (&'static str, Cutting<P, U, T>),
         tables: fn(&T) -> Vec<Table>,
     ) -> Self {
         let (text, from, distance) = (None, Profile::Full, None);
-        Deep { name, title, module, parameters, cut, text, from, distance, tables }
+        Deep { name, title, code, parameters, cut, text, from, distance, tables }
     }
 
     /// The file of the committed units.
@@ -84,7 +82,10 @@ impl<P, T, U> Deep<P, T, U> {
 
     /// The committed units, as they were saved.
     fn committed(&self) -> io::Result<Cow<'static, str>> {
-        self.text.map_or_else(|| committed::text(&self.file()), |text| Ok(Cow::Borrowed(text)))
+        self.text.map_or_else(
+            || (self.code.built.committed)(&self.file()),
+            |text| Ok(Cow::Borrowed(text)),
+        )
     }
 
     /// SHA-256 of them; that of nothing if there are none.
@@ -94,10 +95,10 @@ impl<P, T, U> Deep<P, T, U> {
 
     /// The experiment with another way to make a result of what its units give.
     fn experiment<R>(&self, join: Join<P, U, R>) -> Experiment<P, R, U> {
-        let Deep { name, module, parameters, .. } = *self;
+        let Deep { name, code, parameters, .. } = *self;
         let (words, Cutting { rows, part, fits, .. }) = self.cut;
         let how = Cut(words, Cutting { rows, part, fits, join });
-        Experiment { name, module, parameters, how, tables: |_| Vec::new() }
+        Experiment { name, code, parameters, how, tables: |_| Vec::new() }
     }
 
     /// The experiment as profiles run it that do not carry it over.
@@ -138,7 +139,11 @@ impl<P: Serialize + Sync, T: Json, U: Json> Deep<P, T, U> {
         let audit = Audited(self).get(profile, store, progress)?;
         let name = format!("{} joined", self.name);
         let params = JoinedParams { committed: self.digest() };
-        let identity = self.made_of().with_code(Identity::new(&name, MODULE, &params));
+        let identity = self.made_of().with_code(Identity::new(
+            &name,
+            Code { file: FILE, ..self.code },
+            &params,
+        ));
         let join = || self.joined(self.given()?, progress);
         // What is said of the audit is enough.
         let quiet = Progress::silent();
@@ -180,7 +185,7 @@ impl<P: Serialize + Sync, T: Json, U: Json> Deep<P, T, U> {
 
 impl<P: Serialize + Sync, T: Json, U: Json> Entry for Deep<P, T, U> {
     fn item(&self) -> String {
-        item(self.module)
+        item(self.code.file)
     }
 
     fn carried(&self) -> Option<&'static str> {

@@ -4,8 +4,7 @@ use super::cutting::{Cutting, Unit};
 use super::deep::Audit;
 use super::identity::{Identity, Reason, told};
 use super::store::{Store, written};
-use super::{Error, Progress};
-use crate::params::Profile;
+use super::{Code, Error, Profile, Progress};
 use crate::table::Table;
 use rayon::prelude::*;
 use serde::Serialize;
@@ -18,21 +17,23 @@ use std::sync::Arc;
 pub struct Experiment<P: 'static, T: 'static, U: 'static = ()> {
     /// Its name, as values and saved files carry it.
     pub name: &'static str,
-    /// The file of its code.
-    pub(super) module: &'static str,
+    /// Its code.
+    pub code: Code,
     /// Its parameters in a profile.
-    pub(super) parameters: fn(Profile) -> P,
-    pub(super) how: How<P, T, U>,
+    pub parameters: fn(Profile) -> P,
+    /// How it is run.
+    pub how: How<P, T, U>,
     /// What follows from its result.
-    pub(super) tables: fn(&T) -> Vec<Table>,
+    pub tables: fn(&T) -> Vec<Table>,
 }
 
 /// How an experiment is run.
-pub(super) enum How<P, T, U> {
+pub enum How<P, T, U> {
     /// Read from a file that is committed, and never saved.
     Read(fn(Given<'_>) -> Result<T, Error>),
     /// As one unit of work.
     Whole {
+        /// Runs it.
         run: fn(&P, &Progress) -> Result<T, Error>,
         /// Work in impacts, roughly.
         weight: fn(&P) -> u64,
@@ -64,7 +65,7 @@ impl<P: Serialize + Sync, T: Json, U: Json> Experiment<P, T, U> {
     }
 
     fn made_of(&self, parameters: &P) -> Identity {
-        Identity::new(self.name, self.module, parameters)
+        Identity::new(self.name, self.code, parameters)
     }
 
     fn run(&self, parameters: &P, progress: &Progress) -> Result<T, Error> {
@@ -135,7 +136,7 @@ pub(super) fn typed<T: Json>(found: &Found) -> Option<&T> {
 
 impl<P: Serialize + Sync, T: Json, U: Json> Entry for Experiment<P, T, U> {
     fn item(&self) -> String {
-        item(self.module)
+        item(self.code.file)
     }
 
     fn is_saved(&self) -> bool {

@@ -1,6 +1,5 @@
 //! What can go wrong in an experiment.
 
-use crate::dynamics;
 use std::path::PathBuf;
 
 /// An error of an experiment.
@@ -19,25 +18,14 @@ pub enum Error {
         /// What to write instead.
         remedy: String,
     },
-    /// A simulation failed that must not fail.
+    /// A run failed that must not fail.
     #[error("{experiment}: {source}")]
-    Dynamics {
+    Failed {
         /// The experiment.
         experiment: &'static str,
         /// What failed.
-        source: dynamics::Error,
+        source: Box<dyn std::error::Error + Send + Sync>,
     },
-    /// A saved scenario does not do what it was saved for.
-    #[error("{file}: {problem}; restore it, or find it anew by the directed search")]
-    Scenario {
-        /// File of the scenario.
-        file: String,
-        /// What differs.
-        problem: String,
-    },
-    /// The file of measured times is broken.
-    #[error(transparent)]
-    Measured(#[from] super::measured::MeasuredError),
     /// A result was asked for that was not run.
     #[error("the results of {0} were not run; declare them among what is needed")]
     NotRun(&'static str),
@@ -82,6 +70,14 @@ pub enum Error {
 }
 
 impl Error {
+    /// An [`Error::Failed`] of an experiment.
+    pub fn failed(
+        experiment: &'static str,
+        source: impl std::error::Error + Send + Sync + 'static,
+    ) -> Self {
+        Error::Failed { experiment, source: Box::new(source) }
+    }
+
     /// An [`Error::Input`] from its three parts.
     pub fn input(
         field: impl Into<String>,

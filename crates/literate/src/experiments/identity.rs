@@ -1,23 +1,45 @@
 //! What a saved result was made of, and why one is not used.
 
+use super::Profile;
 use super::cutting::Unit;
 use crate::input::one_line;
-use crate::params::Profile;
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
+use std::io;
 
 /// The form of saved files; a change of it makes all of them unknown.
 const SCHEMA: u32 = 2;
 
-/// What the program was built of (see `build/fingerprint.rs`).
-struct Built {
+/// What a program was built of, and where it finds what is committed.
+pub struct Built {
     /// Hash of Cargo.lock.
-    lock: &'static str,
-    /// Each file of an experiment, with path and hash of every file that it depends on.
-    modules: &'static [(&'static str, &'static [(&'static str, &'static str)])],
+    pub lock: &'static str,
+    /// Path and hash of every file that the code in a file depends on, itself among them.
+    pub files: fn(&str) -> Vec<(String, String)>,
+    /// The text of a committed file, by its path from the top of the project.
+    pub committed: fn(&str) -> io::Result<Cow<'static, str>>,
 }
 
-static BUILT: Built = include!(concat!(env!("OUT_DIR"), "/dependencies.rs"));
+/// The code of an experiment.
+#[derive(Clone, Copy)]
+pub struct Code {
+    /// The program that it belongs to.
+    pub built: &'static Built,
+    /// Its file, from the top of the project.
+    pub file: &'static str,
+}
+
+/// The code of experiments in tests.
+#[cfg(test)]
+pub(crate) const TOY: Code = Code {
+    built: &Built {
+        lock: "lock",
+        files: |file| vec![(file.into(), "hash".into())],
+        committed: |_| Err(io::ErrorKind::NotFound.into()),
+    },
+    file: "toy.rs",
+};
 
 /// Everything that a result depends on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -49,17 +71,15 @@ struct UnitOf {
 }
 
 impl Identity {
-    /// Of an experiment in the file `module`, with these parameters and the code of this program.
-    pub fn new(experiment: &str, module: &str, parameters: &impl Serialize) -> Self {
-        let code = BUILT.modules.iter().find(|(path, _)| *path == module);
-        let code = code.map(|(_, files)| *files).unwrap_or_default();
+    /// Of an experiment with these parameters and this code.
+    pub fn new(experiment: &str, code: Code, parameters: &impl Serialize) -> Self {
         Identity {
             experiment: experiment.into(),
             schema: SCHEMA,
             parameters: serde_json::to_value(parameters).unwrap_or_default(),
             unit: None,
-            lock: BUILT.lock.into(),
-            code: code.iter().map(|(path, hash)| ((*path).into(), (*hash).into())).collect(),
+            lock: code.built.lock.into(),
+            code: (code.built.files)(code.file).into_iter().collect(),
         }
     }
 
@@ -173,7 +193,7 @@ mod tests {
     use super::*;
 
     fn identity(parameter: f64) -> Identity {
-        Identity::new("test", "src/experiments/rise.rs", &parameter)
+        Identity::new("test", TOY, &parameter)
     }
 
     #[test]
@@ -182,7 +202,7 @@ mod tests {
         let of = |other: &Identity| other.reasons(&now);
         assert_eq!(of(&now), []);
         assert_eq!(of(&identity(2.0)), [Reason::Parameters]);
-        let file = now.code.keys().next().expect("rise.rs depends on itself at least").clone();
+        let file = now.code.keys().next().expect("the file depends on itself at least").clone();
         let mut edited = now.clone();
         edited.code.insert(file.clone(), "0".into());
         assert_eq!(of(&edited), [Reason::Code(vec![file.clone()])]);

@@ -1,11 +1,9 @@
 //! The work of a profile as a list of units, shared out to machines and joined again.
 
-use super::catalogue::{self, Need};
 use super::cutting::Unit;
 use super::identity::{Identity, Reason, told};
 use super::store::Store;
-use super::{Error, Progress};
-use crate::params::Profile;
+use super::{Error, Need, Profile, Progress};
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
 use std::path::{Path, PathBuf};
@@ -19,6 +17,8 @@ const TOLD: usize = 5;
 /// All units of work of a profile.
 pub struct Plan {
     profile: Profile,
+    /// The experiments that a profile saves.
+    of: fn(Profile) -> Vec<Need>,
     /// In the order of the catalogue, and of each experiment.
     pub tasks: Vec<Task>,
     /// The experiments that are meant; none if all are.
@@ -48,9 +48,9 @@ pub struct Ran {
 }
 
 impl Plan {
-    /// The plan of a profile.
-    pub fn new(profile: Profile) -> Self {
-        let tasks = catalogue::of(profile).into_iter().flat_map(|experiment| {
+    /// The plan of a profile, of the experiments that each profile saves.
+    pub fn new(of: fn(Profile) -> Vec<Need>, profile: Profile) -> Self {
+        let tasks = of(profile).into_iter().flat_map(|experiment| {
             let whole = experiment.identity(profile);
             experiment.units(profile).into_iter().enumerate().map(move |(number, unit)| {
                 let identity = whole.of_unit(number, &unit);
@@ -58,7 +58,7 @@ impl Plan {
                 Task { experiment, unit, identity, name }
             })
         });
-        Plan { profile, tasks: tasks.collect(), only: Vec::new(), others: BTreeSet::new() }
+        Plan { profile, of, tasks: tasks.collect(), only: Vec::new(), others: BTreeSet::new() }
     }
 
     /// The same for the experiments of these names alone.
@@ -243,7 +243,8 @@ impl Plan {
     /// What is said of a file that is no unit of this plan.
     fn stranger(&self, folder: &Path, name: &str) -> String {
         let of = Profile::ALL.into_iter().find(|&profile| {
-            profile != self.profile && Plan::new(profile).tasks.iter().any(|task| task.name == name)
+            profile != self.profile
+                && Plan::new(self.of, profile).tasks.iter().any(|task| task.name == name)
         });
         let path = path(folder, name);
         match of {
@@ -281,36 +282,5 @@ fn listed(names: &[String]) -> String {
     match names.len().saturating_sub(TOLD) {
         0 => first,
         more => format!("{first} and {more} more"),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn names_of_units_differ_and_their_weights_are_shared_evenly() {
-        for profile in Profile::ALL {
-            let plan = Plan::new(profile);
-            let names: BTreeMap<&str, u64> =
-                plan.tasks.iter().map(|task| (task.name.as_str(), task.unit.weight)).collect();
-            assert_eq!(names.len(), plan.tasks.len());
-            let whole: u64 = names.values().sum();
-            let heaviest = names.values().max().unwrap();
-            for of in [1, 3, 7] {
-                let mut loads = vec![0; of];
-                for (task, shard) in plan.tasks.iter().zip(plan.shards(of)) {
-                    loads[shard - 1] += task.unit.weight;
-                }
-                let even = whole / of as u64;
-                assert!(loads.iter().all(|&load| load <= even + heaviest), "{loads:?}");
-                assert!(loads.iter().all(|&load| load + heaviest >= even), "{loads:?}");
-            }
-        }
-        // The cuts are the same whatever the number of machines; so many have one unit each.
-        let plan = Plan::new(Profile::Quick);
-        let mut alone = plan.shards(plan.tasks.len());
-        alone.sort_unstable();
-        assert_eq!(alone, (1..=plan.tasks.len()).collect::<Vec<_>>());
     }
 }

@@ -4,15 +4,17 @@ use super::super::cutting::Unit;
 use super::super::experiment::{Json, Saved};
 use super::super::identity::{Identity, Reason, told};
 use super::super::store::{Store, written};
-use super::super::{Error, Progress};
+use super::super::{Code, Error, Profile, Progress};
 use super::Deep;
-use crate::numerics::random::generator;
-use crate::params::{Profile, SEED};
+use impact_numerics::random::generator;
 use rand::seq::SliceRandom;
 use serde::{Deserialize, Serialize};
 
 /// The file of this code: an audit depends on it.
-const MODULE: &str = "src/experiments/deep/audit.rs";
+const FILE: &str = "crates/literate/src/experiments/deep/audit.rs";
+
+/// The seed by which units are drawn: any number.
+const SEED: u64 = 2007;
 
 /// How far means are from those of a result, in standard errors.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -90,7 +92,7 @@ pub(super) fn drawn(units: &[Unit], work: u64) -> Vec<usize> {
 
 /// The audit of an experiment as an experiment of its own: one unit of work, the result is an
 /// [`Audit`].
-pub(crate) struct Audited<'a, P: 'static, T: 'static, U: 'static>(pub &'a Deep<P, T, U>);
+pub struct Audited<'a, P: 'static, T: 'static, U: 'static>(pub &'a Deep<P, T, U>);
 
 impl<P: Serialize + Sync, T: Json, U: Json> Audited<'_, P, T, U> {
     /// The audit: the saved one if it is fresh, else a new one.
@@ -158,7 +160,11 @@ impl<P: Serialize + Sync, T: Json, U: Json> Saved for Audited<'_, P, T, U> {
 
     fn identity(&self, profile: Profile) -> Identity {
         let audit = AuditParams { committed: self.0.digest(), work: work(profile) };
-        self.0.made_of().with_code(Identity::new(self.name(), MODULE, &audit))
+        self.0.made_of().with_code(Identity::new(
+            self.name(),
+            Code { file: FILE, ..self.0.code },
+            &audit,
+        ))
     }
 
     fn parameters(&self, _: Profile) -> serde_json::Value {

@@ -6,10 +6,9 @@
 //! the reason is said.
 
 use super::identity::{Identity, Reason, told};
-use super::{Error, Progress};
+use super::{Error, Profile, Progress};
 use crate::digest::sha256;
 use crate::input::{LARGEST, new_beside, remove_leftovers};
-use crate::params::Profile;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::io::{ErrorKind, Read, Write};
@@ -225,11 +224,12 @@ fn digest(lines: &[&str]) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::super::identity::TOY;
     use super::*;
     use std::cell::Cell;
 
     fn identity(parameter: f64) -> Identity {
-        Identity::new("test", "src/experiments/rise.rs", &parameter)
+        Identity::new("test", TOY, &parameter)
     }
 
     /// Asks for a result, and says whether it was run.
@@ -266,7 +266,7 @@ mod tests {
     #[test]
     fn saved_results_come_back_to_the_bit() {
         let folder = tempfile::tempdir().unwrap();
-        let mut normals = crate::numerics::random::NormalPairs::new("test-store", 1, 0);
+        let mut normals = impact_numerics::random::NormalPairs::new("test-store", 1, 0);
         let mut result: Vec<_> = (0..500).flat_map(|_| normals.pair()).map(Some).collect();
         result.extend([None, Some(-0.0), Some(f64::MIN_POSITIVE / 4.0), Some(f64::MAX)]);
         let first = ask(folder.path(), 1.5, &result);

@@ -1,6 +1,7 @@
 //! Tests with an experiment of twelve rows.
 
 use super::super::cutting::{Cutting, Row};
+use super::super::identity::TOY;
 use super::super::store::written;
 use super::audit::{drawn, work};
 use super::*;
@@ -26,7 +27,7 @@ fn deep(cutting: Cutting<u64, Given, usize>, committed: &str) -> Small {
     let cut = ("test", cutting);
     Deep {
         text: Some(committed),
-        ..Deep::new(("two_masses", ""), "src/experiments/rise.rs", parameters, cut, |_| Vec::new())
+        ..Deep::new(("two_masses", ""), TOY, parameters, cut, |_| Vec::new())
     }
 }
 

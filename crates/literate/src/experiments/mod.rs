@@ -1,0 +1,22 @@
+//! Experiments: parameters, units of work, runs, tables; results that save and reload exactly, and are used again
+//! as long as what they are made of is the same.
+
+pub mod cutting;
+pub mod deep;
+mod error;
+pub mod experiment;
+pub mod identity;
+mod profile;
+pub mod progress;
+pub mod shards;
+pub mod store;
+
+pub use error::Error;
+pub use experiment::{Entry, Experiment, Found, Given, Saved, Typed};
+pub use identity::{Built, Code};
+pub use profile::Profile;
+pub use progress::{Progress, say};
+pub use store::Store;
+
+/// An experiment of any parameters and result.
+pub type Need = &'static dyn Entry;

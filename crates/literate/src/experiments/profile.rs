@@ -1,0 +1,32 @@
+//! Sizes of samples.
+
+use serde::{Deserialize, Serialize};
+
+/// How much is sampled: small to try out, large for the committed report.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Profile {
+    /// To try out: seconds.
+    Quick,
+    /// For pull requests: half a minute.
+    Ci,
+    /// The committed report.
+    Full,
+    /// What takes long: run now and then, committed, and carried over.
+    Deep,
+}
+
+impl Profile {
+    /// All of them, rising.
+    pub const ALL: [Profile; 4] = [Profile::Quick, Profile::Ci, Profile::Full, Profile::Deep];
+
+    /// Its name on the command line, in reports and in names of files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Profile::Quick => "quick",
+            Profile::Ci => "ci",
+            Profile::Full => "full",
+            Profile::Deep => "deep",
+        }
+    }
+}
