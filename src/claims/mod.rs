@@ -26,7 +26,7 @@ use crate::committed;
 pub use literate::claims::*;
 
 pub use ledger::{all, level, needs, one, rows, scorecard};
-pub use row::{Error, Evidence, Finding, Row};
+pub use row::{Error, Evidence, Row};
 
 /// What the paper printed, as it is committed.
 ///

@@ -1,7 +1,8 @@
 //! Section 10: conclusions.
 
 use super::Basis::OwnThreshold;
-use super::row::{Error, Evidence, Finding, Row, measured, open};
+use super::row::{Error, Evidence, Row, measured};
+use super::{Finding, open};
 use super::{Judgement, Statement, Text};
 use crate::experiments::catalogue::SWEEP;
 use crate::experiments::theory::beside::{LARGE_SIGMA, distance};

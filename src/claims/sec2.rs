@@ -1,8 +1,9 @@
 //! Section 2: the simulation.
 
 use super::Basis::{Exact, OwnThreshold, PrintedDigit};
-use super::row::{Error, Evidence, Finding, Row, measured, open, statistical};
+use super::row::{Error, Evidence, Row, measured, statistical};
 use super::sec2_rare::{percolation, sticking, three_way, two_masses, walls_like_masses};
+use super::{Finding, open};
 use super::{Judgement, Statement, Text};
 use crate::experiments::catalogue::{CHAINS, STARTS, SWEEP, TWO_MASSES};
 use crate::experiments::sweep::tables::{mean_all, mode_half};

@@ -1,7 +1,8 @@
 //! Section 2: what is rare, what never happens, and what does not matter.
 
-use super::row::{Error, Evidence, Finding, open};
+use super::row::{Error, Evidence};
 use super::sec2::LAST_DIGIT;
+use super::{Finding, open};
 use super::{Judgement, Statement, Text};
 use crate::experiments::sweep::laws;
 use crate::params::{ChainKind, NEAR_SIMULTANEOUS, SLOW};

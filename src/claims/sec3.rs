@@ -1,8 +1,9 @@
 //! Sections 3 and 4: the graph, and what its circuits stand for.
 
 use super::Basis::{Exact, OwnThreshold};
-use super::row::{Error, Evidence, Finding, Row, all_cases, open, statistical, theory};
+use super::row::{Error, Evidence, Row, statistical, theory};
 use super::sec2::{gaps, small};
+use super::{Finding, all_cases, open};
 use super::{Judgement, Statement, Text};
 use crate::experiments::catalogue::SWEEP;
 

@@ -1,7 +1,8 @@
 //! Section 5: counting orbits.
 
 use super::Basis::{Exact, OwnThreshold};
-use super::row::{Error, Evidence, Finding, Row, all_cases, measured, theory};
+use super::row::{Error, Evidence, Row, measured, theory};
+use super::{Finding, all_cases};
 use super::{Judgement, Statement, Text};
 use crate::experiments::catalogue::SEGMENTS;
 use crate::experiments::segments::Segment;

@@ -1,8 +1,9 @@
 //! Section 6: probability.
 
 use super::Basis::{OwnThreshold, Rounding};
-use super::row::{Error, Evidence, Finding, Row, measured, open, rounding, theory};
+use super::row::{Error, Evidence, Row, measured, theory};
 use super::sec2;
+use super::{Finding, open, rounding};
 use super::{Judgement, Statement, Text};
 use crate::experiments::catalogue::SWEEP;
 use crate::experiments::theory::tables::two_largest_steps;

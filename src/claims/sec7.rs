@@ -1,7 +1,8 @@
 //! Section 7: the discontinuity of the most likely number.
 
 use super::Basis::{Exact, OwnThreshold, Rounding};
-use super::row::{Error, Evidence, Finding, Row, all_cases, rounding, theory};
+use super::row::{Error, Evidence, Row, theory};
+use super::{Finding, all_cases, rounding};
 use super::{Judgement, Statement, Text};
 
 /// The rows of this section.

@@ -1,9 +1,10 @@
 //! Section 8: a relation between σ and p.
 
 use super::Basis::{OwnThreshold, PrintedDigit, Rounding};
-use super::row::{Error, Evidence, Finding, Row, measured, open, rounding, statistical, theory};
+use super::row::{Error, Evidence, Row, measured, statistical, theory};
 use super::sec2;
 use super::sec8_chains::{no_impact, restitution_ensures, restitution_omitted, threshold_shift};
+use super::{Finding, open, rounding};
 use super::{Judgement, Statement, Text};
 use crate::experiments::catalogue::{CHAINS, PROTOCOL, RESTITUTION, STARTS, SWEEP};
 use crate::experiments::sweep::Sweep;

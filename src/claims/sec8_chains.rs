@@ -1,7 +1,8 @@
 //! Section 8: what the relation leaves out, held against chains that have it or not.
 
-use super::row::{Error, Evidence, Finding, open};
+use super::row::{Error, Evidence};
 use super::sec2_rare::NEGLIGIBLE;
+use super::{Finding, open};
 use super::{Judgement, Statement, Text};
 use crate::experiments::starts_tables::share_of_start;
 use crate::numerics::statistics::{Estimate, wilson};

@@ -1,7 +1,8 @@
 //! Section 9: circuits that repeat impacts.
 
 use super::Basis::{Exact, OwnThreshold};
-use super::row::{Error, Evidence, Finding, Row, all_cases, measured, open, theory};
+use super::row::{Error, Evidence, Row, measured, theory};
+use super::{Finding, all_cases, open};
 use super::{Judgement, Statement, Text};
 use crate::experiments::catalogue::SEGMENTS;
 use crate::experiments::theory::Theory;

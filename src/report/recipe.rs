@@ -18,7 +18,7 @@ pub fn recipe(name: &str, profile: &str) -> Option<Recipe> {
         "theory" => {
             Recipe::of(name, "experiments::theory".into(), &serde_json::json!({"N": VERTICES}))
         }
-        "audits" => Recipe::of(name, "experiments::deep::audit".into(), &Json::Null),
+        "audits" => Recipe::of(name, "literate::experiments::deep::audit".into(), &Json::Null),
         _ => {
             let experiment = ALL.iter().find(|experiment| experiment.name() == name)?;
             let recipe = Recipe::of(name, experiment.item(), &experiment.parameters(profile));

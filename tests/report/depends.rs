@@ -31,12 +31,23 @@ fn a_change_that_matters_is_seen_and_another_is_not() {
         ("crates/circuits/src/lib.rs", ""),
         (
             "src/experiments/mod.rs",
-            "pub mod near;\npub mod far;\npub mod error;\npub mod watch;\npub use error::Error;\n",
+            "pub mod near;\npub mod far;\npub mod watch;\npub use literate::experiments::{Error, cutting::Unit};\n",
         ),
-        ("src/experiments/error.rs", "use crate::circuits;\npub enum Error {}\n"),
+        ("src/lib.rs", "pub use literate::digest;\n"),
+        ("crates/literate/src/lib.rs", "pub mod digest;\npub mod experiments;\n"),
+        ("crates/literate/src/digest.rs", ""),
+        (
+            "crates/literate/src/experiments/mod.rs",
+            "pub mod cutting;\nmod error;\npub use error::Error;\n",
+        ),
+        (
+            "crates/literate/src/experiments/error.rs",
+            "use impact_circuits::X;\npub enum Error {}\n",
+        ),
+        ("crates/literate/src/experiments/cutting.rs", "pub struct Unit;\n"),
         (
             "src/experiments/near.rs",
-            "use super::{Error, watch::{self, Watch as Seen}};\nuse crate::params::{Chain, SEED};\nuse crate::dynamics::Engine;\npub struct Near;\n",
+            "use super::{Error, Unit, watch::{self, Watch as Seen}};\nuse crate::digest::sha256;\nuse crate::params::{Chain, SEED};\nuse crate::dynamics::Engine;\npub struct Near;\n",
         ),
         ("src/experiments/watch.rs", "pub struct Watch;\n"),
         ("src/experiments/chain.rs", "use crate::params::Chain;\n"),
@@ -52,6 +63,8 @@ fn a_change_that_matters_is_seen_and_another_is_not() {
         "crates/impact-chain/src/contact.rs",
         "crates/impact-chain/src/engine.rs",
         "crates/impact-chain/src/lib.rs",
+        "crates/literate/src/digest.rs",
+        "crates/literate/src/experiments/cutting.rs",
         "crates/numerics/src/clock.rs",
         "crates/numerics/src/lib.rs",
         "src/experiments/more.rs",
@@ -61,7 +74,7 @@ fn a_change_that_matters_is_seen_and_another_is_not() {
     ];
     assert_eq!(found(&source, "src/experiments/near.rs"), near);
     // The chain's own types stand beside the engine, whoever hands them on; and a crate is one thing.
-    let chain = [&near[..5], &["src/experiments/chain.rs"]].concat();
+    let chain = [&near[..3], &near[5..7], &["src/experiments/chain.rs"]].concat();
     assert_eq!(found(&source, "src/experiments/chain.rs"), chain);
     let far = ["src/experiments/far.rs", "src/params/far.rs"];
     assert_eq!(found(&source, "src/experiments/far.rs"), far);

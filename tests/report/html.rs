@@ -316,7 +316,7 @@ fn equations_are_mathml() {
 /// The ratio of luminances (WCAG 2.2) of each colour of the figures to the page.
 #[test]
 fn colours_stand_out_in_light_and_dark() {
-    let css = std::fs::read_to_string("templates/report.css").unwrap();
+    let css = std::fs::read_to_string("crates/literate/skin/report.css").unwrap();
     let schemes: Vec<&str> = css.split(":root {").skip(1).collect();
     assert_eq!(schemes.len(), 2);
     for scheme in schemes {

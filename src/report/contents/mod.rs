@@ -9,8 +9,8 @@
 mod accuracy;
 mod carried;
 mod ledger;
-mod paper;
 
+use super::claims::printed;
 use super::mark::Mark;
 use super::print::Style;
 use super::values::{Origin, Registry, Value};
@@ -51,7 +51,8 @@ pub const SECTIONS: [Section; 3] =
 /// If a result is missing, or two values have one id.
 pub fn registry(results: &Results, published: &Published) -> Result<Registry, Error> {
     let mut registry = Registry::new();
-    registry.extend(paper::values(published))?;
+    registry.extend(printed(published))?;
+    registry.add(Value::text("published_digest", &published.digest[..16]))?;
     for section in SECTIONS {
         registry.extend(section(results)?)?;
     }

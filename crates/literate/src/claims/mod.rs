@@ -1,12 +1,14 @@
 //! Statements of a paper beside what is found, and verdicts on them: [`Claim`].
 
 mod basis;
+mod finding;
 mod level;
 mod published;
 mod text;
 mod verdict;
 
 pub use basis::{Basis, split};
+pub use finding::{Finding, all_cases, open, rounding};
 pub use level::{FAMILY_LEVEL, Level};
 pub use published::{Parameter, Published, PublishedError, Statement};
 pub use text::{Digits, Number, Piece, Text, digits_of};

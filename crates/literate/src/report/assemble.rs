@@ -78,7 +78,7 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
 
     let (mut blocks, places) = parse::parse(&filled, &values, input.program)?;
     let tell = |error| places.tell(error);
-    illustrate(&mut blocks, input.figures).map_err(tell)?;
+    illustrate(&mut blocks, input.figures, input.program).map_err(tell)?;
     let library = Library::read(input.templates.text("references.bib")?)?;
     let labels = labels::resolve(&mut blocks, &library).map_err(tell)?;
 
@@ -218,15 +218,16 @@ fn check_links(
 
 /// Gives the figures in the prose their alternative text and data; each is shown exactly once
 /// ([`labels::resolve`] refuses twice).
-fn illustrate(blocks: &mut [Block], figures: &[Figure]) -> Result<(), Error> {
+fn illustrate(blocks: &mut [Block], figures: &[Figure], program: Program) -> Result<(), Error> {
     let mut shown = BTreeSet::new();
     for block in blocks {
-        if let Block::Figure { path, alt, data, experiments, .. } = block {
+        if let Block::Figure { path, alt, data, code, experiments, .. } = block {
             let figure =
                 figures.iter().find(|figure| *path == format!("figures/{}.svg", figure.id));
             let figure = figure.ok_or_else(|| Error::NoFile(path.clone()))?;
             *alt = figure.description.clone();
             *data = figure.data.iter().map(|d| format!("data/{}", d.name)).collect();
+            *code = program.file(&figure.source).map(|file| format!("../{file}"));
             *experiments = figure.experiments.clone();
             shown.insert(figure.id.as_str());
         }

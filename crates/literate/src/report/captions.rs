@@ -30,8 +30,17 @@ pub(super) fn paragraph(mut inlines: Vec<Inline>) -> Result<Block, Error> {
         let path = to.trim_start_matches(IMAGE).to_string();
         let number = number_of_figure(&path);
         let id = format!("fig:{number}");
-        let (alt, data, experiments) = (String::new(), Vec::new(), Vec::new());
-        return Ok(Block::Figure { id, number, path, alt, data, experiments, caption: shown });
+        let (alt, data, code, experiments) = (String::new(), Vec::new(), None, Vec::new());
+        return Ok(Block::Figure {
+            id,
+            number,
+            path,
+            alt,
+            data,
+            code,
+            experiments,
+            caption: shown,
+        });
     }
     Ok(Block::Paragraph(inlines))
 }

@@ -3,7 +3,7 @@
 use super::markdown;
 use super::print::{Style, print};
 use super::values::{Digits, Number, Value, origin};
-use crate::claims::{Basis, Claim, Digits as ClaimDigits, Piece, Text, Verdict, split};
+use crate::claims::{Basis, Claim, Digits as ClaimDigits, Piece, Published, Text, Verdict, split};
 use serde::Serialize;
 
 /// One claim for a template: every field is Markdown, its numbers printed with their digits.
@@ -77,6 +77,19 @@ fn digits_of(number: &crate::claims::Number) -> Number {
         ClaimDigits::Integer => return Number::Integer(value as i64),
     };
     Number::Real { value, digits }
+}
+
+/// What was printed, as values: the groups `paper` (parameters) and `printed` (statements).
+pub fn printed(published: &Published) -> Vec<Value> {
+    let chosen = published.parameters.iter().map(|p| {
+        let id = format!("paper.{}", p.id);
+        Value::printed(id, &format!("{}", p.value), &p.place).data_only()
+    });
+    let stated = published.statements.iter().filter_map(|s| {
+        let text = format!("{:.*}", usize::from(s.decimals), s.value?);
+        Some(Value::printed(format!("printed.{}", s.id), &text, &s.place).data_only())
+    });
+    chosen.chain(stated).collect()
 }
 
 /// The scorecard as values: `score.total`, `score.reproduced`, `score.differs_and_explained`,

@@ -35,6 +35,8 @@ pub enum Block {
         alt: String,
         /// Paths of its data relative to the report.
         data: Vec<String>,
+        /// Path of the code that draws it, relative to the report; none if it is not known.
+        code: Option<String>,
         /// Names of the experiments whose results it shows.
         experiments: Vec<&'static str>,
         /// The caption.

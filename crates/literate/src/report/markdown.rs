@@ -38,12 +38,12 @@ fn write_block(block: &Block, indent: &str, out: &mut String) {
             )
         }
         Block::Paragraph(text) => prose.all(text),
-        Block::Figure { id, number, path, alt, data, caption, .. } => format!(
+        Block::Figure { id, number, path, alt, data, code, caption, .. } => format!(
             "{}\n![{}]({path})\n\n**Figure {number}.** {}{}",
             anchor(id),
             alternative(alt),
             prose.all(caption),
-            origin(path, data)
+            origin(data, code.as_ref())
         ),
         Block::Table { id, number, caption, columns, head, rows } => {
             let mut text = id.as_deref().map_or(String::new(), anchor);
@@ -140,15 +140,14 @@ fn alternative(text: &str) -> String {
 }
 
 /// Links from a figure to its data and to the code that draws it, which is beside paper/.
-fn origin(path: &str, data: &[String]) -> String {
-    let name = |path: &str| path.rsplit('/').next().unwrap_or(path).to_string();
-    let link = |path: &String| format!("[{}]({path})", name(path));
+fn origin(data: &[String], code: Option<&String>) -> String {
+    let link = |path: &String| format!("[{}]({path})", path.rsplit('/').next().unwrap_or(path));
     if data.is_empty() {
         return String::new();
     }
-    let code = name(path).replace(".svg", ".rs");
     let data: Vec<String> = data.iter().map(link).collect();
-    format!("\n<sub>Data: {}. Code: [{code}](../src/figures/{code}).</sub>", data.join(", "))
+    let code = code.map(|path| format!(" Code: {}.", link(path))).unwrap_or_default();
+    format!("\n<sub>Data: {}.{code}</sub>", data.join(", "))
 }
 
 /// Words as Markdown that shows just these words; mathematics between dollars stays.

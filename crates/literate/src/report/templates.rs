@@ -9,6 +9,14 @@ use std::path::{Path, PathBuf};
 /// Endings of the files that are templates or data for them (fonts live there too).
 const TEXT: [&str; 9] = [".md", ".tex", ".typ", ".bib", ".toml", ".html", ".css", ".js", ".json"];
 
+/// What stands around the text of the documents, where a folder has none of its own.
+const SKIN: [(&str, &str); 4] = [
+    ("report.css", include_str!("../../skin/report.css")),
+    ("report.html", include_str!("../../skin/report.html")),
+    ("report.tex", include_str!("../../skin/report.tex")),
+    ("report.typ", include_str!("../../skin/report.typ")),
+];
+
 /// All template files, by path relative to their folder.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Templates(BTreeMap<String, String>);
@@ -17,7 +25,7 @@ impl Templates {
     /// Templates from texts.
     pub fn of<'a>(files: impl IntoIterator<Item = (&'a str, &'a str)>) -> Self {
         let own = |(path, text): (&str, &str)| (path.to_string(), text.to_string());
-        Templates(files.into_iter().map(own).collect())
+        Templates(SKIN.into_iter().chain(files).map(own).collect())
     }
 
     /// Reads all templates of a folder.
@@ -27,7 +35,7 @@ impl Templates {
     pub fn read(folder: &Path) -> Result<Self, Error> {
         let mut walk = Walk::default();
         walk.folder(folder, "")?;
-        Ok(Templates(walk.files))
+        Ok(Templates::of(walk.files.iter().map(|(path, text)| (path.as_str(), text.as_str()))))
     }
 
     /// The text of one file.

@@ -7,7 +7,7 @@ use crate::source::Program;
 
 impl Page<'_> {
     pub(super) fn figure(&self, block: &Block) -> Result<String, Error> {
-        let Block::Figure { id, number, path, data, experiments, caption, .. } = block else {
+        let Block::Figure { id, number, path, data, code, experiments, caption, .. } = block else {
             return Ok(String::new());
         };
         let own = |figure: &&crate::figures::Figure| *path == format!("figures/{}.svg", figure.id);
@@ -21,16 +21,16 @@ impl Page<'_> {
              <span class=\"origin\">{}</span></figcaption></figure>\n",
             escape::id(id),
             self.inlines(caption)?,
-            origin(&figure.source, path, data, experiments, self.program)
+            origin(path, data, code.as_ref(), experiments, self.program)
         ))
     }
 }
 
 /// Links to the picture as a file, its data, its drawing code and the experiments.
 fn origin(
-    source: &str,
     path: &str,
     data: &[String],
+    code: Option<&String>,
     experiments: &[&str],
     program: Program,
 ) -> String {
@@ -43,8 +43,8 @@ fn origin(
         let data: Vec<String> = data.iter().map(|path| link(path, &name(path))).collect();
         out.push_str(&format!(" Data: {}.", data.join(", ")));
     }
-    if let Some(file) = program.file(source) {
-        out.push_str(&format!(" Code: {}.", link(&format!("../{file}"), &name(file))));
+    if let Some(code) = code {
+        out.push_str(&format!(" Code: {}.", link(code, &name(code))));
     }
     if !experiments.is_empty() {
         let one = |name: &&str| {

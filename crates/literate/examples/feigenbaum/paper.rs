@@ -1,0 +1,278 @@
+//! A whole second paper: the constants of period doubling, found again from the logistic map.
+//!
+//! It shows what a paper needs beside [`literate`]: an experiment, its tables, figures, verdicts on what was printed, and
+//! prose. All of the paper is in this folder.
+
+use impact_numerics::double_double::DoubleDouble;
+use literate::claims::{Basis, Claim, Finding, Judgement, Published, Statement, Text};
+use literate::experiments::experiment::How;
+use literate::experiments::{Built, Code, Error, Experiment, Profile, Progress, Store};
+use literate::figures::axis::{Axis, log, number};
+use literate::figures::panel::Frame;
+use literate::figures::series::Outside;
+use literate::figures::sheet::Sheet;
+use literate::figures::style::{BLUE, INK, LINE, Mark, Stroke, THIN};
+use literate::figures::{self, DataFile, Figure};
+use literate::report::claims::printed;
+use literate::report::{self, Input, Registry, Report, Templates, assemble};
+use literate::source::{PLAIN, Program, Recipe};
+use literate::table::Table;
+use std::sync::Arc;
+
+/// Prose and data.
+const FILES: [(&str, &str); 4] = [
+    ("report.md", include_str!("report.md")),
+    ("references.bib", include_str!("references.bib")),
+    ("literals.toml", include_str!("literals.toml")),
+    ("published.toml", include_str!("published.toml")),
+];
+
+/// This file, which the paper quotes, and on which saved results depend.
+const SOURCE: (&str, &str, &str) =
+    ("paper", "crates/literate/examples/feigenbaum/paper.rs", include_str!("paper.rs"));
+
+const PROGRAM: Program = Program {
+    sources: &[SOURCE],
+    crates: &[("feigenbaum::paper::", "paper::")],
+    quoted: &["paper::"],
+    recipe: |name, profile| {
+        let profile = if profile == "quick" { Profile::Quick } else { Profile::Full };
+        let parameters = serde_json::to_value((CASCADE.parameters)(profile)).ok()?;
+        (name == CASCADE.name).then(|| Recipe::of(name, "paper::cascade".into(), &parameters))
+    },
+    judge: |_| "paper::claims".into(),
+    ..PLAIN
+};
+
+const BUILT: Built = Built {
+    lock: "",
+    files: |file| vec![(file.into(), literate::digest::sha256(SOURCE.2))],
+    committed: |_| Err(std::io::ErrorKind::NotFound.into()),
+};
+
+/// How far the cascade of period doublings is followed.
+#[derive(serde::Serialize)]
+pub struct Depth {
+    /// The last orbit has a period of two to this power.
+    deepest: u32,
+}
+
+/// An orbit that passes through the maximum of the map, x = 1/2.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Orbit {
+    /// The period is two to this power.
+    n: u32,
+    /// The parameter R_n of the map at which it is there.
+    parameter: f64,
+    /// R_n − R_{n−1}; none for n = 0.
+    step: Option<f64>,
+    /// How far the orbit, half a period on, is from x = 1/2; none for n = 0.
+    distance: Option<f64>,
+}
+
+/// The experiment: it is run once, saved, and used again.
+pub const CASCADE: Experiment<Depth, Vec<Orbit>> = Experiment {
+    name: "cascade",
+    code: Code { built: &BUILT, file: SOURCE.1 },
+    parameters: |profile| Depth { deepest: if profile == Profile::Quick { 8 } else { 16 } },
+    how: How::Whole { run: cascade, weight: |depth| 1 << depth.deepest },
+    tables,
+};
+
+/// The orbit of x = 1/2 after so many steps of x → r x (1 − x), and its derivative by r.
+fn orbit(r: DoubleDouble, steps: u64) -> [DoubleDouble; 2] {
+    let one = DoubleDouble::from(1.0);
+    (0..steps).fold([DoubleDouble::from(0.5), DoubleDouble::from(0.0)], |[x, slope], _| {
+        let parabola = x * (one - x);
+        [r * parabola, parabola + r * (one - x * 2.0) * slope]
+    })
+}
+
+/// Newton's method for each R_n, with 32 digits; the steps before tell where the next begins.
+fn cascade(depth: &Depth, progress: &Progress) -> Result<Vec<Orbit>, Error> {
+    let half = DoubleDouble::from(0.5);
+    let mut all = vec![Orbit { n: 0, parameter: 2.0, step: None, distance: None }];
+    let (mut before, mut step) = (DoubleDouble::from(2.0), DoubleDouble::from(5.5));
+    for n in 1..=depth.deepest {
+        progress.check()?;
+        let mut r = before + step * (1.0 / 4.67);
+        for _ in 0..20 {
+            let [x, slope] = orbit(r, 1 << n);
+            r = r - (x - half) / slope;
+        }
+        step = r - before;
+        let distance = (orbit(r, 1 << (n - 1))[0] - half).to_f64();
+        let (parameter, distance) = (r.to_f64(), Some(distance));
+        all.push(Orbit { n, parameter, step: Some(step.to_f64()), distance });
+        before = r;
+    }
+    Ok(all)
+}
+
+/// What follows from the cascade: two numbers for each orbit, and their limits.
+fn tables(cascade: &Vec<Orbit>) -> Vec<Table> {
+    let of = |n: u32| cascade.iter().find(|orbit| orbit.n == n);
+    let before = |orbit: &Orbit| orbit.n.checked_sub(1).and_then(of);
+    let ratio = |a: Option<f64>, b: Option<f64>| a.zip(b).map_or(f64::NAN, |(a, b)| a / b);
+    let delta = |orbit: &Orbit| ratio(before(orbit).and_then(|own| own.step), orbit.step);
+    let alpha = |orbit: &Orbit| -ratio(before(orbit).and_then(|own| own.distance), orbit.distance);
+    let orbits = Table::of("cascade.orbits", cascade, |_| 1)
+        .key("n", "1", |orbit| orbit.n.into())
+        .real("parameter", "1", 10, "The parameter $R_n$.", |orbit| orbit.parameter)
+        .real("delta", "1", 8, "Ratio of neighbouring steps.", delta)
+        .real("alpha", "1", 8, "Ratio of neighbouring distances.", alpha)
+        .done();
+    let last = cascade.last().into_iter().cloned().collect::<Vec<_>>();
+    // The steps that are left are a geometric series.
+    let onset =
+        |orbit: &Orbit| orbit.parameter + orbit.step.unwrap_or(f64::NAN) / (delta(orbit) - 1.0);
+    let stable = |r: f64| (r * (1.0 - 2.0 * (1.0 - 1.0 / r))).abs() - 1.0;
+    let limit = Table::of("cascade.limit", &last, |_| 1)
+        .chosen("n", "1", "The last orbit.", |orbit| Some(orbit.n.into()))
+        .real("delta", "1", 8, "Its ratio of steps.", delta)
+        .real("alpha", "1", 9, "Its ratio of distances.", alpha)
+        .real("onset", "1", 8, "Where the periods are infinite.", onset)
+        .real("stable", "1", 6, "Where the fixed point stops attracting.", |_| {
+            bisected([2.5, 3.5], stable)
+        })
+        .real("three", "1", 6, "Where the orbit of period three begins.", |_| three())
+        .done();
+    vec![orbits, limit]
+}
+
+/// A zero of a rising function.
+fn bisected(mut ends: [f64; 2], f: impl Fn(f64) -> f64) -> f64 {
+    for _ in 0..60 {
+        let middle = (ends[0] + ends[1]) / 2.0;
+        ends[usize::from(f(middle) > 0.0)] = middle;
+    }
+    ends[0]
+}
+
+/// The parameter at which the map, applied three times, touches the diagonal near x = 1/2.
+fn three() -> f64 {
+    let thrice = |r: f64, x: f64| {
+        (0..3).fold([x, 1.0], |[x, slope], _| [r * x * (1.0 - x), slope * r * (1.0 - 2.0 * x)])
+    };
+    let touching = |r: f64| bisected([0.5, 0.53], |x| thrice(r, x)[1] - 1.0);
+    bisected([3.8, 3.85], |r| touching(r) - thrice(r, touching(r))[0])
+}
+
+/// Fig. 1: where orbits go, against the parameter.
+fn diagram(limit: &Table) -> Result<Figure, figures::Error> {
+    let sheet = Sheet::new(5150, None)?;
+    let panel = sheet.panel(
+        Frame::new(1100, 300, 8100, 4200),
+        Axis::linear(2.8, 4.0, 0.2, 2, "parameter *r*"),
+        Axis::linear(0.0, 1.0, 0.25, 1, "*x*"),
+    )?;
+    let mut data = DataFile::new("fig01.csv", &["r (1)", "x (1)"]);
+    let mut points = Vec::new();
+    for i in 0..=200 {
+        let r = 2.8 + 1.2 * f64::from(i) / 200.0;
+        let mut x = 0.5;
+        for step in 0..540 {
+            x = r * x * (1.0 - x);
+            if step >= 500 {
+                points.push((r, x));
+                data.row(literate::cells![r, x]);
+            }
+        }
+    }
+    panel.marks("orbits", &points, (Mark::Disc, 9, Stroke::solid(INK, 4)), Outside::Refuse)?;
+    let onset = limit.number(&[], "onset").unwrap_or(f64::NAN);
+    let line = [(onset, 0.0), (onset, 1.0)];
+    panel.curve("onset", &line, Stroke::solid(BLUE, THIN), Outside::Refuse)?;
+    let words = format!(
+        "Points of orbits against the parameter r. A single branch splits near r = 3 into two, these into four, and so \
+         on; from r = {onset:.3}, marked by a line, whole ranges of x are covered, with windows between."
+    );
+    Ok(Figure {
+        source: "paper::diagram".into(),
+        ..sheet.finish("fig01", "Period doubling", words, vec![data])
+    })
+}
+
+/// Fig. 2: how fast the two ratios settle.
+fn convergence(orbits: &Table, limit: &Table) -> Result<Figure, figures::Error> {
+    let sheet = Sheet::new(4400, None)?;
+    let last = orbits.values("n").last().copied().unwrap_or(1.0);
+    let panel = sheet.panel(
+        Frame::new(1350, 300, 8100, 3450),
+        Axis::linear(1.5, last, 2.0, 2, "*n*"),
+        Axis::decades(-10, 0, 2, "distance from the last ratio"),
+    )?;
+    let of = |column: &str| -> Vec<(f64, f64)> {
+        let end = limit.number(&[], column).unwrap_or(f64::NAN);
+        let far = |(n, ratio): (f64, f64)| (n, log((ratio - end).abs()));
+        let points = orbits.points(&[], "n", column).into_iter().map(far);
+        points.filter(|point| point.1.is_finite()).collect()
+    };
+    for (column, mark, colour) in [("delta", Mark::Disc, INK), ("alpha", Mark::Ring, BLUE)] {
+        let (points, stroke) = (of(column), Stroke::solid(colour, LINE));
+        panel.curve(column, &points, stroke, Outside::Refuse)?;
+        panel.marks(column, &points, (mark, 60, stroke), Outside::Refuse)?;
+    }
+    let words = format!(
+        "Distances of the ratios from those of the last orbit, n = {}, against n, on a logarithmic axis. Both fall along \
+         straight lines, that of alpha first below that of delta.",
+        number(last, 0)
+    );
+    let figure =
+        sheet.finish("fig02", "Convergence of the ratios", words, vec![DataFile::of(orbits)]);
+    Ok(Figure { source: "paper::convergence".into(), experiments: vec![CASCADE.name], ..figure })
+}
+
+/// The statements, each held against a column of the limits.
+fn claims(published: &Published, limit: &Table) -> Result<Vec<Claim>, Box<dyn std::error::Error>> {
+    let one = |statement: &Statement| {
+        let (printed, [low, high]) = (statement.number()?, statement.rounding()?);
+        let ours = limit.number(&[], &statement.id)?;
+        let agrees = (low..=high).contains(&ours);
+        let mut finding = Finding {
+            ours: Text::default().decimals(ours, statement.decimals + 2),
+            tolerance: Text::words("half a unit of the last printed digit"),
+            reason: "a printed number was rounded",
+            judgement: Judgement::Plain { agrees },
+            note: Text::default(),
+        };
+        if statement.id == "onset" {
+            // The explanation can fail: ours, rounded to three decimals, must be what is printed.
+            let holds = (ours * 1000.0).round() == printed * 1000.0;
+            finding.judgement = Judgement::Explained { agrees, holds };
+            finding.note =
+                Text::words("printed is the number rounded to three decimals, and a zero");
+        }
+        Ok(finding.claim(statement, Basis::PrintedDigit))
+    };
+    published.statements.iter().map(one).collect()
+}
+
+/// Makes the whole paper; the cascade is taken from the store if it is fresh there.
+pub fn make(
+    profile: Profile,
+    store: &Store,
+    progress: &Progress,
+) -> Result<Report, Box<dyn std::error::Error>> {
+    let cascade = CASCADE.get(profile, store, progress)?;
+    let tables = (CASCADE.tables)(&cascade);
+    let templates = Templates::of(FILES);
+    let published = Published::parse(templates.text("published.toml")?)?;
+    let mut values = Registry::new();
+    values.extend(printed(&published))?;
+    values.add(report::Value::text("profile", profile.name()).data_only())?;
+    tables.iter().try_for_each(|table| values.add_table(Arc::new(table.clone())))?;
+    let claims = claims(&published, &tables[1])?;
+    let figures = [diagram(&tables[1])?, convergence(&tables[0], &tables[1])?];
+    Ok(assemble(&Input {
+        templates: &templates,
+        values: &values,
+        rows: &Default::default(),
+        claims: &claims,
+        figures: &figures,
+        equations: &[],
+        scene: None,
+        pdf: false,
+        program: PROGRAM,
+    })?)
+}

@@ -1,0 +1,56 @@
+//! The second paper, made as its reader would make it.
+
+#[path = "../examples/feigenbaum/paper.rs"]
+mod paper;
+
+use literate::experiments::{Profile, Progress, Saved, Store};
+use std::path::Path;
+
+#[test]
+fn the_second_paper_is_made_and_its_run_is_used_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let store = Store::open(folder.path()).unwrap();
+    assert!(!paper::CASCADE.stale(Profile::Full, &store).is_empty());
+    let report = paper::make(Profile::Full, &store, &Progress::silent()).unwrap();
+    assert_eq!(paper::CASCADE.stale(Profile::Full, &store), []);
+    assert!(paper::CASCADE.audit(Profile::Full, &store, &Progress::silent()).unwrap());
+    assert!(report == paper::make(Profile::Full, &store, &Progress::silent()).unwrap());
+
+    let text = |path: &str| String::from_utf8(report.committed[path].clone()).unwrap();
+    let markdown = text("report.md");
+    for part in [
+        "4 of 5 statements are reproduced, 1 differs and is",
+        "| 1 | 3.236067977 | none | none |",
+        "**Listing 1.** The search for the orbits.",
+        "[cascade-orbits.csv](data/cascade-orbits.csv). Code: [paper.rs](../crates/literate/examples/feigenbaum/paper.rs)",
+    ] {
+        assert!(markdown.contains(part), "{part}: {markdown}");
+    }
+    let ledger = text("ledger.json");
+    assert_eq!(ledger.matches("\"reproduced\"").count(), 4, "{ledger}");
+    assert_eq!(ledger.matches("\"differs and explained\"").count(), 1, "{ledger}");
+    assert!(report.beside.contains_key("report.html"));
+}
+
+/// The constants to the digits that the literature has: 4.669 201 609 102… and 2.502 907 875 095….
+#[test]
+fn the_ratios_settle_where_the_literature_has_them() {
+    let cascade =
+        paper::CASCADE.get(Profile::Full, &Store::nowhere(), &Progress::silent()).unwrap();
+    let tables = (paper::CASCADE.tables)(&cascade);
+    let limit = |column: &str| tables[1].values(column)[0];
+    assert!((limit("delta") - 4.669_201_609_102_990).abs() < 1e-10, "{}", limit("delta"));
+    assert!((limit("alpha") - 2.502_907_875_095_892).abs() < 1e-10, "{}", limit("alpha"));
+    assert!((limit("onset") - 3.569_945_671_870_945).abs() < 1e-12, "{}", limit("onset"));
+    assert!((limit("stable") - 3.0).abs() < 1e-12);
+    assert!((limit("three") - (1.0 + 8.0_f64.sqrt())).abs() < 1e-12, "{}", limit("three"));
+}
+
+/// Small enough to be read in one sitting.
+#[test]
+fn a_whole_paper_has_at_most_400_lines() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/feigenbaum");
+    let files = std::fs::read_dir(folder).unwrap().map(|file| file.unwrap().path());
+    let lines: usize = files.map(|f| std::fs::read_to_string(f).unwrap().lines().count()).sum();
+    assert!(lines <= 400, "{lines}");
+}
