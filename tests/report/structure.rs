@@ -38,12 +38,19 @@ fn code(text: &str) -> impl Iterator<Item = (usize, &str)> {
 
 /// The source of the program and of its crates.
 fn sources() -> Vec<(String, String)> {
-    let crates = ["crates/numerics/src", "crates/impact-chain/src", "crates/circuits/src", "src"];
-    crates.into_iter().flat_map(|folder| files(folder, &[".rs"])).collect()
+    let crates = ["numerics", "impact-chain", "circuits", "literate"];
+    let crates = crates.map(|name| format!("crates/{name}/src"));
+    crates
+        .iter()
+        .map(String::as_str)
+        .chain(["src"])
+        .flat_map(|folder| files(folder, &[".rs"]))
+        .collect()
 }
 
 /// The crates by the names of the layers that they are.
-const CRATES: [(&str, &str); 3] = [
+const CRATES: [(&str, &str); 4] = [
+    ("literate", "literate"),
     ("impact_numerics", "numerics"),
     ("impact_chain", "dynamics"),
     ("impact_circuits", "circuits"),
@@ -51,22 +58,18 @@ const CRATES: [(&str, &str); 3] = [
 
 /// Who may import whom in src/, besides itself: no arrow goes back, and figures and claims know results,
 /// never models.
-const MAY_IMPORT: [(&str, &[&str]); 11] = [
-    ("value", &[]),
-    ("table", &["numerics", "value"]),
+const MAY_IMPORT: [(&str, &[&str]); 10] = [
+    ("literate", &["numerics"]),
     // The chain's own types.
-    ("params", &["numerics", "dynamics"]),
+    ("params", &["literate", "numerics", "dynamics"]),
     ("numerics", &[]),
     ("dynamics", &["numerics"]),
     ("circuits", &["numerics", "dynamics"]),
-    ("experiments", &["params", "numerics", "dynamics", "circuits", "table", "value"]),
-    ("figures", &["params", "numerics", "experiments", "table"]),
-    ("claims", &["params", "numerics", "experiments", "table"]),
-    (
-        "report",
-        &["params", "numerics", "circuits", "experiments", "figures", "claims", "table", "value"],
-    ),
-    ("program", &["params", "dynamics", "experiments", "figures", "claims", "report"]),
+    ("experiments", &["params", "literate", "numerics", "dynamics", "circuits"]),
+    ("figures", &["params", "literate", "numerics", "experiments"]),
+    ("claims", &["params", "literate", "numerics", "experiments"]),
+    ("report", &["params", "literate", "numerics", "circuits", "experiments", "figures", "claims"]),
+    ("program", &["params", "literate", "dynamics", "experiments", "figures", "claims", "report"]),
 ];
 
 /// Layers that a line of code names: `crate::layer`, the name of its crate, or `super::…::layer` that climbs to the top.

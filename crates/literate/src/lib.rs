@@ -1,4 +1,32 @@
-//! A paper that computes its own numbers.
+//! A paper that computes its own numbers: what stands between a program that runs experiments and the documents that
+//! people read. It knows nothing of what a paper is about: `examples/feigenbaum` is a whole one, in four hundred lines, and
+//! `cargo run -p literate --example feigenbaum -- FOLDER` makes it.
+//!
+//! 1. An [experiment](experiments) has parameters for each [profile](experiments::Profile) and a run. What a run gave is saved in a
+//!    [store](experiments::Store), and used again as long as its [identity](experiments::identity::Identity) is the same: parameters, seed,
+//!    and each file of code that it depends on. One that is [cut](experiments::cutting) into units can run on several machines
+//!    ([shards](experiments::shards)); one that takes long is committed, and [audited](experiments::deep) by every report.
+//! 2. What follows from it stands in [tables](table): a column says once what its cells are, and a cell has an address,
+//!    `cascade.orbits[n=3].delta`, by which prose, figures, claims and cards name it.
+//! 3. A [figure](figures) is one list of shapes, written as SVG, into the page and as PDF, with its data beside it.
+//! 4. A [statement](claims) that was printed is held against what was found; its verdict is a function of numbers, and can fail.
+//! 5. The [report](mod@report) fills people's prose with all of it: Markdown, LaTeX, HTML and PDF, a ledger of the claims, all values as
+//!    data, a card for each number. A numeral that nobody computed is refused by file and line.
+//!
+//! A table, and a number by its address:
+//!
+//! ```
+//! use literate::table::Table;
+//!
+//! let rows = [(1.0, 0.5), (2.0, 0.25)];
+//! let table = Table::of("halving.rows", &rows, |_| 1)
+//!     .key("n", "1", |row| row.0)
+//!     .real("share", "1", 3, "What is left.", |row| row.1)
+//!     .done();
+//! assert_eq!(table.number(&[("n", 2.0)], "share")?, 0.25);
+//! assert!(table.at("halving.rows[n=2].share").is_some());
+//! # Ok::<(), literate::table::Missing>(())
+//! ```
 
 pub mod claims;
 pub mod digest;

@@ -214,8 +214,8 @@ fn convergence(orbits: &Table, limit: &Table) -> Result<Figure, figures::Error> 
         panel.marks(column, &points, (mark, 60, stroke), Outside::Refuse)?;
     }
     let words = format!(
-        "Distances of the ratios from those of the last orbit, n = {}, against n, on a logarithmic axis. Both fall along \
-         straight lines, that of alpha first below that of delta.",
+        "Distances of the ratios from those of the last orbit, n = {}, against n, on a logarithmic axis. From \
+         n = 4 on both fall along one straight line, by the ratio delta from orbit to orbit.",
         number(last, 0)
     );
     let figure =
