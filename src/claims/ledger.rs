@@ -1,7 +1,7 @@
 //! All rows, in the order of the paper, and the claims that they make.
 
 use super::row::{Error, Evidence, Row};
-use super::{Claim, Level, Published, PublishedError, Verdict};
+use super::{Check, Level, Published, PublishedError, Verdict};
 use super::{sec2, sec3, sec5, sec6, sec7, sec8, sec9, sec10};
 use crate::experiments::{Need, Results};
 
@@ -36,7 +36,7 @@ pub fn needs(id: &str) -> &'static [Need] {
 ///
 /// # Errors
 /// If a statement has no row or a row no statement, or if a result was not run.
-pub fn all(results: &Results, published: &Published) -> Result<Vec<Claim>, Error> {
+pub fn all(results: &Results, published: &Published) -> Result<Vec<Check>, Error> {
     for row in rows() {
         published.statement(row.id)?;
     }
@@ -48,7 +48,7 @@ pub fn all(results: &Results, published: &Published) -> Result<Vec<Claim>, Error
 ///
 /// # Errors
 /// If there is no statement or no row of that id, or if a result was not run.
-pub fn one(id: &str, results: &Results, published: &Published) -> Result<Claim, Error> {
+pub fn one(id: &str, results: &Results, published: &Published) -> Result<Check, Error> {
     published.statement(id)?;
     row(id)?.claim(&Evidence { results, published, level: level() })
 }
@@ -58,7 +58,7 @@ fn row(id: &str) -> Result<&'static Row, PublishedError> {
 }
 
 /// How many claims have each verdict, in the order of [`Verdict::ALL`].
-pub fn scorecard(claims: &[Claim]) -> [usize; 4] {
+pub fn scorecard(claims: &[Check]) -> [usize; 4] {
     Verdict::ALL.map(|verdict| claims.iter().filter(|claim| claim.verdict == verdict).count())
 }
 
@@ -81,7 +81,7 @@ mod tests {
         let published = crate::claims::published().unwrap();
         let results = Results::empty(Profile::Quick);
         let exact = rows().filter(|row| row.needs.is_empty());
-        let claims: Vec<Claim> =
+        let claims: Vec<Check> =
             exact.map(|row| one(row.id, &results, &published).unwrap()).collect();
         assert!(claims.len() > 30);
         for claim in &claims {

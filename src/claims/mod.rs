@@ -1,4 +1,4 @@
-//! What the paper states, row by row, beside what this edition finds: [`Claim`].
+//! What the paper states, row by row, beside what this edition finds: [`Check`].
 //!
 //! A statement stands in `templates/published.toml` ([`Published`]) with its place; the row here
 //! with the same id computes our finding from the results of the experiments and judges it. Prose,

@@ -1,6 +1,6 @@
 //! How a row of the ledger is made: evidence in, finding out.
 
-use super::{Basis, Claim, Finding, Level, Published, PublishedError, Statement};
+use super::{Basis, Check, Finding, Level, Published, PublishedError, Statement};
 use crate::experiments::{self, Need, Results};
 
 /// What a claim may look at.
@@ -66,7 +66,7 @@ impl Row {
     ///
     /// # Errors
     /// If the statement or a result is missing.
-    pub fn claim(&self, evidence: &Evidence) -> Result<Claim, Error> {
+    pub fn claim(&self, evidence: &Evidence) -> Result<Check, Error> {
         let statement = evidence.published.statement(self.id)?;
         let finding = (self.find)(evidence, statement)?;
         Ok(finding.claim(statement, self.basis))

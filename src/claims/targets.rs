@@ -3,58 +3,13 @@
 //! A target that rests on counted work or on accuracy is decided by the results; one that rests on
 //! the clock by the committed measurements, and is open while nobody measured it.
 
-use super::{Error, Text};
+use super::{Basis, Check, Error, Kind, Text, Verdict};
 use crate::experiments::accuracy::analytic::{Analytic, Route, Way};
 use crate::experiments::accuracy::race::{Entry, Race};
 use crate::experiments::catalogue::{ANALYTIC, MEASURED, RACE, SCALE, TRIALS};
 use crate::experiments::measured::{Row, What};
 use crate::experiments::{Measured, Need, Results};
 use crate::params::MethodName;
-use serde::Serialize;
-
-/// Whether a target is met.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Standing {
-    /// It is.
-    Met,
-    /// It is not.
-    Missed,
-    /// Nobody measured it.
-    Open,
-}
-
-impl Standing {
-    /// The standing in words.
-    pub fn words(self) -> &'static str {
-        match self {
-            Standing::Met => "met",
-            Standing::Missed => "missed",
-            Standing::Open => "not measured",
-        }
-    }
-
-    fn of(met: bool) -> Self {
-        if met { Standing::Met } else { Standing::Missed }
-    }
-}
-
-/// One target.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Target {
-    /// Its id.
-    pub id: &'static str,
-    /// What is promised, in words.
-    pub what: &'static str,
-    /// The bound.
-    pub bound: Text,
-    /// What was found.
-    pub found: Text,
-    /// Whether times of the clock decide it.
-    pub timed: bool,
-    /// Whether it is met.
-    pub standing: Standing,
-}
 
 /// The experiments that the targets need.
 pub const NEEDS: &[Need] = &[&RACE, &ANALYTIC, &SCALE, &TRIALS, &MEASURED];
@@ -69,7 +24,7 @@ pub const UNITS: f64 = 8.0;
 ///
 /// # Errors
 /// If a result is missing.
-pub fn targets(results: &Results) -> Result<Vec<Target>, Error> {
+pub fn targets(results: &Results) -> Result<Vec<Check>, Error> {
     let measured = results.measured()?;
     let (race, analytic) = (results.race()?, results.analytic()?);
     let mut all = clock(measured);
@@ -86,26 +41,53 @@ fn engine(measured: &Measured, n: u64) -> Option<&Row> {
     own.filter(|row| row.note.is_empty()).find(|row| row.microseconds_per_impact.is_some())
 }
 
+fn met(so: bool) -> Verdict {
+    if so { Verdict::Reproduced } else { Verdict::Differs }
+}
+
+/// A target with its bound and what was found; times of the clock decide it, or counted work and accuracy.
+fn target(
+    (id, what): (&str, &str),
+    bound: Text,
+    found: Text,
+    timed: bool,
+    verdict: Verdict,
+) -> Check {
+    Check {
+        kind: Kind::Target,
+        id: id.into(),
+        place: String::new(),
+        statement: what.into(),
+        printed: String::new(),
+        ours: found,
+        tolerance: bound,
+        reason: "promised before it was measured".into(),
+        basis: if timed { Basis::Clock } else { Basis::OwnThreshold },
+        verdict,
+        note: Text::default(),
+    }
+}
+
 /// A target of the form "at most".
 fn at_most(
     (id, what): (&'static str, &'static str),
     (bound, unit): (f64, &str),
     found: Option<f64>,
     timed: bool,
-) -> Target {
-    let (text, standing) = match found {
-        Some(x) => (Text::default().significant(x, 3).say(unit), Standing::of(x <= bound)),
-        None => (Text::words("–"), Standing::Open),
+) -> Check {
+    let (text, verdict) = match found {
+        Some(x) => (Text::default().significant(x, 3).say(unit), met(x <= bound)),
+        None => (Text::words("–"), Verdict::CannotBeJudged),
     };
     let bound = if bound == 0.0 {
         Text::words("none")
     } else {
         Text::words("≤ ").chosen(bound).say(unit)
     };
-    Target { id, what, bound, found: text, timed, standing }
+    target((id, what), bound, text, timed, verdict)
 }
 
-fn clock(measured: &Measured) -> Vec<Target> {
+fn clock(measured: &Measured) -> Vec<Check> {
     let time = |row: Option<&Row>| row.and_then(|row| row.microseconds_per_impact);
     let ensemble = measured
         .of(What::Ensemble)
@@ -145,30 +127,24 @@ fn clock(measured: &Measured) -> Vec<Target> {
 
 /// How many times faster we are than heyoka at its tightest tolerance, with a horizon no shorter
 /// and no more segments missed.
-fn against(
-    measured: &Measured,
-    id: &'static str,
-    what: &'static str,
-    n: u64,
-    bound: f64,
-) -> Target {
+fn against(measured: &Measured, id: &'static str, what: &'static str, n: u64, bound: f64) -> Check {
     let peers = measured.of(What::Peer).filter(|row| row.n == n && row.name.starts_with("heyoka"));
     let tightest = peers.max_by_key(|row| row.horizon_impact.or(row.compared));
-    let (found, standing) = match tightest.zip(engine(measured, n)) {
+    let (found, verdict) = match tightest.zip(engine(measured, n)) {
         Some((peer, own)) => match peer.microseconds_per_impact.zip(own.microseconds_per_impact) {
             Some((theirs, ours)) => {
                 let reach = |row: &Row| row.horizon_impact.or(row.compared);
                 let faster = theirs / ours >= bound && reach(own) >= reach(peer);
-                (Text::default().significant(theirs / ours, 3), Standing::of(faster))
+                (Text::default().significant(theirs / ours, 3), met(faster))
             }
-            None => (Text::words("–"), Standing::Open),
+            None => (Text::words("–"), Verdict::CannotBeJudged),
         },
-        None => (Text::words("–"), Standing::Open),
+        None => (Text::words("–"), Verdict::CannotBeJudged),
     };
-    Target { id, what, bound: Text::words("≥ ").chosen(bound), found, timed: true, standing }
+    target((id, what), Text::words("≥ ").chosen(bound), found, true, verdict)
 }
 
-fn memory(measured: &Measured) -> Vec<Target> {
+fn memory(measured: &Measured) -> Vec<Check> {
     let full = measured.of(What::Command).find(|row| row.name == "full");
     let million = measured.of(What::Engine).filter(|row| row.n == 1_000_000);
     let million = million.filter_map(|row| row.peak_mib).min_by(f64::total_cmp);
@@ -181,7 +157,7 @@ fn memory(measured: &Measured) -> Vec<Target> {
 }
 
 /// Counted work of the largest chain over that of a hundred masses.
-fn growth(results: &Results) -> Result<Target, Error> {
+fn growth(results: &Results) -> Result<Check, Error> {
     let scale = results.scale()?;
     let own = || scale.rows.iter().filter(|row| row.setting.method == MethodName::Certified);
     let largest = own().max_by_key(|row| row.masses);
@@ -198,7 +174,7 @@ pub(crate) fn own_entry(race: &Race) -> Option<&Entry> {
     race.entries.iter().find(|entry| entry.setting.method == MethodName::Certified)
 }
 
-fn segments(race: &Race) -> Vec<Target> {
+fn segments(race: &Race) -> Vec<Check> {
     let own = own_entry(race);
     let misses = own.map(|entry| entry.segments.misses() as f64);
     let units = own.and_then(|entry| entry.segments.units);
@@ -210,7 +186,7 @@ fn segments(race: &Race) -> Vec<Target> {
     vec![at_most(missed, (0.0, ""), misses, false), at_most(waiting, (UNITS, ""), units, false)]
 }
 
-fn scenes(results: &Results) -> Result<Target, Error> {
+fn scenes(results: &Results) -> Result<Check, Error> {
     let trials = results.trials()?;
     let own = |method: MethodName| method == MethodName::Certified;
     let wrong: usize = trials
@@ -223,7 +199,7 @@ fn scenes(results: &Results) -> Result<Target, Error> {
     Ok(at_most(name, (0.0, ""), Some(wrong as f64), false))
 }
 
-fn digits(analytic: &Analytic) -> Vec<Target> {
+fn digits(analytic: &Analytic) -> Vec<Check> {
     let relation = analytic.relation_error(Route::ClosedForm);
     let products = analytic.distribution_error(Way::Products);
     let first = ("relation", "largest relative error of p(σ), Eq. (25)");
@@ -245,8 +221,8 @@ mod tests {
         run(NEEDS, Profile::Quick, &none, &Store::nowhere(), &Progress::silent()).unwrap()
     }
 
-    fn standing(results: &Results, id: &str) -> Standing {
-        targets(results).unwrap().iter().find(|target| target.id == id).unwrap().standing
+    fn verdict(results: &Results, id: &str) -> Verdict {
+        targets(results).unwrap().iter().find(|target| target.id == id).unwrap().verdict
     }
 
     /// Each target can be missed: make the results worse and it is.
@@ -254,7 +230,7 @@ mod tests {
     fn targets_follow_the_numbers() {
         let mut results = results();
         for id in ["misses", "waiting", "scenes", "work", "relation", "distribution"] {
-            assert_eq!(standing(&results, id), Standing::Met, "{id}");
+            assert_eq!(verdict(&results, id), Verdict::Reproduced, "{id}");
         }
         let race = results.of_mut(&RACE).unwrap();
         race.entries[0].segments.unseen += 1;
@@ -269,7 +245,7 @@ mod tests {
         let largest = scale.rows.iter_mut().filter(|row| own(row.setting.method)).last();
         largest.unwrap().evaluations_per_impact *= 3.0;
         for id in ["misses", "waiting", "scenes", "work", "relation", "distribution"] {
-            assert_eq!(standing(&results, id), Standing::Missed, "{id}");
+            assert_eq!(verdict(&results, id), Verdict::Differs, "{id}");
         }
     }
 
@@ -280,7 +256,7 @@ mod tests {
         let mut row = measured.of(What::Engine).find(|row| row.n == 100).unwrap().clone();
         measured.rows.clear();
         for id in ["one_chain", "ensemble", "heyoka_20", "size", "full", "memory"] {
-            assert_eq!(standing(&results, id), Standing::Open, "{id}");
+            assert_eq!(verdict(&results, id), Verdict::CannotBeJudged, "{id}");
         }
         row.microseconds_per_impact = Some(0.2);
         let peer = Row {
@@ -290,11 +266,11 @@ mod tests {
             ..row.clone()
         };
         results.of_mut(&MEASURED).unwrap().rows = vec![row, peer];
-        assert_eq!(standing(&results, "one_chain"), Standing::Met);
-        assert_eq!(standing(&results, "heyoka_100"), Standing::Missed, "95 times faster");
+        assert_eq!(verdict(&results, "one_chain"), Verdict::Reproduced);
+        assert_eq!(verdict(&results, "heyoka_100"), Verdict::Differs, "95 times faster");
         results.of_mut(&MEASURED).unwrap().rows[1].microseconds_per_impact = Some(21.0);
-        assert_eq!(standing(&results, "heyoka_100"), Standing::Met);
+        assert_eq!(verdict(&results, "heyoka_100"), Verdict::Reproduced);
         results.of_mut(&MEASURED).unwrap().rows[0].horizon_impact = Some(2);
-        assert_eq!(standing(&results, "heyoka_100"), Standing::Missed, "a shorter horizon");
+        assert_eq!(verdict(&results, "heyoka_100"), Verdict::Differs, "a shorter horizon");
     }
 }

@@ -1,23 +1,21 @@
 //! What is held against something else: claims, targets, and the numbers of the report.
 
 use super::Failure;
-use impact_paper::claims::targets::{self, Standing, Target};
-use impact_paper::claims::{Basis, Claim, Published, Verdict, scorecard, split};
+use impact_paper::claims::targets;
+use impact_paper::claims::{Basis, Check, Kind, Published, Verdict, scorecard, split};
 use impact_paper::experiments::Results;
-use impact_paper::report::guards::{self, Failing, Look};
+use impact_paper::report::guards::{self, Look};
 use impact_paper::report::{self, Registry};
 
 /// What was found.
 #[derive(Clone, Debug, Default)]
 pub struct Judged {
     /// The statements of the paper.
-    pub claims: Vec<Claim>,
-    /// What this edition promises of itself.
-    pub targets: Vec<Target>,
-    /// How many relations between numbers of the report were looked at, if they were.
-    pub checks: Option<usize>,
-    /// Those that fail.
-    pub failing: Vec<Failing>,
+    pub claims: Vec<Check>,
+    /// What this edition promises of itself; none if they were not asked.
+    pub targets: Vec<Check>,
+    /// Relations between numbers of the report; none if they were not asked.
+    pub relations: Vec<Check>,
 }
 
 impl Judged {
@@ -29,13 +27,17 @@ impl Judged {
         results: &Results,
         published: &Published,
         mut values: Registry,
-        claims: Vec<Claim>,
+        claims: Vec<Check>,
     ) -> Result<Self, Failure> {
         values.extend(report::claims::scorecard(&claims))?;
         let look = Look { results, published, values: &values, claims: &claims };
-        let failing = guards::failing(look).collect();
-        let checks = Some(guards::all().count());
-        Ok(Judged { targets: targets::targets(results)?, checks, failing, claims })
+        let relations = guards::checks(look);
+        Ok(Judged { targets: targets::targets(results)?, relations, claims })
+    }
+
+    /// All of them, list by list.
+    pub fn checks(&self) -> impl Iterator<Item = &Check> {
+        self.claims.iter().chain(&self.targets).chain(&self.relations)
     }
 
     /// The scores: of the paper's statements, and of our own checks where they were asked.
@@ -55,8 +57,9 @@ impl Judged {
             format!("{} {noun} of the paper: {}", claims.len(), counts.join(", ")),
             format!("reproduced, by what the verdict rests on: {}", bases.join(", ")),
         ];
-        if let Some(all) = self.checks {
-            let held = all - self.failing.len();
+        let all = self.relations.len();
+        if all > 0 {
+            let held = all - self.relations.iter().filter(|check| check.fails()).count();
             lines.push(format!("our own checks: {held} of {all} relations between numbers hold"));
         }
         lines
@@ -64,19 +67,18 @@ impl Judged {
 
     /// Exit code 1, with names, for what does not hold. Times of the clock decide nothing.
     pub fn verdict(&self) -> Result<(), Failure> {
-        let Judged { claims, targets, failing, .. } = self;
-        let differ: Vec<&str> =
-            claims.iter().filter(|claim| claim.fails()).map(|claim| claim.id.as_str()).collect();
-        let missed = |target: &&Target| target.standing == Standing::Missed && !target.timed;
-        let missed: Vec<&str> = targets.iter().filter(missed).map(|target| target.id).collect();
-        let broken: Vec<&str> = failing.iter().map(|failing| failing.name).collect();
-        let (number, all) = (differ.len(), claims.len());
+        let failing = |kind| {
+            let of = |check: &&Check| check.kind == kind && check.fails();
+            self.checks().filter(of).map(|check| check.id.as_str()).collect::<Vec<_>>()
+        };
+        let differ = failing(Kind::Statement);
+        let (number, all) = (differ.len(), self.claims.len());
         let differing =
             format!("{number} of {all} claims differ without an explanation that holds");
         let faults = [
             (differing.as_str(), differ),
-            ("targets of accuracy or counted work are missed", missed),
-            ("relations between numbers of the report do not hold", broken),
+            ("targets of accuracy or counted work are missed", failing(Kind::Target)),
+            ("relations between numbers of the report do not hold", failing(Kind::Relation)),
         ];
         let told = faults.into_iter().filter(|(_, names)| !names.is_empty());
         let told: Vec<String> =

@@ -5,7 +5,7 @@ use super::judged::Judged;
 use super::output::{self, Staging};
 use super::sources::Sources;
 use super::{Failure, folder, make, stdout, work};
-use impact_paper::claims::targets::Standing;
+use impact_paper::claims::Verdict;
 use impact_paper::experiments::Progress;
 use impact_paper::figures;
 use impact_paper::input;
@@ -100,9 +100,10 @@ pub fn run(args: Args) -> Result<(), Failure> {
 
 /// What holds, and what came out otherwise than in the report before: some lines.
 fn told(out: &Path, files: &Files, judged: &Judged) -> String {
-    let standing = |standing| judged.targets.iter().filter(|one| one.standing == standing).count();
-    let [met, missed, open] = [Standing::Met, Standing::Missed, Standing::Open].map(standing);
-    let timed = judged.targets.iter().filter(|one| one.timed && one.standing == Standing::Missed);
+    let count = |verdict| judged.targets.iter().filter(|one| one.verdict == verdict).count();
+    let [met, missed, open] =
+        [Verdict::Reproduced, Verdict::Differs, Verdict::CannotBeJudged].map(count);
+    let timed = judged.targets.iter().filter(|one| one.verdict == Verdict::Differs && !one.fails());
     let mut lines = judged.scores();
     lines.push(format!(
         "{} targets: {met} met, {missed} missed ({} of these by the clock), {open} not measured",

@@ -163,9 +163,9 @@ fn check_names_a_guard_that_fails() {
         outcome(command.arg("--templates").arg(&own))
     };
     for (form, sign) in [
-        ("text", "FAILS guard printed_as_it_reads: "),
-        ("json", "\"guard\": \"printed_as_it_reads\""),
-        ("github", "::error title=guard printed_as_it_reads::"),
+        ("text", "FAILS relation printed_as_it_reads: "),
+        ("json", "\"fails\": true"),
+        ("github", "::error title=relation printed_as_it_reads::"),
         ("markdown", "| printed_as_it_reads | "),
     ] {
         let (code, out, note) = check(form);

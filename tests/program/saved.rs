@@ -163,7 +163,7 @@ fn a_committed_result_is_carried_over_until_its_audit_fails() {
     assert_eq!(code, 1, "{note}");
     assert!(
         text.contains(
-            "FAILS guard carried_results_audited: the committed result long_protocol is stale"
+            "FAILS relation carried_results_audited: the committed result long_protocol is stale"
         ),
         "{text}"
     );

@@ -1,6 +1,6 @@
 //! The whole report of the quick profile in memory, for the tests that read it.
 
-use impact_paper::claims::{self, Claim, Published};
+use impact_paper::claims::{self, Check, Published};
 use impact_paper::experiments::catalogue::ALL;
 use impact_paper::experiments::spacetime::scene::Scene;
 use impact_paper::experiments::{Progress, Results, Store, run::run};
@@ -20,7 +20,7 @@ pub struct Quick {
     pub results: Results,
     pub values: Registry,
     pub rows: BTreeMap<&'static str, serde_json::Value>,
-    pub claims: Vec<Claim>,
+    pub claims: Vec<Check>,
     /// The figures that the same results would give if they were of the full profile.
     pub full: Vec<Figure>,
 }

@@ -123,7 +123,7 @@ fn imports_flow_one_way() {
 fn imports_are_read_right() {
     let named = |line, depth| layers_named(line, depth);
     assert_eq!(named("use crate::circuits::jump;", 2), ["circuits"]);
-    assert_eq!(named("use crate::{claims::Claim, figures};", 2), ["claims", "figures"]);
+    assert_eq!(named("use crate::{claims::Check, figures};", 2), ["claims", "figures"]);
     assert_eq!(named("use super::super::dynamics::Engine;", 2), ["dynamics"]);
     assert_eq!(named("use super::dynamics;", 2), Vec::<String>::new());
     assert_eq!(named("pub use impact_chain::{Chain, Start};", 0), ["dynamics"]);

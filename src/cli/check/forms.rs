@@ -1,10 +1,9 @@
 //! Verdicts for machines: one entry for each claim, at the line of its statement.
 
-use impact_paper::claims::targets::Target;
-use impact_paper::claims::{Claim, Verdict, scorecard};
+use super::Judged;
+use impact_paper::claims::{Check, Verdict, scorecard};
 use impact_paper::report::claims::plain;
-use impact_paper::report::guards::Failing;
-use serde_json::json;
+use serde_json::{Value, json};
 use std::fmt::Write as _;
 
 /// The file that holds the statements, from the top of the project.
@@ -14,13 +13,13 @@ pub const FILE: &str = "templates/published.toml";
 #[derive(Clone, Copy, Debug)]
 pub struct Entry<'a> {
     /// The claim.
-    pub claim: &'a Claim,
+    pub claim: &'a Check,
     /// The line of its statement in [`FILE`], from 1.
     pub line: usize,
 }
 
 /// What a machine is told about a claim, in one line.
-fn message(claim: &Claim) -> String {
+fn message(claim: &Check) -> String {
     let mut out = format!("{}: {}", claim.place, claim.statement);
     for (name, text) in [
         ("printed", claim.printed.clone()),
@@ -45,45 +44,40 @@ fn level(verdict: Verdict) -> Option<&'static str> {
     }
 }
 
+/// A check for machines.
+fn object(check: &Check) -> Value {
+    json!({
+        "id": check.id, "place": check.place, "statement": check.statement,
+        "printed": check.printed, "found": plain(&check.ours),
+        "tolerance": plain(&check.tolerance), "reason": check.reason,
+        "basis": check.basis.words(), "verdict": check.words(), "fails": check.fails(),
+        "note": plain(&check.note),
+    })
+}
+
 /// All that is known, as JSON.
-pub fn json(entries: &[Entry], targets: &[Target], failing: &[Failing]) -> String {
-    let claims: Vec<_> = entries
-        .iter()
-        .map(|Entry { claim, line }| {
-            json!({
-                "id": claim.id, "place": claim.place, "statement": claim.statement,
-                "printed": claim.printed, "found": plain(&claim.ours),
-                "tolerance": plain(&claim.tolerance), "reason": claim.reason,
-                "basis": claim.basis.words(),
-                "verdict": claim.verdict.words(), "fails": claim.fails(),
-                "note": plain(&claim.note), "file": FILE, "line": line,
-            })
-        })
-        .collect();
-    let targets: Vec<_> = targets
-        .iter()
-        .map(|target| {
-            json!({
-                "id": target.id, "what": target.what, "bound": plain(&target.bound),
-                "found": plain(&target.found), "timed": target.timed,
-                "standing": target.standing.words(),
-            })
-        })
-        .collect();
-    let score: serde_json::Map<String, serde_json::Value> = scores(entries)
+pub fn json(entries: &[Entry], judged: &Judged) -> String {
+    let claim = |Entry { claim, line }: &Entry| {
+        let mut own = object(claim);
+        own["file"] = FILE.into();
+        own["line"] = (*line).into();
+        own
+    };
+    let score: serde_json::Map<String, Value> = scores(entries)
         .into_iter()
         .map(|(verdict, count)| (verdict.words().into(), count.into()))
         .collect();
-    let failing: Vec<_> =
-        failing.iter().map(|f| json!({ "guard": f.name, "what": f.what })).collect();
     let all = json!({
-        "score": score, "claims": claims, "targets": targets, "failing_guards": failing,
+        "score": score,
+        "claims": entries.iter().map(claim).collect::<Vec<_>>(),
+        "targets": judged.targets.iter().map(object).collect::<Vec<_>>(),
+        "relations": judged.relations.iter().map(object).collect::<Vec<_>>(),
     });
     format!("{all:#}\n")
 }
 
 fn scores(entries: &[Entry]) -> Vec<(Verdict, usize)> {
-    let claims: Vec<Claim> = entries.iter().map(|entry| entry.claim.clone()).collect();
+    let claims: Vec<Check> = entries.iter().map(|entry| entry.claim.clone()).collect();
     Verdict::ALL.into_iter().zip(scorecard(&claims)).collect()
 }
 
@@ -91,7 +85,7 @@ fn scores(entries: &[Entry]) -> Vec<(Verdict, usize)> {
 const ANNOTATIONS: usize = 10;
 
 /// Commands of GitHub's log: guards that fail, and the worst claims, each at its line.
-pub fn github(entries: &[Entry], failing: &[Failing]) -> String {
+pub fn github(entries: &[Entry], judged: &Judged) -> String {
     let mut worst: Vec<&Entry> =
         entries.iter().filter(|entry| level(entry.claim.verdict).is_some()).collect();
     let rank = |entry: &&Entry| match entry.claim.verdict {
@@ -102,8 +96,9 @@ pub fn github(entries: &[Entry], failing: &[Failing]) -> String {
     };
     worst.sort_by_key(rank);
     let mut out = String::new();
-    for Failing { name, what } in failing.iter().take(ANNOTATIONS) {
-        let _ = writeln!(out, "::error title=guard {}::{}", property(name), data(what));
+    for check in failing(&judged.relations).take(ANNOTATIONS) {
+        let what = plain(&check.ours);
+        let _ = writeln!(out, "::error title=relation {}::{}", property(&check.id), data(&what));
     }
     for Entry { claim, line } in worst.into_iter().take(ANNOTATIONS) {
         let kind = level(claim.verdict)
@@ -113,6 +108,10 @@ pub fn github(entries: &[Entry], failing: &[Failing]) -> String {
         let _ = writeln!(out, "::{kind} file={FILE},line={line},title={title}::{text}");
     }
     out
+}
+
+fn failing(checks: &[Check]) -> impl Iterator<Item = &Check> {
+    checks.iter().filter(|check| check.fails())
 }
 
 /// Text of a workflow command.
@@ -126,7 +125,7 @@ fn property(text: &str) -> String {
 }
 
 /// The whole as tables.
-pub fn markdown(entries: &[Entry], targets: &[Target], failing: &[Failing]) -> String {
+pub fn markdown(entries: &[Entry], judged: &Judged) -> String {
     let cell = |text: &str| text.replace('|', "\\|").replace('\n', " ");
     let mut out = String::from("## Claims\n\n| verdict | claims |\n|---|--:|\n");
     for (verdict, count) in scores(entries) {
@@ -147,19 +146,21 @@ pub fn markdown(entries: &[Entry], targets: &[Target], failing: &[Failing]) -> S
         let fields: Vec<String> = fields.iter().map(|text| cell(text)).collect();
         let _ = writeln!(out, "| {} | {mark} |", fields.join(" | "));
     }
-    if !targets.is_empty() {
+    if !judged.targets.is_empty() {
         out.push_str("\n## Targets\n\n| target | bound | found | |\n|---|---|---|---|\n");
     }
-    for target in targets {
-        let (what, bound) = (cell(target.what), cell(&plain(&target.bound)));
-        let (found, standing) = (cell(&plain(&target.found)), target.standing.words());
-        let _ = writeln!(out, "| {what} | {bound} | {found} | {standing} |");
+    for target in &judged.targets {
+        let fields = [&target.statement, &plain(&target.tolerance), &plain(&target.ours)];
+        let fields = fields.map(|text| cell(text)).join(" | ");
+        let _ = writeln!(out, "| {fields} | {} |", target.words());
     }
-    if !failing.is_empty() {
-        out.push_str("\n## Guards that fail\n\n| guard | what is wrong |\n|---|---|\n");
+    if failing(&judged.relations).next().is_some() {
+        out.push_str(
+            "\n## Relations that do not hold\n\n| relation | what is wrong |\n|---|---|\n",
+        );
     }
-    for Failing { name, what } in failing {
-        let _ = writeln!(out, "| {name} | {} |", cell(what));
+    for check in failing(&judged.relations) {
+        let _ = writeln!(out, "| {} | {} |", check.id, cell(&plain(&check.ours)));
     }
     out
 }

@@ -6,12 +6,11 @@ use self::forms::Entry;
 use super::judged::Judged;
 use super::sources::Sources;
 use super::{Failure, stdout, work};
-use impact_paper::claims::{self, Claim};
+use impact_paper::claims::{self, Check};
 use impact_paper::experiments::catalogue::ALL;
 use impact_paper::params::Profile;
 use impact_paper::report::claims::plain;
 use impact_paper::report::contents;
-use impact_paper::report::guards::Failing;
 use std::io::{self, Write};
 
 /// Holds every quantitative statement of the paper against what is computed here, the targets of
@@ -19,7 +18,7 @@ use std::io::{self, Write};
 ///
 /// Saved results are used where they are fresh; what is missing is run. Prints a row for each
 /// claim, and ends with exit code 1 if one differs without an explanation that holds, if a target is
-/// missed that does not depend on the clock, or if a guard fails, a relation that must hold.
+/// missed that does not depend on the clock, or if a relation between numbers does not hold.
 #[derive(clap::Args)]
 pub struct Args {
     /// Sample sizes.
@@ -61,7 +60,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
         some => all.into_iter().filter(|id| some.iter().any(|one| one == id)).collect(),
     };
     let mut needs: Vec<_> = asked.iter().flat_map(|id| claims::needs(id)).copied().collect();
-    // Targets and guards belong to the whole.
+    // Targets and relations belong to the whole.
     let whole = args.claim.is_empty();
     if whole {
         needs = ALL.into();
@@ -70,26 +69,25 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let judged = work::on_threads(args.sources.threads, || {
         let results = args.sources.run(&needs, profile, &templates, &progress)?;
         let one = |id: &&str| claims::one(id, &results, &published);
-        let claims = asked.iter().map(one).collect::<Result<Vec<Claim>, claims::Error>>()?;
+        let claims = asked.iter().map(one).collect::<Result<Vec<Check>, claims::Error>>()?;
         if !whole {
             return Ok(Judged { claims, ..Judged::default() });
         }
         let values = contents::registry(&results, &published)?;
         Judged::all(&results, &published, values, claims)
     })?;
-    let Judged { claims, targets, failing, .. } = &judged;
     let line = |id: &str| Ok(published.line(templates.text("published.toml")?, id));
     let entry = |claim| Ok(Entry { claim, line: line(&claim.id)? });
     let entries: Result<Vec<Entry>, impact_paper::report::Error> =
-        claims.iter().map(entry).collect();
+        judged.claims.iter().map(entry).collect();
     let entries = entries?;
     match args.format {
         Format::Text => stdout::written(print(&judged))?,
-        Format::Json => stdout::print(&forms::json(&entries, targets, failing))?,
-        Format::Markdown => stdout::print(&forms::markdown(&entries, targets, failing))?,
+        Format::Json => stdout::print(&forms::json(&entries, &judged))?,
+        Format::Markdown => stdout::print(&forms::markdown(&entries, &judged))?,
         Format::Github => {
-            stdout::print(&forms::github(&entries, failing))?;
-            summarise(&forms::markdown(&entries, targets, failing))?;
+            stdout::print(&forms::github(&entries, &judged))?;
+            summarise(&forms::markdown(&entries, &judged))?;
         }
     }
     judged.verdict()
@@ -132,16 +130,12 @@ fn print(judged: &Judged) -> io::Result<()> {
         }
     }
     for target in &judged.targets {
-        let (what, found, bound) = (target.what, plain(&target.found), plain(&target.bound));
-        writeln!(
-            out,
-            "target {}: {found} ({what}; {bound}): {}",
-            target.id,
-            target.standing.words()
-        )?;
+        let (found, bound) = (plain(&target.ours), plain(&target.tolerance));
+        let (id, what, met) = (&target.id, &target.statement, target.words());
+        writeln!(out, "target {id}: {found} ({what}; {bound}): {met}")?;
     }
-    for Failing { name, what } in &judged.failing {
-        writeln!(out, "FAILS guard {name}: {what}")?;
+    for check in judged.relations.iter().filter(|check| check.fails()) {
+        writeln!(out, "FAILS relation {}: {}", check.id, plain(&check.ours))?;
     }
     judged.scores().iter().try_for_each(|line| writeln!(out, "{line}"))?;
     out.flush()

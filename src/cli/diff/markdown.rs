@@ -28,7 +28,7 @@ pub fn markdown(old: &str, new: &str, diff: &Diff) -> String {
     ];
     out += &format!("{} changed.\n", sentence(&counts.join(", ")));
     let rows = diff.verdicts.iter().map(claim).collect();
-    table(&mut out, "| Claim | Verdict | Ours | Measure |\n|---|---|---|---|\n", rows);
+    table(&mut out, "| Check | Verdict | Ours | Measure |\n|---|---|---|---|\n", rows);
     let both = |change: &&Change| change.before.is_some() && change.after.is_some();
     let (mut numbers, other): (Vec<&Change>, Vec<&Change>) = diff.numbers.iter().partition(both);
     numbers.sort_by(|a, b| weight(b).total_cmp(&weight(a)));

@@ -1,7 +1,7 @@
 //! Speed against accuracy: targets, and where methods fail.
 
 use super::{Error, from};
-use crate::claims::targets;
+use crate::claims::{self, targets};
 use crate::experiments::Results;
 use crate::experiments::accuracy::case::Verdict;
 use crate::experiments::accuracy::tables::titled;
@@ -11,7 +11,7 @@ use serde::Serialize;
 
 pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
     let targets = targets::targets(results)?;
-    let met = targets.iter().filter(|t| t.standing == targets::Standing::Met).count();
+    let met = targets.iter().filter(|t| t.verdict == claims::Verdict::Reproduced).count();
     let both =
         vec![Value::integer("targets_met", met), Value::integer("targets_all", targets.len())];
     Ok(from(both, origin(targets::targets), ""))
@@ -20,7 +20,7 @@ pub fn values(results: &Results) -> Result<Vec<Value>, Error> {
 /// A line of the table of targets.
 #[derive(Debug, Serialize)]
 pub struct TargetLine {
-    what: &'static str,
+    what: String,
     bound: String,
     found: String,
     standing: &'static str,
@@ -28,11 +28,11 @@ pub struct TargetLine {
 
 /// The table of targets.
 pub fn target_table(results: &Results) -> Result<Vec<TargetLine>, Error> {
-    let line = |target: &targets::Target| TargetLine {
-        what: target.what,
-        bound: sentence(&target.bound),
-        found: sentence(&target.found),
-        standing: target.standing.words(),
+    let line = |target: &claims::Check| TargetLine {
+        what: target.statement.clone(),
+        bound: sentence(&target.tolerance),
+        found: sentence(&target.ours),
+        standing: target.words(),
     };
     Ok(targets::targets(results)?.iter().map(line).collect())
 }

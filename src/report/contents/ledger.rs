@@ -1,14 +1,14 @@
 //! What the text says about all claims together, and about this copy of the report.
 
 use super::mark;
-use crate::claims::{self, Basis, Claim, FAMILY_LEVEL, Verdict};
+use crate::claims::{self, Basis, Check, FAMILY_LEVEL, Verdict};
 use crate::experiments::Results;
 use crate::report::values::{Value, origin};
 use std::collections::BTreeMap;
 
 /// For each claim, a reference to its row with the verdict: `«row.sec7_jump»`.
-pub fn references(claims: &[Claim]) -> BTreeMap<&str, String> {
-    let reference = |claim: &Claim| format!("[@claim:{}], *{}*", claim.id, claim.verdict.words());
+pub fn references(claims: &[Check]) -> BTreeMap<&str, String> {
+    let reference = |claim: &Check| format!("[@claim:{}], *{}*", claim.id, claim.verdict.words());
     claims.iter().map(|claim| (claim.id.as_str(), reference(claim))).collect()
 }
 
@@ -24,7 +24,7 @@ pub struct ScoreLine {
 }
 
 /// How many statements have each verdict, and which.
-pub fn scorecard(claims: &[Claim]) -> Vec<ScoreLine> {
+pub fn scorecard(claims: &[Check]) -> Vec<ScoreLine> {
     let line = |verdict: &Verdict| {
         let own: Vec<String> = claims
             .iter()
@@ -43,7 +43,7 @@ pub fn scorecard(claims: &[Claim]) -> Vec<ScoreLine> {
 
 /// How the verdicts split by what they rest on: basis, statements, and how many are reproduced.
 /// What none rests on has no line.
-pub fn bases(claims: &[Claim]) -> Vec<[String; 3]> {
+pub fn bases(claims: &[Check]) -> Vec<[String; 3]> {
     let own = |basis: &&Basis| claims.iter().any(|claim| claim.basis == **basis);
     let line = |basis: &Basis| {
         let name = basis.words().replace(' ', "_");

@@ -14,7 +14,7 @@ use super::claims::printed;
 use super::mark::Mark;
 use super::print::Style;
 use super::values::{Origin, Registry, Value};
-use crate::claims::{self, Claim, Published};
+use crate::claims::{self, Check, Published};
 use crate::experiments::Results;
 use std::collections::BTreeMap;
 
@@ -72,7 +72,7 @@ pub fn registry(results: &Results, published: &Published) -> Result<Registry, Er
 /// If a result is missing.
 pub fn rows(
     results: &Results,
-    claims: &[Claim],
+    claims: &[Check],
 ) -> Result<BTreeMap<&'static str, serde_json::Value>, Error> {
     Ok(BTreeMap::from([
         ("scorecard", serde_json::to_value(ledger::scorecard(claims))?),

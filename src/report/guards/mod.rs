@@ -20,7 +20,7 @@ mod restitution;
 mod sweep;
 
 use super::values::{Number, Registry};
-use crate::claims::{self, Claim, Published};
+use crate::claims::{self, Basis, Check, Kind, Published, Text, Verdict};
 use crate::experiments::Results;
 use crate::numerics::statistics::Estimate;
 
@@ -34,7 +34,7 @@ pub struct Look<'a> {
     /// The values of the report, with the scorecard.
     pub values: &'a Registry,
     /// The judged statements.
-    pub claims: &'a [Claim],
+    pub claims: &'a [Check],
 }
 
 /// A relation that must hold.
@@ -46,15 +46,6 @@ pub struct Guard {
     pub ids: &'static [&'static str],
     /// What is wrong, if something is. The doc comment of the function says why it must hold.
     pub find: fn(Look<'_>) -> Option<String>,
-}
-
-/// A guard that fails.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Failing {
-    /// Its name.
-    pub name: &'static str,
-    /// What is wrong.
-    pub what: String,
 }
 
 /// All guards.
@@ -89,9 +80,26 @@ pub fn fits(own: &str, id: &str) -> bool {
     }
 }
 
-/// Those that fail.
-pub fn failing(look: Look<'_>) -> impl Iterator<Item = Failing> + '_ {
-    all().filter_map(move |guard| Some(Failing { name: guard.name, what: (guard.find)(look)? }))
+/// All relations, as checks.
+pub fn checks(look: Look<'_>) -> Vec<Check> {
+    let one = |guard: &Guard| {
+        let wrong = (guard.find)(look);
+        let verdict = if wrong.is_some() { Verdict::Differs } else { Verdict::Reproduced };
+        Check {
+            kind: Kind::Relation,
+            id: guard.name.into(),
+            place: String::new(),
+            statement: guard.name.replace('_', " "),
+            printed: String::new(),
+            ours: Text::words(wrong.unwrap_or_default()),
+            tolerance: Text::default(),
+            reason: String::new(),
+            basis: Basis::Exact,
+            verdict,
+            note: Text::words(guard.ids.join(", ")),
+        }
+    };
+    all().map(one).collect()
 }
 
 impl Look<'_> {

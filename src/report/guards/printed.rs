@@ -1,7 +1,7 @@
 //! What was printed, verdicts and levels.
 
 use super::{Guard, Look, far, model, unless};
-use crate::claims::targets::{self, Standing};
+use crate::claims::targets;
 use crate::claims::{Basis, Verdict};
 use crate::params::{CONVERGENCE_P, DISTRIBUTION_P, HIGHER_P};
 
@@ -92,8 +92,8 @@ fn scores(look: Look<'_>) -> Option<String> {
 /// Targets that are met, missed or not measured are all targets.
 fn met(look: Look<'_>) -> Option<String> {
     let targets = targets::targets(look.results).ok()?;
-    let of = |standing| targets.iter().filter(|target| target.standing == standing).count() as f64;
-    let others = of(Standing::Missed) + of(Standing::Open);
+    let of = |verdict| targets.iter().filter(|target| target.verdict == verdict).count() as f64;
+    let others = of(Verdict::Differs) + of(Verdict::CannotBeJudged);
     let rest = look.number("targets_all")? - look.number("targets_met")?;
     far("targets that are not met", rest, others)
         .or_else(|| look.is("targets_all", targets.len() as f64))

@@ -40,7 +40,7 @@ $$
 
 Table: What σ gives {#tab:sigma}
 
-| Claim | Statement | Ours |
+| Check | Statement | Ours |
 |:--|---|--:|
 <% for c in claims %><% if loop.index < 4 %>| [!claim:«c.id»] | «c.statement»: «c.ours» | «sweep.rise.half_height | percent | fixed(digits=1)» |
 <% endif %><% endfor %>

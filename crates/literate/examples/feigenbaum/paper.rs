@@ -4,7 +4,7 @@
 //! prose. All of the paper is in this folder.
 
 use impact_numerics::double_double::DoubleDouble;
-use literate::claims::{Basis, Claim, Finding, Judgement, Published, Statement, Text};
+use literate::claims::{Basis, Check, Finding, Judgement, Published, Statement, Text};
 use literate::experiments::experiment::How;
 use literate::experiments::{Built, Code, Error, Experiment, Profile, Progress, Store};
 use literate::figures::axis::{Axis, log, number};
@@ -76,7 +76,7 @@ pub const CASCADE: Experiment<Depth, Vec<Orbit>> = Experiment {
     code: Code { built: &BUILT, file: SOURCE.1 },
     parameters: |profile| Depth { deepest: if profile == Profile::Quick { 8 } else { 16 } },
     how: How::Whole { run: cascade, weight: |depth| 1 << depth.deepest },
-    tables,
+    tables: |cascade| tables(cascade),
 };
 
 /// The orbit of x = 1/2 after so many steps of x → r x (1 − x), and its derivative by r.
@@ -110,7 +110,7 @@ fn cascade(depth: &Depth, progress: &Progress) -> Result<Vec<Orbit>, Error> {
 }
 
 /// What follows from the cascade: two numbers for each orbit, and their limits.
-fn tables(cascade: &Vec<Orbit>) -> Vec<Table> {
+fn tables(cascade: &[Orbit]) -> Vec<Table> {
     let of = |n: u32| cascade.iter().find(|orbit| orbit.n == n);
     let before = |orbit: &Orbit| orbit.n.checked_sub(1).and_then(of);
     let ratio = |a: Option<f64>, b: Option<f64>| a.zip(b).map_or(f64::NAN, |(a, b)| a / b);
@@ -224,7 +224,7 @@ fn convergence(orbits: &Table, limit: &Table) -> Result<Figure, figures::Error> 
 }
 
 /// The statements, each held against a column of the limits.
-fn claims(published: &Published, limit: &Table) -> Result<Vec<Claim>, Box<dyn std::error::Error>> {
+fn claims(published: &Published, limit: &Table) -> Result<Vec<Check>, Box<dyn std::error::Error>> {
     let one = |statement: &Statement| {
         let (printed, [low, high]) = (statement.number()?, statement.rounding()?);
         let ours = limit.number(&[], &statement.id)?;

@@ -1,6 +1,6 @@
 //! What a verdict rests on.
 
-use super::{Claim, Verdict};
+use super::{Check, Verdict};
 use serde::Serialize;
 
 /// What decides whether a finding agrees with a statement. Where several things do, the weakest.
@@ -17,10 +17,12 @@ pub enum Basis {
     Statistics,
     /// A threshold of our own, for a statement in words.
     OwnThreshold,
+    /// Times of a clock; no statement of a paper rests on them.
+    Clock,
 }
 
 impl Basis {
-    /// Every basis, the strongest first.
+    /// Every basis of a statement, the strongest first.
     pub const ALL: [Basis; 5] = [
         Basis::Exact,
         Basis::Rounding,
@@ -37,15 +39,16 @@ impl Basis {
             Basis::PrintedDigit => "printed digit",
             Basis::Statistics => "statistics",
             Basis::OwnThreshold => "own threshold",
+            Basis::Clock => "clock",
         }
     }
 }
 
 /// How many claims of each basis have each verdict, in the orders of [`Basis::ALL`] and
 /// [`Verdict::ALL`].
-pub fn split(claims: &[Claim]) -> [[usize; 4]; 5] {
+pub fn split(claims: &[Check]) -> [[usize; 4]; 5] {
     Basis::ALL.map(|basis| {
-        let own = |verdict| move |c: &&Claim| c.basis == basis && c.verdict == verdict;
+        let own = |verdict| move |c: &&Check| c.basis == basis && c.verdict == verdict;
         Verdict::ALL.map(|verdict| claims.iter().filter(own(verdict)).count())
     })
 }

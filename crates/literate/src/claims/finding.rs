@@ -1,6 +1,6 @@
 //! What is found, before it is a claim.
 
-use super::{Basis, Claim, Judgement, Statement, Text};
+use super::{Basis, Check, Judgement, Kind, Statement, Text};
 
 /// What was found, and what it is held against.
 #[derive(Clone, Debug)]
@@ -19,8 +19,9 @@ pub struct Finding {
 
 impl Finding {
     /// The claim about a statement, with what its verdict rests on.
-    pub fn claim(self, statement: &Statement, basis: Basis) -> Claim {
-        Claim {
+    pub fn claim(self, statement: &Statement, basis: Basis) -> Check {
+        Check {
+            kind: Kind::Statement,
             id: statement.id.clone(),
             place: statement.place.clone(),
             statement: statement.statement.clone(),

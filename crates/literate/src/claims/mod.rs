@@ -1,4 +1,4 @@
-//! Statements of a paper beside what is found, and verdicts on them: [`Claim`].
+//! Statements of a paper, targets and relations beside what is found, and verdicts on them: [`Check`].
 
 mod basis;
 mod finding;
@@ -16,20 +16,34 @@ pub use verdict::{Judgement, Verdict};
 
 use serde::Serialize;
 
-/// One statement of the paper with our finding and the verdict.
+/// What is held against something.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Kind {
+    /// A statement that was printed.
+    Statement,
+    /// What an edition promises of itself.
+    Target,
+    /// A relation between numbers that must hold.
+    Relation,
+}
+
+/// One thing that is held against what is found, with the verdict.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Claim {
-    /// The id of the statement, as in `templates/published.toml`.
+pub struct Check {
+    /// What it is.
+    pub kind: Kind,
+    /// Its id; that of a statement as in `published.toml`.
     pub id: String,
-    /// Where it stands in the paper.
+    /// Where it was printed; empty for what was not.
     pub place: String,
-    /// The statement, in our words.
+    /// What is said, in our words.
     pub statement: String,
     /// What can be read there, in its shortest form.
     pub printed: String,
     /// What we find, with its error.
     pub ours: Text,
-    /// How far from the printed value a finding may lie.
+    /// How far from the printed value a finding may lie; the bound of a target.
     pub tolerance: Text,
     /// Why the tolerance has this size.
     pub reason: String,
@@ -41,10 +55,22 @@ pub struct Claim {
     pub note: Text,
 }
 
-impl Claim {
-    /// Whether this row makes a check fail: a difference that nothing explains, or
-    /// whose explanation no longer holds.
+impl Check {
+    /// Whether a report is to be refused for it: a difference that nothing explains, or whose explanation no
+    /// longer holds. Times of the clock decide nothing.
     pub fn fails(&self) -> bool {
-        self.verdict == Verdict::Differs
+        self.verdict == Verdict::Differs && self.basis != Basis::Clock
+    }
+
+    /// The verdict in words.
+    pub fn words(&self) -> &'static str {
+        match (self.kind, self.verdict) {
+            (Kind::Statement, verdict) => verdict.words(),
+            (Kind::Target, Verdict::Reproduced) => "met",
+            (Kind::Target, Verdict::CannotBeJudged) => "not measured",
+            (Kind::Target, _) => "missed",
+            (Kind::Relation, Verdict::Reproduced) => "holds",
+            (Kind::Relation, _) => "does not hold",
+        }
     }
 }

@@ -12,7 +12,7 @@ use super::mark::Mark;
 use super::uses::uses;
 use super::values::Registry;
 use super::{Error, appendix, html, labels, latex, ledger, lint, markdown, parse, sums};
-use crate::claims::Claim;
+use crate::claims::Check;
 use crate::figures::Figure;
 use crate::source::Program;
 use rayon::prelude::*;
@@ -31,7 +31,7 @@ pub struct Input<'a> {
     /// Rows of tables that are not values or claims, by the name that templates use.
     pub rows: &'a BTreeMap<&'static str, serde_json::Value>,
     /// The judged statements.
-    pub claims: &'a [Claim],
+    pub claims: &'a [Check],
     /// The figures.
     pub figures: &'a [Figure],
     /// The numbered equations of the paper.

@@ -3,7 +3,7 @@
 use super::markdown;
 use super::print::{Style, print};
 use super::values::{Digits, Number, Value, origin};
-use crate::claims::{Basis, Claim, Digits as ClaimDigits, Piece, Published, Text, Verdict, split};
+use crate::claims::{Basis, Check, Digits as ClaimDigits, Piece, Published, Text, Verdict, split};
 use serde::Serialize;
 
 /// One claim for a template: every field is Markdown, its numbers printed with their digits.
@@ -33,7 +33,7 @@ pub struct Row {
 
 impl Row {
     /// The row of a claim.
-    pub fn of(claim: &Claim) -> Self {
+    pub fn of(claim: &Check) -> Self {
         let words = |text: &str| markdown::escaped(text);
         Row {
             id: claim.id.clone(),
@@ -95,7 +95,7 @@ pub fn printed(published: &Published) -> Vec<Value> {
 /// The scorecard as values: `score.total`, `score.reproduced`, `score.differs_and_explained`,
 /// `score.differs`, `score.cannot_be_judged`, and for each basis `score.exact`, … those reproduced
 /// and `score.exact_of`, … all.
-pub fn scorecard(claims: &[Claim]) -> Vec<Value> {
+pub fn scorecard(claims: &[Check]) -> Vec<Value> {
     let value = |name: &str, count: usize| {
         Value::integer(format!("score.{name}"), count).source(origin(scorecard), "").data_only()
     };

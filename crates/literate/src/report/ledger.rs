@@ -3,7 +3,7 @@
 use super::Error;
 use super::claims::plain;
 use super::markdown::escaped;
-use crate::claims::Claim;
+use crate::claims::Check;
 use crate::figures::Figure;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -19,9 +19,9 @@ pub struct Ledger {
     pub equations: Vec<EquationEntry>,
 }
 
-/// A statement; the fields are those of [`Claim`], as text.
+/// A statement; the fields are those of [`Check`], as text.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[expect(missing_docs, reason = "the fields are documented at Claim")]
+#[expect(missing_docs, reason = "the fields are documented at Check")]
 pub struct ClaimEntry {
     pub id: String,
     pub place: String,
@@ -74,12 +74,12 @@ pub struct EquationEntry {
 
 /// The ledger of claims, figures and equations; `uses` has the values of each claim.
 pub fn ledger(
-    claims: &[Claim],
+    claims: &[Check],
     figures: &[Figure],
     equations: &[EquationEntry],
     uses: &BTreeMap<String, Vec<String>>,
 ) -> Ledger {
-    let claim = |claim: &Claim| ClaimEntry {
+    let claim = |claim: &Check| ClaimEntry {
         id: claim.id.clone(),
         place: claim.place.clone(),
         statement: claim.statement.clone(),

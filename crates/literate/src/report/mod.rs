@@ -134,7 +134,7 @@ impl Error {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::claims::{Basis, Claim, Text, Verdict};
+    use crate::claims::{Basis, Check, Kind, Text, Verdict};
     use crate::figures::{DataFile, Drawing, Figure};
     use crate::source::TOY;
 
@@ -162,7 +162,7 @@ $$
 
 Table: What σ gives {#tab:sigma}
 
-| Claim | Statement | Ours |
+| Check | Statement | Ours |
 |:--|---|--:|
 | [!claim:rise] | A threshold exists near 0.12 | «v.half_height» |
 | [!claim:jump] | a_b * c | «v.kept | percent» |
@@ -226,7 +226,7 @@ Listing: What $\delta v$ does. {#lst:kick}
             "<a id=\"eq-18\"></a>\n\n$$\np_{\\mathrm{crit}} = \\left(\\frac{1 + \\sqrt{N+1}}{N}\\right)^2\n\\tag{18}\n$$\n",
             "\n\\begin{aligned} a &= b \\cr c &= d \\end{aligned}\n",
             "<a id=\"fig-3\"></a>\n![](figures/fig03.svg)\n\n**Figure 3.** The rise, at 0.1165(4) or",
-            "<a id=\"tab-sigma\"></a>**Table 1.** What σ gives\n\n| Claim | Statement | Ours |\n|---|---|--:|\n",
+            "<a id=\"tab-sigma\"></a>**Table 1.** What σ gives\n\n| Check | Statement | Ours |\n|---|---|--:|\n",
             "| <a id=\"claim-jump\"></a>2 | a_b \\* c | 94.5(8)\u{a0}% |\n",
             "\n. and [Claim\u{a0}2](#claim-jump) of [Table\u{a0}1](#tab-sigma) and [Fig.\u{a0}3(a)](#fig-3).\n",
             "1. one\n2. two\n\n   more\n",
@@ -292,8 +292,9 @@ Listing: What $\delta v$ does. {#lst:kick}
         }
     }
 
-    fn claim() -> Claim {
-        Claim {
+    fn claim() -> Check {
+        Check {
+            kind: Kind::Statement,
             id: "rise".into(),
             place: "Sec. 2".into(),
             statement: "A threshold | exists".into(),
@@ -343,7 +344,7 @@ Listing: What $\delta v$ does. {#lst:kick}
     }
 
     const PROSE: &str = "# Title\n\nAt «v.half_height», [@rice1945].\n\n\
-        ![The rise.](figures/fig03.svg)\n\n| Id | Claim |\n|---|---|\n\
+        ![The rise.](figures/fig03.svg)\n\n| Id | Check |\n|---|---|\n\
         <% for c in claims %>| [!claim:«c.id»] | «c.statement»: «c.ours», «c.verdict» |\n<% endfor %>";
 
     #[test]

@@ -7,17 +7,17 @@
 use super::document::{Block, Inline, visit};
 use super::valued::{Piece, pieces};
 use super::values::{Number, Registry};
-use crate::claims::{Claim, Piece as Said, Text};
+use crate::claims::{Check, Piece as Said, Text};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// For each claim the ids of its values, sorted.
 pub fn uses(
-    claims: &[Claim],
+    claims: &[Check],
     values: &Registry,
     blocks: &[Block],
 ) -> BTreeMap<String, Vec<String>> {
     let together = together(blocks);
-    let one = |claim: &Claim| {
+    let one = |claim: &Check| {
         let numbers: Vec<f64> =
             [&claim.ours, &claim.tolerance, &claim.note].into_iter().flat_map(numbers).collect();
         let near = together.get(&claim.id);

@@ -24,7 +24,7 @@ use tally::{Tally, used};
 use self::part::Whole;
 use self::sections::{Changed, Sections};
 use self::site::Site;
-use impact_paper::claims::{self, Claim, Published, targets};
+use impact_paper::claims::{self, Check, Published, targets};
 use impact_paper::experiments::Results;
 use impact_paper::report::claims::scorecard;
 use impact_paper::report::contents;
@@ -69,7 +69,7 @@ pub struct Subject<'a> {
 
 /// Claims, and the names of the checks that fail, guards only as far as they were asked.
 struct Judged {
-    claims: Vec<Claim>,
+    claims: Vec<Check>,
     red: BTreeSet<String>,
 }
 
@@ -80,9 +80,8 @@ fn judged(subject: Subject<'_>, values: &mut Registry) -> Result<Judged, content
     scorecard(&claims).into_iter().for_each(|value| values.put(value));
     let mut red = BTreeSet::new();
     red.extend(claims.iter().filter(|c| c.fails()).map(|c| format!("claim {}", c.id)));
-    let missed = |t: &&targets::Target| t.standing == targets::Standing::Missed && !t.timed;
     let targets = targets::targets(results)?;
-    red.extend(targets.iter().filter(missed).map(|t| format!("target {}", t.id)));
+    red.extend(targets.iter().filter(|t| t.fails()).map(|t| format!("target {}", t.id)));
     Ok(Judged { claims, red })
 }
 

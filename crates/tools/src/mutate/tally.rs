@@ -2,7 +2,7 @@
 
 use super::reasons::fits;
 use super::{Mutations, Reasons};
-use impact_paper::claims::Claim;
+use impact_paper::claims::Check;
 use impact_paper::report::PROGRAM;
 use impact_paper::report::Templates;
 use impact_paper::report::claims::{Row, scorecard};
@@ -84,7 +84,7 @@ pub fn used(
     templates: &Templates,
     values: &Registry,
     rows: &BTreeMap<&'static str, serde_json::Value>,
-    claims: &[Claim],
+    claims: &[Check],
 ) -> Result<BTreeSet<String>, Error> {
     let mut values = values.clone();
     if values.get("score.total").is_none() {

@@ -6,11 +6,11 @@ use std::collections::{BTreeMap, BTreeSet};
 /// What a comparison needs of a ledger.json. Other fields came and went with versions.
 #[derive(Clone, Debug, Deserialize)]
 struct Read {
-    claims: Vec<Claim>,
+    claims: Vec<Check>,
 }
 
 #[derive(Clone, Debug, Deserialize)]
-struct Claim {
+struct Check {
     id: String,
     verdict: String,
     #[serde(default)]
@@ -23,7 +23,7 @@ struct Claim {
 
 /// The claims of a ledger.json, by id.
 #[derive(Clone, Debug)]
-pub struct Claims(BTreeMap<String, Claim>);
+pub struct Claims(BTreeMap<String, Check>);
 
 /// One difference between two sets of claims.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -57,7 +57,7 @@ impl Claims {
         let ids: BTreeSet<&String> = self.0.keys().chain(after.0.keys()).collect();
         let change = |id: &String| {
             let (old, new) = (self.0.get(id), after.0.get(id));
-            let pair = |field: fn(&Claim) -> &String| {
+            let pair = |field: fn(&Check) -> &String| {
                 let pair = old.zip(new).map(|(old, new)| [field(old).clone(), field(new).clone()]);
                 pair.filter(|[before, after]| before != after)
             };
