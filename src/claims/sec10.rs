@@ -4,7 +4,7 @@ use super::Basis::OwnThreshold;
 use super::row::{Error, Evidence, Row, measured};
 use super::{Finding, open};
 use super::{Judgement, Statement, Text};
-use crate::experiments::catalogue::SWEEP;
+use crate::experiments::SWEEP;
 use crate::experiments::theory::beside::{LARGE_SIGMA, distance};
 
 /// The rows of this section.

@@ -5,9 +5,9 @@ use super::row::{Error, Evidence, Row, measured, statistical};
 use super::sec2_rare::{percolation, sticking, three_way, two_masses, walls_like_masses};
 use super::{Finding, open};
 use super::{Judgement, Statement, Text};
-use crate::experiments::catalogue::{CHAINS, STARTS, SWEEP, TWO_MASSES};
 use crate::experiments::sweep::tables::{mean_all, mode_half};
 use crate::experiments::sweep::{Sweep, SweepRow};
+use crate::experiments::{CHAINS, STARTS, SWEEP, TWO_MASSES};
 use crate::numerics::statistics::Estimate;
 use crate::params::Protocol;
 

@@ -5,7 +5,7 @@ use super::row::{Error, Evidence, Row, statistical, theory};
 use super::sec2::{gaps, small};
 use super::{Finding, all_cases, open};
 use super::{Judgement, Statement, Text};
-use crate::experiments::catalogue::SWEEP;
+use crate::experiments::SWEEP;
 
 /// The rows of this section.
 pub const ROWS: &[Row] = &[

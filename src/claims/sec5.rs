@@ -4,7 +4,7 @@ use super::Basis::{Exact, OwnThreshold};
 use super::row::{Error, Evidence, Row, measured, theory};
 use super::{Finding, all_cases};
 use super::{Judgement, Statement, Text};
-use crate::experiments::catalogue::SEGMENTS;
+use crate::experiments::SEGMENTS;
 use crate::experiments::segments::Segment;
 use std::collections::BTreeSet;
 

@@ -5,7 +5,7 @@ use super::row::{Error, Evidence, Row, measured, theory};
 use super::sec2;
 use super::{Finding, open, rounding};
 use super::{Judgement, Statement, Text};
-use crate::experiments::catalogue::SWEEP;
+use crate::experiments::SWEEP;
 use crate::experiments::theory::tables::two_largest_steps;
 
 /// The rows of this section.

@@ -6,9 +6,9 @@ use super::sec2;
 use super::sec8_chains::{no_impact, restitution_ensures, restitution_omitted, threshold_shift};
 use super::{Finding, open, rounding};
 use super::{Judgement, Statement, Text};
-use crate::experiments::catalogue::{CHAINS, PROTOCOL, RESTITUTION, STARTS, SWEEP};
 use crate::experiments::sweep::Sweep;
 use crate::experiments::theory::beside::{self, LARGE_SIGMA, increases, largest_distance};
+use crate::experiments::{CHAINS, PROTOCOL, RESTITUTION, STARTS, SWEEP};
 
 /// The rows of this section.
 pub const ROWS: &[Row] = &[

@@ -4,7 +4,7 @@ use super::Basis::{Exact, OwnThreshold};
 use super::row::{Error, Evidence, Row, measured, theory};
 use super::{Finding, all_cases, open};
 use super::{Judgement, Statement, Text};
-use crate::experiments::catalogue::SEGMENTS;
+use crate::experiments::SEGMENTS;
 use crate::experiments::theory::Theory;
 use crate::experiments::theory::beside::LARGE_SIGMA;
 use crate::experiments::theory::tables::{largest_change, largest_mean_difference, moves};

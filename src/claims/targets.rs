@@ -6,8 +6,8 @@
 use super::{Basis, Check, Error, Kind, Text, Verdict};
 use crate::experiments::accuracy::analytic::{Analytic, Route, Way};
 use crate::experiments::accuracy::race::{Entry, Race};
-use crate::experiments::catalogue::{ANALYTIC, MEASURED, RACE, SCALE, TRIALS};
 use crate::experiments::measured::{Row, What};
+use crate::experiments::{ANALYTIC, MEASURED, RACE, SCALE, TRIALS};
 use crate::experiments::{Measured, Need, Results};
 use crate::params::MethodName;
 

@@ -1,7 +1,7 @@
 //! `impact-paper audit`.
 
 use super::{Failure, stdout, work};
-use impact_paper::experiments::{Error, Store, catalogue};
+use impact_paper::experiments::{self, Error, Store};
 use impact_paper::numerics::random::generator;
 use impact_paper::params::Profile;
 use rand::seq::SliceRandom;
@@ -47,7 +47,7 @@ fn share(text: &str) -> Result<f64, String> {
 pub fn run(args: Args) -> Result<(), Failure> {
     let profile = Profile::from(args.profile);
     let store = Store::open(&work::results(args.results, profile))?;
-    let mut chosen = catalogue::of(profile);
+    let mut chosen = experiments::of(profile);
     chosen.shuffle(&mut generator("audit", args.seed, 0));
     chosen.truncate((args.sample * chosen.len() as f64).ceil() as usize);
     let progress = work::progress();

@@ -5,7 +5,7 @@ use super::judged::Judged;
 use super::sources::Sources;
 use impact_paper::claims;
 use impact_paper::experiments::spacetime::scene::Scene;
-use impact_paper::experiments::{Progress, catalogue::ALL};
+use impact_paper::experiments::{ALL, Progress};
 use impact_paper::figures::{self, Figure};
 use impact_paper::params::Profile;
 use impact_paper::report::{self, PROGRAM, Report, contents, equations};

@@ -188,7 +188,8 @@ fn some(
     profile: Profile,
     progress: &Progress,
 ) -> Result<Files, Failure> {
-    let needs: Vec<_> = numbers.iter().flat_map(|&number| figures::needs(number)).collect();
+    let needs: Vec<_> =
+        numbers.iter().flat_map(|&number| figures::needs(number)).copied().collect();
     let results = sources.run(&needs, profile, &sources.templates()?, progress)?;
     let mut files = Files::new();
     for &number in numbers {

@@ -2,7 +2,7 @@
 
 use super::{Failure, stdout, work};
 use impact_paper::experiments::Store;
-use impact_paper::experiments::catalogue::{self, Saved};
+use impact_paper::experiments::{self, Saved};
 use impact_paper::params::Profile;
 use literate::experiments::identity::{Reason, told};
 use serde::Serialize;
@@ -77,7 +77,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let profile = Profile::from(args.profile);
     let store = Store::open(&work::results(args.results, profile))?;
     let found: Vec<Found> =
-        catalogue::of(profile).iter().map(|one| Found::look(*one, profile, &store)).collect();
+        experiments::of(profile).iter().map(|one| Found::look(*one, profile, &store)).collect();
     let stale = found.iter().filter(|one| one.is_stale()).count();
     let text = if args.json {
         let lines: Vec<Line> =

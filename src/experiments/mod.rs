@@ -1,8 +1,8 @@
-//! What is run: one experiment a file. How experiments are saved, cut and carried over is for
+//! What is run: one experiment a file, and the list of them ([`ALL`]): names, parameters, runs and tables. An
+//! experiment that stands there is known to the whole program. How experiments are saved, cut and carried over is for
 //! [`literate::experiments`].
 
 pub mod accuracy;
-pub mod catalogue;
 pub mod chains;
 pub mod heat;
 pub mod history;
@@ -35,7 +35,349 @@ pub mod weights;
 pub mod built;
 mod results;
 
-pub use literate::experiments::{Error, Need, Progress, Store, say};
+pub use literate::experiments::{Entry, Error, Experiment, Need, Progress, Saved, Store, say};
 pub use measured::Measured;
 pub use results::{Looked, Results};
 pub use run::run;
+
+use crate::params::{
+    AnalyticParams, BiasParams, ChainsParams, HeatParams, HistoryParams, HorizonParams,
+    IndependenceParams, NucleationParams, OrbitsParams, Profile, ProtocolParams, ProtocolsParams,
+    RaceParams, RestitutionParams, ScaleParams, SeedsParams, SpaceTimeParams, StartsParams,
+    SweepParams, TrialParams, TwoMassesParams,
+};
+use crate::table::Table;
+use accuracy::{analytic, bias, race, scale, tables, trials};
+use built::code;
+use literate::experiments::deep::Deep;
+use literate::experiments::experiment::How::{Cut, Read, Whole};
+
+/// All experiments, in the order in which they run.
+pub const ALL: [Need; 25] = [
+    &SEGMENTS,
+    &MEASURED,
+    &SWEEP,
+    &SECOND_SEED,
+    &PROTOCOL,
+    &PROTOCOLS,
+    &STARTS,
+    &HORIZON,
+    &TWO_MASSES,
+    &SPACE_TIME,
+    &RACE,
+    &BIAS,
+    &TRIALS,
+    &SCALE,
+    &ANALYTIC,
+    &HEAT,
+    &NUCLEATION,
+    &SEEDS,
+    &HISTORY,
+    &INDEPENDENCE,
+    &ORBITS,
+    &RESTITUTION,
+    &CHAINS,
+    &LONG_PROTOCOL,
+    &SIZES,
+];
+
+/// Makes tables of the results of several experiments and of their own tables; none where one was not asked for.
+pub type Together = fn(&Results, &[Table]) -> Option<Vec<Table>>;
+
+/// What follows from several experiments together.
+pub const TOGETHER: [Together; 8] = [
+    theory::tables::tables,
+    theory::beside::tables,
+    sweep::tables::of_both,
+    seeds::compared::tables,
+    history::tables::beside,
+    protocol_tables::of_rest,
+    starts_tables::beside_theory,
+    chains::tables::beside_map,
+];
+
+/// The experiments that a profile saves: the deep one those that take long, all others all.
+pub fn of(profile: Profile) -> Vec<Need> {
+    let own = |one: &Need| match profile {
+        Profile::Deep => one.carried().is_some(),
+        _ => one.is_saved(),
+    };
+    ALL.iter().copied().filter(own).collect()
+}
+
+/// The motions of Figs. 5(b) and 6(b).
+pub const SEGMENTS: Experiment<(), segments::Segments> = Experiment {
+    name: "segments",
+    code: code("src/experiments/segments.rs"),
+    parameters: |_| (),
+    how: Read(segments::read),
+    tables: segments::tables,
+};
+
+/// Times that were measured once.
+pub const MEASURED: Experiment<(), Measured> = Experiment {
+    name: "measured",
+    code: code("src/experiments/measured.rs"),
+    parameters: |_| (),
+    how: Read(|_| Measured::committed()),
+    tables: tables::measured,
+};
+
+/// The main sweep of Sec. 2.
+pub const SWEEP: Experiment<SweepParams, sweep::Sweep, tally::Tally> = Experiment {
+    name: "sweep",
+    code: code("src/experiments/sweep/mod.rs"),
+    parameters: SweepParams::main,
+    how: Cut("main sweep", sweep::CUTTING),
+    tables: sweep::tables::tables,
+};
+
+/// The rise again, with another seed.
+pub const SECOND_SEED: Deep<SweepParams, sweep::Sweep, tally::Tally> = Deep::new(
+    ("second_seed", "the rise with another seed ([@sec:simulation])"),
+    code("src/experiments/sweep/mod.rs"),
+    SweepParams::second_seed,
+    ("second seed", sweep::CUTTING),
+    sweep::tables::of_second_seed,
+);
+
+/// Half height against transient and window.
+pub const PROTOCOL: Deep<ProtocolParams, protocol::ProtocolMap, protocol::Part> = Deep::new(
+    ("protocol", "transients and windows ([@tab:protocol])"),
+    code("src/experiments/protocol.rs"),
+    ProtocolParams::new,
+    ("protocol map", protocol::CUTTING),
+    protocol_tables::of_map,
+);
+
+/// The same for other starts and ends.
+pub const PROTOCOLS: Deep<ProtocolsParams, protocols::Protocols, protocol::Part> = Deep::new(
+    ("protocols", "the same for other starts and ends ([@tab:protocols])"),
+    code("src/experiments/protocols.rs"),
+    ProtocolsParams::new,
+    ("maps of other chains", protocols::CUTTING),
+    protocol_tables::of_others,
+);
+
+/// Other starts, boundaries, restitutions and frequencies.
+pub const STARTS: Deep<StartsParams, starts::Starts, tally::Tally> = Deep::new(
+    ("starts", "other starts, ends and frequencies ([@tab:starts])"),
+    code("src/experiments/starts.rs"),
+    StartsParams::new,
+    ("variants", starts::CUTTING),
+    starts_tables::tables,
+);
+
+/// Chaos and its horizon.
+pub const HORIZON: Experiment<HorizonParams, horizon::Horizon> = Experiment {
+    name: "horizon",
+    code: code("src/experiments/horizon.rs"),
+    parameters: HorizonParams::new,
+    how: Whole {
+        run: horizon::run,
+        weight: |p| 3 * p.realisations as u64 * weights::run(&p.chain, p.sigma, p.until) / 2,
+    },
+    tables: horizon::tables,
+};
+
+/// Two masses under a low force.
+pub const TWO_MASSES: Experiment<TwoMassesParams, two_masses::TwoMasses> = Experiment {
+    name: "two_masses",
+    code: code("src/experiments/two_masses.rs"),
+    parameters: TwoMassesParams::new,
+    how: Whole {
+        run: two_masses::run,
+        weight: |p| p.directions as u64 * p.times.iter().map(|time| *time as u64).sum::<u64>() / 3,
+    },
+    tables: two_masses::tables,
+};
+
+/// One long run.
+pub const SPACE_TIME: Experiment<SpaceTimeParams, spacetime::SpaceTime> = Experiment {
+    name: "spacetime",
+    code: code("src/experiments/spacetime/mod.rs"),
+    parameters: SpaceTimeParams::new,
+    how: Whole { run: spacetime::run, weight: |p| 8 * weights::run(&p.chain, p.sigma, p.until) },
+    tables: spacetime::tables::tables,
+};
+
+/// Every method against the true motion.
+pub const RACE: Experiment<RaceParams, race::Race> = Experiment {
+    name: "race",
+    code: code("src/experiments/accuracy/race.rs"),
+    parameters: RaceParams::new,
+    how: Whole { run: race::run, weight: |p| 30_000 * (p.chains * p.settings.len()) as u64 },
+    tables: tables::race,
+};
+
+/// What methods do to the mean count.
+pub const BIAS: Deep<BiasParams, bias::Biases, bias::Part> = Deep::new(
+    ("bias", "bias of coarse methods ([@tab:bias])"),
+    code("src/experiments/accuracy/bias.rs"),
+    BiasParams::new,
+    ("bias of methods", bias::CUTTING),
+    tables::bias,
+);
+
+/// Every method in the scenes where methods fail.
+pub const TRIALS: Experiment<TrialParams, trials::Trials> = Experiment {
+    name: "trials",
+    code: code("src/experiments/accuracy/trials.rs"),
+    parameters: TrialParams::new,
+    how: Whole {
+        run: trials::run,
+        weight: |p| if p.short { 100_000 } else { 1_100_000 } * p.settings.len() as u64,
+    },
+    tables: |_| Vec::new(),
+};
+
+/// Counted work against the number of masses.
+pub const SCALE: Experiment<ScaleParams, scale::Scale> = Experiment {
+    name: "scale",
+    code: code("src/experiments/accuracy/scale.rs"),
+    parameters: ScaleParams::new,
+    how: Whole { run: scale::run, weight: |p| 300_000 + 7 * p.masses.iter().sum::<usize>() as u64 },
+    tables: tables::scale,
+};
+
+/// Ways to compute Eqs. (9) and (25).
+pub const ANALYTIC: Experiment<AnalyticParams, analytic::Analytic> = Experiment {
+    name: "analytic",
+    code: code("src/experiments/accuracy/analytic.rs"),
+    parameters: AnalyticParams::new,
+    how: Whole { run: analytic::run, weight: |p| 3 * p.sizes.iter().sum::<usize>() as u64 / 2 },
+    tables: tables::analytic,
+};
+
+/// How hot running chains are.
+pub const HEAT: Deep<HeatParams, heat::Heat, heat::Part> = Deep::new(
+    ("heat", "heat ([@sec:heat])"),
+    code("src/experiments/heat/mod.rs"),
+    HeatParams::new,
+    ("heat", heat::CUTTING),
+    heat::tables::tables,
+);
+
+/// First impacts of chains from rest.
+pub const NUCLEATION: Experiment<NucleationParams, nucleation::Nucleation, nucleation::Part> =
+    Experiment {
+        name: "nucleation",
+        code: code("src/experiments/nucleation/mod.rs"),
+        parameters: NucleationParams::new,
+        how: Cut("first impacts", nucleation::CUTTING),
+        tables: nucleation::tables::tables,
+    };
+
+/// What one gap that closes by itself sets off.
+pub const SEEDS: Experiment<SeedsParams, seeds::Seeds, seeds::Part> = Experiment {
+    name: "seeds",
+    code: code("src/experiments/seeds/mod.rs"),
+    parameters: SeedsParams::new,
+    how: Cut("seeds", seeds::CUTTING),
+    tables: seeds::tables::tables,
+};
+
+/// Chains that are heated first.
+pub const HISTORY: Experiment<HistoryParams, history::History, history::Part> = Experiment {
+    name: "history",
+    code: code("src/experiments/history/mod.rs"),
+    parameters: HistoryParams::new,
+    how: Cut("history", history::CUTTING),
+    tables: history::tables::tables,
+};
+
+/// Whether impacts are independent.
+pub const INDEPENDENCE: Deep<IndependenceParams, independence::Independence, independence::Part> =
+    Deep::new(
+        ("independence", "order of impacts ([@sec:independence])"),
+        code("src/experiments/independence/mod.rs"),
+        IndependenceParams::new,
+        ("independence", independence::CUTTING),
+        independence::tables::tables,
+    );
+
+/// Periodic orbits of a short chain.
+pub const ORBITS: Experiment<OrbitsParams, orbits::Orbits> = Experiment {
+    name: "orbits",
+    code: code("src/experiments/orbits/mod.rs"),
+    parameters: OrbitsParams::new,
+    how: Whole { run: orbits::run, weight: |p| 60 * orbits::starts(p) },
+    tables: orbits::tables::tables,
+};
+
+/// Long chains, damping and other forces.
+pub const CHAINS: Deep<ChainsParams, chains::Chains, chains::Part> = Deep::new(
+    ("chains", "long chains, friction, other forces ([@sec:chains])"),
+    code("src/experiments/chains/mod.rs"),
+    ChainsParams::new,
+    ("long chains", chains::CUTTING),
+    chains::tables::tables,
+);
+
+/// Chains of several restitutions.
+pub const RESTITUTION: Deep<RestitutionParams, restitution::Restitution, restitution::Part> =
+    Deep::new(
+        ("restitution", "restitution ([@sec:restitution])"),
+        code("src/experiments/restitution/mod.rs"),
+        RestitutionParams::new,
+        ("restitution", restitution::CUTTING),
+        restitution::tables::tables,
+    );
+
+/// The long end of the map over transients and windows.
+pub const LONG_PROTOCOL: Deep<ProtocolParams, long::LongMap, protocol::Part> = Deep {
+    from: Profile::Quick,
+    distance: Some(long::distance),
+    ..Deep::new(
+        ("long_protocol", "the longest transients ([@tab:long])"),
+        code("src/experiments/long.rs"),
+        ProtocolParams::long,
+        ("long protocol map", long::CUTTING),
+        protocol_tables::of_long,
+    )
+};
+
+/// Chains of several lengths after several transients.
+pub const SIZES: Deep<ChainsParams, chains::Chains, chains::Part> = Deep {
+    from: Profile::Quick,
+    ..Deep::new(
+        ("sizes", "lengths and transients ([@tab:sizes])"),
+        code("src/experiments/chains/mod.rs"),
+        ChainsParams::sizes,
+        ("length and transient", chains::CUTTING),
+        chains::tables::sizes,
+    )
+};
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use literate::experiments::shards::Plan;
+    use std::collections::BTreeMap;
+
+    #[test]
+    fn names_of_units_differ_and_their_weights_are_shared_evenly() {
+        for profile in Profile::ALL {
+            let plan = Plan::new(of, profile);
+            let names: BTreeMap<&str, u64> =
+                plan.tasks.iter().map(|task| (task.name.as_str(), task.unit.weight)).collect();
+            assert_eq!(names.len(), plan.tasks.len());
+            let whole: u64 = names.values().sum();
+            let heaviest = names.values().max().unwrap();
+            for shards in [1, 3, 7] {
+                let mut loads = vec![0; shards];
+                for (task, shard) in plan.tasks.iter().zip(plan.shards(shards)) {
+                    loads[shard - 1] += task.unit.weight;
+                }
+                let even = whole / shards as u64;
+                assert!(loads.iter().all(|&load| load <= even + heaviest), "{loads:?}");
+                assert!(loads.iter().all(|&load| load + heaviest >= even), "{loads:?}");
+            }
+        }
+        // The cuts are the same whatever the number of machines; so many have one unit each.
+        let plan = Plan::new(of, Profile::Quick);
+        let mut alone = plan.shards(plan.tasks.len());
+        alone.sort_unstable();
+        assert_eq!(alone, (1..=plan.tasks.len()).collect::<Vec<_>>());
+    }
+}

@@ -1,8 +1,7 @@
 //! All results together.
 
 use super::accuracy::{analytic, bias, race, scale, trials};
-use super::catalogue::{self, ALL, TOGETHER};
-use super::{Error, Measured};
+use super::{ALL, Error, Measured, Need, TOGETHER};
 use super::{
     chains, heat, history, horizon, identities, independence, long, nucleation, orbits, protocol,
     protocols, restitution, seeds, segments, spacetime, starts, sweep, theory, two_masses,
@@ -43,7 +42,7 @@ macro_rules! asked_for {
                 /// # Errors
                 /// [`Error::NotRun`] if it was not asked for.
                 pub fn $name(&self) -> Result<&$type, Error> {
-                    self.of(&catalogue::$need)
+                    self.of(&super::$need)
                 }
             )*
         }
@@ -154,7 +153,7 @@ impl Results {
     /// The tables of all results that there are, by name.
     pub fn tables(&self) -> &BTreeMap<&'static str, Arc<Table>> {
         self.tables.get_or_init(|| {
-            let of = |experiment: &catalogue::Need| {
+            let of = |experiment: &Need| {
                 self.found(experiment.name()).map_or_else(Vec::new, |own| experiment.tables(own))
             };
             let mut all: Vec<Table> = ALL.iter().flat_map(of).collect();

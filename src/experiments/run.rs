@@ -1,7 +1,6 @@
 //! Runs what is needed, and nothing else; long runs are taken from the store.
 
-use super::catalogue::{ALL, Need};
-use super::{Error, Progress, Results, Store};
+use super::{ALL, Error, Need, Progress, Results, Store};
 use crate::params::Profile;
 use literate::experiments::experiment::Given;
 
@@ -30,7 +29,7 @@ pub fn run(
 
 #[cfg(test)]
 mod tests {
-    use super::super::catalogue::{SEGMENTS, SWEEP, TWO_MASSES};
+    use super::super::{SEGMENTS, SWEEP, TWO_MASSES};
     use super::*;
 
     #[test]

@@ -41,45 +41,100 @@ mod simulated;
 pub use literate::figures::*;
 pub use number::Number;
 
-use crate::experiments::catalogue::{
+use crate::experiments::{
     ANALYTIC, BIAS, CHAINS, HEAT, INDEPENDENCE, LONG_PROTOCOL, MEASURED, NUCLEATION, ORBITS,
     PROTOCOL, PROTOCOLS, RACE, RESTITUTION, SCALE, SEEDS, SEGMENTS, SIZES, SPACE_TIME, SWEEP,
 };
 use crate::experiments::{Need, Results};
 use crate::params::Profile;
 
+/// A figure of the lists below.
+struct Listed {
+    /// The experiments that it needs, beside the theory, which costs nothing.
+    needs: &'static [Need],
+    /// Whether it shows the theory.
+    theory: bool,
+    /// Draws it, with a note about small samples.
+    draw: fn(&Results, Option<&str>) -> Result<Figure, Error>,
+}
+
+/// Whether a figure shows the theory.
+const THEORY: bool = true;
+
+const fn figure(
+    needs: &'static [Need],
+    theory: bool,
+    draw: fn(&Results, Option<&str>) -> Result<Figure, Error>,
+) -> Listed {
+    Listed { needs, theory, draw }
+}
+
+/// The figures of the paper.
+const PAPER: [Listed; 15] = [
+    figure(&[], !THEORY, |_, _| fig01::draw()),
+    figure(&[&SWEEP], !THEORY, |all, note| fig02::draw(all.sweep()?, note)),
+    figure(&[&SWEEP], !THEORY, |all, note| fig03::draw(all.sweep()?, note)),
+    figure(&[], !THEORY, |_, _| fig04::draw()),
+    figure(&[&SEGMENTS], !THEORY, |all, _| fig05::draw(all.segments()?)),
+    figure(&[&SEGMENTS], !THEORY, |all, _| fig06::draw(all.segments()?)),
+    figure(&[], THEORY, |all, _| fig07::draw(&all.theory)),
+    figure(&[], THEORY, |all, _| fig08::draw(&all.theory)),
+    figure(&[], THEORY, |all, _| fig09::draw(&all.theory)),
+    figure(&[], THEORY, |all, _| fig10::draw(&all.theory)),
+    figure(&[], THEORY, |all, _| fig11::draw(&all.theory)),
+    figure(&[&SWEEP], THEORY, |all, note| fig12::draw(all.sweep()?, &all.theory, note)),
+    figure(&[], THEORY, |all, _| fig13::draw(&all.theory)),
+    figure(&[], THEORY, |all, _| fig14::draw(&all.theory)),
+    figure(&[&SWEEP], THEORY, |all, note| fig15::draw(all.sweep()?, &all.theory, note)),
+];
+
+/// Figures of this edition.
+const OWN: [Listed; 16] = [
+    figure(&[&PROTOCOL, &LONG_PROTOCOL, &PROTOCOLS], !THEORY, s01::draw),
+    figure(&[&SPACE_TIME], !THEORY, |all, note| s02::draw(all.spacetime()?, note)),
+    figure(&[&NUCLEATION, &SWEEP], !THEORY, s03::draw),
+    figure(&[&SEEDS, &SWEEP, &PROTOCOL], !THEORY, s04::draw),
+    figure(&[], THEORY, |all, _| s05::draw(&all.theory.large)),
+    figure(&[], THEORY, |all, _| s06::draw(&all.theory)),
+    figure(&[&HEAT], !THEORY, s07::draw),
+    figure(&[&INDEPENDENCE], !THEORY, s08::draw),
+    figure(&[&ORBITS], !THEORY, s09::draw),
+    figure(&[&RESTITUTION], !THEORY, s10::draw),
+    figure(&[&CHAINS, &SIZES, &PROTOCOL], !THEORY, |all, note| {
+        s11::draw(all.chains()?, all.sizes()?, all.protocol()?, note)
+    }),
+    figure(&[&RACE], !THEORY, |all, note| s12::draw(all.race()?, note)),
+    figure(&[&RACE, &MEASURED], !THEORY, |all, note| s13::draw(all.race()?, all.measured()?, note)),
+    figure(&[&BIAS], !THEORY, |all, note| s14::draw(all.biases()?, note)),
+    figure(&[&SCALE, &MEASURED], !THEORY, |all, note| {
+        s15::draw(all.scale()?, all.measured()?, note)
+    }),
+    figure(&[&ANALYTIC], !THEORY, |all, note| s16::draw(all.analytic()?, note)),
+];
+
 /// All figures: first the paper's, then our own.
 pub fn all() -> impl Iterator<Item = Number> {
     (1..=Number::PAPER).map(Number::Paper).chain((1..=Number::OWN).map(Number::Own))
 }
 
+/// The figure of a number, if there is one.
+fn listed(number: Number) -> Option<&'static Listed> {
+    let (list, n): (&'static [Listed], u8) = match number {
+        Number::Paper(n) => (&PAPER, n),
+        Number::Own(n) => (&OWN, n),
+    };
+    list.get(usize::from(n).checked_sub(1)?)
+}
+
 /// The experiments that a figure needs, beside the theory, which costs nothing.
-pub fn needs(number: Number) -> Vec<Need> {
-    match number {
-        Number::Paper(2 | 3 | 12 | 15) => vec![&SWEEP],
-        Number::Paper(5 | 6) => vec![&SEGMENTS],
-        Number::Own(1) => vec![&PROTOCOL, &LONG_PROTOCOL, &PROTOCOLS],
-        Number::Own(2) => vec![&SPACE_TIME],
-        Number::Own(3) => vec![&NUCLEATION, &SWEEP],
-        Number::Own(4) => vec![&SEEDS, &SWEEP, &PROTOCOL],
-        Number::Own(7) => vec![&HEAT],
-        Number::Own(8) => vec![&INDEPENDENCE],
-        Number::Own(9) => vec![&ORBITS],
-        Number::Own(10) => vec![&RESTITUTION],
-        Number::Own(11) => vec![&CHAINS, &SIZES, &PROTOCOL],
-        Number::Own(12) => vec![&RACE],
-        Number::Own(13) => vec![&RACE, &MEASURED],
-        Number::Own(14) => vec![&BIAS],
-        Number::Own(15) => vec![&SCALE, &MEASURED],
-        Number::Own(16) => vec![&ANALYTIC],
-        _ => vec![],
-    }
+pub fn needs(number: Number) -> &'static [Need] {
+    listed(number).map_or(&[], |figure| figure.needs)
 }
 
 /// The names of the experiments whose results a figure shows; none for a schematic.
 pub fn experiments(number: Number) -> Vec<&'static str> {
-    let theory = matches!(number, Number::Paper(7..=15) | Number::Own(5 | 6)).then_some("theory");
-    needs(number).into_iter().map(|need| need.name()).chain(theory).collect()
+    let theory = listed(number).is_some_and(|figure| figure.theory).then_some("theory");
+    needs(number).iter().map(|need| need.name()).chain(theory).collect()
 }
 
 /// Draws one figure.
@@ -92,42 +147,8 @@ pub fn draw(number: Number, results: &Results) -> Result<Figure, Error> {
         Profile::Ci => Some("profile ci: not for citation"),
         Profile::Quick => Some("profile quick: not for citation"),
     };
-    let figure = match number {
-        Number::Paper(1) => fig01::draw(),
-        Number::Paper(2) => fig02::draw(results.sweep()?, note),
-        Number::Paper(3) => fig03::draw(results.sweep()?, note),
-        Number::Paper(4) => fig04::draw(),
-        Number::Paper(5) => fig05::draw(results.segments()?),
-        Number::Paper(6) => fig06::draw(results.segments()?),
-        Number::Paper(7) => fig07::draw(&results.theory),
-        Number::Paper(8) => fig08::draw(&results.theory),
-        Number::Paper(9) => fig09::draw(&results.theory),
-        Number::Paper(10) => fig10::draw(&results.theory),
-        Number::Paper(11) => fig11::draw(&results.theory),
-        Number::Paper(12) => fig12::draw(results.sweep()?, &results.theory, note),
-        Number::Paper(13) => fig13::draw(&results.theory),
-        Number::Paper(14) => fig14::draw(&results.theory),
-        Number::Paper(15) => fig15::draw(results.sweep()?, &results.theory, note),
-        Number::Own(1) => s01::draw(results, note),
-        Number::Own(2) => s02::draw(results.spacetime()?, note),
-        Number::Own(3) => s03::draw(results, note),
-        Number::Own(4) => s04::draw(results, note),
-        Number::Own(5) => s05::draw(&results.theory.large),
-        Number::Own(6) => s06::draw(&results.theory),
-        Number::Own(7) => s07::draw(results, note),
-        Number::Own(8) => s08::draw(results, note),
-        Number::Own(9) => s09::draw(results, note),
-        Number::Own(10) => s10::draw(results, note),
-        Number::Own(11) => {
-            s11::draw(results.chains()?, results.sizes()?, results.protocol()?, note)
-        }
-        Number::Own(12) => s12::draw(results.race()?, note),
-        Number::Own(13) => s13::draw(results.race()?, results.measured()?, note),
-        Number::Own(14) => s14::draw(results.biases()?, note),
-        Number::Own(15) => s15::draw(results.scale()?, results.measured()?, note),
-        Number::Own(16) => s16::draw(results.analytic()?, note),
-        _ => Err(Error::Number(number.to_string())),
-    }?;
+    let figure = listed(number).ok_or_else(|| Error::Number(number.to_string()))?;
+    let figure = (figure.draw)(results, note)?;
     let source = format!("figures::{}", figure.id);
     Ok(Figure { source, experiments: experiments(number), ..figure })
 }

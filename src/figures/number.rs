@@ -14,10 +14,10 @@ pub enum Number {
 
 impl Number {
     /// How many figures the paper has.
-    pub const PAPER: u8 = 15;
+    pub const PAPER: u8 = super::PAPER.len() as u8;
 
     /// How many figures are our own.
-    pub const OWN: u8 = 16;
+    pub const OWN: u8 = super::OWN.len() as u8;
 
     /// `fig03` or `s01`: the file name of the picture without its ending.
     pub fn id(self) -> String {

@@ -1,7 +1,7 @@
 //! What the verbs that take time have in common: experiments by name, threads, Ctrl-C, and errors as exit codes.
 
 use super::Failure;
-use crate::experiments::{Error, Progress, catalogue, say};
+use crate::experiments::{self, Error, Progress, say};
 use crate::params::Profile;
 use crate::report::{self, contents};
 use crate::{claims, dynamics, figures};
@@ -48,14 +48,14 @@ pub struct Only {
 impl Only {
     /// The units of work of these experiments, or of all if none is named.
     pub fn plan(&self, profile: Profile) -> Result<Plan, Failure> {
-        let known: Vec<&str> = catalogue::of(profile).iter().map(|one| one.name()).collect();
+        let known: Vec<&str> = experiments::of(profile).iter().map(|one| one.name()).collect();
         if let Some(name) = self.names.iter().find(|name| !known.contains(&name.as_str())) {
             let (profile, known) = (profile.name(), known.join(", "));
             return Err(Failure::input(format!(
                 "--experiment: profile {profile} has no experiment \"{name}\"; give some of {known}"
             )));
         }
-        let plan = Plan::new(catalogue::of, profile);
+        let plan = Plan::new(experiments::of, profile);
         Ok(if self.names.is_empty() { plan } else { plan.only(&self.names) })
     }
 }

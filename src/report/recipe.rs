@@ -1,8 +1,8 @@
 //! Experiments by the names that values carry: where their code is, and with which parameters
 //! they run. The parameters are those of [`crate::params`], field by field.
 
-use crate::experiments::catalogue::{ALL, MEASURED};
 use crate::experiments::measured::FILE;
+use crate::experiments::{ALL, MEASURED};
 use crate::params::{Profile, VERTICES};
 use literate::source::Recipe;
 use serde_json::Value as Json;

@@ -2,7 +2,7 @@
 
 use crate::{PROGRAM, TEMPLATES, outcome, program, run};
 use impact_paper::claims::{self, Basis};
-use impact_paper::experiments::catalogue::ALL;
+use impact_paper::experiments::ALL;
 use impact_paper::experiments::{self, Progress, Store};
 use impact_paper::params::Profile;
 use impact_paper::report::claims::scorecard;

@@ -121,7 +121,7 @@ fn what_runs_reads_no_table() {
             continue;
         }
         // The list hands tables out, and what is compared stands beside tables.
-        if path.ends_with("catalogue.rs") || path.ends_with("compared.rs") {
+        if path == "src/experiments/mod.rs" || path.ends_with("compared.rs") {
             continue;
         }
         runs += 1;

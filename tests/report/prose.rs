@@ -4,8 +4,8 @@
 
 use crate::quick::QUICK;
 use impact_paper::claims::{self, Verdict};
-use impact_paper::experiments::catalogue::{STARTS, SWEEP};
 use impact_paper::experiments::{Need, Progress, Results, Store, run::run};
+use impact_paper::experiments::{STARTS, SWEEP};
 use impact_paper::figures;
 use impact_paper::params::Profile;
 

@@ -1,7 +1,7 @@
 //! The whole report of the quick profile in memory, for the tests that read it.
 
 use impact_paper::claims::{self, Check, Published};
-use impact_paper::experiments::catalogue::ALL;
+use impact_paper::experiments::ALL;
 use impact_paper::experiments::spacetime::scene::Scene;
 use impact_paper::experiments::{Progress, Results, Store, run::run};
 use impact_paper::figures::{self, Figure};

@@ -11,7 +11,7 @@ use super::sources::Sources;
 use super::{Failure, folder, make, stdout, verify, work};
 use archive::Archive;
 use clap::ValueEnum;
-use impact_paper::experiments::{Progress, Store, catalogue};
+use impact_paper::experiments::{self, Progress, Store};
 use impact_paper::params::Profile;
 use impact_paper::report::{Files, sums};
 use std::path::{Path, PathBuf};
@@ -126,14 +126,14 @@ fn read(root: &Path, path: &str) -> Result<Vec<u8>, Failure> {
 /// Exit code 3 if one of them is not what this program would run to.
 fn fresh(results: &Path, profile: Profile) -> Result<Vec<String>, Failure> {
     let store = Store::open(results)?;
-    let stale = |experiment: &&catalogue::Need| !experiment.stale(profile, &store).is_empty();
+    let stale = |experiment: &&experiments::Need| !experiment.stale(profile, &store).is_empty();
     let stale: Vec<&str> =
-        catalogue::of(profile).iter().filter(stale).map(|experiment| experiment.name()).collect();
+        experiments::of(profile).iter().filter(stale).map(|experiment| experiment.name()).collect();
     if stale.is_empty() {
-        let name = |experiment: &catalogue::Need| {
+        let name = |experiment: &experiments::Need| {
             format!("{}.json", experiment.identity(profile).file_stem(profile))
         };
-        return Ok(catalogue::of(profile).iter().map(name).collect());
+        return Ok(experiments::of(profile).iter().map(name).collect());
     }
     Err(Failure::stale(format!(
         "--results: {} in {} not fresh; `impact-paper paper --profile {}` makes them, `--without results` packs none",

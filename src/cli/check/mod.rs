@@ -7,7 +7,7 @@ use super::judged::Judged;
 use super::sources::Sources;
 use super::{Failure, stdout, work};
 use impact_paper::claims::{self, Check};
-use impact_paper::experiments::catalogue::ALL;
+use impact_paper::experiments::ALL;
 use impact_paper::params::Profile;
 use impact_paper::report::claims::plain;
 use impact_paper::report::contents;

@@ -1,7 +1,7 @@
 //! Section 22: results that are carried over, and what became of a sample of each.
 
 use super::{Error, from, mark};
-use crate::experiments::{Results, catalogue};
+use crate::experiments::{self, Results};
 use crate::report::values::{Value, origin};
 use literate::experiments::deep;
 use literate::experiments::deep::{Audit, Carriage};
@@ -50,7 +50,7 @@ pub fn table(results: &Results) -> Result<Vec<Line>, Error> {
             Carriage::Failed => "**stale**".into(),
         };
         Ok(Line {
-            what: catalogue::ALL
+            what: experiments::ALL
                 .iter()
                 .find(|experiment| experiment.name() == name)
                 .and_then(|experiment| experiment.carried())

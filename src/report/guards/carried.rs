@@ -1,7 +1,7 @@
 //! Results that are carried over.
 
 use super::{Guard, Look, unless};
-use crate::experiments::catalogue;
+use crate::experiments;
 use crate::params::Profile;
 use literate::experiments::deep::{Audit, Carriage, Distance};
 
@@ -13,7 +13,7 @@ pub const GUARDS: &[Guard] =
 fn audited(look: Look<'_>) -> Option<String> {
     look.results.audits.iter().find_map(|(name, audit)| {
         let Audit { verdict, units, again, identical, distance } = audit;
-        let cut = catalogue::of(Profile::Deep)
+        let cut = experiments::of(Profile::Deep)
             .iter()
             .find(|experiment| experiment.name() == name.as_str())?
             .units(Profile::Deep)

@@ -19,7 +19,7 @@ pub struct Plan {
     profile: Profile,
     /// The experiments that a profile saves.
     of: fn(Profile) -> Vec<Need>,
-    /// In the order of the catalogue, and of each experiment.
+    /// In the order of the list, and of each experiment.
     pub tasks: Vec<Task>,
     /// The experiments that are meant; none if all are.
     only: Vec<String>,

@@ -1,6 +1,6 @@
 //! The results in parts, each of which can be read and written as JSON.
 
-use impact_paper::experiments::catalogue::ALL;
+use impact_paper::experiments::ALL;
 use impact_paper::experiments::{Need, Results};
 use rayon::prelude::*;
 use serde_json::Value as Json;

@@ -2,7 +2,7 @@
 
 use super::{Mutation, Mutations, Reasons, Subject, Tally, mutate, used};
 use impact_paper::claims;
-use impact_paper::experiments::{Error, Progress, catalogue::ALL};
+use impact_paper::experiments::{ALL, Error, Progress};
 use impact_paper::params::Profile;
 use impact_paper::program::sources::Sources;
 use impact_paper::program::{Failure, stdout, work};
