@@ -3,6 +3,7 @@
 use impact_paper::report::Templates;
 use impact_paper::report::document::{Block, Inline};
 use impact_paper::report::typeset::pdf;
+use std::path::Path;
 
 fn report(tex: &str) -> Vec<Block> {
     vec![
@@ -30,8 +31,14 @@ fn report(tex: &str) -> Vec<Block> {
 /// The same bytes twice, tagged, for the standard of accessible documents.
 #[test]
 fn a_report_is_typeset_and_is_the_same_twice() {
-    let made =
-        || pdf(&report(r"\frac{x}{2} = \sqrt{y}"), &[], &Templates::find(None).unwrap()).unwrap();
+    let made = || {
+        pdf(
+            &report(r"\frac{x}{2} = \sqrt{y}"),
+            &[],
+            &Templates::read(Path::new("templates")).unwrap(),
+        )
+        .unwrap()
+    };
     let bytes = made();
     assert!(bytes.starts_with(b"%PDF-1.7") && bytes == made());
     let holds = |what: &[u8]| bytes.windows(what.len()).any(|window| window == what);
@@ -44,6 +51,8 @@ fn a_reference_to_nothing_is_an_error_that_says_so() {
     blocks.truncate(2);
     let lost = Inline::Reference { to: "eq:19".into(), shown: "Eq. (19)".into() };
     blocks.push(Block::Paragraph(vec![lost]));
-    let error = pdf(&blocks, &[], &Templates::find(None).unwrap()).unwrap_err().to_string();
+    let error = pdf(&blocks, &[], &Templates::read(Path::new("templates")).unwrap())
+        .unwrap_err()
+        .to_string();
     assert!(error.contains("eq:19"), "{error}");
 }
