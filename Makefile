@@ -31,7 +31,7 @@ test: ## all tests but the long ones
 	cargo test --locked --workspace --exclude impact-paper-fuzz
 
 test-long: ## the long tests only (large samples, a job array on Slurm, which root installs when missing)
-	cargo test --release --locked -- --ignored
+	cargo test --release --locked --workspace --exclude impact-paper-fuzz -- --ignored
 
 lint: ## formatting, clippy and documentation, warnings denied
 	cargo fmt --check && cargo clippy --locked --workspace --exclude impact-paper-fuzz --all-targets -- -D warnings && RUSTDOCFLAGS="-D warnings" cargo doc --locked --no-deps --document-private-items
@@ -40,7 +40,7 @@ identity: ## the same bytes for any threads, folder, locale, C library and build
 	.ci/identity
 
 bundle: ## all that it takes to make the report again, in target/impact-paper.zip (after make paper)
-	cargo run --release --locked -- bundle --force target/impact-paper.zip
+	cargo run --release --locked -p impact-paper-tools -- bundle --force target/impact-paper.zip
 
 fuzz: ## every parser against texts that a fuzzer thinks out (needs Rust nightly; minutes to build)
 	.ci/fuzz

@@ -2,18 +2,12 @@
 
 mod audit;
 mod bench;
-mod bundle;
 mod check;
 mod diff;
 mod eval;
 mod explain;
-mod folder;
-mod git;
-mod judged;
-mod make;
 mod merge;
 mod method;
-mod output;
 mod paper;
 mod plan;
 mod shard;
@@ -24,7 +18,9 @@ mod trace;
 mod verify;
 
 use clap::{Parser, Subcommand};
-use impact_paper::program::{self, Failure, sources, stdout, work};
+use impact_paper::program::{
+    self, Failure, folder, git, judged, make, output, sources, stdout, work,
+};
 use std::process::ExitCode;
 
 /// The contract; DESIGN.md has the same table.
@@ -57,7 +53,6 @@ struct Cli {
 enum Verb {
     Audit(audit::Args),
     Bench(bench::Args),
-    Bundle(bundle::Args),
     Check(check::Args),
     Diff(diff::Args),
     Eval(eval::Args),
@@ -85,7 +80,6 @@ pub fn main() -> ExitCode {
     let result = match verb {
         Verb::Audit(args) => audit::run(args),
         Verb::Bench(args) => bench::run(args),
-        Verb::Bundle(args) => bundle::run(args),
         Verb::Check(args) => check::run(args),
         Verb::Diff(args) => diff::run(args),
         Verb::Eval(args) => eval::run(args),

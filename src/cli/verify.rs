@@ -1,16 +1,12 @@
 //! `impact-paper verify`.
 
-use super::sources::Sources;
-use super::{Failure, folder, make, stdout, work};
-use clap::ValueEnum;
-use impact_paper::digest::sha256;
 use impact_paper::experiments::Progress;
 use impact_paper::params::Profile;
-use impact_paper::report::values::Number;
-use impact_paper::report::{compare, sums};
-use std::collections::BTreeMap;
-use std::io::ErrorKind;
-use std::path::{Path, PathBuf};
+use impact_paper::program::listed::{Checked, listed, own_profile};
+use impact_paper::program::sources::Sources;
+use impact_paper::program::{Failure, folder, make, work};
+use impact_paper::report::sums;
+use std::path::PathBuf;
 
 /// Says whether a report is what its SHA256SUMS lists, and with --rerun whether it is what this
 /// program makes.
@@ -66,74 +62,6 @@ pub fn run(args: Args) -> Result<(), Failure> {
     Err(Failure::check(format!("{}: {them}; {remedy}", args.folder.display())))
 }
 
-/// What a comparison of all files found.
-pub struct Checked {
-    /// How many files were compared.
-    pub files: usize,
-    /// What a file without fault is, after the number of files.
-    pub fine: String,
-    /// One line for each file with a fault.
-    pub faults: Vec<String>,
-}
-
-impl Checked {
-    fn tell(&self, folder: &Path) -> Result<(), Failure> {
-        for fault in &self.faults {
-            stdout::print(&format!("{fault}\n"))?;
-        }
-        if self.faults.is_empty() {
-            let folder = folder.display();
-            stdout::print(&format!("{folder}: {} files{}\n", self.files, self.fine))?;
-        }
-        Ok(())
-    }
-}
-
-/// Compares the folder with its list.
-///
-/// # Errors
-/// Exit code 2 if there is no list that can be read.
-pub fn listed(root: &Path, progress: &Progress) -> Result<Checked, Failure> {
-    let place = root.join(sums::NAME);
-    let unusable = |what: String| {
-        let remedy = "make the report anew with `impact-paper paper`";
-        Failure::input(format!("{}: {what}; {remedy}", place.display()))
-    };
-    let found = folder::walk(root)?;
-    let text = folder::read(root, sums::NAME).map_err(|e| unusable(e.to_string()))?;
-    let text = String::from_utf8(text).map_err(|e| unusable(e.to_string()))?;
-    let entries = sums::read(&text).map_err(|e| unusable(e.to_string()))?;
-    let mut known: BTreeMap<&str, &str> = BTreeMap::new();
-    // Of what was last written, what is built beside: the rest may be of another revision by now.
-    let local = folder::read(root, sums::LOCAL).ok().and_then(|text| String::from_utf8(text).ok());
-    let local = local.and_then(|text| sums::lines(&text).ok()).unwrap_or_default();
-    let beside =
-        |entry: &&sums::Entry| folder::is_beside(&entry.path) && found.contains(&entry.path);
-    for entry in local.iter().filter(beside).chain(&entries) {
-        known.insert(&entry.path, &entry.digest);
-    }
-    let mut faults = Vec::new();
-    let mut fault =
-        |what: &str, path: &str, more: &str| faults.push(format!("{what:8} {path}{more}"));
-    for (path, digest) in &known {
-        progress.check()?;
-        match folder::read(root, path) {
-            Ok(bytes) if sha256(&bytes) == *digest => (),
-            Ok(_) => fault("differs", path, ""),
-            Err(error) if error.kind() == ErrorKind::NotFound => fault("missing", path, ""),
-            Err(error) => fault("unread", path, &format!(" ({error})")),
-        }
-    }
-    let lists = [sums::NAME, sums::LOCAL];
-    let strange =
-        |path: &&String| !lists.contains(&path.as_str()) && !known.contains_key(path.as_str());
-    for path in found.iter().filter(strange) {
-        fault("unlisted", path, "");
-    }
-    let fine = format!(", all as {} lists them", sums::NAME);
-    Ok(Checked { files: known.len(), fine, faults })
-}
-
 /// What only a binary with the typesetter makes.
 const PDF: &str = "report.pdf";
 
@@ -150,7 +78,7 @@ fn rerun(args: &Args, progress: &Progress) -> Result<Checked, Failure> {
     })?;
     let results = args.results.clone().unwrap_or_else(|| temporary.path().join("results"));
     let pdf = args.folder.join(PDF).symlink_metadata().is_ok();
-    let typeset = pdf && cfg!(feature = "pdf");
+    let typeset = pdf && make::TYPESETS;
     let sources = Sources::of(args.threads, args.templates.clone(), results);
     let (made, _) =
         work::on_threads(args.threads, || make::whole(&sources, profile, typeset, progress))?;
@@ -178,23 +106,4 @@ fn rerun(args: &Args, progress: &Progress) -> Result<Checked, Failure> {
         if pdf && !typeset { "; report.pdf needs a binary with the feature pdf" } else { "" };
     let fine = fine + open;
     Ok(Checked { files: files.len(), fine, faults })
-}
-
-/// The profile that the report's values name.
-///
-/// # Errors
-/// Exit code 2 if they name none.
-pub fn own_profile(root: &Path) -> Result<Profile, Failure> {
-    let unknown = |what: &str| {
-        Failure::input(format!("{}: values.json {what}; give --profile", root.display()))
-    };
-    let text = folder::read(root, "values.json").map_err(|_| unknown("cannot be read"))?;
-    let text = String::from_utf8(text).map_err(|_| unknown("is not text"))?;
-    let values = compare::read(&text).map_err(|_| unknown("is not one of a report"))?;
-    match values.get("profile").map(|value| &value.number) {
-        Some(Number::Text(name)) => work::ProfileName::from_str(name, false)
-            .map(Profile::from)
-            .map_err(|_| unknown("names a profile that this program does not have")),
-        _ => Err(unknown("names no profile")),
-    }
 }

@@ -1,6 +1,12 @@
-//! What the programs of this project share: exit codes, signals, threads, standard output, and where prose
-//! and results lie.
+//! What the programs of this project share: exit codes, signals, threads, standard output, where prose and
+//! results lie, and how a report is made, judged, written and found again.
 
+pub mod folder;
+pub mod git;
+pub mod judged;
+pub mod listed;
+pub mod make;
+pub mod output;
 pub mod sources;
 pub mod stdout;
 pub mod work;
@@ -9,6 +15,18 @@ use crate::experiments::say;
 use crate::input::one_line;
 use std::io;
 use std::process::ExitCode;
+
+/// What the project says of itself in Cargo.toml.
+pub mod about {
+    /// The version.
+    pub const VERSION: &str = env!("CARGO_PKG_VERSION");
+    /// One line.
+    pub const DESCRIPTION: &str = env!("CARGO_PKG_DESCRIPTION");
+    /// Who wrote it.
+    pub const AUTHORS: &str = env!("CARGO_PKG_AUTHORS");
+    /// The oldest compiler.
+    pub const RUST_VERSION: &str = env!("CARGO_PKG_RUST_VERSION");
+}
 
 /// Characters of a message at most.
 const LONGEST: usize = 4000;

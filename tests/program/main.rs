@@ -2,7 +2,6 @@
 
 mod bad_input;
 mod bench;
-mod bundle;
 mod check;
 mod cluster;
 mod diff;

@@ -176,7 +176,6 @@ fn what_others_made_is_left_as_it_is() {
     ] {
         refused(here, arguments, &[says, "--force"]);
     }
-    crate::refused(here, "bundle README.md", &["README.md is there already"]);
     let foreign = "r/sweep-quick.json: this is no saved result";
     let (code, _, note) = crate::run(here, "paper --profile quick --figure 3 --out f --results r");
     assert!(code == 2 && note.contains(foreign), "{note}");

@@ -2,6 +2,7 @@
 
 #![warn(clippy::print_stderr, clippy::print_stdout)]
 
+mod bundle;
 mod mutate;
 
 use clap::{Parser, Subcommand};
@@ -18,14 +19,18 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Verb {
+    Bundle(bundle::Args),
     Mutate(mutate::verb::Args),
 }
 
 fn main() -> ExitCode {
-    let Verb::Mutate(args) = match Cli::try_parse() {
+    let verb = match Cli::try_parse() {
         Ok(cli) => cli.verb,
         Err(error) => return usage(&error),
     };
     work::obey_signals();
-    ended(mutate::verb::run(args))
+    ended(match verb {
+        Verb::Bundle(args) => bundle::run(args),
+        Verb::Mutate(args) => mutate::verb::run(args),
+    })
 }

@@ -3,13 +3,16 @@
 use super::Failure;
 use super::judged::Judged;
 use super::sources::Sources;
-use impact_paper::claims;
-use impact_paper::experiments::spacetime::scene::Scene;
-use impact_paper::experiments::{ALL, Progress};
-use impact_paper::figures::{self, Figure};
-use impact_paper::params::Profile;
-use impact_paper::report::{self, PROGRAM, Report, contents, equations};
+use crate::claims;
+use crate::experiments::spacetime::scene::Scene;
+use crate::experiments::{ALL, Progress};
+use crate::figures::{self, Figure};
+use crate::params::Profile;
+use crate::report::{self, PROGRAM, Report, contents, equations};
 use rayon::prelude::*;
+
+/// Whether this build has the typesetter.
+pub const TYPESETS: bool = cfg!(feature = "pdf");
 
 /// Runs every experiment and makes every file; with `pdf`, report.pdf too. Says also what holds.
 ///
@@ -21,7 +24,7 @@ pub fn whole(
     pdf: bool,
     progress: &Progress,
 ) -> Result<(Report, Judged), Failure> {
-    if pdf && cfg!(not(feature = "pdf")) {
+    if pdf && !TYPESETS {
         return Err(report::Error::NoTypesetter.into());
     }
     let templates = sources.templates()?;

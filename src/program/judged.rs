@@ -1,11 +1,11 @@
 //! What is held against something else: claims, targets, and the numbers of the report.
 
 use super::Failure;
-use impact_paper::claims::targets;
-use impact_paper::claims::{Basis, Check, Kind, Published, Verdict, scorecard, split};
-use impact_paper::experiments::Results;
-use impact_paper::report::guards::{self, Look};
-use impact_paper::report::{self, Registry};
+use crate::claims::targets;
+use crate::claims::{Basis, Check, Kind, Published, Verdict, scorecard, split};
+use crate::experiments::Results;
+use crate::report::guards::{self, Look};
+use crate::report::{self, Registry};
 
 /// What was found.
 #[derive(Clone, Debug, Default)]

@@ -1,8 +1,8 @@
 //! A ZIP file that appears whole or not at all, with the digest of each file in it.
 
-use super::super::Failure;
 use impact_paper::digest::sha256;
 use impact_paper::input::{new_beside, remove_leftovers};
+use impact_paper::program::Failure;
 use impact_paper::report::sums;
 use std::collections::BTreeMap;
 use std::io::{self, Cursor, Write};

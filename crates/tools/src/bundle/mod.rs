@@ -1,4 +1,4 @@
-//! `impact-paper bundle`.
+//! `impact-paper-tools bundle`.
 
 mod archive;
 mod metadata;
@@ -6,13 +6,14 @@ mod told;
 mod tree;
 mod vendored;
 
-use super::output::{self, Force};
-use super::sources::Sources;
-use super::{Failure, folder, make, stdout, verify, work};
 use archive::Archive;
 use clap::ValueEnum;
 use impact_paper::experiments::{self, Progress, Store};
 use impact_paper::params::Profile;
+use impact_paper::program::listed::{listed, own_profile};
+use impact_paper::program::output::{self, Force};
+use impact_paper::program::sources::Sources;
+use impact_paper::program::{Failure, about, folder, make, stdout, work};
 use impact_paper::report::{Files, sums};
 use std::path::{Path, PathBuf};
 use tree::Tree;
@@ -56,12 +57,12 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let progress = work::progress_that_tidies();
     let tree = Tree::here()?;
     let report = Path::new(PAPER);
-    let listed = verify::listed(report, &progress)?;
+    let listed = listed(report, &progress)?;
     if let Some(first) = listed.faults.first() {
         let what = format!("bundle: paper/ is not what its {} lists ({first})", sums::NAME);
         return Err(Failure::check(format!("{what}; make it anew with `make paper`")));
     }
-    let top = format!("impact-paper-{}", env!("CARGO_PKG_VERSION"));
+    let top = format!("impact-paper-{}", about::VERSION);
     let mut archive = Archive::at(&args.out, &top)?;
     let released = metadata::released(Path::new("."))?;
 
@@ -70,7 +71,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
         archive.add(path, &read(Path::new("."), path)?, *is_program)?;
     }
     if !args.without.contains(&Part::Results) {
-        let profile = verify::own_profile(report)?;
+        let profile = own_profile(report)?;
         for name in fresh(&args.results, profile)? {
             archive.add(&format!("results/{name}"), &read(&args.results, &name)?, false)?;
         }
@@ -100,7 +101,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
 /// Exit code 1 if the results give another report than the committed one.
 fn beside(args: &Args, profile: Profile, progress: &Progress) -> Result<Files, Failure> {
     let sources = Sources::of(None, None, args.results.clone());
-    let (made, _) = make::whole(&sources, profile, cfg!(feature = "pdf"), progress)?;
+    let (made, _) = make::whole(&sources, profile, make::TYPESETS, progress)?;
     for (path, bytes) in &made.committed {
         if folder::read(Path::new(PAPER), path).ok().as_ref() != Some(bytes) {
             let what = format!("bundle: the results do not give paper/{path} as it is committed");

@@ -6,10 +6,10 @@
 
 use super::work::{self, Now};
 use super::{Failure, folder};
-use impact_paper::digest::sha256;
-use impact_paper::experiments::Progress;
-use impact_paper::input::{STAGING, one_line};
-use impact_paper::report::{Files, sums};
+use crate::digest::sha256;
+use crate::experiments::Progress;
+use crate::input::{STAGING, one_line};
+use crate::report::{Files, sums};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
 use std::io;

@@ -1,9 +1,9 @@
 //! ro-crate-metadata.json: what the archive is, for machines (RO-Crate 1.2).
 
-use super::super::Failure;
 use super::archive::Archive;
 use super::told::description;
 use impact_paper::input;
+use impact_paper::program::{Failure, about};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -65,10 +65,10 @@ pub fn text(archive: &Archive, revision: &str, released: &str) -> String {
         json!({
             "@id": "./",
             "@type": "Dataset",
-            "name": concat!("impact-paper ", env!("CARGO_PKG_VERSION")),
-            "description": env!("CARGO_PKG_DESCRIPTION"),
+            "name": format!("impact-paper {}", about::VERSION),
+            "description": about::DESCRIPTION,
             "datePublished": released,
-            "version": env!("CARGO_PKG_VERSION"),
+            "version": about::VERSION,
             "identifier": id("#revision"),
             "author": id(AUTHORS),
             "publisher": id(AUTHORS),
@@ -88,7 +88,7 @@ pub fn text(archive: &Archive, revision: &str, released: &str) -> String {
         json!({
             "@id": AUTHORS,
             "@type": "Organization",
-            "name": env!("CARGO_PKG_AUTHORS"),
+            "name": about::AUTHORS,
         }),
         json!({
             "@id": MIT,
@@ -106,7 +106,7 @@ pub fn text(archive: &Archive, revision: &str, released: &str) -> String {
             "@id": "#rust",
             "@type": "ComputerLanguage",
             "name": "Rust",
-            "version": env!("CARGO_PKG_RUST_VERSION"),
+            "version": about::RUST_VERSION,
             "url": id("https://www.rust-lang.org/"),
         }),
         json!({
@@ -170,7 +170,7 @@ pub fn text(archive: &Archive, revision: &str, released: &str) -> String {
         file["sha256"] = json!(digest);
         if path == PROGRAM {
             file["@type"] = json!(["File", "SoftwareSourceCode"]);
-            file["version"] = json!(env!("CARGO_PKG_VERSION"));
+            file["version"] = json!(about::VERSION);
             file["programmingLanguage"] = id("#rust");
         }
         graph.push(file);

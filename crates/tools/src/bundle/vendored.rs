@@ -1,9 +1,9 @@
 //! The source of every crate, as `cargo vendor` collects it.
 
-use super::super::{Failure, folder};
 use super::archive::Archive;
 use super::read;
 use impact_paper::experiments::Progress;
+use impact_paper::program::{Failure, folder};
 use std::fs::File;
 use std::path::Path;
 use std::process::{Command, Stdio};

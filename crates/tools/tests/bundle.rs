@@ -1,18 +1,45 @@
-//! `impact-paper bundle`: an archive that needs nothing but itself.
+//! `impact-paper-tools bundle`: an archive that needs nothing but itself.
 
-use crate::{PROGRAM, digest, ended, outcome, program, run};
 use serde_json::Value;
+use sha2::{Digest, Sha256};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File};
 use std::io::Read;
 use std::path::Path;
 use std::process::{Command, Stdio};
-use std::time::Duration;
+use std::sync::RwLock;
+use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
-const SOURCE: &str = env!("CARGO_MANIFEST_DIR");
+/// The checkout.
+const SOURCE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
+/// The program.
+const PROGRAM: &str = env!("CARGO_BIN_EXE_impact-paper-tools");
 /// The folder that everything is in.
 const TOP: &str = concat!("impact-paper-", env!("CARGO_PKG_VERSION"), "/");
+
+/// Written by the test that measures a time: no other runs the program meanwhile.
+static ALONE: RwLock<()> = RwLock::new(());
+
+/// The program in a folder, with arguments between which a blank stands.
+fn program(folder: &Path, arguments: &str) -> Command {
+    let mut command = Command::new(PROGRAM);
+    command.current_dir(folder).args(arguments.split(' '));
+    command
+}
+
+/// Exit code, stdout and stderr; −1 for a program that a signal ended.
+fn outcome(command: &mut Command) -> (i32, String, String) {
+    let _others = ALONE.read().unwrap();
+    let output = command.output().unwrap();
+    let text = |bytes: &Vec<u8>| String::from_utf8_lossy(bytes).into_owned();
+    (output.status.code().unwrap_or(-1), text(&output.stdout), text(&output.stderr))
+}
+
+/// SHA-256 in hexadecimal digits.
+fn digest(bytes: impl AsRef<[u8]>) -> String {
+    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+}
 
 fn git(folder: &Path, arguments: &str) {
     let mut command = Command::new("git");
@@ -51,7 +78,7 @@ fn clone() -> TempDir {
 
 /// Exit code and stderr.
 fn bundle(folder: &Path, arguments: &str) -> (i32, String) {
-    let (code, _, note) = run(folder, &format!("bundle {arguments}"));
+    let (code, _, note) = outcome(&mut program(folder, &format!("bundle {arguments}")));
     (code, note)
 }
 
@@ -196,7 +223,17 @@ fn a_full_disk_and_ctrl_c_end_it() {
     let bundle = format!("bundle {} --without results", at("out.zip").display());
     let mut command = program(clone.path(), &bundle);
     command.env("CARGO", at("cargo")).stderr(Stdio::null());
-    ended(&mut command, "-INT", Duration::from_secs(1));
+    let alone = ALONE.write().unwrap();
+    let mut child = command.spawn().unwrap();
+    std::thread::sleep(Duration::from_secs(1));
+    assert!(child.try_wait().unwrap().is_none(), "it must still be running");
+    let asked = Instant::now();
+    let kill = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+    assert!(kill.unwrap().success());
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    let took = asked.elapsed();
+    drop(alone);
+    assert!(took < Duration::from_secs(1), "{took:?}");
     let left = fs::read_dir(out.path()).unwrap().map(|entry| entry.unwrap().file_name());
     assert_eq!(left.collect::<Vec<_>>(), ["cargo"]);
 }

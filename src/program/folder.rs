@@ -2,7 +2,7 @@
 
 use super::Failure;
 use super::output::is_staging;
-use impact_paper::report::sums;
+use crate::report::sums;
 use std::io::{self, Read};
 use std::path::Path;
 

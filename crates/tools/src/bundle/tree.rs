@@ -1,7 +1,7 @@
 //! The committed source, as git lists it.
 
-use super::super::{Failure, git};
 use impact_paper::input::one_line;
+use impact_paper::program::{Failure, git};
 use impact_paper::report::sums;
 use std::io::ErrorKind;
 

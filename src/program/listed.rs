@@ -1,0 +1,103 @@
+//! A report on disk, held against its own lists.
+
+use super::{Failure, folder, stdout, work};
+use crate::digest::sha256;
+use crate::experiments::Progress;
+use crate::params::Profile;
+use crate::report::values::Number;
+use crate::report::{compare, sums};
+use clap::ValueEnum;
+use std::collections::BTreeMap;
+use std::io::ErrorKind;
+use std::path::Path;
+
+/// What a comparison of all files found.
+pub struct Checked {
+    /// How many files were compared.
+    pub files: usize,
+    /// What a file without fault is, after the number of files.
+    pub fine: String,
+    /// One line for each file with a fault.
+    pub faults: Vec<String>,
+}
+
+impl Checked {
+    /// Tells each fault in a line of standard output, or that there is none.
+    ///
+    /// # Errors
+    /// When nobody can be told.
+    pub fn tell(&self, folder: &Path) -> Result<(), Failure> {
+        for fault in &self.faults {
+            stdout::print(&format!("{fault}\n"))?;
+        }
+        if self.faults.is_empty() {
+            let folder = folder.display();
+            stdout::print(&format!("{folder}: {} files{}\n", self.files, self.fine))?;
+        }
+        Ok(())
+    }
+}
+
+/// Compares the folder with its list.
+///
+/// # Errors
+/// Exit code 2 if there is no list that can be read.
+pub fn listed(root: &Path, progress: &Progress) -> Result<Checked, Failure> {
+    let place = root.join(sums::NAME);
+    let unusable = |what: String| {
+        let remedy = "make the report anew with `impact-paper paper`";
+        Failure::input(format!("{}: {what}; {remedy}", place.display()))
+    };
+    let found = folder::walk(root)?;
+    let text = folder::read(root, sums::NAME).map_err(|e| unusable(e.to_string()))?;
+    let text = String::from_utf8(text).map_err(|e| unusable(e.to_string()))?;
+    let entries = sums::read(&text).map_err(|e| unusable(e.to_string()))?;
+    let mut known: BTreeMap<&str, &str> = BTreeMap::new();
+    // Of what was last written, what is built beside: the rest may be of another revision by now.
+    let local = folder::read(root, sums::LOCAL).ok().and_then(|text| String::from_utf8(text).ok());
+    let local = local.and_then(|text| sums::lines(&text).ok()).unwrap_or_default();
+    let beside =
+        |entry: &&sums::Entry| folder::is_beside(&entry.path) && found.contains(&entry.path);
+    for entry in local.iter().filter(beside).chain(&entries) {
+        known.insert(&entry.path, &entry.digest);
+    }
+    let mut faults = Vec::new();
+    let mut fault =
+        |what: &str, path: &str, more: &str| faults.push(format!("{what:8} {path}{more}"));
+    for (path, digest) in &known {
+        progress.check()?;
+        match folder::read(root, path) {
+            Ok(bytes) if sha256(&bytes) == *digest => (),
+            Ok(_) => fault("differs", path, ""),
+            Err(error) if error.kind() == ErrorKind::NotFound => fault("missing", path, ""),
+            Err(error) => fault("unread", path, &format!(" ({error})")),
+        }
+    }
+    let lists = [sums::NAME, sums::LOCAL];
+    let strange =
+        |path: &&String| !lists.contains(&path.as_str()) && !known.contains_key(path.as_str());
+    for path in found.iter().filter(strange) {
+        fault("unlisted", path, "");
+    }
+    let fine = format!(", all as {} lists them", sums::NAME);
+    Ok(Checked { files: known.len(), fine, faults })
+}
+
+/// The profile that the report's values name.
+///
+/// # Errors
+/// Exit code 2 if they name none.
+pub fn own_profile(root: &Path) -> Result<Profile, Failure> {
+    let unknown = |what: &str| {
+        Failure::input(format!("{}: values.json {what}; give --profile", root.display()))
+    };
+    let text = folder::read(root, "values.json").map_err(|_| unknown("cannot be read"))?;
+    let text = String::from_utf8(text).map_err(|_| unknown("is not text"))?;
+    let values = compare::read(&text).map_err(|_| unknown("is not one of a report"))?;
+    match values.get("profile").map(|value| &value.number) {
+        Some(Number::Text(name)) => work::ProfileName::from_str(name, false)
+            .map(Profile::from)
+            .map_err(|_| unknown("names a profile that this program does not have")),
+        _ => Err(unknown("names no profile")),
+    }
+}
