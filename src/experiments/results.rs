@@ -129,21 +129,6 @@ impl Results {
         Arc::get_mut(self.found.get_mut(experiment.name())?)?.downcast_mut()
     }
 
-    /// The theory and its identities, to be changed; tables are made anew.
-    pub fn theory_mut(&mut self) -> (&mut theory::Theory, &mut identities::Identities) {
-        self.tables = OnceLock::new();
-        (&mut self.theory, &mut self.identities)
-    }
-
-    /// Takes the result of an experiment from others that are the same otherwise.
-    pub fn restore(&mut self, name: &'static str, from: &Results) {
-        match from.found.get(name) {
-            Some(found) => self.found.insert(name, found.clone()),
-            None => self.found.remove(name),
-        };
-        self.tables = from.tables.clone();
-    }
-
     /// Computes what is otherwise computed when first looked at. Who works on several threads looks
     /// first.
     pub fn look(&self) {
@@ -186,19 +171,6 @@ impl Results {
             found: BTreeMap::new(),
             tables: OnceLock::new(),
             audits: BTreeMap::new(),
-        }
-    }
-
-    /// The same results again; those of experiments are shared.
-    pub fn shared(&self) -> Self {
-        let (theory, identities) = (self.theory.clone(), self.identities.clone());
-        Results {
-            profile: self.profile,
-            theory: Looked::new(Box::new(move || theory)),
-            identities: Looked::new(Box::new(move || identities)),
-            found: self.found.clone(),
-            tables: self.tables.clone(),
-            audits: self.audits.clone(),
         }
     }
 }

@@ -60,8 +60,8 @@ fn red(ids: &[&str]) -> Vec<(String, String, String)> {
 #[test]
 fn the_check_that_should_notice_does() {
     let expected = [
-        // Leaves of results, and what is held against them.
-        ("carried.units_sizes", "audits/sizes/", "guard carried_results_audited"),
+        // Counts of audits, and what they are held against.
+        ("carried.units_sizes", "report", "guard carried_results_audited"),
         // Computed on the way to the report.
         ("score.total", "report", "guard scores_add_up"),
         // What the paper printed.

@@ -65,13 +65,6 @@ pub fn all() -> impl Iterator<Item = &'static Guard> {
     files.into_iter().flatten()
 }
 
-impl Guard {
-    /// Whether it relates this value.
-    pub fn is_about(&self, id: &str) -> bool {
-        self.ids.iter().any(|own| fits(own, id))
-    }
-}
-
 /// Whether an id is this one, or begins so if it ends with `*`.
 pub fn fits(own: &str, id: &str) -> bool {
     match own.strip_suffix('*') {

@@ -9,7 +9,6 @@ use crate::table::Table;
 use rayon::prelude::*;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
-use serde_json::Value as JsonValue;
 use std::any::Any;
 use std::sync::Arc;
 
@@ -106,15 +105,6 @@ pub trait Entry: Saved {
 
     /// The tables of a result.
     fn tables(&self, found: &Found) -> Vec<Table>;
-
-    /// A result as JSON.
-    fn json(&self, found: &Found) -> Option<JsonValue>;
-
-    /// A result from JSON.
-    ///
-    /// # Errors
-    /// When it has another shape.
-    fn typed(&self, json: &JsonValue) -> serde_json::Result<Found>;
 }
 
 /// An experiment whose result has a type that is known.
@@ -159,14 +149,6 @@ impl<P: Serialize + Sync, T: Json, U: Json> Entry for Experiment<P, T, U> {
 
     fn tables(&self, found: &Found) -> Vec<Table> {
         typed(found).map_or_else(Vec::new, self.tables)
-    }
-
-    fn json(&self, found: &Found) -> Option<JsonValue> {
-        serde_json::to_value(typed::<T>(found)?).ok()
-    }
-
-    fn typed(&self, json: &JsonValue) -> serde_json::Result<Found> {
-        Ok(Arc::new(T::deserialize(json)?))
     }
 }
 

@@ -101,23 +101,6 @@ impl Registry {
         };
     }
 
-    /// Puts back what `before` has under an id or a name.
-    pub fn restore(&mut self, id: &str, before: &Registry) {
-        self.remove(id);
-        if let Some(of) = before.names.get(id) {
-            self.names.insert(id.into(), of.clone());
-        }
-        if let Some(value) = before.values.get(id) {
-            self.values.insert(id.into(), value.clone());
-        }
-    }
-
-    /// Takes a value or a name out.
-    pub fn remove(&mut self, id: &str) {
-        self.values.remove(id);
-        self.names.remove(id);
-    }
-
     /// The id of the value with this id or name; a name may stand for another.
     pub fn id<'a>(&'a self, name: &'a str) -> &'a str {
         let next = |name: &&'a str| self.names.get(*name).map(String::as_str);

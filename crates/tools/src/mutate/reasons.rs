@@ -2,6 +2,7 @@
 
 use impact_paper::input::toml_fault;
 use impact_paper::report::Error;
+use impact_paper::report::guards::fits;
 use serde::Deserialize;
 
 /// Reasons, each for some ids.
@@ -31,14 +32,6 @@ impl Group {
     /// The pattern of this group that an id fits.
     fn pattern(&self, id: &str) -> Option<&str> {
         self.ids.iter().map(String::as_str).find(|pattern| fits(pattern, id))
-    }
-}
-
-/// Whether an id fits a pattern.
-pub fn fits(pattern: &str, id: &str) -> bool {
-    match pattern.strip_suffix('*') {
-        Some(start) => id.starts_with(start),
-        None => pattern == id,
     }
 }
 

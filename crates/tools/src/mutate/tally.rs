@@ -1,12 +1,12 @@
 //! Which numbers are used, and how many of them are guarded.
 
-use super::reasons::fits;
 use super::{Mutations, Reasons};
 use impact_paper::claims::Check;
 use impact_paper::report::PROGRAM;
 use impact_paper::report::Templates;
 use impact_paper::report::claims::{Row, scorecard};
 use impact_paper::report::filler::Filler;
+use impact_paper::report::guards::fits;
 use impact_paper::report::mark::Mark;
 use impact_paper::report::uses::uses;
 use impact_paper::report::values::{Number, Registry, Value};

@@ -12,7 +12,7 @@ use std::fmt::Write as _;
 
 /// Makes each number of the report wrong by more than its tolerance, and lists which check notices.
 ///
-/// A number is moved to both sides in the results that it comes from, and all that follows is computed
+/// A number is moved to both sides, where the paper printed it or on its way to the report, and verdicts are computed
 /// again; nothing is simulated. Comparisons with stored bytes are no checks here. Ends with exit code 1
 /// if no check notices a number that prose or claims use and unguarded.toml gives no reason, or if
 /// it gives one without need.
@@ -31,7 +31,7 @@ pub struct Args {
     sources: Sources,
 }
 
-/// What becomes of each wanted number of the report.
+/// Each wanted number made wrong.
 fn found(
     subject: Subject<'_>,
     wanted: &(dyn Fn(&Value) -> bool + Sync),
@@ -96,7 +96,7 @@ fn failure(tally: &Tally) -> Option<Failure> {
     (!faults.is_empty()).then(|| Failure::check(faults.join("; ")))
 }
 
-/// What becomes of a number, in a word or with its reason.
+/// How a number stands, in a word or with its reason.
 fn standing<'a>(id: &str, tally: &Tally, reasons: &'a Reasons) -> (&'static str, &'a str) {
     if tally.guarded.contains(id) {
         ("guarded", "")

@@ -206,14 +206,6 @@ impl<P: Serialize + Sync, T: Json, U: Json> Entry for Deep<P, T, U> {
     fn tables(&self, found: &Found) -> Vec<Table> {
         typed(found).map_or_else(Vec::new, self.tables)
     }
-
-    fn json(&self, found: &Found) -> Option<serde_json::Value> {
-        serde_json::to_value(typed::<T>(found)?).ok()
-    }
-
-    fn typed(&self, json: &serde_json::Value) -> serde_json::Result<Found> {
-        Ok(Arc::new(T::deserialize(json)?))
-    }
 }
 
 impl<P: Serialize + Sync, T: Json, U: Json> Typed for Deep<P, T, U> {
