@@ -18,13 +18,13 @@ deep: ## what is too long for every report, again, into benches/deep/: half an h
 mutate: ## which check notices when a number of the report is wrong; fails if none does and no reason is given
 	cargo run --release --locked -p impact-paper-tools -- mutate
 
-pdf: ## make paper, and paper/report.pdf too: typeset in the program, minutes more to build
+pdf: ## make paper, and PDFs of its documents too: typeset in the program, minutes more to build
 	cargo run --release --locked --features pdf -- paper --pdf
 
-latex: ## paper/report.tex as target/latex/report.pdf, by TeX Live (installed when missing)
+latex: ## the documents of paper/ by TeX Live, into target/latex (installed when missing)
 	.ci/latex
 
-browser: ## paper/report.html in headless Chromium, as readers use it (Chromium and Node installed when missing)
+browser: ## the pages of paper/ in headless Chromium, as readers use them (Chromium and Node installed when missing)
 	.ci/browser
 
 test: ## all tests but the long ones

@@ -17,8 +17,8 @@
 //! - What is run, with which parameters: [`experiments`] and [`params`].
 //! - What is shown: [`figures`], [`claims`] and [`report`].
 //! - Mathematics that knows no physics: [`numerics`]; what that means for
-//!   [the method](../../../paper/report.html#sec-method) and its
-//!   [speed and accuracy](../../../paper/report.html#sec-accuracy).
+//!   [the method](../../../paper/methods.html#sec-method) and its
+//!   [speed and accuracy](../../../paper/methods.html#sec-accuracy).
 //!
 //! Imports flow one way: `numerics` → `dynamics` → `circuits` (crates of their own) → `experiments` →
 //! `figures`, `claims` → `report` → `program`; `params` may be read by all.

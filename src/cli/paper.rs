@@ -12,7 +12,7 @@ use impact_paper::input;
 use impact_paper::params::Profile;
 use impact_paper::report::compare::{self, Parts};
 use impact_paper::report::values::Number;
-use impact_paper::report::{self, Files, Registry};
+use impact_paper::report::{self, Files, PROGRAM, Registry};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -89,9 +89,8 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let told = if whole { told(&out, &files, &judged) } else { String::new() };
     staging.place(&files, &progress)?;
     let time = duration(began.elapsed());
-    let documents = files.keys().filter(|path| path.starts_with("report.")).cloned();
-    let documents = documents.collect::<Vec<_>>().join(", ");
-    let documents = if whole { format!(": {documents}") } else { String::new() };
+    let pages: Vec<&str> = PROGRAM.documents.iter().map(|document| document.page).collect();
+    let documents = if whole { format!(": {}", pages.join(", ")) } else { String::new() };
     let head = format!("{}: {} files in {time}{documents}\n", out.display(), files.len());
     // It is told also where a check fails.
     let printed = stdout::print(&(head + &told));

@@ -5,7 +5,7 @@ use impact_paper::params::Profile;
 use impact_paper::program::listed::{Checked, listed, own_profile};
 use impact_paper::program::sources::Sources;
 use impact_paper::program::{Failure, folder, make, work};
-use impact_paper::report::sums;
+use impact_paper::report::{PROGRAM, sums};
 use std::path::PathBuf;
 
 /// Says whether a report is what its SHA256SUMS lists, and with --rerun whether it is what this
@@ -63,7 +63,9 @@ pub fn run(args: Args) -> Result<(), Failure> {
 }
 
 /// What only a binary with the typesetter makes.
-const PDF: &str = "report.pdf";
+fn pdfs() -> impl Iterator<Item = String> {
+    PROGRAM.documents.iter().filter_map(|document| document.print).map(|name| format!("{name}.pdf"))
+}
 
 /// Makes the report again and compares.
 fn rerun(args: &Args, progress: &Progress) -> Result<Checked, Failure> {
@@ -77,7 +79,7 @@ fn rerun(args: &Args, progress: &Progress) -> Result<Checked, Failure> {
         Failure::io(&e, format!("a temporary folder: {e}; {remedy}"))
     })?;
     let results = args.results.clone().unwrap_or_else(|| temporary.path().join("results"));
-    let pdf = args.folder.join(PDF).symlink_metadata().is_ok();
+    let pdf = pdfs().any(|name| args.folder.join(name).symlink_metadata().is_ok());
     let typeset = pdf && make::TYPESETS;
     let sources = Sources::of(args.threads, args.templates.clone(), results);
     let (made, _) =
@@ -96,14 +98,13 @@ fn rerun(args: &Args, progress: &Progress) -> Result<Checked, Failure> {
         }
     }
     for path in folder::walk(&args.folder)? {
-        let known = path == sums::LOCAL || (path == PDF && !typeset);
+        let known = path == sums::LOCAL || (!typeset && pdfs().any(|name| path == name));
         if !known && !files.contains_key(&path) {
             fault("not made", &path);
         }
     }
     let fine = format!(" made again with the {} profile, the same bytes", profile.name());
-    let open =
-        if pdf && !typeset { "; report.pdf needs a binary with the feature pdf" } else { "" };
+    let open = if pdf && !typeset { "; PDFs need a binary with the feature pdf" } else { "" };
     let fine = fine + open;
     Ok(Checked { files: files.len(), fine, faults })
 }

@@ -28,7 +28,7 @@ pub fn whole(
         return Err(report::Error::NoTypesetter.into());
     }
     let templates = sources.templates()?;
-    report::lint::check(&templates)?;
+    report::lint::check(&templates, PROGRAM)?;
     // Faults of the templates are told before the long runs, not after them.
     let published = sources.published(&templates)?;
     let results = sources.run(&ALL, profile, &templates, progress)?;

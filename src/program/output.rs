@@ -9,7 +9,7 @@ use super::{Failure, folder};
 use crate::digest::sha256;
 use crate::experiments::Progress;
 use crate::input::{STAGING, one_line};
-use crate::report::{Files, sums};
+use crate::report::{Files, PROGRAM, sums};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
 use std::io;
@@ -94,8 +94,9 @@ impl<'a> Staging<'a> {
         let wrote =
             |path: &str| folder::read(self.folder, path).is_ok_and(|bytes| own.wrote(path, &bytes));
         let changed = |path: &&String| stands(path) && !wrote(path);
-        // The page was made before there was a list of it; and a list may be somebody else's.
-        let others = ["report.html", sums::NAME].map(String::from);
+        // A page may stand without a list of it; and a list may be somebody else's.
+        let pages = PROGRAM.documents.iter().map(|document| document.page);
+        let others: Vec<String> = pages.chain([sums::NAME]).map(String::from).collect();
         let all = own.digests.keys().chain(&others);
         let changed: BTreeSet<&str> = all.filter(changed).map(String::as_str).collect();
         self.refuse(changed.into_iter().collect())

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 const LEAST: u128 = 256 << 20;
 
 /// The prose: where it is, its folder is.
-const PROSE: &str = "templates/report.md";
+const PROSE: &str = "templates/front.md";
 
 /// Options common to `paper` and `check`.
 #[derive(clap::Args)]

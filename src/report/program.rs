@@ -1,5 +1,6 @@
 //! This program, as the documents speak of it.
 
+use super::Document;
 use super::recipe::recipe;
 use crate::committed;
 use literate::source::Program;
@@ -17,7 +18,60 @@ pub const PROGRAM: Program = Program {
     recipe,
     judge: |claim| format!("claims::{}", claim.split('_').next().unwrap_or_default()),
     exists: committed::exists,
+    documents: &DOCUMENTS,
+    about: &ABOUT,
 };
+
+/// As in CITATION.cff.
+const ABOUT: [(&str, &str); 6] = [
+    ("author", "The impact-paper authors"),
+    ("citation_author", "The impact-paper authors"),
+    ("citation_title", "impact-paper"),
+    ("citation_publication_date", "2026-11-21"),
+    ("version", env!("CARGO_PKG_VERSION")),
+    ("license", "MIT OR Apache-2.0"),
+];
+
+/// A reader has five minutes, half an hour, or a day.
+const DOCUMENTS: [Document; 5] = [
+    Document {
+        prose: "front",
+        name: "Overview",
+        letter: "",
+        markdown: "README.md",
+        page: "index.html",
+        print: None,
+        repeats: true,
+    },
+    Document { prose: "edition", name: "Edition", ..Document::REPORT },
+    Document {
+        prose: "beyond",
+        name: "Beyond the paper",
+        letter: "S",
+        markdown: "beyond.md",
+        page: "beyond.html",
+        print: Some("beyond"),
+        repeats: false,
+    },
+    Document {
+        prose: "methods",
+        name: "Methods",
+        letter: "M",
+        markdown: "methods.md",
+        page: "methods.html",
+        print: Some("methods"),
+        repeats: false,
+    },
+    Document {
+        prose: "ledger",
+        name: "Ledger",
+        letter: "L",
+        markdown: "ledger.md",
+        page: "ledger.html",
+        print: None,
+        repeats: false,
+    },
+];
 
 #[cfg(test)]
 mod tests {

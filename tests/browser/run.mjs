@@ -1,14 +1,21 @@
-// Opens report.html from disk in headless Chromium, as a reader would, and ends with exit code 1
-// if something is wrong. Usage: node run.mjs REPORT.HTML [FOLDER FOR PICTURES]
+// Opens the pages of a report from disk in headless Chromium, as a reader would, and ends with exit code 1
+// if something is wrong. Usage: node run.mjs FOLDER [FOLDER FOR PICTURES]
 import { chromium } from "playwright-core";
 import { createRequire } from "node:module";
-import { existsSync, readFileSync } from "node:fs";
-import { dirname, join, resolve } from "node:path";
+import { existsSync, readFileSync, statSync } from "node:fs";
+import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 
-const report = resolve(process.argv[2] ?? "../../paper/report.html");
+const report = resolve(process.argv[2] ?? "../../paper");
 const pictures = process.argv[3];
-const page_url = pathToFileURL(report).href;
+/** What each page has at least: figures, links inside it, equations, elements at most, bytes at most. */
+const PAGES = {
+  "index.html": { figures: 2, links: 4, equations: 0, elements: 15_000, bytes: 300 * 1024 },
+  "report.html": { figures: 15, links: 150, equations: 39, elements: 15_000, bytes: 1.2 * 1024 * 1024 },
+  "beyond.html": { figures: 10, links: 100, equations: 10, elements: 18_000, bytes: 2.6 * 1024 * 1024 },
+  "methods.html": { figures: 4, links: 20, equations: 0, elements: 15_000, bytes: 1.2 * 1024 * 1024 },
+  "ledger.html": { figures: 0, links: 70, equations: 0, elements: 15_000, bytes: 1.2 * 1024 * 1024 },
+};
 const axe = createRequire(import.meta.url).resolve("axe-core/axe.min.js");
 const executable = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find(existsSync);
 
@@ -23,7 +30,8 @@ const browser = await chromium.launch({
 });
 
 /** A page that tells every request and every complaint. */
-async function open(width, colorScheme, options = {}) {
+async function open(file, width, colorScheme, options = {}) {
+  const page_url = pathToFileURL(join(report, file)).href;
   const context = await browser.newContext({
     viewport: { width, height: 900 },
     colorScheme,
@@ -44,11 +52,11 @@ async function open(width, colorScheme, options = {}) {
 }
 
 /** Fonts are those inside the file, figures have a size and fall into the page, links land. */
-async function reads_well(page, name) {
+async function reads_well(page, name, least) {
   const found = await page.evaluate(() => {
     const wrong = [];
     for (const face of document.fonts)
-      if (face.status !== "loaded" && face.style === "normal") wrong.push(`font ${face.family} ${face.weight}: ${face.status}`);
+      if (face.status !== "loaded" && face.style === "normal" && face.family === "Libertinus Serif") wrong.push(`font ${face.family} ${face.weight}: ${face.status}`);
     const figures = [...document.querySelectorAll("svg[role=img]")];
     for (const svg of figures) {
       const box = svg.getBoundingClientRect();
@@ -61,11 +69,14 @@ async function reads_well(page, name) {
       const target = document.getElementById(decodeURIComponent(link.hash.slice(1)));
       if (!target || !target.checkVisibility()) wrong.push(`${link.hash} does not land`);
     }
-    return { wrong, figures: figures.length, links: links.length };
+    return { wrong, figures: figures.length, links: links.length, elements: document.querySelectorAll("*").length };
   });
   found.wrong.forEach((wrong) => check(false, `${name}: ${wrong}`));
-  check(found.figures >= 20, `${name}: ${found.figures} figures`);
-  check(found.links > 400, `${name}: ${found.links} links`);
+  check(found.figures >= least.figures, `${name}: ${found.figures} figures`);
+  check(found.links >= least.links, `${name}: ${found.links} links`);
+  check(found.elements <= least.elements, `${name}: ${found.elements} elements`);
+  const { size } = statSync(join(report, name.split(" ")[0]));
+  check(size <= least.bytes, `${name}: ${size} bytes`);
 }
 
 /** Nothing but boxes that scroll by themselves is wider than the screen. */
@@ -95,7 +106,7 @@ async function stays_narrow(page, name) {
 }
 
 /** No displayed equation is wider than its box, on the screen or on paper. */
-async function equations_fit(page, name) {
+async function equations_fit(page, name, least) {
   for (const media of ["screen", "print"]) {
     await page.emulateMedia({ media });
     const [count, wide] = await page.evaluate(() => {
@@ -109,7 +120,7 @@ async function equations_fit(page, name) {
       const wide = all.filter((equation) => over(equation) > 1);
       return [all.length, wide.map((equation) => `${equation.id} ${equation.textContent.slice(0, 40)} by ${over(equation).toFixed(0)}`)];
     });
-    check(count > 38, `${name}, ${media}: ${count} equations`);
+    check(count >= least.equations, `${name}, ${media}: ${count} equations`);
     check(wide.length === 0, `${name}, ${media}: ${wide.length} equations are wider than their boxes: ${wide.join(" | ")}`);
   }
   await page.emulateMedia({ media: "screen" });
@@ -125,7 +136,7 @@ async function cards_stay_inside(page, name) {
       await button.evaluate((node, block) => node.scrollIntoView({ block, behavior: "instant" }), block);
       if (!(await button.isVisible())) continue;
       await button.evaluate((node) => node.click());
-      const card = page.locator(`#${await button.getAttribute("popovertarget")}`);
+      const card = page.locator("#card");
       const box = await card.boundingBox();
       const view = page.viewportSize();
       const inside = box && box.x >= -1 && box.y >= -1 && box.x + box.width <= view.width + 1 && box.y + box.height <= view.height + 1;
@@ -141,7 +152,8 @@ async function cards_stay_inside(page, name) {
 /** A number is reached and opened by keyboard alone, and closes again. */
 async function opens_by_keyboard(page, name) {
   const button = page.locator("button.value").first();
-  const id = await button.getAttribute("popovertarget");
+  if ((await button.count()) === 0) return;
+  const id = "card";
   for (let i = 0; i < 80; i += 1) {
     await page.keyboard.press("Tab");
     if (await button.evaluate((node) => node === document.activeElement)) break;
@@ -157,7 +169,7 @@ async function opens_by_keyboard(page, name) {
     box && box.width > 100 && box.x >= 0 && box.y >= 0 && box.x + box.width <= view.width + 1 && box.y + box.height <= view.height + 1,
     `${name}: the card is out of sight: ${JSON.stringify(box)}`,
   );
-  if (pictures) await page.screenshot({ path: `${pictures}/card-${name}.png` });
+  if (pictures) await page.screenshot({ path: `${pictures}/${name} card.png` });
   await page.emulateMedia({ media: "print" });
   check(!(await page.locator(`#${id}`).isVisible()), `${name}: an open card is printed on each page`);
   await page.emulateMedia({ media: "screen" });
@@ -165,9 +177,84 @@ async function opens_by_keyboard(page, name) {
   check(!(await shown()), `${name}: Escape closes no card`);
 }
 
+/** Arrow keys go from number to number in a table, which is one stop of the Tab key. */
+async function tables_are_one_stop(page, name) {
+  const stops = await page.evaluate(() =>
+    [...document.querySelectorAll("table")].map((table) => table.querySelectorAll("button.value:not([tabindex='-1'])").length),
+  );
+  check(stops.every((count) => count <= 1), `${name}: tables of ${Math.max(...stops)} stops`);
+  const table = page.locator("table:has(button.value ~ *, td + td button.value)").first();
+  if ((await table.count()) === 0) return;
+  const buttons = table.locator("button.value");
+  if ((await buttons.count()) < 2) return;
+  await buttons.first().focus();
+  await page.keyboard.press("ArrowRight");
+  check(await buttons.nth(1).evaluate((node) => node === document.activeElement), `${name}: ArrowRight goes to no number`);
+  await page.keyboard.press("ArrowLeft");
+  check(await buttons.first().evaluate((node) => node === document.activeElement), `${name}: ArrowLeft does not go back`);
+}
+
+/** A reference that is pointed at shows what it means, and hides it again. */
+async function references_are_seen(page, name) {
+  const link = page.locator('main p a[href^="#eq-"], main p a[href^="#fig-"]').first();
+  if ((await link.count()) === 0) return;
+  await link.scrollIntoViewIfNeeded();
+  const look = page.locator("#look");
+  for (const [show, hide] of [
+    [() => link.hover(), () => page.mouse.move(0, 0)],
+    [() => page.keyboard.press("Shift").then(() => link.focus()), () => page.keyboard.press("Escape")],
+  ]) {
+    await show();
+    await page.waitForTimeout(600);
+    check(await look.isVisible(), `${name}: no look at ${await link.innerText()}`);
+    const text = await look.innerText();
+    check(text.length > 10, `${name}: a look at nothing`);
+    await hide();
+    await page.waitForTimeout(600);
+    check(!(await look.isVisible()), `${name}: a look stays`);
+  }
+}
+
+/** The search finds what the text has, and leads there. */
+async function search_finds(page, name) {
+  const contents = page.locator("nav.contents > details");
+  if (!(await contents.evaluate((node) => node.open))) await contents.locator("summary").first().click();
+  const input = page.getByRole("searchbox");
+  await input.fill("impact");
+  const finds = page.locator(".search li a");
+  check((await finds.count()) > 0, `${name}: the search finds nothing`);
+  await input.fill("no such words");
+  check((await finds.count()) === 0, `${name}: the search finds what is not there`);
+  await input.fill("");
+}
+
+/** The ledger shows only rows of a verdict when it is asked, and what is gone to by its address. */
+async function filters(page) {
+  const [all, shown] = [page.locator("#tab-claims tbody tr"), page.locator("#tab-claims tbody tr:visible")];
+  await page.getByLabel("verdict").selectOption("differs and explained");
+  const some = await shown.count();
+  check(some > 0 && some < (await all.count()), `ledger: ${some} rows differ`);
+  const words = await shown.locator("td:nth-child(2)").allInnerTexts();
+  check(words.every((word) => word === "differs and explained"), `ledger: rows of other verdicts: ${words}`);
+  await page.evaluate(() => (location.hash = "#claim-sec7_jump"));
+  await page.waitForTimeout(200);
+  check((await shown.count()) === (await all.count()), "ledger: a row that is gone to stays hidden");
+}
+
+/** What was in one page once is found where it is now. */
+async function old_addresses_lead_on() {
+  const page = await open("report.html", 1280, "light", {});
+  page.removeAllListeners("request");
+  for (const [id, file] of [["sec-nucleation", "beyond.html"], ["claim-sec7_jump", "ledger.html"], ["tab-scenes", "methods.html"]]) {
+    await page.goto(`${pathToFileURL(join(report, "report.html")).href}#${id}`);
+    await page.waitForURL(new RegExp(`${file}#${id}$`), { timeout: 5000 }).catch(() => check(false, `report.html#${id} does not lead to ${file}`));
+  }
+  await page.context().close();
+}
+
 /** Positions of the masses as the program computed them: a time and the places of all bodies in each row. */
 function saved_positions() {
-  const lines = readFileSync(join(dirname(report), "data/s02c.csv"), "utf8").trim().split("\n").slice(1);
+  const lines = readFileSync(join(report, "data/s02c.csv"), "utf8").trim().split("\n").slice(1);
   return lines.map((line) => line.split(",").map(Number)).map(([t, ...places]) => ({ t, places }));
 }
 
@@ -232,39 +319,50 @@ async function accessible(page, name) {
   }
 }
 
-for (const [name, width, scheme] of [
-  ["wide-light", 1440, "light"],
-  ["wide-dark", 1280, "dark"],
-  ["narrow-light", 390, "light"],
-  ["narrow-dark", 320, "dark"],
-]) {
-  const page = await open(width, scheme);
-  await reads_well(page, name);
-  await stays_narrow(page, name);
-  await equations_fit(page, name);
-  await cards_stay_inside(page, name);
-  await opens_by_keyboard(page, name);
-  await moves(page, name, false);
-  await accessible(page, name);
-  if (pictures) {
-    for (const place of ["text", "fig-3", "eq-25", "tab-claims", "tab-protocol", "sec-accuracy", "scene"]) {
-      await page.evaluate((id) => document.getElementById(id).scrollIntoView(), place);
-      await page.screenshot({ path: `${pictures}/${name}-${place}.png` });
+for (const [file, least] of Object.entries(PAGES)) {
+  for (const [kind, width, scheme] of [
+    ["wide-light", 1440, "light"],
+    ["wide-dark", 1280, "dark"],
+    ["narrow-light", 390, "light"],
+    ["narrow-dark", 320, "dark"],
+  ]) {
+    const name = `${file} ${kind}`;
+    const page = await open(file, width, scheme);
+    await reads_well(page, name, least);
+    await stays_narrow(page, name);
+    await equations_fit(page, name, least);
+    await cards_stay_inside(page, name);
+    await opens_by_keyboard(page, name);
+    await tables_are_one_stop(page, name);
+    await references_are_seen(page, name);
+    await search_finds(page, name);
+    if (file === "index.html") await moves(page, name, false);
+    if (file === "ledger.html") await filters(page);
+    await accessible(page, name);
+    if (pictures) {
+      await page.evaluate(() => scrollTo(0, 0));
+      await page.screenshot({ path: `${pictures}/${name}.png`, fullPage: file === "index.html" });
     }
+    await page.context().close();
   }
-  await page.context().close();
 }
+await old_addresses_lead_on();
 
-const calm = await open(1280, "light", { reducedMotion: "reduce" });
+const calm = await open("index.html", 1280, "light", { reducedMotion: "reduce" });
 await moves(calm, "calm", true);
 await calm.context().close();
 
-// Without scripts nothing is lost, cards included.
-const page = await open(1280, "light", { javaScriptEnabled: false });
-await page.locator("button.value").first().click();
-check(await page.locator(".card:visible").isVisible(), "without scripts no card opens");
-check(await page.locator("#scene svg").isVisible(), "without scripts the scene shows nothing");
-check(!(await page.locator("#scene .controls").isVisible()), "without scripts the scene has controls that do nothing");
+// Without scripts all that is to be read is there.
+for (const file of Object.keys(PAGES)) {
+  const page = await open(file, 1280, "light", { javaScriptEnabled: false });
+  if (file === "index.html") {
+    check(await page.locator("#scene svg").isVisible(), "without scripts the scene shows nothing");
+    check(!(await page.locator("#scene .controls").isVisible()), "without scripts the scene has controls that do nothing");
+  }
+  if (file === "ledger.html") check((await page.locator("#tab-claims tbody tr:visible").count()) > 60, "without scripts the ledger lacks rows");
+  check(await page.locator("main").isVisible(), `without scripts ${file} shows nothing`);
+  await page.context().close();
+}
 await browser.close();
 
 if (faults.length > 0) {

@@ -202,9 +202,9 @@ fn exit_codes_are_those_of_the_table() {
             text.replacen(from, to, 1)
         });
     };
-    templates("good", "report.md", "# ", "# ");
-    templates("open", "report.md", "\n## ", "\nIt is «sweep.rise.half_height now.\n\n## ");
-    templates("numeral", "report.md", "\n## ", "\nThere are 17 of them.\n\n## ");
+    templates("good", "front.md", "# ", "# ");
+    templates("open", "front.md", "\n## ", "\nIt is «sweep.rise.half_height now.\n\n## ");
+    templates("numeral", "front.md", "\n## ", "\nThere are 17 of them.\n\n## ");
     templates("broken", "published.toml", "[[statement]]", "[[statement");
     templates("renamed", "published.toml", "id = \"sec3_edges\"", "id = \"sec3_bends\"");
     let text = std::fs::read_to_string(Path::new(TEMPLATES).join("published.toml")).unwrap();
@@ -217,9 +217,9 @@ fn exit_codes_are_those_of_the_table() {
     templates("loop", "references.bib", "volume  = {17}", "volume  = {17}, crossref = {homer2007}");
     templates("style", "report.css", "}", "");
     templates("import", "report.css", "}", "} @import \"more.css\";");
-    templates("none", "report.md", "# ", "# ");
-    std::fs::remove_file(here.join("none/report.md")).unwrap();
-    templates("phrases", "report.md", "# ", "# ");
+    templates("none", "front.md", "# ", "# ");
+    std::fs::remove_file(here.join("none/front.md")).unwrap();
+    templates("phrases", "front.md", "# ", "# ");
     std::fs::remove_file(here.join("phrases/literals.toml")).unwrap();
     std::fs::create_dir(here.join("empty")).unwrap();
     let paper = |templates: &str| {
@@ -246,7 +246,7 @@ fn exit_codes_are_those_of_the_table() {
         (2, "export RAYON_NUM_THREADS=999; exec \"$0\" check".into(), "RAYON_NUM_THREADS: 999"),
         (2, paper("style"), "report.css: "),
         (2, paper("import"), "report.css: @import"),
-        (2, paper("none"), "report.md: no such file"),
+        (2, paper("none"), "front.md: it is missing or empty"),
         (2, paper("phrases"), "literals.toml: no such file"),
         (2, format!("ulimit -v 250000; exec \"$0\" {}", paper("good")), "MiB of memory are needed"),
         (0, "ulimit -s 64; exec \"$0\" sweep --sigma 0.2 --realisations 3".into(), "0.2,"),

@@ -8,11 +8,12 @@ use impact_paper::experiments::{Need, Progress, Results, Store, run::run};
 use impact_paper::experiments::{STARTS, SWEEP};
 use impact_paper::figures;
 use impact_paper::params::Profile;
+use impact_paper::report::PROGRAM;
 
 #[test]
 fn the_report_has_every_equation_and_figure() {
-    let report = &QUICK.report;
-    let text = String::from_utf8(report.committed["report.md"].clone()).unwrap();
+    let own = PROGRAM.documents.iter().filter(|document| !document.repeats);
+    let text: String = own.map(|document| QUICK.markdown(document)).collect();
     for number in 1..=38 {
         assert_eq!(text.matches(&format!("\\tag{{{number}}}")).count(), 1, "Eq. ({number})");
     }
@@ -24,7 +25,8 @@ fn the_report_has_every_equation_and_figure() {
 /// A reader meets our own figures in the order of their numbers.
 #[test]
 fn own_figures_are_numbered_by_first_mention() {
-    let template = QUICK.templates.text("report.md").unwrap();
+    let template = PROGRAM.documents.iter().map(|document| QUICK.prose(document));
+    let template = template.collect::<Vec<_>>().join("\n");
     let first = |n: usize| {
         let named = [format!("ig:S{n}]"), format!("ig:S{n};"), format!("figures/s{n:02}.svg")];
         let first = named.iter().filter_map(|name| template.find(name)).min();
@@ -36,10 +38,12 @@ fn own_figures_are_numbered_by_first_mention() {
 
 #[test]
 fn every_claim_is_spoken_of_once_in_the_text() {
-    let template = QUICK.templates.text("report.md").unwrap();
+    let template: String = PROGRAM.documents.iter().map(|document| QUICK.prose(document)).collect();
     for row in claims::rows() {
-        let tag = format!("«row.{}»", row.id);
-        assert_eq!(template.matches(&tag).count(), 1, "{tag}");
+        let tag = format!("@row:{}", row.id);
+        let ends = [format!("{tag}]"), format!("{tag};")];
+        let times: usize = ends.iter().map(|tag| template.matches(tag).count()).sum();
+        assert_eq!(times, 1, "{tag}");
     }
 }
 

@@ -7,7 +7,7 @@ use impact_paper::experiments::{Progress, Results, Store, run::run};
 use impact_paper::figures::{self, Figure};
 use impact_paper::params::Profile;
 use impact_paper::report::{
-    self, Input, PROGRAM, Registry, Report, Templates, assemble, contents, equations,
+    self, Document, Input, PROGRAM, Registry, Report, Templates, assemble, contents, equations,
 };
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -23,6 +23,20 @@ pub struct Quick {
     pub claims: Vec<Check>,
     /// The figures that the same results would give if they were of the full profile.
     pub full: Vec<Figure>,
+}
+
+impl Quick {
+    /// A document as hosts show it.
+    pub fn markdown(&self, document: &Document) -> &str {
+        std::str::from_utf8(&self.report.committed[document.markdown]).unwrap()
+    }
+
+    /// The prose of a document before it is filled.
+    pub fn prose(&self, document: &Document) -> String {
+        let texts =
+            document.files(&self.templates).into_iter().map(|path| self.templates.text(path));
+        texts.map(Result::unwrap).collect::<Vec<_>>().join("\n\n")
+    }
 }
 
 pub static QUICK: LazyLock<Quick> = LazyLock::new(|| {

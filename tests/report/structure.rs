@@ -1,6 +1,7 @@
 //! Rules about the source that no compiler checks: who imports whom, portable arithmetic, homes of
 //! equations, prose without naked numerals, and a README that is current.
 
+use impact_paper::report::{PROGRAM, Templates};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -195,16 +196,15 @@ fn files_end() {
 #[test]
 fn links_of_the_documentation_land() {
     let page = fs::read_to_string(root().join("src/lib.rs")).unwrap();
-    let prose = fs::read_to_string(root().join("templates/report.md")).unwrap();
-    let links: Vec<&str> = page
-        .split("../../../paper/report.html#")
-        .skip(1)
-        .map(|rest| rest.split(')').next().unwrap())
-        .collect();
+    let links = page.split("../../../paper/").skip(1).map(|rest| rest.split(')').next().unwrap());
+    let links: Vec<(&str, &str)> = links.map(|link| link.split_once('#').unwrap()).collect();
     assert!(links.len() >= 8, "{links:?}");
-    for link in links {
-        let id = link.replacen('-', ":", 1);
-        assert!(prose.contains(&format!("{{#{id}}}")), "{link}");
+    let templates = Templates::read(&root().join("templates")).unwrap();
+    for (file, id) in links {
+        let document = PROGRAM.documents.iter().find(|document| document.page == file).unwrap();
+        let id = format!("{{#{}}}", id.replacen('-', ":", 1));
+        let has = |path: &str| templates.text(path).unwrap().contains(&id);
+        assert!(document.files(&templates).into_iter().any(has), "{file}: {id}");
     }
 }
 

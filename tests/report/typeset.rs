@@ -21,7 +21,7 @@ fn report(tex: &str) -> Vec<Block> {
         },
         Block::Paragraph(vec![
             Inline::Text("See ".into()),
-            Inline::Reference { to: "eq:18".into(), shown: "Eq. (18)".into() },
+            Inline::Reference { to: "eq:18".into(), within: None, shown: "Eq. (18)".into() },
             Inline::Text(" (and *this*_). ".into()),
             Inline::Display { tex: tex.into(), tag: Some("18".into()) },
         ]),
@@ -49,7 +49,7 @@ fn a_report_is_typeset_and_is_the_same_twice() {
 fn a_reference_to_nothing_is_an_error_that_says_so() {
     let mut blocks = report("x");
     blocks.truncate(2);
-    let lost = Inline::Reference { to: "eq:19".into(), shown: "Eq. (19)".into() };
+    let lost = Inline::Reference { to: "eq:19".into(), within: None, shown: "Eq. (19)".into() };
     blocks.push(Block::Paragraph(vec![lost]));
     let error = pdf(&blocks, &[], &Templates::read(Path::new("templates")).unwrap())
         .unwrap_err()

@@ -4,6 +4,7 @@
 //! and cannot differ from what computed the numbers. The files are laid out by rustfmt, which
 //! makes an item end at the first closing bracket that stands as far left as its first line.
 
+use crate::report::Document;
 use serde::Serialize;
 use serde_json::Value as Json;
 
@@ -23,6 +24,10 @@ pub struct Program {
     pub judge: fn(&str) -> String,
     /// Whether there is such a file or folder in the project.
     pub exists: fn(&str) -> bool,
+    /// What it writes.
+    pub documents: &'static [Document],
+    /// What the head of each page says: names of `<meta>` and their content.
+    pub about: &'static [(&'static str, &'static str)],
 }
 
 /// A program that shows nothing of itself.
@@ -33,6 +38,8 @@ pub const PLAIN: Program = Program {
     recipe: |_, _| None,
     judge: |_| String::new(),
     exists: |_| true,
+    documents: &[Document::REPORT],
+    about: &[],
 };
 
 impl std::fmt::Debug for Program {

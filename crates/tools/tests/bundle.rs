@@ -54,7 +54,7 @@ fn clone() -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     let at = |path: &str| folder.path().join(path);
     fs::create_dir_all(at("paper/figures")).unwrap();
-    for name in ["CITATION.cff", "src/main.rs", "templates/report.md"] {
+    for name in ["CITATION.cff", "src/main.rs", "templates/front.md"] {
         fs::create_dir_all(at(name).parent().unwrap()).unwrap();
         fs::copy(Path::new(SOURCE).join(name), at(name)).unwrap();
     }

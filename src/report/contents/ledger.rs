@@ -4,12 +4,25 @@ use super::mark;
 use crate::claims::{self, Basis, Check, FAMILY_LEVEL, Verdict};
 use crate::experiments::Results;
 use crate::report::values::{Value, origin};
-use std::collections::BTreeMap;
 
-/// For each claim, a reference to its row with the verdict: `«row.sec7_jump»`.
-pub fn references(claims: &[Check]) -> BTreeMap<&str, String> {
-    let reference = |claim: &Check| format!("[@claim:{}], *{}*", claim.id, claim.verdict.words());
-    claims.iter().map(|claim| (claim.id.as_str(), reference(claim))).collect()
+/// The verdicts on the statements of one section of the paper.
+#[derive(serde::Serialize)]
+pub struct Strip {
+    /// The section.
+    place: String,
+    /// A sign for each statement, which leads to its row.
+    signs: String,
+}
+
+/// The verdicts, section by section.
+pub fn strip(claims: &[Check]) -> Vec<Strip> {
+    let section = |claim: &Check| claim.id.split('_').next().unwrap_or_default().to_string();
+    let one = |own: &[Check]| {
+        let signs: Vec<String> = own.iter().map(|claim| format!("[@sign:{}]", claim.id)).collect();
+        let place = section(&own[0]).replace("sec", "Sec.\u{a0}");
+        Strip { place, signs: signs.join(" ") }
+    };
+    claims.chunk_by(|a, b| section(a) == section(b)).map(one).collect()
 }
 
 /// One line of the scorecard.

@@ -65,8 +65,8 @@ pub fn registry(results: &Results, published: &Published) -> Result<Registry, Er
     }
 }
 
-/// The rows of the generated tables, by the name that templates use. Beside the tables there are `row` (a
-/// reference to each claim with its verdict) and heads and words that depend on the results.
+/// The rows of the generated tables, by the name that templates use; beside them heads and words that depend on the
+/// results.
 ///
 /// # Errors
 /// If a result is missing.
@@ -77,7 +77,7 @@ pub fn rows(
     Ok(BTreeMap::from([
         ("scorecard", serde_json::to_value(ledger::scorecard(claims))?),
         ("basis_table", serde_json::to_value(ledger::bases(claims))?),
-        ("row", serde_json::to_value(ledger::references(claims))?),
+        ("strip", serde_json::to_value(ledger::strip(claims))?),
         ("scene_heads", serde_json::to_value(accuracy::scene_heads(results)?)?),
         ("scene_table", serde_json::to_value(accuracy::scene_table(results)?)?),
         ("carried_table", serde_json::to_value(carried::table(results)?)?),

@@ -7,12 +7,14 @@ use impact_paper::dynamics::methods::State;
 use impact_paper::experiments::{Measured, segments};
 use impact_paper::report::bibliography::Library;
 use impact_paper::report::card::Cards;
+use impact_paper::report::html::Site;
+use impact_paper::report::labels::Labels;
 use impact_paper::report::ledger::{self, Ledger};
 use impact_paper::report::lint::{Declared, findings};
 use impact_paper::report::origin::Filled;
 use impact_paper::report::print::{Asked, Style, print};
 use impact_paper::report::{
-    Error, PROGRAM, Registry, Value, appendix, compare, html, labels, latex, markdown, parse, sums,
+    Document, Error, PROGRAM, Registry, Value, compare, html, latex, markdown, parse, sums,
 };
 use std::sync::LazyLock;
 
@@ -134,12 +136,13 @@ static LIBRARY: LazyLock<Library> =
 pub fn written(text: &str, values: &Registry) -> Result<usize, Error> {
     let filled = Filled::plain("report.md", text);
     let (mut blocks, _) = parse::parse(&filled, values, PROGRAM)?;
-    labels::resolve(&mut blocks, &LIBRARY)?;
+    let (here, mut labels) = (Document::REPORT, Labels::default());
+    labels.number_all(&mut blocks, here)?;
+    labels.resolve(&mut blocks, here, &LIBRARY)?;
     let ledger = Ledger::default();
     let cards = Cards { values, ledger: &ledger, program: PROGRAM };
-    let page = html::write(&blocks, &[], None, cards);
-    let printed = [blocks.as_slice(), &appendix::values(&blocks, cards)].concat();
-    let latex = latex::write(&printed)?.len() + latex::listings(&blocks)?.len();
+    let page = html::write(&blocks, &[], Site { here, labels: &labels, moving: None }, cards);
+    let latex = latex::write(&blocks)?.len() + latex::listings(&blocks)?.len();
     latex::title(&blocks)?;
     let page = match page {
         Ok(page) => page.body.len(),

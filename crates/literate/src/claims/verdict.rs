@@ -34,6 +34,16 @@ impl Verdict {
             Verdict::CannotBeJudged => "cannot be judged",
         }
     }
+
+    /// The verdict as a sign, which needs no colour.
+    pub fn sign(self) -> char {
+        match self {
+            Verdict::Reproduced => '✓',
+            Verdict::DiffersAndExplained => '≠',
+            Verdict::Differs => '✗',
+            Verdict::CannotBeJudged => '?',
+        }
+    }
 }
 
 /// What was compared, before it is a verdict.

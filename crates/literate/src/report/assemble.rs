@@ -5,13 +5,15 @@ use super::bibliography::Library;
 use super::card::Cards;
 use super::claims::{Row, scorecard};
 use super::document::{self, Block, Inline};
+use super::documents::Document;
 use super::filler::Filler;
 use super::labels::Labels;
 use super::ledger::EquationEntry;
 use super::mark::Mark;
+use super::origin::{Filled, Places};
 use super::uses::uses;
 use super::values::Registry;
-use super::{Error, appendix, html, labels, latex, ledger, lint, markdown, parse, sums};
+use super::{Error, html, latex, ledger, lint, markdown, parse, sums};
 use crate::claims::Check;
 use crate::figures::Figure;
 use crate::source::Program;
@@ -36,9 +38,9 @@ pub struct Input<'a> {
     pub figures: &'a [Figure],
     /// The numbered equations of the paper.
     pub equations: &'a [EquationEntry],
-    /// What moves in report.html.
+    /// What moves on a page.
     pub scene: Option<&'a html::Moving>,
-    /// Whether report.pdf is wanted; the feature `pdf` makes it.
+    /// Whether PDFs are wanted; the feature `pdf` makes them.
     pub pdf: bool,
     /// The program that makes it.
     pub program: Program,
@@ -49,9 +51,36 @@ pub struct Input<'a> {
 pub struct Report {
     /// Files that are committed; SHA256SUMS covers them.
     pub committed: Files,
-    /// Files that stand beside them and are not committed: report.html, report.pdf if it was
-    /// asked for, figures/*.pdf for LaTeX.
+    /// Files that stand beside them and are not committed: pages, PDFs if they were asked for, figures/*.pdf for
+    /// LaTeX.
     pub beside: Files,
+}
+
+/// A document in the making.
+struct Part<'a> {
+    of: Document,
+    blocks: Vec<Block>,
+    places: Places<'a>,
+}
+
+/// The values with the scorecard among them, the filler with all names that templates use, and the prose of each
+/// document as it was filled.
+///
+/// # Errors
+/// What the filler refuses.
+pub fn fill(input: &Input<'_>) -> Result<(Registry, Filler, Vec<Filled>), Error> {
+    let mut values = input.values.clone();
+    values.extend(scorecard(input.claims))?;
+    let mut filler = Filler::new(input.templates, &values, input.program)?;
+    filler.insert("claims", &input.claims.iter().map(Row::of).collect::<Vec<Row>>());
+    filler.insert("figures", &ledger::figures(input.figures));
+    filler.insert("equations", &input.equations);
+    for (name, rows) in input.rows {
+        filler.insert(name, rows);
+    }
+    let filled = input.program.documents.iter().map(|of| filler.prose(of));
+    let filled = filled.collect::<Result<_, _>>()?;
+    Ok((values, filler, filled))
 }
 
 /// Makes the whole report.
@@ -60,63 +89,86 @@ pub struct Report {
 /// A naked numeral, an unknown or unused value, a reference to nothing, a figure that is missing
 /// or not shown, markup or a character that a format lacks.
 pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
-    lint::check(input.templates)?;
+    lint::check(input.templates, input.program)?;
     skins(input.templates)?;
-    let mut values = input.values.clone();
-    values.extend(scorecard(input.claims))?;
-    let mut filler = Filler::new(input.templates, &values, input.program)?;
-    let rows: Vec<Row> = input.claims.iter().map(Row::of).collect();
-    filler.insert("claims", &rows);
-    for (name, rows) in input.rows {
-        filler.insert(name, rows);
-    }
-    let filled = filler.prose("report.md")?;
-    let marks: Vec<Mark> = Mark::split(&filled.text).into_iter().flatten().collect();
+    let (mut values, mut filler, filled) = fill(input)?;
+    let marks: Vec<Mark> =
+        filled.iter().flat_map(|filled| Mark::split(&filled.text)).flatten().collect();
     check_unused(&values, &marks)?;
     values.keep_cells(marks.iter().map(|mark| mark.id.as_str()));
     values.shorten(input.program);
 
-    let (mut blocks, places) = parse::parse(&filled, &values, input.program)?;
-    let tell = |error| places.tell(error);
-    illustrate(&mut blocks, input.figures, input.program).map_err(tell)?;
-    let library = Library::read(input.templates.text("references.bib")?)?;
-    let labels = labels::resolve(&mut blocks, &library).map_err(tell)?;
-
-    let mut committed = Files::new();
-    let mut put = |path: String, text: String| committed.insert(path, text.into_bytes());
-    put("report.md".into(), markdown::write(&blocks));
-    filler.insert("title", &latex::title(&blocks)?);
-    let uses = uses(input.claims, &values, &blocks);
+    let (parts, labels) = parts(input, &filled, &values)?;
+    let all: Vec<&[Block]> = parts.iter().map(|part| part.blocks.as_slice()).collect();
+    let uses = uses(input.claims, &values, &all);
     let ledger = ledger::ledger(input.claims, input.figures, input.equations, &uses);
-    let cards = Cards { values: &values, ledger: &ledger, program: input.program };
-    let printed = [blocks.as_slice(), &appendix::values(&blocks, cards)].concat();
-    filler.insert("body", &latex::write(&printed)?);
-    filler.insert("listings", &latex::listings(&blocks)?);
-    put("report.tex".into(), filler.fill("report.tex")?);
+
+    let (mut committed, mut beside) = (Files::new(), Files::new());
     let json = |e: serde_json::Error| Error::Template(format!("values.json: {e}"));
-    put("values.json".into(), serde_json::to_string_pretty(&values).map_err(json)? + "\n");
-    put("ledger.json".into(), ledger::json(&ledger).map_err(json)?);
-    put("ledger.md".into(), ledger::markdown(&ledger));
-    let mut beside = Files::new();
+    let values_json = serde_json::to_string_pretty(&values).map_err(json)? + "\n";
+    committed.insert("values.json".into(), values_json.into_bytes());
+    committed.insert("ledger.json".into(), ledger::json(&ledger).map_err(json)?.into_bytes());
     let moving = |scene| Ok((scene, input.templates.text("scene.js")?));
     let moving = input.scene.map(moving).transpose()?;
-    filler.insert("page", &html::write(&blocks, input.figures, moving, cards)?);
-    filler.insert("style", &input.templates.text("report.css")?);
-    let page = filler.fill("report.html")?;
-    html::is_whole(&page)?;
-    beside.insert("report.html".into(), page.into_bytes());
+    let cards = Cards { values: &values, ledger: &ledger, program: input.program };
+    for Part { of, blocks, .. } in &parts {
+        committed.insert(of.markdown.into(), markdown::write(blocks).into_bytes());
+        if let Some(name) = of.print {
+            filler.insert("title", &latex::title(blocks)?);
+            filler.insert("letter", &of.letter);
+            filler.insert("body", &latex::write(blocks)?);
+            filler.insert("listings", &latex::listings(blocks)?);
+            committed.insert(format!("{name}.tex"), filler.fill("report.tex")?.into_bytes());
+            if input.pdf {
+                beside.insert(format!("{name}.pdf"), typeset(blocks, input)?);
+            }
+        }
+        let site = html::Site { here: *of, labels: &labels, moving };
+        filler.insert("page", &html::write(blocks, input.figures, site, cards)?);
+        filler.insert("style", &input.templates.text("report.css")?);
+        filler.insert("script", &input.templates.text("report.js")?);
+        let page = filler.fill("report.html")?;
+        html::is_whole(&page)?;
+        beside.insert(of.page.into(), page.into_bytes());
+    }
     for figure in input.figures {
         committed.extend(files_of(figure));
     }
     let pdf =
         |figure: &Figure| (format!("figures/{}.pdf", figure.id), figure.drawing.pdf(&figure.title));
     beside.extend(input.figures.par_iter().map(pdf).collect::<Vec<_>>());
-    if input.pdf {
-        beside.insert("report.pdf".into(), typeset(&printed, input)?);
-    }
     committed.insert(sums::NAME.into(), sums::write(&committed).into_bytes());
-    check_links(&blocks, &labels, &committed, input.program).map_err(tell)?;
+    for Part { of, blocks, places } in &parts {
+        check_links(blocks, *of, &labels, &committed, input.program).map_err(|e| places.tell(e))?;
+    }
     Ok(Report { committed, beside })
+}
+
+/// All documents as trees, with their figures, numbers and references.
+fn parts<'a>(
+    input: &Input<'_>,
+    filled: &'a [Filled],
+    values: &'a Registry,
+) -> Result<(Vec<Part<'a>>, Labels), Error> {
+    let library = Library::read(input.templates.text("references.bib")?)?;
+    let (mut labels, mut shown) = (Labels::default(), BTreeSet::new());
+    let mut parts = Vec::new();
+    for (of, filled) in input.program.documents.iter().zip(filled) {
+        let (mut blocks, places) = parse::parse(filled, values, input.program)?;
+        let own = illustrate(&mut blocks, input.figures, input.program)
+            .and_then(|own| labels.number_all(&mut blocks, *of).map(|()| own))
+            .map_err(|error| places.tell(error))?;
+        shown.extend(own.into_iter().filter(|_| !of.repeats));
+        parts.push(Part { of: *of, blocks, places });
+    }
+    if let Some(figure) = input.figures.iter().find(|figure| !shown.contains(&figure.id)) {
+        return Err(Error::NotShown(figure.id.clone()));
+    }
+    labels.judge(input.claims)?;
+    for Part { of, blocks, places } in &mut parts {
+        labels.resolve(blocks, *of, &library).map_err(|error| places.tell(error))?;
+    }
+    Ok((parts, labels))
 }
 
 #[cfg(feature = "pdf")]
@@ -139,6 +191,7 @@ fn skins(templates: &Templates) -> Result<(), Error> {
         ("report.tex", "\\end{document}"),
         ("report.html", "«page.body»"),
         ("report.html", "«page.cards»"),
+        ("report.html", "«script»"),
         ("report.html", "id=\"text\""),
     ];
     for (path, what) in once {
@@ -150,7 +203,7 @@ fn skins(templates: &Templates) -> Result<(), Error> {
     if templates.text("report.html")?.contains("<script src") {
         return fault("report.html: <script src: the page is one file; put the script here".into());
     }
-    for path in ["report.css", "scene.js"] {
+    for path in ["report.css", "report.js", "scene.js"] {
         let Ok(text) = templates.text(path) else { continue };
         // It would end the element that it stands in.
         if text.contains("</") {
@@ -190,18 +243,24 @@ fn check_unused(values: &Registry, marks: &[Mark]) -> Result<(), Error> {
     if unused.is_empty() { Ok(()) } else { Err(Error::Unused(unused.join(", "))) }
 }
 
-/// Each link leads to a place of the report, a file or folder of it, a file of the project, or out.
+/// Each link leads to a place of its document, a file or folder of the report, a file of the project, or out.
 fn check_links(
     blocks: &[Block],
+    here: Document,
     labels: &Labels,
     files: &Files,
     program: Program,
 ) -> Result<(), Error> {
+    let is_page = |to: &str| program.documents.iter().any(|of| of.page == to);
     let leads =
         |to: &str| match (to.split_once("://"), to.strip_prefix('#'), to.strip_prefix("../")) {
             (Some(_), ..) => true,
-            (_, Some(id), _) => labels.number(&id.replacen('-', ":", 1)).is_some(),
+            (_, Some(id), _) => {
+                let id = id.replacen('-', ":", 1);
+                labels.number(&id).is_some() && labels.beside(&id, here).is_none()
+            }
             (.., Some(path)) => (program.exists)(path),
+            _ if is_page(to) => true,
             _ => files.keys().any(|path| path == to || path.starts_with(&format!("{to}/"))),
         };
     let mut result = Ok(());
@@ -216,10 +275,13 @@ fn check_links(
     result
 }
 
-/// Gives the figures in the prose their alternative text and data; each is shown exactly once
-/// ([`labels::resolve`] refuses twice).
-fn illustrate(blocks: &mut [Block], figures: &[Figure], program: Program) -> Result<(), Error> {
-    let mut shown = BTreeSet::new();
+/// Gives the figures in the prose their alternative text and data; which these are.
+fn illustrate(
+    blocks: &mut [Block],
+    figures: &[Figure],
+    program: Program,
+) -> Result<Vec<String>, Error> {
+    let mut shown = Vec::new();
     for block in blocks {
         if let Block::Figure { path, alt, data, code, experiments, .. } = block {
             let figure =
@@ -229,11 +291,8 @@ fn illustrate(blocks: &mut [Block], figures: &[Figure], program: Program) -> Res
             *data = figure.data.iter().map(|d| format!("data/{}", d.name)).collect();
             *code = program.file(&figure.source).map(|file| format!("../{file}"));
             *experiments = figure.experiments.clone();
-            shown.insert(figure.id.as_str());
+            shown.push(figure.id.clone());
         }
     }
-    match figures.iter().find(|figure| !shown.contains(figure.id.as_str())) {
-        Some(figure) => Err(Error::NotShown(figure.id.clone())),
-        None => Ok(()),
-    }
+    Ok(shown)
 }

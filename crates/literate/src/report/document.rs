@@ -4,6 +4,7 @@
 //! to and resolves references, and each format has one writer that walks it. Writers decide on
 //! markup only: numbers, words of references and digits of values are in the tree already.
 
+use super::documents::Document;
 use super::spell;
 use super::valued::bare;
 
@@ -134,6 +135,8 @@ pub enum Inline {
     Emphasis(Vec<Inline>),
     /// Strong emphasis.
     Strong(Vec<Inline>),
+    /// Small and raised, as the number of a note: verdicts behind a statement.
+    Raised(Vec<Inline>),
     /// Mathematics in the line, as TeX; values in it are framed (see [`super::valued`]).
     Maths(String),
     /// A displayed equation, as TeX without its tag.
@@ -159,10 +162,12 @@ pub enum Inline {
     },
     /// References `[@fig:3; @eq:18]` and citations `[@rice1945]`, until they are resolved.
     Unresolved(Vec<String>),
-    /// A resolved reference to something in the report.
+    /// A resolved reference.
     Reference {
         /// Id as `fig:3`, `ref:rice1945`.
         to: String,
+        /// The document that has it, if it is another.
+        within: Option<Document>,
         /// What is shown.
         shown: String,
     },
@@ -202,7 +207,9 @@ fn visit_inlines(inlines: &[Inline], visit: &mut impl FnMut(&Inline)) {
     for inline in inlines {
         visit(inline);
         match inline {
-            Inline::Emphasis(inner) | Inline::Strong(inner) => visit_inlines(inner, visit),
+            Inline::Emphasis(inner) | Inline::Strong(inner) | Inline::Raised(inner) => {
+                visit_inlines(inner, visit);
+            }
             Inline::Link { shown, .. } | Inline::Value { shown, .. } => visit_inlines(shown, visit),
             _ => {}
         }
@@ -247,7 +254,9 @@ fn rewrite_inlines<E>(
     let mut out = Vec::with_capacity(inlines.len());
     for mut inline in std::mem::take(inlines) {
         match &mut inline {
-            Inline::Emphasis(inner) | Inline::Strong(inner) => rewrite_inlines(inner, change)?,
+            Inline::Emphasis(inner) | Inline::Strong(inner) | Inline::Raised(inner) => {
+                rewrite_inlines(inner, change)?;
+            }
             Inline::Link { shown, .. } | Inline::Value { shown, .. } => {
                 rewrite_inlines(shown, change)?;
             }
@@ -276,7 +285,9 @@ fn words(inlines: &[Inline], maths: &dyn Fn(&str) -> String) -> String {
             Inline::Text(text) | Inline::Code(text) => out.push_str(text),
             Inline::Maths(tex) | Inline::Display { tex, .. } => out.push_str(&maths(tex)),
             Inline::Soft | Inline::Break => out.push(' '),
-            Inline::Emphasis(inner) | Inline::Strong(inner) => out.push_str(&words(inner, maths)),
+            Inline::Emphasis(inner) | Inline::Strong(inner) | Inline::Raised(inner) => {
+                out.push_str(&words(inner, maths));
+            }
             Inline::Link { shown, .. } | Inline::Value { shown, .. } => {
                 out.push_str(&words(shown, maths));
             }

@@ -14,6 +14,7 @@
 //! values of a key by `<% for r in keys.run.rise.r %>`, and the names of all rows by `keys.run.rise.rows`.
 //! `«code(item="module::Type::method")»` is an item of the source, see [`Program::item`].
 
+use super::documents::Document;
 use super::mark::Mark;
 use super::origin::{Filled, marked, next_tag};
 use super::print::{Asked, MOST_DIGITS, Style};
@@ -144,12 +145,20 @@ impl Filler {
         render(&self.tera, path, &self.context)
     }
 
-    /// Fills a template, and keeps where each piece of it stands.
+    /// Fills the prose of a document, and keeps where each piece of it stands.
     ///
     /// # Errors
-    /// As [`Filler::fill`].
-    pub fn prose(&self, path: &str) -> Result<Filled, Error> {
-        let filled = self.prose_of_any_name(path)?;
+    /// As [`Filler::fill`]; a document without prose.
+    pub fn prose(&self, document: &Document) -> Result<Filled, Error> {
+        let files = document.files(&self.templates);
+        if files.is_empty() {
+            let Document { prose, .. } = document;
+            let what = format!("{prose}.md: no such file in the templates; write the document");
+            return Err(Error::Template(what));
+        }
+        let filled = files.into_iter().try_fold(Filled::default(), |all, path| {
+            self.prose_of_any_name(path).map(|one| all.then(one))
+        })?;
         self.known()?;
         filled.refuse_dumps().map(|()| filled)
     }

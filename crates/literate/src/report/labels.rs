@@ -3,20 +3,26 @@
 use super::Error;
 use super::bibliography::Library;
 use super::document::{Block, Inline, rewrite, visit};
+use super::documents::Document;
+use crate::claims::Check;
 use std::collections::BTreeMap;
 
-/// Everything that can be referred to: id → number.
+/// Everything that can be referred to, of all documents: id → number, and which document has it.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Labels(BTreeMap<String, String>);
+pub struct Labels {
+    labels: BTreeMap<String, (String, Document)>,
+    /// Anchors of each kind so far.
+    anchors: BTreeMap<String, usize>,
+}
 
 impl Labels {
-    fn add(&mut self, id: &str, number: &str) -> Result<(), Error> {
+    fn add(&mut self, id: &str, number: &str, of: Document) -> Result<(), Error> {
         let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, ':' | '-' | '_' | '.');
         if !id.chars().all(plain) {
             let what = format!("the id {id:?} has more than letters, digits and any of : - _ .");
             return Err(Error::Markup(what));
         }
-        match self.0.insert(id.to_string(), number.to_string()) {
+        match self.labels.insert(id.to_string(), (number.to_string(), of)) {
             None => Ok(()),
             Some(_) => Err(Error::Label(id.to_string())),
         }
@@ -24,93 +30,201 @@ impl Labels {
 
     /// The number of an id.
     pub fn number(&self, id: &str) -> Option<&str> {
-        self.0.get(id).map(String::as_str)
+        self.labels.get(id).map(|(number, _)| number.as_str())
     }
 
-    /// Ids of one kind (`fig`, `eq`, `sec`, `tab`, `lst`, `claim`) that the report has.
-    pub fn of_kind<'a>(&'a self, kind: &'a str) -> impl Iterator<Item = &'a str> {
-        let own = move |id: &&str| id.split_once(':').is_some_and(|(before, _)| before == kind);
-        self.0.keys().map(String::as_str).filter(own)
+    /// The document that has an id, if it is another than this one.
+    pub fn beside(&self, id: &str, here: Document) -> Option<Document> {
+        self.labels.get(id).map(|(_, of)| *of).filter(|of| *of != here)
     }
-}
 
-/// Gives numbers to sections, captioned tables, listings and anchors, resolves all references, and fills
-/// the list of references with what was cited.
-///
-/// # Errors
-/// Two things with one id, a reference to nothing, a citation that references.bib lacks.
-pub fn resolve(blocks: &mut [Block], library: &Library) -> Result<Labels, Error> {
-    let labels = number(blocks)?;
-    let mut cited = Vec::new();
-    rewrite(blocks, &mut |inline| match inline {
-        Inline::Unresolved(ids) => refer(&ids, &labels, library, &mut cited),
-        other => Ok(vec![other]),
-    })?;
-    cited.sort();
-    cited.dedup();
-    for block in blocks.iter_mut() {
-        if let Block::Bibliography(entries) = block {
-            *entries = library.entries(&cited)?;
-        }
+    /// The pages of what other documents have, by the ids of pages.
+    pub fn elsewhere(&self, here: Document) -> BTreeMap<String, &'static str> {
+        let places = self.labels.iter().filter(|(_, (_, of))| *of != here);
+        places.map(|(id, (_, of))| (id.replace(':', "-"), of.page)).collect()
     }
-    Ok(labels)
-}
 
-fn number(blocks: &mut [Block]) -> Result<Labels, Error> {
-    let mut labels = Labels::default();
-    let (mut section, mut subsection, mut tables, mut listings) = (0, 0, 0, 0);
-    for block in blocks.iter_mut() {
-        match block {
-            Block::Heading { level, number, id, .. } => {
-                if let Some(number) = number {
-                    if *level == 2 {
-                        (section, subsection) = (section + 1, 0);
-                        *number = section.to_string();
-                    } else if *level == 3 {
-                        subsection += 1;
-                        *number = format!("{section}.{subsection}");
+    /// Gives numbers to the sections, captioned tables, listings and anchors of a document.
+    ///
+    /// # Errors
+    /// Two things with one id.
+    pub fn number_all(&mut self, blocks: &mut [Block], of: Document) -> Result<(), Error> {
+        let letter = of.letter;
+        let (mut section, mut subsection, mut tables, mut listings) = (0, 0, 0, 0);
+        for block in blocks.iter_mut() {
+            match block {
+                Block::Heading { level, number, id, .. } => {
+                    if let Some(number) = number {
+                        if *level == 2 {
+                            (section, subsection) = (section + 1, 0);
+                            *number = format!("{letter}{section}");
+                        } else if *level == 3 {
+                            subsection += 1;
+                            *number = format!("{letter}{section}.{subsection}");
+                        }
+                    }
+                    if let Some(id) = id {
+                        self.add(id, number.as_deref().unwrap_or_default(), of)?;
                     }
                 }
-                if let Some(id) = id {
-                    labels.add(id, number.as_deref().unwrap_or_default())?;
+                // What is shown again has its place elsewhere.
+                Block::Figure { id, number, .. } if !of.repeats => self.add(id, number, of)?,
+                Block::Listing { id, number, .. } => {
+                    listings += 1;
+                    *number = format!("{letter}{listings}");
+                    self.add(id, number, of)?;
                 }
-            }
-            Block::Figure { id, number, .. } => labels.add(id, number)?,
-            Block::Listing { id, number, .. } => {
-                listings += 1;
-                *number = listings.to_string();
-                labels.add(id, number)?;
-            }
-            Block::Table { id, number: Some(number), .. } => {
-                tables += 1;
-                *number = tables.to_string();
-                if let Some(id) = id {
-                    labels.add(id, number)?;
+                Block::Table { id, number: Some(number), .. } => {
+                    tables += 1;
+                    *number = format!("{letter}{tables}");
+                    if let Some(id) = id {
+                        self.add(id, number, of)?;
+                    }
                 }
+                _ => {}
             }
-            _ => {}
         }
+        rewrite(blocks, &mut |inline| match inline {
+            Inline::Anchor { id, .. } => {
+                let kind = id.split(':').next().unwrap_or_default().to_string();
+                let count = self.anchors.entry(kind).or_default();
+                *count += 1;
+                let number = count.to_string();
+                self.add(&id, &number, of)?;
+                Ok(vec![Inline::Anchor { id, number }])
+            }
+            other => Ok(vec![other]),
+        })?;
+        let mut result = Ok(());
+        visit(blocks, &mut |inline| {
+            if let Inline::Display { tag: Some(tag), .. } = inline
+                && result.is_ok()
+            {
+                result = self.add(&format!("eq:{tag}"), tag, of);
+            }
+        });
+        result
     }
-    let mut anchors: BTreeMap<String, usize> = BTreeMap::new();
-    rewrite(blocks, &mut |inline| match inline {
-        Inline::Anchor { id, .. } => {
-            let kind = id.split(':').next().unwrap_or_default().to_string();
-            let count = anchors.entry(kind).or_default();
-            *count += 1;
-            labels.add(&id, &count.to_string())?;
-            Ok(vec![Inline::Anchor { id, number: count.to_string() }])
+
+    /// Gives each judged statement that has its row more names: `row:id` and `mark:id`, shown as its verdict and number,
+    /// and `sign:id`, shown as its verdict alone.
+    ///
+    /// # Errors
+    /// None that can arise from claims, whose ids differ.
+    pub fn judge(&mut self, claims: &[Check]) -> Result<(), Error> {
+        for Check { id, verdict, .. } in claims {
+            let Some((number, of)) = self.labels.get(&format!("claim:{id}")).cloned() else {
+                continue;
+            };
+            let sign = verdict.sign();
+            for kind in ["row", "mark"] {
+                self.add(&format!("{kind}:{id}"), &format!("{sign}\u{a0}{number}"), of)?;
+            }
+            self.add(&format!("sign:{id}"), &sign.to_string(), of)?;
         }
-        other => Ok(vec![other]),
-    })?;
-    let mut result = Ok(());
-    visit(blocks, &mut |inline| {
-        if let Inline::Display { tag: Some(tag), .. } = inline
-            && result.is_ok()
-        {
-            result = labels.add(&format!("eq:{tag}"), tag);
+        Ok(())
+    }
+
+    /// Resolves all references of a document, and fills its list of references with what it cites.
+    ///
+    /// # Errors
+    /// A reference to nothing, a citation that references.bib lacks, or one in a document without such a list.
+    pub fn resolve(
+        &self,
+        blocks: &mut [Block],
+        here: Document,
+        library: &Library,
+    ) -> Result<(), Error> {
+        let mut cited = Vec::new();
+        rewrite(blocks, &mut |inline| match inline {
+            Inline::Unresolved(ids) => self.refer(&ids, here, library, &mut cited),
+            other => Ok(vec![other]),
+        })?;
+        cited.sort();
+        cited.dedup();
+        let lists = blocks.iter_mut().filter_map(|block| match block {
+            Block::Bibliography(entries) => Some(entries),
+            _ => None,
+        });
+        let lists: Vec<_> = lists.collect();
+        if let (Some(key), true) = (cited.first(), lists.is_empty()) {
+            let what = format!("{} cites {key} and has no [@bibliography]", here.markdown);
+            return Err(Error::Markup(what));
         }
-    });
-    result.map(|()| labels)
+        for entries in lists {
+            *entries = library.entries(&cited)?;
+        }
+        Ok(())
+    }
+    fn refer(
+        &self,
+        ids: &[String],
+        here: Document,
+        library: &Library,
+        cited: &mut Vec<String>,
+    ) -> Result<Vec<Inline>, Error> {
+        let words = |text: &str| Inline::Text(text.to_string());
+        let all = || ids.join("; ");
+        // Citations have no colon; a list holds one kind only.
+        if ids.iter().all(|id| !id.contains(':')) {
+            let mut out = vec![words("[")];
+            for (i, key) in ids.iter().enumerate() {
+                if i > 0 {
+                    out.push(words("; "));
+                }
+                cited.push(key.clone());
+                let shown = library.label(key)?;
+                out.push(Inline::Reference { to: format!("ref:{key}"), within: None, shown });
+            }
+            out.push(words("]"));
+            return Ok(out);
+        }
+        let kind = |id: &String| id.split(':').next().unwrap_or_default().to_string();
+        let first = kind(&ids[0]);
+        if ids.iter().any(|id| kind(id) != first) {
+            return Err(Error::Reference(all()));
+        }
+        let full = first.starts_with(|c: char| c.is_ascii_uppercase());
+        let lower = first.to_lowercase();
+        let names = names(&lower).ok_or_else(|| Error::Reference(all()))?;
+        let name = names[usize::from(ids.len() > 1) + if full { 2 } else { 0 }];
+        let mut out = Vec::new();
+        let is_verdict = name.is_empty();
+        if ids.len() > 1 && !is_verdict {
+            out.push(words(&format!("{name}\u{a0}")));
+        }
+        for (i, id) in ids.iter().enumerate() {
+            let id = format!("{lower}{}", &id[first.len()..]);
+            // `[@fig:8a]` is part (a) of Fig. 8.
+            let (target, part) = match self.number(&id) {
+                Some(_) => (id.as_str(), String::new()),
+                None => match id.strip_suffix(|c: char| c.is_ascii_lowercase()) {
+                    Some(whole) if lower == "fig" => (whole, format!("({})", &id[whole.len()..])),
+                    _ => (id.as_str(), String::new()),
+                },
+            };
+            let number = self.number(target).filter(|number| !number.is_empty());
+            let number = number.ok_or_else(|| Error::Reference(ids[i].clone()))?;
+            let number =
+                if lower == "eq" { format!("({number})") } else { format!("{number}{part}") };
+            if i > 0 {
+                let last = i + 1 == ids.len() && !is_verdict;
+                out.push(words(if last { " and " } else { ", " }));
+            }
+            let alone = ids.len() == 1 && !is_verdict;
+            let shown = if alone { format!("{name}\u{a0}{number}") } else { number };
+            let target = match target.split_once(':') {
+                Some((_, id)) if is_verdict => &format!("claim:{id}"),
+                _ => target,
+            };
+            out.push(Inline::Reference {
+                to: target.to_string(),
+                within: self.beside(target, here),
+                shown,
+            });
+        }
+        Ok(if lower == "row" { vec![Inline::Raised(out)] } else { out })
+    }
 }
 
 /// What a kind of reference is called: short for one and several, and in full.
@@ -122,64 +236,9 @@ fn names(kind: &str) -> Option<[&'static str; 4]> {
         "tab" => ["Table", "Tables", "Table", "Tables"],
         "claim" => ["claim", "claims", "Claim", "Claims"],
         "lst" => ["Listing", "Listings", "Listing", "Listings"],
+        // Signs need no name.
+        "row" | "mark" | "sign" => [""; 4],
         "slip" => ["slip", "slips", "Slip", "Slips"],
         _ => return None,
     })
-}
-
-fn refer(
-    ids: &[String],
-    labels: &Labels,
-    library: &Library,
-    cited: &mut Vec<String>,
-) -> Result<Vec<Inline>, Error> {
-    let words = |text: &str| Inline::Text(text.to_string());
-    let all = || ids.join("; ");
-    // Citations have no colon; a list holds one kind only.
-    if ids.iter().all(|id| !id.contains(':')) {
-        let mut out = vec![words("[")];
-        for (i, key) in ids.iter().enumerate() {
-            if i > 0 {
-                out.push(words("; "));
-            }
-            cited.push(key.clone());
-            let shown = library.label(key)?;
-            out.push(Inline::Reference { to: format!("ref:{key}"), shown });
-        }
-        out.push(words("]"));
-        return Ok(out);
-    }
-    let kind = |id: &String| id.split(':').next().unwrap_or_default().to_string();
-    let first = kind(&ids[0]);
-    if ids.iter().any(|id| kind(id) != first) {
-        return Err(Error::Reference(all()));
-    }
-    let full = first.starts_with(|c: char| c.is_ascii_uppercase());
-    let lower = first.to_lowercase();
-    let names = names(&lower).ok_or_else(|| Error::Reference(all()))?;
-    let name = names[usize::from(ids.len() > 1) + if full { 2 } else { 0 }];
-    let mut out = Vec::new();
-    if ids.len() > 1 {
-        out.push(words(&format!("{name}\u{a0}")));
-    }
-    for (i, id) in ids.iter().enumerate() {
-        let id = format!("{lower}{}", &id[first.len()..]);
-        // `[@fig:8a]` is part (a) of Fig. 8.
-        let (target, part) = match labels.number(&id) {
-            Some(_) => (id.as_str(), String::new()),
-            None => match id.strip_suffix(|c: char| c.is_ascii_lowercase()) {
-                Some(whole) if lower == "fig" => (whole, format!("({})", &id[whole.len()..])),
-                _ => (id.as_str(), String::new()),
-            },
-        };
-        let number = labels.number(target).filter(|number| !number.is_empty());
-        let number = number.ok_or_else(|| Error::Reference(ids[i].clone()))?;
-        let number = if lower == "eq" { format!("({number})") } else { format!("{number}{part}") };
-        if i > 0 {
-            out.push(words(if i + 1 == ids.len() { " and " } else { ", " }));
-        }
-        let shown = if ids.len() == 1 { format!("{name}\u{a0}{number}") } else { number };
-        out.push(Inline::Reference { to: target.to_string(), shown });
-    }
-    Ok(out)
 }

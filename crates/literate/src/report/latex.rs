@@ -1,8 +1,8 @@
 //! The tree → the body of report.tex; its shell is a template.
 
+use super::Error;
 use super::document::{Align, Block, Inline, plain};
 use super::tex;
-use super::{Error, appendix};
 
 /// Writes the body of report.tex.
 ///
@@ -39,7 +39,7 @@ pub fn title(blocks: &[Block]) -> Result<String, Error> {
     }
 }
 
-/// The appendix of listings, empty if there are none.
+/// The listings, which stand behind the text; empty if there are none.
 ///
 /// # Errors
 /// As [`write()`].
@@ -63,7 +63,7 @@ pub fn listings(blocks: &[Block]) -> Result<String, Error> {
     Ok(out)
 }
 
-/// Head of the appendix of listings.
+/// Their head.
 const LISTINGS: &str = "\\clearpage\n\\phantomsection\\section*{Listings}\n\
                         \\addcontentsline{toc}{section}{Listings}\n";
 
@@ -126,7 +126,7 @@ fn write_block(block: &Block) -> Result<String, Error> {
         Block::Code { text, .. } => {
             format!("{{\\small\\begin{{alltt}}\n{}\n\\end{{alltt}}}}", tex::code(text.trim_end())?)
         }
-        // On paper nothing unfolds: it stands in the appendix, see `listings`.
+        // On paper nothing unfolds: it stands behind the text, see `listings`.
         Block::Listing { .. } => String::new(),
         Block::Scene { .. } => String::new(),
         Block::Bibliography(entries) => {
@@ -189,6 +189,7 @@ fn inline(inline: &Inline) -> Result<String, Error> {
         Inline::Break => "\\\\\n".into(),
         Inline::Code(code) => format!("\\texttt{{{}}}", breakable(&tex::text(code)?)),
         Inline::Emphasis(inner) => format!("\\emph{{{}}}", inlines(inner)?),
+        Inline::Raised(inner) => format!("\\textsuperscript{{{}}}", inlines(inner)?),
         Inline::Strong(inner) => format!("\\textbf{{{}}}", inlines(inner)?),
         Inline::Maths(maths) => format!("${}$", tex::maths(maths)?),
         Inline::Display { tex: maths, tag } => {
@@ -200,10 +201,8 @@ fn inline(inline: &Inline) -> Result<String, Error> {
                 None => format!("\n\\begin{{equation*}}\n{maths}\n\\end{{equation*}}\n"),
             }
         }
-        // On paper, a link to the line of the appendix that tells of it.
-        Inline::Value { id, shown } => {
-            format!("\\hyperref[{}]{{{}}}", appendix::id(id), inlines(shown)?)
-        }
+        // On paper nothing opens.
+        Inline::Value { shown, .. } => inlines(shown)?,
         Inline::Link { to, shown } if to.contains("://") => {
             let shown = inlines(shown)?;
             let bare = shown.starts_with("http");
@@ -212,7 +211,11 @@ fn inline(inline: &Inline) -> Result<String, Error> {
         }
         // Files beside the report: the path in words, a PDF travels without them.
         Inline::Link { shown, .. } => inlines(shown)?,
-        Inline::Reference { to, shown } => format!("\\hyperref[{to}]{{{}}}", tex::text(shown)?),
+        Inline::Reference { to, within: None, shown } => {
+            format!("\\hyperref[{to}]{{{}}}", tex::text(shown)?)
+        }
+        // A PDF travels without the other documents.
+        Inline::Reference { shown, .. } => tex::text(shown)?,
         Inline::Anchor { id, number } => format!("{}{number}", label(id)),
         Inline::Unresolved(ids) => return Err(Error::Reference(ids.join("; "))),
     })

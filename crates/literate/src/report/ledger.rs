@@ -2,7 +2,6 @@
 
 use super::Error;
 use super::claims::plain;
-use super::markdown::escaped;
 use crate::claims::Check;
 use crate::figures::Figure;
 use serde::{Deserialize, Serialize};
@@ -72,6 +71,20 @@ pub struct EquationEntry {
     pub step_towards: Option<String>,
 }
 
+/// The entries of the figures.
+pub fn figures(figures: &[Figure]) -> Vec<FigureEntry> {
+    let figure = |figure: &Figure| FigureEntry {
+        id: figure.id.clone(),
+        title: figure.title.clone(),
+        description: figure.description.clone(),
+        picture: format!("figures/{}.svg", figure.id),
+        data: figure.data.iter().map(|data| format!("data/{}", data.name)).collect(),
+        source: figure.source.clone(),
+        experiments: figure.experiments.iter().copied().map(String::from).collect(),
+    };
+    figures.iter().map(figure).collect()
+}
+
 /// The ledger of claims, figures and equations; `uses` has the values of each claim.
 pub fn ledger(
     claims: &[Check],
@@ -92,18 +105,9 @@ pub fn ledger(
         note: plain(&claim.note),
         values: uses.get(&claim.id).cloned().unwrap_or_default(),
     };
-    let figure = |figure: &Figure| FigureEntry {
-        id: figure.id.clone(),
-        title: figure.title.clone(),
-        description: figure.description.clone(),
-        picture: format!("figures/{}.svg", figure.id),
-        data: figure.data.iter().map(|data| format!("data/{}", data.name)).collect(),
-        source: figure.source.clone(),
-        experiments: figure.experiments.iter().copied().map(String::from).collect(),
-    };
     Ledger {
         claims: claims.iter().map(claim).collect(),
-        figures: figures.iter().map(figure).collect(),
+        figures: self::figures(figures),
         equations: equations.to_vec(),
     }
 }
@@ -122,40 +126,4 @@ pub fn read(text: &str) -> Result<Ledger, Error> {
 /// None that can arise from a ledger.
 pub fn json(ledger: &Ledger) -> serde_json::Result<String> {
     Ok(serde_json::to_string_pretty(ledger)? + "\n")
-}
-
-/// ledger.md.
-pub fn markdown(ledger: &Ledger) -> String {
-    let mut out = String::from(
-        "# Ledger\n\nEvery quantitative statement, figure and numbered equation of the paper, and \
-         the verdict on it. Written by the program, as [ledger.json](ledger.json) is.\n\n\
-         ## Statements\n\n| Place | Statement | Printed | Ours | Verdict | Rests on | Id |\n|---|---|---|---|---|---|---|\n",
-    );
-    for claim in &ledger.claims {
-        let words = [&claim.place, &claim.statement, &claim.printed, &claim.ours];
-        let cells = words.map(|text| escaped(text)).join(" | ");
-        let (verdict, basis, id) = (&claim.verdict, &claim.basis, &claim.id);
-        out.push_str(&format!("| {cells} | {verdict} | {basis} | `{id}` |\n"));
-    }
-    out.push_str("\n## Figures\n\n| Figure | Title | Data | Drawn by |\n|---|---|---|---|\n");
-    for figure in &ledger.figures {
-        let link = |path: &String| format!("[{path}]({path})");
-        let data: Vec<String> = figure.data.iter().map(link).collect();
-        let (title, picture) = (escaped(&figure.title), &figure.picture);
-        let data = data.join(", ");
-        out.push_str(&format!(
-            "| [{}]({picture}) | {title} | {data} | `{}` |\n",
-            figure.id, figure.source
-        ));
-    }
-    out.push_str(
-        "\n## Equations\n\n| Equation | Section | What it says | Home |\n|---|---|---|---|\n",
-    );
-    for equation in &ledger.equations {
-        let step = equation.step_towards.as_ref();
-        let step = step.map(|n| format!(", step towards {n}")).unwrap_or_default();
-        let (number, section, what) = (equation.number, equation.section, escaped(&equation.what));
-        out.push_str(&format!("| ({number}) | {section} | {what} | `{}`{step} |\n", equation.home));
-    }
-    out
 }

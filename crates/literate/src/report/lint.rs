@@ -14,6 +14,7 @@
 
 use super::{Error, Templates};
 use crate::input::toml_fault;
+use crate::source::Program;
 use serde::Deserialize;
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -108,10 +109,14 @@ fn length(inner: &str, (open, close, long): (&str, &str, bool)) -> Option<usize>
 /// Holds all prose against the lint.
 ///
 /// # Errors
-/// A report.md that is missing or empty; [`Error::Lint`] with every finding; a phrase of literals.toml that no prose has.
-pub fn check(templates: &Templates) -> Result<(), Error> {
-    if templates.text("report.md")?.trim().is_empty() {
-        return Err(Error::Template("report.md: it is empty; write the report".into()));
+/// A document without prose; [`Error::Lint`] with every finding; a phrase of literals.toml that no prose has.
+pub fn check(templates: &Templates, program: Program) -> Result<(), Error> {
+    for of in program.documents {
+        let mut texts = of.files(templates).into_iter().map(|path| templates.text(path));
+        if texts.all(|text| text.is_ok_and(|text| text.trim().is_empty())) {
+            let what = "it is missing or empty; write the document";
+            return Err(Error::Template(format!("{}.md: {what}", of.prose)));
+        }
     }
     let prose = templates.iter().filter(|(path, _)| path.ends_with(".md"));
     let declared = Declared::read(templates.text("literals.toml")?)?;

@@ -204,6 +204,7 @@ impl Writer {
             Inline::Break => out.push_str("\\\n"),
             Inline::Code(code) => out.push_str(&format!("`{code}`")),
             Inline::Emphasis(inner) => out.push_str(&format!("*{}*", self.all(inner))),
+            Inline::Raised(inner) => out.push_str(&format!("<sup>{}</sup>", self.all(inner))),
             Inline::Strong(inner) => out.push_str(&format!("**{}**", self.all(inner))),
             Inline::Maths(tex) => out.push_str(&format!("${}$", maths(tex))),
             Inline::Display { tex, tag } => {
@@ -222,8 +223,9 @@ impl Writer {
             }
             Inline::Value { shown, .. } => out.push_str(&self.all(shown)),
             Inline::Link { to, shown } => out.push_str(&format!("[{}]({to})", self.all(shown))),
-            Inline::Reference { to, shown } => {
-                out.push_str(&format!("[{shown}](#{})", to.replace(':', "-")));
+            Inline::Reference { to, within, shown } => {
+                let file = within.map_or("", |document| document.markdown);
+                out.push_str(&format!("[{shown}]({file}#{})", to.replace(':', "-")));
             }
             Inline::Anchor { id, number } => out.push_str(&format!("{}{number}", anchor(id))),
             Inline::Unresolved(ids) => out.push_str(&ids.join("; ")),

@@ -5,7 +5,6 @@
 //! in it, [`markdown`], [`latex`] and [`html`] write it; [`assemble()`] does all that and adds figures, data,
 //! values, ledger and checksums: every file of paper/ as bytes, written by the command line.
 
-pub mod appendix;
 pub mod assemble;
 pub mod bibliography;
 mod captions;
@@ -13,6 +12,7 @@ pub mod card;
 pub mod claims;
 pub mod compare;
 pub mod document;
+pub mod documents;
 pub mod filler;
 pub mod html;
 pub mod labels;
@@ -36,6 +36,7 @@ pub mod valued;
 pub mod values;
 
 pub use assemble::{Files, Input, Report, assemble, files_of};
+pub use documents::Document;
 pub use templates::Templates;
 pub use values::{Registry, Value};
 
@@ -136,7 +137,7 @@ mod tests {
     use super::*;
     use crate::claims::{Basis, Check, Kind, Text, Verdict};
     use crate::figures::{DataFile, Drawing, Figure};
-    use crate::source::TOY;
+    use crate::source::{Program, TOY};
 
     /// One document with everything that the prose may use.
     const SAMPLE: &str = r#"# A title
@@ -207,12 +208,23 @@ Listing: What $\delta v$ does. {#lst:kick}
 
     fn tree(text: &str) -> Vec<document::Block> {
         let templates = Templates::of([("report.md", text)]);
-        let filled = filler::Filler::new(&templates, &values(), TOY).unwrap().prose("report.md");
+        let filled =
+            filler::Filler::new(&templates, &values(), TOY).unwrap().prose(&Document::REPORT);
         let (mut blocks, _) = parse::parse(&filled.unwrap(), &values(), TOY).unwrap();
         let bib = "@article{rice1945, author={Rice, S. O.}, title={Noise}, year=1945}";
         let library = bibliography::Library::read(bib).unwrap();
-        labels::resolve(&mut blocks, &library).unwrap();
+        resolve(&mut blocks, &library).unwrap();
         blocks
+    }
+
+    /// Numbers and references of a document that is alone.
+    fn resolve(
+        blocks: &mut [document::Block],
+        library: &bibliography::Library,
+    ) -> Result<(), Error> {
+        let mut labels = labels::Labels::default();
+        labels.number_all(blocks, Document::REPORT)?;
+        labels.resolve(blocks, Document::REPORT, library)
     }
 
     #[test]
@@ -250,9 +262,9 @@ Listing: What $\delta v$ does. {#lst:kick}
             "at 100 \\% of \\texttt{a\\_\\allowbreak{}b}.\n\\begin{equation}\np_{",
             "\\tag{18}\\label{eq:18}\n\\end{equation}\nwhere $N$ is large, so\n\\begin{equation}\n",
             "\\includegraphics[width=0.8\\linewidth,height=0.62\\textheight,keepaspectratio]{figures/fig03.pdf}",
-            "\\caption{The rise, at \\hyperref[value:half_height]{0.1165(4)} or $\\sigma$ \\ensuremath{\\ge} 0.12.}\\label{fig:3}",
+            "\\caption{The rise, at 0.1165(4) or $\\sigma$ \\ensuremath{\\ge} 0.12.}\\label{fig:3}",
             "\\begin{longtable}{llr}\n\\caption{What \\ensuremath{\\sigma} gives}\\label{tab:sigma}\\\\\n",
-            "\\phantomsection\\label{claim:jump}2 & a\\_b * c & \\hyperref[value:kept]{94.5(8)~\\%} \\\\\n",
+            "\\phantomsection\\label{claim:jump}2 & a\\_b * c & 94.5(8)~\\% \\\\\n",
             "\\phantomsection\\section*{References}",
             "\nBy \\hyperref[lst:kick]{Listing~1}, in words.\n",
         ] {
@@ -312,13 +324,14 @@ Listing: What $\delta v$ does. {#lst:kick}
     fn assembled(prose: &str) -> Result<Report, Error> {
         let bib = "@article{rice1945, author={Rice, S. O.}, title={Noise}, year=1945}";
         let tex = "\\title{«title»}«body»\\end{document}";
-        let html = "<html><title>«page.title»</title><main id=\"text\">«page.body»</main>«page.cards»</html>";
+        let html = "<html><title>«page.title»</title><main id=\"text\">«page.body»</main>«page.cards»<script>«script»</script></html>";
         let files = [
             ("report.md", prose),
             ("references.bib", bib),
             ("report.tex", tex),
             ("report.html", html),
             ("report.css", ""),
+            ("report.js", ""),
             ("literals.toml", "literal = []"),
         ];
         let mut values = Registry::new();
@@ -343,7 +356,7 @@ Listing: What $\delta v$ does. {#lst:kick}
         })
     }
 
-    const PROSE: &str = "# Title\n\nAt «v.half_height», [@rice1945].\n\n\
+    const PROSE: &str = "# Title\n\nAt «v.half_height», [@rice1945].\n\n[@bibliography]\n\n\
         ![The rise.](figures/fig03.svg)\n\n| Id | Check |\n|---|---|\n\
         <% for c in claims %>| [!claim:«c.id»] | «c.statement»: «c.ours», «c.verdict» |\n<% endfor %>";
 
@@ -356,7 +369,6 @@ Listing: What $\delta v$ does. {#lst:kick}
             "data/fig03.csv",
             "figures/fig03.svg",
             "ledger.json",
-            "ledger.md",
             "report.md",
             "report.tex",
             "values.json",
@@ -371,23 +383,119 @@ Listing: What $\delta v$ does. {#lst:kick}
         );
         assert!(markdown.contains("[fig03.csv](data/fig03.csv)"), "{markdown}");
         assert!(text("report.tex").starts_with("\\title{Title}"));
-        // On paper a number leads to its line in the appendix; elsewhere it has a card.
-        for part in [
-            "At \\hyperref[value:half_height]{0.1165(4)}, ",
-            "\\label{value:half_height}1 & 0.1165(4) & \\texttt{half\\_\\allowbreak{}height} & 0.11652; \
-             ensemble, n = 1000, standard error 0.0004 & ",
-        ] {
-            assert!(text("report.tex").contains(part), "{part}: {}", text("report.tex"));
-        }
-        assert!(!markdown.contains("value:"), "{markdown}");
+        assert!(text("report.tex").contains("At 0.1165(4), "), "{}", text("report.tex"));
         assert!(text("values.json").contains("\"score.reproduced\""));
-        assert!(text("ledger.md").contains("| (18) | 7 |"));
         assert_eq!(text("SHA256SUMS").lines().count(), paths.len() - 1);
         let sum =
             "5fbfa3bf9031ae769b4cb3a5cd6b9e1c235880438f409f9ec99217b60b1ecb17  data/fig03.csv\n";
         assert!(text("SHA256SUMS").contains(sum), "{}", text("SHA256SUMS"));
         assert_eq!(report.beside.keys().collect::<Vec<_>>(), ["figures/fig03.pdf", "report.html"]);
         assert_eq!(assembled(PROSE).unwrap(), report);
+    }
+
+    /// A front page shows a figure of the report again, and what is referred to is found in the document that has it.
+    #[test]
+    fn documents_refer_to_each_other() {
+        const FRONT: Document = Document {
+            prose: "front",
+            name: "Front",
+            markdown: "README.md",
+            page: "index.html",
+            print: None,
+            repeats: true,
+            ..Document::REPORT
+        };
+        const MORE: Document = Document {
+            prose: "more",
+            name: "More",
+            letter: "S",
+            markdown: "more.md",
+            page: "more.html",
+            print: Some("more"),
+            repeats: false,
+        };
+        let program = Program { documents: &[FRONT, Document::REPORT, MORE], ..TOY };
+        let files = [
+            (
+                "front.md",
+                "# Front\n\n![Again.](figures/fig03.svg)\n\nSee [@sec:b], [@sign:rise] and [more](more.md).",
+            ),
+            ("report/2-second.md", "## Last {#sec:last}\n\nWords, [@row:rise] and [@sec:b.]"),
+            (
+                "report/1-first.md",
+                "# Report\n\n## First {#sec:first}\n\n![The rise.](figures/fig03.svg)",
+            ),
+            (
+                "more.md",
+                "# More\n\n## A {#sec:a}\n\n### B {#sec:b}\n\n«v.half_height», [@fig:3], [@sec:last].\n\n\
+              Table: T {#tab:t}\n\n| a |\n|---|\n| [!claim:rise] |",
+            ),
+            ("references.bib", ""),
+            ("literals.toml", "literal = []"),
+        ];
+        let mut values = Registry::new();
+        values.add(Value::ensemble("half_height", 0.11652, 0.0004, 1000)).unwrap();
+        let made = |files: &[(&str, &str)]| {
+            let (claims, figures) = ([claim()], [figure()]);
+            assemble(&Input {
+                templates: &Templates::of(files.iter().copied()),
+                values: &values,
+                rows: &Default::default(),
+                claims: &claims,
+                figures: &figures,
+                equations: &[],
+                scene: None,
+                pdf: false,
+                program,
+            })
+        };
+        // A mistake in the second file of a document has its place there.
+        let error = made(&files).unwrap_err().to_string();
+        assert!(error.starts_with("report/2-second.md:3:24: [@sec:b.]: nothing"), "{error}");
+        let right = files.map(|(path, text)| (path, text.replace("[@sec:b.]", "[@sec:b]")));
+        let right: Vec<_> = right.iter().map(|(path, text)| (*path, text.as_str())).collect();
+        let report = made(&right).unwrap();
+        let text = |path: &str| {
+            let bytes = report.committed.get(path).or(report.beside.get(path)).unwrap();
+            String::from_utf8(bytes.clone()).unwrap()
+        };
+        for (file, part) in [
+            (
+                "README.md",
+                "See [Sec.\u{a0}S1.1](more.md#sec-b), [✓](more.md#claim-rise) and [more](more.md).",
+            ),
+            ("index.html", "<a href=\"more.html#sec-b\">Sec.\u{a0}S1.1</a>"),
+            ("index.html", "title=\"reproduced\">✓</a> and <a href=\"more.html\">more</a>."),
+            ("index.html", "\"sec-b\":\"more.html\""),
+            ("index.html", "<li><a href=\"index.html\" aria-current=\"page\">Front</a></li>"),
+            ("report.md", "Words, <sup>[✓\u{a0}1](more.md#claim-rise)</sup> and"),
+            ("report.tex", "Words, \\textsuperscript{\\ensuremath{\\checkmark}~1} and Sec.~S1.1"),
+            ("more.md", "[Fig.\u{a0}3](report.md#fig-3), [Sec.\u{a0}2](report.md#sec-last)."),
+            ("more.md", "**Table S1.** T"),
+            ("more.tex", "\\renewcommand{\\thesection}{S\\arabic{section}}"),
+        ] {
+            assert!(text(file).contains(part), "{file}: {part:?} is not in\n{}", text(file));
+        }
+        assert!(text("report.md").find("First") < text("report.md").find("Last"));
+        // Only a front page shows a figure again.
+        let twice: Vec<_> = right
+            .iter()
+            .map(|(path, text)| {
+                (
+                    *path,
+                    match *path {
+                        "more.md" => format!("{text}\n\n![Again.](figures/fig03.svg)"),
+                        _ => text.to_string(),
+                    },
+                )
+            })
+            .collect();
+        let twice: Vec<_> = twice.iter().map(|(path, text)| (*path, text.as_str())).collect();
+        assert!(made(&twice).unwrap_err().to_string().contains("fig:3: two things"));
+        let none: Vec<_> = right.iter().copied().filter(|(path, _)| *path != "more.md").collect();
+        assert!(
+            made(&none).unwrap_err().to_string().starts_with("more.md: it is missing or empty")
+        );
     }
 
     #[test]
@@ -421,57 +529,57 @@ Listing: What $\delta v$ does. {#lst:kick}
     #[test]
     fn broken_prose_is_told_with_its_place() {
         for (broken, place, words) in [
-            (r"at $\frac{1}{2$ of", "12:4", "a formula without its end"),
-            (r"at $\operatorname{erf} x$", "12:4", r"write \mathrm"),
-            (r"at $\nosuch x$", "12:4", r"\nosuch"),
-            ("| a | b |\n|---|\n| x | y |", "12:1", "a line of dashes"),
-            (r"at $\left( x$", "12:4", "no MathML"),
-            ("at «v.half_height»$x$", "12:19", "right behind a word or a number"),
-            ("# Another title", "12:1", "a second title"),
-            ("#### Deep", "12:1", "steps over a level"),
-            ("##", "12:1", "a heading without words"),
-            ("## A {#sec:a .unnumbred}", "12:1", ".unnumbered"),
-            ("## A {#sec:a}\n\n## B {#sec:a}", "14:1", "sec:a: two things"),
-            ("see [@fig:9] or", "12:5", "[@fig:9]: nothing"),
-            ("see [@fig:3; @rice1945]", "12:5", "nothing in the report"),
-            ("[data](data/no.csv)", "12:1", "a link to data/no.csv"),
-            ("[code](../src/no.rs)", "12:1", "a link to ../src/no.rs"),
-            ("[place](#sec-no)", "12:1", "a link to #sec-no"),
-            ("[](data)", "12:1", "a link without words"),
-            ("[data]()", "12:1", "leads nowhere"),
-            ("![Words.](figures/fig09.svg)", "12:1", "figures/fig09.svg"),
-            ("words ![Words.](figures/fig03.svg)", "12:1", "a picture stands alone"),
-            ("a *word", "12:3", "emphasis"),
-            ("a **word** and __word", "12:16", "emphasis"),
-            ("a word[^a]", "12:7", "footnotes"),
-            ("a «v.half_height»» b", "12:18", "the end of a value"),
-            ("<b>bold</b>", "12:1", "HTML"),
-            ("<!-- a comment --> and words", "12:1", "hides text"),
-            ("a *word with $x$*", "12:14", "inside emphasis"),
-            ("---", "12:1", "shown nowhere"),
-            ("[a]: https://x.org", "12:1", "a definition of a link"),
-            ("~~~\ncode", "12:1", "a block of code without its end"),
-            ("Table: Words. {#tab:b}\n\nwords", "12:1", "a caption without its table"),
-            ("words {#sec:b}", "12:7", "an id {#…}"),
-            ("| a | b |\n|---|---|\n| c | d | «v.half_height» |", "14:1", "a row of 3 cells"),
-            ("- item\n\n  - a *b", "14:7", "emphasis"),
-            ("see 漢", "12:5", "'漢'"),
-            ("at $50 % x$ of", "12:4", r"write \%"),
-            ("<% if raw.half_heigth != 1 %>a<% endif %>", "12:1", "raw.half_heigth"),
-            ("<% if rav.half_height %>a<% endif %>", "12:7", "`rav` is not defined"),
-            ("<% if v.half_heigth %>a<% else %>b<% endif %>", "12:1", "v.half_heigth"),
-            ("«v.half_heigth | default(value=1)»", "12:1", "v.half_heigth"),
-            ("a \u{8} b", "12:3", "U+0008"),
-            ("[a][undefined]", "12:3", "[words](target)"),
-            ("~~a~~", "12:1", "struck-out"),
-            ("####### a", "12:1", "at most six"),
-            ("- [ ] a", "12:3", "tasks"),
-            ("at «v.half_height and\n\n«v.half_height»", "12:4", "is not closed"),
-            ("if <% if raw.x\n\n<% endif %>", "12:4", "is not closed"),
-            ("at «raw.half_height»", "12:4", "a plain number"),
-            ("at «40 + 2»", "12:4", "a plain number"),
-            ("at «v»", "12:4", "a whole row"),
-            ("$$ $$", "12:1", "a formula without anything"),
+            (r"at $\frac{1}{2$ of", "14:4", "a formula without its end"),
+            (r"at $\operatorname{erf} x$", "14:4", r"write \mathrm"),
+            (r"at $\nosuch x$", "14:4", r"\nosuch"),
+            ("| a | b |\n|---|\n| x | y |", "14:1", "a line of dashes"),
+            (r"at $\left( x$", "14:4", "no MathML"),
+            ("at «v.half_height»$x$", "14:19", "right behind a word or a number"),
+            ("# Another title", "14:1", "a second title"),
+            ("#### Deep", "14:1", "steps over a level"),
+            ("##", "14:1", "a heading without words"),
+            ("## A {#sec:a .unnumbred}", "14:1", ".unnumbered"),
+            ("## A {#sec:a}\n\n## B {#sec:a}", "16:1", "sec:a: two things"),
+            ("see [@fig:9] or", "14:5", "[@fig:9]: nothing"),
+            ("see [@fig:3; @rice1945]", "14:5", "nothing in the report"),
+            ("[data](data/no.csv)", "14:1", "a link to data/no.csv"),
+            ("[code](../src/no.rs)", "14:1", "a link to ../src/no.rs"),
+            ("[place](#sec-no)", "14:1", "a link to #sec-no"),
+            ("[](data)", "14:1", "a link without words"),
+            ("[data]()", "14:1", "leads nowhere"),
+            ("![Words.](figures/fig09.svg)", "14:1", "figures/fig09.svg"),
+            ("words ![Words.](figures/fig03.svg)", "14:1", "a picture stands alone"),
+            ("a *word", "14:3", "emphasis"),
+            ("a **word** and __word", "14:16", "emphasis"),
+            ("a word[^a]", "14:7", "footnotes"),
+            ("a «v.half_height»» b", "14:18", "the end of a value"),
+            ("<b>bold</b>", "14:1", "HTML"),
+            ("<!-- a comment --> and words", "14:1", "hides text"),
+            ("a *word with $x$*", "14:14", "inside emphasis"),
+            ("---", "14:1", "shown nowhere"),
+            ("[a]: https://x.org", "14:1", "a definition of a link"),
+            ("~~~\ncode", "14:1", "a block of code without its end"),
+            ("Table: Words. {#tab:b}\n\nwords", "14:1", "a caption without its table"),
+            ("words {#sec:b}", "14:7", "an id {#…}"),
+            ("| a | b |\n|---|---|\n| c | d | «v.half_height» |", "16:1", "a row of 3 cells"),
+            ("- item\n\n  - a *b", "16:7", "emphasis"),
+            ("see 漢", "14:5", "'漢'"),
+            ("at $50 % x$ of", "14:4", r"write \%"),
+            ("<% if raw.half_heigth != 1 %>a<% endif %>", "14:1", "raw.half_heigth"),
+            ("<% if rav.half_height %>a<% endif %>", "14:7", "`rav` is not defined"),
+            ("<% if v.half_heigth %>a<% else %>b<% endif %>", "14:1", "v.half_heigth"),
+            ("«v.half_heigth | default(value=1)»", "14:1", "v.half_heigth"),
+            ("a \u{8} b", "14:3", "U+0008"),
+            ("[a][undefined]", "14:3", "[words](target)"),
+            ("~~a~~", "14:1", "struck-out"),
+            ("####### a", "14:1", "at most six"),
+            ("- [ ] a", "14:3", "tasks"),
+            ("at «v.half_height and\n\n«v.half_height»", "14:4", "is not closed"),
+            ("if <% if raw.x\n\n<% endif %>", "14:4", "is not closed"),
+            ("at «raw.half_height»", "14:4", "a plain number"),
+            ("at «40 + 2»", "14:4", "a plain number"),
+            ("at «v»", "14:4", "a whole row"),
+            ("$$ $$", "14:1", "a formula without anything"),
         ] {
             let error = assembled(&format!("{PROSE}\n\n{broken}\n")).unwrap_err().to_string();
             assert!(error.starts_with(&format!("report.md:{place}: ")), "{broken}: {error}");
@@ -487,7 +595,7 @@ Listing: What $\delta v$ does. {#lst:kick}
         let fails = |text: &str| {
             let mut blocks = parsed(text).unwrap();
             let library = bibliography::Library::default();
-            labels::resolve(&mut blocks, &library).unwrap_err().to_string()
+            resolve(&mut blocks, &library).unwrap_err().to_string()
         };
         assert!(fails("see [@fig:3]").contains("fig:3"));
         assert!(fails("## T {#sec:a\"onclick=\"x}").contains("more than letters"));

@@ -61,35 +61,67 @@ fn computes(tag: &str) -> bool {
     inner.starts_with("raw.") || inner.starts_with(|c: char| c.is_ascii_digit())
 }
 
-/// A template and the text that was made of it.
-#[derive(Clone, Debug, PartialEq)]
+/// Templates and the text that was made of them, one after the other.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Filled {
     /// The text.
     pub text: String,
+    templates: Vec<Template>,
+    pieces: Vec<Piece>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+struct Template {
     path: String,
-    /// Offsets at which the lines of the template begin.
-    lines: Vec<usize>,
-    template: String,
-    /// From an offset in the text on: the offset in the template, and whether a tag wrote what follows.
-    pieces: Vec<(usize, usize, bool)>,
+    text: String,
+}
+
+/// What follows from an offset in the text on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Piece {
+    start: usize,
+    /// Which template it comes from, and the offset there.
+    template: usize,
+    origin: usize,
+    /// Whether a tag wrote it.
+    tag: bool,
 }
 
 impl Filled {
     /// What a template made after [`marked`].
     pub fn read(path: &str, template: &str, filled: &str) -> Filled {
-        let (mut text, mut pieces) = (String::with_capacity(filled.len()), vec![(0, 0, false)]);
+        let mut own = Filled::default();
+        own.templates.push(Template { path: path.into(), text: template.into() });
+        own.pieces.push(Piece { start: 0, template: 0, origin: 0, tag: false });
         let mut rest = filled;
         while let Some((before, after)) = rest.split_once(OPEN) {
-            text.push_str(before);
+            own.text.push_str(before);
             let Some((mark, after)) = after.split_once(CLOSE) else { break };
-            let offset = mark.trim_end_matches(['t', 'x']).parse().unwrap_or_default();
-            pieces.push((text.len(), offset, mark.ends_with('t')));
+            let origin = mark.trim_end_matches(['t', 'x']).parse().unwrap_or_default();
+            let (start, tag) = (own.text.len(), mark.ends_with('t'));
+            own.pieces.push(Piece { start, template: 0, origin, tag });
             rest = after;
         }
-        text.push_str(rest);
-        let lines = template.match_indices('\n').map(|(i, _)| i + 1);
-        let lines = std::iter::once(0).chain(lines).collect();
-        Filled { text, path: path.into(), lines, template: template.into(), pieces }
+        own.text.push_str(rest);
+        own
+    }
+
+    /// The same, and after it what another template made, a paragraph apart.
+    pub fn then(mut self, other: Filled) -> Filled {
+        let templates = self.templates.len();
+        if templates > 0 {
+            self.text.push_str("\n\n");
+        }
+        let start = self.text.len();
+        let moved = |piece: Piece| Piece {
+            start: start + piece.start,
+            template: templates + piece.template,
+            ..piece
+        };
+        self.pieces.extend(other.pieces.into_iter().map(moved));
+        self.templates.extend(other.templates);
+        self.text.push_str(&other.text);
+        self
     }
 
     /// Refuses a tag that wrote no value and no words: a whole row or table, or a plain number.
@@ -97,10 +129,11 @@ impl Filled {
     /// # Errors
     /// [`Error::Template`] with its place.
     pub fn refuse_dumps(&self) -> Result<(), Error> {
-        let ends = self.pieces.iter().skip(1).map(|(start, ..)| *start).chain([self.text.len()]);
-        for ((start, origin, tag), end) in self.pieces.iter().zip(ends) {
-            let (wrote, from) = (&self.text[*start..end], &self.template[*origin..]);
-            if !*tag || !from.starts_with('«') {
+        let ends = self.pieces.iter().skip(1).map(|piece| piece.start).chain([self.text.len()]);
+        for (piece, end) in self.pieces.iter().zip(ends) {
+            let wrote = &self.text[piece.start..end];
+            let from = &self.templates[piece.template].text[piece.origin..];
+            if !piece.tag || !from.starts_with('«') {
                 continue;
             }
             let what = match () {
@@ -112,7 +145,7 @@ impl Filled {
                 }
                 () => continue,
             };
-            return Err(Error::Template(format!("{}: this is {what}", self.place(*start))));
+            return Err(Error::Template(format!("{}: this is {what}", self.place(piece.start))));
         }
         Ok(())
     }
@@ -124,13 +157,14 @@ impl Filled {
 
     /// File, line and column in the template, from 1, of an offset in the text.
     pub fn place(&self, offset: usize) -> String {
-        let last = self.pieces.partition_point(|(start, ..)| *start <= offset).saturating_sub(1);
-        let (start, origin, tag) = self.pieces.get(last).copied().unwrap_or_default();
-        let offset = if tag { origin } else { origin + (offset - start) }.min(self.template.len());
-        let line = self.lines.partition_point(|start| *start <= offset);
-        let start = self.lines.get(line - 1).copied().unwrap_or_default();
-        let column = self.template.get(start..offset).unwrap_or_default().chars().count() + 1;
-        format!("{}:{line}:{column}", self.path)
+        let last = self.pieces.partition_point(|piece| piece.start <= offset).saturating_sub(1);
+        let Some(piece) = self.pieces.get(last) else { return String::new() };
+        let Template { path, text } = &self.templates[piece.template];
+        let beyond = if piece.tag { 0 } else { offset - piece.start };
+        let before = text.get(..(piece.origin + beyond).min(text.len())).unwrap_or_default();
+        let line = before.matches('\n').count() + 1;
+        let column = before.rsplit('\n').next().unwrap_or_default().chars().count() + 1;
+        format!("{path}:{line}:{column}")
     }
 }
 

@@ -12,6 +12,8 @@
 //! - `[!claim:id]`: a place that can be referred to; it shows its number.
 //! - `[@eq:18]`, `[@fig:2; @fig:3]`, `[@sec:id]`, `[@tab:id]`, `[@lst:id]`, `[@claim:id]`: references, written
 //!   out as "Eq. (18)" and so on; with a capital, as `[@Fig:2]`, in full as at the start of a sentence.
+//! - `[@row:id]`: the verdict on a statement and the number of its row, small behind the sentence; `[@mark:id]`: the same
+//!   in a line; `[@sign:id]`: the sign of the verdict alone.
 //! - `[@rice1945]`: a citation of `references.bib`.
 //! - `[@bibliography]` alone in a paragraph: the list of what was cited.
 

@@ -14,9 +14,9 @@ use std::collections::{BTreeMap, BTreeSet};
 pub fn uses(
     claims: &[Check],
     values: &Registry,
-    blocks: &[Block],
+    documents: &[&[Block]],
 ) -> BTreeMap<String, Vec<String>> {
-    let together = together(blocks);
+    let together = together(documents);
     let one = |claim: &Check| {
         let numbers: Vec<f64> =
             [&claim.ours, &claim.tolerance, &claim.note].into_iter().flat_map(numbers).collect();
@@ -48,9 +48,9 @@ fn numbers(text: &Text) -> impl Iterator<Item = f64> + '_ {
 }
 
 /// For each claim the values that stand in one paragraph with a reference to it.
-fn together(blocks: &[Block]) -> BTreeMap<String, BTreeSet<String>> {
+fn together(documents: &[&[Block]]) -> BTreeMap<String, BTreeSet<String>> {
     let mut out: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
-    for block in blocks.iter().filter(|block| matches!(block, Block::Paragraph(_))) {
+    for block in documents.iter().copied().flatten().filter(|b| matches!(b, Block::Paragraph(_))) {
         let (mut claims, mut values) = (Vec::new(), BTreeSet::new());
         visit(std::slice::from_ref(block), &mut |inline| match inline {
             Inline::Reference { to, .. } => {

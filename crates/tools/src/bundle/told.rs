@@ -1,6 +1,7 @@
 //! What a file or folder of the archive is, in a few words.
 
 use super::PAPER;
+use impact_paper::report::{Document, PROGRAM};
 
 /// A path; a folder ends with a slash.
 pub fn description(path: &str) -> String {
@@ -44,14 +45,22 @@ pub fn description(path: &str) -> String {
 
 /// A file of the report.
 fn of_output(path: &str) -> String {
+    for Document { name, markdown, page, print, .. } in PROGRAM.documents {
+        let printed = |ending: &str| print.is_some_and(|stem| path == format!("{stem}.{ending}"));
+        match path {
+            _ if path == *markdown => return format!("{name}, as hosts show it."),
+            _ if path == *page => {
+                return format!("{name}, for browsers; each number opens its origin.");
+            }
+            _ if printed("tex") => return format!("{name}, for LaTeX."),
+            _ if printed("pdf") => return format!("{name}, typeset."),
+            _ => (),
+        }
+    }
     let what = match path {
         "" => "The report: figures, data, every number.",
-        "report.md" => "The report, with every number.",
-        "report.tex" => "The report for LaTeX.",
-        "report.html" => "The report for browsers, in which each number opens its origin.",
-        "report.pdf" => "The report, typeset.",
         "values.json" => "Every number that the report states, with its origin.",
-        "ledger.md" | "ledger.json" => "Every claim of the paper with its verdict.",
+        "ledger.json" => "Every claim of the paper with its verdict.",
         "SHA256SUMS" => "SHA-256 of every other file of the report.",
         "SHA256SUMS.local" => "SHA-256 of what is built beside the report.",
         _ => {

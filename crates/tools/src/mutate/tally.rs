@@ -2,15 +2,11 @@
 
 use super::{Mutations, Reasons};
 use impact_paper::claims::Check;
-use impact_paper::report::PROGRAM;
-use impact_paper::report::Templates;
-use impact_paper::report::claims::{Row, scorecard};
-use impact_paper::report::filler::Filler;
 use impact_paper::report::guards::fits;
 use impact_paper::report::mark::Mark;
 use impact_paper::report::uses::uses;
 use impact_paper::report::values::{Number, Registry, Value};
-use impact_paper::report::{Error, parse};
+use impact_paper::report::{Error, Input, PROGRAM, Templates, assemble, equations, parse};
 use impact_paper::table::table_of;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -86,20 +82,24 @@ pub fn used(
     rows: &BTreeMap<&'static str, serde_json::Value>,
     claims: &[Check],
 ) -> Result<BTreeSet<String>, Error> {
-    let mut values = values.clone();
-    if values.get("score.total").is_none() {
-        values.extend(scorecard(claims))?;
-    }
-    let mut filler = Filler::new(templates, &values, PROGRAM)?;
-    filler.insert("claims", &claims.iter().map(Row::of).collect::<Vec<Row>>());
-    for (name, rows) in rows {
-        filler.insert(name, rows);
-    }
-    let filled = filler.prose("report.md")?;
-    let (blocks, _) = parse::parse(&filled, &values, PROGRAM)?;
-    let shown = Mark::split(&filled.text).into_iter().flatten();
-    let shown = shown.map(|mark| values.id(&mark.id).to_string());
-    let stated = uses(claims, &values, &blocks).into_values().flatten();
+    let input = Input {
+        templates,
+        values,
+        rows,
+        claims,
+        figures: &[],
+        equations: &equations::entries(),
+        scene: None,
+        pdf: false,
+        program: PROGRAM,
+    };
+    let (values, _, filled) = assemble::fill(&input)?;
+    let trees = filled.iter().map(|filled| Ok(parse::parse(filled, &values, PROGRAM)?.0));
+    let trees: Vec<_> = trees.collect::<Result<_, Error>>()?;
+    let trees: Vec<&[_]> = trees.iter().map(Vec::as_slice).collect();
+    let marks = filled.iter().flat_map(|filled| Mark::split(&filled.text)).flatten();
+    let shown = marks.map(|mark| values.id(&mark.id).to_string());
+    let stated = uses(claims, &values, &trees).into_values().flatten();
     let number = |id: &String| {
         if table_of(id).is_some() {
             return false;

@@ -32,7 +32,10 @@ impl Cards<'_> {
         let home = self.ledger.equations.iter().find(|equation| equation.home == value.source);
         if let Some(number) = home.map(|equation| equation.number) {
             let shown = format!("Eq.\u{a0}({number})");
-            card.row("equation", vec![Inline::Reference { to: format!("eq:{number}"), shown }]);
+            card.row(
+                "equation",
+                vec![Inline::Reference { to: format!("eq:{number}"), within: None, shown }],
+            );
         }
         card.experiment(&value.experiment, self);
         card.row("note", words_and_maths(&value.note));
@@ -58,7 +61,8 @@ impl Cards<'_> {
                 used.push(Inline::Text("; ".into()));
             }
             let shown = claim.id.clone();
-            used.push(Inline::Reference { to: format!("claim:{}", claim.id), shown });
+            let to = format!("claim:{}", claim.id);
+            used.push(Inline::Reference { to, within: None, shown });
             used.push(Inline::Text(format!(" ({}): {}", claim.place, claim.verdict)));
         }
         card.row("claims", used);

@@ -2,11 +2,18 @@
 
 use super::{Page, escape};
 use crate::report::Error;
-use crate::report::document::{Align, Block, Inline, plain};
+use crate::report::document::{Align, Block, Inline, plain, spelt};
 use std::fmt::Write as _;
 
-/// So many columns do not stand side by side on a narrow screen.
+/// Columns whose cells have more characters than this are no towers: they have a least width.
+const WIDTHS: [(usize, &str); 3] =
+    [(300, " class=\"long\""), (TEXT, " class=\"text\""), (40, " class=\"words\"")];
+
+/// So many columns do not stand side by side on a narrow screen, nor more than a few if one of them is of text.
 const MANY: usize = 6;
+const FEW: usize = 3;
+/// Characters of a cell that is text.
+const TEXT: usize = 100;
 
 impl Page<'_> {
     /// All blocks.
@@ -23,19 +30,12 @@ impl Page<'_> {
             Block::Heading { level: 1, .. } => String::new(),
             Block::Heading { level, number, id, text } => {
                 let number = number.as_ref().map(|n| format!("<span>{n}</span> "));
-                let (number, text) = (number.unwrap_or_default(), self.inlines(text)?);
-                match id {
-                    Some(id) => {
-                        let id = escape::id(id);
-                        // A section without a number that can be gone to opens a part.
-                        let part =
-                            if *level == 2 && number.is_empty() { " class=\"part\"" } else { "" };
-                        format!(
-                            "<h{level} id=\"{id}\"{part}><a href=\"#{id}\">{number}{text}</a></h{level}>\n"
-                        )
-                    }
-                    None => format!("<h{level}>{number}{text}</h{level}>\n"),
+                let number = number.unwrap_or_default();
+                if *level > 2 && id.is_none() {
+                    return Ok(format!("<h{level}>{number}{}</h{level}>\n", self.inlines(text)?));
                 }
+                let (id, text) = (self.id_of(id.as_deref(), text), self.inlines(text)?);
+                format!("<h{level} id=\"{id}\"><a href=\"#{id}\">{number}{text}</a></h{level}>\n")
             }
             Block::Paragraph(text) => self.paragraph(text)?,
             Block::Figure { .. } => self.figure(block)?,
@@ -141,16 +141,23 @@ impl Page<'_> {
         head: &[Vec<Inline>],
         rows: &[Vec<Vec<Inline>>],
     ) -> Result<String, Error> {
-        let class = |i: usize| match columns.get(i) {
-            Some(Align::Right) => " class=\"right\"",
-            Some(Align::Centre) => " class=\"centre\"",
+        let longest =
+            |i: usize| rows.iter().filter_map(|row| row.get(i)).map(|c| plain(c).len()).max();
+        let longest: Vec<usize> = (0..columns.len()).filter_map(longest).collect();
+        let class = |i: usize| match (columns.get(i), longest.get(i)) {
+            (Some(Align::Right), _) => " class=\"right\"",
+            (Some(Align::Centre), _) => " class=\"centre\"",
+            (_, Some(&length)) => {
+                WIDTHS.iter().find(|(least, _)| length > *least).map_or("", |(_, class)| class)
+            }
             _ => "",
         };
         // On a narrow screen rows of many columns become lists, with the heads as names, or at
         // least scroll sideways as lines and not as towers.
         let names: Vec<String> = head.iter().map(|cell| plain(cell)).collect();
         let is_words = |cell: &Vec<Inline>| matches!(cell.as_slice(), [Inline::Text(_)]);
-        let many = columns.len() >= MANY;
+        let texts = longest.iter().any(|length| *length > TEXT) && columns.len() > FEW;
+        let many = columns.len() >= MANY || texts;
         let lists = many && head.iter().all(is_words);
         // A browser forgets that these are tables once style sheets lay them out as lists.
         let [table, line, field] = match (lists, many) {
@@ -160,7 +167,14 @@ impl Page<'_> {
         };
         let mut out = format!("<table{table}>\n<thead><tr{line}>");
         for (i, cell) in head.iter().enumerate() {
-            let text = self.inlines(cell)?;
+            let mut text = self.inlines(cell)?;
+            // Some readers of screens see no words in mathematics.
+            if matches!(cell.as_slice(), [Inline::Maths(_)]) {
+                let words = escape::text(&spelt(cell));
+                text = format!(
+                    "<span aria-hidden=\"true\">{text}</span><span class=\"unseen\">{words}</span>"
+                );
+            }
             // A head without words is no head.
             let tag = match (text.trim().is_empty(), lists) {
                 (true, _) => "td",

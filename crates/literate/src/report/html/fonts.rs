@@ -2,6 +2,9 @@
 
 use std::fmt::Write as _;
 
+/// The family of mathematics.
+const MATHS: &str = "Libertinus Math";
+
 /// Family, style, weight, file.
 const FACES: [(&str, &str, &str, &[u8]); 4] = [
     (
@@ -22,18 +25,17 @@ const FACES: [(&str, &str, &str, &[u8]); 4] = [
         "700",
         include_bytes!("../../../fonts/LibertinusSerif-Bold.woff2"),
     ),
-    (
-        "Libertinus Math",
-        "normal",
-        "400",
-        include_bytes!("../../../fonts/LibertinusMath-Regular.woff2"),
-    ),
+    (MATHS, "normal", "400", include_bytes!("../../../fonts/LibertinusMath-Regular.woff2")),
 ];
 
-/// The rules that bring the faces.
-pub fn rules() -> String {
+/// The rules that bring the faces; the one for mathematics, the largest, only where a page has any.
+pub fn rules(body: &str) -> String {
     let mut out = String::new();
+    let has_maths = body.contains("<math");
     for (family, style, weight, bytes) in FACES {
+        if family == MATHS && !has_maths {
+            continue;
+        }
         let _ = writeln!(
             out,
             "@font-face {{ font-family: \"{family}\"; font-style: {style}; font-weight: {weight}; \

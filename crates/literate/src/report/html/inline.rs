@@ -1,6 +1,7 @@
 //! Running text → HTML.
 
 use super::{Page, escape, keep, maths};
+use crate::claims::Verdict;
 use crate::report::Error;
 use crate::report::document::Inline;
 
@@ -33,6 +34,7 @@ impl Page<'_> {
                 format!("<code>{}</code>", code.replace('\u{200b}', "<wbr/>"))
             }
             Inline::Emphasis(inner) => format!("<em>{}</em>", self.inlines(inner)?),
+            Inline::Raised(inner) => format!("<sup>{}</sup>", self.inlines(inner)?),
             Inline::Strong(inner) => format!("<strong>{}</strong>", self.inlines(inner)?),
             Inline::Maths(tex) => maths::write(self, tex)?,
             Inline::Display { tex, tag } => self.display(tex, tag.as_deref())?,
@@ -44,10 +46,22 @@ impl Page<'_> {
                 self.button(id, &shown.iter().map(part).collect::<Result<String, Error>>()?)
             }
             Inline::Link { to, shown } => {
+                // A document is another file here.
+                let of = self.program.documents.iter().find(|of| of.markdown == to);
+                let to = of.map_or(to.as_str(), |of| of.page);
                 format!("<a href=\"{}\">{}</a>", escape::text(to), self.inlines(shown)?)
             }
-            Inline::Reference { to, shown } => {
-                format!("<a href=\"#{}\">{}</a>", escape::id(to), escape::text(shown))
+            Inline::Reference { to, within, shown } => {
+                let file = within.map_or("", |document| document.page);
+                let sign = shown.chars().next();
+                let verdict = Verdict::ALL.iter().find(|verdict| Some(verdict.sign()) == sign);
+                // A sign alone has its word for those who do not see it.
+                let class = verdict.map_or(String::new(), |verdict| {
+                    let words = verdict.words();
+                    let name = words.replace(' ', "-");
+                    format!(" class=\"verdict {name}\" title=\"{words}\"")
+                });
+                format!("<a href=\"{file}#{}\"{class}>{}</a>", escape::id(to), escape::text(shown))
             }
             Inline::Anchor { id, number } => {
                 format!("<span id=\"{}\">{number}</span>", escape::id(id))

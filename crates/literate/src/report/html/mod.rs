@@ -21,6 +21,8 @@ pub use scene::Moving;
 use super::Error;
 use super::card::Cards;
 use super::document::{Block, plain};
+use super::documents::Document;
+use super::labels::Labels;
 use crate::figures::{Figure, Glyphs};
 use crate::source::Program;
 use serde::Serialize;
@@ -46,9 +48,24 @@ pub fn is_whole(page: &str) -> Result<(), Error> {
     found.map(|_| ()).map_err(told)
 }
 
+/// What a page knows beside its text.
+#[derive(Clone, Copy, Debug)]
+pub struct Site<'a> {
+    /// The document that it is.
+    pub here: Document,
+    /// The places of all documents.
+    pub labels: &'a Labels,
+    /// What moves, and the script.
+    pub moving: Option<(&'a Moving, &'a str)>,
+}
+
 /// What the shell has places for.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Parts {
+    /// What the head says of the document, as elements.
+    pub about: String,
+    /// Links to all documents, as items of a list; empty if there is one only.
+    pub documents: String,
     /// The title as words.
     pub title: String,
     /// The title with its mathematics.
@@ -57,8 +74,10 @@ pub struct Parts {
     pub contents: String,
     /// The text.
     pub body: String,
-    /// The cards of the values.
+    /// The cards of the values, as data for the script.
     pub cards: String,
+    /// Which page has the places that this one has not, as data for the script.
+    pub places: String,
     /// The outlines that figures share.
     pub glyphs: String,
     /// Fonts and colours of the figures as CSS.
@@ -68,8 +87,7 @@ pub struct Parts {
 /// A page in the making: what its pieces share.
 struct Page<'a> {
     figures: &'a [Figure],
-    /// What moves, and the script.
-    moving: Option<(&'a Moving, &'a str)>,
+    site: Site<'a>,
     program: Program,
     /// Values that were shown, so that each gets its card.
     named: RefCell<BTreeSet<String>>,
@@ -83,12 +101,12 @@ struct Page<'a> {
 pub fn write(
     blocks: &[Block],
     figures: &[Figure],
-    moving: Option<(&Moving, &str)>,
+    site: Site<'_>,
     cards: Cards<'_>,
 ) -> Result<Parts, Error> {
     let program = cards.program;
     let page =
-        Page { figures, moving, program, named: RefCell::default(), glyphs: RefCell::default() };
+        Page { figures, site, program, named: RefCell::default(), glyphs: RefCell::default() };
     let is_title = |block: &&Block| matches!(block, Block::Heading { level: 1, .. });
     let Some(Block::Heading { text, .. }) = blocks.iter().find(is_title) else {
         return Err(Error::Markup("a report begins with its title, `# Words`".into()));
@@ -97,12 +115,15 @@ pub fn write(
     let body = page.blocks(blocks)?;
     let contents = page.contents(blocks)?;
     Ok(Parts {
+        about: page.about(),
+        documents: page.documents(),
         title: escape::text(&plain(text)),
         heading,
         contents,
-        body,
         cards: page.cards(cards)?,
+        places: escape::data(&site.labels.elsewhere(site.here)),
         glyphs: picture::shared(&page.glyphs.borrow()),
-        style: fonts::rules() + &picture::rules(),
+        style: fonts::rules(&body) + &picture::rules(),
+        body,
     })
 }

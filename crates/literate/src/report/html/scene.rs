@@ -4,7 +4,7 @@ use super::{Page, escape};
 use crate::report::Error;
 use crate::report::document::Inline;
 
-/// What moves in report.html.
+/// What moves on a page.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Moving {
     /// What it is, for those who do not see it.
@@ -22,7 +22,7 @@ pub struct Moving {
 impl Page<'_> {
     pub(super) fn scene(&self, caption: &[Inline]) -> Result<String, Error> {
         let missing = || Error::Markup("`Scene: …`, but the results have no scene".into());
-        let (moving, script) = self.moving.ok_or_else(missing)?;
+        let (moving, script) = self.site.moving.ok_or_else(missing)?;
         let Moving { name, picture, times: [from, until], data, origins } = moving;
         let link = |(what, to): &(&str, String)| {
             let name = to.rsplit('/').next().unwrap_or(to);

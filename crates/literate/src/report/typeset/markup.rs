@@ -2,9 +2,9 @@
 //! the tree; the typesetter counts nothing.
 
 use super::maths;
+use crate::report::Error;
 use crate::report::document::{Align, Block, Inline, plain};
 use crate::report::valued::bare;
-use crate::report::{Error, appendix};
 
 /// The whole body.
 ///
@@ -110,7 +110,7 @@ fn write_block(block: &Block) -> Result<String, Error> {
             let language = if language.is_empty() { "none".into() } else { quoted(language) };
             format!("#raw(block: true, lang: {language}, {})", quoted(text.trim_end()))
         }
-        // On paper nothing unfolds: it stands in the appendix.
+        // On paper nothing unfolds: it stands behind the text.
         Block::Listing { .. } => String::new(),
         // Nothing moves on paper.
         Block::Scene { .. } => String::new(),
@@ -125,7 +125,7 @@ fn write_block(block: &Block) -> Result<String, Error> {
     })
 }
 
-/// The appendix of listings, empty if there are none.
+/// The listings, which stand behind the text; empty if there are none.
 fn listings(blocks: &[Block]) -> Result<String, Error> {
     let mut out = String::new();
     for block in blocks {
@@ -203,6 +203,7 @@ fn inline(inline: &Inline) -> Result<String, Error> {
         Inline::Break => "#linebreak();".into(),
         Inline::Code(code) => format!("#raw({});", quoted(code)),
         Inline::Emphasis(inner) => format!("#emph[{}];", inlines(inner)?),
+        Inline::Raised(inner) => format!("#super[{}];", inlines(inner)?),
         Inline::Strong(inner) => format!("#strong[{}];", inlines(inner)?),
         Inline::Maths(tex) => {
             let tex = &bare(tex);
@@ -220,18 +221,18 @@ fn inline(inline: &Inline) -> Result<String, Error> {
                 labelled(id.as_deref())
             )
         }
-        // On paper, a link to the line of the appendix that tells of it.
-        Inline::Value { id, shown } => {
-            format!("#value({})[{}];", quoted(&appendix::id(id)), inlines(shown)?)
-        }
+        // On paper nothing opens.
+        Inline::Value { shown, .. } => inlines(shown)?,
         Inline::Link { to, shown } if to.contains("://") => {
             format!("#link({})[{}];", quoted(to), inlines(shown)?)
         }
         // Files beside the report: the path in words, a PDF travels without them.
         Inline::Link { shown, .. } => inlines(shown)?,
-        Inline::Reference { to, shown } => {
+        Inline::Reference { to, within: None, shown } => {
             format!("#link(label({}))[#{};];", quoted(to), quoted(shown))
         }
+        // A PDF travels without the other documents.
+        Inline::Reference { shown, .. } => format!("#{};", quoted(shown)),
         Inline::Anchor { id, number } => format!("{}#{};", place(id), quoted(number)),
         Inline::Unresolved(ids) => return Err(Error::Reference(ids.join("; "))),
     })

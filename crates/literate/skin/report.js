@@ -1,0 +1,166 @@
+"use strict";
+// What a page can do beside being read: cards of numbers, looks at what is referred to, a search, filters.
+{
+  const all = (what, within = document) => [...within.querySelectorAll(what)];
+  const data = (id) => JSON.parse(document.getElementById(id).textContent);
+  const make = (tag, properties = {}, ...children) => {
+    const node = Object.assign(document.createElement(tag), properties);
+    node.append(...children);
+    return node;
+  };
+
+  // Places that are now in another document.
+  const places = data("places");
+  const go = () => {
+    const id = decodeURIComponent(location.hash.slice(1));
+    if (id && !document.getElementById(id) && places[id]) location.replace(`${places[id]}#${id}`);
+  };
+  addEventListener("hashchange", go);
+  go();
+
+  // The card of a number.
+  const card = document.getElementById("card");
+  const [rows, cards] = data("cards");
+  for (const button of all("button.value")) {
+    button.addEventListener("click", () => {
+      const [title, lead, own] = cards[button.dataset.card];
+      card.querySelector("header span").innerHTML = title;
+      card.querySelector("p").innerHTML = lead;
+      card.querySelector("dl").innerHTML = own.map((row) => rows[row]).join("");
+      card.hidePopover();
+      card.showPopover({ source: button });
+      card.scrollTop = 0;
+    });
+  }
+
+  // A table is one stop of the Tab key; arrows go from number to number.
+  for (const table of all("table")) {
+    const buttons = all("button.value", table);
+    buttons.slice(1).forEach((button) => (button.tabIndex = -1));
+    const cell = (button) => button.closest("td, th");
+    const steps = {
+      ArrowRight: (at) => buttons[at + 1],
+      ArrowLeft: (at) => buttons[at - 1],
+      ArrowDown: (at) => buttons.find((own, i) => i > at && cell(own).cellIndex === cell(buttons[at]).cellIndex),
+      ArrowUp: (at) => buttons.findLast((own, i) => i < at && cell(own).cellIndex === cell(buttons[at]).cellIndex),
+    };
+    table.addEventListener("keydown", (event) => {
+      const at = buttons.indexOf(document.activeElement);
+      const next = at < 0 ? undefined : steps[event.key]?.(at);
+      if (!next) return;
+      event.preventDefault();
+      buttons.forEach((button) => (button.tabIndex = button === next ? 0 : -1));
+      next.focus();
+    });
+  }
+
+  // A look at an equation, a figure, a table or a reference while its name is pointed at.
+  const look = document.getElementById("look");
+  let waiting;
+  const soon = (what) => {
+    clearTimeout(waiting);
+    waiting = setTimeout(what, 300);
+  };
+  const hide = () => look.hidePopover();
+  const show = (link, target) => {
+    const copy = target.cloneNode(true);
+    all("[id]", copy).concat(copy).forEach((node) => node.removeAttribute("id"));
+    all("button, a", copy).forEach((node) => node.replaceWith(...node.childNodes));
+    all("[tabindex]", copy).forEach((node) => node.removeAttribute("tabindex"));
+    look.replaceChildren(copy);
+    look.showPopover({ source: link });
+  };
+  for (const link of all('main a[href^="#"]')) {
+    const target = document.getElementById(decodeURIComponent(link.hash.slice(1)));
+    if (!target?.matches(".equation, figure, .references li") || target.contains(link)) continue;
+    link.addEventListener("pointerenter", () => soon(() => show(link, target)));
+    link.addEventListener("pointerleave", () => soon(hide));
+    link.addEventListener("focus", () => link.matches(":focus-visible") && soon(() => show(link, target)));
+    link.addEventListener("blur", () => soon(hide));
+  }
+  look.addEventListener("pointerenter", () => clearTimeout(waiting));
+  look.addEventListener("pointerleave", () => soon(hide));
+  addEventListener("keydown", ({ key }) => key === "Escape" && hide());
+
+  // The section that is read is marked in the contents, which a narrow screen folds.
+  const contents = document.querySelector("nav.contents");
+  if (matchMedia("(max-width: 64rem)").matches) contents.querySelector("details")?.removeAttribute("open");
+  const sections = all("main h2[id], main h3[id]");
+  const mark = () => {
+    const above = sections.findLast((section) => section.getBoundingClientRect().top < innerHeight / 3);
+    for (const link of all("a", contents)) {
+      const here = above !== undefined && link.hash === `#${above.id}`;
+      // Only the contents scroll, where they have a scroll bar of their own.
+      if (here && !link.hasAttribute("aria-current")) contents.scrollTop = link.offsetTop - contents.clientHeight / 2;
+      if (here) link.setAttribute("aria-current", "true");
+      else link.removeAttribute("aria-current");
+    }
+  };
+  let marking;
+  addEventListener("scroll", () => {
+    marking ??= requestAnimationFrame(() => {
+      marking = undefined;
+      mark();
+    });
+  }, { passive: true });
+
+  // A search through the text: each find leads to its place.
+  const MOST = 12;
+  const found = make("ol");
+  const input = make("input", { type: "search", placeholder: "Search this document" });
+  input.setAttribute("aria-label", "Search this document");
+  const pieces = all("main > *").filter((piece) => !piece.matches("script"));
+  input.addEventListener("input", () => {
+    const asked = input.value.trim().toLowerCase();
+    const finds = [];
+    let section = { id: "text", name: "" };
+    for (const piece of asked.length < 2 ? [] : pieces) {
+      if (piece.matches("h2, h3")) section = { id: piece.id || section.id, name: piece.textContent };
+      const text = piece.textContent.replace(/\s+/g, " ");
+      const at = text.toLowerCase().indexOf(asked);
+      if (at < 0 || finds.length >= MOST) continue;
+      const words = make("small", {}, text.slice(Math.max(0, at - 30), at + asked.length + 40));
+      const link = make("a", { href: `#${piece.id || section.id}` }, section.name, make("br"), words);
+      // A paragraph has no name to go to.
+      link.addEventListener("click", () => setTimeout(() => piece.scrollIntoView({ block: "center" })));
+      finds.push(make("li", {}, link));
+    }
+    found.replaceChildren(...finds);
+  });
+  if (sections.length > 0) contents.querySelector("details")?.append(make("div", { className: "search", role: "search" }, input, found));
+
+  // Long tables can be filtered by the columns of few words.
+  const LONG = 40;
+  const FEW = 12;
+  for (const table of all("figure.table table")) {
+    const lines = all("tbody tr", table);
+    if (lines.length < LONG) continue;
+    const word = (line, column) => line.cells[column].textContent.trim();
+    const choices = all("thead th", table).flatMap((head) => {
+      const column = head.cellIndex;
+      const words = [...new Set(lines.map((line) => word(line, column)))];
+      if (words.length < 2 || words.length > FEW) return [];
+      const options = words.map((text) => make("option", { value: text }, text));
+      const select = make("select", {}, make("option", { value: "" }, "all"), ...options);
+      return [{ column, select, label: make("label", {}, `${head.textContent.trim()} `, select) }];
+    });
+    if (choices.length === 0) continue;
+    const count = make("output");
+    const filter = () => {
+      const fits = (line) => choices.every(({ column, select }) => select.value === "" || word(line, column) === select.value);
+      lines.forEach((line) => (line.hidden = !fits(line)));
+      count.value = `${lines.filter((line) => !line.hidden).length} of ${lines.length}`;
+    };
+    choices.forEach(({ select }) => select.addEventListener("change", filter));
+    // A row that is gone to by its address is shown.
+    addEventListener("hashchange", () => {
+      if (document.getElementById(decodeURIComponent(location.hash.slice(1)))?.closest("tr")?.hidden) {
+        choices.forEach(({ select }) => (select.value = ""));
+        filter();
+      }
+    });
+    filter();
+    table.closest("figure").querySelector("figcaption").after(make("div", { className: "filters" }, ...choices.map(({ label }) => label), count));
+  }
+  mark();
+}

@@ -1,0 +1,43 @@
+//! The documents of a paper: each has prose of its own and its own files; numbers, figures, verdicts and labels
+//! are shared.
+
+use super::Templates;
+
+/// A document.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Document {
+    /// Its prose: `PROSE.md` of the templates, or else the files of the folder `PROSE`, in the order of their names.
+    pub prose: &'static str,
+    /// What the others call it.
+    pub name: &'static str,
+    /// What the numbers of its sections, tables and listings begin with; nothing in the first.
+    pub letter: &'static str,
+    /// Its file for hosts.
+    pub markdown: &'static str,
+    /// Its file for browsers.
+    pub page: &'static str,
+    /// Its files for paper, without their endings `.tex` and `.pdf`, if it is printed.
+    pub print: Option<&'static str>,
+    /// Whether it shows figures that have their place in another: a front page does.
+    pub repeats: bool,
+}
+
+impl Document {
+    /// A report, alone.
+    pub const REPORT: Document = Document {
+        prose: "report",
+        name: "Report",
+        letter: "",
+        markdown: "report.md",
+        page: "report.html",
+        print: Some("report"),
+        repeats: false,
+    };
+
+    /// Paths of its prose in the templates, in its order; none if there is no such file.
+    pub fn files<'a>(&self, templates: &'a Templates) -> Vec<&'a str> {
+        let (one, folder) = (format!("{}.md", self.prose), format!("{}/", self.prose));
+        let own = |path: &&str| *path == one || path.starts_with(&folder) && path.ends_with(".md");
+        templates.iter().map(|(path, _)| path).filter(own).collect()
+    }
+}
