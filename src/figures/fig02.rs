@@ -1,10 +1,11 @@
 //! Fig. 2: the most likely number of impacts against σ, simulated.
 
 use super::data::cells;
-use super::panel::Frame;
+use super::series::Outside;
 use super::sheet::{Entry, Sheet};
 use super::simulated::{
-    CROSS, CROSS_HALF, comparable, count_axis, crosses, last_sigma, sigma_axis, split,
+    CROSS, CROSS_HALF, HEIGHTS, MAIN, comparable, count_axis, crosses, last_sigma, printed, rise,
+    sigma_axis, split,
 };
 use super::style::{GREY, HAIR, Mark, SMALL, Stroke, THIN};
 use super::{DataFile, Error, Figure};
@@ -12,10 +13,10 @@ use crate::experiments::sweep::Sweep;
 
 /// Draws the figure.
 pub fn draw(sweep: &Sweep, note: Option<&str>) -> Result<Figure, Error> {
-    let sheet = Sheet::new(5350, note)?;
+    let sheet = Sheet::new(HEIGHTS.0, note)?;
     let n = sweep.parameters.chain.gaps();
     let panel = sheet.panel(
-        Frame::new(1200, 260, 8150, 4450),
+        MAIN,
         sigma_axis(last_sigma(sweep)),
         count_axis(n, "most likely number of impacts"),
     )?;
@@ -26,18 +27,24 @@ pub fn draw(sweep: &Sweep, note: Option<&str>) -> Result<Figure, Error> {
             (low < high).then_some((row.sigma, low as f64, high as f64))
         })
         .collect();
-    panel.bars("interval of the mode", &bars, 40, bar)?;
     let modes: Vec<_> =
         comparable(sweep).filter_map(|row| Some((row.sigma, row.mode_distinct? as f64))).collect();
+    panel.bars("interval of the mode", &bars, 40, bar)?;
     crosses(&panel, "mode", &modes)?;
-    sheet.legend(
-        (4900, 3300),
-        (SMALL, 400),
-        &[
-            Entry::mark(Mark::Cross, CROSS_HALF, CROSS, "mode of the kept"),
-            Entry::line(Stroke::solid(GREY, HAIR), "its bootstrap interval, 95 %"),
-        ],
-    )?;
+    let near = rise(&sheet, count_axis(n, ""))?;
+    printed(&near)?;
+    let (low, high) = (near.x.lo, near.x.hi);
+    let shown: Vec<_> = bars.into_iter().filter(|bar| bar.0 >= low && bar.0 <= high).collect();
+    near.bars("interval of the mode, near the rise", &shown, 40, bar)?;
+    let cross = (Mark::Cross, CROSS_HALF, CROSS);
+    near.marks("mode, near the rise", &modes, cross, Outside::Cut)?;
+    let entries = [
+        Entry::mark(Mark::Cross, CROSS_HALF, CROSS, "mode of the kept"),
+        Entry::line(Stroke::solid(GREY, HAIR), "its bootstrap interval, 95 %"),
+    ];
+    for (entry, x) in entries.into_iter().zip([1200, 4400]) {
+        sheet.legend((x, HEIGHTS.1), (SMALL, 400), &[entry])?;
+    }
 
     let mut data = DataFile::new(
         "fig02.csv",

@@ -30,9 +30,9 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
         )?;
         panel.letter(LETTERS[i])?;
         let inset = sheet.inset(
-            Frame::new(3300, y + 560, 7700, y + 2750),
-            Axis::linear(0.0, SMALL_P, 0.01, 2, ""),
-            Axis::linear(0.0, top, 20.0, 2, ""),
+            Frame::new(3300, y + 460, 7700, y + 2450),
+            Axis::linear(0.0, SMALL_P, 0.01, 2, "*p*"),
+            Axis::linear(0.0, top, 20.0, 2, labels[i]),
         )?;
         panels.push((panel, inset));
     }

@@ -48,6 +48,11 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
             upwards_from_zero(room * largest(columns), "Φ_{*N*,*p*}(*k*) / Γ_{*N*,*p*}"),
         )?;
         weight(&right, row, columns)?;
+        if let (0, Some(&height)) = (i, columns.first()) {
+            // Once, where all else is low.
+            let look = (SMALL, INK, HPos::Right, VPos::Top);
+            right.note("height at *k* = 1", (right.x.hi, height), (-60, 110), look)?;
+        }
 
         let letter = LETTERS[i].trim_matches(['(', ')']);
         let mut f = DataFile::new(&format!("fig10{letter}-f.csv"), &["p (1)", "k (1)", "f (1)"]);

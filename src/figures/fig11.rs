@@ -73,10 +73,13 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     let corner =
         [(0.0, level), (scalars.sigma_jump, level), (scalars.sigma_jump, f64::from(LOWEST))];
     decades.curve("jump of k*", &corner, guide, Outside::Refuse)?;
+    let rest = [(scalars.sigma_jump_rest, level), (scalars.sigma_jump_rest, f64::from(LOWEST))];
+    decades.curve("jump of k* from rest", &rest, guide, Outside::Refuse)?;
     let place = (scalars.sigma_jump, level);
     for (i, line) in [
         format!("*k*^{{∗}} jumps at *p* = {},", short(scalars.p_jump, 4)),
-        format!("*σ* = {}", short(scalars.sigma_jump, 4)),
+        format!("*σ* = {}; from rest,", short(scalars.sigma_jump, 4)),
+        format!("at *σ* = {}", short(scalars.sigma_jump_rest, 4)),
     ]
     .iter()
     .enumerate()

@@ -1,27 +1,27 @@
 //! Fig. 12: the expected number of impacts, graph theory against simulation.
 
+use plotters::style::text_anchor::{HPos, VPos};
+
+use super::chart::short;
 use super::data::cells;
-use super::panel::Frame;
+use super::panel::Panel;
 use super::series::Outside;
 use super::sheet::{Entry, Sheet};
 use super::simulated::{
-    CROSS, CROSS_HALF, at, count_axis, crosses, curve, last_sigma, means, means_file, sigma_axis,
+    CROSS, CROSS_HALF, HEIGHTS, MAIN, at, count_axis, crosses, curve, last_sigma, means,
+    means_file, printed, rise, sigma_axis,
 };
-use super::style::{GREEN, LINE, Mark, SMALL, Stroke, THIN};
+use super::style::{GREEN, INK, LINE, Mark, SMALL, Stroke, THIN, TINY};
 use super::{DataFile, Error, Figure};
 use crate::experiments::sweep::Sweep;
 use crate::experiments::theory::Theory;
 
 /// Draws the figure.
 pub fn draw(sweep: &Sweep, theory: &Theory, note: Option<&str>) -> Result<Figure, Error> {
-    let sheet = Sheet::new(5350, note)?;
+    let sheet = Sheet::new(HEIGHTS.0, note)?;
     let n = sweep.parameters.chain.gaps().max(theory.curve_walls.vertices);
     let end = last_sigma(sweep);
-    let panel = sheet.panel(
-        Frame::new(1200, 260, 8150, 4450),
-        sigma_axis(end),
-        count_axis(n, "expected number of impacts"),
-    )?;
+    let panel = sheet.panel(MAIN, sigma_axis(end), count_axis(n, "expected number of impacts"))?;
     let (main, thin) = (Stroke::solid(GREEN, LINE), Stroke::solid(GREEN, THIN / 2));
     let walls = curve(&theory.curve_walls, end, |row| row.simple);
     panel.curve("theory, N = n + 1", &walls, thin, Outside::Refuse)?;
@@ -30,11 +30,24 @@ pub fn draw(sweep: &Sweep, theory: &Theory, note: Option<&str>) -> Result<Figure
     let simulated = means(sweep);
     crosses(&panel, "simulation", &simulated)?;
     let (big_n, big_n_walls) = (theory.curve.vertices, theory.curve_walls.vertices);
+    let near = rise(&sheet, count_axis(n, ""))?;
+    printed(&near)?;
+    near.curve("theory, N = n + 1, near the rise", &walls, thin, Outside::Cut)?;
+    near.curve("theory, near the rise", &simple, main, Outside::Cut)?;
+    let cross = (Mark::Cross, CROSS_HALF, CROSS);
+    near.marks("simulation, near the rise", &simulated, cross, Outside::Cut)?;
+    if let Some(half) = sweep.rise.half_height {
+        lag(&sheet, &near, [half.value, theory.scalars.sigma_half], n as f64 / 2.0)?;
+    }
     sheet.legend(
-        (4650, 2800),
-        (SMALL, 400),
+        (1200, HEIGHTS.1),
+        (SMALL, 380),
+        &[Entry::mark(Mark::Cross, CROSS_HALF, CROSS, "simulation, mean of the kept")],
+    )?;
+    sheet.legend(
+        (5100, HEIGHTS.1),
+        (SMALL, 380),
         &[
-            Entry::mark(Mark::Cross, CROSS_HALF, CROSS, "simulation, mean of the kept"),
             Entry::line(main, &format!("graph theory, *N* = {big_n}")),
             Entry::line(thin, &format!("graph theory, *N* = {big_n_walls}")),
         ],
@@ -49,11 +62,18 @@ pub fn draw(sweep: &Sweep, theory: &Theory, note: Option<&str>) -> Result<Figure
     }
     let description = format!(
         "Expected number of impacts against σ: crosses for the simulation, {} at σ = 0.12; a line for the graph theory with N = \
-         {big_n}, {} there, and a thin one for N = {big_n_walls} beside it. The simulation rises at a smaller σ than the theory; for \
-         large σ the two come together.",
+         {big_n}, {} there, and a thin one for N = {big_n_walls} beside it. The simulation rises at a smaller σ than the theory, as an \
+         inset with the distance shows; for large σ the two come together.",
         at(&simulated, 0.12),
         at(&simple, 0.12),
     );
     let files = vec![means_file("fig12-simulation.csv", sweep), data];
     Ok(sheet.finish("fig12", "Simulation against graph theory", description, files))
+}
+
+/// How much later in σ the theory comes to half of all gaps, as an arrow with its length.
+fn lag(sheet: &Sheet, near: &Panel, [from, to]: [f64; 2], level: f64) -> Result<(), Error> {
+    sheet.arrow(&[near.at(from, level), near.at(to, level)], Stroke::solid(INK, THIN))?;
+    let look = (TINY, INK, HPos::Center, VPos::Bottom);
+    near.note(&short(to - from, 2), ((from + to) / 2.0, level), (60, -70), look)
 }

@@ -1,8 +1,9 @@
-//! Fig. 13 (a) to (d): distributions with higher-order circuits and what each class contributes.
+//! Fig. 13: (a) to (d) distributions with higher-order circuits and what each class contributes; (e) and (f), (a)
+//! and (d) on a logarithmic axis, which the paper does not have.
 
-use super::axis::Axis;
+use super::axis::{Axis, log};
 use super::chart::{FOUR, LETTERS, heading, largest, over_k, short, upwards_from_zero};
-use super::panel::Panel;
+use super::panel::{Frame, Panel};
 use super::series::Outside;
 use super::sheet::{Entry, Sheet};
 use super::style::{
@@ -13,6 +14,9 @@ use crate::experiments::theory::{HigherDistribution, Theory};
 
 /// Largest k of the detail in (b).
 const DETAIL: usize = 20;
+
+/// The lowest decade of (e) and (f).
+const LOWEST: i32 = -8;
 
 /// Name, symbol, colour and dash of a class.
 pub(super) type Class = (&'static str, &'static str, Colour, Dash);
@@ -37,7 +41,7 @@ pub(super) const CLASS_COLUMNS: [&str; 5] = [
 
 /// Draws the figure.
 pub fn draw(theory: &Theory) -> Result<Figure, Error> {
-    let sheet = Sheet::new(8050, None)?;
+    let sheet = Sheet::new(11_350, None)?;
     let n = theory.vertices;
     let [small, middle, large] = theory.higher.as_slice() else {
         return Err(Error::Shape {
@@ -73,17 +77,26 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
         series(&panel, distribution, shown)?;
         data.push(table(LETTERS[i], distribution, shown));
     }
+    for (left, letter, distribution) in [(1080, "(e)", small), (5230, "(f)", large)] {
+        let panel = sheet.panel(
+            Frame::new(left, 7080, left + 2970, 9180),
+            Axis::linear(0.0, n as f64 + 1.0, 20.0, 2, "*k*"),
+            Axis::decades(LOWEST, 0, 2, "*P*(*X* = *k*)"),
+        )?;
+        heading(&panel, letter, &format!("*p* = {}", short(distribution.p, 3)))?;
+        logarithmic(&panel, distribution)?;
+    }
     let mut entries = vec![Entry::line(Stroke::solid(RED, LINE), "all five classes")];
     entries.extend(CLASSES.iter().map(|&(name, symbol, colour, dash)| {
         Entry::line(Stroke::dashed(colour, LINE, dash), &format!("{name}, {symbol}"))
     }));
     for (i, half) in entries.chunks(3).enumerate() {
-        sheet.legend(([400, 4500][i], 6950), (SMALL, 400), half)?;
+        sheet.legend(([400, 4500][i], 10_250), (SMALL, 400), half)?;
     }
     let share = |of: &HigherDistribution| short(of.classes.first().map_or(0.0, |c| c.share), 2);
     let description = format!(
         "Probability of k different impacts, N = {n}, for five classes of circuits: a red line for the sum, broken lines for the \
-         classes. (b) is a detail of (a). Simple circuits hold {} of the whole at p = {}, {} at p = {} and {} at p = {}.",
+         classes. (b) is a detail of (a), (e) and (f) are (a) and (d) on a logarithmic axis. Simple circuits hold {} of the whole at p = {}, {} at p = {} and {} at p = {}.",
         share(small),
         short(small.p, 3),
         share(middle),
@@ -92,6 +105,20 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
         short(large.p, 3),
     );
     Ok(sheet.finish("fig13", "Distributions with higher-order circuits", description, data))
+}
+
+/// All classes on a logarithmic axis, where each is seen.
+fn logarithmic(panel: &Panel, distribution: &HigherDistribution) -> Result<(), Error> {
+    let curve = |name: &str, values: &[f64], stroke: Stroke| {
+        let above = over_k(values).into_iter().filter(|(_, p)| *p > 0.0);
+        let points: Vec<_> = above.map(|(k, p)| (k, log(p))).collect();
+        panel.curve(name, &points, stroke, Outside::Cut)
+    };
+    curve("all five classes", &distribution.total, Stroke::solid(RED, LINE))?;
+    for (class, &(name, _, colour, dash)) in distribution.classes.iter().zip(&CLASSES) {
+        curve(name, &class.probability, Stroke::dashed(colour, LINE, dash))?;
+    }
+    Ok(())
 }
 
 fn series(panel: &Panel, distribution: &HigherDistribution, shown: usize) -> Result<(), Error> {

@@ -9,6 +9,11 @@ use super::style::{Colour, GREY, HAIR, INK, SMALL, Stroke, TEXT, WHITE};
 /// Names of the vertices, in the order of the gaps.
 pub const NAMES: [&str; 4] = ["L-1", "1-2", "2-3", "3-R"];
 
+/// The name of a gap as it is printed, with a dash.
+pub fn name(gap: usize) -> String {
+    NAMES.get(gap).unwrap_or(&"?").replace('-', "–")
+}
+
 /// Where the four vertices stand, clockwise from the upper left, and how large they are.
 #[derive(Clone, Copy, Debug)]
 pub struct Layout {
@@ -82,8 +87,7 @@ impl Layout {
             let (edge, ink) =
                 if on { (Stroke::solid(INK, 30), INK) } else { (Stroke::solid(GREY, HAIR), GREY) };
             sheet.disc(centre, self.radius, WHITE, edge)?;
-            let name = NAMES[vertex].replace('-', "–");
-            sheet.text(&name, centre, (TEXT, ink, HPos::Center, VPos::Center))?;
+            sheet.text(&name(vertex), centre, (TEXT, ink, HPos::Center, VPos::Center))?;
         }
         Ok(())
     }

@@ -94,15 +94,15 @@ const OWN: [Listed; 16] = [
     figure(&[&SPACE_TIME], !THEORY, |all, note| s02::draw(all.spacetime()?, note)),
     figure(&[&NUCLEATION, &SWEEP], !THEORY, s03::draw),
     figure(&[&SEEDS, &SWEEP, &PROTOCOL], !THEORY, s04::draw),
-    figure(&[], THEORY, |all, _| s05::draw(&all.theory.large)),
-    figure(&[], THEORY, |all, _| s06::draw(&all.theory)),
-    figure(&[&HEAT], !THEORY, s07::draw),
-    figure(&[&INDEPENDENCE], !THEORY, s08::draw),
-    figure(&[&ORBITS], !THEORY, s09::draw),
-    figure(&[&RESTITUTION], !THEORY, s10::draw),
     figure(&[&CHAINS, &SIZES, &PROTOCOL], !THEORY, |all, note| {
-        s11::draw(all.chains()?, all.sizes()?, all.protocol()?, note)
+        s05::draw(all.chains()?, all.sizes()?, all.protocol()?, note)
     }),
+    figure(&[], THEORY, |all, _| s06::draw(&all.theory.large)),
+    figure(&[], THEORY, |all, _| s07::draw(&all.theory)),
+    figure(&[&HEAT], !THEORY, s08::draw),
+    figure(&[&INDEPENDENCE], !THEORY, s09::draw),
+    figure(&[&ORBITS], !THEORY, s10::draw),
+    figure(&[&RESTITUTION], !THEORY, s11::draw),
     figure(&[&RACE], !THEORY, |all, note| s12::draw(all.race()?, note)),
     figure(&[&RACE, &MEASURED], !THEORY, |all, note| s13::draw(all.race()?, all.measured()?, note)),
     figure(&[&BIAS], !THEORY, |all, note| s14::draw(all.biases()?, note)),

@@ -5,7 +5,7 @@ use plotters::style::text_anchor::{HPos, VPos};
 use super::axis::Axis;
 use super::chart::{LETTERS, short};
 use super::data::cells;
-use super::graph::{Layout, NAMES};
+use super::graph::{Layout, NAMES, name};
 use super::panel::{Frame, Panel};
 use super::series::Outside;
 use super::sheet::Sheet;
@@ -50,7 +50,7 @@ pub fn draw(circuit: &Circuit, segment: &Segment) -> Result<Figure, Error> {
         Axis::linear(0.0, walls, 1.0, 1, "position *x*_{*j*} / *d*"),
     )?;
     sheet.text(LETTERS[1], (260, 4690), look)?;
-    motion(&panel, segment, circuit.order.len())?;
+    motion(&panel, segment)?;
     let foot = "a segment of a simulated motion, not a periodic orbit";
     let look = (TINY, GREY, HPos::Right, VPos::Bottom);
     sheet.text(foot, (WIDTH as i32 - 400, 4690), look)?;
@@ -58,8 +58,8 @@ pub fn draw(circuit: &Circuit, segment: &Segment) -> Result<Figure, Error> {
     let names: Vec<&str> = circuit.order.iter().map(|&gap| NAMES[gap]).collect();
     let description = format!(
         "(a) The graph of three masses with a {} circuit in red: {}. (b) Positions of the three masses against time, \
-         over {} time units of a simulated motion, a segment and not a periodic orbit; its impacts are numbered as \
-         the steps of the circuit.",
+         over {} time units of a simulated motion, a segment and not a periodic orbit; each impact has the name of its \
+         vertex.",
         circuit.kind,
         names.join(", "),
         short(duration, 3),
@@ -75,8 +75,8 @@ fn time_axis(duration: f64) -> Axis {
     Axis::linear(0.0, duration, step, if step == 2.0 { 2 } else { 5 }, label)
 }
 
-/// Walls, equilibria, paths and impacts; a circuit of `steps` impacts begins again after them.
-fn motion(panel: &Panel, segment: &Segment, steps: usize) -> Result<(), Error> {
+/// Walls, equilibria, paths and impacts.
+fn motion(panel: &Panel, segment: &Segment) -> Result<(), Error> {
     let (from, d) = (segment.from, segment.spacing);
     let walls = (segment.masses + 1) as f64;
     let end = panel.x.hi;
@@ -107,7 +107,8 @@ fn motion(panel: &Panel, segment: &Segment, steps: usize) -> Result<(), Error> {
         segment.impacts.iter().map(|hit| (hit.time - from, hit.position / d)).collect();
     let ring = (Mark::Ring, 70, Stroke::solid(RED, 24));
     panel.marks("impacts", &hits, ring, Outside::Refuse)?;
-    number_impacts(panel, &hits, &paths, steps)
+    let names: Vec<_> = segment.impacts.iter().map(|hit| name(hit.gap)).collect();
+    name_impacts(panel, &hits, &names, &paths)
 }
 
 /// Names the paths at their ends, from bottom to top; names that would touch move apart.
@@ -137,28 +138,36 @@ fn apart(heights: &[i32], least: i32) -> Vec<i32> {
     places
 }
 
-/// Where a number may stand beside its impact, the best places first: offset of its middle.
-const PLACES: [(i32, i32); 12] = [
+/// Where a name may stand beside its impact, the best places first: offset of its middle.
+const PLACES: [(i32, i32); 20] = [
     (0, -200),
     (0, 200),
-    (190, 0),
-    (-190, 0),
-    (150, -170),
-    (-150, -170),
-    (150, 170),
-    (-150, 170),
+    (330, 0),
+    (-330, 0),
+    (290, -170),
+    (-290, -170),
+    (290, 170),
+    (-290, 170),
     (0, -330),
     (0, 330),
-    (260, -260),
-    (-260, 260),
+    (300, -300),
+    (-300, 300),
+    (420, 75),
+    (-420, 75),
+    (420, -75),
+    (-420, -75),
+    (0, -430),
+    (0, 430),
+    (0, -540),
+    (0, 540),
 ];
 
-/// Numbers the impacts, each at the first place where no path, no equilibrium and no other number is in its way.
-fn number_impacts(
+/// Names the impacts, each at the first place where no path, no equilibrium and no other name is in its way.
+fn name_impacts(
     panel: &Panel,
     hits: &[(f64, f64)],
+    names: &[String],
     paths: &[Vec<(f64, f64)>],
-    steps: usize,
 ) -> Result<(), Error> {
     let lines: Vec<Vec<(i32, i32)>> =
         paths.iter().map(|path| path.iter().map(|p| panel.at(p.0, p.1)).collect()).collect();
@@ -169,21 +178,21 @@ fn number_impacts(
         let free = |place: &(i32, i32)| {
             let (px, py) = (x + place.0, y + place.1);
             let near = |q: (i32, i32), w: i32, h: i32| (q.0 - px).abs() < w && (q.1 - py).abs() < h;
-            let inside = px > frame.left + 90
-                && px < frame.right - 90
+            let inside = px > frame.left + 220
+                && px < frame.right - 220
                 && py > frame.top + 110
                 && py < frame.bottom - 110;
             let rests = |j: usize| (panel.at(0.0, j as f64).1 - py).abs() < 120;
             let crossed = (1..=paths.len()).any(rests)
                 || lines.iter().any(|line| {
-                    line.windows(2).any(|w| (0..=8).any(|k| near(between(w[0], w[1], k), 95, 120)))
+                    line.windows(2).any(|w| (0..=8).any(|k| near(between(w[0], w[1], k), 190, 115)))
                 });
-            let others = marks.iter().enumerate().any(|(j, &m)| j != i && near(m, 150, 170));
-            inside && !crossed && !others && !taken.iter().any(|&t| near(t, 170, 210))
+            let others = marks.iter().enumerate().any(|(j, &m)| j != i && near(m, 250, 170));
+            inside && !crossed && !others && !taken.iter().any(|&t| near(t, 360, 210))
         };
         let place = PLACES.iter().find(|place| free(place)).unwrap_or(&PLACES[0]);
         let look = (SMALL, RED, HPos::Center, VPos::Center);
-        panel.note(&(i % steps + 1).to_string(), hits[i], *place, look)?;
+        panel.note(&names[i], hits[i], *place, look)?;
         taken.push((x + place.0, y + place.1));
     }
     Ok(())

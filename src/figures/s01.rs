@@ -131,7 +131,7 @@ pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
 }
 
 fn panel(sheet: &Sheet, place: usize, frame: Frame, y: Axis) -> Result<Panel, Error> {
-    let panel = sheet.panel(frame, Axis::decades(1, 5, 1, "transient *T*"), y)?;
+    let panel = sheet.panel(frame, Axis::decades(1, 5, 1, "transient *T* (1/*ω*)"), y)?;
     panel.letter(LETTERS[place])?;
     Ok(panel)
 }
@@ -163,7 +163,10 @@ fn estimates(
     look: (Mark, Colour),
 ) -> Result<(), Error> {
     let stroke = Stroke::solid(look.1, THIN);
-    panel.curve(name, &values(all), stroke, Outside::Cut)?;
+    // Two points do not make a curve.
+    if all.len() > 2 {
+        panel.curve(name, &values(all), stroke, Outside::Cut)?;
+    }
     let all: Vec<_> = all.iter().map(|(time, own)| (log(*time), *own)).collect();
     panel.estimates(name, &all, (look.0, SIZE, stroke), |y| y)
 }

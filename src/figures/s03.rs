@@ -30,16 +30,17 @@ pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
     let table = |name| results.table(name);
     let (found, single) = (table("nucleation.chains")?, table("nucleation.gaps")?);
     let missing = table("nucleation.times")?;
+    let (curves, shares) = (table("nucleation.curves")?, table("nucleation.shares")?);
     let sheet = Sheet::new(9350, note)?;
-    chains(&sheet, found, table("sweep.rows")?)?;
-    gaps(&sheet, single)?;
+    chains(&sheet, found, shares, table("sweep.rows")?)?;
+    gaps(&sheet, curves)?;
     times(&sheet, missing)?;
-    let files = [found, single, missing].map(DataFile::of);
+    let files = [found, shares, single, curves, missing].map(DataFile::of);
     let title = "Gaps that close by themselves";
     Ok(sheet.finish("s03", title, description(missing), files.into()))
 }
 
-fn chains(sheet: &Sheet, found: &Table, sweep: &Table) -> Result<(), Error> {
+fn chains(sheet: &Sheet, found: &Table, shares: &Table, sweep: &Table) -> Result<(), Error> {
     let panel = sheet.panel(
         Frame::new(1150, 430, 6150, 3730),
         Axis::linear(SIGMAS.0, SIGMAS.1, 0.02, 2, "standard deviation *σ* of the forcing"),
@@ -51,7 +52,7 @@ fn chains(sheet: &Sheet, found: &Table, sweep: &Table) -> Result<(), Error> {
     for (masses, (colour, mark)) in found.values("masses").into_iter().zip(LENGTHS) {
         let (name, keys) = (format!("*n* = {masses}"), [("masses", masses), ("time", last)]);
         let line = Stroke::solid(colour, LINE);
-        panel.curve(&name, &found.points(&keys, "sigma", "clumps"), line, Outside::Refuse)?;
+        panel.curve(&name, &shares.points(&keys[..1], "sigma", "clumps"), line, Outside::Refuse)?;
         let thin = Stroke::solid(colour, THIN);
         let own = found.estimates(&keys, "sigma", "found");
         let bars = own.iter().map(|(sigma, own)| {
@@ -70,22 +71,22 @@ fn chains(sheet: &Sheet, found: &Table, sweep: &Table) -> Result<(), Error> {
     sheet.legend((6350, 1150), (SMALL, 370), &entries)
 }
 
-fn gaps(sheet: &Sheet, found: &Table) -> Result<(), Error> {
+fn gaps(sheet: &Sheet, curves: &Table) -> Result<(), Error> {
     let panel = sheet.panel(
         Frame::new(1150, 5250, 4050, 7650),
         Axis::linear(SIGMAS.0, SIGMAS.1, 0.04, 2, "*σ*"),
         Axis::decades(-8, 0, 2, "*p*"),
     )?;
     panel.letter(LETTERS[1])?;
-    let curves = [
+    let lines = [
         ("from rest", "p", Stroke::solid(INK, LINE)),
         ("at a wall", "wall", Stroke::dashed(GREEN, LINE, Dash::Long)),
         ("Eq. (25)", "random", Stroke::dashed(BLUE, LINE, Dash::Short)),
         ("no free part", "zero", Stroke::dashed(PURPLE, LINE, Dash::Dotted)),
     ];
     let mut entries = Vec::new();
-    for (name, column, stroke) in curves {
-        let points = found.points(&[], "sigma", column).into_iter();
+    for (name, column, stroke) in lines {
+        let points = curves.points(&[], "sigma", column).into_iter();
         let points: Vec<_> = points.map(|(sigma, p)| (sigma, log(p))).collect();
         panel.curve(name, &points, stroke, Outside::Cut)?;
         entries.push(Entry::line(stroke, name));
@@ -106,7 +107,7 @@ fn three(found: &Table) -> impl Iterator<Item = f64> {
 fn times(sheet: &Sheet, found: &Table) -> Result<(), Error> {
     let panel = sheet.panel(
         Frame::new(5350, 5250, 8150, 7650),
-        Axis::decades(1, 4, 1, "*T*"),
+        Axis::decades(1, 4, 1, "*T* (1/*ω*)"),
         Axis::decades(-6, 0, 2, "1 − *p*_{*T*}/*p*"),
     )?;
     panel.letter(LETTERS[2])?;

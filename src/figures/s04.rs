@@ -29,16 +29,17 @@ pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
     let (advance, waits, fronts) =
         (table("seeds.advance")?, table("seeds.waits")?, table("seeds.fronts")?);
     let sheet = Sheet::new(13050, note)?;
-    counts(&sheet, means, results.sweep()?)?;
+    let theory = table("seeds.theory")?;
+    counts(&sheet, means, theory, results.sweep()?)?;
     advances(&sheet, advance)?;
     halves(&sheet, rise, scores)?;
     standing(&sheet, waits, fronts, results.seeds()?.parameters.tick)?;
-    let files = [means, table("seeds.against_sweep")?, advance, rise, scores, waits];
+    let files = [means, theory, table("seeds.against_sweep")?, advance, rise, scores, waits];
     let title = "From one gap to many: nucleation and growth";
     Ok(sheet.finish("s04", title, description(waits), files.map(DataFile::of).into()))
 }
 
-fn counts(sheet: &Sheet, means: &Table, sweep: &Sweep) -> Result<(), Error> {
+fn counts(sheet: &Sheet, means: &Table, theory: &Table, sweep: &Sweep) -> Result<(), Error> {
     let panel = sheet.panel(
         Frame::new(1150, 430, 8150, 3730),
         Axis::linear(SIGMAS.0, SIGMAS.1, 0.01, 2, "standard deviation *σ* of the forcing"),
@@ -53,7 +54,10 @@ fn counts(sheet: &Sheet, means: &Table, sweep: &Sweep) -> Result<(), Error> {
     ];
     let mut entries = Vec::new();
     for (name, column, stroke) in lines {
-        let points = means.points(&transient, "sigma", column);
+        let points = match column {
+            "grown" => means.points(&transient, "sigma", column),
+            _ => theory.points(&[], "sigma", column),
+        };
         panel.curve(name, &points, stroke, Outside::Refuse)?;
         entries.push(Entry::line(stroke, name));
     }
@@ -76,7 +80,7 @@ fn named(sigma: f64) -> String {
 fn advances(sheet: &Sheet, advance: &Table) -> Result<(), Error> {
     let panel = sheet.panel(
         Frame::new(1150, 5250, 4050, 7650),
-        Axis::decades(1, 4, 1, "time since the first impact"),
+        Axis::decades(1, 4, 1, "time since the first impact (1/*ω*)"),
         Axis::decades(-1, 2, 1, "advance of a front"),
     )?;
     panel.letter(LETTERS[1])?;
@@ -94,7 +98,7 @@ fn advances(sheet: &Sheet, advance: &Table) -> Result<(), Error> {
     panel.curve("constant speed", &[(1.0, -1.0), (4.0, 2.0)], straight, Outside::Cut)?;
     entries.push(Entry::line(straight, "∝ *t*"));
     for (i, column) in entries.chunks(3).enumerate() {
-        sheet.legend((650 + 1800 * i as i32, 8480), (SMALL, 320), column)?;
+        sheet.legend((650 + 1800 * i as i32, 8680), (SMALL, 320), column)?;
     }
     Ok(())
 }
@@ -102,7 +106,7 @@ fn advances(sheet: &Sheet, advance: &Table) -> Result<(), Error> {
 fn halves(sheet: &Sheet, rise: &Table, scores: &Table) -> Result<(), Error> {
     let panel = sheet.panel(
         Frame::new(5350, 5250, 8150, 7650),
-        Axis::decades(1, 4, 1, "transient *T*"),
+        Axis::decades(1, 4, 1, "transient *T* (1/*ω*)"),
         Axis::linear(0.1, 0.15, 0.01, 2, "*σ*_{1/2} of all"),
     )?;
     panel.letter(LETTERS[2])?;
@@ -141,7 +145,7 @@ fn longer(waits: &Table, sigma: f64, tick: f64) -> Vec<(f64, f64)> {
 fn standing(sheet: &Sheet, waits: &Table, fronts: &Table, tick: f64) -> Result<(), Error> {
     let panel = sheet.panel(
         Frame::new(1150, 10150, 8150, 12250),
-        Axis::decades(0, 3, 1, "time *t* for which a front stands"),
+        Axis::decades(0, 3, 1, "time *t* for which a front stands (1/*ω*)"),
         Axis::decades(-2, 0, 1, "share longer than *t*"),
     )?;
     panel.letter(LETTERS[3])?;

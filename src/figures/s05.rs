@@ -1,7 +1,7 @@
-//! Fig. S5: what becomes of the most likely number, its jump and its distribution for many vertices.
+//! Fig. S5: long chains, friction, and a force with a common period.
 
 use super::axis::{Axis, log};
-use super::chart::{LETTERS, short};
+use super::chart::LETTERS;
 use super::data::cells;
 use super::panel::Frame;
 use super::series::Outside;
@@ -10,132 +10,288 @@ use super::style::{
     BLUE, Colour, Dash, GREEN, INK, LINE, Mark, ORANGE, PURPLE, RED, SMALL, Stroke, THIN,
 };
 use super::{DataFile, Error, Figure};
-use crate::experiments::theory::{Large, PoissonCell};
+use crate::experiments::chains::{Chains, Curve, Ensemble};
+use crate::experiments::protocol::ProtocolMap;
+use crate::numerics::statistics::Estimate;
+use crate::params::{ChainCurve, ChainKind};
+use std::collections::BTreeMap;
 
-/// The p N in (a): around the onset, where the sizes differ.
-const RANGE: (f64, f64) = (0.75, 2.25);
+/// Marks and colours of lengths and of frictions, from the smallest.
+const LOOKS: [(Mark, Colour); 6] = [
+    (Mark::Ring, PURPLE),
+    (Mark::Disc, BLUE),
+    (Mark::Square, GREEN),
+    (Mark::Diamond, ORANGE),
+    (Mark::Disc, RED),
+    (Mark::Ring, INK),
+];
 
-/// Colours of the numbers of vertices in (a).
-const SIZES: [(Colour, Dash); 3] =
-    [(ORANGE, Dash::Solid), (BLUE, Dash::Solid), (GREEN, Dash::Solid)];
+/// The half size of marks.
+const SIZE: i32 = 52;
 
-/// Looks of the values of p N in (c).
-const LOOKS: [(Colour, Mark); 4] =
-    [(RED, Mark::Disc), (ORANGE, Mark::Square), (BLUE, Mark::Diamond), (PURPLE, Mark::Triangle)];
+/// The frequency of (d).
+const COMMON: &str = "frequency-2";
 
 /// Draws the figure.
-pub fn draw(large: &Large) -> Result<Figure, Error> {
-    let sheet = Sheet::new(9350, None)?;
-    shares(&sheet, large)?;
-    jumps(&sheet, large)?;
-    poisson(&sheet, large)?;
-    Ok(sheet.finish("s05", "The theory at large N", DESCRIPTION.into(), tables(large)))
+pub fn draw(
+    chains: &Chains,
+    sizes: &Chains,
+    map: &ProtocolMap,
+    note: Option<&str>,
+) -> Result<Figure, Error> {
+    let sheet = Sheet::new(10_800, note)?;
+    lengths(&sheet, chains)?;
+    times(&sheet, &by_length(chains, sizes), &of_map(chains, map))?;
+    frictions(&sheet, chains, map)?;
+    period(&sheet, chains)?;
+    let title = "Long chains, friction, and a common period";
+    Ok(sheet.finish("s05", title, description(sizes), tables(chains, sizes, map)))
 }
 
-/// A power of ten as the figures write it.
-fn power(vertices: usize) -> String {
-    format!("10^{{{}}}", vertices.ilog10())
+/// The look of a length, by its order of magnitude.
+fn look(masses: usize) -> (Mark, i32, Stroke) {
+    let tens = pxfm::f_log10(masses as f64).round() as usize;
+    let (mark, colour) = LOOKS[tens.saturating_sub(1).min(LOOKS.len() - 1)];
+    (mark, SIZE, Stroke::solid(colour, THIN))
 }
 
-fn shares(sheet: &Sheet, large: &Large) -> Result<(), Error> {
+/// A length in words: the longest as a power of ten.
+fn length(masses: usize) -> String {
+    let tens = masses.checked_ilog10().unwrap_or(0);
+    match tens >= 4 && masses == 10_usize.pow(tens) {
+        true => format!("*n* = 10^{{{tens}}}"),
+        false => format!("*n* = {masses}"),
+    }
+}
+
+/// The transient that all lengths have.
+const COMMON_TIME: f64 = 500.0;
+
+/// How far in σ the marks of a length stand aside of those of a tenth of it.
+const ASIDE: f64 = 0.0018;
+
+/// (σ, share) of a curve at a transient.
+fn shares(own: &ChainCurve, curve: &Curve, time: f64) -> Vec<(f64, Estimate)> {
+    let Some(at) = own.transients.iter().position(|own| *own == time) else { return Vec::new() };
+    curve.rows.iter().filter_map(|row| Some((row.sigma, row.shares[at]?))).collect()
+}
+
+fn points(all: &[(f64, Estimate)]) -> Vec<(f64, f64)> {
+    all.iter().map(|(x, own)| (*x, own.value)).collect()
+}
+
+fn lengths(sheet: &Sheet, chains: &Chains) -> Result<(), Error> {
     let panel = sheet.panel(
-        Frame::new(1150, 430, 8150, 3730),
-        Axis::linear(RANGE.0, RANGE.1, 0.25, 5, "*p N*"),
-        Axis::linear(0.0, 0.6, 0.1, 2, "*k*^{∗}/*N*"),
+        Frame::new(1000, 430, 3900, 3730),
+        Axis::linear(0.07, 0.19, 0.03, 3, "*σ*"),
+        Axis::linear(0.0, 1.0, 0.2, 2, "share of the gaps"),
     )?;
     panel.letter(LETTERS[0])?;
     let mut entries = Vec::new();
-    for (own, (colour, dash)) in large.shares.iter().zip(SIZES) {
-        let points: Vec<_> = own.rows.iter().map(|row| (row.x, row.y)).collect();
-        let stroke = Stroke::dashed(colour, LINE, dash);
-        panel.curve(&format!("N = {}", own.vertices), &points, stroke, Outside::Cut)?;
-        entries.push(Entry::line(stroke, &format!("*N* = {}", power(own.vertices))));
+    for (own, curve) in chains.of(ChainKind::Length) {
+        let mut all = shares(own, curve, COMMON_TIME);
+        if all.is_empty() {
+            continue;
+        }
+        let look = look(own.masses);
+        let name = length(own.masses);
+        // Long chains lie on one another: a line for the paper's length, the marks of the others beside it.
+        if own.masses <= 100 {
+            panel.curve(&name, &points(&all), look.2, Outside::Cut)?;
+        } else {
+            let aside = ASIDE * f64::from(own.masses.ilog10() - 2);
+            all.iter_mut().for_each(|point| point.0 += aside);
+        }
+        panel.estimates(&name, &all, look, |y| y)?;
+        entries.push(Entry::mark(look.0, look.1, look.2, &name));
     }
-    let limit: Vec<_> = large.limit.iter().map(|row| (row.x, row.y)).collect();
-    let stroke = Stroke::dashed(INK, THIN, Dash::Short);
-    panel.curve("limit", &limit, stroke, Outside::Cut)?;
-    entries.push(Entry::line(stroke, "max(0, 1 − 1/*p N*)"));
-    sheet.legend((5500, 2350), (SMALL, 370), &entries)
-}
-
-fn jumps(sheet: &Sheet, large: &Large) -> Result<(), Error> {
-    let panel = sheet.panel(
-        Frame::new(1150, 5250, 4050, 7650),
-        Axis::decades(1, 6, 1, "*N*"),
-        Axis::decades(-3, 0, 1, "*k*^{∗}/*N* at the jump"),
-    )?;
-    panel.letter(LETTERS[1])?;
-    let rule: Vec<_> = large
-        .jumps
-        .iter()
-        .filter_map(|own| Some((log(own.vertices as f64), log(own.rule? / own.vertices as f64))))
-        .collect();
-    let line = Stroke::solid(INK, THIN);
-    panel.curve("rule", &rule, line, Outside::Refuse)?;
-    let exact: Vec<_> =
-        large.jumps.iter().map(|own| (log(own.vertices as f64), log(own.share))).collect();
-    let disc = (Mark::Disc, 55, Stroke::solid(GREEN, THIN));
-    panel.marks("exact", &exact, disc, Outside::Refuse)?;
-    let entries = [
-        Entry::mark(disc.0, disc.1, disc.2, "exact"),
-        Entry::line(line, "*k*^{2} = 2*N*(ln *k* − 1)"),
-    ];
-    sheet.legend((900, 8750), (SMALL, 370), &entries)
-}
-
-fn poisson(sheet: &Sheet, large: &Large) -> Result<(), Error> {
-    let panel = sheet.panel(
-        Frame::new(5350, 5250, 8150, 7650),
-        Axis::decades(2, 6, 1, "*N*"),
-        Axis::decades(-4, 0, 1, "distance from Poisson"),
-    )?;
-    panel.letter(LETTERS[2])?;
-    let mut entries = Vec::new();
-    for (own, (colour, mark)) in large.poisson.iter().zip(LOOKS) {
-        let name = format!("p N = {}", short(own.p_n, 2));
-        let at = |of: fn(&PoissonCell) -> f64| -> Vec<(f64, f64)> {
-            own.cells.iter().map(|cell| (log(cell.vertices as f64), log(of(cell)))).collect()
-        };
-        let bound = Stroke::dashed(colour, THIN, Dash::Dotted);
-        panel.curve(&format!("bound, {name}"), &at(|cell| cell.bound), bound, Outside::Refuse)?;
-        let look = (mark, 55, Stroke::solid(colour, THIN));
-        panel.marks(&name, &at(|cell| cell.variation), look, Outside::Refuse)?;
-        entries.push(Entry::mark(
-            look.0,
-            look.1,
-            look.2,
-            &format!("*p N* = {}", short(own.p_n, 2)),
-        ));
-    }
-    for (i, column) in entries.chunks(2).enumerate() {
-        sheet.legend((4650 + 1800 * i as i32, 8750), (SMALL, 370), column)?;
+    for (i, column) in entries.chunks(3).enumerate() {
+        sheet.legend((700 + 1650 * i as i32, 4720), (SMALL, 340), column)?;
     }
     Ok(())
 }
 
-const DESCRIPTION: &str = "(a) The most likely number over N against p N: zero, a jump soon after p N = 1, then a curve; the larger N, the \
-     smaller the jump. (b) Height of the jump against N, with the rule. (c) Distance of N − X from a Poisson variable, \
-     falling with the root of N below its bounds.";
+/// (T, half height) of the map.
+fn of_map(chains: &Chains, map: &ProtocolMap) -> Vec<(f64, Estimate)> {
+    let window = chains.parameters.window;
+    let cells = map.cells.iter().filter(|cell| cell.window == window);
+    cells.filter_map(|cell| Some((cell.transient, cell.half_height_all?))).collect()
+}
 
-fn tables(large: &Large) -> Vec<DataFile> {
-    let mut shares = DataFile::new("s05a.csv", &["N (1)", "p_N (1)", "k_star_over_N (1)"]);
-    for own in &large.shares {
-        for row in &own.rows {
-            shares.row(cells![own.vertices, row.x, row.y]);
+/// (T, half height) of a curve.
+fn halves(own: &ChainCurve, curve: &Curve) -> Vec<(f64, Estimate)> {
+    let all = own.transients.iter().zip(&curve.half_heights);
+    all.filter_map(|(time, half)| Some((*time, (*half)?))).collect()
+}
+
+fn logarithmic(all: Vec<(f64, Estimate)>) -> Vec<(f64, Estimate)> {
+    all.into_iter().map(|(time, half)| (log(time), half)).collect()
+}
+
+/// (T, half height) of each length, of those that were measured anew by these alone.
+fn by_length(chains: &Chains, sizes: &Chains) -> BTreeMap<usize, Vec<(f64, Estimate)>> {
+    let anew = |masses| sizes.all().any(|(own, _)| own.masses == masses);
+    let others = chains.of(ChainKind::Length).filter(|(own, _)| !anew(own.masses));
+    let mut all = BTreeMap::<usize, Vec<(f64, Estimate)>>::new();
+    for (own, curve) in others.chain(sizes.all()) {
+        all.entry(own.masses).or_default().extend(halves(own, curve));
+    }
+    all
+}
+
+fn times(
+    sheet: &Sheet,
+    lengths: &BTreeMap<usize, Vec<(f64, Estimate)>>,
+    map: &[(f64, Estimate)],
+) -> Result<(), Error> {
+    let panel = sheet.panel(
+        Frame::new(5150, 430, 8050, 3730),
+        Axis::decades(1, 5, 1, "transient *T* (1/*ω*)"),
+        Axis::linear(0.08, 0.16, 0.01, 2, "*σ*_{1/2}"),
+    )?;
+    panel.letter(LETTERS[1])?;
+    let stroke = Stroke::solid(INK, THIN);
+    let line = logarithmic(map.to_vec());
+    panel.curve("map", &points(&line), stroke, Outside::Cut)?;
+    for (masses, all) in lengths {
+        let (name, look) = (format!("half height of {masses} masses"), look(*masses));
+        let all = logarithmic(all.clone());
+        panel.curve(&name, &points(&all), look.2, Outside::Cut)?;
+        panel.estimates(&name, &all, look, |y| y)?;
+    }
+    let entry = Entry::line(stroke, "the map, *n* = 100");
+    sheet.legend((4900, 4720), (SMALL, 340), &[entry])
+}
+
+fn frictions(sheet: &Sheet, chains: &Chains, map: &ProtocolMap) -> Result<(), Error> {
+    let panel = sheet.panel(
+        Frame::new(1000, 5900, 3900, 8900),
+        Axis::decades(1, 4, 1, "transient *T* (1/*ω*)"),
+        Axis::linear(0.09, 0.16, 0.01, 2, "*σ*_{1/2}"),
+    )?;
+    panel.letter(LETTERS[2])?;
+    let stroke = Stroke::solid(INK, THIN);
+    let line = logarithmic(of_map(chains, map));
+    panel.curve("without friction", &points(&line), stroke, Outside::Cut)?;
+    let mut entries = vec![Entry::line(stroke, "*c* = 0")];
+    for ((own, curve), (mark, colour)) in chains.of(ChainKind::Damping).zip(&LOOKS[1..]) {
+        let look = (*mark, SIZE, Stroke::solid(*colour, THIN));
+        let name = format!("*c* = {}", own.damping);
+        let all = logarithmic(halves(own, curve));
+        panel.curve(&name, &points(&all), look.2, Outside::Cut)?;
+        panel.estimates(&name, &all, look, |y| y)?;
+        entries.push(Entry::mark(look.0, look.1, look.2, &name));
+    }
+    for (i, column) in entries.chunks(2).enumerate() {
+        sheet.legend((600 + 1750 * i as i32, 9880), (SMALL, 340), column)?;
+    }
+    Ok(())
+}
+
+/// The share of the chains with an impact in the last window, with its binomial error.
+fn alive(row: &Ensemble) -> (f64, Estimate) {
+    let all = row.runs.len().max(1) as f64;
+    let share = 1.0 - row.silent.iter().sum::<u64>() as f64 / all;
+    let error = (share * (1.0 - share) / all).sqrt();
+    (row.sigma, crate::numerics::estimates::with_error(share, error))
+}
+
+fn period(sheet: &Sheet, chains: &Chains) -> Result<(), Error> {
+    let panel = sheet.panel(
+        Frame::new(5150, 5900, 8050, 8900),
+        Axis::linear(0.2, 0.44, 0.1, 2, "*σ*"),
+        Axis::linear(0.0, 1.0, 0.2, 2, "share of the chains"),
+    )?;
+    panel.letter(LETTERS[3])?;
+    let Some((_, curve)) = chains.curve(COMMON) else { return Ok(()) };
+    let line = |of: fn(&[f64; 3]) -> f64| -> Vec<(f64, f64)> {
+        curve.kept_expected.iter().map(|own| (own[0], of(own))).collect()
+    };
+    let (bound, there) = (Stroke::dashed(BLUE, LINE, Dash::Short), Stroke::solid(INK, LINE));
+    panel.curve("all phases", &line(|own| own[1]), bound, Outside::Cut)?;
+    panel.curve("common period", &line(|own| own[2]), there, Outside::Cut)?;
+    let all: Vec<_> = curve.rows.iter().map(alive).collect();
+    let look = (Mark::Disc, SIZE, Stroke::solid(RED, THIN));
+    panel.estimates("simulation", &all, look, |y| y)?;
+    let entries = [
+        Entry::line(bound, "all phases, Eq. (20)"),
+        Entry::line(there, "common period"),
+        Entry::mark(look.0, look.1, look.2, "simulation"),
+    ];
+    sheet.legend((4900, 9880), (SMALL, 340), &entries)
+}
+
+fn description(sizes: &Chains) -> String {
+    let longest = sizes.all().map(|(own, _)| own.masses).max().unwrap_or_default();
+    format!(
+        "(a) Share of gaps with an impact against σ after one transient: the shortest chain rises later, others, up to {longest} \
+         masses, lie on one another. (b) Half height against T, falling the further the longer the chain. (c) With friction: higher \
+         and more level. (d) Chains with an impact for Ω = 2: on the lower of two curves."
+    )
+}
+
+fn tables(chains: &Chains, sizes: &Chains, map: &ProtocolMap) -> Vec<DataFile> {
+    let mut shares = DataFile::new(
+        "s05a.csv",
+        &[
+            "chain (text)",
+            "masses (1)",
+            "damping (omega)",
+            "forcing_frequency (omega)",
+            "components (1)",
+            "sigma (d omega^2)",
+            "transient (1/omega)",
+            "share (1)",
+            "standard_error (1)",
+            "chains_with_impacts (1)",
+        ],
+    );
+    let mut places = DataFile::new(
+        "s05b.csv",
+        &[
+            "chain (text)",
+            "masses (1)",
+            "damping (omega)",
+            "transient (1/omega)",
+            "half_height (d omega^2)",
+            "standard_error (d omega^2)",
+        ],
+    );
+    for (own, curve) in chains.all().chain(sizes.all()) {
+        let name = own.name.as_str();
+        for row in &curve.rows {
+            for (time, share) in own.transients.iter().zip(&row.shares) {
+                let share = share.as_ref();
+                shares.row(cells![
+                    name,
+                    own.masses,
+                    own.damping,
+                    own.forcing_frequency,
+                    own.components,
+                    row.sigma,
+                    *time,
+                    share.map(|own| own.value),
+                    share.map(|own| own.error),
+                    alive(row).1.value
+                ]);
+            }
+        }
+        for (time, half) in halves(own, curve) {
+            places.row(cells![name, own.masses, own.damping, time, half.value, half.error]);
         }
     }
-    let header = ["N (1)", "p_jump (1)", "k_star_after (1)", "k_star_over_N (1)", "k_rule (1)"];
-    let mut jumps = DataFile::new("s05b.csv", &header);
-    for own in &large.jumps {
-        jumps.row(cells![own.vertices, own.p, own.k_after, own.share, own.rule]);
+    for (time, half) in of_map(chains, map) {
+        let masses = map.parameters.chain.masses;
+        places.row(cells!["map", masses, 0.0, time, half.value, half.error]);
     }
-    let header =
-        ["p_N (1)", "N (1)", "total_variation (1)", "bound (1)", "N_minus_1_over_p_minus_mean (1)"];
-    let mut poisson = DataFile::new("s05c.csv", &header);
-    for row in &large.poisson {
-        for cell in &row.cells {
-            poisson.row(cells![row.p_n, cell.vertices, cell.variation, cell.bound, cell.mean_gap]);
+    let mut expected = DataFile::new(
+        "s05d.csv",
+        &["chain (text)", "sigma (d omega^2)", "share_all_phases (1)", "share_common_period (1)"],
+    );
+    for (own, curve) in chains.of(ChainKind::Frequency) {
+        for [sigma, ever, there] in &curve.kept_expected {
+            expected.row(cells![own.name.as_str(), *sigma, *ever, *there]);
         }
     }
-    vec![shares, jumps, poisson]
+    vec![shares, places, expected]
 }

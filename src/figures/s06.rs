@@ -1,142 +1,141 @@
-//! Fig. S6: the five classes of Sec. 9 among circuits of all orders.
-
-use plotters::style::text_anchor::{HPos, VPos};
+//! Fig. S6: what becomes of the most likely number, its jump and its distribution for many vertices.
 
 use super::axis::{Axis, log};
 use super::chart::{LETTERS, short};
 use super::data::cells;
-use super::fig13::{CLASS_COLUMNS, CLASSES};
-use super::panel::{Frame, Panel};
+use super::panel::Frame;
 use super::series::Outside;
 use super::sheet::{Entry, Sheet};
 use super::style::{
-    BLUE, Colour, Dash, GREEN, GREY, INK, LINE, Mark, ORANGE, PURPLE, RED, SMALL, Stroke, THIN,
-    TINY,
+    BLUE, Colour, Dash, GREEN, INK, LINE, Mark, ORANGE, PURPLE, RED, SMALL, Stroke, THIN,
 };
 use super::{DataFile, Error, Figure};
-use crate::experiments::theory::{AllOrders, Theory};
+use crate::experiments::theory::{Large, PoissonCell};
 
-/// Looks of the numbers of different vertices in (b), from few to many.
-const LOOKS: [(Colour, Dash); 5] = [
-    (PURPLE, Dash::Long),
-    (ORANGE, Dash::Short),
-    (BLUE, Dash::Alternate),
-    (GREEN, Dash::Twice),
-    (INK, Dash::Dotted),
-];
+/// The p N in (a): around the onset, where the sizes differ.
+const RANGE: (f64, f64) = (0.75, 2.25);
 
-/// Upper end of the shares' axes: above one, so that curves stay clear of what stands there.
-const TOP: f64 = 1.1;
+/// Colours of the numbers of vertices in (a).
+const SIZES: [(Colour, Dash); 3] =
+    [(ORANGE, Dash::Solid), (BLUE, Dash::Solid), (GREEN, Dash::Solid)];
+
+/// Looks of the values of p N in (c).
+const LOOKS: [(Colour, Mark); 4] =
+    [(RED, Mark::Disc), (ORANGE, Mark::Square), (BLUE, Mark::Diamond), (PURPLE, Mark::Triangle)];
 
 /// Draws the figure.
-pub fn draw(theory: &Theory) -> Result<Figure, Error> {
-    let sheet = Sheet::new(11_900, None)?;
-    let orders = &theory.orders;
-    let x = || Axis::decades(-3, -1, 1, "*p*");
-    let share = || Axis::linear(0.0, TOP, 0.2, 2, "share");
-    let classes = sheet.panel(Frame::new(1150, 480, 4250, 3380), x(), share())?;
-    classes.letter(LETTERS[0])?;
-    let mut entries = Vec::new();
-    for (i, &(name, symbol, colour, dash)) in CLASSES.iter().enumerate() {
-        let at = |shares: &Vec<f64>| shares.get(i).copied().unwrap_or(0.0);
-        let points: Vec<_> = orders.classes.iter().map(|c| (log(c.p), at(&c.shares))).collect();
-        let stroke = Stroke::dashed(colour, LINE, dash);
-        classes.curve(name, &points, stroke, Outside::Refuse)?;
-        entries.push(Entry::line(stroke, &format!("{name}, {symbol}")));
-    }
-    sheet.legend((4480, 1000), (SMALL, 400), &entries)?;
-
-    let whole = sheet.panel(Frame::new(1150, 4680, 4250, 7580), x(), share())?;
-    whole.letter(LETTERS[1])?;
-    let mut entries = Vec::new();
-    for (own, (colour, dash)) in orders.shares.iter().zip(LOOKS) {
-        let points: Vec<_> = own.rows.iter().map(|row| (log(row.x), row.y)).collect();
-        let stroke = Stroke::dashed(colour, LINE, dash);
-        whole.curve(&format!("K = {}", own.k), &points, stroke, Outside::Cut)?;
-        entries.push(Entry::line(stroke, &format!("of *K* = {} vertices", own.k)));
-    }
-    let points: Vec<_> = orders.whole.iter().map(|row| (log(row.x), row.y)).collect();
-    let all = Stroke::solid(RED, LINE);
-    whole.curve("all circuits", &points, all, Outside::Refuse)?;
-    entries.push(Entry::line(all, "of all circuits"));
-    for panel in [&classes, &whole] {
-        guide(panel, orders.pole, "1/*N*", HPos::Right)?;
-        guide(panel, theory.scalars.p_jump, "*p*_{jump}", HPos::Left)?;
-    }
-    sheet.legend((4480, 5200), (SMALL, 400), &entries)?;
-    distributions(&sheet, theory)?;
-    let files = tables(orders);
-    Ok(sheet.finish("s06", "Circuits of all orders", description(theory), files))
+pub fn draw(large: &Large) -> Result<Figure, Error> {
+    let sheet = Sheet::new(9350, None)?;
+    shares(&sheet, large)?;
+    jumps(&sheet, large)?;
+    poisson(&sheet, large)?;
+    Ok(sheet.finish("s06", "The theory at large N", DESCRIPTION.into(), tables(large)))
 }
 
-/// An upright line at a place of p, with its name above.
-fn guide(panel: &Panel, p: f64, name: &str, side: HPos) -> Result<(), Error> {
-    let stroke = Stroke::dashed(GREY, THIN, Dash::Dotted);
-    panel.curve(name, &[(log(p), 0.0), (log(p), TOP)], stroke, Outside::Refuse)?;
-    let dx = if matches!(side, HPos::Left) { 20 } else { -20 };
-    panel.note(name, (log(p), TOP), (dx, -80), (TINY, INK, side, VPos::Bottom))
+/// A power of ten as the figures write it.
+fn power(vertices: usize) -> String {
+    format!("10^{{{}}}", vertices.ilog10())
 }
 
-fn distributions(sheet: &Sheet, theory: &Theory) -> Result<(), Error> {
-    let orders = &theory.orders;
-    let n = theory.vertices as f64;
+fn shares(sheet: &Sheet, large: &Large) -> Result<(), Error> {
     let panel = sheet.panel(
-        Frame::new(1150, 8880, 8150, 10_780),
-        Axis::linear(0.0, n + 1.0, 20.0, 2, "*k*"),
-        Axis::decades(-4, 0, 1, "*P*(*X* = *k*)"),
+        Frame::new(1150, 430, 8150, 3730),
+        Axis::linear(RANGE.0, RANGE.1, 0.25, 5, "*p N*"),
+        Axis::linear(0.0, 0.6, 0.1, 2, "*k*^{∗}/*N*"),
+    )?;
+    panel.letter(LETTERS[0])?;
+    let mut entries = Vec::new();
+    for (own, (colour, dash)) in large.shares.iter().zip(SIZES) {
+        let points: Vec<_> = own.rows.iter().map(|row| (row.x, row.y)).collect();
+        let stroke = Stroke::dashed(colour, LINE, dash);
+        panel.curve(&format!("N = {}", own.vertices), &points, stroke, Outside::Cut)?;
+        entries.push(Entry::line(stroke, &format!("*N* = {}", power(own.vertices))));
+    }
+    let limit: Vec<_> = large.limit.iter().map(|row| (row.x, row.y)).collect();
+    let stroke = Stroke::dashed(INK, THIN, Dash::Short);
+    panel.curve("limit", &limit, stroke, Outside::Cut)?;
+    entries.push(Entry::line(stroke, "max(0, 1 − 1/*p N*)"));
+    sheet.legend((5500, 2350), (SMALL, 370), &entries)
+}
+
+fn jumps(sheet: &Sheet, large: &Large) -> Result<(), Error> {
+    let panel = sheet.panel(
+        Frame::new(1150, 5250, 4050, 7650),
+        Axis::decades(1, 6, 1, "*N*"),
+        Axis::decades(-3, 0, 1, "*k*^{∗}/*N* at the jump"),
+    )?;
+    panel.letter(LETTERS[1])?;
+    let rule: Vec<_> = large
+        .jumps
+        .iter()
+        .filter_map(|own| Some((log(own.vertices as f64), log(own.rule? / own.vertices as f64))))
+        .collect();
+    let line = Stroke::solid(INK, THIN);
+    panel.curve("rule", &rule, line, Outside::Refuse)?;
+    let exact: Vec<_> =
+        large.jumps.iter().map(|own| (log(own.vertices as f64), log(own.share))).collect();
+    let disc = (Mark::Disc, 55, Stroke::solid(GREEN, THIN));
+    panel.marks("exact", &exact, disc, Outside::Refuse)?;
+    let entries = [
+        Entry::mark(disc.0, disc.1, disc.2, "exact"),
+        Entry::line(line, "*k*^{2} = 2*N*(ln *k* − 1)"),
+    ];
+    sheet.legend((900, 8750), (SMALL, 370), &entries)
+}
+
+fn poisson(sheet: &Sheet, large: &Large) -> Result<(), Error> {
+    let panel = sheet.panel(
+        Frame::new(5350, 5250, 8150, 7650),
+        Axis::decades(2, 6, 1, "*N*"),
+        Axis::decades(-4, 0, 1, "distance from Poisson"),
     )?;
     panel.letter(LETTERS[2])?;
-    let look = |mark, colour| (mark, 42, Stroke::solid(colour, THIN));
-    let series = [
-        ("simple circuits", &orders.simple_at_jump, look(Mark::Ring, GREEN)),
-        ("all circuits", &orders.at_jump, look(Mark::Disc, RED)),
-    ];
-    for (name, values, look) in series {
-        let points: Vec<_> = (1..)
-            .zip(values)
-            .filter(|(_, p)| **p > 0.0)
-            .map(|(k, p)| (f64::from(k), log(*p)))
-            .collect();
-        panel.marks(name, &points, look, Outside::Cut)?;
+    let mut entries = Vec::new();
+    for (own, (colour, mark)) in large.poisson.iter().zip(LOOKS) {
+        let name = format!("p N = {}", short(own.p_n, 2));
+        let at = |of: fn(&PoissonCell) -> f64| -> Vec<(f64, f64)> {
+            own.cells.iter().map(|cell| (log(cell.vertices as f64), log(of(cell)))).collect()
+        };
+        let bound = Stroke::dashed(colour, THIN, Dash::Dotted);
+        panel.curve(&format!("bound, {name}"), &at(|cell| cell.bound), bound, Outside::Refuse)?;
+        let look = (mark, 55, Stroke::solid(colour, THIN));
+        panel.marks(&name, &at(|cell| cell.variation), look, Outside::Refuse)?;
+        entries.push(Entry::mark(
+            look.0,
+            look.1,
+            look.2,
+            &format!("*p N* = {}", short(own.p_n, 2)),
+        ));
     }
-    let entry = |i: usize, p: f64| {
-        let (name, _, (mark, half, stroke)) = series[i];
-        Entry::mark(mark, half, stroke, &format!("{name} at *p* = {}", short(p, 4)))
-    };
-    sheet.legend((700, 11_750), (SMALL, 400), &[entry(0, theory.scalars.p_jump)])?;
-    sheet.legend((4400, 11_750), (SMALL, 400), &[entry(1, orders.jump.p)])
+    for (i, column) in entries.chunks(2).enumerate() {
+        sheet.legend((4650 + 1800 * i as i32, 8750), (SMALL, 370), column)?;
+    }
+    Ok(())
 }
 
-fn description(theory: &Theory) -> String {
-    format!(
-        "(a) Shares of the five classes against p, N = {}: simple circuits give way to those with two vertices twice. (b) Share of \
-         the five classes among all circuits with K vertices, falling from one to zero at p = 1/K. (c) P(X = k) at the jump: \
-         two humps with simple circuits, with all circuits a trough.",
-        theory.vertices,
-    )
-}
+const DESCRIPTION: &str = "(a) The most likely number over N against p N: zero, a jump soon after p N = 1, then a curve; the larger N, the \
+     smaller the jump. (b) Height of the jump against N, with the rule. (c) Distance of N − X from a Poisson variable, \
+     falling with the root of N below its bounds.";
 
-fn tables(orders: &AllOrders) -> Vec<DataFile> {
-    let header: Vec<&str> = ["p (1)"].into_iter().chain(CLASS_COLUMNS).collect();
-    let mut classes = DataFile::new("s06a.csv", &header);
-    for row in &orders.classes {
-        let share = |i: usize| row.shares.get(i).copied();
-        classes.row(cells![row.p, share(0), share(1), share(2), share(3), share(4)]);
-    }
-    let mut shares = DataFile::new("s06b.csv", &["K (1)", "p (1)", "share_of_five_classes (1)"]);
-    for own in &orders.shares {
+fn tables(large: &Large) -> Vec<DataFile> {
+    let mut shares = DataFile::new("s06a.csv", &["N (1)", "p_N (1)", "k_star_over_N (1)"]);
+    for own in &large.shares {
         for row in &own.rows {
-            shares.row(cells![own.k, row.x, row.y]);
+            shares.row(cells![own.vertices, row.x, row.y]);
         }
     }
-    let mut whole = DataFile::new("s06b-all.csv", &["p (1)", "share_of_five_classes (1)"]);
-    for row in &orders.whole {
-        whole.row(cells![row.x, row.y]);
+    let header = ["N (1)", "p_jump (1)", "k_star_after (1)", "k_star_over_N (1)", "k_rule (1)"];
+    let mut jumps = DataFile::new("s06b.csv", &header);
+    for own in &large.jumps {
+        jumps.row(cells![own.vertices, own.p, own.k_after, own.share, own.rule]);
     }
-    let columns: [(&str, &[f64]); 2] = [
-        ("probability_simple (1)", &orders.simple_at_jump),
-        ("probability_all (1)", &orders.at_jump),
-    ];
-    let jump = DataFile::over_k("s06c.csv", None, &columns);
-    vec![classes, shares, whole, jump]
+    let header =
+        ["p_N (1)", "N (1)", "total_variation (1)", "bound (1)", "N_minus_1_over_p_minus_mean (1)"];
+    let mut poisson = DataFile::new("s06c.csv", &header);
+    for row in &large.poisson {
+        for cell in &row.cells {
+            poisson.row(cells![row.p_n, cell.vertices, cell.variation, cell.bound, cell.mean_gap]);
+        }
+    }
+    vec![shares, jumps, poisson]
 }

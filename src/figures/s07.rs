@@ -1,169 +1,134 @@
-//! Fig. S7: how hot a running chain is, and what that does to p.
+//! Fig. S7: the five classes of Sec. 9 among circuits of all orders.
+
+use plotters::style::text_anchor::{HPos, VPos};
 
 use super::axis::{Axis, log};
 use super::chart::{LETTERS, short};
-use super::panel::Frame;
+use super::data::cells;
+use super::fig13::{CLASS_COLUMNS, CLASSES};
+use super::panel::{Frame, Panel};
 use super::series::Outside;
 use super::sheet::{Entry, Sheet};
-use super::style::{BLUE, Dash, GREEN, INK, LINE, Mark, ORANGE, PURPLE, RED, SMALL, Stroke, THIN};
+use super::style::{Dash, GREEN, GREY, INK, LINE, Mark, RED, SMALL, Stroke, THIN, TINY};
 use super::{DataFile, Error, Figure};
-use crate::experiments::Results;
-use crate::experiments::heat::tables::{balanced_p, balanced_ratio};
-use crate::experiments::theory::Theory;
-use crate::params::HeatParams;
-use crate::table::Table;
+use crate::experiments::theory::{AllOrders, Theory};
 
-/// The free parts of a chain that starts from rest, over σ², in the mean: (1 + (Ω/ω)²)/2.
-const FROM_REST: f64 = 1.5;
+/// Looks of the numbers of different vertices in (b), from few to many.
+const LOOKS: [Dash; 5] = [Dash::Long, Dash::Short, Dash::Alternate, Dash::Twice, Dash::Dotted];
 
-/// The σ of (a) and (c).
-const SIGMAS: (f64, f64) = (0.05, 0.45);
-
-/// The balance where impacts are frequent.
-const FRICTION: (&str, Stroke) = ("with friction", Stroke::solid(PURPLE, LINE));
-
-/// The half size of marks.
-const SIZE: i32 = 58;
-
-/// What is drawn.
-struct Shown<'a> {
-    parameters: &'a HeatParams,
-    theory: &'a Theory,
-    rising: &'a Table,
-    others: &'a Table,
-}
+/// Upper end of the shares' axes: above one, so that curves stay clear of what stands there.
+const TOP: f64 = 1.1;
 
 /// Draws the figure.
-pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
-    let table = |name| results.table(name);
-    let shown = Shown {
-        parameters: &results.heat()?.parameters,
-        theory: &results.theory,
-        rising: table("heat.rising")?,
-        others: table("heat.others")?,
-    };
-    let sheet = Sheet::new(9700, note)?;
-    against_sigma(&sheet, &shown)?;
-    against_restitution(&sheet, &shown)?;
-    probabilities(&sheet, &shown)?;
-    let data = [shown.rising, shown.others].map(DataFile::of);
-    Ok(sheet.finish("s07", "How hot a running chain is", description(&shown), data.into()))
-}
-
-fn against_sigma(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
-    let panel = sheet.panel(
-        Frame::new(1150, 430, 8150, 3730),
-        Axis::linear(SIGMAS.0, SIGMAS.1, 0.05, 5, "standard deviation *σ* of the forcing"),
-        Axis::linear(0.0, 30.0, 5.0, 5, "*s*^{2}/*σ*^{2}"),
-    )?;
-    panel.letter(LETTERS[0])?;
-    let level = |name: &str, height: f64, stroke| {
-        panel.curve(name, &[(SIGMAS.0, height), (SIGMAS.1, height)], stroke, Outside::Refuse)
-    };
-    let expected = shown.rising.values("balanced").into_iter().fold(0.0, f64::max);
-    let lines = [
-        ("balance of rare impacts", expected, Stroke::solid(INK, LINE)),
-        ("start from rest", FROM_REST, Stroke::dashed(GREEN, LINE, Dash::Long)),
-        ("Eq. (25)", 1.0, Stroke::dashed(BLUE, LINE, Dash::Short)),
-    ];
+pub fn draw(theory: &Theory) -> Result<Figure, Error> {
+    let sheet = Sheet::new(11_900, None)?;
+    let orders = &theory.orders;
+    let x = || Axis::decades(-3, -1, 1, "*p*");
+    let share = || Axis::linear(0.0, TOP, 0.2, 2, "share");
+    let classes = sheet.panel(Frame::new(1150, 480, 4250, 3380), x(), share())?;
+    classes.letter(LETTERS[0])?;
     let mut entries = Vec::new();
-    for (name, height, stroke) in lines.iter().copied() {
-        level(name, height, stroke)?;
-        entries.push(Entry::line(stroke, name));
+    for (i, &(name, symbol, colour, dash)) in CLASSES.iter().enumerate() {
+        let at = |shares: &Vec<f64>| shares.get(i).copied().unwrap_or(0.0);
+        let points: Vec<_> = orders.classes.iter().map(|c| (log(c.p), at(&c.shares))).collect();
+        let stroke = Stroke::dashed(colour, LINE, dash);
+        classes.curve(name, &points, stroke, Outside::Refuse)?;
+        entries.push(Entry::line(stroke, &format!("{name}, {symbol}")));
     }
-    let friction = shown.rising.points(&[], "sigma", "balanced_at_rate");
-    panel.curve(FRICTION.0, &friction, FRICTION.1, Outside::Refuse)?;
-    let looks = [("masses that are hit", Mark::Ring, ORANGE), ("all masses", Mark::Disc, RED)];
-    panel.estimates(
-        looks[0].0,
-        &shown.rising.estimates(&[], "sigma", "variance_ratio_of_hit"),
-        (looks[0].1, SIZE, Stroke::solid(looks[0].2, THIN)),
-        |y| y,
-    )?;
-    panel.estimates(
-        looks[1].0,
-        &shown.rising.estimates(&[], "sigma", "variance_ratio"),
-        (looks[1].1, SIZE, Stroke::solid(looks[1].2, THIN)),
-        |y| y,
-    )?;
-    for (name, mark, colour) in looks {
-        entries.push(Entry::mark(mark, SIZE, Stroke::solid(colour, THIN), name));
+    sheet.legend((4480, 1000), (SMALL, 400), &entries)?;
+
+    let whole = sheet.panel(Frame::new(1150, 4680, 4250, 7580), x(), share())?;
+    whole.letter(LETTERS[1])?;
+    let mut entries = Vec::new();
+    for (own, dash) in orders.shares.iter().zip(LOOKS) {
+        let points: Vec<_> = own.rows.iter().map(|row| (log(row.x), row.y)).collect();
+        // Colours are the classes of (a).
+        let stroke = Stroke::dashed(INK, LINE, dash);
+        whole.curve(&format!("K = {}", own.k), &points, stroke, Outside::Cut)?;
+        entries.push(Entry::line(stroke, &format!("of *K* = {} vertices", own.k)));
     }
-    entries.push(Entry::line(FRICTION.1, FRICTION.0));
-    let (lines, marks) = entries.split_at(lines.len());
-    sheet.legend((2700, 600), (SMALL, 350), lines)?;
-    sheet.legend((5650, 600), (SMALL, 350), marks)
+    let points: Vec<_> = orders.whole.iter().map(|row| (log(row.x), row.y)).collect();
+    let all = Stroke::solid(RED, LINE);
+    whole.curve("all circuits", &points, all, Outside::Refuse)?;
+    entries.push(Entry::line(all, "of all circuits"));
+    for panel in [&classes, &whole] {
+        guide(panel, orders.pole, "1/*N*", HPos::Right)?;
+        guide(panel, theory.scalars.p_jump, "*p*_{jump}", HPos::Left)?;
+    }
+    sheet.legend((4480, 5200), (SMALL, 400), &entries)?;
+    distributions(&sheet, theory)?;
+    let files = tables(orders);
+    Ok(sheet.finish("s07", "Circuits of all orders", description(theory), files))
 }
 
-fn against_restitution(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
-    let panel = sheet.panel(
-        Frame::new(1150, 5250, 4050, 7650),
-        Axis::linear(0.4, 1.0, 0.2, 4, "restitution *r*"),
-        Axis::decades(0, 2, 1, "*s*^{2}/*σ*^{2}"),
-    )?;
-    panel.letter(LETTERS[1])?;
-    let line = Stroke::solid(INK, LINE);
-    let curve: Vec<_> =
-        balanced_ratio(shown.parameters).into_iter().map(|(r, ratio)| (r, log(ratio))).collect();
-    panel.curve("balance of rare impacts", &curve, line, Outside::Cut)?;
-    let friction = shown.others.points(&[], "r", "balanced_at_rate");
-    let friction: Vec<_> = friction.into_iter().map(|(r, ratio)| (r, log(ratio))).collect();
-    panel.curve(FRICTION.0, &friction, FRICTION.1, Outside::Refuse)?;
-    let points = shown.others.estimates(&[], "r", "variance_ratio_of_hit");
-    panel.estimates(
-        "masses that are hit",
-        &points,
-        (Mark::Ring, SIZE, Stroke::solid(ORANGE, THIN)),
-        log,
-    )?;
-    let entries = [
-        Entry::line(line, "balance of rare impacts"),
-        Entry::line(FRICTION.1, FRICTION.0),
-        Entry::mark(Mark::Ring, SIZE, Stroke::solid(ORANGE, THIN), "masses that are hit"),
-    ];
-    sheet.legend((900, 8750), (SMALL, 370), &entries)
+/// An upright line at a place of p, with its name above.
+fn guide(panel: &Panel, p: f64, name: &str, side: HPos) -> Result<(), Error> {
+    let stroke = Stroke::dashed(GREY, THIN, Dash::Dotted);
+    panel.curve(name, &[(log(p), 0.0), (log(p), TOP)], stroke, Outside::Refuse)?;
+    let dx = if matches!(side, HPos::Left) { 20 } else { -20 };
+    panel.note(name, (log(p), TOP), (dx, -80), (TINY, INK, side, VPos::Bottom))
 }
 
-fn probabilities(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
+fn distributions(sheet: &Sheet, theory: &Theory) -> Result<(), Error> {
+    let orders = &theory.orders;
+    let n = theory.vertices as f64;
     let panel = sheet.panel(
-        Frame::new(5350, 5250, 8150, 7650),
-        Axis::linear(SIGMAS.0, SIGMAS.1, 0.1, 2, "*σ*"),
-        Axis::decades(-5, 0, 1, "*p*"),
+        Frame::new(1150, 8880, 8150, 10_780),
+        Axis::linear(0.0, n + 1.0, 20.0, 2, "*k*"),
+        Axis::decades(-4, 0, 1, "*P*(*X* = *k*)"),
     )?;
     panel.letter(LETTERS[2])?;
-    let relation = shown.theory.relation.iter().filter(|row| row.p > 0.0);
-    let (eq25, rest): (Vec<_>, Vec<_>) =
-        relation.map(|row| ((row.sigma, log(row.p)), (row.sigma, log(row.p_rest)))).unzip();
-    let hot: Vec<_> =
-        balanced_p(shown.parameters).into_iter().map(|(sigma, p)| (sigma, log(p))).collect();
-    let lines = [
-        ("Eq. (25)", eq25, Stroke::dashed(BLUE, LINE, Dash::Short)),
-        ("from rest", rest, Stroke::dashed(GREEN, LINE, Dash::Long)),
-        ("balanced", hot, Stroke::solid(INK, LINE)),
+    let look = |mark, colour| (mark, 42, Stroke::solid(colour, THIN));
+    let series = [
+        ("simple circuits", &orders.simple_at_jump, look(Mark::Ring, GREEN)),
+        ("all circuits", &orders.at_jump, look(Mark::Disc, RED)),
     ];
-    let mut entries = Vec::new();
-    for (name, points, stroke) in lines {
-        panel.curve(name, &points, stroke, Outside::Cut)?;
-        entries.push(Entry::line(stroke, name));
+    for (name, values, look) in series {
+        let points: Vec<_> = (1..)
+            .zip(values)
+            .filter(|(_, p)| **p > 0.0)
+            .map(|(k, p)| (f64::from(k), log(*p)))
+            .collect();
+        panel.marks(name, &points, look, Outside::Cut)?;
     }
-    let mut measured = shown.rising.points(&[], "sigma", "p_measured");
-    measured.retain(|(_, p)| *p > 0.0);
-    let measured: Vec<_> = measured.into_iter().map(|(sigma, p)| (sigma, log(p))).collect();
-    let look = (Mark::Disc, SIZE, Stroke::solid(RED, THIN));
-    panel.marks("measured", &measured, look, Outside::Refuse)?;
-    entries.push(Entry::mark(look.0, look.1, look.2, "measured"));
-    for (i, column) in entries.chunks(2).enumerate() {
-        sheet.legend((4850 + 1750 * i as i32, 8750), (SMALL, 370), column)?;
-    }
-    Ok(())
+    let entry = |i: usize, p: f64| {
+        let (name, _, (mark, half, stroke)) = series[i];
+        Entry::mark(mark, half, stroke, &format!("{name} at *p* = {}", short(p, 4)))
+    };
+    sheet.legend((700, 11_750), (SMALL, 400), &[entry(0, theory.scalars.p_jump)])?;
+    sheet.legend((4400, 11_750), (SMALL, 400), &[entry(1, orders.jump.p)])
 }
 
-fn description(shown: &Shown<'_>) -> String {
-    let last = shown.rising.points(&[], "sigma", "variance_ratio_of_hit").pop();
+fn description(theory: &Theory) -> String {
     format!(
-        "(a) Variance of the free amplitudes over that of the force against σ falls{}, below the level of rare \
-         impacts. (b) The same against r, below a curve without bound towards r = 1. (c) The probability p against σ: measured \
-         points go from the start from rest to the balanced variance.",
-        last.map_or(String::new(), |(sigma, own)| format!(", to {} at σ = {sigma}", short(own, 3))),
+        "(a) Shares of the five classes against p, N = {}: simple circuits give way to those with two vertices twice. (b) Share of \
+         the five classes among all circuits with K vertices, falling from one to zero at p = 1/K. (c) P(X = k) at the jump: \
+         two humps with simple circuits, with all circuits a trough.",
+        theory.vertices,
     )
+}
+
+fn tables(orders: &AllOrders) -> Vec<DataFile> {
+    let header: Vec<&str> = ["p (1)"].into_iter().chain(CLASS_COLUMNS).collect();
+    let mut classes = DataFile::new("s07a.csv", &header);
+    for row in &orders.classes {
+        let share = |i: usize| row.shares.get(i).copied();
+        classes.row(cells![row.p, share(0), share(1), share(2), share(3), share(4)]);
+    }
+    let mut shares = DataFile::new("s07b.csv", &["K (1)", "p (1)", "share_of_five_classes (1)"]);
+    for own in &orders.shares {
+        for row in &own.rows {
+            shares.row(cells![own.k, row.x, row.y]);
+        }
+    }
+    let mut whole = DataFile::new("s07b-all.csv", &["p (1)", "share_of_five_classes (1)"]);
+    for row in &orders.whole {
+        whole.row(cells![row.x, row.y]);
+    }
+    let columns: [(&str, &[f64]); 2] = [
+        ("probability_simple (1)", &orders.simple_at_jump),
+        ("probability_all (1)", &orders.at_jump),
+    ];
+    let jump = DataFile::over_k("s07c.csv", None, &columns);
+    vec![classes, shares, whole, jump]
 }

@@ -1,193 +1,149 @@
-//! Fig. S9: periodic orbits from circuits.
+//! Fig. S9: successive impacts, circuits and different gaps beside independent impacts.
 
-use super::axis::Axis;
-use super::chart::{LETTERS, short, upwards_from_zero};
-use super::data::cells;
-use super::panel::{Frame, Panel};
+use super::axis::{Axis, log};
+use super::chart::{LETTERS, short};
+use super::panel::Frame;
 use super::series::Outside;
 use super::sheet::{Entry, Sheet};
-use super::style::{
-    BLUE, Colour, Dash, GREEN, GREY, HAIR, INK, LINE, Mark, ORANGE, RED, SMALL, Stroke, THIN,
-};
+use super::style::{BLUE, Colour, Dash, INK, LINE, Mark, ORANGE, PURPLE, RED, SMALL, Stroke, THIN};
 use super::{DataFile, Error, Figure};
 use crate::experiments::Results;
-use crate::experiments::orbits::{Example, Orbits, Row};
-
-/// The colours of masses, and of lengths.
-const COLOURS: [Colour; 4] = [BLUE, RED, GREEN, ORANGE];
+use crate::table::Table;
 
 /// The half size of marks.
 const SIZE: i32 = 52;
 
-/// The end of the axes of (c): multipliers beyond it are told by their number.
-const REACH: f64 = 2.0;
+/// Looks of the ensembles, by rising σ.
+const LOOKS: [(Mark, Colour); 4] = [
+    (Mark::Disc, RED),
+    (Mark::OpenSquare, ORANGE),
+    (Mark::OpenTriangle, PURPLE),
+    (Mark::Ring, BLUE),
+];
 
-/// The σ of (c), or the last if it was not run.
-const SIGMA: f64 = 0.3;
+/// The largest length of circuits in (b).
+const LONGEST: f64 = 70.0;
 
 /// Draws the figure.
 pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
-    let orbits = results.orbits()?;
-    let sheet = Sheet::new(9500, note)?;
-    if let Some(example) = &orbits.example {
-        motion(&sheet, example)?;
-    }
-    shares(&sheet, orbits)?;
-    plane(&sheet, orbits)?;
-    let mut files = tables(orbits);
-    files.push(DataFile::of(results.table("orbits.lengths")?));
-    Ok(sheet.finish("s09", "Periodic orbits from circuits", description(orbits), files))
+    let table = |name| results.table(name);
+    let (near, frequencies) = (table("independence.near")?, table("independence.circuits")?);
+    let (blocks, rising) = (table("independence.different")?, table("independence.rising")?);
+    let sheet = Sheet::new(9350, note)?;
+    distances(&sheet, near)?;
+    circuits(&sheet, frequencies)?;
+    different(&sheet, blocks, *rising.values("gaps").first().unwrap_or(&1.0))?;
+    let data = [near, frequencies, blocks].map(DataFile::of);
+    let title = "Successive impacts beside independent ones";
+    Ok(sheet.finish("s09", title, description(rising), data.into()))
 }
 
-fn motion(sheet: &Sheet, example: &Example) -> Result<(), Error> {
-    let masses = example.positions.len();
-    let wall = (masses + 1) as f64;
-    // A mass may be anywhere between the walls.
+fn looked(table: &Table) -> Vec<(f64, (Mark, Colour))> {
+    // The last look is that of the highest σ, whatever is between.
+    let sigmas = table.values("sigma");
+    let last = sigmas.len().saturating_sub(1);
+    let look = |at: usize| if at == last { LOOKS[3] } else { LOOKS[at.min(2)] };
+    sigmas.into_iter().enumerate().map(|(at, sigma)| (sigma, look(at))).collect()
+}
+
+fn ends(table: &Table) -> impl Iterator<Item = (f64, (Mark, Colour))> {
+    let mut all = looked(table);
+    let last = all.pop();
+    all.into_iter().take(1).chain(last)
+}
+
+fn named(sigma: f64) -> String {
+    format!("*σ* = {sigma}")
+}
+
+fn distances(sheet: &Sheet, near: &Table) -> Result<(), Error> {
+    let far = near.values("distance").len() as f64;
     let panel = sheet.panel(
-        Frame::new(1150, 430, 8150, 3630),
-        Axis::linear(0.0, example.period, 0.5, 1, "time *t* in one period"),
-        Axis::linear(0.0, wall, 1.0, 2, "position *x*"),
+        Frame::new(1150, 480, 8150, 3380),
+        Axis::linear(-0.5, far - 0.5, 5.0, 5, "distance |*i* − *j*| from one impact to the next"),
+        Axis::linear(0.0, 1.6, 0.5, 5, "observed / independent"),
     )?;
     panel.letter(LETTERS[0])?;
-    let top = [(0.0, wall), (example.period, wall)];
-    panel.curve("right wall", &top, Stroke::solid(INK, HAIR), Outside::Refuse)?;
-    for (place, colour) in example.positions.iter().zip(COLOURS) {
-        let points: Vec<_> = example.times.iter().copied().zip(place.iter().copied()).collect();
-        panel.curve("mass", &points, Stroke::solid(colour, LINE), Outside::Cut)?;
+    let level = Stroke::solid(INK, LINE);
+    panel.curve("independent", &[(-0.5, 1.0), (far - 0.5, 1.0)], level, Outside::Refuse)?;
+    let mut entries = vec![Entry::line(level, "independent")];
+    for (sigma, (mark, colour)) in looked(near) {
+        let thin = Stroke::solid(colour, THIN);
+        let known = near.estimates(&[("sigma", sigma)], "distance", "over_independent");
+        panel.estimates(&named(sigma), &known, (mark, SIZE, thin), |y| y)?;
+        entries.push(Entry::mark(mark, SIZE, thin, &named(sigma)));
     }
-    let impacts: Vec<_> = impacts(example).collect();
-    panel.marks("impacts", &impacts, (Mark::Disc, SIZE, Stroke::solid(INK, THIN)), Outside::Cut)
+    let (line, marks) = entries.split_at(1);
+    sheet.legend((3300, 2250), (SMALL, 310), line)?;
+    sheet.legend((5900, 2250), (SMALL, 310), marks)
 }
 
-/// Where the impacts of an example are: at a mass of the gap, or at the wall.
-fn impacts(example: &Example) -> impl Iterator<Item = (f64, f64)> + '_ {
-    example.impacts.iter().zip(&example.circuit).map(|(&time, &gap)| {
-        let left = gap.checked_sub(1).and_then(|j| example.positions.get(j));
-        let at = example.times.iter().position(|t| *t == time);
-        (time, left.zip(at).map_or(0.0, |(places, at)| places[at]))
-    })
-}
-
-fn shares(sheet: &Sheet, orbits: &Orbits) -> Result<(), Error> {
-    let all = || orbits.rows.iter().flat_map(|row| &row.lengths);
-    let largest = all().map(|own| own.admissible.value + own.admissible.error).fold(0.1, f64::max);
-    let last = orbits.rows.iter().map(|row| row.sigma).fold(0.0, f64::max);
+fn circuits(sheet: &Sheet, found: &Table) -> Result<(), Error> {
     let panel = sheet.panel(
-        Frame::new(1150, 4950, 4150, 7750),
-        Axis::linear(0.0, if last > 0.35 { 0.7 } else { 0.35 }, 0.1, 2, "*σ*"),
-        upwards_from_zero(largest, "share of circuits"),
+        Frame::new(1150, 4780, 4450, 7380),
+        Axis::linear(0.0, LONGEST, 20.0, 4, "length *k*"),
+        Axis::decades(-6, -1, 1, "frequency"),
     )?;
     panel.letter(LETTERS[1])?;
-    let mut entries = Vec::new();
-    let lengths = orbits.rows.first().map_or(0, |row| row.lengths.len());
-    for (k, colour) in (1..=lengths).zip(COLOURS) {
-        let own = |row: &Row| row.lengths.iter().find(|own| own.k == k).cloned();
-        let of: Vec<_> =
-            orbits.rows.iter().filter_map(|row| Some((row.sigma, own(row)?))).collect();
-        let name = format!("length {k}");
+    let line = Stroke::solid(INK, LINE);
+    let points = |sigma: f64, column: &str| -> Vec<(f64, f64)> {
+        let all = found.points(&[("sigma", sigma)], "k", column).into_iter();
+        all.filter(|at| at.0 <= LONGEST && at.1 > 0.0).map(|(k, share)| (k, log(share))).collect()
+    };
+    let equal = found.values("sigma").first().map(|sigma| points(*sigma, "equal"));
+    panel.curve("equal and independent", &equal.unwrap_or_default(), line, Outside::Cut)?;
+    let mut lines = vec![Entry::line(line, "equal and independent")];
+    let mut marks = Vec::new();
+    for (sigma, (mark, colour)) in ends(found) {
         let thin = Stroke::solid(colour, THIN);
-        let bars: Vec<_> = of
-            .iter()
-            .map(|(x, own)| (x, own.admissible.value, own.admissible.error))
-            .map(|(x, y, e)| (*x, (y - e).max(0.0), y + e))
-            .collect();
-        panel.bars(&name, &bars, 35, thin)?;
-        series(
-            &panel,
-            &name,
-            &of.iter().map(|(x, own)| (*x, own.admissible.value)).collect::<Vec<_>>(),
-            Mark::Disc,
-            Stroke::solid(colour, LINE),
-        )?;
-        series(
-            &panel,
-            &name,
-            &of.iter().map(|(x, own)| (*x, own.stable.value)).collect::<Vec<_>>(),
-            Mark::Ring,
-            Stroke::dashed(colour, THIN, Dash::Short),
-        )?;
-        entries.push(Entry::mark(Mark::Disc, SIZE, thin, &format!("*k* = {k}")));
+        let dashed = matrix(colour);
+        let name = format!("measured matrix, {}", named(sigma));
+        panel.curve(&name, &points(sigma, "matrix"), dashed, Outside::Cut)?;
+        lines.push(Entry::line(dashed, &name));
+        let look = (mark, SIZE * 2 / 3, thin);
+        panel.marks(&named(sigma), &points(sigma, "measured"), look, Outside::Cut)?;
+        marks.push(Entry::mark(mark, SIZE, thin, &format!("measured, {}", named(sigma))));
     }
-    let (left, right) = entries.split_at(entries.len().div_ceil(2));
-    sheet.legend((900, 8750), (SMALL, 370), left)?;
-    sheet.legend((2200, 8750), (SMALL, 370), right)?;
-    let open = Entry::mark(Mark::Ring, SIZE, Stroke::solid(INK, THIN), "stable");
-    sheet.legend((3500, 8750), (SMALL, 370), &[open])
+    sheet.legend((500, 8420), (SMALL, 340), &lines)?;
+    sheet.legend((4950, 8420), (SMALL, 340), &marks)
 }
 
-fn series(
-    panel: &Panel,
-    name: &str,
-    points: &[(f64, f64)],
-    mark: Mark,
-    stroke: Stroke,
-) -> Result<(), Error> {
-    panel.curve(name, points, stroke, Outside::Refuse)?;
-    panel.marks(name, points, (mark, SIZE, Stroke { dash: Dash::Solid, ..stroke }), Outside::Refuse)
+/// The line of the measured transition matrix.
+fn matrix(colour: Colour) -> Stroke {
+    Stroke::dashed(colour, THIN, Dash::Short)
 }
 
-/// The row whose multipliers are drawn.
-fn chosen(orbits: &Orbits) -> Option<&Row> {
-    orbits.rows.iter().find(|row| row.sigma == SIGMA).or(orbits.rows.last())
-}
-
-fn plane(sheet: &Sheet, orbits: &Orbits) -> Result<(), Error> {
+fn different(sheet: &Sheet, found: &Table, gaps: f64) -> Result<(), Error> {
     let panel = sheet.panel(
-        Frame::new(5350, 4950, 8150, 7750),
-        Axis::linear(-REACH, REACH, 1.0, 2, "Re *λ*"),
-        Axis::linear(-REACH, REACH, 1.0, 2, "Im *λ*"),
+        Frame::new(5550, 4780, 8150, 7380),
+        Axis::linear(0.0, 3.0, 1.0, 4, "impacts, *m*/*N*"),
+        Axis::linear(0.0, 1.0, 0.2, 2, "different gaps/*N*"),
     )?;
     panel.letter(LETTERS[2])?;
-    let circle: Vec<_> = (0..=180)
-        .map(|i| pxfm::f_sincos(f64::from(i) * std::f64::consts::PI / 90.0))
-        .map(|(sin, cos)| (cos, sin))
-        .collect();
-    panel.curve("unit circle", &circle, Stroke::solid(GREY, THIN), Outside::Refuse)?;
-    let Some(row) = chosen(orbits) else { return Ok(()) };
-    let looks =
-        [("unstable orbits", Mark::Ring, ORANGE, false), ("stable orbits", Mark::Disc, BLUE, true)];
-    for (place, (name, mark, colour, stable)) in looks.into_iter().enumerate() {
-        let own = row.found.iter().filter(|f| (f.radius < 1.0) == stable);
-        let points: Vec<_> =
-            own.flat_map(|f| f.multipliers.iter().map(|[re, im]| (*re, *im))).collect();
-        let stroke = Stroke::solid(colour, THIN);
-        panel.marks(name, &points, (mark, 32, stroke), Outside::Cut)?;
-        let entry = Entry::mark(mark, SIZE, stroke, name);
-        sheet.legend((5750, 8750 + 370 * place as i32), (SMALL, 370), &[entry])?;
+    let points = |sigma: f64, column: &str| -> Vec<(f64, f64)> {
+        let all = found.points(&[("sigma", sigma)], "impacts", column).into_iter();
+        all.map(|(m, own)| (m / gaps, own / gaps)).collect()
+    };
+    if let Some(sigma) = found.values("sigma").first() {
+        let line = Stroke::solid(INK, LINE);
+        panel.curve("equal and independent", &points(*sigma, "equal"), line, Outside::Cut)?;
+    }
+    for (sigma, (mark, colour)) in ends(found) {
+        let name = format!("measured matrix, {}", named(sigma));
+        panel.curve(&name, &points(sigma, "matrix"), matrix(colour), Outside::Cut)?;
+        let look = (mark, SIZE, Stroke::solid(colour, THIN));
+        panel.marks(&named(sigma), &points(sigma, "measured"), look, Outside::Cut)?;
     }
     Ok(())
 }
 
-fn description(orbits: &Orbits) -> String {
-    let example = orbits.example.as_ref().map_or("none was found".into(), |own| {
-        format!("σ = {}, largest multiplier {}", own.sigma, short(own.radius, 2))
-    });
+fn description(rising: &Table) -> String {
+    let last = |column| rising.values(column).last().map_or("none".into(), |own| short(*own, 2));
     format!(
-        "(a) Positions of the masses over one period of a stable orbit ({example}), with a disc at each impact. (b) Share of simple \
-         circuits with an orbit against σ, falling with their length; far below, dashed, with a stable one. (c) Multipliers: stable \
-         ones inside the unit circle, unstable ones along the real axis.",
+        "(a) Successions over those of independent impacts: none at distance 0, few at 1, near one beyond. (b) Share of circuits of \
+         length k: below equal gaps for short ones, far above for long ones, of mean length {} for {}. (c) Different gaps among m \
+         impacts: points above the dashed curves.",
+        last("length"),
+        last("length_equal"),
     )
-}
-
-fn tables(orbits: &Orbits) -> Vec<DataFile> {
-    let mut motion = DataFile::new("s09a.csv", &["time (1/omega)", "mass (1)", "position (d)"]);
-    if let Some(example) = &orbits.example {
-        for (mass, places) in example.positions.iter().enumerate() {
-            let places = example.times.iter().zip(places);
-            places.for_each(|(time, place)| motion.row(cells![*time, mass + 1, *place]));
-        }
-    }
-    let mut plane =
-        DataFile::new("s09c.csv", &["sigma (d omega^2)", "circuit (text)", "re (1)", "im (1)"]);
-    if let Some(row) = chosen(orbits) {
-        for found in &row.found {
-            let circuit: Vec<String> =
-                orbits.circuits[found.circuit].iter().map(usize::to_string).collect();
-            let circuit = circuit.join("-");
-            for [re, im] in &found.multipliers {
-                plane.row(cells![row.sigma, circuit.as_str(), *re, *im]);
-            }
-        }
-    }
-    vec![motion, plane]
 }

@@ -1,8 +1,7 @@
-//! Fig. S11: long chains, friction, and a force with a common period.
+//! Fig. S11: the rise, the heat and contact at several restitutions.
 
 use super::axis::{Axis, log};
-use super::chart::LETTERS;
-use super::data::cells;
+use super::chart::short;
 use super::panel::Frame;
 use super::series::Outside;
 use super::sheet::{Entry, Sheet};
@@ -10,279 +9,227 @@ use super::style::{
     BLUE, Colour, Dash, GREEN, INK, LINE, Mark, ORANGE, PURPLE, RED, SMALL, Stroke, THIN,
 };
 use super::{DataFile, Error, Figure};
-use crate::experiments::chains::{Chains, Curve, Ensemble};
-use crate::experiments::protocol::ProtocolMap;
-use crate::numerics::statistics::Estimate;
-use crate::params::{ChainCurve, ChainKind};
-use std::collections::BTreeMap;
-
-/// Marks and colours of lengths and of frictions, from the smallest.
-const LOOKS: [(Mark, Colour); 6] = [
-    (Mark::Ring, PURPLE),
-    (Mark::Disc, BLUE),
-    (Mark::Square, GREEN),
-    (Mark::Diamond, ORANGE),
-    (Mark::Disc, RED),
-    (Mark::Ring, INK),
-];
+use crate::experiments::Results;
+use crate::experiments::restitution::Restitution;
+use crate::experiments::restitution::hot::steady;
+use crate::experiments::restitution::tables::able;
+use crate::params::Chain;
+use crate::table::Table;
 
 /// The half size of marks.
 const SIZE: i32 = 52;
 
-/// The frequency of (d).
-const COMMON: &str = "frequency-2";
+/// Restitutions of (a), and their looks.
+const RISES: [(f64, Mark, Colour); 5] = [
+    (0.0, Mark::Disc, RED),
+    (0.4, Mark::OpenSquare, ORANGE),
+    (0.6, Mark::OpenTriangle, PURPLE),
+    (0.8, Mark::Ring, GREEN),
+    (0.95, Mark::Disc, BLUE),
+];
+
+/// The σ of (c), and their looks.
+const WARM: [(f64, Mark, Colour); 2] = [(0.15, Mark::Disc, RED), (0.3, Mark::Ring, BLUE)];
+
+/// Looks of the r of (d), the last one first, and of (e), by rising r.
+const LOOKS: [(Mark, Colour); 4] = [
+    (Mark::Disc, RED),
+    (Mark::OpenSquare, ORANGE),
+    (Mark::OpenTriangle, PURPLE),
+    (Mark::Ring, BLUE),
+];
+
+/// What is drawn.
+struct Shown<'a> {
+    found: &'a Restitution,
+    rise: &'a Table,
+    curves: &'a Table,
+    heating: &'a Table,
+    heated: &'a Table,
+}
 
 /// Draws the figure.
-pub fn draw(
-    chains: &Chains,
-    sizes: &Chains,
-    map: &ProtocolMap,
-    note: Option<&str>,
-) -> Result<Figure, Error> {
-    let sheet = Sheet::new(10_650, note)?;
-    lengths(&sheet, chains)?;
-    times(&sheet, &by_length(chains, sizes), &of_map(chains, map))?;
-    frictions(&sheet, chains, map)?;
-    period(&sheet, chains)?;
-    let title = "Long chains, friction, and a common period";
-    Ok(sheet.finish("s11", title, description(sizes), tables(chains, sizes, map)))
+pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
+    let table = |name| results.table(name);
+    let shown = Shown {
+        found: results.restitution()?,
+        rise: table("restitution.rise")?,
+        curves: table("restitution.curves")?,
+        heating: table("restitution.heating")?,
+        heated: table("restitution.heated")?,
+    };
+    let sheet = Sheet::new(14_000, note)?;
+    rises(&sheet, &shown)?;
+    places(&sheet, &shown)?;
+    warmth(&sheet, &shown)?;
+    heating(&sheet, &shown)?;
+    contact(&sheet, &shown)?;
+    let title = "The rise, the heat and contact at several restitutions";
+    let data = [shown.rise, shown.curves, shown.heating, shown.heated].map(DataFile::of);
+    Ok(sheet.finish("s11", title, description(&shown), data.into()))
 }
 
-/// The look of a length, by its order of magnitude.
-fn look(masses: usize) -> (Mark, i32, Stroke) {
-    let tens = pxfm::f_log10(masses as f64).round() as usize;
-    let (mark, colour) = LOOKS[tens.saturating_sub(1).min(LOOKS.len() - 1)];
-    (mark, SIZE, Stroke::solid(colour, THIN))
+fn named(r: f64) -> String {
+    format!("*r* = {r}")
 }
 
-/// A length in words: the longest as a power of ten.
-fn length(masses: usize) -> String {
-    let tens = masses.checked_ilog10().unwrap_or(0);
-    match tens >= 4 && masses == 10_usize.pow(tens) {
-        true => format!("*n* = 10^{{{tens}}}"),
-        false => format!("*n* = {masses}"),
-    }
-}
-
-/// The transient that all lengths have.
-const COMMON_TIME: f64 = 500.0;
-
-/// (σ, share) of a curve at a transient.
-fn shares(own: &ChainCurve, curve: &Curve, time: f64) -> Vec<(f64, Estimate)> {
-    let Some(at) = own.transients.iter().position(|own| *own == time) else { return Vec::new() };
-    curve.rows.iter().filter_map(|row| Some((row.sigma, row.shares[at]?))).collect()
-}
-
-fn points(all: &[(f64, Estimate)]) -> Vec<(f64, f64)> {
-    all.iter().map(|(x, own)| (*x, own.value)).collect()
-}
-
-fn lengths(sheet: &Sheet, chains: &Chains) -> Result<(), Error> {
+fn rises(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
+    let gaps = shown.found.parameters.chain.gaps() as f64;
+    let last = shown.found.parameters.sigmas.iter().copied().fold(0.0, f64::max);
     let panel = sheet.panel(
-        Frame::new(1000, 430, 3900, 3730),
-        Axis::linear(0.07, 0.19, 0.03, 3, "*σ*"),
-        Axis::linear(0.0, 1.0, 0.2, 2, "share of the gaps"),
+        Frame::new(1150, 430, 8150, 3230),
+        Axis::linear(0.05, last + 0.02, 0.1, 5, "standard deviation *σ* of the forcing"),
+        Axis::linear(0.0, 105.0, 20.0, 4, "mean count"),
     )?;
-    panel.letter(LETTERS[0])?;
+    panel.letter("(a)")?;
+    let half = Stroke::dashed(INK, THIN, Dash::Short);
+    let level = [(0.05, 0.5 * gaps), (0.4, 0.5 * gaps)];
+    panel.curve("half of all gaps", &level, half, Outside::Cut)?;
     let mut entries = Vec::new();
-    for (own, curve) in chains.of(ChainKind::Length) {
-        let all = shares(own, curve, COMMON_TIME);
-        if all.is_empty() {
+    for (r, mark, colour) in RISES {
+        let points = shown.rise.estimates(&[("r", r)], "sigma", "mean_count");
+        if points.is_empty() {
             continue;
         }
-        let look = look(own.masses);
-        let name = length(own.masses);
-        panel.curve(&name, &points(&all), look.2, Outside::Cut)?;
-        panel.estimates(&name, &all, look, |y| y)?;
-        entries.push(Entry::mark(look.0, look.1, look.2, &name));
+        let line = shown.rise.points(&[("r", r)], "sigma", "mean_count");
+        let thin = Stroke::solid(colour, THIN);
+        panel.curve(&named(r), &line, thin, Outside::Refuse)?;
+        panel.estimates(&named(r), &points, (mark, SIZE, thin), |y| y)?;
+        entries.push(Entry::mark(mark, SIZE, thin, &named(r)));
     }
-    for (i, column) in entries.chunks(3).enumerate() {
-        sheet.legend((700 + 1650 * i as i32, 4560), (SMALL, 340), column)?;
-    }
-    Ok(())
+    sheet.legend((6350, 1750), (SMALL, 310), &entries)
 }
 
-/// (T, half height) of the map.
-fn of_map(chains: &Chains, map: &ProtocolMap) -> Vec<(f64, Estimate)> {
-    let window = chains.parameters.window;
-    let cells = map.cells.iter().filter(|cell| cell.window == window);
-    cells.filter_map(|cell| Some((cell.transient, cell.half_height_all?))).collect()
-}
-
-/// (T, half height) of a curve.
-fn halves(own: &ChainCurve, curve: &Curve) -> Vec<(f64, Estimate)> {
-    let all = own.transients.iter().zip(&curve.half_heights);
-    all.filter_map(|(time, half)| Some((*time, (*half)?))).collect()
-}
-
-fn logarithmic(all: Vec<(f64, Estimate)>) -> Vec<(f64, Estimate)> {
-    all.into_iter().map(|(time, half)| (log(time), half)).collect()
-}
-
-/// (T, half height) of each length, of those that were measured anew by these alone.
-fn by_length(chains: &Chains, sizes: &Chains) -> BTreeMap<usize, Vec<(f64, Estimate)>> {
-    let anew = |masses| sizes.all().any(|(own, _)| own.masses == masses);
-    let others = chains.of(ChainKind::Length).filter(|(own, _)| !anew(own.masses));
-    let mut all = BTreeMap::<usize, Vec<(f64, Estimate)>>::new();
-    for (own, curve) in others.chain(sizes.all()) {
-        all.entry(own.masses).or_default().extend(halves(own, curve));
-    }
-    all
-}
-
-fn times(
-    sheet: &Sheet,
-    lengths: &BTreeMap<usize, Vec<(f64, Estimate)>>,
-    map: &[(f64, Estimate)],
-) -> Result<(), Error> {
+fn places(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
     let panel = sheet.panel(
-        Frame::new(5150, 430, 8050, 3730),
-        Axis::decades(1, 5, 1, "transient *T*"),
-        Axis::linear(0.08, 0.16, 0.01, 2, "*σ*_{1/2}"),
+        Frame::new(1150, 4700, 4150, 7200),
+        Axis::linear(0.0, 1.0, 0.2, 2, "restitution *r*"),
+        Axis::linear(0.0, 0.35, 0.1, 4, "*σ* at half height"),
     )?;
-    panel.letter(LETTERS[1])?;
-    let stroke = Stroke::solid(INK, THIN);
-    let line = logarithmic(map.to_vec());
-    panel.curve("map", &points(&line), stroke, Outside::Cut)?;
-    for (masses, all) in lengths {
-        let (name, look) = (format!("half height of {masses} masses"), look(*masses));
-        let all = logarithmic(all.clone());
-        panel.curve(&name, &points(&all), look.2, Outside::Cut)?;
-        panel.estimates(&name, &all, look, |y| y)?;
-    }
-    let entry = Entry::line(stroke, "map of Sec. 11, *n* = 100");
-    sheet.legend((4900, 4560), (SMALL, 340), &[entry])
+    panel.letter("(b)")?;
+    let line = shown.curves.points(&[], "r", "half_height");
+    panel.curve("half height", &line, Stroke::solid(RED, THIN), Outside::Refuse)?;
+    let points = shown.curves.estimates(&[], "r", "half_height");
+    panel.estimates("half height", &points, (Mark::Disc, SIZE, Stroke::solid(RED, THIN)), |y| y)
 }
 
-fn frictions(sheet: &Sheet, chains: &Chains, map: &ProtocolMap) -> Result<(), Error> {
+/// s²/σ² of the balance with little loss at one σ.
+fn little_loss(found: &Restitution, sigma: f64, lost: f64) -> f64 {
+    let chain = Chain { restitution: 1.0 - lost, ..found.parameters.chain.clone() };
+    steady(&chain, sigma)
+}
+
+fn warmth(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
     let panel = sheet.panel(
-        Frame::new(1000, 5900, 3900, 8900),
-        Axis::decades(1, 4, 1, "transient *T*"),
-        Axis::linear(0.09, 0.16, 0.01, 2, "*σ*_{1/2}"),
+        Frame::new(5350, 4700, 8150, 7200),
+        Axis::decades(-3, 0, 1, "1 − *r*"),
+        Axis::decades(0, 3, 1, "*s*^{2}/*σ*^{2}"),
     )?;
-    panel.letter(LETTERS[2])?;
-    let stroke = Stroke::solid(INK, THIN);
-    let line = logarithmic(of_map(chains, map));
-    panel.curve("without friction", &points(&line), stroke, Outside::Cut)?;
-    let mut entries = vec![Entry::line(stroke, "*c* = 0")];
-    for ((own, curve), (mark, colour)) in chains.of(ChainKind::Damping).zip(&LOOKS[1..]) {
-        let look = (*mark, SIZE, Stroke::solid(*colour, THIN));
-        let name = format!("*c* = {}", own.damping);
-        let all = logarithmic(halves(own, curve));
-        panel.curve(&name, &points(&all), look.2, Outside::Cut)?;
-        panel.estimates(&name, &all, look, |y| y)?;
-        entries.push(Entry::mark(look.0, look.1, look.2, &name));
+    panel.letter("(c)")?;
+    let losses = || (0..=60).map(|i| pxfm::f_exp10(-3.0 + 0.05 * f64::from(i)));
+    let rare = |lost: f64| (log(lost), log(2.0 * (2.0 - lost) / lost));
+    let solid = Stroke::solid(INK, LINE);
+    panel.curve("rare impacts", &losses().map(rare).collect::<Vec<_>>(), solid, Outside::Cut)?;
+    let until = shown.heating.values("window_end").last().copied().unwrap_or_default();
+    let mut marks = Vec::new();
+    for (sigma, mark, colour) in WARM {
+        let mut points = shown.rise.estimates(&[("sigma", sigma)], "r", "variance_ratio");
+        if sigma == shown.found.parameters.heated_sigma {
+            points.extend(shown.heating.estimates(&[("window_end", until)], "r", "variance_ratio"));
+        }
+        points.retain(|(r, _)| *r < 1.0);
+        points.iter_mut().for_each(|(r, _)| *r = log(1.0 - *r));
+        let name = format!("*σ* = {sigma}");
+        panel.estimates(&name, &points, (mark, SIZE, Stroke::solid(colour, THIN)), log)?;
+        marks.push(Entry::mark(mark, SIZE, Stroke::solid(colour, THIN), &name));
+        // The law is for hot chains, and drawn where little is lost.
+        let curve: Vec<_> = losses()
+            .filter(|lost| *lost <= 0.1)
+            .map(|lost| (log(lost), log(little_loss(shown.found, sigma, lost))))
+            .collect();
+        panel.curve(&format!("little loss, {name}"), &curve, little(colour), Outside::Cut)?;
     }
-    for (i, column) in entries.chunks(2).enumerate() {
-        sheet.legend((600 + 1750 * i as i32, 9750), (SMALL, 340), column)?;
-    }
-    Ok(())
+    let lines = [Entry::line(solid, "rare impacts"), Entry::line(little(INK), "little loss")];
+    sheet.legend((4850, 8150), (SMALL, 340), &lines)?;
+    sheet.legend((6800, 8150), (SMALL, 340), &marks)
 }
 
-/// The share of the chains with an impact in the last window, with its binomial error.
-fn alive(row: &Ensemble) -> (f64, Estimate) {
-    let all = row.runs.len().max(1) as f64;
-    let share = 1.0 - row.silent.iter().sum::<u64>() as f64 / all;
-    let error = (share * (1.0 - share) / all).sqrt();
-    (row.sigma, crate::numerics::estimates::with_error(share, error))
+/// The line of the law for little loss.
+fn little(colour: Colour) -> Stroke {
+    Stroke::dashed(colour, THIN, Dash::Long)
 }
 
-fn period(sheet: &Sheet, chains: &Chains) -> Result<(), Error> {
+/// A line's entry above those of marks, which stand in two columns.
+fn legend(sheet: &Sheet, left: i32, line: Entry, marks: &[Entry]) -> Result<(), Error> {
+    sheet.legend((left, 12_850), (SMALL, 340), &[line])?;
+    let (first, second) = marks.split_at(marks.len().div_ceil(2));
+    sheet.legend((left, 13_190), (SMALL, 340), first)?;
+    sheet.legend((left + 1650, 13_190), (SMALL, 340), second)
+}
+
+fn heating(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
     let panel = sheet.panel(
-        Frame::new(5150, 5900, 8050, 8900),
-        Axis::linear(0.2, 0.44, 0.1, 2, "*σ*"),
-        Axis::linear(0.0, 1.0, 0.2, 2, "share of the chains"),
+        Frame::new(1150, 9400, 4150, 11_900),
+        Axis::decades(1, 4, 1, "time *t* (1/*ω*)"),
+        Axis::decades(1, 3, 1, "impacts per unit time"),
     )?;
-    panel.letter(LETTERS[3])?;
-    let Some((_, curve)) = chains.curve(COMMON) else { return Ok(()) };
-    let line = |of: fn(&[f64; 3]) -> f64| -> Vec<(f64, f64)> {
-        curve.kept_expected.iter().map(|own| (own[0], of(own))).collect()
+    panel.letter("(d)")?;
+    // A window stands at its middle on the logarithmic axis; the first has none.
+    let ends = shown.heating.values("window_end");
+    let middle = |end: f64| {
+        let before = ends.iter().copied().take_while(|own| *own < end).last()?;
+        Some(0.5 * (log(before) + log(end)))
     };
-    let (bound, there) = (Stroke::dashed(BLUE, LINE, Dash::Short), Stroke::solid(INK, LINE));
-    panel.curve("all phases", &line(|own| own[1]), bound, Outside::Cut)?;
-    panel.curve("common period", &line(|own| own[2]), there, Outside::Cut)?;
-    let all: Vec<_> = curve.rows.iter().map(alive).collect();
-    let look = (Mark::Disc, SIZE, Stroke::solid(RED, THIN));
-    panel.estimates("simulation", &all, look, |y| y)?;
-    let entries = [
-        Entry::line(bound, "all phases, Eq. (20)"),
-        Entry::line(there, "common period"),
-        Entry::mark(look.0, look.1, look.2, "simulation"),
-    ];
-    sheet.legend((4900, 9750), (SMALL, 340), &entries)
+    let table = shown.heating;
+    let solid = Stroke::solid(INK, LINE);
+    let law = table.points(&[("r", 1.0)], "window_end", "impacts_lossless");
+    let law: Vec<_> =
+        law.iter().filter_map(|(end, own)| Some((middle(*end)?, log(*own)))).collect();
+    panel.curve("hot, without loss", &law, solid, Outside::Cut)?;
+    let mut entries = Vec::new();
+    for (r, (mark, colour)) in table.values("r").into_iter().rev().zip(LOOKS) {
+        let points = table.estimates(&[("r", r)], "window_end", "impacts");
+        let points: Vec<_> =
+            points.iter().filter_map(|(end, own)| Some((middle(*end)?, *own))).collect();
+        let thin = Stroke::solid(colour, THIN);
+        panel.estimates(&named(r), &points, (mark, SIZE, thin), log)?;
+        entries.push(Entry::mark(mark, SIZE, thin, &named(r)));
+    }
+    legend(sheet, 900, Entry::line(solid, "expected at *r* = 1"), &entries)
 }
 
-fn description(sizes: &Chains) -> String {
-    let longest = sizes.all().map(|(own, _)| own.masses).max().unwrap_or_default();
+fn contact(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
+    let panel = sheet.panel(
+        Frame::new(5350, 9400, 8150, 11_900),
+        Axis::linear(0.1, 0.65, 0.1, 2, "*σ*"),
+        Axis::decades(-4, 0, 1, "share of gaps"),
+    )?;
+    panel.letter("(e)")?;
+    let solid = Stroke::solid(INK, LINE);
+    let sigmas = (20..=120).map(|i| f64::from(i) / 200.0);
+    let curve: Vec<_> = sigmas.map(|x| (x, log(able(&shown.found.parameters, x)))).collect();
+    panel.curve("can be pressed", &curve, solid, Outside::Cut)?;
+    let mut entries = Vec::new();
+    for (r, (mark, colour)) in shown.rise.values("r").into_iter().zip(LOOKS) {
+        let mut points = shown.rise.estimates(&[("r", r)], "sigma", "share_in_contact");
+        points.retain(|(_, own)| own.value > 0.0);
+        let thin = Stroke::solid(colour, THIN);
+        panel.estimates(&named(r), &points, (mark, SIZE, thin), log)?;
+        entries.push(Entry::mark(mark, SIZE, thin, &named(r)));
+    }
+    legend(sheet, 4950, Entry::line(solid, "|Δ*F*| > *dω*^{2}"), &entries)
+}
+
+fn description(shown: &Shown<'_>) -> String {
+    let halves = shown.curves.points(&[], "r", "half_height");
+    let end = |at: Option<&(f64, f64)>| {
+        at.map_or("none".into(), |(r, own)| format!("{} at r = {r}", short(*own, 3)))
+    };
     format!(
-        "(a) Share of gaps with an impact against σ after one transient: the shortest chain rises later, others, up to {longest} \
-         masses, lie on one another. (b) Half height against T, falling the further the longer the chain. (c) With friction: higher \
-         and more level. (d) Chains with an impact for Ω = 2: on the lower of two curves."
+        "(a) Mean count against σ: the smaller r, the later it rises. (b) Half height, from {} to {}. (c) s²/σ² against 1 − r, below the \
+         line of rare impacts. (d) Impacts per time in windows that double: level, but for r = 1. (e) Gaps in contact against \
+         σ.",
+        end(halves.first()),
+        end(halves.last()),
     )
-}
-
-fn tables(chains: &Chains, sizes: &Chains, map: &ProtocolMap) -> Vec<DataFile> {
-    let mut shares = DataFile::new(
-        "s11a.csv",
-        &[
-            "chain (text)",
-            "masses (1)",
-            "damping (omega)",
-            "forcing_frequency (omega)",
-            "components (1)",
-            "sigma (d omega^2)",
-            "transient (1/omega)",
-            "share (1)",
-            "standard_error (1)",
-            "chains_with_impacts (1)",
-        ],
-    );
-    let mut places = DataFile::new(
-        "s11b.csv",
-        &[
-            "chain (text)",
-            "masses (1)",
-            "damping (omega)",
-            "transient (1/omega)",
-            "half_height (d omega^2)",
-            "standard_error (d omega^2)",
-        ],
-    );
-    for (own, curve) in chains.all().chain(sizes.all()) {
-        let name = own.name.as_str();
-        for row in &curve.rows {
-            for (time, share) in own.transients.iter().zip(&row.shares) {
-                let share = share.as_ref();
-                shares.row(cells![
-                    name,
-                    own.masses,
-                    own.damping,
-                    own.forcing_frequency,
-                    own.components,
-                    row.sigma,
-                    *time,
-                    share.map(|own| own.value),
-                    share.map(|own| own.error),
-                    alive(row).1.value
-                ]);
-            }
-        }
-        for (time, half) in halves(own, curve) {
-            places.row(cells![name, own.masses, own.damping, time, half.value, half.error]);
-        }
-    }
-    for (time, half) in of_map(chains, map) {
-        let masses = map.parameters.chain.masses;
-        places.row(cells!["map", masses, 0.0, time, half.value, half.error]);
-    }
-    let mut expected = DataFile::new(
-        "s11d.csv",
-        &["chain (text)", "sigma (d omega^2)", "share_all_phases (1)", "share_common_period (1)"],
-    );
-    for (own, curve) in chains.of(ChainKind::Frequency) {
-        for [sigma, ever, there] in &curve.kept_expected {
-            expected.row(cells![own.name.as_str(), *sigma, *ever, *there]);
-        }
-    }
-    vec![shares, places, expected]
 }

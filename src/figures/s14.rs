@@ -2,7 +2,7 @@
 
 use plotters::style::text_anchor::{HPos, VPos};
 
-use super::axis::{Axis, log};
+use super::axis::{Axis, Tick, log, number};
 use super::chart::{LETTERS, short};
 use super::data::cells;
 use super::panel::Frame;
@@ -22,6 +22,19 @@ fn percent(row: &BiasRow) -> Option<[f64; 2]> {
     Some([100.0 * row.bias? / own, 100.0 * row.error.unwrap_or(0.0) / own])
 }
 
+/// A bias as the axis shows it: linear near zero, a logarithm with a sign beyond.
+fn signed(bias: f64) -> f64 {
+    log(1.0 + bias.abs()).copysign(bias)
+}
+
+/// The axis of all panels, in per cent.
+fn symmetric() -> Axis {
+    let ticks = [-100_i32, -10, -1, 0, 1, 10, 100]
+        .map(|at| Tick { at: signed(f64::from(at)), label: Some(number(f64::from(at), 0)) });
+    let end = signed(150.0);
+    Axis { lo: -end, hi: end, label: "bias (%)".into(), ticks: ticks.into() }
+}
+
 /// Draws the figure.
 pub fn draw(biases: &Biases, note: Option<&str>) -> Result<Figure, Error> {
     let sigmas: Vec<f64> = biases.certified.iter().map(|own| own.sigma).collect();
@@ -32,28 +45,12 @@ pub fn draw(biases: &Biases, note: Option<&str>) -> Result<Figure, Error> {
     for (i, sigma) in sigmas.iter().enumerate() {
         let last = i + 1 == sigmas.len();
         let rows: Vec<&BiasRow> = biases.rows.iter().filter(|row| row.sigma == *sigma).collect();
-        let ends = rows.iter().filter_map(|row| {
-            let [bias, error] = percent(row)?;
-            Some([bias - error, bias + error])
-        });
-        let (mut low, mut high): (f64, f64) = (-5.0, 5.0);
-        for [a, b] in ends {
-            (low, high) = (low.min(a), high.max(b));
-        }
-        let step = if high - low > 80.0 {
-            50.0
-        } else if high - low > 20.0 {
-            10.0
-        } else {
-            5.0
-        };
-        let (low, high) = ((low / step).floor() * step, (high / step).ceil() * step);
         let x = decades_around(costs(), 1, "evaluations per impact");
         let top = 430 + 2500 * i as i32;
         let panel = sheet.panel(
             Frame::new(1300, top, 8150, top + 1900),
             if last { x } else { x.bare() },
-            Axis::linear(low, high, step, 1, "bias (%)"),
+            symmetric(),
         )?;
         panel.letter(LETTERS[i.min(LETTERS.len() - 1)])?;
         let words = (SMALL, INK, HPos::Right, VPos::Bottom);
@@ -61,7 +58,7 @@ pub fn draw(biases: &Biases, note: Option<&str>) -> Result<Figure, Error> {
         let (a, b) = (panel.x.lo, panel.x.hi);
         panel.area(
             "within one per cent",
-            &[(a, -GOOD), (b, -GOOD), (b, GOOD), (a, GOOD)],
+            &[(a, signed(-GOOD)), (b, signed(-GOOD)), (b, signed(GOOD)), (a, signed(GOOD))],
             PALE,
             100,
         )?;
@@ -73,8 +70,13 @@ pub fn draw(biases: &Biases, note: Option<&str>) -> Result<Figure, Error> {
             };
             let look = look(row.setting.method);
             let label = name(row.setting.method);
-            panel.bars(label, &[(log(cost), bias - error, bias + error)], 40, look.line())?;
-            panel.marks(label, &[(log(cost), bias)], look.marker(), Outside::Refuse)?;
+            panel.bars(
+                label,
+                &[(log(cost), signed(bias - error), signed(bias + error))],
+                40,
+                look.line(),
+            )?;
+            panel.marks(label, &[(log(cost), signed(bias))], look.marker(), Outside::Refuse)?;
         }
     }
     let present = |method| biases.rows.iter().any(|row| row.setting.method == method);

@@ -1,9 +1,12 @@
 //! What the figures of the simulations share: their rows, axes and marks.
 
+use plotters::style::text_anchor::{HPos, VPos};
+
 use super::axis::Axis;
-use super::panel::Panel;
+use super::panel::{Frame, Panel};
 use super::series::Outside;
-use super::style::{Mark, RED, Stroke, THIN};
+use super::sheet::Sheet;
+use super::style::{Dash, HAIR, INK, Mark, RED, Stroke, THIN, TINY};
 use super::{DataFile, Error};
 use crate::experiments::sweep::{Sweep, SweepRow};
 use crate::experiments::theory;
@@ -14,6 +17,9 @@ pub const CROSS: Stroke = Stroke::solid(RED, THIN);
 
 /// Half width of a cross.
 pub const CROSS_HALF: i32 = 56;
+
+/// The σ that the paper prints for the rise (Sec. 2).
+const PRINTED: f64 = 0.12;
 
 /// Rows that may be compared with others: few enough starts overlap.
 pub fn comparable(sweep: &Sweep) -> impl Iterator<Item = &SweepRow> {
@@ -33,6 +39,27 @@ pub fn last_sigma(sweep: &Sweep) -> f64 {
 /// An axis for counts of impacts up to `n` and a little above.
 pub fn count_axis(n: usize, label: &str) -> Axis {
     Axis::linear(0.0, n as f64 * 1.05, 20.0, 2, label)
+}
+
+/// The rise enlarged, in an inset where the main panel (of [`MAIN`]) is empty.
+pub fn rise(sheet: &Sheet, y: Axis) -> Result<Panel, Error> {
+    let x = Axis::linear(0.08, 0.18, 0.02, 2, "*σ*");
+    sheet.inset(Frame::new(4900, 1150, 8050, 3350), x, y)
+}
+
+/// Where the main panel of Figs. 2, 12 and 15 stands; legends stand below it.
+pub const MAIN: Frame = Frame::new(1200, 260, 8150, 4450);
+
+/// The height of these figures, and of the first line of their legends.
+pub const HEIGHTS: (u32, i32) = (6150, 5480);
+
+/// A dotted line at the σ that the paper prints for the rise.
+pub fn printed(panel: &Panel) -> Result<(), Error> {
+    let guide = Stroke::dashed(INK, HAIR, Dash::Dotted);
+    let line = [(PRINTED, panel.y.lo), (PRINTED, panel.y.hi)];
+    panel.curve("printed", &line, guide, Outside::Refuse)?;
+    let look = (TINY, INK, HPos::Center, VPos::Bottom);
+    panel.note("printed 0.12", line[1], (0, -70), look)
 }
 
 /// The mean of the kept against σ.

@@ -297,8 +297,8 @@ fn data_files_have_headers_with_units_and_the_rows_of_what_is_drawn() {
         ("fig13a.csv", n),
         ("fig13b.csv", 20),
         ("fig14b.csv", n),
-        ("s05b.csv", theory.large.jumps.len()),
-        ("s06c.csv", n),
+        ("s06b.csv", theory.large.jumps.len()),
+        ("s07c.csv", n),
     ] {
         assert_eq!(rows.get(name), Some(&expected), "{name}");
     }
@@ -343,7 +343,7 @@ fn the_long_run_is_drawn_compactly_and_completely() {
 #[test]
 fn less_than_the_full_profile_is_marked() {
     let simulated = [
-        "fig02", "fig03", "fig12", "fig15", "s01", "s02", "s03", "s04", "s07", "s08", "s09", "s10",
+        "fig02", "fig03", "fig12", "fig15", "s01", "s02", "s03", "s04", "s05", "s08", "s09", "s10",
         "s11", "s12", "s13", "s14", "s15", "s16",
     ];
     for figure in &QUICK.figures {

@@ -1,5 +1,6 @@
 //! The report and what it is made of: templates, figures, pages, parsers, and rules about the source.
 
+mod budgets;
 mod commonmark;
 mod depends;
 mod figures;

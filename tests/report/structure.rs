@@ -264,6 +264,26 @@ fn the_map_in_the_readme_is_current() {
     );
 }
 
+/// The score on the README's first screen is that of the committed ledger.
+#[test]
+fn the_readme_has_the_score() {
+    let ledger = fs::read_to_string(root().join("paper/ledger.json")).unwrap();
+    let ledger: serde_json::Value = serde_json::from_str(&ledger).unwrap();
+    let rows = ledger["claims"].as_array().unwrap();
+    let count = |verdict: &str| rows.iter().filter(|row| row["verdict"] == verdict).count();
+    let score = format!(
+        "of {} statements {} are reproduced, {} differ for a reason that is given, {} differ without one, and {} cannot be judged",
+        rows.len(),
+        count("reproduced"),
+        count("differs and explained"),
+        count("differs"),
+        count("cannot be judged"),
+    );
+    let readme = fs::read_to_string(root().join("README.md")).unwrap();
+    let line = readme.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(line.contains(&score), "the README does not say: {score}");
+}
+
 /// Links of the map and of the README lead to files of the project.
 #[test]
 fn links_of_the_readme_land() {

@@ -54,6 +54,15 @@ pub enum Expected {
         /// How far off a time may be.
         within: f64,
     },
+    /// Some of the impacts, in order, and none after them to the end: bounces that die out.
+    Rest {
+        /// Time and gap of each.
+        impacts: Vec<(f64, usize)>,
+        /// Slower impacts are passed over.
+        faster: f64,
+        /// How far off a time may be.
+        within: f64,
+    },
     /// For each impact at gap k one at gap N − 1 − k at the same time.
     Mirror {
         /// How far off a time may be.
@@ -162,6 +171,12 @@ impl Judge<'_> {
                 }
                 self.seen.len() < impacts.len()
             }
+            Expected::Rest { impacts, faster, .. } => {
+                if impact.closing_speed > *faster {
+                    self.seen.push(impact);
+                }
+                self.seen.len() <= impacts.len()
+            }
             Expected::Mirror { .. } => {
                 self.seen.push(impact);
                 true
@@ -177,6 +192,12 @@ impl Judge<'_> {
         match &self.case.expected {
             Expected::First { gap, time, within } => self.in_order(&[(*time, *gap)], *within),
             Expected::Sequence { impacts, within, .. } => self.in_order(impacts, *within),
+            Expected::Rest { impacts, within, .. } => match self.in_order(impacts, *within) {
+                found if found.verdict == Verdict::Right && self.seen.len() > impacts.len() => {
+                    Outcome { verdict: Verdict::Ghost, error: None }
+                }
+                found => found,
+            },
             Expected::Nothing if self.seen.is_empty() => right(None),
             Expected::Nothing => Outcome { verdict: Verdict::Ghost, error: None },
             Expected::Refused => Outcome { verdict: Verdict::Accepted, error: None },

@@ -123,7 +123,8 @@ mod tests {
         parameters.lengths = vec![(1, 40), (30, 40)];
         parameters.sigmas = vec![0.1, 0.16, 0.3];
         let found = CUTTING.run(&parameters, "test", &Progress::silent()).unwrap();
-        let [_, _, chains, _] = &tables::tables(&found)[..] else { panic!() };
+        let tables = tables::tables(&found);
+        let chains = tables.iter().find(|table| table.name() == "nucleation.chains").unwrap();
         let hits = |masses: f64, sigma: f64, time: f64| {
             let keys = [("masses", masses), ("sigma", sigma), ("time", time)];
             let [able, found] = ["able", "found"].map(|of| chains.number(&keys, of).unwrap());

@@ -21,6 +21,13 @@ struct Gaps {
     ever: Chances,
 }
 
+/// Gaps at a σ of a curve, in unlimited time and by the latest time.
+struct Curve {
+    sigma: f64,
+    ever: Chances,
+    by_then: Chances,
+}
+
 /// Chains of one length at one σ by some time.
 struct Chains<'a> {
     masses: usize,
@@ -52,8 +59,23 @@ pub fn tables(found: &Nucleation) -> Vec<Table> {
             chains.push(Chains { masses, sigma, time, part, expected });
         }
     }
+    // Between the σ that were run, for curves.
+    let last = within.last().zip(fewer.last());
+    let between: Vec<Curve> = last.map_or(Vec::new(), |(all, few)| {
+        (22..=66_u32)
+            .into_par_iter()
+            .map(|step| f64::from(step) / 400.0)
+            .map(|sigma| Curve {
+                sigma,
+                ever: Chances::new(chain, &ever, &ever, sigma),
+                by_then: Chances::new(chain, all, few, sigma),
+            })
+            .collect()
+    });
     vec![
         single(chain, &gaps),
+        curves(chain, &between),
+        shares(parameters, &between),
         times(parameters, &gaps),
         chains_table(&chains),
         all(parameters, &chains, half(chain, &ever, &ever)),
@@ -62,7 +84,6 @@ pub fn tables(found: &Nucleation) -> Vec<Table> {
 
 /// Single gaps and neighbours in unlimited time.
 fn single(chain: &Chain, gaps: &[Gaps]) -> Table {
-    let (omega, big_omega) = (chain.natural_frequency, chain.forcing_frequency);
     Table::of("nucleation.gaps", gaps, |_| 0)
         .key("sigma", SIGMA, |row| row.sigma)
         .real("p", "1", 2, "chance of a gap between masses to close by itself", |row| row.ever.p)
@@ -74,13 +95,46 @@ fn single(chain: &Chain, gaps: &[Gaps]) -> Table {
         .real("neighbour", "1", 2, "that of a gap between masses if its neighbour does", |row| {
             row.ever.pair / row.ever.p
         })
-        .real("random", "1", 2, "Eq. (25), for random free parts", |row| {
-            let law = ImpactProbability::new(row.sigma, chain.spacing, omega, big_omega);
-            law.and_then(|law| law.p()).unwrap_or(f64::NAN)
-        })
-        .real("zero", "1", 2, "P(Y₁ ≥ d): without a free part", |row| {
-            let least = chain.spacing * (omega * omega - big_omega * big_omega) / (2.0 * row.sigma);
-            pxfm::f_exp(-least * least)
+        .real("random", "1", 2, "Eq. (25), for random free parts", |row| random(chain, row.sigma))
+        .real("zero", "1", 2, "P(Y₁ ≥ d): without a free part", |row| zero(chain, row.sigma))
+        .done()
+}
+
+/// [Eq. (25)](ImpactProbability::p), for random free parts.
+fn random(chain: &Chain, sigma: f64) -> f64 {
+    let (omega, big_omega) = (chain.natural_frequency, chain.forcing_frequency);
+    let law = ImpactProbability::new(sigma, chain.spacing, omega, big_omega);
+    law.and_then(|law| law.p()).unwrap_or(f64::NAN)
+}
+
+/// P(Y₁ ≥ d): without a free part.
+fn zero(chain: &Chain, sigma: f64) -> f64 {
+    let (omega, big_omega) = (chain.natural_frequency, chain.forcing_frequency);
+    let least = chain.spacing * (omega * omega - big_omega * big_omega) / (2.0 * sigma);
+    pxfm::f_exp(-least * least)
+}
+
+/// The same at more σ.
+fn curves(chain: &Chain, rows: &[Curve]) -> Table {
+    Table::of("nucleation.curves", rows, |_| 0)
+        .key("sigma", SIGMA, |row| row.sigma)
+        .real("p", "1", 3, "between masses, from rest", |row| row.ever.p)
+        .real("wall", "1", 3, "at a wall, from rest", |row| row.ever.wall)
+        .real("random", "1", 3, "Eq. (25), for random free parts", |row| random(chain, row.sigma))
+        .real("zero", "1", 3, "without a free part", |row| zero(chain, row.sigma))
+        .done()
+}
+
+/// The share of the chains with an impact by the latest time, at more σ.
+fn shares(parameters: &NucleationParams, curve: &[Curve]) -> Table {
+    let lengths = parameters.lengths.iter().map(|(masses, _)| *masses);
+    let rows: Vec<(usize, &Curve)> =
+        lengths.flat_map(|masses| curve.iter().map(move |row| (masses, row))).collect();
+    Table::of("nucleation.shares", &rows, |_| 0)
+        .key("masses", "1", |(masses, _)| *masses as f64)
+        .key("sigma", SIGMA, |(_, row)| row.sigma)
+        .real("clumps", "1", 3, "expected with clumps", |(masses, row)| {
+            row.by_then.at_least_one(*masses, parameters.chain.boundary).value
         })
         .done()
 }

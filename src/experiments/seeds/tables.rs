@@ -66,6 +66,7 @@ pub fn tables(seeds: &Seeds) -> Vec<Table> {
         fronts(&rows),
         waits(&rows),
         means(&rows, &predicted),
+        theory(parameters),
         rise(parameters, &predicted),
         all(parameters, &rows),
     ]
@@ -215,6 +216,20 @@ fn means(rows: &[Row<'_>], predicted: &[Prediction]) -> Table {
         .done()
 }
 
+/// The counts of circuits at more σ than were run, for curves.
+fn theory(parameters: &SeedsParams) -> Table {
+    let sigmas: Vec<f64> = (75..=165_u32).map(|step| f64::from(step) / 1000.0).collect();
+    Table::of("seeds.theory", &sigmas, |_| 0)
+        .key("sigma", SIGMA, |sigma| *sigma)
+        .real("eq25", "1", 3, "mean count by circuits with p of Eq. (25)", |sigma| {
+            circuits(parameters, *sigma, |law| law.p())
+        })
+        .real("from_rest", "1", 3, "with p for a start from rest", |sigma| {
+            circuits(parameters, *sigma, |law| law.p_from_rest())
+        })
+        .done()
+}
+
 /// Where they pass half of all gaps.
 fn rise(parameters: &SeedsParams, predicted: &[Prediction]) -> Table {
     Table::of("seeds.rise", predicted, |_| parameters.realisations)
@@ -282,14 +297,23 @@ impl Row<'_> {
         self.runs.iter().filter(|(_, trace)| within(trace)).count() as u64
     }
 
-    /// The mean count by the graph theory.
+    /// [`circuits`] at this σ.
     fn circuits(&self, p: impl Fn(&ImpactProbability) -> Result<f64, circuits::Error>) -> f64 {
-        let chain = &self.parameters.chain;
-        let (omega, big_omega) = (chain.natural_frequency, chain.forcing_frequency);
-        let law = ImpactProbability::new(self.sigma, chain.spacing, omega, big_omega);
-        let law = law.and_then(|law| Law::new(SampleSpace::Simple, chain.gaps(), p(&law)?));
-        law.map_or(f64::NAN, |law| law.mean())
+        circuits(self.parameters, self.sigma, p)
     }
+}
+
+/// The mean count by the graph theory.
+fn circuits(
+    parameters: &SeedsParams,
+    sigma: f64,
+    p: impl Fn(&ImpactProbability) -> Result<f64, circuits::Error>,
+) -> f64 {
+    let chain = &parameters.chain;
+    let (omega, big_omega) = (chain.natural_frequency, chain.forcing_frequency);
+    let law = ImpactProbability::new(sigma, chain.spacing, omega, big_omega);
+    let law = law.and_then(|law| Law::new(SampleSpace::Simple, chain.gaps(), p(&law)?));
+    law.map_or(f64::NAN, |law| law.mean())
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! The theory for many vertices: Fig. S5.
+//! The theory for many vertices: Fig. S6.
 
 use super::Point;
 use super::jump::sigma_of;
@@ -74,6 +74,9 @@ pub struct PoissonCell {
     pub mean_gap: f64,
 }
 
+/// So many steps of k* between two values of p N are drawn one by one.
+const FEW: usize = 3;
+
 /// Values of p N that are drawn.
 fn drawn() -> Vec<f64> {
     Grid::default().and(0, 500, 1, 200).values()
@@ -113,11 +116,17 @@ fn shares(found: &LargeJump) -> LargeShares {
     let (before, after): (Vec<f64>, Vec<f64>) = drawn().into_iter().partition(|x| *x <= found.p_n);
     let mut rows: Vec<Point> = before.into_iter().map(|x| point(x, 1)).collect();
     rows.extend([point(found.p_n, 1), point(found.p_n, found.k_after)]);
-    rows.extend(
-        after
-            .into_iter()
-            .map(|x| point(x, jump::local_maximum(found.vertices, x / big_n).max(found.k_after))),
-    );
+    let mut level = found.k_after;
+    for x in after {
+        let k = jump::local_maximum(found.vertices, x / big_n).max(found.k_after);
+        // Few steps are drawn as steps; where there are many they cannot be seen.
+        if k - level <= FEW {
+            let steps = (level..k).map(|k| (big_n * jump::step(found.vertices, k), k));
+            rows.extend(steps.flat_map(|(x, k)| [point(x, k), point(x, k + 1)]));
+        }
+        rows.push(point(x, k));
+        level = k;
+    }
     LargeShares { vertices: found.vertices, rows }
 }
 

@@ -1,5 +1,5 @@
 //! The graph theory of Secs. 3 to 9 as numbers: what Figs. 7 to 15 draw and what the text quotes; and
-//! what lies beyond the paper, many vertices and all orders of circuits (Figs. S5 and S6).
+//! what lies beyond the paper, many vertices and all orders of circuits (Figs. S6 and S7).
 //!
 //! Cheap and in memory: [`run`] takes some tenths of a second at most and nothing is saved.
 //! Distributions are vectors over k = 1..=N (index i holds k = i + 1).

@@ -1,4 +1,4 @@
-//! Circuits of all orders: Fig. S6.
+//! Circuits of all orders: Fig. S7.
 
 use super::distributions::sum;
 use super::{Point, Scalars};

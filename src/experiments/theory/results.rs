@@ -32,9 +32,9 @@ pub struct Theory {
     pub scalars_walls: Scalars,
     /// The calculations behind the slips of the printed paper.
     pub slips: Slips,
-    /// Fig. S5: many vertices, whatever `vertices` is.
+    /// Fig. S6: many vertices, whatever `vertices` is.
     pub large: Large,
-    /// Fig. S6: circuits of all orders.
+    /// Fig. S7: circuits of all orders.
     pub orders: AllOrders,
 }
 

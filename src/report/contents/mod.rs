@@ -42,8 +42,7 @@ pub enum Error {
 pub type Section = fn(&Results) -> Result<Vec<Value>, Error>;
 
 /// All values but what the paper printed, in the order of the report.
-pub const SECTIONS: [Section; 3] =
-    [accuracy::values, carried::values, |results| Ok(ledger::values(results))];
+pub const SECTIONS: [Section; 2] = [carried::values, |results| Ok(ledger::values(results))];
 
 /// All values of the report.
 ///
@@ -81,7 +80,6 @@ pub fn rows(
         ("scene_heads", serde_json::to_value(accuracy::scene_heads(results)?)?),
         ("scene_table", serde_json::to_value(accuracy::scene_table(results)?)?),
         ("carried_table", serde_json::to_value(carried::table(results)?)?),
-        ("target_table", serde_json::to_value(accuracy::target_table(results)?)?),
     ]))
 }
 

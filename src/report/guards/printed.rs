@@ -1,7 +1,6 @@
 //! What was printed, verdicts and levels.
 
 use super::{Guard, Look, far, model, unless};
-use crate::claims::targets;
 use crate::claims::{Basis, Verdict};
 use crate::params::{CONVERGENCE_P, DISTRIBUTION_P, HIGHER_P};
 
@@ -19,7 +18,6 @@ pub const GUARDS: &[Guard] = &[
     },
     Guard { name: "printed_as_it_reads", ids: &["printed.*"], find: as_it_reads },
     Guard { name: "scores_add_up", ids: &["score.*"], find: scores },
-    Guard { name: "targets_add_up", ids: &["targets_met", "targets_all"], find: met },
     Guard {
         name: "level_of_claims",
         ids: &["claim_quantile", "family_level", "statistical_claims"],
@@ -87,16 +85,6 @@ fn scores(look: Look<'_>) -> Option<String> {
         .or_else(|| far("the sum over all verdicts", verdicts?, all))
         .or_else(|| far("the sum over what verdicts rest on", bases("_of")?, all))
         .or_else(|| far("the reproduced", bases("")?, score(reproduced)?))
-}
-
-/// Targets that are met, missed or not measured are all targets.
-fn met(look: Look<'_>) -> Option<String> {
-    let targets = targets::targets(look.results).ok()?;
-    let of = |verdict| targets.iter().filter(|target| target.verdict == verdict).count() as f64;
-    let others = of(Verdict::Differs) + of(Verdict::CannotBeJudged);
-    let rest = look.number("targets_all")? - look.number("targets_met")?;
-    far("targets that are not met", rest, others)
-        .or_else(|| look.is("targets_all", targets.len() as f64))
 }
 
 /// So many independent normal deviations, each beyond the quantile with its tails, keep the level of the

@@ -1,0 +1,105 @@
+//! Documents are bounded: a reader of five minutes, half an hour or a day must not find that one
+//! has grown beyond its time. Bytes and elements of the pages are bounded by the browser test, pages by `.ci/latex`.
+
+use crate::quick::QUICK;
+
+/// Words of prose: no code, no displayed formula, no table, no address of a link, no description that is read
+/// instead of a picture; a formula in a line is one word.
+fn words(markdown: &str) -> usize {
+    let mut outside = (false, false);
+    let lines = markdown.lines().filter(|line| {
+        let (code, formula) = (line.starts_with("```"), line.trim() == "$$");
+        if code {
+            outside.0 = !outside.0;
+        } else if formula {
+            outside.1 = !outside.1;
+        }
+        let whole = ["|", "![", "<sub>Data:"].iter().any(|start| line.starts_with(start))
+            || (line.starts_with("$$") && line.ends_with("$$"));
+        !(outside.0 || outside.1 || code || whole)
+    });
+    lines
+        .map(|line| {
+            spoken(line).split_whitespace().filter(|w| w.contains(char::is_alphanumeric)).count()
+        })
+        .sum()
+}
+
+/// A line without tags and addresses, with an x for each formula.
+fn spoken(line: &str) -> String {
+    let mut text = String::new();
+    for (i, piece) in line.split('$').enumerate() {
+        if i % 2 == 1 {
+            text.push('x');
+            continue;
+        }
+        let mut rest = piece;
+        while let Some(at) = rest.find(['<', '(']) {
+            let address = rest[at..].starts_with('(') && rest[..at].ends_with(']');
+            let end = if rest[at..].starts_with('<') {
+                rest[at..].find('>')
+            } else {
+                rest[at..].find(')')
+            };
+            match end {
+                Some(end) if address || rest[at..].starts_with('<') => {
+                    text.push_str(&rest[..at]);
+                    rest = &rest[at + end + 1..];
+                }
+                _ => {
+                    text.push_str(&rest[..=at]);
+                    rest = &rest[at + 1..];
+                }
+            }
+        }
+        text.push_str(rest);
+    }
+    text
+}
+
+/// The text from one heading on to the next, by the words of the heading.
+fn section<'a>(markdown: &'a str, heading: &str) -> &'a str {
+    let from = markdown.find(&format!("\n## {heading}")).unwrap_or_else(|| panic!("no {heading}"));
+    let rest = &markdown[from + 1..];
+    rest.find("\n## ").map_or(rest, |end| &rest[..end])
+}
+
+#[test]
+fn words_are_counted_as_a_reader_does() {
+    let text = "## One *two*\n\nThree [four](five/six.md) $a + b$ <a id=\"x\"></a>(five) – six.\n\n| no | no |\n|---|---|\n\n```rust\nno\n```\n\n$$\nno\n$$\n\n$$no$$\n";
+    assert_eq!(words(text), 7);
+}
+
+#[test]
+fn no_document_outgrows_its_reader() {
+    let text = |name: &str| {
+        std::str::from_utf8(&QUICK.report.committed[&format!("{name}.md")]).unwrap().to_owned()
+    };
+    let (edition, beyond) = (text("report"), text("beyond"));
+    let (main, notes) = beyond.split_once("\n## Supplementary notes").expect("notes");
+    let notes: Vec<&str> =
+        notes.split("\n## ").skip(1).filter(|note| !note.starts_with("References")).collect();
+    let mut counts = vec![
+        ("the front page".to_owned(), words(&text("README")), 700),
+        ("the edition".to_owned(), words(&edition), 10_000),
+        ("its abstract".to_owned(), words(section(&edition, "Abstract")), 220),
+        ("the second paper without its notes".to_owned(), words(main), 8_000),
+        ("the methods".to_owned(), words(&text("methods")), 5_000),
+    ];
+    for note in &notes {
+        let title = note.lines().next().map(|line| line.rsplit('>').next().unwrap_or(line));
+        let title = title.unwrap_or_default();
+        counts.push((format!("note: {title}"), words(note), 600));
+        let dashes =
+            |line: &&str| line.starts_with('|') && line.chars().all(|c| "|-: ".contains(c));
+        assert_eq!(note.matches("](figures/").count(), 1, "{title}: figures");
+        assert!(note.lines().filter(dashes).count() <= 1, "{title}: more than one table");
+    }
+    assert_eq!(notes.len(), 6, "notes of the second paper");
+    for (what, count, budget) in &counts {
+        println!("{count:6} of {budget:6} words: {what}");
+    }
+    let passed: Vec<_> =
+        counts.iter().filter(|(_, count, budget)| *count * 10 > budget * 11).collect();
+    assert!(passed.is_empty(), "more than ten per cent too long: {passed:?}");
+}
