@@ -11,11 +11,12 @@ use std::process::ExitCode;
 const STACK: usize = 8 << 20;
 
 fn main() -> ExitCode {
+    std::panic::set_hook(Box::new(|fault| impact_paper::program::tell(fault)));
     let thread = std::thread::Builder::new().stack_size(STACK).spawn(cli::main);
     match thread.map(std::thread::JoinHandle::join) {
         Ok(Ok(code)) => code,
-        // What panicked has told it.
-        Ok(Err(_)) => ExitCode::from(101),
+        // The hook has told it.
+        Ok(Err(_)) => ExitCode::from(4),
         Err(_) => cli::main(),
     }
 }

@@ -62,8 +62,8 @@ pub fn draw(sweep: &Sweep, theory: &Theory, note: Option<&str>) -> Result<Figure
     }
     let description = format!(
         "Expected number of impacts against σ: crosses for the simulation, {} at σ = 0.12; a line for the graph theory with N = \
-         {big_n}, {} there, and a thin one for N = {big_n_walls} beside it. The simulation rises at a smaller σ than the theory, as an \
-         inset with the distance shows; for large σ the two come together.",
+         {big_n}, {} there, and a thin one for N = {big_n_walls} beside it. The simulation rises earlier than the theory (enlarged in \
+         an inset); for large σ the two come together.",
         at(&simulated, 0.12),
         at(&simple, 0.12),
     );

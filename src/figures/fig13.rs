@@ -95,8 +95,8 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     }
     let share = |of: &HigherDistribution| short(of.classes.first().map_or(0.0, |c| c.share), 2);
     let description = format!(
-        "Probability of k different impacts, N = {n}, for five classes of circuits: a red line for the sum, broken lines for the \
-         classes. (b) is a detail of (a), (e) and (f) are (a) and (d) on a logarithmic axis. Simple circuits hold {} of the whole at p = {}, {} at p = {} and {} at p = {}.",
+        "Probability of k different impacts, N = {n}, for five classes of circuits: a red line for the sum, broken ones for the \
+         classes. (b) enlarges (a); (e), (f) are (a), (d) on a logarithmic axis. Simple circuits hold {} of the whole at p = {}, {} at p = {} and {} at p = {}.",
         share(small),
         short(small.p, 3),
         share(middle),

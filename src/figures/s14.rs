@@ -29,8 +29,10 @@ fn signed(bias: f64) -> f64 {
 
 /// The axis of all panels, in per cent.
 fn symmetric() -> Axis {
-    let ticks = [-100_i32, -10, -1, 0, 1, 10, 100]
-        .map(|at| Tick { at: signed(f64::from(at)), label: Some(number(f64::from(at), 0)) });
+    let ticks = [-100_i32, -10, -1, 0, 1, 10, 100].map(|at| Tick {
+        at: signed(f64::from(at)), // There is no room for one beside zero.
+        label: (at.abs() != 1).then(|| number(f64::from(at), 0)),
+    });
     let end = signed(150.0);
     Axis { lo: -end, hi: end, label: "bias (%)".into(), ticks: ticks.into() }
 }

@@ -28,6 +28,15 @@ pub mod about {
     pub const RUST_VERSION: &str = env!("CARGO_PKG_RUST_VERSION");
 }
 
+/// Tells a fault of the program itself (exit code 4) in one line: what failed, and where.
+pub fn tell(fault: &std::panic::PanicHookInfo<'_>) {
+    let words = fault.payload_as_str().unwrap_or("no words");
+    let place = fault.location().map_or_else(String::new, |at| format!(" at {at}"));
+    let remedy = "if saved results were edited, remove them";
+    let line = format!("impact-paper: a fault of the program{place}: {words}; {remedy}");
+    say(&one_line(&line, LONGEST));
+}
+
 /// Characters of a message at most.
 const LONGEST: usize = 4000;
 

@@ -79,15 +79,21 @@ fn every_id_is_unique_and_every_link_lands() {
         }
         // What was in one page once is found from each.
         let places = data(page, "places");
-        for (id, file) in places.as_object().unwrap() {
+        let pages = places.as_object().unwrap().iter();
+        let of = |(file, all): (&String, &serde_json::Value)| {
+            let all = all.as_array().unwrap().clone();
+            all.into_iter().map(|id| (id.as_str().unwrap().to_owned(), file.clone())).collect()
+        };
+        let places: Vec<(String, String)> = pages.flat_map(|page| -> Vec<_> { of(page) }).collect();
+        for (id, file) in &places {
             let derived =
                 id.starts_with("row-") || id.starts_with("mark-") || id.starts_with("sign-");
-            let has = ids[file.as_str().unwrap()].contains(id.as_str());
+            let has = ids[file.as_str()].contains(id.as_str());
             assert!(derived || has, "{name}: no {id} in {file}");
             let own = ids[name].contains(id.as_str());
             assert!(!own || *name == "index.html", "{name} has {id} itself");
         }
-        assert!(places.as_object().unwrap().len() > 50);
+        assert!(places.len() > 50);
     }
     assert!(inside > 500 && across > 150, "{inside} {across}");
 }
@@ -220,7 +226,7 @@ fn cells_of_wide_tables_know_their_column() {
             table.descendants().filter(move |node| node.tag_name().name() == name)
         };
         let heads: Vec<String> = inside("th").map(words).collect();
-        assert!(heads.len() >= 6, "{heads:?}");
+        assert!(heads.len() >= 4, "{heads:?}");
         for row in inside("tr").skip(1) {
             let named = row.children().map(|cell| cell.attribute("data-name").unwrap_or_default());
             assert!(named.eq(heads.iter().map(String::as_str)), "{}", words(row));

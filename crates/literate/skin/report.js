@@ -13,7 +13,9 @@
   const places = data("places");
   const go = () => {
     const id = decodeURIComponent(location.hash.slice(1));
-    if (id && !document.getElementById(id) && places[id]) location.replace(`${places[id]}#${id}`);
+    if (!id || document.getElementById(id)) return;
+    const page = Object.keys(places).find((page) => places[page].includes(id));
+    if (page) location.replace(`${page}#${id}`);
   };
   addEventListener("hashchange", go);
   go();

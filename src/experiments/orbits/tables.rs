@@ -59,13 +59,6 @@ fn rows(orbits: &Orbits) -> Table {
         .count("at_walls", "orbits of a gap at a wall alone", |row| alone(row, true))
         .count("between_masses", "orbits of a gap between masses alone", |row| alone(row, false))
         .over(|_| pairs as usize)
-        .estimate(
-            "single",
-            "1",
-            "share of gaps for which the equations of one gap have a solution",
-            |row| share(row.single, pairs),
-        )
-        .real("single_expected", "1", 2, "the same by the formula", |row| row.single_expected)
         .done()
 }
 
@@ -76,7 +69,6 @@ fn figures(orbits: &Orbits) -> Table {
         .key("figure", "1", |(figure, _)| *figure)
         .count("pairs", "pairs of σ and forcing", |(_, hunt)| hunt.each.len() as u64)
         .count("starts", "random starts", |(_, hunt)| hunt.starts)
-        .count("returns", "stretches of runs that nearly close", |(_, hunt)| hunt.returns)
         .count("admissible", "pairs with an orbit", |(_, hunt)| hunt.admissible)
         .count("stable", "pairs with a stable orbit", |(_, hunt)| hunt.stable)
         .real("radius", "1", 2, "least of the largest moduli of multipliers", |(_, hunt)| {
@@ -114,7 +106,6 @@ fn all(orbits: &Orbits) -> Table {
     )
     .count("went", "unstable orbits that a disturbed motion left", total(|row| row.confirmed[1]))
     .estimate("by_half", "1", "share that the first half of the starts had found", half)
-    .real("swing", "1", 2, "how much farther than to its impact a body swings back", swing)
     .count("runs_periodic", "runs that end on a periodic orbit", total(|row| row.ended.periodic))
     .count(
         "runs_solved",
@@ -122,23 +113,10 @@ fn all(orbits: &Orbits) -> Table {
         total(|row| row.ended.solved),
     )
     .count("runs_simple", "of these, with simple circuits", total(|row| row.ended.simple))
-    .count(
-        "runs_sought",
-        "of these, with a period that was searched",
-        total(|row| row.ended.sought),
-    )
-    .count("runs_listed", "of these, on an orbit of the list", total(|row| row.ended.listed))
     .done()
 }
 
 fn half(own: &&Orbits) -> Option<Estimate> {
     let sum = |of: fn(&Row) -> u64| own.rows.iter().map(of).sum();
     share(sum(|row| row.by_half), sum(|row| row.orbits[0]))
-}
-
-/// On the orbit of one gap a body swings back by 1/|cos(ωP/2)| of the way to its impact.
-fn swing(own: &&Orbits) -> f64 {
-    let chain = &own.parameters.chain;
-    let half = std::f64::consts::PI * chain.natural_frequency / chain.forcing_frequency;
-    1.0 / pxfm::f_cos(half).abs()
 }

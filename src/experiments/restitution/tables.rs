@@ -161,7 +161,6 @@ fn heated_table(heated: &[Row<'_>]) -> Table {
 /// Numbers of all curves together.
 fn totals(parameters: &RestitutionParams, rise: &[Row<'_>]) -> Table {
     let touched = || rise.iter().filter(|row| row.touched() > 0);
-    let softest = parameters.restitutions.first().copied();
     Table::of("restitution.all", &[parameters], |own| own.realisations)
         .count("realisations", "chains at each r and σ", |own| own.realisations as u64)
         .count("sigmas", "values of σ", |own| own.sigmas.len() as u64)
@@ -176,10 +175,6 @@ fn totals(parameters: &RestitutionParams, rise: &[Row<'_>]) -> Table {
             "of these, the ones that their own force cannot press shut",
             |_| rise.iter().map(|row| row.sum(|run| run.others_touched)).sum(),
         )
-        .chosen("touched_from", "d omega^2", "the least σ with contact, at the first r", |_| {
-            let mut soft = touched().filter(|row| Some(row.case.restitution) == softest);
-            soft.next().map(|row| row.case.sigma)
-        })
         .chosen("touched_to", "1", "the largest r with contact", |_| {
             touched().next_back().map(|row| row.case.restitution)
         })

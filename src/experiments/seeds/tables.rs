@@ -337,7 +337,7 @@ mod tests {
             run([0b0010, 0b0001, 0b0010], [Some(30), Some(0), Some(40)]),
         ]];
         let found = tables(&Seeds { parameters, rows });
-        let [course, advance, fronts, waits, _, _, all] = &found[..] else { panic!() };
+        let [course, advance, fronts, waits, _, _, _, all] = &found[..] else { panic!() };
         let at = |until: f64, column| course.number(&[("until", until)], column).unwrap();
         let columns = ["reached", "active", "active_share", "alive", "distance"];
         assert_eq!(columns.map(|column| at(50.0, column)), [2.5, 2.5, 1.0, 1.0, 1.0]);

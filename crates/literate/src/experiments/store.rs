@@ -80,8 +80,10 @@ impl Store {
     {
         let Some(path) = self.path(identity, profile) else { return run() };
         let name = &identity.experiment;
-        let understood =
-            |text: String| serde_json::from_str(&text).map_err(|_| vec![Reason::Schema]);
+        let understood = |text: String| match agrees(&text, &identity.parameters) {
+            true => serde_json::from_str(&text).map_err(|_| vec![Reason::Schema]),
+            false => Err(vec![Reason::Damaged("the saved result is of other parameters".into())]),
+        };
         match read(&path, identity).and_then(understood) {
             Ok(result) => {
                 progress.say(&format!("{name}: fresh"));
@@ -142,6 +144,21 @@ fn read(path: &Path, identity: &Identity) -> Result<String, Vec<Reason>> {
         reasons if reasons.is_empty() => Ok(body.into()),
         reasons => Err(reasons),
     }
+}
+
+/// Whether the parameters that a result carries are those that were asked for, as far as both have them. An identity
+/// is known by its digest, and so is a result; only a file that was written to deceive has them apart.
+fn agrees(result: &str, asked: &serde_json::Value) -> bool {
+    #[derive(serde::Deserialize)]
+    struct Carried {
+        #[serde(default)]
+        parameters: serde_json::Value,
+    }
+    let Ok(carried) = serde_json::from_str::<Carried>(result) else { return true };
+    let (Some(own), Some(asked)) = (carried.parameters.as_object(), asked.as_object()) else {
+        return true;
+    };
+    own.iter().all(|(name, value)| asked.get(name).is_none_or(|asked| asked == value))
 }
 
 /// What a saved result was made of, and the result, as text.
@@ -317,6 +334,20 @@ mod tests {
             assert!(matches!(told[..], [Reason::Damaged(_)]), "{told:?} of {broken}");
             assert_eq!(ask(folder.path(), 1.0, &whole), (whole.clone(), true), "{broken}");
             assert_eq!(std::fs::read_to_string(&path).unwrap(), text, "saved anew");
+        }
+    }
+
+    #[test]
+    fn a_result_carries_the_parameters_that_were_asked_for() {
+        let asked = serde_json::json!({ "sigma": 0.1, "times": [1, 2] });
+        for (result, same) in [
+            (r#"{"parameters":{"sigma":0.1,"times":[1,2]},"rows":[]}"#, true),
+            (r#"{"parameters":{"sigma":0.1,"other":7},"rows":[]}"#, true),
+            (r#"{"rows":[]}"#, true),
+            (r#"{"parameters":{"sigma":1e9,"times":[1,2]},"rows":[]}"#, false),
+            (r#"{"rows":[],"parameters":{"times":[2]}}"#, false),
+        ] {
+            assert_eq!(agrees(result, &asked), same, "{result}");
         }
     }
 

@@ -14,6 +14,8 @@ use super::style::{Colour, Mark, Stroke, WHITE};
 pub enum Look {
     /// A line through them.
     Curve(Stroke),
+    /// A straight stroke from each first point to the second.
+    Strokes(Stroke),
     /// A line that ends in an arrow head.
     Arrow(Stroke),
     /// A polygon without an edge; opacity in hundredths.
@@ -50,6 +52,15 @@ impl<C> Drawable<Drawing> for Drawn<C> {
     ) -> Result<(), DrawingErrorKind<Error>> {
         match &self.1 {
             Look::Curve(stroke) => drawing.polyline(through(pos), *stroke),
+            Look::Strokes(stroke) => {
+                let ends: Vec<BackendCoord> = pos.collect();
+                let strokes = ends.chunks_exact(2).flat_map(|pair| {
+                    let (dx, dy) = (pair[1].0 - pair[0].0, pair[1].1 - pair[0].1);
+                    [Step::Begin(pair[0]), Step::LineBy((dx, dy))]
+                });
+                let paint = Paint { fill: None, stroke: Some(*stroke) };
+                drawing.shape(Geometry::Path(strokes.collect()), paint);
+            }
             Look::Arrow(stroke) => arrow(through(pos), stroke, drawing),
             Look::Area(colour, opacity) => {
                 let fill = Some((*colour, *opacity));

@@ -7,7 +7,7 @@ use plotters::drawing::DrawingArea;
 use plotters::element::{Drawable, PointCollection, Text};
 use plotters::style::text_anchor::{HPos, VPos};
 
-use super::axis::Axis;
+use super::axis::{Axis, Tick};
 use super::drawing::Drawing;
 use super::element::{Drawn, Look};
 use super::style::{self, Colour, HAIR, INK, SMALL, Stroke, TEXT};
@@ -77,10 +77,6 @@ impl Panel {
         Ok(self.sheet.draw(element)?)
     }
 
-    fn line(&self, a: (i32, i32), b: (i32, i32)) -> Result<(), Error> {
-        self.put(&Drawn(vec![a, b], Look::Curve(Stroke::solid(INK, HAIR))))
-    }
-
     fn text(&self, text: &str, at: (i32, i32), size: i32, h: HPos, v: VPos) -> Result<(), Error> {
         self.put(&Text::new(text.to_string(), at, style::text(size, INK, h, v)))
     }
@@ -91,12 +87,19 @@ impl Panel {
     /// If a label has a character that the shipped fonts lack.
     pub fn axes(&self) -> Result<(), Error> {
         let Frame { left, top, right, bottom } = self.frame;
-        self.line((left, top), (left, bottom))?;
-        self.line((left, bottom), (right, bottom))?;
+        let mut lines = vec![(left, top), (left, bottom), (left, bottom), (right, bottom)];
+        let length = |tick: &Tick| if tick.label.is_some() { TICK } else { MINOR_TICK };
+        lines.extend(self.x.ticks.iter().flat_map(|tick| {
+            let x = self.at(tick.at, self.y.lo).0;
+            [(x, bottom), (x, bottom + length(tick))]
+        }));
+        lines.extend(self.y.ticks.iter().flat_map(|tick| {
+            let y = self.at(self.x.lo, tick.at).1;
+            [(left, y), (left - length(tick), y)]
+        }));
+        self.put(&Drawn(lines, Look::Strokes(Stroke::solid(INK, HAIR))))?;
         for tick in &self.x.ticks {
             let x = self.at(tick.at, self.y.lo).0;
-            let length = if tick.label.is_some() { TICK } else { MINOR_TICK };
-            self.line((x, bottom), (x, bottom + length))?;
             if let Some(label) = tick.label.as_ref().filter(|label| !label.is_empty()) {
                 let at = (x, bottom + TICK + GAP);
                 self.text(label, at, self.numbers, HPos::Center, VPos::Top)?;
@@ -116,8 +119,6 @@ impl Panel {
         let mut widest = 0;
         for tick in &self.y.ticks {
             let y = self.at(self.x.lo, tick.at).1;
-            let length = if tick.label.is_some() { TICK } else { MINOR_TICK };
-            self.line((left, y), (left - length, y))?;
             if let Some(label) = &tick.label {
                 let at = (left - TICK - GAP * 2 / 3, y);
                 self.text(label, at, self.numbers, HPos::Right, VPos::Center)?;

@@ -254,7 +254,8 @@ fn check_links(
     let is_page = |to: &str| program.documents.iter().any(|of| of.page == to);
     let leads =
         |to: &str| match (to.split_once("://"), to.strip_prefix('#'), to.strip_prefix("../")) {
-            (Some(_), ..) => true,
+            // What a browser would run or read from a disk is no address of a source.
+            (Some((scheme, _)), ..) => ["https", "http"].contains(&scheme),
             (_, Some(id), _) => {
                 let id = id.replacen('-', ":", 1);
                 labels.number(&id).is_some() && labels.beside(&id, here).is_none()

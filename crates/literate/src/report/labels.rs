@@ -39,9 +39,12 @@ impl Labels {
     }
 
     /// The pages of what other documents have, by the ids of pages.
-    pub fn elsewhere(&self, here: Document) -> BTreeMap<String, &'static str> {
-        let places = self.labels.iter().filter(|(_, (_, of))| *of != here);
-        places.map(|(id, (_, of))| (id.replace(':', "-"), of.page)).collect()
+    pub fn elsewhere(&self, here: Document) -> BTreeMap<&'static str, Vec<String>> {
+        let mut pages = BTreeMap::<_, Vec<String>>::new();
+        for (id, (_, of)) in self.labels.iter().filter(|(_, (_, of))| *of != here) {
+            pages.entry(of.page).or_default().push(id.replace(':', "-"));
+        }
+        pages
     }
 
     /// Gives numbers to the sections, captioned tables, listings and anchors of a document.

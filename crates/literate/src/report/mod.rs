@@ -466,7 +466,7 @@ Listing: What $\delta v$ does. {#lst:kick}
             ),
             ("index.html", "<a href=\"more.html#sec-b\">Sec.\u{a0}S1.1</a>"),
             ("index.html", "title=\"reproduced\">✓</a> and <a href=\"more.html\">more</a>."),
-            ("index.html", "\"sec-b\":\"more.html\""),
+            ("index.html", "\"more.html\":["),
             ("index.html", "<li><a href=\"index.html\" aria-current=\"page\">Front</a></li>"),
             ("report.md", "Words, <sup>[✓\u{a0}1](more.md#claim-rise)</sup> and"),
             ("report.tex", "Words, \\textsuperscript{\\ensuremath{\\checkmark}~1} and Sec.~S1.1"),
@@ -511,6 +511,7 @@ Listing: What $\delta v$ does. {#lst:kick}
         assert!(matches!(fails("v.half", "v.hulf"), Error::Template(_)));
         assert!(matches!(fails("rice1945", "mice1945"), Error::Reference(_)));
         assert!(matches!(fails("fig03.svg", "fig04.svg"), Error::NoFile(_)));
+        assert!(matches!(fails("At", "[At](javascript://x)"), Error::NoFile(_)));
         assert!(matches!(fails("![The rise.](figures/fig03.svg)", ""), Error::NotShown(_)));
         assert!(matches!(fails("Title", "漢"), Error::NoLatex('漢')));
     }
@@ -578,6 +579,7 @@ Listing: What $\delta v$ does. {#lst:kick}
             ("if <% if raw.x\n\n<% endif %>", "14:4", "is not closed"),
             ("at «raw.half_height»", "14:4", "a plain number"),
             ("at «40 + 2»", "14:4", "a plain number"),
+            ("at «\"3.14\"»", "14:4", "a plain number"),
             ("at «v»", "14:4", "a whole row"),
             ("$$ $$", "14:1", "a formula without anything"),
         ] {

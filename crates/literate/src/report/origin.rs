@@ -55,10 +55,11 @@ pub(super) fn next_tag(text: &str, at: usize) -> Option<(usize, usize)> {
     Some((start, start + text[start..].find(close)? + close.len()))
 }
 
-/// Whether a tag computes with plain numbers: those are for conditions.
+/// Whether a tag computes with plain numbers, which are for conditions, or writes one in quotes.
 fn computes(tag: &str) -> bool {
     let inner = tag.trim_start_matches(['«', '-', ' ', '(']);
-    inner.starts_with("raw.") || inner.starts_with(|c: char| c.is_ascii_digit())
+    inner.starts_with("raw.")
+        || inner.starts_with(|c: char| c.is_ascii_digit() || "\"'`".contains(c))
 }
 
 /// Templates and the text that was made of them, one after the other.
