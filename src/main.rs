@@ -11,7 +11,7 @@ use std::process::ExitCode;
 const STACK: usize = 8 << 20;
 
 fn main() -> ExitCode {
-    std::panic::set_hook(Box::new(|fault| impact_paper::program::tell(fault)));
+    std::panic::set_hook(Box::new(impact_paper::program::tell));
     let thread = std::thread::Builder::new().stack_size(STACK).spawn(cli::main);
     match thread.map(std::thread::JoinHandle::join) {
         Ok(Ok(code)) => code,

@@ -20,7 +20,8 @@ const LENGTHS: [(Colour, Mark); 3] =
     [(GREEN, Mark::Diamond), (RED, Mark::Disc), (PURPLE, Mark::Square)];
 
 /// Looks of the σ in (c).
-const TIMES: [Colour; 3] = [BLUE, ORANGE, RED];
+const TIMES: [(Colour, Mark); 3] =
+    [(BLUE, Mark::Disc), (ORANGE, Mark::Square), (RED, Mark::Diamond)];
 
 /// The half size of marks.
 const SIZE: i32 = 58;
@@ -112,7 +113,7 @@ fn times(sheet: &Sheet, found: &Table) -> Result<(), Error> {
     )?;
     panel.letter(LETTERS[2])?;
     let mut entries = Vec::new();
-    for (sigma, colour) in three(found).zip(TIMES) {
+    for (sigma, (colour, mark)) in three(found).zip(TIMES) {
         let name = format!("*σ* = {sigma}");
         let points: Vec<_> = found
             .points(&[("sigma", sigma)], "time", "missing")
@@ -122,8 +123,8 @@ fn times(sheet: &Sheet, found: &Table) -> Result<(), Error> {
             .collect();
         let thin = Stroke::solid(colour, THIN);
         panel.curve(&name, &points, thin, Outside::Cut)?;
-        panel.marks(&name, &points, (Mark::Disc, SIZE, thin), Outside::Cut)?;
-        let mark = Some((Mark::Disc, SIZE, thin));
+        panel.marks(&name, &points, (mark, SIZE, thin), Outside::Cut)?;
+        let mark = Some((mark, SIZE, thin));
         entries.push(Entry { line: Some(thin), mark, text: name });
     }
     // T^{−2} through (10, 10).

@@ -5,7 +5,7 @@ use super::chart::LETTERS;
 use super::panel::Frame;
 use super::series::Outside;
 use super::sheet::{Entry, Sheet};
-use super::style::{BLUE, Colour, Dash, INK, LINE, Mark, ORANGE, PURPLE, RED, SMALL, Stroke, THIN};
+use super::style::{BLUE, Dash, INK, LINE, Mark, ORANGE, PURPLE, RED, SMALL, Stroke, THIN};
 use super::{DataFile, Error, Figure};
 use crate::experiments::Results;
 use crate::experiments::seeds::tables::spread;
@@ -15,8 +15,13 @@ use crate::table::Table;
 /// The σ of (a).
 const SIGMAS: (f64, f64) = (0.075, 0.165);
 
-/// Colours of the σ in (b) and (d).
-const SPREADS: [Colour; 4] = [PURPLE, BLUE, ORANGE, RED];
+/// Lines of the σ in (b) and (d).
+const SPREADS: [Stroke; 4] = [
+    Stroke::solid(PURPLE, LINE),
+    Stroke::dashed(BLUE, LINE, Dash::Long),
+    Stroke::dashed(ORANGE, LINE, Dash::Alternate),
+    Stroke::solid(RED, THIN),
+];
 
 /// The half size of marks.
 const SIZE: i32 = 58;
@@ -85,11 +90,10 @@ fn advances(sheet: &Sheet, advance: &Table) -> Result<(), Error> {
     )?;
     panel.letter(LETTERS[1])?;
     let mut entries = Vec::new();
-    for (sigma, colour) in spread(&advance.values("sigma")).zip(SPREADS) {
+    for (sigma, stroke) in spread(&advance.values("sigma")).zip(SPREADS) {
         let points = advance.points(&[("sigma", *sigma)], "time", "advance");
         let points = points.into_iter().filter(|(_, own)| *own > 0.0);
         let points: Vec<_> = points.map(|(time, own)| (log(time), log(own))).collect();
-        let stroke = Stroke::solid(colour, LINE);
         let name = named(*sigma);
         panel.curve(&name, &points, stroke, Outside::Cut)?;
         entries.push(Entry::line(stroke, &name));
@@ -150,10 +154,9 @@ fn standing(sheet: &Sheet, waits: &Table, fronts: &Table, tick: f64) -> Result<(
     )?;
     panel.letter(LETTERS[3])?;
     let mut entries = Vec::new();
-    for (sigma, colour) in waits.values("sigma").into_iter().zip(SPREADS) {
+    for (sigma, stroke) in waits.values("sigma").into_iter().zip(SPREADS) {
         let shares = longer(waits, sigma, tick).into_iter().filter(|(_, share)| *share > 0.0);
         let points: Vec<_> = shares.map(|(time, share)| (log(time), log(share))).collect();
-        let stroke = Stroke::solid(colour, LINE);
         let name = named(sigma);
         panel.curve(&name, &points, stroke, Outside::Cut)?;
         entries.push(Entry::line(stroke, &name));
@@ -164,7 +167,7 @@ fn standing(sheet: &Sheet, waits: &Table, fronts: &Table, tick: f64) -> Result<(
             let time = pxfm::f_exp10(f64::from(step) / 40.0);
             (log(time), -speed * time * std::f64::consts::LOG10_E)
         };
-        let even = Stroke::dashed(SPREADS[0], THIN, Dash::Short);
+        let even = Stroke::dashed(SPREADS[0].colour, THIN, Dash::Short);
         let points: Vec<_> = (0..=120).map(decay).collect();
         panel.curve("constant rate", &points, even, Outside::Cut)?;
         entries.push(Entry::line(even, "constant rate"));

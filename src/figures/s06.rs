@@ -17,7 +17,7 @@ const RANGE: (f64, f64) = (0.75, 2.25);
 
 /// Colours of the numbers of vertices in (a).
 const SIZES: [(Colour, Dash); 3] =
-    [(ORANGE, Dash::Solid), (BLUE, Dash::Solid), (GREEN, Dash::Solid)];
+    [(ORANGE, Dash::Solid), (BLUE, Dash::Long), (GREEN, Dash::Alternate)];
 
 /// Looks of the values of p N in (c).
 const LOOKS: [(Colour, Mark); 4] =

@@ -18,6 +18,14 @@ use crate::experiments::orbits::{Example, Orbits, Row};
 /// The colours of masses, and of lengths.
 const COLOURS: [Colour; 4] = [BLUE, RED, GREEN, ORANGE];
 
+/// The marks of lengths: with an orbit, and with a stable one.
+const MARKS: [[Mark; 2]; 4] = [
+    [Mark::Disc, Mark::Ring],
+    [Mark::Square, Mark::OpenSquare],
+    [Mark::Diamond, Mark::OpenDiamond],
+    [Mark::Triangle, Mark::OpenTriangle],
+];
+
 /// The half size of marks.
 const SIZE: i32 = 52;
 
@@ -88,7 +96,7 @@ fn shares(sheet: &Sheet, orbits: &Orbits) -> Result<(), Error> {
     panel.letter(LETTERS[1])?;
     let mut entries = Vec::new();
     let lengths = orbits.rows.first().map_or(0, |row| row.lengths.len());
-    for (k, colour) in (1..=lengths).zip(COLOURS) {
+    for ((k, colour), [full, open]) in (1..=lengths).zip(COLOURS).zip(MARKS) {
         let own = |row: &Row| row.lengths.iter().find(|own| own.k == k).cloned();
         let of: Vec<_> =
             orbits.rows.iter().filter_map(|row| Some((row.sigma, own(row)?))).collect();
@@ -104,22 +112,22 @@ fn shares(sheet: &Sheet, orbits: &Orbits) -> Result<(), Error> {
             &panel,
             &name,
             &of.iter().map(|(x, own)| (*x, own.admissible.value)).collect::<Vec<_>>(),
-            Mark::Disc,
+            full,
             Stroke::solid(colour, LINE),
         )?;
         series(
             &panel,
             &name,
             &of.iter().map(|(x, own)| (*x, own.stable.value)).collect::<Vec<_>>(),
-            Mark::Ring,
+            open,
             Stroke::dashed(colour, THIN, Dash::Short),
         )?;
-        entries.push(Entry::mark(Mark::Disc, SIZE, thin, &format!("*k* = {k}")));
+        entries.push(Entry::mark(full, SIZE, thin, &format!("*k* = {k}")));
     }
     let (left, right) = entries.split_at(entries.len().div_ceil(2));
     sheet.legend((900, 8750), (SMALL, 370), left)?;
     sheet.legend((2200, 8750), (SMALL, 370), right)?;
-    let open = Entry::mark(Mark::Ring, SIZE, Stroke::solid(INK, THIN), "stable");
+    let open = Entry::mark(Mark::Ring, SIZE, Stroke::solid(INK, THIN), "open: stable");
     sheet.legend((3500, 8750), (SMALL, 370), &[open])
 }
 

@@ -63,6 +63,8 @@ impl<'a> Staging<'a> {
         let staging = Staging { folder, option, force, made };
         let failed = |error: io::Error| staging.failed(&error);
         std::fs::create_dir_all(folder).map_err(failed)?;
+        // Another run may be putting its files in place: half of them would look like a stranger's.
+        let _alone = alone(folder).map_err(failed)?;
         let own = Own::read(folder);
         let strange = |name: &String| !is_staging(folder, name);
         let strange = names(folder).map_err(failed)?.into_iter().find(strange);
@@ -74,7 +76,6 @@ impl<'a> Staging<'a> {
                 one_line(&name, 100)
             )));
         }
-        let _alone = alone(folder).map_err(failed)?;
         // Whoever writes holds the lock, so nobody who lives needs these.
         for name in names(folder).map_err(failed)?.iter().filter(|name| is_staging(folder, name)) {
             // What cannot be removed is in nobody's way.
@@ -89,6 +90,7 @@ impl<'a> Staging<'a> {
     /// # Errors
     /// Exit code 2 with the names.
     pub fn refuse_changed(&self) -> Result<(), Failure> {
+        let _alone = alone(self.folder).map_err(|error| self.failed(&error))?;
         let own = Own::read(self.folder).unwrap_or_default();
         let stands = |path: &str| self.folder.join(path).symlink_metadata().is_ok();
         let wrote =
@@ -111,6 +113,8 @@ impl<'a> Staging<'a> {
     /// on Ctrl-C.
     pub fn place(mut self, files: &Files, progress: &Progress) -> Result<(), Failure> {
         let failed = |error: io::Error| self.failed(&error);
+        // A run that began beside this one and failed has removed the folder if it was empty.
+        std::fs::create_dir_all(self.folder).map_err(failed)?;
         let _alone = alone(self.folder).map_err(failed)?;
         let own = Own::read(self.folder).unwrap_or_default();
         let is_report = files.contains_key(sums::NAME);
@@ -532,5 +536,28 @@ mod tests {
         let failure = Staging::below(file.path(), "--out", ASK).unwrap_err();
         assert_eq!(failure.code, 2);
         assert!(failure.message.starts_with("--out: "), "{}", failure.message);
+    }
+
+    /// A run that begins while another puts its files in place sees all of them or none.
+    #[test]
+    fn who_begins_while_another_writes_is_not_misled() {
+        let names: Vec<String> = (0..60).map(|k| format!("file-{k}.txt")).collect();
+        let names: Vec<&str> = names.iter().map(String::as_str).chain(["index.html"]).collect();
+        let whole = report(&names);
+        for _ in 0..6 {
+            let out = tempfile::tempdir().unwrap();
+            let folder = out.path();
+            std::thread::scope(|scope| {
+                let place = || {
+                    let staging = Staging::below(folder, "--out", ASK).unwrap();
+                    staging.place(&whole, &Progress::silent())
+                };
+                let writer = scope.spawn(place);
+                while !writer.is_finished() {
+                    Staging::below(folder, "--out", ASK).unwrap().refuse_changed().unwrap();
+                }
+                writer.join().unwrap().unwrap();
+            });
+        }
     }
 }

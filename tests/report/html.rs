@@ -214,6 +214,19 @@ fn alone(page_name: &str, page: &Document<'_>) {
     assert!(long < most, "{page_name}: {long} bytes");
 }
 
+#[test]
+fn every_page_says_how_to_cite_it() {
+    for (name, page) in pages() {
+        let title = words(elements(&page, "title")[0]);
+        let boxes = elements(&page, "details").into_iter();
+        let boxes: Vec<_> = boxes.filter(|own| own.attribute("class") == Some("cite")).collect();
+        let [own] = boxes[..] else { panic!("{name}: {} boxes", boxes.len()) };
+        let told = words(own);
+        assert!(told.contains(&format!("title  = {{{title}}}")), "{name}: {told}");
+        assert!(told.contains(concat!("impact-paper ", env!("CARGO_PKG_VERSION"))), "{told}");
+    }
+}
+
 /// On a narrow screen the rows of a wide table are lists: each cell brings the name of its column.
 #[test]
 fn cells_of_wide_tables_know_their_column() {

@@ -1,7 +1,7 @@
 //! One look for all figures: sizes, colours, dashes and markers.
 //!
 //! Lengths are hundredths of a millimetre on the printed column. The hues are those of Okabe and
-//! Ito (2008), which colour-blind readers tell apart; where a caption of the paper names a
+//! Ito (2008), which colour-blind readers tell apart, orange darker for its contrast with paper; where a caption of the paper names a
 //! colour, that colour, and always a marker or a dash beside it.
 
 use std::fmt;
@@ -59,7 +59,7 @@ pub const GREEN: Colour = Colour(0x00, 0x9e, 0x73);
 /// Higher-order circuits (the caption of Fig. 15 says blue).
 pub const BLUE: Colour = Colour(0x00, 0x72, 0xb2);
 /// A further class.
-pub const ORANGE: Colour = Colour(0xe6, 0x9f, 0x00);
+pub const ORANGE: Colour = Colour(0xb8, 0x7a, 0x00);
 /// A further class.
 pub const PURPLE: Colour = Colour(0xa5, 0x50, 0x8c);
 /// The page.

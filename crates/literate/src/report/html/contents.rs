@@ -16,6 +16,23 @@ impl Page<'_> {
         self.program.about.iter().map(one).collect()
     }
 
+    /// How to cite the document, as BibTeX; nothing if the program does not say who wrote it, and when.
+    pub(super) fn cite(&self, title: &str) -> String {
+        let of =
+            |name| self.program.about.iter().find(|about| about.0 == name).map(|about| about.1);
+        let of =
+            ["citation_author", "citation_publication_date", "version", "citation_title"].map(of);
+        let [Some(author), Some(date), Some(version), Some(program)] = of else {
+            return String::new();
+        };
+        let key = self.site.here.page.trim_end_matches(".html");
+        let year = date.split('-').next().unwrap_or_default();
+        escape::text(&format!(
+            "@misc{{{program}-{key},\n  author = {{{{{author}}}}},\n  title  = {{{title}}},\n  year   = {{{year}}},\n  \
+             note   = {{{program} {version}, {date}}},\n}}"
+        ))
+    }
+
     /// Links to all documents, as items of a list; nothing if there is one only.
     pub(super) fn documents(&self) -> String {
         let all = self.program.documents;

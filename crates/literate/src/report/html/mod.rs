@@ -64,6 +64,8 @@ pub struct Site<'a> {
 pub struct Parts {
     /// What the head says of the document, as elements.
     pub about: String,
+    /// How to cite the document, as BibTeX; empty if that is not known.
+    pub cite: String,
     /// Links to all documents, as items of a list; empty if there is one only.
     pub documents: String,
     /// The title as words.
@@ -116,6 +118,7 @@ pub fn write(
     let contents = page.contents(blocks)?;
     Ok(Parts {
         about: page.about(),
+        cite: page.cite(&plain(text)),
         documents: page.documents(),
         title: escape::text(&plain(text)),
         heading,
