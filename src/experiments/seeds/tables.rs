@@ -297,7 +297,7 @@ impl Row<'_> {
         self.runs.iter().filter(|(_, trace)| within(trace)).count() as u64
     }
 
-    /// [`circuits`] at this σ.
+    /// [`circuits()`] at this σ.
     fn circuits(&self, p: impl Fn(&ImpactProbability) -> Result<f64, circuits::Error>) -> f64 {
         circuits(self.parameters, self.sigma, p)
     }

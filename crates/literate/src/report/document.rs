@@ -94,7 +94,7 @@ pub enum Block {
         /// The caption.
         caption: Vec<Inline>,
     },
-    /// The place of the list of references; filled by [`super::labels::resolve`].
+    /// The place of the list of references; filled by [`Labels::resolve`](super::labels::Labels::resolve).
     Bibliography(Vec<Entry>),
 }
 
