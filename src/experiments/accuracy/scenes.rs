@@ -405,8 +405,6 @@ mod tests {
             for case in &of(id).cases {
                 let Expected::Sequence { impacts, .. } = &case.expected else { panic!("{case:?}") };
                 assert!(impacts.len() >= 2, "{id}: {}", impacts.len());
-                println!("{id} {impacts:?}");
-                println!("{id} {impacts:?}");
                 let scenario = case.start.as_scenario(&case.scenario).unwrap();
                 let mut engine = crate::dynamics::Engine::new(&scenario).unwrap();
                 engine.run(case.until, |_| true).unwrap();
