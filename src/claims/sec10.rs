@@ -1,6 +1,6 @@
 //! Section 10: conclusions.
 
-use super::Basis::OwnThreshold;
+use super::Basis::OurMeasure;
 use super::row::{Error, Evidence, Row, measured};
 use super::{Finding, open};
 use super::{Judgement, Statement, Text};
@@ -8,7 +8,7 @@ use crate::experiments::SWEEP;
 use crate::experiments::theory::beside::{LARGE_SIGMA, distance};
 
 /// The rows of this section.
-pub const ROWS: &[Row] = &[measured("sec10_improves", OwnThreshold, &[&SWEEP], improves)];
+pub const ROWS: &[Row] = &[measured("sec10_improves", OurMeasure, &[&SWEEP], improves)];
 
 fn improves(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
     let (sweep, curve) = (e.results.sweep()?, &e.results.theory.curve);

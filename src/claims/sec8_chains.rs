@@ -111,7 +111,8 @@ pub(super) fn threshold_shift(e: &Evidence, _: &Statement) -> Result<Finding, Er
             .say(", of the simulation at ")
             .with_error(half.value, half.error),
         tolerance: Text::words("± ").significant((high - low) / 2.0, 1),
-        reason: "half a unit of the last digit in which the paper prints the threshold",
+        reason: "ours: agreement over the whole range as half heights that agree within half a unit of the last digit \
+                 in which the paper prints the threshold",
         judgement: Judgement::Explained {
             agrees: (theory - half.value).abs() <= (high - low) / 2.0,
             holds,

@@ -1,6 +1,6 @@
 //! Section 9: circuits that repeat impacts.
 
-use super::Basis::{Exact, OwnThreshold};
+use super::Basis::{Exact, OurMeasure};
 use super::row::{Error, Evidence, Row, measured, theory};
 use super::{Finding, all_cases, open};
 use super::{Judgement, Statement, Text};
@@ -38,13 +38,13 @@ pub const ROWS: &[Row] = &[
              2, which the distribution needs too, it is not.",
         ))
     }),
-    theory("sec9_even_small_p", OwnThreshold, even_small_p),
-    theory("sec9_dominate", OwnThreshold, dominate),
-    theory("sec9_convergence", OwnThreshold, convergence),
-    theory("sec9_mean_large_p", OwnThreshold, mean_large_p),
-    theory("sec9_mean_small_p", OwnThreshold, mean_small_p),
-    theory("sec9_higher_jump", OwnThreshold, higher_jump),
-    theory("sec9_fig15_modest", OwnThreshold, fig15_modest),
+    theory("sec9_even_small_p", OurMeasure, even_small_p),
+    theory("sec9_dominate", OurMeasure, dominate),
+    theory("sec9_convergence", OurMeasure, convergence),
+    theory("sec9_mean_large_p", OurMeasure, mean_large_p),
+    theory("sec9_mean_small_p", OurMeasure, mean_small_p),
+    theory("sec9_higher_jump", OurMeasure, higher_jump),
+    theory("sec9_fig15_modest", OurMeasure, fig15_modest),
     theory("sec9_relation_matters", Exact, relation_matters),
 ];
 

@@ -62,7 +62,7 @@ fn target(
         ours: found,
         tolerance: bound,
         reason: "promised before it was measured".into(),
-        basis: if timed { Basis::Clock } else { Basis::OwnThreshold },
+        basis: if timed { Basis::Clock } else { Basis::OurMeasure },
         verdict,
         note: Text::default(),
     }

@@ -1,5 +1,6 @@
 //! `impact-paper explain`.
 
+use super::document::Only;
 use super::{Failure, stdout};
 use impact_paper::report::PROGRAM;
 use impact_paper::report::card::{Card, Cards, Row};
@@ -20,6 +21,8 @@ pub struct Args {
     /// What to explain.
     #[arg(value_name = "ID")]
     ids: Vec<String>,
+    #[command(flatten)]
+    only: Only,
     /// Folder of the report.
     #[arg(long, value_name = "DIR", default_value = "paper")]
     paper: PathBuf,
@@ -30,8 +33,11 @@ pub struct Args {
 
 /// Runs the verb.
 pub fn run(args: Args) -> Result<(), Failure> {
-    let values = values(&args.paper)?;
-    let ledger = ledger(&args.paper)?;
+    let mut values = values(&args.paper)?;
+    let mut ledger = ledger(&args.paper)?;
+    if let Some(document) = &args.only.document {
+        ledger.only(document, &mut values).map_err(fault)?;
+    }
     let cards = Cards { values: &values, ledger: &ledger, program: PROGRAM };
     let get = |id: &String| cards.get(id).ok_or_else(|| unknown(id, &cards.ids()));
     let result = if args.ids.is_empty() {

@@ -4,6 +4,7 @@ mod audit;
 mod bench;
 mod check;
 mod diff;
+mod document;
 mod eval;
 mod explain;
 mod merge;

@@ -1,5 +1,6 @@
 //! `impact-paper verify`.
 
+use super::document::Only;
 use impact_paper::experiments::Progress;
 use impact_paper::params::Profile;
 use impact_paper::program::listed::{Checked, listed, own_profile};
@@ -19,8 +20,10 @@ pub struct Args {
     /// Folder of the report.
     #[arg(value_name = "DIR", default_value = "paper")]
     folder: PathBuf,
+    #[command(flatten)]
+    only: Only,
     /// Make the report again, without saved results, and compare byte by byte.
-    #[arg(long)]
+    #[arg(long, conflicts_with = "document")]
     rerun: bool,
     /// Sample sizes of the rerun [default: those of the report].
     #[arg(long, requires = "rerun")]
@@ -39,7 +42,7 @@ pub struct Args {
 /// Runs the verb.
 pub fn run(args: Args) -> Result<(), Failure> {
     let progress = work::progress_that_tidies();
-    let mut checked = listed(&args.folder, &progress)?;
+    let mut checked = listed(&args.folder, args.only.document.as_deref(), &progress)?;
     checked.tell(&args.folder)?;
     if args.rerun {
         let again = rerun(&args, &progress)?;

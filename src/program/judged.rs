@@ -53,10 +53,11 @@ impl Judged {
             .filter(|(_, _, all): &(_, _, usize)| *all > 0)
             .map(|(basis, reproduced, all)| format!("{reproduced} of {all} {basis}"))
             .collect();
-        let mut lines = vec![
-            format!("{} {noun} of the paper: {}", claims.len(), counts.join(", ")),
-            format!("reproduced, by what the verdict rests on: {}", bases.join(", ")),
-        ];
+        let mut lines = Vec::new();
+        if !claims.is_empty() {
+            lines.push(format!("{} {noun} of the paper: {}", claims.len(), counts.join(", ")));
+            lines.push(format!("reproduced, by what the verdict rests on: {}", bases.join(", ")));
+        }
         let all = self.relations.len();
         if all > 0 {
             let held = all - self.relations.iter().filter(|check| check.fails()).count();

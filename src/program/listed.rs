@@ -5,7 +5,7 @@ use crate::digest::sha256;
 use crate::experiments::Progress;
 use crate::params::Profile;
 use crate::report::values::Number;
-use crate::report::{compare, sums};
+use crate::report::{compare, ledger, sums};
 use clap::ValueEnum;
 use std::collections::BTreeMap;
 use std::io::ErrorKind;
@@ -38,11 +38,11 @@ impl Checked {
     }
 }
 
-/// Compares the folder with its list.
+/// Compares the folder with its list, or only the files of one document.
 ///
 /// # Errors
-/// Exit code 2 if there is no list that can be read.
-pub fn listed(root: &Path, progress: &Progress) -> Result<Checked, Failure> {
+/// Exit code 2 if there is no list that can be read, or none of that document.
+pub fn listed(root: &Path, only: Option<&str>, progress: &Progress) -> Result<Checked, Failure> {
     let place = root.join(sums::NAME);
     let unusable = |what: String| {
         let remedy = "make the report anew with `impact-paper paper`";
@@ -60,6 +60,17 @@ pub fn listed(root: &Path, progress: &Progress) -> Result<Checked, Failure> {
         |entry: &&sums::Entry| folder::is_beside(&entry.path) && found.contains(&entry.path);
     for entry in local.iter().filter(beside).chain(&entries) {
         known.insert(&entry.path, &entry.digest);
+    }
+    let mut found = found.clone();
+    if let Some(document) = only {
+        let text = folder::read(root, "ledger.json").map_err(|e| unusable(e.to_string()))?;
+        let ledger = ledger::read(&String::from_utf8_lossy(&text));
+        let ledger = ledger.map_err(|e| unusable(e.to_string()))?;
+        let Some(shown) = ledger.documents.get(document) else {
+            return Err(unusable(format!("ledger.json does not say what {document} shows")));
+        };
+        known.retain(|path, _| shown.files.contains(*path));
+        found.retain(|path| shown.files.contains(path));
     }
     let mut faults = Vec::new();
     let mut fault =

@@ -32,6 +32,19 @@ const ABOUT: [(&str, &str); 6] = [
     ("license", "MIT OR Apache-2.0"),
 ];
 
+/// When all was one page, the figures of the second paper had these numbers, and its parts these names.
+const MOVED: [(&str, &str); 9] = [
+    ("fig-S5", "fig-S6"),
+    ("fig-S6", "fig-S7"),
+    ("fig-S7", "fig-S8"),
+    ("fig-S8", "fig-S9"),
+    ("fig-S9", "fig-S10"),
+    ("fig-S10", "fig-S11"),
+    ("fig-S11", "fig-S5"),
+    ("sec-beyond", "sec-protocol"),
+    ("sec-edition", "sec-introduction"),
+];
+
 /// A reader has five minutes, half an hour, or a day.
 const DOCUMENTS: [Document; 5] = [
     Document {
@@ -41,9 +54,10 @@ const DOCUMENTS: [Document; 5] = [
         markdown: "README.md",
         page: "index.html",
         print: None,
+        moved: &[],
         repeats: true,
     },
-    Document { prose: "edition", name: "Edition", ..Document::REPORT },
+    Document { prose: "edition", name: "Edition", moved: &MOVED, ..Document::REPORT },
     Document {
         prose: "beyond",
         name: "Beyond the paper",
@@ -51,6 +65,7 @@ const DOCUMENTS: [Document; 5] = [
         markdown: "beyond.md",
         page: "beyond.html",
         print: Some("beyond"),
+        moved: &[],
         repeats: false,
     },
     Document {
@@ -60,6 +75,7 @@ const DOCUMENTS: [Document; 5] = [
         markdown: "methods.md",
         page: "methods.html",
         print: Some("methods"),
+        moved: &[],
         repeats: false,
     },
     Document {
@@ -69,6 +85,7 @@ const DOCUMENTS: [Document; 5] = [
         markdown: "ledger.md",
         page: "ledger.html",
         print: None,
+        moved: &[],
         repeats: false,
     },
 ];

@@ -5,6 +5,7 @@ mod bench;
 mod check;
 mod cluster;
 mod diff;
+mod document;
 mod eval;
 mod explain;
 mod paper;

@@ -78,7 +78,8 @@ fn every_id_is_unique_and_every_link_lands() {
             }
         }
         // What was in one page once is found from each.
-        let places = data(page, "places");
+        let both = data(page, "places");
+        let (places, moved) = (&both[0], both[1].as_object().unwrap());
         let pages = places.as_object().unwrap().iter();
         let of = |(file, all): (&String, &serde_json::Value)| {
             let all = all.as_array().unwrap().clone();
@@ -94,6 +95,13 @@ fn every_id_is_unique_and_every_link_lands() {
             assert!(!own || *name == "index.html", "{name} has {id} itself");
         }
         assert!(places.len() > 50);
+        // An old place leads to one of another page, or of this.
+        for (old, now) in moved {
+            let now = now.as_str().unwrap();
+            assert!(!ids[name].contains(old.as_str()), "{old} is there");
+            assert!(ids[name].contains(now) || places.iter().any(|(id, _)| id == now), "{now}");
+        }
+        assert_eq!(moved.len(), if *name == "report.html" { 9 } else { 0 });
     }
     assert!(inside > 500 && across > 150, "{inside} {across}");
 }

@@ -10,12 +10,13 @@
   };
 
   // Places that are now in another document.
-  const places = data("places");
+  const [places, moved] = data("places");
   const go = () => {
-    const id = decodeURIComponent(location.hash.slice(1));
-    if (!id || document.getElementById(id)) return;
-    const page = Object.keys(places).find((page) => places[page].includes(id));
-    if (page) location.replace(`${page}#${id}`);
+    const asked = decodeURIComponent(location.hash.slice(1));
+    const id = moved[asked] ?? asked;
+    if (!id || document.getElementById(asked)) return;
+    const page = Object.keys(places).find((page) => places[page].includes(id)) ?? "";
+    if (page || id !== asked) location.replace(`${page}#${id}`);
   };
   addEventListener("hashchange", go);
   go();
@@ -130,6 +131,13 @@
     found.replaceChildren(...finds);
   });
   if (sections.length > 0) contents.querySelector("details")?.append(make("div", { className: "search", role: "search" }, input, found));
+
+  // What is long in a table of many columns unfolds; on paper all is open.
+  for (const cell of all(".lists td.long")) {
+    const start = cell.textContent.replace(/^(.{40}\S*).*/s, "$1 …");
+    cell.replaceChildren(make("details", {}, make("summary", {}, start), ...cell.childNodes));
+  }
+  addEventListener("beforeprint", () => all("main details").forEach((fold) => (fold.open = true)));
 
   // Long tables can be filtered by the columns of few words.
   const LONG = 40;

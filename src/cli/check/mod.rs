@@ -3,6 +3,7 @@
 mod forms;
 
 use self::forms::Entry;
+use super::document::Only;
 use super::judged::Judged;
 use super::sources::Sources;
 use super::{Failure, stdout, work};
@@ -18,15 +19,19 @@ use std::io::{self, Write};
 ///
 /// Saved results are used where they are fresh; what is missing is run. Prints a row for each
 /// claim, and ends with exit code 1 if one differs without an explanation that holds, if a target is
-/// missed that does not depend on the clock, or if a relation between numbers does not hold.
+/// missed that does not depend on the clock, or if a relation between numbers does not hold. Statements
+/// belong to the edition, the front page and the ledger, relations to the second paper, targets to the
+/// methods.
 #[derive(clap::Args)]
 pub struct Args {
     /// Sample sizes.
     #[arg(long, default_value = "full")]
     profile: work::ProfileName,
     /// Only this claim (may be repeated); runs no more than it needs.
-    #[arg(long, value_name = "ID")]
+    #[arg(long, value_name = "ID", conflicts_with = "document")]
     claim: Vec<String>,
+    #[command(flatten)]
+    only: Only,
     /// Form of what is printed: `github` annotates the ten worst claims, and adds the whole table
     /// to the summary of the step.
     #[arg(long, default_value = "text")]
@@ -60,13 +65,15 @@ pub fn run(args: Args) -> Result<(), Failure> {
         some => all.into_iter().filter(|id| some.iter().any(|one| one == id)).collect(),
     };
     let mut needs: Vec<_> = asked.iter().flat_map(|id| claims::needs(id)).copied().collect();
+    let document = args.only.document.as_deref();
+    let of = |names: &[&str]| document.is_none_or(|name| names.contains(&name));
     // Targets and relations belong to the whole.
-    let whole = args.claim.is_empty();
+    let whole = args.claim.is_empty() && of(&["beyond", "methods"]);
     if whole {
         needs = ALL.into();
     }
     let progress = work::progress();
-    let judged = work::on_threads(args.sources.threads, || {
+    let mut judged = work::on_threads(args.sources.threads, || {
         let results = args.sources.run(&needs, profile, &templates, &progress)?;
         let one = |id: &&str| claims::one(id, &results, &published);
         let claims = asked.iter().map(one).collect::<Result<Vec<Check>, claims::Error>>()?;
@@ -76,6 +83,12 @@ pub fn run(args: Args) -> Result<(), Failure> {
         let values = contents::registry(&results, &published)?;
         Judged::all(&results, &published, values, claims)
     })?;
+    let lists = [
+        (&mut judged.claims, of(&["front", "edition", "ledger"])),
+        (&mut judged.relations, of(&["beyond"])),
+        (&mut judged.targets, of(&["methods"])),
+    ];
+    lists.into_iter().filter(|(_, asked)| !asked).for_each(|(list, _)| list.clear());
     let line = |id: &str| Ok(published.line(templates.text("published.toml")?, id));
     let entry = |claim| Ok(Entry { claim, line: line(&claim.id)? });
     let entries: Result<Vec<Entry>, impact_paper::report::Error> =

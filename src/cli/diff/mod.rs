@@ -4,6 +4,7 @@ mod markdown;
 mod revision;
 mod text;
 
+use super::document::Only;
 use super::{Failure, folder, stdout};
 use impact_paper::report::Files;
 use impact_paper::report::compare::{self, Diff, Parts};
@@ -23,6 +24,8 @@ pub struct Args {
     /// The later one.
     #[arg(value_name = "NEW")]
     new: String,
+    #[command(flatten)]
+    only: Only,
     /// How to print it.
     #[arg(long, default_value = "text")]
     format: Format,
@@ -62,8 +65,11 @@ impl Args {
 pub fn run(args: Args) -> Result<(), Failure> {
     let (old, new) = (files(&args.old)?, files(&args.new)?);
     let unusable = |what: String| Failure::input(format!("{what}; is it a report?"));
-    let before = Parts::of(&args.old, &old).map_err(unusable)?;
-    let after = Parts::of(&args.new, &new).map_err(unusable)?;
+    let mut before = Parts::of(&args.old, &old).map_err(unusable)?;
+    let mut after = Parts::of(&args.new, &new).map_err(unusable)?;
+    if let Some(document) = &args.only.document {
+        before.only(document).and_then(|()| after.only(document)).map_err(unusable)?;
+    }
     let diff = compare::diff(&before, &after).map_err(unusable)?;
     stdout::print(&match args.format() {
         Format::Text => text::text(&args.old, &args.new, &diff),

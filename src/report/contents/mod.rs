@@ -51,7 +51,6 @@ pub const SECTIONS: [Section; 2] = [carried::values, |results| Ok(ledger::values
 pub fn registry(results: &Results, published: &Published) -> Result<Registry, Error> {
     let mut registry = Registry::new();
     registry.extend(printed(published))?;
-    registry.add(Value::text("published_digest", &published.digest[..16]))?;
     for section in SECTIONS {
         registry.extend(section(results)?)?;
     }

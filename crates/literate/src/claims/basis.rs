@@ -15,21 +15,16 @@ pub enum Basis {
     PrintedDigit,
     /// Standard errors at the level of the table.
     Statistics,
-    /// A threshold of our own, for a statement in words.
-    OwnThreshold,
+    /// A measure of our own, for a statement in words.
+    OurMeasure,
     /// Times of a clock; no statement of a paper rests on them.
     Clock,
 }
 
 impl Basis {
     /// Every basis of a statement, the strongest first.
-    pub const ALL: [Basis; 5] = [
-        Basis::Exact,
-        Basis::Rounding,
-        Basis::PrintedDigit,
-        Basis::Statistics,
-        Basis::OwnThreshold,
-    ];
+    pub const ALL: [Basis; 5] =
+        [Basis::Exact, Basis::Rounding, Basis::PrintedDigit, Basis::Statistics, Basis::OurMeasure];
 
     /// The basis in words.
     pub fn words(self) -> &'static str {
@@ -38,7 +33,7 @@ impl Basis {
             Basis::Rounding => "rounding",
             Basis::PrintedDigit => "printed digit",
             Basis::Statistics => "statistics",
-            Basis::OwnThreshold => "own threshold",
+            Basis::OurMeasure => "our measure",
             Basis::Clock => "clock",
         }
     }

@@ -26,6 +26,7 @@ pub mod markdown;
 pub mod origin;
 pub mod parse;
 pub mod print;
+pub mod shown;
 pub mod spell;
 pub mod sums;
 pub mod templates;
@@ -412,6 +413,7 @@ Listing: What $\delta v$ does. {#lst:kick}
             markdown: "more.md",
             page: "more.html",
             print: Some("more"),
+            moved: &[("sec-old", "sec-b")],
             repeats: false,
         };
         let program = Program { documents: &[FRONT, Document::REPORT, MORE], ..TOY };

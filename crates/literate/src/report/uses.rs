@@ -4,8 +4,8 @@
 //! is the same number. Integers and numbers of few digits agree by chance, so they count only where the
 //! prose names claim and value in one paragraph.
 
-use super::document::{Block, Inline, visit};
-use super::valued::{Piece, pieces};
+use super::document::Block;
+use super::shown::Shown;
 use super::values::{Number, Registry};
 use crate::claims::{Check, Piece as Said, Text};
 use std::collections::{BTreeMap, BTreeSet};
@@ -51,25 +51,9 @@ fn numbers(text: &Text) -> impl Iterator<Item = f64> + '_ {
 fn together(documents: &[&[Block]]) -> BTreeMap<String, BTreeSet<String>> {
     let mut out: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
     for block in documents.iter().copied().flatten().filter(|b| matches!(b, Block::Paragraph(_))) {
-        let (mut claims, mut values) = (Vec::new(), BTreeSet::new());
-        visit(std::slice::from_ref(block), &mut |inline| match inline {
-            Inline::Reference { to, .. } => {
-                claims.extend(to.strip_prefix("claim:").map(String::from))
-            }
-            Inline::Value { id, .. } => {
-                values.insert(id.clone());
-            }
-            Inline::Maths(tex) | Inline::Display { tex, .. } => {
-                for piece in pieces(tex) {
-                    if let Piece::Value { id, .. } = piece {
-                        values.insert(id.to_string());
-                    }
-                }
-            }
-            _ => {}
-        });
-        for claim in claims {
-            out.entry(claim).or_default().extend(values.iter().cloned());
+        let shown = Shown::in_blocks(std::slice::from_ref(block));
+        for claim in shown.claims {
+            out.entry(claim).or_default().extend(shown.values.iter().cloned());
         }
     }
     out

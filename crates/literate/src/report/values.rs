@@ -123,6 +123,11 @@ impl Registry {
         self.values.values()
     }
 
+    /// Leaves those of which this is so.
+    pub fn retain(&mut self, keep: impl Fn(&Value) -> bool) {
+        self.values.retain(|_, value| keep(value));
+    }
+
     /// How many there are.
     pub fn len(&self) -> usize {
         self.values.len()

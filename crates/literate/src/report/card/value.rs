@@ -82,9 +82,7 @@ fn lead(value: &Value) -> String {
         }
         (Kind::Deterministic, _) => "A number computed without chance".into(),
         (Kind::Ensemble { realisations, .. }, _) => {
-            format!(
-                "An average over {realisations} realisations with its standard error in brackets"
-            )
+            format!("Found from {realisations} realisations, with its standard error in brackets")
         }
         (Kind::Printed { .. }, _) => return "A number that the paper prints.".into(),
         (Kind::Measured, _) => "A number measured once, and an input since".into(),

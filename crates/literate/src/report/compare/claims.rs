@@ -1,5 +1,6 @@
 //! Which claims are judged otherwise, and which are held to another measure.
 
+use super::super::shown::Shown;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,6 +8,8 @@ use std::collections::{BTreeMap, BTreeSet};
 #[derive(Clone, Debug, Deserialize)]
 struct Read {
     claims: Vec<Check>,
+    #[serde(default)]
+    documents: BTreeMap<String, Shown>,
 }
 
 #[derive(Clone, Debug, Deserialize)]
@@ -21,9 +24,9 @@ struct Check {
     tolerance: String,
 }
 
-/// The claims of a ledger.json, by id.
+/// The claims of a ledger.json, by id, and what each document shows.
 #[derive(Clone, Debug)]
-pub struct Claims(BTreeMap<String, Check>);
+pub struct Claims(BTreeMap<String, Check>, BTreeMap<String, Shown>);
 
 /// One difference between two sets of claims.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -49,7 +52,18 @@ impl Claims {
     /// When it is not one.
     pub fn read(text: &str) -> Result<Self, String> {
         let read: Read = serde_json::from_str(text).map_err(|e| format!("ledger.json: {e}"))?;
-        Ok(Claims(read.claims.into_iter().map(|claim| (claim.id.clone(), claim)).collect()))
+        let claims = read.claims.into_iter().map(|claim| (claim.id.clone(), claim));
+        Ok(Claims(claims.collect(), read.documents))
+    }
+
+    /// What a document shows, if the ledger says so.
+    pub fn shown(&self, document: &str) -> Option<Shown> {
+        self.1.get(document).cloned()
+    }
+
+    /// Leaves the claims that a document refers to.
+    pub fn retain(&mut self, shown: &Shown) {
+        self.0.retain(|id, _| shown.claims.contains(id));
     }
 
     /// All changes, sorted by id.

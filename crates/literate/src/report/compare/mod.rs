@@ -18,7 +18,7 @@ use table::Table;
 #[derive(Debug)]
 pub struct Parts<'a> {
     name: &'a str,
-    files: &'a Files,
+    files: Files,
     values: Registry,
     claims: Claims,
 }
@@ -57,11 +57,25 @@ impl<'a> Parts<'a> {
         let values = read(&text(name, files, "values.json")?).map_err(|e| fault(e.to_string()))?;
         numbers::printable(&values).map_err(fault)?;
         let claims = Claims::read(&text(name, files, "ledger.json")?).map_err(fault)?;
-        Ok(Parts { name, files, values, claims })
+        Ok(Parts { name, files: files.clone(), values, claims })
+    }
+
+    /// Leaves what one document shows.
+    ///
+    /// # Errors
+    /// When the report does not say which that is.
+    pub fn only(&mut self, document: &str) -> Result<(), String> {
+        let shown = self.claims.shown(document).ok_or_else(|| {
+            format!("{}: ledger.json does not say what {document} shows", self.name)
+        })?;
+        self.files.retain(|path, _| shown.files.contains(path));
+        self.values.retain(|value| shown.values.contains(&value.id));
+        self.claims.retain(&shown);
+        Ok(())
     }
 
     fn table(&self, path: &str) -> Result<Table, String> {
-        let text = text(self.name, self.files, path)?;
+        let text = text(self.name, &self.files, path)?;
         Table::read(&text).map_err(|what| format!("{}: {path}: {what}", self.name))
     }
 }
@@ -83,7 +97,7 @@ pub fn diff(before: &Parts<'_>, after: &Parts<'_>) -> Result<Diff, String> {
     let known = |files: &'_ Files| -> BTreeSet<String> {
         files.keys().filter(|path| *path != sums::NAME).cloned().collect()
     };
-    let (old, new) = (known(before.files), known(after.files));
+    let (old, new) = (known(&before.files), known(&after.files));
     let mut out = Diff {
         verdicts: before.claims.changes(&after.claims),
         numbers: changes(&before.values, &after.values),

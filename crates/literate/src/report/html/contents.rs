@@ -16,6 +16,20 @@ impl Page<'_> {
         self.program.about.iter().map(one).collect()
     }
 
+    /// Version, date and licence, and links to the data and to the text for hosts.
+    pub(super) fn imprint(&self) -> String {
+        let of = |name| self.program.about.iter().find(|about| about.0 == name);
+        let of = ["version", "citation_publication_date", "license"].map(of);
+        let [Some((_, version)), Some((_, date)), Some((_, licence))] = of else {
+            return String::new();
+        };
+        let text = self.site.here.markdown;
+        format!(
+            "Version {version}, {date}, {licence}. <a href=\"values.json\">Values</a>, \
+             <a href=\"data\">data of the figures</a>, <a href=\"{text}\">this text as Markdown</a>."
+        )
+    }
+
     /// How to cite the document, as BibTeX; nothing if the program does not say who wrote it, and when.
     pub(super) fn cite(&self, title: &str) -> String {
         let of =

@@ -27,7 +27,7 @@ use crate::figures::{Figure, Glyphs};
 use crate::source::Program;
 use serde::Serialize;
 use std::cell::RefCell;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Whether a browser can show this TeX.
 ///
@@ -64,6 +64,8 @@ pub struct Site<'a> {
 pub struct Parts {
     /// What the head says of the document, as elements.
     pub about: String,
+    /// Version, date and licence, and where the data is; empty if that is not known.
+    pub imprint: String,
     /// How to cite the document, as BibTeX; empty if that is not known.
     pub cite: String,
     /// Links to all documents, as items of a list; empty if there is one only.
@@ -80,6 +82,8 @@ pub struct Parts {
     pub cards: String,
     /// Which page has the places that this one has not, as data for the script.
     pub places: String,
+    /// Places that have another name now, as data for the script.
+    pub moved: String,
     /// The outlines that figures share.
     pub glyphs: String,
     /// Fonts and colours of the figures as CSS.
@@ -118,6 +122,7 @@ pub fn write(
     let contents = page.contents(blocks)?;
     Ok(Parts {
         about: page.about(),
+        imprint: page.imprint(),
         cite: page.cite(&plain(text)),
         documents: page.documents(),
         title: escape::text(&plain(text)),
@@ -125,6 +130,7 @@ pub fn write(
         contents,
         cards: page.cards(cards)?,
         places: escape::data(&site.labels.elsewhere(site.here)),
+        moved: escape::data(&site.here.moved.iter().copied().collect::<BTreeMap<_, _>>()),
         glyphs: picture::shared(&page.glyphs.borrow()),
         style: fonts::rules(&body) + &picture::rules(),
         body,
