@@ -241,8 +241,8 @@ pub fn cores() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
 }
 
-/// The variable by which the library of threads takes their number.
-const THREADS: &str = "RAYON_NUM_THREADS";
+/// The variables by which the library of threads takes their number.
+const THREADS: [&str; 2] = ["RAYON_NUM_THREADS", "RAYON_RS_NUM_CPUS"];
 
 /// Refuses more threads than work can use, whoever asks for them.
 fn few_enough(asked_by: &str, threads: Option<usize>) -> Result<(), Failure> {
@@ -260,8 +260,9 @@ fn few_enough(asked_by: &str, threads: Option<usize>) -> Result<(), Failure> {
 /// # Errors
 /// Exit code 2.
 pub fn environment() -> Result<(), Failure> {
-    let threads = std::env::var(THREADS).ok().and_then(|threads| threads.parse().ok());
-    few_enough(THREADS, threads)
+    THREADS.into_iter().try_for_each(|name| {
+        few_enough(name, std::env::var(name).ok().and_then(|threads| threads.parse().ok()))
+    })
 }
 
 /// Runs `work` on that many threads; none means all cores.

@@ -244,6 +244,7 @@ fn exit_codes_are_those_of_the_table() {
         (2, paper("end"), "report.tex: it has \\end{document} 0 times"),
         (2, paper("loop"), "references.bib:6: crossref"),
         (2, "export RAYON_NUM_THREADS=999; exec \"$0\" check".into(), "RAYON_NUM_THREADS: 999"),
+        (2, "export RAYON_RS_NUM_CPUS=999; exec \"$0\" check".into(), "RAYON_RS_NUM_CPUS: 999"),
         (2, paper("style"), "report.css: "),
         (2, paper("import"), "report.css: @import"),
         (2, paper("none"), "front.md: it is missing or empty"),

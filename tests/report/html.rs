@@ -87,10 +87,8 @@ fn every_id_is_unique_and_every_link_lands() {
         };
         let places: Vec<(String, String)> = pages.flat_map(|page| -> Vec<_> { of(page) }).collect();
         for (id, file) in &places {
-            let derived =
-                id.starts_with("row-") || id.starts_with("mark-") || id.starts_with("sign-");
             let has = ids[file.as_str()].contains(id.as_str());
-            assert!(derived || has, "{name}: no {id} in {file}");
+            assert!(has, "{name}: no {id} in {file}");
             let own = ids[name].contains(id.as_str());
             assert!(!own || *name == "index.html", "{name} has {id} itself");
         }

@@ -41,7 +41,11 @@ impl Labels {
     /// The pages of what other documents have, by the ids of pages.
     pub fn elsewhere(&self, here: Document) -> BTreeMap<&'static str, Vec<String>> {
         let mut pages = BTreeMap::<_, Vec<String>>::new();
-        for (id, (_, of)) in self.labels.iter().filter(|(_, (_, of))| *of != here) {
+        // Marks of a statement lead to its row.
+        let is_mark =
+            |id: &str| ["row:", "mark:", "sign:"].iter().any(|start| id.starts_with(start));
+        for (id, (_, of)) in self.labels.iter().filter(|(id, (_, of))| *of != here && !is_mark(id))
+        {
             pages.entry(of.page).or_default().push(id.replace(':', "-"));
         }
         pages
