@@ -170,7 +170,6 @@ fn chains_table(rows: &[Chains<'_>]) -> Table {
             row.expected.independent
         })
         .real("clumps", "1", 3, "expected with clumps", |row| row.expected.value)
-        .real("bound", "1", 1, "what that may be off by", |row| row.expected.bound)
         .done()
 }
 

@@ -61,6 +61,13 @@ pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
         .real("simulated", "1", 3, "mean count of all in the main sweep", |at| at.1)
         .real("excess", "1", 2, "the one by nucleation and growth less this", |at| at.2)
         .done();
+    let theory = of("seeds.theory")?;
+    let root = |of: &dyn Fn(f64) -> Option<f64>| {
+        let squares =
+            against.iter().map(|at| of(at.0).map_or(f64::NAN, |own| (own - at.1) * (own - at.1)));
+        (squares.sum::<f64>() / against.len() as f64).sqrt()
+    };
+    let by_circuits = |column: &str| root(&|sigma| theory.number(&[("sigma", sigma)], column).ok());
     let compared = Table::of("seeds.compared", &[()], |()| seeds.realisations)
         .count("sigmas", "values of σ that seeds and map have", |()| sigmas.len() as u64)
         .chosen("from", "d omega^2", "the first of them", |()| sigmas.first().copied())
@@ -72,8 +79,19 @@ pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
             worst.map_or(f64::NAN, |at| at.2.abs())
         })
         .chosen("largest_at", "d omega^2", "where that is", |()| worst.map(|at| at.0))
+        .count("swept", "values of σ that seeds and main sweep have", |()| against.len() as u64)
+        .real("grown", "1", 2, OFF_SWEEP, |()| root(&|sigma| grown_at(means, transient, sigma)))
+        .real("from_rest", "1", 2, OFF_SWEEP, |()| by_circuits("from_rest"))
+        .real("eq25", "1", 2, OFF_SWEEP, |()| by_circuits("eq25"))
         .done();
     Some(vec![scores, against_sweep, compared])
+}
+
+const OFF_SWEEP: &str = "root mean square distance from the mean counts of the main sweep, in gaps";
+
+/// The mean count by nucleation and growth.
+fn grown_at(means: &Table, transient: f64, sigma: f64) -> Option<f64> {
+    means.number(&[("transient", transient), ("sigma", sigma)], "grown").ok()
 }
 
 const OFF: &str =

@@ -4,12 +4,8 @@
 //! other, and between two first impacts it waits for the gap ahead, its obstacle. A wait ends with a
 //! step or is cut off by the end of the run; a front at a wall has no wait any more.
 //!
-//! An obstacle *holds* a front if this stands before it for longer than a window W. Were obstacles
-//! independent, each holding with the same chance s, the steps between two holds would be geometric with mean
-//! (1 − s)/s. Walls and the end of the run cut off such series; what they cannot change is that of every front the
-//! number of obstacles that hold, less s times the number m that it meets, is a martingale when it is stopped, with the variance
-//! s (1 − s) ⟨m⟩. Only obstacles count that are met more than W before the end, so that for each it is known
-//! whether it holds.
+//! An obstacle *holds* a front if this stands before it for longer than a window W. Only obstacles count that are met
+//! more than W before the end, so that for each it is known whether it holds.
 
 use super::run::Trace;
 use crate::experiments::survival::kaplan_meier;
@@ -37,8 +33,6 @@ pub struct Waits {
     pub held: [u64; 3],
     /// [met, held] by the whole parts of its width that a gap crosses by itself.
     pub crossed: [[u64; 2]; PARTS],
-    /// Sums over fronts: held², held · met, met².
-    pub products: [u64; 3],
 }
 
 /// The fronts of all runs at one σ; errors are by the jackknife over runs.
@@ -73,14 +67,11 @@ impl Waits {
         let (end, window) = (parameters.ticks(), parameters.window_ticks());
         self.fronts += u64::from(ahead.len() > 0);
         let (mut at, mut before) = (0, 0);
-        let [mut met, mut held] = [0, 0];
         for (first, crossed) in ahead {
             let next = first.map_or(end, |tick| tick as usize);
             let wait = next - at;
             if at + window < end {
                 let holds = wait > window;
-                met += 1;
-                held += u64::from(holds);
                 self.met[before] += 1;
                 self.held[before] += u64::from(holds);
                 self.crossed[crossed][0] += 1;
@@ -94,16 +85,10 @@ impl Waits {
             self.ended.push(wait);
             at = next;
         }
-        let products = [held * held, held * met, met * met];
-        self.products.iter_mut().zip(products).for_each(|(sum, own)| *sum += own);
     }
 
     pub(super) fn steps(&self) -> u64 {
         self.ended.len() as u64
-    }
-
-    fn judged(&self) -> [u64; 2] {
-        [self.met, self.held].map(|own| own.iter().sum())
     }
 }
 
@@ -181,32 +166,11 @@ impl Fronts<'_> {
         self.ratio(|run| [long(run), run.fronts])
     }
 
-    /// Mean number of steps between two holds, (1 − s)/s.
-    pub fn between(&self) -> Option<Estimate> {
-        self.ratio(|run| {
-            let [met, held] = run.judged();
-            [met - held, held]
-        })
-    }
-
     /// The chance that an obstacle holds after one that held, over the same after one that did not.
     pub fn memory(&self) -> Option<Estimate> {
         let after = |run: &Waits| [run.held[2], run.met[2], run.held[1], run.met[1]];
         self.summed(after, |[again, held, first, passed]| {
             (again > 0.0 && first > 0.0).then(|| again / held / (first / passed))
-        })
-    }
-
-    /// The variance over fronts of the obstacles that hold, over that of independent obstacles.
-    pub fn dispersion(&self) -> Option<Estimate> {
-        let of = |run: &Waits| {
-            let ([met, held], [squares, both, all]) = (run.judged(), run.products);
-            [met, held, squares, both, all]
-        };
-        self.summed(of, |[met, held, squares, both, all]| {
-            let s = held / met;
-            let expected = s * (1.0 - s) * met;
-            (expected > 0.0).then(|| (squares - 2.0 * s * both + s * s * all) / expected)
         })
     }
 
@@ -263,8 +227,6 @@ mod tests {
         assert_eq!((found.ended, found.cut), (vec![3, 1, 1, 5], vec![6]));
         assert_eq!((found.met, found.held), ([2, 2, 1], [0, 1, 1]));
         assert_eq!(found.crossed, [[2, 2], [1, 0], [1, 0], [1, 0]]);
-        // Left 0 of 2, right 2 of 3.
-        assert_eq!(found.products, [4, 6, 13]);
     }
 
     #[test]
@@ -285,9 +247,7 @@ mod tests {
         assert_eq!(found.stands(2), None);
         // The wait that is cut has lasted for six ticks of twelve and not for more.
         assert_eq!(value(found.standing()), 0.0);
-        assert_eq!((value(found.between()), value(found.memory())), (1.5, 2.0));
-        // s = 2/5: 4 − 24/5 + 52/25 over 6/5.
-        assert!((value(found.dispersion()) - 1.28 / 1.2).abs() < 1e-14);
+        assert_eq!(value(found.memory()), 2.0);
         assert_eq!([0, 1, 2, 3].map(|parts| value(found.holds(parts))), [1.0, 0.0, 0.0, 0.0]);
         // Those that held cross nothing, as whose like all hold, of all two in five.
         assert!((found.alike() - 2.5).abs() < 1e-15);
@@ -310,7 +270,7 @@ mod tests {
         assert!((found - 0.34 / 0.25).abs() < 1e-14, "{found}");
     }
 
-    /// Obstacles that hold independently: both measures are one.
+    /// Obstacles that hold independently: the measure is one.
     #[test]
     fn independent_obstacles_have_no_memory() {
         use rand::RngExt;
@@ -328,10 +288,7 @@ mod tests {
         };
         let runs = (0..400).map(|_| one()).collect();
         let found = Fronts { parameters: &parameters, runs };
-        for own in [found.memory(), found.dispersion()].map(Option::unwrap) {
-            assert!((own.value - 1.0).abs() < 4.0 * own.error && own.error < 0.15, "{own:?}");
-        }
-        let between = found.between().unwrap();
-        assert!((between.value - 4.0).abs() < 4.0 * between.error, "{between:?}");
+        let own = found.memory().unwrap();
+        assert!((own.value - 1.0).abs() < 4.0 * own.error && own.error < 0.15, "{own:?}");
     }
 }

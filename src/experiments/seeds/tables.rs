@@ -9,13 +9,10 @@ use crate::circuits::balance::variance_ratio;
 use crate::circuits::distribution::{Law, SampleSpace};
 use crate::circuits::impact_probability::ImpactProbability;
 use crate::experiments::survival::kaplan_meier;
-use crate::numerics::estimates::{average, share, with_error};
+use crate::numerics::estimates::{average, share};
 use crate::numerics::statistics::Estimate;
 use crate::params::SeedsParams;
 use crate::table::Table;
-
-/// Gaps to each side in the example of the text: half of a chain of 600 masses.
-const FAR: u64 = 300;
 
 const SIGMA: &str = "d omega^2";
 const TIME: &str = "1/omega";
@@ -137,14 +134,8 @@ fn fronts(rows: &[Row<'_>]) -> Table {
         .estimate("longest", "1", "share of these that last a third one", |row| {
             row.fronts.stands(2)
         })
-        .estimate("between", "1", "mean number of steps between long waits", |row| {
-            row.fronts.between()
-        })
         .estimate("memory", "1", "long waits after long ones over those after short ones", |row| {
             row.fronts.memory()
-        })
-        .estimate("dispersion", "1", "variance of their number over independent ones", |row| {
-            row.fronts.dispersion()
         })
         .real("alike", "1", 3, "long waits of the like of what held, over all", |row| {
             row.fronts.alike()
@@ -263,11 +254,6 @@ fn all(parameters: &SeedsParams, rows: &[Row<'_>]) -> Table {
         .real("beat", TIME, 3, "2π/|Ω − ω|", |own| beat(&own.chain))
         .count("fronts", "fronts of all runs", |_| count(|run| run.fronts))
         .count("steps", "steps of all of them", |_| count(Waits::steps))
-        .count("far", "gaps to each side of a long chain", |_| FAR)
-        .estimate("far_time", TIME, "time for these at the speed at the highest σ", |_| {
-            let (speed, far) = (fastest()?, FAR as f64);
-            Some(with_error(far / speed.value, far / speed.value * speed.error / speed.value))
-        })
         .real("spacing", "1", 2, "gaps from one that closes by itself to the next, there", |_| {
             spacing()
         })

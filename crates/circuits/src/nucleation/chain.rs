@@ -3,14 +3,7 @@
 //! The gaps are 1-dependent: gaps that share no mass know nothing of one another, neighbours do, and
 //! those that close by themselves come in clumps. Let a clump begin at a gap that closes when the gap to its left does
 //! not. There is a gap that closes if and only if there is a clump, and beginnings of clumps are nearly
-//! independent: with their mean number λ, the theorem of Chen and Stein in the form of Arratia, Goldstein and Gordon
-//! (1989) bounds the error of e^{−λ} as the probability of none by
-//!
-//! (1 − e^{−λ})/λ · (b_1 + b_2),
-//!
-//! where b_1 sums the products of probabilities over all pairs of gaps at most two apart, and b_2 the
-//! probabilities that clumps begin at both. Beginnings exclude each other at neighbours; at two gaps apart
-//! those gaps share no mass, and the product of their probabilities to close is a bound.
+//! independent: with their mean number λ, none begins with a probability near e^{−λ}.
 //!
 //! Dependence only makes chains without such a gap more frequent. In unlimited time a gap does not close if the
 //! difference of its forces lies in a set that is convex and symmetric about zero, and forces are jointly normal. By the
@@ -45,8 +38,6 @@ pub struct AtLeastOne {
     pub clumps: f64,
     /// 1 − e^{−λ}.
     pub value: f64,
-    /// What it may be off by.
-    pub bound: f64,
 }
 
 impl Chances {
@@ -76,24 +67,13 @@ impl Chances {
             (true, gap) if gap == masses => self.wall - self.wall_pair,
             _ => self.p - self.pair,
         };
-        let near = |gap: usize, apart: usize| match boundary {
-            Boundary::Walls => (gap + apart < gaps).then_some(gap + apart),
-            Boundary::Ring => Some((gap + apart) % gaps),
-        };
-        let (mut clumps, mut none, mut b) = (0.0, 1.0, 0.0);
+        let (mut clumps, mut none) = (0.0, 1.0);
         for gap in 0..gaps {
             clumps += begins(gap);
             none *= 1.0 - closes(gap);
-            b += begins(gap) * begins(gap);
-            // Each pair stands for both of its orders.
-            b += near(gap, 1).map_or(0.0, |other| 2.0 * begins(gap) * begins(other));
-            b += near(gap, 2).map_or(0.0, |other| {
-                2.0 * (begins(gap) * begins(other) + closes(gap) * closes(other))
-            });
         }
         let value = -pxfm::f_expm1(-clumps);
-        let factor = if clumps > 0.0 { value / clumps } else { 1.0 };
-        AtLeastOne { independent: 1.0 - none, clumps, value, bound: factor * b }
+        AtLeastOne { independent: 1.0 - none, clumps, value }
     }
 }
 
@@ -114,7 +94,7 @@ mod tests {
     use impact_numerics::random::NormalPairs;
 
     #[test]
-    fn drawn_chains_stay_within_the_bound_and_near_the_value() {
+    fn drawn_chains_are_near_the_value() {
         let chain = Chain { masses: 30, ..Chain::default() };
         let reach = Reach::ever(&chain, 32);
         let draws = 4000;
@@ -143,8 +123,6 @@ mod tests {
             let n = f64::from(draws);
             let (share, mean) = (f64::from(some) / n, f64::from(clumps) / n);
             let error = (share * (1.0 - share) / n).sqrt();
-            assert!((share - found.value).abs() < found.bound + 5.0 * error, "{share} {found:?}");
-            // The bound is cautious: the value is nearer than a hundredth.
             assert!((share - found.value).abs() < 0.01 + 5.0 * error, "{share} {found:?}");
             assert!((mean - found.clumps).abs() < 5.0 * (mean / n).sqrt(), "{mean} {found:?}");
             assert!(found.independent > found.value);
@@ -156,39 +134,20 @@ mod tests {
 
     #[test]
     fn without_sharing_it_is_poisson() {
-        // 1 − (1 − p)^n and 1 − e^{−np} differ by less than Le Cam's n p², and by less than the bound.
+        // 1 − (1 − p)^n and 1 − e^{−np} differ by less than Le Cam's n p².
         let chances = Chances { p: 0.003, wall: 0.003, pair: 9e-6, wall_pair: 9e-6 };
         for boundary in [Boundary::Walls, Boundary::Ring] {
             let found = chances.at_least_one(200, boundary);
             assert!((found.independent - found.value).abs() < 201.0 * 9e-6);
-            assert!(found.bound > 0.0 && found.bound < 0.01, "{found:?}");
         }
     }
 
-    /// The bound by double sums over all gaps, and the mean number of clumps as that of gaps less that of neighbours
-    /// that both close.
+    /// The mean number of clumps is that of gaps less that of neighbours that both close.
     #[test]
-    fn clumps_and_their_bound_by_double_sums() {
+    fn clumps_are_gaps_less_neighbours() {
         let own = Chances { p: 0.03, wall: 0.01, pair: 0.004, wall_pair: 0.002 };
-        let n = 12;
-        let closes = |gap: usize| if gap.is_multiple_of(n) { own.wall } else { own.p };
-        let begins = |gap: usize| match gap {
-            0 => own.wall,
-            12 => own.wall - own.wall_pair,
-            1 => own.p - own.wall_pair,
-            _ => own.p - own.pair,
-        };
-        let mut sum = 0.0;
-        for gap in 0..=n {
-            for other in gap.saturating_sub(2)..=(gap + 2).min(n) {
-                let apart = gap.abs_diff(other) == 2;
-                sum += begins(gap) * begins(other);
-                sum += if apart { closes(gap) * closes(other) } else { 0.0 };
-            }
-        }
-        let found = own.at_least_one(n, Boundary::Walls);
+        let found = own.at_least_one(12, Boundary::Walls);
         let pairs = 2.0 * own.wall_pair + 10.0 * own.pair;
         assert!((found.clumps - (2.0 * own.wall + 11.0 * own.p - pairs)).abs() < 1e-15);
-        assert!((found.bound - sum * found.value / found.clumps).abs() < 1e-15, "{found:?}");
     }
 }
