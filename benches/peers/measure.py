@@ -6,6 +6,7 @@ becomes a row "absent" with its reason, and the rest goes on.
 """
 
 import argparse
+import csv
 import datetime
 import json
 import math
@@ -197,15 +198,23 @@ def peer(command, n, part):
         yield {"what": "absent", "name": part, "n": n, "note": f"the next setting: {late}"}
 
 
+def rows_of(name):
+    """Rows of a data file of the report."""
+    with (TOP / "paper" / "data" / name).open() as file:
+        return list(csv.DictReader(file))
+
+
 def part_commands():
     """Wall time of whole commands, without saved results; of short ones the best."""
     report = json.loads(ours("bench", "engine", "--masses", 1, "--until", 1)[0])
     fresh = Path(tempfile.mkdtemp(dir=WORK))
     # The sweep as the report has it: beyond the rise with fewer realisations.
-    sweep = (TOP / "paper" / "data" / "fig03.csv").read_text().splitlines()[1:]
+    run, rows = (rows_of(f"sweep-{table}.csv") for table in ["run", "rows"])
     sigmas = {}
-    for sigma, realisations in (line.split(",")[:2] for line in sweep):
-        sigmas.setdefault(realisations, []).append(sigma)
+    for row in rows:
+        beyond = float(row["sigma (d omega^2)"]) > float(run[0]["level_above (d omega^2)"])
+        number = run[0][f"{'level_' if beyond else ''}realisations (1)"]
+        sigmas.setdefault(number, []).append(row["sigma (d omega^2)"])
     commands = {"main sweep": [
         ["sweep", "--sigma", ",".join(own), "--realisations", number, "--format", "json"]
         for number, own in sigmas.items()

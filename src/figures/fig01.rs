@@ -1,12 +1,6 @@
 //! Fig. 1: the model, a row of forced masses between two walls.
 
-use plotters::style::text_anchor::{HPos, VPos};
-
-use super::data::cells;
-use super::panel::Frame;
-use super::sheet::Sheet;
-use super::style::{BLUE, Dash, GREY, HAIR, INK, PALE, SMALL, Stroke, TEXT, TINY, WHITE};
-use super::{DataFile, Error, Figure};
+use super::prelude::*;
 
 const LEFT: i32 = 640;
 const SPACING: i32 = 1187;
@@ -45,19 +39,12 @@ pub fn draw() -> Result<Figure, Error> {
     floor_labels(&sheet, right)?;
     distances(&sheet)?;
 
-    let mut data = DataFile::new(
-        "fig01.csv",
-        &["gap (1)", "left_neighbour", "right_neighbour", "distance_at_rest (d)"],
-    );
-    data.row(cells!["0", "left wall", "mass 1", 1usize]);
-    data.row(cells!["j", "mass j", "mass j+1", 1usize]);
-    data.row(cells!["n", "mass n", "right wall", 1usize]);
     let description =
         "A row of n equal masses on elastic stems, rooted a distance d apart between walls at 0 and (n + 1)d; \
          each is bent away from its equilibrium. Marked are d, the position x1(t), the gap Δ1(t) between the \
          first two masses, and the force F2(t) on the second."
             .to_string();
-    Ok(sheet.finish("fig01", "The chain of masses between two walls", description, vec![data]))
+    Ok(sheet.finish("fig01", "The chain of masses between two walls", description))
 }
 
 fn walls(sheet: &Sheet, right: i32) -> Result<(), Error> {

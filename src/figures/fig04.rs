@@ -1,10 +1,7 @@
 //! Fig. 4: the graph of the periodic motions of three masses.
 
-use super::data::cells;
-use super::graph::{Layout, NAMES};
-use super::sheet::Sheet;
-use super::style::{BLUE, Stroke};
-use super::{DataFile, Error, Figure};
+use super::graph::Layout;
+use super::prelude::*;
 
 /// Draws the figure.
 pub fn draw() -> Result<Figure, Error> {
@@ -13,17 +10,11 @@ pub fn draw() -> Result<Figure, Error> {
     layout.edges(&sheet, Stroke::solid(BLUE, 26))?;
     layout.vertices(&sheet, &[0, 1, 2, 3])?;
 
-    let mut data = DataFile::new("fig04.csv", &["edge (1)", "from_impact", "to_impact"]);
-    for (i, from) in NAMES.into_iter().enumerate() {
-        for (j, to) in NAMES.into_iter().enumerate() {
-            data.row(cells![4 * i + j + 1, from, to]);
-        }
-    }
     let description =
         "A directed graph with the four vertices L-1, 1-2, 2-3 and 3-R at the corners \
         of a square: the impacts of three masses with the left wall, among each other and with the \
         right wall. Its 16 edges join every vertex to every vertex: 4 loops and 12 arrows, two of \
         opposite direction between each of the 6 pairs."
             .to_string();
-    Ok(sheet.finish("fig04", "The graph of three masses between walls", description, vec![data]))
+    Ok(sheet.finish("fig04", "The graph of three masses between walls", description))
 }

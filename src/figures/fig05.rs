@@ -1,7 +1,7 @@
 //! Fig. 5: a simple circuit and its motion.
 
 use super::motion::{self, Circuit};
-use super::{Error, Figure};
+use super::prelude::*;
 use crate::experiments::segments::Segments;
 
 /// Draws the figure.

@@ -1,7 +1,7 @@
 //! Fig. 6: a circuit that is not simple, and its motion.
 
 use super::motion::{self, Circuit};
-use super::{Error, Figure};
+use super::prelude::*;
 use crate::experiments::segments::Segments;
 
 /// Draws the figure.

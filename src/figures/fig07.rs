@@ -1,17 +1,8 @@
 //! Fig. 7: how many simple circuits there are of each length.
 
-use std::f64::consts::LN_10;
-
-use plotters::style::text_anchor::{HPos, VPos};
-
-use super::axis::Axis;
-use super::chart::{columns, largest, over_k, short, upwards_from_zero};
-use super::panel::Frame;
-use super::series::Outside;
-use super::sheet::Sheet;
-use super::style::{GREEN, INK, LINE, Stroke, THIN, TINY};
-use super::{DataFile, Error, Figure};
+use super::prelude::*;
 use crate::experiments::theory::Theory;
+use std::f64::consts::LN_10;
 
 /// Draws the figure.
 pub fn draw(theory: &Theory) -> Result<Figure, Error> {
@@ -19,14 +10,10 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     let n = theory.vertices;
     let sheet = Sheet::new(5150, None)?;
     let top = largest(&circuits.share);
-    let panel = sheet.panel(
-        Frame::new(1350, 300, 8100, 4200),
-        Axis::linear(0.0, n as f64 + 1.0, 20.0, 2, "length *k*"),
-        upwards_from_zero(top, "*ϕ*_{*N*}(*k*) / *ϕ*_{*N*}^{tot}"),
-    )?;
-    let shape = columns(&circuits.share);
-    panel.area("share of circuits", &shape, GREEN, 45)?;
-    panel.curve("share of circuits", &shape, Stroke::solid(GREEN, THIN), Outside::Refuse)?;
+    let x = Axis::linear(0.0, n as f64 + 1.0, 20.0, 2, "length *k*");
+    let y = upwards_from_zero(top, "*ϕ*_{*N*}(*k*) / *ϕ*_{*N*}^{tot}");
+    let panel = sheet.panel(Frame::new(1350, 300, 8100, 4200), x, y)?;
+    panel.columns("share of circuits", &circuits.share, Stroke::solid(GREEN, THIN))?;
 
     let logs: Vec<f64> =
         circuits.log_count.iter().map(|l| (l - circuits.log_total) / LN_10).collect();
@@ -38,7 +25,7 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     )?;
     inset.curve(
         "logarithm of the share",
-        &over_k(&logs),
+        &over_k(&circuits.share),
         Stroke::solid(GREEN, LINE),
         Outside::Refuse,
     )?;
@@ -46,12 +33,6 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     let look = (TINY, INK, HPos::Right, VPos::Bottom);
     inset.note("the same, logarithmic", (inset.x.hi, inset.y.lo), (0, -110), look)?;
 
-    let columns: [(&str, &[f64]); 3] = [
-        ("share_of_simple_circuits (1)", &circuits.share),
-        ("log10_share (1)", &logs),
-        ("ln_phi (1)", &circuits.log_count),
-    ];
-    let data = DataFile::over_k("fig07.csv", None, &columns);
     let peak = circuits.share.iter().position(|&s| s == top).unwrap_or(0) + 1;
     let description = format!(
         "Columns over k = 1 … {n}: the share of all simple circuits of a fully connected graph of N = {n} vertices that have \
@@ -60,5 +41,5 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
         short(top, 3),
         logs.first().copied().unwrap_or(0.0).round() as i64,
     );
-    Ok(sheet.finish("fig07", "Number of simple circuits of each length", description, vec![data]))
+    Ok(sheet.finish("fig07", "Number of simple circuits of each length", description))
 }

@@ -1,15 +1,6 @@
 //! Fig. 9: (a) the most likely and (b) the expected number of impacts against p.
 
-use plotters::style::text_anchor::{HPos, VPos};
-
-use super::axis::Axis;
-use super::chart::{LETTERS, short};
-use super::data::cells;
-use super::panel::{Frame, Panel};
-use super::series::Outside;
-use super::sheet::Sheet;
-use super::style::{Dash, GREEN, GREY, HAIR, INK, LINE, Mark, Stroke, THIN, TINY};
-use super::{DataFile, Error, Figure};
+use super::prelude::*;
 use crate::experiments::theory::{MeanRow, Theory};
 
 /// Largest p of the insets.
@@ -22,18 +13,13 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     let top = (n as f64 / 20.0).ceil() * 20.0;
     let labels = ["*k*^{∗}", "*μ*"];
     let mut panels = Vec::new();
-    for (i, y) in [(0, 430), (1, 5130)] {
-        let panel = sheet.panel(
-            Frame::new(1150, y, 8150, y + 3450),
-            Axis::linear(0.0, 1.0, 0.2, 2, "*p*"),
-            Axis::linear(0.0, top, 20.0, 2, labels[i]),
-        )?;
-        panel.letter(LETTERS[i])?;
-        let inset = sheet.inset(
-            Frame::new(3300, y + 460, 7700, y + 2450),
-            Axis::linear(0.0, SMALL_P, 0.01, 2, "*p*"),
-            Axis::linear(0.0, top, 20.0, 2, labels[i]),
-        )?;
+    for (i, edge) in [(0, 430), (1, 5130)] {
+        let y = || Axis::linear(0.0, top, 20.0, 2, labels[i]);
+        let x = |end: f64, step: f64| Axis::linear(0.0, end, step, 2, "*p*");
+        let frame = Frame::new(1150, edge, 8150, edge + 3450);
+        let panel = sheet.lettered(LETTERS[i], frame, x(1.0, 0.2), y())?;
+        let frame = Frame::new(3300, edge + 460, 7700, edge + 2450);
+        let inset = sheet.inset(frame, x(SMALL_P, 0.01), y())?;
         panels.push((panel, inset));
     }
     let scalars = &theory.scalars;
@@ -70,29 +56,12 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     let fine = points(&theory.most_likely.mean_inset);
     let stroke = Stroke::solid(GREEN, LINE);
     panels[1].0.curve("mean", &mean, stroke, Outside::Refuse)?;
-    panels[1].1.curve("mean, small p", &fine, stroke, Outside::Cut)?;
-    let one = Stroke::dashed(GREY, HAIR, Dash::Short);
-    panels[1].1.curve("limit 1", &[(0.0, 1.0), (SMALL_P, 1.0)], one, Outside::Refuse)?;
-
+    let inset = panels[1].1.clone().file("b-inset");
+    inset.curve("mean, small p", &fine, stroke, Outside::Cut)?;
+    inset.level("limit 1", 1.0, Stroke::dashed(GREY, HAIR, Dash::Short))?;
     let look = (TINY, INK, HPos::Right, VPos::Bottom);
-    panels[1].1.note("*μ* → 1 as *p* → 0", (SMALL_P, 1.0), (-60, -90), look)?;
+    inset.note("*μ* → 1 as *p* → 0", (SMALL_P, 1.0), (-60, -90), look)?;
 
-    let mut steps = DataFile::new("fig09a.csv", &["p_step (1)", "k_star_beyond (1)"]);
-    for step in &theory.most_likely.steps {
-        steps.row(cells![step.p, step.k_star]);
-    }
-    let header = ["p (1)", "mean_simple (1)", "mean_five_classes (1)"];
-    let mut files = vec![steps];
-    for (name, rows) in [
-        ("fig09b.csv", &theory.most_likely.mean),
-        ("fig09b-inset.csv", &theory.most_likely.mean_inset),
-    ] {
-        let mut file = DataFile::new(name, &header);
-        for row in rows {
-            file.row(cells![row.p, row.mean, row.mean_higher]);
-        }
-        files.push(file);
-    }
     let description = format!(
         "Against the edge probability p, for N = {n}, with insets for small p: (a) the most likely number of impacts is 1 up \
          to p = {}, jumps there to {} and climbs on in steps of one; (b) the expected number rises from 1 without a jump \
@@ -100,7 +69,7 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
         short(scalars.p_jump, 4),
         scalars.k_after_jump,
     );
-    Ok(sheet.finish("fig09", "Most likely and expected number of impacts", description, files))
+    Ok(sheet.finish("fig09", "Most likely and expected number of impacts", description))
 }
 
 fn points(rows: &[MeanRow]) -> Vec<(f64, f64)> {
@@ -125,5 +94,5 @@ fn most_likely(theory: &Theory, panel: &Panel) -> Result<(), Error> {
     panel.curve("most likely number, 1", &[(0.0, 1.0), (jump, 1.0)], solid, Outside::Refuse)?;
     panel.curve("most likely number", &stairs, solid, Outside::Cut)?;
     let dotted = Stroke::dashed(GREEN, THIN, Dash::Dotted);
-    panel.curve("jump", &[(jump, 1.0), (jump, first)], dotted, Outside::Refuse)
+    panel.guide("jump", &[(jump, 1.0), (jump, first)], dotted)
 }

@@ -1,15 +1,6 @@
 //! Fig. 10: how the jump of the most likely number of impacts comes about.
 
-use plotters::style::text_anchor::{HPos, VPos};
-
-use super::axis::Axis;
-use super::chart::{LETTERS, columns, largest, short, upwards_from_zero};
-use super::data::cells;
-use super::panel::{Frame, Panel};
-use super::series::Outside;
-use super::sheet::Sheet;
-use super::style::{BLUE, Dash, GREEN, GREY, HAIR, INK, LINE, Mark, RED, SMALL, Stroke, THIN};
-use super::{DataFile, Error, Figure};
+use super::prelude::*;
 use crate::experiments::theory::{Mechanism, Theory};
 
 /// Draws the figure.
@@ -19,15 +10,16 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     // Beyond this k nothing changes sign again.
     let last_zero = rows.iter().filter_map(|row| row.zeros).map(|z| z[1]).fold(20.0, f64::max);
     let shown = ((1.8 * last_zero / 10.0).ceil() * 10.0).min(theory.vertices as f64);
-    let mut data = Vec::new();
     for (i, row) in rows.iter().enumerate() {
-        let y = 550 + 2350 * i as i32;
+        let edge = 550 + 2350 * i as i32;
         let last = i + 1 == rows.len();
         let k = || {
             let axis = Axis::linear(0.0, shown, 10.0, 2, "*k*");
             if last { axis } else { axis.bare() }
         };
-        let left = sheet.panel(Frame::new(1000, y, 4000, y + 1700), k(), signs(row))?;
+        let letter = LETTERS[i].trim_matches(['(', ')']);
+        let left = sheet.panel(Frame::new(1000, edge, 4000, edge + 1700), k(), signs(row))?;
+        let left = left.file(&format!("{letter}-f"));
         let p = match i {
             0 => "*p* → 0".to_string(),
             1 => format!("*p* = *p*_{{crit}} = {}", short(row.p, 4)),
@@ -42,32 +34,15 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
         sign(&left, row)?;
         let columns = &row.phi_over_gamma[..row.phi_over_gamma.len().min(shown as usize)];
         let room = if i == 0 { 1.0 } else { 1.02 };
-        let right = sheet.panel(
-            Frame::new(5250, y, 8250, y + 1700),
-            k(),
-            upwards_from_zero(room * largest(columns), "Φ_{*N*,*p*}(*k*) / Γ_{*N*,*p*}"),
-        )?;
+        let y = upwards_from_zero(room * largest(columns), "Φ_{*N*,*p*}(*k*) / Γ_{*N*,*p*}");
+        let right = sheet.panel(Frame::new(5250, edge, 8250, edge + 1700), k(), y)?;
+        let right = right.file(&format!("{letter}-phi"));
         weight(&right, row, columns)?;
         if let (0, Some(&height)) = (i, columns.first()) {
             // Once, where all else is low.
             let look = (SMALL, INK, HPos::Right, VPos::Top);
             right.note("height at *k* = 1", (right.x.hi, height), (-60, 110), look)?;
         }
-
-        let letter = LETTERS[i].trim_matches(['(', ')']);
-        let mut f = DataFile::new(&format!("fig10{letter}-f.csv"), &["p (1)", "k (1)", "f (1)"]);
-        for point in &row.f {
-            f.row(cells![row.p, point.x, point.y]);
-        }
-        let phi = DataFile::over_k(
-            &format!("fig10{letter}-phi.csv"),
-            Some(row.p),
-            &[
-                ("phi_over_gamma (1)", &row.phi_over_gamma),
-                ("phi_over_phi_1 (1)", &row.phi_over_first),
-            ],
-        );
-        data.extend([f, phi]);
     }
     let description = format!(
         "Four rows for rising p, N = {}, over k. Left, the function f, whose sign tells whether the weight Φ grows from k to \
@@ -76,7 +51,7 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
         theory.vertices,
         rows.iter().map(|row| row.k_star.to_string()).collect::<Vec<_>>().join(", ")
     );
-    Ok(sheet.finish("fig10", "The mechanism of the jump", description, data))
+    Ok(sheet.finish("fig10", "The mechanism of the jump", description))
 }
 
 /// The axis of f: around zero, as high as its maximum.
@@ -95,7 +70,7 @@ fn signs(row: &Mechanism) -> Axis {
 
 fn sign(panel: &Panel, row: &Mechanism) -> Result<(), Error> {
     let zero = Stroke::solid(GREY, HAIR);
-    panel.curve("zero", &[(0.0, 0.0), (panel.x.hi, 0.0)], zero, Outside::Refuse)?;
+    panel.level("zero", 0.0, zero)?;
     let f: Vec<_> = row.f.iter().map(|point| (point.x, point.y)).collect();
     panel.curve("f", &f, Stroke::solid(BLUE, LINE), Outside::Cut)?;
     if let Some(zeros) = row.zeros {
@@ -116,12 +91,10 @@ fn sign(panel: &Panel, row: &Mechanism) -> Result<(), Error> {
 }
 
 fn weight(panel: &Panel, row: &Mechanism, shown: &[f64]) -> Result<(), Error> {
-    let shape: Vec<_> = columns(shown).into_iter().map(|(k, v)| (k.min(panel.x.hi), v)).collect();
-    panel.area("weight", &shape, GREEN, 45)?;
-    panel.curve("weight", &shape, Stroke::solid(GREEN, THIN), Outside::Refuse)?;
+    panel.columns("weight", shown, Stroke::solid(GREEN, THIN))?;
     let first = shown.first().copied().unwrap_or(0.0);
     let level = Stroke::dashed(INK, HAIR, Dash::Short);
-    panel.curve("height at k = 1", &[(0.5, first), (panel.x.hi, first)], level, Outside::Refuse)?;
+    panel.guide("height at k = 1", &[(0.5, first), (panel.x.hi, first)], level)?;
     if let Some(&top) = shown.get(row.k_star.saturating_sub(1)) {
         let at = (row.k_star as f64, top);
         panel.marks(

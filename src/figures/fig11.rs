@@ -1,15 +1,7 @@
 //! Fig. 11: the impact probability p against the standard deviation σ of the forcing.
 
-use plotters::style::text_anchor::{HPos, VPos};
-
-use super::axis::Axis;
-use super::chart::{LETTERS, short};
-use super::data::cells;
-use super::panel::Frame;
-use super::series::Outside;
-use super::sheet::{Entry, Sheet};
-use super::style::{BLUE, Dash, GREY, HAIR, INK, LINE, SMALL, Stroke, TEXT};
-use super::{DataFile, Error, Figure};
+use super::prelude::*;
+use super::simulated::sigma_axis;
 use crate::experiments::theory::{RelationRow, Theory};
 
 /// Lowest decade of the logarithmic panel.
@@ -21,23 +13,15 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     let rows = &theory.relation;
     let end = rows.last().map_or(0.4, |row| row.sigma);
     let top = (rows.iter().map(|r| r.p.max(r.p_rest)).fold(0.0, f64::max) * 10.0).ceil() / 10.0;
-    let sigma = || Axis::linear(0.0, end, 0.1, 2, "standard deviation *σ* of the forcing");
-    let linear = sheet.panel(
-        Frame::new(1300, 430, 8150, 3450),
-        sigma().bare(),
-        Axis::linear(0.0, top, 0.2, 2, "*p*"),
-    )?;
-    linear.letter(LETTERS[0])?;
-    let decades = sheet.panel(
-        Frame::new(1300, 4350, 8150, 8050),
-        sigma(),
-        Axis::decades(LOWEST, 0, 4, "*p*"),
-    )?;
-    decades.letter(LETTERS[1])?;
+    let sigma = || sigma_axis(end);
+    let (x, y) = (sigma().bare(), Axis::linear(0.0, top, 0.2, 2, "*p*"));
+    let linear = sheet.lettered(LETTERS[0], Frame::new(1300, 430, 8150, 3450), x, y)?;
+    let (x, y) = (sigma(), Axis::decades(LOWEST, 0, 4, "*p*"));
+    let decades = sheet.lettered(LETTERS[1], Frame::new(1300, 4350, 8150, 8050), x, y)?;
 
     let (main, rest) = (Stroke::solid(BLUE, LINE), Stroke::dashed(GREY, LINE, Dash::Short));
-    let curve = |value: &dyn Fn(&RelationRow) -> f64| -> Vec<(f64, f64)> {
-        rows.iter().map(|r| (r.sigma, value(r))).filter(|p| p.1.is_finite()).collect()
+    let curve = |value: fn(&RelationRow) -> f64| -> Vec<(f64, f64)> {
+        rows.iter().map(|r| (r.sigma, value(r))).collect()
     };
     // Both vanish with σ.
     let from_zero = |mut points: Vec<(f64, f64)>| {
@@ -46,21 +30,11 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
         }
         points
     };
-    let p_rest = from_zero(curve(&|r| r.p_rest));
-    linear.curve("p for a start from rest", &p_rest, rest, Outside::Refuse)?;
-    linear.curve("p of Eq. (25)", &from_zero(curve(&|r| r.p)), main, Outside::Refuse)?;
-    decades.curve(
-        "p for a start from rest",
-        &curve(&|r| super::axis::log(r.p_rest)),
-        rest,
-        Outside::Cut,
-    )?;
-    decades.curve(
-        "p of Eq. (25)",
-        &curve(&|r| r.log_p / std::f64::consts::LN_10),
-        main,
-        Outside::Cut,
-    )?;
+    let (p_rest, p) = (curve(|r| r.p_rest), curve(|r| r.p));
+    linear.curve("p for a start from rest", &from_zero(p_rest.clone()), rest, Outside::Refuse)?;
+    linear.curve("p of Eq. (25)", &from_zero(p.clone()), main, Outside::Refuse)?;
+    decades.curve("p for a start from rest", &p_rest, rest, Outside::Cut)?;
+    decades.curve("p of Eq. (25)", &p, main, Outside::Cut)?;
     sheet.legend(
         (1850, 900),
         (TEXT, 420),
@@ -68,13 +42,12 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     )?;
 
     let scalars = &theory.scalars;
-    let level = super::axis::log(scalars.p_jump);
+    let (level, bottom) = (scalars.p_jump, decades.y.lo);
     let guide = Stroke::dashed(INK, HAIR, Dash::Dotted);
-    let corner =
-        [(0.0, level), (scalars.sigma_jump, level), (scalars.sigma_jump, f64::from(LOWEST))];
-    decades.curve("jump of k*", &corner, guide, Outside::Refuse)?;
-    let rest = [(scalars.sigma_jump_rest, level), (scalars.sigma_jump_rest, f64::from(LOWEST))];
-    decades.curve("jump of k* from rest", &rest, guide, Outside::Refuse)?;
+    let corner = [(0.0, level), (scalars.sigma_jump, level), (scalars.sigma_jump, bottom)];
+    decades.guide("jump of k*", &corner, guide)?;
+    let rest = [(scalars.sigma_jump_rest, level), (scalars.sigma_jump_rest, bottom)];
+    decades.guide("jump of k* from rest", &rest, guide)?;
     let place = (scalars.sigma_jump, level);
     for (i, line) in [
         format!("*k*^{{∗}} jumps at *p* = {},", short(scalars.p_jump, 4)),
@@ -88,13 +61,6 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
         decades.note(line, place, (110, 260 + 330 * i as i32), look)?;
     }
 
-    let mut data = DataFile::new(
-        "fig11.csv",
-        &["sigma (d omega^2)", "p (1)", "ln_p (1)", "p_start_from_rest (1)"],
-    );
-    for row in rows {
-        data.row(cells![row.sigma, row.p, row.log_p, row.p_rest]);
-    }
     let description = format!(
         "Probability p that two neighbours meet against σ, on (a) a linear and (b) a logarithmic axis: it stays at zero and then \
          rises steeply, and passes {}, where k* jumps, at σ = {}. A broken curve for a start from rest lies above it \
@@ -103,5 +69,5 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
         short(scalars.sigma_jump, 4),
         rows.iter().rev().find(|r| r.p_rest > r.p).map_or("0".into(), |r| short(r.sigma, 2)),
     );
-    Ok(sheet.finish("fig11", "Impact probability against forcing", description, vec![data]))
+    Ok(sheet.finish("fig11", "Impact probability against forcing", description))
 }

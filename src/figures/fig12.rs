@@ -1,18 +1,10 @@
 //! Fig. 12: the expected number of impacts, graph theory against simulation.
 
-use plotters::style::text_anchor::{HPos, VPos};
-
-use super::chart::short;
-use super::data::cells;
-use super::panel::Panel;
-use super::series::Outside;
-use super::sheet::{Entry, Sheet};
+use super::prelude::*;
 use super::simulated::{
-    CROSS, CROSS_HALF, HEIGHTS, MAIN, at, count_axis, crosses, curve, last_sigma, means,
-    means_file, printed, rise, sigma_axis,
+    CROSSES, HEIGHTS, MAIN, at, count_axis, crosses, curve, last_sigma, means, printed, rise,
+    sigma_axis,
 };
-use super::style::{GREEN, INK, LINE, Mark, SMALL, Stroke, THIN, TINY};
-use super::{DataFile, Error, Figure};
 use crate::experiments::sweep::Sweep;
 use crate::experiments::theory::Theory;
 
@@ -34,15 +26,14 @@ pub fn draw(sweep: &Sweep, theory: &Theory, note: Option<&str>) -> Result<Figure
     printed(&near)?;
     near.curve("theory, N = n + 1, near the rise", &walls, thin, Outside::Cut)?;
     near.curve("theory, near the rise", &simple, main, Outside::Cut)?;
-    let cross = (Mark::Cross, CROSS_HALF, CROSS);
-    near.marks("simulation, near the rise", &simulated, cross, Outside::Cut)?;
+    near.marks("simulation, near the rise", &simulated, CROSSES, Outside::Cut)?;
     if let Some(half) = sweep.rise.half_height {
         lag(&sheet, &near, [half.value, theory.scalars.sigma_half], n as f64 / 2.0)?;
     }
     sheet.legend(
         (1200, HEIGHTS.1),
         (SMALL, 380),
-        &[Entry::mark(Mark::Cross, CROSS_HALF, CROSS, "simulation, mean of the kept")],
+        &[Entry::mark(CROSSES, "simulation, mean of the kept")],
     )?;
     sheet.legend(
         (5100, HEIGHTS.1),
@@ -53,13 +44,6 @@ pub fn draw(sweep: &Sweep, theory: &Theory, note: Option<&str>) -> Result<Figure
         ],
     )?;
 
-    let mut data =
-        DataFile::new("fig12-theory.csv", &["N (1)", "sigma (d omega^2)", "mean_simple (1)"]);
-    for family in [&theory.curve, &theory.curve_walls] {
-        for row in family.rows.iter().filter(|row| row.sigma <= end) {
-            data.row(cells![family.vertices, row.sigma, row.simple]);
-        }
-    }
     let description = format!(
         "Expected number of impacts against σ: crosses for the simulation, {} at σ = 0.12; a line for the graph theory with N = \
          {big_n}, {} there, and a thin one for N = {big_n_walls} beside it. The simulation rises earlier than the theory (enlarged in \
@@ -67,8 +51,7 @@ pub fn draw(sweep: &Sweep, theory: &Theory, note: Option<&str>) -> Result<Figure
         at(&simulated, 0.12),
         at(&simple, 0.12),
     );
-    let files = vec![means_file("fig12-simulation.csv", sweep), data];
-    Ok(sheet.finish("fig12", "Simulation against graph theory", description, files))
+    Ok(sheet.finish("fig12", "Simulation against graph theory", description))
 }
 
 /// How much later in σ the theory comes to half of all gaps, as an arrow with its length.

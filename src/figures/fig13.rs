@@ -1,15 +1,7 @@
 //! Fig. 13: (a) to (d) distributions with higher-order circuits and what each class contributes; (e) and (f), (a)
 //! and (d) on a logarithmic axis, which the paper does not have.
 
-use super::axis::{Axis, log};
-use super::chart::{FOUR, LETTERS, heading, largest, over_k, short, upwards_from_zero};
-use super::panel::{Frame, Panel};
-use super::series::Outside;
-use super::sheet::{Entry, Sheet};
-use super::style::{
-    BLUE, Colour, Dash, GREEN, INK, LINE, Mark, ORANGE, PURPLE, RED, SMALL, Stroke, THIN,
-};
-use super::{DataFile, Error, Figure};
+use super::prelude::*;
 use crate::experiments::theory::{HigherDistribution, Theory};
 
 /// Largest k of the detail in (b).
@@ -30,15 +22,6 @@ pub(super) const CLASSES: [Class; 5] = [
     ("two vertices twice", "*ϕ*_{*N*}^{2}", PURPLE, Dash::Alternate),
 ];
 
-/// Their columns in data files.
-pub(super) const CLASS_COLUMNS: [&str; 5] = [
-    "simple_eq7 (1)",
-    "one_vertex_twice_eq33 (1)",
-    "one_vertex_thrice_eq35 (1)",
-    "one_vertex_four_times_eq36 (1)",
-    "two_vertices_twice_eq37 (1)",
-];
-
 /// Draws the figure.
 pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     let sheet = Sheet::new(11_350, None)?;
@@ -49,7 +32,6 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
             expected: "higher-order distributions at three p",
         });
     };
-    let mut data = Vec::new();
     for (i, (distribution, shown)) in
         [(small, n), (small, DETAIL), (middle, n), (large, n)].into_iter().enumerate()
     {
@@ -66,23 +48,18 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
             largest(&distribution.total)
         };
         let end = if shown == DETAIL { shown as f64 } else { n as f64 + 1.0 };
-        let panel = sheet.panel(
-            FOUR[i],
-            Axis::linear(0.0, end, step, minor, "*k*"),
-            upwards_from_zero(top, "*P*(*X* = *k*)"),
-        )?;
+        let x = Axis::linear(0.0, end, step, minor, "*k*");
+        let y = upwards_from_zero(top, "*P*(*X* = *k*)");
+        let panel = sheet.panel(FOUR[i], x, y)?;
         let p = short(distribution.p, 3);
         let detail = if shown == DETAIL { ", detail" } else { "" };
         heading(&panel, LETTERS[i], &format!("*p* = {p}{detail}"))?;
         series(&panel, distribution, shown)?;
-        data.push(table(LETTERS[i], distribution, shown));
     }
     for (left, letter, distribution) in [(1080, "(e)", small), (5230, "(f)", large)] {
-        let panel = sheet.panel(
-            Frame::new(left, 7080, left + 2970, 9180),
-            Axis::linear(0.0, n as f64 + 1.0, 20.0, 2, "*k*"),
-            Axis::decades(LOWEST, 0, 2, "*P*(*X* = *k*)"),
-        )?;
+        let x = Axis::linear(0.0, n as f64 + 1.0, 20.0, 2, "*k*");
+        let y = Axis::decades(LOWEST, 0, 2, "*P*(*X* = *k*)");
+        let panel = sheet.panel(Frame::new(left, 7080, left + 2970, 9180), x, y)?;
         heading(&panel, letter, &format!("*p* = {}", short(distribution.p, 3)))?;
         logarithmic(&panel, distribution)?;
     }
@@ -90,9 +67,7 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     entries.extend(CLASSES.iter().map(|&(name, symbol, colour, dash)| {
         Entry::line(Stroke::dashed(colour, LINE, dash), &format!("{name}, {symbol}"))
     }));
-    for (i, half) in entries.chunks(3).enumerate() {
-        sheet.legend(([400, 4500][i], 10_250), (SMALL, 400), half)?;
-    }
+    sheet.legend_in_columns((400, 10_250), (SMALL, 400), (3, 4100), &entries)?;
     let share = |of: &HigherDistribution| short(of.classes.first().map_or(0.0, |c| c.share), 2);
     let description = format!(
         "Probability of k different impacts, N = {n}, for five classes of circuits: a red line for the sum, broken ones for the \
@@ -104,15 +79,13 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
         share(large),
         short(large.p, 3),
     );
-    Ok(sheet.finish("fig13", "Distributions with higher-order circuits", description, data))
+    Ok(sheet.finish("fig13", "Distributions with higher-order circuits", description))
 }
 
 /// All classes on a logarithmic axis, where each is seen.
 fn logarithmic(panel: &Panel, distribution: &HigherDistribution) -> Result<(), Error> {
     let curve = |name: &str, values: &[f64], stroke: Stroke| {
-        let above = over_k(values).into_iter().filter(|(_, p)| *p > 0.0);
-        let points: Vec<_> = above.map(|(k, p)| (k, log(p))).collect();
-        panel.curve(name, &points, stroke, Outside::Cut)
+        panel.curve(name, &over_k(values), stroke, Outside::Cut)
     };
     curve("all five classes", &distribution.total, Stroke::solid(RED, LINE))?;
     for (class, &(name, _, colour, dash)) in distribution.classes.iter().zip(&CLASSES) {
@@ -145,13 +118,4 @@ fn visible(probability: &[f64], top: f64) -> Vec<(f64, f64)> {
     let Some(first) = probability.iter().position(stands_out) else { return Vec::new() };
     let last = probability.iter().rposition(stands_out).unwrap_or(first);
     points[first.saturating_sub(1)..(last + 2).min(points.len())].to_vec()
-}
-
-fn table(letter: &str, distribution: &HigherDistribution, shown: usize) -> DataFile {
-    let name = format!("fig13{}.csv", letter.trim_matches(['(', ')']));
-    let names = CLASS_COLUMNS.into_iter();
-    let mut columns: Vec<(&str, &[f64])> = vec![("probability_all (1)", &distribution.total)];
-    columns.extend(names.zip(distribution.classes.iter().map(|class| &*class.probability)));
-    columns.iter_mut().for_each(|(_, values)| *values = &values[..shown.min(values.len())]);
-    DataFile::over_k(&name, Some(distribution.p), &columns)
 }

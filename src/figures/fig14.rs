@@ -1,12 +1,6 @@
 //! Fig. 14: simple and higher-order distributions become alike as p grows.
 
-use super::axis::Axis;
-use super::chart::{LETTERS, heading, largest, over_k, short, upwards_from_zero};
-use super::panel::Frame;
-use super::series::Outside;
-use super::sheet::{Entry, Sheet};
-use super::style::{BLUE, Dash, GREEN, LINE, SMALL, Stroke};
-use super::{DataFile, Error, Figure};
+use super::prelude::*;
 use crate::experiments::theory::Theory;
 
 const FRAMES: [Frame; 2] = [Frame::new(1080, 480, 4050, 2780), Frame::new(5230, 480, 8200, 2780)];
@@ -17,33 +11,26 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     let n = theory.vertices;
     let simple = Stroke::dashed(GREEN, LINE, Dash::Long);
     let higher = Stroke::solid(BLUE, LINE);
-    let mut data = Vec::new();
     let mut seen = Vec::new();
     for (i, pair) in theory.convergence.iter().take(2).enumerate() {
-        let panel = sheet.panel(
-            FRAMES[i],
-            Axis::linear(0.0, n as f64 + 1.0, 20.0, 2, "*k*"),
-            upwards_from_zero(largest(&pair.total).max(largest(&pair.simple)), "*P*(*X* = *k*)"),
-        )?;
+        let x = Axis::linear(0.0, n as f64 + 1.0, 20.0, 2, "*k*");
+        let y =
+            upwards_from_zero(largest(&pair.total).max(largest(&pair.simple)), "*P*(*X* = *k*)");
+        let panel = sheet.panel(FRAMES[i], x, y)?;
         let p = short(pair.p, 3);
         heading(&panel, LETTERS[i], &format!("*p* = {p}"))?;
         panel.curve("five classes", &over_k(&pair.total), higher, Outside::Refuse)?;
         panel.curve("simple circuits", &over_k(&pair.simple), simple, Outside::Refuse)?;
-        let name = format!("fig14{}.csv", LETTERS[i].trim_matches(['(', ')']));
-        let columns: [(&str, &[f64]); 2] = [
-            ("probability_simple (1)", &pair.simple),
-            ("probability_five_classes (1)", &pair.total),
-        ];
-        data.push(DataFile::over_k(&name, Some(pair.p), &columns));
         let distance = short(pair.total_variation, 3);
         seen.push(format!("{} p = {p}: total variation distance {distance}", LETTERS[i]));
     }
-    sheet.legend((1300, 3850), (SMALL, 400), &[Entry::line(simple, "simple circuits")])?;
-    sheet.legend((4900, 3850), (SMALL, 400), &[Entry::line(higher, "with higher orders")])?;
+    let entries =
+        [Entry::line(simple, "simple circuits"), Entry::line(higher, "with higher orders")];
+    sheet.legend_in_columns((1300, 3850), (SMALL, 400), (1, 3600), &entries)?;
     let description = format!(
         "Probability of k different impacts, N = {n}, of simple circuits (broken line) and with higher orders. The two curves \
          lie apart in (a) and nearly on each other in (b). {}.",
         seen.join("; ")
     );
-    Ok(sheet.finish("fig14", "Simple and higher-order distributions converge", description, data))
+    Ok(sheet.finish("fig14", "Simple and higher-order distributions converge", description))
 }

@@ -1,15 +1,9 @@
 //! Fig. 15: as Fig. 12, with higher-order circuits.
 
-use super::chart::{short, upwards_from_zero};
-use super::data::cells;
-use super::series::Outside;
-use super::sheet::{Entry, Sheet};
+use super::prelude::*;
 use super::simulated::{
-    CROSS, CROSS_HALF, HEIGHTS, MAIN, at, count_axis, crosses, curve, last_sigma, means,
-    means_file, rise, sigma_axis,
+    CROSSES, HEIGHTS, MAIN, at, count_axis, crosses, curve, last_sigma, means, rise, sigma_axis,
 };
-use super::style::{BLUE, Dash, GREEN, INK, LINE, Mark, SMALL, Stroke};
-use super::{DataFile, Error, Figure};
 use crate::experiments::sweep::Sweep;
 use crate::experiments::theory::Theory;
 
@@ -31,29 +25,16 @@ pub fn draw(sweep: &Sweep, theory: &Theory, note: Option<&str>) -> Result<Figure
     let change: Vec<_> =
         higher.iter().zip(&simple).map(|(more, less)| (more.0, more.1 - less.1)).collect();
     let most = change.iter().map(|point| point.1).fold(0.0, f64::max);
-    let near = rise(&sheet, upwards_from_zero(most, "difference"))?;
+    let near = rise(&sheet, upwards_from_zero(most, "difference"))?.file("-inset");
     near.curve("difference of the theories", &change, Stroke::solid(INK, LINE), Outside::Cut)?;
-    sheet.legend(
-        (1200, HEIGHTS.1),
-        (SMALL, 380),
-        &[
-            Entry::mark(Mark::Cross, CROSS_HALF, CROSS, "simulation, mean of the kept"),
-            Entry::line(Stroke::solid(INK, LINE), "blue less green (inset)"),
-        ],
-    )?;
-    sheet.legend(
-        (5100, HEIGHTS.1),
-        (SMALL, 380),
-        &[Entry::line(blue, "with higher orders"), Entry::line(green, "simple circuits only")],
-    )?;
+    let entries = [
+        Entry::mark(CROSSES, "simulation, mean of the kept"),
+        Entry::line(Stroke::solid(INK, LINE), "blue less green (inset)"),
+        Entry::line(blue, "with higher orders"),
+        Entry::line(green, "simple circuits only"),
+    ];
+    sheet.legend_in_columns((1200, HEIGHTS.1), (SMALL, 380), (2, 3900), &entries)?;
 
-    let mut data = DataFile::new(
-        "fig15-theory.csv",
-        &["N (1)", "sigma (d omega^2)", "mean_simple (1)", "mean_five_classes (1)"],
-    );
-    for row in theory.curve.rows.iter().filter(|row| row.sigma <= end) {
-        data.row(cells![theory.curve.vertices, row.sigma, row.simple, row.higher]);
-    }
     let description = format!(
         "Expected number of impacts against σ: crosses for the simulation, {} at σ = 0.12; lines for the theory with simple \
          circuits only, {} there, and with higher orders, {}. The higher orders rise a little earlier, far less than the \
@@ -63,6 +44,5 @@ pub fn draw(sweep: &Sweep, theory: &Theory, note: Option<&str>) -> Result<Figure
         at(&higher, 0.12),
         short(most, 3),
     );
-    let files = vec![means_file("fig15-simulation.csv", sweep), data];
-    Ok(sheet.finish("fig15", "Simulation against both theories", description, files))
+    Ok(sheet.finish("fig15", "Simulation against both theories", description))
 }

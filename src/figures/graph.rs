@@ -1,10 +1,6 @@
 //! The graph of three masses between walls, drawn: vertices, edges, loops, and circuits on it.
 
-use plotters::style::text_anchor::{HPos, VPos};
-
-use super::Error;
-use super::sheet::Sheet;
-use super::style::{Colour, GREY, HAIR, INK, SMALL, Stroke, TEXT, WHITE};
+use super::prelude::*;
 
 /// Names of the vertices, in the order of the gaps.
 pub const NAMES: [&str; 4] = ["L-1", "1-2", "2-3", "3-R"];

@@ -48,6 +48,12 @@ use crate::experiments::{
 use crate::experiments::{Need, Results};
 use crate::params::Profile;
 
+/// The column of σ in data files.
+const SIGMA: &str = "sigma (d omega^2)";
+
+/// The label of an axis of σ.
+const FORCING: &str = "standard deviation *σ* of the forcing";
+
 /// A figure of the lists below.
 struct Listed {
     /// The experiments that it needs, beside the theory, which costs nothing.
@@ -94,9 +100,7 @@ const OWN: [Listed; 16] = [
     figure(&[&SPACE_TIME], !THEORY, |all, note| s02::draw(all.spacetime()?, note)),
     figure(&[&NUCLEATION, &SWEEP], !THEORY, s03::draw),
     figure(&[&SEEDS, &SWEEP, &PROTOCOL], !THEORY, s04::draw),
-    figure(&[&CHAINS, &SIZES, &PROTOCOL], !THEORY, |all, note| {
-        s05::draw(all.chains()?, all.sizes()?, all.protocol()?, note)
-    }),
+    figure(&[&CHAINS, &SIZES, &PROTOCOL], !THEORY, s05::draw),
     figure(&[], THEORY, |all, _| s06::draw(&all.theory.large)),
     figure(&[], THEORY, |all, _| s07::draw(&all.theory)),
     figure(&[&HEAT], !THEORY, s08::draw),

@@ -1,19 +1,7 @@
 //! Figs. 5 and 6: (a) a circuit on the graph, (b) a motion with the same impacts in this order.
 
-use plotters::style::text_anchor::{HPos, VPos};
-
-use super::axis::Axis;
-use super::chart::{LETTERS, short};
-use super::data::cells;
 use super::graph::{Layout, NAMES, name};
-use super::panel::{Frame, Panel};
-use super::series::Outside;
-use super::sheet::Sheet;
-use super::style::{
-    BLUE, Colour, Dash, GREEN, GREY, HAIR, INK, LINE, Mark, ORANGE, PALE, RED, SMALL, Stroke, TEXT,
-    TINY, WIDTH,
-};
-use super::{DataFile, Error, Figure};
+use super::prelude::*;
 use crate::experiments::segments::Segment;
 
 /// Colour and dash of each mass.
@@ -44,11 +32,10 @@ pub fn draw(circuit: &Circuit, segment: &Segment) -> Result<Figure, Error> {
 
     let duration = segment.until - segment.from;
     let walls = (segment.masses + 1) as f64;
-    let panel = sheet.panel(
-        Frame::new(1200, 4900, 8000, 8500),
-        time_axis(duration),
-        Axis::linear(0.0, walls, 1.0, 1, "position *x*_{*j*} / *d*"),
-    )?;
+    let x = time_axis(duration);
+    let y = Axis::linear(0.0, walls, 1.0, 1, "position *x*_{*j*} / *d*");
+    let panel = sheet.panel(Frame::new(1200, 4900, 8000, 8500), x, y)?;
+    let panel = panel.file("b");
     sheet.text(LETTERS[1], (260, 4690), look)?;
     motion(&panel, segment)?;
     let foot = "a segment of a simulated motion, not a periodic orbit";
@@ -64,8 +51,7 @@ pub fn draw(circuit: &Circuit, segment: &Segment) -> Result<Figure, Error> {
         names.join(", "),
         short(duration, 3),
     );
-    let data = tables(circuit, segment);
-    Ok(sheet.finish(&format!("fig{:02}", circuit.figure), circuit.title, description, data))
+    Ok(sheet.finish(&format!("fig{:02}", circuit.figure), circuit.title, description))
 }
 
 fn time_axis(duration: f64) -> Axis {
@@ -79,18 +65,12 @@ fn time_axis(duration: f64) -> Axis {
 fn motion(panel: &Panel, segment: &Segment) -> Result<(), Error> {
     let (from, d) = (segment.from, segment.spacing);
     let walls = (segment.masses + 1) as f64;
-    let end = panel.x.hi;
     for j in 1..=segment.masses {
         let rest = Stroke::solid(PALE, HAIR);
-        panel.curve("equilibrium", &[(0.0, j as f64), (end, j as f64)], rest, Outside::Refuse)?;
+        panel.level("equilibrium", j as f64, rest)?;
     }
     for wall in [0.0, walls] {
-        panel.curve(
-            "wall",
-            &[(0.0, wall), (end, wall)],
-            Stroke::solid(INK, LINE),
-            Outside::Refuse,
-        )?;
+        panel.level("wall", wall, Stroke::solid(INK, LINE))?;
     }
     let paths: Vec<Vec<(f64, f64)>> = segment
         .positions
@@ -106,8 +86,11 @@ fn motion(panel: &Panel, segment: &Segment) -> Result<(), Error> {
     let hits: Vec<_> =
         segment.impacts.iter().map(|hit| (hit.time - from, hit.position / d)).collect();
     let ring = (Mark::Ring, 70, Stroke::solid(RED, 24));
-    panel.marks("impacts", &hits, ring, Outside::Refuse)?;
+    panel.quiet().marks("impacts", &hits, ring, Outside::Refuse)?;
     let names: Vec<_> = segment.impacts.iter().map(|hit| name(hit.gap)).collect();
+    for (name, hit) in names.iter().zip(&hits) {
+        panel.record(&format!("impact {name}"), [*hit]);
+    }
     name_impacts(panel, &hits, &names, &paths)
 }
 
@@ -201,34 +184,6 @@ fn name_impacts(
 /// The point `eighths`/8 of the way from `a` to `b`.
 fn between(a: (i32, i32), b: (i32, i32), eighths: i32) -> (i32, i32) {
     (a.0 + (b.0 - a.0) * eighths / 8, a.1 + (b.1 - a.1) * eighths / 8)
-}
-
-fn tables(circuit: &Circuit, segment: &Segment) -> Vec<DataFile> {
-    let number = circuit.figure;
-    let mut steps =
-        DataFile::new(&format!("fig{number:02}a.csv"), &["step (1)", "from_impact", "to_impact"]);
-    for (i, &gap) in circuit.order.iter().enumerate() {
-        let next = circuit.order[(i + 1) % circuit.order.len()];
-        steps.row(cells![i + 1, NAMES[gap], NAMES[next]]);
-    }
-    let mut path = DataFile::new(
-        &format!("fig{number:02}b.csv"),
-        &["time (1/omega)", "x_1 (d)", "x_2 (d)", "x_3 (d)"],
-    );
-    for (i, &time) in segment.times.iter().enumerate() {
-        let x =
-            |j: usize| segment.positions.get(j).and_then(|p| p.get(i)).map(|x| x / segment.spacing);
-        path.row(cells![time, x(0), x(1), x(2)]);
-    }
-    let mut hits = DataFile::new(
-        &format!("fig{number:02}b-impacts.csv"),
-        &["time (1/omega)", "impact", "position (d)", "closing_speed (d omega)"],
-    );
-    for hit in &segment.impacts {
-        let name = NAMES.get(hit.gap).copied().unwrap_or("?");
-        hits.row(cells![hit.time, name, hit.position / segment.spacing, hit.closing_speed]);
-    }
-    vec![steps, path, hits]
 }
 
 #[cfg(test)]

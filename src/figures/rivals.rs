@@ -1,38 +1,12 @@
 //! One look for each method in all charts of speed and accuracy, and what it is called.
 
-use super::axis::Axis;
-use super::sheet::Entry;
-use super::style::{BLUE, Colour, GREEN, GREY, INK, Mark, ORANGE, PURPLE, RED, Stroke, THIN};
+use super::prelude::*;
 use crate::experiments::Measured;
 use crate::experiments::measured::{Row, What};
 use crate::params::{MethodName, Setting};
 
-/// Colour and marker of a method.
-#[derive(Clone, Copy, Debug)]
-pub struct Look {
-    /// Colour.
-    pub colour: Colour,
-    /// Marker.
-    pub mark: Mark,
-}
-
-/// Half the width of a marker.
-pub const HALF: i32 = 58;
-
-impl Look {
-    /// The marker as the panels draw it.
-    pub fn marker(self) -> (Mark, i32, Stroke) {
-        (self.mark, HALF, Stroke::solid(self.colour, THIN))
-    }
-
-    /// The line that joins the settings of a method.
-    pub fn line(self) -> Stroke {
-        Stroke::solid(self.colour, THIN)
-    }
-}
-
-/// The look of a method.
-pub fn look(method: MethodName) -> Look {
+/// The look of a method; its line joins the settings of the method.
+pub fn look(method: MethodName) -> Marker {
     let (colour, mark) = match method {
         MethodName::Certified => (RED, Mark::Disc),
         MethodName::Sampled => (BLUE, Mark::Ring),
@@ -42,7 +16,7 @@ pub fn look(method: MethodName) -> Look {
         MethodName::Verlet => (INK, Mark::Cross),
         MethodName::Penalty => (GREY, Mark::Plus),
     };
-    Look { colour, mark }
+    (mark, LARGE, Stroke::solid(colour, THIN))
 }
 
 /// What a method is called.
@@ -60,10 +34,7 @@ pub fn name(method: MethodName) -> &'static str {
 
 /// Legend entries of some methods, in the order of [`MethodName::ALL`].
 pub fn entries(methods: impl Fn(MethodName) -> bool) -> Vec<Entry> {
-    let entry = |method: MethodName| {
-        let (mark, half, stroke) = look(method).marker();
-        Entry::mark(mark, half, stroke, name(method))
-    };
+    let entry = |method| Entry::mark(look(method), name(method));
     MethodName::ALL.into_iter().filter(|m| methods(*m)).map(entry).collect()
 }
 
@@ -80,20 +51,6 @@ pub fn by_method<T>(
     MethodName::ALL.into_iter().map(of).filter(|(_, points)| !points.is_empty()).collect()
 }
 
-/// The decades that hold all values, as a logarithmic axis.
-pub fn decades_around(values: impl Iterator<Item = f64>, every: i32, label: &str) -> Axis {
-    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    for value in values {
-        low = low.min(super::axis::log(value));
-        high = high.max(super::axis::log(value));
-    }
-    if low > high {
-        (low, high) = (0.0, 1.0);
-    }
-    let (low, high) = (low.floor() as i32, high.ceil() as i32);
-    Axis::decades(low, high.max(low + 1), every, label)
-}
-
 /// A program that was timed, and held against the truth on one chain.
 #[derive(Clone, Debug)]
 pub struct Timed {
@@ -101,18 +58,12 @@ pub struct Timed {
     pub name: String,
     /// The method of this project, if it is one.
     pub method: Option<MethodName>,
-    /// Version.
-    pub version: String,
-    /// Step, tolerance or options.
-    pub settings: String,
     /// Number of masses.
     pub masses: u64,
     /// Measured time of an impact.
     pub microseconds: f64,
     /// Time up to which it is true; the end of the run if it is true to the end.
     pub horizon: Option<f64>,
-    /// Impacts that it was held against.
-    pub compared: Option<u64>,
 }
 
 /// All rows of one chain with a time.
@@ -127,12 +78,9 @@ pub fn timed(measured: &Measured) -> Vec<Timed> {
         Some(Timed {
             name: row.name.clone(),
             method,
-            version: row.version.clone(),
-            settings: row.settings.clone(),
             masses: row.n,
             microseconds: row.microseconds_per_impact?,
             horizon: row.compared.map(|_| row.horizon_time.unwrap_or(row.until)),
-            compared: row.compared,
         })
     };
     measured.rows.iter().filter(|row| row.chains == 1 && row.n > 0).filter_map(one).collect()
@@ -151,7 +99,7 @@ pub fn most_accurate(programs: &[Timed]) -> Vec<&Timed> {
 }
 
 /// Names of the other programs, sorted, each with its look.
-pub fn others(programs: &[Timed]) -> Vec<(&str, Look)> {
+pub fn others(programs: &[Timed]) -> Vec<(&str, Marker)> {
     const MARKS: [Mark; 6] = [
         Mark::OpenSquare,
         Mark::OpenDiamond,
@@ -164,21 +112,21 @@ pub fn others(programs: &[Timed]) -> Vec<(&str, Look)> {
         programs.iter().filter(|p| p.method.is_none()).map(|p| p.name.as_str()).collect();
     names.sort_unstable();
     names.dedup();
-    let look = |i: usize| Look { colour: INK, mark: MARKS[i % MARKS.len()] };
+    let look = |i: usize| (MARKS[i % MARKS.len()], LARGE, Stroke::solid(INK, THIN));
     names.into_iter().enumerate().map(|(i, name)| (name, look(i))).collect()
 }
 
 /// The look of a program: of its method, or that of the others.
-pub fn look_of(program: &Timed, others: &[(&str, Look)]) -> Look {
+pub fn look_of(program: &Timed, others: &[(&str, Marker)]) -> Marker {
     let other = || others.iter().find(|(name, _)| *name == program.name).map(|(_, look)| *look);
-    program.method.map(look).or_else(other).unwrap_or(Look { colour: INK, mark: Mark::Square })
+    program.method.map(look).or_else(other).unwrap_or((
+        Mark::Square,
+        LARGE,
+        Stroke::solid(INK, THIN),
+    ))
 }
 
 /// Legend entries of the other programs.
-pub fn entries_of_others(others: &[(&str, Look)]) -> Vec<Entry> {
-    let entry = |(name, look): &(&str, Look)| {
-        let (mark, half, stroke) = look.marker();
-        Entry::mark(mark, half, stroke, name)
-    };
-    others.iter().map(entry).collect()
+pub fn entries_of_others(others: &[(&str, Marker)]) -> Vec<Entry> {
+    others.iter().map(|(name, look)| Entry::mark(*look, name)).collect()
 }

@@ -1,13 +1,6 @@
 //! Fig. S2: one long run, gap against time, a tick for each impact.
 
-use super::axis::Axis;
-use super::chart::LETTERS;
-use super::data::cells;
-use super::panel::{Frame, Panel};
-use super::series::Outside;
-use super::sheet::{Entry, Sheet};
-use super::style::{HAIR, INK, Mark, RED, SMALL, Stroke, WHITE};
-use super::{DataFile, Error, Figure};
+use super::prelude::*;
 use crate::experiments::spacetime::SpaceTime;
 use crate::experiments::spacetime::scene::Scene;
 
@@ -27,27 +20,27 @@ pub fn draw(run: &SpaceTime, note: Option<&str>) -> Result<Figure, Error> {
     };
     let time = |from: f64, to: f64, step: f64| Axis::linear(from, to, step, 2, "time *t* (1/*ω*)");
 
-    let whole =
-        sheet.panel(Frame::new(1200, 430, 8150, 4130), time(0.0, until, until / 4.0), gaps())?;
-    whole.letter(LETTERS[0])?;
+    // Thousandths are finer than the picture, and a file of all digits would be twice as long.
+    let whole = time(0.0, until, until / 4.0).column("time_to_thousandths (1/omega)");
+    let whole = sheet.lettered(LETTERS[0], Frame::new(1200, 430, 8150, 4130), whole, gaps())?;
     let impacts = points(run, 0.0, until);
     let row = (whole.frame.bottom - whole.frame.top) / (run.width() as i32 + 1);
-    whole.ticks("impacts", &impacts, 12, Stroke::solid(INK, row as u32))?;
+    whole.quiet().ticks("impacts", &impacts, 12, Stroke::solid(INK, row as u32))?;
+    whole.record("impacts", impacts.iter().map(|(time, gap)| (thousandths(*time), *gap)));
     starts(&whole, run, until)?;
 
     let (from, to) = detail(run);
-    let near =
-        sheet.panel(Frame::new(1200, 5250, 8150, 8550), time(from, to, DETAIL / 4.0), gaps())?;
-    near.letter(LETTERS[1])?;
+    let near = Frame::new(1200, 5250, 8150, 8550);
+    let near = sheet.lettered(LETTERS[1], near, time(from, to, DETAIL / 4.0), gaps())?.quiet();
     near.ticks("first impacts", &points(run, from, to), 14, Stroke::solid(INK, 30))?;
     starts(&near, run, to)?;
 
-    let tick =
-        Entry { line: None, mark: Some((Mark::Square, 16, INK_LINE)), text: "impact".into() };
-    let disc = Entry::mark(START.0, START.1, RED_DISC, "no neighbour was hit before");
-    sheet.legend((1500, 9500), (SMALL, 370), &[tick])?;
-    sheet.legend((3900, 9500), (SMALL, 370), &[disc])?;
-    Ok(sheet.finish("s02", "One long run", description(run), tables(run)))
+    let tick = Entry::mark((Mark::Square, 16, INK_LINE), "impact");
+    let disc = Entry::mark((START.0, START.1, RED_DISC), "no neighbour was hit before");
+    sheet.legend_in_columns((1500, 9500), (SMALL, 370), (1, 2400), &[tick, disc])?;
+    let mut figure = sheet.finish("s02", "One long run", description(run));
+    figure.data.extend(Scene::of(run).map(|scene| positions(&scene)));
+    Ok(figure)
 }
 
 const INK_LINE: Stroke = Stroke::solid(INK, HAIR);
@@ -72,8 +65,10 @@ fn starts(panel: &Panel, run: &SpaceTime, until: f64) -> Result<(), Error> {
     let own: Vec<_> = own.filter(|(time, _)| *time <= until).collect();
     let (mark, half, _) = START;
     // A white rim lifts the disc off the ticks.
-    panel.marks("rims", &own, (Mark::Disc, half + 22, START.2), Outside::Refuse)?;
-    panel.marks("starts", &own, (mark, half, RED_DISC), Outside::Refuse)
+    panel.quiet().marks("rims", &own, (Mark::Disc, half + 22, START.2), Outside::Refuse)?;
+    panel.quiet().marks("starts", &own, (mark, half, RED_DISC), Outside::Refuse)?;
+    panel.record("starts", own.iter().map(|(time, gap)| (thousandths(*time), *gap)));
+    Ok(())
 }
 
 fn description(run: &SpaceTime) -> String {
@@ -89,23 +84,8 @@ fn description(run: &SpaceTime) -> String {
     )
 }
 
-fn tables(run: &SpaceTime) -> Vec<DataFile> {
-    // Thousandths are finer than the picture, and a file of all digits would be twice as long.
-    let mut impacts = DataFile::new("s02a.csv", &["time_to_thousandths (1/omega)", "gap (1)"]);
-    for (&time, &gap) in run.times.iter().zip(&run.gaps) {
-        impacts.row(cells![(time * 1000.0).round() / 1000.0, gap as usize]);
-    }
-    let mut gaps = DataFile::new(
-        "s02b.csv",
-        &["gap (1)", "first_time (1/omega)", "count (1)", "starts_by_itself (1)"],
-    );
-    let starts = run.starts();
-    for (gap, first) in run.firsts().into_iter().enumerate() {
-        let count = run.gaps.iter().filter(|own| **own as usize == gap).count();
-        gaps.row(cells![gap, first, count, usize::from(starts.contains(&gap))]);
-    }
-    let places = Scene::of(run).map(|scene| positions(&scene));
-    [impacts, gaps].into_iter().chain(places).collect()
+fn thousandths(time: f64) -> f64 {
+    (time * 1000.0).round() / 1000.0
 }
 
 /// Steps of the table of positions.
@@ -114,12 +94,11 @@ const STEPS: u32 = 24;
 /// Positions of all bodies at times that are evenly spread over the scene.
 fn positions(scene: &Scene) -> DataFile {
     let names = (scene.first..).take(scene.bodies.len()).map(|number| format!("x_{number} (d)"));
-    let mut file = DataFile::new("s02c.csv", &[]);
-    file.header = std::iter::once("time (1/omega)".to_string()).chain(names).collect();
-    for step in 0..=STEPS {
+    let header = std::iter::once("time (1/omega)".to_string()).chain(names).collect();
+    let row = |step: u32| {
         let time = scene.from + (scene.until - scene.from) * f64::from(step) / f64::from(STEPS);
         let places = scene.positions(time).into_iter().map(|x| x / scene.spacing);
-        file.rows.push(std::iter::once(time).chain(places).map(|x| format!("{x:?}")).collect());
-    }
-    file
+        std::iter::once(time).chain(places).map(|x| format!("{x:?}")).collect()
+    };
+    DataFile { name: "s02c.csv".into(), header, rows: (0..=STEPS).map(row).collect() }
 }

@@ -1,12 +1,7 @@
 //! Fig. S4: what one gap that closes by itself sets off, how its fronts stand, and the mean count that follows.
 
-use super::axis::{Axis, log};
-use super::chart::LETTERS;
-use super::panel::Frame;
-use super::series::Outside;
-use super::sheet::{Entry, Sheet};
-use super::style::{BLUE, Dash, INK, LINE, Mark, ORANGE, PURPLE, RED, SMALL, Stroke, THIN};
-use super::{DataFile, Error, Figure};
+use super::prelude::*;
+use super::{FORCING, SIGMA};
 use crate::experiments::Results;
 use crate::experiments::seeds::tables::spread;
 use crate::experiments::sweep::Sweep;
@@ -23,9 +18,6 @@ const SPREADS: [Stroke; 4] = [
     Stroke::solid(RED, THIN),
 ];
 
-/// The half size of marks.
-const SIZE: i32 = 58;
-
 /// Draws the figure.
 pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
     let table = |name| results.table(name);
@@ -39,18 +31,13 @@ pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
     advances(&sheet, advance)?;
     halves(&sheet, rise, scores)?;
     standing(&sheet, waits, fronts, results.seeds()?.parameters.tick)?;
-    let files = [means, theory, table("seeds.against_sweep")?, advance, rise, scores, waits];
-    let title = "From one gap to many: nucleation and growth";
-    Ok(sheet.finish("s04", title, description(waits), files.map(DataFile::of).into()))
+    Ok(sheet.finish("s04", "From one gap to many: nucleation and growth", description(waits)))
 }
 
 fn counts(sheet: &Sheet, means: &Table, theory: &Table, sweep: &Sweep) -> Result<(), Error> {
-    let panel = sheet.panel(
-        Frame::new(1150, 430, 8150, 3730),
-        Axis::linear(SIGMAS.0, SIGMAS.1, 0.01, 2, "standard deviation *σ* of the forcing"),
-        Axis::linear(0.0, 105.0, 20.0, 2, "mean count of all"),
-    )?;
-    panel.letter(LETTERS[0])?;
+    let x = Axis::linear(SIGMAS.0, SIGMAS.1, 0.01, 2, FORCING).column(SIGMA);
+    let y = Axis::linear(0.0, 105.0, 20.0, 2, "mean count of all");
+    let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 8150, 3730), x, y)?;
     let transient = [("transient", sweep.parameters.protocol.transient)];
     let lines = [
         ("nucleation and growth", "grown", Stroke::solid(INK, LINE)),
@@ -69,12 +56,12 @@ fn counts(sheet: &Sheet, means: &Table, theory: &Table, sweep: &Sweep) -> Result
     let inside = sweep.rows.iter().filter(|row| row.sigma > SIGMAS.0 && row.sigma < SIGMAS.1);
     let bars: Vec<_> =
         inside.filter_map(|row| Some((row.sigma, row.mean_all?, row.mean_all_interval?))).collect();
-    let look = (Mark::Disc, SIZE, Stroke::solid(RED, THIN));
+    let look = (Mark::Disc, LARGE, Stroke::solid(RED, THIN));
     let ends: Vec<_> = bars.iter().map(|(x, _, [low, high])| (*x, *low, *high)).collect();
-    panel.bars("simulation", &ends, 35, look.2)?;
+    panel.bars("simulation", &ends, 35, look.2, Outside::Refuse)?;
     let points: Vec<_> = bars.iter().map(|(x, y, _)| (*x, *y)).collect();
     panel.marks("simulation", &points, look, Outside::Refuse)?;
-    entries.push(Entry::mark(look.0, look.1, look.2, "simulation"));
+    entries.push(Entry::mark(look, "simulation"));
     sheet.legend((1400, 700), (SMALL, 370), &entries)
 }
 
@@ -83,58 +70,33 @@ fn named(sigma: f64) -> String {
 }
 
 fn advances(sheet: &Sheet, advance: &Table) -> Result<(), Error> {
-    let panel = sheet.panel(
-        Frame::new(1150, 5250, 4050, 7650),
-        Axis::decades(1, 4, 1, "time since the first impact (1/*ω*)"),
-        Axis::decades(-1, 2, 1, "advance of a front"),
-    )?;
-    panel.letter(LETTERS[1])?;
+    let x = Axis::decades(1, 4, 1, "time since the first impact (1/*ω*)");
+    let y = Axis::decades(-1, 2, 1, "advance of a front");
+    let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 5250, 4050, 7650), x, y)?;
     let mut entries = Vec::new();
     for (sigma, stroke) in spread(&advance.values("sigma")).zip(SPREADS) {
         let points = advance.points(&[("sigma", *sigma)], "time", "advance");
-        let points = points.into_iter().filter(|(_, own)| *own > 0.0);
-        let points: Vec<_> = points.map(|(time, own)| (log(time), log(own))).collect();
         let name = named(*sigma);
         panel.curve(&name, &points, stroke, Outside::Cut)?;
         entries.push(Entry::line(stroke, &name));
     }
     let straight = Stroke::dashed(INK, THIN, Dash::Short);
-    panel.curve("constant speed", &[(1.0, -1.0), (4.0, 2.0)], straight, Outside::Cut)?;
+    panel.guide("constant speed", &[(10.0, 0.1), (1e4, 100.0)], straight)?;
     entries.push(Entry::line(straight, "∝ *t*"));
-    for (i, column) in entries.chunks(3).enumerate() {
-        sheet.legend((650 + 1800 * i as i32, 8680), (SMALL, 320), column)?;
-    }
-    Ok(())
+    sheet.legend_in_columns((650, 8680), (SMALL, 320), (3, 1800), &entries)
 }
 
 fn halves(sheet: &Sheet, rise: &Table, scores: &Table) -> Result<(), Error> {
-    let panel = sheet.panel(
-        Frame::new(5350, 5250, 8150, 7650),
-        Axis::decades(1, 4, 1, "transient *T* (1/*ω*)"),
-        Axis::linear(0.1, 0.15, 0.01, 2, "*σ*_{1/2} of all"),
-    )?;
-    panel.letter(LETTERS[2])?;
-    let inside = |height: f64| height.clamp(panel.y.lo, panel.y.hi);
+    let x = Axis::decades(1, 4, 1, "transient *T* (1/*ω*)");
+    let y = Axis::linear(0.1, 0.15, 0.01, 2, "*σ*_{1/2} of all").column("half_height (d omega^2)");
+    let panel = sheet.lettered(LETTERS[2], Frame::new(5350, 5250, 8150, 7650), x, y)?;
     let line = Stroke::solid(INK, LINE);
     let grown = rise.points(&[], "transient", "half_height");
-    let grown: Vec<_> = grown.iter().map(|(time, own)| (log(*time), inside(*own))).collect();
-    panel.curve("nucleation and growth", &grown, line, Outside::Refuse)?;
-    let look = (Mark::Disc, SIZE, Stroke::solid(RED, THIN));
+    panel.curve("nucleation and growth", &grown, line, Outside::Edge)?;
+    let look = (Mark::Disc, LARGE, Stroke::solid(RED, THIN));
     let found = scores.estimates(&[], "transient", "half_height");
-    let bars: Vec<_> = found
-        .iter()
-        .map(|(time, half)| {
-            (log(*time), inside(half.value - half.error), inside(half.value + half.error))
-        })
-        .collect();
-    panel.bars("simulation", &bars, 35, look.2)?;
-    let points: Vec<_> =
-        found.iter().map(|(time, half)| (log(*time), inside(half.value))).collect();
-    panel.marks("simulation", &points, look, Outside::Refuse)?;
-    let entries = [
-        Entry::line(line, "nucleation and growth"),
-        Entry::mark(look.0, look.1, look.2, "simulation"),
-    ];
+    panel.estimates("simulation", &found, look)?;
+    let entries = [Entry::line(line, "nucleation and growth"), Entry::mark(look, "simulation")];
     sheet.legend((4850, 8650), (SMALL, 370), &entries)
 }
 
@@ -147,29 +109,25 @@ fn longer(waits: &Table, sigma: f64, tick: f64) -> Vec<(f64, f64)> {
 }
 
 fn standing(sheet: &Sheet, waits: &Table, fronts: &Table, tick: f64) -> Result<(), Error> {
-    let panel = sheet.panel(
-        Frame::new(1150, 10150, 8150, 12250),
-        Axis::decades(0, 3, 1, "time *t* for which a front stands (1/*ω*)"),
-        Axis::decades(-2, 0, 1, "share longer than *t*"),
-    )?;
-    panel.letter(LETTERS[3])?;
+    let x = Axis::decades(0, 3, 1, "time *t* for which a front stands (1/*ω*)");
+    let y = Axis::decades(-2, 0, 1, "share longer than *t*");
+    let panel = sheet.lettered(LETTERS[3], Frame::new(1150, 10150, 8150, 12250), x, y)?;
     let mut entries = Vec::new();
     for (sigma, stroke) in waits.values("sigma").into_iter().zip(SPREADS) {
-        let shares = longer(waits, sigma, tick).into_iter().filter(|(_, share)| *share > 0.0);
-        let points: Vec<_> = shares.map(|(time, share)| (log(time), log(share))).collect();
         let name = named(sigma);
-        panel.curve(&name, &points, stroke, Outside::Cut)?;
+        panel.quiet().curve(&name, &longer(waits, sigma, tick), stroke, Outside::Cut)?;
+        panel.record(&name, waits.points(&[("sigma", sigma)], "time", "longer"));
         entries.push(Entry::line(stroke, &name));
     }
     // The first row, were every wait to end at the same rate.
     if let Some((_, speed)) = fronts.points(&[], "sigma", "speed").first() {
         let decay = |step: u32| {
             let time = pxfm::f_exp10(f64::from(step) / 40.0);
-            (log(time), -speed * time * std::f64::consts::LOG10_E)
+            (time, pxfm::f_exp(-speed * time))
         };
         let even = Stroke::dashed(SPREADS[0].colour, THIN, Dash::Short);
         let points: Vec<_> = (0..=120).map(decay).collect();
-        panel.curve("constant rate", &points, even, Outside::Cut)?;
+        panel.guide("constant rate", &points, even)?;
         entries.push(Entry::line(even, "constant rate"));
     }
     sheet.legend((1400, 10900), (SMALL, 270), &entries)

@@ -1,20 +1,12 @@
 //! Fig. S5: long chains, friction, and a force with a common period.
 
-use super::axis::{Axis, log};
-use super::chart::LETTERS;
-use super::data::cells;
-use super::panel::Frame;
-use super::series::Outside;
-use super::sheet::{Entry, Sheet};
-use super::style::{
-    BLUE, Colour, Dash, GREEN, INK, LINE, Mark, ORANGE, PURPLE, RED, SMALL, Stroke, THIN,
-};
-use super::{DataFile, Error, Figure};
+use super::SIGMA;
+use super::prelude::*;
+use crate::experiments::Results;
 use crate::experiments::chains::{Chains, Curve, Ensemble};
-use crate::experiments::protocol::ProtocolMap;
 use crate::numerics::statistics::Estimate;
 use crate::params::{ChainCurve, ChainKind};
-use std::collections::BTreeMap;
+use crate::table::Table;
 
 /// Marks and colours of lengths and of frictions, from the smallest.
 const LOOKS: [(Mark, Colour); 6] = [
@@ -26,33 +18,28 @@ const LOOKS: [(Mark, Colour); 6] = [
     (Mark::Ring, INK),
 ];
 
-/// The half size of marks.
-const SIZE: i32 = 52;
-
 /// The frequency of (d).
 const COMMON: &str = "frequency-2";
 
 /// Draws the figure.
-pub fn draw(
-    chains: &Chains,
-    sizes: &Chains,
-    map: &ProtocolMap,
-    note: Option<&str>,
-) -> Result<Figure, Error> {
+pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
+    let (chains, sizes) = (results.chains()?, results.table("sizes.places")?);
+    let window = [("window", chains.parameters.window)];
+    let map = results.table("protocol.cells")?.points(&window, "transient", "half_height_all");
     let sheet = Sheet::new(10_800, note)?;
     lengths(&sheet, chains)?;
-    times(&sheet, &by_length(chains, sizes), &of_map(chains, map))?;
-    frictions(&sheet, chains, map)?;
+    times(&sheet, results.table("chains.lengths")?, sizes, &map)?;
+    frictions(&sheet, results.table("chains.damped")?, &map)?;
     period(&sheet, chains)?;
     let title = "Long chains, friction, and a common period";
-    Ok(sheet.finish("s05", title, description(sizes), tables(chains, sizes, map)))
+    Ok(sheet.finish("s05", title, description(sizes)))
 }
 
 /// The look of a length, by its order of magnitude.
 fn look(masses: usize) -> (Mark, i32, Stroke) {
     let tens = pxfm::f_log10(masses as f64).round() as usize;
     let (mark, colour) = LOOKS[tens.saturating_sub(1).min(LOOKS.len() - 1)];
-    (mark, SIZE, Stroke::solid(colour, THIN))
+    (mark, MEDIUM, Stroke::solid(colour, THIN))
 }
 
 /// A length in words: the longest as a power of ten.
@@ -76,17 +63,10 @@ fn shares(own: &ChainCurve, curve: &Curve, time: f64) -> Vec<(f64, Estimate)> {
     curve.rows.iter().filter_map(|row| Some((row.sigma, row.shares[at]?))).collect()
 }
 
-fn points(all: &[(f64, Estimate)]) -> Vec<(f64, f64)> {
-    all.iter().map(|(x, own)| (*x, own.value)).collect()
-}
-
 fn lengths(sheet: &Sheet, chains: &Chains) -> Result<(), Error> {
-    let panel = sheet.panel(
-        Frame::new(1000, 430, 3900, 3730),
-        Axis::linear(0.07, 0.19, 0.03, 3, "*σ*"),
-        Axis::linear(0.0, 1.0, 0.2, 2, "share of the gaps"),
-    )?;
-    panel.letter(LETTERS[0])?;
+    let x = Axis::linear(0.07, 0.19, 0.03, 3, "*σ*").column(SIGMA);
+    let y = Axis::linear(0.0, 1.0, 0.2, 2, "share of the gaps");
+    let panel = sheet.lettered(LETTERS[0], Frame::new(1000, 430, 3900, 3730), x, y)?;
     let mut entries = Vec::new();
     for (own, curve) in chains.of(ChainKind::Length) {
         let mut all = shares(own, curve, COMMON_TIME);
@@ -97,95 +77,53 @@ fn lengths(sheet: &Sheet, chains: &Chains) -> Result<(), Error> {
         let name = length(own.masses);
         // Long chains lie on one another: a line for the paper's length, the marks of the others beside it.
         if own.masses <= 100 {
-            panel.curve(&name, &points(&all), look.2, Outside::Cut)?;
+            panel.joined(&name, &all, look)?;
         } else {
+            panel.record(&name, all.clone());
             let aside = ASIDE * f64::from(own.masses.ilog10() - 2);
             all.iter_mut().for_each(|point| point.0 += aside);
+            panel.quiet().estimates(&name, &all, look)?;
         }
-        panel.estimates(&name, &all, look, |y| y)?;
-        entries.push(Entry::mark(look.0, look.1, look.2, &name));
+        entries.push(Entry::mark(look, &name));
     }
-    for (i, column) in entries.chunks(3).enumerate() {
-        sheet.legend((700 + 1650 * i as i32, 4720), (SMALL, 340), column)?;
-    }
-    Ok(())
+    sheet.legend_in_columns((700, 4720), (SMALL, 340), (3, 1650), &entries)
 }
 
-/// (T, half height) of the map.
-fn of_map(chains: &Chains, map: &ProtocolMap) -> Vec<(f64, Estimate)> {
-    let window = chains.parameters.window;
-    let cells = map.cells.iter().filter(|cell| cell.window == window);
-    cells.filter_map(|cell| Some((cell.transient, cell.half_height_all?))).collect()
-}
-
-/// (T, half height) of a curve.
-fn halves(own: &ChainCurve, curve: &Curve) -> Vec<(f64, Estimate)> {
-    let all = own.transients.iter().zip(&curve.half_heights);
-    all.filter_map(|(time, half)| Some((*time, (*half)?))).collect()
-}
-
-fn logarithmic(all: Vec<(f64, Estimate)>) -> Vec<(f64, Estimate)> {
-    all.into_iter().map(|(time, half)| (log(time), half)).collect()
-}
-
-/// (T, half height) of each length, of those that were measured anew by these alone.
-fn by_length(chains: &Chains, sizes: &Chains) -> BTreeMap<usize, Vec<(f64, Estimate)>> {
-    let anew = |masses| sizes.all().any(|(own, _)| own.masses == masses);
-    let others = chains.of(ChainKind::Length).filter(|(own, _)| !anew(own.masses));
-    let mut all = BTreeMap::<usize, Vec<(f64, Estimate)>>::new();
-    for (own, curve) in others.chain(sizes.all()) {
-        all.entry(own.masses).or_default().extend(halves(own, curve));
-    }
-    all
-}
-
-fn times(
-    sheet: &Sheet,
-    lengths: &BTreeMap<usize, Vec<(f64, Estimate)>>,
-    map: &[(f64, Estimate)],
-) -> Result<(), Error> {
-    let panel = sheet.panel(
-        Frame::new(5150, 430, 8050, 3730),
-        Axis::decades(1, 5, 1, "transient *T* (1/*ω*)"),
-        Axis::linear(0.08, 0.16, 0.01, 2, "*σ*_{1/2}"),
-    )?;
-    panel.letter(LETTERS[1])?;
+/// Half heights; lengths that were measured anew are shown by these alone.
+fn times(sheet: &Sheet, old: &Table, anew: &Table, map: &[(f64, f64)]) -> Result<(), Error> {
+    let x = Axis::decades(1, 5, 1, "transient *T* (1/*ω*)");
+    let y = Axis::linear(0.08, 0.16, 0.01, 2, "*σ*_{1/2}").column("half_height (d omega^2)");
+    let panel = sheet.lettered(LETTERS[1], Frame::new(5150, 430, 8050, 3730), x, y)?;
     let stroke = Stroke::solid(INK, THIN);
-    let line = logarithmic(map.to_vec());
-    panel.curve("map", &points(&line), stroke, Outside::Cut)?;
-    for (masses, all) in lengths {
-        let (name, look) = (format!("half height of {masses} masses"), look(*masses));
-        let all = logarithmic(all.clone());
-        panel.curve(&name, &points(&all), look.2, Outside::Cut)?;
-        panel.estimates(&name, &all, look, |y| y)?;
+    panel.curve("map", map, stroke, Outside::Cut)?;
+    let mut lengths = [old.values("masses"), anew.values("masses")].concat();
+    lengths.sort_by(f64::total_cmp);
+    lengths.dedup();
+    for masses in lengths {
+        let own = if anew.values("masses").contains(&masses) { anew } else { old };
+        let all = own.estimates(&[("masses", masses)], "transient", "half_height");
+        let name = format!("half height of {masses} masses");
+        panel.joined(&name, &all, look(masses as usize))?;
     }
     let entry = Entry::line(stroke, "the map, *n* = 100");
     sheet.legend((4900, 4720), (SMALL, 340), &[entry])
 }
 
-fn frictions(sheet: &Sheet, chains: &Chains, map: &ProtocolMap) -> Result<(), Error> {
-    let panel = sheet.panel(
-        Frame::new(1000, 5900, 3900, 8900),
-        Axis::decades(1, 4, 1, "transient *T* (1/*ω*)"),
-        Axis::linear(0.09, 0.16, 0.01, 2, "*σ*_{1/2}"),
-    )?;
-    panel.letter(LETTERS[2])?;
+fn frictions(sheet: &Sheet, found: &Table, map: &[(f64, f64)]) -> Result<(), Error> {
+    let x = Axis::decades(1, 4, 1, "transient *T* (1/*ω*)");
+    let y = Axis::linear(0.09, 0.16, 0.01, 2, "*σ*_{1/2}").column("half_height (d omega^2)");
+    let panel = sheet.lettered(LETTERS[2], Frame::new(1000, 5900, 3900, 8900), x, y)?;
     let stroke = Stroke::solid(INK, THIN);
-    let line = logarithmic(of_map(chains, map));
-    panel.curve("without friction", &points(&line), stroke, Outside::Cut)?;
+    panel.curve("without friction", map, stroke, Outside::Cut)?;
     let mut entries = vec![Entry::line(stroke, "*c* = 0")];
-    for ((own, curve), (mark, colour)) in chains.of(ChainKind::Damping).zip(&LOOKS[1..]) {
-        let look = (*mark, SIZE, Stroke::solid(*colour, THIN));
-        let name = format!("*c* = {}", own.damping);
-        let all = logarithmic(halves(own, curve));
-        panel.curve(&name, &points(&all), look.2, Outside::Cut)?;
-        panel.estimates(&name, &all, look, |y| y)?;
-        entries.push(Entry::mark(look.0, look.1, look.2, &name));
+    for (damping, (mark, colour)) in found.values("damping").into_iter().zip(&LOOKS[1..]) {
+        let look = (*mark, MEDIUM, Stroke::solid(*colour, THIN));
+        let name = format!("*c* = {damping}");
+        let all = found.estimates(&[("damping", damping)], "transient", "half_height");
+        panel.joined(&name, &all, look)?;
+        entries.push(Entry::mark(look, &name));
     }
-    for (i, column) in entries.chunks(2).enumerate() {
-        sheet.legend((600 + 1750 * i as i32, 9880), (SMALL, 340), column)?;
-    }
-    Ok(())
+    sheet.legend_in_columns((600, 9880), (SMALL, 340), (2, 1750), &entries)
 }
 
 /// The share of the chains with an impact in the last window, with its binomial error.
@@ -197,12 +135,9 @@ fn alive(row: &Ensemble) -> (f64, Estimate) {
 }
 
 fn period(sheet: &Sheet, chains: &Chains) -> Result<(), Error> {
-    let panel = sheet.panel(
-        Frame::new(5150, 5900, 8050, 8900),
-        Axis::linear(0.2, 0.44, 0.1, 2, "*σ*"),
-        Axis::linear(0.0, 1.0, 0.2, 2, "share of the chains"),
-    )?;
-    panel.letter(LETTERS[3])?;
+    let x = Axis::linear(0.2, 0.44, 0.1, 2, "*σ*").column(SIGMA);
+    let y = Axis::linear(0.0, 1.0, 0.2, 2, "share of the chains");
+    let panel = sheet.lettered(LETTERS[3], Frame::new(5150, 5900, 8050, 8900), x, y)?;
     let Some((_, curve)) = chains.curve(COMMON) else { return Ok(()) };
     let line = |of: fn(&[f64; 3]) -> f64| -> Vec<(f64, f64)> {
         curve.kept_expected.iter().map(|own| (own[0], of(own))).collect()
@@ -211,87 +146,21 @@ fn period(sheet: &Sheet, chains: &Chains) -> Result<(), Error> {
     panel.curve("all phases", &line(|own| own[1]), bound, Outside::Cut)?;
     panel.curve("common period", &line(|own| own[2]), there, Outside::Cut)?;
     let all: Vec<_> = curve.rows.iter().map(alive).collect();
-    let look = (Mark::Disc, SIZE, Stroke::solid(RED, THIN));
-    panel.estimates("simulation", &all, look, |y| y)?;
+    let look = (Mark::Disc, MEDIUM, Stroke::solid(RED, THIN));
+    panel.estimates("simulation", &all, look)?;
     let entries = [
         Entry::line(bound, "all phases, Eq. (20)"),
         Entry::line(there, "common period"),
-        Entry::mark(look.0, look.1, look.2, "simulation"),
+        Entry::mark(look, "simulation"),
     ];
     sheet.legend((4900, 9880), (SMALL, 340), &entries)
 }
 
-fn description(sizes: &Chains) -> String {
-    let longest = sizes.all().map(|(own, _)| own.masses).max().unwrap_or_default();
+fn description(sizes: &Table) -> String {
+    let longest = sizes.values("masses").into_iter().fold(0.0, f64::max);
     format!(
         "(a) Share of gaps with an impact against σ after one transient: the shortest chain rises later, others, up to {longest} \
          masses, lie on one another. (b) Half height against T, falling the further the longer the chain. (c) With friction: higher \
          and more level. (d) Chains with an impact for Ω = 2: on the lower of two curves."
     )
-}
-
-fn tables(chains: &Chains, sizes: &Chains, map: &ProtocolMap) -> Vec<DataFile> {
-    let mut shares = DataFile::new(
-        "s05a.csv",
-        &[
-            "chain (text)",
-            "masses (1)",
-            "damping (omega)",
-            "forcing_frequency (omega)",
-            "components (1)",
-            "sigma (d omega^2)",
-            "transient (1/omega)",
-            "share (1)",
-            "standard_error (1)",
-            "chains_with_impacts (1)",
-        ],
-    );
-    let mut places = DataFile::new(
-        "s05b.csv",
-        &[
-            "chain (text)",
-            "masses (1)",
-            "damping (omega)",
-            "transient (1/omega)",
-            "half_height (d omega^2)",
-            "standard_error (d omega^2)",
-        ],
-    );
-    for (own, curve) in chains.all().chain(sizes.all()) {
-        let name = own.name.as_str();
-        for row in &curve.rows {
-            for (time, share) in own.transients.iter().zip(&row.shares) {
-                let share = share.as_ref();
-                shares.row(cells![
-                    name,
-                    own.masses,
-                    own.damping,
-                    own.forcing_frequency,
-                    own.components,
-                    row.sigma,
-                    *time,
-                    share.map(|own| own.value),
-                    share.map(|own| own.error),
-                    alive(row).1.value
-                ]);
-            }
-        }
-        for (time, half) in halves(own, curve) {
-            places.row(cells![name, own.masses, own.damping, time, half.value, half.error]);
-        }
-    }
-    for (time, half) in of_map(chains, map) {
-        let masses = map.parameters.chain.masses;
-        places.row(cells!["map", masses, 0.0, time, half.value, half.error]);
-    }
-    let mut expected = DataFile::new(
-        "s05d.csv",
-        &["chain (text)", "sigma (d omega^2)", "share_all_phases (1)", "share_common_period (1)"],
-    );
-    for (own, curve) in chains.of(ChainKind::Frequency) {
-        for [sigma, ever, there] in &curve.kept_expected {
-            expected.row(cells![own.name.as_str(), *sigma, *ever, *there]);
-        }
-    }
-    vec![shares, places, expected]
 }

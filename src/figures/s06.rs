@@ -1,15 +1,6 @@
 //! Fig. S6: what becomes of the most likely number, its jump and its distribution for many vertices.
 
-use super::axis::{Axis, log};
-use super::chart::{LETTERS, short};
-use super::data::cells;
-use super::panel::Frame;
-use super::series::Outside;
-use super::sheet::{Entry, Sheet};
-use super::style::{
-    BLUE, Colour, Dash, GREEN, INK, LINE, Mark, ORANGE, PURPLE, RED, SMALL, Stroke, THIN,
-};
-use super::{DataFile, Error, Figure};
+use super::prelude::*;
 use crate::experiments::theory::{Large, PoissonCell};
 
 /// The p N in (a): around the onset, where the sizes differ.
@@ -29,7 +20,7 @@ pub fn draw(large: &Large) -> Result<Figure, Error> {
     shares(&sheet, large)?;
     jumps(&sheet, large)?;
     poisson(&sheet, large)?;
-    Ok(sheet.finish("s06", "The theory at large N", DESCRIPTION.into(), tables(large)))
+    Ok(sheet.finish("s06", "The theory at large N", DESCRIPTION.into()))
 }
 
 /// A power of ten as the figures write it.
@@ -38,12 +29,9 @@ fn power(vertices: usize) -> String {
 }
 
 fn shares(sheet: &Sheet, large: &Large) -> Result<(), Error> {
-    let panel = sheet.panel(
-        Frame::new(1150, 430, 8150, 3730),
-        Axis::linear(RANGE.0, RANGE.1, 0.25, 5, "*p N*"),
-        Axis::linear(0.0, 0.6, 0.1, 2, "*k*^{∗}/*N*"),
-    )?;
-    panel.letter(LETTERS[0])?;
+    let x = Axis::linear(RANGE.0, RANGE.1, 0.25, 5, "*p N*");
+    let y = Axis::linear(0.0, 0.6, 0.1, 2, "*k*^{∗}/*N*");
+    let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 8150, 3730), x, y)?;
     let mut entries = Vec::new();
     for (own, (colour, dash)) in large.shares.iter().zip(SIZES) {
         let points: Vec<_> = own.rows.iter().map(|row| (row.x, row.y)).collect();
@@ -59,83 +47,39 @@ fn shares(sheet: &Sheet, large: &Large) -> Result<(), Error> {
 }
 
 fn jumps(sheet: &Sheet, large: &Large) -> Result<(), Error> {
-    let panel = sheet.panel(
-        Frame::new(1150, 5250, 4050, 7650),
-        Axis::decades(1, 6, 1, "*N*"),
-        Axis::decades(-3, 0, 1, "*k*^{∗}/*N* at the jump"),
-    )?;
-    panel.letter(LETTERS[1])?;
-    let rule: Vec<_> = large
-        .jumps
-        .iter()
-        .filter_map(|own| Some((log(own.vertices as f64), log(own.rule? / own.vertices as f64))))
-        .collect();
+    let x = Axis::decades(1, 6, 1, "*N*");
+    let y = Axis::decades(-3, 0, 1, "*k*^{∗}/*N* at the jump");
+    let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 5250, 4050, 7650), x, y)?;
+    let share = |n: usize, k: f64| (n as f64, k / n as f64);
+    let rule = large.jumps.iter().filter_map(|own| Some(share(own.vertices, own.rule?)));
+    let rule: Vec<_> = rule.collect();
     let line = Stroke::solid(INK, THIN);
     panel.curve("rule", &rule, line, Outside::Refuse)?;
-    let exact: Vec<_> =
-        large.jumps.iter().map(|own| (log(own.vertices as f64), log(own.share))).collect();
+    let exact: Vec<_> = large.jumps.iter().map(|own| (own.vertices as f64, own.share)).collect();
     let disc = (Mark::Disc, 55, Stroke::solid(GREEN, THIN));
     panel.marks("exact", &exact, disc, Outside::Refuse)?;
-    let entries = [
-        Entry::mark(disc.0, disc.1, disc.2, "exact"),
-        Entry::line(line, "*k*^{2} = 2*N*(ln *k* − 1)"),
-    ];
+    let entries = [Entry::mark(disc, "exact"), Entry::line(line, "*k*^{2} = 2*N*(ln *k* − 1)")];
     sheet.legend((900, 8750), (SMALL, 370), &entries)
 }
 
 fn poisson(sheet: &Sheet, large: &Large) -> Result<(), Error> {
-    let panel = sheet.panel(
-        Frame::new(5350, 5250, 8150, 7650),
-        Axis::decades(2, 6, 1, "*N*"),
-        Axis::decades(-4, 0, 1, "distance from Poisson"),
-    )?;
-    panel.letter(LETTERS[2])?;
+    let (x, y) = (Axis::decades(2, 6, 1, "*N*"), Axis::decades(-4, 0, 1, "distance from Poisson"));
+    let panel = sheet.lettered(LETTERS[2], Frame::new(5350, 5250, 8150, 7650), x, y)?;
     let mut entries = Vec::new();
     for (own, (colour, mark)) in large.poisson.iter().zip(LOOKS) {
         let name = format!("p N = {}", short(own.p_n, 2));
         let at = |of: fn(&PoissonCell) -> f64| -> Vec<(f64, f64)> {
-            own.cells.iter().map(|cell| (log(cell.vertices as f64), log(of(cell)))).collect()
+            own.cells.iter().map(|cell| (cell.vertices as f64, of(cell))).collect()
         };
         let bound = Stroke::dashed(colour, THIN, Dash::Dotted);
         panel.curve(&format!("bound, {name}"), &at(|cell| cell.bound), bound, Outside::Refuse)?;
         let look = (mark, 55, Stroke::solid(colour, THIN));
         panel.marks(&name, &at(|cell| cell.variation), look, Outside::Refuse)?;
-        entries.push(Entry::mark(
-            look.0,
-            look.1,
-            look.2,
-            &format!("*p N* = {}", short(own.p_n, 2)),
-        ));
+        entries.push(Entry::mark(look, &format!("*p N* = {}", short(own.p_n, 2))));
     }
-    for (i, column) in entries.chunks(2).enumerate() {
-        sheet.legend((4650 + 1800 * i as i32, 8750), (SMALL, 370), column)?;
-    }
-    Ok(())
+    sheet.legend_in_columns((4650, 8750), (SMALL, 370), (2, 1800), &entries)
 }
 
 const DESCRIPTION: &str = "(a) The most likely number over N against p N: zero, a jump soon after p N = 1, then a curve; the larger N, the \
      smaller the jump. (b) Height of the jump against N, with the rule. (c) Distance of N − X from a Poisson variable, \
      falling with the root of N below its bounds.";
-
-fn tables(large: &Large) -> Vec<DataFile> {
-    let mut shares = DataFile::new("s06a.csv", &["N (1)", "p_N (1)", "k_star_over_N (1)"]);
-    for own in &large.shares {
-        for row in &own.rows {
-            shares.row(cells![own.vertices, row.x, row.y]);
-        }
-    }
-    let header = ["N (1)", "p_jump (1)", "k_star_after (1)", "k_star_over_N (1)", "k_rule (1)"];
-    let mut jumps = DataFile::new("s06b.csv", &header);
-    for own in &large.jumps {
-        jumps.row(cells![own.vertices, own.p, own.k_after, own.share, own.rule]);
-    }
-    let header =
-        ["p_N (1)", "N (1)", "total_variation (1)", "bound (1)", "N_minus_1_over_p_minus_mean (1)"];
-    let mut poisson = DataFile::new("s06c.csv", &header);
-    for row in &large.poisson {
-        for cell in &row.cells {
-            poisson.row(cells![row.p_n, cell.vertices, cell.variation, cell.bound, cell.mean_gap]);
-        }
-    }
-    vec![shares, jumps, poisson]
-}

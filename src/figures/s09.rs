@@ -1,17 +1,8 @@
 //! Fig. S9: successive impacts, circuits and different gaps beside independent impacts.
 
-use super::axis::{Axis, log};
-use super::chart::{LETTERS, short};
-use super::panel::Frame;
-use super::series::Outside;
-use super::sheet::{Entry, Sheet};
-use super::style::{BLUE, Colour, Dash, INK, LINE, Mark, ORANGE, PURPLE, RED, SMALL, Stroke, THIN};
-use super::{DataFile, Error, Figure};
+use super::prelude::*;
 use crate::experiments::Results;
 use crate::table::Table;
-
-/// The half size of marks.
-const SIZE: i32 = 52;
 
 /// Looks of the ensembles, by rising σ.
 const LOOKS: [(Mark, Colour); 4] = [
@@ -33,9 +24,7 @@ pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
     distances(&sheet, near)?;
     circuits(&sheet, frequencies)?;
     different(&sheet, blocks, *rising.values("gaps").first().unwrap_or(&1.0))?;
-    let data = [near, frequencies, blocks].map(DataFile::of);
-    let title = "Successive impacts beside independent ones";
-    Ok(sheet.finish("s09", title, description(rising), data.into()))
+    Ok(sheet.finish("s09", "Successive impacts beside independent ones", description(rising)))
 }
 
 fn looked(table: &Table) -> Vec<(f64, (Mark, Colour))> {
@@ -58,20 +47,18 @@ fn named(sigma: f64) -> String {
 
 fn distances(sheet: &Sheet, near: &Table) -> Result<(), Error> {
     let far = near.values("distance").len() as f64;
-    let panel = sheet.panel(
-        Frame::new(1150, 480, 8150, 3380),
-        Axis::linear(-0.5, far - 0.5, 5.0, 5, "distance |*i* − *j*| from one impact to the next"),
-        Axis::linear(0.0, 1.6, 0.5, 5, "observed / independent"),
-    )?;
-    panel.letter(LETTERS[0])?;
+    let x =
+        Axis::linear(-0.5, far - 0.5, 5.0, 5, "distance |*i* − *j*| from one impact to the next");
+    let y = Axis::linear(0.0, 1.6, 0.5, 5, "observed / independent");
+    let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 480, 8150, 3380), x, y)?;
     let level = Stroke::solid(INK, LINE);
-    panel.curve("independent", &[(-0.5, 1.0), (far - 0.5, 1.0)], level, Outside::Refuse)?;
+    panel.level("independent", 1.0, level)?;
     let mut entries = vec![Entry::line(level, "independent")];
     for (sigma, (mark, colour)) in looked(near) {
         let thin = Stroke::solid(colour, THIN);
         let known = near.estimates(&[("sigma", sigma)], "distance", "over_independent");
-        panel.estimates(&named(sigma), &known, (mark, SIZE, thin), |y| y)?;
-        entries.push(Entry::mark(mark, SIZE, thin, &named(sigma)));
+        panel.estimates(&named(sigma), &known, (mark, MEDIUM, thin))?;
+        entries.push(Entry::mark((mark, MEDIUM, thin), &named(sigma)));
     }
     let (line, marks) = entries.split_at(1);
     sheet.legend((3300, 2250), (SMALL, 310), line)?;
@@ -79,16 +66,13 @@ fn distances(sheet: &Sheet, near: &Table) -> Result<(), Error> {
 }
 
 fn circuits(sheet: &Sheet, found: &Table) -> Result<(), Error> {
-    let panel = sheet.panel(
-        Frame::new(1150, 4780, 4450, 7380),
-        Axis::linear(0.0, LONGEST, 20.0, 4, "length *k*"),
-        Axis::decades(-6, -1, 1, "frequency"),
-    )?;
-    panel.letter(LETTERS[1])?;
+    let x = Axis::linear(0.0, LONGEST, 20.0, 4, "length *k*");
+    let y = Axis::decades(-6, -1, 1, "frequency");
+    let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 4780, 4450, 7380), x, y)?;
     let line = Stroke::solid(INK, LINE);
     let points = |sigma: f64, column: &str| -> Vec<(f64, f64)> {
         let all = found.points(&[("sigma", sigma)], "k", column).into_iter();
-        all.filter(|at| at.0 <= LONGEST && at.1 > 0.0).map(|(k, share)| (k, log(share))).collect()
+        all.filter(|at| at.0 <= LONGEST).collect()
     };
     let equal = found.values("sigma").first().map(|sigma| points(*sigma, "equal"));
     panel.curve("equal and independent", &equal.unwrap_or_default(), line, Outside::Cut)?;
@@ -100,9 +84,9 @@ fn circuits(sheet: &Sheet, found: &Table) -> Result<(), Error> {
         let name = format!("measured matrix, {}", named(sigma));
         panel.curve(&name, &points(sigma, "matrix"), dashed, Outside::Cut)?;
         lines.push(Entry::line(dashed, &name));
-        let look = (mark, SIZE * 2 / 3, thin);
+        let look = (mark, MEDIUM * 2 / 3, thin);
         panel.marks(&named(sigma), &points(sigma, "measured"), look, Outside::Cut)?;
-        marks.push(Entry::mark(mark, SIZE, thin, &format!("measured, {}", named(sigma))));
+        marks.push(Entry::mark((mark, MEDIUM, thin), &format!("measured, {}", named(sigma))));
     }
     sheet.legend((500, 8420), (SMALL, 340), &lines)?;
     sheet.legend((4950, 8420), (SMALL, 340), &marks)
@@ -114,12 +98,9 @@ fn matrix(colour: Colour) -> Stroke {
 }
 
 fn different(sheet: &Sheet, found: &Table, gaps: f64) -> Result<(), Error> {
-    let panel = sheet.panel(
-        Frame::new(5550, 4780, 8150, 7380),
-        Axis::linear(0.0, 3.0, 1.0, 4, "impacts, *m*/*N*"),
-        Axis::linear(0.0, 1.0, 0.2, 2, "different gaps/*N*"),
-    )?;
-    panel.letter(LETTERS[2])?;
+    let x = Axis::linear(0.0, 3.0, 1.0, 4, "impacts, *m*/*N*");
+    let y = Axis::linear(0.0, 1.0, 0.2, 2, "different gaps/*N*");
+    let panel = sheet.lettered(LETTERS[2], Frame::new(5550, 4780, 8150, 7380), x, y)?;
     let points = |sigma: f64, column: &str| -> Vec<(f64, f64)> {
         let all = found.points(&[("sigma", sigma)], "impacts", column).into_iter();
         all.map(|(m, own)| (m / gaps, own / gaps)).collect()
@@ -131,7 +112,7 @@ fn different(sheet: &Sheet, found: &Table, gaps: f64) -> Result<(), Error> {
     for (sigma, (mark, colour)) in ends(found) {
         let name = format!("measured matrix, {}", named(sigma));
         panel.curve(&name, &points(sigma, "matrix"), matrix(colour), Outside::Cut)?;
-        let look = (mark, SIZE, Stroke::solid(colour, THIN));
+        let look = (mark, MEDIUM, Stroke::solid(colour, THIN));
         panel.marks(&named(sigma), &points(sigma, "measured"), look, Outside::Cut)?;
     }
     Ok(())

@@ -1,17 +1,7 @@
 //! Fig. S10: periodic orbits from circuits.
 
-use plotters::style::text_anchor::{HPos, VPos};
-
-use super::axis::Axis;
-use super::chart::{LETTERS, short, upwards_from_zero};
-use super::data::cells;
-use super::panel::{Frame, Panel};
-use super::series::Outside;
-use super::sheet::{Entry, Sheet};
-use super::style::{
-    BLUE, Colour, Dash, GREEN, GREY, HAIR, INK, LINE, Mark, ORANGE, RED, SMALL, Stroke, THIN,
-};
-use super::{DataFile, Error, Figure};
+use super::SIGMA;
+use super::prelude::*;
 use crate::experiments::Results;
 use crate::experiments::orbits::{Example, Orbits, Row};
 
@@ -26,14 +16,11 @@ const MARKS: [[Mark; 2]; 4] = [
     [Mark::Triangle, Mark::OpenTriangle],
 ];
 
-/// The half size of marks.
-const SIZE: i32 = 52;
-
 /// The end of the axes of (c): multipliers beyond it are told by their number.
 const REACH: f64 = 2.0;
 
 /// The σ of (c), or the last if it was not run.
-const SIGMA: f64 = 0.3;
+const DRAWN: f64 = 0.3;
 
 /// Draws the figure.
 pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
@@ -44,26 +31,22 @@ pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
     }
     shares(&sheet, orbits)?;
     plane(&sheet, orbits)?;
-    let mut files = tables(orbits);
-    files.push(DataFile::of(results.table("orbits.lengths")?));
-    Ok(sheet.finish("s10", "Periodic orbits from circuits", description(orbits), files))
+    Ok(sheet.finish("s10", "Periodic orbits from circuits", description(orbits)))
 }
 
 fn motion(sheet: &Sheet, example: &Example) -> Result<(), Error> {
     let masses = example.positions.len();
     let wall = (masses + 1) as f64;
     // A mass may be anywhere between the walls.
-    let panel = sheet.panel(
-        Frame::new(1150, 430, 7900, 3630),
-        Axis::linear(0.0, example.period, 0.5, 1, "time *t* (1/*ω*), one period"),
-        Axis::linear(0.0, wall, 1.0, 2, "position *x*_{*j*} / *d*"),
-    )?;
-    panel.letter(LETTERS[0])?;
-    let top = [(0.0, wall), (example.period, wall)];
-    panel.curve("right wall", &top, Stroke::solid(INK, HAIR), Outside::Refuse)?;
-    for (place, colour) in example.positions.iter().zip(COLOURS) {
+    let time = Axis::linear(0.0, example.period, 0.5, 1, "time *t* (1/*ω*), one period");
+    let x = time.column("time (1/omega)");
+    let y = Axis::linear(0.0, wall, 1.0, 2, "position *x*_{*j*} / *d*");
+    let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 7900, 3630), x, y)?;
+    panel.level("right wall", wall, Stroke::solid(INK, HAIR))?;
+    for ((place, colour), j) in example.positions.iter().zip(COLOURS).zip(1..) {
         let points: Vec<_> = example.times.iter().copied().zip(place.iter().copied()).collect();
-        panel.curve("mass", &points, Stroke::solid(colour, LINE), Outside::Cut)?;
+        let own = panel.series(&format!("mass {j}"));
+        own.curve("mass", &points, Stroke::solid(colour, LINE), Outside::Cut)?;
     }
     for (j, place) in example.positions.iter().enumerate() {
         if let Some(end) = place.last() {
@@ -72,7 +55,7 @@ fn motion(sheet: &Sheet, example: &Example) -> Result<(), Error> {
         }
     }
     let impacts: Vec<_> = impacts(example).collect();
-    panel.marks("impacts", &impacts, (Mark::Disc, SIZE, Stroke::solid(INK, THIN)), Outside::Cut)
+    panel.marks("impacts", &impacts, (Mark::Disc, MEDIUM, Stroke::solid(INK, THIN)), Outside::Cut)
 }
 
 /// Where the impacts of an example are: at a mass of the gap, or at the wall.
@@ -88,12 +71,9 @@ fn shares(sheet: &Sheet, orbits: &Orbits) -> Result<(), Error> {
     let all = || orbits.rows.iter().flat_map(|row| &row.lengths);
     let largest = all().map(|own| own.admissible.value + own.admissible.error).fold(0.1, f64::max);
     let last = orbits.rows.iter().map(|row| row.sigma).fold(0.0, f64::max);
-    let panel = sheet.panel(
-        Frame::new(1150, 4950, 4150, 7750),
-        Axis::linear(0.0, if last > 0.35 { 0.7 } else { 0.35 }, 0.1, 2, "*σ*"),
-        upwards_from_zero(largest, "share of circuits"),
-    )?;
-    panel.letter(LETTERS[1])?;
+    let x = Axis::linear(0.0, if last > 0.35 { 0.7 } else { 0.35 }, 0.1, 2, "*σ*").column(SIGMA);
+    let y = upwards_from_zero(largest, "share of circuits");
+    let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 4950, 4150, 7750), x, y)?;
     let mut entries = Vec::new();
     let lengths = orbits.rows.first().map_or(0, |row| row.lengths.len());
     for ((k, colour), [full, open]) in (1..=lengths).zip(COLOURS).zip(MARKS) {
@@ -105,60 +85,39 @@ fn shares(sheet: &Sheet, orbits: &Orbits) -> Result<(), Error> {
         let bars: Vec<_> = of
             .iter()
             .map(|(x, own)| (x, own.admissible.value, own.admissible.error))
-            .map(|(x, y, e)| (*x, (y - e).max(0.0), y + e))
+            .map(|(x, y, e)| (*x, y - e, y + e))
             .collect();
-        panel.bars(&name, &bars, 35, thin)?;
-        series(
-            &panel,
-            &name,
-            &of.iter().map(|(x, own)| (*x, own.admissible.value)).collect::<Vec<_>>(),
-            full,
-            Stroke::solid(colour, LINE),
-        )?;
-        series(
-            &panel,
-            &name,
-            &of.iter().map(|(x, own)| (*x, own.stable.value)).collect::<Vec<_>>(),
-            open,
-            Stroke::dashed(colour, THIN, Dash::Short),
-        )?;
-        entries.push(Entry::mark(full, SIZE, thin, &format!("*k* = {k}")));
+        panel.bars(&name, &bars, 35, thin, Outside::Edge)?;
+        let points: Vec<_> = of.iter().map(|(x, own)| (*x, own.admissible.value)).collect();
+        let line = Stroke::solid(colour, LINE);
+        panel.marked(&name, &points, (line, (full, MEDIUM, line)), Outside::Refuse)?;
+        let points: Vec<_> = of.iter().map(|(x, own)| (*x, own.stable.value)).collect();
+        let stable = panel.series(&format!("{name}, stable"));
+        let broken = Stroke::dashed(colour, THIN, Dash::Short);
+        stable.marked(&name, &points, (broken, (open, MEDIUM, thin)), Outside::Refuse)?;
+        entries.push(Entry::mark((full, MEDIUM, thin), &format!("*k* = {k}")));
     }
     let (left, right) = entries.split_at(entries.len().div_ceil(2));
     sheet.legend((900, 8750), (SMALL, 370), left)?;
     sheet.legend((2200, 8750), (SMALL, 370), right)?;
-    let open = Entry::mark(Mark::Ring, SIZE, Stroke::solid(INK, THIN), "open: stable");
+    let open = Entry::mark((Mark::Ring, MEDIUM, Stroke::solid(INK, THIN)), "open: stable");
     sheet.legend((3500, 8750), (SMALL, 370), &[open])
-}
-
-fn series(
-    panel: &Panel,
-    name: &str,
-    points: &[(f64, f64)],
-    mark: Mark,
-    stroke: Stroke,
-) -> Result<(), Error> {
-    panel.curve(name, points, stroke, Outside::Refuse)?;
-    panel.marks(name, points, (mark, SIZE, Stroke { dash: Dash::Solid, ..stroke }), Outside::Refuse)
 }
 
 /// The row whose multipliers are drawn.
 fn chosen(orbits: &Orbits) -> Option<&Row> {
-    orbits.rows.iter().find(|row| row.sigma == SIGMA).or(orbits.rows.last())
+    orbits.rows.iter().find(|row| row.sigma == DRAWN).or(orbits.rows.last())
 }
 
 fn plane(sheet: &Sheet, orbits: &Orbits) -> Result<(), Error> {
-    let panel = sheet.panel(
-        Frame::new(5350, 4950, 8150, 7750),
-        Axis::linear(-REACH, REACH, 1.0, 2, "Re *λ*"),
-        Axis::linear(-REACH, REACH, 1.0, 2, "Im *λ*"),
-    )?;
-    panel.letter(LETTERS[2])?;
+    let x = Axis::linear(-REACH, REACH, 1.0, 2, "Re *λ*");
+    let y = Axis::linear(-REACH, REACH, 1.0, 2, "Im *λ*");
+    let panel = sheet.lettered(LETTERS[2], Frame::new(5350, 4950, 8150, 7750), x, y)?;
     let circle: Vec<_> = (0..=180)
         .map(|i| pxfm::f_sincos(f64::from(i) * std::f64::consts::PI / 90.0))
         .map(|(sin, cos)| (cos, sin))
         .collect();
-    panel.curve("unit circle", &circle, Stroke::solid(GREY, THIN), Outside::Refuse)?;
+    panel.guide("unit circle", &circle, Stroke::solid(GREY, THIN))?;
     let Some(row) = chosen(orbits) else { return Ok(()) };
     let looks =
         [("unstable orbits", Mark::Ring, ORANGE, false), ("stable orbits", Mark::Disc, BLUE, true)];
@@ -168,7 +127,7 @@ fn plane(sheet: &Sheet, orbits: &Orbits) -> Result<(), Error> {
             own.flat_map(|f| f.multipliers.iter().map(|[re, im]| (*re, *im))).collect();
         let stroke = Stroke::solid(colour, THIN);
         panel.marks(name, &points, (mark, 32, stroke), Outside::Cut)?;
-        let entry = Entry::mark(mark, SIZE, stroke, name);
+        let entry = Entry::mark((mark, MEDIUM, stroke), name);
         sheet.legend((5750, 8750 + 370 * place as i32), (SMALL, 370), &[entry])?;
     }
     Ok(())
@@ -183,27 +142,4 @@ fn description(orbits: &Orbits) -> String {
          circuits with an orbit against σ, falling with their length; far below, dashed, with a stable one. (c) Multipliers: stable \
          ones inside the unit circle, unstable ones along the real axis.",
     )
-}
-
-fn tables(orbits: &Orbits) -> Vec<DataFile> {
-    let mut motion = DataFile::new("s10a.csv", &["time (1/omega)", "mass (1)", "position (d)"]);
-    if let Some(example) = &orbits.example {
-        for (mass, places) in example.positions.iter().enumerate() {
-            let places = example.times.iter().zip(places);
-            places.for_each(|(time, place)| motion.row(cells![*time, mass + 1, *place]));
-        }
-    }
-    let mut plane =
-        DataFile::new("s10c.csv", &["sigma (d omega^2)", "circuit (text)", "re (1)", "im (1)"]);
-    if let Some(row) = chosen(orbits) {
-        for found in &row.found {
-            let circuit: Vec<String> =
-                orbits.circuits[found.circuit].iter().map(usize::to_string).collect();
-            let circuit = circuit.join("-");
-            for [re, im] in &found.multipliers {
-                plane.row(cells![row.sigma, circuit.as_str(), *re, *im]);
-            }
-        }
-    }
-    vec![motion, plane]
 }

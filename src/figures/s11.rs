@@ -1,23 +1,13 @@
 //! Fig. S11: the rise, the heat and contact at several restitutions.
 
-use super::axis::{Axis, log};
-use super::chart::short;
-use super::panel::Frame;
-use super::series::Outside;
-use super::sheet::{Entry, Sheet};
-use super::style::{
-    BLUE, Colour, Dash, GREEN, INK, LINE, Mark, ORANGE, PURPLE, RED, SMALL, Stroke, THIN,
-};
-use super::{DataFile, Error, Figure};
+use super::prelude::*;
+use super::{FORCING, SIGMA};
 use crate::experiments::Results;
 use crate::experiments::restitution::Restitution;
 use crate::experiments::restitution::hot::steady;
 use crate::experiments::restitution::tables::able;
 use crate::params::Chain;
 use crate::table::Table;
-
-/// The half size of marks.
-const SIZE: i32 = 52;
 
 /// Restitutions of (a), and their looks.
 const RISES: [(f64, Mark, Colour); 5] = [
@@ -45,7 +35,6 @@ struct Shown<'a> {
     rise: &'a Table,
     curves: &'a Table,
     heating: &'a Table,
-    heated: &'a Table,
 }
 
 /// Draws the figure.
@@ -56,7 +45,6 @@ pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
         rise: table("restitution.rise")?,
         curves: table("restitution.curves")?,
         heating: table("restitution.heating")?,
-        heated: table("restitution.heated")?,
     };
     let sheet = Sheet::new(14_000, note)?;
     rises(&sheet, &shown)?;
@@ -65,8 +53,7 @@ pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
     heating(&sheet, &shown)?;
     contact(&sheet, &shown)?;
     let title = "The rise, the heat and contact at several restitutions";
-    let data = [shown.rise, shown.curves, shown.heating, shown.heated].map(DataFile::of);
-    Ok(sheet.finish("s11", title, description(&shown), data.into()))
+    Ok(sheet.finish("s11", title, description(&shown)))
 }
 
 fn named(r: f64) -> String {
@@ -76,41 +63,31 @@ fn named(r: f64) -> String {
 fn rises(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
     let gaps = shown.found.parameters.chain.gaps() as f64;
     let last = shown.found.parameters.sigmas.iter().copied().fold(0.0, f64::max);
-    let panel = sheet.panel(
-        Frame::new(1150, 430, 8150, 3230),
-        Axis::linear(0.05, last + 0.02, 0.1, 5, "standard deviation *σ* of the forcing"),
-        Axis::linear(0.0, 105.0, 20.0, 4, "mean count"),
-    )?;
-    panel.letter("(a)")?;
+    let x = Axis::linear(0.05, last + 0.02, 0.1, 5, FORCING).column(SIGMA);
+    let y = Axis::linear(0.0, 105.0, 20.0, 4, "mean count");
+    let panel = sheet.lettered("(a)", Frame::new(1150, 430, 8150, 3230), x, y)?;
     let half = Stroke::dashed(INK, THIN, Dash::Short);
     let level = [(0.05, 0.5 * gaps), (0.4, 0.5 * gaps)];
-    panel.curve("half of all gaps", &level, half, Outside::Cut)?;
+    panel.guide("half of all gaps", &level, half)?;
     let mut entries = Vec::new();
     for (r, mark, colour) in RISES {
         let points = shown.rise.estimates(&[("r", r)], "sigma", "mean_count");
         if points.is_empty() {
             continue;
         }
-        let line = shown.rise.points(&[("r", r)], "sigma", "mean_count");
-        let thin = Stroke::solid(colour, THIN);
-        panel.curve(&named(r), &line, thin, Outside::Refuse)?;
-        panel.estimates(&named(r), &points, (mark, SIZE, thin), |y| y)?;
-        entries.push(Entry::mark(mark, SIZE, thin, &named(r)));
+        let look = (mark, MEDIUM, Stroke::solid(colour, THIN));
+        panel.joined(&named(r), &points, look)?;
+        entries.push(Entry::mark(look, &named(r)));
     }
     sheet.legend((6350, 1750), (SMALL, 310), &entries)
 }
 
 fn places(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
-    let panel = sheet.panel(
-        Frame::new(1150, 4700, 4150, 7200),
-        Axis::linear(0.0, 1.0, 0.2, 2, "restitution *r*"),
-        Axis::linear(0.0, 0.35, 0.1, 4, "*σ* at half height"),
-    )?;
-    panel.letter("(b)")?;
-    let line = shown.curves.points(&[], "r", "half_height");
-    panel.curve("half height", &line, Stroke::solid(RED, THIN), Outside::Refuse)?;
+    let x = Axis::linear(0.0, 1.0, 0.2, 2, "restitution *r*");
+    let y = Axis::linear(0.0, 0.35, 0.1, 4, "*σ* at half height").column("half_height (d omega^2)");
+    let panel = sheet.lettered("(b)", Frame::new(1150, 4700, 4150, 7200), x, y)?;
     let points = shown.curves.estimates(&[], "r", "half_height");
-    panel.estimates("half height", &points, (Mark::Disc, SIZE, Stroke::solid(RED, THIN)), |y| y)
+    panel.joined("half height", &points, (Mark::Disc, MEDIUM, Stroke::solid(RED, THIN)))
 }
 
 /// s²/σ² of the balance with little loss at one σ.
@@ -120,14 +97,10 @@ fn little_loss(found: &Restitution, sigma: f64, lost: f64) -> f64 {
 }
 
 fn warmth(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
-    let panel = sheet.panel(
-        Frame::new(5350, 4700, 8150, 7200),
-        Axis::decades(-3, 0, 1, "1 − *r*"),
-        Axis::decades(0, 3, 1, "*s*^{2}/*σ*^{2}"),
-    )?;
-    panel.letter("(c)")?;
+    let (x, y) = (Axis::decades(-3, 0, 1, "1 − *r*"), Axis::decades(0, 3, 1, "*s*^{2}/*σ*^{2}"));
+    let panel = sheet.lettered("(c)", Frame::new(5350, 4700, 8150, 7200), x, y)?;
     let losses = || (0..=60).map(|i| pxfm::f_exp10(-3.0 + 0.05 * f64::from(i)));
-    let rare = |lost: f64| (log(lost), log(2.0 * (2.0 - lost) / lost));
+    let rare = |lost: f64| (lost, 2.0 * (2.0 - lost) / lost);
     let solid = Stroke::solid(INK, LINE);
     panel.curve("rare impacts", &losses().map(rare).collect::<Vec<_>>(), solid, Outside::Cut)?;
     let until = shown.heating.values("window_end").last().copied().unwrap_or_default();
@@ -138,20 +111,21 @@ fn warmth(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
             points.extend(shown.heating.estimates(&[("window_end", until)], "r", "variance_ratio"));
         }
         points.retain(|(r, _)| *r < 1.0);
-        points.iter_mut().for_each(|(r, _)| *r = log(1.0 - *r));
-        let name = format!("*σ* = {sigma}");
-        panel.estimates(&name, &points, (mark, SIZE, Stroke::solid(colour, THIN)), log)?;
-        marks.push(Entry::mark(mark, SIZE, Stroke::solid(colour, THIN), &name));
+        points.iter_mut().for_each(|(r, _)| *r = 1.0 - *r);
+        let (name, look) = (format!("*σ* = {sigma}"), (mark, MEDIUM, Stroke::solid(colour, THIN)));
+        panel.estimates(&name, &points, look)?;
+        marks.push(Entry::mark(look, &name));
         // The law is for hot chains, and drawn where little is lost.
         let curve: Vec<_> = losses()
             .filter(|lost| *lost <= 0.1)
-            .map(|lost| (log(lost), log(little_loss(shown.found, sigma, lost))))
+            .map(|lost| (lost, little_loss(shown.found, sigma, lost)))
             .collect();
         panel.curve(&format!("little loss, {name}"), &curve, little(colour), Outside::Cut)?;
     }
-    let lines = [Entry::line(solid, "rare impacts"), Entry::line(little(INK), "little loss")];
-    sheet.legend((4850, 8150), (SMALL, 340), &lines)?;
-    sheet.legend((6800, 8150), (SMALL, 340), &marks)
+    let mut entries =
+        vec![Entry::line(solid, "rare impacts"), Entry::line(little(INK), "little loss")];
+    entries.extend(marks);
+    sheet.legend_in_columns((4850, 8150), (SMALL, 340), (2, 1950), &entries)
 }
 
 /// The line of the law for little loss.
@@ -162,60 +136,51 @@ fn little(colour: Colour) -> Stroke {
 /// A line's entry above those of marks, which stand in two columns.
 fn legend(sheet: &Sheet, left: i32, line: Entry, marks: &[Entry]) -> Result<(), Error> {
     sheet.legend((left, 12_850), (SMALL, 340), &[line])?;
-    let (first, second) = marks.split_at(marks.len().div_ceil(2));
-    sheet.legend((left, 13_190), (SMALL, 340), first)?;
-    sheet.legend((left + 1650, 13_190), (SMALL, 340), second)
+    let columns = (marks.len().div_ceil(2), 1650);
+    sheet.legend_in_columns((left, 13_190), (SMALL, 340), columns, marks)
 }
 
 fn heating(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
-    let panel = sheet.panel(
-        Frame::new(1150, 9400, 4150, 11_900),
-        Axis::decades(1, 4, 1, "time *t* (1/*ω*)"),
-        Axis::decades(1, 3, 1, "impacts per unit time"),
-    )?;
-    panel.letter("(d)")?;
+    let x = Axis::decades(1, 4, 1, "time *t* (1/*ω*)");
+    let y = Axis::decades(1, 3, 1, "impacts per unit time");
+    let panel = sheet.lettered("(d)", Frame::new(1150, 9400, 4150, 11_900), x, y)?;
     // A window stands at its middle on the logarithmic axis; the first has none.
     let ends = shown.heating.values("window_end");
     let middle = |end: f64| {
         let before = ends.iter().copied().take_while(|own| *own < end).last()?;
-        Some(0.5 * (log(before) + log(end)))
+        Some((before * end).sqrt())
     };
     let table = shown.heating;
     let solid = Stroke::solid(INK, LINE);
     let law = table.points(&[("r", 1.0)], "window_end", "impacts_lossless");
-    let law: Vec<_> =
-        law.iter().filter_map(|(end, own)| Some((middle(*end)?, log(*own)))).collect();
+    let law: Vec<_> = law.iter().filter_map(|(end, own)| Some((middle(*end)?, *own))).collect();
     panel.curve("hot, without loss", &law, solid, Outside::Cut)?;
     let mut entries = Vec::new();
     for (r, (mark, colour)) in table.values("r").into_iter().rev().zip(LOOKS) {
         let points = table.estimates(&[("r", r)], "window_end", "impacts");
         let points: Vec<_> =
             points.iter().filter_map(|(end, own)| Some((middle(*end)?, *own))).collect();
-        let thin = Stroke::solid(colour, THIN);
-        panel.estimates(&named(r), &points, (mark, SIZE, thin), log)?;
-        entries.push(Entry::mark(mark, SIZE, thin, &named(r)));
+        let look = (mark, MEDIUM, Stroke::solid(colour, THIN));
+        panel.estimates(&named(r), &points, look)?;
+        entries.push(Entry::mark(look, &named(r)));
     }
     legend(sheet, 900, Entry::line(solid, "expected at *r* = 1"), &entries)
 }
 
 fn contact(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
-    let panel = sheet.panel(
-        Frame::new(5350, 9400, 8150, 11_900),
-        Axis::linear(0.1, 0.65, 0.1, 2, "*σ*"),
-        Axis::decades(-4, 0, 1, "share of gaps"),
-    )?;
-    panel.letter("(e)")?;
+    let x = Axis::linear(0.1, 0.65, 0.1, 2, "*σ*").column(SIGMA);
+    let y = Axis::decades(-4, 0, 1, "share of gaps");
+    let panel = sheet.lettered("(e)", Frame::new(5350, 9400, 8150, 11_900), x, y)?;
     let solid = Stroke::solid(INK, LINE);
     let sigmas = (20..=120).map(|i| f64::from(i) / 200.0);
-    let curve: Vec<_> = sigmas.map(|x| (x, log(able(&shown.found.parameters, x)))).collect();
+    let curve: Vec<_> = sigmas.map(|x| (x, able(&shown.found.parameters, x))).collect();
     panel.curve("can be pressed", &curve, solid, Outside::Cut)?;
     let mut entries = Vec::new();
     for (r, (mark, colour)) in shown.rise.values("r").into_iter().zip(LOOKS) {
-        let mut points = shown.rise.estimates(&[("r", r)], "sigma", "share_in_contact");
-        points.retain(|(_, own)| own.value > 0.0);
-        let thin = Stroke::solid(colour, THIN);
-        panel.estimates(&named(r), &points, (mark, SIZE, thin), log)?;
-        entries.push(Entry::mark(mark, SIZE, thin, &named(r)));
+        let points = shown.rise.estimates(&[("r", r)], "sigma", "share_in_contact");
+        let look = (mark, MEDIUM, Stroke::solid(colour, THIN));
+        panel.estimates(&named(r), &points, look)?;
+        entries.push(Entry::mark(look, &named(r)));
     }
     legend(sheet, 4950, Entry::line(solid, "|Δ*F*| > *dω*^{2}"), &entries)
 }

@@ -1,16 +1,7 @@
 //! Fig. S14: what a method does to the mean number of gaps that impact, against counted work.
 
-use plotters::style::text_anchor::{HPos, VPos};
-
-use super::axis::{Axis, Tick, log, number};
-use super::chart::{LETTERS, short};
-use super::data::cells;
-use super::panel::Frame;
-use super::rivals::{decades_around, entries, look, name};
-use super::series::Outside;
-use super::sheet::Sheet;
-use super::style::{GREY, HAIR, INK, PALE, SMALL, Stroke};
-use super::{DataFile, Error, Figure};
+use super::prelude::*;
+use super::rivals::{entries, look, name};
 use crate::experiments::accuracy::bias::{BiasRow, Biases};
 
 /// Within this share of the mean a method is good enough for the mean.
@@ -22,19 +13,13 @@ fn percent(row: &BiasRow) -> Option<[f64; 2]> {
     Some([100.0 * row.bias? / own, 100.0 * row.error.unwrap_or(0.0) / own])
 }
 
-/// A bias as the axis shows it: linear near zero, a logarithm with a sign beyond.
-fn signed(bias: f64) -> f64 {
-    log(1.0 + bias.abs()).copysign(bias)
-}
-
 /// The axis of all panels, in per cent.
 fn symmetric() -> Axis {
     let ticks = [-100_i32, -10, -1, 0, 1, 10, 100].map(|at| Tick {
-        at: signed(f64::from(at)), // There is no room for one beside zero.
+        at: f64::from(at), // There is no room for one beside zero.
         label: (at.abs() != 1).then(|| number(f64::from(at), 0)),
     });
-    let end = signed(150.0);
-    Axis { lo: -end, hi: end, label: "bias (%)".into(), ticks: ticks.into() }
+    Axis::new(Scale::Symmetric, [-150.0, 150.0], "bias (%)", ticks.into())
 }
 
 /// Draws the figure.
@@ -47,24 +32,24 @@ pub fn draw(biases: &Biases, note: Option<&str>) -> Result<Figure, Error> {
     for (i, sigma) in sigmas.iter().enumerate() {
         let last = i + 1 == sigmas.len();
         let rows: Vec<&BiasRow> = biases.rows.iter().filter(|row| row.sigma == *sigma).collect();
-        let x = decades_around(costs(), 1, "evaluations per impact");
+        let x = Axis::around(costs(), 1, "evaluations per impact");
         let top = 430 + 2500 * i as i32;
-        let panel = sheet.panel(
+        let panel = sheet.lettered(
+            LETTERS[i.min(LETTERS.len() - 1)],
             Frame::new(1300, top, 8150, top + 1900),
             if last { x } else { x.bare() },
             symmetric(),
         )?;
-        panel.letter(LETTERS[i.min(LETTERS.len() - 1)])?;
         let words = (SMALL, INK, HPos::Right, VPos::Bottom);
         panel.note(&format!("*σ* = {sigma}"), (panel.x.hi, panel.y.hi), (0, -80), words)?;
         let (a, b) = (panel.x.lo, panel.x.hi);
         panel.area(
             "within one per cent",
-            &[(a, signed(-GOOD)), (b, signed(-GOOD)), (b, signed(GOOD)), (a, signed(GOOD))],
+            &[(a, -GOOD), (b, -GOOD), (b, GOOD), (a, GOOD)],
             PALE,
             100,
         )?;
-        panel.curve("zero", &[(a, 0.0), (b, 0.0)], Stroke::solid(GREY, HAIR), Outside::Refuse)?;
+        panel.level("zero", 0.0, Stroke::solid(GREY, HAIR))?;
         for row in rows {
             let (Some([bias, error]), Some(cost)) = (percent(row), row.evaluations_per_impact)
             else {
@@ -72,20 +57,14 @@ pub fn draw(biases: &Biases, note: Option<&str>) -> Result<Figure, Error> {
             };
             let look = look(row.setting.method);
             let label = name(row.setting.method);
-            panel.bars(
-                label,
-                &[(log(cost), signed(bias - error), signed(bias + error))],
-                40,
-                look.line(),
-            )?;
-            panel.marks(label, &[(log(cost), signed(bias))], look.marker(), Outside::Refuse)?;
+            let bar = [(cost, bias - error, bias + error)];
+            panel.bars(label, &bar, 40, look.2, Outside::Refuse)?;
+            panel.marks(label, &[(cost, bias)], look, Outside::Refuse)?;
         }
     }
     let present = |method| biases.rows.iter().any(|row| row.setting.method == method);
-    for (i, column) in entries(present).chunks(3).enumerate() {
-        sheet.legend((1300 + 3200 * i as i32, bottom + 700), (SMALL, 370), column)?;
-    }
-    Ok(sheet.finish("s14", "Bias of the mean count", description(biases), vec![table(biases)]))
+    sheet.legend_in_columns((1300, bottom + 700), (SMALL, 370), (3, 3200), &entries(present))?;
+    Ok(sheet.finish("s14", "Bias of the mean count", description(biases)))
 }
 
 fn description(biases: &Biases) -> String {
@@ -96,35 +75,4 @@ fn description(biases: &Biases) -> String {
          a grey band, one per cent to both sides, as far as their errors tell.",
         short(largest.fold(0.0, f64::max), 2)
     )
-}
-
-fn table(biases: &Biases) -> DataFile {
-    let mut file = DataFile::new(
-        "s14.csv",
-        &[
-            "method",
-            "step_or_tolerance (1/omega)",
-            "sigma (d omega^2)",
-            "pairs (1)",
-            "failed (1)",
-            "mean_certified (1)",
-            "bias (1)",
-            "paired_standard_error (1)",
-            "evaluations_per_impact (1)",
-        ],
-    );
-    for row in &biases.rows {
-        file.row(cells![
-            name(row.setting.method),
-            row.setting.value,
-            row.sigma,
-            row.pairs,
-            row.failed,
-            row.own_mean,
-            row.bias,
-            row.error,
-            row.evaluations_per_impact
-        ]);
-    }
-    file
 }

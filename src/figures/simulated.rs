@@ -1,22 +1,15 @@
 //! What the figures of the simulations share: their rows, axes and marks.
 
-use plotters::style::text_anchor::{HPos, VPos};
-
-use super::axis::Axis;
-use super::panel::{Frame, Panel};
-use super::series::Outside;
-use super::sheet::Sheet;
-use super::style::{Dash, HAIR, INK, Mark, RED, Stroke, THIN, TINY};
-use super::{DataFile, Error};
+use super::prelude::*;
+use super::{FORCING, SIGMA};
 use crate::experiments::sweep::{Sweep, SweepRow};
 use crate::experiments::theory;
-use crate::figures::data::cells;
 
 /// Line of the simulation's marks.
 pub const CROSS: Stroke = Stroke::solid(RED, THIN);
 
-/// Half width of a cross.
-pub const CROSS_HALF: i32 = 56;
+/// The simulation's marks.
+pub const CROSSES: Marker = (Mark::Cross, 56, CROSS);
 
 /// The σ that the paper prints for the rise (Sec. 2).
 const PRINTED: f64 = 0.12;
@@ -28,7 +21,7 @@ pub fn comparable(sweep: &Sweep) -> impl Iterator<Item = &SweepRow> {
 
 /// The axis of σ from zero to the sweep's end.
 pub fn sigma_axis(end: f64) -> Axis {
-    Axis::linear(0.0, end, 0.1, 2, "standard deviation *σ* of the forcing")
+    Axis::linear(0.0, end, 0.1, 2, FORCING).column(SIGMA)
 }
 
 /// Largest σ of a sweep.
@@ -43,7 +36,7 @@ pub fn count_axis(n: usize, label: &str) -> Axis {
 
 /// The rise enlarged, in an inset where the main panel (of [`MAIN`]) is empty.
 pub fn rise(sheet: &Sheet, y: Axis) -> Result<Panel, Error> {
-    let x = Axis::linear(0.08, 0.18, 0.02, 2, "*σ*");
+    let x = Axis::linear(0.08, 0.18, 0.02, 2, "*σ*").column(SIGMA);
     sheet.inset(Frame::new(4900, 1150, 8050, 3350), x, y)
 }
 
@@ -57,7 +50,7 @@ pub const HEIGHTS: (u32, i32) = (6150, 5480);
 pub fn printed(panel: &Panel) -> Result<(), Error> {
     let guide = Stroke::dashed(INK, HAIR, Dash::Dotted);
     let line = [(PRINTED, panel.y.lo), (PRINTED, panel.y.hi)];
-    panel.curve("printed", &line, guide, Outside::Refuse)?;
+    panel.guide("printed", &line, guide)?;
     let look = (TINY, INK, HPos::Center, VPos::Bottom);
     panel.note("printed 0.12", line[1], (0, -70), look)
 }
@@ -69,30 +62,7 @@ pub fn means(sweep: &Sweep) -> Vec<(f64, f64)> {
 
 /// Red crosses.
 pub fn crosses(panel: &Panel, name: &str, points: &[(f64, f64)]) -> Result<(), Error> {
-    panel.marks(name, points, (Mark::Cross, CROSS_HALF, CROSS), Outside::Refuse)
-}
-
-/// The simulated means as a data file, as Figs. 12 and 15 show them.
-pub fn means_file(name: &str, sweep: &Sweep) -> DataFile {
-    let mut file = DataFile::new(
-        name,
-        &[
-            "sigma (d omega^2)",
-            "mean_of_kept (1)",
-            "mean_of_kept_low_95 (1)",
-            "mean_of_kept_high_95 (1)",
-        ],
-    );
-    for row in comparable(sweep).filter(|row| row.mean_distinct.is_some()) {
-        let [low, high] = split(row.mean_interval);
-        file.row(cells![row.sigma, row.mean_distinct, low, high]);
-    }
-    file
-}
-
-/// The two ends of an interval, if there is one.
-pub fn split<T: Copy>(interval: Option<[T; 2]>) -> [Option<T>; 2] {
-    [interval.map(|i| i[0]), interval.map(|i| i[1])]
+    panel.marks(name, points, CROSSES, Outside::Refuse)
 }
 
 /// A theory curve up to `end`.

@@ -378,17 +378,17 @@ fn nothing_is_written_outside_the_output() {
         entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
     };
     symlink("../outside", folder.join("out/data")).unwrap();
-    let paper = "paper --profile=quick --figure=4 --out=out --force";
+    let paper = "paper --profile=quick --figure=7 --out=out --force";
     crate::refused(folder, paper, &["--out", "data", "symbolic link"]);
     assert_eq!(names("outside"), Vec::<String>::new());
     assert_eq!(names("out"), ["data"], "nothing is half-written");
 
     fs::write(folder.join("outside/kept"), "kept").unwrap();
     fs::create_dir(folder.join("good/data")).unwrap();
-    symlink("../../outside/kept", folder.join("good/data/fig04.csv")).unwrap();
+    symlink("../../outside/kept", folder.join("good/data/fig07.csv")).unwrap();
     symlink("good", folder.join("link")).unwrap();
-    let paper = "paper --profile=quick --figure=4 --out=link --force";
+    let paper = "paper --profile=quick --figure=7 --out=link --force";
     assert_eq!(run(folder, paper).0, 0);
     assert_eq!(fs::read_to_string(folder.join("outside/kept")).unwrap(), "kept");
-    assert!(!folder.join("good/data/fig04.csv").is_symlink());
+    assert!(!folder.join("good/data/fig07.csv").is_symlink());
 }

@@ -62,8 +62,8 @@ fn changed() -> tempfile::TempDir {
     claim["verdict"] = "differs".into();
     claim["tolerance"] = "± 0.0001 | more".into();
     fs::write(at("ledger.json"), format!("{ledger:#}\n")).unwrap();
-    edit(&at("data/fig12-theory.csv"), "100,0.021,1.0\n", "100,0.021,0.75\n");
-    fs::remove_file(at("data/fig01.csv")).unwrap();
+    edit(&at("data/fig12.csv"), "\ntheory,0.021,1\n", "\ntheory,0.021,0.75\n");
+    fs::remove_file(at("data/fig07.csv")).unwrap();
     fs::write(at("data/new.csv"), "a\n1\n").unwrap();
     fs::write(at("report.html"), "built beside").unwrap();
     folder
@@ -88,11 +88,11 @@ fn number_verdict_data_and_files_are_told() {
     for line in [
         "  sec2_half_height: reproduced -> differs; tolerance: ± 0.005 -> ± 0.0001 | more\n",
         ", +3 σ\n",
-        "  data/fig12-theory.csv: 1 of 762 rows changed\n",
-        "    largest difference 0.25 in mean_simple (1), row 2: 1.0 -> 0.75\n",
-        "    first at row 2: 100,0.021,1.0 -> 100,0.021,0.75\n",
+        "  data/fig12.csv: 1 of ",
+        "    largest difference 0.25 in expected number of impacts (1), row ",
+        ": theory,0.021,1 -> theory,0.021,0.75\n",
         "  new     data/new.csv\n",
-        "  gone    data/fig01.csv\n",
+        "  gone    data/fig07.csv\n",
         "  differs values.json\n",
     ] {
         assert!(out.contains(line), "{line}: {out}");
@@ -119,7 +119,7 @@ fn number_verdict_data_and_files_are_told() {
     assert_eq!(diff["data"][0]["absolute"]["difference"], 0.25);
     assert_eq!(diff["verdicts"][0]["after"], "differs");
     assert!((diff["numbers"][0]["sigmas"].as_f64().unwrap() - 3.0).abs() < 1e-9, "{diff}");
-    assert_eq!(diff["lost"], serde_json::json!(["data/fig01.csv"]));
+    assert_eq!(diff["lost"], serde_json::json!(["data/fig07.csv"]));
 }
 
 #[test]
@@ -181,8 +181,8 @@ fn what_is_no_report_gets_one_line() {
         ("values.json", "{\"a\": "),
         ("values.json", "[]"),
         ("ledger.json", "{}"),
-        ("data/fig03.csv", "a,b\n1\n"),
-        ("data/fig03.csv", "a\n\u{0}\"\n"),
+        ("data/fig02.csv", "a,b\n1\n"),
+        ("data/fig02.csv", "a\n\u{0}\"\n"),
     ] {
         let good = keep(path);
         fs::write(at(path), bad).unwrap();

@@ -17,7 +17,7 @@ fn explain(arguments: &[&str]) -> (i32, String, String) {
 /// What is asked for, and parts of what is told.
 const CARDS: &str = "\
 sweep.rise.half_height => standard error; experiments::rise::find (src/experiments/rise.rs:; seed: 2007
-sweep.rise.half_height => chain masses: 100; fig03.csv; reproduced
+sweep.rise.half_height => chain masses: 100; sweep-rise.csv; reproduced
 second_seed.rise.half_height => seed: 7002
 theory.jump.p_crit => 0.0122099; circuits::jump::p_crit (crates/circuits/src/jump.rs:; (18)
 printed.sec2_half_height => that the paper prints; Sec. 2

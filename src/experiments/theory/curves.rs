@@ -44,7 +44,7 @@ fn mean_row(vertices: usize, p: f64) -> Result<MeanRow, Error> {
 pub fn relation() -> Result<Vec<RelationRow>, Error> {
     let row = |sigma| {
         let law = ImpactProbability::of_paper(sigma)?;
-        Ok(RelationRow { sigma, p: law.p()?, log_p: law.log_p()?, p_rest: law.p_from_rest()? })
+        Ok(RelationRow { sigma, p: law.p()?, p_rest: law.p_from_rest()? })
     };
     sigmas().into_par_iter().map(row).collect()
 }

@@ -80,7 +80,6 @@ pub fn mechanism(vertices: usize, scalars: &Scalars) -> Result<Vec<Mechanism>, E
 
 fn stage(vertices: usize, p: f64) -> Result<Mechanism, Error> {
     let law = Law::new(Simple, vertices, p)?;
-    let first = law.weight(1)?;
     let f = (0..=vertices * F_PER_UNIT).map(|i| {
         let k = i as f64 / F_PER_UNIT as f64;
         Point { x: k, y: jump::f(vertices, p, k) }
@@ -90,7 +89,6 @@ fn stage(vertices: usize, p: f64) -> Result<Mechanism, Error> {
         f: f.collect(),
         zeros: jump::zeros(vertices, p),
         phi_over_gamma: law.probabilities(),
-        phi_over_first: law.all_weights().map(|w| (w / first).to_f64()).collect(),
         k_star: law.k_star(),
     })
 }

@@ -104,8 +104,6 @@ pub struct Mechanism {
     pub zeros: Option<[f64; 2]>,
     /// Φ_{N,p}(k) / Γ_{N,p}, k = 1..=N.
     pub phi_over_gamma: Vec<f64>,
-    /// Φ_{N,p}(k) / Φ_{N,p}(1), k = 1..=N.
-    pub phi_over_first: Vec<f64>,
     /// k*.
     pub k_star: usize,
 }
@@ -126,8 +124,6 @@ pub struct RelationRow {
     pub sigma: f64,
     /// p(σ) of Eq. (25).
     pub p: f64,
-    /// ln p(σ).
-    pub log_p: f64,
     /// The same probability for a start from rest (ours, Sec. 8 assumes random free parts).
     pub p_rest: f64,
 }

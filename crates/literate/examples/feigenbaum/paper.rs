@@ -7,12 +7,7 @@ use impact_numerics::double_double::DoubleDouble;
 use literate::claims::{Basis, Check, Finding, Judgement, Published, Statement, Text};
 use literate::experiments::experiment::How;
 use literate::experiments::{Built, Code, Error, Experiment, Profile, Progress, Store};
-use literate::figures::axis::{Axis, log, number};
-use literate::figures::panel::Frame;
-use literate::figures::series::Outside;
-use literate::figures::sheet::Sheet;
-use literate::figures::style::{BLUE, INK, LINE, Mark, Stroke, THIN};
-use literate::figures::{self, DataFile, Figure};
+use literate::figures::prelude::*;
 use literate::report::claims::printed;
 use literate::report::{self, Input, Registry, Report, Templates, assemble};
 use literate::source::{PLAIN, Program, Recipe};
@@ -159,14 +154,13 @@ fn three() -> f64 {
 }
 
 /// Fig. 1: where orbits go, against the parameter.
-fn diagram(limit: &Table) -> Result<Figure, figures::Error> {
+fn diagram(limit: &Table) -> Result<Figure, literate::figures::Error> {
     let sheet = Sheet::new(5150, None)?;
     let panel = sheet.panel(
         Frame::new(1100, 300, 8100, 4200),
         Axis::linear(2.8, 4.0, 0.2, 2, "parameter *r*"),
         Axis::linear(0.0, 1.0, 0.25, 1, "*x*"),
     )?;
-    let mut data = DataFile::new("fig01.csv", &["r (1)", "x (1)"]);
     let mut points = Vec::new();
     for i in 0..=200 {
         let r = 2.8 + 1.2 * f64::from(i) / 200.0;
@@ -175,26 +169,25 @@ fn diagram(limit: &Table) -> Result<Figure, figures::Error> {
             x = r * x * (1.0 - x);
             if step >= 500 {
                 points.push((r, x));
-                data.row(literate::cells![r, x]);
             }
         }
     }
     panel.marks("orbits", &points, (Mark::Disc, 9, Stroke::solid(INK, 4)), Outside::Refuse)?;
     let onset = limit.number(&[], "onset").unwrap_or(f64::NAN);
     let line = [(onset, 0.0), (onset, 1.0)];
-    panel.curve("onset", &line, Stroke::solid(BLUE, THIN), Outside::Refuse)?;
+    panel.guide("onset", &line, Stroke::solid(BLUE, THIN))?;
     let words = format!(
         "Points of orbits against the parameter r. A single branch splits near r = 3 into two, these into four, and so \
          on; from r = {onset:.3}, marked by a line, whole ranges of x are covered, with windows between."
     );
     Ok(Figure {
         source: "paper::diagram".into(),
-        ..sheet.finish("fig01", "Period doubling", words, vec![data])
+        ..sheet.finish("fig01", "Period doubling", words)
     })
 }
 
 /// Fig. 2: how fast the two ratios settle.
-fn convergence(orbits: &Table, limit: &Table) -> Result<Figure, figures::Error> {
+fn convergence(orbits: &Table, limit: &Table) -> Result<Figure, literate::figures::Error> {
     let sheet = Sheet::new(4400, None)?;
     let last = orbits.values("n").last().copied().unwrap_or(1.0);
     let panel = sheet.panel(
@@ -204,22 +197,19 @@ fn convergence(orbits: &Table, limit: &Table) -> Result<Figure, figures::Error> 
     )?;
     let of = |column: &str| -> Vec<(f64, f64)> {
         let end = limit.number(&[], column).unwrap_or(f64::NAN);
-        let far = |(n, ratio): (f64, f64)| (n, log((ratio - end).abs()));
-        let points = orbits.points(&[], "n", column).into_iter().map(far);
-        points.filter(|point| point.1.is_finite()).collect()
+        let far = |(n, ratio): (f64, f64)| (n, (ratio - end).abs());
+        orbits.points(&[], "n", column).into_iter().map(far).collect()
     };
     for (column, mark, colour) in [("delta", Mark::Disc, INK), ("alpha", Mark::Ring, BLUE)] {
-        let (points, stroke) = (of(column), Stroke::solid(colour, LINE));
-        panel.curve(column, &points, stroke, Outside::Refuse)?;
-        panel.marks(column, &points, (mark, 60, stroke), Outside::Refuse)?;
+        let stroke = Stroke::solid(colour, LINE);
+        panel.marked(column, &of(column), (stroke, (mark, 60, stroke)), Outside::Cut)?;
     }
     let words = format!(
         "Distances of the ratios from those of the last orbit, n = {}, against n, on a logarithmic axis. From \
          n = 4 on both fall along one straight line, by the ratio delta from orbit to orbit.",
         number(last, 0)
     );
-    let figure =
-        sheet.finish("fig02", "Convergence of the ratios", words, vec![DataFile::of(orbits)]);
+    let figure = sheet.finish("fig02", "Convergence of the ratios", words);
     Ok(Figure { source: "paper::convergence".into(), experiments: vec![CASCADE.name], ..figure })
 }
 

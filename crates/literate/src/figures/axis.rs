@@ -1,14 +1,38 @@
-//! Axes: range, ticks and their labels.
+//! Axes: scale, range, ticks and their labels; all in units of the data.
 //!
 //! plotters' logarithmic coordinate uses the platform's logarithm; ours is a linear axis over
 //! log10 of the data, taken with a portable function.
 
+use super::markup::spelled;
 use pxfm::f_log10;
+
+/// How values lie along an axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scale {
+    /// As they are.
+    Linear,
+    /// By their logarithm; what is not positive lies below every end.
+    Logarithm,
+    /// Linear near zero, by the logarithm with a sign beyond.
+    Symmetric,
+}
+
+impl Scale {
+    /// Where a value lies.
+    pub fn of(self, value: f64) -> f64 {
+        match self {
+            Scale::Linear => value,
+            Scale::Logarithm if value <= 0.0 => f64::NEG_INFINITY,
+            Scale::Logarithm => f_log10(value),
+            Scale::Symmetric => f_log10(1.0 + value.abs()).copysign(value),
+        }
+    }
+}
 
 /// A tick; minor ones have no label.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tick {
-    /// Position in axis coordinates.
+    /// Where it stands.
     pub at: f64,
     /// Label, with mark-up.
     pub label: Option<String>,
@@ -21,15 +45,14 @@ pub struct Axis {
     pub lo: f64,
     /// Highest value.
     pub hi: f64,
+    /// How values lie between.
+    pub scale: Scale,
     /// Label, with mark-up; empty for none.
     pub label: String,
+    /// Name and unit of its column in data files, where the label says too little.
+    pub column: Option<String>,
     /// Ticks from low to high.
     pub ticks: Vec<Tick>,
-}
-
-/// Data as a logarithmic axis shows it: log10 of the value.
-pub fn log(value: f64) -> f64 {
-    f_log10(value)
 }
 
 /// A number as a tick label: fixed decimals, a true minus, a bare zero.
@@ -56,7 +79,12 @@ impl Axis {
                 Tick { at: at.clamp(lo, hi), label: major.then(|| number(at, decimals)) }
             })
             .collect();
-        Axis { lo, hi, label: label.into(), ticks }
+        Axis::new(Scale::Linear, [lo, hi], label, ticks)
+    }
+
+    /// An axis with these ticks.
+    pub fn new(scale: Scale, [lo, hi]: [f64; 2], label: &str, ticks: Vec<Tick>) -> Self {
+        Axis { lo, hi, scale, label: label.into(), column: None, ticks }
     }
 
     /// A logarithmic axis from 10^`lo` to 10^`hi`, labelled every `every` decades; beyond five the
@@ -64,34 +92,81 @@ impl Axis {
     pub fn decades(lo: i32, hi: i32, every: i32, label: &str) -> Self {
         let mut ticks = Vec::new();
         for exponent in lo..=hi {
-            let base = f64::from(exponent);
             let labelled = (exponent - lo) % every == 0;
             if !labelled && every > 5 {
                 continue;
             }
             let name = format!("10^{{{}}}", exponent.to_string().replace('-', "−"));
-            ticks.push(Tick { at: base, label: labelled.then_some(name) });
+            ticks.push(Tick { at: decimal(1, exponent), label: labelled.then_some(name) });
             if every == 1 && exponent < hi {
-                ticks.extend((2..10).map(|m| Tick { at: base + log(f64::from(m)), label: None }));
+                ticks.extend((2..10).map(|m| Tick { at: decimal(m, exponent), label: None }));
             }
         }
-        Axis { lo: f64::from(lo), hi: f64::from(hi), label: label.into(), ticks }
+        Axis::new(Scale::Logarithm, [lo, hi].map(|end| decimal(1, end)), label, ticks)
+    }
+
+    /// The decades that hold all values, labelled every `every`.
+    pub fn around(values: impl Iterator<Item = f64>, every: i32, label: &str) -> Self {
+        let ends = values.map(f_log10).fold(None, |ends: Option<[f64; 2]>, own| {
+            Some(ends.map_or([own; 2], |[low, high]| [low.min(own), high.max(own)]))
+        });
+        let [low, high] = ends.unwrap_or([0.0, 1.0]);
+        let (low, high) = (low.floor() as i32, high.ceil() as i32);
+        Axis::decades(low, high.max(low + 1), every, label)
+    }
+
+    /// The same axis with another column in data files, such as `sigma (d omega^2)`.
+    pub fn column(mut self, column: &str) -> Self {
+        self.column = Some(column.into());
+        self
+    }
+
+    /// Name and unit of its column in data files: as given, or the label in plain text. A unit stands in brackets
+    /// at the end, behind a space; what has none is a pure number.
+    pub fn named(&self) -> (String, String) {
+        let words = self.column.clone().unwrap_or_else(|| spelled(&self.label));
+        let unit = words.strip_suffix(')').and_then(|words| words.rsplit_once(" ("));
+        let (name, unit) = unit.unwrap_or((&words, "1"));
+        (name.into(), unit.into())
+    }
+
+    /// Where a value lies between the ends.
+    pub fn at(&self, value: f64) -> f64 {
+        self.scale.of(value)
+    }
+
+    /// Where its ends lie.
+    pub fn ends(&self) -> (f64, f64) {
+        (self.at(self.lo), self.at(self.hi))
     }
 
     /// Whether the axis holds a value; a wall touched within rounding is still inside.
     pub fn holds(&self, value: f64) -> bool {
-        let slack = 1e-9 * (self.hi - self.lo);
-        self.lo - slack <= value && value <= self.hi + slack
+        self.reaches(self.at(value))
+    }
+
+    /// Whether a place lies between the ends.
+    pub(super) fn reaches(&self, at: f64) -> bool {
+        let (lo, hi) = self.ends();
+        let slack = 1e-9 * (hi - lo);
+        lo - slack <= at && at <= hi + slack
     }
 
     /// The same axis without numbers, for a panel that shares its neighbour's.
     pub fn bare(mut self) -> Self {
+        let (name, unit) = self.named();
+        self.column = Some(format!("{name} ({unit})"));
         self.label.clear();
         for tick in &mut self.ticks {
             tick.label = tick.label.take().map(|_| String::new());
         }
         self
     }
+}
+
+/// m · 10^exponent, as the literal is.
+fn decimal(m: i32, exponent: i32) -> f64 {
+    format!("{m}e{exponent}").parse().unwrap_or(f64::MIN_POSITIVE)
 }
 
 const POWERS: [f64; 8] = [1.0, 10.0, 100.0, 1e3, 1e4, 1e5, 1e6, 1e7];
@@ -129,5 +204,33 @@ mod tests {
         assert_eq!(labels(&axis), ["10^{−3}", "10^{−2}", "10^{−1}", "10^{0}"]);
         assert_eq!(axis.ticks.len(), 4 + 3 * 8);
         assert_eq!(labels(&Axis::decades(-12, 0, 3, "")).len(), 5);
+    }
+
+    #[test]
+    fn ticks_lie_where_their_logarithms_do() {
+        let axis = Axis::decades(-20, 7, 1, "");
+        assert_eq!(axis.ends(), (-20.0, 7.0));
+        let whole = axis.ticks.iter().filter(|tick| tick.label.is_some());
+        assert!(whole.zip(-20..).all(|(tick, power)| axis.at(tick.at) == f64::from(power)));
+        let symmetric = Axis::new(Scale::Symmetric, [-9.0, 9.0], "", vec![]);
+        assert_eq!([-9.0, 0.0, 9.0].map(|value| symmetric.at(value)), [-1.0, 0.0, 1.0]);
+        assert!(!axis.holds(0.0) && !axis.holds(-1.0) && !axis.holds(f64::NAN));
+        // A bar whose lower end is negative is cut below, and not lost.
+        assert_eq!(axis.at(-1.0), f64::NEG_INFINITY);
+        let around = Axis::around([0.02, 30.0].into_iter(), 1, "");
+        assert_eq!((around.lo, around.hi), (0.01, 100.0));
+    }
+
+    #[test]
+    fn a_column_is_the_label_in_plain_text_with_its_unit() {
+        let named = |label: &str| {
+            let (name, unit) = Axis::decades(0, 1, 1, label).bare().named();
+            format!("{name}|{unit}")
+        };
+        assert_eq!(named("transient *T* (1/*ω*)"), "transient T|1/omega");
+        assert_eq!(named("*s*^{2}/*σ*^{2}"), "s^2/sigma^2|1");
+        assert_eq!(named("*P*(*X* = *k*)"), "P(X = k)|1");
+        let axis = Axis::linear(0.0, 1.0, 0.5, 1, "*σ*").column("sigma (d omega^2)");
+        assert_eq!(axis.named(), ("sigma".into(), "d omega^2".into()));
     }
 }

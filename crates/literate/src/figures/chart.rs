@@ -12,18 +12,6 @@ pub fn over_k(values: &[f64]) -> Vec<(f64, f64)> {
     values.iter().enumerate().map(|(i, &v)| ((i + 1) as f64, v)).collect()
 }
 
-/// The outline of columns of width 1 that stand on zero, as a closed polygon.
-pub fn columns(values: &[f64]) -> Vec<(f64, f64)> {
-    let mut outline = vec![(0.5, 0.0)];
-    for (i, &value) in values.iter().enumerate() {
-        let k = (i + 1) as f64;
-        outline.push((k - 0.5, value));
-        outline.push((k + 0.5, value));
-    }
-    outline.push((values.len() as f64 + 0.5, 0.0));
-    outline
-}
-
 /// An axis from zero to a round number at or above `largest`, with about four labelled steps.
 pub fn upwards_from_zero(largest: f64, label: &str) -> Axis {
     let mut unit = 1.0;
@@ -123,13 +111,5 @@ mod tests {
         assert_eq!(short(0.5, 3), "0.5");
         assert_eq!(short(100.0, 3), "100");
         assert_eq!(short(2.339e-5, 3), "2.34·10^−5");
-    }
-
-    #[test]
-    fn columns_stand_on_zero() {
-        let outline = columns(&[0.25, 0.75]);
-        assert_eq!(outline.first(), Some(&(0.5, 0.0)));
-        assert_eq!(outline.last(), Some(&(2.5, 0.0)));
-        assert_eq!(outline.len(), 6);
     }
 }

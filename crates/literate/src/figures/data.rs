@@ -14,42 +14,15 @@ pub struct DataFile {
 }
 
 impl DataFile {
-    /// A file without rows yet.
-    pub fn new(name: &str, header: &[&str]) -> Self {
-        let header = header.iter().map(|h| (*h).to_string()).collect();
-        DataFile { name: name.into(), header, rows: Vec::new() }
-    }
-
     /// A table of an experiment, whole.
     pub fn of(table: &Table) -> Self {
         let (header, rows) = table.data();
-        DataFile { name: Self::name_of(table), header, rows }
+        DataFile { name: Self::name_of(table.name()), header, rows }
     }
 
-    /// What the file of a table is called.
-    pub fn name_of(table: &Table) -> String {
-        format!("{}.csv", table.name().replace('.', "-"))
-    }
-
-    /// Columns over k = 1, 2, …, all for one p if there is one.
-    pub fn over_k(name: &str, p: Option<f64>, columns: &[(&str, &[f64])]) -> Self {
-        let names = columns.iter().map(|(name, _)| *name);
-        let header: Vec<&str> =
-            p.map(|_| "p (1)").into_iter().chain(["k (1)"]).chain(names).collect();
-        let mut file = DataFile::new(name, &header);
-        let longest = columns.iter().map(|(_, values)| values.len()).max().unwrap_or(0);
-        for at in 0..longest {
-            let mut row: Vec<Cell> = p.map(Cell::from).into_iter().collect();
-            row.push(Cell::from(at + 1));
-            row.extend(columns.iter().map(|(_, values)| Cell::from(values.get(at).copied())));
-            file.rows.push(row.into_iter().map(|cell| cell.0).collect());
-        }
-        file
-    }
-
-    /// Adds a row.
-    pub fn row<const K: usize>(&mut self, cells: [Cell; K]) {
-        self.rows.push(cells.into_iter().map(|c| c.0).collect());
+    /// What the file of a table `experiment.table` is called.
+    pub fn name_of(table: &str) -> String {
+        format!("{}.csv", table.replace('.', "-"))
     }
 
     /// The file's content: comma separated, one line a row, line feed at the end of each.
@@ -72,48 +45,11 @@ fn quoted(cell: &str) -> String {
     }
 }
 
-/// A value as it stands in a CSV file.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Cell(String);
-
-impl From<f64> for Cell {
-    /// The shortest decimal that reads back to the same double.
-    fn from(value: f64) -> Self {
-        Cell(format!("{value:?}"))
-    }
+/// A number as files have it: the shortest decimal that reads back to the same double.
+pub fn shortest(value: f64) -> String {
+    let shown = format!("{value:?}");
+    shown.strip_suffix(".0").map_or(shown.clone(), String::from)
 }
-
-impl From<usize> for Cell {
-    fn from(value: usize) -> Self {
-        Cell(value.to_string())
-    }
-}
-
-impl From<u64> for Cell {
-    fn from(value: u64) -> Self {
-        Cell(value.to_string())
-    }
-}
-
-impl From<&str> for Cell {
-    fn from(value: &str) -> Self {
-        Cell(value.into())
-    }
-}
-
-impl<T: Into<Cell>> From<Option<T>> for Cell {
-    /// Nothing is an empty cell.
-    fn from(value: Option<T>) -> Self {
-        value.map_or(Cell(String::new()), Into::into)
-    }
-}
-
-/// A row of cells: `cells![sigma, kept, mean]`.
-#[macro_export]
-macro_rules! cells {
-    ($($value:expr),* $(,)?) => { [$($crate::figures::data::Cell::from($value)),*] };
-}
-pub use cells;
 
 #[cfg(test)]
 mod tests {
@@ -121,9 +57,9 @@ mod tests {
 
     #[test]
     fn csv_quotes_and_keeps_every_bit() {
-        let mut file = DataFile::new("a.csv", &["sigma (d omega^2)", "a, b"]);
-        file.row(cells![0.1, Some(3usize)]);
-        file.row(cells![1e-300, None::<usize>]);
-        assert_eq!(file.csv(), "sigma (d omega^2),\"a, b\"\n0.1,3\n1e-300,\n");
+        let row = [0.1, 3.0, 1e-300].map(shortest).to_vec();
+        let header = ["sigma (d omega^2)", "a, b", "c"].map(String::from).to_vec();
+        let file = DataFile { name: "a.csv".into(), header, rows: vec![row] };
+        assert_eq!(file.csv(), "sigma (d omega^2),\"a, b\",c\n0.1,3,1e-300\n");
     }
 }

@@ -86,6 +86,30 @@ pub fn plain(label: &str) -> String {
     out
 }
 
+/// What data files write in ASCII, and how.
+const SPELLED: [(char, &str); 14] = [
+    ('σ', "sigma"),
+    ('ω', "omega"),
+    ('Ω', "Omega"),
+    ('λ', "lambda"),
+    ('μ', "mu"),
+    ('µ', "u"),
+    ('ϕ', "phi"),
+    ('Φ', "Phi"),
+    ('Γ', "Gamma"),
+    ('Δ', "Delta"),
+    ('−', "-"),
+    ('∗', "*"),
+    ('×', "x"),
+    ('’', "'"),
+];
+
+/// The label as data files write it: plain, with Greek letters spelled out.
+pub fn spelled(label: &str) -> String {
+    let word = |c: char| SPELLED.iter().find(|(own, _)| *own == c).map(|(_, word)| *word);
+    plain(label).chars().map(|c| word(c).map_or(c.to_string(), String::from)).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -110,5 +134,6 @@ mod tests {
         assert_eq!(plain("*P*(*X* = *k*)"), "P(X = k)");
         assert_eq!(plain("10^{−3}"), "10^−3");
         assert_eq!(plain("*k*_{*N*}^{∗}"), "k_N^∗");
+        assert_eq!(spelled("*k*_{*N*}^{∗} at *σ* = 10^{−3}"), "k_N^* at sigma = 10^-3");
     }
 }

@@ -10,6 +10,7 @@ pub mod font;
 pub mod markup;
 pub mod panel;
 pub mod pdf;
+pub mod record;
 pub mod series;
 pub mod sheet;
 pub mod style;
@@ -18,6 +19,18 @@ pub mod svg;
 pub use data::DataFile;
 pub use drawing::{Drawing, Glyphs};
 pub use svg::{escape, path_data};
+
+/// What a figure is drawn with, for one line of imports.
+pub mod prelude {
+    pub use super::axis::{Axis, Scale, Tick, number};
+    pub use super::chart::*;
+    pub use super::panel::{Frame, Panel};
+    pub use super::series::{Marker, Outside};
+    pub use super::sheet::{Entry, Sheet};
+    pub use super::style::*;
+    pub use super::{DataFile, Error, Figure};
+    pub use plotters::style::text_anchor::{HPos, VPos};
+}
 
 use crate::experiments;
 use plotters::drawing::DrawingAreaErrorKind;

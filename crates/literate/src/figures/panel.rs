@@ -1,4 +1,8 @@
-//! A panel: a frame on the sheet with its two axes; [`super::series`] draws data in it.
+//! A panel: a frame on the sheet with its two axes; [`super::series`] draws data in it and records it.
+//! Both fail if a label has a character that the shipped fonts lack.
+
+use std::cell::RefCell;
+use std::rc::Rc;
 
 use plotters::coord::Shift;
 use plotters::coord::cartesian::Cartesian2d;
@@ -10,6 +14,7 @@ use plotters::style::text_anchor::{HPos, VPos};
 use super::axis::{Axis, Tick};
 use super::drawing::Drawing;
 use super::element::{Drawn, Look};
+use super::record::Record;
 use super::style::{self, Colour, HAIR, INK, SMALL, Stroke, TEXT};
 use super::{Error, font};
 
@@ -35,7 +40,8 @@ impl Frame {
     }
 }
 
-/// Axes in a frame; data is given in axis coordinates.
+/// Axes in a frame; data is given in its own units, whatever the scales.
+#[derive(Clone)]
 pub struct Panel {
     pub(super) sheet: DrawingArea<Drawing, Shift>,
     pub(super) plane: DrawingArea<Drawing, Plane>,
@@ -47,6 +53,11 @@ pub struct Panel {
     pub y: Axis,
     /// Size of the numbers at the ticks.
     pub numbers: i32,
+    pub(super) record: Rc<RefCell<Record>>,
+    /// Whether series are recorded.
+    pub(super) recorded: bool,
+    /// The name that they are recorded under, if it is not their own.
+    pub(super) series: Option<String>,
 }
 
 const TICK: i32 = 85;
@@ -56,17 +67,36 @@ const GAP: i32 = 70;
 impl Panel {
     /// A panel without anything in it yet, not even its axes.
     pub fn new(sheet: &DrawingArea<Drawing, Shift>, frame: Frame, x: Axis, y: Axis) -> Self {
+        let ((left, right), (low, high)) = (x.ends(), y.ends());
         let plane = sheet.clone().apply_coord_spec(Plane::new(
-            x.lo..x.hi,
-            y.lo..y.hi,
+            left..right,
+            low..high,
             (frame.left..frame.right, frame.bottom..frame.top),
         ));
-        Panel { sheet: sheet.clone(), plane, frame, x, y, numbers: SMALL }
+        let record = Rc::new(RefCell::new(Record::new(&x, &y)));
+        let (numbers, recorded, series) = (SMALL, true, None);
+        Panel { sheet: sheet.clone(), plane, frame, x, y, numbers, record, recorded, series }
     }
 
     /// Where a value stands on the sheet.
     pub fn at(&self, x: f64, y: f64) -> (i32, i32) {
-        self.plane.map_coordinate(&(x, y))
+        self.plane.map_coordinate(&(self.x.at(x), self.y.at(y)))
+    }
+
+    /// The same panel, which records into a file of its own: its name is the figure's id with these letters behind.
+    pub fn file(self, suffix: &str) -> Self {
+        self.record.borrow_mut().suffix = suffix.into();
+        Panel { recorded: true, ..self }
+    }
+
+    /// The same panel for what is no data of its own: repeated outlines, rims, details.
+    pub fn quiet(&self) -> Self {
+        Panel { recorded: false, ..self.clone() }
+    }
+
+    /// The same panel for a series that is recorded under another name than the picture has for it.
+    pub fn series(&self, name: &str) -> Self {
+        Panel { series: Some(name.into()), ..self.clone() }
     }
 
     fn put<E>(&self, element: &E) -> Result<(), Error>
@@ -82,9 +112,6 @@ impl Panel {
     }
 
     /// Draws both axes: spines at the left and below, ticks outwards, numbers, labels.
-    ///
-    /// # Errors
-    /// If a label has a character that the shipped fonts lack.
     pub fn axes(&self) -> Result<(), Error> {
         let Frame { left, top, right, bottom } = self.frame;
         let mut lines = vec![(left, top), (left, bottom), (left, bottom), (right, bottom)];
@@ -133,19 +160,14 @@ impl Panel {
         Ok(())
     }
 
-    /// The letter of a panel, "(a)", above its upper left corner.
-    ///
-    /// # Errors
-    /// If a label has a character that the shipped fonts lack.
+    /// The letter of a panel, "(a)", above its upper left corner, and behind the name of its file.
     pub fn letter(&self, text: &str) -> Result<(), Error> {
+        self.record.borrow_mut().suffix = text.trim_matches(['(', ')']).into();
         let at = (self.frame.left + 60, self.frame.top - 80);
         self.text(text, at, TEXT, HPos::Left, VPos::Bottom)
     }
 
     /// Words at a place given in data.
-    ///
-    /// # Errors
-    /// If a label has a character that the shipped fonts lack.
     pub fn note(
         &self,
         text: &str,

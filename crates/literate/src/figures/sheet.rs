@@ -1,4 +1,6 @@
 //! The sheet that a figure is drawn on: panels, and free drawing for schematics.
+//!
+//! Whatever draws fails if a label has a character that the shipped fonts lack.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -13,13 +15,17 @@ use super::axis::Axis;
 use super::drawing::Drawing;
 use super::element::{Drawn, Look};
 use super::panel::{Frame, Panel};
-use super::style::{self, Colour, GREY, INK, Mark, Stroke, TINY, WIDTH};
-use super::{DataFile, Error, Figure};
+use super::record::Record;
+use super::series::Marker;
+use super::style::{self, Colour, GREY, INK, Stroke, TINY, WIDTH};
+use super::{Error, Figure};
 
 /// A figure in the making.
 pub struct Sheet {
     drawing: Rc<RefCell<Drawing>>,
     area: DrawingArea<Drawing, Shift>,
+    /// What each panel has recorded.
+    records: RefCell<Vec<Rc<RefCell<Record>>>>,
 }
 
 /// One entry of a legend.
@@ -28,7 +34,7 @@ pub struct Entry {
     /// Line, if the series has one.
     pub line: Option<Stroke>,
     /// Marker with half width, if the series has one.
-    pub mark: Option<(Mark, i32, Stroke)>,
+    pub mark: Option<Marker>,
     /// Words, with mark-up.
     pub text: String,
 }
@@ -40,21 +46,23 @@ impl Entry {
     }
 
     /// An entry for markers.
-    pub fn mark(mark: Mark, half: i32, stroke: Stroke, text: &str) -> Self {
-        Entry { line: None, mark: Some((mark, half, stroke)), text: text.into() }
+    pub fn mark(mark: Marker, text: &str) -> Self {
+        Entry { line: None, mark: Some(mark), text: text.into() }
+    }
+
+    /// An entry for a curve with markers.
+    pub fn both(line: Stroke, mark: Marker, text: &str) -> Self {
+        Entry { line: Some(line), mark: Some(mark), text: text.into() }
     }
 }
 
 impl Sheet {
     /// An empty sheet of column width; a `note` about its provenance adds a line at the foot.
-    ///
-    /// # Errors
-    /// If the note has a character that the shipped fonts lack.
     pub fn new(height: u32, note: Option<&str>) -> Result<Self, Error> {
         let foot = if note.is_some() { 330 } else { 0 };
         let drawing = Rc::new(RefCell::new(Drawing::new(height + foot)));
         let area = DrawingArea::from(&drawing);
-        let sheet = Sheet { drawing, area };
+        let sheet = Sheet { drawing, area, records: RefCell::default() };
         if let Some(note) = note {
             let at = (WIDTH as i32 - 120, (height + foot) as i32 - 110);
             sheet.text(note, at, (TINY, GREY, HPos::Right, VPos::Bottom))?;
@@ -63,30 +71,31 @@ impl Sheet {
     }
 
     /// A panel with its axes drawn.
-    ///
-    /// # Errors
-    /// If a label has a character that the shipped fonts lack.
     pub fn panel(&self, frame: Frame, x: Axis, y: Axis) -> Result<Panel, Error> {
         let panel = Panel::new(&self.area, frame, x, y);
+        self.records.borrow_mut().push(panel.record.clone());
         panel.axes()?;
         Ok(panel)
     }
 
-    /// An inset: smaller numbers on a white ground that covers what is behind.
-    ///
-    /// # Errors
-    /// If a label has a character that the shipped fonts lack.
+    /// A panel with its axes and its letter.
+    pub fn lettered(&self, letter: &str, frame: Frame, x: Axis, y: Axis) -> Result<Panel, Error> {
+        let panel = self.panel(frame, x, y)?;
+        panel.letter(letter)?;
+        Ok(panel)
+    }
+
+    /// An inset with smaller numbers. It shows data of the panel again, and records nothing; with data of its own
+    /// it takes a [`Panel::file`].
     pub fn inset(&self, frame: Frame, x: Axis, y: Axis) -> Result<Panel, Error> {
-        let mut panel = Panel::new(&self.area, frame, x, y);
-        panel.numbers = TINY;
+        let panel = Panel::new(&self.area, frame, x, y);
+        self.records.borrow_mut().push(panel.record.clone());
+        let panel = Panel { numbers: TINY, recorded: false, ..panel };
         panel.axes()?;
         Ok(panel)
     }
 
     /// Words on the sheet: size, colour and anchor.
-    ///
-    /// # Errors
-    /// If a label has a character that the shipped fonts lack.
     pub fn text(
         &self,
         text: &str,
@@ -98,25 +107,16 @@ impl Sheet {
     }
 
     /// A line through points of the sheet.
-    ///
-    /// # Errors
-    /// If drawing fails.
     pub fn line(&self, points: &[(i32, i32)], stroke: Stroke) -> Result<(), Error> {
         Ok(self.area.draw(&Drawn(points.to_vec(), Look::Curve(stroke)))?)
     }
 
     /// A line that ends in an arrow head.
-    ///
-    /// # Errors
-    /// If drawing fails.
     pub fn arrow(&self, points: &[(i32, i32)], stroke: Stroke) -> Result<(), Error> {
         Ok(self.area.draw(&Drawn(points.to_vec(), Look::Arrow(stroke)))?)
     }
 
     /// A filled circle with an edge.
-    ///
-    /// # Errors
-    /// If drawing fails.
     pub fn disc(
         &self,
         centre: (i32, i32),
@@ -135,18 +135,12 @@ impl Sheet {
     }
 
     /// A filled rectangle.
-    ///
-    /// # Errors
-    /// If drawing fails.
     pub fn rectangle(&self, frame: Frame, fill: Colour) -> Result<(), Error> {
         let corners = [(frame.left, frame.top), (frame.right, frame.bottom)];
         Ok(self.area.draw(&Rectangle::new(corners, RGBColor::from(fill).filled()))?)
     }
 
     /// A legend; `at` is the left end of its first sample line.
-    ///
-    /// # Errors
-    /// If a label has a character that the shipped fonts lack.
     pub fn legend(
         &self,
         at: (i32, i32),
@@ -169,10 +163,25 @@ impl Sheet {
         Ok(())
     }
 
-    /// Closes a figure; its `id` is the picture's file name without its ending.
-    pub fn finish(self, id: &str, title: &str, description: String, data: Vec<DataFile>) -> Figure {
+    /// A legend in columns of so many rows; `at` is where the first begins, and `apart` how far the next.
+    pub fn legend_in_columns(
+        &self,
+        at: (i32, i32),
+        look: (i32, i32),
+        (rows, apart): (usize, i32),
+        entries: &[Entry],
+    ) -> Result<(), Error> {
+        let mut columns = entries.chunks(rows.max(1)).zip(0..);
+        columns.try_for_each(|(own, i)| self.legend((at.0 + apart * i, at.1), look, own))
+    }
+
+    /// Closes a figure; its `id` is the picture's file name without its ending. Its data is what its panels have
+    /// recorded, a file for each.
+    pub fn finish(self, id: &str, title: &str, description: String) -> Figure {
         let drawing = self.drawing.take();
         let svg = drawing.svg(id, title, &description);
+        let records = self.records.take();
+        let data = records.iter().filter_map(|record| record.borrow().file(id)).collect();
         let (id, title) = (id.to_string(), title.to_string());
         Figure {
             id,

@@ -30,6 +30,12 @@ pub const THIN: u32 = 22;
 /// Thickness of a curve.
 pub const LINE: u32 = 36;
 
+/// Half the width of marks that stand close.
+pub const MEDIUM: i32 = 52;
+
+/// Half the width of marks.
+pub const LARGE: i32 = 58;
+
 /// An opaque colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Colour(pub u8, pub u8, pub u8);

@@ -16,7 +16,7 @@ use super::uses::uses;
 use super::values::Registry;
 use super::{Error, html, latex, ledger, lint, markdown, parse, sums};
 use crate::claims::Check;
-use crate::figures::Figure;
+use crate::figures::{DataFile, Figure};
 use crate::source::Program;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
@@ -137,6 +137,7 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
     for figure in input.figures {
         committed.extend(files_of(figure));
     }
+    committed.extend(values.tables().map(|table| data(&DataFile::of(table))));
     let pdf =
         |figure: &Figure| (format!("figures/{}.pdf", figure.id), figure.drawing.pdf(&figure.title));
     beside.extend(input.figures.par_iter().map(pdf).collect::<Vec<_>>());
@@ -232,8 +233,11 @@ fn skins(templates: &Templates) -> Result<(), Error> {
 /// The picture of a figure and its data.
 pub fn files_of(figure: &Figure) -> Files {
     let picture = (format!("figures/{}.svg", figure.id), figure.svg.clone().into_bytes());
-    let data = figure.data.iter().map(|d| (format!("data/{}", d.name), d.csv().into_bytes()));
-    std::iter::once(picture).chain(data).collect()
+    std::iter::once(picture).chain(figure.data.iter().map(data)).collect()
+}
+
+fn data(file: &DataFile) -> (String, Vec<u8>) {
+    (format!("data/{}", file.name), file.csv().into_bytes())
 }
 
 fn check_unused(values: &Registry, marks: &[Mark]) -> Result<(), Error> {

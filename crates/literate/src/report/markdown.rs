@@ -142,12 +142,11 @@ fn alternative(text: &str) -> String {
 /// Links from a figure to its data and to the code that draws it, which is beside paper/.
 fn origin(data: &[String], code: Option<&String>) -> String {
     let link = |path: &String| format!("[{}]({path})", path.rsplit('/').next().unwrap_or(path));
-    if data.is_empty() {
-        return String::new();
-    }
-    let data: Vec<String> = data.iter().map(link).collect();
-    let code = code.map(|path| format!(" Code: {}.", link(path))).unwrap_or_default();
-    format!("\n<sub>Data: {}.{code}</sub>", data.join(", "))
+    let links = data.iter().map(link).collect::<Vec<_>>().join(", ");
+    let data = (!data.is_empty()).then(|| format!("Data: {links}."));
+    let code = code.map(|path| format!("Code: {}.", link(path)));
+    let told: Vec<String> = data.into_iter().chain(code).collect();
+    if told.is_empty() { String::new() } else { format!("\n<sub>{}</sub>", told.join(" ")) }
 }
 
 /// Words as Markdown that shows just these words; mathematics between dollars stays.

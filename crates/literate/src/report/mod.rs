@@ -291,8 +291,9 @@ Listing: What $\delta v$ does. {#lst:kick}
 
     fn figure() -> Figure {
         let drawing = Drawing::new(400);
-        let mut data = DataFile::new("fig03.csv", &["sigma", "mean"]);
-        data.rows.push(vec!["0.1".into(), "2".into()]);
+        let words = |row: [&str; 2]| row.map(String::from).to_vec();
+        let (name, rows) = ("fig03.csv".into(), vec![words(["0.1", "2"])]);
+        let data = DataFile { name, header: words(["sigma", "mean"]), rows };
         Figure {
             id: "fig03".into(),
             title: "The rise".into(),

@@ -76,13 +76,8 @@ impl Registry {
         }
     }
 
-    /// The table of a cell.
-    pub fn table_of(&self, address: &str) -> Option<&Table> {
-        Some(self.tables.get(crate::table::table_of(address)?)?.as_ref())
-    }
-
     fn cell(&self, address: &str) -> Option<&Value> {
-        self.table_of(address)?.at(address)
+        self.tables.get(crate::table::table_of(address)?)?.at(address)
     }
 
     /// Adds several values.

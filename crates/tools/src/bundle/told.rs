@@ -69,6 +69,7 @@ fn of_output(path: &str) -> String {
             return match (path.split('/').next(), figure) {
                 (Some("figures"), Some(figure)) => format!("{figure}."),
                 (Some("data"), Some(figure)) => format!("Data of {figure}."),
+                (Some("data"), None) => "A table of an experiment, whole.".into(),
                 _ => "A part of the report.".into(),
             };
         }
@@ -76,7 +77,7 @@ fn of_output(path: &str) -> String {
     what.into()
 }
 
-/// `fig03.svg` is Figure 3 of the paper, `s01.csv` Figure S1 of this edition.
+/// `fig03.svg` is Figure 3 of the paper, `s01a.csv` Figure S1 of this edition.
 fn figure(name: &str) -> Option<String> {
     let (digits, own) = match name.strip_prefix("fig") {
         Some(digits) => (digits, false),
@@ -98,7 +99,8 @@ mod tests {
     fn figures_are_told_by_their_number() {
         assert_eq!(description("paper/figures/fig03.svg"), "Figure 3 of the paper.");
         assert_eq!(description("paper/data/fig10a-phi.csv"), "Data of Figure 10 of the paper.");
-        assert_eq!(description("paper/data/s01.csv"), "Data of Figure S1 of this edition.");
+        assert_eq!(description("paper/data/s01a.csv"), "Data of Figure S1 of this edition.");
+        assert_eq!(description("paper/data/seeds-waits.csv"), "A table of an experiment, whole.");
         assert_eq!(description("paper/figures/salt.svg"), "A part of the report.");
         assert_eq!(description("paper/"), "The report: figures, data, every number.");
         assert_eq!(description("papers"), "Settings.");

@@ -5,6 +5,7 @@ use crate::figures::DataFile;
 use crate::report::document::Inline;
 use crate::report::print::{Asked, Style, print};
 use crate::report::values::{Digits, Kind, Number, Value};
+use crate::table::table_of;
 
 impl Cards<'_> {
     pub(super) fn value(&self, id: &str) -> Option<Card> {
@@ -44,12 +45,11 @@ impl Cards<'_> {
         let figures = self.ledger.figures.iter().filter(|figure| shows(&figure.experiments));
         let csv: Vec<&String> = figures.flat_map(|figure| &figure.data).collect();
         // A cell has the file of its table; what has no table has those of its experiment.
-        let table = self.values.table_of(&value.id);
-        let own = table.map(|table| format!("data/{}", DataFile::name_of(table)));
-        if let Some(own) = csv.iter().find(|file| Some(**file) == own.as_ref()) {
+        let own = table_of(&value.id).map(|table| format!("data/{}", DataFile::name_of(table)));
+        if let Some(own) = &own {
             data.push(Inline::Text(", ".into()));
-            data.extend(super::links(vec![*own]));
-        } else if own.is_none() && value.experiment != "theory" && !csv.is_empty() {
+            data.extend(super::links([own]));
+        } else if value.experiment != "theory" && !csv.is_empty() {
             data.push(Inline::Text("; of the same experiment: ".into()));
             data.extend(super::links(csv));
         }

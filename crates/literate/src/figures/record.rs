@@ -1,0 +1,141 @@
+//! What a panel draws, kept as rows of its data file: a figure's author writes no data.
+
+use super::DataFile;
+use super::axis::Axis;
+use super::data::shortest;
+use super::markup::spelled;
+use impact_numerics::statistics::Estimate;
+
+/// A place of a series, and what is known there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Row {
+    x: f64,
+    y: Option<f64>,
+    error: Option<f64>,
+    bar: Option<[f64; 2]>,
+}
+
+impl From<(f64, f64)> for Row {
+    fn from((x, y): (f64, f64)) -> Self {
+        Row { x, y: Some(y), error: None, bar: None }
+    }
+}
+
+impl From<(f64, f64, f64)> for Row {
+    /// A bar between two heights.
+    fn from((x, low, high): (f64, f64, f64)) -> Self {
+        Row { x, y: None, error: None, bar: Some([low, high]) }
+    }
+}
+
+impl From<(f64, Estimate)> for Row {
+    fn from((x, own): (f64, Estimate)) -> Self {
+        Row { x, y: Some(own.value), error: Some(own.error), bar: None }
+    }
+}
+
+impl Row {
+    /// Whether another row says more about the same place, and then takes that over.
+    fn joins(&mut self, new: &Row) -> bool {
+        fn agree<T: PartialEq>(a: Option<T>, b: Option<T>) -> bool {
+            a.is_none() || b.is_none() || a == b
+        }
+        let same = self.x == new.x && agree(self.y, new.y) && agree(self.bar, new.bar);
+        if same {
+            self.y = self.y.or(new.y);
+            self.error = self.error.or(new.error);
+            self.bar = self.bar.or(new.bar);
+        }
+        same
+    }
+}
+
+/// The series of a panel, each with its rows.
+#[derive(Clone, Debug)]
+pub(super) struct Record {
+    /// Behind the figure's id in the file's name: the panel's letter, or nothing.
+    pub(super) suffix: String,
+    x: (String, String),
+    y: (String, String),
+    series: Vec<(String, Vec<Row>)>,
+}
+
+impl Record {
+    /// Nothing yet, under the names of the axes.
+    pub(super) fn new(x: &Axis, y: &Axis) -> Self {
+        Record { suffix: String::new(), x: x.named(), y: y.named(), series: Vec::new() }
+    }
+
+    /// Adds rows to a series: bars, marks and curves of one name are one set of rows, by rising x.
+    pub(super) fn add(&mut self, name: &str, rows: impl IntoIterator<Item = Row>) {
+        let name = spelled(name);
+        let Some((_, known)) = self.series.iter_mut().find(|(own, _)| *own == name) else {
+            let mut rows: Vec<Row> = rows.into_iter().collect();
+            rows.dedup();
+            return self.series.push((name, rows));
+        };
+        for row in rows {
+            if !known.iter_mut().any(|own| own.joins(&row)) {
+                known.push(row);
+                known.sort_by(|a, b| a.x.total_cmp(&b.x));
+            }
+        }
+    }
+
+    /// The file of a figure's panel; none if it has no data.
+    pub(super) fn file(&self, id: &str) -> Option<DataFile> {
+        let rows =
+            || self.series.iter().flat_map(|(name, rows)| rows.iter().map(move |r| (name, r)));
+        rows().next()?;
+        let errors = rows().any(|(_, row)| row.error.is_some());
+        let bars = rows().any(|(_, row)| row.bar.is_some());
+        let unit = &self.y.1;
+        let mut header = vec!["series (text)".to_string()];
+        header.extend([&self.x, &self.y].map(|(name, unit)| format!("{name} ({unit})")));
+        header.extend(errors.then(|| format!("standard_error ({unit})")));
+        if bars {
+            header.extend(["low", "high"].map(|end| format!("{end} ({unit})")));
+        }
+        let cells = |(name, row): (&String, &Row)| {
+            let number = |value: Option<f64>| value.map_or(String::new(), shortest);
+            let mut cells = vec![name.clone(), shortest(row.x), number(row.y)];
+            cells.extend(errors.then(|| number(row.error)));
+            if bars {
+                cells.extend([0, 1].map(|end| number(row.bar.map(|ends| ends[end]))));
+            }
+            cells
+        };
+        let rows = rows().map(cells).collect();
+        Some(DataFile { name: format!("{id}{}.csv", self.suffix), header, rows })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_series_is_one_set_of_rows_whatever_it_is_drawn_with() {
+        let x = Axis::linear(0.0, 1.0, 0.5, 1, "*σ*").column("sigma (d omega^2)");
+        let y = Axis::linear(0.0, 1.0, 0.5, 1, "*t*, or so (1/*ω*)");
+        let mut record = Record::new(&x, &y);
+        record.suffix = "a".into();
+        assert_eq!(record.file("s01"), None);
+        record.add("*σ* = 3", [(0.3, 0.1, 0.9).into()]);
+        let twice = [(0.5, 0.5), (0.5, 0.5), (0.5, 0.6), (0.1, 0.2)];
+        record.add("other", twice.map(Row::from));
+        record.add("*σ* = 3", [(0.1, 0.2).into(), (0.3, 0.25).into()]);
+        let error = Estimate { value: 0.2, error: 0.01, interval: [0.2; 2] };
+        record.add("*σ* = 3", [(0.1, error).into()]);
+        let lines = [
+            "series (text),sigma (d omega^2),\"t, or so (1/omega)\",standard_error (1/omega),low (1/omega),high (1/omega)",
+            "sigma = 3,0.1,0.2,0.01,,",
+            "sigma = 3,0.3,0.25,,0.1,0.9",
+            "other,0.5,0.5,,,",
+            "other,0.5,0.6,,,",
+            "other,0.1,0.2,,,",
+        ];
+        let file = record.file("s01").unwrap();
+        assert_eq!((file.name.as_str(), file.csv()), ("s01a.csv", lines.join("\n") + "\n"));
+    }
+}
