@@ -10,7 +10,6 @@ mod heat;
 mod history;
 mod independence;
 mod nucleation;
-mod orbits;
 mod restitution;
 mod sizes;
 mod spacetime;
@@ -27,10 +26,9 @@ pub use impact_numerics::estimates::LEVEL;
 pub use independence::{IndependenceParams, IndependenceRow};
 pub use literate::experiments::Profile;
 pub use nucleation::{NucleationParams, SeedsParams};
-pub use orbits::{HuntParams, OrbitsParams};
 pub use restitution::RestitutionParams;
 pub use sizes::{
-    Grid, HorizonParams, Level, NamedProtocol, ProtocolParams, ProtocolsParams, StartVariant,
-    StartsParams, SweepParams, TwoMassesParams,
+    Grid, HorizonParams, Level, ProtocolParams, StartVariant, StartsParams, SweepParams,
+    TwoMassesParams,
 };
 pub use spacetime::SpaceTimeParams;

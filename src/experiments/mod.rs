@@ -13,10 +13,8 @@ pub mod long;
 pub mod measured;
 pub mod nucleation;
 pub mod observe;
-pub mod orbits;
 pub mod protocol;
 pub mod protocol_tables;
-pub mod protocols;
 pub mod restitution;
 pub mod rise;
 pub mod run;
@@ -42,9 +40,9 @@ pub use run::run;
 
 use crate::params::{
     AnalyticParams, BiasParams, ChainsParams, HeatParams, HistoryParams, HorizonParams,
-    IndependenceParams, NucleationParams, OrbitsParams, Profile, ProtocolParams, ProtocolsParams,
-    RaceParams, RestitutionParams, ScaleParams, SeedsParams, SpaceTimeParams, StartsParams,
-    SweepParams, TrialParams, TwoMassesParams,
+    IndependenceParams, NucleationParams, Profile, ProtocolParams, RaceParams, RestitutionParams,
+    ScaleParams, SeedsParams, SpaceTimeParams, StartsParams, SweepParams, TrialParams,
+    TwoMassesParams,
 };
 use crate::table::Table;
 use accuracy::{analytic, bias, race, scale, tables, trials};
@@ -53,13 +51,12 @@ use literate::experiments::deep::Deep;
 use literate::experiments::experiment::How::{Cut, Read, Whole};
 
 /// All experiments, in the order in which they run.
-pub const ALL: [Need; 25] = [
+pub const ALL: [Need; 23] = [
     &SEGMENTS,
     &MEASURED,
     &SWEEP,
     &SECOND_SEED,
     &PROTOCOL,
-    &PROTOCOLS,
     &STARTS,
     &HORIZON,
     &TWO_MASSES,
@@ -74,7 +71,6 @@ pub const ALL: [Need; 25] = [
     &SEEDS,
     &HISTORY,
     &INDEPENDENCE,
-    &ORBITS,
     &RESTITUTION,
     &CHAINS,
     &LONG_PROTOCOL,
@@ -85,13 +81,12 @@ pub const ALL: [Need; 25] = [
 pub type Together = fn(&Results, &[Table]) -> Option<Vec<Table>>;
 
 /// What follows from several experiments together.
-pub const TOGETHER: [Together; 8] = [
+pub const TOGETHER: [Together; 7] = [
     theory::tables::tables,
     theory::beside::tables,
     sweep::tables::of_both,
     seeds::compared::tables,
     history::tables::beside,
-    protocol_tables::of_rest,
     starts_tables::beside_theory,
     chains::tables::beside_map,
 ];
@@ -148,15 +143,6 @@ pub const PROTOCOL: Deep<ProtocolParams, protocol::ProtocolMap, protocol::Part> 
     ProtocolParams::new,
     ("protocol map", protocol::CUTTING),
     protocol_tables::of_map,
-);
-
-/// The same for other starts and ends.
-pub const PROTOCOLS: Deep<ProtocolsParams, protocols::Protocols, protocol::Part> = Deep::new(
-    ("protocols", "the same for other starts and ends ([@tab:protocols])"),
-    code("src/experiments/protocols.rs"),
-    ProtocolsParams::new,
-    ("maps of other chains", protocols::CUTTING),
-    protocol_tables::of_others,
 );
 
 /// Other starts, boundaries, restitutions and frequencies.
@@ -295,15 +281,6 @@ pub const INDEPENDENCE: Deep<IndependenceParams, independence::Independence, ind
         ("independence", independence::CUTTING),
         independence::tables::tables,
     );
-
-/// Periodic orbits of a short chain.
-pub const ORBITS: Experiment<OrbitsParams, orbits::Orbits> = Experiment {
-    name: "orbits",
-    code: code("src/experiments/orbits/mod.rs"),
-    parameters: OrbitsParams::new,
-    how: Whole { run: orbits::run, weight: |p| 60 * orbits::starts(p) },
-    tables: orbits::tables::tables,
-};
 
 /// Long chains, damping and other forces.
 pub const CHAINS: Deep<ChainsParams, chains::Chains, chains::Part> = Deep::new(

@@ -1,12 +1,9 @@
-//! Tables of the maps over transients and windows: that of the paper's chain, its long end, and those of
-//! other starts and ends.
+//! Tables of the map over transients and windows, and of its long end.
 
-use super::Results;
 use super::long::LongMap;
 use super::protocol::{ProtocolCell, ProtocolMap, join};
-use super::protocols::Protocols;
 use crate::numerics::statistics::Estimate;
-use crate::table::{Building, Table};
+use crate::table::Table;
 use crate::value::origin;
 
 /// Of the map of the paper's chain.
@@ -40,40 +37,6 @@ pub fn of_long(long: &LongMap) -> Vec<Table> {
     vec![cells("long_protocol.cells", &long.map), all]
 }
 
-/// Of other starts and ends.
-pub fn of_others(found: &Protocols) -> Vec<Table> {
-    let named = |(name, map): (&str, &ProtocolMap)| {
-        let table = match name {
-            "zero" => "protocols.zero",
-            "random" => "protocols.random",
-            _ => "protocols.ring",
-        };
-        cells(table, map)
-    };
-    let all = Table::of("protocols.all", &found.maps[..1], |own| own.parameters.realisations)
-        .count("realisations", "chains at each σ", |own| own.parameters.realisations as u64)
-        .done();
-    found.named().map(named).chain([all]).collect()
-}
-
-/// The paper's chain in the cells that the others have: those of its map, and beyond it those of its long end.
-pub fn of_rest(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
-    let (map, long) = (results.protocol().ok()?, results.long_protocol().ok()?);
-    let others = results.protocols().ok()?.maps.first()?;
-    let early = map.cells.iter().map(|own| ("protocol", own));
-    let late = long.beyond(map).map(|own| ("long_protocol", own));
-    let among = |(_, own): &(&str, &ProtocolCell)| others.cell(own.transient, own.window).is_some();
-    let cells: Vec<_> = early.chain(late).filter(among).collect();
-    let mut table =
-        places(Table::of("protocols.rest", &cells, |_| map.parameters.realisations), |(_, own)| {
-            own
-        });
-    for (column, ..) in PLACES {
-        table = table.same(column, |(of, own)| Some(address(of, own, column)));
-    }
-    Some(vec![table.done()])
-}
-
 /// The address of a number of a cell.
 pub fn address(experiment: &str, own: &ProtocolCell, column: &str) -> String {
     let ProtocolCell { transient, window, .. } = own;
@@ -95,18 +58,14 @@ const PLACES: [Place; 4] = [
 ];
 
 fn cells(name: &'static str, map: &ProtocolMap) -> Table {
-    places(Table::of(name, &map.cells, |_| map.parameters.realisations), |own| own).done()
-}
-
-fn places<'a, R>(
-    table: Building<'a, R>,
-    cell: impl Fn(&R) -> &ProtocolCell + Copy,
-) -> Building<'a, R> {
-    let table = table
-        .key("transient", "1/omega", |row| cell(row).transient)
-        .key("window", "1/omega", |row| cell(row).window)
+    let table = Table::of(name, &map.cells, |_| map.parameters.realisations)
+        .key("transient", "1/omega", |own| own.transient)
+        .key("window", "1/omega", |own| own.window)
         .computed_by(origin(join));
-    PLACES.into_iter().fold(table, |table, (name, meaning, place)| {
-        table.estimate(name, "d omega^2", meaning, |row| place(cell(row)))
-    })
+    PLACES
+        .into_iter()
+        .fold(table, |table, (name, meaning, place)| {
+            table.estimate(name, "d omega^2", meaning, place)
+        })
+        .done()
 }

@@ -3,8 +3,8 @@
 use super::accuracy::{analytic, bias, race, scale, trials};
 use super::{ALL, Error, Measured, Need, TOGETHER};
 use super::{
-    chains, heat, history, horizon, identities, independence, long, nucleation, orbits, protocol,
-    protocols, restitution, seeds, segments, spacetime, starts, sweep, theory, two_masses,
+    chains, heat, history, horizon, identities, independence, long, nucleation, protocol,
+    restitution, seeds, segments, spacetime, starts, sweep, theory, two_masses,
 };
 use crate::params::{Profile, VERTICES};
 use crate::table::Table;
@@ -56,8 +56,6 @@ asked_for! {
     second_seed: sweep::Sweep, SECOND_SEED;
     /// The map over protocols.
     protocol: protocol::ProtocolMap, PROTOCOL;
-    /// The maps of other chains.
-    protocols: protocols::Protocols, PROTOCOLS;
     /// The variants.
     starts: starts::Starts, STARTS;
     /// The horizon.
@@ -90,8 +88,6 @@ asked_for! {
     history: history::History, HISTORY;
     /// Whether impacts are independent.
     independence: independence::Independence, INDEPENDENCE;
-    /// Periodic orbits of a short chain.
-    orbits: orbits::Orbits, ORBITS;
     /// Chains of several restitutions.
     restitution: restitution::Restitution, RESTITUTION;
     /// Long chains, damping and other forces.

@@ -34,16 +34,14 @@ mod s11;
 mod s12;
 mod s13;
 mod s14;
-mod s15;
-mod s16;
 mod simulated;
 
 pub use literate::figures::*;
 pub use number::Number;
 
 use crate::experiments::{
-    ANALYTIC, BIAS, CHAINS, HEAT, INDEPENDENCE, LONG_PROTOCOL, MEASURED, NUCLEATION, ORBITS,
-    PROTOCOL, PROTOCOLS, RACE, RESTITUTION, SCALE, SEEDS, SEGMENTS, SIZES, SPACE_TIME, SWEEP,
+    ANALYTIC, CHAINS, HEAT, INDEPENDENCE, LONG_PROTOCOL, MEASURED, NUCLEATION, PROTOCOL, RACE,
+    RESTITUTION, SCALE, SEEDS, SEGMENTS, SIZES, SPACE_TIME, SWEEP,
 };
 use crate::experiments::{Need, Results};
 use crate::params::Profile;
@@ -95,8 +93,8 @@ const PAPER: [Listed; 15] = [
 ];
 
 /// Figures of this edition.
-const OWN: [Listed; 16] = [
-    figure(&[&PROTOCOL, &LONG_PROTOCOL, &PROTOCOLS], !THEORY, s01::draw),
+const OWN: [Listed; 14] = [
+    figure(&[&PROTOCOL, &LONG_PROTOCOL], !THEORY, s01::draw),
     figure(&[&SPACE_TIME], !THEORY, |all, note| s02::draw(all.spacetime()?, note)),
     figure(&[&NUCLEATION, &SWEEP], !THEORY, s03::draw),
     figure(&[&SEEDS, &SWEEP, &PROTOCOL], !THEORY, s04::draw),
@@ -105,15 +103,13 @@ const OWN: [Listed; 16] = [
     figure(&[], THEORY, |all, _| s07::draw(&all.theory)),
     figure(&[&HEAT], !THEORY, s08::draw),
     figure(&[&INDEPENDENCE], !THEORY, s09::draw),
-    figure(&[&ORBITS], !THEORY, s10::draw),
-    figure(&[&RESTITUTION], !THEORY, s11::draw),
-    figure(&[&RACE], !THEORY, |all, note| s12::draw(all.race()?, note)),
-    figure(&[&RACE, &MEASURED], !THEORY, |all, note| s13::draw(all.race()?, all.measured()?, note)),
-    figure(&[&BIAS], !THEORY, |all, note| s14::draw(all.biases()?, note)),
+    figure(&[&RESTITUTION], !THEORY, s10::draw),
+    figure(&[&RACE], !THEORY, |all, note| s11::draw(all.race()?, note)),
+    figure(&[&RACE, &MEASURED], !THEORY, |all, note| s12::draw(all.race()?, all.measured()?, note)),
     figure(&[&SCALE, &MEASURED], !THEORY, |all, note| {
-        s15::draw(all.scale()?, all.measured()?, note)
+        s13::draw(all.scale()?, all.measured()?, note)
     }),
-    figure(&[&ANALYTIC], !THEORY, |all, note| s16::draw(all.analytic()?, note)),
+    figure(&[&ANALYTIC], !THEORY, |all, note| s14::draw(all.analytic()?, note)),
 ];
 
 /// All figures: first the paper's, then our own.

@@ -1,145 +1,200 @@
-//! Fig. S10: periodic orbits from circuits.
+//! Fig. S10: the rise, the heat and contact at several restitutions.
 
-use super::SIGMA;
 use super::prelude::*;
+use super::{FORCING, SIGMA};
 use crate::experiments::Results;
-use crate::experiments::orbits::{Example, Orbits, Row};
+use crate::experiments::restitution::Restitution;
+use crate::experiments::restitution::hot::steady;
+use crate::experiments::restitution::tables::able;
+use crate::params::Chain;
+use crate::table::Table;
 
-/// The colours of masses, and of lengths.
-const COLOURS: [Colour; 4] = [BLUE, RED, GREEN, ORANGE];
-
-/// The marks of lengths: with an orbit, and with a stable one.
-const MARKS: [[Mark; 2]; 4] = [
-    [Mark::Disc, Mark::Ring],
-    [Mark::Square, Mark::OpenSquare],
-    [Mark::Diamond, Mark::OpenDiamond],
-    [Mark::Triangle, Mark::OpenTriangle],
+/// Restitutions of (a), and their looks.
+const RISES: [(f64, Mark, Colour); 5] = [
+    (0.0, Mark::Disc, RED),
+    (0.4, Mark::OpenSquare, ORANGE),
+    (0.6, Mark::OpenTriangle, PURPLE),
+    (0.8, Mark::Ring, GREEN),
+    (0.95, Mark::Disc, BLUE),
 ];
 
-/// The end of the axes of (c): multipliers beyond it are told by their number.
-const REACH: f64 = 2.0;
+/// The σ of (c), and their looks.
+const WARM: [(f64, Mark, Colour); 2] = [(0.15, Mark::Disc, RED), (0.3, Mark::Ring, BLUE)];
 
-/// The σ of (c), or the last if it was not run.
-const DRAWN: f64 = 0.3;
+/// Looks of the r of (d), the last one first, and of (e), by rising r.
+const LOOKS: [(Mark, Colour); 4] = [
+    (Mark::Disc, RED),
+    (Mark::OpenSquare, ORANGE),
+    (Mark::OpenTriangle, PURPLE),
+    (Mark::Ring, BLUE),
+];
+
+/// What is drawn.
+struct Shown<'a> {
+    found: &'a Restitution,
+    rise: &'a Table,
+    curves: &'a Table,
+    heating: &'a Table,
+}
 
 /// Draws the figure.
 pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
-    let orbits = results.orbits()?;
-    let sheet = Sheet::new(9500, note)?;
-    if let Some(example) = &orbits.example {
-        motion(&sheet, example)?;
-    }
-    shares(&sheet, orbits)?;
-    plane(&sheet, orbits)?;
-    Ok(sheet.finish("s10", "Periodic orbits from circuits", description(orbits)))
+    let table = |name| results.table(name);
+    let shown = Shown {
+        found: results.restitution()?,
+        rise: table("restitution.rise")?,
+        curves: table("restitution.curves")?,
+        heating: table("restitution.heating")?,
+    };
+    let sheet = Sheet::new(14_000, note)?;
+    rises(&sheet, &shown)?;
+    places(&sheet, &shown)?;
+    warmth(&sheet, &shown)?;
+    heating(&sheet, &shown)?;
+    contact(&sheet, &shown)?;
+    let title = "The rise, the heat and contact at several restitutions";
+    Ok(sheet.finish("s10", title, description(&shown)))
 }
 
-fn motion(sheet: &Sheet, example: &Example) -> Result<(), Error> {
-    let masses = example.positions.len();
-    let wall = (masses + 1) as f64;
-    // A mass may be anywhere between the walls.
-    let time = Axis::linear(0.0, example.period, 0.5, 1, "time *t* (1/*ω*), one period");
-    let x = time.column("time (1/omega)");
-    let y = Axis::linear(0.0, wall, 1.0, 2, "position *x*_{*j*} / *d*");
-    let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 7900, 3630), x, y)?;
-    panel.level("right wall", wall, Stroke::solid(INK, HAIR))?;
-    for ((place, colour), j) in example.positions.iter().zip(COLOURS).zip(1..) {
-        let points: Vec<_> = example.times.iter().copied().zip(place.iter().copied()).collect();
-        let own = panel.series(&format!("mass {j}"));
-        own.curve("mass", &points, Stroke::solid(colour, LINE), Outside::Cut)?;
-    }
-    for (j, place) in example.positions.iter().enumerate() {
-        if let Some(end) = place.last() {
-            let look = (SMALL, INK, HPos::Left, VPos::Center);
-            panel.note(&format!("*x*_{{{}}}", j + 1), (example.period, *end), (60, 0), look)?;
-        }
-    }
-    let impacts: Vec<_> = impacts(example).collect();
-    panel.marks("impacts", &impacts, (Mark::Disc, MEDIUM, Stroke::solid(INK, THIN)), Outside::Cut)
+fn named(r: f64) -> String {
+    format!("*r* = {r}")
 }
 
-/// Where the impacts of an example are: at a mass of the gap, or at the wall.
-fn impacts(example: &Example) -> impl Iterator<Item = (f64, f64)> + '_ {
-    example.impacts.iter().zip(&example.circuit).map(|(&time, &gap)| {
-        let left = gap.checked_sub(1).and_then(|j| example.positions.get(j));
-        let at = example.times.iter().position(|t| *t == time);
-        (time, left.zip(at).map_or(0.0, |(places, at)| places[at]))
-    })
-}
-
-fn shares(sheet: &Sheet, orbits: &Orbits) -> Result<(), Error> {
-    let all = || orbits.rows.iter().flat_map(|row| &row.lengths);
-    let largest = all().map(|own| own.admissible.value + own.admissible.error).fold(0.1, f64::max);
-    let last = orbits.rows.iter().map(|row| row.sigma).fold(0.0, f64::max);
-    let x = Axis::linear(0.0, if last > 0.35 { 0.7 } else { 0.35 }, 0.1, 2, "*σ*").column(SIGMA);
-    let y = upwards_from_zero(largest, "share of circuits");
-    let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 4950, 4150, 7750), x, y)?;
+fn rises(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
+    let gaps = shown.found.parameters.chain.gaps() as f64;
+    let last = shown.found.parameters.sigmas.iter().copied().fold(0.0, f64::max);
+    let x = Axis::linear(0.05, last + 0.02, 0.1, 5, FORCING).column(SIGMA);
+    let y = Axis::linear(0.0, 105.0, 20.0, 4, "mean count");
+    let panel = sheet.lettered("(a)", Frame::new(1150, 430, 8150, 3230), x, y)?;
+    let half = Stroke::dashed(INK, THIN, Dash::Short);
+    let level = [(0.05, 0.5 * gaps), (0.4, 0.5 * gaps)];
+    panel.guide("half of all gaps", &level, half)?;
     let mut entries = Vec::new();
-    let lengths = orbits.rows.first().map_or(0, |row| row.lengths.len());
-    for ((k, colour), [full, open]) in (1..=lengths).zip(COLOURS).zip(MARKS) {
-        let own = |row: &Row| row.lengths.iter().find(|own| own.k == k).cloned();
-        let of: Vec<_> =
-            orbits.rows.iter().filter_map(|row| Some((row.sigma, own(row)?))).collect();
-        let name = format!("length {k}");
-        let thin = Stroke::solid(colour, THIN);
-        let bars: Vec<_> = of
-            .iter()
-            .map(|(x, own)| (x, own.admissible.value, own.admissible.error))
-            .map(|(x, y, e)| (*x, y - e, y + e))
+    for (r, mark, colour) in RISES {
+        let points = shown.rise.estimates(&[("r", r)], "sigma", "mean_count");
+        if points.is_empty() {
+            continue;
+        }
+        let look = (mark, MEDIUM, Stroke::solid(colour, THIN));
+        panel.joined(&named(r), &points, look)?;
+        entries.push(Entry::mark(look, &named(r)));
+    }
+    sheet.legend((6350, 1750), (SMALL, 310), &entries)
+}
+
+fn places(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
+    let x = Axis::linear(0.0, 1.0, 0.2, 2, "restitution *r*");
+    let y = Axis::linear(0.0, 0.35, 0.1, 4, "*σ* at half height").column("half_height (d omega^2)");
+    let panel = sheet.lettered("(b)", Frame::new(1150, 4700, 4150, 7200), x, y)?;
+    let points = shown.curves.estimates(&[], "r", "half_height");
+    panel.joined("half height", &points, (Mark::Disc, MEDIUM, Stroke::solid(RED, THIN)))
+}
+
+/// s²/σ² of the balance with little loss at one σ.
+fn little_loss(found: &Restitution, sigma: f64, lost: f64) -> f64 {
+    let chain = Chain { restitution: 1.0 - lost, ..found.parameters.chain.clone() };
+    steady(&chain, sigma)
+}
+
+fn warmth(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
+    let (x, y) = (Axis::decades(-3, 0, 1, "1 − *r*"), Axis::decades(0, 3, 1, "*s*^{2}/*σ*^{2}"));
+    let panel = sheet.lettered("(c)", Frame::new(5350, 4700, 8150, 7200), x, y)?;
+    let losses = || (0..=60).map(|i| pxfm::f_exp10(-3.0 + 0.05 * f64::from(i)));
+    let rare = |lost: f64| (lost, 2.0 * (2.0 - lost) / lost);
+    let solid = Stroke::solid(INK, LINE);
+    panel.curve("rare impacts", &losses().map(rare).collect::<Vec<_>>(), solid, Outside::Cut)?;
+    let until = shown.heating.values("window_end").last().copied().unwrap_or_default();
+    let mut marks = Vec::new();
+    for (sigma, mark, colour) in WARM {
+        let mut points = shown.rise.estimates(&[("sigma", sigma)], "r", "variance_ratio");
+        if sigma == shown.found.parameters.heated_sigma {
+            points.extend(shown.heating.estimates(&[("window_end", until)], "r", "variance_ratio"));
+        }
+        points.retain(|(r, _)| *r < 1.0);
+        points.iter_mut().for_each(|(r, _)| *r = 1.0 - *r);
+        let (name, look) = (format!("*σ* = {sigma}"), (mark, MEDIUM, Stroke::solid(colour, THIN)));
+        panel.estimates(&name, &points, look)?;
+        marks.push(Entry::mark(look, &name));
+        // The law is for hot chains, and drawn where little is lost.
+        let curve: Vec<_> = losses()
+            .filter(|lost| *lost <= 0.1)
+            .map(|lost| (lost, little_loss(shown.found, sigma, lost)))
             .collect();
-        panel.bars(&name, &bars, 35, thin, Outside::Edge)?;
-        let points: Vec<_> = of.iter().map(|(x, own)| (*x, own.admissible.value)).collect();
-        let line = Stroke::solid(colour, LINE);
-        panel.marked(&name, &points, (line, (full, MEDIUM, line)), Outside::Refuse)?;
-        let points: Vec<_> = of.iter().map(|(x, own)| (*x, own.stable.value)).collect();
-        let stable = panel.series(&format!("{name}, stable"));
-        let broken = Stroke::dashed(colour, THIN, Dash::Short);
-        stable.marked(&name, &points, (broken, (open, MEDIUM, thin)), Outside::Refuse)?;
-        entries.push(Entry::mark((full, MEDIUM, thin), &format!("*k* = {k}")));
+        panel.curve(&format!("little loss, {name}"), &curve, little(colour), Outside::Cut)?;
     }
-    let (left, right) = entries.split_at(entries.len().div_ceil(2));
-    sheet.legend((900, 8750), (SMALL, 370), left)?;
-    sheet.legend((2200, 8750), (SMALL, 370), right)?;
-    let open = Entry::mark((Mark::Ring, MEDIUM, Stroke::solid(INK, THIN)), "open: stable");
-    sheet.legend((3500, 8750), (SMALL, 370), &[open])
+    let mut entries =
+        vec![Entry::line(solid, "rare impacts"), Entry::line(little(INK), "little loss")];
+    entries.extend(marks);
+    sheet.legend_in_columns((4850, 8150), (SMALL, 340), (2, 1950), &entries)
 }
 
-/// The row whose multipliers are drawn.
-fn chosen(orbits: &Orbits) -> Option<&Row> {
-    orbits.rows.iter().find(|row| row.sigma == DRAWN).or(orbits.rows.last())
+/// The line of the law for little loss.
+fn little(colour: Colour) -> Stroke {
+    Stroke::dashed(colour, THIN, Dash::Long)
 }
 
-fn plane(sheet: &Sheet, orbits: &Orbits) -> Result<(), Error> {
-    let x = Axis::linear(-REACH, REACH, 1.0, 2, "Re *λ*");
-    let y = Axis::linear(-REACH, REACH, 1.0, 2, "Im *λ*");
-    let panel = sheet.lettered(LETTERS[2], Frame::new(5350, 4950, 8150, 7750), x, y)?;
-    let circle: Vec<_> = (0..=180)
-        .map(|i| pxfm::f_sincos(f64::from(i) * std::f64::consts::PI / 90.0))
-        .map(|(sin, cos)| (cos, sin))
-        .collect();
-    panel.guide("unit circle", &circle, Stroke::solid(GREY, THIN))?;
-    let Some(row) = chosen(orbits) else { return Ok(()) };
-    let looks =
-        [("unstable orbits", Mark::Ring, ORANGE, false), ("stable orbits", Mark::Disc, BLUE, true)];
-    for (place, (name, mark, colour, stable)) in looks.into_iter().enumerate() {
-        let own = row.found.iter().filter(|f| (f.radius < 1.0) == stable);
+/// A line's entry above those of marks, which stand in two columns.
+fn legend(sheet: &Sheet, left: i32, line: Entry, marks: &[Entry]) -> Result<(), Error> {
+    sheet.legend((left, 12_850), (SMALL, 340), &[line])?;
+    let columns = (marks.len().div_ceil(2), 1650);
+    sheet.legend_in_columns((left, 13_190), (SMALL, 340), columns, marks)
+}
+
+fn heating(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
+    let x = Axis::decades(1, 4, 1, "time *t* (1/*ω*)");
+    let y = Axis::decades(1, 3, 1, "impacts per unit time");
+    let panel = sheet.lettered("(d)", Frame::new(1150, 9400, 4150, 11_900), x, y)?;
+    // A window stands at its middle on the logarithmic axis; the first has none.
+    let ends = shown.heating.values("window_end");
+    let middle = |end: f64| {
+        let before = ends.iter().copied().take_while(|own| *own < end).last()?;
+        Some((before * end).sqrt())
+    };
+    let table = shown.heating;
+    let solid = Stroke::solid(INK, LINE);
+    let law = table.points(&[("r", 1.0)], "window_end", "impacts_lossless");
+    let law: Vec<_> = law.iter().filter_map(|(end, own)| Some((middle(*end)?, *own))).collect();
+    panel.curve("hot, without loss", &law, solid, Outside::Cut)?;
+    let mut entries = Vec::new();
+    for (r, (mark, colour)) in table.values("r").into_iter().rev().zip(LOOKS) {
+        let points = table.estimates(&[("r", r)], "window_end", "impacts");
         let points: Vec<_> =
-            own.flat_map(|f| f.multipliers.iter().map(|[re, im]| (*re, *im))).collect();
-        let stroke = Stroke::solid(colour, THIN);
-        panel.marks(name, &points, (mark, 32, stroke), Outside::Cut)?;
-        let entry = Entry::mark((mark, MEDIUM, stroke), name);
-        sheet.legend((5750, 8750 + 370 * place as i32), (SMALL, 370), &[entry])?;
+            points.iter().filter_map(|(end, own)| Some((middle(*end)?, *own))).collect();
+        let look = (mark, MEDIUM, Stroke::solid(colour, THIN));
+        panel.estimates(&named(r), &points, look)?;
+        entries.push(Entry::mark(look, &named(r)));
     }
-    Ok(())
+    legend(sheet, 900, Entry::line(solid, "expected at *r* = 1"), &entries)
 }
 
-fn description(orbits: &Orbits) -> String {
-    let example = orbits.example.as_ref().map_or("none was found".into(), |own| {
-        format!("σ = {}, largest multiplier {}", own.sigma, short(own.radius, 2))
-    });
+fn contact(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
+    let x = Axis::linear(0.1, 0.65, 0.1, 2, "*σ*").column(SIGMA);
+    let y = Axis::decades(-4, 0, 1, "share of gaps");
+    let panel = sheet.lettered("(e)", Frame::new(5350, 9400, 8150, 11_900), x, y)?;
+    let solid = Stroke::solid(INK, LINE);
+    let sigmas = (20..=120).map(|i| f64::from(i) / 200.0);
+    let curve: Vec<_> = sigmas.map(|x| (x, able(&shown.found.parameters, x))).collect();
+    panel.curve("can be pressed", &curve, solid, Outside::Cut)?;
+    let mut entries = Vec::new();
+    for (r, (mark, colour)) in shown.rise.values("r").into_iter().zip(LOOKS) {
+        let points = shown.rise.estimates(&[("r", r)], "sigma", "share_in_contact");
+        let look = (mark, MEDIUM, Stroke::solid(colour, THIN));
+        panel.estimates(&named(r), &points, look)?;
+        entries.push(Entry::mark(look, &named(r)));
+    }
+    legend(sheet, 4950, Entry::line(solid, "|Δ*F*| > *dω*^{2}"), &entries)
+}
+
+fn description(shown: &Shown<'_>) -> String {
+    let halves = shown.curves.points(&[], "r", "half_height");
+    let end = |at: Option<&(f64, f64)>| {
+        at.map_or("none".into(), |(r, own)| format!("{} at r = {r}", short(*own, 3)))
+    };
     format!(
-        "(a) Positions of the masses over one period of a stable orbit ({example}), with a disc at each impact. (b) Share of simple \
-         circuits with an orbit against σ, falling with their length; far below, dashed, with a stable one. (c) Multipliers: stable \
-         ones inside the unit circle, unstable ones along the real axis.",
+        "(a) Mean count against σ: the smaller r, the later it rises. (b) Half height, from {} to {}. (c) s²/σ² against 1 − r, below the \
+         line of rare impacts. (d) Impacts per time in windows that double: level, but for r = 1. (e) Gaps in contact against \
+         σ.",
+        end(halves.first()),
+        end(halves.last()),
     )
 }

@@ -1,200 +1,68 @@
-//! Fig. S11: the rise, the heat and contact at several restitutions.
+//! Fig. S11: error and misses of the next impact against counted work, for every method.
 
 use super::prelude::*;
-use super::{FORCING, SIGMA};
-use crate::experiments::Results;
-use crate::experiments::restitution::Restitution;
-use crate::experiments::restitution::hot::steady;
-use crate::experiments::restitution::tables::able;
-use crate::params::Chain;
-use crate::table::Table;
-
-/// Restitutions of (a), and their looks.
-const RISES: [(f64, Mark, Colour); 5] = [
-    (0.0, Mark::Disc, RED),
-    (0.4, Mark::OpenSquare, ORANGE),
-    (0.6, Mark::OpenTriangle, PURPLE),
-    (0.8, Mark::Ring, GREEN),
-    (0.95, Mark::Disc, BLUE),
-];
-
-/// The σ of (c), and their looks.
-const WARM: [(f64, Mark, Colour); 2] = [(0.15, Mark::Disc, RED), (0.3, Mark::Ring, BLUE)];
-
-/// Looks of the r of (d), the last one first, and of (e), by rising r.
-const LOOKS: [(Mark, Colour); 4] = [
-    (Mark::Disc, RED),
-    (Mark::OpenSquare, ORANGE),
-    (Mark::OpenTriangle, PURPLE),
-    (Mark::Ring, BLUE),
-];
-
-/// What is drawn.
-struct Shown<'a> {
-    found: &'a Restitution,
-    rise: &'a Table,
-    curves: &'a Table,
-    heating: &'a Table,
-}
+use super::rivals::{by_method, entries, look, name};
+use crate::experiments::accuracy::race::{DISPLACED, Entry, Race};
+use crate::params::MethodName;
 
 /// Draws the figure.
-pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
-    let table = |name| results.table(name);
-    let shown = Shown {
-        found: results.restitution()?,
-        rise: table("restitution.rise")?,
-        curves: table("restitution.curves")?,
-        heating: table("restitution.heating")?,
+pub fn draw(race: &Race, note: Option<&str>) -> Result<Figure, Error> {
+    let sheet = Sheet::new(9500, note)?;
+    let costs = || race.entries.iter().filter_map(|entry| entry.evaluations_per_impact);
+    let cost_axis = || Axis::around(costs(), 1, "evaluations per impact");
+    let error = Axis::decades(-18, 0, 3, "error of the next impact’s time");
+    let (x, y) = (cost_axis().bare(), error.column("error of the next impact's time (1/omega)"));
+    let errors = sheet.lettered(LETTERS[0], Frame::new(1300, 430, 8150, 4030), x, y)?;
+    errors.level("counts as missed", DISPLACED, Stroke::dashed(GREY, HAIR, Dash::Short))?;
+    let words = (TINY, INK, HPos::Left, VPos::Bottom);
+    let place = (errors.x.lo, DISPLACED);
+    errors.note("missed above", place, (110, -60), words)?;
+
+    let tried = race.entries.iter().map(|e| e.segments.tried).max().unwrap_or(1);
+    let bottom = -(pxfm::f_log10(tried as f64).ceil() as i32) - 1;
+    let mut axis = Axis::decades(bottom, 0, 1, "share missed");
+    // Below one in all that were tried there is nothing but zero.
+    axis.ticks.retain(|tick| tick.at <= axis.lo || tick.at >= 9.5 * axis.lo);
+    if let Some(first) = axis.ticks.first_mut() {
+        first.label = Some("none".into());
+    }
+    let misses = Frame::new(1300, 4650, 8150, 7250);
+    let misses = sheet.lettered(LETTERS[1], misses, cost_axis(), axis)?;
+
+    let spread = |e: &Entry| Some((e.evaluations_per_impact?, e.segments.errors?[2]));
+    let middle = |e: &Entry| Some((e.evaluations_per_impact?, e.segments.errors?[0]));
+    let missed = |e: &Entry| {
+        let share = e.segments.misses() as f64 / e.segments.tried.max(1) as f64;
+        Some((e.evaluations_per_impact?, share))
     };
-    let sheet = Sheet::new(14_000, note)?;
-    rises(&sheet, &shown)?;
-    places(&sheet, &shown)?;
-    warmth(&sheet, &shown)?;
-    heating(&sheet, &shown)?;
-    contact(&sheet, &shown)?;
-    let title = "The rise, the heat and contact at several restitutions";
-    Ok(sheet.finish("s11", title, description(&shown)))
-}
-
-fn named(r: f64) -> String {
-    format!("*r* = {r}")
-}
-
-fn rises(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
-    let gaps = shown.found.parameters.chain.gaps() as f64;
-    let last = shown.found.parameters.sigmas.iter().copied().fold(0.0, f64::max);
-    let x = Axis::linear(0.05, last + 0.02, 0.1, 5, FORCING).column(SIGMA);
-    let y = Axis::linear(0.0, 105.0, 20.0, 4, "mean count");
-    let panel = sheet.lettered("(a)", Frame::new(1150, 430, 8150, 3230), x, y)?;
-    let half = Stroke::dashed(INK, THIN, Dash::Short);
-    let level = [(0.05, 0.5 * gaps), (0.4, 0.5 * gaps)];
-    panel.guide("half of all gaps", &level, half)?;
-    let mut entries = Vec::new();
-    for (r, mark, colour) in RISES {
-        let points = shown.rise.estimates(&[("r", r)], "sigma", "mean_count");
-        if points.is_empty() {
-            continue;
-        }
-        let look = (mark, MEDIUM, Stroke::solid(colour, THIN));
-        panel.joined(&named(r), &points, look)?;
-        entries.push(Entry::mark(look, &named(r)));
+    let medians = by_method(&race.entries, |e| e.setting, middle);
+    for ((method, points), (_, ends)) in
+        medians.iter().zip(by_method(&race.entries, |e| e.setting, spread))
+    {
+        let look = look(*method);
+        let bars: Vec<_> = points.iter().zip(&ends).map(|(a, b)| (a.0, a.1, b.1)).collect();
+        let thin = Stroke::solid(look.2.colour, HAIR);
+        errors.bars(name(*method), &bars, 0, thin, Outside::Edge)?;
+        errors.marked(name(*method), points, (look.2, look), Outside::Edge)?;
     }
-    sheet.legend((6350, 1750), (SMALL, 310), &entries)
-}
-
-fn places(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
-    let x = Axis::linear(0.0, 1.0, 0.2, 2, "restitution *r*");
-    let y = Axis::linear(0.0, 0.35, 0.1, 4, "*σ* at half height").column("half_height (d omega^2)");
-    let panel = sheet.lettered("(b)", Frame::new(1150, 4700, 4150, 7200), x, y)?;
-    let points = shown.curves.estimates(&[], "r", "half_height");
-    panel.joined("half height", &points, (Mark::Disc, MEDIUM, Stroke::solid(RED, THIN)))
-}
-
-/// s²/σ² of the balance with little loss at one σ.
-fn little_loss(found: &Restitution, sigma: f64, lost: f64) -> f64 {
-    let chain = Chain { restitution: 1.0 - lost, ..found.parameters.chain.clone() };
-    steady(&chain, sigma)
-}
-
-fn warmth(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
-    let (x, y) = (Axis::decades(-3, 0, 1, "1 − *r*"), Axis::decades(0, 3, 1, "*s*^{2}/*σ*^{2}"));
-    let panel = sheet.lettered("(c)", Frame::new(5350, 4700, 8150, 7200), x, y)?;
-    let losses = || (0..=60).map(|i| pxfm::f_exp10(-3.0 + 0.05 * f64::from(i)));
-    let rare = |lost: f64| (lost, 2.0 * (2.0 - lost) / lost);
-    let solid = Stroke::solid(INK, LINE);
-    panel.curve("rare impacts", &losses().map(rare).collect::<Vec<_>>(), solid, Outside::Cut)?;
-    let until = shown.heating.values("window_end").last().copied().unwrap_or_default();
-    let mut marks = Vec::new();
-    for (sigma, mark, colour) in WARM {
-        let mut points = shown.rise.estimates(&[("sigma", sigma)], "r", "variance_ratio");
-        if sigma == shown.found.parameters.heated_sigma {
-            points.extend(shown.heating.estimates(&[("window_end", until)], "r", "variance_ratio"));
-        }
-        points.retain(|(r, _)| *r < 1.0);
-        points.iter_mut().for_each(|(r, _)| *r = 1.0 - *r);
-        let (name, look) = (format!("*σ* = {sigma}"), (mark, MEDIUM, Stroke::solid(colour, THIN)));
-        panel.estimates(&name, &points, look)?;
-        marks.push(Entry::mark(look, &name));
-        // The law is for hot chains, and drawn where little is lost.
-        let curve: Vec<_> = losses()
-            .filter(|lost| *lost <= 0.1)
-            .map(|lost| (lost, little_loss(shown.found, sigma, lost)))
-            .collect();
-        panel.curve(&format!("little loss, {name}"), &curve, little(colour), Outside::Cut)?;
+    for (method, points) in by_method(&race.entries, |e| e.setting, missed) {
+        let look = look(method);
+        misses.marked(name(method), &points, (look.2, look), Outside::Edge)?;
     }
-    let mut entries =
-        vec![Entry::line(solid, "rare impacts"), Entry::line(little(INK), "little loss")];
-    entries.extend(marks);
-    sheet.legend_in_columns((4850, 8150), (SMALL, 340), (2, 1950), &entries)
+    let entries = entries(|method| medians.iter().any(|(m, _)| *m == method));
+    sheet.legend_in_columns((700, 8450), (SMALL, 370), (3, 2650), &entries)?;
+    Ok(sheet.finish("s11", "Error and misses of the next impact", description(race)))
 }
 
-/// The line of the law for little loss.
-fn little(colour: Colour) -> Stroke {
-    Stroke::dashed(colour, THIN, Dash::Long)
-}
-
-/// A line's entry above those of marks, which stand in two columns.
-fn legend(sheet: &Sheet, left: i32, line: Entry, marks: &[Entry]) -> Result<(), Error> {
-    sheet.legend((left, 12_850), (SMALL, 340), &[line])?;
-    let columns = (marks.len().div_ceil(2), 1650);
-    sheet.legend_in_columns((left, 13_190), (SMALL, 340), columns, marks)
-}
-
-fn heating(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
-    let x = Axis::decades(1, 4, 1, "time *t* (1/*ω*)");
-    let y = Axis::decades(1, 3, 1, "impacts per unit time");
-    let panel = sheet.lettered("(d)", Frame::new(1150, 9400, 4150, 11_900), x, y)?;
-    // A window stands at its middle on the logarithmic axis; the first has none.
-    let ends = shown.heating.values("window_end");
-    let middle = |end: f64| {
-        let before = ends.iter().copied().take_while(|own| *own < end).last()?;
-        Some((before * end).sqrt())
-    };
-    let table = shown.heating;
-    let solid = Stroke::solid(INK, LINE);
-    let law = table.points(&[("r", 1.0)], "window_end", "impacts_lossless");
-    let law: Vec<_> = law.iter().filter_map(|(end, own)| Some((middle(*end)?, *own))).collect();
-    panel.curve("hot, without loss", &law, solid, Outside::Cut)?;
-    let mut entries = Vec::new();
-    for (r, (mark, colour)) in table.values("r").into_iter().rev().zip(LOOKS) {
-        let points = table.estimates(&[("r", r)], "window_end", "impacts");
-        let points: Vec<_> =
-            points.iter().filter_map(|(end, own)| Some((middle(*end)?, *own))).collect();
-        let look = (mark, MEDIUM, Stroke::solid(colour, THIN));
-        panel.estimates(&named(r), &points, look)?;
-        entries.push(Entry::mark(look, &named(r)));
-    }
-    legend(sheet, 900, Entry::line(solid, "expected at *r* = 1"), &entries)
-}
-
-fn contact(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
-    let x = Axis::linear(0.1, 0.65, 0.1, 2, "*σ*").column(SIGMA);
-    let y = Axis::decades(-4, 0, 1, "share of gaps");
-    let panel = sheet.lettered("(e)", Frame::new(5350, 9400, 8150, 11_900), x, y)?;
-    let solid = Stroke::solid(INK, LINE);
-    let sigmas = (20..=120).map(|i| f64::from(i) / 200.0);
-    let curve: Vec<_> = sigmas.map(|x| (x, able(&shown.found.parameters, x))).collect();
-    panel.curve("can be pressed", &curve, solid, Outside::Cut)?;
-    let mut entries = Vec::new();
-    for (r, (mark, colour)) in shown.rise.values("r").into_iter().zip(LOOKS) {
-        let points = shown.rise.estimates(&[("r", r)], "sigma", "share_in_contact");
-        let look = (mark, MEDIUM, Stroke::solid(colour, THIN));
-        panel.estimates(&named(r), &points, look)?;
-        entries.push(Entry::mark(look, &named(r)));
-    }
-    legend(sheet, 4950, Entry::line(solid, "|Δ*F*| > *dω*^{2}"), &entries)
-}
-
-fn description(shown: &Shown<'_>) -> String {
-    let halves = shown.curves.points(&[], "r", "half_height");
-    let end = |at: Option<&(f64, f64)>| {
-        at.map_or("none".into(), |(r, own)| format!("{} at r = {r}", short(*own, 3)))
-    };
+fn description(race: &Race) -> String {
+    let certified = race.entries.iter().find(|e| e.setting.method == MethodName::Certified);
+    let largest = certified.and_then(|entry| Some(entry.segments.errors?[2]));
     format!(
-        "(a) Mean count against σ: the smaller r, the later it rises. (b) Half height, from {} to {}. (c) s²/σ² against 1 − r, below the \
-         line of rare impacts. (d) Impacts per time in windows that double: level, but for r = 1. (e) Gaps in contact against \
-         σ.",
-        end(halves.first()),
-        end(halves.last()),
+        "Against counted work, a marker for each method and step or tolerance, n = {}, σ = {}: (a) median error of the time of the next \
+         impact, with a line up to the largest, which for certified events is {}; (b) the share of states from which the \
+         next impact is missed.",
+        race.parameters.chain.masses,
+        race.parameters.sigma,
+        largest.map_or("unknown".into(), |error| short(error, 2)),
     )
 }

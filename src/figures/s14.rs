@@ -1,78 +1,80 @@
-//! Fig. S14: what a method does to the mean number of gaps that impact, against counted work.
+//! Fig. S14: digits of the ways to compute p(σ) and P(X = k).
 
 use super::prelude::*;
-use super::rivals::{entries, look, name};
-use crate::experiments::accuracy::bias::{BiasRow, Biases};
+use super::{FORCING, SIGMA};
+use crate::experiments::accuracy::analytic::{Analytic, Route, Way};
 
-/// Within this share of the mean a method is good enough for the mean.
-const GOOD: f64 = 1.0;
+/// Errors are drawn from here to one; an error above one has no digit left.
+const LOWEST: i32 = -18;
 
-/// Bias and its error in per cent of the mean.
-fn percent(row: &BiasRow) -> Option<[f64; 2]> {
-    let own = row.own_mean.filter(|own| *own > 0.0)?;
-    Some([100.0 * row.bias? / own, 100.0 * row.error.unwrap_or(0.0) / own])
+/// Smaller errors are luck.
+const FLOOR: f64 = 1e-17;
+
+fn route(route: Route) -> (String, Stroke) {
+    match route {
+        Route::DoubleIntegral { panels: 1 } => {
+            ("one minus the double integral".into(), Stroke::dashed(ORANGE, LINE, Dash::Short))
+        }
+        Route::DoubleIntegral { panels } => (
+            format!("the same, {panels} × {panels} panels"),
+            Stroke::dashed(BLUE, LINE, Dash::Long),
+        ),
+        Route::SingleIntegral => {
+            ("one minus a single integral".into(), Stroke::dashed(GREEN, LINE, Dash::Dotted))
+        }
+        Route::ClosedForm => ("closed form".into(), Stroke::solid(RED, LINE)),
+    }
 }
 
-/// The axis of all panels, in per cent.
-fn symmetric() -> Axis {
-    let ticks = [-100_i32, -10, -1, 0, 1, 10, 100].map(|at| Tick {
-        at: f64::from(at), // There is no room for one beside zero.
-        label: (at.abs() != 1).then(|| number(f64::from(at), 0)),
-    });
-    Axis::new(Scale::Symmetric, [-150.0, 150.0], "bias (%)", ticks.into())
+fn way(way: Way) -> (&'static str, Colour, Mark) {
+    match way {
+        Way::Factorials => ("factorials", ORANGE, Mark::Square),
+        Way::LogGamma => ("log-gamma", BLUE, Mark::Ring),
+        Way::Ratios => ("ratios of terms", GREEN, Mark::Diamond),
+        Way::Products => ("products, 106 bits", RED, Mark::Disc),
+    }
 }
 
 /// Draws the figure.
-pub fn draw(biases: &Biases, note: Option<&str>) -> Result<Figure, Error> {
-    let sigmas: Vec<f64> = biases.certified.iter().map(|own| own.sigma).collect();
-    let panels = sigmas.len() as i32;
-    let bottom = 430 + 2500 * panels;
-    let sheet = Sheet::new((bottom + 1850) as u32, note)?;
-    let costs = || biases.rows.iter().filter_map(|row| row.evaluations_per_impact);
-    for (i, sigma) in sigmas.iter().enumerate() {
-        let last = i + 1 == sigmas.len();
-        let rows: Vec<&BiasRow> = biases.rows.iter().filter(|row| row.sigma == *sigma).collect();
-        let x = Axis::around(costs(), 1, "evaluations per impact");
-        let top = 430 + 2500 * i as i32;
-        let panel = sheet.lettered(
-            LETTERS[i.min(LETTERS.len() - 1)],
-            Frame::new(1300, top, 8150, top + 1900),
-            if last { x } else { x.bare() },
-            symmetric(),
-        )?;
-        let words = (SMALL, INK, HPos::Right, VPos::Bottom);
-        panel.note(&format!("*σ* = {sigma}"), (panel.x.hi, panel.y.hi), (0, -80), words)?;
-        let (a, b) = (panel.x.lo, panel.x.hi);
-        panel.area(
-            "within one per cent",
-            &[(a, -GOOD), (b, -GOOD), (b, GOOD), (a, GOOD)],
-            PALE,
-            100,
-        )?;
-        panel.level("zero", 0.0, Stroke::solid(GREY, HAIR))?;
-        for row in rows {
-            let (Some([bias, error]), Some(cost)) = (percent(row), row.evaluations_per_impact)
-            else {
-                continue;
-            };
-            let look = look(row.setting.method);
-            let label = name(row.setting.method);
-            let bar = [(cost, bias - error, bias + error)];
-            panel.bars(label, &bar, 40, look.2, Outside::Refuse)?;
-            panel.marks(label, &[(cost, bias)], look, Outside::Refuse)?;
-        }
+pub fn draw(analytic: &Analytic, note: Option<&str>) -> Result<Figure, Error> {
+    let sheet = Sheet::new(10_300, note)?;
+    let errors = || Axis::decades(LOWEST, 0, 3, "relative error");
+    let sigmas = analytic.parameters.sigmas.iter().copied();
+    let sigma = Axis::around(sigmas, 1, FORCING).column(SIGMA);
+    let relation = Frame::new(1250, 430, 8150, 3330);
+    let relation = sheet.lettered(LETTERS[0], relation, sigma, errors())?;
+    let shown = |error: f64| error.max(FLOOR);
+    let mut entries = Vec::new();
+    for own in &analytic.relation {
+        let (name, stroke) = route(own.route);
+        let points: Vec<_> = own.points.iter().map(|p| (p.0, shown(p.1))).collect();
+        relation.curve(&name, &points, stroke, Outside::Edge)?;
+        entries.push(Entry::line(stroke, &name));
     }
-    let present = |method| biases.rows.iter().any(|row| row.setting.method == method);
-    sheet.legend_in_columns((1300, bottom + 700), (SMALL, 370), (3, 3200), &entries(present))?;
-    Ok(sheet.finish("s14", "Bias of the mean count", description(biases)))
+    sheet.legend_in_columns((400, 4500), (SMALL, 370), (2, 4250), &entries)?;
+
+    let sizes = analytic.parameters.sizes.iter().map(|&n| n as f64);
+    let big_n = Axis::around(sizes, 1, "number of vertices *N*");
+    let distribution = Frame::new(1250, 5700, 8150, 8600);
+    let distribution = sheet.lettered(LETTERS[1], distribution, big_n, errors())?;
+    let mut entries = Vec::new();
+    for own in &analytic.distribution {
+        let (name, colour, mark) = way(own.way);
+        let points = own.points.iter().filter_map(|p| Some((p.big_n as f64, shown(p.error?))));
+        let points: Vec<_> = points.collect();
+        let look = (mark, 58, Stroke::solid(colour, THIN));
+        distribution.marked(name, &points, (look.2, look), Outside::Edge)?;
+        entries.push(Entry::mark(look, name));
+    }
+    sheet.legend_in_columns((400, 9750), (SMALL, 370), (2, 4250), &entries)?;
+    Ok(sheet.finish("s14", "Digits of the analytic methods", description(analytic)))
 }
 
-fn description(biases: &Biases) -> String {
-    let largest = biases.rows.iter().filter_map(percent).map(|[bias, _]| bias.abs());
+fn description(analytic: &Analytic) -> String {
     format!(
-        "One chart for each σ: a method’s mean number of impacting gaps less that of the certified engine on the same chains, in per cent, \
-         with paired standard errors, against evaluations per impact. Coarse settings are off by up to {}; fine ones lie in \
-         a grey band, one per cent to both sides, as far as their errors tell.",
-        short(largest.fold(0.0, f64::max), 2)
+        "Relative errors on logarithmic axes. (a) Of p(σ) against σ: the closed form is level at rounding; one minus an integral loses \
+         all digits towards small σ. (b) Of P(X = k) and its mean against N, N p = {}: factorials end early, logarithms of \
+         the gamma function lose digits with N, ratios of terms and products keep theirs.",
+        analytic.parameters.mean_degree,
     )
 }

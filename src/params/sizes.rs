@@ -178,55 +178,6 @@ impl ProtocolParams {
     }
 }
 
-/// The map of one kind of chain.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct NamedProtocol {
-    /// Short name: `zero`, `random`, `ring`.
-    pub name: String,
-    /// What is run.
-    pub map: ProtocolParams,
-}
-
-/// The map for other starts and ends, on fewer transients and windows.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ProtocolsParams {
-    /// The maps.
-    pub maps: Vec<NamedProtocol>,
-}
-
-impl ProtocolsParams {
-    /// The sizes of each profile.
-    pub fn new(profile: Profile) -> Self {
-        let (transients, windows, step, realisations) = match profile {
-            Profile::Full | Profile::Deep => (5, 3, 1, 80),
-            Profile::Ci => (3, 2, 2, 8),
-            Profile::Quick => (3, 2, 2, 3),
-        };
-        // After the longer transients a map has risen where the long runs end.
-        let named = |name: &str, short_above: f64, change: fn(&mut Chain)| {
-            let mut map = ProtocolParams {
-                transients: [10.0, 50.0, 500.0, 4000.0, 1e5][..transients].to_vec(),
-                windows: [20.0, 200.0, 2000.0][..windows].to_vec(),
-                // A start without a free part rises last.
-                sigmas: Grid::default().and(6, 26, step, 100).values(),
-                short_above,
-                realisations,
-                stream: "protocols".into(),
-                ..ProtocolParams::new(profile)
-            };
-            change(&mut map.chain);
-            NamedProtocol { name: name.into(), map }
-        };
-        ProtocolsParams {
-            maps: vec![
-                named("zero", 0.2, |chain| chain.start = Start::Zero),
-                named("random", 0.16, |chain| chain.start = Start::Random),
-                named("ring", 0.14, |chain| chain.boundary = Boundary::Ring),
-            ],
-        }
-    }
-}
-
 /// One chain that differs from the paper's in one respect.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StartVariant {

@@ -32,15 +32,20 @@ const ABOUT: [(&str, &str); 6] = [
     ("license", "MIT OR Apache-2.0"),
 ];
 
-/// When all was one page, the figures of the second paper had these numbers, and its parts these names.
-const MOVED: [(&str, &str); 9] = [
+/// When all was one page, the figures of the second paper and of the methods had these numbers, and its parts these
+/// names.
+const MOVED: [(&str, &str); 13] = [
     ("fig-S5", "fig-S6"),
     ("fig-S6", "fig-S7"),
     ("fig-S7", "fig-S8"),
     ("fig-S8", "fig-S9"),
-    ("fig-S9", "fig-S10"),
-    ("fig-S10", "fig-S11"),
+    ("fig-S9", "sec-discussion"),
     ("fig-S11", "fig-S5"),
+    ("fig-S12", "fig-S11"),
+    ("fig-S13", "fig-S12"),
+    ("fig-S14", "tab-bias"),
+    ("fig-S15", "fig-S13"),
+    ("fig-S16", "fig-S14"),
     ("sec-beyond", "sec-protocol"),
     ("sec-edition", "sec-introduction"),
 ];

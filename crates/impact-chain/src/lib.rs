@@ -9,7 +9,6 @@
 //!   ([`Engine::contacts`]), and gaps that close at the same instant follow a rule ([`Simultaneous`]).
 //! - [`certify()`] says up to which impact a run can be trusted where it is chaotic, [`rounding`] bounds
 //!   what rounding does to one impact.
-//! - [`orbit`] finds periodic orbits and their stability.
 //! - [`methods`] are other ways to simulate the same chain, to compare with.
 //!
 //! ```
@@ -46,7 +45,6 @@ mod growth;
 mod impact;
 mod linear;
 pub mod methods;
-pub mod orbit;
 pub mod rounding;
 mod scenario;
 mod simulation;

@@ -6,17 +6,15 @@
 //!   [`first_root`], in frames ([`local_frame`]) that lose no digits, screened by polynomials
 //!   ([`screen`]); phases without drift from a [`clock`] of 96 bits; the next event of many from [`earliest`].
 //! - Numbers beyond f64: [`double_double`] has 32 digits, [`scaled`] the exponents of factorials.
-//! - Roots, integrals and matrices: [`bisection`], [`regula_falsi`], [`quadrature`], [`dense`], [`eigenvalues`].
+//! - Roots and integrals: [`bisection`], [`regula_falsi`], [`quadrature`].
 //! - Samples: [`random`] streams that depend on nothing but their names, [`statistics`], [`regression`], the
 //!   [`bootstrap`], and [`estimates`] with the jackknife's errors.
 
 pub mod bisection;
 pub mod bootstrap;
 pub mod clock;
-pub mod dense;
 pub mod double_double;
 pub mod earliest;
-pub mod eigenvalues;
 pub mod estimates;
 pub mod first_root;
 pub mod local_frame;

@@ -7,7 +7,7 @@ use crate::experiments::rise::Rise;
 use crate::numerics::statistics::Estimate;
 
 pub const GUARDS: &[Guard] = &[
-    Guard { name: "maps_meet", ids: &["protocol*", "long_protocol*", "starts*"], find: meet },
+    Guard { name: "maps_meet", ids: &["protocol*", "long_protocol*"], find: meet },
     Guard { name: "maps_fall", ids: &["protocol*", "long_protocol*"], find: fall },
     Guard { name: "maps_need_seeds", ids: &["protocol*", "long_protocol*"], find: need_seeds },
 ];
@@ -27,11 +27,11 @@ fn of_rise(rise: &Rise) -> Places {
 fn maps<'a>(look: Look<'a>) -> impl Iterator<Item = (&'a str, &'a ProtocolMap)> {
     let rest = look.results.protocol().into_iter().map(|map| ("rest", map));
     let long = look.results.long_protocol().into_iter().map(|long| ("long", &long.map));
-    rest.chain(long).chain(look.results.protocols().into_iter().flat_map(|all| all.named()))
+    rest.chain(long)
 }
 
 /// Samples that drew other random numbers agree within the errors of both: the map with the main sweep and
-/// with its long end, and those of other chains with the ensembles of the same start and end.
+/// with its long end.
 fn meet(look: Look<'_>) -> Option<String> {
     let apart = |what: &str, own: Places, other: Places| {
         own.into_iter().zip(other).find_map(|(own, other)| {
@@ -45,11 +45,8 @@ fn meet(look: Look<'_>) -> Option<String> {
     let protocol = sweep.parameters.protocol;
     maps(look).find_map(|(name, map)| {
         let at = map.cell(protocol.transient, protocol.window);
-        let other = match name {
-            "rest" => Some(&sweep.rise),
-            _ => look.results.starts().ok()?.variant(name).map(|variant| &variant.rise),
-        };
-        let swept = at.zip(other).and_then(|(at, other)| apart(name, places(at), of_rise(other)));
+        let swept = at.filter(|_| name == "rest");
+        let swept = swept.and_then(|at| apart(name, places(at), of_rise(&sweep.rise)));
         let rest = look.results.protocol().ok().filter(|_| name == "long")?;
         swept.or_else(|| {
             map.cells.iter().find_map(|own| {
@@ -81,8 +78,7 @@ fn fall(look: Look<'_>) -> Option<String> {
 fn need_seeds(look: Look<'_>) -> Option<String> {
     let seeds = &look.results.identities;
     let quantile = claims::level().quantile;
-    let from_rest = maps(look).filter(|(name, _)| ["rest", "long", "ring"].contains(name));
-    from_rest.flat_map(|(_, map)| &map.cells).find_map(|cell| {
+    maps(look).flat_map(|(_, map)| &map.cells).find_map(|cell| {
         let bounds = [
             (cell.half_height_all, seeds.sigma_kept_half),
             (cell.kept_half, seeds.sigma_kept_half),

@@ -14,7 +14,6 @@ mod history;
 mod maps;
 mod model;
 mod nucleation;
-mod orbits;
 mod printed;
 mod restitution;
 mod sweep;
@@ -57,7 +56,6 @@ pub fn all() -> impl Iterator<Item = &'static Guard> {
         nucleation::GUARDS,
         heat::GUARDS,
         history::GUARDS,
-        orbits::GUARDS,
         restitution::GUARDS,
         chains::GUARDS,
         printed::GUARDS,
