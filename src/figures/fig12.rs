@@ -60,5 +60,7 @@ fn lag(sheet: &Sheet, near: &Panel, [from, to]: [f64; 2], level: f64) -> Result<
     let look = (TINY, INK, HPos::Center, VPos::Bottom);
     near.note(&short(to - from, 2), ((from + to) / 2.0, level), (60, -70), look)?;
     let look = (TINY, INK, HPos::Left, VPos::Top);
-    [from, to].into_iter().try_for_each(|at| near.note(&short(at, 4), (at, level), (70, 60), look))
+    // The first keeps clear of the line at the printed σ.
+    near.note(&short(from, 4), (from, level), (200, 60), look)?;
+    near.note(&short(to, 4), (to, level), (70, 60), look)
 }
