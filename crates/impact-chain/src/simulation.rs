@@ -204,7 +204,12 @@ impl<const M: usize> Simulation<M> {
     /// Goes to the next event up to `end`; returns its gap.
     #[inline(always)]
     pub(super) fn next_event(&mut self, end: Instant) -> Option<usize> {
-        let (k, at) = self.queue.first();
+        let (mut k, mut at) = self.queue.first();
+        // A search changes nothing that others see, so its place among others does not matter.
+        let seen = !matches!(self.gaps[k].awaits, Awaits::Search { .. });
+        if (at > end || seen) && self.queue.is_close(k) {
+            (k, at) = self.queue.first_in_full();
+        }
         if at > end {
             return None;
         }

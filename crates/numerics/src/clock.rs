@@ -54,10 +54,12 @@ impl Instant {
         (self.0 - earlier.0) as f64 / TICKS
     }
 
-    /// Time in whole units of 2^-23, rounded down; the largest number for "never".
+    /// The time since `epoch` in whole units of 2^-58, rounded down: 0 before the epoch, the largest number 64 units of time
+    /// after it and later.
     #[inline(always)]
-    pub fn coarse(self) -> i64 {
-        i64::try_from(self.0 >> 57).unwrap_or(i64::MAX)
+    pub fn fine(self, epoch: Instant) -> u64 {
+        let units = (self.0 - epoch.0) >> 22;
+        u64::try_from(units).unwrap_or(if units < 0 { 0 } else { u64::MAX })
     }
 
     /// The time since t = 0, rounded once.
