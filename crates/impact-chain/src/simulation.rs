@@ -358,8 +358,8 @@ impl<const M: usize> Simulation<M> {
             (frame.f0, frame.g0) = (f0, g0);
         }
         // A width below zero by rounding is zero unless the gap is closing, and then due now.
-        if frame.g0 >= 0.0 {
-            frame.f0 = frame.f0.max(0.0);
+        if frame.f0 < 0.0 && frame.g0 >= 0.0 {
+            frame.f0 = 0.0;
         }
         self.gaps[k].frame = frame;
     }

@@ -9,6 +9,7 @@
 
 use super::local_frame::{Frame, Frequencies};
 use super::trig::small_sin_cos;
+use std::hint::select_unpredictable;
 use wide::f64x2;
 
 /// Degree of the Bernstein form.
@@ -130,22 +131,25 @@ impl<const M: usize> Piece<M> {
     /// a guess of its root, counted from the frame's instant.
     #[inline(always)]
     pub fn only_root(&self, frame: &Frame<M>, first: f64, c: &Coefficients) -> Option<f64> {
-        let b = c.all(first);
-        let slack = c.slack + self.difference_of_slope * frame.bound;
-        let falls = b[N] < -c.slack && (0..N).all(|i| b[i + 1] < b[i] - slack);
-        if !falls {
+        let [b1, b2, b3, b4, b5, b6, b7, b8] = c.all();
+        let before = [[first, b1], [b2, b3], [b4, b5], [b6, b7]].map(f64x2::from);
+        let slack = f64x2::splat(c.slack + self.difference_of_slope * frame.bound);
+        let falls: [f64x2; N / 2] = std::array::from_fn(|i| c.row[i].simd_lt(before[i] - slack));
+        if !((falls[0] & falls[1]) & (falls[2] & falls[3])).all() || b8 >= -c.slack {
             return None;
         }
-        // The parabola with value, slope and curvature of p at the end that is nearer to zero.
-        let at_left = b[0] < -b[N];
-        let [near, next, third] = if at_left { [b[0], b[1], b[2]] } else { [b[8], b[7], b[6]] };
+        // The parabola with value, slope and curvature of p at the end that is nearer to zero; no branch, for it
+        // is not predictable.
+        let at_left = first < -b8;
+        let nearer = |left: f64, right: f64| select_unpredictable(at_left, left, right);
+        let (near, next, third) = (nearer(first, b8), nearer(b1, b7), nearer(b2, b6));
         let slope = 8.0 * (near - next);
         let curvature = 56.0 * (near - 2.0 * next + third);
         let root = (slope * slope - 2.0 * near * curvature).max(0.0).sqrt();
         // Inwards, f falls from the left end and rises from the right one.
         let inwards = 2.0 * near.abs() / (slope.abs() + root);
         let inwards = inwards.min(1.0);
-        let inside = if at_left { inwards } else { 1.0 - inwards };
+        let inside = nearer(inwards, 1.0 - inwards);
         Some(self.start + self.width * inside)
     }
 }
@@ -168,9 +172,10 @@ impl Coefficients {
         self.row[N / 2 - 1].to_array()[1]
     }
 
-    fn all(&self, first: f64) -> [f64; N + 1] {
+    #[inline(always)]
+    fn all(&self) -> [f64; N] {
         let [[a, b], [c, d], [e, f], [g, h]] = self.row.map(f64x2::to_array);
-        [first, a, b, c, d, e, f, g, h]
+        [a, b, c, d, e, f, g, h]
     }
 }
 
@@ -207,12 +212,13 @@ mod tests {
             let reach = frequencies.reach;
             for (start, width) in [(0.0, reach), (0.0, 0.5 * reach), (0.5 * reach, 0.5 * reach)] {
                 let piece = Piece::new(start, width, &frequencies);
-                let b = piece.coefficients(&frame).all(f(start));
+                let b = piece.coefficients(&frame).all();
                 for step in 0..=40 {
                     let t = f64::from(step) / 40.0;
                     let polynomial: f64 = (0..=N)
                         .map(|i| {
-                            b[i] * BINOMIALS[i] * t.powi(i as i32) * (1.0 - t).powi((N - i) as i32)
+                            let b = if i == 0 { f(start) } else { b[i - 1] };
+                            b * BINOMIALS[i] * t.powi(i as i32) * (1.0 - t).powi((N - i) as i32)
                         })
                         .sum();
                     let above = (f(start + t * width) - polynomial) / frame.size;
