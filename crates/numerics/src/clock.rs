@@ -124,7 +124,7 @@ impl Rate {
     }
 
     /// (sin, cos) of the phase at an instant.
-    #[inline]
+    #[inline(always)]
     pub fn sin_cos(self, at: Instant) -> (f64, f64) {
         sin_cos_turn(self.turn(at))
     }

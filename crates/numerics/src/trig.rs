@@ -120,7 +120,7 @@ pub fn small_sin_cos(x: f64) -> [f64; 2] {
 /// (sin, cos) of a phase given as a fraction of a turn in units of 2^-64, to 1.2 units of 2^-53.
 ///
 /// The reduction to the nearest quarter turn is exact integer arithmetic.
-#[inline]
+#[inline(always)]
 pub fn sin_cos_turn(turn: u64) -> (f64, f64) {
     const QUARTER: u64 = 1 << 62;
     const RADIANS: f64 = std::f64::consts::TAU / (1u128 << 64) as f64;
