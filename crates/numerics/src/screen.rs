@@ -9,7 +9,6 @@
 
 use super::local_frame::{Frame, Frequencies};
 use super::trig::small_sin_cos;
-use std::hint::select_unpredictable;
 use wide::f64x2;
 
 /// Degree of the Bernstein form.
@@ -138,18 +137,21 @@ impl<const M: usize> Piece<M> {
         if !((falls[0] & falls[1]) & (falls[2] & falls[3])).all() || b8 >= -c.slack {
             return None;
         }
-        // The parabola with value, slope and curvature of p at the end that is nearer to zero; no branch, for it
-        // is not predictable.
-        let at_left = first < -b8;
-        let nearer = |left: f64, right: f64| select_unpredictable(at_left, left, right);
-        let (near, next, third) = (nearer(first, b8), nearer(b1, b7), nearer(b2, b6));
+        // The parabola with value, slope and curvature of p at the end that is nearer to zero. Which one it is
+        // cannot be predicted: a mask, and no branch.
+        let at_left = f64x2::splat(first).simd_lt(f64x2::splat(-b8));
+        let nearer = |left: [f64; 2], right: [f64; 2]| {
+            at_left.select(f64x2::from(left), f64x2::from(right)).to_array()
+        };
+        let [near, next] = nearer([first, b1], [b8, b7]);
+        let [third, _] = nearer([b2; 2], [b6; 2]);
         let slope = 8.0 * (near - next);
         let curvature = 56.0 * (near - 2.0 * next + third);
         let root = (slope * slope - 2.0 * near * curvature).max(0.0).sqrt();
         // Inwards, f falls from the left end and rises from the right one.
         let inwards = 2.0 * near.abs() / (slope.abs() + root);
         let inwards = inwards.min(1.0);
-        let inside = nearer(inwards, 1.0 - inwards);
+        let [inside, _] = nearer([inwards; 2], [1.0 - inwards; 2]);
         Some(self.start + self.width * inside)
     }
 }
