@@ -20,7 +20,7 @@ pub mod eigenvalues;
 pub mod estimates;
 pub mod first_root;
 pub mod local_frame;
-mod polish;
+mod nodes;
 pub mod quadrature;
 pub mod random;
 pub mod regression;

@@ -17,6 +17,97 @@ const N: usize = 8;
 /// One number for each of the coefficients b₁ … b₈.
 type Row = [f64x2; N / 2];
 
+/// Eight numbers that are linear in a frame: their factors, besides f₀ with the factor 1.
+#[derive(Clone, Copy, Debug)]
+struct Linear<const M: usize> {
+    slope: Row,
+    alpha: Row,
+    forced: [[Row; 2]; M],
+}
+
+impl<const M: usize> Linear<M> {
+    /// From what `of` gives for each part of a frame, told by its value and three derivatives at any s.
+    fn new(frequencies: &Frequencies<M>, of: impl Fn(&dyn Fn(f64) -> [f64; 4]) -> Row) -> Self {
+        let w = frequencies.omega;
+        // 1 − cos νs and sin νs.
+        let versine = |nu: f64, s: f64| {
+            let [rest, versine] = small_sin_cos(nu * s);
+            let (sin, cos) = (nu * s + rest, 1.0 - versine);
+            [versine, nu * sin, nu * nu * cos, -(nu * nu * nu * sin)]
+        };
+        let sine = |nu: f64, s: f64| {
+            let [rest, versine] = small_sin_cos(nu * s);
+            let (sin, cos) = (nu * s + rest, 1.0 - versine);
+            [sin, nu * cos, -(nu * nu * sin), -(nu * nu * nu * cos)]
+        };
+        Linear {
+            slope: of(&|s| sine(w, s).map(|x| x / w)),
+            alpha: of(&|s| versine(w, s).map(|x| -x)),
+            forced: std::array::from_fn(|m| {
+                let nu = frequencies.big_omegas[m];
+                let difference = |s: f64| {
+                    let (fast, slow) = (sine(nu, s), sine(w, s));
+                    std::array::from_fn(|k| fast[k] - nu / w * slow[k])
+                };
+                [of(&|s| versine(nu, s).map(|x| -x)), of(&difference)]
+            }),
+        }
+    }
+
+    #[inline(always)]
+    fn of(&self, frame: &Frame<M>) -> Row {
+        std::array::from_fn(|i| {
+            let mut b = f64x2::splat(frame.f0)
+                + f64x2::splat(frame.g0) * self.slope[i]
+                + f64x2::splat(frame.alpha) * self.alpha[i];
+            for m in 0..M {
+                b = b
+                    + f64x2::splat(frame.forced[m][0]) * self.forced[m][0][i]
+                    + f64x2::splat(frame.forced[m][1]) * self.forced[m][1][i];
+            }
+            b
+        })
+    }
+}
+
+/// The values of a function at the ends of the eighths of the reach.
+#[derive(Clone, Copy, Debug)]
+pub struct Eighths<const M: usize> {
+    values: Linear<M>,
+    width: f64,
+}
+
+impl<const M: usize> Eighths<M> {
+    /// Of the reach of `frequencies`.
+    pub fn new(frequencies: &Frequencies<M>) -> Self {
+        let width = 0.125 * frequencies.reach;
+        let values = Linear::new(frequencies, |f| {
+            row(std::array::from_fn(|i| f((i + 1) as f64 * width)[0]))
+        });
+        Eighths { values, width }
+    }
+
+    /// A guess of the root of a function that is not negative at s = 0 and falls below zero once: by the secant
+    /// of the eighth that it lies in.
+    #[inline(always)]
+    pub fn guess(&self, frame: &Frame<M>) -> f64 {
+        let row = self.values.of(frame);
+        let below = signs(row.map(|x| x.simd_lt(f64x2::ZERO)));
+        let [[a, b], [c, d], [e, f], [g, h]] = row.map(f64x2::to_array);
+        let values = [frame.f0, a, b, c, d, e, f, g, h];
+        let last = (below | 1 << (N - 1)).trailing_zeros() as usize % N;
+        let (high, low) = (values[last], values[last + 1]);
+        self.width * (last as f64 + high / (high - low))
+    }
+}
+
+/// A bit for each of eight comparisons.
+#[inline(always)]
+fn signs(masks: Row) -> u32 {
+    let [a, b, c, d] = masks.map(|mask| mask.to_bitmask());
+    (a | b << 2) | (c << 4 | d << 6)
+}
+
 /// The factors of one piece.
 #[derive(Clone, Copy, Debug)]
 pub struct Piece<const M: usize> {
@@ -24,9 +115,7 @@ pub struct Piece<const M: usize> {
     pub start: f64,
     /// w, its width.
     pub width: f64,
-    slope: Row,
-    alpha: Row,
-    forced: [[Row; 2]; M],
+    factors: Linear<M>,
     /// The largest difference between f and p over M₄, as it enters b₄, and 0 for b₃.
     difference: f64x2,
     /// What the same difference does to b_{i+1} − b_i at most.
@@ -72,56 +161,32 @@ fn row(b: [f64; N]) -> Row {
 impl<const M: usize> Piece<M> {
     /// The piece of `frequencies` that begins at `start` and is `width` wide, within the reach.
     pub fn new(start: f64, width: f64, frequencies: &Frequencies<M>) -> Self {
-        let w = frequencies.omega;
-        // Value and three derivatives of 1 − cos νs and of sin νs − ρ sin ωs at s.
-        let versine = |nu: f64, s: f64| {
-            let [rest, versine] = small_sin_cos(nu * s);
-            let (sin, cos) = (nu * s + rest, 1.0 - versine);
-            [versine, nu * sin, nu * nu * cos, -(nu * nu * nu * sin)]
-        };
-        let sine = |nu: f64, s: f64| {
-            let [rest, versine] = small_sin_cos(nu * s);
-            let (sin, cos) = (nu * s + rest, 1.0 - versine);
-            [sin, nu * cos, -(nu * nu * sin), -(nu * nu * nu * cos)]
-        };
         let end = start + width;
-        let of = |f: &dyn Fn(f64) -> [f64; 4]| hermite(f(start), f(end), width);
         let fast2 = frequencies.fastest * frequencies.fastest;
         let width2 = width * width;
         let eighth = fast2 * fast2 * (width2 * width2) * (width2 * width2) / 40_320.0;
         Piece {
             start,
             width,
-            slope: of(&|s| sine(w, s).map(|x| x / w)),
-            alpha: of(&|s| versine(w, s).map(|x| -x)),
-            forced: std::array::from_fn(|m| {
-                let nu = frequencies.big_omegas[m];
-                let difference = |s: f64| {
-                    let (fast, slow) = (sine(nu, s), sine(w, s));
-                    std::array::from_fn(|k| fast[k] - nu / w * slow[k])
-                };
-                [of(&|s| versine(nu, s).map(|x| -x)), of(&difference)]
-            }),
+            factors: Linear::new(frequencies, |f| hermite(f(start), f(end), width)),
             difference: f64x2::from([0.0, eighth / 70.0]),
             // |f' − p'| ≤ M₈ max |t³ (w − t)³ (t − ξ)|/7! ≤ M₈ w⁷/(64 · 7!), times w/8.
             difference_of_slope: eighth / 64.0,
         }
     }
 
+    /// What f can lie above p at most, where p is below f, rounding included.
+    #[inline(always)]
+    pub fn doubt(&self, frame: &Frame<M>) -> f64 {
+        // Twice M₈ (w/2)⁸/8! = b₄'s part · 70/256.
+        let [_, difference] = self.difference.to_array();
+        frame.bound * difference + SLACK * frame.size
+    }
+
     /// The coefficients b₁ … b₈ of p over this piece; b₀ is f(a).
     #[inline(always)]
     pub fn coefficients(&self, frame: &Frame<M>) -> Coefficients {
-        let mut row: Row = std::array::from_fn(|i| {
-            let mut b = f64x2::splat(frame.f0)
-                + f64x2::splat(frame.g0) * self.slope[i]
-                + f64x2::splat(frame.alpha) * self.alpha[i];
-            for m in 0..M {
-                b = b
-                    + f64x2::splat(frame.forced[m][0]) * self.forced[m][0][i]
-                    + f64x2::splat(frame.forced[m][1]) * self.forced[m][1][i];
-            }
-            b
-        });
+        let mut row = self.factors.of(frame);
         row[1] -= f64x2::splat(frame.bound) * self.difference;
         Coefficients { row, slack: SLACK * frame.size }
     }
@@ -166,6 +231,16 @@ impl Coefficients {
         let [a, b, c, d] = self.row;
         let least = a.fast_min(b).fast_min(c.fast_min(d));
         least.simd_gt(f64x2::splat(self.slack)).all()
+    }
+
+    /// Whether the signs of b₁ … b₈ change once, to minus, or are all minus.
+    #[inline(always)]
+    pub fn fall_once(&self) -> bool {
+        let slack = f64x2::splat(self.slack);
+        let open = signs(self.row.map(|b| b.simd_gt(slack)));
+        let shut = signs(self.row.map(|b| b.simd_lt(-slack)));
+        // Ones from the lowest bit on, and the others all shut.
+        open & (open + 1) == 0 && open + shut == (1 << N) - 1 && shut != 0
     }
 
     /// b₈, the value at the end of the piece.
