@@ -233,14 +233,14 @@ impl Coefficients {
         least.simd_gt(f64x2::splat(self.slack)).all()
     }
 
-    /// Whether the signs of b₁ … b₈ change once, to minus, or are all minus.
+    /// Whether the signs of b₁ … b₈, which are not all plus, change once at most, from plus to minus.
     #[inline(always)]
     pub fn fall_once(&self) -> bool {
         let slack = f64x2::splat(self.slack);
-        let open = signs(self.row.map(|b| b.simd_gt(slack)));
-        let shut = signs(self.row.map(|b| b.simd_lt(-slack)));
-        // Ones from the lowest bit on, and the others all shut.
-        open & (open + 1) == 0 && open + shut == (1 << N) - 1 && shut != 0
+        let plus = signs(self.row.map(|b| b.simd_gt(slack)));
+        let minus = signs(self.row.map(|b| b.simd_lt(-slack)));
+        // Plus from the lowest bit on, and minus all others.
+        (plus & (plus + 1) == 0) & (plus + minus == (1 << N) - 1)
     }
 
     /// b₈, the value at the end of the piece.

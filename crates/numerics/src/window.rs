@@ -67,20 +67,21 @@ pub fn next_window<const M: usize>(
 
 impl Part {
     /// How long after `s` the next window opens; 0 in a window.
+    #[inline]
     fn wait(&self, s: f64) -> f64 {
         const TURN: f64 = std::f64::consts::TAU;
         if self.half_width >= 3.5 || self.amplitude == 0.0 {
             return 0.0;
         }
         let angle = self.angle + self.frequency * s;
-        // Behind the middle of the last window, 0 ≤ behind < 2π.
-        let turns = angle / TURN;
-        let behind = angle - TURN * ((turns as i64 - i64::from(turns < 0.0)) as f64);
-        let closes_at = self.half_width + 1e-3 * WIDENED;
-        if behind <= closes_at || behind >= TURN - closes_at {
+        // Behind the middle of the nearest window; the sum has no place for a fraction.
+        const WHOLE: f64 = 1.5 * (1u64 << 52) as f64;
+        let behind = angle - TURN * ((angle * (1.0 / TURN) + WHOLE) - WHOLE);
+        if behind.abs() <= self.half_width + 1e-3 * WIDENED {
             return 0.0;
         }
-        (TURN - self.half_width - behind) / self.frequency
+        let middle = if behind > 0.0 { TURN } else { 0.0 };
+        (middle - self.half_width - behind) / self.frequency
     }
 }
 
