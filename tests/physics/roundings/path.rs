@@ -48,6 +48,10 @@ fn inverse_factorials<const N: usize>(m: i32) -> [f64; N] {
 fn polynomial<const N: usize>(z: Num, coefficients: [f64; N]) -> Num {
     let c = coefficients.map(Num::exact);
     let square = z * z;
+    if N == 8 {
+        let pair = |k: usize| c[k] + z * c[k + 1];
+        return (pair(0) + square * pair(2)) + square * square * (pair(4) + square * pair(6));
+    }
     let (mut even, mut odd) = (c[N - 2], c[N - 1]);
     for k in (0..N / 2 - 1).rev() {
         even = even * square + c[2 * k];
