@@ -29,7 +29,7 @@ pub struct Work {
     pub searches: u64,
     /// Pieces screened: one polynomial certificate each, without a sine.
     pub pieces: u64,
-    /// Evaluations of f with its sines (the start costs none).
+    /// Evaluations of f: by the polynomial of a node, or with its sines (the start costs none).
     pub evaluations: u64,
     /// Searches that the screen could not decide.
     pub stepped: u64,
