@@ -19,6 +19,7 @@ pub mod earliest;
 pub mod eigenvalues;
 pub mod estimates;
 pub mod first_root;
+mod linear;
 pub mod local_frame;
 mod nodes;
 pub mod quadrature;

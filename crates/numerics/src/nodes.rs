@@ -1,12 +1,11 @@
 //! A root to full accuracy from a guess, without a sine: by the Taylor polynomial about the nearest of fixed nodes.
 //!
-//! The Taylor coefficients of f about a node are linear in f₀, g₀, α, γ and δ, with factors that depend on the
-//! frequencies and the node alone: a table, made once. At the first node, s = 0, they are exact, so a short wait keeps
+//! The Taylor coefficients of f about a node are linear in its frame ([`Linear`]). At the first node, s = 0, they are exact, so a short wait keeps
 //! its relative accuracy.
 
 use super::first_root::Work;
+use super::linear::Linear;
 use super::local_frame::{Frame, Frequencies};
-use super::trig::small_sin_cos;
 use wide::f64x2;
 
 /// Nodes over the reach, both ends included; a power of two.
@@ -16,21 +15,10 @@ const NODES: usize = 32;
 /// f's size and 0.06⁹/9! < 3e-17 of its slope's. Nodes are 0.092 apart.
 const RADIUS: f64 = 0.06;
 
-/// Coefficients of even and of odd order side by side, up to the ninth.
-type Row = [f64x2; 5];
-
-/// The factors of one node.
-#[derive(Clone, Copy, Debug)]
-struct Node<const M: usize> {
-    slope: Row,
-    alpha: Row,
-    forced: [[Row; 2]; M],
-}
-
 /// All nodes of given frequencies.
 #[derive(Clone, Debug)]
 pub struct Nodes<const M: usize> {
-    nodes: [Node<M>; NODES],
+    nodes: [Linear<M, 5>; NODES],
     reach: f64,
     spacing: f64,
     per_time: f64,
@@ -40,67 +28,17 @@ pub struct Nodes<const M: usize> {
 /// Steps of fourth order that are enough.
 const STEPS: u32 = 4;
 
-fn row(c: [f64; 10]) -> Row {
-    std::array::from_fn(|i| f64x2::from([c[2 * i], c[2 * i + 1]]))
-}
-
-impl<const M: usize> Node<M> {
-    fn new(s: f64, frequencies: &Frequencies<M>) -> Self {
-        // Taylor coefficients of 1 − cos νs and of sin νs, the latter without νs in the first.
-        let of = |nu: f64| {
-            let [rest, versine] = small_sin_cos(nu * s);
-            let (sin, cos) = (nu * s + rest, 1.0 - versine);
-            let mut factor = 1.0;
-            let (mut even, mut odd) = ([versine; 10], [rest; 10]);
-            for k in 1..10 {
-                factor *= nu / k as f64;
-                // Derivatives of −cos and of sin.
-                let turned = [[-cos, sin], [sin, cos], [cos, -sin], [-sin, -cos]][k % 4];
-                [even[k], odd[k]] = turned.map(|x| factor * x);
-            }
-            (even, odd)
-        };
-        let w = frequencies.omega;
-        let (even, odd) = of(w);
-        let mut sine = odd;
-        sine[0] += w * s;
-        Node {
-            slope: row(sine.map(|x| x / w)),
-            alpha: row(even.map(|x| -x)),
-            forced: std::array::from_fn(|m| {
-                let nu = frequencies.big_omegas[m];
-                let (big_even, big_odd) = of(nu);
-                let mut difference: [f64; 10] =
-                    std::array::from_fn(|k| big_odd[k] - nu / w * odd[k]);
-                difference[1] = nu * (even[0] - big_even[0]);
-                [row(big_even.map(|x| -x)), row(difference)]
-            }),
-        }
-    }
-
-    /// The coefficients about this node.
-    #[inline(always)]
-    fn coefficients(&self, frame: &Frame<M>) -> Row {
-        let mut c: Row = std::array::from_fn(|i| {
-            let mut c =
-                f64x2::splat(frame.g0) * self.slope[i] + f64x2::splat(frame.alpha) * self.alpha[i];
-            for m in 0..M {
-                c += f64x2::splat(frame.forced[m][0]) * self.forced[m][0][i]
-                    + f64x2::splat(frame.forced[m][1]) * self.forced[m][1][i];
-            }
-            c
-        });
-        c[0] += f64x2::from([frame.f0, 0.0]);
-        c
-    }
-}
-
 impl<const M: usize> Nodes<M> {
     /// Of the given frequencies.
     pub fn new(frequencies: &Frequencies<M>) -> Self {
         let spacing = frequencies.reach / (NODES - 1) as f64;
         Nodes {
-            nodes: std::array::from_fn(|i| Node::new(i as f64 * spacing, frequencies)),
+            nodes: std::array::from_fn(|i| {
+                Linear::new(frequencies, |f| {
+                    let c = f(i as f64 * spacing);
+                    std::array::from_fn(|k| f64x2::from([c[2 * k], c[2 * k + 1]]))
+                })
+            }),
             reach: frequencies.reach,
             spacing,
             per_time: 1.0 / spacing,
@@ -118,7 +56,8 @@ impl<const M: usize> Nodes<M> {
             let number = s * self.per_time + (1u64 << 52) as f64;
             let index = number.to_bits() as usize % NODES;
             let node = index as f64 * self.spacing;
-            let taylor = Taylor(self.nodes[index].coefficients(frame));
+            let mut taylor = Taylor(self.nodes[index].of(frame));
+            taylor.0[0] += f64x2::from([frame.f0, 0.0]);
             let mut h = s - node;
             for _ in 0..STEPS {
                 if h.abs() > self.radius {
@@ -146,8 +85,8 @@ impl<const M: usize> Nodes<M> {
     }
 }
 
-/// A Taylor polynomial of degree nine.
-struct Taylor(Row);
+/// A Taylor polynomial of degree nine, its coefficients of even and of odd order side by side.
+struct Taylor([f64x2; 5]);
 
 impl Taylor {
     /// Its own Taylor coefficients about h, up to the third.

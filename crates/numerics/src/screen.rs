@@ -7,8 +7,8 @@
 //! are linear in f₀, g₀, α, γ and δ, with factors that depend on the frequencies and the piece
 //! alone: a table, made once, replaces every sine.
 
+use super::linear::{Linear, Taylor};
 use super::local_frame::{Frame, Frequencies};
-use super::trig::small_sin_cos;
 use wide::f64x2;
 
 /// Degree of the Bernstein form.
@@ -17,63 +17,10 @@ const N: usize = 8;
 /// One number for each of the coefficients b₁ … b₈.
 type Row = [f64x2; N / 2];
 
-/// Eight numbers that are linear in a frame: their factors, besides f₀ with the factor 1.
-#[derive(Clone, Copy, Debug)]
-struct Linear<const M: usize> {
-    slope: Row,
-    alpha: Row,
-    forced: [[Row; 2]; M],
-}
-
-impl<const M: usize> Linear<M> {
-    /// From what `of` gives for each part of a frame, told by its value and three derivatives at any s.
-    fn new(frequencies: &Frequencies<M>, of: impl Fn(&dyn Fn(f64) -> [f64; 4]) -> Row) -> Self {
-        let w = frequencies.omega;
-        // 1 − cos νs and sin νs.
-        let versine = |nu: f64, s: f64| {
-            let [rest, versine] = small_sin_cos(nu * s);
-            let (sin, cos) = (nu * s + rest, 1.0 - versine);
-            [versine, nu * sin, nu * nu * cos, -(nu * nu * nu * sin)]
-        };
-        let sine = |nu: f64, s: f64| {
-            let [rest, versine] = small_sin_cos(nu * s);
-            let (sin, cos) = (nu * s + rest, 1.0 - versine);
-            [sin, nu * cos, -(nu * nu * sin), -(nu * nu * nu * cos)]
-        };
-        Linear {
-            slope: of(&|s| sine(w, s).map(|x| x / w)),
-            alpha: of(&|s| versine(w, s).map(|x| -x)),
-            forced: std::array::from_fn(|m| {
-                let nu = frequencies.big_omegas[m];
-                let difference = |s: f64| {
-                    let (fast, slow) = (sine(nu, s), sine(w, s));
-                    std::array::from_fn(|k| fast[k] - nu / w * slow[k])
-                };
-                [of(&|s| versine(nu, s).map(|x| -x)), of(&difference)]
-            }),
-        }
-    }
-
-    #[inline(always)]
-    fn of(&self, frame: &Frame<M>) -> Row {
-        std::array::from_fn(|i| {
-            let mut b = f64x2::splat(frame.f0)
-                + f64x2::splat(frame.g0) * self.slope[i]
-                + f64x2::splat(frame.alpha) * self.alpha[i];
-            for m in 0..M {
-                b = b
-                    + f64x2::splat(frame.forced[m][0]) * self.forced[m][0][i]
-                    + f64x2::splat(frame.forced[m][1]) * self.forced[m][1][i];
-            }
-            b
-        })
-    }
-}
-
 /// The values of a function at the ends of the eighths of the reach.
 #[derive(Clone, Copy, Debug)]
 pub struct Eighths<const M: usize> {
-    values: Linear<M>,
+    values: Linear<M, { N / 2 }>,
     width: f64,
 }
 
@@ -91,7 +38,7 @@ impl<const M: usize> Eighths<M> {
     /// of the eighth that it lies in.
     #[inline(always)]
     pub fn guess(&self, frame: &Frame<M>) -> f64 {
-        let row = self.values.of(frame);
+        let row = self.values.of(frame).map(|x| x + f64x2::splat(frame.f0));
         let below = signs(row.map(|x| x.simd_lt(f64x2::ZERO)));
         let [[a, b], [c, d], [e, f], [g, h]] = row.map(f64x2::to_array);
         let values = [frame.f0, a, b, c, d, e, f, g, h];
@@ -115,7 +62,7 @@ pub struct Piece<const M: usize> {
     pub start: f64,
     /// w, its width.
     pub width: f64,
-    factors: Linear<M>,
+    factors: Linear<M, { N / 2 }>,
     /// The largest difference between f and p over M₄, as it enters b₄, and 0 for b₃.
     difference: f64x2,
     /// What the same difference does to b_{i+1} − b_i at most.
@@ -130,17 +77,17 @@ pub struct Coefficients {
     slack: f64,
 }
 
-/// C(i, k) (8 − k)!/8! wᵏ: what the k-th derivative at an end adds to the i-th coefficient.
+/// C(i, k) k! (8 − k)!/8! wᵏ: what the k-th Taylor coefficient at an end adds to the i-th coefficient.
 fn weight(i: usize, k: usize, w: f64) -> f64 {
     let mut out = 1.0;
     for m in 0..k {
-        out *= (i - m) as f64 / (m + 1) as f64 * w / (N - m) as f64;
+        out *= (i - m) as f64 * w / (N - m) as f64;
     }
     out
 }
 
-/// b₁ … b₈ of the Hermite polynomial with the given value and derivatives at both ends.
-fn hermite(left: [f64; 4], right: [f64; 4], w: f64) -> Row {
+/// b₁ … b₈ of the Hermite polynomial with the given value and three derivatives at both ends.
+fn hermite(left: Taylor, right: Taylor, w: f64) -> Row {
     let mut b = [0.0; N + 1];
     for i in 0..4 {
         for k in 0..=i {
@@ -186,7 +133,7 @@ impl<const M: usize> Piece<M> {
     /// The coefficients b₁ … b₈ of p over this piece; b₀ is f(a).
     #[inline(always)]
     pub fn coefficients(&self, frame: &Frame<M>) -> Coefficients {
-        let mut row = self.factors.of(frame);
+        let mut row = self.factors.of(frame).map(|x| x + f64x2::splat(frame.f0));
         row[1] -= f64x2::splat(frame.bound) * self.difference;
         Coefficients { row, slack: SLACK * frame.size }
     }
