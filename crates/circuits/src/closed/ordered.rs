@@ -35,11 +35,12 @@ pub struct OrderedGas {
 const CELLS: f64 = 500.0;
 
 /// Range of u²/(ωd)² in the table, and steps of its logarithm: below, order does not matter.
-const RANGE: [f64; 2] = [0.012, 60.0];
+const RANGE: [f64; 2] = [0.02, 60.0];
 const STEPS: usize = 90;
 
 impl Ordered {
-    /// At u² = `tau` (ωd)², from 0.012 to some hundreds, by powers of the operator.
+    /// At u² = `tau` (ωd)², from 0.02 to some hundreds, by powers of the operator. Below, contacts are so rare that they lie beyond
+    /// the six standard deviations that the grid has.
     pub fn at(tau: f64) -> Ordered {
         let half_width = 6.0 * tau.sqrt();
         // The grid must have a gap of width zero on it.
@@ -143,7 +144,7 @@ mod tests {
         assert!((found.variance / free.variance - 1.0).abs() < 1e-2, "{found:?} {free:?}");
         let gas = OrderedGas::new();
         let [below, above] = [0.9999, 1.0001].map(|by| gas.at(by * RANGE[0]));
-        assert!((below.contact / above.contact - 1.0).abs() < 0.02, "{below:?} {above:?}");
+        assert!((below.contact / above.contact - 1.0).abs() < 5e-3, "{below:?} {above:?}");
     }
 
     /// The second route: a ring of masses that keep their order, each drawn afresh in turn between its neighbours.
