@@ -108,8 +108,7 @@ fn state(gas: &OrderedGas, chain: &Chain, sigma: f64, square: f64) -> (Heat, f64
     let position = gas.at(square / (omega2 * d * d)).variance * d * d;
     let kept = 1.0 / (detuning * detuning) - 2.0 * chi.re / detuning;
     let free = 0.5 * (square / omega2 + position) + 0.5 * force2 * (1.0 + big2 / omega2) * kept;
-    let heat =
-        Heat { square, position, free, rate: 2.0 * own.rate, response: [chi.re, chi.im] };
+    let heat = Heat { square, position, free, rate: 2.0 * own.rate, response: [chi.re, chi.im] };
     (heat, given / taken - 1.0)
 }
 
@@ -147,7 +146,8 @@ mod tests {
     fn the_answer_is_the_mean_over_waves_and_energy_balances() {
         let gas = OrderedGas::new();
         for (omega, big_omega) in [(1.0, 2.0_f64.sqrt()), (1.3, 0.9)] {
-            let chain = Chain { natural_frequency: omega, forcing_frequency: big_omega, ..paper(0.7) };
+            let chain =
+                Chain { natural_frequency: omega, forcing_frequency: big_omega, ..paper(0.7) };
             for sigma in [0.2, 0.3] {
                 let Some(found) = heat(&gas, &chain, sigma).unwrap() else { panic!("{sigma}") };
                 let own = Coupling::between(&gas, &chain, found.square);
@@ -159,7 +159,9 @@ mod tests {
                     let detuning = Complex::new(omega * omega - big_omega * big_omega, 0.0);
                     chi = chi + (Complex::new(1.0, 0.0) / (detuning + part)).scaled(1.0 / 400.0);
                 }
-                assert!((chi - Complex::new(found.response[0], found.response[1])).square() < 1e-18);
+                assert!(
+                    (chi - Complex::new(found.response[0], found.response[1])).square() < 1e-18
+                );
                 let given = -sigma * sigma * big_omega * chi.im;
                 let taken = (1.0 - 0.49) * 0.5 * found.rate * found.square;
                 assert!((given / taken - 1.0).abs() < 1e-8, "{given} {taken}");

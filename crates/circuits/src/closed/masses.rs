@@ -31,6 +31,10 @@ pub struct Edge {
     pub square: f64,
     /// [Re X, Im X] of the motion that the force keeps up, Re X e^{iΩt}.
     pub kept: [f64; 2],
+    /// Mean square distance from equilibrium among ordered masses of that velocity.
+    pub position: f64,
+    /// Impacts from behind in a unit of time.
+    pub rate: f64,
 }
 
 /// All masses of a chain that impact at every gap.
@@ -50,6 +54,7 @@ pub struct Masses {
 const ROUNDS: usize = 60;
 const SHARE: f64 = 0.6;
 const ENOUGH: f64 = 1e-5;
+const EDGE_ROUNDS: usize = 40;
 
 /// The least u² in units of (ωd)²: a mass that loses more than it gets still has its own forced motion.
 const LEAST: f64 = 0.02;
@@ -75,7 +80,10 @@ struct Eliminated<T> {
 }
 
 trait Field:
-    Copy + std::ops::Add<Output = Self> + std::ops::Mul<Output = Self> + std::ops::Div<Output = Self>
+    Copy
+    + std::ops::Add<Output = Self>
+    + std::ops::Mul<Output = Self>
+    + std::ops::Div<Output = Self>
     + std::ops::Sub<Output = Self>
 {
 }
@@ -163,8 +171,7 @@ impl System<'_> {
         let (own, beside) = self.motions();
         self.kept = own.solved(&beside);
         let big2 = self.chain.forcing_frequency * self.chain.forcing_frequency;
-        let product =
-            |pair: &[Complex]| 0.5 * big2 * (pair[0] * pair[1].conjugate()).re;
+        let product = |pair: &[Complex]| 0.5 * big2 * (pair[0] * pair[1].conjugate()).re;
         self.shared = std::iter::once(0.0)
             .chain(self.kept.windows(2).map(product))
             .chain(std::iter::once(0.0))
@@ -174,19 +181,66 @@ impl System<'_> {
     }
 
     /// An edge at each mass, nothing being hit to its right.
-    fn edges(&self, least: f64) -> Vec<Edge> {
-        let ((motion, _), (energy, _)) = (self.motions(), self.energies());
-        let big2 = self.chain.forcing_frequency * self.chain.forcing_frequency;
-        let edge = |j: usize| {
-            let kept = motion.sides[j] / (motion.pivots[j] - self.gaps[j + 1].stiffness);
-            // Its own force gives something else at an edge, and its right gap spares it nothing.
-            let given = power(self.chain, self.forces[j], kept);
-            let side = energy.sides[j] - self.given[j] - self.spared(j + 1) + given;
-            let all = (side / (energy.pivots[j] - self.loss(j + 1))).max(least);
-            let square = (all - 0.5 * big2 * kept.square()).max(RANDOM * all);
-            Edge { square, kept: [kept.re, kept.im] }
-        };
-        (0..self.forces.len()).map(edge).collect()
+    fn edges(&self, gas: &OrderedGas, square: &[f64], least: f64) -> Vec<Edge> {
+        let (motions, energies) = (self.motions().0, self.energies().0);
+        (0..square.len()).map(|j| self.edge(gas, square, (&motions, &energies), j, least)).collect()
+    }
+
+    /// That at mass j. Its left gap is as cold as it and its neighbour are, and sets how cold they are: iterated from hot.
+    fn edge(
+        &self,
+        gas: &OrderedGas,
+        square: &[f64],
+        (motions, energies): (&Eliminated<Complex>, &Eliminated<f64>),
+        j: usize,
+        least: f64,
+    ) -> Edge {
+        let (chain, r) = (self.chain, self.chain.restitution);
+        let big2 = chain.forcing_frequency * chain.forcing_frequency;
+        let handed = 0.25 * (1.0 + r) * (1.0 + r);
+        let force = self.forces[j];
+        let mut all = square[j];
+        let mut behind = if j > 0 { square[j - 1] } else { 0.0 };
+        let mut kept = Complex::default();
+        let mut rate = 0.0;
+        for _ in 0..EDGE_ROUNDS {
+            let next = if j == 0 {
+                let own = Coupling::at_wall(gas, chain, all);
+                (rate, kept) = (own.rate, force / (self.detuned() + own.stiffness));
+                power(chain, force, kept) / ((1.0 - r * r) * rate)
+            } else {
+                let own = Coupling::between(gas, chain, 0.5 * (all + behind));
+                rate = own.rate;
+                // The row of the mass behind, with this gap in place of that of the whole chain.
+                let k = own.stiffness;
+                let pivot = motions.pivots[j - 1] - self.gaps[j].stiffness + k;
+                let side = motions.sides[j - 1];
+                kept = (force + k * side / pivot) / (self.detuned() + k - k * k / pivot);
+                let other = (side + k * kept) / pivot;
+                let c = 0.5 * big2 * (kept * other.conjugate()).re;
+                let (loss, passed) = (rate * (1.0 + r - handed), rate * handed);
+                let spared = rate * (1.0 + r - 2.0 * handed) * c;
+                let pivot = energies.pivots[j - 1] - self.loss(j) + loss;
+                let side = energies.sides[j - 1] - self.given[j - 1] - self.spared(j)
+                    + power(chain, self.forces[j - 1], other)
+                    + spared;
+                let given = power(chain, force, kept);
+                let own =
+                    (given + spared + passed * side / pivot) / (loss - passed * passed / pivot);
+                behind += SHARE * (((side + passed * own) / pivot).max(least) - behind);
+                own
+            };
+            let step = SHARE * (next.max(least) - all);
+            all += step;
+            if step.abs() <= 1e-3 * all {
+                break;
+            }
+        }
+        let square = (all - 0.5 * big2 * kept.square()).max(RANDOM * all);
+        let d = chain.spacing;
+        let scale = chain.natural_frequency * d;
+        let position = gas.at(square / (scale * scale)).variance * d * d;
+        Edge { square, kept: [kept.re, kept.im], position, rate }
     }
 
     /// The same chain seen from the other end.
@@ -210,7 +264,12 @@ impl System<'_> {
 ///
 /// # Errors
 /// [`Error::Input`] for r = 1, where impacts lose nothing.
-pub fn masses(gas: &OrderedGas, chain: &Chain, sigma: f64, forcing: &[[f64; 2]]) -> Result<Masses, Error> {
+pub fn masses(
+    gas: &OrderedGas,
+    chain: &Chain,
+    sigma: f64,
+    forcing: &[[f64; 2]],
+) -> Result<Masses, Error> {
     super::heat::check(chain, sigma)?;
     if forcing.is_empty() {
         return Err(Error::input("masses", "none", "give one at least"));
@@ -245,9 +304,11 @@ pub fn masses(gas: &OrderedGas, chain: &Chain, sigma: f64, forcing: &[[f64; 2]])
         }
     }
     system.set(gas, &square);
-    let rightward = system.edges(least);
+    let rightward = system.edges(gas, &square, least);
     let back: Vec<Complex> = forces.iter().rev().copied().collect();
-    let mut leftward = system.mirrored(&back).edges(least);
+    square.reverse();
+    let mut leftward = system.mirrored(&back).edges(gas, &square, least);
+    square.reverse();
     leftward.reverse();
     let rate = system.gaps.iter().map(|own| own.rate).collect();
     Ok(Masses { square, rate, rightward, leftward })
@@ -315,9 +376,16 @@ mod tests {
             gaps.extend(inner.map(|u| Coupling::between(&gas, &chain, u)));
             gaps
         };
+        let mut gaps = gaps;
         let at = 4;
         // Rows from the edge back to the wall give one mass after the other; that at the wall must then hold by itself.
         let kept = found.rightward[at].kept;
+        // The gap behind the edge is as cold as its rate tells, which rises with u².
+        let rate = found.rightward[at].rate;
+        let [square, _] = impact_numerics::bisection::bracket(1e-3, 10.0, |square| {
+            Coupling::between(&gas, &chain, square).rate > rate
+        });
+        gaps[at] = Coupling::between(&gas, &chain, square);
         let detuned = Complex::new(-1.0, 0.0);
         let (mut right, mut here) = (Complex::default(), Complex::new(kept[0], kept[1]));
         for j in (0..=at).rev() {

@@ -67,7 +67,8 @@ impl Ordered {
                 .map(|i| weight[i] * if i >= shift { above[i - shift] } else { sum })
                 .collect();
             let norm = next.iter().fold(0.0, |sum: f64, x| sum + x * x).sqrt();
-            let change = next.iter().zip(&psi).fold(0.0_f64, |m, (x, y)| m.max((x / norm - y).abs()));
+            let change =
+                next.iter().zip(&psi).fold(0.0_f64, |m, (x, y)| m.max((x / norm - y).abs()));
             psi = next.into_iter().map(|x| x / norm).collect();
             eigenvalue = norm;
             if change < 1e-13 {
