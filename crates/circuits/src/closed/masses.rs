@@ -14,8 +14,9 @@
 //! over its gaps; one at a wall takes (1 − r²) u² from its mass. Both are rows of three, solved by elimination, and the u² are
 //! iterated from a hot chain down. What a mass's neighbours lose to it keeps it warm if its own force does not.
 //!
-//! *At an edge.* If nothing to the right of mass j was hit yet, its right gap is not there. Elimination from the left stops at j, with
-//! that gap's part taken from the diagonal, so one pass gives the edges at every mass.
+//! *At an edge.* If nothing to the right of mass j was hit yet, its right gap is not there. Elimination from the left stops at j, and
+//! gives the row of the mass behind; with it the two rows of mass j are solved anew, for its left gap is then colder and has fewer
+//! impacts. That is iterated from hot to cold too. One pass gives the edges at every mass, with the whole chain to the left taken as running.
 
 use super::complex::Complex;
 use super::heat::Coupling;

@@ -8,9 +8,9 @@
 //! - [`front`]: how soon such a mass reaches a neighbour that was never hit.
 //! - [`spread`]: the mean count, from gaps that close by themselves and fronts that wait at every gap.
 //!
-//! What is assumed: velocities are normal and independent of positions, neighbours know of each other only by their
-//! order and by the motion that the forces keep up, and a mass at an edge is drawn afresh all the time. The third
-//! fails where little is given on: see [`spread`].
+//! What is assumed: velocities are normal and independent of positions; neighbours know of each other only by their order
+//! and by the motion that the forces keep up; an impact leaves nothing of the random motion before it. The last
+//! fails where restitution is small or few masses move, and motions become regular: see [`spread`].
 
 mod complex;
 pub mod front;
