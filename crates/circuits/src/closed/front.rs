@@ -13,8 +13,11 @@
 //!
 //! *A swing.* A mass that swings far enough out swings as far back and meets the mass behind. So a draw is one swing, and this reaches the neighbour
 //! if A' + R cos φ > d at the phase φ of the forced motion, with the probability arccos((d − A')/R)/π. Averaged over draws this is P, the chance
-//! of one impact from behind. A front that comes to a gap has come by an impact, which is the first draw; more follow at the rate ν
-//! of the gap behind: it waits for longer than t with the probability (1 − P) e^{−νPt}. Forces do not change, and so P belongs to the
+//! of one impact from behind.
+//!
+//! *A wait.* The impact that opens a gap is slow, the last of a swing that just reached. But two masses that parted are back
+//! within a free period 2π/ω, and the mass at the edge has its first draw by then; more follow at the rate ν of the gap behind. So a front waits for longer than t
+//! with the probability e^{−νPt}, and with 1 − P times that from 2π/ω on. Forces do not change, and so P belongs to the
 //! gap: over many gaps the share of long waits falls the more slowly the longer they last.
 //!
 //! Tried and left: Rice's rate of closings for a random motion that is drawn afresh all the time. Its mean counts are as good at r = 0.8, but early
@@ -22,6 +25,7 @@
 
 use super::masses::Edge;
 use impact_chain::Chain;
+use impact_numerics::random::NormalPairs;
 use impact_numerics::statistics::normal_quantile;
 use std::f64::consts::{PI, SQRT_2};
 
@@ -75,6 +79,23 @@ impl Default for Draws {
     }
 }
 
+impl Passage {
+    /// The probability that a front waits for longer than `time`; the free period is 2π/ω.
+    pub fn longer(&self, time: f64, period: f64) -> f64 {
+        let first = if time < period { 1.0 } else { 1.0 - self.chance };
+        first * pxfm::f_exp(-self.rate * time)
+    }
+
+    /// A wait. Half the square of the length of a normal pair is exponential of mean one: the hazard that is used up when the
+    /// wait ends, νP in a unit of time and −ln(1 − P) at the first draw.
+    pub fn wait(&self, period: f64, normals: &mut NormalPairs) -> f64 {
+        let [x, y] = normals.pair();
+        let hazard = 0.5 * (x * x + y * y);
+        let rest = hazard + pxfm::f_log1p(-self.chance.min(1.0 - f64::EPSILON));
+        (hazard / self.rate).min(period.max(rest / self.rate))
+    }
+}
+
 /// How the mass at an edge gets over the gap to a neighbour that was never hit and has this force; a wall has none.
 pub fn passage(draws: &Draws, chain: &Chain, edge: &Edge, [alpha, beta]: [f64; 2]) -> Passage {
     let (omega, big_omega) = (chain.natural_frequency, chain.forcing_frequency);
@@ -106,7 +127,6 @@ pub fn passage(draws: &Draws, chain: &Chain, edge: &Edge, [alpha, beta]: [f64; 2
 #[cfg(test)]
 mod tests {
     use super::*;
-    use impact_numerics::random::NormalPairs;
 
     #[test]
     fn draws_are_normal_and_rayleigh() {
@@ -167,6 +187,21 @@ mod tests {
             assert!((found - expected.chance).abs() < 0.02, "{found} {expected:?}");
             assert!((expected.rate - 0.1 * expected.chance).abs() < 1e-15);
         }
+    }
+
+    /// Drawn waits, counted.
+    #[test]
+    fn waits_have_their_law() {
+        let passage = Passage { rate: 0.05, chance: 0.3 };
+        let mut normals = NormalPairs::new("test of waits", 1, 0);
+        let waits: Vec<f64> = (0..40_000).map(|_| passage.wait(6.0, &mut normals)).collect();
+        for time in [3.0, 5.99, 6.01, 20.0, 60.0] {
+            let found = waits.iter().filter(|wait| **wait > time).count() as f64 / 40_000.0;
+            let expected = passage.longer(time, 6.0);
+            assert!((found - expected).abs() < 0.012, "{time}: {found}");
+        }
+        // A gap that no draw opens is never passed.
+        assert_eq!(Passage::default().wait(6.0, &mut normals), f64::INFINITY);
     }
 
     #[test]
