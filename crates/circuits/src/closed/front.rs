@@ -5,10 +5,10 @@
 //! neighbour the mass at the edge has a forced motion of amplitude R = |X_edge − X|.
 //!
 //! *A draw.* Each impact from behind gives the mass at the edge another free motion. Let u² be the variance of the random part of its velocity
-//! and of that of the mass behind. An impact at the closing speed V leaves the sum S of their velocities, normal with variance 2u² and independent of
+//! and w² that of all of it, and the mass behind be like it. An impact at the closing speed V leaves the sum S of their velocities, of which 2u² is random and independent of
 //! V, and turns the difference into −rV. So the mass at the edge leaves at (S + rV)/2, outwards as a rule, where V, being hit in
-//! proportion to itself, is Rayleigh distributed with ⟨V²⟩ = 4u². Both masses are normal about places d apart, and touch: so it leaves from
-//! −d/2, give or take u/√2ω. These make the amplitude A of its free motion, and with the free part ahead, at any
+//! proportion to itself, is Rayleigh distributed with ⟨V²⟩ = 4w². Both masses are normal about places d apart, and touch: so it leaves from
+//! −d/2, give or take √(⟨x²⟩/2), ⟨x²⟩ being that of [`ordered`](super::ordered) masses. These make the amplitude A of its free motion, and with the free part ahead, at any
 //! phase χ of it, A' = √(A² + |z|² + 2A|z| cos χ). The larger r, the farther it swings; this is how restitution decides about fronts.
 //!
 //! *A swing.* A mass that swings far enough out swings as far back and meets the mass behind. So a draw is one swing, and this reaches the neighbour
@@ -44,7 +44,7 @@ pub struct Passage {
 /// Draws that fill the space of all draws evenly.
 #[derive(Clone, Debug)]
 pub struct Draws {
-    /// In units of u/√2: the normal part of the place, the normal part of the velocity, V/2, and the cosine of the phase
+    /// In units of their spreads: the normal part of the place, S/2, V/2, and the cosine of the phase
     /// of the free motion ahead.
     points: Vec<[f64; 4]>,
 }
@@ -109,9 +109,10 @@ pub fn passage(draws: &Draws, chain: &Chain, edge: &Edge, [alpha, beta]: [f64; 2
     let width = edge.square.sqrt() / (SQRT_2 * omega * chain.spacing);
     let (forced, ahead) = (forced / chain.spacing, ahead / chain.spacing);
     let wide = (0.5 * edge.position).sqrt() / chain.spacing;
+    let broad = edge.all.sqrt() / (SQRT_2 * omega * chain.spacing);
     let mut sum = 0.0;
     for [x, s, v, phase] in &draws.points {
-        let (x, v) = (wide * x - 0.5, width * (s + chain.restitution * v));
+        let (x, v) = (wide * x - 0.5, width * s + chain.restitution * broad * v);
         let square = x * x + v * v;
         let reach = (square + ahead * ahead + 2.0 * square.sqrt() * ahead * phase).sqrt();
         let short = 1.0 - reach;
@@ -154,7 +155,7 @@ mod tests {
     fn drawn_impacts_reach_as_often() {
         let chain = Chain::default();
         let (u, position) = (0.5_f64, 0.15_f64);
-        let edge = Edge { square: u * u, kept: [-0.1, 0.2], position, rate: 0.1 };
+        let edge = Edge { square: u * u, kept: [-0.1, 0.2], position, all: u * u, rate: 0.1 };
         let mut normals = NormalPairs::new("test of fronts", 1, 0);
         for force in [[0.12_f64, -0.1], [0.05, 0.1]] {
             let ahead = [-force[0], force[1]];
@@ -213,13 +214,14 @@ mod tests {
             (0.12, [0.2, -0.1], [0.15, 0.15]),
             (0.5, [-0.3, 0.0], [0.3, 0.1]),
         ] {
-            let edge = Edge { square, kept, position: 0.7 * square, rate: 0.1 };
+            let edge = Edge { square, kept, position: 0.7 * square, all: 1.2 * square, rate: 0.1 };
             let [a, b] = [&few, &many].map(|own| passage(own, &chain, &edge, force).chance);
             assert!((a - b).abs() < 0.015, "{square}: {a} {b}");
             let wide = Edge {
                 square: 4.0 * square,
                 kept: kept.map(|x| 2.0 * x),
                 position: 2.8 * square,
+                all: 4.8 * square,
                 rate: 0.1,
             };
             let c = passage(&few, &double, &wide, force.map(|x| 2.0 * x)).chance;

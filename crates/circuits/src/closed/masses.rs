@@ -34,6 +34,8 @@ pub struct Edge {
     pub kept: [f64; 2],
     /// Mean square distance from equilibrium among ordered masses of that velocity.
     pub position: f64,
+    /// Mean square of all its velocity.
+    pub all: f64,
     /// Impacts from behind in a unit of time.
     pub rate: f64,
 }
@@ -241,7 +243,7 @@ impl System<'_> {
         let d = chain.spacing;
         let scale = chain.natural_frequency * d;
         let position = gas.at(square / (scale * scale)).variance * d * d;
-        Edge { square, kept: [kept.re, kept.im], position, rate }
+        Edge { square, kept: [kept.re, kept.im], position, all, rate }
     }
 
     /// The same chain seen from the other end.
