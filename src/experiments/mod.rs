@@ -4,6 +4,7 @@
 
 pub mod accuracy;
 pub mod chains;
+pub mod closed;
 pub mod heat;
 pub mod history;
 pub mod horizon;
@@ -51,7 +52,7 @@ use literate::experiments::deep::Deep;
 use literate::experiments::experiment::How::{Cut, Read, Whole};
 
 /// All experiments, in the order in which they run.
-pub const ALL: [Need; 23] = [
+pub const ALL: [Need; 24] = [
     &SEGMENTS,
     &MEASURED,
     &SWEEP,
@@ -75,6 +76,7 @@ pub const ALL: [Need; 23] = [
     &CHAINS,
     &LONG_PROTOCOL,
     &SIZES,
+    &CLOSED,
 ];
 
 /// Makes tables of the results of several experiments and of their own tables; none where one was not asked for.
@@ -325,6 +327,15 @@ pub const SIZES: Deep<ChainsParams, chains::Chains, chains::Part> = Deep {
         chains::tables::sizes,
     )
 };
+
+/// The closed theory beside chains under the same forces.
+pub const CLOSED: Deep<closed::ClosedParams, closed::Closed, closed::Part> = Deep::new(
+    ("closed", "the closed theory and its chains ([@tab:closed])"),
+    code("src/experiments/closed.rs"),
+    closed::ClosedParams::new,
+    ("closed theory", closed::CUTTING),
+    closed::tables,
+);
 
 #[cfg(test)]
 mod tests {

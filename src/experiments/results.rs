@@ -3,7 +3,7 @@
 use super::accuracy::{analytic, bias, race, scale, trials};
 use super::{ALL, Error, Measured, Need, TOGETHER};
 use super::{
-    chains, heat, history, horizon, identities, independence, long, nucleation, protocol,
+    chains, closed, heat, history, horizon, identities, independence, long, nucleation, protocol,
     restitution, seeds, segments, spacetime, starts, sweep, theory, two_masses,
 };
 use crate::params::{Profile, VERTICES};
@@ -94,6 +94,8 @@ asked_for! {
     chains: chains::Chains, CHAINS;
     /// The long end of the map.
     long_protocol: long::LongMap, LONG_PROTOCOL;
+    /// The closed theory.
+    closed: closed::Closed, CLOSED;
     /// Length and transient.
     sizes: chains::Chains, SIZES;
 }

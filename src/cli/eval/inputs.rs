@@ -4,7 +4,7 @@ use super::Options;
 use super::quantity::Quantity;
 use crate::cli::Failure;
 use impact_paper::circuits::LARGEST_N;
-use impact_paper::params::{Chain, VERTICES};
+use impact_paper::params::{Chain, Protocol, VERTICES};
 use serde::Serialize;
 
 /// What a quantity may depend on.
@@ -20,6 +20,8 @@ pub enum Need {
     Sigma,
     /// ω, Ω and d, with defaults.
     Oscillator,
+    /// n, r, T and W of a simulation, with defaults.
+    Protocol,
 }
 
 impl Need {
@@ -31,6 +33,7 @@ impl Need {
             Need::K => "--k",
             Need::Sigma => "--sigma",
             Need::Oscillator => "[ω Ω d]",
+            Need::Protocol => "[n r T W]",
         }
     }
 }
@@ -54,6 +57,12 @@ pub struct Inputs {
     pub forcing_frequency: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spacing: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub restitution: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub transient: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub window: Option<f64>,
 }
 
 impl Inputs {
@@ -79,12 +88,27 @@ impl Inputs {
             let text = required(quantity, "sigma", &options.sigma, meaning)?;
             inputs.sigma = Some(number("sigma", text)?);
         }
+        let chain = Chain::default();
+        let or = |field, text: &Option<String>, default| match text {
+            Some(text) => number(field, text).map(Some),
+            None => Ok(Some(default)),
+        };
+        if needs(Need::Protocol) {
+            let masses =
+                options.masses.as_ref().map_or(Ok(chain.masses), |text| whole("masses", text))?;
+            // Each takes some tens of microseconds for each of the drawn chains.
+            inputs.masses =
+                Some(bounded("masses", masses as f64, [1.0, 100_000.0]).map(|_| masses)?);
+            inputs.restitution = or("restitution", &options.restitution, chain.restitution)?;
+            bounded("restitution", inputs.restitution.unwrap_or(0.0), [0.0, 0.999])?;
+            let protocol = Protocol::default();
+            inputs.transient = or("transient", &options.transient, protocol.transient)?;
+            inputs.window = or("window", &options.window, protocol.window)?;
+            for (field, time) in [("transient", inputs.transient), ("window", inputs.window)] {
+                bounded(field, time.unwrap_or(f64::NAN), [0.0, 1e12])?;
+            }
+        }
         if needs(Need::Oscillator) {
-            let chain = Chain::default();
-            let or = |field, text: &Option<String>, default| match text {
-                Some(text) => number(field, text).map(Some),
-                None => Ok(Some(default)),
-            };
             inputs.omega = or("omega", &options.omega, chain.natural_frequency)?;
             inputs.forcing_frequency =
                 or("forcing-frequency", &options.forcing_frequency, chain.forcing_frequency)?;
@@ -123,6 +147,14 @@ fn vertices(options: &Options) -> Result<(Option<usize>, Option<usize>), Failure
     }
 }
 
+/// Refuses a number outside a range.
+fn bounded(field: &str, x: f64, [low, high]: [f64; 2]) -> Result<(), Failure> {
+    if (low..=high).contains(&x) {
+        return Ok(());
+    }
+    Err(Failure::input(format!("{field}: {x} is out of range; give {low} to {high}")))
+}
+
 fn required<'a>(
     quantity: &Quantity,
     field: &str,
@@ -153,7 +185,6 @@ fn whole(field: &str, text: &str) -> Result<usize, Failure> {
 /// An option without effect is a misunderstanding, so it is an error.
 fn refuse_unused(quantity: &Quantity, options: &Options) -> Result<(), Failure> {
     let given = [
-        ("masses", &options.masses, Need::Vertices),
         ("vertices", &options.vertices, Need::Vertices),
         ("p", &options.p, Need::P),
         ("sigma", &options.sigma, Need::Sigma),
@@ -161,9 +192,16 @@ fn refuse_unused(quantity: &Quantity, options: &Options) -> Result<(), Failure> 
         ("omega", &options.omega, Need::Oscillator),
         ("forcing-frequency", &options.forcing_frequency, Need::Oscillator),
         ("spacing", &options.spacing, Need::Oscillator),
+        ("restitution", &options.restitution, Need::Protocol),
+        ("transient", &options.transient, Need::Protocol),
+        ("window", &options.window, Need::Protocol),
     ];
-    for (field, text, need) in given {
-        if text.is_some() && !quantity.needs.contains(&need) {
+    let masses = [Need::Vertices, Need::Protocol].iter().any(|need| quantity.needs.contains(need));
+    let masses = std::iter::once(("masses", &options.masses, masses));
+    let given =
+        given.into_iter().map(|(field, text, need)| (field, text, quantity.needs.contains(&need)));
+    for (field, text, used) in masses.chain(given) {
+        if text.is_some() && !used {
             let name = quantity.name;
             let problem = format!("{field}: {name} does not depend on it; leave --{field} out");
             return Err(Failure::input(problem));

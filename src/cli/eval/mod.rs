@@ -63,6 +63,18 @@ struct Options {
     /// Spacing d of the masses at rest, > 0 [default: 1].
     #[arg(long, value_name = "d", allow_hyphen_values = true)]
     spacing: Option<String>,
+
+    /// Coefficient of restitution r, 0 ≤ r < 1 [default: 0.8].
+    #[arg(long, value_name = "r", allow_hyphen_values = true)]
+    restitution: Option<String>,
+
+    /// Transient T that is dropped, in 1/ω [default: 500].
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    transient: Option<String>,
+
+    /// Window W in which gaps are counted, in 1/ω [default: 200].
+    #[arg(long, value_name = "W", allow_hyphen_values = true)]
+    window: Option<String>,
 }
 
 /// What `eval` prints, in this order.

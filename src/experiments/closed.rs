@@ -1,0 +1,358 @@
+//! The mean count by the closed theory ([`circuits::closed`](crate::circuits::closed)), beside chains that are run under the
+//! same forces.
+
+use super::weights;
+use super::{Error, Progress};
+use crate::circuits::closed::spread::Spreading;
+use crate::dynamics::{self, Engine, Scenario};
+use crate::numerics::estimates::{average, half_height, jackknife, rise, with_error};
+use crate::numerics::random::NormalPairs;
+use crate::numerics::statistics::Estimate;
+use crate::params::{Chain, Grid, Profile, SEED};
+use crate::table::Table;
+use literate::experiments::cutting::{Cutting, Row, Unit};
+use literate::experiments::progress::Stage;
+use serde::{Deserialize, Serialize};
+
+/// What is compared.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ClosedParams {
+    /// Restitution r and number of masses n of each kind of chain, and how many are drawn at each σ.
+    pub chains: Vec<(f64, usize, usize)>,
+    /// Standard deviations σ, rising.
+    pub sigmas: Vec<f64>,
+    /// Transients T and windows W, rising; all are counted in the same runs.
+    pub protocols: Vec<[f64; 2]>,
+    /// Name of the random stream.
+    pub stream: String,
+    /// Master seed.
+    pub seed: u64,
+}
+
+impl ClosedParams {
+    /// The sizes of each profile.
+    pub fn new(profile: Profile) -> Self {
+        let (chains, step, last): (&[(f64, usize, usize)], _, _) = match profile {
+            Profile::Full | Profile::Deep => (
+                &[(0.6, 100, 400), (0.8, 100, 400), (0.9, 100, 400), (0.8, 1000, 40)],
+                5,
+                [4000.0, 200.0],
+            ),
+            Profile::Ci => (&[(0.6, 100, 8), (0.8, 100, 8), (0.9, 100, 8)], 10, [1000.0, 200.0]),
+            Profile::Quick => (&[(0.6, 100, 3), (0.8, 100, 3), (0.9, 100, 3)], 20, [500.0, 200.0]),
+        };
+        let first = [[100.0, 100.0], [500.0, 200.0]];
+        let mut protocols = first.to_vec();
+        protocols.extend([last].into_iter().filter(|own| !first.contains(own)));
+        ClosedParams {
+            chains: chains.to_vec(),
+            sigmas: Grid::default().and(80, 165, step, 1000).values(),
+            protocols,
+            stream: "closed".into(),
+            seed: SEED,
+        }
+    }
+
+    fn chain(&self, kind: usize) -> Chain {
+        let (restitution, masses, _) = self.chains[kind];
+        Chain { restitution, masses, ..Chain::default() }
+    }
+
+    /// Kind and σ of a row.
+    fn at(&self, row: usize) -> (usize, f64) {
+        (row / self.sigmas.len(), self.sigmas[row % self.sigmas.len()])
+    }
+}
+
+/// One chain, for each protocol: the gaps with an impact when it is run, and the number that the theory expects.
+pub type Counts = Option<Vec<(u64, f64)>>;
+
+/// Some chains of one row.
+pub type Part = Vec<Counts>;
+
+/// All chains.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Closed {
+    /// What was compared.
+    pub parameters: ClosedParams,
+    /// For each kind of chain, for each σ, its chains.
+    pub rows: Vec<Part>,
+}
+
+/// The experiment in units of work.
+pub const CUTTING: Cutting<ClosedParams, Part, Closed> = Cutting { rows, part, fits, join };
+
+fn rows(parameters: &ClosedParams) -> Vec<Row> {
+    let until: f64 = parameters.protocols.last().map_or(0.0, |own| own.iter().sum());
+    let row = |at: usize| {
+        let (kind, sigma) = parameters.at(at);
+        let (r, n, realisations) = parameters.chains[kind];
+        let chain = parameters.chain(kind);
+        let weight = weights::run(&chain, sigma, until) + 5000 * n as u64 / 100;
+        Row { covers: format!("r = {r}, n = {n}, sigma = {sigma}"), realisations, weight }
+    };
+    (0..parameters.chains.len() * parameters.sigmas.len()).map(row).collect()
+}
+
+fn part(
+    parameters: &ClosedParams,
+    unit: &Unit,
+    stage: &Stage,
+    progress: &Progress,
+) -> Result<Part, Error> {
+    let (kind, sigma) = parameters.at(unit.row);
+    let chain = parameters.chain(kind);
+    let spreading = Spreading::new(&chain).map_err(|source| Error::failed("closed", source))?;
+    unit.each(stage, |index| {
+        progress.check()?;
+        let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, index);
+        let scenario = Scenario::draw(&chain, sigma, &mut normals);
+        let Some(found) = simulated(parameters, &scenario, progress)? else { return Ok(None) };
+        let expected = expected(parameters, &spreading, sigma, &scenario.forcing, &mut normals)?;
+        Ok(Some(found.into_iter().zip(expected).collect()))
+    })
+}
+
+/// Waits that are drawn for each chain.
+const WAITS: usize = 4;
+
+fn expected(
+    parameters: &ClosedParams,
+    spreading: &Spreading,
+    sigma: f64,
+    forcing: &[[f64; 2]],
+    normals: &mut NormalPairs,
+) -> Result<Vec<f64>, Error> {
+    let drawn =
+        spreading.drawn(sigma, forcing).map_err(|source| Error::failed("closed", source))?;
+    let mut sums = vec![0.0; parameters.protocols.len()];
+    for _ in 0..WAITS {
+        let first = drawn.first_impacts(normals);
+        for (sum, [transient, window]) in sums.iter_mut().zip(&parameters.protocols) {
+            *sum += drawn.count(&first, *transient, *window) / WAITS as f64;
+        }
+    }
+    Ok(sums)
+}
+
+/// Gaps with an impact in each window, in one run; windows do not overlap. None where the engine gave up.
+fn simulated(
+    parameters: &ClosedParams,
+    scenario: &Scenario,
+    progress: &Progress,
+) -> Result<Option<Vec<u64>>, Error> {
+    let fault = |source| Error::failed("closed", source);
+    let mut engine = Engine::new(scenario).map_err(fault)?;
+    let mut counts = Vec::new();
+    for [transient, window] in &parameters.protocols {
+        let mut hit = vec![false; scenario.forcing.len() + 1];
+        let run = engine.run(*transient, |_| !progress.stopped()).and_then(|()| {
+            engine.run(transient + window, |impact| {
+                hit[impact.gap] = true;
+                !progress.stopped()
+            })
+        });
+        match run {
+            Ok(()) => (),
+            Err(dynamics::Error::Work { .. }) => return Ok(None),
+            Err(source) => return Err(fault(source)),
+        }
+        progress.check()?;
+        counts.push(hit.into_iter().map(u64::from).sum());
+    }
+    Ok(Some(counts))
+}
+
+fn fits(parameters: &ClosedParams, unit: &Unit, runs: &Part) -> bool {
+    let gaps = parameters.chains[parameters.at(unit.row).0].1 + 1;
+    let fits = |own: &Vec<(u64, f64)>| {
+        let within = |pair: &(u64, f64)| {
+            pair.0 <= gaps as u64 && (0.0..=gaps as f64 * (1.0 + 1e-12)).contains(&pair.1)
+        };
+        own.len() == parameters.protocols.len() && own.iter().all(within)
+    };
+    runs.len() == unit.realisations.len() && runs.iter().flatten().all(fits)
+}
+
+pub(crate) fn join(
+    parameters: &ClosedParams,
+    parts: Vec<Vec<Part>>,
+    progress: &Progress,
+) -> Result<Closed, Error> {
+    progress.check()?;
+    let rows = parts.into_iter().map(|parts| parts.concat()).collect();
+    Ok(Closed { parameters: parameters.clone(), rows })
+}
+
+/// One kind of chain by one protocol, over all σ.
+struct Line<'a> {
+    closed: &'a Closed,
+    kind: usize,
+    protocol: usize,
+}
+
+impl Line<'_> {
+    fn times(&self) -> [f64; 2] {
+        self.closed.parameters.protocols[self.protocol]
+    }
+
+    fn gaps(&self) -> f64 {
+        self.closed.parameters.chains[self.kind].1 as f64 + 1.0
+    }
+
+    /// Counts at a place of σ: as found, and as expected, of the same chains.
+    fn counts(&self, place: usize) -> [Vec<f64>; 2] {
+        let sigmas = self.closed.parameters.sigmas.len();
+        let part = &self.closed.rows[self.kind * sigmas + place];
+        let own = part.iter().flatten().map(|own| own[self.protocol]);
+        own.map(|(found, expected)| (found as f64, expected)).unzip::<_, _, Vec<_>, Vec<_>>().into()
+    }
+
+    fn samples(&self) -> [Vec<Vec<f64>>; 2] {
+        let places = 0..self.closed.parameters.sigmas.len();
+        places.map(|place| self.counts(place).into()).unzip::<_, _, Vec<_>, Vec<_>>().into()
+    }
+
+    /// Half height as found, as expected, and the second less the first, of the same chains.
+    fn halves(&self) -> [Option<Estimate>; 3] {
+        let sigmas = &self.closed.parameters.sigmas;
+        let ([found, expected], half) = (self.samples(), self.gaps() / 2.0);
+        let members = found.iter().chain(&expected).map(Vec::len).min().unwrap_or(0);
+        let apart = jackknife(members, |out| {
+            Some(rise(sigmas, &expected, half, out)? - rise(sigmas, &found, half, out)?)
+        });
+        [half_height(sigmas, &found, half), half_height(sigmas, &expected, half), apart]
+    }
+
+    /// The root of the mean square difference of the mean counts, over the σ at which either is between a twentieth and
+    /// nineteen twentieths.
+    fn off(&self) -> f64 {
+        let mean = |own: &[f64]| own.iter().sum::<f64>() / own.len() as f64;
+        let inside = |x: f64| (0.05 * self.gaps()..=0.95 * self.gaps()).contains(&x);
+        let [found, expected] = self.samples();
+        let pairs = found.iter().zip(&expected).map(|(a, b)| (mean(a), mean(b)));
+        let pairs: Vec<_> = pairs.filter(|(a, b)| inside(*a) || inside(*b)).collect();
+        let squares: f64 = pairs.iter().map(|(a, b)| (a - b) * (a - b)).sum();
+        (squares / pairs.len() as f64).sqrt()
+    }
+}
+
+/// All tables.
+pub fn tables(closed: &Closed) -> Vec<Table> {
+    let own = &closed.parameters;
+    let kinds = 0..own.chains.len();
+    let line = |kind, protocol| Line { closed, kind, protocol };
+    let lines: Vec<Line<'_>> = kinds
+        .flat_map(|kind| (0..own.protocols.len()).map(move |protocol| line(kind, protocol)))
+        .collect();
+    let cells: Vec<(&Line<'_>, usize)> = lines
+        .iter()
+        .flat_map(|line| (0..own.sigmas.len()).map(move |place| (line, place)))
+        .collect();
+    let chain = |line: &Line<'_>| own.chains[line.kind];
+    let counts = Table::of("closed.counts", &cells, |(line, _)| chain(line).2)
+        .key("r", "1", |(line, _)| chain(line).0)
+        .key("masses", "1", |(line, _)| chain(line).1 as f64)
+        .key("transient", "1/omega", |(line, _)| line.times()[0])
+        .key("sigma", "d omega^2", |(_, place)| own.sigmas[*place])
+        .estimate("found", "1", "different gaps with an impact, mean of all", |(line, place)| {
+            average(&line.counts(*place)[0])
+        })
+        .estimate("expected", "1", "the same by the closed theory, same forces", |(line, place)| {
+            average(&line.counts(*place)[1])
+        })
+        .done();
+    let halves: Vec<(&Line<'_>, [Option<Estimate>; 3])> =
+        lines.iter().map(|line| (line, line.halves())).collect();
+    let rises = Table::of("closed.rise", &halves, |(line, _)| chain(line).2)
+        .key("r", "1", |(line, _)| chain(line).0)
+        .key("masses", "1", |(line, _)| chain(line).1 as f64)
+        .key("transient", "1/omega", |(line, _)| line.times()[0])
+        .chosen("window", "1/omega", "", |(line, _)| Some(line.times()[1]))
+        .estimate("found", "d omega^2", "half height of the mean of all", |(_, own)| own[0])
+        .estimate("expected", "d omega^2", "the same by the closed theory", |(_, own)| own[1])
+        .estimate("apart", "d omega^2", "expected less found, of the same forces", |(_, own)| {
+            own[2]
+        })
+        .real(
+            "off",
+            "1",
+            2,
+            "root mean square difference of the counts over the rise, in gaps",
+            |(line, _)| line.off(),
+        )
+        .done();
+    let all = Table::of("closed.all", &[own], |own| own.chains[0].2)
+        .count("realisations", "chains at each σ", |own| own.chains[0].2 as u64)
+        .count("sigmas", "values of σ", |own| own.sigmas.len() as u64)
+        .done();
+    vec![counts, rises, all]
+}
+
+/// The expected mean count of a chain from rest, with its sampling error, from so many drawn chains.
+///
+/// # Errors
+/// As [`Spreading::mean_counts`].
+pub fn mean_count(
+    chain: &Chain,
+    sigma: f64,
+    times: [f64; 2],
+    chains: u64,
+) -> Result<Estimate, crate::circuits::Error> {
+    let found = Spreading::new(chain)?.mean_counts(sigma, &[times], chains, SEED)?;
+    Ok(found.first().copied().unwrap_or(with_error(0.0, 0.0)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn made() -> Closed {
+        let parameters = ClosedParams {
+            chains: vec![(0.8, 9, 3)],
+            sigmas: vec![0.1, 0.2, 0.3],
+            protocols: vec![[10.0, 10.0]],
+            ..ClosedParams::new(Profile::Quick)
+        };
+        // Means as found 0, 5, 10, as expected 2, 8, 10.
+        let row = |found: [u64; 3], expected: f64| -> Part {
+            found.iter().map(|own| Some(vec![(*own, expected)])).collect()
+        };
+        let rows = vec![row([0; 3], 2.0), row([4, 5, 6], 8.0), row([10; 3], 10.0)];
+        Closed { parameters, rows }
+    }
+
+    #[test]
+    fn half_heights_and_distances_by_hand() {
+        let tables = tables(&made());
+        let keys = [("r", 0.8), ("masses", 9.0), ("transient", 10.0)];
+        let of = |column: &str| tables[1].number(&keys, column).unwrap();
+        assert!((of("found") - 0.2).abs() < 1e-12);
+        assert!((of("expected") - 0.15).abs() < 1e-12 && (of("apart") + 0.05).abs() < 1e-12);
+        // At the first two σ one of both is inside the rise: 2 and 3 apart.
+        assert!((of("off") - 6.5_f64.sqrt()).abs() < 1e-12);
+        let keys = [("r", 0.8), ("masses", 9.0), ("transient", 10.0), ("sigma", 0.2)];
+        assert_eq!(tables[0].number(&keys, "found").unwrap(), 5.0);
+    }
+
+    #[test]
+    fn a_unit_has_what_was_asked() {
+        let parameters = ClosedParams {
+            chains: vec![(0.8, 20, 2), (0.6, 30, 2)],
+            sigmas: vec![0.02, 0.3],
+            protocols: vec![[20.0, 20.0], [60.0, 20.0]],
+            ..ClosedParams::new(Profile::Quick)
+        };
+        let found = CUTTING.run(&parameters, "test", &Progress::silent()).unwrap();
+        for (at, row) in found.rows.iter().enumerate() {
+            let (kind, sigma) = parameters.at(at);
+            let gaps = parameters.chains[kind].1 as f64 + 1.0;
+            for (count, expected) in row.iter().flatten().flatten() {
+                // Far below the rise none, far above it all.
+                let whole = if sigma < 0.1 { 0.0 } else { gaps };
+                assert!((*count as f64 - whole).abs() < 0.2 * gaps, "{sigma} {count}");
+                assert!((expected - whole).abs() < 0.2 * gaps, "{sigma} {expected}");
+            }
+        }
+    }
+}
