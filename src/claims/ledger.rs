@@ -37,11 +37,14 @@ pub fn needs(id: &str) -> &'static [Need] {
 /// # Errors
 /// If a statement has no row or a row no statement, or if a result was not run.
 pub fn all(results: &Results, published: &Published) -> Result<Vec<Check>, Error> {
+    // An id that was changed is told by its new name, which has a line.
+    let own = published.statements.iter().map(|s| row(&s.id, published));
+    let own = own.collect::<Result<Vec<&Row>, _>>()?;
     for row in rows() {
         published.statement(row.id)?;
     }
     let evidence = Evidence { results, published, level: level() };
-    published.statements.iter().map(|s| row(&s.id)?.claim(&evidence)).collect()
+    own.into_iter().map(|row| row.claim(&evidence)).collect()
 }
 
 /// Computes one claim.
@@ -50,11 +53,11 @@ pub fn all(results: &Results, published: &Published) -> Result<Vec<Check>, Error
 /// If there is no statement or no row of that id, or if a result was not run.
 pub fn one(id: &str, results: &Results, published: &Published) -> Result<Check, Error> {
     published.statement(id)?;
-    row(id)?.claim(&Evidence { results, published, level: level() })
+    row(id, published)?.claim(&Evidence { results, published, level: level() })
 }
 
-fn row(id: &str) -> Result<&'static Row, PublishedError> {
-    rows().find(|row| row.id == id).ok_or_else(|| PublishedError::Unjudged(id.into()))
+fn row(id: &str, published: &Published) -> Result<&'static Row, PublishedError> {
+    rows().find(|row| row.id == id).ok_or_else(|| published.unjudged(id))
 }
 
 /// How many claims have each verdict, in the order of [`Verdict::ALL`].

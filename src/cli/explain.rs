@@ -1,7 +1,8 @@
 //! `impact-paper explain`.
 
 use super::document::Only;
-use super::{Failure, stdout};
+use super::{Failure, folder, stdout};
+use impact_paper::input::{one_line, regular_text};
 use impact_paper::report::PROGRAM;
 use impact_paper::report::card::{Card, Cards, Row};
 use impact_paper::report::document::spelt;
@@ -50,11 +51,10 @@ pub fn run(args: Args) -> Result<(), Failure> {
     stdout::written(result)
 }
 
-fn read(folder: &Path, name: &str) -> Result<String, Failure> {
-    let path = folder.join(name);
-    impact_paper::input::read(&path).map_err(|e| {
+fn read(paper: &Path, name: &str) -> Result<String, Failure> {
+    folder::text(paper, name).map_err(|e| {
         let remedy = "give the folder of a report, or make one with `impact-paper paper`";
-        Failure::input(format!("--paper: {}: {e}; {remedy}", path.display()))
+        Failure::input(format!("--paper: {}: {e}; {remedy}", paper.join(name).display()))
     })
 }
 
@@ -130,55 +130,61 @@ fn row_json(row: &Row) -> serde_json::Value {
 
 /// File and line of the item that a row names.
 fn stands(row: &Row) -> Option<(&'static str, usize)> {
-    let here = |file: &str| std::fs::read_to_string(file).ok();
+    let here = |file: &str| regular_text(Path::new(file)).ok();
     // What was moved in the working copy may still be found in the built one.
     let item = row.item.as_ref()?;
     let found = PROGRAM.place(item, here).or_else(|| PROGRAM.place(item, |_| None))?;
     Some((found.file, found.line))
 }
 
-/// One line with the ids that are spelt most alike.
+/// One line with the ids that are spelt much alike: a third of the letters may differ.
 fn unknown(id: &str, ids: &[String]) -> Failure {
-    let mut near: Vec<(usize, &str)> =
-        ids.iter().map(|known| (distance(id, known), known.as_str())).collect();
+    let asked: Vec<char> = id.chars().collect();
+    let near = |known: &String| Some((distance(&asked, known)?, known.clone()));
+    let mut near: Vec<(usize, String)> = ids.iter().filter_map(near).collect();
     near.sort_by_key(|(distance, _)| *distance);
-    let near: Vec<&str> = near.iter().take(3).map(|(_, id)| *id).collect();
-    Failure::input(format!(
-        "explain: there is no {id:?}; the nearest ids are {}; without an id all are listed",
-        near.join(", ")
-    ))
+    let near: Vec<String> = near.into_iter().take(3).map(|(_, id)| id).collect();
+    let near = match near.as_slice() {
+        [] => String::new(),
+        near => format!("; the nearest ids are {}", near.join(", ")),
+    };
+    let id = one_line(id, 60);
+    Failure::input(format!("explain: there is no {id:?}{near}; without an id all are listed"))
 }
 
-/// Fewest insertions, deletions and replacements between two words; what stands behind `claim:`
-/// may match alone.
-fn distance(asked: &str, known: &str) -> usize {
-    let one = |a: &str, b: &str| {
+/// Fewest insertions, deletions and replacements between two words, unless they are too many; what stands behind
+/// `claim:` may match alone.
+fn distance(a: &[char], known: &str) -> Option<usize> {
+    let most = a.len() / 3;
+    let one = |b: &str| {
         let b: Vec<char> = b.chars().collect();
+        if a.len().abs_diff(b.len()) > most {
+            return None;
+        }
         let mut row: Vec<usize> = (0..=b.len()).collect();
-        for (i, x) in a.chars().enumerate() {
+        for (i, x) in a.iter().enumerate() {
             let mut before = row[0];
             row[0] = i + 1;
             for (j, y) in b.iter().enumerate() {
-                let replaced = before + usize::from(x != *y);
+                let replaced = before + usize::from(x != y);
                 before = row[j + 1];
                 row[j + 1] = replaced.min(before + 1).min(row[j] + 1);
             }
         }
-        row[b.len()]
+        Some(row[b.len()]).filter(|distance| *distance <= most)
     };
-    let whole = one(asked, known);
-    known.split_once(':').map_or(whole, |(_, name)| whole.min(one(asked, name)))
+    let name = known.split_once(':').and_then(|(_, name)| one(name));
+    [one(known), name].into_iter().flatten().min()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::distance;
-
     #[test]
     fn words_that_are_alike_are_near() {
-        assert_eq!(distance("p_crit", "p_crit"), 0);
-        assert_eq!(distance("p_krit", "p_crit"), 1);
-        assert_eq!(distance("sec7_jump", "claim:sec7_jump"), 0);
-        assert_eq!(distance("", "abc"), 3);
+        let distance = |a: &str, b: &str| super::distance(&a.chars().collect::<Vec<char>>(), b);
+        assert_eq!(distance("p_crit", "p_crit"), Some(0));
+        assert_eq!(distance("p_krit", "p_crit"), Some(1));
+        assert_eq!(distance("sec7_jump", "claim:sec7_jump"), Some(0));
+        assert_eq!(distance("abc", "def"), None);
     }
 }

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 /// Joins the folders of all shards to saved results, byte for byte those of one machine.
 ///
 /// `paper`, `check` and `status` find them there, fresh, and run nothing again. Nothing is saved unless every
-/// unit of work is there: refused are units that two folders have with different bytes and files that are no unit of
+/// unit of work is there. Files that are no JSON, such as logs, are passed over. Refused are units that two folders have with different bytes and files that are no unit of
 /// the profile (exit code 2), and units that are missing, damaged, or made by other code or parameters (exit code 3).
 #[derive(clap::Args)]
 pub struct Args {

@@ -8,7 +8,6 @@ use super::{Failure, folder, make, stdout, work};
 use impact_paper::claims::Verdict;
 use impact_paper::experiments::Progress;
 use impact_paper::figures;
-use impact_paper::input;
 use impact_paper::params::Profile;
 use impact_paper::report::compare::{self, Parts};
 use impact_paper::report::values::Number;
@@ -21,7 +20,8 @@ use std::time::{Duration, Instant};
 ///
 /// Results of long runs are saved and used again as long as parameters and simulating code are the
 /// same. Files are moved into place at the very end: Ctrl-C (exit code 130) changes nothing. Only files
-/// that an earlier run wrote, and nobody changed since, are replaced. Ends with exit code 1 if a claim,
+/// that an earlier run wrote, and nobody changed since, are replaced; folders .staging-impact-paper-* in --out, which
+/// killed runs leave, are removed. Ends with exit code 1 if a claim,
 /// a target of accuracy or counted work, or a check fails; the report is written all the same.
 #[derive(clap::Args)]
 pub struct Args {
@@ -153,8 +153,8 @@ fn default_folder(profile: Profile) -> PathBuf {
 }
 
 /// The values of the report in a folder, if there is one.
-fn values_in(folder: &Path) -> Option<Registry> {
-    compare::read(&input::read(&folder.join(VALUES)).ok()?).ok()
+fn values_in(out: &Path) -> Option<Registry> {
+    compare::read(&folder::text(out, VALUES).ok()?).ok()
 }
 
 /// Are these one folder?

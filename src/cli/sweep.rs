@@ -91,6 +91,7 @@ struct Row {
 /// Runs the verb.
 pub fn run(args: Args) -> Result<(), Failure> {
     let parameters = parameters(&args)?;
+    work::threads(args.threads)?;
     fits(&args)?;
     let progress = work::progress();
     let rows = work::on_threads(args.threads, || rows(&parameters, &progress))?;

@@ -5,11 +5,15 @@ use impact_paper::dynamics::methods::State;
 use impact_paper::dynamics::{
     Certificate, Engine, Error, Impact, Scenario, Simultaneous, TWINS, certify, rounding,
 };
-use impact_paper::experiments::say;
+use impact_paper::experiments::{alive, say};
 use impact_paper::input;
 use impact_paper::numerics::clock::LATEST;
-use std::io::{self, Write};
+use impact_paper::numerics::text::count;
+use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::Ordering::Relaxed;
+use std::sync::atomic::{AtomicBool, AtomicU64};
 
 /// Prints the impacts of one scenario as CSV: time, gap, closing speed.
 ///
@@ -24,7 +28,7 @@ use std::path::{Path, PathBuf};
 #[derive(clap::Args)]
 #[command(after_help = FORM)]
 pub struct Args {
-    /// File with the scenario as JSON (the form is below); - for standard input.
+    /// File with the scenario as JSON (the form is below), 64 MiB at most; - for standard input.
     #[arg(value_name = "SCENARIO.json")]
     scenario: PathBuf,
     /// Time at which to stop, from 0 to 1e12.
@@ -69,11 +73,13 @@ fn rounded(scenario: &Scenario) -> Option<String> {
 
 /// What a certificate says, of a run with so many impacts in all.
 fn line(certificate: &Certificate, printed: u64) -> String {
+    let count = |number: u64, noun| count(number as usize, noun);
     let trusted = match certificate.horizon {
-        None => format!("all {printed} impacts can be trusted, to the end"),
+        None => format!("{} can be trusted, to the end", count(printed, "impact")),
         Some(time) => format!(
-            "the first {} of {printed} impacts can be trusted, before t = {time:.2}",
-            certificate.impacts
+            "{} of {} can be trusted, before t = {time:.2}",
+            certificate.impacts,
+            count(printed, "impact")
         ),
     };
     match certificate.growth {
@@ -106,12 +112,17 @@ pub fn run(args: Args) -> Result<(), Failure> {
             format!("--until: {:?} is out of range; give a time from 0 to 1e12", args.until);
         return Err(Failure::input(message));
     }
-    let name = args.scenario.display();
     let path = args.scenario.as_path();
-    let text =
-        if path == Path::new("-") { input::read_from(io::stdin()) } else { input::read(path) };
+    let piped = path == Path::new("-");
+    let name = if piped { "standard input".into() } else { path.display().to_string() };
+    let text = if piped { input::read_from(io::stdin()) } else { input::read(path) };
     let text = text.map_err(|error| {
-        Failure::input(format!("{name}: {error}; give the path of a readable scenario file"))
+        let remedy = match error.kind() {
+            ErrorKind::FileTooLarge => "give a scenario of fewer masses",
+            _ if piped => "write a scenario into it",
+            _ => "give the path of a readable scenario file",
+        };
+        Failure::input(format!("{name}: {error}; {remedy}"))
     })?;
     let in_file = |error: Error| match error {
         Error::Work { .. } => Failure::run(error.to_string()),
@@ -124,7 +135,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let engines = if args.certify { 1 + TWINS } else { 1 };
     let (masses, components) = (scenario.forcing.len(), 1 + scenario.overtones.len());
     let needed = u128::from(engines) * Engine::memory(masses, components);
-    work::memory(needed, &name.to_string(), "give fewer masses")?;
+    work::memory(needed, &name, "give fewer masses")?;
     let (method, start) = (args.method.method()?, State::of(&scenario));
     if args.certify && !args.method.is_certified() {
         let name = method.name();
@@ -146,14 +157,29 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let mut header = "time,gap,closing_speed\n";
     let most = args.max_impacts.unwrap_or(u64::MAX);
     let mut left = most;
+    // Impacts so far, the time of the last, and whether a reader is waited for.
+    let told = Arc::new((AtomicU64::new(0), AtomicU64::new(0), AtomicBool::new(false)));
+    let _alive = alive({
+        let told = Arc::clone(&told);
+        move || {
+            let (met, latest, waits) = &*told;
+            let met = count(met.load(Relaxed) as usize, "impact");
+            let latest = f64::from_bits(latest.load(Relaxed));
+            (!waits.load(Relaxed)).then(|| format!("trace: {met} until t = {latest:?}"))
+        }
+    });
     let mut sink = |Impact { time, gap, closing_speed }: Impact| {
+        told.0.fetch_add(1, Relaxed);
+        told.1.store(time.to_bits(), Relaxed);
         if left > 0 {
             // A run that is refused at its start prints nothing.
             let header = std::mem::take(&mut header);
             lines.push_str(&format!("{header}{time:?},{gap},{closing_speed:?}\n"));
             left -= 1;
             if lines.len() >= BLOCK {
+                told.2.store(true, Relaxed);
                 written = out.write_all(lines.as_bytes());
+                told.2.store(false, Relaxed);
                 lines.clear();
             }
         }

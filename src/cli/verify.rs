@@ -2,6 +2,7 @@
 
 use super::document::Only;
 use impact_paper::experiments::Progress;
+use impact_paper::input::bare;
 use impact_paper::params::Profile;
 use impact_paper::program::listed::{Checked, listed, own_profile};
 use impact_paper::program::sources::Sources;
@@ -77,7 +78,7 @@ fn rerun(args: &Args, progress: &Progress) -> Result<Checked, Failure> {
         None => own_profile(&args.folder)?,
     };
     // Removed in the end, whatever happens.
-    let temporary = tempfile::tempdir().map_err(|e| {
+    let temporary = tempfile::tempdir().map_err(bare).map_err(|e| {
         let remedy = "name one that can be written in TMPDIR";
         Failure::io(&e, format!("a temporary folder: {e}; {remedy}"))
     })?;

@@ -34,7 +34,9 @@ pub mod weights;
 pub mod built;
 mod results;
 
-pub use literate::experiments::{Entry, Error, Experiment, Need, Progress, Saved, Store, say};
+pub use literate::experiments::{
+    Entry, Error, Experiment, Need, Progress, Saved, Store, alive, say,
+};
 pub use measured::Measured;
 pub use results::{Looked, Results};
 pub use run::run;

@@ -57,7 +57,7 @@ impl FromStr for Number {
             Ok(n) if (1..=most).contains(&n) && own => Ok(Number::Own(n)),
             Ok(n) if (1..=most).contains(&n) => Ok(Number::Paper(n)),
             _ => Err(format!(
-                "there is no figure {text}; give a number from 1 to {}, or s1 to s{}",
+                "there is no figure \"{text}\"; give a number from 1 to {}, or s1 to s{}",
                 Number::PAPER,
                 Number::OWN
             )),

@@ -2,12 +2,10 @@
 
 use super::Failure;
 use super::output::is_staging;
+use crate::input;
 use crate::report::sums;
-use std::io::{self, Read};
+use std::io;
 use std::path::Path;
-
-/// A file of a report is a few megabytes at most; what is larger is none.
-const LARGEST: u64 = 64 << 20;
 
 /// Paths of everything below a folder that is no folder itself, sorted, with slashes. Links are
 /// listed and not followed. What a killed run left half-done is passed over: the next run removes it.
@@ -52,23 +50,32 @@ pub fn is_beside(path: &str) -> bool {
 /// What is in the way; [`io::ErrorKind::NotFound`] if there is no such file.
 pub fn read(folder: &Path, path: &str) -> io::Result<Vec<u8>> {
     let mut at = folder.to_path_buf();
-    let mut size = 0;
-    let mut names = path.split('/').peekable();
-    while let Some(name) = names.next() {
+    for name in path.split('/') {
         at.push(name);
-        let data = std::fs::symlink_metadata(&at)?;
-        if data.is_symlink() {
-            return Err(io::Error::other("a link, which is not followed"));
+        if std::fs::symlink_metadata(&at)?.is_symlink() {
+            return Err(io::Error::other("it is a link, which is not followed"));
         }
-        if names.peek().is_none() && !data.is_file() {
-            return Err(io::Error::other("not a file"));
-        }
-        size = data.len();
     }
-    if size > LARGEST {
-        return Err(io::Error::other("too large for a file of a report"));
+    input::regular(&at)
+}
+
+/// The same as text.
+///
+/// # Errors
+/// As [`read`]; what is no text.
+pub fn text(folder: &Path, path: &str) -> io::Result<String> {
+    String::from_utf8(read(folder, path)?).map_err(|_| io::Error::other("it is no UTF-8 text"))
+}
+
+/// The list of what was last written into a folder, if it has one.
+///
+/// # Errors
+/// What is wrong with it, with its name.
+pub fn local(folder: &Path) -> Result<Option<Vec<sums::Entry>>, String> {
+    let fault = |what: String| format!("{}: {what}", folder.join(sums::LOCAL).display());
+    match text(folder, sums::LOCAL) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(fault(error.to_string())),
+        Ok(text) => sums::lines(&text).map(Some).map_err(|error| fault(error.to_string())),
     }
-    let mut bytes = Vec::new();
-    std::fs::File::open(&at)?.take(LARGEST).read_to_end(&mut bytes)?;
-    Ok(bytes)
 }

@@ -49,13 +49,14 @@ pub fn listed(root: &Path, only: Option<&str>, progress: &Progress) -> Result<Ch
         Failure::input(format!("{}: {what}; {remedy}", place.display()))
     };
     let found = folder::walk(root)?;
-    let text = folder::read(root, sums::NAME).map_err(|e| unusable(e.to_string()))?;
-    let text = String::from_utf8(text).map_err(|e| unusable(e.to_string()))?;
+    let text = folder::text(root, sums::NAME).map_err(|e| unusable(e.to_string()))?;
     let entries = sums::read(&text).map_err(|e| unusable(e.to_string()))?;
     let mut known: BTreeMap<&str, &str> = BTreeMap::new();
     // Of what was last written, what is built beside: the rest may be of another revision by now.
-    let local = folder::read(root, sums::LOCAL).ok().and_then(|text| String::from_utf8(text).ok());
-    let local = local.and_then(|text| sums::lines(&text).ok()).unwrap_or_default();
+    let local = folder::local(root).map_err(|what| {
+        Failure::input(format!("{what}; write the report anew with `impact-paper paper --force`"))
+    })?;
+    let local = local.unwrap_or_default();
     let beside =
         |entry: &&sums::Entry| folder::is_beside(&entry.path) && found.contains(&entry.path);
     for entry in local.iter().filter(beside).chain(&entries) {
@@ -102,8 +103,7 @@ pub fn own_profile(root: &Path) -> Result<Profile, Failure> {
     let unknown = |what: &str| {
         Failure::input(format!("{}: values.json {what}; give --profile", root.display()))
     };
-    let text = folder::read(root, "values.json").map_err(|_| unknown("cannot be read"))?;
-    let text = String::from_utf8(text).map_err(|_| unknown("is not text"))?;
+    let text = folder::text(root, "values.json").map_err(|_| unknown("cannot be read"))?;
     let values = compare::read(&text).map_err(|_| unknown("is not one of a report"))?;
     match values.get("profile").map(|value| &value.number) {
         Some(Number::Text(name)) => work::ProfileName::from_str(name, false)

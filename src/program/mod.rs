@@ -12,7 +12,7 @@ pub mod stdout;
 pub mod work;
 
 use crate::experiments::say;
-use crate::input::one_line;
+use crate::input::{one_line, plain};
 use std::io;
 use std::process::ExitCode;
 
@@ -106,7 +106,7 @@ pub fn usage(error: &clap::Error) -> ExitCode {
             Err(failure) => failure.tell(),
         };
     }
-    let text = error.to_string();
+    let text = plain(&error.to_string());
     let lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
     let line = lines.collect::<Vec<_>>().join("; ");
     say(&format!("impact-paper: {}", line.strip_prefix("error: ").unwrap_or(&line)));

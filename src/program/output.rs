@@ -8,13 +8,16 @@ use super::work::{self, Now};
 use super::{Failure, folder};
 use crate::digest::sha256;
 use crate::experiments::Progress;
-use crate::input::{STAGING, one_line};
+use crate::input::{self, STAGING, one_line};
 use crate::report::{Files, PROGRAM, sums};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
 use std::io;
 use std::path::Path;
 use std::time::Duration;
+
+/// Folders that a report has.
+const FOLDERS: [&str; 2] = ["data", "figures"];
 
 /// Of a longer list of names only so many are told.
 const TOLD: usize = 5;
@@ -36,7 +39,7 @@ pub struct Staging<'a> {
     /// The option that names the folder, for messages.
     option: &'static str,
     force: bool,
-    made: bool,
+    _made: work::Made,
 }
 
 impl<'a> Staging<'a> {
@@ -59,13 +62,12 @@ impl<'a> Staging<'a> {
             let what = "it is a file; give a folder";
             return Err(Failure::input(format!("{option}: {}: {what}", folder.display())));
         }
-        let made = !folder.exists();
-        let staging = Staging { folder, option, force, made };
+        let staging = Staging { folder, option, force, _made: work::made(folder) };
         let failed = |error: io::Error| staging.failed(&error);
         std::fs::create_dir_all(folder).map_err(failed)?;
         // Another run may be putting its files in place: half of them would look like a stranger's.
         let _alone = alone(folder).map_err(failed)?;
-        let own = Own::read(folder);
+        let own = staging.own()?;
         let strange = |name: &String| !is_staging(folder, name);
         let strange = names(folder).map_err(failed)?.into_iter().find(strange);
         if let (Some(name), None, false) = (strange, &own, force) {
@@ -81,7 +83,8 @@ impl<'a> Staging<'a> {
             // What cannot be removed is in nobody's way.
             let _ = std::fs::remove_dir_all(folder.join(name));
         }
-        tempfile::Builder::new().prefix(STAGING).tempdir_in(folder).map_err(failed)?;
+        staging.temporary()?;
+        FOLDERS.into_iter().try_for_each(|below| staging.is_folder(&folder.join(below)))?;
         Ok(staging)
     }
 
@@ -91,7 +94,7 @@ impl<'a> Staging<'a> {
     /// Exit code 2 with the names.
     pub fn refuse_changed(&self) -> Result<(), Failure> {
         let _alone = alone(self.folder).map_err(|error| self.failed(&error))?;
-        let own = Own::read(self.folder).unwrap_or_default();
+        let own = self.own()?.unwrap_or_default();
         let stands = |path: &str| self.folder.join(path).symlink_metadata().is_ok();
         let wrote =
             |path: &str| folder::read(self.folder, path).is_ok_and(|bytes| own.wrote(path, &bytes));
@@ -99,8 +102,10 @@ impl<'a> Staging<'a> {
         // A page may stand without a list of it; and a list may be somebody else's.
         let pages = PROGRAM.documents.iter().map(|document| document.page);
         let others: Vec<String> = pages.chain([sums::NAME]).map(String::from).collect();
-        let all = own.digests.keys().chain(&others);
-        let changed: BTreeSet<&str> = all.filter(changed).map(String::as_str).collect();
+        let all = || own.digests.keys().chain(&others);
+        all().try_for_each(|path| self.inside(path))?;
+        self.no_folder(all())?;
+        let changed: BTreeSet<&str> = all().filter(changed).map(String::as_str).collect();
         self.refuse(changed.into_iter().collect())
     }
 
@@ -111,12 +116,12 @@ impl<'a> Staging<'a> {
     /// # Errors
     /// Exit code 2 for a file that is not ours to replace, 2 or 4 if something cannot be written, 130
     /// on Ctrl-C.
-    pub fn place(mut self, files: &Files, progress: &Progress) -> Result<(), Failure> {
+    pub fn place(self, files: &Files, progress: &Progress) -> Result<(), Failure> {
         let failed = |error: io::Error| self.failed(&error);
         // A run that began beside this one and failed has removed the folder if it was empty.
         std::fs::create_dir_all(self.folder).map_err(failed)?;
         let _alone = alone(self.folder).map_err(failed)?;
-        let own = Own::read(self.folder).unwrap_or_default();
+        let own = self.own()?.unwrap_or_default();
         let is_report = files.contains_key(sums::NAME);
         let gone = own.report.iter().filter(|path| is_report && !files.contains_key(*path));
         let gone: Vec<&String> = gone.collect();
@@ -131,13 +136,9 @@ impl<'a> Staging<'a> {
             files.keys().chain(gone.iter().copied()).filter(theirs).map(String::as_str).collect();
         self.refuse(theirs.clone())?;
 
-        if let Some(folder) = files.keys().find(|path| self.folder.join(path).is_dir()) {
-            let what = "is a folder where a file of the report belongs; move it away";
-            return Err(Failure::input(format!("{}: {folder} {what}", self.option)));
-        }
+        self.no_folder(files.keys())?;
 
-        let temporary = tempfile::Builder::new().prefix(STAGING).tempdir_in(self.folder);
-        let temporary = temporary.map_err(failed)?;
+        let temporary = self.temporary()?;
         let stage = |path: &str, bytes: &[u8]| {
             let staged = temporary.path().join(path);
             std::fs::create_dir_all(staged.parent().unwrap_or(self.folder))?;
@@ -171,8 +172,36 @@ impl<'a> Staging<'a> {
         if !over.is_empty() {
             progress.say(&format!("impact-paper: --force: wrote over {}", over.join(", ")));
         }
-        self.made = false;
         Ok(())
+    }
+
+    /// What the lists say; a list that cannot be read would make files of ours look like a stranger's.
+    fn own(&self) -> Result<Option<Own>, Failure> {
+        match Own::read(self.folder) {
+            Err(_) if self.force => Ok(None),
+            Err(what) => Err(Failure::input(format!(
+                "{}: {what}; --force writes the report anew, whatever stands there",
+                self.option
+            ))),
+            Ok(own) => Ok(own),
+        }
+    }
+
+    /// A folder in which files wait until all are complete.
+    fn temporary(&self) -> Result<tempfile::TempDir, Failure> {
+        let made = tempfile::Builder::new().prefix(STAGING).tempdir_in(self.folder);
+        made.map_err(|error| self.failed(&input::bare(error)))
+    }
+
+    /// Refuses a folder in the place of a file.
+    fn no_folder<'b>(&self, mut files: impl Iterator<Item = &'b String>) -> Result<(), Failure> {
+        match files.find(|path| self.folder.join(path).is_dir()) {
+            None => Ok(()),
+            Some(folder) => {
+                let what = "is a folder where a file of the report belongs; move it away";
+                Err(Failure::input(format!("{}: {folder} {what}", self.option)))
+            }
+        }
     }
 
     /// Refuses to touch what is not ours, unless forced.
@@ -202,22 +231,19 @@ impl<'a> Staging<'a> {
             return Err(Failure::input(format!("{option}: {path:?} is no path inside the folder")));
         }
         let above = Path::new(path).ancestors().skip(1).filter(|above| *above != Path::new(""));
-        match above.map(|above| self.folder.join(above)).find(|above| above.is_symlink()) {
-            None => Ok(()),
-            Some(link) => Err(Failure::input(format!(
-                "{option}: {} is a symbolic link out of the folder; remove it, or give another folder",
-                link.display()
-            ))),
-        }
+        above.map(|above| self.folder.join(above)).try_for_each(|above| self.is_folder(&above))
     }
-}
 
-impl Drop for Staging<'_> {
-    fn drop(&mut self) {
-        if self.made {
-            // Fails, as it should, if the folder is not empty.
-            let _ = std::fs::remove_dir(self.folder);
-        }
+    /// Refuses what stands in the place of a folder of the report.
+    fn is_folder(&self, path: &Path) -> Result<(), Failure> {
+        let what = match path.symlink_metadata() {
+            Ok(found) if found.is_symlink() => "is a symbolic link out of the folder",
+            Ok(found) if !found.is_dir() => "is a file where a folder of the report belongs",
+            _ => return Ok(()),
+        };
+        let (option, path) = (self.option, path.display());
+        let remedy = "remove it, or give another folder";
+        Err(Failure::input(format!("{option}: {path} {what}; {remedy}")))
     }
 }
 
@@ -247,15 +273,17 @@ struct Own {
 impl Own {
     /// From the lists in a folder; none if it has none. Other people have lists of this name too: one
     /// of a report names its values and its ledger.
-    fn read(folder: &Path) -> Option<Own> {
-        let text = |name: &str| String::from_utf8(folder::read(folder, name).ok()?).ok();
-        let list = |name: &str| sums::lines(&text(name)?).ok();
+    ///
+    /// # Errors
+    /// What is wrong with the list that only this program writes.
+    fn read(folder: &Path) -> Result<Option<Own>, String> {
+        let local = folder::local(folder)?;
+        let list = |name: &str| sums::lines(&folder::text(folder, name).ok()?).ok();
         let has = |list: &Vec<sums::Entry>, path: &str| list.iter().any(|entry| entry.path == path);
         let report =
             list(sums::NAME).filter(|list| has(list, "values.json") && has(list, "ledger.json"));
-        let local = list(sums::LOCAL);
         if report.is_none() && local.is_none() {
-            return None;
+            return Ok(None);
         }
         let mut own = Own::default();
         for entry in report.iter().chain(&local).flatten() {
@@ -263,7 +291,7 @@ impl Own {
         }
         own.report = report.iter().flatten().map(|entry| entry.path.clone()).collect();
         own.local = local.unwrap_or_default();
-        Some(own)
+        Ok(Some(own))
     }
 
     /// Whether it wrote these bytes under this path. A list of a report says nothing that is not made
@@ -482,7 +510,7 @@ mod tests {
         for replaced in 0..=order.len() {
             let out = tempfile::tempdir().unwrap();
             place(out.path(), &old).unwrap();
-            let own = Own::read(out.path()).unwrap();
+            let own = Own::read(out.path()).unwrap().unwrap();
             std::fs::write(out.path().join(sums::LOCAL), own.local(&new, |_| true, true)).unwrap();
             for path in &order[..replaced] {
                 std::fs::write(out.path().join(path), &new[*path]).unwrap();

@@ -7,7 +7,7 @@ use crate::report::{self, contents};
 use crate::{claims, dynamics, figures};
 use literate::experiments::deep;
 use literate::experiments::shards::Plan;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::Duration;
@@ -169,6 +169,7 @@ const PATIENCE: Duration = Duration::from_millis(700);
 /// work, or the second time, it ends the program at once. Always with exit code 130.
 pub fn obey_signals() {
     let end = || {
+        remove_empty(&MADE.lock().unwrap_or_else(PoisonError::into_inner));
         say("impact-paper: interrupted");
         std::process::exit(i32::from(INTERRUPTED))
     };
@@ -215,6 +216,35 @@ pub fn moment(now: Now) -> Moment {
 impl Drop for Moment {
     fn drop(&mut self) {
         *NOW.lock().unwrap_or_else(PoisonError::into_inner) = Now::Working;
+    }
+}
+
+/// Folders that this run makes, the deepest first.
+static MADE: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+/// At the end of this, and of the program, what was made and left empty is removed.
+#[derive(Debug)]
+pub struct Made(Vec<PathBuf>);
+
+/// Says that a folder is about to be made, with those above it that are missing.
+pub fn made(folder: &Path) -> Made {
+    let missing = |path: &&Path| !path.as_os_str().is_empty() && !path.exists();
+    let missing: Vec<PathBuf> = folder.ancestors().take_while(missing).map(PathBuf::from).collect();
+    MADE.lock().unwrap_or_else(PoisonError::into_inner).extend(missing.clone());
+    Made(missing)
+}
+
+impl Drop for Made {
+    fn drop(&mut self) {
+        remove_empty(&self.0);
+        MADE.lock().unwrap_or_else(PoisonError::into_inner).retain(|path| !self.0.contains(path));
+    }
+}
+
+fn remove_empty(folders: &[PathBuf]) {
+    for folder in folders {
+        // Fails, as it should, if the folder is not empty.
+        let _ = std::fs::remove_dir(folder);
     }
 }
 
@@ -265,15 +295,23 @@ pub fn environment() -> Result<(), Failure> {
     })
 }
 
+/// Holds `--threads` to its bounds.
+///
+/// # Errors
+/// Exit code 2.
+pub fn threads(threads: Option<usize>) -> Result<(), Failure> {
+    if threads == Some(0) {
+        return Err(Failure::input("--threads: 0 threads do no work; give 1 or more"));
+    }
+    few_enough("--threads", threads)
+}
+
 /// Runs `work` on that many threads; none means all cores.
 pub fn on_threads<T: Send>(
     threads: Option<usize>,
     work: impl FnOnce() -> Result<T, Failure> + Send,
 ) -> Result<T, Failure> {
-    if threads == Some(0) {
-        return Err(Failure::input("--threads: 0 threads do no work; give 1 or more"));
-    }
-    few_enough("--threads", threads)?;
+    self::threads(threads)?;
     let builder = rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0));
     let pool = builder.build().map_err(|error| {
         Failure::input(format!("--threads: {error}; give a smaller number of threads"))
@@ -344,5 +382,26 @@ impl From<report::Error> for Failure {
             Lint(_) | NotShown(_) | Unused(_) => Failure::check(error.to_string()),
             _ => Failure::input(error.to_string()),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn folders_that_were_made_and_left_empty_go() {
+        let folder = tempfile::tempdir().unwrap();
+        let [new, below] = ["new", "new/below"].map(|name| folder.path().join(name));
+        for (file, left) in [("", false), ("kept", true)] {
+            let made = made(&below);
+            std::fs::create_dir_all(&below).unwrap();
+            if left {
+                std::fs::write(new.join(file), "").unwrap();
+            }
+            drop(made);
+            assert_eq!((new.exists(), below.exists()), (left, false));
+        }
+        assert!(folder.path().exists());
     }
 }

@@ -3,6 +3,7 @@
 
 use crate::{SCENARIO, program, run};
 use std::fs;
+use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
@@ -22,10 +23,18 @@ fn with(field: &str) -> String {
 #[test]
 fn text_that_is_no_scenario() {
     refused([0xff, 0xfe, 0x00, 0x9f], &[]);
-    refused("", &["line 1"]);
+    refused("", &["it is empty"]);
+    refused(" \n", &["it is empty"]);
+    refused("\u{feff}{}", &["byte-order mark"]);
     refused("{", &["line 1"]);
     refused(r#"{"forcing":[[1,2]"#, &["line 1"]);
-    refused("[]", &["forcing: it names no mass"]);
+    for list in ["[]", "[1,1,1.4]", "[[0,1]]"] {
+        refused(list, &["expected a JSON object"]);
+    }
+    refused(with(r#""initial":{"random":[0.1,1]}"#), &["initial.random", "a JSON object"]);
+    refused(with(r#""initial":{"random":{"sigma":[]}}"#), &["initial.random.sigma", "a number"]);
+    refused(with(r#""initial":3"#), &["initial: no value that it can have"]);
+    refused(r#"{"forcing":[[1,2,3]]}"#, &["forcing[0]: more than belongs here"]);
     refused("null", &["line 1"]);
     refused("17", &["line 1"]);
     refused(format!("{SCENARIO} {SCENARIO}"), &["one JSON object"]);
@@ -72,7 +81,7 @@ fn masses_that_do_not_add_up() {
     refused(r#"{"forcing":[[1,2,3]]}"#, &["forcing"]);
     refused(r#"{"forcing":[1,2]}"#, &["forcing"]);
     refused(r#"{"forcing":{"1":2}}"#, &["forcing"]);
-    refused(with(r#""initial":{"free":[]}"#), &["initial.free", "0 pairs", "1 masses"]);
+    refused(with(r#""initial":{"free":[]}"#), &["initial.free", "no pair for 1 mass"]);
     refused(with(r#""initial":{"free":[[0,0],[0,0]]}"#), &["initial.free", "2 pairs"]);
     refused(with(r#""initial":{"free":[[0,1e300]]}"#), &["initial.free[0]"]);
 }
@@ -131,7 +140,14 @@ trace s.json => --until
 trace --until 5 => SCENARIO
 trace missing.json --until 5 => missing.json:
 trace empty --until 5 => empty:
-trace - --until 5 => impact-paper: -:
+trace - --until 5 => standard input:; it is empty
+trace s.json --until soon => --until; it is no number; 0.12
+trace s.json --until 5 --max-impacts 1e9 => --max-impacts; it is no whole number; 1000
+sweep --sigma 0.1 --masses 1e9 => --masses; it is no whole number
+sweep --sigma 0.1 --masses 5 --threads 4294967296 => --threads: 4294967296
+bench scenario --masses 1500000 => --masses:; 64 MiB; fewer masses
+paper --figure= => no figure \"\"
+paper --profile quick --figure 3 --out d/e --results file => --results
 trace s.json --until 5 --untill 6 => --untill
 trace s.json --until=-1|NaN|inf|-inf|1e300||soon => --until
 trace s.json --until 5 --max-impacts=-1|1.5|many|99999999999999999999 => --max-impacts
@@ -314,6 +330,7 @@ fn files_without_end_are_refused() {
     for name in ["report", "templates"] {
         fs::create_dir(folder.join(name)).unwrap();
     }
+    crate::refused(folder, "trace long.json --until=5", &["fewer masses"]);
     long("report/values.json");
     crate::refused(folder, "explain --paper=report", &["values.json", "64 MiB"]);
     long("templates/report.md");
@@ -391,4 +408,52 @@ fn nothing_is_written_outside_the_output() {
     assert_eq!(run(folder, paper).0, 0);
     assert_eq!(fs::read_to_string(folder.join("outside/kept")).unwrap(), "kept");
     assert!(!folder.join("good/data/fig07.csv").is_symlink());
+}
+
+/// What stands where a folder of the report belongs is told before anything is run, and no list is touched.
+#[cfg(unix)]
+#[test]
+fn what_stands_in_the_place_of_a_folder_is_told_first() {
+    use std::os::unix::fs::symlink;
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let paper =
+        |figure: &str| format!("paper --profile=quick --figure={figure} --out=f --results=r");
+    assert_eq!(run(folder, &paper("4")).0, 0);
+    let list = || fs::read_to_string(folder.join("f/SHA256SUMS.local")).unwrap();
+    let before = list();
+    for name in ["data", "figures"] {
+        let path = folder.join("f").join(name);
+        fs::rename(&path, folder.join("kept")).unwrap();
+        fs::write(&path, "").unwrap();
+        crate::refused(folder, &paper("3"), &["--out: f/", name, "is a file where a folder"]);
+        fs::remove_file(&path).unwrap();
+        symlink("nowhere", &path).unwrap();
+        crate::refused(folder, &paper("3"), &["--out: f/", name, "symbolic link"]);
+        fs::remove_file(&path).unwrap();
+        fs::rename(folder.join("kept"), &path).unwrap();
+    }
+    assert!(!folder.join("r").exists() && list() == before, "nothing is run or written");
+    fs::write(folder.join("f/SHA256SUMS.local"), "half a line").unwrap();
+    crate::refused(folder, &paper("4"), &["f/SHA256SUMS.local: line 1", "--force"]);
+    assert_eq!(run(folder, &format!("{} --force", paper("4"))).0, 0);
+    assert_eq!(list(), before);
+}
+
+/// What takes long says after some seconds that it is at work, on standard error alone.
+#[test]
+fn long_work_gives_signs_of_life() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("s.json"), SCENARIO).unwrap();
+    let begun = ["trace s.json --until 1e12", "bench engine --masses 10 --until 1e9"].map(|verb| {
+        let mut command = program(folder.path(), verb);
+        command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
+    });
+    for mut child in begun {
+        let mut line = String::new();
+        BufReader::new(child.stderr.take().unwrap()).read_line(&mut line).unwrap();
+        child.kill().unwrap();
+        child.wait().unwrap();
+        assert!(line.contains(", after 5 s"), "{line}");
+    }
 }

@@ -198,7 +198,7 @@ fn what_is_no_report_gets_one_line() {
     refused("values.json is missing");
     fs::write(at("values.json"), good).unwrap();
     std::os::unix::fs::symlink("/etc/passwd", at("data/link.csv")).unwrap();
-    refused("data/link.csv: a link");
+    refused("data/link.csv: it is a link");
     for wrong in [&["a"][..], &["a", "b", "--json", "--markdown"], &["a", "b", "--format", "x"]] {
         assert_eq!(run(here, wrong).0, 2, "{wrong:?}");
     }

@@ -1,6 +1,6 @@
 //! `impact-paper explain` as a user meets it, on the report of the quick profile.
 
-use crate::{PROGRAM, QUICK, outcome, put};
+use crate::{PROGRAM, QUICK, outcome, put, refused};
 use std::path::Path;
 use std::process::Command;
 
@@ -78,6 +78,12 @@ fn an_unknown_id_is_one_line_with_the_nearest() {
         assert_eq!((code, told.as_str()), (2, ""), "{note}");
         assert!(note.contains(near) && note.trim_end().lines().count() == 1, "{note}");
     }
+    let long = "a".repeat(20_000);
+    for id in ["", "nope", long.as_str()] {
+        let (code, _, note) = explain(&[id]);
+        assert!(code == 2 && !note.contains("nearest") && note.len() < 200, "{note}");
+        assert!(note.contains("without an id all are listed"), "{note}");
+    }
     let (code, _, note) = run(&["explain", "--paper", "no-such-folder", "x"]);
     assert_eq!(code, 2);
     assert!(note.contains("--paper") && note.trim_end().lines().count() == 1, "{note}");
@@ -111,5 +117,22 @@ fn every_origin_is_a_function() {
     assert!(means.len() > 1, "{means:?}");
     for mean in means {
         assert_eq!(values[mean]["source"], "experiments::sweep::reduce");
+    }
+}
+
+/// Whoever opens a pipe waits for its other end, and a link may lead anywhere.
+#[cfg(unix)]
+#[test]
+fn nothing_but_files_of_the_folder_is_read() {
+    for name in ["values.json", "ledger.json"] {
+        let folder = tempfile::tempdir().unwrap();
+        let here = folder.path();
+        put(&here.join("r"), &QUICK.report);
+        std::fs::rename(here.join("r").join(name), here.join("away")).unwrap();
+        std::os::unix::fs::symlink("../away", here.join("r").join(name)).unwrap();
+        refused(here, "explain --paper r fig:3", &[name, "it is a link"]);
+        std::fs::remove_file(here.join("r").join(name)).unwrap();
+        assert!(Command::new("mkfifo").arg(here.join("r").join(name)).status().unwrap().success());
+        refused(here, "explain --paper r fig:3", &[name, "it is no regular file"]);
     }
 }

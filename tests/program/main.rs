@@ -76,6 +76,9 @@ fn refused(folder: &Path, arguments: &str, words: &[&str]) {
     let shown = (code, out.as_str(), note.lines().count());
     assert_eq!(shown, (2, "", 1), "{arguments}: {note}");
     assert!(note.len() < 2000 && !note.contains("panicked"), "{arguments}: {note}");
+    for jargon in ["f64", "u64", "usize", "i128", "struct ", "enum ", "digit found", "literal:"] {
+        assert!(!note.contains(jargon), "{arguments}: {note}");
+    }
     for word in words {
         assert!(note.contains(word), "{arguments}: {word:?} is not in {note}");
     }

@@ -108,6 +108,22 @@ fn status_gives_each_reason_and_audit_compares_bytes() {
     }
     assert!(saved(folder) == *results);
 
+    // With the line ends of another system one is damaged and run again; what was never one is left, as both say.
+    let path = folder.join("results/two_masses-quick.json");
+    let text = fs::read_to_string(&path).unwrap();
+    fs::write(&path, text.replace('\n', "\r\n")).unwrap();
+    assert_eq!(with(&status(folder), "damaged"), ["two_masses"]);
+    assert_eq!(run(folder, PAPER).0, 0);
+    assert!(saved(folder) == *results);
+    fs::write(&path, "{}\n").unwrap();
+    let (_, told, _) = run(folder, "status --profile quick --results results");
+    let (code, _, note) = run(folder, PAPER);
+    for text in [told, note] {
+        assert!(text.contains("this is no saved result"), "{text}");
+    }
+    assert_eq!((code, fs::read_to_string(&path).unwrap().as_str()), (2, "{}\n"));
+    fs::write(&path, text).unwrap();
+
     // A result that the code does not give, with everything else right: only an audit finds it.
     let text = std::str::from_utf8(&results["analytic-quick.json"]).unwrap();
     let number = text

@@ -196,7 +196,10 @@ fn what_is_not_one_whole_set_is_refused_by_name() {
         // One realisation less, and a count that no chain has: the parts would not join.
         (&forge(2, "\"distinct\":[", "\"distinct\":[3,"), "saved in another form"),
         (&forge(2, "\"rejected\":0", "\"rejected\":1"), "saved in another form"),
-        (&|path, _| fs::remove_file(path).and_then(|()| fs::create_dir(path)).unwrap(), "no file"),
+        (
+            &|path, _| fs::remove_file(path).and_then(|()| fs::create_dir(path)).unwrap(),
+            "no saved result",
+        ),
     ];
     for (change, says) in cases {
         change(&path, whole);
@@ -243,4 +246,18 @@ fn what_is_not_one_whole_set_is_refused_by_name() {
     let (code, _, note) = run(folder, MERGE);
     assert_eq!(code, 0, "{note}");
     assert!(files(&folder.join("joined")) == QUICK.results);
+}
+
+/// A unit that two folders have, and one of them as a pipe, which would never end.
+#[cfg(unix)]
+#[test]
+fn a_pipe_in_the_place_of_a_unit_is_refused() {
+    let folder = complete();
+    let folder = folder.path();
+    let name = SHARDS[1].keys().next().unwrap();
+    let made = std::process::Command::new("mkfifo").arg(folder.join("1").join(name)).status();
+    assert!(made.unwrap().success());
+    refused(folder, MERGE, &[name.trim_end_matches(".json"), "otherwise, in 2"]);
+    let help = crate::answer(folder, "merge --help");
+    assert!(help.contains("no JSON"), "{help}");
 }

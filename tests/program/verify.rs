@@ -74,6 +74,9 @@ fn lists_that_cannot_be_trusted_are_refused_with_their_line() {
         fs::write(folder.path().join("paper/SHA256SUMS"), format!("{list}{line}\n")).unwrap();
         refused(folder.path(), "verify", &["SHA256SUMS: line 3: "]);
     }
+    fs::write(folder.path().join("paper/SHA256SUMS"), list).unwrap();
+    fs::write(folder.path().join("paper/SHA256SUMS.local"), "nonsense").unwrap();
+    refused(folder.path(), "verify", &["paper/SHA256SUMS.local: line 1: ", "--force"]);
     fs::write(folder.path().join("paper/SHA256SUMS"), b"\xff\xfe").unwrap();
     assert_eq!(run(folder.path(), "verify").0, 2);
     let (code, _, note) = run(small().0.path(), "verify --rerun");
@@ -98,13 +101,13 @@ fn nothing_leads_out_of_the_folder() {
     let (code, told, _) = run(folder.path(), "verify");
     assert_eq!(code, 1);
     let lines: Vec<&str> = told.lines().collect();
-    let link = "(a link, which is not followed)";
+    let link = "(it is a link, which is not followed)";
     assert_eq!(
         lines,
         [
             &format!("unread   door/x {link}"),
             &format!("unread   link {link}"),
-            "unread   pipe (not a file)",
+            "unread   pipe (it is no regular file)",
             "unlisted door",
         ]
     );

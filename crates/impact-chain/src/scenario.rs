@@ -3,7 +3,12 @@
 use super::{Error, Simultaneous, rounding};
 use crate::{Boundary, Chain, Start};
 use impact_numerics::random::NormalPairs;
-use serde::Deserialize;
+use impact_numerics::text::{count, plain};
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{MapAccess, Visitor};
+use serde::{Deserialize, Deserializer};
+use std::fmt;
+use std::marker::PhantomData;
 
 /// The start of one scenario.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,12 +44,46 @@ type Pairs = Vec<[f64; 2]>;
 
 /// The start as a scenario file names it.
 #[derive(Deserialize)]
-#[serde(rename_all = "lowercase", deny_unknown_fields)]
+#[serde(
+    rename_all = "lowercase",
+    expecting = "\"rest\", \"zero\", {\"free\": …} or {\"random\": …}"
+)]
 enum InitialForm {
     Rest,
     Zero,
     Free(Vec<[f64; 2]>),
-    Random { sigma: f64, seed: u64 },
+    Random(Object<Random>),
+}
+
+/// The form of a random start.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Random {
+    sigma: f64,
+    seed: u64,
+}
+
+/// Fields by their names: serde would take an array of them, in their order, as well.
+struct Object<T>(T);
+
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for Object<T> {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        struct Fields<T>(PhantomData<T>);
+
+        impl<'de, T: Deserialize<'de>> Visitor<'de> for Fields<T> {
+            type Value = Object<T>;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a JSON object {…}")
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Object<T>, A::Error> {
+                T::deserialize(MapAccessDeserializer::new(map)).map(Object)
+            }
+        }
+
+        from.deserialize_map(Fields(PhantomData))
+    }
 }
 
 impl<F: Default> Default for Form<F> {
@@ -70,12 +109,21 @@ impl<F: Default> Form<F> {
     where
         F: Deserialize<'a>,
     {
+        let remedy = "see the form in `impact-paper trace --help`";
+        let refuse = |problem: &str| Err(Error::input("scenario", problem, remedy));
+        if text.trim().is_empty() {
+            return refuse("it is empty");
+        }
+        if text.starts_with('\u{feff}') {
+            return refuse("it begins with a byte-order mark; save it as UTF-8 without");
+        }
         let mut reader = serde_json::Deserializer::from_str(text);
-        let form = serde_path_to_error::deserialize(&mut reader).map_err(|error| {
-            let path = error.path().to_string();
-            let field = if path == "." { "scenario".to_string() } else { path };
-            let problem = error.into_inner().to_string();
-            Error::input(field, problem, "see the form in `impact-paper trace --help`")
+        let Object(form) = serde_path_to_error::deserialize(&mut reader).map_err(|error| {
+            // What has no name in the path is called "?".
+            let path = error.path().to_string().replace(".?", "");
+            let field =
+                if [".", "?"].contains(&path.as_str()) { "scenario".to_string() } else { path };
+            Error::input(field, plain(&error.into_inner().to_string()), remedy)
         })?;
         reader.end().map_err(|error| {
             let remedy = "write one JSON object and nothing after it";
@@ -91,7 +139,7 @@ impl<F: Default> Form<F> {
             InitialForm::Rest => Initial::Rest,
             InitialForm::Zero => Initial::Zero,
             InitialForm::Free(parts) => Initial::Free(parts),
-            InitialForm::Random { sigma, seed } => {
+            InitialForm::Random(Object(Random { sigma, seed })) => {
                 if !(0.0..=1e9).contains(&sigma) {
                     return Err(Error::input(
                         "initial.random.sigma",
@@ -137,7 +185,7 @@ impl Form<Vec<Pairs>> {
             let (given, lists) = (frequencies.len(), forcing.len());
             return Err(Error::input(
                 "forcing_frequencies",
-                format!("there are {given} of them and {lists} lists in forcing"),
+                format!("their number is {given}, and forcing has {}", count(lists, "list")),
                 format!("give 1 to {COMPONENTS}, and one list of pairs for each"),
             ));
         }
@@ -254,7 +302,7 @@ impl Scenario {
         if self.overtones.len() >= COMPONENTS {
             return Err(Error::input(
                 "forcing_frequencies",
-                format!("there are {} of them", self.overtones.len() + 1),
+                format!("{} are too many", self.overtones.len() + 1),
                 format!("give 1 to {COMPONENTS}"),
             ));
         }
@@ -296,7 +344,7 @@ impl Scenario {
                 let (own, first) = (overtone.amplitudes.len(), self.forcing.len());
                 return Err(Error::input(
                     field,
-                    format!("it has {own} pairs, forcing[0] has {first}"),
+                    format!("it has {}, forcing[0] has {first}", count(own, "pair")),
                     "give one pair [alpha, beta] for each mass in each list",
                 ));
             }
@@ -306,7 +354,11 @@ impl Scenario {
             if free.len() != self.forcing.len() {
                 return Err(Error::input(
                     "initial.free",
-                    format!("it has {} pairs for {} masses", free.len(), self.forcing.len()),
+                    format!(
+                        "it has {} for {}",
+                        count(free.len(), "pair"),
+                        count(self.forcing.len(), "mass")
+                    ),
                     "give one pair [a, b] for each mass",
                 ));
             }

@@ -1,8 +1,8 @@
 //! Files: they are read up to a bound, what is wrong with them is told in one line, and they appear whole.
 
-pub use impact_numerics::text::one_line;
+pub use impact_numerics::text::{one_line, plain};
 use std::fs::File;
-use std::io::{Error, ErrorKind, Read};
+use std::io::{Error, ErrorKind, Read, Write};
 use std::path::Path;
 use tempfile::NamedTempFile;
 
@@ -10,10 +10,13 @@ use tempfile::NamedTempFile;
 /// program writes has some hundred kilobytes.
 pub const LARGEST: u64 = 64 << 20;
 
-/// Reads a text file.
+/// [`LARGEST`] in words.
+pub const MOST: &str = "64 MiB";
+
+/// Reads a text that somebody names: a file, or a pipe whose other end they hold.
 ///
 /// # Errors
-/// What the system says, and files that are no UTF-8 or longer than [`LARGEST`] (a device without
+/// What the system says, and texts that are no UTF-8 or longer than [`LARGEST`] (a device without
 /// end is).
 pub fn read(path: &Path) -> Result<String, Error> {
     read_from(File::open(path)?)
@@ -24,13 +27,67 @@ pub fn read(path: &Path) -> Result<String, Error> {
 /// # Errors
 /// As [`read`].
 pub fn read_from(file: impl Read) -> Result<String, Error> {
+    text(bounded(file)?)
+}
+
+/// A file that is found in a folder, whole. Nothing but a regular file is opened: whoever opens a pipe waits for its
+/// other end.
+///
+/// # Errors
+/// What the system says, and what is no regular file or longer than [`LARGEST`].
+pub fn regular(path: &Path) -> Result<Vec<u8>, Error> {
+    if !std::fs::metadata(path)?.is_file() {
+        return Err(Error::new(ErrorKind::InvalidInput, "it is no regular file"));
+    }
+    bounded(File::open(path)?)
+}
+
+/// The same as text.
+///
+/// # Errors
+/// As [`regular`] and [`read`].
+pub fn regular_text(path: &Path) -> Result<String, Error> {
+    text(regular(path)?)
+}
+
+fn text(bytes: Vec<u8>) -> Result<String, Error> {
+    String::from_utf8(bytes).map_err(|_| Error::new(ErrorKind::InvalidData, "it is no UTF-8 text"))
+}
+
+fn bounded(file: impl Read) -> Result<Vec<u8>, Error> {
     let mut bytes = Vec::new();
     file.take(LARGEST + 1).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > LARGEST {
-        let what = format!("it is longer than {} MiB", LARGEST >> 20);
-        return Err(Error::new(ErrorKind::FileTooLarge, what));
+        return Err(Error::new(ErrorKind::FileTooLarge, format!("it is longer than {MOST}")));
     }
-    String::from_utf8(bytes).map_err(|_| Error::new(ErrorKind::InvalidData, "it is no UTF-8 text"))
+    Ok(bytes)
+}
+
+/// What is written, up to the bound of what is read.
+#[derive(Default)]
+pub struct Bounded(pub Vec<u8>);
+
+impl Write for Bounded {
+    fn write(&mut self, bytes: &[u8]) -> Result<usize, Error> {
+        if (self.0.len() + bytes.len()) as u64 > LARGEST {
+            return Err(Error::new(ErrorKind::FileTooLarge, format!("it makes more than {MOST}")));
+        }
+        self.0.extend_from_slice(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> Result<(), Error> {
+        Ok(())
+    }
+}
+
+/// What the system said of a temporary file, without the name of that file.
+pub fn bare(error: Error) -> Error {
+    let inner = error.get_ref().and_then(|own| own.source());
+    match inner.and_then(|own| own.downcast_ref::<Error>()).and_then(Error::raw_os_error) {
+        Some(code) => Error::from_raw_os_error(code),
+        None => error,
+    }
 }
 
 /// Files and folders that wait until they are complete begin with this.
@@ -47,7 +104,7 @@ pub fn new_beside(path: &Path) -> Result<NamedTempFile, Error> {
     builder.prefix(STAGING);
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let file = builder.tempfile_in(folder.unwrap_or(Path::new(".")))?;
+    let file = builder.tempfile_in(folder.unwrap_or(Path::new("."))).map_err(bare)?;
     // Where there are no locks, leftovers stay.
     let _ = file.as_file().try_lock();
     Ok(file)
@@ -70,11 +127,29 @@ pub fn remove_leftovers(folder: &Path) {
     }
 }
 
+/// Is the character none of a text: one that controls a terminal, or one for private use, which frames values in filled
+/// prose?
+pub fn is_no_text(c: char) -> bool {
+    let controls = c.is_control() && !matches!(c, '\n' | '\r' | '\t');
+    controls || ('\u{e000}'..='\u{f8ff}').contains(&c)
+}
+
 /// A fault of TOML with its line, from 1: `12: missing field …`.
 pub fn toml_fault(text: &str, error: &toml::de::Error) -> String {
     let before = error.span().and_then(|span| text.get(..span.start)).unwrap_or_default();
-    let line = before.matches('\n').count() + 1;
-    format!("{line}: {}", one_line(error.message(), 300))
+    format!("{}: {}", line(before), one_line(&plain(error.message()), 300))
+}
+
+/// The line that a text ends in, from 1.
+pub fn line(before: &str) -> usize {
+    before.matches('\n').count() + 1
+}
+
+/// Line and column in characters, from 1, of an offset in a text: `12:5`.
+pub fn line_and_column(text: &str, offset: usize) -> String {
+    let before = text.get(..offset).unwrap_or(text);
+    let column = before.rsplit('\n').next().unwrap_or_default().chars().count() + 1;
+    format!("{}:{column}", line(before))
 }
 
 #[cfg(test)]
@@ -110,7 +185,13 @@ mod tests {
         assert_eq!(read(file.path()).unwrap_err().to_string(), "it is longer than 64 MiB");
         std::fs::write(file.path(), [b'a', 0xff]).unwrap();
         assert_eq!(read(file.path()).unwrap_err().to_string(), "it is no UTF-8 text");
+        let error = regular(Path::new(".")).unwrap_err();
+        assert_eq!(error.to_string(), "it is no regular file");
         if Path::new("/dev/zero").exists() {
+            assert_eq!(
+                regular(Path::new("/dev/zero")).unwrap_err().kind(),
+                ErrorKind::InvalidInput
+            );
             assert_eq!(read(Path::new("/dev/zero")).unwrap_err().kind(), ErrorKind::FileTooLarge);
         }
     }

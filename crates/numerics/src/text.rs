@@ -15,6 +15,49 @@ pub fn one_line(text: &str, most: usize) -> String {
     head.chain(['…']).chain(line.chars().skip(length - tail)).collect()
 }
 
+/// `3 numbers`, `1 number`, `no number`.
+pub fn count(number: usize, noun: &str) -> String {
+    match number {
+        0 => format!("no {noun}"),
+        1 => format!("1 {noun}"),
+        _ if noun.ends_with('s') => format!("{number} {noun}es"),
+        _ => format!("{number} {noun}s"),
+    }
+}
+
+/// What parsers say to programmers, and what it says to everybody.
+const PLAIN: [(&str, &str); 24] = [
+    (" as i128", ""),
+    ("expected f64", "expected a number"),
+    ("expected u8", "expected a whole number"),
+    ("expected u64", "expected a whole number"),
+    ("expected usize", "expected a whole number"),
+    ("an array of length 2", "a pair [a, b]"),
+    ("invalid length", "the length is wrong:"),
+    ("a sequence", "a list"),
+    ("expected value", "no value that it can have"),
+    ("expected unit", "expected nothing"),
+    ("unknown variant", "unknown value"),
+    ("invalid type: map", "invalid type: object"),
+    ("invalid type: sequence", "invalid type: list"),
+    ("trailing characters", "more than belongs here"),
+    ("EOF while parsing", "it ends inside"),
+    ("`i64`", "a number"),
+    ("`usize`", "a whole number"),
+    ("`&str`", "text"),
+    ("invalid float literal", "it is no number; write one such as 0.12"),
+    ("cannot parse float from empty string", "it is no number; write one such as 0.12"),
+    ("invalid digit found in string", "it is no whole number; write one such as 1000"),
+    ("cannot parse integer from empty string", "it is no whole number; write one such as 1000"),
+    ("number too large to fit in target type", "it is too large; give a smaller number"),
+    ("number too small to fit in target type", "it is too small; give a larger number"),
+];
+
+/// A message of a parser without types of Rust.
+pub fn plain(message: &str) -> String {
+    PLAIN.iter().fold(message.into(), |line: String, (theirs, ours)| line.replace(theirs, ours))
+}
+
 /// Does a terminal or an editor take the character for more than a sign?
 fn breaks(c: char) -> bool {
     c.is_control() || matches!(c, '\u{2028}' | '\u{2029}')

@@ -118,7 +118,8 @@ fn read(path: &Path) -> Result<Reference, Failure> {
         Failure::input(format!("--reference: {}: {problem}; {remedy}", path.display()))
     };
     let text = input::read(path).map_err(|error| wrong(error.to_string()))?;
-    serde_json::from_str(&text).map_err(|error| wrong(input::one_line(&error.to_string(), 300)))
+    serde_json::from_str(&text)
+        .map_err(|error| wrong(input::one_line(&input::plain(&error.to_string()), 300)))
 }
 
 /// Runs one setting as often as there is time for.

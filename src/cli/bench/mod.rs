@@ -4,8 +4,11 @@ mod methods;
 
 use super::{Failure, sigmas, stdout, work};
 use impact_paper::dynamics::{Counters, Engine, Error, Scenario};
+use impact_paper::experiments::alive;
+use impact_paper::input::{Bounded, MOST};
 use impact_paper::numerics::clock::LATEST;
 use impact_paper::numerics::random::NormalPairs;
+use impact_paper::numerics::text::count;
 use impact_paper::params::{Boundary, Chain};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -134,7 +137,15 @@ pub fn run(args: Args) -> Result<(), Failure> {
         What::Methods(args) => methods::run(&args),
         What::Scenario(args) => {
             let scenario = draw(args.masses, args.sigma, args.restitution, args.seed, args.chain)?;
-            print(&form(&scenario))
+            let mut text = Bounded::default();
+            serde_json::to_writer_pretty(&mut text, &form(&scenario)).map_err(|_| {
+                Failure::input(format!(
+                    "--masses: the scenario of {} is longer than {MOST}, and `trace` reads no longer one; give \
+                     fewer masses (about 1000000 fit)",
+                    args.masses
+                ))
+            })?;
+            stdout::print(&format!("{}\n", String::from_utf8_lossy(&text.0)))
         }
     }
 }
@@ -162,6 +173,7 @@ fn case(args: &EngineArgs, n: usize) -> Result<Case, Failure> {
         let message = format!("--until: {until:?} is out of range; give a time from 0 to 1e12");
         return Err(Failure::input(message));
     }
+    let _told = alive(move || Some(format!("bench engine: {} at work", count(n, "mass"))));
     for (name, value) in [("chains", args.chains), ("repetitions", args.repetitions)] {
         if value == 0 {
             return Err(Failure::input(format!("--{name}: 0 measures nothing; give 1 or more")));

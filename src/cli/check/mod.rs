@@ -89,11 +89,8 @@ pub fn run(args: Args) -> Result<(), Failure> {
         (&mut judged.targets, of(&["methods"])),
     ];
     lists.into_iter().filter(|(_, asked)| !asked).for_each(|(list, _)| list.clear());
-    let line = |id: &str| Ok(published.line(templates.text("published.toml")?, id));
-    let entry = |claim| Ok(Entry { claim, line: line(&claim.id)? });
-    let entries: Result<Vec<Entry>, impact_paper::report::Error> =
-        judged.claims.iter().map(entry).collect();
-    let entries = entries?;
+    let entry = |claim| Entry { claim, line: published.line(&claim.id) };
+    let entries: Vec<Entry> = judged.claims.iter().map(entry).collect();
     match args.format {
         Format::Text => stdout::written(print(&judged))?,
         Format::Json => stdout::print(&forms::json(&entries, &judged))?,

@@ -6,6 +6,7 @@ mod text;
 
 use super::document::Only;
 use super::{Failure, folder, stdout};
+pub use impact_paper::numerics::text::count;
 use impact_paper::report::Files;
 use impact_paper::report::compare::{self, Diff, Parts};
 use serde_json::json;
@@ -109,15 +110,6 @@ fn standing(name: &str) -> Result<Files, Failure> {
 fn json(old: &str, new: &str, diff: &Diff) -> String {
     let json = json!({"old": old, "new": new, "same": diff.is_empty(), "diff": diff});
     format!("{json:#}\n")
-}
-
-/// `3 numbers`, `1 number`, `no number`.
-pub fn count(number: usize, noun: &str) -> String {
-    match number {
-        0 => format!("no {noun}"),
-        1 => format!("1 {noun}"),
-        _ => format!("{number} {noun}s"),
-    }
 }
 
 /// A difference with its sign and three digits.

@@ -2,7 +2,6 @@
 
 use super::{count, signed};
 use impact_paper::report::compare::{Change, ClaimChange, Diff, Largest, Row, TableChange};
-use impact_paper::report::spell;
 
 /// All of it.
 pub fn text(old: &str, new: &str, diff: &Diff) -> String {
@@ -54,7 +53,6 @@ fn value(change: &Change) -> String {
     let difference = change.difference.filter(|_| change.before != change.after);
     let difference = difference.map(|d| format!("; Δ {}", signed(d))).unwrap_or_default();
     let sigmas = change.sigmas.map(|s| format!(", {} σ", signed(s))).unwrap_or_default();
-    let change = spell::text(&change.to_string());
     format!("{change}{difference}{}", if difference.is_empty() { "" } else { &sigmas })
 }
 

@@ -55,7 +55,7 @@ pub fn saved_scenario(text: &str) -> Result<(), String> {
 pub fn published(text: &str) -> Result<(), String> {
     let published = Published::parse(text).map_err(line)?;
     for statement in &published.statements {
-        published.line(text, &statement.id);
+        published.line(&statement.id);
         if let Ok([low, high]) = statement.rounding() {
             assert!(low <= high, "{statement:?}");
         }

@@ -1,9 +1,9 @@
 //! What the paper printed: `templates/published.toml`.
 
 use crate::digest::sha256;
-use crate::input::{one_line, toml_fault};
+use crate::input::{is_no_text, one_line, toml_fault};
 use serde::Deserialize;
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
 /// Everything that the paper printed and this edition judges or uses.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -18,11 +18,14 @@ pub struct Published {
     /// SHA-256 of the file, in hexadecimal: a printed digit or a value that is edited shows.
     #[serde(skip)]
     pub digest: String,
+    /// The file.
+    #[serde(skip)]
+    text: String,
 }
 
 /// A number that the paper chose.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table [[parameter]]")]
 pub struct Parameter {
     /// Its id, `«paper.id»` in the templates.
     pub id: String,
@@ -36,7 +39,7 @@ pub struct Parameter {
 
 /// A quantitative statement of the paper.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table [[statement]]")]
 pub struct Statement {
     /// Its id: the claim with this id judges it.
     pub id: String,
@@ -59,15 +62,9 @@ pub enum PublishedError {
     /// It cannot be read.
     #[error("published.toml: {0}")]
     Unread(std::io::Error),
-    /// It is not the TOML that is expected: line and fault.
+    /// It is not what is expected: line and fault.
     #[error("published.toml:{0}")]
-    Syntax(String),
-    /// An id stands twice.
-    #[error("published.toml: the id {0:?} stands twice; give each statement its own")]
-    Twice(String),
-    /// TOML has NaN and infinity; no paper prints them.
-    #[error("published.toml: the value of {0:?} is not finite; give a number")]
-    NotFinite(String),
+    Line(String),
     /// A claim asks for a statement or a number that is not there.
     #[error("published.toml: no {what} {id:?}; add it, or remove the claim that asks for it")]
     Missing {
@@ -76,34 +73,75 @@ pub enum PublishedError {
         /// Its id.
         id: String,
     },
-    /// A statement that no claim judges.
-    #[error("published.toml: no claim judges {0:?}; write one, or remove it")]
-    Unjudged(String),
 }
 
 impl Published {
     /// Reads the file.
     ///
     /// # Errors
-    /// [`PublishedError`] for a syntax error, an id that stands twice, a value that is not finite.
+    /// [`PublishedError`] for a syntax error, an id that stands twice, words that are none, a value that is not finite.
     pub fn parse(text: &str) -> Result<Published, PublishedError> {
-        let mut published: Published = toml::from_str(text)
-            .map_err(|error| PublishedError::Syntax(toml_fault(text, &error)))?;
-        published.digest = sha256(text);
-        let parameters = published.parameters.iter().map(|p| &p.id);
-        let statements = published.statements.iter().map(|s| &s.id);
-        let mut seen = BTreeSet::new();
-        for id in parameters.chain(statements) {
-            if !seen.insert(id) {
-                return Err(PublishedError::Twice(one_line(id, 80)));
+        let mut published: Published =
+            toml::from_str(text).map_err(|error| PublishedError::Line(toml_fault(text, &error)))?;
+        (published.digest, published.text) = (sha256(text), text.into());
+        let chosen = published.parameters.iter();
+        let chosen = chosen
+            .map(|p| (&p.id, Some(p.value), vec![("place", &p.place), ("symbol", &p.symbol)]));
+        let stated = published.statements.iter().map(|s| {
+            let words =
+                vec![("place", &s.place), ("statement", &s.statement), ("printed", &s.printed)];
+            (&s.id, s.value, words)
+        });
+        let mut seen = BTreeMap::<&str, usize>::new();
+        for (id, value, words) in chosen.chain(stated) {
+            let before = seen.entry(id).or_default();
+            *before += 1;
+            let fault = |what: String| Err(published.fault(id, *before, &what));
+            if *before > 1 {
+                return fault("it stands twice; give each entry its own".into());
+            }
+            if value.is_some_and(|x| !x.is_finite()) {
+                return fault("its value is not finite; give a number".into());
+            }
+            for (name, words) in words {
+                if words.trim().is_empty() {
+                    return fault(format!("its {name} has no words; write them"));
+                }
+                if let Some(c) = words.chars().find(|c| is_no_text(*c)) {
+                    let number = u32::from(c);
+                    return fault(format!(
+                        "its {name} has the character U+{number:04X}, which is none of a text; remove it"
+                    ));
+                }
+                if words.matches('$').count() % 2 == 1 {
+                    return fault(format!(
+                        "its {name} has a formula without its end; write the other $"
+                    ));
+                }
             }
         }
-        let chosen = published.parameters.iter().map(|p| (&p.id, Some(p.value)));
-        let stated = published.statements.iter().map(|s| (&s.id, s.value));
-        match chosen.chain(stated).find(|(_, value)| value.is_some_and(|x| !x.is_finite())) {
-            Some((id, _)) => Err(PublishedError::NotFinite(one_line(id, 80))),
-            None => Ok(published),
-        }
+        Ok(published)
+    }
+
+    /// What is wrong with the entry of this id, the first or a later one, with its line.
+    fn fault(&self, id: &str, which: usize, what: &str) -> PublishedError {
+        let line = self.lines(id).nth(which - 1).unwrap_or(1);
+        PublishedError::Line(format!("{line}: the id {:?}: {what}", one_line(id, 80)))
+    }
+
+    /// A statement that no claim judges.
+    pub fn unjudged(&self, id: &str) -> PublishedError {
+        self.fault(id, 1, "no claim judges it; write one, or remove it")
+    }
+
+    /// The lines of the file, from 1, where an entry gives itself this id.
+    fn lines(&self, id: &str) -> impl Iterator<Item = usize> {
+        let own = ['"', '\''].map(|quote| format!("id={quote}{id}{quote}"));
+        let lines = self.text.lines().zip(1..);
+        lines.filter_map(move |(line, number)| {
+            let line: String = line.split_whitespace().collect();
+            own.iter().any(|own| line.starts_with(own)).then_some(number)
+        })
     }
 
     /// The statement with this id.
@@ -118,9 +156,8 @@ impl Published {
     }
 
     /// The line of the file, from 1, where the entry with this id names itself.
-    pub fn line(&self, text: &str, id: &str) -> usize {
-        let own = format!("id = \"{id}\"");
-        text.lines().position(|line| line.trim() == own).map_or(1, |index| index + 1)
+    pub fn line(&self, id: &str) -> usize {
+        self.lines(id).next().unwrap_or(1)
     }
 
     /// The number that the paper chose under this id.
@@ -165,9 +202,27 @@ mod tests {
         let row = "[[parameter]]\nid='a'\nplace='x'\nsymbol='a'\nvalue=1\n";
         let twice = format!("{row}{row}statement=[]");
         // `statement` after a table belongs to that table: the key is unknown there.
-        assert!(matches!(Published::parse(&twice), Err(PublishedError::Syntax(_))));
-        let twice = format!("statement=[]\n{row}{row}");
-        assert!(matches!(Published::parse(&twice), Err(PublishedError::Twice(id)) if id == "a"));
+        assert!(matches!(Published::parse(&twice), Err(PublishedError::Line(_))));
+        let fault = |rows: &str| Published::parse(&format!("statement=[]\n{rows}")).unwrap_err();
+        for (rows, says) in [
+            (format!("{row}{row}"), "published.toml:8: the id \"a\": it stands twice; "),
+            (
+                row.replace("value=1", "value=nan"),
+                "published.toml:3: the id \"a\": its value is not",
+            ),
+            (
+                row.replace("place='x'", "place=' '"),
+                "published.toml:3: the id \"a\": its place has no",
+            ),
+            (
+                row.replace("symbol='a'", "symbol=\"\\uE000\""),
+                "its symbol has the character U+E000",
+            ),
+            (row.replace("symbol='a'", "symbol='$a'"), "its symbol has a formula without"),
+        ] {
+            let told = fault(&rows).to_string();
+            assert!(told.contains(says), "{told}");
+        }
         let once = Published::parse(&format!("statement=[]\n{row}")).unwrap();
         assert!(matches!(once.parameter("b"), Err(PublishedError::Missing { .. })));
         assert!(matches!(once.statement("b"), Err(PublishedError::Missing { .. })));

@@ -8,6 +8,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{IsTerminal, Write};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::time::{Duration, Instant};
 
 /// Seconds between plain lines.
@@ -86,6 +87,28 @@ impl Progress {
 /// Says one line on standard error. If nobody can be told (a full disk, a closed pipe), no work ends for that.
 pub fn say(line: &str) {
     let _ = writeln!(std::io::stderr(), "{line}");
+}
+
+/// Ends the lines of [`alive`] where it ends itself.
+#[derive(Debug)]
+pub struct Alive {
+    _ends: Sender<()>,
+}
+
+/// A line every few seconds, with the time that passed, of work that cannot say how much of it is done; none as long as
+/// there is nothing to say.
+pub fn alive(line: impl Fn() -> Option<String> + Send + 'static) -> Alive {
+    let (ends, ended) = channel();
+    let began = Instant::now();
+    std::thread::spawn(move || {
+        while ended.recv_timeout(Duration::from_secs(LINE_EVERY)) == Err(RecvTimeoutError::Timeout)
+        {
+            if let Some(line) = line() {
+                say(&format!("{line}, after {} s", began.elapsed().as_secs()));
+            }
+        }
+    });
+    Alive { _ends: ends }
 }
 
 /// One stage of an experiment. Shared by the threads that work on it.

@@ -4,6 +4,7 @@ use super::cutting::Unit;
 use super::identity::{Identity, Reason, told};
 use super::store::Store;
 use super::{Error, Need, Profile, Progress};
+use crate::input::regular;
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
 use std::path::{Path, PathBuf};
@@ -218,8 +219,8 @@ impl Plan {
                     strange.push(self.stranger(folder, &name));
                 } else if let Some(first) = found.insert(name.clone(), place) {
                     let [a, b] = [first, place].map(|place| path(&folders[place], &name));
-                    let same = |a: std::io::Result<Vec<u8>>| a.ok() == std::fs::read(&b).ok();
-                    if !same(std::fs::read(&a)) {
+                    // What cannot be read is damaged, which is told later.
+                    if regular(&a).ok() != regular(&b).ok() {
                         let (a, b) = (a.display(), b.display());
                         twice.push(format!("{name} is in {a} and, otherwise, in {b}"));
                     }

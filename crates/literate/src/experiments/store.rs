@@ -8,7 +8,7 @@
 use super::identity::{Identity, Reason, told};
 use super::{Error, Profile, Progress};
 use crate::digest::sha256;
-use crate::input::{LARGEST, new_beside, remove_leftovers};
+use crate::input::{new_beside, regular_text, remove_leftovers};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::io::{ErrorKind, Read, Write};
@@ -129,17 +129,15 @@ impl Store {
 /// Reads and checks a file: its result as text, or why it is not to be used.
 fn read(path: &Path, identity: &Identity) -> Result<String, Vec<Reason>> {
     let damaged = |what: &str| vec![Reason::Damaged(what.into())];
-    if std::fs::metadata(path).is_ok_and(|found| found.len() > LARGEST || !found.is_file()) {
-        return Err(damaged("the saved result is too long, or no file"));
-    }
-    let text = match std::fs::read(path) {
-        Ok(bytes) => {
-            String::from_utf8(bytes).map_err(|_| damaged("the saved result is no text"))?
-        }
+    let text = match regular_text(path) {
+        Ok(text) => text,
         Err(error) if error.kind() == ErrorKind::NotFound => return Err(vec![Reason::Missing]),
+        Err(_) if is_foreign(path) => return Err(damaged(FOREIGN)),
         Err(error) => return Err(damaged(&format!("the saved result cannot be read: {error}"))),
     };
-    let (saved, body) = parsed(&text)?;
+    let whole = parsed(&text);
+    let (saved, body) =
+        whole.map_err(|why| if is_foreign(path) { damaged(FOREIGN) } else { why })?;
     match identity.reasons(&saved) {
         reasons if reasons.is_empty() => Ok(body.into()),
         reasons => Err(reasons),
@@ -197,18 +195,24 @@ where
     }
 }
 
-/// Refuses to replace what was never a result, damaged or not: one is a file whose first line is a digest.
+/// What is said of a file that stands where a result belongs.
+const FOREIGN: &str = "this is no saved result, and would be overwritten; move it away";
+
+/// Was this never a result, damaged or not? One is a file whose first line is a digest.
+fn is_foreign(path: &Path) -> bool {
+    match std::fs::symlink_metadata(path) {
+        Err(_) => false,
+        Ok(found) if !found.is_file() => true,
+        Ok(found) => found.len() > 0 && !begins_with_digest(path).unwrap_or(false),
+    }
+}
+
+/// Refuses to replace what was never a result.
 fn refuse_foreign(path: &Path) -> Result<(), Error> {
-    let is_ours = match std::fs::symlink_metadata(path) {
-        Err(_) => true,
-        Ok(found) if !found.is_file() => false,
-        Ok(found) => found.len() == 0 || begins_with_digest(path).unwrap_or(false),
-    };
-    if is_ours {
+    if !is_foreign(path) {
         return Ok(());
     }
-    let what = "this is no saved result, and would be overwritten; move it away";
-    let source = std::io::Error::new(ErrorKind::AlreadyExists, what);
+    let source = std::io::Error::new(ErrorKind::AlreadyExists, FOREIGN);
     Err(Error::Store { path: path.into(), source })
 }
 
@@ -220,7 +224,7 @@ fn begins_with_digest(path: &Path) -> std::io::Result<bool> {
     let hexadecimal = digest.iter().all(|b| matches!(b, b'0'..=b'9' | b'a'..=b'f'));
     Ok(match first.get(64) {
         None => hexadecimal,
-        Some(end) => *end == b'\n' && !digest.contains(&b'\n'),
+        Some(end) => matches!(end, b'\n' | b'\r') && !digest.contains(&b'\n'),
     })
 }
 
@@ -228,7 +232,7 @@ fn begins_with_digest(path: &Path) -> std::io::Result<bool> {
 fn save(path: &Path, identity: &Identity, body: &str) -> std::io::Result<()> {
     let identity = serde_json::to_string(identity)?;
     let mut file = new_beside(path)?;
-    write!(file, "{}\n{identity}\n{body}\n", digest(&[&identity, body]))?;
+    write!(file.as_file_mut(), "{}\n{identity}\n{body}\n", digest(&[&identity, body]))?;
     file.as_file().sync_all()?;
     file.persist(path)?;
     Ok(())

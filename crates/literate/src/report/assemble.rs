@@ -159,6 +159,7 @@ fn parts<'a>(
     let mut parts = Vec::new();
     for (of, filled) in input.program.documents.iter().zip(filled) {
         let (mut blocks, places) = parse::parse(filled, values, input.program)?;
+        latex::title(&blocks).map_err(|error| error.at(filled.place(0)))?;
         let own = illustrate(&mut blocks, input.figures, input.program)
             .and_then(|own| labels.number_all(&mut blocks, *of).map(|()| own))
             .map_err(|error| places.tell(error))?;

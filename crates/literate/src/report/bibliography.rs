@@ -3,6 +3,7 @@
 
 use super::Error;
 use super::document::{Entry, Inline, plain};
+use crate::input::{line, line_and_column};
 use hayagriva::archive::{ArchivedStyle, locales};
 use hayagriva::citationberg::{FontStyle, FontWeight, IndependentStyle, Style};
 use hayagriva::io::{BibLaTeXError, from_biblatex_str};
@@ -39,14 +40,17 @@ impl Library {
             Error::Template(told.join("; "))
         })?;
         for entry in &read {
-            if entry.authors().is_none_or(<[_]>::is_empty) || entry.date().is_none() {
-                let key = entry.key();
-                return Err(Error::Template(format!("references.bib: {key} lacks author or year")));
-            }
-            if entry.title().is_none() {
-                let key = entry.key();
-                return Err(Error::Template(format!("references.bib: {key} lacks its title")));
-            }
+            let lacks = match () {
+                () if entry.authors().is_none_or(<[_]>::is_empty) || entry.date().is_none() => {
+                    "author or year"
+                }
+                () if entry.title().is_none() => "its title",
+                () => continue,
+            };
+            let key = entry.key();
+            let at = text.find(&format!("{key},")).unwrap_or_default();
+            let line = line(&text[..at]);
+            return Err(Error::Template(format!("references.bib:{line}: {key} lacks {lacks}")));
         }
         let style = style()?;
         let locales = locales();
@@ -116,14 +120,13 @@ fn refers(line: &str) -> Option<&'static str> {
     ["crossref", "xdata", "xref", "@string"].into_iter().find(|word| given(word))
 }
 
-/// A fault of the file with its line.
+/// A fault of the file with its line and column.
 fn explained(error: &BibLaTeXError, text: &str) -> String {
     let (what, span) = match error {
-        BibLaTeXError::Parse(error) => (error.to_string(), &error.span),
-        BibLaTeXError::Type(error) => (error.to_string(), &error.span),
+        BibLaTeXError::Parse(error) => (error.kind.to_string(), &error.span),
+        BibLaTeXError::Type(error) => (error.kind.to_string(), &error.span),
     };
-    let line = text.get(..span.start).map_or(1, |before| before.matches('\n').count() + 1);
-    format!("references.bib:{line}: {what}")
+    format!("references.bib:{}: {what}", line_and_column(text, span.start))
 }
 
 /// Formatted text as pieces of running text.

@@ -20,37 +20,18 @@ use super::origin::{Filled, marked, next_tag};
 use super::print::{Asked, MOST_DIGITS, Style};
 use super::values::{Number, Registry, Value};
 use super::{Error, Templates};
-use crate::input::LARGEST;
+use crate::input::{Bounded, line_and_column, plain};
 use crate::source::Program;
 use crate::table::Table;
 use serde_json::Value as Json;
 use std::collections::{BTreeMap, BTreeSet};
-use std::io;
 use tera::{Context, Delimiters, Kwargs, State, Tera};
 
-/// What a template makes, up to the bound of what is read: loops and doubled texts grow fast.
-#[derive(Default)]
-struct Bounded(Vec<u8>);
-
-impl io::Write for Bounded {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        if (self.0.len() + bytes.len()) as u64 > LARGEST {
-            let what = format!("it makes more than {} MiB", LARGEST >> 20);
-            return Err(io::Error::new(io::ErrorKind::FileTooLarge, what));
-        }
-        self.0.extend_from_slice(bytes);
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        Ok(())
-    }
-}
-
 /// Fills a template of `tera`.
-fn render(tera: &Tera, name: &str, context: &Context) -> Result<String, Error> {
+fn render(tera: &Tera, name: &str, of: &Filler) -> Result<String, Error> {
     let mut text = Bounded::default();
-    tera.render_to(name, context, &mut text).map_err(failure)?;
+    let rendered = tera.render_to(name, &of.context, &mut text);
+    rendered.map_err(|error| failure(&error, &of.templates))?;
     String::from_utf8(text.0).map_err(|_| Error::Template(format!("{name}: it makes no text")))
 }
 
@@ -74,6 +55,7 @@ impl Filler {
     /// A template that does not parse, with file, line and column.
     pub fn new(templates: &Templates, values: &Registry, program: Program) -> Result<Self, Error> {
         let mut tera = Tera::new();
+        let failure = |error| failure(&error, templates);
         let delimiters = Delimiters {
             block_start: "<%".into(),
             block_end: "%>".into(),
@@ -125,11 +107,9 @@ impl Filler {
                 };
                 if let Some(word) = words.find(unknown).filter(|_| !text[start..].starts_with("<#"))
                 {
-                    let before = &text[..start];
-                    let line = before.matches('\n').count() + 1;
-                    let column = before.rsplit('\n').next().unwrap_or_default().chars().count() + 1;
+                    let place = line_and_column(text, start);
                     return Err(Error::Template(format!(
-                        "{path}:{line}:{column}: there is no value {word}; `explain` lists all"
+                        "{path}:{place}: there is no value {word}; `explain` lists all"
                     )));
                 }
             }
@@ -142,7 +122,7 @@ impl Filler {
     /// # Errors
     /// An unknown name or a wrong filter, with file, line and column.
     pub fn fill(&self, path: &str) -> Result<String, Error> {
-        render(&self.tera, path, &self.context)
+        render(&self.tera, path, self)
     }
 
     /// Fills the prose of a document, and keeps where each piece of it stands.
@@ -164,7 +144,7 @@ impl Filler {
     }
 
     fn prose_of_any_name(&self, path: &str) -> Result<Filled, Error> {
-        match render(&self.marked, path, &self.context) {
+        match render(&self.marked, path, self) {
             Ok(filled) => Ok(Filled::read(path, self.templates.text(path)?, &filled)),
             // Without marks the same error has the right column.
             Err(error) => self.fill(path).map_or_else(Err, |_| Err(error)),
@@ -173,23 +153,41 @@ impl Filler {
 }
 
 /// One line: file, line, column, what is wrong, and names that begin alike.
-fn failure(error: tera::Error) -> Error {
-    use tera::ErrorKind::{RenderingError, SyntaxError};
+fn failure(error: &tera::Error, templates: &Templates) -> Error {
+    use tera::ErrorKind::{CircularInclude, Msg, RenderingError, SyntaxError};
+    let text = |path: &str| templates.text(path).unwrap_or_default();
     let (RenderingError(report) | SyntaxError(report)) = error.kind() else {
-        return Error::Template(error.to_string());
+        let told = error.to_string();
+        // Of unknown filters, functions and files Tera makes a picture: what, and an arrow to the place.
+        let picture = || {
+            let (what, rest) = told.strip_prefix("error: ")?.split_once("--> ")?;
+            Some(format!("{}: {}", rest.lines().next()?, what.trim()))
+        };
+        return Error::Template(match error.kind() {
+            Msg(_) => picture().unwrap_or(told),
+            CircularInclude { tpl, include_chain } => {
+                let next = include_chain.get(1).unwrap_or(tpl);
+                let named = text(tpl).find(&format!("\"{next}\"")).unwrap_or_default();
+                let way = include_chain.join(" -> ");
+                let place = line_and_column(text(tpl), named);
+                format!("{tpl}:{place}: a file includes itself ({way}); remove the tag")
+            }
+            _ => told,
+        });
     };
-    let place = format!(
-        "{}:{}:{}",
-        report.filename(),
-        report.span().start_line,
-        report.span().start_col + 1
-    );
+    let (line, column) = (report.span().start_line, report.span().start_col);
+    let place = format!("{}:{line}:{}", report.filename(), column + 1);
     // Tera lists every name that there is: too many to read.
     let Some((what, names)) = report.message().split_once(" Available fields: ") else {
-        let what = report.message();
-        let hint = match what.contains("nexpected end of input") {
-            true => "; a tag before has no end: <% endif %>, <% endfor %> or the like",
-            false => "",
+        let what = plain(report.message());
+        let hint = if what.contains("nexpected end of input") {
+            "; a tag before has no end: <% endif %>, <% endfor %> or the like".into()
+        } else if what == "Unknown tag" {
+            let line = text(report.filename()).lines().nth(line - 1).unwrap_or_default();
+            let tag = line.chars().skip(column).take_while(|c| c.is_alphanumeric());
+            format!(" {}, or one that ends nothing; remove it", tag.collect::<String>())
+        } else {
+            String::new()
         };
         return Error::Template(format!("{place}: {what}{hint}"));
     };
@@ -281,10 +279,9 @@ fn context(values: &Registry, tables: &[&Table]) -> Context {
 
 /// How many digits a filter asks for.
 fn digits(arguments: &Kwargs) -> tera::TeraResult<usize> {
-    match arguments.must_get("digits")? {
-        digits if digits <= MOST_DIGITS => Ok(digits),
-        _ => Err(tera::Error::message(format!("no number has more than {MOST_DIGITS} digits"))),
-    }
+    let wrong = || format!("it takes how many digits, as in (digits=2), {MOST_DIGITS} at most");
+    let asked = arguments.must_get("digits").ok().filter(|digits| *digits <= MOST_DIGITS);
+    asked.ok_or_else(|| tera::Error::message(wrong()))
 }
 
 /// The filters on values; `literal` for a number that the prose may type with a reason; and `code`

@@ -13,7 +13,7 @@
 //! once, as a phrase with its reason, in `literals.toml`; a phrase that no prose has is refused.
 
 use super::{Error, Templates};
-use crate::input::toml_fault;
+use crate::input::{is_no_text, line, one_line, toml_fault};
 use crate::source::Program;
 use serde::Deserialize;
 use std::cell::RefCell;
@@ -53,7 +53,7 @@ impl std::fmt::Display for Finding {
                 let number = u32::from(*c);
                 return write!(
                     f,
-                    "{path}:{line}:{column}: the control character U+{number:04X}; remove it"
+                    "{path}:{line}:{column}: the character U+{number:04X} is none of a text; remove it"
                 );
             }
             Fault::Open(open, close) => {
@@ -118,6 +118,10 @@ pub fn check(templates: &Templates, program: Program) -> Result<(), Error> {
             return Err(Error::Template(format!("{}.md: {what}", of.prose)));
         }
     }
+    let odd: Vec<Finding> = templates.iter().filter_map(|(path, text)| odd(path, text)).collect();
+    if !odd.is_empty() {
+        return Err(Error::Lint(odd));
+    }
     let prose = templates.iter().filter(|(path, _)| path.ends_with(".md"));
     let declared = Declared::read(templates.text("literals.toml")?)?;
     let found: Vec<Finding> =
@@ -127,7 +131,13 @@ pub fn check(templates: &Templates, program: Program) -> Result<(), Error> {
     }
     match declared.unmet().as_slice() {
         [] => Ok(()),
-        unmet => Err(Error::Template(format!("literals.toml: no prose has {unmet:?}; remove it"))),
+        [first, rest @ ..] => {
+            let more = match rest.len() {
+                0 => String::new(),
+                more => format!(", nor {more} more"),
+            };
+            Err(declared.fault(first, &format!("no prose has it{more}; remove what none has")))
+        }
     }
 }
 
@@ -139,6 +149,7 @@ const WORDS: &str = "two three four five six seven eight nine ten eleven twelve 
 /// Phrases with number words that prose may have, with their reasons: `literals.toml`.
 #[derive(Debug, Default)]
 pub struct Declared {
+    text: String,
     phrases: Vec<String>,
     met: RefCell<BTreeSet<usize>>,
 }
@@ -150,7 +161,7 @@ struct File {
 }
 
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table [[literal]]")]
 struct Group {
     /// Why the numbers in these phrases are nobody's result.
     why: String,
@@ -163,14 +174,23 @@ impl Declared {
     /// # Errors
     /// What is wrong with it: TOML that does not read, a group without a reason.
     pub fn read(text: &str) -> Result<Self, Error> {
-        let fail = |what: String| Error::Template(format!("literals.toml: {what}"));
         let syntax = |error| Error::Template(format!("literals.toml:{}", toml_fault(text, &error)));
         let file: File = toml::from_str(text).map_err(syntax)?;
-        if let Some(group) = file.literal.iter().find(|group| group.why.trim().is_empty()) {
-            return Err(fail(format!("no reason for {:?}", group.phrases)));
+        let mut declared = Declared { text: text.into(), ..Declared::default() };
+        for Group { why, phrases } in file.literal {
+            if let Some(phrase) = phrases.first().filter(|_| why.trim().is_empty()) {
+                return Err(declared.fault(phrase, "it has no reason; write it in why"));
+            }
+            declared.phrases.extend(phrases);
         }
-        let phrases = file.literal.into_iter().flat_map(|group| group.phrases).collect();
-        Ok(Declared { phrases, met: RefCell::default() })
+        Ok(declared)
+    }
+
+    /// What is wrong with a phrase, with its line.
+    fn fault(&self, phrase: &str, what: &str) -> Error {
+        let at = self.text.find(&format!("\"{phrase}\"")).unwrap_or_default();
+        let line = line(&self.text[..at]);
+        Error::Template(format!("literals.toml:{line}: {:?}: {what}", one_line(phrase, 80)))
     }
 
     /// Phrases that no text had so far.
@@ -198,17 +218,25 @@ impl Declared {
     }
 }
 
-/// The first delimiter of a text without its end, or else all naked numerals.
+/// The first character that is none of a text.
+fn odd(path: &str, text: &str) -> Option<Finding> {
+    let (at, c) = text.char_indices().find(|(_, c)| is_no_text(*c))?;
+    let mut position = Position { line: 1, column: 1 };
+    position.past(text, at);
+    Some(position.finding(path, Fault::Control(c)))
+}
+
+/// The first character that is none, the first delimiter without its end, or else all naked numerals.
 pub fn findings(path: &str, text: &str, declared: &Declared) -> Vec<Finding> {
+    if let Some(odd) = odd(path, text) {
+        return vec![odd];
+    }
     let mut findings = Vec::new();
     let mut position = Position { line: 1, column: 1 };
     let mut rest = text;
     // The word that the position is in, and whether it began with a letter.
     let mut word: Option<bool> = None;
     while let Some(c) = rest.chars().next() {
-        if c.is_control() && !matches!(c, '\n' | '\r' | '\t') {
-            return vec![position.finding(path, Fault::Control(c))];
-        }
         if rest.starts_with(r"\$") {
             rest = position.past(rest, 2);
             continue;
@@ -222,10 +250,6 @@ pub fn findings(path: &str, text: &str, declared: &Declared) -> Vec<Finding> {
             let Some(length) = length(inner, kind) else {
                 return vec![position.finding(path, Fault::Open(open, close))];
             };
-            let control = |c: char| c.is_control() && !matches!(c, '\n' | '\r' | '\t');
-            if let Some(c) = inner[..length].chars().find(|c| control(*c)) {
-                return vec![position.finding(path, Fault::Control(c))];
-            }
             if open == "$" && is_number(&inner[..length]) {
                 findings.push(position.numeral(path, &inner[..length]));
             }
@@ -350,6 +374,7 @@ mod tests {
         assert_eq!(found("a\n«v.x and\n«v.y»"), [(2, 1, "open «".into())]);
         assert_eq!(found("a\nb\u{8}c 3"), [(2, 2, "control 8".into())]);
         assert_eq!(found("a\r\n\tb\0"), [(2, 3, "control 0".into())]);
+        assert_eq!(found("a `\u{e000}v.x\u{e001}`"), [(1, 4, "control 57344".into())]);
     }
 
     #[test]

@@ -154,7 +154,8 @@ pub fn escaped(text: &str) -> String {
     let mut out = String::new();
     for (i, piece) in text.split('$').enumerate() {
         if i % 2 == 1 {
-            out.push_str(&format!("${piece}$"));
+            // A bar would end a cell.
+            out.push_str(&format!("${}$", piece.replace('|', r"\vert{}")));
         } else {
             Writer { in_table: true }.text(piece, &mut out);
         }

@@ -95,7 +95,8 @@ pub enum Error {
     Reference(String),
     /// A character that pdflatex does not know.
     #[error(
-        "no LaTeX is known for the character {0:?}; write it otherwise, or add it to report::tex"
+        "no LaTeX is known for the character '{}' (U+{:04X}); write it otherwise, or add it to report::tex",
+        one_line(&.0.to_string(), 1), u32::from(*.0)
     )]
     NoLatex(char),
     /// Mathematics that cannot become MathML.

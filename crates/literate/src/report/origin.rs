@@ -5,6 +5,7 @@
 //! template; what a tag wrote stands where the tag does.
 
 use super::Error;
+use crate::input::line_and_column;
 use std::fmt::Write as _;
 
 const OPEN: char = '\u{e006}';
@@ -162,10 +163,8 @@ impl Filled {
         let Some(piece) = self.pieces.get(last) else { return String::new() };
         let Template { path, text } = &self.templates[piece.template];
         let beyond = if piece.tag { 0 } else { offset - piece.start };
-        let before = text.get(..(piece.origin + beyond).min(text.len())).unwrap_or_default();
-        let line = before.matches('\n').count() + 1;
-        let column = before.rsplit('\n').next().unwrap_or_default().chars().count() + 1;
-        format!("{path}:{line}:{column}")
+        let at = (piece.origin + beyond).min(text.len());
+        format!("{path}:{}", line_and_column(text, at))
     }
 }
 

@@ -26,6 +26,7 @@ use super::print::print;
 use super::valued::{bare, framed};
 use super::values::Registry;
 use super::{Error, html, leftover, macros, tex};
+use crate::input::is_no_text;
 use crate::source::Program;
 use pulldown_cmark::{Alignment, BrokenLink, CowStr, Event, LinkType, Options, Parser, Tag};
 use std::ops::Range;
@@ -341,8 +342,11 @@ impl<'a> Reader<'a> {
             self.at = offset;
             return Err(markup(what));
         }
-        // Characters for private use frame values.
-        let odd = |c: char| !c.is_ascii() && !('\u{e000}'..='\u{f8ff}').contains(&c);
+        // Characters for private use frame values; nobody else writes them, not as `&#xE000;` either.
+        if let Some(c) = text.chars().find(|c| is_no_text(*c) && !self.source(range).contains(*c)) {
+            return Err(markup(format!("the character U+{:04X} is none of a text", u32::from(c))));
+        }
+        let odd = |c: char| !c.is_ascii() && !is_no_text(c);
         for (i, c) in text.char_indices().filter(|(_, c)| odd(*c)) {
             tex::text(c.encode_utf8(&mut [0; 4])).inspect_err(|_| self.at = range.start + i)?;
         }

@@ -1,7 +1,7 @@
 //! The templates: people's prose, read at run time; [`super::filler`] fills them.
 
 use super::Error;
-use crate::input::{self, LARGEST};
+use crate::input::{self, LARGEST, MOST};
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -81,14 +81,10 @@ impl Walk {
             if path.is_dir() {
                 self.folder(&path, &format!("{relative}/"))?;
             } else if TEXT.iter().any(|end| name.ends_with(end)) {
-                // Whoever opens a pipe waits for its other end.
-                if std::fs::metadata(&path).is_ok_and(|found| !found.is_file()) {
-                    return refuse(&path, io::ErrorKind::InvalidInput, "it is no regular file");
-                }
-                let text = input::read(&path).map_err(|e| fail(&path, e))?;
+                let text = input::regular_text(&path).map_err(|e| fail(&path, e))?;
                 self.bytes += text.len();
                 if self.bytes as u64 > LARGEST {
-                    let what = format!("the templates are longer than {} MiB", LARGEST >> 20);
+                    let what = format!("the templates are longer than {MOST}");
                     return refuse(&path, io::ErrorKind::FileTooLarge, &what);
                 }
                 self.files.insert(relative, text);

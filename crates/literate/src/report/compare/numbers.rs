@@ -4,6 +4,7 @@ use super::super::Error;
 use super::super::print::{Asked, Style, print};
 use super::super::values::{Digits, Kind, Number, Registry, Value};
 use crate::report::print::MOST_DIGITS;
+use crate::report::spell;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -80,8 +81,8 @@ pub fn changes(before: &Registry, after: &Registry) -> Vec<Change> {
         let meant = |value: Option<&Value>| value.map(|v| (v.number.clone(), kind(v)));
         (meant(old) != meant(new)).then(|| Change {
             id: id.to_string(),
-            before: old.map(|value| full_if_same(value, old, new)),
-            after: new.map(|value| full_if_same(value, old, new)),
+            before: old.map(|value| spell::text(&full_if_same(value, old, new))),
+            after: new.map(|value| spell::text(&full_if_same(value, old, new))),
             difference: difference(old, new),
             sigmas: sigmas(old, new),
             kind: old.zip(new).map(|(old, new)| [kind(old), kind(new)]).filter(|[a, b]| a != b),
@@ -109,7 +110,7 @@ fn kind(value: &Value) -> String {
         Kind::Printed { place } => format!("printed at {place}"),
         Kind::Measured => "measured".into(),
     };
-    if value.unit.is_empty() { kind } else { format!("{kind}, in {}", value.unit) }
+    if value.unit.is_empty() { kind } else { format!("{kind}, in {}", spell::text(&value.unit)) }
 }
 
 fn difference(before: Option<&Value>, after: Option<&Value>) -> Option<f64> {

@@ -33,12 +33,12 @@ fn changes_are_found_and_shown() {
         Value::integer("b", 4),
         Value::integer("new", 1),
         Value::integer("same", 1).note("other words"),
-        Value::real("unit", 2.0, 2).unit("s").kind(Kind::Measured),
+        Value::real("unit", 2.0, 2).unit(r"$\omega$").kind(Kind::Measured),
     ]);
     let text = serde_json::to_string(&before).unwrap();
     assert_eq!(read(&text).unwrap(), before);
     let shown: Vec<String> = changes(&before, &after).iter().map(Change::to_string).collect();
-    let unit = "unit: 2.0 -> 2.0 (deterministic -> measured, in s)";
+    let unit = "unit: 2.0 -> 2.0 (deterministic -> measured, in ω)";
     assert_eq!(
         shown,
         ["a: 0.1 -> 0.100000001", "b: 3 -> 4", "gone: gone, was 1", "new: new, 1", unit]
