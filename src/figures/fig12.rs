@@ -54,9 +54,13 @@ pub fn draw(sweep: &Sweep, theory: &Theory, note: Option<&str>) -> Result<Figure
     Ok(sheet.finish("fig12", "Simulation against graph theory", description))
 }
 
-/// How much later in σ the theory comes to half of all gaps, as an arrow with its length.
+/// Where both come to half of all gaps, and how much later in σ the theory does, as an arrow with its length.
 fn lag(sheet: &Sheet, near: &Panel, [from, to]: [f64; 2], level: f64) -> Result<(), Error> {
     sheet.arrow(&[near.at(from, level), near.at(to, level)], Stroke::solid(INK, THIN))?;
     let look = (TINY, INK, HPos::Center, VPos::Bottom);
-    near.note(&short(to - from, 2), ((from + to) / 2.0, level), (60, -70), look)
+    near.note(&short(to - from, 2), ((from + to) / 2.0, level), (60, -70), look)?;
+    let look = (TINY, INK, HPos::Left, VPos::Top);
+    // The first keeps clear of the line at the printed σ.
+    near.note(&short(from, 4), (from, level), (200, 60), look)?;
+    near.note(&short(to, 4), (to, level), (70, 60), look)
 }

@@ -25,11 +25,11 @@ pub fn draw(sweep: &Sweep, theory: &Theory, note: Option<&str>) -> Result<Figure
     let change: Vec<_> =
         higher.iter().zip(&simple).map(|(more, less)| (more.0, more.1 - less.1)).collect();
     let most = change.iter().map(|point| point.1).fold(0.0, f64::max);
-    let near = rise(&sheet, upwards_from_zero(most, "difference"))?.file("-inset");
+    let near = rise(&sheet, upwards_from_zero(most, "gaps"))?.file("-inset");
     near.curve("difference of the theories", &change, Stroke::solid(INK, LINE), Outside::Cut)?;
     let entries = [
         Entry::mark(CROSSES, "simulation, mean of the kept"),
-        Entry::line(Stroke::solid(INK, LINE), "blue less green (inset)"),
+        Entry::line(Stroke::solid(INK, LINE), "difference of the two (inset)"),
         Entry::line(blue, "with higher orders"),
         Entry::line(green, "simple circuits only"),
     ];

@@ -33,7 +33,7 @@ impl<const M: usize> Phases<M> {
     #[inline(always)]
     pub fn at(rates: &Rates<M>, instant: Instant) -> Self {
         let (sin, cos) = rates.free.sin_cos(instant);
-        let forced = rates.forced.map(|rate| rate.sin_cos(instant).into());
+        let forced = std::array::from_fn(|m| rates.forced[m].sin_cos(instant).into());
         Phases { sin, cos, forced }
     }
 }

@@ -37,9 +37,9 @@
 //! | phases | 5 | 5 | sine and cosine of ωt and Ωt: fraction of a turn, 2π, their product, the polynomials; nothing at t = 0 |
 //! | frame | 14 | 5 | rotation to the instant 1 + √2; f₀ 2; g₀ 2 (ω R₁ + Ω R₂), which grows with s for up to two reaches |
 //! | advance | 40 | 33 | rotation by the reach: sine and cosine at 2.83, where the terms of their series are larger than they |
-//! | evaluation | 56 | 36 | ωs, Ωs and their sines again, the products and sums of f(s) and f'(s), and 1/ω |
-//! | root | 5 | 5 | the Taylor polynomial over 0.06/max(ω, Ω), and s itself: u s \|Δ'\| ≤ 2.83 u (R₁ + R₂) |
-//! | convergence | 2 | 1 | the third-order step stops when it is below 6e−8/max(ω, Ω) =: h, and leaves h³ M₂²/2v ≤ 1.3 u S |
+//! | evaluation | 51 | 40 | the Taylor coefficients about a node: sines and products of its table, the products and sums with the frame |
+//! | root | 6 | 5 | the Taylor polynomial over 0.06/max(ω, Ω), and s itself: u s \|Δ'\| ≤ 2.83 u (R₁ + R₂) |
+//! | convergence | 1 | 1 | the fourth-order step stops below 3.6e−6/max(ω, Ω) =: h and a share 1e−4 of its curvature, and leaves 5·10⁻¹² v h ≤ 0.2 u S |
 //! | shut at the start | 8 | 0 | a gap within 4 ε of zero at t = 0 counts as shut, since the exact one may be |
 //!
 //! The coefficients of the sines count as exact, for their neighbours take up what they are rounded by (`numerics::trig`); what the series and the Taylor
@@ -66,9 +66,9 @@ pub const STAGES: [(&str, [f64; 2]); 8] = [
     ("phases", [5.0, 5.0]),
     ("frame", [14.0, 5.0]),
     ("advance", [40.0, 33.0]),
-    ("evaluation", [56.0, 36.0]),
-    ("root", [5.0, 5.0]),
-    ("convergence", [2.0, 1.0]),
+    ("evaluation", [51.0, 40.0]),
+    ("root", [6.0, 5.0]),
+    ("convergence", [1.0, 1.0]),
     ("shut at the start", [8.0, 0.0]),
 ];
 

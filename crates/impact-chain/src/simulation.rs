@@ -204,7 +204,12 @@ impl<const M: usize> Simulation<M> {
     /// Goes to the next event up to `end`; returns its gap.
     #[inline(always)]
     pub(super) fn next_event(&mut self, end: Instant) -> Option<usize> {
-        let (k, at) = self.queue.first();
+        let (mut k, mut at) = self.queue.first();
+        // A search changes nothing that others see, so its place among others does not matter.
+        let seen = !matches!(self.gaps[k].awaits, Awaits::Search { .. });
+        if (at > end || seen) && self.queue.is_close(k) {
+            (k, at) = self.queue.first_in_full();
+        }
         if at > end {
             return None;
         }
@@ -353,8 +358,8 @@ impl<const M: usize> Simulation<M> {
             (frame.f0, frame.g0) = (f0, g0);
         }
         // A width below zero by rounding is zero unless the gap is closing, and then due now.
-        if frame.g0 >= 0.0 {
-            frame.f0 = frame.f0.max(0.0);
+        if frame.f0 < 0.0 && frame.g0 >= 0.0 {
+            frame.f0 = 0.0;
         }
         self.gaps[k].frame = frame;
     }

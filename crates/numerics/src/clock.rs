@@ -5,12 +5,6 @@ use super::trig::sin_cos_turn;
 /// One unit of time is 2^80 ticks.
 const TICKS: f64 = (1u128 << 80) as f64;
 
-/// Its square root.
-const HALF: f64 = (1u64 << 40) as f64;
-
-/// Below this many units of time, two numbers of 64 bits hold a waiting time.
-const LONG: f64 = (1u64 << 22) as f64;
-
 /// 1/(2π) in units of 2^-256, least significant limb first.
 const INVERSE_TAU: [u64; 4] =
     [0x7f94_58ea_f7ae_f158, 0x36d8_a566_4f10_e410, 0x7f09_d5f4_7d4d_3770, 0x28be_60db_9391_054a];
@@ -35,35 +29,47 @@ impl Instant {
         Instant((t * TICKS) as i128)
     }
 
-    /// The instant `s` units of time later.
-    #[inline]
+    /// The instant `s` units of time later, without what lies below a tick.
+    #[inline(always)]
     pub fn after(self, s: f64) -> Instant {
-        // In two exact halves where they fit, for a conversion to 128 bits is a long routine.
-        if s.abs() < LONG {
-            let high = s * HALF;
-            let whole = high as i64;
-            let low = ((high - whole as f64) * HALF) as i64;
-            return Instant(self.0 + (i128::from(whole) << 40) + i128::from(low));
+        // A number from 2^-28 to 2^36 is its mantissa shifted to the left; a conversion to 128 bits is a long routine.
+        let bits = s.to_bits();
+        let shift = (bits >> 52).wrapping_sub(1075 - 80);
+        if shift < 64 {
+            let mantissa = bits & ((1 << 52) - 1) | 1 << 52;
+            return Instant(self.0 + (i128::from(mantissa) << shift));
         }
         Instant(self.0 + (s * TICKS) as i128)
     }
 
     /// The time that has passed since `earlier`, rounded once.
-    #[inline]
+    #[inline(always)]
     pub fn since(self, earlier: Instant) -> f64 {
-        (self.0 - earlier.0) as f64 / TICKS
+        let ticks = self.0 - earlier.0;
+        let lead = (ticks >> 64) as i64;
+        if lead <= 0 {
+            return ticks as f64 / TICKS;
+        }
+        // The first 63 bits, the last of them set if any follows, round as the whole does.
+        let zeros = lead.leading_zeros();
+        let whole = (ticks as u128) << zeros;
+        let (head, tail) = ((whole >> 64) as u64, whole as u64);
+        let sticky = head >> 1 | head & 1 | u64::from(tail != 0);
+        sticky as i64 as f64 * f64::from_bits(u64::from(1023 + 65 - 80 - zeros) << 52)
     }
 
-    /// Time in whole units of 2^-23, rounded down; the largest number for "never".
+    /// The time since `epoch` in whole units of 2^-58, rounded down: 0 before the epoch, the largest number 64 units of time
+    /// after it and later.
     #[inline(always)]
-    pub fn coarse(self) -> i64 {
-        i64::try_from(self.0 >> 57).unwrap_or(i64::MAX)
+    pub fn fine(self, epoch: Instant) -> u64 {
+        let units = (self.0 - epoch.0) >> 22;
+        u64::try_from(units).unwrap_or(if units < 0 { 0 } else { u64::MAX })
     }
 
     /// The time since t = 0, rounded once.
-    #[inline]
+    #[inline(always)]
     pub fn time(self) -> f64 {
-        self.0 as f64 / TICKS
+        self.since(Instant::ZERO)
     }
 }
 
@@ -118,7 +124,7 @@ impl Rate {
     }
 
     /// (sin, cos) of the phase at an instant.
-    #[inline]
+    #[inline(always)]
     pub fn sin_cos(self, at: Instant) -> (f64, f64) {
         sin_cos_turn(self.turn(at))
     }
@@ -127,6 +133,7 @@ impl Rate {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::random::NormalPairs;
     use dashu::float::{DBig, FBig, round::mode::HalfEven};
 
     type Big = FBig<HalfEven, 2>;
@@ -153,6 +160,27 @@ mod tests {
                 let error = (turn - turn_of(omega, t)).abs();
                 let error = error.min(1.0 - error);
                 assert!(error < 2e-16, "omega {omega}, t {t}: {error:e}");
+            }
+        }
+    }
+
+    /// The quick conversions are those of the language.
+    #[test]
+    fn conversions_are_rounded_once() {
+        let mut normals = NormalPairs::new("conversions", 1, 0);
+        for i in 0..20_000 {
+            let [x, y] = normals.pair();
+            let s = x * 2.0f64.powi(i % 140 - 95);
+            let (start, late) = (Instant::at(y), Instant::at(y).after(s));
+            assert_eq!(late.0 - start.0, (s * TICKS) as i128, "{s:e}");
+            for ticks in [late.0, late.0 - start.0, start.0 - late.0] {
+                assert_eq!(Instant(ticks).time(), ticks as f64 / TICKS, "{ticks}");
+            }
+        }
+        // Halfway between two doubles, and a tick to either side.
+        for ticks in [(1 << 100) + (1 << 47), (1 << 100) + (3 << 47)] {
+            for ticks in [ticks - 1, ticks, ticks + 1] {
+                assert_eq!(Instant(ticks).time(), ticks as f64 / TICKS, "{ticks}");
             }
         }
     }

@@ -1,8 +1,8 @@
 //! The certified first root of a sum of sinusoids and a constant, in its local frame.
 
 use super::local_frame::{Frame, Frequencies};
-use super::polish::refine;
-use super::screen::Piece;
+use super::nodes::Nodes;
+use super::screen::{Eighths, Piece};
 use super::stepping::first_root_by_steps;
 
 /// What a search found.
@@ -29,7 +29,7 @@ pub struct Work {
     pub searches: u64,
     /// Pieces screened: one polynomial certificate each, without a sine.
     pub pieces: u64,
-    /// Evaluations of f with its sines (the start costs none).
+    /// Evaluations of f: by the polynomial of a node, or with its sines (the start costs none).
     pub evaluations: u64,
     /// Searches that the screen could not decide.
     pub stepped: u64,
@@ -47,6 +47,10 @@ pub struct Search<const M: usize> {
     pub frequencies: Frequencies<M>,
     /// The whole reach, its halves, its quarters, …: piece k is halved into 2k + 1 and 2k + 2.
     pieces: [Piece<M>; (1 << (LEVELS + 1)) - 1],
+    eighths: Eighths<M>,
+    nodes: Nodes<M>,
+    /// M₂ ≥ |f''| of a frame is this times its M₄: 1 over the square of the slowest frequency.
+    curvature: f64,
 }
 
 impl<const M: usize> Search<M> {
@@ -58,7 +62,14 @@ impl<const M: usize> Search<M> {
             let index = k + 1 - (1 << level);
             Piece::new(index as f64 * width, width, &frequencies)
         });
-        Search { frequencies, pieces }
+        let slowest = frequencies.big_omegas.iter().fold(frequencies.omega, |a, &b| a.min(b));
+        Search {
+            frequencies,
+            pieces,
+            eighths: Eighths::new(&frequencies),
+            nodes: Nodes::new(&frequencies),
+            curvature: 1.0 / (slowest * slowest),
+        }
     }
 
     /// The first root of the frame's function after s = 0, or the proof that there is none up to
@@ -68,28 +79,43 @@ impl<const M: usize> Search<M> {
     /// s = 0 itself if it moves down. f₀ < 0 is a root at s = 0.
     #[inline(always)]
     pub fn first_root(&self, frame: &Frame<M>, work: &mut Work) -> Next {
-        if let Some(next) = self.glance(frame, work) {
-            return next;
+        work.searches += 1;
+        if frame.f0 < 0.0 || (frame.f0 == 0.0 && frame.g0 < 0.0) {
+            return Next::Root { s: 0.0, speed: -frame.g0 };
+        }
+        work.pieces += 1;
+        let whole = self.pieces[0].coefficients(frame);
+        if whole.open() {
+            return Next::Clear { s: self.frequencies.reach };
+        }
+        if whole.fall_once()
+            && let Some((s, speed)) = self.nodes.root(frame, self.eighths.guess(frame), work)
+            && s > 0.0
+            && s < self.frequencies.reach
+            && self.is_first(frame, speed)
+        {
+            return Next::Root { s, speed };
         }
         let sight = self.look_closer(frame, work);
         self.settle(frame, sight, work)
     }
 
-    /// The first step of a search, which ends most of them: the whole reach at one look.
+    /// Whether a root at s > 0 where f falls with `speed` is the first, given that the coefficients of the whole
+    /// reach change their sign once.
+    ///
+    /// Their polynomial p lies below f and is above zero before its one root (Descartes). With M₂ ≥ |f''|,
+    /// f ≥ speed h − M₂ h²/2 at s − h, so there is no root within speed/M₂ before s. Where that stretch begins (if it
+    /// is before 0, nothing is left to show) f is at least speed²/2M₂. If that is more than f can lie above p, then p
+    /// is above zero there, hence before it, and so is f. Twice as much is asked for, since s and its speed are rounded.
     #[inline(always)]
-    pub fn glance(&self, frame: &Frame<M>, work: &mut Work) -> Option<Next> {
-        work.searches += 1;
-        if frame.f0 < 0.0 || (frame.f0 == 0.0 && frame.g0 < 0.0) {
-            return Some(Next::Root { s: 0.0, speed: -frame.g0 });
-        }
-        work.pieces += 1;
-        let open = self.pieces[0].coefficients(frame).open();
-        open.then_some(Next::Clear { s: self.frequencies.reach })
+    fn is_first(&self, frame: &Frame<M>, speed: f64) -> bool {
+        let bound = self.curvature * frame.bound;
+        speed > 0.0 && speed * speed > 4.0 * bound * self.pieces[0].doubt(frame)
     }
 
-    /// The second step: the halves of the reach, and the halves of what they leave open.
+    /// A closer look: the halves of the reach, and the halves of what they leave open.
     #[inline(always)]
-    pub fn look_closer(&self, frame: &Frame<M>, work: &mut Work) -> Sight {
+    fn look_closer(&self, frame: &Frame<M>, work: &mut Work) -> Sight {
         let mut first = frame.f0;
         let mut k = 1;
         loop {
@@ -111,7 +137,8 @@ impl<const M: usize> Search<M> {
             if first > 0.0
                 && let Some(guess) = piece.only_root(frame, first, &coefficients)
             {
-                return Sight::Root { guess, clear: piece.start };
+                let (clear, end) = (piece.start, piece.start + piece.width);
+                return Sight::Root { guess, clear, end };
             }
             if 2 * k + 1 >= self.pieces.len() {
                 return Sight::Blurred { clear: piece.start };
@@ -123,56 +150,30 @@ impl<const M: usize> Search<M> {
     /// The last step: a root in sight to full accuracy, and certified steps where nothing else
     /// decides.
     #[inline(always)]
-    pub fn settle(&self, frame: &Frame<M>, sight: Sight, work: &mut Work) -> Next {
+    fn settle(&self, frame: &Frame<M>, sight: Sight, work: &mut Work) -> Next {
         let reach = self.frequencies.reach;
         let clear = match sight {
             Sight::Clear => return Next::Clear { s: reach },
-            Sight::Root { guess, clear } => match self.close_in(frame, guess, work) {
-                Some((s, speed)) => return Next::Root { s, speed },
-                None => clear,
+            Sight::Root { guess, clear, end } => match self.nodes.root(frame, guess, work) {
+                // In the piece there is no other.
+                Some((s, speed)) if s > clear && s <= end => return Next::Root { s, speed },
+                _ => clear,
             },
             Sight::Blurred { clear } => clear,
         };
         work.stepped += 1;
         first_root_by_steps(frame, clear, reach, &self.frequencies, work)
     }
-
-    /// The root near a guess, to full accuracy.
-    #[inline(always)]
-    fn close_in(&self, frame: &Frame<M>, guess: f64, work: &mut Work) -> Option<(f64, f64)> {
-        let mut s = guess;
-        for _ in 0..4 {
-            work.evaluations += 1;
-            let p = frame.at(s, &self.frequencies);
-            match refine(s, &p, &self.frequencies) {
-                Ok(found) => return Some(found),
-                Err(h) => s += h,
-            }
-            if !(s > 0.0 && s < self.frequencies.reach) {
-                return None;
-            }
-        }
-        None
-    }
 }
 
-/// What the screen shows of a frame that it could not clear at a glance.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Sight {
+/// What the screen shows of a frame that it could not decide at one look.
+enum Sight {
     /// No root in the whole reach.
     Clear,
-    /// The first root lies in a piece over which f falls, near `guess`; no root before `clear`.
-    Root {
-        /// A guess of the root.
-        guess: f64,
-        /// Certified up to here.
-        clear: f64,
-    },
+    /// No root before `clear`, and one from there to `end`, near `guess`: f falls all the way.
+    Root { guess: f64, clear: f64, end: f64 },
     /// No root before `clear`; beyond it the pieces are too coarse.
-    Blurred {
-        /// Certified up to here.
-        clear: f64,
-    },
+    Blurred { clear: f64 },
 }
 
 #[cfg(test)]

@@ -181,21 +181,13 @@ impl<const M: usize> Frame<M> {
 }
 
 impl<const M: usize> Point<M> {
-    /// The derivatives of fourth to ninth order.
-    #[inline(always)]
-    pub fn higher(&self, frequencies: &Frequencies<M>) -> [f64; 6] {
-        let of = |w: f64, [value, quadrature]: [f64; 2]| {
-            let square = w * w;
-            let (even, odd) = (square * square * value, square * square * w * quadrature);
-            let (sixth, seventh) = (-(square * even), -(square * odd));
-            [even, odd, sixth, seventh, -(square * sixth), -(square * seventh)]
-        };
-        let mut sum = of(frequencies.omega, self.free);
-        for m in 0..M {
-            let part = of(frequencies.big_omegas[m], self.forced[m]);
-            for (total, term) in sum.iter_mut().zip(part) {
-                *total += term;
-            }
+    /// The derivatives of fourth and fifth order.
+    pub fn higher(&self, frequencies: &Frequencies<M>) -> [f64; 2] {
+        let mut sum = [0.0; 2];
+        let parts = frequencies.big_omegas.into_iter().zip(self.forced);
+        for (w, [value, quadrature]) in parts.chain([(frequencies.omega, self.free)]) {
+            let fourth = (w * w) * (w * w);
+            sum = [sum[0] + fourth * value, sum[1] + fourth * w * quadrature];
         }
         sum
     }

@@ -7,8 +7,8 @@
 //! are linear in f₀, g₀, α, γ and δ, with factors that depend on the frequencies and the piece
 //! alone: a table, made once, replaces every sine.
 
+use super::linear::{Linear, Taylor};
 use super::local_frame::{Frame, Frequencies};
-use super::trig::small_sin_cos;
 use wide::f64x2;
 
 /// Degree of the Bernstein form.
@@ -17,6 +17,44 @@ const N: usize = 8;
 /// One number for each of the coefficients b₁ … b₈.
 type Row = [f64x2; N / 2];
 
+/// The values of a function at the ends of the eighths of the reach.
+#[derive(Clone, Copy, Debug)]
+pub struct Eighths<const M: usize> {
+    values: Linear<M, { N / 2 }>,
+    width: f64,
+}
+
+impl<const M: usize> Eighths<M> {
+    /// Of the reach of `frequencies`.
+    pub fn new(frequencies: &Frequencies<M>) -> Self {
+        let width = 0.125 * frequencies.reach;
+        let values = Linear::new(frequencies, |f| {
+            row(std::array::from_fn(|i| f((i + 1) as f64 * width)[0]))
+        });
+        Eighths { values, width }
+    }
+
+    /// A guess of the root of a function that is not negative at s = 0 and falls below zero once: by the secant
+    /// of the eighth that it lies in.
+    #[inline(always)]
+    pub fn guess(&self, frame: &Frame<M>) -> f64 {
+        let row = self.values.of(frame).map(|x| x + f64x2::splat(frame.f0));
+        let below = signs(row.map(|x| x.simd_lt(f64x2::ZERO)));
+        let [[a, b], [c, d], [e, f], [g, h]] = row.map(f64x2::to_array);
+        let values = [frame.f0, a, b, c, d, e, f, g, h];
+        let last = (below | 1 << (N - 1)).trailing_zeros() as usize % N;
+        let (high, low) = (values[last], values[last + 1]);
+        self.width * (last as f64 + high / (high - low))
+    }
+}
+
+/// A bit for each of eight comparisons.
+#[inline(always)]
+fn signs(masks: Row) -> u32 {
+    let [a, b, c, d] = masks.map(|mask| mask.to_bitmask());
+    (a | b << 2) | (c << 4 | d << 6)
+}
+
 /// The factors of one piece.
 #[derive(Clone, Copy, Debug)]
 pub struct Piece<const M: usize> {
@@ -24,9 +62,7 @@ pub struct Piece<const M: usize> {
     pub start: f64,
     /// w, its width.
     pub width: f64,
-    slope: Row,
-    alpha: Row,
-    forced: [[Row; 2]; M],
+    factors: Linear<M, { N / 2 }>,
     /// The largest difference between f and p over M₄, as it enters b₄, and 0 for b₃.
     difference: f64x2,
     /// What the same difference does to b_{i+1} − b_i at most.
@@ -41,17 +77,17 @@ pub struct Coefficients {
     slack: f64,
 }
 
-/// C(i, k) (8 − k)!/8! wᵏ: what the k-th derivative at an end adds to the i-th coefficient.
+/// C(i, k) k! (8 − k)!/8! wᵏ: what the k-th Taylor coefficient at an end adds to the i-th coefficient.
 fn weight(i: usize, k: usize, w: f64) -> f64 {
     let mut out = 1.0;
     for m in 0..k {
-        out *= (i - m) as f64 / (m + 1) as f64 * w / (N - m) as f64;
+        out *= (i - m) as f64 * w / (N - m) as f64;
     }
     out
 }
 
-/// b₁ … b₈ of the Hermite polynomial with the given value and derivatives at both ends.
-fn hermite(left: [f64; 4], right: [f64; 4], w: f64) -> Row {
+/// b₁ … b₈ of the Hermite polynomial with the given value and three derivatives at both ends.
+fn hermite(left: Taylor, right: Taylor, w: f64) -> Row {
     let mut b = [0.0; N + 1];
     for i in 0..4 {
         for k in 0..=i {
@@ -72,56 +108,32 @@ fn row(b: [f64; N]) -> Row {
 impl<const M: usize> Piece<M> {
     /// The piece of `frequencies` that begins at `start` and is `width` wide, within the reach.
     pub fn new(start: f64, width: f64, frequencies: &Frequencies<M>) -> Self {
-        let w = frequencies.omega;
-        // Value and three derivatives of 1 − cos νs and of sin νs − ρ sin ωs at s.
-        let versine = |nu: f64, s: f64| {
-            let [rest, versine] = small_sin_cos(nu * s);
-            let (sin, cos) = (nu * s + rest, 1.0 - versine);
-            [versine, nu * sin, nu * nu * cos, -(nu * nu * nu * sin)]
-        };
-        let sine = |nu: f64, s: f64| {
-            let [rest, versine] = small_sin_cos(nu * s);
-            let (sin, cos) = (nu * s + rest, 1.0 - versine);
-            [sin, nu * cos, -(nu * nu * sin), -(nu * nu * nu * cos)]
-        };
         let end = start + width;
-        let of = |f: &dyn Fn(f64) -> [f64; 4]| hermite(f(start), f(end), width);
         let fast2 = frequencies.fastest * frequencies.fastest;
         let width2 = width * width;
         let eighth = fast2 * fast2 * (width2 * width2) * (width2 * width2) / 40_320.0;
         Piece {
             start,
             width,
-            slope: of(&|s| sine(w, s).map(|x| x / w)),
-            alpha: of(&|s| versine(w, s).map(|x| -x)),
-            forced: std::array::from_fn(|m| {
-                let nu = frequencies.big_omegas[m];
-                let difference = |s: f64| {
-                    let (fast, slow) = (sine(nu, s), sine(w, s));
-                    std::array::from_fn(|k| fast[k] - nu / w * slow[k])
-                };
-                [of(&|s| versine(nu, s).map(|x| -x)), of(&difference)]
-            }),
+            factors: Linear::new(frequencies, |f| hermite(f(start), f(end), width)),
             difference: f64x2::from([0.0, eighth / 70.0]),
             // |f' − p'| ≤ M₈ max |t³ (w − t)³ (t − ξ)|/7! ≤ M₈ w⁷/(64 · 7!), times w/8.
             difference_of_slope: eighth / 64.0,
         }
     }
 
+    /// What f can lie above p at most, where p is below f, rounding included.
+    #[inline(always)]
+    pub fn doubt(&self, frame: &Frame<M>) -> f64 {
+        // Twice M₈ (w/2)⁸/8! = b₄'s part · 70/256.
+        let [_, difference] = self.difference.to_array();
+        frame.bound * difference + SLACK * frame.size
+    }
+
     /// The coefficients b₁ … b₈ of p over this piece; b₀ is f(a).
     #[inline(always)]
     pub fn coefficients(&self, frame: &Frame<M>) -> Coefficients {
-        let mut row: Row = std::array::from_fn(|i| {
-            let mut b = f64x2::splat(frame.f0)
-                + f64x2::splat(frame.g0) * self.slope[i]
-                + f64x2::splat(frame.alpha) * self.alpha[i];
-            for m in 0..M {
-                b = b
-                    + f64x2::splat(frame.forced[m][0]) * self.forced[m][0][i]
-                    + f64x2::splat(frame.forced[m][1]) * self.forced[m][1][i];
-            }
-            b
-        });
+        let mut row = self.factors.of(frame).map(|x| x + f64x2::splat(frame.f0));
         row[1] -= f64x2::splat(frame.bound) * self.difference;
         Coefficients { row, slack: SLACK * frame.size }
     }
@@ -130,22 +142,28 @@ impl<const M: usize> Piece<M> {
     /// a guess of its root, counted from the frame's instant.
     #[inline(always)]
     pub fn only_root(&self, frame: &Frame<M>, first: f64, c: &Coefficients) -> Option<f64> {
-        let b = c.all(first);
-        let slack = c.slack + self.difference_of_slope * frame.bound;
-        let falls = b[N] < -c.slack && (0..N).all(|i| b[i + 1] < b[i] - slack);
-        if !falls {
+        let [b1, b2, b3, b4, b5, b6, b7, b8] = c.all();
+        let before = [[first, b1], [b2, b3], [b4, b5], [b6, b7]].map(f64x2::from);
+        let slack = f64x2::splat(c.slack + self.difference_of_slope * frame.bound);
+        let falls: [f64x2; N / 2] = std::array::from_fn(|i| c.row[i].simd_lt(before[i] - slack));
+        if !((falls[0] & falls[1]) & (falls[2] & falls[3])).all() || b8 >= -c.slack {
             return None;
         }
-        // The parabola with value, slope and curvature of p at the end that is nearer to zero.
-        let at_left = b[0] < -b[N];
-        let [near, next, third] = if at_left { [b[0], b[1], b[2]] } else { [b[8], b[7], b[6]] };
+        // The parabola with value, slope and curvature of p at the end that is nearer to zero. Which one it is
+        // cannot be predicted: a mask, and no branch.
+        let at_left = f64x2::splat(first).simd_lt(f64x2::splat(-b8));
+        let nearer = |left: [f64; 2], right: [f64; 2]| {
+            at_left.select(f64x2::from(left), f64x2::from(right)).to_array()
+        };
+        let [near, next] = nearer([first, b1], [b8, b7]);
+        let [third, _] = nearer([b2; 2], [b6; 2]);
         let slope = 8.0 * (near - next);
         let curvature = 56.0 * (near - 2.0 * next + third);
         let root = (slope * slope - 2.0 * near * curvature).max(0.0).sqrt();
         // Inwards, f falls from the left end and rises from the right one.
         let inwards = 2.0 * near.abs() / (slope.abs() + root);
         let inwards = inwards.min(1.0);
-        let inside = if at_left { inwards } else { 1.0 - inwards };
+        let [inside, _] = nearer([inwards; 2], [1.0 - inwards; 2]);
         Some(self.start + self.width * inside)
     }
 }
@@ -162,15 +180,26 @@ impl Coefficients {
         least.simd_gt(f64x2::splat(self.slack)).all()
     }
 
+    /// Whether the signs of b₁ … b₈, which are not all plus, change once at most, from plus to minus.
+    #[inline(always)]
+    pub fn fall_once(&self) -> bool {
+        let slack = f64x2::splat(self.slack);
+        let plus = signs(self.row.map(|b| b.simd_gt(slack)));
+        let minus = signs(self.row.map(|b| b.simd_lt(-slack)));
+        // Plus from the lowest bit on, and minus all others.
+        (plus & (plus + 1) == 0) & (plus + minus == (1 << N) - 1)
+    }
+
     /// b₈, the value at the end of the piece.
     #[inline(always)]
     pub fn last(&self) -> f64 {
         self.row[N / 2 - 1].to_array()[1]
     }
 
-    fn all(&self, first: f64) -> [f64; N + 1] {
+    #[inline(always)]
+    fn all(&self) -> [f64; N] {
         let [[a, b], [c, d], [e, f], [g, h]] = self.row.map(f64x2::to_array);
-        [first, a, b, c, d, e, f, g, h]
+        [a, b, c, d, e, f, g, h]
     }
 }
 
@@ -207,12 +236,13 @@ mod tests {
             let reach = frequencies.reach;
             for (start, width) in [(0.0, reach), (0.0, 0.5 * reach), (0.5 * reach, 0.5 * reach)] {
                 let piece = Piece::new(start, width, &frequencies);
-                let b = piece.coefficients(&frame).all(f(start));
+                let b = piece.coefficients(&frame).all();
                 for step in 0..=40 {
                     let t = f64::from(step) / 40.0;
                     let polynomial: f64 = (0..=N)
                         .map(|i| {
-                            b[i] * BINOMIALS[i] * t.powi(i as i32) * (1.0 - t).powi((N - i) as i32)
+                            let b = if i == 0 { f(start) } else { b[i - 1] };
+                            b * BINOMIALS[i] * t.powi(i as i32) * (1.0 - t).powi((N - i) as i32)
                         })
                         .sum();
                     let above = (f(start + t * width) - polynomial) / frame.size;

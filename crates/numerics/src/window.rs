@@ -1,6 +1,8 @@
 //! Long waits: when can all parts of a sum of sinusoids be low at once?
 
 use super::local_frame::Frequencies;
+use super::trig::rough_angles;
+use wide::f64x2;
 
 /// One sinusoid R cos(νs + θ), as value u and quadrature u̇/ν at s = 0.
 #[derive(Clone, Copy, Debug)]
@@ -13,8 +15,8 @@ struct Part {
     half_width: f64,
 }
 
-/// Windows are widened by this much, far more than rounding can move their edges.
-const WIDENED: f64 = 1e-9;
+/// Windows are widened by this much, far more than [`rough_angles`] and rounding can move their edges.
+const WIDENED: f64 = 1e-7;
 
 /// Windows passed in one call.
 const HOPS: u32 = 64;
@@ -41,8 +43,10 @@ pub fn next_window<const M: usize>(
         let cosine = (mean - (total - r)) / r - 1e-12;
         // Always low enough if there is no angle at which it is too high.
         let narrow = cosine > -1.0 && cosine < 1.0;
-        let half_width = if narrow { pxfm::f_acos(cosine) + WIDENED } else { 4.0 };
-        let angle = if narrow { pxfm::f_atan2(quadrature, -u) } else { 0.0 };
+        let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
+        let angles = rough_angles(f64x2::from([sine, quadrature]), f64x2::from([cosine, -u]));
+        let [half_width, angle] = angles.to_array();
+        let half_width = if narrow { half_width + WIDENED } else { 4.0 };
         Part { frequency, amplitude: r, angle, half_width }
     };
     let free = part(frequencies.omega, free, own);
@@ -63,20 +67,21 @@ pub fn next_window<const M: usize>(
 
 impl Part {
     /// How long after `s` the next window opens; 0 in a window.
+    #[inline]
     fn wait(&self, s: f64) -> f64 {
         const TURN: f64 = std::f64::consts::TAU;
         if self.half_width >= 3.5 || self.amplitude == 0.0 {
             return 0.0;
         }
         let angle = self.angle + self.frequency * s;
-        // Behind the middle of the last window, 0 ≤ behind < 2π.
-        let turns = angle / TURN;
-        let behind = angle - TURN * ((turns as i64 - i64::from(turns < 0.0)) as f64);
-        let closes_at = self.half_width + 1e-3 * WIDENED;
-        if behind <= closes_at || behind >= TURN - closes_at {
+        // Behind the middle of the nearest window; the sum has no place for a fraction.
+        const WHOLE: f64 = 1.5 * (1u64 << 52) as f64;
+        let behind = angle - TURN * ((angle * (1.0 / TURN) + WHOLE) - WHOLE);
+        if behind.abs() <= self.half_width + 1e-3 * WIDENED {
             return 0.0;
         }
-        (TURN - self.half_width - behind) / self.frequency
+        let middle = if behind > 0.0 { TURN } else { 0.0 };
+        (middle - self.half_width - behind) / self.frequency
     }
 }
 

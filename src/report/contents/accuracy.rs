@@ -43,7 +43,7 @@ pub fn scene_table(results: &Results) -> Result<Vec<Line>, Error> {
         }
         Some(trouble) => {
             let (right, all) = (trial.right(), trial.verdicts.len());
-            format!("{right} of {all}: {}", Verdict::words(trouble))
+            format!("{right} of {all} right, else {}", Verdict::words(trouble))
         }
     };
     let lines = results.trials()?.scenes.iter().map(|scene| Line {

@@ -15,7 +15,7 @@ pub struct Case {
     pub advanced: bool,
     /// Where the root is, as a part of the reach.
     pub root: f64,
-    /// How far from the point of evaluation, as a part of the radius of the Taylor polynomial.
+    /// How far from its node, as a part of the radius of the Taylor polynomial.
     pub step: f64,
 }
 
@@ -35,7 +35,7 @@ pub const COUNTED: usize = 6;
 
 /// The reach of a frame times the fastest frequency, as in `numerics::trig`.
 pub const RANGE: f64 = 2.83;
-/// The radius of the Taylor polynomial, as in `numerics::polish`.
+/// The radius of the Taylor polynomial, as in `numerics::nodes`.
 const RADIUS: f64 = 0.06;
 
 /// 1/m!, −1/(m+2)!, …
@@ -48,6 +48,10 @@ fn inverse_factorials<const N: usize>(m: i32) -> [f64; N] {
 fn polynomial<const N: usize>(z: Num, coefficients: [f64; N]) -> Num {
     let c = coefficients.map(Num::exact);
     let square = z * z;
+    if N == 8 {
+        let pair = |k: usize| c[k] + z * c[k + 1];
+        return (pair(0) + square * pair(2)) + square * square * (pair(4) + square * pair(6));
+    }
     let (mut even, mut odd) = (c[N - 2], c[N - 1]);
     for k in (0..N / 2 - 1).rev() {
         even = even * square + c[2 * k];
@@ -111,35 +115,39 @@ impl Chain {
         Frame { f0: mean + (free + forced[0]), g0, free, forced }
     }
 
-    /// f and its derivatives at s, up to the ninth.
-    fn at(&self, frame: &Frame, s: Num) -> [Num; 10] {
+    /// Taylor coefficients of −cos νs, with versine for the first, and of sin νs, with sin νs − νs for it.
+    fn waves(nu: Num, s: Num) -> [[Num; 10]; 2] {
+        let x = nu * s;
+        let [rest, versine] = small_sin_cos::<14>(x);
+        let (sin, cos) = (x + rest, Num::exact(1.0) - versine);
+        let mut factor = Num::exact(1.0);
+        let (mut even, mut odd) = ([versine; 10], [rest; 10]);
+        for k in 1..10 {
+            factor = factor * (nu / Num::exact(k as f64));
+            let turned = [[-cos, sin], [sin, cos], [cos, -sin], [-sin, -cos]][k % 4];
+            [even[k], odd[k]] = turned.map(|x| factor * x);
+        }
+        [even, odd]
+    }
+
+    /// Taylor coefficients of f about the node at s, up to the ninth.
+    fn about(&self, frame: &Frame, s: Num) -> [Num; 10] {
         let (w, big_w) = (self.w, self.big_w);
         let [gamma, delta] = frame.forced;
-        let x = w * s;
-        let [sin_rest, versine] = small_sin_cos::<14>(x);
-        let (sin, cos) = (x + sin_rest, Num::exact(1.0) - versine);
-        let linear = frame.g0 * self.inverse * sin;
-        let f = frame.f0 + linear - frame.free * versine;
-        let aw = frame.free * w;
-        let g = frame.g0 * cos - aw * sin;
-        let sine = self.sine(frame);
-        let free = [frame.free * cos + sine * sin, sine * cos - frame.free * sin];
-        let ratio = big_w * self.inverse;
-        let y = big_w * s;
-        let [big_sin_rest, big_versine] = small_sin_cos::<14>(y);
-        let (big_sin, big_cos) = (y + big_sin_rest, Num::exact(1.0) - big_versine);
-        let f = f - gamma * big_versine + delta * (big_sin_rest - ratio * sin_rest);
-        let g = g - gamma * big_w * big_sin + delta * big_w * (versine - big_versine);
-        let part = [gamma * big_cos + delta * big_sin, delta * big_cos - gamma * big_sin];
-        let mut out = [f; 10];
-        out[1] = g;
-        let mut factors = [w, big_w];
-        for k in 2..10 {
-            factors = [factors[0] * w, factors[1] * big_w];
-            let sum = factors[0] * free[k % 2] + factors[1] * part[k % 2];
-            out[k] = if k % 4 < 2 { sum } else { -sum };
-        }
-        out
+        let [[even, odd], [big_even, big_odd]] = [w, big_w].map(|nu| Self::waves(nu, s));
+        let mut sine = odd;
+        sine[0] = sine[0] + w * s;
+        let ratio = big_w / w;
+        let mut c: [Num; 10] = std::array::from_fn(|k| {
+            let difference = match k {
+                1 => big_w * (even[0] - big_even[0]),
+                _ => big_odd[k] - ratio * odd[k],
+            };
+            let free = frame.g0 * (sine[k] / w) - frame.free * even[k];
+            free + (delta * difference - gamma * big_even[k])
+        });
+        c[0] = c[0] + frame.f0;
+        c
     }
 }
 
@@ -176,26 +184,22 @@ impl Case {
         let s = self.root * reach;
         let h = self.step * RADIUS / fastest;
         let start = (s - h).clamp(0.0, reach);
-        let jet = chain.at(&frame, Num::exact(start));
+        let c = chain.about(&frame, Num::exact(start));
         stage(5);
-        taylor(&jet, s, s - start)
+        taylor(&c, s, s - start)
     }
 }
 
-/// Value and slope at the root s, which is h away from the point of the jet.
-fn taylor(jet: &[Num; 10], s: f64, h: f64) -> [Num; 2] {
-    let mut factorial = 1.0;
-    let c: [Num; 10] = std::array::from_fn(|k| {
-        factorial *= k.max(1) as f64;
-        if k < 2 { jet[k] } else { jet[k] * Num::exact(1.0 / factorial).rounded() }
-    });
+/// Value and slope at the root s, which is h away from the node.
+fn taylor(c: &[Num; 10], s: f64, h: f64) -> [Num; 2] {
     let h = Num::exact(h);
     let (h2, h4) = (h * h, (h * h) * (h * h));
-    let pair = |i: usize| c[i] + h * c[i + 1];
-    let value = (pair(0) + h2 * pair(2)) + h4 * ((pair(4) + h2 * pair(6)) + h4 * pair(8));
-    let times = |i: usize| Num::exact(i as f64) * c[i];
-    let pair = |i: usize| times(i) + h * times(i + 1);
-    let slope = (pair(1) + h2 * pair(3)) + h4 * ((pair(5) + h2 * pair(7)) + h4 * times(9));
+    let sum = |c: [Num; 5]| (c[0] + h2 * c[1]) + h4 * ((c[2] + h2 * c[3]) + h4 * c[4]);
+    let every_other =
+        |from: usize, c: &dyn Fn(usize) -> Num| std::array::from_fn(|i| c(from + 2 * i));
+    let times = |k: usize| if k < 10 { Num::exact(k as f64) * c[k] } else { Num::exact(0.0) };
+    let value = sum(every_other(0, &|k| c[k])) + h * sum(every_other(1, &|k| c[k]));
+    let slope = sum(every_other(1, &times)) + h * sum(every_other(2, &times));
     // The sum s + h is rounded, which moves the root.
     let late = Num::exact(s).rounded() + Num::exact(-s);
     [value + Num::exact(slope.value()) * late, slope]

@@ -1,0 +1,73 @@
+//! Numbers that are linear in a frame: coefficients of polynomials, values. Their factors depend on the frequencies
+//! alone: a table, made once, replaces every sine.
+
+use super::local_frame::{Frame, Frequencies};
+use super::trig::small_sin_cos;
+use wide::f64x2;
+
+/// Taylor coefficients of a function about one instant, from its value to the ninth order.
+pub type Taylor = [f64; 10];
+
+/// The factors of 2 `N` numbers, besides f₀.
+#[derive(Clone, Copy, Debug)]
+pub struct Linear<const M: usize, const N: usize> {
+    slope: [f64x2; N],
+    alpha: [f64x2; N],
+    forced: [[[f64x2; N]; 2]; M],
+}
+
+/// Taylor coefficients about s of 1 − cos νs and of sin νs, the latter with sin νs − νs for its value.
+fn waves(nu: f64, s: f64) -> [Taylor; 2] {
+    let [rest, versine] = small_sin_cos(nu * s);
+    let (sin, cos) = (nu * s + rest, 1.0 - versine);
+    let mut factor = 1.0;
+    let (mut even, mut odd) = ([versine; 10], [rest; 10]);
+    for k in 1..10 {
+        factor *= nu / k as f64;
+        let turned = [[-cos, sin], [sin, cos], [cos, -sin], [-sin, -cos]][k % 4];
+        [even[k], odd[k]] = turned.map(|x| factor * x);
+    }
+    [even, odd]
+}
+
+impl<const M: usize, const N: usize> Linear<M, N> {
+    /// The numbers that `of` makes of a function, which is told by its Taylor coefficients about any instant.
+    pub fn new(
+        frequencies: &Frequencies<M>,
+        of: impl Fn(&dyn Fn(f64) -> Taylor) -> [f64x2; N],
+    ) -> Self {
+        let w = frequencies.omega;
+        Linear {
+            slope: of(&|s| {
+                let [_, mut sine] = waves(w, s);
+                sine[0] += w * s;
+                sine.map(|x| x / w)
+            }),
+            alpha: of(&|s| waves(w, s)[0].map(|x| -x)),
+            forced: std::array::from_fn(|m| {
+                let nu = frequencies.big_omegas[m];
+                let difference = |s: f64| {
+                    let ([versine, rest], [big_versine, big_rest]) = (waves(w, s), waves(nu, s));
+                    let mut c: Taylor = std::array::from_fn(|k| big_rest[k] - nu / w * rest[k]);
+                    c[1] = nu * (versine[0] - big_versine[0]);
+                    c
+                };
+                [of(&|s| waves(nu, s)[0].map(|x| -x)), of(&difference)]
+            }),
+        }
+    }
+
+    /// The numbers of a frame without f₀.
+    #[inline(always)]
+    pub fn of(&self, frame: &Frame<M>) -> [f64x2; N] {
+        std::array::from_fn(|i| {
+            let mut sum =
+                f64x2::splat(frame.g0) * self.slope[i] + f64x2::splat(frame.alpha) * self.alpha[i];
+            for m in 0..M {
+                sum += f64x2::splat(frame.forced[m][0]) * self.forced[m][0][i]
+                    + f64x2::splat(frame.forced[m][1]) * self.forced[m][1][i];
+            }
+            sum
+        })
+    }
+}
