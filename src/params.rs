@@ -23,7 +23,7 @@ pub use heat::{HeatParams, HeatRow};
 pub use history::HistoryParams;
 pub use impact_chain::{Boundary, Chain, Start};
 pub use impact_numerics::estimates::LEVEL;
-pub use independence::{IndependenceParams, IndependenceRow};
+pub use independence::IndependenceParams;
 pub use literate::experiments::Profile;
 pub use nucleation::{NucleationParams, SeedsParams};
 pub use restitution::RestitutionParams;

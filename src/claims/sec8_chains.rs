@@ -4,6 +4,7 @@ use super::row::{Error, Evidence};
 use super::sec2_rare::NEGLIGIBLE;
 use super::{Finding, open};
 use super::{Judgement, Statement, Text};
+use crate::experiments::protocol_tables::range;
 use crate::experiments::starts_tables::share_of_start;
 use crate::numerics::statistics::{Estimate, wilson};
 
@@ -122,16 +123,6 @@ pub(super) fn threshold_shift(e: &Evidence, _: &Statement) -> Result<Finding, Er
              simulation goes on falling with T, and the theory knows no time.",
         ),
     })
-}
-
-/// The range of σ over which something that Eq. (25) leaves out moves the half height of all.
-fn range(places: impl Iterator<Item = Option<Estimate>>) -> Option<Estimate> {
-    let places: Vec<Estimate> = places.flatten().collect();
-    let least = places.iter().min_by(|a, b| a.value.total_cmp(&b.value))?;
-    let most = places.iter().max_by(|a, b| a.value.total_cmp(&b.value))?;
-    let error = (least.error * least.error + most.error * most.error).sqrt();
-    let (value, room) = (most.value - least.value, 1.96 * error);
-    Some(Estimate { value, error, interval: [value - room, value + room] })
 }
 
 pub(super) fn restitution_omitted(e: &Evidence, _: &Statement) -> Result<Finding, Error> {

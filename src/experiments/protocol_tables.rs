@@ -24,8 +24,21 @@ pub fn of_map(map: &ProtocolMap) -> Vec<Table> {
         .same("largest", |_| same(most))
         .estimate("least", "d omega^2", "least half height", |_| half(least))
         .same("least", |_| same(least))
+        .estimate("range_all", "d omega^2", "range of the half heights of the mean of all", |own| {
+            range(own.cells.iter().map(|cell| cell.half_height_all))
+        })
         .done();
     vec![cells("protocol.cells", map), all]
+}
+
+/// From the least of some places to the largest.
+pub fn range(places: impl Iterator<Item = Option<Estimate>>) -> Option<Estimate> {
+    let places: Vec<Estimate> = places.flatten().collect();
+    let least = places.iter().min_by(|a, b| a.value.total_cmp(&b.value))?;
+    let most = places.iter().max_by(|a, b| a.value.total_cmp(&b.value))?;
+    let error = (least.error * least.error + most.error * most.error).sqrt();
+    let (value, room) = (most.value - least.value, 1.96 * error);
+    Some(Estimate { value, error, interval: [value - room, value + room] })
 }
 
 /// Of its long end.

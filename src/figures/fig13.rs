@@ -11,10 +11,10 @@ const DETAIL: usize = 20;
 const LOWEST: i32 = -8;
 
 /// Name, symbol, colour and dash of a class.
-pub(super) type Class = (&'static str, &'static str, Colour, Dash);
+type Class = (&'static str, &'static str, Colour, Dash);
 
 /// The five classes in the order of Eq. (38).
-pub(super) const CLASSES: [Class; 5] = [
+const CLASSES: [Class; 5] = [
     ("simple circuits", "*ϕ*_{*N*}", GREEN, Dash::Long),
     ("one vertex twice", "*ϕ*_{*N*}^{1}", BLUE, Dash::Short),
     ("one vertex three times", "*ϕ*_{*N*}^{1,0}", ORANGE, Dash::Twice),

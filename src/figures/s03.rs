@@ -5,14 +5,14 @@ use super::{FORCING, SIGMA};
 use crate::experiments::Results;
 use crate::table::Table;
 
-/// The σ of (a) and (b).
+/// The σ of (a).
 const SIGMAS: (f64, f64) = (0.055, 0.165);
 
 /// Looks of the lengths.
 const LENGTHS: [(Colour, Mark); 3] =
     [(GREEN, Mark::Diamond), (RED, Mark::Disc), (PURPLE, Mark::Square)];
 
-/// Looks of the σ in (c).
+/// Looks of the σ in (b).
 const TIMES: [(Colour, Mark); 3] =
     [(BLUE, Mark::Disc), (ORANGE, Mark::Square), (RED, Mark::Diamond)];
 
@@ -20,10 +20,9 @@ const TIMES: [(Colour, Mark); 3] =
 pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
     let table = |name| results.table(name);
     let (found, missing) = (table("nucleation.chains")?, table("nucleation.times")?);
-    let (curves, shares) = (table("nucleation.curves")?, table("nucleation.shares")?);
-    let sheet = Sheet::new(9350, note)?;
+    let shares = table("nucleation.shares")?;
+    let sheet = Sheet::new(8600, note)?;
     chains(&sheet, found, shares, table("sweep.rows")?)?;
-    gaps(&sheet, curves)?;
     times(&sheet, missing)?;
     Ok(sheet.finish("s03", "Gaps that close by themselves", description(missing)))
 }
@@ -32,6 +31,10 @@ fn chains(sheet: &Sheet, found: &Table, shares: &Table, sweep: &Table) -> Result
     let x = Axis::linear(SIGMAS.0, SIGMAS.1, 0.02, 2, FORCING).column(SIGMA);
     let y = Axis::linear(0.0, 1.05, 0.2, 2, "share of the chains");
     let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 6150, 3730), x, y)?;
+    let mut kept = sweep.points(&[], "sigma", "kept");
+    kept.retain(|(sigma, _)| *sigma > SIGMAS.0 && *sigma < SIGMAS.1);
+    let kept_look = (Mark::Ring, LARGE, Stroke::solid(INK, THIN));
+    panel.marks("kept", &kept, kept_look, Outside::Refuse)?;
     let mut entries = Vec::new();
     let last = found.values("time").last().copied().unwrap_or_default();
     for (masses, (colour, mark)) in found.values("masses").into_iter().zip(LENGTHS) {
@@ -43,30 +46,8 @@ fn chains(sheet: &Sheet, found: &Table, shares: &Table, sweep: &Table) -> Result
         panel.series(&format!("{name}, simulation")).estimates(&name, &own, (mark, LARGE, thin))?;
         entries.push(Entry::both(line, (mark, LARGE, thin), &name));
     }
-    let mut kept = sweep.points(&[], "sigma", "kept");
-    kept.retain(|(sigma, _)| *sigma > SIGMAS.0 && *sigma < SIGMAS.1);
-    let look = (Mark::Ring, LARGE, Stroke::solid(INK, THIN));
-    panel.marks("kept", &kept, look, Outside::Refuse)?;
-    entries.push(Entry::mark(look, "kept, *n* = 100"));
+    entries.push(Entry::mark(kept_look, "kept, *n* = 100"));
     sheet.legend((6350, 1150), (SMALL, 370), &entries)
-}
-
-fn gaps(sheet: &Sheet, curves: &Table) -> Result<(), Error> {
-    let x = Axis::linear(SIGMAS.0, SIGMAS.1, 0.04, 2, "*σ*").column(SIGMA);
-    let y = Axis::decades(-8, 0, 2, "*p*");
-    let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 5250, 4050, 7650), x, y)?;
-    let lines = [
-        ("from rest", "p", Stroke::solid(INK, LINE)),
-        ("at a wall", "wall", Stroke::dashed(GREEN, LINE, Dash::Long)),
-        ("Eq. (25)", "random", Stroke::dashed(BLUE, LINE, Dash::Short)),
-        ("no free part", "zero", Stroke::dashed(PURPLE, LINE, Dash::Dotted)),
-    ];
-    let mut entries = Vec::new();
-    for (name, column, stroke) in lines {
-        panel.curve(name, &curves.points(&[], "sigma", column), stroke, Outside::Cut)?;
-        entries.push(Entry::line(stroke, name));
-    }
-    sheet.legend_in_columns((650, 8750), (SMALL, 370), (2, 2250), &entries)
 }
 
 /// The lowest, the middle and the highest σ.
@@ -79,7 +60,7 @@ fn three(found: &Table) -> impl Iterator<Item = f64> {
 fn times(sheet: &Sheet, found: &Table) -> Result<(), Error> {
     let x = Axis::decades(1, 4, 1, "*T* (1/*ω*)");
     let y = Axis::decades(-6, 0, 2, "1 − *p*_{*T*}/*p*");
-    let panel = sheet.lettered(LETTERS[2], Frame::new(5350, 5250, 8150, 7650), x, y)?;
+    let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 5250, 8150, 7650), x, y)?;
     let mut entries = Vec::new();
     for (sigma, (colour, mark)) in three(found).zip(TIMES) {
         let name = format!("*σ* = {sigma}");
@@ -93,15 +74,14 @@ fn times(sheet: &Sheet, found: &Table) -> Result<(), Error> {
     let law = Stroke::dashed(INK, THIN, Dash::Short);
     panel.guide("power", &[(10.0, 10.0), (1e4, 1e-5)], law)?;
     entries.push(Entry::line(law, "∝ *T*^{ −2}"));
-    sheet.legend_in_columns((5100, 8750), (SMALL, 370), (2, 1650), &entries)
+    sheet.legend((1400, 6400), (SMALL, 370), &entries)
 }
 
 fn description(missing: &Table) -> String {
     let sigmas = missing.values("sigma");
     format!(
-        "(a) Share of chains with an impact against σ: measured points on steep curves, farther left for longer chains. (b) The \
-         probability p of a gap: highest from rest, then Eq. (25), at a wall, without a free part. (c) What is missing of p after \
-         T, for σ from {} to {}: lines like 1/T².",
+        "(a) Share of chains with an impact against σ: measured points on steep curves, farther left for longer chains. (b) What is \
+         missing of p after T, for σ from {} to {}: lines like 1/T².",
         sigmas.first().copied().unwrap_or_default(),
         sigmas.last().copied().unwrap_or_default(),
     )

@@ -5,6 +5,7 @@ use super::{FORCING, SIGMA};
 use crate::experiments::Results;
 use crate::experiments::seeds::tables::spread;
 use crate::experiments::sweep::Sweep;
+use crate::numerics::statistics::Estimate;
 use crate::table::Table;
 
 /// The σ of (a).
@@ -40,17 +41,21 @@ fn counts(sheet: &Sheet, means: &Table, theory: &Table, sweep: &Sweep) -> Result
     let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 8150, 3730), x, y)?;
     let transient = [("transient", sweep.parameters.protocol.transient)];
     let lines = [
-        ("nucleation and growth", "grown", Stroke::solid(INK, LINE)),
+        ("nucleation and growth", "grown", Stroke::solid(INK, THIN)),
         ("circuits, Eq. (25)", "eq25", Stroke::dashed(BLUE, LINE, Dash::Short)),
         ("circuits, from rest", "from_rest", Stroke::dashed(PURPLE, LINE, Dash::Long)),
     ];
     let mut entries = Vec::new();
     for (name, column, stroke) in lines {
-        let points = match column {
-            "grown" => means.points(&transient, "sigma", column),
-            _ => theory.points(&[], "sigma", column),
-        };
-        panel.curve(name, &points, stroke, Outside::Refuse)?;
+        if column == "grown" {
+            let grown = means.estimates(&transient, "sigma", column);
+            band(&panel, &grown)?;
+            let points: Vec<_> = grown.iter().map(|(x, own)| (*x, own.value)).collect();
+            panel.quiet().curve(name, &points, stroke, Outside::Refuse)?;
+            panel.record(name, grown);
+        } else {
+            panel.curve(name, &theory.points(&[], "sigma", column), stroke, Outside::Refuse)?;
+        }
         entries.push(Entry::line(stroke, name));
     }
     let inside = sweep.rows.iter().filter(|row| row.sigma > SIGMAS.0 && row.sigma < SIGMAS.1);
@@ -65,13 +70,20 @@ fn counts(sheet: &Sheet, means: &Table, theory: &Table, sweep: &Sweep) -> Result
     sheet.legend((1400, 700), (SMALL, 370), &entries)
 }
 
+/// The intervals of a curve, within its axis.
+fn band(panel: &Panel, own: &[(f64, Estimate)]) -> Result<(), Error> {
+    let below = own.iter().map(|(x, at)| (*x, at.interval[0].max(panel.y.lo)));
+    let above = own.iter().rev().map(|(x, at)| (*x, at.interval[1].min(panel.y.hi)));
+    panel.quiet().area("interval", &below.chain(above).collect::<Vec<_>>(), GREY, 100)
+}
+
 fn named(sigma: f64) -> String {
     format!("*σ* = {sigma}")
 }
 
 fn advances(sheet: &Sheet, advance: &Table) -> Result<(), Error> {
     let x = Axis::decades(1, 4, 1, "time since the first impact (1/*ω*)");
-    let y = Axis::decades(-1, 2, 1, "advance of a front");
+    let y = Axis::decades(-1, 2, 1, "advance of a front (gaps)");
     let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 5250, 4050, 7650), x, y)?;
     let mut entries = Vec::new();
     for (sigma, stroke) in spread(&advance.values("sigma")).zip(SPREADS) {
@@ -112,12 +124,11 @@ fn standing(sheet: &Sheet, waits: &Table, fronts: &Table, tick: f64) -> Result<(
     let x = Axis::decades(0, 3, 1, "time *t* for which a front stands (1/*ω*)");
     let y = Axis::decades(-2, 0, 1, "share longer than *t*");
     let panel = sheet.lettered(LETTERS[3], Frame::new(1150, 10150, 8150, 12250), x, y)?;
-    let mut entries = Vec::new();
+    // The key of (b) is that of these lines too.
     for (sigma, stroke) in waits.values("sigma").into_iter().zip(SPREADS) {
         let name = named(sigma);
         panel.quiet().curve(&name, &longer(waits, sigma, tick), stroke, Outside::Cut)?;
         panel.record(&name, waits.points(&[("sigma", sigma)], "time", "longer"));
-        entries.push(Entry::line(stroke, &name));
     }
     // The first row, were every wait to end at the same rate.
     if let Some((_, speed)) = fronts.points(&[], "sigma", "speed").first() {
@@ -128,14 +139,15 @@ fn standing(sheet: &Sheet, waits: &Table, fronts: &Table, tick: f64) -> Result<(
         let even = Stroke::dashed(SPREADS[0].colour, THIN, Dash::Short);
         let points: Vec<_> = (0..=120).map(decay).collect();
         panel.guide("constant rate", &points, even)?;
-        entries.push(Entry::line(even, "constant rate"));
+        let entry = Entry::line(even, "constant rate, lowest *σ*");
+        sheet.legend((1400, 11_900), (SMALL, 270), &[entry])?;
     }
-    sheet.legend((1400, 10900), (SMALL, 270), &entries)
+    Ok(())
 }
 
 fn description(waits: &Table) -> String {
     format!(
-        "(a) Mean count of all against σ: simulated points along the curve of nucleation and growth; circuits are steeper. (b) Advance \
+        "(a) Mean count of all against σ: simulated points along the band of nucleation and growth; circuits are steeper. (b) Advance \
          against time: slower than ∝ t, the more so the smaller σ. (c) Half height falls with T. (d) Share of longer waits: first \
          below a constant rate, then above it, from σ = {} down.",
         waits.values("sigma").first().copied().unwrap_or_default(),

@@ -1,7 +1,7 @@
-//! Fig. S6: what becomes of the most likely number, its jump and its distribution for many vertices.
+//! Fig. S6: what becomes of the most likely number and of its jump for many vertices.
 
 use super::prelude::*;
-use crate::experiments::theory::{Large, PoissonCell};
+use crate::experiments::theory::Large;
 
 /// The p N in (a): around the onset, where the sizes differ.
 const RANGE: (f64, f64) = (0.75, 2.25);
@@ -10,16 +10,11 @@ const RANGE: (f64, f64) = (0.75, 2.25);
 const SIZES: [(Colour, Dash); 3] =
     [(ORANGE, Dash::Solid), (BLUE, Dash::Long), (GREEN, Dash::Alternate)];
 
-/// Looks of the values of p N in (c).
-const LOOKS: [(Colour, Mark); 4] =
-    [(RED, Mark::Disc), (ORANGE, Mark::Square), (BLUE, Mark::Diamond), (PURPLE, Mark::Triangle)];
-
 /// Draws the figure.
 pub fn draw(large: &Large) -> Result<Figure, Error> {
-    let sheet = Sheet::new(9350, None)?;
+    let sheet = Sheet::new(8450, None)?;
     shares(&sheet, large)?;
     jumps(&sheet, large)?;
-    poisson(&sheet, large)?;
     Ok(sheet.finish("s06", "The theory at large N", DESCRIPTION.into()))
 }
 
@@ -49,7 +44,7 @@ fn shares(sheet: &Sheet, large: &Large) -> Result<(), Error> {
 fn jumps(sheet: &Sheet, large: &Large) -> Result<(), Error> {
     let x = Axis::decades(1, 6, 1, "*N*");
     let y = Axis::decades(-3, 0, 1, "*k*^{∗}/*N* at the jump");
-    let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 5250, 4050, 7650), x, y)?;
+    let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 5250, 8150, 7550), x, y)?;
     let share = |n: usize, k: f64| (n as f64, k / n as f64);
     let rule = large.jumps.iter().filter_map(|own| Some(share(own.vertices, own.rule?)));
     let rule: Vec<_> = rule.collect();
@@ -59,27 +54,8 @@ fn jumps(sheet: &Sheet, large: &Large) -> Result<(), Error> {
     let disc = (Mark::Disc, 55, Stroke::solid(GREEN, THIN));
     panel.marks("exact", &exact, disc, Outside::Refuse)?;
     let entries = [Entry::mark(disc, "exact"), Entry::line(line, "*k*^{2} = 2*N*(ln *k* − 1)")];
-    sheet.legend((900, 8750), (SMALL, 370), &entries)
-}
-
-fn poisson(sheet: &Sheet, large: &Large) -> Result<(), Error> {
-    let (x, y) = (Axis::decades(2, 6, 1, "*N*"), Axis::decades(-4, 0, 1, "distance from Poisson"));
-    let panel = sheet.lettered(LETTERS[2], Frame::new(5350, 5250, 8150, 7650), x, y)?;
-    let mut entries = Vec::new();
-    for (own, (colour, mark)) in large.poisson.iter().zip(LOOKS) {
-        let name = format!("p N = {}", short(own.p_n, 2));
-        let at = |of: fn(&PoissonCell) -> f64| -> Vec<(f64, f64)> {
-            own.cells.iter().map(|cell| (cell.vertices as f64, of(cell))).collect()
-        };
-        let bound = Stroke::dashed(colour, THIN, Dash::Dotted);
-        panel.curve(&format!("bound, {name}"), &at(|cell| cell.bound), bound, Outside::Refuse)?;
-        let look = (mark, 55, Stroke::solid(colour, THIN));
-        panel.marks(&name, &at(|cell| cell.variation), look, Outside::Refuse)?;
-        entries.push(Entry::mark(look, &format!("*p N* = {}", short(own.p_n, 2))));
-    }
-    sheet.legend_in_columns((4650, 8750), (SMALL, 370), (2, 1800), &entries)
+    sheet.legend((5200, 5650), (SMALL, 370), &entries)
 }
 
 const DESCRIPTION: &str = "(a) The most likely number over N against p N: zero, a jump soon after p N = 1, then a curve; the larger N, the \
-     smaller the jump. (b) Height of the jump against N, with the rule. (c) Distance of N − X from a Poisson variable, \
-     falling with the root of N below its bounds.";
+     smaller the jump. (b) Height of the jump against N, with the rule.";

@@ -1,10 +1,9 @@
 //! Fig. S7: the five classes of Sec. 9 among circuits of all orders.
 
-use super::fig13::CLASSES;
 use super::prelude::*;
 use crate::experiments::theory::Theory;
 
-/// Looks of the numbers of different vertices in (b), from few to many.
+/// Looks of the numbers of different vertices in (a), from few to many.
 const LOOKS: [Dash; 5] = [Dash::Long, Dash::Short, Dash::Alternate, Dash::Twice, Dash::Dotted];
 
 /// Upper end of the shares' axes: above one, so that curves stay clear of what stands there.
@@ -12,26 +11,14 @@ const TOP: f64 = 1.1;
 
 /// Draws the figure.
 pub fn draw(theory: &Theory) -> Result<Figure, Error> {
-    let sheet = Sheet::new(11_900, None)?;
+    let sheet = Sheet::new(7700, None)?;
     let orders = &theory.orders;
-    let x = || Axis::decades(-3, -1, 1, "*p*");
-    let share = || Axis::linear(0.0, TOP, 0.2, 2, "share");
-    let classes = sheet.lettered(LETTERS[0], Frame::new(1150, 480, 4250, 3380), x(), share())?;
-    let mut entries = Vec::new();
-    for (i, &(name, symbol, colour, dash)) in CLASSES.iter().enumerate() {
-        let at = |shares: &Vec<f64>| shares.get(i).copied().unwrap_or(0.0);
-        let points: Vec<_> = orders.classes.iter().map(|c| (c.p, at(&c.shares))).collect();
-        let stroke = Stroke::dashed(colour, LINE, dash);
-        classes.curve(name, &points, stroke, Outside::Refuse)?;
-        entries.push(Entry::line(stroke, &format!("{name}, {symbol}")));
-    }
-    sheet.legend((4480, 1000), (SMALL, 400), &entries)?;
-
-    let whole = sheet.lettered(LETTERS[1], Frame::new(1150, 4680, 4250, 7580), x(), share())?;
+    let x = Axis::decades(-3, -1, 1, "*p*");
+    let share = Axis::linear(0.0, TOP, 0.2, 2, "share of the five classes");
+    let whole = sheet.lettered(LETTERS[0], Frame::new(1150, 480, 4250, 3380), x, share)?;
     let mut entries = Vec::new();
     for (own, dash) in orders.shares.iter().zip(LOOKS) {
         let points: Vec<_> = own.rows.iter().map(|row| (row.x, row.y)).collect();
-        // Colours are the classes of (a).
         let stroke = Stroke::dashed(INK, LINE, dash);
         whole.curve(&format!("K = {}", own.k), &points, stroke, Outside::Cut)?;
         entries.push(Entry::line(stroke, &format!("of *K* = {} vertices", own.k)));
@@ -40,11 +27,9 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     let all = Stroke::solid(RED, LINE);
     whole.curve("all circuits", &points, all, Outside::Refuse)?;
     entries.push(Entry::line(all, "of all circuits"));
-    for panel in [&classes, &whole] {
-        guide(panel, orders.pole, "1/*N*", HPos::Right)?;
-        guide(panel, theory.scalars.p_jump, "*p*_{jump}", HPos::Left)?;
-    }
-    sheet.legend((4480, 5200), (SMALL, 400), &entries)?;
+    guide(&whole, orders.pole, "1/*N*", HPos::Right)?;
+    guide(&whole, theory.scalars.p_jump, "*p*_{jump}", HPos::Left)?;
+    sheet.legend((4480, 1000), (SMALL, 400), &entries)?;
     distributions(&sheet, theory)?;
     Ok(sheet.finish("s07", "Circuits of all orders", description(theory)))
 }
@@ -62,7 +47,7 @@ fn distributions(sheet: &Sheet, theory: &Theory) -> Result<(), Error> {
     let n = theory.vertices as f64;
     let x = Axis::linear(0.0, n + 1.0, 20.0, 2, "*k*");
     let y = Axis::decades(-4, 0, 1, "*P*(*X* = *k*)");
-    let panel = sheet.lettered(LETTERS[2], Frame::new(1150, 8880, 8150, 10_780), x, y)?;
+    let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 4680, 8150, 6580), x, y)?;
     let look = |mark, colour| (mark, 42, Stroke::solid(colour, THIN));
     let series = [
         ("simple circuits", &orders.simple_at_jump, look(Mark::Ring, GREEN)),
@@ -75,15 +60,14 @@ fn distributions(sheet: &Sheet, theory: &Theory) -> Result<(), Error> {
         let (name, _, look) = series[i];
         Entry::mark(look, &format!("{name} at *p* = {}", short(p, 4)))
     };
-    sheet.legend((700, 11_750), (SMALL, 400), &[entry(0, theory.scalars.p_jump)])?;
-    sheet.legend((4400, 11_750), (SMALL, 400), &[entry(1, orders.jump.p)])
+    sheet.legend((700, 7550), (SMALL, 400), &[entry(0, theory.scalars.p_jump)])?;
+    sheet.legend((4400, 7550), (SMALL, 400), &[entry(1, orders.jump.p)])
 }
 
 fn description(theory: &Theory) -> String {
     format!(
-        "(a) Shares of the five classes against p, N = {}: simple circuits give way to those with two vertices twice. (b) Share of \
-         the five classes among all circuits with K vertices, falling from one to zero at p = 1/K. (c) P(X = k) at the jump: \
-         two humps with simple circuits, with all circuits a trough.",
+        "(a) Share of the five classes among all circuits, and among those with K vertices, against p, N = {}: it falls from one to \
+         zero at p = 1/K. (b) P(X = k) at the jump: two humps with simple circuits, with all circuits a trough.",
         theory.vertices,
     )
 }

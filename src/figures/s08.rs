@@ -1,17 +1,16 @@
-//! Fig. S8: how hot a running chain is, and what that does to p.
+//! Fig. S8: how hot a running chain is.
 
 use super::prelude::*;
 use super::{FORCING, SIGMA};
 use crate::experiments::Results;
-use crate::experiments::heat::tables::{balanced_p, balanced_ratio};
-use crate::experiments::theory::Theory;
+use crate::experiments::heat::tables::balanced_ratio;
 use crate::params::HeatParams;
 use crate::table::Table;
 
 /// The free parts of a chain that starts from rest, over σ², in the mean: (1 + (Ω/ω)²)/2.
 const FROM_REST: f64 = 1.5;
 
-/// The σ of (a) and (c).
+/// The σ of (a).
 const SIGMAS: (f64, f64) = (0.05, 0.45);
 
 /// The balance where impacts are frequent.
@@ -20,7 +19,6 @@ const FRICTION: (&str, Stroke) = ("with friction", Stroke::solid(PURPLE, LINE));
 /// What is drawn.
 struct Shown<'a> {
     parameters: &'a HeatParams,
-    theory: &'a Theory,
     rising: &'a Table,
     others: &'a Table,
 }
@@ -30,14 +28,12 @@ pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
     let table = |name| results.table(name);
     let shown = Shown {
         parameters: &results.heat()?.parameters,
-        theory: &results.theory,
         rising: table("heat.rising")?,
         others: table("heat.others")?,
     };
-    let sheet = Sheet::new(9700, note)?;
+    let sheet = Sheet::new(9900, note)?;
     against_sigma(&sheet, &shown)?;
     against_restitution(&sheet, &shown)?;
-    probabilities(&sheet, &shown)?;
     Ok(sheet.finish("s08", "How hot a running chain is", description(&shown)))
 }
 
@@ -68,13 +64,13 @@ fn against_sigma(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
         entries.push(Entry::mark(look, name));
     }
     entries.push(Entry::line(FRICTION.1, FRICTION.0));
-    sheet.legend_in_columns((2700, 600), (SMALL, 350), (3, 2950), &entries)
+    sheet.legend_in_columns((1150, 4950), (SMALL, 350), (3, 3700), &entries)
 }
 
 fn against_restitution(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
     let x = Axis::linear(0.4, 1.0, 0.2, 4, "restitution *r*");
     let y = Axis::decades(0, 2, 1, "*s*^{2}/*σ*^{2}");
-    let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 5250, 4050, 7650), x, y)?;
+    let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 6550, 8150, 8950), x, y)?;
     let line = Stroke::solid(INK, LINE);
     let curve: Vec<_> = balanced_ratio(shown.parameters).into_iter().collect();
     panel.curve("balance of rare impacts", &curve, line, Outside::Cut)?;
@@ -88,40 +84,14 @@ fn against_restitution(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
         Entry::line(FRICTION.1, FRICTION.0),
         Entry::mark(look, "masses that are hit"),
     ];
-    sheet.legend((900, 8750), (SMALL, 370), &entries)
-}
-
-fn probabilities(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
-    let x = Axis::linear(SIGMAS.0, SIGMAS.1, 0.1, 2, "*σ*").column(SIGMA);
-    let y = Axis::decades(-5, 0, 1, "*p*");
-    let panel = sheet.lettered(LETTERS[2], Frame::new(5350, 5250, 8150, 7650), x, y)?;
-    let relation = shown.theory.relation.iter().filter(|row| row.p > 0.0);
-    let (eq25, rest): (Vec<_>, Vec<_>) =
-        relation.map(|row| ((row.sigma, row.p), (row.sigma, row.p_rest))).unzip();
-    let hot: Vec<_> = balanced_p(shown.parameters).into_iter().collect();
-    let lines = [
-        ("Eq. (25)", eq25, Stroke::dashed(BLUE, LINE, Dash::Short)),
-        ("from rest", rest, Stroke::dashed(GREEN, LINE, Dash::Long)),
-        ("balanced", hot, Stroke::solid(INK, LINE)),
-    ];
-    let mut entries = Vec::new();
-    for (name, points, stroke) in lines {
-        panel.curve(name, &points, stroke, Outside::Cut)?;
-        entries.push(Entry::line(stroke, name));
-    }
-    let measured = shown.rising.points(&[], "sigma", "p_measured");
-    let look = (Mark::Disc, LARGE, Stroke::solid(RED, THIN));
-    panel.marks("measured", &measured, look, Outside::Cut)?;
-    entries.push(Entry::mark(look, "measured"));
-    sheet.legend_in_columns((4850, 8750), (SMALL, 370), (2, 1750), &entries)
+    sheet.legend((4800, 8050), (SMALL, 370), &entries)
 }
 
 fn description(shown: &Shown<'_>) -> String {
     let last = shown.rising.points(&[], "sigma", "variance_ratio_of_hit").pop();
     format!(
         "(a) Variance of the free amplitudes over that of the force against σ falls{}, below the level of rare \
-         impacts. (b) The same against r, below a curve without bound towards r = 1. (c) The probability p against σ: measured \
-         points go from the start from rest to the balanced variance.",
+         impacts. (b) The same against r, below a curve without bound towards r = 1.",
         last.map_or(String::new(), |(sigma, own)| format!(", to {} at σ = {sigma}", short(own, 3))),
     )
 }

@@ -20,7 +20,7 @@ pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
     let table = |name| results.table(name);
     let (near, frequencies) = (table("independence.near")?, table("independence.circuits")?);
     let (blocks, rising) = (table("independence.different")?, table("independence.rising")?);
-    let sheet = Sheet::new(9350, note)?;
+    let sheet = Sheet::new(8700, note)?;
     distances(&sheet, near)?;
     circuits(&sheet, frequencies)?;
     different(&sheet, blocks, *rising.values("gaps").first().unwrap_or(&1.0))?;
@@ -76,25 +76,14 @@ fn circuits(sheet: &Sheet, found: &Table) -> Result<(), Error> {
     };
     let equal = found.values("sigma").first().map(|sigma| points(*sigma, "equal"));
     panel.curve("equal and independent", &equal.unwrap_or_default(), line, Outside::Cut)?;
-    let mut lines = vec![Entry::line(line, "equal and independent")];
-    let mut marks = Vec::new();
+    let mut entries = vec![Entry::line(line, "equal and independent")];
     for (sigma, (mark, colour)) in ends(found) {
         let thin = Stroke::solid(colour, THIN);
-        let dashed = matrix(colour);
-        let name = format!("measured matrix, {}", named(sigma));
-        panel.curve(&name, &points(sigma, "matrix"), dashed, Outside::Cut)?;
-        lines.push(Entry::line(dashed, &name));
         let look = (mark, MEDIUM * 2 / 3, thin);
         panel.marks(&named(sigma), &points(sigma, "measured"), look, Outside::Cut)?;
-        marks.push(Entry::mark((mark, MEDIUM, thin), &format!("measured, {}", named(sigma))));
+        entries.push(Entry::mark((mark, MEDIUM, thin), &format!("measured, {}", named(sigma))));
     }
-    sheet.legend((500, 8420), (SMALL, 340), &lines)?;
-    sheet.legend((4950, 8420), (SMALL, 340), &marks)
-}
-
-/// The line of the measured transition matrix.
-fn matrix(colour: Colour) -> Stroke {
-    Stroke::dashed(colour, THIN, Dash::Short)
+    sheet.legend_in_columns((500, 8420), (SMALL, 340), (1, 3000), &entries)
 }
 
 fn different(sheet: &Sheet, found: &Table, gaps: f64) -> Result<(), Error> {
@@ -110,8 +99,6 @@ fn different(sheet: &Sheet, found: &Table, gaps: f64) -> Result<(), Error> {
         panel.curve("equal and independent", &points(*sigma, "equal"), line, Outside::Cut)?;
     }
     for (sigma, (mark, colour)) in ends(found) {
-        let name = format!("measured matrix, {}", named(sigma));
-        panel.curve(&name, &points(sigma, "matrix"), matrix(colour), Outside::Cut)?;
         let look = (mark, MEDIUM, Stroke::solid(colour, THIN));
         panel.marks(&named(sigma), &points(sigma, "measured"), look, Outside::Cut)?;
     }
@@ -123,7 +110,7 @@ fn description(rising: &Table) -> String {
     format!(
         "(a) Successions over those of independent impacts: none at distance 0, few at 1, near one beyond. (b) Share of circuits of \
          length k: below equal gaps for short ones, far above for long ones, of mean length {} for {}. (c) Different gaps among m \
-         impacts: points above the dashed curves.",
+         impacts: points below the curve for the smallest σ, and above it for the largest.",
         last("length"),
         last("length_equal"),
     )

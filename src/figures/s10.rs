@@ -1,11 +1,10 @@
-//! Fig. S10: the rise, the heat and contact at several restitutions.
+//! Fig. S10: the rise and the heat at several restitutions.
 
 use super::prelude::*;
 use super::{FORCING, SIGMA};
 use crate::experiments::Results;
 use crate::experiments::restitution::Restitution;
 use crate::experiments::restitution::hot::steady;
-use crate::experiments::restitution::tables::able;
 use crate::params::Chain;
 use crate::table::Table;
 
@@ -19,9 +18,9 @@ const RISES: [(f64, Mark, Colour); 5] = [
 ];
 
 /// The σ of (c), and their looks.
-const WARM: [(f64, Mark, Colour); 2] = [(0.15, Mark::Disc, RED), (0.3, Mark::Ring, BLUE)];
+const WARM: [(f64, Mark, Colour); 2] = [(0.15, Mark::Disc, RED), (0.3, Mark::OpenSquare, BLUE)];
 
-/// Looks of the r of (d), the last one first, and of (e), by rising r.
+/// Looks of the r of (d), the last one first.
 const LOOKS: [(Mark, Colour); 4] = [
     (Mark::Disc, RED),
     (Mark::OpenSquare, ORANGE),
@@ -46,13 +45,12 @@ pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
         curves: table("restitution.curves")?,
         heating: table("restitution.heating")?,
     };
-    let sheet = Sheet::new(14_000, note)?;
+    let sheet = Sheet::new(12_850, note)?;
     rises(&sheet, &shown)?;
     places(&sheet, &shown)?;
     warmth(&sheet, &shown)?;
     heating(&sheet, &shown)?;
-    contact(&sheet, &shown)?;
-    let title = "The rise, the heat and contact at several restitutions";
+    let title = "The rise and the heat at several restitutions";
     Ok(sheet.finish("s10", title, description(&shown)))
 }
 
@@ -67,7 +65,7 @@ fn rises(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
     let y = Axis::linear(0.0, 105.0, 20.0, 4, "mean count");
     let panel = sheet.lettered("(a)", Frame::new(1150, 430, 8150, 3230), x, y)?;
     let half = Stroke::dashed(INK, THIN, Dash::Short);
-    let level = [(0.05, 0.5 * gaps), (0.4, 0.5 * gaps)];
+    let level = [(0.05, 0.5 * gaps), (last + 0.02, 0.5 * gaps)];
     panel.guide("half of all gaps", &level, half)?;
     let mut entries = Vec::new();
     for (r, mark, colour) in RISES {
@@ -79,7 +77,7 @@ fn rises(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
         panel.joined(&named(r), &points, look)?;
         entries.push(Entry::mark(look, &named(r)));
     }
-    sheet.legend((6350, 1750), (SMALL, 310), &entries)
+    sheet.legend_in_columns((5000, 2150), (SMALL, 340), (3, 1500), &entries)
 }
 
 fn places(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
@@ -133,17 +131,10 @@ fn little(colour: Colour) -> Stroke {
     Stroke::dashed(colour, THIN, Dash::Long)
 }
 
-/// A line's entry above those of marks, which stand in two columns.
-fn legend(sheet: &Sheet, left: i32, line: Entry, marks: &[Entry]) -> Result<(), Error> {
-    sheet.legend((left, 12_850), (SMALL, 340), &[line])?;
-    let columns = (marks.len().div_ceil(2), 1650);
-    sheet.legend_in_columns((left, 13_190), (SMALL, 340), columns, marks)
-}
-
 fn heating(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
     let x = Axis::decades(1, 4, 1, "time *t* (1/*ω*)");
     let y = Axis::decades(1, 3, 1, "impacts per unit time");
-    let panel = sheet.lettered("(d)", Frame::new(1150, 9400, 4150, 11_900), x, y)?;
+    let panel = sheet.lettered("(d)", Frame::new(1150, 9400, 8150, 11_900), x, y)?;
     // A window stands at its middle on the logarithmic axis; the first has none.
     let ends = shown.heating.values("window_end");
     let middle = |end: f64| {
@@ -164,25 +155,8 @@ fn heating(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
         panel.estimates(&named(r), &points, look)?;
         entries.push(Entry::mark(look, &named(r)));
     }
-    legend(sheet, 900, Entry::line(solid, "expected at *r* = 1"), &entries)
-}
-
-fn contact(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
-    let x = Axis::linear(0.1, 0.65, 0.1, 2, "*σ*").column(SIGMA);
-    let y = Axis::decades(-4, 0, 1, "share of gaps");
-    let panel = sheet.lettered("(e)", Frame::new(5350, 9400, 8150, 11_900), x, y)?;
-    let solid = Stroke::solid(INK, LINE);
-    let sigmas = (20..=120).map(|i| f64::from(i) / 200.0);
-    let curve: Vec<_> = sigmas.map(|x| (x, able(&shown.found.parameters, x))).collect();
-    panel.curve("can be pressed", &curve, solid, Outside::Cut)?;
-    let mut entries = Vec::new();
-    for (r, (mark, colour)) in shown.rise.values("r").into_iter().zip(LOOKS) {
-        let points = shown.rise.estimates(&[("r", r)], "sigma", "share_in_contact");
-        let look = (mark, MEDIUM, Stroke::solid(colour, THIN));
-        panel.estimates(&named(r), &points, look)?;
-        entries.push(Entry::mark(look, &named(r)));
-    }
-    legend(sheet, 4950, Entry::line(solid, "|Δ*F*| > *dω*^{2}"), &entries)
+    entries.insert(0, Entry::line(solid, "expected at *r* = 1"));
+    sheet.legend((5950, 9700), (SMALL, 340), &entries)
 }
 
 fn description(shown: &Shown<'_>) -> String {
@@ -192,8 +166,7 @@ fn description(shown: &Shown<'_>) -> String {
     };
     format!(
         "(a) Mean count against σ: the smaller r, the later it rises. (b) Half height, from {} to {}. (c) s²/σ² against 1 − r, below the \
-         line of rare impacts. (d) Impacts per time in windows that double: level, but for r = 1. (e) Gaps in contact against \
-         σ.",
+         line of rare impacts. (d) Impacts per time in windows that double: level, but for r = 1.",
         end(halves.first()),
         end(halves.last()),
     )

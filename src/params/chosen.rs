@@ -45,12 +45,6 @@ pub const LARGE_VERTICES: [usize; 11] =
 /// Those of them whose k* is drawn against p N (ours).
 pub const DRAWN_VERTICES: [usize; 3] = [100, 10_000, 1_000_000];
 
-/// Numbers of vertices at which N − X is set against a Poisson variable (ours).
-pub const POISSON_VERTICES: [usize; 5] = [100, 1000, 10_000, 100_000, 1_000_000];
-
-/// Values of p N for that (ours: beyond the jump of N = 100, which is at 1.3).
-pub const POISSON_P_N: [f64; 4] = [1.5, 2.0, 5.0, 10.0];
-
 /// How many edges more than a simple circuit others may have, while orders are added (ours).
 pub const ORDERS: [usize; 10] = [0, 1, 2, 3, 5, 10, 20, 50, 100, 500];
 

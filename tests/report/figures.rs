@@ -202,11 +202,18 @@ fn axes_carry_their_labels() {
         (27, &["horizon t", "error of the next impact", "measured µs per impact"]),
         (28, &["number of masses n", "evaluations per impact", "measured µs per impact"]),
         (17, &["gap", "time t (1/ω)", "impact", "no neighbour was hit before"]),
+        (21, &["p N", "k^∗/N", "N = 10^6", "k^∗/N at the jump", "exact"]),
         (
-            21,
-            &["p N", "k^∗/N", "N = 10^6", "k^∗/N at the jump", "distance from Poisson", "p N = 10"],
+            22,
+            &[
+                "share of the five classes",
+                "p",
+                "1/N",
+                "p_jump",
+                "of all circuits",
+                "all circuits at p = 0.009995",
+            ],
         ),
-        (22, &["share", "p", "1/N", "p_jump", "of all circuits", "all circuits at p = 0.009995"]),
         (29, &["relative error", "number of vertices N", "closed form", "log-gamma"]),
     ];
     for (number, words) in expected {
@@ -294,7 +301,7 @@ fn data_files_have_headers_with_units_and_the_rows_of_what_is_drawn() {
         ("fig09b-inset.csv", theory.most_likely.mean_inset.len()),
         ("fig14b.csv", 2 * n),
         ("fig15-inset.csv", theory.curve.rows.iter().filter(|row| row.sigma <= 0.4).count()),
-        ("s07c.csv", 2 * n),
+        ("s07b.csv", 2 * n),
     ] {
         assert_eq!(rows.get(name).map(Vec::len), Some(expected), "{name}");
     }

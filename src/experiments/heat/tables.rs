@@ -9,7 +9,7 @@ use crate::circuits::jump;
 use crate::numerics::bisection;
 use crate::numerics::estimates::{average, jackknife, ratio, sums};
 use crate::numerics::statistics::{Estimate, mean};
-use crate::params::{Chain, HeatParams, HeatRow, PRINTED_THRESHOLD};
+use crate::params::{Chain, HeatParams, HeatRow};
 use crate::table::Table;
 
 /// One ensemble.
@@ -80,16 +80,6 @@ fn ensembles_by(
         .real("imbalance", "1", 1, "change of energy less what impacts gave, over what they took; none with lasting contact", Row::imbalance)
         .estimate("mean_count", "1", "different gaps with an impact", |row| row.mean(|run| run.distinct as f64))
         .count("impacts", "impacts of two masses in the window", |row| row.sum(|run| run.impacts))
-        .real("p", "1", 2, "Eq. (25)", |row| number(gap(&row.chain, row.row.sigma).and_then(|gap| gap.p())))
-        .same("p", |row| match row.row.sigma {
-            PRINTED_THRESHOLD => Some("theory.gap[sigma=0.12].p".into()),
-            0.15 if row.row.restitution == Chain::default().restitution => Some("theory.gap[sigma=0.15].p".into()),
-            _ => None,
-        })
-        .real("p_rest", "1", 2, "p for a start from rest", |row| {
-            number(gap(&row.chain, row.row.sigma).and_then(|gap| gap.p_from_rest()))
-        })
-        .same("p_rest", |row| (row.row.sigma == PRINTED_THRESHOLD).then(|| "theory.gap[sigma=0.12].p_rest".into()))
         .real("p_balanced", "1", 2, "p with free parts as hot as the balance says", |row| {
             number(variance_ratio(&row.chain).and_then(|ratio| balanced(&row.chain, row.row.sigma, ratio)))
         })
@@ -145,13 +135,6 @@ fn sigma_jump(chain: &Chain) -> Result<f64, circuits::Error> {
     let ratio = variance_ratio(chain)?;
     let reaches = |sigma: f64| balanced(chain, sigma, ratio).unwrap_or(0.0) >= jump;
     Ok(bisection::bracket(0.0, 1.0, reaches)[1])
-}
-
-/// (σ, p) with the balanced variance, to be drawn.
-pub fn balanced_p(parameters: &HeatParams) -> Vec<(f64, f64)> {
-    let chain = &parameters.chain;
-    let at = |sigma| Some((sigma, balanced(chain, sigma, variance_ratio(chain).ok()?).ok()?));
-    (10..=90).filter_map(|i| at(f64::from(i) / 200.0)).collect()
 }
 
 /// (r, s²/σ²) by the balance of rare impacts, to be drawn.

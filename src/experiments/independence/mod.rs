@@ -1,13 +1,12 @@
 //! Are impacts independent: sequences of impacts beside the fully connected graph of Secs. 3 to 6.
 
 mod succession;
-mod surrogate;
 pub mod tables;
 
 use super::{Error, Progress, weights};
 use crate::dynamics::{self, Engine, Scenario};
 use crate::numerics::random::{NormalPairs, generator};
-use crate::params::{Chain, IndependenceParams, IndependenceRow};
+use crate::params::IndependenceParams;
 use literate::experiments::cutting::{Cutting, Row, Unit};
 use literate::experiments::progress::Stage;
 use serde::{Deserialize, Serialize};
@@ -27,8 +26,6 @@ pub struct Independence {
 pub struct Run {
     /// Impacts of each gap.
     hits: Vec<u64>,
-    /// How many cells of the transition matrix have which count.
-    histogram: Vec<[u64; 2]>,
     /// Impacts by distance to the gap of the next.
     distances: Vec<u64>,
     /// Information of an impact about the next in nats: measured, and shuffled.
@@ -39,14 +36,8 @@ pub struct Run {
     circuits: Vec<u64>,
     /// Of the short circuits those that pass by a neighbour of their first gap.
     passing: u64,
-    /// Circuits i → j → i, and pairs of them that are the same.
-    returns: [u64; 2],
-    /// Circuits of a Markov chain with the measured transition matrix.
-    markov: Vec<u64>,
     /// For each number of impacts: different gaps, and blocks.
     distinct: Vec<[u64; 2]>,
-    /// Different gaps of the Markov chain.
-    distinct_markov: Vec<u64>,
 }
 
 /// What became of a realisation.
@@ -76,27 +67,19 @@ fn join(
     Ok(Independence { parameters: parameters.clone(), rows })
 }
 
-fn chain(parameters: &IndependenceParams, row: &IndependenceRow) -> Chain {
-    Chain { masses: row.masses, ..parameters.chain.clone() }
-}
-
 /// Numbers of successive impacts of which the different gaps are counted.
 fn blocks(parameters: &IndependenceParams, big_n: usize) -> impl Iterator<Item = usize> {
     (1..=parameters.quarters).map(move |i| (i * big_n / 4).max(1))
 }
 
-fn weight(parameters: &IndependenceParams, row: &IndependenceRow) -> u64 {
-    let protocol = parameters.protocol;
-    weights::run(&chain(parameters, row), row.sigma, protocol.transient + 2.0 * protocol.window)
-}
-
 fn rows(parameters: &IndependenceParams) -> Vec<Row> {
-    let row = |row: &IndependenceRow| Row {
-        covers: format!("n = {}, sigma = {}", row.masses, row.sigma),
+    let protocol = parameters.protocol;
+    let row = |&sigma: &f64| Row {
+        covers: format!("sigma = {sigma}"),
         realisations: parameters.realisations,
-        weight: weight(parameters, row),
+        weight: weights::run(&parameters.chain, sigma, protocol.transient + 2.0 * protocol.window),
     };
-    parameters.rows.iter().map(row).collect()
+    parameters.sigmas.iter().map(row).collect()
 }
 
 fn part(
@@ -105,20 +88,19 @@ fn part(
     stage: &Stage,
     progress: &Progress,
 ) -> Result<Part, Error> {
-    let row = &parameters.rows[unit.row];
-    unit.each(stage, |index| realisation(parameters, row, index, progress))
+    let sigma = parameters.sigmas[unit.row];
+    unit.each(stage, |index| realisation(parameters, sigma, index, progress))
 }
 
 fn fits(parameters: &IndependenceParams, unit: &Unit, outcomes: &Part) -> bool {
-    let big_n = chain(parameters, &parameters.rows[unit.row]).gaps();
+    let big_n = parameters.chain.gaps();
     let fits = |outcome: &Outcome| match outcome {
         Outcome::Failed | Outcome::Quiet => true,
         Outcome::Ran(run) => {
-            let lists = [&run.hits, &run.distances, &run.circuits, &run.markov];
-            let numbers = parameters.quarters;
+            let lists = [&run.hits, &run.distances, &run.circuits];
             lists.into_iter().all(|list| list.len() == big_n)
                 && run.hits.iter().sum::<u64>() > 1
-                && (run.distinct.len(), run.distinct_markov.len()) == (numbers, numbers)
+                && run.distinct.len() == parameters.quarters
         }
     };
     outcomes.len() == unit.realisations.len() && outcomes.iter().all(fits)
@@ -126,13 +108,13 @@ fn fits(parameters: &IndependenceParams, unit: &Unit, outcomes: &Part) -> bool {
 
 fn realisation(
     parameters: &IndependenceParams,
-    row: &IndependenceRow,
+    sigma: f64,
     index: u64,
     progress: &Progress,
 ) -> Result<Outcome, Error> {
     progress.check()?;
     let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, index);
-    let scenario = Scenario::draw(&chain(parameters, row), row.sigma, &mut normals);
+    let scenario = Scenario::draw(&parameters.chain, sigma, &mut normals);
     let fault = |source| Error::failed("independence", source);
     let mut engine = Engine::new(&scenario).map_err(fault)?;
     let mut gaps = Vec::new();
@@ -158,23 +140,15 @@ fn counted(parameters: &IndependenceParams, gaps: &[usize], big_n: usize, index:
     let mut random = generator(&name, parameters.seed, index);
     let hits = hits(gaps, big_n);
     let matrix = Matrix::new(gaps, big_n);
-    let shuffled = surrogate::shuffled(gaps, &mut random);
-    let markov = surrogate::markov(gaps, big_n, &mut random);
-    let circuits = |gaps| succession::circuits(gaps, big_n, IndependenceParams::SHORT);
-    let own = circuits(gaps);
+    let shuffled = succession::shuffled(gaps, &mut random);
+    let circuits = succession::circuits(gaps, big_n, IndependenceParams::SHORT);
     Run {
-        histogram: matrix.histogram(),
         distances: matrix.distances(),
         information: [matrix.information(&hits), Matrix::new(&shuffled, big_n).information(&hits)],
         next: next(gaps, big_n),
-        circuits: own.lengths,
-        passing: own.passing,
-        returns: own.returns,
-        markov: circuits(&markov).lengths,
+        circuits: circuits.lengths,
+        passing: circuits.passing,
         distinct: blocks(parameters, big_n).map(|m| distinct(gaps, big_n, m)).collect(),
-        distinct_markov: blocks(parameters, big_n)
-            .map(|m| distinct(&markov, big_n, m)[0])
-            .collect(),
         hits,
     }
 }

@@ -1,5 +1,7 @@
 //! What can be counted in a sequence of impacts: a list of gaps, in the order of time.
 
+use rand::Rng;
+
 /// How often each gap follows each other one. The last impact is followed by the first, so that each
 /// gap is left as often as it is reached.
 pub struct Matrix {
@@ -29,11 +31,6 @@ impl Matrix {
         sum / all
     }
 
-    /// How many cells have which count, by rising counts above zero: [count, cells].
-    pub fn histogram(&self) -> Vec<[u64; 2]> {
-        tallied(self.cells.iter().copied().filter(|&n| n > 0).collect())
-    }
-
     /// Impacts by the distance |i − j| from their gap to that of the next.
     pub fn distances(&self) -> Vec<u64> {
         let mut distances = vec![0; self.big_n];
@@ -42,12 +39,6 @@ impl Matrix {
         }
         distances
     }
-}
-
-/// [value, how often], by rising values.
-fn tallied(mut values: Vec<u64>) -> Vec<[u64; 2]> {
-    values.sort_unstable();
-    values.chunk_by(|a, b| a == b).map(|same| [same[0], same.len() as u64]).collect()
 }
 
 /// Impacts of each gap.
@@ -80,14 +71,12 @@ pub struct Circuits {
     /// Of those with 2 ≤ k ≤ the length that is called short: how many pass by a neighbour of their first
     /// gap.
     pub passing: u64,
-    /// Circuits i → j → i, and pairs of them that are the same: Σ c (c − 1).
-    pub returns: [u64; 2],
 }
 
 /// The simple circuits of a sequence.
 pub fn circuits(gaps: &[usize], big_n: usize, short: usize) -> Circuits {
     let mut lengths = vec![0; big_n];
-    let (mut passing, mut pairs) = (0, Vec::new());
+    let mut passing = 0;
     let mut again = vec![usize::MAX; big_n];
     // The first time at which a gap comes that came since the time that is looked at.
     let mut closed = usize::MAX;
@@ -101,14 +90,9 @@ pub fn circuits(gaps: &[usize], big_n: usize, short: usize) -> Circuits {
             passing += u64::from(
                 (2..=short).contains(&k) && between.iter().any(|other| other.abs_diff(gap) == 1),
             );
-            if let [other] = between {
-                pairs.push((gap.min(*other) * big_n + gap.max(*other)) as u64);
-            }
         }
     }
-    let all = pairs.len() as u64;
-    let same = tallied(pairs).iter().map(|[_, n]| n * (n - 1)).sum();
-    Circuits { lengths, passing, returns: [all, same] }
+    Circuits { lengths, passing }
 }
 
 /// Different gaps in each block of m successive impacts, added up, and the number of blocks.
@@ -124,9 +108,21 @@ pub fn distinct(gaps: &[usize], big_n: usize, m: usize) -> [u64; 2] {
     [different, blocks]
 }
 
+/// The same gaps in random order: independent impacts with the same frequencies.
+pub fn shuffled(gaps: &[usize], random: &mut impl Rng) -> Vec<usize> {
+    let mut gaps = gaps.to_vec();
+    for last in (1..gaps.len()).rev() {
+        // Multiply and shift: unbiased to 2^−64 · (last + 1), and the same on every machine.
+        let place = (u128::from(random.next_u64()) * (last as u128 + 1)) >> 64;
+        gaps.swap(last, place as usize);
+    }
+    gaps
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numerics::random::generator;
 
     const GAPS: [usize; 10] = [0, 1, 0, 0, 3, 2, 1, 3, 2, 3];
 
@@ -137,14 +133,13 @@ mod tests {
         let matrix = Matrix::new(&GAPS, 4);
         // 01 10 00 03 32 21 13 32 23, and 30 around the end.
         assert_eq!(matrix.cells, [1, 1, 0, 1, 1, 0, 0, 1, 0, 1, 0, 1, 1, 0, 2, 0]);
-        assert_eq!(matrix.histogram(), [[1, 8], [2, 1]]);
         assert_eq!(matrix.distances(), [1, 6, 1, 2]);
         // In order: right, left, same, right, left, left, right, left, right, and none for the last.
         assert_eq!(next(&GAPS, 4), [4, 1, 4]);
         // 010, 00, 3213, 2132 and 323; from 1 on the 0 comes again first.
         let found = circuits(&GAPS, 4, 3);
         assert_eq!(found.lengths, [1, 2, 2, 0]);
-        assert_eq!((found.passing, found.returns), (4, [2, 0]));
+        assert_eq!(found.passing, 4);
         assert_eq!(distinct(&GAPS, 4, 5), [6, 2]);
         assert_eq!(distinct(&GAPS, 4, 3), [2 + 3 + 3, 3]);
     }
@@ -159,16 +154,29 @@ mod tests {
         let all = GAPS.len() as f64;
         let x_log = |n: u64| n as f64 * (n as f64).ln();
         let single: f64 = hits(&GAPS, 4).into_iter().map(x_log).sum();
-        let pairs = Matrix::new(&GAPS, 4).histogram();
-        let pairs: f64 = pairs.iter().map(|[n, cells]| *cells as f64 * x_log(*n)).sum();
+        let pairs = Matrix::new(&GAPS, 4).cells.into_iter().filter(|n| *n > 0);
+        let pairs: f64 = pairs.map(x_log).sum();
         let expected = (pairs - 2.0 * single) / all + all.ln();
         assert!((of(&GAPS, 4) - expected).abs() < 1e-14);
     }
 
     #[test]
-    fn the_same_pair_is_the_same_from_both_ends() {
-        let found = circuits(&[4, 5, 4, 5, 4], 9, 10);
-        assert_eq!((found.returns, found.passing), ([3, 6], 3));
+    fn only_neighbours_are_passed_by() {
+        assert_eq!(circuits(&[4, 5, 4, 5, 4], 9, 10).passing, 3);
         assert_eq!(circuits(&[4, 7, 4], 9, 10).passing, 0);
+    }
+
+    #[test]
+    fn a_shuffled_sequence_has_the_same_gaps_elsewhere() {
+        let gaps: Vec<usize> = (0..500).map(|i| i % 7).collect();
+        let mut other = shuffled(&gaps, &mut generator("test", 1, 0));
+        assert_ne!(other, gaps);
+        // All places alike: of 500, those of gap 0 in the first half are some 36 of 72.
+        let early = other[..250].iter().filter(|&&gap| gap == 0).count();
+        assert!((20..=52).contains(&early), "{early}");
+        other.sort_unstable();
+        let mut sorted = gaps;
+        sorted.sort_unstable();
+        assert_eq!(other, sorted);
     }
 }

@@ -1,12 +1,12 @@
 //! What follows from the counts. Estimates are ratios of sums over realisations, with errors by the jackknife.
 
-use super::{Independence, Outcome, Run, blocks, chain};
+use super::{Independence, Outcome, Run, blocks};
 use crate::circuits::distribution::SampleSpace;
 use crate::circuits::{commuting, jump};
 use crate::numerics::estimates::{jackknife, ratio, sums, with_error};
 use crate::numerics::statistics::Estimate;
-use crate::params::{IndependenceParams, IndependenceRow, VERTICES};
-use crate::table::{Building, Table};
+use crate::params::{IndependenceParams, VERTICES};
+use crate::table::Table;
 
 /// Gaps of the graph whose circuits are enumerated.
 const ENUMERATED: usize = 7;
@@ -23,7 +23,7 @@ const SIGMA: &str = "d omega^2";
 
 /// One ensemble.
 pub(super) struct Row<'a> {
-    row: &'a IndependenceRow,
+    sigma: f64,
     /// Number of gaps N.
     gaps: usize,
     runs: Vec<&'a Run>,
@@ -36,44 +36,30 @@ pub(super) struct Row<'a> {
     blocks: Vec<usize>,
 }
 
-/// All tables: those by σ have the paper's chain, and one has shorter chains.
+/// All tables.
 pub fn tables(found: &Independence) -> Vec<Table> {
     let parameters = &found.parameters;
-    let (mut rising, mut shorter) = (Vec::new(), Vec::new());
-    for (row, part) in parameters.rows.iter().zip(&found.rows) {
+    let gaps = parameters.chain.gaps();
+    let mut rows = Vec::new();
+    for (&sigma, part) in parameters.sigmas.iter().zip(&found.rows) {
         let mut runs: Vec<&Run> = Vec::new();
         for outcome in part {
             if let Outcome::Ran(run) = outcome {
                 runs.push(run);
             }
         }
-        let gaps = chain(parameters, row).gaps();
         let impacts = runs.iter().map(|run| total(&run.hits)).collect();
         let blocks = blocks(parameters, gaps).collect();
-        let list = if row.masses == parameters.chain.masses { &mut rising } else { &mut shorter };
-        list.push(Row { row, gaps, runs, impacts, equal: equal(gaps), blocks });
+        rows.push(Row { sigma, gaps, runs, impacts, equal: equal(gaps), blocks });
     }
-    let by_sigma = Table::of("independence.rising", &rising, |row| row.runs.len())
-        .key("sigma", SIGMA, |row| row.row.sigma)
-        .count("masses", "", |row| row.row.masses as u64);
-    let by_length = Table::of("independence.shorter", &shorter, |row| row.runs.len())
-        .key("masses", "1", |row| row.row.masses as f64)
-        .chosen("sigma", SIGMA, "", |row| Some(row.row.sigma));
-    vec![
-        ensembles(by_sigma),
-        ensembles(by_length),
-        near(&rising),
-        circuits(&rising),
-        different(&rising),
-        orders(),
-        all(parameters),
-    ]
+    vec![rising(&rows), near(&rows), circuits(&rows), different(&rows), orders(), all(parameters)]
 }
 
-/// Everything of one ensemble.
-fn ensembles<'a>(begun: Building<'a, Row<'a>>) -> Table {
+/// Each σ.
+fn rising(rows: &[Row<'_>]) -> Table {
     let short = |row: &Row<'_>, counts: &[u64]| total(&counts[1..row.short()]);
-    begun
+    Table::of("independence.rising", rows, |row| row.runs.len())
+        .key("sigma", SIGMA, |row| row.sigma)
         .count("gaps", "gaps N of a chain", |row| row.gaps as u64)
         .count("impacts", "impacts in the window, of all chains", |row| {
             row.impacts.iter().sum::<f64>() as u64
@@ -108,12 +94,8 @@ fn ensembles<'a>(begun: Building<'a, Row<'a>>) -> Table {
         .estimate("same_independent", "1", "the same of independent impacts", |row| {
             per_cent(row.ratio(|run, m| [independent_same(&run.hits), m]))
         })
-        .count("loops", "circuits i → i", |row| row.runs.iter().map(|run| run.circuits[0]).sum())
         .estimate("short", "1", "short circuits, 2 ≤ k, over those of equal gaps", |row| {
             row.ratio(|run, m| [short(row, &run.circuits), m * row.equal_short()])
-        })
-        .estimate("short_matrix", "1", "the same of Markov chains", |row| {
-            row.ratio(|run, m| [short(row, &run.markov), m * row.equal_short()])
         })
         .estimate("step", "1", "N times the factor of a circuit for each gap more", Row::step)
         .estimate("passing", "1", "share of these that pass by a neighbour of their start", |row| {
@@ -122,18 +104,8 @@ fn ensembles<'a>(begun: Building<'a, Row<'a>>) -> Table {
         .real("passing_equal", "1", 2, "the same of equal gaps", |row| {
             passing(row.gaps, row.short(), &row.equal)
         })
-        .estimate("collisions", "1", "pairs i → j → i that agree, over equal gaps", |row| {
-            let ways = (row.gaps * (row.gaps - 1) / 2) as f64;
-            row.ratio(|run, _| {
-                let [all, same] = run.returns;
-                [ways * same as f64, (all * all.saturating_sub(1)) as f64]
-            })
-        })
         .estimate("length", "1", "mean length of simple circuits", |row| {
             row.ratio(|run, _| length(&run.circuits))
-        })
-        .estimate("length_matrix", "1", "the same of the Markov chains", |row| {
-            row.ratio(|run, _| length(&run.markov))
         })
         .real("length_equal", "1", 2, "the same of equal gaps", |row| {
             let weighed = row.equal.iter().enumerate().map(|(i, own)| (i + 1) as f64 * own);
@@ -152,7 +124,7 @@ fn near(rows: &[Row<'_>]) -> Table {
         .flat_map(|row| (0..=row.farthest()).map(move |distance| (row, distance)))
         .collect();
     Table::of("independence.near", &rows, |(row, _)| row.runs.len())
-        .key("sigma", SIGMA, |(row, _)| row.row.sigma)
+        .key("sigma", SIGMA, |(row, _)| row.sigma)
         .key("distance", "1", |(_, distance)| *distance as f64)
         .estimate("over_independent", "1", "over independent ones", |(row, distance)| {
             row.near(*distance)
@@ -168,10 +140,9 @@ fn circuits(rows: &[Row<'_>]) -> Table {
         row.runs.iter().map(|run| of(run)).sum::<u64>() as f64 / row.impacts.iter().sum::<f64>()
     };
     Table::of("independence.circuits", &rows, |(row, _)| row.runs.len())
-        .key("sigma", SIGMA, |(row, _)| row.row.sigma)
+        .key("sigma", SIGMA, |(row, _)| row.sigma)
         .key("k", "1", |(_, k)| *k as f64)
         .real("measured", "1", 3, "", |(row, k)| share(row, &|run| run.circuits[k - 1]))
-        .real("matrix", "1", 3, "of Markov chains", |(row, k)| share(row, &|run| run.markov[k - 1]))
         .real("equal", "1", 3, "of equal gaps", |(row, k)| row.equal[k - 1])
         .done()
 }
@@ -181,17 +152,9 @@ fn different(rows: &[Row<'_>]) -> Table {
     let rows: Vec<(&Row<'_>, usize)> =
         rows.iter().flat_map(|row| (0..row.blocks.len()).map(move |block| (row, block))).collect();
     Table::of("independence.different", &rows, |(row, _)| row.runs.len())
-        .key("sigma", SIGMA, |(row, _)| row.row.sigma)
+        .key("sigma", SIGMA, |(row, _)| row.sigma)
         .key("impacts", "1", |(row, block)| row.blocks[*block] as f64)
         .estimate("measured", "1", "", |(row, block)| row.different(*block))
-        .estimate("matrix", "1", "of the Markov chains", |(row, block)| {
-            row.ratio(|run, _| {
-                [run.distinct_markov[*block], run.distinct[*block][1]].map(|n| n as f64)
-            })
-        })
-        .estimate("frequencies", "1", "of independent impacts", |(row, block)| {
-            row.different_frequencies(*block)
-        })
         .real("equal", "1", 3, "of equal gaps", |(row, block)| {
             let n = row.gaps as f64;
             n * (1.0 - power(1.0 - 1.0 / n, row.blocks[*block]))
@@ -341,14 +304,5 @@ impl Row<'_> {
 
     fn different(&self, block: usize) -> Option<Estimate> {
         self.ratio(|run, _| run.distinct[block].map(|n| n as f64))
-    }
-
-    fn different_frequencies(&self, block: usize) -> Option<Estimate> {
-        self.ratio(|run, all| {
-            let missed = |&h: &u64| power(1.0 - h as f64 / all, self.blocks[block]);
-            let seen: f64 = run.hits.iter().map(|h| 1.0 - missed(h)).sum();
-            let blocks = run.distinct[block][1] as f64;
-            [seen * blocks, blocks]
-        })
     }
 }

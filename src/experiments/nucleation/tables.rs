@@ -1,7 +1,6 @@
 //! What follows from first impacts, beside what the reach of single gaps says.
 
 use super::{Nucleation, Part, ensembles};
-use crate::circuits::impact_probability::ImpactProbability;
 use crate::circuits::nucleation::chain::{AtLeastOne, Chances, half};
 use crate::circuits::nucleation::reach::Reach;
 use crate::numerics::estimates::share;
@@ -21,10 +20,9 @@ struct Gaps {
     ever: Chances,
 }
 
-/// Gaps at a σ of a curve, in unlimited time and by the latest time.
+/// Gaps at a σ of a curve, by the latest time.
 struct Curve {
     sigma: f64,
-    ever: Chances,
     by_then: Chances,
 }
 
@@ -65,16 +63,11 @@ pub fn tables(found: &Nucleation) -> Vec<Table> {
         (22..=66_u32)
             .into_par_iter()
             .map(|step| f64::from(step) / 400.0)
-            .map(|sigma| Curve {
-                sigma,
-                ever: Chances::new(chain, &ever, &ever, sigma),
-                by_then: Chances::new(chain, all, few, sigma),
-            })
+            .map(|sigma| Curve { sigma, by_then: Chances::new(chain, all, few, sigma) })
             .collect()
     });
     vec![
         single(chain, &gaps),
-        curves(chain, &between),
         shares(parameters, &between),
         times(parameters, &gaps),
         chains_table(&chains),
@@ -95,16 +88,8 @@ fn single(chain: &Chain, gaps: &[Gaps]) -> Table {
         .real("neighbour", "1", 2, "that of a gap between masses if its neighbour does", |row| {
             row.ever.pair / row.ever.p
         })
-        .real("random", "1", 2, "Eq. (25), for random free parts", |row| random(chain, row.sigma))
         .real("zero", "1", 2, "P(Y₁ ≥ d): without a free part", |row| zero(chain, row.sigma))
         .done()
-}
-
-/// [Eq. (25)](ImpactProbability::p), for random free parts.
-fn random(chain: &Chain, sigma: f64) -> f64 {
-    let (omega, big_omega) = (chain.natural_frequency, chain.forcing_frequency);
-    let law = ImpactProbability::new(sigma, chain.spacing, omega, big_omega);
-    law.and_then(|law| law.p()).unwrap_or(f64::NAN)
 }
 
 /// P(Y₁ ≥ d): without a free part.
@@ -112,17 +97,6 @@ fn zero(chain: &Chain, sigma: f64) -> f64 {
     let (omega, big_omega) = (chain.natural_frequency, chain.forcing_frequency);
     let least = chain.spacing * (omega * omega - big_omega * big_omega) / (2.0 * sigma);
     pxfm::f_exp(-least * least)
-}
-
-/// The same at more σ.
-fn curves(chain: &Chain, rows: &[Curve]) -> Table {
-    Table::of("nucleation.curves", rows, |_| 0)
-        .key("sigma", SIGMA, |row| row.sigma)
-        .real("p", "1", 3, "between masses, from rest", |row| row.ever.p)
-        .real("wall", "1", 3, "at a wall, from rest", |row| row.ever.wall)
-        .real("random", "1", 3, "Eq. (25), for random free parts", |row| random(chain, row.sigma))
-        .real("zero", "1", 3, "without a free part", |row| zero(chain, row.sigma))
-        .done()
 }
 
 /// The share of the chains with an impact by the latest time, at more σ.

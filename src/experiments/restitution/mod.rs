@@ -1,6 +1,6 @@
-//! What restitution does to a chain: the rise, its heat, and contact.
+//! What restitution does to a chain: the rise and its heat.
 //!
-//! One kind of run serves all three. A curve is run at each σ through a transient and a window; a
+//! One kind of run serves both. A curve is run at each σ through a transient and a window; a
 //! chain that is watched while it heats goes through windows of which each is as long as all before.
 
 pub mod hot;
@@ -33,22 +33,8 @@ pub struct Run {
     pub free: Vec<f64>,
     /// Different gaps with an impact in the last window, in which all that follows is counted.
     pub distinct: u64,
-    /// Sum of V F over impacts of two masses: closing speed times its forced part.
-    pub products: f64,
-    /// Sum of V² over them.
-    pub squares: f64,
     /// Contact phases begun.
     pub phases: u64,
-    /// Gaps whose own force can press them shut.
-    pub able: u64,
-    /// Of these, the ones seen in contact.
-    pub able_touched: u64,
-    /// Other gaps seen in contact.
-    pub others_touched: u64,
-    /// Gaps found in contact, summed over the looks at regular times.
-    pub held: u64,
-    /// Number of these looks.
-    pub looks: u64,
 }
 
 /// What is run with the same times: one σ and one restitution.
@@ -141,13 +127,9 @@ fn fits(parameters: &RestitutionParams, unit: &Unit, runs: &Part) -> bool {
     let gaps = parameters.chain.gaps() as u64;
     let Some(case) = cases(parameters).into_iter().nth(unit.row) else { return false };
     let fits = |run: &Run| {
-        let touched = run.able_touched.checked_add(run.others_touched);
         run.impacts.len() == case.ends.len()
             && run.free.len() == case.ends.len()
             && run.distinct <= gaps
-            && run.able <= gaps
-            && run.able_touched <= run.able
-            && touched.is_some_and(|touched| touched <= gaps)
     };
     runs.len() == unit.realisations.len() && runs.iter().flatten().all(fits)
 }

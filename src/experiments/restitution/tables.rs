@@ -8,7 +8,7 @@ use crate::numerics::regression::line;
 use crate::numerics::statistics::Estimate;
 use crate::params::{Chain, HeatParams, RestitutionParams};
 use crate::table::Table;
-use pxfm::{f_exp, f_log};
+use pxfm::f_log;
 
 /// Windows at the end over which an exponent is fitted.
 const LAST: usize = 4;
@@ -47,43 +47,23 @@ fn rise_table(rows: &[Row<'_>]) -> Table {
         .estimate("mean_count", "1", "different gaps with an impact", |row| {
             row.mean(|run| run.distinct as f64)
         })
-        .estimate("variance_ratio", "1", VARIANCE_RATIO, |row| row.variance_ratio(row.last()))
-        .real("variance_ratio_steady", "1", 2, STEADY, |row| {
-            steady(&chain(row.parameters, row.case.restitution), row.case.sigma)
+        .estimate("variance_ratio", "1", RATIO_OF_HIT, |row| {
+            // A mass that was never hit has what it began with.
+            let counts = row.mean(|run| run.distinct as f64)?;
+            (counts.value >= row.gaps() - 1.0).then(|| row.variance_ratio(row.last()))?
         })
-        .estimate(
-            "balance",
-            "1",
-            "2 ⟨V F⟩ / ((1 − r) ⟨V²⟩) over the impacts of two masses; none at r = 1",
-            |row| row.ratio(|run| [run.products, 0.5 * (1.0 - row.case.restitution) * run.squares]),
-        )
         .estimate("impacts", "omega", IMPACTS, |row| row.rate(row.last()))
         .estimate("phases_per_impact", "1", "contact phases over impacts", |row| {
             row.ratio(|run| [run.phases as f64, run.impacts.last().map_or(0.0, |&n| n as f64)])
         })
-        .estimate("share_of_time", "1", "share of its time that a gap is in contact", |row| {
-            row.ratio(|run| [run.held as f64, run.looks as f64 * row.gaps()])
-        })
-        .estimate("share_in_contact", "1", "share of gaps in contact at some time", |row| {
-            row.mean(|run| (run.able_touched + run.others_touched) as f64 / row.gaps())
-        })
-        .real("share_able", "1", 3, "expected share of gaps with |ΔF| > d ω²", |row| {
-            able(row.parameters, row.case.sigma)
-        })
         .count("phases", "contact phases", |row| row.sum(|run| run.phases))
-        .count("gaps", "gaps of all chains", |row| (row.gaps() * row.runs.len() as f64) as u64)
-        .count("able", "gaps that their own force can press shut, |ΔF| > d ω²", |row| {
-            row.sum(|run| run.able)
-        })
-        .count("able_touched", "of these, the gaps in contact at some time", |row| {
-            row.sum(|run| run.able_touched)
-        })
-        .count("touched", "gaps in contact at some time", Row::touched)
         .done()
 }
 
 const VARIANCE_RATIO: &str = "s²/σ² at the end: mean over all masses of half the sum of squares of both free \
     amplitudes, over σ²";
+const RATIO_OF_HIT: &str = "s²/σ² at the end: mean over all masses of half the sum of squares of both free \
+    amplitudes, over σ²; none where more than one gap was missed in the mean";
 const STEADY: &str = "the same for hot chains that lose little";
 const BALANCED: &str = "the same by the balance of rare impacts";
 const IMPACTS: &str = "impacts per unit of time";
@@ -152,31 +132,25 @@ fn heated_table(heated: &[Row<'_>]) -> Table {
             exponent,
         )
         .real("variance_ratio_balanced", "1", 2, BALANCED, Row::balanced)
-        .real("variance_ratio_steady", "1", 2, STEADY, |row| {
-            steady(&chain(row.parameters, row.case.restitution), row.case.sigma)
+        .real("variance_ratio_steady", "1", 2, STEADY, Row::steady)
+        .real("over_steady", "1", 2, "s²/σ² in the last window over that", |row| {
+            let found = row.variance_ratio(row.last());
+            found.map_or(f64::NAN, |found| found.value / row.steady())
         })
         .done()
 }
 
 /// Numbers of all curves together.
 fn totals(parameters: &RestitutionParams, rise: &[Row<'_>]) -> Table {
-    let touched = || rise.iter().filter(|row| row.touched() > 0);
     Table::of("restitution.all", &[parameters], |own| own.realisations)
         .count("realisations", "chains at each r and σ", |own| own.realisations as u64)
         .count("sigmas", "values of σ", |own| own.sigmas.len() as u64)
         .estimate("shift", "d omega^2", "half height at the last r less that at the first", |_| {
             shift(parameters, rise)
         })
-        .count("touched", "gaps in contact at some time, of all chains", |_| {
-            rise.iter().map(Row::touched).sum()
-        })
-        .count(
-            "others_touched",
-            "of these, the ones that their own force cannot press shut",
-            |_| rise.iter().map(|row| row.sum(|run| run.others_touched)).sum(),
-        )
-        .chosen("touched_to", "1", "the largest r with contact", |_| {
-            touched().next_back().map(|row| row.case.restitution)
+        .chosen("touched_to", "1", "the largest r with a contact phase", |_| {
+            let touched = |row: &&Row<'_>| row.sum(|run| run.phases) > 0;
+            rise.iter().rfind(touched).map(|row| row.case.restitution)
         })
         .done()
 }
@@ -215,16 +189,6 @@ fn exponent(row: &Row<'_>) -> Option<Estimate> {
     })
 }
 
-/// The share of gaps with |ΔF| > d ω²: the amplitudes of ΔF are normal with the variance 2 σ² between
-/// masses, and σ² at a wall, so that its square over twice that is exponential.
-pub fn able(parameters: &RestitutionParams, sigma: f64) -> f64 {
-    let (d, omega) = (parameters.chain.spacing, parameters.chain.natural_frequency);
-    let least = d * omega * omega / sigma;
-    let (inner, gaps) = (f_exp(-0.25 * least * least), parameters.chain.gaps() as f64);
-    let wall = f_exp(-0.5 * least * least);
-    ((gaps - 2.0) * inner + 2.0 * wall) / gaps
-}
-
 impl Row<'_> {
     fn realisations(&self) -> usize {
         self.case.realisations
@@ -259,10 +223,6 @@ impl Row<'_> {
         self.runs.iter().map(|run| run.distinct as f64).collect()
     }
 
-    fn touched(&self) -> u64 {
-        self.sum(|run| run.able_touched + run.others_touched)
-    }
-
     fn rate(&self, window: usize) -> Option<Estimate> {
         let begin = window.checked_sub(1).map_or(0.0, |before| self.case.ends[before]);
         let time = self.case.ends[window] - begin;
@@ -272,6 +232,11 @@ impl Row<'_> {
     fn variance_ratio(&self, window: usize) -> Option<Estimate> {
         let heat = self.parameters.chain.masses as f64 * self.case.sigma * self.case.sigma;
         self.mean(|run| run.free[window] / heat)
+    }
+
+    /// s²/σ² of hot chains that lose little.
+    fn steady(&self) -> f64 {
+        steady(&chain(self.parameters, self.case.restitution), self.case.sigma)
     }
 
     /// s²/σ² by the balance of rare impacts; not a number at r = 1, where there is none.

@@ -1,7 +1,6 @@
 use super::hot::hot;
-use super::tables::{able, tables};
+use super::tables::tables;
 use super::*;
-use crate::dynamics::Scenario;
 use crate::numerics::quadrature::GaussLegendre;
 use crate::numerics::random::NormalPairs;
 use crate::params::{Profile, Protocol};
@@ -27,42 +26,16 @@ fn found(parameters: &RestitutionParams) -> (Restitution, [Table; 5]) {
 }
 
 #[test]
-fn only_a_force_that_presses_makes_contact_without_neighbours() {
-    let (_, [rise, ..]) = found(&small());
-    let of = |r: f64, sigma: f64, column: &str| {
-        rise.number(&[("r", r), ("sigma", sigma)], column).unwrap()
-    };
-    assert_eq!((of(0.0, 0.03, "able"), of(0.0, 0.03, "touched")), (0.0, 0.0));
-    assert!(of(0.0, 0.6, "able") > 0.0 && of(0.0, 0.6, "able_touched") > 0.0);
-    let held = of(0.0, 0.6, "share_of_time");
-    assert!(held > 0.0 && held < of(0.0, 0.6, "share_in_contact"), "{held}");
-    // Forces are common to all r, and at r = 0.8 no chatter ends before the pressure does.
-    assert_eq!(of(0.0, 0.6, "able"), of(0.8, 0.6, "able"));
-    assert!(of(0.8, 0.6, "able_touched") <= of(0.0, 0.6, "able_touched"));
-    // 78 gaps at σ = 0.6, of which half can be pressed.
-    assert_eq!(of(0.0, 0.6, "gaps"), 78.0);
-    let share = of(0.0, 0.6, "able") / 78.0;
-    assert!((share - of(0.0, 0.6, "share_able")).abs() < 0.3, "{share}");
+fn contact_needs_a_force_that_presses() {
+    let (_, [rise, .., all]) = found(&small());
+    let phases = |r, sigma| rise.number(&[("r", r), ("sigma", sigma)], "phases").unwrap();
+    assert!(phases(0.0, 0.03) == 0.0 && phases(0.0, 0.6) > phases(0.8, 0.6));
+    assert!(all.number(&[], "touched_to").is_ok());
 }
 
 #[test]
-fn a_gap_is_pressed_by_the_difference_of_its_forces() {
-    let chain = crate::params::Chain { masses: 2, ..Default::default() };
-    let mut normals = NormalPairs::new("test of restitution", 1, 0);
-    let mut scenario = Scenario::draw(&chain, 0.1, &mut normals);
-    scenario.forcing = vec![[0.6, 0.0], [-0.45, 0.0]];
-    let pressed: Vec<bool> = (0..3).map(|gap| run::presses(&scenario, gap)).collect();
-    assert_eq!(pressed, [false, true, false]);
-    scenario.forcing = vec![[0.6, 0.0], [0.0, 1.1]];
-    let pressed: Vec<bool> = (0..3).map(|gap| run::presses(&scenario, gap)).collect();
-    assert_eq!(pressed, [false, true, true]);
-}
-
-#[test]
-fn energy_is_balanced_below_one_and_grows_at_one() {
-    let (_, [rise, curves, heating, heated, _]) = found(&small());
-    let balance = rise.number(&[("r", 0.8), ("sigma", 0.3)], "balance").unwrap();
-    assert!((balance - 1.0).abs() < 0.25, "{balance}");
+fn energy_grows_without_loss() {
+    let (_, [_, curves, heating, heated, _]) = found(&small());
     let last = |r| heating.number(&[("r", r), ("window_end", 100.0)], "variance_ratio").unwrap();
     assert!(last(1.0) > 1.5 * last(0.9), "{} {}", last(1.0), last(0.9));
     assert_eq!(curves.number(&[("r", 0.0)], "balanced").unwrap(), 2.0);
@@ -83,15 +56,7 @@ fn tables_follow_from_the_runs_as_by_hand() {
     let run = |distinct, impacts: &[u64]| {
         let impacts = impacts.to_vec();
         let free = vec![0.12; impacts.len()];
-        Some(Run {
-            distinct,
-            impacts,
-            free,
-            products: 1.5,
-            squares: 4.0,
-            looks: 1,
-            ..Run::default()
-        })
+        Some(Run { distinct, impacts, free, phases: 0 })
     };
     // 13 gaps: half is 6.5. Means 1 and 12 at r = 0.5, 5.5 and 9 at r = 0.8.
     let row = |a, b| vec![run(a, &[0, 3]), run(b, &[9, 6])];
@@ -109,8 +74,10 @@ fn tables_follow_from_the_runs_as_by_hand() {
     let keys = [("r", 0.5), ("sigma", 0.1)];
     near(rise.number(&keys, "mean_count").unwrap(), 1.0);
     near(rise.number(&keys, "impacts").unwrap(), 4.5 / 60.0);
-    near(rise.number(&keys, "balance").unwrap(), 3.0 / (0.25 * 8.0));
-    near(rise.number(&keys, "variance_ratio").unwrap(), 0.12 / (12.0 * 0.01));
+    // Most masses were not hit; at 0.2 of 13 gaps one was missed in the mean.
+    assert!(rise.number(&keys, "variance_ratio").is_err());
+    let hit = rise.number(&[("r", 0.5), ("sigma", 0.2)], "variance_ratio").unwrap();
+    near(hit, 0.12 / (12.0 * 0.04));
     near(curves.number(&[("r", 0.5)], "half_height").unwrap(), 0.1 + 0.1 * 5.5 / 11.0);
     near(curves.number(&[("r", 0.8)], "half_height").unwrap(), 0.1 + 0.1 / 3.5);
     near(all.number(&[], "shift").unwrap(), 0.1 / 3.5 - 0.05);
@@ -136,22 +103,6 @@ fn an_exponent_by_pairs() {
     }
     let found = heated.number(&[("r", 0.9)], "exponent").unwrap();
     assert!((found - above / below).abs() < 1e-12, "{found} {}", above / below);
-}
-
-/// Amplitudes of a difference of forces follow the law of Rayleigh.
-#[test]
-fn gaps_that_can_be_pressed_by_quadrature() {
-    let parameters = small();
-    let rule = GaussLegendre::new(16);
-    for sigma in [0.2, 0.6] {
-        let above = |scale: f64| {
-            let density = |x: f64| x / (scale * scale) * f_exp(-0.5 * (x / scale) * (x / scale));
-            rule.integrate_panels(1.0, 1.0 + 12.0 * scale, 32, density)
-        };
-        let by_hand = (11.0 * above(sigma * std::f64::consts::SQRT_2) + 2.0 * above(sigma)) / 13.0;
-        let found = able(&parameters, sigma);
-        assert!((found / by_hand - 1.0).abs() < 1e-11, "{found} {by_hand}");
-    }
 }
 
 /// ω = d = 1 and the density exp(−|v|³/c), c = 9 σ² t/2: the mean distance over pairs, and the second moment as

@@ -3,9 +3,9 @@
 use super::Point;
 use super::jump::sigma_of;
 use crate::circuits::distribution::SampleSpace;
-use crate::circuits::large::{Missing, jump_rule, limit_share, variation_limit};
+use crate::circuits::large::{jump_rule, limit_share};
 use crate::circuits::{Error, jump};
-use crate::params::{DRAWN_VERTICES, Grid, LARGE_VERTICES, POISSON_P_N, POISSON_VERTICES};
+use crate::params::{DRAWN_VERTICES, Grid, LARGE_VERTICES};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -18,8 +18,6 @@ pub struct Large {
     pub shares: Vec<LargeShares>,
     /// The limit of k*/N against p N.
     pub limit: Vec<Point>,
-    /// N − X beside a Poisson variable: one row for each p N.
-    pub poisson: Vec<PoissonRow>,
     /// σ at which p(σ) is p_jump of the largest N.
     pub sigma_jump: f64,
 }
@@ -50,30 +48,6 @@ pub struct LargeShares {
     pub rows: Vec<Point>,
 }
 
-/// N − X beside a Poisson variable with mean 1/p, at one p N.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct PoissonRow {
-    /// p N.
-    pub p_n: f64,
-    /// Limit of √N times the distance.
-    pub limit: f64,
-    /// At several N, rising.
-    pub cells: Vec<PoissonCell>,
-}
-
-/// The same at one N.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct PoissonCell {
-    /// Number of vertices N.
-    pub vertices: usize,
-    /// Total variation distance.
-    pub variation: f64,
-    /// Its bound by the moments of X.
-    pub bound: f64,
-    /// N − 1/p − μ.
-    pub mean_gap: f64,
-}
-
 /// So many steps of k* between two values of p N are drawn one by one.
 const FEW: usize = 3;
 
@@ -88,13 +62,7 @@ pub fn large() -> Result<Large, Error> {
     let sigma_jump = jumps.last().map_or(0.0, |last| sigma_of(last.p));
     let known = jumps.iter().filter(|jump| DRAWN_VERTICES.contains(&jump.vertices));
     let limit = drawn().into_iter().map(|x| Point { x, y: limit_share(x) });
-    Ok(Large {
-        shares: known.map(shares).collect(),
-        jumps,
-        limit: limit.collect(),
-        poisson: POISSON_P_N.into_iter().map(poisson).collect::<Result<_, _>>()?,
-        sigma_jump,
-    })
+    Ok(Large { shares: known.map(shares).collect(), jumps, limit: limit.collect(), sigma_jump })
 }
 
 fn jump_at(vertices: usize) -> Result<LargeJump, Error> {
@@ -128,19 +96,4 @@ fn shares(found: &LargeJump) -> LargeShares {
         level = k;
     }
     LargeShares { vertices: found.vertices, rows }
-}
-
-fn poisson(p_n: f64) -> Result<PoissonRow, Error> {
-    let cell = |vertices: usize| {
-        let big_n = vertices as f64;
-        let missing = Missing::new(vertices, p_n / big_n)?;
-        Ok(PoissonCell {
-            vertices,
-            variation: missing.variation,
-            bound: missing.variation_bound(),
-            mean_gap: big_n - big_n / p_n - missing.mean,
-        })
-    };
-    let cells = POISSON_VERTICES.into_iter().map(cell).collect::<Result<_, Error>>()?;
-    Ok(PoissonRow { p_n, limit: variation_limit(p_n), cells })
 }

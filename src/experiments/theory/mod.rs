@@ -14,8 +14,8 @@ mod results;
 pub(crate) mod slips;
 pub(crate) mod tables;
 
-pub use large::{Large, LargeJump, LargeShares, PoissonCell, PoissonRow};
-pub use orders::{AllOrders, ClassShares, OrderJump, OrderRemarks, OrderShares};
+pub use large::{Large, LargeJump, LargeShares};
+pub use orders::{AllOrders, OrderJump, OrderRemarks, OrderShares};
 pub use results::*;
 
 use crate::circuits::Error;

@@ -17,8 +17,6 @@ use serde::{Deserialize, Serialize};
 pub struct AllOrders {
     /// 1/N, where the sum over all circuits diverges.
     pub pole: f64,
-    /// Share of each of the five classes among the five, in the order of Eq. (38).
-    pub classes: Vec<ClassShares>,
     /// Share of the five classes among all circuits with K different vertices, to p = 1/K.
     pub shares: Vec<OrderShares>,
     /// Share of the five classes among all circuits, to p = 1/N.
@@ -33,15 +31,6 @@ pub struct AllOrders {
     pub simple_at_jump: Vec<f64>,
     /// Single numbers.
     pub remarks: OrderRemarks,
-}
-
-/// Shares of the five classes at one p.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ClassShares {
-    /// Edge probability p.
-    pub p: f64,
-    /// The five shares, which add up to one.
-    pub shares: Vec<f64>,
 }
 
 /// Shares of the five classes for one number of different vertices.
@@ -120,7 +109,6 @@ pub fn orders(vertices: usize, scalars: &Scalars) -> Result<AllOrders, Error> {
     };
     Ok(AllOrders {
         pole,
-        classes: drawn().map(|p| class_shares(vertices, p)).collect::<Result<_, _>>()?,
         shares: ORDERS_K
             .into_iter()
             .filter(|k| *k <= vertices)
@@ -135,12 +123,6 @@ pub fn orders(vertices: usize, scalars: &Scalars) -> Result<AllOrders, Error> {
         simple_at_jump: Law::new(Simple, vertices, scalars.p_jump)?.probabilities(),
         remarks,
     })
-}
-
-fn class_shares(vertices: usize, p: f64) -> Result<ClassShares, Error> {
-    let law = Law::new(FiveClasses, vertices, p)?;
-    let share = |class| sum(law.contribution(class).into_iter());
-    Ok(ClassShares { p, shares: CLASSES.iter().map(share).collect() })
 }
 
 /// The five classes over all circuits with k different vertices; none are left where these diverge.

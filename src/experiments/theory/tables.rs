@@ -298,7 +298,7 @@ fn higher(theory: &Theory, id: &Identities) -> Table {
 }
 
 /// Many vertices.
-fn many_vertices(theory: &Theory) -> [Table; 4] {
+fn many_vertices(theory: &Theory) -> [Table; 2] {
     let large = &theory.large;
     let item = || origin(large::large);
     let jumps = Table::of("theory.large", &large.jumps, |_| 0)
@@ -315,24 +315,7 @@ fn many_vertices(theory: &Theory) -> [Table; 4] {
             large.sigma_jump
         })
         .done();
-    let cells: Vec<_> = large
-        .poisson
-        .iter()
-        .flat_map(|row| row.cells.iter().map(move |cell| (row, cell)))
-        .collect();
-    let poisson = Table::of("theory.poisson", &cells, |_| 0)
-        .computed_by(item())
-        .key("p_n", "1", |(row, _)| row.p_n)
-        .key("n", "1", |(_, cell)| cell.vertices as f64)
-        .real("distance", "1", 3, "of N − X from a Poisson variable", |(_, cell)| cell.variation)
-        .real("mean_gap", "1", 4, "N − 1/p − μ", |(_, cell)| cell.mean_gap)
-        .done();
-    let limits = Table::of("theory.poisson_limit", &large.poisson, |_| 0)
-        .computed_by(item())
-        .key("p_n", "1", |row| row.p_n)
-        .real("distance", "1", 3, "limit of √N times the distance", |row| row.limit)
-        .done();
-    [jumps, sigma, poisson, limits]
+    [jumps, sigma]
 }
 
 /// Circuits of all orders.

@@ -22,16 +22,12 @@ fn balance(look: Look<'_>) -> Option<String> {
     tables.into_iter().find_map(|(name, key)| books(name, key))
 }
 
-/// Probabilities of the table by integrals, and p with the balanced variance at the jump.
+/// Probabilities by integrals: those of the table, and p with the balanced variance at the jump.
 fn p(look: Look<'_>) -> Option<String> {
     let table = look.results.table("heat.rising").ok()?;
     let one = |sigma: f64| {
         let of = |column| table.number(&[("sigma", sigma)], column).ok();
-        far("p", of("p")?, model::p(sigma))
-            .or_else(|| far("p from rest", of("p_rest")?, model::p_rest(sigma)))
-            .or_else(|| {
-                far("p of a hot chain", of("p_balanced")?, model::p_heated(sigma, of("balanced")?))
-            })
+        far("p of a hot chain", of("p_balanced")?, model::p_heated(sigma, of("balanced")?))
     };
     let jump = || {
         let all = look.results.table("heat.all").ok()?;

@@ -2,9 +2,8 @@
 //! to say whether a printed digit is right.
 
 use crate::numerics::quadrature::GaussLegendre;
-use pxfm::{f_erfc, f_exp, f_log, f_sqrt1pm1};
+use pxfm::{f_erfc, f_exp, f_log};
 use std::collections::BTreeMap;
-use std::f64::consts::FRAC_PI_2;
 use std::sync::{LazyLock, Mutex};
 
 /// Sixteen points: exact to rounding on each panel of what is integrated here.
@@ -13,13 +12,8 @@ static RULE: LazyLock<GaussLegendre> = LazyLock::new(|| GaussLegendre::new(16));
 /// Panels of the integrals: the integrands are narrow for small σ.
 const PANELS: usize = 24;
 
-/// Eq. (25) for the paper's chain: two amplitudes with the density of Eq. (22) exceed d together.
-pub fn p(sigma: f64) -> f64 {
-    static KNOWN: Known<u64, f64> = Known::new();
-    KNOWN.get(sigma.to_bits(), || both_amplitudes(sigma, sigma))
-}
-
-/// The same with free amplitudes that are wider by the root of a ratio of variances.
+/// Eq. (25) for the paper's chain, with free amplitudes that are wider by the root of a ratio of variances: two
+/// amplitudes with the density of Eq. (22) exceed d together.
 pub fn p_heated(sigma: f64, ratio: f64) -> f64 {
     static KNOWN: Known<[u64; 2], f64> = Known::new();
     let key = [sigma.to_bits(), ratio.to_bits()];
@@ -32,23 +26,6 @@ fn both_amplitudes(free: f64, forced: f64) -> f64 {
     let density = |x: f64| 0.5 * x / (forced * forced) * tail(x, forced);
     let both = |x: f64| density(x) * tail(1.0 - x, free);
     tail(1.0, forced) + RULE.integrate_panels(0.0, 1.0, PANELS, both)
-}
-
-/// The same for a start from rest, where the free amplitude goes with the forced one: the mean over
-/// the phase, Ω² = 2 ω².
-pub fn p_rest(sigma: f64) -> f64 {
-    static KNOWN: Known<u64, f64> = Known::new();
-    KNOWN.get(sigma.to_bits(), || over_phases(sigma))
-}
-
-fn over_phases(sigma: f64) -> f64 {
-    let rate = 0.5 / sigma;
-    let at = |theta: f64| {
-        let sin = pxfm::f_sin(theta);
-        let reach = 2.0 + f_sqrt1pm1(sin * sin);
-        f_exp(-(rate / reach) * (rate / reach))
-    };
-    RULE.integrate_panels(0.0, FRAC_PI_2, PANELS, at) / FRAC_PI_2
 }
 
 /// The chance that the length of two normal amplitudes of that scale exceeds a height: their density
@@ -96,11 +73,13 @@ impl<K: Ord, V: Clone> Known<K, V> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::circuits::impact_probability::ImpactProbability;
 
-    /// From 40-digit arithmetic: p(0.12) and p_rest(0.12).
+    /// The closed form of Eq. (25) is the second route.
     #[test]
     fn integrals_have_their_known_values() {
-        assert!((p_rest(0.12) - 0.0309524).abs() < 1e-7);
-        assert!((p(1e3) - 1.0).abs() < 1e-6 && p(0.12) < p_rest(0.12));
+        let p = |sigma| ImpactProbability::new(sigma, 1.0, 1.0, 2_f64.sqrt()).unwrap().p().unwrap();
+        assert!((p_heated(0.12, 1.0) / p(0.12) - 1.0).abs() < 1e-9);
+        assert!((p_heated(1e3, 1.0) - 1.0).abs() < 1e-6 && p_heated(0.12, 2.0) > p(0.12));
     }
 }

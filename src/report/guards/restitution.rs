@@ -1,6 +1,6 @@
 //! What restitution does to a chain: what chance must not break.
 
-use super::{Guard, Look, far, unless};
+use super::{Guard, Look, far};
 use crate::numerics::statistics::Estimate;
 use crate::table::Table;
 
@@ -10,7 +10,6 @@ pub const GUARDS: &[Guard] = &[
         ids: &["restitution.curves*", "theory.relation.sigma_kept_half"],
         find: halves,
     },
-    Guard { name: "contact_needs_force", ids: &["restitution.rise*"], find: contact },
     Guard { name: "no_loss_no_rest", ids: &["restitution.heating*"], find: heating },
 ];
 
@@ -32,33 +31,6 @@ fn halves(look: Look<'_>) -> Option<String> {
     early
         .map(|(r, own)| format!("half height {} at r = {r}, below the bound {bound}", own.value))
         .or_else(shift)
-}
-
-/// Which gaps can be pressed depends on the forces alone, which are common to all r: as many at each, and a
-/// share within five standard errors of the one that normal amplitudes give.
-fn contact(look: Look<'_>) -> Option<String> {
-    let rise = table(look, "restitution.rise")?;
-    let restitutions = rise.values("r");
-    let one = |sigma: f64| {
-        let number = |r: f64, column| rise.number(&[("r", r), ("sigma", sigma)], column).ok();
-        let first = *restitutions.first()?;
-        let (able, gaps) = (number(first, "able")?, number(first, "gaps")?);
-        let expected = number(first, "share_able")?;
-        // Neighbours share a force: twice the error of independent gaps is more than enough.
-        let room = 10.0 * (expected * (1.0 - expected) / gaps).sqrt() + 5.0 / gaps;
-        let share = able / gaps;
-        let other = |&&r: &&f64| number(r, "gaps") == Some(gaps) && number(r, "able") != Some(able);
-        unless((share - expected).abs() <= room, || {
-            format!("a share {share} can be pressed at {sigma}, not {expected}")
-        })
-        .or_else(|| {
-            let other = restitutions.iter().find(other)?;
-            Some(format!(
-                "not as many gaps can be pressed at r = {other} as at {first}, at {sigma}"
-            ))
-        })
-    };
-    rise.values("sigma").into_iter().find_map(one)
 }
 
 /// Without loss the impacts per unit of time rise in every window.
