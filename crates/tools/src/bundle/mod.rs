@@ -57,7 +57,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let progress = work::progress_that_tidies();
     let tree = Tree::here()?;
     let report = Path::new(PAPER);
-    let listed = listed(report, &progress)?;
+    let listed = listed(report, None, &progress)?;
     if let Some(first) = listed.faults.first() {
         let what = format!("bundle: paper/ is not what its {} lists ({first})", sums::NAME);
         return Err(Failure::check(format!("{what}; make it anew with `make paper`")));
