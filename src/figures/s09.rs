@@ -81,9 +81,9 @@ fn circuits(sheet: &Sheet, found: &Table) -> Result<(), Error> {
         let thin = Stroke::solid(colour, THIN);
         let look = (mark, MEDIUM * 2 / 3, thin);
         panel.marks(&named(sigma), &points(sigma, "measured"), look, Outside::Cut)?;
-        entries.push(Entry::mark((mark, MEDIUM, thin), &format!("measured, {}", named(sigma))));
+        entries.push(Entry::mark((mark, MEDIUM, thin), &named(sigma)));
     }
-    sheet.legend_in_columns((500, 8420), (SMALL, 340), (1, 3000), &entries)
+    sheet.legend_in_columns((500, 8420), (SMALL, 340), (1, 2700), &entries)
 }
 
 fn different(sheet: &Sheet, found: &Table, gaps: f64) -> Result<(), Error> {

@@ -156,7 +156,7 @@ fn heating(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
         entries.push(Entry::mark(look, &named(r)));
     }
     entries.insert(0, Entry::line(solid, "expected at *r* = 1"));
-    sheet.legend((5950, 9700), (SMALL, 340), &entries)
+    sheet.legend_in_columns((1400, 9650), (SMALL, 340), (3, 2700), &entries)
 }
 
 fn description(shown: &Shown<'_>) -> String {

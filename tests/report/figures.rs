@@ -183,7 +183,7 @@ fn no_curve_runs_through_a_label() {
 
 #[test]
 fn axes_carry_their_labels() {
-    let expected: [(usize, &[&str]); 22] = [
+    let expected: [(usize, &[&str]); 21] = [
         (1, &["d", "nd", "(n+1)d", "Δ_1(t)"]),
         (2, &["standard deviation σ of the forcing", "most likely number of impacts"]),
         (3, &["standard deviation σ of the forcing", "expected number of impacts", "kept share"]),
