@@ -110,7 +110,7 @@ fn description(rising: &Table) -> String {
     format!(
         "(a) Successions over those of independent impacts: none at distance 0, few at 1, near one beyond. (b) Share of circuits of \
          length k: below equal gaps for short ones, far above for long ones, of mean length {} for {}. (c) Different gaps among m \
-         impacts: points below the curve for the smallest σ, and above it for the largest.",
+         impacts: points below the curve for the smallest σ, above it for the largest.",
         last("length"),
         last("length_equal"),
     )
