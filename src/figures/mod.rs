@@ -40,8 +40,8 @@ pub use literate::figures::*;
 pub use number::Number;
 
 use crate::experiments::{
-    ANALYTIC, CHAINS, HEAT, INDEPENDENCE, LONG_PROTOCOL, MEASURED, NUCLEATION, PROTOCOL, RACE,
-    RESTITUTION, SCALE, SEEDS, SEGMENTS, SIZES, SPACE_TIME, SWEEP,
+    ANALYTIC, CHAINS, CLOSED, HEAT, INDEPENDENCE, LONG_PROTOCOL, MEASURED, NUCLEATION, PROTOCOL,
+    RACE, RESTITUTION, SCALE, SEEDS, SEGMENTS, SIZES, SPACE_TIME, SWEEP,
 };
 use crate::experiments::{Need, Results};
 use crate::params::Profile;
@@ -97,7 +97,7 @@ const OWN: [Listed; 14] = [
     figure(&[&PROTOCOL, &LONG_PROTOCOL], !THEORY, s01::draw),
     figure(&[&SPACE_TIME], !THEORY, |all, note| s02::draw(all.spacetime()?, note)),
     figure(&[&NUCLEATION, &SWEEP], !THEORY, s03::draw),
-    figure(&[&SEEDS, &SWEEP, &PROTOCOL], !THEORY, s04::draw),
+    figure(&[&SEEDS, &SWEEP, &PROTOCOL, &CLOSED], !THEORY, s04::draw),
     figure(&[&CHAINS, &SIZES, &PROTOCOL], !THEORY, s05::draw),
     figure(&[], THEORY, |all, _| s06::draw(&all.theory.large)),
     figure(&[], THEORY, |all, _| s07::draw(&all.theory)),

@@ -28,20 +28,26 @@ pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
         (table("seeds.advance")?, table("seeds.waits")?, table("seeds.fronts")?);
     let sheet = Sheet::new(13050, note)?;
     let theory = table("seeds.theory")?;
-    counts(&sheet, means, theory, results.sweep()?)?;
+    counts(&sheet, means, &[theory, table("closed.counts")?], results.sweep()?)?;
     advances(&sheet, advance)?;
     halves(&sheet, rise, scores)?;
     standing(&sheet, waits, fronts, results.seeds()?.parameters.tick)?;
     Ok(sheet.finish("s04", "From one gap to many: nucleation and growth", description(waits)))
 }
 
-fn counts(sheet: &Sheet, means: &Table, theory: &Table, sweep: &Sweep) -> Result<(), Error> {
+fn counts(
+    sheet: &Sheet,
+    means: &Table,
+    [theory, closed]: &[&Table; 2],
+    sweep: &Sweep,
+) -> Result<(), Error> {
     let x = Axis::linear(SIGMAS.0, SIGMAS.1, 0.01, 2, FORCING).column(SIGMA);
     let y = Axis::linear(0.0, 105.0, 20.0, 2, "mean count of all");
     let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 8150, 3730), x, y)?;
     let transient = [("transient", sweep.parameters.protocol.transient)];
     let lines = [
         ("nucleation and growth", "grown", Stroke::solid(INK, THIN)),
+        ("nothing measured", "expected", Stroke::solid(ORANGE, LINE)),
         ("circuits, Eq. (25)", "eq25", Stroke::dashed(BLUE, LINE, Dash::Short)),
         ("circuits, from rest", "from_rest", Stroke::dashed(PURPLE, LINE, Dash::Long)),
     ];
@@ -53,6 +59,13 @@ fn counts(sheet: &Sheet, means: &Table, theory: &Table, sweep: &Sweep) -> Result
             let points: Vec<_> = grown.iter().map(|(x, own)| (*x, own.value)).collect();
             panel.quiet().curve(name, &points, stroke, Outside::Refuse)?;
             panel.record(name, grown);
+        } else if column == "expected" {
+            let paper = &sweep.parameters.chain;
+            let own = [("r", paper.restitution), ("masses", paper.masses as f64), transient[0]];
+            let expected = closed.estimates(&own, "sigma", column);
+            let points: Vec<_> = expected.iter().map(|(x, own)| (*x, own.value)).collect();
+            panel.quiet().curve(name, &points, stroke, Outside::Refuse)?;
+            panel.record(name, expected);
         } else {
             panel.curve(name, &theory.points(&[], "sigma", column), stroke, Outside::Refuse)?;
         }
@@ -147,7 +160,8 @@ fn standing(sheet: &Sheet, waits: &Table, fronts: &Table, tick: f64) -> Result<(
 
 fn description(waits: &Table) -> String {
     format!(
-        "(a) Mean count of all against σ: simulated points along the band of nucleation and growth; circuits are steeper. (b) Advance \
+        "(a) Mean count of all against σ: simulated points along the band of nucleation and growth and the curve of the closed theory; \
+         circuits are steeper. (b) Advance \
          against time: slower than ∝ t, the more so the smaller σ. (c) Half height falls with T. (d) Share of longer waits: first \
          below a constant rate, then above it, from σ = {} down.",
         waits.values("sigma").first().copied().unwrap_or_default(),

@@ -3,6 +3,8 @@
 use super::{Heat, Part, Run, ensembles};
 use crate::circuits;
 use crate::circuits::balance::{variance_ratio, variance_ratio_at};
+use crate::circuits::closed::heat::heat;
+use crate::circuits::closed::ordered::OrderedGas;
 use crate::circuits::distribution::SampleSpace;
 use crate::circuits::impact_probability::ImpactProbability;
 use crate::circuits::jump;
@@ -53,6 +55,7 @@ fn ensembles_by(
     (key, unit): (&'static str, &'static str),
     by: impl Fn(&Row<'_>) -> f64,
 ) -> Table {
+    let gas = OrderedGas::new();
     Table::of(name, rows, |row| row.runs.len())
         .key(key, unit, by)
         .estimate(
@@ -70,6 +73,10 @@ fn ensembles_by(
         .real("rate", "omega", 2, "impacts of a mass with others per unit of time, over the masses that were hit", Row::rate)
         .real("balanced_at_rate", "1", 3, "s²/σ² by the balance at that rate", |row| {
             variance_ratio_at(&row.chain, row.rate()).unwrap_or(f64::NAN)
+        })
+        .real("closed", "1", 3, "s²/σ² by the closed theory; none where it has no running chain", move |row| {
+            let found = heat(&gas, &row.chain, row.row.sigma).ok().flatten();
+            found.map_or(f64::NAN, |own| own.free / row.sigma2())
         })
         .estimate(
             "balance",
