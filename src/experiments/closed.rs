@@ -340,7 +340,7 @@ mod tests {
         let parameters = ClosedParams {
             chains: vec![(0.8, 20, 2), (0.6, 30, 2)],
             sigmas: vec![0.02, 0.3],
-            protocols: vec![[20.0, 20.0], [60.0, 20.0]],
+            protocols: vec![[100.0, 60.0], [300.0, 60.0]],
             ..ClosedParams::new(Profile::Quick)
         };
         let found = CUTTING.run(&parameters, "test", &Progress::silent()).unwrap();

@@ -160,8 +160,7 @@ fn standing(sheet: &Sheet, waits: &Table, fronts: &Table, tick: f64) -> Result<(
 
 fn description(waits: &Table) -> String {
     format!(
-        "(a) Mean count of all against σ: simulated points along the band of nucleation and growth and the curve of the closed theory; \
-         circuits are steeper. (b) Advance \
+        "(a) Mean count of all against σ: simulated points along nucleation and growth and the closed theory; circuits steeper. (b) Advance \
          against time: slower than ∝ t, the more so the smaller σ. (c) Half height falls with T. (d) Share of longer waits: first \
          below a constant rate, then above it, from σ = {} down.",
         waits.values("sigma").first().copied().unwrap_or_default(),

@@ -90,10 +90,13 @@ fn what_is_no_list_of_components_is_refused() {
         format!(r#"{{"forcing_frequencies":[{frequencies}],"forcing":[{}]}}"#, lists(count))
     };
     Scenario::from_json(&with("2,3,4,5,6,7,8,9", 8)).unwrap();
-    refused(&with("2,3,4,5,6,7,8,9,10", 9), &["forcing_frequencies", "there are 9", "1 to 8"]);
-    refused(&with("2,3", 1), &["forcing_frequencies", "2 of them", "1 lists"]);
-    refused(&with("2", 2), &["forcing_frequencies", "1 of them", "2 lists"]);
-    refused(&with("", 0), &["forcing_frequencies", "0 of them"]);
+    refused(
+        &with("2,3,4,5,6,7,8,9,10", 9),
+        &["forcing_frequencies", "their number is 9", "1 to 8"],
+    );
+    refused(&with("2,3", 1), &["forcing_frequencies", "their number is 2", "1 list"]);
+    refused(&with("2", 2), &["forcing_frequencies", "their number is 1", "2 lists"]);
+    refused(&with("", 0), &["forcing_frequencies", "their number is 0"]);
     for wrong in ["0", "-1.5", "1e300", "5e-324", "1"] {
         refused(&with(&format!("2,{wrong}"), 2), &["forcing_frequencies[1]"]);
         refused(&with(&format!("{wrong},2"), 2), &["forcing_frequencies[0]"]);

@@ -338,7 +338,6 @@ mod tests {
         assert_eq!(speed, 3.0 / 200.0);
         let of = |column| all.number(&[], column).unwrap();
         assert_eq!([of("fronts"), of("steps"), of("least_alive")], [4.0, 3.0, 0.5]);
-        assert_eq!(of("far_time"), 300.0 / speed);
         assert!((of("meeting_time") * 2.0 * speed / of("spacing") - 1.0).abs() < 1e-14);
     }
 }

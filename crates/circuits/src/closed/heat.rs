@@ -96,7 +96,7 @@ pub(super) fn check(chain: &Chain, sigma: f64) -> Result<(), Error> {
 
 /// The state at one u², and by how much more forces give than impacts take, over what they take.
 fn state(gas: &OrderedGas, chain: &Chain, sigma: f64, square: f64) -> (Heat, f64) {
-    let (omega2, big2) = (chain.natural_frequency.powi(2), chain.forcing_frequency.powi(2));
+    let [omega2, big2] = [chain.natural_frequency, chain.forcing_frequency].map(|x| x * x);
     let (detuning, force2) = (omega2 - big2, sigma * sigma);
     let own = Coupling::between(gas, chain, square);
     let under = Complex::new(detuning, 0.0) + own.stiffness.scaled(4.0);

@@ -281,7 +281,8 @@ pub fn masses(
     let least = LEAST * scale * scale;
     let forces: Vec<Complex> = forcing.iter().map(|[a, b]| Complex::new(*a, -*b)).collect();
     // As hot as rare impacts would make it, and no hotter than a chain that is packed.
-    let hot = balance::variance_ratio(chain)? * sigma * sigma * chain.natural_frequency.powi(2);
+    let speed = sigma * chain.natural_frequency;
+    let hot = balance::variance_ratio(chain)? * speed * speed;
     let mut square = vec![hot.clamp(least, scale * scale); forces.len()];
     let mut system = System {
         chain,
