@@ -106,7 +106,7 @@ fn what_is_no_list_of_components_is_refused() {
         assert!(Scenario::from_json(&with(&format!("2,{wrong}"), 2)).is_err(), "{wrong}");
     }
     let uneven = r#"{"forcing_frequencies":[2,3],"forcing":[[[1,2],[3,4]],[[1,2]]]}"#;
-    refused(uneven, &["forcing[1]", "1 pairs", "forcing[0] has 2"]);
+    refused(uneven, &["forcing[1]", "1 pair,", "forcing[0] has 2"]);
     refused(r#"{"forcing_frequencies":[2,3],"forcing":[[[1,2]],[[1,1e300]]]}"#, &["forcing[1][0]"]);
     refused(r#"{"forcing_frequencies":[2,3],"forcing":[[],[]]}"#, &["forcing", "no mass"]);
     let both = r#"{"forcing_frequency":2,"forcing_frequencies":[2],"forcing":[[[1,2]]]}"#;

@@ -104,10 +104,10 @@ fn list_names_every_quantity_with_its_equation() {
     for name in simple {
         assert!(names.contains(&name) && names.contains(&format!("higher-{name}").as_str()));
     }
-    for name in ["p-crit", "log-circuits", "p-of-sigma", "log-p-of-sigma"] {
+    for name in ["p-crit", "log-circuits", "p-of-sigma", "log-p-of-sigma", "mean-count"] {
         assert!(names.contains(&name));
     }
-    assert_eq!(names.len(), 14);
+    assert_eq!(names.len(), 15);
     assert!(text.lines().all(|l| l.contains("Eq") || l.contains("Sec.")));
 }
 

@@ -17,12 +17,13 @@ fn explain(arguments: &[&str]) -> (i32, String, String) {
 /// What is asked for, and parts of what is told.
 const CARDS: &str = "\
 sweep.rise.half_height => standard error; experiments::rise::find (src/experiments/rise.rs:; seed: 2007
-sweep.rise.half_height => chain masses: 100; sweep-rise.csv; reproduced
+sweep.rise.half_height => chain masses: 100; sweep-rise.csv
 second_seed.rise.half_height => seed: 7002
+theory.jump.p_jump => reproduced
 theory.jump.p_crit => 0.0122099; circuits::jump::p_crit (crates/circuits/src/jump.rs:; (18)
 printed.sec2_half_height => that the paper prints; Sec. 2
 fig:3 => fig03.svg; figures::fig03 (src/figures/fig03.rs:1); seed: 2007
-fig:s12 => experiments::accuracy::race (src/experiments/accuracy/race.rs:
+fig:s11 => experiments::accuracy::race (src/experiments/accuracy/race.rs:
 eq:18 => circuits::jump::p_crit (crates/circuits/src/jump.rs:; theory.jump.p_crit, theory.jump.p_crit_walls
 claim:sec7_jump => verdict; tolerance; theory.jump.p_jump
 eq:12 => f_(N,p)(k)";
