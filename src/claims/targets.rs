@@ -103,7 +103,7 @@ fn clock(measured: &Measured) -> Vec<Check> {
     let size = ("size", "time of an impact at a million masses, over that at a hundred");
     let mut all = vec![
         at_most(one, (0.25, " µs"), time(engine(measured, 100)), true),
-        at_most(many, (0.12, " µs"), ensemble, true),
+        at_most(many, (0.25, " µs"), ensemble, true),
         against(
             measured,
             "heyoka_20",

@@ -48,6 +48,8 @@ pub enum What {
     Method,
     /// Another project.
     Peer,
+    /// Another model, written in this project for its speed (`impact-chain`, example `ballistic`).
+    Model,
     /// Wall time of a command of this project.
     Command,
     /// Another project that could not be run; the note says why.

@@ -5,6 +5,7 @@ use super::bias::{self, BiasRow, Biases};
 use super::race::{self, DISPLACED, Entry, Race};
 use super::scale::{self, Scale, ScaleRow};
 use crate::experiments::Measured;
+use crate::experiments::measured::What;
 use crate::numerics::estimates::with_error;
 use crate::numerics::statistics::Estimate;
 use crate::params::{MethodName, PRINTED_THRESHOLD, Setting};
@@ -270,7 +271,18 @@ pub fn measured(measured: &Measured) -> Vec<Table> {
         .words("os", "under what", |()| machine.os.replace('_', "-"))
         .count("cores", "processors", |()| u64::from(machine.cores))
         .measured();
-    vec![table.done()]
+    let time = |what| {
+        let own = measured.of(what).filter(|row| row.n == 100 && row.chains == 1);
+        or_nan(own.filter_map(|row| row.microseconds_per_impact).next())
+    };
+    let impact = Table::of("measured.impact", &[()], |()| 1)
+        .computed_by(origin(Measured::parse))
+        .real("engine", "us", 2, "time of an impact in the engine, one chain of 100 masses", |()| {
+            time(What::Engine)
+        })
+        .real("ballistic", "us", 2, "the same of masses that fly freely", |()| time(What::Model))
+        .measured();
+    vec![table.done(), impact.done()]
 }
 
 #[cfg(test)]
