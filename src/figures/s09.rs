@@ -83,7 +83,7 @@ fn circuits(sheet: &Sheet, found: &Table) -> Result<(), Error> {
         panel.marks(&named(sigma), &points(sigma, "measured"), look, Outside::Cut)?;
         entries.push(Entry::mark((mark, MEDIUM, thin), &named(sigma)));
     }
-    sheet.legend_in_columns((500, 8420), (SMALL, 340), (1, 2700), &entries)
+    sheet.legend_in_columns((200, 8420), (SMALL, 340), (1, 3300), &entries)
 }
 
 fn different(sheet: &Sheet, found: &Table, gaps: f64) -> Result<(), Error> {
