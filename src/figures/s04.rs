@@ -47,7 +47,7 @@ fn counts(
     let transient = [("transient", sweep.parameters.protocol.transient)];
     let lines = [
         ("nucleation and growth", "grown", Stroke::solid(INK, THIN)),
-        ("closed theory", "expected", Stroke::solid(ORANGE, LINE)),
+        ("closed theory", "expected", Stroke::dashed(ORANGE, LINE, Dash::Alternate)),
         ("circuits, Eq. (25)", "eq25", Stroke::dashed(BLUE, LINE, Dash::Short)),
         ("circuits, from rest", "from_rest", Stroke::dashed(PURPLE, LINE, Dash::Long)),
     ];
