@@ -108,31 +108,12 @@ fn part(
         let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, index);
         let scenario = Scenario::draw(&chain, sigma, &mut normals);
         let Some(found) = simulated(parameters, &scenario, progress)? else { return Ok(None) };
-        let expected = expected(parameters, &spreading, sigma, &scenario.forcing, &mut normals)?;
+        let drawn = spreading
+            .drawn(sigma, &scenario.forcing)
+            .map_err(|source| Error::failed("closed", source))?;
+        let expected = drawn.mean_counts(&parameters.protocols, &mut normals);
         Ok(Some(found.into_iter().zip(expected).collect()))
     })
-}
-
-/// Waits that are drawn for each chain.
-const WAITS: usize = 4;
-
-fn expected(
-    parameters: &ClosedParams,
-    spreading: &Spreading,
-    sigma: f64,
-    forcing: &[[f64; 2]],
-    normals: &mut NormalPairs,
-) -> Result<Vec<f64>, Error> {
-    let drawn =
-        spreading.drawn(sigma, forcing).map_err(|source| Error::failed("closed", source))?;
-    let mut sums = vec![0.0; parameters.protocols.len()];
-    for _ in 0..WAITS {
-        let first = drawn.first_impacts(normals);
-        for (sum, [transient, window]) in sums.iter_mut().zip(&parameters.protocols) {
-            *sum += drawn.count(&first, *transient, *window) / WAITS as f64;
-        }
-    }
-    Ok(sums)
 }
 
 /// Gaps with an impact in each window, in one run; windows do not overlap. None where the engine gave up.

@@ -139,16 +139,9 @@ impl Spreading {
             let mut normals = NormalPairs::new("closed theory", seed, index);
             let forcing: Vec<[f64; 2]> =
                 (0..self.chain.masses).map(|_| normals.pair().map(|x| sigma * x)).collect();
-            let drawn = self.drawn(sigma, &forcing)?;
-            let mut sums = vec![0.0; times.len()];
-            for _ in 0..WAITS {
-                let first = drawn.first_impacts(&mut normals);
-                for (sum, [transient, window]) in sums.iter_mut().zip(times) {
-                    *sum += drawn.count(&first, *transient, *window);
-                }
-            }
-            for (own, sum) in counts.iter_mut().zip(sums) {
-                own.push(sum / WAITS as f64);
+            let found = self.drawn(sigma, &forcing)?.mean_counts(times, &mut normals);
+            for (own, count) in counts.iter_mut().zip(found) {
+                own.push(count);
             }
         }
         let few = || Error::input("chains", format!("{chains}"), "give two at least, for an error");
@@ -157,6 +150,18 @@ impl Spreading {
 }
 
 impl Drawn {
+    /// The expected number of gaps with an impact for each pair of a transient and a window, over waits that are drawn.
+    pub fn mean_counts(&self, times: &[[f64; 2]], normals: &mut NormalPairs) -> Vec<f64> {
+        let mut sums = vec![0.0; times.len()];
+        for _ in 0..WAITS {
+            let first = self.first_impacts(normals);
+            for (sum, [transient, window]) in sums.iter_mut().zip(times) {
+                *sum += self.count(&first, *transient, *window);
+            }
+        }
+        sums.into_iter().map(|sum| sum / WAITS as f64).collect()
+    }
+
     /// When each gap is hit first, for waits that are drawn.
     pub fn first_impacts(&self, normals: &mut NormalPairs) -> Vec<f64> {
         let waits: Vec<[f64; 2]> = self
