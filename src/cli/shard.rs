@@ -50,9 +50,8 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let profile = Profile::from(args.profile);
     let unwritable = |error: Error| match error {
         Error::Store { path, source } => {
-            let path = path.display();
-            let remedy = "give a folder that can be written";
-            Failure::io(&source, format!("--out: {path}: {source}; {remedy}"))
+            let what = format!("--out: {}", path.display());
+            Failure::io(&source, what, "give a folder that can be written")
         }
         other => other.into(),
     };

@@ -80,7 +80,7 @@ fn rerun(args: &Args, progress: &Progress) -> Result<Checked, Failure> {
     // Removed in the end, whatever happens.
     let temporary = tempfile::tempdir().map_err(bare).map_err(|e| {
         let remedy = "name one that can be written in TMPDIR";
-        Failure::io(&e, format!("a temporary folder: {e}; {remedy}"))
+        Failure::io(&e, "a temporary folder", remedy)
     })?;
     let results = args.results.clone().unwrap_or_else(|| temporary.path().join("results"));
     let pdf = pdfs().any(|name| args.folder.join(name).symlink_metadata().is_ok());

@@ -131,7 +131,8 @@ impl Measured {
         let measured: Measured =
             serde_path_to_error::deserialize(&mut reader).map_err(|error| {
                 let path = error.path().to_string();
-                wrong(if path == "." { "file" } else { &path }, error.into_inner().to_string())
+                let field = if matches!(&*path, "." | "?") { "file" } else { &path };
+                wrong(field, error.into_inner().to_string())
             })?;
         reader.end().map_err(|error| wrong("file", error.to_string()))?;
         measured.check()?;

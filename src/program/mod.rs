@@ -12,7 +12,8 @@ pub mod stdout;
 pub mod work;
 
 use crate::experiments::say;
-use crate::input::{one_line, plain};
+use crate::input::{one_line, plain, remedy};
+use std::fmt::Display;
 use std::io;
 use std::process::ExitCode;
 
@@ -60,14 +61,20 @@ impl Failure {
         Failure { code: 1, message: message.into() }
     }
 
-    /// The system refused to read or write: exit code 4 where no other place or name would help.
-    pub fn io(error: &io::Error, message: impl Into<String>) -> Self {
+    /// The system refused to read or write `what`: exit code 4 where no other place or name would help,
+    /// else 2 and the remedy.
+    pub fn io(error: &io::Error, what: impl Display, otherwise: &str) -> Self {
+        let message = format!("{what}: {error}; {}", remedy(error, otherwise));
+        Failure { code: Self::io_code(error), message }
+    }
+
+    /// Its exit code.
+    fn io_code(error: &io::Error) -> u8 {
         use io::ErrorKind::{FileTooLarge, OutOfMemory, QuotaExceeded, StorageFull, WriteZero};
         let full = [FileTooLarge, OutOfMemory, QuotaExceeded, StorageFull, WriteZero];
         // EIO has no kind of its own.
         let broken = cfg!(unix) && error.raw_os_error() == Some(5);
-        let code = if full.contains(&error.kind()) || broken { 4 } else { 2 };
-        Failure { code, message: message.into() }
+        if full.contains(&error.kind()) || broken { 4 } else { 2 }
     }
 
     /// Tells it on standard error.

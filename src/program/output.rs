@@ -19,6 +19,9 @@ use std::time::Duration;
 /// Folders that a report has.
 const FOLDERS: [&str; 2] = ["data", "figures"];
 
+/// The mark of a folder in which files of ours wait.
+const OURS: &str = ".impact-paper";
+
 /// Of a longer list of names only so many are told.
 const TOLD: usize = 5;
 
@@ -190,7 +193,9 @@ impl<'a> Staging<'a> {
     /// A folder in which files wait until all are complete.
     fn temporary(&self) -> Result<tempfile::TempDir, Failure> {
         let made = tempfile::Builder::new().prefix(STAGING).tempdir_in(self.folder);
-        made.map_err(|error| self.failed(&input::bare(error)))
+        let made = made.map_err(|error| self.failed(&input::bare(error)))?;
+        std::fs::write(made.path().join(OURS), "").map_err(|error| self.failed(&error))?;
+        Ok(made)
     }
 
     /// Refuses a folder in the place of a file.
@@ -217,8 +222,7 @@ impl<'a> Staging<'a> {
 
     fn failed(&self, error: &io::Error) -> Failure {
         let (option, folder) = (self.option, self.folder.display());
-        let remedy = "give a folder that can be written";
-        Failure::io(error, format!("{option}: {folder}: {error}; {remedy}"))
+        Failure::io(error, format!("{option}: {folder}"), "give a folder that can be written")
     }
 
     /// Refuses a path that would leave the folder: one with `..` or from the root, and one through a
@@ -318,10 +322,14 @@ impl Own {
     }
 }
 
-/// Is it a folder in which files of ours waited?
+/// Is it a folder in which files of ours waited? One with the mark, or an empty one: a run may be killed before it
+/// leaves its mark.
 pub fn is_staging(folder: &Path, name: &str) -> bool {
+    let path = folder.join(name);
     name.starts_with(STAGING)
-        && folder.join(name).symlink_metadata().is_ok_and(|found| found.is_dir())
+        && path.symlink_metadata().is_ok_and(|found| found.is_dir())
+        && (path.join(OURS).exists()
+            || path.read_dir().is_ok_and(|mut files| files.next().is_none()))
 }
 
 /// Names of what is in a folder.
@@ -529,6 +537,7 @@ mod tests {
         let left = out.path().join(format!("{STAGING}abc"));
         std::fs::create_dir_all(left.join("data")).unwrap();
         std::fs::write(left.join("data/a.csv"), "half").unwrap();
+        std::fs::write(left.join(OURS), "").unwrap();
         let living = alone(out.path()).unwrap();
         let waiting = std::thread::scope(|scope| {
             let other = scope.spawn(|| Staging::below(out.path(), "--out", ASK).map(|_| ()));
@@ -544,13 +553,16 @@ mod tests {
     #[test]
     fn what_only_looks_like_leftovers_is_a_stranger() {
         let out = tempfile::tempdir().unwrap();
-        let theirs = out.path().join(".staging-site");
-        std::fs::create_dir(&theirs).unwrap();
-        std::fs::write(theirs.join("index.md"), "theirs").unwrap();
-        let failure = place(out.path(), &files(&["a"])).unwrap_err();
-        assert!(failure.message.contains("(.staging-site)"), "{}", failure.message);
-        assert!(theirs.join("index.md").exists());
-        std::fs::rename(&theirs, out.path().join("site")).unwrap();
+        for name in [".staging-site".into(), format!("{STAGING}site")] {
+            let theirs = out.path().join(&name);
+            std::fs::create_dir(&theirs).unwrap();
+            std::fs::write(theirs.join("index.md"), "theirs").unwrap();
+            let failure = place(out.path(), &files(&["a"])).unwrap_err();
+            assert!(failure.message.contains(&format!("({name})")), "{}", failure.message);
+            assert!(theirs.join("index.md").exists());
+            let _ = std::fs::remove_dir_all(out.path().join("site"));
+            std::fs::rename(&theirs, out.path().join("site")).unwrap();
+        }
         let file = out.path().join(format!("{STAGING}notes.md"));
         std::fs::write(&file, "theirs").unwrap();
         let force = Staging::below(out.path(), "--out", Force { force: true }).unwrap();

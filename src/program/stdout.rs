@@ -12,7 +12,7 @@ pub fn written(result: io::Result<()>) -> Result<(), Failure> {
     match result {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
             let remedy = "direct it to a file that can be written";
-            Err(Failure::io(&error, format!("standard output: {error}; {remedy}")))
+            Err(Failure::io(&error, "standard output", remedy))
         }
         _ => Ok(()),
     }

@@ -173,6 +173,10 @@ pub fn obey_signals() {
         say("impact-paper: interrupted");
         std::process::exit(i32::from(INTERRUPTED))
     };
+    // A file that would grow past the limit of `ulimit -f` fails to be written, as on a full disk.
+    #[cfg(unix)]
+    let _ =
+        signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::new(AtomicBool::new(false)));
     // A handler can only be refused if there is one already; then a signal just ends the program.
     let _ = ctrlc::set_handler(move || match WORK.get() {
         Some((stop, ending))
@@ -323,7 +327,7 @@ impl From<Error> for Failure {
     fn from(error: Error) -> Self {
         let code = match &error {
             Error::Interrupted => INTERRUPTED,
-            Error::Store { source, .. } => Failure::io(source, "").code,
+            Error::Store { source, .. } => Failure::io_code(source),
             Error::Input { .. } => 2,
             Error::Failed { source, .. } if is_input(source.as_ref()) => 2,
             Error::Stale { .. } | Error::Units { .. } | Error::NotUnderstood { .. } => 3,

@@ -175,3 +175,27 @@ fn without_restitution_a_pair_sticks_only_while_it_is_pressed() {
         assert!(sticks && (x[1] - x[0]).abs() < 2e-15 || x[0] < x[1], "force {force}: {x:?}");
     }
 }
+
+/// Two gaps at the walls are released within 1e-17 of one another: the second release looks at the first gap again
+/// while it is open by 1e-50, moves at 1e-33, and is lifted by its third derivative alone.
+#[test]
+fn gaps_that_are_released_together_part_without_a_crawl() {
+    for big_w in [2.0, std::f64::consts::SQRT_2] {
+        let scenario = Scenario {
+            forcing_frequency: big_w,
+            restitution: 0.0,
+            initial: Initial::Rest,
+            ..scene(&[(1.0, 0.0), (2.0, 0.0)], &[3.0, -3.0], 0.0)
+        };
+        let mut engine = Engine::new(&scenario).unwrap();
+        let impacts = run(&mut engine, 30.0);
+        // The masses meet and stick, part, reach both walls at once and stick there, again and again.
+        let hard: Vec<usize> =
+            impacts.iter().filter(|impact| impact.closing_speed > 1.0).map(|i| i.gap).collect();
+        assert!(
+            hard.len() > 12 && hard.chunks_exact(3).all(|round| round == [1, 0, 2]),
+            "{hard:?}"
+        );
+        assert!(engine.counters().searches < 1000, "{:?}", engine.counters());
+    }
+}

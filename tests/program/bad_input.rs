@@ -352,10 +352,15 @@ fn broken_files_are_told_in_one_line() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     fs::create_dir(folder.join("t")).unwrap();
+    fs::write(folder.join("name.json"), "{\"a\\nb\":1}").unwrap();
     fs::write(folder.join("t/published.toml"), "# none\n[[statement]]\nid = 3\n").unwrap();
     let check = "check --profile=quick --templates=t";
-    crate::refused(folder, check, &["impact-paper: published.toml:3: "]);
-    fs::write(folder.join("name.json"), "{\"a\\nb\":1}").unwrap();
+    crate::refused(folder, check, &["impact-paper: published.toml:3: ", "restore the file"]);
+    crate::refused(
+        folder,
+        "plan --left name.json",
+        &["results: name.json: ", "a file is in the way"],
+    );
     crate::refused(folder, "trace name.json --until=5", &["name.json", "a b"]);
 }
 

@@ -116,6 +116,13 @@ fn bounds_are_those_of_the_library() {
     let most = LARGEST_N + 1;
     refused(&format!("mean-impacts --p 0.1 --vertices {most}"), &["vertices:"]);
     refused(&format!("mean-impacts --p 0.1 --masses {LARGEST_N}"), &["masses:"]);
+    for (option, range) in [
+        ("--transient 1e300", "1e300 is out of range; give 0 to 1e12"),
+        ("--window 0", "0 is out of range; give 0.001 to 1e12"),
+        ("--restitution 1", "1 is out of range; give 0 to 0.999"),
+    ] {
+        refused(&format!("mean-count --sigma 0.12 {option}"), &[range]);
+    }
     assert!(float("p-jump --vertices 4") < 1.0 && float("higher-p-jump --vertices 2") < 1.0);
 }
 

@@ -90,6 +90,18 @@ pub fn bare(error: Error) -> Error {
     }
 }
 
+/// What to do about what the system said: `otherwise`, unless it is not the place that is at fault.
+pub fn remedy<'a>(error: &Error, otherwise: &'a str) -> &'a str {
+    match error.kind() {
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::WriteZero => "make room",
+        ErrorKind::FileTooLarge => "allow larger files (ulimit -f)",
+        ErrorKind::NotADirectory | ErrorKind::AlreadyExists => {
+            "a file is in the way; move it, or give another path"
+        }
+        _ => otherwise,
+    }
+}
+
 /// Files and folders that wait until they are complete begin with this.
 pub const STAGING: &str = ".staging-impact-paper-";
 
@@ -134,10 +146,11 @@ pub fn is_no_text(c: char) -> bool {
     controls || ('\u{e000}'..='\u{f8ff}').contains(&c)
 }
 
-/// A fault of TOML with its line, from 1: `12: missing field …`.
+/// A fault of TOML with its line, from 1, and a remedy: `12: missing field …; mend …`.
 pub fn toml_fault(text: &str, error: &toml::de::Error) -> String {
     let before = error.span().and_then(|span| text.get(..span.start)).unwrap_or_default();
-    format!("{}: {}", line(before), one_line(&plain(error.message()), 300))
+    let what = one_line(&plain(error.message()), 300);
+    format!("{}: {what}; mend this line, or restore the file", line(before))
 }
 
 /// The line that a text ends in, from 1.

@@ -1,7 +1,7 @@
 //! The first root by certified steps: slower than the screen, and never at a loss.
 
 use super::first_root::{Next, Work};
-use super::local_frame::{Frame, Frequencies, Point};
+use super::local_frame::{Frame, Frequencies, Point, ROUNDING};
 
 /// The first root h > 0 of the parabola f + g h − ½ K h², f ≥ 0; `far` if there is none before.
 #[inline]
@@ -63,6 +63,15 @@ fn stays_open<const M: usize>(a: &Point<M>, b: &Point<M>, h: f64, bound6: f64, s
         b.f - gb * (1.0 / 6.0),
     ];
     coefficients.iter().all(|&c| c > slack)
+}
+
+/// Whether f''' > 0 alone lifts f from where it does not fall and f'' is zero to `rounding`.
+///
+/// With f, f' ≥ 0, f ≥ f'' h²/2 + f''' h³/12 while h ≤ 2 f'''/M₄. That is never below
+/// −(8/3) |f''|³/f'''², far less than the rounding of places, and positive from h = 6 |f''|/f''' on.
+#[inline]
+fn is_lifted<const M: usize>(p: &Point<M>, rounding: f64) -> bool {
+    p.g >= 0.0 && p.h.abs() <= rounding && p.j > 0.0
 }
 
 /// Evaluations after which a search stops with what is certified so far; its owner resumes it.
@@ -142,8 +151,9 @@ pub fn first_root_by_steps<const M: usize>(
         } else {
             stretch((p.f - p.margin).max(0.0), &p, frame.bound, limit - s)
         };
-        // Where f, f' and f'' vanish to rounding, f''' lifts f: above zero while h < 4 f'''/M₄.
-        let h = if h > 0.0 { h } else { 2.0 * p.j.abs() / frame.bound };
+        // Where f, f' and f'' vanish, or f'' to rounding, f''' lifts f: above zero while h < 4 f'''/M₄.
+        let lifted = h == 0.0 || is_lifted(&p, ROUNDING * fast * fast * frame.size);
+        let h = if lifted { h.max(2.0 * p.j.abs() / frame.bound) } else { h };
         let next = s + h * (1.0 - 4.0 * f64::EPSILON);
         s = if next > s { next } else { s + s * f64::EPSILON };
         if s >= limit {

@@ -111,7 +111,7 @@ fn summarise(text: &str) -> Result<(), Failure> {
     file.and_then(|mut file| file.write_all(text.as_bytes())).map_err(|error| {
         let path = path.display();
         let remedy = "name a file that can be written";
-        Failure::io(&error, format!("{NAME} ({path}): {error}; {remedy}"))
+        Failure::io(&error, format!("{NAME} ({path})"), remedy)
     })
 }
 

@@ -104,9 +104,9 @@ impl Inputs {
             let protocol = Protocol::default();
             inputs.transient = or("transient", &options.transient, protocol.transient)?;
             inputs.window = or("window", &options.window, protocol.window)?;
-            for (field, time) in [("transient", inputs.transient), ("window", inputs.window)] {
-                bounded(field, time.unwrap_or(f64::NAN), [0.0, 1e12])?;
-            }
+            bounded("transient", inputs.transient.unwrap_or(f64::NAN), [0.0, 1e12])?;
+            // A window of no length has no impact in it.
+            bounded("window", inputs.window.unwrap_or(f64::NAN), [1e-3, 1e12])?;
         }
         if needs(Need::Oscillator) {
             inputs.omega = or("omega", &options.omega, chain.natural_frequency)?;
@@ -152,6 +152,8 @@ fn bounded(field: &str, x: f64, [low, high]: [f64; 2]) -> Result<(), Failure> {
     if (low..=high).contains(&x) {
         return Ok(());
     }
+    let [x, low, high] =
+        [x, low, high].map(|x| if x < 1e9 { x.to_string() } else { format!("{x:e}") });
     Err(Failure::input(format!("{field}: {x} is out of range; give {low} to {high}")))
 }
 

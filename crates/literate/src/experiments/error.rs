@@ -1,5 +1,6 @@
 //! What can go wrong in an experiment.
 
+use crate::input::remedy;
 use std::path::PathBuf;
 
 /// An error of an experiment.
@@ -60,7 +61,7 @@ pub enum Error {
         remedy: String,
     },
     /// The results directory cannot be written.
-    #[error("results directory {path}: {source}; choose another with --results")]
+    #[error("results: {path}: {source}; {}", remedy(source, "give another folder"))]
     Store {
         /// File or directory.
         path: PathBuf,

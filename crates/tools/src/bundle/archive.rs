@@ -96,5 +96,5 @@ impl Archive {
 
 fn failed(path: &Path, error: io::Error) -> Failure {
     let path = path.display();
-    Failure::io(&error, format!("{path}: {error}; give an archive that can be written"))
+    Failure::io(&error, path, "give an archive that can be written")
 }
