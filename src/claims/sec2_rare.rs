@@ -113,7 +113,10 @@ pub(super) fn walls_like_masses(e: &Evidence, _: &Statement) -> Result<Finding, 
         judgement: Judgement::Plain {
             agrees: difference.abs() <= (high - low) / 2.0 + e.level.quantile * error,
         },
-        note: Text::words("A ring has N = n gaps, a chain between walls N = n + 1."),
+        note: Text::words(
+            "A ring has N = n gaps, a chain between walls N = n + 1. After longer transients a ring rises somewhat \
+             earlier.",
+        ),
     })
 }
 

@@ -27,7 +27,7 @@ const ABOUT: [(&str, &str); 6] = [
     ("author", "The impact-paper authors"),
     ("citation_author", "The impact-paper authors"),
     ("citation_title", "impact-paper"),
-    ("citation_publication_date", "2026-11-21"),
+    ("citation_publication_date", "2026-11-24"),
     ("version", env!("CARGO_PKG_VERSION")),
     ("license", "MIT OR Apache-2.0"),
 ];

@@ -396,7 +396,7 @@ mod tests {
     fn a_folder_that_cannot_be_is_an_error_before_the_run() {
         let file = tempfile::NamedTempFile::new().unwrap();
         let error = Store::open(file.path()).unwrap_err().to_string();
-        assert!(error.contains("--results"), "{error}");
+        assert!(error.contains("a file is in the way"), "{error}");
         let store = Store { folder: Some(file.path().join("below")) };
         let run = || -> Result<f64, Error> { panic!("nothing can be saved") };
         let error =
