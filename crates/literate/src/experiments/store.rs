@@ -401,6 +401,6 @@ mod tests {
         let run = || -> Result<f64, Error> { panic!("nothing can be saved") };
         let error =
             store.get(&identity(1.0), Profile::Quick, &Progress::silent(), run).unwrap_err();
-        assert!(error.to_string().contains("--results"), "{error}");
+        assert!(error.to_string().contains("a file is in the way"), "{error}");
     }
 }
