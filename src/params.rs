@@ -11,6 +11,7 @@ mod history;
 mod independence;
 mod nucleation;
 mod restitution;
+pub mod set;
 mod sizes;
 mod spacetime;
 

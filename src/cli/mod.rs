@@ -7,6 +7,7 @@ mod diff;
 mod document;
 mod eval;
 mod explain;
+mod manual;
 mod merge;
 mod method;
 mod paper;
@@ -18,7 +19,8 @@ mod sweep;
 mod trace;
 mod verify;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use impact_paper::experiments::be_quiet;
 use impact_paper::program::{
     self, Failure, folder, git, judged, make, output, sources, stdout, work,
 };
@@ -27,8 +29,9 @@ use std::process::ExitCode;
 /// The contract; DESIGN.md has the same table.
 const EXIT_CODES: &str = "Exit codes:
   0    fine
-  1    a claim, target, check or comparison failed, and what was asked for is written all the same; or a rule of
-       the prose is broken (a naked numeral, an unused value), and nothing is
+  1    a claim, target, check or comparison failed, and what was asked for is written all
+       the same; or a rule of the prose is broken (a naked numeral, an unused value), and
+       nothing is
   2    wrong usage or input, broken prose too, or a place that cannot be written
   3    saved results are stale or missing
   4    a run failed, or the system did: a full disk, an I/O error
@@ -41,13 +44,41 @@ const VERSION: &str =
 /// The literate, reproducible edition of Homer & Hogan (2007), Impact Dynamics of Large
 /// Dimensional Systems.
 #[derive(Parser)]
-#[command(
-    version = VERSION,
-    after_help = EXIT_CODES
-)]
+#[command(version = VERSION, after_help = EXIT_CODES, help_template = TEMPLATE)]
 struct Cli {
     #[command(subcommand)]
     verb: Verb,
+    /// Say nothing of progress; errors are told all the same.
+    #[arg(long, short, global = true)]
+    quiet: bool,
+}
+
+/// The verbs are listed by [`groups`].
+const TEMPLATE: &str =
+    "{about}\n\n{usage-heading} {usage}\n\n{before-help}Options:\n{options}{after-help}";
+
+/// Who uses which verb.
+const GROUPS: [(&str, &[&str]); 5] = [
+    ("Make and check", &["paper", "check", "verify", "diff"]),
+    ("Look at", &["explain", "status"]),
+    ("Compute", &["eval", "sweep", "trace", "bench"]),
+    ("On several machines", &["plan", "run", "merge"]),
+    ("For keepers", &["audit", "manual"]),
+];
+
+/// The command line, with its verbs in groups.
+fn command() -> clap::Command {
+    let command = Cli::command();
+    let line = |name: &&str| {
+        let about = command.find_subcommand(name).and_then(clap::Command::get_about);
+        let about = about.map(ToString::to_string).unwrap_or_default();
+        format!("  {name:8} {about}\n")
+    };
+    let group = |(head, names): (&str, &[&str])| -> String {
+        format!("{head}:\n{}\n", names.iter().map(line).collect::<String>())
+    };
+    let groups: String = GROUPS.into_iter().map(group).collect();
+    command.before_help(groups)
 }
 
 #[derive(Subcommand)]
@@ -58,6 +89,7 @@ enum Verb {
     Diff(diff::Args),
     Eval(eval::Args),
     Explain(explain::Args),
+    Manual(manual::Args),
     Merge(merge::Args),
     Paper(paper::Args),
     Plan(plan::Args),
@@ -70,10 +102,14 @@ enum Verb {
 
 /// Parses the command line and runs the verb.
 pub fn main() -> ExitCode {
-    let verb = match Cli::try_parse() {
-        Ok(cli) => cli.verb,
+    let parsed = command().try_get_matches().and_then(|found| Cli::from_arg_matches(&found));
+    let Cli { verb, quiet } = match parsed {
+        Ok(cli) => cli,
         Err(error) => return program::usage(&error),
     };
+    if quiet {
+        be_quiet();
+    }
     work::obey_signals();
     if let Err(failure) = work::environment() {
         return program::ended(Err(failure));
@@ -85,6 +121,7 @@ pub fn main() -> ExitCode {
         Verb::Diff(args) => diff::run(args),
         Verb::Eval(args) => eval::run(args),
         Verb::Explain(args) => explain::run(args),
+        Verb::Manual(args) => manual::run(&args),
         Verb::Merge(args) => merge::run(args),
         Verb::Paper(args) => paper::run(args),
         Verb::Plan(args) => plan::run(args),

@@ -8,7 +8,7 @@ use super::{Failure, folder, make, stdout, work};
 use impact_paper::claims::Verdict;
 use impact_paper::experiments::Progress;
 use impact_paper::figures;
-use impact_paper::params::Profile;
+use impact_paper::params::{Profile, set};
 use impact_paper::report::compare::{self, Parts};
 use impact_paper::report::values::Number;
 use impact_paper::report::{self, Files, PROGRAM, Registry};
@@ -25,9 +25,13 @@ use std::time::{Duration, Instant};
 /// a target of accuracy or counted work, or a check fails; the report is written all the same.
 #[derive(clap::Args)]
 pub struct Args {
-    /// Sample sizes.
-    #[arg(long, default_value = "full")]
-    profile: work::ProfileName,
+    /// Sample sizes [default: full; with --set: ci].
+    #[arg(long)]
+    profile: Option<work::ProfileName>,
+    /// What if a parameter were another? For example restitution=0.7; may be repeated, `list` lists them. Nothing
+    /// is judged then, every document and figure says so, and --out has to be given.
+    #[arg(long, value_name = "NAME=VALUE")]
+    set: Vec<String>,
     #[arg(long, value_name = "N", allow_hyphen_values = true, help = figure_help())]
     figure: Vec<String>,
     /// Folder to write into [default: paper for the full profile, else target/paper-PROFILE].
@@ -59,8 +63,23 @@ const MOVED: usize = 6;
 /// Runs the verb.
 pub fn run(args: Args) -> Result<(), Failure> {
     let began = Instant::now();
-    let profile = Profile::from(args.profile);
+    if args.set == ["list"] {
+        return stdout::print(&set::list());
+    }
+    set::choose(&args.set).map_err(|e| Failure::input(format!("--set: {e}")))?;
+    let other = set::told().is_some();
+    let usual = if other { work::ProfileName::Ci } else { work::ProfileName::Full };
+    let profile = Profile::from(args.profile.unwrap_or(usual));
     let out = args.out.clone().unwrap_or_else(|| default_folder(profile));
+    if other && out == default_folder(profile) {
+        return Err(Failure::input("--set: this is another paper; give it a folder with --out"));
+    }
+    if other && profile == Profile::Full && args.figure.is_empty() {
+        return Err(Failure::input(
+            "--set: the full profile has results that take half an hour, of the paper's parameters only; give \
+             --profile ci, or --figure",
+        ));
+    }
     let read = |text: &String| text.parse().map_err(|e| Failure::input(format!("--figure: {e}")));
     let numbers =
         args.figure.iter().map(read).collect::<Result<BTreeSet<figures::Number>, Failure>>()?;
@@ -76,7 +95,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     if whole {
         staging.refuse_changed()?;
     }
-    let (files, judged) = work::on_threads(args.sources.threads, || {
+    let made = work::on_threads(args.sources.threads, || {
         if whole {
             let (report, judged) = make::whole(&args.sources, profile, args.pdf, &progress)?;
             let files: Files = report.committed.into_iter().chain(report.beside).collect();
@@ -84,6 +103,12 @@ pub fn run(args: Args) -> Result<(), Failure> {
         } else {
             Ok((some(&args.sources, &numbers, profile, &progress)?, Judged::default()))
         }
+    });
+    let (files, judged) = made.map_err(|failure| match failure.code {
+        2 | 4 if other && whole => failure.and(
+            "with these parameters not every part can be made; name the figures that are wanted by --figure",
+        ),
+        _ => failure,
     })?;
     // What was there before is compared first: it is about to be replaced.
     let told = if whole { told(&out, &files, &judged) } else { String::new() };
@@ -103,6 +128,9 @@ fn told(out: &Path, files: &Files, judged: &Judged) -> String {
     let [met, missed, open] =
         [Verdict::Reproduced, Verdict::Differs, Verdict::CannotBeJudged].map(count);
     let timed = judged.targets.iter().filter(|one| one.verdict == Verdict::Differs && !one.fails());
+    if let Some(told) = set::told() {
+        return format!("not the paper's parameters ({told}): nothing is judged\n");
+    }
     let mut lines = judged.scores();
     lines.push(format!(
         "{} targets: {met} met, {missed} missed ({} of these by the clock), {open} not measured",
@@ -170,7 +198,9 @@ fn refuse_over_other(profile: Profile, out: &Path, figures: bool) -> Result<(), 
         _ => None,
     };
     match values_in(out).and_then(name) {
-        Some(name) if name != profile.name() && (figures || name == Profile::Full.name()) => {
+        Some(name)
+            if name != set::profile(profile) && (figures || name == Profile::Full.name()) =>
+        {
             Err(Failure::input(format!(
                 "--out: {} holds a report of the {name} profile; give another folder, or --profile {name}",
                 out.display()

@@ -8,9 +8,9 @@ use literate::experiments::identity::{Reason, told};
 use serde::Serialize;
 use std::path::PathBuf;
 
-/// Says which saved results are fresh, and which `paper` would run again and why. Runs nothing.
+/// Says which saved results are fresh, and which would be run again and why.
 ///
-/// A result is fresh if it was saved whole, with the same parameters, by the same code, and with the
+/// Runs nothing. A result is fresh if it was saved whole, with the same parameters, by the same code, and with the
 /// same versions of all crates. Ends with exit code 3 if any is not.
 ///
 /// What the deep profile gave is committed, and carried over changes of code and crates: the full profile

@@ -10,10 +10,9 @@ use impact_paper::program::{Failure, folder, make, work};
 use impact_paper::report::{PROGRAM, sums};
 use std::path::PathBuf;
 
-/// Says whether a report is what its SHA256SUMS lists, and with --rerun whether it is what this
-/// program makes.
+/// Says whether a report is what its SHA256SUMS lists; with --rerun, what is made here.
 ///
-/// Every digest is computed anew. PDFs and HTML are built beside and not committed: SHA256SUMS.local
+/// With --rerun the report is made again and compared. Every digest is computed anew. PDFs and HTML are built beside and not committed: SHA256SUMS.local
 /// lists them. Ends with exit code 1 if a file differs, is missing, or stands there without being
 /// listed. Writes nothing.
 #[derive(clap::Args)]

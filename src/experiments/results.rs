@@ -6,7 +6,7 @@ use super::{
     chains, closed, heat, history, horizon, identities, independence, long, nucleation, protocol,
     restitution, seeds, segments, spacetime, starts, sweep, theory, two_masses,
 };
-use crate::params::{Profile, VERTICES};
+use crate::params::{Profile, set};
 use crate::table::Table;
 use literate::experiments::deep::Audit;
 use literate::experiments::{Found, Typed};
@@ -161,10 +161,10 @@ impl Results {
         Results {
             profile,
             theory: LazyLock::new(Box::new(|| {
-                theory::run(VERTICES).expect("the theory exists for the paper's N")
+                theory::run(set::vertices()).expect("the theory exists for the paper's N")
             })),
             identities: LazyLock::new(Box::new(|| {
-                identities::run(VERTICES).expect("the theory exists for the paper's N")
+                identities::run(set::vertices()).expect("the theory exists for the paper's N")
             })),
             found: BTreeMap::new(),
             tables: OnceLock::new(),

@@ -1,6 +1,6 @@
 //! Long chains, damping and other forces: sizes of the experiment.
 
-use super::{Boundary, Chain, Grid, Profile, SEED, Start};
+use super::{Boundary, Chain, Grid, Profile, SEED, Start, set};
 use serde::{Deserialize, Serialize};
 
 /// Chains that differ from the paper's in length, damping or force.
@@ -70,7 +70,7 @@ pub struct ChainCurve {
 impl ChainsParams {
     /// The sizes of each profile.
     pub fn new(profile: Profile) -> Self {
-        let chain = Chain::default();
+        let chain = set::chain();
         let grid = |from, to| {
             let step = match profile {
                 Profile::Full | Profile::Deep => 1,
@@ -158,14 +158,15 @@ impl ChainsParams {
             piece: 1000,
             curves,
             stream: "chains".into(),
-            seed: SEED,
+            seed: set::seed(),
         }
     }
 
     /// Half heights of three lengths after three transients, near enough to tell 0.002 apart; the same
-    /// in every profile.
+    /// in every profile, and of the paper's chain whatever is set.
     pub fn sizes(_: Profile) -> Self {
-        let shape = Self::new(Profile::Quick);
+        let shape =
+            ChainsParams { chain: Chain::default(), seed: SEED, ..Self::new(Profile::Quick) };
         let curve = |transient: f64, masses: usize, realisations, middle: u32| ChainCurve {
             kind: ChainKind::Length,
             name: format!("{masses} masses, T = {transient}"),

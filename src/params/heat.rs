@@ -1,6 +1,6 @@
 //! How hot a running chain is: sizes of the experiment.
 
-use super::{Chain, Profile, Protocol, SEED};
+use super::{Chain, Profile, Protocol, set};
 use serde::{Deserialize, Serialize};
 
 /// One ensemble of it.
@@ -51,7 +51,7 @@ impl HeatParams {
             Profile::Ci => (&[0.1, 0.12, 0.15, 0.2, 0.3], &[0.6, 0.8, 0.9], 8, 1000.0),
             Profile::Quick => (&[0.1, 0.12, 0.2, 0.3], &[0.8, 0.9], 3, 500.0),
         };
-        let chain = Chain::default();
+        let chain = set::chain();
         let paper = chain.restitution;
         let sigmas = sigmas.iter().map(|&sigma| HeatRow { sigma, restitution: paper });
         let ring = sigmas.clone().collect();
@@ -63,7 +63,7 @@ impl HeatParams {
             chain,
             realisations,
             stream: "heat".into(),
-            seed: SEED,
+            seed: set::seed(),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Chains that are heated first: sizes of the experiment.
 
-use super::{Chain, Grid, Profile, SEED};
+use super::{Chain, Grid, Profile, set};
 use serde::{Deserialize, Serialize};
 
 /// Chains that run under a large force, which is then lowered.
@@ -35,7 +35,7 @@ impl HistoryParams {
             Profile::Quick => (Grid::default().and(6, 12, 3, 100), 1000.0, 3),
         };
         HistoryParams {
-            chain: Chain::default(),
+            chain: set::chain(),
             hot: 0.2,
             heating: 300.0,
             sigmas: sigmas.values(),
@@ -43,7 +43,7 @@ impl HistoryParams {
             window: 200.0,
             realisations,
             stream: "history".into(),
-            seed: SEED,
+            seed: set::seed(),
         }
     }
 }

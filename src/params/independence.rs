@@ -1,6 +1,6 @@
 //! Are impacts independent: sizes of the experiment.
 
-use super::{Chain, Profile, Protocol, SEED};
+use super::{Chain, Profile, Protocol, set};
 use serde::{Deserialize, Serialize};
 
 /// Ensembles whose sequences of impacts are looked at.
@@ -39,12 +39,12 @@ impl IndependenceParams {
         };
         IndependenceParams {
             protocol: Protocol { transient: 500.0, window },
-            chain: Chain::default(),
+            chain: set::chain(),
             sigmas: sigmas.to_vec(),
             realisations,
             quarters: 12,
             stream: "independence".into(),
-            seed: SEED,
+            seed: set::seed(),
         }
     }
 }

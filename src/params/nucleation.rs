@@ -1,6 +1,6 @@
 //! Gaps that close by themselves, and what one of them sets off: sizes of the experiments.
 
-use super::{Chain, Grid, Profile, SEED};
+use super::{Chain, Grid, Profile, set};
 use serde::{Deserialize, Serialize};
 
 /// Chains from rest, run until their first impact.
@@ -38,13 +38,13 @@ impl NucleationParams {
         };
         let times = [10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0];
         NucleationParams {
-            chain: Chain::default(),
+            chain: set::chain(),
             lengths: lengths.to_vec(),
             sigmas: sigmas.values(),
             times: times.into_iter().filter(|time| *time <= last).collect(),
             angles: 256,
             stream: "nucleation".into(),
-            seed: SEED,
+            seed: set::seed(),
         }
     }
 }
@@ -87,7 +87,7 @@ impl SeedsParams {
             Profile::Quick => (Grid::default().and(9, 14, 1, 100), 6),
         };
         SeedsParams {
-            chain: Chain::default(),
+            chain: set::chain(),
             sigmas: sigmas.values(),
             realisations,
             wait: 2000.0,
@@ -97,7 +97,7 @@ impl SeedsParams {
             window: 8,
             transients: vec![2, 4, 8, 20, 40],
             stream: "seeds".into(),
-            seed: SEED,
+            seed: set::seed(),
         }
     }
     /// Ticks of a run.

@@ -1,6 +1,6 @@
 //! What restitution does to a chain: sizes of the experiment.
 
-use super::{Chain, Grid, Profile, Protocol, SEED};
+use super::{Chain, Grid, Profile, Protocol, set};
 use serde::{Deserialize, Serialize};
 
 /// Chains with several restitutions, the random numbers being common to all.
@@ -49,8 +49,8 @@ impl RestitutionParams {
             Profile::Quick => (&[0.9, 1.0], 2, 2),
         };
         RestitutionParams {
-            chain: Chain::default(),
-            protocol: Protocol::default(),
+            chain: set::chain(),
+            protocol: set::protocol(),
             restitutions: restitutions.to_vec(),
             sigmas: sigmas.values(),
             realisations,
@@ -59,7 +59,7 @@ impl RestitutionParams {
             ends: (0..=doublings).map(|i| 25.0 * f64::from(1_u32 << i)).collect(),
             heated_realisations,
             stream: "restitution".into(),
-            seed: SEED,
+            seed: set::seed(),
         }
     }
 }

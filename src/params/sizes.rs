@@ -1,6 +1,6 @@
 //! Sample sizes and grids of each profile, in one place.
 
-use super::{Boundary, Chain, Profile, Protocol, SECOND_SEED, SEED, Start};
+use super::{Boundary, Chain, Profile, Protocol, SECOND_SEED, SEED, Start, set};
 use serde::{Deserialize, Serialize};
 
 /// A σ axis made of stretches of equal steps; values are exact quotients, so 0.12 is the double
@@ -91,13 +91,13 @@ impl SweepParams {
             ),
         };
         SweepParams {
-            chain: Chain::default(),
-            protocol: Protocol::default(),
+            chain: set::chain(),
+            protocol: set::protocol(),
             sigmas,
             realisations,
             level: Some(Level { above: 0.16, realisations: level }),
             stream: "sweep".into(),
-            seed: SEED,
+            seed: set::seed(),
         }
     }
 
@@ -137,7 +137,7 @@ pub struct ProtocolParams {
 }
 
 impl ProtocolParams {
-    /// The long end of the map: the only experiment of the deep profile, and the same in every other.
+    /// The long end of the map: the same in every profile, and of the paper's chain whatever is set.
     pub fn long(_: Profile) -> Self {
         ProtocolParams {
             transients: vec![1e3, 4e3, 1e4, 2e4, 5e4, 1e5],
@@ -149,6 +149,8 @@ impl ProtocolParams {
             short_until: 1e6,
             realisations: 200,
             stream: "long-protocol".into(),
+            chain: Chain::default(),
+            seed: SEED,
             ..Self::new(Profile::Deep)
         }
     }
@@ -165,7 +167,7 @@ impl ProtocolParams {
         let transients = [10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0, 4000.0];
         let windows = [20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0];
         ProtocolParams {
-            chain: Chain::default(),
+            chain: set::chain(),
             transients: transients[..longest].to_vec(),
             windows: windows[..widest].to_vec(),
             sigmas,
@@ -173,7 +175,7 @@ impl ProtocolParams {
             short_until: 1000.0,
             realisations,
             stream: "protocol".into(),
-            seed: SEED,
+            seed: set::seed(),
         }
     }
 }
@@ -217,7 +219,7 @@ impl StartsParams {
         // A smaller r or a larger Ω move the rise up, a larger r or a smaller Ω move it down.
         let low = Grid::default().and(4, 14, step, 100).values();
         let variant = |name: &str, sigmas: &Vec<f64>, change: fn(&mut Chain)| {
-            let mut chain = Chain::default();
+            let mut chain = set::chain();
             change(&mut chain);
             StartVariant { name: name.into(), chain, sigmas: sigmas.clone() }
         };
@@ -237,10 +239,10 @@ impl StartsParams {
         }
         StartsParams {
             variants,
-            protocol: Protocol::default(),
+            protocol: set::protocol(),
             realisations,
             stream: "starts".into(),
-            seed: SEED,
+            seed: set::seed(),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! One long run, to look at.
 
-use super::{Chain, PRINTED_THRESHOLD, Profile, SEED};
+use super::{Chain, PRINTED_THRESHOLD, Profile, set};
 use serde::{Deserialize, Serialize};
 
 /// One realisation at the printed threshold, kept impact by impact.
@@ -31,13 +31,13 @@ impl SpaceTimeParams {
             Profile::Quick => 400.0,
         };
         SpaceTimeParams {
-            chain: Chain::default(),
+            chain: set::chain(),
             sigma: PRINTED_THRESHOLD,
             until,
             last: until / 10.0,
             scene: 60.0,
             stream: "space-time".into(),
-            seed: SEED,
+            seed: set::seed(),
         }
     }
 }

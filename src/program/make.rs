@@ -3,11 +3,11 @@
 use super::Failure;
 use super::judged::Judged;
 use super::sources::Sources;
-use crate::claims;
+use crate::claims::{self, Check, Text, Verdict};
 use crate::experiments::spacetime::scene::Scene;
 use crate::experiments::{ALL, Progress};
 use crate::figures::{self, Figure};
-use crate::params::Profile;
+use crate::params::{Profile, set};
 use crate::report::{self, PROGRAM, Report, contents, equations};
 use rayon::prelude::*;
 
@@ -39,10 +39,16 @@ pub fn whole(
     };
     let numbers: Vec<figures::Number> = figures::all().collect();
     let drawn: Vec<Figure> = numbers.into_par_iter().map(draw).collect::<Result<_, Failure>>()?;
-    let claims = claims::all(&results, &published)?;
+    let mut claims = claims::all(&results, &published)?;
+    if let Some(told) = set::told() {
+        claims.iter_mut().for_each(|claim| not_judged(claim, &told));
+    }
     let values = contents::registry(&results, &published)?;
     let rows = contents::rows(&results, &claims)?;
-    let judged = Judged::all(&results, &published, values.clone(), claims)?;
+    let judged = match set::told() {
+        None => Judged::all(&results, &published, values.clone(), claims)?,
+        Some(_) => Judged { claims, ..Judged::default() },
+    };
     let claims = &judged.claims;
     let scene = Scene::of(results.spacetime()?);
     let scene = scene.as_ref().map(report::scene::moving).transpose();
@@ -60,4 +66,10 @@ pub fn whole(
         program: PROGRAM,
     })?;
     Ok((report, judged))
+}
+
+/// The paper says nothing of other parameters than its own.
+fn not_judged(claim: &mut Check, told: &str) {
+    claim.verdict = Verdict::CannotBeJudged;
+    claim.note = Text::words(format!("Not judged: these are not the paper's parameters ({told})."));
 }

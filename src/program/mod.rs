@@ -77,6 +77,11 @@ impl Failure {
         if full.contains(&error.kind()) || broken { 4 } else { 2 }
     }
 
+    /// The same with another remedy.
+    pub fn and(self, remedy: &str) -> Self {
+        Failure { message: format!("{}; {remedy}", self.message), ..self }
+    }
+
     /// Tells it on standard error.
     fn tell(self) -> ExitCode {
         // Findings in the prose have a line each; names of files may have line breaks.

@@ -4,7 +4,7 @@ use super::{Failure, work};
 use crate::claims::{self, Published};
 use crate::committed;
 use crate::experiments::{self, Need, Progress, Results, Store};
-use crate::params::Profile;
+use crate::params::{Profile, set};
 use crate::report::{self, Templates};
 use std::path::{Path, PathBuf};
 
@@ -47,7 +47,12 @@ impl Sources {
     /// # Errors
     /// Exit code 2 if the file is broken.
     pub fn published(&self, templates: &Templates) -> Result<Published, Failure> {
-        Ok(Published::parse(templates.text("published.toml")?).map_err(claims::Error::from)?)
+        let text = templates.text("published.toml")?;
+        let mut published = Published::parse(text).map_err(claims::Error::from)?;
+        for parameter in &mut published.parameters {
+            parameter.value = set::printed(&parameter.id).unwrap_or(parameter.value);
+        }
+        Ok(published)
     }
 
     /// Runs what is needed. The folder of results is made only if something long is run.

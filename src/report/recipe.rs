@@ -3,7 +3,7 @@
 
 use crate::experiments::measured::FILE;
 use crate::experiments::{ALL, MEASURED};
-use crate::params::{Profile, VERTICES};
+use crate::params::{Profile, set};
 use literate::source::Recipe;
 use serde_json::Value as Json;
 
@@ -15,9 +15,11 @@ pub fn recipe(name: &str, profile: &str) -> Option<Recipe> {
         _ => Profile::Full,
     };
     Some(match name {
-        "theory" => {
-            Recipe::of(name, "experiments::theory".into(), &serde_json::json!({"N": VERTICES}))
-        }
+        "theory" => Recipe::of(
+            name,
+            "experiments::theory".into(),
+            &serde_json::json!({"N": set::vertices()}),
+        ),
         "audits" => Recipe::of(name, "literate::experiments::deep::audit".into(), &Json::Null),
         _ => {
             let experiment = ALL.iter().find(|experiment| experiment.name() == name)?;

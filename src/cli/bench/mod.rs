@@ -15,7 +15,7 @@ use serde::Serialize;
 use std::io::{self, Write};
 use std::time::Instant;
 
-/// Measures speed on this machine, and prints scenarios to measure other programs with.
+/// Measures speed on this machine, and prints scenarios for other programs.
 ///
 /// Times go to standard output only; no file of the paper depends on them.
 #[derive(clap::Args)]

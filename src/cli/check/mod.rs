@@ -7,18 +7,20 @@ use super::document::Only;
 use super::judged::Judged;
 use super::sources::Sources;
 use super::{Failure, stdout, work};
-use impact_paper::claims::{self, Check};
+use impact_paper::claims::{self, Check, Verdict};
 use impact_paper::experiments::ALL;
 use impact_paper::params::Profile;
 use impact_paper::report::claims::plain;
 use impact_paper::report::contents;
 use std::io::{self, Write};
 
-/// Holds every quantitative statement of the paper against what is computed here, the targets of
-/// this edition for its own speed and accuracy, and the numbers of the report against one another.
+/// Judges the statements of the paper, our targets, and relations between numbers.
 ///
-/// Saved results are used where they are fresh; what is missing is run. Prints a row for each
-/// claim, and ends with exit code 1 if one differs without an explanation that holds, if a target is
+/// Every quantitative statement of the paper is held against what is computed here, the targets of this edition for its
+/// own speed and accuracy too, and the numbers of the report against one another.
+///
+/// Saved results are used where they are fresh; what is missing is run. Prints what fails first, then
+/// what differs, and with --all the rest; ends with exit code 1 if one differs without an explanation that holds, if a target is
 /// missed that does not depend on the clock, or if a relation between numbers does not hold. Statements
 /// belong to the edition, the front page and the ledger, relations to the second paper, targets to the
 /// methods.
@@ -32,6 +34,9 @@ pub struct Args {
     claim: Vec<String>,
     #[command(flatten)]
     only: Only,
+    /// Print what is reproduced, met and held too.
+    #[arg(long)]
+    all: bool,
     /// Form of what is printed: `github` annotates the ten worst claims, and adds the whole table
     /// to the summary of the step.
     #[arg(long, default_value = "text")]
@@ -92,7 +97,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let entry = |claim| Entry { claim, line: published.line(&claim.id) };
     let entries: Vec<Entry> = judged.claims.iter().map(entry).collect();
     match args.format {
-        Format::Text => stdout::written(print(&judged))?,
+        Format::Text => stdout::written(print(&judged, args.all))?,
         Format::Json => stdout::print(&forms::json(&entries, &judged))?,
         Format::Markdown => stdout::print(&forms::markdown(&entries, &judged))?,
         Format::Github => {
@@ -115,19 +120,23 @@ fn summarise(text: &str) -> Result<(), Failure> {
     })
 }
 
-/// A block of lines for each claim, and the scores.
-fn print(judged: &Judged) -> io::Result<()> {
+/// A block of lines for each claim, what fails first, and the scores. Without `all` only for what is not simply
+/// reproduced.
+fn print(judged: &Judged, all: bool) -> io::Result<()> {
     let mut out = io::BufWriter::new(io::stdout().lock());
-    for claim in &judged.claims {
+    let listed = |check: &&Check| all || check.verdict != Verdict::Reproduced;
+    let mut claims: Vec<&Check> = judged.claims.iter().filter(listed).collect();
+    claims.sort_by_key(|claim| !claim.fails());
+    for claim in claims {
         let mark = if claim.fails() { "FAILS" } else { "ok" };
         let (verdict, basis) = (claim.verdict.words(), claim.basis.words());
         writeln!(out, "{mark:5} {} ({}): {verdict} ({basis})", claim.id, claim.place)?;
         writeln!(out, "      {}", claim.statement)?;
         let fields = [
             ("printed", claim.printed.clone()),
-            ("ours", plain(&claim.ours)),
+            ("found", plain(&claim.ours)),
             (
-                "within",
+                "tolerance",
                 match claim.reason.as_str() {
                     "" => String::new(),
                     reason => format!("{} ({reason})", plain(&claim.tolerance)),
@@ -136,10 +145,10 @@ fn print(judged: &Judged) -> io::Result<()> {
             ("note", plain(&claim.note)),
         ];
         for (name, text) in fields.iter().filter(|(_, text)| !text.is_empty()) {
-            writeln!(out, "      {name:8} {text}")?;
+            writeln!(out, "      {name:10} {text}")?;
         }
     }
-    for target in &judged.targets {
+    for target in judged.targets.iter().filter(listed) {
         let (found, bound) = (plain(&target.ours), plain(&target.tolerance));
         let (id, what, met) = (&target.id, &target.statement, target.words());
         writeln!(out, "target {id}: {found} ({what}; {bound}): {met}")?;
@@ -148,5 +157,8 @@ fn print(judged: &Judged) -> io::Result<()> {
         writeln!(out, "FAILS relation {}: {}", check.id, plain(&check.ours))?;
     }
     judged.scores().iter().try_for_each(|line| writeln!(out, "{line}"))?;
+    if !all {
+        writeln!(out, "what is reproduced, met and held is listed with --all")?;
+    }
     out.flush()
 }

@@ -9,7 +9,7 @@ use inputs::Inputs;
 use quantity::{QUANTITIES, Quantity, Value};
 use serde::Serialize;
 
-/// Evaluates one quantity of the theory (Secs. 3 to 9 and S2) and prints it as one JSON object.
+/// Evaluates one quantity of the theory (Secs. 3 to 9 and S2), as one JSON object.
 ///
 /// `impact-paper eval p-jump --vertices 100` prints
 /// {"quantity":"p-jump","value":0.01303285872435575,"inputs":{"vertices":100}}.

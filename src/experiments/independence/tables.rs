@@ -5,7 +5,7 @@ use crate::circuits::distribution::SampleSpace;
 use crate::circuits::{commuting, jump};
 use crate::numerics::estimates::{jackknife, ratio, sums, with_error};
 use crate::numerics::statistics::Estimate;
-use crate::params::{IndependenceParams, VERTICES};
+use crate::params::{IndependenceParams, set};
 use crate::table::Table;
 
 /// Gaps of the graph whose circuits are enumerated.
@@ -165,13 +165,13 @@ fn different(rows: &[Row<'_>]) -> Table {
 /// Circuits that differ only by the order of impacts without a common mass.
 fn orders() -> Table {
     let [circuits, classes] = commuting::simple_classes(ENUMERATED);
-    let p = jump::p_jump(SampleSpace::Simple, VERTICES).map_or(f64::NAN, |jump| jump.p);
+    let p = jump::p_jump(SampleSpace::Simple, set::vertices()).map_or(f64::NAN, |jump| jump.p);
     Table::of("independence.orders", &[()], |()| 0)
         .count("gaps", "gaps of a chain", |()| ENUMERATED as u64)
         .count("circuits", "simple circuits", |()| circuits as u64)
         .count("classes", "of them that a mass tells apart", |()| classes as u64)
         .real("mean", "1", 2, "mean number at the jump, each class with p^k once", |()| {
-            commuting::mean_without_orders(VERTICES, p)
+            commuting::mean_without_orders(set::vertices(), p)
         })
         .done()
 }

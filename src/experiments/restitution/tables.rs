@@ -6,7 +6,7 @@ use crate::circuits::balance::variance_ratio;
 use crate::numerics::estimates::{self, average, half_height, jackknife, ratio};
 use crate::numerics::regression::line;
 use crate::numerics::statistics::Estimate;
-use crate::params::{Chain, HeatParams, RestitutionParams};
+use crate::params::{HeatParams, RestitutionParams, set};
 use crate::table::Table;
 use pxfm::f_log;
 
@@ -87,7 +87,7 @@ fn curve_table(curves: &[&[Row<'_>]]) -> Table {
         // The text speaks of these among the chains of another experiment.
         .same("balanced", |curve| {
             let r = first(curve);
-            let paper = Chain::default().restitution;
+            let paper = set::chain().restitution;
             [paper, HeatParams::RESTITUTION]
                 .contains(&r)
                 .then(|| format!("heat.others[r={r}].balanced"))

@@ -15,7 +15,7 @@ pub use error::Error;
 pub use experiment::{Entry, Experiment, Found, Given, Saved, Typed};
 pub use identity::{Built, Code};
 pub use profile::Profile;
-pub use progress::{Progress, alive, say};
+pub use progress::{Progress, alive, be_quiet, say};
 pub use store::Store;
 
 /// An experiment of any parameters and result.

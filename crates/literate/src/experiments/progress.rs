@@ -14,6 +14,14 @@ use std::time::{Duration, Instant};
 /// Seconds between plain lines.
 const LINE_EVERY: u64 = 5;
 
+/// Nobody wants to see progress.
+static QUIET: AtomicBool = AtomicBool::new(false);
+
+/// From now on work says nothing of how far it is.
+pub fn be_quiet() {
+    QUIET.store(true, Ordering::Relaxed);
+}
+
 /// How progress is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Show {
@@ -37,7 +45,11 @@ impl Progress {
 
     /// A bar on stderr if that is a terminal, plain lines otherwise; `stop` ends the work.
     pub fn on_stderr(stop: Arc<AtomicBool>) -> Self {
-        let show = if std::io::stderr().is_terminal() { Show::Bar } else { Show::Lines };
+        let show = match (QUIET.load(Ordering::Relaxed), std::io::stderr().is_terminal()) {
+            (true, _) => Show::Nothing,
+            (false, true) => Show::Bar,
+            (false, false) => Show::Lines,
+        };
         Progress { show, stop }
     }
 
@@ -103,7 +115,7 @@ pub fn alive(line: impl Fn() -> Option<String> + Send + 'static) -> Alive {
     std::thread::spawn(move || {
         while ended.recv_timeout(Duration::from_secs(LINE_EVERY)) == Err(RecvTimeoutError::Timeout)
         {
-            if let Some(line) = line() {
+            if let Some(line) = line().filter(|_| !QUIET.load(Ordering::Relaxed)) {
                 say(&format!("{line}, after {} s", began.elapsed().as_secs()));
             }
         }

@@ -1,0 +1,47 @@
+//! `impact-paper manual`.
+
+use super::output::{self, Staging};
+use super::{Failure, work};
+use clap_complete::{Shell, generate};
+use impact_paper::report::Files;
+use std::path::PathBuf;
+
+/// Writes the manual page of each verb and completions for shells into a folder.
+///
+/// The pages are named impact-paper.1, impact-paper-paper.1 and so on; completions go to completions/, one file for
+/// bash, zsh, fish, elvish and PowerShell each.
+#[derive(clap::Args)]
+pub struct Args {
+    /// Folder to write into.
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    #[command(flatten)]
+    force: output::Force,
+}
+
+/// Runs the verb.
+pub fn run(args: &Args) -> Result<(), Failure> {
+    let staging = Staging::below(&args.out, "--out", args.force)?;
+    let mut files = Files::new();
+    let mut command = super::command();
+    command.build();
+    page(&command, &mut files)?;
+    for verb in command.get_subcommands().filter(|verb| verb.get_name() != "help") {
+        page(verb, &mut files)?;
+    }
+    for shell in [Shell::Bash, Shell::Zsh, Shell::Fish, Shell::Elvish, Shell::PowerShell] {
+        let mut text = Vec::new();
+        generate(shell, &mut command, "impact-paper", &mut text);
+        files.insert(format!("completions/impact-paper.{shell}"), text);
+    }
+    staging.place(&files, &work::progress())
+}
+
+/// The manual page of one verb, or of all.
+fn page(command: &clap::Command, files: &mut Files) -> Result<(), Failure> {
+    let mut text = Vec::new();
+    let page = clap_mangen::Man::new(command.clone());
+    page.render(&mut text).map_err(|error| Failure::run(error.to_string()))?;
+    files.insert(page.get_filename(), text);
+    Ok(())
+}
