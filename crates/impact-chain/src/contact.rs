@@ -110,14 +110,20 @@ impl<const M: usize> Simulation<M> {
         p: &Phases<M>,
         released: Option<usize>,
     ) {
-        // Grow: neighbours of settled gaps that are themselves shut and slow.
+        // Grow: neighbours of settled gaps that are themselves shut and slow, or in contact.
         let mut i = 0;
         while i < known.len() {
             if self.is_settled(&known[i]) {
                 for near in self.topology.adjacent(known[i].k).into_iter().flatten() {
-                    if known.iter().all(|r| r.k != near) && !self.gaps[near].in_contact {
-                        let found = self.resting(near, p, 0.0);
-                        known.push(found);
+                    if known.iter().any(|r| r.k == near) {
+                        continue;
+                    }
+                    if self.gaps[near].in_contact {
+                        // Its masses would be given another motion, and its contact not know of it.
+                        let freed = self.free_cluster(near, p);
+                        known.extend(freed.into_iter().map(|k| Resting { k, f0: 0.0, g0: 0.0 }));
+                    } else {
+                        known.push(self.resting(near, p, 0.0));
                     }
                 }
             }

@@ -1,7 +1,7 @@
 //! A contact force, or the acceleration it fights: a constant and what oscillates with the forcing.
 
 use super::flight::Phases;
-use impact_numerics::local_frame::Frequencies;
+use impact_numerics::local_frame::{Frequencies, ROUNDING};
 use std::ops::{Add, Div, Neg, Sub};
 
 /// L + Σ (C cos Ωt + S sin Ωt), with one pair (C, S) for each component of the forcing.
@@ -12,6 +12,9 @@ pub struct Force<const M: usize> {
     /// (C, S).
     pub forced: [[f64; 2]; M],
 }
+
+/// Derivatives that are looked at, the value itself among them: more than any symmetry has made zero at once.
+const ORDERS: usize = 6;
 
 impl<const M: usize> Force<M> {
     /// No force.
@@ -39,10 +42,30 @@ impl<const M: usize> Force<M> {
         self.seen(p).iter().fold(self.constant, |sum, part| sum + part[0])
     }
 
-    /// The rate of change at an instant.
-    pub fn rate(&self, p: &Phases<M>, frequencies: &Frequencies<M>) -> f64 {
-        let parts = self.seen(p).into_iter().zip(frequencies.big_omegas);
-        parts.fold(0.0, |sum, ([_, quadrature], big_omega)| sum + big_omega * quadrature)
+    /// The sum of the absolute values of what it is made of.
+    pub fn size(&self) -> f64 {
+        self.forced.iter().fold(self.constant.abs(), |sum, [c, s]| sum + c.abs() + s.abs())
+    }
+
+    /// Whether an acceleration is negative at an instant or right after it, where it is made of parts of this `size`:
+    /// the first of its derivatives that is not zero to rounding decides.
+    pub fn falls(&self, size: f64, p: &Phases<M>, frequencies: &Frequencies<M>) -> bool {
+        let seen = self.seen(p);
+        let (mut powers, mut rounding) = ([1.0; M], ROUNDING * size);
+        for order in 0..ORDERS {
+            let part = |m: usize| {
+                let [value, quadrature] = seen[m];
+                powers[m] * [value, quadrature, -value, -quadrature][order % 4]
+            };
+            let constant = if order == 0 { self.constant } else { 0.0 };
+            let derivative = (0..M).fold(constant, |sum, m| sum + part(m));
+            if derivative.abs() > rounding {
+                return derivative < 0.0;
+            }
+            powers = std::array::from_fn(|m| powers[m] * frequencies.big_omegas[m]);
+            rounding *= frequencies.fastest;
+        }
+        false
     }
 }
 

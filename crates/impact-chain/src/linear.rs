@@ -19,13 +19,11 @@ pub fn contact_forces<const M: usize>(
     p: &Phases<M>,
     frequencies: &Frequencies<M>,
 ) -> Vec<Option<Force<M>>> {
-    // An acceleration shuts a gap when it is negative, or zero and falling.
-    let pushes = |g: &Force<M>| {
-        let now = g.at(p);
-        now < 0.0 || (now == 0.0 && g.rate(p, frequencies) < 0.0)
-    };
+    // An acceleration shuts a gap when it is negative. Where several gaps are released at once, by a symmetry, those of
+    // the others are zero but for rounding, and what it makes of their sign must not press them again.
     let n = g.len();
-    let mut active: Vec<bool> = (0..n).map(|i| allowed[i] && pushes(&g[i])).collect();
+    let pushes = |i: usize| g[i].falls(g[i].size(), p, frequencies);
+    let mut active: Vec<bool> = (0..n).map(|i| allowed[i] && pushes(i)).collect();
     loop {
         let forces = solve(g, stiffness, &active);
         let mut grown = false;
@@ -33,13 +31,14 @@ pub fn contact_forces<const M: usize>(
             if active[i] {
                 continue;
             }
-            let mut total = g[i];
+            let (mut total, mut size) = (g[i], g[i].size());
             for j in [i.wrapping_sub(1), i + 1] {
                 if let Some(&Some(force)) = forces.get(j) {
                     total = total - force;
+                    size += force.size();
                 }
             }
-            if pushes(&total) {
+            if total.falls(size, p, frequencies) {
                 active[i] = true;
                 grown = true;
             }

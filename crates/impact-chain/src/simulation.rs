@@ -90,6 +90,14 @@ pub(super) struct Simulation<const M: usize> {
     budget_left: u64,
 }
 
+/// A width below zero by rounding is zero unless the gap is closing, and then due now.
+#[inline(always)]
+fn not_below<const M: usize>(frame: &mut Frame<M>) {
+    if frame.f0 < 0.0 && frame.g0 >= 0.0 {
+        frame.f0 = 0.0;
+    }
+}
+
 impl<const M: usize> Simulation<M> {
     /// Sets a scenario at t = 0.
     ///
@@ -221,6 +229,12 @@ impl<const M: usize> Simulation<M> {
     #[inline(always)]
     pub(super) fn step(&mut self, k: usize) -> Result<Option<Impact>, Error> {
         match self.gaps[k].awaits {
+            // Touching without speed is no impact, but contact may begin.
+            Awaits::Impact(0.0) => {
+                self.spend(k)?;
+                let phases = Phases::at(&self.rates, self.now);
+                self.collide_in_contact(k, 0.0, &phases);
+            }
             Awaits::Impact(speed) => {
                 let impact = self.count_impact(k, speed)?;
                 let phases = Phases::at(&self.rates, self.now);
@@ -234,6 +248,7 @@ impl<const M: usize> Simulation<M> {
                 // to a longer wait.
                 let gap = &mut self.gaps[k];
                 gap.frame = gap.frame.advanced(&self.search.frequencies);
+                not_below(&mut gap.frame);
                 let key = self.search(k, false);
                 self.queue.set(k, [key]);
             }
@@ -357,10 +372,7 @@ impl<const M: usize> Simulation<M> {
         if let Some([f0, g0]) = self.carried(k, &frame, jump) {
             (frame.f0, frame.g0) = (f0, g0);
         }
-        // A width below zero by rounding is zero unless the gap is closing, and then due now.
-        if frame.f0 < 0.0 && frame.g0 >= 0.0 {
-            frame.f0 = 0.0;
-        }
+        not_below(&mut frame);
         self.gaps[k].frame = frame;
     }
 
@@ -374,8 +386,8 @@ impl<const M: usize> Simulation<M> {
     /// Frames gap k now with width `f0` and rate `g0`, which are known better than by looking, and
     /// looks for its next impact.
     pub(super) fn set_frame(&mut self, k: usize, phases: &Phases<M>, f0: f64, g0: f64) {
-        let mut frame = self.look(k, phases);
-        (frame.f0, frame.g0) = (if g0 >= 0.0 { f0.max(0.0) } else { f0 }, g0);
+        let mut frame = Frame { f0, g0, ..self.look(k, phases) };
+        not_below(&mut frame);
         self.gaps[k].frame = frame;
         let key = self.search(k, true);
         self.queue.set(k, [key]);

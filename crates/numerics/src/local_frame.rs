@@ -91,7 +91,7 @@ pub struct Point<const M: usize> {
 /// Rounding of one evaluation, in units of the sum of the absolute values of its terms: each term
 /// carries at most five roundings of 2^-53 and the sum four more, 9 · 2^-53 < 5e-16 times 2;
 /// doubled, so that the margin may be used at both sides.
-pub(super) const ROUNDING: f64 = 8.0 * f64::EPSILON;
+pub const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 impl<const M: usize> Frame<M> {
     /// A function that is zero for ever.

@@ -20,6 +20,9 @@ fn parabola(f: f64, g: f64, k: f64, far: f64) -> f64 {
     h.min(far)
 }
 
+/// A gap barely opens where another trial gives a stretch so many times as long: its rate is below 1e-9 of what is usual.
+const BARELY: f64 = 1e6;
+
 /// A certified stretch: f > 0 on (s, s + h) for the returned h ≤ `limit`.
 ///
 /// On [0, L] the second derivative is at least f'' + min(0, f''' L) − ½ M₄ L² = −K, so f stays
@@ -40,6 +43,15 @@ fn stretch<const M: usize>(f: f64, p: &Point<M>, bound: f64, limit: f64) -> f64 
         limit
     };
     let h = certified(first.min(limit));
+    // Barely opening, the limit is no good trial; how far each term of K alone lets it go is one.
+    if p.g > 0.0 && p.h <= 0.0 {
+        let by_f2 = 2.0 * p.g / p.h.abs();
+        let by_f3 = (2.0 * p.g / p.j.abs()).sqrt();
+        let near = by_f2.min(by_f3).min(pxfm::f_cbrt(4.0 * p.g / bound));
+        if near > BARELY * h {
+            return certified(near.min(limit)).max(h);
+        }
+    }
     certified((1.5 * h).min(limit)).max(h)
 }
 
@@ -65,13 +77,37 @@ fn stays_open<const M: usize>(a: &Point<M>, b: &Point<M>, h: f64, bound6: f64, s
     coefficients.iter().all(|&c| c > slack)
 }
 
-/// Whether f''' > 0 alone lifts f from where it does not fall and f'' is zero to `rounding`.
+/// The first of f'', f''' and f'''' that is not zero to so many times their rounding: its order and value.
+fn leading<const M: usize>(
+    p: &Point<M>,
+    times: f64,
+    frame: &Frame<M>,
+    frequencies: &Frequencies<M>,
+) -> Option<(u32, f64)> {
+    let fast = frequencies.fastest;
+    let rounding = times * ROUNDING * fast * fast * frame.size;
+    if p.h.abs() > rounding {
+        return Some((2, p.h));
+    }
+    if p.j.abs() > rounding * fast {
+        return Some((3, p.j));
+    }
+    let [fourth, _] = p.higher(frequencies);
+    (fourth.abs() > rounding * fast * fast).then_some((4, fourth))
+}
+
+/// How far f''' > 0 alone, or f'''' > 0 where f''' is zero too, lifts f from where it does not fall and f'' is zero, all
+/// to rounding; 0 where that is not so.
 ///
 /// With f, f' ≥ 0, f ≥ f'' h²/2 + f''' h³/12 while h ≤ 2 f'''/M₄. That is never below
-/// −(8/3) |f''|³/f'''², far less than the rounding of places, and positive from h = 6 |f''|/f''' on.
-#[inline]
-fn is_lifted<const M: usize>(p: &Point<M>, rounding: f64) -> bool {
-    p.g >= 0.0 && p.h.abs() <= rounding && p.j > 0.0
+/// −(8/3) |f''|³/f'''², far less than the rounding of places, and positive from h = 6 |f''|/f''' on. Likewise with f'''' and
+/// M₅ ≤ max(ω, Ω) M₄.
+fn lift<const M: usize>(p: &Point<M>, frame: &Frame<M>, frequencies: &Frequencies<M>) -> f64 {
+    match leading(p, 1.0, frame, frequencies).filter(|_| p.g >= 0.0) {
+        Some((3, third)) if third > 0.0 => 2.0 * third / frame.bound,
+        Some((4, fourth)) if fourth > 0.0 => 2.0 * fourth / (frequencies.fastest * frame.bound),
+        _ => 0.0,
+    }
 }
 
 /// Evaluations after which a search stops with what is certified so far; its owner resumes it.
@@ -108,6 +144,11 @@ pub fn first_root_by_steps<const M: usize>(
         work.evaluations += 1;
         frame.at(s, frequencies)
     };
+    // Shut and at rest, and accelerated towards one another by more than rounding: they touch, and stay.
+    let pressed = |lead| matches!(lead, Some((2, second)) if second < 0.0);
+    if s == 0.0 && p.f == 0.0 && p.g == 0.0 && pressed(leading(&p, 2.0, frame, frequencies)) {
+        return Next::Root { s, speed: 0.0 };
+    }
     for _ in 0..PATIENCE {
         let in_band = s > 0.0 && p.f <= 2.0 * p.margin;
         // The quadratic through this point; its minimum is −discriminant / 2 f''.
@@ -151,9 +192,9 @@ pub fn first_root_by_steps<const M: usize>(
         } else {
             stretch((p.f - p.margin).max(0.0), &p, frame.bound, limit - s)
         };
-        // Where f, f' and f'' vanish, or f'' to rounding, f''' lifts f: above zero while h < 4 f'''/M₄.
-        let lifted = h == 0.0 || is_lifted(&p, ROUNDING * fast * fast * frame.size);
-        let h = if lifted { h.max(2.0 * p.j.abs() / frame.bound) } else { h };
+        // Where f, f' and f'' vanish, f''' lifts f: above zero while h < 4 f'''/M₄.
+        let h = if h > 0.0 { h } else { 2.0 * p.j.abs() / frame.bound };
+        let h = h.max(lift(&p, frame, frequencies));
         let next = s + h * (1.0 - 4.0 * f64::EPSILON);
         s = if next > s { next } else { s + s * f64::EPSILON };
         if s >= limit {
@@ -215,7 +256,7 @@ fn before_root<const M: usize>(a: &Point<M>, b: &Point<M>, h: f64, bound6: f64) 
 ///
 /// What the quadratic leaves out is below the margin in f, yet not in f': at h = 1e-5 the slope
 /// f''' h²/2 is 1e-10, and f'''' h³/6, which has one sign, would take energy from a chain.
-/// A grazing root, where the slope left out is not small beside the slope, is left as it is.
+/// A grazing root, where what is left out is not small beside the slope, is left as it is.
 fn polish<const M: usize>(
     s: f64,
     h: f64,
@@ -232,5 +273,9 @@ fn polish<const M: usize>(
     }
     let speed = slope - bend;
     let shift = h2 * h * (c3 + h * c4) / speed;
-    ((s + (h + shift)).max(0.0), speed - p.h * shift)
+    let fall = speed - p.h * shift;
+    if fall < 0.0 {
+        return ((s + h).max(0.0), slope);
+    }
+    ((s + (h + shift)).max(0.0), fall)
 }
