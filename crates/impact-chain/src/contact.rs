@@ -19,6 +19,7 @@ use super::simulation::{Awaits, Simulation};
 use super::simultaneous::Simultaneous;
 use impact_numerics::clock::Instant;
 use impact_numerics::first_root::Next;
+use impact_numerics::local_frame::ROUNDING;
 use impact_numerics::window::next_window;
 
 /// Separation speed, in units of d ω, below which a chatter is taken to have come to rest.
@@ -323,7 +324,15 @@ impl<const M: usize> Simulation<M> {
         let force = self.forces[k];
         let frequencies = &self.search.frequencies;
         let motion = Motion { forced: force.forced, ..Motion::STILL };
-        let frame = gap::frame(force.constant, &motion, p, frequencies);
+        let mut frame = gap::frame(force.constant, &motion, p, frequencies);
+        // What began with a force that only its curvature makes press is not to end by rounding.
+        let rounding = ROUNDING * force.size();
+        if frame.f0.abs() <= rounding {
+            frame.f0 = 0.0;
+            if frame.g0.abs() <= rounding * frequencies.fastest {
+                frame.g0 = 0.0;
+            }
+        }
         let wait = next_window(force.constant, [0.0; 2], &frame.forced, frequencies);
         let (awaits, key) = if wait.is_none() {
             (Awaits::Release, Instant::NEVER)
