@@ -149,7 +149,7 @@ fn changes(out: &Path, files: &Files) -> Vec<String> {
     };
     let parts = (Parts::of("before", &before), Parts::of("now", files));
     let (Ok(old), Ok(new)) = parts else { return Vec::new() };
-    let Ok(diff) = compare::diff(&old, &new) else { return Vec::new() };
+    let Ok(diff) = compare::diff(&old, &new, &[]) else { return Vec::new() };
     let before = out.display();
     if diff.numbers.is_empty() && diff.verdicts.is_empty() {
         return vec![format!(

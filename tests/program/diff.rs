@@ -123,6 +123,37 @@ fn number_verdict_data_and_files_are_told() {
 }
 
 #[test]
+fn words_are_told_and_moved_numbers_counted() {
+    let folder = twice();
+    let here = folder.path();
+    let at = |path: &str| here.join("b").join(path);
+    edit(&at("report.md"), "simulated a row of forced masses", "simulated a ~chain~ of masses");
+    edit(&at("report.md"), "0.1159(4); the paper", "0.1162(5); the paper");
+    fs::remove_file(at("beyond.md")).unwrap();
+    let out = fine(here, &["a", "b"]);
+    let told = "prose\n  1 sentence with other words, 1 with other numbers alone\n  Edition, Abstract\n    ";
+    assert!(out.contains(told) && out.contains("  gone    beyond.md\n"), "{out}");
+    assert!(out.contains(" simulated a [-row-]{+~chain~+} of [-forced-] masses that "), "{out}");
+
+    let markdown = fine(here, &["a", "b", "--markdown"]);
+    let told = "<summary>1 sentence with other words, 1 with other numbers alone</summary>\n\n- Edition, Abstract: ";
+    assert!(markdown.contains(told) && markdown.contains("\n</details>\n"), "{markdown}");
+    let words = " simulated a ~~row~~ **\\~chain\\~** of ~~forced~~ masses that ";
+    assert!(markdown.contains(words), "{markdown}");
+    let json: serde_json::Value =
+        serde_json::from_str(&fine(here, &["a", "b", "--json", "--document", "edition"])).unwrap();
+    let prose = &json["diff"]["prose"][0];
+    assert_eq!((&prose["document"], &prose["numbers_alone"]), (&"Edition".into(), &1.into()));
+    let pieces = &prose["sentences"][0]["pieces"];
+    assert_eq!(pieces[1]["changed"], serde_json::json!(["row", "~chain~"]));
+
+    fs::write(at("report.md"), [0xff]).unwrap();
+    let (code, out, note) = run(here, &["a", "b"]);
+    assert_eq!((code, out.as_str(), note.lines().count()), (2, "", 1), "{note}");
+    assert!(note.starts_with("impact-paper: b: report.md: invalid utf-8"), "{note}");
+}
+
+#[test]
 fn revisions_of_git_are_compared() {
     let folder = changed();
     let here = folder.path();

@@ -7,13 +7,15 @@ mod text;
 use super::document::Only;
 use super::{Failure, folder, stdout};
 pub use impact_paper::numerics::text::count;
-use impact_paper::report::Files;
 use impact_paper::report::compare::{self, Diff, Parts};
+use impact_paper::report::{Files, PROGRAM};
 use serde_json::json;
 use std::path::Path;
 
-/// Says what differs between two reports: verdicts, numbers with their errors, the data of figures,
-/// files.
+/// Says what differs between two reports: verdicts, numbers with their errors, sentences, the data
+/// of figures, files.
+///
+/// A sentence in which nothing but numbers moved is counted, not told.
 ///
 /// OLD and NEW are folders of reports, or else revisions of git, whose folder paper/ is meant. A
 /// difference is no failure: the exit code is 0 unless --exit-code asks for more.
@@ -71,7 +73,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     if let Some(document) = &args.only.document {
         before.only(document).and_then(|()| after.only(document)).map_err(unusable)?;
     }
-    let diff = compare::diff(&before, &after).map_err(unusable)?;
+    let diff = compare::diff(&before, &after, PROGRAM.documents).map_err(unusable)?;
     stdout::print(&match args.format() {
         Format::Text => text::text(&args.old, &args.new, &diff),
         Format::Markdown => markdown::markdown(&args.old, &args.new, &diff),

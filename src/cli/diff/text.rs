@@ -1,7 +1,13 @@
 //! A comparison for the terminal.
 
 use super::{count, signed};
-use impact_paper::report::compare::{Change, ClaimChange, Diff, Largest, Row, TableChange};
+use impact_paper::input::one_line;
+use impact_paper::report::compare::{
+    Change, ClaimChange, Diff, Largest, Piece, ProseChange, Row, TableChange,
+};
+
+/// So many characters of what stayed lead from one change of a sentence to the next.
+const AROUND: usize = 160;
 
 /// All of it.
 pub fn text(old: &str, new: &str, diff: &Diff) -> String {
@@ -19,6 +25,7 @@ pub fn text(old: &str, new: &str, diff: &Diff) -> String {
     section(format!("{} changed", count(diff.verdicts.len(), "claim")), lines);
     let lines = diff.numbers.iter().map(value).collect();
     section(format!("{} changed", count(diff.numbers.len(), "number")), lines);
+    section("prose".into(), prose(&diff.prose));
     let lines = diff.data.iter().flat_map(table).collect();
     section(format!("data of figures: {} changed", count(diff.data.len(), "file")), lines);
     let named = |what: &str, paths: &[String]| -> Vec<String> {
@@ -70,6 +77,50 @@ fn table(change: &TableChange) -> Vec<String> {
         lines.push(format!("  first at row {row}: {told}"));
     }
     lines
+}
+
+fn prose(changes: &[ProseChange]) -> Vec<String> {
+    let mut lines: Vec<String> = reworded(changes).into_iter().collect();
+    for change in changes {
+        for part in change.sentences.chunk_by(|a, b| a.section == b.section) {
+            lines.push(format!("{}, {}", change.document, part[0].section));
+            lines.extend(part.iter().map(|sentence| {
+                let marks = [["[-", "-]"], ["{+", "+}"]];
+                format!("  {}", words(&sentence.pieces, marks, "", str::to_string))
+            }));
+        }
+    }
+    lines
+}
+
+/// How many sentences differ, if a document does.
+pub fn reworded(changes: &[ProseChange]) -> Option<String> {
+    let words = changes.iter().map(|change| change.sentences.len()).sum();
+    let numbers: usize = changes.iter().map(|change| change.numbers_alone).sum();
+    let told = || {
+        let words = count(words, "sentence");
+        format!("{words} with other words, {numbers} with other numbers alone")
+    };
+    (!changes.is_empty()).then(told)
+}
+
+/// A sentence with marks about what went and what came.
+pub fn words(
+    pieces: &[Piece],
+    marks: [[&str; 2]; 2],
+    between: &str,
+    told: impl Fn(&str) -> String,
+) -> String {
+    let marked = |(text, [open, close]): (&String, [&str; 2])| {
+        (!text.is_empty()).then(|| format!("{open}{}{close}", told(text)))
+    };
+    let piece = |piece: &Piece| match piece {
+        Piece::Same(text) => told(&one_line(text, AROUND)),
+        Piece::Changed(texts) => {
+            texts.iter().zip(marks).filter_map(marked).collect::<Vec<_>>().join(between)
+        }
+    };
+    pieces.iter().map(piece).collect::<Vec<_>>().join(" ")
 }
 
 /// How much of a table differs.

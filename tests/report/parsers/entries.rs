@@ -22,7 +22,7 @@ use std::sync::LazyLock;
 pub type Parser = fn(&str) -> Result<(), String>;
 
 /// All by name; the fuzzer keeps texts for each in a folder of that name.
-pub const ALL: [(&str, Parser); 10] = [
+pub const ALL: [(&str, Parser); 11] = [
     ("scenario", scenario),
     ("segments", saved_scenario),
     ("published", published),
@@ -33,6 +33,7 @@ pub const ALL: [(&str, Parser); 10] = [
     ("measured", measured),
     ("sums", list_of_sums),
     ("prose", prose),
+    ("document", document),
 ];
 
 fn line(error: impl std::fmt::Display) -> String {
@@ -107,6 +108,13 @@ pub fn ledger(text: &str) -> Result<(), String> {
     for id in cards.ids() {
         cards.get(&id);
     }
+    Ok(())
+}
+
+/// A document of a report that is compared.
+pub fn document(text: &str) -> Result<(), String> {
+    let change = compare::ProseChange::between("", include_str!("../../../paper/README.md"), text);
+    assert!(change.sentences.len() + change.numbers_alone < 500 + text.len());
     Ok(())
 }
 

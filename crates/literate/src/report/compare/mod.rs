@@ -1,14 +1,17 @@
-//! What changed between two reports: numbers, verdicts, the data of figures, and files.
+//! What changed between two reports: numbers, verdicts, prose, the data of figures, and files.
 
 mod claims;
 mod numbers;
+mod prose;
+mod sentences;
 mod table;
 
 pub use claims::ClaimChange;
 pub use numbers::{Change, changes, read};
+pub use prose::{Piece, ProseChange, SentenceChange};
 pub use table::{Largest, Row, TableChange};
 
-use super::{Files, Registry, sums};
+use super::{Document, Files, Registry, sums};
 use claims::Claims;
 use serde::Serialize;
 use std::collections::BTreeSet;
@@ -30,6 +33,8 @@ pub struct Diff {
     pub verdicts: Vec<ClaimChange>,
     /// Values with another number, unit or kind, gained and lost.
     pub numbers: Vec<Change>,
+    /// Documents with other text.
+    pub prose: Vec<ProseChange>,
     /// Data of figures.
     pub data: Vec<TableChange>,
     /// Files that only the later report has.
@@ -89,11 +94,11 @@ fn is_data(path: &str) -> bool {
     path.starts_with("data/") && path.ends_with(".csv")
 }
 
-/// What differs. Tables are read where their bytes differ.
+/// What differs. Tables and the prose of these documents are read where their bytes differ.
 ///
 /// # Errors
-/// A table that is none.
-pub fn diff(before: &Parts<'_>, after: &Parts<'_>) -> Result<Diff, String> {
+/// A table or a document that is none.
+pub fn diff(before: &Parts<'_>, after: &Parts<'_>, documents: &[Document]) -> Result<Diff, String> {
     let known = |files: &'_ Files| -> BTreeSet<String> {
         files.keys().filter(|path| *path != sums::NAME).cloned().collect()
     };
@@ -105,7 +110,13 @@ pub fn diff(before: &Parts<'_>, after: &Parts<'_>) -> Result<Diff, String> {
         lost: old.difference(&new).cloned().collect(),
         ..Diff::default()
     };
-    for path in old.intersection(&new).filter(|path| before.files[*path] != after.files[*path]) {
+    let differing = |path: &&String| before.files[*path] != after.files[*path];
+    let differing: Vec<&String> = old.intersection(&new).filter(differing).collect();
+    for document in documents.iter().filter(|d| differing.iter().any(|path| *path == d.markdown)) {
+        let text = |of: &Parts<'_>| text(of.name, &of.files, document.markdown);
+        out.prose.push(ProseChange::between(document.name, &text(before)?, &text(after)?));
+    }
+    for path in differing {
         if is_data(path) {
             let (before, after) = (before.table(path)?, after.table(path)?);
             out.data.push(TableChange::between(path, &before, &after));
