@@ -1,7 +1,7 @@
 //! Fig. S4: what one gap that closes by itself sets off, how its fronts stand, and the mean count that follows.
 
+use super::FORCING;
 use super::prelude::*;
-use super::{FORCING, SIGMA};
 use crate::experiments::Results;
 use crate::experiments::seeds::tables::spread;
 use crate::experiments::sweep::Sweep;
@@ -44,7 +44,7 @@ fn counts(
     [theory, closed]: &[&Table; 2],
     sweep: &Sweep,
 ) -> Result<(), Error> {
-    let x = Axis::linear(SIGMAS.0, SIGMAS.1, 0.01, 2, FORCING).column(SIGMA);
+    let x = Axis::linear(SIGMAS.0, SIGMAS.1, 0.01, 2, FORCING);
     let y = Axis::linear(0.0, 105.0, 20.0, 2, "mean count of all");
     let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 8150, 3730), x, y)?;
     let transient = [("transient", sweep.parameters.protocol.transient)];
@@ -104,7 +104,8 @@ fn advances(sheet: &Sheet, advance: &Table) -> Result<(), Error> {
 
 fn halves(sheet: &Sheet, rise: &Table, scores: &Table) -> Result<(), Error> {
     let x = Axis::decades(1, 4, 1, "transient *T* (1/*ω*)").from(20.0, 2000.0);
-    let y = Axis::linear(0.1, 0.15, 0.01, 2, "*σ*_{1/2} of all").column("half_height (d omega^2)");
+    let y = Axis::linear(0.1, 0.15, 0.01, 2, "*σ*_{1/2} of all (*d ω*^{2})")
+        .column("half_height (d omega^2)");
     let panel = sheet.lettered(LETTERS[2], Frame::new(5350, 5250, 8150, 7650), x, y)?;
     let grown = rise.points(&[], "transient", "half_height");
     panel.marked(GROWN.0, &grown, (GROWN.1.2, GROWN.1), Outside::Edge)?;

@@ -1,7 +1,7 @@
 //! Fig. S8: how hot a running chain is.
 
+use super::FORCING;
 use super::prelude::*;
-use super::{FORCING, SIGMA};
 use crate::experiments::Results;
 use crate::experiments::heat::tables::balanced_ratio;
 use crate::params::HeatParams;
@@ -44,7 +44,7 @@ pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
 }
 
 fn against_sigma(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
-    let x = Axis::linear(SIGMAS.0, SIGMAS.1, 0.1, 2, FORCING).column(SIGMA);
+    let x = Axis::linear(SIGMAS.0, SIGMAS.1, 0.1, 2, FORCING);
     let y = Axis::linear(0.0, 30.0, 10.0, 2, "*s*^{2}/*σ*^{2}");
     let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 8150, 3730), x, y)?;
     let expected = shown.rising.values("balanced").into_iter().fold(0.0, f64::max);

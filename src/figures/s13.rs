@@ -44,7 +44,8 @@ pub fn draw(scale: &Costs, measured: &Measured, note: Option<&str>) -> Result<Fi
         .collect();
     let programs = most_accurate(&programs);
     let times = own.iter().filter_map(|row| row.microseconds_per_impact);
-    let (x, y) = (masses(), Axis::around(times, 1, "µs per impact").finely().column("time per impact (us)"));
+    let (x, y) =
+        (masses(), Axis::around(times, 1, "µs per impact").finely().column("time per impact (us)"));
     let clock = sheet.lettered(LETTERS[1], Frame::new(1200, 3450, 8150, 5150), x, y)?;
     let line: Vec<_> =
         own.iter().filter_map(|row| Some((row.n as f64, row.microseconds_per_impact?))).collect();
