@@ -96,7 +96,7 @@ fn description(results: &Results, seeds: [f64; 2]) -> Result<String, Error> {
     let [half, onset] = seeds.map(|seeds| short(seeds, 3));
     Ok(format!(
         "Against T: (a) half height of the mean of all, falling with T and with the window towards the \
-         level {half}, {} at W = {WINDOW}; dashed, of the kept, below it. (b) Onset, {}, above {onset}.",
+         level {half}, {} at W = {WINDOW}; broken, of the kept, below it. (b) Onset, {}, above {onset}.",
         ends(PLACES[0].0)?,
         ends(PLACES[1].0)?,
     ))
