@@ -65,7 +65,7 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
         let y = Axis::decades(LOWEST, 0, 2, "*P*(*X* = *k*)");
         let panel = sheet.panel(Frame::new(left, 7080, left + 2970, 9180), k(end), y)?;
         heading(&panel, letter, &format!("*p* = {}", short(distribution.p, 3)))?;
-        logarithmic(&panel, distribution)?;
+        series(&panel, distribution, false)?;
     }
     let mut entries = vec![Entry::line(SUM, "all five classes")];
     entries.extend(CLASSES.iter().map(|&(name, symbol, colour, dash)| {
@@ -86,24 +86,16 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     Ok(sheet.finish("fig13", "Distributions with higher-order circuits", description))
 }
 
-/// All classes on a logarithmic axis, where each is seen.
-fn logarithmic(panel: &Panel, distribution: &HigherDistribution) -> Result<(), Error> {
-    let curve = |name: &str, values: &[f64], stroke: Stroke| {
-        panel.curve(name, &over_k(values), stroke, Outside::Cut)
-    };
-    curve("all five classes", &distribution.total, SUM)?;
-    for (class, &(name, _, colour, dash)) in distribution.classes.iter().zip(&CLASSES) {
-        curve(name, &class.probability, Stroke::dashed(colour, LINE, dash))?;
-    }
-    Ok(())
-}
-
 fn series(panel: &Panel, distribution: &HigherDistribution, detail: bool) -> Result<(), Error> {
     let shown = if detail { DETAIL } else { distribution.total.len() };
     let of = |values: &[f64]| values[..shown.min(values.len())].to_vec();
     panel.curve("all five classes", &over_k(&of(&distribution.total)), SUM, Outside::Cut)?;
     for (class, &(name, _, colour, dash)) in distribution.classes.iter().zip(&CLASSES) {
-        let points = visible(&of(&class.probability), panel.y.hi);
+        // On a logarithmic axis each is seen.
+        let points = match panel.y.scale {
+            Scale::Linear => visible(&of(&class.probability), panel.y.hi),
+            _ => over_k(&class.probability),
+        };
         panel.curve(name, &points, Stroke::dashed(colour, LINE, dash), Outside::Cut)?;
         if detail {
             let dots = (Mark::Disc, 28, Stroke::solid(colour, THIN));
