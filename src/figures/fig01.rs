@@ -26,7 +26,7 @@ const MASSES: [Mass; 4] = [
 
 /// Draws the figure.
 pub fn draw() -> Result<Figure, Error> {
-    let sheet = Sheet::new(3180, None)?;
+    let sheet = Sheet::new(3280, None)?;
     let right = LEFT + 6 * SPACING;
     walls(&sheet, right)?;
     for mass in &MASSES {
@@ -115,6 +115,6 @@ fn distances(sheet: &Sheet) -> Result<(), Error> {
     // The force on mass 2.
     let start = x2 + RADIUS + 25;
     sheet.arrow(&[(start, HEIGHT), (start + 480, HEIGHT)], Stroke::solid(BLUE, 40))?;
-    let at = (start + 215, HEIGHT - 130);
+    let at = (start + 420, HEIGHT - 150);
     sheet.text("*F*_{2}(*t*)", at, (TEXT, BLUE, HPos::Center, VPos::Bottom))
 }

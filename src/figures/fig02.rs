@@ -8,7 +8,7 @@ use crate::experiments::sweep::Sweep;
 
 /// Draws the figure.
 pub fn draw(sweep: &Sweep, note: Option<&str>) -> Result<Figure, Error> {
-    let sheet = Sheet::new(HEIGHTS.0, note)?;
+    let sheet = Sheet::new(HEIGHTS.0 - 380, note)?;
     let n = sweep.parameters.chain.gaps();
     let (x, y) = (sigma_axis(last_sigma(sweep)), count_axis(n, "most likely number of impacts"));
     let panel = sheet.panel(MAIN, x, y)?;
@@ -23,11 +23,11 @@ pub fn draw(sweep: &Sweep, note: Option<&str>) -> Result<Figure, Error> {
         comparable(sweep).filter_map(|row| Some((row.sigma, row.mode_distinct? as f64))).collect();
     panel.series("mode").bars("interval of the mode", &bars, 40, bar, Outside::Refuse)?;
     crosses(&panel, "mode", &modes)?;
-    let near = rise(&sheet, count_axis(n, ""))?;
-    printed(&near)?;
+    let near = rise(&sheet, 0.075, count_axis(n, "impacts"))?;
     let (low, high) = (near.x.lo, near.x.hi);
     let shown: Vec<_> = bars.into_iter().filter(|bar| bar.0 >= low && bar.0 <= high).collect();
     near.bars("interval of the mode, near the rise", &shown, 40, bar, Outside::Refuse)?;
+    printed(&near)?;
     near.marks("mode, near the rise", &modes, CROSSES, Outside::Cut)?;
     let entries = [
         Entry::mark(CROSSES, "mode of the kept"),

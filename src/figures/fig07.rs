@@ -19,9 +19,9 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
         circuits.log_count.iter().map(|l| (l - circuits.log_total) / LN_10).collect();
     let lowest = (logs.iter().copied().fold(0.0, f64::min) / 40.0).floor() as i32 * 40;
     let inset = sheet.inset(
-        Frame::new(2650, 650, 5950, 2750),
-        Axis::linear(0.0, n as f64 + 1.0, 25.0, 1, ""),
-        Axis::decades(lowest, 0, 40, ""),
+        Frame::new(2850, 650, 6150, 2750),
+        Axis::linear(0.0, n as f64 + 1.0, 25.0, 1, "*k*"),
+        Axis::decades(lowest, 0, 40, "share"),
     )?;
     inset.curve(
         "logarithm of the share",
@@ -29,9 +29,6 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
         Stroke::solid(GREEN, LINE),
         Outside::Refuse,
     )?;
-
-    let look = (TINY, INK, HPos::Right, VPos::Bottom);
-    inset.note("the same, logarithmic", (inset.x.hi, inset.y.lo), (0, -110), look)?;
 
     let peak = circuits.share.iter().position(|&s| s == top).unwrap_or(0) + 1;
     let description = format!(

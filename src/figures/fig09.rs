@@ -14,12 +14,13 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     let labels = ["*k*^{∗}", "*μ*"];
     let mut panels = Vec::new();
     for (i, edge) in [(0, 430), (1, 5130)] {
-        let y = || Axis::linear(0.0, top, 20.0, 2, labels[i]);
+        let y = |low: f64| Axis::linear(low, top, 20.0, 2, labels[i]);
         let x = |end: f64, step: f64| Axis::linear(0.0, end, step, 2, "*p*");
         let frame = Frame::new(1150, edge, 8150, edge + 3450);
-        let panel = sheet.lettered(LETTERS[i], frame, x(1.0, 0.2), y())?;
+        let panel = sheet.lettered(LETTERS[i], frame, x(1.0, 0.2), y(0.0))?;
+        // The levels at one are seen above the axis.
         let frame = Frame::new(3300, edge + 460, 7700, edge + 2450);
-        let inset = sheet.inset(frame, x(SMALL_P, 0.01), y())?;
+        let inset = sheet.inset(frame, x(SMALL_P, 0.01), y(-6.0))?;
         panels.push((panel, inset));
     }
     let scalars = &theory.scalars;
@@ -40,11 +41,7 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
         (Mark::Ring, 50, Stroke::solid(GREEN, THIN)),
         Outside::Refuse,
     )?;
-    let note = format!(
-        "*k*^{{∗}} jumps from 1 to {} at *p* = {}",
-        scalars.k_after_jump,
-        short(scalars.p_jump, 4)
-    );
+    let note = format!("from 1 to {} at *p* = {}", scalars.k_after_jump, short(scalars.p_jump, 4));
     inset.note(
         &note,
         (scalars.p_jump, jump / 2.0),

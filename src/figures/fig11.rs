@@ -48,17 +48,14 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     decades.guide("jump of k*", &corner, guide)?;
     let rest = [(scalars.sigma_jump_rest, level), (scalars.sigma_jump_rest, bottom)];
     decades.guide("jump of k* from rest", &rest, guide)?;
-    let place = (scalars.sigma_jump, level);
-    for (i, line) in [
-        format!("*k*^{{∗}} jumps at *p* = {},", short(scalars.p_jump, 4)),
-        format!("*σ* = {}; from rest,", short(scalars.sigma_jump, 4)),
-        format!("at *σ* = {}", short(scalars.sigma_jump_rest, 4)),
-    ]
-    .iter()
-    .enumerate()
+    let told = format!("*k*^{{∗}} jumps at *p* = {}", short(level, 4));
+    let look = |side, v| (SMALL, INK, side, v);
+    let above = (scalars.sigma_jump, level);
+    decades.note(&told, above, (110, 260), look(HPos::Left, VPos::Top))?;
+    for (sigma, side, dx) in
+        [(scalars.sigma_jump, HPos::Left, 70), (scalars.sigma_jump_rest, HPos::Right, -70)]
     {
-        let look = (SMALL, INK, HPos::Left, VPos::Top);
-        decades.note(line, place, (110, 260 + 330 * i as i32), look)?;
+        decades.note(&number(sigma, 4), (sigma, bottom), (dx, -110), look(side, VPos::Bottom))?;
     }
 
     let description = format!(

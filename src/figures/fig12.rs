@@ -22,7 +22,7 @@ pub fn draw(sweep: &Sweep, theory: &Theory, note: Option<&str>) -> Result<Figure
     let simulated = means(sweep);
     crosses(&panel, "simulation", &simulated)?;
     let (big_n, big_n_walls) = (theory.curve.vertices, theory.curve_walls.vertices);
-    let near = rise(&sheet, count_axis(n, ""))?;
+    let near = rise(&sheet, 0.08, count_axis(n, "impacts"))?;
     printed(&near)?;
     near.curve("theory, N = n + 1, near the rise", &walls, thin, Outside::Cut)?;
     near.curve("theory, near the rise", &simple, main, Outside::Cut)?;
@@ -59,8 +59,8 @@ fn lag(sheet: &Sheet, near: &Panel, [from, to]: [f64; 2], level: f64) -> Result<
     sheet.arrow(&[near.at(from, level), near.at(to, level)], Stroke::solid(INK, THIN))?;
     let look = (TINY, INK, HPos::Center, VPos::Bottom);
     near.note(&short(to - from, 2), ((from + to) / 2.0, level), (60, -70), look)?;
-    let look = (TINY, INK, HPos::Left, VPos::Top);
-    // The first keeps clear of the line at the printed σ.
-    near.note(&short(from, 4), (from, level), (200, 60), look)?;
-    near.note(&short(to, 4), (to, level), (70, 60), look)
+    // The first is not beside the line at the printed σ, which has another value.
+    let look = |side, v| (TINY, INK, side, v);
+    near.note(&short(from, 4), (from, level), (-60, -70), look(HPos::Right, VPos::Bottom))?;
+    near.note(&short(to, 4), (to, level), (70, 60), look(HPos::Left, VPos::Top))
 }

@@ -13,13 +13,16 @@ const LOWEST: i32 = -8;
 /// Name, symbol, colour and dash of a class.
 type Class = (&'static str, &'static str, Colour, Dash);
 
+/// The sum of all classes, wide enough to be seen below them.
+const SUM: Stroke = Stroke::solid(RED, 68);
+
 /// The five classes in the order of Eq. (38).
 const CLASSES: [Class; 5] = [
     ("simple circuits", "*ϕ*_{*N*}", GREEN, Dash::Long),
-    ("one vertex twice", "*ϕ*_{*N*}^{1}", BLUE, Dash::Short),
+    ("one vertex twice", "*ϕ*_{*N*}^{1}", PURPLE, Dash::Short),
     ("one vertex three times", "*ϕ*_{*N*}^{1,0}", ORANGE, Dash::Twice),
-    ("one vertex four times", "*ϕ*_{*N*}^{1,0,0}", INK, Dash::Dotted),
-    ("two vertices twice", "*ϕ*_{*N*}^{2}", PURPLE, Dash::Alternate),
+    ("one vertex four times", "*ϕ*_{*N*}^{1,0,0}", GREY, Dash::Dotted),
+    ("two vertices twice", "*ϕ*_{*N*}^{2}", INK, Dash::Alternate),
 ];
 
 /// Draws the figure.
@@ -32,38 +35,39 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
             expected: "higher-order distributions at three p",
         });
     };
-    for (i, (distribution, shown)) in
-        [(small, n), (small, DETAIL), (middle, n), (large, n)].into_iter().enumerate()
+    let whole = n as f64 + 1.0;
+    let k = |end: f64| {
+        let (step, minor) = if end < 50.0 { (end / 4.0, 5) } else { (20.0, 2) };
+        Axis::linear(0.0, end, step, minor, "*k*")
+    };
+    for (i, (distribution, end)) in
+        [(small, whole), (small, DETAIL as f64), (middle, 40.0), (large, whole)]
+            .into_iter()
+            .enumerate()
     {
-        let (step, minor) = if shown == DETAIL { (5.0, 5) } else { (20.0, 2) };
         // The detail shows the higher orders: the simple circuits leave it at its upper edge.
-        let top = if shown == DETAIL {
-            1.5 * distribution
-                .classes
-                .iter()
-                .skip(1)
-                .map(|c| largest(&c.probability))
-                .fold(0.0, f64::max)
+        let top = if i == 1 {
+            let higher = distribution.classes.iter().skip(1);
+            1.5 * higher.map(|c| largest(&c.probability)).fold(0.0, f64::max)
         } else {
             largest(&distribution.total)
         };
-        let end = if shown == DETAIL { shown as f64 } else { n as f64 + 1.0 };
-        let x = Axis::linear(0.0, end, step, minor, "*k*");
         let y = upwards_from_zero(top, "*P*(*X* = *k*)");
-        let panel = sheet.panel(FOUR[i], x, y)?;
+        let panel = sheet.panel(FOUR[i], k(end), y)?;
         let p = short(distribution.p, 3);
-        let detail = if shown == DETAIL { ", detail" } else { "" };
+        let detail = if i == 1 { ", detail" } else { "" };
         heading(&panel, LETTERS[i], &format!("*p* = {p}{detail}"))?;
-        series(&panel, distribution, shown)?;
+        series(&panel, distribution, i == 1)?;
     }
-    for (left, letter, distribution) in [(1080, "(e)", small), (5230, "(f)", large)] {
-        let x = Axis::linear(0.0, n as f64 + 1.0, 20.0, 2, "*k*");
+    for (left, letter, distribution, end) in
+        [(1080, "(e)", small, DETAIL as f64), (5230, "(f)", large, whole)]
+    {
         let y = Axis::decades(LOWEST, 0, 2, "*P*(*X* = *k*)");
-        let panel = sheet.panel(Frame::new(left, 7080, left + 2970, 9180), x, y)?;
+        let panel = sheet.panel(Frame::new(left, 7080, left + 2970, 9180), k(end), y)?;
         heading(&panel, letter, &format!("*p* = {}", short(distribution.p, 3)))?;
-        logarithmic(&panel, distribution)?;
+        series(&panel, distribution, false)?;
     }
-    let mut entries = vec![Entry::line(Stroke::solid(RED, LINE), "all five classes")];
+    let mut entries = vec![Entry::line(SUM, "all five classes")];
     entries.extend(CLASSES.iter().map(|&(name, symbol, colour, dash)| {
         Entry::line(Stroke::dashed(colour, LINE, dash), &format!("{name}, {symbol}"))
     }));
@@ -82,30 +86,20 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     Ok(sheet.finish("fig13", "Distributions with higher-order circuits", description))
 }
 
-/// All classes on a logarithmic axis, where each is seen.
-fn logarithmic(panel: &Panel, distribution: &HigherDistribution) -> Result<(), Error> {
-    let curve = |name: &str, values: &[f64], stroke: Stroke| {
-        panel.curve(name, &over_k(values), stroke, Outside::Cut)
-    };
-    curve("all five classes", &distribution.total, Stroke::solid(RED, LINE))?;
+fn series(panel: &Panel, distribution: &HigherDistribution, detail: bool) -> Result<(), Error> {
+    let shown = if detail { DETAIL } else { distribution.total.len() };
+    let of = |values: &[f64]| values[..shown.min(values.len())].to_vec();
+    panel.curve("all five classes", &over_k(&of(&distribution.total)), SUM, Outside::Cut)?;
     for (class, &(name, _, colour, dash)) in distribution.classes.iter().zip(&CLASSES) {
-        curve(name, &class.probability, Stroke::dashed(colour, LINE, dash))?;
-    }
-    Ok(())
-}
-
-fn series(panel: &Panel, distribution: &HigherDistribution, shown: usize) -> Result<(), Error> {
-    let detail = shown == DETAIL;
-    let outside = if detail { Outside::Cut } else { Outside::Refuse };
-    let total = over_k(&distribution.total[..shown.min(distribution.total.len())]);
-    let red = Stroke::solid(RED, LINE);
-    panel.curve("all five classes", &total, red, outside)?;
-    for (class, &(name, _, colour, dash)) in distribution.classes.iter().zip(&CLASSES) {
-        let points = visible(&class.probability[..shown.min(class.probability.len())], panel.y.hi);
-        panel.curve(name, &points, Stroke::dashed(colour, LINE, dash), outside)?;
+        // On a logarithmic axis each is seen.
+        let points = match panel.y.scale {
+            Scale::Linear => visible(&of(&class.probability), panel.y.hi),
+            _ => over_k(&class.probability),
+        };
+        panel.curve(name, &points, Stroke::dashed(colour, LINE, dash), Outside::Cut)?;
         if detail {
             let dots = (Mark::Disc, 28, Stroke::solid(colour, THIN));
-            panel.marks(name, &points, dots, outside)?;
+            panel.marks(name, &points, dots, Outside::Cut)?;
         }
     }
     Ok(())

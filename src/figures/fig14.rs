@@ -9,8 +9,8 @@ const FRAMES: [Frame; 2] = [Frame::new(1080, 480, 4050, 2780), Frame::new(5230, 
 pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     let sheet = Sheet::new(4100, None)?;
     let n = theory.vertices;
-    let simple = Stroke::dashed(GREEN, LINE, Dash::Long);
-    let higher = Stroke::solid(BLUE, LINE);
+    let simple = Stroke::solid(GREEN, LINE);
+    let higher = Stroke::dashed(BLUE, LINE, Dash::Long);
     let mut seen = Vec::new();
     for (i, pair) in theory.convergence.iter().take(2).enumerate() {
         let x = Axis::linear(0.0, n as f64 + 1.0, 20.0, 2, "*k*");
@@ -19,8 +19,8 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
         let panel = sheet.panel(FRAMES[i], x, y)?;
         let p = short(pair.p, 3);
         heading(&panel, LETTERS[i], &format!("*p* = {p}"))?;
-        panel.curve("five classes", &over_k(&pair.total), higher, Outside::Refuse)?;
         panel.curve("simple circuits", &over_k(&pair.simple), simple, Outside::Refuse)?;
+        panel.curve("five classes", &over_k(&pair.total), higher, Outside::Refuse)?;
         let distance = short(pair.total_variation, 3);
         seen.push(format!("{} p = {p}: total variation distance {distance}", LETTERS[i]));
     }
@@ -28,7 +28,7 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
         [Entry::line(simple, "simple circuits"), Entry::line(higher, "with higher orders")];
     sheet.legend_in_columns((1300, 3850), (SMALL, 400), (1, 3600), &entries)?;
     let description = format!(
-        "Probability of k different impacts, N = {n}, of simple circuits (broken line) and with higher orders. The two curves \
+        "Probability of k different impacts, N = {n}, of simple circuits and with higher orders (broken line). The two curves \
          lie apart in (a) and nearly on each other in (b). {}.",
         seen.join("; ")
     );

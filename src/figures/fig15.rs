@@ -13,19 +13,20 @@ pub fn draw(sweep: &Sweep, theory: &Theory, note: Option<&str>) -> Result<Figure
     let n = sweep.parameters.chain.gaps().max(theory.curve.vertices);
     let end = last_sigma(sweep);
     let panel = sheet.panel(MAIN, sigma_axis(end), count_axis(n, "expected number of impacts"))?;
-    let green = Stroke::dashed(GREEN, LINE, Dash::Long);
-    let blue = Stroke::solid(BLUE, LINE);
-    let higher = curve(&theory.curve, end, |row| row.higher);
-    panel.curve("theory, five classes", &higher, blue, Outside::Refuse)?;
+    let green = Stroke::solid(GREEN, LINE);
+    let blue = Stroke::dashed(BLUE, LINE, Dash::Long);
     let simple = curve(&theory.curve, end, |row| row.simple);
     panel.curve("theory, simple circuits", &simple, green, Outside::Refuse)?;
+    let higher = curve(&theory.curve, end, |row| row.higher);
+    panel.curve("theory, five classes", &higher, blue, Outside::Refuse)?;
     let simulated = means(sweep);
     crosses(&panel, "simulation", &simulated)?;
     // What the orders change, since the two lines nearly coincide.
     let change: Vec<_> =
         higher.iter().zip(&simple).map(|(more, less)| (more.0, more.1 - less.1)).collect();
     let most = change.iter().map(|point| point.1).fold(0.0, f64::max);
-    let near = rise(&sheet, upwards_from_zero(most, "gaps"))?.file("-inset");
+    let y = Axis::linear(0.0, 1.1 * most, 5.0, 5, "difference (gaps)");
+    let near = rise(&sheet, 0.13, y)?.file("-inset");
     near.curve("difference of the theories", &change, Stroke::solid(INK, LINE), Outside::Cut)?;
     let entries = [
         Entry::mark(CROSSES, "simulation, mean of the kept"),

@@ -46,11 +46,8 @@ use crate::experiments::{
 use crate::experiments::{Need, Results};
 use crate::params::Profile;
 
-/// The column of σ in data files.
-const SIGMA: &str = "sigma (d omega^2)";
-
 /// The label of an axis of σ.
-const FORCING: &str = "standard deviation *σ* of the forcing";
+const FORCING: &str = "*σ* (*d ω*^{2})";
 
 /// A figure of the lists below.
 struct Listed {

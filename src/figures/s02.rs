@@ -36,7 +36,7 @@ pub fn draw(run: &SpaceTime, note: Option<&str>) -> Result<Figure, Error> {
     starts(&near, run, to)?;
 
     let tick = Entry::mark((Mark::Square, 16, INK_LINE), "impact");
-    let disc = Entry::mark((START.0, START.1, RED_DISC), "no neighbour was hit before");
+    let disc = Entry::mark((START.0, START.1, RED_DISC), "gap that closes by itself");
     sheet.legend_in_columns((1500, 9500), (SMALL, 370), (1, 2400), &[tick, disc])?;
     let mut figure = sheet.finish("s02", "One long run", description(run));
     figure.data.extend(Scene::of(run).map(|scene| positions(&scene)));

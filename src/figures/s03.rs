@@ -1,7 +1,7 @@
 //! Fig. S3: gaps that close by themselves, and chains with one of them.
 
+use super::FORCING;
 use super::prelude::*;
-use super::{FORCING, SIGMA};
 use crate::experiments::Results;
 use crate::table::Table;
 
@@ -28,7 +28,7 @@ pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
 }
 
 fn chains(sheet: &Sheet, found: &Table, shares: &Table, sweep: &Table) -> Result<(), Error> {
-    let x = Axis::linear(SIGMAS.0, SIGMAS.1, 0.02, 2, FORCING).column(SIGMA);
+    let x = Axis::linear(SIGMAS.0, SIGMAS.1, 0.02, 2, FORCING);
     let y = Axis::linear(0.0, 1.05, 0.2, 2, "share of the chains");
     let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 6150, 3730), x, y)?;
     let mut kept = sweep.points(&[], "sigma", "kept");
@@ -58,7 +58,7 @@ fn three(found: &Table) -> impl Iterator<Item = f64> {
 }
 
 fn times(sheet: &Sheet, found: &Table) -> Result<(), Error> {
-    let x = Axis::decades(1, 4, 1, "*T* (1/*ω*)");
+    let x = Axis::decades(0, 4, 1, "transient *T* (1/*ω*)").from(8.0, 3e3);
     let y = Axis::decades(-6, 0, 2, "1 − *p*_{*T*}/*p*");
     let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 5250, 8150, 7650), x, y)?;
     let mut entries = Vec::new();

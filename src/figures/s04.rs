@@ -1,11 +1,10 @@
 //! Fig. S4: what one gap that closes by itself sets off, how its fronts stand, and the mean count that follows.
 
+use super::FORCING;
 use super::prelude::*;
-use super::{FORCING, SIGMA};
 use crate::experiments::Results;
 use crate::experiments::seeds::tables::spread;
 use crate::experiments::sweep::Sweep;
-use crate::numerics::statistics::Estimate;
 use crate::table::Table;
 
 /// The σ of (a).
@@ -18,6 +17,10 @@ const SPREADS: [Stroke; 4] = [
     Stroke::dashed(ORANGE, LINE, Dash::Alternate),
     Stroke::solid(RED, THIN),
 ];
+
+/// Nucleation and growth, which is computed at some places only.
+const GROWN: (&str, Marker) =
+    ("nucleation and growth", (Mark::OpenSquare, 44, Stroke::solid(INK, HAIR)));
 
 /// Draws the figure.
 pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
@@ -41,25 +44,18 @@ fn counts(
     [theory, closed]: &[&Table; 2],
     sweep: &Sweep,
 ) -> Result<(), Error> {
-    let x = Axis::linear(SIGMAS.0, SIGMAS.1, 0.01, 2, FORCING).column(SIGMA);
+    let x = Axis::linear(SIGMAS.0, SIGMAS.1, 0.01, 2, FORCING);
     let y = Axis::linear(0.0, 105.0, 20.0, 2, "mean count of all");
     let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 8150, 3730), x, y)?;
     let transient = [("transient", sweep.parameters.protocol.transient)];
     let lines = [
-        ("nucleation and growth", "grown", Stroke::solid(INK, THIN)),
         ("closed theory", "expected", Stroke::dashed(ORANGE, LINE, Dash::Alternate)),
         ("circuits, Eq. (25)", "eq25", Stroke::dashed(BLUE, LINE, Dash::Short)),
         ("circuits, from rest", "from_rest", Stroke::dashed(PURPLE, LINE, Dash::Long)),
     ];
     let mut entries = Vec::new();
     for (name, column, stroke) in lines {
-        if column == "grown" {
-            let grown = means.estimates(&transient, "sigma", column);
-            band(&panel, &grown)?;
-            let points: Vec<_> = grown.iter().map(|(x, own)| (*x, own.value)).collect();
-            panel.quiet().curve(name, &points, stroke, Outside::Refuse)?;
-            panel.record(name, grown);
-        } else if column == "expected" {
+        if column == "expected" {
             let paper = &sweep.parameters.chain;
             let own = [("r", paper.restitution), ("masses", paper.masses as f64), transient[0]];
             let expected = closed.estimates(&own, "sigma", column);
@@ -71,10 +67,12 @@ fn counts(
         }
         entries.push(Entry::line(stroke, name));
     }
+    panel.joined(GROWN.0, &means.estimates(&transient, "sigma", "grown"), GROWN.1)?;
+    entries.insert(0, Entry::both(GROWN.1.2, GROWN.1, GROWN.0));
     let inside = sweep.rows.iter().filter(|row| row.sigma > SIGMAS.0 && row.sigma < SIGMAS.1);
     let bars: Vec<_> =
         inside.filter_map(|row| Some((row.sigma, row.mean_all?, row.mean_all_interval?))).collect();
-    let look = (Mark::Disc, LARGE, Stroke::solid(RED, THIN));
+    let look = (Mark::Disc, 42, Stroke::solid(RED, THIN));
     let ends: Vec<_> = bars.iter().map(|(x, _, [low, high])| (*x, *low, *high)).collect();
     panel.bars("simulation", &ends, 35, look.2, Outside::Refuse)?;
     let points: Vec<_> = bars.iter().map(|(x, y, _)| (*x, *y)).collect();
@@ -83,20 +81,13 @@ fn counts(
     sheet.legend((1400, 700), (SMALL, 370), &entries)
 }
 
-/// The intervals of a curve, within its axis.
-fn band(panel: &Panel, own: &[(f64, Estimate)]) -> Result<(), Error> {
-    let below = own.iter().map(|(x, at)| (*x, at.interval[0].max(panel.y.lo)));
-    let above = own.iter().rev().map(|(x, at)| (*x, at.interval[1].min(panel.y.hi)));
-    panel.quiet().area("interval", &below.chain(above).collect::<Vec<_>>(), GREY, 100)
-}
-
 fn named(sigma: f64) -> String {
     format!("*σ* = {sigma}")
 }
 
 fn advances(sheet: &Sheet, advance: &Table) -> Result<(), Error> {
-    let x = Axis::decades(1, 4, 1, "time since the first impact (1/*ω*)");
-    let y = Axis::decades(-1, 2, 1, "advance of a front (gaps)");
+    let x = Axis::decades(1, 4, 1, "time since the first impact (1/*ω*)").from(20.0, 2000.0);
+    let y = Axis::decades(-1, 2, 1, "advance (gaps)");
     let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 5250, 4050, 7650), x, y)?;
     let mut entries = Vec::new();
     for (sigma, stroke) in spread(&advance.values("sigma")).zip(SPREADS) {
@@ -112,16 +103,16 @@ fn advances(sheet: &Sheet, advance: &Table) -> Result<(), Error> {
 }
 
 fn halves(sheet: &Sheet, rise: &Table, scores: &Table) -> Result<(), Error> {
-    let x = Axis::decades(1, 4, 1, "transient *T* (1/*ω*)");
-    let y = Axis::linear(0.1, 0.15, 0.01, 2, "*σ*_{1/2} of all").column("half_height (d omega^2)");
+    let x = Axis::decades(1, 4, 1, "transient *T* (1/*ω*)").from(20.0, 2000.0);
+    let y = Axis::linear(0.1, 0.15, 0.01, 2, "*σ*_{1/2} of all (*d ω*^{2})")
+        .column("half_height (d omega^2)");
     let panel = sheet.lettered(LETTERS[2], Frame::new(5350, 5250, 8150, 7650), x, y)?;
-    let line = Stroke::solid(INK, LINE);
     let grown = rise.points(&[], "transient", "half_height");
-    panel.curve("nucleation and growth", &grown, line, Outside::Edge)?;
+    panel.marked(GROWN.0, &grown, (GROWN.1.2, GROWN.1), Outside::Edge)?;
     let look = (Mark::Disc, LARGE, Stroke::solid(RED, THIN));
     let found = scores.estimates(&[], "transient", "half_height");
     panel.estimates("simulation", &found, look)?;
-    let entries = [Entry::line(line, "nucleation and growth"), Entry::mark(look, "simulation")];
+    let entries = [Entry::both(GROWN.1.2, GROWN.1, GROWN.0), Entry::mark(look, "simulation")];
     sheet.legend((4850, 8650), (SMALL, 370), &entries)
 }
 

@@ -1,6 +1,6 @@
 //! Fig. S5: long chains, friction, and a force with a common period.
 
-use super::SIGMA;
+use super::FORCING;
 use super::prelude::*;
 use crate::experiments::Results;
 use crate::experiments::chains::{Chains, Curve, Ensemble};
@@ -14,8 +14,8 @@ const LOOKS: [(Mark, Colour); 6] = [
     (Mark::Disc, BLUE),
     (Mark::Square, GREEN),
     (Mark::Diamond, ORANGE),
-    (Mark::Disc, RED),
-    (Mark::Ring, INK),
+    (Mark::Triangle, RED),
+    (Mark::OpenSquare, INK),
 ];
 
 /// The frequency of (d).
@@ -26,7 +26,7 @@ pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
     let (chains, sizes) = (results.chains()?, results.table("sizes.places")?);
     let window = [("window", chains.parameters.window)];
     let map = results.table("protocol.cells")?.points(&window, "transient", "half_height_all");
-    let sheet = Sheet::new(10_800, note)?;
+    let sheet = Sheet::new(11_050, note)?;
     lengths(&sheet, chains)?;
     times(&sheet, results.table("chains.lengths")?, sizes, &map)?;
     frictions(&sheet, results.table("chains.damped")?, &map)?;
@@ -54,8 +54,8 @@ fn length(masses: usize) -> String {
 /// The transient that all lengths have.
 const COMMON_TIME: f64 = 500.0;
 
-/// How far in σ the marks of a length stand aside of those of a tenth of it.
-const ASIDE: f64 = 0.0018;
+/// How far in σ the marks of a length stand aside of those of a tenth of it: a fifth of a step, says the caption.
+const ASIDE: f64 = 0.002;
 
 /// (σ, share) of a curve at a transient.
 fn shares(own: &ChainCurve, curve: &Curve, time: f64) -> Vec<(f64, Estimate)> {
@@ -64,7 +64,7 @@ fn shares(own: &ChainCurve, curve: &Curve, time: f64) -> Vec<(f64, Estimate)> {
 }
 
 fn lengths(sheet: &Sheet, chains: &Chains) -> Result<(), Error> {
-    let x = Axis::linear(0.07, 0.19, 0.03, 3, "*σ*").column(SIGMA);
+    let x = Axis::linear(0.07, 0.19, 0.04, 4, FORCING);
     let y = Axis::linear(0.0, 1.0, 0.2, 2, "share of the gaps");
     let panel = sheet.lettered(LETTERS[0], Frame::new(1000, 430, 3900, 3730), x, y)?;
     let mut entries = Vec::new();
@@ -92,7 +92,8 @@ fn lengths(sheet: &Sheet, chains: &Chains) -> Result<(), Error> {
 /// Half heights; lengths that were measured anew are shown by these alone.
 fn times(sheet: &Sheet, old: &Table, anew: &Table, map: &[(f64, f64)]) -> Result<(), Error> {
     let x = Axis::decades(1, 5, 1, "transient *T* (1/*ω*)");
-    let y = Axis::linear(0.08, 0.16, 0.01, 2, "*σ*_{1/2}").column("half_height (d omega^2)");
+    let y = Axis::linear(0.08, 0.16, 0.01, 2, "*σ*_{1/2} (*d ω*^{2})")
+        .column("half_height (d omega^2)");
     let panel = sheet.lettered(LETTERS[1], Frame::new(5150, 430, 8050, 3730), x, y)?;
     let stroke = Stroke::solid(INK, THIN);
     panel.curve("map", map, stroke, Outside::Cut)?;
@@ -111,8 +112,9 @@ fn times(sheet: &Sheet, old: &Table, anew: &Table, map: &[(f64, f64)]) -> Result
 
 fn frictions(sheet: &Sheet, found: &Table, map: &[(f64, f64)]) -> Result<(), Error> {
     let x = Axis::decades(1, 4, 1, "transient *T* (1/*ω*)");
-    let y = Axis::linear(0.09, 0.16, 0.01, 2, "*σ*_{1/2}").column("half_height (d omega^2)");
-    let panel = sheet.lettered(LETTERS[2], Frame::new(1000, 5900, 3900, 8900), x, y)?;
+    let y = Axis::linear(0.09, 0.16, 0.01, 2, "*σ*_{1/2} (*d ω*^{2})")
+        .column("half_height (d omega^2)");
+    let panel = sheet.lettered(LETTERS[2], Frame::new(1000, 6150, 3900, 9150), x, y)?;
     let stroke = Stroke::solid(INK, THIN);
     panel.curve("without friction", map, stroke, Outside::Cut)?;
     let mut entries = vec![Entry::line(stroke, "*c* = 0")];
@@ -123,7 +125,7 @@ fn frictions(sheet: &Sheet, found: &Table, map: &[(f64, f64)]) -> Result<(), Err
         panel.joined(&name, &all, look)?;
         entries.push(Entry::mark(look, &name));
     }
-    sheet.legend_in_columns((600, 9880), (SMALL, 340), (2, 1750), &entries)
+    sheet.legend_in_columns((600, 10_130), (SMALL, 340), (2, 1750), &entries)
 }
 
 /// The share of the chains with an impact in the last window, with its binomial error.
@@ -135,9 +137,9 @@ fn alive(row: &Ensemble) -> (f64, Estimate) {
 }
 
 fn period(sheet: &Sheet, chains: &Chains) -> Result<(), Error> {
-    let x = Axis::linear(0.2, 0.44, 0.1, 2, "*σ*").column(SIGMA);
+    let x = Axis::linear(0.2, 0.44, 0.1, 2, FORCING);
     let y = Axis::linear(0.0, 1.0, 0.2, 2, "share of the chains");
-    let panel = sheet.lettered(LETTERS[3], Frame::new(5150, 5900, 8050, 8900), x, y)?;
+    let panel = sheet.lettered(LETTERS[3], Frame::new(5150, 6150, 8050, 9150), x, y)?;
     let Some((_, curve)) = chains.curve(COMMON) else { return Ok(()) };
     let line = |of: fn(&[f64; 3]) -> f64| -> Vec<(f64, f64)> {
         curve.kept_expected.iter().map(|own| (own[0], of(own))).collect()
@@ -153,7 +155,7 @@ fn period(sheet: &Sheet, chains: &Chains) -> Result<(), Error> {
         Entry::line(there, "common period"),
         Entry::mark(look, "simulation"),
     ];
-    sheet.legend((4900, 9880), (SMALL, 340), &entries)
+    sheet.legend((4900, 10_130), (SMALL, 340), &entries)
 }
 
 fn description(sizes: &Table) -> String {

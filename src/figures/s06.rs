@@ -31,13 +31,19 @@ fn shares(sheet: &Sheet, large: &Large) -> Result<(), Error> {
     for (own, (colour, dash)) in large.shares.iter().zip(SIZES) {
         let points: Vec<_> = own.rows.iter().map(|row| (row.x, row.y)).collect();
         let stroke = Stroke::dashed(colour, LINE, dash);
-        panel.curve(&format!("N = {}", own.vertices), &points, stroke, Outside::Cut)?;
+        // No value lies within the jump.
+        let (before, after) = points.split_at(points.partition_point(|at| at.1 <= points[0].1));
+        let name = format!("N = {}", own.vertices);
+        panel.curve(&name, before, stroke, Outside::Cut)?;
+        panel.curve(&name, after, stroke, Outside::Cut)?;
+        let jump: Vec<_> = before.last().into_iter().chain(after.first()).copied().collect();
+        panel.guide("jump", &jump, Stroke::dashed(colour, THIN, Dash::Dotted))?;
         entries.push(Entry::line(stroke, &format!("*N* = {}", power(own.vertices))));
     }
     let limit: Vec<_> = large.limit.iter().map(|row| (row.x, row.y)).collect();
     let stroke = Stroke::dashed(INK, THIN, Dash::Short);
     panel.curve("limit", &limit, stroke, Outside::Cut)?;
-    entries.push(Entry::line(stroke, "max(0, 1 − 1/*p N*)"));
+    entries.push(Entry::line(stroke, "max(0, 1 − 1/(*p N*))"));
     sheet.legend((5500, 2350), (SMALL, 370), &entries)
 }
 

@@ -15,21 +15,21 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     let orders = &theory.orders;
     let x = Axis::decades(-3, -1, 1, "*p*");
     let share = Axis::linear(0.0, TOP, 0.2, 2, "share of the five classes");
-    let whole = sheet.lettered(LETTERS[0], Frame::new(1150, 480, 4250, 3380), x, share)?;
+    let whole = sheet.lettered(LETTERS[0], Frame::new(1150, 480, 6250, 3380), x, share)?;
     let mut entries = Vec::new();
     for (own, dash) in orders.shares.iter().zip(LOOKS) {
         let points: Vec<_> = own.rows.iter().map(|row| (row.x, row.y)).collect();
         let stroke = Stroke::dashed(INK, LINE, dash);
         whole.curve(&format!("K = {}", own.k), &points, stroke, Outside::Cut)?;
-        entries.push(Entry::line(stroke, &format!("of *K* = {} vertices", own.k)));
+        entries.push(Entry::line(stroke, &format!("*K* = {}", own.k)));
     }
     let points: Vec<_> = orders.whole.iter().map(|row| (row.x, row.y)).collect();
     let all = Stroke::solid(RED, LINE);
     whole.curve("all circuits", &points, all, Outside::Refuse)?;
-    entries.push(Entry::line(all, "of all circuits"));
+    entries.push(Entry::line(all, "all circuits"));
     guide(&whole, orders.pole, "1/*N*", HPos::Right)?;
     guide(&whole, theory.scalars.p_jump, "*p*_{jump}", HPos::Left)?;
-    sheet.legend((4480, 1000), (SMALL, 400), &entries)?;
+    sheet.legend((6480, 1000), (SMALL, 400), &entries)?;
     distributions(&sheet, theory)?;
     Ok(sheet.finish("s07", "Circuits of all orders", description(theory)))
 }

@@ -1,7 +1,7 @@
 //! Fig. S8: how hot a running chain is.
 
+use super::FORCING;
 use super::prelude::*;
-use super::{FORCING, SIGMA};
 use crate::experiments::Results;
 use crate::experiments::heat::tables::balanced_ratio;
 use crate::params::HeatParams;
@@ -13,11 +13,14 @@ const FROM_REST: f64 = 1.5;
 /// The σ of (a).
 const SIGMAS: (f64, f64) = (0.05, 0.45);
 
-/// The balance where impacts are frequent.
-const FRICTION: (&str, Stroke) = ("with friction", Stroke::solid(PURPLE, LINE));
+/// The formula for rare impacts, with the rate that was measured.
+const AT_RATE: (&str, Stroke) = ("rare impacts, at the measured rate", Stroke::solid(PURPLE, LINE));
 
 /// The closed theory, which is for masses that are hit.
 const CLOSED: (&str, Stroke) = ("closed theory", Stroke::dashed(ORANGE, LINE, Dash::Alternate));
+
+/// The look of the masses that are hit.
+const HIT: Marker = (Mark::Ring, 62, Stroke::solid(ORANGE, THIN));
 
 /// What is drawn.
 struct Shown<'a> {
@@ -41,36 +44,36 @@ pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
 }
 
 fn against_sigma(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
-    let x = Axis::linear(SIGMAS.0, SIGMAS.1, 0.05, 5, FORCING).column(SIGMA);
-    let y = Axis::linear(0.0, 30.0, 5.0, 5, "*s*^{2}/*σ*^{2}");
+    let x = Axis::linear(SIGMAS.0, SIGMAS.1, 0.1, 2, FORCING);
+    let y = Axis::linear(0.0, 30.0, 10.0, 2, "*s*^{2}/*σ*^{2}");
     let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 8150, 3730), x, y)?;
     let expected = shown.rising.values("balanced").into_iter().fold(0.0, f64::max);
     let lines = [
-        ("balance of rare impacts", expected, Stroke::solid(INK, LINE)),
+        ("rare impacts", expected, Stroke::solid(INK, LINE)),
         ("start from rest", FROM_REST, Stroke::dashed(GREEN, LINE, Dash::Long)),
         ("Eq. (25)", 1.0, Stroke::dashed(BLUE, LINE, Dash::Short)),
     ];
-    let mut entries = Vec::new();
     for (name, height, stroke) in lines {
         panel.level(name, height, stroke)?;
-        entries.push(Entry::line(stroke, name));
     }
-    let friction = shown.rising.points(&[], "sigma", "balanced_at_rate");
-    panel.curve(FRICTION.0, &friction, FRICTION.1, Outside::Refuse)?;
+    let at_rate = shown.rising.points(&[], "sigma", "balanced_at_rate");
+    panel.curve(AT_RATE.0, &at_rate, AT_RATE.1, Outside::Refuse)?;
     let closed = shown.rising.points(&[], "sigma", "closed");
     panel.curve(CLOSED.0, &closed, CLOSED.1, Outside::Cut)?;
+    let mut entries: Vec<_> =
+        lines.iter().map(|(name, _, stroke)| Entry::line(*stroke, name)).collect();
+    entries.splice(1..1, [AT_RATE, CLOSED].map(|(name, stroke)| Entry::line(stroke, name)));
+    // The smaller discs leave the rings to be seen.
     let looks = [
-        ("masses that are hit", "variance_ratio_of_hit", Mark::Ring, ORANGE),
-        ("all masses", "variance_ratio", Mark::Disc, RED),
+        ("masses that are hit", "variance_ratio_of_hit", HIT),
+        ("all masses", "variance_ratio", (Mark::Disc, 34, Stroke::solid(RED, THIN))),
     ];
-    for (name, column, mark, colour) in looks {
-        let look = (mark, LARGE, Stroke::solid(colour, THIN));
+    for (name, column, look) in looks {
         panel.estimates(name, &shown.rising.estimates(&[], "sigma", column), look)?;
         entries.push(Entry::mark(look, name));
     }
-    entries.push(Entry::line(FRICTION.1, FRICTION.0));
-    entries.push(Entry::line(CLOSED.1, CLOSED.0));
-    sheet.legend_in_columns((1150, 4950), (SMALL, 350), (4, 3700), &entries)
+    // The key is that of (b) too.
+    sheet.legend_in_columns((600, 4950), (SMALL, 350), (4, 4700), &entries)
 }
 
 fn against_restitution(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
@@ -79,21 +82,13 @@ fn against_restitution(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
     let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 6900, 8150, 9300), x, y)?;
     let line = Stroke::solid(INK, LINE);
     let curve: Vec<_> = balanced_ratio(shown.parameters).into_iter().collect();
-    panel.curve("balance of rare impacts", &curve, line, Outside::Cut)?;
-    let friction = shown.others.points(&[], "r", "balanced_at_rate");
-    panel.curve(FRICTION.0, &friction, FRICTION.1, Outside::Refuse)?;
-    // The keys of (a) are those of this line too.
+    panel.curve("rare impacts", &curve, line, Outside::Cut)?;
+    let at_rate = shown.others.points(&[], "r", "balanced_at_rate");
+    panel.curve(AT_RATE.0, &at_rate, AT_RATE.1, Outside::Refuse)?;
     let closed = shown.others.points(&[], "r", "closed");
     panel.curve(CLOSED.0, &closed, CLOSED.1, Outside::Cut)?;
     let points = shown.others.estimates(&[], "r", "variance_ratio_of_hit");
-    let look = (Mark::Ring, LARGE, Stroke::solid(ORANGE, THIN));
-    panel.estimates("masses that are hit", &points, look)?;
-    let entries = [
-        Entry::line(line, "balance of rare impacts"),
-        Entry::line(FRICTION.1, FRICTION.0),
-        Entry::mark(look, "masses that are hit"),
-    ];
-    sheet.legend((4800, 8400), (SMALL, 370), &entries)
+    panel.estimates("masses that are hit", &points, HIT)
 }
 
 fn description(shown: &Shown<'_>) -> String {

@@ -46,9 +46,7 @@ fn named(sigma: f64) -> String {
 }
 
 fn distances(sheet: &Sheet, near: &Table) -> Result<(), Error> {
-    let far = near.values("distance").len() as f64;
-    let x =
-        Axis::linear(-0.5, far - 0.5, 5.0, 5, "distance |*i* − *j*| from one impact to the next");
+    let x = Axis::linear(-0.5, 12.5, 2.0, 2, "distance |*i* − *j*| from one impact to the next");
     let y = Axis::linear(0.0, 1.6, 0.5, 5, "observed / independent");
     let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 480, 8150, 3380), x, y)?;
     let level = Stroke::solid(INK, LINE);
@@ -61,7 +59,7 @@ fn distances(sheet: &Sheet, near: &Table) -> Result<(), Error> {
         entries.push(Entry::mark((mark, MEDIUM, thin), &named(sigma)));
     }
     let (line, marks) = entries.split_at(1);
-    sheet.legend((3300, 2250), (SMALL, 310), line)?;
+    sheet.legend((3800, 2250), (SMALL, 310), line)?;
     sheet.legend((5900, 2250), (SMALL, 310), marks)
 }
 
@@ -83,7 +81,7 @@ fn circuits(sheet: &Sheet, found: &Table) -> Result<(), Error> {
         panel.marks(&named(sigma), &points(sigma, "measured"), look, Outside::Cut)?;
         entries.push(Entry::mark((mark, MEDIUM, thin), &named(sigma)));
     }
-    sheet.legend_in_columns((200, 8420), (SMALL, 340), (1, 3300), &entries)
+    sheet.legend_in_columns((300, 8420), (SMALL, 340), (1, 3150), &entries)
 }
 
 fn different(sheet: &Sheet, found: &Table, gaps: f64) -> Result<(), Error> {

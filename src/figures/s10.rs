@@ -1,7 +1,7 @@
 //! Fig. S10: the rise and the heat at several restitutions.
 
+use super::FORCING;
 use super::prelude::*;
-use super::{FORCING, SIGMA};
 use crate::experiments::Results;
 use crate::experiments::restitution::Restitution;
 use crate::experiments::restitution::hot::steady;
@@ -61,7 +61,7 @@ fn named(r: f64) -> String {
 fn rises(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
     let gaps = shown.found.parameters.chain.gaps() as f64;
     let last = shown.found.parameters.sigmas.iter().copied().fold(0.0, f64::max);
-    let x = Axis::linear(0.05, last + 0.02, 0.1, 5, FORCING).column(SIGMA);
+    let x = Axis::linear(0.05, last + 0.02, 0.1, 5, FORCING);
     let y = Axis::linear(0.0, 105.0, 20.0, 4, "mean count");
     let panel = sheet.lettered("(a)", Frame::new(1150, 430, 8150, 3230), x, y)?;
     let half = Stroke::dashed(INK, THIN, Dash::Short);
@@ -82,7 +82,8 @@ fn rises(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
 
 fn places(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
     let x = Axis::linear(0.0, 1.0, 0.2, 2, "restitution *r*");
-    let y = Axis::linear(0.0, 0.35, 0.1, 4, "*σ* at half height").column("half_height (d omega^2)");
+    let y =
+        Axis::linear(0.0, 0.35, 0.1, 4, "*σ*_{1/2} (*d ω*^{2})").column("half_height (d omega^2)");
     let panel = sheet.lettered("(b)", Frame::new(1150, 4700, 4150, 7200), x, y)?;
     let points = shown.curves.estimates(&[], "r", "half_height");
     panel.joined("half height", &points, (Mark::Disc, MEDIUM, Stroke::solid(RED, THIN)))
@@ -132,8 +133,8 @@ fn little(colour: Colour) -> Stroke {
 }
 
 fn heating(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
-    let x = Axis::decades(1, 4, 1, "time *t* (1/*ω*)");
-    let y = Axis::decades(1, 3, 1, "impacts per unit time");
+    let x = Axis::decades(1, 4, 1, "time *t* (1/*ω*)").from(20.0, 2000.0).finely();
+    let y = Axis::decades(1, 3, 1, "impacts per unit time").from(20.0, 500.0).finely();
     let panel = sheet.lettered("(d)", Frame::new(1150, 9400, 8150, 11_900), x, y)?;
     // A window stands at its middle on the logarithmic axis; the first has none.
     let ends = shown.heating.values("window_end");

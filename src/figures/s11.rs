@@ -10,7 +10,7 @@ pub fn draw(race: &Race, note: Option<&str>) -> Result<Figure, Error> {
     let sheet = Sheet::new(9500, note)?;
     let costs = || race.entries.iter().filter_map(|entry| entry.evaluations_per_impact);
     let cost_axis = || Axis::around(costs(), 1, "evaluations per impact");
-    let error = Axis::decades(-18, 0, 3, "error of the next impact’s time");
+    let error = Axis::decades(-18, 0, 3, "error in time (1/*ω*)");
     let (x, y) = (cost_axis().bare(), error.column("error of the next impact's time (1/omega)"));
     let errors = sheet.lettered(LETTERS[0], Frame::new(1300, 430, 8150, 4030), x, y)?;
     errors.level("counts as missed", DISPLACED, Stroke::dashed(GREY, HAIR, Dash::Short))?;

@@ -23,11 +23,11 @@ pub fn draw(race: &Race, measured: &Measured, note: Option<&str>) -> Result<Figu
     let sheet = Sheet::new(9950, note)?;
     let top = (race.parameters.until / 50.0).ceil() * 50.0;
     let costs = race.entries.iter().filter_map(|entry| entry.evaluations_per_impact);
-    let (x, y) = (Axis::around(costs, 1, "evaluations per impact"), horizon(top, "horizon *t*"));
+    let (x, y) =
+        (Axis::around(costs, 1, "evaluations per impact"), horizon(top, "horizon *t* (1/*ω*)"));
     let by_cost = sheet.lettered(LETTERS[0], Frame::new(1100, 430, 8150, 3500), x, y)?;
-    let x = Axis::decades(-18, 0, 6, "error of the next impact")
-        .column("error of the next impact (1/omega)");
-    let y = horizon(top, "horizon *t*");
+    let x = Axis::decades(-18, 0, 6, "error of the next impact (1/*ω*)");
+    let y = horizon(top, "horizon *t* (1/*ω*)");
     let by_error = sheet.lettered(LETTERS[1], Frame::new(1100, 4900, 4300, 7350), x, y)?;
 
     let points = |place: &dyn Fn(&Entry) -> Option<f64>| {
@@ -62,7 +62,7 @@ pub fn draw(race: &Race, measured: &Measured, note: Option<&str>) -> Result<Figu
     let programs = timed(measured);
     let mut legend = entries(|method| present.iter().any(|(m, _)| *m == method));
     legend.extend(entries_of_others(&others(&programs)));
-    sheet.legend_in_columns((500, 8600), (SMALL, 370), (4, 2650), &legend)?;
+    sheet.legend_in_columns((350, 8600), (SMALL, 370), (4, 2800), &legend)?;
     clock(&sheet, measured, race.parameters.chain.masses, top)?;
     Ok(sheet.finish("s12", "How long a run is true", description(race)))
 }

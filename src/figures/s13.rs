@@ -14,14 +14,13 @@ fn own(measured: &Measured) -> Vec<&Row> {
 
 /// Draws the figure.
 pub fn draw(scale: &Costs, measured: &Measured, note: Option<&str>) -> Result<Figure, Error> {
-    let sheet = Sheet::new(14_000, note)?;
+    let sheet = Sheet::new(12_800, note)?;
     let own = own(measured);
-    let sizes = scale.rows.iter().map(|row| row.masses as f64);
-    let sizes = || sizes.clone().chain(own.iter().map(|row| row.n as f64));
-    let masses = || Axis::around(sizes(), 1, "number of masses *n*");
+    // Somewhat wider than the sizes, which would stand on the other axis.
+    let masses = || Axis::decades(0, 7, 1, "number of masses *n*").from(7.0, 1.4e6);
     let work = scale.rows.iter().map(|row| row.evaluations_per_impact);
     let (x, y) = (masses().bare(), Axis::around(work, 1, "evaluations per impact"));
-    let counted = sheet.lettered(LETTERS[0], Frame::new(1200, 430, 8150, 3230), x, y)?;
+    let counted = sheet.lettered(LETTERS[0], Frame::new(1200, 430, 8150, 2730), x, y)?;
     let point = |row: &ScaleRow| Some((row.masses as f64, row.evaluations_per_impact));
     let all = by_method(&scale.rows, |row| row.setting, point);
     for (method, points) in &all {
@@ -36,8 +35,8 @@ pub fn draw(scale: &Costs, measured: &Measured, note: Option<&str>) -> Result<Fi
         .filter_map(|row| Some((row.n as f64, row.evaluations_per_impact?)))
         .collect();
     let red = look(MethodName::Certified);
-    let open = (Mark::Ring, LARGE, red.2);
-    counted.marks("counted when timed", &beyond, open, Outside::Cut)?;
+    let open = (Mark::OpenDiamond, LARGE, red.2);
+    counted.marks("counted in the timed run", &beyond, open, Outside::Cut)?;
 
     let programs: Vec<Timed> = timed(measured)
         .into_iter()
@@ -45,8 +44,9 @@ pub fn draw(scale: &Costs, measured: &Measured, note: Option<&str>) -> Result<Fi
         .collect();
     let programs = most_accurate(&programs);
     let times = own.iter().filter_map(|row| row.microseconds_per_impact);
-    let (x, y) = (masses(), Axis::around(times, 1, "µs per impact").column("time per impact (us)"));
-    let clock = sheet.lettered(LETTERS[1], Frame::new(1200, 3950, 8150, 5650), x, y)?;
+    let (x, y) =
+        (masses(), Axis::around(times, 1, "µs per impact").finely().column("time per impact (us)"));
+    let clock = sheet.lettered(LETTERS[1], Frame::new(1200, 3450, 8150, 5150), x, y)?;
     let line: Vec<_> =
         own.iter().filter_map(|row| Some((row.n as f64, row.microseconds_per_impact?))).collect();
     clock.marked("this engine", &line, (red.2, red), Outside::Refuse)?;
@@ -55,8 +55,8 @@ pub fn draw(scale: &Costs, measured: &Measured, note: Option<&str>) -> Result<Fi
     clock.note(&told, (clock.x.hi, clock.y.hi), (0, -80), words)?;
 
     let mut legend = entries(|method| all.iter().any(|(own, _)| *own == method));
-    legend.push(Entry::mark(open, "when timed"));
-    sheet.legend_in_columns((500, 6850), (SMALL, 370), (2, 2650), &legend)?;
+    legend.push(Entry::mark(open, "the timed run"));
+    sheet.legend_in_columns((500, 6350), (SMALL, 370), (2, 2650), &legend)?;
     ranked(&sheet, &programs)?;
     Ok(sheet.finish("s13", "Cost of an impact against n", description(scale, measured)))
 }
@@ -72,7 +72,7 @@ fn ranked(sheet: &Sheet, programs: &[&Timed]) -> Result<(), Error> {
         programs.iter().copied().filter(|row| row.masses == largest).collect();
     rows.sort_by(|a, b| a.microseconds.total_cmp(&b.microseconds));
     let count = rows.len() as i32;
-    let top = 8300;
+    let top = 7500;
     let times = programs.iter().map(|row| row.microseconds);
     let places = Axis::new(Scale::Linear, [-0.5, f64::from(count) - 0.5], "", Vec::new());
     let x =
@@ -81,30 +81,32 @@ fn ranked(sheet: &Sheet, programs: &[&Timed]) -> Result<(), Error> {
     let panel = sheet.panel(Frame::new(2900, top, 8150, top + ROW * count), x, y)?;
     let panel = panel.file("c");
     sheet.text(LETTERS[2], (260, top - 80), (TEXT, INK, HPos::Left, VPos::Bottom))?;
-    let marks = [Mark::Ring, Mark::Disc];
+    // The smaller disc leaves the ring to be seen.
+    let line = Stroke::solid(INK, THIN);
+    let marks = [(Mark::Ring, LARGE, line), (Mark::Disc, 36, line)];
     for (place, own) in rows.iter().enumerate() {
         let y = f64::from(count - 1) - place as f64;
         let title: &str = match own.method {
             Some(method) => name(method),
             None => &own.name,
         };
-        let words = (SMALL, INK, HPos::Right, VPos::Center);
+        let colour = if own.method == Some(MethodName::Certified) { RED } else { INK };
+        let words = (SMALL, colour, HPos::Right, VPos::Center);
         panel.note(title, (panel.x.lo, y), (-120, 0), words)?;
         let guide = Stroke::dashed(PALE, HAIR, Dash::Dotted);
         panel.level("row", y, guide)?;
-        let colour = if own.method == Some(MethodName::Certified) { RED } else { INK };
         for (masses, mark) in sizes.iter().zip(marks) {
             let alike = |row: &&&Timed| row.name == own.name && row.masses == *masses;
             let at: Vec<_> =
                 programs.iter().filter(alike).map(|row| (row.microseconds, y)).collect();
             let panel = panel.series(&format!("{title}, n = {masses}"));
-            panel.marks(title, &at, (mark, LARGE, Stroke::solid(colour, THIN)), Outside::Refuse)?;
+            panel.marks(title, &at, mark, Outside::Refuse)?;
         }
     }
     for (i, (masses, mark)) in sizes.iter().zip(marks).enumerate() {
         let text = format!("*n* = {masses}");
-        let entry = Entry::mark((mark, LARGE, Stroke::solid(INK, THIN)), &text);
-        let at = (2900 + 2300 * i as i32, top + ROW * count + 1150);
+        let entry = Entry::mark(mark, &text);
+        let at = (2900 + 2300 * i as i32, top + ROW * count + 1100);
         sheet.legend(at, (SMALL, 370), &[entry])?;
     }
     Ok(())

@@ -1,10 +1,10 @@
 //! Fig. S14: digits of the ways to compute p(σ) and P(X = k).
 
+use super::FORCING;
 use super::prelude::*;
-use super::{FORCING, SIGMA};
 use crate::experiments::accuracy::analytic::{Analytic, Route, Way};
 
-/// Errors are drawn from here to one; an error above one has no digit left.
+/// Errors are drawn from here on, and up to one: a larger error has no digit left either.
 const LOWEST: i32 = -18;
 
 /// Smaller errors are luck.
@@ -38,12 +38,12 @@ fn way(way: Way) -> (&'static str, Colour, Mark) {
 /// Draws the figure.
 pub fn draw(analytic: &Analytic, note: Option<&str>) -> Result<Figure, Error> {
     let sheet = Sheet::new(10_300, note)?;
-    let errors = || Axis::decades(LOWEST, 0, 3, "relative error");
+    let errors = |highest: i32| Axis::decades(LOWEST, highest, 3, "relative error");
     let sigmas = analytic.parameters.sigmas.iter().copied();
-    let sigma = Axis::around(sigmas, 1, FORCING).column(SIGMA);
+    let sigma = Axis::around(sigmas, 1, FORCING);
     let relation = Frame::new(1250, 430, 8150, 3330);
-    let relation = sheet.lettered(LETTERS[0], relation, sigma, errors())?;
-    let shown = |error: f64| error.max(FLOOR);
+    let relation = sheet.lettered(LETTERS[0], relation, sigma, errors(1))?;
+    let shown = |error: f64| error.clamp(FLOOR, 1.0);
     let mut entries = Vec::new();
     for own in &analytic.relation {
         let (name, stroke) = route(own.route);
@@ -56,7 +56,7 @@ pub fn draw(analytic: &Analytic, note: Option<&str>) -> Result<Figure, Error> {
     let sizes = analytic.parameters.sizes.iter().map(|&n| n as f64);
     let big_n = Axis::around(sizes, 1, "number of vertices *N*");
     let distribution = Frame::new(1250, 5700, 8150, 8600);
-    let distribution = sheet.lettered(LETTERS[1], distribution, big_n, errors())?;
+    let distribution = sheet.lettered(LETTERS[1], distribution, big_n, errors(-6))?;
     let mut entries = Vec::new();
     for own in &analytic.distribution {
         let (name, colour, mark) = way(own.way);

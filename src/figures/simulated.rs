@@ -1,7 +1,7 @@
 //! What the figures of the simulations share: their rows, axes and marks.
 
+use super::FORCING;
 use super::prelude::*;
-use super::{FORCING, SIGMA};
 use crate::experiments::sweep::{Sweep, SweepRow};
 use crate::experiments::theory;
 
@@ -21,7 +21,7 @@ pub fn comparable(sweep: &Sweep) -> impl Iterator<Item = &SweepRow> {
 
 /// The axis of σ from zero to the sweep's end.
 pub fn sigma_axis(end: f64) -> Axis {
-    Axis::linear(0.0, end, 0.1, 2, FORCING).column(SIGMA)
+    Axis::linear(0.0, end, 0.1, 2, FORCING)
 }
 
 /// Largest σ of a sweep.
@@ -34,10 +34,10 @@ pub fn count_axis(n: usize, label: &str) -> Axis {
     Axis::linear(0.0, n as f64 * 1.05, 20.0, 2, label)
 }
 
-/// The rise enlarged, in an inset where the main panel (of [`MAIN`]) is empty.
-pub fn rise(sheet: &Sheet, y: Axis) -> Result<Panel, Error> {
-    let x = Axis::linear(0.08, 0.18, 0.02, 2, "*σ*").column(SIGMA);
-    sheet.inset(Frame::new(4900, 1150, 8050, 3350), x, y)
+/// The rise enlarged from `low` on, in an inset where the main panel (of [`MAIN`]) is empty.
+pub fn rise(sheet: &Sheet, low: f64, y: Axis) -> Result<Panel, Error> {
+    let x = Axis::linear(low, 0.18, 0.02, 2, FORCING);
+    sheet.inset(Frame::new(5050, 1150, 8050, 3350), x, y)
 }
 
 /// Where the main panel of Figs. 2, 12 and 15 stands; legends stand below it.

@@ -7,9 +7,9 @@ use crate::circuits::{Error, jump};
 use crate::params::Grid;
 use rayon::prelude::*;
 
-/// The σ axis of Figs. 11, 12 and 15: 0.02 to 0.4 in steps of 0.001.
+/// The σ axis of Figs. 11, 12 and 15: 0.02 to 0.4 in steps of 0.001, finer where circuits of higher order add most.
 fn sigmas() -> Vec<f64> {
-    Grid::default().and(20, 400, 1, 1000).values()
+    Grid::default().and(20, 139, 1, 1000).and(700, 760, 1, 5000).and(153, 400, 1, 1000).values()
 }
 
 /// Fig. 9: k* with its exact steps, μ on two grids.

@@ -115,6 +115,23 @@ impl Axis {
         Axis::decades(low, high.max(low + 1), every, label)
     }
 
+    /// The stretch of the axis from `lo` to `hi`.
+    pub fn from(mut self, lo: f64, hi: f64) -> Self {
+        (self.lo, self.hi) = (lo, hi);
+        self.ticks.retain(|tick| (lo..=hi).contains(&tick.at));
+        self
+    }
+
+    /// The same logarithmic axis with numbers at 1, 2 and 5 of each decade: for one that is short.
+    pub fn finely(mut self) -> Self {
+        for tick in &mut self.ticks {
+            let number = tick.at.to_string();
+            let round = number.trim_start_matches(['0', '.']).starts_with(['1', '2', '5']);
+            tick.label = round.then_some(number);
+        }
+        self
+    }
+
     /// The same axis with another column in data files, such as `sigma (d omega^2)`.
     pub fn column(mut self, column: &str) -> Self {
         self.column = Some(column.into());
@@ -204,6 +221,8 @@ mod tests {
         assert_eq!(labels(&axis), ["10^{−3}", "10^{−2}", "10^{−1}", "10^{0}"]);
         assert_eq!(axis.ticks.len(), 4 + 3 * 8);
         assert_eq!(labels(&Axis::decades(-12, 0, 3, "")).len(), 5);
+        let short = Axis::decades(-1, 1, 1, "").from(0.2, 2.0).finely();
+        assert_eq!((short.lo, labels(&short)), (0.2, vec!["0.2", "0.5", "1", "2"]));
     }
 
     #[test]

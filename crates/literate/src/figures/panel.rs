@@ -153,7 +153,7 @@ impl Panel {
             }
         }
         if !self.y.label.is_empty() {
-            let at = (left - TICK - widest - 3 * GAP, (top + bottom) / 2);
+            let at = (left - TICK - widest - 4 * GAP, (top + bottom) / 2);
             let look = style::upwards(style::text(TEXT, INK, HPos::Center, VPos::Bottom));
             self.put(&Text::new(self.y.label.clone(), at, look))?;
         }

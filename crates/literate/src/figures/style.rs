@@ -18,8 +18,8 @@ pub const TEXT: i32 = 282;
 /// Size of tick labels: 7 points.
 pub const SMALL: i32 = 247;
 
-/// Size of what stands inside an inset or a note: 6 points.
-pub const TINY: i32 = 212;
+/// Size of what stands inside an inset or a note: 6.6 points.
+pub const TINY: i32 = 233;
 
 /// Thickness of axes and ticks.
 pub const HAIR: u32 = 16;
@@ -55,9 +55,9 @@ impl From<Colour> for RGBColor {
 /// Text and axes.
 pub const INK: Colour = Colour(0x22, 0x22, 0x22);
 /// What steps back: construction lines, unused edges.
-pub const GREY: Colour = Colour(0x8c, 0x8c, 0x8c);
+pub const GREY: Colour = Colour(0x6b, 0x6b, 0x6b);
 /// Light fills and guides.
-pub const PALE: Colour = Colour(0xd9, 0xd9, 0xd9);
+pub const PALE: Colour = Colour(0xbd, 0xbd, 0xbd);
 /// Simulation (the captions of Figs. 12, 13 and 15 say red).
 pub const RED: Colour = Colour(0xc8, 0x1e, 0x1e);
 /// Simple circuits (the captions of Figs. 12 and 15 say green).
