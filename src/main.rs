@@ -7,12 +7,10 @@ mod cli;
 
 use std::process::ExitCode;
 
-/// Of the thread that works, in bytes: the system may give the first one less.
-const STACK: usize = 8 << 20;
-
 fn main() -> ExitCode {
     std::panic::set_hook(Box::new(impact_paper::program::tell));
-    let thread = std::thread::Builder::new().stack_size(STACK).spawn(cli::main);
+    let thread =
+        std::thread::Builder::new().stack_size(impact_paper::program::work::STACK).spawn(cli::main);
     match thread.map(std::thread::JoinHandle::join) {
         Ok(Ok(code)) => code,
         // The hook has told it.

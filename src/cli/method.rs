@@ -31,10 +31,10 @@ pub struct Choice {
     #[arg(long, value_name = "NAME", value_enum, default_value_t = Name::Certified, hide_default_value = true)]
     method: Name,
     /// Step in time, of the methods that have one.
-    #[arg(long, value_name = "H", allow_negative_numbers = true)]
+    #[arg(long, value_name = "H", allow_hyphen_values = true)]
     step: Option<f64>,
     /// Error allowed in a step, of runge-kutta.
-    #[arg(long, value_name = "TOL", allow_negative_numbers = true)]
+    #[arg(long, value_name = "TOL", allow_hyphen_values = true)]
     tolerance: Option<f64>,
 }
 

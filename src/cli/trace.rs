@@ -32,10 +32,10 @@ pub struct Args {
     #[arg(value_name = "SCENARIO.json")]
     scenario: PathBuf,
     /// Time at which to stop, from 0 to 1e12.
-    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
     until: f64,
     /// Stop after this many impacts.
-    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    #[arg(long, value_name = "M", allow_hyphen_values = true)]
     max_impacts: Option<u64>,
     /// Say on standard error, in one line at the end, up to which impact the run can be trusted:
     /// before any of 8 twins, which differ in the last bit of every amplitude, has another gap or a
@@ -186,29 +186,29 @@ pub fn run(args: Args) -> Result<(), Failure> {
         left > 0 && written.is_ok()
     };
     let until = if args.max_impacts == Some(0) { 0.0 } else { args.until };
-    let (certificate, ties) = if args.certify {
-        let certificate = certify(&scenario, until, &mut sink).map_err(in_file)?;
-        (Some(certificate), certificate.simultaneous)
+    let ran = if args.certify {
+        certify(&scenario, until, &mut sink).map(|own| (Some(own), own.simultaneous))
     } else {
-        let cost = method.run(&scenario, &start, until, &mut sink).map_err(in_file)?;
-        (None, cost.simultaneous)
+        method.run(&scenario, &start, until, &mut sink).map(|cost| (None, cost.simultaneous))
     };
-    lines.push_str(header);
-    let written = written.and_then(|()| out.write_all(lines.as_bytes()));
-    match written.and_then(|()| out.flush()) {
-        Err(error) => stdout::written(Err(error)),
-        Ok(()) => {
-            if ties > 0 {
-                say(&simultaneous(ties, scenario.simultaneous));
-            }
-            let rounded = rounded(&scenario).filter(|_| args.method.is_certified());
-            match (certificate.map(|own| line(&own, most - left)), rounded) {
-                (Some(line), Some(rounded)) => say(&format!("{line}; {rounded}")),
-                (Some(line), None) => say(&line),
-                (None, Some(rounded)) => say(&format!("impact-paper: {rounded}")),
-                (None, None) => {}
-            }
-            Ok(())
-        }
+    // What was found before a run was stopped is printed; a run that is refused at its start prints nothing.
+    if ran.is_ok() {
+        lines.push_str(header);
     }
+    let written = written.and_then(|()| out.write_all(lines.as_bytes()));
+    let (certificate, ties) = match (ran, written.and_then(|()| out.flush())) {
+        (_, Err(error)) => return stdout::written(Err(error)),
+        (ran, Ok(())) => ran.map_err(in_file)?,
+    };
+    if ties > 0 {
+        say(&simultaneous(ties, scenario.simultaneous));
+    }
+    let rounded = rounded(&scenario).filter(|_| args.method.is_certified());
+    match (certificate.map(|own| line(&own, most - left)), rounded) {
+        (Some(line), Some(rounded)) => say(&format!("{line}; {rounded}")),
+        (Some(line), None) => say(&line),
+        (None, Some(rounded)) => say(&format!("impact-paper: {rounded}")),
+        (None, None) => {}
+    }
+    Ok(())
 }

@@ -147,6 +147,9 @@ pub fn memory(needed: u128, option: &str, remedy: &str) -> Result<(), Failure> {
     )))
 }
 
+/// Stack of a thread that works, in bytes: the system, or RUST_MIN_STACK, may give less.
+pub const STACK: usize = 8 << 20;
+
 /// What a shell calls a program that Ctrl-C ended: 128 + SIGINT.
 const INTERRUPTED: u8 = 130;
 
@@ -316,7 +319,8 @@ pub fn on_threads<T: Send>(
     work: impl FnOnce() -> Result<T, Failure> + Send,
 ) -> Result<T, Failure> {
     self::threads(threads)?;
-    let builder = rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0));
+    let builder =
+        rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0)).stack_size(STACK);
     let pool = builder.build().map_err(|error| {
         Failure::input(format!("--threads: {error}; give a smaller number of threads"))
     })?;

@@ -90,7 +90,7 @@ impl ImpactProbability {
     /// [`Error::Input`] unless the ratio is finite and positive.
     pub fn heated(mut self, ratio: f64) -> Result<Self, Error> {
         if !(ratio > 0.0 && ratio.is_finite()) {
-            let problem = format!("{ratio} is no ratio of variances");
+            let problem = format!("{ratio:?} is no ratio of variances");
             return Err(Error::input("ratio", problem, "give a finite number > 0"));
         }
         // The wider Rayleigh scale of the free part is s, and the forced one is s over this.

@@ -84,7 +84,7 @@ fn check_positive(field: &'static str, value: f64, what: &str) -> Result<(), Err
     if value > 0.0 && value.is_finite() {
         return Ok(());
     }
-    let problem = format!("{value} is not {what}");
+    let problem = format!("{value:?} is not {what}");
     Err(Error::input(field, problem, "give a finite number > 0"))
 }
 
@@ -105,7 +105,7 @@ impl ImpactProbability {
         check_positive("forcing-frequency", forcing, "a frequency")?;
         let detuning = detuning(omega, forcing);
         if detuning.is_zero() {
-            let problem = format!("Ω = ω = {omega} is resonance, where amplitudes grow for ever");
+            let problem = format!("Ω = ω = {omega:?} is resonance, where amplitudes grow for ever");
             return Err(Error::input("forcing-frequency", problem, "give Ω different from ω"));
         }
         Ok(ImpactProbability {

@@ -62,7 +62,7 @@ pub(crate) fn check_p(p: f64) -> Result<(), Error> {
     if (0.0..=1.0).contains(&p) {
         return Ok(());
     }
-    Err(Error::input("p", format!("{p} is not a probability"), "give 0 ≤ p ≤ 1"))
+    Err(Error::input("p", format!("{p:?} is not a probability"), "give 0 ≤ p ≤ 1"))
 }
 
 /// Refuses a number of different vertices outside 1..=N.

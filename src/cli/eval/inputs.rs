@@ -152,8 +152,11 @@ fn bounded(field: &str, x: f64, [low, high]: [f64; 2]) -> Result<(), Failure> {
     if (low..=high).contains(&x) {
         return Ok(());
     }
-    let [x, low, high] =
-        [x, low, high].map(|x| if x < 1e9 { x.to_string() } else { format!("{x:e}") });
+    let short = |x: f64| match x.abs() {
+        size if size == 0.0 || (1e-3..1e9).contains(&size) => x.to_string(),
+        _ => format!("{x:e}"),
+    };
+    let [x, low, high] = [x, low, high].map(short);
     Err(Failure::input(format!("{field}: {x} is out of range; give {low} to {high}")))
 }
 

@@ -80,11 +80,11 @@ pub struct Heat {
 /// Refuses what has no such state.
 pub(super) fn check(chain: &Chain, sigma: f64) -> Result<(), Error> {
     if !(sigma > 0.0 && sigma.is_finite()) {
-        return Err(Error::input("sigma", format!("{sigma} is no size"), "give a number > 0"));
+        return Err(Error::input("sigma", format!("{sigma:?} is no size"), "give a number > 0"));
     }
     let r = chain.restitution;
     if !(0.0..1.0).contains(&r) {
-        let problem = format!("at {r} impacts lose nothing, and no state is steady");
+        let problem = format!("at {r:?} impacts lose nothing, and no state is steady");
         return Err(Error::input("restitution", problem, "give 0 ≤ r < 1"));
     }
     if chain.natural_frequency == chain.forcing_frequency {
