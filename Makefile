@@ -33,8 +33,8 @@ test: ## all tests but the long ones
 test-long: ## the long tests only (large samples, a job array on Slurm, which root installs when missing)
 	cargo test --release --locked --workspace --exclude impact-paper-fuzz -- --ignored
 
-lint: ## formatting, clippy and documentation, warnings denied
-	cargo fmt --check && cargo clippy --locked --workspace --exclude impact-paper-fuzz --all-targets -- -D warnings && RUSTDOCFLAGS="-D warnings" cargo doc --locked --no-deps --document-private-items
+lint: ## formatting, clippy, documentation and spelling, warnings denied
+	cargo fmt --check && cargo clippy --locked --workspace --exclude impact-paper-fuzz --all-targets -- -D warnings && RUSTDOCFLAGS="-D warnings" cargo doc --locked --no-deps --document-private-items && .ci/spell
 
 identity: ## the same bytes for any threads, folder, locale, C library and build (quick profile; minutes to build)
 	.ci/identity
