@@ -1,7 +1,7 @@
 # Every target is one line that calls cargo, the program or a script. Needed: Rust (rust-toolchain.toml
 # names the version), make and a C compiler for linking.
 
-.PHONY: paper quick check deep mutate pdf latex browser test test-long lint identity bundle fuzz bench measure clean help
+.PHONY: paper quick check deep mutate pdf latex browser test test-long lint deny identity bundle fuzz bench measure clean help
 
 paper: ## the whole reproduction in the full profile, into paper/
 	cargo run --release --locked -- paper
@@ -33,8 +33,11 @@ test: ## all tests but the long ones
 test-long: ## the long tests only (large samples, a job array on Slurm, which root installs when missing)
 	cargo test --release --locked --workspace --exclude impact-paper-fuzz -- --ignored
 
-lint: ## formatting, clippy and documentation, warnings denied
-	cargo fmt --check && cargo clippy --locked --workspace --exclude impact-paper-fuzz --all-targets -- -D warnings && RUSTDOCFLAGS="-D warnings" cargo doc --locked --no-deps --document-private-items
+lint: ## formatting, clippy, documentation and spelling, warnings denied
+	cargo fmt --check && cargo clippy --locked --workspace --exclude impact-paper-fuzz --all-targets -- -D warnings && RUSTDOCFLAGS="-D warnings" cargo doc --locked --no-deps --document-private-items && .ci/spell
+
+deny: ## licences, sources, second versions and known faults of all crates (cargo-deny is built when missing: minutes)
+	cargo install --quiet --locked --root target/deny cargo-deny@0.20.2 && target/deny/bin/cargo-deny --locked --workspace check
 
 identity: ## the same bytes for any threads, folder, locale, C library and build (quick profile; minutes to build)
 	.ci/identity

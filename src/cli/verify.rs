@@ -14,7 +14,8 @@ use std::path::PathBuf;
 ///
 /// With --rerun the report is made again and compared. Every digest is computed anew. PDFs and HTML are built beside and not committed: SHA256SUMS.local
 /// lists them. Ends with exit code 1 if a file differs, is missing, or stands there without being
-/// listed. Writes nothing.
+/// listed. Writes nothing. What a release on GitHub holds is attested besides: `gh attestation verify FILE
+/// --repo OWNER/REPO` says whether that repository built the file, and from which commit.
 #[derive(clap::Args)]
 pub struct Args {
     /// Folder of the report.

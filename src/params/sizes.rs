@@ -151,7 +151,6 @@ impl ProtocolParams {
             stream: "long-protocol".into(),
             chain: Chain::default(),
             seed: SEED,
-            ..Self::new(Profile::Deep)
         }
     }
 
