@@ -71,7 +71,8 @@ pub fn run(args: Args) -> Result<(), Failure> {
     if let Some(of) = args.shards {
         shard::number("--shards", of)?;
     }
-    let stores = args.left.iter().map(|folder| Store::open(folder));
+    let stores =
+        args.left.iter().map(|folder| Store::open(folder).map_err(shard::given_by("--left")));
     let stores: Vec<Store> = stores.collect::<Result<_, _>>()?;
     let plan = args.only.plan(profile)?;
     let left = plan.left(&stores);

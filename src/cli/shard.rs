@@ -45,16 +45,21 @@ pub fn number(option: &str, of: usize) -> Result<(), Failure> {
     Err(Failure::input(format!("{option}: {of} is not allowed; give 1 to {MOST}")))
 }
 
-/// Runs the verb.
-pub fn run(args: Args) -> Result<(), Failure> {
-    let profile = Profile::from(args.profile);
-    let unwritable = |error: Error| match error {
+/// A folder of units that cannot be used is told by the option that gave it.
+pub fn given_by(option: &str) -> impl Fn(Error) -> Failure + Copy {
+    move |error| match error {
         Error::Store { path, source } => {
-            let what = format!("--out: {}", path.display());
+            let what = format!("{option}: {}", path.display());
             Failure::io(&source, what, "give a folder that can be written")
         }
         other => other.into(),
-    };
+    }
+}
+
+/// Runs the verb.
+pub fn run(args: Args) -> Result<(), Failure> {
+    let profile = Profile::from(args.profile);
+    let unwritable = given_by("--out");
     let plan = args.only.plan(profile)?;
     let store = Store::open(&args.out).map_err(unwritable)?;
     let progress = work::progress();

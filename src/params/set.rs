@@ -126,6 +126,7 @@ pub fn profile(profile: Profile) -> String {
 
 /// What was chosen in place of a number that the paper printed, by its id.
 pub fn printed(id: &str) -> Option<f64> {
+    told()?;
     let chain = &SET.get()?.chain;
     match id {
         "masses" | "vertices" => Some(chain.masses as f64),

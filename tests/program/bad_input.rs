@@ -147,7 +147,7 @@ sweep --sigma 0.1 --masses 1e9 => --masses; it is no whole number
 sweep --sigma 0.1 --masses 5 --threads 4294967296 => --threads: 4294967296
 bench scenario --masses 1500000 => --masses:; 64 MiB; fewer masses
 paper --figure= => no figure \"\"
-paper --profile quick --figure 3 --out d/e --results file => --results
+paper --profile quick --figure 3 --out d/e --results file => results directory file
 trace s.json --until 5 --untill 6 => --untill
 trace s.json --until=-1|NaN|inf|-inf|1e300||soon => --until
 trace s.json --until 5 --max-impacts=-1|1.5|many|99999999999999999999 => --max-impacts
@@ -199,10 +199,10 @@ paper --pdf --figure 4 => --pdf
 paper --figure 4 --out loop => link
 paper --figure 4 --out file|file/below => --out
 paper --profile quick --out file => it is a file
-paper --profile quick --figure 3 --results file => --results
+paper --profile quick --figure 3 --results file => results directory file
 paper --templates nowhere => nowhere
 check --claim no-such-claim => --claim
-check --profile quick --results file => --results
+check --profile quick --results file => results directory file
 verify => paper:
 verify empty => empty/SHA256SUMS
 verify file => file:
@@ -359,7 +359,7 @@ fn broken_files_are_told_in_one_line() {
     crate::refused(
         folder,
         "plan --left name.json",
-        &["results: name.json: ", "a file is in the way"],
+        &["--left: name.json: ", "a file is in the way"],
     );
     crate::refused(folder, "trace name.json --until=5", &["name.json", "a b"]);
 }

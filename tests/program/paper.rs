@@ -67,6 +67,7 @@ fn threads_and_saved_results_change_no_byte_and_lesser_profiles_replace_no_full_
     // What a killed run left is gone afterwards.
     std::fs::create_dir_all(at("one/.staging-impact-paper-dead/data")).unwrap();
     std::fs::write(at("one/.staging-impact-paper-dead/data/half.csv"), "1,").unwrap();
+    std::fs::write(at("one/.staging-impact-paper-dead/.impact-paper"), "").unwrap();
     assert_eq!(crate::run(folder.path(), "verify one").0, 0);
     let (code, told, _) = run(folder.path(), paper);
     assert_eq!((code, times("r1")), (0, before));

@@ -32,6 +32,7 @@ fn what_is_as_listed_is_fine_with_what_is_built_beside() {
     fs::write(paper.join("SHA256SUMS.local"), local).unwrap();
     fs::create_dir(paper.join(".staging-impact-paper-1")).unwrap();
     fs::write(paper.join(".staging-impact-paper-1/report.md"), "half").unwrap();
+    fs::write(paper.join(".staging-impact-paper-1/.impact-paper"), "").unwrap();
     let (code, told, note) = run(folder.path(), "verify");
     assert_eq!((code, note.as_str()), (0, ""), "{told}");
     assert_eq!(told, "paper: 4 files, all as SHA256SUMS lists them\n");

@@ -96,7 +96,7 @@ pub fn remedy<'a>(error: &Error, otherwise: &'a str) -> &'a str {
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::WriteZero => "make room",
         ErrorKind::FileTooLarge => "allow larger files (ulimit -f)",
         ErrorKind::NotADirectory | ErrorKind::AlreadyExists => {
-            "a file is in the way; move it, or give another path"
+            "a file is in the way; choose another folder"
         }
         _ => otherwise,
     }

@@ -97,7 +97,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let entry = |claim| Entry { claim, line: published.line(&claim.id) };
     let entries: Vec<Entry> = judged.claims.iter().map(entry).collect();
     match args.format {
-        Format::Text => stdout::written(print(&judged, args.all))?,
+        Format::Text => stdout::written(print(&judged, args.all || !args.claim.is_empty()))?,
         Format::Json => stdout::print(&forms::json(&entries, &judged))?,
         Format::Markdown => stdout::print(&forms::markdown(&entries, &judged))?,
         Format::Github => {

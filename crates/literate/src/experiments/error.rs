@@ -61,7 +61,10 @@ pub enum Error {
         remedy: String,
     },
     /// The results directory cannot be written.
-    #[error("results: {path}: {source}; {}", remedy(source, "give another folder"))]
+    #[error(
+        "results directory {path}: {source}; {}",
+        remedy(source, "choose another with --results")
+    )]
     Store {
         /// File or directory.
         path: PathBuf,
