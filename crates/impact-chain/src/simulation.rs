@@ -234,6 +234,8 @@ impl<const M: usize> Simulation<M> {
                 self.spend(k)?;
                 let phases = Phases::at(&self.rates, self.now);
                 self.collide_in_contact(k, 0.0, &phases);
+                // With it others may have been hit, jointly.
+                return Ok(self.ties.left.pop_front());
             }
             Awaits::Impact(speed) => {
                 let impact = self.count_impact(k, speed)?;
