@@ -26,7 +26,7 @@ const MASSES: [Mass; 4] = [
 
 /// Draws the figure.
 pub fn draw() -> Result<Figure, Error> {
-    let sheet = Sheet::new(3280, None)?;
+    let sheet = Sheet::new(3280);
     let right = LEFT + 6 * SPACING;
     walls(&sheet, right)?;
     for mass in &MASSES {

@@ -7,8 +7,8 @@ use super::simulated::{
 use crate::experiments::sweep::Sweep;
 
 /// Draws the figure.
-pub fn draw(sweep: &Sweep, note: Option<&str>) -> Result<Figure, Error> {
-    let sheet = Sheet::new(HEIGHTS.0 - 380, note)?;
+pub fn draw(sweep: &Sweep) -> Result<Figure, Error> {
+    let sheet = Sheet::new(HEIGHTS.0 - 380);
     let n = sweep.parameters.chain.gaps();
     let (x, y) = (sigma_axis(last_sigma(sweep)), count_axis(n, "most likely number of impacts"));
     let panel = sheet.panel(MAIN, x, y)?;

@@ -7,8 +7,8 @@ use super::simulated::{
 use crate::experiments::sweep::{Sweep, SweepRow};
 
 /// Draws the figure.
-pub fn draw(sweep: &Sweep, note: Option<&str>) -> Result<Figure, Error> {
-    let sheet = Sheet::new(7450, note)?;
+pub fn draw(sweep: &Sweep) -> Result<Figure, Error> {
+    let sheet = Sheet::new(7450);
     let n = sweep.parameters.chain.gaps();
     let end = last_sigma(sweep);
     let (x, y) = (sigma_axis(end).bare(), count_axis(n, "expected number of impacts"));

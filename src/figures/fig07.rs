@@ -8,7 +8,7 @@ use std::f64::consts::LN_10;
 pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     let circuits = &theory.simple_circuits;
     let n = theory.vertices;
-    let sheet = Sheet::new(5150, None)?;
+    let sheet = Sheet::new(5150);
     let top = largest(&circuits.share);
     let x = Axis::linear(0.0, n as f64 + 1.0, 20.0, 2, "length *k*");
     let y = upwards_from_zero(top, "*ϕ*_{*N*}(*k*) / *ϕ*_{*N*}^{tot}");

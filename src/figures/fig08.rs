@@ -5,7 +5,7 @@ use crate::experiments::theory::Theory;
 
 /// Draws the figure.
 pub fn draw(theory: &Theory) -> Result<Figure, Error> {
-    let sheet = Sheet::new(6750, None)?;
+    let sheet = Sheet::new(6750);
     let n = theory.vertices;
     let mut seen = Vec::new();
     for (i, distribution) in theory.distributions.iter().take(4).enumerate() {

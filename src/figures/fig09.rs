@@ -8,7 +8,7 @@ const SMALL_P: f64 = 0.04;
 
 /// Draws the figure.
 pub fn draw(theory: &Theory) -> Result<Figure, Error> {
-    let sheet = Sheet::new(9600, None)?;
+    let sheet = Sheet::new(9600);
     let n = theory.vertices;
     let top = (n as f64 / 20.0).ceil() * 20.0;
     let labels = ["*k*^{∗}", "*μ*"];
@@ -88,7 +88,7 @@ fn most_likely(theory: &Theory, panel: &Panel) -> Result<(), Error> {
         stairs.push((step.p, step.k_star as f64));
     }
     stairs.extend(level.map(|k| (1.0, k)));
-    panel.curve("most likely number, 1", &[(0.0, 1.0), (jump, 1.0)], solid, Outside::Refuse)?;
+    panel.curve("most likely number, 1", &[(0.0, 1.0), (jump, 1.0)], solid, Outside::Cut)?;
     panel.curve("most likely number", &stairs, solid, Outside::Cut)?;
     let dotted = Stroke::dashed(GREEN, THIN, Dash::Dotted);
     panel.guide("jump", &[(jump, 1.0), (jump, first)], dotted)

@@ -6,7 +6,7 @@ use crate::experiments::theory::{Mechanism, Theory};
 /// Draws the figure.
 pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     let rows: Vec<&Mechanism> = theory.mechanism.iter().take(4).collect();
-    let sheet = Sheet::new(850 + 2350 * rows.len() as u32, None)?;
+    let sheet = Sheet::new(850 + 2350 * rows.len() as u32);
     // Beyond this k nothing changes sign again.
     let last_zero = rows.iter().filter_map(|row| row.zeros).map(|z| z[1]).fold(20.0, f64::max);
     let shown = ((1.8 * last_zero / 10.0).ceil() * 10.0).min(theory.vertices as f64);

@@ -9,7 +9,7 @@ const LOWEST: i32 = -20;
 
 /// Draws the figure.
 pub fn draw(theory: &Theory) -> Result<Figure, Error> {
-    let sheet = Sheet::new(8950, None)?;
+    let sheet = Sheet::new(8950);
     let rows = &theory.relation;
     let end = rows.last().map_or(0.4, |row| row.sigma);
     let top = (rows.iter().map(|r| r.p.max(r.p_rest)).fold(0.0, f64::max) * 10.0).ceil() / 10.0;

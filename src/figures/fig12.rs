@@ -9,8 +9,8 @@ use crate::experiments::sweep::Sweep;
 use crate::experiments::theory::Theory;
 
 /// Draws the figure.
-pub fn draw(sweep: &Sweep, theory: &Theory, note: Option<&str>) -> Result<Figure, Error> {
-    let sheet = Sheet::new(HEIGHTS.0, note)?;
+pub fn draw(sweep: &Sweep, theory: &Theory) -> Result<Figure, Error> {
+    let sheet = Sheet::new(HEIGHTS.0);
     let n = sweep.parameters.chain.gaps().max(theory.curve_walls.vertices);
     let end = last_sigma(sweep);
     let panel = sheet.panel(MAIN, sigma_axis(end), count_axis(n, "expected number of impacts"))?;

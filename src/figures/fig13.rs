@@ -27,7 +27,7 @@ const CLASSES: [Class; 5] = [
 
 /// Draws the figure.
 pub fn draw(theory: &Theory) -> Result<Figure, Error> {
-    let sheet = Sheet::new(11_350, None)?;
+    let sheet = Sheet::new(11_350);
     let n = theory.vertices;
     let [small, middle, large] = theory.higher.as_slice() else {
         return Err(Error::Shape {

@@ -7,7 +7,7 @@ const FRAMES: [Frame; 2] = [Frame::new(1080, 480, 4050, 2780), Frame::new(5230, 
 
 /// Draws the figure.
 pub fn draw(theory: &Theory) -> Result<Figure, Error> {
-    let sheet = Sheet::new(4100, None)?;
+    let sheet = Sheet::new(4100);
     let n = theory.vertices;
     let simple = Stroke::solid(GREEN, LINE);
     let higher = Stroke::dashed(BLUE, LINE, Dash::Long);

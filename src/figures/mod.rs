@@ -44,7 +44,7 @@ use crate::experiments::{
     RACE, RESTITUTION, SCALE, SEEDS, SEGMENTS, SIZES, SPACE_TIME, SWEEP,
 };
 use crate::experiments::{Need, Results};
-use crate::params::Profile;
+use crate::params::{Profile, set};
 
 /// The label of an axis of σ.
 const FORCING: &str = "*σ* (*d ω*^{2})";
@@ -55,8 +55,8 @@ struct Listed {
     needs: &'static [Need],
     /// Whether it shows the theory.
     theory: bool,
-    /// Draws it, with a note about small samples.
-    draw: fn(&Results, Option<&str>) -> Result<Figure, Error>,
+    /// Draws it.
+    draw: fn(&Results) -> Result<Figure, Error>,
 }
 
 /// Whether a figure shows the theory.
@@ -65,48 +65,46 @@ const THEORY: bool = true;
 const fn figure(
     needs: &'static [Need],
     theory: bool,
-    draw: fn(&Results, Option<&str>) -> Result<Figure, Error>,
+    draw: fn(&Results) -> Result<Figure, Error>,
 ) -> Listed {
     Listed { needs, theory, draw }
 }
 
 /// The figures of the paper.
 const PAPER: [Listed; 15] = [
-    figure(&[], !THEORY, |_, _| fig01::draw()),
-    figure(&[&SWEEP], !THEORY, |all, note| fig02::draw(all.sweep()?, note)),
-    figure(&[&SWEEP], !THEORY, |all, note| fig03::draw(all.sweep()?, note)),
-    figure(&[], !THEORY, |_, _| fig04::draw()),
-    figure(&[&SEGMENTS], !THEORY, |all, _| fig05::draw(all.segments()?)),
-    figure(&[&SEGMENTS], !THEORY, |all, _| fig06::draw(all.segments()?)),
-    figure(&[], THEORY, |all, _| fig07::draw(&all.theory)),
-    figure(&[], THEORY, |all, _| fig08::draw(&all.theory)),
-    figure(&[], THEORY, |all, _| fig09::draw(&all.theory)),
-    figure(&[], THEORY, |all, _| fig10::draw(&all.theory)),
-    figure(&[], THEORY, |all, _| fig11::draw(&all.theory)),
-    figure(&[&SWEEP], THEORY, |all, note| fig12::draw(all.sweep()?, &all.theory, note)),
-    figure(&[], THEORY, |all, _| fig13::draw(&all.theory)),
-    figure(&[], THEORY, |all, _| fig14::draw(&all.theory)),
-    figure(&[&SWEEP], THEORY, |all, note| fig15::draw(all.sweep()?, &all.theory, note)),
+    figure(&[], !THEORY, |_| fig01::draw()),
+    figure(&[&SWEEP], !THEORY, |all| fig02::draw(all.sweep()?)),
+    figure(&[&SWEEP], !THEORY, |all| fig03::draw(all.sweep()?)),
+    figure(&[], !THEORY, |_| fig04::draw()),
+    figure(&[&SEGMENTS], !THEORY, |all| fig05::draw(all.segments()?)),
+    figure(&[&SEGMENTS], !THEORY, |all| fig06::draw(all.segments()?)),
+    figure(&[], THEORY, |all| fig07::draw(&all.theory)),
+    figure(&[], THEORY, |all| fig08::draw(&all.theory)),
+    figure(&[], THEORY, |all| fig09::draw(&all.theory)),
+    figure(&[], THEORY, |all| fig10::draw(&all.theory)),
+    figure(&[], THEORY, |all| fig11::draw(&all.theory)),
+    figure(&[&SWEEP], THEORY, |all| fig12::draw(all.sweep()?, &all.theory)),
+    figure(&[], THEORY, |all| fig13::draw(&all.theory)),
+    figure(&[], THEORY, |all| fig14::draw(&all.theory)),
+    figure(&[&SWEEP], THEORY, |all| fig15::draw(all.sweep()?, &all.theory)),
 ];
 
 /// Figures of this edition.
 const OWN: [Listed; 14] = [
     figure(&[&PROTOCOL, &LONG_PROTOCOL], !THEORY, s01::draw),
-    figure(&[&SPACE_TIME], !THEORY, |all, note| s02::draw(all.spacetime()?, note)),
+    figure(&[&SPACE_TIME], !THEORY, |all| s02::draw(all.spacetime()?)),
     figure(&[&NUCLEATION, &SWEEP], !THEORY, s03::draw),
     figure(&[&SEEDS, &SWEEP, &PROTOCOL, &CLOSED], !THEORY, s04::draw),
     figure(&[&CHAINS, &SIZES, &PROTOCOL], !THEORY, s05::draw),
-    figure(&[], THEORY, |all, _| s06::draw(&all.theory.large)),
-    figure(&[], THEORY, |all, _| s07::draw(&all.theory)),
+    figure(&[], THEORY, |all| s06::draw(&all.theory.large)),
+    figure(&[], THEORY, |all| s07::draw(&all.theory)),
     figure(&[&HEAT], !THEORY, s08::draw),
     figure(&[&INDEPENDENCE], !THEORY, s09::draw),
     figure(&[&RESTITUTION], !THEORY, s10::draw),
-    figure(&[&RACE], !THEORY, |all, note| s11::draw(all.race()?, note)),
-    figure(&[&RACE, &MEASURED], !THEORY, |all, note| s12::draw(all.race()?, all.measured()?, note)),
-    figure(&[&SCALE, &MEASURED], !THEORY, |all, note| {
-        s13::draw(all.scale()?, all.measured()?, note)
-    }),
-    figure(&[&ANALYTIC], !THEORY, |all, note| s14::draw(all.analytic()?, note)),
+    figure(&[&RACE], !THEORY, |all| s11::draw(all.race()?)),
+    figure(&[&RACE, &MEASURED], !THEORY, |all| s12::draw(all.race()?, all.measured()?)),
+    figure(&[&SCALE, &MEASURED], !THEORY, |all| s13::draw(all.scale()?, all.measured()?)),
+    figure(&[&ANALYTIC], !THEORY, |all| s14::draw(all.analytic()?)),
 ];
 
 /// All figures: first the paper's, then our own.
@@ -139,13 +137,16 @@ pub fn experiments(number: Number) -> Vec<&'static str> {
 /// # Errors
 /// [`Error::Number`] if there is none, [`Error::Data`] without the results that it needs.
 pub fn draw(number: Number, results: &Results) -> Result<Figure, Error> {
-    let note = match results.profile {
-        Profile::Full | Profile::Deep => None,
-        Profile::Ci => Some("profile ci: not for citation"),
-        Profile::Quick => Some("profile quick: not for citation"),
-    };
     let figure = listed(number).ok_or_else(|| Error::Number(number.to_string()))?;
-    let figure = (figure.draw)(results, note)?;
+    let sampled = !figure.needs.is_empty() && results.profile < Profile::Full;
+    let samples = sampled.then(|| format!("profile {}: not for citation", results.profile.name()));
+    let other = set::told().map(|told| format!("not the paper's parameters: {told}"));
+    let mut drawn = (figure.draw)(results)?;
+    if samples.is_some() || other.is_some() {
+        let foot: Vec<String> = other.into_iter().chain(samples).collect();
+        drawn = drawn.with_foot(&foot.join("; "))?;
+    }
+    let figure = drawn;
     let source = format!("figures::{}", figure.id);
     Ok(Figure { source, experiments: experiments(number), ..figure })
 }

@@ -22,7 +22,7 @@ pub struct Circuit {
 
 /// Draws one of the two figures.
 pub fn draw(circuit: &Circuit, segment: &Segment) -> Result<Figure, Error> {
-    let sheet = Sheet::new(9250, None)?;
+    let sheet = Sheet::new(9250);
     let layout = Layout::rectangle((2700, 1150), (5700, 3400), 400, 2000.0);
     layout.edges(&sheet, Stroke::solid(PALE, HAIR))?;
     layout.circuit(&sheet, circuit.order, RED)?;

@@ -11,8 +11,8 @@ const DETAIL: f64 = 400.0;
 const START: (Mark, i32, Stroke) = (Mark::Disc, 62, Stroke::solid(WHITE, HAIR));
 
 /// Draws the figure.
-pub fn draw(run: &SpaceTime, note: Option<&str>) -> Result<Figure, Error> {
-    let sheet = Sheet::new(9750, note)?;
+pub fn draw(run: &SpaceTime) -> Result<Figure, Error> {
+    let sheet = Sheet::new(9750);
     let until = run.parameters.until;
     let gaps = || {
         let last = (run.width() - 1) as f64;

@@ -17,11 +17,11 @@ const TIMES: [(Colour, Mark); 3] =
     [(BLUE, Mark::Disc), (ORANGE, Mark::Square), (RED, Mark::Diamond)];
 
 /// Draws the figure.
-pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
+pub fn draw(results: &Results) -> Result<Figure, Error> {
     let table = |name| results.table(name);
     let (found, missing) = (table("nucleation.chains")?, table("nucleation.times")?);
     let shares = table("nucleation.shares")?;
-    let sheet = Sheet::new(8600, note)?;
+    let sheet = Sheet::new(8600);
     chains(&sheet, found, shares, table("sweep.rows")?)?;
     times(&sheet, missing)?;
     Ok(sheet.finish("s03", "Gaps that close by themselves", description(missing)))

@@ -2,6 +2,7 @@
 
 use super::FORCING;
 use super::prelude::*;
+use super::simulated::count_axis;
 use crate::experiments::Results;
 use crate::experiments::seeds::tables::spread;
 use crate::experiments::sweep::Sweep;
@@ -23,13 +24,13 @@ const GROWN: (&str, Marker) =
     ("nucleation and growth", (Mark::OpenSquare, 44, Stroke::solid(INK, HAIR)));
 
 /// Draws the figure.
-pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
+pub fn draw(results: &Results) -> Result<Figure, Error> {
     let table = |name| results.table(name);
     let (means, rise, scores) =
         (table("seeds.means")?, table("seeds.rise")?, table("seeds.scores")?);
     let (advance, waits, fronts) =
         (table("seeds.advance")?, table("seeds.waits")?, table("seeds.fronts")?);
-    let sheet = Sheet::new(13050, note)?;
+    let sheet = Sheet::new(13050);
     let theory = table("seeds.theory")?;
     counts(&sheet, means, &[theory, table("closed.counts")?], results.sweep()?)?;
     advances(&sheet, advance)?;
@@ -45,7 +46,7 @@ fn counts(
     sweep: &Sweep,
 ) -> Result<(), Error> {
     let x = Axis::linear(SIGMAS.0, SIGMAS.1, 0.01, 2, FORCING);
-    let y = Axis::linear(0.0, 105.0, 20.0, 2, "mean count of all");
+    let y = count_axis(sweep.parameters.chain.gaps(), "mean count of all");
     let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 8150, 3730), x, y)?;
     let transient = [("transient", sweep.parameters.protocol.transient)];
     let lines = [

@@ -22,11 +22,11 @@ const LOOKS: [(Mark, Colour); 6] = [
 const COMMON: &str = "frequency-2";
 
 /// Draws the figure.
-pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
+pub fn draw(results: &Results) -> Result<Figure, Error> {
     let (chains, sizes) = (results.chains()?, results.table("sizes.places")?);
     let window = [("window", chains.parameters.window)];
     let map = results.table("protocol.cells")?.points(&window, "transient", "half_height_all");
-    let sheet = Sheet::new(11_050, note)?;
+    let sheet = Sheet::new(11_050);
     lengths(&sheet, chains)?;
     times(&sheet, results.table("chains.lengths")?, sizes, &map)?;
     frictions(&sheet, results.table("chains.damped")?, &map)?;

@@ -12,7 +12,7 @@ const SIZES: [(Colour, Dash); 3] =
 
 /// Draws the figure.
 pub fn draw(large: &Large) -> Result<Figure, Error> {
-    let sheet = Sheet::new(8450, None)?;
+    let sheet = Sheet::new(8450);
     shares(&sheet, large)?;
     jumps(&sheet, large)?;
     Ok(sheet.finish("s06", "The theory at large N", DESCRIPTION.into()))

@@ -11,7 +11,7 @@ const TOP: f64 = 1.1;
 
 /// Draws the figure.
 pub fn draw(theory: &Theory) -> Result<Figure, Error> {
-    let sheet = Sheet::new(7700, None)?;
+    let sheet = Sheet::new(7700);
     let orders = &theory.orders;
     let x = Axis::decades(-3, -1, 1, "*p*");
     let share = Axis::linear(0.0, TOP, 0.2, 2, "share of the five classes");

@@ -30,14 +30,14 @@ struct Shown<'a> {
 }
 
 /// Draws the figure.
-pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
+pub fn draw(results: &Results) -> Result<Figure, Error> {
     let table = |name| results.table(name);
     let shown = Shown {
         parameters: &results.heat()?.parameters,
         rising: table("heat.rising")?,
         others: table("heat.others")?,
     };
-    let sheet = Sheet::new(10250, note)?;
+    let sheet = Sheet::new(10250);
     against_sigma(&sheet, &shown)?;
     against_restitution(&sheet, &shown)?;
     Ok(sheet.finish("s08", "How hot a running chain is", description(&shown)))

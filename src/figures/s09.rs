@@ -16,11 +16,11 @@ const LOOKS: [(Mark, Colour); 4] = [
 const LONGEST: f64 = 70.0;
 
 /// Draws the figure.
-pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
+pub fn draw(results: &Results) -> Result<Figure, Error> {
     let table = |name| results.table(name);
     let (near, frequencies) = (table("independence.near")?, table("independence.circuits")?);
     let (blocks, rising) = (table("independence.different")?, table("independence.rising")?);
-    let sheet = Sheet::new(8700, note)?;
+    let sheet = Sheet::new(8700);
     distances(&sheet, near)?;
     circuits(&sheet, frequencies)?;
     different(&sheet, blocks, *rising.values("gaps").first().unwrap_or(&1.0))?;

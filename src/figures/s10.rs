@@ -2,6 +2,7 @@
 
 use super::FORCING;
 use super::prelude::*;
+use super::simulated::count_axis;
 use crate::experiments::Results;
 use crate::experiments::restitution::Restitution;
 use crate::experiments::restitution::hot::steady;
@@ -37,7 +38,7 @@ struct Shown<'a> {
 }
 
 /// Draws the figure.
-pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
+pub fn draw(results: &Results) -> Result<Figure, Error> {
     let table = |name| results.table(name);
     let shown = Shown {
         found: results.restitution()?,
@@ -45,7 +46,7 @@ pub fn draw(results: &Results, note: Option<&str>) -> Result<Figure, Error> {
         curves: table("restitution.curves")?,
         heating: table("restitution.heating")?,
     };
-    let sheet = Sheet::new(12_850, note)?;
+    let sheet = Sheet::new(12_850);
     rises(&sheet, &shown)?;
     places(&sheet, &shown)?;
     warmth(&sheet, &shown)?;
@@ -62,7 +63,7 @@ fn rises(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
     let gaps = shown.found.parameters.chain.gaps() as f64;
     let last = shown.found.parameters.sigmas.iter().copied().fold(0.0, f64::max);
     let x = Axis::linear(0.05, last + 0.02, 0.1, 5, FORCING);
-    let y = Axis::linear(0.0, 105.0, 20.0, 4, "mean count");
+    let y = count_axis(shown.found.parameters.chain.gaps(), "mean count");
     let panel = sheet.lettered("(a)", Frame::new(1150, 430, 8150, 3230), x, y)?;
     let half = Stroke::dashed(INK, THIN, Dash::Short);
     let level = [(0.05, 0.5 * gaps), (last + 0.02, 0.5 * gaps)];

@@ -6,8 +6,8 @@ use crate::experiments::accuracy::race::{DISPLACED, Entry, Race};
 use crate::params::MethodName;
 
 /// Draws the figure.
-pub fn draw(race: &Race, note: Option<&str>) -> Result<Figure, Error> {
-    let sheet = Sheet::new(9500, note)?;
+pub fn draw(race: &Race) -> Result<Figure, Error> {
+    let sheet = Sheet::new(9500);
     let costs = || race.entries.iter().filter_map(|entry| entry.evaluations_per_impact);
     let cost_axis = || Axis::around(costs(), 1, "evaluations per impact");
     let error = Axis::decades(-18, 0, 3, "error in time (1/*ω*)");

@@ -19,8 +19,8 @@ fn allowed(race: &Race, error: f64) -> Option<[f64; 3]> {
 }
 
 /// Draws the figure.
-pub fn draw(race: &Race, measured: &Measured, note: Option<&str>) -> Result<Figure, Error> {
-    let sheet = Sheet::new(9950, note)?;
+pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
+    let sheet = Sheet::new(9950);
     let top = (race.parameters.until / 50.0).ceil() * 50.0;
     let costs = race.entries.iter().filter_map(|entry| entry.evaluations_per_impact);
     let (x, y) =

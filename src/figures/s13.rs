@@ -13,8 +13,8 @@ fn own(measured: &Measured) -> Vec<&Row> {
 }
 
 /// Draws the figure.
-pub fn draw(scale: &Costs, measured: &Measured, note: Option<&str>) -> Result<Figure, Error> {
-    let sheet = Sheet::new(12_800, note)?;
+pub fn draw(scale: &Costs, measured: &Measured) -> Result<Figure, Error> {
+    let sheet = Sheet::new(12_800);
     let own = own(measured);
     // Somewhat wider than the sizes, which would stand on the other axis.
     let masses = || Axis::decades(0, 7, 1, "number of masses *n*").from(7.0, 1.4e6);

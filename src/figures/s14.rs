@@ -36,8 +36,8 @@ fn way(way: Way) -> (&'static str, Colour, Mark) {
 }
 
 /// Draws the figure.
-pub fn draw(analytic: &Analytic, note: Option<&str>) -> Result<Figure, Error> {
-    let sheet = Sheet::new(10_300, note)?;
+pub fn draw(analytic: &Analytic) -> Result<Figure, Error> {
+    let sheet = Sheet::new(10_300);
     let errors = |highest: i32| Axis::decades(LOWEST, highest, 3, "relative error");
     let sigmas = analytic.parameters.sigmas.iter().copied();
     let sigma = Axis::around(sigmas, 1, FORCING);

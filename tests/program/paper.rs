@@ -192,6 +192,59 @@ fn what_others_made_is_left_as_it_is() {
     assert_eq!(std::fs::read_to_string(here.join("t/report.md")).unwrap(), "by hand");
 }
 
+/// What if a parameter were another: nothing is judged, everything says so, and the paper's folder stays as it is.
+#[test]
+fn another_parameter_makes_another_report_that_says_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    for (arguments, words) in [
+        ("paper --set restitution=0.7", ["--set: ", "--out"]),
+        ("paper --set restituton=0.7 --out o", ["there is no parameter", "restitution"]),
+        ("paper --set masses=3 --out o", ["masses=3", "give "]),
+        ("paper --set restitution --out o", ["restitution=", "give 0 to"]),
+        ("paper --set restitution=0.7 --profile full --out o", ["--profile ci", "--figure"]),
+    ] {
+        refused(here, arguments, &words);
+    }
+    assert!(std::fs::read_dir(here).unwrap().next().is_none());
+    let (code, list, _) = run(here, "paper --set list");
+    assert!(code == 0 && list.contains("masses             100"), "{list}");
+
+    let set = "paper --set restitution=0.7 --set masses=50 --profile quick --results r";
+    let (code, told, note) = run(here, &format!("{set} --out o"));
+    assert_eq!(code, 0, "{note}");
+    let words = "not the paper's parameters (restitution = 0.7, masses = 50)";
+    assert!(told.contains(words) && told.contains("nothing is judged"), "{told}");
+    let text = |name: &str| std::fs::read_to_string(here.join("o").join(name)).unwrap();
+    for name in ["report.md", "beyond.md", "methods.md", "README.md", "report.tex"] {
+        assert!(text(name).contains("restitution = 0.7, masses = 50"), "{name}");
+    }
+    // Figures draw their words as outlines; the foot makes them higher.
+    let height = |text: &str| {
+        let (_, rest) = text.split_once("viewBox=\"0 0 ").unwrap();
+        rest.split(['"', ' ']).nth(1).unwrap().parse::<u32>().unwrap()
+    };
+    for name in ["fig03", "fig08", "s06"] {
+        let svg = format!("figures/{name}.svg");
+        let own = std::str::from_utf8(&QUICK.report[&svg]).unwrap();
+        assert!(height(&text(&svg)) > height(own) || name == "fig03", "{name}");
+    }
+    let ledger: serde_json::Value = serde_json::from_str(&text("ledger.json")).unwrap();
+    let claims = ledger["claims"].as_array().unwrap();
+    assert!(claims.iter().all(|claim| claim["verdict"] == "cannot be judged"), "{claims:?}");
+    assert!(text("values.json").contains("quick, restitution = 0.7, masses = 50"));
+    // The rise is another one, and the theory has other vertices.
+    let row = |text: &str| text.lines().last().unwrap().to_string();
+    let own = std::str::from_utf8(&QUICK.report["data/fig03a.csv"]).unwrap();
+    assert_ne!(row(&text("data/fig03a.csv")), row(own));
+    // Another choice does not go into this folder, and its results are not taken for those of the paper.
+    let (code, _, note) =
+        run(here, "paper --set masses=40 --profile quick --figure 3 --results r --out o");
+    assert!(code == 2 && note.contains("holds a report of the quick, restitution = 0.7"), "{note}");
+    let (_, _, note) = run(here, "paper --profile quick --figure 3 --results r --out p");
+    assert!(note.contains("sweep: run"), "{note}");
+}
+
 /// The exit codes of `--help` and DESIGN.md, one row for each way to get there.
 #[test]
 fn exit_codes_are_those_of_the_table() {

@@ -155,7 +155,7 @@ fn three() -> f64 {
 
 /// Fig. 1: where orbits go, against the parameter.
 fn diagram(limit: &Table) -> Result<Figure, literate::figures::Error> {
-    let sheet = Sheet::new(5150, None)?;
+    let sheet = Sheet::new(5150);
     let panel = sheet.panel(
         Frame::new(1100, 300, 8100, 4200),
         Axis::linear(2.8, 4.0, 0.2, 2, "parameter *r*"),
@@ -188,7 +188,7 @@ fn diagram(limit: &Table) -> Result<Figure, literate::figures::Error> {
 
 /// Fig. 2: how fast the two ratios settle.
 fn convergence(orbits: &Table, limit: &Table) -> Result<Figure, literate::figures::Error> {
-    let sheet = Sheet::new(4400, None)?;
+    let sheet = Sheet::new(4400);
     let last = orbits.values("n").last().copied().unwrap_or(1.0);
     let panel = sheet.panel(
         Frame::new(1350, 300, 8100, 3450),

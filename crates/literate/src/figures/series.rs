@@ -239,7 +239,7 @@ mod tests {
     use crate::figures::style::GREEN;
 
     fn panel() -> Panel {
-        let sheet = Sheet::new(3000, None).unwrap();
+        let sheet = Sheet::new(3000);
         let axis = || Axis::linear(0.0, 1.0, 0.5, 1, "");
         sheet.panel(Frame::new(1000, 100, 2000, 1100), axis(), axis()).unwrap()
     }
@@ -264,7 +264,7 @@ mod tests {
 
     #[test]
     fn on_a_logarithmic_axis_what_is_not_positive_is_outside_below() {
-        let sheet = Sheet::new(3000, None).unwrap();
+        let sheet = Sheet::new(3000);
         let frame = Frame::new(1000, 100, 2000, 1100);
         let (x, y) = (Axis::linear(0.0, 1.0, 0.5, 1, "x"), Axis::decades(-2, 0, 1, "y"));
         let panel = sheet.lettered("(b)", frame, x, y).unwrap();
@@ -293,7 +293,7 @@ mod tests {
 
     #[test]
     fn guides_grounds_and_insets_are_no_data() {
-        let sheet = Sheet::new(3000, None).unwrap();
+        let sheet = Sheet::new(3000);
         let frame = Frame::new(1000, 100, 2000, 1100);
         let axis = || Axis::linear(0.0, 1.0, 0.5, 1, "x");
         let panel = sheet.panel(frame, axis(), axis()).unwrap();

@@ -57,17 +57,15 @@ impl Entry {
 }
 
 impl Sheet {
-    /// An empty sheet of column width; a `note` about its provenance adds a line at the foot.
-    pub fn new(height: u32, note: Option<&str>) -> Result<Self, Error> {
-        let foot = if note.is_some() { 330 } else { 0 };
-        let drawing = Rc::new(RefCell::new(Drawing::new(height + foot)));
+    /// An empty sheet of column width.
+    pub fn new(height: u32) -> Self {
+        Sheet::on(Drawing::new(height))
+    }
+
+    fn on(drawing: Drawing) -> Self {
+        let drawing = Rc::new(RefCell::new(drawing));
         let area = DrawingArea::from(&drawing);
-        let sheet = Sheet { drawing, area, records: RefCell::default() };
-        if let Some(note) = note {
-            let at = (WIDTH as i32 - 120, (height + foot) as i32 - 110);
-            sheet.text(note, at, (TINY, GREY, HPos::Right, VPos::Bottom))?;
-        }
-        Ok(sheet)
+        Sheet { drawing, area, records: RefCell::default() }
     }
 
     /// A panel with its axes drawn.
@@ -195,3 +193,22 @@ impl Sheet {
         }
     }
 }
+
+impl Figure {
+    /// With a line at its foot about where it comes from.
+    ///
+    /// # Errors
+    /// A character that the fonts do not have.
+    pub fn with_foot(self, words: &str) -> Result<Figure, Error> {
+        let Figure { id, title, description, mut drawing, .. } = self;
+        drawing.height += FOOT;
+        let at = (WIDTH as i32 - 120, drawing.height as i32 - 110);
+        let sheet = Sheet::on(drawing);
+        sheet.text(words, at, (TINY, GREY, HPos::Right, VPos::Bottom))?;
+        let Figure { svg, drawing, .. } = sheet.finish(&id, &title, description.clone());
+        Ok(Figure { id, title, description, drawing, svg, ..self })
+    }
+}
+
+/// Height of the line at the foot.
+const FOOT: u32 = 330;
