@@ -138,7 +138,8 @@ pub fn experiments(number: Number) -> Vec<&'static str> {
 /// [`Error::Number`] if there is none, [`Error::Data`] without the results that it needs.
 pub fn draw(number: Number, results: &Results) -> Result<Figure, Error> {
     let figure = listed(number).ok_or_else(|| Error::Number(number.to_string()))?;
-    let sampled = !figure.needs.is_empty() && results.profile < Profile::Full;
+    let sampled =
+        figure.needs.iter().any(|need| need.is_saved()) && results.profile < Profile::Full;
     let samples = sampled.then(|| format!("profile {}: not for citation", results.profile.name()));
     let other = set::told().map(|told| format!("not the paper's parameters: {told}"));
     let mut drawn = (figure.draw)(results)?;
