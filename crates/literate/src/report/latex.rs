@@ -265,7 +265,10 @@ fn table(
     let words: Vec<usize> = (0..columns.len()).map(words).collect();
     let total: usize = widths.iter().map(|w| w + 2).sum();
     let least: usize = (0..columns.len()).map(|i| least_width(widths[i], words[i])).sum();
-    let across = total > ACROSS || least as f64 + GAPS * columns.len() as f64 > LINE as f64;
+    let gaps = GAPS * columns.len() as f64;
+    let fits = |gaps: f64| total <= ACROSS && least as f64 + gaps <= LINE as f64;
+    // Half of the gaps are spared before a table is laid across.
+    let (tight, across) = (!fits(gaps) && fits(0.5 * gaps), !fits(0.5 * gaps));
     let line = if across { LINE * 3 / 2 } else { LINE };
     let row = |cells: &[Vec<Inline>]| -> Result<String, Error> {
         let cells: Vec<String> =
@@ -274,7 +277,8 @@ fn table(
     };
     let mut out = String::from(if across { "\\begin{landscape}\n" } else { "" });
     let layout = layout(columns, &widths, &words, line);
-    out.push_str(&format!("{{\\footnotesize\n\\begin{{longtable}}{{{layout}}}\n"));
+    let gap = if tight { "\\setlength{\\tabcolsep}{3pt}\n" } else { "" };
+    out.push_str(&format!("{{\\footnotesize\n{gap}\\begin{{longtable}}{{{layout}}}\n"));
     if captioned {
         let label = id.map(|id| format!("\\label{{{id}}}")).unwrap_or_default();
         out.push_str(&format!("\\caption{{{}}}{label}\\\\\n", inlines(caption)?));
