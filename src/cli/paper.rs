@@ -76,7 +76,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     }
     if other && profile == Profile::Full && args.figure.is_empty() {
         return Err(Failure::input(
-            "--set: the full profile has results that take half an hour, of the paper's parameters only; give \
+            "--set: the full profile has results that take a quarter of an hour, of the paper's parameters only; give \
              --profile ci, or --figure",
         ));
     }

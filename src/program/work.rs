@@ -32,7 +32,7 @@ pub enum AnyProfile {
     Ci,
     /// The committed report: minutes.
     Full,
-    /// What is run now and then, committed, and carried over: half an hour.
+    /// What is run now and then, committed, and carried over: a quarter of an hour.
     Deep,
 }
 
