@@ -133,3 +133,21 @@ pub fn main() -> ExitCode {
     };
     program::ended(result)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_verb_is_in_one_group_and_fits_its_line() {
+        let command = Cli::command();
+        let mut verbs: Vec<&str> = command.get_subcommands().map(clap::Command::get_name).collect();
+        let mut listed: Vec<&str> = GROUPS.iter().flat_map(|(_, names)| *names).copied().collect();
+        verbs.sort_unstable();
+        listed.sort_unstable();
+        assert_eq!(verbs, listed);
+        let help = super::command().render_help().to_string();
+        let long = help.lines().find(|line| line.chars().count() > 100);
+        assert_eq!(long, None);
+    }
+}

@@ -245,6 +245,28 @@ fn another_parameter_makes_another_report_that_says_so() {
     assert!(note.contains("sweep: run"), "{note}");
 }
 
+/// Pages and completions go where nothing else is; --quiet hides progress and no error.
+#[test]
+fn the_manual_is_written_and_quiet_work_says_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    assert_eq!(crate::run(here, "manual --out m").0, 0);
+    let page = std::fs::read_to_string(here.join("m/impact-paper-trace.1")).unwrap();
+    assert!(page.contains(".TH") && page.contains("certified"), "{page}");
+    let bash = std::fs::read_to_string(here.join("m/completions/impact-paper.bash")).unwrap();
+    assert!(bash.contains("--max-impacts") && bash.contains("sweep"), "{bash}");
+    std::fs::write(here.join("m/impact-paper.1"), "mine").unwrap();
+    crate::refused(here, "manual --out m", &["impact-paper.1", "--force"]);
+
+    let sweep = "sweep --sigma 0.1 --masses 4 --realisations 2";
+    let (code, quiet, note) = crate::run(here, &format!("-q {sweep}"));
+    assert_eq!((code, note.as_str()), (0, ""));
+    assert_eq!(quiet, answer(here, sweep));
+    let (code, _, note) = run(here, "paper --profile quick --figure 3 --out f --results r --quiet");
+    assert_eq!((code, note.as_str()), (0, ""));
+    crate::refused(here, "sweep --sigma nan --quiet", &["sigma"]);
+}
+
 /// The exit codes of `--help` and DESIGN.md, one row for each way to get there.
 #[test]
 fn exit_codes_are_those_of_the_table() {
