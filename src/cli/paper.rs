@@ -202,7 +202,7 @@ fn refuse_over_other(profile: Profile, out: &Path, figures: bool) -> Result<(), 
             if name != set::profile(profile) && (figures || name == Profile::Full.name()) =>
         {
             Err(Failure::input(format!(
-                "--out: {} holds a report of the {name} profile; give another folder, or --profile {name}",
+                "--out: {} holds a report of the {name} profile; give another folder",
                 out.display()
             )))
         }

@@ -73,9 +73,11 @@ fn pdfs() -> impl Iterator<Item = String> {
 
 /// Makes the report again and compares.
 fn rerun(args: &Args, progress: &Progress) -> Result<Checked, Failure> {
-    let profile = match args.profile {
-        Some(name) => Profile::from(name),
-        None => own_profile(&args.folder)?,
+    let own = own_profile(&args.folder);
+    let profile = match (args.profile, &own) {
+        (Some(name), Ok(_)) => Profile::from(name),
+        (Some(name), Err(failure)) if !failure.message.contains("--set") => Profile::from(name),
+        _ => own?,
     };
     // Removed in the end, whatever happens.
     let temporary = tempfile::tempdir().map_err(bare).map_err(|e| {

@@ -4,6 +4,7 @@
 //! the paper's parameters. Sample sizes are not here: a profile has them.
 
 use super::{Chain, Profile, Protocol, SEED, VERTICES};
+use crate::input::one_line;
 use std::sync::OnceLock;
 
 /// What may be set, each with the paper's value (or ours, where it prints none) as its default.
@@ -17,11 +18,11 @@ struct Set {
 
 static SET: OnceLock<Set> = OnceLock::new();
 
-/// One parameter: its name, what may be given, and where it goes.
+/// One parameter: its name, what may be given, what it is, and where it goes.
 struct Parameter {
     name: &'static str,
     range: &'static str,
-    default: fn() -> String,
+    get: fn(&Set) -> String,
     put: fn(&mut Set, &str) -> Option<()>,
 }
 
@@ -30,41 +31,43 @@ fn within<T: std::str::FromStr + PartialOrd>(text: &str, low: T, high: T) -> Opt
     text.parse().ok().filter(|x| (low..=high).contains(x))
 }
 
+/// The ranges are those in which every part of the report can be made: the rise stays on the grid of σ, and chains with
+/// one seed are not too rare to be found.
 const PARAMETERS: [Parameter; 6] = [
     Parameter {
         name: "masses",
-        range: "10 to 300",
-        default: || Chain::default().masses.to_string(),
-        put: |set, text| within(text, 10, 300).map(|n| set.chain.masses = n),
+        range: "40 to 150",
+        get: |set| set.chain.masses.to_string(),
+        put: |set, text| within(text, 40, 150).map(|n| set.chain.masses = n),
     },
     Parameter {
         name: "restitution",
-        range: "0 to 0.98",
-        default: || Chain::default().restitution.to_string(),
-        put: |set, text| within(text, 0.0, 0.98).map(|r| set.chain.restitution = r),
+        range: "0.3 to 0.9",
+        get: |set| set.chain.restitution.to_string(),
+        put: |set, text| within(text, 0.3, 0.9).map(|r| set.chain.restitution = r),
     },
     Parameter {
         name: "forcing_frequency",
-        range: "1.25 to 3 (the natural frequency is 1)",
-        default: || Chain::default().forcing_frequency.to_string(),
-        put: |set, text| within(text, 1.25, 3.0).map(|w| set.chain.forcing_frequency = w),
+        range: "1.35 to 1.5 (the natural frequency is 1)",
+        get: |set| set.chain.forcing_frequency.to_string(),
+        put: |set, text| within(text, 1.35, 1.5).map(|w| set.chain.forcing_frequency = w),
     },
     Parameter {
         name: "transient",
         range: "0 to 10000",
-        default: || Protocol::default().transient.to_string(),
+        get: |set| set.protocol.transient.to_string(),
         put: |set, text| within(text, 0.0, 1e4).map(|t| set.protocol.transient = t),
     },
     Parameter {
         name: "window",
         range: "1 to 10000",
-        default: || Protocol::default().window.to_string(),
+        get: |set| set.protocol.window.to_string(),
         put: |set, text| within(text, 1.0, 1e4).map(|w| set.protocol.window = w),
     },
     Parameter {
         name: "seed",
         range: "a whole number from 0",
-        default: || SEED.to_string(),
+        get: |set| set.seed.unwrap_or(SEED).to_string(),
         put: |set, text| text.parse().ok().map(|seed| set.seed = Some(seed)),
     },
 ];
@@ -74,26 +77,33 @@ const PARAMETERS: [Parameter; 6] = [
 /// # Errors
 /// One line that names the pair and what may be given; a second choice.
 pub fn choose(pairs: &[String]) -> Result<(), String> {
-    let mut set = Set::default();
+    let (mut set, paper) = (Set::default(), Set::default());
+    let mut given: Vec<&str> = Vec::new();
     for pair in pairs {
         let (name, value) = pair.split_once('=').unwrap_or((pair, ""));
         let Some(parameter) = PARAMETERS.iter().find(|parameter| parameter.name == name) else {
             let names: Vec<&str> = PARAMETERS.iter().map(|parameter| parameter.name).collect();
+            let told = one_line(name, SHOWN);
             return Err(match nearest(name, &names) {
-                Some(near) => format!("there is no parameter {name:?}; is {near} meant?"),
-                None => format!("there is no parameter {name:?}; there are {}", names.join(", ")),
+                Some(near) => format!("there is no parameter {told:?}; is {near} meant?"),
+                None => format!("there is no parameter {told:?}; there are {}", names.join(", ")),
             });
         };
-        let range = parameter.range;
-        (parameter.put)(&mut set, value)
-            .ok_or_else(|| format!("{name}={value} is not allowed; give {range}"))?;
-        let told = format!("{name} = {value}");
-        if value != (parameter.default)() && !set.told.contains(&told) {
-            set.told.push(told);
+        if given.contains(&name) {
+            return Err(format!("{name} is given twice; give it once"));
         }
+        given.push(name);
+        let (range, told) = (parameter.range, one_line(value, SHOWN));
+        (parameter.put)(&mut set, value)
+            .ok_or_else(|| format!("{name}={told} is not allowed; give {range}"))?;
     }
+    let other = PARAMETERS.iter().filter(|one| (one.get)(&set) != (one.get)(&paper));
+    set.told = other.map(|one| format!("{} = {}", one.name, (one.get)(&set))).collect();
     SET.set(set).map_err(|_| "the parameters were chosen before".to_string())
 }
+
+/// Characters of what was given that a message repeats at most.
+const SHOWN: usize = 40;
 
 /// The name with the most letters in common, if it has half of them.
 fn nearest<'a>(name: &str, names: &[&'a str]) -> Option<&'a str> {
@@ -107,7 +117,9 @@ fn nearest<'a>(name: &str, names: &[&'a str]) -> Option<&'a str> {
 
 /// A line for each parameter: name, default, range; and where to find others.
 pub fn list() -> String {
-    let line = |one: &Parameter| format!("{:18} {:20} {}\n", one.name, (one.default)(), one.range);
+    let line = |one: &Parameter| {
+        format!("{:18} {:20} {}\n", one.name, (one.get)(&Set::default()), one.range)
+    };
     let head = format!("{:18} {:20} {}\n", "parameter", "default", "may be");
     let rest = "The start and the ends: `sweep --initial random --boundary ring`, and Table S3 of the report.\n\
                 d and the natural frequency are the units of length and time, sigma is the axis.\n";

@@ -7,7 +7,7 @@
 use super::work::{self, Now};
 use super::{Failure, folder};
 use crate::digest::sha256;
-use crate::experiments::Progress;
+use crate::experiments::{Progress, say};
 use crate::input::{self, STAGING, one_line};
 use crate::report::{Files, PROGRAM, sums};
 use std::collections::{BTreeMap, BTreeSet};
@@ -83,8 +83,7 @@ impl<'a> Staging<'a> {
         }
         // Whoever writes holds the lock, so nobody who lives needs these.
         for name in names(folder).map_err(failed)?.iter().filter(|name| is_staging(folder, name)) {
-            // What cannot be removed is in nobody's way.
-            let _ = std::fs::remove_dir_all(folder.join(name));
+            clear(&folder.join(name));
         }
         staging.temporary()?;
         FOLDERS.into_iter().try_for_each(|below| staging.is_folder(&folder.join(below)))?;
@@ -143,14 +142,14 @@ impl<'a> Staging<'a> {
 
         let temporary = self.temporary()?;
         let stage = |path: &str, bytes: &[u8]| {
-            let staged = temporary.path().join(path);
+            let staged = temporary.0.path().join(path);
             std::fs::create_dir_all(staged.parent().unwrap_or(self.folder))?;
             std::fs::write(&staged, bytes)
         };
         let put = |path: &str| {
             let target = self.folder.join(path);
             std::fs::create_dir_all(target.parent().unwrap_or(self.folder))?;
-            std::fs::rename(temporary.path().join(path), &target)
+            std::fs::rename(temporary.0.path().join(path), &target)
         };
         for (path, bytes) in files {
             stage(path, bytes).map_err(failed)?;
@@ -173,7 +172,7 @@ impl<'a> Staging<'a> {
         put(sums::LOCAL).map_err(failed)?;
         let over: Vec<&str> = theirs.into_iter().filter(|path| files.contains_key(*path)).collect();
         if !over.is_empty() {
-            progress.say(&format!("impact-paper: --force: wrote over {}", over.join(", ")));
+            say(&format!("impact-paper: --force: wrote over {}", over.join(", ")));
         }
         Ok(())
     }
@@ -191,11 +190,11 @@ impl<'a> Staging<'a> {
     }
 
     /// A folder in which files wait until all are complete.
-    fn temporary(&self) -> Result<tempfile::TempDir, Failure> {
+    fn temporary(&self) -> Result<Waiting, Failure> {
         let made = tempfile::Builder::new().prefix(STAGING).tempdir_in(self.folder);
         let made = made.map_err(|error| self.failed(&input::bare(error)))?;
         std::fs::write(made.path().join(OURS), "").map_err(|error| self.failed(&error))?;
-        Ok(made)
+        Ok(Waiting(made))
     }
 
     /// Refuses a folder in the place of a file.
@@ -320,6 +319,30 @@ impl Own {
         lines.sort_by_key(|(path, _)| *path);
         lines.into_iter().map(|(path, digest)| format!("{digest}  {path}\n")).collect()
     }
+}
+
+/// A folder in which files wait.
+struct Waiting(tempfile::TempDir);
+
+impl Drop for Waiting {
+    fn drop(&mut self) {
+        clear(self.0.path());
+    }
+}
+
+/// Removes such a folder, its mark last: whoever is killed meanwhile leaves what the next run knows.
+fn clear(waiting: &Path) {
+    for entry in std::fs::read_dir(waiting).into_iter().flatten().flatten() {
+        let (path, name) = (entry.path(), entry.file_name());
+        // What cannot be removed is in nobody's way.
+        let _ = match entry.file_type().is_ok_and(|kind| kind.is_dir()) {
+            true => std::fs::remove_dir_all(path),
+            false if name == OURS => continue,
+            false => std::fs::remove_file(path),
+        };
+    }
+    let _ = std::fs::remove_file(waiting.join(OURS));
+    let _ = std::fs::remove_dir(waiting);
 }
 
 /// Is it a folder in which files of ours waited? One with the mark, or an empty one: a run may be killed before it
@@ -528,6 +551,25 @@ mod tests {
             let local = std::fs::read_to_string(out.path().join(sums::LOCAL)).unwrap();
             assert_eq!(sums::read(&local).unwrap().len(), old.len() - 1);
         }
+    }
+
+    /// By the next run, and by the run itself.
+    #[test]
+    fn what_waited_is_cleared_with_its_mark() {
+        let out = tempfile::tempdir().unwrap();
+        let left = out.path().join(format!("{STAGING}abc"));
+        std::fs::create_dir_all(left.join("data")).unwrap();
+        std::fs::write(left.join(OURS), "").unwrap();
+        std::fs::write(left.join("report.md"), "half").unwrap();
+        assert!(is_staging(out.path(), &format!("{STAGING}abc")));
+        clear(&left);
+        assert!(!left.exists());
+        let staging = Staging::below(out.path(), "--out", ASK).unwrap();
+        let waiting = staging.temporary().unwrap();
+        let path = waiting.0.path().to_path_buf();
+        assert!(path.join(OURS).exists());
+        drop(waiting);
+        assert!(!path.exists());
     }
 
     /// Leftovers of the killed go, those of the living stay.

@@ -201,7 +201,8 @@ fn another_parameter_makes_another_report_that_says_so() {
         ("paper --set restitution=0.7", ["--set: ", "--out"]),
         ("paper --set restituton=0.7 --out o", ["there is no parameter", "restitution"]),
         ("paper --set masses=3 --out o", ["masses=3", "give "]),
-        ("paper --set restitution --out o", ["restitution=", "give 0 to"]),
+        ("paper --set restitution --out o", ["restitution=", "give 0.3 to"]),
+        ("paper --set masses=50 --set masses=60 --out o", ["masses", "twice"]),
         ("paper --set restitution=0.7 --profile full --out o", ["--profile ci", "--figure"]),
     ] {
         refused(here, arguments, &words);
@@ -213,11 +214,11 @@ fn another_parameter_makes_another_report_that_says_so() {
     let set = "paper --set restitution=0.7 --set masses=50 --profile quick --results r";
     let (code, told, note) = run(here, &format!("{set} --out o"));
     assert_eq!(code, 0, "{note}");
-    let words = "not the paper's parameters (restitution = 0.7, masses = 50)";
+    let words = "not the paper's parameters (masses = 50, restitution = 0.7)";
     assert!(told.contains(words) && told.contains("nothing is judged"), "{told}");
     let text = |name: &str| std::fs::read_to_string(here.join("o").join(name)).unwrap();
     for name in ["report.md", "beyond.md", "methods.md", "README.md", "report.tex"] {
-        assert!(text(name).contains("restitution = 0.7, masses = 50"), "{name}");
+        assert!(text(name).contains("masses = 50, restitution = 0.7"), "{name}");
     }
     // Figures draw their words as outlines; the foot makes them higher.
     let height = |text: &str| {
@@ -232,7 +233,7 @@ fn another_parameter_makes_another_report_that_says_so() {
     let ledger: serde_json::Value = serde_json::from_str(&text("ledger.json")).unwrap();
     let claims = ledger["claims"].as_array().unwrap();
     assert!(claims.iter().all(|claim| claim["verdict"] == "cannot be judged"), "{claims:?}");
-    assert!(text("values.json").contains("quick, restitution = 0.7, masses = 50"));
+    assert!(text("values.json").contains("quick, masses = 50, restitution = 0.7"));
     // The rise is another one, and the theory has other vertices.
     let row = |text: &str| text.lines().last().unwrap().to_string();
     let own = std::str::from_utf8(&QUICK.report["data/fig03a.csv"]).unwrap();
@@ -240,7 +241,7 @@ fn another_parameter_makes_another_report_that_says_so() {
     // Another choice does not go into this folder, and its results are not taken for those of the paper.
     let (code, _, note) =
         run(here, "paper --set masses=40 --profile quick --figure 3 --results r --out o");
-    assert!(code == 2 && note.contains("holds a report of the quick, restitution = 0.7"), "{note}");
+    assert!(code == 2 && note.contains("holds a report of the quick, masses = 50"), "{note}");
     let (_, _, note) = run(here, "paper --profile quick --figure 3 --results r --out p");
     assert!(note.contains("sweep: run"), "{note}");
 }

@@ -25,8 +25,8 @@ pub enum Error {
     },
     /// The bound on work was exceeded (exit code 4).
     #[error(
-        "gap {gap} needs more than {bound} events within one unit of time at t = {time}; \
-         the run was stopped there"
+        "the chain has more than {bound} events within one unit of time, the last at gap {gap}; the run was stopped \
+         at t = {time}: give an earlier end or weaker forces"
     )]
     Work {
         /// The gap of the last event.

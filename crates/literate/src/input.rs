@@ -122,6 +122,11 @@ pub fn new_beside(path: &Path) -> Result<NamedTempFile, Error> {
     Ok(file)
 }
 
+/// Whether a name goes on as those of temporary files do.
+fn is_random(rest: &str) -> bool {
+    rest.len() == 6 && rest.bytes().all(|byte| byte.is_ascii_alphanumeric())
+}
+
 /// Removes what killed runs left of [`new_beside`] in a folder: nobody holds its lock. What is younger than a second
 /// may be about to be locked.
 pub fn remove_leftovers(folder: &Path) {
@@ -132,7 +137,8 @@ pub fn remove_leftovers(folder: &Path) {
         age.is_some_and(|age| age.as_secs() >= 1)
     };
     for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
-        let ours = entry.file_name().to_string_lossy().starts_with(STAGING);
+        let name = entry.file_name();
+        let ours = name.to_str().and_then(|name| name.strip_prefix(STAGING)).is_some_and(is_random);
         if ours && entry.file_type().is_ok_and(|kind| kind.is_file()) && is_left(&entry.path()) {
             let _ = std::fs::remove_file(entry.path());
         }
@@ -173,7 +179,7 @@ mod tests {
     fn leftovers_of_the_killed_go() {
         let folder = tempfile::tempdir().unwrap();
         let path = |name: &str| folder.path().join(name);
-        let left = path(&format!("{STAGING}dead"));
+        let left = path(&format!("{STAGING}dead00"));
         let old = std::time::SystemTime::now() - std::time::Duration::from_secs(60);
         let age = |path: &Path| File::options().write(true).open(path)?.set_modified(old);
         std::fs::write(&left, "half").unwrap();

@@ -26,7 +26,7 @@ pub fn count(number: usize, noun: &str) -> String {
 }
 
 /// What parsers say to programmers, and what it says to everybody.
-const PLAIN: [(&str, &str); 24] = [
+const PLAIN: [(&str, &str); 25] = [
     (" as i128", ""),
     ("expected f64", "expected a number"),
     ("expected u8", "expected a whole number"),
@@ -35,6 +35,7 @@ const PLAIN: [(&str, &str); 24] = [
     ("an array of length 2", "a pair [a, b]"),
     ("invalid length", "the length is wrong:"),
     ("a sequence", "a list"),
+    ("unexpected value", "needless value"),
     ("expected value", "no value that it can have"),
     ("expected unit", "expected nothing"),
     ("unknown variant", "unknown value"),

@@ -86,7 +86,9 @@ fn prose(changes: &[ProseChange]) -> Vec<String> {
             lines.push(format!("{}, {}", change.document, part[0].section));
             lines.extend(part.iter().map(|sentence| {
                 let marks = [["[-", "-]"], ["{+", "+}"]];
-                format!("  {}", words(&sentence.pieces, marks, "", str::to_string))
+                // A document may hold what a terminal obeys.
+                let safe = |text: &str| text.replace(char::is_control, " ");
+                format!("  {}", words(&sentence.pieces, marks, "", safe))
             }));
         }
     }

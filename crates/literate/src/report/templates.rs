@@ -44,7 +44,11 @@ impl Templates {
     /// # Errors
     /// When there is none of that name.
     pub fn text(&self, path: &str) -> Result<&str, Error> {
-        let missing = || Error::Template(format!("{path}: no such file in the templates"));
+        let missing = || {
+            Error::Template(format!(
+                "{path}: no such file in the templates; give the folder of all of them"
+            ))
+        };
         self.0.get(path).map(String::as_str).ok_or_else(missing)
     }
 
