@@ -237,7 +237,7 @@ fn work_is_bounded_and_says_where() {
             assert!(gap <= 1 && (0.0..1.0).contains(&time));
             assert!(engine.counters().impacts <= bound);
             let said = Error::Work { gap, time, bound }.to_string();
-            assert!(said.contains(&format!("gap {gap} ")), "{said}");
+            assert!(said.contains(&format!("gap {gap};")), "{said}");
             assert!(said.contains(&format!("t = {time}")), "{said}");
         }
         other => panic!("{other:?}"),
