@@ -71,7 +71,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let usual = if other { work::ProfileName::Ci } else { work::ProfileName::Full };
     let profile = Profile::from(args.profile.unwrap_or(usual));
     let out = args.out.clone().unwrap_or_else(|| default_folder(profile));
-    if other && out == default_folder(profile) {
+    if other && [profile, Profile::Full].map(default_folder).contains(&out) {
         return Err(Failure::input("--set: this is another paper; give it a folder with --out"));
     }
     if other && profile == Profile::Full && args.figure.is_empty() {

@@ -199,6 +199,7 @@ fn another_parameter_makes_another_report_that_says_so() {
     let here = folder.path();
     for (arguments, words) in [
         ("paper --set restitution=0.7", ["--set: ", "--out"]),
+        ("paper --set restitution=0.7 --out paper", ["--set: ", "--out"]),
         ("paper --set restituton=0.7 --out o", ["there is no parameter", "restitution"]),
         ("paper --set masses=3 --out o", ["masses=3", "give "]),
         ("paper --set restitution --out o", ["restitution=", "give 0.3 to"]),
