@@ -129,7 +129,7 @@ fn told(out: &Path, files: &Files, judged: &Judged) -> String {
         [Verdict::Reproduced, Verdict::Differs, Verdict::CannotBeJudged].map(count);
     let timed = judged.targets.iter().filter(|one| one.verdict == Verdict::Differs && !one.fails());
     if let Some(told) = set::told() {
-        return format!("not the paper's parameters ({told}): nothing is judged\n");
+        return format!("{told}; nothing is judged\n");
     }
     let mut lines = judged.scores();
     lines.push(format!(

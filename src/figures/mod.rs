@@ -141,7 +141,7 @@ pub fn draw(number: Number, results: &Results) -> Result<Figure, Error> {
     let sampled =
         figure.needs.iter().any(|need| need.is_saved()) && results.profile < Profile::Full;
     let samples = sampled.then(|| format!("profile {}: not for citation", results.profile.name()));
-    let other = set::told().map(|told| format!("not the paper's parameters: {told}"));
+    let other = set::told();
     let mut drawn = (figure.draw)(results)?;
     if samples.is_some() || other.is_some() {
         let foot: Vec<String> = other.into_iter().chain(samples).collect();

@@ -18,58 +18,88 @@ struct Set {
 
 static SET: OnceLock<Set> = OnceLock::new();
 
-/// One parameter: its name, what may be given, what it is, and where it goes.
+/// One parameter: its name, the least and the largest value, whether it is a whole number, and where it stands.
 struct Parameter {
     name: &'static str,
-    range: &'static str,
-    get: fn(&Set) -> String,
-    put: fn(&mut Set, &str) -> Option<()>,
+    range: [f64; 2],
+    whole: bool,
+    get: fn(&Set) -> f64,
+    put: fn(&mut Set, f64),
 }
 
-/// The text as a number within bounds.
-fn within<T: std::str::FromStr + PartialOrd>(text: &str, low: T, high: T) -> Option<T> {
-    text.parse().ok().filter(|x| (low..=high).contains(x))
+impl Parameter {
+    const fn new(
+        name: &'static str,
+        range: [f64; 2],
+        whole: bool,
+        get: fn(&Set) -> f64,
+        put: fn(&mut Set, f64),
+    ) -> Self {
+        Parameter { name, range, whole, get, put }
+    }
+
+    /// The text as a value that may be given.
+    fn read(&self, text: &str) -> Option<f64> {
+        let [low, high] = self.range;
+        let allowed = |x: &f64| (low..=high).contains(x) && !(self.whole && x.fract() != 0.0);
+        text.parse().ok().filter(allowed)
+    }
+
+    /// What may be given, in words.
+    fn range(&self) -> String {
+        let [low, high] = self.range;
+        let whole = if self.whole { "a whole number from " } else { "" };
+        format!("{whole}{low} to {high}")
+    }
 }
+
+const WHOLE: bool = true;
 
 /// The ranges are those in which every part of the report can be made: the rise stays on the grid of σ, and chains with
-/// one seed are not too rare to be found.
+/// one seed are not too rare to be found. Whole numbers are exact up to 2^53.
 const PARAMETERS: [Parameter; 6] = [
-    Parameter {
-        name: "masses",
-        range: "40 to 150",
-        get: |set| set.chain.masses.to_string(),
-        put: |set, text| within(text, 40, 150).map(|n| set.chain.masses = n),
-    },
-    Parameter {
-        name: "restitution",
-        range: "0.3 to 0.9",
-        get: |set| set.chain.restitution.to_string(),
-        put: |set, text| within(text, 0.3, 0.9).map(|r| set.chain.restitution = r),
-    },
-    Parameter {
-        name: "forcing_frequency",
-        range: "1.35 to 1.5 (the natural frequency is 1)",
-        get: |set| set.chain.forcing_frequency.to_string(),
-        put: |set, text| within(text, 1.35, 1.5).map(|w| set.chain.forcing_frequency = w),
-    },
-    Parameter {
-        name: "transient",
-        range: "0 to 10000",
-        get: |set| set.protocol.transient.to_string(),
-        put: |set, text| within(text, 0.0, 1e4).map(|t| set.protocol.transient = t),
-    },
-    Parameter {
-        name: "window",
-        range: "1 to 10000",
-        get: |set| set.protocol.window.to_string(),
-        put: |set, text| within(text, 1.0, 1e4).map(|w| set.protocol.window = w),
-    },
-    Parameter {
-        name: "seed",
-        range: "a whole number from 0",
-        get: |set| set.seed.unwrap_or(SEED).to_string(),
-        put: |set, text| text.parse().ok().map(|seed| set.seed = Some(seed)),
-    },
+    Parameter::new(
+        "masses",
+        [40.0, 150.0],
+        WHOLE,
+        |set| set.chain.masses as f64,
+        |set, n| set.chain.masses = n as usize,
+    ),
+    Parameter::new(
+        "restitution",
+        [0.3, 0.9],
+        !WHOLE,
+        |set| set.chain.restitution,
+        |set, r| set.chain.restitution = r,
+    ),
+    Parameter::new(
+        "forcing_frequency",
+        [1.35, 1.5],
+        !WHOLE,
+        |set| set.chain.forcing_frequency,
+        |set, w| set.chain.forcing_frequency = w,
+    ),
+    Parameter::new(
+        "transient",
+        [0.0, 1e4],
+        !WHOLE,
+        |set| set.protocol.transient,
+        |set, t| set.protocol.transient = t,
+    ),
+    Parameter::new(
+        "window",
+        [1.0, 1e4],
+        !WHOLE,
+        |set| set.protocol.window,
+        |set, w| set.protocol.window = w,
+    ),
+    Parameter::new(
+        "seed",
+        [0.0, (1u64 << 53) as f64],
+        WHOLE,
+        |set| set.seed.unwrap_or(SEED) as f64,
+        |set, seed| set.seed = Some(seed as u64),
+    ),
 ];
 
 /// Chooses `name=value` pairs for the rest of the process. Values that are the defaults change nothing.
@@ -93,9 +123,11 @@ pub fn choose(pairs: &[String]) -> Result<(), String> {
             return Err(format!("{name} is given twice; give it once"));
         }
         given.push(name);
-        let (range, told) = (parameter.range, one_line(value, SHOWN));
-        (parameter.put)(&mut set, value)
-            .ok_or_else(|| format!("{name}={told} is not allowed; give {range}"))?;
+        let refused = || {
+            let told = one_line(value, SHOWN);
+            format!("{name}={told} is not allowed; give {}", parameter.range())
+        };
+        (parameter.put)(&mut set, parameter.read(value).ok_or_else(refused)?);
     }
     let other = PARAMETERS.iter().filter(|one| (one.get)(&set) != (one.get)(&paper));
     set.told = other.map(|one| format!("{} = {}", one.name, (one.get)(&set))).collect();
@@ -118,7 +150,7 @@ fn nearest<'a>(name: &str, names: &[&'a str]) -> Option<&'a str> {
 /// A line for each parameter: name, default, range; and where to find others.
 pub fn list() -> String {
     let line = |one: &Parameter| {
-        format!("{:18} {:20} {}\n", one.name, (one.get)(&Set::default()), one.range)
+        format!("{:18} {:<20} {}\n", one.name, (one.get)(&Set::default()), one.range())
     };
     let head = format!("{:18} {:20} {}\n", "parameter", "default", "may be");
     let rest = "The start and the ends: `sweep --initial random --boundary ring`, and Table S3 of the report.\n\
@@ -126,14 +158,15 @@ pub fn list() -> String {
     std::iter::once(head).chain(PARAMETERS.iter().map(line)).chain([rest.into()]).collect()
 }
 
-/// What was chosen otherwise than the paper, `restitution = 0.7`; nothing as a rule.
+/// What was chosen otherwise than the paper, `not the paper's parameters: restitution = 0.7`; nothing as a rule.
 pub fn told() -> Option<String> {
-    SET.get().filter(|set| !set.told.is_empty()).map(|set| set.told.join(", "))
+    let set = SET.get().filter(|set| !set.told.is_empty())?;
+    Some(format!("not the paper's parameters: {}", set.told.join(", ")))
 }
 
 /// The name of a profile, and what was chosen.
 pub fn profile(profile: Profile) -> String {
-    told().map_or_else(|| profile.name().into(), |told| format!("{}, {told}", profile.name()))
+    told().map_or_else(|| profile.name().into(), |told| format!("{} ({told})", profile.name()))
 }
 
 /// What was chosen in place of a number that the paper printed, by its id.

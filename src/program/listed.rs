@@ -106,8 +106,8 @@ pub fn own_profile(root: &Path) -> Result<Profile, Failure> {
     let text = folder::text(root, "values.json").map_err(|_| unknown("cannot be read"))?;
     let values = compare::read(&text).map_err(|_| unknown("is not one of a report"))?;
     match values.get("profile").map(|value| &value.number) {
-        Some(Number::Text(name)) if name.contains(", ") => Err(Failure::input(format!(
-            "{}: it is of other parameters than the paper's ({name}); only `paper --set` makes it again",
+        Some(Number::Text(name)) if name.contains('(') => Err(Failure::input(format!(
+            "{}: it is of the profile {name}; only `paper --set` makes it again",
             root.display()
         ))),
         Some(Number::Text(name)) => work::ProfileName::from_str(name, false)

@@ -71,5 +71,5 @@ pub fn whole(
 /// The paper says nothing of other parameters than its own.
 fn not_judged(claim: &mut Check, told: &str) {
     claim.verdict = Verdict::CannotBeJudged;
-    claim.note = Text::words(format!("Not judged: these are not the paper's parameters ({told})."));
+    claim.note = Text::words(format!("Not judged, {told}."));
 }
