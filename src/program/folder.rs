@@ -1,7 +1,7 @@
 //! The files of a report's folder, as they stand there: nobody vouches for them.
 
 use super::Failure;
-use super::output::is_staging;
+use super::waiting::is_staging;
 use crate::input;
 use crate::report::sums;
 use std::io;

@@ -9,6 +9,7 @@ pub mod make;
 pub mod output;
 pub mod sources;
 pub mod stdout;
+pub mod waiting;
 pub mod work;
 
 use crate::experiments::say;

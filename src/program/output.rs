@@ -4,11 +4,12 @@
 //! nobody changed it since: two lists say so, SHA256SUMS of a report and SHA256SUMS.local of whatever
 //! was last written into the folder. Everything else is refused by name, unless --force.
 
+use super::waiting::{Waiting, clear, is_staging};
 use super::work::{self, Now};
 use super::{Failure, folder};
 use crate::digest::sha256;
 use crate::experiments::{Progress, say};
-use crate::input::{self, STAGING, one_line};
+use crate::input::one_line;
 use crate::report::{Files, PROGRAM, sums};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
@@ -18,9 +19,6 @@ use std::time::Duration;
 
 /// Folders that a report has.
 const FOLDERS: [&str; 2] = ["data", "figures"];
-
-/// The mark of a folder in which files of ours wait.
-const OURS: &str = ".impact-paper";
 
 /// Of a longer list of names only so many are told.
 const TOLD: usize = 5;
@@ -142,14 +140,14 @@ impl<'a> Staging<'a> {
 
         let temporary = self.temporary()?;
         let stage = |path: &str, bytes: &[u8]| {
-            let staged = temporary.0.path().join(path);
+            let staged = temporary.path().join(path);
             std::fs::create_dir_all(staged.parent().unwrap_or(self.folder))?;
             std::fs::write(&staged, bytes)
         };
         let put = |path: &str| {
             let target = self.folder.join(path);
             std::fs::create_dir_all(target.parent().unwrap_or(self.folder))?;
-            std::fs::rename(temporary.0.path().join(path), &target)
+            std::fs::rename(temporary.path().join(path), &target)
         };
         for (path, bytes) in files {
             stage(path, bytes).map_err(failed)?;
@@ -191,10 +189,7 @@ impl<'a> Staging<'a> {
 
     /// A folder in which files wait until all are complete.
     fn temporary(&self) -> Result<Waiting, Failure> {
-        let made = tempfile::Builder::new().prefix(STAGING).tempdir_in(self.folder);
-        let made = made.map_err(|error| self.failed(&input::bare(error)))?;
-        std::fs::write(made.path().join(OURS), "").map_err(|error| self.failed(&error))?;
-        Ok(Waiting(made))
+        Waiting::below(self.folder).map_err(|error| self.failed(&error))
     }
 
     /// Refuses a folder in the place of a file.
@@ -321,40 +316,6 @@ impl Own {
     }
 }
 
-/// A folder in which files wait.
-struct Waiting(tempfile::TempDir);
-
-impl Drop for Waiting {
-    fn drop(&mut self) {
-        clear(self.0.path());
-    }
-}
-
-/// Removes such a folder, its mark last: whoever is killed meanwhile leaves what the next run knows.
-fn clear(waiting: &Path) {
-    for entry in std::fs::read_dir(waiting).into_iter().flatten().flatten() {
-        let (path, name) = (entry.path(), entry.file_name());
-        // What cannot be removed is in nobody's way.
-        let _ = match entry.file_type().is_ok_and(|kind| kind.is_dir()) {
-            true => std::fs::remove_dir_all(path),
-            false if name == OURS => continue,
-            false => std::fs::remove_file(path),
-        };
-    }
-    let _ = std::fs::remove_file(waiting.join(OURS));
-    let _ = std::fs::remove_dir(waiting);
-}
-
-/// Is it a folder in which files of ours waited? One with the mark, or an empty one: a run may be killed before it
-/// leaves its mark.
-pub fn is_staging(folder: &Path, name: &str) -> bool {
-    let path = folder.join(name);
-    name.starts_with(STAGING)
-        && path.symlink_metadata().is_ok_and(|found| found.is_dir())
-        && (path.join(OURS).exists()
-            || path.read_dir().is_ok_and(|mut files| files.next().is_none()))
-}
-
 /// Names of what is in a folder.
 fn names(folder: &Path) -> io::Result<Vec<String>> {
     let name = |entry: io::Result<std::fs::DirEntry>| {
@@ -402,7 +363,9 @@ fn alone(_: &Path) -> io::Result<Option<File>> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::waiting::OURS;
     use super::*;
+    use crate::input::STAGING;
     use std::sync::Arc;
     use std::sync::atomic::AtomicBool;
 
@@ -566,7 +529,7 @@ mod tests {
         assert!(!left.exists());
         let staging = Staging::below(out.path(), "--out", ASK).unwrap();
         let waiting = staging.temporary().unwrap();
-        let path = waiting.0.path().to_path_buf();
+        let path = waiting.path().to_path_buf();
         assert!(path.join(OURS).exists());
         drop(waiting);
         assert!(!path.exists());
