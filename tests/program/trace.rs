@@ -68,3 +68,16 @@ fn what_was_done_with_ties_is_said() {
     let help = answer(std::path::Path::new("."), "trace --help");
     assert!(help.contains(r#""simultaneous": "sequential""#) && help.contains(r#""joint" takes"#));
 }
+
+#[test]
+fn a_run_that_is_stopped_tells_its_rounding_and_has_no_certificate() {
+    // A fast mass between walls has more impacts in 1/w than a run may have.
+    let fast = r#"{"natural_frequency":0.001,"forcing_frequency":1000,"restitution":1,"forcing":[[0,1e6]]}"#;
+    let folder = folder(fast);
+    let trace = |more: &str| run(folder.path(), &format!("trace s.json --until 1e4{more}"));
+    let (code, plain, note) = trace("");
+    assert!(code == 4 && plain.lines().count() > 1000 && note.lines().count() == 2, "{note}");
+    assert!(note.contains("may move an impact") && !note.contains("certificate"), "{note}");
+    let (code, out, note) = trace(" --certify");
+    assert!(code == 4 && out == plain && note.contains("no certificate"), "{note}");
+}
