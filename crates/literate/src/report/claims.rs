@@ -2,8 +2,8 @@
 
 use super::markdown;
 use super::print::{Style, print};
-use super::values::{Digits, Number, Value, origin};
-use crate::claims::{Basis, Check, Digits as ClaimDigits, Piece, Published, Text, Verdict, split};
+use super::values::{Number, Value, origin};
+use crate::claims::{Basis, Check, Published, Text, Verdict, split};
 use serde::Serialize;
 
 /// One claim for a template: every field is Markdown, its numbers printed with their digits.
@@ -53,9 +53,9 @@ impl Row {
 
 /// A text of a claim as Markdown.
 pub fn sentence(text: &Text) -> String {
-    let piece = |piece: &Piece| match piece {
-        Piece::Words(words) => markdown::escaped(&symbols(words)),
-        Piece::Number(number) => print(&digits_of(number), Style::default()).markdown(),
+    let piece = |piece: &Number| match piece {
+        Number::Text(words) => markdown::escaped(&symbols(words)),
+        number => print(number, Style::default()).markdown(),
     };
     text.0.iter().map(piece).collect()
 }
@@ -88,22 +88,11 @@ fn symbols(text: &str) -> String {
 
 /// A text of a claim for terminals and data.
 pub fn plain(text: &Text) -> String {
-    let piece = |piece: &Piece| match piece {
-        Piece::Words(words) => words.clone(),
-        Piece::Number(number) => print(&digits_of(number), Style::default()).plain(),
+    let piece = |piece: &Number| match piece {
+        Number::Text(words) => words.clone(),
+        number => print(number, Style::default()).plain(),
     };
     text.0.iter().map(piece).collect()
-}
-
-fn digits_of(number: &crate::claims::Number) -> Number {
-    let value = number.value;
-    let digits = match number.digits {
-        ClaimDigits::Error(error) => Digits::Error(error),
-        ClaimDigits::Decimals(places) => Digits::Decimals(places.into()),
-        ClaimDigits::Significant(places) => Digits::Significant(places.into()),
-        ClaimDigits::Integer => return Number::Integer(value as i64),
-    };
-    Number::Real { value, digits }
 }
 
 /// What was printed, as values: the groups `paper` (parameters) and `printed` (statements).
