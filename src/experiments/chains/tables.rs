@@ -1,11 +1,14 @@
 //! What chains of other kinds say, each kind beside the paper's.
 
-use super::{Chains, Curve, Ensemble, joining};
+use super::run::FREQUENCIES;
+use super::{Chains, Curve, Ensemble, chain, joining};
+use crate::circuits::nucleation::chain::half;
+use crate::circuits::nucleation::reach::Reach;
 use crate::experiments::Results;
 use crate::experiments::protocol_tables::address;
 use crate::numerics::estimates::difference;
 use crate::numerics::statistics::Estimate;
-use crate::params::{ChainCurve, ChainKind};
+use crate::params::{Chain, ChainCurve, ChainKind};
 use crate::table::{Building, Table};
 use crate::value::origin;
 
@@ -91,7 +94,12 @@ pub fn tables(found: &Chains) -> Vec<Table> {
         lengths,
         half_height(transient(starts)).done(),
         half_height(transient(damped)).done(),
-        kept_half(half_height(components)).done(),
+        kept_half(half_height(components))
+            .computed_by(origin(one_frequency))
+            .real("one_frequency", UNIT, 3, "the same expected of one, at the mean square frequency", |place| {
+                one_frequency(found, place.own)
+            })
+            .done(),
         kept_half(half_height(frequencies))
             .real("all_phases", UNIT, 3, "the same expected if all phases come", there(0))
             .real("common_period", UNIT, 3, "the same with those that do", there(1))
@@ -108,6 +116,20 @@ fn kept_half<'a>(table: Building<'a, Place<'a>>) -> Building<'a, Place<'a>> {
     table.estimate("kept_half", UNIT, "where half of the chains have impacts", |place| {
         place.curve.kept_half
     })
+}
+
+/// The σ at which half of the chains ever have an impact, by the formula for clumps, if the force had one component
+/// with the same response, at the mean square of their frequencies.
+fn one_frequency(found: &Chains, own: &ChainCurve) -> f64 {
+    let several = chain(&found.parameters, own);
+    let square = |chain: &Chain| chain.forcing_frequency * chain.forcing_frequency;
+    let natural = several.natural_frequency * several.natural_frequency;
+    let others = FREQUENCIES.iter().take(own.components.saturating_sub(1));
+    let mean = others.fold(square(&several), |sum, x| sum + x * natural) / own.components as f64;
+    let one = Chain { forcing_frequency: mean.sqrt(), ..several.clone() };
+    let reach = Reach::ever(&one, 256);
+    let detuning = |chain: &Chain| (natural - square(chain)).abs();
+    half(&one, &reach, &reach.every(4)) * detuning(&several) / detuning(&one)
 }
 
 /// Open gaps, silence, and sizes.
