@@ -96,9 +96,13 @@ pub fn tables(found: &Chains) -> Vec<Table> {
         half_height(transient(damped)).done(),
         kept_half(half_height(components))
             .computed_by(origin(one_frequency))
-            .real("one_frequency", UNIT, 3, "the same expected of one, at the mean square frequency", |place| {
-                one_frequency(found, place.own)
-            })
+            .real(
+                "one_frequency",
+                UNIT,
+                3,
+                "the same expected of one, at the mean square frequency",
+                |place| one_frequency(found, place.own),
+            )
             .done(),
         kept_half(half_height(frequencies))
             .real("all_phases", UNIT, 3, "the same expected if all phases come", there(0))

@@ -55,6 +55,9 @@ fn part(
     unit.each(stage, |index| trace(parameters, sigma, index, progress))
 }
 
+/// So many chains are drawn in search of one at most: ten times as many as any search took at the paper's parameters.
+const DRAWN: u64 = 1_000_000;
+
 /// The amplitudes of a chain with exactly one gap that closes by itself, that gap, and how many chains
 /// were drawn for it.
 fn draw(
@@ -65,7 +68,7 @@ fn draw(
 ) -> Result<(Vec<[f64; 2]>, usize, u64), Error> {
     let chain = &parameters.chain;
     let mut forcing: Vec<[f64; 2]> = Vec::with_capacity(chain.masses);
-    for drawn in 1.. {
+    for drawn in 1..=DRAWN {
         if drawn % 1024 == 0 {
             progress.check()?;
         }
@@ -90,7 +93,13 @@ fn draw(
             return Ok((forcing, seed, drawn));
         }
     }
-    unreachable!("a u64 of chains")
+    Err(Error::Input {
+        field: "seeds".into(),
+        problem: format!(
+            "no chain of {DRAWN} has exactly one gap that closes by itself at sigma = {sigma}"
+        ),
+        remedy: "give fewer masses, or a forcing frequency farther from the natural one".into(),
+    })
 }
 
 /// The whole parts of its width that a gap's own motion from rest crosses: as many as it would close by itself
@@ -203,6 +212,13 @@ mod tests {
         (parameters.bin, parameters.bins, parameters.window) = (10.0, 12, 3);
         parameters.transients = vec![0, 4, 9];
         parameters
+    }
+
+    #[test]
+    fn a_chain_that_is_too_rare_is_not_looked_for_without_end() {
+        let mut normals = NormalPairs::new("test of seeds", 2, 0);
+        let told = draw(&small(), 10.0, &mut normals, &Progress::silent()).unwrap_err();
+        assert!(matches!(&told, Error::Input { field, .. } if field == "seeds"), "{told}");
     }
 
     #[test]
