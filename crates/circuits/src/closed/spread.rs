@@ -123,6 +123,34 @@ impl Spreading {
         })
     }
 
+    /// Half the sum of squares of all free amplitudes at a time, expected from these forces. A mass that was hit by then has s² of
+    /// [`heat`](super::heat), another one what cancels its forced motion at rest.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a σ that is not positive.
+    pub fn free(
+        &self,
+        sigma: f64,
+        forcing: &[[f64; 2]],
+        time: f64,
+        normals: &mut NormalPairs,
+    ) -> Result<f64, Error> {
+        let (omega, big_omega) = (self.chain.natural_frequency, self.chain.forcing_frequency);
+        let detuning = omega * omega - big_omega * big_omega;
+        let hot = heat::heat(&self.gas, &self.chain, sigma)?.map(|own| own.free);
+        let drawn = self.drawn(sigma, forcing)?;
+        let mut sum = 0.0;
+        for _ in 0..WAITS {
+            let first = drawn.first_impacts(normals);
+            for ([alpha, beta], gaps) in forcing.iter().zip(first.windows(2)) {
+                let (a, b) = (alpha / detuning, big_omega / omega * beta / detuning);
+                let hit = gaps[0].min(gaps[1]) <= time;
+                sum += hot.filter(|_| hit).unwrap_or(0.5 * (a * a + b * b));
+            }
+        }
+        Ok(sum / WAITS as f64)
+    }
+
     /// The mean count for each pair of a transient and a window, from so many drawn chains, with what their number leaves open.
     ///
     /// # Errors
@@ -262,6 +290,20 @@ mod tests {
                 assert!((found.value - expected).abs() < room, "{sigma}: {found:?} {expected}");
             }
         }
+    }
+
+    /// At once nothing was hit, and in the end all.
+    #[test]
+    fn free_motion_is_that_of_rest_and_then_that_of_the_running_chain() {
+        let spreading = Spreading::new(&Chain { masses: 3, ..Chain::default() }).unwrap();
+        let forcing = [[0.6, 0.1], [-0.7, 0.2], [0.5, -0.4]];
+        let mut normals = NormalPairs::new("test of free motion", 1, 0);
+        let mut at = |time| spreading.free(0.3, &forcing, time, &mut normals).unwrap();
+        // Amplitudes −α/D and −(Ω/ω)β/D with D = −1, Ω² = 2.
+        let rest: f64 = forcing.iter().map(|[a, b]| 0.5 * (a * a + 2.0 * b * b)).sum();
+        assert!((at(0.0) - rest).abs() < 1e-12);
+        let hot = heat::heat(&spreading.gas, &spreading.chain, 0.3).unwrap().unwrap();
+        assert!((at(1e9) - 3.0 * hot.free).abs() < 1e-12);
     }
 
     #[test]
