@@ -55,7 +55,7 @@ use literate::experiments::deep::Deep;
 use literate::experiments::experiment::How::{Cut, Read, Whole};
 
 /// All experiments, in the order in which they run.
-pub const ALL: [Need; 25] = [
+pub const ALL: [Need; 26] = [
     &SEGMENTS,
     &MEASURED,
     &SWEEP,
@@ -74,6 +74,7 @@ pub const ALL: [Need; 25] = [
     &NUCLEATION,
     &SEEDS,
     &HISTORY,
+    &LONG_HISTORY,
     &SILENCE,
     &INDEPENDENCE,
     &RESTITUTION,
@@ -276,6 +277,15 @@ pub const HISTORY: Experiment<HistoryParams, history::History, history::Part> = 
     parameters: HistoryParams::new,
     how: Cut("history", history::CUTTING),
     tables: history::tables::tables,
+};
+
+/// Long chains that are heated first.
+pub const LONG_HISTORY: Experiment<HistoryParams, history::History, history::Part> = Experiment {
+    name: "long_history",
+    code: code("src/experiments/history/mod.rs"),
+    parameters: HistoryParams::long,
+    how: Cut("long history", history::CUTTING),
+    tables: history::tables::of_long,
 };
 
 /// Chains that were hit, and when they are hit again.
