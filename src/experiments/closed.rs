@@ -64,6 +64,9 @@ impl ClosedParams {
     }
 }
 
+/// The least r for which the theory is meant: below, masses settle on regular motions.
+pub const MEANT_FOR: f64 = 0.7;
+
 /// One chain, for each protocol: the gaps with an impact when it is run, and the number that the theory expects.
 pub type Counts = Option<Vec<(u64, f64)>>;
 
@@ -310,9 +313,20 @@ pub fn tables(closed: &Closed) -> Vec<Table> {
             |(line, _)| line.off(),
         )
         .done();
+    let meant = |line: &&(&Line<'_>, [Option<Estimate>; 3])| chain(line.0).0 >= MEANT_FOR;
+    let shortest = own.chains.iter().map(|chain| chain.1).min();
+    let apart = halves.iter().filter(meant).filter_map(|(_, own)| own[2]);
+    let apart = apart.map(|own| own.value.abs()).fold(0.0, f64::max);
+    let short = halves.iter().filter(meant).filter(|(line, _)| Some(chain(line).1) == shortest);
+    let off = short.map(|(line, _)| line.off()).fold(0.0, f64::max);
     let all = Table::of("closed.all", &[own], |own| own.chains[0].2)
         .count("realisations", "chains at each σ", |own| own.chains[0].2 as u64)
         .count("sigmas", "values of σ", |own| own.sigmas.len() as u64)
+        .chosen("meant_for", "1", "least r for which the theory is meant", |_| Some(MEANT_FOR))
+        .real("apart", "d omega^2", 2, "largest difference of half heights from there on", |_| {
+            apart
+        })
+        .real("off", "1", 2, "largest difference of counts there, in the shortest chains", |_| off)
         .done();
     vec![counts, rises, drift(closed), all]
 }
@@ -359,6 +373,9 @@ mod tests {
         assert!((of("expected") - 0.15).abs() < 1e-12 && (of("apart") + 0.05).abs() < 1e-12);
         // At the first two σ one of both is inside the rise: 2 and 3 apart.
         assert!((of("off") - 6.5_f64.sqrt()).abs() < 1e-12);
+        let all = tables.last().unwrap();
+        assert_eq!(all.number(&[], "off"), Ok(of("off")));
+        assert!((all.number(&[], "apart").unwrap() - 0.05).abs() < 1e-12);
         let keys = [("r", 0.8), ("masses", 9.0), ("transient", 10.0), ("sigma", 0.2)];
         assert_eq!(tables[0].number(&keys, "found").unwrap(), 5.0);
     }

@@ -115,9 +115,12 @@ fn advance(rows: &[Row<'_>]) -> Table {
         .done()
 }
 
+fn whole(row: &&Row<'_>) -> bool {
+    (100.0 * row.sigma).round() / 100.0 == row.sigma
+}
+
 /// What fronts do, at whole hundredths.
 fn fronts(rows: &[Row<'_>]) -> Table {
-    let whole = |row: &&Row<'_>| (100.0 * row.sigma).round() / 100.0 == row.sigma;
     let rows: Vec<&Row<'_>> = rows.iter().filter(whole).collect();
     let mut table = Table::of("seeds.fronts", &rows, |row| row.runs.len())
         .key("sigma", SIGMA, |row| row.sigma)
@@ -266,6 +269,19 @@ fn all(parameters: &SeedsParams, rows: &[Row<'_>]) -> Table {
             Some(format!("seeds.course[sigma={},until={end}].alive", least?.sigma))
         })
         .real("beat", TIME, 3, "2π/|Ω − ω|", |own| beat(&own.chain))
+        .real(
+            "speed_off",
+            "1",
+            1,
+            "largest relative difference of a speed by the closed theory",
+            |_| {
+                let off = |row: &Row<'_>| {
+                    let [found, expected] = [&row.fronts, &row.expected].map(Fronts::speed);
+                    Some((expected?.value / found?.value - 1.0).abs())
+                };
+                rows.iter().filter(whole).filter_map(off).fold(0.0, f64::max)
+            },
+        )
         .count("fronts", "fronts of all runs", |_| count(|run| run.fronts))
         .count("steps", "steps of all of them", |_| count(Waits::steps))
         .real("spacing", "1", 2, "gaps from one that closes by itself to the next, there", |_| {
@@ -355,6 +371,7 @@ mod tests {
         assert_eq!(fronts.number(&[("sigma", 0.1)], "speed_expected"), Ok(1.0 / 20.0));
         let of = |column| all.number(&[], column).unwrap();
         assert_eq!([of("fronts"), of("steps"), of("least_alive")], [4.0, 3.0, 0.5]);
+        assert!((of("speed_off") - (0.05 / 0.015 - 1.0)).abs() < 1e-12);
         assert!((of("meeting_time") * 2.0 * speed / of("spacing") - 1.0).abs() < 1e-14);
     }
 }
