@@ -314,11 +314,16 @@ pub fn tables(closed: &Closed) -> Vec<Table> {
         )
         .done();
     let meant = |line: &&(&Line<'_>, [Option<Estimate>; 3])| chain(line.0).0 >= MEANT_FOR;
-    let shortest = own.chains.iter().map(|chain| chain.1).min();
     let apart = halves.iter().filter(meant).filter_map(|(_, own)| own[2]);
     let apart = apart.map(|own| own.value.abs()).fold(0.0, f64::max);
-    let short = halves.iter().filter(meant).filter(|(line, _)| Some(chain(line).1) == shortest);
-    let off = short.map(|(line, _)| line.off()).fold(0.0, f64::max);
+    let masses = |which: fn(usize, usize) -> usize| {
+        own.chains.iter().map(|chain| chain.1).reduce(which).unwrap_or(0)
+    };
+    let [shortest, longest] = [masses(usize::min), masses(usize::max)];
+    let off = |masses: usize| {
+        let own = halves.iter().filter(meant).filter(|(line, _)| chain(line).1 == masses);
+        own.map(|(line, _)| line.off()).fold(0.0, f64::max)
+    };
     let all = Table::of("closed.all", &[own], |own| own.chains[0].2)
         .count("realisations", "chains at each σ", |own| own.chains[0].2 as u64)
         .count("sigmas", "values of σ", |own| own.sigmas.len() as u64)
@@ -326,7 +331,15 @@ pub fn tables(closed: &Closed) -> Vec<Table> {
         .real("apart", "d omega^2", 2, "largest difference of half heights from there on", |_| {
             apart
         })
-        .real("off", "1", 2, "largest difference of counts there, in the shortest chains", |_| off)
+        .real("off", "1", 2, "largest difference of counts there, in the shortest chains", |_| {
+            off(shortest)
+        })
+        .real("off_longest", "1", 2, "the same in the longest", |_| off(longest))
+        .chosen("longest", "1", "masses of these", |_| Some(longest as f64))
+        .chosen("from", "1/omega", "last transient but one", |own| {
+            own.protocols.iter().rev().nth(1).map(|own| own[0])
+        })
+        .chosen("to", "1/omega", "last transient", |own| own.protocols.last().map(|own| own[0]))
         .done();
     vec![counts, rises, drift(closed), all]
 }
