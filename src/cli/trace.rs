@@ -221,9 +221,20 @@ pub fn run(args: Args) -> Result<(), Failure> {
         lines.push_str(header);
     }
     let written = written.and_then(|()| out.write_all(lines.as_bytes()));
+    let rounded = rounded(&scenario).filter(|_| args.method.is_certified());
     let (certificate, ties) = match (ran, written.and_then(|()| out.flush())) {
         (_, Err(error)) => return stdout::written(Err(error)),
-        (ran, Ok(())) => ran.map_err(in_file)?,
+        (Ok(ran), Ok(())) => ran,
+        (Err(error), Ok(())) => {
+            let stopped = matches!(error, Error::Work { .. });
+            let failure = in_file(error);
+            // The impacts of a run that was stopped have the same rounding.
+            if let Some(rounded) = rounded.filter(|_| stopped) {
+                say(&format!("impact-paper: {rounded}"));
+            }
+            let uncertain = stopped && args.certify;
+            return Err(if uncertain { failure.and("it has no certificate") } else { failure });
+        }
     };
     if let Some(error) = no_derivative {
         return Err(in_file(error));
@@ -231,7 +242,6 @@ pub fn run(args: Args) -> Result<(), Failure> {
     if ties > 0 {
         say(&simultaneous(ties, scenario.simultaneous));
     }
-    let rounded = rounded(&scenario).filter(|_| args.method.is_certified());
     match (certificate.map(|own| line(&own, most - left)), rounded) {
         (Some(line), Some(rounded)) => say(&format!("{line}; {rounded}")),
         (Some(line), None) => say(&line),

@@ -1,4 +1,9 @@
 //! Whether impacts ever end: chains that were hit, and when they are hit again; and how far impacts come, beside the closed theory.
+//!
+//! They do not. Let the last impact of a chain be at a gap of width d + R cos(ωt + φ) + Q cos(Ωt + ψ) afterwards, for ever. It is zero at the impact and
+//! rises at r V > 0 there, so its least value over all phases is below zero: R + Q > d. As ω and Ω have no common period the phases come as near to
+//! the least value as one likes, and the gap closes. Contact is no way out: a shut gap is pressed by a force whose mean opens it, for the springs
+//! part the masses, so contact ends; the width has vanishing first and second derivatives then, which at its least it cannot have.
 
 use super::weights;
 use super::{Error, Progress};

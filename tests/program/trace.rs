@@ -91,3 +91,16 @@ fn derivatives_are_a_column_and_end_where_there_are_none() {
         run(folder.path(), "trace s.json --until 10 --sensitivity sigma --max-impacts 1");
     assert_eq!(code, 0);
 }
+
+#[test]
+fn a_run_that_is_stopped_tells_its_rounding_and_has_no_certificate() {
+    // A fast mass between walls has more impacts in 1/w than a run may have.
+    let fast = r#"{"natural_frequency":0.001,"forcing_frequency":1000,"restitution":1,"forcing":[[0,1e6]]}"#;
+    let folder = folder(fast);
+    let trace = |more: &str| run(folder.path(), &format!("trace s.json --until 1e4{more}"));
+    let (code, plain, note) = trace("");
+    assert!(code == 4 && plain.lines().count() > 1000 && note.lines().count() == 2, "{note}");
+    assert!(note.contains("may move an impact") && !note.contains("certificate"), "{note}");
+    let (code, out, note) = trace(" --certify");
+    assert!(code == 4 && out == plain && note.contains("no certificate"), "{note}");
+}

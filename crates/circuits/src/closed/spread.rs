@@ -16,7 +16,7 @@
 //! both sides, and fronts meet: all of this is in it, since forces are drawn and not averaged.
 //!
 //! *Where it fails.* The first few waits next to a gap that closes by itself are too short, by a factor of three and more: two masses alone settle on regular motions
-//! with less energy than the balance gives them. And at r ≤ 0.6 whole regions do so and end, where here every front goes on at last:
+//! with less energy than the balance gives them. And at r ≤ 0.6 whole regions do so: impacts go on, but leave their neighbours alone, where here every front goes on at last and no gap is quiet:
 //! at r = 0.6 fronts are too fast by a factor of two to three, and after long times the count is too high by some 40 gaps of 101.
 
 use super::front::{Draws, Passage, passage};
