@@ -64,7 +64,7 @@ impl ClosedParams {
     }
 }
 
-/// The least r for which the theory is meant: below, masses settle on regular motions.
+/// The least r for which the theory is meant: below, much of what was reached falls quiet for long.
 pub const MEANT_FOR: f64 = 0.7;
 
 /// One chain, for each protocol: the gaps with an impact when it is run, and the number that the theory expects.

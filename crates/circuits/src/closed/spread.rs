@@ -15,9 +15,10 @@
 //! scaled from the same numbers at every σ. Gaps that nearly close by themselves are near each other, an obstacle is one for the fronts from
 //! both sides, and fronts meet: all of this is in it, since forces are drawn and not averaged.
 //!
-//! *Where it fails.* The first few waits next to a gap that closes by itself are too short, by a factor of three and more: two masses alone settle on regular motions
-//! with less energy than the balance gives them. And at r ≤ 0.6 whole regions do so: impacts go on, but leave their neighbours alone, where here every front goes on at last and no gap is quiet:
-//! at r = 0.6 fronts are too fast by a factor of two to three, and after long times the count is too high by some 40 gaps of 101.
+//! *Where it fails.* The first few waits next to a gap that closes by itself are too short, by a factor of three and more. And at r ≤ 0.6 places fall
+//! quiet for long, a third and more of what was reached, though impacts never end; here all are as active as in the mean.
+//! At r = 0.6 fronts come to up to twice as many gaps as those of runs, and after long times the count is too high by some 40 gaps of 101. It is no matter of a
+//! second solution: the balance of all masses comes to the same from a cold start.
 
 use super::front::{Draws, Passage, passage};
 use super::heat;
