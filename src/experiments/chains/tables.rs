@@ -2,11 +2,12 @@
 
 use super::run::FREQUENCIES;
 use super::{Chains, Curve, Ensemble, chain, joining};
+use crate::circuits::impact_probability::ImpactProbability;
 use crate::circuits::nucleation::chain::half;
 use crate::circuits::nucleation::reach::Reach;
 use crate::experiments::Results;
 use crate::experiments::protocol_tables::address;
-use crate::numerics::estimates::difference;
+use crate::numerics::estimates::{difference, with_error};
 use crate::numerics::statistics::Estimate;
 use crate::params::{Chain, ChainCurve, ChainKind};
 use crate::table::{Building, Table};
@@ -220,6 +221,17 @@ pub fn beside_map(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
     Some(vec![undamped, fall])
 }
 
+/// ln 2/2p at a half height: regions of this length to both sides of seeds of density p leave half of all gaps.
+fn growth_length(chain: &Chain, at: Estimate) -> Option<Estimate> {
+    let (omega, big_omega) = (chain.natural_frequency, chain.forcing_frequency);
+    let length = |sigma: f64| {
+        let p = ImpactProbability::new(sigma, chain.spacing, omega, big_omega).ok()?.p_from_rest();
+        Some(0.5 * std::f64::consts::LN_2 / p.ok()?)
+    };
+    let [below, above] = [-0.5, 0.5].map(|share| length(at.value + share * at.error));
+    Some(with_error(length(at.value)?, (below? - above?).abs()))
+}
+
 /// Half heights by length and transient.
 pub fn sizes(found: &Chains) -> Vec<Table> {
     let all = places(found, ChainKind::Length);
@@ -232,6 +244,12 @@ pub fn sizes(found: &Chains) -> Vec<Table> {
         Some(difference(place.half_height()?, last.half_height()?))
     };
     let table = half_height(masses(transient(begin("sizes.places", &all))))
+        .estimate(
+            "length",
+            "1",
+            "ℓ = ln 2/2p: to which each gap that closes by itself has sent impacts, to both sides",
+            |place| growth_length(&found.parameters.chain, place.half_height()?),
+        )
         .estimate("lead", UNIT, "how much lower it is in the longest chains", lead)
         .done();
     vec![table]
