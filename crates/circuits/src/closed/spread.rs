@@ -125,7 +125,7 @@ impl Spreading {
     }
 
     /// Half the sum of squares of all free amplitudes at a time, expected from these forces. A mass that was hit by then has s² of
-    /// [`heat`](super::heat), another one what cancels its forced motion at rest.
+    /// [`heat`], another one what cancels its forced motion at rest.
     ///
     /// # Errors
     /// [`Error::Input`] for a σ that is not positive.
