@@ -146,6 +146,7 @@ trace s.json --until 5 --max-impacts 1e9 => --max-impacts; it is no whole number
 sweep --sigma 0.1 --masses 1e9 => --masses; it is no whole number
 sweep --sigma 0.1 --masses 5 --threads 4294967296 => --threads: 4294967296
 bench scenario --masses 1500000 => --masses:; 64 MiB; fewer masses
+bench scenario --masses 1000000000000 => --masses:; 64 MiB; fewer masses
 paper --figure= => no figure \"\"
 paper --profile quick --figure 3 --out d/e --results file => results directory file
 trace s.json --until 5 --untill 6 => --untill
@@ -189,7 +190,7 @@ bench engine --threads 0 => --threads: 0
 bench engine --masses 10 --threads 1000000000 => --threads: 1000000000
 bench engine --repetitions 0 => --repetitions: 0
 bench scenario --masses 0 => --masses: 0
-bench scenario|methods --masses 1000000000000 => --masses: about
+bench methods --masses 1000000000000 => --masses: about
 bench methods --until NaN => --until: NaN
 bench methods --reference nowhere.json => --reference: nowhere.json
 paper --figure 16|0|x => --figure
