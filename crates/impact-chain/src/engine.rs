@@ -86,6 +86,7 @@ impl Engine {
 
     /// Runs until time `until`, and hands each impact to `sink` in order; stops early, right
     /// after that impact, when `sink` returns false. May be called again with a later time.
+    /// A chain of very many masses hands them out by slices of time.
     ///
     /// # Errors
     /// [`Error::Work`] when the bound on work is exceeded.

@@ -57,7 +57,7 @@ const EVENTS_PER_GAP: u64 = 100_000;
 
 /// Below this fraction of d a gap is carried on in its own frame when a neighbour is hit: as a
 /// difference of two positions it would have lost its digits.
-const NEARLY_SHUT: f64 = 1e-9;
+pub(super) const NEARLY_SHUT: f64 = 1e-9;
 
 /// Overlap, as a fraction of d + R₁ + R₂, beyond which a gap cannot be explained by rounding.
 const ROUNDING: f64 = 1e-12;
