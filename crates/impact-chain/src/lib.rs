@@ -8,7 +8,7 @@
 //! - [`Engine::run`] hands out each [`Impact`]; masses that stay together are in contact, with a contact force
 //!   ([`Engine::contacts`]), and gaps that close at the same instant follow a rule ([`Simultaneous`]).
 //! - [`certify()`] says up to which impact a run can be trusted where it is chaotic, [`rounding`] bounds
-//!   what rounding does to one impact.
+//!   what rounding does to one impact. [`Sensitivity`] has the derivatives of impact times by the strength of the forcing.
 //! - [`methods`] are other ways to simulate the same chain, to compare with.
 //!
 //! ```
@@ -48,6 +48,7 @@ mod linear;
 pub mod methods;
 pub mod rounding;
 mod scenario;
+mod sensitivity;
 mod simulation;
 mod simultaneous;
 mod topology;
@@ -58,4 +59,5 @@ pub use engine::{Counters, Engine, Impact};
 pub use error::Error;
 pub use growth::Growth;
 pub use scenario::{Initial, Overtone, Scenario};
+pub use sensitivity::Sensitivity;
 pub use simultaneous::Simultaneous;
