@@ -40,6 +40,7 @@ mod engine;
 mod error;
 mod flight;
 mod force;
+mod front;
 mod gap;
 mod growth;
 mod impact;

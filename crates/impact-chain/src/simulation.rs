@@ -8,6 +8,7 @@
 use super::engine::{Counters, Impact, Sink};
 use super::flight::{Motion, Phases, Rates};
 use super::force::Force;
+use super::front::Front;
 use super::gap;
 use super::impact::jumps;
 use super::simultaneous::Ties;
@@ -56,7 +57,7 @@ const EVENTS_PER_GAP: u64 = 100_000;
 
 /// Below this fraction of d a gap is carried on in its own frame when a neighbour is hit: as a
 /// difference of two positions it would have lost its digits.
-const NEARLY_SHUT: f64 = 1e-9;
+pub(super) const NEARLY_SHUT: f64 = 1e-9;
 
 /// Overlap, as a fraction of d + R₁ + R₂, beyond which a gap cannot be explained by rounding.
 const ROUNDING: f64 = 1e-12;
@@ -83,11 +84,13 @@ pub(super) struct Simulation<const M: usize> {
     pub(super) queue: Earliest,
     pub(super) now: Instant,
     pub(super) work: Work,
-    impacts: u64,
+    pub(super) impacts: u64,
     pub(super) contact_phases: u64,
     pub(super) ties: Ties,
-    budget_end: Instant,
-    budget_left: u64,
+    pub(super) budget_end: Instant,
+    pub(super) budget_left: u64,
+    /// Only of a long chain.
+    pub(super) front: Option<Box<Front<M>>>,
 }
 
 /// A width below zero by rounding is zero unless the gap is closing, and then due now.
@@ -152,6 +155,7 @@ impl<const M: usize> Simulation<M> {
             ties: Ties::new(scenario.simultaneous),
             budget_end: Instant::ZERO.after(1.0 / w),
             budget_left: EVENTS_PER_GAP * gaps as u64,
+            front: Front::of(gaps, w).map(Box::new),
         };
         simulation.start()?;
         Ok(simulation)
@@ -199,14 +203,26 @@ impl<const M: usize> Simulation<M> {
         if !self.ties.left.is_empty() && !self.hand_out(sink) {
             return Ok(());
         }
+        if let Some(mut front) = self.front.take() {
+            let goes_on = self.run_in_slices(&mut front, end, sink);
+            self.front = Some(front);
+            if !goes_on? {
+                return Ok(());
+            }
+        }
+        self.run_in_order(end, sink).map(|_| ())
+    }
+
+    /// Takes all events up to `end` in the order of time; false if the receiver wants no more.
+    pub(super) fn run_in_order(&mut self, end: Instant, sink: Sink) -> Result<bool, Error> {
         while let Some(k) = self.next_event(end) {
             if let Some(impact) = self.step(k)?
                 && (!sink(impact) || !self.ties.left.is_empty() && !self.hand_out(sink))
             {
-                break;
+                return Ok(false);
             }
         }
-        Ok(())
+        Ok(true)
     }
 
     /// Goes to the next event up to `end`; returns its gap.
@@ -305,6 +321,7 @@ impl<const M: usize> Simulation<M> {
     }
 
     /// The impact of gap k at `speed`.
+    #[inline(always)]
     fn collide(&mut self, k: usize, speed: f64, phases: &Phases<M>) {
         if self.is_contact_matter(k, speed) {
             return self.collide_in_contact(k, speed, phases);

@@ -10,6 +10,9 @@ use super::clock::Instant;
 /// [`first_in_full`](Self::first_in_full) goes by the full keys. So there is no branch on the way up, and only who
 /// needs the exact order asks for it. Words end 64 units of time after the epoch; when no key is left
 /// before that end, the earliest becomes the epoch. The shape is fixed, so the order of changes never matters.
+///
+/// The order may be [slanted](Self::slant): then a key counts as later by its distance from the nearer end, and
+/// [`first_nearby`](Self::first_nearby) goes from both ends to the middle.
 #[derive(Clone, Debug)]
 pub struct Earliest {
     /// The keys in full, "never" beyond `len`.
@@ -18,7 +21,22 @@ pub struct Earliest {
     nodes: Vec<u64>,
     epoch: Instant,
     last: usize,
+    slant: Option<Slant>,
 }
+
+/// How words are made where the order is slanted, in units of 2^-58 of time.
+#[derive(Clone, Copy, Debug)]
+struct Slant {
+    /// From this time after the epoch on, keys have no words.
+    height: u64,
+    /// Words have no room for the last bits of a time.
+    shift: u32,
+    /// What one step away from the end adds.
+    step: u64,
+}
+
+/// With a slanted order, keys that may be earlier than the first are looked for within so many places.
+const NEARBY: usize = 4;
 
 impl Earliest {
     /// Bytes for each key, of a power of two of them.
@@ -28,7 +46,8 @@ impl Earliest {
     pub fn new(len: usize) -> Self {
         let width = len.next_power_of_two();
         let (keys, nodes) = (vec![Instant::NEVER; width], vec![0; 2 * width]);
-        let mut earliest = Earliest { keys, nodes, epoch: Instant::ZERO, last: len - 1 };
+        let mut earliest =
+            Earliest { keys, nodes, epoch: Instant::ZERO, last: len - 1, slant: None };
         earliest.rebase(Instant::ZERO);
         earliest
     }
@@ -38,7 +57,10 @@ impl Earliest {
         self.epoch = epoch;
         let width = self.keys.len();
         for index in 0..width {
-            self.nodes[width + index] = self.word(index, self.keys[index]);
+            self.nodes[width + index] = match &self.slant {
+                None => self.word(index, self.keys[index]),
+                Some(slant) => self.slanted_word(slant, index, self.keys[index]),
+            };
         }
         for node in (1..width).rev() {
             self.nodes[node] = self.nodes[2 * node].min(self.nodes[2 * node + 1]);
@@ -56,6 +78,65 @@ impl Earliest {
         key.fine(self.epoch) & !self.mask() | index as u64
     }
 
+    #[inline(always)]
+    fn slanted_word(&self, slant: &Slant, index: usize, key: Instant) -> u64 {
+        let fine = key.fine(self.epoch);
+        let slanted = (fine >> slant.shift) + slant.step * self.place(index) as u64;
+        let time = if fine < slant.height { slanted } else { u64::MAX };
+        time & !self.mask() | index as u64
+    }
+
+    /// How far `index` is from the nearer end, where the last and the first are neighbours too.
+    #[inline(always)]
+    pub fn place(&self, index: usize) -> usize {
+        index.min((self.last + 1).wrapping_sub(index))
+    }
+
+    /// Slants the order: of all keys within `height` units of time from `epoch`, those come first that are least when one
+    /// place away from an end counts as much as `height` / `places`.
+    pub fn slant(&mut self, epoch: Instant, height: f64, places: usize) {
+        let height = Instant::ZERO.after(height).fine(Instant::ZERO);
+        // The farthest place adds so many heights.
+        let shift = (1 + self.last / places).ilog2() + 1;
+        self.slant = Some(Slant { height, shift, step: (height >> shift) / places as u64 });
+        self.rebase(epoch);
+    }
+
+    /// Has the order straight again.
+    pub fn straighten(&mut self) {
+        if self.slant.take().is_none() {
+            return;
+        }
+        let first = self.keys.iter().min().copied().filter(|&key| key < Instant::NEVER);
+        self.rebase(first.unwrap_or(self.epoch));
+    }
+
+    /// The first in the slanted order, or whom a walk to earlier keys a few places farther in leads to. Nothing if none is
+    /// left within the height.
+    #[inline(always)]
+    pub fn first_nearby(&self) -> Option<(usize, Instant)> {
+        let (word, mask) = (self.nodes[1], self.mask());
+        if word >= !mask {
+            return None;
+        }
+        let mut index = (word & mask) as usize;
+        loop {
+            let from = if index <= self.last / 2 { index } else { index - NEARBY };
+            let nearby = &self.keys[from..=from + NEARBY];
+            let earlier = |best: usize, i: usize| if nearby[i] < nearby[best] { i } else { best };
+            let best = (1..=NEARBY).fold(0, earlier);
+            if from + best == index {
+                return Some((index, nearby[best]));
+            }
+            index = from + best;
+        }
+    }
+
+    /// Sets key `index` again; its word waits for the next change of the order.
+    pub fn restore(&mut self, index: usize, key: Instant) {
+        self.keys[index] = key;
+    }
+
     /// Changes the keys of `first`, `first` + 1, …, at most three.
     ///
     /// Neighbours have at most two nodes of each level above them. The two winners are carried
@@ -66,7 +147,10 @@ impl Earliest {
         const { assert!(K <= 3) };
         let width = self.keys.len();
         self.keys[first..first + K].copy_from_slice(&keys);
-        let words: [u64; K] = std::array::from_fn(|i| self.word(first + i, keys[i]));
+        let words: [u64; K] = match &self.slant {
+            None => std::array::from_fn(|i| self.word(first + i, keys[i])),
+            Some(slant) => std::array::from_fn(|i| self.slanted_word(slant, first + i, keys[i])),
+        };
         let nodes = self.nodes.as_mut_slice();
         let mask = nodes.len() - 1;
         let (mut low, mut high) = (width + first, width + first + K - 1);
@@ -93,7 +177,14 @@ impl Earliest {
         (self.keys[before] == own) | (self.keys[after] == own)
     }
 
+    /// Key `index`, and its word: what a change of it reads first.
+    #[inline(always)]
+    pub fn leaf(&self, index: usize) -> (Instant, u64) {
+        (self.keys[index], self.nodes[self.keys.len() + index])
+    }
+
     /// Key `index`.
+    #[inline(always)]
     pub fn key(&self, index: usize) -> Instant {
         self.keys[index]
     }

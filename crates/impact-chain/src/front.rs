@@ -1,0 +1,483 @@
+//! Long chains: the events of a slice of time along a front, so that neighbours follow one another in memory too.
+//!
+//! In the order of time the next event may be anywhere, and in a chain of a million each waits for memory. But an event of
+//! gap k concerns the gaps k − 1, k and k + 1 alone. So a slice of time is gone through by a front from both ends to the
+//! middle: those events come first for which t + λ (distance from the end) is least. At any moment only some hundred
+//! gaps are concerned, and they are read ahead in the order of memory.
+//!
+//! **Why the impacts are the same.** Two events out of order matter to one another only if they concern a common gap. The
+//! one that is taken last, though it is earlier, finds that gap framed later than itself; and the other would have found it waiting,
+//! had it been known by then. Each event looks for both (`is_local`). If one finds either, or an exact tie, or is part of a contact
+//! of too many gaps, the slice is undone as a whole and taken in order. That is rare: the front passes some hundred gaps
+//! in a unit of time, impacts that are merely close to one another are kept in order by a walk to what is earlier nearby, and
+//! no run of impacts was seen to overtake it but those that were made to.
+
+use super::Error;
+use super::engine::{Impact, Sink};
+use super::flight::{Motion, Phases};
+use super::force::Force;
+use super::simulation::{Awaits, Gap, NEARLY_SHUT, Simulation};
+use super::simultaneous::Simultaneous;
+use impact_numerics::clock::Instant;
+use impact_numerics::first_root::Work;
+use std::hint::black_box;
+
+/// From so many gaps on, a chain is taken along a front: shorter ones stay in the cache as they are.
+const LONG: usize = 50_000;
+
+/// Gaps of each half that the front spans.
+const PLACES: usize = 512;
+
+/// Events of a slice, for each gap: so many are wanted, and no more are taken before the slice is given up. With fewer, the
+/// chain is read more often; with more, there is more to keep.
+const WANTED: f64 = 1.0;
+const MOST: usize = 2;
+
+/// Units of time in a slice, at least and at most: the queue has words for 64, each of them for 1/[`WORDS`].
+const LEAST: f64 = 1e-9;
+const LARGEST: f64 = 30.0;
+const WORDS: f64 = (1u64 << 58) as f64;
+
+/// A slice is a waste that has fewer events for each gap, however long it is.
+const FEW: f64 = 0.02;
+
+/// An event of contact may concern gaps so far on either side, and one more; of impacts at one instant there are fewer.
+const NEARBY: usize = 8;
+
+/// Gaps of each half that are read at once.
+const AHEAD: usize = 64;
+
+/// A gap as it was before the slice, with the free part of the mass to its left.
+#[derive(Clone, Debug)]
+struct Before<const M: usize> {
+    k: usize,
+    gap: Gap<M>,
+    key: Instant,
+    free: [f64; 2],
+}
+
+/// What contact changes besides, of a gap and the mass to its left.
+type BeforeContact<const M: usize> = (usize, Motion<M>, Force<M>);
+
+/// An impact that is yet to be handed out.
+#[derive(Clone, Copy, Debug)]
+struct Found {
+    at: Instant,
+    /// How many were found before it.
+    number: u32,
+    k: u32,
+    closing_speed: f64,
+}
+
+/// What a simulation counts: the time of its last event, its work, its impacts and phases of contact, its budget.
+type Counted = (Instant, Work, [u64; 2], (Instant, u64));
+
+/// The front of a long chain.
+#[derive(Clone, Debug)]
+pub(super) struct Front<const M: usize> {
+    places: usize,
+    wanted: f64,
+    /// Units of time that the next slice is to take.
+    height: f64,
+    /// Units of time that were taken in order after the last slice, since it was a waste: twice as many each time.
+    pause: f64,
+    before: Vec<Before<M>>,
+    before_contact: Vec<BeforeContact<M>>,
+    found: Vec<Found>,
+    #[cfg(test)]
+    undone: u32,
+}
+
+impl<const M: usize> Front<M> {
+    /// Bytes for each gap, at most.
+    pub const BYTES: usize = size_of::<Before<M>>() + MOST * size_of::<Found>();
+
+    /// Of a chain of so many gaps, should it need one.
+    pub fn of(gaps: usize, natural_frequency: f64) -> Option<Self> {
+        (gaps >= LONG).then(|| Self::new(PLACES, WANTED, 0.5 / natural_frequency))
+    }
+
+    fn new(places: usize, wanted: f64, height: f64) -> Self {
+        Front {
+            places,
+            wanted,
+            height: height.clamp(LEAST, LARGEST),
+            pause: 0.0,
+            before: Vec::new(),
+            before_contact: Vec::new(),
+            found: Vec::new(),
+            #[cfg(test)]
+            undone: 0,
+        }
+    }
+
+    /// Sorts the impacts found by time. False if those of one instant may not be as in the order of time, where the lowest
+    /// gap of all comes first: here the lowest nearby does.
+    fn sort(&mut self) -> bool {
+        // By two comparisons, of which the second is hardly ever asked for.
+        let order = |a: &Found, b: &Found| a.at.cmp(&b.at).then(a.number.cmp(&b.number));
+        self.found.sort_unstable_by(order);
+        let mut instants = self.found.chunk_by(|one, next| one.at == next.at);
+        instants.all(|own| own.len() < NEARBY && own.is_sorted_by(|one, next| one.k <= next.k + 1))
+    }
+
+    /// Has the next slice take as long as so many events ask for.
+    fn learn(&mut self, height: f64, events_per_gap: f64) {
+        let factor = (self.wanted / events_per_gap).clamp(0.5, 2.0);
+        self.height = (height * factor).clamp(LEAST, LARGEST);
+    }
+}
+
+impl<const M: usize> Simulation<M> {
+    /// Runs slice by slice up to `end`, or as far as is worth a slice; false if the receiver wants no more.
+    pub(super) fn run_in_slices(
+        &mut self,
+        front: &mut Front<M>,
+        end: Instant,
+        sink: Sink,
+    ) -> Result<bool, Error> {
+        let (mut begin, mut goes_on) = (self.now, true);
+        while goes_on {
+            let left = end.since(begin);
+            if left < 0.25 * front.height {
+                break;
+            }
+            // All slices alike, and whole numbers of what words can tell.
+            let height = (left / (left / front.height).ceil() * WORDS).floor() / WORDS;
+            let counted = self.counted();
+            let followed = self.follow(front, begin, height);
+            if followed.is_some() {
+                begin = begin.after(height);
+                goes_on = self.hand_out_found(front, counted, begin, sink)?;
+            } else {
+                self.undo(front, counted);
+                #[cfg(test)]
+                {
+                    front.undone += 1;
+                }
+            }
+            let few = height > 0.5 * LARGEST && followed < Some(FEW);
+            let waste = few || followed.is_none();
+            front.pause = if waste { height.max(2.0 * front.pause) } else { 0.0 };
+            if goes_on && front.pause > 0.0 {
+                begin = begin.after(front.pause.min(end.since(begin)));
+                self.queue.straighten();
+                goes_on = self.run_in_order(begin, sink)?;
+            }
+        }
+        self.queue.straighten();
+        Ok(goes_on)
+    }
+
+    /// Hands out the impacts of a slice up to `end`; false if the receiver wants no more.
+    fn hand_out_found(
+        &mut self,
+        front: &mut Front<M>,
+        counted: Counted,
+        end: Instant,
+        sink: Sink,
+    ) -> Result<bool, Error> {
+        let mut handed = 0;
+        let goes_on = front.found.iter().all(|&Found { at, k, closing_speed, .. }| {
+            handed += 1;
+            sink(Impact { time: at.time(), gap: self.topology.label(k as usize), closing_speed })
+        });
+        if !goes_on {
+            // The state is to be that right after the last impact that was handed out.
+            self.undo(front, counted);
+            self.run_in_order(end, &mut |_| {
+                handed -= 1;
+                handed > 0
+            })?;
+        }
+        Ok(goes_on)
+    }
+
+    /// Takes the events of a slice along the front, and counts them for each gap; nothing if one of them cannot be taken there.
+    fn follow(&mut self, front: &mut Front<M>, begin: Instant, height: f64) -> Option<f64> {
+        front.before.clear();
+        front.before_contact.clear();
+        front.found.clear();
+        self.queue.slant(begin, height, front.places);
+        let (mut latest, mut read, mut events, gaps) = (self.now, 0, 0, self.gaps.len());
+        while let Some((k, at)) = self.queue.first_nearby() {
+            self.read_ahead(k, &mut read);
+            self.now = at;
+            events += 1;
+            if events > MOST * gaps {
+                front.height = (0.5 * height).max(LEAST);
+                return None;
+            }
+            if !(self.is_local(k, begin, front) || self.is_local_contact(k, begin, front)) {
+                return None;
+            }
+            if let Some(Impact { closing_speed, .. }) = self.step(k).ok()? {
+                let number = front.found.len() as u32;
+                front.found.push(Found { at, number, k: k as u32, closing_speed });
+            }
+            latest = latest.max(at);
+        }
+        self.now = latest;
+        if !front.sort() {
+            return None;
+        }
+        let events_per_gap = events as f64 / gaps as f64;
+        front.learn(height, events_per_gap);
+        Some(events_per_gap)
+    }
+
+    /// Whether the event of gap k now concerns no more than its neighbours, and comes in order among them. Keeps them, if so.
+    #[inline(always)]
+    fn is_local(&self, k: usize, begin: Instant, front: &mut Front<M>) -> bool {
+        let own = &self.gaps[k];
+        let local = match own.awaits {
+            Awaits::Search { .. } => !own.in_contact,
+            Awaits::Impact(speed) => {
+                let beside = self.topology.adjacent(k).into_iter().flatten();
+                let local = !self.is_slow(self.restitution * speed)
+                    && beside
+                        .clone()
+                        .all(|near| !self.gaps[near].in_contact && self.waits_for(near));
+                if local {
+                    beside.for_each(|near| self.remember(near, begin, front));
+                }
+                local
+            }
+            Awaits::Release | Awaits::Nothing => false,
+        };
+        if local {
+            self.remember(k, begin, front);
+        }
+        local
+    }
+
+    /// Whether gap `near` may be changed now: it was not changed later, nor waits for what comes before.
+    #[inline(always)]
+    fn waits_for(&self, near: usize) -> bool {
+        self.gaps[near].origin <= self.now && self.queue.key(near) > self.now
+    }
+
+    /// The same of an event in which contact begins, goes on or ends: it concerns the gaps up to the first on either side
+    /// that is open, and one more.
+    #[cold]
+    fn is_local_contact(&self, k: usize, begin: Instant, front: &mut Front<M>) -> bool {
+        let phases = Phases::at(&self.rates, self.now);
+        let is_open = |near: &usize| {
+            let width = self.look(*near, &phases).f0;
+            !self.gaps[*near].in_contact && width > NEARLY_SHUT * self.spacing
+        };
+        let most = self.gaps.len() - 1;
+        let first = (k.saturating_sub(NEARBY)..k).rev().find(is_open).filter(|&first| first > 0);
+        let last = (k + 1..=most.min(k + NEARBY)).find(is_open).filter(|&last| last < most);
+        let Some((first, last)) = first.zip(last) else { return false };
+        let concerned = first - 1..=last + 1;
+        let local = self.ties.law == Simultaneous::Sequential
+            && concerned.clone().all(|near| near == k || self.waits_for(near));
+        if local {
+            for near in concerned {
+                self.remember(near, begin, front);
+                let left = self.motions[self.topology.sides(near)[0]];
+                front.before_contact.push((near, left, self.forces[near]));
+            }
+        }
+        local
+    }
+
+    /// Keeps gap k as it was before the slice, if it still is.
+    #[inline(always)]
+    fn remember(&self, k: usize, begin: Instant, front: &mut Front<M>) {
+        let gap = self.gaps[k];
+        if gap.origin <= begin {
+            let left = &self.motions[self.topology.sides(k)[0]];
+            front.before.push(Before { k, gap, key: self.queue.key(k), free: [left.a, left.b] });
+        }
+    }
+
+    /// What is counted so far.
+    fn counted(&self) -> Counted {
+        let budget = (self.budget_end, self.budget_left);
+        (self.now, self.work, [self.impacts, self.contact_phases], budget)
+    }
+
+    /// Makes all as it was before the slice, and the order straight.
+    fn undo(&mut self, front: &mut Front<M>, counted: Counted) {
+        // Backwards: what was kept twice was kept first as it was before.
+        while let Some((k, left, force)) = front.before_contact.pop() {
+            self.motions[self.topology.sides(k)[0]] = left;
+            self.forces[k] = force;
+        }
+        while let Some(Before { k, gap, key, free }) = front.before.pop() {
+            self.gaps[k] = gap;
+            self.queue.restore(k, key);
+            let left = &mut self.motions[self.topology.sides(k)[0]];
+            [left.a, left.b] = free;
+        }
+        let budget;
+        (self.now, self.work, [self.impacts, self.contact_phases], budget) = counted;
+        (self.budget_end, self.budget_left) = budget;
+        self.queue.straighten();
+    }
+
+    /// Has the memory of the next gaps at hand, when the front comes near: one after the other, as the processor foresees.
+    #[inline(always)]
+    fn read_ahead(&self, k: usize, read: &mut usize) {
+        let place = self.queue.place(k);
+        if place + AHEAD / 2 < *read {
+            return;
+        }
+        let (from, gaps) = (place.max(*read), self.gaps.len());
+        *read = from + AHEAD;
+        for near in from..(*read).min(gaps / 2) {
+            for k in [near, gaps - 1 - near] {
+                let gap = &self.gaps[k];
+                black_box((gap.frame.f0, gap.in_contact, self.motions[k].a, self.queue.leaf(k)));
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Boundary, Chain, Counters, Initial, Scenario};
+    use impact_numerics::random::NormalPairs;
+
+    fn drawn(chain: &Chain, sigma: f64) -> Scenario {
+        Scenario::draw(chain, sigma, &mut NormalPairs::new("front", 1, 0))
+    }
+
+    /// What a run gives, all of it in bits.
+    type Given = (Vec<(u64, usize, u64)>, Counters, Vec<[u64; 2]>, Vec<(usize, u64)>);
+
+    /// Runs with an interruption by the receiver, a pause and a piece that is too short for a slice; tells how many
+    /// slices were undone.
+    fn run(scenario: &Scenario, until: f64, front: Option<Front<1>>) -> (Given, u32) {
+        let mut simulation = Simulation::<1>::new(scenario).unwrap();
+        simulation.front = front.map(Box::new);
+        let mut impacts = Vec::new();
+        for (part, stops) in [(0.4, false), (0.401, false), (0.8, true), (1.0, false)] {
+            let enough = if stops { impacts.len() + impacts.len() / 2 } else { usize::MAX };
+            simulation
+                .run(part * until, &mut |impact| {
+                    impacts.push((
+                        impact.time.to_bits(),
+                        impact.gap,
+                        impact.closing_speed.to_bits(),
+                    ));
+                    impacts.len() < enough
+                })
+                .unwrap();
+            impacts.push((simulation.time().to_bits(), 0, 0));
+        }
+        let free = simulation.free_parts().iter().map(|part| part.map(f64::to_bits)).collect();
+        let places = simulation.contacts(until).iter().map(|(k, f)| (*k, f.to_bits())).collect();
+        let undone = simulation.front.as_ref().map_or(0, |front| front.undone);
+        ((impacts, simulation.counters(), free, places), undone)
+    }
+
+    /// Holds a run in slices of all kinds against one in order; tells how many slices were undone.
+    fn agrees(scenario: &Scenario, until: f64) -> u32 {
+        let (plain, _) = run(scenario, until, None);
+        assert!(plain.1.impacts > 300, "{}", plain.1.impacts);
+        let mut undone = 0;
+        for (places, wanted) in [(1, 1.0), (8, 0.05), (8, 1.0), (64, 0.3), (512, 1.0)] {
+            let (own, times) = run(scenario, until, Some(Front::new(places, wanted, 0.5)));
+            assert!(own == plain, "{places} places, {wanted} events a gap");
+            undone += times;
+        }
+        undone
+    }
+
+    /// A slice that is undone leaves everything as it was, contact included.
+    fn undoes(scenario: &Scenario) {
+        let mut simulation = Simulation::<1>::new(scenario).unwrap();
+        let mut in_contact = 0;
+        for i in 1..40 {
+            simulation.run(0.25 * f64::from(i), &mut |_| true).unwrap();
+            let state = |of: &Simulation<1>| {
+                let keys: Vec<Instant> = (0..of.gaps.len()).map(|k| of.queue.key(k)).collect();
+                format!("{:?}", (&of.motions, &of.gaps, &of.forces, keys, of.counted()))
+            };
+            let (before, counted) = (state(&simulation), simulation.counted());
+            let mut front = Front::new(64, 1.0, 0.5);
+            simulation.follow(&mut front, simulation.now, 0.5);
+            in_contact += front.before_contact.len();
+            simulation.undo(&mut front, counted);
+            assert!(state(&simulation) == before, "at {i}/4");
+        }
+        assert!(in_contact > 100, "{in_contact}");
+    }
+
+    fn chain(masses: usize, restitution: f64, boundary: Boundary) -> Chain {
+        Chain { masses, restitution, boundary, ..Chain::default() }
+    }
+
+    /// The same impacts to the last bit, in the same order, and the same state and counts, whatever is hit how hard.
+    #[test]
+    fn impacts_are_those_of_the_order_of_time() {
+        for boundary in [Boundary::Walls, Boundary::Ring] {
+            for (restitution, sigma) in [(0.8, 0.3), (0.8, 0.12), (1.0, 0.2), (0.3, 0.5)] {
+                agrees(&drawn(&chain(1000, restitution, boundary), sigma), 40.0);
+            }
+        }
+        // Nothing of it is luck: a front of the engine's own steepness has nothing to undo.
+        let scenario = drawn(&chain(3000, 0.8, Boundary::Walls), 0.3);
+        assert_eq!(run(&scenario, 100.0, Some(Front::new(PLACES, WANTED, 0.5))).1, 0);
+    }
+
+    /// Contact and ties are no matter of two masses. The chain is its own mirror image, with a mass at rest in the middle.
+    #[test]
+    fn contact_and_ties_are_taken_in_order() {
+        for (restitution, sigma) in [(0.0, 0.6), (0.2, 1.0)] {
+            let contact = drawn(&chain(1000, restitution, Boundary::Walls), sigma);
+            let (given, _) = run(&contact, 10.0, None);
+            assert!(given.1.contact_phases > 10 && !given.3.is_empty(), "{:?}", given.1);
+            agrees(&contact, 10.0);
+            undoes(&contact);
+        }
+        let mut mirror = drawn(&chain(999, 0.8, Boundary::Walls), 0.4);
+        for j in 0..500 {
+            mirror.forcing[998 - j] = mirror.forcing[j].map(|x| if j == 499 { 0.0 } else { -x });
+        }
+        for simultaneous in [Simultaneous::Sequential, Simultaneous::Joint] {
+            let scenario = Scenario { simultaneous, ..mirror.clone() };
+            assert!(run(&scenario, 40.0, None).0.1.simultaneous > 0);
+            assert!(agrees(&scenario, 40.0) > 0);
+        }
+    }
+
+    /// Masses that stand close are struck from both sides. The faster shock goes through them faster than any front, and
+    /// meets the slower one where the front from the right had taken that already.
+    #[test]
+    fn what_overtakes_the_front_is_undone() {
+        let mut scenario = Scenario { restitution: 1.0, ..drawn(&Chain::default(), 0.0) };
+        let n = 1000;
+        scenario.forcing = vec![[0.0; 2]; n];
+        let mut free: Vec<[f64; 2]> =
+            (0..n).map(|j| [0.999_99 * (500.0 - j as f64), 0.0]).collect();
+        (free[0][1], free[n - 1][1]) = (50.0, -5.0);
+        scenario.initial = Initial::Free(free);
+        assert!(agrees(&scenario, 1.0) >= 5);
+    }
+
+    /// A silent chain comes to any time at once: slices without events are not worth one each.
+    #[test]
+    fn silence_is_skipped() {
+        let scenario = drawn(&chain(LONG, 0.8, Boundary::Walls), 0.01);
+        let mut simulation = Simulation::<1>::new(&scenario).unwrap();
+        simulation.run(1e12, &mut |_| true).unwrap();
+        assert_eq!(simulation.counters().impacts, 0);
+    }
+
+    /// A million impacts, and a chain that is long enough to be taken along a front unasked.
+    #[test]
+    #[ignore = "seconds"]
+    fn a_long_chain_has_the_same_impacts() {
+        let scenario = drawn(&chain(100_000, 0.8, Boundary::Walls), 0.3);
+        let front = Simulation::<1>::new(&scenario).unwrap().front;
+        let (plain, _) = run(&scenario, 60.0, None);
+        assert!(plain.1.impacts > 1_000_000);
+        let own = run(&scenario, 60.0, front.map(|front| *front));
+        assert!(own == (plain, 0), "{} slices undone", own.1);
+    }
+}
