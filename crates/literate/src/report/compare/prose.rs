@@ -49,7 +49,9 @@ impl ProseChange {
         let (before, after) = (sentences(before), sentences(after));
         let most = before.len().max(after.len());
         if most > MOST {
-            return Err(format!("{most} sentences, and no document of a report has more than {MOST}"));
+            return Err(format!(
+                "{most} sentences, and no document of a report has more than {MOST}"
+            ));
         }
         let (numbers_alone, sentences) = (0, Vec::new());
         let mut out = ProseChange { document: document.into(), numbers_alone, sentences };
