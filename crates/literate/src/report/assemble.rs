@@ -24,6 +24,9 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Paths relative to the report's folder, and their bytes.
 pub type Files = BTreeMap<String, Vec<u8>>;
 
+/// What a page loads when a reader asks it to compute.
+pub const LAB: &str = "lab.js";
+
 /// What a report is made of.
 #[derive(Clone, Copy, Debug)]
 pub struct Input<'a> {
@@ -41,6 +44,8 @@ pub struct Input<'a> {
     pub equations: &'a [EquationEntry],
     /// What moves on a page.
     pub scene: Option<&'a html::Moving>,
+    /// What a page loads when a reader asks it to compute: lab.js, beside the pages.
+    pub lab: Option<&'a str>,
     /// Whether PDFs are wanted; the feature `pdf` makes them.
     pub pdf: bool,
     /// The program that makes it.
@@ -126,7 +131,7 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
                 beside.insert(format!("{name}.pdf"), typeset(blocks, input)?);
             }
         }
-        let site = html::Site { here: *of, labels: &labels, moving };
+        let site = html::Site { here: *of, labels: &labels, moving, lab: input.lab.is_some() };
         filler.insert("page", &html::write(blocks, input.figures, site, cards)?);
         filler.insert("style", &input.templates.text("report.css")?);
         filler.insert("script", &input.templates.text("report.js")?);
@@ -134,6 +139,7 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
         html::is_whole(&page)?;
         beside.insert(of.page.into(), page.into_bytes());
     }
+    beside.extend(input.lab.map(|lab| (LAB.to_string(), lab.as_bytes().to_vec())));
     for figure in input.figures {
         committed.extend(files_of(figure));
     }
