@@ -5,6 +5,10 @@ import { join } from "node:path";
 /** Rows of a CSV file, whose first field may be quoted. */
 const rows = (text) => text.trim().split("\n").slice(1).map((line) => line.match(/("[^"]*"|[^,"]+)(?=,|$)/g).map((cell) => cell.replaceAll('"', "")));
 
+/** Waits until it is there, or says that it was not. */
+const appears = (locator, check, what) =>
+  locator.waitFor({ timeout: 8000 }).catch(async () => check(false, `${what}: ${(await locator.page().locator(".bench output").allInnerTexts()).join(" ")}`));
+
 /** All that is tried. */
 export async function labs({ report, open, check, stays_narrow, accessible, pictures }) {
   const offered = async (file, options) => {
@@ -38,7 +42,7 @@ export async function labs({ report, open, check, stays_narrow, accessible, pict
     check((await page.locator("script[src]").count()) === 0, `${name}: lab.js is loaded unasked`);
     await figure.locator("button").focus();
     await page.keyboard.press("Enter");
-    await figure.locator("output").first().filter({ hasText: /\d/ }).waitFor();
+    await appears(figure.locator("output").first().filter({ hasText: /\d/ }), check, `${name}: nothing is run`);
     check(await figure.locator("input").first().evaluate((own) => own === document.activeElement), `${name}: the first slider is not reached`);
     await (lab === "chain" ? chains : circuits)(page, name, figure, { report, check });
     const seen = () => figure.locator("canvas").evaluateAll((all) => all.map((one) => one.toDataURL()).join());
@@ -68,8 +72,7 @@ async function chains(page, name, figure, { report, check }) {
   for (const [i, [run, , , impacts, distinct, , , digest]] of runs.entries()) {
     await choice.selectOption(String(i));
     await again.click();
-    await proof.filter({ hasText: `found here: ${digest}; this edition has ${digest}: the same bits` }).waitFor({ timeout: 10_000 })
-      .catch(async () => check(false, `${name}: ${run}: not the bits of the program: ${await proof.innerText()}`));
+    await appears(proof.filter({ hasText: `found here: ${digest}; this edition has ${digest}: the same bits` }), check, `${name}: ${run}: not the bits of the program`);
     const words = (await told.innerText()).replaceAll(",", "");
     check(words.startsWith(`${distinct} of`) && words.endsWith(`in all: ${impacts}.`), `${name}: ${run}: ${words}`);
   }
@@ -77,7 +80,7 @@ async function chains(page, name, figure, { report, check }) {
   // A page whose digest is another must say so.
   await page.evaluate(() => (LAB.runs[0].found.digest = LAB.runs[1].found.digest));
   await figure.getByRole("button", { name: "The realisation of Fig. 3" }).click();
-  await proof.filter({ hasText: "NOT the same" }).waitFor({ timeout: 5000 }).catch(() => check(false, `${name}: other bits are called the same`));
+  await appears(proof.filter({ hasText: "NOT the same" }), check, `${name}: other bits are called the same`);
 
   // From slider to picture, by keyboard.
   await figure.getByLabel("force σ (dω²)", { exact: true }).focus();
@@ -94,18 +97,18 @@ async function chains(page, name, figure, { report, check }) {
   // A thousand masses for long, given up for another run half-way; then as much memory as before.
   await set("masses n", "1000");
   await set("transient T", "9000");
-  await told.filter({ hasText: "so far" }).waitFor();
+  await appears(told.filter({ hasText: "so far" }), check, `${name}: nothing is told on the way`);
   await set("transient T", "100");
-  await told.filter({ hasText: "of 1001 gaps" }).filter({ hasNotText: "so far" }).waitFor({ timeout: 20_000 });
+  await appears(told.filter({ hasText: "of 1001 gaps" }).filter({ hasNotText: "so far" }), check, `${name}: a run is not given up for another`);
   check(Number(await data("bytes")) < 32e6, `${name}: the module takes ${await data("bytes")} bytes`);
 
   for (const [label, value] of [["force σ", ""], ["force σ", "-1"], ["masses n", "0"], ["masses n", "1001"], ["masses n", "2.5"], ["transient T", "1e9"], ["window W", "0"], ["restitution r", "2"]]) {
     const good = await figure.getByLabel(`${label}, typed`).inputValue();
     await set(label, value);
-    await told.filter({ hasText: "is not allowed; give a" }).waitFor({ timeout: 5000 }).catch(async () => check(false, `${name}: ${label} = ${value}: ${await told.innerText()}`));
+    await appears(told.filter({ hasText: "is not allowed; give a" }), check, `${name}: ${label} = ${value}`);
     check((await told.innerText()).startsWith(`${label} = ${value || "nothing"} `), `${name}: ${await told.innerText()}`);
     await set(label, good);
-    await told.filter({ hasText: "gaps have impacts" }).filter({ hasNotText: "so far" }).waitFor({ timeout: 20_000 });
+    await appears(told.filter({ hasText: "gaps have impacts" }).filter({ hasNotText: "so far" }), check, `${name}: it does not go on after ${label} = ${value}`);
   }
 }
 
@@ -126,7 +129,7 @@ async function circuits(page, name, figure, { report, check }) {
   const sides = [await at(p_jump * (1 - 1e-12)), await at(p_jump * (1 + 1e-12))];
   check(sides[0].startsWith("k* = 1,") && sides[1].startsWith(`k* = ${k_after},`), `${name}: beside the jump: ${sides}`);
   await set("vertices N", "1000");
-  await told.filter({ hasText: "0.00" }).waitFor();
+  await appears(told.filter({ hasText: /leaves 1 at p = 0\.00/ }), check, `${name}: N = 1000`);
   for (const [label, value] of [["probability p", ""], ["probability p", "1.5"], ["vertices N", "3"], ["vertices N", "5000"]]) {
     await set(label, value);
     check((await told.innerText()).startsWith(`${label} = ${value || "nothing"} is not allowed; give a`), `${name}: ${label} = ${value}: ${await told.innerText()}`);
