@@ -91,7 +91,8 @@ pub(super) fn threshold_shift(e: &Evidence, _: &Statement) -> Result<Finding, Er
     let room = e.level.among(both.len());
     let mut holds = true;
     let mut note = Text::words(
-        "Means of all. Eq. (25) assumes random free parts. From rest and with them the half height is ",
+        "Means of all, in which no chain is left out. Eq. (25) assumes random free parts. In smaller samples the half height \
+         from rest and with them is ",
     );
     for (i, (time, rest, random)) in both.iter().enumerate() {
         let share = share_of_start(rest.value, random.value, theory);
@@ -159,7 +160,10 @@ pub(super) fn restitution_omitted(e: &Evidence, _: &Statement) -> Result<Finding
             .chosen(rs.first().copied().unwrap_or(f64::NAN))
             .say(" to ")
             .chosen(rs.last().copied().unwrap_or(f64::NAN))
-            .say(". The paper says “perhaps”."),
+            .say(
+                ". The whole range of r is compared with one change of start; at the r of the paper most of the distance \
+                 from the theory is that of the start. The paper says “perhaps”.",
+            ),
     })
 }
 

@@ -13,7 +13,7 @@ use impact_paper::report::compare::{self, Parts};
 use impact_paper::report::values::Number;
 use impact_paper::report::{self, Files, PROGRAM, Registry};
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// Runs every experiment, draws all figures and writes the report.
@@ -71,7 +71,8 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let usual = if other { work::ProfileName::Ci } else { work::ProfileName::Full };
     let profile = Profile::from(args.profile.unwrap_or(usual));
     let out = args.out.clone().unwrap_or_else(|| default_folder(profile));
-    if other && [profile, Profile::Full].map(default_folder).contains(&out) {
+    let ordinary = [profile, Profile::Full].map(|profile| resolved(&default_folder(profile)));
+    if other && ordinary.iter().any(|folder| resolved(&out).starts_with(folder)) {
         return Err(Failure::input("--set: this is another paper; give it a folder with --out"));
     }
     if other && profile == Profile::Full && args.figure.is_empty() {
@@ -104,12 +105,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
             Ok((some(&args.sources, &numbers, profile, &progress)?, Judged::default()))
         }
     });
-    let (files, judged) = made.map_err(|failure| match failure.code {
-        2 | 4 if other && whole => failure.and(
-            "with these parameters not every part can be made; name the figures that are wanted by --figure",
-        ),
-        _ => failure,
-    })?;
+    let (files, judged) = made?;
     // What was there before is compared first: it is about to be replaced.
     let told = if whole { told(&out, &files, &judged) } else { String::new() };
     staging.place(&files, &progress)?;
@@ -183,6 +179,22 @@ fn default_folder(profile: Profile) -> PathBuf {
 /// The values of the report in a folder, if there is one.
 fn values_in(out: &Path) -> Option<Registry> {
     compare::read(&folder::text(out, VALUES).ok()?).ok()
+}
+
+/// The folder without links and dots, as it will be where it is not there yet.
+fn resolved(folder: &Path) -> PathBuf {
+    let there = |path: &&Path| path.as_os_str().is_empty() || path.exists();
+    let base = folder.ancestors().find(there).unwrap_or(Path::new(""));
+    let begin = if base.as_os_str().is_empty() { Path::new(".") } else { base };
+    let mut out = begin.canonicalize().unwrap_or_else(|_| begin.into());
+    for part in folder.strip_prefix(base).unwrap_or(folder).components() {
+        match part {
+            Component::ParentDir => _ = out.pop(),
+            Component::CurDir => {}
+            part => out.push(part),
+        }
+    }
+    out
 }
 
 /// Are these one folder?

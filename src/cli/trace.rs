@@ -3,7 +3,8 @@
 use super::{Failure, method, stdout, work};
 use impact_paper::dynamics::methods::State;
 use impact_paper::dynamics::{
-    Certificate, Engine, Error, Impact, Scenario, Simultaneous, TWINS, certify, rounding,
+    Certificate, Engine, Error, Impact, Scenario, Sensitivity, Simultaneous, TWINS, certify,
+    rounding,
 };
 use impact_paper::experiments::{alive, say};
 use impact_paper::input;
@@ -43,8 +44,19 @@ pub struct Args {
     /// is that of 9 runs as long as they agree. Also says how fast errors grow.
     #[arg(long)]
     certify: bool,
+    /// Add a column: the derivative of the time of each impact with regard to ln sigma. All forces are multiplied, and with them the free
+    /// parts of a start from rest; other starts stay. Ends with an error at an impact that has no derivative: where a gap
+    /// grazes, closes together with a neighbour, or comes to rest in contact.
+    #[arg(long, value_name = "PARAMETER")]
+    sensitivity: Option<Parameter>,
     #[command(flatten)]
     method: method::Choice,
+}
+
+/// What impact times are differentiated by.
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum Parameter {
+    Sigma,
 }
 
 const FORM: &str = r#"The scenario, with the defaults of everything but "forcing":
@@ -137,24 +149,29 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let needed = u128::from(engines) * Engine::memory(masses, components);
     work::memory(needed, &name, "give fewer masses")?;
     let (method, start) = (args.method.method()?, State::of(&scenario));
-    if args.certify && !args.method.is_certified() {
+    let only = [
+        ("--certify", args.certify, "has a horizon to tell"),
+        ("--sensitivity", args.sensitivity.is_some(), "has impacts exact enough to differentiate"),
+        ("simultaneous", scenario.simultaneous == Simultaneous::Joint, "has the joint law"),
+    ];
+    let asked = only.iter().find(|(_, asked, _)| *asked && !args.method.is_certified());
+    if let Some((what, _, has)) = asked {
         let name = method.name();
         let message = format!(
-            "--certify: only the method certified has a horizon to tell, not {name}; leave out one of the two"
+            "{what}: only the method certified {has}, not {name}; leave out one of the two"
         );
         return Err(Failure::input(message));
     }
-    if scenario.simultaneous == Simultaneous::Joint && !args.method.is_certified() {
-        let name = method.name();
-        let message = format!(
-            "simultaneous: only the method certified has the joint law, not {name}; leave out one of the two"
-        );
-        return Err(Failure::input(message));
-    }
+    let sensitivity = args.sensitivity.map(|Parameter::Sigma| Sensitivity::new(&scenario));
+    let mut sensitivity = sensitivity.transpose().map_err(in_file)?;
+    let mut no_derivative = None;
     // Written in whole lines: a signal that ends the program leaves no half of a number.
     let (mut out, mut lines) = (io::stdout().lock(), String::new());
     let mut written = Ok(());
-    let mut header = "time,gap,closing_speed\n";
+    let mut header = match sensitivity {
+        Some(_) => "time,gap,closing_speed,dtime_dlnsigma\n",
+        None => "time,gap,closing_speed\n",
+    };
     let most = args.max_impacts.unwrap_or(u64::MAX);
     let mut left = most;
     // Impacts so far, the time of the last, and whether a reader is waited for.
@@ -168,13 +185,21 @@ pub fn run(args: Args) -> Result<(), Failure> {
             (!waits.load(Relaxed)).then(|| format!("trace: {met} until t = {latest:?}"))
         }
     });
-    let mut sink = |Impact { time, gap, closing_speed }: Impact| {
+    let mut sink = |impact: Impact| {
+        let Impact { time, gap, closing_speed } = impact;
         told.0.fetch_add(1, Relaxed);
         told.1.store(time.to_bits(), Relaxed);
         if left > 0 {
             // A run that is refused at its start prints nothing.
-            let header = std::mem::take(&mut header);
-            lines.push_str(&format!("{header}{time:?},{gap},{closing_speed:?}\n"));
+            lines.push_str(std::mem::take(&mut header));
+            let shift = match sensitivity.as_mut().map(|own| own.shift(&impact)).transpose() {
+                Ok(shift) => shift.map_or(String::new(), |shift| format!(",{shift:?}")),
+                Err(error) => {
+                    no_derivative = Some(error);
+                    return false;
+                }
+            };
+            lines.push_str(&format!("{time:?},{gap},{closing_speed:?}{shift}\n"));
             left -= 1;
             if lines.len() >= BLOCK {
                 told.2.store(true, Relaxed);
@@ -196,14 +221,27 @@ pub fn run(args: Args) -> Result<(), Failure> {
         lines.push_str(header);
     }
     let written = written.and_then(|()| out.write_all(lines.as_bytes()));
+    let rounded = rounded(&scenario).filter(|_| args.method.is_certified());
     let (certificate, ties) = match (ran, written.and_then(|()| out.flush())) {
         (_, Err(error)) => return stdout::written(Err(error)),
-        (ran, Ok(())) => ran.map_err(in_file)?,
+        (Ok(ran), Ok(())) => ran,
+        (Err(error), Ok(())) => {
+            let stopped = matches!(error, Error::Work { .. });
+            let failure = in_file(error);
+            // The impacts of a run that was stopped have the same rounding.
+            if let Some(rounded) = rounded.filter(|_| stopped) {
+                say(&format!("impact-paper: {rounded}"));
+            }
+            let uncertain = stopped && args.certify;
+            return Err(if uncertain { failure.and("it has no certificate") } else { failure });
+        }
     };
+    if let Some(error) = no_derivative {
+        return Err(in_file(error));
+    }
     if ties > 0 {
         say(&simultaneous(ties, scenario.simultaneous));
     }
-    let rounded = rounded(&scenario).filter(|_| args.method.is_certified());
     match (certificate.map(|own| line(&own, most - left)), rounded) {
         (Some(line), Some(rounded)) => say(&format!("{line}; {rounded}")),
         (Some(line), None) => say(&line),

@@ -7,7 +7,7 @@ use crate::circuits::closed::spread::Spreading;
 use crate::dynamics::{self, Engine, Scenario};
 use crate::numerics::estimates::{average, half_height, jackknife, rise, with_error};
 use crate::numerics::random::NormalPairs;
-use crate::numerics::statistics::Estimate;
+use crate::numerics::statistics::{Estimate, mean};
 use crate::params::{Chain, Grid, Profile, SEED};
 use crate::table::Table;
 use literate::experiments::cutting::{Cutting, Row, Unit};
@@ -63,6 +63,9 @@ impl ClosedParams {
         (row / self.sigmas.len(), self.sigmas[row % self.sigmas.len()])
     }
 }
+
+/// The least r for which the theory is meant: below, much of what was reached falls quiet for long.
+pub const MEANT_FOR: f64 = 0.7;
 
 /// One chain, for each protocol: the gaps with an impact when it is run, and the number that the theory expects.
 pub type Counts = Option<Vec<(u64, f64)>>;
@@ -218,6 +221,53 @@ impl Line<'_> {
     }
 }
 
+/// The growth of regions at one σ: what share 1 − s = e^{−2ρℓ} is left at the density ρ of seeds and the length ℓ to which each has
+/// grown, so ρ drops out of d ln ℓ/d ln t between two times. As found, as expected, and the second less the first, of the same chains.
+fn growth(closed: &Closed, kind: usize, place: usize) -> [Option<Estimate>; 3] {
+    let last = closed.parameters.protocols.len() - 1;
+    let lines = [last.saturating_sub(1), last].map(|protocol| Line { closed, kind, protocol });
+    let ends = lines.each_ref().map(|line| line.times().iter().sum::<f64>());
+    let counts = lines.each_ref().map(|line| line.counts(place));
+    let exponent = |which: usize, out| {
+        let lengths = counts.each_ref().map(|own| {
+            let share = left_out(&own[which], out)? / lines[0].gaps();
+            (share > 0.0 && share < 1.0).then(|| -pxfm::f_log1p(-share))
+        });
+        let [before, after] = lengths;
+        Some(pxfm::f_log(after? / before?) / pxfm::f_log(ends[1] / ends[0]))
+    };
+    let members = counts[0][0].len();
+    let apart = jackknife(members, |out| Some(exponent(1, out)? - exponent(0, out)?));
+    [jackknife(members, |out| exponent(0, out)), jackknife(members, |out| exponent(1, out)), apart]
+}
+
+/// The mean of all but one.
+fn left_out(sample: &[f64], out: Option<usize>) -> Option<f64> {
+    let kept = sample.iter().enumerate().filter(|(at, _)| Some(*at) != out);
+    mean(&kept.map(|(_, x)| *x).collect::<Vec<_>>())
+}
+
+/// How regions grow in the longest chains, at each σ between the last two protocols.
+fn drift(closed: &Closed) -> Table {
+    let own = &closed.parameters;
+    let longest = (0..own.chains.len()).max_by_key(|kind| own.chains[*kind].1).unwrap_or(0);
+    let exponents: Vec<(f64, [Option<Estimate>; 3])> = (own.sigmas.iter().enumerate())
+        .map(|(place, sigma)| (*sigma, growth(closed, longest, place)))
+        .filter(|(_, own)| own.iter().all(Option::is_some))
+        .collect();
+    Table::of("closed.drift", &exponents, |_| own.chains[longest].2)
+        .key("sigma", "d omega^2", |(sigma, _)| *sigma)
+        .estimate(
+            "found",
+            "1",
+            "d ln ℓ/d ln t of the length that a region has grown to",
+            |(_, own)| own[0],
+        )
+        .estimate("expected", "1", "the same by the closed theory, same forces", |(_, own)| own[1])
+        .estimate("apart", "1", "expected less found", |(_, own)| own[2])
+        .done()
+}
+
 /// All tables.
 pub fn tables(closed: &Closed) -> Vec<Table> {
     let own = &closed.parameters;
@@ -263,11 +313,35 @@ pub fn tables(closed: &Closed) -> Vec<Table> {
             |(line, _)| line.off(),
         )
         .done();
+    let meant = |line: &&(&Line<'_>, [Option<Estimate>; 3])| chain(line.0).0 >= MEANT_FOR;
+    let apart = halves.iter().filter(meant).filter_map(|(_, own)| own[2]);
+    let apart = apart.map(|own| own.value.abs()).fold(0.0, f64::max);
+    let masses = |which: fn(usize, usize) -> usize| {
+        own.chains.iter().map(|chain| chain.1).reduce(which).unwrap_or(0)
+    };
+    let [shortest, longest] = [masses(usize::min), masses(usize::max)];
+    let off = |masses: usize| {
+        let own = halves.iter().filter(meant).filter(|(line, _)| chain(line).1 == masses);
+        own.map(|(line, _)| line.off()).fold(0.0, f64::max)
+    };
     let all = Table::of("closed.all", &[own], |own| own.chains[0].2)
         .count("realisations", "chains at each σ", |own| own.chains[0].2 as u64)
         .count("sigmas", "values of σ", |own| own.sigmas.len() as u64)
+        .chosen("meant_for", "1", "least r for which the theory is meant", |_| Some(MEANT_FOR))
+        .real("apart", "d omega^2", 2, "largest difference of half heights from there on", |_| {
+            apart
+        })
+        .real("off", "1", 2, "largest difference of counts there, in the shortest chains", |_| {
+            off(shortest)
+        })
+        .real("off_longest", "1", 2, "the same in the longest", |_| off(longest))
+        .chosen("longest", "1", "masses of these", |_| Some(longest as f64))
+        .chosen("from", "1/omega", "last transient but one", |own| {
+            own.protocols.iter().rev().nth(1).map(|own| own[0])
+        })
+        .chosen("to", "1/omega", "last transient", |own| own.protocols.last().map(|own| own[0]))
         .done();
-    vec![counts, rises, all]
+    vec![counts, rises, drift(closed), all]
 }
 
 /// The expected mean count of a chain from rest, with its sampling error, from so many drawn chains.
@@ -312,8 +386,26 @@ mod tests {
         assert!((of("expected") - 0.15).abs() < 1e-12 && (of("apart") + 0.05).abs() < 1e-12);
         // At the first two σ one of both is inside the rise: 2 and 3 apart.
         assert!((of("off") - 6.5_f64.sqrt()).abs() < 1e-12);
+        let all = tables.last().unwrap();
+        assert_eq!(all.number(&[], "off"), Ok(of("off")));
+        assert!((all.number(&[], "apart").unwrap() - 0.05).abs() < 1e-12);
         let keys = [("r", 0.8), ("masses", 9.0), ("transient", 10.0), ("sigma", 0.2)];
         assert_eq!(tables[0].number(&keys, "found").unwrap(), 5.0);
+    }
+
+    /// Shares that leave e^{−1} and e^{−3} at times 20 and 60 have grown as t, those that leave as much at both not at all.
+    #[test]
+    fn growth_by_hand() {
+        let mut closed = made();
+        closed.parameters.protocols = vec![[10.0, 10.0], [50.0, 10.0]];
+        let shares = [-1.0, -3.0].map(|log: f64| -10.0 * pxfm::f_expm1(log));
+        let run = Some(vec![(5, shares[0]), (5, shares[1])]);
+        closed.rows = vec![vec![run; 3]; 3];
+        let found = growth(&closed, 0, 0).map(|own| own.unwrap().value);
+        for (found, expected) in found.into_iter().zip([0.0, 1.0, 1.0]) {
+            assert!((found - expected).abs() < 1e-12, "{found} {expected}");
+        }
+        assert_eq!(drift(&closed).values("sigma"), [0.1, 0.2, 0.3]);
     }
 
     #[test]

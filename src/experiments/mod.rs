@@ -22,6 +22,7 @@ pub mod rise;
 pub mod run;
 pub mod seeds;
 pub mod segments;
+pub mod silence;
 pub mod spacetime;
 pub mod starts;
 pub mod starts_tables;
@@ -55,7 +56,7 @@ use literate::experiments::deep::Deep;
 use literate::experiments::experiment::How::{Cut, Read, Whole};
 
 /// All experiments, in the order in which they run.
-pub const ALL: [Need; 25] = [
+pub const ALL: [Need; 27] = [
     &SEGMENTS,
     &MEASURED,
     &SWEEP,
@@ -74,6 +75,8 @@ pub const ALL: [Need; 25] = [
     &NUCLEATION,
     &SEEDS,
     &HISTORY,
+    &LONG_HISTORY,
+    &SILENCE,
     &INDEPENDENCE,
     &RESTITUTION,
     &CHAINS,
@@ -277,6 +280,25 @@ pub const HISTORY: Experiment<HistoryParams, history::History, history::Part> = 
     how: Cut("history", history::CUTTING),
     tables: history::tables::tables,
 };
+
+/// Long chains that are heated first.
+pub const LONG_HISTORY: Experiment<HistoryParams, history::History, history::Part> = Experiment {
+    name: "long_history",
+    code: code("src/experiments/history/mod.rs"),
+    parameters: HistoryParams::long,
+    how: Cut("long history", history::CUTTING),
+    tables: history::tables::of_long,
+};
+
+/// Chains that were hit, and when they are hit again.
+pub const SILENCE: Experiment<silence::SilenceParams, silence::Silence, silence::Part> =
+    Experiment {
+        name: "silence",
+        code: code("src/experiments/silence.rs"),
+        parameters: silence::SilenceParams::new,
+        how: Cut("silence", silence::CUTTING),
+        tables: silence::tables,
+    };
 
 /// Whether impacts are independent.
 pub const INDEPENDENCE: Deep<IndependenceParams, independence::Independence, independence::Part> =

@@ -4,7 +4,7 @@ use super::accuracy::{analytic, bias, race, scale, trials};
 use super::{ALL, Error, Measured, Need, TOGETHER};
 use super::{
     chains, closed, heat, history, horizon, identities, independence, long, nucleation, protocol,
-    replay, restitution, seeds, segments, spacetime, starts, sweep, theory, two_masses,
+    replay, restitution, seeds, segments, silence, spacetime, starts, sweep, theory, two_masses,
 };
 use crate::params::{Profile, set};
 use crate::table::Table;
@@ -86,6 +86,8 @@ asked_for! {
     seeds: seeds::Seeds, SEEDS;
     /// Counts after a larger force.
     history: history::History, HISTORY;
+    /// Chains that were hit, and when they are hit again.
+    silence: silence::Silence, SILENCE;
     /// Whether impacts are independent.
     independence: independence::Independence, INDEPENDENCE;
     /// Chains of several restitutions.

@@ -25,7 +25,7 @@ pub fn draw(sweep: &Sweep, theory: &Theory) -> Result<Figure, Error> {
     let change: Vec<_> =
         higher.iter().zip(&simple).map(|(more, less)| (more.0, more.1 - less.1)).collect();
     let most = change.iter().map(|point| point.1).fold(0.0, f64::max);
-    let y = Axis::linear(0.0, 1.1 * most, 5.0, 5, "difference (gaps)");
+    let y = Axis::linear(0.0, 1.1 * most, 5.0, 5, "difference");
     let near = rise(&sheet, 0.13, y)?.file("-inset");
     near.curve("difference of the theories", &change, Stroke::solid(INK, LINE), Outside::Cut)?;
     let entries = [

@@ -1,7 +1,8 @@
-//! One look for each method in all charts of speed and accuracy, and what it is called.
+//! One look for each method in all charts of speed and accuracy.
 
 use super::prelude::*;
 use crate::experiments::Measured;
+use crate::experiments::accuracy::tables::name;
 use crate::experiments::measured::{Row, What};
 use crate::params::{MethodName, Setting};
 
@@ -17,19 +18,6 @@ pub fn look(method: MethodName) -> Marker {
         MethodName::Penalty => (GREY, Mark::Plus),
     };
     (mark, LARGE, Stroke::solid(colour, THIN))
-}
-
-/// What a method is called.
-pub fn name(method: MethodName) -> &'static str {
-    match method {
-        MethodName::Certified => "certified events",
-        MethodName::Sampled => "sampled gaps",
-        MethodName::Newton => "Newton’s iteration",
-        MethodName::RungeKutta => "Runge–Kutta",
-        MethodName::MoreauJean => "time stepping",
-        MethodName::Verlet => "Verlet with a flip",
-        MethodName::Penalty => "penalty springs",
-    }
 }
 
 /// Legend entries of some methods, in the order of [`MethodName::ALL`].

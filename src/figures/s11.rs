@@ -1,8 +1,9 @@
 //! Fig. S11: error and misses of the next impact against counted work, for every method.
 
 use super::prelude::*;
-use super::rivals::{by_method, entries, look, name};
+use super::rivals::{by_method, entries, look};
 use crate::experiments::accuracy::race::{DISPLACED, Entry, Race};
+use crate::experiments::accuracy::tables::name;
 use crate::params::MethodName;
 
 /// Draws the figure.
@@ -59,7 +60,7 @@ fn description(race: &Race) -> String {
     let largest = certified.and_then(|entry| Some(entry.segments.errors?[2]));
     format!(
         "Against counted work, a marker for each method and step or tolerance, n = {}, σ = {}: (a) median error of the time of the next \
-         impact, with a line up to the largest, which for certified events is {}; (b) the share of states from which the \
+         impact, with a line up to the largest, which for the engine is {}; (b) the share of states from which the \
          next impact is missed.",
         race.parameters.chain.masses,
         race.parameters.sigma,

@@ -1,11 +1,10 @@
 //! Fig. S12: how long a run is true, against its work, its error and its time.
 
 use super::prelude::*;
-use super::rivals::{
-    Timed, by_method, entries, entries_of_others, look, look_of, name, others, timed,
-};
+use super::rivals::{Timed, by_method, entries, entries_of_others, look, look_of, others, timed};
 use crate::experiments::Measured;
 use crate::experiments::accuracy::race::{DISPLACED, Entry, Race};
+use crate::experiments::accuracy::tables::name;
 use crate::params::MethodName;
 
 /// The rounding of doubles, 2⁻⁵³.

@@ -1,9 +1,10 @@
 //! Fig. S13: what an impact costs against the number of masses, counted and measured.
 
 use super::prelude::*;
-use super::rivals::{Timed, by_method, entries, look, most_accurate, name, timed};
+use super::rivals::{Timed, by_method, entries, look, most_accurate, timed};
 use crate::experiments::Measured;
 use crate::experiments::accuracy::scale::{Scale as Costs, ScaleRow};
+use crate::experiments::accuracy::tables::name;
 use crate::experiments::measured::{Row, What};
 use crate::params::MethodName;
 

@@ -41,8 +41,12 @@ impl Parameter {
     /// The text as a value that may be given.
     fn read(&self, text: &str) -> Option<f64> {
         let [low, high] = self.range;
-        let allowed = |x: &f64| (low..=high).contains(x) && !(self.whole && x.fract() != 0.0);
-        text.parse().ok().filter(allowed)
+        if self.whole {
+            // As a whole number: a double would round what is out of range into it.
+            let whole = text.parse::<u64>().ok().filter(|n| (low as u64..=high as u64).contains(n));
+            return whole.map(|n| n as f64);
+        }
+        text.parse().ok().filter(|x| (low..=high).contains(x))
     }
 
     /// What may be given, in words.
@@ -55,8 +59,8 @@ impl Parameter {
 
 const WHOLE: bool = true;
 
-/// The ranges are those in which every part of the report can be made: the rise stays on the grid of σ, and chains with
-/// one seed are not too rare to be found. Whole numbers are exact up to 2^53.
+/// Within these ranges, one parameter at a time, every part of the report can be made: the rise stays on the grid of σ,
+/// and chains with one seed are not too rare to be found. Whole numbers are exact up to 2^53.
 const PARAMETERS: [Parameter; 6] = [
     Parameter::new(
         "masses",

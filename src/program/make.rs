@@ -39,16 +39,18 @@ pub fn whole(
     results.look();
     let draw = |number| {
         progress.check()?;
-        Ok(figures::draw(number, &results)?)
+        figures::draw(number, &results).map_err(|error| of_parameters(error.into()))
     };
     let numbers: Vec<figures::Number> = figures::all().collect();
     let drawn: Vec<Figure> = numbers.into_par_iter().map(draw).collect::<Result<_, Failure>>()?;
-    let mut claims = claims::all(&results, &published)?;
+    let mut claims =
+        claims::all(&results, &published).map_err(|error| of_parameters(error.into()))?;
     if let Some(told) = set::told() {
         claims.iter_mut().for_each(|claim| not_judged(claim, &told));
     }
-    let values = contents::registry(&results, &published)?;
-    let rows = contents::rows(&results, &claims)?;
+    let contents = contents::registry(&results, &published);
+    let values = contents.map_err(|error| of_parameters(error.into()))?;
+    let rows = contents::rows(&results, &claims).map_err(|error| of_parameters(error.into()))?;
     let judged = match set::told() {
         None => Judged::all(&results, &published, values.clone(), claims)?,
         Some(_) => Judged { claims, ..Judged::default() },
@@ -75,8 +77,24 @@ pub fn whole(
         lab: lab.as_deref(),
         pdf,
         program: PROGRAM,
+    });
+    let report = report.map_err(|error| match error {
+        // A value that these parameters do not have.
+        report::Error::Template(_) | report::Error::NotFinite(_) => of_parameters(error.into()),
+        error => error.into(),
     })?;
     Ok((report, judged))
+}
+
+/// What fails for parameters that were set is their fault, and not the program's.
+fn of_parameters(failure: Failure) -> Failure {
+    let failed = [2, 4].contains(&failure.code) && set::told().is_some();
+    if !failed {
+        return failure;
+    }
+    Failure::input(failure.message).and(
+        "with these parameters not every part can be made; name the figures that are wanted by --figure",
+    )
 }
 
 /// The paper says nothing of other parameters than its own.

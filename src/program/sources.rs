@@ -72,7 +72,12 @@ impl Sources {
             "raise the limits of the process, or end other programs",
         )?;
         let long = needs.iter().any(|need| need.is_saved());
-        let store = if long { Store::open(&self.results)? } else { Store::nowhere() };
+        // Results of other parameters do not take the place of the paper's.
+        let folder = match set::told() {
+            None => self.results.clone(),
+            Some(_) => self.results.join("what-if"),
+        };
+        let store = if long { Store::open(&folder)? } else { Store::nowhere() };
         let scenario = |file: &str| {
             let text = templates.text(file).map(String::from);
             text.map_err(|_| "this file is missing from the templates".to_string())

@@ -55,6 +55,6 @@ pub fn is_staging(folder: &Path, name: &str) -> bool {
     let path = folder.join(name);
     name.starts_with(STAGING)
         && path.symlink_metadata().is_ok_and(|found| found.is_dir())
-        && (path.join(OURS).exists()
+        && (path.join(OURS).symlink_metadata().is_ok_and(|found| found.is_file())
             || path.read_dir().is_ok_and(|mut files| files.next().is_none()))
 }

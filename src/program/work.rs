@@ -7,6 +7,7 @@ use crate::report::{self, contents};
 use crate::{claims, dynamics, figures};
 use literate::experiments::deep;
 use literate::experiments::shards::Plan;
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -244,7 +245,8 @@ pub fn made(folder: &Path) -> Made {
 impl Drop for Made {
     fn drop(&mut self) {
         remove_empty(&self.0);
-        MADE.lock().unwrap_or_else(PoisonError::into_inner).retain(|path| !self.0.contains(path));
+        let own: HashSet<&PathBuf> = self.0.iter().collect();
+        MADE.lock().unwrap_or_else(PoisonError::into_inner).retain(|path| !own.contains(path));
     }
 }
 

@@ -51,6 +51,33 @@ fn conserve(round_of: u32) {
     }
 }
 
+/// Why impacts never end: after its impact a gap has amplitudes that suffice to close it, which others often have not.
+#[test]
+fn a_gap_that_was_hit_can_close_again() {
+    for restitution in [0.1, 0.6, 1.0] {
+        let scenario = Scenario { restitution, ..draw(10, 0.25, 0) };
+        let mut engine = Engine::new(&scenario).unwrap();
+        let factor = 1.0 - scenario.forcing_frequency * scenario.forcing_frequency;
+        let mut cannot = 0;
+        for _ in 0..300 {
+            let Some(hit) = first(&mut engine, 1e6) else { panic!("no impact any more") };
+            let free = engine.free_parts();
+            let parts = |mass: usize| match mass.checked_sub(1).filter(|j| *j < free.len()) {
+                Some(j) => [free[j], scenario.forcing[j].map(|x| x / factor)],
+                None => [[0.0; 2]; 2],
+            };
+            let reach = |gap: usize| -> f64 {
+                let [left, right] = [parts(gap), parts(gap + 1)];
+                let length = |k: usize| (right[k][0] - left[k][0]).hypot(right[k][1] - left[k][1]);
+                length(0) + length(1)
+            };
+            assert!(reach(hit.gap) > 1.0 - 1e-12, "{restitution}: {hit:?} {}", reach(hit.gap));
+            cannot += (0..=10).filter(|gap| reach(*gap) < 1.0).count();
+        }
+        assert!(cannot > 100, "{restitution}: {cannot}");
+    }
+}
+
 #[test]
 fn elastic_impacts_conserve_energy() {
     conserve(100_000);

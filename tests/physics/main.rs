@@ -12,6 +12,7 @@ mod methods;
 mod reference;
 mod roundings;
 mod segments;
+mod sensitivity;
 mod simultaneous;
 mod traces;
 

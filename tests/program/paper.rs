@@ -200,6 +200,9 @@ fn another_parameter_makes_another_report_that_says_so() {
     for (arguments, words) in [
         ("paper --set restitution=0.7", ["--set: ", "--out"]),
         ("paper --set restitution=0.7 --out paper", ["--set: ", "--out"]),
+        ("paper --set restitution=0.7 --out ./new/../paper", ["--set: ", "--out"]),
+        ("paper --set restitution=0.7 --figure 3 --out paper/new", ["--set: ", "--out"]),
+        ("paper --set seed=9007199254740993 --out o", ["seed=", "give "]),
         ("paper --set restituton=0.7 --out o", ["there is no parameter", "restitution"]),
         ("paper --set masses=3 --out o", ["masses=3", "give "]),
         ("paper --set restitution --out o", ["restitution=", "give 0.3 to"]),
@@ -243,8 +246,16 @@ fn another_parameter_makes_another_report_that_says_so() {
     let (code, _, note) =
         run(here, "paper --set masses=40 --profile quick --figure 3 --results r --out o");
     assert!(code == 2 && note.contains("holds a report of the quick (not the paper"), "{note}");
-    let (_, _, note) = run(here, "paper --profile quick --figure 3 --results r --out p");
+    let figure = "paper --profile quick --figure 3 --results r --out";
+    let (_, _, note) = run(here, &format!("{figure} p"));
     assert!(note.contains("sweep: run"), "{note}");
+    // Nor do they take the place of these.
+    run(here, &format!("{figure} q --set masses=40"));
+    let (_, _, note) = run(here, &format!("{figure} p"));
+    assert!(!note.contains("sweep: run"), "{note}");
+    // What these parameters cannot have is their fault.
+    let low = "-q paper --profile quick --results r --out n --set masses=40 --set restitution=0.9";
+    refused(here, low, &["not every part can be made", "--figure"]);
 }
 
 /// Pages and completions go where nothing else is; --quiet hides progress and no error.

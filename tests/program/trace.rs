@@ -68,3 +68,39 @@ fn what_was_done_with_ties_is_said() {
     let help = answer(std::path::Path::new("."), "trace --help");
     assert!(help.contains(r#""simultaneous": "sequential""#) && help.contains(r#""joint" takes"#));
 }
+
+#[test]
+fn derivatives_are_a_column_and_end_where_there_are_none() {
+    let folder = folder(SCENARIO);
+    let [plain, own] = ["", " --sensitivity sigma"]
+        .map(|more| answer(folder.path(), &format!("trace s.json --until 10{more}")));
+    assert!(own.starts_with("time,gap,closing_speed,dtime_dlnsigma\n") && own.lines().count() > 5);
+    let without: String =
+        own.lines().map(|line| format!("{}\n", line.rsplit_once(',').unwrap().0)).collect();
+    assert_eq!(without, plain);
+    let (code, out, note) =
+        run(folder.path(), "trace s.json --until 10 --sensitivity sigma --method verlet");
+    assert!((code, out.as_str()) == (2, "") && note.contains("--sensitivity"), "{note}");
+    std::fs::write(folder.path().join("s.json"), r#"{"forcing":[[0.9,0.8],[0,0],[-0.9,-0.8]]}"#)
+        .unwrap();
+    let (code, out, note) = run(folder.path(), "trace s.json --until 10 --sensitivity sigma");
+    assert_eq!((code, out.lines().count(), note.lines().count()), (2, 2, 1), "{note}");
+    assert!(note.contains("impact 2 at") && note.contains("--max-impacts 1"), "{note}");
+    // What the message advises.
+    let (code, ..) =
+        run(folder.path(), "trace s.json --until 10 --sensitivity sigma --max-impacts 1");
+    assert_eq!(code, 0);
+}
+
+#[test]
+fn a_run_that_is_stopped_tells_its_rounding_and_has_no_certificate() {
+    // A fast mass between walls has more impacts in 1/w than a run may have.
+    let fast = r#"{"natural_frequency":0.001,"forcing_frequency":1000,"restitution":1,"forcing":[[0,1e6]]}"#;
+    let folder = folder(fast);
+    let trace = |more: &str| run(folder.path(), &format!("trace s.json --until 1e4{more}"));
+    let (code, plain, note) = trace("");
+    assert!(code == 4 && plain.lines().count() > 1000 && note.lines().count() == 2, "{note}");
+    assert!(note.contains("may move an impact") && !note.contains("certificate"), "{note}");
+    let (code, out, note) = trace(" --certify");
+    assert!(code == 4 && out == plain && note.contains("no certificate"), "{note}");
+}

@@ -198,7 +198,7 @@ fn axes_carry_their_labels() {
         (12, &["σ (d ω^2)", "graph theory, N = 101"]),
         (13, &["k", "P(X = k)", "p = 0.005, detail", "two vertices twice, ϕ_N^2"]),
         (15, &["expected number of impacts", "with higher orders", "simple circuits only"]),
-        (26, &["evaluations per impact", "share missed", "none", "certified events"]),
+        (26, &["evaluations per impact", "share missed", "none", "engine"]),
         (27, &["horizon t (1/ω)", "error of the next impact (1/ω)", "measured µs per impact"]),
         (28, &["number of masses n", "evaluations per impact", "measured µs per impact"]),
         (17, &["gap", "time t (1/ω)", "impact", "gap that closes by itself"]),

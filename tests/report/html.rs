@@ -249,11 +249,15 @@ fn cells_of_wide_tables_know_their_column() {
         let inside = |name: &'static str| {
             table.descendants().filter(move |node| node.tag_name().name() == name)
         };
-        let heads: Vec<String> = inside("th").map(words).collect();
+        // A formula in a head is spelt out in the name.
+        let head = |th| words(th).split(',').next().unwrap_or_default().to_string();
+        let heads: Vec<String> = inside("th").map(head).collect();
         assert!(heads.len() >= 4, "{heads:?}");
         for row in inside("tr").skip(1) {
             let named = row.children().map(|cell| cell.attribute("data-name").unwrap_or_default());
-            assert!(named.eq(heads.iter().map(String::as_str)), "{}", words(row));
+            let named: Vec<&str> =
+                named.map(|name| name.split(',').next().unwrap_or(name)).collect();
+            assert_eq!(named, heads, "{}", words(row));
         }
     }
 }

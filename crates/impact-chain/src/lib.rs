@@ -8,8 +8,8 @@
 //! - [`Engine::run`] hands out each [`Impact`]; masses that stay together are in contact, with a contact force
 //!   ([`Engine::contacts`]), and gaps that close at the same instant follow a rule ([`Simultaneous`]).
 //! - [`certify()`] says up to which impact a run can be trusted where it is chaotic, [`rounding`] bounds
-//!   what rounding does to one impact.
-//! - [`replay`] is a run that is asked for by a text, and proved by a digest of its impacts.
+//!   what rounding does to one impact. [`Sensitivity`] has the derivatives of impact times by the strength of the forcing.
+//! - [`replay`] is a run that is repeated, and proved by a digest of its impacts.
 //! - [`methods`] are other ways to simulate the same chain, to compare with.
 //!
 //! ```
@@ -49,6 +49,7 @@ pub mod methods;
 pub mod replay;
 pub mod rounding;
 mod scenario;
+mod sensitivity;
 mod simulation;
 mod simultaneous;
 mod topology;
@@ -59,4 +60,5 @@ pub use engine::{Counters, Engine, Impact};
 pub use error::Error;
 pub use growth::Growth;
 pub use scenario::{Initial, Overtone, Scenario};
+pub use sensitivity::Sensitivity;
 pub use simultaneous::Simultaneous;

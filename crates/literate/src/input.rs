@@ -83,10 +83,12 @@ impl Write for Bounded {
 
 /// What the system said of a temporary file, without the name of that file.
 pub fn bare(error: Error) -> Error {
-    let inner = error.get_ref().and_then(|own| own.source());
-    match inner.and_then(|own| own.downcast_ref::<Error>()).and_then(Error::raw_os_error) {
-        Some(code) => Error::from_raw_os_error(code),
-        None => error,
+    // The code stands in the text alone.
+    let text = error.to_string();
+    let code = text.split_once("(os error ").and_then(|(_, rest)| rest.split(')').next());
+    match code.and_then(|code| code.parse().ok()) {
+        Some(code) if error.raw_os_error().is_none() => Error::from_raw_os_error(code),
+        _ => error,
     }
 }
 
@@ -193,6 +195,12 @@ mod tests {
         remove_leftovers(folder.path());
         assert!(!left.exists() && path("notes").exists() && living.path().exists());
         living.persist(path("a")).unwrap();
+    }
+
+    #[test]
+    fn no_name_of_a_temporary_file_is_told() {
+        let told = new_beside(Path::new("/nowhere/at/all/file")).unwrap_err();
+        assert_eq!(told.to_string(), Error::from_raw_os_error(2).to_string());
     }
 
     #[test]

@@ -5,7 +5,7 @@ mod methods;
 use super::{Failure, sigmas, stdout, work};
 use impact_paper::dynamics::{Counters, Engine, Error, Scenario};
 use impact_paper::experiments::alive;
-use impact_paper::input::{Bounded, MOST};
+use impact_paper::input::{Bounded, LARGEST, MOST};
 use impact_paper::numerics::clock::LATEST;
 use impact_paper::numerics::random::NormalPairs;
 use impact_paper::numerics::text::count;
@@ -124,6 +124,9 @@ struct Case {
     peak_mib: Option<f64>,
 }
 
+/// Bytes of a mass in a scenario, at least.
+const LEAST: u64 = 34;
+
 /// Chains side by side in the registers of one thread.
 const LANES: usize = 1;
 
@@ -136,15 +139,19 @@ pub fn run(args: Args) -> Result<(), Failure> {
         }
         What::Methods(args) => methods::run(&args),
         What::Scenario(args) => {
-            let scenario = draw(args.masses, args.sigma, args.restitution, args.seed, args.chain)?;
-            let mut text = Bounded::default();
-            serde_json::to_writer_pretty(&mut text, &form(&scenario)).map_err(|_| {
+            let long = || {
                 Failure::input(format!(
                     "--masses: the scenario of {} is longer than {MOST}, and `trace` reads no longer one; give \
                      fewer masses (about 1000000 fit)",
                     args.masses
                 ))
-            })?;
+            };
+            if args.masses as u64 > LARGEST / LEAST {
+                return Err(long());
+            }
+            let scenario = draw(args.masses, args.sigma, args.restitution, args.seed, args.chain)?;
+            let mut text = Bounded::default();
+            serde_json::to_writer_pretty(&mut text, &form(&scenario)).map_err(|_| long())?;
             stdout::print(&format!("{}\n", String::from_utf8_lossy(&text.0)))
         }
     }

@@ -61,7 +61,8 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let published = args.sources.published(&templates)?;
     if let Some(id) = args.claim.iter().find(|id| published.statement(id).is_err()) {
         let known: Vec<&str> = published.statements.iter().map(|s| s.id.as_str()).collect();
-        let message = format!("--claim: there is no claim {id:?}; the claims are {known:?}");
+        let known = known.join(", ");
+        let message = format!("--claim: there is no claim {id:?}; the claims are {known}");
         return Err(Failure::input(message));
     }
     let all: Vec<&str> = published.statements.iter().map(|s| s.id.as_str()).collect();

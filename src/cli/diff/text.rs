@@ -87,12 +87,18 @@ fn prose(changes: &[ProseChange]) -> Vec<String> {
             lines.extend(part.iter().map(|sentence| {
                 let marks = [["[-", "-]"], ["{+", "+}"]];
                 // A document may hold what a terminal obeys.
-                let safe = |text: &str| text.replace(char::is_control, " ");
+                let safe = |text: &str| text.replace(is_obeyed, " ");
                 format!("  {}", words(&sentence.pieces, marks, "", safe))
             }));
         }
     }
     lines
+}
+
+/// Does a terminal take the character for a command, or hide it?
+fn is_obeyed(c: char) -> bool {
+    let unseen = ['\u{200b}'..='\u{200f}', '\u{2028}'..='\u{202e}', '\u{2060}'..='\u{206f}'];
+    c.is_control() || c == '\u{feff}' || unseen.iter().any(|range| range.contains(&c))
 }
 
 /// How many sentences differ, if a document does.

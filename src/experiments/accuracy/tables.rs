@@ -12,16 +12,16 @@ use crate::params::{MethodName, PRINTED_THRESHOLD, Setting};
 use crate::table::Table;
 use crate::value::origin;
 
-/// What a method is called in a table.
-fn name(method: MethodName) -> &'static str {
+/// What a method is called in figures and tables.
+pub fn name(method: MethodName) -> &'static str {
     match method {
-        MethodName::Certified => "certified",
-        MethodName::Sampled => "sampled",
+        MethodName::Certified => "engine",
+        MethodName::Sampled => "sampling",
         MethodName::Newton => "Newton",
         MethodName::RungeKutta => "Runge–Kutta",
         MethodName::MoreauJean => "time stepping",
         MethodName::Verlet => "Verlet",
-        MethodName::Penalty => "springs",
+        MethodName::Penalty => "penalty springs",
     }
 }
 

@@ -1,11 +1,15 @@
 //! What chains of other kinds say, each kind beside the paper's.
 
-use super::{Chains, Curve, Ensemble, joining};
+use super::run::FREQUENCIES;
+use super::{Chains, Curve, Ensemble, chain, joining};
+use crate::circuits::impact_probability::ImpactProbability;
+use crate::circuits::nucleation::chain::half;
+use crate::circuits::nucleation::reach::Reach;
 use crate::experiments::Results;
 use crate::experiments::protocol_tables::address;
-use crate::numerics::estimates::difference;
+use crate::numerics::estimates::{difference, with_error};
 use crate::numerics::statistics::Estimate;
-use crate::params::{ChainCurve, ChainKind};
+use crate::params::{Chain, ChainCurve, ChainKind};
 use crate::table::{Building, Table};
 use crate::value::origin;
 
@@ -91,7 +95,16 @@ pub fn tables(found: &Chains) -> Vec<Table> {
         lengths,
         half_height(transient(starts)).done(),
         half_height(transient(damped)).done(),
-        kept_half(half_height(components)).done(),
+        kept_half(half_height(components))
+            .computed_by(origin(one_frequency))
+            .real(
+                "one_frequency",
+                UNIT,
+                3,
+                "the same expected of one, at the mean square frequency",
+                |place| one_frequency(found, place.own),
+            )
+            .done(),
         kept_half(half_height(frequencies))
             .real("all_phases", UNIT, 3, "the same expected if all phases come", there(0))
             .real("common_period", UNIT, 3, "the same with those that do", there(1))
@@ -108,6 +121,20 @@ fn kept_half<'a>(table: Building<'a, Place<'a>>) -> Building<'a, Place<'a>> {
     table.estimate("kept_half", UNIT, "where half of the chains have impacts", |place| {
         place.curve.kept_half
     })
+}
+
+/// The σ at which half of the chains ever have an impact, by the formula for clumps, if the force had one component
+/// with the same response, at the mean square of their frequencies.
+fn one_frequency(found: &Chains, own: &ChainCurve) -> f64 {
+    let several = chain(&found.parameters, own);
+    let square = |chain: &Chain| chain.forcing_frequency * chain.forcing_frequency;
+    let natural = several.natural_frequency * several.natural_frequency;
+    let others = FREQUENCIES.iter().take(own.components.saturating_sub(1));
+    let mean = others.fold(square(&several), |sum, x| sum + x * natural) / own.components as f64;
+    let one = Chain { forcing_frequency: mean.sqrt(), ..several.clone() };
+    let reach = Reach::ever(&one, 256);
+    let detuning = |chain: &Chain| (natural - square(chain)).abs();
+    half(&one, &reach, &reach.every(4)) * detuning(&several) / detuning(&one)
 }
 
 /// Open gaps, silence, and sizes.
@@ -194,6 +221,17 @@ pub fn beside_map(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
     Some(vec![undamped, fall])
 }
 
+/// ln 2/2p at a half height: regions of this length to both sides of seeds of density p leave half of all gaps.
+fn growth_length(chain: &Chain, at: Estimate) -> Option<Estimate> {
+    let (omega, big_omega) = (chain.natural_frequency, chain.forcing_frequency);
+    let length = |sigma: f64| {
+        let p = ImpactProbability::new(sigma, chain.spacing, omega, big_omega).ok()?.p_from_rest();
+        Some(0.5 * std::f64::consts::LN_2 / p.ok()?)
+    };
+    let [below, above] = [-0.5, 0.5].map(|share| length(at.value + share * at.error));
+    Some(with_error(length(at.value)?, (below? - above?).abs()))
+}
+
 /// Half heights by length and transient.
 pub fn sizes(found: &Chains) -> Vec<Table> {
     let all = places(found, ChainKind::Length);
@@ -206,6 +244,12 @@ pub fn sizes(found: &Chains) -> Vec<Table> {
         Some(difference(place.half_height()?, last.half_height()?))
     };
     let table = half_height(masses(transient(begin("sizes.places", &all))))
+        .estimate(
+            "length",
+            "1",
+            "ℓ = ln 2/2p: to which each gap that closes by itself has sent impacts, to both sides",
+            |place| growth_length(&found.parameters.chain, place.half_height()?),
+        )
         .estimate("lead", UNIT, "how much lower it is in the longest chains", lead)
         .done();
     vec![table]

@@ -1,15 +1,19 @@
 //! What follows from the runs.
 
-use super::{Heat, Part, Run, ensembles};
+use super::{Heat, Part, Run, ensembles, until};
 use crate::circuits;
 use crate::circuits::balance::{variance_ratio, variance_ratio_at};
-use crate::circuits::closed::heat::heat;
+use crate::circuits::closed::heat::heat as closed_heat;
 use crate::circuits::closed::ordered::OrderedGas;
+use crate::circuits::closed::spread::Spreading;
 use crate::circuits::distribution::SampleSpace;
 use crate::circuits::impact_probability::ImpactProbability;
 use crate::circuits::jump;
+use crate::dynamics::Scenario;
+use crate::experiments::closed::MEANT_FOR;
 use crate::numerics::bisection;
 use crate::numerics::estimates::{average, jackknife, ratio, sums};
+use crate::numerics::random::NormalPairs;
 use crate::numerics::statistics::{Estimate, mean};
 use crate::params::{Chain, HeatParams, HeatRow};
 use crate::table::Table;
@@ -21,14 +25,23 @@ struct Row<'a> {
     chain: Chain,
     part: &'a Part,
     runs: Vec<&'a Run>,
+    /// s² by the closed theory, where it has a running chain.
+    closed: Option<f64>,
+    /// Half the sums of squares of all free amplitudes by the closed theory and as found, run by run; none on a ring.
+    all: Vec<[f64; 2]>,
 }
 
 /// All tables.
 pub fn tables(heat: &Heat) -> Vec<Table> {
     let parameters = &heat.parameters;
     let mut rows = Vec::new();
+    let gas = OrderedGas::new();
     for ((row, chain), part) in ensembles(parameters).zip(&heat.rows) {
-        rows.push(Row { parameters, row, chain, part, runs: part.iter().flatten().collect() });
+        let closed = closed_heat(&gas, &chain, row.sigma).ok().flatten().map(|own| own.free);
+        let runs = part.iter().flatten().collect();
+        let mut own = Row { parameters, row, chain, part, runs, closed, all: Vec::new() };
+        own.all = own.closed_all();
+        rows.push(own);
     }
     let (walls, ring) = rows.split_at(parameters.rows.len());
     // First the paper's restitution at rising σ, then other restitutions at one σ.
@@ -55,14 +68,13 @@ fn ensembles_by(
     (key, unit): (&'static str, &'static str),
     by: impl Fn(&Row<'_>) -> f64,
 ) -> Table {
-    let gas = OrderedGas::new();
     Table::of(name, rows, |row| row.runs.len())
         .key(key, unit, by)
         .estimate(
             "variance_ratio",
             "1",
             "s²/σ² when the window ends: mean over all masses of half the sum of squares of both free amplitudes, over σ²",
-            |row| row.mean(|run| run.free / (row.chain.masses as f64 * row.sigma2())),
+            |row| row.mean(|run| run.free / row.masses_sigma2()),
         )
         .estimate("variance_ratio_of_hit", "1", "the same of the masses that were hit in the window", |row| {
             row.ratio(|run| [run.free_of_hit, run.hit as f64 * row.sigma2()])
@@ -74,10 +86,17 @@ fn ensembles_by(
         .real("balanced_at_rate", "1", 3, "s²/σ² by the balance at that rate", |row| {
             variance_ratio_at(&row.chain, row.rate()).unwrap_or(f64::NAN)
         })
-        .real("closed", "1", 3, "s²/σ² by the closed theory; none where it has no running chain", move |row| {
-            let found = heat(&gas, &row.chain, row.row.sigma).ok().flatten();
-            found.map_or(f64::NAN, |own| own.free / row.sigma2())
+        .real("closed", "1", 3, "s²/σ² by the closed theory; none where it has no running chain", |row| {
+            row.closed.unwrap_or(f64::NAN) / row.sigma2()
         })
+        .estimate("closed_over_hit", "1", "the same over what is found for the masses that were hit", |row| {
+            row.closed_over_hit()
+        })
+        .real("closed_all", "1", 3, "s²/σ² of all masses by the closed theory, under the same forces", |row| {
+            let sum: f64 = row.all.iter().map(|own| own[0]).sum();
+            sum / (row.all.len() as f64 * row.masses_sigma2())
+        })
+        .estimate("closed_over_all", "1", "the same over what is found", |row| ratio(&row.all))
         .estimate(
             "balance",
             "1",
@@ -115,6 +134,12 @@ fn all(parameters: &HeatParams, walls: &[&Row<'_>], ring: &[&Row<'_>]) -> Table 
         )
         .real("factor_at_rate", "1", 2, "the same of the balance at the rate of impacts", |_| {
             factor(walls, |row| variance_ratio_at(&row.chain, row.rate()))
+        })
+        .real("closed_hit_off", "1", 1, "largest relative difference of s² by the closed theory, of masses that were hit, where it is meant", |_| {
+            largest(walls, |row| row.closed_over_hit())
+        })
+        .real("closed_all_off", "1", 1, "the same of all masses", |_| {
+            largest(walls, |row| ratio(&row.all))
         })
         .estimate("balance", "1", "mean of the balance over the ensembles with impacts", |own| {
             balance(own.realisations, walls)
@@ -189,6 +214,12 @@ fn factor(rows: &[&Row<'_>], formula: fn(&Row<'_>) -> Result<f64, circuits::Erro
     pxfm::f_exp(square.sqrt())
 }
 
+/// The largest difference from one, over all ensembles for which the closed theory is meant.
+fn largest(walls: &[&Row<'_>], of: impl Fn(&Row<'_>) -> Option<Estimate>) -> f64 {
+    let meant = walls.iter().filter(|row| row.row.restitution >= MEANT_FOR);
+    meant.filter_map(|row| of(row)).map(|own| (own.value - 1.0).abs()).fold(0.0, f64::max)
+}
+
 impl Row<'_> {
     fn sigma2(&self) -> f64 {
         self.row.sigma * self.row.sigma
@@ -200,6 +231,27 @@ impl Row<'_> {
 
     fn ratio(&self, of: impl Fn(&Run) -> [f64; 2]) -> Option<Estimate> {
         ratio(&self.runs.iter().map(|run| of(run)).collect::<Vec<_>>())
+    }
+
+    fn masses_sigma2(&self) -> f64 {
+        self.chain.masses as f64 * self.sigma2()
+    }
+
+    fn closed_over_hit(&self) -> Option<Estimate> {
+        let closed = self.closed?;
+        self.ratio(|run| [run.hit as f64 * closed, run.free_of_hit])
+    }
+
+    fn closed_all(&self) -> Vec<[f64; 2]> {
+        let own = self.parameters;
+        let Ok(spreading) = Spreading::new(&self.chain) else { return Vec::new() };
+        let one = |(index, run): (usize, &Option<Run>)| {
+            let mut normals = NormalPairs::new(&own.stream, own.seed, index as u64);
+            let scenario = Scenario::draw(&self.chain, self.row.sigma, &mut normals);
+            let free = spreading.free(self.row.sigma, &scenario.forcing, until(own), &mut normals);
+            Some([free.ok()?, run.as_ref()?.free])
+        };
+        self.part.iter().enumerate().filter_map(one).collect()
     }
 
     fn sum(&self, of: impl Fn(&Run) -> u64) -> u64 {

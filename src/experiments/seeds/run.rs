@@ -1,6 +1,7 @@
 //! Runs of chains in which exactly one gap closes by itself.
 
 use super::{Seeds, fronts};
+use crate::circuits::closed::spread::Spreading;
 use crate::circuits::nucleation::reach::closes_by_itself;
 use crate::dynamics::{self, Engine, Initial, Scenario};
 use crate::experiments::nucleation::differences;
@@ -22,6 +23,8 @@ pub struct Trace {
     pub(super) hits: Vec<u64>,
     /// For each gap the tick of its first impact.
     pub(super) firsts: Vec<Option<u32>>,
+    /// The same by the closed theory, under the same forces.
+    pub(super) expected: Vec<Option<u32>>,
     /// For each gap the whole parts of its width that its own motion from rest crosses.
     pub(super) crossed: Vec<u8>,
 }
@@ -52,8 +55,19 @@ fn part(
     progress: &Progress,
 ) -> Result<Part, Error> {
     let sigma = parameters.sigmas[unit.row];
-    unit.each(stage, |index| trace(parameters, sigma, index, progress))
+    let spreading = Spreading::new(&parameters.chain).map_err(|own| Error::failed("seeds", own))?;
+    unit.each(stage, |index| trace(parameters, &spreading, sigma, index, progress))
 }
+
+/// Ticks of these times, as far as the run goes.
+fn ticks(parameters: &SeedsParams, times: &[f64]) -> Vec<Option<u32>> {
+    let within = |time: &f64| *time <= parameters.tick * parameters.ticks() as f64;
+    let tick = |time: &f64| within(time).then_some((time / parameters.tick) as u32);
+    times.iter().map(tick).collect()
+}
+
+/// So many chains are drawn in search of one at most: ten times as many as any search took at the paper's parameters.
+const DRAWN: u64 = 1_000_000;
 
 /// The amplitudes of a chain with exactly one gap that closes by itself, that gap, and how many chains
 /// were drawn for it.
@@ -65,7 +79,7 @@ fn draw(
 ) -> Result<(Vec<[f64; 2]>, usize, u64), Error> {
     let chain = &parameters.chain;
     let mut forcing: Vec<[f64; 2]> = Vec::with_capacity(chain.masses);
-    for drawn in 1.. {
+    for drawn in 1..=DRAWN {
         if drawn % 1024 == 0 {
             progress.check()?;
         }
@@ -90,7 +104,13 @@ fn draw(
             return Ok((forcing, seed, drawn));
         }
     }
-    unreachable!("a u64 of chains")
+    Err(Error::Input {
+        field: "seeds".into(),
+        problem: format!(
+            "no chain of {DRAWN} has exactly one gap that closes by itself at sigma = {sigma}"
+        ),
+        remedy: "give fewer masses, or a forcing frequency farther from the natural one".into(),
+    })
 }
 
 /// The whole parts of its width that a gap's own motion from rest crosses: as many as it would close by itself
@@ -105,6 +125,7 @@ fn crossed(chain: &Chain, delta: [f64; 2]) -> u8 {
 
 fn trace(
     parameters: &SeedsParams,
+    spreading: &Spreading,
     sigma: f64,
     index: u64,
     progress: &Progress,
@@ -114,6 +135,11 @@ fn trace(
     let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, index);
     let (forcing, seed, drawn) = draw(parameters, sigma, &mut normals, progress)?;
     let crossed = differences(&forcing).map(|delta| crossed(chain, delta)).collect();
+    let fault = |source| Error::failed("seeds", source);
+    // The closed theory, from the first impact of the seed.
+    let mut theory = spreading.drawn(sigma, &forcing).map_err(fault)?;
+    theory.alone[seed] = 0.0;
+    let expected = ticks(parameters, &theory.first_impacts(&mut normals));
     let still = Chain { masses: 0, ..chain.clone() };
     let scenario =
         Scenario { forcing, initial: Initial::Rest, ..Scenario::draw(&still, sigma, &mut normals) };
@@ -143,7 +169,7 @@ fn trace(
     });
     progress.check()?;
     match ended {
-        Ok(()) => Ok(Some(Trace { drawn, seed: Some(seed), hits, firsts, crossed })),
+        Ok(()) => Ok(Some(Trace { drawn, seed: Some(seed), hits, firsts, expected, crossed })),
         Err(dynamics::Error::Work { .. }) => Ok(None),
         Err(source) => Err(fault(source)),
     }
@@ -154,13 +180,15 @@ fn fits(parameters: &SeedsParams, unit: &Unit, traces: &Part) -> bool {
     let fits = |trace: &Trace| match trace.seed {
         Some(seed) => {
             let beyond = |bins: &u64| bins.checked_shr(parameters.bins as u32).unwrap_or(0) == 0;
-            let lengths = [trace.hits.len(), trace.firsts.len(), trace.crossed.len()];
+            let lengths = [&trace.firsts, &trace.expected].map(Vec::len);
+            let lengths = [lengths[0], lengths[1], trace.hits.len(), trace.crossed.len()];
             let parts = |own: &u8| usize::from(*own) < fronts::PARTS;
             seed < gaps
-                && lengths == [gaps; 3]
+                && lengths == [gaps; 4]
                 && trace.hits.iter().all(beyond)
                 && trace.crossed.iter().all(parts)
                 && outwards(parameters, seed, &trace.firsts)
+                && outwards(parameters, seed, &trace.expected)
         }
         None => *trace == Trace { drawn: trace.drawn, ..Trace::default() },
     };
@@ -206,6 +234,13 @@ mod tests {
     }
 
     #[test]
+    fn a_chain_that_is_too_rare_is_not_looked_for_without_end() {
+        let mut normals = NormalPairs::new("test of seeds", 2, 0);
+        let told = draw(&small(), 10.0, &mut normals, &Progress::silent()).unwrap_err();
+        assert!(matches!(&told, Error::Input { field, .. } if field == "seeds"), "{told}");
+    }
+
+    #[test]
     fn a_drawn_chain_has_one_gap_that_closes_by_itself() {
         let parameters = small();
         let quiet = Progress::silent();
@@ -233,6 +268,20 @@ mod tests {
     }
 
     #[test]
+    fn expected_impacts_are_in_ticks() {
+        let mut parameters = small();
+        parameters.tick = 2.0;
+        let end = 2.0 * parameters.ticks() as f64;
+        let found = ticks(&parameters, &[f64::INFINITY, 5.0, 0.0, end + 0.1, end]);
+        assert_eq!(found, [None, Some(2), Some(0), None, Some(parameters.ticks() as u32)]);
+        // The theory follows the same forces: fronts go outwards from the gap that closes by itself.
+        let found = CUTTING.run(&parameters, "test", &Progress::silent()).unwrap();
+        let all = found.rows.iter().flatten().flatten().filter(|run| run.seed.is_some());
+        let reached: usize = all.map(|run| run.expected.iter().flatten().count()).sum();
+        assert!(reached > 300, "{reached}");
+    }
+
+    #[test]
     fn parts_whose_impacts_jump_are_refused() {
         let mut parameters = small();
         parameters.chain.masses = 3;
@@ -240,7 +289,8 @@ mod tests {
         let own = |firsts: [Option<u32>; 4]| {
             let (hits, crossed) = (vec![1; 4], vec![0; 4]);
             let firsts = firsts.to_vec();
-            vec![Some(Trace { drawn: 1, seed: Some(1), hits, firsts, crossed })]
+            let expected = vec![None, Some(0), None, None];
+            vec![Some(Trace { drawn: 1, seed: Some(1), hits, firsts, expected, crossed })]
         };
         assert!(fits(&parameters, &unit, &own([None, Some(0), Some(7), Some(7)])));
         assert!(!fits(&parameters, &unit, &own([None, Some(0), None, Some(7)])));

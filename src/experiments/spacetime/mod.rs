@@ -172,30 +172,6 @@ impl SpaceTime {
         (0..firsts.len()).filter(|&gap| alone(gap)).collect()
     }
 
-    /// The longest time between two impacts of one gap: gap, from, to.
-    pub fn longest_silence(&self) -> Option<(usize, f64, f64)> {
-        let mut last: Vec<Option<f64>> = vec![None; self.width()];
-        let mut longest: Option<(usize, f64, f64)> = None;
-        for (&time, &gap) in self.times.iter().zip(&self.gaps) {
-            let gap = gap as usize;
-            if let Some(before) = last[gap].replace(time)
-                && longest.is_none_or(|(_, from, to)| time - before > to - from)
-            {
-                longest = Some((gap, before, time));
-            }
-        }
-        longest
-    }
-
-    /// The share of all impacts that the most active `count` gaps have.
-    pub fn share_of_busiest(&self, count: usize) -> f64 {
-        let mut impacts = vec![0_u32; self.width()];
-        self.gaps.iter().for_each(|gap| impacts[*gap as usize] += 1);
-        impacts.sort_unstable_by(|a, b| b.cmp(a));
-        let busiest: u32 = impacts.iter().take(count).sum();
-        f64::from(busiest) / self.gaps.len().max(1) as f64
-    }
-
     /// Gaps reached by a time.
     pub fn reached_by(&self, time: f64) -> usize {
         self.firsts().iter().flatten().filter(|first| **first <= time).count()
@@ -252,8 +228,6 @@ mod tests {
         assert_eq!(run.firsts(), [Some(14.0), Some(10.0), Some(12.0), None, Some(50.0)]);
         assert_eq!((run.reached(), run.reached_by(12.0)), (4, 2));
         assert_eq!(run.starts(), [1, 4]);
-        assert_eq!(run.longest_silence(), Some((1, 13.0, 60.0)));
-        assert_eq!(run.share_of_busiest(1), 4.0 / 7.0);
         let advance = |gap, time, delay| Advance { gap, time, delay };
         assert_eq!(run.advances(), [advance(2, 12.0, 2.0), advance(0, 14.0, 4.0)]);
     }

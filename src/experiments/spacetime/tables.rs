@@ -5,9 +5,6 @@ use super::{SpaceTime, run};
 use crate::table::Table;
 use crate::value::origin;
 
-/// How many of the most active gaps the text speaks of.
-const BUSIEST: usize = 10;
-
 /// All tables.
 pub fn tables(run: &SpaceTime) -> Vec<Table> {
     vec![whole(run), part(run)]
@@ -18,7 +15,6 @@ fn whole(own: &SpaceTime) -> Table {
     let none = f64::NAN;
     let (until, advances) = (own.parameters.until, own.advances());
     let (median, longest) = (advances.get(advances.len() / 2), advances.last());
-    let silence = own.longest_silence();
     let reached = own.reached();
     Table::of("spacetime.run", &[()], |()| 1)
         .chosen("sigma", "d omega^2", "standard deviation σ", |()| Some(own.parameters.sigma))
@@ -26,7 +22,6 @@ fn whole(own: &SpaceTime) -> Table {
         .chosen("last", time, "in which it has impacts", |()| Some(own.parameters.last))
         .chosen("quarter", time, "of the run", |()| Some(until / 4.0))
         .chosen("half", time, "of the run", |()| Some(until / 2.0))
-        .chosen("busiest", "1", "the most active gaps", |()| Some(BUSIEST as f64))
         .computed_by(origin(run))
         .count("passed_over", "realisations without late impacts", |()| own.realisation)
         .count("impacts", "impacts", |()| own.times.len() as u64)
@@ -48,14 +43,6 @@ fn whole(own: &SpaceTime) -> Table {
         })
         .count("advance_gap", "gap that it reaches", |()| longest.map_or(0, |step| step.gap as u64))
         .real("advance_time", time, 3, "when it does", |()| longest.map_or(none, |step| step.time))
-        .computed_by(origin(SpaceTime::longest_silence))
-        .count("silent_gap", "with the longest silence", |()| silence.map_or(0, |own| own.0 as u64))
-        .real("silence", time, 3, "longest between two impacts of a gap", |()| {
-            silence.map_or(none, |(_, from, to)| to - from)
-        })
-        .real("silence_end", time, 3, "when it ends", |()| silence.map_or(none, |(.., to)| to))
-        .computed_by(origin(SpaceTime::share_of_busiest))
-        .real("busiest_share", "1", 2, "of all impacts", |()| own.share_of_busiest(BUSIEST))
         .done()
 }
 

@@ -136,6 +136,12 @@ fn rise_table(name: &'static str, sweep: &Sweep) -> Table {
             "from a tenth to nine tenths of all gaps, of the mean of all",
             |own| own.rise.width,
         )
+        .estimate(
+            "kept_width",
+            "d omega^2",
+            "from a quarter to three quarters of all gaps, of the mean of the kept",
+            |own| own.rise.kept_width,
+        )
         .done()
 }
 

@@ -32,12 +32,18 @@ pub(crate) fn largest_distance(sweep: &Sweep, curve: &Curve) -> Option<[f64; 2]>
     })
 }
 
+/// The finest step of the grid, to a part in a million.
+fn finest(sweep: &Sweep) -> f64 {
+    let steps = sweep.rows.windows(2).map(|w| w[1].sigma - w[0].sigma);
+    (steps.fold(f64::INFINITY, f64::min) * 1e6).round() / 1e6
+}
+
 /// The largest increase of a mean within one and within two steps of the grid, in gaps; over the
 /// finest part of the grid.
 pub(crate) fn increases(sweep: &Sweep, mean: fn(&SweepRow) -> Option<f64>) -> Option<[f64; 2]> {
     let points: Vec<(f64, f64)> =
         sweep.rows.iter().filter_map(|row| Some((row.sigma, mean(row)?))).collect();
-    let finest = points.windows(2).map(|w| w[1].0 - w[0].0).fold(f64::INFINITY, f64::min);
+    let finest = finest(sweep);
     let fine = |step: f64| step < 1.01 * finest;
     let mut found: Option<[f64; 2]> = None;
     for w in points.windows(3) {
@@ -68,10 +74,6 @@ pub(crate) fn distance(sweep: &Sweep, curve: &Curve, column: fn(&CurveRow) -> f6
 pub fn tables(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
     let (sweep, theory) = (results.sweep().ok()?, &results.theory);
     let curve = &theory.curve;
-    let inside = sweep.rise.tenth.zip(sweep.rise.nine_tenths).map_or(0, |(low, high)| {
-        let within = |sigma: f64| low.value <= sigma && sigma <= high.value;
-        sweep.rows.iter().filter(|row| within(row.sigma)).count()
-    });
     let found = |number: Option<f64>| number.unwrap_or(f64::NAN);
     let root = |column| found(distance(sweep, curve, column));
     let rows: Vec<&SweepRow> =
@@ -95,11 +97,11 @@ pub fn tables(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
             found(largest_distance(sweep, curve).map(|[distance, _]| distance))
         })
         .computed_by(origin(increases))
-        .real("largest_increase", "1", 2, "of the mean of the kept from one σ to the next", |()| {
+        .real("largest_increase", "1", 2, "of the mean of the kept in one step of σ", |()| {
             found(increases(sweep, |row| row.mean_distinct).map(|[one, _]| one))
         })
+        .chosen("step", "d omega^2", "the finest of the grid", |()| Some(finest(sweep)))
         .computed_by(origin(rise::find))
-        .count("rows", "values of σ from a tenth to nine tenths of the rise", |()| inside as u64)
         .real(
             "half_gap",
             "d omega^2",

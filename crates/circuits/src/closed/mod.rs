@@ -10,7 +10,7 @@
 //!
 //! What is assumed: velocities are normal and independent of positions; neighbours know of each other only by their order
 //! and by the motion that the forces keep up; an impact leaves nothing of the random motion before it. The last
-//! fails where restitution is small or few masses move, and motions become regular: see [`spread`].
+//! fails where restitution is small or few masses move: see [`spread`].
 
 mod complex;
 pub mod front;

@@ -220,7 +220,7 @@ fn claims(published: &Published, limit: &Table) -> Result<Vec<Check>, Box<dyn st
         let ours = limit.number(&[], &statement.id)?;
         let agrees = (low..=high).contains(&ours);
         let mut finding = Finding {
-            ours: Text::default().decimals(ours, statement.decimals + 2),
+            ours: Text::default().decimals(ours, usize::from(statement.decimals) + 2),
             tolerance: Text::words("half a unit of the last printed digit"),
             reason: "a printed number was rounded",
             judgement: Judgement::Plain { agrees },

@@ -11,7 +11,7 @@ pub use basis::{Basis, split};
 pub use finding::{Finding, all_cases, open, rounding};
 pub use level::{FAMILY_LEVEL, Level};
 pub use published::{Parameter, Published, PublishedError, Statement};
-pub use text::{Digits, Number, Piece, Text, digits_of};
+pub use text::Text;
 pub use verdict::{Judgement, Verdict};
 
 use serde::Serialize;

@@ -1,50 +1,18 @@
 //! Sentences of a claim: words, and numbers that the report prints with the digits they deserve.
 
+use crate::value::{Digits, Number};
 use serde::Serialize;
 
-/// How many digits of a number are shown.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Digits {
-    /// As many as the error allows, the error in brackets: 0.1165(4).
-    Error(f64),
-    /// So many decimals.
-    Decimals(u8),
-    /// So many significant digits.
-    Significant(u8),
-    /// An integer.
-    Integer,
-}
-
-/// A number inside a sentence.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Number {
-    /// The number.
-    pub value: f64,
-    /// How it is shown.
-    pub digits: Digits,
-}
-
-/// A piece of a sentence.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Piece {
-    /// Words, as they are.
-    Words(String),
-    /// A number.
-    Number(Number),
-}
-
-/// A short text with numbers in it.
+/// A short text with numbers in it; its words are numbers of the kind [`Number::Text`].
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[serde(transparent)]
-pub struct Text(pub Vec<Piece>);
+pub struct Text(pub Vec<Number>);
 
 /// The number of significant digits of the shortest decimal that reads back to the same double.
-pub fn digits_of(value: f64) -> u8 {
+fn digits_of(value: f64) -> usize {
     let text = format!("{:e}", value.abs());
     let mantissa = text.split('e').next().unwrap_or_default();
-    mantissa.bytes().filter(u8::is_ascii_digit).count().max(1) as u8
+    mantissa.bytes().filter(u8::is_ascii_digit).count().max(1)
 }
 
 impl Text {
@@ -55,12 +23,12 @@ impl Text {
 
     /// Goes on with words.
     pub fn say(mut self, words: impl Into<String>) -> Text {
-        self.0.push(Piece::Words(words.into()));
+        self.0.push(Number::Text(words.into()));
         self
     }
 
     fn number(mut self, value: f64, digits: Digits) -> Text {
-        self.0.push(Piece::Number(Number { value, digits }));
+        self.0.push(Number::Real { value, digits });
         self
     }
 
@@ -70,12 +38,12 @@ impl Text {
     }
 
     /// Goes on with a number of so many decimals.
-    pub fn decimals(self, value: f64, decimals: u8) -> Text {
+    pub fn decimals(self, value: f64, decimals: usize) -> Text {
         self.number(value, Digits::Decimals(decimals))
     }
 
     /// Goes on with a number of so many significant digits.
-    pub fn significant(self, value: f64, digits: u8) -> Text {
+    pub fn significant(self, value: f64, digits: usize) -> Text {
         self.number(value, Digits::Significant(digits))
     }
 
@@ -85,8 +53,9 @@ impl Text {
     }
 
     /// Goes on with an integer.
-    pub fn integer(self, value: usize) -> Text {
-        self.number(value as f64, Digits::Integer)
+    pub fn integer(mut self, value: usize) -> Text {
+        self.0.push(Number::Integer(value as i64));
+        self
     }
 
     /// Whether nothing is said.

@@ -192,6 +192,10 @@ impl Plan {
             return Err(Error::Units { what, remedy });
         }
         results.prepare()?;
+        // All or none.
+        self.tasks.iter().try_for_each(|task| {
+            results.refuse_foreign(&task.experiment.identity(self.profile), self.profile)
+        })?;
         let mut texts = texts.into_iter();
         for tasks in self.tasks.chunk_by(|a, b| a.experiment.name() == b.experiment.name()) {
             let own: Vec<String> = texts.by_ref().take(tasks.len()).collect();

@@ -110,6 +110,14 @@ impl Store {
         tried.map_err(|source| Error::Store { path: folder.clone(), source })
     }
 
+    /// Whether a result can be saved without replacing what was never one.
+    ///
+    /// # Errors
+    /// [`Error::Store`].
+    pub fn refuse_foreign(&self, identity: &Identity, profile: Profile) -> Result<(), Error> {
+        self.path(identity, profile).map_or(Ok(()), |path| refuse_foreign(&path))
+    }
+
     /// Saves a result.
     ///
     /// # Errors

@@ -2,8 +2,8 @@
 
 use super::markdown;
 use super::print::{Style, print};
-use super::values::{Digits, Number, Value, origin};
-use crate::claims::{Basis, Check, Digits as ClaimDigits, Piece, Published, Text, Verdict, split};
+use super::values::{Number, Value, origin};
+use crate::claims::{Basis, Check, Published, Text, Verdict, split};
 use serde::Serialize;
 
 /// One claim for a template: every field is Markdown, its numbers printed with their digits.
@@ -34,7 +34,7 @@ pub struct Row {
 impl Row {
     /// The row of a claim.
     pub fn of(claim: &Check) -> Self {
-        let words = |text: &str| markdown::escaped(text);
+        let words = |text: &str| markdown::escaped(&symbols(text));
         Row {
             id: claim.id.clone(),
             place: words(&claim.place),
@@ -42,7 +42,8 @@ impl Row {
             printed: words(&claim.printed),
             ours: sentence(&claim.ours),
             tolerance: sentence(&claim.tolerance),
-            reason: words(&claim.reason),
+            // Stands in emphasis, in which hosts see no formula.
+            reason: markdown::escaped(&claim.reason),
             basis: claim.basis.words().to_string(),
             verdict: claim.verdict.words().to_string(),
             note: sentence(&claim.note),
@@ -52,31 +53,46 @@ impl Row {
 
 /// A text of a claim as Markdown.
 pub fn sentence(text: &Text) -> String {
-    let piece = |piece: &Piece| match piece {
-        Piece::Words(words) => markdown::escaped(words),
-        Piece::Number(number) => print(&digits_of(number), Style::default()).markdown(),
+    let piece = |piece: &Number| match piece {
+        Number::Text(words) => markdown::escaped(&symbols(words)),
+        number => print(number, Style::default()).markdown(),
     };
     text.0.iter().map(piece).collect()
+}
+
+/// A text in which each symbol with an index or a star, as p_crit or k*, is a formula. Other letters stay text.
+fn symbols(text: &str) -> String {
+    let (mut out, mut rest) = (String::new(), text);
+    while let Some(at) = rest.find(['_', '*']) {
+        let letter = rest[..at].chars().next_back().filter(|c| c.is_alphabetic());
+        let before = &rest[..at - letter.map_or(0, char::len_utf8)];
+        let (mark, after) = rest[at..].split_at(1);
+        let end = after.find(|c: char| !c.is_alphanumeric()).unwrap_or(after.len());
+        let (index, beyond) = after.split_at(if mark == "_" { end } else { 0 });
+        let alone = !before.ends_with(|c: char| c.is_alphanumeric() || c == '_');
+        match letter.map(|letter| if letter == 'φ' { r"\phi".into() } else { letter.to_string() })
+        {
+            Some(tex) if alone && mark == "*" => out.push_str(&format!("{before}${tex}^*$")),
+            Some(tex) if alone && index.chars().count() == 1 => {
+                out.push_str(&format!("{before}${tex}_{index}$"))
+            }
+            Some(tex) if alone && end > 0 => {
+                out.push_str(&format!(r"{before}${tex}_{{\mathrm{{{index}}}}}$"))
+            }
+            _ => out.push_str(&rest[..rest.len() - beyond.len()]),
+        }
+        rest = beyond;
+    }
+    out + rest
 }
 
 /// A text of a claim for terminals and data.
 pub fn plain(text: &Text) -> String {
-    let piece = |piece: &Piece| match piece {
-        Piece::Words(words) => words.clone(),
-        Piece::Number(number) => print(&digits_of(number), Style::default()).plain(),
+    let piece = |piece: &Number| match piece {
+        Number::Text(words) => words.clone(),
+        number => print(number, Style::default()).plain(),
     };
     text.0.iter().map(piece).collect()
-}
-
-fn digits_of(number: &crate::claims::Number) -> Number {
-    let value = number.value;
-    let digits = match number.digits {
-        ClaimDigits::Error(error) => Digits::Error(error),
-        ClaimDigits::Decimals(places) => Digits::Decimals(places.into()),
-        ClaimDigits::Significant(places) => Digits::Significant(places.into()),
-        ClaimDigits::Integer => return Number::Integer(value as i64),
-    };
-    Number::Real { value, digits }
 }
 
 /// What was printed, as values: the groups `paper` (parameters) and `printed` (statements).
@@ -115,10 +131,17 @@ mod tests {
     use super::*;
 
     #[test]
+    fn symbols_with_an_index_or_a_star_are_formulas() {
+        let text = "At p_crit k* of φ_N(k) is fig_3_b, 2*3, a_ and σ_x.";
+        let set = r"At $p_{\mathrm{crit}}$ $k^*$ of $\phi_N$(k) is fig_3_b, 2*3, a_ and $σ_x$.";
+        assert_eq!(symbols(text), set);
+    }
+
+    #[test]
     fn numbers_of_claims_have_their_digits() {
         let text =
             Text::words("k* at ").with_error(0.11652, 0.0004).say(", ").significant(8.87e-4, 3);
-        assert_eq!(sentence(&text), r"k\* at 0.1165(4), $8.87\times10^{-4}$");
+        assert_eq!(sentence(&text), r"$k^*$ at 0.1165(4), $8.87\times10^{-4}$");
         assert_eq!(plain(&text.integer(12345)), "k* at 0.1165(4), 8.87e-412345");
     }
 }

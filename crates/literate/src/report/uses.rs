@@ -7,7 +7,7 @@
 use super::document::Block;
 use super::shown::Shown;
 use super::values::{Number, Registry};
-use crate::claims::{Check, Piece as Said, Text};
+use crate::claims::{Check, Text};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// For each claim the ids of its values, sorted.
@@ -42,8 +42,9 @@ fn is_long(value: f64) -> bool {
 
 fn numbers(text: &Text) -> impl Iterator<Item = f64> + '_ {
     text.0.iter().filter_map(|piece| match piece {
-        Said::Number(number) => Some(number.value),
-        Said::Words(_) => None,
+        Number::Integer(value) => Some(*value as f64),
+        Number::Real { value, .. } => Some(*value),
+        Number::Interval { .. } | Number::Text(_) => None,
     })
 }
 

@@ -114,7 +114,8 @@ pub fn diff(before: &Parts<'_>, after: &Parts<'_>, documents: &[Document]) -> Re
     let differing: Vec<&String> = old.intersection(&new).filter(differing).collect();
     for document in documents.iter().filter(|d| differing.iter().any(|path| *path == d.markdown)) {
         let text = |of: &Parts<'_>| text(of.name, &of.files, document.markdown);
-        out.prose.push(ProseChange::between(document.name, &text(before)?, &text(after)?));
+        let change = ProseChange::between(document.name, &text(before)?, &text(after)?);
+        out.prose.push(change.map_err(|what| format!("{}: {what}", document.markdown))?);
     }
     for path in differing {
         if is_data(path) {

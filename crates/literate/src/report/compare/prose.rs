@@ -34,13 +34,25 @@ pub enum Piece {
     Changed([String; 2]),
 }
 
+/// A document has no more sentences: all are compared with all.
+const MOST: usize = 20_000;
+
 /// Among so many a rewritten sentence is looked for.
 const NEAR: usize = 20;
 
 impl ProseChange {
     /// Compares two texts of a document.
-    pub fn between(document: &str, before: &str, after: &str) -> Self {
+    ///
+    /// # Errors
+    /// In words: no document has so many sentences.
+    pub fn between(document: &str, before: &str, after: &str) -> Result<Self, String> {
         let (before, after) = (sentences(before), sentences(after));
+        let most = before.len().max(after.len());
+        if most > MOST {
+            return Err(format!(
+                "{most} sentences, and no document of a report has more than {MOST}"
+            ));
+        }
         let (numbers_alone, sentences) = (0, Vec::new());
         let mut out = ProseChange { document: document.into(), numbers_alone, sentences };
         let key = |sentence: &Sentence| -> Vec<String> {
@@ -64,7 +76,7 @@ impl ProseChange {
             }
             out.apart(old, &new[told..]);
         }
-        out
+        Ok(out)
     }
 
     fn apart(&mut self, gone: &[Sentence], new: &[Sentence]) {
@@ -107,7 +119,7 @@ mod tests {
 
     /// The changed parts, and how many sentences differ in numbers alone.
     fn told(before: &str, after: &str) -> (Vec<[String; 2]>, usize) {
-        let change = ProseChange::between("", before, after);
+        let change = ProseChange::between("", before, after).unwrap();
         let pieces = change.sentences.into_iter().flat_map(|sentence| sentence.pieces);
         let changed = pieces.filter_map(|piece| match piece {
             Piece::Changed(texts) => Some(texts),
@@ -124,6 +136,12 @@ mod tests {
             let after = before.replace(old, new).replace("0.1159(4)", "0.12");
             assert_eq!(told(before, &after), (vec![[old.into(), new.into()]], 1));
         }
+    }
+
+    #[test]
+    fn no_text_is_compared_without_end() {
+        let long = "a.\n\n".repeat(MOST + 1);
+        assert!(ProseChange::between("", "a.", &long).unwrap_err().contains("20001 sentences"));
     }
 
     #[test]

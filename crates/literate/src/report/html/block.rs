@@ -155,11 +155,15 @@ impl Page<'_> {
         };
         // On a narrow screen rows of many columns become lists, with the heads as names, or at
         // least scroll sideways as lines and not as towers.
-        let names: Vec<String> = head.iter().map(|cell| plain(cell)).collect();
-        let is_words = |cell: &Vec<Inline>| matches!(cell.as_slice(), [Inline::Text(_)]);
+        let names: Vec<String> = head.iter().map(|cell| spelt(cell)).collect();
+        let is_word = |inline: &Inline| match inline {
+            Inline::Text(text) => text.chars().any(char::is_alphabetic),
+            _ => false,
+        };
+        let has_words = |cell: &Vec<Inline>| cell.iter().any(is_word);
         let texts = longest.iter().any(|length| *length > TEXT) && columns.len() > FEW;
         let many = columns.len() >= MANY || texts;
-        let lists = many && head.iter().all(is_words);
+        let lists = many && head.iter().all(has_words);
         // A browser forgets that these are tables once style sheets lay them out as lists.
         let [table, line, field] = match (lists, many) {
             (true, _) => [" class=\"lists\" role=\"table\"", " role=\"row\"", " role=\"cell\""],
