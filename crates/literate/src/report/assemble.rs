@@ -133,8 +133,8 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
         }
         let site = html::Site { here: *of, labels: &labels, moving, lab: input.lab.is_some() };
         filler.insert("page", &html::write(blocks, input.figures, site, cards)?);
-        filler.insert("style", &input.templates.text("report.css")?);
-        filler.insert("script", &input.templates.text("report.js")?);
+        filler.insert("style", &flush(input.templates.text("report.css")?));
+        filler.insert("script", &flush(input.templates.text("report.js")?));
         let page = filler.fill("report.html")?;
         html::is_whole(&page)?;
         beside.insert(of.page.into(), page.into_bytes());
@@ -190,6 +190,11 @@ fn typeset(blocks: &[Block], input: &Input<'_>) -> Result<Vec<u8>, Error> {
 #[cfg(not(feature = "pdf"))]
 fn typeset(_: &[Block], _: &Input<'_>) -> Result<Vec<u8>, Error> {
     Err(Error::NoTypesetter)
+}
+
+/// Lines without indentation, which is for those who write them: a page is loaded sooner.
+fn flush(text: &str) -> String {
+    text.lines().flat_map(|line| [line.trim_start(), "\n"]).collect()
 }
 
 /// What stands around the text of the documents: it has a place for the text, and leaves nothing open and
