@@ -116,8 +116,9 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
     let values_json = serde_json::to_string_pretty(&values).map_err(json)? + "\n";
     committed.insert("values.json".into(), values_json.into_bytes());
     committed.insert("ledger.json".into(), ledger::json(&ledger).map_err(json)?.into_bytes());
-    let moving = |scene| Ok((scene, input.templates.text("scene.js")?));
+    let moving = |scene| Ok((scene, flush(input.templates.text("scene.js")?)));
     let moving = input.scene.map(moving).transpose()?;
+    let moving = moving.as_ref().map(|(scene, script)| (*scene, script.as_str()));
     let cards = Cards { values: &values, ledger: &ledger, program: input.program };
     for Part { of, blocks, .. } in &parts {
         committed.insert(of.markdown.into(), markdown::write(blocks).into_bytes());
