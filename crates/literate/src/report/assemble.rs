@@ -193,9 +193,10 @@ fn typeset(_: &[Block], _: &Input<'_>) -> Result<Vec<u8>, Error> {
     Err(Error::NoTypesetter)
 }
 
-/// Lines without indentation, which is for those who write them: a page is loaded sooner.
+/// Lines without indentation and comments, which are for those who write them: a page is loaded sooner.
 fn flush(text: &str) -> String {
-    text.lines().flat_map(|line| [line.trim_start(), "\n"]).collect()
+    let lines = text.lines().map(str::trim_start).filter(|line| !line.starts_with("//"));
+    lines.flat_map(|line| [line, "\n"]).collect()
 }
 
 /// What stands around the text of the documents: it has a place for the text, and leaves nothing open and
