@@ -4,7 +4,7 @@
 .PHONY: paper quick check deep mutate pdf latex browser test test-long lint deny identity bundle fuzz bench measure clean help
 
 paper: ## the whole reproduction in the full profile, into paper/
-	cargo run --release --locked -- paper
+	.ci/module && cargo run --release --locked -- paper
 
 quick: ## the same with small samples, into target/paper-quick/
 	cargo run --release --locked -- paper --profile quick
@@ -19,7 +19,7 @@ mutate: ## which check notices when a number of the report is wrong; fails if no
 	cargo run --release --locked -p impact-paper-tools -- mutate
 
 pdf: ## make paper, and PDFs of its documents too: typeset in the program, minutes more to build
-	cargo run --release --locked --features pdf -- paper --pdf
+	.ci/module && cargo run --release --locked --features pdf -- paper --pdf
 
 latex: ## the documents of paper/ by TeX Live, into target/latex (installed when missing)
 	.ci/latex

@@ -48,6 +48,11 @@ pub fn text(path: &str) -> io::Result<Cow<'static, str>> {
     copy.map(|(_, text)| Cow::Borrowed(*text)).ok_or_else(missing)
 }
 
+/// The bytes of a file that is no text; none if it is not there, or cannot be read.
+pub fn bytes(path: &str) -> Option<Vec<u8>> {
+    find(path).and_then(|found| std::fs::read(found).ok())
+}
+
 /// Files of the copy inside that lie below a folder, by their path relative to it.
 pub fn embedded(folder: &str) -> impl Iterator<Item = (&'static str, &'static str)> {
     let inside = move |path: &'static str| path.strip_prefix(folder)?.strip_prefix('/');

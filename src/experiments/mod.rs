@@ -16,6 +16,7 @@ pub mod nucleation;
 pub mod observe;
 pub mod protocol;
 pub mod protocol_tables;
+pub mod replay;
 pub mod restitution;
 pub mod rise;
 pub mod run;
@@ -55,7 +56,7 @@ use literate::experiments::deep::Deep;
 use literate::experiments::experiment::How::{Cut, Read, Whole};
 
 /// All experiments, in the order in which they run.
-pub const ALL: [Need; 26] = [
+pub const ALL: [Need; 27] = [
     &SEGMENTS,
     &MEASURED,
     &SWEEP,
@@ -82,6 +83,7 @@ pub const ALL: [Need; 26] = [
     &LONG_PROTOCOL,
     &SIZES,
     &CLOSED,
+    &REPLAY,
 ];
 
 /// Makes tables of the results of several experiments and of their own tables; none where one was not asked for.
@@ -360,6 +362,20 @@ pub const CLOSED: Deep<closed::ClosedParams, closed::Closed, closed::Part> = Dee
     ("closed theory", closed::CUTTING),
     closed::tables,
 );
+
+/// Runs that a page repeats.
+pub const REPLAY: Experiment<replay::Runs, replay::Replays> = Experiment {
+    name: "replay",
+    code: code("src/experiments/replay.rs"),
+    parameters: replay::runs,
+    how: Whole {
+        run: replay::run,
+        weight: |runs| {
+            runs.iter().map(|(_, own)| own.until() as u64 * own.chain.masses as u64).sum()
+        },
+    },
+    tables: replay::tables,
+};
 
 #[cfg(test)]
 mod tests {

@@ -4,7 +4,7 @@ use super::accuracy::{analytic, bias, race, scale, trials};
 use super::{ALL, Error, Measured, Need, TOGETHER};
 use super::{
     chains, closed, heat, history, horizon, identities, independence, long, nucleation, protocol,
-    restitution, seeds, segments, silence, spacetime, starts, sweep, theory, two_masses,
+    replay, restitution, seeds, segments, silence, spacetime, starts, sweep, theory, two_masses,
 };
 use crate::params::{Profile, set};
 use crate::table::Table;
@@ -100,6 +100,8 @@ asked_for! {
     closed: closed::Closed, CLOSED;
     /// Length and transient.
     sizes: chains::Chains, SIZES;
+    /// Runs that a page repeats.
+    replays: replay::Replays, REPLAY;
 }
 
 impl Results {

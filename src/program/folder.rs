@@ -3,7 +3,7 @@
 use super::Failure;
 use super::waiting::is_staging;
 use crate::input;
-use crate::report::sums;
+use crate::report::{LAB, sums};
 use std::io;
 use std::path::Path;
 
@@ -40,7 +40,7 @@ pub fn walk(folder: &Path) -> Result<Vec<String>, Failure> {
 /// Built beside the files of a report, or the list of what is, and never a part of it: .gitignore names
 /// them.
 pub fn is_beside(path: &str) -> bool {
-    path.ends_with(".pdf") || path.ends_with(".html") || path == sums::LOCAL
+    path.ends_with(".pdf") || path.ends_with(".html") || [LAB, sums::LOCAL].contains(&path)
 }
 
 /// A file below a folder, whole. No link is followed on the way, since it might lead out of the

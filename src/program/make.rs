@@ -4,12 +4,16 @@ use super::Failure;
 use super::judged::Judged;
 use super::sources::Sources;
 use crate::claims::{self, Check, Text, Verdict};
+use crate::committed;
 use crate::experiments::spacetime::scene::Scene;
-use crate::experiments::{ALL, Progress};
+use crate::experiments::{ALL, Progress, say};
 use crate::figures::{self, Figure};
 use crate::params::{Profile, set};
 use crate::report::{self, PROGRAM, Report, contents, equations};
 use rayon::prelude::*;
+
+/// The engine as WebAssembly, where `.ci/module` has put it: the machine may have no compiler for that.
+const MODULE: &str = "target/page.wasm";
 
 /// Whether this build has the typesetter.
 pub const TYPESETS: bool = cfg!(feature = "pdf");
@@ -55,6 +59,12 @@ pub fn whole(
     let scene = Scene::of(results.spacetime()?);
     let scene = scene.as_ref().map(report::scene::moving).transpose();
     let scene = scene.map_err(|error| Failure::run(error.to_string()))?;
+    let module = committed::bytes(MODULE);
+    if module.is_none() {
+        say(&format!("{MODULE} is not there, so the pages run nothing; `make paper` builds it"));
+    }
+    let script = templates.text("lab.js")?;
+    let lab = module.map(|module| report::lab::script(&module, &results, script)).transpose()?;
     progress.check()?;
     let report = report::assemble(&report::Input {
         templates: &templates,
@@ -64,6 +74,7 @@ pub fn whole(
         figures: &drawn,
         equations: &equations::entries(),
         scene: scene.as_ref(),
+        lab: lab.as_deref(),
         pdf,
         program: PROGRAM,
     });

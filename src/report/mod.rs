@@ -3,6 +3,7 @@
 pub mod contents;
 pub mod equations;
 pub mod guards;
+pub mod lab;
 pub mod map;
 mod program;
 pub mod recipe;

@@ -5,6 +5,7 @@ import { createRequire } from "node:module";
 import { existsSync, readFileSync, statSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
+import { labs } from "./lab.mjs";
 
 const report = resolve(process.argv[2] ?? "../../paper");
 const pictures = process.argv[3];
@@ -30,17 +31,19 @@ const browser = await chromium.launch({
 });
 
 /** A page that tells every request and every complaint. */
-async function open(file, width, colorScheme, options = {}) {
+async function open(file, width, colorScheme, { before, loads, ...options } = {}) {
   const page_url = pathToFileURL(join(report, file)).href;
   const context = await browser.newContext({
     viewport: { width, height: 900 },
     colorScheme,
     ...options,
   });
+  if (before) await context.addInitScript(before);
   const page = await context.newPage();
   page.on("request", (request) => {
     const url = request.url();
-    check(url.split("#")[0] === page_url || url.startsWith("data:"), `a request: ${url.slice(0, 100)}`);
+    const asked = loads && url === new URL("lab.js", page_url).href;
+    check(asked || url.split("#")[0] === page_url || url.startsWith("data:"), `a request: ${url.slice(0, 100)}`);
   });
   page.on("console", (message) => {
     check(!["error", "warning"].includes(message.type()), `console: ${message.text()}`);
@@ -347,6 +350,7 @@ for (const [file, least] of Object.entries(PAGES)) {
   }
 }
 await old_addresses_lead_on();
+await labs({ report, open, check, stays_narrow, accessible, pictures });
 
 const calm = await open("index.html", 1280, "light", { reducedMotion: "reduce" });
 await moves(calm, "calm", true);

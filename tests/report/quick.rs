@@ -67,6 +67,7 @@ pub static QUICK: LazyLock<Quick> = LazyLock::new(|| {
         figures: &figures,
         equations: &equations::entries(),
         scene: scene.as_ref(),
+        lab: Some(""),
         pdf: false,
         program: PROGRAM,
     };

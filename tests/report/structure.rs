@@ -39,7 +39,7 @@ fn code(text: &str) -> impl Iterator<Item = (usize, &str)> {
 
 /// The source of the program and of its crates.
 fn sources() -> Vec<(String, String)> {
-    let crates = ["numerics", "impact-chain", "circuits", "literate"];
+    let crates = ["numerics", "impact-chain", "circuits", "literate", "page"];
     let crates = crates.map(|name| format!("crates/{name}/src"));
     crates
         .iter()

@@ -9,6 +9,7 @@
 //!   ([`Engine::contacts`]), and gaps that close at the same instant follow a rule ([`Simultaneous`]).
 //! - [`certify()`] says up to which impact a run can be trusted where it is chaotic, [`rounding`] bounds
 //!   what rounding does to one impact. [`Sensitivity`] has the derivatives of impact times by the strength of the forcing.
+//! - [`replay`] is a run that is repeated, and proved by a digest of its impacts.
 //! - [`methods`] are other ways to simulate the same chain, to compare with.
 //!
 //! ```
@@ -46,6 +47,7 @@ mod growth;
 mod impact;
 mod linear;
 pub mod methods;
+pub mod replay;
 pub mod rounding;
 mod scenario;
 mod sensitivity;

@@ -240,11 +240,15 @@ impl Scenario {
     /// n pairs of the forcing, then, for a random start, the n pairs of the free part.
     pub fn draw(chain: &Chain, sigma: f64, normals: &mut NormalPairs) -> Scenario {
         let forcing = scaled_pairs(chain.masses, sigma, normals);
-        let initial = match chain.start {
-            Start::Rest => Initial::Rest,
-            Start::Zero => Initial::Zero,
-            Start::Random => Initial::Free(scaled_pairs(chain.masses, sigma, normals)),
-        };
+        let mut scenario = Scenario::given(chain, forcing);
+        if chain.start == Start::Random {
+            scenario.initial = Initial::Free(scaled_pairs(chain.masses, sigma, normals));
+        }
+        scenario
+    }
+
+    /// A chain with given amplitudes; a random start, of which there is no chance here, is one without a free part.
+    pub fn given(chain: &Chain, forcing: Vec<[f64; 2]>) -> Scenario {
         Scenario {
             spacing: chain.spacing,
             natural_frequency: chain.natural_frequency,
@@ -252,7 +256,7 @@ impl Scenario {
             restitution: chain.restitution,
             boundary: chain.boundary,
             simultaneous: Simultaneous::default(),
-            initial,
+            initial: if chain.start == Start::Rest { Initial::Rest } else { Initial::Zero },
             forcing,
             overtones: Vec::new(),
         }

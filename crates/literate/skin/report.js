@@ -21,6 +21,21 @@
   addEventListener("hashchange", go);
   go();
 
+  // What readers run themselves is loaded when it is first asked for.
+  let lab;
+  const load = () => new Promise((done, failed) => document.head.append(make("script", { src: "lab.js", onload: done, onerror: failed })));
+  for (const figure of all("WebAssembly" in globalThis ? ".lab" : "#none")) {
+    figure.hidden = false;
+    figure.querySelector("button").addEventListener("click", async () => {
+      const status = figure.querySelector("[role=status]");
+      status.textContent = "Loading …";
+      await (lab ??= load()).then(() => open_lab(figure)).catch(() => {
+        lab = undefined;
+        status.textContent = "lab.js cannot be loaded; it belongs beside this page.";
+      });
+    });
+  }
+
   // The card of a number.
   const card = document.getElementById("card");
   const [rows, cards] = data("cards");

@@ -150,7 +150,8 @@ pub fn written(text: &str, values: &Registry) -> Result<usize, Error> {
     labels.resolve(&mut blocks, here, &LIBRARY)?;
     let ledger = Ledger::default();
     let cards = Cards { values, ledger: &ledger, program: PROGRAM };
-    let page = html::write(&blocks, &[], Site { here, labels: &labels, moving: None }, cards);
+    let page =
+        html::write(&blocks, &[], Site { here, labels: &labels, moving: None, lab: true }, cards);
     let latex = latex::write(&blocks)?.len() + latex::listings(&blocks)?.len();
     latex::title(&blocks)?;
     let page = match page {

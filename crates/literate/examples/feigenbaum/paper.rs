@@ -262,6 +262,7 @@ pub fn make(
         figures: &figures,
         equations: &[],
         scene: None,
+        lab: None,
         pdf: false,
         program: PROGRAM,
     })?)

@@ -24,6 +24,9 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Paths relative to the report's folder, and their bytes.
 pub type Files = BTreeMap<String, Vec<u8>>;
 
+/// What a page loads when a reader asks it to compute.
+pub const LAB: &str = "lab.js";
+
 /// What a report is made of.
 #[derive(Clone, Copy, Debug)]
 pub struct Input<'a> {
@@ -41,6 +44,8 @@ pub struct Input<'a> {
     pub equations: &'a [EquationEntry],
     /// What moves on a page.
     pub scene: Option<&'a html::Moving>,
+    /// What a page loads when a reader asks it to compute: lab.js, beside the pages.
+    pub lab: Option<&'a str>,
     /// Whether PDFs are wanted; the feature `pdf` makes them.
     pub pdf: bool,
     /// The program that makes it.
@@ -111,8 +116,9 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
     let values_json = serde_json::to_string_pretty(&values).map_err(json)? + "\n";
     committed.insert("values.json".into(), values_json.into_bytes());
     committed.insert("ledger.json".into(), ledger::json(&ledger).map_err(json)?.into_bytes());
-    let moving = |scene| Ok((scene, input.templates.text("scene.js")?));
+    let moving = |scene| Ok((scene, flush(input.templates.text("scene.js")?)));
     let moving = input.scene.map(moving).transpose()?;
+    let moving = moving.as_ref().map(|(scene, script)| (*scene, script.as_str()));
     let cards = Cards { values: &values, ledger: &ledger, program: input.program };
     for Part { of, blocks, .. } in &parts {
         committed.insert(of.markdown.into(), markdown::write(blocks).into_bytes());
@@ -126,14 +132,15 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
                 beside.insert(format!("{name}.pdf"), typeset(blocks, input)?);
             }
         }
-        let site = html::Site { here: *of, labels: &labels, moving };
+        let site = html::Site { here: *of, labels: &labels, moving, lab: input.lab.is_some() };
         filler.insert("page", &html::write(blocks, input.figures, site, cards)?);
-        filler.insert("style", &input.templates.text("report.css")?);
-        filler.insert("script", &input.templates.text("report.js")?);
+        filler.insert("style", &flush(input.templates.text("report.css")?));
+        filler.insert("script", &flush(input.templates.text("report.js")?));
         let page = filler.fill("report.html")?;
         html::is_whole(&page)?;
         beside.insert(of.page.into(), page.into_bytes());
     }
+    beside.extend(input.lab.map(|lab| (LAB.to_string(), lab.as_bytes().to_vec())));
     for figure in input.figures {
         committed.extend(files_of(figure));
     }
@@ -184,6 +191,12 @@ fn typeset(blocks: &[Block], input: &Input<'_>) -> Result<Vec<u8>, Error> {
 #[cfg(not(feature = "pdf"))]
 fn typeset(_: &[Block], _: &Input<'_>) -> Result<Vec<u8>, Error> {
     Err(Error::NoTypesetter)
+}
+
+/// Lines without indentation and comments, which are for those who write them: a page is loaded sooner.
+fn flush(text: &str) -> String {
+    let lines = text.lines().map(str::trim_start).filter(|line| !line.starts_with("//"));
+    lines.flat_map(|line| [line, "\n"]).collect()
 }
 
 /// What stands around the text of the documents: it has a place for the text, and leaves nothing open and

@@ -19,7 +19,14 @@ pub(super) fn paragraph(mut inlines: Vec<Inline>) -> Result<Block, Error> {
         && let Some(words) = first.strip_prefix("Scene: ")
     {
         *first = words.to_string();
-        return Ok(Block::Scene { caption: inlines });
+        return Ok(Block::Scene { lab: None, caption: inlines });
+    }
+    if let Some(Inline::Text(first)) = inlines.first_mut()
+        && let Some((lab, words)) = first.strip_prefix("Lab ").and_then(|own| own.split_once(": "))
+    {
+        let (lab, words) = (lab.to_string(), words.to_string());
+        *first = words;
+        return Ok(Block::Scene { lab: Some(lab), caption: inlines });
     }
     let image =
         |inline: &Inline| matches!(inline, Inline::Link { to, .. } if to.starts_with(IMAGE));

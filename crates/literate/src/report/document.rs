@@ -91,6 +91,8 @@ pub enum Block {
     },
     /// The place of what moves, in formats in which it can.
     Scene {
+        /// What a reader runs there; nothing where a picture moves.
+        lab: Option<String>,
         /// The caption.
         caption: Vec<Inline>,
     },
@@ -187,7 +189,7 @@ pub fn visit(blocks: &[Block], visit: &mut impl FnMut(&Inline)) {
             Block::Heading { text, .. } | Block::Paragraph(text) => visit_inlines(text, visit),
             Block::Figure { caption, .. }
             | Block::Listing { caption, .. }
-            | Block::Scene { caption } => {
+            | Block::Scene { caption, .. } => {
                 visit_inlines(caption, visit);
             }
             Block::Table { caption, head, rows, .. } => {
@@ -226,7 +228,7 @@ pub fn rewrite<E>(
             Block::Heading { text, .. } | Block::Paragraph(text) => rewrite_inlines(text, change)?,
             Block::Figure { caption, .. }
             | Block::Listing { caption, .. }
-            | Block::Scene { caption } => {
+            | Block::Scene { caption, .. } => {
                 rewrite_inlines(caption, change)?;
             }
             Block::Table { caption, head, rows, .. } => {

@@ -36,7 +36,7 @@ pub mod uses;
 pub mod valued;
 pub mod values;
 
-pub use assemble::{Files, Input, Report, assemble, files_of};
+pub use assemble::{Files, Input, LAB, Report, assemble, files_of};
 pub use documents::Document;
 pub use templates::Templates;
 pub use values::{Registry, Value};
@@ -184,6 +184,8 @@ Table: What σ gives {#tab:sigma}
 
 Scene: They move.
 
+Lab toy: You run *them*.
+
 ```rust
 fn f() -> σ { 1 }
 ```
@@ -252,7 +254,10 @@ Listing: What $\delta v$ does. {#lst:kick}
         ] {
             assert!(text.contains(part), "{part:?} is not in\n{text}");
         }
-        assert!(!text.contains("They move") && !text.contains("\n\n\n"), "{text}");
+        assert!(
+            !text.contains("They move") && !text.contains("You run") && !text.contains("\n\n\n"),
+            "{text}"
+        );
     }
 
     #[test]
@@ -272,7 +277,10 @@ Listing: What $\delta v$ does. {#lst:kick}
         ] {
             assert!(text.contains(part), "{part:?} is not in\n{text}");
         }
-        assert!(!text.contains("self.b +=") && !text.contains("They move"), "{text}");
+        assert!(
+            !text.contains("self.b +=") && !text.contains("They move") && !text.contains("You run"),
+            "{text}"
+        );
         let appendix = latex::listings(&tree(SAMPLE)).unwrap();
         for part in [
             "\\section*{Listings}",
@@ -325,6 +333,10 @@ Listing: What $\delta v$ does. {#lst:kick}
 
     /// Assembles a report with one figure, one claim and one value from this prose.
     fn assembled(prose: &str) -> Result<Report, Error> {
+        with_lab(prose, None)
+    }
+
+    fn with_lab(prose: &str, lab: Option<&str>) -> Result<Report, Error> {
         let bib = "@article{rice1945, author={Rice, S. O.}, title={Noise}, year=1945}";
         let tex = "\\title{«title»}«body»\\end{document}";
         let html = "<html><title>«page.title»</title><main id=\"text\">«page.body»</main>«page.cards»<script>«script»</script></html>";
@@ -354,6 +366,7 @@ Listing: What $\delta v$ does. {#lst:kick}
                 step_towards: None,
             }],
             scene: None,
+            lab,
             pdf: false,
             program: TOY,
         })
@@ -362,6 +375,19 @@ Listing: What $\delta v$ does. {#lst:kick}
     const PROSE: &str = "# Title\n\nAt «v.half_height», [@rice1945].\n\n[@bibliography]\n\n\
         ![The rise.](figures/fig03.svg)\n\n| Id | Check |\n|---|---|\n\
         <% for c in claims %>| [!claim:«c.id»] | «c.statement»: «c.ours», «c.verdict» |\n<% endfor %>";
+
+    #[test]
+    fn what_readers_run_is_offered_where_it_can_be_run() {
+        let prose = PROSE.replace("[@bibliography]", "Lab toy: You run *them*.\n\n[@bibliography]");
+        let [without, with] = [None, Some("end();")].map(|lab| with_lab(&prose, lab).unwrap());
+        let page =
+            |report: &Report| String::from_utf8(report.beside["report.html"].clone()).unwrap();
+        let figure = "<figure class=\"lab\" id=\"lab-toy\" data-lab=\"toy\" hidden=\"\">";
+        assert!(page(&with).contains(figure) && page(&with).contains("You run <em>them</em>."));
+        assert_eq!(with.beside[LAB], b"end();");
+        assert!(!page(&without).contains("You run") && !without.beside.contains_key(LAB));
+        assert!(with.committed == without.committed, "what is committed depends on the machine");
+    }
 
     #[test]
     fn a_report_is_all_its_files() {
@@ -449,6 +475,7 @@ Listing: What $\delta v$ does. {#lst:kick}
                 figures: &figures,
                 equations: &[],
                 scene: None,
+                lab: None,
                 pdf: false,
                 program,
             })

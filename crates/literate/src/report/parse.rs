@@ -8,7 +8,8 @@
 //! - `Table: caption {#tab:id}`, a paragraph right before a table: its caption.
 //! - `Listing: caption {#lst:id}`, a paragraph right before `«code(item="path::of::item")»`: a
 //!   listing of that item of the source.
-//! - `Scene: caption`, a paragraph: what moves, where a format can show it, else nothing.
+//! - `Scene: caption`, a paragraph: what moves, where a format can show it, else nothing; `Lab name: caption`: what
+//!   readers run themselves.
 //! - `[!claim:id]`: a place that can be referred to; it shows its number.
 //! - `[@eq:18]`, `[@fig:2; @fig:3]`, `[@sec:id]`, `[@tab:id]`, `[@lst:id]`, `[@claim:id]`: references, written
 //!   out as "Eq. (18)" and so on; with a capital, as `[@Fig:2]`, in full as at the start of a sentence.

@@ -90,6 +90,7 @@ pub fn used(
         figures: &[],
         equations: &equations::entries(),
         scene: None,
+        lab: None,
         pdf: false,
         program: PROGRAM,
     };

@@ -16,6 +16,7 @@ mod maths;
 mod picture;
 mod scene;
 
+pub use fonts::base64;
 pub use scene::Moving;
 
 use super::Error;
@@ -57,6 +58,8 @@ pub struct Site<'a> {
     pub labels: &'a Labels,
     /// What moves, and the script.
     pub moving: Option<(&'a Moving, &'a str)>,
+    /// Whether lab.js lies beside the pages, by which readers run what moves themselves.
+    pub lab: bool,
 }
 
 /// What the shell has places for.

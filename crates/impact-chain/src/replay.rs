@@ -1,0 +1,206 @@
+//! A run that can be repeated and proved by a digest: the same impacts, to the last bit, wherever it is run.
+
+use crate::{Chain, Engine, Error, Impact, Scenario};
+use impact_numerics::random::NormalPairs;
+use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
+
+/// All that decides the bits of a run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Asked {
+    /// The chain.
+    pub chain: Chain,
+    /// Its forcing and its start.
+    pub forces: Forces,
+    /// Gaps with an impact are counted after this time ...
+    pub transient: f64,
+    /// ... for so long.
+    pub window: f64,
+}
+
+/// Where the amplitudes of the forcing come from.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Forces {
+    /// A realisation of an ensemble.
+    Drawn {
+        /// Standard deviation σ.
+        sigma: f64,
+        /// Name of the random stream.
+        stream: String,
+        /// Its seed.
+        seed: u64,
+        /// Which of its realisations.
+        realisation: u64,
+    },
+    /// Given one by one; the start is one without chance.
+    Given(Vec<[f64; 2]>),
+}
+
+impl Asked {
+    /// The time at which it ends.
+    pub fn until(&self) -> f64 {
+        self.transient + self.window
+    }
+
+    /// The scenario.
+    ///
+    /// # Errors
+    /// [`Error::Input`] names a field that no run can have.
+    pub fn scenario(&self) -> Result<Scenario, Error> {
+        for (field, time) in [("transient", self.transient), ("window", self.window)] {
+            if !(time >= 0.0 && time.is_finite()) {
+                let problem = format!("{time:?} is no length of time");
+                return Err(Error::input(field, problem, "give a finite number ≥ 0"));
+            }
+        }
+        Ok(match &self.forces {
+            Forces::Drawn { sigma, stream, seed, realisation } => {
+                let mut normals = NormalPairs::new(stream, *seed, *realisation);
+                Scenario::draw(&self.chain, *sigma, &mut normals)
+            }
+            Forces::Given(pairs) => Scenario::given(&self.chain, pairs.clone()),
+        })
+    }
+}
+
+/// A run on its way, piece by piece.
+#[derive(Clone, Debug)]
+pub struct Replay {
+    engine: Engine,
+    transient: f64,
+    until: f64,
+    hit: Vec<bool>,
+    seen: Sha256,
+}
+
+impl Replay {
+    /// Sets a run at its beginning.
+    ///
+    /// # Errors
+    /// As [`Asked::scenario`] and [`Engine::new`].
+    pub fn new(asked: &Asked) -> Result<Replay, Error> {
+        let scenario = asked.scenario()?;
+        Ok(Replay {
+            engine: Engine::new(&scenario)?,
+            transient: asked.transient,
+            until: asked.until(),
+            hit: vec![false; scenario.gaps()],
+            seen: Sha256::new(),
+        })
+    }
+
+    /// Goes on for so many impacts at most, and shows each with its gap counted from 0. False at the end of the run.
+    ///
+    /// # Errors
+    /// As [`Engine::run`].
+    pub fn advance(&mut self, most: u64, mut see: impl FnMut(f64, usize)) -> Result<bool, Error> {
+        let (mut left, gaps) = (most, self.hit.len());
+        let Replay { engine, hit, seen, transient, .. } = self;
+        engine.run(self.until, |Impact { time, gap, closing_speed }| {
+            let bits = [time.to_bits(), gap as u64, closing_speed.to_bits()];
+            bits.iter().for_each(|bits| seen.update(bits.to_le_bytes()));
+            // Gaps of a ring are numbered from 1.
+            let gap = gap % gaps;
+            hit[gap] |= time > *transient;
+            see(time, gap);
+            left = left.saturating_sub(1);
+            left > 0
+        })?;
+        Ok(left == 0)
+    }
+
+    /// Gaps of the chain.
+    pub fn gaps(&self) -> usize {
+        self.hit.len()
+    }
+
+    /// Different gaps with an impact in the window (T, T + W] so far.
+    pub fn distinct(&self) -> usize {
+        self.hit.iter().filter(|hit| **hit).count()
+    }
+
+    /// The engine, with its counted work.
+    pub fn engine(&self) -> &Engine {
+        &self.engine
+    }
+
+    /// SHA-256 over the impacts so far, in hexadecimal: of each its time, its gap as the engine numbers it, and its
+    /// closing speed; eight bytes each, the lowest first, with the bits of doubles as they are.
+    pub fn digest(&self) -> String {
+        self.seen.clone().finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Boundary;
+
+    fn asked(boundary: Boundary) -> Asked {
+        let chain = Chain { masses: 20, boundary, ..Chain::default() };
+        let stream = "replay".into();
+        let forces = Forces::Drawn { sigma: 0.3, stream, seed: 1, realisation: 0 };
+        Asked { chain, forces, transient: 50.0, window: 50.0 }
+    }
+
+    fn whole(asked: &Asked) -> Replay {
+        let mut replay = Replay::new(asked).unwrap();
+        assert!(!replay.advance(u64::MAX, |_, _| ()).unwrap());
+        replay
+    }
+
+    #[test]
+    fn pieces_are_the_whole() {
+        for boundary in [Boundary::Walls, Boundary::Ring] {
+            let asked = asked(boundary);
+            let whole = whole(&asked);
+            assert!(whole.engine().counters().impacts > 300 && whole.distinct() > 10);
+            let mut pieces = Replay::new(&asked).unwrap();
+            let mut shown = Vec::new();
+            while pieces.advance(7, |_, gap| shown.push(gap)).unwrap() {}
+            assert_eq!(shown.len() as u64, whole.engine().counters().impacts);
+            assert!(shown.iter().all(|gap| *gap < whole.gaps()));
+            assert_eq!((pieces.digest(), pieces.distinct()), (whole.digest(), whole.distinct()));
+        }
+    }
+
+    #[test]
+    fn amplitudes_that_are_given_are_those_that_were_drawn() {
+        let drawn = asked(Boundary::Walls);
+        let pairs = drawn.scenario().unwrap().forcing;
+        let given = Asked { forces: Forces::Given(pairs), ..drawn.clone() };
+        assert_eq!(whole(&given).digest(), whole(&drawn).digest());
+    }
+
+    /// A digest of bytes that are put together here.
+    #[test]
+    fn the_digest_is_what_it_says() {
+        let asked = asked(Boundary::Walls);
+        let mut bytes = Vec::new();
+        let mut engine = Engine::new(&asked.scenario().unwrap()).unwrap();
+        engine
+            .run(asked.until(), |impact| {
+                bytes.extend(impact.time.to_le_bytes());
+                bytes.extend((impact.gap as u64).to_le_bytes());
+                bytes.extend(impact.closing_speed.to_le_bytes());
+                true
+            })
+            .unwrap();
+        let expected = Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
+        assert_eq!(whole(&asked).digest(), String::clone(&expected));
+    }
+
+    #[test]
+    fn what_is_no_run_is_refused_by_field() {
+        let refused = |change: fn(&mut Asked)| {
+            let mut asked = asked(Boundary::Walls);
+            change(&mut asked);
+            Replay::new(&asked).unwrap_err().to_string()
+        };
+        assert!(refused(|asked| asked.window = -1.0).starts_with("window: -1.0 is no length"));
+        assert!(refused(|asked| asked.transient = f64::NAN).starts_with("transient: NaN"));
+        assert!(refused(|asked| asked.chain.masses = 0).starts_with("forcing: it names no mass"));
+        assert!(refused(|asked| asked.chain.restitution = 2.0).starts_with("restitution: 2.0"));
+    }
+}

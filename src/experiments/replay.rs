@@ -1,0 +1,173 @@
+//! Runs that a page repeats: each with a digest of its impacts, which whoever computes the same bits finds again.
+
+use super::{Error, Progress};
+use crate::dynamics::replay::{Asked, Forces, Replay};
+use crate::params::{Boundary, Chain, Profile, Protocol, SEED, Start, set};
+use crate::table::Table;
+use crate::value::origin;
+use serde::{Deserialize, Serialize};
+
+/// What is run: each run with a name.
+pub type Runs = Vec<(String, Asked)>;
+
+/// What came out, run by run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Replays {
+    /// What was run.
+    pub parameters: Runs,
+    /// What each gave.
+    pub found: Vec<Found>,
+}
+
+/// What a run gave.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Found {
+    /// Impacts.
+    pub impacts: u64,
+    /// Different gaps with an impact in the window.
+    pub distinct: usize,
+    /// Contact phases begun.
+    pub contact_phases: u64,
+    /// Runs of neighbouring gaps that closed at one instant.
+    pub simultaneous: u64,
+    /// [`Replay::digest`].
+    pub digest: String,
+}
+
+/// The first are realisations behind Fig. 3; the others go where an engine may go wrong.
+pub fn runs(_: Profile) -> Runs {
+    let drawn = |sigma: f64, chain: Chain, seed: u64, protocol: Protocol| {
+        let forces = Forces::Drawn { sigma, stream: "sweep".into(), seed, realisation: 0 };
+        Asked { chain, forces, transient: protocol.transient, window: protocol.window }
+    };
+    let swept = |sigma: f64| drawn(sigma, set::chain(), set::seed(), set::protocol());
+    let other = |sigma: f64, chain: Chain| drawn(sigma, chain, SEED, Protocol::default());
+    let given = |pairs: Vec<[f64; 2]>, restitution: f64, until: f64| {
+        let chain = Chain { masses: pairs.len(), restitution, ..Chain::default() };
+        Asked { chain, forces: Forces::Given(pairs), transient: 0.0, window: until }
+    };
+    let chain = Chain::default;
+    let named = [
+        ("Fig. 3 at σ = 0.12", swept(0.12)),
+        ("Fig. 3 at σ = 0.05, without an impact", swept(0.05)),
+        ("Fig. 3 at σ = 0.2", swept(0.2)),
+        ("Fig. 3 at σ = 0.3", swept(0.3)),
+        ("a ring", other(0.2, Chain { boundary: Boundary::Ring, ..chain() })),
+        ("a random start", other(0.16, Chain { start: Start::Random, ..chain() })),
+        ("no loss, r = 1", other(0.12, Chain { restitution: 1.0, ..chain() })),
+        ("no rebound, r = 0", other(0.3, Chain { restitution: 0.0, ..chain() })),
+        ("a thousand masses", other(0.16, Chain { masses: 1000, ..chain() })),
+        // As in the scenes of `accuracy::scenes`.
+        ("chatter: one mass comes to rest at a wall", given(vec![[5.88, -4.94]], 0.2, 20.0)),
+        ("contact: five masses are pressed together", given(pressed(), 0.2, 20.0)),
+        (
+            "ties: a mass is hit from both sides",
+            given(vec![[2.0, 1.0], [0.0; 2], [-2.0, -1.0]], 0.8, 100.0),
+        ),
+        ("ties: a chain is its own mirror image", given(mirrored(), 0.8, 50.0)),
+    ];
+    named.map(|(name, asked)| (name.to_string(), asked)).into()
+}
+
+/// Forces towards the middle, not in mirror symmetry.
+fn pressed() -> Vec<[f64; 2]> {
+    (0..5).map(f64::from).map(|j| [3.0 * (4.0 - 2.0 * j) + 0.1 * j, 0.3 * j]).collect()
+}
+
+/// The forces on 20 masses of which the right half mirrors the left.
+fn mirrored() -> Vec<[f64; 2]> {
+    let stream = "mirror".into();
+    let forces = Forces::Drawn { sigma: 0.3, stream, seed: SEED, realisation: 0 };
+    let chain = Chain { masses: 10, ..Chain::default() };
+    let half = Asked { chain, forces, transient: 0.0, window: 0.0 }.scenario();
+    let half = half.map_or_else(|_| Vec::new(), |scenario| scenario.forcing);
+    let other = half.iter().rev().map(|pair| pair.map(|x| -x));
+    half.iter().copied().chain(other).collect()
+}
+
+/// Runs them.
+///
+/// # Errors
+/// [`Error::Interrupted`]; [`Error::Failed`] if a run fails.
+pub fn run(parameters: &Runs, progress: &Progress) -> Result<Replays, Error> {
+    let stage = progress.stage("replays", parameters.len() as u64);
+    let one = |(_, asked): &(String, Asked)| {
+        progress.check()?;
+        let failed = |source| Error::failed("replay", source);
+        let mut replay = Replay::new(asked).map_err(failed)?;
+        replay.advance(u64::MAX, |_, _| ()).map_err(failed)?;
+        let work = replay.engine().counters();
+        stage.advance(1);
+        Ok(Found {
+            impacts: work.impacts,
+            distinct: replay.distinct(),
+            contact_phases: work.contact_phases,
+            simultaneous: work.simultaneous,
+            digest: replay.digest(),
+        })
+    };
+    let found = parameters.iter().map(one).collect::<Result<_, Error>>()?;
+    Ok(Replays { parameters: parameters.clone(), found })
+}
+
+/// What the pages hold their own runs against.
+pub fn tables(own: &Replays) -> Vec<Table> {
+    let rows: Vec<_> = own.parameters.iter().zip(&own.found).collect();
+    let runs = Table::of("replay.runs", &rows, |_| 1)
+        .text_key("run", |((name, _), _)| name.clone())
+        .computed_by(origin(run))
+        .count("masses", "masses", |((_, asked), _)| asked.chain.masses as u64)
+        .chosen("until", "1/omega", "length of the run", |((_, asked), _)| Some(asked.until()))
+        .count("impacts", "impacts", |(_, found)| found.impacts)
+        .count("distinct", "gaps with an impact in the window", |(_, found)| found.distinct as u64)
+        .count("contact_phases", "contact phases", |(_, found)| found.contact_phases)
+        .count("simultaneous", "ties", |(_, found)| found.simultaneous)
+        .words("sha256", "of all impacts: time, gap, speed", |(_, found)| found.digest.clone())
+        .done();
+    let all = Table::of("replay.all", &[own], |own| own.found.len())
+        .computed_by(origin(run))
+        .count("runs", "runs", |own| own.found.len() as u64)
+        .count("impacts", "impacts of all", |own| own.found.iter().map(|one| one.impacts).sum())
+        .done();
+    vec![runs, all]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::experiments::observe::{Outcome, realisation};
+
+    fn found() -> Replays {
+        run(&runs(Profile::Quick), &Progress::silent()).unwrap()
+    }
+
+    /// The count is that of the ensembles, and a name says what is in its run.
+    #[test]
+    fn runs_are_what_they_are_called() {
+        let Replays { parameters, found } = found();
+        for ((name, asked), found) in parameters.iter().zip(&found) {
+            let protocol = Protocol { transient: asked.transient, window: asked.window };
+            if let Forces::Drawn { sigma, stream, seed, realisation: index } = &asked.forces {
+                let key = (stream.as_str(), *seed, *index);
+                let own = realisation(&asked.chain, protocol, *sigma, key, &Progress::silent());
+                let Ok(Outcome::Counted(own)) = own else { panic!("{name}: {own:?}") };
+                assert_eq!((own.distinct as usize, own.impacts), (found.distinct, found.impacts));
+            }
+            let sticks = name.starts_with("chatter") || name.starts_with("contact");
+            assert_eq!(found.contact_phases > 0, sticks, "{name}");
+            assert!(found.simultaneous > 0 || !name.contains("both sides"), "{name}");
+            assert_eq!(found.impacts == 0, name.ends_with("without an impact"), "{name}");
+        }
+        assert!(parameters.iter().any(|(_, asked)| asked.chain.boundary == Boundary::Ring));
+    }
+
+    #[test]
+    fn no_two_digests_agree_and_each_is_found_again() {
+        let own = found();
+        let mut digests: Vec<_> = own.found.iter().map(|found| &found.digest).collect();
+        digests.sort();
+        digests.dedup();
+        assert_eq!(digests.len(), own.parameters.len());
+        assert_eq!(own, found());
+    }
+}

@@ -1,0 +1,52 @@
+//! lab.js, which a page loads when a reader asks it to compute: the engine, what to hold its runs against, and the script.
+
+use super::contents::Error;
+use super::html::base64;
+use crate::experiments::Results;
+use serde_json::json;
+
+/// The file, from the module in WebAssembly and the script.
+///
+/// # Errors
+/// If a result is missing.
+pub fn script(module: &[u8], results: &Results, script: &str) -> Result<String, Error> {
+    let (replays, sweep) = (results.replays()?, results.sweep()?);
+    let runs = replays.parameters.iter().zip(&replays.found);
+    let runs: Vec<_> = runs
+        .map(|((name, asked), found)| json!({ "name": name, "asked": asked, "found": found }))
+        .collect();
+    let rows = sweep.rows.iter().filter(|row| row.comparable);
+    let rows: Vec<_> = rows.map(|row| (row.sigma, row.mean_all, row.mean_distinct)).collect();
+    let gaps = sweep.parameters.chain.gaps();
+    let data =
+        json!({ "runs": runs, "curve": { "gaps": gaps, "rows": rows }, "module": base64(module) });
+    Ok(format!("\"use strict\";\nconst LAB = {data};\n{script}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::experiments::{Progress, Store, run::run};
+    use crate::experiments::{REPLAY, SWEEP};
+    use crate::params::Profile;
+
+    #[test]
+    fn the_page_has_each_run_with_its_digest_and_the_module() {
+        let needs: [crate::experiments::Need; 2] = [&SWEEP, &REPLAY];
+        let none = |_: &str| Err(String::new());
+        let results =
+            run(&needs, Profile::Quick, &none, &Store::nowhere(), &Progress::silent()).unwrap();
+        let text = script(b"foobar", &results, "end();").unwrap();
+        let data = text.split("const LAB = ").nth(1).unwrap().strip_suffix(";\nend();").unwrap();
+        let data: serde_json::Value = serde_json::from_str(data).unwrap();
+        assert_eq!(data["module"], "Zm9vYmFy");
+        let own = results.replays().unwrap();
+        assert_eq!(data["runs"].as_array().unwrap().len(), own.found.len());
+        for (i, found) in own.found.iter().enumerate() {
+            assert_eq!(data["runs"][i]["found"]["digest"], found.digest.as_str());
+            let asked = serde_json::from_value(data["runs"][i]["asked"].clone());
+            let asked: crate::dynamics::replay::Asked = asked.unwrap();
+            assert_eq!(asked, own.parameters[i].1);
+        }
+    }
+}

@@ -1,0 +1,139 @@
+// What readers run themselves: the same bits as the program computed when it made the report, soon, and refused in words.
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+
+/** Rows of a CSV file, whose first field may be quoted. */
+const rows = (text) => text.trim().split("\n").slice(1).map((line) => line.match(/("[^"]*"|[^,"]+)(?=,|$)/g).map((cell) => cell.replaceAll('"', "")));
+
+/** Waits until it is there, or says that it was not. */
+const appears = (locator, check, what) =>
+  locator.waitFor({ timeout: 8000 }).catch(async () => check(false, `${what}: ${(await locator.page().locator(".bench output").allInnerTexts()).join(" ")}`));
+
+/** All that is tried. */
+export async function labs({ report, open, check, stays_narrow, accessible, pictures }) {
+  const offered = async (file, options) => {
+    const page = await open(file, 1280, "light", options);
+    const count = await page.locator(".lab:visible").count();
+    await page.context().close();
+    return count;
+  };
+  if (!readFileSync(join(report, "index.html"), "utf8").includes('class="lab"')) {
+    console.log("note: the pages were made without a module, so nothing is run in them");
+    return;
+  }
+  const module = readFileSync(join(report, "lab.js"), "utf8").match(/"module":"([^"]*)"/)[1];
+  check(module.length * 0.75 <= 400 * 1000, `lab.js: a module of ${module.length * 0.75} bytes`);
+  check((await offered("index.html", { javaScriptEnabled: false })) === 0, "without scripts a lab is offered");
+  check((await offered("index.html", { before: () => delete globalThis.WebAssembly })) === 0, "without WebAssembly a lab is offered");
+
+  for (const [file, lab, width, scheme] of [
+    ["index.html", "chain", 1280, "light"],
+    ["beyond.html", "chain", 390, "dark"],
+    ["report.html", "theory", 1280, "dark"],
+    ["report.html", "theory", 390, "light"],
+  ]) {
+    const name = `${file} lab ${width}`;
+    const page = await open(file, width, scheme, { loads: true, reducedMotion: "reduce" });
+    await page.evaluate(() => {
+      globalThis.long = [];
+      new PerformanceObserver((list) => long.push(...list.getEntries().map((entry) => entry.duration))).observe({ type: "longtask" });
+    });
+    const figure = page.locator(`#lab-${lab}`);
+    check((await page.locator("script[src]").count()) === 0, `${name}: lab.js is loaded unasked`);
+    await figure.locator("button").focus();
+    await page.keyboard.press("Enter");
+    await appears(figure.locator("output").first().filter({ hasText: /\d/ }), check, `${name}: nothing is run`);
+    check(await figure.locator("input").first().evaluate((own) => own === document.activeElement), `${name}: the first slider is not reached`);
+    await (lab === "chain" ? chains : circuits)(page, name, figure, { report, check });
+    const seen = () => figure.locator("canvas").evaluateAll((all) => all.map((one) => one.toDataURL()).join());
+    const before = await seen();
+    await page.waitForTimeout(300);
+    check(before === (await seen()), `${name}: it moves by itself`);
+    const long = await page.evaluate(() => Math.max(0, ...globalThis.long));
+    check(long <= 200, `${name}: the page sleeps for ${long} ms`);
+    await stays_narrow(page, name);
+    await accessible(page, name);
+    if (pictures) await figure.screenshot({ path: `${pictures}/${name}.png` });
+    await page.emulateMedia({ media: "print" });
+    check(!(await figure.isVisible()), `${name}: it is printed`);
+    await page.context().close();
+  }
+}
+
+async function chains(page, name, figure, { report, check }) {
+  const [told, proof] = [figure.locator("output").nth(0), figure.locator("output").nth(1)];
+  const data = (what) => figure.locator(".bench").evaluate((bench, what) => bench.dataset[what], what);
+  const set = (label, value) => figure.getByLabel(`${label}, typed`).fill(value);
+  const [choice, again] = [figure.getByLabel("Runs of this edition"), figure.getByRole("button", { name: "Run this realisation again" })];
+
+  // Every digest that the program found when it made this report.
+  const runs = rows(readFileSync(join(report, "data/replay-runs.csv"), "utf8"));
+  check(runs.length >= 10, `${name}: only ${runs.length} runs to repeat`);
+  for (const [i, [run, , , impacts, distinct, , , digest]] of runs.entries()) {
+    await choice.selectOption(String(i));
+    await again.click();
+    await appears(proof.filter({ hasText: `found here: ${digest}; this edition has ${digest}: the same bits` }), check, `${name}: ${run}: not the bits of the program`);
+    const words = (await told.innerText()).replaceAll(",", "");
+    check(words.startsWith(`${distinct} of`) && words.endsWith(`in all: ${impacts}.`), `${name}: ${run}: ${words}`);
+  }
+  check(Number(await data("bytes")) < 32e6, `${name}: the module takes ${await data("bytes")} bytes`);
+  // A page whose digest is another must say so.
+  await page.evaluate(() => (LAB.runs[0].found.digest = LAB.runs[1].found.digest));
+  await figure.getByRole("button", { name: "The realisation of Fig. 3" }).click();
+  await appears(proof.filter({ hasText: "NOT the same" }), check, `${name}: other bits are called the same`);
+
+  // From slider to picture, by keyboard.
+  await figure.getByLabel("force σ (dω²)", { exact: true }).focus();
+  let slowest = 0;
+  for (let i = 0; i < 40; i += 1) {
+    const digest = await data("digest");
+    await page.keyboard.press("ArrowRight");
+    await page.waitForFunction(([id, digest]) => document.querySelector(`#${id} .bench`).dataset.digest !== digest, [await figure.getAttribute("id"), digest]);
+    slowest = Math.max(slowest, Number(await data("time")));
+  }
+  check(slowest < 100, `${name}: ${slowest} ms from slider to picture`);
+  console.log(`note: ${name}: ${slowest.toFixed(0)} ms from slider to picture at most, n = 100`);
+
+  // A thousand masses for long, given up for another run half-way; then as much memory as before.
+  await set("masses n", "1000");
+  await set("transient T", "9000");
+  await appears(told.filter({ hasText: "so far" }), check, `${name}: nothing is told on the way`);
+  await set("transient T", "100");
+  await appears(told.filter({ hasText: "of 1001 gaps" }).filter({ hasNotText: "so far" }), check, `${name}: a run is not given up for another`);
+  check(Number(await data("bytes")) < 32e6, `${name}: the module takes ${await data("bytes")} bytes`);
+
+  for (const [label, value] of [["force σ", ""], ["force σ", "-1"], ["masses n", "0"], ["masses n", "1001"], ["masses n", "2.5"], ["transient T", "1e9"], ["window W", "0"], ["restitution r", "2"]]) {
+    const good = await figure.getByLabel(`${label}, typed`).inputValue();
+    await set(label, value);
+    await appears(told.filter({ hasText: "is not allowed; give a" }), check, `${name}: ${label} = ${value}`);
+    check((await told.innerText()).startsWith(`${label} = ${value || "nothing"} `), `${name}: ${await told.innerText()}`);
+    await set(label, good);
+    await appears(told.filter({ hasText: "gaps have impacts" }).filter({ hasNotText: "so far" }), check, `${name}: it does not go on after ${label} = ${value}`);
+  }
+}
+
+async function circuits(page, name, figure, { report, check }) {
+  const told = figure.locator("output");
+  const set = (label, value) => figure.getByLabel(`${label}, typed`).fill(value);
+  const table = (of) => rows(readFileSync(join(report, `data/theory-${of}.csv`), "utf8"));
+  const at = async (p) => {
+    await set("probability p", String(p));
+    return told.innerText();
+  };
+  // As the edition has them for Fig. 8, and on both sides of the jump.
+  for (const [p, mean] of table("distribution")) {
+    const words = await at(p);
+    check(Math.abs(Number(words.match(/μ = ([\d.]+)\. /)?.[1]) / mean - 1) < 1e-3, `${name}: p = ${p}: ${words}, not ${mean}`);
+  }
+  const [[, , , p_jump, k_after]] = table("jump");
+  const sides = [await at(p_jump * (1 - 1e-12)), await at(p_jump * (1 + 1e-12))];
+  check(sides[0].startsWith("k* = 1,") && sides[1].startsWith(`k* = ${k_after},`), `${name}: beside the jump: ${sides}`);
+  await set("vertices N", "1000");
+  await appears(told.filter({ hasText: /leaves 1 at p = 0\.00/ }), check, `${name}: N = 1000`);
+  for (const [label, value] of [["probability p", ""], ["probability p", "1.5"], ["vertices N", "3"], ["vertices N", "5000"]]) {
+    await set(label, value);
+    check((await told.innerText()).startsWith(`${label} = ${value || "nothing"} is not allowed; give a`), `${name}: ${label} = ${value}: ${await told.innerText()}`);
+    await set(label, label.startsWith("p") ? "0.016" : "100");
+  }
+  await set("probability p", "0");
+}
