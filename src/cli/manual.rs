@@ -1,6 +1,6 @@
 //! `impact-paper manual`.
 
-use super::output::{self, Staging};
+use super::output::{self, Staging, refuse_report};
 use super::{Failure, work};
 use clap_complete::{Shell, generate};
 use impact_paper::report::Files;
@@ -21,6 +21,7 @@ pub struct Args {
 
 /// Runs the verb.
 pub fn run(args: &Args) -> Result<(), Failure> {
+    refuse_report(&args.out)?;
     let staging = Staging::below(&args.out, "--out", args.force)?;
     let mut files = Files::new();
     let mut command = super::command();

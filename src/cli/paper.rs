@@ -176,6 +176,11 @@ fn default_folder(profile: Profile) -> PathBuf {
     }
 }
 
+/// Is it where a profile of the paper's parameters writes, and nothing of worth is lost?
+fn is_usual(profile: Profile, out: &Path) -> bool {
+    profile != Profile::Full && set::told().is_none() && same(out, &default_folder(profile))
+}
+
 /// The values of the report in a folder, if there is one.
 fn values_in(out: &Path) -> Option<Registry> {
     compare::read(&folder::text(out, VALUES).ok()?).ok()
@@ -209,7 +214,17 @@ fn refuse_over_other(profile: Profile, out: &Path, figures: bool) -> Result<(), 
         Number::Text(name) => Some(name.clone()),
         _ => None,
     };
-    match values_in(out).and_then(name) {
+    let found = values_in(out).and_then(name);
+    // Of a report that does not tell what it is, a lesser one would take the place unseen.
+    let lesser = profile != Profile::Full || set::told().is_some();
+    if found.is_none() && lesser && out.join(report::sums::NAME).exists() && !is_usual(profile, out)
+    {
+        return Err(Failure::input(format!(
+            "--out: {} holds a report whose {VALUES} cannot be read; restore it, or give another folder",
+            out.display()
+        )));
+    }
+    match found {
         Some(name)
             if name != set::profile(profile) && (figures || name == Profile::Full.name()) =>
         {

@@ -1,5 +1,6 @@
 //! `impact-paper run`.
 
+use super::output::refuse_report;
 use super::{Failure, stdout, work};
 use impact_paper::experiments::{Error, Store};
 use impact_paper::params::Profile;
@@ -61,6 +62,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let profile = Profile::from(args.profile);
     let unwritable = given_by("--out");
     let plan = args.only.plan(profile)?;
+    refuse_report(&args.out)?;
     let store = Store::open(&args.out).map_err(unwritable)?;
     let progress = work::progress();
     let ran = work::on_threads(args.threads, || {

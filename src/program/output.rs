@@ -43,6 +43,18 @@ pub struct Staging<'a> {
     _made: work::Made,
 }
 
+/// A report has no other files.
+///
+/// # Errors
+/// Exit code 2.
+pub fn refuse_report(folder: &Path) -> Result<(), Failure> {
+    if folder.join(sums::NAME).exists() {
+        let folder = folder.display();
+        return Err(Failure::input(format!("--out: {folder} holds a report; give another folder")));
+    }
+    Ok(())
+}
+
 impl<'a> Staging<'a> {
     /// Prepares to write below `folder`: before a long run, not after it, one wants to hear that
     /// this is impossible. Removes what killed runs left there.

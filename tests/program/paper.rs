@@ -254,6 +254,17 @@ fn another_parameter_makes_another_report_that_says_so() {
     let (_, _, note) = run(here, &format!("{figure} p"));
     assert!(!note.contains("sweep: run"), "{note}");
     // What these parameters cannot have is their fault.
+    std::fs::remove_file(here.join("o/values.json")).unwrap();
+    refused(
+        here,
+        "-q paper --profile quick --results r --out o --set masses=50",
+        &["values.json", "restore"],
+    );
+    refused(
+        here,
+        "-q paper --profile quick --results r --out o --figure 3",
+        &["values.json", "restore"],
+    );
     let low = "-q paper --profile quick --results r --out n --set masses=40 --set restitution=0.9";
     refused(here, low, &["not every part can be made", "--figure"]);
 }
@@ -268,6 +279,12 @@ fn the_manual_is_written_and_quiet_work_says_nothing() {
     assert!(page.contains(".TH") && page.contains("certified"), "{page}");
     let bash = std::fs::read_to_string(here.join("m/completions/impact-paper.bash")).unwrap();
     assert!(bash.contains("--max-impacts") && bash.contains("sweep"), "{bash}");
+    std::fs::create_dir(here.join("report")).unwrap();
+    std::fs::write(here.join("report/SHA256SUMS"), "").unwrap();
+    for verb in ["manual", "run --profile quick --shard 1/1"] {
+        let (code, _, note) = crate::run(here, &format!("{verb} --out report"));
+        assert!(code == 2 && note.contains("holds a report"), "{note}");
+    }
     std::fs::write(here.join("m/impact-paper.1"), "mine").unwrap();
     crate::refused(here, "manual --out m", &["impact-paper.1", "--force"]);
 

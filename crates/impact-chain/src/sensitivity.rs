@@ -24,8 +24,9 @@ use super::simulation::Simulation;
 use super::{Error, Impact, Initial, Scenario};
 use impact_numerics::clock::Instant;
 
-/// Closing speed in units of d ω below which an impact is a graze: τ′ has lost half its digits.
-const GRAZE: f64 = 1e-8;
+/// Closing speed V in units of d ω below which an impact is a graze: V and τ′ have a relative error of some ε/V², and have
+/// lost half their digits.
+const GRAZE: f64 = 1e-4;
 
 /// A mass with its derivative.
 #[derive(Clone, Copy, Debug)]

@@ -1,6 +1,6 @@
 //! A comparison as a comment on a pull request.
 
-use super::text::{amount, fate, reworded, words};
+use super::text::{amount, fate, is_obeyed, reworded, words};
 use super::{count, signed};
 use impact_paper::input::one_line;
 use impact_paper::report::compare::{Change, ClaimChange, Diff, ProseChange, TableChange};
@@ -140,7 +140,8 @@ fn cell(text: &str) -> String {
 
 fn plain(text: &str, most: usize) -> String {
     // An at-sign would call somebody; two tildes would strike out.
-    escaped(&one_line(text, most).replace('@', "@\u{200b}")).replace('~', "\\~")
+    let seen = one_line(&text.replace(is_obeyed, " "), most);
+    escaped(&seen.replace('@', "@\u{200b}")).replace('~', "\\~")
 }
 
 fn pair(pair: &Option<[String; 2]>) -> String {

@@ -96,9 +96,11 @@ fn prose(changes: &[ProseChange]) -> Vec<String> {
 }
 
 /// Does a terminal take the character for a command, or hide it?
-fn is_obeyed(c: char) -> bool {
+pub fn is_obeyed(c: char) -> bool {
     let unseen = ['\u{200b}'..='\u{200f}', '\u{2028}'..='\u{202e}', '\u{2060}'..='\u{206f}'];
-    c.is_control() || c == '\u{feff}' || unseen.iter().any(|range| range.contains(&c))
+    c.is_control()
+        || matches!(c, '\u{ad}' | '\u{feff}')
+        || unseen.iter().any(|range| range.contains(&c))
 }
 
 /// How many sentences differ, if a document does.
