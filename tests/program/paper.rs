@@ -171,12 +171,12 @@ fn what_others_made_is_left_as_it_is() {
     let before = tree(here);
     for (arguments, says) in [
         ("paper --profile quick --out .", "--out: ."),
-        ("paper --profile quick --out t", "--out: t"),
         ("paper --figure 4 --out t", "--out: t"),
         ("paper --figure 4 --out t/figures", "fig04.svg"),
     ] {
         refused(here, arguments, &[says, "--force"]);
     }
+    refused(here, "paper --profile quick --out t", &["--out: t", "values.json"]);
     let foreign = "r/sweep-quick.json: this is no saved result";
     let (code, _, note) = crate::run(here, "paper --profile quick --figure 3 --out f --results r");
     assert!(code == 2 && note.contains(foreign), "{note}");

@@ -104,3 +104,12 @@ fn a_run_that_is_stopped_tells_its_rounding_and_has_no_certificate() {
     let (code, out, note) = trace(" --certify");
     assert!(code == 4 && out == plain && note.contains("no certificate"), "{note}");
 }
+
+#[test]
+fn an_impact_that_nearly_grazes_has_no_derivative() {
+    // It closes at 5e-8, where the derivative would be wrong by half of itself.
+    let graze = r#"{"forcing_frequency":1.5,"initial":"zero","forcing":[[0,-1.2500000000000003]]}"#;
+    let folder = folder(graze);
+    let (code, _, note) = run(folder.path(), "trace s.json --until 2 --sensitivity sigma");
+    assert!(code != 0 && note.contains("impact 1") && note.contains("grazes"), "{note}");
+}
