@@ -59,8 +59,8 @@ impl Parameter {
 
 const WHOLE: bool = true;
 
-/// Within these ranges, one parameter at a time, every part of the report can be made: the rise stays on the grid of σ,
-/// and chains with one seed are not too rare to be found. Whole numbers are exact up to 2^53.
+/// Within these ranges the rise stays on the grid of σ. Towards the ends of some, chains with one seed are too rare to be
+/// found, so that not every part of the report can be made; this is said. Whole numbers are exact up to 2^53.
 const PARAMETERS: [Parameter; 6] = [
     Parameter::new(
         "masses",
