@@ -47,9 +47,6 @@ pub struct ClaimChange {
 
 impl Claims {
     /// Reads a ledger.json.
-    ///
-    /// # Errors
-    /// When it is not one.
     pub fn read(text: &str) -> Result<Self, String> {
         let read: Read = serde_json::from_str(text).map_err(|e| format!("ledger.json: {e}"))?;
         let claims = read.claims.into_iter().map(|claim| (claim.id.clone(), claim));

@@ -42,9 +42,6 @@ impl std::fmt::Display for Change {
 }
 
 /// Reads a values.json.
-///
-/// # Errors
-/// When it is not one, and as [`Registry::add`].
 pub fn read(text: &str) -> Result<Registry, Error> {
     let fault = |what: String| Error::Template(format!("values.json: {what}"));
     let values: BTreeMap<String, Value> =
