@@ -107,9 +107,6 @@ impl Table {
     }
 
     /// The one cell in the row with these keys.
-    ///
-    /// # Errors
-    /// [`Missing`] with the place of the caller.
     #[track_caller]
     pub fn cell<'a>(&'a self, keys: Keys<'a>, column: &str) -> Result<&'a Value, Missing> {
         let place = std::panic::Location::caller();
@@ -123,9 +120,6 @@ impl Table {
     }
 
     /// The number of a cell.
-    ///
-    /// # Errors
-    /// [`Missing`] if there is no such cell, or it says that there is no number.
     #[track_caller]
     pub fn number<'a>(&'a self, keys: Keys<'a>, column: &str) -> Result<f64, Missing> {
         let cell = self.cell(keys, column)?;

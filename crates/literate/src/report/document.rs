@@ -113,12 +113,10 @@ pub struct Entry {
 
 /// How a column is aligned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the names tell")]
 pub enum Align {
-    /// Left.
     Left,
-    /// Centre.
     Centre,
-    /// Right.
     Right,
 }
 

@@ -5,9 +5,6 @@ use super::document::{Align, Block, Inline, plain};
 use super::tex;
 
 /// Writes the body of report.tex.
-///
-/// # Errors
-/// A character that LaTeX has no name for.
 pub fn write(blocks: &[Block]) -> Result<String, Error> {
     let mut out = String::new();
     let mut before: Option<&Block> = None;
@@ -28,9 +25,6 @@ pub fn write(blocks: &[Block]) -> Result<String, Error> {
 }
 
 /// The title: the words of the first heading of level 1.
-///
-/// # Errors
-/// As [`write()`].
 pub fn title(blocks: &[Block]) -> Result<String, Error> {
     let is_title = |block: &&Block| matches!(block, Block::Heading { level: 1, .. });
     match blocks.iter().find(is_title) {
@@ -40,9 +34,6 @@ pub fn title(blocks: &[Block]) -> Result<String, Error> {
 }
 
 /// The listings, which stand behind the text; empty if there are none.
-///
-/// # Errors
-/// As [`write()`].
 pub fn listings(blocks: &[Block]) -> Result<String, Error> {
     let mut out = String::new();
     for block in blocks {

@@ -78,9 +78,6 @@ pub struct EquationEntry {
 
 impl Ledger {
     /// Leaves what one document shows, here and of the values; the equations stand in all.
-    ///
-    /// # Errors
-    /// When the ledger does not say which that is.
     pub fn only(&mut self, document: &str, values: &mut Registry) -> Result<(), Error> {
         let shown = self.documents.get(document).ok_or_else(|| {
             Error::Template(format!("ledger.json does not say what {document} shows"))
@@ -135,17 +132,11 @@ pub fn ledger(
 }
 
 /// Reads a ledger.json.
-///
-/// # Errors
-/// When it is not one.
 pub fn read(text: &str) -> Result<Ledger, Error> {
     serde_json::from_str(text).map_err(|e| Error::Template(format!("ledger.json: {e}")))
 }
 
 /// ledger.json.
-///
-/// # Errors
-/// None that can arise from a ledger.
 pub fn json(ledger: &Ledger) -> serde_json::Result<String> {
     Ok(serde_json::to_string_pretty(ledger)? + "\n")
 }

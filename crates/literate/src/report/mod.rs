@@ -48,78 +48,47 @@ const LINE: usize = 1000;
 
 /// What is wrong with the report, with the place where it can be mended.
 #[derive(Debug, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages tell")]
 pub enum Error {
-    /// Two values claim one id.
     #[error("value {0}: the id is taken; give one of the two values another id")]
     DuplicateId(String),
-    /// An id that a template could not name.
     #[error(
         "value {0}: an id is `name` or `group.name` of a-z, 0-9 and _, beginning with a letter"
     )]
     BadId(String),
-    /// NaN or infinity.
     #[error(
         "value {0}: not a finite number; leave the value out or say why there is none in words"
     )]
     NotFinite(String),
-    /// A template that cannot be read, parsed or filled; the message has file, line and column.
     #[error("{}", one_line(.0, LINE))]
     Template(String),
-    /// Files that cannot be read.
     #[error("{path}: {source}; check --templates")]
-    Read {
-        /// The file or folder.
-        path: String,
-        /// What the system said.
-        source: std::io::Error,
-    },
-    /// Markup that the report does not have, or that says nothing.
+    Read { path: String, source: std::io::Error },
     #[error("{}; see report::parse for the markup that there is", one_line(.0, 200))]
     Markup(String),
-    /// What is wrong with a piece of the prose, and where that stands.
     #[error("{place}: {error}")]
-    At {
-        /// File, line and column in the templates.
-        place: String,
-        /// What is wrong.
-        error: Box<Error>,
-    },
-    /// A link to a file that is not there.
+    At { place: String, error: Box<Error> },
     #[error("a link to {}: there is no such file or place; correct or remove it", one_line(.0, 200))]
     NoFile(String),
-    /// Two things with one id.
     #[error("{}: two things in the report have this id; give one of them another", one_line(.0, 200))]
     Label(String),
-    /// A reference to nothing.
     #[error("[@{}]: nothing in the report has this id; correct or remove the reference", one_line(.0, 200))]
     Reference(String),
-    /// A character that pdflatex does not know.
     #[error(
         "no LaTeX is known for the character '{}' (U+{:04X}); write it otherwise, or add it to report::tex",
         one_line(&.0.to_string(), 1), u32::from(*.0)
     )]
     NoLatex(char),
-    /// Mathematics that cannot become MathML.
     #[error("no MathML for ${}$: {}; write it otherwise", one_line(tex, 200), one_line(what, 200))]
-    Maths {
-        /// The TeX.
-        tex: String,
-        /// What is wrong with it.
-        what: String,
-    },
-    /// What the typesetter of the PDF refuses.
+    Maths { tex: String, what: String },
     #[error("report.pdf: {0}")]
     Typeset(String),
-    /// A PDF from a binary that cannot make one.
     #[error("--pdf: this binary was built without the typesetter; run make pdf")]
     NoTypesetter,
-    /// Numerals that nobody computed, or markup without its end.
     #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
     Lint(Vec<lint::Finding>),
-    /// A figure that the prose does not show.
     #[error("{0} is not shown; put ![caption](figures/{0}.svg) into the prose")]
     NotShown(String),
-    /// Values that nothing names.
     #[error("no template and no claim names {0}; use or remove it, or declare it data_only()")]
     Unused(String),
 }

@@ -34,9 +34,6 @@ use std::ops::Range;
 
 /// Parses filled Markdown; `values` turn marks into what is shown. The places are those of what has an id
 /// and of what names one.
-///
-/// # Errors
-/// Markup that the report does not have, is not whole or says nothing, with its place in the template.
 pub fn parse<'a>(
     filled: &'a Filled,
     values: &'a Registry,

@@ -4,9 +4,6 @@ use super::Error;
 use super::valued::bare;
 
 /// Running text.
-///
-/// # Errors
-/// A character for which no LaTeX is known.
 pub fn text(text: &str) -> Result<String, Error> {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
@@ -33,9 +30,6 @@ pub fn text(text: &str) -> Result<String, Error> {
 }
 
 /// Mathematics: TeX already, but for characters beyond ASCII.
-///
-/// # Errors
-/// As [`text`].
 pub fn maths(tex: &str) -> Result<String, Error> {
     let tex = bare(tex);
     let mut out = String::with_capacity(tex.len());
@@ -52,9 +46,6 @@ pub fn maths(tex: &str) -> Result<String, Error> {
 }
 
 /// A block of code inside `alltt`, where only `\`, `{` and `}` are special.
-///
-/// # Errors
-/// As [`text`].
 pub fn code(code: &str) -> Result<String, Error> {
     let mut out = String::with_capacity(code.len());
     for c in code.chars() {

@@ -26,10 +26,6 @@ impl Registry {
     }
 
     /// Adds a value.
-    ///
-    /// # Errors
-    /// When the id is taken, is neither an address nor a name of the form `name` or `group.name` in lower case,
-    /// or the number is not finite.
     pub fn add(&mut self, value: Value) -> Result<(), Error> {
         if !is_id(&value.id) && crate::table::table_of(&value.id).is_none() {
             return Err(Error::BadId(value.id));
@@ -45,9 +41,6 @@ impl Registry {
     }
 
     /// Adds a table: its cells are found by their addresses.
-    ///
-    /// # Errors
-    /// When there is a table of that name.
     pub fn add_table(&mut self, table: Arc<Table>) -> Result<(), Error> {
         match self.tables.insert(table.name().to_string(), table) {
             Some(before) => Err(Error::DuplicateId(before.name().to_string())),
@@ -81,9 +74,6 @@ impl Registry {
     }
 
     /// Adds several values.
-    ///
-    /// # Errors
-    /// As [`Registry::add`].
     pub fn extend(&mut self, values: impl IntoIterator<Item = Value>) -> Result<(), Error> {
         values.into_iter().try_for_each(|value| self.add(value))
     }

@@ -31,17 +31,11 @@ use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Whether a browser can show this TeX.
-///
-/// # Errors
-/// [`Error::Maths`].
 pub fn reads(tex: &str) -> Result<(), Error> {
     maths::displayed(tex).map(|_| ())
 }
 
 /// Whether a page is well-formed: what the shell opens is closed.
-///
-/// # Errors
-/// [`Error::Template`] with what is wrong.
 pub fn is_whole(page: &str) -> Result<(), Error> {
     let options = roxmltree::ParsingOptions { allow_dtd: true, ..Default::default() };
     let found = roxmltree::Document::parse_with_options(page, options);
@@ -104,9 +98,6 @@ struct Page<'a> {
 }
 
 /// Writes all parts of the page.
-///
-/// # Errors
-/// Mathematics, pictures or references that cannot be written.
 pub fn write(
     blocks: &[Block],
     figures: &[Figure],

@@ -7,9 +7,6 @@ use crate::report::document::{Align, Block, Inline, plain};
 use crate::report::valued::bare;
 
 /// The whole body.
-///
-/// # Errors
-/// Mathematics that is not known, an unresolved reference.
 pub fn report(blocks: &[Block]) -> Result<String, Error> {
     Ok(write(blocks)? + &listings(blocks)?)
 }
@@ -239,9 +236,6 @@ fn inline(inline: &Inline) -> Result<String, Error> {
 }
 
 /// The title in words.
-///
-/// # Errors
-/// A report without one.
 pub fn title(blocks: &[Block]) -> Result<String, Error> {
     let is_title = |block: &&Block| matches!(block, Block::Heading { level: 1, .. });
     match blocks.iter().find(is_title) {

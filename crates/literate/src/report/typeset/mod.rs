@@ -16,9 +16,6 @@ use super::templates::Templates;
 pub use pdf::pdf;
 
 /// The report as the typesetter's source.
-///
-/// # Errors
-/// Mathematics that is not known, an unresolved reference, a template that is not there.
 pub fn source(blocks: &[Block], templates: &Templates) -> Result<String, Error> {
     let shell = templates.text("report.typ")?;
     Ok(shell
