@@ -32,7 +32,7 @@ fn size(found: usize, s: &Statement) -> Result<Finding, Error> {
 
 /// Different impacts of a chain in the window, as Sec. 6 counts them.
 fn few_and_many(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let sweep = e.results.sweep()?;
+    let sweep = e.results.of(&SWEEP)?;
     let mean = |row: &crate::experiments::sweep::SweepRow| {
         Some((row.sigma, row.mean_distinct?, row.standard_error?))
     };

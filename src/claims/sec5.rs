@@ -10,8 +10,8 @@ use std::collections::BTreeSet;
 
 /// The rows of this section.
 pub const ROWS: &[Row] = &[
-    measured("sec5_fig5", Exact, &[&SEGMENTS], |e, s| motion(&e.results.segments()?.fig05, s)),
-    measured("sec5_fig6", Exact, &[&SEGMENTS], |e, s| motion(&e.results.segments()?.fig06, s)),
+    measured("sec5_fig5", Exact, &[&SEGMENTS], |e, s| motion(&e.results.of(&SEGMENTS)?.fig05, s)),
+    measured("sec5_fig6", Exact, &[&SEGMENTS], |e, s| motion(&e.results.of(&SEGMENTS)?.fig06, s)),
     measured("sec5_masses_of_circuit", Exact, &[&SEGMENTS], masses_of_circuit),
     theory("sec5_eq6", Exact, |e, _| cases(e.results.identities.eq6)),
     theory("sec5_eq7", Exact, |e, _| cases(e.results.identities.eq7)),
@@ -47,7 +47,7 @@ fn motion(segment: &Segment, s: &Statement) -> Result<Finding, Error> {
 }
 
 fn masses_of_circuit(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
-    let segment = &e.results.segments()?.fig05;
+    let segment = &e.results.of(&SEGMENTS)?.fig05;
     let gaps: BTreeSet<usize> = segment.impacts.iter().map(|i| i.gap).collect();
     let found = segment.masses_hit();
     // Each run of neighbouring gaps has one body more than gaps; walls are bodies but no masses.

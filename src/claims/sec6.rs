@@ -77,7 +77,7 @@ fn step(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
 }
 
 fn like_simulation(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let sweep = e.results.sweep()?;
+    let sweep = e.results.of(&SWEEP)?;
     let theory = &e.results.theory;
     let simulated: Vec<f64> =
         sweep.rows.iter().filter_map(|row| Some(row.mean_distinct? / sec2::gaps(sweep))).collect();

@@ -51,7 +51,7 @@ pub const ROWS: &[Row] = &[
 const INTEGER: &str = "integers are exact";
 
 fn fig6_repeats(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
-    let found = e.results.segments()?.fig06.repeats();
+    let found = e.results.of(&SEGMENTS)?.fig06.repeats();
     let text = found.iter().enumerate().fold(Text::default(), |text, (i, (name, times))| {
         text.say(if i == 0 { "" } else { ", " }).say(format!("{name}: ")).integer(*times)
     });

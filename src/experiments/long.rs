@@ -1,5 +1,6 @@
 //! The long end of the protocol map: runs of up to 10⁵ time units.
 
+use super::ensembles::joined_by;
 use super::protocol::{self, Part, ProtocolCell, ProtocolMap};
 use super::{Error, Progress};
 use crate::numerics::statistics::{mean, normal_quantile, standard_deviation};
@@ -39,8 +40,7 @@ impl LongMap {
 }
 
 /// The map in units of work: realisations of one σ.
-pub const CUTTING: Cutting<ProtocolParams, Part, LongMap> =
-    Cutting { rows: protocol::rows, part: protocol::part, fits: protocol::fits, join };
+pub const CUTTING: Cutting<ProtocolParams, Part, LongMap> = joined_by(join);
 
 pub(crate) fn join(
     parameters: &ProtocolParams,
@@ -112,7 +112,7 @@ mod tests {
         let quiet = Progress::silent();
         let units = CUTTING.units(&parameters);
         let stage = quiet.stage("test", 1);
-        let part = |unit| protocol::part(&parameters, unit, &stage, &quiet).unwrap();
+        let part = |unit| (CUTTING.part)(&parameters, unit, &stage, &quiet).unwrap();
         let parts: Vec<(&Unit, Part)> = units.iter().map(|unit| (unit, part(unit))).collect();
         let texts = parts.iter().map(|(_, part)| part.clone()).collect();
         let long = CUTTING.joined(&parameters, texts, &quiet).unwrap();

@@ -3,9 +3,9 @@
 use super::FORCING;
 use super::prelude::*;
 use super::simulated::count_axis;
-use crate::experiments::Results;
 use crate::experiments::restitution::Restitution;
 use crate::experiments::restitution::hot::steady;
+use crate::experiments::{RESTITUTION, Results};
 use crate::params::Chain;
 use crate::table::Table;
 
@@ -41,7 +41,7 @@ struct Shown<'a> {
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let table = |name| results.table(name);
     let shown = Shown {
-        found: results.restitution()?,
+        found: results.of(&RESTITUTION)?,
         rise: table("restitution.rise")?,
         curves: table("restitution.curves")?,
         heating: table("restitution.heating")?,

@@ -359,9 +359,4 @@ mod tests {
             assert!(at(Way::Ratios, big_n).unwrap() < 1e-12, "{big_n}");
         }
     }
-
-    #[test]
-    fn it_repeats_exactly() {
-        assert_eq!(quick(), quick());
-    }
 }

@@ -121,7 +121,6 @@ mod tests {
         for name in MethodName::ALL.into_iter().filter(|n| *n != MethodName::Certified) {
             assert!(!perfect(name), "{name:?}");
         }
-        assert_eq!(trials, run(&TrialParams::new(Profile::Quick), &Progress::silent()).unwrap());
     }
 
     #[test]

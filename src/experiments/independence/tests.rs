@@ -1,5 +1,6 @@
 use super::tables::{equal, passing, tables};
 use super::*;
+use crate::experiments::ensembles::cutting;
 use crate::params::{Profile, Protocol};
 use crate::table::{Keys, Table};
 
@@ -12,7 +13,7 @@ fn small() -> IndependenceParams {
 }
 
 fn run(parameters: &IndependenceParams) -> [Table; 6] {
-    let found = CUTTING.run(parameters, "test", &Progress::silent()).unwrap();
+    let found = cutting().run(parameters, "test", &Progress::silent()).unwrap();
     tables(&found).try_into().unwrap()
 }
 

@@ -1,6 +1,7 @@
 use super::hot::hot;
 use super::tables::tables;
 use super::*;
+use crate::experiments::ensembles::cutting;
 use crate::numerics::quadrature::GaussLegendre;
 use crate::numerics::random::NormalPairs;
 use crate::params::{Profile, Protocol};
@@ -20,7 +21,7 @@ fn small() -> RestitutionParams {
 }
 
 fn found(parameters: &RestitutionParams) -> (Restitution, [Table; 5]) {
-    let found = CUTTING.run(parameters, "test", &Progress::silent()).unwrap();
+    let found = cutting().run(parameters, "test", &Progress::silent()).unwrap();
     let tables = tables(&found).try_into().unwrap();
     (found, tables)
 }
