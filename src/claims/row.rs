@@ -63,9 +63,6 @@ pub const fn statistical(
 
 impl Row {
     /// Computes the claim.
-    ///
-    /// # Errors
-    /// If the statement or a result is missing.
     pub fn claim(&self, evidence: &Evidence) -> Result<Check, Error> {
         let statement = evidence.published.statement(self.id)?;
         let finding = (self.find)(evidence, statement)?;

@@ -7,7 +7,6 @@ use super::{Judgement, Statement, Text};
 use crate::experiments::SWEEP;
 use crate::experiments::theory::beside::{LARGE_SIGMA, distance};
 
-/// The rows of this section.
 pub const ROWS: &[Row] = &[measured("sec10_improves", OurMeasure, &[&SWEEP], improves)];
 
 fn improves(e: &Evidence, _: &Statement) -> Result<Finding, Error> {

@@ -11,7 +11,6 @@ use crate::experiments::{CHAINS, STARTS, SWEEP, TWO_MASSES};
 use crate::numerics::statistics::Estimate;
 use crate::params::Protocol;
 
-/// The rows of this section.
 pub const ROWS: &[Row] = &[
     measured("sec2_parameters", Exact, &[&SWEEP], parameters),
     statistical("sec2_few_below", OurMeasure, &[&SWEEP], few_below),

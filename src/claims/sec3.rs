@@ -7,7 +7,6 @@ use super::{Finding, all_cases, open};
 use super::{Judgement, Statement, Text};
 use crate::experiments::SWEEP;
 
-/// The rows of this section.
 pub const ROWS: &[Row] = &[
     theory("sec3_impact_types", Exact, impact_types),
     theory("sec3_vertices", Exact, |e, s| size(e.results.identities.graph_vertices, s)),

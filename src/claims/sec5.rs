@@ -8,7 +8,6 @@ use crate::experiments::SEGMENTS;
 use crate::experiments::segments::Segment;
 use std::collections::BTreeSet;
 
-/// The rows of this section.
 pub const ROWS: &[Row] = &[
     measured("sec5_fig5", Exact, &[&SEGMENTS], |e, s| motion(&e.results.of(&SEGMENTS)?.fig05, s)),
     measured("sec5_fig6", Exact, &[&SEGMENTS], |e, s| motion(&e.results.of(&SEGMENTS)?.fig06, s)),

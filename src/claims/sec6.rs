@@ -8,7 +8,6 @@ use super::{Judgement, Statement, Text};
 use crate::experiments::SWEEP;
 use crate::experiments::theory::tables::two_largest_steps;
 
-/// The rows of this section.
 pub const ROWS: &[Row] = &[
     theory("sec6_normalised", Rounding, |e, _| {
         Ok(rounding(e.results.identities.normalisation, 1e-13, "Over ten values of p up to one."))

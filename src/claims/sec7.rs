@@ -5,7 +5,6 @@ use super::row::{Error, Evidence, Row, theory};
 use super::{Finding, all_cases, rounding};
 use super::{Judgement, Statement, Text};
 
-/// The rows of this section.
 pub const ROWS: &[Row] = &[
     theory("sec7_eq11", Exact, |e, _| {
         let cases = e.results.identities.eq11;

@@ -10,7 +10,6 @@ use crate::experiments::sweep::Sweep;
 use crate::experiments::theory::beside::{self, LARGE_SIGMA, increases, largest_distance};
 use crate::experiments::{CHAINS, PROTOCOL, RESTITUTION, STARTS, SWEEP};
 
-/// The rows of this section.
 pub const ROWS: &[Row] = &[
     measured("sec8_expected_jump", OurMeasure, &[&SWEEP], expected_jump),
     theory("sec8_separation", Rounding, |e, _| {

@@ -9,7 +9,6 @@ use crate::experiments::theory::Theory;
 use crate::experiments::theory::beside::LARGE_SIGMA;
 use crate::experiments::theory::tables::{largest_change, largest_mean_difference, moves};
 
-/// The rows of this section.
 pub const ROWS: &[Row] = &[
     measured("sec9_fig6_repeats", Exact, &[&SEGMENTS], fig6_repeats),
     theory("sec9_eq29", Exact, |e, _| {
@@ -130,7 +129,7 @@ fn class_range(e: &Evidence, s: &Statement, equation: u32) -> Result<Finding, Er
 
 /// Share of simple circuits at one p.
 pub(crate) fn simple_share(theory: &Theory, p: f64) -> Option<f64> {
-    theory.slips.simple_shares.iter().find(|row| row.p == p).map(|row| row.share)
+    theory.slips.simple_shares.iter().find(|row| row.x == p).map(|row| row.y)
 }
 
 fn even_small_p(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
@@ -167,7 +166,7 @@ fn even_small_p(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
 fn dominate(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
     let theory = &e.results.theory;
     let shares: Vec<(f64, f64)> =
-        theory.slips.simple_shares.iter().map(|row| (row.p, row.share)).collect();
+        theory.slips.simple_shares.iter().map(|row| (row.x, row.y)).collect();
     let falls = shares.windows(2).all(|w| w[1].0 <= w[0].0 || w[1].1 < w[0].1);
     let Some(last) = theory.higher.last() else {
         return Ok(open(Text::words("nothing"), "Fig. 13 was not computed."));

@@ -21,9 +21,6 @@ pub const DIGITS: f64 = 1e-13;
 pub const UNITS: f64 = 8.0;
 
 /// All targets, those of the clock first.
-///
-/// # Errors
-/// If a result is missing.
 pub fn targets(results: &Results) -> Result<Vec<Check>, Error> {
     let measured = results.of(&MEASURED)?;
     let (race, analytic) = (results.of(&RACE)?, results.of(&ANALYTIC)?);

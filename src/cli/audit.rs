@@ -43,7 +43,6 @@ fn share(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Runs the verb.
 pub fn run(args: Args) -> Result<(), Failure> {
     let profile = Profile::from(args.profile);
     let store = Store::open(&work::results(args.results, profile))?;

@@ -29,7 +29,6 @@ pub struct Args {
     threads: Option<usize>,
 }
 
-/// Runs the verb.
 pub fn run(args: Args) -> Result<(), Failure> {
     let profile = Profile::from(args.profile);
     let plan = args.only.plan(profile)?;

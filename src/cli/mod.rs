@@ -7,7 +7,6 @@ mod diff;
 mod document;
 mod eval;
 mod explain;
-mod manual;
 mod merge;
 mod method;
 mod paper;
@@ -63,7 +62,7 @@ const GROUPS: [(&str, &[&str]); 5] = [
     ("Look at", &["explain", "status"]),
     ("Compute", &["eval", "sweep", "trace", "bench"]),
     ("On several machines", &["plan", "run", "merge"]),
-    ("For keepers", &["audit", "manual"]),
+    ("For keepers", &["audit"]),
 ];
 
 /// The command line, with its verbs in groups.
@@ -89,7 +88,6 @@ enum Verb {
     Diff(diff::Args),
     Eval(eval::Args),
     Explain(explain::Args),
-    Manual(manual::Args),
     Merge(merge::Args),
     Paper(paper::Args),
     Plan(plan::Args),
@@ -121,7 +119,6 @@ pub fn main() -> ExitCode {
         Verb::Diff(args) => diff::run(args),
         Verb::Eval(args) => eval::run(args),
         Verb::Explain(args) => explain::run(args),
-        Verb::Manual(args) => manual::run(&args),
         Verb::Merge(args) => merge::run(args),
         Verb::Paper(args) => paper::run(args),
         Verb::Plan(args) => plan::run(args),

@@ -60,7 +60,6 @@ fn figure_help() -> String {
 /// Of more verdicts that changed only so many are told: the whole is one screen.
 const MOVED: usize = 6;
 
-/// Runs the verb.
 pub fn run(args: Args) -> Result<(), Failure> {
     let began = Instant::now();
     if args.set == ["list"] {

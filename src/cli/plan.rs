@@ -65,7 +65,6 @@ impl<'a> Line<'a> {
     }
 }
 
-/// Runs the verb.
 pub fn run(args: Args) -> Result<(), Failure> {
     let profile = Profile::from(args.profile);
     if let Some(of) = args.shards {

@@ -72,7 +72,6 @@ impl Line {
     }
 }
 
-/// Runs the verb.
 pub fn run(args: Args) -> Result<(), Failure> {
     let profile = Profile::from(args.profile);
     let store = Store::open(&work::results(args.results, profile))?;

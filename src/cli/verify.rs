@@ -40,7 +40,6 @@ pub struct Args {
     threads: Option<usize>,
 }
 
-/// Runs the verb.
 pub fn run(args: Args) -> Result<(), Failure> {
     let progress = work::progress_that_tidies();
     let mut checked = listed(&args.folder, args.only.document.as_deref(), &progress)?;

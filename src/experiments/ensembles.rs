@@ -18,9 +18,6 @@ pub trait Ensembles: Clone + Sync {
     fn rows(&self) -> Vec<Row>;
 
     /// What runs the realisations of a row.
-    ///
-    /// # Errors
-    /// [`Error::Failed`] if the chain is not allowed.
     fn row<'a>(&'a self, row: usize, progress: &'a Progress) -> Begun<'a, Self::One>;
 
     /// Whether what was read from a file can be a realisation of a row.
@@ -84,9 +81,6 @@ pub struct Running<'a> {
 
 impl<'a> Running<'a> {
     /// A chain at its start, in an experiment of a name.
-    ///
-    /// # Errors
-    /// [`Error::Failed`] if it is not allowed.
     pub fn new(
         scenario: &Scenario,
         name: &'static str,
@@ -97,9 +91,6 @@ impl<'a> Running<'a> {
     }
 
     /// Goes on until a time; false where the engine gave up.
-    ///
-    /// # Errors
-    /// [`Error::Interrupted`]; [`Error::Failed`].
     pub fn go(&mut self, until: f64, mut see: impl FnMut(Impact)) -> Result<bool, Error> {
         self.go_while(until, |impact| {
             see(impact);
@@ -108,9 +99,6 @@ impl<'a> Running<'a> {
     }
 
     /// The same, and not on after an impact of which that is said.
-    ///
-    /// # Errors
-    /// As [`Running::go`].
     pub fn go_while(
         &mut self,
         until: f64,

@@ -43,9 +43,6 @@ pub struct Twins {
 }
 
 /// Runs the twins.
-///
-/// # Errors
-/// [`Error::Interrupted`]; [`Error::Failed`] if a run fails.
 pub fn run(parameters: &HorizonParams, progress: &Progress) -> Result<Horizon, Error> {
     let stage = progress.stage("horizon", parameters.realisations as u64);
     let twins: Vec<Twins> = (0..parameters.realisations)

@@ -86,9 +86,6 @@ fn mirrored() -> Vec<[f64; 2]> {
 }
 
 /// Runs them.
-///
-/// # Errors
-/// [`Error::Interrupted`]; [`Error::Failed`] if a run fails.
 pub fn run(parameters: &Runs, progress: &Progress) -> Result<Replays, Error> {
     let stage = progress.stage("replays", parameters.len() as u64);
     let one = |(_, asked): &(String, Asked)| {

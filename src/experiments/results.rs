@@ -30,9 +30,6 @@ pub struct Results {
 
 impl Results {
     /// The result of an experiment.
-    ///
-    /// # Errors
-    /// [`Error::NotRun`] if it was not asked for.
     pub fn of<E: Typed>(&self, experiment: &E) -> Result<&E::Result, Error> {
         let found = self.found.get(experiment.name()).and_then(|found| found.downcast_ref());
         found.ok_or(Error::NotRun(experiment.name()))
@@ -76,9 +73,6 @@ impl Results {
     }
 
     /// One of the tables.
-    ///
-    /// # Errors
-    /// [`Error::NotRun`] if its experiment was not asked for.
     pub fn table(&self, name: &'static str) -> Result<&Table, Error> {
         let experiment = name.split('.').next().unwrap_or(name);
         self.tables().get(name).map(Arc::as_ref).ok_or(Error::NotRun(experiment))

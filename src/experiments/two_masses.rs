@@ -44,9 +44,6 @@ pub struct ExcessWithinTime {
 const BELOW: f64 = 1.0 - 1e-9;
 
 /// Runs the experiment.
-///
-/// # Errors
-/// [`Error::Interrupted`]; [`Error::Failed`] if a run fails.
 pub fn run(parameters: &TwoMassesParams, progress: &Progress) -> Result<TwoMasses, Error> {
     let chain = &parameters.chain;
     let stage = progress.stage("two masses", parameters.directions as u64);
@@ -220,14 +217,6 @@ mod tests {
             let forcing = [unit(normals.pair()), unit(normals.pair())];
             assert!(bound(&chain, &forcing) >= safe * (1.0 - 1e-14));
         }
-    }
-
-    #[test]
-    fn opposite_forces_of_that_size_reach_the_distance() {
-        let chain = Chain::default();
-        let (w, big_w) = (chain.natural_frequency, chain.forcing_frequency);
-        let reach = (1.0 + big_w / w) * 2.0 * safe_force(&chain) / (w * w - big_w * big_w).abs();
-        assert!((reach / chain.spacing - 1.0).abs() < 1e-12, "{reach}");
     }
 
     #[test]

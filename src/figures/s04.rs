@@ -23,7 +23,6 @@ const SPREADS: [Stroke; 4] = [
 const GROWN: (&str, Marker) =
     ("nucleation and growth", (Mark::OpenSquare, 44, Stroke::solid(INK, HAIR)));
 
-/// Draws the figure.
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let table = |name| results.table(name);
     let (means, rise, scores) =

@@ -21,7 +21,6 @@ const LOOKS: [(Mark, Colour); 6] = [
 /// The frequency of (d).
 const COMMON: &str = "frequency-2";
 
-/// Draws the figure.
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let (chains, sizes) = (results.of(&CHAINS)?, results.table("sizes.places")?);
     let window = [("window", chains.parameters.window)];

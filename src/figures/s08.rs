@@ -29,7 +29,6 @@ struct Shown<'a> {
     others: &'a Table,
 }
 
-/// Draws the figure.
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let table = |name| results.table(name);
     let shown = Shown {

@@ -37,7 +37,6 @@ struct Shown<'a> {
     heating: &'a Table,
 }
 
-/// Draws the figure.
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let table = |name| results.table(name);
     let shown = Shown {

@@ -23,9 +23,6 @@ pub struct Checked {
 
 impl Checked {
     /// Tells each fault in a line of standard output, or that there is none.
-    ///
-    /// # Errors
-    /// When nobody can be told.
     pub fn tell(&self, folder: &Path) -> Result<(), Failure> {
         for fault in &self.faults {
             stdout::print(&format!("{fault}\n"))?;

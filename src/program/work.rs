@@ -134,9 +134,6 @@ fn size(bytes: u128) -> String {
 
 /// Refuses work that needs more memory than there is, before any of it is taken: an estimate in bytes, the
 /// option that asks for it, and what to give instead.
-///
-/// # Errors
-/// Exit code 2.
 pub fn memory(needed: u128, option: &str, remedy: &str) -> Result<(), Failure> {
     let at_hand = at_hand();
     if needed <= at_hand {
@@ -295,9 +292,6 @@ fn few_enough(asked_by: &str, threads: Option<usize>) -> Result<(), Failure> {
 }
 
 /// Holds the environment to the bounds that options have.
-///
-/// # Errors
-/// Exit code 2.
 pub fn environment() -> Result<(), Failure> {
     THREADS.into_iter().try_for_each(|name| {
         few_enough(name, std::env::var(name).ok().and_then(|threads| threads.parse().ok()))
@@ -305,9 +299,6 @@ pub fn environment() -> Result<(), Failure> {
 }
 
 /// Holds `--threads` to its bounds.
-///
-/// # Errors
-/// Exit code 2.
 pub fn threads(threads: Option<usize>) -> Result<(), Failure> {
     if threads == Some(0) {
         return Err(Failure::input("--threads: 0 threads do no work; give 1 or more"));

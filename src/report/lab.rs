@@ -6,9 +6,6 @@ use crate::experiments::{REPLAY, Results, SWEEP};
 use serde_json::json;
 
 /// The file, from the module in WebAssembly and the script.
-///
-/// # Errors
-/// If a result is missing.
 pub fn script(module: &[u8], results: &Results, script: &str) -> Result<String, Error> {
     let (replays, sweep) = (results.of(&REPLAY)?, results.of(&SWEEP)?);
     let runs = replays.parameters.iter().zip(&replays.found);

@@ -72,7 +72,6 @@ const CLOSE: f64 = 1e-3;
 /// How often a setting is run at most.
 const REPETITIONS: usize = 20;
 
-/// Runs the verb.
 pub fn run(args: &Args) -> Result<(), Failure> {
     if !(0.0..=1e6).contains(&args.until) {
         let message = format!("--until: {:?} is out of range; give 0 to 1e6", args.until);

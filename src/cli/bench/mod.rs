@@ -130,7 +130,6 @@ const LEAST: u64 = 34;
 /// Chains side by side in the registers of one thread.
 const LANES: usize = 1;
 
-/// Runs the verb.
 pub fn run(args: Args) -> Result<(), Failure> {
     match args.what {
         What::Engine(args) => {

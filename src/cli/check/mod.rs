@@ -54,7 +54,6 @@ enum Format {
     Markdown,
 }
 
-/// Runs the verb.
 pub fn run(args: Args) -> Result<(), Failure> {
     let profile = Profile::from(args.profile);
     let templates = args.sources.templates()?;

@@ -68,9 +68,6 @@ pub type Part = Vec<Counted>;
 pub const CUTTING: Cutting<BiasParams, Part, Biases> = joined_by(join);
 
 /// Runs everything.
-///
-/// # Errors
-/// [`Error::Interrupted`].
 pub fn run(parameters: &BiasParams, progress: &Progress) -> Result<Biases, Error> {
     CUTTING.run(parameters, "bias of methods", progress)
 }

@@ -86,9 +86,6 @@ struct Course {
 }
 
 /// Runs everything.
-///
-/// # Errors
-/// [`Error::Interrupted`]; [`Error::Failed`] if the truth cannot be computed.
 pub fn run(parameters: &RaceParams, progress: &Progress) -> Result<Race, Error> {
     let growth = horizon::run(&parameters.growth, progress)?;
     let failed = |source| Error::failed("race", source);

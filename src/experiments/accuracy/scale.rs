@@ -30,9 +30,6 @@ pub struct ScaleRow {
 }
 
 /// Runs everything.
-///
-/// # Errors
-/// [`Error::Interrupted`]; [`Error::Failed`] if a method gives up.
 pub fn run(parameters: &ScaleParams, progress: &Progress) -> Result<Scale, Error> {
     let cases: Vec<(Setting, usize)> = parameters
         .settings
@@ -62,27 +59,4 @@ pub fn run(parameters: &ScaleParams, progress: &Progress) -> Result<Scale, Error
         })
         .collect::<Result<_, Error>>()?;
     Ok(Scale { parameters: parameters.clone(), rows })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::params::{MethodName, Profile};
-
-    #[test]
-    fn work_grows_with_n_for_integrators_only() {
-        let scale = run(&ScaleParams::new(Profile::Quick), &Progress::silent()).unwrap();
-        let at = |method: MethodName, n: usize| {
-            let mut rows = scale.rows.iter().filter(|r| r.setting.method == method);
-            rows.find(|r| r.masses == n).unwrap().evaluations_per_impact
-        };
-        let ours = at(MethodName::Certified, 1000) / at(MethodName::Certified, 10);
-        assert!((0.3..2.0).contains(&ours), "{ours}");
-        // Three times as many masses have three times as many impacts, and each costs all masses:
-        // a step of fixed length costs n, and n impacts share n steps.
-        let events = at(MethodName::RungeKutta, 30) / at(MethodName::RungeKutta, 10);
-        assert!(events > 1.7, "{events}");
-        let steps = at(MethodName::Verlet, 30) / at(MethodName::Verlet, 10);
-        assert!((0.3..3.0).contains(&steps), "{steps}");
-    }
 }

@@ -138,9 +138,6 @@ impl Truth {
     }
 
     /// The next impact up to time `until`; the motion stays where it is.
-    ///
-    /// # Errors
-    /// What the engine refuses.
     pub fn next(&self, until: f64) -> Result<Option<Hit>, Error> {
         let mut found: Option<Impact> = None;
         Certified.run(&self.scenario, &self.state(), until, &mut |impact| {
@@ -189,9 +186,6 @@ impl Truth {
     }
 
     /// Runs to time `until` and lists the impacts, with the state right after each.
-    ///
-    /// # Errors
-    /// What the engine refuses.
     pub fn run(&mut self, until: f64) -> Result<Vec<(Hit, State)>, Error> {
         let mut hits = Vec::new();
         while let Some(hit) = self.next(until)? {

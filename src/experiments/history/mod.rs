@@ -96,38 +96,7 @@ fn lowered(hot: &Scenario, free: &[[f64; 2]], time: f64, factor: f64) -> Scenari
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dynamics::Engine;
-    use crate::experiments::ensembles::cutting;
-    use crate::params::{Chain, Profile};
-
-    #[test]
-    fn a_force_that_is_not_lowered_changes_nothing() {
-        // The same impacts as without the break, for as long as chaos lets two roundings agree.
-        let chain = Chain { masses: 12, ..Chain::default() };
-        let mut normals = NormalPairs::new("test of history", 1, 0);
-        let scenario = Scenario::draw(&chain, 0.2, &mut normals);
-        let mut whole = Engine::new(&scenario).unwrap();
-        whole.run(30.0, |_| true).unwrap();
-        let again = lowered(&scenario, &whole.free_parts(), 30.0, 1.0);
-        let (mut left, mut right) = (Vec::new(), Vec::new());
-        whole
-            .run(60.0, |impact| {
-                left.push((impact.gap, impact.time));
-                true
-            })
-            .unwrap();
-        Engine::new(&again)
-            .unwrap()
-            .run(30.0, |impact| {
-                right.push((impact.gap, impact.time + 30.0));
-                true
-            })
-            .unwrap();
-        assert!(left.len() > 20 && left.len() == right.len(), "{left:?} {right:?}");
-        for ((gap, time), (other, later)) in left.iter().zip(&right) {
-            assert!(gap == other && (time - later).abs() < 1e-8, "{time} {later}");
-        }
-    }
+    use crate::params::Chain;
 
     #[test]
     fn places_and_velocities_go_on_when_the_force_is_lowered() {
@@ -151,24 +120,5 @@ mod tests {
             let speeds = [before(time + h) - before(time - h), then(h) - then(-h)];
             assert!((speeds[0] - speeds[1]).abs() < 1e-9 * h.sqrt(), "{speeds:?}");
         }
-    }
-
-    #[test]
-    fn a_heated_chain_goes_on_where_one_at_rest_is_silent() {
-        let mut parameters = HistoryParams::new(Profile::Quick);
-        parameters.chain.masses = 30;
-        parameters.sigmas = vec![0.01, 0.07, 0.2];
-        (parameters.transients, parameters.window) = (vec![100.0, 300.0], 100.0);
-        let found = cutting().run(&parameters, "test", &Progress::silent()).unwrap();
-        let alive = |at: usize| found.rows[at].iter().flatten().filter(|run| run[0] > 0).count();
-        let tables = tables::tables(&found);
-        let mean = |sigma: f64, transient: f64| {
-            let keys = [("sigma", sigma), ("transient", transient)];
-            tables[0].number(&keys, "mean_count").unwrap()
-        };
-        assert!(found.rows[2].iter().flatten().all(|run| run[0] > 28), "{found:?}");
-        // From rest a gap closes by itself at σ = 0.07 in one chain of sixty.
-        assert!(alive(1) == 3 && mean(0.07, 100.0) > 3.0, "{found:?}");
-        assert!(mean(0.01, 300.0) <= mean(0.01, 100.0), "{found:?}");
     }
 }

@@ -4,7 +4,6 @@ pub mod tables;
 
 use super::ensembles::{Begun, Ensembles, Ran};
 use super::{Error, Progress};
-use crate::circuits::nucleation::reach::closes_by_itself;
 use crate::dynamics::{self, Engine, Scenario};
 use crate::numerics::random::NormalPairs;
 use crate::params::{Chain, NucleationParams};
@@ -13,8 +12,8 @@ use literate::experiments::cutting::Row;
 /// First impacts of chains from rest, for each length and σ: length by length.
 pub type Nucleation = Ran<NucleationParams, First>;
 
-/// One chain: whether it has a gap that closes by itself, and the time of its first impact.
-pub type First = (bool, Option<f64>);
+/// The time of a chain's first impact, if it has one in time.
+pub type First = Option<f64>;
 
 /// The ensembles in their order.
 fn ensembles(parameters: &NucleationParams) -> impl Iterator<Item = (usize, usize, f64)> {
@@ -43,9 +42,9 @@ impl Ensembles for NucleationParams {
         Ok(Box::new(move |index| first(self, &chain, sigma, index)))
     }
 
-    fn fits(&self, _: usize, (able, time): &First) -> bool {
+    fn fits(&self, _: usize, time: &First) -> bool {
         let last = self.times.last().copied().unwrap_or(0.0);
-        time.is_none_or(|time| *able && (0.0..=last).contains(&time))
+        time.is_none_or(|time| (0.0..=last).contains(&time))
     }
 }
 
@@ -57,7 +56,6 @@ fn first(
 ) -> Result<First, Error> {
     let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, index);
     let scenario = Scenario::draw(chain, sigma, &mut normals);
-    let able = differences(&scenario.forcing).any(|delta| closes_by_itself(chain, delta));
     let fault = |source: dynamics::Error| Error::failed("nucleation", source);
     let mut time = None;
     Engine::new(&scenario)
@@ -67,7 +65,7 @@ fn first(
             false
         })
         .map_err(fault)?;
-    Ok((able, time))
+    Ok(time)
 }
 
 /// The differences of the amplitudes on both sides of each gap of a chain between walls, which are
@@ -82,31 +80,6 @@ pub(super) fn differences(forcing: &[[f64; 2]]) -> impl Iterator<Item = [f64; 2]
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::experiments::ensembles::cutting;
-    use crate::params::Profile;
-
-    #[test]
-    fn the_first_impact_is_in_a_gap_that_closes_by_itself() {
-        let mut parameters = NucleationParams::new(Profile::Quick);
-        parameters.lengths = vec![(1, 40), (30, 40)];
-        parameters.sigmas = vec![0.1, 0.16, 0.3];
-        let found = cutting().run(&parameters, "test", &Progress::silent()).unwrap();
-        let tables = tables::tables(&found);
-        let chains = tables.iter().find(|table| table.name() == "nucleation.chains").unwrap();
-        let hits = |masses: f64, sigma: f64, time: f64| {
-            let keys = [("masses", masses), ("sigma", sigma), ("time", time)];
-            let [able, found] = ["able", "found"].map(|of| chains.number(&keys, of).unwrap());
-            [able, 40.0 * found]
-        };
-        for (masses, sigma) in [1.0, 30.0].map(|n| [(n, 0.1), (n, 0.16), (n, 0.3)]).concat() {
-            // By T = 500 nearly all that can have closed, and no others.
-            let [able, hit] = hits(masses, sigma, 500.0);
-            assert!(hit <= able && able <= hit + 2.0, "{hit} {able}");
-        }
-        let early =
-            [(1.0, 0.1), (30.0, 0.1), (30.0, 0.3)].map(|(n, sigma)| hits(n, sigma, 10.0)[1]);
-        assert!(early[0] < 5.0 && early[1] < 25.0 && early[2] == 40.0, "{early:?}");
-    }
 
     #[test]
     fn gaps_lie_between_neighbours_and_unforced_walls() {

@@ -130,9 +130,6 @@ fn chains_table(rows: &[Chains<'_>]) -> Table {
         .key("masses", "1", |row| row.masses as f64)
         .key("sigma", SIGMA, |row| row.sigma)
         .key("time", "1/omega", |row| row.time)
-        .count("able", "chains with a gap that closes by itself in unlimited time", |row| {
-            row.part.iter().filter(|(able, _)| *able).count() as u64
-        })
         .estimate("found", "1", "share of the chains with an impact by then", |row| {
             share(row.hit(), row.part.len() as u64)
         })
@@ -168,7 +165,7 @@ fn all(parameters: &NucleationParams, chains: &[Chains<'_>], half: f64) -> Table
 impl Chains<'_> {
     /// Chains with an impact by the time.
     fn hit(&self) -> u64 {
-        let by_then = |(_, first): &&(bool, Option<f64>)| first.is_some_and(|at| at <= self.time);
+        let by_then = |first: &&First| first.is_some_and(|at| at <= self.time);
         self.part.iter().filter(by_then).count() as u64
     }
 }

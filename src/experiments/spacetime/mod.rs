@@ -67,9 +67,6 @@ pub struct Advance {
 }
 
 /// Runs realisations until one keeps hitting.
-///
-/// # Errors
-/// [`Error::Interrupted`]; [`Error::Failed`] if a run fails.
 pub fn run(parameters: &SpaceTimeParams, progress: &Progress) -> Result<SpaceTime, Error> {
     let stage = progress.stage("spacetime", 1);
     let failed = |source| Error::failed("spacetime", source);

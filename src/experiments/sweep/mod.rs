@@ -97,9 +97,6 @@ pub struct Sample {
 pub const CUTTING: Cutting<SweepParams, Tally, Sweep> = Cutting { rows, part, fits, join };
 
 /// Runs the ensemble over all σ.
-///
-/// # Errors
-/// [`Error::Interrupted`]; [`Error::Failed`] if the chain is not allowed.
 pub fn run(parameters: &SweepParams, name: &str, progress: &Progress) -> Result<Sweep, Error> {
     CUTTING.run(parameters, name, progress)
 }
@@ -115,9 +112,6 @@ pub fn rows(parameters: &SweepParams) -> Vec<Row> {
 }
 
 /// Runs some realisations of one σ.
-///
-/// # Errors
-/// As [`run`].
 pub fn part(
     parameters: &SweepParams,
     unit: &Unit,
@@ -133,9 +127,6 @@ pub fn fits(parameters: &SweepParams, unit: &Unit, tally: &Tally) -> bool {
 }
 
 /// Reduces the tallies of each σ, and finds the rise.
-///
-/// # Errors
-/// [`Error::Interrupted`].
 pub fn join(
     parameters: &SweepParams,
     tallies: Vec<Vec<Tally>>,
@@ -172,9 +163,6 @@ pub fn work(parameters: &SweepParams) -> u64 {
 }
 
 /// Runs the ensemble at one σ, without bootstrap.
-///
-/// # Errors
-/// As [`run`].
 pub fn at(
     parameters: &SweepParams,
     sigma: f64,

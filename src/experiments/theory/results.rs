@@ -237,7 +237,7 @@ pub struct Slips {
     /// p(0.15).
     pub p_at_015: f64,
     /// Share of simple circuits in *all* circuits of five classes, at several p.
-    pub simple_shares: Vec<SimpleShare>,
+    pub simple_shares: Vec<Point>,
     /// Total variation between simple and five-class distributions, at several p.
     pub total_variations: Vec<Point>,
     /// Eq. (30) as printed against Eq. (33), at k = 3: they differ by the factor N.
@@ -255,13 +255,4 @@ pub struct FirstLocalMaximum {
     pub denominator: u64,
     /// p.
     pub p: f64,
-}
-
-/// Share of simple circuits at one p.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct SimpleShare {
-    /// Edge probability p.
-    pub p: f64,
-    /// Weight of simple circuits over the weight of the five classes.
-    pub share: f64,
 }
