@@ -17,8 +17,8 @@ pub struct Args {
     #[arg(long, value_name = "i/N", value_parser = share, allow_hyphen_values = true)]
     shard: (usize, usize),
     /// Sample sizes.
-    #[arg(long, default_value = "full")]
-    profile: work::AnyProfile,
+    #[arg(long, default_value = "full", value_parser = work::of_all())]
+    profile: Profile,
     #[command(flatten)]
     only: work::Only,
     /// Folder for what the units give, one file each; it is made when missing. Shards may share it.
@@ -58,7 +58,7 @@ pub fn given_by(option: &str) -> impl Fn(Error) -> Failure + Copy {
 }
 
 pub fn run(args: Args) -> Result<(), Failure> {
-    let profile = Profile::from(args.profile);
+    let profile = args.profile;
     let unwritable = given_by("--out");
     let plan = args.only.plan(profile)?;
     refuse_report(&args.out)?;

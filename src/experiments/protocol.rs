@@ -19,7 +19,7 @@ pub struct ProtocolMap {
     /// One cell for each pair, transients outer, windows inner.
     pub cells: Vec<ProtocolCell>,
     /// For each cell the mean count of all realisations at each σ; none where no run reached the window, and where too
-    /// many starts overlap for the row to be comparable. The long map has them by σ instead.
+    /// many starts overlap for the row to be comparable.
     pub curves: Vec<Vec<Option<f64>>>,
     /// Realisations whose random start overlaps, or that the engine ended early; they are counted in no
     /// window.

@@ -251,23 +251,3 @@ impl TwoMassesParams {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn full_grid_is_as_promised() {
-        let sigmas = SweepParams::main(Profile::Full).sigmas;
-        assert_eq!(sigmas.len(), 69);
-        assert_eq!((sigmas[0], sigmas[68]), (0.02, 0.40));
-        assert!(sigmas.windows(2).all(|w| w[0] < w[1]));
-        assert!(
-            sigmas
-                .windows(2)
-                .filter(|w| w[0] >= 0.08 && w[1] <= 0.18)
-                .all(|w| w[1] - w[0] < 0.0025 + 1e-12)
-        );
-        assert!(sigmas.contains(&0.12) && sigmas.contains(&0.1175));
-    }
-}

@@ -5,6 +5,7 @@ use crate::experiments::{self, Error, Progress, say};
 use crate::params::Profile;
 use crate::report::{self, contents};
 use crate::{claims, dynamics, figures};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use literate::experiments::deep;
 use literate::experiments::shards::Plan;
 use std::collections::HashSet;
@@ -13,28 +14,33 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::Duration;
 
-/// Sample sizes, as named on the command line.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub enum ProfileName {
-    /// To try out: seconds.
-    Quick,
-    /// For pull requests: half a minute.
-    Ci,
-    /// The committed report: minutes.
-    Full,
+/// Reads the name of a profile, one of these.
+fn profiles(some: &[Profile]) -> impl TypedValueParser<Value = Profile> {
+    let about = |profile| match profile {
+        Profile::Quick => "To try out: seconds",
+        Profile::Ci => "For pull requests: half a minute",
+        Profile::Full => "The committed report: minutes",
+        Profile::Deep => {
+            "What is run now and then, committed, and carried over: a quarter of an hour"
+        }
+    };
+    let known = some.iter().map(|own| PossibleValue::new(own.name()).help(about(*own)));
+    PossibleValuesParser::new(known).try_map(|name| profile(&name).ok_or("unknown"))
 }
 
-/// Sample sizes, and what takes longer than any report may.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub enum AnyProfile {
-    /// To try out: seconds.
-    Quick,
-    /// For pull requests: half a minute.
-    Ci,
-    /// The committed report: minutes.
-    Full,
-    /// What is run now and then, committed, and carried over: a quarter of an hour.
-    Deep,
+/// The profile of a name.
+pub fn profile(name: &str) -> Option<Profile> {
+    Profile::ALL.into_iter().find(|own| own.name() == name)
+}
+
+/// Reads sample sizes of a report.
+pub fn of_reports() -> impl TypedValueParser<Value = Profile> {
+    profiles(&[Profile::Quick, Profile::Ci, Profile::Full])
+}
+
+/// Reads sample sizes, and what takes longer than any report may.
+pub fn of_all() -> impl TypedValueParser<Value = Profile> {
+    profiles(&Profile::ALL)
 }
 
 /// Which experiments of a profile are meant.
@@ -75,27 +81,6 @@ pub fn remedy(profile: Profile) -> String {
     match profile {
         Profile::Deep => deep::REMEDY.into(),
         _ => format!("`impact-paper paper --profile {}` runs them", profile.name()),
-    }
-}
-
-impl From<AnyProfile> for Profile {
-    fn from(name: AnyProfile) -> Self {
-        match name {
-            AnyProfile::Quick => Profile::Quick,
-            AnyProfile::Ci => Profile::Ci,
-            AnyProfile::Full => Profile::Full,
-            AnyProfile::Deep => Profile::Deep,
-        }
-    }
-}
-
-impl From<ProfileName> for Profile {
-    fn from(name: ProfileName) -> Self {
-        match name {
-            ProfileName::Quick => Profile::Quick,
-            ProfileName::Ci => Profile::Ci,
-            ProfileName::Full => Profile::Full,
-        }
     }
 }
 

@@ -55,12 +55,11 @@ const DOCUMENTS: [Document; 5] = [
     Document {
         prose: "front",
         name: "Overview",
-        letter: "",
         markdown: "README.md",
         page: "index.html",
         print: None,
-        moved: &[],
         repeats: true,
+        ..Document::REPORT
     },
     Document { prose: "edition", name: "Edition", moved: &MOVED, ..Document::REPORT },
     Document {
@@ -70,8 +69,7 @@ const DOCUMENTS: [Document; 5] = [
         markdown: "beyond.md",
         page: "beyond.html",
         print: Some("beyond"),
-        moved: &[],
-        repeats: false,
+        ..Document::REPORT
     },
     Document {
         prose: "methods",
@@ -80,8 +78,7 @@ const DOCUMENTS: [Document; 5] = [
         markdown: "methods.md",
         page: "methods.html",
         print: Some("methods"),
-        moved: &[],
-        repeats: false,
+        ..Document::REPORT
     },
     Document {
         prose: "ledger",
@@ -90,8 +87,7 @@ const DOCUMENTS: [Document; 5] = [
         markdown: "ledger.md",
         page: "ledger.html",
         print: None,
-        moved: &[],
-        repeats: false,
+        ..Document::REPORT
     },
 ];
 

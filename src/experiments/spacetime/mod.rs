@@ -230,9 +230,7 @@ mod tests {
     }
 
     #[test]
-    fn the_run_is_the_first_that_keeps_hitting_and_repeats_exactly() {
-        let found = quick();
-        assert_eq!(found, quick());
+    fn the_run_is_the_first_that_keeps_hitting() {
         // Below the threshold some runs fall silent, and are passed over.
         let seeded = |seed| {
             let quick = SpaceTimeParams::new(Profile::Quick);
