@@ -1,9 +1,9 @@
 //! Sections 3 and 4: the graph, and what its circuits stand for.
 
 use super::Basis::{Exact, OurMeasure};
-use super::row::{Error, Evidence, Row, statistical, theory};
+use super::row::{Error, Evidence, Row, cases, statistical, theory};
 use super::sec2::{gaps, small};
-use super::{Finding, all_cases, open};
+use super::{Finding, open};
 use super::{Judgement, Statement, Text};
 use crate::experiments::SWEEP;
 
@@ -15,8 +15,7 @@ pub const ROWS: &[Row] = &[
 ];
 
 fn impact_types(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let cases = e.results.identities.impact_types;
-    Ok(all_cases(cases.compared, cases.failed, "Every number of masses up to the number of cases."))
+    cases(e.results.identities.impact_types, "Every number of masses up to the number of cases.")
 }
 
 fn size(found: usize, s: &Statement) -> Result<Finding, Error> {

@@ -1,8 +1,8 @@
 //! Section 9: circuits that repeat impacts.
 
 use super::Basis::{Exact, OurMeasure};
-use super::row::{Error, Evidence, Row, measured, theory};
-use super::{Finding, all_cases, open};
+use super::row::{Error, Evidence, Row, cases, measured, theory};
+use super::{Finding, open};
 use super::{Judgement, Statement, Text};
 use crate::experiments::SEGMENTS;
 use crate::experiments::theory::Theory;
@@ -12,30 +12,25 @@ use crate::experiments::theory::tables::{largest_change, largest_mean_difference
 pub const ROWS: &[Row] = &[
     measured("sec9_fig6_repeats", Exact, &[&SEGMENTS], fig6_repeats),
     theory("sec9_eq29", Exact, |e, _| {
-        let cases = e.results.identities.eq29;
-        Ok(all_cases(
-            cases.compared,
-            cases.failed,
+        cases(
+            e.results.identities.eq29,
             "Circuits through one vertex twice, by the lengths of their loops, on graphs of one to six vertices.",
-        ))
+        )
     }),
     theory("sec9_eq30", Exact, eq30),
     theory("sec9_eq32", Exact, |e, _| {
-        let cases = e.results.identities.eq32;
-        Ok(all_cases(cases.compared, cases.failed, "Every n up to ten, one sum at a time."))
+        cases(e.results.identities.eq32, "Every n up to ten, one sum at a time.")
     }),
     theory("sec9_eq33", Exact, |e, s| class_range(e, s, 33)),
     theory("sec9_eq35", Exact, |e, s| class_range(e, s, 35)),
     theory("sec9_eq36", Exact, |e, s| class_range(e, s, 36)),
     theory("sec9_eq37", Exact, |e, s| class_range(e, s, 37)),
     theory("sec9_eq38", Exact, |e, _| {
-        let cases = e.results.identities.eq38;
-        Ok(all_cases(
-            cases.compared,
-            cases.failed,
+        cases(
+            e.results.identities.eq38,
             "From k = 3 on, where each formula is used in the range that is printed with it. For k = 1 and \
              2, which the distribution needs too, it is not.",
-        ))
+        )
     }),
     theory("sec9_even_small_p", OurMeasure, even_small_p),
     theory("sec9_dominate", OurMeasure, dominate),

@@ -157,14 +157,4 @@ mod tests {
         }
         assert!(parameters.iter().any(|(_, asked)| asked.chain.boundary == Boundary::Ring));
     }
-
-    #[test]
-    fn no_two_digests_agree_and_each_is_found_again() {
-        let own = found();
-        let mut digests: Vec<_> = own.found.iter().map(|found| &found.digest).collect();
-        digests.sort();
-        digests.dedup();
-        assert_eq!(digests.len(), own.parameters.len());
-        assert_eq!(own, found());
-    }
 }

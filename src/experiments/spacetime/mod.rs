@@ -258,25 +258,6 @@ mod tests {
         }
     }
 
-    /// A start closes by itself: its free and forced amplitudes from rest must reach d (Sec. 8).
-    #[test]
-    fn starts_are_gaps_that_can_close_by_themselves() {
-        let found = quick();
-        let starts = found.starts();
-        assert!(!starts.is_empty());
-        let forcing = |mass: usize| match (1..=100).contains(&mass) {
-            true => found.scene.forcing[mass - 1],
-            false => [0.0; 2],
-        };
-        for gap in starts {
-            let ([a, b], [c, d]) = (forcing(gap), forcing(gap + 1));
-            let (alpha, beta) = (c - a, d - b);
-            let reach =
-                (alpha * alpha + 2.0 * beta * beta).sqrt() + (alpha * alpha + beta * beta).sqrt();
-            assert!(reach >= 1.0, "gap {gap} reaches only {reach}");
-        }
-    }
-
     /// The second route: positions from the scene's events are those of the engine.
     #[test]
     fn the_scene_knows_where_every_mass_is() {

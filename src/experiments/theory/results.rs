@@ -165,8 +165,6 @@ pub struct HigherDistribution {
     pub mean: f64,
     /// μ of simple circuits alone.
     pub mean_simple: f64,
-    /// k* over all five classes.
-    pub k_star: usize,
     /// Total variation distance between `total` and `simple`.
     pub total_variation: f64,
 }
@@ -174,10 +172,6 @@ pub struct HigherDistribution {
 /// What one class of circuits contributes to a [`HigherDistribution`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ClassContribution {
-    /// Its symbol, in the figures' markup: `φ_{N}`, `φ_{N}^{1}`, `φ_{N}^{1,0}`, …
-    pub symbol: String,
-    /// Its printed equation.
-    pub equation: u32,
     /// Its part of P(X = k), k = 1..=N.
     pub probability: Vec<f64>,
     /// Its share of the whole.
