@@ -4,6 +4,7 @@ use super::{Error, Progress};
 use crate::dynamics::{self, Engine, Impact, Scenario};
 use literate::experiments::cutting::{Cutting, Join, Row, Unit};
 use literate::experiments::progress::Stage;
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// What runs a realisation by its number, unless the chain is not allowed.
@@ -69,6 +70,23 @@ fn ran<P: Ensembles>(
 ) -> Result<Ran<P, P::One>, Error> {
     let rows = parts.into_iter().map(|parts| parts.concat()).collect();
     Ok(Ran { parameters: parameters.clone(), rows })
+}
+
+/// What each of several things gives, on all threads and told by the stage.
+pub fn each<A: Send, R: Send>(
+    stage: &Stage,
+    progress: &Progress,
+    all: impl IntoIterator<Item = A>,
+    one: impl Fn(A) -> Result<R, Error> + Sync,
+) -> Result<Vec<R>, Error> {
+    let all: Vec<A> = all.into_iter().collect();
+    let told = |own| {
+        progress.check()?;
+        let found = one(own)?;
+        stage.advance(1);
+        Ok(found)
+    };
+    all.into_par_iter().with_max_len(1).map(told).collect()
 }
 
 /// A chain on its way.

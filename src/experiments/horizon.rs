@@ -3,6 +3,7 @@
 //! A change of one amplitude alone would be the smaller disturbance: in one run of four it is
 //! rounded away. Every operation of a run rounds, in every mass, so the twins differ in all.
 
+use super::ensembles::each;
 use super::{Error, Progress};
 use crate::dynamics::{Engine, Growth, Impact, Scenario};
 use crate::numerics::estimates::average;
@@ -11,7 +12,6 @@ use crate::numerics::statistics::Estimate;
 use crate::params::HorizonParams;
 use crate::table::Table;
 use crate::value::origin;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// The measured horizon. Means over the twins, with standard error and a normal interval.
@@ -45,16 +45,8 @@ pub struct Twins {
 /// Runs the twins.
 pub fn run(parameters: &HorizonParams, progress: &Progress) -> Result<Horizon, Error> {
     let stage = progress.stage("horizon", parameters.realisations as u64);
-    let twins: Vec<Twins> = (0..parameters.realisations)
-        .into_par_iter()
-        .with_max_len(1)
-        .map(|index| {
-            progress.check()?;
-            let twins = pair(parameters, index as u64);
-            stage.advance(1);
-            twins
-        })
-        .collect::<Result<_, _>>()?;
+    let indices = 0..parameters.realisations as u64;
+    let twins = each(&stage, progress, indices, |index| pair(parameters, index))?;
     let over = |pick: fn(&Twins) -> Option<f64>| {
         average(&twins.iter().filter_map(pick).collect::<Vec<f64>>())
     };

@@ -5,13 +5,13 @@
 //! growing amplitude must therefore have its first impact at that bound or above, and come close
 //! to it when given time, because ω and Ω are incommensurable.
 
+use super::ensembles::each;
 use super::{Error, Progress};
 use crate::dynamics::{Engine, Initial, Scenario, Simultaneous};
 use crate::numerics::random::NormalPairs;
 use crate::params::{Boundary, Chain, TwoMassesParams};
 use crate::table::Table;
 use crate::value::origin;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// The smallest forces that lead to an impact.
@@ -53,17 +53,12 @@ pub fn run(parameters: &TwoMassesParams, progress: &Progress) -> Result<TwoMasse
     let mut opposite = vec![[0.0; 2]; chain.masses];
     (opposite[0][quadrature], opposite[1][quadrature]) = (1.0, -1.0);
     let worst = Direction { chain, forcing: &opposite, bound: safe_force };
-    let directions: Vec<(u64, Vec<f64>)> = (0..parameters.directions)
-        .into_par_iter()
-        .map(|index| {
-            let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, index as u64);
-            let forcing = Scenario::draw(chain, 1.0, &mut normals).forcing;
-            let direction = Direction { chain, forcing: &forcing, bound: bound(chain, &forcing) };
-            let found = direction.thresholds(parameters, progress)?;
-            stage.advance(1);
-            Ok(found)
-        })
-        .collect::<Result<_, Error>>()?;
+    let directions = each(&stage, progress, 0..parameters.directions, |index| {
+        let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, index as u64);
+        let forcing = Scenario::draw(chain, 1.0, &mut normals).forcing;
+        let direction = Direction { chain, forcing: &forcing, bound: bound(chain, &forcing) };
+        direction.thresholds(parameters, progress)
+    })?;
     let (mut violations, _) = worst.thresholds(parameters, progress)?;
     violations += directions.iter().map(|(violations, _)| violations).sum::<u64>();
     let excess = |(i, &time): (usize, &f64)| {

@@ -5,6 +5,7 @@ use super::routes::method;
 use super::truth::{Hit, Truth};
 use crate::dynamics::methods::State;
 use crate::dynamics::{self, Impact, Scenario};
+use crate::experiments::ensembles::each;
 use crate::experiments::horizon::{self, Horizon};
 use crate::experiments::{Error, Progress};
 use crate::numerics::double_double::DoubleDouble;
@@ -103,16 +104,9 @@ pub fn run(parameters: &RaceParams, progress: &Progress) -> Result<Race, Error> 
         .collect::<Result<_, Error>>()?;
     let targets = targets(parameters, &courses)?;
     let stage = progress.stage("methods against the truth", parameters.settings.len() as u64);
-    let entries: Vec<Entry> = parameters
-        .settings
-        .par_iter()
-        .with_max_len(1)
-        .map(|&setting| {
-            let entry = entry(parameters, setting, &courses, &targets, progress)?;
-            stage.advance(1);
-            Ok(entry)
-        })
-        .collect::<Result<_, Error>>()?;
+    let entries = each(&stage, progress, parameters.settings.iter().copied(), |setting| {
+        entry(parameters, setting, &courses, &targets, progress)
+    })?;
     Ok(Race {
         parameters: parameters.clone(),
         growth,

@@ -3,10 +3,10 @@
 use super::routes::method;
 use crate::dynamics::methods::State;
 use crate::dynamics::{Impact, Scenario};
+use crate::experiments::ensembles::each;
 use crate::experiments::{Error, Progress};
 use crate::numerics::random::NormalPairs;
 use crate::params::{ScaleParams, Setting};
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// Counted work of all methods at all sizes.
@@ -40,23 +40,17 @@ pub fn run(parameters: &ScaleParams, progress: &Progress) -> Result<Scale, Error
         })
         .collect();
     let stage = progress.stage("work against size", cases.len() as u64);
-    let rows = cases
-        .into_par_iter()
-        .with_max_len(1)
-        .map(|(setting, masses)| {
-            progress.check()?;
-            let chain = crate::params::Chain { masses, ..parameters.chain.clone() };
-            let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, 0);
-            let scenario = Scenario::draw(&chain, parameters.sigma, &mut normals);
-            let until = parameters.until(masses, setting.method);
-            let mut go_on = |_: Impact| !progress.stopped();
-            let cost = method(setting).run(&scenario, &State::of(&scenario), until, &mut go_on);
-            progress.check()?;
-            let cost = cost.map_err(|source| Error::failed("scale", source))?;
-            stage.advance(1);
-            let evaluations_per_impact = cost.evaluations as f64 / cost.impacts.max(1) as f64;
-            Ok(ScaleRow { setting, masses, evaluations_per_impact })
-        })
-        .collect::<Result<_, Error>>()?;
+    let rows = each(&stage, progress, cases, |(setting, masses)| {
+        let chain = crate::params::Chain { masses, ..parameters.chain.clone() };
+        let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, 0);
+        let scenario = Scenario::draw(&chain, parameters.sigma, &mut normals);
+        let until = parameters.until(masses, setting.method);
+        let mut go_on = |_: Impact| !progress.stopped();
+        let cost = method(setting).run(&scenario, &State::of(&scenario), until, &mut go_on);
+        progress.check()?;
+        let cost = cost.map_err(|source| Error::failed("scale", source))?;
+        let evaluations_per_impact = cost.evaluations as f64 / cost.impacts.max(1) as f64;
+        Ok(ScaleRow { setting, masses, evaluations_per_impact })
+    })?;
     Ok(Scale { parameters: parameters.clone(), rows })
 }

@@ -1,6 +1,5 @@
 use super::tables::{equal, passing, tables};
 use super::*;
-use crate::experiments::ensembles::cutting;
 use crate::params::{Profile, Protocol};
 use crate::table::{Keys, Table};
 
@@ -10,11 +9,6 @@ fn small() -> IndependenceParams {
     parameters.chain.masses = 20;
     parameters.sigmas = vec![0.03, 0.3];
     parameters
-}
-
-fn run(parameters: &IndependenceParams) -> [Table; 6] {
-    let found = cutting().run(parameters, "test", &Progress::silent()).unwrap();
-    tables(&found).try_into().unwrap()
 }
 
 /// 40 000 impacts of twelve gaps by chance, as four realisations: all alike for 12, the first twice as
