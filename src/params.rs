@@ -4,20 +4,21 @@
 //! of the sample sizes, and of nothing else: it never changes the model.
 
 mod accuracy;
+mod bias;
 mod chains;
 mod chosen;
 mod heat;
 mod history;
 mod independence;
 mod nucleation;
+mod protocol;
 mod restitution;
 pub mod set;
 mod sizes;
 mod spacetime;
 
-pub use accuracy::{
-    AnalyticParams, BiasParams, MethodName, RaceParams, ScaleParams, Setting, TrialParams,
-};
+pub use accuracy::{AnalyticParams, MethodName, RaceParams, ScaleParams, Setting, TrialParams};
+pub use bias::BiasParams;
 pub use chains::{ChainCurve, ChainKind, ChainsParams};
 pub use chosen::*;
 pub use heat::{HeatParams, HeatRow};
@@ -27,9 +28,9 @@ pub use impact_numerics::estimates::LEVEL;
 pub use independence::IndependenceParams;
 pub use literate::experiments::Profile;
 pub use nucleation::{NucleationParams, SeedsParams};
+pub use protocol::ProtocolParams;
 pub use restitution::RestitutionParams;
 pub use sizes::{
-    Grid, HorizonParams, Level, ProtocolParams, StartVariant, StartsParams, SweepParams,
-    TwoMassesParams,
+    Grid, HorizonParams, Level, StartVariant, StartsParams, SweepParams, TwoMassesParams,
 };
 pub use spacetime::SpaceTimeParams;

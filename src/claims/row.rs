@@ -1,6 +1,7 @@
 //! How a row of the ledger is made: evidence in, finding out.
 
-use super::{Basis, Check, Finding, Level, Published, PublishedError, Statement};
+use super::{Basis, Check, Finding, Level, Published, PublishedError, Statement, all_cases};
+use crate::experiments::identities::Cases;
 use crate::experiments::{self, Need, Results};
 
 /// What a claim may look at.
@@ -61,11 +62,13 @@ pub const fn statistical(
     Row { id, basis, statistical: true, needs, find }
 }
 
+/// A finding of whole cases that must all agree.
+pub fn cases(cases: Cases, note: &str) -> Result<Finding, Error> {
+    Ok(all_cases(cases.compared, cases.failed, note))
+}
+
 impl Row {
     /// Computes the claim.
-    ///
-    /// # Errors
-    /// If the statement or a result is missing.
     pub fn claim(&self, evidence: &Evidence) -> Result<Check, Error> {
         let statement = evidence.published.statement(self.id)?;
         let finding = (self.find)(evidence, statement)?;

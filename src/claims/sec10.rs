@@ -7,11 +7,10 @@ use super::{Judgement, Statement, Text};
 use crate::experiments::SWEEP;
 use crate::experiments::theory::beside::{LARGE_SIGMA, distance};
 
-/// The rows of this section.
 pub const ROWS: &[Row] = &[measured("sec10_improves", OurMeasure, &[&SWEEP], improves)];
 
 fn improves(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let (sweep, curve) = (e.results.sweep()?, &e.results.theory.curve);
+    let (sweep, curve) = (e.results.of(&SWEEP)?, &e.results.theory.curve);
     let simple = distance(sweep, curve, |row| row.simple);
     let (Some(simple), Some(higher)) = (simple, distance(sweep, curve, |row| row.higher)) else {
         return Ok(open(Text::words("no row"), "The sweep has no row at small σ."));

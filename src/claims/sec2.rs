@@ -11,7 +11,6 @@ use crate::experiments::{CHAINS, STARTS, SWEEP, TWO_MASSES};
 use crate::numerics::statistics::Estimate;
 use crate::params::Protocol;
 
-/// The rows of this section.
 pub const ROWS: &[Row] = &[
     measured("sec2_parameters", Exact, &[&SWEEP], parameters),
     statistical("sec2_few_below", OurMeasure, &[&SWEEP], few_below),
@@ -32,7 +31,7 @@ pub(super) fn gaps(sweep: &Sweep) -> f64 {
 }
 
 fn parameters(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let chain = &e.results.sweep()?.parameters.chain;
+    let chain = &e.results.of(&SWEEP)?.parameters.chain;
     let square = chain.forcing_frequency * chain.forcing_frequency;
     let pairs = [
         (chain.masses as f64, e.published.parameter("masses")?),
@@ -69,7 +68,7 @@ fn parameters(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
 /// Of small σ, the largest that is not above two thirds of the printed threshold.
 pub(super) fn small<'a>(e: &'a Evidence) -> Result<Option<&'a SweepRow>, Error> {
     let threshold = e.published.statement("sec2_half_height")?.number()?;
-    Ok(e.results.sweep()?.rows.iter().rev().find(|row| row.sigma < 0.67 * threshold))
+    Ok(e.results.of(&SWEEP)?.rows.iter().rev().find(|row| row.sigma < 0.67 * threshold))
 }
 
 /// All gaps over those that are very few.
@@ -77,7 +76,7 @@ pub(super) const VERY_FEW: f64 = 20.0;
 
 /// The paper discards chains without impacts; that the mean of all is small is owed to those.
 fn few_below(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let sweep = e.results.sweep()?;
+    let sweep = e.results.of(&SWEEP)?;
     let Some(row) = small(e)? else {
         return Ok(open(Text::words("no row"), "The sweep has no row below the threshold."));
     };
@@ -113,7 +112,7 @@ fn few_below(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
 }
 
 fn rise_exists(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let rise = &e.results.sweep()?.rise;
+    let rise = &e.results.of(&SWEEP)?.rise;
     let (Some(width), Some(half)) = (rise.kept_width, rise.half_height) else {
         return Ok(open(
             Text::words("no rise"),
@@ -162,7 +161,7 @@ fn half_unit(s: &Statement) -> Result<Text, Error> {
 }
 
 fn half_height(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
-    let sweep = e.results.sweep()?;
+    let sweep = e.results.of(&SWEEP)?;
     let Some(half) = sweep.rise.half_height else {
         return Ok(open(Text::words("no rise"), "The mean does not pass half of all gaps."));
     };
@@ -190,7 +189,7 @@ fn half_height(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
 
 /// The first impacts come where a gap closes by itself, long before the rise is half way up.
 fn onset(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
-    let rise = &e.results.sweep()?.rise;
+    let rise = &e.results.of(&SWEEP)?.rise;
     let (Some(onset), Some(kept)) = (rise.onset, rise.kept_half) else {
         return Ok(open(
             Text::words("no onset"),
@@ -220,7 +219,7 @@ fn onset(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
 }
 
 fn mode_rise(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
-    let sweep = e.results.sweep()?;
+    let sweep = e.results.of(&SWEEP)?;
     let Some([low, high]) = mode_half(sweep) else {
         return Ok(open(Text::words("no rise"), "The mode does not pass half of all gaps."));
     };

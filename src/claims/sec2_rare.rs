@@ -5,13 +5,14 @@ use super::sec2::LAST_DIGIT;
 use super::{Finding, open};
 use super::{Judgement, Statement, Text};
 use crate::experiments::sweep::laws;
+use crate::experiments::{CHAINS, STARTS, SWEEP, TWO_MASSES};
 use crate::params::{ChainKind, NEAR_SIMULTANEOUS, SLOW};
 
 /// Share of impacts that may be called negligible (ours).
 pub(super) const NEGLIGIBLE: f64 = 1e-3;
 
 pub(super) fn three_way(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let totals = laws::run(&e.results.sweep()?.rows).totals;
+    let totals = laws::run(&e.results.of(&SWEEP)?.rows).totals;
     let Some(&seen) = totals.near_decades.last() else {
         return Ok(open(Text::words("no impacts"), "The sweep has no impacts."));
     };
@@ -43,7 +44,7 @@ pub(super) fn three_way(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
 }
 
 pub(super) fn sticking(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let sweep = e.results.sweep()?;
+    let sweep = e.results.of(&SWEEP)?;
     let impacts: u64 = sweep.rows.iter().map(|row| row.impacts).sum();
     let contacts: u64 = sweep.rows.iter().map(|row| row.contact_phases).sum();
     let slow: u64 = sweep.rows.iter().map(|row| row.slow).sum();
@@ -72,7 +73,7 @@ pub(super) fn sticking(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
 }
 
 pub(super) fn two_masses(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let found = e.results.two_masses()?;
+    let found = e.results.of(&TWO_MASSES)?;
     let least = found.excess.iter().map(|x| x.least).fold(f64::INFINITY, f64::min);
     if !least.is_finite() {
         return Ok(open(Text::words("no run"), "No direction of the forcing was tried."));
@@ -98,7 +99,7 @@ pub(super) fn two_masses(e: &Evidence, _: &Statement) -> Result<Finding, Error> 
 }
 
 pub(super) fn walls_like_masses(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let starts = e.results.starts()?;
+    let starts = e.results.of(&STARTS)?;
     let half = |name| starts.variant(name).and_then(|variant| variant.rise.half_height_all);
     let (Some(walls), Some(ring)) = (half("rest"), half("ring")) else {
         return Ok(open(Text::words("no rise"), "One of the two means does not pass one half."));
@@ -122,7 +123,7 @@ pub(super) fn walls_like_masses(e: &Evidence, _: &Statement) -> Result<Finding, 
 
 /// The threshold of percolation sharpens with size. The paper names the likeness and no quantity.
 pub(super) fn percolation(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let chains = e.results.chains()?;
+    let chains = e.results.of(&CHAINS)?;
     let widths = chains.of(ChainKind::Length).filter_map(|(own, found)| {
         let width = own.transients.iter().zip(&found.widths).next()?.1.as_ref()?;
         Some((own.masses, *width))

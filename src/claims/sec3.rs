@@ -1,13 +1,12 @@
 //! Sections 3 and 4: the graph, and what its circuits stand for.
 
 use super::Basis::{Exact, OurMeasure};
-use super::row::{Error, Evidence, Row, statistical, theory};
+use super::row::{Error, Evidence, Row, cases, statistical, theory};
 use super::sec2::{gaps, small};
-use super::{Finding, all_cases, open};
+use super::{Finding, open};
 use super::{Judgement, Statement, Text};
 use crate::experiments::SWEEP;
 
-/// The rows of this section.
 pub const ROWS: &[Row] = &[
     theory("sec3_impact_types", Exact, impact_types),
     theory("sec3_vertices", Exact, |e, s| size(e.results.identities.graph_vertices, s)),
@@ -16,8 +15,7 @@ pub const ROWS: &[Row] = &[
 ];
 
 fn impact_types(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let cases = e.results.identities.impact_types;
-    Ok(all_cases(cases.compared, cases.failed, "Every number of masses up to the number of cases."))
+    cases(e.results.identities.impact_types, "Every number of masses up to the number of cases.")
 }
 
 fn size(found: usize, s: &Statement) -> Result<Finding, Error> {
@@ -32,7 +30,7 @@ fn size(found: usize, s: &Statement) -> Result<Finding, Error> {
 
 /// Different impacts of a chain in the window, as Sec. 6 counts them.
 fn few_and_many(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let sweep = e.results.sweep()?;
+    let sweep = e.results.of(&SWEEP)?;
     let mean = |row: &crate::experiments::sweep::SweepRow| {
         Some((row.sigma, row.mean_distinct?, row.standard_error?))
     };

@@ -1,29 +1,23 @@
 //! Section 5: counting orbits.
 
 use super::Basis::{Exact, OurMeasure};
-use super::row::{Error, Evidence, Row, measured, theory};
-use super::{Finding, all_cases};
-use super::{Judgement, Statement, Text};
+use super::row::{Error, Evidence, Row, cases, measured, theory};
+use super::{Finding, Judgement, Statement, Text};
 use crate::experiments::SEGMENTS;
 use crate::experiments::segments::Segment;
 use std::collections::BTreeSet;
 
-/// The rows of this section.
 pub const ROWS: &[Row] = &[
-    measured("sec5_fig5", Exact, &[&SEGMENTS], |e, s| motion(&e.results.segments()?.fig05, s)),
-    measured("sec5_fig6", Exact, &[&SEGMENTS], |e, s| motion(&e.results.segments()?.fig06, s)),
+    measured("sec5_fig5", Exact, &[&SEGMENTS], |e, s| motion(&e.results.of(&SEGMENTS)?.fig05, s)),
+    measured("sec5_fig6", Exact, &[&SEGMENTS], |e, s| motion(&e.results.of(&SEGMENTS)?.fig06, s)),
     measured("sec5_masses_of_circuit", Exact, &[&SEGMENTS], masses_of_circuit),
-    theory("sec5_eq6", Exact, |e, _| cases(e.results.identities.eq6)),
-    theory("sec5_eq7", Exact, |e, _| cases(e.results.identities.eq7)),
+    theory("sec5_eq6", Exact, |e, _| cases(e.results.identities.eq6, ENUMERATION)),
+    theory("sec5_eq7", Exact, |e, _| cases(e.results.identities.eq7, ENUMERATION)),
     theory("sec5_eq8", OurMeasure, eq8),
     theory("sec5_majority", OurMeasure, majority),
 ];
 
 const ENUMERATION: &str = "Formula against enumeration on graphs of one to six vertices.";
-
-fn cases(cases: crate::experiments::identities::Cases) -> Result<Finding, Error> {
-    Ok(all_cases(cases.compared, cases.failed, ENUMERATION))
-}
 
 fn motion(segment: &Segment, s: &Statement) -> Result<Finding, Error> {
     let found = segment.names();
@@ -47,7 +41,7 @@ fn motion(segment: &Segment, s: &Statement) -> Result<Finding, Error> {
 }
 
 fn masses_of_circuit(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
-    let segment = &e.results.segments()?.fig05;
+    let segment = &e.results.of(&SEGMENTS)?.fig05;
     let gaps: BTreeSet<usize> = segment.impacts.iter().map(|i| i.gap).collect();
     let found = segment.masses_hit();
     // Each run of neighbouring gaps has one body more than gaps; walls are bodies but no masses.

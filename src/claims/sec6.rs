@@ -8,7 +8,6 @@ use super::{Judgement, Statement, Text};
 use crate::experiments::SWEEP;
 use crate::experiments::theory::tables::two_largest_steps;
 
-/// The rows of this section.
 pub const ROWS: &[Row] = &[
     theory("sec6_normalised", Rounding, |e, _| {
         Ok(rounding(e.results.identities.normalisation, 1e-13, "Over ten values of p up to one."))
@@ -77,7 +76,7 @@ fn step(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
 }
 
 fn like_simulation(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let sweep = e.results.sweep()?;
+    let sweep = e.results.of(&SWEEP)?;
     let theory = &e.results.theory;
     let simulated: Vec<f64> =
         sweep.rows.iter().filter_map(|row| Some(row.mean_distinct? / sec2::gaps(sweep))).collect();

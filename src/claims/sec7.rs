@@ -1,15 +1,13 @@
 //! Section 7: the discontinuity of the most likely number.
 
 use super::Basis::{Exact, OurMeasure, Rounding};
-use super::row::{Error, Evidence, Row, theory};
+use super::row::{Error, Evidence, Row, cases, theory};
 use super::{Finding, all_cases, rounding};
 use super::{Judgement, Statement, Text};
 
-/// The rows of this section.
 pub const ROWS: &[Row] = &[
     theory("sec7_eq11", Exact, |e, _| {
-        let cases = e.results.identities.eq11;
-        Ok(all_cases(cases.compared, cases.failed, "Every k at ten values of p."))
+        cases(e.results.identities.eq11, "Every k at ten values of p.")
     }),
     theory("sec7_eq13", Rounding, |e, _| {
         Ok(rounding(e.results.identities.eq13, 1e-13, "f at its zeros, over its largest term."))
@@ -18,8 +16,7 @@ pub const ROWS: &[Row] = &[
         Ok(rounding(e.results.identities.eq14_15, 1e-13, "At ten values of p."))
     }),
     theory("sec7_eq16_17", Exact, |e, _| {
-        let cases = e.results.identities.eq16_17;
-        Ok(all_cases(cases.compared, cases.failed, "Sign and slope at every k."))
+        cases(e.results.identities.eq16_17, "Sign and slope at every k.")
     }),
     theory("sec7_start", Exact, start),
     theory("sec7_maximum", Rounding, |e, _| {
@@ -27,16 +24,14 @@ pub const ROWS: &[Row] = &[
     }),
     theory("sec7_p_crit", Rounding, p_crit),
     theory("sec7_other_root", Exact, |e, _| {
-        let cases = e.results.identities.other_root;
-        Ok(all_cases(cases.compared, cases.failed, "Every N up to the number of cases."))
+        cases(e.results.identities.other_root, "Every N up to the number of cases.")
     }),
     theory("sec7_inflexion", Rounding, inflexion),
     theory("sec7_extrema", Exact, extrema),
     theory("sec7_still_one", Exact, still_one),
     theory("sec7_jump", OurMeasure, jump),
     theory("sec7_monotone", Exact, |e, _| {
-        let cases = e.results.identities.monotone;
-        Ok(all_cases(cases.compared, cases.failed, "On a grid of p from the jump to one."))
+        cases(e.results.identities.monotone, "On a grid of p from the jump to one.")
     }),
     theory("sec7_limit", Exact, limit),
 ];
@@ -83,19 +78,14 @@ fn inflexion(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
 fn extrema(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
     let cases = e.results.identities.extrema;
     let first = e.results.theory.slips.first_local_maximum.p;
-    let Finding { ours, tolerance, reason, judgement, .. } =
-        all_cases(cases.compared, cases.failed, "");
     Ok(Finding {
-        ours,
-        tolerance,
-        reason,
-        judgement,
         note: Text::words(
             "Neighbours of ⌈k₋⌉ and ⌈k₊⌉, since f is a forward difference. The first local maximum on the \
              integers appears at p = ",
         )
         .significant(first, 8)
         .say(", a little above p_crit."),
+        ..all_cases(cases.compared, cases.failed, "")
     })
 }
 

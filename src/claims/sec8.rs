@@ -10,7 +10,6 @@ use crate::experiments::sweep::Sweep;
 use crate::experiments::theory::beside::{self, LARGE_SIGMA, increases, largest_distance};
 use crate::experiments::{CHAINS, PROTOCOL, RESTITUTION, STARTS, SWEEP};
 
-/// The rows of this section.
 pub const ROWS: &[Row] = &[
     measured("sec8_expected_jump", OurMeasure, &[&SWEEP], expected_jump),
     theory("sec8_separation", Rounding, |e, _| {
@@ -59,7 +58,7 @@ pub const ROWS: &[Row] = &[
 /// A jump stays in one step of the grid, however fine; a slope is shared by all. And weights in
 /// proportion to p^k have a mean with the slope Var(X)/p.
 fn expected_jump(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let sweep = e.results.sweep()?;
+    let sweep = e.results.of(&SWEEP)?;
     let (Some([one, two]), Some([all, _])) =
         (increases(sweep, |row| row.mean_distinct), increases(sweep, |row| row.mean_all))
     else {
@@ -112,7 +111,7 @@ fn p_small(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
 }
 
 fn large_sigma(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let sweep = e.results.sweep()?;
+    let sweep = e.results.of(&SWEEP)?;
     let Some([distance, at]) = largest_distance(sweep, &e.results.theory.curve) else {
         return Ok(open(Text::words("no row"), "The sweep has no row at large σ."));
     };
@@ -160,7 +159,7 @@ fn mode_over_mean(sweep: &Sweep) -> Option<f64> {
 }
 
 fn mean_is_easier(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let Some(ratio) = mode_over_mean(e.results.sweep()?) else {
+    let Some(ratio) = mode_over_mean(e.results.of(&SWEEP)?) else {
         return Ok(open(Text::words("no interval"), "There are too few rows in the rise."));
     };
     Ok(Finding {

@@ -6,12 +6,13 @@ use super::{Finding, open};
 use super::{Judgement, Statement, Text};
 use crate::experiments::protocol_tables::range;
 use crate::experiments::starts_tables::share_of_start;
+use crate::experiments::{CHAINS, PROTOCOL, RESTITUTION, STARTS, SWEEP};
 use crate::numerics::statistics::{Estimate, wilson};
 
 /// Eq. (20) in the simulation: a chain with random free parts that overlaps at its start, or has an
 /// impact later, has a gap with Y₀ + Y₁/|ω² − Ω²| ≥ d.
 pub(super) fn no_impact(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let Some(random) = e.results.starts()?.variant("random") else {
+    let Some(random) = e.results.of(&STARTS)?.variant("random") else {
         return Ok(open(Text::words("no run"), "No chain has started with random free parts."));
     };
     let level = 1.0 - e.level.each;
@@ -68,7 +69,7 @@ pub(super) fn no_impact(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
 /// Half heights of the mean of all, from rest and with random free parts, for each transient that
 /// both were run to.
 fn of_both_starts(e: &Evidence) -> Result<Vec<(f64, Estimate, Estimate)>, Error> {
-    let (map, chains) = (e.results.protocol()?, e.results.chains()?);
+    let (map, chains) = (e.results.of(&PROTOCOL)?, e.results.of(&CHAINS)?);
     let Some((own, found)) = chains.curve("drift-random") else { return Ok(Vec::new()) };
     let window = chains.parameters.window;
     let both = own.transients.iter().zip(&found.half_heights).filter_map(|(&time, random)| {
@@ -80,7 +81,7 @@ fn of_both_starts(e: &Evidence) -> Result<Vec<(f64, Estimate, Estimate)>, Error>
 
 pub(super) fn threshold_shift(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
     let both = of_both_starts(e)?;
-    let Some(half) = e.results.sweep()?.rise.half_height_all.filter(|_| both.len() > 1) else {
+    let Some(half) = e.results.of(&SWEEP)?.rise.half_height_all.filter(|_| both.len() > 1) else {
         return Ok(open(
             Text::words("no two transients"),
             "Chains of both starts did not rise after two transients or more.",
@@ -127,11 +128,11 @@ pub(super) fn threshold_shift(e: &Evidence, _: &Statement) -> Result<Finding, Er
 }
 
 pub(super) fn restitution_omitted(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let found = e.results.restitution()?;
+    let found = e.results.of(&RESTITUTION)?;
     let curves = e.results.table("restitution.curves")?;
-    let starts = e.results.starts()?;
+    let starts = e.results.of(&STARTS)?;
     let of_start = |name| starts.variant(name).and_then(|variant| variant.rise.half_height_all);
-    let cells = &e.results.protocol()?.cells;
+    let cells = &e.results.of(&PROTOCOL)?.cells;
     let ranges = (
         range(curves.estimates(&[], "r", "half_height").into_iter().map(|(_, own)| Some(own))),
         range(cells.iter().map(|cell| cell.half_height_all)),
@@ -168,9 +169,9 @@ pub(super) fn restitution_omitted(e: &Evidence, _: &Statement) -> Result<Finding
 }
 
 pub(super) fn restitution_ensures(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let found = e.results.restitution()?;
+    let found = e.results.of(&RESTITUTION)?;
     let own = e.published.parameter("restitution")?;
-    let largest = e.results.sweep()?.rows.last().map_or(0.0, |row| row.sigma);
+    let largest = e.results.of(&SWEEP)?.rows.last().map_or(0.0, |row| row.sigma);
     let sigmas = || found.parameters.sigmas.iter().copied().filter(|&sigma| sigma <= largest);
     let Some(strongest) = sigmas().reduce(f64::max) else {
         return Ok(open(Text::words("no run"), "No chain was run at the σ of the paper."));

@@ -1,42 +1,36 @@
 //! Section 9: circuits that repeat impacts.
 
 use super::Basis::{Exact, OurMeasure};
-use super::row::{Error, Evidence, Row, measured, theory};
-use super::{Finding, all_cases, open};
+use super::row::{Error, Evidence, Row, cases, measured, theory};
+use super::{Finding, open};
 use super::{Judgement, Statement, Text};
 use crate::experiments::SEGMENTS;
 use crate::experiments::theory::Theory;
 use crate::experiments::theory::beside::LARGE_SIGMA;
 use crate::experiments::theory::tables::{largest_change, largest_mean_difference, moves};
 
-/// The rows of this section.
 pub const ROWS: &[Row] = &[
     measured("sec9_fig6_repeats", Exact, &[&SEGMENTS], fig6_repeats),
     theory("sec9_eq29", Exact, |e, _| {
-        let cases = e.results.identities.eq29;
-        Ok(all_cases(
-            cases.compared,
-            cases.failed,
+        cases(
+            e.results.identities.eq29,
             "Circuits through one vertex twice, by the lengths of their loops, on graphs of one to six vertices.",
-        ))
+        )
     }),
     theory("sec9_eq30", Exact, eq30),
     theory("sec9_eq32", Exact, |e, _| {
-        let cases = e.results.identities.eq32;
-        Ok(all_cases(cases.compared, cases.failed, "Every n up to ten, one sum at a time."))
+        cases(e.results.identities.eq32, "Every n up to ten, one sum at a time.")
     }),
     theory("sec9_eq33", Exact, |e, s| class_range(e, s, 33)),
     theory("sec9_eq35", Exact, |e, s| class_range(e, s, 35)),
     theory("sec9_eq36", Exact, |e, s| class_range(e, s, 36)),
     theory("sec9_eq37", Exact, |e, s| class_range(e, s, 37)),
     theory("sec9_eq38", Exact, |e, _| {
-        let cases = e.results.identities.eq38;
-        Ok(all_cases(
-            cases.compared,
-            cases.failed,
+        cases(
+            e.results.identities.eq38,
             "From k = 3 on, where each formula is used in the range that is printed with it. For k = 1 and \
              2, which the distribution needs too, it is not.",
-        ))
+        )
     }),
     theory("sec9_even_small_p", OurMeasure, even_small_p),
     theory("sec9_dominate", OurMeasure, dominate),
@@ -51,7 +45,7 @@ pub const ROWS: &[Row] = &[
 const INTEGER: &str = "integers are exact";
 
 fn fig6_repeats(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
-    let found = e.results.segments()?.fig06.repeats();
+    let found = e.results.of(&SEGMENTS)?.fig06.repeats();
     let text = found.iter().enumerate().fold(Text::default(), |text, (i, (name, times))| {
         text.say(if i == 0 { "" } else { ", " }).say(format!("{name}: ")).integer(*times)
     });
@@ -130,7 +124,7 @@ fn class_range(e: &Evidence, s: &Statement, equation: u32) -> Result<Finding, Er
 
 /// Share of simple circuits at one p.
 pub(crate) fn simple_share(theory: &Theory, p: f64) -> Option<f64> {
-    theory.slips.simple_shares.iter().find(|row| row.p == p).map(|row| row.share)
+    theory.slips.simple_shares.iter().find(|row| row.x == p).map(|row| row.y)
 }
 
 fn even_small_p(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
@@ -167,7 +161,7 @@ fn even_small_p(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
 fn dominate(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
     let theory = &e.results.theory;
     let shares: Vec<(f64, f64)> =
-        theory.slips.simple_shares.iter().map(|row| (row.p, row.share)).collect();
+        theory.slips.simple_shares.iter().map(|row| (row.x, row.y)).collect();
     let falls = shares.windows(2).all(|w| w[1].0 <= w[0].0 || w[1].1 < w[0].1);
     let Some(last) = theory.higher.last() else {
         return Ok(open(Text::words("nothing"), "Fig. 13 was not computed."));

@@ -21,12 +21,9 @@ pub const DIGITS: f64 = 1e-13;
 pub const UNITS: f64 = 8.0;
 
 /// All targets, those of the clock first.
-///
-/// # Errors
-/// If a result is missing.
 pub fn targets(results: &Results) -> Result<Vec<Check>, Error> {
-    let measured = results.measured()?;
-    let (race, analytic) = (results.race()?, results.analytic()?);
+    let measured = results.of(&MEASURED)?;
+    let (race, analytic) = (results.of(&RACE)?, results.of(&ANALYTIC)?);
     let mut all = clock(measured);
     all.extend(memory(measured));
     all.push(growth(results)?);
@@ -158,7 +155,7 @@ fn memory(measured: &Measured) -> Vec<Check> {
 
 /// Counted work of the largest chain over that of a hundred masses.
 fn growth(results: &Results) -> Result<Check, Error> {
-    let scale = results.scale()?;
+    let scale = results.of(&SCALE)?;
     let own = || scale.rows.iter().filter(|row| row.setting.method == MethodName::Certified);
     let largest = own().max_by_key(|row| row.masses);
     let hundred = own().find(|row| row.masses == 100);
@@ -187,7 +184,7 @@ fn segments(race: &Race) -> Vec<Check> {
 }
 
 fn scenes(results: &Results) -> Result<Check, Error> {
-    let trials = results.trials()?;
+    let trials = results.of(&TRIALS)?;
     let own = |method: MethodName| method == MethodName::Certified;
     let wrong: usize = trials
         .scenes

@@ -14,8 +14,8 @@ use std::path::PathBuf;
 #[derive(clap::Args)]
 pub struct Args {
     /// Sample sizes.
-    #[arg(long, default_value = "full")]
-    profile: work::AnyProfile,
+    #[arg(long, default_value = "full", value_parser = work::of_all())]
+    profile: Profile,
     /// Share of the experiments to run again; at least one is.
     #[arg(long, value_name = "SHARE", default_value = "10%", value_parser = share)]
     sample: f64,
@@ -43,9 +43,8 @@ fn share(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Runs the verb.
 pub fn run(args: Args) -> Result<(), Failure> {
-    let profile = Profile::from(args.profile);
+    let profile = args.profile;
     let store = Store::open(&work::results(args.results, profile))?;
     let mut chosen = experiments::of(profile);
     chosen.shuffle(&mut generator("audit", args.seed, 0));

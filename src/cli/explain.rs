@@ -32,7 +32,6 @@ pub struct Args {
     json: bool,
 }
 
-/// Runs the verb.
 pub fn run(args: Args) -> Result<(), Failure> {
     let mut values = values(&args.paper)?;
     let mut ledger = ledger(&args.paper)?;

@@ -16,8 +16,8 @@ pub struct Args {
     #[arg(value_name = "DIR", required = true)]
     folders: Vec<PathBuf>,
     /// Sample sizes.
-    #[arg(long, default_value = "full")]
-    profile: work::AnyProfile,
+    #[arg(long, default_value = "full", value_parser = work::of_all())]
+    profile: Profile,
     #[command(flatten)]
     only: work::Only,
     /// Folder in which results of long runs are kept; without it target/results, and benches/deep for
@@ -29,9 +29,8 @@ pub struct Args {
     threads: Option<usize>,
 }
 
-/// Runs the verb.
 pub fn run(args: Args) -> Result<(), Failure> {
-    let profile = Profile::from(args.profile);
+    let profile = args.profile;
     let plan = args.only.plan(profile)?;
     let folder = work::results(args.results, profile);
     let real = |path: &Path| path.canonicalize().ok();

@@ -84,12 +84,12 @@ fn command() -> clap::Command {
 #[derive(Subcommand)]
 enum Verb {
     Audit(audit::Args),
+    Manual(manual::Args),
     Bench(bench::Args),
     Check(check::Args),
     Diff(diff::Args),
     Eval(eval::Args),
     Explain(explain::Args),
-    Manual(manual::Args),
     Merge(merge::Args),
     Paper(paper::Args),
     Plan(plan::Args),
@@ -116,12 +116,12 @@ pub fn main() -> ExitCode {
     }
     let result = match verb {
         Verb::Audit(args) => audit::run(args),
+        Verb::Manual(args) => manual::run(&args),
         Verb::Bench(args) => bench::run(args),
         Verb::Check(args) => check::run(args),
         Verb::Diff(args) => diff::run(args),
         Verb::Eval(args) => eval::run(args),
         Verb::Explain(args) => explain::run(args),
-        Verb::Manual(args) => manual::run(&args),
         Verb::Merge(args) => merge::run(args),
         Verb::Paper(args) => paper::run(args),
         Verb::Plan(args) => plan::run(args),

@@ -26,8 +26,8 @@ use std::time::{Duration, Instant};
 #[derive(clap::Args)]
 pub struct Args {
     /// Sample sizes [default: full; with --set: ci].
-    #[arg(long)]
-    profile: Option<work::ProfileName>,
+    #[arg(long, value_parser = work::of_reports())]
+    profile: Option<Profile>,
     /// What if a parameter were another? For example restitution=0.7; may be repeated, `list` lists them. Nothing
     /// is judged then, every document and figure says so, and --out has to be given.
     #[arg(long, value_name = "NAME=VALUE")]
@@ -60,7 +60,6 @@ fn figure_help() -> String {
 /// Of more verdicts that changed only so many are told: the whole is one screen.
 const MOVED: usize = 6;
 
-/// Runs the verb.
 pub fn run(args: Args) -> Result<(), Failure> {
     let began = Instant::now();
     if args.set == ["list"] {
@@ -68,8 +67,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     }
     set::choose(&args.set).map_err(|e| Failure::input(format!("--set: {e}")))?;
     let other = set::told().is_some();
-    let usual = if other { work::ProfileName::Ci } else { work::ProfileName::Full };
-    let profile = Profile::from(args.profile.unwrap_or(usual));
+    let profile = args.profile.unwrap_or(if other { Profile::Ci } else { Profile::Full });
     let out = args.out.clone().unwrap_or_else(|| default_folder(profile));
     let ordinary = [profile, Profile::Full].map(|profile| resolved(&default_folder(profile)));
     if other && ordinary.iter().any(|folder| resolved(&out).starts_with(folder)) {

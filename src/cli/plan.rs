@@ -20,8 +20,8 @@ use std::path::PathBuf;
 #[command(verbatim_doc_comment)]
 pub struct Args {
     /// Sample sizes.
-    #[arg(long, default_value = "full")]
-    profile: work::AnyProfile,
+    #[arg(long, default_value = "full", value_parser = work::of_all())]
+    profile: Profile,
     #[command(flatten)]
     only: work::Only,
     /// Say to which of N shards each unit belongs.
@@ -65,9 +65,8 @@ impl<'a> Line<'a> {
     }
 }
 
-/// Runs the verb.
 pub fn run(args: Args) -> Result<(), Failure> {
-    let profile = Profile::from(args.profile);
+    let profile = args.profile;
     if let Some(of) = args.shards {
         shard::number("--shards", of)?;
     }

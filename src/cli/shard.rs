@@ -17,8 +17,8 @@ pub struct Args {
     #[arg(long, value_name = "i/N", value_parser = share, allow_hyphen_values = true)]
     shard: (usize, usize),
     /// Sample sizes.
-    #[arg(long, default_value = "full")]
-    profile: work::AnyProfile,
+    #[arg(long, default_value = "full", value_parser = work::of_all())]
+    profile: Profile,
     #[command(flatten)]
     only: work::Only,
     /// Folder for what the units give, one file each; it is made when missing. Shards may share it.
@@ -57,9 +57,8 @@ pub fn given_by(option: &str) -> impl Fn(Error) -> Failure + Copy {
     }
 }
 
-/// Runs the verb.
 pub fn run(args: Args) -> Result<(), Failure> {
-    let profile = Profile::from(args.profile);
+    let profile = args.profile;
     let unwritable = given_by("--out");
     let plan = args.only.plan(profile)?;
     refuse_report(&args.out)?;
@@ -70,18 +69,4 @@ pub fn run(args: Args) -> Result<(), Failure> {
     })?;
     let ((i, n), out) = (args.shard, args.out.display());
     stdout::print(&format!("{out}: shard {i}/{n}: {} units run, {} fresh\n", ran.run, ran.fresh))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn shares() {
-        assert_eq!(share("2/3"), Ok((2, 3)));
-        assert_eq!(share("1/1"), Ok((1, 1)));
-        for wrong in ["", "2", "0/3", "4/3", "1/0", "-1/3", "1/3/5", "1.5/3", "a/b", "1/100001"] {
-            assert!(share(wrong).is_err(), "{wrong}");
-        }
-    }
 }

@@ -5,7 +5,6 @@ use impact_paper::experiments::Store;
 use impact_paper::experiments::{self, Entry};
 use impact_paper::params::Profile;
 use literate::experiments::identity::{Reason, told};
-use serde::Serialize;
 use std::path::PathBuf;
 
 /// Says which saved results are fresh, and which would be run again and why.
@@ -19,8 +18,8 @@ use std::path::PathBuf;
 #[derive(clap::Args)]
 pub struct Args {
     /// Sample sizes.
-    #[arg(long, default_value = "full")]
-    profile: work::AnyProfile,
+    #[arg(long, default_value = "full", value_parser = work::of_all())]
+    profile: Profile,
     /// Folder in which results of long runs are kept; without it target/results, and benches/deep for
     /// the deep profile.
     #[arg(long, value_name = "DIR")]
@@ -30,58 +29,14 @@ pub struct Args {
     json: bool,
 }
 
-/// What is said of one result.
-#[derive(Serialize)]
-struct Line {
-    experiment: &'static str,
-    fresh: bool,
-    /// Made by another program, and good as long as its audit finds no fault.
-    carried: bool,
-    /// Its audit failed.
-    failed: bool,
-    missing: bool,
-    parameters: bool,
-    code: bool,
-    dependency: bool,
-    schema: bool,
-    damaged: bool,
-    /// Files of the source that are others than when it was saved.
-    changed: Vec<String>,
-}
-
-impl Line {
-    fn of(experiment: &dyn Entry, reasons: &[Reason], carried: bool) -> Line {
-        let has = |test: fn(&Reason) -> bool| reasons.iter().any(test);
-        let changed = |reason: &Reason| match reason {
-            Reason::Code(files) => files.clone(),
-            _ => Vec::new(),
-        };
-        Line {
-            experiment: experiment.name(),
-            fresh: reasons.is_empty(),
-            carried,
-            failed: has(|reason| *reason == Reason::Failed),
-            missing: has(|reason| *reason == Reason::Missing),
-            parameters: has(|reason| matches!(reason, Reason::Parameters | Reason::Unit)),
-            code: has(|reason| matches!(reason, Reason::Code(_))),
-            dependency: has(|reason| *reason == Reason::Dependency),
-            schema: has(|reason| *reason == Reason::Schema),
-            damaged: has(|reason| matches!(reason, Reason::Damaged(_))),
-            changed: reasons.iter().flat_map(changed).collect(),
-        }
-    }
-}
-
-/// Runs the verb.
 pub fn run(args: Args) -> Result<(), Failure> {
-    let profile = Profile::from(args.profile);
+    let profile = args.profile;
     let store = Store::open(&work::results(args.results, profile))?;
     let found: Vec<Found> =
         experiments::of(profile).iter().map(|one| Found::look(*one, profile, &store)).collect();
     let stale = found.iter().filter(|one| one.is_stale()).count();
     let text = if args.json {
-        let lines: Vec<Line> =
-            found.iter().map(|one| Line::of(one.experiment, &one.reasons, one.carried)).collect();
+        let lines: Vec<_> = found.iter().map(Found::json).collect();
         let json = serde_json::json!({
             "profile": profile.name(), "fresh": stale == 0, "experiments": lines,
         });
@@ -118,6 +73,28 @@ impl Found {
 
     fn is_stale(&self) -> bool {
         !self.reasons.is_empty() && !self.carried
+    }
+
+    /// One truth for each reason.
+    fn json(&self) -> serde_json::Value {
+        let has = |test: fn(&Reason) -> bool| self.reasons.iter().any(test);
+        let changed = |reason: &Reason| match reason {
+            Reason::Code(files) => files.clone(),
+            _ => Vec::new(),
+        };
+        serde_json::json!({
+            "experiment": self.experiment.name(),
+            "fresh": self.reasons.is_empty(),
+            "carried": self.carried,
+            "failed": has(|reason| *reason == Reason::Failed),
+            "missing": has(|reason| *reason == Reason::Missing),
+            "parameters": has(|reason| matches!(reason, Reason::Parameters | Reason::Unit)),
+            "code": has(|reason| matches!(reason, Reason::Code(_))),
+            "dependency": has(|reason| *reason == Reason::Dependency),
+            "schema": has(|reason| *reason == Reason::Schema),
+            "damaged": has(|reason| matches!(reason, Reason::Damaged(_))),
+            "changed": self.reasons.iter().flat_map(changed).collect::<Vec<String>>(),
+        })
     }
 
     fn told(&self) -> String {

@@ -88,7 +88,6 @@ struct Row {
     contact_phases: u64,
 }
 
-/// Runs the verb.
 pub fn run(args: Args) -> Result<(), Failure> {
     let parameters = parameters(&args)?;
     work::threads(args.threads)?;

@@ -117,7 +117,6 @@ fn simultaneous(count: u64, law: Simultaneous) -> String {
 /// So much is printed at once, in bytes.
 const BLOCK: usize = 16 << 10;
 
-/// Runs the verb.
 pub fn run(args: Args) -> Result<(), Failure> {
     if !(0.0..=LATEST).contains(&args.until) {
         let message =

@@ -27,8 +27,8 @@ pub struct Args {
     #[arg(long, conflicts_with = "document")]
     rerun: bool,
     /// Sample sizes of the rerun [default: those of the report].
-    #[arg(long, requires = "rerun")]
-    profile: Option<work::ProfileName>,
+    #[arg(long, requires = "rerun", value_parser = work::of_reports())]
+    profile: Option<Profile>,
     /// Take results of long runs from this folder, where they are fresh, and keep them there.
     #[arg(long, value_name = "DIR", requires = "rerun")]
     results: Option<PathBuf>,
@@ -40,7 +40,6 @@ pub struct Args {
     threads: Option<usize>,
 }
 
-/// Runs the verb.
 pub fn run(args: Args) -> Result<(), Failure> {
     let progress = work::progress_that_tidies();
     let mut checked = listed(&args.folder, args.only.document.as_deref(), &progress)?;
@@ -75,8 +74,8 @@ fn pdfs() -> impl Iterator<Item = String> {
 fn rerun(args: &Args, progress: &Progress) -> Result<Checked, Failure> {
     let own = own_profile(&args.folder);
     let profile = match (args.profile, &own) {
-        (Some(name), Ok(_)) => Profile::from(name),
-        (Some(name), Err(failure)) if !failure.message.contains("--set") => Profile::from(name),
+        (Some(profile), Ok(_)) => profile,
+        (Some(profile), Err(failure)) if !failure.message.contains("--set") => profile,
         _ => own?,
     };
     // Removed in the end, whatever happens.

@@ -1,17 +1,16 @@
 //! The mean count by the closed theory ([`circuits::closed`](crate::circuits::closed)), beside chains that are run under the
 //! same forces.
 
-use super::weights;
-use super::{Error, Progress};
+use super::ensembles::{Begun, Ensembles, Ran, Running, count};
+use super::{Error, Progress, weights};
 use crate::circuits::closed::spread::Spreading;
-use crate::dynamics::{self, Engine, Scenario};
+use crate::dynamics::Scenario;
 use crate::numerics::estimates::{average, half_height, jackknife, rise, with_error};
 use crate::numerics::random::NormalPairs;
 use crate::numerics::statistics::{Estimate, mean};
 use crate::params::{Chain, Grid, Profile, SEED};
 use crate::table::Table;
-use literate::experiments::cutting::{Cutting, Row, Unit};
-use literate::experiments::progress::Stage;
+use literate::experiments::cutting::Row;
 use serde::{Deserialize, Serialize};
 
 /// What is compared.
@@ -70,53 +69,47 @@ pub const MEANT_FOR: f64 = 0.7;
 /// One chain, for each protocol: the gaps with an impact when it is run, and the number that the theory expects.
 pub type Counts = Option<Vec<(u64, f64)>>;
 
-/// Some chains of one row.
-pub type Part = Vec<Counts>;
+/// For each kind of chain, for each σ, its chains.
+pub type Closed = Ran<ClosedParams, Counts>;
 
-/// All chains.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Closed {
-    /// What was compared.
-    pub parameters: ClosedParams,
-    /// For each kind of chain, for each σ, its chains.
-    pub rows: Vec<Part>,
-}
+impl Ensembles for ClosedParams {
+    type One = Counts;
 
-/// The experiment in units of work.
-pub const CUTTING: Cutting<ClosedParams, Part, Closed> = Cutting { rows, part, fits, join };
+    fn rows(&self) -> Vec<Row> {
+        let until: f64 = self.protocols.last().map_or(0.0, |own| own.iter().sum());
+        let row = |at: usize| {
+            let (kind, sigma) = self.at(at);
+            let (r, n, realisations) = self.chains[kind];
+            let weight = weights::run(&self.chain(kind), sigma, until) + 5000 * n as u64 / 100;
+            Row { covers: format!("r = {r}, n = {n}, sigma = {sigma}"), realisations, weight }
+        };
+        (0..self.chains.len() * self.sigmas.len()).map(row).collect()
+    }
 
-fn rows(parameters: &ClosedParams) -> Vec<Row> {
-    let until: f64 = parameters.protocols.last().map_or(0.0, |own| own.iter().sum());
-    let row = |at: usize| {
-        let (kind, sigma) = parameters.at(at);
-        let (r, n, realisations) = parameters.chains[kind];
-        let chain = parameters.chain(kind);
-        let weight = weights::run(&chain, sigma, until) + 5000 * n as u64 / 100;
-        Row { covers: format!("r = {r}, n = {n}, sigma = {sigma}"), realisations, weight }
-    };
-    (0..parameters.chains.len() * parameters.sigmas.len()).map(row).collect()
-}
+    fn row<'a>(&'a self, row: usize, progress: &'a Progress) -> Begun<'a, Counts> {
+        let (kind, sigma) = self.at(row);
+        let chain = self.chain(kind);
+        let fault = |source| Error::failed("closed", source);
+        let spreading = Spreading::new(&chain).map_err(fault)?;
+        Ok(Box::new(move |index| {
+            let mut normals = NormalPairs::new(&self.stream, self.seed, index);
+            let scenario = Scenario::draw(&chain, sigma, &mut normals);
+            let Some(found) = simulated(self, &scenario, progress)? else { return Ok(None) };
+            let drawn = spreading.drawn(sigma, &scenario.forcing).map_err(fault)?;
+            let expected = drawn.mean_counts(&self.protocols, &mut normals);
+            Ok(Some(found.into_iter().zip(expected).collect()))
+        }))
+    }
 
-fn part(
-    parameters: &ClosedParams,
-    unit: &Unit,
-    stage: &Stage,
-    progress: &Progress,
-) -> Result<Part, Error> {
-    let (kind, sigma) = parameters.at(unit.row);
-    let chain = parameters.chain(kind);
-    let spreading = Spreading::new(&chain).map_err(|source| Error::failed("closed", source))?;
-    unit.each(stage, |index| {
-        progress.check()?;
-        let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, index);
-        let scenario = Scenario::draw(&chain, sigma, &mut normals);
-        let Some(found) = simulated(parameters, &scenario, progress)? else { return Ok(None) };
-        let drawn = spreading
-            .drawn(sigma, &scenario.forcing)
-            .map_err(|source| Error::failed("closed", source))?;
-        let expected = drawn.mean_counts(&parameters.protocols, &mut normals);
-        Ok(Some(found.into_iter().zip(expected).collect()))
-    })
+    fn fits(&self, row: usize, counts: &Counts) -> bool {
+        let gaps = self.chains[self.at(row).0].1 + 1;
+        let within = |pair: &(u64, f64)| {
+            pair.0 <= gaps as u64 && (0.0..=gaps as f64 * (1.0 + 1e-12)).contains(&pair.1)
+        };
+        let fits =
+            |own: &Vec<(u64, f64)>| own.len() == self.protocols.len() && own.iter().all(within);
+        counts.as_ref().is_none_or(fits)
+    }
 }
 
 /// Gaps with an impact in each window, in one run; windows do not overlap. None where the engine gave up.
@@ -125,47 +118,18 @@ fn simulated(
     scenario: &Scenario,
     progress: &Progress,
 ) -> Result<Option<Vec<u64>>, Error> {
-    let fault = |source| Error::failed("closed", source);
-    let mut engine = Engine::new(scenario).map_err(fault)?;
+    let mut motion = Running::new(scenario, "closed", progress)?;
     let mut counts = Vec::new();
     for [transient, window] in &parameters.protocols {
-        let mut hit = vec![false; scenario.forcing.len() + 1];
-        let run = engine.run(*transient, |_| !progress.stopped()).and_then(|()| {
-            engine.run(transient + window, |impact| {
-                hit[impact.gap] = true;
-                !progress.stopped()
-            })
-        });
-        match run {
-            Ok(()) => (),
-            Err(dynamics::Error::Work { .. }) => return Ok(None),
-            Err(source) => return Err(fault(source)),
+        let mut hit = vec![false; scenario.gaps()];
+        let ended = motion.go(*transient, |_| ())?
+            && motion.go(transient + window, |impact| hit[impact.gap] = true)?;
+        if !ended {
+            return Ok(None);
         }
-        progress.check()?;
-        counts.push(hit.into_iter().map(u64::from).sum());
+        counts.push(count(&hit));
     }
     Ok(Some(counts))
-}
-
-fn fits(parameters: &ClosedParams, unit: &Unit, runs: &Part) -> bool {
-    let gaps = parameters.chains[parameters.at(unit.row).0].1 + 1;
-    let fits = |own: &Vec<(u64, f64)>| {
-        let within = |pair: &(u64, f64)| {
-            pair.0 <= gaps as u64 && (0.0..=gaps as f64 * (1.0 + 1e-12)).contains(&pair.1)
-        };
-        own.len() == parameters.protocols.len() && own.iter().all(within)
-    };
-    runs.len() == unit.realisations.len() && runs.iter().flatten().all(fits)
-}
-
-pub(crate) fn join(
-    parameters: &ClosedParams,
-    parts: Vec<Vec<Part>>,
-    progress: &Progress,
-) -> Result<Closed, Error> {
-    progress.check()?;
-    let rows = parts.into_iter().map(|parts| parts.concat()).collect();
-    Ok(Closed { parameters: parameters.clone(), rows })
 }
 
 /// One kind of chain by one protocol, over all σ.
@@ -347,9 +311,6 @@ pub fn tables(closed: &Closed) -> Vec<Table> {
 }
 
 /// The expected mean count of a chain from rest, with its sampling error, from so many drawn chains.
-///
-/// # Errors
-/// As [`Spreading::mean_counts`].
 pub fn mean_count(
     chain: &Chain,
     sigma: f64,
@@ -372,7 +333,7 @@ mod tests {
             ..ClosedParams::new(Profile::Quick)
         };
         // Means as found 0, 5, 10, as expected 2, 8, 10.
-        let row = |found: [u64; 3], expected: f64| -> Part {
+        let row = |found: [u64; 3], expected: f64| -> Vec<Counts> {
             found.iter().map(|own| Some(vec![(*own, expected)])).collect()
         };
         let rows = vec![row([0; 3], 2.0), row([4, 5, 6], 8.0), row([10; 3], 10.0)];
@@ -408,26 +369,5 @@ mod tests {
             assert!((found - expected).abs() < 1e-12, "{found} {expected}");
         }
         assert_eq!(drift(&closed).values("sigma"), [0.1, 0.2, 0.3]);
-    }
-
-    #[test]
-    fn a_unit_has_what_was_asked() {
-        let parameters = ClosedParams {
-            chains: vec![(0.8, 20, 2), (0.6, 30, 2)],
-            sigmas: vec![0.02, 0.3],
-            protocols: vec![[100.0, 60.0], [300.0, 60.0]],
-            ..ClosedParams::new(Profile::Quick)
-        };
-        let found = CUTTING.run(&parameters, "test", &Progress::silent()).unwrap();
-        for (at, row) in found.rows.iter().enumerate() {
-            let (kind, sigma) = parameters.at(at);
-            let gaps = parameters.chains[kind].1 as f64 + 1.0;
-            for (count, expected) in row.iter().flatten().flatten() {
-                // Far below the rise none, far above it all.
-                let whole = if sigma < 0.1 { 0.0 } else { gaps };
-                assert!((*count as f64 - whole).abs() < 0.2 * gaps, "{sigma} {count}");
-                assert!((expected - whole).abs() < 0.2 * gaps, "{sigma} {expected}");
-            }
-        }
     }
 }

@@ -3,6 +3,7 @@
 //! A change of one amplitude alone would be the smaller disturbance: in one run of four it is
 //! rounded away. Every operation of a run rounds, in every mass, so the twins differ in all.
 
+use super::ensembles::each;
 use super::{Error, Progress};
 use crate::dynamics::{Engine, Growth, Impact, Scenario};
 use crate::numerics::estimates::average;
@@ -11,7 +12,6 @@ use crate::numerics::statistics::Estimate;
 use crate::params::HorizonParams;
 use crate::table::Table;
 use crate::value::origin;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// The measured horizon. Means over the twins, with standard error and a normal interval.
@@ -25,8 +25,6 @@ pub struct Horizon {
     pub order: Option<Estimate>,
     /// Number of impacts before it.
     pub order_impacts: Option<Estimate>,
-    /// Time of the first impact whose time differs by more than 1e−9.
-    pub time: Option<Estimate>,
     /// Growth rate λ of the time differences, e-folds per unit of time.
     pub growth: Option<Estimate>,
     /// Time in which differences grow tenfold, ln 10 / λ.
@@ -40,31 +38,15 @@ pub struct Twins {
     pub order: Option<f64>,
     /// Impacts before it.
     pub order_impacts: Option<u64>,
-    /// Time of the first impact whose time differs by more than 1e−9.
-    pub time: Option<f64>,
     /// Growth rate λ of this pair.
     pub growth: Option<f64>,
 }
 
-/// A difference in time above which an impact counts as displaced.
-const DISPLACED: f64 = 1e-9;
-
 /// Runs the twins.
-///
-/// # Errors
-/// [`Error::Interrupted`]; [`Error::Failed`] if a run fails.
 pub fn run(parameters: &HorizonParams, progress: &Progress) -> Result<Horizon, Error> {
     let stage = progress.stage("horizon", parameters.realisations as u64);
-    let twins: Vec<Twins> = (0..parameters.realisations)
-        .into_par_iter()
-        .with_max_len(1)
-        .map(|index| {
-            progress.check()?;
-            let twins = pair(parameters, index as u64);
-            stage.advance(1);
-            twins
-        })
-        .collect::<Result<_, _>>()?;
+    let indices = 0..parameters.realisations as u64;
+    let twins = each(&stage, progress, indices, |index| pair(parameters, index))?;
     let over = |pick: fn(&Twins) -> Option<f64>| {
         average(&twins.iter().filter_map(pick).collect::<Vec<f64>>())
     };
@@ -73,7 +55,6 @@ pub fn run(parameters: &HorizonParams, progress: &Progress) -> Result<Horizon, E
         parameters: parameters.clone(),
         order: over(|twins| twins.order),
         order_impacts: over(|twins| Some(twins.order_impacts? as f64)),
-        time: over(|twins| twins.time),
         growth,
         tenfold: growth.map(tenfold),
         twins,
@@ -137,7 +118,6 @@ fn pair(parameters: &HorizonParams, index: u64) -> Result<Twins, Error> {
 struct Compared {
     impacts: u64,
     order: Option<f64>,
-    time: Option<f64>,
     growth: Growth,
 }
 
@@ -150,9 +130,6 @@ impl Compared {
         }
         self.impacts += 1;
         let difference = (own.time - other.time).abs();
-        if difference > DISPLACED {
-            self.time.get_or_insert(own.time);
-        }
         self.growth.see(own.time, difference);
         true
     }
@@ -161,7 +138,6 @@ impl Compared {
         Twins {
             order: self.order,
             order_impacts: self.order.map(|_| self.impacts),
-            time: self.time,
             growth: self.growth.rate(),
         }
     }
@@ -187,9 +163,8 @@ mod tests {
         }
         let twins = compared.end();
         assert!((twins.growth.unwrap() - 0.2).abs() < 2e-3, "{twins:?}");
-        // 1e−9 is passed at 5 ln 1e5 = 57.56, 1e−3 at 5 ln 1e11 = 126.64; 253 impacts before.
-        assert_eq!((twins.time, twins.order), (Some(58.0), Some(127.0)));
-        assert_eq!(twins.order_impacts, Some(253));
+        // 1e−3 is passed at 5 ln 1e11 = 126.64; 253 impacts before.
+        assert_eq!((twins.order, twins.order_impacts), (Some(127.0), Some(253)));
     }
 
     #[test]
@@ -198,10 +173,9 @@ mod tests {
         parameters.realisations = 2;
         let horizon = run(&parameters, &Progress::silent()).unwrap();
         assert_eq!(horizon, run(&parameters, &Progress::silent()).unwrap());
-        // An independent simulator at quadruple precision: order to t about 175, times to 1e−9
-        // up to about 80, tenfold in 12 to 15. Two twins know that to some ten per cent.
-        let (order, time) = (horizon.order.unwrap().value, horizon.time.unwrap().value);
+        // An independent simulator at quadruple precision: order to t about 175, tenfold in 12 to 15. Two twins know
+        // that to some ten per cent.
+        let order = horizon.order.unwrap().value;
         assert!((100.0..260.0).contains(&order), "{order}");
-        assert!(time < order && time > 30.0, "{time}");
     }
 }

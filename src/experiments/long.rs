@@ -1,8 +1,9 @@
 //! The long end of the protocol map: runs of up to 10⁵ time units.
 
-use super::protocol::{self, Part, ProtocolCell, ProtocolMap};
+use super::ensembles::joined_by;
+use super::protocol::{self, Part, ProtocolMap};
 use super::{Error, Progress};
-use crate::numerics::statistics::{mean, normal_quantile, standard_deviation};
+use crate::numerics::statistics::{normal_quantile, standard_deviation};
 use crate::params::{LEVEL, ProtocolParams};
 use literate::experiments::cutting::{Cutting, Unit};
 use literate::experiments::deep::Distance;
@@ -13,62 +14,32 @@ use serde::{Deserialize, Serialize};
 pub struct LongMap {
     /// The map itself.
     pub map: ProtocolMap,
-    /// For each σ.
-    pub rows: Vec<LongRow>,
-}
-
-/// All realisations of one σ.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct LongRow {
-    /// Standard deviation σ of the amplitudes.
-    pub sigma: f64,
-    /// Number of realisations with an impact in each cell: the kept.
-    pub kept: Vec<usize>,
-    /// Mean of all realisations in each cell.
-    pub means: Vec<Option<f64>>,
-    /// Standard deviation of all realisations in each cell.
-    pub deviations: Vec<Option<f64>>,
-}
-
-impl LongMap {
-    /// The cells whose transients are longer than those of another map.
-    pub fn beyond(&self, map: &ProtocolMap) -> impl Iterator<Item = &ProtocolCell> {
-        let last = map.parameters.transients.iter().copied().fold(0.0, f64::max);
-        self.map.cells.iter().filter(move |cell| cell.transient > last)
-    }
+    /// For each σ the standard deviation of all realisations in each cell.
+    pub deviations: Vec<Vec<Option<f64>>>,
 }
 
 /// The map in units of work: realisations of one σ.
-pub const CUTTING: Cutting<ProtocolParams, Part, LongMap> =
-    Cutting { rows: protocol::rows, part: protocol::part, fits: protocol::fits, join };
+pub const CUTTING: Cutting<ProtocolParams, Part, LongMap> = joined_by(join);
 
 pub(crate) fn join(
     parameters: &ProtocolParams,
     parts: Vec<Vec<Part>>,
     progress: &Progress,
 ) -> Result<LongMap, Error> {
-    let row = |(&sigma, runs): (&f64, &Vec<Part>)| {
+    let row = |runs: &Vec<Part>| {
         let runs: Part = runs.concat();
-        let cell = |cell: usize| -> Vec<f64> {
-            runs.iter().flatten().filter_map(|counts| counts[cell]).map(f64::from).collect()
-        };
-        let cells: Vec<Vec<f64>> = (0..protocol::cells(parameters)).map(cell).collect();
-        LongRow {
-            sigma,
-            kept: cells.iter().map(|cell| cell.iter().filter(|&&k| k > 0.0).count()).collect(),
-            means: cells.iter().map(|cell| mean(cell)).collect(),
-            deviations: cells.iter().map(|cell| standard_deviation(cell)).collect(),
-        }
+        let counts = |cell: usize| runs.iter().flatten().filter_map(move |counts| counts[cell]);
+        let deviation = |cell| standard_deviation(&counts(cell).map(f64::from).collect::<Vec<_>>());
+        (0..protocol::cells(parameters)).map(deviation).collect()
     };
-    let rows = parameters.sigmas.iter().zip(&parts).map(row).collect();
-    let map = protocol::join(parameters, parts, progress)?;
-    Ok(LongMap { map: ProtocolMap { curves: Vec::new(), ..map }, rows })
+    let deviations = parts.iter().map(row).collect();
+    Ok(LongMap { map: protocol::join(parameters, parts, progress)?, deviations })
 }
 
 /// How far realisations are from the map: the sum of their counts in each cell from what the means
 /// of all let expect, in standard deviations of that sum; the largest of all cells.
 pub fn distance(long: &LongMap, parts: &[(&Unit, Part)]) -> Distance {
-    let cells = long.rows.first().map_or(0, |row| row.means.len());
+    let cells = long.map.cells.len();
     let largest = (0..cells).map(|cell| of_cell(long, parts, cell)).fold(0.0, f64::max);
     // Bonferroni's correction: one cell of so many may be far by chance.
     let allowed = normal_quantile(1.0 - (1.0 - LEVEL) / cells.max(1) as f64);
@@ -78,10 +49,8 @@ pub fn distance(long: &LongMap, parts: &[(&Unit, Part)]) -> Distance {
 fn of_cell(long: &LongMap, parts: &[(&Unit, Part)], cell: usize) -> f64 {
     let (mut excess, mut variance) = (0.0, 0.0);
     for (unit, part) in parts {
-        let row = &long.rows[unit.row];
-        let (Some(mean), Some(deviation)) = (row.means[cell], row.deviations[cell]) else {
-            continue;
-        };
+        let both = long.map.curves[cell][unit.row].zip(long.deviations[unit.row][cell]);
+        let Some((mean, deviation)) = both else { continue };
         for count in part.iter().flatten().filter_map(|counts| counts.get(cell).copied().flatten())
         {
             excess += f64::from(count) - mean;
@@ -112,7 +81,7 @@ mod tests {
         let quiet = Progress::silent();
         let units = CUTTING.units(&parameters);
         let stage = quiet.stage("test", 1);
-        let part = |unit| protocol::part(&parameters, unit, &stage, &quiet).unwrap();
+        let part = |unit| (CUTTING.part)(&parameters, unit, &stage, &quiet).unwrap();
         let parts: Vec<(&Unit, Part)> = units.iter().map(|unit| (unit, part(unit))).collect();
         let texts = parts.iter().map(|(_, part)| part.clone()).collect();
         let long = CUTTING.joined(&parameters, texts, &quiet).unwrap();

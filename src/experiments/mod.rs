@@ -5,6 +5,7 @@
 pub mod accuracy;
 pub mod chains;
 pub mod closed;
+pub mod ensembles;
 pub mod heat;
 pub mod history;
 pub mod horizon;
@@ -52,6 +53,7 @@ use crate::params::{
 use crate::table::Table;
 use accuracy::{analytic, bias, race, scale, tables, trials};
 use built::code;
+use ensembles::cutting;
 use literate::experiments::deep::Deep;
 use literate::experiments::experiment::How::{Cut, Read, Whole};
 
@@ -245,21 +247,21 @@ pub const ANALYTIC: Experiment<AnalyticParams, analytic::Analytic> = Experiment 
 };
 
 /// How hot running chains are.
-pub const HEAT: Deep<HeatParams, heat::Heat, heat::Part> = Deep::new(
+pub const HEAT: Deep<HeatParams, heat::Heat, Vec<Option<heat::Run>>> = Deep::new(
     ("heat", "heat ([@sec:heat])"),
     code("src/experiments/heat/mod.rs"),
     HeatParams::new,
-    ("heat", heat::CUTTING),
+    ("heat", cutting()),
     heat::tables::tables,
 );
 
 /// First impacts of chains from rest.
-pub const NUCLEATION: Experiment<NucleationParams, nucleation::Nucleation, nucleation::Part> =
+pub const NUCLEATION: Experiment<NucleationParams, nucleation::Nucleation, Vec<nucleation::First>> =
     Experiment {
         name: "nucleation",
         code: code("src/experiments/nucleation/mod.rs"),
         parameters: NucleationParams::new,
-        how: Cut("first impacts", nucleation::CUTTING),
+        how: Cut("first impacts", cutting()),
         tables: nucleation::tables::tables,
     };
 
@@ -273,42 +275,46 @@ pub const SEEDS: Experiment<SeedsParams, seeds::Seeds, seeds::Part> = Experiment
 };
 
 /// Chains that are heated first.
-pub const HISTORY: Experiment<HistoryParams, history::History, history::Part> = Experiment {
+pub const HISTORY: Experiment<HistoryParams, history::History, Vec<history::Counts>> = Experiment {
     name: "history",
     code: code("src/experiments/history/mod.rs"),
     parameters: HistoryParams::new,
-    how: Cut("history", history::CUTTING),
+    how: Cut("history", cutting()),
     tables: history::tables::tables,
 };
 
 /// Long chains that are heated first.
-pub const LONG_HISTORY: Experiment<HistoryParams, history::History, history::Part> = Experiment {
-    name: "long_history",
-    code: code("src/experiments/history/mod.rs"),
-    parameters: HistoryParams::long,
-    how: Cut("long history", history::CUTTING),
-    tables: history::tables::of_long,
-};
+pub const LONG_HISTORY: Experiment<HistoryParams, history::History, Vec<history::Counts>> =
+    Experiment {
+        name: "long_history",
+        code: code("src/experiments/history/mod.rs"),
+        parameters: HistoryParams::long,
+        how: Cut("long history", cutting()),
+        tables: history::tables::of_long,
+    };
 
 /// Chains that were hit, and when they are hit again.
-pub const SILENCE: Experiment<silence::SilenceParams, silence::Silence, silence::Part> =
+pub const SILENCE: Experiment<silence::SilenceParams, silence::Silence, Vec<Option<silence::Run>>> =
     Experiment {
         name: "silence",
         code: code("src/experiments/silence.rs"),
         parameters: silence::SilenceParams::new,
-        how: Cut("silence", silence::CUTTING),
+        how: Cut("silence", cutting()),
         tables: silence::tables,
     };
 
 /// Whether impacts are independent.
-pub const INDEPENDENCE: Deep<IndependenceParams, independence::Independence, independence::Part> =
-    Deep::new(
-        ("independence", "order of impacts ([@sec:independence])"),
-        code("src/experiments/independence/mod.rs"),
-        IndependenceParams::new,
-        ("independence", independence::CUTTING),
-        independence::tables::tables,
-    );
+pub const INDEPENDENCE: Deep<
+    IndependenceParams,
+    independence::Independence,
+    Vec<independence::Outcome>,
+> = Deep::new(
+    ("independence", "order of impacts ([@sec:independence])"),
+    code("src/experiments/independence/mod.rs"),
+    IndependenceParams::new,
+    ("independence", cutting()),
+    independence::tables::tables,
+);
 
 /// Long chains, damping and other forces.
 pub const CHAINS: Deep<ChainsParams, chains::Chains, chains::Part> = Deep::new(
@@ -320,14 +326,17 @@ pub const CHAINS: Deep<ChainsParams, chains::Chains, chains::Part> = Deep::new(
 );
 
 /// Chains of several restitutions.
-pub const RESTITUTION: Deep<RestitutionParams, restitution::Restitution, restitution::Part> =
-    Deep::new(
-        ("restitution", "restitution ([@sec:restitution])"),
-        code("src/experiments/restitution/mod.rs"),
-        RestitutionParams::new,
-        ("restitution", restitution::CUTTING),
-        restitution::tables::tables,
-    );
+pub const RESTITUTION: Deep<
+    RestitutionParams,
+    restitution::Restitution,
+    Vec<Option<restitution::Run>>,
+> = Deep::new(
+    ("restitution", "restitution ([@sec:restitution])"),
+    code("src/experiments/restitution/mod.rs"),
+    RestitutionParams::new,
+    ("restitution", cutting()),
+    restitution::tables::tables,
+);
 
 /// The long end of the map over transients and windows.
 pub const LONG_PROTOCOL: Deep<ProtocolParams, long::LongMap, protocol::Part> = Deep {
@@ -355,11 +364,11 @@ pub const SIZES: Deep<ChainsParams, chains::Chains, chains::Part> = Deep {
 };
 
 /// The closed theory beside chains under the same forces.
-pub const CLOSED: Deep<closed::ClosedParams, closed::Closed, closed::Part> = Deep::new(
+pub const CLOSED: Deep<closed::ClosedParams, closed::Closed, Vec<closed::Counts>> = Deep::new(
     ("closed", "the closed theory and its chains ([@tab:closed])"),
     code("src/experiments/closed.rs"),
     closed::ClosedParams::new,
-    ("closed theory", closed::CUTTING),
+    ("closed theory", cutting()),
     closed::tables,
 );
 

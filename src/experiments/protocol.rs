@@ -1,5 +1,6 @@
 //! The influence of the counting protocol: half height against transient T and window W.
 
+use super::ensembles::{Begun, Ensembles, joined_by};
 use super::{Error, Progress, rise, weights};
 use crate::dynamics::{self, Engine, Scenario};
 use crate::numerics::random::NormalPairs;
@@ -7,9 +8,7 @@ use crate::numerics::statistics::{Estimate, mean};
 use crate::params::{
     COMPARABLE_REJECTED, PRINTED_THRESHOLD, PRINTED_THRESHOLD_UNIT, ProtocolParams,
 };
-use literate::experiments::cutting::{Cutting, Row, Unit};
-use literate::experiments::progress::Stage;
-use rayon::prelude::*;
+use literate::experiments::cutting::{Cutting, Row};
 use serde::{Deserialize, Serialize};
 
 /// Half height for every pair of a transient and a window.
@@ -19,8 +18,9 @@ pub struct ProtocolMap {
     pub parameters: ProtocolParams,
     /// One cell for each pair, transients outer, windows inner.
     pub cells: Vec<ProtocolCell>,
-    /// The curves of each cell. The long map has them by σ instead.
-    pub curves: Vec<CellCurves>,
+    /// For each cell the mean count of all realisations at each σ; none where no run reached the window, and where too
+    /// many starts overlap for the row to be comparable.
+    pub curves: Vec<Vec<Option<f64>>>,
     /// Realisations whose random start overlaps, or that the engine ended early; they are counted in no
     /// window.
     pub failed: usize,
@@ -45,16 +45,6 @@ pub struct ProtocolCell {
     pub prints_as_published: bool,
 }
 
-/// What rises with σ in one cell, for each σ; none where no run reached the window, and where too many starts
-/// overlap for the row to be comparable.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct CellCurves {
-    /// The mean count of all realisations.
-    pub means: Vec<Option<f64>>,
-    /// The share of the realisations that are kept.
-    pub kept: Vec<Option<f64>>,
-}
-
 impl ProtocolMap {
     /// The cell of a transient and a window.
     pub fn cell(&self, transient: f64, window: f64) -> Option<&ProtocolCell> {
@@ -63,17 +53,9 @@ impl ProtocolMap {
 
     /// (σ, mean count of all) for a transient and a window.
     pub fn curve(&self, transient: f64, window: f64) -> Option<Vec<(f64, f64)>> {
-        Some(self.against_sigma(&self.curves.get(self.place(transient, window)?)?.means))
-    }
-
-    /// (σ, share of the realisations that are kept) for a transient and a window.
-    pub fn kept_curve(&self, transient: f64, window: f64) -> Option<Vec<(f64, f64)>> {
-        Some(self.against_sigma(&self.curves.get(self.place(transient, window)?)?.kept))
-    }
-
-    fn against_sigma(&self, heights: &[Option<f64>]) -> Vec<(f64, f64)> {
-        let points = self.parameters.sigmas.iter().zip(heights);
-        points.filter_map(|(&sigma, height)| Some((sigma, (*height)?))).collect()
+        let means = self.curves.get(self.place(transient, window)?)?;
+        let points = self.parameters.sigmas.iter().zip(means);
+        Some(points.filter_map(|(&sigma, mean)| Some((sigma, (*mean)?))).collect())
     }
 
     fn place(&self, transient: f64, window: f64) -> Option<usize> {
@@ -130,15 +112,7 @@ impl<'a> FirstPassages<'a> {
 }
 
 /// The map in units of work: realisations of one σ.
-pub const CUTTING: Cutting<ProtocolParams, Part, ProtocolMap> = Cutting { rows, part, fits, join };
-
-/// Runs the map.
-///
-/// # Errors
-/// [`Error::Interrupted`]; [`Error::Failed`] if the chain is not allowed.
-pub fn run(parameters: &ProtocolParams, progress: &Progress) -> Result<ProtocolMap, Error> {
-    CUTTING.run(parameters, "protocol map", progress)
-}
+pub const CUTTING: Cutting<ProtocolParams, Part, ProtocolMap> = joined_by(join);
 
 /// When runs end at a σ.
 pub(super) fn until(parameters: &ProtocolParams, sigma: f64) -> f64 {
@@ -152,42 +126,30 @@ pub(super) fn cells(parameters: &ProtocolParams) -> usize {
     parameters.transients.len() * parameters.windows.len()
 }
 
-pub(super) fn rows(parameters: &ProtocolParams) -> Vec<Row> {
-    let row = |&sigma: &f64| Row {
-        covers: format!("sigma = {sigma}"),
-        realisations: parameters.realisations,
-        weight: weights::run(&parameters.chain, sigma, until(parameters, sigma)),
-    };
-    parameters.sigmas.iter().map(row).collect()
-}
+impl Ensembles for ProtocolParams {
+    type One = Option<Counts>;
 
-pub(super) fn part(
-    parameters: &ProtocolParams,
-    unit: &Unit,
-    stage: &Stage,
-    progress: &Progress,
-) -> Result<Part, Error> {
-    let sigma = parameters.sigmas[unit.row];
-    let until = until(parameters, sigma);
-    let weight = weights::run(&parameters.chain, sigma, until);
-    unit.realisations
-        .clone()
-        .into_par_iter()
-        .with_max_len(1)
-        .map(|index| {
-            let counts = realisation(parameters, sigma, index as u64, until, progress);
-            stage.advance(weight);
-            counts
-        })
-        .collect()
-}
+    fn rows(&self) -> Vec<Row> {
+        let row = |&sigma: &f64| Row {
+            covers: format!("sigma = {sigma}"),
+            realisations: self.realisations,
+            weight: weights::run(&self.chain, sigma, until(self, sigma)),
+        };
+        self.sigmas.iter().map(row).collect()
+    }
 
-pub(super) fn fits(parameters: &ProtocolParams, unit: &Unit, runs: &Part) -> bool {
-    let (cells, gaps) = (cells(parameters), parameters.chain.gaps());
-    let fits = |counts: &Counts| {
-        counts.len() == cells && counts.iter().flatten().all(|&k| k as usize <= gaps)
-    };
-    runs.len() == unit.realisations.len() && runs.iter().flatten().all(fits)
+    fn row<'a>(&'a self, row: usize, progress: &'a Progress) -> Begun<'a, Option<Counts>> {
+        let sigma = self.sigmas[row];
+        Ok(Box::new(move |index| realisation(self, sigma, index, until(self, sigma), progress)))
+    }
+
+    fn fits(&self, _: usize, counts: &Option<Counts>) -> bool {
+        let (cells, gaps) = (cells(self), self.chain.gaps());
+        let fits = |counts: &Counts| {
+            counts.len() == cells && counts.iter().flatten().all(|&k| k as usize <= gaps)
+        };
+        counts.as_ref().is_none_or(fits)
+    }
 }
 
 pub(crate) fn join(
@@ -216,17 +178,9 @@ pub(crate) fn join(
         .transients
         .iter()
         .flat_map(|&transient| parameters.windows.iter().map(move |&window| (transient, window)));
-    let curve = |rows: &[Counts], of: fn(u32) -> f64| {
-        let mean_of = |counts: &Counts| -> Option<f64> {
-            mean(&counts.iter().flatten().map(|&k| of(k)).collect::<Vec<_>>())
-        };
-        rows.iter().map(mean_of).collect()
-    };
-    let curves = by_cell.iter().map(|rows: &Vec<Counts>| CellCurves {
-        means: curve(rows, f64::from),
-        kept: curve(rows, |k| f64::from(k.min(1))),
-    });
-    let curves = curves.collect();
+    let mean =
+        |counts: &Counts| mean(&counts.iter().flatten().map(|&k| f64::from(k)).collect::<Vec<_>>());
+    let curves = by_cell.iter().map(|rows: &Vec<Counts>| rows.iter().map(mean).collect()).collect();
     let mut map = Vec::with_capacity(cells);
     for ((transient, window), counts) in protocols.zip(by_cell) {
         progress.check()?;
@@ -260,7 +214,6 @@ pub(super) fn realisation(
     until: f64,
     progress: &Progress,
 ) -> Result<Option<Counts>, Error> {
-    progress.check()?;
     let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, index);
     let scenario = Scenario::draw(&parameters.chain, sigma, &mut normals);
     let mut engine = match Engine::new(&scenario) {

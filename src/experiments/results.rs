@@ -1,11 +1,6 @@
 //! All results together.
 
-use super::accuracy::{analytic, bias, race, scale, trials};
-use super::{ALL, Error, Measured, Need, TOGETHER};
-use super::{
-    chains, closed, heat, history, horizon, identities, independence, long, nucleation, protocol,
-    replay, restitution, seeds, segments, silence, spacetime, starts, sweep, theory, two_masses,
-};
+use super::{ALL, Error, Need, TOGETHER, identities, theory};
 use crate::params::{Profile, set};
 use crate::table::Table;
 use literate::experiments::deep::Audit;
@@ -33,82 +28,8 @@ pub struct Results {
     pub audits: BTreeMap<String, Audit>,
 }
 
-macro_rules! asked_for {
-    ($($(#[$doc:meta])* $name:ident: $type:ty, $need:ident;)*) => {
-        impl Results {
-            $(
-                $(#[$doc])*
-                ///
-                /// # Errors
-                /// [`Error::NotRun`] if it was not asked for.
-                pub fn $name(&self) -> Result<&$type, Error> {
-                    self.of(&super::$need)
-                }
-            )*
-        }
-    };
-}
-
-asked_for! {
-    /// The main sweep.
-    sweep: sweep::Sweep, SWEEP;
-    /// The repetition with another seed.
-    second_seed: sweep::Sweep, SECOND_SEED;
-    /// The map over protocols.
-    protocol: protocol::ProtocolMap, PROTOCOL;
-    /// The variants.
-    starts: starts::Starts, STARTS;
-    /// The horizon.
-    horizon: horizon::Horizon, HORIZON;
-    /// Two masses.
-    two_masses: two_masses::TwoMasses, TWO_MASSES;
-    /// The segments.
-    segments: segments::Segments, SEGMENTS;
-    /// The long run.
-    spacetime: spacetime::SpaceTime, SPACE_TIME;
-    /// The methods against the truth.
-    race: race::Race, RACE;
-    /// The bias of the methods.
-    biases: bias::Biases, BIAS;
-    /// The scenes where methods fail.
-    trials: trials::Trials, TRIALS;
-    /// Work against size.
-    scale: scale::Scale, SCALE;
-    /// The analytic methods.
-    analytic: analytic::Analytic, ANALYTIC;
-    /// The measured times.
-    measured: Measured, MEASURED;
-    /// How hot running chains are.
-    heat: heat::Heat, HEAT;
-    /// First impacts.
-    nucleation: nucleation::Nucleation, NUCLEATION;
-    /// What one gap sets off.
-    seeds: seeds::Seeds, SEEDS;
-    /// Counts after a larger force.
-    history: history::History, HISTORY;
-    /// Chains that were hit, and when they are hit again.
-    silence: silence::Silence, SILENCE;
-    /// Whether impacts are independent.
-    independence: independence::Independence, INDEPENDENCE;
-    /// Chains of several restitutions.
-    restitution: restitution::Restitution, RESTITUTION;
-    /// Long chains, damping and other forces.
-    chains: chains::Chains, CHAINS;
-    /// The long end of the map.
-    long_protocol: long::LongMap, LONG_PROTOCOL;
-    /// The closed theory.
-    closed: closed::Closed, CLOSED;
-    /// Length and transient.
-    sizes: chains::Chains, SIZES;
-    /// Runs that a page repeats.
-    replays: replay::Replays, REPLAY;
-}
-
 impl Results {
     /// The result of an experiment.
-    ///
-    /// # Errors
-    /// [`Error::NotRun`] if it was not asked for.
     pub fn of<E: Typed>(&self, experiment: &E) -> Result<&E::Result, Error> {
         let found = self.found.get(experiment.name()).and_then(|found| found.downcast_ref());
         found.ok_or(Error::NotRun(experiment.name()))
@@ -152,9 +73,6 @@ impl Results {
     }
 
     /// One of the tables.
-    ///
-    /// # Errors
-    /// [`Error::NotRun`] if its experiment was not asked for.
     pub fn table(&self, name: &'static str) -> Result<&Table, Error> {
         let experiment = name.split('.').next().unwrap_or(name);
         self.tables().get(name).map(Arc::as_ref).ok_or(Error::NotRun(experiment))
@@ -179,12 +97,13 @@ impl Results {
 
 #[cfg(test)]
 mod tests {
+    use super::super::SWEEP;
     use super::*;
 
     #[test]
     fn what_was_not_run_is_an_error() {
         let results = Results::empty(Profile::Quick);
-        assert!(matches!(results.sweep(), Err(Error::NotRun("sweep"))));
+        assert!(matches!(results.of(&SWEEP), Err(Error::NotRun("sweep"))));
         assert!(matches!(results.table("heat.rising"), Err(Error::NotRun("heat"))));
     }
 }

@@ -24,11 +24,7 @@ pub struct Rise {
     pub onset: Option<Estimate>,
     /// Half of the realisations have an impact in the window.
     pub kept_half: Option<Estimate>,
-    /// The mean of all reaches N/10.
-    pub tenth: Option<Estimate>,
-    /// The mean of all reaches 9N/10.
-    pub nine_tenths: Option<Estimate>,
-    /// Width of the rise: from a tenth to nine tenths.
+    /// Width of the rise: the mean of all from a tenth to nine tenths of N.
     pub width: Option<Estimate>,
     /// The mean of the kept from N/4 to 3N/4: it is never as low as a tenth where any are kept.
     pub kept_width: Option<Estimate>,
@@ -51,7 +47,7 @@ struct Curves {
     mean_all: Vec<Option<f64>>,
     mode: Vec<Option<usize>>,
     /// The places of [`Rise`], in its order.
-    places: [Option<f64>; 8],
+    places: [Option<f64>; 6],
 }
 
 impl Curves {
@@ -61,7 +57,7 @@ impl Curves {
             mean_kept: Vec::with_capacity(sigmas.len()),
             mean_all: Vec::with_capacity(sigmas.len()),
             mode: Vec::with_capacity(sigmas.len()),
-            places: [None; 8],
+            places: [None; 6],
         };
         let ratio = |sum: u64, of: u64| (of > 0).then(|| sum as f64 / of as f64);
         let mut histogram = vec![0; gaps + 1];
@@ -78,16 +74,13 @@ impl Curves {
         let height = gaps as f64;
         let all = |share: f64| last_rise(sigmas, &curves.mean_all, share * height);
         let kept = |share: f64| last_rise(sigmas, &curves.mean_kept, share * height);
-        let (tenth, nine_tenths) = (all(0.1), all(0.9));
         let between = |low: Option<f64>, high: Option<f64>| Some(high? - low?);
         curves.places = [
             kept(0.5),
             all(0.5),
             all(ONSET),
             last_rise(sigmas, &kept_share, 0.5),
-            tenth,
-            nine_tenths,
-            between(tenth, nine_tenths),
+            between(all(0.1), all(0.9)),
             between(kept(0.25), kept(0.75)),
         ];
         curves
@@ -110,7 +103,7 @@ pub fn find(
             Curves::new(sigmas, counts, gaps, &bootstrap::weights(seed, index, realisations))
         })
         .collect();
-    let mut places = (0..8).map(|i| {
+    let mut places = (0..6).map(|i| {
         let of_resamples: Vec<_> = resampled.iter().map(|curves| curves.places[i]).collect();
         bootstrap::estimate(whole.places[i], &of_resamples, LEVEL)
     });
@@ -120,8 +113,6 @@ pub fn find(
         half_height_all: next(),
         onset: next(),
         kept_half: next(),
-        tenth: next(),
-        nine_tenths: next(),
         width: next(),
         kept_width: next(),
     };
@@ -171,11 +162,10 @@ mod tests {
         let expected = [
             0.3 + 0.1 * (5.0 - 14.0 / 3.0) / (7.5 - 14.0 / 3.0),
             0.3 + 0.1 * 1.5 / 4.0,
-            0.2,             // N/20 is met exactly at the second row
-            0.25,            // from 1/4 kept to 3/4
-            0.2 + 0.1 / 6.0, // 1 between 0.5 and 3.5
-            0.4 + 0.1 * 0.6, // 9 between 7.5 and 10
-            0.46 - 0.2 - 0.1 / 6.0,
+            0.2,  // N/20 is met exactly at the second row
+            0.25, // from 1/4 kept to 3/4
+            // From 1, between 0.5 and 3.5, to 9, between 7.5 and 10.
+            (0.4 + 0.1 * 0.6) - (0.2 + 0.1 / 6.0),
             0.3 + 0.1 - 0.2 - 0.1 * 0.5 / (14.0 / 3.0 - 2.0),
         ];
         for (place, expected) in curves.places.iter().zip(expected) {
@@ -200,7 +190,7 @@ mod tests {
         let half = rise.half_height_all.unwrap();
         assert!(half.error < 1e-12);
         assert_eq!(half.interval, [half.value, half.value]);
-        assert_eq!(rise.nine_tenths, None, "8 of 10 is below nine tenths");
+        assert_eq!(rise.width, None, "8 of 10 is below nine tenths");
         assert_eq!(intervals[1].mean_all, Some([4.0, 4.0]));
         assert_eq!(intervals[2].mode, Some([8, 8]));
         assert_eq!(intervals[0].mode, None);

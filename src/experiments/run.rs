@@ -6,9 +6,6 @@ use literate::experiments::experiment::Given;
 
 /// Runs the experiments that are needed with the sample sizes of a profile. `given` gives the text of a
 /// file of the templates; it is asked only by experiments that read one.
-///
-/// # Errors
-/// [`Error::Interrupted`], or whatever the first failing experiment returns.
 pub fn run(
     needs: &[Need],
     profile: Profile,

@@ -5,17 +5,16 @@
 //! the least value as one likes, and the gap closes. Contact is no way out: a shut gap is pressed by a force whose mean opens it, for the springs
 //! part the masses, so contact ends; the width has vanishing first and second derivatives then, which at its least it cannot have.
 
-use super::weights;
-use super::{Error, Progress};
+use super::ensembles::{Begun, Ensembles, Ran, Running, count};
+use super::{Error, Progress, weights};
 use crate::circuits::closed::spread::Spreading;
-use crate::dynamics::{self, Engine, Scenario};
+use crate::dynamics::Scenario;
 use crate::numerics::estimates::{average, ratio};
 use crate::numerics::random::NormalPairs;
 use crate::numerics::statistics::Estimate;
 use crate::params::{Chain, Profile, SEED};
 use crate::table::Table;
-use literate::experiments::cutting::{Cutting, Row as Work, Unit};
-use literate::experiments::progress::Stage;
+use literate::experiments::cutting::Row as Work;
 use serde::{Deserialize, Serialize};
 
 /// What is run.
@@ -79,55 +78,45 @@ pub struct Run {
     pub count: u64,
     /// When the first impact after the transient comes; none if it was waited for in vain.
     pub next: Option<f64>,
-    /// What the closed theory expects for `reached` and `count`, under the same forces.
-    pub expected: [f64; 2],
+    /// What the closed theory expects for `reached`, under the same forces.
+    pub expected: f64,
 }
 
-/// Some chains of one row; none where the engine gave up.
-pub type Part = Vec<Option<Run>>;
+/// For each row its chains; none where the engine gave up.
+pub type Silence = Ran<SilenceParams, Option<Run>>;
 
-/// All chains.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Silence {
-    /// What was run.
-    pub parameters: SilenceParams,
-    /// For each row its chains.
-    pub rows: Vec<Part>,
-}
+impl Ensembles for SilenceParams {
+    type One = Option<Run>;
 
-/// The experiment in units of work.
-pub const CUTTING: Cutting<SilenceParams, Part, Silence> = Cutting { rows, part, fits, join };
+    fn rows(&self) -> Vec<Work> {
+        let until = self.times[0] + self.times[1];
+        let row = |(at, &(r, sigma, realisations)): (usize, &(f64, f64, usize))| {
+            let weight = weights::run(&self.chain(at), sigma, until) + 50 * self.masses as u64;
+            Work { covers: format!("r = {r}, sigma = {sigma}"), realisations, weight }
+        };
+        self.rows.iter().enumerate().map(row).collect()
+    }
 
-fn rows(parameters: &SilenceParams) -> Vec<Work> {
-    let until = parameters.times[0] + parameters.times[1];
-    let row = |(at, &(r, sigma, realisations)): (usize, &(f64, f64, usize))| {
-        let weight =
-            weights::run(&parameters.chain(at), sigma, until) + 50 * parameters.masses as u64;
-        Work { covers: format!("r = {r}, sigma = {sigma}"), realisations, weight }
-    };
-    parameters.rows.iter().enumerate().map(row).collect()
-}
+    fn row<'a>(&'a self, row: usize, progress: &'a Progress) -> Begun<'a, Option<Run>> {
+        let (chain, (_, sigma, _)) = (self.chain(row), self.rows[row]);
+        let fault = |source| Error::failed("silence", source);
+        let spreading = Spreading::new(&chain).map_err(fault)?;
+        Ok(Box::new(move |index| {
+            let mut normals = NormalPairs::new(&self.stream, self.seed, index);
+            let scenario = Scenario::draw(&chain, sigma, &mut normals);
+            let Some(mut run) = simulated(self, &scenario, progress)? else { return Ok(None) };
+            let drawn = spreading.drawn(sigma, &scenario.forcing).map_err(fault)?;
+            run.expected = drawn.mean_counts(&[[0.0, self.times[0]]], &mut normals)[0];
+            Ok(Some(run))
+        }))
+    }
 
-fn part(
-    parameters: &SilenceParams,
-    unit: &Unit,
-    stage: &Stage,
-    progress: &Progress,
-) -> Result<Part, Error> {
-    let (chain, (_, sigma, _)) = (parameters.chain(unit.row), parameters.rows[unit.row]);
-    let fault = |source| Error::failed("silence", source);
-    let spreading = Spreading::new(&chain).map_err(fault)?;
-    let [transient, window] = parameters.times;
-    unit.each(stage, |index| {
-        progress.check()?;
-        let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, index);
-        let scenario = Scenario::draw(&chain, sigma, &mut normals);
-        let Some(mut run) = simulated(parameters, &scenario, progress)? else { return Ok(None) };
-        let drawn = spreading.drawn(sigma, &scenario.forcing).map_err(fault)?;
-        let found = drawn.mean_counts(&[[0.0, transient], [transient, window]], &mut normals);
-        run.expected = [found[0], found[1]];
-        Ok(Some(run))
-    })
+    fn fits(&self, _: usize, run: &Option<Run>) -> bool {
+        let gaps = self.masses as u64 + 1;
+        run.is_none_or(|run| {
+            run.reached.max(run.count) <= gaps && run.active <= run.reached.min(run.count)
+        })
+    }
 }
 
 fn simulated(
@@ -135,47 +124,24 @@ fn simulated(
     scenario: &Scenario,
     progress: &Progress,
 ) -> Result<Option<Run>, Error> {
-    let fault = |source| Error::failed("silence", source);
     let [transient, window] = parameters.times;
-    let mut engine = Engine::new(scenario).map_err(fault)?;
+    let mut motion = Running::new(scenario, "silence", progress)?;
     let (mut before, mut within) = (vec![false; scenario.gaps()], vec![false; scenario.gaps()]);
     let mut next = None;
-    let mut go = |until: f64, first: bool, hit: &mut [bool]| {
-        let ended = engine.run(until, |impact| {
-            hit[impact.gap] = true;
-            if impact.time > transient {
-                next.get_or_insert(impact.time);
-            }
-            !first && !progress.stopped()
-        });
-        match ended {
-            Ok(()) => Ok(true),
-            Err(dynamics::Error::Work { .. }) => Ok(false),
-            Err(source) => Err(fault(source)),
-        }
-    };
-    let mut ran = go(transient, false, &mut before)? && go(transient + window, false, &mut within)?;
-    progress.check()?;
-    let number = |hit: &[bool]| hit.iter().filter(|hit| **hit).count() as u64;
-    let [reached, count] = [&before, &within].map(|hit| number(hit));
+    let mut ran = motion.go(transient, |impact| before[impact.gap] = true)?
+        && motion.go(transient + window, |impact| {
+            within[impact.gap] = true;
+            next.get_or_insert(impact.time);
+        })?;
+    let [reached, count] = [&before, &within].map(|hit| count(hit));
     if reached > 0 && count == 0 {
-        ran &= go(transient + parameters.patience, true, &mut vec![false; scenario.gaps()])?;
+        ran &= motion.go_while(transient + parameters.patience, |impact| {
+            next = Some(impact.time);
+            false
+        })?;
     }
     let active = before.iter().zip(&within).filter(|(a, b)| **a && **b).count() as u64;
-    Ok(ran.then_some(Run { reached, active, count, next, expected: [0.0; 2] }))
-}
-
-fn fits(parameters: &SilenceParams, unit: &Unit, runs: &Part) -> bool {
-    let gaps = parameters.masses as u64 + 1;
-    let fits = |run: &Run| {
-        run.reached <= gaps && run.count <= gaps && run.active <= run.reached.min(run.count)
-    };
-    runs.len() == unit.realisations.len() && runs.iter().flatten().all(fits)
-}
-
-fn join(parameters: &SilenceParams, parts: Vec<Vec<Part>>, _: &Progress) -> Result<Silence, Error> {
-    let rows = parts.into_iter().map(|parts| parts.concat()).collect();
-    Ok(Silence { parameters: parameters.clone(), rows })
+    Ok(ran.then_some(Run { reached, active, count, next, expected: 0.0 }))
 }
 
 /// One row.
@@ -200,17 +166,12 @@ impl Row<'_> {
 pub fn tables(silence: &Silence) -> Vec<Table> {
     let parameters = &silence.parameters;
     let end = parameters.times.iter().sum();
-    let row = |((r, sigma, _), part): (&(f64, f64, usize), &'_ Part)| (*r, *sigma, part.clone());
-    let all: Vec<(f64, f64, Part)> = parameters.rows.iter().zip(&silence.rows).map(row).collect();
-    let rows: Vec<Row<'_>> = all
-        .iter()
-        .map(|(r, sigma, part)| Row {
-            at: (*r, *sigma),
-            end,
-            runs: part.iter().flatten().collect(),
-        })
-        .collect();
-    let count = "gaps with an impact in the window, mean of all";
+    let both = parameters.rows.iter().zip(&silence.rows);
+    let row = |(&(r, sigma, _), part)| -> Row<'_> {
+        let part: &Vec<Option<Run>> = part;
+        Row { at: (r, sigma), end, runs: part.iter().flatten().collect() }
+    };
+    let rows: Vec<Row<'_>> = both.map(row).collect();
     let of = Table::of("silence.rows", &rows, |row| row.runs.len())
         .key("r", "1", |row| row.at.0)
         .key("sigma", "d omega^2", |row| row.at.1)
@@ -234,24 +195,17 @@ pub fn tables(silence: &Silence) -> Vec<Table> {
             row.mean(|run| run.reached as f64)
         })
         .estimate("reached_expected", "1", "the same by the closed theory, same forces", |row| {
-            row.mean(|run| run.expected[0])
+            row.mean(|run| run.expected)
         })
         .estimate("quiet", "1", "share of these without an impact in the window", |row| {
             let pair = |run: &&Run| [(run.reached - run.active) as f64, run.reached as f64];
             ratio(&row.runs.iter().map(pair).collect::<Vec<_>>())
-        })
-        .estimate("mean_count", "1", count, |row| row.mean(|run| run.count as f64))
-        .estimate("mean_expected", "1", "the same by the closed theory, same forces", |row| {
-            row.mean(|run| run.expected[1])
         })
         .done();
     let sum = |of: fn(&Row<'_>) -> usize| rows.iter().map(of).sum::<usize>() as u64;
     let whole = Table::of("silence.all", &[parameters], |_| 0)
         .chosen("transient", "1/omega", "", |own| Some(own.times[0]))
         .chosen("window", "1/omega", "", |own| Some(own.times[1]))
-        .chosen("patience", "1/omega", "so long a silent chain was waited for", |own| {
-            Some(own.patience)
-        })
         .count("silent", "chains that were hit and are silent in the window", |_| {
             sum(|row| row.silent().count())
         })
@@ -265,13 +219,14 @@ pub fn tables(silence: &Silence) -> Vec<Table> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::dynamics::Engine;
 
     #[test]
     fn tables_by_hand() {
         let mut parameters = SilenceParams::new(Profile::Quick);
         (parameters.rows, parameters.times) = (vec![(0.6, 0.1, 4)], [500.0, 200.0]);
         let run = |reached, active, count, next| {
-            Some(Run { reached, active, count, next, expected: [6.0, 4.0] })
+            Some(Run { reached, active, count, next, expected: 6.0 })
         };
         let rows = vec![vec![
             run(0, 0, 0, None),
@@ -283,8 +238,8 @@ mod tests {
         let [rows, all] = <[_; 2]>::try_from(tables(&Silence { parameters, rows })).unwrap();
         let of = |column: &str| rows.number(&[("sigma", 0.1)], column).unwrap();
         assert_eq!(["hit", "silent", "resumed"].map(of), [3.0, 2.0, 1.0]);
-        assert_eq!(["latest", "reached", "mean_count"].map(of), [200.0, 2.5, 0.75]);
-        assert_eq!(["quiet", "reached_expected", "mean_expected"].map(of), [0.8, 6.0, 4.0]);
+        assert_eq!(["latest", "reached"].map(of), [200.0, 2.5]);
+        assert_eq!(["quiet", "reached_expected"].map(of), [0.8, 6.0]);
         assert_eq!(all.number(&[], "resumed"), Ok(1.0));
     }
 
@@ -297,7 +252,9 @@ mod tests {
             times: [400.0, 50.0],
             ..SilenceParams::new(Profile::Quick)
         };
-        let found = CUTTING.run(&parameters, "test", &Progress::silent()).unwrap();
+        let found = crate::experiments::ensembles::cutting()
+            .run(&parameters, "test", &Progress::silent())
+            .unwrap();
         assert!(found.rows[1].iter().all(|run| *run == Some(Run::default())));
         let mut silent = 0;
         for (index, run) in (0_u64..).zip(&found.rows[0]) {

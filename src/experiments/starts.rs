@@ -41,14 +41,6 @@ impl Starts {
 /// The variants in units of work: the rows of each variant's ensemble, one variant after another.
 pub const CUTTING: Cutting<StartsParams, Tally, Starts> = Cutting { rows, part, fits, join };
 
-/// Runs all variants.
-///
-/// # Errors
-/// [`Error::Interrupted`]; [`Error::Failed`] if a chain is not allowed.
-pub fn run(parameters: &StartsParams, progress: &Progress) -> Result<Starts, Error> {
-    CUTTING.run(parameters, "variants", progress)
-}
-
 /// The ensemble of a variant.
 fn ensemble(parameters: &StartsParams, variant: &StartVariant) -> SweepParams {
     SweepParams {

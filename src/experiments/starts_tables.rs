@@ -3,6 +3,7 @@
 use super::Results;
 use super::starts::{Starts, Variant};
 use super::{rise, sweep};
+use crate::experiments::STARTS;
 use crate::numerics::estimates::difference;
 use crate::numerics::statistics::Estimate;
 use crate::params::COMPARABLE_REJECTED;
@@ -53,7 +54,7 @@ pub fn tables(starts: &Starts) -> Vec<Table> {
 
 /// What of the distance to the theory the start explains.
 pub fn beside_theory(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
-    let starts = results.starts().ok()?;
+    let starts = results.of(&STARTS).ok()?;
     let half = |name: &str| starts.variant(name).and_then(|own| own.rise.half_height_all);
     let theory = results.theory.scalars.sigma_half;
     let table = Table::of("starts.beside_theory", &[()], |()| 0)

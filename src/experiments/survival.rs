@@ -34,31 +34,4 @@ mod tests {
         assert!(found.iter().zip(&expected).all(near), "{found:?}");
         assert!(kaplan_meier(&[0, 0], &[0, 0]).is_empty());
     }
-
-    #[test]
-    fn without_cuts_it_is_the_share_that_lasts_longer() {
-        let ended = [3, 0, 4, 1, 2];
-        let found = kaplan_meier(&ended, &[0; 5]);
-        for (k, share) in found.iter().enumerate() {
-            let longer: u64 = ended[k + 1..].iter().sum();
-            assert!((share - longer as f64 / 10.0).abs() < 1e-15, "{k}");
-        }
-    }
-
-    #[test]
-    fn of_a_constant_hazard_every_age_is_the_same() {
-        // A tenth of those that are left ends at each k, and as many are cut.
-        let (mut left, mut ended, mut cut) = (1_000_000_000_u64, Vec::new(), Vec::new());
-        for _ in 0..6 {
-            ended.push(left / 10);
-            cut.push(left / 10);
-            left -= 2 * (left / 10);
-        }
-        // Those that are still left are cut in the end.
-        ended.push(0);
-        cut.push(left);
-        let found = kaplan_meier(&ended, &cut);
-        let constant = found[..6].windows(2).all(|pair| (pair[1] / pair[0] - 0.9).abs() < 1e-9);
-        assert!(constant && found[5] == found[6], "{found:?}");
-    }
 }

@@ -24,7 +24,6 @@ const MASSES: [Mass; 4] = [
     Mass { slot: 5, name: "*n*", place: "*nd*", bend: -250 },
 ];
 
-/// Draws the figure.
 pub fn draw() -> Result<Figure, Error> {
     let sheet = Sheet::new(3280);
     let right = LEFT + 6 * SPACING;

@@ -6,7 +6,6 @@ use super::simulated::{
 };
 use crate::experiments::sweep::Sweep;
 
-/// Draws the figure.
 pub fn draw(sweep: &Sweep) -> Result<Figure, Error> {
     let sheet = Sheet::new(HEIGHTS.0 - 380);
     let n = sweep.parameters.chain.gaps();

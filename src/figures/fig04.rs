@@ -3,7 +3,6 @@
 use super::graph::Layout;
 use super::prelude::*;
 
-/// Draws the figure.
 pub fn draw() -> Result<Figure, Error> {
     let sheet = Sheet::new(6300);
     let layout = Layout::rectangle((2350, 1300), (6050, 5000), 480, 1900.0);

@@ -4,7 +4,6 @@ use super::motion::{self, Circuit};
 use super::prelude::*;
 use crate::experiments::segments::Segments;
 
-/// Draws the figure.
 pub fn draw(segments: &Segments) -> Result<Figure, Error> {
     let circuit = Circuit {
         figure: 5,

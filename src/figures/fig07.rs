@@ -4,7 +4,6 @@ use super::prelude::*;
 use crate::experiments::theory::Theory;
 use std::f64::consts::LN_10;
 
-/// Draws the figure.
 pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     let circuits = &theory.simple_circuits;
     let n = theory.vertices;

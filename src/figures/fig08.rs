@@ -3,7 +3,6 @@
 use super::prelude::*;
 use crate::experiments::theory::Theory;
 
-/// Draws the figure.
 pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     let sheet = Sheet::new(6750);
     let n = theory.vertices;

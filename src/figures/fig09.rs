@@ -6,7 +6,6 @@ use crate::experiments::theory::{MeanRow, Theory};
 /// Largest p of the insets.
 const SMALL_P: f64 = 0.04;
 
-/// Draws the figure.
 pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     let sheet = Sheet::new(9600);
     let n = theory.vertices;

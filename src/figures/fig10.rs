@@ -3,7 +3,6 @@
 use super::prelude::*;
 use crate::experiments::theory::{Mechanism, Theory};
 
-/// Draws the figure.
 pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     let rows: Vec<&Mechanism> = theory.mechanism.iter().take(4).collect();
     let sheet = Sheet::new(850 + 2350 * rows.len() as u32);

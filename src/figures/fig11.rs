@@ -7,7 +7,6 @@ use crate::experiments::theory::{RelationRow, Theory};
 /// Lowest decade of the logarithmic panel.
 const LOWEST: i32 = -20;
 
-/// Draws the figure.
 pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     let sheet = Sheet::new(8950);
     let rows = &theory.relation;

@@ -8,7 +8,6 @@ use super::simulated::{
 use crate::experiments::sweep::Sweep;
 use crate::experiments::theory::Theory;
 
-/// Draws the figure.
 pub fn draw(sweep: &Sweep, theory: &Theory) -> Result<Figure, Error> {
     let sheet = Sheet::new(HEIGHTS.0);
     let n = sweep.parameters.chain.gaps().max(theory.curve_walls.vertices);

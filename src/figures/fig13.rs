@@ -25,7 +25,6 @@ const CLASSES: [Class; 5] = [
     ("two vertices twice", "*ϕ*_{*N*}^{2}", INK, Dash::Alternate),
 ];
 
-/// Draws the figure.
 pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     let sheet = Sheet::new(11_350);
     let n = theory.vertices;

@@ -5,7 +5,6 @@ use crate::experiments::theory::Theory;
 
 const FRAMES: [Frame; 2] = [Frame::new(1080, 480, 4050, 2780), Frame::new(5230, 480, 8200, 2780)];
 
-/// Draws the figure.
 pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     let sheet = Sheet::new(4100);
     let n = theory.vertices;

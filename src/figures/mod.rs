@@ -73,26 +73,26 @@ const fn figure(
 /// The figures of the paper.
 const PAPER: [Listed; 15] = [
     figure(&[], !THEORY, |_| fig01::draw()),
-    figure(&[&SWEEP], !THEORY, |all| fig02::draw(all.sweep()?)),
-    figure(&[&SWEEP], !THEORY, |all| fig03::draw(all.sweep()?)),
+    figure(&[&SWEEP], !THEORY, |all| fig02::draw(all.of(&SWEEP)?)),
+    figure(&[&SWEEP], !THEORY, |all| fig03::draw(all.of(&SWEEP)?)),
     figure(&[], !THEORY, |_| fig04::draw()),
-    figure(&[&SEGMENTS], !THEORY, |all| fig05::draw(all.segments()?)),
-    figure(&[&SEGMENTS], !THEORY, |all| fig06::draw(all.segments()?)),
+    figure(&[&SEGMENTS], !THEORY, |all| fig05::draw(all.of(&SEGMENTS)?)),
+    figure(&[&SEGMENTS], !THEORY, |all| fig06::draw(all.of(&SEGMENTS)?)),
     figure(&[], THEORY, |all| fig07::draw(&all.theory)),
     figure(&[], THEORY, |all| fig08::draw(&all.theory)),
     figure(&[], THEORY, |all| fig09::draw(&all.theory)),
     figure(&[], THEORY, |all| fig10::draw(&all.theory)),
     figure(&[], THEORY, |all| fig11::draw(&all.theory)),
-    figure(&[&SWEEP], THEORY, |all| fig12::draw(all.sweep()?, &all.theory)),
+    figure(&[&SWEEP], THEORY, |all| fig12::draw(all.of(&SWEEP)?, &all.theory)),
     figure(&[], THEORY, |all| fig13::draw(&all.theory)),
     figure(&[], THEORY, |all| fig14::draw(&all.theory)),
-    figure(&[&SWEEP], THEORY, |all| fig15::draw(all.sweep()?, &all.theory)),
+    figure(&[&SWEEP], THEORY, |all| fig15::draw(all.of(&SWEEP)?, &all.theory)),
 ];
 
 /// Figures of this edition.
 const OWN: [Listed; 14] = [
     figure(&[&PROTOCOL, &LONG_PROTOCOL], !THEORY, s01::draw),
-    figure(&[&SPACE_TIME], !THEORY, |all| s02::draw(all.spacetime()?)),
+    figure(&[&SPACE_TIME], !THEORY, |all| s02::draw(all.of(&SPACE_TIME)?)),
     figure(&[&NUCLEATION, &SWEEP], !THEORY, s03::draw),
     figure(&[&SEEDS, &SWEEP, &PROTOCOL, &CLOSED], !THEORY, s04::draw),
     figure(&[&CHAINS, &SIZES, &PROTOCOL], !THEORY, s05::draw),
@@ -101,10 +101,10 @@ const OWN: [Listed; 14] = [
     figure(&[&HEAT], !THEORY, s08::draw),
     figure(&[&INDEPENDENCE], !THEORY, s09::draw),
     figure(&[&RESTITUTION], !THEORY, s10::draw),
-    figure(&[&RACE], !THEORY, |all| s11::draw(all.race()?)),
-    figure(&[&RACE, &MEASURED], !THEORY, |all| s12::draw(all.race()?, all.measured()?)),
-    figure(&[&SCALE, &MEASURED], !THEORY, |all| s13::draw(all.scale()?, all.measured()?)),
-    figure(&[&ANALYTIC], !THEORY, |all| s14::draw(all.analytic()?)),
+    figure(&[&RACE], !THEORY, |all| s11::draw(all.of(&RACE)?)),
+    figure(&[&RACE, &MEASURED], !THEORY, |all| s12::draw(all.of(&RACE)?, all.of(&MEASURED)?)),
+    figure(&[&SCALE, &MEASURED], !THEORY, |all| s13::draw(all.of(&SCALE)?, all.of(&MEASURED)?)),
+    figure(&[&ANALYTIC], !THEORY, |all| s14::draw(all.of(&ANALYTIC)?)),
 ];
 
 /// All figures: first the paper's, then our own.

@@ -26,12 +26,6 @@ impl Number {
             Number::Own(n) => format!("s{n:02}"),
         }
     }
-
-    /// The number of a file name such as `fig03`; None for any other text.
-    pub fn of_id(id: &str) -> Option<Number> {
-        let number: Number = id.strip_prefix("fig").unwrap_or(id).parse().ok()?;
-        (number.id() == id).then_some(number)
-    }
 }
 
 impl fmt::Display for Number {

@@ -41,7 +41,6 @@ fn line(results: &Results, window: f64, place: &str) -> Result<Vec<(f64, Estimat
     Ok(all)
 }
 
-/// Draws the figure.
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let found = &results.identities;
     // Half of N takes half of the chains, and a twentieth of N a twentieth of them.

@@ -10,7 +10,6 @@ const DETAIL: f64 = 400.0;
 /// A gap at which impacts start.
 const START: (Mark, i32, Stroke) = (Mark::Disc, 62, Stroke::solid(WHITE, HAIR));
 
-/// Draws the figure.
 pub fn draw(run: &SpaceTime) -> Result<Figure, Error> {
     let sheet = Sheet::new(9750);
     let until = run.parameters.until;

@@ -16,7 +16,6 @@ const LENGTHS: [(Colour, Mark); 3] =
 const TIMES: [(Colour, Mark); 3] =
     [(BLUE, Mark::Disc), (ORANGE, Mark::Square), (RED, Mark::Diamond)];
 
-/// Draws the figure.
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let table = |name| results.table(name);
     let (found, missing) = (table("nucleation.chains")?, table("nucleation.times")?);

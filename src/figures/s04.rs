@@ -3,9 +3,9 @@
 use super::FORCING;
 use super::prelude::*;
 use super::simulated::count_axis;
-use crate::experiments::Results;
 use crate::experiments::seeds::tables::spread;
 use crate::experiments::sweep::Sweep;
+use crate::experiments::{Results, SEEDS, SWEEP};
 use crate::table::Table;
 
 /// The σ of (a).
@@ -23,7 +23,6 @@ const SPREADS: [Stroke; 4] = [
 const GROWN: (&str, Marker) =
     ("nucleation and growth", (Mark::OpenSquare, 44, Stroke::solid(INK, HAIR)));
 
-/// Draws the figure.
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let table = |name| results.table(name);
     let (means, rise, scores) =
@@ -32,10 +31,10 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         (table("seeds.advance")?, table("seeds.waits")?, table("seeds.fronts")?);
     let sheet = Sheet::new(13050);
     let theory = table("seeds.theory")?;
-    counts(&sheet, means, &[theory, table("closed.counts")?], results.sweep()?)?;
+    counts(&sheet, means, &[theory, table("closed.counts")?], results.of(&SWEEP)?)?;
     advances(&sheet, advance)?;
     halves(&sheet, rise, scores)?;
-    standing(&sheet, waits, fronts, results.seeds()?.parameters.tick)?;
+    standing(&sheet, waits, fronts, results.of(&SEEDS)?.parameters.tick)?;
     Ok(sheet.finish("s04", "From one gap to many: nucleation and growth", description(waits)))
 }
 

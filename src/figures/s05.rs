@@ -2,8 +2,8 @@
 
 use super::FORCING;
 use super::prelude::*;
-use crate::experiments::Results;
 use crate::experiments::chains::{Chains, Curve, Ensemble};
+use crate::experiments::{CHAINS, Results};
 use crate::numerics::statistics::Estimate;
 use crate::params::{ChainCurve, ChainKind};
 use crate::table::Table;
@@ -21,9 +21,8 @@ const LOOKS: [(Mark, Colour); 6] = [
 /// The frequency of (d).
 const COMMON: &str = "frequency-2";
 
-/// Draws the figure.
 pub fn draw(results: &Results) -> Result<Figure, Error> {
-    let (chains, sizes) = (results.chains()?, results.table("sizes.places")?);
+    let (chains, sizes) = (results.of(&CHAINS)?, results.table("sizes.places")?);
     let window = [("window", chains.parameters.window)];
     let map = results.table("protocol.cells")?.points(&window, "transient", "half_height_all");
     let sheet = Sheet::new(11_050);

@@ -10,7 +10,6 @@ const RANGE: (f64, f64) = (0.75, 2.25);
 const SIZES: [(Colour, Dash); 3] =
     [(ORANGE, Dash::Solid), (BLUE, Dash::Long), (GREEN, Dash::Alternate)];
 
-/// Draws the figure.
 pub fn draw(large: &Large) -> Result<Figure, Error> {
     let sheet = Sheet::new(8450);
     shares(&sheet, large)?;

@@ -9,7 +9,6 @@ const LOOKS: [Dash; 5] = [Dash::Long, Dash::Short, Dash::Alternate, Dash::Twice,
 /// Upper end of the shares' axes: above one, so that curves stay clear of what stands there.
 const TOP: f64 = 1.1;
 
-/// Draws the figure.
 pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     let sheet = Sheet::new(7700);
     let orders = &theory.orders;

@@ -2,8 +2,8 @@
 
 use super::FORCING;
 use super::prelude::*;
-use crate::experiments::Results;
 use crate::experiments::heat::tables::balanced_ratio;
+use crate::experiments::{HEAT, Results};
 use crate::params::HeatParams;
 use crate::table::Table;
 
@@ -29,11 +29,10 @@ struct Shown<'a> {
     others: &'a Table,
 }
 
-/// Draws the figure.
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let table = |name| results.table(name);
     let shown = Shown {
-        parameters: &results.heat()?.parameters,
+        parameters: &results.of(&HEAT)?.parameters,
         rising: table("heat.rising")?,
         others: table("heat.others")?,
     };

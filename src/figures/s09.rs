@@ -15,7 +15,6 @@ const LOOKS: [(Mark, Colour); 4] = [
 /// The largest length of circuits in (b).
 const LONGEST: f64 = 70.0;
 
-/// Draws the figure.
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let table = |name| results.table(name);
     let (near, frequencies) = (table("independence.near")?, table("independence.circuits")?);

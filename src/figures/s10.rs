@@ -3,9 +3,9 @@
 use super::FORCING;
 use super::prelude::*;
 use super::simulated::count_axis;
-use crate::experiments::Results;
 use crate::experiments::restitution::Restitution;
 use crate::experiments::restitution::hot::steady;
+use crate::experiments::{RESTITUTION, Results};
 use crate::params::Chain;
 use crate::table::Table;
 
@@ -37,11 +37,10 @@ struct Shown<'a> {
     heating: &'a Table,
 }
 
-/// Draws the figure.
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let table = |name| results.table(name);
     let shown = Shown {
-        found: results.restitution()?,
+        found: results.of(&RESTITUTION)?,
         rise: table("restitution.rise")?,
         curves: table("restitution.curves")?,
         heating: table("restitution.heating")?,

@@ -6,7 +6,6 @@ use crate::experiments::accuracy::race::{DISPLACED, Entry, Race};
 use crate::experiments::accuracy::tables::name;
 use crate::params::MethodName;
 
-/// Draws the figure.
 pub fn draw(race: &Race) -> Result<Figure, Error> {
     let sheet = Sheet::new(9500);
     let costs = || race.entries.iter().filter_map(|entry| entry.evaluations_per_impact);

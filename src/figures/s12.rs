@@ -17,7 +17,6 @@ fn allowed(race: &Race, error: f64) -> Option<[f64; 3]> {
     Some([growth.interval[1], growth.value, growth.interval[0]].map(|rate| folds / rate))
 }
 
-/// Draws the figure.
 pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
     let sheet = Sheet::new(9950);
     let top = (race.parameters.until / 50.0).ceil() * 50.0;

@@ -13,7 +13,6 @@ fn own(measured: &Measured) -> Vec<&Row> {
     measured.of(What::Engine).filter(|row| row.chains == 1 && row.note.is_empty()).collect()
 }
 
-/// Draws the figure.
 pub fn draw(scale: &Costs, measured: &Measured) -> Result<Figure, Error> {
     let sheet = Sheet::new(12_800);
     let own = own(measured);

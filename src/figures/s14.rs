@@ -35,7 +35,6 @@ fn way(way: Way) -> (&'static str, Colour, Mark) {
     }
 }
 
-/// Draws the figure.
 pub fn draw(analytic: &Analytic) -> Result<Figure, Error> {
     let sheet = Sheet::new(10_300);
     let errors = |highest: i32| Axis::decades(LOWEST, highest, 3, "relative error");

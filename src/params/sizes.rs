@@ -112,73 +112,6 @@ impl SweepParams {
     }
 }
 
-/// The map of the half height over transient and window: one long run of each realisation, in
-/// which every window is read.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ProtocolParams {
-    /// The chain without its forcing.
-    pub chain: Chain,
-    /// Transients T, rising.
-    pub transients: Vec<f64>,
-    /// Windows W, rising.
-    pub windows: Vec<f64>,
-    /// Standard deviations σ, rising.
-    pub sigmas: Vec<f64>,
-    /// Above this σ ...
-    pub short_above: f64,
-    /// ... windows that end later than this are not run: the chain is full long before.
-    pub short_until: f64,
-    /// Realisations at each σ.
-    pub realisations: usize,
-    /// Name of the random stream.
-    pub stream: String,
-    /// Master seed.
-    pub seed: u64,
-}
-
-impl ProtocolParams {
-    /// The long end of the map: the same in every profile, and of the paper's chain whatever is set.
-    pub fn long(_: Profile) -> Self {
-        ProtocolParams {
-            transients: vec![1e3, 4e3, 1e4, 2e4, 5e4, 1e5],
-            windows: vec![20.0, 200.0, 2000.0],
-            // 23 values.
-            sigmas: Grid::default().and(26, 48, 1, 400).values(),
-            // None is shortened.
-            short_above: 1.0,
-            short_until: 1e6,
-            realisations: 200,
-            stream: "long-protocol".into(),
-            chain: Chain::default(),
-            seed: SEED,
-        }
-    }
-
-    /// The map of each profile.
-    pub fn new(profile: Profile) -> Self {
-        let (longest, widest, sigmas, realisations) = match profile {
-            Profile::Full | Profile::Deep => {
-                (9, 7, Grid::default().and(34, 68, 2, 400).and(18, 22, 1, 100).values(), 120)
-            }
-            Profile::Ci => (7, 5, Grid::default().and(9, 17, 1, 100).values(), 24),
-            Profile::Quick => (6, 5, Grid::default().and(9, 17, 1, 100).values(), 6),
-        };
-        let transients = [10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0, 4000.0];
-        let windows = [20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0];
-        ProtocolParams {
-            chain: set::chain(),
-            transients: transients[..longest].to_vec(),
-            windows: windows[..widest].to_vec(),
-            sigmas,
-            short_above: 0.131,
-            short_until: 1000.0,
-            realisations,
-            stream: "protocol".into(),
-            seed: set::seed(),
-        }
-    }
-}
-
 /// One chain that differs from the paper's in one respect.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StartVariant {
@@ -316,25 +249,5 @@ impl TwoMassesParams {
             stream: "two-masses".into(),
             seed: SEED,
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn full_grid_is_as_promised() {
-        let sigmas = SweepParams::main(Profile::Full).sigmas;
-        assert_eq!(sigmas.len(), 69);
-        assert_eq!((sigmas[0], sigmas[68]), (0.02, 0.40));
-        assert!(sigmas.windows(2).all(|w| w[0] < w[1]));
-        assert!(
-            sigmas
-                .windows(2)
-                .filter(|w| w[0] >= 0.08 && w[1] <= 0.18)
-                .all(|w| w[1] - w[0] < 0.0025 + 1e-12)
-        );
-        assert!(sigmas.contains(&0.12) && sigmas.contains(&0.1175));
     }
 }

@@ -20,9 +20,6 @@ pub struct Judged {
 
 impl Judged {
     /// Everything that can be asked of results, whose `values` are known.
-    ///
-    /// # Errors
-    /// A result that is missing.
     pub fn all(
         results: &Results,
         published: &Published,

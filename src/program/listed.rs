@@ -6,7 +6,6 @@ use crate::experiments::Progress;
 use crate::params::Profile;
 use crate::report::values::Number;
 use crate::report::{compare, ledger, sums};
-use clap::ValueEnum;
 use std::collections::BTreeMap;
 use std::io::ErrorKind;
 use std::path::Path;
@@ -23,9 +22,6 @@ pub struct Checked {
 
 impl Checked {
     /// Tells each fault in a line of standard output, or that there is none.
-    ///
-    /// # Errors
-    /// When nobody can be told.
     pub fn tell(&self, folder: &Path) -> Result<(), Failure> {
         for fault in &self.faults {
             stdout::print(&format!("{fault}\n"))?;
@@ -110,9 +106,9 @@ pub fn own_profile(root: &Path) -> Result<Profile, Failure> {
             "{}: it is of the profile {name}; only `paper --set` makes it again",
             root.display()
         ))),
-        Some(Number::Text(name)) => work::ProfileName::from_str(name, false)
-            .map(Profile::from)
-            .map_err(|_| unknown("names a profile that this program does not have")),
+        Some(Number::Text(name)) => work::profile(name)
+            .filter(|own| *own != Profile::Deep)
+            .ok_or_else(|| unknown("names a profile that this program does not have")),
         _ => Err(unknown("names no profile")),
     }
 }

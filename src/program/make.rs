@@ -6,7 +6,7 @@ use super::sources::Sources;
 use crate::claims::{self, Check, Text, Verdict};
 use crate::committed;
 use crate::experiments::spacetime::scene::Scene;
-use crate::experiments::{ALL, Progress, say};
+use crate::experiments::{ALL, Progress, SPACE_TIME, say};
 use crate::figures::{self, Figure};
 use crate::params::{Profile, set};
 use crate::report::{self, PROGRAM, Report, contents, equations};
@@ -56,7 +56,7 @@ pub fn whole(
         Some(_) => Judged { claims, ..Judged::default() },
     };
     let claims = &judged.claims;
-    let scene = Scene::of(results.spacetime()?);
+    let scene = Scene::of(results.of(&SPACE_TIME)?);
     let scene = scene.as_ref().map(report::scene::moving).transpose();
     let scene = scene.map_err(|error| Failure::run(error.to_string()))?;
     let module = committed::bytes(MODULE);

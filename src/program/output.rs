@@ -44,9 +44,6 @@ pub struct Staging<'a> {
 }
 
 /// A report has no other files.
-///
-/// # Errors
-/// Exit code 2.
 pub fn refuse_report(folder: &Path) -> Result<(), Failure> {
     if folder.join(sums::NAME).exists() {
         let folder = folder.display();
@@ -378,8 +375,6 @@ mod tests {
     use super::super::waiting::OURS;
     use super::*;
     use crate::input::STAGING;
-    use std::sync::Arc;
-    use std::sync::atomic::AtomicBool;
 
     const ASK: Force = Force { force: false };
 
@@ -482,21 +477,6 @@ mod tests {
         place(folder, &report(&["report.md", "more.md"])).unwrap();
     }
 
-    #[test]
-    fn an_interruption_before_the_end_changes_nothing() {
-        let out = tempfile::tempdir().unwrap();
-        let stopped = Progress::on_stderr(Arc::new(AtomicBool::new(true)));
-        place(out.path(), &files(&["report.md"])).unwrap();
-        let before = sorted(out.path());
-        let staging = Staging::below(out.path(), "--out", ASK).unwrap();
-        let failure = staging.place(&files(&["a", "report.md"]), &stopped).unwrap_err();
-        assert_eq!((failure.code, sorted(out.path())), (130, before));
-        let new = out.path().join("new");
-        let staging = Staging::below(&new, "--out", ASK).unwrap();
-        assert!(staging.place(&files(&["x"]), &stopped).is_err());
-        assert!(!new.exists());
-    }
-
     /// At each moment at which a run may be killed, the next one knows its files.
     #[test]
     fn a_run_that_was_killed_between_two_files_is_gone_on_with() {
@@ -526,25 +506,6 @@ mod tests {
             let local = std::fs::read_to_string(out.path().join(sums::LOCAL)).unwrap();
             assert_eq!(sums::read(&local).unwrap().len(), old.len() - 1);
         }
-    }
-
-    /// By the next run, and by the run itself.
-    #[test]
-    fn what_waited_is_cleared_with_its_mark() {
-        let out = tempfile::tempdir().unwrap();
-        let left = out.path().join(format!("{STAGING}abc"));
-        std::fs::create_dir_all(left.join("data")).unwrap();
-        std::fs::write(left.join(OURS), "").unwrap();
-        std::fs::write(left.join("report.md"), "half").unwrap();
-        assert!(is_staging(out.path(), &format!("{STAGING}abc")));
-        clear(&left);
-        assert!(!left.exists());
-        let staging = Staging::below(out.path(), "--out", ASK).unwrap();
-        let waiting = staging.temporary().unwrap();
-        let path = waiting.path().to_path_buf();
-        assert!(path.join(OURS).exists());
-        drop(waiting);
-        assert!(!path.exists());
     }
 
     /// Leftovers of the killed go, those of the living stay.
@@ -585,14 +546,6 @@ mod tests {
         let force = Staging::below(out.path(), "--out", Force { force: true }).unwrap();
         force.place(&files(&["a"]), &Progress::silent()).unwrap();
         assert!(file.exists() && out.path().join("site/index.md").exists());
-    }
-
-    #[test]
-    fn what_cannot_be_written_is_named() {
-        let file = tempfile::NamedTempFile::new().unwrap();
-        let failure = Staging::below(file.path(), "--out", ASK).unwrap_err();
-        assert_eq!(failure.code, 2);
-        assert!(failure.message.starts_with("--out: "), "{}", failure.message);
     }
 
     /// A run that begins while another puts its files in place sees all of them or none.

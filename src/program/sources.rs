@@ -35,17 +35,11 @@ impl Sources {
     }
 
     /// The templates.
-    ///
-    /// # Errors
-    /// Exit code 2 if they cannot be read.
     pub fn templates(&self) -> Result<Templates, Failure> {
         Ok(find(self.templates.as_deref())?)
     }
 
     /// What the paper printed.
-    ///
-    /// # Errors
-    /// Exit code 2 if the file is broken.
     pub fn published(&self, templates: &Templates) -> Result<Published, Failure> {
         let text = templates.text("published.toml")?;
         let mut published = Published::parse(text).map_err(claims::Error::from)?;
@@ -56,9 +50,6 @@ impl Sources {
     }
 
     /// Runs what is needed. The folder of results is made only if something long is run.
-    ///
-    /// # Errors
-    /// Exit codes 2, 4 and 130.
     pub fn run(
         &self,
         needs: &[Need],

@@ -19,9 +19,6 @@ pub fn written(result: io::Result<()>) -> Result<(), Failure> {
 }
 
 /// Prints text.
-///
-/// # Errors
-/// As [`written`].
 pub fn print(text: &str) -> Result<(), Failure> {
     let _idle = work::moment(Now::Idle);
     let mut out = io::stdout().lock();

@@ -13,9 +13,6 @@ pub struct Waiting(tempfile::TempDir);
 
 impl Waiting {
     /// A new one, with its mark.
-    ///
-    /// # Errors
-    /// What the system says.
     pub fn below(folder: &Path) -> io::Result<Self> {
         let made = tempfile::Builder::new().prefix(STAGING).tempdir_in(folder).map_err(bare)?;
         std::fs::write(made.path().join(OURS), "")?;

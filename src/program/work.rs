@@ -5,6 +5,7 @@ use crate::experiments::{self, Error, Progress, say};
 use crate::params::Profile;
 use crate::report::{self, contents};
 use crate::{claims, dynamics, figures};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use literate::experiments::deep;
 use literate::experiments::shards::Plan;
 use std::collections::HashSet;
@@ -13,28 +14,33 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::Duration;
 
-/// Sample sizes, as named on the command line.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub enum ProfileName {
-    /// To try out: seconds.
-    Quick,
-    /// For pull requests: half a minute.
-    Ci,
-    /// The committed report: minutes.
-    Full,
+/// Reads the name of a profile, one of these.
+fn profiles(some: &[Profile]) -> impl TypedValueParser<Value = Profile> {
+    let about = |profile| match profile {
+        Profile::Quick => "To try out: seconds",
+        Profile::Ci => "For pull requests: half a minute",
+        Profile::Full => "The committed report: minutes",
+        Profile::Deep => {
+            "What is run now and then, committed, and carried over: a quarter of an hour"
+        }
+    };
+    let known = some.iter().map(|own| PossibleValue::new(own.name()).help(about(*own)));
+    PossibleValuesParser::new(known).try_map(|name| profile(&name).ok_or("unknown"))
 }
 
-/// Sample sizes, and what takes longer than any report may.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub enum AnyProfile {
-    /// To try out: seconds.
-    Quick,
-    /// For pull requests: half a minute.
-    Ci,
-    /// The committed report: minutes.
-    Full,
-    /// What is run now and then, committed, and carried over: a quarter of an hour.
-    Deep,
+/// The profile of a name.
+pub fn profile(name: &str) -> Option<Profile> {
+    Profile::ALL.into_iter().find(|own| own.name() == name)
+}
+
+/// Reads sample sizes of a report.
+pub fn of_reports() -> impl TypedValueParser<Value = Profile> {
+    profiles(&[Profile::Quick, Profile::Ci, Profile::Full])
+}
+
+/// Reads sample sizes, and what takes longer than any report may.
+pub fn of_all() -> impl TypedValueParser<Value = Profile> {
+    profiles(&Profile::ALL)
 }
 
 /// Which experiments of a profile are meant.
@@ -78,27 +84,6 @@ pub fn remedy(profile: Profile) -> String {
     }
 }
 
-impl From<AnyProfile> for Profile {
-    fn from(name: AnyProfile) -> Self {
-        match name {
-            AnyProfile::Quick => Profile::Quick,
-            AnyProfile::Ci => Profile::Ci,
-            AnyProfile::Full => Profile::Full,
-            AnyProfile::Deep => Profile::Deep,
-        }
-    }
-}
-
-impl From<ProfileName> for Profile {
-    fn from(name: ProfileName) -> Self {
-        match name {
-            ProfileName::Quick => Profile::Quick,
-            ProfileName::Ci => Profile::Ci,
-            ProfileName::Full => Profile::Full,
-        }
-    }
-}
-
 /// Memory that the system has to give, in bytes: Linux tells it, elsewhere 4 GiB are taken for granted. Less where
 /// the process or its group may not have as much.
 fn at_hand() -> u128 {
@@ -134,9 +119,6 @@ fn size(bytes: u128) -> String {
 
 /// Refuses work that needs more memory than there is, before any of it is taken: an estimate in bytes, the
 /// option that asks for it, and what to give instead.
-///
-/// # Errors
-/// Exit code 2.
 pub fn memory(needed: u128, option: &str, remedy: &str) -> Result<(), Failure> {
     let at_hand = at_hand();
     if needed <= at_hand {
@@ -295,9 +277,6 @@ fn few_enough(asked_by: &str, threads: Option<usize>) -> Result<(), Failure> {
 }
 
 /// Holds the environment to the bounds that options have.
-///
-/// # Errors
-/// Exit code 2.
 pub fn environment() -> Result<(), Failure> {
     THREADS.into_iter().try_for_each(|name| {
         few_enough(name, std::env::var(name).ok().and_then(|threads| threads.parse().ok()))
@@ -305,9 +284,6 @@ pub fn environment() -> Result<(), Failure> {
 }
 
 /// Holds `--threads` to its bounds.
-///
-/// # Errors
-/// Exit code 2.
 pub fn threads(threads: Option<usize>) -> Result<(), Failure> {
     if threads == Some(0) {
         return Err(Failure::input("--threads: 0 threads do no work; give 1 or more"));

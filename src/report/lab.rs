@@ -2,15 +2,12 @@
 
 use super::contents::Error;
 use super::html::base64;
-use crate::experiments::Results;
+use crate::experiments::{REPLAY, Results, SWEEP};
 use serde_json::json;
 
 /// The file, from the module in WebAssembly and the script.
-///
-/// # Errors
-/// If a result is missing.
 pub fn script(module: &[u8], results: &Results, script: &str) -> Result<String, Error> {
-    let (replays, sweep) = (results.replays()?, results.sweep()?);
+    let (replays, sweep) = (results.of(&REPLAY)?, results.of(&SWEEP)?);
     let runs = replays.parameters.iter().zip(&replays.found);
     let runs: Vec<_> = runs
         .map(|((name, asked), found)| json!({ "name": name, "asked": asked, "found": found }))
@@ -40,7 +37,7 @@ mod tests {
         let data = text.split("const LAB = ").nth(1).unwrap().strip_suffix(";\nend();").unwrap();
         let data: serde_json::Value = serde_json::from_str(data).unwrap();
         assert_eq!(data["module"], "Zm9vYmFy");
-        let own = results.replays().unwrap();
+        let own = results.of(&REPLAY).unwrap();
         assert_eq!(data["runs"].as_array().unwrap().len(), own.found.len());
         for (i, found) in own.found.iter().enumerate() {
             assert_eq!(data["runs"][i]["found"]["digest"], found.digest.as_str());

@@ -49,9 +49,6 @@ const SECTIONS: [Section; 10] = [
 ];
 
 /// The two tables, as Markdown with links relative to the top of the repository.
-///
-/// # Errors
-/// When published.toml does not read.
 pub fn markdown() -> Result<String, PublishedError> {
     let published = claims::published()?;
     let mut out = String::from(

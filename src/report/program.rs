@@ -37,11 +37,11 @@ const DOCUMENTS: [Document; 5] = [
     Document {
         prose: "front",
         name: "Overview",
-        letter: "",
         markdown: "README.md",
         page: "index.html",
         print: None,
         repeats: true,
+        ..Document::REPORT
     },
     Document { prose: "edition", name: "Edition", ..Document::REPORT },
     Document {
@@ -51,7 +51,7 @@ const DOCUMENTS: [Document; 5] = [
         markdown: "beyond.md",
         page: "beyond.html",
         print: Some("beyond"),
-        repeats: false,
+        ..Document::REPORT
     },
     Document {
         prose: "methods",
@@ -60,7 +60,7 @@ const DOCUMENTS: [Document; 5] = [
         markdown: "methods.md",
         page: "methods.html",
         print: Some("methods"),
-        repeats: false,
+        ..Document::REPORT
     },
     Document {
         prose: "ledger",
@@ -69,7 +69,7 @@ const DOCUMENTS: [Document; 5] = [
         markdown: "ledger.md",
         page: "ledger.html",
         print: None,
-        repeats: false,
+        ..Document::REPORT
     },
 ];
 
@@ -77,41 +77,6 @@ const DOCUMENTS: [Document; 5] = [
 mod tests {
     use super::*;
     use literate::source::{declared, items};
-    use std::path::Path;
-
-    /// The text stands in the file as it is on disk, line by line.
-    #[test]
-    fn the_text_is_that_of_the_file() {
-        for (path, file, first, last) in [
-            ("circuits::jump::p_jump", "crates/circuits/src/jump.rs", "pub fn p_jump(", "}"),
-            ("circuits::jump::Jump", "crates/circuits/src/jump.rs", "pub struct Jump {", "}"),
-            ("dynamics::impact::jumps", "crates/impact-chain/src/impact.rs", "pub fn jumps(", "}"),
-            (
-                "dynamics::flight::Motion::kick",
-                "crates/impact-chain/src/flight.rs",
-                "pub fn kick(",
-                "}",
-            ),
-            (
-                "numerics::first_root::LEVELS",
-                "crates/numerics/src/first_root.rs",
-                "const LEVELS",
-                "= 2;",
-            ),
-        ] {
-            let item = PROGRAM.item(path).unwrap();
-            assert_eq!(item.file, file);
-            let on_disk =
-                std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(file)).unwrap();
-            assert!(item.text.lines().any(|line| line.starts_with(first)), "{}", item.text);
-            assert!(item.text.starts_with("/// ") && item.text.ends_with(last), "{}", item.text);
-            let opened = |c| item.text.matches(c).count();
-            assert_eq!(opened('{'), opened('}'), "{}", item.text);
-            for line in item.text.lines() {
-                assert!(on_disk.contains(line), "{line:?} is not in {file}");
-            }
-        }
-    }
 
     #[test]
     fn every_item_is_whole() {

@@ -29,9 +29,6 @@ struct Data<'a> {
 }
 
 /// The scene, as the page has it.
-///
-/// # Errors
-/// None that can arise from a scene of finite numbers.
 pub fn moving(scene: &Scene) -> serde_json::Result<Moving> {
     let most = scene.counts().into_iter().max().unwrap_or(0).max(1);
     let bar = BAR / most as f64;

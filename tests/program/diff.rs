@@ -101,7 +101,6 @@ fn number_verdict_and_files_are_told() {
     assert_eq!((code, note.as_str()), (1, "impact-paper: a and b differ\n"));
 
     let markdown = fine(folder.path(), &["a", "b", "--markdown"]);
-    assert_eq!(markdown, fine(folder.path(), &["a", "b", "--format", "markdown"]));
     for part in [
         "reproduced → differs",
         "| sweep.rise.half_height |",

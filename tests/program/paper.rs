@@ -269,25 +269,14 @@ fn another_parameter_makes_another_report_that_says_so() {
     refused(here, low, &["not every part can be made", "--figure"]);
 }
 
-/// Pages and completions go where nothing else is; --quiet hides progress and no error.
+/// --quiet hides progress and no error.
 #[test]
-fn the_manual_is_written_and_quiet_work_says_nothing() {
+fn quiet_work_says_nothing_and_units_go_into_no_report() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
-    assert_eq!(crate::run(here, "manual --out m").0, 0);
-    let page = std::fs::read_to_string(here.join("m/impact-paper-trace.1")).unwrap();
-    assert!(page.contains(".TH") && page.contains("certified"), "{page}");
-    let bash = std::fs::read_to_string(here.join("m/completions/impact-paper.bash")).unwrap();
-    assert!(bash.contains("--max-impacts") && bash.contains("sweep"), "{bash}");
     std::fs::create_dir(here.join("report")).unwrap();
     std::fs::write(here.join("report/SHA256SUMS"), "").unwrap();
-    for verb in ["manual", "run --profile quick --shard 1/1"] {
-        let (code, _, note) = crate::run(here, &format!("{verb} --out report"));
-        assert!(code == 2 && note.contains("holds a report"), "{note}");
-    }
-    std::fs::write(here.join("m/impact-paper.1"), "mine").unwrap();
-    crate::refused(here, "manual --out m", &["impact-paper.1", "--force"]);
-
+    crate::refused(here, "run --profile quick --shard 1/1 --out report", &["holds a report"]);
     let sweep = "sweep --sigma 0.1 --masses 4 --realisations 2";
     let (code, quiet, note) = crate::run(here, &format!("-q {sweep}"));
     assert_eq!((code, note.as_str()), (0, ""));

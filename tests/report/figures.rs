@@ -2,7 +2,7 @@
 //! bytes each time.
 
 use crate::quick::QUICK;
-use impact_paper::experiments::Results;
+use impact_paper::experiments::{Results, SEGMENTS, SPACE_TIME};
 use impact_paper::figures::{self, Error};
 use impact_paper::params::Profile;
 use roxmltree::{Document, Node};
@@ -294,7 +294,7 @@ fn data_files_have_headers_with_units_and_the_rows_of_what_is_drawn() {
         }
     }
     for (name, expected) in [
-        ("fig05b.csv", 3 * results.segments().unwrap().fig05.times.len() + 4),
+        ("fig05b.csv", 3 * results.of(&SEGMENTS).unwrap().fig05.times.len() + 4),
         ("fig07.csv", n),
         ("fig08d.csv", n),
         ("fig09b.csv", theory.most_likely.mean.len()),
@@ -353,7 +353,7 @@ fn a_series_is_recorded_once_and_a_guide_never() {
 /// Thousands of impacts are strokes, not thousands of elements, and cover exactly the impacts.
 #[test]
 fn the_long_run_is_drawn_compactly_and_completely() {
-    let run = QUICK.results.spacetime().unwrap();
+    let run = QUICK.results.of(&SPACE_TIME).unwrap();
     let figure = QUICK.figures.iter().find(|figure| figure.id == "s02").unwrap();
     assert!(figure.svg.len() < 300_000, "{} bytes", figure.svg.len());
     assert_eq!(figure.data[0].rows.len(), run.times.len() + run.starts().len());

@@ -3,6 +3,7 @@
 
 use crate::quick::QUICK;
 use impact_paper::dynamics::{Engine, Scenario};
+use impact_paper::experiments::SPACE_TIME;
 use impact_paper::numerics::random::NormalPairs;
 use impact_paper::report::{PROGRAM, compare, recipe};
 use roxmltree::{Document, Node, ParsingOptions};
@@ -265,7 +266,7 @@ fn the_scene_is_complete_without_its_script() {
     let first = data["first"].as_u64().unwrap() as usize;
 
     // The saved numbers put every mass where the engine has it, at times that the table gives.
-    let run = QUICK.results.spacetime().unwrap();
+    let run = QUICK.results.of(&SPACE_TIME).unwrap();
     let parameters = &run.parameters;
     let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, run.realisation);
     let scenario = Scenario::draw(&parameters.chain, parameters.sigma, &mut normals);

@@ -1,8 +1,8 @@
 //! The whole report of the quick profile in memory, for the tests that read it.
 
 use impact_paper::claims::{self, Check, Published};
-use impact_paper::experiments::ALL;
 use impact_paper::experiments::spacetime::scene::Scene;
+use impact_paper::experiments::{ALL, SPACE_TIME};
 use impact_paper::experiments::{Progress, Results, Store, run::run};
 use impact_paper::figures::{self, Figure};
 use impact_paper::params::Profile;
@@ -54,7 +54,7 @@ pub static QUICK: LazyLock<Quick> = LazyLock::new(|| {
     let claims = claims::all(&results, &published).unwrap();
     let values = contents::registry(&results, &published).unwrap();
     let rows = contents::rows(&results, &claims).unwrap();
-    let scene = Scene::of(results.spacetime().unwrap());
+    let scene = Scene::of(results.of(&SPACE_TIME).unwrap());
     let scene = scene.as_ref().map(|scene| report::scene::moving(scene).unwrap());
     let [figures, full] = [&results, &full].map(|results| -> Vec<_> {
         figures::all().map(|number| figures::draw(number, results).unwrap()).collect()

@@ -138,7 +138,7 @@ fn slips_of_the_paper_by_other_routes() {
     assert!(first.p > THEORY.scalars.p_crit && first.p < THEORY.scalars.p_jump);
     assert_eq!(slips.missing_factor, VERTICES as f64);
     // At p = 0.005 nearly all weight is at small k, where class sums are short: direct.
-    let share = slips.simple_shares.iter().find(|s| s.p == 0.005).unwrap().share;
+    let share = slips.simple_shares.iter().find(|s| s.x == 0.005).unwrap().y;
     let (mut simple, mut all) = (0.0, 0.0);
     for k in 1..=70_usize {
         let (x, n) = (k as f64, counting::phi_scaled(VERTICES, k).to_f64());

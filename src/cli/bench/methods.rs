@@ -1,6 +1,6 @@
 //! `impact-paper bench methods`.
 
-use super::{Failure, draw, print};
+use super::{Drawn, Failure, draw, print};
 use impact_paper::dynamics::methods::{
     Certified, Method, MoreauJean, Newton, Penalty, RungeKutta, Sampled, State, Verlet,
 };
@@ -19,18 +19,8 @@ use std::time::Instant;
 /// with --reference, the first wrong impact and the segments that are missed.
 #[derive(clap::Args)]
 pub struct Args {
-    /// Number of masses n.
-    #[arg(long, value_name = "n", default_value_t = 20, allow_hyphen_values = true)]
-    masses: usize,
-    /// Standard deviation σ of the forcing.
-    #[arg(long, value_name = "σ", default_value_t = 0.3, allow_hyphen_values = true)]
-    sigma: f64,
-    /// Number i of the chain.
-    #[arg(long, value_name = "i", default_value_t = 0, allow_hyphen_values = true)]
-    chain: u64,
-    /// Seed of the forcing.
-    #[arg(long, value_name = "S", default_value_t = 1, allow_hyphen_values = true)]
-    seed: u64,
+    #[command(flatten)]
+    drawn: Drawn,
     /// Simulated time T.
     #[arg(long, value_name = "T", default_value_t = 200.0, allow_hyphen_values = true)]
     until: f64,
@@ -72,7 +62,6 @@ const CLOSE: f64 = 1e-3;
 /// How often a setting is run at most.
 const REPETITIONS: usize = 20;
 
-/// Runs the verb.
 pub fn run(args: &Args) -> Result<(), Failure> {
     if !(0.0..=1e6).contains(&args.until) {
         let message = format!("--until: {:?} is out of range; give 0 to 1e6", args.until);
@@ -82,7 +71,10 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         let message = format!("--seconds: {:?} is out of range; give 0 to 1e4", args.seconds);
         return Err(Failure::input(message));
     }
-    let scenario = draw(args.masses, args.sigma, 0.8, args.seed, args.chain)?;
+    let scenario = {
+        let Drawn { masses, sigma, seed, chain } = args.drawn;
+        draw(masses, sigma, 0.8, seed, chain)?
+    };
     let reference = args.reference.as_deref().map(read).transpose()?;
     let rows = settings()
         .iter()
@@ -155,8 +147,8 @@ fn row(
         name: method.name().into(),
         version: env!("CARGO_PKG_VERSION").into(),
         settings: setting.into(),
-        n: args.masses as u64,
-        sigma: args.sigma,
+        n: args.drawn.masses as u64,
+        sigma: args.drawn.sigma,
         until: args.until,
         chains: 1,
         threads: 1,

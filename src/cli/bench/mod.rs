@@ -76,15 +76,22 @@ struct EngineArgs {
 /// Prints chain i of `bench engine` as a scenario file for `trace` and for other programs.
 #[derive(clap::Args)]
 struct ScenarioArgs {
+    #[command(flatten)]
+    drawn: Drawn,
+    /// Coefficient of restitution r, from 0 to 1.
+    #[arg(long, value_name = "r", default_value_t = 0.8, allow_hyphen_values = true)]
+    restitution: f64,
+}
+
+/// One of the chains.
+#[derive(clap::Args)]
+struct Drawn {
     /// Number of masses n.
     #[arg(long, value_name = "n", default_value_t = 20, allow_hyphen_values = true)]
     masses: usize,
     /// Standard deviation σ of the forcing.
     #[arg(long, value_name = "σ", default_value_t = 0.3, allow_hyphen_values = true)]
     sigma: f64,
-    /// Coefficient of restitution r, from 0 to 1.
-    #[arg(long, value_name = "r", default_value_t = 0.8, allow_hyphen_values = true)]
-    restitution: f64,
     /// Seed of the forcing.
     #[arg(long, value_name = "S", default_value_t = 1, allow_hyphen_values = true)]
     seed: u64,
@@ -130,7 +137,6 @@ const LEAST: u64 = 34;
 /// Chains side by side in the registers of one thread.
 const LANES: usize = 1;
 
-/// Runs the verb.
 pub fn run(args: Args) -> Result<(), Failure> {
     match args.what {
         What::Engine(args) => {
@@ -138,18 +144,18 @@ pub fn run(args: Args) -> Result<(), Failure> {
             print(&Report { version: env!("CARGO_PKG_VERSION"), cases })
         }
         What::Methods(args) => methods::run(&args),
-        What::Scenario(args) => {
+        What::Scenario(ScenarioArgs { drawn, restitution }) => {
             let long = || {
                 Failure::input(format!(
                     "--masses: the scenario of {} is longer than {MOST}, and `trace` reads no longer one; give \
                      fewer masses (about 1000000 fit)",
-                    args.masses
+                    drawn.masses
                 ))
             };
-            if args.masses as u64 > LARGEST / LEAST {
+            if drawn.masses as u64 > LARGEST / LEAST {
                 return Err(long());
             }
-            let scenario = draw(args.masses, args.sigma, args.restitution, args.seed, args.chain)?;
+            let scenario = draw(drawn.masses, drawn.sigma, restitution, drawn.seed, drawn.chain)?;
             let mut text = Bounded::default();
             serde_json::to_writer_pretty(&mut text, &form(&scenario)).map_err(|_| long())?;
             stdout::print(&format!("{}\n", String::from_utf8_lossy(&text.0)))

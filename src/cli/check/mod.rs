@@ -27,8 +27,8 @@ use std::io::{self, Write};
 #[derive(clap::Args)]
 pub struct Args {
     /// Sample sizes.
-    #[arg(long, default_value = "full")]
-    profile: work::ProfileName,
+    #[arg(long, default_value = "full", value_parser = work::of_reports())]
+    profile: Profile,
     /// Only this claim (may be repeated); runs no more than it needs.
     #[arg(long, value_name = "ID", conflicts_with = "document")]
     claim: Vec<String>,
@@ -54,9 +54,8 @@ enum Format {
     Markdown,
 }
 
-/// Runs the verb.
 pub fn run(args: Args) -> Result<(), Failure> {
-    let profile = Profile::from(args.profile);
+    let profile = args.profile;
     let templates = args.sources.templates()?;
     let published = args.sources.published(&templates)?;
     if let Some(id) = args.claim.iter().find(|id| published.statement(id).is_err()) {

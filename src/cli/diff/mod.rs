@@ -28,42 +28,17 @@ pub struct Args {
     new: String,
     #[command(flatten)]
     only: Only,
-    /// How to print it.
-    #[arg(long, default_value = "text")]
-    format: Format,
-    /// The same as --format markdown.
-    #[arg(long, conflicts_with = "format")]
+    /// For a comment on a pull request: the largest differences, in tables.
+    #[arg(long)]
     markdown: bool,
-    /// The same as --format json.
-    #[arg(long, conflicts_with_all = ["format", "markdown"])]
+    /// For programs: everything, as JSON.
+    #[arg(long, conflicts_with = "markdown")]
     json: bool,
     /// End with exit code 1 if anything differs.
     #[arg(long)]
     exit_code: bool,
 }
 
-/// How to print.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-enum Format {
-    /// For a terminal: everything.
-    Text,
-    /// For a comment on a pull request: the largest differences, in tables.
-    Markdown,
-    /// For programs: everything.
-    Json,
-}
-
-impl Args {
-    fn format(&self) -> Format {
-        match (self.markdown, self.json) {
-            (true, _) => Format::Markdown,
-            (_, true) => Format::Json,
-            _ => self.format,
-        }
-    }
-}
-
-/// Runs the verb.
 pub fn run(args: Args) -> Result<(), Failure> {
     let (old, new) = (files(&args.old)?, files(&args.new)?);
     let unusable = |what: String| Failure::input(format!("{what}; is it a report?"));
@@ -73,11 +48,12 @@ pub fn run(args: Args) -> Result<(), Failure> {
         before.only(document).and_then(|()| after.only(document)).map_err(unusable)?;
     }
     let diff = compare::diff(&before, &after, PROGRAM.documents).map_err(unusable)?;
-    stdout::print(&match args.format() {
-        Format::Text => text::text(&args.old, &args.new, &diff),
-        Format::Markdown => markdown::markdown(&args.old, &args.new, &diff),
-        Format::Json => json(&args.old, &args.new, &diff),
-    })?;
+    let told = match (args.markdown, args.json) {
+        (true, _) => markdown::markdown,
+        (_, true) => json,
+        _ => text::text,
+    };
+    stdout::print(&told(&args.old, &args.new, &diff))?;
     if diff.is_empty() || !args.exit_code {
         return Ok(());
     }

@@ -85,7 +85,6 @@ struct Answer {
     inputs: Inputs,
 }
 
-/// Runs the verb.
 pub fn run(args: Args) -> Result<(), Failure> {
     if args.list {
         return print(&list());

@@ -42,6 +42,14 @@ pub struct Quantity {
     pub evaluate: fn(&Inputs) -> Result<Value, Error>,
 }
 
+const fn quantity(
+    [name, equation, meaning]: [&'static str; 3],
+    needs: &'static [Need],
+    evaluate: fn(&Inputs) -> Result<Value, Error>,
+) -> Quantity {
+    Quantity { name, equation, meaning, needs, evaluate }
+}
+
 const N: &[Need] = &[Need::Vertices];
 const N_P: &[Need] = &[Need::Vertices, Need::P];
 const N_K: &[Need] = &[Need::Vertices, Need::K];
@@ -52,115 +60,75 @@ use SampleSpace::{FiveClasses, Simple};
 
 /// All quantities, in the order of the contract.
 pub const QUANTITIES: &[Quantity] = &[
-    Quantity {
-        name: "p-crit",
-        equation: "Eq. (18)",
-        meaning: "p at which Φ gets a stationary point",
-        needs: N,
-        evaluate: |i| jump::p_crit(i.big_n()).map(Value::Float),
-    },
-    Quantity {
-        name: "p-jump",
-        equation: "Sec. 7",
-        meaning: "infimum of p with k* > 1 (N ≥ 4)",
-        needs: N,
-        evaluate: |i| Ok(Value::Float(jump::p_jump(Simple, i.big_n())?.p)),
-    },
-    Quantity {
-        name: "k-after-jump",
-        equation: "Sec. 7",
-        meaning: "k* just after the jump (N ≥ 4)",
-        needs: N,
-        evaluate: |i| Ok(Value::Integer(jump::p_jump(Simple, i.big_n())?.k_after)),
-    },
-    Quantity {
-        name: "k-star",
-        equation: "Sec. 6",
-        meaning: "most likely number of impacts; the lowest of several",
-        needs: N_P,
-        evaluate: |i| Ok(Value::Integer(i.law(Simple)?.k_star())),
-    },
-    Quantity {
-        name: "mean-impacts",
-        equation: "Sec. 6",
-        meaning: "μ, the expected number of impacts",
-        needs: N_P,
-        evaluate: |i| Ok(Value::Float(i.law(Simple)?.mean())),
-    },
-    Quantity {
-        name: "probability",
-        equation: "Eqs. (9), (10)",
-        meaning: "P(X = k)",
-        needs: N_P_K,
-        evaluate: |i| i.law(Simple)?.probability(i.k()).map(Value::Float),
-    },
-    Quantity {
-        name: "log-circuits",
-        equation: "Eq. (7)",
-        meaning: "ln φ_N(k), number of simple circuits of length k",
-        needs: N_K,
-        evaluate: |i| counting::log_phi(i.big_n(), i.k()).map(Value::Float),
-    },
-    Quantity {
-        name: "p-of-sigma",
-        equation: "Eqs. (20) to (25)",
-        meaning: "p(σ), probability that a gap closes by itself",
-        needs: SIGMA,
-        evaluate: |i| i.relation()?.p().map(Value::Float),
-    },
-    Quantity {
-        name: "log-p-of-sigma",
-        equation: "Eqs. (20) to (25)",
-        meaning: "ln p(σ)",
-        needs: SIGMA,
-        evaluate: |i| i.relation()?.log_p().map(Value::Float),
-    },
-    Quantity {
-        name: "higher-p-jump",
-        equation: "Eq. (38)",
-        meaning: "p-jump of the five-class sample space (N ≥ 2)",
-        needs: N,
-        evaluate: |i| Ok(Value::Float(jump::p_jump(FiveClasses, i.big_n())?.p)),
-    },
-    Quantity {
-        name: "higher-k-after-jump",
-        equation: "Eq. (38)",
-        meaning: "k-after-jump of the five-class sample space (N ≥ 2)",
-        needs: N,
-        evaluate: |i| Ok(Value::Integer(jump::p_jump(FiveClasses, i.big_n())?.k_after)),
-    },
-    Quantity {
-        name: "higher-k-star",
-        equation: "Eq. (38)",
-        meaning: "k-star of the five-class sample space",
-        needs: N_P,
-        evaluate: |i| Ok(Value::Integer(i.law(FiveClasses)?.k_star())),
-    },
-    Quantity {
-        name: "higher-mean-impacts",
-        equation: "Eq. (38)",
-        meaning: "mean-impacts of the five-class sample space",
-        needs: N_P,
-        evaluate: |i| Ok(Value::Float(i.law(FiveClasses)?.mean())),
-    },
-    Quantity {
-        name: "higher-probability",
-        equation: "Eq. (38)",
-        meaning: "probability in the five-class sample space",
-        needs: N_P_K,
-        evaluate: |i| i.law(FiveClasses)?.probability(i.k()).map(Value::Float),
-    },
-    Quantity {
-        name: "mean-count",
-        equation: "Sec. S2",
-        meaning: "gaps with an impact after T, within W, from rest; nothing measured",
-        needs: &[Need::Sigma, Need::Protocol],
-        evaluate: |i| {
+    quantity(["p-crit", "Eq. (18)", "p at which Φ gets a stationary point"], N, |i| {
+        jump::p_crit(i.big_n()).map(Value::Float)
+    }),
+    quantity(["p-jump", "Sec. 7", "infimum of p with k* > 1 (N ≥ 4)"], N, |i| {
+        Ok(Value::Float(jump::p_jump(Simple, i.big_n())?.p))
+    }),
+    quantity(["k-after-jump", "Sec. 7", "k* just after the jump (N ≥ 4)"], N, |i| {
+        Ok(Value::Integer(jump::p_jump(Simple, i.big_n())?.k_after))
+    }),
+    quantity(
+        ["k-star", "Sec. 6", "most likely number of impacts; the lowest of several"],
+        N_P,
+        |i| Ok(Value::Integer(i.law(Simple)?.k_star())),
+    ),
+    quantity(["mean-impacts", "Sec. 6", "μ, the expected number of impacts"], N_P, |i| {
+        Ok(Value::Float(i.law(Simple)?.mean()))
+    }),
+    quantity(["probability", "Eqs. (9), (10)", "P(X = k)"], N_P_K, |i| {
+        i.law(Simple)?.probability(i.k()).map(Value::Float)
+    }),
+    quantity(
+        ["log-circuits", "Eq. (7)", "ln φ_N(k), number of simple circuits of length k"],
+        N_K,
+        |i| counting::log_phi(i.big_n(), i.k()).map(Value::Float),
+    ),
+    quantity(
+        ["p-of-sigma", "Eqs. (20) to (25)", "p(σ), probability that a gap closes by itself"],
+        SIGMA,
+        |i| i.relation()?.p().map(Value::Float),
+    ),
+    quantity(["log-p-of-sigma", "Eqs. (20) to (25)", "ln p(σ)"], SIGMA, |i| {
+        i.relation()?.log_p().map(Value::Float)
+    }),
+    quantity(
+        ["higher-p-jump", "Eq. (38)", "p-jump of the five-class sample space (N ≥ 2)"],
+        N,
+        |i| Ok(Value::Float(jump::p_jump(FiveClasses, i.big_n())?.p)),
+    ),
+    quantity(
+        ["higher-k-after-jump", "Eq. (38)", "k-after-jump of the five-class sample space (N ≥ 2)"],
+        N,
+        |i| Ok(Value::Integer(jump::p_jump(FiveClasses, i.big_n())?.k_after)),
+    ),
+    quantity(["higher-k-star", "Eq. (38)", "k-star of the five-class sample space"], N_P, |i| {
+        Ok(Value::Integer(i.law(FiveClasses)?.k_star()))
+    }),
+    quantity(
+        ["higher-mean-impacts", "Eq. (38)", "mean-impacts of the five-class sample space"],
+        N_P,
+        |i| Ok(Value::Float(i.law(FiveClasses)?.mean())),
+    ),
+    quantity(
+        ["higher-probability", "Eq. (38)", "probability in the five-class sample space"],
+        N_P_K,
+        |i| i.law(FiveClasses)?.probability(i.k()).map(Value::Float),
+    ),
+    quantity(
+        [
+            "mean-count",
+            "Sec. S2",
+            "gaps with an impact after T, within W, from rest; nothing measured",
+        ],
+        &[Need::Sigma, Need::Protocol],
+        |i| {
             let times = [i.transient.unwrap_or(f64::NAN), i.window.unwrap_or(f64::NAN)];
             let sigma = i.sigma.unwrap_or(f64::NAN);
             Ok(Value::Float(mean_count(&i.chain(), sigma, times, DRAWN)?.value))
         },
-    },
+    ),
 ];
 
 /// Chains that are drawn for a mean count: their number leaves some two gaps open.

@@ -4,13 +4,12 @@
 use super::routes::method;
 use crate::dynamics::methods::{Cost, State};
 use crate::dynamics::{Impact, Scenario};
+use crate::experiments::ensembles::{Begun, Ensembles, joined_by};
 use crate::experiments::{Error, Progress, weights};
 use crate::numerics::random::NormalPairs;
 use crate::numerics::statistics::{mean, standard_error};
 use crate::params::{BiasParams, Chain, MethodName, Protocol, Setting};
-use literate::experiments::cutting::{Cutting, Row, Unit};
-use literate::experiments::progress::Stage;
-use rayon::prelude::*;
+use literate::experiments::cutting::{Cutting, Row};
 use serde::{Deserialize, Serialize};
 
 /// Bias of all methods.
@@ -33,8 +32,6 @@ pub struct Own {
     pub realisations: u64,
     /// Mean number of distinct gaps, of all realisations.
     pub mean: f64,
-    /// Evaluations per impact.
-    pub evaluations_per_impact: Option<f64>,
 }
 
 /// One method at one σ.
@@ -46,8 +43,6 @@ pub struct BiasRow {
     pub sigma: f64,
     /// Chains that both ran to the end.
     pub pairs: u64,
-    /// Chains that the method gave up.
-    pub failed: u64,
     /// Mean number of distinct gaps by the certified engine, on these chains.
     pub own_mean: Option<f64>,
     /// Mean difference of the method from it.
@@ -70,12 +65,9 @@ pub struct Counted {
 pub type Part = Vec<Counted>;
 
 /// The ensembles in units of work: for each scene the certified engine and then every setting.
-pub const CUTTING: Cutting<BiasParams, Part, Biases> = Cutting { rows, part, fits, join };
+pub const CUTTING: Cutting<BiasParams, Part, Biases> = joined_by(join);
 
 /// Runs everything.
-///
-/// # Errors
-/// [`Error::Interrupted`].
 pub fn run(parameters: &BiasParams, progress: &Progress) -> Result<Biases, Error> {
     CUTTING.run(parameters, "bias of methods", progress)
 }
@@ -127,48 +119,39 @@ fn ensembles(parameters: &BiasParams) -> Vec<Ensemble> {
     parameters.scenes.iter().flat_map(of).collect()
 }
 
-fn rows(parameters: &BiasParams) -> Vec<Row> {
-    let row = |ensemble: &Ensemble| {
-        let Setting { method, value } = ensemble.setting;
-        let method = match method {
-            MethodName::Certified => method.id().into(),
-            _ => format!("{} at {value}", method.id()),
-        };
-        Row {
-            covers: format!("{method}, sigma = {}", ensemble.sigma),
-            realisations: ensemble.realisations,
-            weight: ensemble.weight(&parameters.chain),
-        }
-    };
-    ensembles(parameters).iter().map(row).collect()
-}
+impl Ensembles for BiasParams {
+    type One = Counted;
 
-fn part(
-    parameters: &BiasParams,
-    unit: &Unit,
-    stage: &Stage,
-    progress: &Progress,
-) -> Result<Part, Error> {
-    let ensemble = &ensembles(parameters)[unit.row];
-    let weight = ensemble.weight(&parameters.chain);
-    unit.realisations
-        .clone()
-        .into_par_iter()
-        .with_max_len(1)
-        .map(|index| {
-            progress.check()?;
-            let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, index as u64);
-            let scenario = Scenario::draw(&parameters.chain, ensemble.sigma, &mut normals);
+    fn rows(&self) -> Vec<Row> {
+        let row = |ensemble: &Ensemble| {
+            let Setting { method, value } = ensemble.setting;
+            let method = match method {
+                MethodName::Certified => method.id().into(),
+                _ => format!("{} at {value}", method.id()),
+            };
+            Row {
+                covers: format!("{method}, sigma = {}", ensemble.sigma),
+                realisations: ensemble.realisations,
+                weight: ensemble.weight(&self.chain),
+            }
+        };
+        ensembles(self).iter().map(row).collect()
+    }
+
+    fn row<'a>(&'a self, row: usize, progress: &'a Progress) -> Begun<'a, Counted> {
+        let ensemble = ensembles(self).swap_remove(row);
+        Ok(Box::new(move |index| {
+            let mut normals = NormalPairs::new(&self.stream, self.seed, index);
+            let scenario = Scenario::draw(&self.chain, ensemble.sigma, &mut normals);
             let counted = count(ensemble.setting, &scenario, ensemble.protocol, progress);
             progress.check()?;
-            stage.advance(weight);
             Ok(counted)
-        })
-        .collect()
-}
+        }))
+    }
 
-fn fits(_: &BiasParams, unit: &Unit, runs: &Part) -> bool {
-    runs.len() == unit.realisations.len()
+    fn fits(&self, _: usize, _: &Counted) -> bool {
+        true
+    }
 }
 
 fn join(parameters: &BiasParams, parts: Vec<Vec<Part>>, _: &Progress) -> Result<Biases, Error> {
@@ -181,7 +164,6 @@ fn join(parameters: &BiasParams, parts: Vec<Vec<Part>>, _: &Progress) -> Result<
             sigma,
             realisations: counts.len() as u64,
             mean: mean(&counts).unwrap_or(0.0),
-            evaluations_per_impact: evaluations_per_impact(&ours),
         });
         for (&(setting, _), theirs) in parameters.settings.iter().zip(runs.by_ref()) {
             let pairs: Vec<(f64, f64)> =
@@ -191,7 +173,6 @@ fn join(parameters: &BiasParams, parts: Vec<Vec<Part>>, _: &Progress) -> Result<
                 setting,
                 sigma,
                 pairs: pairs.len() as u64,
-                failed: theirs.iter().filter(|run| run.distinct.is_none()).count() as u64,
                 own_mean: mean(&pairs.iter().map(|p| p.1).collect::<Vec<_>>()),
                 bias: mean(&differences),
                 error: standard_error(&differences),
@@ -261,8 +242,7 @@ mod tests {
         assert_eq!(Some(found.certified[0].mean), sample.row.mean_all);
         // Against itself nothing differs; a coarse method differs, on chains of its own number.
         assert_eq!((found.rows[0].bias, found.rows[0].error), (Some(0.0), Some(0.0)));
-        assert_eq!((found.rows[1].pairs, found.rows[1].failed), (2, 0));
+        assert_eq!(found.rows[1].pairs, 2);
         assert_ne!(found.rows[1].bias, Some(0.0));
-        assert_eq!(found, run(&parameters, &Progress::silent()).unwrap());
     }
 }

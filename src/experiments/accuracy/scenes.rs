@@ -28,9 +28,6 @@ const NEAR: f64 = 1e-2;
 
 /// All scenes. `short` cuts those that take long; `clusters` are the numbers of masses that are
 /// pressed together, and without any that scene is left out.
-///
-/// # Errors
-/// What the engine refuses; there is nothing to refuse.
 pub fn all(short: bool, clusters: &[u32]) -> Result<Vec<Scene>, Error> {
     let mut scenes = vec![
         grazing("grazing-hits", "a dip reaches just below zero", -1.0),

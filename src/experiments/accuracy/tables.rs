@@ -305,7 +305,6 @@ mod tests {
             setting: Setting { method: MethodName::Verlet, value: 0.1 },
             sigma: 0.12,
             pairs: 4,
-            failed: 0,
             own_mean: Some(50.0),
             bias: Some(-5.0),
             error: Some(1.0),

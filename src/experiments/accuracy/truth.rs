@@ -138,9 +138,6 @@ impl Truth {
     }
 
     /// The next impact up to time `until`; the motion stays where it is.
-    ///
-    /// # Errors
-    /// What the engine refuses.
     pub fn next(&self, until: f64) -> Result<Option<Hit>, Error> {
         let mut found: Option<Impact> = None;
         Certified.run(&self.scenario, &self.state(), until, &mut |impact| {
@@ -189,9 +186,6 @@ impl Truth {
     }
 
     /// Runs to time `until` and lists the impacts, with the state right after each.
-    ///
-    /// # Errors
-    /// What the engine refuses.
     pub fn run(&mut self, until: f64) -> Result<Vec<(Hit, State)>, Error> {
         let mut hits = Vec::new();
         while let Some(hit) = self.next(until)? {
@@ -205,35 +199,12 @@ impl Truth {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dynamics::Engine;
     use crate::numerics::random::NormalPairs;
     use crate::params::Chain;
 
     fn chain(index: u64) -> Scenario {
         let chain = Chain { masses: 20, ..Chain::default() };
         Scenario::draw(&chain, 0.3, &mut NormalPairs::new("truth", 1, index))
-    }
-
-    /// The engine stays with the truth at first, and leaves it as its rounding grows.
-    #[test]
-    fn the_engine_follows_the_truth_until_its_rounding_has_grown() {
-        let scenario = chain(0);
-        let truth = Truth::of(&scenario, &State::of(&scenario)).run(60.0).unwrap();
-        let mut engine = Engine::new(&scenario).unwrap();
-        let mut seen = Vec::new();
-        engine
-            .run(60.0, |impact| {
-                seen.push(impact);
-                true
-            })
-            .unwrap();
-        assert!(seen.len() > 150 && seen.len() == truth.len(), "{} {}", seen.len(), truth.len());
-        for (i, (ours, (hit, _))) in seen.iter().zip(&truth).enumerate() {
-            assert_eq!(ours.gap, hit.gap, "impact {i}");
-            let error = (dd(ours.time) - hit.time).to_f64().abs();
-            assert!(error < 1e-15 * pxfm::f_exp(0.25 * ours.time) + 1e-13, "{i}: {error:e}");
-            assert!((ours.closing_speed - hit.closing_speed).abs() < 1e-6);
-        }
     }
 
     /// The truth does not depend on the doubles through which it looks: started from a state of

@@ -9,11 +9,11 @@ pub mod tables;
 
 pub use run::FREQUENCIES;
 
-use super::{Error, Progress, weights};
+use super::ensembles::{Begun, Ensembles, joined_by};
+use super::{Progress, weights};
 use crate::numerics::statistics::Estimate;
 use crate::params::{Chain, ChainCurve, ChainKind, ChainsParams};
-use literate::experiments::cutting::{Cutting, Row, Unit};
-use literate::experiments::progress::Stage;
+use literate::experiments::cutting::{Cutting, Row};
 use serde::{Deserialize, Serialize};
 
 /// All curves.
@@ -75,8 +75,7 @@ pub struct Run {
 pub type Part = Vec<Option<Run>>;
 
 /// The experiment in units of work.
-pub const CUTTING: Cutting<ChainsParams, Part, Chains> =
-    Cutting { rows, part, fits, join: joining::join };
+pub const CUTTING: Cutting<ChainsParams, Part, Chains> = joined_by(joining::join);
 
 impl Chains {
     /// The curve of a name, and its parameters.
@@ -127,38 +126,36 @@ fn weight(parameters: &ChainsParams, curve: &ChainCurve, sigma: f64) -> u64 {
     one + strokes * curve.masses as u64
 }
 
-fn rows(parameters: &ChainsParams) -> Vec<Row> {
-    let row = |(curve, sigma): (&ChainCurve, f64)| Row {
-        covers: format!("{}, sigma = {sigma}", curve.name),
-        realisations: curve.realisations,
-        weight: weight(parameters, curve, sigma),
-    };
-    cases(parameters).map(row).collect()
-}
+impl Ensembles for ChainsParams {
+    type One = Option<Run>;
 
-fn part(
-    parameters: &ChainsParams,
-    unit: &Unit,
-    stage: &Stage,
-    progress: &Progress,
-) -> Result<Part, Error> {
-    let Some((curve, sigma)) = cases(parameters).nth(unit.row) else { return Ok(Vec::new()) };
-    unit.each(stage, |index| run::realisation(parameters, curve, sigma, index, progress))
-}
+    fn rows(&self) -> Vec<Row> {
+        let row = |(curve, sigma): (&ChainCurve, f64)| Row {
+            covers: format!("{}, sigma = {sigma}", curve.name),
+            realisations: curve.realisations,
+            weight: weight(self, curve, sigma),
+        };
+        cases(self).map(row).collect()
+    }
 
-fn fits(parameters: &ChainsParams, unit: &Unit, runs: &Part) -> bool {
-    let Some((curve, _)) = cases(parameters).nth(unit.row) else { return false };
-    let gaps = chain(parameters, curve).gaps();
-    let sizes = pieces(gaps, parameters.piece);
-    let window = |own: &Vec<u32>| {
-        own.len() == sizes.len() && own.iter().zip(&sizes).all(|(&k, &size)| k as usize <= size)
-    };
-    let fits = |run: &Run| {
-        run.counts.len() == curve.transients.len()
-            && run.counts.iter().all(window)
-            && run.open as usize <= gaps
-    };
-    runs.len() == unit.realisations.len() && runs.iter().flatten().all(fits)
+    fn row<'a>(&'a self, row: usize, progress: &'a Progress) -> Begun<'a, Option<Run>> {
+        let Some((curve, sigma)) = cases(self).nth(row) else { return Ok(Box::new(|_| Ok(None))) };
+        Ok(Box::new(move |index| run::realisation(self, curve, sigma, index, progress)))
+    }
+
+    fn fits(&self, row: usize, run: &Option<Run>) -> bool {
+        let Some((curve, _)) = cases(self).nth(row) else { return false };
+        let gaps = chain(self, curve).gaps();
+        let sizes = pieces(gaps, self.piece);
+        let window = |own: &Vec<u32>| {
+            own.len() == sizes.len() && own.iter().zip(&sizes).all(|(&k, &size)| k as usize <= size)
+        };
+        run.as_ref().is_none_or(|run| {
+            run.counts.len() == curve.transients.len()
+                && run.counts.iter().all(window)
+                && run.open as usize <= gaps
+        })
+    }
 }
 
 #[cfg(test)]

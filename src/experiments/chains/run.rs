@@ -123,7 +123,6 @@ pub(super) fn realisation(
     index: u64,
     progress: &Progress,
 ) -> Result<Option<Run>, Error> {
-    progress.check()?;
     let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, index);
     let scenario = draw(parameters, curve, sigma, &mut normals);
     let open = open(&scenario);

@@ -5,8 +5,8 @@ use super::{Chains, Curve, Ensemble, chain, joining};
 use crate::circuits::impact_probability::ImpactProbability;
 use crate::circuits::nucleation::chain::half;
 use crate::circuits::nucleation::reach::Reach;
-use crate::experiments::Results;
 use crate::experiments::protocol_tables::address;
+use crate::experiments::{CHAINS, PROTOCOL, Results};
 use crate::numerics::estimates::{difference, with_error};
 use crate::numerics::statistics::Estimate;
 use crate::params::{Chain, ChainCurve, ChainKind};
@@ -186,7 +186,7 @@ fn open_length(chain: &crate::params::Chain, sigma: f64) -> f64 {
 
 /// Half heights without friction, which the map over protocols has, and how much they fall.
 pub fn beside_map(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
-    let (found, map) = (results.chains().ok()?, results.protocol().ok()?);
+    let (found, map) = (results.of(&CHAINS).ok()?, results.of(&PROTOCOL).ok()?);
     let window = found.parameters.window;
     let of_map = |time| map.cell(time, window)?.half_height_all;
     let damped: Vec<_> = found.of(ChainKind::Damping).collect();

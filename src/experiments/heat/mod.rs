@@ -4,20 +4,14 @@ mod realisation;
 pub mod tables;
 
 use self::realisation::realisation;
-use super::{Error, Progress, weights};
+use super::ensembles::{Begun, Ensembles, Ran};
+use super::{Progress, weights};
 use crate::params::{Boundary, Chain, HeatParams, HeatRow};
-use literate::experiments::cutting::{Cutting, Row, Unit};
-use literate::experiments::progress::Stage;
+use literate::experiments::cutting::Row;
 use serde::{Deserialize, Serialize};
 
-/// What was run: for each ensemble its realisations, none where the engine gave up.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Heat {
-    /// The sizes.
-    pub parameters: HeatParams,
-    /// First those between walls, then those on a ring.
-    pub rows: Vec<Part>,
-}
+/// What was run: first the ensembles between walls, then those on a ring; none where the engine gave up.
+pub type Heat = Ran<HeatParams, Option<Run>>;
 
 /// One realisation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -48,25 +42,6 @@ pub struct Run {
     contact: bool,
 }
 
-/// Some realisations of one ensemble; none where the engine gave up.
-pub type Part = Vec<Option<Run>>;
-
-/// The experiment in units of work.
-pub const CUTTING: Cutting<HeatParams, Part, Heat> = Cutting { rows, part, fits, join };
-
-/// Runs all ensembles.
-///
-/// # Errors
-/// [`Error::Interrupted`]; [`Error::Failed`] if the chain is not allowed.
-pub fn run(parameters: &HeatParams, progress: &Progress) -> Result<Heat, Error> {
-    CUTTING.run(parameters, "heat", progress)
-}
-
-fn join(parameters: &HeatParams, parts: Vec<Vec<Part>>, _: &Progress) -> Result<Heat, Error> {
-    let rows = parts.into_iter().map(|parts| parts.concat()).collect();
-    Ok(Heat { parameters: parameters.clone(), rows })
-}
-
 fn until(parameters: &HeatParams) -> f64 {
     parameters.protocol.transient + parameters.protocol.window
 }
@@ -86,37 +61,36 @@ fn ensembles(parameters: &HeatParams) -> impl Iterator<Item = (&HeatRow, Chain)>
     walls.chain(parameters.ring.iter().map(move |row| (row, on_ring(row))))
 }
 
-fn rows(parameters: &HeatParams) -> Vec<Row> {
-    let row = |(row, chain): (&HeatRow, Chain)| Row {
-        covers: format!("sigma = {}, r = {}, {:?}", row.sigma, row.restitution, chain.boundary),
-        realisations: parameters.realisations,
-        weight: weights::run(&chain, row.sigma, until(parameters)),
-    };
-    ensembles(parameters).map(row).collect()
-}
+impl Ensembles for HeatParams {
+    type One = Option<Run>;
 
-fn part(
-    parameters: &HeatParams,
-    unit: &Unit,
-    stage: &Stage,
-    progress: &Progress,
-) -> Result<Part, Error> {
-    let Some((row, chain)) = ensembles(parameters).nth(unit.row) else { return Ok(Vec::new()) };
-    unit.each(stage, |index| realisation(parameters, row, &chain, index, progress))
-}
+    fn rows(&self) -> Vec<Row> {
+        let row = |(row, chain): (&HeatRow, Chain)| Row {
+            covers: format!("sigma = {}, r = {}, {:?}", row.sigma, row.restitution, chain.boundary),
+            realisations: self.realisations,
+            weight: weights::run(&chain, row.sigma, until(self)),
+        };
+        ensembles(self).map(row).collect()
+    }
 
-fn fits(parameters: &HeatParams, unit: &Unit, runs: &Part) -> bool {
-    let (masses, gaps) = (parameters.chain.masses as u64, parameters.chain.gaps() as u64);
-    let fits = |run: &Run| run.hit <= masses && run.closing <= gaps && run.distinct <= gaps;
-    runs.len() == unit.realisations.len() && runs.iter().flatten().all(fits)
+    fn row<'a>(&'a self, row: usize, progress: &'a Progress) -> Begun<'a, Option<Run>> {
+        let Some((row, chain)) = ensembles(self).nth(row) else {
+            return Ok(Box::new(|_| Ok(None)));
+        };
+        Ok(Box::new(move |index| realisation(self, row, &chain, index, progress)))
+    }
+
+    fn fits(&self, _: usize, run: &Option<Run>) -> bool {
+        let (masses, gaps) = (self.chain.masses as u64, self.chain.gaps() as u64);
+        let fits = |run: &Run| run.hit <= masses && run.closing <= gaps && run.distinct <= gaps;
+        run.as_ref().is_none_or(fits)
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::circuits::balance::energy_change;
-    use crate::dynamics::{Engine, Scenario};
-    use crate::dynamics::{Initial, Simultaneous};
+    use crate::experiments::ensembles::cutting;
     use crate::params::{Profile, Protocol};
 
     fn small() -> HeatParams {
@@ -134,57 +108,10 @@ mod tests {
     }
 
     #[test]
-    fn one_impact_changes_the_energy_by_as_much() {
-        // Two masses meet once, and a mass meets a wall: energies before and after by the engine.
-        let omega = std::f64::consts::SQRT_2;
-        for (free, hit) in [(vec![[0.5, 0.9], [-0.5, -0.7]], 1), (vec![[-0.9, -0.8], [0.0; 2]], 0)]
-        {
-            let scenario = Scenario {
-                spacing: 1.0,
-                natural_frequency: 1.0,
-                forcing_frequency: omega,
-                restitution: 0.7,
-                boundary: Boundary::Walls,
-                initial: Initial::Free(free),
-                forcing: vec![[0.1, -0.2], [0.05, 0.15]],
-                overtones: Vec::new(),
-                simultaneous: Simultaneous::default(),
-            };
-            let mut engine = Engine::new(&scenario).unwrap();
-            let energy = |engine: &Engine| -> f64 {
-                engine.free_parts().iter().flatten().map(|x| 0.5 * x * x).sum()
-            };
-            let before = energy(&engine);
-            let mut seen = None;
-            engine
-                .run(20.0, |impact| {
-                    seen = Some(impact);
-                    false
-                })
-                .unwrap();
-            let impact = seen.unwrap();
-            assert_eq!(impact.gap, hit);
-            let velocity = |mass: usize| {
-                let Some([a, b]) = mass.checked_sub(1).and_then(|j| scenario.forcing.get(j)) else {
-                    return 0.0;
-                };
-                let (sin, cos) = pxfm::f_sincos(omega * impact.time);
-                omega * (b * cos - a * sin) / (1.0 - omega * omega)
-            };
-            let forced = velocity(hit) - velocity(hit + 1);
-            let mass = if hit == 0 { 1.0 } else { 0.5 };
-            let change = energy_change(mass, 0.7, impact.closing_speed, forced);
-            assert!((energy(&engine) - before - change).abs() < 1e-12, "{change}");
-        }
-    }
-
-    #[test]
     fn energy_is_accounted_for_and_a_quiet_chain_is_as_it_started() {
-        let heat = run(&small(), &Progress::silent()).unwrap();
+        let heat = cutting().run(&small(), "test", &Progress::silent()).unwrap();
         let [rising, others, ring, all] = tables::tables(&heat).try_into().unwrap();
         let of = |sigma: f64, column| rising.number(&[("sigma", sigma)], column);
-        assert_eq!((of(0.03, "impacts"), of(0.03, "p_measured")), (Ok(0.0), Ok(0.0)));
-        assert!(of(0.03, "balance").is_err());
         // From rest a free part has amplitudes −α and −Ω/ω β: (1 + 2)/2 of σ² in the mean. Twelve
         // masses, five times: the mean of 120 squares.
         let ratio = rising.estimates(&[("sigma", 0.03)], "sigma", "variance_ratio")[0].1;

@@ -3,7 +3,8 @@
 use super::{HeatParams, Run, until};
 use crate::circuits::balance::energy_change;
 use crate::circuits::impact_probability::amplitude;
-use crate::dynamics::{self, Engine, Scenario};
+use crate::dynamics::Scenario;
+use crate::experiments::ensembles::{Running, count};
 use crate::experiments::{Error, Progress};
 use crate::numerics::random::NormalPairs;
 use crate::params::{Boundary, Chain, HeatRow};
@@ -44,26 +45,20 @@ pub fn realisation(
     index: u64,
     progress: &Progress,
 ) -> Result<Option<Run>, Error> {
-    progress.check()?;
     let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, index);
     let scenario = Scenario::draw(chain, row.sigma, &mut normals);
-    let fault = |source| Error::failed("heat", source);
-    let mut engine = Engine::new(&scenario).map_err(fault)?;
-    let ended = engine.run(parameters.protocol.transient, |_| true);
-    progress.check()?;
-    match ended {
-        Ok(()) => {}
-        Err(dynamics::Error::Work { .. }) => return Ok(None),
-        Err(source) => return Err(fault(source)),
+    let mut motion = Running::new(&scenario, "heat", progress)?;
+    if !motion.go(parameters.protocol.transient, |_| ())? {
+        return Ok(None);
     }
-    let before = energy(engine.free_parts().iter());
-    let contacts = engine.counters().contact_phases;
+    let before = energy(motion.engine.free_parts().iter());
+    let contacts = motion.engine.counters().contact_phases;
     let masses = scenario.forcing.len();
     let mut run = Run::default();
     // One more at each end, for the walls.
     let mut hit = vec![false; masses + 2];
     let mut gaps = vec![false; masses + 1];
-    let ended = engine.run(until(parameters), |impact| {
+    let ended = motion.go(until(parameters), |impact| {
         let (v, r) = (impact.closing_speed, row.restitution);
         let f = forced_closing(&scenario, impact.gap, impact.time);
         let sides = sides(&scenario, impact.gap);
@@ -78,23 +73,19 @@ pub fn realisation(
         for mass in sides {
             hit[mass] = true;
         }
-        !progress.stopped()
     });
-    progress.check()?;
-    match ended {
-        Ok(()) => {}
-        Err(dynamics::Error::Work { .. }) => return Ok(None),
-        Err(source) => return Err(fault(source)),
+    if !ended? {
+        return Ok(None);
     }
-    let parts = engine.free_parts();
+    let parts = motion.engine.free_parts();
     let struck =
         || parts.iter().zip(&hit[1..=masses]).filter(|(_, hit)| **hit).map(|(part, _)| part);
     run.free = energy(parts.iter());
     run.free_of_hit = energy(struck());
     run.hit = struck().count() as u64;
     run.changed = run.free - before;
-    run.contact = engine.counters().contact_phases > contacts;
-    run.distinct = gaps.iter().map(|&gap| u64::from(gap)).sum();
+    run.contact = motion.engine.counters().contact_phases > contacts;
+    run.distinct = count(&gaps);
     run.closing = closing(&scenario, &parts);
     Ok(Some(run))
 }

@@ -1,6 +1,6 @@
 //! What follows from the runs.
 
-use super::{Heat, Part, Run, ensembles, until};
+use super::{Heat, Run, ensembles, until};
 use crate::circuits;
 use crate::circuits::balance::{variance_ratio, variance_ratio_at};
 use crate::circuits::closed::heat::{Heat as ClosedHeat, heat as closed_heat};
@@ -23,7 +23,7 @@ struct Row<'a> {
     parameters: &'a HeatParams,
     row: &'a HeatRow,
     chain: Chain,
-    part: &'a Part,
+    part: &'a [Option<Run>],
     runs: Vec<&'a Run>,
     /// The closed theory, where it has a running chain.
     closed: Option<ClosedHeat>,

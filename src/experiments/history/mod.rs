@@ -2,31 +2,18 @@
 
 pub mod tables;
 
+use super::ensembles::{Begun, Ensembles, Ran, Running, count};
 use super::{Error, Progress, weights};
-use crate::dynamics::{self, Engine, Initial, Scenario};
+use crate::dynamics::{Initial, Scenario};
 use crate::numerics::random::NormalPairs;
 use crate::params::HistoryParams;
-use literate::experiments::cutting::{Cutting, Row, Unit};
-use literate::experiments::progress::Stage;
-use serde::{Deserialize, Serialize};
+use literate::experiments::cutting::Row;
 
-/// Counts after a larger force.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct History {
-    /// What was run.
-    pub parameters: HistoryParams,
-    /// For each σ, rising, its realisations.
-    pub rows: Vec<Vec<Counts>>,
-}
+/// Counts after a larger force, for each σ, rising.
+pub type History = Ran<HistoryParams, Counts>;
 
 /// Counts of one realisation, for each transient; none where the engine gave up.
 pub type Counts = Option<Vec<u64>>;
-
-/// Some realisations of one row.
-pub type Part = Vec<Counts>;
-
-/// The experiment in units of work.
-pub const CUTTING: Cutting<HistoryParams, Part, History> = Cutting { rows, part, fits, join };
 
 fn until(parameters: &HistoryParams) -> f64 {
     parameters.transients.last().copied().unwrap_or(0.0) + parameters.window
@@ -37,23 +24,27 @@ fn weight(parameters: &HistoryParams, sigma: f64) -> u64 {
         + weights::run(&parameters.chain, sigma, until(parameters))
 }
 
-fn rows(parameters: &HistoryParams) -> Vec<Row> {
-    let row = |&sigma: &f64| Row {
-        covers: format!("sigma = {sigma}"),
-        realisations: parameters.realisations,
-        weight: weight(parameters, sigma),
-    };
-    parameters.sigmas.iter().map(row).collect()
-}
+impl Ensembles for HistoryParams {
+    type One = Counts;
 
-fn part(
-    parameters: &HistoryParams,
-    unit: &Unit,
-    stage: &Stage,
-    progress: &Progress,
-) -> Result<Part, Error> {
-    let sigma = parameters.sigmas[unit.row];
-    unit.each(stage, |index| realisation(parameters, sigma, index, progress))
+    fn rows(&self) -> Vec<Row> {
+        let row = |&sigma: &f64| Row {
+            covers: format!("sigma = {sigma}"),
+            realisations: self.realisations,
+            weight: weight(self, sigma),
+        };
+        self.sigmas.iter().map(row).collect()
+    }
+
+    fn row<'a>(&'a self, row: usize, progress: &'a Progress) -> Begun<'a, Counts> {
+        Ok(Box::new(move |index| realisation(self, self.sigmas[row], index, progress)))
+    }
+
+    fn fits(&self, _: usize, counts: &Counts) -> bool {
+        let (number, gaps) = (self.transients.len(), self.chain.gaps() as u64);
+        let fits = |counts: &Vec<u64>| counts.len() == number && counts.iter().all(|&k| k <= gaps);
+        counts.as_ref().is_none_or(fits)
+    }
 }
 
 fn realisation(
@@ -62,39 +53,24 @@ fn realisation(
     index: u64,
     progress: &Progress,
 ) -> Result<Counts, Error> {
-    progress.check()?;
     let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, index);
     let hot = Scenario::draw(&parameters.chain, parameters.hot, &mut normals);
-    let fault = |source| Error::failed("history", source);
-    let ended = |ended: Result<(), dynamics::Error>| match ended {
-        Ok(()) => Ok(true),
-        Err(dynamics::Error::Work { .. }) => Ok(false),
-        Err(source) => Err(fault(source)),
-    };
-    let mut engine = Engine::new(&hot).map_err(fault)?;
-    if !ended(engine.run(parameters.heating, |_| !progress.stopped()))? {
+    let mut motion = Running::new(&hot, "history", progress)?;
+    if !motion.go(parameters.heating, |_| ())? {
         return Ok(None);
     }
-    progress.check()?;
-    let lowered = lowered(&hot, &engine.free_parts(), parameters.heating, sigma / parameters.hot);
-    let mut engine = Engine::new(&lowered).map_err(fault)?;
+    let free = motion.engine.free_parts();
+    let lowered = lowered(&hot, &free, parameters.heating, sigma / parameters.hot);
+    let mut motion = Running::new(&lowered, "history", progress)?;
     let mut counts = Vec::with_capacity(parameters.transients.len());
     for transient in &parameters.transients {
         let mut hit = vec![false; parameters.chain.gaps()];
-        let mut go = |time: f64, seen: &mut dyn FnMut(usize)| {
-            let run = engine.run(time, |impact| {
-                seen(impact.gap);
-                !progress.stopped()
-            });
-            ended(run)
-        };
-        let there = go(*transient, &mut |_| {})?
-            && go(transient + parameters.window, &mut |gap| hit[gap] = true)?;
-        progress.check()?;
-        if !there {
+        let ended = motion.go(*transient, |_| ())?
+            && motion.go(transient + parameters.window, |impact| hit[impact.gap] = true)?;
+        if !ended {
             return Ok(None);
         }
-        counts.push(hit.iter().map(|&hit| u64::from(hit)).sum());
+        counts.push(count(&hit));
     }
     Ok(Some(counts))
 }
@@ -117,55 +93,10 @@ fn lowered(hot: &Scenario, free: &[[f64; 2]], time: f64, factor: f64) -> Scenari
     now
 }
 
-fn fits(parameters: &HistoryParams, unit: &Unit, runs: &Part) -> bool {
-    let (number, gaps) = (parameters.transients.len(), parameters.chain.gaps() as u64);
-    let fits = |counts: &Vec<u64>| counts.len() == number && counts.iter().all(|&k| k <= gaps);
-    runs.len() == unit.realisations.len() && runs.iter().flatten().all(fits)
-}
-
-pub(crate) fn join(
-    parameters: &HistoryParams,
-    parts: Vec<Vec<Part>>,
-    progress: &Progress,
-) -> Result<History, Error> {
-    progress.check()?;
-    let rows = parts.into_iter().map(|parts| parts.concat()).collect();
-    Ok(History { parameters: parameters.clone(), rows })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::params::{Chain, Profile};
-
-    #[test]
-    fn a_force_that_is_not_lowered_changes_nothing() {
-        // The same impacts as without the break, for as long as chaos lets two roundings agree.
-        let chain = Chain { masses: 12, ..Chain::default() };
-        let mut normals = NormalPairs::new("test of history", 1, 0);
-        let scenario = Scenario::draw(&chain, 0.2, &mut normals);
-        let mut whole = Engine::new(&scenario).unwrap();
-        whole.run(30.0, |_| true).unwrap();
-        let again = lowered(&scenario, &whole.free_parts(), 30.0, 1.0);
-        let (mut left, mut right) = (Vec::new(), Vec::new());
-        whole
-            .run(60.0, |impact| {
-                left.push((impact.gap, impact.time));
-                true
-            })
-            .unwrap();
-        Engine::new(&again)
-            .unwrap()
-            .run(30.0, |impact| {
-                right.push((impact.gap, impact.time + 30.0));
-                true
-            })
-            .unwrap();
-        assert!(left.len() > 20 && left.len() == right.len(), "{left:?} {right:?}");
-        for ((gap, time), (other, later)) in left.iter().zip(&right) {
-            assert!(gap == other && (time - later).abs() < 1e-8, "{time} {later}");
-        }
-    }
+    use crate::params::Chain;
 
     #[test]
     fn places_and_velocities_go_on_when_the_force_is_lowered() {
@@ -189,24 +120,5 @@ mod tests {
             let speeds = [before(time + h) - before(time - h), then(h) - then(-h)];
             assert!((speeds[0] - speeds[1]).abs() < 1e-9 * h.sqrt(), "{speeds:?}");
         }
-    }
-
-    #[test]
-    fn a_heated_chain_goes_on_where_one_at_rest_is_silent() {
-        let mut parameters = HistoryParams::new(Profile::Quick);
-        parameters.chain.masses = 30;
-        parameters.sigmas = vec![0.01, 0.07, 0.2];
-        (parameters.transients, parameters.window) = (vec![100.0, 300.0], 100.0);
-        let found = CUTTING.run(&parameters, "test", &Progress::silent()).unwrap();
-        let alive = |at: usize| found.rows[at].iter().flatten().filter(|run| run[0] > 0).count();
-        let tables = tables::tables(&found);
-        let mean = |sigma: f64, transient: f64| {
-            let keys = [("sigma", sigma), ("transient", transient)];
-            tables[0].number(&keys, "mean_count").unwrap()
-        };
-        assert!(found.rows[2].iter().flatten().all(|run| run[0] > 28), "{found:?}");
-        // From rest a gap closes by itself at σ = 0.07 in one chain of sixty.
-        assert!(alive(1) == 3 && mean(0.07, 100.0) > 3.0, "{found:?}");
-        assert!(mean(0.01, 300.0) <= mean(0.01, 100.0), "{found:?}");
     }
 }

@@ -4,6 +4,7 @@ use super::super::Results;
 use super::super::protocol_tables::address;
 use super::super::sweep::tables::mean_all;
 use super::{Counts, History};
+use crate::experiments::{HISTORY, PROTOCOL, SWEEP};
 use crate::numerics::estimates::{average, half_height};
 use crate::numerics::statistics::Estimate;
 use crate::table::Table;
@@ -77,8 +78,8 @@ pub fn of_long(history: &History) -> Vec<Table> {
 
 /// Chains from rest: counts of the main sweep at each σ, and half heights of the map after each transient.
 pub fn beside(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
-    let (history, sweep) = (&results.history().ok()?.parameters, results.sweep().ok()?);
-    let map = results.protocol().ok()?;
+    let (history, sweep) = (&results.of(&HISTORY).ok()?.parameters, results.of(&SWEEP).ok()?);
+    let map = results.of(&PROTOCOL).ok()?;
     let found = |sigma: &f64| {
         let row = sweep.rows.iter().find(|row| row.sigma == *sigma)?;
         mean_all(row).map(|[value, error]| Estimate { value, error, interval: [value; 2] })

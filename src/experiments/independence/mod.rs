@@ -3,23 +3,17 @@
 mod succession;
 pub mod tables;
 
+use super::ensembles::{Begun, Ensembles, Ran, Running};
 use super::{Error, Progress, weights};
-use crate::dynamics::{self, Engine, Scenario};
+use crate::dynamics::Scenario;
 use crate::numerics::random::{NormalPairs, generator};
 use crate::params::IndependenceParams;
-use literate::experiments::cutting::{Cutting, Row, Unit};
-use literate::experiments::progress::Stage;
+use literate::experiments::cutting::Row;
 use serde::{Deserialize, Serialize};
 use succession::{Matrix, distinct, hits, next};
 
-/// What successive impacts have to do with one another.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Independence {
-    /// What was run.
-    pub parameters: IndependenceParams,
-    /// What became of each realisation, for each ensemble.
-    pub rows: Vec<Part>,
-}
+/// What successive impacts have to do with one another: what became of each realisation.
+pub type Independence = Ran<IndependenceParams, Outcome>;
 
 /// One realisation.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -51,59 +45,40 @@ pub enum Outcome {
     Ran(Box<Run>),
 }
 
-/// Some realisations of one ensemble.
-pub type Part = Vec<Outcome>;
-
-/// The experiment in units of work.
-pub const CUTTING: Cutting<IndependenceParams, Part, Independence> =
-    Cutting { rows, part, fits, join };
-
-fn join(
-    parameters: &IndependenceParams,
-    parts: Vec<Vec<Part>>,
-    _: &Progress,
-) -> Result<Independence, Error> {
-    let rows = parts.into_iter().map(|parts| parts.concat()).collect();
-    Ok(Independence { parameters: parameters.clone(), rows })
-}
-
 /// Numbers of successive impacts of which the different gaps are counted.
 fn blocks(parameters: &IndependenceParams, big_n: usize) -> impl Iterator<Item = usize> {
     (1..=parameters.quarters).map(move |i| (i * big_n / 4).max(1))
 }
 
-fn rows(parameters: &IndependenceParams) -> Vec<Row> {
-    let protocol = parameters.protocol;
-    let row = |&sigma: &f64| Row {
-        covers: format!("sigma = {sigma}"),
-        realisations: parameters.realisations,
-        weight: weights::run(&parameters.chain, sigma, protocol.transient + 2.0 * protocol.window),
-    };
-    parameters.sigmas.iter().map(row).collect()
-}
+impl Ensembles for IndependenceParams {
+    type One = Outcome;
 
-fn part(
-    parameters: &IndependenceParams,
-    unit: &Unit,
-    stage: &Stage,
-    progress: &Progress,
-) -> Result<Part, Error> {
-    let sigma = parameters.sigmas[unit.row];
-    unit.each(stage, |index| realisation(parameters, sigma, index, progress))
-}
+    fn rows(&self) -> Vec<Row> {
+        let until = self.protocol.transient + 2.0 * self.protocol.window;
+        let row = |&sigma: &f64| Row {
+            covers: format!("sigma = {sigma}"),
+            realisations: self.realisations,
+            weight: weights::run(&self.chain, sigma, until),
+        };
+        self.sigmas.iter().map(row).collect()
+    }
 
-fn fits(parameters: &IndependenceParams, unit: &Unit, outcomes: &Part) -> bool {
-    let big_n = parameters.chain.gaps();
-    let fits = |outcome: &Outcome| match outcome {
-        Outcome::Failed | Outcome::Quiet => true,
-        Outcome::Ran(run) => {
-            let lists = [&run.hits, &run.distances, &run.circuits];
-            lists.into_iter().all(|list| list.len() == big_n)
-                && run.hits.iter().sum::<u64>() > 1
-                && run.distinct.len() == parameters.quarters
+    fn row<'a>(&'a self, row: usize, progress: &'a Progress) -> Begun<'a, Outcome> {
+        Ok(Box::new(move |index| realisation(self, self.sigmas[row], index, progress)))
+    }
+
+    fn fits(&self, _: usize, outcome: &Outcome) -> bool {
+        let big_n = self.chain.gaps();
+        match outcome {
+            Outcome::Failed | Outcome::Quiet => true,
+            Outcome::Ran(run) => {
+                let lists = [&run.hits, &run.distances, &run.circuits];
+                lists.into_iter().all(|list| list.len() == big_n)
+                    && run.hits.iter().sum::<u64>() > 1
+                    && run.distinct.len() == self.quarters
+            }
         }
-    };
-    outcomes.len() == unit.realisations.len() && outcomes.iter().all(fits)
+    }
 }
 
 fn realisation(
@@ -112,26 +87,17 @@ fn realisation(
     index: u64,
     progress: &Progress,
 ) -> Result<Outcome, Error> {
-    progress.check()?;
     let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, index);
     let scenario = Scenario::draw(&parameters.chain, sigma, &mut normals);
-    let fault = |source| Error::failed("independence", source);
-    let mut engine = Engine::new(&scenario).map_err(fault)?;
-    let mut gaps = Vec::new();
-    let protocol = parameters.protocol;
-    let ended = engine.run(protocol.transient, |_| !progress.stopped()).and_then(|()| {
-        engine.run(protocol.transient + protocol.window, |impact| {
-            gaps.push(impact.gap);
-            !progress.stopped()
-        })
-    });
-    progress.check()?;
-    match ended {
-        Ok(()) if gaps.len() < 2 => Ok(Outcome::Quiet),
-        Ok(()) => Ok(Outcome::Ran(Box::new(counted(parameters, &gaps, scenario.gaps(), index)))),
-        Err(dynamics::Error::Work { .. }) => Ok(Outcome::Failed),
-        Err(source) => Err(fault(source)),
-    }
+    let mut motion = Running::new(&scenario, "independence", progress)?;
+    let (mut gaps, protocol) = (Vec::new(), parameters.protocol);
+    let ended = motion.go(protocol.transient, |_| ())?
+        && motion.go(protocol.transient + protocol.window, |impact| gaps.push(impact.gap))?;
+    Ok(match ended {
+        false => Outcome::Failed,
+        true if gaps.len() < 2 => Outcome::Quiet,
+        true => Outcome::Ran(Box::new(counted(parameters, &gaps, scenario.gaps(), index))),
+    })
 }
 
 /// Everything that is counted in one sequence.

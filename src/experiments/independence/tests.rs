@@ -11,23 +11,6 @@ fn small() -> IndependenceParams {
     parameters
 }
 
-fn run(parameters: &IndependenceParams) -> [Table; 6] {
-    let found = CUTTING.run(parameters, "test", &Progress::silent()).unwrap();
-    tables(&found).try_into().unwrap()
-}
-
-#[test]
-fn a_chain_is_not_independent_and_a_quiet_one_has_no_sequence() {
-    let [rising, ..] = run(&small());
-    let of = |column| rising.number(&[("sigma", 0.3)], column).unwrap();
-    assert!(rising.number(&[("sigma", 0.03)], "dependence").is_err());
-    assert_eq!(rising.number(&[("sigma", 0.03)], "impacts"), Ok(0.0));
-    assert!(of("impacts") > 1000.0);
-    // What the frequencies alone would do is far away.
-    assert!(of("same") < 0.5 * of("same_independent"), "{}", of("same"));
-    assert!(of("dependence") > 3.0);
-}
-
 /// 40 000 impacts of twelve gaps by chance, as four realisations: all alike for 12, the first twice as
 /// often for 13.
 fn by_chance(faces: u64) -> [Table; 6] {

@@ -2,33 +2,18 @@
 
 pub mod tables;
 
+use super::ensembles::{Begun, Ensembles, Ran};
 use super::{Error, Progress};
-use crate::circuits::nucleation::reach::closes_by_itself;
 use crate::dynamics::{self, Engine, Scenario};
 use crate::numerics::random::NormalPairs;
 use crate::params::{Chain, NucleationParams};
-use literate::experiments::cutting::{Cutting, Row, Unit};
-use literate::experiments::progress::Stage;
-use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
+use literate::experiments::cutting::Row;
 
-/// First impacts of chains from rest.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Nucleation {
-    /// What was run.
-    pub parameters: NucleationParams,
-    /// For each length and σ its chains: length by length.
-    pub rows: Vec<Part>,
-}
+/// First impacts of chains from rest, for each length and σ: length by length.
+pub type Nucleation = Ran<NucleationParams, First>;
 
-/// One chain: whether it has a gap that closes by itself, and the time of its first impact.
-pub type First = (bool, Option<f64>);
-
-/// Some chains of one row.
-pub type Part = Vec<First>;
-
-/// The experiment in units of work.
-pub const CUTTING: Cutting<NucleationParams, Part, Nucleation> = Cutting { rows, part, fits, join };
+/// The time of a chain's first impact, if it has one in time.
+pub type First = Option<f64>;
 
 /// The ensembles in their order.
 fn ensembles(parameters: &NucleationParams) -> impl Iterator<Item = (usize, usize, f64)> {
@@ -38,31 +23,29 @@ fn ensembles(parameters: &NucleationParams) -> impl Iterator<Item = (usize, usiz
     parameters.lengths.iter().flat_map(of)
 }
 
-fn rows(parameters: &NucleationParams) -> Vec<Row> {
-    let row = |(masses, realisations, sigma)| Row {
-        covers: format!("n = {masses}, sigma = {sigma}"),
-        realisations,
-        // A search of a gap costs about what an impact does.
-        weight: masses as u64 + 1,
-    };
-    ensembles(parameters).map(row).collect()
-}
+impl Ensembles for NucleationParams {
+    type One = First;
 
-fn part(
-    parameters: &NucleationParams,
-    unit: &Unit,
-    stage: &Stage,
-    progress: &Progress,
-) -> Result<Part, Error> {
-    let ensemble = ensembles(parameters).nth(unit.row);
-    let (masses, _, sigma) = ensemble.unwrap_or_default();
-    let chain = Chain { masses, ..parameters.chain.clone() };
-    let one = |index| {
-        let found = first(parameters, &chain, sigma, index as u64, progress);
-        stage.advance(masses as u64 + 1);
-        found
-    };
-    unit.realisations.clone().into_par_iter().with_max_len(64).map(one).collect()
+    fn rows(&self) -> Vec<Row> {
+        let row = |(masses, realisations, sigma)| Row {
+            covers: format!("n = {masses}, sigma = {sigma}"),
+            realisations,
+            // A search of a gap costs about what an impact does.
+            weight: masses as u64 + 1,
+        };
+        ensembles(self).map(row).collect()
+    }
+
+    fn row<'a>(&'a self, row: usize, _: &'a Progress) -> Begun<'a, First> {
+        let (masses, _, sigma) = ensembles(self).nth(row).unwrap_or_default();
+        let chain = Chain { masses, ..self.chain.clone() };
+        Ok(Box::new(move |index| first(self, &chain, sigma, index)))
+    }
+
+    fn fits(&self, _: usize, time: &First) -> bool {
+        let last = self.times.last().copied().unwrap_or(0.0);
+        time.is_none_or(|time| (0.0..=last).contains(&time))
+    }
 }
 
 fn first(
@@ -70,12 +53,9 @@ fn first(
     chain: &Chain,
     sigma: f64,
     index: u64,
-    progress: &Progress,
 ) -> Result<First, Error> {
-    progress.check()?;
     let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, index);
     let scenario = Scenario::draw(chain, sigma, &mut normals);
-    let able = differences(&scenario.forcing).any(|delta| closes_by_itself(chain, delta));
     let fault = |source: dynamics::Error| Error::failed("nucleation", source);
     let mut time = None;
     Engine::new(&scenario)
@@ -85,7 +65,7 @@ fn first(
             false
         })
         .map_err(fault)?;
-    Ok((able, time))
+    Ok(time)
 }
 
 /// The differences of the amplitudes on both sides of each gap of a chain between walls, which are
@@ -97,48 +77,9 @@ pub(super) fn differences(forcing: &[[f64; 2]]) -> impl Iterator<Item = [f64; 2]
     left.zip(right).map(|(a, b)| [b[0] - a[0], b[1] - a[1]])
 }
 
-fn fits(parameters: &NucleationParams, unit: &Unit, firsts: &Part) -> bool {
-    let last = parameters.times.last().copied().unwrap_or(0.0);
-    let fits = |(able, time): &First| time.is_none_or(|time| *able && (0.0..=last).contains(&time));
-    firsts.len() == unit.realisations.len() && firsts.iter().all(fits)
-}
-
-fn join(
-    parameters: &NucleationParams,
-    parts: Vec<Vec<Part>>,
-    _: &Progress,
-) -> Result<Nucleation, Error> {
-    let rows = parts.into_iter().map(|parts| parts.concat()).collect();
-    Ok(Nucleation { parameters: parameters.clone(), rows })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::params::Profile;
-
-    #[test]
-    fn the_first_impact_is_in_a_gap_that_closes_by_itself() {
-        let mut parameters = NucleationParams::new(Profile::Quick);
-        parameters.lengths = vec![(1, 40), (30, 40)];
-        parameters.sigmas = vec![0.1, 0.16, 0.3];
-        let found = CUTTING.run(&parameters, "test", &Progress::silent()).unwrap();
-        let tables = tables::tables(&found);
-        let chains = tables.iter().find(|table| table.name() == "nucleation.chains").unwrap();
-        let hits = |masses: f64, sigma: f64, time: f64| {
-            let keys = [("masses", masses), ("sigma", sigma), ("time", time)];
-            let [able, found] = ["able", "found"].map(|of| chains.number(&keys, of).unwrap());
-            [able, 40.0 * found]
-        };
-        for (masses, sigma) in [1.0, 30.0].map(|n| [(n, 0.1), (n, 0.16), (n, 0.3)]).concat() {
-            // By T = 500 nearly all that can have closed, and no others.
-            let [able, hit] = hits(masses, sigma, 500.0);
-            assert!(hit <= able && able <= hit + 2.0, "{hit} {able}");
-        }
-        let early =
-            [(1.0, 0.1), (30.0, 0.1), (30.0, 0.3)].map(|(n, sigma)| hits(n, sigma, 10.0)[1]);
-        assert!(early[0] < 5.0 && early[1] < 25.0 && early[2] == 40.0, "{early:?}");
-    }
 
     #[test]
     fn gaps_lie_between_neighbours_and_unforced_walls() {

@@ -1,6 +1,6 @@
 //! What follows from first impacts, beside what the reach of single gaps says.
 
-use super::{Nucleation, Part, ensembles};
+use super::{First, Nucleation, ensembles};
 use crate::circuits::nucleation::chain::{AtLeastOne, Chances, half};
 use crate::circuits::nucleation::reach::Reach;
 use crate::numerics::estimates::share;
@@ -31,7 +31,7 @@ struct Chains<'a> {
     masses: usize,
     sigma: f64,
     time: f64,
-    part: &'a Part,
+    part: &'a [First],
     expected: AtLeastOne,
 }
 
@@ -81,10 +81,6 @@ fn single(chain: &Chain, gaps: &[Gaps]) -> Table {
         .key("sigma", SIGMA, |row| row.sigma)
         .real("p", "1", 2, "chance of a gap between masses to close by itself", |row| row.ever.p)
         .real("wall", "1", 2, "that of a gap at a wall", |row| row.ever.wall)
-        .real("pair", "1", 2, "that of two neighbouring gaps between masses", |row| row.ever.pair)
-        .real("wall_pair", "1", 2, "that of a gap at a wall and its neighbour", |row| {
-            row.ever.wall_pair
-        })
         .real("neighbour", "1", 2, "that of a gap between masses if its neighbour does", |row| {
             row.ever.pair / row.ever.p
         })
@@ -134,9 +130,6 @@ fn chains_table(rows: &[Chains<'_>]) -> Table {
         .key("masses", "1", |row| row.masses as f64)
         .key("sigma", SIGMA, |row| row.sigma)
         .key("time", "1/omega", |row| row.time)
-        .count("able", "chains with a gap that closes by itself in unlimited time", |row| {
-            row.part.iter().filter(|(able, _)| *able).count() as u64
-        })
         .estimate("found", "1", "share of the chains with an impact by then", |row| {
             share(row.hit(), row.part.len() as u64)
         })
@@ -172,7 +165,7 @@ fn all(parameters: &NucleationParams, chains: &[Chains<'_>], half: f64) -> Table
 impl Chains<'_> {
     /// Chains with an impact by the time.
     fn hit(&self) -> u64 {
-        let by_then = |(_, first): &&(bool, Option<f64>)| first.is_some_and(|at| at <= self.time);
+        let by_then = |first: &&First| first.is_some_and(|at| at <= self.time);
         self.part.iter().filter(by_then).count() as u64
     }
 }

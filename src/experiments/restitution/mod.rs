@@ -9,20 +9,15 @@ pub mod tables;
 
 use hot::hot;
 
-use super::{Error, Progress, weights};
+use super::ensembles::{Begun, Ensembles, Ran};
+use super::{Progress, weights};
 use crate::params::{Chain, RestitutionParams};
-use literate::experiments::cutting::{Cutting, Row, Unit};
-use literate::experiments::progress::Stage;
+use literate::experiments::cutting::Row;
 use serde::{Deserialize, Serialize};
 
-/// What was run: for each row its realisations, none where the engine gave up.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Restitution {
-    /// The sizes.
-    pub parameters: RestitutionParams,
-    /// First the curves, r by r and σ by σ, then the chains that are watched while they heat, by rising r.
-    pub rows: Vec<Part>,
-}
+/// What was run: first the curves, r by r and σ by σ, then the chains that are watched while they heat, by rising r;
+/// none where the engine gave up.
+pub type Restitution = Ran<RestitutionParams, Option<Run>>;
 
 /// One realisation.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -47,13 +42,6 @@ struct Case {
     realisations: usize,
 }
 
-/// Some realisations of one ensemble; none where the engine gave up.
-pub type Part = Vec<Option<Run>>;
-
-/// The experiment in units of work.
-pub const CUTTING: Cutting<RestitutionParams, Part, Restitution> =
-    Cutting { rows, part, fits, join };
-
 /// All ensembles: the curves, r by r, and those that are watched while they heat.
 fn cases(parameters: &RestitutionParams) -> Vec<Case> {
     let protocol = parameters.protocol;
@@ -73,15 +61,6 @@ fn cases(parameters: &RestitutionParams) -> Vec<Case> {
     };
     let curves = parameters.restitutions.iter().flat_map(curve);
     curves.chain(parameters.heated.iter().map(heated)).collect()
-}
-
-fn join(
-    parameters: &RestitutionParams,
-    parts: Vec<Vec<Part>>,
-    _: &Progress,
-) -> Result<Restitution, Error> {
-    let rows = parts.into_iter().map(|parts| parts.concat()).collect();
-    Ok(Restitution { parameters: parameters.clone(), rows })
 }
 
 fn chain(parameters: &RestitutionParams, restitution: f64) -> Chain {
@@ -104,34 +83,29 @@ fn weight(parameters: &RestitutionParams, case: &Case) -> u64 {
     (paper * sequences * speed(case.restitution) / speed(parameters.chain.restitution)) as u64
 }
 
-fn rows(parameters: &RestitutionParams) -> Vec<Row> {
-    let row = |case: Case| Row {
-        covers: format!("sigma = {}, r = {}", case.sigma, case.restitution),
-        realisations: case.realisations,
-        weight: weight(parameters, &case),
-    };
-    cases(parameters).into_iter().map(row).collect()
-}
+impl Ensembles for RestitutionParams {
+    type One = Option<Run>;
 
-fn part(
-    parameters: &RestitutionParams,
-    unit: &Unit,
-    stage: &Stage,
-    progress: &Progress,
-) -> Result<Part, Error> {
-    let case = &cases(parameters)[unit.row];
-    unit.each(stage, |index| run::realisation(parameters, case, index, progress))
-}
+    fn rows(&self) -> Vec<Row> {
+        let row = |case: Case| Row {
+            covers: format!("sigma = {}, r = {}", case.sigma, case.restitution),
+            realisations: case.realisations,
+            weight: weight(self, &case),
+        };
+        cases(self).into_iter().map(row).collect()
+    }
 
-fn fits(parameters: &RestitutionParams, unit: &Unit, runs: &Part) -> bool {
-    let gaps = parameters.chain.gaps() as u64;
-    let Some(case) = cases(parameters).into_iter().nth(unit.row) else { return false };
-    let fits = |run: &Run| {
-        run.impacts.len() == case.ends.len()
-            && run.free.len() == case.ends.len()
-            && run.distinct <= gaps
-    };
-    runs.len() == unit.realisations.len() && runs.iter().flatten().all(fits)
+    fn row<'a>(&'a self, row: usize, progress: &'a Progress) -> Begun<'a, Option<Run>> {
+        let case = cases(self).swap_remove(row);
+        Ok(Box::new(move |index| run::realisation(self, &case, index, progress)))
+    }
+
+    fn fits(&self, row: usize, run: &Option<Run>) -> bool {
+        let (gaps, windows) = (self.chain.gaps() as u64, cases(self)[row].ends.len());
+        run.as_ref().is_none_or(|run| {
+            [run.impacts.len(), run.free.len()] == [windows; 2] && run.distinct <= gaps
+        })
+    }
 }
 
 #[cfg(test)]

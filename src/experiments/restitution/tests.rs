@@ -2,9 +2,7 @@ use super::hot::hot;
 use super::tables::tables;
 use super::*;
 use crate::numerics::quadrature::GaussLegendre;
-use crate::numerics::random::NormalPairs;
 use crate::params::{Profile, Protocol};
-use crate::table::Table;
 use pxfm::{f_cbrt, f_exp, f_lgamma, f_log};
 
 fn small() -> RestitutionParams {
@@ -17,32 +15,6 @@ fn small() -> RestitutionParams {
     parameters.heated = vec![0.9, 1.0];
     parameters.ends = vec![25.0, 50.0, 100.0];
     parameters
-}
-
-fn found(parameters: &RestitutionParams) -> (Restitution, [Table; 5]) {
-    let found = CUTTING.run(parameters, "test", &Progress::silent()).unwrap();
-    let tables = tables(&found).try_into().unwrap();
-    (found, tables)
-}
-
-#[test]
-fn contact_needs_a_force_that_presses() {
-    let (_, [rise, .., all]) = found(&small());
-    let phases = |r, sigma| rise.number(&[("r", r), ("sigma", sigma)], "phases").unwrap();
-    assert!(phases(0.0, 0.03) == 0.0 && phases(0.0, 0.6) > phases(0.8, 0.6));
-    assert!(all.number(&[], "touched_to").is_ok());
-}
-
-#[test]
-fn energy_grows_without_loss() {
-    let (_, [_, curves, heating, heated, _]) = found(&small());
-    let last = |r| heating.number(&[("r", r), ("window_end", 100.0)], "variance_ratio").unwrap();
-    assert!(last(1.0) > 1.5 * last(0.9), "{} {}", last(1.0), last(0.9));
-    assert_eq!(curves.number(&[("r", 0.0)], "balanced").unwrap(), 2.0);
-    assert!((curves.number(&[("r", 0.8)], "balanced").unwrap() - 18.0).abs() < 1e-12);
-    // No state is steady at r = 1.
-    assert!(heated.number(&[("r", 1.0)], "variance_ratio_balanced").is_err());
-    assert!(heated.number(&[("r", 1.0)], "variance_ratio_steady").is_err());
 }
 
 /// Runs that are made up, so that means, ratios and half heights are known.
@@ -88,23 +60,6 @@ fn tables_follow_from_the_runs_as_by_hand() {
     near(heated.number(&[("r", 0.9)], "exponent").unwrap(), 1.0);
 }
 
-/// Equal steps of ln t: the slope by least squares from the differences of all pairs, each weighed by its distance.
-#[test]
-fn an_exponent_by_pairs() {
-    let (_, [.., heating, heated, _]) = found(&small());
-    let points = heating.points(&[("r", 0.9)], "window_end", "impacts");
-    let points: Vec<_> = points[1..].iter().map(|(t, rate)| (f_log(*t), f_log(*rate))).collect();
-    let (mut above, mut below) = (0.0, 0.0);
-    for (x, y) in &points {
-        for (other, height) in &points {
-            above += (x - other) * (y - height);
-            below += (x - other) * (x - other);
-        }
-    }
-    let found = heated.number(&[("r", 0.9)], "exponent").unwrap();
-    assert!((found - above / below).abs() < 1e-12, "{found} {}", above / below);
-}
-
 /// ω = d = 1 and the density exp(−|v|³/c), c = 9 σ² t/2: the mean distance over pairs, and the second moment as
 /// a ratio of values of Γ.
 #[test]
@@ -126,48 +81,5 @@ fn hot_chains_by_other_integrals() {
         let scale = f_exp(2.0 / 3.0 * f_log(4.5 * sigma * sigma * end));
         let ratio = 0.5 * scale / f_exp(f_lgamma(1.0 / 3.0)) / (sigma * sigma);
         assert!((found.ratio / ratio - 1.0).abs() < 1e-9, "{} {ratio}", found.ratio);
-    }
-}
-
-#[test]
-fn hot_masses_diffuse_as_the_law_says() {
-    // The second route: masses that are kicked by one force after another as they pass them.
-    let chain = crate::params::Chain::default();
-    let (sigma, until, count) = (0.3, 400.0, 400);
-    let mut normals = NormalPairs::new("test of hot chains", 1, 0);
-    let mut square = 0.0;
-    for _ in 0..count {
-        let [mut v, phase] = normals.pair();
-        let [mut t, mut x] = [0.0_f64, phase];
-        let mut place = x.floor();
-        let mut force = normals.pair();
-        let h = 0.02;
-        while t < until {
-            let (sin, cos) = pxfm::f_sincos(chain.forcing_frequency * t);
-            v += h * sigma * (force[0] * cos + force[1] * sin);
-            x += h * v;
-            t += h;
-            // A place once left is not found again: the next mass there has another force.
-            if x.floor() != place {
-                place = x.floor();
-                force = normals.pair();
-            }
-        }
-        square += 0.5 * v * v / (sigma * sigma) / f64::from(count);
-    }
-    let expected = hot(&chain, sigma, 0.0, until).ratio;
-    assert!((square / expected - 1.0).abs() < 0.3, "{square} {expected}");
-}
-
-#[test]
-fn work_is_guessed_within_a_factor_of_a_few() {
-    let parameters =
-        RestitutionParams { realisations: 2, ..RestitutionParams::new(Profile::Quick) };
-    let (found, _) = found(&parameters);
-    for (row, case) in found.rows.iter().zip(cases(&parameters)) {
-        let impacts: u64 = row.iter().flatten().flat_map(|run| &run.impacts).sum();
-        let (own, guess) = (impacts / row.len() as u64, weight(&parameters, &case));
-        let room = 4;
-        assert!(own < 5000 || own < room * guess && guess < room * own, "{case:?}: {own} {guess}");
     }
 }

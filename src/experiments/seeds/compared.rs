@@ -1,8 +1,8 @@
 //! What is predicted beside what was simulated: by the main sweep, and after several transients by the map of the
 //! protocol.
 
-use crate::experiments::Results;
 use crate::experiments::protocol_tables::address;
+use crate::experiments::{PROTOCOL, Results, SEEDS};
 use crate::numerics::estimates::difference;
 use crate::numerics::statistics::Estimate;
 use crate::table::Table;
@@ -20,7 +20,7 @@ struct Line<'a> {
 pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
     let of = |name: &str| all.iter().find(|table| table.name() == name);
     let (means, rise, found) = (of("seeds.means")?, of("seeds.rise")?, of("sweep.rows")?);
-    let (seeds, map) = (&results.seeds().ok()?.parameters, results.protocol().ok()?);
+    let (seeds, map) = (&results.of(&SEEDS).ok()?.parameters, results.of(&PROTOCOL).ok()?);
     let window = seeds.window as f64 * seeds.bin;
     let curve = |&transient: &f64| Some((transient, map.curve(transient, window)?));
     let curves: Vec<_> = rise.values("transient").iter().filter_map(curve).collect();
@@ -56,11 +56,6 @@ pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
     let worst = against.iter().max_by(|a, b| a.2.abs().total_cmp(&b.2.abs()));
     let half = rise.estimates(&[("transient", transient)], "transient", "half_height");
     let swept = of("sweep.rise")?.estimates(&[], "half_height_all", "half_height_all");
-    let against_sweep = Table::of("seeds.against_sweep", &against, |_| 1)
-        .key("sigma", "d omega^2", |at| at.0)
-        .real("simulated", "1", 3, "mean count of all in the main sweep", |at| at.1)
-        .real("excess", "1", 2, "the one by nucleation and growth less this", |at| at.2)
-        .done();
     let theory = of("seeds.theory")?;
     let root = |of: &dyn Fn(f64) -> Option<f64>| {
         let squares =
@@ -84,7 +79,7 @@ pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
         .real("from_rest", "1", 2, OFF_SWEEP, |()| by_circuits("from_rest"))
         .real("eq25", "1", 2, OFF_SWEEP, |()| by_circuits("eq25"))
         .done();
-    Some(vec![scores, against_sweep, compared])
+    Some(vec![scores, compared])
 }
 
 const OFF_SWEEP: &str = "root mean square distance from the mean counts of the main sweep, in gaps";

@@ -97,26 +97,6 @@ impl ByDistance {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::params::Profile;
-
-    #[test]
-    fn counts_of_a_run_by_hand() {
-        // Gap 1 of three is the seed. Gap 2 is hit in bins 1 and 3, gap 0 never.
-        let mut parameters = SeedsParams::new(Profile::Quick);
-        parameters.chain.masses = 2;
-        (parameters.bins, parameters.window) = (4, 2);
-        let trace = Trace { seed: Some(1), hits: vec![0, 0b0001, 0b1010], ..Trace::default() };
-        let late = Trace::default();
-        let seen = ByDistance::count(&parameters, &[Some(trace), None, Some(late)]);
-        assert_eq!(seen.places, [1, 2, 0]);
-        assert_eq!(seen.reached.concat(), [0, 0, 0, 1, 0, 0, 1, 1, 0, 1, 1, 0, 1, 1, 0]);
-        assert_eq!(seen.active, [[1, 1, 0], [0, 1, 0], [0, 1, 0]]);
-        let twice = ByDistance::sum(&[seen.clone(), seen.clone(), seen.clone()], 1);
-        assert_eq!((twice.places, &twice.active[0][..]), (vec![2, 4, 0], &[2, 2, 0][..]));
-        // Half of the next gaps, from the first bin on.
-        assert_eq!([0, 1, 2, 4].map(|bin| seen.advance(bin)), [0.0, 0.0, 0.5, 0.5]);
-        assert_eq!(seen.radius(4), 1.0);
-    }
 
     #[test]
     fn exponent_and_radius_by_hand() {

@@ -278,26 +278,4 @@ mod tests {
         let found = Fronts { parameters: &parameters(), runs }.alike();
         assert!((found - 0.34 / 0.25).abs() < 1e-14, "{found}");
     }
-
-    /// Obstacles that hold independently: the measure is one.
-    #[test]
-    fn independent_obstacles_have_no_memory() {
-        use rand::RngExt;
-        let mut parameters = parameters();
-        (parameters.bins, parameters.window) = (60, 4);
-        let mut random = crate::numerics::random::generator("test of fronts", 1, 0);
-        let mut one = || {
-            let (mut at, mut firsts) = (0, vec![Some(0)]);
-            for _ in 0..30 {
-                at += if random.random_bool(0.2) { 9 } else { 1 };
-                firsts.push((at < 60).then_some(at));
-            }
-            let crossed = vec![0; firsts.len()];
-            Waits::of(&parameters, (0, &Trace { firsts, crossed, ..Trace::default() }))
-        };
-        let runs = (0..400).map(|_| one()).collect();
-        let found = Fronts { parameters: &parameters, runs };
-        let own = found.memory().unwrap();
-        assert!((own.value - 1.0).abs() < 4.0 * own.error && own.error < 0.15, "{own:?}");
-    }
 }

@@ -121,40 +121,6 @@ mod tests {
     use super::*;
     use crate::params::Profile;
 
-    /// Three gaps and three bins, of which a window has one.
-    fn parameters() -> SeedsParams {
-        let mut parameters = SeedsParams::new(Profile::Quick);
-        parameters.chain.masses = 2;
-        (parameters.bins, parameters.window) = (3, 1);
-        parameters
-    }
-
-    #[test]
-    fn seeds_that_reach_nothing_else_are_counted_alone() {
-        // Whoever closes is hit once in its bin and in the next, and so is nobody else.
-        let seen = ByDistance {
-            places: vec![4, 8, 4],
-            reached: vec![vec![0, 0, 0], vec![4, 0, 0], vec![4, 0, 0], vec![4, 0, 0]],
-            active: vec![vec![4, 0, 0], vec![4, 0, 0], vec![0, 0, 0]],
-        };
-        // Walls close in the first bin, the gap between in the second.
-        let closing = [vec![0.5, 0.0, 0.0], vec![0.0, 0.25, 0.0]];
-        // After one bin: those of the first bin, half of which start at its end; those of the
-        // second, half of which start at the end of the window and are not yet seen.
-        let found = expected(&parameters(), &closing, &seen, 1);
-        assert!((found - (2.0 * 0.5 + 0.5 * 0.25)).abs() < 1e-15, "{found}");
-    }
-
-    #[test]
-    fn a_seed_that_reaches_everything_fills_the_chain() {
-        let full = |n: u64| vec![n; 3];
-        let seen =
-            ByDistance { places: full(5), reached: vec![full(5); 4], active: vec![full(5); 3] };
-        let closing = [vec![0.1, 0.0, 0.0], vec![0.2, 0.0, 0.0]];
-        let found = expected(&parameters(), &closing, &seen, 2);
-        assert!((found - 3.0 * (1.0 - 0.9 * 0.9 * 0.8)).abs() < 1e-12, "{found}");
-    }
-
     /// Gap by gap and seed by seed, with products as sums of logarithms and walls as what they change.
     #[test]
     fn the_mean_count_by_logarithms() {

@@ -67,9 +67,6 @@ pub struct Advance {
 }
 
 /// Runs realisations until one keeps hitting.
-///
-/// # Errors
-/// [`Error::Interrupted`]; [`Error::Failed`] if a run fails.
 pub fn run(parameters: &SpaceTimeParams, progress: &Progress) -> Result<SpaceTime, Error> {
     let stage = progress.stage("spacetime", 1);
     let failed = |source| Error::failed("spacetime", source);
@@ -233,9 +230,7 @@ mod tests {
     }
 
     #[test]
-    fn the_run_is_the_first_that_keeps_hitting_and_repeats_exactly() {
-        let found = quick();
-        assert_eq!(found, quick());
+    fn the_run_is_the_first_that_keeps_hitting() {
         // Below the threshold some runs fall silent, and are passed over.
         let seeded = |seed| {
             let quick = SpaceTimeParams::new(Profile::Quick);
@@ -260,25 +255,6 @@ mod tests {
             };
             engine.run(found.parameters.until, seen).unwrap();
             assert!(last <= late, "realisation {index} has an impact at {last}");
-        }
-    }
-
-    /// A start closes by itself: its free and forced amplitudes from rest must reach d (Sec. 8).
-    #[test]
-    fn starts_are_gaps_that_can_close_by_themselves() {
-        let found = quick();
-        let starts = found.starts();
-        assert!(!starts.is_empty());
-        let forcing = |mass: usize| match (1..=100).contains(&mass) {
-            true => found.scene.forcing[mass - 1],
-            false => [0.0; 2],
-        };
-        for gap in starts {
-            let ([a, b], [c, d]) = (forcing(gap), forcing(gap + 1));
-            let (alpha, beta) = (c - a, d - b);
-            let reach =
-                (alpha * alpha + 2.0 * beta * beta).sqrt() + (alpha * alpha + beta * beta).sqrt();
-            assert!(reach >= 1.0, "gap {gap} reaches only {reach}");
         }
     }
 

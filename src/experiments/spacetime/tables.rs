@@ -28,7 +28,6 @@ fn whole(own: &SpaceTime) -> Table {
         .real("first", time, 3, "the first impact", |()| own.times.first().copied().unwrap_or(none))
         .computed_by(origin(SpaceTime::reached))
         .count("reached", "gaps with an impact", |()| reached as u64)
-        .real("reached_share", "1", 2, "of all gaps", |()| reached as f64 / own.width() as f64)
         .computed_by(origin(SpaceTime::reached_by))
         .count("reached_by_quarter", "gaps with an impact", |()| own.reached_by(until / 4.0) as u64)
         .count("reached_by_half", "gaps with an impact", |()| own.reached_by(until / 2.0) as u64)

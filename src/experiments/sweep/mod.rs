@@ -11,7 +11,7 @@ use super::rise::{self, Rise};
 use super::tally::Tally;
 use super::{Error, Progress, weights};
 use crate::numerics::statistics as stat;
-use crate::params::{COMPARABLE_REJECTED, LEVEL, Protocol, SweepParams};
+use crate::params::{COMPARABLE_REJECTED, Protocol, SweepParams};
 use literate::experiments::cutting::{Cutting, Row, Unit};
 use literate::experiments::progress::Stage;
 use rayon::prelude::*;
@@ -47,8 +47,6 @@ pub struct SweepRow {
     pub first_failure: Option<String>,
     /// Whether few enough were rejected for the row to be compared with others.
     pub comparable: bool,
-    /// Share of the kept among those that ran, with Wilson's interval.
-    pub kept_interval: Option<[f64; 2]>,
     /// Mean of the kept.
     pub mean_distinct: Option<f64>,
     /// Standard error of that mean.
@@ -63,8 +61,6 @@ pub struct SweepRow {
     pub mode_distinct: Option<usize>,
     /// Bootstrap interval of the mode.
     pub mode_interval: Option<[usize; 2]>,
-    /// 5, 25, 50, 75 and 95 % quantiles of the kept.
-    pub quantiles: Option<[usize; 5]>,
     /// Impacts in the window: mean of the kept, and its standard error.
     pub impacts_in_window: Option<[f64; 2]>,
     /// Masses hit in the window: mean of the kept, and its standard error.
@@ -79,9 +75,7 @@ pub struct SweepRow {
     pub slow: u64,
     /// Contact phases begun.
     pub contact_phases: u64,
-    /// Impacts that follow one of an adjacent gap.
-    pub adjacent_pairs: u64,
-    /// Of these, within each δ of [`NEAR_DECADES`].
+    /// Impacts that follow one of an adjacent gap within each δ of [`NEAR_DECADES`].
     pub near_decades: Vec<u64>,
     /// Impacts with a closing speed below each v of [`SLOW_DECADES`].
     pub slow_decades: Vec<u64>,
@@ -103,9 +97,6 @@ pub struct Sample {
 pub const CUTTING: Cutting<SweepParams, Tally, Sweep> = Cutting { rows, part, fits, join };
 
 /// Runs the ensemble over all σ.
-///
-/// # Errors
-/// [`Error::Interrupted`]; [`Error::Failed`] if the chain is not allowed.
 pub fn run(parameters: &SweepParams, name: &str, progress: &Progress) -> Result<Sweep, Error> {
     CUTTING.run(parameters, name, progress)
 }
@@ -121,9 +112,6 @@ pub fn rows(parameters: &SweepParams) -> Vec<Row> {
 }
 
 /// Runs some realisations of one σ.
-///
-/// # Errors
-/// As [`run`].
 pub fn part(
     parameters: &SweepParams,
     unit: &Unit,
@@ -139,9 +127,6 @@ pub fn fits(parameters: &SweepParams, unit: &Unit, tally: &Tally) -> bool {
 }
 
 /// Reduces the tallies of each σ, and finds the rise.
-///
-/// # Errors
-/// [`Error::Interrupted`].
 pub fn join(
     parameters: &SweepParams,
     tallies: Vec<Vec<Tally>>,
@@ -178,9 +163,6 @@ pub fn work(parameters: &SweepParams) -> u64 {
 }
 
 /// Runs the ensemble at one σ, without bootstrap.
-///
-/// # Errors
-/// As [`run`].
 pub fn at(
     parameters: &SweepParams,
     sigma: f64,
@@ -223,7 +205,6 @@ pub(crate) fn reduce(parameters: &SweepParams, sigma: f64, tally: Tally) -> Samp
     let kept: Vec<f64> = ran.iter().copied().filter(|&k| k > 0.0).collect();
     let mut kept_counts = counts.clone();
     kept_counts[0] = 0;
-    let quantiles = [0.05, 0.25, 0.5, 0.75, 0.95].map(|q| stat::count_quantile(&kept_counts, q));
     let time = kept.len() as f64 * parameters.protocol.window;
     let row = SweepRow {
         sigma,
@@ -233,7 +214,6 @@ pub(crate) fn reduce(parameters: &SweepParams, sigma: f64, tally: Tally) -> Samp
         failed,
         first_failure,
         comparable: rejected as f64 <= COMPARABLE_REJECTED * distinct.len() as f64,
-        kept_interval: stat::wilson(kept.len() as u64, ran.len() as u64, LEVEL),
         mean_distinct: stat::mean(&kept),
         standard_error: stat::standard_error(&kept),
         mean_interval: None,
@@ -241,10 +221,6 @@ pub(crate) fn reduce(parameters: &SweepParams, sigma: f64, tally: Tally) -> Samp
         mean_all_interval: None,
         mode_distinct: stat::mode(&kept_counts),
         mode_interval: None,
-        quantiles: match quantiles {
-            [Some(a), Some(b), Some(c), Some(d), Some(e)] => Some([a, b, c, d, e]),
-            _ => None,
-        },
         // Realisations without impact add nothing to either sum.
         impacts_in_window: stat::mean_of_sums(kept.len(), kept_impacts),
         masses_hit: stat::mean_of_sums(kept.len(), kept_masses),
@@ -253,7 +229,6 @@ pub(crate) fn reduce(parameters: &SweepParams, sigma: f64, tally: Tally) -> Samp
         near_simultaneous: total.near[NEAR_DECADES.len() - 1],
         slow: total.slow[SLOW_DECADES.len() - 1],
         contact_phases: total.contact_phases,
-        adjacent_pairs: total.adjacent_pairs,
         near_decades: total.near.to_vec(),
         slow_decades: total.slow.to_vec(),
         counts,
@@ -300,7 +275,7 @@ mod tests {
         assert!(!row.comparable, "one of six was rejected");
         assert_eq!((row.mean_distinct, row.mean_all), (Some(6.0), Some(4.5)));
         assert_eq!(row.standard_error, Some(2.0)); // s = √12, over √3
-        assert_eq!((row.mode_distinct, row.quantiles), (Some(4), Some([4, 4, 4, 10, 10])));
+        assert_eq!(row.mode_distinct, Some(4));
         assert_eq!(row.impacts_per_time, Some(240.0 / (3.0 * 200.0)));
         assert_eq!(row.impacts_in_window, Some([80.0, (3200.0_f64 / 2.0 / 3.0).sqrt()]));
         assert_eq!(row.masses_hit, Some([5.0, 2.0]));
@@ -313,7 +288,7 @@ mod tests {
         let parameters = SweepParams::main(Profile::Quick);
         let row = reduce(&parameters, 0.1, [counted(0, 0)].iter().collect()).row;
         assert_eq!((row.mean_distinct, row.mean_all), (None, Some(0.0)));
-        assert_eq!((row.mode_distinct, row.quantiles, row.impacts_per_time), (None, None, None));
+        assert_eq!((row.mode_distinct, row.impacts_per_time), (None, None));
     }
 
     #[test]

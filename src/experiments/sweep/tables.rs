@@ -1,8 +1,9 @@
 //! What follows from the sweep: means and shares at each σ, where the rise is, and what is rare.
 
 use super::super::{Results, rise};
-use super::laws::{self, LawsRow};
+use super::laws;
 use super::{Sweep, SweepRow};
+use crate::experiments::{SECOND_SEED, SWEEP};
 use crate::numerics::statistics::Estimate;
 use crate::params::{LEVEL, NEAR_SIMULTANEOUS, PRINTED_THRESHOLD, SLOW};
 use crate::table::Table;
@@ -33,7 +34,7 @@ pub fn of_second_seed(sweep: &Sweep) -> Vec<Table> {
 
 /// What follows from both.
 pub fn of_both(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
-    let (first, second) = results.sweep().ok().zip(results.second_seed().ok())?;
+    let (first, second) = results.of(&SWEEP).ok().zip(results.of(&SECOND_SEED).ok())?;
     let found = largest_between_seeds(first, second);
     let table = Table::of("second_seed.beside_first", &[()], |()| 0)
         .computed_by(origin(largest_between_seeds))
@@ -191,7 +192,6 @@ fn laws_table(sweep: &Sweep) -> Table {
 fn rare(sweep: &Sweep) -> Table {
     let laws = laws::run(&sweep.rows);
     let last = |decades: &[u64]| decades.last().copied().unwrap_or(0);
-    let contacts = |row: &LawsRow| row.contact_phases_per_impact * row.impacts as f64;
     Table::of("sweep.rare", &[laws], |_| 0)
         .computed_by(origin(laws::run))
         .count("near_simultaneous", "impacts next to another within the limit", |own| {
@@ -205,7 +205,7 @@ fn rare(sweep: &Sweep) -> Table {
         .chosen("contact_sigma", "d omega^2", "above the rise", |_| Some(ABOVE))
         .count("contact_phases_below", "contact phases up to that σ", |own| {
             let below = own.rows.iter().filter(|row| row.sigma <= ABOVE);
-            below.map(contacts).sum::<f64>().round() as u64
+            below.map(|row| row.contact_phases).sum()
         })
         .count("contact_phases", "contact phases of all σ", |own| own.totals.contact_phases)
         .done()

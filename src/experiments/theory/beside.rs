@@ -2,7 +2,7 @@
 
 use super::{Curve, CurveRow, curves};
 use crate::experiments::sweep::{Sweep, SweepRow};
-use crate::experiments::{Results, rise};
+use crate::experiments::{Results, SWEEP, rise};
 use crate::table::Table;
 use crate::value::origin;
 
@@ -72,7 +72,7 @@ pub(crate) fn distance(sweep: &Sweep, curve: &Curve, column: fn(&CurveRow) -> f6
 
 /// What the text says of both.
 pub fn tables(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
-    let (sweep, theory) = (results.sweep().ok()?, &results.theory);
+    let (sweep, theory) = (results.of(&SWEEP).ok()?, &results.theory);
     let curve = &theory.curve;
     let found = |number: Option<f64>| number.unwrap_or(f64::NAN);
     let root = |column| found(distance(sweep, curve, column));

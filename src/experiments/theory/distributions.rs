@@ -28,15 +28,13 @@ pub fn higher(vertices: usize, p: f64) -> Result<HigherDistribution, Error> {
     let classes = CLASSES.iter().map(|class| {
         let probability = law.contribution(class);
         let share = sum(probability.iter().copied());
-        let symbol = class.symbol.to_string();
-        ClassContribution { symbol, equation: class.equation, probability, share }
+        ClassContribution { probability, share }
     });
     Ok(HigherDistribution {
         p,
         classes: classes.collect(),
         mean: law.mean(),
         mean_simple: simple_law.mean(),
-        k_star: law.k_star(),
         total_variation: total_variation(&total, &simple),
         total,
         simple,

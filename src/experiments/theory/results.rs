@@ -165,8 +165,6 @@ pub struct HigherDistribution {
     pub mean: f64,
     /// μ of simple circuits alone.
     pub mean_simple: f64,
-    /// k* over all five classes.
-    pub k_star: usize,
     /// Total variation distance between `total` and `simple`.
     pub total_variation: f64,
 }
@@ -174,10 +172,6 @@ pub struct HigherDistribution {
 /// What one class of circuits contributes to a [`HigherDistribution`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ClassContribution {
-    /// Its symbol, in the figures' markup: `φ_{N}`, `φ_{N}^{1}`, `φ_{N}^{1,0}`, …
-    pub symbol: String,
-    /// Its printed equation.
-    pub equation: u32,
     /// Its part of P(X = k), k = 1..=N.
     pub probability: Vec<f64>,
     /// Its share of the whole.
@@ -237,7 +231,7 @@ pub struct Slips {
     /// p(0.15).
     pub p_at_015: f64,
     /// Share of simple circuits in *all* circuits of five classes, at several p.
-    pub simple_shares: Vec<SimpleShare>,
+    pub simple_shares: Vec<Point>,
     /// Total variation between simple and five-class distributions, at several p.
     pub total_variations: Vec<Point>,
     /// Eq. (30) as printed against Eq. (33), at k = 3: they differ by the factor N.
@@ -255,13 +249,4 @@ pub struct FirstLocalMaximum {
     pub denominator: u64,
     /// p.
     pub p: f64,
-}
-
-/// Share of simple circuits at one p.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct SimpleShare {
-    /// Edge probability p.
-    pub p: f64,
-    /// Weight of simple circuits over the weight of the five classes.
-    pub share: f64,
 }

@@ -1,7 +1,7 @@
 //! Calculations behind the slips and ambiguities of the printed paper.
 
 use super::distributions::{sum, total_variation};
-use super::{FirstLocalMaximum, Point, SimpleShare, Slips};
+use super::{FirstLocalMaximum, Point, Slips};
 use crate::circuits::distribution::{Law, SampleSpace};
 use crate::circuits::higher_order::{self, CLASSES};
 use crate::circuits::impact_probability::ImpactProbability;
@@ -25,14 +25,14 @@ pub fn slips(vertices: usize) -> Result<Slips, Error> {
         last_ratio_at_one: last_ratio.to_f64(),
         first_local_maximum: first_local_maximum(vertices),
         p_at_015: ImpactProbability::of_paper(0.15)?.p()?,
-        simple_shares: each_p(|p| Ok(SimpleShare { p, share: simple_share(vertices, p)? }))?,
-        total_variations: each_p(|p| Ok(Point { x: p, y: distance(vertices, p)? }))?,
+        simple_shares: each_p(|p| simple_share(vertices, p))?,
+        total_variations: each_p(|p| distance(vertices, p))?,
         missing_factor: missing_factor(vertices, 3),
     })
 }
 
-fn each_p<T>(one: impl Fn(f64) -> Result<T, Error>) -> Result<Vec<T>, Error> {
-    REMARK_P.into_iter().map(one).collect()
+fn each_p(one: impl Fn(f64) -> Result<f64, Error>) -> Result<Vec<Point>, Error> {
+    REMARK_P.into_iter().map(|x| Ok(Point { x, y: one(x)? })).collect()
 }
 
 fn first_local_maximum(vertices: usize) -> FirstLocalMaximum {

@@ -1,10 +1,10 @@
 //! Where methods fail.
 
 use super::Error;
-use crate::experiments::Results;
 use crate::experiments::accuracy::case::Verdict;
 use crate::experiments::accuracy::tables::titled;
 use crate::experiments::accuracy::trials::{SceneRow, Trial};
+use crate::experiments::{Results, TRIALS};
 use serde::Serialize;
 
 /// A line of a table: a name, and a cell for each column.
@@ -18,7 +18,7 @@ pub struct Line {
 
 /// Heads of the columns of the table of scenes.
 pub fn scene_heads(results: &Results) -> Result<Vec<String>, Error> {
-    Ok(results.trials()?.parameters.settings.iter().map(|s| titled(*s)).collect())
+    Ok(results.of(&TRIALS)?.parameters.settings.iter().map(|s| titled(*s)).collect())
 }
 
 /// Whether failures in a scene end with an error or with a wrong result that looks like a right one. No method here
@@ -46,7 +46,7 @@ pub fn scene_table(results: &Results) -> Result<Vec<Line>, Error> {
             format!("{right} of {all} right, else {}", Verdict::words(trouble))
         }
     };
-    let lines = results.trials()?.scenes.iter().map(|scene| Line {
+    let lines = results.of(&TRIALS)?.scenes.iter().map(|scene| Line {
         name: scene.what.clone(),
         cells: scene.trials.iter().map(cell).collect(),
         told: told(scene).into(),

@@ -60,9 +60,6 @@ pub fn registry(results: &Results, published: &Published) -> Result<Registry, Er
 
 /// The rows of the generated tables, by the name that templates use; beside them heads and words that depend on the
 /// results.
-///
-/// # Errors
-/// If a result is missing.
 pub fn rows(
     results: &Results,
     claims: &[Check],

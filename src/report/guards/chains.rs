@@ -2,6 +2,7 @@
 
 use super::{Guard, Look, model, room, unless};
 use crate::experiments::chains::{Curve, Ensemble};
+use crate::experiments::{CHAINS, SIZES};
 use crate::params::ChainCurve;
 
 pub const GUARDS: &[Guard] = &[
@@ -13,7 +14,7 @@ pub const GUARDS: &[Guard] = &[
 /// A chain with an open gap has impacts in every late window: that is the proposition, for time without
 /// end, and a long one that was run. The number of open gaps follows the law of amplitudes.
 fn silent(look: Look<'_>) -> Option<String> {
-    let found = look.results.chains().ok()?;
+    let found = look.results.of(&CHAINS).ok()?;
     let mut rows = found.curves.iter().flat_map(|curve| &curve.rows);
     let (own, curve) = found.curve("silence")?;
     // Neighbours share a force: twice the error of independent gaps is more than enough.
@@ -53,12 +54,12 @@ fn expected(look: Look<'_>) -> Option<String> {
         };
         curve.rows.iter().find_map(chance).or_else(more)
     };
-    look.results.chains().ok()?.all().find_map(one)
+    look.results.of(&CHAINS).ok()?.all().find_map(one)
 }
 
 /// A longer transient gives impacts more time to spread, at every length: the half height falls with it, but for its error.
 fn falls(look: Look<'_>) -> Option<String> {
-    let found = look.results.sizes().ok()?;
+    let found = look.results.of(&SIZES).ok()?;
     found.all().flat_map(|early| found.all().map(move |late| (early, late))).find_map(
         |((a, early), (b, late))| {
             let (before, after) = early.half_heights[0].zip(late.half_heights[0])?;

@@ -4,6 +4,7 @@ use super::{Guard, Look, room, unless};
 use crate::claims;
 use crate::experiments::protocol::{ProtocolCell, ProtocolMap};
 use crate::experiments::rise::Rise;
+use crate::experiments::{LONG_PROTOCOL, PROTOCOL, SWEEP};
 use crate::numerics::statistics::Estimate;
 
 pub const GUARDS: &[Guard] = &[
@@ -25,8 +26,8 @@ fn of_rise(rise: &Rise) -> Places {
 
 /// All maps, by what they were run with.
 fn maps<'a>(look: Look<'a>) -> impl Iterator<Item = (&'a str, &'a ProtocolMap)> {
-    let rest = look.results.protocol().into_iter().map(|map| ("rest", map));
-    let long = look.results.long_protocol().into_iter().map(|long| ("long", &long.map));
+    let rest = look.results.of(&PROTOCOL).into_iter().map(|map| ("rest", map));
+    let long = look.results.of(&LONG_PROTOCOL).into_iter().map(|long| ("long", &long.map));
     rest.chain(long)
 }
 
@@ -41,13 +42,13 @@ fn meet(look: Look<'_>) -> Option<String> {
             })
         })
     };
-    let sweep = look.results.sweep().ok()?;
+    let sweep = look.results.of(&SWEEP).ok()?;
     let protocol = sweep.parameters.protocol;
     maps(look).find_map(|(name, map)| {
         let at = map.cell(protocol.transient, protocol.window);
         let swept = at.filter(|_| name == "rest");
         let swept = swept.and_then(|at| apart(name, places(at), of_rise(&sweep.rise)));
-        let rest = look.results.protocol().ok().filter(|_| name == "long")?;
+        let rest = look.results.of(&PROTOCOL).ok().filter(|_| name == "long")?;
         swept.or_else(|| {
             map.cells.iter().find_map(|own| {
                 apart(name, places(own), places(rest.cell(own.transient, own.window)?))

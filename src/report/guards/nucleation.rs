@@ -1,6 +1,7 @@
 //! Chains with a gap that closes by itself: what chance must not break.
 
 use super::{Guard, Look, unless};
+use crate::experiments::NUCLEATION;
 
 pub const GUARDS: &[Guard] = &[
     Guard { name: "first_impacts_as_expected", ids: &["nucleation.chains"], find: as_expected },
@@ -18,7 +19,7 @@ const LEFT_OUT: f64 = 1.5;
 /// and five chains where hardly any is expected.
 fn as_expected(look: Look<'_>) -> Option<String> {
     let chains = look.results.table("nucleation.chains").ok()?;
-    let parameters = &look.results.nucleation().ok()?.parameters;
+    let parameters = &look.results.of(&NUCLEATION).ok()?.parameters;
     parameters.lengths.iter().find_map(|(masses, n)| {
         let (keys, n) = ([("masses", *masses as f64)], *n as f64);
         chains.points(&keys, "clumps", "found").into_iter().find_map(|(p, found)| {

@@ -1,0 +1,138 @@
+//! Experiments that are ensembles: rows of realisations, each of which is run by its number alone.
+
+use super::{Error, Progress};
+use crate::dynamics::{self, Engine, Impact, Scenario};
+use literate::experiments::cutting::{Cutting, Join, Row, Unit};
+use literate::experiments::progress::Stage;
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+/// What runs a realisation by its number, unless the chain is not allowed.
+pub type Begun<'a, R> = Result<Box<dyn Fn(u64) -> Result<R, Error> + Sync + 'a>, Error>;
+
+/// Parameters that say which realisations there are, and how they run.
+pub trait Ensembles: Clone + Sync {
+    /// What one realisation gives.
+    type One: Clone + Send;
+
+    /// The rows, in their order.
+    fn rows(&self) -> Vec<Row>;
+
+    /// What runs the realisations of a row.
+    fn row<'a>(&'a self, row: usize, progress: &'a Progress) -> Begun<'a, Self::One>;
+
+    /// Whether what was read from a file can be a realisation of a row.
+    fn fits(&self, row: usize, one: &Self::One) -> bool;
+}
+
+/// What all realisations gave.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Ran<P, R> {
+    /// What was run.
+    pub parameters: P,
+    /// For each row its realisations.
+    pub rows: Vec<Vec<R>>,
+}
+
+/// Ensembles in units of work; they are kept as they are.
+pub const fn cutting<P: Ensembles>() -> Cutting<P, Vec<P::One>, Ran<P, P::One>> {
+    joined_by(ran)
+}
+
+/// Ensembles in units of work, of which a result is made.
+pub const fn joined_by<P: Ensembles, T>(
+    join: Join<P, Vec<P::One>, T>,
+) -> Cutting<P, Vec<P::One>, T> {
+    Cutting { rows: P::rows, part, fits, join }
+}
+
+fn part<P: Ensembles>(
+    parameters: &P,
+    unit: &Unit,
+    stage: &Stage,
+    progress: &Progress,
+) -> Result<Vec<P::One>, Error> {
+    let run = parameters.row(unit.row, progress)?;
+    unit.each(stage, |index| {
+        progress.check()?;
+        run(index)
+    })
+}
+
+fn fits<P: Ensembles>(parameters: &P, unit: &Unit, all: &Vec<P::One>) -> bool {
+    all.len() == unit.realisations.len() && all.iter().all(|one| parameters.fits(unit.row, one))
+}
+
+fn ran<P: Ensembles>(
+    parameters: &P,
+    parts: Vec<Vec<Vec<P::One>>>,
+    _: &Progress,
+) -> Result<Ran<P, P::One>, Error> {
+    let rows = parts.into_iter().map(|parts| parts.concat()).collect();
+    Ok(Ran { parameters: parameters.clone(), rows })
+}
+
+/// What each of several things gives, on all threads and told by the stage.
+pub fn each<A: Send, R: Send>(
+    stage: &Stage,
+    progress: &Progress,
+    all: impl IntoIterator<Item = A>,
+    one: impl Fn(A) -> Result<R, Error> + Sync,
+) -> Result<Vec<R>, Error> {
+    let all: Vec<A> = all.into_iter().collect();
+    let told = |own| {
+        progress.check()?;
+        let found = one(own)?;
+        stage.advance(1);
+        Ok(found)
+    };
+    all.into_par_iter().with_max_len(1).map(told).collect()
+}
+
+/// A chain on its way.
+pub struct Running<'a> {
+    /// Its engine.
+    pub engine: Engine,
+    name: &'static str,
+    progress: &'a Progress,
+}
+
+impl<'a> Running<'a> {
+    /// A chain at its start, in an experiment of a name.
+    pub fn new(
+        scenario: &Scenario,
+        name: &'static str,
+        progress: &'a Progress,
+    ) -> Result<Self, Error> {
+        let engine = Engine::new(scenario).map_err(|source| Error::failed(name, source))?;
+        Ok(Running { engine, name, progress })
+    }
+
+    /// Goes on until a time; false where the engine gave up.
+    pub fn go(&mut self, until: f64, mut see: impl FnMut(Impact)) -> Result<bool, Error> {
+        self.go_while(until, |impact| {
+            see(impact);
+            true
+        })
+    }
+
+    /// The same, and not on after an impact of which that is said.
+    pub fn go_while(
+        &mut self,
+        until: f64,
+        mut on: impl FnMut(Impact) -> bool,
+    ) -> Result<bool, Error> {
+        let ended = self.engine.run(until, |impact| on(impact) && !self.progress.stopped());
+        self.progress.check()?;
+        match ended {
+            Ok(()) => Ok(true),
+            Err(dynamics::Error::Work { .. }) => Ok(false),
+            Err(source) => Err(Error::failed(self.name, source)),
+        }
+    }
+}
+
+/// How many there are.
+pub fn count(hit: &[bool]) -> u64 {
+    hit.iter().map(|&hit| u64::from(hit)).sum()
+}
