@@ -2,7 +2,7 @@
 //! `trials` have more of them, with outcomes in closed form; here is what goes beyond those.
 
 use crate::reference::{Big, Dd, Real, Reference};
-use crate::{drawn, first, given, run};
+use crate::{drawn, first, given, run, trace};
 use impact_paper::dynamics::methods::State;
 use impact_paper::dynamics::{Engine, Initial, Scenario};
 use impact_paper::numerics::random::NormalPairs;
@@ -56,6 +56,24 @@ fn dips_of_any_depth_are_hit_or_missed_rightly() {
         }
     }
     println!("grazing times: |δt| ≤ {worst:.2} ε (d + R1 + R2) / |Δ'|");
+}
+
+/// x_1 = 0 at t = 0 exactly, pulled off by the spring: Δ'' = 1 with β alone.
+#[test]
+fn at_a_shut_gap_speed_decides_then_acceleration() {
+    for (v, hits_now) in [(0.5, false), (0.0, false), (-0.5, true)] {
+        // x' = b + β Ω/(ω² − Ω²) = b − 2 β/3 with Ω = 2.
+        let scenario =
+            Scenario { forcing_frequency: 2.0, ..one([-1.0, 0.25 + v], [0.0, 0.375], 0.8) };
+        let (ours, theirs) = (trace(&scenario, 20.0), Reference::<Dd>::new(&scenario).run(20.0));
+        let theirs = theirs.unwrap();
+        assert!(theirs.len() > 2 && ours.len() == theirs.len(), "v = {v}");
+        assert_eq!(ours[0].time == 0.0, hits_now, "v = {v}");
+        for (a, b) in ours.iter().zip(&theirs) {
+            let error = (Dd::of(a.time) - b.time).near().abs();
+            assert!(a.gap == b.gap && error < 1e-11, "v = {v}: {a:?} {b:?}");
+        }
+    }
 }
 
 #[test]

@@ -127,12 +127,8 @@ fn logarithm_and_probability_say_when_they_leave_the_range_of_doubles() {
 }
 
 #[test]
-fn densities_are_normalised_and_have_the_printed_form() {
-    let rule = impact_paper::numerics::quadrature::GaussLegendre::new(30);
+fn densities_have_the_printed_form() {
     for (sigma, q) in [(0.3, 1.0), (0.3, 2.5), (2.0, 0.4)] {
-        let total =
-            rule.integrate_panels(0.0, 40.0 * sigma / q, 40, |x| density_forced(x, sigma, q));
-        assert!((total - 1.0).abs() < 1e-13, "{total}");
         for x in [0.1, 0.7, 2.0] {
             let (s, y, q2) = (big(sigma), big(x), big(q) * big(q));
             let exponent = q2.clone() * &y * &y / (int(4) * &s * &s);
