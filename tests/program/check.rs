@@ -123,6 +123,9 @@ fn guards_relate_values_of_the_report() {
     assert!(names.len() >= 20, "{names:?}");
 }
 
+/// A change of what is printed, more arguments, and signs of it in text, annotations and Markdown.
+type Wrong<'a> = (fn(&str) -> String, &'a str, [&'a str; 3]);
+
 /// A number of the paper that was other than it is, and one that is read otherwise than it is printed: every form shows
 /// it, by the name of the claim or guard, and the exit code is 1.
 #[test]
@@ -135,7 +138,7 @@ fn what_does_not_hold_is_an_error_in_every_form() {
     let half = |text: &str| text.replacen("σ ≈ 0.12", "σ ≈ 0.13", 1);
     let annotation = "::error file=templates/published.toml,line=";
     let guard = "::error title=relation printed_as_it_reads::";
-    let cases: [(fn(&str) -> String, &str, [&str; 3]); 2] = [
+    let cases: [Wrong; 2] = [
         (edges, " --claim sec3_edges", ["FAILS sec3_edges", annotation, "**differs**"]),
         (half, "", ["FAILS relation printed_as_it_reads: ", guard, "| printed_as_it_reads | "]),
     ];
