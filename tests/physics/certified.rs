@@ -10,7 +10,7 @@ use crate::{first, given};
 use impact_paper::dynamics::rounding::{self, SPEED, STAGES, TIME, TRANSVERSAL};
 use impact_paper::dynamics::{Engine, Error, Initial, Overtone, Scenario};
 use impact_paper::numerics::random::NormalPairs;
-use impact_paper::params::{Boundary, Chain};
+use impact_paper::params::Boundary;
 
 /// What was seen.
 #[derive(Debug, Default)]
@@ -283,51 +283,6 @@ fn a_million_corner_biased_segments() {
     let tally = corners(1_000_000, count);
     assert!(count < 2_000_000 || tally.segments >= 1_000_000, "{tally:?}");
     assert!(tally.undecidable * 100 < tally.segments, "{tally:?}");
-}
-
-/// The state of the reference just after an impact as a scenario that starts there.
-fn restart(chain: &Reference<Dd>, like: &Scenario, hit: usize) -> Scenario {
-    let t = *chain.time();
-    let [w, big_w] = [like.natural_frequency, like.forcing_frequency].map(Dd::of);
-    let factor = w * w - big_w * big_w;
-    let turn = |[a, b]: [Dd; 2], w: Dd| {
-        let (s, c) = (w * t).sin_cos();
-        [a * c + b * s, b * c - a * s]
-    };
-    let parts: Vec<[[Dd; 2]; 2]> = (0..like.forcing.len())
-        .map(|j| {
-            let [free, forced] = [chain.mass(j)[0], chain.mass(j)[1]];
-            [turn(free, w), turn(forced, big_w).map(|x| x * factor)]
-        })
-        .collect();
-    let mut free: Vec<[f64; 2]> = parts.iter().map(|p| p[0].map(|x| x.near())).collect();
-    // Rounding may have pushed the two into one another: a hair of room.
-    let room = 2f64.powi(-44);
-    if hit < like.forcing.len() {
-        free[hit][0] += room
-    } else {
-        free[hit - 1][0] -= room
-    }
-    let forcing = parts.iter().map(|p| p[1].map(|x| x.near())).collect();
-    Scenario { initial: Initial::Free(free), forcing, ..like.clone() }
-}
-
-#[test]
-fn from_the_state_after_each_impact_the_next_is_found() {
-    let mut tally = Tally::default();
-    for (index, sigma) in [(0, 0.3), (1, 0.2)] {
-        let chain = Chain { masses: 8, ..Chain::default() };
-        let mut normals = NormalPairs::new("restart", 1, index);
-        let scenario = Scenario::draw(&chain, sigma, &mut normals);
-        let mut chain = Reference::<Dd>::new(&scenario);
-        for _ in 0..300 {
-            let Some(hit) = chain.step(&Dd::of(1e4)).unwrap() else { break };
-            let scenario = restart(&chain, &scenario, hit.gap);
-            hold(&scenario, 20.0, &mut tally);
-        }
-    }
-    println!("{tally:?}");
-    assert!(tally.segments > 300 && tally.impacts > 300, "{tally:?}");
 }
 
 /// The table of `dynamics::rounding` is the counted one: no stage adds more, none much less.

@@ -24,24 +24,50 @@ fn held(engine: &mut Engine, t: f64) -> Vec<usize> {
     contacts.into_iter().map(|c| c.0).collect()
 }
 
-/// Δ'' of a gap that nothing presses is d + (F₂ − F₁) cos 2t.
+/// Gaps that are in contact as long as the cosine of 2t is above a number, with the factor and the constant of their
+/// forces.
+type Held = (f64, &'static [(usize, f64, f64)]);
+
 #[test]
-fn a_pair_is_released_where_its_force_changes_sign() {
-    // −(1 − 2 F cos 2t)/2 = 0.
-    let force = 1.5f64;
+fn clusters_are_released_gap_by_gap_where_a_force_changes_its_sign() {
+    // A pair; three under (6, 0, −3) cos 2t, of which gap 2 opens first; and two at the wall, of which the left one
+    // would leave it (1 + 3 > 0) without the other: K = (1, 2), g = (1 + 3c, 1 − 10c).
+    let pair: [Held; 1] = [(1.0 / 3.0, &[(1, 1.5, -0.5)])];
+    let three: [Held; 2] =
+        [(0.25, &[(1, 5.0, -1.0), (2, 4.0, -1.0)]), (1.0 / 6.0, &[(1, 3.0, -0.5)])];
+    let wall: [Held; 2] = [(0.75, &[(0, 4.0, -3.0), (1, 7.0, -2.0)]), (0.1, &[(1, 5.0, -0.5)])];
+    for (masses, forces, phases) in [
+        (vec![(1.5, 0.1); 2], vec![1.5, -1.5], &pair[..]),
+        (vec![(2.0, 0.0); 3], vec![6.0, 0.0, -3.0], &three),
+        (vec![(0.0, 0.0); 2], vec![3.0, -7.0], &wall),
+    ] {
+        let mut engine = Engine::new(&scene(&masses, &forces, 0.8)).unwrap();
+        let mut from = 0.0;
+        for (end, gaps) in phases {
+            let to = 0.5 * end.acos();
+            let after = if from == 0.0 { 0.0 } else { from + 1e-12 };
+            for t in [after, 0.5 * (from + to), to - 1e-12] {
+                let own: Vec<usize> = gaps.iter().map(|(gap, ..)| *gap).collect();
+                assert_eq!(held(&mut engine, t), own, "{forces:?} at {t}");
+                for ((_, force), (_, factor, constant)) in engine.contacts(t).iter().zip(*gaps) {
+                    let expected = factor * (2.0 * t).cos() + constant;
+                    assert!((force - expected).abs() < 1e-13, "{forces:?} at {t}: {force}");
+                }
+            }
+            from = to;
+        }
+        assert!(held(&mut engine, from + 1e-12).is_empty(), "{forces:?}");
+        assert_eq!(engine.counters().contact_phases as usize, phases[0].1.len(), "one a gap");
+    }
+}
+
+/// From width and rate zero: Δ = 1 + A cos s + B sin s + (2F/3) cos 2t.
+#[test]
+fn a_pair_that_is_released_parts_as_its_force_says() {
+    let (force, s) = (1.5f64, 0.2);
     let release = 0.5 * (1.0 / (2.0 * force)).acos();
     let scenario = scene(&[(1.5, 0.1), (1.5, 0.1)], &[force, -force], 0.8);
     let mut engine = Engine::new(&scenario).unwrap();
-    for part in [0.0, 0.3, 0.9] {
-        let t = part * release;
-        assert_eq!(held(&mut engine, t), [1]);
-        let expected = force * (2.0 * t).cos() - 0.5;
-        assert!((engine.contacts(t)[0].1 - expected).abs() < 1e-14, "at {t}");
-    }
-    assert_eq!(held(&mut engine, release - 1e-12), [1]);
-    assert!(held(&mut engine, release + 1e-12).is_empty(), "a pair that is pulled apart");
-    // From width and rate zero: Δ = 1 + A cos s + B sin s + (2F/3) cos 2t.
-    let s = 0.2;
     let t = release + s;
     run(&mut engine, t);
     let x = engine.positions(t);
@@ -65,47 +91,6 @@ fn a_pair_that_is_shut_but_for_rounding_is_shut() {
         let mut engine = Engine::new(&scenario).unwrap();
         assert_eq!(held(&mut engine, 1e-3), [1], "force {force}");
     }
-}
-
-#[test]
-fn a_cluster_of_three_is_released_gap_by_gap() {
-    // Forces (6, 0, −3) cos 2t: in gap 1 it is 5c − 1, in gap 2 4c − 1, and in gap 1 alone (6c − 1)/2.
-    let scenario = scene(&[(2.0, 0.0), (2.0, 0.0), (2.0, 0.0)], &[6.0, 0.0, -3.0], 0.8);
-    let mut engine = Engine::new(&scenario).unwrap();
-    let at = |cosine: f64| 0.5 * cosine.acos();
-    for cosine in [1.0, 0.7, 0.3] {
-        let t = at(cosine);
-        assert_eq!(held(&mut engine, t), [1, 2]);
-        for (force, expected) in engine.contacts(t).iter().zip([5.0, 4.0]) {
-            let expected: f64 = expected * cosine - 1.0;
-            assert!((force.1 - expected).abs() < 1e-13, "{force:?} {expected}");
-        }
-    }
-    assert_eq!(held(&mut engine, at(0.25) - 1e-12), [1, 2]);
-    assert_eq!(held(&mut engine, at(0.25) + 1e-12), [1], "gap 2 opens first");
-    let t = at(0.2);
-    assert_eq!(held(&mut engine, t), [1]);
-    assert!((engine.contacts(t)[0].1 - 0.1).abs() < 1e-13, "{:?}", engine.contacts(t));
-    assert_eq!(held(&mut engine, at(1.0 / 6.0) - 1e-12), [1]);
-    assert!(held(&mut engine, at(1.0 / 6.0) + 1e-12).is_empty());
-    assert_eq!(engine.counters().contact_phases, 2, "one for each gap");
-}
-
-#[test]
-fn a_neighbour_keeps_a_gap_shut_that_would_open() {
-    // Two masses at the wall under 3 cos 2t and −7 cos 2t: gap 0 alone would open (1 + 3 > 0).
-    let scenario = scene(&[(0.0, 0.0), (0.0, 0.0)], &[3.0, -7.0], 0.8);
-    let mut engine = Engine::new(&scenario).unwrap();
-    // K = (1, 2): forces −(2 g₀ + g₁) = 4c − 3 and −(g₀ + g₁) = 7c − 2, g = (1 + 3c, 1 − 10c).
-    let at = |cosine: f64| 0.5 * cosine.acos();
-    assert_eq!(held(&mut engine, 0.0), [0, 1]);
-    for (force, expected) in engine.contacts(0.0).iter().zip([1.0, 5.0]) {
-        assert!((force.1 - expected).abs() < 1e-13, "{force:?} {expected}");
-    }
-    assert_eq!(held(&mut engine, at(0.75) - 1e-12), [0, 1]);
-    assert_eq!(held(&mut engine, at(0.75) + 1e-12), [1], "the pair leaves the wall together");
-    assert_eq!(held(&mut engine, at(0.11)), [1]);
-    assert!(held(&mut engine, at(0.09)).is_empty(), "(10c − 1)/2 has changed its sign");
 }
 
 /// Two hits in a row multiply (rate just hit, other rate) by a matrix with μ² − (1 + r)/2 μ + r = 0: with

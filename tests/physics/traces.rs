@@ -107,14 +107,6 @@ fn impacts_have_the_order_and_times_of_the_reference() {
 }
 
 #[test]
-fn early_impacts_have_all_their_digits() {
-    let chain = Chain { masses: 20, ..Chain::default() };
-    for index in 0..40 {
-        held(&drawn(&chain, 0.3, "early", index), 5.0, &format!("{index}"));
-    }
-}
-
-#[test]
 fn the_two_precisions_of_the_reference_agree() {
     let chain = Chain { masses: 6, ..Chain::default() };
     let scenario = drawn(&chain, 0.4, "reference", 0);

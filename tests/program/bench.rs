@@ -29,9 +29,6 @@ fn a_case_has_every_field() {
     for (field, value) in [("n", 20.0), ("sigma", 0.3), ("until", 20.0), ("chains", 2.0)] {
         assert_eq!(case[field].as_f64(), Some(value), "{field}");
     }
-    for (field, value) in [("threads", 1), ("lanes", 1), ("repetitions", 3)] {
-        assert_eq!(case[field].as_u64(), Some(value), "{field}");
-    }
     let positive = |field: &str| {
         let x = case[field].as_f64().unwrap_or_else(|| panic!("no {field}"));
         assert!(x > 0.0, "{field}: {x}");
@@ -48,13 +45,10 @@ fn a_case_has_every_field() {
     assert!(positive("pieces_per_impact") >= positive("searches_per_impact"));
     assert!(positive("evaluations_per_impact") <= positive("pieces_per_impact"));
     positive("setup_seconds");
-}
-
-#[test]
-fn counts_are_the_same_whatever_the_threads() {
-    let [one, two] = [json(TINY), json(&format!("{TINY} --threads 2"))];
+    // Counts are the same whatever the threads.
+    let two = json(&format!("{TINY} --threads 2"));
     for field in ["impacts", "evaluations_per_impact", "searches_per_impact", "undecided"] {
-        assert_eq!(one["cases"][1][field], two["cases"][1][field], "{field}");
+        assert_eq!(case[field], two["cases"][1][field], "{field}");
     }
 }
 
@@ -121,15 +115,4 @@ fn memory_grows_by_less_than_a_kibibyte_a_mass() {
     let (Some(few), Some(many)) = (peak("10"), peak("100000")) else { return };
     let bytes_a_mass = (many - few) * 1024.0 * 1024.0 / 1e5;
     assert!((100.0..500.0).contains(&bytes_a_mass), "{bytes_a_mass} bytes a mass");
-}
-
-#[test]
-#[ignore = "a minute or less, and 250 MiB"]
-fn a_million_masses_run_to_10_within_a_gibibyte() {
-    let report = json("engine --masses 1000000 --until 10 --repetitions 1");
-    let case = &report["cases"][0];
-    assert!(case["impacts"].as_u64().unwrap() > 1_000_000);
-    if let Some(peak) = case["peak_mib"].as_f64() {
-        assert!(peak < 1024.0, "{peak} MiB");
-    }
 }

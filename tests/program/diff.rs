@@ -1,26 +1,9 @@
 //! `impact-paper diff`: two reports, by folder or by revision of git.
 
-use crate::{PROGRAM, outcome, put, tree};
+use crate::{answer, json, outcome, program, put, refused, run, tree};
 use std::fs;
 use std::path::Path;
 use std::process::Command;
-
-fn command(folder: &Path, arguments: &[&str]) -> Command {
-    let mut command = Command::new(PROGRAM);
-    command.current_dir(folder).arg("diff").args(arguments);
-    command
-}
-
-fn run(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
-    outcome(&mut command(folder, arguments))
-}
-
-/// What the commands print that must not fail.
-fn fine(folder: &Path, arguments: &[&str]) -> String {
-    let (code, out, note) = run(folder, arguments);
-    assert_eq!((code, note.as_str()), (0, ""), "{arguments:?}: {out}");
-    out
-}
 
 /// The committed report twice, as `a` and as `b`.
 fn twice() -> tempfile::TempDir {
@@ -72,21 +55,23 @@ fn changed() -> tempfile::TempDir {
 #[test]
 fn the_same_report_twice_differs_in_nothing() {
     let folder = twice();
-    fs::write(folder.path().join("b/report.pdf"), "built beside").unwrap();
-    assert_eq!(fine(folder.path(), &["a", "b"]), "a and b: nothing differs\n");
-    assert!(fine(folder.path(), &["a", "b", "--markdown"]).contains("Nothing: "));
-    let json: serde_json::Value =
-        serde_json::from_str(&fine(folder.path(), &["a", "b", "--json"])).unwrap();
-    assert_eq!(json["same"], true);
-    assert_eq!(run(folder.path(), &["a", "b", "--exit-code"]).0, 0);
+    let here = folder.path();
+    fs::write(here.join("b/report.pdf"), "built beside").unwrap();
+    assert_eq!(answer(here, "diff a b --exit-code"), "a and b: nothing differs\n");
+    assert!(answer(here, "diff a b --markdown").contains("Nothing: "));
+    assert_eq!(json(here, "diff a b --json")["same"], true);
 }
 
+/// The forms of what the unit tests of `compare` find, all of them in one report.
 #[test]
 fn number_verdict_and_files_are_told() {
     let folder = changed();
-    let out = fine(folder.path(), &["a", "b"]);
+    let here = folder.path();
+    let out = answer(here, "diff a b");
     for line in [
         "  sec2_half_height: reproduced -> differs; tolerance: ± 0.005 -> ± 0.0001 | more\n",
+        "1 claim changed\n",
+        "1 number changed\n",
         ", +3 σ\n",
         "  differs data/fig12.csv\n",
         "  new     data/new.csv\n",
@@ -95,12 +80,11 @@ fn number_verdict_and_files_are_told() {
     ] {
         assert!(out.contains(line), "{line}: {out}");
     }
-    assert!(out.contains("1 claim changed\n") && out.contains("1 number changed\n"), "{out}");
     assert!(!out.contains("report.html"), "{out}");
-    let (code, _, note) = run(folder.path(), &["a", "b", "--exit-code"]);
+    let (code, _, note) = run(here, "diff a b --exit-code");
     assert_eq!((code, note.as_str()), (1, "impact-paper: a and b differ\n"));
 
-    let markdown = fine(folder.path(), &["a", "b", "--markdown"]);
+    let markdown = answer(here, "diff a b --markdown");
     for part in [
         "reproduced → differs",
         "| sweep.rise.half_height |",
@@ -109,8 +93,7 @@ fn number_verdict_and_files_are_told() {
     ] {
         assert!(markdown.contains(part), "{part}: {markdown}");
     }
-    let json: serde_json::Value =
-        serde_json::from_str(&fine(folder.path(), &["a", "b", "--json"])).unwrap();
+    let json = json(here, "diff a b --json");
     let diff = &json["diff"];
     assert_eq!((&json["same"], &json["old"]), (&false.into(), &"a".into()));
     assert_eq!(diff["differing"][0], "data/fig12.csv");
@@ -126,98 +109,79 @@ fn words_are_told_and_moved_numbers_counted() {
     let at = |path: &str| here.join("b").join(path);
     edit(&at("report.md"), "simulated a row of forced masses", "simulated a ~chain~ of masses");
     edit(&at("report.md"), "0.1159(4); the paper", "0.1162(5); the paper");
-    fs::remove_file(at("beyond.md")).unwrap();
-    let out = fine(here, &["a", "b"]);
+    let out = answer(here, "diff a b");
     let told = "prose\n  1 sentence with other words, 1 with other numbers alone\n  Edition, Abstract\n    ";
-    assert!(out.contains(told) && out.contains("  gone    beyond.md\n"), "{out}");
+    assert!(out.contains(told), "{out}");
     assert!(out.contains(" simulated a [-row-]{+~chain~+} of [-forced-] masses that "), "{out}");
 
-    let markdown = fine(here, &["a", "b", "--markdown"]);
+    let markdown = answer(here, "diff a b --markdown");
     let told = "<summary>1 sentence with other words, 1 with other numbers alone</summary>\n\n- Edition, Abstract: ";
     assert!(markdown.contains(told) && markdown.contains("\n</details>\n"), "{markdown}");
     let words = " simulated a ~~row~~ **\\~chain\\~** of ~~forced~~ masses that ";
     assert!(markdown.contains(words), "{markdown}");
-    let json: serde_json::Value =
-        serde_json::from_str(&fine(here, &["a", "b", "--json", "--document", "edition"])).unwrap();
-    let prose = &json["diff"]["prose"][0];
+    let prose = &json(here, "diff a b --json --document edition")["diff"]["prose"][0];
     assert_eq!((&prose["document"], &prose["numbers_alone"]), (&"Edition".into(), &1.into()));
     let pieces = &prose["sentences"][0]["pieces"];
     assert_eq!(pieces[1]["changed"], serde_json::json!(["row", "~chain~"]));
-
-    fs::write(at("report.md"), [0xff]).unwrap();
-    let (code, out, note) = run(here, &["a", "b"]);
-    assert_eq!((code, out.as_str(), note.lines().count()), (2, "", 1), "{note}");
-    assert!(note.starts_with("impact-paper: b: report.md: invalid utf-8"), "{note}");
 }
 
 #[test]
 fn revisions_of_git_are_compared() {
     let folder = changed();
     let here = folder.path();
-    let git = |arguments: &[&str]| {
+    let git = |arguments: &str| {
         let mut command = Command::new("git");
         command.current_dir(here).args(["-c", "user.name=a", "-c", "user.email=a@b"]);
-        assert!(command.args(arguments).output().unwrap().status.success(), "{arguments:?}");
+        assert!(command.args(arguments.split(' ')).output().unwrap().status.success());
     };
-    git(&["init", "--quiet"]);
+    git("init --quiet");
     for (tag, name) in [("v1", "a"), ("v2", "b")] {
         let _ = fs::remove_dir_all(here.join("sub/paper"));
         copy(&here.join(name), &here.join("sub/paper"));
-        git(&["add", "--force", "sub"]);
-        git(&["commit", "--quiet", "--message", tag]);
-        git(&["tag", tag]);
+        git("add --force sub");
+        git(&format!("commit --quiet --message {tag}"));
+        git(&format!("tag {tag}"));
     }
     // The folder paper/ is that of the folder where the program runs, wherever git's top is.
     let sub = here.join("sub");
-    let strip = |text: String| text.replace("v1", "a").replace("v2", "b");
-    let json = strip(fine(&sub, &["v1", "v2", "--json"]));
-    assert_eq!(json, fine(here, &["a", "b", "--json"]));
-    assert_eq!(fine(&sub, &["HEAD", "paper"]), "HEAD and paper: nothing differs\n");
-    assert!(fine(&sub, &["HEAD~1", "../a"]).contains("nothing differs"));
+    let by_tags = answer(&sub, "diff v1 v2 --json").replace("v1", "a").replace("v2", "b");
+    assert_eq!(by_tags, answer(here, "diff a b --json"));
+    assert_eq!(answer(&sub, "diff HEAD paper"), "HEAD and paper: nothing differs\n");
+    assert!(answer(&sub, "diff HEAD~1 ../a").contains("nothing differs"));
 
-    let (code, _, note) = run(here, &["v1", "a"]);
-    assert_eq!(code, 2);
-    assert!(note.contains("v1: this revision has no folder paper/"), "{note}");
-    // What git itself says, where it knows better.
-    let mut broken = command(&sub, &["v1", "paper"]);
-    let (code, _, note) = outcome(broken.env("GIT_DIR", "nowhere"));
-    assert!(code == 2 && note.contains("not a git repository: 'nowhere'"), "{note}");
-    for odd in ["nothing", "v1:sub", "v1..v2", "", "v1 v2", "-v", "--output=x", "a/report.md"] {
-        let (code, out, note) = run(&sub, &["--", odd, "paper"]);
-        assert_eq!((code, out.as_str()), (2, ""), "{odd}: {note}");
-        assert!(note.contains("neither a folder nor a revision"), "{odd}: {note}");
-        assert_eq!(note.lines().count(), 1, "{odd}: {note}");
+    refused(here, "diff v1 a", &["v1: this revision has no folder paper/"]);
+    for odd in ["nothing", "v1:sub", "v1..v2", "", "-v", "--output=x", "a/report.md"] {
+        refused(&sub, &format!("diff -- {odd} paper"), &["neither a folder nor a revision"]);
     }
-    let (code, _, note) = outcome(command(&sub, &["v1", "v2"]).env("PATH", ""));
-    assert_eq!(code, 2);
-    assert!(note.contains("no git to ask") && note.lines().count() == 1, "{note}");
+    // What git itself says, where it knows better; and no git at all.
+    let says = [("GIT_DIR", "nowhere", "not a git repository: 'nowhere'"), ("PATH", "", "no git")];
+    for (name, value, words) in says {
+        let (code, _, note) = outcome(program(&sub, "diff v1 paper").env(name, value));
+        assert!(code == 2 && note.contains(words) && note.lines().count() == 1, "{note}");
+    }
 }
 
+/// Which part is wrong is told by the unit tests of `compare`.
 #[test]
 fn what_is_no_report_gets_one_line() {
     let folder = twice();
     let here = folder.path();
     let at = |path: &str| here.join("b").join(path);
-    let refused = |named: &str| {
-        let (code, out, note) = run(here, &["a", "b"]);
-        assert_eq!((code, out.as_str()), (2, ""), "{note}");
-        assert!(note.starts_with(&format!("impact-paper: b: {named}")), "{named}: {note}");
-        assert_eq!(note.lines().count(), 1, "{note}");
-    };
-    let keep = |path: &str| fs::read(at(path)).unwrap();
-    for (path, bad) in [("values.json", "{\"a\": "), ("values.json", "[]"), ("ledger.json", "{}")] {
-        let good = keep(path);
+    for (path, bad, says) in [
+        ("values.json", "{\"a\": ", "b: values.json"),
+        ("values.json", "[]", "b: values.json"),
+        ("ledger.json", "{}", "b: ledger.json"),
+    ] {
+        let good = fs::read(at(path)).unwrap();
         fs::write(at(path), bad).unwrap();
-        refused(path);
+        refused(here, "diff a b", &[says]);
         fs::write(at(path), good).unwrap();
     }
-    let good = keep("values.json");
-    fs::remove_file(at("values.json")).unwrap();
-    refused("values.json is missing");
-    fs::write(at("values.json"), good).unwrap();
+    fs::write(at("data/fig02.csv"), "a\n\u{0}\"\n").unwrap();
+    assert_eq!(run(here, "diff a b").0, 0);
     std::os::unix::fs::symlink("/etc/passwd", at("data/link.csv")).unwrap();
-    refused("data/link.csv: it is a link");
-    for wrong in [&["a"][..], &["a", "b", "--json", "--markdown"], &["a", "b", "--format", "x"]] {
-        assert_eq!(run(here, wrong).0, 2, "{wrong:?}");
+    refused(here, "diff a b", &["b: data/link.csv: it is a link"]);
+    for wrong in ["a", "a b --json --markdown", "a b --format x"] {
+        refused(here, &format!("diff {wrong}"), &[]);
     }
 }

@@ -1,17 +1,13 @@
 //! `impact-paper explain` as a user meets it, on the report of the quick profile.
 
-use crate::{PROGRAM, QUICK, outcome, put, refused};
-use std::path::Path;
+use crate::{QUICK, answer, json, put, refused};
 use std::process::Command;
 
-fn run(arguments: &[&str]) -> (i32, String, String) {
-    outcome(Command::new(PROGRAM).args(arguments))
-}
-
-fn explain(arguments: &[&str]) -> (i32, String, String) {
+/// A folder with the report as `r`.
+fn report() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
-    put(folder.path(), &QUICK.report);
-    run(&[&["explain", "--paper", folder.path().to_str().unwrap()], arguments].concat())
+    put(&folder.path().join("r"), &QUICK.report);
+    folder
 }
 
 /// What is asked for, and parts of what is told.
@@ -30,65 +26,36 @@ eq:12 => f_(N,p)(k)";
 
 #[test]
 fn values_figures_equations_and_claims_are_explained() {
+    let folder = report();
     for line in CARDS.lines() {
         let (id, parts) = line.split_once(" => ").unwrap();
-        let (code, told, note) = explain(&[id]);
-        assert_eq!((code, note.as_str()), (0, ""), "{id}");
+        let told = answer(folder.path(), &format!("explain --paper r {id}"));
         assert!(!told.contains("\\mathrm") && !told.contains("\\Phi"), "{told}");
         for part in parts.split("; ") {
             assert!(told.contains(part), "{id}: {part:?} is not in\n{told}");
         }
     }
-}
-
-/// The line is that of the working copy, where the item is declared.
-#[test]
-fn the_line_is_that_of_the_item() {
-    let (_, told, _) = explain(&["theory.jump.p_jump"]);
-    let line =
-        told.split("crates/circuits/src/jump.rs:").nth(1).unwrap().split(')').next().unwrap();
-    let text = std::fs::read_to_string("crates/circuits/src/jump.rs").unwrap();
-    let line = text.lines().nth(line.parse::<usize>().unwrap() - 1).unwrap();
-    assert!(line.contains("fn p_jump"), "{line}");
-}
-
-#[test]
-fn all_are_listed_and_as_json() {
-    let (code, told, _) = explain(&[]);
-    assert_eq!(code, 0);
+    let told = answer(folder.path(), "explain --paper r");
     for id in ["sweep.rise.half_height ", "fig:15 ", "fig:s1 ", "eq:38 ", "claim:sec2_onset "] {
         assert!(told.lines().any(|line| line.starts_with(id)), "{id}");
     }
-    let (_, told, _) = explain(&["--json", "sweep.rise.half_height", "eq:18"]);
-    let cards: serde_json::Value = serde_json::from_str(&told).unwrap();
-    assert_eq!(cards[0]["id"], "sweep.rise.half_height");
-    let rows = cards[0]["rows"].as_array().unwrap();
-    let computed = rows.iter().find(|row| row["name"] == "computed by").unwrap();
-    assert_eq!(computed["file"], "src/experiments/rise.rs");
-    assert!(computed["line"].as_u64().unwrap() > 1);
 }
 
 #[test]
 fn an_unknown_id_is_one_line_with_the_nearest() {
-    for (id, near) in [
+    let folder = report();
+    let long = "a".repeat(20_000);
+    for (id, says) in [
         ("sweep.rise.half_hight", "sweep.rise.half_height"),
         ("eq:99", "eq:9"),
         ("sec7_jmp", "sec7_jump"),
+        ("nope", "there is no \"nope\"; without an id all are listed"),
+        (long.as_str(), "aaa\"; without an id all are listed"),
     ] {
-        let (code, told, note) = explain(&[id]);
-        assert_eq!((code, told.as_str()), (2, ""), "{note}");
-        assert!(note.contains(near) && note.trim_end().lines().count() == 1, "{note}");
+        refused(folder.path(), &format!("explain --paper r {id}"), &[says]);
     }
-    let long = "a".repeat(20_000);
-    for id in ["", "nope", long.as_str()] {
-        let (code, _, note) = explain(&[id]);
-        assert!(code == 2 && !note.contains("nearest") && note.len() < 200, "{note}");
-        assert!(note.contains("without an id all are listed"), "{note}");
-    }
-    let (code, _, note) = run(&["explain", "--paper", "no-such-folder", "x"]);
-    assert_eq!(code, 2);
-    assert!(note.contains("--paper") && note.trim_end().lines().count() == 1, "{note}");
-    assert!(!Path::new("no-such-folder").exists());
+    refused(folder.path(), "explain --paper no-such-folder x", &["--paper"]);
+    assert!(!folder.path().join("no-such-folder").exists());
 }
 
 /// An origin names the function that computed the number: no constant, structure or module.
@@ -102,16 +69,20 @@ fn every_origin_is_a_function() {
         .map(|(id, _)| &**id)
         .collect();
     assert!(ids.len() > 900, "{}", ids.len());
-    let (code, cards, note) = explain(&[&["--json"], ids.as_slice()].concat());
-    assert_eq!((code, note.as_str()), (0, ""));
-    let cards: serde_json::Value = serde_json::from_str(&cards).unwrap();
+    let folder = report();
+    // Lines are those of the working copy.
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let paper = folder.path().join("r");
+    let cards =
+        json(root, &format!("explain --json --paper {} {}", paper.display(), ids.join(" ")));
     for card in cards.as_array().unwrap() {
         let row = |name: &str| card["rows"].as_array().unwrap().iter().find(|r| r["name"] == name);
         let by = row("computed by").unwrap_or_else(|| panic!("{card}"));
         let source = std::fs::read_to_string(by["file"].as_str().unwrap()).unwrap();
         let line = by["line"].as_u64().unwrap() as usize - 1;
         let line = source.lines().nth(line).unwrap();
-        assert!(line.contains("fn "), "{}: {line}", card["id"]);
+        let name = by["text"].as_str().unwrap().rsplit("::").next().unwrap();
+        assert!(line.contains(&format!("fn {name}")), "{}: {line}", card["id"]);
     }
     let means = |id: &&String| id.starts_with("sweep.rows") && id.ends_with(".mean");
     let means: Vec<&String> = values.keys().filter(means).collect();
@@ -126,14 +97,14 @@ fn every_origin_is_a_function() {
 #[test]
 fn nothing_but_files_of_the_folder_is_read() {
     for name in ["values.json", "ledger.json"] {
-        let folder = tempfile::tempdir().unwrap();
+        let folder = report();
         let here = folder.path();
-        put(&here.join("r"), &QUICK.report);
-        std::fs::rename(here.join("r").join(name), here.join("away")).unwrap();
-        std::os::unix::fs::symlink("../away", here.join("r").join(name)).unwrap();
+        let file = here.join("r").join(name);
+        std::fs::rename(&file, here.join("away")).unwrap();
+        std::os::unix::fs::symlink("../away", &file).unwrap();
         refused(here, "explain --paper r fig:3", &[name, "it is a link"]);
-        std::fs::remove_file(here.join("r").join(name)).unwrap();
-        assert!(Command::new("mkfifo").arg(here.join("r").join(name)).status().unwrap().success());
+        std::fs::remove_file(&file).unwrap();
+        assert!(Command::new("mkfifo").arg(&file).status().unwrap().success());
         refused(here, "explain --paper r fig:3", &[name, "it is no regular file"]);
     }
 }

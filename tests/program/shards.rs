@@ -1,7 +1,7 @@
 //! Work shared out to several machines gives the bytes of one, and nothing else is taken for it.
 
 use crate::{
-    EXPERIMENTS, Files, QUICK, TEMPLATES, files, forged, killed, program, put, refused, run,
+    EXPERIMENTS, Files, QUICK, TEMPLATES, files, forged, json, killed, program, put, refused, run,
 };
 use std::fs;
 use std::path::Path;
@@ -33,9 +33,14 @@ fn complete() -> tempfile::TempDir {
 }
 
 fn plan(folder: &Path, more: &str) -> serde_json::Value {
-    let (code, text, note) = run(folder, &format!("plan --profile quick --json{more}"));
-    assert_eq!(code, 0, "{note}");
-    serde_json::from_str(&text).unwrap()
+    json(folder, &format!("plan --profile quick --json{more}"))
+}
+
+/// A run that succeeds, whatever it says.
+fn fine(folder: &Path, arguments: &str) -> String {
+    let (code, text, note) = run(folder, arguments);
+    assert_eq!(code, 0, "{arguments}: {text}{note}");
+    text + &note
 }
 
 #[test]
@@ -62,19 +67,14 @@ fn merged_shards_are_the_bytes_of_one_machine() {
     assert!(units.len() > 60 && units.iter().any(|unit| unit["experiment"] == "bias"));
     // Logs beside the units are nobody's concern.
     fs::write(folder.join("2/array-7_2.log"), "a log").unwrap();
-    let (code, _, note) = run(folder, MERGE);
-    assert_eq!(code, 0, "{note}");
+    fine(folder, MERGE);
     assert!(files(&folder.join("joined")) == *one);
-    let (code, _, note) = run(folder, "status --profile quick --results joined");
-    assert_eq!(code, 0, "{note}");
+    fine(folder, "status --profile quick --results joined");
     let paper = format!("paper --profile quick --out r --results joined --templates {TEMPLATES}");
-    let (code, _, note) = run(folder, &paper);
-    assert_eq!((code, note.matches(": fresh").count()), (0, EXPERIMENTS), "{note}");
+    assert_eq!(fine(folder, &paper).matches(": fresh").count(), EXPERIMENTS);
     // All in one folder, by one shard of one.
-    let (code, _, note) = run(folder, "run --profile quick --shard 1/1 --out all");
-    assert_eq!(code, 0, "{note}");
-    let (code, _, note) = run(folder, "merge --profile quick --results again all");
-    assert_eq!(code, 0, "{note}");
+    fine(folder, "run --profile quick --shard 1/1 --out all");
+    fine(folder, "merge --profile quick --results again all");
     assert!(files(&folder.join("again")) == *one);
 }
 
@@ -83,7 +83,6 @@ fn merged_shards_are_the_bytes_of_one_machine() {
 fn experiments_that_are_named_are_run_and_joined_alone() {
     let folder = complete();
     let folder = folder.path();
-    let one = &QUICK.results;
     let own = plan(folder, " --experiment scale,bias");
     let units = own["units"].as_array().unwrap();
     let among =
@@ -94,18 +93,16 @@ fn experiments_that_are_named_are_run_and_joined_alone() {
     // What is run alone is what a run of everything gives.
     let run_alone =
         "run --profile quick --shard 1/1 --out alone --experiment scale --experiment bias";
-    let (code, text, note) = run(folder, run_alone);
-    assert_eq!(text, format!("alone: shard 1/1: {of_all} units run, 0 fresh\n"), "{note}");
-    assert_eq!(code, 0);
+    let told = format!("alone: shard 1/1: {of_all} units run, 0 fresh\n");
+    assert!(fine(folder, run_alone).starts_with(&told));
     let merge = "merge --profile quick --experiment bias,scale --results";
-    let (code, _, note) = run(folder, &format!("{merge} alone-joined alone"));
-    assert_eq!(code, 0, "{note}");
+    fine(folder, &format!("{merge} alone-joined alone"));
     let joined = files(&folder.join("alone-joined"));
     assert_eq!(joined.keys().collect::<Vec<_>>(), ["bias-quick.json", "scale-quick.json"]);
-    assert!(joined.iter().all(|(name, bytes)| *bytes == one[name]));
+    assert!(joined.iter().all(|(name, bytes)| *bytes == QUICK.results[name]));
     // Units of others are passed over; what is no unit at all is still refused.
-    let (code, _, note) = run(folder, &format!("{merge} some 1 2 3"));
-    assert_eq!((code, files(&folder.join("some"))), (0, joined), "{note}");
+    fine(folder, &format!("{merge} some 1 2 3"));
+    assert!(files(&folder.join("some")) == joined);
     fs::write(folder.join("2/strange-quick.json"), "{}").unwrap();
     assert_eq!(run(folder, &format!("{merge} some 1 2 3")).0, 2);
     let (code, _, note) = run(folder, &format!("{merge} some 1"));
@@ -154,8 +151,7 @@ fn a_killed_shard_leaves_whole_units() {
         assert!(now.len() >= before, "after {wait} ms");
         before = now.len();
     }
-    let (code, _, note) = shard(folder, 2);
-    assert_eq!(code, 0, "{note}");
+    assert_eq!(shard(folder, 2).0, 0);
     assert!(files(&folder.join("2")) == *second);
 }
 
@@ -180,26 +176,19 @@ fn what_is_not_one_whole_set_is_refused_by_name() {
     };
     let simulation = "\"crates/impact-chain/src/simulation.rs\":\"";
     let other_simulation = "\"crates/impact-chain/src/simulation.rs\":\"0";
-    let cases: [Case; 12] = [
-        (&|path, _| fs::remove_file(path).unwrap(), "missing units of work: sweep-quick-0007;"),
-        (&|path, bytes| fs::write(path, &bytes[..bytes.len() - 9]).unwrap(), "cut short"),
-        (
-            &|path, bytes| fs::write(path, [&bytes[..bytes.len() - 4], b"?]\n"].concat()).unwrap(),
-            "checksum",
-        ),
-        (&|path, _| fs::write(path, "").unwrap(), "cut short"),
+    let cut = |path: &Path, bytes: &[u8]| fs::write(path, &bytes[..bytes.len() - 9]).unwrap();
+    let gone = |path: &Path, _: &[u8]| fs::remove_file(path).unwrap();
+    let cases: [Case; 9] = [
+        (&gone, "missing units of work: sweep-quick-0007;"),
+        (&cut, "cut short"),
         (&forge(1, simulation, other_simulation), "crates/impact-chain/src/simulation.rs changed"),
         (&forge(1, "\"lock\":\"", "\"lock\":\"0"), "Cargo.lock changed"),
         (&forge(1, "\"seed\":", "\"seed\":1"), "other parameters"),
         (&forge(1, "\"number\":7", "\"number\":8"), "another unit of work"),
-        (&forge(1, "\"schema\":", "\"schema\":9"), "saved in another form"),
         // One realisation less, and a count that no chain has: the parts would not join.
         (&forge(2, "\"distinct\":[", "\"distinct\":[3,"), "saved in another form"),
         (&forge(2, "\"rejected\":0", "\"rejected\":1"), "saved in another form"),
-        (
-            &|path, _| fs::remove_file(path).and_then(|()| fs::create_dir(path)).unwrap(),
-            "no saved result",
-        ),
+        (&|path, _| fs::write(path, "{}").unwrap(), "no saved result"),
     ];
     for (change, says) in cases {
         change(&path, whole);
@@ -209,7 +198,6 @@ fn what_is_not_one_whole_set_is_refused_by_name() {
         assert!(note.contains(says) && note.contains("; "), "{says}: {note}");
         assert!(note.contains(&shown) || says.contains("missing"), "{note}");
         assert!(!folder.join("joined").exists(), "{says}");
-        let _ = fs::remove_dir(&path);
         fs::write(&path, whole).unwrap();
     }
     // A unit twice, otherwise: which is right?
@@ -222,8 +210,7 @@ fn what_is_not_one_whole_set_is_refused_by_name() {
     assert!(!folder.join("joined").exists());
     // Twice the same is no question.
     fs::write(other.join(name), whole).unwrap();
-    let (code, _, note) = run(folder, "merge --profile quick --results twice 1 2 3 3");
-    assert_eq!(code, 0, "{note}");
+    fine(folder, "merge --profile quick --results twice 1 2 3 3");
     assert!(files(&folder.join("twice")) == QUICK.results);
     fs::remove_file(other.join(name)).unwrap();
     // What is no unit here.
@@ -243,8 +230,7 @@ fn what_is_not_one_whole_set_is_refused_by_name() {
     let lost = "merge --profile quick --results joined 1 2 3 never-there";
     refused(folder, lost, &["never-there: "]);
     assert!(!folder.join("joined").exists());
-    let (code, _, note) = run(folder, MERGE);
-    assert_eq!(code, 0, "{note}");
+    fine(folder, MERGE);
     assert!(files(&folder.join("joined")) == QUICK.results);
 }
 

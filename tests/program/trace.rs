@@ -1,6 +1,6 @@
 //! `impact-paper trace`: its table, its methods, and what it says of ties.
 
-use crate::{SCENARIO, answer, program, run};
+use crate::{SCENARIO, answer, program, refused, run};
 use std::io::Write;
 use std::process::Stdio;
 
@@ -71,25 +71,46 @@ fn what_was_done_with_ties_is_said() {
 
 #[test]
 fn derivatives_are_a_column_and_end_where_there_are_none() {
-    let folder = folder(SCENARIO);
-    let [plain, own] = ["", " --sensitivity sigma"]
-        .map(|more| answer(folder.path(), &format!("trace s.json --until 10{more}")));
-    assert!(own.starts_with("time,gap,closing_speed,dtime_dlnsigma\n") && own.lines().count() > 5);
-    let without: String =
-        own.lines().map(|line| format!("{}\n", line.rsplit_once(',').unwrap().0)).collect();
-    assert_eq!(without, plain);
-    let (code, out, note) =
-        run(folder.path(), "trace s.json --until 10 --sensitivity sigma --method verlet");
+    let sensitivity = |scenario: &str, more: &str| {
+        let folder = folder(scenario);
+        run(folder.path(), &format!("trace s.json --until 10 --sensitivity sigma{more}"))
+    };
+    let plain = answer(folder(SCENARIO).path(), "trace s.json --until 10");
+    let (code, own, note) = sensitivity(SCENARIO, "");
+    assert!(code == 0 && note.is_empty() && own.lines().count() > 5, "{note}");
+    assert!(own.starts_with("time,gap,closing_speed,dtime_dlnsigma\n"), "{own}");
+    let without = own.lines().map(|line| format!("{}\n", line.rsplit_once(',').unwrap().0));
+    assert_eq!(without.collect::<String>(), plain);
+    let (code, out, note) = sensitivity(SCENARIO, " --method verlet");
     assert!((code, out.as_str()) == (2, "") && note.contains("--sensitivity"), "{note}");
-    std::fs::write(folder.path().join("s.json"), r#"{"forcing":[[0.9,0.8],[0,0],[-0.9,-0.8]]}"#)
-        .unwrap();
-    let (code, out, note) = run(folder.path(), "trace s.json --until 10 --sensitivity sigma");
+    let tie = r#"{"forcing":[[0.9,0.8],[0,0],[-0.9,-0.8]]}"#;
+    let (code, out, note) = sensitivity(tie, "");
     assert_eq!((code, out.lines().count(), note.lines().count()), (2, 2, 1), "{note}");
     assert!(note.contains("impact 2 at") && note.contains("--max-impacts 1"), "{note}");
     // What the message advises.
-    let (code, ..) =
-        run(folder.path(), "trace s.json --until 10 --sensitivity sigma --max-impacts 1");
-    assert_eq!(code, 0);
+    assert_eq!(sensitivity(tie, " --max-impacts 1").0, 0);
+    // It closes at 5e-8, where the derivative would be wrong by half of itself.
+    let graze = r#"{"forcing_frequency":1.5,"initial":"zero","forcing":[[0,-1.2500000000000003]]}"#;
+    let (code, _, note) = sensitivity(graze, "");
+    assert!(code != 0 && note.contains("impact 1") && note.contains("grazes"), "{note}");
+}
+
+#[test]
+fn certificates_stand_on_stderr_and_the_output_is_the_same() {
+    let folder = folder(SCENARIO);
+    let trace = |more: &str| run(folder.path(), &format!("trace s.json --until 300{more}"));
+    let (plain, (code, out, note)) = (trace(""), trace(" --certify"));
+    assert_eq!((plain.0, plain.2.as_str(), code, &plain.1), (0, "", 0, &out));
+    let words = format!(" of {} impacts can be trusted, before t = ", out.lines().count() - 1);
+    assert!(note.contains(&words) && note.contains("errors grow as exp(0."), "{note}");
+    assert_eq!(note.lines().count(), 1, "{note}");
+    let (_, out, note) = trace(" --certify --max-impacts 5");
+    let words = "5 impacts can be trusted, to the end";
+    assert!(out.lines().count() == 6 && note.contains(words), "{out}{note}");
+    for method in ["verlet", "sampled"] {
+        let arguments = format!("trace s.json --until 300 --certify --method {method}");
+        refused(folder.path(), &arguments, &["--certify", method]);
+    }
 }
 
 #[test]
@@ -103,13 +124,4 @@ fn a_run_that_is_stopped_tells_its_rounding_and_has_no_certificate() {
     assert!(note.contains("may move an impact") && !note.contains("certificate"), "{note}");
     let (code, out, note) = trace(" --certify");
     assert!(code == 4 && out == plain && note.contains("no certificate"), "{note}");
-}
-
-#[test]
-fn an_impact_that_nearly_grazes_has_no_derivative() {
-    // It closes at 5e-8, where the derivative would be wrong by half of itself.
-    let graze = r#"{"forcing_frequency":1.5,"initial":"zero","forcing":[[0,-1.2500000000000003]]}"#;
-    let folder = folder(graze);
-    let (code, _, note) = run(folder.path(), "trace s.json --until 2 --sensitivity sigma");
-    assert!(code != 0 && note.contains("impact 1") && note.contains("grazes"), "{note}");
 }

@@ -1,7 +1,8 @@
 //! `impact-paper verify`: what a folder says of itself, held against what stands in it.
 
-use crate::{QUICK, TEMPLATES, digest, ended, program, put, refused, run};
+use crate::{QUICK, TEMPLATES, answer, digest, ended, program, put, refused, run};
 use std::fs;
+use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
@@ -19,32 +20,36 @@ fn small() -> (tempfile::TempDir, String) {
     (folder, list)
 }
 
+/// Exit code 1, these lines, and one on stderr with these words.
+fn faults(folder: &Path, lines: &[&str], words: &str) {
+    let (code, told, note) = run(folder, "verify");
+    assert_eq!((code, told.lines().collect::<Vec<_>>()), (1, lines.to_vec()));
+    assert!(note.contains(words) && note.lines().count() == 1, "{note}");
+}
+
 #[test]
 fn what_is_as_listed_is_fine_with_what_is_built_beside() {
     let (folder, _) = small();
     let paper = folder.path().join("paper");
-    fs::write(paper.join("report.html"), "page").unwrap();
-    fs::write(paper.join("data/a.pdf"), "").unwrap();
+    let write = |path: &str, text: &str| fs::write(paper.join(path), text).unwrap();
+    write("report.html", "page");
+    write("data/a.pdf", "");
     // Of a revision that was here before, but for what is built beside.
-    let (page, pdf, other) = (digest("page"), digest(""), digest("other"));
+    let [page, pdf, other] = ["page", "", "other"].map(digest);
     let local =
         format!("{pdf}  data/a.pdf\n{page}  report.html\n{other}  report.md\n{pdf}  report.pdf\n");
-    fs::write(paper.join("SHA256SUMS.local"), local).unwrap();
+    write("SHA256SUMS.local", &local);
     fs::create_dir(paper.join(".staging-impact-paper-1")).unwrap();
-    fs::write(paper.join(".staging-impact-paper-1/report.md"), "half").unwrap();
-    fs::write(paper.join(".staging-impact-paper-1/.impact-paper"), "").unwrap();
-    let (code, told, note) = run(folder.path(), "verify");
-    assert_eq!((code, note.as_str()), (0, ""), "{told}");
-    assert_eq!(told, "paper: 4 files, all as SHA256SUMS lists them\n");
+    write(".staging-impact-paper-1/report.md", "half");
+    write(".staging-impact-paper-1/.impact-paper", "");
+    let fine = "paper: 4 files, all as SHA256SUMS lists them\n";
+    assert_eq!(answer(folder.path(), "verify"), fine);
     // A page that somebody else put there, in place of ours or where none was made.
-    fs::write(paper.join("report.html"), "planted").unwrap();
-    let (code, told, note) = run(folder.path(), "verify");
-    assert_eq!((code, told.as_str()), (1, "differs  report.html\n"));
-    assert!(note.contains("--force"), "{note}");
+    write("report.html", "planted");
+    faults(folder.path(), &["differs  report.html"], "--force");
     fs::remove_file(paper.join("SHA256SUMS.local")).unwrap();
-    let (code, told, note) = run(folder.path(), "verify");
-    assert_eq!((code, told.as_str()), (1, "unlisted data/a.pdf\nunlisted report.html\n"));
-    assert!(note.contains("remove what is not listed"), "{note}");
+    let unlisted = ["unlisted data/a.pdf", "unlisted report.html"];
+    faults(folder.path(), &unlisted, "remove what is not listed");
 }
 
 #[test]
@@ -54,32 +59,24 @@ fn edited_missing_and_unlisted_files_are_named() {
     fs::write(paper.join("report.md"), "report.mD").unwrap();
     fs::remove_file(paper.join("data/a.csv")).unwrap();
     fs::write(paper.join("data/b.csv"), "").unwrap();
-    let (code, told, note) = run(folder.path(), "verify paper");
-    assert_eq!(code, 1);
-    let lines: Vec<&str> = told.lines().collect();
-    assert_eq!(lines, ["missing  data/a.csv", "differs  report.md", "unlisted data/b.csv"]);
-    assert!(note.contains("3 faults") && note.trim_end().lines().count() == 1, "{note}");
+    let lines = ["missing  data/a.csv", "differs  report.md", "unlisted data/b.csv"];
+    faults(folder.path(), &lines, "3 faults");
 }
 
+/// Which lines a list cannot have is told by the unit tests of `sums`.
 #[test]
 fn lists_that_cannot_be_trusted_are_refused_with_their_line() {
     let (folder, list) = small();
-    fs::write(folder.path().join("outside"), "outside").unwrap();
-    let (outside, absolute) = (digest("outside"), folder.path().join("outside"));
-    for line in [
-        "nonsense".to_string(),
-        format!("{outside}  ../outside"),
-        format!("{outside}  {}", absolute.display()),
-        format!("{outside}  report.md"),
-    ] {
-        fs::write(folder.path().join("paper/SHA256SUMS"), format!("{list}{line}\n")).unwrap();
-        refused(folder.path(), "verify", &["SHA256SUMS: line 3: "]);
-    }
-    fs::write(folder.path().join("paper/SHA256SUMS"), list).unwrap();
-    fs::write(folder.path().join("paper/SHA256SUMS.local"), "nonsense").unwrap();
+    let write = |name: &str, text: &[u8]| fs::write(folder.path().join(name), text).unwrap();
+    write("outside", b"outside");
+    let outside = format!("{list}{}  ../outside\n", digest("outside"));
+    write("paper/SHA256SUMS", outside.as_bytes());
+    refused(folder.path(), "verify", &["SHA256SUMS: line 3: "]);
+    write("paper/SHA256SUMS", list.as_bytes());
+    write("paper/SHA256SUMS.local", b"nonsense");
     refused(folder.path(), "verify", &["paper/SHA256SUMS.local: line 1: ", "--force"]);
-    fs::write(folder.path().join("paper/SHA256SUMS"), b"\xff\xfe").unwrap();
-    assert_eq!(run(folder.path(), "verify").0, 2);
+    write("paper/SHA256SUMS", b"\xff\xfe");
+    refused(folder.path(), "verify", &["SHA256SUMS"]);
     let (code, _, note) = run(small().0.path(), "verify --rerun");
     assert!(code == 2 && note.contains("--profile"), "{note}");
 }
@@ -99,19 +96,13 @@ fn nothing_leads_out_of_the_folder() {
     let secret = digest("secret");
     let more = format!("{list}{secret}  link\n{secret}  door/x\n{secret}  pipe\n");
     fs::write(paper.join("SHA256SUMS"), more).unwrap();
-    let (code, told, _) = run(folder.path(), "verify");
-    assert_eq!(code, 1);
-    let lines: Vec<&str> = told.lines().collect();
-    let link = "(it is a link, which is not followed)";
-    assert_eq!(
-        lines,
-        [
-            &format!("unread   door/x {link}"),
-            &format!("unread   link {link}"),
-            "unread   pipe (it is no regular file)",
-            "unlisted door",
-        ]
-    );
+    let lines = [
+        "unread   door/x (it is a link, which is not followed)",
+        "unread   link (it is a link, which is not followed)",
+        "unread   pipe (it is no regular file)",
+        "unlisted door",
+    ];
+    faults(folder.path(), &lines, "4 faults");
 }
 
 #[test]
@@ -134,34 +125,27 @@ fn a_rerun_finds_what_the_list_cannot() {
     let rerun = format!("verify r --rerun --results saved {templates}");
     assert_eq!(run(here, &rerun).0, 0);
 
-    // A forger who keeps the list right.
-    let path = here.join("r/data/fig02.csv");
-    let before = fs::read_to_string(&path).unwrap();
-    fs::write(&path, format!("{before}9\n")).unwrap();
-    fs::write(here.join("r/more.csv"), "").unwrap();
-    let list = fs::read_to_string(here.join("r/SHA256SUMS")).unwrap();
-    let forged = list.replace(&digest(&before), &digest(format!("{before}9\n")));
-    assert_ne!(forged, list);
-    let forged = format!("{forged}{}  more.csv\n", digest(""));
-    fs::write(here.join("r/SHA256SUMS"), forged).unwrap();
-    // A page of theirs, in the list of what is built beside.
-    fs::write(here.join("r/planted.html"), "").unwrap();
-    let local = fs::read_to_string(here.join("r/SHA256SUMS.local")).unwrap();
-    let local = format!("{local}{}  planted.html\n", digest(""));
-    fs::write(here.join("r/SHA256SUMS.local"), local).unwrap();
+    // A forger who keeps the lists right, of the report and of what is built beside.
+    let edit = |name: &str, change: &dyn Fn(String) -> String| {
+        let path = here.join("r").join(name);
+        fs::write(&path, change(fs::read_to_string(&path).unwrap())).unwrap();
+    };
+    let before = fs::read_to_string(here.join("r/data/fig02.csv")).unwrap();
+    edit("data/fig02.csv", &|text| format!("{text}9\n"));
+    for name in ["more.csv", "planted.html"] {
+        fs::write(here.join("r").join(name), "").unwrap();
+    }
+    let (old, new) = (digest(&before), digest(format!("{before}9\n")));
+    edit("SHA256SUMS", &|list| format!("{}{}  more.csv\n", list.replace(&old, &new), digest("")));
+    edit("SHA256SUMS.local", &|list| format!("{list}{}  planted.html\n", digest("")));
     assert_eq!(run(here, "verify r").0, 0);
     let (code, told, note) = run(here, &rerun);
     assert_eq!(code, 1, "{told}{note}");
-    assert!(note.contains("4 faults"), "{note}");
-    assert!(note.contains("sweep: fresh"), "{note}");
+    assert!(note.contains("4 faults") && note.contains("sweep: fresh"), "{note}");
     let lines: Vec<&str> = told.lines().skip(1).collect();
-    let names = [
-        "differs  SHA256SUMS",
-        "differs  data/fig02.csv",
-        "not made more.csv",
-        "not made planted.html",
-    ];
-    assert_eq!(lines, names.map(|name| format!("rerun: {name}")));
+    let names = ["differs  SHA256SUMS", "differs  data/fig02.csv", "not made more.csv"];
+    let names = names.into_iter().chain(["not made planted.html"]);
+    assert_eq!(lines, names.map(|name| format!("rerun: {name}")).collect::<Vec<_>>());
 }
 
 #[test]

@@ -2,59 +2,28 @@
 //! has grown beyond its time. Bytes and elements of the pages are bounded by the browser test, pages by `.ci/latex`.
 
 use crate::quick::QUICK;
+use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
 
 /// Words of prose: no code, no displayed formula, no table, no address of a link, no description that is read
 /// instead of a picture; a formula in a line is one word.
 fn words(markdown: &str) -> usize {
-    let mut outside = (false, false);
-    let lines = markdown.lines().filter(|line| {
-        let (code, formula) = (line.starts_with("```"), line.trim() == "$$");
-        if code {
-            outside.0 = !outside.0;
-        } else if formula {
-            outside.1 = !outside.1;
+    let (mut left_out, mut text) = (0, String::new());
+    for event in Parser::new_ext(markdown, Options::ENABLE_TABLES | Options::ENABLE_MATH) {
+        match event {
+            Event::Start(Tag::Table(_) | Tag::CodeBlock(_) | Tag::Image { .. }) => left_out += 1,
+            Event::End(TagEnd::Table | TagEnd::CodeBlock | TagEnd::Image) => left_out -= 1,
+            // Where the files of a figure are.
+            Event::InlineHtml(html) if &*html == "<sub>" => left_out += 1,
+            Event::InlineHtml(html) if &*html == "</sub>" => left_out -= 1,
+            Event::Text(piece) | Event::Code(piece) if left_out == 0 => text += &piece,
+            Event::InlineMath(_) if left_out == 0 => text.push('x'),
+            Event::Start(Tag::Paragraph | Tag::Item | Tag::Heading { .. })
+            | Event::SoftBreak
+            | Event::HardBreak => text.push(' '),
+            _ => {}
         }
-        let whole = ["|", "![", "<sub>Data:"].iter().any(|start| line.starts_with(start))
-            || (line.starts_with("$$") && line.ends_with("$$"));
-        !(outside.0 || outside.1 || code || whole)
-    });
-    lines
-        .map(|line| {
-            spoken(line).split_whitespace().filter(|w| w.contains(char::is_alphanumeric)).count()
-        })
-        .sum()
-}
-
-/// A line without tags and addresses, with an x for each formula.
-fn spoken(line: &str) -> String {
-    let mut text = String::new();
-    for (i, piece) in line.split('$').enumerate() {
-        if i % 2 == 1 {
-            text.push('x');
-            continue;
-        }
-        let mut rest = piece;
-        while let Some(at) = rest.find(['<', '(']) {
-            let address = rest[at..].starts_with('(') && rest[..at].ends_with(']');
-            let end = if rest[at..].starts_with('<') {
-                rest[at..].find('>')
-            } else {
-                rest[at..].find(')')
-            };
-            match end {
-                Some(end) if address || rest[at..].starts_with('<') => {
-                    text.push_str(&rest[..at]);
-                    rest = &rest[at + end + 1..];
-                }
-                _ => {
-                    text.push_str(&rest[..=at]);
-                    rest = &rest[at + 1..];
-                }
-            }
-        }
-        text.push_str(rest);
     }
-    text
+    text.split_whitespace().filter(|word| word.contains(char::is_alphanumeric)).count()
 }
 
 /// The text from one heading on to the next, by the words of the heading.

@@ -95,19 +95,9 @@ fn whole(text: &str) {
     // HTML is ours: anchors, folds and small print.
     for event in events(text) {
         let (Event::Html(html) | Event::InlineHtml(html)) = event else { continue };
-        let ours = [
-            "<a id=",
-            "</a>",
-            "<details>",
-            "</details>",
-            "<summary>",
-            "<sub>",
-            "</sub>",
-            "<sup>",
-            "</sup>",
-        ];
+        let ours = "<a id=|</a>|<details>|</details>|<summary>|<sub>|</sub>|<sup>|</sup>";
         for line in html.lines().filter(|line| !line.trim().is_empty()) {
-            assert!(ours.iter().any(|tag| line.trim_start().starts_with(tag)), "{html}");
+            assert!(ours.split('|').any(|tag| line.trim_start().starts_with(tag)), "{html}");
         }
     }
 }
