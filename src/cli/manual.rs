@@ -33,9 +33,18 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     for shell in [Shell::Bash, Shell::Zsh, Shell::Fish, Shell::Elvish, Shell::PowerShell] {
         let mut text = Vec::new();
         generate(shell, &mut command, "impact-paper", &mut text);
+        if shell == Shell::Bash {
+            text = one_name(&text);
+        }
         files.insert(format!("completions/impact-paper.{shell}"), text);
     }
     staging.place(&files, &work::progress())
+}
+
+/// The generator calls a verb of a program with a hyphen one thing where it is found and another where its options are
+/// listed, so that bash would complete none of these.
+fn one_name(script: &[u8]) -> Vec<u8> {
+    String::from_utf8_lossy(script).replace("impact__subcmd__paper", "impact__paper").into()
 }
 
 /// The manual page of one verb, or of all.

@@ -279,6 +279,12 @@ fn the_manual_is_written_and_quiet_work_says_nothing() {
     assert!(page.contains(".TH") && page.contains("certified"), "{page}");
     let bash = std::fs::read_to_string(here.join("m/completions/impact-paper.bash")).unwrap();
     assert!(bash.contains("--max-impacts") && bash.contains("sweep"), "{bash}");
+    // Each verb that it finds is one whose options it lists.
+    let found =
+        bash.lines().filter_map(|line| line.trim().strip_prefix("cmd=\"")?.strip_suffix('"'));
+    let found: Vec<&str> = found.filter(|name| !name.is_empty()).collect();
+    let listed = |name: &&str| bash.contains(&format!("\n        {name})\n"));
+    assert!(found.len() > 15 && found.iter().all(listed), "{bash}");
     std::fs::create_dir(here.join("report")).unwrap();
     std::fs::write(here.join("report/SHA256SUMS"), "").unwrap();
     for verb in ["manual", "run --profile quick --shard 1/1"] {
