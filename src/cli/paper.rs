@@ -68,7 +68,8 @@ pub fn run(args: Args) -> Result<(), Failure> {
     }
     set::choose(&args.set).map_err(|e| Failure::input(format!("--set: {e}")))?;
     let other = set::told().is_some();
-    let usual = if other { work::ProfileName::Ci } else { work::ProfileName::Full };
+    // Also where what was set is the paper's: it is to be compared with other settings.
+    let usual = if args.set.is_empty() { work::ProfileName::Full } else { work::ProfileName::Ci };
     let profile = Profile::from(args.profile.unwrap_or(usual));
     let out = args.out.clone().unwrap_or_else(|| default_folder(profile));
     let ordinary = [profile, Profile::Full].map(|profile| resolved(&default_folder(profile)));

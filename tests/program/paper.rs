@@ -214,6 +214,9 @@ fn another_parameter_makes_another_report_that_says_so() {
     assert!(std::fs::read_dir(here).unwrap().next().is_none());
     let (code, list, _) = run(here, "paper --set list");
     assert!(code == 0 && list.contains("masses             100"), "{list}");
+    // The paper's own value is set to be compared, so with the same samples.
+    let (code, told, note) = run(here, "paper --set masses=100 --figure 1");
+    assert!(code == 0 && told.starts_with("target/paper-ci: "), "{told}{note}");
 
     let set = "paper --set restitution=0.7 --set masses=50 --profile quick --results r";
     let (code, told, note) = run(here, &format!("{set} --out o"));
@@ -223,6 +226,7 @@ fn another_parameter_makes_another_report_that_says_so() {
     let text = |name: &str| std::fs::read_to_string(here.join("o").join(name)).unwrap();
     for name in ["report.md", "beyond.md", "methods.md", "README.md", "ledger.md"] {
         assert!(text(name).contains(words), "{name}");
+        assert!(text(name).contains("the words were written for the paper's"), "{name}");
     }
     // Figures draw their words as outlines; the foot makes them higher.
     let height = |text: &str| {
