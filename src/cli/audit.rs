@@ -56,7 +56,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
         for experiment in chosen {
             let name = experiment.name();
             let same =
-                experiment.audit(profile, &store, &progress).map_err(|error| match error {
+                experiment.at(profile).audit(&store, &progress).map_err(|error| match error {
                     Error::Stale { .. } => {
                         Failure::stale(format!("{error}; {}", work::remedy(profile)))
                     }

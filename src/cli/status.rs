@@ -2,7 +2,7 @@
 
 use super::{Failure, stdout, work};
 use impact_paper::experiments::Store;
-use impact_paper::experiments::{self, Saved};
+use impact_paper::experiments::{self, Entry};
 use impact_paper::params::Profile;
 use literate::experiments::identity::{Reason, told};
 use serde::Serialize;
@@ -50,7 +50,7 @@ struct Line {
 }
 
 impl Line {
-    fn of(experiment: &dyn Saved, reasons: &[Reason], carried: bool) -> Line {
+    fn of(experiment: &dyn Entry, reasons: &[Reason], carried: bool) -> Line {
         let has = |test: fn(&Reason) -> bool| reasons.iter().any(test);
         let changed = |reason: &Reason| match reason {
             Reason::Code(files) => files.clone(),
@@ -100,7 +100,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
 
 /// What was found of one experiment.
 struct Found {
-    experiment: &'static dyn Saved,
+    experiment: &'static dyn Entry,
     /// Why its result is not what this program would save.
     reasons: Vec<Reason>,
     /// Whether it is used all the same.
@@ -108,8 +108,8 @@ struct Found {
 }
 
 impl Found {
-    fn look(experiment: &'static dyn Saved, profile: Profile, store: &Store) -> Found {
-        let reasons = experiment.stale(profile, store);
+    fn look(experiment: &'static dyn Entry, profile: Profile, store: &Store) -> Found {
+        let reasons = experiment.at(profile).stale(store);
         let carried = profile == Profile::Deep
             && !reasons.is_empty()
             && reasons.iter().all(Reason::is_of_source);

@@ -260,7 +260,7 @@ fn drift(closed: &Closed) -> Table {
         .estimate(
             "found",
             "1",
-            "d ln ℓ/d ln t of the length that a region has grown to",
+            "d ln ℓ/d ln t of the length to which a region is active",
             |(_, own)| own[0],
         )
         .estimate("expected", "1", "the same by the closed theory, same forces", |(_, own)| own[1])
@@ -336,10 +336,12 @@ pub fn tables(closed: &Closed) -> Vec<Table> {
         })
         .real("off_longest", "1", 2, "the same in the longest", |_| off(longest))
         .chosen("longest", "1", "masses of these", |_| Some(longest as f64))
-        .chosen("from", "1/omega", "last transient but one", |own| {
-            own.protocols.iter().rev().nth(1).map(|own| own[0])
+        .chosen("from", "1/omega", "end of the last window but one", |own| {
+            own.protocols.iter().rev().nth(1).map(|own| own[0] + own[1])
         })
-        .chosen("to", "1/omega", "last transient", |own| own.protocols.last().map(|own| own[0]))
+        .chosen("to", "1/omega", "end of the last window", |own| {
+            own.protocols.last().map(|own| own[0] + own[1])
+        })
         .done();
     vec![counts, rises, drift(closed), all]
 }

@@ -37,7 +37,7 @@ pub mod built;
 mod results;
 
 pub use literate::experiments::{
-    Entry, Error, Experiment, Need, Progress, Saved, Store, alive, be_quiet, say,
+    Entry, Error, Experiment, Need, Progress, Store, alive, be_quiet, say,
 };
 pub use measured::Measured;
 pub use results::{Looked, Results};

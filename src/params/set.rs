@@ -59,8 +59,7 @@ impl Parameter {
 
 const WHOLE: bool = true;
 
-/// Within these ranges the rise stays on the grid of σ. Towards the ends of some, chains with one seed are too rare to be
-/// found, so that not every part of the report can be made; this is said. Whole numbers are exact up to 2^53.
+/// Within these ranges the rise stays on the grid of σ. Whole numbers are exact up to 2^53.
 const PARAMETERS: [Parameter; 6] = [
     Parameter::new(
         "masses",
@@ -92,7 +91,7 @@ const PARAMETERS: [Parameter; 6] = [
     ),
     Parameter::new(
         "window",
-        [1.0, 1e4],
+        [10.0, 1e4],
         !WHOLE,
         |set| set.protocol.window,
         |set, w| set.protocol.window = w,

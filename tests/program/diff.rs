@@ -82,15 +82,13 @@ fn the_same_report_twice_differs_in_nothing() {
 }
 
 #[test]
-fn number_verdict_data_and_files_are_told() {
+fn number_verdict_and_files_are_told() {
     let folder = changed();
     let out = fine(folder.path(), &["a", "b"]);
     for line in [
         "  sec2_half_height: reproduced -> differs; tolerance: ± 0.005 -> ± 0.0001 | more\n",
         ", +3 σ\n",
-        "  data/fig12.csv: 1 of ",
-        "    largest difference 0.25 in expected number of impacts (1), row ",
-        ": theory,0.021,1 -> theory,0.021,0.75\n",
+        "  differs data/fig12.csv\n",
         "  new     data/new.csv\n",
         "  gone    data/fig07.csv\n",
         "  differs values.json\n",
@@ -116,7 +114,7 @@ fn number_verdict_data_and_files_are_told() {
         serde_json::from_str(&fine(folder.path(), &["a", "b", "--json"])).unwrap();
     let diff = &json["diff"];
     assert_eq!((&json["same"], &json["old"]), (&false.into(), &"a".into()));
-    assert_eq!(diff["data"][0]["absolute"]["difference"], 0.25);
+    assert_eq!(diff["differing"][0], "data/fig12.csv");
     assert_eq!(diff["verdicts"][0]["after"], "differs");
     assert!((diff["numbers"][0]["sigmas"].as_f64().unwrap() - 3.0).abs() < 1e-9, "{diff}");
     assert_eq!(diff["lost"], serde_json::json!(["data/fig07.csv"]));
@@ -208,20 +206,10 @@ fn what_is_no_report_gets_one_line() {
         assert_eq!(note.lines().count(), 1, "{note}");
     };
     let keep = |path: &str| fs::read(at(path)).unwrap();
-    for (path, bad) in [
-        ("values.json", "{\"a\": "),
-        ("values.json", "[]"),
-        ("ledger.json", "{}"),
-        ("data/fig02.csv", "a,b\n1\n"),
-        ("data/fig02.csv", "a\n\u{0}\"\n"),
-    ] {
+    for (path, bad) in [("values.json", "{\"a\": "), ("values.json", "[]"), ("ledger.json", "{}")] {
         let good = keep(path);
         fs::write(at(path), bad).unwrap();
-        if bad.contains('\0') {
-            assert_eq!(run(here, &["a", "b"]).0, 0);
-        } else {
-            refused(path);
-        }
+        refused(path);
         fs::write(at(path), good).unwrap();
     }
     let good = keep("values.json");

@@ -113,9 +113,6 @@ impl Program {
     }
 
     /// The item of a path: `jump::p_jump`, `flight::Motion::kick`.
-    ///
-    /// # Errors
-    /// One line that says what is unknown, and names what the module has.
     pub fn item(&self, path: &str) -> Result<Item, String> {
         let longest = self
             .inside(path)
@@ -327,12 +324,6 @@ mod tests {
         let moved = |_: &str| Some("//! a\n//! b\n\n\n\n\npub struct Motion;\n".to_string());
         assert_eq!(place("toy::flight::Motion", moved).unwrap().line, 7);
         assert_eq!(place("toy::flight::Motor", |_| None), None);
-    }
-
-    #[test]
-    fn paths_are_those_of_the_documents() {
-        assert_eq!(TOY.short("toy_paper::run::mean"), "run::mean");
-        assert_eq!(TOY.short("other::run"), "other::run");
     }
 
     #[test]

@@ -1,9 +1,9 @@
 //! A comparison as a comment on a pull request.
 
-use super::text::{amount, fate, is_obeyed, reworded, words};
+use super::text::{fate, is_obeyed, reworded, words};
 use super::{by_weight, count, signed};
 use impact_paper::input::one_line;
-use impact_paper::report::compare::{Change, ClaimChange, Diff, ProseChange, TableChange};
+use impact_paper::report::compare::{Change, ClaimChange, Diff, ProseChange};
 use impact_paper::report::markdown::escaped;
 use impact_paper::report::spell;
 
@@ -28,11 +28,7 @@ pub fn markdown(old: &str, new: &str, diff: &Diff) -> String {
     if diff.is_empty() {
         return out + "Nothing: every file has the same bytes.\n";
     }
-    let counts = [
-        count(diff.verdicts.len(), "claim"),
-        count(diff.numbers.len(), "number"),
-        count(diff.data.len(), "file") + " of figures' data",
-    ];
+    let counts = [count(diff.verdicts.len(), "claim"), count(diff.numbers.len(), "number")];
     out += &format!("{} changed.\n", sentence(&counts.join(", ")));
     let rows = diff.verdicts.iter().map(claim).collect();
     table(&mut out, "| Check | Verdict | Ours | Measure |\n|---|---|---|---|\n", rows);
@@ -40,13 +36,6 @@ pub fn markdown(old: &str, new: &str, diff: &Diff) -> String {
     let rows = numbers.into_iter().map(value).collect();
     table(&mut out, "| Number | Before | Now | Δ | Δ/σ |\n|---|---|---|---|---|\n", rows);
     prose(&mut out, &diff.prose);
-    let mut data: Vec<&TableChange> = diff.data.iter().collect();
-    let relative = |change: &TableChange| change.relative.as_ref().map_or(0.0, |l| l.difference);
-    data.sort_by(|a, b| relative(b).total_cmp(&relative(a)));
-    let rows = data.into_iter().map(figure).collect();
-    let head =
-        "| Data | Rows | Largest difference | Largest relative | First |\n|---|---|---|---|---|\n";
-    table(&mut out, head, rows);
     let ids = |new: bool| {
         let these = other.iter().filter(|change| change.after.is_some() == new);
         these.map(|change| change.id.clone()).collect::<Vec<String>>()
@@ -157,20 +146,6 @@ fn value(change: &Change) -> String {
     let (before, after) = (text(&change.before), text(&change.after));
     let (difference, sigmas) = (number(change.difference), number(change.sigmas));
     format!("| {id} | {before} | {after} | {difference} | {sigmas} |\n")
-}
-
-fn figure(change: &TableChange) -> String {
-    let largest = |largest: &Option<impact_paper::report::compare::Largest>| {
-        let told = largest.as_ref().map(|l| {
-            let size = signed(l.difference).replace('+', "");
-            format!("{size} in {}, row {}", cell(&l.column), l.row)
-        });
-        told.unwrap_or_default()
-    };
-    let first = change.first.as_ref().map(|row| format!("row {}", row.row)).unwrap_or_default();
-    let (path, rows) = (cell(&change.path), cell(&amount(change)));
-    let (absolute, relative) = (largest(&change.absolute), largest(&change.relative));
-    format!("| {path} | {rows} | {absolute} | {relative} | {first} |\n")
 }
 
 #[cfg(test)]

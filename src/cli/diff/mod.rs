@@ -12,7 +12,7 @@ use impact_paper::report::{Files, PROGRAM};
 use serde_json::json;
 use std::path::Path;
 
-/// Says what differs between two reports: verdicts, numbers, sentences, data, files.
+/// Says what differs between two reports: verdicts, numbers, sentences, files.
 ///
 /// A sentence in which nothing but numbers moved is counted, not told.
 ///

@@ -2,9 +2,7 @@
 
 use super::{by_weight, count, signed};
 use impact_paper::input::one_line;
-use impact_paper::report::compare::{
-    Change, ClaimChange, Diff, Largest, Piece, ProseChange, Row, TableChange,
-};
+use impact_paper::report::compare::{Change, ClaimChange, Diff, Piece, ProseChange};
 
 /// So many characters of what stayed lead from one change of a sentence to the next.
 const AROUND: usize = 160;
@@ -27,8 +25,6 @@ pub fn text(old: &str, new: &str, diff: &Diff) -> String {
     let lines = numbers.into_iter().chain(other).map(value).collect();
     section(format!("{} changed", count(diff.numbers.len(), "number")), lines);
     section("prose".into(), prose(&diff.prose));
-    let lines = diff.data.iter().flat_map(table).collect();
-    section(format!("data of figures: {} changed", count(diff.data.len(), "file")), lines);
     let named = |what: &str, paths: &[String]| -> Vec<String> {
         paths.iter().map(|path| format!("{what} {path}")).collect()
     };
@@ -62,22 +58,6 @@ fn value(change: &Change) -> String {
     let difference = difference.map(|d| format!("; Δ {}", signed(d))).unwrap_or_default();
     let sigmas = change.sigmas.map(|s| format!(", {} σ", signed(s))).unwrap_or_default();
     format!("{change}{difference}{}", if difference.is_empty() { "" } else { &sigmas })
-}
-
-fn table(change: &TableChange) -> Vec<String> {
-    let mut lines = vec![format!("{}: {}", change.path, amount(change))];
-    let told = [("largest difference", &change.absolute), ("largest relative", &change.relative)];
-    for (name, largest) in told {
-        if let Some(Largest { difference, column, row, before, after }) = largest {
-            let size = signed(*difference).replace('+', "");
-            lines.push(format!("  {name} {size} in {column}, row {row}: {before} -> {after}"));
-        }
-    }
-    if let Some(Row { row, before, after }) = &change.first {
-        let told = fate(before.as_deref(), after.as_deref());
-        lines.push(format!("  first at row {row}: {told}"));
-    }
-    lines
 }
 
 fn prose(changes: &[ProseChange]) -> Vec<String> {
@@ -132,22 +112,4 @@ pub fn words(
         }
     };
     pieces.iter().map(piece).collect::<Vec<_>>().join(" ")
-}
-
-/// How much of a table differs.
-pub fn amount(change: &TableChange) -> String {
-    let mut parts = vec![format!("{} of {} rows changed", change.rows_changed, change.rows)];
-    let mut part = |number: usize, what: &str| {
-        if number > 0 {
-            parts.push(format!("{number} {what}"));
-        }
-    };
-    part(change.rows_gained, "new");
-    part(change.rows_lost, "gone");
-    part(change.words_changed, "cells that are no numbers");
-    let columns = [("new", &change.columns_gained), ("gone", &change.columns_lost)];
-    for (what, names) in columns.into_iter().filter(|(_, names)| !names.is_empty()) {
-        parts.push(format!("{what} columns {}", names.join(", ")));
-    }
-    parts.join(", ")
 }

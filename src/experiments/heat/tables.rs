@@ -3,7 +3,7 @@
 use super::{Heat, Part, Run, ensembles, until};
 use crate::circuits;
 use crate::circuits::balance::{variance_ratio, variance_ratio_at};
-use crate::circuits::closed::heat::heat as closed_heat;
+use crate::circuits::closed::heat::{Heat as ClosedHeat, heat as closed_heat};
 use crate::circuits::closed::ordered::OrderedGas;
 use crate::circuits::closed::spread::Spreading;
 use crate::circuits::distribution::SampleSpace;
@@ -25,8 +25,8 @@ struct Row<'a> {
     chain: Chain,
     part: &'a Part,
     runs: Vec<&'a Run>,
-    /// s² by the closed theory, where it has a running chain.
-    closed: Option<f64>,
+    /// The closed theory, where it has a running chain.
+    closed: Option<ClosedHeat>,
     /// Half the sums of squares of all free amplitudes by the closed theory and as found, run by run; none on a ring.
     all: Vec<[f64; 2]>,
 }
@@ -37,7 +37,7 @@ pub fn tables(heat: &Heat) -> Vec<Table> {
     let mut rows = Vec::new();
     let gas = OrderedGas::new();
     for ((row, chain), part) in ensembles(parameters).zip(&heat.rows) {
-        let closed = closed_heat(&gas, &chain, row.sigma).ok().flatten().map(|own| own.free);
+        let closed = closed_heat(&gas, &chain, row.sigma).ok().flatten();
         let runs = part.iter().flatten().collect();
         let mut own = Row { parameters, row, chain, part, runs, closed, all: Vec::new() };
         own.all = own.closed_all();
@@ -87,7 +87,10 @@ fn ensembles_by(
             variance_ratio_at(&row.chain, row.rate()).unwrap_or(f64::NAN)
         })
         .real("closed", "1", 3, "s²/σ² by the closed theory; none where it has no running chain", |row| {
-            row.closed.unwrap_or(f64::NAN) / row.sigma2()
+            row.closed.map_or(f64::NAN, |own| own.free) / row.sigma2()
+        })
+        .real("narrower", "1", 2, "variance of a gap among ordered masses there, over twice that of a mass", |row| {
+            row.closed.map_or(f64::NAN, |own| own.narrower)
         })
         .estimate("closed_over_hit", "1", "the same over what is found for the masses that were hit", |row| {
             row.closed_over_hit()
@@ -238,7 +241,7 @@ impl Row<'_> {
     }
 
     fn closed_over_hit(&self) -> Option<Estimate> {
-        let closed = self.closed?;
+        let closed = self.closed?.free;
         self.ratio(|run| [run.hit as f64 * closed, run.free_of_hit])
     }
 

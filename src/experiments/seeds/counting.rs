@@ -105,9 +105,8 @@ mod tests {
         let mut parameters = SeedsParams::new(Profile::Quick);
         parameters.chain.masses = 2;
         (parameters.bins, parameters.window) = (4, 2);
-        let trace =
-            Trace { drawn: 5, seed: Some(1), hits: vec![0, 0b0001, 0b1010], ..Trace::default() };
-        let late = Trace { drawn: 1, ..Trace::default() };
+        let trace = Trace { seed: Some(1), hits: vec![0, 0b0001, 0b1010], ..Trace::default() };
+        let late = Trace::default();
         let seen = ByDistance::count(&parameters, &[Some(trace), None, Some(late)]);
         assert_eq!(seen.places, [1, 2, 0]);
         assert_eq!(seen.reached.concat(), [0, 0, 0, 1, 0, 0, 1, 1, 0, 1, 1, 0, 1, 1, 0]);

@@ -11,13 +11,12 @@ use crate::params::{Chain, SeedsParams};
 use literate::experiments::cutting::{Cutting, Row, Unit};
 use literate::experiments::progress::Stage;
 use serde::{Deserialize, Serialize};
+use std::ops::Range;
 
 /// One run, in time since its first impact.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Trace {
-    /// Chains that were drawn until one had exactly one gap that closes by itself.
-    pub(super) drawn: u64,
-    /// That gap; none if it had not closed when the wait ended.
+    /// The gap that closes by itself; none if it had not closed when the wait ended.
     pub(super) seed: Option<usize>,
     /// For each gap the bins in which it was hit, as bits.
     pub(super) hits: Vec<u64>,
@@ -66,51 +65,80 @@ fn ticks(parameters: &SeedsParams, times: &[f64]) -> Vec<Option<u32>> {
     times.iter().map(tick).collect()
 }
 
-/// So many chains are drawn in search of one at most: ten times as many as any search took at the paper's parameters.
-const DRAWN: u64 = 1_000_000;
+/// So many amplitudes are drawn in search of a chain at most: ten times as many as any search took within the ranges of `--set`.
+const DRAWN: u64 = 10_000_000;
 
-/// The amplitudes of a chain with exactly one gap that closes by itself, that gap, and how many chains
-/// were drawn for it.
-fn draw(
-    parameters: &SeedsParams,
+/// The search for a chain in which exactly one gap closes by itself.
+struct Search<'a> {
+    chain: &'a Chain,
     sigma: f64,
-    normals: &mut NormalPairs,
-    progress: &Progress,
-) -> Result<(Vec<[f64; 2]>, usize, u64), Error> {
-    let chain = &parameters.chain;
-    let mut forcing: Vec<[f64; 2]> = Vec::with_capacity(chain.masses);
-    for drawn in 1..=DRAWN {
-        if drawn % 1024 == 0 {
-            progress.check()?;
-        }
-        forcing.clear();
-        let (mut seed, mut seeds, mut before) = (0, 0, [0.0; 2]);
-        for gap in 0..=chain.masses {
-            let after = match gap == chain.masses {
-                true => [0.0; 2],
-                false => normals.pair().map(|x| sigma * x),
-            };
-            if closes_by_itself(chain, [after[0] - before[0], after[1] - before[1]]) {
-                (seed, seeds) = (gap, seeds + 1);
-                if seeds > 1 {
-                    break;
-                }
+    normals: &'a mut NormalPairs,
+    progress: &'a Progress,
+    drawn: u64,
+}
+
+impl Search<'_> {
+    /// The amplitudes of the chain, and that gap.
+    fn chain(&mut self) -> Result<(Vec<[f64; 2]>, usize), Error> {
+        let n = self.chain.masses;
+        loop {
+            let mut bodies = Vec::with_capacity(n + 2);
+            if let Some(seed) = self.part(0..n + 2, &mut bodies)? {
+                return Ok((bodies[1..=n].to_vec(), seed));
             }
-            forcing.push(after);
-            before = after;
-        }
-        if seeds == 1 {
-            forcing.truncate(chain.masses);
-            return Ok((forcing, seed, drawn));
         }
     }
-    Err(Error::Input {
-        field: "seeds".into(),
-        problem: format!(
-            "no chain of {DRAWN} has exactly one gap that closes by itself at sigma = {sigma}"
-        ),
-        remedy: "give fewer masses, or a forcing frequency farther from the natural one".into(),
-    })
+
+    /// Draws the amplitudes of these bodies, the walls being the first and the last, until at most one gap between them
+    /// closes by itself; which does.
+    ///
+    /// Both halves are drawn so, until the whole is so too. What comes of it is distributed as if whole chains
+    /// had been drawn and thrown away, but of those it would take a hundred thousand.
+    fn part(
+        &mut self,
+        of: Range<usize>,
+        bodies: &mut Vec<[f64; 2]>,
+    ) -> Result<Option<usize>, Error> {
+        let (middle, begin) = (of.start.midpoint(of.end), bodies.len());
+        if of.len() == 1 {
+            bodies.push(self.body(of.start)?);
+            return Ok(None);
+        }
+        loop {
+            let left = self.part(of.start..middle, bodies)?;
+            let right = self.part(middle..of.end, bodies)?;
+            let [before, after] = [middle - 1, middle].map(|body| bodies[begin + body - of.start]);
+            let delta = [after[0] - before[0], after[1] - before[1]];
+            let between = closes_by_itself(self.chain, delta).then_some(middle - 1);
+            let mut seeds = [left, right, between].into_iter().flatten();
+            let seed = seeds.next();
+            if seeds.next().is_none() {
+                return Ok(seed);
+            }
+            bodies.truncate(begin);
+        }
+    }
+
+    /// The amplitude of a body, none for a wall.
+    fn body(&mut self, body: usize) -> Result<[f64; 2], Error> {
+        self.drawn += 1;
+        if self.drawn % 65_536 == 0 {
+            self.progress.check()?;
+        }
+        if self.drawn > DRAWN {
+            return Err(Error::Input {
+                field: "seeds".into(),
+                problem: format!(
+                    "no chain with exactly one gap that closes by itself was found at sigma = {}, in {DRAWN} amplitudes",
+                    self.sigma
+                ),
+                remedy: "give fewer masses, or a forcing frequency farther from the natural one"
+                    .into(),
+            });
+        }
+        let wall = body == 0 || body > self.chain.masses;
+        Ok(if wall { [0.0; 2] } else { self.normals.pair().map(|x| self.sigma * x) })
+    }
 }
 
 /// The whole parts of its width that a gap's own motion from rest crosses: as many as it would close by itself
@@ -133,7 +161,8 @@ fn trace(
     progress.check()?;
     let chain = &parameters.chain;
     let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, index);
-    let (forcing, seed, drawn) = draw(parameters, sigma, &mut normals, progress)?;
+    let (forcing, seed) =
+        Search { chain, sigma, normals: &mut normals, progress, drawn: 0 }.chain()?;
     let crossed = differences(&forcing).map(|delta| crossed(chain, delta)).collect();
     let fault = |source| Error::failed("seeds", source);
     // The closed theory, from the first impact of the seed.
@@ -152,7 +181,7 @@ fn trace(
     });
     begun.map_err(fault)?;
     let Some((first, gap)) = first else {
-        return Ok(Some(Trace { drawn, ..Trace::default() }));
+        return Ok(Some(Trace::default()));
     };
     debug_assert_eq!(gap, seed);
     let mut hits = vec![0_u64; chain.gaps()];
@@ -169,7 +198,7 @@ fn trace(
     });
     progress.check()?;
     match ended {
-        Ok(()) => Ok(Some(Trace { drawn, seed: Some(seed), hits, firsts, expected, crossed })),
+        Ok(()) => Ok(Some(Trace { seed: Some(seed), hits, firsts, expected, crossed })),
         Err(dynamics::Error::Work { .. }) => Ok(None),
         Err(source) => Err(fault(source)),
     }
@@ -190,7 +219,7 @@ fn fits(parameters: &SeedsParams, unit: &Unit, traces: &Part) -> bool {
                 && outwards(parameters, seed, &trace.firsts)
                 && outwards(parameters, seed, &trace.expected)
         }
-        None => *trace == Trace { drawn: trace.drawn, ..Trace::default() },
+        None => *trace == Trace::default(),
     };
     traces.len() == unit.realisations.len() && traces.iter().flatten().all(fits)
 }
@@ -233,27 +262,54 @@ mod tests {
         parameters
     }
 
-    #[test]
-    fn a_chain_that_is_too_rare_is_not_looked_for_without_end() {
-        let mut normals = NormalPairs::new("test of seeds", 2, 0);
-        let told = draw(&small(), 10.0, &mut normals, &Progress::silent()).unwrap_err();
-        assert!(matches!(&told, Error::Input { field, .. } if field == "seeds"), "{told}");
+    fn drawn(chain: &Chain, sigma: f64, index: u64) -> Result<(Vec<[f64; 2]>, usize), Error> {
+        let mut normals = NormalPairs::new("test of seeds", 1, index);
+        let (normals, progress) = (&mut normals, &Progress::silent());
+        Search { chain, sigma, normals, progress, drawn: 0 }.chain()
+    }
+
+    fn closing(chain: &Chain, forcing: &[[f64; 2]]) -> Vec<usize> {
+        let closes = differences(forcing).map(|delta| closes_by_itself(chain, delta));
+        closes.enumerate().filter_map(|(gap, closes)| closes.then_some(gap)).collect()
     }
 
     #[test]
+    fn a_chain_that_is_too_rare_is_not_looked_for_without_end() {
+        let told = drawn(&small().chain, 10.0, 0).unwrap_err();
+        assert!(matches!(&told, Error::Input { field, .. } if field == "seeds"), "{told}");
+    }
+
+    /// As whole chains that are drawn until one is right: where its gap is, and how far the forces reach.
+    #[test]
     fn a_drawn_chain_has_one_gap_that_closes_by_itself() {
-        let parameters = small();
-        let quiet = Progress::silent();
-        for index in 0..20 {
-            let mut normals = NormalPairs::new("test of seeds", 1, index);
-            let (forcing, seed, drawn) = draw(&parameters, 0.12, &mut normals, &quiet).unwrap();
-            let closes: Vec<usize> = differences(&forcing)
-                .enumerate()
-                .filter(|(_, delta)| closes_by_itself(&parameters.chain, *delta))
-                .map(|(gap, _)| gap)
-                .collect();
-            assert_eq!((closes, forcing.len()), (vec![seed], 20));
-            assert!(drawn >= 1);
+        let chain = Chain { masses: 5, ..Chain::default() };
+        let sigma = 0.25;
+        let mut normals = NormalPairs::new("test of seeds, whole chains", 1, 0);
+        let mut whole = || loop {
+            let forcing: Vec<[f64; 2]> =
+                (0..5).map(|_| normals.pair().map(|x| sigma * x)).collect();
+            if let [seed] = closing(&chain, &forcing)[..] {
+                return (forcing, seed);
+            }
+        };
+        // For each gap the shares of chains that have it, and the mean square of the forces then.
+        let mut sums = [[[0.0; 2]; 6]; 2];
+        let chains = 20_000;
+        for index in 0..chains {
+            let own = drawn(&chain, sigma, index).unwrap();
+            assert_eq!(closing(&chain, &own.0), [own.1]);
+            for (sums, (forcing, seed)) in sums.iter_mut().zip([own, whole()]) {
+                let square: f64 = forcing.as_flattened().iter().map(|x| x * x).sum();
+                sums[seed][0] += 1.0;
+                sums[seed][1] += square / (10.0 * sigma * sigma);
+            }
+        }
+        for (own, whole) in sums[0].iter().zip(&sums[1]) {
+            let [counts, squares] = [0, 1].map(|i| (own[i] - whole[i]) / whole[0].sqrt());
+            assert!(
+                whole[0] > 500.0 && counts.abs() < 5.0 && squares.abs() < 5.0,
+                "{own:?} {whole:?}"
+            );
         }
     }
 
@@ -290,7 +346,7 @@ mod tests {
             let (hits, crossed) = (vec![1; 4], vec![0; 4]);
             let firsts = firsts.to_vec();
             let expected = vec![None, Some(0), None, None];
-            vec![Some(Trace { drawn: 1, seed: Some(1), hits, firsts, expected, crossed })]
+            vec![Some(Trace { seed: Some(1), hits, firsts, expected, crossed })]
         };
         assert!(fits(&parameters, &unit, &own([None, Some(0), Some(7), Some(7)])));
         assert!(!fits(&parameters, &unit, &own([None, Some(0), None, Some(7)])));

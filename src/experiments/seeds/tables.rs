@@ -347,7 +347,7 @@ mod tests {
             let (hits, firsts, crossed) = (hits.to_vec(), firsts.to_vec(), vec![0; 3]);
             // Expected to reach both neighbours at 20.
             let expected = vec![Some(20), Some(0), Some(20)];
-            Some(Trace { drawn: 1, seed: Some(1), hits, firsts, expected, crossed })
+            Some(Trace { seed: Some(1), hits, firsts, expected, crossed })
         };
         let rows = vec![vec![
             run([0, 0b0001, 0b1010], [None, Some(0), Some(30)]),

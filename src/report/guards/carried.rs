@@ -16,7 +16,8 @@ fn audited(look: Look<'_>) -> Option<String> {
         let cut = experiments::of(Profile::Deep)
             .iter()
             .find(|experiment| experiment.name() == name.as_str())?
-            .units(Profile::Deep)
+            .at(Profile::Deep)
+            .units()
             .len();
         let near = distance.is_some_and(|Distance { largest, allowed }| largest <= allowed);
         let expected = match () {

@@ -2,7 +2,7 @@
 //!
 //! *Ahead.* Masses that were never hit move as they have from rest, which is known: with X = F/D the amplitude of the forced motion,
 //! Re X e^{iΩt}, the free part that cancels it at t = 0 has the amplitude |z|, z = (Re X, (Ω/ω) Im X). Against such a
-//! neighbour the mass at the edge has a forced motion of amplitude R = |X_edge − X|.
+//! neighbour the mass at the edge has a forced motion of amplitude Q = |X_edge − X|.
 //!
 //! *A draw.* Each impact from behind gives the mass at the edge another free motion. Let u² be the variance of the random part of its velocity
 //! and w² that of all of it, and the mass behind be like it. An impact at the closing speed V leaves the sum S of their velocities, of which 2u² is random and independent of
@@ -12,7 +12,7 @@
 //! phase χ of it, A' = √(A² + |z|² + 2A|z| cos χ). The larger r, the farther it swings; this is how restitution decides about fronts.
 //!
 //! *A swing.* A mass that swings far enough out swings as far back and meets the mass behind. So a draw is one swing, and this reaches the neighbour
-//! if A' + R cos φ > d at the phase φ of the forced motion, with the probability arccos((d − A')/R)/π. Averaged over draws this is P, the chance
+//! if A' + Q cos φ > d at the phase φ of the forced motion at its top, with the probability arccos((d − A')/Q)/π. Averaged over draws this is P, the chance
 //! of one impact from behind.
 //!
 //! *A wait.* The impact that opens a gap is slow, the last of a swing that just reached. But two masses that parted are back

@@ -7,7 +7,8 @@
 //! *Response.* At an impact (1 + r)V/2 goes from one mass to the other. In a unit of time a gap passes (1 + r)/2 ∫ V² of its
 //! density at width zero, (1 + r) u² ρ/2. If the masses come to close faster by w in the mean, this grows by γw with γ = (1 + r) ν. If
 //! they come nearer by δ in the mean, and all their motion with them, the density at zero of a gap, normal about d with variance
-//! 2⟨x²⟩, grows by a share δ d/2⟨x²⟩, and the push by κδ with κ = (1 + r) u² ρ d/4⟨x²⟩. So a gap acts
+//! 2⟨x²⟩, grows by a share δ d/2⟨x²⟩, and the push by κδ with κ = (1 + r) u² ρ d/4⟨x²⟩. (Its variance among masses that keep their
+//! order is less, and κ with it larger: then counts come out too high and strongly forced chains too hot.) So a gap acts
 //! on what its masses do at the frequency Ω as a spring with a damper, K = κ + iΩγ, and a row of masses with the
 //! detuning D = ω² − Ω² answers to a unit force on one of them by
 //!
@@ -75,6 +76,8 @@ pub struct Heat {
     pub rate: f64,
     /// [Re χ, Im χ], a mass's own answer to its force.
     pub response: [f64; 2],
+    /// Variance of a gap among ordered masses over the 2⟨x²⟩ that κ takes for it.
+    pub narrower: f64,
 }
 
 /// Refuses what has no such state.
@@ -105,10 +108,12 @@ fn state(gas: &OrderedGas, chain: &Chain, sigma: f64, square: f64) -> (Heat, f64
     let given = -force2 * chain.forcing_frequency * chi.im;
     let taken = (1.0 - chain.restitution * chain.restitution) * own.rate * square;
     let d = chain.spacing;
-    let position = gas.at(square / (omega2 * d * d)).variance * d * d;
+    let ordered = gas.at(square / (omega2 * d * d));
+    let (position, narrower) = (ordered.variance * d * d, 0.5 * ordered.gap / ordered.variance);
     let kept = 1.0 / (detuning * detuning) - 2.0 * chi.re / detuning;
     let free = 0.5 * (square / omega2 + position) + 0.5 * force2 * (1.0 + big2 / omega2) * kept;
-    let heat = Heat { square, position, free, rate: 2.0 * own.rate, response: [chi.re, chi.im] };
+    let (rate, response) = (2.0 * own.rate, [chi.re, chi.im]);
+    let heat = Heat { square, position, free, rate, response, narrower };
     (heat, given / taken - 1.0)
 }
 

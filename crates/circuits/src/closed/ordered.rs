@@ -22,13 +22,15 @@ pub struct Ordered {
     pub contact: f64,
     /// ⟨x²⟩/d² of one mass.
     pub variance: f64,
+    /// Variance of a gap over d²: 2⟨x²⟩/d² if neighbours were independent, less as they keep their order.
+    pub gap: f64,
 }
 
 /// The same for every mean square velocity.
 #[derive(Clone, Debug)]
 pub struct OrderedGas {
-    /// ln ρ + 1/4u², which is smooth where ρ vanishes, and ln ⟨x²⟩, at equal steps of ln u².
-    nodes: Vec<[f64; 2]>,
+    /// ln ρ + 1/4u², which is smooth where ρ vanishes, ln ⟨x²⟩ and that of the variance of a gap, at equal steps of ln u².
+    nodes: Vec<[f64; 3]>,
 }
 
 /// Cells of the grid for x, over twelve standard deviations of a free mass.
@@ -83,16 +85,29 @@ impl Ordered {
             norm += density;
             second += density * place(i) * place(i);
         }
+        // ∫∫ φ(x) x k(x, y) y ψ(y), from the right as above.
+        let (mut sum, mut product) = (0.0, 0.0);
+        let mut above = vec![0.0; len];
+        for i in (0..len).rev() {
+            let term = place(i) * weight[i] * psi[i] * step;
+            sum += term;
+            above[i] = sum - 0.5 * term;
+        }
+        for i in 0..len {
+            let beyond = if i >= shift { above[i - shift] } else { sum };
+            product += phi(i) * place(i) * weight[i] * beyond;
+        }
+        let gap = 2.0 * (second - product / eigenvalue) / norm;
         let touching =
             (shift..len).map(|i| phi(i) * weight[i] * weight[i - shift] * psi[i - shift]);
         let touching = touching.fold(0.0, |sum, x| sum + x);
-        Ordered { contact: touching / (eigenvalue * norm), variance: second / norm }
+        Ordered { contact: touching / (eigenvalue * norm), variance: second / norm, gap }
     }
 
     /// The same for masses that need not keep their order.
     pub fn free(tau: f64) -> Ordered {
         let contact = pxfm::f_exp(-0.25 / tau) / (4.0 * PI * tau).sqrt();
-        Ordered { contact, variance: tau }
+        Ordered { contact, variance: tau, gap: 2.0 * tau }
     }
 }
 
@@ -103,7 +118,7 @@ impl OrderedGas {
         let node = |i: usize| {
             let tau = pxfm::f_exp(low + (high - low) * i as f64 / STEPS as f64);
             let own = Ordered::at(tau);
-            [pxfm::f_log(own.contact) + 0.25 / tau, pxfm::f_log(own.variance)]
+            [pxfm::f_log(own.contact) + 0.25 / tau, pxfm::f_log(own.variance), pxfm::f_log(own.gap)]
         };
         OrderedGas { nodes: (0..=STEPS).map(node).collect() }
     }
@@ -123,7 +138,7 @@ impl OrderedGas {
             b + 0.5 * t * (c - a) + 0.5 * t * t * (a - 2.0 * b + c)
         };
         let contact = pxfm::f_exp(value(0) - 0.25 / tau);
-        Ordered { contact, variance: pxfm::f_exp(value(1)) }
+        Ordered { contact, variance: pxfm::f_exp(value(1)), gap: pxfm::f_exp(value(2)) }
     }
 }
 
@@ -154,7 +169,7 @@ mod tests {
         let (tau, masses) = (0.4_f64, 60);
         let mut normals = NormalPairs::new("test of order", 1, 0);
         let mut x = vec![0.0_f64; masses];
-        let (mut squares, mut near, mut count) = (0.0, 0_u32, 0_u32);
+        let (mut squares, mut widths, mut near, mut count) = (0.0, 0.0, 0_u32, 0_u32);
         let width = 0.04;
         for round in 0..6000 {
             for j in 0..masses {
@@ -170,6 +185,7 @@ mod tests {
                 for j in 0..masses {
                     let gap = 1.0 + x[(j + 1) % masses] - x[j];
                     squares += x[j] * x[j];
+                    widths += (gap - 1.0) * (gap - 1.0);
                     near += u32::from(gap < width);
                     count += 1;
                 }
@@ -178,6 +194,7 @@ mod tests {
         let found = Ordered::at(tau);
         let n = f64::from(count);
         assert!((squares / n / found.variance - 1.0).abs() < 0.02, "{} {found:?}", squares / n);
+        assert!((widths / n / found.gap - 1.0).abs() < 0.02, "{} {found:?}", widths / n);
         // The density rises by less than a tenth over the width.
         let contact = f64::from(near) / n / width;
         assert!((contact / found.contact - 1.02).abs() < 0.04, "{contact} {found:?}");
@@ -190,6 +207,7 @@ mod tests {
             let (table, own) = (gas.at(tau), Ordered::at(tau));
             assert!((table.contact / own.contact - 1.0).abs() < 1e-3, "{table:?} {own:?}");
             assert!((table.variance / own.variance - 1.0).abs() < 1e-3, "{table:?} {own:?}");
+            assert!((table.gap / own.gap - 1.0).abs() < 1e-3, "{table:?} {own:?}");
         }
     }
 }

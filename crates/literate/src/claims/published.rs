@@ -58,28 +58,18 @@ pub struct Statement {
 
 /// What is wrong with a file of published statements.
 #[derive(Debug, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages tell")]
 pub enum PublishedError {
-    /// It cannot be read.
     #[error("published.toml: {0}")]
     Unread(std::io::Error),
-    /// It is not what is expected: line and fault.
     #[error("published.toml:{0}")]
     Line(String),
-    /// A claim asks for a statement or a number that is not there.
     #[error("published.toml: no {what} {id:?}; add it, or remove the claim that asks for it")]
-    Missing {
-        /// Statement, value or parameter.
-        what: &'static str,
-        /// Its id.
-        id: String,
-    },
+    Missing { what: &'static str, id: String },
 }
 
 impl Published {
     /// Reads the file.
-    ///
-    /// # Errors
-    /// [`PublishedError`] for a syntax error, an id that stands twice, words that are none, a value that is not finite.
     pub fn parse(text: &str) -> Result<Published, PublishedError> {
         let mut published: Published =
             toml::from_str(text).map_err(|error| PublishedError::Line(toml_fault(text, &error)))?;
@@ -145,9 +135,6 @@ impl Published {
     }
 
     /// The statement with this id.
-    ///
-    /// # Errors
-    /// [`PublishedError::Missing`] if there is none.
     pub fn statement(&self, id: &str) -> Result<&Statement, PublishedError> {
         self.statements
             .iter()
@@ -161,9 +148,6 @@ impl Published {
     }
 
     /// The number that the paper chose under this id.
-    ///
-    /// # Errors
-    /// [`PublishedError::Missing`] if there is none.
     pub fn parameter(&self, id: &str) -> Result<f64, PublishedError> {
         self.parameters
             .iter()
@@ -175,56 +159,14 @@ impl Published {
 
 impl Statement {
     /// The printed number.
-    ///
-    /// # Errors
-    /// [`PublishedError::Missing`] if the statement has none.
     pub fn number(&self) -> Result<f64, PublishedError> {
         self.value.ok_or_else(|| PublishedError::Missing { what: "value of", id: self.id.clone() })
     }
 
     /// The numbers that round to the printed one: half a unit of its last digit to both sides.
-    ///
-    /// # Errors
-    /// [`PublishedError::Missing`] if the statement has none.
     pub fn rounding(&self) -> Result<[f64; 2], PublishedError> {
         let unit = (0..self.decimals).fold(1.0, |unit, _| unit / 10.0);
         let value = self.number()?;
         Ok([value - unit / 2.0, value + unit / 2.0])
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_file_that_is_wrong_says_what() {
-        let row = "[[parameter]]\nid='a'\nplace='x'\nsymbol='a'\nvalue=1\n";
-        let twice = format!("{row}{row}statement=[]");
-        // `statement` after a table belongs to that table: the key is unknown there.
-        assert!(matches!(Published::parse(&twice), Err(PublishedError::Line(_))));
-        let fault = |rows: &str| Published::parse(&format!("statement=[]\n{rows}")).unwrap_err();
-        for (rows, says) in [
-            (format!("{row}{row}"), "published.toml:8: the id \"a\": it stands twice; "),
-            (
-                row.replace("value=1", "value=nan"),
-                "published.toml:3: the id \"a\": its value is not",
-            ),
-            (
-                row.replace("place='x'", "place=' '"),
-                "published.toml:3: the id \"a\": its place has no",
-            ),
-            (
-                row.replace("symbol='a'", "symbol=\"\\uE000\""),
-                "its symbol has the character U+E000",
-            ),
-            (row.replace("symbol='a'", "symbol='$a'"), "its symbol has a formula without"),
-        ] {
-            let told = fault(&rows).to_string();
-            assert!(told.contains(says), "{told}");
-        }
-        let once = Published::parse(&format!("statement=[]\n{row}")).unwrap();
-        assert!(matches!(once.parameter("b"), Err(PublishedError::Missing { .. })));
-        assert!(matches!(once.statement("b"), Err(PublishedError::Missing { .. })));
     }
 }

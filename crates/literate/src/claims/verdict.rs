@@ -79,21 +79,3 @@ impl Judgement {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_verdict_follows_the_numbers_both_ways() {
-        let plain = |agrees| Judgement::Plain { agrees }.verdict();
-        assert_eq!(plain(true), Verdict::Reproduced);
-        assert_eq!(plain(false), Verdict::Differs);
-        let explained = |agrees, holds| Judgement::Explained { agrees, holds }.verdict();
-        assert_eq!(explained(false, true), Verdict::DiffersAndExplained);
-        assert_eq!(explained(false, false), Verdict::Differs);
-        assert_eq!(explained(true, true), Verdict::Reproduced);
-        assert_eq!(explained(true, false), Verdict::Differs);
-        assert_eq!(Judgement::Open.verdict(), Verdict::CannotBeJudged);
-    }
-}

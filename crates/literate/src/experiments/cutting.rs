@@ -102,9 +102,6 @@ impl<P: Sync, U: Send, T> Cutting<P, U, T> {
     }
 
     /// Runs all units and joins them.
-    ///
-    /// # Errors
-    /// [`Error::Interrupted`], or what a part returns.
     pub fn run(&self, parameters: &P, name: &str, progress: &Progress) -> Result<T, Error> {
         let units = self.units(parameters);
         let parts = self.given(parameters, &units.iter().collect::<Vec<_>>(), name, progress)?;
@@ -112,9 +109,6 @@ impl<P: Sync, U: Send, T> Cutting<P, U, T> {
     }
 
     /// What some units give, in their order.
-    ///
-    /// # Errors
-    /// [`Error::Interrupted`], or what a part returns.
     pub fn given(
         &self,
         parameters: &P,
@@ -129,9 +123,6 @@ impl<P: Sync, U: Send, T> Cutting<P, U, T> {
     }
 
     /// The result of the parts of all units, in order.
-    ///
-    /// # Errors
-    /// What joining returns.
     pub fn joined(&self, parameters: &P, parts: Vec<U>, progress: &Progress) -> Result<T, Error> {
         progress.check()?;
         let mut rows: Vec<Vec<U>> = (self.rows)(parameters).iter().map(|_| Vec::new()).collect();

@@ -49,37 +49,55 @@ pub trait Json: Serialize + DeserializeOwned + PartialEq + Send + Sync + 'static
 
 impl<T: Serialize + DeserializeOwned + PartialEq + Send + Sync + 'static> Json for T {}
 
+/// What an experiment is told, and known by.
+pub trait Params: Serialize + Send + Sync {}
+
+impl<P: Serialize + Send + Sync> Params for P {}
+
 /// A result of any experiment.
 pub type Found = Arc<dyn Any + Send + Sync>;
 
-impl<P: Serialize + Sync, T: Json, U: Json> Experiment<P, T, U> {
+impl<P: Params, T: Json, U: Json> Experiment<P, T, U> {
     /// The result: the saved one if it is fresh, else that of a run.
-    ///
-    /// # Errors
-    /// As [`Store::get`].
     pub fn get(&self, profile: Profile, store: &Store, progress: &Progress) -> Result<T, Error> {
+        self.run_of(profile).get(store, progress)
+    }
+
+    pub(super) fn run_of(&self, profile: Profile) -> Run<P, T, U> {
         let parameters = (self.parameters)(profile);
-        let identity = self.made_of(&parameters);
-        store.get(&identity, profile, progress, || self.run(&parameters, progress))
-    }
-
-    fn made_of(&self, parameters: &P) -> Identity {
-        Identity::new(self.name, self.code, parameters)
-    }
-
-    fn run(&self, parameters: &P, progress: &Progress) -> Result<T, Error> {
-        match &self.how {
-            How::Read(_) => Err(Error::NotRun(self.name)),
-            How::Whole { run, .. } => run(parameters, progress),
-            How::Cut(name, cutting) => cutting.run(parameters, name, progress),
-        }
+        let identity = Identity::new(self.name, self.code, &parameters);
+        let how = match self.how {
+            How::Read(read) => How::Read(read),
+            How::Whole { run, weight } => How::Whole { run, weight },
+            How::Cut(words, Cutting { rows, part, fits, join }) => {
+                How::Cut(words, Cutting { rows, part, fits, join })
+            }
+        };
+        Run { name: self.name, profile, identity, parameters, how, fails: |_| false }
     }
 }
 
 /// What is known of every experiment, whatever its parameters and result are.
-pub trait Entry: Saved {
-    /// Path of the item that is its code.
-    fn item(&self) -> String;
+pub trait Entry: Sync {
+    /// Its name, as values and saved files carry it.
+    fn name(&self) -> &'static str;
+
+    /// Its code.
+    fn code(&self) -> Code;
+
+    /// What it saves in a profile.
+    fn at(&self, profile: Profile) -> Arc<dyn Saved + '_>;
+
+    /// With which parameters it was run, in this profile or for it.
+    fn parameters(&self, profile: Profile) -> serde_json::Value {
+        self.at(profile).identity().parameters.clone()
+    }
+
+    /// Path of the item that is its code: `src/experiments/heat/mod.rs` is `experiments::heat`.
+    fn item(&self) -> String {
+        let path = self.code().file.trim_start_matches("src/").trim_end_matches(".rs");
+        path.trim_end_matches("/mod").replace('/', "::")
+    }
 
     /// Whether its result is saved; else it is read from a committed file.
     fn is_saved(&self) -> bool {
@@ -92,9 +110,6 @@ pub trait Entry: Saved {
     }
 
     /// Its result, with the audit of one that is carried over.
-    ///
-    /// # Errors
-    /// As [`Experiment::get`].
     fn found(
         &self,
         profile: Profile,
@@ -113,20 +128,17 @@ pub trait Typed: Entry {
     type Result: Json;
 }
 
-/// The path of the item that a file is: `src/experiments/heat/mod.rs` is `experiments::heat`.
-pub(super) fn item(module: &str) -> String {
-    let path = module.trim_start_matches("src/").trim_end_matches(".rs").trim_end_matches("/mod");
-    path.replace('/', "::")
-}
+impl<P: Params, T: Json, U: Json> Entry for Experiment<P, T, U> {
+    fn name(&self) -> &'static str {
+        self.name
+    }
 
-/// A result of a type that is known, if it is one.
-pub(super) fn typed<T: Json>(found: &Found) -> Option<&T> {
-    found.downcast_ref()
-}
+    fn code(&self) -> Code {
+        self.code
+    }
 
-impl<P: Serialize + Sync, T: Json, U: Json> Entry for Experiment<P, T, U> {
-    fn item(&self) -> String {
-        item(self.code.file)
+    fn at(&self, profile: Profile) -> Arc<dyn Saved + '_> {
+        Arc::new(self.run_of(profile))
     }
 
     fn is_saved(&self) -> bool {
@@ -148,145 +160,141 @@ impl<P: Serialize + Sync, T: Json, U: Json> Entry for Experiment<P, T, U> {
     }
 
     fn tables(&self, found: &Found) -> Vec<Table> {
-        typed(found).map_or_else(Vec::new, self.tables)
+        found.downcast_ref().map_or_else(Vec::new, self.tables)
     }
 }
 
-impl<P: Serialize + Sync, T: Json, U: Json> Typed for Experiment<P, T, U> {
+impl<P: Params, T: Json, U: Json> Typed for Experiment<P, T, U> {
     type Result = T;
 }
 
-/// What can be asked of every experiment that is saved.
-pub trait Saved: Sync {
-    /// Its name, as values and saved files carry it.
+/// What an experiment saves in a profile.
+pub trait Saved: Send + Sync {
+    /// The name of the experiment.
     fn name(&self) -> &'static str;
 
-    /// What its saved result depends on.
-    fn identity(&self, profile: Profile) -> Identity;
+    /// What the result depends on.
+    fn identity(&self) -> &Identity;
 
-    /// With which parameters it was run, in this profile or for it.
-    fn parameters(&self, profile: Profile) -> serde_json::Value {
-        self.identity(profile).parameters
-    }
-
-    /// Why its saved result is not to be used; nothing if it is fresh.
-    fn stale(&self, profile: Profile, store: &Store) -> Vec<Reason>;
+    /// Why the saved result is not to be used; nothing if it is fresh.
+    fn stale(&self, store: &Store) -> Vec<Reason>;
 
     /// Runs it again and compares with the fresh saved result, byte by byte.
-    ///
-    /// # Errors
-    /// As [`Experiment::get`]; [`Error::Stale`] if there is none that is fresh.
-    fn audit(&self, profile: Profile, store: &Store, progress: &Progress) -> Result<bool, Error>;
+    fn audit(&self, store: &Store, progress: &Progress) -> Result<bool, Error>;
 
     /// Its units of work: one if it is not cut.
-    fn units(&self, profile: Profile) -> Vec<Unit>;
+    fn units(&self) -> Vec<Unit>;
 
     /// Runs some of its units and saves what each gives as soon as it is there.
-    ///
-    /// # Errors
-    /// What a unit returns; what [`Store::put`] does.
     fn run_units(
         &self,
-        profile: Profile,
-        units: &[(&Unit, Identity)],
+        units: &[(&Unit, &Identity)],
         store: &Store,
         progress: &Progress,
     ) -> Result<(), Error>;
 
     /// Whether a text can be what a unit gave.
-    fn understands(&self, profile: Profile, unit: &Unit, text: &str) -> bool;
+    fn understands(&self, unit: &Unit, text: &str) -> bool;
 
     /// Joins what all units gave, as texts in their order, and saves the result.
-    ///
-    /// # Errors
-    /// [`Error::Interrupted`]; what [`Store::put`] returns; [`Error::NotUnderstood`] for texts that
-    /// it does not understand.
-    fn merge(
-        &self,
-        profile: Profile,
-        texts: &[String],
-        store: &Store,
-        progress: &Progress,
-    ) -> Result<(), Error>;
+    fn merge(&self, texts: &[String], store: &Store, progress: &Progress) -> Result<(), Error>;
 }
 
-impl<P: Serialize + Sync, T: Json, U: Json> Saved for Experiment<P, T, U> {
+/// What is run in a profile, with its parameters.
+pub(super) struct Run<P, T, U> {
+    pub name: &'static str,
+    pub profile: Profile,
+    pub identity: Identity,
+    pub parameters: P,
+    pub how: How<P, T, U>,
+    /// Whether a result says that it failed.
+    pub fails: fn(&T) -> bool,
+}
+
+impl<P: Send + Sync, T: Json, U: Json> Run<P, T, U> {
+    /// The result: the saved one if it is fresh, else that of a run.
+    pub fn get(&self, store: &Store, progress: &Progress) -> Result<T, Error> {
+        store.get(&self.identity, self.profile, progress, || self.run(progress))
+    }
+
+    fn run(&self, progress: &Progress) -> Result<T, Error> {
+        match &self.how {
+            How::Read(_) => Err(Error::NotRun(self.name)),
+            How::Whole { run, .. } => run(&self.parameters, progress),
+            How::Cut(name, cutting) => cutting.run(&self.parameters, name, progress),
+        }
+    }
+}
+
+impl<P: Send + Sync, T: Json, U: Json> Saved for Run<P, T, U> {
     fn name(&self) -> &'static str {
         self.name
     }
 
-    fn identity(&self, profile: Profile) -> Identity {
-        self.made_of(&(self.parameters)(profile))
+    fn identity(&self) -> &Identity {
+        &self.identity
     }
 
-    fn stale(&self, profile: Profile, store: &Store) -> Vec<Reason> {
-        match store.look(&Saved::identity(self, profile), profile) {
-            Ok(text) if serde_json::from_str::<T>(&text).is_ok() => Vec::new(),
-            Ok(_) => vec![Reason::Schema],
+    fn stale(&self, store: &Store) -> Vec<Reason> {
+        match store.look(&self.identity, self.profile) {
+            Ok(text) => match serde_json::from_str(&text) {
+                Ok(result) if (self.fails)(&result) => vec![Reason::Failed],
+                Ok(_) => Vec::new(),
+                Err(_) => vec![Reason::Schema],
+            },
             Err(reasons) => reasons,
         }
     }
 
-    fn audit(&self, profile: Profile, store: &Store, progress: &Progress) -> Result<bool, Error> {
+    fn audit(&self, store: &Store, progress: &Progress) -> Result<bool, Error> {
         let name = self.name;
-        let saved = store.look(&Saved::identity(self, profile), profile);
+        let saved = store.look(&self.identity, self.profile);
         let saved = saved.map_err(|reasons| Error::Stale { name, why: told(&reasons) })?;
-        let again = self.run(&(self.parameters)(profile), progress)?;
-        Ok(written(name, &again)? == saved)
+        Ok(written(name, &self.run(progress)?)? == saved)
     }
 
-    fn units(&self, profile: Profile) -> Vec<Unit> {
-        let parameters = (self.parameters)(profile);
+    fn units(&self) -> Vec<Unit> {
         match &self.how {
             How::Read(_) => Vec::new(),
             How::Whole { weight, .. } => vec![Unit {
                 row: 0,
                 realisations: 0..0,
                 covers: "all of it".into(),
-                weight: weight(&parameters),
+                weight: weight(&self.parameters),
             }],
-            How::Cut(_, cutting) => cutting.units(&parameters),
+            How::Cut(_, cutting) => cutting.units(&self.parameters),
         }
     }
 
     fn run_units(
         &self,
-        profile: Profile,
-        units: &[(&Unit, Identity)],
+        units: &[(&Unit, &Identity)],
         store: &Store,
         progress: &Progress,
     ) -> Result<(), Error> {
-        let parameters = (self.parameters)(profile);
         match &self.how {
-            How::Read(_) => Ok(()),
-            How::Whole { run, .. } => units.iter().try_for_each(|(_, identity)| {
-                store.put(identity, profile, &run(&parameters, progress)?)
+            How::Read(_) | How::Whole { .. } => units.iter().try_for_each(|(_, identity)| {
+                store.put(identity, self.profile, &self.run(progress)?)
             }),
             How::Cut(name, cutting) => {
                 let stage = progress.stage(name, units.iter().map(|(unit, _)| unit.weight).sum());
                 units.par_iter().with_max_len(1).try_for_each(|(unit, identity)| {
-                    let part = (cutting.part)(&parameters, unit, &stage, progress)?;
-                    store.put(identity, profile, &part)
+                    let part = (cutting.part)(&self.parameters, unit, &stage, progress)?;
+                    store.put(identity, self.profile, &part)
                 })
             }
         }
     }
 
-    fn understands(&self, profile: Profile, unit: &Unit, text: &str) -> bool {
+    fn understands(&self, unit: &Unit, text: &str) -> bool {
         match &self.how {
             How::Read(_) | How::Whole { .. } => serde_json::from_str::<T>(text).is_ok(),
-            How::Cut(_, cutting) => serde_json::from_str::<U>(text)
-                .is_ok_and(|part| (cutting.fits)(&(self.parameters)(profile), unit, &part)),
+            How::Cut(_, cutting) => serde_json::from_str(text)
+                .is_ok_and(|part| (cutting.fits)(&self.parameters, unit, &part)),
         }
     }
 
-    fn merge(
-        &self,
-        profile: Profile,
-        texts: &[String],
-        store: &Store,
-        progress: &Progress,
-    ) -> Result<(), Error> {
+    fn merge(&self, texts: &[String], store: &Store, progress: &Progress) -> Result<(), Error> {
         let unread = |_| Error::NotUnderstood { name: self.name };
         let result = match &self.how {
             How::Read(_) | How::Whole { .. } => {
@@ -295,9 +303,9 @@ impl<P: Serialize + Sync, T: Json, U: Json> Saved for Experiment<P, T, U> {
             How::Cut(_, cutting) => {
                 let given = texts.iter().map(|text| serde_json::from_str(text));
                 let given: Vec<U> = given.collect::<Result<_, _>>().map_err(unread)?;
-                cutting.joined(&(self.parameters)(profile), given, progress)?
+                cutting.joined(&self.parameters, given, progress)?
             }
         };
-        store.put(&Saved::identity(self, profile), profile, &result)
+        store.put(&self.identity, self.profile, &result)
     }
 }

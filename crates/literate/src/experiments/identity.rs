@@ -187,34 +187,3 @@ pub fn told(reasons: &[Reason]) -> String {
     // A file that was saved elsewhere names its own sources.
     one_line(&reasons.iter().map(ToString::to_string).collect::<Vec<_>>().join(", "), 1000)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn identity(parameter: f64) -> Identity {
-        Identity::new("test", TOY, &parameter)
-    }
-
-    #[test]
-    fn each_change_has_its_reason() {
-        let now = identity(1.0);
-        let of = |other: &Identity| other.reasons(&now);
-        assert_eq!(of(&now), []);
-        assert_eq!(of(&identity(2.0)), [Reason::Parameters]);
-        let file = now.code.keys().next().expect("the file depends on itself at least").clone();
-        let mut edited = now.clone();
-        edited.code.insert(file.clone(), "0".into());
-        assert_eq!(of(&edited), [Reason::Code(vec![file.clone()])]);
-        edited.code.remove(&file);
-        assert_eq!(of(&edited), [Reason::Code(vec![file])]);
-        let updated = Identity { lock: "0".into(), ..identity(2.0) };
-        let both = [Reason::Parameters, Reason::Dependency];
-        assert_eq!(of(&updated), both);
-        assert_eq!(told(&both), "other parameters, Cargo.lock changed");
-        let unit = Unit { row: 0, realisations: 0..2, covers: "here".into(), weight: 1 };
-        assert_eq!(of(&now.of_unit(0, &unit)), [Reason::Unit]);
-        let newer = Identity { schema: SCHEMA + 1, ..now.clone() };
-        assert_eq!(of(&newer), [Reason::Schema]);
-    }
-}

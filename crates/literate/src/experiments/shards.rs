@@ -3,11 +3,12 @@
 use super::cutting::Unit;
 use super::identity::{Identity, Reason, told};
 use super::store::Store;
-use super::{Error, Need, Profile, Progress};
+use super::{Error, Need, Profile, Progress, Saved};
 use crate::input::regular;
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Into so many shards a profile may be divided; more would have nothing to do.
 pub const MOST: usize = 100_000;
@@ -31,7 +32,7 @@ pub struct Plan {
 /// One unit of work of one experiment.
 pub struct Task {
     /// The experiment.
-    pub experiment: Need,
+    pub experiment: Arc<dyn Saved>,
     /// The unit.
     pub unit: Unit,
     /// What it is made of.
@@ -52,11 +53,11 @@ impl Plan {
     /// The plan of a profile, of the experiments that each profile saves.
     pub fn new(of: fn(Profile) -> Vec<Need>, profile: Profile) -> Self {
         let tasks = of(profile).into_iter().flat_map(|experiment| {
-            let whole = experiment.identity(profile);
-            experiment.units(profile).into_iter().enumerate().map(move |(number, unit)| {
-                let identity = whole.of_unit(number, &unit);
+            let experiment = experiment.at(profile);
+            experiment.units().into_iter().enumerate().map(move |(number, unit)| {
+                let identity = experiment.identity().of_unit(number, &unit);
                 let name = identity.file_stem(profile);
-                Task { experiment, unit, identity, name }
+                Task { experiment: experiment.clone(), unit, identity, name }
             })
         });
         Plan { profile, of, tasks: tasks.collect(), only: Vec::new(), others: BTreeSet::new() }
@@ -91,7 +92,7 @@ impl Plan {
     /// What a store has of a unit, or why there is nothing to be used.
     fn look(&self, task: &Task, store: &Store) -> Result<String, Vec<Reason>> {
         let text = store.look(&task.identity, self.profile)?;
-        if task.experiment.understands(self.profile, &task.unit, &text) {
+        if task.experiment.understands(&task.unit, &text) {
             Ok(text)
         } else {
             Err(vec![Reason::Schema])
@@ -105,9 +106,6 @@ impl Plan {
     }
 
     /// Runs the units of one shard that are not yet fresh in the store.
-    ///
-    /// # Errors
-    /// What a unit returns; [`Error::Store`].
     pub fn run(
         &self,
         (shard, of): (usize, usize),
@@ -138,19 +136,14 @@ impl Plan {
         progress.say(&format!("shard {shard}/{of}: {run} units to run, {fresh} fresh"));
         for experiment in open.chunk_by(|a, b| a.experiment.name() == b.experiment.name()) {
             progress.check()?;
-            let units: Vec<(&Unit, Identity)> =
-                experiment.iter().map(|task| (&task.unit, task.identity.clone())).collect();
-            experiment[0].experiment.run_units(self.profile, &units, store, progress)?;
+            let units: Vec<(&Unit, &Identity)> =
+                experiment.iter().map(|task| (&task.unit, &task.identity)).collect();
+            experiment[0].experiment.run_units(&units, store, progress)?;
         }
         Ok(Ran { run, fresh })
     }
 
     /// Joins the units in folders to results in a store.
-    ///
-    /// # Errors
-    /// [`Error::Input`] for a folder that cannot be read, a file that is no unit of this plan, and a
-    /// unit that two folders have with different bytes; [`Error::Units`] for units that are missing, damaged or made of
-    /// something else; what joining and saving return.
     pub fn merge(
         &self,
         folders: &[PathBuf],
@@ -194,13 +187,13 @@ impl Plan {
         results.prepare()?;
         // All or none.
         self.tasks.iter().try_for_each(|task| {
-            results.refuse_foreign(&task.experiment.identity(self.profile), self.profile)
+            results.refuse_foreign(task.experiment.identity(), self.profile)
         })?;
         let mut texts = texts.into_iter();
         for tasks in self.tasks.chunk_by(|a, b| a.experiment.name() == b.experiment.name()) {
             let own: Vec<String> = texts.by_ref().take(tasks.len()).collect();
-            let experiment = tasks[0].experiment;
-            experiment.merge(self.profile, &own, results, progress)?;
+            let experiment = &tasks[0].experiment;
+            experiment.merge(&own, results, progress)?;
             let (name, number) = (experiment.name(), own.len());
             let units = if number == 1 { "unit" } else { "units" };
             progress.say(&format!("{name}: joined from {number} {units} of work"));

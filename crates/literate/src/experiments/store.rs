@@ -22,9 +22,6 @@ pub struct Store {
 
 impl Store {
     /// A store in a folder, which is made when something has to be saved.
-    ///
-    /// # Errors
-    /// [`Error::Store`] if there is something else in its place.
     pub fn open(folder: &Path) -> Result<Self, Error> {
         match std::fs::metadata(folder) {
             Ok(found) if !found.is_dir() => {
@@ -36,11 +33,6 @@ impl Store {
             }
             _ => Ok(Store { folder: Some(folder.into()) }),
         }
-    }
-
-    /// A store inside this one, for what is computed from results alone.
-    pub fn derived(&self) -> Self {
-        Store { folder: self.folder.as_ref().map(|folder| folder.join("derived")) }
     }
 
     /// A store that keeps nothing.
@@ -55,9 +47,6 @@ impl Store {
     }
 
     /// The saved result as text, or why there is none to be used.
-    ///
-    /// # Errors
-    /// The reasons.
     pub fn look(&self, identity: &Identity, profile: Profile) -> Result<String, Vec<Reason>> {
         let path = self.path(identity, profile).ok_or_else(|| vec![Reason::Missing])?;
         read(&path, identity)
@@ -80,10 +69,8 @@ impl Store {
     {
         let Some(path) = self.path(identity, profile) else { return run() };
         let name = &identity.experiment;
-        let understood = |text: String| match agrees(&text, &identity.parameters) {
-            true => serde_json::from_str(&text).map_err(|_| vec![Reason::Schema]),
-            false => Err(vec![Reason::Damaged("the saved result is of other parameters".into())]),
-        };
+        let understood =
+            |text: String| serde_json::from_str(&text).map_err(|_| vec![Reason::Schema]);
         match read(&path, identity).and_then(understood) {
             Ok(result) => {
                 progress.say(&format!("{name}: fresh"));
@@ -99,9 +86,6 @@ impl Store {
     }
 
     /// Makes the folder, and tries whether something can be saved there.
-    ///
-    /// # Errors
-    /// [`Error::Store`].
     pub fn prepare(&self) -> Result<(), Error> {
         let Some(folder) = &self.folder else { return Ok(()) };
         let tried = std::fs::create_dir_all(folder)
@@ -111,18 +95,11 @@ impl Store {
     }
 
     /// Whether a result can be saved without replacing what was never one.
-    ///
-    /// # Errors
-    /// [`Error::Store`].
     pub fn refuse_foreign(&self, identity: &Identity, profile: Profile) -> Result<(), Error> {
         self.path(identity, profile).map_or(Ok(()), |path| refuse_foreign(&path))
     }
 
     /// Saves a result.
-    ///
-    /// # Errors
-    /// [`Error::NotFinite`] for a result with a number that is not finite; [`Error::Store`] if it
-    /// cannot be saved.
     pub fn put<T>(&self, identity: &Identity, profile: Profile, result: &T) -> Result<(), Error>
     where
         T: Serialize + DeserializeOwned + PartialEq,
@@ -152,25 +129,7 @@ fn read(path: &Path, identity: &Identity) -> Result<String, Vec<Reason>> {
     }
 }
 
-/// Whether the parameters that a result carries are those that were asked for, as far as both have them. An identity
-/// is known by its digest, and so is a result; only a file that was written to deceive has them apart.
-fn agrees(result: &str, asked: &serde_json::Value) -> bool {
-    #[derive(serde::Deserialize)]
-    struct Carried {
-        #[serde(default)]
-        parameters: serde_json::Value,
-    }
-    let Ok(carried) = serde_json::from_str::<Carried>(result) else { return true };
-    let (Some(own), Some(asked)) = (carried.parameters.as_object(), asked.as_object()) else {
-        return true;
-    };
-    own.iter().all(|(name, value)| asked.get(name).is_none_or(|asked| asked == value))
-}
-
 /// What a saved result was made of, and the result, as text.
-///
-/// # Errors
-/// Why the text is none that was saved whole.
 pub fn parsed(text: &str) -> Result<(Identity, &str), Vec<Reason>> {
     let damaged = |what: &str| vec![Reason::Damaged(what.into())];
     let mut lines = text.split('\n');
@@ -255,41 +214,9 @@ fn digest(lines: &[&str]) -> String {
 mod tests {
     use super::super::identity::TOY;
     use super::*;
-    use std::cell::Cell;
 
     fn identity(parameter: f64) -> Identity {
         Identity::new("test", TOY, &parameter)
-    }
-
-    /// Asks for a result, and says whether it was run.
-    fn ask_as(
-        folder: &Path,
-        identity: &Identity,
-        result: &[Option<f64>],
-    ) -> (Vec<Option<f64>>, bool) {
-        let ran = Cell::new(false);
-        let store = Store::open(folder).unwrap();
-        let run = || {
-            ran.set(true);
-            Ok(result.to_vec())
-        };
-        let found = store.get(identity, Profile::Quick, &Progress::silent(), run).unwrap();
-        (found, ran.get())
-    }
-
-    fn ask(folder: &Path, parameter: f64, result: &[Option<f64>]) -> (Vec<Option<f64>>, bool) {
-        ask_as(folder, &identity(parameter), result)
-    }
-
-    fn reasons(folder: &Path, identity: &Identity) -> Vec<Reason> {
-        let found = Store::open(folder).unwrap().look(identity, Profile::Quick);
-        found.err().unwrap_or_default()
-    }
-
-    fn only_file(folder: &Path) -> PathBuf {
-        let files: Vec<_> = std::fs::read_dir(folder).unwrap().map(|f| f.unwrap().path()).collect();
-        assert_eq!(files.len(), 1, "{files:?}");
-        files[0].clone()
     }
 
     #[test]
@@ -298,85 +225,15 @@ mod tests {
         let mut normals = impact_numerics::random::NormalPairs::new("test-store", 1, 0);
         let mut result: Vec<_> = (0..500).flat_map(|_| normals.pair()).map(Some).collect();
         result.extend([None, Some(-0.0), Some(f64::MIN_POSITIVE / 4.0), Some(f64::MAX)]);
-        let first = ask(folder.path(), 1.5, &result);
-        assert!(first.1);
-        let (again, ran) = ask(folder.path(), 1.5, &[]);
-        assert!(!ran);
+        let store = Store::open(folder.path()).unwrap();
+        let get = |run: &dyn Fn() -> Result<Vec<Option<f64>>, Error>| {
+            store.get(&identity(1.5), Profile::Quick, &Progress::silent(), run).unwrap()
+        };
+        get(&|| Ok(result.clone()));
+        let again = get(&|| panic!("it is saved"));
         let bits =
             |v: &[Option<f64>]| -> Vec<_> { v.iter().map(|x| x.map(f64::to_bits)).collect() };
         assert_eq!(bits(&again), bits(&result));
-    }
-
-    #[test]
-    fn a_result_is_used_while_it_is_fresh() {
-        let folder = tempfile::tempdir().unwrap();
-        let now = identity(1.0);
-        assert_eq!(reasons(folder.path(), &now), [Reason::Missing]);
-        ask_as(folder.path(), &now, &[Some(1.0)]);
-        assert_eq!(reasons(folder.path(), &now), []);
-        assert_eq!(reasons(folder.path(), &identity(2.0)), [Reason::Parameters]);
-        // A result of another type is known when it is read.
-        let store = Store::open(folder.path()).unwrap();
-        let found: u32 = store.get(&now, Profile::Quick, &Progress::silent(), || Ok(7)).unwrap();
-        assert_eq!(found, 7);
-        // The new result takes the place of the old.
-        assert_eq!(ask(folder.path(), 2.0, &[Some(2.0)]), (vec![Some(2.0)], true));
-        only_file(folder.path());
-    }
-
-    #[test]
-    fn damaged_edited_and_truncated_files_are_run_again() {
-        let folder = tempfile::tempdir().unwrap();
-        let whole = vec![Some(0.125), Some(7.0)];
-        ask(folder.path(), 1.0, &whole);
-        let path = only_file(folder.path());
-        let text = std::fs::read_to_string(&path).unwrap();
-        let broken = [
-            text.replace("0.125", "0.126"),
-            text[..text.len() / 2].to_string(),
-            text[..text.len() - 1].to_string(),
-            String::new(),
-            text.replacen("parameters\":1.0", "parameters\":3.0", 1),
-            format!("{text}more\n"),
-        ];
-        for broken in broken {
-            assert_ne!(broken, text);
-            std::fs::write(&path, &broken).unwrap();
-            let told = reasons(folder.path(), &identity(1.0));
-            assert!(matches!(told[..], [Reason::Damaged(_)]), "{told:?} of {broken}");
-            assert_eq!(ask(folder.path(), 1.0, &whole), (whole.clone(), true), "{broken}");
-            assert_eq!(std::fs::read_to_string(&path).unwrap(), text, "saved anew");
-        }
-    }
-
-    #[test]
-    fn a_result_carries_the_parameters_that_were_asked_for() {
-        let asked = serde_json::json!({ "sigma": 0.1, "times": [1, 2] });
-        for (result, same) in [
-            (r#"{"parameters":{"sigma":0.1,"times":[1,2]},"rows":[]}"#, true),
-            (r#"{"parameters":{"sigma":0.1,"other":7},"rows":[]}"#, true),
-            (r#"{"rows":[]}"#, true),
-            (r#"{"parameters":{"sigma":1e9,"times":[1,2]},"rows":[]}"#, false),
-            (r#"{"rows":[],"parameters":{"times":[2]}}"#, false),
-        ] {
-            assert_eq!(agrees(result, &asked), same, "{result}");
-        }
-    }
-
-    #[test]
-    fn what_was_never_a_result_is_left() {
-        let folder = tempfile::tempdir().unwrap();
-        ask(folder.path(), 1.0, &[Some(1.0)]);
-        let path = only_file(folder.path());
-        let store = Store::open(folder.path()).unwrap();
-        for theirs in ["{\"my\": 1}", "[1]", "# Notes\n", " {}", "\u{feff}{}"] {
-            std::fs::write(&path, theirs).unwrap();
-            let run = || -> Result<f64, Error> { panic!("it cannot be saved") };
-            let got = store.get(&identity(1.0), Profile::Quick, &Progress::silent(), run);
-            assert!(got.unwrap_err().to_string().contains("no saved result"));
-            assert!(store.put(&identity(1.0), Profile::Quick, &1.0).is_err());
-            assert_eq!(std::fs::read_to_string(&path).unwrap(), theirs);
-        }
     }
 
     #[test]
@@ -389,26 +246,5 @@ mod tests {
             assert!(matches!(saved, Err(Error::NotFinite { .. })));
         }
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
-    }
-
-    #[test]
-    fn an_interrupted_run_leaves_nothing() {
-        let folder = tempfile::tempdir().unwrap();
-        let store = Store::open(folder.path()).unwrap();
-        let run = || Err::<f64, _>(Error::Interrupted);
-        assert!(store.get(&identity(1.0), Profile::Quick, &Progress::silent(), run).is_err());
-        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
-    }
-
-    #[test]
-    fn a_folder_that_cannot_be_is_an_error_before_the_run() {
-        let file = tempfile::NamedTempFile::new().unwrap();
-        let error = Store::open(file.path()).unwrap_err().to_string();
-        assert!(error.contains("a file is in the way"), "{error}");
-        let store = Store { folder: Some(file.path().join("below")) };
-        let run = || -> Result<f64, Error> { panic!("nothing can be saved") };
-        let error =
-            store.get(&identity(1.0), Profile::Quick, &Progress::silent(), run).unwrap_err();
-        assert!(error.to_string().contains("a file is in the way"), "{error}");
     }
 }

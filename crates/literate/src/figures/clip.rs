@@ -57,10 +57,4 @@ mod tests {
         assert_eq!(parts[1].len(), 3);
         assert!(clip(&[(0.1, 2.0), (0.9, 3.0)], UNIT, UNIT).is_empty());
     }
-
-    #[test]
-    fn a_curve_inside_is_left_alone() {
-        let path = [(0.0, 0.0), (0.5, 1.0), (1.0, 0.0)];
-        assert_eq!(clip(&path, UNIT, UNIT), [path.to_vec()]);
-    }
 }

@@ -5,32 +5,27 @@
 
 /// Which of the two shipped faces a character is set in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[expect(missing_docs, reason = "the names tell")]
 pub enum Face {
-    /// Upright.
     Regular,
-    /// Italic, for the letters of mathematics.
     Italic,
 }
 
 /// Height of a piece of a label.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the names tell")]
 pub enum Level {
-    /// On the base line.
     Base,
-    /// Lowered and small.
     Sub,
-    /// Raised and small.
     Sup,
 }
 
 /// Characters of one face at one height.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the names tell")]
 pub struct Piece {
-    /// The face.
     pub face: Face,
-    /// The height.
     pub level: Level,
-    /// The characters.
     pub text: String,
 }
 

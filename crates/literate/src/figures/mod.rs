@@ -60,40 +60,18 @@ pub struct Figure {
 
 /// Why a figure cannot be drawn.
 #[derive(Debug, Error)]
+#[expect(missing_docs, reason = "the messages tell")]
 pub enum Error {
-    /// There is none of that number.
     #[error("there is no figure {0}; --figure lists those that there are")]
     Number(String),
-    /// Its experiment was not run.
     #[error("a figure lacks its data: {0}")]
     Data(#[from] experiments::Error),
-    /// A result has another shape than the figure was made for.
     #[error("figure {figure} expects {expected}")]
-    Shape {
-        /// The figure.
-        figure: &'static str,
-        /// What it expects.
-        expected: &'static str,
-    },
-    /// Data lies outside its frame.
+    Shape { figure: &'static str, expected: &'static str },
     #[error("{series}: the point ({x}, {y}) lies outside its frame; widen the axis")]
-    Outside {
-        /// The series.
-        series: String,
-        /// Horizontal value.
-        x: f64,
-        /// Vertical value.
-        y: f64,
-    },
-    /// A label has a character that the shipped fonts lack.
+    Outside { series: String, x: f64, y: f64 },
     #[error("the shipped fonts have no glyph for {character:?} in the label {label:?}")]
-    Glyph {
-        /// The character.
-        character: char,
-        /// The label.
-        label: String,
-    },
-    /// Anything else that went wrong while drawing.
+    Glyph { character: char, label: String },
     #[error("drawing failed: {0}")]
     Drawing(String),
 }

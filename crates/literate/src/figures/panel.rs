@@ -22,14 +22,11 @@ type Plane = Cartesian2d<RangedCoordf64, RangedCoordf64>;
 
 /// A rectangle of the sheet in grid units.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the names tell")]
 pub struct Frame {
-    /// Left edge.
     pub left: i32,
-    /// Upper edge.
     pub top: i32,
-    /// Right edge.
     pub right: i32,
-    /// Lower edge.
     pub bottom: i32,
 }
 

@@ -196,9 +196,6 @@ impl Sheet {
 
 impl Figure {
     /// With a line at its foot about where it comes from.
-    ///
-    /// # Errors
-    /// A character that the fonts do not have.
     pub fn with_foot(self, words: &str) -> Result<Figure, Error> {
         let Figure { id, title, description, mut drawing, .. } = self;
         drawing.height += FOOT;

@@ -86,29 +86,22 @@ pub const PALETTE: [(&str, Colour); 9] = [
 
 /// How a line is broken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the names tell")]
 pub enum Dash {
-    /// Unbroken.
     Solid,
-    /// Long strokes.
     Long,
-    /// Short strokes.
     Short,
-    /// Dots.
     Dotted,
-    /// Strokes and dots in turn.
     Alternate,
-    /// A stroke and two dots in turn.
     Twice,
 }
 
 /// Colour, thickness and dash of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the names tell")]
 pub struct Stroke {
-    /// Colour.
     pub colour: Colour,
-    /// Thickness.
     pub width: u32,
-    /// Dash.
     pub dash: Dash,
 }
 
@@ -138,26 +131,17 @@ impl Stroke {
 
 /// Shape of a data point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the names tell")]
 pub enum Mark {
-    /// ×
     Cross,
-    /// +
     Plus,
-    /// Filled circle.
     Disc,
-    /// Open circle.
     Ring,
-    /// Filled square.
     Square,
-    /// Filled diamond.
     Diamond,
-    /// Filled triangle.
     Triangle,
-    /// Open square.
     OpenSquare,
-    /// Open diamond.
     OpenDiamond,
-    /// Open triangle.
     OpenTriangle,
 }
 

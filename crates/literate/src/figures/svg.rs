@@ -257,23 +257,3 @@ impl Drawing {
         writer.out
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::figures::style::{INK, Stroke};
-
-    #[test]
-    fn on_a_page_colours_are_classes_and_glyphs_are_shared() {
-        let mut drawing = Drawing::new(100);
-        drawing.polyline(vec![(1, 2), (3, 4)], Stroke::solid(INK, 20));
-        let file = drawing.svg("a", "A < B", "It rises.");
-        assert!(
-            file.contains(" stroke=\"#222222\"") && file.contains("A &lt; B</title>"),
-            "{file}"
-        );
-        let page = drawing.on_page("a", "A < B", "It rises.");
-        assert!(page.contains("points=\"1,2 3,4\" class=\"stroke-ink\"/></svg>"), "{page}");
-        assert!(!page.contains("<defs>") && !page.contains("xmlns") && !page.contains('\n'));
-    }
-}

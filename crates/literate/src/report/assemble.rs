@@ -71,9 +71,6 @@ struct Part<'a> {
 
 /// The values with the scorecard among them, the filler with all names that templates use, and the prose of each
 /// document as it was filled.
-///
-/// # Errors
-/// What the filler refuses.
 pub fn fill(input: &Input<'_>) -> Result<(Registry, Filler, Vec<Filled>), Error> {
     let mut values = input.values.clone();
     values.extend(scorecard(input.claims))?;
@@ -90,10 +87,6 @@ pub fn fill(input: &Input<'_>) -> Result<(Registry, Filler, Vec<Filled>), Error>
 }
 
 /// Makes the whole report.
-///
-/// # Errors
-/// A naked numeral, an unknown or unused value, a reference to nothing, a figure that is missing
-/// or not shown, markup or a character that a format lacks.
 pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
     lint::check(input.templates, input.program)?;
     skins(input.templates)?;
@@ -255,7 +248,7 @@ fn data(file: &DataFile) -> (String, Vec<u8>) {
 }
 
 fn check_unused(values: &Registry, marks: &[Mark]) -> Result<(), Error> {
-    let used: BTreeSet<&str> = marks.iter().map(|mark| values.id(&mark.id)).collect();
+    let used: BTreeSet<&str> = marks.iter().map(|mark| mark.id.as_str()).collect();
     let unused: Vec<&str> = values
         .iter()
         .filter(|value| !value.for_data_only && !used.contains(value.id.as_str()))

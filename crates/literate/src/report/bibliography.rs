@@ -21,10 +21,6 @@ pub struct Library(Vec<Entry>);
 
 impl Library {
     /// Reads BibTeX.
-    ///
-    /// # Errors
-    /// What is no BibTeX, two entries with one key, and an entry without author or year, each with
-    /// its line or key.
     pub fn read(text: &str) -> Result<Self, Error> {
         for (number, line) in text.lines().enumerate() {
             // The reader follows them without end where they lead back.
@@ -79,17 +75,11 @@ impl Library {
     }
 
     /// The label of a citation: "Rice, 1945", "Homer & Hogan, 2007", "Kowalczyk et al., 2006".
-    ///
-    /// # Errors
-    /// A key that the file lacks.
     pub fn label(&self, key: &str) -> Result<String, Error> {
         Ok(self.entry(key)?.label.clone())
     }
 
     /// The entries with these keys, as a list shows them.
-    ///
-    /// # Errors
-    /// A key that the file lacks.
     pub fn entries(&self, keys: &[String]) -> Result<Vec<Entry>, Error> {
         keys.iter().try_for_each(|key| self.entry(key).map(drop))?;
         Ok(self.0.iter().filter(|entry| keys.contains(&entry.key)).cloned().collect())
@@ -154,70 +144,5 @@ fn formatted(piece: &Formatted) -> Inline {
         Inline::Strong(vec![words])
     } else {
         words
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const BIB: &str = r#"
-@article{rice1945,
-  author = {Rice, S. O.},
-  title = "Mathematical analysis of {R}andom noise",
-  journal = {Bell System Technical Journal},
-  volume = 24,
-  pages = {46--156},
-  year = {1945},
-  doi = {10.1002/x}
-}
-@book{stauffer1985, author = {Dietrich Stauffer}, title = {Introduction to Percolation Theory},
-  publisher = {Taylor \& Francis}, edition = 2, year = 1985}
-@inproceedings{three2006, author = {A. One and Two, B. and C. D. Three}, title = {T}, year = {2006}}
-@article{again, author = {A. One and Two, B. and C. D. Three}, title = {U}, year = {2006}}
-"#;
-
-    #[test]
-    fn labels_and_entries() {
-        let library = Library::read(BIB).unwrap();
-        assert_eq!(library.label("rice1945").unwrap(), "Rice, 1945");
-        // Two works that would share a label are told apart.
-        assert_eq!(library.label("three2006").unwrap(), "One et al., 2006a");
-        assert_eq!(library.label("again").unwrap(), "One et al., 2006b");
-        let keys = ["stauffer1985".to_string(), "rice1945".to_string()];
-        let entries = library.entries(&keys).unwrap();
-        assert_eq!(
-            plain(&entries[0].text),
-            "Rice, S. O. (1945). Mathematical analysis of Random noise. \
-             Bell System Technical Journal, 24, 46–156. https://doi.org/10.1002/x"
-        );
-        assert!(entries[0].text.iter().any(|piece| matches!(piece, Inline::Link { .. })));
-        assert!(entries[0].text.iter().any(|piece| matches!(piece, Inline::Emphasis(_))));
-        assert_eq!(
-            plain(&entries[1].text),
-            "Stauffer, D. (1985). Introduction to Percolation Theory (2nd ed.). Taylor & Francis."
-        );
-        assert_eq!(entries.len(), 2);
-    }
-
-    #[test]
-    fn mistakes_have_their_line() {
-        let error = Library::read("\n\n@book{a, year = {1").unwrap_err().to_string();
-        assert!(error.contains("references.bib:3"), "{error}");
-        for loops in ["@book{a, crossref = {a}}", "@book{a, XData={b}}", "@string(a = a)"] {
-            let error = Library::read(&format!("\n{loops}")).unwrap_err().to_string();
-            assert!(
-                error.contains("references.bib:2") && error.contains("write them out"),
-                "{error}"
-            );
-        }
-        let error = Library::read("@book{a, author={A}, year={1999}}").unwrap_err().to_string();
-        assert!(error.contains("a lacks its title"), "{error}");
-        let twice = "@book{a, author={A}, year={1}}\n@book{a, author={A}, year={2}}";
-        let error = Library::read(twice).unwrap_err().to_string();
-        assert!(error.contains("references.bib:2"), "{error}");
-        let error = Library::read("@book{a, year={1999}}").unwrap_err().to_string();
-        assert!(error.contains("a lacks author"), "{error}");
-        assert!(Library::read("").unwrap().label("none").is_err());
     }
 }

@@ -38,23 +38,7 @@ impl Labels {
         self.labels.get(id).map(|(_, of)| *of).filter(|of| *of != here)
     }
 
-    /// The pages of what other documents have, by the ids of pages.
-    pub fn elsewhere(&self, here: Document) -> BTreeMap<&'static str, Vec<String>> {
-        let mut pages = BTreeMap::<_, Vec<String>>::new();
-        // Marks of a statement lead to its row.
-        let is_mark =
-            |id: &str| ["row:", "mark:", "sign:"].iter().any(|start| id.starts_with(start));
-        for (id, (_, of)) in self.labels.iter().filter(|(id, (_, of))| *of != here && !is_mark(id))
-        {
-            pages.entry(of.page).or_default().push(id.replace(':', "-"));
-        }
-        pages
-    }
-
     /// Gives numbers to the sections, captioned tables, listings and anchors of a document.
-    ///
-    /// # Errors
-    /// Two things with one id.
     pub fn number_all(&mut self, blocks: &mut [Block], of: Document) -> Result<(), Error> {
         let letter = of.letter;
         let (mut section, mut subsection, mut tables, mut listings) = (0, 0, 0, 0);
@@ -115,9 +99,6 @@ impl Labels {
 
     /// Gives each judged statement that has its row more names: `row:id` and `mark:id`, shown as its verdict and number,
     /// and `sign:id`, shown as its verdict alone.
-    ///
-    /// # Errors
-    /// None that can arise from claims, whose ids differ.
     pub fn judge(&mut self, claims: &[Check]) -> Result<(), Error> {
         for Check { id, verdict, .. } in claims {
             let Some((number, of)) = self.labels.get(&format!("claim:{id}")).cloned() else {
@@ -133,9 +114,6 @@ impl Labels {
     }
 
     /// Resolves all references of a document, and fills its list of references with what it cites.
-    ///
-    /// # Errors
-    /// A reference to nothing, a citation that references.bib lacks, or one in a document without such a list.
     pub fn resolve(
         &self,
         blocks: &mut [Block],

@@ -64,36 +64,3 @@ fn is_markup(source: &str, at: usize, sign: &str) -> bool {
         _ => word(before) != word(after),
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_is_left_over_is_found_where_it_stands() {
-        for (text, at) in [
-            ("a $x", 2),
-            ("`b", 0),
-            ("*fast and", 0),
-            ("fast* and", 4),
-            ("**fast", 0),
-            ("a _b c", 2),
-            ("3» x", 1),
-            ("[a](b", 2),
-            ("[^1]", 0),
-            ("x --> y", 2),
-            ("[@fig:3", 0),
-            ("[a][b]", 2),
-            ("~~a~~", 0),
-            ("####### a", 0),
-            ("[ ] a", 0),
-        ] {
-            assert_eq!(find(text, 0, text, false).map(|(at, _)| at), Some(at), "{text}");
-        }
-        for text in ["a * b", "a_b", "[0, 1]", "a (b) c", "1 < 2 > 1", "50 % of it", "# 3"] {
-            assert_eq!(find(text, 0, text, false), None, "{text}");
-        }
-        assert_eq!(find(r"\$ 5", 1, "$ 5", true), None);
-        assert_eq!(find(r"\$ 5 $x", 1, "$ 5 $x", true).map(|(at, _)| at), Some(5));
-    }
-}

@@ -107,9 +107,6 @@ fn length(inner: &str, (open, close, long): (&str, &str, bool)) -> Option<usize>
 }
 
 /// Holds all prose against the lint.
-///
-/// # Errors
-/// A document without prose; [`Error::Lint`] with every finding; a phrase of literals.toml that no prose has.
 pub fn check(templates: &Templates, program: Program) -> Result<(), Error> {
     for of in program.documents {
         let mut texts = of.files(templates).into_iter().map(|path| templates.text(path));
@@ -170,9 +167,6 @@ struct Group {
 
 impl Declared {
     /// Reads `literals.toml`.
-    ///
-    /// # Errors
-    /// What is wrong with it: TOML that does not read, a group without a reason.
     pub fn read(text: &str) -> Result<Self, Error> {
         let syntax = |error| Error::Template(format!("literals.toml:{}", toml_fault(text, &error)));
         let file: File = toml::from_str(text).map_err(syntax)?;

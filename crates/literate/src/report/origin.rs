@@ -127,9 +127,6 @@ impl Filled {
     }
 
     /// Refuses a tag that wrote no value and no words: a whole row or table, or a plain number.
-    ///
-    /// # Errors
-    /// [`Error::Template`] with its place.
     pub fn refuse_dumps(&self) -> Result<(), Error> {
         let ends = self.pieces.iter().skip(1).map(|piece| piece.start).chain([self.text.len()]);
         for (piece, end) in self.pieces.iter().zip(ends) {

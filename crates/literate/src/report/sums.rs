@@ -42,9 +42,6 @@ pub fn write(files: &Files) -> String {
 }
 
 /// Reads the lines of a list in which each path stands once.
-///
-/// # Errors
-/// As [`lines`], and for a path that stands twice.
 pub fn read(text: &str) -> Result<Vec<Entry>, Malformed> {
     let entries = lines(text)?;
     let mut paths = std::collections::BTreeSet::new();
@@ -57,9 +54,6 @@ pub fn read(text: &str) -> Result<Vec<Entry>, Malformed> {
 /// Reads the lines. Whoever wrote them is not trusted: a path stays below the folder, at least by
 /// its letters (links are for the caller to refuse). While files are replaced, [`LOCAL`] has the old digest of
 /// each before the new one.
-///
-/// # Errors
-/// The first line that cannot be used.
 pub fn lines(text: &str) -> Result<Vec<Entry>, Malformed> {
     let mut entries: Vec<Entry> = Vec::new();
     for (i, line) in text.lines().enumerate() {

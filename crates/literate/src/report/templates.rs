@@ -30,9 +30,6 @@ impl Templates {
     }
 
     /// Reads all templates of a folder.
-    ///
-    /// # Errors
-    /// When a file or folder cannot be read.
     pub fn read(folder: &Path) -> Result<Self, Error> {
         let mut walk = Walk::default();
         walk.folder(folder, "")?;
@@ -40,9 +37,6 @@ impl Templates {
     }
 
     /// The text of one file.
-    ///
-    /// # Errors
-    /// When there is none of that name.
     pub fn text(&self, path: &str) -> Result<&str, Error> {
         let missing = || {
             Error::Template(format!(

@@ -127,12 +127,12 @@ fn read(root: &Path, path: &str) -> Result<Vec<u8>, Failure> {
 /// Exit code 3 if one of them is not what this program would run to.
 fn fresh(results: &Path, profile: Profile) -> Result<Vec<String>, Failure> {
     let store = Store::open(results)?;
-    let stale = |experiment: &&experiments::Need| !experiment.stale(profile, &store).is_empty();
+    let stale = |experiment: &&experiments::Need| !experiment.at(profile).stale(&store).is_empty();
     let stale: Vec<&str> =
         experiments::of(profile).iter().filter(stale).map(|experiment| experiment.name()).collect();
     if stale.is_empty() {
         let name = |experiment: &experiments::Need| {
-            format!("{}.json", experiment.identity(profile).file_stem(profile))
+            format!("{}.json", experiment.at(profile).identity().file_stem(profile))
         };
         return Ok(experiments::of(profile).iter().map(name).collect());
     }

@@ -1,9 +1,9 @@
 //! Committed units, some of which are run again.
 
 use super::super::cutting::Unit;
-use super::super::experiment::{Json, Saved};
-use super::super::identity::{Identity, Reason, told};
-use super::super::store::{Store, written};
+use super::super::experiment::{How, Json, Params, Run};
+use super::super::identity::Identity;
+use super::super::store::written;
 use super::super::{Code, Error, Profile, Progress};
 use super::Deep;
 use impact_numerics::random::generator;
@@ -90,47 +90,59 @@ pub(super) fn drawn(units: &[Unit], work: u64) -> Vec<usize> {
     order
 }
 
-/// The audit of an experiment as an experiment of its own: one unit of work, the result is an
-/// [`Audit`].
-pub struct Audited<'a, P: 'static, T: 'static, U: 'static>(pub &'a Deep<P, T, U>);
+/// Committed units, and the places of those that are run again.
+pub struct Audited<'a, P: 'static, T: 'static, U: 'static> {
+    deep: &'a Deep<P, T, U>,
+    units: Vec<Unit>,
+    drawn: Vec<usize>,
+}
 
-impl<P: Serialize + Sync, T: Json, U: Json> Audited<'_, P, T, U> {
-    /// The audit: the saved one if it is fresh, else a new one.
-    pub fn get(
-        &self,
-        profile: Profile,
-        store: &Store,
-        progress: &Progress,
-    ) -> Result<Audit, Error> {
-        let identity = self.identity(profile);
-        store.get(&identity, profile, progress, || self.run(profile, progress))
+/// The audit of an experiment, as one unit of work.
+pub(super) fn of<P: Params, T: Json, U: Json>(
+    deep: &Deep<P, T, U>,
+    profile: Profile,
+) -> Run<Audited<'_, P, T, U>, Audit, ()> {
+    let committed = AuditParams { committed: deep.digest(), work: work(profile) };
+    let own = Identity::new(deep.name, Code { file: FILE, ..deep.code }, &committed);
+    let units = deep.cut.1.units(&(deep.parameters)(Profile::Deep));
+    let drawn = drawn(&units, work(profile));
+    Run {
+        name: deep.name,
+        profile,
+        identity: deep.made_of().with_code(own),
+        parameters: Audited { deep, units, drawn },
+        how: How::Whole {
+            run: Audited::get,
+            weight: |own| own.chosen().map(|unit| unit.weight).sum(),
+        },
+        fails: |audit| audit.verdict == Carriage::Failed,
+    }
+}
+
+impl<P: Params, T: Json, U: Json> Audited<'_, P, T, U> {
+    fn chosen(&self) -> impl Iterator<Item = &Unit> {
+        self.drawn.iter().map(|&place| &self.units[place])
     }
 
-    /// The units of the whole, and the places of those that a profile runs again.
-    fn drawn(&self, profile: Profile) -> (Vec<Unit>, Vec<usize>) {
-        let units = self.0.units(Profile::Deep);
-        let drawn = drawn(&units, work(profile));
-        (units, drawn)
-    }
-
-    fn run(&self, profile: Profile, progress: &Progress) -> Result<Audit, Error> {
-        let given = self.0.given()?;
-        let (units, drawn) = self.drawn(profile);
-        let chosen: Vec<&Unit> = drawn.iter().map(|&place| &units[place]).collect();
-        let (words, cutting) = &self.0.cut;
-        let parameters = (self.0.parameters)(Profile::Deep);
+    /// The audit.
+    pub fn get(&self, progress: &Progress) -> Result<Audit, Error> {
+        let Audited { deep, units, drawn } = self;
+        let given = deep.given()?;
+        let chosen: Vec<&Unit> = self.chosen().collect();
+        let (words, cutting) = &deep.cut;
+        let parameters = (deep.parameters)(Profile::Deep);
         let again = cutting.given(&parameters, &chosen, words, progress)?;
-        let bytes = |own: &U| written(self.name(), own);
+        let bytes = |own: &U| written(deep.name, own);
         let mut identical = 0;
         for (&place, own) in drawn.iter().zip(&again) {
             identical += usize::from(bytes(own)? == bytes(&given[place])?);
         }
         let all = identical == again.len();
         let number = again.len();
-        let distance = match self.0.distance {
+        let distance = match deep.distance {
             Some(distance) if !all => {
                 let parts: Vec<(&Unit, U)> = chosen.into_iter().zip(again).collect();
-                Some(distance(&self.0.joined(given, progress)?, &parts))
+                Some(distance(&deep.joined(given, progress)?, &parts))
             }
             _ => None,
         };
@@ -140,79 +152,5 @@ impl<P: Serialize + Sync, T: Json, U: Json> Audited<'_, P, T, U> {
             _ => Carriage::Failed,
         };
         Ok(Audit { verdict, units: units.len(), again: number, identical, distance })
-    }
-
-    fn read(&self, text: &str) -> Result<Audit, Error> {
-        serde_json::from_str(text).map_err(|_| Error::NotUnderstood { name: self.name() })
-    }
-
-    /// A saved audit that is fresh.
-    fn look(&self, profile: Profile, store: &Store) -> Result<Audit, Vec<Reason>> {
-        let text = store.look(&self.identity(profile), profile)?;
-        self.read(&text).map_err(|_| vec![Reason::Schema])
-    }
-}
-
-impl<P: Serialize + Sync, T: Json, U: Json> Saved for Audited<'_, P, T, U> {
-    fn name(&self) -> &'static str {
-        self.0.name
-    }
-
-    fn identity(&self, profile: Profile) -> Identity {
-        let audit = AuditParams { committed: self.0.digest(), work: work(profile) };
-        self.0.made_of().with_code(Identity::new(
-            self.name(),
-            Code { file: FILE, ..self.0.code },
-            &audit,
-        ))
-    }
-
-    fn parameters(&self, _: Profile) -> serde_json::Value {
-        self.0.made_of().parameters
-    }
-
-    fn stale(&self, profile: Profile, store: &Store) -> Vec<Reason> {
-        match self.look(profile, store) {
-            Ok(Audit { verdict: Carriage::Failed, .. }) => vec![Reason::Failed],
-            Ok(_) => Vec::new(),
-            Err(reasons) => reasons,
-        }
-    }
-
-    fn audit(&self, profile: Profile, store: &Store, progress: &Progress) -> Result<bool, Error> {
-        let stale = |why: Vec<Reason>| Error::Stale { name: self.name(), why: told(&why) };
-        Ok(self.look(profile, store).map_err(stale)? == self.run(profile, progress)?)
-    }
-
-    fn units(&self, profile: Profile) -> Vec<Unit> {
-        let (units, drawn) = self.drawn(profile);
-        let weight = drawn.iter().map(|&place| units[place].weight).sum();
-        vec![Unit { row: 0, realisations: 0..0, covers: "an audit".into(), weight }]
-    }
-
-    fn run_units(
-        &self,
-        profile: Profile,
-        units: &[(&Unit, Identity)],
-        store: &Store,
-        progress: &Progress,
-    ) -> Result<(), Error> {
-        units.iter().try_for_each(|(_, identity)| {
-            store.put(identity, profile, &self.run(profile, progress)?)
-        })
-    }
-
-    fn understands(&self, _: Profile, _: &Unit, text: &str) -> bool {
-        self.read(text).is_ok()
-    }
-
-    fn merge(
-        &self,
-        profile: Profile,
-        texts: &[String],
-        store: &Store,
-        _: &Progress,
-    ) -> Result<(), Error> {
-        store.put(&self.identity(profile), profile, &self.read(&texts.concat())?)
     }
 }

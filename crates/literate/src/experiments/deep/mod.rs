@@ -11,20 +11,15 @@ pub use audit::{Audit, Carriage, Distance};
 
 use super::cutting::{Cutting, Join, Unit};
 use super::experiment::How::Cut;
-use super::experiment::{Entry, Experiment, Found, Given, Json, Saved, Typed, item, typed};
+use super::experiment::{Entry, Experiment, Found, Given, Json, Params, Saved, Typed};
 use super::identity::{Identity, Reason, told};
 use super::store::{self, Store};
 use super::{Code, Error, Profile, Progress};
 use crate::digest::sha256;
 use crate::table::Table;
-use audit::Audited;
-use serde::Serialize;
 use std::borrow::Cow;
 use std::io;
 use std::sync::Arc;
-
-/// The file of this code: a result that is joined from committed units depends on it.
-const FILE: &str = "crates/literate/src/experiments/deep/mod.rs";
 
 /// What to do about a result that is stale.
 pub const REMEDY: &str = "run `make deep`";
@@ -54,13 +49,6 @@ pub struct Deep<P: 'static, T: 'static, U: 'static> {
 
 /// Measures how far what units give is from a result.
 pub type Away<T, U> = fn(&T, &[(&Unit, U)]) -> Distance;
-
-/// What only the committed file decides, beside the code.
-#[derive(Serialize)]
-struct JoinedParams {
-    /// SHA-256 of the committed file.
-    committed: String,
-}
 
 impl<P, T, U> Deep<P, T, U> {
     /// What takes too long for the full profile.
@@ -101,32 +89,14 @@ impl<P, T, U> Deep<P, T, U> {
         Experiment { name, code, parameters, how, tables: |_| Vec::new() }
     }
 
-    /// The experiment as profiles run it that do not carry it over.
-    fn small(&self) -> Experiment<P, T, U> {
-        self.experiment(self.cut.1.join)
-    }
-
     /// The experiment as the deep profile runs it: its result is what each unit gave.
     fn whole(&self) -> Experiment<P, Vec<U>, U> {
         self.experiment(|_, given, _| Ok(given.into_iter().flatten().collect()))
     }
 }
 
-impl<P: Serialize + Sync, T: Json, U: Json> Deep<P, T, U> {
-    /// What is run and saved in a profile: the whole, an audit of it, or something smaller.
-    fn of<R>(&self, profile: Profile, ask: impl FnOnce(&dyn Saved) -> R) -> R {
-        match profile {
-            Profile::Deep => ask(&self.whole()),
-            carrying if carrying >= self.from => ask(&Audited(self)),
-            _ => ask(&self.small()),
-        }
-    }
-
+impl<P: Params, T: Json, U: Json> Deep<P, T, U> {
     /// The result, with the audit of one that is carried over.
-    ///
-    /// # Errors
-    /// As [`Experiment::get`]; [`Error::Input`] if the committed file cannot be read, or was run
-    /// with other parameters than those of this program.
     pub fn get(
         &self,
         profile: Profile,
@@ -134,30 +104,16 @@ impl<P: Serialize + Sync, T: Json, U: Json> Deep<P, T, U> {
         progress: &Progress,
     ) -> Result<(T, Option<Audit>), Error> {
         if profile < self.from {
-            return Ok((self.small().get(profile, store, progress)?, None));
+            return Ok((self.experiment(self.cut.1.join).get(profile, store, progress)?, None));
         }
-        let audit = Audited(self).get(profile, store, progress)?;
-        let name = format!("{} joined", self.name);
-        let params = JoinedParams { committed: self.digest() };
-        let identity = self.made_of().with_code(Identity::new(
-            &name,
-            Code { file: FILE, ..self.code },
-            &params,
-        ));
-        let join = || self.joined(self.given()?, progress);
-        // What is said of the audit is enough.
-        let quiet = Progress::silent();
-        let result = match store.derived().get(&identity, profile, &quiet, join) {
-            // A folder that cannot be written is no reason to fail.
-            Err(Error::Store { .. }) => join()?,
-            found => found?,
-        };
+        let audit = audit::of(self, profile).get(store, progress)?;
+        let result = self.joined(self.given()?, progress)?;
         Ok((result, Some(audit)))
     }
 
     /// What the whole depends on.
     fn made_of(&self) -> Identity {
-        self.whole().identity(Profile::Deep)
+        self.whole().run_of(Profile::Deep).identity
     }
 
     /// What each unit gave that is committed.
@@ -183,9 +139,27 @@ impl<P: Serialize + Sync, T: Json, U: Json> Deep<P, T, U> {
     }
 }
 
-impl<P: Serialize + Sync, T: Json, U: Json> Entry for Deep<P, T, U> {
-    fn item(&self) -> String {
-        item(self.code.file)
+impl<P: Params, T: Json, U: Json> Entry for Deep<P, T, U> {
+    fn name(&self) -> &'static str {
+        self.name
+    }
+
+    fn code(&self) -> Code {
+        self.code
+    }
+
+    /// The whole, an audit of it, or something smaller.
+    fn at(&self, profile: Profile) -> Arc<dyn Saved + '_> {
+        match profile {
+            Profile::Deep => Arc::new(self.whole().run_of(profile)),
+            carrying if carrying >= self.from => Arc::new(audit::of(self, profile)),
+            _ => Arc::new(self.experiment(self.cut.1.join).run_of(profile)),
+        }
+    }
+
+    fn parameters(&self, profile: Profile) -> serde_json::Value {
+        let profile = if profile >= self.from { Profile::Deep } else { profile };
+        self.at(profile).identity().parameters.clone()
     }
 
     fn carried(&self) -> Option<&'static str> {
@@ -204,62 +178,12 @@ impl<P: Serialize + Sync, T: Json, U: Json> Entry for Deep<P, T, U> {
     }
 
     fn tables(&self, found: &Found) -> Vec<Table> {
-        typed(found).map_or_else(Vec::new, self.tables)
+        found.downcast_ref().map_or_else(Vec::new, self.tables)
     }
 }
 
-impl<P: Serialize + Sync, T: Json, U: Json> Typed for Deep<P, T, U> {
+impl<P: Params, T: Json, U: Json> Typed for Deep<P, T, U> {
     type Result = T;
-}
-
-impl<P: Serialize + Sync, T: Json, U: Json> Saved for Deep<P, T, U> {
-    fn name(&self) -> &'static str {
-        self.name
-    }
-
-    fn identity(&self, profile: Profile) -> Identity {
-        self.of(profile, |own| own.identity(profile))
-    }
-
-    fn parameters(&self, profile: Profile) -> serde_json::Value {
-        self.of(profile, |own| own.parameters(profile))
-    }
-
-    fn stale(&self, profile: Profile, store: &Store) -> Vec<Reason> {
-        self.of(profile, |own| own.stale(profile, store))
-    }
-
-    fn audit(&self, profile: Profile, store: &Store, progress: &Progress) -> Result<bool, Error> {
-        self.of(profile, |own| own.audit(profile, store, progress))
-    }
-
-    fn units(&self, profile: Profile) -> Vec<Unit> {
-        self.of(profile, |own| own.units(profile))
-    }
-
-    fn run_units(
-        &self,
-        profile: Profile,
-        units: &[(&Unit, Identity)],
-        store: &Store,
-        progress: &Progress,
-    ) -> Result<(), Error> {
-        self.of(profile, |own| own.run_units(profile, units, store, progress))
-    }
-
-    fn understands(&self, profile: Profile, unit: &Unit, text: &str) -> bool {
-        self.of(profile, |own| own.understands(profile, unit, text))
-    }
-
-    fn merge(
-        &self,
-        profile: Profile,
-        texts: &[String],
-        store: &Store,
-        progress: &Progress,
-    ) -> Result<(), Error> {
-        self.of(profile, |own| own.merge(profile, texts, store, progress))
-    }
 }
 
 #[cfg(test)]

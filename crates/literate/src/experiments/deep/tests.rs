@@ -40,14 +40,14 @@ fn committed() -> String {
     let folder = tempfile::tempdir().unwrap();
     let store = Store::open(folder.path()).unwrap();
     let (deep, quiet) = (small(""), Progress::silent());
-    let units = deep.units(Profile::Deep);
+    let units = deep.at(Profile::Deep).units();
     assert_eq!(units.len(), 14, "two rows are too heavy for one unit");
     let all: Vec<&Unit> = units.iter().collect();
     let given = CUTTING.given(&12, &all, "test", &quiet).unwrap();
     let texts: Vec<String> = given.iter().map(|own| written("test", own).unwrap()).collect();
-    deep.merge(Profile::Deep, &texts, &store, &quiet).unwrap();
-    assert_eq!(deep.stale(Profile::Deep, &store), []);
-    assert!(deep.audit(Profile::Deep, &store, &quiet).unwrap());
+    deep.at(Profile::Deep).merge(&texts, &store, &quiet).unwrap();
+    assert_eq!(deep.at(Profile::Deep).stale(&store), []);
+    assert!(deep.at(Profile::Deep).audit(&store, &quiet).unwrap());
     std::fs::read_to_string(folder.path().join("two_masses-deep.json")).unwrap()
 }
 
@@ -78,7 +78,7 @@ fn a_program_that_gives_something_else_is_noticed() {
         ..CUTTING
     };
     let mut deep = deep(other, &committed());
-    let units = deep.units(Profile::Deep);
+    let units = deep.at(Profile::Deep).units();
     let first = drawn(&units, work(Profile::Full))[0];
     ROW.store(units[first].row, Ordering::Relaxed);
     let audit = found(&deep, Profile::Full).unwrap().1.unwrap();
@@ -103,18 +103,18 @@ fn a_failed_audit_is_stale_and_what_cannot_be_read_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let store = Store::open(folder.path()).unwrap();
     let (deep, quiet) = (small(&text), Progress::silent());
-    assert_eq!(deep.stale(Profile::Full, &store), [Reason::Missing]);
+    assert_eq!(deep.at(Profile::Full).stale(&store), [Reason::Missing]);
     let audit = deep.get(Profile::Full, &store, &quiet).unwrap().1.unwrap();
-    assert_eq!(deep.stale(Profile::Full, &store), []);
-    assert!(deep.audit(Profile::Full, &store, &quiet).unwrap());
+    assert_eq!(deep.at(Profile::Full).stale(&store), []);
+    assert!(deep.at(Profile::Full).audit(&store, &quiet).unwrap());
     let failed = Audit { verdict: Carriage::Failed, ..audit };
-    store.put(&deep.identity(Profile::Full), Profile::Full, &failed).unwrap();
-    assert_eq!(deep.stale(Profile::Full, &store), [Reason::Failed]);
-    assert!(!deep.audit(Profile::Full, &store, &quiet).unwrap());
+    store.put(deep.at(Profile::Full).identity(), Profile::Full, &failed).unwrap();
+    assert_eq!(deep.at(Profile::Full).stale(&store), [Reason::Failed]);
+    assert!(!deep.at(Profile::Full).audit(&store, &quiet).unwrap());
 
     // Another file is another audit.
     let edited = text.replacen("[[", "[[5,", 1);
-    assert_eq!(small(&edited).stale(Profile::Full, &store), [Reason::Parameters]);
+    assert_eq!(small(&edited).at(Profile::Full).stale(&store), [Reason::Parameters]);
     let lines: Vec<&str> = text.lines().collect();
     let fewer = lines[2].replacen("[0,1],", "", 1);
     assert_ne!(fewer, lines[2]);
@@ -136,7 +136,7 @@ fn a_failed_audit_is_stale_and_what_cannot_be_read_is_refused() {
 
 #[test]
 fn units_are_drawn_within_their_bound() {
-    let units = small("").units(Profile::Deep);
+    let units = small("").at(Profile::Deep).units();
     let weight = |places: &[usize]| places.iter().map(|&place| units[place].weight).sum::<u64>();
     for bound in [150_000, 1_000_000, 3_000_000] {
         let places = drawn(&units, bound);

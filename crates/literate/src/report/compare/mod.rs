@@ -1,21 +1,18 @@
-//! What changed between two reports: numbers, verdicts, prose, the data of figures, and files.
+//! What changed between two reports: numbers, verdicts, prose, and files.
 
 mod claims;
 mod numbers;
 mod prose;
 mod sentences;
-mod table;
 
 pub use claims::ClaimChange;
 pub use numbers::{Change, changes, read};
 pub use prose::{Piece, ProseChange, SentenceChange};
-pub use table::{Largest, Row, TableChange};
 
+use super::ledger::{self, Ledger};
 use super::{Document, Files, Registry, sums};
-use claims::Claims;
 use serde::Serialize;
 use std::collections::BTreeSet;
-use table::Table;
 
 /// A report, with the parts that are compared as what they mean.
 #[derive(Debug)]
@@ -23,7 +20,7 @@ pub struct Parts<'a> {
     name: &'a str,
     files: Files,
     values: Registry,
-    claims: Claims,
+    ledger: Ledger,
 }
 
 /// What differs, part by part; all empty for the same bytes.
@@ -35,13 +32,11 @@ pub struct Diff {
     pub numbers: Vec<Change>,
     /// Documents with other text.
     pub prose: Vec<ProseChange>,
-    /// Data of figures.
-    pub data: Vec<TableChange>,
     /// Files that only the later report has.
     pub gained: Vec<String>,
     /// Files that only the earlier report has.
     pub lost: Vec<String>,
-    /// Files with other bytes, data left out.
+    /// Files with other bytes.
     pub differing: Vec<String>,
 }
 
@@ -54,34 +49,22 @@ impl Diff {
 
 impl<'a> Parts<'a> {
     /// Reads values and claims of a report, which errors call `name`.
-    ///
-    /// # Errors
-    /// What is wrong, with the file's name.
     pub fn of(name: &'a str, files: &'a Files) -> Result<Self, String> {
         let fault = |what: String| format!("{name}: {what}");
         let values = read(&text(name, files, "values.json")?).map_err(|e| fault(e.to_string()))?;
-        numbers::printable(&values).map_err(fault)?;
-        let claims = Claims::read(&text(name, files, "ledger.json")?).map_err(fault)?;
-        Ok(Parts { name, files: files.clone(), values, claims })
+        let ledger = ledger::read(&text(name, files, "ledger.json")?);
+        let ledger = ledger.map_err(|error| fault(error.to_string()))?;
+        Ok(Parts { name, files: files.clone(), values, ledger })
     }
 
     /// Leaves what one document shows.
-    ///
-    /// # Errors
-    /// When the report does not say which that is.
     pub fn only(&mut self, document: &str) -> Result<(), String> {
-        let shown = self.claims.shown(document).ok_or_else(|| {
-            format!("{}: ledger.json does not say what {document} shows", self.name)
-        })?;
+        self.ledger
+            .only(document, &mut self.values)
+            .map_err(|error| format!("{}: {error}", self.name))?;
+        let shown = &self.ledger.documents[document];
         self.files.retain(|path, _| shown.files.contains(path));
-        self.values.retain(|value| shown.values.contains(&value.id));
-        self.claims.retain(&shown);
         Ok(())
-    }
-
-    fn table(&self, path: &str) -> Result<Table, String> {
-        let text = text(self.name, &self.files, path)?;
-        Table::read(&text).map_err(|what| format!("{}: {path}: {what}", self.name))
     }
 }
 
@@ -90,21 +73,14 @@ fn text(name: &str, files: &Files, path: &str) -> Result<String, String> {
     String::from_utf8(bytes.clone()).map_err(|error| format!("{name}: {path}: {error}"))
 }
 
-fn is_data(path: &str) -> bool {
-    path.starts_with("data/") && path.ends_with(".csv")
-}
-
-/// What differs. Tables and the prose of these documents are read where their bytes differ.
-///
-/// # Errors
-/// A table or a document that is none.
+/// What differs. The prose of these documents is read where its bytes differ.
 pub fn diff(before: &Parts<'_>, after: &Parts<'_>, documents: &[Document]) -> Result<Diff, String> {
     let known = |files: &'_ Files| -> BTreeSet<String> {
         files.keys().filter(|path| *path != sums::NAME).cloned().collect()
     };
     let (old, new) = (known(&before.files), known(&after.files));
     let mut out = Diff {
-        verdicts: before.claims.changes(&after.claims),
+        verdicts: claims::changes(&before.ledger.claims, &after.ledger.claims),
         numbers: changes(&before.values, &after.values),
         gained: new.difference(&old).cloned().collect(),
         lost: old.difference(&new).cloned().collect(),
@@ -117,14 +93,7 @@ pub fn diff(before: &Parts<'_>, after: &Parts<'_>, documents: &[Document]) -> Re
         let change = ProseChange::between(document.name, &text(before)?, &text(after)?);
         out.prose.push(change.map_err(|what| format!("{}: {what}", document.markdown))?);
     }
-    for path in differing {
-        if is_data(path) {
-            let (before, after) = (before.table(path)?, after.table(path)?);
-            out.data.push(TableChange::between(path, &before, &after));
-        } else {
-            out.differing.push(path.clone());
-        }
-    }
+    out.differing = differing.into_iter().cloned().collect();
     Ok(out)
 }
 

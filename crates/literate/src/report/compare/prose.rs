@@ -42,9 +42,6 @@ const NEAR: usize = 20;
 
 impl ProseChange {
     /// Compares two texts of a document.
-    ///
-    /// # Errors
-    /// In words: no document has so many sentences.
     pub fn between(document: &str, before: &str, after: &str) -> Result<Self, String> {
         let (before, after) = (sentences(before), sentences(after));
         let most = before.len().max(after.len());

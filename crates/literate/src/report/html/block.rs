@@ -17,9 +17,6 @@ const TEXT: usize = 100;
 
 impl Page<'_> {
     /// All blocks.
-    ///
-    /// # Errors
-    /// As [`Page::inlines`], and figures that are missing.
     pub(super) fn blocks(&self, blocks: &[Block]) -> Result<String, Error> {
         blocks.iter().map(|block| self.block(block)).collect()
     }

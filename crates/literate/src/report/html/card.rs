@@ -15,9 +15,6 @@ impl Page<'_> {
     }
 
     /// The cards of all values that were shown, as data for the script. A row that several cards have stands once.
-    ///
-    /// # Errors
-    /// As [`Page::inlines`].
     pub(super) fn cards(&self, cards: Cards<'_>) -> Result<String, Error> {
         let named = self.named.borrow().clone();
         let mut rows = Vec::new();

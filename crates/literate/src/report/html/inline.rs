@@ -7,9 +7,6 @@ use crate::report::document::Inline;
 
 impl Page<'_> {
     /// Running text.
-    ///
-    /// # Errors
-    /// Mathematics that cannot be converted, or a reference that was not resolved.
     pub(super) fn inlines(&self, list: &[Inline]) -> Result<String, Error> {
         let mut out = String::new();
         for group in keep::together(list) {

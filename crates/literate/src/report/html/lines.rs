@@ -20,9 +20,6 @@ const WIDE: f64 = 1.0;
 pub type Row = Vec<Vec<String>>;
 
 /// The rows of a formula that math-core made: one, or those of an aligned formula as pairs of cells.
-///
-/// # Errors
-/// MathML that is no XML: there is none.
 pub fn rows(mathml: &str) -> Result<Vec<Vec<Row>>, Error> {
     let fail =
         |error: roxmltree::Error| Error::Maths { tex: mathml.into(), what: error.to_string() };

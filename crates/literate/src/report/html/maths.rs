@@ -31,9 +31,6 @@ fn deepest(tex: &str) -> usize {
 }
 
 /// Plain TeX without values.
-///
-/// # Errors
-/// TeX that math-core does not read, and TeX beyond all bounds.
 fn convert(tex: &str, display: MathDisplay) -> Result<String, Error> {
     let fail = |what: String| Error::Maths { tex: bare(tex), what };
     let converter = CONVERTER.as_ref().ok_or_else(|| fail("no converter".into()))?;
@@ -57,9 +54,6 @@ enum Part {
 /// Cuts mathematics at its values, which are buttons between the parts: readers of a screen take a
 /// formula as a whole and would not reach a button inside it. A value in a script, a root or a
 /// fraction stays in the formula and opens nothing.
-///
-/// # Errors
-/// As [`convert`].
 fn parts(page: &Page<'_>, tex: &str) -> Result<Vec<Part>, Error> {
     let mut out = Vec::new();
     let (mut part, mut depth) = (String::new(), 0);
@@ -90,9 +84,6 @@ fn parts(page: &Page<'_>, tex: &str) -> Result<Vec<Part>, Error> {
 }
 
 /// Mathematics in the line.
-///
-/// # Errors
-/// As [`convert`].
 pub fn write(page: &Page<'_>, tex: &str) -> Result<String, Error> {
     let one = |part| match part {
         Part::Tex(tex) => convert(&tex, MathDisplay::Inline),
@@ -102,9 +93,6 @@ pub fn write(page: &Page<'_>, tex: &str) -> Result<String, Error> {
 }
 
 /// A displayed equation, in the lines that [`lines`] lets it have.
-///
-/// # Errors
-/// As [`convert`].
 pub fn display(page: &Page<'_>, tex: &str) -> Result<String, Error> {
     let mut rows: Vec<Vec<lines::Row>> = vec![vec![vec![Vec::new()]]];
     for part in parts(page, tex)? {
@@ -128,9 +116,6 @@ pub fn display(page: &Page<'_>, tex: &str) -> Result<String, Error> {
 }
 
 /// The MathML of a displayed equation.
-///
-/// # Errors
-/// As [`convert`].
 pub(super) fn displayed(tex: &str) -> Result<String, Error> {
     convert(tex, MathDisplay::Block)
 }
@@ -176,9 +161,6 @@ fn braces(tex: &str) -> i32 {
 }
 
 /// Printed digits as text, powers raised.
-///
-/// # Errors
-/// As [`convert`], for what is not digits.
 pub fn digits(tex: &str) -> Result<String, Error> {
     let text = tex.strip_prefix(r"\text{").and_then(|rest| rest.strip_suffix('}')).unwrap_or(tex);
     let text = text.replace(r"\,", "\u{202f}").replace(r"\%", "%").replace('-', "−");

@@ -21,27 +21,21 @@ pub use scene::Moving;
 
 use super::Error;
 use super::card::Cards;
-use super::document::{Block, plain};
+use super::document::{Block, plain, title};
 use super::documents::Document;
 use super::labels::Labels;
 use crate::figures::{Figure, Glyphs};
 use crate::source::Program;
 use serde::Serialize;
 use std::cell::RefCell;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 /// Whether a browser can show this TeX.
-///
-/// # Errors
-/// [`Error::Maths`].
 pub fn reads(tex: &str) -> Result<(), Error> {
     maths::displayed(tex).map(|_| ())
 }
 
 /// Whether a page is well-formed: what the shell opens is closed.
-///
-/// # Errors
-/// [`Error::Template`] with what is wrong.
 pub fn is_whole(page: &str) -> Result<(), Error> {
     let options = roxmltree::ParsingOptions { allow_dtd: true, ..Default::default() };
     let found = roxmltree::Document::parse_with_options(page, options);
@@ -83,10 +77,6 @@ pub struct Parts {
     pub body: String,
     /// The cards of the values, as data for the script.
     pub cards: String,
-    /// Which page has the places that this one has not, as data for the script.
-    pub places: String,
-    /// Places that have another name now, as data for the script.
-    pub moved: String,
     /// The outlines that figures share.
     pub glyphs: String,
     /// Fonts and colours of the figures as CSS.
@@ -104,9 +94,6 @@ struct Page<'a> {
 }
 
 /// Writes all parts of the page.
-///
-/// # Errors
-/// Mathematics, pictures or references that cannot be written.
 pub fn write(
     blocks: &[Block],
     figures: &[Figure],
@@ -116,10 +103,7 @@ pub fn write(
     let program = cards.program;
     let page =
         Page { figures, site, program, named: RefCell::default(), glyphs: RefCell::default() };
-    let is_title = |block: &&Block| matches!(block, Block::Heading { level: 1, .. });
-    let Some(Block::Heading { text, .. }) = blocks.iter().find(is_title) else {
-        return Err(Error::Markup("a report begins with its title, `# Words`".into()));
-    };
+    let text = title(blocks)?;
     let heading = page.inlines(text)?;
     let body = page.blocks(blocks)?;
     let contents = page.contents(blocks)?;
@@ -132,8 +116,6 @@ pub fn write(
         heading,
         contents,
         cards: page.cards(cards)?,
-        places: escape::data(&site.labels.elsewhere(site.here)),
-        moved: escape::data(&site.here.moved.iter().copied().collect::<BTreeMap<_, _>>()),
         glyphs: picture::shared(&page.glyphs.borrow()),
         style: fonts::rules(&body) + &picture::rules(),
         body,

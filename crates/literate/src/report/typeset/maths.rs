@@ -9,9 +9,6 @@ use roxmltree::{Document, Node};
 use std::fmt::Write as _;
 
 /// Mathematics in the typesetter's own form, to stand between two `$`.
-///
-/// # Errors
-/// TeX or MathML that is not known.
 pub fn write(tex: &str, block: bool) -> Result<String, Error> {
     let fail = |what: String| Error::Typeset(format!("{tex}: {what}"));
     let converter =

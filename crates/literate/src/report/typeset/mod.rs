@@ -9,19 +9,16 @@ mod pdf;
 mod world;
 
 use super::Error;
-use super::document::Block;
+use super::document::{Block, plain, title};
 use super::templates::Templates;
 
 #[cfg(feature = "pdf")]
 pub use pdf::pdf;
 
 /// The report as the typesetter's source.
-///
-/// # Errors
-/// Mathematics that is not known, an unresolved reference, a template that is not there.
 pub fn source(blocks: &[Block], templates: &Templates) -> Result<String, Error> {
     let shell = templates.text("report.typ")?;
     Ok(shell
-        .replace("«title»", &markup::quoted(&markup::title(blocks)?))
+        .replace("«title»", &markup::quoted(&plain(title(blocks)?)))
         .replace("«body»", &markup::report(blocks)?))
 }

@@ -13,9 +13,6 @@ use typst_layout::PagedDocument;
 use typst_pdf::{PdfOptions, PdfStandard, PdfStandards};
 
 /// Typesets the report.
-///
-/// # Errors
-/// Mathematics that is not known, and whatever the typesetter or the standard refuses.
 pub fn pdf(blocks: &[Block], figures: &[Figure], templates: &Templates) -> Result<Vec<u8>, Error> {
     let picture =
         |figure: &Figure| (format!("figures/{}.svg", figure.id), figure.svg.clone().into_bytes());
