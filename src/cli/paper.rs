@@ -67,7 +67,9 @@ pub fn run(args: Args) -> Result<(), Failure> {
     }
     set::choose(&args.set).map_err(|e| Failure::input(format!("--set: {e}")))?;
     let other = set::told().is_some();
-    let profile = args.profile.unwrap_or(if other { Profile::Ci } else { Profile::Full });
+    // Also where what was set is the paper's: it is to be compared with other settings.
+    let usual = if args.set.is_empty() { Profile::Full } else { Profile::Ci };
+    let profile = args.profile.unwrap_or(usual);
     let out = args.out.clone().unwrap_or_else(|| default_folder(profile));
     let ordinary = [profile, Profile::Full].map(|profile| resolved(&default_folder(profile)));
     if other && ordinary.iter().any(|folder| resolved(&out).starts_with(folder)) {

@@ -163,6 +163,9 @@ fn another_parameter_makes_another_report_that_says_so() {
     let here = folder.path();
     let (code, list, _) = run(here, "paper --set list");
     assert!(code == 0 && list.contains("masses             100"), "{list}");
+    // The paper's own value is set to be compared, so with the same samples.
+    let (code, told, note) = run(here, "paper --set masses=100 --figure 1");
+    assert!(code == 0 && told.starts_with("target/paper-ci: "), "{told}{note}");
 
     let set = "paper --set restitution=0.7 --set masses=50 --profile quick --results r";
     let (code, told, note) = run(here, &format!("{set} --out o"));
@@ -172,6 +175,7 @@ fn another_parameter_makes_another_report_that_says_so() {
     let text = |name: &str| std::fs::read_to_string(here.join("o").join(name)).unwrap();
     for name in ["report.md", "beyond.md", "methods.md", "README.md", "ledger.md"] {
         assert!(text(name).contains(words), "{name}");
+        assert!(text(name).contains("the words were written for the paper's"), "{name}");
     }
     for name in ["fig03", "fig08", "s06"] {
         assert!(text(&format!("figures/{name}.svg")).contains(words), "{name}");
@@ -215,6 +219,12 @@ fn the_manual_is_written_and_quiet_work_says_nothing() {
     assert!(page.contains(".TH") && page.contains("certified"), "{page}");
     let bash = std::fs::read_to_string(here.join("m/completions/impact-paper.bash")).unwrap();
     assert!(bash.contains("--max-impacts") && bash.contains("sweep"), "{bash}");
+    // Each verb that it finds is one whose options it lists.
+    let found =
+        bash.lines().filter_map(|line| line.trim().strip_prefix("cmd=\"")?.strip_suffix('"'));
+    let found: Vec<&str> = found.filter(|name| !name.is_empty()).collect();
+    let listed = |name: &&str| bash.contains(&format!("\n        {name})\n"));
+    assert!(found.len() > 15 && found.iter().all(listed), "{bash}");
     std::fs::create_dir(here.join("report")).unwrap();
     std::fs::write(here.join("report/SHA256SUMS"), "").unwrap();
     for verb in ["manual", "run --profile quick --shard 1/1"] {

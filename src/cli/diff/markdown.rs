@@ -1,7 +1,7 @@
 //! A comparison as a comment on a pull request.
 
 use super::text::{fate, is_obeyed, reworded, words};
-use super::{count, signed};
+use super::{by_weight, count, signed};
 use impact_paper::input::one_line;
 use impact_paper::report::compare::{Change, ClaimChange, Diff, ProseChange};
 use impact_paper::report::markdown::escaped;
@@ -32,9 +32,7 @@ pub fn markdown(old: &str, new: &str, diff: &Diff) -> String {
     out += &format!("{} changed.\n", sentence(&counts.join(", ")));
     let rows = diff.verdicts.iter().map(claim).collect();
     table(&mut out, "| Check | Verdict | Ours | Measure |\n|---|---|---|---|\n", rows);
-    let both = |change: &&Change| change.before.is_some() && change.after.is_some();
-    let (mut numbers, other): (Vec<&Change>, Vec<&Change>) = diff.numbers.iter().partition(both);
-    numbers.sort_by(|a, b| weight(b).total_cmp(&weight(a)));
+    let (numbers, other) = by_weight(&diff.numbers);
     let rows = numbers.into_iter().map(value).collect();
     table(&mut out, "| Number | Before | Now | Δ | Δ/σ |\n|---|---|---|---|---|\n", rows);
     prose(&mut out, &diff.prose);
@@ -111,15 +109,6 @@ fn more(number: usize) -> String {
 fn sentence(text: &str) -> String {
     let mut chars = text.chars();
     chars.next().map(|first| first.to_uppercase().chain(chars).collect()).unwrap_or_default()
-}
-
-/// What a reader must see first: what is of another kind, and then by errors.
-fn weight(change: &Change) -> f64 {
-    match (change.sigmas, change.difference) {
-        (Some(sigmas), _) => sigmas.abs(),
-        (None, Some(_)) if change.kind.is_none() => 0.0,
-        _ => f64::INFINITY,
-    }
 }
 
 /// One line of plain words for a cell.

@@ -7,7 +7,7 @@ mod text;
 use super::document::Only;
 use super::{Failure, folder, stdout};
 pub use impact_paper::numerics::text::count;
-use impact_paper::report::compare::{self, Diff, Parts};
+use impact_paper::report::compare::{self, Change, Diff, Parts};
 use impact_paper::report::{Files, PROGRAM};
 use serde_json::json;
 use std::path::Path;
@@ -84,6 +84,23 @@ fn standing(name: &str) -> Result<Files, Failure> {
     Ok(files)
 }
 
+/// The numbers that both reports have, what a reader must see first at the front, and those that one has.
+fn by_weight(changes: &[Change]) -> (Vec<&Change>, Vec<&Change>) {
+    let both = |change: &&Change| change.before.is_some() && change.after.is_some();
+    let (mut numbers, other): (Vec<&Change>, Vec<&Change>) = changes.iter().partition(both);
+    numbers.sort_by(|a, b| weight(b).total_cmp(&weight(a)));
+    (numbers, other)
+}
+
+/// What is of another kind weighs most, and then by errors; what differs in nothing but its sample, or has no error, least.
+fn weight(change: &Change) -> f64 {
+    match (change.sigmas, change.difference) {
+        (Some(sigmas), _) => sigmas.abs(),
+        (None, Some(difference)) if change.kind.is_none() || difference == 0.0 => 0.0,
+        _ => f64::INFINITY,
+    }
+}
+
 fn json(old: &str, new: &str, diff: &Diff) -> String {
     let json = json!({"old": old, "new": new, "same": diff.is_empty(), "diff": diff});
     format!("{json:#}\n")
@@ -103,12 +120,39 @@ fn signed(value: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::signed;
+    use super::{Change, by_weight, signed};
 
     #[test]
     fn differences_have_three_digits() {
         let texts = [0.0, 3.0, -0.001_642, 12_345.6, 2.5e-9, -1e9, 0.999_9].map(signed);
         let expected = ["0", "+3", "-0.00164", "+12346", "+2.50e-9", "-1.00e9", "+1"];
         assert_eq!(texts, expected);
+    }
+
+    #[test]
+    fn numbers_come_by_their_weight() {
+        let change = |id: &str, difference, sigmas, kind: bool| Change {
+            id: id.into(),
+            before: Some("1".into()),
+            after: Some("2".into()),
+            difference,
+            sigmas,
+            kind: kind.then(|| ["a".into(), "b".into()]),
+        };
+        let gone = Change { after: None, ..change("gone", None, None, false) };
+        let changes = [
+            gone,
+            change("sample", Some(0.0), None, true),
+            change("less", Some(9.0), Some(0.1), true),
+            change("more", Some(-1.0), Some(-7.0), false),
+            change("kind", Some(1.0), None, true),
+            change("words", None, None, false),
+        ];
+        let ids = |changes: Vec<&Change>| -> Vec<String> {
+            changes.iter().map(|change| change.id.clone()).collect()
+        };
+        let (numbers, other) = by_weight(&changes);
+        assert_eq!(ids(numbers), ["kind", "words", "more", "less", "sample"]);
+        assert_eq!(ids(other), ["gone"]);
     }
 }

@@ -1,6 +1,6 @@
 //! A comparison for the terminal.
 
-use super::{count, signed};
+use super::{by_weight, count, signed};
 use impact_paper::input::one_line;
 use impact_paper::report::compare::{Change, ClaimChange, Diff, Piece, ProseChange};
 
@@ -21,7 +21,8 @@ pub fn text(old: &str, new: &str, diff: &Diff) -> String {
     };
     let lines = diff.verdicts.iter().map(claim).collect();
     section(format!("{} changed", count(diff.verdicts.len(), "claim")), lines);
-    let lines = diff.numbers.iter().map(value).collect();
+    let (numbers, other) = by_weight(&diff.numbers);
+    let lines = numbers.into_iter().chain(other).map(value).collect();
     section(format!("{} changed", count(diff.numbers.len(), "number")), lines);
     section("prose".into(), prose(&diff.prose));
     let named = |what: &str, paths: &[String]| -> Vec<String> {
