@@ -32,24 +32,6 @@ const ABOUT: [(&str, &str); 6] = [
     ("license", "MIT OR Apache-2.0"),
 ];
 
-/// When all was one page, the figures of the second paper and of the methods had these numbers, and its parts these
-/// names.
-const MOVED: [(&str, &str); 13] = [
-    ("fig-S5", "fig-S6"),
-    ("fig-S6", "fig-S7"),
-    ("fig-S7", "fig-S8"),
-    ("fig-S8", "fig-S9"),
-    ("fig-S9", "sec-discussion"),
-    ("fig-S11", "fig-S5"),
-    ("fig-S12", "fig-S11"),
-    ("fig-S13", "fig-S12"),
-    ("fig-S14", "tab-bias"),
-    ("fig-S15", "fig-S13"),
-    ("fig-S16", "fig-S14"),
-    ("sec-beyond", "sec-protocol"),
-    ("sec-edition", "sec-introduction"),
-];
-
 /// A reader has five minutes, half an hour, or a day.
 const DOCUMENTS: [Document; 5] = [
     Document {
@@ -59,10 +41,9 @@ const DOCUMENTS: [Document; 5] = [
         markdown: "README.md",
         page: "index.html",
         print: None,
-        moved: &[],
         repeats: true,
     },
-    Document { prose: "edition", name: "Edition", moved: &MOVED, ..Document::REPORT },
+    Document { prose: "edition", name: "Edition", ..Document::REPORT },
     Document {
         prose: "beyond",
         name: "Beyond the paper",
@@ -70,7 +51,6 @@ const DOCUMENTS: [Document; 5] = [
         markdown: "beyond.md",
         page: "beyond.html",
         print: Some("beyond"),
-        moved: &[],
         repeats: false,
     },
     Document {
@@ -80,7 +60,6 @@ const DOCUMENTS: [Document; 5] = [
         markdown: "methods.md",
         page: "methods.html",
         print: Some("methods"),
-        moved: &[],
         repeats: false,
     },
     Document {
@@ -90,7 +69,6 @@ const DOCUMENTS: [Document; 5] = [
         markdown: "ledger.md",
         page: "ledger.html",
         print: None,
-        moved: &[],
         repeats: false,
     },
 ];

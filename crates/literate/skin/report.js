@@ -9,18 +9,6 @@
     return node;
   };
 
-  // Places that are now in another document.
-  const [places, moved] = data("places");
-  const go = () => {
-    const asked = decodeURIComponent(location.hash.slice(1));
-    const id = moved[asked] ?? asked;
-    if (!id || document.getElementById(asked)) return;
-    const page = Object.keys(places).find((page) => places[page].includes(id)) ?? "";
-    if (page || id !== asked) location.replace(`${page}#${id}`);
-  };
-  addEventListener("hashchange", go);
-  go();
-
   // What readers run themselves is loaded when it is first asked for.
   let lab;
   const load = () => new Promise((done, failed) => document.head.append(make("script", { src: "lab.js", onload: done, onerror: failed })));

@@ -74,7 +74,7 @@ pub struct Value {
     pub id: String,
     /// The number.
     pub number: Number,
-    /// Its unit as Markdown, empty for a pure number; shown by the filter `with_unit`.
+    /// Its unit as Markdown, empty for a pure number; its card has it.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub unit: String,
     /// Where it comes from.
@@ -88,9 +88,6 @@ pub struct Value {
     /// What a reader should know beside it.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub note: String,
-    /// The id of the value that this name stands for: it is no value of its own then.
-    #[serde(skip)]
-    pub(crate) same: Option<String>,
     /// Kept in `values.json` for readers of the data; no template needs to name it.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub for_data_only: bool,
@@ -106,15 +103,8 @@ impl Value {
             source: String::new(),
             experiment: String::new(),
             note: String::new(),
-            same: None,
             for_data_only: false,
         }
-    }
-
-    /// Another name, for templates, of the value `of`: a number has one id.
-    pub fn same(id: impl Into<String>, of: impl Into<String>) -> Self {
-        let words = Number::Text(String::new());
-        Value { same: Some(of.into()), ..Value::new(id, words, Kind::Exact) }
     }
 
     /// An exact integer.

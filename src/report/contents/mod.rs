@@ -55,12 +55,7 @@ pub fn registry(results: &Results, published: &Published) -> Result<Registry, Er
         registry.extend(section(results)?)?;
     }
     results.tables().values().try_for_each(|table| registry.add_table(table.clone()))?;
-    let lost =
-        registry.names().find(|(_, value)| value.is_none()).map(|(name, _)| name.to_string());
-    match lost {
-        Some(name) => Err(super::Error::BadId(name).into()),
-        None => Ok(registry),
-    }
+    Ok(registry)
 }
 
 /// The rows of the generated tables, by the name that templates use; beside them heads and words that depend on the

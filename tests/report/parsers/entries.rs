@@ -92,7 +92,7 @@ pub fn values(text: &str) -> Result<(), String> {
         assert!(change.to_string().len() < 10_000 + text.len());
     }
     for value in values.iter() {
-        let asked = [None, Some(Asked::Full), Some(Asked::Fixed(3)), Some(Asked::Significant(3))];
+        let asked = [None, Some(Asked::Full), Some(Asked::Significant(3))];
         for (digits, percent) in asked.into_iter().flat_map(|d| [(d, false), (d, true)]) {
             let printed = print(&value.number, Style { percent, digits, ..Style::default() });
             let long = printed.markdown().len() + printed.maths().len() + printed.plain().len();

@@ -42,7 +42,7 @@ Table: What σ gives {#tab:sigma}
 
 | Check | Statement | Ours |
 |:--|---|--:|
-<% for c in claims %><% if loop.index < 4 %>| [!claim:«c.id»] | «c.statement»: «c.ours» | «sweep.rise.half_height | percent | fixed(digits=1)» |
+<% for c in claims %><% if loop.index < 4 %>| [!claim:«c.id»] | «c.statement»: «c.ours» | «sweep.rise.half_height | percent | significant(digits=1)» |
 <% endif %><% endfor %>
 1. one
 2. two
@@ -116,9 +116,9 @@ fn prose_that_is_made_to_hurt() {
         (maths("x^", ""), "?"),
         (format!("# T\n\n$$\n{} x\n$$\n", "\\sqrt".repeat(9000)), "longer"),
         ("# T\n\n$$\n\\begin{aligned} a &^{N} d \\end{aligned}\n$$\n".into(), "?"),
-        ("# T\n\n«sweep.rise.half_height | fixed(digits=70000)»\n".into(), "digits"),
+        ("# T\n\n«sweep.rise.half_height | significant(digits=70000)»\n".into(), "digits"),
         ("# T\n\n«sweep.rise.half_height | significant(digits=99999999999)»\n".into(), "digits"),
-        ("# T\n\n\u{e000}half_height\u{e002}fixed99999999\u{e001}\n".into(), "?"),
+        ("# T\n\n\u{e000}half_height\u{e002}significant99999999\u{e001}\n".into(), "?"),
         ("<% include \"report.md\" %>".into(), "a file includes itself"),
         ("<% for a in range(end=100000) %><% for b in range(end=100000) %>xxxxxxxxxxxxxxxx<% endfor %><% endfor %>".into(), "FileTooLarge"),
         ("# T\n\n".to_string() + &"<# $ ` {# [@ ".repeat(40_000), "?"),

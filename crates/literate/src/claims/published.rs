@@ -170,39 +170,3 @@ impl Statement {
         Ok([value - unit / 2.0, value + unit / 2.0])
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_file_that_is_wrong_says_what() {
-        let row = "[[parameter]]\nid='a'\nplace='x'\nsymbol='a'\nvalue=1\n";
-        let twice = format!("{row}{row}statement=[]");
-        // `statement` after a table belongs to that table: the key is unknown there.
-        assert!(matches!(Published::parse(&twice), Err(PublishedError::Line(_))));
-        let fault = |rows: &str| Published::parse(&format!("statement=[]\n{rows}")).unwrap_err();
-        for (rows, says) in [
-            (format!("{row}{row}"), "published.toml:8: the id \"a\": it stands twice; "),
-            (
-                row.replace("value=1", "value=nan"),
-                "published.toml:3: the id \"a\": its value is not",
-            ),
-            (
-                row.replace("place='x'", "place=' '"),
-                "published.toml:3: the id \"a\": its place has no",
-            ),
-            (
-                row.replace("symbol='a'", "symbol=\"\\uE000\""),
-                "its symbol has the character U+E000",
-            ),
-            (row.replace("symbol='a'", "symbol='$a'"), "its symbol has a formula without"),
-        ] {
-            let told = fault(&rows).to_string();
-            assert!(told.contains(says), "{told}");
-        }
-        let once = Published::parse(&format!("statement=[]\n{row}")).unwrap();
-        assert!(matches!(once.parameter("b"), Err(PublishedError::Missing { .. })));
-        assert!(matches!(once.statement("b"), Err(PublishedError::Missing { .. })));
-    }
-}

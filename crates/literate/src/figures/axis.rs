@@ -13,8 +13,6 @@ pub enum Scale {
     Linear,
     /// By their logarithm; what is not positive lies below every end.
     Logarithm,
-    /// Linear near zero, by the logarithm with a sign beyond.
-    Symmetric,
 }
 
 impl Scale {
@@ -24,7 +22,6 @@ impl Scale {
             Scale::Linear => value,
             Scale::Logarithm if value <= 0.0 => f64::NEG_INFINITY,
             Scale::Logarithm => f_log10(value),
-            Scale::Symmetric => f_log10(1.0 + value.abs()).copysign(value),
         }
     }
 }
@@ -231,8 +228,6 @@ mod tests {
         assert_eq!(axis.ends(), (-20.0, 7.0));
         let whole = axis.ticks.iter().filter(|tick| tick.label.is_some());
         assert!(whole.zip(-20..).all(|(tick, power)| axis.at(tick.at) == f64::from(power)));
-        let symmetric = Axis::new(Scale::Symmetric, [-9.0, 9.0], "", vec![]);
-        assert_eq!([-9.0, 0.0, 9.0].map(|value| symmetric.at(value)), [-1.0, 0.0, 1.0]);
         assert!(!axis.holds(0.0) && !axis.holds(-1.0) && !axis.holds(f64::NAN));
         // A bar whose lower end is negative is cut below, and not lost.
         assert_eq!(axis.at(-1.0), f64::NEG_INFINITY);

@@ -248,7 +248,7 @@ fn data(file: &DataFile) -> (String, Vec<u8>) {
 }
 
 fn check_unused(values: &Registry, marks: &[Mark]) -> Result<(), Error> {
-    let used: BTreeSet<&str> = marks.iter().map(|mark| values.id(&mark.id)).collect();
+    let used: BTreeSet<&str> = marks.iter().map(|mark| mark.id.as_str()).collect();
     let unused: Vec<&str> = values
         .iter()
         .filter(|value| !value.for_data_only && !used.contains(value.id.as_str()))

@@ -146,29 +146,3 @@ fn formatted(piece: &Formatted) -> Inline {
         words
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn mistakes_have_their_line() {
-        let error = Library::read("\n\n@book{a, year = {1").unwrap_err().to_string();
-        assert!(error.contains("references.bib:3"), "{error}");
-        for loops in ["@book{a, crossref = {a}}", "@book{a, XData={b}}", "@string(a = a)"] {
-            let error = Library::read(&format!("\n{loops}")).unwrap_err().to_string();
-            assert!(
-                error.contains("references.bib:2") && error.contains("write them out"),
-                "{error}"
-            );
-        }
-        let error = Library::read("@book{a, author={A}, year={1999}}").unwrap_err().to_string();
-        assert!(error.contains("a lacks its title"), "{error}");
-        let twice = "@book{a, author={A}, year={1}}\n@book{a, author={A}, year={2}}";
-        let error = Library::read(twice).unwrap_err().to_string();
-        assert!(error.contains("references.bib:2"), "{error}");
-        let error = Library::read("@book{a, year={1999}}").unwrap_err().to_string();
-        assert!(error.contains("a lacks author"), "{error}");
-        assert!(Library::read("").unwrap().label("none").is_err());
-    }
-}

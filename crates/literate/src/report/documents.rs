@@ -18,8 +18,6 @@ pub struct Document {
     pub page: &'static str,
     /// Its files for paper, without their endings `.tex` and `.pdf`, if it is printed.
     pub print: Option<&'static str>,
-    /// Ids that once stood on its page, and those that stand for them now.
-    pub moved: &'static [(&'static str, &'static str)],
     /// Whether it shows figures that have their place in another: a front page does.
     pub repeats: bool,
 }
@@ -33,7 +31,6 @@ impl Document {
         markdown: "report.md",
         page: "report.html",
         print: Some("report"),
-        moved: &[],
         repeats: false,
     };
 

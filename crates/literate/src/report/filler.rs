@@ -5,8 +5,7 @@
 //!
 //! In a template `«v.half_height»` does not become digits yet but a *mark* that carries the id,
 //! and filters change the mark: `«v.kept | percent»`, `«v.p_jump | significant(digits=10)»`,
-//! `«v.p_jump | full»`, `«v.x | fixed(digits=2)»`, `«v.x | no_error»`, `«v.x | with_unit»`. The
-//! writers turn marks into digits, each in its own markup and knowing whether the mark stands in
+//! `«v.x | no_error»`. The writers turn marks into digits, each in its own markup and knowing whether the mark stands in
 //! prose or in mathematics; and they know which values were named. For conditions there are plain
 //! numbers: `<% if raw.half_height < raw.printed.threshold %>`.
 //! A cell of a table is named by the keys of its row and its column, `«run.rise["r=0.8,x=0.3"].mean»`,
@@ -194,10 +193,9 @@ fn failure(error: &tera::Error, templates: &Templates) -> Error {
 
 /// All names with a dot that [`context`] has.
 fn names(values: &Registry, tables: &[&Table]) -> BTreeSet<String> {
-    let own = values.iter().map(|value| value.id.as_str());
-    let all = own.chain(values.names().map(|(name, _)| name));
-    let both = |name: &str| {
-        let mark = if name.contains('.') { name.into() } else { format!("v.{name}") };
+    let both = |value: &Value| {
+        let name = &value.id;
+        let mark = if name.contains('.') { name.clone() } else { format!("v.{name}") };
         [mark, format!("raw.{name}")]
     };
     let keys = |table: &&Table| {
@@ -210,7 +208,7 @@ fn names(values: &Registry, tables: &[&Table]) -> BTreeSet<String> {
         let keys = table.keys().chain(["rows"]).map(move |key| format!("keys.{name}.{key}"));
         rows.into_iter().chain(cells).chain(keys).collect::<Vec<_>>()
     };
-    all.flat_map(both).chain(tables.iter().flat_map(keys)).collect()
+    values.iter().flat_map(both).chain(tables.iter().flat_map(keys)).collect()
 }
 
 fn raw(value: &Value) -> Json {
@@ -235,9 +233,8 @@ fn put(tree: &mut Json, name: &str, thing: Json) {
 /// `v.name` and `group.name` are marks, `raw.name` and `raw.group.name` plain numbers; tables stand beside them.
 fn context(values: &Registry, tables: &[&Table]) -> Context {
     let (mut marks, mut numbers, mut keys) = (Json::Null, Json::Null, Json::Null);
-    let own = values.iter().map(|value| (value.id.as_str(), value));
-    let others = values.names().filter_map(|(name, value)| Some((name, value?)));
-    for (name, value) in own.chain(others) {
+    for value in values.iter() {
+        let name = &value.id;
         let group = if name.contains('.') { "" } else { "v." };
         put(&mut marks, &format!("{group}{name}"), mark(value));
         put(&mut numbers, name, raw(value));
@@ -279,25 +276,13 @@ fn digits(arguments: &Kwargs) -> tera::TeraResult<usize> {
 /// for an item of the source, which [`super::parse`] makes a listing.
 fn register(tera: &mut Tera, program: Program) {
     type Change = fn(&mut Style, &Kwargs) -> tera::TeraResult<()>;
-    let changes: [(&str, Change); 6] = [
+    let changes: [(&str, Change); 3] = [
         ("percent", |style, _| {
             style.percent = true;
             Ok(())
         }),
-        ("full", |style, _| {
-            style.digits = Some(Asked::Full);
-            Ok(())
-        }),
         ("no_error", |style, _| {
             style.no_error = true;
-            Ok(())
-        }),
-        ("with_unit", |style, _| {
-            style.with_unit = true;
-            Ok(())
-        }),
-        ("fixed", |style, arguments| {
-            style.digits = Some(Asked::Fixed(digits(arguments)?));
             Ok(())
         }),
         ("significant", |style, arguments| {
@@ -346,36 +331,15 @@ mod tests {
     #[test]
     fn a_value_is_a_mark_that_filters_change() {
         let filled =
-            fill(r"$x^{{2}}$ {% «v.p_crit» and «printed.rise | percent | fixed(digits=1)»")
+            fill(r"$x^{{2}}$ {% «v.p_crit» and «printed.rise | percent | significant(digits=1)»")
                 .unwrap();
         let pieces = Mark::split(&filled);
         assert_eq!(pieces.len(), 4);
         assert_eq!(pieces[0], Err(r"$x^{{2}}$ {% "));
         assert_eq!(pieces[1], Ok(Mark { id: "p_crit".into(), style: Style::default() }));
-        let style = Style { percent: true, digits: Some(Asked::Fixed(1)), ..Style::default() };
+        let style =
+            Style { percent: true, digits: Some(Asked::Significant(1)), ..Style::default() };
         assert_eq!(pieces[3], Ok(Mark { id: "printed.rise".into(), style }));
-    }
-
-    #[test]
-    fn an_unknown_name_is_an_error_with_its_place() {
-        for text in
-            ["one\n  «v.p_krit»", "one\n  «w.p_crit»", "one\n  <% if raw.nix > 1 %>x<% endif %>"]
-        {
-            let error = fill(text).unwrap_err().to_string();
-            assert!(error.starts_with("report.md:2:"), "{error}");
-            assert!(!error.contains('\n'), "{error}");
-        }
-        let error = fill("«v.p_krit»").unwrap_err().to_string();
-        assert!(error.ends_with("Names that begin alike: p_crit."), "{error}");
-    }
-
-    #[test]
-    fn a_wrong_filter_is_an_error_with_its_place() {
-        for text in ["\n«v.p_crit | percents»", "\n«v.p_crit | fixed»", "\n«\"text\" | percent»"]
-        {
-            let error = fill(text).unwrap_err().to_string();
-            assert!(error.contains("report.md:2:"), "{error}");
-        }
     }
 
     #[test]

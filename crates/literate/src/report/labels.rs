@@ -38,19 +38,6 @@ impl Labels {
         self.labels.get(id).map(|(_, of)| *of).filter(|of| *of != here)
     }
 
-    /// The pages of what other documents have, by the ids of pages.
-    pub fn elsewhere(&self, here: Document) -> BTreeMap<&'static str, Vec<String>> {
-        let mut pages = BTreeMap::<_, Vec<String>>::new();
-        // Marks of a statement lead to its row.
-        let is_mark =
-            |id: &str| ["row:", "mark:", "sign:"].iter().any(|start| id.starts_with(start));
-        for (id, (_, of)) in self.labels.iter().filter(|(id, (_, of))| *of != here && !is_mark(id))
-        {
-            pages.entry(of.page).or_default().push(id.replace(':', "-"));
-        }
-        pages
-    }
-
     /// Gives numbers to the sections, captioned tables, listings and anchors of a document.
     pub fn number_all(&mut self, blocks: &mut [Block], of: Document) -> Result<(), Error> {
         let letter = of.letter;

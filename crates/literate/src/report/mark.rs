@@ -36,17 +36,11 @@ impl Mark {
         if self.style.percent {
             flag("percent".into());
         }
-        match self.style.digits {
-            Some(Asked::Full) => flag("full".into()),
-            Some(Asked::Fixed(n)) => flag(format!("fixed{n}")),
-            Some(Asked::Significant(n)) => flag(format!("significant{n}")),
-            None => {}
+        if let Some(Asked::Significant(n)) = self.style.digits {
+            flag(format!("significant{n}"));
         }
         if self.style.no_error {
             flag("noerror".into());
-        }
-        if self.style.with_unit {
-            flag("unit".into());
         }
         out.push(CLOSE);
         out
@@ -60,15 +54,12 @@ impl Mark {
         let id = BRACKETS.iter().fold(id, |id, (own, kept)| id.replace(kept, own));
         let mut style = Style::default();
         for flag in parts {
-            let number = |prefix: &str| flag.strip_prefix(prefix)?.parse().ok();
             match flag {
                 "percent" => style.percent = true,
-                "full" => style.digits = Some(Asked::Full),
                 "noerror" => style.no_error = true,
-                "unit" => style.with_unit = true,
                 _ => {
-                    let fixed = number("fixed").map(Asked::Fixed);
-                    style.digits = Some(fixed.or(number("significant").map(Asked::Significant))?);
+                    let digits = flag.strip_prefix("significant")?.parse().ok()?;
+                    style.digits = Some(Asked::Significant(digits));
                 }
             }
         }

@@ -417,8 +417,7 @@ impl<'a> Reader<'a> {
                 },
                 Ok(mark) => {
                     let shown = words_and_maths(&self.shown(&mark, Target::Prose)?);
-                    let id = self.values.id(&mark.id).to_string();
-                    out.push(Inline::Value { id, shown });
+                    out.push(Inline::Value { id: mark.id, shown });
                 }
             }
         }
@@ -466,16 +465,10 @@ impl<'a> Reader<'a> {
         let unknown = || Error::Template(format!("there is no value {}", mark.id));
         let value = self.values.get(&mark.id).ok_or_else(unknown)?;
         let printed = print(&value.number, mark.style);
-        let unit = if mark.style.with_unit { value.unit.as_str() } else { "" };
-        Ok(match (target, unit) {
-            (Target::Prose, "") => printed.markdown(),
-            (Target::Prose, unit) => format!("{}\u{a0}{unit}", printed.markdown()),
-            (Target::Maths, "") => framed(&mark.id, &printed.maths()),
-            (Target::Maths, unit) => {
-                format!(r"{}\,{}", framed(&mark.id, &printed.maths()), unit.trim_matches('$'))
-            }
-            (Target::Plain, "") => printed.plain(),
-            (Target::Plain, unit) => format!("{} {unit}", printed.plain()),
+        Ok(match target {
+            Target::Prose => printed.markdown(),
+            Target::Maths => framed(&mark.id, &printed.maths()),
+            Target::Plain => printed.plain(),
         })
     }
 }

@@ -17,15 +17,11 @@ pub struct Style {
     pub digits: Option<Asked>,
     /// Without the error in brackets.
     pub no_error: bool,
-    /// Followed by the unit.
-    pub with_unit: bool,
 }
 
 /// Digits that a template asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Asked {
-    /// So many decimals.
-    Fixed(usize),
     /// So many significant digits.
     Significant(usize),
     /// The shortest decimal that reads back to the same double.
@@ -70,7 +66,6 @@ pub fn print(number: &Number, style: Style) -> Printed {
         finish(match style.digits {
             Some(Asked::Full) => shortest(x),
             Some(Asked::Significant(n)) => significant(x, most(n)),
-            Some(Asked::Fixed(n)) => bare(x, rounded(x, most(n) as i32)),
             None => own(x),
         })
     };
@@ -341,8 +336,6 @@ mod tests {
         assert_eq!(print(&number, percent).plain(), "94.5(8) %");
         assert_eq!(print(&number, Style { no_error: true, ..percent }).markdown(), "94.5\u{a0}%");
         assert_eq!(print(&number, percent).maths(), r"94.5(8)\,\%");
-        let fixed = Style { digits: Some(Asked::Fixed(2)), ..Style::default() };
-        assert_eq!(print(&number, fixed).plain(), "0.95");
         let full = Style { digits: Some(Asked::Full), ..Style::default() };
         assert_eq!(print(&number, full).plain(), "0.9453");
         assert_eq!(

@@ -1,5 +1,7 @@
 //! Mathematics for terminals: the little TeX of titles, notes and values as characters.
 
+use super::tex::TEX;
+
 /// Text in which mathematics stands between dollars.
 pub fn text(text: &str) -> String {
     let piece =
@@ -59,33 +61,10 @@ fn group(text: &str) -> (&str, &str) {
 
 fn named(name: &str) -> &str {
     match name {
-        "alpha" => "α",
-        "beta" => "β",
-        "gamma" => "γ",
-        "Gamma" => "Γ",
-        "delta" => "δ",
-        "Delta" => "Δ",
-        "epsilon" | "varepsilon" => "ε",
-        "kappa" => "κ",
-        "lambda" => "λ",
-        "mu" => "µ",
-        "nu" => "ν",
-        "pi" => "π",
-        "rho" => "ρ",
-        "sigma" => "σ",
-        "tau" => "τ",
-        "phi" | "varphi" => "φ",
-        "Phi" => "Φ",
-        "omega" => "ω",
-        "Omega" => "Ω",
-        "infty" => "∞",
-        "pm" => "±",
-        "times" => "×",
-        "cdot" => "·",
-        "approx" => "≈",
-        "le" | "leq" => "≤",
-        "ge" | "geq" => "≥",
-        "to" => "→",
+        "epsilon" => "ε",
+        "varphi" => "φ",
+        "leq" => "≤",
+        "geq" => "≥",
         "lt" => "<",
         "gt" => ">",
         "vert" => "|",
@@ -93,7 +72,10 @@ fn named(name: &str) -> &str {
         "dots" | "ldots" => "…",
         "mathrm" | "mathit" | "mathbf" | "text" | "left" | "right" | "operatorname" | "!" => "",
         "," | ";" | ":" | " " | "quad" | "thinspace" => " ",
-        other => other,
+        other => {
+            let is = |tex: &str| tex.strip_prefix('\\') == Some(other);
+            TEX.iter().find(|(_, tex)| is(tex)).map_or(other, |(character, _)| character)
+        }
     }
 }
 

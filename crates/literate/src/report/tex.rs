@@ -2,6 +2,8 @@
 
 use super::Error;
 use super::valued::bare;
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
 
 /// Running text.
 pub fn text(text: &str) -> Result<String, Error> {
@@ -81,99 +83,26 @@ fn in_text(c: char) -> Option<&'static str> {
     })
 }
 
+/// Characters of mathematics, each with its TeX.
+const MATHS: &str = r"
+    α \alpha  β \beta  γ \gamma  δ \delta  ε \varepsilon  ζ \zeta  η \eta  θ \theta  κ \kappa
+    λ \lambda  μ \mu  µ \mu  ν \nu  ξ \xi  π \pi  ρ \rho  σ \sigma  τ \tau  φ \phi  χ \chi  ψ \psi
+    ω \omega  Γ \Gamma  Δ \Delta  Θ \Theta  Λ \Lambda  Π \Pi  Σ \Sigma  Φ \Phi  Ψ \Psi  Ω \Omega
+    ≤ \le  ≥ \ge  ≪ \ll  ≫ \gg  ≈ \approx  ≠ \ne  ≲ \lesssim  ≳ \gtrsim  ∼ \sim  ∝ \propto  ± \pm
+    − -  × \times  ÷ \div  · \cdot  ∗ \ast  √ \surd  ∞ \infty  → \to  ← \leftarrow  ↦ \mapsto
+    ⇒ \Rightarrow  ∈ \in  ∑ \sum  ∏ \prod  ∫ \int  ∂ \partial  ⌈ \lceil  ⌉ \rceil  ⌊ \lfloor
+    ⌋ \rfloor  ′ '  ✓ \checkmark  ✗ \times  ⁰ ^0  ¹ ^1  ² ^2  ³ ^3  ⁴ ^4  ⁵ ^5  ⁶ ^6  ⁷ ^7  ⁸ ^8
+    ⁹ ^9  ⁻ ^-  ₀ _0  ₁ _1  ₂ _2  ₃ _3  ₄ _4  ₅ _5  ₆ _6  ₇ _7  ₈ _8  ₉ _9  ₊ _+  ₋ _-  ½ \frac12
+    ¼ \frac14";
+
+/// The same as a map, by which [`super::spell`] finds characters too.
+pub(super) static TEX: LazyLock<BTreeMap<&str, &str>> = LazyLock::new(|| {
+    let words: Vec<&str> = MATHS.split_whitespace().collect();
+    words.chunks_exact(2).map(|pair| (pair[0], pair[1])).collect()
+});
+
 fn in_maths(c: char) -> Option<&'static str> {
-    Some(match c {
-        'α' => r"\alpha",
-        'β' => r"\beta",
-        'γ' => r"\gamma",
-        'δ' => r"\delta",
-        'ε' => r"\varepsilon",
-        'ζ' => r"\zeta",
-        'η' => r"\eta",
-        'θ' => r"\theta",
-        'κ' => r"\kappa",
-        'λ' => r"\lambda",
-        'μ' | 'µ' => r"\mu",
-        'ν' => r"\nu",
-        'ξ' => r"\xi",
-        'π' => r"\pi",
-        'ρ' => r"\rho",
-        'σ' => r"\sigma",
-        'τ' => r"\tau",
-        'φ' => r"\phi",
-        'χ' => r"\chi",
-        'ψ' => r"\psi",
-        'ω' => r"\omega",
-        'Γ' => r"\Gamma",
-        'Δ' => r"\Delta",
-        'Θ' => r"\Theta",
-        'Λ' => r"\Lambda",
-        'Π' => r"\Pi",
-        'Σ' => r"\Sigma",
-        'Φ' => r"\Phi",
-        'Ψ' => r"\Psi",
-        'Ω' => r"\Omega",
-        '≤' => r"\le",
-        '≥' => r"\ge",
-        '≪' => r"\ll",
-        '≫' => r"\gg",
-        '≈' => r"\approx",
-        '≠' => r"\ne",
-        '≲' => r"\lesssim",
-        '≳' => r"\gtrsim",
-        '∼' => r"\sim",
-        '∝' => r"\propto",
-        '±' => r"\pm",
-        '−' => "-",
-        '×' => r"\times",
-        '÷' => r"\div",
-        '·' => r"\cdot",
-        '∗' => r"\ast",
-        '√' => r"\surd",
-        '∞' => r"\infty",
-        '→' => r"\to",
-        '←' => r"\leftarrow",
-        '↦' => r"\mapsto",
-        '⇒' => r"\Rightarrow",
-        '∈' => r"\in",
-        '∑' => r"\sum",
-        '∏' => r"\prod",
-        '∫' => r"\int",
-        '∂' => r"\partial",
-        '⌈' => r"\lceil",
-        '⌉' => r"\rceil",
-        '⌊' => r"\lfloor",
-        '⌋' => r"\rfloor",
-        '′' => "'",
-        '✓' => r"\checkmark",
-        '✗' => r"\times",
-        '⁰' => "^0",
-        '¹' => "^1",
-        '²' => "^2",
-        '³' => "^3",
-        '⁴' => "^4",
-        '⁵' => "^5",
-        '⁶' => "^6",
-        '⁷' => "^7",
-        '⁸' => "^8",
-        '⁹' => "^9",
-        '⁻' => "^-",
-        '₀' => "_0",
-        '₁' => "_1",
-        '₂' => "_2",
-        '₃' => "_3",
-        '₄' => "_4",
-        '₅' => "_5",
-        '₆' => "_6",
-        '₇' => "_7",
-        '₈' => "_8",
-        '₉' => "_9",
-        '₊' => "_+",
-        '₋' => "_-",
-        '½' => r"\frac12",
-        '¼' => r"\frac14",
-        _ => return None,
-    })
+    TEX.get(&*c.encode_utf8(&mut [0; 4])).copied()
 }
 
 #[cfg(test)]

@@ -8,13 +8,11 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// All values of a report, by id, and other names that templates have for some.
+/// All values of a report, by id.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Registry {
     values: BTreeMap<String, Value>,
-    #[serde(skip)]
-    names: BTreeMap<String, String>,
     #[serde(skip)]
     tables: BTreeMap<String, Arc<Table>>,
 }
@@ -33,7 +31,7 @@ impl Registry {
         if !value.is_finite() {
             return Err(Error::NotFinite(value.id));
         }
-        if self.values.contains_key(&value.id) || self.names.contains_key(&value.id) {
+        if self.values.contains_key(&value.id) {
             return Err(Error::DuplicateId(value.id));
         }
         self.put(value);
@@ -80,27 +78,12 @@ impl Registry {
 
     /// Puts a value in the place of the one with its id.
     pub fn put(&mut self, value: Value) {
-        match value.same {
-            Some(of) => self.names.insert(value.id, of).map(|_| ()),
-            None => self.values.insert(value.id.clone(), value).map(|_| ()),
-        };
+        self.values.insert(value.id.clone(), value);
     }
 
-    /// The id of the value with this id or name; a name may stand for another.
-    pub fn id<'a>(&'a self, name: &'a str) -> &'a str {
-        let next = |name: &&'a str| self.names.get(*name).map(String::as_str);
-        std::iter::successors(Some(name), next).take(self.names.len() + 1).last().unwrap_or(name)
-    }
-
-    /// The value with this id or name.
+    /// The value with this id.
     pub fn get(&self, id: &str) -> Option<&Value> {
-        let id = self.id(id);
         self.values.get(id).or_else(|| self.cell(id))
-    }
-
-    /// Other names, and the values that they stand for (none for one that is not there).
-    pub fn names(&self) -> impl Iterator<Item = (&str, Option<&Value>)> {
-        self.names.keys().map(|name| (name.as_str(), self.get(name)))
     }
 
     /// All values, sorted by id.
@@ -168,17 +151,6 @@ mod tests {
         registry.add(Value::integer("edges", 16)).unwrap();
         assert!(matches!(registry.add(Value::integer("edges", 17)), Err(Error::DuplicateId(_))));
         assert_eq!(registry.get("edges"), Some(&Value::integer("edges", 16)));
-    }
-
-    #[test]
-    fn a_name_leads_to_one_value() {
-        let mut registry = Registry::new();
-        registry.extend([Value::same("c", "b"), Value::same("b", "a")]).unwrap();
-        assert_eq!(registry.get("c"), None);
-        registry.add(Value::integer("a", 1)).unwrap();
-        assert_eq!((registry.id("c"), registry.len()), ("a", 1));
-        registry.extend([Value::same("x", "y"), Value::same("y", "x")]).unwrap();
-        assert_eq!(registry.get("x"), None);
     }
 
     #[test]

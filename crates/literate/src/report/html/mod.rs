@@ -28,7 +28,7 @@ use crate::figures::{Figure, Glyphs};
 use crate::source::Program;
 use serde::Serialize;
 use std::cell::RefCell;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 /// Whether a browser can show this TeX.
 pub fn reads(tex: &str) -> Result<(), Error> {
@@ -77,10 +77,6 @@ pub struct Parts {
     pub body: String,
     /// The cards of the values, as data for the script.
     pub cards: String,
-    /// Which page has the places that this one has not, as data for the script.
-    pub places: String,
-    /// Places that have another name now, as data for the script.
-    pub moved: String,
     /// The outlines that figures share.
     pub glyphs: String,
     /// Fonts and colours of the figures as CSS.
@@ -123,8 +119,6 @@ pub fn write(
         heading,
         contents,
         cards: page.cards(cards)?,
-        places: escape::data(&site.labels.elsewhere(site.here)),
-        moved: escape::data(&site.here.moved.iter().copied().collect::<BTreeMap<_, _>>()),
         glyphs: picture::shared(&page.glyphs.borrow()),
         style: fonts::rules(&body) + &picture::rules(),
         body,
