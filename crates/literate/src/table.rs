@@ -277,16 +277,18 @@ fn markdown(unit: &str) -> String {
 }
 
 /// A number that was chosen, with all its digits: an integer where it is one.
-fn chosen(value: f64) -> Number {
-    if value.fract() == 0.0 && value.abs() < 1e15 {
-        return Number::Integer(value as i64);
-    }
-    let mantissa = format!("{:e}", value.abs());
-    let digits = mantissa.split('e').next().unwrap_or_default();
-    Number::Real {
-        value,
-        digits: Digits::Significant(digits.bytes().filter(u8::is_ascii_digit).count()),
-    }
+fn as_chosen(value: f64) -> Value {
+    let whole = value.fract() == 0.0 && value.abs() < 1e15;
+    let number = match whole {
+        true => Number::Integer(value as i64),
+        false => Number::Real { value, digits: Digits::of(value) },
+    };
+    Value::real("", value, 1).with_number(number)
+}
+
+/// The cell of a row that has no number.
+fn none() -> Value {
+    Value::text("", "none")
 }
 
 impl<'a, R> Building<'a, R> {
@@ -322,11 +324,7 @@ impl<'a, R> Building<'a, R> {
     pub fn key<F: Fn(&R) -> f64>(mut self, name: &'static str, unit: &'static str, of: F) -> Self {
         assert_eq!(self.table.keys, self.table.columns.len(), "{name}: keys come first");
         self.table.keys += 1;
-        let cell = |row: &R| {
-            let value = of(row);
-            Value::real("", value, 1).with_number(chosen(value))
-        };
-        self.put((name, unit), "", origin_of::<F>(), cell)
+        self.put((name, unit), "", origin_of::<F>(), |row: &R| as_chosen(of(row)))
     }
 
     /// A key that is a name.
@@ -345,12 +343,10 @@ impl<'a, R> Building<'a, R> {
         of: F,
     ) -> Self {
         let number = self.number.clone();
-        let cell = |row: &R| match of(row) {
-            Some(own) => Value::ensemble("", own.value, own.error, number(row) as u64),
-            None => Value::text("", "none"),
-        };
-        let item = origin_of::<F>();
-        self.put((name, unit), meaning, item, cell)
+        let value =
+            |row: &R, own: Estimate| Value::ensemble("", own.value, own.error, number(row) as u64);
+        let cell = |row: &R| of(row).map_or_else(none, |own| value(row, own));
+        self.put((name, unit), meaning, origin_of::<F>(), cell)
     }
 
     /// A number that no chance has part in, with so many significant digits; *none* if it is not finite.
@@ -362,12 +358,9 @@ impl<'a, R> Building<'a, R> {
         meaning: &str,
         of: F,
     ) -> Self {
-        let cell = |row: &R| match of(row) {
-            value if value.is_finite() => Value::real("", value, digits),
-            _ => Value::text("", "none"),
-        };
-        let item = origin_of::<F>();
-        self.put((name, unit), meaning, item, cell)
+        let real = |value: f64| value.is_finite().then(|| Value::real("", value, digits));
+        let cell = |row: &R| real(of(row)).unwrap_or_else(none);
+        self.put((name, unit), meaning, origin_of::<F>(), cell)
     }
 
     /// An interval, or *none*.
@@ -378,12 +371,8 @@ impl<'a, R> Building<'a, R> {
         meaning: &str,
         of: F,
     ) -> Self {
-        let cell = |row: &R| match of(row) {
-            Some(ends) => Value::interval("", ends),
-            None => Value::text("", "none"),
-        };
-        let item = origin_of::<F>();
-        self.put((name, unit), meaning, item, cell)
+        let cell = |row: &R| of(row).map_or_else(none, |ends| Value::interval("", ends));
+        self.put((name, unit), meaning, origin_of::<F>(), cell)
     }
 
     /// Words that were computed.
@@ -407,12 +396,8 @@ impl<'a, R> Building<'a, R> {
         meaning: &str,
         of: F,
     ) -> Self {
-        let cell = |row: &R| match of(row) {
-            Some(value) => Value::real("", value, 1).with_number(chosen(value)),
-            None => Value::text("", "none"),
-        };
-        let item = origin_of::<F>();
-        self.put((name, unit), meaning, item, cell)
+        let cell = |row: &R| of(row).map_or_else(none, as_chosen);
+        self.put((name, unit), meaning, origin_of::<F>(), cell)
     }
 
     /// A count, shown as an integer up to a million and with its leading digits beyond.
@@ -421,8 +406,7 @@ impl<'a, R> Building<'a, R> {
             n if n < 1_000_000 => Value::integer("", n),
             n => Value::real("", n as f64, 2),
         };
-        let item = origin_of::<F>();
-        self.put((name, "1"), meaning, item, cell)
+        self.put((name, "1"), meaning, origin_of::<F>(), cell)
     }
 
     /// Gives cells of a column the id of the number that they are: one that another table or a value has already.

@@ -42,6 +42,15 @@ pub enum Digits {
     Decimals(usize),
 }
 
+impl Digits {
+    /// Those of the shortest decimal that reads back to the same double.
+    pub fn of(value: f64) -> Digits {
+        let text = format!("{:e}", value.abs());
+        let mantissa = text.split('e').next().unwrap_or_default();
+        Digits::Significant(mantissa.bytes().filter(u8::is_ascii_digit).count())
+    }
+}
+
 /// Where a number comes from, and so how far it can be trusted.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]

@@ -8,13 +8,6 @@ use serde::Serialize;
 #[serde(transparent)]
 pub struct Text(pub Vec<Number>);
 
-/// The number of significant digits of the shortest decimal that reads back to the same double.
-fn digits_of(value: f64) -> usize {
-    let text = format!("{:e}", value.abs());
-    let mantissa = text.split('e').next().unwrap_or_default();
-    mantissa.bytes().filter(u8::is_ascii_digit).count().max(1)
-}
-
 impl Text {
     /// A text of words alone.
     pub fn words(words: impl Into<String>) -> Text {
@@ -49,7 +42,7 @@ impl Text {
 
     /// Goes on with a number that was chosen, with all its digits.
     pub fn chosen(self, value: f64) -> Text {
-        self.significant(value, digits_of(value))
+        self.number(value, Digits::of(value))
     }
 
     /// Goes on with an integer.
@@ -71,7 +64,7 @@ mod tests {
     #[test]
     fn a_chosen_number_keeps_its_digits_and_gets_no_others() {
         for (value, digits) in [(0.08, 1), (0.1175, 4), (4000.0, 1), (1e-9, 1), (0.0, 1)] {
-            assert_eq!(digits_of(value), digits, "{value}");
+            assert_eq!(Digits::of(value), Digits::Significant(digits), "{value}");
         }
     }
 }

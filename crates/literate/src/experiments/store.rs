@@ -35,11 +35,6 @@ impl Store {
         }
     }
 
-    /// A store inside this one, for what is computed from results alone.
-    pub fn derived(&self) -> Self {
-        Store { folder: self.folder.as_ref().map(|folder| folder.join("derived")) }
-    }
-
     /// A store that keeps nothing.
     pub fn nowhere() -> Self {
         Store { folder: None }

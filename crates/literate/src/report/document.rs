@@ -5,8 +5,8 @@
 //! markup only: numbers, words of references and digits of values are in the tree already.
 
 use super::documents::Document;
-use super::spell;
 use super::valued::bare;
+use super::{Error, spell};
 
 /// A block of the report.
 #[derive(Clone, Debug, PartialEq)]
@@ -178,6 +178,26 @@ pub enum Inline {
         /// Number in the order of the report, given when references are resolved.
         number: String,
     },
+}
+
+/// The words of the title, the first heading of level 1.
+pub fn title(blocks: &[Block]) -> Result<&[Inline], Error> {
+    let found = blocks.iter().find_map(|block| match block {
+        Block::Heading { level: 1, text, .. } => Some(text.as_slice()),
+        _ => None,
+    });
+    found.ok_or_else(|| Error::Markup("a report begins with its title, `# Words`".into()))
+}
+
+/// Is it a displayed equation alone?
+pub fn is_equation(block: &Block) -> bool {
+    matches!(block, Block::Paragraph(inlines) if matches!(inlines[..], [Inline::Display { .. }]))
+}
+
+/// Does this paragraph go on with the sentence before it?
+pub fn continues(block: &Block) -> bool {
+    let Block::Paragraph(inlines) = block else { return false };
+    matches!(inlines.first(), Some(Inline::Text(text)) if text.starts_with(char::is_lowercase))
 }
 
 /// Calls `visit` on each piece of running text of the blocks, in reading order, nested ones too.

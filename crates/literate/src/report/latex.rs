@@ -1,7 +1,7 @@
 //! The tree → the body of report.tex; its shell is a template.
 
 use super::Error;
-use super::document::{Align, Block, Inline, plain};
+use super::document::{self, Align, Block, Inline, continues, is_equation, plain};
 use super::tex;
 
 /// Writes the body of report.tex.
@@ -26,11 +26,7 @@ pub fn write(blocks: &[Block]) -> Result<String, Error> {
 
 /// The title: the words of the first heading of level 1.
 pub fn title(blocks: &[Block]) -> Result<String, Error> {
-    let is_title = |block: &&Block| matches!(block, Block::Heading { level: 1, .. });
-    match blocks.iter().find(is_title) {
-        Some(Block::Heading { text, .. }) => inlines(text),
-        _ => Err(Error::Markup("a report begins with its title, `# Words`".into())),
-    }
+    inlines(document::title(blocks)?)
 }
 
 /// The listings, which stand behind the text; empty if there are none.
@@ -57,16 +53,6 @@ pub fn listings(blocks: &[Block]) -> Result<String, Error> {
 /// Their head.
 const LISTINGS: &str = "\\clearpage\n\\phantomsection\\section*{Listings}\n\
                         \\addcontentsline{toc}{section}{Listings}\n";
-
-fn is_equation(block: &Block) -> bool {
-    matches!(block, Block::Paragraph(inlines) if matches!(inlines[..], [Inline::Display { .. }]))
-}
-
-/// Does this paragraph go on with the sentence before it?
-fn continues(block: &Block) -> bool {
-    let Block::Paragraph(inlines) = block else { return false };
-    matches!(inlines.first(), Some(Inline::Text(text)) if text.starts_with(char::is_lowercase))
-}
 
 fn write_block(block: &Block) -> Result<String, Error> {
     Ok(match block {

@@ -95,16 +95,6 @@ impl Registry {
     pub fn retain(&mut self, keep: impl Fn(&Value) -> bool) {
         self.values.retain(|_, value| keep(value));
     }
-
-    /// How many there are.
-    pub fn len(&self) -> usize {
-        self.values.len()
-    }
-
-    /// None at all?
-    pub fn is_empty(&self) -> bool {
-        self.values.is_empty()
-    }
 }
 
 /// `name` or `group.name`, each of lower-case letters, digits and `_`, beginning with a letter.

@@ -17,13 +17,9 @@ use super::store::{self, Store};
 use super::{Code, Error, Profile, Progress};
 use crate::digest::sha256;
 use crate::table::Table;
-use serde::Serialize;
 use std::borrow::Cow;
 use std::io;
 use std::sync::Arc;
-
-/// The file of this code: a result that is joined from committed units depends on it.
-const FILE: &str = "crates/literate/src/experiments/deep/mod.rs";
 
 /// What to do about a result that is stale.
 pub const REMEDY: &str = "run `make deep`";
@@ -53,13 +49,6 @@ pub struct Deep<P: 'static, T: 'static, U: 'static> {
 
 /// Measures how far what units give is from a result.
 pub type Away<T, U> = fn(&T, &[(&Unit, U)]) -> Distance;
-
-/// What only the committed file decides, beside the code.
-#[derive(Serialize)]
-struct JoinedParams {
-    /// SHA-256 of the committed file.
-    committed: String,
-}
 
 impl<P, T, U> Deep<P, T, U> {
     /// What takes too long for the full profile.
@@ -118,21 +107,7 @@ impl<P: Params, T: Json, U: Json> Deep<P, T, U> {
             return Ok((self.experiment(self.cut.1.join).get(profile, store, progress)?, None));
         }
         let audit = audit::of(self, profile).get(store, progress)?;
-        let name = format!("{} joined", self.name);
-        let params = JoinedParams { committed: self.digest() };
-        let identity = self.made_of().with_code(Identity::new(
-            &name,
-            Code { file: FILE, ..self.code },
-            &params,
-        ));
-        let join = || self.joined(self.given()?, progress);
-        // What is said of the audit is enough.
-        let quiet = Progress::silent();
-        let result = match store.derived().get(&identity, profile, &quiet, join) {
-            // A folder that cannot be written is no reason to fail.
-            Err(Error::Store { .. }) => join()?,
-            found => found?,
-        };
+        let result = self.joined(self.given()?, progress)?;
         Ok((result, Some(audit)))
     }
 

@@ -21,7 +21,7 @@ pub use scene::Moving;
 
 use super::Error;
 use super::card::Cards;
-use super::document::{Block, plain};
+use super::document::{Block, plain, title};
 use super::documents::Document;
 use super::labels::Labels;
 use crate::figures::{Figure, Glyphs};
@@ -103,10 +103,7 @@ pub fn write(
     let program = cards.program;
     let page =
         Page { figures, site, program, named: RefCell::default(), glyphs: RefCell::default() };
-    let is_title = |block: &&Block| matches!(block, Block::Heading { level: 1, .. });
-    let Some(Block::Heading { text, .. }) = blocks.iter().find(is_title) else {
-        return Err(Error::Markup("a report begins with its title, `# Words`".into()));
-    };
+    let text = title(blocks)?;
     let heading = page.inlines(text)?;
     let body = page.blocks(blocks)?;
     let contents = page.contents(blocks)?;

@@ -3,7 +3,7 @@
 
 use super::maths;
 use crate::report::Error;
-use crate::report::document::{Align, Block, Inline, plain};
+use crate::report::document::{Align, Block, Inline, continues, is_equation};
 use crate::report::valued::bare;
 
 /// The whole body.
@@ -16,20 +16,11 @@ fn write(blocks: &[Block]) -> Result<String, Error> {
     for (i, block) in blocks.iter().enumerate() {
         // An equation belongs to the sentence around it.
         let beside = |j: usize| blocks.get(j).is_some_and(is_equation);
-        let joined = beside(i) || i > 0 && beside(i - 1) && goes_on(block);
+        let joined = beside(i) || i > 0 && beside(i - 1) && continues(block);
         out.push_str(if joined || out.is_empty() { "\n" } else { "\n\n" });
         out.push_str(write_block(block)?.trim());
     }
     Ok(out + "\n")
-}
-
-fn is_equation(block: &Block) -> bool {
-    matches!(block, Block::Paragraph(inlines) if matches!(inlines[..], [Inline::Display { .. }]))
-}
-
-fn goes_on(block: &Block) -> bool {
-    let Block::Paragraph(inlines) = block else { return false };
-    matches!(inlines.first(), Some(Inline::Text(text)) if text.starts_with(char::is_lowercase))
 }
 
 /// A string literal.
@@ -233,13 +224,4 @@ fn inline(inline: &Inline) -> Result<String, Error> {
         Inline::Anchor { id, number } => format!("{}#{};", place(id), quoted(number)),
         Inline::Unresolved(ids) => return Err(Error::Reference(ids.join("; "))),
     })
-}
-
-/// The title in words.
-pub fn title(blocks: &[Block]) -> Result<String, Error> {
-    let is_title = |block: &&Block| matches!(block, Block::Heading { level: 1, .. });
-    match blocks.iter().find(is_title) {
-        Some(Block::Heading { text, .. }) => Ok(plain(text)),
-        _ => Err(Error::Markup("a report begins with its title, `# Words`".into())),
-    }
 }

@@ -9,7 +9,7 @@ mod pdf;
 mod world;
 
 use super::Error;
-use super::document::Block;
+use super::document::{Block, plain, title};
 use super::templates::Templates;
 
 #[cfg(feature = "pdf")]
@@ -19,6 +19,6 @@ pub use pdf::pdf;
 pub fn source(blocks: &[Block], templates: &Templates) -> Result<String, Error> {
     let shell = templates.text("report.typ")?;
     Ok(shell
-        .replace("«title»", &markup::quoted(&markup::title(blocks)?))
+        .replace("«title»", &markup::quoted(&plain(title(blocks)?)))
         .replace("«body»", &markup::report(blocks)?))
 }
