@@ -244,17 +244,6 @@ async function filters(page) {
   check((await shown.count()) === (await all.count()), "ledger: a row that is gone to stays hidden");
 }
 
-/** What was in one page once is found where it is now. */
-async function old_addresses_lead_on() {
-  const page = await open("report.html", 1280, "light", {});
-  page.removeAllListeners("request");
-  for (const [id, file] of [["sec-nucleation", "beyond.html"], ["claim-sec7_jump", "ledger.html"], ["tab-scenes", "methods.html"]]) {
-    await page.goto(`${pathToFileURL(join(report, "report.html")).href}#${id}`);
-    await page.waitForURL(new RegExp(`${file}#${id}$`), { timeout: 5000 }).catch(() => check(false, `report.html#${id} does not lead to ${file}`));
-  }
-  await page.context().close();
-}
-
 /** Positions of the masses as the program computed them: a time and the places of all bodies in each row. */
 function saved_positions() {
   const lines = readFileSync(join(report, "data/s02c.csv"), "utf8").trim().split("\n").slice(1);
@@ -349,7 +338,6 @@ for (const [file, least] of Object.entries(PAGES)) {
     await page.context().close();
   }
 }
-await old_addresses_lead_on();
 await labs({ report, open, check, stays_narrow, accessible, pictures });
 
 const calm = await open("index.html", 1280, "light", { reducedMotion: "reduce" });

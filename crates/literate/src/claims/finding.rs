@@ -4,16 +4,12 @@ use super::{Basis, Check, Judgement, Kind, Statement, Text};
 
 /// What was found, and what it is held against.
 #[derive(Clone, Debug)]
+#[expect(missing_docs, reason = "the fields are documented at Check")]
 pub struct Finding {
-    /// Our number, in words and digits.
     pub ours: Text,
-    /// How far from the printed value it may lie.
     pub tolerance: Text,
-    /// Why the tolerance has this size.
     pub reason: &'static str,
-    /// The comparison.
     pub judgement: Judgement,
-    /// What explains a difference, or what should be known besides.
     pub note: Text,
 }
 

@@ -8,26 +8,17 @@ use serde::Serialize;
 
 /// One claim for a template: every field is Markdown, its numbers printed with their digits.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[expect(missing_docs, reason = "the fields are documented at Check")]
 pub struct Row {
-    /// Id, for `[!claim:id]` and `[@claim:id]`.
     pub id: String,
-    /// Where the statement stands in the paper.
     pub place: String,
-    /// The statement.
     pub statement: String,
-    /// What was printed.
     pub printed: String,
-    /// What we find.
     pub ours: String,
-    /// How far from the printed value a finding may lie.
     pub tolerance: String,
-    /// Why the tolerance has this size.
     pub reason: String,
-    /// What the verdict rests on, in words.
     pub basis: String,
-    /// The verdict in words.
     pub verdict: String,
-    /// What explains a difference.
     pub note: String,
 }
 

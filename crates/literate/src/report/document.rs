@@ -10,6 +10,7 @@ use super::{Error, spell};
 
 /// A block of the report.
 #[derive(Clone, Debug, PartialEq)]
+#[expect(missing_docs, reason = "some names tell")]
 pub enum Block {
     /// A heading. Level 1 is the title; sections start at level 2.
     Heading {
@@ -19,12 +20,10 @@ pub enum Block {
         number: Option<String>,
         /// Id as `sec:protocol`.
         id: Option<String>,
-        /// Its words.
         text: Vec<Inline>,
     },
     /// A paragraph; displayed equations stand inside it.
     Paragraph(Vec<Inline>),
-    /// A picture with its caption.
     Figure {
         /// Id as `fig:3`.
         id: String,
@@ -40,10 +39,8 @@ pub enum Block {
         code: Option<String>,
         /// Names of the experiments whose results it shows.
         experiments: Vec<&'static str>,
-        /// The caption.
         caption: Vec<Inline>,
     },
-    /// A table.
     Table {
         /// Id as `tab:horizon`.
         id: Option<String>,
@@ -51,27 +48,19 @@ pub enum Block {
         number: Option<String>,
         /// The caption; may be empty.
         caption: Vec<Inline>,
-        /// Alignment of each column.
         columns: Vec<Align>,
-        /// Cells of the head.
         head: Vec<Vec<Inline>>,
-        /// Cells of the rows.
         rows: Vec<Vec<Vec<Inline>>>,
     },
-    /// A list.
     List {
         /// The first number of an ordered list.
         start: Option<u64>,
-        /// Each item.
         items: Vec<Vec<Block>>,
     },
-    /// A quotation or aside.
     Quote(Vec<Block>),
-    /// A block of code.
     Code {
         /// Language, may be empty.
         language: String,
-        /// The lines.
         text: String,
     },
     /// A piece of the program's source, folded or put aside where a format can do that.
@@ -86,14 +75,12 @@ pub enum Block {
         item: String,
         /// Its file, from the top of the project.
         file: String,
-        /// The lines.
         text: String,
     },
     /// The place of what moves, in formats in which it can.
     Scene {
         /// What a reader runs there; nothing where a picture moves.
         lab: Option<String>,
-        /// The caption.
         caption: Vec<Inline>,
     },
     /// The place of the list of references; filled by [`Labels::resolve`](super::labels::Labels::resolve).
@@ -122,6 +109,7 @@ pub enum Align {
 
 /// A piece of running text.
 #[derive(Clone, Debug, PartialEq)]
+#[expect(missing_docs, reason = "some names tell")]
 pub enum Inline {
     /// Words; no markup inside.
     Text(String),
@@ -129,11 +117,8 @@ pub enum Inline {
     Soft,
     /// A line break that is meant.
     Break,
-    /// Code.
     Code(String),
-    /// Emphasis.
     Emphasis(Vec<Inline>),
-    /// Strong emphasis.
     Strong(Vec<Inline>),
     /// Small and raised, as the number of a note: verdicts behind a statement.
     Raised(Vec<Inline>),
@@ -141,23 +126,18 @@ pub enum Inline {
     Maths(String),
     /// A displayed equation, as TeX without its tag.
     Display {
-        /// The TeX.
         tex: String,
         /// The number in brackets, as "18"; its id is `eq:18`.
         tag: Option<String>,
     },
     /// A value: the words and mathematics that show it.
     Value {
-        /// Its id.
         id: String,
-        /// What is shown.
         shown: Vec<Inline>,
     },
     /// A link out of the report, or to a file beside it.
     Link {
-        /// Where to.
         to: String,
-        /// What is shown.
         shown: Vec<Inline>,
     },
     /// References `[@fig:3; @eq:18]` and citations `[@rice1945]`, until they are resolved.
@@ -168,7 +148,6 @@ pub enum Inline {
         to: String,
         /// The document that has it, if it is another.
         within: Option<Document>,
-        /// What is shown.
         shown: String,
     },
     /// A place that can be referred to, `[!claim:rise]`; shows its number.

@@ -15,16 +15,20 @@ pub struct Ledger {
     /// The judged statements.
     pub claims: Vec<ClaimEntry>,
     /// The figures.
+    #[serde(default)]
     pub figures: Vec<FigureEntry>,
     /// The numbered equations of the paper.
+    #[serde(default)]
     pub equations: Vec<EquationEntry>,
     /// The documents, by the name of their prose.
     #[serde(default)]
     pub documents: BTreeMap<String, Shown>,
 }
 
-/// A statement; the fields are those of [`Check`], as text.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+/// A statement; the fields are those of [`Check`], as text. Some came and went with versions, and reports of two are
+/// compared.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
 #[expect(missing_docs, reason = "the fields are documented at Check")]
 pub struct ClaimEntry {
     pub id: String,
@@ -42,21 +46,19 @@ pub struct ClaimEntry {
 }
 
 /// A figure.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+#[expect(
+    missing_docs,
+    reason = "the fields are documented at Figure; paths are relative to the report"
+)]
 pub struct FigureEntry {
-    /// Id as `fig03`.
     pub id: String,
-    /// A short name.
     pub title: String,
-    /// What is seen, with its numbers.
     pub description: String,
-    /// Path of the picture.
     pub picture: String,
-    /// Paths of its data.
     pub data: Vec<String>,
-    /// Path of the item that draws it.
     pub source: String,
-    /// Names of the experiments whose results it shows.
     pub experiments: Vec<String>,
 }
 

@@ -9,8 +9,8 @@ pub use claims::ClaimChange;
 pub use numbers::{Change, changes, read};
 pub use prose::{Piece, ProseChange, SentenceChange};
 
+use super::ledger::{self, Ledger};
 use super::{Document, Files, Registry, sums};
-use claims::Claims;
 use serde::Serialize;
 use std::collections::BTreeSet;
 
@@ -20,7 +20,7 @@ pub struct Parts<'a> {
     name: &'a str,
     files: Files,
     values: Registry,
-    claims: Claims,
+    ledger: Ledger,
 }
 
 /// What differs, part by part; all empty for the same bytes.
@@ -52,19 +52,18 @@ impl<'a> Parts<'a> {
     pub fn of(name: &'a str, files: &'a Files) -> Result<Self, String> {
         let fault = |what: String| format!("{name}: {what}");
         let values = read(&text(name, files, "values.json")?).map_err(|e| fault(e.to_string()))?;
-        numbers::printable(&values).map_err(fault)?;
-        let claims = Claims::read(&text(name, files, "ledger.json")?).map_err(fault)?;
-        Ok(Parts { name, files: files.clone(), values, claims })
+        let ledger = ledger::read(&text(name, files, "ledger.json")?);
+        let ledger = ledger.map_err(|error| fault(error.to_string()))?;
+        Ok(Parts { name, files: files.clone(), values, ledger })
     }
 
     /// Leaves what one document shows.
     pub fn only(&mut self, document: &str) -> Result<(), String> {
-        let shown = self.claims.shown(document).ok_or_else(|| {
-            format!("{}: ledger.json does not say what {document} shows", self.name)
-        })?;
+        self.ledger
+            .only(document, &mut self.values)
+            .map_err(|error| format!("{}: {error}", self.name))?;
+        let shown = &self.ledger.documents[document];
         self.files.retain(|path, _| shown.files.contains(path));
-        self.values.retain(|value| shown.values.contains(&value.id));
-        self.claims.retain(&shown);
         Ok(())
     }
 }
@@ -81,7 +80,7 @@ pub fn diff(before: &Parts<'_>, after: &Parts<'_>, documents: &[Document]) -> Re
     };
     let (old, new) = (known(&before.files), known(&after.files));
     let mut out = Diff {
-        verdicts: before.claims.changes(&after.claims),
+        verdicts: claims::changes(&before.ledger.claims, &after.ledger.claims),
         numbers: changes(&before.values, &after.values),
         gained: new.difference(&old).cloned().collect(),
         lost: old.difference(&new).cloned().collect(),

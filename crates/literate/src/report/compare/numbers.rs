@@ -53,20 +53,15 @@ pub fn read(text: &str) -> Result<Registry, Error> {
         }
         registry.add(value).map_err(|e| fault(e.to_string()))?;
     }
-    printable(&registry).map_err(Error::Template)?;
-    Ok(registry)
-}
-
-/// Refuses numbers of digits that nobody would print.
-pub fn printable(values: &Registry) -> Result<(), String> {
+    // Nobody would print so many.
     let asked = |value: &Value| match value.number {
         Number::Real { digits: Digits::Significant(n) | Digits::Decimals(n), .. } => n,
         _ => 0,
     };
-    match values.iter().find(|value| asked(value) > MOST_DIGITS) {
-        Some(value) => Err(format!("values.json: {}: {} digits", value.id, asked(value))),
-        None => Ok(()),
+    if let Some(value) = registry.iter().find(|value| asked(value) > MOST_DIGITS) {
+        return Err(fault(format!("{}: {} digits", value.id, asked(value))));
     }
+    Ok(registry)
 }
 
 /// All changes of numbers, units and kinds, sorted by id; other fields (notes, sources) do not
