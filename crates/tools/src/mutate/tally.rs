@@ -99,7 +99,7 @@ pub fn used(
     let trees: Vec<_> = trees.collect::<Result<_, Error>>()?;
     let trees: Vec<&[_]> = trees.iter().map(Vec::as_slice).collect();
     let marks = filled.iter().flat_map(|filled| Mark::split(&filled.text)).flatten();
-    let shown = marks.map(|mark| values.id(&mark.id).to_string());
+    let shown = marks.map(|mark| mark.id);
     let stated = uses(claims, &values, &trees).into_values().flatten();
     let number = |id: &String| {
         if table_of(id).is_some() {

@@ -58,7 +58,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
         let values = contents::registry(&results, &published)?;
         let rows = contents::rows(&results, &claims)?;
         let mut used = used(&templates, &values, &rows, &claims)?;
-        let asked: Vec<&str> = args.value.iter().map(|name| values.id(name)).collect();
+        let asked: Vec<&str> = args.value.iter().map(String::as_str).collect();
         if let Some(id) = asked.iter().find(|id| !used.contains(**id)) {
             let message = format!("--value: neither prose nor a claim uses a number {id:?}");
             return Err(Failure::input(message));
