@@ -43,7 +43,7 @@ pub const fn cutting<P: Ensembles>() -> Cutting<P, Vec<P::One>, Ran<P, P::One>> 
 pub const fn joined_by<P: Ensembles, T>(
     join: Join<P, Vec<P::One>, T>,
 ) -> Cutting<P, Vec<P::One>, T> {
-    Cutting { rows: P::rows, part, fits, join }
+    Cutting { rows: P::rows, part, fits: |own, unit, all| fits(own, unit, all), join }
 }
 
 fn part<P: Ensembles>(
@@ -59,7 +59,7 @@ fn part<P: Ensembles>(
     })
 }
 
-fn fits<P: Ensembles>(parameters: &P, unit: &Unit, all: &Vec<P::One>) -> bool {
+fn fits<P: Ensembles>(parameters: &P, unit: &Unit, all: &[P::One]) -> bool {
     all.len() == unit.realisations.len() && all.iter().all(|one| parameters.fits(unit.row, one))
 }
 
