@@ -2,7 +2,7 @@
 
 use super::diff::{count, fate};
 use super::judged::Judged;
-use super::output::{self, Staging};
+use super::output::{self, Staging, holds_report, refuse_report};
 use super::sources::Sources;
 use super::{Failure, folder, make, stdout, work};
 use impact_paper::claims::Verdict;
@@ -71,7 +71,8 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let usual = if args.set.is_empty() { Profile::Full } else { Profile::Ci };
     let profile = args.profile.unwrap_or(usual);
     let out = args.out.clone().unwrap_or_else(|| default_folder(profile));
-    let ordinary = [profile, Profile::Full].map(|profile| resolved(&default_folder(profile)));
+    let ordinary = [Profile::Quick, Profile::Ci, Profile::Full];
+    let ordinary = ordinary.map(|profile| resolved(&default_folder(profile)));
     if other && ordinary.iter().any(|folder| resolved(&out).starts_with(folder)) {
         return Err(Failure::input("--set: this is another paper; give it a folder with --out"));
     }
@@ -85,6 +86,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let numbers =
         args.figure.iter().map(read).collect::<Result<BTreeSet<figures::Number>, Failure>>()?;
     refuse_over_other(profile, &out, !args.figure.is_empty())?;
+    refuse_report("--results", &args.sources.results)?;
     if same(&out, &args.sources.results) {
         let message =
             "--out and --results are one folder; give two, since a report has no other files";
@@ -216,9 +218,8 @@ fn refuse_over_other(profile: Profile, out: &Path, figures: bool) -> Result<(), 
     };
     let found = values_in(out).and_then(name);
     // Of a report that does not tell what it is, a lesser one would take the place unseen.
-    let lesser = profile != Profile::Full || set::told().is_some();
-    if found.is_none() && lesser && out.join(report::sums::NAME).exists() && !is_usual(profile, out)
-    {
+    let lesser = profile != Profile::Full || figures || set::told().is_some();
+    if found.is_none() && lesser && holds_report(out) && !is_usual(profile, out) {
         return Err(Failure::input(format!(
             "--out: {} holds a report whose {VALUES} cannot be read; restore it, or give another folder",
             out.display()

@@ -3,6 +3,7 @@
 use super::{Failure, folder, stdout, work};
 use crate::digest::sha256;
 use crate::experiments::Progress;
+use crate::numerics::text::is_obeyed;
 use crate::params::Profile;
 use crate::report::values::Number;
 use crate::report::{compare, ledger, sums};
@@ -24,7 +25,7 @@ impl Checked {
     /// Tells each fault in a line of standard output, or that there is none.
     pub fn tell(&self, folder: &Path) -> Result<(), Failure> {
         for fault in &self.faults {
-            stdout::print(&format!("{fault}\n"))?;
+            stdout::print(&format!("{}\n", fault.replace(is_obeyed, " ")))?;
         }
         if self.faults.is_empty() {
             let folder = folder.display();

@@ -40,14 +40,25 @@ pub struct Staging<'a> {
     /// The option that names the folder, for messages.
     option: &'static str,
     force: bool,
+    /// The list of the report that stood there at first.
+    found: Option<String>,
     _made: work::Made,
 }
 
-/// A report has no other files.
-pub fn refuse_report(folder: &Path) -> Result<(), Failure> {
-    if folder.join(sums::NAME).exists() {
+/// Is it a report, or what is left of one?
+pub fn holds_report(folder: &Path) -> bool {
+    [sums::NAME, "ledger.json"].iter().any(|name| folder.join(name).symlink_metadata().is_ok())
+}
+
+/// A report and its folders have no other files.
+pub fn refuse_report(option: &str, folder: &Path) -> Result<(), Failure> {
+    let within = FOLDERS.iter().any(|below| folder.ends_with(below));
+    let above = folder.parent().filter(|_| within);
+    if holds_report(folder) || above.is_some_and(holds_report) {
         let folder = folder.display();
-        return Err(Failure::input(format!("--out: {folder} holds a report; give another folder")));
+        return Err(Failure::input(format!(
+            "{option}: {folder} holds a report; give another folder"
+        )));
     }
     Ok(())
 }
@@ -72,7 +83,8 @@ impl<'a> Staging<'a> {
             let what = "it is a file; give a folder";
             return Err(Failure::input(format!("{option}: {}: {what}", folder.display())));
         }
-        let staging = Staging { folder, option, force, _made: work::made(folder) };
+        let found = folder::text(folder, sums::NAME).ok();
+        let staging = Staging { folder, option, force, found, _made: work::made(folder) };
         let failed = |error: io::Error| staging.failed(&error);
         std::fs::create_dir_all(folder).map_err(failed)?;
         // Another run may be putting its files in place: half of them would look like a stranger's.
@@ -130,6 +142,13 @@ impl<'a> Staging<'a> {
         // A run that began beside this one and failed has removed the folder if it was empty.
         std::fs::create_dir_all(self.folder).map_err(failed)?;
         let _alone = alone(self.folder).map_err(failed)?;
+        // It may be of more than what was asked before the run.
+        if !self.force && folder::text(self.folder, sums::NAME).ok() != self.found {
+            let (option, folder) = (self.option, self.folder.display());
+            let what =
+                "another report came here during this run; run again, or give another folder";
+            return Err(Failure::input(format!("{option}: {folder}: {what}")));
+        }
         let own = self.own()?.unwrap_or_default();
         let is_report = files.contains_key(sums::NAME);
         let gone = own.report.iter().filter(|path| is_report && !files.contains_key(*path));

@@ -224,7 +224,7 @@ fn the_scene_is_complete_without_its_script() {
     let [from, first] = ["from", "first"].map(number);
     let (first, bodies) = (first as usize, data["bodies"].as_array().unwrap().len());
     assert_eq!(bodies, 22);
-    let run = QUICK.results.spacetime().unwrap();
+    let run = QUICK.results.of(&SPACE_TIME).unwrap();
     let parameters = &run.parameters;
     let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, run.realisation);
     let scenario = Scenario::draw(&parameters.chain, parameters.sigma, &mut normals);

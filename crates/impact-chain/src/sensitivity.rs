@@ -21,7 +21,7 @@ use super::flight::{Motion, Phases};
 use super::impact::jumps;
 use super::scenario::COMPONENTS;
 use super::simulation::Simulation;
-use super::{Error, Impact, Initial, Scenario};
+use super::{Error, Impact, Initial, Scenario, rounding};
 use impact_numerics::clock::Instant;
 
 /// Closing speed V in units of d ω below which an impact is a graze: V and τ′ have a relative error of some ε/V², and have
@@ -41,6 +41,8 @@ struct Mass {
 #[derive(Clone, Debug)]
 pub struct Sensitivity {
     start: Simulation<COMPONENTS>,
+    /// E of [`rounding`], the width of a gap that rounding may add or take.
+    width: f64,
     /// Masses 1..n; 0 and n + 1 are the walls.
     masses: Vec<Mass>,
     impacts: u64,
@@ -64,7 +66,7 @@ impl Sensitivity {
             hit: -1.0,
         };
         let masses = start.motions.iter().map(mass).collect();
-        Ok(Sensitivity { start, masses, impacts: 0 })
+        Ok(Sensitivity { start, width: rounding::width(scenario), masses, impacts: 0 })
     }
 
     /// τ′ of the next impact.
@@ -77,7 +79,6 @@ impl Sensitivity {
         let topology = start.topology;
         let sides = topology.sides(impact.gap - topology.label(0));
         self.impacts += 1;
-        self.refused(impact, sides)?;
         let frequencies = &start.search.frequencies;
         let omega = frequencies.omega;
         let phases = Phases::at(&start.rates, Instant::at(time));
@@ -86,6 +87,7 @@ impl Sensitivity {
         let change = right.derivative.minus(&left.derivative).seen(&phases);
         let forced = gap.forced.iter().zip(frequencies.big_omegas);
         let acceleration = forced.fold(-omega * omega * gap.u, |sum, ([v, _], w)| sum - w * w * v);
+        self.refused(impact, sides, acceleration)?;
         let shift = change.place() / speed;
         let faster = -(change.velocity(frequencies) + acceleration * shift);
         let inverse = sides.map(|m| topology.inverse_mass(m));
@@ -101,13 +103,15 @@ impl Sensitivity {
         Ok(shift)
     }
 
-    /// Refuses an impact that has no derivative.
-    fn refused(&self, impact: &Impact, sides: [usize; 2]) -> Result<(), Error> {
+    /// Refuses an impact that has no derivative, or none that rounding leaves.
+    fn refused(&self, impact: &Impact, sides: [usize; 2], acceleration: f64) -> Result<(), Error> {
         let Impact { time, gap, closing_speed } = *impact;
         let start = &self.start;
         let unit = start.spacing * start.search.frequencies.omega;
         let tied = sides.iter().any(|m| !start.topology.is_wall(*m) && self.masses[*m].hit == time);
-        let problem = if closing_speed <= GRAZE * unit {
+        // The premise of `rounding`, with the curvature at the impact: near resonance amplitudes, and E, are large.
+        let rounded = (rounding::TRANSVERSAL * acceleration.abs() * self.width).sqrt();
+        let problem = if closing_speed <= rounded.max(GRAZE * unit) {
             format!("gap {gap} grazes, at the closing speed {closing_speed:.1e}")
         } else if start.restitution * closing_speed <= CONTACT_SPEED * unit {
             format!("gap {gap} comes to rest, and may stay in contact")

@@ -3,7 +3,7 @@
 /// A message in one line of at most `most` characters: parsers repeat what they were given. Of a
 /// longer one the beginning and the end are kept, for both tell something.
 pub fn one_line(text: &str, most: usize) -> String {
-    let visible = |c: char| if breaks(c) { ' ' } else { c };
+    let visible = |c: char| if is_obeyed(c) { ' ' } else { c };
     let line: String = text.chars().map(visible).collect();
     let line = line.trim();
     let length = line.chars().count();
@@ -59,9 +59,19 @@ pub fn plain(message: &str) -> String {
     PLAIN.iter().fold(message.into(), |line: String, (theirs, ours)| line.replace(theirs, ours))
 }
 
-/// Does a terminal or an editor take the character for more than a sign?
-fn breaks(c: char) -> bool {
-    c.is_control() || matches!(c, '\u{2028}' | '\u{2029}')
+/// Does a terminal or an editor take the character for more than a sign, or hide it?
+pub fn is_obeyed(c: char) -> bool {
+    let unseen = [
+        '\u{200b}'..='\u{200f}',
+        '\u{2028}'..='\u{202e}',
+        '\u{2060}'..='\u{206f}',
+        '\u{fff9}'..='\u{fffb}',
+        '\u{1d173}'..='\u{1d17a}',
+        '\u{e0000}'..='\u{e007f}',
+    ];
+    c.is_control()
+        || matches!(c, '\u{ad}' | '\u{61c}' | '\u{180e}' | '\u{feff}')
+        || unseen.iter().any(|range| range.contains(&c))
 }
 
 #[cfg(test)]
@@ -70,7 +80,7 @@ mod tests {
 
     #[test]
     fn long_and_broken_lines_are_one_short_line() {
-        assert_eq!(one_line("a\nb\u{2028}c\0\n", 10), "a b c");
+        assert_eq!(one_line("a\nb\u{2028}c\0d\u{61c}e\u{202e}f\u{e0041}g\n", 20), "a b c d e f g");
         let long = format!("begin{}end", "σ".repeat(1000));
         let line = one_line(&long, 30);
         assert_eq!(line.chars().count(), 30);

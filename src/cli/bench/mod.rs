@@ -179,6 +179,9 @@ fn draw(n: usize, sigma: f64, r: f64, seed: u64, index: u64) -> Result<Scenario,
     Ok(scenario)
 }
 
+/// Chains, and repetitions, of which each has its time kept.
+const SAMPLES: usize = 1_000_000;
+
 /// Times one number of masses.
 fn case(args: &EngineArgs, n: usize) -> Result<Case, Failure> {
     let until = args.until.unwrap_or((200_000.0 / n as f64).clamp(10.0, 200.0));
@@ -190,6 +193,11 @@ fn case(args: &EngineArgs, n: usize) -> Result<Case, Failure> {
     for (name, value) in [("chains", args.chains), ("repetitions", args.repetitions)] {
         if value == 0 {
             return Err(Failure::input(format!("--{name}: 0 measures nothing; give 1 or more")));
+        }
+        if value > SAMPLES {
+            return Err(Failure::input(format!(
+                "--{name}: {value} is too many; give {SAMPLES} at most"
+            )));
         }
     }
     // All chains at their start, and the copies that run.

@@ -2,6 +2,7 @@
 
 use super::{by_weight, count, signed};
 use impact_paper::input::one_line;
+use impact_paper::numerics::text::is_obeyed;
 use impact_paper::report::compare::{Change, ClaimChange, Diff, Piece, ProseChange};
 
 /// So many characters of what stayed lead from one change of a sentence to the next.
@@ -16,7 +17,8 @@ pub fn text(old: &str, new: &str, diff: &Diff) -> String {
     let mut section = |title: String, lines: Vec<String>| {
         if !lines.is_empty() {
             out += &format!("{title}\n");
-            lines.iter().for_each(|line| out += &format!("  {line}\n"));
+            // A report, and the name of a file, may hold what a terminal obeys.
+            lines.iter().for_each(|line| out += &format!("  {}\n", line.replace(is_obeyed, " ")));
         }
     };
     let lines = diff.verdicts.iter().map(claim).collect();
@@ -67,21 +69,11 @@ fn prose(changes: &[ProseChange]) -> Vec<String> {
             lines.push(format!("{}, {}", change.document, part[0].section));
             lines.extend(part.iter().map(|sentence| {
                 let marks = [["[-", "-]"], ["{+", "+}"]];
-                // A document may hold what a terminal obeys.
-                let safe = |text: &str| text.replace(is_obeyed, " ");
-                format!("  {}", words(&sentence.pieces, marks, "", safe))
+                format!("  {}", words(&sentence.pieces, marks, "", str::to_owned))
             }));
         }
     }
     lines
-}
-
-/// Does a terminal take the character for a command, or hide it?
-pub fn is_obeyed(c: char) -> bool {
-    let unseen = ['\u{200b}'..='\u{200f}', '\u{2028}'..='\u{202e}', '\u{2060}'..='\u{206f}'];
-    c.is_control()
-        || matches!(c, '\u{ad}' | '\u{feff}')
-        || unseen.iter().any(|range| range.contains(&c))
 }
 
 /// How many sentences differ, if a document does.

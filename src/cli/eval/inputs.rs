@@ -3,6 +3,7 @@
 use super::Options;
 use super::quantity::Quantity;
 use crate::cli::Failure;
+use crate::cli::sigmas::LARGEST;
 use impact_paper::circuits::LARGEST_N;
 use impact_paper::params::{Chain, Protocol, VERTICES};
 use serde::Serialize;
@@ -86,7 +87,12 @@ impl Inputs {
         if needs(Need::Sigma) {
             let meaning = "the standard deviation of the forcing";
             let text = required(quantity, "sigma", &options.sigma, meaning)?;
-            inputs.sigma = Some(number("sigma", text)?);
+            let sigma = number("sigma", text)?;
+            // Others are refused where they are used.
+            if sigma > 0.0 {
+                bounded("sigma", sigma, [0.0, LARGEST])?;
+            }
+            inputs.sigma = Some(sigma);
         }
         let chain = Chain::default();
         let or = |field, text: &Option<String>, default| match text {

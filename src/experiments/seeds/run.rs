@@ -122,7 +122,7 @@ impl Search<'_> {
     /// The amplitude of a body, none for a wall.
     fn body(&mut self, body: usize) -> Result<[f64; 2], Error> {
         self.drawn += 1;
-        if self.drawn % 65_536 == 0 {
+        if self.drawn.is_multiple_of(65_536) {
             self.progress.check()?;
         }
         if self.drawn > DRAWN {

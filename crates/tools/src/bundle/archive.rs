@@ -75,12 +75,12 @@ impl Archive {
         self.files.keys().map(String::as_str)
     }
 
-    /// Adds SHA256SUMS, moves the archive to its place, and returns how many files it has and its
+    /// Adds SHA256SUMS, moves the archive to its place, over a file there only if forced, and returns how many files it has and its
     /// size in bytes.
     ///
     /// # Errors
     /// Exit code 2 or 4 if it cannot be written.
-    pub fn finish(mut self) -> Result<(usize, u64), Failure> {
+    pub fn finish(mut self, force: bool) -> Result<(usize, u64), Failure> {
         let line = |(path, (digest, _)): (&String, &(String, usize))| format!("{digest}  {path}\n");
         let list: String = self.files.iter().map(line).collect();
         self.add(sums::NAME, list.as_bytes(), false)?;
@@ -89,7 +89,8 @@ impl Archive {
         let bytes = self.zip.finish().map_err(|error| failed(error.into()))?.into_inner();
         let mut file = self.file;
         file.write_all(&bytes).and_then(|()| file.as_file().sync_all()).map_err(failed)?;
-        file.persist(&path).map_err(|error| failed(error.error))?;
+        let placed = if force { file.persist(&path) } else { file.persist_noclobber(&path) };
+        placed.map_err(|error| failed(error.error))?;
         Ok((self.files.len(), bytes.len() as u64))
     }
 }

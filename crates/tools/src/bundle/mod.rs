@@ -86,7 +86,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     archive.add(metadata::NAME, metadata.as_bytes(), false)?;
     progress.check()?;
     let over = args.out.symlink_metadata().is_ok();
-    let (files, size) = archive.finish()?;
+    let (files, size) = archive.finish(args.force.force)?;
     if over {
         progress.say(&format!("impact-paper: --force: wrote over {}", args.out.display()));
     }

@@ -19,8 +19,8 @@ use std::fmt::Write as _;
 #[derive(clap::Args)]
 pub struct Args {
     /// Sample sizes.
-    #[arg(long, default_value = "full")]
-    profile: work::ProfileName,
+    #[arg(long, default_value = "full", value_parser = work::of_reports())]
+    profile: Profile,
     /// Only this value (may be repeated); exit code 1 if nothing notices one.
     #[arg(long, value_name = "ID")]
     value: Vec<String>,
@@ -46,7 +46,7 @@ fn found(
 
 /// Runs the verb.
 pub fn run(args: Args) -> Result<(), Failure> {
-    let profile = Profile::from(args.profile);
+    let profile = args.profile;
     let templates = args.sources.templates()?;
     let published = args.sources.published(&templates)?;
     let reasons = Reasons::read(templates.text("unguarded.toml")?)?;
