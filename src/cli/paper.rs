@@ -86,12 +86,12 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let numbers =
         args.figure.iter().map(read).collect::<Result<BTreeSet<figures::Number>, Failure>>()?;
     refuse_over_other(profile, &out, !args.figure.is_empty())?;
-    refuse_report("--results", &args.sources.results)?;
     if same(&out, &args.sources.results) {
         let message =
             "--out and --results are one folder; give two, since a report has no other files";
         return Err(Failure::input(message));
     }
+    refuse_report("--results", &args.sources.results)?;
     let progress = work::progress();
     let staging = Staging::below(&out, "--out", args.force)?;
     let whole = args.figure.is_empty();
@@ -218,7 +218,7 @@ fn refuse_over_other(profile: Profile, out: &Path, figures: bool) -> Result<(), 
     };
     let found = values_in(out).and_then(name);
     // Of a report that does not tell what it is, a lesser one would take the place unseen.
-    let lesser = profile != Profile::Full || figures || set::told().is_some();
+    let lesser = profile != Profile::Full || set::told().is_some();
     if found.is_none() && lesser && holds_report(out) && !is_usual(profile, out) {
         return Err(Failure::input(format!(
             "--out: {} holds a report whose {VALUES} cannot be read; restore it, or give another folder",

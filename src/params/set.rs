@@ -114,6 +114,7 @@ pub fn choose(pairs: &[String]) -> Result<(), String> {
     let mut given: Vec<&str> = Vec::new();
     for pair in pairs {
         let (name, value) = pair.split_once('=').unwrap_or((pair, ""));
+        let (name, value) = (name.trim(), value.trim());
         let Some(parameter) = PARAMETERS.iter().find(|parameter| parameter.name == name) else {
             let names: Vec<&str> = PARAMETERS.iter().map(|parameter| parameter.name).collect();
             let told = one_line(name, SHOWN);

@@ -3,7 +3,7 @@
 use super::{Failure, folder, stdout, work};
 use crate::digest::sha256;
 use crate::experiments::Progress;
-use crate::numerics::text::is_obeyed;
+use crate::input::is_obeyed;
 use crate::params::Profile;
 use crate::report::values::Number;
 use crate::report::{compare, ledger, sums};

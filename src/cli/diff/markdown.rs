@@ -2,8 +2,7 @@
 
 use super::text::{fate, reworded, words};
 use super::{by_weight, count, signed};
-use impact_paper::input::one_line;
-use impact_paper::numerics::text::is_obeyed;
+use impact_paper::input::{is_obeyed, one_line};
 use impact_paper::report::compare::{Change, ClaimChange, Diff, ProseChange};
 use impact_paper::report::markdown::escaped;
 use impact_paper::report::spell;

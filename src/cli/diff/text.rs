@@ -1,8 +1,7 @@
 //! A comparison for the terminal.
 
 use super::{by_weight, count, signed};
-use impact_paper::input::one_line;
-use impact_paper::numerics::text::is_obeyed;
+use impact_paper::input::{is_obeyed, one_line};
 use impact_paper::report::compare::{Change, ClaimChange, Diff, Piece, ProseChange};
 
 /// So many characters of what stayed lead from one change of a sentence to the next.

@@ -89,7 +89,7 @@ impl Inputs {
             let text = required(quantity, "sigma", &options.sigma, meaning)?;
             let sigma = number("sigma", text)?;
             // Others are refused where they are used.
-            if sigma > 0.0 {
+            if sigma > 0.0 && sigma.is_finite() {
                 bounded("sigma", sigma, [0.0, LARGEST])?;
             }
             inputs.sigma = Some(sigma);

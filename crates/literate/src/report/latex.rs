@@ -164,7 +164,11 @@ fn inline(inline: &Inline) -> Result<String, Error> {
         Inline::Text(text) => tex::text(text)?,
         Inline::Soft => "\n".into(),
         Inline::Break => "\\\\\n".into(),
-        Inline::Code(code) => format!("\\texttt{{{}}}", breakable(&tex::text(code)?)),
+        Inline::Code(code) => {
+            // Two hyphens in a row are set as a dash.
+            let code = tex::text(code)?.replace("--", "-{}-");
+            format!("\\texttt{{{}}}", breakable(&code))
+        }
         Inline::Emphasis(inner) => format!("\\emph{{{}}}", inlines(inner)?),
         Inline::Raised(inner) => format!("\\textsuperscript{{{}}}", inlines(inner)?),
         Inline::Strong(inner) => format!("\\textbf{{{}}}", inlines(inner)?),
