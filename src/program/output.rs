@@ -498,6 +498,24 @@ mod tests {
         place(folder, &report(&["report.md", "more.md"])).unwrap();
     }
 
+    /// A report that came during the run may be a fuller one.
+    #[test]
+    fn a_report_that_came_meanwhile_stays() {
+        let out = tempfile::tempdir().unwrap();
+        let folder = out.path();
+        let begun = || Staging::below(folder, "--out", ASK).unwrap();
+        let [late, again, forced] = [begun(), begun(), begun()];
+        let full = report(&["report.md", "more.md"]);
+        place(folder, &full).unwrap();
+        let lesser = report(&["report.md"]);
+        let failure = late.place(&lesser, &Progress::silent()).unwrap_err();
+        assert!(failure.code == 2 && failure.message.contains("during this run"));
+        assert!(folder.join("more.md").exists());
+        again.place(&full, &Progress::silent()).unwrap();
+        Staging { force: true, ..forced }.place(&lesser, &Progress::silent()).unwrap();
+        assert!(!folder.join("more.md").exists());
+    }
+
     /// At each moment at which a run may be killed, the next one knows its files.
     #[test]
     fn a_run_that_was_killed_between_two_files_is_gone_on_with() {

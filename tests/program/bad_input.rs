@@ -168,7 +168,7 @@ bench engine --sigma NaN => --sigma: NaN
 bench engine --restitution 1.5 => --restitution: 1.5
 bench engine --until -1 => --until: -1.0
 bench engine --masses 10 --threads 0|1000000000 => --threads: 
-bench engine --repetitions 0 => --repetitions: 0
+bench engine --repetitions 0|1000001 => --repetitions: 
 bench scenario --masses 0 => --masses: 0
 bench methods --masses 1000000000000 => --masses: about
 bench methods --until NaN => --until: NaN
@@ -178,6 +178,7 @@ paper --profile deep => --profile
 paper --set restitution=0.7 => --set: ; --out
 paper --set restitution=0.7 --out paper|./new/../paper => --set: ; --out
 paper --set restitution=0.7 --figure 3 --out paper/new => --set: ; --out
+paper --set masses=60 --profile quick --out target/paper-ci => --set: ; --out
 paper --set restitution=0.7 --profile full --out d => --profile ci; --figure
 paper --set restituton=0.7 --out d => there is no parameter; restitution
 paper --set restitution --out d => restitution=; give 0.3 to
@@ -218,6 +219,7 @@ eval k-star --p abc|0,5 => p:; decimal
 eval k-star --p => --p
 eval k-star --p 0.1 --p 0.2 => --p
 eval p-of-sigma --sigma 0|-1|nan|inf|1e400 => sigma:; > 0
+eval p-of-sigma --sigma 1e7 => sigma:; give 0 to 1000000
 eval p-of-sigma --sigma 0.1 --omega 0|-1|nan|inf|1e400 => omega:; > 0
 eval p-of-sigma --sigma 0.1 --omega x => omega: `x`
 eval p-of-sigma --sigma 0.1 --forcing-frequency 0|-1|nan|inf|1e400 => forcing-frequency:; > 0

@@ -227,8 +227,13 @@ fn the_manual_is_written_and_quiet_work_says_nothing() {
     assert!(found.len() > 15 && found.iter().all(listed), "{bash}");
     std::fs::create_dir(here.join("report")).unwrap();
     std::fs::write(here.join("report/SHA256SUMS"), "").unwrap();
-    for verb in ["manual", "run --profile quick --shard 1/1"] {
-        crate::refused(here, &format!("{verb} --out report"), &["holds a report"]);
+    std::fs::create_dir_all(here.join("left/data")).unwrap();
+    std::fs::write(here.join("left/ledger.json"), "").unwrap();
+    for folder in ["report", "left", "left/data"] {
+        for verb in ["manual --out", "run --profile quick --shard 1/1 --out"] {
+            crate::refused(here, &format!("{verb} {folder}"), &["holds a report"]);
+        }
+        refused(here, &format!("-q paper --out o --results {folder}"), &["holds a report"]);
     }
     std::fs::write(here.join("m/impact-paper.1"), "mine").unwrap();
     crate::refused(here, "manual --out m", &["impact-paper.1", "--force"]);
