@@ -7,6 +7,7 @@ pub mod judged;
 pub mod listed;
 pub mod make;
 pub mod output;
+mod own;
 pub mod sources;
 pub mod stdout;
 pub mod waiting;

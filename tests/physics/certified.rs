@@ -277,7 +277,7 @@ fn near_resonance_the_bound_holds_or_the_scenario_is_refused() {
 }
 
 #[test]
-#[ignore = "a million segments: a quarter of an hour"]
+#[ignore = "two million segments: minutes"]
 fn a_million_corner_biased_segments() {
     let count = std::env::var("SEGMENTS").ok().and_then(|n| n.parse().ok()).unwrap_or(2_000_000);
     let tally = corners(1_000_000, count);
