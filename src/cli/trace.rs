@@ -179,9 +179,12 @@ pub fn run(args: Args) -> Result<(), Failure> {
         let told = Arc::clone(&told);
         move || {
             let (met, latest, waits) = &*told;
-            let met = count(met.load(Relaxed) as usize, "impact");
-            let latest = f64::from_bits(latest.load(Relaxed));
-            (!waits.load(Relaxed)).then(|| format!("trace: {met} until t = {latest:?}"))
+            let impacts = count(met.load(Relaxed) as usize, "impact");
+            let last = match f64::from_bits(latest.load(Relaxed)) {
+                0.0 => " yet".to_owned(),
+                latest => format!(", the last at t = {latest:?}"),
+            };
+            (!waits.load(Relaxed)).then(|| format!("trace: {impacts}{last}"))
         }
     });
     let mut sink = |impact: Impact| {

@@ -173,6 +173,22 @@ fn chatters_are_cut_short() {
     }
 }
 
+/// Next to resonance amplitudes are ten million times a gap, and hide that it hardly moves: the certified steps
+/// are to go by the gap.
+#[test]
+fn next_to_resonance_a_gap_that_hardly_moves_is_soon_passed() {
+    for (k, scale) in [(1.0, 1.65e-7), (2.0, 1.6e-7), (16.0, 1.1e-7), (64.0, 1.6e-7)] {
+        let forcing =
+            [[0.3, 0.2], [-0.25, 0.1], [0.1, -0.3]].map(|x| x.map(|x| x * scale * k / 8.0));
+        let chain = Chain { forcing_frequency: 1.0 + k * f64::EPSILON, ..Chain::default() };
+        let mut engine = Engine::new(&Scenario::given(&chain, forcing.to_vec())).unwrap();
+        engine.run(30.0, |_| true).unwrap();
+        let counters = engine.counters();
+        println!("k = {k}: {counters:?}");
+        assert!(counters.impacts == 0 && counters.evaluations < 2_000_000, "k = {k}: {counters:?}");
+    }
+}
+
 /// What starts at a late time is moved to zero with all digits, so that its impacts are as exact.
 #[test]
 fn a_start_at_a_million_million_is_as_exact_as_one_at_zero() {

@@ -23,6 +23,9 @@ fn parabola(f: f64, g: f64, k: f64, far: f64) -> f64 {
 /// A gap barely opens where another trial gives a stretch so many times as long: its rate is below 1e-9 of what is usual.
 const BARELY: f64 = 1e6;
 
+/// The parts of a gap are far larger than itself where another trial gives a stretch so many times as long.
+const FAR_LARGER: f64 = 1e3;
+
 /// A certified stretch: f > 0 on (s, s + h) for the returned h ≤ `limit`.
 ///
 /// On [0, L] the second derivative is at least f'' + min(0, f''' L) − ½ M₄ L² = −K, so f stays
@@ -43,14 +46,14 @@ fn stretch<const M: usize>(f: f64, p: &Point<M>, bound: f64, limit: f64) -> f64 
         limit
     };
     let h = certified(first.min(limit));
-    // Barely opening, the limit is no good trial; how far each term of K alone lets it go is one.
-    if p.g > 0.0 && p.h <= 0.0 {
-        let by_f2 = 2.0 * p.g / p.h.abs();
-        let by_f3 = (2.0 * p.g / p.j.abs()).sqrt();
-        let near = by_f2.min(by_f3).min(pxfm::f_cbrt(4.0 * p.g / bound));
-        if near > BARELY * h {
-            return certified(near.min(limit)).max(h);
-        }
+    // Where neither is a good trial, how far each term of K alone lets the gap go is one: by its rate, or by its width.
+    let (down, third) = ((-p.h).max(0.0), p.j.abs());
+    let by_rate =
+        (2.0 * p.g / down).min((2.0 * p.g / third).sqrt()).min(pxfm::f_cbrt(4.0 * p.g / bound));
+    let by_width = (f / (-p.g).max(0.0)).min((2.0 * f / down).sqrt());
+    let by_width = by_width.min(pxfm::f_cbrt(2.0 * f / third)).min((4.0 * f / bound).sqrt().sqrt());
+    if p.h <= 0.0 && by_rate > BARELY * h || by_width > FAR_LARGER * h {
+        return certified(by_rate.max(by_width).min(limit)).max(h);
     }
     certified((1.5 * h).min(limit)).max(h)
 }
