@@ -11,6 +11,8 @@
 //! of too many gaps, the slice is undone as a whole and taken in order. That is rare: the front passes some hundred gaps
 //! in a unit of time, impacts that are merely close to one another are kept in order by a walk to what is earlier nearby, and
 //! no run of impacts was seen to overtake it but those that were made to.
+//!
+//! The front from each end meets the other only in the middle, so each half of a chain may have a core of its own (`halves`).
 
 use super::Error;
 use super::engine::{Impact, Sink};
@@ -19,8 +21,10 @@ use super::force::Force;
 use super::simulation::{Awaits, Gap, NEARLY_SHUT, Simulation};
 use super::simultaneous::Simultaneous;
 use impact_numerics::clock::Instant;
+use impact_numerics::earliest::Begins;
 use impact_numerics::first_root::Work;
 use std::hint::black_box;
+use std::ops::Range;
 
 /// From so many gaps on, a chain is taken along a front: shorter ones stay in the cache as they are.
 const LONG: usize = 50_000;
@@ -42,7 +46,7 @@ const WORDS: f64 = (1u64 << 58) as f64;
 const FEW: f64 = 0.02;
 
 /// An event of contact may concern gaps so far on either side, and one more; of impacts at one instant there are fewer.
-const NEARBY: usize = 8;
+pub(super) const NEARBY: usize = 8;
 
 /// Gaps of each half that are read at once.
 const AHEAD: usize = 64;
@@ -61,7 +65,7 @@ type BeforeContact<const M: usize> = (usize, Motion<M>, Force<M>);
 
 /// An impact that is yet to be handed out.
 #[derive(Clone, Copy, Debug)]
-struct Found {
+pub(super) struct Found {
     at: Instant,
     /// How many were found before it.
     number: u32,
@@ -70,22 +74,57 @@ struct Found {
 }
 
 /// What a simulation counts: the time of its last event, its work, its impacts and phases of contact, its budget.
-type Counted = (Instant, Work, [u64; 2], (Instant, u64));
+pub(super) type Counted = (Instant, Work, [u64; 2], (Instant, u64));
+
+/// What a slice changed, as it was before, and the impacts it found.
+#[derive(Clone, Debug)]
+pub(super) struct Slice<const M: usize> {
+    before: Vec<Before<M>>,
+    before_contact: Vec<BeforeContact<M>>,
+    pub found: Vec<Found>,
+}
 
 /// The front of a long chain.
 #[derive(Clone, Debug)]
 pub(super) struct Front<const M: usize> {
-    places: usize,
+    pub places: usize,
     wanted: f64,
     /// Units of time that the next slice is to take.
-    height: f64,
+    pub height: f64,
     /// Units of time that were taken in order after the last slice, since it was a waste: twice as many each time.
-    pause: f64,
-    before: Vec<Before<M>>,
-    before_contact: Vec<BeforeContact<M>>,
-    found: Vec<Found>,
+    pub pause: f64,
+    pub slice: Slice<M>,
+    /// Whether each half has a core of its own.
+    pub on_two_cores: bool,
     #[cfg(test)]
     undone: u32,
+    #[cfg(test)]
+    pub by_halves: u32,
+}
+
+impl<const M: usize> Slice<M> {
+    pub const NEW: Self =
+        Slice { before: Vec::new(), before_contact: Vec::new(), found: Vec::new() };
+
+    /// Sorts the impacts found by time.
+    fn sort(&mut self) {
+        // By two comparisons, of which the second is hardly ever asked for.
+        self.found.sort_unstable_by(|a, b| a.at.cmp(&b.at).then(a.number.cmp(&b.number)));
+    }
+
+    /// Adds the impacts of a part whose gaps begin at `from`; of one instant, those of the lower gaps come first.
+    pub fn add(&mut self, part: &Self, from: usize) {
+        let moved = |found: &Found| Found { k: found.k + from as u32, ..*found };
+        self.found.extend(part.found.iter().map(moved));
+        self.found.sort_by_key(|found| found.at);
+    }
+
+    /// Whether impacts of one instant are as in the order of time, where the lowest gap of all comes first: here the lowest
+    /// nearby does.
+    pub fn is_sorted(&self) -> bool {
+        let mut instants = self.found.chunk_by(|one, next| one.at == next.at);
+        instants.all(|own| own.len() < NEARBY && own.is_sorted_by(|one, next| one.k <= next.k + 1))
+    }
 }
 
 impl<const M: usize> Front<M> {
@@ -103,132 +142,147 @@ impl<const M: usize> Front<M> {
             wanted,
             height: height.clamp(LEAST, LARGEST),
             pause: 0.0,
-            before: Vec::new(),
-            before_contact: Vec::new(),
-            found: Vec::new(),
+            slice: Slice::NEW,
+            on_two_cores: false,
             #[cfg(test)]
             undone: 0,
+            #[cfg(test)]
+            by_halves: 0,
         }
     }
 
-    /// Sorts the impacts found by time. False if those of one instant may not be as in the order of time, where the lowest
-    /// gap of all comes first: here the lowest nearby does.
-    fn sort(&mut self) -> bool {
-        // By two comparisons, of which the second is hardly ever asked for.
-        let order = |a: &Found, b: &Found| a.at.cmp(&b.at).then(a.number.cmp(&b.number));
-        self.found.sort_unstable_by(order);
-        let mut instants = self.found.chunk_by(|one, next| one.at == next.at);
-        instants.all(|own| own.len() < NEARBY && own.is_sorted_by(|one, next| one.k <= next.k + 1))
+    /// How long the next slice is, where so much time is left: all alike, and a whole number of what words can tell.
+    pub fn next_height(&self, left: f64) -> f64 {
+        (left / (left / self.height).ceil() * WORDS).floor() / WORDS
     }
 
-    /// Has the next slice take as long as so many events ask for.
-    fn learn(&mut self, height: f64, events_per_gap: f64) {
-        let factor = (self.wanted / events_per_gap).clamp(0.5, 2.0);
+    /// Has the next slice take as long as so many events ask for, or half as long after one that was given up; and pauses after
+    /// a waste.
+    pub fn learn(&mut self, height: f64, events_per_gap: Option<f64>) {
+        #[cfg(test)]
+        {
+            self.undone += u32::from(events_per_gap.is_none());
+        }
+        let factor = events_per_gap.map_or(0.5, |events| (self.wanted / events).clamp(0.5, 2.0));
         self.height = (height * factor).clamp(LEAST, LARGEST);
+        let is_few = |events| height > 0.5 * LARGEST && events < FEW;
+        self.pause =
+            if events_per_gap.is_none_or(is_few) { height.max(2.0 * self.pause) } else { 0.0 };
     }
 }
 
 impl<const M: usize> Simulation<M> {
-    /// Runs slice by slice up to `end`, or as far as is worth a slice; false if the receiver wants no more.
-    pub(super) fn run_in_slices(
+    /// Runs along the front, on as many cores as it has, up to `end` or as far as is worth it; false if the receiver wants no more.
+    pub(super) fn run_along(
         &mut self,
         front: &mut Front<M>,
         end: Instant,
         sink: Sink,
     ) -> Result<bool, Error> {
-        let (mut begin, mut goes_on) = (self.now, true);
-        while goes_on {
+        #[cfg(not(target_family = "wasm"))]
+        if front.on_two_cores && !self.run_on_two_cores(front, end, sink)? {
+            return Ok(false);
+        }
+        self.run_in_slices(front, end, sink)
+    }
+
+    /// Runs slice by slice up to `end`, or as far as is worth a slice; false if the receiver wants no more.
+    fn run_in_slices(
+        &mut self,
+        front: &mut Front<M>,
+        end: Instant,
+        sink: Sink,
+    ) -> Result<bool, Error> {
+        let mut begin = self.now;
+        loop {
             let left = end.since(begin);
             if left < 0.25 * front.height {
                 break;
             }
-            // All slices alike, and whole numbers of what words can tell.
-            let height = (left / (left / front.height).ceil() * WORDS).floor() / WORDS;
+            let height = front.next_height(left);
             let counted = self.counted();
-            let followed = self.follow(front, begin, height);
-            if followed.is_some() {
+            let (gaps, places) = (self.gaps.len(), front.places);
+            let events =
+                self.follow(&mut front.slice, begin, height, places, Begins::AtEnds, 0..gaps);
+            let events = events.filter(|_| front.slice.is_sorted());
+            if events.is_some() {
                 begin = begin.after(height);
-                goes_on = self.hand_out_found(front, counted, begin, sink)?;
-            } else {
-                self.undo(front, counted);
-                #[cfg(test)]
-                {
-                    front.undone += 1;
+                if let Some(handed) = self.hand_out_found(&front.slice.found, sink) {
+                    self.undo(&mut front.slice, counted);
+                    return self.run_again(begin, handed);
                 }
+            } else {
+                self.undo(&mut front.slice, counted);
             }
-            let few = height > 0.5 * LARGEST && followed < Some(FEW);
-            let waste = few || followed.is_none();
-            front.pause = if waste { height.max(2.0 * front.pause) } else { 0.0 };
-            if goes_on && front.pause > 0.0 {
+            front.learn(height, events.map(|events| events as f64 / gaps as f64));
+            if front.pause > 0.0 {
                 begin = begin.after(front.pause.min(end.since(begin)));
                 self.queue.straighten();
-                goes_on = self.run_in_order(begin, sink)?;
+                if !self.run_in_order(begin, sink)? {
+                    return Ok(false);
+                }
             }
         }
         self.queue.straighten();
-        Ok(goes_on)
+        Ok(true)
     }
 
-    /// Hands out the impacts of a slice up to `end`; false if the receiver wants no more.
-    fn hand_out_found(
+    /// Hands out the impacts of a slice; tells how many, if the receiver wants no more.
+    pub(super) fn hand_out_found(&self, found: &[Found], sink: Sink) -> Option<usize> {
+        let is_last = |&Found { at, k, closing_speed, .. }: &Found| {
+            !sink(Impact { time: at.time(), gap: self.topology.label(k as usize), closing_speed })
+        };
+        found.iter().position(is_last).map(|last| last + 1)
+    }
+
+    /// After a slice that was undone: to the state right after the last of the impacts that were `handed` out, in order.
+    pub(super) fn run_again(&mut self, end: Instant, mut handed: usize) -> Result<bool, Error> {
+        self.run_in_order(end, &mut |_| {
+            handed -= 1;
+            handed > 0
+        })
+    }
+
+    /// Takes the events of a slice along the front, all among the gaps `inside`, and counts them; nothing if one of them cannot be
+    /// taken there.
+    pub(super) fn follow(
         &mut self,
-        front: &mut Front<M>,
-        counted: Counted,
-        end: Instant,
-        sink: Sink,
-    ) -> Result<bool, Error> {
-        let mut handed = 0;
-        let goes_on = front.found.iter().all(|&Found { at, k, closing_speed, .. }| {
-            handed += 1;
-            sink(Impact { time: at.time(), gap: self.topology.label(k as usize), closing_speed })
-        });
-        if !goes_on {
-            // The state is to be that right after the last impact that was handed out.
-            self.undo(front, counted);
-            self.run_in_order(end, &mut |_| {
-                handed -= 1;
-                handed > 0
-            })?;
-        }
-        Ok(goes_on)
-    }
-
-    /// Takes the events of a slice along the front, and counts them for each gap; nothing if one of them cannot be taken there.
-    fn follow(&mut self, front: &mut Front<M>, begin: Instant, height: f64) -> Option<f64> {
-        front.before.clear();
-        front.before_contact.clear();
-        front.found.clear();
-        self.queue.slant(begin, height, front.places);
+        slice: &mut Slice<M>,
+        begin: Instant,
+        height: f64,
+        places: usize,
+        from: Begins,
+        inside: Range<usize>,
+    ) -> Option<usize> {
+        slice.before.clear();
+        slice.before_contact.clear();
+        slice.found.clear();
+        self.queue.slant(begin, height, places, from);
         let (mut latest, mut read, mut events, gaps) = (self.now, 0, 0, self.gaps.len());
         while let Some((k, at)) = self.queue.first_nearby() {
             self.read_ahead(k, &mut read);
             self.now = at;
             events += 1;
-            if events > MOST * gaps {
-                front.height = (0.5 * height).max(LEAST);
-                return None;
-            }
-            if !(self.is_local(k, begin, front) || self.is_local_contact(k, begin, front)) {
+            if events > MOST * gaps
+                || !inside.contains(&k)
+                || !(self.is_local(k, begin, slice) || self.is_local_contact(k, begin, slice))
+            {
                 return None;
             }
             if let Some(Impact { closing_speed, .. }) = self.step(k).ok()? {
-                let number = front.found.len() as u32;
-                front.found.push(Found { at, number, k: k as u32, closing_speed });
+                let number = slice.found.len() as u32;
+                slice.found.push(Found { at, number, k: k as u32, closing_speed });
             }
             latest = latest.max(at);
         }
         self.now = latest;
-        if !front.sort() {
-            return None;
-        }
-        let events_per_gap = events as f64 / gaps as f64;
-        front.learn(height, events_per_gap);
-        Some(events_per_gap)
+        slice.sort();
+        Some(events)
     }
 
     /// Whether the event of gap k now concerns no more than its neighbours, and comes in order among them. Keeps them, if so.
     #[inline(always)]
-    fn is_local(&self, k: usize, begin: Instant, front: &mut Front<M>) -> bool {
+    fn is_local(&self, k: usize, begin: Instant, slice: &mut Slice<M>) -> bool {
         let own = &self.gaps[k];
         let local = match own.awaits {
             Awaits::Search { .. } => !own.in_contact,
@@ -239,14 +293,14 @@ impl<const M: usize> Simulation<M> {
                         .clone()
                         .all(|near| !self.gaps[near].in_contact && self.waits_for(near));
                 if local {
-                    beside.for_each(|near| self.remember(near, begin, front));
+                    beside.for_each(|near| self.remember(near, begin, slice));
                 }
                 local
             }
             Awaits::Release | Awaits::Nothing => false,
         };
         if local {
-            self.remember(k, begin, front);
+            self.remember(k, begin, slice);
         }
         local
     }
@@ -260,7 +314,7 @@ impl<const M: usize> Simulation<M> {
     /// The same of an event in which contact begins, goes on or ends: it concerns the gaps up to the first on either side
     /// that is open, and one more.
     #[cold]
-    fn is_local_contact(&self, k: usize, begin: Instant, front: &mut Front<M>) -> bool {
+    fn is_local_contact(&self, k: usize, begin: Instant, slice: &mut Slice<M>) -> bool {
         let phases = Phases::at(&self.rates, self.now);
         let is_open = |near: &usize| {
             let width = self.look(*near, &phases).f0;
@@ -275,9 +329,9 @@ impl<const M: usize> Simulation<M> {
             && concerned.clone().all(|near| near == k || self.waits_for(near));
         if local {
             for near in concerned {
-                self.remember(near, begin, front);
+                self.remember(near, begin, slice);
                 let left = self.motions[self.topology.sides(near)[0]];
-                front.before_contact.push((near, left, self.forces[near]));
+                slice.before_contact.push((near, left, self.forces[near]));
             }
         }
         local
@@ -285,28 +339,28 @@ impl<const M: usize> Simulation<M> {
 
     /// Keeps gap k as it was before the slice, if it still is.
     #[inline(always)]
-    fn remember(&self, k: usize, begin: Instant, front: &mut Front<M>) {
+    fn remember(&self, k: usize, begin: Instant, slice: &mut Slice<M>) {
         let gap = self.gaps[k];
         if gap.origin <= begin {
             let left = &self.motions[self.topology.sides(k)[0]];
-            front.before.push(Before { k, gap, key: self.queue.key(k), free: [left.a, left.b] });
+            slice.before.push(Before { k, gap, key: self.queue.key(k), free: [left.a, left.b] });
         }
     }
 
     /// What is counted so far.
-    fn counted(&self) -> Counted {
+    pub(super) fn counted(&self) -> Counted {
         let budget = (self.budget_end, self.budget_left);
         (self.now, self.work, [self.impacts, self.contact_phases], budget)
     }
 
     /// Makes all as it was before the slice, and the order straight.
-    fn undo(&mut self, front: &mut Front<M>, counted: Counted) {
+    pub(super) fn undo(&mut self, slice: &mut Slice<M>, counted: Counted) {
         // Backwards: what was kept twice was kept first as it was before.
-        while let Some((k, left, force)) = front.before_contact.pop() {
+        while let Some((k, left, force)) = slice.before_contact.pop() {
             self.motions[self.topology.sides(k)[0]] = left;
             self.forces[k] = force;
         }
-        while let Some(Before { k, gap, key, free }) = front.before.pop() {
+        while let Some(Before { k, gap, key, free }) = slice.before.pop() {
             self.gaps[k] = gap;
             self.queue.restore(k, key);
             let left = &mut self.motions[self.topology.sides(k)[0]];
@@ -325,10 +379,10 @@ impl<const M: usize> Simulation<M> {
         if place + AHEAD / 2 < *read {
             return;
         }
-        let (from, gaps) = (place.max(*read), self.gaps.len());
+        let from = place.max(*read);
         *read = from + AHEAD;
-        for near in from..(*read).min(gaps / 2) {
-            for k in [near, gaps - 1 - near] {
+        for near in from..(*read).min(self.queue.places()) {
+            for k in self.queue.at_place(near) {
                 let gap = &self.gaps[k];
                 black_box((gap.frame.f0, gap.in_contact, self.motions[k].a, self.queue.leaf(k)));
             }
@@ -350,8 +404,8 @@ mod tests {
     type Given = (Vec<(u64, usize, u64)>, Counters, Vec<[u64; 2]>, Vec<(usize, u64)>);
 
     /// Runs with an interruption by the receiver, a pause and a piece that is too short for a slice; tells how many
-    /// slices were undone.
-    fn run(scenario: &Scenario, until: f64, front: Option<Front<1>>) -> (Given, u32) {
+    /// slices were undone, and how many taken by halves.
+    fn run(scenario: &Scenario, until: f64, front: Option<Front<1>>) -> (Given, [u32; 2]) {
         let mut simulation = Simulation::<1>::new(scenario).unwrap();
         simulation.front = front.map(Box::new);
         let mut impacts = Vec::new();
@@ -371,20 +425,26 @@ mod tests {
         }
         let free = simulation.free_parts().iter().map(|part| part.map(f64::to_bits)).collect();
         let places = simulation.contacts(until).iter().map(|(k, f)| (*k, f.to_bits())).collect();
-        let undone = simulation.front.as_ref().map_or(0, |front| front.undone);
-        ((impacts, simulation.counters(), free, places), undone)
+        let slices =
+            simulation.front.as_ref().map_or([0; 2], |front| [front.undone, front.by_halves]);
+        ((impacts, simulation.counters(), free, places), slices)
     }
 
     /// Holds a run in slices of all kinds against one in order; tells how many slices were undone.
     fn agrees(scenario: &Scenario, until: f64) -> u32 {
         let (plain, _) = run(scenario, until, None);
         assert!(plain.1.impacts > 300, "{}", plain.1.impacts);
-        let mut undone = 0;
+        let (mut undone, mut by_halves) = (0, 0);
         for (places, wanted) in [(1, 1.0), (8, 0.05), (8, 1.0), (64, 0.3), (512, 1.0)] {
-            let (own, times) = run(scenario, until, Some(Front::new(places, wanted, 0.5)));
-            assert!(own == plain, "{places} places, {wanted} events a gap");
-            undone += times;
+            for on_two_cores in [false, true] {
+                let front = Front { on_two_cores, ..Front::new(places, wanted, 0.5) };
+                let (own, slices) = run(scenario, until, Some(front));
+                assert!(own == plain, "{places} places, {wanted} events a gap, {on_two_cores}");
+                undone += slices[0];
+                by_halves += slices[1];
+            }
         }
+        assert!(by_halves > 2 || scenario.boundary == Boundary::Ring, "{by_halves}");
         undone
     }
 
@@ -399,10 +459,10 @@ mod tests {
                 format!("{:?}", (&of.motions, &of.gaps, &of.forces, keys, of.counted()))
             };
             let (before, counted) = (state(&simulation), simulation.counted());
-            let mut front = Front::new(64, 1.0, 0.5);
-            simulation.follow(&mut front, simulation.now, 0.5);
-            in_contact += front.before_contact.len();
-            simulation.undo(&mut front, counted);
+            let (mut slice, gaps) = (Slice::NEW, simulation.gaps.len());
+            simulation.follow(&mut slice, simulation.now, 0.5, 64, Begins::AtEnds, 0..gaps);
+            in_contact += slice.before_contact.len();
+            simulation.undo(&mut slice, counted);
             assert!(state(&simulation) == before, "at {i}/4");
         }
         assert!(in_contact > 100, "{in_contact}");
@@ -422,7 +482,7 @@ mod tests {
         }
         // Nothing of it is luck: a front of the engine's own steepness has nothing to undo.
         let scenario = drawn(&chain(3000, 0.8, Boundary::Walls), 0.3);
-        assert_eq!(run(&scenario, 100.0, Some(Front::new(PLACES, WANTED, 0.5))).1, 0);
+        assert_eq!(run(&scenario, 100.0, Some(Front::new(PLACES, WANTED, 0.5))).1[0], 0);
     }
 
     /// Contact and ties are no matter of two masses. The chain is its own mirror image, with a mass at rest in the middle.
@@ -477,7 +537,11 @@ mod tests {
         let front = Simulation::<1>::new(&scenario).unwrap().front;
         let (plain, _) = run(&scenario, 60.0, None);
         assert!(plain.1.impacts > 1_000_000);
-        let own = run(&scenario, 60.0, front.map(|front| *front));
-        assert!(own == (plain, 0), "{} slices undone", own.1);
+        for on_two_cores in [false, true] {
+            let front = front.clone().map(|front| Front { on_two_cores, ..*front });
+            let (own, [undone, by_halves]) = run(&scenario, 60.0, front);
+            assert!(own == plain && undone == 0, "{undone} slices undone");
+            assert!(by_halves > 10 || !on_two_cores, "{by_halves}");
+        }
     }
 }

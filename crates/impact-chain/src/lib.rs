@@ -44,6 +44,8 @@ mod force;
 mod front;
 mod gap;
 mod growth;
+#[cfg(not(target_family = "wasm"))]
+mod halves;
 mod impact;
 mod linear;
 pub mod methods;

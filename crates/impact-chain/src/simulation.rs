@@ -207,7 +207,7 @@ impl<const M: usize> Simulation<M> {
         if cfg!(not(target_family = "wasm"))
             && let Some(mut front) = self.front.take()
         {
-            let goes_on = self.run_in_slices(&mut front, end, sink);
+            let goes_on = self.run_along(&mut front, end, sink);
             self.front = Some(front);
             if !goes_on? {
                 return Ok(());

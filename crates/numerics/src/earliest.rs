@@ -11,8 +11,8 @@ use super::clock::Instant;
 /// needs the exact order asks for it. Words end 64 units of time after the epoch; when no key is left
 /// before that end, the earliest becomes the epoch. The shape is fixed, so the order of changes never matters.
 ///
-/// The order may be [slanted](Self::slant): then a key counts as later by its distance from the nearer end, and
-/// [`first_nearby`](Self::first_nearby) goes from both ends to the middle.
+/// The order may be [slanted](Self::slant): then a key counts as later by its distance from an end, and
+/// [`first_nearby`](Self::first_nearby) goes from that end inwards, or from both ends to the middle.
 #[derive(Clone, Debug)]
 pub struct Earliest {
     /// The keys in full, "never" beyond `len`.
@@ -22,6 +22,20 @@ pub struct Earliest {
     epoch: Instant,
     last: usize,
     slant: Option<Slant>,
+    from: Begins,
+    /// Words from here on are of no key that is left.
+    beyond: u64,
+}
+
+/// Where a slanted order begins.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Begins {
+    /// At both ends: the middle comes last. The last and the first are neighbours too.
+    AtEnds,
+    /// At the first key; those of the last places, so many, are left out.
+    AtFirst(usize),
+    /// At the last key; those of the first places, so many, are left out.
+    AtLast(usize),
 }
 
 /// How words are made where the order is slanted, in units of 2^-58 of time.
@@ -44,17 +58,30 @@ impl Earliest {
 
     /// `len` ≥ 1 keys, all [`Instant::NEVER`].
     pub fn new(len: usize) -> Self {
-        let width = len.next_power_of_two();
-        let (keys, nodes) = (vec![Instant::NEVER; width], vec![0; 2 * width]);
+        Self::of(vec![Instant::NEVER; len])
+    }
+
+    /// Of one key or more.
+    pub fn of(mut keys: Vec<Instant>) -> Self {
+        let (last, width) = (keys.len() - 1, keys.len().next_power_of_two());
+        keys.resize(width, Instant::NEVER);
+        let epoch = keys.iter().min().copied().filter(|&key| key < Instant::NEVER);
+        let (nodes, from) = (vec![0; 2 * width], Begins::AtEnds);
         let mut earliest =
-            Earliest { keys, nodes, epoch: Instant::ZERO, last: len - 1, slant: None };
-        earliest.rebase(Instant::ZERO);
+            Earliest { keys, nodes, epoch: Instant::ZERO, last, slant: None, from, beyond: 0 };
+        earliest.rebase(epoch.unwrap_or(Instant::ZERO));
         earliest
+    }
+
+    /// The keys.
+    pub fn keys(&self) -> &[Instant] {
+        &self.keys[..=self.last]
     }
 
     /// Makes all words anew, for another epoch.
     fn rebase(&mut self, epoch: Instant) {
         self.epoch = epoch;
+        self.beyond = !self.mask();
         let width = self.keys.len();
         for index in 0..width {
             self.nodes[width + index] = match &self.slant {
@@ -81,25 +108,51 @@ impl Earliest {
     #[inline(always)]
     fn slanted_word(&self, slant: &Slant, index: usize, key: Instant) -> u64 {
         let fine = key.fine(self.epoch);
-        let slanted = (fine >> slant.shift) + slant.step * self.place(index) as u64;
+        // Wraps where there is no key.
+        let slanted =
+            (fine >> slant.shift).wrapping_add(slant.step.wrapping_mul(self.place(index) as u64));
         let time = if fine < slant.height { slanted } else { u64::MAX };
         time & !self.mask() | index as u64
     }
 
-    /// How far `index` is from the nearer end, where the last and the first are neighbours too.
+    /// How far `index` is from where the order begins.
     #[inline(always)]
     pub fn place(&self, index: usize) -> usize {
-        index.min((self.last + 1).wrapping_sub(index))
+        let back = (self.last + 1).wrapping_sub(index);
+        match self.from {
+            Begins::AtEnds => index.min(back),
+            Begins::AtFirst(_) => index,
+            Begins::AtLast(_) => back,
+        }
+    }
+
+    /// How many places there are.
+    pub fn places(&self) -> usize {
+        if self.from == Begins::AtEnds { self.keys().len() / 2 } else { self.keys().len() }
+    }
+
+    /// The keys at a place, or next to it: one from each end where the order begins.
+    #[inline(always)]
+    pub fn at_place(&self, place: usize) -> [usize; 2] {
+        match self.from {
+            Begins::AtEnds => [place, self.last - place],
+            Begins::AtFirst(_) => [place; 2],
+            Begins::AtLast(_) => [self.last - place; 2],
+        }
     }
 
     /// Slants the order: of all keys within `height` units of time from `epoch`, those come first that are least when one
-    /// place away from an end counts as much as `height` / `places`.
-    pub fn slant(&mut self, epoch: Instant, height: f64, places: usize) {
+    /// place away from where it begins counts as much as `height` / `places`.
+    pub fn slant(&mut self, epoch: Instant, height: f64, places: usize, from: Begins) {
         let height = Instant::ZERO.after(height).fine(Instant::ZERO);
         // The farthest place adds so many heights.
         let shift = (1 + self.last / places).ilog2() + 1;
-        self.slant = Some(Slant { height, shift, step: (height >> shift) / places as u64 });
+        let step = (height >> shift) / places as u64;
+        (self.slant, self.from) = (Some(Slant { height, shift, step }), from);
         self.rebase(epoch);
+        if let Begins::AtFirst(out) | Begins::AtLast(out) = from {
+            self.beyond = step * (self.last + 1).saturating_sub(out) as u64;
+        }
     }
 
     /// Has the order straight again.
@@ -108,20 +161,26 @@ impl Earliest {
             return;
         }
         let first = self.keys.iter().min().copied().filter(|&key| key < Instant::NEVER);
+        self.from = Begins::AtEnds;
         self.rebase(first.unwrap_or(self.epoch));
     }
 
     /// The first in the slanted order, or whom a walk to earlier keys a few places farther in leads to. Nothing if none is
-    /// left within the height.
+    /// left within the height, and before those that are left out.
     #[inline(always)]
     pub fn first_nearby(&self) -> Option<(usize, Instant)> {
-        let (word, mask) = (self.nodes[1], self.mask());
-        if word >= !mask {
+        let word = self.nodes[1];
+        if word >= self.beyond {
             return None;
         }
-        let mut index = (word & mask) as usize;
+        let mut index = (word & self.mask()) as usize;
+        let turn = match self.from {
+            Begins::AtEnds => self.last / 2,
+            Begins::AtFirst(_) => self.keys.len() - 1 - NEARBY,
+            Begins::AtLast(_) => 0,
+        };
         loop {
-            let from = if index <= self.last / 2 { index } else { index - NEARBY };
+            let from = if index <= turn { index } else { index.saturating_sub(NEARBY) };
             let nearby = &self.keys[from..=from + NEARBY];
             let earlier = |best: usize, i: usize| if nearby[i] < nearby[best] { i } else { best };
             let best = (1..=NEARBY).fold(0, earlier);

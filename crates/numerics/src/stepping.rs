@@ -46,16 +46,25 @@ fn stretch<const M: usize>(f: f64, p: &Point<M>, bound: f64, limit: f64) -> f64 
         limit
     };
     let h = certified(first.min(limit));
-    // Where neither is a good trial, how far each term of K alone lets the gap go is one: by its rate, or by its width.
-    let (down, third) = ((-p.h).max(0.0), p.j.abs());
-    let by_rate =
-        (2.0 * p.g / down).min((2.0 * p.g / third).sqrt()).min(pxfm::f_cbrt(4.0 * p.g / bound));
-    let by_width = (f / (-p.g).max(0.0)).min((2.0 * f / down).sqrt());
-    let by_width = by_width.min(pxfm::f_cbrt(2.0 * f / third)).min((4.0 * f / bound).sqrt().sqrt());
-    if p.h <= 0.0 && by_rate > BARELY * h || by_width > FAR_LARGER * h {
-        return certified(by_rate.max(by_width).min(limit)).max(h);
+    // Where neither is a good trial: it can only be so if the term of M₄ alone lets the gap go far longer.
+    let cube = bound * (h * h * h);
+    if cube * h * FAR_LARGER.powi(4) < 4.0 * f || cube * BARELY.powi(3) < 4.0 * p.g {
+        let [by_rate, by_width] = by_one_term(f, p, bound);
+        if p.h <= 0.0 && by_rate > BARELY * h || by_width > FAR_LARGER * h {
+            return certified(by_rate.max(by_width).min(limit)).max(h);
+        }
     }
     certified((1.5 * h).min(limit)).max(h)
+}
+
+/// How far the worst term of K alone lets a gap go, by its rate and by its width.
+#[cold]
+fn by_one_term<const M: usize>(f: f64, p: &Point<M>, bound: f64) -> [f64; 2] {
+    let (down, third) = ((-p.h).max(0.0), p.j.abs());
+    let by_rate = (2.0 * p.g / down).min((2.0 * p.g / third).sqrt());
+    let by_width = (f / (-p.g).max(0.0)).min((2.0 * f / down).sqrt());
+    let by_width = by_width.min(pxfm::f_cbrt(2.0 * f / third));
+    [by_rate.min(pxfm::f_cbrt(4.0 * p.g / bound)), by_width.min((4.0 * f / bound).sqrt().sqrt())]
 }
 
 /// Whether f > 0 is certain on (a, a + h), from value, slope and curvature at both ends.
