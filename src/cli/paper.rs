@@ -217,8 +217,10 @@ fn refuse_over_other(profile: Profile, out: &Path, figures: bool) -> Result<(), 
         _ => None,
     };
     let found = values_in(out).and_then(name);
-    // Of a report that does not tell what it is, a lesser one would take the place unseen.
-    let lesser = profile != Profile::Full || set::told().is_some();
+    // Of a report that does not tell what it is, a lesser one would take the place unseen, and figures might be of
+    // other samples; beside somebody else's list they may stand.
+    let among = figures && out.join(LEDGER).exists();
+    let lesser = profile != Profile::Full || set::told().is_some() || among;
     if found.is_none() && lesser && holds_report(out) && !is_usual(profile, out) {
         return Err(Failure::input(format!(
             "--out: {} holds a report whose {VALUES} cannot be read; restore it, or give another folder",

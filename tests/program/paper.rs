@@ -201,11 +201,11 @@ fn another_parameter_makes_another_report_that_says_so() {
     assert!(!note.contains("sweep: run"), "{note}");
     // What these parameters cannot have is their fault.
     std::fs::remove_file(here.join("o/values.json")).unwrap();
-    let quick = "-q paper --profile quick --results r --out";
-    for more in ["--set masses=50", "--figure 3"] {
-        refused(here, &format!("{quick} o {more}"), &["values.json", "restore"]);
+    let quiet = "-q paper --results r --profile";
+    for more in ["quick --set masses=50", "quick --figure 3", "full --figure 4"] {
+        refused(here, &format!("{quiet} {more} --out o"), &["values.json", "restore"]);
     }
-    let low = format!("{quick} n --set masses=40 --set restitution=0.9");
+    let low = format!("{quiet} quick --out n --set masses=40 --set restitution=0.9");
     refused(here, &low, &["not every part can be made", "--figure"]);
 }
 
