@@ -6,7 +6,7 @@ use super::sources::Sources;
 use crate::claims::{self, Check, Text, Verdict};
 use crate::committed;
 use crate::experiments::spacetime::scene::Scene;
-use crate::experiments::{ALL, Progress, SPACE_TIME, say};
+use crate::experiments::{ALL, Progress, SPACE_TIME};
 use crate::figures::{self, Figure};
 use crate::params::{Profile, set};
 use crate::report::{self, PROGRAM, Report, contents, equations};
@@ -61,7 +61,8 @@ pub fn whole(
     let scene = scene.map_err(|error| Failure::run(error.to_string()))?;
     let module = committed::bytes(MODULE);
     if module.is_none() {
-        say(&format!("{MODULE} is not there, so the pages run nothing; `make paper` builds it"));
+        let what = "is not there, so the pages run nothing; `make paper` builds it";
+        progress.say(&format!("{MODULE} {what}"));
     }
     let script = templates.text("lab.js")?;
     let lab = module.map(|module| report::lab::script(&module, &results, script)).transpose()?;
