@@ -253,7 +253,7 @@ fn some(
     let mut files = Files::new();
     for &number in numbers {
         progress.check()?;
-        files.extend(report::files_of(&figures::draw(number, &results)?));
+        files.extend(report::files_of(&make::figure(number, &results)?));
     }
     Ok(files)
 }
