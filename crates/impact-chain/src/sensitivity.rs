@@ -120,11 +120,15 @@ impl Sensitivity {
         } else {
             return Ok(());
         };
-        let (number, before) = (self.impacts, self.impacts - 1);
+        let remedy = match self.impacts - 1 {
+            0 => "leave out --sensitivity, since it is the first".into(),
+            before => format!("--max-impacts {before} ends before it"),
+        };
+        let field = format!("impact {} at t = {time:?}", self.impacts);
         Err(Error::input(
-            format!("impact {number} at t = {time:?}"),
+            field,
             format!("{problem}, where impact times have no derivative"),
-            format!("--max-impacts {before} ends before it"),
+            remedy,
         ))
     }
 }
