@@ -114,7 +114,8 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let time = duration(began.elapsed());
     let pages: Vec<&str> = PROGRAM.documents.iter().map(|document| document.page).collect();
     let documents = if whole { format!(": {}", pages.join(", ")) } else { String::new() };
-    let head = format!("{}: {} files in {time}{documents}\n", out.display(), files.len());
+    let number = count(files.len(), "file");
+    let head = format!("{}: {number} in {time}{documents}\n", out.display());
     // It is told also where a check fails.
     let printed = stdout::print(&(head + &told));
     judged.verdict().and(printed)
@@ -217,8 +218,10 @@ fn refuse_over_other(profile: Profile, out: &Path, figures: bool) -> Result<(), 
         _ => None,
     };
     let found = values_in(out).and_then(name);
-    // Of a report that does not tell what it is, a lesser one would take the place unseen.
-    let lesser = profile != Profile::Full || set::told().is_some();
+    // Of a report that does not tell what it is, a lesser one would take the place unseen, and figures might be of
+    // other samples; beside somebody else's list they may stand.
+    let among = figures && out.join(LEDGER).exists();
+    let lesser = profile != Profile::Full || set::told().is_some() || among;
     if found.is_none() && lesser && holds_report(out) && !is_usual(profile, out) {
         return Err(Failure::input(format!(
             "--out: {} holds a report whose {VALUES} cannot be read; restore it, or give another folder",
@@ -251,7 +254,7 @@ fn some(
     let mut files = Files::new();
     for &number in numbers {
         progress.check()?;
-        files.extend(report::files_of(&figures::draw(number, &results)?));
+        files.extend(report::files_of(&make::figure(number, &results)?));
     }
     Ok(files)
 }
@@ -259,6 +262,9 @@ fn some(
 /// `3 min 20 s` or `4.2 s`.
 fn duration(time: Duration) -> String {
     let seconds = time.as_secs_f64();
+    if seconds < 0.1 {
+        return "less than 0.1 s".into();
+    }
     if seconds < 60.0 {
         return format!("{seconds:.1} s");
     }

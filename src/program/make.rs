@@ -6,7 +6,7 @@ use super::sources::Sources;
 use crate::claims::{self, Check, Text, Verdict};
 use crate::committed;
 use crate::experiments::spacetime::scene::Scene;
-use crate::experiments::{ALL, Progress, SPACE_TIME, say};
+use crate::experiments::{ALL, Progress, Results, SPACE_TIME};
 use crate::figures::{self, Figure};
 use crate::params::{Profile, set};
 use crate::report::{self, PROGRAM, Report, contents, equations};
@@ -39,7 +39,7 @@ pub fn whole(
     results.look();
     let draw = |number| {
         progress.check()?;
-        figures::draw(number, &results).map_err(|error| of_parameters(error.into()))
+        figure(number, &results)
     };
     let numbers: Vec<figures::Number> = figures::all().collect();
     let drawn: Vec<Figure> = numbers.into_par_iter().map(draw).collect::<Result<_, Failure>>()?;
@@ -61,7 +61,8 @@ pub fn whole(
     let scene = scene.map_err(|error| Failure::run(error.to_string()))?;
     let module = committed::bytes(MODULE);
     if module.is_none() {
-        say(&format!("{MODULE} is not there, so the pages run nothing; `make paper` builds it"));
+        let what = "is not there, so the pages run nothing; `make paper` builds it";
+        progress.say(&format!("{MODULE} {what}"));
     }
     let script = templates.text("lab.js")?;
     let lab = module.map(|module| report::lab::script(&module, &results, script)).transpose()?;
@@ -86,6 +87,18 @@ pub fn whole(
     Ok((report, judged))
 }
 
+/// Draws one figure.
+///
+/// # Errors
+/// Exit codes 2 and 4, with its number.
+pub fn figure(number: figures::Number, results: &Results) -> Result<Figure, Failure> {
+    figures::draw(number, results).map_err(|error| {
+        let failure = Failure::from(error);
+        let message = format!("figure {number}: {}", failure.message);
+        of_parameters(Failure { message, ..failure })
+    })
+}
+
 /// What fails for parameters that were set is their fault, and not the program's.
 fn of_parameters(failure: Failure) -> Failure {
     let failed = [2, 4].contains(&failure.code) && set::told().is_some();
@@ -93,7 +106,8 @@ fn of_parameters(failure: Failure) -> Failure {
         return failure;
     }
     Failure::input(failure.message).and(
-        "with these parameters not every part can be made; name the figures that are wanted by --figure",
+        "with these parameters not every part can be made; give values nearer to the paper's, or --figure with those \
+         that can be drawn",
     )
 }
 

@@ -8,7 +8,7 @@ use super::own::Own;
 use super::waiting::{Waiting, clear, is_staging};
 use super::work::{self, Now};
 use super::{Failure, folder};
-use crate::experiments::{Progress, say};
+use crate::experiments::Progress;
 use crate::input::one_line;
 use crate::report::{Files, PROGRAM, sums};
 use std::collections::BTreeSet;
@@ -200,7 +200,7 @@ impl<'a> Staging<'a> {
         put(sums::LOCAL).map_err(failed)?;
         let over: Vec<&str> = theirs.into_iter().filter(|path| files.contains_key(*path)).collect();
         if !over.is_empty() {
-            say(&format!("impact-paper: --force: wrote over {}", over.join(", ")));
+            progress.say(&format!("impact-paper: --force: wrote over {}", over.join(", ")));
         }
         Ok(())
     }

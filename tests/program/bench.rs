@@ -1,6 +1,6 @@
 //! `impact-paper bench`: the JSON that it prints.
 
-use crate::{answer, run};
+use crate::answer;
 use impact_paper::dynamics::{Engine, Scenario};
 use impact_paper::experiments::Measured;
 use serde_json::{Value, json};
@@ -8,9 +8,7 @@ use std::fs;
 use std::path::Path;
 
 fn bench(arguments: &str) -> String {
-    let (code, text, note) = run(Path::new("."), &format!("bench {arguments}"));
-    assert_eq!(code, 0, "{note}");
-    text
+    answer(Path::new("."), &format!("-q bench {arguments}"))
 }
 
 fn json(arguments: &str) -> Value {

@@ -93,6 +93,7 @@ fn derivatives_are_a_column_and_end_where_there_are_none() {
     let graze = r#"{"forcing_frequency":1.5,"initial":"zero","forcing":[[0,-1.2500000000000003]]}"#;
     let (code, _, note) = sensitivity(graze, "");
     assert!(code != 0 && note.contains("impact 1") && note.contains("grazes"), "{note}");
+    assert!(!note.contains("--max-impacts") && note.contains("leave out --sensitivity"), "{note}");
 }
 
 #[test]
@@ -107,6 +108,8 @@ fn certificates_stand_on_stderr_and_the_output_is_the_same() {
     let (_, out, note) = trace(" --certify --max-impacts 5");
     let words = "5 impacts can be trusted, to the end";
     assert!(out.lines().count() == 6 && note.contains(words), "{out}{note}");
+    let (_, _, note) = trace(" --certify --max-impacts 0");
+    assert!(note.starts_with("impact-paper: there is no impact to trust; "), "{note}");
     for method in ["verlet", "sampled"] {
         let arguments = format!("trace s.json --until 300 --certify --method {method}");
         refused(folder.path(), &arguments, &["--certify", method]);

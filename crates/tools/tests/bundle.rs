@@ -215,7 +215,12 @@ fn a_full_disk_and_ctrl_c_end_it() {
     command.current_dir(clone.path()).args(["-c", &full, PROGRAM]);
     let (code, _, said) = outcome(&mut command);
     assert_eq!(code, 4, "{said}");
-    assert!(said.contains("File too large") && !said.contains("{"), "{said}");
+    assert!(said.contains("(os error 27); allow larger files"), "{said}");
+    let mut command =
+        program(clone.path(), &format!("bundle {} --without results", at("no.zip").display()));
+    let (code, _, said) = outcome(command.env("TMPDIR", at("nowhere")));
+    assert_eq!(code, 4, "{said}");
+    assert!(said.contains("(os error 2); ") && said.contains("TMPDIR"), "{said}");
 
     fs::write(at("cargo"), "#!/bin/sh\nsleep 60\n").unwrap();
     #[cfg(unix)]

@@ -1,12 +1,11 @@
 //! `impact-paper bench methods`.
 
-use super::{Drawn, Failure, draw, print};
+use super::{Drawn, Failure, draw, print, work};
 use impact_paper::dynamics::methods::{
     Certified, Method, MoreauJean, Newton, Penalty, RungeKutta, Sampled, State, Verlet,
 };
 use impact_paper::dynamics::{Error, Impact, Scenario};
 use impact_paper::experiments::measured::{Row, What};
-use impact_paper::experiments::say;
 use impact_paper::input;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -76,11 +75,12 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         draw(masses, sigma, 0.8, seed, chain)?
     };
     let reference = args.reference.as_deref().map(read).transpose()?;
+    let progress = work::progress();
     let rows = settings()
         .iter()
         .map(|(method, setting)| {
             let row = row(args, &scenario, reference.as_ref(), method.as_ref(), setting);
-            say(&format!("{} {setting}", method.name()));
+            progress.say(&format!("{} {setting}", method.name()));
             row
         })
         .collect();

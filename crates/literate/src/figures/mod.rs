@@ -68,7 +68,7 @@ pub enum Error {
     Data(#[from] experiments::Error),
     #[error("figure {figure} expects {expected}")]
     Shape { figure: &'static str, expected: &'static str },
-    #[error("{series}: the point ({x}, {y}) lies outside its frame; widen the axis")]
+    #[error("{series}: the point ({x}, {y}) lies outside its frame")]
     Outside { series: String, x: f64, y: f64 },
     #[error("the shipped fonts have no glyph for {character:?} in the label {label:?}")]
     Glyph { character: char, label: String },

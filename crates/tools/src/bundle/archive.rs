@@ -87,8 +87,10 @@ impl Archive {
         let path = self.path;
         let failed = |error: io::Error| failed(&path, error);
         let bytes = self.zip.finish().map_err(|error| failed(error.into()))?.into_inner();
-        let mut file = self.file;
-        file.write_all(&bytes).and_then(|()| file.as_file().sync_all()).map_err(failed)?;
+        // Not by the temporary file itself, whose errors have its name.
+        let file = self.file;
+        let mut disk = file.as_file();
+        disk.write_all(&bytes).and_then(|()| disk.sync_all()).map_err(failed)?;
         let placed = if force { file.persist(&path) } else { file.persist_noclobber(&path) };
         placed.map_err(|error| failed(error.error))?;
         Ok((self.files.len(), bytes.len() as u64))
@@ -98,4 +100,21 @@ impl Archive {
 fn failed(path: &Path, error: io::Error) -> Failure {
     let path = path.display();
     Failure::io(&error, path, "give an archive that can be written")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_that_came_meanwhile_stays() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("out.zip");
+        let [late, forced] = [(); 2].map(|()| Archive::at(&path, "top").unwrap());
+        std::fs::write(&path, "theirs").unwrap();
+        let failure = late.finish(false).unwrap_err();
+        assert!(failure.code == 2 && failure.message.contains("in the way"), "{failure:?}");
+        assert_eq!(std::fs::read(&path).unwrap(), b"theirs");
+        assert_eq!(forced.finish(true).unwrap().1, path.metadata().unwrap().len());
+    }
 }

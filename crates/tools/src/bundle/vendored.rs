@@ -3,6 +3,7 @@
 use super::archive::Archive;
 use super::read;
 use impact_paper::experiments::Progress;
+use impact_paper::input::bare;
 use impact_paper::program::{Failure, folder};
 use std::fs::File;
 use std::path::Path;
@@ -30,10 +31,10 @@ offline = true
 /// # Errors
 /// Exit code 4 if cargo cannot collect it, 130 on Ctrl-C.
 pub fn add(archive: &mut Archive, progress: &Progress) -> Result<(), Failure> {
-    let remedy = "see that cargo is there and its registry can be reached, or leave them out with --without crates";
+    let remedy = "see that cargo and its registry can be reached and TMPDIR has room, or leave them out with --without crates";
     let failed = |what: &str| Failure::run(format!("cargo vendor: {what}; {remedy}"));
     // Removed in the end, whatever happens.
-    let temporary = tempfile::tempdir().map_err(|e| failed(&e.to_string()))?;
+    let temporary = tempfile::tempdir().map_err(|e| failed(&bare(e).to_string()))?;
     let vendor = temporary.path().join("vendor");
     progress.say("collecting the source of all crates");
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
