@@ -40,7 +40,9 @@ impl<const M: usize> Simulation<M> {
         sink: Sink,
     ) -> Result<bool, Error> {
         let mut begin = self.now;
-        if self.gaps.len() < 4 * reach(front.places) || self.topology.boundary() == Boundary::Ring {
+        // On a ring the fronts begin side by side.
+        let is_ring = self.topology.adjacent(0)[0].is_some();
+        if is_ring || self.gaps.len() < 4 * reach(front.places) {
             return Ok(true);
         }
         while front.height > SHORT && end.since(begin) > front.height {
@@ -204,7 +206,7 @@ impl<const M: usize> Simulation<M> {
             spacing: self.spacing,
             restitution: self.restitution,
             search: self.search.clone(),
-            rates: self.rates.clone(),
+            rates: self.rates,
             topology: Topology::new(gaps.len() - 1, Boundary::Walls),
             motions,
             forced,

@@ -17,11 +17,6 @@ impl Topology {
         Topology { masses, boundary }
     }
 
-    /// What bounds the row.
-    pub fn boundary(&self) -> Boundary {
-        self.boundary
-    }
-
     /// Number of gaps N.
     pub fn gaps(&self) -> usize {
         match self.boundary {
