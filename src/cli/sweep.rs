@@ -45,7 +45,7 @@ pub struct Args {
     #[arg(long, value_name = "S", default_value_t = SEED, allow_hyphen_values = true)]
     seed: u64,
     /// Number of threads; all cores without it. It changes no bit of the result.
-    #[arg(long, value_name = "K", allow_hyphen_values = true)]
+    #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = work::threads)]
     threads: Option<usize>,
     /// Form of the table.
     #[arg(long, default_value = "csv")]
@@ -90,7 +90,6 @@ struct Row {
 
 pub fn run(args: Args) -> Result<(), Failure> {
     let parameters = parameters(&args)?;
-    work::threads(args.threads)?;
     fits(&args)?;
     let progress = work::progress();
     let rows = work::on_threads(args.threads, || rows(&parameters, &progress))?;

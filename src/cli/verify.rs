@@ -36,7 +36,7 @@ pub struct Args {
     #[arg(long, value_name = "DIR", requires = "rerun")]
     templates: Option<PathBuf>,
     /// Number of threads; all cores without it. It changes no bit of the result.
-    #[arg(long, value_name = "K", allow_hyphen_values = true, requires = "rerun")]
+    #[arg(long, value_name = "K", allow_hyphen_values = true, requires = "rerun", value_parser = work::threads)]
     threads: Option<usize>,
 }
 

@@ -18,7 +18,7 @@ const PROSE: &str = "templates/front.md";
 #[derive(clap::Args)]
 pub struct Sources {
     /// Number of threads; all cores without it. It changes no bit of the result.
-    #[arg(long, value_name = "K", allow_hyphen_values = true)]
+    #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = work::threads)]
     pub threads: Option<usize>,
     /// Folder of the prose [default: templates of the checkout, or the copy inside the program].
     #[arg(long, value_name = "DIR")]

@@ -9,6 +9,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use literate::experiments::deep;
 use literate::experiments::shards::Plan;
 use std::collections::HashSet;
+use std::num::ParseIntError;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -265,30 +266,25 @@ pub fn cores() -> usize {
 /// The variables by which the library of threads takes their number.
 const THREADS: [&str; 2] = ["RAYON_NUM_THREADS", "RAYON_RS_NUM_CPUS"];
 
-/// Refuses more threads than work can use, whoever asks for them.
-fn few_enough(asked_by: &str, threads: Option<usize>) -> Result<(), Failure> {
-    let (cores, most) = (cores(), THREADS_A_CORE * cores());
-    match threads.filter(|given| *given > most) {
-        None => Ok(()),
-        Some(given) => Err(Failure::input(format!(
-            "{asked_by}: {given} are too many for {cores} cores; give 1 to {most}"
-        ))),
+/// Reads a number of threads, no more than work can use: as a parser of `--threads`, before there is any work.
+pub fn threads(text: &str) -> Result<usize, String> {
+    let threads = text.parse().map_err(|error: ParseIntError| error.to_string())?;
+    let most = THREADS_A_CORE * cores();
+    if (1..=most).contains(&threads) {
+        return Ok(threads);
     }
+    let bound = format!("give 1 to {most}, {THREADS_A_CORE} for each core");
+    Err(format!("{threads} threads are not allowed; {bound}"))
 }
 
-/// Holds the environment to the bounds that options have.
+/// Holds the environment to the bounds that options have. What is no number, or none, is passed over by who reads it.
 pub fn environment() -> Result<(), Failure> {
-    THREADS.into_iter().try_for_each(|name| {
-        few_enough(name, std::env::var(name).ok().and_then(|threads| threads.parse().ok()))
+    THREADS.into_iter().try_for_each(|name| match std::env::var(name) {
+        Ok(text) if text.parse().is_ok_and(|n: usize| n > 0) => {
+            threads(&text).map(drop).map_err(|what| Failure::input(format!("{name}: {what}")))
+        }
+        _ => Ok(()),
     })
-}
-
-/// Holds `--threads` to its bounds.
-pub fn threads(threads: Option<usize>) -> Result<(), Failure> {
-    if threads == Some(0) {
-        return Err(Failure::input("--threads: 0 threads do no work; give 1 or more"));
-    }
-    few_enough("--threads", threads)
 }
 
 /// Runs `work` on that many threads; none means all cores.
@@ -296,7 +292,6 @@ pub fn on_threads<T: Send>(
     threads: Option<usize>,
     work: impl FnOnce() -> Result<T, Failure> + Send,
 ) -> Result<T, Failure> {
-    self::threads(threads)?;
     let builder =
         rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0)).stack_size(STACK);
     let pool = builder.build().map_err(|error| {

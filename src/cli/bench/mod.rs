@@ -63,7 +63,7 @@ struct EngineArgs {
     #[arg(long, value_name = "C", default_value_t = 1, allow_hyphen_values = true)]
     chains: usize,
     /// Number of threads.
-    #[arg(long, value_name = "K", default_value_t = 1, allow_hyphen_values = true)]
+    #[arg(long, value_name = "K", default_value_t = 1, allow_hyphen_values = true, value_parser = work::threads)]
     threads: usize,
     /// Repetitions: the best and the median of them are printed.
     #[arg(long, value_name = "k", default_value_t = 5, allow_hyphen_values = true)]
