@@ -2,6 +2,7 @@
 
 use super::{Failure, stdout, work};
 use impact_paper::experiments::Store;
+use impact_paper::numerics::text::count;
 use impact_paper::params::Profile;
 use std::path::{Path, PathBuf};
 
@@ -42,6 +43,6 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let results = Store::open(&folder)?;
     let progress = work::progress();
     work::on_threads(args.threads, || Ok(plan.merge(&args.folders, &results, &progress)?))?;
-    let (number, out) = (plan.tasks.len(), folder.display());
-    stdout::print(&format!("{out}: results of {number} units of work\n"))
+    let (units, out) = (count(plan.tasks.len(), "unit"), folder.display());
+    stdout::print(&format!("{out}: results of {units} of work\n"))
 }

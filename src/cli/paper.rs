@@ -114,7 +114,8 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let time = duration(began.elapsed());
     let pages: Vec<&str> = PROGRAM.documents.iter().map(|document| document.page).collect();
     let documents = if whole { format!(": {}", pages.join(", ")) } else { String::new() };
-    let head = format!("{}: {} files in {time}{documents}\n", out.display(), files.len());
+    let number = count(files.len(), "file");
+    let head = format!("{}: {number} in {time}{documents}\n", out.display());
     // It is told also where a check fails.
     let printed = stdout::print(&(head + &told));
     judged.verdict().and(printed)
@@ -261,6 +262,9 @@ fn some(
 /// `3 min 20 s` or `4.2 s`.
 fn duration(time: Duration) -> String {
     let seconds = time.as_secs_f64();
+    if seconds < 0.1 {
+        return "less than 0.1 s".into();
+    }
     if seconds < 60.0 {
         return format!("{seconds:.1} s");
     }

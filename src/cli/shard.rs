@@ -3,6 +3,7 @@
 use super::output::refuse_report;
 use super::{Failure, stdout, work};
 use impact_paper::experiments::{Error, Store};
+use impact_paper::numerics::text::count;
 use impact_paper::params::Profile;
 use literate::experiments::shards::MOST;
 use std::path::PathBuf;
@@ -68,5 +69,6 @@ pub fn run(args: Args) -> Result<(), Failure> {
         plan.run(args.shard, &store, &progress).map_err(unwritable)
     })?;
     let ((i, n), out) = (args.shard, args.out.display());
-    stdout::print(&format!("{out}: shard {i}/{n}: {} units run, {} fresh\n", ran.run, ran.fresh))
+    let run = count(ran.run, "unit");
+    stdout::print(&format!("{out}: shard {i}/{n}: {run} run, {} fresh\n", ran.fresh))
 }

@@ -119,7 +119,7 @@ fn a_shard_goes_on_where_it_was() {
     let folder = complete();
     let folder = folder.path();
     let second = &SHARDS[1];
-    assert_eq!(shard(folder, 2).1, format!("2: shard 2/3: 0 units run, {} fresh\n", second.len()));
+    assert_eq!(shard(folder, 2).1, format!("2: shard 2/3: no unit run, {} fresh\n", second.len()));
     let mut names = second.keys();
     let (gone, cut) = (names.next().unwrap(), names.next().unwrap());
     fs::remove_file(folder.join("2").join(gone)).unwrap();

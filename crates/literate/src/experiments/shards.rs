@@ -5,6 +5,7 @@ use super::identity::{Identity, Reason, told};
 use super::store::Store;
 use super::{Error, Need, Profile, Progress, Saved};
 use crate::input::regular;
+use impact_numerics::text::count;
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
 use std::path::{Path, PathBuf};
@@ -132,8 +133,8 @@ impl Plan {
                 }
             }
         }
-        let run = open.len();
-        progress.say(&format!("shard {shard}/{of}: {run} units to run, {fresh} fresh"));
+        let (run, units) = (open.len(), count(open.len(), "unit"));
+        progress.say(&format!("shard {shard}/{of}: {units} to run, {fresh} fresh"));
         for experiment in open.chunk_by(|a, b| a.experiment.name() == b.experiment.name()) {
             progress.check()?;
             let units: Vec<(&Unit, &Identity)> =
