@@ -46,7 +46,8 @@ pub struct Args {
     certify: bool,
     /// Add a column: the derivative of the time of each impact with regard to ln sigma. All forces are multiplied, and with them the free
     /// parts of a start from rest; other starts stay. Ends with an error at an impact that has no derivative: where a gap
-    /// grazes, closes together with a neighbour, or comes to rest in contact.
+    /// grazes (rounding of the impact's time could take more than 1e-4 of the derivative), closes together with a neighbour, or
+    /// comes to rest in contact.
     #[arg(long, value_name = "PARAMETER")]
     sensitivity: Option<Parameter>,
     #[command(flatten)]

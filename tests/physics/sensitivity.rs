@@ -90,3 +90,33 @@ fn impacts_without_a_derivative_are_named() {
         assert_eq!(error, refused(&joint).unwrap_err().to_string());
     }
 }
+
+/// Two masses that just touch half-way: all is in proportion to the forces, so τ′ = −d/V, and rounding of τ changes V by |Δ̈| E/V.
+#[test]
+fn rounding_leaves_what_is_promised_near_a_graze() {
+    for big_w in [2.0_f64.sqrt(), 10.0, 100.0, 1000.0] {
+        let mut seen = [0; 2];
+        for k in 0..60 {
+            let speed = big_w * 1.6e-6 * 1.15_f64.powi(k);
+            let (sin, cos) = (1.0 + 0.02 * f64::from(k)).sin_cos();
+            let force = 0.5 * (1.0 + (speed / big_w).powi(2)).sqrt() * (big_w * big_w - 1.0);
+            let [a, b] = [force * cos, force * sin];
+            let json = format!(
+                r#"{{"forcing_frequency":{big_w:?},"initial":"zero","forcing":[[{a:?},{b:?}],[{:?},{:?}]]}}"#,
+                -a, -b
+            );
+            let scenario = Scenario::from_json(&json).unwrap();
+            let until = 7.0 / big_w;
+            let truth = Reference::<Dd>::new(&scenario).run(until).unwrap();
+            let own = trace(&scenario, until)[0];
+            let found = Sensitivity::new(&scenario).unwrap().shift(&own);
+            seen[usize::from(found.is_ok())] += 1;
+            if let Ok(found) = found {
+                let error = found * truth[0].closing_speed.near() + 1.0;
+                // A tenth of what is promised: roundings do not conspire.
+                assert!(error.abs() < 1e-5, "{big_w}, {}: {error:e}", own.closing_speed);
+            }
+        }
+        assert!(seen.iter().all(|n| *n > 10), "{big_w}: {seen:?}");
+    }
+}
