@@ -182,6 +182,12 @@ fn what_cannot_be_packed_is_said_in_one_line() {
     let folder = clone.path();
     let small = format!("out.zip {SMALL}");
     refused(folder, "nowhere/out.zip", 2, "its folder is not there");
+    #[cfg(unix)]
+    {
+        let _socket = std::os::unix::net::UnixListener::bind(folder.join("socket")).unwrap();
+        refused(folder, "socket --force", 2, "a folder or device itself");
+        fs::remove_file(folder.join("socket")).unwrap();
+    }
     refused(folder, "paper", 2, "is there already");
     refused(
         folder,

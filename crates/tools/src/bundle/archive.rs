@@ -32,8 +32,9 @@ impl Archive {
     pub fn at(path: &Path, top: &str) -> Result<Self, Failure> {
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
         let folder = folder.unwrap_or(Path::new("."));
-        if !folder.is_dir() || path.is_dir() {
-            let what = "its folder is not there, or it is one itself";
+        // A device would be replaced, and no file.
+        if !folder.is_dir() || path.exists() && !path.is_file() {
+            let what = "its folder is not there, or it is a folder or device itself";
             return Err(failed(path, io::Error::new(io::ErrorKind::NotADirectory, what)));
         }
         remove_leftovers(folder);
