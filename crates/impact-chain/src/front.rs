@@ -481,6 +481,11 @@ mod tests {
                 agrees(&drawn(&chain(1000, restitution, boundary), sigma), 40.0);
             }
         }
+        // Whatever number of threads is there.
+        for threads in [1, 3] {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| agrees(&drawn(&chain(2000, 0.5, Boundary::Walls), 0.3), 20.0));
+        }
         // Nothing of it is luck: a front of the engine's own steepness has nothing to undo.
         let scenario = drawn(&chain(3000, 0.8, Boundary::Walls), 0.3);
         assert_eq!(run(&scenario, 100.0, Some(Front::new(PLACES, WANTED, 0.5))).1[0], 0);
