@@ -2,7 +2,6 @@
 
 use super::Failure;
 use crate::experiments::{self, Error, Progress, say};
-use crate::numerics::text::count;
 use crate::params::Profile;
 use crate::report::{self, contents};
 use crate::{claims, dynamics, figures};
@@ -270,12 +269,12 @@ const THREADS: [&str; 2] = ["RAYON_NUM_THREADS", "RAYON_RS_NUM_CPUS"];
 /// Reads a number of threads, no more than work can use: as a parser of `--threads`, before there is any work.
 pub fn threads(text: &str) -> Result<usize, String> {
     let threads = text.parse().map_err(|error: ParseIntError| error.to_string())?;
-    let (cores, most) = (cores(), THREADS_A_CORE * cores());
+    let most = THREADS_A_CORE * cores();
     if (1..=most).contains(&threads) {
         return Ok(threads);
     }
-    let cores = count(cores, "core");
-    Err(format!("{threads} threads are not allowed on {cores}; give 1 to {most}"))
+    let bound = format!("give 1 to {most}, {THREADS_A_CORE} for each core");
+    Err(format!("{threads} threads are not allowed; {bound}"))
 }
 
 /// Holds the environment to the bounds that options have. What is no number, or none, is passed over by who reads it.

@@ -48,7 +48,9 @@ fn stretch<const M: usize>(f: f64, p: &Point<M>, bound: f64, limit: f64) -> f64 
     let h = certified(first.min(limit));
     // Where neither is a good trial: it can only be so if the term of M₄ alone lets the gap go far longer.
     let cube = bound * (h * h * h);
-    if cube * h * FAR_LARGER.powi(4) < 4.0 * f || cube * BARELY.powi(3) < 4.0 * p.g {
+    let far_larger = (FAR_LARGER * FAR_LARGER) * (FAR_LARGER * FAR_LARGER);
+    let barely = BARELY * BARELY * BARELY;
+    if cube * h * far_larger < 4.0 * f || cube * barely < 4.0 * p.g {
         let [by_rate, by_width] = by_one_term(f, p, bound);
         if p.h <= 0.0 && by_rate > BARELY * h || by_width > FAR_LARGER * h {
             return certified(by_rate.max(by_width).min(limit)).max(h);
