@@ -147,7 +147,8 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let scenario = Scenario::from_json(&text).map_err(in_file)?;
     let engines = if args.certify { 1 + TWINS } else { 1 };
     let (masses, components) = (scenario.forcing.len(), 1 + scenario.overtones.len());
-    let needed = u128::from(engines) * Engine::memory(masses, components);
+    let derivatives = args.sensitivity.map_or(0, |_| Sensitivity::memory(masses));
+    let needed = u128::from(engines) * Engine::memory(masses, components) + derivatives;
     work::memory(needed, &name, "give fewer masses")?;
     let (method, start) = (args.method.method()?, State::of(&scenario));
     let only = [

@@ -278,6 +278,7 @@ fn exit_codes_are_those_of_the_table() {
         format!("paper --profile quick --out p --results r --templates {templates}")
     };
     let full = |limited: &str| format!("ulimit -f 1; exec \"$0\" {limited}");
+    let many = "\"$0\" bench scenario --masses 200000 >m";
     let rows = [
         (0, paper("good"), " statements of the paper: "),
         (0, "verify p".into(), "all as SHA256SUMS lists them"),
@@ -295,6 +296,11 @@ fn exit_codes_are_those_of_the_table() {
         (2, paper("none"), "front.md: it is missing or empty"),
         (2, paper("phrases"), "literals.toml: no such file"),
         (2, format!("ulimit -v 250000; exec \"$0\" {}", paper("good")), "MiB of memory are needed"),
+        (
+            2,
+            format!("{many}; ulimit -v 250000; exec \"$0\" trace m --until 0 --sensitivity sigma"),
+            "m: about ",
+        ),
         (0, "ulimit -s 64; exec \"$0\" sweep --sigma 0.2 --realisations 3".into(), "0.2,"),
         (2, "trace --until 1 $'no\nsuch'".into(), "no such: "),
         (2, "paper --pdf --figure 3".into(), "--figure"),

@@ -71,8 +71,8 @@ struct Watch {
 
 impl Watch {
     fn new(scenario: &Scenario, until: f64) -> Self {
-        let twins: Result<Vec<Engine>, Error> =
-            (1..=TWINS).map(|pattern| Engine::new(&twin(scenario, pattern))).collect();
+        let start = |pattern| Engine::new(&twin(scenario, pattern)).map(Engine::in_order);
+        let twins: Result<Vec<Engine>, Error> = (1..=TWINS).map(start).collect();
         Watch {
             // A start that the last bit makes impossible is nothing to trust.
             horizon: twins.is_err().then_some(0.0),

@@ -21,7 +21,7 @@ use super::flight::{Motion, Phases};
 use super::impact::jumps;
 use super::scenario::COMPONENTS;
 use super::simulation::Simulation;
-use super::{Error, Impact, Initial, Scenario, rounding};
+use super::{Engine, Error, Impact, Initial, Scenario, rounding};
 use impact_numerics::clock::Instant;
 
 /// The part of a derivative that rounding of one impact may take: where it could take more, the gap grazes. Rounding moves τ by E/V at
@@ -67,6 +67,11 @@ impl Sensitivity {
         };
         let masses = start.motions.iter().map(mass).collect();
         Ok(Sensitivity { start, masses, impacts: 0 })
+    }
+
+    /// Bytes that it takes for so many masses, besides the engine of the run.
+    pub fn memory(masses: usize) -> u128 {
+        Engine::memory(masses, COMPONENTS) + (masses * size_of::<Mass>()) as u128
     }
 
     /// τ′ of the next impact.
