@@ -1,5 +1,6 @@
 //! `impact-paper merge`.
 
+use super::output::refuse_report;
 use super::{Failure, stdout, work};
 use impact_paper::experiments::Store;
 use impact_paper::numerics::text::count;
@@ -40,6 +41,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
             format!("--results: {} is a folder of a shard; give another", folder.display());
         return Err(Failure::input(message));
     }
+    refuse_report("--results", &folder)?;
     let results = Store::open(&folder)?;
     let progress = work::progress();
     work::on_threads(args.threads, || Ok(plan.merge(&args.folders, &results, &progress)?))?;

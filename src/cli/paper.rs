@@ -2,7 +2,7 @@
 
 use super::diff::{count, fate};
 use super::judged::Judged;
-use super::output::{self, Staging, holds_report, refuse_report};
+use super::output::{self, Staging, holds_report, refuse_report, resolved};
 use super::sources::Sources;
 use super::{Failure, folder, make, stdout, work};
 use impact_paper::claims::Verdict;
@@ -13,7 +13,7 @@ use impact_paper::report::compare::{self, Parts};
 use impact_paper::report::values::Number;
 use impact_paper::report::{self, Files, PROGRAM, Registry};
 use std::collections::BTreeSet;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// Runs every experiment, draws all figures and writes the report.
@@ -86,14 +86,13 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let numbers =
         args.figure.iter().map(read).collect::<Result<BTreeSet<figures::Number>, Failure>>()?;
     refuse_over_other(profile, &out, !args.figure.is_empty())?;
-    if same(&out, &args.sources.results) {
-        let message =
-            "--out and --results are one folder; give two, since a report has no other files";
-        return Err(Failure::input(message));
-    }
     refuse_report("--results", &args.sources.results)?;
     let progress = work::progress();
     let staging = Staging::below(&out, "--out", args.force)?;
+    if resolved(&args.sources.results).starts_with(resolved(&out)) {
+        let message = "--results is --out, or lies in it; give another folder, since a report has no other files";
+        return Err(Failure::input(message));
+    }
     let whole = args.figure.is_empty();
     if whole {
         staging.refuse_changed()?;
@@ -187,22 +186,6 @@ fn is_usual(profile: Profile, out: &Path) -> bool {
 /// The values of the report in a folder, if there is one.
 fn values_in(out: &Path) -> Option<Registry> {
     compare::read(&folder::text(out, VALUES).ok()?).ok()
-}
-
-/// The folder without links and dots, as it will be where it is not there yet.
-fn resolved(folder: &Path) -> PathBuf {
-    let there = |path: &&Path| path.as_os_str().is_empty() || path.exists();
-    let base = folder.ancestors().find(there).unwrap_or(Path::new(""));
-    let begin = if base.as_os_str().is_empty() { Path::new(".") } else { base };
-    let mut out = begin.canonicalize().unwrap_or_else(|_| begin.into());
-    for part in folder.strip_prefix(base).unwrap_or(folder).components() {
-        match part {
-            Component::ParentDir => _ = out.pop(),
-            Component::CurDir => {}
-            part => out.push(part),
-        }
-    }
-    out
 }
 
 /// Are these one folder?

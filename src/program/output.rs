@@ -8,13 +8,13 @@ use super::own::Own;
 use super::waiting::{Waiting, clear, is_staging};
 use super::work::{self, Now};
 use super::{Failure, folder};
-use crate::experiments::Progress;
+use crate::experiments::{Progress, say};
 use crate::input::one_line;
 use crate::report::{Files, PROGRAM, sums};
 use std::collections::BTreeSet;
 use std::fs::File;
 use std::io;
-use std::path::Path;
+use std::path::{Component, Path, PathBuf};
 use std::time::Duration;
 
 /// Folders that a report has.
@@ -50,14 +50,37 @@ pub fn holds_report(folder: &Path) -> bool {
     [sums::NAME, "ledger.json"].iter().any(|name| folder.join(name).symlink_metadata().is_ok())
 }
 
+/// The folder without links and dots, as it will be where it is not there yet.
+pub fn resolved(folder: &Path) -> PathBuf {
+    let there = |path: &&Path| path.as_os_str().is_empty() || path.exists();
+    let base = folder.ancestors().find(there).unwrap_or(Path::new(""));
+    let begin = if base.as_os_str().is_empty() { Path::new(".") } else { base };
+    let mut out = begin.canonicalize().unwrap_or_else(|_| begin.into());
+    for part in folder.strip_prefix(base).unwrap_or(folder).components() {
+        match part {
+            Component::ParentDir => _ = out.pop(),
+            Component::CurDir => {}
+            part => out.push(part),
+        }
+    }
+    out
+}
+
+/// Is it below a report, which has no other files? What holds a ledger is one of ours.
+fn lies_in_report(folder: &Path) -> bool {
+    let folder = resolved(folder);
+    folder.ancestors().skip(1).any(|above| above.join("ledger.json").is_file())
+}
+
 /// A report and its folders have no other files.
 pub fn refuse_report(option: &str, folder: &Path) -> Result<(), Failure> {
-    let within = FOLDERS.iter().any(|below| folder.ends_with(below));
-    let above = folder.parent().filter(|_| within);
-    if holds_report(folder) || above.is_some_and(holds_report) {
+    let there = resolved(folder);
+    let within = FOLDERS.iter().any(|below| there.ends_with(below));
+    let above = there.parent().filter(|_| within);
+    if holds_report(&there) || above.is_some_and(holds_report) || lies_in_report(&there) {
         let folder = folder.display();
         return Err(Failure::input(format!(
-            "{option}: {folder} holds a report; give another folder"
+            "{option}: {folder} holds a report, or lies in one; give another folder"
         )));
     }
     Ok(())
@@ -81,6 +104,10 @@ impl<'a> Staging<'a> {
         }
         if folder.exists() && !folder.is_dir() {
             let what = "it is a file; give a folder";
+            return Err(Failure::input(format!("{option}: {}: {what}", folder.display())));
+        }
+        if lies_in_report(folder) {
+            let what = "it lies in a report, which has no other files; give another folder";
             return Err(Failure::input(format!("{option}: {}: {what}", folder.display())));
         }
         let found = folder::text(folder, sums::NAME).ok();
@@ -200,7 +227,7 @@ impl<'a> Staging<'a> {
         put(sums::LOCAL).map_err(failed)?;
         let over: Vec<&str> = theirs.into_iter().filter(|path| files.contains_key(*path)).collect();
         if !over.is_empty() {
-            progress.say(&format!("impact-paper: --force: wrote over {}", over.join(", ")));
+            say(&format!("impact-paper: --force: wrote over {}", over.join(", ")));
         }
         Ok(())
     }

@@ -1,5 +1,6 @@
 //! Where `paper` and `check` read prose and keep results.
 
+use super::output::refuse_report;
 use super::{Failure, work};
 use crate::claims::{self, Published};
 use crate::committed;
@@ -68,6 +69,9 @@ impl Sources {
             None => self.results.clone(),
             Some(_) => self.results.join("what-if"),
         };
+        if long {
+            refuse_report("--results", &folder)?;
+        }
         let store = if long { Store::open(&folder)? } else { Store::nowhere() };
         let scenario = |file: &str| {
             let text = templates.text(file).map(String::from);

@@ -98,7 +98,13 @@ fn threads_and_saved_results_change_no_byte_and_lesser_profiles_replace_no_full_
 
     // What would spoil a report is refused before anything is run: over one of the full profile a lesser one, a figure
     // of it too, and results among its files.
-    refused(folder.path(), "paper --profile quick --out one --results one", &["are one folder"]);
+    for within in ["one", "one/data", "one/two/three", "two/../one"] {
+        for (out, what) in [("one", "holds a report, or lies in one"), ("new", "or lies in it")] {
+            let within = within.replace("one", out);
+            let both = format!("paper --profile quick --out {out} --results {within}");
+            refused(folder.path(), &both, &["--results", what]);
+        }
+    }
     let values = String::from_utf8(report["values.json"].clone()).unwrap();
     let full = values.replace("\"text\": \"quick\"", "\"text\": \"full\"");
     assert_ne!(full, values);
@@ -232,12 +238,14 @@ fn the_manual_is_written_and_quiet_work_says_nothing() {
     std::fs::write(here.join("report/SHA256SUMS"), "").unwrap();
     std::fs::create_dir_all(here.join("left/data")).unwrap();
     std::fs::write(here.join("left/ledger.json"), "").unwrap();
-    for folder in ["report", "left", "left/data"] {
+    for folder in ["report", "left", "left/data", "left/new"] {
         for verb in ["manual --out", "run --profile quick --shard 1/1 --out"] {
             crate::refused(here, &format!("{verb} {folder}"), &["holds a report"]);
         }
+        refused(here, &format!("-q check --profile quick --results {folder}"), &["holds a report"]);
         refused(here, &format!("-q paper --out o --results {folder}"), &["holds a report"]);
     }
+    refused(here, "-q paper --figure 4 --out left/new", &["it lies in a report"]);
     std::fs::write(here.join("m/impact-paper.1"), "mine").unwrap();
     crate::refused(here, "manual --out m", &["impact-paper.1", "--force"]);
 
