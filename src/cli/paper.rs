@@ -2,7 +2,7 @@
 
 use super::diff::{count, fate};
 use super::judged::Judged;
-use super::output::{self, Staging, holds_report, refuse_report, resolved};
+use super::output::{self, Staging, holds_report, refuse_report};
 use super::sources::Sources;
 use super::{Failure, folder, make, stdout, work};
 use impact_paper::claims::Verdict;
@@ -72,8 +72,8 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let profile = args.profile.unwrap_or(usual);
     let out = args.out.clone().unwrap_or_else(|| default_folder(profile));
     let ordinary = [Profile::Quick, Profile::Ci, Profile::Full];
-    let ordinary = ordinary.map(|profile| resolved(&default_folder(profile)));
-    if other && ordinary.iter().any(|folder| resolved(&out).starts_with(folder)) {
+    let ordinary = ordinary.map(|profile| folder::resolved(&default_folder(profile)));
+    if other && ordinary.iter().any(|folder| folder::resolved(&out).starts_with(folder)) {
         return Err(Failure::input("--set: this is another paper; give it a folder with --out"));
     }
     if other && profile == Profile::Full && args.figure.is_empty() {
@@ -89,7 +89,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     refuse_report("--results", &args.sources.results)?;
     let progress = work::progress();
     let staging = Staging::below(&out, "--out", args.force)?;
-    if resolved(&args.sources.results).starts_with(resolved(&out)) {
+    if folder::resolved(&args.sources.results).starts_with(folder::resolved(&out)) {
         let message = "--results is --out, or lies in it; give another folder, since a report has no other files";
         return Err(Failure::input(message));
     }

@@ -5,7 +5,23 @@ use super::waiting::is_staging;
 use crate::input;
 use crate::report::{LAB, sums};
 use std::io;
-use std::path::Path;
+use std::path::{Component, Path, PathBuf};
+
+/// The folder without links and dots, as it will be where it is not there yet.
+pub fn resolved(folder: &Path) -> PathBuf {
+    let there = |path: &&Path| path.as_os_str().is_empty() || path.exists();
+    let base = folder.ancestors().find(there).unwrap_or(Path::new(""));
+    let begin = if base.as_os_str().is_empty() { Path::new(".") } else { base };
+    let mut out = begin.canonicalize().unwrap_or_else(|_| begin.into());
+    for part in folder.strip_prefix(base).unwrap_or(folder).components() {
+        match part {
+            Component::ParentDir => _ = out.pop(),
+            Component::CurDir => {}
+            part => out.push(part),
+        }
+    }
+    out
+}
 
 /// Paths of everything below a folder that is no folder itself, sorted, with slashes. Links are
 /// listed and not followed. What a killed run left half-done is passed over: the next run removes it.

@@ -14,7 +14,7 @@ use crate::report::{Files, PROGRAM, sums};
 use std::collections::BTreeSet;
 use std::fs::File;
 use std::io;
-use std::path::{Component, Path, PathBuf};
+use std::path::Path;
 use std::time::Duration;
 
 /// Folders that a report has.
@@ -50,31 +50,14 @@ pub fn holds_report(folder: &Path) -> bool {
     [sums::NAME, "ledger.json"].iter().any(|name| folder.join(name).symlink_metadata().is_ok())
 }
 
-/// The folder without links and dots, as it will be where it is not there yet.
-pub fn resolved(folder: &Path) -> PathBuf {
-    let there = |path: &&Path| path.as_os_str().is_empty() || path.exists();
-    let base = folder.ancestors().find(there).unwrap_or(Path::new(""));
-    let begin = if base.as_os_str().is_empty() { Path::new(".") } else { base };
-    let mut out = begin.canonicalize().unwrap_or_else(|_| begin.into());
-    for part in folder.strip_prefix(base).unwrap_or(folder).components() {
-        match part {
-            Component::ParentDir => _ = out.pop(),
-            Component::CurDir => {}
-            part => out.push(part),
-        }
-    }
-    out
-}
-
 /// Is it below a report, which has no other files? What holds a ledger is one of ours.
 fn lies_in_report(folder: &Path) -> bool {
-    let folder = resolved(folder);
-    folder.ancestors().skip(1).any(|above| above.join("ledger.json").is_file())
+    folder::resolved(folder).ancestors().skip(1).any(|above| above.join("ledger.json").is_file())
 }
 
 /// A report and its folders have no other files.
 pub fn refuse_report(option: &str, folder: &Path) -> Result<(), Failure> {
-    let there = resolved(folder);
+    let there = folder::resolved(folder);
     let within = FOLDERS.iter().any(|below| there.ends_with(below));
     let above = there.parent().filter(|_| within);
     if holds_report(&there) || above.is_some_and(holds_report) || lies_in_report(&there) {

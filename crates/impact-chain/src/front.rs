@@ -112,8 +112,8 @@ impl<const M: usize> Slice<M> {
         self.found.sort_unstable_by(|a, b| a.at.cmp(&b.at).then(a.number.cmp(&b.number)));
     }
 
-    #[cfg(not(target_family = "wasm"))]
     /// Adds the impacts of a part whose gaps begin at `from`; of one instant, those of the lower gaps come first.
+    #[cfg(not(target_family = "wasm"))]
     pub fn add(&mut self, part: &Self, from: usize) {
         let moved = |found: &Found| Found { k: found.k + from as u32, ..*found };
         self.found.extend(part.found.iter().map(moved));
