@@ -5,6 +5,7 @@ use crate::params::{Profile, set};
 use crate::table::Table;
 use literate::experiments::deep::Audit;
 use literate::experiments::{Found, Typed};
+use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::sync::{Arc, LazyLock, OnceLock};
 
@@ -55,21 +56,32 @@ impl Results {
     /// Computes what is otherwise computed when first looked at. Who works on several threads looks
     /// first.
     pub fn look(&self) {
-        rayon::join(|| LazyLock::force(&self.theory), || LazyLock::force(&self.identities));
+        let whole = || rayon::join(|| LazyLock::force(&self.theory), || LazyLock::force(&self.identities));
+        rayon::join(whole, || self.tables());
     }
 
     /// The tables of all results that there are, by name.
     pub fn tables(&self) -> &BTreeMap<&'static str, Arc<Table>> {
-        self.tables.get_or_init(|| {
-            let of = |experiment: &Need| {
-                self.found(experiment.name()).map_or_else(Vec::new, |own| experiment.tables(own))
-            };
-            let mut all: Vec<Table> = ALL.iter().flat_map(of).collect();
-            for tables in TOGETHER {
-                all.extend(tables(self, &all).into_iter().flatten());
+        // Made before the lock is taken: a thread that waits in it for others may begin something else that looks here.
+        match self.tables.get() {
+            Some(tables) => tables,
+            None => {
+                let made = self.made();
+                self.tables.get_or_init(|| made)
             }
-            all.into_iter().map(|table| (table.name(), Arc::new(table))).collect()
-        })
+        }
+    }
+
+    fn made(&self) -> BTreeMap<&'static str, Arc<Table>> {
+        let of = |experiment: &Need| {
+            self.found(experiment.name()).map_or_else(Vec::new, |own| experiment.tables(own))
+        };
+        let own: Vec<Vec<Table>> = ALL.par_iter().with_max_len(1).map(of).collect();
+        let mut all: Vec<Table> = own.into_iter().flatten().collect();
+        for tables in TOGETHER {
+            all.extend(tables(self, &all).into_iter().flatten());
+        }
+        all.into_iter().map(|table| (table.name(), Arc::new(table))).collect()
     }
 
     /// One of the tables.

@@ -17,6 +17,7 @@ use crate::numerics::random::NormalPairs;
 use crate::numerics::statistics::{Estimate, mean};
 use crate::params::{Chain, HeatParams, HeatRow};
 use crate::table::Table;
+use rayon::prelude::*;
 
 /// One ensemble.
 struct Row<'a> {
@@ -254,7 +255,7 @@ impl Row<'_> {
             let free = spreading.free(self.row.sigma, &scenario.forcing, until(own), &mut normals);
             Some([free.ok()?, run.as_ref()?.free])
         };
-        self.part.iter().enumerate().filter_map(one).collect()
+        self.part.par_iter().enumerate().filter_map(one).collect()
     }
 
     fn sum(&self, of: impl Fn(&Run) -> u64) -> u64 {

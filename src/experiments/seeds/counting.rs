@@ -28,25 +28,23 @@ impl ByDistance {
     /// Counts the impacts of some runs.
     pub(super) fn count(parameters: &SeedsParams, traces: &[Option<Trace>]) -> Self {
         let (gaps, bins, window) = (parameters.chain.gaps(), parameters.bins, parameters.window);
-        let hit = |of: &dyn Fn(u64) -> bool| {
-            let mut by_distance = vec![0; gaps];
-            for (seed, trace) in ran(traces) {
-                for (gap, own) in trace.hits.iter().enumerate() {
-                    by_distance[gap.abs_diff(seed)] += u64::from(of(*own));
+        let starts = 0..=bins.saturating_sub(window);
+        let reached = (0..=bins).map(|bin| bits(0, bin));
+        let masks: Vec<u64> = reached.chain(starts.map(|from| bits(from, window))).collect();
+        let mut places = vec![0; gaps];
+        let mut hit = vec![vec![0; gaps]; masks.len()];
+        for (seed, trace) in ran(traces) {
+            for (gap, own) in trace.hits.iter().enumerate() {
+                let distance = gap.abs_diff(seed);
+                places[distance] += 1;
+                if *own != 0 {
+                    let both = hit.iter_mut().zip(&masks);
+                    both.for_each(|(hit, mask)| hit[distance] += u64::from(own & mask != 0));
                 }
             }
-            by_distance
-        };
-        let within = |from, count| {
-            let mask = bits(from, count);
-            hit(&|own| own & mask != 0)
-        };
-        let starts = 0..=bins.saturating_sub(window);
-        ByDistance {
-            places: hit(&|_| true),
-            reached: (0..=bins).map(|bin| within(0, bin)).collect(),
-            active: starts.map(|from| within(from, window)).collect(),
         }
+        let active = hit.split_off(bins + 1);
+        ByDistance { places, active, reached: hit }
     }
 
     /// What groups of runs saw together, one of them left out if there is one of that number.

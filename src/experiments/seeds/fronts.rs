@@ -39,6 +39,8 @@ pub struct Waits {
 pub(super) struct Fronts<'a> {
     pub parameters: &'a SeedsParams,
     pub runs: Vec<Waits>,
+    /// How many waits ended and how many were cut off after so many ticks.
+    pub waits: [Vec<u64>; 2],
 }
 
 /// The time 2π/|Ω − ω| after which a free and a forced motion meet again in any relation that they had: what can
@@ -101,7 +103,17 @@ impl Waits {
     }
 }
 
-impl Fronts<'_> {
+impl<'a> Fronts<'a> {
+    /// Of all runs at one σ.
+    pub fn new(parameters: &'a SeedsParams, runs: Vec<Waits>) -> Self {
+        let mut waits = [0, 1].map(|_| vec![0; parameters.ticks() + 1]);
+        for run in &runs {
+            run.ended.iter().for_each(|wait| waits[0][*wait] += 1);
+            run.cut.iter().for_each(|wait| waits[1][*wait] += 1);
+        }
+        Fronts { parameters, runs, waits }
+    }
+
     /// A statistic of sums over runs.
     fn summed<const N: usize>(
         &self,
@@ -144,22 +156,21 @@ impl Fronts<'_> {
         self.speed().map_or(0.0, |speed| -pxfm::f_expm1(-speed.value * beat))
     }
 
-    /// How many waits ended and how many were cut off after so many ticks, of all runs but one.
-    pub fn histograms(&self, out: Option<usize>) -> [Vec<u64>; 2] {
-        let mut counts = [0, 1].map(|_| vec![0; self.parameters.ticks() + 1]);
-        for (_, run) in self.runs.iter().enumerate().filter(|(run, _)| Some(*run) != out) {
-            run.ended.iter().for_each(|wait| counts[0][*wait] += 1);
-            run.cut.iter().for_each(|wait| counts[1][*wait] += 1);
+    /// The share of waits that last longer than so many ticks, in all runs but one.
+    pub fn lasting(&self, out: Option<usize>) -> Vec<f64> {
+        let [mut ended, mut cut] = self.waits.clone();
+        if let Some(run) = out.map(|run| &self.runs[run]) {
+            run.ended.iter().for_each(|wait| ended[*wait] -= 1);
+            run.cut.iter().for_each(|wait| cut[*wait] -= 1);
         }
-        counts
+        kaplan_meier(&ended, &cut)
     }
 
     /// The chance to stand for one more W, having stood for so many of them.
     pub fn stands(&self, windows: usize) -> Option<Estimate> {
         let window = self.parameters.window_ticks();
         jackknife(self.runs.len(), |out| {
-            let [ended, cut] = self.histograms(out);
-            let lasting = kaplan_meier(&ended, &cut);
+            let lasting = self.lasting(out);
             let past = |windows: usize| match windows {
                 0 => Some(1.0),
                 _ => lasting.get(windows * window).copied(),
@@ -242,7 +253,7 @@ mod tests {
     fn what_fronts_do_by_hand() {
         let parameters = parameters();
         let runs = vec![Waits::of(&parameters, (2, &run())); 3];
-        let found = Fronts { parameters: &parameters, runs };
+        let found = Fronts::new(&parameters, runs);
         let value = |own: Option<Estimate>| own.unwrap().value;
         assert_eq!(value(found.speed()), 0.25);
         // Equal runs have no error.
@@ -275,7 +286,7 @@ mod tests {
     fn the_like_of_those_that_held_by_hand() {
         // Four of ten and one of ten: a quarter of all, and (4 · 0.4 + 0.1)/5 of the like of those that held.
         let runs = vec![Waits { crossed: [[10, 4], [10, 1], [0, 0], [0, 0]], ..Waits::default() }];
-        let found = Fronts { parameters: &parameters(), runs }.alike();
+        let found = Fronts::new(&parameters(), runs).alike();
         assert!((found - 0.34 / 0.25).abs() < 1e-14, "{found}");
     }
 }

@@ -8,11 +8,11 @@ use crate::circuits;
 use crate::circuits::balance::variance_ratio;
 use crate::circuits::distribution::{Law, SampleSpace};
 use crate::circuits::impact_probability::ImpactProbability;
-use crate::experiments::survival::kaplan_meier;
 use crate::numerics::estimates::{average, share};
 use crate::numerics::statistics::Estimate;
 use crate::params::SeedsParams;
 use crate::table::Table;
+use rayon::prelude::*;
 
 const SIGMA: &str = "d omega^2";
 const TIME: &str = "1/omega";
@@ -43,24 +43,24 @@ pub fn tables(seeds: &Seeds) -> Vec<Table> {
     let closing = closing(parameters);
     let groups: Vec<Vec<ByDistance>> = seeds
         .rows
-        .iter()
+        .par_iter()
         .map(|part| {
             let at = |group: usize| group * part.len() / GROUPS;
             let group = |group| ByDistance::count(parameters, &part[at(group)..at(group + 1)]);
             (0..GROUPS).map(group).collect()
         })
         .collect();
-    let mut rows = Vec::new();
-    for (place, (&sigma, part)) in parameters.sigmas.iter().zip(&seeds.rows).enumerate() {
-        let runs: Vec<(usize, &Trace)> = ran(part).collect();
-        let waits = runs.iter().map(|run| Waits::of(parameters, *run)).collect();
-        let fronts = Fronts { parameters, runs: waits };
-        let waits = runs.iter().map(|run| Waits::expected(parameters, *run)).collect();
-        let expected = Fronts { parameters, runs: waits };
+    let row = |place: usize| {
+        let runs: Vec<(usize, &Trace)> = ran(&seeds.rows[place]).collect();
+        let fronts = |waits: fn(&SeedsParams, (usize, &Trace)) -> Waits| {
+            Fronts::new(parameters, runs.iter().map(|run| waits(parameters, *run)).collect())
+        };
+        let (fronts, expected) = (fronts(Waits::of), fronts(Waits::expected));
         let seen = ByDistance::sum(&groups[place], GROUPS);
-        let closing = &closing[place];
-        rows.push(Row { parameters, sigma, closing, runs, seen, fronts, expected });
-    }
+        let (sigma, closing) = (parameters.sigmas[place], &closing[place]);
+        Row { parameters, sigma, closing, runs, seen, fronts, expected }
+    };
+    let rows: Vec<Row<'_>> = (0..seeds.rows.len()).into_par_iter().map(row).collect();
     let predicted = predictions(parameters, &closing, &groups);
     vec![
         course(&rows),
@@ -176,9 +176,8 @@ pub fn spread<T>(all: &[T]) -> impl Iterator<Item = &T> {
 fn waits(rows: &[Row<'_>]) -> Table {
     let mut lengths = Vec::new();
     for row in spread(rows) {
-        let [ended, cut] = row.fronts.histograms(None);
-        let lasting = kaplan_meier(&ended, &cut);
-        for (ticks, share) in lasting.into_iter().enumerate() {
+        let [ended, cut] = &row.fronts.waits;
+        for (ticks, share) in row.fronts.lasting(None).into_iter().enumerate() {
             if ended[ticks] + cut[ticks] > 0 {
                 lengths.push((row, ticks, [ended[ticks], cut[ticks]], share));
             }

@@ -14,6 +14,7 @@
 //! Where 2u ≪ ωd the order does not matter, and ρ = exp(−ω²d²/4u²) ω/(√(4π) u).
 
 use std::f64::consts::PI;
+use std::sync::LazyLock;
 
 /// Where neighbours are, in units of d, at one mean square velocity.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -112,8 +113,14 @@ impl Ordered {
 }
 
 impl OrderedGas {
-    /// The table: some ten milliseconds.
+    /// The table, which is made once.
     pub fn new() -> Self {
+        static TABLE: LazyLock<OrderedGas> = LazyLock::new(OrderedGas::made);
+        TABLE.clone()
+    }
+
+    /// Some ten milliseconds.
+    fn made() -> Self {
         let [low, high] = RANGE.map(pxfm::f_log);
         let node = |i: usize| {
             let tau = pxfm::f_exp(low + (high - low) * i as f64 / STEPS as f64);
