@@ -185,7 +185,7 @@ pub(crate) fn join(
     for ((transient, window), counts) in protocols.zip(by_cell) {
         progress.check()?;
         let gaps = parameters.chain.gaps();
-        let (rise, _) = rise::find(&parameters.sigmas, &counts, gaps, parameters.seed);
+        let rise = rise::find(&parameters.sigmas, &counts, gaps, parameters.seed);
         let half_height = rise.half_height;
         map.push(ProtocolCell {
             transient,

@@ -56,7 +56,8 @@ impl Results {
     /// Computes what is otherwise computed when first looked at. Who works on several threads looks
     /// first.
     pub fn look(&self) {
-        let whole = || rayon::join(|| LazyLock::force(&self.theory), || LazyLock::force(&self.identities));
+        let whole =
+            || rayon::join(|| LazyLock::force(&self.theory), || LazyLock::force(&self.identities));
         rayon::join(whole, || self.tables());
     }
 

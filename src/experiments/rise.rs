@@ -87,47 +87,60 @@ impl Curves {
     }
 }
 
-/// Finds the rise in `counts[σ][realisation]` of a chain with `gaps` gaps, and the intervals of
-/// each row. A row may have only the first of the realisations.
-pub fn find(
-    sigmas: &[f64],
-    counts: &[Vec<Option<u32>>],
+/// The curves of a sample and of its resamples.
+pub struct Resampled {
+    whole: Curves,
+    resampled: Vec<Curves>,
     gaps: usize,
-    seed: u64,
-) -> (Rise, Vec<Intervals>) {
-    let realisations = counts.iter().map(Vec::len).max().unwrap_or(0);
-    let whole = Curves::new(sigmas, counts, gaps, &vec![1; realisations]);
-    let resampled: Vec<Curves> = (0..RESAMPLES as u64)
-        .into_par_iter()
-        .map(|index| {
-            Curves::new(sigmas, counts, gaps, &bootstrap::weights(seed, index, realisations))
-        })
-        .collect();
-    let mut places = (0..6).map(|i| {
-        let of_resamples: Vec<_> = resampled.iter().map(|curves| curves.places[i]).collect();
-        bootstrap::estimate(whole.places[i], &of_resamples, LEVEL)
-    });
-    let mut next = || places.next().flatten();
-    let rise = Rise {
-        half_height: next(),
-        half_height_all: next(),
-        onset: next(),
-        kept_half: next(),
-        width: next(),
-        kept_width: next(),
-    };
-    let interval = |value, pick: &dyn Fn(&Curves) -> Option<f64>| {
-        let of_resamples: Vec<_> = resampled.iter().map(pick).collect();
-        bootstrap::estimate(value, &of_resamples, LEVEL).map(|estimate| estimate.interval)
-    };
-    let intervals = (0..sigmas.len())
-        .map(|row| Intervals {
-            mean_kept: interval(whole.mean_kept[row], &|curves| curves.mean_kept[row]),
-            mean_all: interval(whole.mean_all[row], &|curves| curves.mean_all[row]),
-            mode: whole.mode[row].and_then(|_| mode_interval(gaps, &resampled, row)),
-        })
-        .collect();
-    (rise, intervals)
+}
+
+/// Finds the rise in `counts[σ][realisation]` of a chain with `gaps` gaps. A row may have only the first of the
+/// realisations.
+pub fn find(sigmas: &[f64], counts: &[Vec<Option<u32>>], gaps: usize, seed: u64) -> Rise {
+    Resampled::of(sigmas, counts, gaps, seed).rise()
+}
+
+impl Resampled {
+    /// Of what [`find`] is given.
+    pub fn of(sigmas: &[f64], counts: &[Vec<Option<u32>>], gaps: usize, seed: u64) -> Self {
+        let realisations = counts.iter().map(Vec::len).max().unwrap_or(0);
+        let weights = |index| bootstrap::weights(seed, index, realisations);
+        let one = |index| Curves::new(sigmas, counts, gaps, &weights(index));
+        Resampled {
+            whole: Curves::new(sigmas, counts, gaps, &vec![1; realisations]),
+            resampled: (0..RESAMPLES as u64).into_par_iter().map(one).collect(),
+            gaps,
+        }
+    }
+
+    fn estimate(&self, pick: impl Fn(&Curves) -> Option<f64>) -> Option<Estimate> {
+        let of_resamples: Vec<_> = self.resampled.iter().map(&pick).collect();
+        bootstrap::estimate(pick(&self.whole), &of_resamples, LEVEL)
+    }
+
+    /// Where the rise is.
+    pub fn rise(&self) -> Rise {
+        let place = |i: usize| self.estimate(|curves| curves.places[i]);
+        Rise {
+            half_height: place(0),
+            half_height_all: place(1),
+            onset: place(2),
+            kept_half: place(3),
+            width: place(4),
+            kept_width: place(5),
+        }
+    }
+
+    /// The intervals of each row.
+    pub fn intervals(&self) -> Vec<Intervals> {
+        let interval = |pick: &dyn Fn(&Curves) -> Option<f64>| Some(self.estimate(pick)?.interval);
+        let row = |row: usize| Intervals {
+            mean_kept: interval(&|curves| curves.mean_kept[row]),
+            mean_all: interval(&|curves| curves.mean_all[row]),
+            mode: self.whole.mode[row].and_then(|_| mode_interval(self.gaps, &self.resampled, row)),
+        };
+        (0..self.whole.mode.len()).map(row).collect()
+    }
 }
 
 /// The percentile interval of the mode: whole numbers, at both ends an order statistic.
@@ -186,7 +199,8 @@ mod tests {
     fn without_spread_there_is_no_width() {
         // All realisations alike: every resample gives the same places.
         let counts: Vec<_> = [0, 4, 8].map(|k| vec![Some(k); 20]).to_vec();
-        let (rise, intervals) = find(&[0.1, 0.2, 0.3], &counts, 10, 1);
+        let found = Resampled::of(&[0.1, 0.2, 0.3], &counts, 10, 1);
+        let (rise, intervals) = (found.rise(), found.intervals());
         let half = rise.half_height_all.unwrap();
         assert!(half.error < 1e-12);
         assert_eq!(half.interval, [half.value, half.value]);

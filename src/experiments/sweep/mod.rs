@@ -7,7 +7,7 @@ pub mod laws;
 pub mod tables;
 
 use super::observe::{NEAR_DECADES, SLOW_DECADES, realisation};
-use super::rise::{self, Rise};
+use super::rise::{Resampled, Rise};
 use super::tally::Tally;
 use super::{Error, Progress, weights};
 use crate::numerics::statistics as stat;
@@ -142,7 +142,8 @@ pub fn join(
     }
     progress.check()?;
     let gaps = parameters.chain.gaps();
-    let (rise, intervals) = rise::find(&parameters.sigmas, &counts, gaps, parameters.seed);
+    let found = Resampled::of(&parameters.sigmas, &counts, gaps, parameters.seed);
+    let (rise, intervals) = (found.rise(), found.intervals());
     for (row, interval) in rows.iter_mut().zip(intervals) {
         row.mean_interval = interval.mean_kept;
         row.mean_all_interval = interval.mean_all;

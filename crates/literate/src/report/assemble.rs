@@ -69,6 +69,35 @@ struct Part<'a> {
     places: Places<'a>,
 }
 
+/// What a document is before the templates are put around it.
+struct Written {
+    of: Document,
+    markdown: String,
+    print: Option<Print>,
+    page: html::Parts,
+}
+
+/// A document for LaTeX, and as PDF where that is wanted.
+struct Print {
+    name: &'static str,
+    title: String,
+    body: String,
+    listings: String,
+    pdf: Option<Vec<u8>>,
+}
+
+impl Print {
+    fn of(name: &'static str, blocks: &[Block], input: &Input<'_>) -> Result<Self, Error> {
+        Ok(Print {
+            name,
+            title: latex::title(blocks)?,
+            body: latex::write(blocks)?,
+            listings: latex::listings(blocks)?,
+            pdf: input.pdf.then(|| typeset(blocks, input)).transpose()?,
+        })
+    }
+}
+
 /// The values with the scorecard among them, the filler with all names that templates use, and the prose of each
 /// document as it was filled.
 pub fn fill(input: &Input<'_>) -> Result<(Registry, Filler, Vec<Filled>), Error> {
@@ -113,20 +142,24 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
     let moving = input.scene.map(moving).transpose()?;
     let moving = moving.as_ref().map(|(scene, script)| (*scene, script.as_str()));
     let cards = Cards { values: &values, ledger: &ledger, program: input.program };
-    for Part { of, blocks, .. } in &parts {
-        committed.insert(of.markdown.into(), markdown::write(blocks).into_bytes());
-        if let Some(name) = of.print {
-            filler.insert("title", &latex::title(blocks)?);
+    let site = |of| html::Site { here: of, labels: &labels, moving, lab: input.lab.is_some() };
+    let written = parts.par_iter().with_max_len(1).map(|Part { of, blocks, .. }| {
+        let print = of.print.map(|name| Print::of(name, blocks, input)).transpose()?;
+        let page = html::write(blocks, input.figures, site(*of), cards)?;
+        Ok(Written { of: *of, markdown: markdown::write(blocks), print, page })
+    });
+    for written in written.collect::<Vec<Result<Written, Error>>>() {
+        let Written { of, markdown, print, page } = written?;
+        committed.insert(of.markdown.into(), markdown.into_bytes());
+        if let Some(Print { name, title, body, listings, pdf }) = print {
+            filler.insert("title", &title);
             filler.insert("letter", &of.letter);
-            filler.insert("body", &latex::write(blocks)?);
-            filler.insert("listings", &latex::listings(blocks)?);
+            filler.insert("body", &body);
+            filler.insert("listings", &listings);
             committed.insert(format!("{name}.tex"), filler.fill("report.tex")?.into_bytes());
-            if input.pdf {
-                beside.insert(format!("{name}.pdf"), typeset(blocks, input)?);
-            }
+            beside.extend(pdf.map(|pdf| (format!("{name}.pdf"), pdf)));
         }
-        let site = html::Site { here: *of, labels: &labels, moving, lab: input.lab.is_some() };
-        filler.insert("page", &html::write(blocks, input.figures, site, cards)?);
+        filler.insert("page", &page);
         filler.insert("style", &flush(input.templates.text("report.css")?));
         filler.insert("script", &flush(input.templates.text("report.js")?));
         let page = filler.fill("report.html")?;
@@ -157,8 +190,10 @@ fn parts<'a>(
     let library = Library::read(input.templates.text("references.bib")?)?;
     let (mut labels, mut shown) = (Labels::default(), BTreeSet::new());
     let mut parts = Vec::new();
-    for (of, filled) in input.program.documents.iter().zip(filled) {
-        let (mut blocks, places) = parse::parse(filled, values, input.program)?;
+    let read = |filled| parse::parse(filled, values, input.program);
+    let read: Vec<_> = filled.par_iter().with_max_len(1).map(read).collect();
+    for ((of, filled), read) in input.program.documents.iter().zip(filled).zip(read) {
+        let (mut blocks, places) = read?;
         latex::title(&blocks).map_err(|error| error.at(filled.place(0)))?;
         let own = illustrate(&mut blocks, input.figures, input.program)
             .and_then(|own| labels.number_all(&mut blocks, *of).map(|()| own))
