@@ -17,11 +17,11 @@ pub(crate) fn join(
         progress.check()?;
         Ok(ensemble(&sizes(parameters, curve), sigma, parts.concat()))
     });
-    let of = |own: &ChainCurve| {
-        let rows = rows.by_ref().take(own.sigmas.len()).collect::<Result<_, Error>>()?;
-        Ok(curve(parameters, own, rows))
-    };
-    let curves = parameters.curves.iter().map(of).collect::<Result<_, Error>>()?;
+    let of = |own: &ChainCurve| rows.by_ref().take(own.sigmas.len()).collect();
+    let rows: Vec<Vec<Ensemble>> =
+        parameters.curves.iter().map(of).collect::<Result<_, Error>>()?;
+    let curves = parameters.curves.par_iter().zip(rows);
+    let curves = curves.map(|(own, rows)| curve(parameters, own, rows)).collect();
     Ok(Chains { parameters: parameters.clone(), curves })
 }
 
@@ -79,9 +79,10 @@ pub(crate) fn curve(parameters: &ChainsParams, own: &ChainCurve, rows: Vec<Ensem
         half_heights: windows.iter().map(|samples| at(samples, 0.5)).collect(),
         widths: windows.iter().map(|samples| width(&own.sigmas, samples, [0.1, 0.9])).collect(),
         kept_half: at(&lives, 0.5),
-        kept_half_expected: reaches
-            .as_ref()
-            .map(|both| both.each_ref().map(|own| half(&chain, own, &own.every(ANGLES[1])))),
+        kept_half_expected: reaches.as_ref().map(|[ever, there]| {
+            let half = |own: &Reach| half(&chain, own, &own.every(ANGLES[1]));
+            rayon::join(|| half(ever), || half(there)).into()
+        }),
         kept_expected: reaches.map_or(Vec::new(), |both| {
             drawn(&own.sigmas, |sigma| both.each_ref().map(|own| share(&chain, own, sigma)))
         }),
