@@ -56,9 +56,9 @@ impl Results {
     /// Computes what is otherwise computed when first looked at. Who works on several threads looks
     /// first.
     pub fn look(&self) {
-        let whole =
-            || rayon::join(|| LazyLock::force(&self.theory), || LazyLock::force(&self.identities));
-        rayon::join(whole, || self.tables());
+        rayon::join(|| LazyLock::force(&self.theory), || LazyLock::force(&self.identities));
+        // After them: some tables look at both.
+        self.tables();
     }
 
     /// The tables of all results that there are, by name.
