@@ -30,7 +30,7 @@ use super::flight::Phases;
 use super::simulation::{Awaits, Simulation};
 use impact_numerics::clock::Instant;
 use serde::Deserialize;
-use std::collections::VecDeque;
+use std::collections::{BTreeSet, VecDeque};
 
 /// What happens when neighbouring gaps close at exactly the same instant.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
@@ -50,7 +50,7 @@ pub(super) struct Ties {
     /// Runs of neighbouring gaps that closed at the same instant.
     pub count: u64,
     /// The gaps that were counted at the instant `at`.
-    counted: Vec<usize>,
+    counted: BTreeSet<usize>,
     at: Instant,
     /// Impacts of a joint impact that are yet to be handed out.
     pub left: VecDeque<Impact>,
@@ -59,7 +59,7 @@ pub(super) struct Ties {
 impl Ties {
     /// Nothing seen yet.
     pub fn new(law: Simultaneous) -> Self {
-        Ties { law, count: 0, counted: Vec::new(), at: Instant::ZERO, left: VecDeque::new() }
+        Ties { law, count: 0, counted: BTreeSet::new(), at: Instant::ZERO, left: VecDeque::new() }
     }
 }
 

@@ -8,7 +8,9 @@ use super::clock::Instant;
 /// index. The lesser word is the earlier key, unless the two agree in all other bits (2^-51 of time for 100 keys, 2^-38 for a
 /// million). Then the lower index is [`first`](Self::first), which [`is_close`](Self::is_close) tells, and
 /// [`first_in_full`](Self::first_in_full) goes by the full keys. So there is no branch on the way up, and only who
-/// needs the exact order asks for it. Words end 64 units of time after the epoch; when no key is left
+/// needs the exact order asks for it. Of all words that agree with the root, it then knows the winner in full below each node,
+/// and changes keep that up as long as the root stays: a thousand keys of one instant are looked through once, not for each
+/// of them. Words end 64 units of time after the epoch; when no key is left
 /// before that end, the earliest becomes the epoch. The shape is fixed, so the order of changes never matters.
 ///
 /// The order may be [slanted](Self::slant): then a key counts as later by its distance from an end, and
@@ -19,12 +21,18 @@ pub struct Earliest {
     keys: Vec<Instant>,
     /// The winner below each node, root at 1; the leaves are the second half.
     nodes: Vec<u64>,
+    /// The winner by full keys below each node, no leaf, whose word agrees with this one but for the index, as the root's does.
+    agrees_with: Option<u64>,
+    in_full: Vec<u32>,
     epoch: Instant,
     last: usize,
     slant: Option<Slant>,
     from: Begins,
     /// Words from here on are of no key that is left.
     beyond: u64,
+    /// Nodes whose winner in full was looked for.
+    #[cfg(test)]
+    looked: u64,
 }
 
 /// Where a slanted order begins.
@@ -54,7 +62,7 @@ const NEARBY: usize = 4;
 
 impl Earliest {
     /// Bytes for each key, of a power of two of them.
-    pub const BYTES: usize = size_of::<Instant>() + 2 * size_of::<u64>();
+    pub const BYTES: usize = size_of::<Instant>() + 2 * size_of::<u64>() + size_of::<u32>();
 
     /// `len` ≥ 1 keys, all [`Instant::NEVER`].
     pub fn new(len: usize) -> Self {
@@ -66,9 +74,19 @@ impl Earliest {
         let (last, width) = (keys.len() - 1, keys.len().next_power_of_two());
         keys.resize(width, Instant::NEVER);
         let epoch = keys.iter().min().copied().filter(|&key| key < Instant::NEVER);
-        let (nodes, from) = (vec![0; 2 * width], Begins::AtEnds);
-        let mut earliest =
-            Earliest { keys, nodes, epoch: Instant::ZERO, last, slant: None, from, beyond: 0 };
+        let mut earliest = Earliest {
+            keys,
+            nodes: vec![0; 2 * width],
+            agrees_with: None,
+            in_full: Vec::new(),
+            epoch: Instant::ZERO,
+            last,
+            slant: None,
+            from: Begins::AtEnds,
+            beyond: 0,
+            #[cfg(test)]
+            looked: 0,
+        };
         earliest.rebase(epoch.unwrap_or(Instant::ZERO));
         earliest
     }
@@ -80,7 +98,7 @@ impl Earliest {
 
     /// Makes all words anew, for another epoch.
     fn rebase(&mut self, epoch: Instant) {
-        self.epoch = epoch;
+        (self.epoch, self.agrees_with) = (epoch, None);
         self.beyond = !self.mask();
         let width = self.keys.len();
         for index in 0..width {
@@ -225,6 +243,9 @@ impl Earliest {
             }
             nodes[low & mask] = left;
         }
+        if let Some(word) = self.agrees_with {
+            self.keep_in_full(word, first, first + K - 1);
+        }
     }
 
     /// Whether key `index` has an equal next to it, where the last and the first are neighbours too.
@@ -276,21 +297,64 @@ impl Earliest {
 
     /// The index of the earliest of the full keys, and that key.
     #[cold]
-    pub fn first_in_full(&self) -> (usize, Instant) {
-        let index = self.first_below(1);
+    pub fn first_in_full(&mut self) -> (usize, Instant) {
+        if self.agrees_with.is_none() {
+            self.agrees_with = Some(self.nodes[1]);
+            self.in_full.resize(self.keys.len(), 0);
+            self.find_in_full(1);
+        }
+        let index = self.winner_in_full(1);
         (index, self.keys[index])
     }
 
-    /// The same below a node, whose word agrees with the root's but for the index.
-    fn first_below(&self, node: usize) -> usize {
-        let (width, mask) = (self.keys.len(), self.mask());
-        if node >= width {
-            return node - width;
+    /// Whether the word of a node agrees with the root's but for the index.
+    fn agrees(&self, node: usize) -> bool {
+        self.nodes[node] ^ self.nodes[1] <= self.mask()
+    }
+
+    /// The winner in full below a node whose word agrees, once it is found.
+    fn winner_in_full(&self, node: usize) -> usize {
+        let width = self.keys.len();
+        if node < width { self.in_full[node] as usize } else { node - width }
+    }
+
+    /// Finds the winners in full of a node whose word agrees, and of all such below it.
+    fn find_in_full(&mut self, node: usize) {
+        if node < self.keys.len() {
+            for below in [2 * node, 2 * node + 1] {
+                if self.agrees(below) {
+                    self.find_in_full(below);
+                }
+            }
+            self.compare_in_full(node);
         }
-        let close = |node: &usize| self.nodes[*node] ^ self.nodes[1] <= mask;
-        let below = [2 * node, 2 * node + 1].into_iter().filter(close);
-        let found = below.map(|node| self.first_below(node)).min_by_key(|&index| self.keys[index]);
-        found.expect("a node has its word from below")
+    }
+
+    /// The winner in full of a node from those right below it.
+    fn compare_in_full(&mut self, node: usize) {
+        #[cfg(test)]
+        {
+            self.looked += 1;
+        }
+        let below = [2 * node, 2 * node + 1].into_iter().filter(|&below| self.agrees(below));
+        let found = below.map(|below| self.winner_in_full(below));
+        if let Some(index) = found.min_by_key(|&index| self.keys[index]) {
+            self.in_full[node] = index as u32;
+        }
+    }
+
+    /// After a change of the keys `first` to `last`: the winners in full above them, unless the root is another now.
+    #[cold]
+    fn keep_in_full(&mut self, word: u64, first: usize, last: usize) {
+        if self.nodes[1] ^ word > self.mask() {
+            self.agrees_with = None;
+            return;
+        }
+        let (mut low, mut high) = (self.keys.len() + first, self.keys.len() + last);
+        while low > 1 {
+            (low, high) = (low >> 1, high >> 1);
+            (low..=high).for_each(|node| self.compare_in_full(node));
+        }
     }
 
     /// No key is left before the end of the words.
@@ -347,6 +411,44 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// Keys of one instant, and of ticks after it, are looked through once, not for each of them: besides, an event looks at no
+    /// more than two nodes of each level. It changes its own key and those beside it, some to the same instant.
+    #[test]
+    fn many_of_one_instant_are_looked_through_once() {
+        const LEN: usize = 1000;
+        let mut keys = vec![Instant::ZERO; LEN];
+        let mut earliest = Earliest::of(keys.clone());
+        let mut random = generator("instants", 1, 0);
+        let (mut instants, mut last) = (0, f64::NEG_INFINITY);
+        let events = 20 * LEN;
+        for _ in 0..events {
+            let (mut index, mut at) = earliest.first();
+            if earliest.is_close(index) {
+                (index, at) = earliest.first_in_full();
+            }
+            assert_eq!(index, (0..LEN).min_by_key(|&i| keys[i]).unwrap());
+            instants += u64::from(at.time().floor() != last);
+            last = at.time().floor();
+            let from = index.saturating_sub(1).min(LEN - 3);
+            let mut three = [keys[from], keys[from + 1], keys[from + 2]];
+            three[index - from] = Instant::at(last + 1.0);
+            for key in &mut three {
+                let ticks = (random.next_u64() % 4) as f64 / (1u128 << 80) as f64;
+                match random.next_u64() % 4 {
+                    0 => *key = at.after(ticks),
+                    1 => *key = Instant::at(last + 1.0).after(ticks),
+                    _ => {}
+                }
+            }
+            keys[from..from + 3].copy_from_slice(&three);
+            earliest.set(from, three);
+        }
+        assert!(instants > 5 && instants * 100 < events as u64, "{instants}");
+        let levels = u64::from(LEN.next_power_of_two().ilog2());
+        let bound = instants * LEN.next_power_of_two() as u64 + 2 * levels * events as u64;
+        assert!(earliest.looked <= bound, "{} of {bound}", earliest.looked);
     }
 
     /// The first and the last of a ring are neighbours, and the last may be earlier by one tick.
