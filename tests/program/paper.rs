@@ -196,7 +196,7 @@ fn lists_by_hand_take_no_file_away() {
 fn nothing_is_written_among_the_templates() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
-    templates(&here.join("t"), "front.md", String::from);
+    templates(&here.join("t"), "front.md", |text| text.into());
     for (verb, among) in [
         ("paper --figure 4 --templates t --out", "t"),
         ("paper --figure 4 --templates t --out", "new/../t/new"),
