@@ -15,16 +15,13 @@ const FOLDER: &str = "./paper";
 pub fn files(name: &str) -> Result<Files, Failure> {
     let neither = |told: String| {
         let told = if told.is_empty() { told } else { format!(" ({})", one_line(&told, 200)) };
+        let name = if name.is_empty() { "an empty name" } else { name };
         let what = format!("neither a folder nor a revision of git here{told}");
         Failure::input(format!("{name}: {what}; give the folder of a report, a tag or a commit"))
     };
-    if name.is_empty() {
-        let what = "diff: an empty name is given; give the folder of a report, a tag or a commit";
-        return Err(Failure::input(what));
-    }
     // What git would take for an option, a path or a range is no revision.
     let odd = |c: char| c.is_control() || c.is_whitespace() || c == ':';
-    if name.starts_with('-') || name.contains(odd) || name.contains("..") {
+    if name.is_empty() || name.starts_with('-') || name.contains(odd) || name.contains("..") {
         return Err(neither(String::new()));
     }
     let commit = format!("{name}^{{commit}}");
