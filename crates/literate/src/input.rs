@@ -1,6 +1,6 @@
 //! Files: they are read up to a bound, what is wrong with them is told in one line, and they appear whole.
 
-pub use impact_numerics::text::{is_obeyed, one_line, plain};
+pub use impact_numerics::text::{count, is_obeyed, one_line, plain};
 use std::fs::File;
 use std::io::{Error, ErrorKind, Read, Write};
 use std::path::Path;
