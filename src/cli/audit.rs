@@ -1,6 +1,6 @@
 //! `impact-paper audit`.
 
-use super::{Failure, stdout, work};
+use super::{Failure, number, stdout, work};
 use impact_paper::experiments::{self, Error, Store};
 use impact_paper::numerics::random::generator;
 use impact_paper::params::Profile;
@@ -17,10 +17,10 @@ pub struct Args {
     #[arg(long, default_value = "full", value_parser = work::of_all())]
     profile: Profile,
     /// Share of the experiments to run again; at least one is.
-    #[arg(long, value_name = "SHARE", default_value = "10%", value_parser = share)]
-    sample: f64,
+    #[arg(long, value_name = "SHARE", default_value = "10%", value_parser = share, allow_hyphen_values = true)]
+    sample: Share,
     /// Seed of the choice.
-    #[arg(long, value_name = "K", default_value_t = 0)]
+    #[arg(long, value_name = "K", default_value_t = 0, allow_hyphen_values = true)]
     seed: u64,
     /// Folder in which results of long runs are kept; without it target/results, and benches/deep for
     /// the deep profile.
@@ -31,14 +31,18 @@ pub struct Args {
     threads: Option<usize>,
 }
 
+/// A share of all, above 0 and at most 1.
+#[derive(Clone, Copy)]
+struct Share(f64);
+
 /// "10%" or "0.1".
-fn share(text: &str) -> Result<f64, String> {
+fn share(text: &str) -> Result<Share, String> {
     let (number, unit) = match text.trim().strip_suffix('%') {
         Some(number) => (number, 100.0),
         None => (text, 1.0),
     };
-    match number.trim().parse::<f64>() {
-        Ok(number) if number > 0.0 && number <= unit => Ok(number / unit),
+    match number::parse(number) {
+        Ok(number) if number > 0.0 && number <= unit => Ok(Share(number / unit)),
         _ => Err("a share is a number above 0 and at most 1, or a percentage like 10%".into()),
     }
 }
@@ -48,7 +52,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let store = Store::open(&work::results(args.results, profile))?;
     let mut chosen = experiments::of(profile);
     chosen.shuffle(&mut generator("audit", args.seed, 0));
-    chosen.truncate((args.sample * chosen.len() as f64).ceil() as usize);
+    chosen.truncate((args.sample.0 * chosen.len() as f64).ceil() as usize);
     let progress = work::progress();
     let differ = work::on_threads(args.threads, || {
         let mut differ = Vec::new();

@@ -147,8 +147,11 @@ fn unknown(id: &str, ids: &[String]) -> Failure {
         [] => String::new(),
         near => format!("; the nearest ids are {}", near.join(", ")),
     };
-    let id = one_line(id, 60);
-    Failure::input(format!("explain: there is no {id:?}{near}; without an id all are listed"))
+    let id = match one_line(id, 60) {
+        empty if empty.is_empty() => "the ID is empty".to_string(),
+        id => format!("there is no {id:?}"),
+    };
+    Failure::input(format!("explain: {id}{near}; without an id all are listed"))
 }
 
 /// Fewest insertions, deletions and replacements between two words, unless they are too many; what stands behind

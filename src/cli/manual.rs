@@ -21,7 +21,7 @@ pub struct Args {
 
 /// Runs the verb.
 pub fn run(args: &Args) -> Result<(), Failure> {
-    refuse_report("--out", &args.out)?;
+    refuse_report("--out", &args.out, None)?;
     let staging = Staging::below(&args.out, "--out", args.force)?;
     let mut files = Files::new();
     let mut command = super::command();

@@ -41,7 +41,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
             format!("--results: {} is a folder of a shard; give another", folder.display());
         return Err(Failure::input(message));
     }
-    refuse_report("--results", &folder)?;
+    refuse_report("--results", &folder, None)?;
     let results = Store::open(&folder)?;
     let progress = work::progress();
     work::on_threads(args.threads, || Ok(plan.merge(&args.folders, &results, &progress)?))?;

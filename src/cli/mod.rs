@@ -10,6 +10,7 @@ mod explain;
 mod manual;
 mod merge;
 mod method;
+mod number;
 mod paper;
 mod plan;
 mod shard;
@@ -33,7 +34,7 @@ const EXIT_CODES: &str = "Exit codes:
        the same; or a rule of the prose is broken (a naked numeral, an unused value), and
        nothing is
   2    wrong usage or input, broken prose too, or a place that cannot be written
-  3    saved results are stale or missing
+  3    saved results or units of work are stale, missing or damaged
   4    a run failed, or the system did: a full disk, an I/O error
   130  ended by Ctrl-C or SIGTERM";
 
@@ -68,7 +69,7 @@ const GROUPS: [(&str, &[&str]); 5] = [
 
 /// The command line, with its verbs in groups.
 fn command() -> clap::Command {
-    let command = Cli::command();
+    let command = number::of_all(Cli::command());
     let line = |name: &&str| {
         let about = command.find_subcommand(name).and_then(clap::Command::get_about);
         let about = about.map(ToString::to_string).unwrap_or_default();

@@ -2,7 +2,7 @@
 
 use super::diff::{count, fate};
 use super::judged::Judged;
-use super::output::{self, Staging, holds_report, refuse_report};
+use super::output::{self, Staging, holds_report, refuse_prose, refuse_report};
 use super::sources::Sources;
 use super::{Failure, folder, make, stdout, work};
 use impact_paper::claims::Verdict;
@@ -86,7 +86,9 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let numbers =
         args.figure.iter().map(read).collect::<Result<BTreeSet<figures::Number>, Failure>>()?;
     refuse_over_other(profile, &out, !args.figure.is_empty())?;
-    refuse_report("--results", &args.sources.results)?;
+    let templates = args.sources.templates.as_deref();
+    refuse_report("--results", &args.sources.results, templates)?;
+    refuse_prose("--out", &out, templates)?;
     let progress = work::progress();
     let staging = Staging::below(&out, "--out", args.force)?;
     if folder::resolved(&args.sources.results).starts_with(folder::resolved(&out)) {
@@ -180,17 +182,13 @@ fn default_folder(profile: Profile) -> PathBuf {
 
 /// Is it where a profile of the paper's parameters writes, and nothing of worth is lost?
 fn is_usual(profile: Profile, out: &Path) -> bool {
-    profile != Profile::Full && set::told().is_none() && same(out, &default_folder(profile))
+    let usual = || folder::resolved(out) == folder::resolved(&default_folder(profile));
+    profile != Profile::Full && set::told().is_none() && usual()
 }
 
 /// The values of the report in a folder, if there is one.
 fn values_in(out: &Path) -> Option<Registry> {
     compare::read(&folder::text(out, VALUES).ok()?).ok()
-}
-
-/// Are these one folder?
-fn same(a: &Path, b: &Path) -> bool {
-    a == b || a.canonicalize().ok().is_some_and(|a| b.canonicalize().ok() == Some(a))
 }
 
 /// Lesser samples must not take the place of the committed report, and single figures not stand among those

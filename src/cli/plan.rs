@@ -2,6 +2,7 @@
 
 use super::{Failure, shard, stdout, work};
 use impact_paper::experiments::Store;
+use impact_paper::numerics::text::count;
 use impact_paper::params::Profile;
 use literate::experiments::shards::Task;
 use serde::Serialize;
@@ -108,8 +109,8 @@ fn table(lines: &[Line]) -> String {
         let shard = shard.map_or(String::new(), |shard| format!(" {shard:>6}"));
         let _ = writeln!(out, "{unit:22}{shard} {weight:>10}  {covers}{realisations}");
     }
-    let (number, weight) = (lines.len(), lines.iter().map(|line| line.weight).sum::<u64>());
-    let _ = writeln!(out, "{number} units, about {weight} impacts");
+    let weight: u64 = lines.iter().map(|line| line.weight).sum();
+    let _ = writeln!(out, "{}, about {weight} impacts", count(lines.len(), "unit"));
     out
 }
 

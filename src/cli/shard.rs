@@ -62,7 +62,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let profile = args.profile;
     let unwritable = given_by("--out");
     let plan = args.only.plan(profile)?;
-    refuse_report("--out", &args.out)?;
+    refuse_report("--out", &args.out, None)?;
     let store = Store::open(&args.out).map_err(unwritable)?;
     let progress = work::progress();
     let ran = work::on_threads(args.threads, || {

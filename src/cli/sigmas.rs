@@ -1,5 +1,7 @@
 //! The σ axis on the command line: `0.1,0.12` or `0.08..0.18:0.0025`.
 
+use super::number;
+
 /// More values than this are taken for a slip.
 const MOST: usize = 100_000;
 
@@ -35,13 +37,12 @@ pub fn parse(text: &str) -> Result<Vec<f64>, String> {
 }
 
 fn number(text: &str) -> Result<f64, String> {
-    match text.trim().parse::<f64>() {
-        Ok(x) if x.is_finite() => Ok(x),
-        _ => Err(format!(
-            "--sigma: {text:?} is not a finite number; write a list such as 0.1,0.12 or a range \
-             such as 0.08..0.18:0.0025"
-        )),
-    }
+    let finite = |x: f64| if x.is_finite() { Ok(x) } else { Err("it is not finite".to_string()) };
+    number::parse(text).and_then(finite).map_err(|what| {
+        format!(
+            "--sigma: {text:?}: {what}; a list is like 0.1,0.12, a range like 0.08..0.18:0.0025"
+        )
+    })
 }
 
 fn range(text: &str, from: &str, to: &str, step: &str) -> Result<Vec<f64>, String> {

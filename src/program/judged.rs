@@ -42,7 +42,7 @@ impl Judged {
         let claims = &self.claims;
         let counts = Verdict::ALL.iter().zip(scorecard(claims));
         let counts: Vec<String> =
-            counts.map(|(verdict, count)| format!("{count} {}", verdict.words())).collect();
+            counts.map(|(verdict, count)| format!("{} {count}", verdict.words())).collect();
         let noun = if claims.len() == 1 { "statement" } else { "statements" };
         let bases = Basis::ALL.iter().zip(split(claims));
         let bases = bases.map(|(basis, counts)| (basis.words(), counts[0], counts.iter().sum()));

@@ -46,6 +46,13 @@ pub fn listed(root: &Path, only: Option<&str>, progress: &Progress) -> Result<Ch
         Failure::input(format!("{}: {what}; {remedy}", place.display()))
     };
     let found = folder::walk(root)?;
+    let [list, local] = [sums::NAME, sums::LOCAL].map(|name| found.iter().any(|path| path == name));
+    if local && !list {
+        let (root, local) = (root.display(), sums::LOCAL);
+        return Err(Failure::input(format!(
+            "{root}: it holds single files and no report; `sha256sum --check {local}` in it checks them"
+        )));
+    }
     let text = folder::text(root, sums::NAME).map_err(|e| unusable(e.to_string()))?;
     let entries = sums::read(&text).map_err(|e| unusable(e.to_string()))?;
     let mut known: BTreeMap<&str, &str> = BTreeMap::new();

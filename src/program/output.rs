@@ -5,23 +5,21 @@
 //! was last written into the folder. Everything else is refused by name, unless --force.
 
 use super::own::Own;
+use super::sources::prose;
 use super::waiting::{Waiting, clear, is_staging};
 use super::work::{self, Now};
 use super::{Failure, folder};
 use crate::experiments::{Progress, say};
-use crate::input::one_line;
+use crate::input::{count, listed, one_line};
 use crate::report::{Files, PROGRAM, sums};
 use std::collections::BTreeSet;
 use std::fs::File;
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// Folders that a report has.
 const FOLDERS: [&str; 2] = ["data", "figures"];
-
-/// Of a longer list of names only so many are told.
-const TOLD: usize = 5;
 
 /// What all verbs call the option.
 #[derive(Clone, Copy, clap::Args)]
@@ -50,13 +48,41 @@ pub fn holds_report(folder: &Path) -> bool {
     [sums::NAME, "ledger.json"].iter().any(|name| folder.join(name).symlink_metadata().is_ok())
 }
 
-/// Is it below a report, which has no other files? What holds a ledger is one of ours.
-fn lies_in_report(folder: &Path) -> bool {
-    folder::resolved(folder).ancestors().skip(1).any(|above| above.join("ledger.json").is_file())
+/// Is it, without links and dots, below a report, which has no other files? What holds a ledger is one of ours.
+fn lies_in_report(there: &Path) -> bool {
+    there.ancestors().skip(1).any(|above| above.join("ledger.json").is_file())
 }
 
-/// A report and its folders have no other files.
-pub fn refuse_report(option: &str, folder: &Path) -> Result<(), Failure> {
+/// Of the prose, whatever lies in its folder or below is read: that of `templates`, and that of the checkout.
+///
+/// # Errors
+/// Exit code 2 for a folder in which what is written would be taken for prose.
+pub fn refuse_prose(option: &str, folder: &Path, templates: Option<&Path>) -> Result<(), Failure> {
+    let there = folder::resolved(folder);
+    let given = templates.map(PathBuf::from);
+    if given.into_iter().chain(prose()).any(|prose| there.starts_with(folder::resolved(&prose))) {
+        let what = "is the folder of the templates, or lies in it; give another folder";
+        return Err(Failure::input(format!("{option}: {} {what}", folder.display())));
+    }
+    Ok(())
+}
+
+/// Refuses a link that leads nowhere, below which nothing can be made.
+fn refuse_dangling(option: &str, folder: &Path) -> Result<(), Failure> {
+    if folder.is_symlink() && folder.metadata().is_err() {
+        let what = "a symbolic link that leads to no folder; remove it, or give another";
+        return Err(Failure::input(format!("{option}: {}: {what}", folder.display())));
+    }
+    Ok(())
+}
+
+/// A report and its folders have no other files; nor has the prose.
+///
+/// # Errors
+/// Exit code 2 for a folder in which nothing else may be written.
+pub fn refuse_report(option: &str, folder: &Path, templates: Option<&Path>) -> Result<(), Failure> {
+    refuse_dangling(option, folder)?;
+    refuse_prose(option, folder, templates)?;
     let there = folder::resolved(folder);
     let within = FOLDERS.iter().any(|below| there.ends_with(below));
     let above = there.parent().filter(|_| within);
@@ -81,15 +107,12 @@ impl<'a> Staging<'a> {
         option: &'static str,
         Force { force }: Force,
     ) -> Result<Self, Failure> {
-        if folder.is_symlink() && folder.metadata().is_err() {
-            let what = "a symbolic link that leads to no folder; remove it, or give another";
-            return Err(Failure::input(format!("{option}: {}: {what}", folder.display())));
-        }
+        refuse_dangling(option, folder)?;
         if folder.exists() && !folder.is_dir() {
             let what = "it is a file; give a folder";
             return Err(Failure::input(format!("{option}: {}: {what}", folder.display())));
         }
-        if lies_in_report(folder) {
+        if lies_in_report(&folder::resolved(folder)) {
             let what = "it lies in a report, which has no other files; give another folder";
             return Err(Failure::input(format!("{option}: {}: {what}", folder.display())));
         }
@@ -200,7 +223,12 @@ impl<'a> Staging<'a> {
         for path in files.keys().filter(|path| *path != sums::NAME) {
             put(path).map_err(failed)?;
         }
-        for path in gone.into_iter().filter(|path| stands(path) && is_own(path)) {
+        let gone: Vec<&str> = gone
+            .into_iter()
+            .map(String::as_str)
+            .filter(|path| stands(path) && is_own(path))
+            .collect();
+        for path in &gone {
             std::fs::remove_file(self.folder.join(path)).map_err(failed)?;
         }
         if is_report {
@@ -208,6 +236,10 @@ impl<'a> Staging<'a> {
         }
         stage(sums::LOCAL, own.local(files, stands, false).as_bytes()).map_err(failed)?;
         put(sums::LOCAL).map_err(failed)?;
+        if !gone.is_empty() {
+            let (number, names) = (count(gone.len(), "file"), one_line(&listed(&gone), 500));
+            say(&format!("impact-paper: removed {number} of the report before: {names}"));
+        }
         let over: Vec<&str> = theirs.into_iter().filter(|path| files.contains_key(*path)).collect();
         if !over.is_empty() {
             say(&format!("impact-paper: --force: wrote over {}", over.join(", ")));
@@ -303,15 +335,6 @@ fn names(folder: &Path) -> io::Result<Vec<String>> {
         entry.map(|entry| entry.file_name().to_string_lossy().into_owned())
     };
     std::fs::read_dir(folder)?.map(name).collect()
-}
-
-/// The first few, and how many more.
-fn listed(names: &[&str]) -> String {
-    let first = names.iter().take(TOLD).copied().collect::<Vec<_>>().join(", ");
-    match names.len().saturating_sub(TOLD) {
-        0 => first,
-        more => format!("{first} and {more} more"),
-    }
 }
 
 /// A lock on the folder itself, which ends with whoever holds it and leaves no file. It is held for
@@ -541,8 +564,8 @@ mod tests {
     /// A run that begins while another puts its files in place sees all of them or none.
     #[test]
     fn who_begins_while_another_writes_is_not_misled() {
-        let names: Vec<String> = (0..60).map(|k| format!("file-{k}.txt")).collect();
-        let names: Vec<&str> = names.iter().map(String::as_str).chain(["index.html"]).collect();
+        let names: Vec<String> = (0..60).map(|k| format!("file-{k}.md")).collect();
+        let names: Vec<&str> = names.iter().map(String::as_str).chain(["index.md"]).collect();
         let whole = report(&names);
         for _ in 0..6 {
             let out = tempfile::tempdir().unwrap();

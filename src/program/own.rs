@@ -2,6 +2,7 @@
 
 use super::folder;
 use crate::digest::sha256;
+use crate::input::one_line;
 use crate::report::{Files, sums};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -18,17 +19,13 @@ pub struct Own {
 }
 
 impl Own {
-    /// From the lists in a folder; none if it has none. Other people have lists of this name too: one
-    /// of a report names its values and its ledger.
+    /// From the lists in a folder; none if it has none.
     ///
     /// # Errors
-    /// What is wrong with the list that only this program writes.
+    /// What is wrong with a list, and what to do.
     pub fn read(folder: &Path) -> Result<Option<Own>, String> {
         let local = folder::local(folder)?;
-        let list = |name: &str| sums::lines(&folder::text(folder, name).ok()?).ok();
-        let has = |list: &Vec<sums::Entry>, path: &str| list.iter().any(|entry| entry.path == path);
-        let report =
-            list(sums::NAME).filter(|list| has(list, "values.json") && has(list, "ledger.json"));
+        let report = report(folder)?;
         if report.is_none() && local.is_none() {
             return Ok(None);
         }
@@ -62,5 +59,25 @@ impl Own {
         // The old digest of a path before the new one.
         lines.sort_by_key(|(path, _)| *path);
         lines.into_iter().map(|(path, digest)| format!("{digest}  {path}\n")).collect()
+    }
+}
+
+/// The list of the report in a folder, if there is one. Other people have lists of this name too: that of a report
+/// names its values and its ledger. What it names is replaced and removed, so it may name nothing else than a report
+/// has, whoever wrote it.
+fn report(folder: &Path) -> Result<Option<Vec<sums::Entry>>, String> {
+    let Ok(text) = folder::text(folder, sums::NAME) else { return Ok(None) };
+    let has = |path: &str| text.lines().any(|line| line.ends_with(&format!("  {path}")));
+    if !has("values.json") || !has("ledger.json") {
+        return Ok(None);
+    }
+    let fault = |what: String| format!("{}: {what}", folder.join(sums::NAME).display());
+    let list = sums::lines(&text).map_err(|error| fault(error.to_string()))?;
+    match list.iter().find(|entry| !sums::is_of_report(&entry.path)) {
+        None => Ok(Some(list)),
+        Some(strange) => {
+            let path = one_line(&strange.path, 200);
+            Err(fault(format!("{path:?} is no file of a report; take its line out")))
+        }
     }
 }

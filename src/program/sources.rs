@@ -23,7 +23,7 @@ pub struct Sources {
     pub threads: Option<usize>,
     /// Folder of the prose [default: templates of the checkout, or the copy inside the program].
     #[arg(long, value_name = "DIR")]
-    templates: Option<PathBuf>,
+    pub templates: Option<PathBuf>,
     /// Folder in which results of long runs are kept.
     #[arg(long, value_name = "DIR", default_value = "target/results")]
     pub results: PathBuf,
@@ -70,9 +70,13 @@ impl Sources {
             Some(_) => self.results.join("what-if"),
         };
         if long {
-            refuse_report("--results", &folder)?;
+            refuse_report("--results", &folder, self.templates.as_deref())?;
         }
         let store = if long { Store::open(&folder)? } else { Store::nowhere() };
+        // Before the first run, not after hours when its turn comes.
+        for need in needs.iter().filter(|need| need.is_saved()) {
+            store.refuse_foreign(need.at(profile).identity(), profile)?;
+        }
         let scenario = |file: &str| {
             let text = templates.text(file).map(String::from);
             text.map_err(|_| "this file is missing from the templates".to_string())
@@ -81,13 +85,18 @@ impl Sources {
     }
 }
 
+/// The folder of the committed prose; none if only the copy inside has it.
+pub fn prose() -> Option<PathBuf> {
+    committed::find(PROSE)?.parent().map(PathBuf::from)
+}
+
 /// The given folder, or else the committed one.
 fn find(folder: Option<&Path>) -> Result<Templates, report::Error> {
     if let Some(folder) = folder {
         return Templates::read(folder);
     }
-    if let Some(folder) = committed::find(PROSE).as_deref().and_then(Path::parent) {
-        return Templates::read(folder);
+    if let Some(folder) = prose() {
+        return Templates::read(&folder);
     }
     // Its error says what to do where there is no copy inside either.
     let fail = |source| report::Error::Read { path: PROSE.into(), source };

@@ -16,6 +16,8 @@ impl Waiting {
     pub fn below(folder: &Path) -> io::Result<Self> {
         let made = tempfile::Builder::new().prefix(STAGING).tempdir_in(folder).map_err(bare)?;
         std::fs::write(made.path().join(OURS), "")?;
+        // What a killed run leaves is none of git's.
+        std::fs::write(made.path().join(".gitignore"), "*\n")?;
         Ok(Waiting(made))
     }
 
@@ -54,4 +56,25 @@ pub fn is_staging(folder: &Path, name: &str) -> bool {
         && path.symlink_metadata().is_ok_and(|found| found.is_dir())
         && (path.join(OURS).symlink_metadata().is_ok_and(|found| found.is_file())
             || path.read_dir().is_ok_and(|mut files| files.next().is_none()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::git::git;
+    use super::*;
+
+    #[test]
+    fn git_sees_nothing_of_what_waits() {
+        let folder = tempfile::tempdir().unwrap();
+        let of = |verb: &[&str]| {
+            let folder = folder.path().to_str().unwrap();
+            String::from_utf8(git(&[&["-C", folder], verb].concat()).unwrap().unwrap()).unwrap()
+        };
+        of(&["init", "--quiet"]);
+        let waiting = Waiting::below(folder.path()).unwrap();
+        std::fs::write(waiting.path().join("report.md"), "half").unwrap();
+        assert_eq!(of(&["status", "--porcelain"]), "");
+        drop(waiting);
+        assert_eq!(folder.path().read_dir().unwrap().count(), 1, "only .git");
+    }
 }

@@ -305,7 +305,7 @@ impl From<Error> for Failure {
         let code = match &error {
             Error::Interrupted => INTERRUPTED,
             Error::Store { source, .. } => Failure::io_code(source),
-            Error::Input { .. } => 2,
+            Error::Input { .. } | Error::Foreign { .. } => 2,
             Error::Failed { source, .. } if is_input(source.as_ref()) => 2,
             Error::Stale { .. } | Error::Units { .. } | Error::NotUnderstood { .. } => 3,
             _ => 4,

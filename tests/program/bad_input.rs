@@ -151,6 +151,8 @@ sweep --sigma 0.1 --masses 1000000000000|18446744073709551615 => --masses: about
 sweep --sigma 0.1 --realisations 0 => --realisations
 sweep --sigma 0.1 --realisations 1000000000000000000 => --realisations: about
 sweep --sigma 0.1 --transient -1|NaN|1e13 => --transient
+sweep --sigma 1e-400|0.1,1e400|0..0.1:1e-400 => --sigma: ; would be read as
+sweep --sigma 0.1 --transient 1e-400|1e400 => --transient; would be read as
 sweep --sigma 0.1 --window 0|inf => --window
 sweep --sigma 0.1 --restitution 1.1|-0.1|NaN => --restitution
 sweep --sigma 0.1 --initial moving => --initial
@@ -166,6 +168,7 @@ bench engine --chains 0 => --chains: 0
 bench engine --chains -1 => '--chains <C>'
 bench engine --sigma NaN => --sigma: NaN
 bench engine --restitution 1.5 => --restitution: 1.5
+bench engine --sigma 1e-400 => --sigma; read as 0
 bench engine --until -1 => --until: -1.0
 bench engine --masses 10 --threads 0|1000000000 => --threads
 bench engine --repetitions 0|1000001 => --repetitions: 
@@ -189,10 +192,13 @@ paper --pdf --figure 4 => --pdf
 paper --figure 4 --out loop => link
 paper --figure 4 --out file|file/below => --out
 paper --profile quick --out file => it is a file
-paper --profile quick --figure 3 --results file => results directory file
+paper --profile quick --figure 3 --results file => --results: file: not a directory
 paper --templates nowhere => nowhere
 check --claim no-such-claim => --claim
-check --profile quick --results file => results directory file
+check --profile quick --results file => --results: file: not a directory
+check --profile quick --results loop => --results: loop: a symbolic link that leads to no folder
+run --profile quick --shard 1/1 --out loop => --out: loop: a symbolic link
+merge empty --results loop => --results: loop: a symbolic link
 verify => paper:
 verify empty => empty/SHA256SUMS
 verify file => file:
@@ -212,21 +218,27 @@ plan --left file => --left: file: ; a file is in the way
 merge => DIR
 merge file => file:
 merge . --results . => is a folder of a shard
+audit --seed -1 => '--seed <K>'; whole number
+audit --sample -1%|0|1e-400 => '--sample <SHARE>'; percentage like 10%
+diff  . => an empty name: neither a folder nor a revision
 eval => QUANTITY
 eval no-such-thing => no-such-thing; --list
 eval p-crit --no-such-option => --no-such-option
 eval p-crit extra => extra
-eval k-star --p -0.1|1.0000000000000002|nan|inf|-inf|1e999 => p:; 0 ≤ p ≤ 1
+eval k-star --p -0.1|1.0000000000000002|nan|inf|-inf => p:; 0 ≤ p ≤ 1
+eval k-star --p 1e999|-1e999 => p: ; read as infinity
+eval k-star --p 1e-400|-0.1e-999 => p: ; read as 0; write 0
 eval k-star --p abc|0,5 => p:; decimal
 eval k-star --p => --p
 eval k-star --p 0.1 --p 0.2 => --p
-eval p-of-sigma --sigma 0|-1|nan|inf|1e400 => sigma:; > 0
+eval p-of-sigma --sigma 0|-1|nan|inf => sigma:; > 0
 eval p-of-sigma --sigma 1e7 => sigma:; give 0 to 1000000
-eval p-of-sigma --sigma 0.1 --omega 0|-1|nan|inf|1e400 => omega:; > 0
+eval p-of-sigma --sigma 0.1 --omega 0|-1|nan|inf => omega:; > 0
 eval p-of-sigma --sigma 0.1 --omega x => omega: `x`
-eval p-of-sigma --sigma 0.1 --forcing-frequency 0|-1|nan|inf|1e400 => forcing-frequency:; > 0
+eval p-of-sigma --sigma 0.1 --forcing-frequency 0|-1|nan|inf => forcing-frequency:; > 0
 eval p-of-sigma --sigma 0.1 --forcing-frequency x => forcing-frequency: `x`
-eval p-of-sigma --sigma 0.1 --spacing 0|-1|nan|inf|1e400 => spacing:; > 0
+eval p-of-sigma --sigma 0.1 --spacing 0|-1|nan|inf => spacing:; > 0
+eval p-of-sigma --sigma 0.1 --spacing 1e400|1e-400 => spacing:; would be read as
 eval p-of-sigma --sigma 0.1 --spacing x => spacing: `x`
 eval p-crit --vertices 0|100000001|99999999999999999999999 => vertices; give
 eval p-crit --masses 0|100000001|99999999999999999999999 => masses; give
@@ -336,6 +348,10 @@ fn broken_files_are_told_in_one_line() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     fs::create_dir(folder.join("t")).unwrap();
+    let mark = "begins with a byte-order mark; save it as UTF-8 without";
+    fs::write(folder.join("t/front.md"), "\u{feff}# A\n").unwrap();
+    crate::refused(folder, "check --profile=quick --templates=t", &["t/front.md: it ", mark]);
+    fs::remove_file(folder.join("t/front.md")).unwrap();
     fs::write(folder.join("name.json"), "{\"a\\nb\":1}").unwrap();
     fs::write(folder.join("t/published.toml"), "# none\n[[statement]]\nid = 3\n").unwrap();
     let check = "check --profile=quick --templates=t";

@@ -51,6 +51,8 @@ fn every_form_has_every_claim_at_its_line() {
     // The statements of the paper and our own checks are scored apart.
     let scores: Vec<&str> = text.lines().rev().take(3).collect();
     assert!(scores[2].starts_with("71 statements of the paper: "), "{text}");
+    let explained = verdicts.iter().filter(|(_, own)| own == "differs and explained").count();
+    assert!(scores[2].contains(&format!(", differs and explained {explained}, ")), "{text}");
     assert!(scores[1].starts_with("reproduced, by what the verdict rests on: "), "{text}");
     assert!(scores[0].starts_with("our own checks: "), "{text}");
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/templates/published.toml");

@@ -49,6 +49,7 @@ fn an_unknown_id_is_one_line_with_the_nearest() {
         ("sweep.rise.half_hight", "sweep.rise.half_height"),
         ("eq:99", "eq:9"),
         ("sec7_jmp", "sec7_jump"),
+        ("", "explain: the ID is empty; without an id all are listed"),
         ("nope", "there is no \"nope\"; without an id all are listed"),
         (long.as_str(), "aaa\"; without an id all are listed"),
     ] {

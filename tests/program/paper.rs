@@ -1,7 +1,7 @@
 //! `impact-paper paper` and `check` as a user meets them: what runs, what is written, what is not.
 
 use crate::{
-    EXPERIMENTS, QUICK, TEMPLATES, answer, ended, files, outcome, program, templates, tree,
+    EXPERIMENTS, QUICK, TEMPLATES, answer, digest, ended, files, outcome, program, templates, tree,
 };
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -152,15 +152,68 @@ fn what_others_made_is_left_as_it_is() {
     ] {
         refused(here, arguments, &[says]);
     }
-    let foreign = "r/sweep-quick.json: this is no saved result";
+    let foreign = "r/sweep-quick.json: it stands where a saved result belongs";
     let (code, _, note) = crate::run(here, "paper --profile quick --figure 3 --out f --results r");
-    assert!(code == 2 && note.contains(foreign), "{note}");
+    assert!(code == 2 && note.contains(foreign) && note.lines().count() == 1, "{note}");
     assert!(tree(here) == before, "{:?}", tree(here).keys());
     // Forced, it says what it wrote over, and a folder of its own is written again without.
     let (code, _, note) = run(here, "paper --figure 4 --out t --force");
     assert!(code == 0 && note.contains("wrote over figures/fig04.svg"), "{note}");
     assert_eq!(run(here, "paper --figure 4 --figure 5 --out t").0, 0);
     assert_eq!(std::fs::read_to_string(here.join("t/report.md")).unwrap(), "by hand");
+}
+
+/// Who edits the list of a report makes no file of somebody else the program's; what goes with a report is named.
+#[test]
+fn lists_by_hand_take_no_file_away() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    crate::put(&here.join("p"), &QUICK.report);
+    crate::put(&here.join("r"), &QUICK.results);
+    crate::put(here, &[("outside".into(), Vec::new())].into());
+    crate::put(&here.join("p"), &[(".git/config".into(), Vec::new())].into());
+    let list = String::from_utf8(QUICK.report["SHA256SUMS"].clone()).unwrap();
+    let paper = "paper --profile quick --out p --results r";
+    for path in [".git/config", "../outside", "/outside", "data/../.git/config"] {
+        let more = format!("{list}{}  {path}\n", digest(""));
+        std::fs::write(here.join("p/SHA256SUMS"), more).unwrap();
+        let before = tree(here);
+        refused(here, paper, &["--out: p/SHA256SUMS: ", &format!("{path:?}"), "--force"]);
+        assert!(tree(here) == before, "{path}");
+    }
+    let more = format!("{list}{}  old.md\n", digest(""));
+    crate::put(
+        &here.join("p"),
+        &[("SHA256SUMS".into(), more.into()), ("old.md".into(), Vec::new())].into(),
+    );
+    let (code, _, note) = run(here, paper);
+    assert!(code == 0 && note.contains("removed 1 file of the report before: old.md"), "{note}");
+    assert!(here.join("p/.git/config").exists() && !here.join("p/old.md").exists());
+}
+
+/// What is written among the templates would be read as prose.
+#[test]
+fn nothing_is_written_among_the_templates() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    templates(&here.join("t"), "front.md", |text| text.into());
+    for (verb, among) in [
+        ("paper --figure 4 --templates t --out", "t"),
+        ("paper --figure 4 --templates t --out", "new/../t/new"),
+        ("paper --profile quick --templates t --out new --results", "t"),
+        ("check --profile quick --templates t --results", "t/new"),
+        ("-q verify --rerun --templates t --results", "t"),
+        ("manual --out", TEMPLATES),
+        ("run --profile quick --shard 1/1 --out", TEMPLATES),
+        ("merge t --results", TEMPLATES),
+    ] {
+        if verb.contains("verify") {
+            crate::put(&here.join("paper"), &QUICK.report);
+        }
+        let (code, _, note) = crate::run(here, &format!("{verb} {among}"));
+        let what = format!("{among} is the folder of the templates, or lies in it");
+        assert!(code == 2 && note.contains(&what) && note.lines().count() == 1, "{verb}: {note}");
+    }
 }
 
 /// What if a parameter were another: nothing is judged, everything says so, and the paper's folder stays as it is.
@@ -343,7 +396,7 @@ fn exit_codes_are_those_of_the_table() {
     let help = answer(here, "--help");
     let design = std::fs::read_to_string("DESIGN.md").unwrap();
     for (code, words) in
-        [(0, "fine"), (1, "check"), (2, "usage"), (3, "stale"), (4, "disk"), (130, "SIGTERM")]
+        [(0, "fine"), (1, "check"), (2, "usage"), (3, "damaged"), (4, "disk"), (130, "SIGTERM")]
     {
         let says = |line: &str| line.contains(words);
         let row = |line: &&str| line.trim_start().starts_with(&format!("{code} ")) && says(line);

@@ -65,6 +65,8 @@ fn merged_shards_are_the_bytes_of_one_machine() {
         assert!(names.len() > 5, "{names:?}");
     }
     assert!(units.len() > 60 && units.iter().any(|unit| unit["experiment"] == "bias"));
+    let (_, table, _) = run(folder, "plan --profile quick --experiment two_masses");
+    assert!(table.contains("\n1 unit, about "), "{table}");
     // Logs beside the units are nobody's concern.
     fs::write(folder.join("2/array-7_2.log"), "a log").unwrap();
     fine(folder, MERGE);
@@ -196,6 +198,7 @@ fn what_is_not_one_whole_set_is_refused_by_name() {
         assert_eq!((code, text.as_str()), (3, ""), "{says}: {note}");
         assert_eq!(note.lines().count(), 1, "{note}");
         assert!(note.contains(says) && note.contains("; "), "{says}: {note}");
+        assert!(!note.contains("overwritten"), "{note}");
         assert!(note.contains(&shown) || says.contains("missing"), "{note}");
         assert!(!folder.join("joined").exists(), "{says}");
         fs::write(&path, whole).unwrap();
@@ -223,6 +226,11 @@ fn what_is_not_one_whole_set_is_refused_by_name() {
         refused(folder, MERGE, &[says]);
         fs::remove_file(folder.join("3").join(stranger)).unwrap();
     }
+    // Nor is it found when its turn comes, with others saved before it.
+    put(&folder.join("new"), &[(name.to_string(), b"{}".to_vec())].into());
+    let foreign = format!("new/{name}: it stands where a saved result belongs, and is none; move");
+    refused(folder, "run --profile quick --shard 1/1 --out new", &[&foreign]);
+    assert_eq!(files(&folder.join("new")).len(), 1);
     // A whole shard, and one of another number of shards.
     let (code, _, note) = run(folder, "merge --profile quick --results joined 1 3");
     assert_eq!(code, 3, "{note}");

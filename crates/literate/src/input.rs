@@ -1,6 +1,6 @@
 //! Files: they are read up to a bound, what is wrong with them is told in one line, and they appear whole.
 
-pub use impact_numerics::text::{is_obeyed, one_line, plain};
+pub use impact_numerics::text::{count, is_obeyed, one_line, plain};
 use std::fs::File;
 use std::io::{Error, ErrorKind, Read, Write};
 use std::path::Path;
@@ -88,6 +88,18 @@ pub fn remedy<'a>(error: &Error, otherwise: &'a str) -> &'a str {
             "a file is in the way; choose another folder"
         }
         _ => otherwise,
+    }
+}
+
+/// Of a longer list of names only so many are told.
+const TOLD: usize = 5;
+
+/// The first few names, and how many more.
+pub fn listed(names: &[impl AsRef<str>]) -> String {
+    let first: Vec<&str> = names.iter().take(TOLD).map(AsRef::as_ref).collect();
+    match names.len().saturating_sub(TOLD) {
+        0 => first.join(", "),
+        more => format!("{} and {more} more", first.join(", ")),
     }
 }
 

@@ -15,6 +15,7 @@ const FOLDER: &str = "./paper";
 pub fn files(name: &str) -> Result<Files, Failure> {
     let neither = |told: String| {
         let told = if told.is_empty() { told } else { format!(" ({})", one_line(&told, 200)) };
+        let name = if name.is_empty() { "an empty name" } else { name };
         let what = format!("neither a folder nor a revision of git here{told}");
         Failure::input(format!("{name}: {what}; give the folder of a report, a tag or a commit"))
     };

@@ -2,8 +2,8 @@
 
 use super::Options;
 use super::quantity::Quantity;
-use crate::cli::Failure;
 use crate::cli::sigmas::LARGEST;
+use crate::cli::{Failure, number};
 use impact_paper::circuits::LARGEST_N;
 use impact_paper::params::{Chain, Protocol, VERTICES};
 use serde::Serialize;
@@ -77,8 +77,7 @@ impl Inputs {
         }
         if needs(Need::P) {
             let text = required(quantity, "p", &options.p, "the probability of an edge, 0 to 1")?;
-            // A negative zero would be printed as one.
-            inputs.p = Some(number("p", text)? + 0.0);
+            inputs.p = Some(number("p", text)?);
         }
         if needs(Need::K) {
             let text = required(quantity, "k", &options.k, "the number of impacts, 1 to N")?;
@@ -177,9 +176,7 @@ fn required<'a>(
 }
 
 fn number(field: &str, text: &str) -> Result<f64, Failure> {
-    text.trim().parse().map_err(|_| {
-        Failure::input(format!("{field}: `{text}` is not a number; give a decimal such as 0.12"))
-    })
+    number::parse(text).map_err(|what| Failure::input(format!("{field}: `{text}`: {what}")))
 }
 
 fn whole(field: &str, text: &str) -> Result<usize, Failure> {

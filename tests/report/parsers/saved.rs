@@ -51,7 +51,10 @@ fn saved_results_of_any_text() {
             Ok(found) => assert!(found == result || index % 2 == 0, "{text}"),
             // What has nothing of a result any more is nobody's to replace.
             Err(error) => {
-                assert!(error.to_string().contains("no saved result"), "{error}: {text}");
+                assert!(
+                    error.to_string().contains("where a saved result belongs"),
+                    "{error}: {text}"
+                );
                 assert_eq!(std::fs::read_to_string(&file).unwrap(), fitting);
                 foreign += 1;
                 std::fs::write(&file, &good).unwrap();

@@ -25,10 +25,9 @@ pub enum Error {
     NotUnderstood { name: &'static str },
     #[error("{what}; {remedy}")]
     Units { what: String, remedy: String },
-    #[error(
-        "results directory {path}: {source}; {}",
-        remedy(source, "choose another with --results")
-    )]
+    #[error("{path}: it stands where a saved result belongs, and is none; move it away")]
+    Foreign { path: PathBuf },
+    #[error("--results: {path}: {source}; {}", remedy(source, "choose another folder"))]
     Store { path: PathBuf, source: std::io::Error },
 }
 

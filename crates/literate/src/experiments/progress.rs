@@ -4,7 +4,7 @@
 //! stderr, and nothing of it into a result.
 
 use super::Error;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use std::io::{IsTerminal, Write};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -67,9 +67,13 @@ impl Progress {
     pub fn stage(&self, name: &str, total: u64) -> Stage {
         let bar = (self.show == Show::Bar).then(|| {
             let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::stderr());
-            let style = ProgressStyle::with_template("{msg:24} {bar:30} {percent:>3}% {eta} left");
+            let style = ProgressStyle::with_template("{msg:24} {bar:30} {told}");
             if let Ok(style) = style {
-                bar.set_style(style);
+                let told = |state: &ProgressState, line: &mut dyn std::fmt::Write| {
+                    let total = state.len().unwrap_or_default();
+                    let _ = line.write_str(&told(state.pos(), total, state.elapsed()));
+                };
+                bar.set_style(style.with_key("told", told));
             }
             bar.set_message(name.to_string());
             bar
@@ -164,7 +168,7 @@ impl Stage {
         let moved =
             self.next_line.compare_exchange(mark, next, Ordering::Relaxed, Ordering::Relaxed);
         if moved.is_ok() {
-            say(&plain_line(&self.name, done, self.total, elapsed));
+            say(&format!("{}: {}", self.name, told(done, self.total, elapsed)));
         }
     }
 }
@@ -177,11 +181,17 @@ impl Drop for Stage {
     }
 }
 
-/// `main sweep: 40 %, about 12 s left`.
-fn plain_line(name: &str, done: u64, total: u64, elapsed: Duration) -> String {
+/// `40 %, about 12 s left`. The last units may be the longest: what is not done is not at 100 %, and no time below a
+/// second is promised.
+fn told(done: u64, total: u64, elapsed: Duration) -> String {
     let share = if total == 0 { 1.0 } else { done as f64 / total as f64 };
-    let left = if share > 0.0 { elapsed.as_secs_f64() * (1.0 - share) / share } else { 0.0 };
-    format!("{name}: {:.0} %, about {left:.0} s left", 100.0 * share)
+    let percent = (100.0 * share).floor();
+    let left = elapsed.as_secs_f64() * (1.0 - share) / share;
+    if left.is_finite() && left >= 1.0 {
+        format!("{percent:.0} %, about {left:.0} s left")
+    } else {
+        format!("{percent:.0} %")
+    }
 }
 
 #[cfg(test)]
@@ -190,7 +200,9 @@ mod tests {
 
     #[test]
     fn a_line_tells_share_and_time_left() {
-        let line = plain_line("main sweep", 40, 100, Duration::from_secs(8));
-        assert_eq!(line, "main sweep: 40 %, about 12 s left");
+        let told = |done, total| told(done, total, Duration::from_secs(8));
+        assert_eq!(told(40, 100), "40 %, about 12 s left");
+        // The last of a thousand may take as long as all before.
+        assert_eq!([told(999, 1000), told(0, 7), told(7, 7)], ["99 %", "0 %", "100 %"]);
     }
 }

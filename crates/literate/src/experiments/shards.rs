@@ -4,8 +4,7 @@ use super::cutting::Unit;
 use super::identity::{Identity, Reason, told};
 use super::store::Store;
 use super::{Error, Need, Profile, Progress, Saved};
-use crate::input::regular;
-use impact_numerics::text::count;
+use crate::input::{count, listed, regular};
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
 use std::path::{Path, PathBuf};
@@ -13,9 +12,6 @@ use std::sync::Arc;
 
 /// Into so many shards a profile may be divided; more would have nothing to do.
 pub const MOST: usize = 100_000;
-
-/// Of a longer list of names only so many are told.
-const TOLD: usize = 5;
 
 /// All units of work of a profile.
 pub struct Plan {
@@ -120,6 +116,7 @@ impl Plan {
             .filter(|(_, other)| *other == shard)
             .map(|(task, _)| task)
             .collect();
+        own.iter().try_for_each(|task| store.refuse_foreign(&task.identity, self.profile))?;
         store.prepare()?;
         let (mut open, mut fresh) = (Vec::new(), 0);
         for &task in &own {
@@ -195,9 +192,8 @@ impl Plan {
             let own: Vec<String> = texts.by_ref().take(tasks.len()).collect();
             let experiment = &tasks[0].experiment;
             experiment.merge(&own, results, progress)?;
-            let (name, number) = (experiment.name(), own.len());
-            let units = if number == 1 { "unit" } else { "units" };
-            progress.say(&format!("{name}: joined from {number} {units} of work"));
+            let (name, units) = (experiment.name(), count(own.len(), "unit"));
+            progress.say(&format!("{name}: joined from {units} of work"));
         }
         Ok(())
     }
@@ -273,13 +269,4 @@ fn names(folder: &Path) -> Result<Vec<String>, Error> {
     }
     names.sort();
     Ok(names)
-}
-
-/// The first few, and how many more.
-fn listed(names: &[String]) -> String {
-    let first = names.iter().take(TOLD).cloned().collect::<Vec<_>>().join(", ");
-    match names.len().saturating_sub(TOLD) {
-        0 => first,
-        more => format!("{first} and {more} more"),
-    }
 }

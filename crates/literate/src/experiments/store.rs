@@ -163,7 +163,7 @@ where
 }
 
 /// What is said of a file that stands where a result belongs.
-const FOREIGN: &str = "this is no saved result, and would be overwritten; move it away";
+const FOREIGN: &str = "this is no saved result; move it away";
 
 /// Was this never a result, damaged or not? One is a file whose first line is a digest.
 fn is_foreign(path: &Path) -> bool {
@@ -179,8 +179,7 @@ fn refuse_foreign(path: &Path) -> Result<(), Error> {
     if !is_foreign(path) {
         return Ok(());
     }
-    let source = std::io::Error::new(ErrorKind::AlreadyExists, FOREIGN);
-    Err(Error::Store { path: path.into(), source })
+    Err(Error::Foreign { path: path.into() })
 }
 
 /// Whether the first line has the form of a digest, or its length: files are cut short, and letters change.

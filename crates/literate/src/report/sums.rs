@@ -3,6 +3,7 @@
 
 use super::assemble::Files;
 use crate::digest::sha256;
+use crate::input::one_line;
 use std::fmt;
 use std::path::{Component, Path};
 
@@ -27,7 +28,7 @@ pub struct Malformed {
     /// Its number, from 1.
     pub line: usize,
     /// What is wrong with it.
-    pub what: &'static str,
+    pub what: String,
 }
 
 impl fmt::Display for Malformed {
@@ -46,7 +47,7 @@ pub fn read(text: &str) -> Result<Vec<Entry>, Malformed> {
     let entries = lines(text)?;
     let mut paths = std::collections::BTreeSet::new();
     match entries.iter().position(|entry| !paths.insert(&entry.path)) {
-        Some(i) => Err(Malformed { line: i + 1, what: "its path is listed twice" }),
+        Some(i) => Err(Malformed { line: i + 1, what: "its path is listed twice".into() }),
         None => Ok(entries),
     }
 }
@@ -57,7 +58,7 @@ pub fn read(text: &str) -> Result<Vec<Entry>, Malformed> {
 pub fn lines(text: &str) -> Result<Vec<Entry>, Malformed> {
     let mut entries: Vec<Entry> = Vec::new();
     for (i, line) in text.lines().enumerate() {
-        let malformed = |what| Malformed { line: i + 1, what };
+        let malformed = |what: &str| Malformed { line: i + 1, what: what.into() };
         let form = "it is not 64 hexadecimal digits, two blanks and a path";
         let (digest, path) = line.split_once("  ").ok_or(malformed(form))?;
         let digit = |byte: u8| byte.is_ascii_digit() || (b'a'..=b'f').contains(&byte);
@@ -65,7 +66,8 @@ pub fn lines(text: &str) -> Result<Vec<Entry>, Malformed> {
             return Err(malformed(form));
         }
         if !is_inside(path) {
-            return Err(malformed("its path is not one of a file below this folder"));
+            let path = one_line(path, 200);
+            return Err(malformed(&format!("{path:?} is no path of a file below this folder")));
         }
         if path == NAME || path == LOCAL {
             return Err(malformed("the list cannot list itself"));
@@ -73,7 +75,7 @@ pub fn lines(text: &str) -> Result<Vec<Entry>, Malformed> {
         entries.push(Entry { path: path.into(), digest: digest.into() });
     }
     if entries.is_empty() {
-        return Err(Malformed { line: 1, what: "no file is listed" });
+        return Err(Malformed { line: 1, what: "no file is listed".into() });
     }
     Ok(entries)
 }
@@ -85,6 +87,20 @@ pub fn is_inside(path: &str) -> bool {
     // `components` passes over a dot, a double slash and a slash at the end.
     let tidy = path.split('/').all(|name| !name.is_empty() && name != ".");
     names && tidy && path.chars().all(plain)
+}
+
+/// Could a report list such a file? Documents stand in its folder itself, what figures show and data below it.
+pub fn is_of_report(path: &str) -> bool {
+    let named = |name: &str, end: &str| {
+        let stem = name.strip_suffix(end).unwrap_or_default();
+        !stem.is_empty() && !stem.starts_with('.')
+    };
+    match path.split_once('/') {
+        None => [".md", ".tex", ".json"].into_iter().any(|end| named(path, end)),
+        Some(("figures", name)) => !name.contains('/') && named(name, ".svg"),
+        Some(("data", name)) => !name.contains('/') && named(name, ".csv"),
+        Some(_) => false,
+    }
 }
 
 #[cfg(test)]
@@ -102,6 +118,29 @@ mod tests {
         let read = read(&text).unwrap();
         assert_eq!(read.iter().map(|e| e.path.as_str()).collect::<Vec<_>>(), ["a/c.csv", "b.md"]);
         assert_eq!(read[0].digest, empty);
+    }
+
+    #[test]
+    fn a_report_has_documents_figures_and_data() {
+        for path in ["report.md", "second.tex", "values.json", "figures/s01.svg", "data/all.csv"] {
+            assert!(is_of_report(path), "{path}");
+        }
+        for path in [
+            ".git/config",
+            ".md",
+            "notes.txt",
+            "Makefile",
+            "src/main.rs",
+            "data/.csv",
+            "data/a/b.csv",
+            "figures/a.csv",
+            "data",
+            "/data/a.csv",
+            "../a.md",
+            "figures/../a.svg",
+        ] {
+            assert!(!is_of_report(path), "{path}");
+        }
     }
 
     #[test]

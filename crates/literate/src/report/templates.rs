@@ -80,6 +80,10 @@ impl Walk {
                 self.folder(&path, &format!("{relative}/"))?;
             } else if TEXT.iter().any(|end| name.ends_with(end)) {
                 let text = input::regular_text(&path).map_err(|e| fail(&path, e))?;
+                if text.starts_with('\u{feff}') {
+                    let what = "it begins with a byte-order mark; save it as UTF-8 without";
+                    return Err(Error::Template(format!("{}: {what}", path.display())));
+                }
                 self.bytes += text.len();
                 if self.bytes as u64 > LARGEST {
                     let what = format!("the templates are longer than {MOST}");
