@@ -26,6 +26,9 @@ const BARELY: f64 = 1e6;
 /// The parts of a gap are far larger than itself where another trial gives a stretch so many times as long.
 const FAR_LARGER: f64 = 1e3;
 
+/// The parts of a gap cancel where its own second and third derivative are so many times below the bound of the fourth.
+const CANCELS: f64 = 1e4;
+
 /// A certified stretch: f > 0 on (s, s + h) for the returned h ≤ `limit`.
 ///
 /// On [0, L] the second derivative is at least f'' + min(0, f''' L) − ½ M₄ L² = −K, so f stays
@@ -177,6 +180,7 @@ pub fn first_root_by_steps<const M: usize>(
                 return if s <= limit { Next::Root { s, speed } } else { Next::Clear { s: limit } };
             }
         }
+        let mut leap = 0.0;
         if !in_band {
             // A leap: to just beyond the guessed root and back, or to the end.
             let mut h = beyond_root(&p, root, discriminant, limit - s);
@@ -197,6 +201,7 @@ pub fn first_root_by_steps<const M: usize>(
                 p = b;
                 continue;
             }
+            leap = h;
         }
         let h = if in_band && p.h > 0.0 {
             // A dip that the quadratic does not reach zero in: on to where it leaves the band.
@@ -206,6 +211,13 @@ pub fn first_root_by_steps<const M: usize>(
         } else {
             stretch((p.f - p.margin).max(0.0), &p, frame.bound, limit - s)
         };
+        if FAR_LARGER * h < leap
+            && fast * (fast * p.h.abs() + p.j.abs()) * CANCELS < frame.bound
+            && let Some((h, b)) = shorter_leap(&p, s, [h, leap], frame, frequencies, work)
+        {
+            (s, p) = (s + h, b);
+            continue;
+        }
         // Where f, f' and f'' vanish, f''' lifts f: above zero while h < 4 f'''/M₄.
         let h = if h > 0.0 { h } else { 2.0 * p.j.abs() / frame.bound };
         let h = h.max(lift(&p, frame, frequencies));
@@ -218,6 +230,29 @@ pub fn first_root_by_steps<const M: usize>(
         work.evaluations += 1;
     }
     Next::Clear { s }
+}
+
+/// The longest of the halves, quarters and so on of a leap that failed that is certain, if one goes farther than a step.
+#[cold]
+fn shorter_leap<const M: usize>(
+    p: &Point<M>,
+    s: f64,
+    [step, leap]: [f64; 2],
+    frame: &Frame<M>,
+    frequencies: &Frequencies<M>,
+    work: &mut Work,
+) -> Option<(f64, Point<M>)> {
+    let bound6 = frequencies.fastest * frequencies.fastest * frame.bound;
+    let mut h = 0.5 * leap;
+    while h > step {
+        let b = frame.at(s + h, frequencies);
+        work.evaluations += 1;
+        if b.f > b.margin && stays_open(p, &b, h, bound6, p.margin + b.margin) {
+            return Some((h, b));
+        }
+        h *= 0.5;
+    }
+    None
 }
 
 /// A guess of where f, seen from `p`, has just crossed zero; `left` if no root is in sight.
