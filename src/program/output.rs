@@ -4,14 +4,14 @@
 //! nobody changed it since: two lists say so, SHA256SUMS of a report and SHA256SUMS.local of whatever
 //! was last written into the folder. Everything else is refused by name, unless --force.
 
-use super::own::Own;
+use super::own::{self, Own};
 use super::sources::prose;
 use super::waiting::{Waiting, clear, is_staging};
 use super::work::{self, Now};
 use super::{Failure, folder};
 use crate::experiments::{Progress, say};
 use crate::input::{count, listed, one_line};
-use crate::report::{Files, PROGRAM, sums};
+use crate::report::{Files, PROGRAM, ledger, sums};
 use std::collections::BTreeSet;
 use std::fs::File;
 use std::io;
@@ -43,14 +43,15 @@ pub struct Staging<'a> {
     _made: work::Made,
 }
 
-/// Is it a report, or what is left of one?
+/// Is it a report, or what is left of one? Other people have files of these names too.
 pub fn holds_report(folder: &Path) -> bool {
-    [sums::NAME, "ledger.json"].iter().any(|name| folder.join(name).symlink_metadata().is_ok())
+    let ledger = || folder::text(folder, "ledger.json").is_ok_and(|text| ledger::is_one(&text));
+    own::lists_report(folder) || ledger()
 }
 
-/// Is it, without links and dots, below a report, which has no other files? What holds a ledger is one of ours.
+/// Is it, without links and dots, below a report, which has no other files?
 fn lies_in_report(there: &Path) -> bool {
-    there.ancestors().skip(1).any(|above| above.join("ledger.json").is_file())
+    there.ancestors().skip(1).any(holds_report)
 }
 
 /// Of the prose, whatever lies in its folder or below is read: that of `templates`, and that of the checkout.
@@ -84,9 +85,7 @@ pub fn refuse_report(option: &str, folder: &Path, templates: Option<&Path>) -> R
     refuse_dangling(option, folder)?;
     refuse_prose(option, folder, templates)?;
     let there = folder::resolved(folder);
-    let within = FOLDERS.iter().any(|below| there.ends_with(below));
-    let above = there.parent().filter(|_| within);
-    if holds_report(&there) || above.is_some_and(holds_report) || lies_in_report(&there) {
+    if holds_report(&there) || lies_in_report(&there) {
         let folder = folder.display();
         return Err(Failure::input(format!(
             "{option}: {folder} holds a report, or lies in one; give another folder"

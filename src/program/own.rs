@@ -62,15 +62,23 @@ impl Own {
     }
 }
 
-/// The list of the report in a folder, if there is one. Other people have lists of this name too: that of a report
-/// names its values and its ledger. What it names is replaced and removed, so it may name nothing else than a report
-/// has, whoever wrote it.
-fn report(folder: &Path) -> Result<Option<Vec<sums::Entry>>, String> {
-    let Ok(text) = folder::text(folder, sums::NAME) else { return Ok(None) };
+/// Whether the list in a folder is that of a report.
+pub fn lists_report(folder: &Path) -> bool {
+    list(folder).is_some()
+}
+
+/// The list of the report in a folder as text, if there is one. Other people have lists of this name too: that of a
+/// report names its values and its ledger.
+fn list(folder: &Path) -> Option<String> {
+    let text = folder::text(folder, sums::NAME).ok()?;
     let has = |path: &str| text.lines().any(|line| line.ends_with(&format!("  {path}")));
-    if !has("values.json") || !has("ledger.json") {
-        return Ok(None);
-    }
+    (has("values.json") && has("ledger.json")).then_some(text)
+}
+
+/// The list of the report in a folder, if there is one. What it names is replaced and removed, so it may name nothing
+/// else than a report has, whoever wrote it.
+fn report(folder: &Path) -> Result<Option<Vec<sums::Entry>>, String> {
+    let Some(text) = list(folder) else { return Ok(None) };
     let fault = |what: String| format!("{}: {what}", folder.join(sums::NAME).display());
     let list = sums::lines(&text).map_err(|error| fault(error.to_string()))?;
     match list.iter().find(|entry| !sums::is_of_report(&entry.path)) {

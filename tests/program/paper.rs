@@ -148,7 +148,7 @@ fn what_others_made_is_left_as_it_is() {
         ("paper --profile quick --out .", "--out: ."),
         ("paper --figure 4 --out t", "--out: t"),
         ("paper --figure 4 --out t/figures", "fig04.svg"),
-        ("paper --profile quick --out t", "values.json"),
+        ("paper --profile quick --out t", "did not make"),
     ] {
         refused(here, arguments, &[says]);
     }
@@ -189,6 +189,52 @@ fn lists_by_hand_take_no_file_away() {
     let (code, _, note) = run(here, paper);
     assert!(code == 0 && note.contains("removed 1 file of the report before: old.md"), "{note}");
     assert!(here.join("p/.git/config").exists() && !here.join("p/old.md").exists());
+}
+
+/// A report without readable values is written anew by whom asks for it, as `verify` advises.
+#[test]
+fn a_report_without_values_is_written_anew_when_forced() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    crate::put(&here.join("r"), &QUICK.results);
+    crate::put(&here.join("v"), &QUICK.report);
+    let paper = "paper --profile quick --out v --results r";
+    let values = here.join("v/values.json");
+    std::fs::write(&values, "{}").unwrap();
+    refused(here, paper, &["values.json cannot be read; --force writes the report anew"]);
+    let (code, _, note) = run(here, &format!("{paper} --force"));
+    assert!(code == 0 && note.contains("--force: wrote over values.json"), "{note}");
+    assert!(tree(&here.join("v")) == QUICK.report);
+    std::fs::remove_file(&values).unwrap();
+    refused(here, paper, &["values.json cannot be read; --force writes the report anew"]);
+    assert_eq!(run(here, &format!("{paper} --force")).0, 0);
+    assert!(tree(&here.join("v")) == QUICK.report);
+}
+
+/// Names that a report's files have are no report.
+#[test]
+fn lists_and_ledgers_of_other_people_make_no_report() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let list = format!("{}  my.iso\n", digest("")).into_bytes();
+    let theirs = |name: &str, bytes: &[u8]| [(name.to_string(), bytes.to_vec())].into();
+    crate::put(&here.join("sums"), &theirs("SHA256SUMS", &list));
+    crate::put(&here.join("made"), &theirs("SHA256SUMS/file", b""));
+    crate::put(&here.join("acc"), &theirs("ledger.json", b"{\"accounts\":[]}"));
+    for among in ["sums", "made", "acc"] {
+        let (code, _, note) = run(here, &format!("paper --figure 4 --out {among}/sub/figs"));
+        assert_eq!(code, 0, "{among}: {note}");
+        let what = "has files that this program did not make";
+        refused(here, &format!("paper --profile quick --out {among}"), &[what]);
+        for verb in [
+            "manual --out",
+            "run --profile quick --experiment two_masses --shard 1/1 --out",
+            "check --profile quick --claim sec3_edges --results",
+        ] {
+            let (code, _, note) = crate::run(here, &format!("{verb} {among}/of/{}", verb.len()));
+            assert_eq!(code, 0, "{verb}: {note}");
+        }
+    }
 }
 
 /// What is written among the templates would be read as prose.
@@ -262,8 +308,12 @@ fn another_parameter_makes_another_report_that_says_so() {
     // What these parameters cannot have is their fault.
     std::fs::remove_file(here.join("o/values.json")).unwrap();
     let quiet = "-q paper --results r --profile";
-    for more in ["quick --set masses=50", "quick --figure 3", "full --figure 4"] {
-        refused(here, &format!("{quiet} {more} --out o"), &["values.json", "restore"]);
+    for (more, remedy) in [
+        ("quick --set masses=50", "--force writes the report anew"),
+        ("quick --figure 3", "restore"),
+        ("full --figure 4 --force", "restore"),
+    ] {
+        refused(here, &format!("{quiet} {more} --out o"), &["values.json", remedy]);
     }
     for more in ["", " --figure s8"] {
         let low = format!("{quiet} quick --out n --set masses=40 --set restitution=0.9{more}");
@@ -287,10 +337,11 @@ fn the_manual_is_written_and_quiet_work_says_nothing() {
     let found: Vec<&str> = found.filter(|name| !name.is_empty()).collect();
     let listed = |name: &&str| bash.contains(&format!("\n        {name})\n"));
     assert!(found.len() > 15 && found.iter().all(listed), "{bash}");
-    std::fs::create_dir(here.join("report")).unwrap();
-    std::fs::write(here.join("report/SHA256SUMS"), "").unwrap();
-    std::fs::create_dir_all(here.join("left/data")).unwrap();
-    std::fs::write(here.join("left/ledger.json"), "").unwrap();
+    for (folder, name) in [("report", "SHA256SUMS"), ("left", "ledger.json")] {
+        let file = (name.to_string(), QUICK.report[name].clone());
+        crate::put(&here.join(folder), &[file].into());
+    }
+    std::fs::create_dir(here.join("left/data")).unwrap();
     for folder in ["report", "left", "left/data", "left/new"] {
         for verb in ["manual --out", "run --profile quick --shard 1/1 --out"] {
             crate::refused(here, &format!("{verb} {folder}"), &["holds a report"]);
