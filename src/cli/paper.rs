@@ -35,7 +35,7 @@ pub struct Args {
     #[arg(long, value_name = "N", allow_hyphen_values = true, help = figure_help())]
     figure: Vec<String>,
     /// Folder to write into [default: paper for the full profile, else target/paper-PROFILE].
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", value_parser = work::folder())]
     out: Option<PathBuf>,
     #[command(flatten)]
     force: output::Force,
