@@ -237,6 +237,85 @@ fn lists_and_ledgers_of_other_people_make_no_report() {
     }
 }
 
+/// A list of what others wrote is none of ours: it is written over only when forced, and then named.
+#[cfg(unix)]
+#[test]
+fn local_lists_of_other_people_are_theirs() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let list = here.join("w/SHA256SUMS.local");
+    std::fs::create_dir(here.join("w")).unwrap();
+    let [ours, iso] = ["report.md", "my.iso"].map(|path| format!("{}  {path}\n", digest("")));
+    for (text, says) in [("precious\n".into(), "line 1: "), (ours + &iso, "line 2: \"my.iso\"")] {
+        for verb in ["paper --figure 4 --out w", "manual --out w"] {
+            std::fs::write(&list, &text).unwrap();
+            std::fs::write(here.join("w/my.iso"), "").unwrap();
+            let (code, _, note) = crate::run(here, verb);
+            let line = format!("--out: w/SHA256SUMS.local: {says}");
+            assert!(code == 2 && note.contains(&line) && note.lines().count() == 1, "{note}");
+            assert_eq!(std::fs::read_to_string(&list).unwrap(), text);
+            let (code, _, note) = crate::run(here, &format!("{verb} --force"));
+            assert!(code == 0 && note.contains("--force: wrote over "), "{note}");
+            assert!(note.contains("SHA256SUMS.local"), "{note}");
+            // From now on it is ours.
+            let (code, _, note) = crate::run(here, verb);
+            assert!(code == 0 && note.is_empty(), "{note}");
+        }
+    }
+    std::fs::rename(&list, here.join("kept")).unwrap();
+    std::os::unix::fs::symlink("../kept", &list).unwrap();
+    let (code, _, note) = crate::run(here, "paper --figure 4 --out w --force");
+    assert!(code == 0 && note.contains("SHA256SUMS.local"), "{note}");
+    assert!(here.join("kept").exists() && !list.is_symlink());
+    // A folder is in the way, whoever asks, and before anything is run.
+    std::fs::remove_file(&list).unwrap();
+    std::fs::create_dir(&list).unwrap();
+    let what = "w/SHA256SUMS.local is a folder where a file belongs; move it away";
+    for more in ["--figure 4", "--figure 4 --force", "--profile quick --results r --force"] {
+        refused(here, &format!("paper {more} --out w"), &[what]);
+    }
+    crate::refused(here, "manual --out w --force", &[what]);
+    assert!(!here.join("r").exists());
+}
+
+/// As `mkdir -p` does.
+#[test]
+fn a_folder_with_a_dot_behind_is_made() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let unit = "--profile quick --experiment two_masses --shard 1/1";
+    for (verb, out, file) in [
+        ("paper --figure 4 --out", "a/.", "a/figures/fig04.svg"),
+        ("manual --out", "b/c/./", "b/c/impact-paper.1"),
+        (&format!("run {unit} --out"), "d/.", "d/two_masses-quick-0000.json"),
+        (
+            "merge --profile quick --experiment two_masses d --results",
+            "e/.",
+            "e/two_masses-quick.json",
+        ),
+    ] {
+        let (code, _, note) = crate::run(here, &format!("{verb} {out}"));
+        assert!(code == 0 && here.join(file).exists(), "{verb}: {note}");
+    }
+}
+
+/// What is no module of WebAssembly is none of the pages'.
+#[test]
+fn a_module_is_looked_at() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    crate::put(&here.join("r"), &QUICK.results);
+    std::fs::create_dir(here.join("target")).unwrap();
+    let large = [b"\0asm".to_vec(), vec![0; 5 << 20]].concat();
+    for (bytes, taken) in [(b"garbage".to_vec(), false), (large, false), (b"\0asm".to_vec(), true)]
+    {
+        std::fs::write(here.join("target/page.wasm"), bytes).unwrap();
+        let (code, _, note) = run(here, "paper --profile quick --out p --results r");
+        let said = note.contains("target/page.wasm is not there or no module");
+        assert_eq!((code, said, here.join("p/lab.js").exists()), (0, !taken, taken), "{note}");
+    }
+}
+
 /// What is written among the templates would be read as prose.
 #[test]
 fn nothing_is_written_among_the_templates() {
