@@ -50,7 +50,7 @@ pub fn text(path: &str) -> io::Result<Cow<'static, str>> {
 
 /// The bytes of a file that is no text; none if it is not there, or cannot be read.
 pub fn bytes(path: &str) -> Option<Vec<u8>> {
-    find(path).and_then(|found| std::fs::read(found).ok())
+    find(path).and_then(|found| input::regular(&found).ok())
 }
 
 /// Files of the copy inside that lie below a folder, by their path relative to it.

@@ -1,11 +1,12 @@
 //! `impact-paper merge`.
 
+use super::folder::resolved;
 use super::output::refuse_report;
 use super::{Failure, stdout, work};
 use impact_paper::experiments::Store;
 use impact_paper::numerics::text::count;
 use impact_paper::params::Profile;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Joins the folders of all shards to saved results, byte for byte those of one machine.
 ///
@@ -24,7 +25,7 @@ pub struct Args {
     only: work::Only,
     /// Folder in which results of long runs are kept; without it target/results, and benches/deep for
     /// the deep profile.
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", value_parser = work::folder())]
     results: Option<PathBuf>,
     /// Number of threads; all cores without it. It changes no bit of the result.
     #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = work::threads)]
@@ -35,8 +36,8 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let profile = args.profile;
     let plan = args.only.plan(profile)?;
     let folder = work::results(args.results, profile);
-    let real = |path: &Path| path.canonicalize().ok();
-    if args.folders.iter().any(|own| real(own).is_some() && real(own) == real(&folder)) {
+    let there = resolved(&folder);
+    if args.folders.iter().any(|own| resolved(own) == there) {
         let message =
             format!("--results: {} is a folder of a shard; give another", folder.display());
         return Err(Failure::input(message));

@@ -35,7 +35,7 @@ pub struct Args {
     #[arg(long, value_name = "N", allow_hyphen_values = true, help = figure_help())]
     figure: Vec<String>,
     /// Folder to write into [default: paper for the full profile, else target/paper-PROFILE].
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", value_parser = work::folder())]
     out: Option<PathBuf>,
     #[command(flatten)]
     force: output::Force,
@@ -85,7 +85,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let read = |text: &String| text.parse().map_err(|e| Failure::input(format!("--figure: {e}")));
     let numbers =
         args.figure.iter().map(read).collect::<Result<BTreeSet<figures::Number>, Failure>>()?;
-    refuse_over_other(profile, &out, !args.figure.is_empty())?;
+    refuse_over_other(profile, &out, !args.figure.is_empty(), args.force)?;
     let templates = args.sources.templates.as_deref();
     refuse_report("--results", &args.sources.results, templates)?;
     refuse_prose("--out", &out, templates)?;
@@ -193,19 +193,28 @@ fn values_in(out: &Path) -> Option<Registry> {
 
 /// Lesser samples must not take the place of the committed report, and single figures not stand among those
 /// of other samples.
-fn refuse_over_other(profile: Profile, out: &Path, figures: bool) -> Result<(), Failure> {
+fn refuse_over_other(
+    profile: Profile,
+    out: &Path,
+    figures: bool,
+    output::Force { force }: output::Force,
+) -> Result<(), Failure> {
     let name = |values: Registry| match &values.get("profile")?.number {
         Number::Text(name) => Some(name.clone()),
         _ => None,
     };
     let found = values_in(out).and_then(name);
     // Of a report that does not tell what it is, a lesser one would take the place unseen, and figures might be of
-    // other samples; beside somebody else's list they may stand.
-    let among = figures && out.join(LEDGER).exists();
-    let lesser = profile != Profile::Full || set::told().is_some() || among;
-    if found.is_none() && lesser && holds_report(out) && !is_usual(profile, out) {
+    // other samples.
+    let lesser = profile != Profile::Full || set::told().is_some() || figures;
+    let asked = figures || !force;
+    if found.is_none() && lesser && asked && holds_report(out) && !is_usual(profile, out) {
+        let remedy = match figures {
+            true => "restore it, or give another folder",
+            false => "--force writes the report anew",
+        };
         return Err(Failure::input(format!(
-            "--out: {} holds a report whose {VALUES} cannot be read; restore it, or give another folder",
+            "--out: {} holds a report whose {VALUES} cannot be read; {remedy}",
             out.display()
         )));
     }

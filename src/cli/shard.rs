@@ -23,7 +23,7 @@ pub struct Args {
     #[command(flatten)]
     only: work::Only,
     /// Folder for what the units give, one file each; it is made when missing. Shards may share it.
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", value_parser = work::folder())]
     out: PathBuf,
     /// Number of threads; all cores without it. It changes no bit of the result.
     #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = work::threads)]

@@ -30,7 +30,7 @@ pub struct Args {
     #[arg(long, requires = "rerun", value_parser = work::of_reports())]
     profile: Option<Profile>,
     /// Take results of long runs from this folder, where they are fresh, and keep them there.
-    #[arg(long, value_name = "DIR", requires = "rerun")]
+    #[arg(long, value_name = "DIR", requires = "rerun", value_parser = work::folder())]
     results: Option<PathBuf>,
     /// Folder of the prose [default: templates of the checkout, or the copy inside the program].
     #[arg(long, value_name = "DIR", requires = "rerun")]

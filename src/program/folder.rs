@@ -13,14 +13,16 @@ pub fn resolved(folder: &Path) -> PathBuf {
     let base = folder.ancestors().find(there).unwrap_or(Path::new(""));
     let begin = if base.as_os_str().is_empty() { Path::new(".") } else { base };
     let mut out = begin.canonicalize().unwrap_or_else(|_| begin.into());
+    let mut back = false;
     for part in folder.strip_prefix(base).unwrap_or(folder).components() {
         match part {
-            Component::ParentDir => _ = out.pop(),
+            Component::ParentDir => back |= out.pop(),
             Component::CurDir => {}
             part => out.push(part),
         }
     }
-    out
+    // It may lead back to what is there, and be a link.
+    if back { resolved(&out) } else { out }
 }
 
 /// Paths of everything below a folder that is no folder itself, sorted, with slashes. Links are
@@ -56,7 +58,12 @@ pub fn walk(folder: &Path) -> Result<Vec<String>, Failure> {
 /// Built beside the files of a report, or the list of what is, and never a part of it: .gitignore names
 /// them.
 pub fn is_beside(path: &str) -> bool {
-    path.ends_with(".pdf") || path.ends_with(".html") || [LAB, sums::LOCAL].contains(&path)
+    match path.split_once('/') {
+        Some((folder, name)) => folder == "figures" && name.ends_with(".pdf"),
+        None => {
+            path.ends_with(".pdf") || path.ends_with(".html") || [LAB, sums::LOCAL].contains(&path)
+        }
+    }
 }
 
 /// A file below a folder, whole. No link is followed on the way, since it might lead out of the

@@ -58,7 +58,8 @@ pub fn listed(root: &Path, only: Option<&str>, progress: &Progress) -> Result<Ch
     let mut known: BTreeMap<&str, &str> = BTreeMap::new();
     // Of what was last written, what is built beside: the rest may be of another revision by now.
     let local = folder::local(root).map_err(|what| {
-        Failure::input(format!("{what}; write the report anew with `impact-paper paper --force`"))
+        let remedy = "move it away, and write the report anew with `impact-paper paper --force`";
+        Failure::input(format!("{what}; {remedy}"))
     })?;
     let local = local.unwrap_or_default();
     let beside =

@@ -59,9 +59,9 @@ pub fn whole(
     let scene = Scene::of(results.of(&SPACE_TIME)?);
     let scene = scene.as_ref().map(report::scene::moving).transpose();
     let scene = scene.map_err(|error| Failure::run(error.to_string()))?;
-    let module = committed::bytes(MODULE);
+    let module = committed::bytes(MODULE).filter(|module| is_module(module));
     if module.is_none() {
-        let what = "is not there, so the pages run nothing; `make paper` builds it";
+        let what = "is not there or no module, so the pages run nothing; `make paper` builds it";
         progress.say(&format!("{MODULE} {what}"));
     }
     let script = templates.text("lab.js")?;
@@ -85,6 +85,14 @@ pub fn whole(
         error => error.into(),
     })?;
     Ok((report, judged))
+}
+
+/// Bytes of a module at most: ours has some hundred kilobytes, and the next run reads what is made of it.
+const LARGEST: usize = 4 << 20;
+
+/// Is it WebAssembly, of a size that a page can load?
+fn is_module(bytes: &[u8]) -> bool {
+    bytes.starts_with(b"\0asm") && bytes.len() <= LARGEST
 }
 
 /// Draws one figure.

@@ -4,14 +4,14 @@
 //! nobody changed it since: two lists say so, SHA256SUMS of a report and SHA256SUMS.local of whatever
 //! was last written into the folder. Everything else is refused by name, unless --force.
 
-use super::own::Own;
+use super::own::{self, Own};
 use super::sources::prose;
 use super::waiting::{Waiting, clear, is_staging};
 use super::work::{self, Now};
 use super::{Failure, folder};
 use crate::experiments::{Progress, say};
 use crate::input::{count, listed, one_line};
-use crate::report::{Files, PROGRAM, sums};
+use crate::report::{Files, PROGRAM, ledger, sums};
 use std::collections::BTreeSet;
 use std::fs::File;
 use std::io;
@@ -43,14 +43,15 @@ pub struct Staging<'a> {
     _made: work::Made,
 }
 
-/// Is it a report, or what is left of one?
+/// Is it a report, or what is left of one? Other people have files of these names too.
 pub fn holds_report(folder: &Path) -> bool {
-    [sums::NAME, "ledger.json"].iter().any(|name| folder.join(name).symlink_metadata().is_ok())
+    let ledger = || folder::text(folder, "ledger.json").is_ok_and(|text| ledger::is_one(&text));
+    own::lists_report(folder) || ledger()
 }
 
-/// Is it, without links and dots, below a report, which has no other files? What holds a ledger is one of ours.
+/// Is it, without links and dots, below a report, which has no other files?
 fn lies_in_report(there: &Path) -> bool {
-    there.ancestors().skip(1).any(|above| above.join("ledger.json").is_file())
+    there.ancestors().skip(1).any(holds_report)
 }
 
 /// Of the prose, whatever lies in its folder or below is read: that of `templates`, and that of the checkout.
@@ -84,9 +85,7 @@ pub fn refuse_report(option: &str, folder: &Path, templates: Option<&Path>) -> R
     refuse_dangling(option, folder)?;
     refuse_prose(option, folder, templates)?;
     let there = folder::resolved(folder);
-    let within = FOLDERS.iter().any(|below| there.ends_with(below));
-    let above = there.parent().filter(|_| within);
-    if holds_report(&there) || above.is_some_and(holds_report) || lies_in_report(&there) {
+    if holds_report(&there) || lies_in_report(&there) {
         let folder = folder.display();
         return Err(Failure::input(format!(
             "{option}: {folder} holds a report, or lies in one; give another folder"
@@ -122,6 +121,7 @@ impl<'a> Staging<'a> {
         std::fs::create_dir_all(folder).map_err(failed)?;
         // Another run may be putting its files in place: half of them would look like a stranger's.
         let _alone = alone(folder).map_err(failed)?;
+        staging.no_folder([sums::LOCAL].iter())?;
         let own = staging.own()?;
         let strange = |name: &String| !is_staging(folder, name);
         let strange = names(folder).map_err(failed)?.into_iter().find(strange);
@@ -198,6 +198,7 @@ impl<'a> Staging<'a> {
         let theirs: Vec<&str> =
             files.keys().chain(gone.iter().copied()).filter(theirs).map(String::as_str).collect();
         self.refuse(theirs.clone())?;
+        let list = own::local(self.folder).err().map(|_| sums::LOCAL);
 
         self.no_folder(files.keys())?;
 
@@ -240,7 +241,8 @@ impl<'a> Staging<'a> {
             let (number, names) = (count(gone.len(), "file"), one_line(&listed(&gone), 500));
             say(&format!("impact-paper: removed {number} of the report before: {names}"));
         }
-        let over: Vec<&str> = theirs.into_iter().filter(|path| files.contains_key(*path)).collect();
+        let over = theirs.into_iter().filter(|path| files.contains_key(*path));
+        let over: Vec<&str> = over.chain(list).collect();
         if !over.is_empty() {
             say(&format!("impact-paper: --force: wrote over {}", over.join(", ")));
         }
@@ -249,14 +251,8 @@ impl<'a> Staging<'a> {
 
     /// What the lists say; a list that cannot be read would make files of ours look like a stranger's.
     fn own(&self) -> Result<Option<Own>, Failure> {
-        match Own::read(self.folder) {
-            Err(_) if self.force => Ok(None),
-            Err(what) => Err(Failure::input(format!(
-                "{}: {what}; --force writes the report anew, whatever stands there",
-                self.option
-            ))),
-            Ok(own) => Ok(own),
-        }
+        let told = |what| Failure::input(format!("{}: {what}", self.option));
+        Own::read(self.folder, self.force).map_err(told)
     }
 
     /// A folder in which files wait until all are complete.
@@ -265,12 +261,12 @@ impl<'a> Staging<'a> {
     }
 
     /// Refuses a folder in the place of a file.
-    fn no_folder<'b>(&self, mut files: impl Iterator<Item = &'b String>) -> Result<(), Failure> {
-        match files.find(|path| self.folder.join(path).is_dir()) {
+    fn no_folder(&self, files: impl Iterator<Item = impl AsRef<str>>) -> Result<(), Failure> {
+        match files.map(|path| self.folder.join(path.as_ref())).find(|path| path.is_dir()) {
             None => Ok(()),
             Some(folder) => {
-                let what = "is a folder where a file of the report belongs; move it away";
-                Err(Failure::input(format!("{}: {folder} {what}", self.option)))
+                let what = "is a folder where a file belongs; move it away";
+                Err(Failure::input(format!("{}: {} {what}", self.option, folder.display())))
             }
         }
     }
@@ -348,15 +344,18 @@ fn alone(folder: &Path) -> io::Result<Option<File>> {
             Err(std::fs::TryLockError::WouldBlock) => {
                 std::thread::sleep(Duration::from_millis(20));
             }
-            Err(std::fs::TryLockError::Error(error))
-                if error.kind() == io::ErrorKind::Unsupported =>
-            {
-                return Ok(None);
-            }
+            Err(std::fs::TryLockError::Error(error)) if has_no_locks(&error) => return Ok(None),
             Err(std::fs::TryLockError::Error(error)) => return Err(error),
         }
     }
     Err(io::Error::other("another program has been writing there for ten seconds"))
+}
+
+/// Whether the system says so of a file system: ENOSYS, EOPNOTSUPP, or ENOLCK, which has no kind of its own.
+#[cfg(unix)]
+fn has_no_locks(error: &io::Error) -> bool {
+    let no_locks = if cfg!(target_os = "linux") { 37 } else { 77 };
+    error.kind() == io::ErrorKind::Unsupported || error.raw_os_error() == Some(no_locks)
 }
 
 /// Folders are not locked here.
@@ -431,10 +430,10 @@ mod tests {
         assert!(!folder.join("other.md").exists());
         // A few files into a folder of their own, twice.
         let few = out.path().join("few");
-        for name in ["a", "b"] {
+        for name in ["a.md", "b.md"] {
             place(&few, &files(&[name])).unwrap();
         }
-        assert_eq!(sorted(&few), ["SHA256SUMS.local", "a", "b"]);
+        assert_eq!(sorted(&few), ["SHA256SUMS.local", "a.md", "b.md"]);
     }
 
     #[test]
@@ -509,7 +508,7 @@ mod tests {
         for replaced in 0..=order.len() {
             let out = tempfile::tempdir().unwrap();
             place(out.path(), &old).unwrap();
-            let own = Own::read(out.path()).unwrap().unwrap();
+            let own = Own::read(out.path(), false).unwrap().unwrap();
             std::fs::write(out.path().join(sums::LOCAL), own.local(&new, |_| true, true)).unwrap();
             for path in &order[..replaced] {
                 std::fs::write(out.path().join(path), &new[*path]).unwrap();
@@ -518,6 +517,15 @@ mod tests {
             place(out.path(), &with("newer")).unwrap();
             let local = std::fs::read_to_string(out.path().join(sums::LOCAL)).unwrap();
             assert_eq!(sums::read(&local).unwrap().len(), old.len() - 1);
+        }
+    }
+
+    /// Some network file systems have no daemon for locks.
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn file_systems_without_locks_go_without() {
+        for (code, without) in [(37, true), (38, true), (95, true), (13, false), (11, false)] {
+            assert_eq!(has_no_locks(&io::Error::from_raw_os_error(code)), without, "{code}");
         }
     }
 

@@ -19,13 +19,14 @@ pub struct Own {
 }
 
 impl Own {
-    /// From the lists in a folder; none if it has none.
+    /// From the lists in a folder; none if it has none. Forced, it does without one that cannot be used.
     ///
     /// # Errors
     /// What is wrong with a list, and what to do.
-    pub fn read(folder: &Path) -> Result<Option<Own>, String> {
-        let local = folder::local(folder)?;
-        let report = report(folder)?;
+    pub fn read(folder: &Path, force: bool) -> Result<Option<Own>, String> {
+        let usable = |list: Result<_, String>| if force { Ok(list.unwrap_or(None)) } else { list };
+        let local = usable(local(folder))?;
+        let report = usable(report(folder))?;
         if report.is_none() && local.is_none() {
             return Ok(None);
         }
@@ -62,22 +63,61 @@ impl Own {
     }
 }
 
-/// The list of the report in a folder, if there is one. Other people have lists of this name too: that of a report
-/// names its values and its ledger. What it names is replaced and removed, so it may name nothing else than a report
-/// has, whoever wrote it.
-fn report(folder: &Path) -> Result<Option<Vec<sums::Entry>>, String> {
-    let Ok(text) = folder::text(folder, sums::NAME) else { return Ok(None) };
-    let has = |path: &str| text.lines().any(|line| line.ends_with(&format!("  {path}")));
-    if !has("values.json") || !has("ledger.json") {
-        return Ok(None);
+/// The list of what was last written into a folder, if there is one. What it names is replaced, and it is written anew,
+/// so it may name nothing else than this program writes into folders.
+///
+/// # Errors
+/// What is wrong with it, and what to do.
+pub fn local(folder: &Path) -> Result<Option<Vec<sums::Entry>>, String> {
+    let remedy = "move it away, or write over it with --force";
+    let list = folder::local(folder).map_err(|what| format!("{what}; {remedy}"))?;
+    let written =
+        |path: &str| sums::is_of_report(path) || folder::is_beside(path) || is_manual(path);
+    let lines = list.iter().flatten().enumerate();
+    match lines.into_iter().find(|(_, entry)| !written(&entry.path)) {
+        None => Ok(list),
+        Some((i, entry)) => {
+            let (place, path) = (folder.join(sums::LOCAL), one_line(&entry.path, 200));
+            let what = format!("line {}: {path:?} is no file of this program", i + 1);
+            Err(format!("{}: {what}; {remedy}", place.display()))
+        }
     }
+}
+
+/// Is it a page of the manual, or a completion?
+fn is_manual(path: &str) -> bool {
+    let name = path.strip_prefix("completions/");
+    let ours = name.unwrap_or(path).strip_prefix("impact-paper");
+    ours.is_some_and(|rest| !rest.contains('/') && (name.is_some() || rest.ends_with(".1")))
+}
+
+/// Whether the list in a folder is that of a report.
+pub fn lists_report(folder: &Path) -> bool {
+    list(folder).is_some()
+}
+
+/// The list of the report in a folder as text, if there is one. Other people have lists of this name too: that of a
+/// report names its values and its ledger.
+fn list(folder: &Path) -> Option<String> {
+    let text = folder::text(folder, sums::NAME).ok()?;
+    let has = |path: &str| text.lines().any(|line| line.ends_with(&format!("  {path}")));
+    (has("values.json") && has("ledger.json")).then_some(text)
+}
+
+/// The list of the report in a folder, if there is one. What it names is replaced and removed, so it may name nothing
+/// else than a report has, whoever wrote it.
+fn report(folder: &Path) -> Result<Option<Vec<sums::Entry>>, String> {
+    let Some(text) = list(folder) else { return Ok(None) };
     let fault = |what: String| format!("{}: {what}", folder.join(sums::NAME).display());
-    let list = sums::lines(&text).map_err(|error| fault(error.to_string()))?;
+    let malformed =
+        |error| fault(format!("{error}; mend it, or write over the report with --force"));
+    let list = sums::lines(&text).map_err(malformed)?;
     match list.iter().find(|entry| !sums::is_of_report(&entry.path)) {
         None => Ok(Some(list)),
         Some(strange) => {
             let path = one_line(&strange.path, 200);
-            Err(fault(format!("{path:?} is no file of a report; take its line out")))
+            let remedy = "take its line out, or write over the report with --force";
+            Err(fault(format!("{path:?} is no file of a report; {remedy}")))
         }
     }
 }

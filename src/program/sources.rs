@@ -25,7 +25,7 @@ pub struct Sources {
     #[arg(long, value_name = "DIR")]
     pub templates: Option<PathBuf>,
     /// Folder in which results of long runs are kept.
-    #[arg(long, value_name = "DIR", default_value = "target/results")]
+    #[arg(long, value_name = "DIR", default_value = "target/results", value_parser = work::folder())]
     pub results: PathBuf,
 }
 

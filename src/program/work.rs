@@ -5,7 +5,7 @@ use crate::experiments::{self, Error, Progress, say};
 use crate::params::Profile;
 use crate::report::{self, contents};
 use crate::{claims, dynamics, figures};
-use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::builder::{PathBufValueParser, PossibleValue, PossibleValuesParser, TypedValueParser};
 use literate::experiments::deep;
 use literate::experiments::shards::Plan;
 use std::collections::HashSet;
@@ -42,6 +42,11 @@ pub fn of_reports() -> impl TypedValueParser<Value = Profile> {
 /// Reads sample sizes, and what takes longer than any report may.
 pub fn of_all() -> impl TypedValueParser<Value = Profile> {
     profiles(&Profile::ALL)
+}
+
+/// Reads a folder that may have to be made: without dots at its end, with which none can be.
+pub fn folder() -> impl TypedValueParser<Value = PathBuf> {
+    PathBufValueParser::new().map(|folder| folder.components().collect())
 }
 
 /// Which experiments of a profile are meant.

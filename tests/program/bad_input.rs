@@ -217,7 +217,7 @@ plan --array => --shards
 plan --left file => --left: file: ; a file is in the way
 merge => DIR
 merge file => file:
-merge . --results . => is a folder of a shard
+merge . --results .|none/../.|none/..|none/../link => is a folder of a shard
 audit --seed -1 => '--seed <K>'; whole number
 audit --sample -1%|0|1e-400 => '--sample <SHARE>'; percentage like 10%
 diff  . => an empty name: neither a folder nor a revision
@@ -274,6 +274,7 @@ fn options_out_of_range() {
     fs::write(here.join("file"), "").unwrap();
     fs::create_dir(here.join("empty")).unwrap();
     std::os::unix::fs::symlink("loop", here.join("loop")).unwrap();
+    std::os::unix::fs::symlink(".", here.join("link")).unwrap();
     let mut count = 0;
     for line in REFUSED.lines().skip(1) {
         let (arguments, words) = line.split_once(" => ").unwrap();
@@ -427,7 +428,11 @@ fn what_stands_in_the_place_of_a_folder_is_told_first() {
     assert!(!folder.join("r").exists() && list() == before, "nothing is run or written");
     fs::write(folder.join("f/SHA256SUMS.local"), "half a line").unwrap();
     crate::refused(folder, &paper("7"), &["f/SHA256SUMS.local: line 1", "--force"]);
-    assert_eq!(run(folder, &format!("{} --force", paper("7"))).0, 0);
+    let (code, _, note) = run(folder, &format!("{} --force", paper("7")));
+    assert!(
+        code == 0 && note.contains("wrote over") && note.contains("SHA256SUMS.local"),
+        "{note}"
+    );
     assert_eq!(list(), before);
 }
 

@@ -148,7 +148,7 @@ fn what_others_made_is_left_as_it_is() {
         ("paper --profile quick --out .", "--out: ."),
         ("paper --figure 4 --out t", "--out: t"),
         ("paper --figure 4 --out t/figures", "fig04.svg"),
-        ("paper --profile quick --out t", "values.json"),
+        ("paper --profile quick --out t", "did not make"),
     ] {
         refused(here, arguments, &[says]);
     }
@@ -189,6 +189,131 @@ fn lists_by_hand_take_no_file_away() {
     let (code, _, note) = run(here, paper);
     assert!(code == 0 && note.contains("removed 1 file of the report before: old.md"), "{note}");
     assert!(here.join("p/.git/config").exists() && !here.join("p/old.md").exists());
+}
+
+/// A report without readable values is written anew by whom asks for it, as `verify` advises.
+#[test]
+fn a_report_without_values_is_written_anew_when_forced() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    crate::put(&here.join("r"), &QUICK.results);
+    crate::put(&here.join("v"), &QUICK.report);
+    let paper = "paper --profile quick --out v --results r";
+    let values = here.join("v/values.json");
+    std::fs::write(&values, "{}").unwrap();
+    refused(here, paper, &["values.json cannot be read; --force writes the report anew"]);
+    let (code, _, note) = run(here, &format!("{paper} --force"));
+    assert!(code == 0 && note.contains("--force: wrote over values.json"), "{note}");
+    assert!(tree(&here.join("v")) == QUICK.report);
+    std::fs::remove_file(&values).unwrap();
+    refused(here, paper, &["values.json cannot be read; --force writes the report anew"]);
+    assert_eq!(run(here, &format!("{paper} --force")).0, 0);
+    assert!(tree(&here.join("v")) == QUICK.report);
+}
+
+/// Names that a report's files have are no report.
+#[test]
+fn lists_and_ledgers_of_other_people_make_no_report() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let list = format!("{}  my.iso\n", digest("")).into_bytes();
+    let theirs = |name: &str, bytes: &[u8]| [(name.to_string(), bytes.to_vec())].into();
+    crate::put(&here.join("sums"), &theirs("SHA256SUMS", &list));
+    crate::put(&here.join("made"), &theirs("SHA256SUMS/file", b""));
+    crate::put(&here.join("acc"), &theirs("ledger.json", b"{\"accounts\":[]}"));
+    for among in ["sums", "made", "acc"] {
+        let (code, _, note) = run(here, &format!("paper --figure 4 --out {among}/sub/figs"));
+        assert_eq!(code, 0, "{among}: {note}");
+        let what = "has files that this program did not make";
+        refused(here, &format!("paper --profile quick --out {among}"), &[what]);
+        for verb in [
+            "manual --out",
+            "run --profile quick --experiment two_masses --shard 1/1 --out",
+            "check --profile quick --claim sec3_edges --results",
+        ] {
+            let (code, _, note) = crate::run(here, &format!("{verb} {among}/of/{}", verb.len()));
+            assert_eq!(code, 0, "{verb}: {note}");
+        }
+    }
+}
+
+/// A list of what others wrote is none of ours: it is written over only when forced, and then named.
+#[cfg(unix)]
+#[test]
+fn local_lists_of_other_people_are_theirs() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let list = here.join("w/SHA256SUMS.local");
+    std::fs::create_dir(here.join("w")).unwrap();
+    let [ours, iso] = ["report.md", "my.iso"].map(|path| format!("{}  {path}\n", digest("")));
+    for (text, says) in [("precious\n".into(), "line 1: "), (ours + &iso, "line 2: \"my.iso\"")] {
+        for verb in ["paper --figure 4 --out w", "manual --out w"] {
+            std::fs::write(&list, &text).unwrap();
+            std::fs::write(here.join("w/my.iso"), "").unwrap();
+            let (code, _, note) = crate::run(here, verb);
+            let line = format!("--out: w/SHA256SUMS.local: {says}");
+            assert!(code == 2 && note.contains(&line) && note.lines().count() == 1, "{note}");
+            assert_eq!(std::fs::read_to_string(&list).unwrap(), text);
+            let (code, _, note) = crate::run(here, &format!("{verb} --force"));
+            assert!(code == 0 && note.contains("--force: wrote over "), "{note}");
+            assert!(note.contains("SHA256SUMS.local"), "{note}");
+            // From now on it is ours.
+            let (code, _, note) = crate::run(here, verb);
+            assert!(code == 0 && note.is_empty(), "{note}");
+        }
+    }
+    std::fs::rename(&list, here.join("kept")).unwrap();
+    std::os::unix::fs::symlink("../kept", &list).unwrap();
+    let (code, _, note) = crate::run(here, "paper --figure 4 --out w --force");
+    assert!(code == 0 && note.contains("SHA256SUMS.local"), "{note}");
+    assert!(here.join("kept").exists() && !list.is_symlink());
+    // A folder is in the way, whoever asks, and before anything is run.
+    std::fs::remove_file(&list).unwrap();
+    std::fs::create_dir(&list).unwrap();
+    let what = "w/SHA256SUMS.local is a folder where a file belongs; move it away";
+    for more in ["--figure 4", "--figure 4 --force", "--profile quick --results r --force"] {
+        refused(here, &format!("paper {more} --out w"), &[what]);
+    }
+    crate::refused(here, "manual --out w --force", &[what]);
+    assert!(!here.join("r").exists());
+}
+
+/// As `mkdir -p` does.
+#[test]
+fn a_folder_with_a_dot_behind_is_made() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let unit = "--profile quick --experiment two_masses --shard 1/1";
+    for (verb, out, file) in [
+        ("paper --figure 4 --out", "a/.", "a/figures/fig04.svg"),
+        ("manual --out", "b/c/./", "b/c/impact-paper.1"),
+        (&format!("run {unit} --out"), "d/.", "d/two_masses-quick-0000.json"),
+        (
+            "merge --profile quick --experiment two_masses d --results",
+            "e/.",
+            "e/two_masses-quick.json",
+        ),
+    ] {
+        let (code, _, note) = crate::run(here, &format!("{verb} {out}"));
+        assert!(code == 0 && here.join(file).exists(), "{verb}: {note}");
+    }
+}
+
+/// What is no module of WebAssembly is none of the pages'.
+#[test]
+fn a_module_is_looked_at() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    crate::put(&here.join("r"), &QUICK.results);
+    std::fs::create_dir(here.join("target")).unwrap();
+    let large = [b"\0asm".to_vec(), vec![0; 5 << 20]].concat();
+    for (bytes, taken) in [(b"garbage".to_vec(), false), (large, false), (b"\0asm".to_vec(), true)]
+    {
+        std::fs::write(here.join("target/page.wasm"), bytes).unwrap();
+        let (code, _, note) = run(here, "paper --profile quick --out p --results r");
+        let said = note.contains("target/page.wasm is not there or no module");
+        assert_eq!((code, said, here.join("p/lab.js").exists()), (0, !taken, taken), "{note}");
+    }
 }
 
 /// What is written among the templates would be read as prose.
@@ -262,8 +387,12 @@ fn another_parameter_makes_another_report_that_says_so() {
     // What these parameters cannot have is their fault.
     std::fs::remove_file(here.join("o/values.json")).unwrap();
     let quiet = "-q paper --results r --profile";
-    for more in ["quick --set masses=50", "quick --figure 3", "full --figure 4"] {
-        refused(here, &format!("{quiet} {more} --out o"), &["values.json", "restore"]);
+    for (more, remedy) in [
+        ("quick --set masses=50", "--force writes the report anew"),
+        ("quick --figure 3", "restore"),
+        ("full --figure 4 --force", "restore"),
+    ] {
+        refused(here, &format!("{quiet} {more} --out o"), &["values.json", remedy]);
     }
     for more in ["", " --figure s8"] {
         let low = format!("{quiet} quick --out n --set masses=40 --set restitution=0.9{more}");
@@ -287,10 +416,11 @@ fn the_manual_is_written_and_quiet_work_says_nothing() {
     let found: Vec<&str> = found.filter(|name| !name.is_empty()).collect();
     let listed = |name: &&str| bash.contains(&format!("\n        {name})\n"));
     assert!(found.len() > 15 && found.iter().all(listed), "{bash}");
-    std::fs::create_dir(here.join("report")).unwrap();
-    std::fs::write(here.join("report/SHA256SUMS"), "").unwrap();
-    std::fs::create_dir_all(here.join("left/data")).unwrap();
-    std::fs::write(here.join("left/ledger.json"), "").unwrap();
+    for (folder, name) in [("report", "SHA256SUMS"), ("left", "ledger.json")] {
+        let file = (name.to_string(), QUICK.report[name].clone());
+        crate::put(&here.join(folder), &[file].into());
+    }
+    std::fs::create_dir(here.join("left/data")).unwrap();
     for folder in ["report", "left", "left/data", "left/new"] {
         for verb in ["manual --out", "run --profile quick --shard 1/1 --out"] {
             crate::refused(here, &format!("{verb} {folder}"), &["holds a report"]);

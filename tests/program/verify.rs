@@ -33,11 +33,11 @@ fn what_is_as_listed_is_fine_with_what_is_built_beside() {
     let paper = folder.path().join("paper");
     let write = |path: &str, text: &str| fs::write(paper.join(path), text).unwrap();
     write("report.html", "page");
-    write("data/a.pdf", "");
+    write("a.pdf", "");
     // Of a revision that was here before, but for what is built beside.
     let [page, pdf, other] = ["page", "", "other"].map(digest);
     let local =
-        format!("{pdf}  data/a.pdf\n{page}  report.html\n{other}  report.md\n{pdf}  report.pdf\n");
+        format!("{pdf}  a.pdf\n{page}  report.html\n{other}  report.md\n{pdf}  report.pdf\n");
     write("SHA256SUMS.local", &local);
     fs::create_dir(paper.join(".staging-impact-paper-1")).unwrap();
     write(".staging-impact-paper-1/report.md", "half");
@@ -48,7 +48,7 @@ fn what_is_as_listed_is_fine_with_what_is_built_beside() {
     write("report.html", "planted");
     faults(folder.path(), &["differs  report.html"], "--force");
     fs::remove_file(paper.join("SHA256SUMS.local")).unwrap();
-    let unlisted = ["unlisted data/a.pdf", "unlisted report.html"];
+    let unlisted = ["unlisted a.pdf", "unlisted report.html"];
     faults(folder.path(), &unlisted, "remove what is not listed");
 }
 

@@ -152,6 +152,7 @@ impl Plan {
         let stores: Vec<Store> =
             folders.iter().map(|folder| Store::open(folder)).collect::<Result<_, _>>()?;
         let (mut texts, mut bad, mut missing) = (Vec::new(), Vec::new(), Vec::new());
+        let mut foreign = false;
         for task in &self.tasks {
             progress.check()?;
             match found.get(&task.name) {
@@ -161,13 +162,18 @@ impl Plan {
                     Err(reasons) => {
                         let path = path(&folders[place], &task.name);
                         bad.push(format!("{}: {}", path.display(), told(&reasons)));
+                        let unit = stores[place].refuse_foreign(&task.identity, self.profile);
+                        foreign |= unit.is_err();
                     }
                 },
             }
         }
         let profile = self.profile.name();
         if !bad.is_empty() {
-            let remedy = "run its shard again with this program, into the same folder";
+            let remedy = match foreign {
+                true => "move away what is none, and run its shard again, into the same folder",
+                false => "run its shard again with this program, into the same folder",
+            };
             return Err(Error::Units { what: listed(&bad), remedy: remedy.into() });
         }
         if !missing.is_empty() {

@@ -163,7 +163,7 @@ where
 }
 
 /// What is said of a file that stands where a result belongs.
-const FOREIGN: &str = "this is no saved result; move it away";
+const FOREIGN: &str = "this is no saved result";
 
 /// Was this never a result, damaged or not? One is a file whose first line is a digest.
 fn is_foreign(path: &Path) -> bool {
