@@ -48,6 +48,7 @@ fn share(text: &str) -> Result<Share, String> {
 }
 
 pub fn run(args: Args) -> Result<(), Failure> {
+    work::least(work::RESULTS, "audit")?;
     let profile = args.profile;
     let store = Store::open(&work::results(args.results, profile))?;
     let mut chosen = experiments::of(profile);

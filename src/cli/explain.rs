@@ -1,11 +1,11 @@
 //! `impact-paper explain`.
 
 use super::document::Only;
-use super::{Failure, folder, stdout};
-use impact_paper::input::{one_line, regular_text};
+use super::{Failure, folder, stdout, work};
+use impact_paper::input::{is_obeyed, one_line, regular_text};
 use impact_paper::report::PROGRAM;
 use impact_paper::report::card::{Card, Cards, Row};
-use impact_paper::report::document::spelt;
+use impact_paper::report::document::{Inline, spelt};
 use impact_paper::report::ledger::Ledger;
 use impact_paper::report::{Registry, compare};
 use serde_json::json;
@@ -33,6 +33,7 @@ pub struct Args {
 }
 
 pub fn run(args: Args) -> Result<(), Failure> {
+    work::least(128, "explain")?;
     let mut values = values(&args.paper)?;
     let mut ledger = ledger(&args.paper)?;
     if let Some(document) = &args.only.document {
@@ -52,7 +53,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
 
 fn read(paper: &Path, name: &str) -> Result<String, Failure> {
     folder::text(paper, name).map_err(|e| {
-        let remedy = "give the folder of a report, or make one with `impact-paper paper`";
+        let remedy = folder::REMEDY;
         Failure::input(format!("--paper: {}: {e}; {remedy}", paper.join(name).display()))
     })
 }
@@ -79,7 +80,7 @@ fn list(cards: &[Card], as_json: bool) -> io::Result<()> {
         return out.flush();
     }
     for card in cards {
-        writeln!(out, "{:28} {}", card.id, title(card))?;
+        writeln!(out, "{:28} {}", card.id.replace(is_obeyed, " "), title(card))?;
     }
     out.flush()
 }
@@ -99,12 +100,12 @@ fn show(cards: &[Card], as_json: bool) -> io::Result<()> {
         if i > 0 {
             writeln!(out)?;
         }
-        writeln!(out, "{}: {}", card.id, title(card))?;
+        writeln!(out, "{}: {}", card.id.replace(is_obeyed, " "), title(card))?;
         if !card.lead.is_empty() {
-            writeln!(out, "  {}", card.lead)?;
+            writeln!(out, "  {}", card.lead.replace(is_obeyed, " "))?;
         }
         for row in card.rows.iter().filter(|row| row.name != "id") {
-            write!(out, "  {:15} {}", row.name, spelt(&row.text))?;
+            write!(out, "  {:15} {}", row.name, words(&row.text))?;
             if let Some((file, line)) = stands(row) {
                 write!(out, " ({file}:{line})")?;
             }
@@ -115,11 +116,16 @@ fn show(cards: &[Card], as_json: bool) -> io::Result<()> {
 }
 
 fn title(card: &Card) -> String {
-    spelt(&card.title)
+    words(&card.title)
+}
+
+/// Words of a report, without what a terminal would obey.
+fn words(text: &[Inline]) -> String {
+    spelt(text).replace(is_obeyed, " ")
 }
 
 fn row_json(row: &Row) -> serde_json::Value {
-    let mut out = json!({"name": row.name, "text": spelt(&row.text)});
+    let mut out = json!({"name": row.name, "text": words(&row.text)});
     if let Some((file, line)) = stands(row) {
         out["file"] = json!(file);
         out["line"] = json!(line);

@@ -33,6 +33,7 @@ pub struct Args {
 }
 
 pub fn run(args: Args) -> Result<(), Failure> {
+    work::least(work::RESULTS, "merge")?;
     let profile = args.profile;
     let plan = args.only.plan(profile)?;
     let folder = work::results(args.results, profile);

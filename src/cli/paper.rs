@@ -147,7 +147,7 @@ fn changes(out: &Path, files: &Files) -> Vec<String> {
     let Some(before) = [VALUES, LEDGER].into_iter().map(read).collect::<Option<Files>>() else {
         return Vec::new();
     };
-    let parts = (Parts::of("before", &before), Parts::of("now", files));
+    let parts = (Parts::of("before", before), Parts::of("now", files.clone()));
     let (Ok(old), Ok(new)) = parts else { return Vec::new() };
     let Ok(diff) = compare::diff(&old, &new, &[]) else { return Vec::new() };
     let before = out.display();

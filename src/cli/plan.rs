@@ -67,6 +67,7 @@ impl<'a> Line<'a> {
 }
 
 pub fn run(args: Args) -> Result<(), Failure> {
+    work::least(128, "plan")?;
     let profile = args.profile;
     if let Some(of) = args.shards {
         shard::number("--shards", of)?;

@@ -59,6 +59,7 @@ pub fn given_by(option: &str) -> impl Fn(Error) -> Failure + Copy {
 }
 
 pub fn run(args: Args) -> Result<(), Failure> {
+    work::least(work::RESULTS, "run")?;
     let profile = args.profile;
     let unwritable = given_by("--out");
     let plan = args.only.plan(profile)?;

@@ -30,6 +30,7 @@ pub struct Args {
 }
 
 pub fn run(args: Args) -> Result<(), Failure> {
+    work::least(64, "status")?;
     let profile = args.profile;
     let store = Store::open(&work::results(args.results, profile))?;
     let found: Vec<Found> =
@@ -50,7 +51,8 @@ pub fn run(args: Args) -> Result<(), Failure> {
         return Ok(());
     }
     let remedy = work::remedy(profile);
-    Err(Failure::stale(format!("{stale} of {} results are stale; {remedy}", found.len())))
+    let are = if stale == 1 { "is" } else { "are" };
+    Err(Failure::stale(format!("{stale} of {} results {are} stale; {remedy}", found.len())))
 }
 
 /// What was found of one experiment.

@@ -116,6 +116,9 @@ fn simultaneous(count: u64, law: Simultaneous) -> String {
     )
 }
 
+/// Bytes that a pair of numbers takes while a list of them grows.
+const PAIR: u128 = 3 * size_of::<[f64; 2]>() as u128;
+
 /// So much is printed at once, in bytes.
 const BLOCK: usize = 16 << 10;
 
@@ -131,7 +134,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let text = if piped { input::read_from(io::stdin()) } else { input::read(path) };
     let text = text.map_err(|error| {
         let remedy = match error.kind() {
-            ErrorKind::FileTooLarge => "give a scenario of fewer masses",
+            ErrorKind::FileTooLarge | ErrorKind::OutOfMemory => "give a scenario of fewer masses",
             _ if piped => "write a scenario into it",
             _ => "give the path of a readable scenario file",
         };
@@ -144,6 +147,8 @@ pub fn run(args: Args) -> Result<(), Failure> {
         }
         Error::Input { .. } | Error::Overlap { .. } => Failure::input(format!("{name}: {error}")),
     };
+    let pairs = text.bytes().filter(|byte| *byte == b'[').count() as u128;
+    work::memory(PAIR * pairs, &name, "give fewer masses")?;
     let scenario = Scenario::from_json(&text).map_err(in_file)?;
     let engines = if args.certify { 1 + TWINS } else { 1 };
     let (masses, components) = (scenario.forcing.len(), 1 + scenario.overtones.len());

@@ -102,7 +102,7 @@ fn rerun(args: &Args, progress: &Progress) -> Result<Checked, Failure> {
             Err(_) => fault("missing", path),
         }
     }
-    for path in folder::walk(&args.folder)? {
+    for path in folder::walk(&args.folder, progress)? {
         let known = path == sums::LOCAL || (!typeset && pdfs().any(|name| path == name));
         if !known && !files.contains_key(&path) {
             fault("not made", &path);

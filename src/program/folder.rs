@@ -2,10 +2,14 @@
 
 use super::Failure;
 use super::waiting::is_staging;
+use crate::experiments::Progress;
 use crate::input;
 use crate::report::{LAB, sums};
 use std::io;
 use std::path::{Component, Path, PathBuf};
+
+/// What to do about a folder that is none of a report.
+pub const REMEDY: &str = "give the folder of a report, or make one with `impact-paper paper`";
 
 /// The folder without links and dots, as it will be where it is not there yet.
 pub fn resolved(folder: &Path) -> PathBuf {
@@ -29,16 +33,15 @@ pub fn resolved(folder: &Path) -> PathBuf {
 /// listed and not followed. What a killed run left half-done is passed over: the next run removes it.
 ///
 /// # Errors
-/// Exit code 2 if a folder cannot be listed.
-pub fn walk(folder: &Path) -> Result<Vec<String>, Failure> {
+/// Exit code 2 if a folder cannot be listed, 130 if the work was asked to end.
+pub fn walk(folder: &Path, progress: &Progress) -> Result<Vec<String>, Failure> {
     let mut paths = Vec::new();
     let mut open = vec![(folder.to_path_buf(), String::new())];
     while let Some((at, prefix)) = open.pop() {
-        let unreadable = |error: io::Error| {
-            let remedy = "give the folder of a report, or make one with `impact-paper paper`";
-            Failure::input(format!("{}: {error}; {remedy}", at.display()))
-        };
+        let unreadable =
+            |error: io::Error| Failure::input(format!("{}: {error}; {REMEDY}", at.display()));
         for entry in std::fs::read_dir(&at).map_err(unreadable)? {
+            progress.check()?;
             let entry = entry.map_err(unreadable)?;
             let path = format!("{prefix}{}", entry.file_name().to_string_lossy());
             if prefix.is_empty() && is_staging(folder, &path) {
@@ -100,5 +103,22 @@ pub fn local(folder: &Path) -> Result<Option<Vec<sums::Entry>>, String> {
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
         Err(error) => Err(fault(error.to_string())),
         Ok(text) => sums::lines(&text).map(Some).map_err(|error| fault(error.to_string())),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::Arc;
+    use std::sync::atomic::AtomicBool;
+
+    #[test]
+    fn a_walk_sees_a_signal() {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("a"), "").unwrap();
+        let walked =
+            |stop| walk(folder.path(), &Progress::on_stderr(Arc::new(AtomicBool::new(stop))));
+        assert_eq!(walked(false).unwrap(), ["a"]);
+        assert_eq!(walked(true).unwrap_err().code, 130);
     }
 }

@@ -45,16 +45,17 @@ pub fn listed(root: &Path, only: Option<&str>, progress: &Progress) -> Result<Ch
         let remedy = "make the report anew with `impact-paper paper`";
         Failure::input(format!("{}: {what}; {remedy}", place.display()))
     };
-    let found = folder::walk(root)?;
-    let [list, local] = [sums::NAME, sums::LOCAL].map(|name| found.iter().any(|path| path == name));
-    if local && !list {
+    let [list, local] = [sums::NAME, sums::LOCAL].map(|name| root.join(name).symlink_metadata());
+    if local.is_ok() && list.is_err() {
         let (root, local) = (root.display(), sums::LOCAL);
         return Err(Failure::input(format!(
             "{root}: it holds single files and no report; `sha256sum --check {local}` in it checks them"
         )));
     }
-    let text = folder::text(root, sums::NAME).map_err(|e| unusable(e.to_string()))?;
+    let text = folder::text(root, sums::NAME)
+        .map_err(|e| Failure::input(format!("{}: {e}; {}", place.display(), folder::REMEDY)))?;
     let entries = sums::read(&text).map_err(|e| unusable(e.to_string()))?;
+    let found = folder::walk(root, progress)?;
     let mut known: BTreeMap<&str, &str> = BTreeMap::new();
     // Of what was last written, what is built beside: the rest may be of another revision by now.
     let local = folder::local(root).map_err(|what| {

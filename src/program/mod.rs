@@ -14,7 +14,7 @@ pub mod waiting;
 pub mod work;
 
 use crate::experiments::say;
-use crate::input::{one_line, plain, remedy};
+use crate::input::{is_obeyed, one_line, plain, remedy};
 use std::fmt::Display;
 use std::io;
 use std::process::ExitCode;
@@ -87,7 +87,10 @@ impl Failure {
     /// Tells it on standard error.
     fn tell(self) -> ExitCode {
         // Findings in the prose have a line each; names of files may have line breaks.
-        let message = if self.code == 1 { self.message } else { one_line(&self.message, LONGEST) };
+        let message = match self.code {
+            1 => self.message.replace(|c| c != '\n' && is_obeyed(c), " "),
+            _ => one_line(&self.message, LONGEST),
+        };
         say(&format!("impact-paper: {message}"));
         ExitCode::from(self.code)
     }

@@ -9,9 +9,6 @@ use crate::params::{Profile, set};
 use crate::report::{self, Templates};
 use std::path::{Path, PathBuf};
 
-/// Memory that results, figures and documents need at least, in bytes: measured, with a little room.
-const LEAST: u128 = 256 << 20;
-
 /// The prose: where it is, its folder is.
 const PROSE: &str = "templates/front.md";
 
@@ -58,11 +55,7 @@ impl Sources {
         templates: &Templates,
         progress: &Progress,
     ) -> Result<Results, Failure> {
-        work::memory(
-            LEAST,
-            "the results",
-            "raise the limits of the process, or end other programs",
-        )?;
+        work::least(work::RESULTS, "the results")?;
         let long = needs.iter().any(|need| need.is_saved());
         // Results of other parameters do not take the place of the paper's.
         let folder = match set::told() {

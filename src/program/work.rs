@@ -136,6 +136,17 @@ pub fn memory(needed: u128, option: &str, remedy: &str) -> Result<(), Failure> {
     )))
 }
 
+/// Memory that results, figures and documents need at least, in MiB: measured, with a little room.
+pub const RESULTS: u128 = 256;
+
+/// What to do where there is too little memory.
+pub const MORE: &str = "raise the limits of the process, or end other programs";
+
+/// Refuses a verb, or a part of one, that needs at least so many MiB, where there are fewer.
+pub fn least(mib: u128, what: &str) -> Result<(), Failure> {
+    memory(mib << 20, what, MORE)
+}
+
 /// Stack of a thread that works, in bytes: the system, or RUST_MIN_STACK, may give less.
 pub const STACK: usize = 8 << 20;
 

@@ -35,6 +35,11 @@ fn values_figures_equations_and_claims_are_explained() {
             assert!(told.contains(part), "{id}: {part:?} is not in\n{told}");
         }
     }
+    // The addresses that DESIGN.md gives.
+    let design = std::fs::read_to_string("DESIGN.md").unwrap();
+    let addresses = design.split('`').filter(|code| code.contains("]."));
+    let told = addresses.map(|id| answer(folder.path(), &format!("explain --paper r {id}")));
+    assert!(told.count() > 0);
     let told = answer(folder.path(), "explain --paper r");
     for id in ["sweep.rise.half_height ", "fig:15 ", "fig:s1 ", "eq:38 ", "claim:sec2_onset "] {
         assert!(told.lines().any(|line| line.starts_with(id)), "{id}");
@@ -90,6 +95,34 @@ fn every_origin_is_a_function() {
     assert!(means.len() > 1, "{means:?}");
     for mean in means {
         assert_eq!(values[mean]["source"], "experiments::sweep::reduce");
+    }
+}
+
+/// A report may come from anybody: a terminal obeys nothing of it.
+#[test]
+fn what_terminals_obey_is_not_printed() {
+    let folder = report();
+    let at = |name: &str| folder.path().join("r").join(name);
+    let edit = |name: &str, change: &dyn Fn(&mut serde_json::Value)| {
+        let mut json = serde_json::from_slice(&std::fs::read(at(name)).unwrap()).unwrap();
+        change(&mut json);
+        std::fs::write(at(name), json.to_string()).unwrap();
+    };
+    let odd = "\u{1b}]0;owned\u{7}\u{202e}";
+    edit("values.json", &|json| {
+        let value = &mut json["sweep.rise.half_height"];
+        value["note"] = odd.into();
+        value["source"] = odd.into();
+        json["profile"]["number"]["text"] = odd.into();
+    });
+    edit("ledger.json", &|json| {
+        let claims = json["claims"].as_array_mut().unwrap();
+        claims.iter_mut().for_each(|claim| claim["statement"] = odd.into());
+    });
+    for what in ["", " profile sweep.rise.half_height claim:sec7_jump", " --json profile"] {
+        let told = answer(folder.path(), &format!("explain --paper r{what}"));
+        assert!(told.contains("]0;owned"), "{told}");
+        assert!(!told.contains(['\u{1b}', '\u{7}', '\u{202e}']), "{told}");
     }
 }
 

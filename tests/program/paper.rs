@@ -469,6 +469,8 @@ fn exit_codes_are_those_of_the_table() {
         format!("paper --profile quick --out p --results r --templates {templates}")
     };
     let full = |limited: &str| format!("ulimit -f 1; exec \"$0\" {limited}");
+    let few = "ulimit -v 150000; exec \"$0\"";
+    let pairs = "(echo '{\"forcing\":[[0,0]'; yes ,[0,0] | head -n 6000000; echo ']}')";
     let many = "\"$0\" bench scenario --masses 200000 >m";
     let rows = [
         (0, paper("good"), " statements of the paper: "),
@@ -487,6 +489,12 @@ fn exit_codes_are_those_of_the_table() {
         (2, paper("none"), "front.md: it is missing or empty"),
         (2, paper("phrases"), "literals.toml: no such file"),
         (2, format!("ulimit -v 250000; exec \"$0\" {}", paper("good")), "MiB of memory are needed"),
+        (2, format!("{few} diff p p"), "diff: about 128 MiB"),
+        (2, format!("{few} explain --paper p"), "explain: about 128 MiB"),
+        (2, format!("{few} plan --profile full"), "plan: about 128 MiB"),
+        (2, format!("{few} run --profile quick --shard 1/1 --out x"), "run: about 256 MiB"),
+        (2, format!("{few} merge --profile quick empty"), "merge: about 256 MiB"),
+        (2, format!("{pairs} >n; ulimit -v 400000; exec \"$0\" trace n --until 0"), "n: "),
         (
             2,
             format!("{many}; ulimit -v 250000; exec \"$0\" trace m --until 0 --sensitivity sigma"),
@@ -542,6 +550,7 @@ const FAULTS: &str = r##"front.md +<% include "front.md" %> => :$:12: a file inc
 front.md +«v.p | nofilter» => :$:8: Unknown filter
 front.md +«nofun(a=1)» => :$:2: Unknown function
 front.md +<% include "nix.md" %> => :$:12: Unknown template
+front.md +<% set s = "a" %><%- set_global s = s ~ s %> => :$:1: no template may set a variable
 front.md +<% endfor %> => :$:4: Unknown tag endfor
 front.md +«score.total | significant(digits=-1)» => :$:16: it takes how many digits
 front.md +«1 | percent» => :$:2: Invalid type for the value, expected text but got a number

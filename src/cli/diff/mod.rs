@@ -5,11 +5,14 @@ mod revision;
 mod text;
 
 use super::document::Only;
-use super::{Failure, folder, stdout};
+use super::{Failure, folder, stdout, work};
+use impact_paper::experiments::Progress;
+use impact_paper::input::{self, LARGEST};
 pub use impact_paper::numerics::text::count;
 use impact_paper::report::compare::{self, Change, Diff, Parts};
 use impact_paper::report::{Files, PROGRAM};
 use serde_json::json;
+use std::io::ErrorKind;
 use std::path::Path;
 
 /// Says what differs between two reports: verdicts, numbers, sentences, files.
@@ -40,10 +43,11 @@ pub struct Args {
 }
 
 pub fn run(args: Args) -> Result<(), Failure> {
+    work::least(128, "diff")?;
     let (old, new) = (files(&args.old)?, files(&args.new)?);
     let unusable = |what: String| Failure::input(format!("{what}; is it a report?"));
-    let mut before = Parts::of(&args.old, &old).map_err(unusable)?;
-    let mut after = Parts::of(&args.new, &new).map_err(unusable)?;
+    let mut before = Parts::of(&args.old, old).map_err(unusable)?;
+    let mut after = Parts::of(&args.new, new).map_err(unusable)?;
     if let Some(document) = &args.only.document {
         before.only(document).and_then(|()| after.only(document)).map_err(unusable)?;
     }
@@ -65,23 +69,49 @@ pub fn fate(change: &compare::ClaimChange) -> String {
     format!("{}: {}", change.id, text::fate(change.before.as_deref(), change.after.as_deref()))
 }
 
+/// All files of a report may have so many MiB; ours has twenty.
+const MOST: u64 = 256;
+
 /// The files of a report by its folder or revision, without what is built beside.
 fn files(name: &str) -> Result<Files, Failure> {
-    let mut files = if Path::new(name).is_dir() { standing(name)? } else { revision::files(name)? };
-    files.retain(|path, _| !folder::is_beside(path));
-    Ok(files)
+    if Path::new(name).is_dir() { standing(name) } else { revision::files(name) }
 }
 
 /// The files in a folder.
 fn standing(name: &str) -> Result<Files, Failure> {
     let root = Path::new(name);
-    let mut files = Files::new();
-    for path in folder::walk(root)?.into_iter().filter(|path| !folder::is_beside(path)) {
-        let bytes = folder::read(root, &path)
-            .map_err(|e| Failure::input(format!("{name}: {path}: {e}; is it a report?")))?;
-        files.insert(path, bytes);
+    let mut paths = folder::walk(root, &Progress::silent())?;
+    paths.retain(|path| !folder::is_beside(path));
+    let length = |path: &String| root.join(path).symlink_metadata().map_or(0, |file| file.len());
+    bounded(name, paths.iter().map(|path| (path.as_str(), length(path))))?;
+    let read = |path: String| {
+        let bytes = folder::read(root, &path).map_err(|error| {
+            let remedy = match error.kind() {
+                ErrorKind::OutOfMemory => work::MORE,
+                _ => "is it a report?",
+            };
+            Failure::input(format!("{name}: {path}: {error}; {remedy}"))
+        })?;
+        Ok((path, bytes))
+    };
+    paths.into_iter().map(read).collect()
+}
+
+/// Refuses files that are longer than those of any report, before they are read: paths and lengths.
+fn bounded<'a>(name: &str, files: impl Iterator<Item = (&'a str, u64)>) -> Result<(), Failure> {
+    let mut all = 0_u64;
+    for (path, length) in files {
+        if length > LARGEST {
+            let what = format!("{name}: {path}: it is longer than {}", input::MOST);
+            return Err(Failure::input(format!("{what}; is it a report?")));
+        }
+        all += length;
     }
-    Ok(files)
+    if all > MOST << 20 {
+        let what = format!("{name}: its files are longer than {MOST} MiB together");
+        return Err(Failure::input(format!("{what}; is it a report?")));
+    }
+    work::memory(all.into(), name, work::MORE)
 }
 
 /// The numbers that both reports have, what a reader must see first at the front, and those that one has.

@@ -1,6 +1,6 @@
 //! The report of a revision of git, read by the git command.
 
-use super::super::Failure;
+use super::super::{Failure, folder};
 use impact_paper::input::one_line;
 use impact_paper::report::{Files, sums};
 use std::io::ErrorKind;
@@ -35,13 +35,22 @@ pub fn files(name: &str) -> Result<Files, Failure> {
         Failure::input(format!("{name}: this revision has no folder paper/ here ({told})"))
     };
     let tree = format!("{commit}:{FOLDER}");
-    let list = git(name, &["ls-tree", "-r", "-z", "--full-tree", "--name-only", &tree])?;
+    let list = git(name, &["ls-tree", "-r", "-z", "--full-tree", "--long", &tree])?;
     let list = String::from_utf8_lossy(&list.map_err(no_report)?).into_owned();
+    // Mode, kind, object and length, and the path behind a tab.
+    let line = |line: &'_ str| {
+        let (head, path) = line.split_once('\t')?;
+        let length = head.rsplit(' ').next()?.parse().unwrap_or(0);
+        Some((path.to_string(), length))
+    };
+    let meant = |(path, _): &(String, u64)| sums::is_inside(path) && !folder::is_beside(path);
+    let listed: Vec<(String, u64)> = list.split('\0').filter_map(line).filter(meant).collect();
+    super::bounded(name, listed.iter().map(|(path, length)| (path.as_str(), *length)))?;
     let mut files = Files::new();
-    for path in list.split('\0').filter(|path| sums::is_inside(path)) {
+    for (path, _) in listed {
         // As it is stored: `git show` might convert it.
         let bytes = git(name, &["cat-file", "blob", &format!("{commit}:{FOLDER}/{path}")])?;
-        files.insert(path.to_string(), bytes.map_err(no_report)?);
+        files.insert(path, bytes.map_err(no_report)?);
     }
     Ok(files)
 }

@@ -1,7 +1,7 @@
 //! What the paper printed: `templates/published.toml`.
 
 use crate::digest::sha256;
-use crate::input::{is_no_text, one_line, toml_fault};
+use crate::input::{is_no_text, is_obeyed, one_line, toml_fault};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
@@ -97,7 +97,8 @@ impl Published {
                 if words.trim().is_empty() {
                     return fault(format!("its {name} has no words; write them"));
                 }
-                if let Some(c) = words.chars().find(|c| is_no_text(*c)) {
+                let odd = |c: &char| is_no_text(*c) || is_obeyed(*c) && !c.is_control();
+                if let Some(c) = words.chars().find(odd) {
                     let number = u32::from(c);
                     return fault(format!(
                         "its {name} has the character U+{number:04X}, which is none of a text; remove it"

@@ -5,6 +5,7 @@ use super::identity::{Identity, Reason, told};
 use super::store::Store;
 use super::{Error, Need, Profile, Progress, Saved};
 use crate::input::{count, listed, regular};
+use std::cell::LazyCell;
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
 use std::path::{Path, PathBuf};
@@ -209,6 +210,7 @@ impl Plan {
         let mut found: BTreeMap<String, usize> = BTreeMap::new();
         let known: BTreeMap<&str, ()> =
             self.tasks.iter().map(|task| (task.name.as_str(), ())).collect();
+        let elsewhere = LazyCell::new(|| self.elsewhere());
         let (mut strange, mut twice) = (Vec::new(), Vec::new());
         for (place, folder) in folders.iter().enumerate() {
             for name in names(folder)? {
@@ -216,7 +218,7 @@ impl Plan {
                     continue;
                 }
                 if !known.contains_key(name.as_str()) {
-                    strange.push(self.stranger(folder, &name));
+                    strange.push(self.stranger(folder, &name, elsewhere.get(&name)));
                 } else if let Some(first) = found.insert(name.clone(), place) {
                     let [a, b] = [first, place].map(|place| path(&folders[place], &name));
                     // What cannot be read is damaged, which is told later.
@@ -241,12 +243,16 @@ impl Plan {
         Ok(found)
     }
 
-    /// What is said of a file that is no unit of this plan.
-    fn stranger(&self, folder: &Path, name: &str) -> String {
-        let of = Profile::ALL.into_iter().find(|&profile| {
-            profile != self.profile
-                && Plan::new(self.of, profile).tasks.iter().any(|task| task.name == name)
-        });
+    /// The units of all other profiles, by name.
+    fn elsewhere(&self) -> BTreeMap<String, Profile> {
+        let units = |profile| {
+            Plan::new(self.of, profile).tasks.into_iter().map(move |task| (task.name, profile))
+        };
+        Profile::ALL.into_iter().filter(|other| *other != self.profile).flat_map(units).collect()
+    }
+
+    /// What is said of a file that is no unit of this plan, but of another profile or of none.
+    fn stranger(&self, folder: &Path, name: &str, of: Option<&Profile>) -> String {
         let path = path(folder, name);
         match of {
             Some(profile) => format!("{} is of profile {}", path.display(), profile.name()),

@@ -12,6 +12,7 @@
 //! as *two-sided*, passes. Whatever the model itself fixes (*two masses* meet in an impact) is declared
 //! once, as a phrase with its reason, in `literals.toml`; a phrase that no prose has is refused.
 
+use super::origin::next_tag;
 use super::{Error, Templates};
 use crate::input::{is_no_text, line, one_line, toml_fault};
 use crate::source::Program;
@@ -42,6 +43,8 @@ pub enum Fault {
     Open(&'static str, &'static str),
     /// A character that is none of a text, by its number.
     Control(char),
+    /// A tag that keeps a text, and may double it until the memory is full.
+    Set,
 }
 
 impl std::fmt::Display for Finding {
@@ -54,6 +57,12 @@ impl std::fmt::Display for Finding {
                 return write!(
                     f,
                     "{path}:{line}:{column}: the character U+{number:04X} is none of a text; remove it"
+                );
+            }
+            Fault::Set => {
+                return write!(
+                    f,
+                    "{path}:{line}:{column}: no template may set a variable; remove the tag"
                 );
             }
             Fault::Open(open, close) => {
@@ -115,7 +124,8 @@ pub fn check(templates: &Templates, program: Program) -> Result<(), Error> {
             return Err(Error::Template(format!("{}.md: {what}", of.prose)));
         }
     }
-    let odd: Vec<Finding> = templates.iter().filter_map(|(path, text)| odd(path, text)).collect();
+    let odd = |(path, text)| odd(path, text).or_else(|| sets(path, text));
+    let odd: Vec<Finding> = templates.iter().filter_map(odd).collect();
     if !odd.is_empty() {
         return Err(Error::Lint(odd));
     }
@@ -136,6 +146,21 @@ pub fn check(templates: &Templates, program: Program) -> Result<(), Error> {
             Err(declared.fault(first, &format!("no prose has it{more}; remove what none has")))
         }
     }
+}
+
+/// The first tag that sets a variable, in what is filled.
+fn sets(path: &str, text: &str) -> Option<Finding> {
+    let (mut position, mut at) = (Position { line: 1, column: 1 }, 0);
+    let filled = [".md", ".tex", ".html"].iter().any(|end| path.ends_with(end));
+    while let Some((start, end)) = next_tag(text, at).filter(|_| filled) {
+        let inner = text[start..end].strip_prefix("<%").unwrap_or_default();
+        if inner.trim_start_matches(['-', ' ', '\n', '\r', '\t']).starts_with("set") {
+            position.past(text, start);
+            return Some(position.finding(path, Fault::Set));
+        }
+        at = end;
+    }
+    None
 }
 
 /// Words that are numbers and nothing else.
@@ -359,6 +384,7 @@ mod tests {
             Fault::Numeral(numeral) => (f.line, f.column, numeral),
             Fault::Open(open, _) => (f.line, f.column, format!("open {open}")),
             Fault::Control(c) => (f.line, f.column, format!("control {}", u32::from(c))),
+            Fault::Set => (f.line, f.column, "set".into()),
         };
         findings("x.md", text, &Declared::default()).into_iter().map(place).collect()
     }

@@ -67,7 +67,7 @@ pub fn add(archive: &mut Archive, progress: &Progress) -> Result<(), Failure> {
         return Err(failed(line));
     }
     archive.add(SETTINGS, CONFIG.as_bytes(), false)?;
-    let paths = folder::walk(&vendor)?;
+    let paths = folder::walk(&vendor, progress)?;
     let stage = progress.stage("packing", paths.len() as u64);
     for path in paths {
         progress.check()?;

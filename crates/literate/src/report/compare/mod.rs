@@ -49,12 +49,12 @@ impl Diff {
 
 impl<'a> Parts<'a> {
     /// Reads values and claims of a report, which errors call `name`.
-    pub fn of(name: &'a str, files: &'a Files) -> Result<Self, String> {
+    pub fn of(name: &'a str, files: Files) -> Result<Self, String> {
         let fault = |what: String| format!("{name}: {what}");
-        let values = read(&text(name, files, "values.json")?).map_err(|e| fault(e.to_string()))?;
-        let ledger = ledger::read(&text(name, files, "ledger.json")?);
+        let values = read(text(name, &files, "values.json")?).map_err(|e| fault(e.to_string()))?;
+        let ledger = ledger::read(text(name, &files, "ledger.json")?);
         let ledger = ledger.map_err(|error| fault(error.to_string()))?;
-        Ok(Parts { name, files: files.clone(), values, ledger })
+        Ok(Parts { name, files, values, ledger })
     }
 
     /// Leaves what one document shows.
@@ -68,9 +68,9 @@ impl<'a> Parts<'a> {
     }
 }
 
-fn text(name: &str, files: &Files, path: &str) -> Result<String, String> {
+fn text<'a>(name: &str, files: &'a Files, path: &str) -> Result<&'a str, String> {
     let bytes = files.get(path).ok_or_else(|| format!("{name}: {path} is missing"))?;
-    String::from_utf8(bytes.clone()).map_err(|error| format!("{name}: {path}: {error}"))
+    std::str::from_utf8(bytes).map_err(|error| format!("{name}: {path}: {error}"))
 }
 
 /// What differs. The prose of these documents is read where its bytes differ.
@@ -89,8 +89,8 @@ pub fn diff(before: &Parts<'_>, after: &Parts<'_>, documents: &[Document]) -> Re
     let differing = |path: &&String| before.files[*path] != after.files[*path];
     let differing: Vec<&String> = old.intersection(&new).filter(differing).collect();
     for document in documents.iter().filter(|d| differing.iter().any(|path| *path == d.markdown)) {
-        let text = |of: &Parts<'_>| text(of.name, &of.files, document.markdown);
-        let change = ProseChange::between(document.name, &text(before)?, &text(after)?);
+        let [old, new] = [before, after].map(|of| text(of.name, &of.files, document.markdown));
+        let change = ProseChange::between(document.name, old?, new?);
         out.prose.push(change.map_err(|what| format!("{}: {what}", document.markdown))?);
     }
     out.differing = differing.into_iter().cloned().collect();

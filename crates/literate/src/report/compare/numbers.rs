@@ -3,7 +3,6 @@
 use super::super::Error;
 use super::super::print::{Asked, Style, print};
 use super::super::values::{Digits, Kind, Number, Registry, Value};
-use crate::report::print::MOST_DIGITS;
 use crate::report::spell;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -41,7 +40,16 @@ impl std::fmt::Display for Change {
     }
 }
 
+/// Significant digits of a double at most; more are those of its binary fraction.
+const SIGNIFICANT: usize = 17;
+
+/// Decimals of the least double with all its digits.
+const DECIMALS: usize = 323 + SIGNIFICANT;
+
 /// Reads a values.json.
+///
+/// # Errors
+/// What is none, and the name of a value whose digits are none.
 pub fn read(text: &str) -> Result<Registry, Error> {
     let fault = |what: String| Error::Template(format!("values.json: {what}"));
     let values: BTreeMap<String, Value> =
@@ -53,15 +61,22 @@ pub fn read(text: &str) -> Result<Registry, Error> {
         }
         registry.add(value).map_err(|e| fault(e.to_string()))?;
     }
-    // Nobody would print so many.
-    let asked = |value: &Value| match value.number {
-        Number::Real { digits: Digits::Significant(n) | Digits::Decimals(n), .. } => n,
-        _ => 0,
-    };
-    if let Some(value) = registry.iter().find(|value| asked(value) > MOST_DIGITS) {
-        return Err(fault(format!("{}: {} digits", value.id, asked(value))));
-    }
+    let odd = registry.iter().find_map(|value| Some((&value.id, oddity(&value.number)?)));
+    odd.map_or(Ok(()), |(id, what)| Err(fault(format!("{id}: {what}"))))?;
     Ok(registry)
+}
+
+/// What is wrong with the digits of a number that nobody would print so.
+fn oddity(number: &Number) -> Option<String> {
+    let Number::Real { digits, .. } = number else { return None };
+    match *digits {
+        Digits::Error(error) if error < 0.0 => Some(format!("its error is {error:?}")),
+        Digits::Significant(digits) if !(1..=SIGNIFICANT).contains(&digits) => {
+            Some(format!("{digits} significant digits"))
+        }
+        Digits::Decimals(decimals) if decimals > DECIMALS => Some(format!("{decimals} decimals")),
+        _ => None,
+    }
 }
 
 /// All changes of numbers, units and kinds, sorted by id; other fields (notes, sources) do not

@@ -1,6 +1,6 @@
 //! Comparisons of small reports.
 
-use super::super::values::{Kind, Value};
+use super::super::values::{Digits, Kind, Number, Value};
 use super::*;
 
 fn registry(values: Vec<Value>) -> Registry {
@@ -16,7 +16,7 @@ fn report(values: Vec<Value>, claims: &str, data: &str) -> Files {
 }
 
 fn of(before: &Files, after: &Files) -> Result<Diff, String> {
-    diff(&Parts::of("old", before)?, &Parts::of("new", after)?, &[Document::REPORT])
+    diff(&Parts::of("old", before.clone())?, &Parts::of("new", after.clone())?, &[Document::REPORT])
 }
 
 #[test]
@@ -89,6 +89,21 @@ fn claims_change_by_verdict_and_by_measure() {
 
 #[test]
 fn digits_that_nobody_prints_are_refused() {
-    let digits = report(vec![Value::real("x", 1.0, usize::MAX)], r#"{"claims":[]}"#, "");
-    assert!(of(&digits, &digits).unwrap_err().contains("x: 18446744073709551615 digits"));
+    let decimals = |n| Number::Real { value: 1.0, digits: Digits::Decimals(n) };
+    let printed = |n| Value::integer("x", 1).with_number(decimals(n));
+    for (value, says) in [
+        (Value::real("x", 1.0, usize::MAX), "x: 18446744073709551615 significant digits"),
+        (Value::real("x", 1.0, 18), "x: 18 significant digits"),
+        (Value::real("x", 1.0, 0), "x: 0 significant digits"),
+        (Value::ensemble("x", 1.0, -1.0, 9), "x: its error is -1.0"),
+        (printed(400), "x: 400 decimals"),
+    ] {
+        let digits = report(vec![value], r#"{"claims":[]}"#, "");
+        let told = of(&digits, &digits).unwrap_err();
+        assert!(told.contains(says), "{told}");
+    }
+    for value in [Value::real("x", 1.0, 17), Value::ensemble("x", 1.0, 0.0, 9), printed(323)] {
+        let digits = report(vec![value], r#"{"claims":[]}"#, "");
+        assert!(of(&digits, &digits).unwrap().is_empty());
+    }
 }
