@@ -54,6 +54,11 @@ fn status_gives_each_reason_and_audit_compares_bytes() {
     let (folder, results) = (whole(), &QUICK.results);
     let folder = folder.path();
     assert_eq!(with(&status(folder), "fresh").len(), EXPERIMENTS);
+    let [kept, away] = ["results/trials-quick.json", "trials"].map(|path| folder.join(path));
+    fs::rename(&kept, &away).unwrap();
+    let (code, _, note) = run(folder, "status --profile quick --results results");
+    assert!(code == 3 && note.contains("1 of 25 results is stale"), "{note}");
+    fs::rename(&away, &kept).unwrap();
     let (_, _, note) = run(folder, PAPER);
     assert_eq!(note.matches(": fresh").count(), EXPERIMENTS, "{note}");
     assert_eq!(saved(folder), *results);
