@@ -103,7 +103,7 @@ impl Inputs {
                 options.masses.as_ref().map_or(Ok(chain.masses), |text| whole("masses", text))?;
             // Each takes some tens of microseconds for each of the drawn chains.
             inputs.masses =
-                Some(bounded("masses", masses as f64, [1.0, 100_000.0]).map(|_| masses)?);
+                Some(bounded("masses", masses as f64, [1.0, 10_000.0]).map(|_| masses)?);
             inputs.restitution = or("restitution", &options.restitution, chain.restitution)?;
             bounded("restitution", inputs.restitution.unwrap_or(0.0), [0.0, 0.999])?;
             let protocol = Protocol::default();

@@ -5,6 +5,7 @@ mod quantity;
 
 use super::{Failure, stdout};
 use impact_paper::circuits;
+use impact_paper::experiments::alive;
 use inputs::Inputs;
 use quantity::{QUANTITIES, Quantity, Value};
 use serde::Serialize;
@@ -94,6 +95,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
         Failure::input(format!("quantity: `{name}` is unknown; see `impact-paper eval --list`"))
     })?;
     let inputs = Inputs::read(quantity, &args.options)?;
+    let _alive = alive(|| Some(format!("eval {}: at work", quantity.name)));
     let value = (quantity.evaluate)(&inputs).map_err(|error| explain(error, &inputs))?;
     if !value.is_finite() {
         return Err(Failure::run(format!("{name}: the result is not a finite number")));
@@ -132,7 +134,8 @@ fn help() -> String {
     format!(
         "Quantities (name, equation, options, meaning):\n{}\n\nOptions that a quantity does not \
          use are an error. Floats are printed with the fewest digits that read back to the same \
-         double, integers as integers. N is at most {} (a result then takes some seconds). \
+         double, integers as integers. N is at most {} (a result then takes some seconds), and \
+         the chain of mean-count has 10 000 masses at most (a minute). \
          P(X = k) is printed as 0 where it is below the smallest double. With higher orders, k is \
          the number of different vertices, and circuits are primitive (a repetition of a shorter \
          one is not counted).",
