@@ -1,6 +1,7 @@
 //! `impact-paper manual`.
 
-use super::output::{self, Staging, refuse_report};
+use super::output::{self, Staging};
+use super::places::refuse_report;
 use super::{Failure, work};
 use clap_complete::{Shell, generate};
 use impact_paper::report::Files;

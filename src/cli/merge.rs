@@ -1,7 +1,7 @@
 //! `impact-paper merge`.
 
 use super::folder::resolved;
-use super::output::refuse_report;
+use super::places::refuse_report;
 use super::{Failure, stdout, work};
 use impact_paper::experiments::Store;
 use impact_paper::numerics::text::count;

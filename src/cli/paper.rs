@@ -2,7 +2,8 @@
 
 use super::diff::{count, fate};
 use super::judged::Judged;
-use super::output::{self, Staging, holds_report, refuse_prose, refuse_report};
+use super::output::{self, Staging};
+use super::places::{holds_report, refuse_prose, refuse_report};
 use super::sources::Sources;
 use super::{Failure, folder, make, stdout, work};
 use impact_paper::claims::Verdict;

@@ -1,6 +1,6 @@
 //! `impact-paper run`.
 
-use super::output::refuse_report;
+use super::places::refuse_report;
 use super::{Failure, stdout, work};
 use impact_paper::experiments::{Error, Store};
 use impact_paper::numerics::text::count;

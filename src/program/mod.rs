@@ -1,6 +1,7 @@
 //! What the programs of this project share: exit codes, signals, threads, standard output, where prose and
 //! results lie, and how a report is made, judged, written and found again.
 
+mod alone;
 pub mod folder;
 pub mod git;
 pub mod judged;
@@ -8,6 +9,7 @@ pub mod listed;
 pub mod make;
 pub mod output;
 mod own;
+pub mod places;
 pub mod sources;
 pub mod stdout;
 pub mod waiting;

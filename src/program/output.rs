@@ -4,19 +4,18 @@
 //! nobody changed it since: two lists say so, SHA256SUMS of a report and SHA256SUMS.local of whatever
 //! was last written into the folder. Everything else is refused by name, unless --force.
 
+use super::alone::alone;
 use super::own::{self, Own};
-use super::sources::prose;
+use super::places::{lies_in_report, refuse_dangling};
 use super::waiting::{Waiting, clear, is_staging};
 use super::work::{self, Now};
 use super::{Failure, folder};
 use crate::experiments::{Progress, say};
 use crate::input::{count, listed, one_line};
-use crate::report::{Files, PROGRAM, ledger, sums};
+use crate::report::{Files, PROGRAM, sums};
 use std::collections::BTreeSet;
-use std::fs::File;
 use std::io;
-use std::path::{Path, PathBuf};
-use std::time::Duration;
+use std::path::Path;
 
 /// Folders that a report has.
 const FOLDERS: [&str; 2] = ["data", "figures"];
@@ -41,57 +40,6 @@ pub struct Staging<'a> {
     /// The list of the report that stood there at first.
     found: Option<String>,
     _made: work::Made,
-}
-
-/// Is it a report, or what is left of one? Other people have files of these names too.
-pub fn holds_report(folder: &Path) -> bool {
-    let ledger = || folder::text(folder, "ledger.json").is_ok_and(|text| ledger::is_one(&text));
-    own::lists_report(folder) || ledger()
-}
-
-/// Is it, without links and dots, below a report, which has no other files?
-fn lies_in_report(there: &Path) -> bool {
-    there.ancestors().skip(1).any(holds_report)
-}
-
-/// Of the prose, whatever lies in its folder or below is read: that of `templates`, and that of the checkout.
-///
-/// # Errors
-/// Exit code 2 for a folder in which what is written would be taken for prose.
-pub fn refuse_prose(option: &str, folder: &Path, templates: Option<&Path>) -> Result<(), Failure> {
-    let there = folder::resolved(folder);
-    let given = templates.map(PathBuf::from);
-    if given.into_iter().chain(prose()).any(|prose| there.starts_with(folder::resolved(&prose))) {
-        let what = "is the folder of the templates, or lies in it; give another folder";
-        return Err(Failure::input(format!("{option}: {} {what}", folder.display())));
-    }
-    Ok(())
-}
-
-/// Refuses a link that leads nowhere, below which nothing can be made.
-fn refuse_dangling(option: &str, folder: &Path) -> Result<(), Failure> {
-    if folder.is_symlink() && folder.metadata().is_err() {
-        let what = "a symbolic link that leads to no folder; remove it, or give another";
-        return Err(Failure::input(format!("{option}: {}: {what}", folder.display())));
-    }
-    Ok(())
-}
-
-/// A report and its folders have no other files; nor has the prose.
-///
-/// # Errors
-/// Exit code 2 for a folder in which nothing else may be written.
-pub fn refuse_report(option: &str, folder: &Path, templates: Option<&Path>) -> Result<(), Failure> {
-    refuse_dangling(option, folder)?;
-    refuse_prose(option, folder, templates)?;
-    let there = folder::resolved(folder);
-    if holds_report(&there) || lies_in_report(&there) {
-        let folder = folder.display();
-        return Err(Failure::input(format!(
-            "{option}: {folder} holds a report, or lies in one; give another folder"
-        )));
-    }
-    Ok(())
 }
 
 impl<'a> Staging<'a> {
@@ -333,42 +281,12 @@ fn names(folder: &Path) -> io::Result<Vec<String>> {
     std::fs::read_dir(folder)?.map(name).collect()
 }
 
-/// A lock on the folder itself, which ends with whoever holds it and leaves no file. It is held for
-/// moments; file systems without locks go without.
-#[cfg(unix)]
-fn alone(folder: &Path) -> io::Result<Option<File>> {
-    let file = File::open(folder)?;
-    for _ in 0..500 {
-        match file.try_lock() {
-            Ok(()) => return Ok(Some(file)),
-            Err(std::fs::TryLockError::WouldBlock) => {
-                std::thread::sleep(Duration::from_millis(20));
-            }
-            Err(std::fs::TryLockError::Error(error)) if has_no_locks(&error) => return Ok(None),
-            Err(std::fs::TryLockError::Error(error)) => return Err(error),
-        }
-    }
-    Err(io::Error::other("another program has been writing there for ten seconds"))
-}
-
-/// Whether the system says so of a file system: ENOSYS, EOPNOTSUPP, or ENOLCK, which has no kind of its own.
-#[cfg(unix)]
-fn has_no_locks(error: &io::Error) -> bool {
-    let no_locks = if cfg!(target_os = "linux") { 37 } else { 77 };
-    error.kind() == io::ErrorKind::Unsupported || error.raw_os_error() == Some(no_locks)
-}
-
-/// Folders are not locked here.
-#[cfg(not(unix))]
-fn alone(_: &Path) -> io::Result<Option<File>> {
-    Ok(None)
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::waiting::OURS;
     use super::*;
     use crate::input::STAGING;
+    use std::time::Duration;
 
     const ASK: Force = Force { force: false };
 
@@ -517,15 +435,6 @@ mod tests {
             place(out.path(), &with("newer")).unwrap();
             let local = std::fs::read_to_string(out.path().join(sums::LOCAL)).unwrap();
             assert_eq!(sums::read(&local).unwrap().len(), old.len() - 1);
-        }
-    }
-
-    /// Some network file systems have no daemon for locks.
-    #[cfg(target_os = "linux")]
-    #[test]
-    fn file_systems_without_locks_go_without() {
-        for (code, without) in [(37, true), (38, true), (95, true), (13, false), (11, false)] {
-            assert_eq!(has_no_locks(&io::Error::from_raw_os_error(code)), without, "{code}");
         }
     }
 

@@ -1,6 +1,6 @@
 //! Where `paper` and `check` read prose and keep results.
 
-use super::output::refuse_report;
+use super::places::refuse_report;
 use super::{Failure, work};
 use crate::claims::{self, Published};
 use crate::committed;

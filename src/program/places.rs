@@ -1,0 +1,57 @@
+//! Folders that are no place for what a verb writes: reports, prose, links to nowhere.
+
+use super::sources::prose;
+use super::{Failure, folder, own};
+use crate::report::ledger;
+use std::path::{Path, PathBuf};
+
+/// Is it a report, or what is left of one? Other people have files of these names too.
+pub fn holds_report(folder: &Path) -> bool {
+    let ledger = || folder::text(folder, "ledger.json").is_ok_and(|text| ledger::is_one(&text));
+    own::lists_report(folder) || ledger()
+}
+
+/// Is it, without links and dots, below a report, which has no other files?
+pub(super) fn lies_in_report(there: &Path) -> bool {
+    there.ancestors().skip(1).any(holds_report)
+}
+
+/// Of the prose, whatever lies in its folder or below is read: that of `templates`, and that of the checkout.
+///
+/// # Errors
+/// Exit code 2 for a folder in which what is written would be taken for prose.
+pub fn refuse_prose(option: &str, folder: &Path, templates: Option<&Path>) -> Result<(), Failure> {
+    let there = folder::resolved(folder);
+    let given = templates.map(PathBuf::from);
+    if given.into_iter().chain(prose()).any(|prose| there.starts_with(folder::resolved(&prose))) {
+        let what = "is the folder of the templates, or lies in it; give another folder";
+        return Err(Failure::input(format!("{option}: {} {what}", folder.display())));
+    }
+    Ok(())
+}
+
+/// Refuses a link that leads nowhere, below which nothing can be made.
+pub(super) fn refuse_dangling(option: &str, folder: &Path) -> Result<(), Failure> {
+    if folder.is_symlink() && folder.metadata().is_err() {
+        let what = "a symbolic link that leads to no folder; remove it, or give another";
+        return Err(Failure::input(format!("{option}: {}: {what}", folder.display())));
+    }
+    Ok(())
+}
+
+/// A report and its folders have no other files; nor has the prose.
+///
+/// # Errors
+/// Exit code 2 for a folder in which nothing else may be written.
+pub fn refuse_report(option: &str, folder: &Path, templates: Option<&Path>) -> Result<(), Failure> {
+    refuse_dangling(option, folder)?;
+    refuse_prose(option, folder, templates)?;
+    let there = folder::resolved(folder);
+    if holds_report(&there) || lies_in_report(&there) {
+        let folder = folder.display();
+        return Err(Failure::input(format!(
+            "{option}: {folder} holds a report, or lies in one; give another folder"
+        )));
+    }
+    Ok(())
+}
