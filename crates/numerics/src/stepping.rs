@@ -137,7 +137,8 @@ const PATIENCE: u32 = 64;
 /// exact function from below, and count the rounding of its values against it. A *leap* goes to a
 /// point chosen by any guess (the end of the search, or just before a guessed root) and is taken
 /// if `stays_open` certifies the interval. Where it does not, `stretch` gives a step that is
-/// certain from this side alone. The search ends when the quadratic f + f' h + ½ f'' h² has its root
+/// certain from this side alone; if that is far shorter, for the parts of a gap cancel, halves of
+/// the leap are tried first. The search ends when the quadratic f + f' h + ½ f'' h² has its root
 /// so close that the rest, |f'''| h³/6 + M₄ h⁴/24, is below the margin.
 ///
 /// # The undecidable band
