@@ -20,7 +20,7 @@ use std::time::{Duration, Instant};
 /// Runs every experiment, draws all figures and writes the report.
 ///
 /// Results of long runs are saved and used again as long as parameters and simulating code are the
-/// same. Files are moved into place at the very end: Ctrl-C (exit code 130) changes nothing. Only files
+/// same. Files are moved into place at the very end: Ctrl-C (exit code 130) leaves the report as it was. Only files
 /// that an earlier run wrote, and nobody changed since, are replaced; folders .staging-impact-paper-* in --out, which
 /// killed runs leave, are removed. Ends with exit code 1 if a claim,
 /// a target of accuracy or counted work, or a check fails; the report is written all the same.

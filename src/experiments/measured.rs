@@ -118,7 +118,8 @@ impl Measured {
     /// # Errors
     /// As [`Measured::parse`]; and if the file cannot be read.
     pub fn committed() -> Result<Self, Error> {
-        let text = committed::text(FILE).map_err(|e| wrong("file", e.to_string()))?;
+        let text = committed::text(FILE)
+            .map_err(|e| Error::input("measured.json", e.to_string(), AGAIN))?;
         Measured::parse(&text)
     }
 

@@ -12,7 +12,7 @@ use super::work::{self, Now};
 use super::{Failure, folder};
 use crate::experiments::{Progress, say};
 use crate::input::{count, listed, one_line};
-use crate::report::{Files, PROGRAM, sums};
+use crate::report::{Document, Files, PROGRAM, sums};
 use std::collections::BTreeSet;
 use std::io;
 use std::path::Path;
@@ -101,9 +101,9 @@ impl<'a> Staging<'a> {
         let wrote =
             |path: &str| folder::read(self.folder, path).is_ok_and(|bytes| own.wrote(path, &bytes));
         let changed = |path: &&String| stands(path) && !wrote(path);
-        // A page may stand without a list of it; and a list may be somebody else's.
-        let pages = PROGRAM.documents.iter().map(|document| document.page);
-        let others: Vec<String> = pages.chain([sums::NAME]).map(String::from).collect();
+        // A document may stand without a list of it; and a list may be somebody else's.
+        let documents = PROGRAM.documents.iter().flat_map(Document::paths);
+        let others: Vec<String> = documents.chain([sums::NAME.into()]).collect();
         let all = || own.digests.keys().chain(&others);
         all().try_for_each(|path| self.inside(path))?;
         self.no_folder(all())?;
@@ -294,9 +294,10 @@ mod tests {
         names.iter().map(|name| (name.to_string(), name.as_bytes().to_vec())).collect()
     }
 
-    /// With a list, so that they are a report.
+    /// With a list and a ledger, so that they are a report.
     fn report(names: &[&str]) -> Files {
-        let mut files = files(&[names, &["values.json", "ledger.json"]].concat());
+        let mut files = files(&[names, &["values.json"]].concat());
+        files.insert("ledger.json".into(), b"{\"claims\":[]}".into());
         files.insert(sums::NAME.into(), sums::write(&files).into_bytes());
         files
     }
@@ -387,6 +388,10 @@ mod tests {
         // The same bytes cost nobody anything.
         std::fs::write(folder.join("more.md"), "more.md").unwrap();
         place(folder, &report(&["report.md", "more.md"])).unwrap();
+        // A document that no list has.
+        std::fs::write(folder.join("beyond.md"), "by hand").unwrap();
+        let staging = Staging::below(folder, "--out", ASK).unwrap();
+        assert!(staging.refuse_changed().unwrap_err().message.contains("beyond.md"));
     }
 
     /// A report that came during the run may be a fuller one.

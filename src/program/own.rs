@@ -3,7 +3,7 @@
 use super::folder;
 use crate::digest::sha256;
 use crate::input::one_line;
-use crate::report::{Files, sums};
+use crate::report::{Document, Files, LAB, PROGRAM, ledger, sums};
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -71,8 +71,10 @@ impl Own {
 pub fn local(folder: &Path) -> Result<Option<Vec<sums::Entry>>, String> {
     let remedy = "move it away, or write over it with --force";
     let list = folder::local(folder).map_err(|what| format!("{what}; {remedy}"))?;
-    let written =
-        |path: &str| sums::is_of_report(path) || folder::is_beside(path) || is_manual(path);
+    let written = |path: &str| {
+        let beside = || folder::is_beside(path) && (path.contains('/') || is_document(path));
+        sums::is_of_report(path) || path == LAB || beside() || is_manual(path)
+    };
     let lines = list.iter().flatten().enumerate();
     match lines.into_iter().find(|(_, entry)| !written(&entry.path)) {
         None => Ok(list),
@@ -84,6 +86,11 @@ pub fn local(folder: &Path) -> Result<Option<Vec<sums::Entry>>, String> {
     }
 }
 
+/// Is it a file of one of our documents?
+fn is_document(path: &str) -> bool {
+    PROGRAM.documents.iter().flat_map(Document::paths).any(|own| own == path)
+}
+
 /// Is it a page of the manual, or a completion?
 fn is_manual(path: &str) -> bool {
     let name = path.strip_prefix("completions/");
@@ -91,9 +98,14 @@ fn is_manual(path: &str) -> bool {
     ours.is_some_and(|rest| !rest.contains('/') && (name.is_some() || rest.ends_with(".1")))
 }
 
-/// Whether the list in a folder is that of a report.
-pub fn lists_report(folder: &Path) -> bool {
-    list(folder).is_some()
+/// Is it a report, or what is left of one?
+pub fn holds_report(folder: &Path) -> bool {
+    list(folder).is_some() || has_ledger(folder)
+}
+
+/// Other people have files of this name too.
+fn has_ledger(folder: &Path) -> bool {
+    folder::text(folder, "ledger.json").is_ok_and(|text| ledger::is_one(&text))
 }
 
 /// The list of the report in a folder as text, if there is one. Other people have lists of this name too: that of a
@@ -104,10 +116,10 @@ fn list(folder: &Path) -> Option<String> {
     (has("values.json") && has("ledger.json")).then_some(text)
 }
 
-/// The list of the report in a folder, if there is one. What it names is replaced and removed, so it may name nothing
-/// else than a report has, whoever wrote it.
+/// The list of the report in a folder, if there is one beside its ledger. What it names is replaced and removed, so it
+/// may name nothing else than a report has, whoever wrote it.
 fn report(folder: &Path) -> Result<Option<Vec<sums::Entry>>, String> {
-    let Some(text) = list(folder) else { return Ok(None) };
+    let Some(text) = list(folder).filter(|_| has_ledger(folder)) else { return Ok(None) };
     let fault = |what: String| format!("{}: {what}", folder.join(sums::NAME).display());
     let malformed =
         |error| fault(format!("{error}; mend it, or write over the report with --force"));

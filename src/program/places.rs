@@ -1,15 +1,9 @@
 //! Folders that are no place for what a verb writes: reports, prose, links to nowhere.
 
+pub use super::own::holds_report;
 use super::sources::prose;
-use super::{Failure, folder, own};
-use crate::report::ledger;
+use super::{Failure, folder};
 use std::path::{Path, PathBuf};
-
-/// Is it a report, or what is left of one? Other people have files of these names too.
-pub fn holds_report(folder: &Path) -> bool {
-    let ledger = || folder::text(folder, "ledger.json").is_ok_and(|text| ledger::is_one(&text));
-    own::lists_report(folder) || ledger()
-}
 
 /// Is it, without links and dots, below a report, which has no other files?
 pub(super) fn lies_in_report(there: &Path) -> bool {

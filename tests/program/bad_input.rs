@@ -164,6 +164,7 @@ sweep --sigma 0.1 --unknown 1 => --unknown
 bench engine --masses x => --masses
 bench engine --masses 1000000000000 => --masses, --chains: about
 bench engine --masses 10 --chains 18446744073709551615 => --masses, --chains: about
+bench engine --chain 18446744073709551614 --chains 3 => --chain: 18446744073709551614 is too large
 bench engine --chains 0 => --chains: 0
 bench engine --chains -1 => '--chains <C>'
 bench engine --sigma NaN => --sigma: NaN
@@ -442,10 +443,12 @@ fn what_stands_in_the_place_of_a_folder_is_told_first() {
 fn long_work_gives_signs_of_life() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("s.json"), SCENARIO).unwrap();
-    let begun = ["trace s.json --until 1e12", "bench engine --masses 10 --until 1e9"].map(|verb| {
-        let mut command = program(folder.path(), verb);
-        command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
-    });
+    let sweep = "sweep --sigma 0.3 --realisations 1 --masses 10 --window 1e11";
+    let begun =
+        ["trace s.json --until 1e12", "bench engine --masses 10 --until 1e9", sweep].map(|verb| {
+            let mut command = program(folder.path(), verb);
+            command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
+        });
     for mut child in begun {
         let mut line = String::new();
         BufReader::new(child.stderr.take().unwrap()).read_line(&mut line).unwrap();

@@ -221,6 +221,17 @@ fn lists_and_ledgers_of_other_people_make_no_report() {
     crate::put(&here.join("sums"), &theirs("SHA256SUMS", &list));
     crate::put(&here.join("made"), &theirs("SHA256SUMS/file", b""));
     crate::put(&here.join("acc"), &theirs("ledger.json", b"{\"accounts\":[]}"));
+    // By hand, of files that are no report's.
+    let names = ["ledger.json", "notes.md", "values.json"];
+    let line = |name: &&str| format!("{}  {name}\n", digest(""));
+    let list: String = names.iter().map(line).collect();
+    crate::put(&here.join("hand"), &theirs("SHA256SUMS", list.as_bytes()));
+    names.iter().for_each(|name| std::fs::write(here.join("hand").join(name), "").unwrap());
+    let hand = "paper --profile quick --out hand";
+    refused(here, hand, &["values.json cannot be read; --force"]);
+    let (code, _, note) = run(here, &format!("{hand} --force"));
+    assert!(code == 0 && note.contains("--force: wrote over SHA256SUMS, ledger.json"), "{note}");
+    assert!(here.join("hand/notes.md").exists());
     for among in ["sums", "made", "acc"] {
         let (code, _, note) = run(here, &format!("paper --figure 4 --out {among}/sub/figs"));
         assert_eq!(code, 0, "{among}: {note}");
@@ -245,8 +256,13 @@ fn local_lists_of_other_people_are_theirs() {
     let here = folder.path();
     let list = here.join("w/SHA256SUMS.local");
     std::fs::create_dir(here.join("w")).unwrap();
-    let [ours, iso] = ["report.md", "my.iso"].map(|path| format!("{}  {path}\n", digest("")));
-    for (text, says) in [("precious\n".into(), "line 1: "), (ours + &iso, "line 2: \"my.iso\"")] {
+    let [ours, iso, page] =
+        ["report.md", "my.iso", "my.html"].map(|path| format!("{}  {path}\n", digest("")));
+    for (text, says) in [
+        ("precious\n".into(), "line 1: "),
+        (ours + &iso, "line 2: \"my.iso\""),
+        (page, "line 1: \"my.html\""),
+    ] {
         for verb in ["paper --figure 4 --out w", "manual --out w"] {
             std::fs::write(&list, &text).unwrap();
             std::fs::write(here.join("w/my.iso"), "").unwrap();

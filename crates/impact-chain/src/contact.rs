@@ -21,6 +21,7 @@ use impact_numerics::clock::Instant;
 use impact_numerics::first_root::Next;
 use impact_numerics::local_frame::ROUNDING;
 use impact_numerics::window::next_window;
+use std::collections::BTreeSet;
 
 /// Separation speed, in units of d ω, below which a chatter is taken to have come to rest.
 pub const CONTACT_SPEED: f64 = 1e-10;
@@ -112,18 +113,21 @@ impl<const M: usize> Simulation<M> {
         released: Option<usize>,
     ) {
         // Grow: neighbours of settled gaps that are themselves shut and slow, or in contact.
+        let mut touched: BTreeSet<usize> = known.iter().map(|r| r.k).collect();
         let mut i = 0;
         while i < known.len() {
             if self.is_settled(&known[i]) {
                 for near in self.topology.adjacent(known[i].k).into_iter().flatten() {
-                    if known.iter().any(|r| r.k == near) {
+                    if touched.contains(&near) {
                         continue;
                     }
                     if self.gaps[near].in_contact {
                         // Its masses would be given another motion, and its contact not know of it.
                         let freed = self.free_cluster(near, p);
+                        touched.extend(&freed);
                         known.extend(freed.into_iter().map(|k| Resting { k, f0: 0.0, g0: 0.0 }));
                     } else {
+                        touched.insert(near);
                         known.push(self.resting(near, p, 0.0));
                     }
                 }
@@ -141,7 +145,6 @@ impl<const M: usize> Simulation<M> {
                 self.set_frame(r.k, p, r.f0, r.g0);
             }
         }
-        let touched: Vec<usize> = known.iter().map(|r| r.k).collect();
         for &k in &touched {
             for near in self.topology.adjacent(k).into_iter().flatten() {
                 if !touched.contains(&near) && !self.gaps[near].in_contact {

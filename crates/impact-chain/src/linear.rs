@@ -7,8 +7,8 @@ use impact_numerics::local_frame::Frequencies;
 /// Which gaps of a run stay shut, and with which contact force.
 ///
 /// Gap i accelerates by g_i + K_i λ_i − λ_{i−1} − λ_{i+1}, where K_i is `stiffness` and λ_i ≥ 0 the contact force; a shut gap needs
-/// acceleration ≥ 0, and λ_i = 0 where it is > 0. The matrix is an M-matrix, so starting from the
-/// gaps with g_i < 0 and adding every gap that would be driven shut ends at the solution after at
+/// acceleration ≥ 0, and λ_i = 0 where it is > 0. The matrix is an M-matrix, so starting from no gap
+/// and adding every gap that would be driven shut ends at the solution after at
 /// most as many rounds as there are gaps (Chandrasekaran, 1970, Opsearch 7, 263).
 ///
 /// Gaps that are not `allowed` stay open. Returns for each gap λ_i, or `None`.
@@ -19,62 +19,84 @@ pub fn contact_forces<const M: usize>(
     p: &Phases<M>,
     frequencies: &Frequencies<M>,
 ) -> Vec<Option<Force<M>>> {
-    // An acceleration shuts a gap when it is negative. Where several gaps are released at once, by a symmetry, those of
-    // the others are zero but for rounding, and what it makes of their sign must not press them again.
     let n = g.len();
-    let pushes = |i: usize| g[i].falls(g[i].size(), p, frequencies);
-    let mut active: Vec<bool> = (0..n).map(|i| allowed[i] && pushes(i)).collect();
-    loop {
-        let forces = solve(g, stiffness, &active);
-        let mut grown = false;
-        for i in (0..n).filter(|&i| allowed[i]) {
-            if active[i] {
-                continue;
-            }
-            let (mut total, mut size) = (g[i], g[i].size());
-            for j in [i.wrapping_sub(1), i + 1] {
-                if let Some(&Some(force)) = forces.get(j) {
-                    total = total - force;
-                    size += force.size();
-                }
-            }
-            if total.falls(size, p, frequencies) {
-                active[i] = true;
-                grown = true;
-            }
-        }
-        if !grown {
-            return forces;
-        }
-    }
+    let mut shut = Shut { g, stiffness, allowed, p, frequencies, active: vec![false; n] };
+    while !shut.grow() {}
+    shut.forces()
 }
 
-/// λ of the active gaps from g + A λ = 0: elimination along each run of adjacent active gaps.
-fn solve<const M: usize>(
-    g: &[Force<M>],
-    stiffness: &[f64],
-    active: &[bool],
-) -> Vec<Option<Force<M>>> {
-    let n = g.len();
-    let mut forces = vec![None; n];
-    // Forward: λ_i = (r_i + λ_{i+1}) / m_i.
-    let mut pivots = vec![(0.0, Force::ZERO); n];
-    for i in (0..n).filter(|&i| active[i]) {
-        let mut pivot = stiffness[i];
-        let mut right = -g[i];
-        if i > 0 && active[i - 1] {
-            let (m, r) = pivots[i - 1];
-            pivot -= 1.0 / m;
-            right = right + r / m;
+/// The gaps that are known to stay shut.
+struct Shut<'a, const M: usize> {
+    g: &'a [Force<M>],
+    stiffness: &'a [f64],
+    allowed: &'a [bool],
+    p: &'a Phases<M>,
+    frequencies: &'a Frequencies<M>,
+    active: Vec<bool>,
+}
+
+impl<const M: usize> Shut<'_, M> {
+    /// Adds gaps that are driven shut; true if none is left. Runs grow to the right, then to the left, as far as they
+    /// do, so that a long one needs few rounds.
+    fn grow(&mut self) -> bool {
+        let n = self.g.len();
+        self.spread(0..n);
+        self.spread((0..n).rev());
+        let forces = self.forces();
+        let of = |i: usize| forces.get(i).copied().flatten().unwrap_or(Force::ZERO);
+        let between = |&i: &usize| self.is_driven(i, [of(i.wrapping_sub(1)), of(i + 1)]);
+        let more: Vec<usize> = (0..n).filter(between).collect();
+        more.iter().for_each(|&i| self.active[i] = true);
+        more.is_empty()
+    }
+
+    /// Adds, one after the other, every gap that the run before it drives shut. What that takes for its last force is
+    /// what it would be if the next gap were open: never more than it is.
+    fn spread(&mut self, order: impl Iterator<Item = usize>) {
+        let mut last = None;
+        for i in order {
+            let force = last.map_or(Force::ZERO, |(pivot, right): (f64, Force<M>)| right / pivot);
+            self.active[i] |= self.is_driven(i, [force, Force::ZERO]);
+            last = self.active[i].then(|| self.eliminated(i, last));
         }
-        pivots[i] = (pivot, right);
     }
-    for i in (0..n).rev().filter(|&i| active[i]) {
-        let next = forces.get(i + 1).copied().flatten().unwrap_or(Force::ZERO);
-        let (m, r) = pivots[i];
-        forces[i] = Some((r + next) / m);
+
+    /// Whether an open gap is driven shut by its acceleration and the forces of its neighbours.
+    ///
+    /// An acceleration shuts a gap when it is negative. Where several gaps are released at once, by a symmetry, those of
+    /// the others are zero but for rounding, and what it makes of their sign must not press them again.
+    fn is_driven(&self, i: usize, beside: [Force<M>; 2]) -> bool {
+        let size = beside.iter().fold(self.g[i].size(), |size, force| size + force.size());
+        let total = beside.into_iter().fold(self.g[i], |total, force| total - force);
+        let open = self.allowed[i] && !self.active[i];
+        open && total.falls(size, self.p, self.frequencies)
     }
-    forces
+
+    /// Pivot m and right side r of gap i, after those of the active gap before it: λ_i = (r + λ of the next) / m.
+    fn eliminated(&self, i: usize, last: Option<(f64, Force<M>)>) -> (f64, Force<M>) {
+        let (own, right) = (self.stiffness[i], -self.g[i]);
+        last.map_or((own, right), |(m, r)| (own - 1.0 / m, right + r / m))
+    }
+
+    /// λ of the active gaps from g + A λ = 0: elimination along each run of adjacent active gaps.
+    fn forces(&self) -> Vec<Option<Force<M>>> {
+        let mut last = None;
+        let pivots: Vec<_> = (0..self.g.len())
+            .map(|i| {
+                last = self.active[i].then(|| self.eliminated(i, last));
+                last
+            })
+            .collect();
+        let mut next = Force::ZERO;
+        let back = pivots.into_iter().rev().map(|pivot| {
+            let force = pivot.map(|(m, r)| (r + next) / m);
+            next = force.unwrap_or(Force::ZERO);
+            force
+        });
+        let mut forces: Vec<_> = back.collect();
+        forces.reverse();
+        forces
+    }
 }
 
 #[cfg(test)]
@@ -124,5 +146,22 @@ mod tests {
                 assert!((lambda[i] * a).abs() < 1e-9);
             }
         }
+    }
+    /// A ramp of accelerations, as of masses that are driven together: shut in the middle, open at both ends.
+    #[test]
+    fn long_runs_need_few_rounds() {
+        let n = 2000;
+        let g: Vec<_> = (0..n)
+            .map(|i| Force { constant: (f64::from(i) - 900.5).abs() - 300.0, forced: [[0.0; 2]] })
+            .collect();
+        let p = Phases { sin: 0.0, cos: 1.0, forced: [[0.0, 1.0]] };
+        let (stiffness, allowed) = (vec![2.0; g.len()], vec![true; g.len()]);
+        let frequencies = &Frequencies::new(1.0, [1.4]);
+        let active = vec![false; g.len()];
+        let mut shut =
+            Shut { g: &g, stiffness: &stiffness, allowed: &allowed, p: &p, frequencies, active };
+        let rounds = (1..).find(|_| shut.grow()).unwrap();
+        let pressed = shut.active.iter().filter(|&&active| active).count();
+        assert!(rounds < 5 && (900..1500).contains(&pressed), "{rounds} rounds, {pressed}");
     }
 }

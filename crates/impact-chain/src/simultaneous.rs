@@ -97,15 +97,16 @@ impl<const M: usize> Simulation<M> {
     /// in contact, from left to right.
     fn run_around(&self, k: usize) -> Vec<usize> {
         let mut run = VecDeque::from([k]);
-        let next = |run: &VecDeque<usize>, from: usize, side: usize| {
+        // On a ring the run may come to its own other end.
+        let next = |from: usize, side: usize, end: usize| {
             let near = self.topology.adjacent(from)[side]?;
             let joins = self.gaps[near].in_contact || self.is_due(near);
-            (joins && !run.contains(&near)).then_some(near)
+            (joins && near != end).then_some(near)
         };
-        while let Some(before) = next(&run, run[0], 0) {
+        while let Some(before) = next(run[0], 0, k) {
             run.push_front(before);
         }
-        while let Some(after) = next(&run, run[run.len() - 1], 1) {
+        while let Some(after) = next(run[run.len() - 1], 1, run[0]) {
             run.push_back(after);
         }
         Vec::from(run)
@@ -126,8 +127,10 @@ impl<const M: usize> Simulation<M> {
             let impact = self.count_another(near, speed);
             self.ties.left.push_back(impact);
         }
-        while let Some(&near) = run.iter().find(|&&near| self.gaps[near].in_contact) {
-            self.free_cluster(near, p);
+        for &near in &run {
+            if self.gaps[near].in_contact {
+                self.free_cluster(near, p);
+            }
         }
         let r = self.restitution;
         let wanted: Vec<f64> = speeds.iter().map(|speed| (1.0 + r) * speed).collect();

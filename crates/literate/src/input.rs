@@ -125,9 +125,9 @@ fn is_random(rest: &str) -> bool {
     rest.len() == 6 && rest.bytes().all(|byte| byte.is_ascii_alphanumeric())
 }
 
-/// Removes what killed runs left of [`new_beside`] in a folder: nobody holds its lock. What is younger than a second
-/// may be about to be locked.
-pub fn remove_leftovers(folder: &Path) {
+/// Removes what killed runs left of [`new_beside`] in a folder: nobody holds its lock, and it `is_ours` by what it
+/// begins with. What is younger than a second may be about to be locked.
+pub fn remove_leftovers(folder: &Path, is_ours: impl Fn(&Path) -> std::io::Result<bool>) {
     let is_left = |path: &Path| {
         let file = File::open(path).ok().filter(|file| file.try_lock().is_ok());
         let found = file.and_then(|file| file.metadata().ok()).filter(|found| found.is_file());
@@ -136,9 +136,12 @@ pub fn remove_leftovers(folder: &Path) {
     };
     for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
         let name = entry.file_name();
-        let ours = name.to_str().and_then(|name| name.strip_prefix(STAGING)).is_some_and(is_random);
-        if ours && entry.file_type().is_ok_and(|kind| kind.is_file()) && is_left(&entry.path()) {
-            let _ = std::fs::remove_file(entry.path());
+        let path = entry.path();
+        let named =
+            name.to_str().and_then(|name| name.strip_prefix(STAGING)).is_some_and(is_random);
+        let is_file = entry.file_type().is_ok_and(|kind| kind.is_file());
+        if named && is_file && is_ours(&path).unwrap_or(false) && is_left(&path) {
+            let _ = std::fs::remove_file(path);
         }
     }
 }
@@ -182,14 +185,20 @@ mod tests {
         let age = |path: &Path| File::options().write(true).open(path)?.set_modified(old);
         std::fs::write(&left, "half").unwrap();
         std::fs::write(path("notes"), "theirs").unwrap();
+        let theirs = path(&format!("{STAGING}notes1"));
+        std::fs::write(&theirs, "theirs").unwrap();
+        let remove = || remove_leftovers(folder.path(), |path| Ok(std::fs::read(path)? == b"half"));
         let living = new_beside(&path("a")).unwrap();
-        remove_leftovers(folder.path());
+        remove();
         assert!(left.exists(), "it may be about to be locked");
-        for path in [&left, &path("notes"), living.path()] {
+        for path in [&left, &path("notes"), &theirs, living.path()] {
             age(path).unwrap();
         }
-        remove_leftovers(folder.path());
+        std::fs::write(living.path(), "half").unwrap();
+        age(living.path()).unwrap();
+        remove();
         assert!(!left.exists() && path("notes").exists() && living.path().exists());
+        assert!(theirs.exists());
         living.persist(path("a")).unwrap();
     }
 

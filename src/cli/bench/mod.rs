@@ -201,6 +201,10 @@ fn case(args: &EngineArgs, n: usize) -> Result<Case, Failure> {
             )));
         }
     }
+    if args.chain.checked_add(args.chains as u64).is_none() {
+        let message = format!("--chain: {} is too large; give a smaller number", args.chain);
+        return Err(Failure::input(message));
+    }
     // All chains at their start, and the copies that run.
     let copies = if args.repetitions > 1 { 2 } else { 1 };
     let needed = Engine::memory(n, 1).saturating_mul(copies * args.chains as u128);
@@ -208,7 +212,7 @@ fn case(args: &EngineArgs, n: usize) -> Result<Case, Failure> {
     let began = Instant::now();
     let engines = work::on_threads(Some(args.threads), || {
         let start = |index: usize| {
-            let chain = args.chain.wrapping_add(index as u64);
+            let chain = args.chain + index as u64;
             let scenario = draw(n, args.sigma, args.restitution, args.seed, chain)?;
             let engine = Engine::new(&scenario).map_err(|error| Failure::run(error.to_string()))?;
             Ok(if args.threads > args.chains { engine.on_two_cores() } else { engine })

@@ -78,15 +78,16 @@ impl Progress {
             bar.set_message(name.to_string());
             bar
         });
-        Stage {
-            name: name.to_string(),
-            total,
-            done: AtomicU64::new(0),
-            bar,
-            lines: self.show == Show::Lines,
-            began: Instant::now(),
-            next_line: AtomicU64::new(LINE_EVERY),
-        }
+        let done: Arc<AtomicU64> = Arc::default();
+        // By the clock and not by what is done: the first unit may be a long one.
+        let lines = (self.show == Show::Lines).then(|| {
+            let (name, done, began) = (name.to_string(), done.clone(), Instant::now());
+            alive(move || {
+                let told = told(done.load(Ordering::Relaxed), total, began.elapsed());
+                Some(format!("{name}: {told}"))
+            })
+        });
+        Stage { done, bar, lines }
     }
 
     /// Says one plain line, whatever the way of showing, except to nobody.
@@ -108,8 +109,7 @@ pub struct Alive {
     _ends: Sender<()>,
 }
 
-/// A line every few seconds, with the time that passed, of work that cannot say how much of it is done; none as long as
-/// there is nothing to say.
+/// A line every few seconds, with the time that passed; none as long as there is nothing to say.
 pub fn alive(line: impl Fn() -> Option<String> + Send + 'static) -> Alive {
     let (ends, ended) = channel();
     let began = Instant::now();
@@ -127,13 +127,9 @@ pub fn alive(line: impl Fn() -> Option<String> + Send + 'static) -> Alive {
 /// One stage of an experiment. Shared by the threads that work on it.
 #[derive(Debug)]
 pub struct Stage {
-    name: String,
-    total: u64,
-    done: AtomicU64,
+    done: Arc<AtomicU64>,
     bar: Option<ProgressBar>,
-    lines: bool,
-    began: Instant,
-    next_line: AtomicU64,
+    lines: Option<Alive>,
 }
 
 impl Stage {
@@ -143,32 +139,14 @@ impl Stage {
         if let Some(bar) = &self.bar {
             bar.set_position(done);
         }
-        if self.lines {
-            self.line(done);
-        }
     }
 
     /// Says one plain line in the middle of the stage, above its bar if there is one.
     pub fn say(&self, line: &str) {
         match &self.bar {
             Some(bar) => bar.suspend(|| say(line)),
-            None if self.lines => say(line),
+            None if self.lines.is_some() => say(line),
             None => (),
-        }
-    }
-
-    /// At most one line every [`LINE_EVERY`] seconds: the thread that moves the mark writes it.
-    fn line(&self, done: u64) {
-        let elapsed = self.began.elapsed();
-        let mark = self.next_line.load(Ordering::Relaxed);
-        if elapsed.as_secs() < mark {
-            return;
-        }
-        let next = elapsed.as_secs() + LINE_EVERY;
-        let moved =
-            self.next_line.compare_exchange(mark, next, Ordering::Relaxed, Ordering::Relaxed);
-        if moved.is_ok() {
-            say(&format!("{}: {}", self.name, told(done, self.total, elapsed)));
         }
     }
 }

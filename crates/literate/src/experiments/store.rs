@@ -90,7 +90,7 @@ impl Store {
         let Some(folder) = &self.folder else { return Ok(()) };
         let tried = std::fs::create_dir_all(folder)
             .and_then(|()| new_beside(&folder.join("result")).map(drop));
-        remove_leftovers(folder);
+        remove_leftovers(folder, begins_with_digest);
         tried.map_err(|source| Error::Store { path: folder.clone(), source })
     }
 

@@ -18,6 +18,9 @@ const SKIN: [(&str, &str); 5] = [
     ("report.typ", include_str!("../../skin/report.typ")),
 ];
 
+/// Files and folders that may stand in the folder: somebody might give the root.
+const ENTRIES: usize = 10_000;
+
 /// All template files, by path relative to their folder.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Templates(BTreeMap<String, String>);
@@ -57,6 +60,8 @@ impl Templates {
 struct Walk {
     files: BTreeMap<String, String>,
     bytes: usize,
+    /// Files and folders met so far.
+    entries: usize,
     /// Folders so far: symbolic links may lead to one of them again, without end.
     folders: BTreeSet<PathBuf>,
 }
@@ -74,6 +79,13 @@ impl Walk {
         }
         for entry in std::fs::read_dir(folder).map_err(|e| fail(folder, e))? {
             let path = entry.map_err(|e| fail(folder, e))?.path();
+            self.entries += 1;
+            if self.entries > ENTRIES {
+                let what = format!(
+                    "there are more than {ENTRIES} files; give the folder of templates alone"
+                );
+                return refuse(folder, io::ErrorKind::Other, &what);
+            }
             let Some(name) = path.file_name().and_then(|name| name.to_str()) else { continue };
             let relative = format!("{prefix}{name}");
             if path.is_dir() {

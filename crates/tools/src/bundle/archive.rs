@@ -5,7 +5,7 @@ use impact_paper::input::{new_beside, remove_leftovers};
 use impact_paper::program::Failure;
 use impact_paper::report::sums;
 use std::collections::BTreeMap;
-use std::io::{self, Cursor, Write};
+use std::io::{self, Cursor, Read, Write};
 use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 use zip::write::SimpleFileOptions;
@@ -37,7 +37,7 @@ impl Archive {
             let what = "its folder is not there, or it is a folder or device itself";
             return Err(failed(path, io::Error::new(io::ErrorKind::NotADirectory, what)));
         }
-        remove_leftovers(folder);
+        remove_leftovers(folder, is_archive);
         let file = new_beside(path).map_err(|error| failed(path, error))?;
         let (path, top) = (path.to_path_buf(), top.to_string());
         let zip = ZipWriter::new(Cursor::new(Vec::new()));
@@ -96,6 +96,13 @@ impl Archive {
         placed.map_err(|error| failed(error.error))?;
         Ok((self.files.len(), bytes.len() as u64))
     }
+}
+
+/// Is it a ZIP file, or nothing yet?
+fn is_archive(path: &Path) -> io::Result<bool> {
+    let mut first = Vec::new();
+    std::fs::File::open(path)?.take(2).read_to_end(&mut first)?;
+    Ok(b"PK".starts_with(&first))
 }
 
 fn failed(path: &Path, error: io::Error) -> Failure {
