@@ -147,6 +147,7 @@ mod tests {
             }
         }
     }
+
     /// A ramp of accelerations, as of masses that are driven together: shut in the middle, open at both ends.
     #[test]
     fn long_runs_need_few_rounds() {
