@@ -76,6 +76,7 @@ impl Progress {
                 bar.set_style(style.with_key("told", told));
             }
             bar.set_message(name.to_string());
+            bar.enable_steady_tick(Duration::from_secs(1));
             bar
         });
         let done: Arc<AtomicU64> = Arc::default();
