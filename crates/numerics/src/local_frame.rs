@@ -108,6 +108,20 @@ impl<const M: usize> Frame<M> {
         slope * frequencies.inverse_omega
     }
 
+    /// At rest at zero, a function that is known not to fall: where rounding makes its curvature negative, it is
+    /// positive by as much as rounding may.
+    pub fn not_falling(&mut self, frequencies: &Frequencies<M>) {
+        let w2 = frequencies.omega * frequencies.omega;
+        let (mut forced, mut size) = (0.0, w2 * self.alpha.abs());
+        for (big_w, [gamma, _]) in frequencies.big_omegas.iter().zip(self.forced) {
+            forced += big_w * big_w * gamma;
+            size += (big_w * big_w * gamma).abs();
+        }
+        if w2 * self.alpha + forced > 0.0 {
+            self.alpha = -(forced + ROUNDING * size) / w2;
+        }
+    }
+
     /// The same function seen from the end of the reach.
     #[inline(always)]
     pub fn advanced(&self, frequencies: &Frequencies<M>) -> Frame<M> {
