@@ -21,7 +21,7 @@ use impact_numerics::clock::Instant;
 use impact_numerics::first_root::Next;
 use impact_numerics::local_frame::ROUNDING;
 use impact_numerics::window::next_window;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Separation speed, in units of d ω, below which a chatter is taken to have come to rest.
 pub const CONTACT_SPEED: f64 = 1e-10;
@@ -136,19 +136,26 @@ impl<const M: usize> Simulation<M> {
         }
         known.sort_by_key(|r| r.k);
         let settled: Vec<bool> = known.iter().map(|r| self.is_settled(r)).collect();
+        // What the rates of the gaps beside the runs jump by.
+        let mut jumps: BTreeMap<usize, f64> = BTreeMap::new();
         for run in self.runs(&known, |i| settled[i]) {
-            self.settle_run(&mut known, &run, p, released);
+            let [first, last] = self.settle_run(&mut known, &run, p, released);
+            let [before, _] = self.topology.adjacent(known[run[0]].k);
+            let [_, after] = self.topology.adjacent(known[run[run.len() - 1]].k);
+            before.into_iter().for_each(|near| *jumps.entry(near).or_default() += first);
+            after.into_iter().for_each(|near| *jumps.entry(near).or_default() -= last);
         }
+        let jump = |k: usize| jumps.get(&k).copied().unwrap_or(0.0);
         // The motions are final now: frame everything else that was touched.
         for r in &known {
             if !self.gaps[r.k].in_contact {
-                self.set_frame(r.k, p, r.f0, r.g0);
+                self.set_frame(r.k, p, r.f0, r.g0 + jump(r.k));
             }
         }
         for &k in &touched {
             for near in self.topology.adjacent(k).into_iter().flatten() {
                 if !touched.contains(&near) && !self.gaps[near].in_contact {
-                    self.reframe(near, p, 0.0);
+                    self.reframe(near, p, jump(near));
                 }
             }
         }
@@ -178,14 +185,15 @@ impl<const M: usize> Simulation<M> {
         self.topology.adjacent(k)[1] == Some(next)
     }
 
-    /// Settles one run: common velocity, then the forces say which gaps stay shut.
+    /// Settles one run: common velocity, then the forces say which gaps stay shut. Returns what the velocities of its
+    /// first and last mass jump by.
     fn settle_run(
         &mut self,
         known: &mut [Resting],
         run: &[usize],
         p: &Phases<M>,
         released: Option<usize>,
-    ) {
+    ) -> [f64; 2] {
         let gaps: Vec<usize> = run.iter().map(|&i| known[i].k).collect();
         let allowed: Vec<bool> = gaps.iter().map(|&k| Some(k) != released).collect();
         let accelerations = self.accelerations(&gaps);
@@ -195,8 +203,10 @@ impl<const M: usize> Simulation<M> {
         let pressed: Vec<bool> = forces.iter().map(Option::is_some).collect();
         let alone = gaps.len() == 1;
         if alone && (known[run[0]].g0 < 0.0 || !pressed[0]) {
-            return;
+            return [0.0; 2];
         }
+        let rates: Vec<f64> = run.iter().map(|&i| known[i].g0).collect();
+        let jumps = self.jumps_of_run(&gaps, &rates);
         if !alone {
             // Perfectly inelastic end of a chatter or collapse: one velocity for all.
             self.make_rigid(&gaps);
@@ -221,6 +231,24 @@ impl<const M: usize> Simulation<M> {
                 }
             }
         }
+        jumps
+    }
+
+    /// What the velocities of the first and the last mass along `gaps` jump by when all take their common one.
+    fn jumps_of_run(&self, gaps: &[usize], rates: &[f64]) -> [f64; 2] {
+        let members = self.members(gaps);
+        // Each relative to the first.
+        let mut last = 0.0;
+        let velocities: Vec<f64> = std::iter::once(0.0)
+            .chain(rates.iter().map(|rate| {
+                last += rate;
+                last
+            }))
+            .collect();
+        let wall = members.iter().position(|&m| self.topology.is_wall(m));
+        let mean = || velocities.iter().sum::<f64>() / velocities.len() as f64;
+        let common = wall.map_or_else(mean, |wall| velocities[wall]);
+        [common, common - last]
     }
 
     /// Acceleration of each gap without contact forces, at width zero: ω² d + ΔF_j(t).
