@@ -184,3 +184,21 @@ fn gaps_that_are_released_together_part_without_a_crawl() {
         assert!(engine.counters().searches < 1000, "{:?}", engine.counters());
     }
 }
+
+/// Forces ten thousand times those between the masses: where the one on gap 2 ends, rounding makes the acceleration of
+/// the gap negative, and it would be shut again and released at the same instant for ever.
+#[test]
+fn a_released_gap_is_not_shut_by_rounding() {
+    for pressing in [1e3, 1e4, 1e5] {
+        let mut opened = 0;
+        for i in 0..60 {
+            let q = 2.0 + 0.01 * f64::from(i);
+            let forces = [pressing + q, -pressing, -q];
+            let mut engine = Engine::new(&scene(&[(2.0, 0.0); 3], &forces, 0.8)).unwrap();
+            run(&mut engine, 0.7);
+            opened += usize::from(engine.contacts(0.7).iter().all(|c| c.0 != 2));
+            assert!(engine.counters().searches < 1000, "{forces:?}: {:?}", engine.counters());
+        }
+        assert_eq!(opened, 60, "{pressing}");
+    }
+}

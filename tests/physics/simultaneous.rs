@@ -262,3 +262,28 @@ fn a_receiver_that_stops_in_a_joint_impact_gets_the_rest_later() {
     assert_eq!(all, one_by_one);
     assert_eq!(engine.counters().impacts, all.len() as u64);
 }
+
+/// Also next to masses that have just come to rest together, whose common velocity is another than each had.
+#[test]
+fn the_speed_of_an_impact_is_that_of_its_masses() {
+    let mut normals = NormalPairs::new("settling", 1, 0);
+    let mut slow = 0;
+    for _ in 0..60 {
+        let pairs: Vec<[f64; 2]> = (0..7).map(|_| normals.pair()).collect();
+        let [velocities, forces] =
+            [0, 1].map(|i| pairs.iter().map(|pair| 3.0 * pair[i]).collect::<Vec<_>>());
+        let scenario = pressed(&velocities, &forces, 0.3);
+        let scenario = Scenario { simultaneous: Simultaneous::Sequential, ..scenario };
+        let mut engine = Engine::new(&scenario).unwrap();
+        let mut before = engine.velocities(0.0);
+        while let Some(hit) = first(&mut engine, 0.0) {
+            if let 1..7 = hit.gap {
+                let closing = before[hit.gap - 1] - before[hit.gap];
+                assert!((hit.closing_speed - closing).abs() < 1e-13, "{hit:?} {closing:e}");
+                slow += usize::from(closing < 1e-8);
+            }
+            before = engine.velocities(0.0);
+        }
+    }
+    assert!(slow > 100, "{slow}");
+}
