@@ -9,6 +9,7 @@ use super::{Failure, folder, make, stdout, work};
 use impact_paper::claims::Verdict;
 use impact_paper::experiments::Progress;
 use impact_paper::figures;
+use impact_paper::input::one_line;
 use impact_paper::params::{Profile, set};
 use impact_paper::report::compare::{self, Parts};
 use impact_paper::report::values::Number;
@@ -117,7 +118,8 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let pages: Vec<&str> = PROGRAM.documents.iter().map(|document| document.page).collect();
     let documents = if whole { format!(": {}", pages.join(", ")) } else { String::new() };
     let number = count(files.len(), "file");
-    let head = format!("{}: {number} in {time}{documents}\n", out.display());
+    let place = one_line(&out.display().to_string(), 500);
+    let head = format!("{place}: {number} in {time}{documents}\n");
     // It is told also where a check fails.
     let printed = stdout::print(&(head + &told));
     judged.verdict().and(printed)

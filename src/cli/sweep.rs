@@ -110,11 +110,11 @@ fn parameters(args: &Args) -> Result<SweepParams, Failure> {
         return Err(Failure::input(message));
     }
     if !args.window.is_finite() || args.window <= 0.0 {
-        let message = format!("--window: {:?} is not allowed; give more than 0", args.window);
+        let message = format!("--window: {:?} is not allowed; give a number above 0", args.window);
         return Err(Failure::input(message));
     }
     if args.transient + args.window > LATEST {
-        let message = "--transient: transient and window end after t = 1e12; give shorter ones";
+        let message = "--transient, --window: they end after t = 1e12; give shorter ones";
         return Err(Failure::input(message));
     }
     if !(0.0..=1.0).contains(&args.restitution) {
@@ -153,7 +153,8 @@ const OUTCOME: u128 = 2 << 10;
 /// its gaps besides.
 fn fits(args: &Args) -> Result<(), Failure> {
     let threads = args.threads.unwrap_or_else(work::cores) as u128;
-    let chains = threads * (Engine::memory(args.masses, 1) + 64 * args.masses as u128);
+    let chain = Engine::memory(args.masses, 1) + 64 * args.masses as u128;
+    let chains = threads * (chain + work::THREAD);
     work::memory(chains, "--masses", "give fewer masses or threads")?;
     let needed = chains + OUTCOME * args.realisations as u128;
     work::memory(needed, "--realisations", "give fewer, with other values of --seed")

@@ -41,6 +41,7 @@ pub struct Args {
 }
 
 pub fn run(args: Args) -> Result<(), Failure> {
+    work::least(64, "verify")?;
     let progress = work::progress_that_tidies();
     let mut checked = listed(&args.folder, args.only.document.as_deref(), &progress)?;
     checked.tell(&args.folder)?;

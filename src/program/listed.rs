@@ -88,6 +88,9 @@ pub fn listed(root: &Path, only: Option<&str>, progress: &Progress) -> Result<Ch
             Ok(bytes) if sha256(&bytes) == *digest => (),
             Ok(_) => fault("differs", path, ""),
             Err(error) if error.kind() == ErrorKind::NotFound => fault("missing", path, ""),
+            Err(error) if error.kind() == ErrorKind::OutOfMemory => {
+                return Err(Failure::io(&error, root.join(path).display(), work::MORE));
+            }
             Err(error) => fault("unread", path, &format!(" ({error})")),
         }
     }

@@ -11,14 +11,14 @@ use super::waiting::{Waiting, clear, is_staging};
 use super::work::{self, Now};
 use super::{Failure, folder};
 use crate::experiments::{Progress, say};
-use crate::input::{count, listed, one_line};
+use crate::input::{bare, count, listed, one_line};
 use crate::report::{Document, Files, PROGRAM, sums};
 use std::collections::BTreeSet;
 use std::io;
 use std::path::Path;
 
 /// Folders that a report has.
-const FOLDERS: [&str; 2] = ["data", "figures"];
+pub(super) const FOLDERS: [&str; 2] = ["data", "figures"];
 
 /// What all verbs call the option.
 #[derive(Clone, Copy, clap::Args)]
@@ -86,7 +86,15 @@ impl<'a> Staging<'a> {
             clear(&folder.join(name));
         }
         staging.temporary()?;
-        FOLDERS.into_iter().try_for_each(|below| staging.is_folder(&folder.join(below)))?;
+        for below in FOLDERS.map(|below| folder.join(below)) {
+            staging.is_folder(&below)?;
+            if below.is_dir() {
+                let remedy = "allow to write there, or give another folder";
+                let place = || format!("{option}: {}", below.display());
+                let refused = |error: io::Error| Failure::io(&bare(error), place(), remedy);
+                tempfile::tempfile_in(&below).map_err(refused)?;
+            }
+        }
         Ok(staging)
     }
 
@@ -98,6 +106,11 @@ impl<'a> Staging<'a> {
         let _alone = alone(self.folder).map_err(|error| self.failed(&error))?;
         let own = self.own()?.unwrap_or_default();
         let stands = |path: &str| self.folder.join(path).symlink_metadata().is_ok();
+        if let Some(page) = own.manual().filter(|page| stands(page)) {
+            let (option, folder) = (self.option, self.folder.display());
+            let what = "a report has no other files; give another folder";
+            return Err(Failure::input(format!("{option}: {folder} has {page}; {what}")));
+        }
         let wrote =
             |path: &str| folder::read(self.folder, path).is_ok_and(|bytes| own.wrote(path, &bytes));
         let changed = |path: &&String| stands(path) && !wrote(path);

@@ -39,6 +39,11 @@ impl Own {
         Ok(Some(own))
     }
 
+    /// A page of the manual among what was last written.
+    pub fn manual(&self) -> Option<&str> {
+        self.local.iter().map(|entry| entry.path.as_str()).find(|path| is_manual(path))
+    }
+
     /// Whether it wrote these bytes under this path. A list of a report says nothing that is not made
     /// again.
     pub fn wrote(&self, path: &str, bytes: &[u8]) -> bool {

@@ -1,5 +1,6 @@
 //! Folders that are no place for what a verb writes: reports, prose, links to nowhere.
 
+use super::output::FOLDERS;
 pub use super::own::holds_report;
 use super::sources::prose;
 use super::{Failure, folder};
@@ -17,8 +18,15 @@ pub(super) fn lies_in_report(there: &Path) -> bool {
 pub fn refuse_prose(option: &str, folder: &Path, templates: Option<&Path>) -> Result<(), Failure> {
     let there = folder::resolved(folder);
     let given = templates.map(PathBuf::from);
-    if given.into_iter().chain(prose()).any(|prose| there.starts_with(folder::resolved(&prose))) {
+    let prose: Vec<PathBuf> =
+        given.into_iter().chain(prose()).map(|prose| folder::resolved(&prose)).collect();
+    if prose.iter().any(|prose| there.starts_with(prose)) {
         let what = "is the folder of the templates, or lies in it; give another folder";
+        return Err(Failure::input(format!("{option}: {} {what}", folder.display())));
+    }
+    let written = FOLDERS.map(|below| there.join(below));
+    if prose.iter().any(|prose| written.iter().any(|below| prose.starts_with(below))) {
+        let what = "has the templates where figures and data go; give another folder";
         return Err(Failure::input(format!("{option}: {} {what}", folder.display())));
     }
     Ok(())

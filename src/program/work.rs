@@ -147,6 +147,9 @@ pub fn least(mib: u128, what: &str) -> Result<(), Failure> {
     memory(mib << 20, what, MORE)
 }
 
+/// Addresses that a thread takes besides: its stack, and what the system sets aside for its heap.
+pub const THREAD: u128 = STACK as u128 + (64 << 20);
+
 /// Stack of a thread that works, in bytes: the system, or RUST_MIN_STACK, may give less.
 pub const STACK: usize = 8 << 20;
 
@@ -168,7 +171,7 @@ enum Ending {
 /// How long work may take to see its flag.
 const PATIENCE: Duration = Duration::from_millis(700);
 
-/// From now on Ctrl-C (or SIGTERM) raises the flag that work with [`Progress`] looks at; without such
+/// From now on Ctrl-C (SIGTERM, or the end of the terminal) raises the flag that work with [`Progress`] looks at; without such
 /// work, or the second time, it ends the program at once. Always with exit code 130.
 pub fn obey_signals() {
     let end = || {
@@ -181,7 +184,7 @@ pub fn obey_signals() {
     let _ =
         signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::new(AtomicBool::new(false)));
     // A handler can only be refused if there is one already; then a signal just ends the program.
-    let _ = ctrlc::set_handler(move || match WORK.get() {
+    let obey = move || match WORK.get() {
         Some((stop, ending))
             if *NOW.lock().unwrap_or_else(PoisonError::into_inner) != Now::Idle
                 && !stop.swap(true, Ordering::Relaxed) =>
@@ -195,7 +198,33 @@ pub fn obey_signals() {
             }
         }
         _ => end(),
-    });
+    };
+    #[cfg(not(unix))]
+    let _ = ctrlc::set_handler(obey);
+    #[cfg(unix)]
+    on_signals(obey);
+}
+
+/// Calls `obey` at each signal that ends programs, but for what the caller has ignored: `nohup` does.
+#[cfg(unix)]
+fn on_signals(obey: impl Fn() + Send + 'static) {
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    let hangup = (!is_ignored(SIGHUP)).then_some(SIGHUP);
+    let signals = signal_hook::iterator::Signals::new(hangup.into_iter().chain([SIGINT, SIGTERM]));
+    let follow = |mut signals: signal_hook::iterator::Signals| {
+        std::thread::Builder::new().spawn(move || signals.forever().for_each(|_| obey()))
+    };
+    // Without, such a signal just ends the program.
+    let _ = signals.and_then(follow);
+}
+
+/// Whether a signal was ignored when the program began; Linux tells it.
+#[cfg(unix)]
+fn is_ignored(signal: i32) -> bool {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let mask = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+    mask.is_some_and(|mask| mask >> (signal - 1) & 1 == 1)
 }
 
 /// What a signal has to know of the moment.

@@ -114,14 +114,16 @@ pub struct Alive {
 pub fn alive(line: impl Fn() -> Option<String> + Send + 'static) -> Alive {
     let (ends, ended) = channel();
     let began = Instant::now();
-    std::thread::spawn(move || {
+    let speak = move || {
         while ended.recv_timeout(Duration::from_secs(LINE_EVERY)) == Err(RecvTimeoutError::Timeout)
         {
             if let Some(line) = line().filter(|_| !QUIET.load(Ordering::Relaxed)) {
                 say(&format!("{line}, after {} s", began.elapsed().as_secs()));
             }
         }
-    });
+    };
+    // Without a thread nothing is said.
+    let _ = std::thread::Builder::new().spawn(speak);
     Alive { _ends: ends }
 }
 
