@@ -355,6 +355,10 @@ fn nothing_is_written_among_the_templates() {
         let what = format!("{among} is the folder of the templates, or lies in it");
         assert!(code == 2 && note.contains(&what) && note.lines().count() == 1, "{verb}: {note}");
     }
+    std::fs::create_dir(here.join("o")).unwrap();
+    templates(&here.join("o/data"), "front.md", |text| text.into());
+    let among = "paper --figure 4 --templates o/data --out o --force";
+    crate::refused(here, among, &["o has the templates where figures and data go"]);
 }
 
 /// What if a parameter were another: nothing is judged, everything says so, and the paper's folder stays as it is.
@@ -445,6 +449,11 @@ fn the_manual_is_written_and_quiet_work_says_nothing() {
         refused(here, &format!("-q paper --out o --results {folder}"), &["holds a report"]);
     }
     refused(here, "-q paper --figure 4 --out left/new", &["it lies in a report"]);
+    refused(
+        here,
+        "-q paper --profile quick --out m",
+        &["completions/impact-paper.bash", "other files"],
+    );
     std::fs::write(here.join("m/impact-paper.1"), "mine").unwrap();
     crate::refused(here, "manual --out m", &["impact-paper.1", "--force"]);
 

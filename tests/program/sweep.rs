@@ -103,3 +103,24 @@ fn signals_end_a_sweep_of_any_size_within_a_second() {
         }
     }
 }
+
+/// Who runs it under `nohup` wants it to outlive the terminal.
+#[cfg(unix)]
+#[test]
+fn a_hangup_ends_the_work_unless_it_is_ignored() {
+    let folder = tempfile::tempdir().unwrap();
+    let long = "-q sweep --sigma 0.3 --realisations 2 --masses 10 --window 1e10";
+    ended(&mut program(folder.path(), long), "-HUP", SOON);
+    let mut command = Command::new("nohup");
+    command.arg(crate::PROGRAM).args(long.split(' ')).current_dir(folder.path());
+    let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    let id = child.id().to_string();
+    let send = |signal: &str| Command::new("kill").args([signal, &id]).status().unwrap();
+    let wait = || std::thread::sleep(Duration::from_millis(1200));
+    wait();
+    send("-HUP");
+    wait();
+    let early = child.try_wait().unwrap();
+    send("-TERM");
+    assert_eq!((early, child.wait().unwrap().code()), (None, Some(130)));
+}
