@@ -42,7 +42,7 @@ pub struct Args {
 
 pub fn run(args: Args) -> Result<(), Failure> {
     work::least(64, "verify")?;
-    let progress = work::progress_that_tidies();
+    let progress = work::progress();
     let mut checked = listed(&args.folder, args.only.document.as_deref(), &progress)?;
     checked.tell(&args.folder)?;
     if args.rerun {
@@ -84,6 +84,7 @@ fn rerun(args: &Args, progress: &Progress) -> Result<Checked, Failure> {
         let remedy = "name one that can be written in TMPDIR";
         Failure::io(&e, "a temporary folder", remedy)
     })?;
+    work::temporary(temporary.path());
     let results = args.results.clone().unwrap_or_else(|| temporary.path().join("results"));
     let pdf = pdfs().any(|name| args.folder.join(name).symlink_metadata().is_ok());
     let typeset = pdf && make::TYPESETS;

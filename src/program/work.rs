@@ -156,17 +156,8 @@ pub const STACK: usize = 8 << 20;
 /// What a shell calls a program that Ctrl-C ended: 128 + SIGINT.
 const INTERRUPTED: u8 = 130;
 
-/// The flag of the work under way, and how it is ended by whom it does not see.
-static WORK: OnceLock<(Arc<AtomicBool>, Ending)> = OnceLock::new();
-
-/// What happens to work that has not seen its flag.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Ending {
-    /// It is ended after a moment: what it leaves, the next run removes.
-    Soon,
-    /// It has something to remove itself, and looks often.
-    ByItself,
-}
+/// The flag of the work under way.
+static WORK: OnceLock<Arc<AtomicBool>> = OnceLock::new();
 
 /// How long work may take to see its flag.
 const PATIENCE: Duration = Duration::from_millis(700);
@@ -176,6 +167,10 @@ const PATIENCE: Duration = Duration::from_millis(700);
 pub fn obey_signals() {
     let end = || {
         remove_empty(&MADE.lock().unwrap_or_else(PoisonError::into_inner));
+        for folder in TEMPORARY.lock().unwrap_or_else(PoisonError::into_inner).iter() {
+            // Again, should the work that goes on have saved something meanwhile.
+            let _ = (0..9).any(|_| std::fs::remove_dir_all(folder).is_ok());
+        }
         say("impact-paper: interrupted");
         std::process::exit(i32::from(INTERRUPTED))
     };
@@ -185,17 +180,15 @@ pub fn obey_signals() {
         signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::new(AtomicBool::new(false)));
     // A handler can only be refused if there is one already; then a signal just ends the program.
     let obey = move || match WORK.get() {
-        Some((stop, ending))
+        Some(stop)
             if *NOW.lock().unwrap_or_else(PoisonError::into_inner) != Now::Idle
                 && !stop.swap(true, Ordering::Relaxed) =>
         {
-            if *ending == Ending::Soon {
-                std::thread::sleep(PATIENCE);
-                while *NOW.lock().unwrap_or_else(PoisonError::into_inner) == Now::Placing {
-                    std::thread::sleep(Duration::from_millis(10));
-                }
-                end();
+            std::thread::sleep(PATIENCE);
+            while *NOW.lock().unwrap_or_else(PoisonError::into_inner) == Now::Placing {
+                std::thread::sleep(Duration::from_millis(10));
             }
+            end();
         }
         _ => end(),
     };
@@ -258,6 +251,14 @@ impl Drop for Moment {
 /// Folders that this run makes, the deepest first.
 static MADE: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
+/// Temporary folders of this run, which go with all that is in them.
+static TEMPORARY: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+/// Says that a signal which ends the program is to remove a folder with all that is in it.
+pub fn temporary(folder: &Path) {
+    TEMPORARY.lock().unwrap_or_else(PoisonError::into_inner).push(folder.into());
+}
+
 /// At the end of this, and of the program, what was made and left empty is removed.
 #[derive(Debug)]
 pub struct Made(Vec<PathBuf>);
@@ -288,16 +289,7 @@ fn remove_empty(folders: &[PathBuf]) {
 /// Progress on stderr of work that a signal ends within a moment. What has not looked at the flag by then, such as a
 /// chain of many masses, is ended all the same.
 pub fn progress() -> Progress {
-    handled(Ending::Soon)
-}
-
-/// The same for work with a temporary folder elsewhere, which nobody else would remove.
-pub fn progress_that_tidies() -> Progress {
-    handled(Ending::ByItself)
-}
-
-fn handled(ending: Ending) -> Progress {
-    Progress::on_stderr(Arc::clone(&WORK.get_or_init(|| (Arc::default(), ending)).0))
+    Progress::on_stderr(Arc::clone(WORK.get_or_init(Arc::default)))
 }
 
 /// Threads for each core that may be asked for: more share the same cores, and cost memory.
