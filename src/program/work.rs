@@ -167,9 +167,10 @@ const PATIENCE: Duration = Duration::from_millis(700);
 pub fn obey_signals() {
     let end = || {
         remove_empty(&MADE.lock().unwrap_or_else(PoisonError::into_inner));
-        for folder in TEMPORARY.lock().unwrap_or_else(PoisonError::into_inner).iter() {
+        for path in TEMPORARY.lock().unwrap_or_else(PoisonError::into_inner).iter() {
             // Again, should the work that goes on have saved something meanwhile.
-            let _ = (0..9).any(|_| std::fs::remove_dir_all(folder).is_ok());
+            let gone = || std::fs::remove_dir_all(path).or_else(|_| std::fs::remove_file(path));
+            let _ = (0..9).any(|_| gone().is_ok());
         }
         say("impact-paper: interrupted");
         std::process::exit(i32::from(INTERRUPTED))
@@ -251,12 +252,12 @@ impl Drop for Moment {
 /// Folders that this run makes, the deepest first.
 static MADE: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
-/// Temporary folders of this run, which go with all that is in them.
+/// Temporary files and folders of this run, which go with all that is in them.
 static TEMPORARY: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
-/// Says that a signal which ends the program is to remove a folder with all that is in it.
-pub fn temporary(folder: &Path) {
-    TEMPORARY.lock().unwrap_or_else(PoisonError::into_inner).push(folder.into());
+/// Says that a signal which ends the program is to remove a file, or a folder with all that is in it.
+pub fn temporary(path: &Path) {
+    TEMPORARY.lock().unwrap_or_else(PoisonError::into_inner).push(path.into());
 }
 
 /// At the end of this, and of the program, what was made and left empty is removed.

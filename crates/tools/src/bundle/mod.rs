@@ -54,7 +54,7 @@ const PAPER: &str = "paper";
 /// Runs the verb.
 pub fn run(args: Args) -> Result<(), Failure> {
     output::free("bundle", &args.out, args.force)?;
-    let progress = work::progress_that_tidies();
+    let progress = work::progress();
     let tree = Tree::here()?;
     let report = Path::new(PAPER);
     let listed = listed(report, None, &progress)?;

@@ -4,7 +4,7 @@ use super::archive::Archive;
 use super::read;
 use impact_paper::experiments::Progress;
 use impact_paper::input::bare;
-use impact_paper::program::{Failure, folder};
+use impact_paper::program::{Failure, folder, work};
 use std::fs::File;
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -35,6 +35,7 @@ pub fn add(archive: &mut Archive, progress: &Progress) -> Result<(), Failure> {
     let failed = |what: &str| Failure::run(format!("cargo vendor: {what}; {remedy}"));
     // Removed in the end, whatever happens.
     let temporary = tempfile::tempdir().map_err(|e| failed(&bare(e).to_string()))?;
+    work::temporary(temporary.path());
     let vendor = temporary.path().join("vendor");
     progress.say("collecting the source of all crates");
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
