@@ -5,12 +5,15 @@
 
 mod cli;
 
+use impact_paper::program::{ended, tell, work};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    std::panic::set_hook(Box::new(impact_paper::program::tell));
-    let thread =
-        std::thread::Builder::new().stack_size(impact_paper::program::work::STACK).spawn(cli::main);
+    std::panic::set_hook(Box::new(tell));
+    if let Err(failure) = work::least(work::BEGIN, "impact-paper") {
+        return ended(Err(failure));
+    }
+    let thread = std::thread::Builder::new().stack_size(work::STACK).spawn(cli::main);
     match thread.map(std::thread::JoinHandle::join) {
         Ok(Ok(code)) => code,
         // The hook has told it.

@@ -2,7 +2,7 @@
 
 use super::folder::resolved;
 use super::places::refuse_report;
-use super::{Failure, stdout, work};
+use super::{Failure, shown, stdout, work};
 use impact_paper::experiments::Store;
 use impact_paper::numerics::text::count;
 use impact_paper::params::Profile;
@@ -45,8 +45,9 @@ pub fn run(args: Args) -> Result<(), Failure> {
     }
     refuse_report("--results", &folder, None)?;
     let results = Store::open(&folder)?;
+    let _made = work::made(&folder);
     let progress = work::progress();
     work::on_threads(args.threads, || Ok(plan.merge(&args.folders, &results, &progress)?))?;
-    let (units, out) = (count(plan.tasks.len(), "unit"), folder.display());
+    let (units, out) = (count(plan.tasks.len(), "unit"), shown(&folder));
     stdout::print(&format!("{out}: results of {units} of work\n"))
 }

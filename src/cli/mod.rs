@@ -23,7 +23,7 @@ mod verify;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use impact_paper::experiments::be_quiet;
 use impact_paper::program::{
-    self, Failure, folder, git, judged, make, output, places, sources, stdout, work,
+    self, Failure, folder, git, judged, make, output, places, shown, sources, stdout, work,
 };
 use std::process::ExitCode;
 

@@ -5,11 +5,10 @@ use super::judged::Judged;
 use super::output::{self, Staging};
 use super::places::{holds_report, refuse_prose, refuse_report};
 use super::sources::Sources;
-use super::{Failure, folder, make, stdout, work};
+use super::{Failure, folder, make, shown, stdout, work};
 use impact_paper::claims::Verdict;
 use impact_paper::experiments::Progress;
 use impact_paper::figures;
-use impact_paper::input::one_line;
 use impact_paper::params::{Profile, set};
 use impact_paper::report::compare::{self, Parts};
 use impact_paper::report::values::Number;
@@ -118,7 +117,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let pages: Vec<&str> = PROGRAM.documents.iter().map(|document| document.page).collect();
     let documents = if whole { format!(": {}", pages.join(", ")) } else { String::new() };
     let number = count(files.len(), "file");
-    let place = one_line(&out.display().to_string(), 500);
+    let place = shown(&out);
     let head = format!("{place}: {number} in {time}{documents}\n");
     // It is told also where a check fails.
     let printed = stdout::print(&(head + &told));
@@ -153,7 +152,7 @@ fn changes(out: &Path, files: &Files) -> Vec<String> {
     let parts = (Parts::of("before", before), Parts::of("now", files.clone()));
     let (Ok(old), Ok(new)) = parts else { return Vec::new() };
     let Ok(diff) = compare::diff(&old, &new, &[]) else { return Vec::new() };
-    let before = out.display();
+    let before = shown(out);
     if diff.numbers.is_empty() && diff.verdicts.is_empty() {
         return vec![format!(
             "no number and no verdict differs from the report before in {before}"

@@ -1,7 +1,7 @@
 //! `impact-paper run`.
 
 use super::places::refuse_report;
-use super::{Failure, stdout, work};
+use super::{Failure, shown, stdout, work};
 use impact_paper::experiments::{Error, Store};
 use impact_paper::numerics::text::count;
 use impact_paper::params::Profile;
@@ -65,11 +65,12 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let plan = args.only.plan(profile)?;
     refuse_report("--out", &args.out, None)?;
     let store = Store::open(&args.out).map_err(unwritable)?;
+    let _made = work::made(&args.out);
     let progress = work::progress();
     let ran = work::on_threads(args.threads, || {
         plan.run(args.shard, &store, &progress).map_err(unwritable)
     })?;
-    let ((i, n), out) = (args.shard, args.out.display());
+    let ((i, n), out) = (args.shard, shown(&args.out));
     let run = count(ran.run, "unit");
     stdout::print(&format!("{out}: shard {i}/{n}: {run} run, {} fresh\n", ran.fresh))
 }

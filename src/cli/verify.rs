@@ -2,10 +2,10 @@
 
 use super::document::Only;
 use impact_paper::experiments::Progress;
-use impact_paper::input::bare;
 use impact_paper::params::Profile;
 use impact_paper::program::listed::{Checked, listed, own_profile};
 use impact_paper::program::sources::Sources;
+use impact_paper::program::waiting::Waiting;
 use impact_paper::program::{Failure, folder, make, work};
 use impact_paper::report::{PROGRAM, sums};
 use std::path::PathBuf;
@@ -80,11 +80,10 @@ fn rerun(args: &Args, progress: &Progress) -> Result<Checked, Failure> {
         _ => own?,
     };
     // Removed in the end, whatever happens.
-    let temporary = tempfile::tempdir().map_err(bare).map_err(|e| {
+    let temporary = Waiting::temporary().map_err(|e| {
         let remedy = "name one that can be written in TMPDIR";
         Failure::io(&e, "a temporary folder", remedy)
     })?;
-    work::temporary(temporary.path());
     let results = args.results.clone().unwrap_or_else(|| temporary.path().join("results"));
     let pdf = pdfs().any(|name| args.folder.join(name).symlink_metadata().is_ok());
     let typeset = pdf && make::TYPESETS;

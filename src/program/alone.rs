@@ -1,5 +1,7 @@
 //! One program at a time puts files into a folder.
 
+#[cfg(unix)]
+use crate::experiments::alive;
 use std::fs::File;
 use std::io;
 use std::path::Path;
@@ -11,10 +13,13 @@ use std::time::Duration;
 #[cfg(unix)]
 pub(super) fn alone(folder: &Path) -> io::Result<Option<File>> {
     let file = File::open(folder)?;
+    let mut _told = None;
     for _ in 0..500 {
         match file.try_lock() {
             Ok(()) => return Ok(Some(file)),
             Err(std::fs::TryLockError::WouldBlock) => {
+                let waits = "waiting for another program that writes into the folder";
+                _told.get_or_insert_with(|| alive(move || Some(waits.into())));
                 std::thread::sleep(Duration::from_millis(20));
             }
             Err(std::fs::TryLockError::Error(error)) if has_no_locks(&error) => return Ok(None),

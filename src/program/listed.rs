@@ -1,6 +1,6 @@
 //! A report on disk, held against its own lists.
 
-use super::{Failure, folder, stdout, work};
+use super::{Failure, folder, shown, stdout, work};
 use crate::digest::sha256;
 use crate::experiments::Progress;
 use crate::input::is_obeyed;
@@ -28,7 +28,7 @@ impl Checked {
             stdout::print(&format!("{}\n", fault.replace(is_obeyed, " ")))?;
         }
         if self.faults.is_empty() {
-            let folder = folder.display();
+            let folder = shown(folder);
             stdout::print(&format!("{folder}: {} files{}\n", self.files, self.fine))?;
         }
         Ok(())

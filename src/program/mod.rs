@@ -19,6 +19,7 @@ use crate::experiments::say;
 use crate::input::{is_obeyed, one_line, plain, remedy};
 use std::fmt::Display;
 use std::io;
+use std::path::Path;
 use std::process::ExitCode;
 
 /// What the project says of itself in Cargo.toml.
@@ -40,6 +41,11 @@ pub fn tell(fault: &std::panic::PanicHookInfo<'_>) {
     let remedy = "if saved results were edited, remove them";
     let line = format!("impact-paper: a fault of the program{place}: {words}; {remedy}");
     say(&one_line(&line, LONGEST));
+}
+
+/// A path as messages on standard output show it, in one line.
+pub fn shown(path: &Path) -> String {
+    one_line(&path.display().to_string(), 500)
 }
 
 /// Characters of a message at most.

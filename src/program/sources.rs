@@ -65,6 +65,7 @@ impl Sources {
         if long {
             refuse_report("--results", &folder, self.templates.as_deref())?;
         }
+        let _made = long.then(|| work::made(&folder));
         let store = if long { Store::open(&folder)? } else { Store::nowhere() };
         // Before the first run, not after hours when its turn comes.
         for need in needs.iter().filter(|need| need.is_saved()) {

@@ -1,6 +1,8 @@
 //! Folders in which files wait until all are complete, and what killed runs leave of them.
 
+use super::work;
 use crate::input::{STAGING, bare};
+use std::fs::File;
 use std::io;
 use std::path::Path;
 
@@ -9,27 +11,42 @@ pub const OURS: &str = ".impact-paper";
 
 /// A folder in which files wait.
 #[derive(Debug)]
-pub struct Waiting(tempfile::TempDir);
+pub struct Waiting {
+    made: tempfile::TempDir,
+    /// Its mark, locked as long as this lives.
+    _mark: File,
+}
 
 impl Waiting {
     /// A new one, with its mark.
     pub fn below(folder: &Path) -> io::Result<Self> {
         let made = tempfile::Builder::new().prefix(STAGING).tempdir_in(folder).map_err(bare)?;
-        std::fs::write(made.path().join(OURS), "")?;
+        let mark = File::create(made.path().join(OURS))?;
+        // Where there are no locks, leftovers stay.
+        let _ = mark.try_lock();
         // What a killed run leaves is none of git's.
         std::fs::write(made.path().join(".gitignore"), "*\n")?;
-        Ok(Waiting(made))
+        Ok(Waiting { made, _mark: mark })
+    }
+
+    /// A new one among the temporary files of all programs: a signal removes it, and the next run what a killed one left.
+    pub fn temporary() -> io::Result<Self> {
+        let folder = std::env::temp_dir();
+        clear_left(&folder);
+        let waiting = Waiting::below(&folder)?;
+        work::temporary(waiting.path());
+        Ok(waiting)
     }
 
     /// Where it is.
     pub fn path(&self) -> &Path {
-        self.0.path()
+        self.made.path()
     }
 }
 
 impl Drop for Waiting {
     fn drop(&mut self) {
-        clear(self.0.path());
+        clear(self.made.path());
     }
 }
 
@@ -48,6 +65,24 @@ pub fn clear(waiting: &Path) {
     let _ = std::fs::remove_dir(waiting);
 }
 
+/// Removes what killed runs left in a folder: those of which nobody holds the mark. What is younger than a second may be
+/// about to be locked.
+fn clear_left(folder: &Path) {
+    let is_left = |path: &Path| {
+        let mark = path.join(OURS);
+        let found = mark.symlink_metadata().ok().filter(|found| found.is_file());
+        let age = found.and_then(|found| found.modified().ok()?.elapsed().ok());
+        age.is_some_and(|age| age.as_secs() >= 1)
+            && File::open(mark).is_ok_and(|mark| mark.try_lock().is_ok())
+    };
+    for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
+        let named = entry.file_name().to_str().is_some_and(|name| is_staging(folder, name));
+        if named && is_left(&entry.path()) {
+            clear(&entry.path());
+        }
+    }
+}
+
 /// Is it a folder in which files of ours waited? One with the mark, or an empty one: a run may be killed before it
 /// leaves its mark.
 pub fn is_staging(folder: &Path, name: &str) -> bool {
@@ -62,6 +97,28 @@ pub fn is_staging(folder: &Path, name: &str) -> bool {
 mod tests {
     use super::super::git::git;
     use super::*;
+
+    #[test]
+    fn what_killed_runs_left_goes_and_what_lives_stays() {
+        let folder = tempfile::tempdir().unwrap();
+        let [left, theirs] = ["dead00", "site00"].map(|name| {
+            let path = folder.path().join(format!("{STAGING}{name}"));
+            std::fs::create_dir(&path).unwrap();
+            std::fs::write(path.join("half"), "").unwrap();
+            path
+        });
+        let living = Waiting::below(folder.path()).unwrap();
+        std::fs::write(left.join(OURS), "").unwrap();
+        clear_left(folder.path());
+        assert!(left.exists(), "it may be about to be locked");
+        let old = std::time::SystemTime::now() - std::time::Duration::from_secs(60);
+        for path in [&left, living.path()] {
+            let mark = File::options().write(true).open(path.join(OURS)).unwrap();
+            mark.set_modified(old).unwrap();
+        }
+        clear_left(folder.path());
+        assert!(!left.exists() && theirs.exists() && living.path().exists());
+    }
 
     #[test]
     fn git_sees_nothing_of_what_waits() {

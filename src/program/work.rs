@@ -90,26 +90,36 @@ pub fn remedy(profile: Profile) -> String {
     }
 }
 
+/// The first number of a file in which Linux tells something.
+fn number(text: &str) -> Option<u128> {
+    text.split_whitespace().next()?.parse().ok()
+}
+
+/// The number behind a name at the beginning of a line.
+fn named(path: &str, name: &str) -> Option<u128> {
+    std::fs::read_to_string(path).ok()?.lines().find_map(|line| number(line.strip_prefix(name)?))
+}
+
+/// Addresses that the process may still take, where its limit is below the infinite. Counted from its beginning, and not
+/// from what it has now: what the system sets aside for the heaps of threads depends on their order.
+fn addresses() -> Option<u128> {
+    static BEGAN: OnceLock<u128> = OnceLock::new();
+    let most = named("/proc/self/limits", "Max address space")?;
+    let kib = |name| Some(named("/proc/self/status", name)? << 10);
+    let began = *BEGAN.get_or_init(|| kib("VmSize:").unwrap_or_default());
+    let taken = kib("RssAnon:")?;
+    Some(most.saturating_sub(began + taken))
+}
+
 /// Memory that the system has to give, in bytes: Linux tells it, elsewhere 4 GiB are taken for granted. Less where
 /// the process or its group may not have as much.
 fn at_hand() -> u128 {
-    let text = |path: &str| std::fs::read_to_string(path).ok();
-    let line = |path: &str, name: &str| {
-        text(path)?
-            .lines()
-            .find_map(|line| line.strip_prefix(name).map(|rest| rest.trim().to_string()))
-    };
-    let first = |text: String| text.split_whitespace().next()?.parse::<u128>().ok();
-    let kib = |path, name| Some(first(line(path, name)?)? << 10);
-    let addresses = || {
-        let most = first(line("/proc/self/limits", "Max address space")?)?;
-        Some(most.saturating_sub(kib("/proc/self/status", "VmSize:")?))
-    };
     let group = || {
-        let at = |name: &str| first(text(&format!("/sys/fs/cgroup/{name}"))?);
+        let at =
+            |name: &str| number(&std::fs::read_to_string(format!("/sys/fs/cgroup/{name}")).ok()?);
         Some(at("memory.max")?.saturating_sub(at("memory.current")?))
     };
-    let free = kib("/proc/meminfo", "MemAvailable:").unwrap_or(4 << 30);
+    let free = named("/proc/meminfo", "MemAvailable:").map_or(4 << 30, |kib| kib << 10);
     // Half of the addresses are what a process can hope for.
     let limits = [addresses(), group(), Some(usize::MAX as u128 / 2)];
     limits.into_iter().flatten().fold(free, u128::min)
@@ -127,6 +137,8 @@ fn size(bytes: u128) -> String {
 /// option that asks for it, and what to give instead.
 pub fn memory(needed: u128, option: &str, remedy: &str) -> Result<(), Failure> {
     let at_hand = at_hand();
+    // Where addresses are few, what threads set aside counts.
+    let needed = needed + addresses().map_or(0, |_| OWN);
     if needed <= at_hand {
         return Ok(());
     }
@@ -147,8 +159,18 @@ pub fn least(mib: u128, what: &str) -> Result<(), Failure> {
     memory(mib << 20, what, MORE)
 }
 
-/// Addresses that a thread takes besides: its stack, and what the system sets aside for its heap.
-pub const THREAD: u128 = STACK as u128 + (64 << 20);
+/// What any verb takes at least, in MiB: asked for before there is a second thread.
+pub const BEGIN: u128 = 16;
+
+/// Addresses of the threads besides those that compute (of the verb, of the signals, of the signs of life), and once what
+/// the system takes for a moment to align a heap.
+const OWN: u128 = 3 * THREAD + HEAP;
+
+/// What the system sets aside for the heap of a thread.
+const HEAP: u128 = 64 << 20;
+
+/// Addresses that a thread takes besides: its stack and its heap.
+pub const THREAD: u128 = STACK as u128 + HEAP;
 
 /// Stack of a thread that works, in bytes: the system, or RUST_MIN_STACK, may give less.
 pub const STACK: usize = 8 << 20;

@@ -494,7 +494,7 @@ fn exit_codes_are_those_of_the_table() {
         format!("paper --profile quick --out p --results r --templates {templates}")
     };
     let full = |limited: &str| format!("ulimit -f 1; exec \"$0\" {limited}");
-    let few = "ulimit -v 150000; exec \"$0\"";
+    let few = "ulimit -v 400000; exec \"$0\"";
     let pairs = "(echo '{\"forcing\":[[0,0]'; yes ,[0,0] | head -n 6000000; echo ']}')";
     let many = "\"$0\" bench scenario --masses 200000 >m";
     let rows = [
@@ -514,15 +514,16 @@ fn exit_codes_are_those_of_the_table() {
         (2, paper("none"), "front.md: it is missing or empty"),
         (2, paper("phrases"), "literals.toml: no such file"),
         (2, format!("ulimit -v 250000; exec \"$0\" {}", paper("good")), "MiB of memory are needed"),
-        (2, format!("{few} diff p p"), "diff: about 128 MiB"),
-        (2, format!("{few} explain --paper p"), "explain: about 128 MiB"),
-        (2, format!("{few} plan --profile full"), "plan: about 128 MiB"),
-        (2, format!("{few} run --profile quick --shard 1/1 --out x"), "run: about 256 MiB"),
-        (2, format!("{few} merge --profile quick empty"), "merge: about 256 MiB"),
+        (2, "ulimit -v 75000; exec \"$0\" --version".into(), "impact-paper: about "),
+        (2, format!("{few} diff p p"), "diff: about 408 MiB"),
+        (2, format!("{few} explain --paper p"), "explain: about 408 MiB"),
+        (2, format!("{few} plan --profile full"), "plan: about 408 MiB"),
+        (2, format!("{few} run --profile quick --shard 1/1 --out x"), "run: about 536 MiB"),
+        (2, format!("{few} merge --profile quick empty"), "merge: about 536 MiB"),
         (2, format!("{pairs} >n; ulimit -v 400000; exec \"$0\" trace n --until 0"), "n: "),
         (
             2,
-            format!("{many}; ulimit -v 250000; exec \"$0\" trace m --until 0 --sensitivity sigma"),
+            format!("{many}; ulimit -v 400000; exec \"$0\" trace m --until 0 --sensitivity sigma"),
             "m: about ",
         ),
         (0, "ulimit -s 64; exec \"$0\" sweep --sigma 0.2 --realisations 3".into(), "0.2,"),

@@ -26,7 +26,7 @@ pub enum Error {
     /// The bound on work was exceeded (exit code 4).
     #[error(
         "the chain has more than {bound} events within one unit of time, the last at gap {gap}; the run was stopped \
-         at t = {time}: give an earlier end or weaker forces"
+         at t = {time}; give an earlier end, weaker forces or, where many gaps close at once, \"simultaneous\": \"joint\""
     )]
     Work {
         /// The gap of the last event.
@@ -46,7 +46,10 @@ impl Error {
         remedy: impl Into<String>,
     ) -> Self {
         // Both may repeat what stands in a file.
-        let field = one_line(&field.into(), 80);
+        let field = match one_line(&field.into(), 80) {
+            empty if empty.is_empty() => "a field of no name".into(),
+            field => field,
+        };
         let problem = one_line(&problem.into(), 300);
         Error::Input { field, problem, remedy: remedy.into() }
     }

@@ -5,7 +5,7 @@ mod revision;
 mod text;
 
 use super::document::Only;
-use super::{Failure, folder, stdout, work};
+use super::{Failure, folder, shown, stdout, work};
 use impact_paper::experiments::Progress;
 use impact_paper::input::{self, LARGEST};
 pub use impact_paper::numerics::text::count;
@@ -57,7 +57,8 @@ pub fn run(args: Args) -> Result<(), Failure> {
         (_, true) => json,
         _ => text::text,
     };
-    stdout::print(&told(&args.old, &args.new, &diff))?;
+    let [old, new] = [&args.old, &args.new].map(|name| shown(Path::new(name)));
+    stdout::print(&told(&old, &new, &diff))?;
     if diff.is_empty() || !args.exit_code {
         return Ok(());
     }

@@ -18,7 +18,7 @@ use serde::Serialize;
 #[command(after_help = help())]
 pub struct Args {
     /// What to evaluate, one of the names below.
-    #[arg(value_name = "QUANTITY", required_unless_present = "list")]
+    #[arg(value_name = "QUANTITY", required_unless_present = "list", conflicts_with = "list")]
     quantity: Option<String>,
 
     /// Lists all quantities with their equations and what they need.
@@ -30,7 +30,7 @@ pub struct Args {
 }
 
 /// The options as they were typed.
-#[derive(clap::Args, Default)]
+#[derive(clap::Args, Default, PartialEq)]
 struct Options {
     /// Number of masses n between walls; there are N = n + 1 vertices.
     #[arg(long, value_name = "n", allow_hyphen_values = true)]
@@ -88,6 +88,9 @@ struct Answer {
 
 pub fn run(args: Args) -> Result<(), Failure> {
     if args.list {
+        if args.options != Options::default() {
+            return Err(Failure::input("--list: it takes no other option; leave them out"));
+        }
         return print(&list());
     }
     let name = args.quantity.unwrap_or_default();

@@ -19,7 +19,7 @@ use super::origin::{Filled, marked, next_tag};
 use super::print::{Asked, MOST_DIGITS, Style};
 use super::values::{Number, Registry, Value};
 use super::{Error, Templates};
-use crate::input::{Bounded, line_and_column, plain};
+use crate::input::{Bounded, MOST, line_and_column, plain};
 use crate::source::Program;
 use crate::table::Table;
 use serde_json::Value as Json;
@@ -30,7 +30,14 @@ use tera::{Context, Delimiters, Kwargs, State, Tera};
 fn render(tera: &Tera, name: &str, of: &Filler) -> Result<String, Error> {
     let mut text = Bounded::default();
     let rendered = tera.render_to(name, &of.context, &mut text);
-    rendered.map_err(|error| failure(&error, &of.templates))?;
+    rendered.map_err(|error| match error.kind() {
+        tera::ErrorKind::Io(_) => {
+            let told =
+                format!("{name}: it makes more than {MOST}; look for a loop that is too long");
+            Error::Template(told)
+        }
+        _ => failure(&error, &of.templates),
+    })?;
     String::from_utf8(text.0).map_err(|_| Error::Template(format!("{name}: it makes no text")))
 }
 

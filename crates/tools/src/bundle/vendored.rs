@@ -3,8 +3,8 @@
 use super::archive::Archive;
 use super::read;
 use impact_paper::experiments::Progress;
-use impact_paper::input::bare;
-use impact_paper::program::{Failure, folder, work};
+use impact_paper::program::waiting::Waiting;
+use impact_paper::program::{Failure, folder};
 use std::fs::File;
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -34,8 +34,7 @@ pub fn add(archive: &mut Archive, progress: &Progress) -> Result<(), Failure> {
     let remedy = "see that cargo and its registry can be reached and TMPDIR has room, or leave them out with --without crates";
     let failed = |what: &str| Failure::run(format!("cargo vendor: {what}; {remedy}"));
     // Removed in the end, whatever happens.
-    let temporary = tempfile::tempdir().map_err(|e| failed(&bare(e).to_string()))?;
-    work::temporary(temporary.path());
+    let temporary = Waiting::temporary().map_err(|e| failed(&e.to_string()))?;
     let vendor = temporary.path().join("vendor");
     progress.say("collecting the source of all crates");
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
