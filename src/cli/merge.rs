@@ -3,7 +3,7 @@
 use super::folder::resolved;
 use super::places::refuse_report;
 use super::{Failure, shown, stdout, work};
-use impact_paper::experiments::Store;
+use impact_paper::experiments::{Store, alive};
 use impact_paper::numerics::text::count;
 use impact_paper::params::Profile;
 use std::path::PathBuf;
@@ -47,6 +47,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let results = Store::open(&folder)?;
     let _made = work::made(&folder);
     let progress = work::progress();
+    let _alive = alive(|| Some("merge: at work".into()));
     work::on_threads(args.threads, || Ok(plan.merge(&args.folders, &results, &progress)?))?;
     let (units, out) = (count(plan.tasks.len(), "unit"), shown(&folder));
     stdout::print(&format!("{out}: results of {units} of work\n"))

@@ -2,7 +2,7 @@
 
 use super::{Failure, folder, shown, stdout, work};
 use crate::digest::sha256;
-use crate::experiments::Progress;
+use crate::experiments::{Progress, alive};
 use crate::input::is_obeyed;
 use crate::params::Profile;
 use crate::report::values::Number;
@@ -40,6 +40,7 @@ impl Checked {
 /// # Errors
 /// Exit code 2 if there is no list that can be read, or none of that document.
 pub fn listed(root: &Path, only: Option<&str>, progress: &Progress) -> Result<Checked, Failure> {
+    let _alive = alive(|| Some("comparing files with their list".into()));
     let place = root.join(sums::NAME);
     let unusable = |what: String| {
         let remedy = "make the report anew with `impact-paper paper`";

@@ -6,7 +6,7 @@ use super::sources::Sources;
 use crate::claims::{self, Check, Text, Verdict};
 use crate::committed;
 use crate::experiments::spacetime::scene::Scene;
-use crate::experiments::{ALL, Progress, Results, SPACE_TIME};
+use crate::experiments::{ALL, Progress, Results, SPACE_TIME, alive};
 use crate::figures::{self, Figure};
 use crate::params::{Profile, set};
 use crate::report::{self, PROGRAM, Report, contents, equations};
@@ -67,6 +67,8 @@ pub fn whole(
     let script = templates.text("lab.js")?;
     let lab = module.map(|module| report::lab::script(&module, &results, script)).transpose()?;
     progress.check()?;
+    // A loop of a template may be a long one, and a typesetter takes its time.
+    let _alive = alive(|| Some("writing the documents".into()));
     let report = report::assemble(&report::Input {
         templates: &templates,
         values: &values,

@@ -1,7 +1,7 @@
 //! `impact-paper trace` and what people get wrong: exit code 2, one line on stderr that names the
 //! field and the remedy, nothing on stdout, never a panic.
 
-use crate::{SCENARIO, program, run};
+use crate::{SCENARIO, TEMPLATES, program, run};
 use std::fs;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
@@ -447,12 +447,16 @@ fn what_stands_in_the_place_of_a_folder_is_told_first() {
 fn long_work_gives_signs_of_life() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("s.json"), SCENARIO).unwrap();
+    // Somebody writes there.
+    let locked = fs::File::open(folder.path()).unwrap();
+    locked.lock().unwrap();
+    let waits = format!("paper --figure 4 --out . --templates {TEMPLATES}");
     let sweep = "sweep --sigma 0.3 --realisations 1 --masses 10 --window 1e11";
-    let begun =
-        ["trace s.json --until 1e12", "bench engine --masses 10 --until 1e9", sweep].map(|verb| {
-            let mut command = program(folder.path(), verb);
-            command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
-        });
+    let bench = "bench engine --masses 10 --until 1e9";
+    let begun = ["trace s.json --until 1e12", bench, sweep, &waits].map(|verb| {
+        let mut command = program(folder.path(), verb);
+        command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
+    });
     for mut child in begun {
         let mut line = String::new();
         BufReader::new(child.stderr.take().unwrap()).read_line(&mut line).unwrap();

@@ -410,6 +410,7 @@ impl<const M: usize> Simulation<M> {
     pub(super) fn set_frame(&mut self, k: usize, phases: &Phases<M>, f0: f64, g0: f64) {
         let mut frame = Frame { f0, g0, ..self.look(k, phases) };
         not_below(&mut frame);
+        // Of a gap at rest, rounding of the acceleration decides nothing: a released one would shut again.
         if f0 == 0.0 && g0 == 0.0 {
             frame.not_falling(&self.search.frequencies);
         }

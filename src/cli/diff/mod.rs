@@ -6,7 +6,7 @@ mod text;
 
 use super::document::Only;
 use super::{Failure, folder, shown, stdout, work};
-use impact_paper::experiments::Progress;
+use impact_paper::experiments::{Progress, alive};
 use impact_paper::input::{self, LARGEST};
 pub use impact_paper::numerics::text::count;
 use impact_paper::report::compare::{self, Change, Diff, Parts};
@@ -44,6 +44,7 @@ pub struct Args {
 
 pub fn run(args: Args) -> Result<(), Failure> {
     work::least(128, "diff")?;
+    let _alive = alive(|| Some("diff: at work".into()));
     let (old, new) = (files(&args.old)?, files(&args.new)?);
     let unusable = |what: String| Failure::input(format!("{what}; is it a report?"));
     let mut before = Parts::of(&args.old, old).map_err(unusable)?;
