@@ -10,7 +10,7 @@ use std::process::ExitCode;
 
 fn main() -> ExitCode {
     std::panic::set_hook(Box::new(tell));
-    if let Err(failure) = work::least(work::BEGIN, "impact-paper") {
+    if let Err(failure) = work::least(work::BEGIN, "the program") {
         return ended(Err(failure));
     }
     let thread = std::thread::Builder::new().stack_size(work::STACK).spawn(cli::main);

@@ -2,6 +2,7 @@
 
 use super::document::Only;
 use super::{Failure, folder, stdout, work};
+use impact_paper::experiments::alive;
 use impact_paper::input::{is_obeyed, one_line, regular_text};
 use impact_paper::report::PROGRAM;
 use impact_paper::report::card::{Card, Cards, Row};
@@ -32,8 +33,14 @@ pub struct Args {
     json: bool,
 }
 
+/// Bytes for each of a text that is parsed: measured, with a little room.
+const PARSED: u128 = 40;
+
 pub fn run(args: Args) -> Result<(), Failure> {
-    work::least(128, "explain")?;
+    let length = |name: &str| args.paper.join(name).metadata().map_or(0, |found| found.len());
+    let long = u128::from(length("values.json") + length("ledger.json"));
+    work::memory(PARSED * long + (128 << 20), "explain", work::MORE)?;
+    let _alive = alive(|| Some("explain: at work".into()));
     let mut values = values(&args.paper)?;
     let mut ledger = ledger(&args.paper)?;
     if let Some(document) = &args.only.document {
@@ -160,13 +167,16 @@ fn unknown(id: &str, ids: &[String]) -> Failure {
     Failure::input(format!("explain: {id}{near}; without an id all are listed"))
 }
 
+/// Letters of an id at most for which others that are alike are looked for: no id of ours is near that.
+const LONGEST: usize = 200;
+
 /// Fewest insertions, deletions and replacements between two words, unless they are too many; what stands behind
 /// `claim:` may match alone.
 fn distance(a: &[char], known: &str) -> Option<usize> {
     let most = a.len() / 3;
     let one = |b: &str| {
         let b: Vec<char> = b.chars().collect();
-        if a.len().abs_diff(b.len()) > most {
+        if a.len().abs_diff(b.len()) > most || a.len() > LONGEST {
             return None;
         }
         let mut row: Vec<usize> = (0..=b.len()).collect();

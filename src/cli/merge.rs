@@ -4,9 +4,11 @@ use super::folder::resolved;
 use super::places::refuse_report;
 use super::{Failure, shown, stdout, work};
 use impact_paper::experiments::{Store, alive};
+use impact_paper::input::LARGEST;
 use impact_paper::numerics::text::count;
 use impact_paper::params::Profile;
-use std::path::PathBuf;
+use std::fs::DirEntry;
+use std::path::{Path, PathBuf};
 
 /// Joins the folders of all shards to saved results, byte for byte those of one machine.
 ///
@@ -32,8 +34,17 @@ pub struct Args {
     threads: Option<usize>,
 }
 
+/// Lengths of what may be units in a folder.
+fn lengths(folder: &Path) -> impl Iterator<Item = u128> {
+    let of = |entry: DirEntry| {
+        let unit = entry.path().extension().is_some_and(|end| end == "json");
+        let length = entry.metadata().ok().filter(|found| unit && found.is_file())?.len();
+        Some(u128::from(length.min(LARGEST)))
+    };
+    std::fs::read_dir(folder).into_iter().flatten().flatten().filter_map(of)
+}
+
 pub fn run(args: Args) -> Result<(), Failure> {
-    work::least(work::RESULTS, "merge")?;
     let profile = args.profile;
     let plan = args.only.plan(profile)?;
     let folder = work::results(args.results, profile);
@@ -46,6 +57,8 @@ pub fn run(args: Args) -> Result<(), Failure> {
     refuse_report("--results", &folder, None)?;
     let results = Store::open(&folder)?;
     let _made = work::made(&folder);
+    let long = args.folders.iter().flat_map(|folder| lengths(folder)).sum::<u128>();
+    work::memory(2 * long + (work::RESULTS << 20), "merge", work::MORE)?;
     let progress = work::progress();
     let _alive = alive(|| Some("merge: at work".into()));
     work::on_threads(args.threads, || Ok(plan.merge(&args.folders, &results, &progress)?))?;

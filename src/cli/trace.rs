@@ -150,7 +150,8 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let pairs = text.bytes().filter(|byte| *byte == b'[').count() as u128;
     work::memory(PAIR * pairs, &name, "give fewer masses")?;
     let scenario = Scenario::from_json(&text).map_err(in_file)?;
-    let engines = if args.certify { 1 + TWINS } else { 1 };
+    // The run, its twins, and one more that tells ties of a symmetry.
+    let engines = if args.certify { 2 + TWINS } else { 1 };
     let (masses, components) = (scenario.forcing.len(), 1 + scenario.overtones.len());
     let derivatives = args.sensitivity.map_or(0, |_| Sensitivity::memory(masses));
     let needed = u128::from(engines) * Engine::memory(masses, components) + derivatives;

@@ -41,7 +41,8 @@ pub struct Args {
 }
 
 pub fn run(args: Args) -> Result<(), Failure> {
-    work::least(64, "verify")?;
+    let long = args.folder.join(sums::NAME).metadata().map_or(0, |found| found.len());
+    work::memory(16 * u128::from(long) + (64 << 20), "verify", work::MORE)?;
     let progress = work::progress();
     let mut checked = listed(&args.folder, args.only.document.as_deref(), &progress)?;
     checked.tell(&args.folder)?;

@@ -64,8 +64,9 @@ pub fn listed(root: &Path, only: Option<&str>, progress: &Progress) -> Result<Ch
         Failure::input(format!("{what}; {remedy}"))
     })?;
     let local = local.unwrap_or_default();
-    let beside =
-        |entry: &&sums::Entry| folder::is_beside(&entry.path) && found.contains(&entry.path);
+    let beside = |entry: &&sums::Entry| {
+        folder::is_beside(&entry.path) && found.binary_search(&entry.path).is_ok()
+    };
     for entry in local.iter().filter(beside).chain(&entries) {
         known.insert(&entry.path, &entry.digest);
     }

@@ -31,12 +31,16 @@ pub fn whole(
     if pdf && !TYPESETS {
         return Err(report::Error::NoTypesetter.into());
     }
+    let reading = alive(|| Some("reading the templates".into()));
     let templates = sources.templates()?;
     report::lint::check(&templates, PROGRAM)?;
     // Faults of the templates are told before the long runs, not after them.
     let published = sources.published(&templates)?;
+    drop(reading);
     let results = sources.run(&ALL, profile, &templates, progress)?;
     results.look();
+    // Machines may be slow or busy, a loop of a template long, and a typesetter takes its time.
+    let _alive = alive(|| Some("making figures and documents".into()));
     let draw = |number| {
         progress.check()?;
         figure(number, &results)
@@ -67,8 +71,6 @@ pub fn whole(
     let script = templates.text("lab.js")?;
     let lab = module.map(|module| report::lab::script(&module, &results, script)).transpose()?;
     progress.check()?;
-    // A loop of a template may be a long one, and a typesetter takes its time.
-    let _alive = alive(|| Some("writing the documents".into()));
     let report = report::assemble(&report::Input {
         templates: &templates,
         values: &values,

@@ -82,8 +82,9 @@ impl Failure {
     fn io_code(error: &io::Error) -> u8 {
         use io::ErrorKind::{FileTooLarge, OutOfMemory, QuotaExceeded, StorageFull, WriteZero};
         let full = [FileTooLarge, OutOfMemory, QuotaExceeded, StorageFull, WriteZero];
-        // EIO has no kind of its own.
-        let broken = cfg!(unix) && error.raw_os_error() == Some(5);
+        // EIO, and ENFILE and EMFILE, which have no kinds of their own.
+        let broken =
+            cfg!(unix) && error.raw_os_error().is_some_and(|code| [5, 23, 24].contains(&code));
         if full.contains(&error.kind()) || broken { 4 } else { 2 }
     }
 
@@ -134,6 +135,7 @@ pub fn usage(error: &clap::Error) -> ExitCode {
     let text = plain(&error.to_string());
     let lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
     let line = lines.collect::<Vec<_>>().join("; ");
-    say(&format!("impact-paper: {}", line.strip_prefix("error: ").unwrap_or(&line)));
+    let line = format!("impact-paper: {}", line.strip_prefix("error: ").unwrap_or(&line));
+    say(&one_line(&line, LONGEST));
     ExitCode::from(2)
 }

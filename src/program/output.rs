@@ -164,6 +164,7 @@ impl<'a> Staging<'a> {
         self.no_folder(files.keys())?;
 
         let temporary = self.temporary()?;
+        work::temporary(temporary.path());
         let stage = |path: &str, bytes: &[u8]| {
             let staged = temporary.path().join(path);
             std::fs::create_dir_all(staged.parent().unwrap_or(self.folder))?;
@@ -179,7 +180,7 @@ impl<'a> Staging<'a> {
         }
         // Whoever is killed half-way leaves old and new files: at each moment the lists know both.
         stage(sums::LOCAL, own.local(files, stands, true).as_bytes()).map_err(failed)?;
-        let _placing = work::moment(Now::Placing);
+        let placing = work::moment(Now::Placing);
         progress.check()?;
         put(sums::LOCAL).map_err(failed)?;
         for path in files.keys().filter(|path| *path != sums::NAME) {
@@ -198,6 +199,9 @@ impl<'a> Staging<'a> {
         }
         stage(sums::LOCAL, own.local(files, stands, false).as_bytes()).map_err(failed)?;
         put(sums::LOCAL).map_err(failed)?;
+        drop(temporary);
+        // Whoever is told may not listen.
+        drop(placing);
         if !gone.is_empty() {
             let (number, names) = (count(gone.len(), "file"), one_line(&listed(&gone), 500));
             say(&format!("impact-paper: removed {number} of the report before: {names}"));

@@ -26,6 +26,9 @@ pub struct Sources {
     pub results: PathBuf,
 }
 
+/// Bytes for each of the templates while a report is made: measured, with a little room.
+const PARSED: u128 = 170;
+
 impl Sources {
     /// From options of another verb.
     pub fn of(threads: Option<usize>, templates: Option<PathBuf>, results: PathBuf) -> Self {
@@ -34,7 +37,10 @@ impl Sources {
 
     /// The templates.
     pub fn templates(&self) -> Result<Templates, Failure> {
-        Ok(find(self.templates.as_deref())?)
+        let templates = find(self.templates.as_deref())?;
+        let long: usize = templates.iter().map(|(_, text)| text.len()).sum();
+        work::memory(PARSED * long as u128 + (work::RESULTS << 20), "the templates", work::MORE)?;
+        Ok(templates)
     }
 
     /// What the paper printed.

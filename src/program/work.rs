@@ -11,7 +11,7 @@ use literate::experiments::shards::Plan;
 use std::collections::HashSet;
 use std::num::ParseIntError;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::Duration;
 
@@ -138,7 +138,8 @@ fn size(bytes: u128) -> String {
 pub fn memory(needed: u128, option: &str, remedy: &str) -> Result<(), Failure> {
     let at_hand = at_hand();
     // Where addresses are few, what threads set aside counts.
-    let needed = needed + addresses().map_or(0, |_| OWN);
+    let pool = THREAD * POOL.load(Ordering::Relaxed) as u128;
+    let needed = needed + addresses().map_or(0, |_| OWN + pool);
     if needed <= at_hand {
         return Ok(());
     }
@@ -175,6 +176,9 @@ pub const THREAD: u128 = STACK as u128 + HEAP;
 /// Stack of a thread that works, in bytes: the system, or RUST_MIN_STACK, may give less.
 pub const STACK: usize = 8 << 20;
 
+/// Stack of a thread that only waits and tells: RUST_MIN_STACK may ask for more than there is.
+const SMALL: usize = 1 << 20;
+
 /// What a shell calls a program that Ctrl-C ended: 128 + SIGINT.
 const INTERRUPTED: u8 = 130;
 
@@ -187,31 +191,46 @@ const PATIENCE: Duration = Duration::from_millis(700);
 /// From now on Ctrl-C (SIGTERM, or the end of the terminal) raises the flag that work with [`Progress`] looks at; without such
 /// work, or the second time, it ends the program at once. Always with exit code 130.
 pub fn obey_signals() {
-    let end = || {
+    let end = || -> ! {
         remove_empty(&MADE.lock().unwrap_or_else(PoisonError::into_inner));
         for path in TEMPORARY.lock().unwrap_or_else(PoisonError::into_inner).iter() {
             // Again, should the work that goes on have saved something meanwhile.
             let gone = || std::fs::remove_dir_all(path).or_else(|_| std::fs::remove_file(path));
             let _ = (0..9).any(|_| gone().is_ok());
         }
-        say("impact-paper: interrupted");
+        // Standard error may wait for a reader for ever.
+        let (tells, told) = std::sync::mpsc::channel();
+        let tell = move || {
+            say("impact-paper: interrupted");
+            let _ = tells.send(());
+        };
+        if std::thread::Builder::new().stack_size(SMALL).spawn(tell).is_ok() {
+            let _ = told.recv_timeout(PATIENCE / 7);
+        }
         std::process::exit(i32::from(INTERRUPTED))
     };
     // A file that would grow past the limit of `ulimit -f` fails to be written, as on a full disk.
     #[cfg(unix)]
     let _ =
         signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::new(AtomicBool::new(false)));
+    let is = |now| *NOW.lock().unwrap_or_else(PoisonError::into_inner) == now;
     // A handler can only be refused if there is one already; then a signal just ends the program.
     let obey = move || match WORK.get() {
-        Some(stop)
-            if *NOW.lock().unwrap_or_else(PoisonError::into_inner) != Now::Idle
-                && !stop.swap(true, Ordering::Relaxed) =>
-        {
+        Some(stop) if !is(Now::Idle) && !stop.swap(true, Ordering::Relaxed) => {
             std::thread::sleep(PATIENCE);
-            while *NOW.lock().unwrap_or_else(PoisonError::into_inner) == Now::Placing {
-                std::thread::sleep(Duration::from_millis(10));
+            loop {
+                // Held to the end, so that no file is moved meanwhile.
+                let now = NOW.lock().unwrap_or_else(PoisonError::into_inner);
+                if *now != Now::Placing {
+                    end();
+                }
+                drop(now);
+                while is(Now::Placing) {
+                    std::thread::sleep(Duration::from_millis(10));
+                }
+                // All is in its place: what is left is to tell of it.
+                std::thread::sleep(PATIENCE);
             }
-            end();
         }
         _ => end(),
     };
@@ -228,7 +247,8 @@ fn on_signals(obey: impl Fn() + Send + 'static) {
     let hangup = (!is_ignored(SIGHUP)).then_some(SIGHUP);
     let signals = signal_hook::iterator::Signals::new(hangup.into_iter().chain([SIGINT, SIGTERM]));
     let follow = |mut signals: signal_hook::iterator::Signals| {
-        std::thread::Builder::new().spawn(move || signals.forever().for_each(|_| obey()))
+        let thread = std::thread::Builder::new().stack_size(SMALL);
+        thread.spawn(move || signals.forever().for_each(|_| obey()))
     };
     // Without, such a signal just ends the program.
     let _ = signals.and_then(follow);
@@ -347,17 +367,30 @@ pub fn environment() -> Result<(), Failure> {
     })
 }
 
+/// Threads of the pool under way.
+static POOL: AtomicUsize = AtomicUsize::new(0);
+
 /// Runs `work` on that many threads; none means all cores.
 pub fn on_threads<T: Send>(
     threads: Option<usize>,
     work: impl FnOnce() -> Result<T, Failure> + Send,
 ) -> Result<T, Failure> {
-    let builder =
-        rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0)).stack_size(STACK);
+    let number = threads.or_else(of_environment).unwrap_or_else(cores);
+    POOL.store(number, Ordering::Relaxed);
+    least(BEGIN, "--threads")?;
+    let builder = rayon::ThreadPoolBuilder::new().num_threads(number).stack_size(STACK);
     let pool = builder.build().map_err(|error| {
         Failure::input(format!("--threads: {error}; give a smaller number of threads"))
     })?;
-    pool.install(work)
+    let result = pool.install(work);
+    POOL.store(0, Ordering::Relaxed);
+    result
+}
+
+/// The number of threads that the environment asks for.
+fn of_environment() -> Option<usize> {
+    let number = |name| std::env::var(name).ok()?.parse().ok().filter(|&n: &usize| n > 0);
+    THREADS.into_iter().find_map(number)
 }
 
 impl From<Error> for Failure {

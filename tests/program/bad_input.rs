@@ -342,9 +342,9 @@ fn files_without_end_are_refused() {
     // Together, though none alone.
     for name in ["report.md", "one.md", "two.md"] {
         let file = fs::File::create(folder.join("templates").join(name)).unwrap();
-        file.set_len(30 << 20).unwrap();
+        file.set_len(3 << 20).unwrap();
     }
-    crate::refused(folder, check, &["templates", "64 MiB"]);
+    crate::refused(folder, check, &["templates", "4 MiB"]);
     if Path::new("/dev/zero").exists() {
         crate::refused(folder, "trace /dev/zero --until=5", &["/dev/zero", "64 MiB"]);
     }

@@ -88,6 +88,17 @@ fn messages_that_cannot_be_written_change_nothing() {
     ended(&mut full("--sigma 0.3 --realisations 1000000"), "-INT", SOON);
 }
 
+/// Nobody reads what it says, and it waits for that with the lock on standard error.
+#[cfg(target_os = "linux")]
+#[test]
+fn signals_end_a_sweep_whose_messages_nobody_reads() {
+    use std::io::Write;
+    let (_reader, mut writer) = std::io::pipe().unwrap();
+    writer.write_all(&[b'\n'; 1 << 16]).unwrap();
+    let mut command = sweep("--sigma 0.3 --realisations 1000000");
+    ended(command.stderr(writer), "-INT", SOON);
+}
+
 #[cfg(unix)]
 #[test]
 fn signals_end_a_sweep_of_any_size_within_a_second() {

@@ -4,10 +4,12 @@
 //! gap is hit. Twins whose amplitudes differ in the last bit round differently everywhere, so they
 //! leave the run, and one another, as fast as the run leaves the truth, but for errors that they
 //! share with it. They are therefore held to a [`MARGIN`] of the [`TOLERANCE`] that is promised of
-//! the run. It is an estimate all the same, and no proof. A run without chaos keeps its twins to
+//! the run. Where rounding decides which of two neighbouring gaps closes first, nothing is trusted any more, whatever the
+//! twins do. It is an estimate all the same, and no proof. A run without chaos keeps its twins to
 //! its end.
 
 use super::growth::Growth;
+use super::order::Order;
 use super::{Engine, Error, Impact, Initial, Scenario};
 
 /// Twins beside a run.
@@ -35,7 +37,7 @@ pub struct Certificate {
 }
 
 /// Runs a scenario with its twins beside it, and hands each impact to `sink` as
-/// [`Engine::run`] does, trusted or not. Costs nine runs up to the horizon, one beyond it.
+/// [`Engine::run`] does, trusted or not. Costs ten runs up to the horizon, one beyond it.
 ///
 /// # Errors
 /// As [`Engine::new`] and [`Engine::run`].
@@ -61,12 +63,15 @@ pub fn certify(
 /// The twins of a run, and what was seen of them.
 struct Watch {
     twins: Vec<Engine>,
+    /// The twin that shows which ties are those of a symmetry, until it goes its own way.
+    loose: Option<Engine>,
     /// 1/ω.
     unit: f64,
     until: f64,
     impacts: u64,
     horizon: Option<f64>,
     growth: Growth,
+    order: Order,
 }
 
 impl Watch {
@@ -77,10 +82,12 @@ impl Watch {
             // A start that the last bit makes impossible is nothing to trust.
             horizon: twins.is_err().then_some(0.0),
             twins: twins.unwrap_or_default(),
+            loose: Engine::new(&changed(scenario, loosened)).ok().map(Engine::in_order),
             unit: 1.0 / scenario.natural_frequency,
             until,
             impacts: 0,
             growth: Growth::default(),
+            order: Order::new(scenario),
         }
     }
 
@@ -101,6 +108,16 @@ impl Watch {
                 return;
             }
             largest = largest.max(difference);
+        }
+        let other = self.loose.as_mut().and_then(|twin| next(twin, self.until + self.unit));
+        let other = other.filter(|other| other.gap == own.gap);
+        if other.is_none() {
+            self.loose = None;
+        }
+        let time = other.map_or(f64::NAN, |other| other.time);
+        if let Some((number, time)) = self.order.doubt(self.impacts, own, time) {
+            self.impacts = number;
+            return self.part(time);
         }
         self.growth.see(own.time / self.unit, largest / self.unit);
         self.impacts += 1;
@@ -142,6 +159,11 @@ fn next(twin: &mut Engine, until: f64) -> Option<Impact> {
 ///
 /// Equal numbers stay equal, and zeros zero: an exact symmetry of the scenario is one of its twins.
 fn twin(scenario: &Scenario, pattern: u64) -> Scenario {
+    changed(scenario, |x| disturbed(x, pattern))
+}
+
+/// The scenario with each amplitude changed.
+fn changed(scenario: &Scenario, change: impl Fn(f64) -> f64) -> Scenario {
     let mut twin = scenario.clone();
     let overtones = twin.overtones.iter_mut().flat_map(|overtone| &mut overtone.amplitudes);
     let free = match &mut twin.initial {
@@ -149,7 +171,7 @@ fn twin(scenario: &Scenario, pattern: u64) -> Scenario {
         Initial::Rest | Initial::Zero => &mut [],
     };
     for amplitude in twin.forcing.iter_mut().chain(overtones).chain(free).flatten() {
-        *amplitude = disturbed(*amplitude, pattern);
+        *amplitude = change(*amplitude);
     }
     twin
 }
@@ -159,12 +181,22 @@ fn disturbed(x: f64, pattern: u64) -> f64 {
     if x == 0.0 {
         return x;
     }
-    // The output function of SplitMix64 (Steele, Lea and Flood, 2014).
+    let away = mixed(x, pattern) & 1 == 1;
+    f64::from_bits(if away { x.to_bits() + 1 } else { x.to_bits() - 1 })
+}
+
+/// The number changed by 5e-11 to 1e-10 of itself: far more than rounding, so that no tie but that of a symmetry stays.
+fn loosened(x: f64) -> f64 {
+    let share = (mixed(x, 0) >> 11) as f64 / (1u64 << 53) as f64;
+    x * (1.0 + 5e-11 * (1.0 + share))
+}
+
+/// Bits that the modulus of a number and the pattern decide, by the output function of SplitMix64 (Steele, Lea and Flood, 2014).
+fn mixed(x: f64, pattern: u64) -> u64 {
     let mut z = x.abs().to_bits() ^ pattern.wrapping_mul(0x9e37_79b9_7f4a_7c15);
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    let away = (z ^ (z >> 31)) & 1 == 1;
-    f64::from_bits(if away { x.to_bits() + 1 } else { x.to_bits() - 1 })
+    z ^ (z >> 31)
 }
 
 #[cfg(test)]

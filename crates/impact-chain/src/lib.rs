@@ -49,6 +49,7 @@ mod halves;
 mod impact;
 mod linear;
 pub mod methods;
+mod order;
 pub mod replay;
 pub mod rounding;
 mod scenario;

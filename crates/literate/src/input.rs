@@ -81,6 +81,9 @@ pub fn bare(error: Error) -> Error {
 
 /// What to do about what the system said: `otherwise`, unless it is not the place that is at fault.
 pub fn remedy<'a>(error: &Error, otherwise: &'a str) -> &'a str {
+    if cfg!(unix) && matches!(error.raw_os_error(), Some(23 | 24)) {
+        return "allow more open files (ulimit -n)";
+    }
     match error.kind() {
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::WriteZero => "make room",
         ErrorKind::FileTooLarge => "allow larger files (ulimit -f)",

@@ -5,6 +5,7 @@ use impact_paper::dynamics::methods::{
     Certified, Method, MoreauJean, Newton, Penalty, RungeKutta, Sampled, State, Verlet,
 };
 use impact_paper::dynamics::{Error, Impact, Scenario};
+use impact_paper::experiments::alive;
 use impact_paper::experiments::measured::{Row, What};
 use impact_paper::input;
 use serde::{Deserialize, Serialize};
@@ -74,7 +75,9 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         let Drawn { masses, sigma, seed, chain } = args.drawn;
         draw(masses, sigma, 0.8, seed, chain)?
     };
-    let reference = args.reference.as_deref().map(read).transpose()?;
+    let reference =
+        args.reference.as_deref().map(|path| read(path, args.drawn.masses)).transpose()?;
+    let _alive = alive(|| Some("bench methods: at work".into()));
     let progress = work::progress();
     let rows = settings()
         .iter()
@@ -104,14 +107,19 @@ fn settings() -> Vec<(Box<dyn Method>, String)> {
 }
 
 /// Reads the truth.
-fn read(path: &Path) -> Result<Reference, Failure> {
+fn read(path: &Path, masses: usize) -> Result<Reference, Failure> {
     let remedy = "make it with cargo bench --bench reference -- SCENARIO.json UNTIL";
     let wrong = |problem: String| {
         Failure::input(format!("--reference: {}: {problem}; {remedy}", path.display()))
     };
     let text = input::read(path).map_err(|error| wrong(error.to_string()))?;
-    serde_json::from_str(&text)
-        .map_err(|error| wrong(input::one_line(&input::plain(&error.to_string()), 300)))
+    let read: Reference = serde_json::from_str(&text)
+        .map_err(|error| wrong(input::one_line(&input::plain(&error.to_string()), 300)))?;
+    let whole = |one: &Segment| [&one.u, &one.v].iter().all(|parts| parts.len() == masses);
+    match read.segments.iter().position(|one| !whole(one)) {
+        None => Ok(read),
+        Some(i) => Err(wrong(format!("segments[{i}]: u and v need {masses} numbers, one a mass"))),
+    }
 }
 
 /// Runs one setting as often as there is time for.
@@ -124,13 +132,20 @@ fn row(
 ) -> Row {
     let start = State::of(scenario);
     let (mut best, mut spent) = (f64::INFINITY, 0.0);
+    // As many as are compared, and the number of all.
     let mut impacts: Vec<Impact> = Vec::new();
+    let most = reference.map_or(0, |truth| truth.impacts.len());
+    let mut count = 0_u64;
     let mut ended = Ok(Default::default());
     for _ in 0..REPETITIONS {
         impacts.clear();
+        count = 0;
         let began = Instant::now();
         ended = method.run(scenario, &start, args.until, &mut |impact| {
-            impacts.push(impact);
+            count += 1;
+            if impacts.len() < most {
+                impacts.push(impact);
+            }
             true
         });
         let seconds = began.elapsed().as_secs_f64();
@@ -140,7 +155,7 @@ fn row(
             break;
         }
     }
-    let per_impact = |x: f64| (!impacts.is_empty()).then(|| x / impacts.len() as f64);
+    let per_impact = |x: f64| (count > 0).then(|| x / count as f64);
     let horizon = reference.and_then(|truth| horizon(truth, &impacts));
     Row {
         what: What::Method,
@@ -153,7 +168,7 @@ fn row(
         chains: 1,
         threads: 1,
         lanes: 1,
-        impacts: impacts.len() as u64,
+        impacts: count,
         microseconds_per_impact: per_impact(best * 1e6),
         evaluations_per_impact: ended.as_ref().ok().and_then(|cost| {
             // A method that counts none has none.

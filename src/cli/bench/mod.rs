@@ -212,7 +212,7 @@ fn case(args: &EngineArgs, n: usize) -> Result<Case, Failure> {
     let needed = (Engine::memory(n, 1) + ENGINE).saturating_mul(copies * args.chains as u128);
     let threads = work::THREAD * args.threads as u128;
     let needed = needed.saturating_add(threads);
-    work::memory(needed, "--masses, --chains", "give fewer masses or chains")?;
+    work::memory(needed, "--masses, --chains", "give fewer masses, chains or threads")?;
     let began = Instant::now();
     let engines = work::on_threads(Some(args.threads), || {
         let start = |index: usize| {

@@ -123,7 +123,7 @@ pub fn alive(line: impl Fn() -> Option<String> + Send + 'static) -> Alive {
         }
     };
     // Without a thread nothing is said.
-    let _ = std::thread::Builder::new().spawn(speak);
+    let _ = std::thread::Builder::new().stack_size(1 << 20).spawn(speak);
     Alive { _ends: ends }
 }
 

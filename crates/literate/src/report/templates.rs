@@ -1,7 +1,7 @@
 //! The templates: people's prose, read at run time; [`super::filler`] fills them.
 
 use super::Error;
-use crate::input::{self, LARGEST, MOST};
+use crate::input;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -20,6 +20,10 @@ const SKIN: [(&str, &str); 5] = [
 
 /// Files and folders that may stand in the folder: somebody might give the root.
 const ENTRIES: usize = 10_000;
+
+/// Bytes of all of them at most: ours have a third of a million, and each of them takes a hundred times as much while a
+/// report is made.
+const BYTES: usize = 4 << 20;
 
 /// All template files, by path relative to their folder.
 #[derive(Clone, Debug, PartialEq)]
@@ -97,8 +101,8 @@ impl Walk {
                     return Err(Error::Template(format!("{}: {what}", path.display())));
                 }
                 self.bytes += text.len();
-                if self.bytes as u64 > LARGEST {
-                    let what = format!("the templates are longer than {MOST}");
+                if self.bytes > BYTES {
+                    let what = format!("the templates are longer than {} MiB", BYTES >> 20);
                     return refuse(&path, io::ErrorKind::FileTooLarge, &what);
                 }
                 self.files.insert(relative, text);
