@@ -205,7 +205,7 @@ pub fn obey_signals() {
             let _ = tells.send(());
         };
         if std::thread::Builder::new().stack_size(SMALL).spawn(tell).is_ok() {
-            let _ = told.recv_timeout(PATIENCE / 7);
+            let _ = told.recv_timeout(Duration::from_millis(200));
         }
         std::process::exit(i32::from(INTERRUPTED))
     };
@@ -215,24 +215,26 @@ pub fn obey_signals() {
         signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::new(AtomicBool::new(false)));
     let is = |now| *NOW.lock().unwrap_or_else(PoisonError::into_inner) == now;
     // A handler can only be refused if there is one already; then a signal just ends the program.
-    let obey = move || match WORK.get() {
-        Some(stop) if !is(Now::Idle) && !stop.swap(true, Ordering::Relaxed) => {
+    let obey = move || {
+        if let Some(stop) = WORK.get()
+            && !is(Now::Idle)
+            && !stop.swap(true, Ordering::Relaxed)
+        {
             std::thread::sleep(PATIENCE);
-            loop {
-                // Held to the end, so that no file is moved meanwhile.
-                let now = NOW.lock().unwrap_or_else(PoisonError::into_inner);
-                if *now != Now::Placing {
-                    end();
-                }
-                drop(now);
-                while is(Now::Placing) {
-                    std::thread::sleep(Duration::from_millis(10));
-                }
-                // All is in its place: what is left is to tell of it.
-                std::thread::sleep(PATIENCE);
-            }
         }
-        _ => end(),
+        loop {
+            // Held to the end, so that no file is moved meanwhile.
+            let now = NOW.lock().unwrap_or_else(PoisonError::into_inner);
+            if *now != Now::Placing {
+                end();
+            }
+            drop(now);
+            while is(Now::Placing) {
+                std::thread::sleep(Duration::from_millis(10));
+            }
+            // All is in its place: what is left is to tell of it.
+            std::thread::sleep(PATIENCE);
+        }
     };
     #[cfg(not(unix))]
     let _ = ctrlc::set_handler(obey);
@@ -377,7 +379,7 @@ pub fn on_threads<T: Send>(
 ) -> Result<T, Failure> {
     let number = threads.or_else(of_environment).unwrap_or_else(cores);
     POOL.store(number, Ordering::Relaxed);
-    least(BEGIN, "--threads")?;
+    least(BEGIN, "the threads")?;
     let builder = rayon::ThreadPoolBuilder::new().num_threads(number).stack_size(STACK);
     let pool = builder.build().map_err(|error| {
         Failure::input(format!("--threads: {error}; give a smaller number of threads"))

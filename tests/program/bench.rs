@@ -96,6 +96,9 @@ fn methods_are_judged() {
     {
         assert_eq!(certified[field].as_u64(), Some(value), "{field}");
     }
+    // Of another number of masses.
+    let other = format!("-q bench methods --masses 19 --until 3 --reference {}", path.display());
+    crate::refused(Path::new("."), &other, &["--reference", "segments[0]", "19 numbers"]);
     let machine = json!({"processor": "x", "cores": 1, "os": "x"});
     let file = json!({"date": "2007-01-01", "machine": machine, "rows": judged["rows"]});
     let measured = Measured::parse(&file.to_string()).unwrap();

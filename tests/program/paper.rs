@@ -525,6 +525,11 @@ fn exit_codes_are_those_of_the_table() {
         (2, format!("{few} plan --profile full"), "plan: about 408 MiB"),
         (2, format!("{few} run --profile quick --shard 1/1 --out x"), "run: about 536 MiB"),
         (2, format!("{few} merge --profile quick empty"), "merge: about 536 MiB"),
+        (
+            2,
+            "mkdir u; truncate -s 60M u/{a,b,c}.json; ulimit -v 700000; exec \"$0\" merge --profile quick u".into(),
+            "merge: about 896 MiB",
+        ),
         (2, format!("{pairs} >n; ulimit -v 400000; exec \"$0\" trace n --until 0"), "n: "),
         (
             2,
