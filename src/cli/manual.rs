@@ -23,6 +23,7 @@ pub struct Args {
 /// Runs the verb.
 pub fn run(args: &Args) -> Result<(), Failure> {
     refuse_report("--out", &args.out, None)?;
+    let progress = work::progress();
     let staging = Staging::below(&args.out, "--out", args.force)?;
     let mut files = Files::new();
     let mut command = super::command();
@@ -39,7 +40,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         }
         files.insert(format!("completions/impact-paper.{shell}"), text);
     }
-    staging.place(&files, &work::progress())
+    staging.place(&files, &progress)
 }
 
 /// The generator calls a verb of a program with a hyphen one thing where it is found and another where its options are

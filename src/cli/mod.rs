@@ -35,7 +35,7 @@ const EXIT_CODES: &str = "Exit codes:
        nothing is
   2    wrong usage or input, broken prose too, or a place that cannot be written
   3    saved results or units of work are stale, missing or damaged
-  4    a run failed, or the system did: a full disk, an I/O error
+  4    a run failed, or the system did: a full disk, no memory, an I/O error
   130  ended by Ctrl-C, SIGTERM or SIGHUP";
 
 /// Version, and the commit in a build from a checkout: that of the last change of the source.

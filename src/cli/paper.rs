@@ -2,7 +2,7 @@
 
 use super::diff::{count, fate};
 use super::judged::Judged;
-use super::output::{self, Staging};
+use super::output::{self, Staging, VALUES};
 use super::places::{holds_report, refuse_prose, refuse_report};
 use super::sources::Sources;
 use super::{Failure, folder, make, shown, stdout, work};
@@ -47,8 +47,7 @@ pub struct Args {
     sources: Sources,
 }
 
-/// The files in which a report keeps its values and its verdicts.
-const VALUES: &str = "values.json";
+/// The file in which a report keeps its verdicts.
 const LEDGER: &str = "ledger.json";
 
 fn figure_help() -> String {

@@ -40,8 +40,9 @@ pub struct Args {
     max_impacts: Option<u64>,
     /// Say on standard error, in one line at the end, up to which impact the run can be trusted:
     /// before any of 8 twins, which differ in the last bit of every amplitude, has another gap or a
-    /// time that differs by 0.001/w. An estimate, not a proof. The output stays the same; the time
-    /// is that of 9 runs as long as they agree. Also says how fast errors grow.
+    /// time that differs by 0.001/w, and before rounding decides which of two neighbouring gaps closes first (unless by
+    /// a symmetry both close at once) or whether an open one grazes. An estimate, not a proof. The output stays the same; the time
+    /// is that of 10 runs as long as they agree. Also says how fast errors grow.
     #[arg(long)]
     certify: bool,
     /// Add a column: the derivative of the time of each impact with regard to ln sigma. All forces are multiplied, and with them the free

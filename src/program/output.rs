@@ -17,6 +17,9 @@ use std::collections::BTreeSet;
 use std::io;
 use std::path::Path;
 
+/// What says of which sample a report is.
+pub const VALUES: &str = "values.json";
+
 /// Folders that a report has.
 pub(super) const FOLDERS: [&str; 2] = ["data", "figures"];
 
@@ -105,7 +108,7 @@ impl<'a> Staging<'a> {
     pub fn refuse_changed(&self) -> Result<(), Failure> {
         let _alone = alone(self.folder).map_err(|error| self.failed(&error))?;
         let own = self.own()?.unwrap_or_default();
-        let stands = |path: &str| self.folder.join(path).symlink_metadata().is_ok();
+        let stands = |path: &str| stands(&self.folder.join(path));
         if let Some(page) = own.manual().filter(|page| stands(page)) {
             let (option, folder) = (self.option, self.folder.display());
             let what = "a report has no other files; give another folder";
@@ -135,7 +138,7 @@ impl<'a> Staging<'a> {
         let failed = |error: io::Error| self.failed(&error);
         // A run that began beside this one and failed has removed the folder if it was empty.
         std::fs::create_dir_all(self.folder).map_err(failed)?;
-        let _alone = alone(self.folder).map_err(failed)?;
+        let alone = alone(self.folder).map_err(failed)?;
         // It may be of more than what was asked before the run.
         let now = folder::text(self.folder, sums::NAME).ok();
         let same = now.as_deref().map(str::as_bytes) == files.get(sums::NAME).map(Vec::as_slice);
@@ -150,7 +153,7 @@ impl<'a> Staging<'a> {
         let gone = own.report.iter().filter(|path| is_report && !files.contains_key(*path));
         let gone: Vec<&String> = gone.collect();
         files.keys().chain(gone.iter().copied()).try_for_each(|path| self.inside(path))?;
-        let stands = |path: &str| self.folder.join(path).symlink_metadata().is_ok();
+        let stands = |path: &str| stands(&self.folder.join(path));
         let is_own = |path: &str| {
             let bytes = folder::read(self.folder, path);
             bytes.is_ok_and(|bytes| own.wrote(path, &bytes) || files.get(path) == Some(&bytes))
@@ -183,7 +186,10 @@ impl<'a> Staging<'a> {
         let placing = work::moment(Now::Placing);
         progress.check()?;
         put(sums::LOCAL).map_err(failed)?;
-        for path in files.keys().filter(|path| *path != sums::NAME) {
+        // What says of which sample it is goes first: without it the rest would be a report that nobody knows.
+        let values = files.keys().filter(|path| *path == VALUES);
+        let others = files.keys().filter(|path| ![VALUES, sums::NAME].contains(&path.as_str()));
+        for path in values.chain(others) {
             put(path).map_err(failed)?;
         }
         let gone: Vec<&str> = gone
@@ -201,7 +207,7 @@ impl<'a> Staging<'a> {
         put(sums::LOCAL).map_err(failed)?;
         drop(temporary);
         // Whoever is told may not listen.
-        drop(placing);
+        drop((alone, placing));
         if !gone.is_empty() {
             let (number, names) = (count(gone.len(), "file"), one_line(&listed(&gone), 500));
             say(&format!("impact-paper: removed {number} of the report before: {names}"));
@@ -278,12 +284,18 @@ impl<'a> Staging<'a> {
     }
 }
 
+/// Whether something is there, as far as anybody can tell: what cannot be looked at is.
+fn stands(path: &Path) -> bool {
+    let absent = [io::ErrorKind::NotFound, io::ErrorKind::NotADirectory];
+    path.symlink_metadata().err().is_none_or(|error| !absent.contains(&error.kind()))
+}
+
 /// Refuses, before a long run, a single file that stands there already, unless forced.
 ///
 /// # Errors
 /// Exit code 2 with its name.
 pub fn free(what: &str, path: &Path, Force { force }: Force) -> Result<(), Failure> {
-    if force || path.symlink_metadata().is_err() {
+    if force || !stands(path) {
         return Ok(());
     }
     let path = path.display();

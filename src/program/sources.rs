@@ -27,7 +27,7 @@ pub struct Sources {
 }
 
 /// Bytes for each of the templates while a report is made: measured, with a little room.
-const PARSED: u128 = 170;
+const PARSED: u128 = 450;
 
 impl Sources {
     /// From options of another verb.

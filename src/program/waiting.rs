@@ -1,7 +1,7 @@
 //! Folders in which files wait until all are complete, and what killed runs leave of them.
 
 use super::work;
-use crate::input::{STAGING, bare};
+use crate::input::{STAGING, bare, is_settled};
 use std::fs::File;
 use std::io;
 use std::path::Path;
@@ -14,7 +14,7 @@ pub const OURS: &str = ".impact-paper";
 pub struct Waiting {
     made: tempfile::TempDir,
     /// Its mark, locked as long as this lives.
-    _mark: File,
+    mark: Option<File>,
 }
 
 impl Waiting {
@@ -26,7 +26,7 @@ impl Waiting {
         let _ = mark.try_lock();
         // What a killed run leaves is none of git's.
         std::fs::write(made.path().join(".gitignore"), "*\n")?;
-        Ok(Waiting { made, _mark: mark })
+        Ok(Waiting { made, mark: Some(mark) })
     }
 
     /// A new one among the temporary files of all programs: a signal removes it, and the next run what a killed one left.
@@ -46,6 +46,8 @@ impl Waiting {
 
 impl Drop for Waiting {
     fn drop(&mut self) {
+        // Where few files may be open, one less.
+        self.mark = None;
         clear(self.made.path());
     }
 }
@@ -70,10 +72,11 @@ pub fn clear(waiting: &Path) {
 fn clear_left(folder: &Path) {
     let is_left = |path: &Path| {
         let mark = path.join(OURS);
-        let found = mark.symlink_metadata().ok().filter(|found| found.is_file());
-        let age = found.and_then(|found| found.modified().ok()?.elapsed().ok());
-        age.is_some_and(|age| age.as_secs() >= 1)
-            && File::open(mark).is_ok_and(|mark| mark.try_lock().is_ok())
+        // A run that was killed at its very beginning or end left no mark.
+        let found = mark.symlink_metadata().or_else(|_| path.symlink_metadata());
+        let settled = found.and_then(|found| found.modified()).is_ok_and(is_settled);
+        let open = || File::open(&mark).is_ok_and(|mark| mark.try_lock().is_ok());
+        settled && (open() || mark.symlink_metadata().is_err())
     };
     for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
         let named = entry.file_name().to_str().is_some_and(|name| is_staging(folder, name));
@@ -109,15 +112,19 @@ mod tests {
         });
         let living = Waiting::below(folder.path()).unwrap();
         std::fs::write(left.join(OURS), "").unwrap();
+        let empty = folder.path().join(format!("{STAGING}dead11"));
+        std::fs::create_dir(&empty).unwrap();
         clear_left(folder.path());
-        assert!(left.exists(), "it may be about to be locked");
+        assert!(left.exists() && empty.exists(), "they may be about to be locked");
+        let future = std::time::SystemTime::now() + std::time::Duration::from_secs(1 << 30);
+        File::open(&empty).unwrap().set_modified(future).unwrap();
         let old = std::time::SystemTime::now() - std::time::Duration::from_secs(60);
         for path in [&left, living.path()] {
             let mark = File::options().write(true).open(path.join(OURS)).unwrap();
             mark.set_modified(old).unwrap();
         }
         clear_left(folder.path());
-        assert!(!left.exists() && theirs.exists() && living.path().exists());
+        assert!(!left.exists() && !empty.exists() && theirs.exists() && living.path().exists());
     }
 
     #[test]

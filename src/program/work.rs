@@ -213,6 +213,13 @@ pub fn obey_signals() {
     #[cfg(unix)]
     let _ =
         signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::new(AtomicBool::new(false)));
+    // Where memory ends in spite of all estimates, that is told and aborts.
+    #[cfg(unix)]
+    let _ = signal_hook::flag::register_conditional_shutdown(
+        signal_hook::consts::SIGABRT,
+        4,
+        Arc::new(AtomicBool::new(true)),
+    );
     let is = |now| *NOW.lock().unwrap_or_else(PoisonError::into_inner) == now;
     // A handler can only be refused if there is one already; then a signal just ends the program.
     let obey = move || {

@@ -543,6 +543,14 @@ fn exit_codes_are_those_of_the_table() {
         (3, "status --profile quick --results empty".into(), "stale"),
         (3, "audit --profile quick --results empty".into(), "paper --profile quick"),
         (3, "audit --profile deep --results empty".into(), "make deep"),
+        // More than any estimate tells.
+        (
+            4,
+            "mkdir v; seq -f \"$(printf '0%.0s' {1..64})  %.0f.md\" 850000 >v/SHA256SUMS.local; \
+             ulimit -v 500000; exec \"$0\" manual --out v 2>&1"
+                .into(),
+            "memory allocation of ",
+        ),
         (4, full("paper --figure 4 --out f --templates good"), "f: "),
         (4, full("run --profile quick --shard 1/1 --experiment two_masses --out g"), "g"),
         (4, "explain --paper p >/dev/full".into(), "standard output"),

@@ -4,6 +4,7 @@ pub use impact_numerics::text::{count, is_obeyed, one_line, plain};
 use std::fs::File;
 use std::io::{Error, ErrorKind, Read, Write};
 use std::path::Path;
+use std::time::SystemTime;
 use tempfile::NamedTempFile;
 
 /// No file that is read may be longer, in bytes: all of it is kept in memory. The largest that the
@@ -50,16 +51,27 @@ fn bounded(file: impl Read) -> Result<Vec<u8>, Error> {
     Ok(bytes)
 }
 
-/// What is written, up to the bound of what is read.
-#[derive(Default)]
-pub struct Bounded(pub Vec<u8>);
+/// What is written, up to so many bytes.
+pub struct Bounded {
+    /// What was written.
+    pub bytes: Vec<u8>,
+    most: u64,
+}
+
+impl Bounded {
+    /// Nothing yet.
+    pub fn new(most: u64) -> Self {
+        Bounded { bytes: Vec::new(), most }
+    }
+}
 
 impl Write for Bounded {
     fn write(&mut self, bytes: &[u8]) -> Result<usize, Error> {
-        if (self.0.len() + bytes.len()) as u64 > LARGEST {
-            return Err(Error::new(ErrorKind::FileTooLarge, format!("it makes more than {MOST}")));
+        if (self.bytes.len() + bytes.len()) as u64 > self.most {
+            let what = format!("it makes more than {} MiB", self.most >> 20);
+            return Err(Error::new(ErrorKind::FileTooLarge, what));
         }
-        self.0.extend_from_slice(bytes);
+        self.bytes.extend_from_slice(bytes);
         Ok(bytes.len())
     }
 
@@ -128,14 +140,18 @@ fn is_random(rest: &str) -> bool {
     rest.len() == 6 && rest.bytes().all(|byte| byte.is_ascii_alphanumeric())
 }
 
+/// Whether a time is no moment ago: a second at least, or in a future that some clock was in.
+pub fn is_settled(time: SystemTime) -> bool {
+    time.elapsed().map_or(true, |age| age.as_secs() >= 1)
+}
+
 /// Removes what killed runs left of [`new_beside`] in a folder: nobody holds its lock, and it `is_ours` by what it
 /// begins with. What is younger than a second may be about to be locked.
 pub fn remove_leftovers(folder: &Path, is_ours: impl Fn(&Path) -> std::io::Result<bool>) {
     let is_left = |path: &Path| {
         let file = File::open(path).ok().filter(|file| file.try_lock().is_ok());
         let found = file.and_then(|file| file.metadata().ok()).filter(|found| found.is_file());
-        let age = found.and_then(|found| found.modified().ok()?.elapsed().ok());
-        age.is_some_and(|age| age.as_secs() >= 1)
+        found.and_then(|found| found.modified().ok()).is_some_and(is_settled)
     };
     for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
         let name = entry.file_name();

@@ -157,9 +157,9 @@ pub fn run(args: Args) -> Result<(), Failure> {
                 return Err(long());
             }
             let scenario = draw(drawn.masses, drawn.sigma, restitution, drawn.seed, drawn.chain)?;
-            let mut text = Bounded::default();
+            let mut text = Bounded::new(LARGEST);
             serde_json::to_writer_pretty(&mut text, &form(&scenario)).map_err(|_| long())?;
-            stdout::print(&format!("{}\n", String::from_utf8_lossy(&text.0)))
+            stdout::print(&format!("{}\n", String::from_utf8_lossy(&text.bytes)))
         }
     }
 }

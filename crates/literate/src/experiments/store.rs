@@ -117,17 +117,22 @@ fn read(path: &Path, identity: &Identity) -> Result<String, Vec<Reason>> {
     let text = match regular_text(path) {
         Ok(text) => text,
         Err(error) if error.kind() == ErrorKind::NotFound => return Err(vec![Reason::Missing]),
-        Err(_) if is_foreign(path) => return Err(damaged(FOREIGN)),
+        Err(_) if is_foreign(path).unwrap_or(false) => return Err(damaged(FOREIGN)),
         Err(error) => return Err(damaged(&format!("the saved result cannot be read: {error}"))),
     };
     let whole = parsed(&text);
-    let (saved, body) =
-        whole.map_err(|why| if is_foreign(path) { damaged(FOREIGN) } else { why })?;
+    let (saved, body) = whole.map_err(|why| match is_foreign(path) {
+        Ok(true) => damaged(FOREIGN),
+        _ => why,
+    })?;
     match identity.reasons(&saved) {
         reasons if reasons.is_empty() => Ok(body.into()),
         reasons => Err(reasons),
     }
 }
+
+/// Bytes at most of what a result was made of: ours have some thousand.
+const IDENTITY: usize = 1 << 20;
 
 /// What a saved result was made of, and the result, as text.
 pub fn parsed(text: &str) -> Result<(Identity, &str), Vec<Reason>> {
@@ -140,6 +145,9 @@ pub fn parsed(text: &str) -> Result<(Identity, &str), Vec<Reason>> {
     };
     if checksum != digest(&[found, body]) {
         return Err(damaged("the saved result was damaged or edited: its checksum is wrong"));
+    }
+    if found.len() > IDENTITY {
+        return Err(vec![Reason::Schema]);
     }
     let saved = serde_json::from_str(found).map_err(|_| vec![Reason::Schema])?;
     Ok((saved, body))
@@ -166,20 +174,23 @@ where
 const FOREIGN: &str = "this is no saved result";
 
 /// Was this never a result, damaged or not? One is a file whose first line is a digest.
-fn is_foreign(path: &Path) -> bool {
+fn is_foreign(path: &Path) -> std::io::Result<bool> {
     match std::fs::symlink_metadata(path) {
-        Err(_) => false,
-        Ok(found) if !found.is_file() => true,
-        Ok(found) => found.len() > 0 && !begins_with_digest(path).unwrap_or(false),
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(false),
+        Err(error) => Err(error),
+        Ok(found) if !found.is_file() => Ok(true),
+        Ok(found) => Ok(found.len() > 0 && !begins_with_digest(path)?),
     }
 }
 
 /// Refuses to replace what was never a result.
 fn refuse_foreign(path: &Path) -> Result<(), Error> {
-    if !is_foreign(path) {
-        return Ok(());
+    match is_foreign(path) {
+        Ok(false) => Ok(()),
+        Ok(true) => Err(Error::Foreign { path: path.into() }),
+        // Nobody knows whose it is.
+        Err(source) => Err(Error::Store { path: path.into(), source }),
     }
-    Err(Error::Foreign { path: path.into() })
 }
 
 /// Whether the first line has the form of a digest, or its length: files are cut short, and letters change.

@@ -19,26 +19,30 @@ use super::origin::{Filled, marked, next_tag};
 use super::print::{Asked, MOST_DIGITS, Style};
 use super::values::{Number, Registry, Value};
 use super::{Error, Templates};
-use crate::input::{Bounded, MOST, line_and_column, plain};
+use crate::input::{Bounded, line_and_column, plain};
 use crate::source::Program;
 use crate::table::Table;
 use serde_json::Value as Json;
 use std::collections::{BTreeMap, BTreeSet};
 use tera::{Context, Delimiters, Kwargs, State, Tera};
 
+/// Bytes at most that a template makes: the longest of ours makes a tenth of a million.
+const LONGEST: u64 = 4 << 20;
+
 /// Fills a template of `tera`.
 fn render(tera: &Tera, name: &str, of: &Filler) -> Result<String, Error> {
-    let mut text = Bounded::default();
+    let mut text = Bounded::new(LONGEST);
     let rendered = tera.render_to(name, &of.context, &mut text);
     rendered.map_err(|error| match error.kind() {
         tera::ErrorKind::Io(_) => {
-            let told =
-                format!("{name}: it makes more than {MOST}; look for a loop that is too long");
-            Error::Template(told)
+            let most = LONGEST >> 20;
+            Error::Template(format!(
+                "{name}: it makes more than {most} MiB; look for a loop that is too long"
+            ))
         }
         _ => failure(&error, &of.templates),
     })?;
-    String::from_utf8(text.0).map_err(|_| Error::Template(format!("{name}: it makes no text")))
+    String::from_utf8(text.bytes).map_err(|_| Error::Template(format!("{name}: it makes no text")))
 }
 
 /// Tera, set up with the templates and the values.
