@@ -90,6 +90,7 @@ fn line(certificate: &Certificate, printed: u64) -> String {
     let count = |number: u64, noun| count(number as usize, noun);
     let trusted = match certificate.horizon {
         None if printed == 0 => "there is no impact to trust".into(),
+        Some(time) if printed == 0 => format!("there may be an impact from t = {time:.2} on"),
         None => format!("{} can be trusted, to the end", count(printed, "impact")),
         Some(time) => format!(
             "{} of {} can be trusted, before t = {time:.2}",

@@ -69,7 +69,8 @@ impl Order {
         let omega = scenario.natural_frequency;
         let topology = Topology::new(scenario.forcing.len(), scenario.boundary);
         let force = |j: usize| -> f64 {
-            scenario.components().map(|(_, parts)| parts[j][0].hypot(parts[j][1])).sum()
+            let of = |[a, b]: [f64; 2]| (a * a + b * b).sqrt();
+            scenario.components().map(|(_, parts)| of(parts[j])).sum()
         };
         let largest = (0..scenario.forcing.len()).map(force).fold(0.0, f64::max);
         let (width, bend) = (width(scenario), omega * omega * scenario.spacing + 2.0 * largest);
