@@ -60,8 +60,8 @@ pub fn run(args: Args) -> Result<(), Failure> {
 
 fn read(paper: &Path, name: &str) -> Result<String, Failure> {
     folder::text(paper, name).map_err(|e| {
-        let place = format!("--paper: {}", paper.join(name).display());
-        Failure::io(&e, place, folder::REMEDY)
+        let remedy = folder::REMEDY;
+        Failure::input(format!("--paper: {}: {e}; {remedy}", paper.join(name).display()))
     })
 }
 

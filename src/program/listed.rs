@@ -54,7 +54,7 @@ pub fn listed(root: &Path, only: Option<&str>, progress: &Progress) -> Result<Ch
         )));
     }
     let text = folder::text(root, sums::NAME)
-        .map_err(|e| Failure::io(&e, place.display(), folder::REMEDY))?;
+        .map_err(|e| Failure::input(format!("{}: {e}; {}", place.display(), folder::REMEDY)))?;
     let entries = sums::read(&text).map_err(|e| unusable(e.to_string()))?;
     let found = folder::walk(root, progress)?;
     let mut known: BTreeMap<&str, &str> = BTreeMap::new();
