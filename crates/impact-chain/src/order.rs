@@ -1,8 +1,9 @@
-//! Whether rounding decides which of two neighbouring gaps closes first.
+//! Whether rounding decides which of two neighbouring gaps closes first, or whether a gap closes at all.
 //!
 //! The order of such impacts changes all that follows, and twins that differ in the last bit may keep it, or fall into
 //! the same tie, by chance. Only a symmetry makes a tie that is certain: then both gaps close at the same speed and at the
-//! same instant, also in a twin whose amplitudes differ far more, and the same numbers alike.
+//! same instant, also in a twin whose amplitudes differ far more, and the same numbers alike. An open gap that closes more slowly than
+//! the premise of `rounding` allows may graze, and its impact be none.
 
 use super::rounding::{TRANSVERSAL, width};
 use super::topology::Topology;
@@ -154,6 +155,7 @@ impl Order {
     /// Forgets what is long ago.
     fn forget(&mut self, time: f64) {
         let window = RECENT * self.unit;
+        // `nearest` may find nothing older.
         if self.joint || self.recent.len() > 2 * self.kept + 16 {
             self.recent.retain(|_, hits| {
                 hits.retain(|hit| time - hit.time <= window);
