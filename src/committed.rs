@@ -38,10 +38,10 @@ pub fn exists(path: &str) -> bool {
 /// The text of a file, by its path from the top of the project.
 ///
 /// # Errors
-/// As [`input::read`]; [`io::ErrorKind::NotFound`] with what to do if there is no such file.
+/// As [`input::regular_text`]; [`io::ErrorKind::NotFound`] with what to do if there is no such file.
 pub fn text(path: &str) -> io::Result<Cow<'static, str>> {
     if let Some(found) = find(path) {
-        return input::read(&found).map(Cow::Owned);
+        return input::regular_text(&found).map(Cow::Owned);
     }
     let copy = EMBEDDED.iter().find(|(own, _)| *own == path);
     let missing = || io::Error::new(io::ErrorKind::NotFound, format!("it is not there; {REMEDY}"));

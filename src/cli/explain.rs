@@ -1,7 +1,7 @@
 //! `impact-paper explain`.
 
 use super::document::Only;
-use super::{Failure, folder, stdout, work};
+use super::{Failure, folder, stdout};
 use impact_paper::experiments::alive;
 use impact_paper::input::{is_obeyed, one_line, regular_text};
 use impact_paper::report::PROGRAM;
@@ -33,13 +33,8 @@ pub struct Args {
     json: bool,
 }
 
-/// Bytes for each of a text that is parsed: measured, with a little room.
-const PARSED: u128 = 40;
-
 pub fn run(args: Args) -> Result<(), Failure> {
-    let length = |name: &str| args.paper.join(name).metadata().map_or(0, |found| found.len());
-    let long = u128::from(length("values.json") + length("ledger.json"));
-    work::memory(PARSED * long + (128 << 20), "explain", work::MORE)?;
+    folder::fits(&args.paper, &["values.json", "ledger.json"], "explain")?;
     let _alive = alive(|| Some("explain: at work".into()));
     let mut values = values(&args.paper)?;
     let mut ledger = ledger(&args.paper)?;
@@ -59,10 +54,8 @@ pub fn run(args: Args) -> Result<(), Failure> {
 }
 
 fn read(paper: &Path, name: &str) -> Result<String, Failure> {
-    folder::text(paper, name).map_err(|e| {
-        let remedy = folder::REMEDY;
-        Failure::input(format!("--paper: {}: {e}; {remedy}", paper.join(name).display()))
-    })
+    let place = || format!("--paper: {}", paper.join(name).display());
+    folder::text(paper, name).map_err(|e| Failure::io(&e, place(), folder::REMEDY))
 }
 
 fn values(folder: &Path) -> Result<Registry, Failure> {

@@ -4,7 +4,7 @@ use super::folder::resolved;
 use super::places::refuse_report;
 use super::{Failure, shown, stdout, work};
 use impact_paper::experiments::{Store, alive};
-use impact_paper::input::LARGEST;
+use impact_paper::input::{FOUND, MEMORY};
 use impact_paper::numerics::text::count;
 use impact_paper::params::Profile;
 use std::fs::DirEntry;
@@ -39,7 +39,7 @@ fn lengths(folder: &Path) -> impl Iterator<Item = u128> {
     let of = |entry: DirEntry| {
         let unit = entry.path().extension().is_some_and(|end| end == "json");
         let length = entry.metadata().ok().filter(|found| unit && found.is_file())?.len();
-        Some(u128::from(length.min(LARGEST)))
+        Some(u128::from(length.min(FOUND << 20)))
     };
     std::fs::read_dir(folder).into_iter().flatten().flatten().filter_map(of)
 }
@@ -58,7 +58,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let results = Store::open(&folder)?;
     let _made = work::made(&folder);
     let long = args.folders.iter().flat_map(|folder| lengths(folder)).sum::<u128>();
-    work::memory(2 * long + (work::RESULTS << 20), "merge", work::MORE)?;
+    work::memory(2 * long + (work::RESULTS << 20), "merge", MEMORY)?;
     let progress = work::progress();
     let _alive = alive(|| Some("merge: at work".into()));
     work::on_threads(args.threads, || Ok(plan.merge(&args.folders, &results, &progress)?))?;

@@ -204,6 +204,7 @@ fn refuse_over_other(
         Number::Text(name) => Some(name.clone()),
         _ => None,
     };
+    folder::fits(out, &[VALUES, LEDGER], "--out")?;
     let found = values_in(out).and_then(name);
     // Of a report that does not tell what it is, a lesser one would take the place unseen, and figures might be of
     // other samples.

@@ -118,8 +118,8 @@ fn simultaneous(count: u64, law: Simultaneous) -> String {
     )
 }
 
-/// Bytes that a pair of numbers takes while a list of them grows.
-const PAIR: u128 = 3 * size_of::<[f64; 2]>() as u128;
+/// Bytes that a number takes while a list grows: the old place, and the new one of twice its length.
+const NUMBER: u128 = 3 * size_of::<f64>() as u128;
 
 /// So much is printed at once, in bytes.
 const BLOCK: usize = 16 << 10;
@@ -136,7 +136,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let text = if piped { input::read_from(io::stdin()) } else { input::read(path) };
     let text = text.map_err(|error| {
         let remedy = match error.kind() {
-            ErrorKind::FileTooLarge | ErrorKind::OutOfMemory => "give a scenario of fewer masses",
+            ErrorKind::InvalidInput | ErrorKind::OutOfMemory => "give a scenario of fewer masses",
             _ if piped => "write a scenario into it",
             _ => "give the path of a readable scenario file",
         };
@@ -149,8 +149,8 @@ pub fn run(args: Args) -> Result<(), Failure> {
         }
         Error::Input { .. } | Error::Overlap { .. } => Failure::input(format!("{name}: {error}")),
     };
-    let pairs = text.bytes().filter(|byte| *byte == b'[').count() as u128;
-    work::memory(PAIR * pairs, &name, "give fewer masses")?;
+    let numbers = text.bytes().filter(|byte| *byte == b',').count() as u128;
+    work::memory(NUMBER * numbers, &name, "give fewer masses")?;
     let scenario = Scenario::from_json(&text).map_err(in_file)?;
     // The run, its twins, and one more that tells ties of a symmetry.
     let engines = if args.certify { 2 + TWINS } else { 1 };

@@ -2,6 +2,7 @@
 
 use super::document::Only;
 use impact_paper::experiments::Progress;
+use impact_paper::input::MEMORY;
 use impact_paper::params::Profile;
 use impact_paper::program::listed::{Checked, listed, own_profile};
 use impact_paper::program::sources::Sources;
@@ -42,7 +43,7 @@ pub struct Args {
 
 pub fn run(args: Args) -> Result<(), Failure> {
     let long = args.folder.join(sums::NAME).metadata().map_or(0, |found| found.len());
-    work::memory(16 * u128::from(long) + (64 << 20), "verify", work::MORE)?;
+    work::memory(16 * u128::from(long) + (64 << 20), "verify", MEMORY)?;
     let progress = work::progress();
     let mut checked = listed(&args.folder, args.only.document.as_deref(), &progress)?;
     checked.tell(&args.folder)?;

@@ -54,7 +54,7 @@ pub fn listed(root: &Path, only: Option<&str>, progress: &Progress) -> Result<Ch
         )));
     }
     let text = folder::text(root, sums::NAME)
-        .map_err(|e| Failure::input(format!("{}: {e}; {}", place.display(), folder::REMEDY)))?;
+        .map_err(|error| Failure::io(&error, place.display(), folder::REMEDY))?;
     let entries = sums::read(&text).map_err(|e| unusable(e.to_string()))?;
     let found = folder::walk(root, progress)?;
     let mut known: BTreeMap<&str, &str> = BTreeMap::new();
@@ -90,10 +90,10 @@ pub fn listed(root: &Path, only: Option<&str>, progress: &Progress) -> Result<Ch
             Ok(bytes) if sha256(&bytes) == *digest => (),
             Ok(_) => fault("differs", path, ""),
             Err(error) if error.kind() == ErrorKind::NotFound => fault("missing", path, ""),
-            Err(error) if error.kind() == ErrorKind::OutOfMemory => {
-                return Err(Failure::io(&error, root.join(path).display(), work::MORE));
-            }
-            Err(error) => fault("unread", path, &format!(" ({error})")),
+            Err(error) => match Failure::io(&error, root.join(path).display(), "") {
+                of_the_system if of_the_system.code == 4 => return Err(of_the_system),
+                _ => fault("unread", path, &format!(" ({error})")),
+            },
         }
     }
     let lists = [sums::NAME, sums::LOCAL];
@@ -114,6 +114,7 @@ pub fn own_profile(root: &Path) -> Result<Profile, Failure> {
     let unknown = |what: &str| {
         Failure::input(format!("{}: values.json {what}; give --profile", root.display()))
     };
+    folder::fits(root, &["values.json"], &root.display().to_string())?;
     let text = folder::text(root, "values.json").map_err(|_| unknown("cannot be read"))?;
     let values = compare::read(&text).map_err(|_| unknown("is not one of a report"))?;
     match values.get("profile").map(|value| &value.number) {

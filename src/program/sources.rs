@@ -5,6 +5,7 @@ use super::{Failure, work};
 use crate::claims::{self, Published};
 use crate::committed;
 use crate::experiments::{self, Need, Progress, Results, Store};
+use crate::input::MEMORY;
 use crate::params::{Profile, set};
 use crate::report::{self, Templates};
 use std::path::{Path, PathBuf};
@@ -39,7 +40,7 @@ impl Sources {
     pub fn templates(&self) -> Result<Templates, Failure> {
         let templates = find(self.templates.as_deref())?;
         let long: usize = templates.iter().map(|(_, text)| text.len()).sum();
-        work::memory(PARSED * long as u128 + (work::RESULTS << 20), "the templates", work::MORE)?;
+        work::memory(PARSED * long as u128 + (work::RESULTS << 20), "the templates", MEMORY)?;
         Ok(templates)
     }
 

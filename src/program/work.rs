@@ -2,6 +2,7 @@
 
 use super::Failure;
 use crate::experiments::{self, Error, Progress, say};
+use crate::input::MEMORY;
 use crate::params::Profile;
 use crate::report::{self, contents};
 use crate::{claims, dynamics, figures};
@@ -152,12 +153,9 @@ pub fn memory(needed: u128, option: &str, remedy: &str) -> Result<(), Failure> {
 /// Memory that results, figures and documents need at least, in MiB: measured, with a little room.
 pub const RESULTS: u128 = 256;
 
-/// What to do where there is too little memory.
-pub const MORE: &str = "raise the limits of the process, or end other programs";
-
 /// Refuses a verb, or a part of one, that needs at least so many MiB, where there are fewer.
 pub fn least(mib: u128, what: &str) -> Result<(), Failure> {
-    memory(mib << 20, what, MORE)
+    memory(mib << 20, what, MEMORY)
 }
 
 /// What any verb takes at least, in MiB: asked for before there is a second thread.

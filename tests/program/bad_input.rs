@@ -335,10 +335,10 @@ fn files_without_end_are_refused() {
     }
     crate::refused(folder, "trace long.json --until=5", &["fewer masses"]);
     long("report/values.json");
-    crate::refused(folder, "explain --paper=report", &["values.json", "64 MiB"]);
+    crate::refused(folder, "explain --paper=report", &["values.json", "8 MiB"]);
     long("templates/report.md");
     let check = "check --profile=quick --claim=sec3_edges --templates=templates";
-    crate::refused(folder, check, &["report.md", "64 MiB"]);
+    crate::refused(folder, check, &["report.md", "8 MiB"]);
     // Together, though none alone.
     for name in ["report.md", "one.md", "two.md"] {
         let file = fs::File::create(folder.join("templates").join(name)).unwrap();

@@ -171,24 +171,24 @@ fn what_is_too_long_for_a_report_is_not_read() {
     let long = |path: &str, mib: u64| {
         fs::File::create(here.join("b").join(path)).unwrap().set_len(mib << 20).unwrap();
     };
-    long("data/one.csv", 65);
-    refused(here, "diff a b", &["b: data/one.csv: it is longer than 64 MiB"]);
+    long("data/one.csv", 9);
+    refused(here, "diff a b", &["b: data/one.csv: it is longer than 8 MiB"]);
     fs::remove_file(here.join("b/data/one.csv")).unwrap();
-    (0..5).for_each(|i| long(&format!("data/{i}.csv"), 60));
-    refused(here, "diff a b", &["b: its files are longer than 256 MiB together"]);
+    (0..9).for_each(|i| long(&format!("data/{i}.csv"), 8));
+    refused(here, "diff a b", &["b: its files are longer than 64 MiB together"]);
 
     let git = |arguments: &str| {
         let mut command = Command::new("git");
         command.current_dir(here).args(["-c", "user.name=a", "-c", "user.email=a@b"]);
         assert!(command.args(arguments.split(' ')).output().unwrap().status.success());
     };
-    (0..5).for_each(|i| fs::remove_file(here.join(format!("b/data/{i}.csv"))).unwrap());
-    long("data/one.csv", 65);
+    (0..9).for_each(|i| fs::remove_file(here.join(format!("b/data/{i}.csv"))).unwrap());
+    long("data/one.csv", 9);
     fs::rename(here.join("b"), here.join("paper")).unwrap();
     git("init --quiet");
     git("add --force paper");
     git("commit --quiet --message long");
-    refused(here, "diff a HEAD", &["HEAD: data/one.csv: it is longer than 64 MiB"]);
+    refused(here, "diff a HEAD", &["HEAD: data/one.csv: it is longer than 8 MiB"]);
 }
 
 /// Which part is wrong is told by the unit tests of `compare`.

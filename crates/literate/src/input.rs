@@ -7,12 +7,11 @@ use std::path::Path;
 use std::time::SystemTime;
 use tempfile::NamedTempFile;
 
-/// No file that is read may be longer, in bytes: all of it is kept in memory. The largest that the
-/// program writes has some hundred kilobytes.
-pub const LARGEST: u64 = 64 << 20;
+/// MiB at most of a text that somebody names: it is kept in memory. A scenario of a million masses has less.
+pub const NAMED: u64 = 64;
 
-/// [`LARGEST`] in words.
-pub const MOST: &str = "64 MiB";
+/// MiB at most of a file that is found in a folder: four times the largest that the program writes.
+pub const FOUND: u64 = 8;
 
 /// Reads a text that somebody names: a file, or a pipe whose other end they hold.
 pub fn read(path: &Path) -> Result<String, Error> {
@@ -21,7 +20,7 @@ pub fn read(path: &Path) -> Result<String, Error> {
 
 /// The same of anything that can be read.
 pub fn read_from(file: impl Read) -> Result<String, Error> {
-    text(bounded(file)?)
+    text(bounded(file, NAMED)?)
 }
 
 /// A file that is found in a folder, whole. Nothing but a regular file is opened: whoever opens a pipe waits for its
@@ -30,7 +29,7 @@ pub fn regular(path: &Path) -> Result<Vec<u8>, Error> {
     if !std::fs::metadata(path)?.is_file() {
         return Err(Error::new(ErrorKind::InvalidInput, "it is no regular file"));
     }
-    bounded(File::open(path)?)
+    bounded(File::open(path)?, FOUND)
 }
 
 /// The same as text.
@@ -42,13 +41,18 @@ fn text(bytes: Vec<u8>) -> Result<String, Error> {
     String::from_utf8(bytes).map_err(|_| Error::new(ErrorKind::InvalidData, "it is no UTF-8 text"))
 }
 
-fn bounded(file: impl Read) -> Result<Vec<u8>, Error> {
-    let mut bytes = Vec::new();
-    file.take(LARGEST + 1).read_to_end(&mut bytes)?;
-    if bytes.len() as u64 > LARGEST {
-        return Err(Error::new(ErrorKind::FileTooLarge, format!("it is longer than {MOST}")));
+fn bounded(file: impl Read, mib: u64) -> Result<Vec<u8>, Error> {
+    let (mut bytes, most) = (Vec::new(), mib << 20);
+    file.take(most + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > most {
+        return Err(Error::new(ErrorKind::InvalidInput, too_long(mib)));
     }
     Ok(bytes)
+}
+
+/// What is wrong with a file of more than so many MiB.
+pub fn too_long(mib: u64) -> String {
+    format!("it is longer than {mib} MiB")
 }
 
 /// What is written, up to so many bytes.
@@ -91,6 +95,9 @@ pub fn bare(error: Error) -> Error {
     }
 }
 
+/// What to do where there is too little memory.
+pub const MEMORY: &str = "raise the limits of the process, or end other programs";
+
 /// What to do about what the system said: `otherwise`, unless it is not the place that is at fault.
 pub fn remedy<'a>(error: &Error, otherwise: &'a str) -> &'a str {
     if cfg!(unix) && matches!(error.raw_os_error(), Some(23 | 24)) {
@@ -99,6 +106,7 @@ pub fn remedy<'a>(error: &Error, otherwise: &'a str) -> &'a str {
     match error.kind() {
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::WriteZero => "make room",
         ErrorKind::FileTooLarge => "allow larger files (ulimit -f)",
+        ErrorKind::OutOfMemory => MEMORY,
         ErrorKind::NotADirectory | ErrorKind::AlreadyExists => {
             "a file is in the way; choose another folder"
         }

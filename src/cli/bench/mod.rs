@@ -5,7 +5,7 @@ mod methods;
 use super::{Failure, sigmas, stdout, work};
 use impact_paper::dynamics::{Counters, Engine, Error, Scenario};
 use impact_paper::experiments::alive;
-use impact_paper::input::{Bounded, LARGEST, MOST};
+use impact_paper::input::{Bounded, NAMED, too_long};
 use impact_paper::numerics::clock::LATEST;
 use impact_paper::numerics::random::NormalPairs;
 use impact_paper::params::{Boundary, Chain};
@@ -148,16 +148,17 @@ pub fn run(args: Args) -> Result<(), Failure> {
         What::Scenario(ScenarioArgs { drawn, restitution }) => {
             let long = || {
                 Failure::input(format!(
-                    "--masses: the scenario of {} is longer than {MOST}, and `trace` reads no longer one; give \
-                     fewer masses (about 1000000 fit)",
-                    drawn.masses
+                    "--masses: the scenario of {}: {}, and `trace` reads no longer one; give fewer masses (about \
+                     1000000 fit)",
+                    drawn.masses,
+                    too_long(NAMED)
                 ))
             };
-            if drawn.masses as u64 > LARGEST / LEAST {
+            if drawn.masses as u64 > (NAMED << 20) / LEAST {
                 return Err(long());
             }
             let scenario = draw(drawn.masses, drawn.sigma, restitution, drawn.seed, drawn.chain)?;
-            let mut text = Bounded::new(LARGEST);
+            let mut text = Bounded::new(NAMED << 20);
             serde_json::to_writer_pretty(&mut text, &form(&scenario)).map_err(|_| long())?;
             stdout::print(&format!("{}\n", String::from_utf8_lossy(&text.bytes)))
         }

@@ -7,12 +7,11 @@ mod text;
 use super::document::Only;
 use super::{Failure, folder, shown, stdout, work};
 use impact_paper::experiments::{Progress, alive};
-use impact_paper::input::{self, LARGEST};
+use impact_paper::input::{self, FOUND, MEMORY};
 pub use impact_paper::numerics::text::count;
 use impact_paper::report::compare::{self, Change, Diff, Parts};
 use impact_paper::report::{Files, PROGRAM};
 use serde_json::json;
-use std::io::ErrorKind;
 use std::path::Path;
 
 /// Says what differs between two reports: verdicts, numbers, sentences, files.
@@ -75,7 +74,7 @@ pub fn fate(change: &compare::ClaimChange) -> String {
 const PARSED: u128 = 50;
 
 /// All files of a report may have so many MiB; ours has twenty.
-const MOST: u64 = 256;
+const MOST: u64 = 64;
 
 /// The files of a report by its folder or revision, without what is built beside.
 fn files(name: &str) -> Result<Files, Failure> {
@@ -90,13 +89,9 @@ fn standing(name: &str) -> Result<Files, Failure> {
     let length = |path: &String| root.join(path).symlink_metadata().map_or(0, |file| file.len());
     bounded(name, paths.iter().map(|path| (path.as_str(), length(path))))?;
     let read = |path: String| {
-        let bytes = folder::read(root, &path).map_err(|error| {
-            let remedy = match error.kind() {
-                ErrorKind::OutOfMemory => work::MORE,
-                _ => "is it a report?",
-            };
-            Failure::input(format!("{name}: {path}: {error}; {remedy}"))
-        })?;
+        let place = || format!("{name}: {path}");
+        let bytes = folder::read(root, &path)
+            .map_err(|error| Failure::io(&error, place(), "is it a report?"))?;
         Ok((path, bytes))
     };
     paths.into_iter().map(read).collect()
@@ -106,8 +101,8 @@ fn standing(name: &str) -> Result<Files, Failure> {
 fn bounded<'a>(name: &str, files: impl Iterator<Item = (&'a str, u64)>) -> Result<(), Failure> {
     let (mut all, mut read) = (0_u64, 0_u128);
     for (path, length) in files {
-        if length > LARGEST {
-            let what = format!("{name}: {path}: it is longer than {}", input::MOST);
+        if length > FOUND << 20 {
+            let what = format!("{name}: {path}: {}", input::too_long(FOUND));
             return Err(Failure::input(format!("{what}; is it a report?")));
         }
         all += length;
@@ -119,7 +114,7 @@ fn bounded<'a>(name: &str, files: impl Iterator<Item = (&'a str, u64)>) -> Resul
         return Err(Failure::input(format!("{what}; is it a report?")));
     }
     // The other report may be as long.
-    work::memory(2 * read, name, work::MORE)
+    work::memory(2 * read, name, MEMORY)
 }
 
 /// The numbers that both reports have, what a reader must see first at the front, and those that one has.
