@@ -5,15 +5,15 @@
 
 mod cli;
 
-use impact_paper::program::{ended, tell, work};
+use impact_paper::program::{ended, memory, tell};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
     std::panic::set_hook(Box::new(tell));
-    if let Err(failure) = work::least(work::BEGIN, "the program") {
+    if let Err(failure) = memory::least(memory::BEGIN, "the program") {
         return ended(Err(failure));
     }
-    let thread = std::thread::Builder::new().stack_size(work::STACK).spawn(cli::main);
+    let thread = std::thread::Builder::new().stack_size(memory::STACK).spawn(cli::main);
     match thread.map(std::thread::JoinHandle::join) {
         Ok(Ok(code)) => code,
         // The hook has told it.

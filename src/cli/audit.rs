@@ -1,6 +1,6 @@
 //! `impact-paper audit`.
 
-use super::{Failure, number, stdout, work};
+use super::{Failure, memory, number, signals, stdout, threads, work};
 use impact_paper::experiments::{self, Error, Store};
 use impact_paper::numerics::random::generator;
 use impact_paper::params::Profile;
@@ -27,7 +27,7 @@ pub struct Args {
     #[arg(long, value_name = "DIR")]
     results: Option<PathBuf>,
     /// Number of threads; all cores without it. It changes no bit of the result.
-    #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = work::threads)]
+    #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = threads::read)]
     threads: Option<usize>,
 }
 
@@ -48,14 +48,14 @@ fn share(text: &str) -> Result<Share, String> {
 }
 
 pub fn run(args: Args) -> Result<(), Failure> {
-    work::least(work::RESULTS, "audit")?;
+    memory::least(memory::RESULTS, "audit")?;
     let profile = args.profile;
     let store = Store::open(&work::results(args.results, profile))?;
     let mut chosen = experiments::of(profile);
     chosen.shuffle(&mut generator("audit", args.seed, 0));
     chosen.truncate((args.sample.0 * chosen.len() as f64).ceil() as usize);
-    let progress = work::progress();
-    let differ = work::on_threads(args.threads, || {
+    let progress = signals::progress();
+    let differ = threads::run(args.threads, || {
         let mut differ = Vec::new();
         for experiment in chosen {
             let name = experiment.name();

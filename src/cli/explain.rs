@@ -1,7 +1,7 @@
 //! `impact-paper explain`.
 
 use super::document::Only;
-use super::{Failure, folder, stdout};
+use super::{Failure, folder, memory, stdout};
 use impact_paper::experiments::alive;
 use impact_paper::input::{is_obeyed, one_line, regular_text};
 use impact_paper::report::PROGRAM;
@@ -34,7 +34,7 @@ pub struct Args {
 }
 
 pub fn run(args: Args) -> Result<(), Failure> {
-    folder::fits(&args.paper, &["values.json", "ledger.json"], "explain")?;
+    memory::to_parse(&args.paper, &["values.json", "ledger.json"], "explain")?;
     let _alive = alive(|| Some("explain: at work".into()));
     let mut values = values(&args.paper)?;
     let mut ledger = ledger(&args.paper)?;

@@ -2,7 +2,7 @@
 
 use super::output::{self, Staging};
 use super::places::refuse_report;
-use super::{Failure, work};
+use super::{Failure, signals, work};
 use clap_complete::{Shell, generate};
 use impact_paper::report::Files;
 use std::path::PathBuf;
@@ -23,7 +23,7 @@ pub struct Args {
 /// Runs the verb.
 pub fn run(args: &Args) -> Result<(), Failure> {
     refuse_report("--out", &args.out, None)?;
-    let progress = work::progress();
+    let progress = signals::progress();
     let staging = Staging::below(&args.out, "--out", args.force)?;
     let mut files = Files::new();
     let mut command = super::command();

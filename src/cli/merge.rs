@@ -2,7 +2,7 @@
 
 use super::folder::resolved;
 use super::places::refuse_report;
-use super::{Failure, shown, stdout, work};
+use super::{Failure, memory, shown, signals, stdout, threads, work};
 use impact_paper::experiments::{Store, alive};
 use impact_paper::input::{FOUND, MEMORY};
 use impact_paper::numerics::text::count;
@@ -30,7 +30,7 @@ pub struct Args {
     #[arg(long, value_name = "DIR", value_parser = work::folder())]
     results: Option<PathBuf>,
     /// Number of threads; all cores without it. It changes no bit of the result.
-    #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = work::threads)]
+    #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = threads::read)]
     threads: Option<usize>,
 }
 
@@ -56,12 +56,12 @@ pub fn run(args: Args) -> Result<(), Failure> {
     }
     refuse_report("--results", &folder, None)?;
     let results = Store::open(&folder)?;
-    let _made = work::made(&folder);
+    let _made = signals::made(&folder);
     let long = args.folders.iter().flat_map(|folder| lengths(folder)).sum::<u128>();
-    work::memory(2 * long + (work::RESULTS << 20), "merge", MEMORY)?;
-    let progress = work::progress();
+    memory::fits(2 * long + (memory::RESULTS << 20), "merge", MEMORY)?;
+    let progress = signals::progress();
     let _alive = alive(|| Some("merge: at work".into()));
-    work::on_threads(args.threads, || Ok(plan.merge(&args.folders, &results, &progress)?))?;
+    threads::run(args.threads, || Ok(plan.merge(&args.folders, &results, &progress)?))?;
     let (units, out) = (count(plan.tasks.len(), "unit"), shown(&folder));
     stdout::print(&format!("{out}: results of {units} of work\n"))
 }

@@ -23,7 +23,8 @@ mod verify;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use impact_paper::experiments::be_quiet;
 use impact_paper::program::{
-    self, Failure, folder, git, judged, make, output, places, shown, sources, stdout, work,
+    self, Failure, folder, git, judged, make, memory, output, places, shown, signals, sources,
+    stdout, threads, work,
 };
 use std::process::ExitCode;
 
@@ -111,8 +112,8 @@ pub fn main() -> ExitCode {
     if quiet {
         be_quiet();
     }
-    work::obey_signals();
-    if let Err(failure) = work::environment() {
+    signals::obey();
+    if let Err(failure) = threads::environment() {
         return program::ended(Err(failure));
     }
     let result = match verb {

@@ -5,7 +5,7 @@ use super::judged::Judged;
 use super::output::{self, Staging, VALUES};
 use super::places::{holds_report, refuse_prose, refuse_report};
 use super::sources::Sources;
-use super::{Failure, folder, make, shown, stdout, work};
+use super::{Failure, folder, make, memory, shown, signals, stdout, threads, work};
 use impact_paper::claims::Verdict;
 use impact_paper::experiments::Progress;
 use impact_paper::figures;
@@ -89,7 +89,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let templates = args.sources.templates.as_deref();
     refuse_report("--results", &args.sources.results, templates)?;
     refuse_prose("--out", &out, templates)?;
-    let progress = work::progress();
+    let progress = signals::progress();
     let staging = Staging::below(&out, "--out", args.force)?;
     if folder::resolved(&args.sources.results).starts_with(folder::resolved(&out)) {
         let message = "--results is --out, or lies in it; give another folder, since a report has no other files";
@@ -99,7 +99,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     if whole {
         staging.refuse_changed()?;
     }
-    let made = work::on_threads(args.sources.threads, || {
+    let made = threads::run(args.sources.threads, || {
         if whole {
             let (report, judged) = make::whole(&args.sources, profile, args.pdf, &progress)?;
             let files: Files = report.committed.into_iter().chain(report.beside).collect();
@@ -204,7 +204,7 @@ fn refuse_over_other(
         Number::Text(name) => Some(name.clone()),
         _ => None,
     };
-    folder::fits(out, &[VALUES, LEDGER], "--out")?;
+    memory::to_parse(out, &[VALUES, LEDGER], "--out")?;
     let found = values_in(out).and_then(name);
     // Of a report that does not tell what it is, a lesser one would take the place unseen, and figures might be of
     // other samples.

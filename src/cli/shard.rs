@@ -1,7 +1,7 @@
 //! `impact-paper run`.
 
 use super::places::refuse_report;
-use super::{Failure, shown, stdout, work};
+use super::{Failure, memory, shown, signals, stdout, threads, work};
 use impact_paper::experiments::{Error, Store};
 use impact_paper::numerics::text::count;
 use impact_paper::params::Profile;
@@ -26,7 +26,7 @@ pub struct Args {
     #[arg(long, value_name = "DIR", value_parser = work::folder())]
     out: PathBuf,
     /// Number of threads; all cores without it. It changes no bit of the result.
-    #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = work::threads)]
+    #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = threads::read)]
     threads: Option<usize>,
 }
 
@@ -59,17 +59,16 @@ pub fn given_by(option: &str) -> impl Fn(Error) -> Failure + Copy {
 }
 
 pub fn run(args: Args) -> Result<(), Failure> {
-    work::least(work::RESULTS, "run")?;
+    memory::least(memory::RESULTS, "run")?;
     let profile = args.profile;
     let unwritable = given_by("--out");
     let plan = args.only.plan(profile)?;
     refuse_report("--out", &args.out, None)?;
     let store = Store::open(&args.out).map_err(unwritable)?;
-    let _made = work::made(&args.out);
-    let progress = work::progress();
-    let ran = work::on_threads(args.threads, || {
-        plan.run(args.shard, &store, &progress).map_err(unwritable)
-    })?;
+    let _made = signals::made(&args.out);
+    let progress = signals::progress();
+    let ran =
+        threads::run(args.threads, || plan.run(args.shard, &store, &progress).map_err(unwritable))?;
     let ((i, n), out) = (args.shard, shown(&args.out));
     let run = count(ran.run, "unit");
     stdout::print(&format!("{out}: shard {i}/{n}: {run} run, {} fresh\n", ran.fresh))

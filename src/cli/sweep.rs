@@ -1,6 +1,6 @@
 //! `impact-paper sweep`.
 
-use super::{Failure, sigmas, stdout, work};
+use super::{Failure, memory, sigmas, signals, stdout, threads};
 use impact_paper::dynamics::Engine;
 use impact_paper::experiments::{Progress, sweep};
 use impact_paper::input::one_line;
@@ -45,7 +45,7 @@ pub struct Args {
     #[arg(long, value_name = "S", default_value_t = SEED, allow_hyphen_values = true)]
     seed: u64,
     /// Number of threads; all cores without it. It changes no bit of the result.
-    #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = work::threads)]
+    #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = threads::read)]
     threads: Option<usize>,
     /// Form of the table.
     #[arg(long, default_value = "csv")]
@@ -91,8 +91,8 @@ struct Row {
 pub fn run(args: Args) -> Result<(), Failure> {
     let parameters = parameters(&args)?;
     fits(&args)?;
-    let progress = work::progress();
-    let rows = work::on_threads(args.threads, || rows(&parameters, &progress))?;
+    let progress = signals::progress();
+    let rows = threads::run(args.threads, || rows(&parameters, &progress))?;
     stdout::written(write(&rows, args.format))
 }
 
@@ -152,12 +152,12 @@ const OUTCOME: u128 = 2 << 10;
 /// Refuses an ensemble that is too large for the memory: each thread has a chain, and a few words for each of
 /// its gaps besides.
 fn fits(args: &Args) -> Result<(), Failure> {
-    let threads = args.threads.unwrap_or_else(work::cores) as u128;
+    let threads = args.threads.unwrap_or_else(threads::cores) as u128;
     let chain = Engine::memory(args.masses, 1) + 64 * args.masses as u128;
-    let chains = threads * (chain + work::THREAD);
-    work::memory(chains, "--masses", "give fewer masses or threads")?;
+    let chains = threads * (chain + memory::THREAD);
+    memory::fits(chains, "--masses", "give fewer masses or threads")?;
     let needed = chains + OUTCOME * args.realisations as u128;
-    work::memory(needed, "--realisations", "give fewer, with other values of --seed")
+    memory::fits(needed, "--realisations", "give fewer, with other values of --seed")
 }
 
 /// Runs σ after σ.

@@ -1,6 +1,6 @@
 //! `impact-paper trace`.
 
-use super::{Failure, method, stdout, work};
+use super::{Failure, memory, method, stdout};
 use impact_paper::dynamics::methods::State;
 use impact_paper::dynamics::{
     Certificate, Engine, Error, Impact, Scenario, Sensitivity, Simultaneous, TWINS, certify,
@@ -150,14 +150,14 @@ pub fn run(args: Args) -> Result<(), Failure> {
         Error::Input { .. } | Error::Overlap { .. } => Failure::input(format!("{name}: {error}")),
     };
     let numbers = text.bytes().filter(|byte| *byte == b',').count() as u128;
-    work::memory(NUMBER * numbers, &name, "give fewer masses")?;
+    memory::fits(NUMBER * numbers, &name, "give fewer masses")?;
     let scenario = Scenario::from_json(&text).map_err(in_file)?;
     // The run, its twins, and one more that tells ties of a symmetry.
     let engines = if args.certify { 2 + TWINS } else { 1 };
     let (masses, components) = (scenario.forcing.len(), 1 + scenario.overtones.len());
     let derivatives = args.sensitivity.map_or(0, |_| Sensitivity::memory(masses));
     let needed = u128::from(engines) * Engine::memory(masses, components) + derivatives;
-    work::memory(needed, &name, "give fewer masses")?;
+    memory::fits(needed, &name, "give fewer masses")?;
     let (method, start) = (args.method.method()?, State::of(&scenario));
     let only = [
         ("--certify", args.certify, "has a horizon to tell"),

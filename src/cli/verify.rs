@@ -7,7 +7,7 @@ use impact_paper::params::Profile;
 use impact_paper::program::listed::{Checked, listed, own_profile};
 use impact_paper::program::sources::Sources;
 use impact_paper::program::waiting::Waiting;
-use impact_paper::program::{Failure, folder, make, work};
+use impact_paper::program::{Failure, folder, make, memory, signals, threads, work};
 use impact_paper::report::{PROGRAM, sums};
 use std::path::PathBuf;
 
@@ -37,14 +37,14 @@ pub struct Args {
     #[arg(long, value_name = "DIR", requires = "rerun")]
     templates: Option<PathBuf>,
     /// Number of threads; all cores without it. It changes no bit of the result.
-    #[arg(long, value_name = "K", allow_hyphen_values = true, requires = "rerun", value_parser = work::threads)]
+    #[arg(long, value_name = "K", allow_hyphen_values = true, requires = "rerun", value_parser = threads::read)]
     threads: Option<usize>,
 }
 
 pub fn run(args: Args) -> Result<(), Failure> {
     let long = args.folder.join(sums::NAME).metadata().map_or(0, |found| found.len());
-    work::memory(16 * u128::from(long) + (64 << 20), "verify", MEMORY)?;
-    let progress = work::progress();
+    memory::fits(16 * u128::from(long) + (64 << 20), "verify", MEMORY)?;
+    let progress = signals::progress();
     let mut checked = listed(&args.folder, args.only.document.as_deref(), &progress)?;
     checked.tell(&args.folder)?;
     if args.rerun {
@@ -91,7 +91,7 @@ fn rerun(args: &Args, progress: &Progress) -> Result<Checked, Failure> {
     let typeset = pdf && make::TYPESETS;
     let sources = Sources::of(args.threads, args.templates.clone(), results);
     let (made, _) =
-        work::on_threads(args.threads, || make::whole(&sources, profile, typeset, progress))?;
+        threads::run(args.threads, || make::whole(&sources, profile, typeset, progress))?;
     // What is built beside may be missing, but not be another.
     let mut files = made.committed;
     let stands = |path: &String| args.folder.join(path).symlink_metadata().is_ok();

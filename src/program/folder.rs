@@ -1,9 +1,9 @@
 //! The files of a report's folder, as they stand there: nobody vouches for them.
 
+use super::Failure;
 use super::waiting::is_staging;
-use super::{Failure, work};
 use crate::experiments::Progress;
-use crate::input::{self, MEMORY};
+use crate::input;
 use crate::report::{LAB, sums};
 use std::io;
 use std::path::{Component, Path, PathBuf};
@@ -91,19 +91,6 @@ pub fn read(folder: &Path, path: &str) -> io::Result<Vec<u8>> {
 /// As [`read`]; what is no text.
 pub fn text(folder: &Path, path: &str) -> io::Result<String> {
     String::from_utf8(read(folder, path)?).map_err(|_| io::Error::other("it is no UTF-8 text"))
-}
-
-/// Bytes for each of a text that is parsed: measured, with a little room.
-const PARSED: u128 = 40;
-
-/// Refuses files of a folder that take more memory, parsed, than there is.
-///
-/// # Errors
-/// Exit code 2 with an estimate, told of `what`.
-pub fn fits(folder: &Path, names: &[&str], what: &str) -> Result<(), Failure> {
-    let length = |name: &&str| folder.join(name).metadata().map_or(0, |found| found.len());
-    let long = names.iter().map(length).sum::<u64>();
-    work::memory(PARSED * u128::from(long) + (128 << 20), what, MEMORY)
 }
 
 /// The list of what was last written into a folder, if it has one.

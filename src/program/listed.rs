@@ -1,6 +1,6 @@
 //! A report on disk, held against its own lists.
 
-use super::{Failure, folder, shown, stdout, work};
+use super::{Failure, folder, memory, shown, stdout, work};
 use crate::digest::sha256;
 use crate::experiments::{Progress, alive};
 use crate::input::is_obeyed;
@@ -114,7 +114,7 @@ pub fn own_profile(root: &Path) -> Result<Profile, Failure> {
     let unknown = |what: &str| {
         Failure::input(format!("{}: values.json {what}; give --profile", root.display()))
     };
-    folder::fits(root, &["values.json"], &root.display().to_string())?;
+    memory::to_parse(root, &["values.json"], &root.display().to_string())?;
     let text = folder::text(root, "values.json").map_err(|_| unknown("cannot be read"))?;
     let values = compare::read(&text).map_err(|_| unknown("is not one of a report"))?;
     match values.get("profile").map(|value| &value.number) {

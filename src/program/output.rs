@@ -7,8 +7,8 @@
 use super::alone::alone;
 use super::own::{self, Own};
 use super::places::{lies_in_report, refuse_dangling};
+use super::signals::{self, Now};
 use super::waiting::{Waiting, clear, is_staging};
-use super::work::{self, Now};
 use super::{Failure, folder};
 use crate::experiments::{Progress, say};
 use crate::input::{bare, count, listed, one_line};
@@ -42,7 +42,7 @@ pub struct Staging<'a> {
     force: bool,
     /// The list of the report that stood there at first.
     found: Option<String>,
-    _made: work::Made,
+    _made: signals::Made,
 }
 
 impl<'a> Staging<'a> {
@@ -67,7 +67,7 @@ impl<'a> Staging<'a> {
             return Err(Failure::input(format!("{option}: {}: {what}", folder.display())));
         }
         let found = folder::text(folder, sums::NAME).ok();
-        let staging = Staging { folder, option, force, found, _made: work::made(folder) };
+        let staging = Staging { folder, option, force, found, _made: signals::made(folder) };
         let failed = |error: io::Error| staging.failed(&error);
         std::fs::create_dir_all(folder).map_err(failed)?;
         // Another run may be putting its files in place: half of them would look like a stranger's.
@@ -167,7 +167,7 @@ impl<'a> Staging<'a> {
         self.no_folder(files.keys())?;
 
         let temporary = self.temporary()?;
-        work::temporary(temporary.path());
+        signals::temporary(temporary.path());
         let stage = |path: &str, bytes: &[u8]| {
             let staged = temporary.path().join(path);
             std::fs::create_dir_all(staged.parent().unwrap_or(self.folder))?;
@@ -183,7 +183,7 @@ impl<'a> Staging<'a> {
         }
         // Whoever is killed half-way leaves old and new files: at each moment the lists know both.
         stage(sums::LOCAL, own.local(files, stands, true).as_bytes()).map_err(failed)?;
-        let placing = work::moment(Now::Placing);
+        let placing = signals::moment(Now::Placing);
         progress.check()?;
         put(sums::LOCAL).map_err(failed)?;
         // What says of which sample it is goes first: without it the rest would be a report that nobody knows.

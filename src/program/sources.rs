@@ -1,7 +1,7 @@
 //! Where `paper` and `check` read prose and keep results.
 
 use super::places::refuse_report;
-use super::{Failure, work};
+use super::{Failure, memory, signals, threads, work};
 use crate::claims::{self, Published};
 use crate::committed;
 use crate::experiments::{self, Need, Progress, Results, Store};
@@ -17,7 +17,7 @@ const PROSE: &str = "templates/front.md";
 #[derive(clap::Args)]
 pub struct Sources {
     /// Number of threads; all cores without it. It changes no bit of the result.
-    #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = work::threads)]
+    #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = threads::read)]
     pub threads: Option<usize>,
     /// Folder of the prose [default: templates of the checkout, or the copy inside the program].
     #[arg(long, value_name = "DIR")]
@@ -40,7 +40,7 @@ impl Sources {
     pub fn templates(&self) -> Result<Templates, Failure> {
         let templates = find(self.templates.as_deref())?;
         let long: usize = templates.iter().map(|(_, text)| text.len()).sum();
-        work::memory(PARSED * long as u128 + (work::RESULTS << 20), "the templates", MEMORY)?;
+        memory::fits(PARSED * long as u128 + (memory::RESULTS << 20), "the templates", MEMORY)?;
         Ok(templates)
     }
 
@@ -62,7 +62,7 @@ impl Sources {
         templates: &Templates,
         progress: &Progress,
     ) -> Result<Results, Failure> {
-        work::least(work::RESULTS, "the results")?;
+        memory::least(memory::RESULTS, "the results")?;
         let long = needs.iter().any(|need| need.is_saved());
         // Results of other parameters do not take the place of the paper's.
         let folder = match set::told() {
@@ -72,7 +72,7 @@ impl Sources {
         if long {
             refuse_report("--results", &folder, self.templates.as_deref())?;
         }
-        let _made = long.then(|| work::made(&folder));
+        let _made = long.then(|| signals::made(&folder));
         let store = if long { Store::open(&folder)? } else { Store::nowhere() };
         // Before the first run, not after hours when its turn comes.
         for need in needs.iter().filter(|need| need.is_saved()) {

@@ -1,7 +1,7 @@
 //! Writing to standard output, which may be closed or full.
 
 use super::Failure;
-use super::work::{self, Now};
+use super::signals::{self, Now};
 use std::io::{self, ErrorKind, Write};
 
 /// What became of writing to standard output: who closed the pipe has read enough.
@@ -20,7 +20,7 @@ pub fn written(result: io::Result<()>) -> Result<(), Failure> {
 
 /// Prints text.
 pub fn print(text: &str) -> Result<(), Failure> {
-    let _idle = work::moment(Now::Idle);
+    let _idle = signals::moment(Now::Idle);
     let mut out = io::stdout().lock();
     written(out.write_all(text.as_bytes()).and_then(|()| out.flush()))
 }

@@ -1,6 +1,6 @@
 //! Folders in which files wait until all are complete, and what killed runs leave of them.
 
-use super::work;
+use super::signals;
 use crate::input::{STAGING, bare, is_settled};
 use std::fs::File;
 use std::io;
@@ -34,7 +34,7 @@ impl Waiting {
         let folder = std::env::temp_dir();
         clear_left(&folder);
         let waiting = Waiting::below(&folder)?;
-        work::temporary(waiting.path());
+        signals::temporary(waiting.path());
         Ok(waiting)
     }
 

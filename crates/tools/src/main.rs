@@ -6,7 +6,7 @@ mod bundle;
 mod mutate;
 
 use clap::{Parser, Subcommand};
-use impact_paper::program::{ended, usage, work};
+use impact_paper::program::{ended, signals, usage};
 use std::process::ExitCode;
 
 /// What the project asks of itself, and no reader runs. Exit codes are those of impact-paper.
@@ -28,7 +28,7 @@ fn main() -> ExitCode {
         Ok(cli) => cli.verb,
         Err(error) => return usage(&error),
     };
-    work::obey_signals();
+    signals::obey();
     ended(match verb {
         Verb::Bundle(args) => bundle::run(args),
         Verb::Mutate(args) => mutate::verb::run(args),

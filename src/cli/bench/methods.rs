@@ -1,6 +1,7 @@
 //! `impact-paper bench methods`.
 
-use super::{Drawn, Failure, draw, print, work};
+use super::super::signals;
+use super::{Drawn, Failure, draw, print};
 use impact_paper::dynamics::methods::{
     Certified, Method, MoreauJean, Newton, Penalty, RungeKutta, Sampled, State, Verlet,
 };
@@ -78,7 +79,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let reference =
         args.reference.as_deref().map(|path| read(path, args.drawn.masses)).transpose()?;
     let _alive = alive(|| Some("bench methods: at work".into()));
-    let progress = work::progress();
+    let progress = signals::progress();
     let rows = settings()
         .iter()
         .map(|(method, setting)| {

@@ -2,7 +2,7 @@
 
 mod methods;
 
-use super::{Failure, sigmas, stdout, work};
+use super::{Failure, memory, sigmas, stdout, threads};
 use impact_paper::dynamics::{Counters, Engine, Error, Scenario};
 use impact_paper::experiments::alive;
 use impact_paper::input::{Bounded, NAMED, too_long};
@@ -63,7 +63,7 @@ struct EngineArgs {
     #[arg(long, value_name = "C", default_value_t = 1, allow_hyphen_values = true)]
     chains: usize,
     /// Number of threads; a chain of 50 000 masses or more that is left with two uses both.
-    #[arg(long, value_name = "K", default_value_t = 1, allow_hyphen_values = true, value_parser = work::threads)]
+    #[arg(long, value_name = "K", default_value_t = 1, allow_hyphen_values = true, value_parser = threads::read)]
     threads: usize,
     /// Repetitions: the best and the median of them are printed.
     #[arg(long, value_name = "k", default_value_t = 5, allow_hyphen_values = true)]
@@ -170,7 +170,7 @@ fn draw(n: usize, sigma: f64, r: f64, seed: u64, index: u64) -> Result<Scenario,
     if n == 0 {
         return Err(Failure::input("--masses: 0 is not allowed; give 1 or more"));
     }
-    work::memory(Engine::memory(n, 1), "--masses", "give fewer masses")?;
+    memory::fits(Engine::memory(n, 1), "--masses", "give fewer masses")?;
     if !(0.0..=sigmas::LARGEST).contains(&sigma) {
         let message = format!("--sigma: {sigma:?} is out of range; give a number from 0 to 1e6");
         return Err(Failure::input(message));
@@ -211,11 +211,11 @@ fn case(args: &EngineArgs, n: usize) -> Result<Case, Failure> {
     // All chains at their start, and the copies that run.
     let copies = if args.repetitions > 1 { 2 } else { 1 };
     let needed = (Engine::memory(n, 1) + ENGINE).saturating_mul(copies * args.chains as u128);
-    let threads = work::THREAD * args.threads as u128;
+    let threads = memory::THREAD * args.threads as u128;
     let needed = needed.saturating_add(threads);
-    work::memory(needed, "--masses, --chains", "give fewer masses, chains or threads")?;
+    memory::fits(needed, "--masses, --chains", "give fewer masses, chains or threads")?;
     let began = Instant::now();
-    let engines = work::on_threads(Some(args.threads), || {
+    let engines = threads::run(Some(args.threads), || {
         let start = |index: usize| {
             let chain = args.chain + index as u64;
             let scenario = draw(n, args.sigma, args.restitution, args.seed, chain)?;
@@ -267,7 +267,7 @@ fn repeat(
     until: f64,
     threads: usize,
 ) -> Result<(f64, Counters), Failure> {
-    work::on_threads(Some(threads), || {
+    threads::run(Some(threads), || {
         let began = Instant::now();
         let run = |engine: &mut Engine| engine.run(until, |_| true);
         let run = engines.par_iter_mut().with_max_len(1).map(run).collect::<Result<(), Error>>();

@@ -6,7 +6,7 @@ use self::forms::Entry;
 use super::document::Only;
 use super::judged::Judged;
 use super::sources::Sources;
-use super::{Failure, stdout, work};
+use super::{Failure, signals, stdout, threads, work};
 use impact_paper::claims::{self, Check, Verdict};
 use impact_paper::experiments::ALL;
 use impact_paper::params::Profile;
@@ -77,8 +77,8 @@ pub fn run(args: Args) -> Result<(), Failure> {
     if whole {
         needs = ALL.into();
     }
-    let progress = work::progress();
-    let mut judged = work::on_threads(args.sources.threads, || {
+    let progress = signals::progress();
+    let mut judged = threads::run(args.sources.threads, || {
         let results = args.sources.run(&needs, profile, &templates, &progress)?;
         let one = |id: &&str| claims::one(id, &results, &published);
         let claims = asked.iter().map(one).collect::<Result<Vec<Check>, claims::Error>>()?;

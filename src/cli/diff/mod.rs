@@ -5,7 +5,7 @@ mod revision;
 mod text;
 
 use super::document::Only;
-use super::{Failure, folder, shown, stdout, work};
+use super::{Failure, folder, memory, shown, stdout};
 use impact_paper::experiments::{Progress, alive};
 use impact_paper::input::{self, FOUND, MEMORY};
 pub use impact_paper::numerics::text::count;
@@ -42,7 +42,7 @@ pub struct Args {
 }
 
 pub fn run(args: Args) -> Result<(), Failure> {
-    work::least(128, "diff")?;
+    memory::least(128, "diff")?;
     let _alive = alive(|| Some("diff: at work".into()));
     let (old, new) = (files(&args.old)?, files(&args.new)?);
     let unusable = |what: String| Failure::input(format!("{what}; is it a report?"));
@@ -114,7 +114,7 @@ fn bounded<'a>(name: &str, files: impl Iterator<Item = (&'a str, u64)>) -> Resul
         return Err(Failure::input(format!("{what}; is it a report?")));
     }
     // The other report may be as long.
-    work::memory(2 * read, name, MEMORY)
+    memory::fits(2 * read, name, MEMORY)
 }
 
 /// The numbers that both reports have, what a reader must see first at the front, and those that one has.

@@ -2,7 +2,7 @@
 
 use impact_paper::digest::sha256;
 use impact_paper::input::{new_beside, remove_leftovers};
-use impact_paper::program::{Failure, work};
+use impact_paper::program::{Failure, signals};
 use impact_paper::report::sums;
 use std::collections::BTreeMap;
 use std::io::{self, Cursor, Read, Write};
@@ -39,7 +39,7 @@ impl Archive {
         }
         remove_leftovers(folder, is_archive);
         let file = new_beside(path).map_err(|error| failed(path, error))?;
-        work::temporary(file.path());
+        signals::temporary(file.path());
         let (path, top) = (path.to_path_buf(), top.to_string());
         let zip = ZipWriter::new(Cursor::new(Vec::new()));
         Ok(Archive { path, top, zip, file, files: BTreeMap::new() })

@@ -13,7 +13,7 @@ use impact_paper::params::Profile;
 use impact_paper::program::listed::{listed, own_profile};
 use impact_paper::program::output::{self, Force};
 use impact_paper::program::sources::Sources;
-use impact_paper::program::{Failure, about, folder, make, stdout, work};
+use impact_paper::program::{Failure, about, folder, make, signals, stdout};
 use impact_paper::report::{Files, sums};
 use std::path::{Path, PathBuf};
 use tree::Tree;
@@ -54,7 +54,7 @@ const PAPER: &str = "paper";
 /// Runs the verb.
 pub fn run(args: Args) -> Result<(), Failure> {
     output::free("bundle", &args.out, args.force)?;
-    let progress = work::progress();
+    let progress = signals::progress();
     let tree = Tree::here()?;
     let report = Path::new(PAPER);
     let listed = listed(report, None, &progress)?;

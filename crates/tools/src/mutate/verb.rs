@@ -5,7 +5,7 @@ use impact_paper::claims;
 use impact_paper::experiments::{ALL, Error, Progress};
 use impact_paper::params::Profile;
 use impact_paper::program::sources::Sources;
-use impact_paper::program::{Failure, stdout, work};
+use impact_paper::program::{Failure, signals, stdout, threads, work};
 use impact_paper::report::{Value, contents};
 use serde_json::json;
 use std::fmt::Write as _;
@@ -50,8 +50,8 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let templates = args.sources.templates()?;
     let published = args.sources.published(&templates)?;
     let reasons = Reasons::read(templates.text("unguarded.toml")?)?;
-    let progress = work::progress();
-    let (found, used, values) = work::on_threads(args.sources.threads, || {
+    let progress = signals::progress();
+    let (found, used, values) = threads::run(args.sources.threads, || {
         let results = args.sources.run(&ALL, profile, &templates, &progress)?;
         results.look();
         let claims = claims::all(&results, &published)?;
