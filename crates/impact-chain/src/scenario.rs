@@ -407,6 +407,11 @@ impl Scenario {
         std::iter::once((self.forcing_frequency, self.forcing.as_slice())).chain(further)
     }
 
+    /// The largest of ω and the frequencies of the forcing.
+    pub fn fastest(&self) -> f64 {
+        self.components().fold(self.natural_frequency, |fastest, (big_w, _)| fastest.max(big_w))
+    }
+
     /// The frequencies of the forcing, filled up to `M` with the first.
     pub(super) fn frequencies<const M: usize>(&self) -> [f64; M] {
         std::array::from_fn(|m| match m.checked_sub(1).and_then(|m| self.overtones.get(m)) {

@@ -5,23 +5,11 @@ pub use crate::scenario::COMPONENTS;
 use impact_numerics::clock::{Instant, Rate};
 use impact_numerics::trig::sin_cos_turn;
 
-/// The components α_j cos Ωt + β_j sin Ωt of a scenario: Ω, and the amplitudes of the masses.
-fn parts(scenario: &Scenario) -> impl Iterator<Item = (f64, &[[f64; 2]])> {
-    let overtones = scenario.overtones.iter();
-    std::iter::once((scenario.forcing_frequency, &scenario.forcing[..]))
-        .chain(overtones.map(|overtone| (overtone.frequency, &overtone.amplitudes[..])))
-}
-
-/// The same, to be changed.
+/// The components of a scenario, to be changed.
 fn parts_mut(scenario: &mut Scenario) -> impl Iterator<Item = (f64, &mut [[f64; 2]])> {
     let overtones = scenario.overtones.iter_mut();
     std::iter::once((scenario.forcing_frequency, &mut scenario.forcing[..]))
         .chain(overtones.map(|overtone| (overtone.frequency, &mut overtone.amplitudes[..])))
-}
-
-/// The largest of ω and Ω.
-pub fn fastest(scenario: &Scenario) -> f64 {
-    parts(scenario).fold(scenario.natural_frequency, |fastest, (big_w, _)| fastest.max(big_w))
 }
 
 /// ω² − Ω², by which a forcing is divided for its response.
@@ -33,7 +21,7 @@ fn factor(scenario: &Scenario, big_w: f64) -> f64 {
 /// The forced response of each mass at t = 0: displacement and velocity.
 pub fn response(scenario: &Scenario) -> Vec<[f64; 2]> {
     let mut response = vec![[0.0; 2]; scenario.forcing.len()];
-    for (big_w, amplitudes) in parts(scenario) {
+    for (big_w, amplitudes) in scenario.components() {
         let factor = factor(scenario, big_w);
         for ([x, v], [alpha, beta]) in response.iter_mut().zip(amplitudes) {
             *x += alpha / factor;
@@ -73,7 +61,8 @@ impl Component {
             let amplitudes = pairs.iter().map(|pair| pair[part]);
             std::iter::once(0.0).chain(amplitudes).chain([0.0]).collect()
         };
-        parts(scenario)
+        scenario
+            .components()
             .map(|(frequency, pairs)| Component {
                 frequency,
                 rate: Rate::new(frequency),

@@ -2,7 +2,6 @@
 
 use super::crossing::{crossing, is_rounding};
 use super::dormand_prince::Stages;
-use super::forcing::fastest;
 use super::row::Row;
 use super::tally::{Stop, Tally, check_end};
 use super::{Cost, Method, State};
@@ -57,7 +56,7 @@ impl Method for RungeKutta {
         tally.cost.evaluations += row.masses();
         let stages = Stages::new(&row, now);
         let mut run = Run { stages, row, now, tolerance: self.tolerance };
-        let first = FIRST / fastest(scenario);
+        let first = FIRST / scenario.fastest();
         let ended = run.integrate(Instant::at(until), first, &mut tally);
         tally.finish(ended)
     }

@@ -1,6 +1,5 @@
 //! What all rivals share around their steps: the grid of time, the count of work and its bounds.
 
-use super::forcing::fastest;
 use super::{Cost, State};
 use crate::topology::Topology;
 use crate::{Error, Impact, Scenario};
@@ -126,7 +125,7 @@ impl Grid {
     /// # Errors
     /// [`Error::Input`] for a step that is none, that is longer than 1/max(ω, Ω), or too short.
     pub fn new(scenario: &Scenario, start: &State, until: f64, step: f64) -> Result<Grid, Error> {
-        let longest = 1.0 / fastest(scenario);
+        let longest = 1.0 / scenario.fastest();
         if !(SHORTEST..=longest).contains(&step) {
             let problem = format!("{step:?} is out of range");
             let remedy = format!("give a number from {SHORTEST:?} to 1/max(w, W) = {longest:?}");
