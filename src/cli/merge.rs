@@ -4,7 +4,7 @@ use super::folder::resolved;
 use super::places::refuse_report;
 use super::{Failure, memory, shown, signals, stdout, threads, work};
 use impact_paper::experiments::{Store, alive};
-use impact_paper::input::{FOUND, MEMORY};
+use impact_paper::input::MEMORY;
 use impact_paper::numerics::text::count;
 use impact_paper::params::Profile;
 use std::fs::DirEntry;
@@ -38,8 +38,8 @@ pub struct Args {
 fn lengths(folder: &Path) -> impl Iterator<Item = u128> {
     let of = |entry: DirEntry| {
         let unit = entry.path().extension().is_some_and(|end| end == "json");
-        let length = entry.metadata().ok().filter(|found| unit && found.is_file())?.len();
-        Some(u128::from(length.min(FOUND << 20)))
+        let is_file = entry.metadata().is_ok_and(|found| found.is_file());
+        (unit && is_file).then(|| memory::length(&entry.path()))
     };
     std::fs::read_dir(folder).into_iter().flatten().flatten().filter_map(of)
 }

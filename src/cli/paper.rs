@@ -188,8 +188,15 @@ fn is_usual(profile: Profile, out: &Path) -> bool {
 }
 
 /// The values of the report in a folder, if there is one.
-fn values_in(out: &Path) -> Option<Registry> {
-    compare::read(&folder::text(out, VALUES).ok()?).ok()
+fn values_in(out: &Path) -> Result<Option<Registry>, Failure> {
+    memory::to_parse(out, &[VALUES, LEDGER], "--out")?;
+    match folder::text(out, VALUES) {
+        Ok(text) => Ok(compare::read(&text).ok()),
+        Err(error) => {
+            Failure::of_the_system(&error, format!("--out: {}", out.join(VALUES).display()))?;
+            Ok(None)
+        }
+    }
 }
 
 /// Lesser samples must not take the place of the committed report, and single figures not stand among those
@@ -204,13 +211,17 @@ fn refuse_over_other(
         Number::Text(name) => Some(name.clone()),
         _ => None,
     };
-    memory::to_parse(out, &[VALUES, LEDGER], "--out")?;
-    let found = values_in(out).and_then(name);
+    let found = values_in(out)?.and_then(name);
     // Of a report that does not tell what it is, a lesser one would take the place unseen, and figures might be of
     // other samples.
     let lesser = profile != Profile::Full || set::told().is_some() || figures;
     let asked = figures || !force;
-    if found.is_none() && lesser && asked && holds_report(out) && !is_usual(profile, out) {
+    if found.is_none()
+        && lesser
+        && asked
+        && holds_report(out) != Some(false)
+        && !is_usual(profile, out)
+    {
         let remedy = match figures {
             true => "restore it, or give another folder",
             false => "--force writes the report anew",

@@ -42,8 +42,8 @@ pub struct Args {
 }
 
 pub fn run(args: Args) -> Result<(), Failure> {
-    let long = args.folder.join(sums::NAME).metadata().map_or(0, |found| found.len());
-    memory::fits(16 * u128::from(long) + (64 << 20), "verify", MEMORY)?;
+    let long = memory::length(&args.folder.join(sums::NAME));
+    memory::fits(16 * long + (64 << 20), "verify", MEMORY)?;
     let progress = signals::progress();
     let mut checked = listed(&args.folder, args.only.document.as_deref(), &progress)?;
     checked.tell(&args.folder)?;

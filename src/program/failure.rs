@@ -39,14 +39,40 @@ impl Failure {
         Failure { code: Self::io_code(error), message }
     }
 
+    /// Refuses what the system, and not the file, is at fault for: of anything else the caller knows more.
+    ///
+    /// # Errors
+    /// Exit code 4.
+    pub fn of_the_system(error: &io::Error, what: impl Display) -> Result<(), Self> {
+        match Self::io(error, what, "") {
+            failure if failure.code == 4 => Err(failure),
+            _ => Ok(()),
+        }
+    }
+
     /// Its exit code.
     fn io_code(error: &io::Error) -> u8 {
-        use io::ErrorKind::{FileTooLarge, OutOfMemory, QuotaExceeded, StorageFull, WriteZero};
-        let full = [FileTooLarge, OutOfMemory, QuotaExceeded, StorageFull, WriteZero];
+        use io::ErrorKind::{
+            FileTooLarge, OutOfMemory, QuotaExceeded, StaleNetworkFileHandle, StorageFull,
+            WriteZero,
+        };
+        let full = [
+            FileTooLarge,
+            OutOfMemory,
+            QuotaExceeded,
+            StaleNetworkFileHandle,
+            StorageFull,
+            WriteZero,
+        ];
         // EIO, and ENFILE and EMFILE, which have no kinds of their own.
         let broken =
             cfg!(unix) && error.raw_os_error().is_some_and(|code| [5, 23, 24].contains(&code));
         if full.contains(&error.kind()) || broken { 4 } else { 2 }
+    }
+
+    /// The same, told of an option.
+    pub fn of(self, option: &str) -> Self {
+        Failure { message: format!("{option}: {}", self.message), ..self }
     }
 
     /// The same with another remedy.
@@ -137,6 +163,9 @@ impl From<report::Error> for Failure {
             }
             // What can be read, and breaks a rule of the prose.
             Lint(_) | NotShown(_) | Unused(_) => Failure::check(error.to_string()),
+            report::Error::Read { ref source, .. } => {
+                Failure { code: Failure::io_code(source), message: error.to_string() }
+            }
             _ => Failure::input(error.to_string()),
         }
     }

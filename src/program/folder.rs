@@ -97,12 +97,14 @@ pub fn text(folder: &Path, path: &str) -> io::Result<String> {
 ///
 /// # Errors
 /// What is wrong with it, with its name.
-pub fn local(folder: &Path) -> Result<Option<Vec<sums::Entry>>, String> {
-    let fault = |what: String| format!("{}: {what}", folder.join(sums::LOCAL).display());
+pub fn local(folder: &Path, remedy: &str) -> Result<Option<Vec<sums::Entry>>, Failure> {
+    let place = || folder.join(sums::LOCAL).display().to_string();
     match text(folder, sums::LOCAL) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
-        Err(error) => Err(fault(error.to_string())),
-        Ok(text) => sums::lines(&text).map(Some).map_err(|error| fault(error.to_string())),
+        Err(error) => Err(Failure::io(&error, place(), remedy)),
+        Ok(text) => sums::lines(&text)
+            .map(Some)
+            .map_err(|error| Failure::input(format!("{}: {error}; {remedy}", place()))),
     }
 }
 

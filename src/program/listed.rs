@@ -43,7 +43,7 @@ pub fn listed(root: &Path, only: Option<&str>, progress: &Progress) -> Result<Ch
     let _alive = alive(|| Some("comparing files with their list".into()));
     let place = root.join(sums::NAME);
     let unusable = |what: String| {
-        let remedy = "make the report anew with `impact-paper paper`";
+        let remedy = "make the report anew with `impact-paper paper --force`";
         Failure::input(format!("{}: {what}; {remedy}", place.display()))
     };
     let [list, local] = [sums::NAME, sums::LOCAL].map(|name| root.join(name).symlink_metadata());
@@ -59,11 +59,8 @@ pub fn listed(root: &Path, only: Option<&str>, progress: &Progress) -> Result<Ch
     let found = folder::walk(root, progress)?;
     let mut known: BTreeMap<&str, &str> = BTreeMap::new();
     // Of what was last written, what is built beside: the rest may be of another revision by now.
-    let local = folder::local(root).map_err(|what| {
-        let remedy = "move it away, and write the report anew with `impact-paper paper --force`";
-        Failure::input(format!("{what}; {remedy}"))
-    })?;
-    let local = local.unwrap_or_default();
+    let remedy = "move it away, and write the report anew with `impact-paper paper --force`";
+    let local = folder::local(root, remedy)?.unwrap_or_default();
     let beside = |entry: &&sums::Entry| {
         folder::is_beside(&entry.path) && found.binary_search(&entry.path).is_ok()
     };
@@ -72,7 +69,9 @@ pub fn listed(root: &Path, only: Option<&str>, progress: &Progress) -> Result<Ch
     }
     let mut found = found.clone();
     if let Some(document) = only {
-        let text = folder::read(root, "ledger.json").map_err(|e| unusable(e.to_string()))?;
+        let place = root.join("ledger.json");
+        let text = folder::read(root, "ledger.json")
+            .map_err(|error| Failure::io(&error, place.display(), folder::REMEDY))?;
         let ledger = ledger::read(&String::from_utf8_lossy(&text));
         let ledger = ledger.map_err(|e| unusable(e.to_string()))?;
         let Some(shown) = ledger.documents.get(document) else {
@@ -90,10 +89,10 @@ pub fn listed(root: &Path, only: Option<&str>, progress: &Progress) -> Result<Ch
             Ok(bytes) if sha256(&bytes) == *digest => (),
             Ok(_) => fault("differs", path, ""),
             Err(error) if error.kind() == ErrorKind::NotFound => fault("missing", path, ""),
-            Err(error) => match Failure::io(&error, root.join(path).display(), "") {
-                of_the_system if of_the_system.code == 4 => return Err(of_the_system),
-                _ => fault("unread", path, &format!(" ({error})")),
-            },
+            Err(error) => {
+                Failure::of_the_system(&error, root.join(path).display())?;
+                fault("unread", path, &format!(" ({error})"));
+            }
         }
     }
     let lists = [sums::NAME, sums::LOCAL];
@@ -115,7 +114,10 @@ pub fn own_profile(root: &Path) -> Result<Profile, Failure> {
         Failure::input(format!("{}: values.json {what}; give --profile", root.display()))
     };
     memory::to_parse(root, &["values.json"], &root.display().to_string())?;
-    let text = folder::text(root, "values.json").map_err(|_| unknown("cannot be read"))?;
+    let text = folder::text(root, "values.json").or_else(|error| {
+        Failure::of_the_system(&error, root.join("values.json").display())?;
+        Err(unknown("cannot be read"))
+    })?;
     let values = compare::read(&text).map_err(|_| unknown("is not one of a report"))?;
     match values.get("profile").map(|value| &value.number) {
         Some(Number::Text(name)) if name.contains('(') => Err(Failure::input(format!(

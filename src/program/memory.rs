@@ -1,7 +1,7 @@
 //! Memory: work that needs more than there is gets refused before it begins.
 
 use super::Failure;
-use crate::input::MEMORY;
+use crate::input::{FOUND, MEMORY};
 use std::path::Path;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -30,6 +30,12 @@ pub fn least(mib: u128, what: &str) -> Result<(), Failure> {
     fits(mib << 20, what, MEMORY)
 }
 
+/// Length of a file, as far as it may be read.
+pub fn length(path: &Path) -> u128 {
+    let long = path.metadata().map_or(0, |found| found.len());
+    u128::from(long.min(FOUND << 20))
+}
+
 /// Bytes for each of a text that is parsed: measured, with a little room.
 const PARSED: u128 = 40;
 
@@ -38,9 +44,8 @@ const PARSED: u128 = 40;
 /// # Errors
 /// Exit code 2 with an estimate, told of `what`.
 pub fn to_parse(folder: &Path, names: &[&str], what: &str) -> Result<(), Failure> {
-    let length = |name: &&str| folder.join(name).metadata().map_or(0, |found| found.len());
-    let long = names.iter().map(length).sum::<u64>();
-    fits(PARSED * u128::from(long) + (128 << 20), what, MEMORY)
+    let long: u128 = names.iter().map(|name| length(&folder.join(name))).sum();
+    fits(PARSED * long + (128 << 20), what, MEMORY)
 }
 
 /// What any verb takes at least, in MiB: asked for before there is a second thread.

@@ -5,13 +5,13 @@
 //! was last written into the folder. Everything else is refused by name, unless --force.
 
 use super::alone::alone;
-use super::own::{self, Own};
+use super::own::Own;
 use super::places::{lies_in_report, refuse_dangling};
 use super::signals::{self, Now};
 use super::waiting::{Waiting, clear, is_staging};
 use super::{Failure, folder};
 use crate::experiments::{Progress, say};
-use crate::input::{bare, count, listed, one_line};
+use crate::input::{bare, count, is_absent, listed, one_line};
 use crate::report::{Document, Files, PROGRAM, sums};
 use std::collections::BTreeSet;
 use std::io;
@@ -108,23 +108,19 @@ impl<'a> Staging<'a> {
     pub fn refuse_changed(&self) -> Result<(), Failure> {
         let _alone = alone(self.folder).map_err(|error| self.failed(&error))?;
         let own = self.own()?.unwrap_or_default();
-        let stands = |path: &str| stands(&self.folder.join(path));
-        if let Some(page) = own.manual().filter(|page| stands(page)) {
+        if let Some(page) = own.manual().filter(|page| stands(&self.folder.join(page))) {
             let (option, folder) = (self.option, self.folder.display());
             let what = "a report has no other files; give another folder";
             return Err(Failure::input(format!("{option}: {folder} has {page}; {what}")));
         }
-        let wrote =
-            |path: &str| folder::read(self.folder, path).is_ok_and(|bytes| own.wrote(path, &bytes));
-        let changed = |path: &&String| stands(path) && !wrote(path);
         // A document may stand without a list of it; and a list may be somebody else's.
         let documents = PROGRAM.documents.iter().flat_map(Document::paths);
         let others: Vec<String> = documents.chain([sums::NAME.into()]).collect();
         let all = || own.digests.keys().chain(&others);
         all().try_for_each(|path| self.inside(path))?;
         self.no_folder(all())?;
-        let changed: BTreeSet<&str> = all().filter(changed).map(String::as_str).collect();
-        self.refuse(changed.into_iter().collect())
+        let all: BTreeSet<&str> = all().map(String::as_str).collect();
+        self.refuse(self.theirs(&own, &Files::new(), all)?).map(drop)
     }
 
     /// Writes `files` to a temporary folder and, when that is complete and nobody has asked to stop,
@@ -144,8 +140,7 @@ impl<'a> Staging<'a> {
         let same = now.as_deref().map(str::as_bytes) == files.get(sums::NAME).map(Vec::as_slice);
         if !self.force && now != self.found && !same {
             let (option, folder) = (self.option, self.folder.display());
-            let what =
-                "another report came here during this run; run again, or give another folder";
+            let what = "the report here is another than before this run; run again, or give another folder";
             return Err(Failure::input(format!("{option}: {folder}: {what}")));
         }
         let own = self.own()?.unwrap_or_default();
@@ -153,18 +148,8 @@ impl<'a> Staging<'a> {
         let gone = own.report.iter().filter(|path| is_report && !files.contains_key(*path));
         let gone: Vec<&String> = gone.collect();
         files.keys().chain(gone.iter().copied()).try_for_each(|path| self.inside(path))?;
-        let stands = |path: &str| stands(&self.folder.join(path));
-        let is_own = |path: &str| {
-            let bytes = folder::read(self.folder, path);
-            bytes.is_ok_and(|bytes| own.wrote(path, &bytes) || files.get(path) == Some(&bytes))
-        };
-        let theirs = |path: &&String| stands(path) && !is_own(path);
-        let theirs: Vec<&str> =
-            files.keys().chain(gone.iter().copied()).filter(theirs).map(String::as_str).collect();
-        self.refuse(theirs.clone())?;
-        let list = own::local(self.folder).err().map(|_| sums::LOCAL);
-
         self.no_folder(files.keys())?;
+        let stands = |path: &str| stands(&self.folder.join(path));
 
         let temporary = self.temporary()?;
         signals::temporary(temporary.path());
@@ -185,35 +170,39 @@ impl<'a> Staging<'a> {
         stage(sums::LOCAL, own.local(files, stands, true).as_bytes()).map_err(failed)?;
         let placing = signals::moment(Now::Placing);
         progress.check()?;
+        // Somebody may have changed a file while these were written.
+        let all = files.keys().chain(gone.iter().copied()).map(String::as_str);
+        self.refuse(self.theirs(&own, files, all)?)?;
         put(sums::LOCAL).map_err(failed)?;
         // What says of which sample it is goes first: without it the rest would be a report that nobody knows.
         let values = files.keys().filter(|path| *path == VALUES);
         let others = files.keys().filter(|path| ![VALUES, sums::NAME].contains(&path.as_str()));
+        let mut over = Vec::new();
         for path in values.chain(others) {
+            over.extend(self.refuse(self.theirs(&own, files, [path.as_str()])?)?);
             put(path).map_err(failed)?;
         }
-        let gone: Vec<&str> = gone
-            .into_iter()
-            .map(String::as_str)
-            .filter(|path| stands(path) && is_own(path))
-            .collect();
-        for path in &gone {
-            std::fs::remove_file(self.folder.join(path)).map_err(failed)?;
+        let mut removed = Vec::new();
+        for path in gone.into_iter().map(String::as_str).filter(|path| stands(path)) {
+            if self.theirs(&own, files, [path])?.is_empty() {
+                std::fs::remove_file(self.folder.join(path)).map_err(failed)?;
+                removed.push(path);
+            }
         }
         if is_report {
+            over.extend(self.refuse(self.theirs(&own, files, [sums::NAME])?)?);
             put(sums::NAME).map_err(failed)?;
         }
+        over.extend(own.unusable.then_some(sums::LOCAL));
         stage(sums::LOCAL, own.local(files, stands, false).as_bytes()).map_err(failed)?;
         put(sums::LOCAL).map_err(failed)?;
         drop(temporary);
         // Whoever is told may not listen.
         drop((alone, placing));
-        if !gone.is_empty() {
-            let (number, names) = (count(gone.len(), "file"), one_line(&listed(&gone), 500));
+        if !removed.is_empty() {
+            let (number, names) = (count(removed.len(), "file"), one_line(&listed(&removed), 500));
             say(&format!("impact-paper: removed {number} of the report before: {names}"));
         }
-        let over = theirs.into_iter().filter(|path| files.contains_key(*path));
-        let over: Vec<&str> = over.chain(list).collect();
         if !over.is_empty() {
             say(&format!("impact-paper: --force: wrote over {}", over.join(", ")));
         }
@@ -222,8 +211,31 @@ impl<'a> Staging<'a> {
 
     /// What the lists say; a list that cannot be read would make files of ours look like a stranger's.
     fn own(&self) -> Result<Option<Own>, Failure> {
-        let told = |what| Failure::input(format!("{}: {what}", self.option));
-        Own::read(self.folder, self.force).map_err(told)
+        Own::read(self.folder, self.force).map_err(|failure| failure.of(self.option))
+    }
+
+    /// Those of the paths where something stands that neither was written here nor is about to be.
+    fn theirs<'p>(
+        &self,
+        own: &Own,
+        files: &Files,
+        paths: impl IntoIterator<Item = &'p str>,
+    ) -> Result<Vec<&'p str>, Failure> {
+        let mut theirs = Vec::new();
+        for path in paths.into_iter().filter(|path| stands(&self.folder.join(path))) {
+            match folder::read(self.folder, path) {
+                Ok(bytes) if own.wrote(path, &bytes) || files.get(path) == Some(&bytes) => (),
+                Ok(_) => theirs.push(path),
+                Err(error) => {
+                    let place = self.folder.join(path);
+                    let what = format!("{}: {}", self.option, place.display());
+                    Failure::of_the_system(&error, what)?;
+                    // Whoever removed it meanwhile did so for good.
+                    theirs.extend((!is_absent(&error)).then_some(path));
+                }
+            }
+        }
+        Ok(theirs)
     }
 
     /// A folder in which files wait until all are complete.
@@ -242,10 +254,10 @@ impl<'a> Staging<'a> {
         }
     }
 
-    /// Refuses to touch what is not ours, unless forced.
-    fn refuse(&self, theirs: Vec<&str>) -> Result<(), Failure> {
+    /// Refuses to touch what is not ours, unless forced: then it is told later.
+    fn refuse<'p>(&self, theirs: Vec<&'p str>) -> Result<Vec<&'p str>, Failure> {
         if theirs.is_empty() || self.force {
-            return Ok(());
+            return Ok(theirs);
         }
         let (option, folder) = (self.option, self.folder.display());
         let what = "not as this program last wrote it";
@@ -286,8 +298,7 @@ impl<'a> Staging<'a> {
 
 /// Whether something is there, as far as anybody can tell: what cannot be looked at is.
 fn stands(path: &Path) -> bool {
-    let absent = [io::ErrorKind::NotFound, io::ErrorKind::NotADirectory];
-    path.symlink_metadata().err().is_none_or(|error| !absent.contains(&error.kind()))
+    path.symlink_metadata().err().is_none_or(|error| !is_absent(&error))
 }
 
 /// Refuses, before a long run, a single file that stands there already, unless forced.
@@ -423,6 +434,33 @@ mod tests {
         assert!(staging.refuse_changed().unwrap_err().message.contains("beyond.md"));
     }
 
+    /// Somebody saves a file, and a new one, while ours are being written beside.
+    #[test]
+    fn what_is_saved_meanwhile_stays() {
+        let out = tempfile::tempdir().unwrap();
+        let folder = out.path();
+        place(folder, &report(&["report.md"])).unwrap();
+        let mut files = report(&["beyond.md", "report.md"]);
+        files.insert("report.md".into(), b"another".to_vec());
+        files.extend((0..200).map(|i| (format!("data/{i}.csv"), vec![0; 200_000])));
+        let staged = |name: &String| folder.join(name).join("data").exists();
+        std::thread::scope(|scope| {
+            scope.spawn(|| {
+                while !names(folder).unwrap().iter().any(staged) {}
+                for name in ["report.md", "beyond.md"] {
+                    let saved = folder.join(format!("{name}.swp"));
+                    std::fs::write(&saved, "by hand").unwrap();
+                    std::fs::rename(saved, folder.join(name)).unwrap();
+                }
+            });
+            // On a busy machine they may be saved when all is over.
+            assert_eq!(place(folder, &files).map_or_else(|failure| failure.code, |()| 2), 2);
+        });
+        for name in ["report.md", "beyond.md"] {
+            assert_eq!(std::fs::read_to_string(folder.join(name)).unwrap(), "by hand");
+        }
+    }
+
     /// A report that came during the run may be a fuller one.
     #[test]
     fn a_report_that_came_meanwhile_stays() {
@@ -434,7 +472,7 @@ mod tests {
         place(folder, &full).unwrap();
         let lesser = report(&["report.md"]);
         let failure = late.place(&lesser, &Progress::silent()).unwrap_err();
-        assert!(failure.code == 2 && failure.message.contains("during this run"));
+        assert!(failure.code == 2 && failure.message.contains("before this run"));
         assert!(folder.join("more.md").exists());
         again.place(&full, &Progress::silent()).unwrap();
         Staging { force: true, ..forced }.place(&lesser, &Progress::silent()).unwrap();

@@ -1,10 +1,11 @@
 //! What the lists in a folder say that the program wrote there.
 
-use super::folder;
+use super::{Failure, folder};
 use crate::digest::sha256;
-use crate::input::one_line;
+use crate::input::{is_absent, one_line};
 use crate::report::{Document, Files, LAB, PROGRAM, ledger, sums};
 use std::collections::BTreeMap;
+use std::io;
 use std::path::Path;
 
 /// What the program knows that it wrote into a folder.
@@ -16,6 +17,8 @@ pub struct Own {
     pub report: Vec<String>,
     /// The list of what was last written.
     local: Vec<sums::Entry>,
+    /// Whether there is such a list, and none that can be used.
+    pub unusable: bool,
 }
 
 impl Own {
@@ -23,14 +26,17 @@ impl Own {
     ///
     /// # Errors
     /// What is wrong with a list, and what to do.
-    pub fn read(folder: &Path, force: bool) -> Result<Option<Own>, String> {
-        let usable = |list: Result<_, String>| if force { Ok(list.unwrap_or(None)) } else { list };
-        let local = usable(local(folder))?;
-        let report = usable(report(folder))?;
-        if report.is_none() && local.is_none() {
+    pub fn read(folder: &Path, force: bool) -> Result<Option<Own>, Failure> {
+        let usable = |list: Result<_, Failure>| match list {
+            Err(failure) if force && failure.code == 2 => Ok(None),
+            list => list,
+        };
+        let local = local(folder);
+        let mut own = Own { unusable: local.is_err(), ..Own::default() };
+        let (local, report) = (usable(local)?, usable(report(folder))?);
+        if report.is_none() && local.is_none() && !own.unusable {
             return Ok(None);
         }
-        let mut own = Own::default();
         for entry in report.iter().chain(&local).flatten() {
             own.digests.entry(entry.path.clone()).or_default().push(entry.digest.clone());
         }
@@ -73,9 +79,9 @@ impl Own {
 ///
 /// # Errors
 /// What is wrong with it, and what to do.
-pub fn local(folder: &Path) -> Result<Option<Vec<sums::Entry>>, String> {
+fn local(folder: &Path) -> Result<Option<Vec<sums::Entry>>, Failure> {
     let remedy = "move it away, or write over it with --force";
-    let list = folder::local(folder).map_err(|what| format!("{what}; {remedy}"))?;
+    let list = folder::local(folder, remedy)?;
     let written = |path: &str| {
         let beside = || folder::is_beside(path) && (path.contains('/') || is_document(path));
         sums::is_of_report(path) || path == LAB || beside() || is_manual(path)
@@ -86,7 +92,7 @@ pub fn local(folder: &Path) -> Result<Option<Vec<sums::Entry>>, String> {
         Some((i, entry)) => {
             let (place, path) = (folder.join(sums::LOCAL), one_line(&entry.path, 200));
             let what = format!("line {}: {path:?} is no file of this program", i + 1);
-            Err(format!("{}: {what}; {remedy}", place.display()))
+            Err(Failure::input(format!("{}: {what}; {remedy}", place.display())))
         }
     }
 }
@@ -103,29 +109,46 @@ fn is_manual(path: &str) -> bool {
     ours.is_some_and(|rest| !rest.contains('/') && (name.is_some() || rest.ends_with(".1")))
 }
 
-/// Is it a report, or what is left of one?
-pub fn holds_report(folder: &Path) -> bool {
-    list(folder).is_some() || has_ledger(folder)
+/// Is it a report, or what is left of one? None if the system does not let anybody see.
+pub fn holds_report(folder: &Path) -> Option<bool> {
+    let found = list(folder).and_then(|list| Ok(list.is_some() || has_ledger(folder)?));
+    found.ok()
+}
+
+/// A file as text; none if it is not there, or cannot be a list of ours.
+///
+/// # Errors
+/// The system does not let it be read.
+fn text(folder: &Path, path: &str) -> io::Result<Option<String>> {
+    match folder::text(folder, path) {
+        Err(error) if error.raw_os_error().is_some() && !is_absent(&error) => Err(error),
+        text => Ok(text.ok()),
+    }
 }
 
 /// Other people have files of this name too.
-fn has_ledger(folder: &Path) -> bool {
-    folder::text(folder, "ledger.json").is_ok_and(|text| ledger::is_one(&text))
+fn has_ledger(folder: &Path) -> io::Result<bool> {
+    Ok(text(folder, "ledger.json")?.is_some_and(|text| ledger::is_one(&text)))
 }
 
 /// The list of the report in a folder as text, if there is one. Other people have lists of this name too: that of a
 /// report names its values and its ledger.
-fn list(folder: &Path) -> Option<String> {
-    let text = folder::text(folder, sums::NAME).ok()?;
-    let has = |path: &str| text.lines().any(|line| line.ends_with(&format!("  {path}")));
-    (has("values.json") && has("ledger.json")).then_some(text)
+fn list(folder: &Path) -> io::Result<Option<String>> {
+    let has = |text: &str, path| text.lines().any(|line| line.ends_with(&format!("  {path}")));
+    let names = |text: &String| has(text, "values.json") && has(text, "ledger.json");
+    Ok(text(folder, sums::NAME)?.filter(names))
 }
 
 /// The list of the report in a folder, if there is one beside its ledger. What it names is replaced and removed, so it
 /// may name nothing else than a report has, whoever wrote it.
-fn report(folder: &Path) -> Result<Option<Vec<sums::Entry>>, String> {
-    let Some(text) = list(folder).filter(|_| has_ledger(folder)) else { return Ok(None) };
-    let fault = |what: String| format!("{}: {what}", folder.join(sums::NAME).display());
+fn report(folder: &Path) -> Result<Option<Vec<sums::Entry>>, Failure> {
+    let [place, ledger] = [sums::NAME, "ledger.json"].map(|name| folder.join(name));
+    let remedy = "see that it can be read, or write over the report with --force";
+    let unread = |place: &Path, error| Failure::io(&error, place.display(), remedy);
+    let list = list(folder).map_err(|error| unread(&place, error))?;
+    let beside = has_ledger(folder).map_err(|error| unread(&ledger, error))?;
+    let Some(text) = list.filter(|_| beside) else { return Ok(None) };
+    let fault = |what: String| Failure::input(format!("{}: {what}", place.display()));
     let malformed =
         |error| fault(format!("{error}; mend it, or write over the report with --force"));
     let list = sums::lines(&text).map_err(malformed)?;

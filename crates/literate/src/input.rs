@@ -50,6 +50,11 @@ fn bounded(file: impl Read, mib: u64) -> Result<Vec<u8>, Error> {
     Ok(bytes)
 }
 
+/// Whether there is no such file.
+pub fn is_absent(error: &Error) -> bool {
+    [ErrorKind::NotFound, ErrorKind::NotADirectory].contains(&error.kind())
+}
+
 /// What is wrong with a file of more than so many MiB.
 pub fn too_long(mib: u64) -> String {
     format!("it is longer than {mib} MiB")
@@ -102,6 +107,9 @@ pub const MEMORY: &str = "raise the limits of the process, or end other programs
 pub fn remedy<'a>(error: &Error, otherwise: &'a str) -> &'a str {
     if cfg!(unix) && matches!(error.raw_os_error(), Some(23 | 24)) {
         return "allow more open files (ulimit -n)";
+    }
+    if cfg!(unix) && error.raw_os_error() == Some(5) {
+        return "see whether the disk is sound, and try again";
     }
     match error.kind() {
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::WriteZero => "make room",

@@ -163,8 +163,11 @@ impl Plan {
                     Err(reasons) => {
                         let path = path(&folders[place], &task.name);
                         bad.push(format!("{}: {}", path.display(), told(&reasons)));
-                        let unit = stores[place].refuse_foreign(&task.identity, self.profile);
-                        foreign |= unit.is_err();
+                        match stores[place].refuse_foreign(&task.identity, self.profile) {
+                            // Nobody can say what it is.
+                            Err(error @ Error::Store { .. }) => return Err(error),
+                            unit => foreign |= unit.is_err(),
+                        }
                     }
                 },
             }

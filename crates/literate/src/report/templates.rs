@@ -73,13 +73,11 @@ struct Walk {
 impl Walk {
     fn folder(&mut self, folder: &Path, prefix: &str) -> Result<(), Error> {
         let fail = |path: &Path, source| Error::Read { path: path.display().to_string(), source };
-        let refuse = |path: &Path, kind, what: &str| Err(fail(path, io::Error::new(kind, what)));
+        let refuse = |path: &Path, what: &str| {
+            Err(fail(path, io::Error::new(io::ErrorKind::InvalidInput, what)))
+        };
         if !self.folders.insert(folder.canonicalize().map_err(|e| fail(folder, e))?) {
-            return refuse(
-                folder,
-                io::ErrorKind::Other,
-                "it leads to a folder that was read before",
-            );
+            return refuse(folder, "it leads to a folder that was read before");
         }
         for entry in std::fs::read_dir(folder).map_err(|e| fail(folder, e))? {
             let path = entry.map_err(|e| fail(folder, e))?.path();
@@ -88,7 +86,7 @@ impl Walk {
                 let what = format!(
                     "there are more than {ENTRIES} files; give the folder of templates alone"
                 );
-                return refuse(folder, io::ErrorKind::Other, &what);
+                return refuse(folder, &what);
             }
             let Some(name) = path.file_name().and_then(|name| name.to_str()) else { continue };
             let relative = format!("{prefix}{name}");
@@ -103,7 +101,7 @@ impl Walk {
                 self.bytes += text.len();
                 if self.bytes > BYTES {
                     let what = format!("the templates are longer than {} MiB", BYTES >> 20);
-                    return refuse(&path, io::ErrorKind::FileTooLarge, &what);
+                    return refuse(&path, &what);
                 }
                 self.files.insert(relative, text);
             }
