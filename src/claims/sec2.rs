@@ -190,23 +190,25 @@ fn half_height(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
 /// The first impacts come where a gap closes by itself, long before the rise is half way up.
 fn onset(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
     let rise = &e.results.of(&SWEEP)?.rise;
-    let (Some(onset), Some(kept)) = (rise.onset, rise.kept_half) else {
+    let (Some(onset), Some(kept), Some(half)) = (rise.onset, rise.kept_half, rise.half_height)
+    else {
         return Ok(open(
             Text::words("no onset"),
             "The mean does not pass a twentieth of all gaps.",
         ));
     };
     let predicted = e.results.identities.sigma_kept_half;
-    let holds =
+    let near =
         (kept.value / predicted - 1.0).abs() <= 0.05 + e.level.quantile * kept.error / predicted;
+    let holds = near && rounds(e, s, &half)?;
     Ok(Finding {
         ours: Text::words("σ = ").with_error(onset.value, onset.error),
         tolerance: half_unit(s)?,
         reason: LAST_DIGIT,
         judgement: Judgement::Explained { agrees: rounds(e, s, &onset)?, holds },
         note: Text::words(
-            "Judged by the mean of all: where any chain is kept, the mean of the kept is above a \
-             twentieth. Impacts begin where a gap first closes by itself, and spread at larger σ. \
+            "The printed σ is that of half the height. Judged by the mean of all: where any chain is kept, the mean of \
+             the kept is above a twentieth. Impacts begin where a gap first closes by itself, and spread at larger σ. \
              Half of the chains have impacts at σ = ",
         )
         .with_error(kept.value, kept.error)

@@ -42,7 +42,8 @@ pub fn run(args: Args) -> Result<(), Failure> {
         ledger.only(document, &mut values).map_err(fault)?;
     }
     let cards = Cards { values: &values, ledger: &ledger, program: PROGRAM };
-    let get = |id: &String| cards.get(id).ok_or_else(|| unknown(id, &cards.ids()));
+    let place = args.only.document.as_ref().map_or("", |_| " in this document");
+    let get = |id: &String| cards.get(id).ok_or_else(|| unknown(id, place, &cards.ids()));
     let result = if args.ids.is_empty() {
         let all: Vec<Card> = cards.ids().iter().filter_map(|id| cards.get(id)).collect();
         list(&all, args.json)
@@ -143,7 +144,7 @@ fn stands(row: &Row) -> Option<(&'static str, usize)> {
 }
 
 /// One line with the ids that are spelt much alike: a third of the letters may differ.
-fn unknown(id: &str, ids: &[String]) -> Failure {
+fn unknown(id: &str, place: &str, ids: &[String]) -> Failure {
     let asked: Vec<char> = id.chars().collect();
     let near = |known: &String| Some((distance(&asked, known)?, known.clone()));
     let mut near: Vec<(usize, String)> = ids.iter().filter_map(near).collect();
@@ -155,7 +156,7 @@ fn unknown(id: &str, ids: &[String]) -> Failure {
     };
     let id = match one_line(id, 60) {
         empty if empty.is_empty() => "the ID is empty".to_string(),
-        id => format!("there is no {id:?}"),
+        id => format!("there is no {id:?}{place}"),
     };
     Failure::input(format!("explain: {id}{near}; without an id all are listed"))
 }

@@ -97,11 +97,11 @@ impl Published {
                 if words.trim().is_empty() {
                     return fault(format!("its {name} has no words; write them"));
                 }
-                let odd = |c: &char| is_no_text(*c) || is_obeyed(*c) && !c.is_control();
+                let odd = |c: &char| is_no_text(*c) || is_obeyed(*c) || ['«', '»'].contains(c);
                 if let Some(c) = words.chars().find(odd) {
                     let number = u32::from(c);
                     return fault(format!(
-                        "its {name} has the character U+{number:04X}, which is none of a text; remove it"
+                        "its {name} has the character U+{number:04X}, which no row of a table can have; remove it"
                     ));
                 }
                 if words.matches('$').count() % 2 == 1 {

@@ -176,7 +176,9 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
     beside.extend(input.figures.par_iter().map(pdf).collect::<Vec<_>>());
     committed.insert(sums::NAME.into(), sums::write(&committed).into_bytes());
     for Part { of, blocks, places } in &parts {
-        check_links(blocks, *of, &labels, &committed, input.program).map_err(|e| places.tell(e))?;
+        check_links(blocks, *of, &labels, &committed, input.program)
+            .and_then(|()| check_labs(blocks, input.templates))
+            .map_err(|e| places.tell(e))?;
     }
     Ok(Report { committed, beside })
 }
@@ -323,6 +325,18 @@ fn check_links(
         }
     });
     result
+}
+
+/// What readers run is a function of lab.js each, where there is one.
+fn check_labs(blocks: &[Block], templates: &Templates) -> Result<(), Error> {
+    let Ok(script) = templates.text("lab.js") else { return Ok(()) };
+    let unknown = blocks.iter().find_map(|block| match block {
+        Block::Scene { lab: Some(lab), .. } => {
+            (!script.contains(&format!("function {lab}("))).then(|| Error::Lab(lab.clone()))
+        }
+        _ => None,
+    });
+    unknown.map_or(Ok(()), Err)
 }
 
 /// Gives the figures in the prose their alternative text and data; which these are.

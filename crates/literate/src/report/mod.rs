@@ -68,6 +68,8 @@ pub enum Error {
     Markup(String),
     #[error("{place}: {error}")]
     At { place: String, error: Box<Error> },
+    #[error("`Lab {}: …`: lab.js has no function of this name; correct it, or write one", one_line(.0, 200))]
+    Lab(String),
     #[error("a link to {}: there is no such file or place; correct or remove it", one_line(.0, 200))]
     NoFile(String),
     #[error("{}: two things in the report have this id; give one of them another", one_line(.0, 200))]
@@ -316,6 +318,7 @@ Listing: What $\delta v$ does. {#lst:kick}
             ("report.html", html),
             ("report.css", ""),
             ("report.js", ""),
+            ("lab.js", "function toy(bench) {}"),
             ("literals.toml", "literal = []"),
         ];
         let mut values = Registry::new();
@@ -356,6 +359,20 @@ Listing: What $\delta v$ does. {#lst:kick}
         assert_eq!(with.beside[LAB], b"end();");
         assert!(!page(&without).contains("You run") && !without.beside.contains_key(LAB));
         assert!(with.committed == without.committed, "what is committed depends on the machine");
+    }
+
+    #[test]
+    fn what_readers_run_is_known() {
+        let named = |lab: &str| {
+            let prose = PROSE
+                .replace("[@bibliography]", &format!("Lab {lab}: You run it.\n\n[@bibliography]"));
+            assembled(&prose).map(drop)
+        };
+        named("toy").unwrap();
+        for wrong in ["tyo", "toy "] {
+            let told = named(wrong).unwrap_err().to_string();
+            assert!(told.starts_with("report.md:") && told.contains("Lab "), "{told}");
+        }
     }
 
     #[test]

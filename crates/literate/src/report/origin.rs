@@ -166,7 +166,7 @@ impl Filled {
 }
 
 /// Where the things stand that a report has or names: `#fig:3` what can be referred to, `@fig:3` a
-/// reference, `(path` a link.
+/// reference, `(path` a link, `Lab name` what readers run.
 #[derive(Clone, Debug)]
 pub struct Places<'a> {
     filled: &'a Filled,
@@ -190,6 +190,7 @@ impl<'a> Places<'a> {
             Error::Label(id) => format!("#{id}"),
             Error::Reference(id) => format!("@{id}"),
             Error::NoFile(path) => format!("({path}"),
+            Error::Lab(lab) => format!("Lab {lab}"),
             _ => return error,
         };
         match self.found.iter().rev().find(|(own, _)| *own == thing) {

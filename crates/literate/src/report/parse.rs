@@ -182,6 +182,9 @@ impl<'a> Reader<'a> {
                     self.places.add(format!("#{id}"), range.start);
                     self.places.add(format!("({path}"), range.start);
                 }
+                if let Block::Scene { lab: Some(lab), .. } = &block {
+                    self.places.add(format!("Lab {lab}"), range.start);
+                }
                 block
             }
             Tag::Heading { level, id, classes, attrs } => {
@@ -389,6 +392,9 @@ impl<'a> Reader<'a> {
                     _ => {}
                 }
                 link
+            }
+            Tag::Link { dest_url, .. } if dest_url.starts_with('@') => {
+                return Err(markup("a reference for a link; write two of them as [@one; @two]"));
             }
             Tag::Link { .. } if empty => return Err(markup("a link without words")),
             Tag::Link { dest_url, .. } | Tag::Image { dest_url, .. } if dest_url.is_empty() => {
