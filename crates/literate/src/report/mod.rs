@@ -369,7 +369,7 @@ Listing: What $\delta v$ does. {#lst:kick}
             assembled(&prose).map(drop)
         };
         named("toy").unwrap();
-        for wrong in ["tyo", "toy "] {
+        for wrong in ["game", "toy "] {
             let told = named(wrong).unwrap_err().to_string();
             assert!(told.starts_with("report.md:") && told.contains("Lab "), "{told}");
         }
