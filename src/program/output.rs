@@ -194,6 +194,7 @@ impl<'a> Staging<'a> {
             put(sums::NAME).map_err(failed)?;
         }
         over.extend(own.unusable.then_some(sums::LOCAL));
+        over.sort_unstable();
         stage(sums::LOCAL, own.local(files, stands, false).as_bytes()).map_err(failed)?;
         put(sums::LOCAL).map_err(failed)?;
         drop(temporary);

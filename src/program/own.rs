@@ -121,7 +121,9 @@ pub fn holds_report(folder: &Path) -> Option<bool> {
 /// The system does not let it be read.
 fn text(folder: &Path, path: &str) -> io::Result<Option<String>> {
     match folder::text(folder, path) {
-        Err(error) if error.raw_os_error().is_some() && !is_absent(&error) => Err(error),
+        Err(error) if error.raw_os_error().is_some() && !is_absent(&error) && folder.is_dir() => {
+            Err(error)
+        }
         text => Ok(text.ok()),
     }
 }
