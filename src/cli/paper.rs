@@ -219,7 +219,7 @@ fn refuse_over_other(
     if found.is_none()
         && lesser
         && asked
-        && holds_report(out) != Some(false)
+        && holds_report(out).unwrap_or(true)
         && !is_usual(profile, out)
     {
         let remedy = match figures {

@@ -39,11 +39,11 @@ pub struct Args {
     #[arg(long, value_name = "M", allow_hyphen_values = true)]
     max_impacts: Option<u64>,
     /// Say on standard error, in one line at the end, up to which impact the run can be trusted:
-    /// before any of 8 twins, which differ in the last bit of every amplitude, has another gap or a
+    /// before any of 8 twins, which differ in the last bits of every amplitude, has another gap or a
     /// time that differs by 0.001 divided by the largest of w and W, and before rounding decides which of two neighbouring gaps
     /// closes first (unless by a symmetry both close at once) or whether an impact is a mere graze. An estimate, not a proof: a touch
     /// that neither the run nor a twin finds is not seen, and of gaps that share no mass, impacts within that time may have come the
-    /// other way round. The output stays the same; the time
+    /// other way round, and of a chatter only the end is sure. The output stays the same; the time
     /// is that of 10 runs as long as they agree. Also says how fast errors grow.
     #[arg(long)]
     certify: bool,

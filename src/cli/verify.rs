@@ -9,6 +9,7 @@ use impact_paper::program::sources::Sources;
 use impact_paper::program::waiting::Waiting;
 use impact_paper::program::{Failure, folder, make, memory, signals, threads, work};
 use impact_paper::report::{PROGRAM, sums};
+use std::io::ErrorKind;
 use std::path::PathBuf;
 
 /// Says whether a report is what its SHA256SUMS lists; with --rerun, what is made here.
@@ -102,7 +103,11 @@ fn rerun(args: &Args, progress: &Progress) -> Result<Checked, Failure> {
         match folder::read(&args.folder, path) {
             Ok(standing) if standing == *bytes => (),
             Ok(_) => fault("differs", path),
-            Err(_) => fault("missing", path),
+            Err(error) if error.kind() == ErrorKind::NotFound => fault("missing", path),
+            Err(error) => {
+                Failure::of_the_system(&error, args.folder.join(path).display())?;
+                fault("unread", path);
+            }
         }
     }
     for path in folder::walk(&args.folder, progress)? {

@@ -1,6 +1,6 @@
 //! Why a verb ended without success: errors as exit codes.
 
-use super::signals::INTERRUPTED;
+use super::signals::{INTERRUPTED, yield_to_end};
 use crate::experiments::{Error, say};
 use crate::input::{is_obeyed, one_line, remedy};
 use crate::report::{self, contents};
@@ -44,7 +44,7 @@ impl Failure {
     /// # Errors
     /// Exit code 4.
     pub fn of_the_system(error: &io::Error, what: impl Display) -> Result<(), Self> {
-        match Self::io(error, what, "") {
+        match Self::io(error, what, "try again, or use another disk") {
             failure if failure.code == 4 => Err(failure),
             _ => Ok(()),
         }
@@ -82,6 +82,7 @@ impl Failure {
 
     /// Tells it on standard error.
     pub(super) fn tell(self) -> ExitCode {
+        yield_to_end();
         // Findings in the prose have a line each; names of files may have line breaks.
         let message = match self.code {
             1 => self.message.replace(|c| c != '\n' && is_obeyed(c), " "),

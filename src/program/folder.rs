@@ -38,8 +38,7 @@ pub fn walk(folder: &Path, progress: &Progress) -> Result<Vec<String>, Failure> 
     let mut paths = Vec::new();
     let mut open = vec![(folder.to_path_buf(), String::new())];
     while let Some((at, prefix)) = open.pop() {
-        let unreadable =
-            |error: io::Error| Failure::input(format!("{}: {error}; {REMEDY}", at.display()));
+        let unreadable = |error: io::Error| Failure::io(&error, at.display(), REMEDY);
         for entry in std::fs::read_dir(&at).map_err(unreadable)? {
             progress.check()?;
             let entry = entry.map_err(unreadable)?;

@@ -8,14 +8,14 @@ use super::alone::alone;
 use super::own::Own;
 use super::places::{lies_in_report, refuse_dangling};
 use super::signals::{self, Now};
-use super::waiting::{Waiting, clear, is_staging};
+use super::waiting::{Waiting, clear, is_living, is_staging};
 use super::{Failure, folder};
 use crate::experiments::{Progress, say};
 use crate::input::{bare, count, is_absent, listed, one_line};
 use crate::report::{Document, Files, PROGRAM, sums};
 use std::collections::BTreeSet;
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// What says of which sample a report is.
 pub const VALUES: &str = "values.json";
@@ -31,6 +31,29 @@ pub struct Force {
     pub force: bool,
 }
 
+/// What people hear of afterwards.
+#[derive(Default)]
+struct Told<'p> {
+    /// Written over when forced.
+    over: Vec<&'p str>,
+    /// Removed with the report before.
+    removed: Vec<&'p str>,
+}
+
+impl Told<'_> {
+    fn tell(mut self) {
+        if !self.removed.is_empty() {
+            let number = count(self.removed.len(), "file");
+            let names = one_line(&listed(&self.removed), 500);
+            say(&format!("impact-paper: removed {number} of the report before: {names}"));
+        }
+        if !self.over.is_empty() {
+            self.over.sort_unstable();
+            say(&format!("impact-paper: --force: wrote over {}", self.over.join(", ")));
+        }
+    }
+}
+
 /// The last steps of writing into a folder.
 ///
 /// A folder that was made here, and into which nothing came, is gone in the end.
@@ -40,7 +63,8 @@ pub struct Staging<'a> {
     /// The option that names the folder, for messages.
     option: &'static str,
     force: bool,
-    /// The list of the report that stood there at first.
+    /// Where it leads, and the list of the report that stood there, at first.
+    there: PathBuf,
     found: Option<String>,
     _made: signals::Made,
 }
@@ -67,8 +91,9 @@ impl<'a> Staging<'a> {
             return Err(Failure::input(format!("{option}: {}: {what}", folder.display())));
         }
         let found = folder::text(folder, sums::NAME).ok();
-        let staging = Staging { folder, option, force, found, _made: signals::made(folder) };
-        let failed = |error: io::Error| staging.failed(&error);
+        let there = folder::resolved(folder);
+        let staging = Staging { folder, option, force, there, found, _made: signals::made(folder) };
+        let failed = |error: io::Error| staging.failed(&error, folder);
         std::fs::create_dir_all(folder).map_err(failed)?;
         // Another run may be putting its files in place: half of them would look like a stranger's.
         let _alone = alone(folder).map_err(failed)?;
@@ -84,9 +109,11 @@ impl<'a> Staging<'a> {
                 one_line(&name, 100)
             )));
         }
-        // Whoever writes holds the lock, so nobody who lives needs these.
         for name in names(folder).map_err(failed)?.iter().filter(|name| is_staging(folder, name)) {
-            clear(&folder.join(name));
+            // Whoever writes here holds the lock, but temporary files of other runs may be here too.
+            if !is_living(&folder.join(name)) {
+                clear(&folder.join(name));
+            }
         }
         staging.temporary()?;
         for below in FOLDERS.map(|below| folder.join(below)) {
@@ -106,7 +133,7 @@ impl<'a> Staging<'a> {
     /// # Errors
     /// Exit code 2 with the names.
     pub fn refuse_changed(&self) -> Result<(), Failure> {
-        let _alone = alone(self.folder).map_err(|error| self.failed(&error))?;
+        let _alone = alone(self.folder).map_err(|error| self.failed(&error, self.folder))?;
         let own = self.own()?.unwrap_or_default();
         if let Some(page) = own.manual().filter(|page| stands(&self.folder.join(page))) {
             let (option, folder) = (self.option, self.folder.display());
@@ -131,39 +158,48 @@ impl<'a> Staging<'a> {
     /// Exit code 2 for a file that is not ours to replace, 2 or 4 if something cannot be written, 130
     /// on Ctrl-C.
     pub fn place(self, files: &Files, progress: &Progress) -> Result<(), Failure> {
-        let failed = |error: io::Error| self.failed(&error);
+        let failed = |error: io::Error| self.failed(&error, self.folder);
         // A run that began beside this one and failed has removed the folder if it was empty.
         std::fs::create_dir_all(self.folder).map_err(failed)?;
         let alone = alone(self.folder).map_err(failed)?;
+        let changed = |what: &str| {
+            let (option, folder) = (self.option, self.folder.display());
+            let remedy = "run again, or give another folder";
+            Failure::input(format!("{option}: {folder}: {what} before this run; {remedy}"))
+        };
+        if folder::resolved(self.folder) != self.there {
+            return Err(changed("it leads elsewhere than"));
+        }
         // It may be of more than what was asked before the run.
         let now = folder::text(self.folder, sums::NAME).ok();
         let same = now.as_deref().map(str::as_bytes) == files.get(sums::NAME).map(Vec::as_slice);
         if !self.force && now != self.found && !same {
-            let (option, folder) = (self.option, self.folder.display());
-            let what = "the report here is another than before this run; run again, or give another folder";
-            return Err(Failure::input(format!("{option}: {folder}: {what}")));
+            return Err(changed("the report here is another than"));
         }
-        let own = self.own()?.unwrap_or_default();
+        let own = &self.own()?.unwrap_or_default();
         let is_report = files.contains_key(sums::NAME);
         let gone = own.report.iter().filter(|path| is_report && !files.contains_key(*path));
-        let gone: Vec<&String> = gone.collect();
-        files.keys().chain(gone.iter().copied()).try_for_each(|path| self.inside(path))?;
+        let gone: Vec<&str> = gone.map(String::as_str).collect();
+        let all = || files.keys().map(String::as_str).chain(gone.iter().copied());
+        all().try_for_each(|path| self.inside(path))?;
         self.no_folder(files.keys())?;
         let stands = |path: &str| stands(&self.folder.join(path));
 
         let temporary = self.temporary()?;
         signals::temporary(temporary.path());
         let stage = |path: &str, bytes: &[u8]| {
-            let staged = temporary.path().join(path);
-            std::fs::create_dir_all(staged.parent().unwrap_or(self.folder))?;
-            std::fs::write(&staged, bytes)
-        };
-        let put = |path: &str| {
-            let target = self.folder.join(path);
-            std::fs::create_dir_all(target.parent().unwrap_or(self.folder))?;
-            std::fs::rename(temporary.path().join(path), &target)
+            let above = Path::new(path).parent().filter(|above| *above != Path::new(""));
+            // Not the temporary folder itself, which a signal may have removed.
+            let made =
+                above.map_or(Ok(()), |above| std::fs::create_dir(temporary.path().join(above)));
+            made.or_else(|error| match error.kind() {
+                io::ErrorKind::AlreadyExists => Ok(()),
+                _ => Err(error),
+            })?;
+            std::fs::write(temporary.path().join(path), bytes)
         };
         for (path, bytes) in files {
+            progress.check()?;
             stage(path, bytes).map_err(failed)?;
         }
         // Whoever is killed half-way leaves old and new files: at each moment the lists know both.
@@ -171,43 +207,69 @@ impl<'a> Staging<'a> {
         let placing = signals::moment(Now::Placing);
         progress.check()?;
         // Somebody may have changed a file while these were written.
-        let all = files.keys().chain(gone.iter().copied()).map(String::as_str);
-        self.refuse(self.theirs(&own, files, all)?)?;
-        put(sums::LOCAL).map_err(failed)?;
-        // What says of which sample it is goes first: without it the rest would be a report that nobody knows.
-        let values = files.keys().filter(|path| *path == VALUES);
-        let others = files.keys().filter(|path| ![VALUES, sums::NAME].contains(&path.as_str()));
-        let mut over = Vec::new();
-        for path in values.chain(others) {
-            over.extend(self.refuse(self.theirs(&own, files, [path.as_str()])?)?);
-            put(path).map_err(failed)?;
+        self.refuse(self.theirs(own, files, all())?)?;
+        if self.own()?.unwrap_or_default() != *own {
+            return Err(changed("the lists here are others than"));
         }
-        let mut removed = Vec::new();
-        for path in gone.into_iter().map(String::as_str).filter(|path| stands(path)) {
-            if self.theirs(&own, files, [path])?.is_empty() {
-                std::fs::remove_file(self.folder.join(path)).map_err(failed)?;
-                removed.push(path);
-            }
-        }
-        if is_report {
-            over.extend(self.refuse(self.theirs(&own, files, [sums::NAME])?)?);
-            put(sums::NAME).map_err(failed)?;
-        }
-        over.extend(own.unusable.then_some(sums::LOCAL));
-        over.sort_unstable();
-        stage(sums::LOCAL, own.local(files, stands, false).as_bytes()).map_err(failed)?;
-        put(sums::LOCAL).map_err(failed)?;
+        let mut told = Told::default();
+        let result = self.put(own, files, &gone, now.as_deref(), temporary.path(), &mut told);
         drop(temporary);
         // Whoever is told may not listen.
         drop((alone, placing));
-        if !removed.is_empty() {
-            let (number, names) = (count(removed.len(), "file"), one_line(&listed(&removed), 500));
-            say(&format!("impact-paper: removed {number} of the report before: {names}"));
+        told.tell();
+        result
+    }
+
+    /// Renames what is staged into its place, and removes what goes; `told` has what was done, also where that fails.
+    fn put<'p>(
+        &self,
+        own: &Own,
+        files: &'p Files,
+        gone: &[&'p str],
+        list: Option<&str>,
+        staged: &Path,
+        told: &mut Told<'p>,
+    ) -> Result<(), Failure> {
+        let put = |path: &str| {
+            let target = self.folder.join(path);
+            std::fs::create_dir_all(target.parent().unwrap_or(self.folder))
+                .and_then(|()| std::fs::rename(staged.join(path), &target))
+                .map_err(|error| self.failed(&error, &target))
+        };
+        put(sums::LOCAL)?;
+        told.over.extend(own.unusable.then_some(sums::LOCAL));
+        // What says of which sample it is goes first: without it the rest would be a report that nobody knows.
+        let values = files.keys().filter(|path| *path == VALUES);
+        let others = files.keys().filter(|path| ![VALUES, sums::NAME].contains(&path.as_str()));
+        for path in values.chain(others) {
+            self.inside(path)?;
+            let theirs = self.refuse(self.theirs(own, files, [path.as_str()])?)?;
+            put(path)?;
+            told.over.extend(theirs);
         }
-        if !over.is_empty() {
-            say(&format!("impact-paper: --force: wrote over {}", over.join(", ")));
+        let stands = |path: &str| stands(&self.folder.join(path));
+        for path in gone.iter().copied().filter(|path| stands(path)) {
+            self.inside(path)?;
+            if self.theirs(own, files, [path])?.is_empty() {
+                let target = self.folder.join(path);
+                std::fs::remove_file(&target).map_err(|error| self.failed(&error, &target))?;
+                told.removed.push(path);
+            }
         }
-        Ok(())
+        if files.contains_key(sums::NAME) {
+            let mut theirs = self.theirs(own, files, [sums::NAME])?;
+            // Of a list only the bytes that were found are known.
+            if theirs.is_empty() && folder::text(self.folder, sums::NAME).ok().as_deref() != list {
+                theirs.push(sums::NAME);
+            }
+            let theirs = self.refuse(theirs)?;
+            put(sums::NAME)?;
+            told.over.extend(theirs);
+        }
+        let local = staged.join(sums::LOCAL);
+        std::fs::write(&local, own.local(files, stands, false))
+            .map_err(|error| self.failed(&error, self.folder))?;
+        put(sums::LOCAL)
     }
 
     /// What the lists say; a list that cannot be read would make files of ours look like a stranger's.
@@ -241,7 +303,7 @@ impl<'a> Staging<'a> {
 
     /// A folder in which files wait until all are complete.
     fn temporary(&self) -> Result<Waiting, Failure> {
-        Waiting::below(self.folder).map_err(|error| self.failed(&error))
+        Waiting::below(self.folder).map_err(|error| self.failed(&error, self.folder))
     }
 
     /// Refuses a folder in the place of a file.
@@ -266,9 +328,9 @@ impl<'a> Staging<'a> {
         Err(Failure::input(format!("{option}: {folder}: {what}: {}; {remedy}", listed(&theirs))))
     }
 
-    fn failed(&self, error: &io::Error) -> Failure {
-        let (option, folder) = (self.option, self.folder.display());
-        Failure::io(error, format!("{option}: {folder}"), "give a folder that can be written")
+    fn failed(&self, error: &io::Error, place: &Path) -> Failure {
+        let what = format!("{}: {}", self.option, place.display());
+        Failure::io(error, what, "give a folder that can be written")
     }
 
     /// Refuses a path that would leave the folder: one with `..` or from the root, and one through a

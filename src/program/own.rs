@@ -9,7 +9,7 @@ use std::io;
 use std::path::Path;
 
 /// What the program knows that it wrote into a folder.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, PartialEq, Eq)]
 pub struct Own {
     /// Digests by path, of one list or of both.
     pub digests: BTreeMap<String, Vec<String>>,
@@ -109,10 +109,12 @@ fn is_manual(path: &str) -> bool {
     ours.is_some_and(|rest| !rest.contains('/') && (name.is_some() || rest.ends_with(".1")))
 }
 
-/// Is it a report, or what is left of one? None if the system does not let anybody see.
-pub fn holds_report(folder: &Path) -> Option<bool> {
-    let found = list(folder).and_then(|list| Ok(list.is_some() || has_ledger(folder)?));
-    found.ok()
+/// Is it a report, or what is left of one?
+///
+/// # Errors
+/// The system does not let anybody see.
+pub fn holds_report(folder: &Path) -> io::Result<bool> {
+    Ok(list(folder)?.is_some() || has_ledger(folder)?)
 }
 
 /// A file as text; none if it is not there, or cannot be a list of ours.

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 /// Is it, without links and dots, below a report, which has no other files?
 pub(super) fn lies_in_report(there: &Path) -> bool {
     // What nobody may see higher up is somebody else's.
-    there.ancestors().skip(1).any(|above| holds_report(above) == Some(true))
+    there.ancestors().skip(1).any(|above| holds_report(above).unwrap_or(false))
 }
 
 /// Of the prose, whatever lies in its folder or below is read: that of `templates`, and that of the checkout.
@@ -50,7 +50,11 @@ pub fn refuse_report(option: &str, folder: &Path, templates: Option<&Path>) -> R
     refuse_dangling(option, folder)?;
     refuse_prose(option, folder, templates)?;
     let there = folder::resolved(folder);
-    if holds_report(&there) != Some(false) || lies_in_report(&there) {
+    let holds = holds_report(&there).map_err(|error| {
+        let what = format!("{option}: {}: its lists", folder.display());
+        Failure::io(&error, what, "see that they can be read, or give another folder")
+    })?;
+    if holds || lies_in_report(&there) {
         let folder = folder.display();
         return Err(Failure::input(format!(
             "{option}: {folder} holds a report, or lies in one; give another folder"

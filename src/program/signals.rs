@@ -11,6 +11,16 @@ use std::time::Duration;
 /// What a shell calls a program that Ctrl-C ended: 128 + SIGINT.
 pub(super) const INTERRUPTED: u8 = 130;
 
+/// Whether a signal is ending the program.
+static ENDING: AtomicBool = AtomicBool::new(false);
+
+/// Leaves the last word to a signal that is ending the program, if one is: what fails now fails for that.
+pub(super) fn yield_to_end() {
+    while ENDING.load(Ordering::Relaxed) {
+        std::thread::sleep(PATIENCE);
+    }
+}
+
 /// The flag of the work under way.
 static WORK: OnceLock<Arc<AtomicBool>> = OnceLock::new();
 
@@ -21,12 +31,13 @@ const PATIENCE: Duration = Duration::from_millis(700);
 /// work, or the second time, it ends the program at once. Always with exit code 130.
 pub fn obey() {
     let end = || -> ! {
-        remove_empty(&MADE.lock().unwrap_or_else(PoisonError::into_inner));
+        ENDING.store(true, Ordering::Relaxed);
         for path in TEMPORARY.lock().unwrap_or_else(PoisonError::into_inner).iter() {
             // Again, should the work that goes on have saved something meanwhile.
             let gone = || std::fs::remove_dir_all(path).or_else(|_| std::fs::remove_file(path));
             let _ = (0..9).any(|_| gone().is_ok());
         }
+        remove_empty(&MADE.lock().unwrap_or_else(PoisonError::into_inner));
         // Standard error may wait for a reader for ever.
         let (tells, told) = std::sync::mpsc::channel();
         let tell = move || {

@@ -86,6 +86,12 @@ fn clear_left(folder: &Path) {
     }
 }
 
+/// Whether a program that lives holds the mark of such a folder.
+pub fn is_living(waiting: &Path) -> bool {
+    use std::fs::TryLockError::WouldBlock;
+    File::open(waiting.join(OURS)).is_ok_and(|mark| matches!(mark.try_lock(), Err(WouldBlock)))
+}
+
 /// Is it a folder in which files of ours waited? One with the mark, or an empty one: a run may be killed before it
 /// leaves its mark.
 pub fn is_staging(folder: &Path, name: &str) -> bool {

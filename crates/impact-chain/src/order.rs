@@ -52,6 +52,8 @@ pub(super) struct Order {
 struct Hit {
     number: u64,
     time: f64,
+    /// What its time may be off by.
+    off: f64,
     /// What it adds to the speed at which the gaps beside it close.
     push: f64,
     root: Root,
@@ -113,12 +115,15 @@ impl Order {
         let beside = [adjacent[0], adjacent[1].filter(|_| adjacent[1] != adjacent[0])];
         let near = |hit: &&Hit, own: f64| {
             let apart = (time - hit.time) * speed;
-            let width = self.width * (1.0 + own / hit.root.own.max(slow)) + own.max(0.0) * off;
+            let width =
+                self.width * (1.0 + own / hit.root.own.max(slow)) + own.max(0.0) * (off + hit.off);
             hit.number >= since && apart <= width
         };
         let of = |gap: usize| self.recent.get(&gap).into_iter().flatten();
         let hits: Vec<Hit> = beside.into_iter().flatten().flat_map(of).copied().collect();
-        let pushes = hits.iter().filter(|hit| near(hit, speed));
+        // The joint law takes all speeds of an instant before all jumps.
+        let before = |hit: &&Hit| !self.joint || hit.time < time;
+        let pushes = hits.iter().filter(|hit| before(hit) && near(hit, speed));
         let pushed: f64 = pushes.clone().map(|hit| hit.push).sum();
         let driven = pushed > 0.0 && speed - pushed <= slow;
         let own = speed - pushed;
@@ -151,7 +156,7 @@ impl Order {
             Some(hit) if driven => hit.root,
             _ => Root { number, time, own, twin },
         };
-        self.recent.entry(k).or_default().push(Hit { number, time, push, root });
+        self.recent.entry(k).or_default().push(Hit { number, time, off, push, root });
         self.last[k] = time;
         found
     }
@@ -226,6 +231,15 @@ mod tests {
                 0,
             ),
             (r#"{"forcing":[[0,0]],"initial":{"free":[[0.9999999999999999,0]]}}"#, 0),
+            // At the one speed that the joint law would hand on; and equal cells, of which twins part before the tie ends.
+            (
+                r#"{"simultaneous":"joint","restitution":1,"forcing":[[2.3,0],[1.408343819019456e-16,0],[-2.3,0],[0.1,0]]}"#,
+                0,
+            ),
+            (
+                r#"{"restitution":0.8,"forcing":[[2,0.5],[7.519e-17,0],[-2,-0.5],[0,0],[2,0.5],[7.519e-17,0],[-2,-0.5],[0,0]]}"#,
+                0,
+            ),
             // Mirror images but for what a sine leaves of zero.
             (r#"{"simultaneous":"joint","forcing":[[3,0],[0,0],[-3,3.6739403974420594e-16]]}"#, 0),
             (

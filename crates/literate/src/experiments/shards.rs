@@ -225,7 +225,9 @@ impl Plan {
                 } else if let Some(first) = found.insert(name.clone(), place) {
                     let [a, b] = [first, place].map(|place| path(&folders[place], &name));
                     // What cannot be read is damaged, which is told later.
-                    if regular(&a).ok() != regular(&b).ok() {
+                    if let (Ok(one), Ok(other)) = (regular(&a), regular(&b))
+                        && one != other
+                    {
                         let (a, b) = (a.display(), b.display());
                         twice.push(format!("{name} is in {a} and, otherwise, in {b}"));
                     }
