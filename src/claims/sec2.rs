@@ -30,7 +30,7 @@ pub(super) fn gaps(sweep: &Sweep) -> f64 {
     sweep.parameters.chain.gaps() as f64
 }
 
-fn parameters(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
+fn parameters(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
     let chain = &e.results.of(&SWEEP)?.parameters.chain;
     let square = chain.forcing_frequency * chain.forcing_frequency;
     let pairs = [
@@ -42,6 +42,8 @@ fn parameters(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
     ];
     let same_square =
         (square - e.published.parameter("forcing_frequency_squared")?).abs() <= 4.0 * f64::EPSILON;
+    let (n, d, r) = (chain.masses, chain.spacing, chain.restitution);
+    let reads = s.printed == format!("n = {n}, d = m = ω = {d}, Ω = √{}, r = {r}", square.round());
     Ok(Finding {
         ours: Text::words("n = ")
             .integer(chain.masses)
@@ -56,7 +58,7 @@ fn parameters(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
         tolerance: Text::words("none"),
         reason: "the same numbers",
         judgement: Judgement::Plain {
-            agrees: same_square && pairs.iter().all(|(ours, printed)| ours == printed),
+            agrees: reads && same_square && pairs.iter().all(|(ours, printed)| ours == printed),
         },
         note: Text::words(
             "The paper prints neither initial condition nor transient nor window; for these it refers \

@@ -24,13 +24,19 @@ fn motion(segment: &Segment, s: &Statement) -> Result<Finding, Error> {
     // The statement names the sequence at its end, after "as".
     let asked = s.statement.rsplit_once(" as ").map_or("", |(_, names)| names);
     let asked: Vec<&str> = asked.trim_end_matches('.').split(", ").collect();
+    let different = found.iter().collect::<BTreeSet<_>>().len();
+    let reads =
+        [found.join(", "), format!("{} impacts, {different} of them different", found.len())];
     let in_order = segment.impacts.windows(2).all(|w| w[0].time < w[1].time);
     Ok(Finding {
         ours: Text::words(found.join(", ")),
         tolerance: Text::words("none"),
         reason: "the same impacts in the same order",
         judgement: Judgement::Plain {
-            agrees: in_order && found == asked && found.len() as f64 == s.number()?,
+            agrees: in_order
+                && found == asked
+                && reads.contains(&s.printed)
+                && found.len() as f64 == s.number()?,
         },
         note: Text::words("A segment of a solution of the equations of motion, from time ")
             .significant(segment.from, 4)

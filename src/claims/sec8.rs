@@ -6,6 +6,7 @@ use super::sec2;
 use super::sec8_chains::{no_impact, restitution_ensures, restitution_omitted, threshold_shift};
 use super::{Finding, open, rounding};
 use super::{Judgement, Statement, Text};
+use crate::circuits::impact_probability::ImpactProbability;
 use crate::experiments::sweep::Sweep;
 use crate::experiments::theory::beside::{self, LARGE_SIGMA, increases, largest_distance};
 use crate::experiments::{CHAINS, PROTOCOL, RESTITUTION, STARTS, SWEEP};
@@ -92,10 +93,12 @@ fn expected_jump(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
 }
 
 fn p_small(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
-    let theory = &e.results.theory;
-    let (p, scalars) = (theory.slips.p_at_015, &theory.scalars);
+    let scalars = &e.results.theory.scalars;
     let printed = s.number()?;
     let [low, high] = s.rounding()?;
+    let Ok(p) = ImpactProbability::of_paper(printed).and_then(|gap| gap.p()) else {
+        return Ok(open(Text::words("nothing"), "There is no p of this σ."));
+    };
     Ok(Finding {
         ours: Text::words("p = ").significant(p, 3).say(" at σ = ").chosen(printed),
         tolerance: Text::words("below p_crit up to the σ that is printed, ± ")

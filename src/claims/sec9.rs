@@ -98,7 +98,7 @@ fn class_range(e: &Evidence, s: &Statement, equation: u32) -> Result<Finding, Er
     };
     // A printed "k > 3" means from 4 on; without a printed range every length is meant.
     let printed_from = s.value.map_or(1, |k| k as usize + 1);
-    let agrees = range.right_from <= printed_from && range.cases.failed == 0;
+    let agrees = range.right_from == printed_from && range.cases.failed == 0;
     let ours = Text::words("right from k = ").integer(range.right_from).say(" on");
     let note = Text::words("One length below, on three vertices, the formula gives ")
         .chosen(range.formula_below)

@@ -50,7 +50,7 @@ fn share(text: &str) -> Result<Share, String> {
 pub fn run(args: Args) -> Result<(), Failure> {
     memory::least(memory::RESULTS, "audit")?;
     let profile = args.profile;
-    let store = Store::open(&work::results(args.results, profile))?;
+    let store = Store::open(&work::results(args.results.clone(), profile))?;
     let mut chosen = experiments::of(profile);
     chosen.shuffle(&mut generator("audit", args.seed, 0));
     chosen.truncate((args.sample.0 * chosen.len() as f64).ceil() as usize);
@@ -61,9 +61,10 @@ pub fn run(args: Args) -> Result<(), Failure> {
             let name = experiment.name();
             let same =
                 experiment.at(profile).audit(&store, &progress).map_err(|error| match error {
-                    Error::Stale { .. } => {
-                        Failure::stale(format!("{error}; {}", work::remedy(profile)))
-                    }
+                    Error::Stale { .. } => Failure::stale(format!(
+                        "{error}; {}",
+                        work::remedy(profile, args.results.as_deref())
+                    )),
                     other => other.into(),
                 })?;
             stdout::print(&format!("{name}: {}\n", if same { "identical" } else { "differs" }))?;

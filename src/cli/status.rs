@@ -32,7 +32,7 @@ pub struct Args {
 pub fn run(args: Args) -> Result<(), Failure> {
     memory::least(64, "status")?;
     let profile = args.profile;
-    let store = Store::open(&work::results(args.results, profile))?;
+    let store = Store::open(&work::results(args.results.clone(), profile))?;
     let found: Vec<Found> =
         experiments::of(profile).iter().map(|one| Found::look(*one, profile, &store)).collect();
     let stale = found.iter().filter(|one| one.is_stale()).count();
@@ -50,7 +50,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     if stale == 0 {
         return Ok(());
     }
-    let remedy = work::remedy(profile);
+    let remedy = work::remedy(profile, args.results.as_deref());
     let are = if stale == 1 { "is" } else { "are" };
     Err(Failure::stale(format!("{stale} of {} results {are} stale; {remedy}", found.len())))
 }

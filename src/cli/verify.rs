@@ -61,10 +61,13 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let strange =
         |fault: &String| fault.starts_with("unlisted") || fault.starts_with("rerun: not made");
     let remedy = if checked.faults.iter().all(strange) {
-        "remove what is not listed, or put it elsewhere"
+        "remove what is not listed, or put it elsewhere".to_string()
     } else {
-        "`impact-paper paper --force` writes the report anew, `impact-paper diff` compares two of them (but \
-         not what is built beside); what is not listed is for you to remove"
+        format!(
+            "{} writes the report anew, `impact-paper diff` compares two of them (but not what is built beside); \
+             what is not listed is for you to remove",
+            folder::anew(&args.folder)
+        )
     };
     Err(Failure::check(format!("{}: {them}; {remedy}", args.folder.display())))
 }

@@ -1,7 +1,7 @@
 //! The files of a report's folder, as they stand there: nobody vouches for them.
 
-use super::Failure;
 use super::waiting::is_staging;
+use super::{Failure, shown};
 use crate::experiments::Progress;
 use crate::input;
 use crate::report::{LAB, sums};
@@ -10,6 +10,17 @@ use std::path::{Component, Path, PathBuf};
 
 /// What to do about a folder that is none of a report.
 pub const REMEDY: &str = "give the folder of a report, or make one with `impact-paper paper`";
+
+/// How a report is made anew where it stands.
+pub fn anew(folder: &Path) -> String {
+    match folder == Path::new("paper") {
+        true => "`impact-paper paper --force`".into(),
+        false => format!(
+            "`impact-paper paper --out {} --force`, with the --profile or --set that it was made with,",
+            shown(folder)
+        ),
+    }
+}
 
 /// The folder without links and dots, as it will be where it is not there yet.
 pub fn resolved(folder: &Path) -> PathBuf {

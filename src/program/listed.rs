@@ -43,7 +43,7 @@ pub fn listed(root: &Path, only: Option<&str>, progress: &Progress) -> Result<Ch
     let _alive = alive(|| Some("comparing files with their list".into()));
     let place = root.join(sums::NAME);
     let unusable = |what: String| {
-        let remedy = "make the report anew with `impact-paper paper --force`";
+        let remedy = format!("{} makes the report anew", folder::anew(root));
         Failure::input(format!("{}: {what}; {remedy}", place.display()))
     };
     let [list, local] = [sums::NAME, sums::LOCAL].map(|name| root.join(name).symlink_metadata());
@@ -59,8 +59,8 @@ pub fn listed(root: &Path, only: Option<&str>, progress: &Progress) -> Result<Ch
     let found = folder::walk(root, progress)?;
     let mut known: BTreeMap<&str, &str> = BTreeMap::new();
     // Of what was last written, what is built beside: the rest may be of another revision by now.
-    let remedy = "move it away, and write the report anew with `impact-paper paper --force`";
-    let local = folder::local(root, remedy)?.unwrap_or_default();
+    let remedy = format!("move it away; {} writes the report anew", folder::anew(root));
+    let local = folder::local(root, &remedy)?.unwrap_or_default();
     let beside = |entry: &&sums::Entry| {
         folder::is_beside(&entry.path) && found.binary_search(&entry.path).is_ok()
     };

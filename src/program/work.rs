@@ -1,12 +1,12 @@
 //! What the verbs that take time have in common: sample sizes, experiments by name, and where results are kept.
 
-use super::Failure;
+use super::{Failure, shown};
 use crate::experiments;
 use crate::params::Profile;
 use clap::builder::{PathBufValueParser, PossibleValue, PossibleValuesParser, TypedValueParser};
 use literate::experiments::deep;
 use literate::experiments::shards::Plan;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Reads the name of a profile, one of these.
 fn profiles(some: &[Profile]) -> impl TypedValueParser<Value = Profile> {
@@ -75,10 +75,11 @@ pub fn results(given: Option<PathBuf>, profile: Profile) -> PathBuf {
     })
 }
 
-/// How stale results of a profile are made fresh.
-pub fn remedy(profile: Profile) -> String {
+/// How stale results of a profile are made fresh, in the folder that was given.
+pub fn remedy(profile: Profile, given: Option<&Path>) -> String {
+    let results = given.map_or(String::new(), |folder| format!(" --results {}", shown(folder)));
     match profile {
         Profile::Deep => deep::REMEDY.into(),
-        _ => format!("`impact-paper paper --profile {}` runs them", profile.name()),
+        _ => format!("`impact-paper paper --profile {}{results}` runs them", profile.name()),
     }
 }

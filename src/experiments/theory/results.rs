@@ -228,8 +228,6 @@ pub struct Slips {
     pub last_ratio_at_one: f64,
     /// The first integer k to become a local maximum of Φ beyond k = 1, and p there as a fraction.
     pub first_local_maximum: FirstLocalMaximum,
-    /// p(0.15).
-    pub p_at_015: f64,
     /// Share of simple circuits in *all* circuits of five classes, at several p.
     pub simple_shares: Vec<Point>,
     /// Total variation between simple and five-class distributions, at several p.

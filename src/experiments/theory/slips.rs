@@ -4,7 +4,6 @@ use super::distributions::{sum, total_variation};
 use super::{FirstLocalMaximum, Point, Slips};
 use crate::circuits::distribution::{Law, SampleSpace};
 use crate::circuits::higher_order::{self, CLASSES};
-use crate::circuits::impact_probability::ImpactProbability;
 use crate::circuits::{Error, Fraction, counting, jump};
 use crate::params::REMARK_P;
 use SampleSpace::{FiveClasses, Simple};
@@ -24,7 +23,6 @@ pub fn slips(vertices: usize) -> Result<Slips, Error> {
         k_star_at_one: at_one.k_star(),
         last_ratio_at_one: last_ratio.to_f64(),
         first_local_maximum: first_local_maximum(vertices),
-        p_at_015: ImpactProbability::of_paper(0.15)?.p()?,
         simple_shares: each_p(|p| simple_share(vertices, p))?,
         total_variations: each_p(|p| distance(vertices, p))?,
         missing_factor: missing_factor(vertices, 3),
