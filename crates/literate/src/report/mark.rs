@@ -24,6 +24,11 @@ pub fn ends(c: char) -> bool {
     c == CLOSE
 }
 
+/// Is there a part of a mark in what is none?
+pub fn is_cut(text: &str) -> bool {
+    text.contains([OPEN, CLOSE])
+}
+
 impl Mark {
     /// The mark as text.
     pub fn write(&self) -> String {

@@ -362,6 +362,15 @@ Listing: What $\delta v$ does. {#lst:kick}
     }
 
     #[test]
+    fn a_value_that_a_filter_cuts_is_told_with_its_place() {
+        for cut in ["«v.half_height | truncate(length=3)»", "$«v.half_height[0:3]»$"] {
+            let told = assembled(&format!("{PROSE}\n\nHalf {cut} of it.\n")).map(drop).unwrap_err();
+            let told = told.to_string();
+            assert!(told.starts_with("report.md:") && told.contains("cut a value"), "{told}");
+        }
+    }
+
+    #[test]
     fn what_readers_run_is_known() {
         let named = |lab: &str| {
             let prose = PROSE

@@ -417,9 +417,9 @@ impl<'a> Reader<'a> {
     fn text(&self, text: &str, out: &mut Vec<Inline>) -> Result<(), Error> {
         for piece in Mark::split(text) {
             match piece {
-                Err(words) => match out.last_mut() {
-                    Some(Inline::Text(before)) => before.push_str(words),
-                    _ => out.push(Inline::Text(words.to_string())),
+                Err(words) => match (whole(words)?, out.last_mut()) {
+                    (words, Some(Inline::Text(before))) => before.push_str(words),
+                    (words, _) => out.push(Inline::Text(words.to_string())),
                 },
                 Ok(mark) => {
                     let shown = words_and_maths(&self.shown(&mark, Target::Prose)?);
@@ -462,7 +462,7 @@ impl<'a> Reader<'a> {
     fn replaced(&self, text: &str, target: Target) -> Result<String, Error> {
         let one = |piece| match piece {
             Ok(mark) => self.shown(&mark, target),
-            Err(text) => Ok(str::to_string(text)),
+            Err(text) => whole(text).map(str::to_string),
         };
         Mark::split(text).into_iter().map(one).collect()
     }
@@ -476,6 +476,14 @@ impl<'a> Reader<'a> {
             Target::Maths => framed(&mark.id, &printed.maths()),
             Target::Plain => printed.plain(),
         })
+    }
+}
+
+/// Text without a part of a value.
+fn whole(text: &str) -> Result<&str, Error> {
+    match mark::is_cut(text) {
+        true => Err(Error::Template("a filter has cut a value; print it whole".into())),
+        false => Ok(text),
     }
 }
 
