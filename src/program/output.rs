@@ -524,6 +524,30 @@ mod tests {
         }
     }
 
+    /// What was written over is known also where a later file cannot be put in place, and temporary files of a program
+    /// that lives stay.
+    #[test]
+    fn what_was_done_is_known_and_what_lives_stays() {
+        let out = tempfile::tempdir().unwrap();
+        let (folder, staged) = (out.path().join("out"), out.path().join("staged"));
+        for path in [&folder, &staged] {
+            std::fs::create_dir(path).unwrap();
+        }
+        let living = Waiting::below(&folder).unwrap();
+        std::fs::write(folder.join("a.md"), "by hand").unwrap();
+        let files = files(&["a.md", "b.md"]);
+        // The second is not there.
+        for name in [sums::LOCAL, "a.md"] {
+            std::fs::write(staged.join(name), name).unwrap();
+        }
+        let staging = Staging::below(&folder, "--out", Force { force: true }).unwrap();
+        let mut told = Told::default();
+        let failure = staging.put(&Own::default(), &files, &[], None, &staged, &mut told);
+        assert!(failure.unwrap_err().message.contains("b.md"));
+        assert_eq!(told.over, ["a.md"]);
+        assert!(living.path().exists());
+    }
+
     /// A report that came during the run may be a fuller one.
     #[test]
     fn a_report_that_came_meanwhile_stays() {
