@@ -6,9 +6,9 @@ use super::sec2;
 use super::sec8_chains::{no_impact, restitution_ensures, restitution_omitted, threshold_shift};
 use super::{Finding, open, rounding};
 use super::{Judgement, Statement, Text};
-use crate::circuits::impact_probability::ImpactProbability;
 use crate::experiments::sweep::Sweep;
 use crate::experiments::theory::beside::{self, LARGE_SIGMA, increases, largest_distance};
+use crate::experiments::theory::slips;
 use crate::experiments::{CHAINS, PROTOCOL, RESTITUTION, STARTS, SWEEP};
 
 pub const ROWS: &[Row] = &[
@@ -96,7 +96,7 @@ fn p_small(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
     let scalars = &e.results.theory.scalars;
     let printed = s.number()?;
     let [low, high] = s.rounding()?;
-    let Ok(p) = ImpactProbability::of_paper(printed).and_then(|gap| gap.p()) else {
+    let Ok(p) = slips::p_at(printed) else {
         return Ok(open(Text::words("nothing"), "There is no p of this σ."));
     };
     Ok(Finding {

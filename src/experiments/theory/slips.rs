@@ -4,6 +4,7 @@ use super::distributions::{sum, total_variation};
 use super::{FirstLocalMaximum, Point, Slips};
 use crate::circuits::distribution::{Law, SampleSpace};
 use crate::circuits::higher_order::{self, CLASSES};
+use crate::circuits::impact_probability::ImpactProbability;
 use crate::circuits::{Error, Fraction, counting, jump};
 use crate::params::REMARK_P;
 use SampleSpace::{FiveClasses, Simple};
@@ -27,6 +28,11 @@ pub fn slips(vertices: usize) -> Result<Slips, Error> {
         total_variations: each_p(|p| distance(vertices, p))?,
         missing_factor: missing_factor(vertices, 3),
     })
+}
+
+/// p of the paper's chain at a σ.
+pub(crate) fn p_at(sigma: f64) -> Result<f64, Error> {
+    ImpactProbability::of_paper(sigma)?.p()
 }
 
 fn each_p(one: impl Fn(f64) -> Result<f64, Error>) -> Result<Vec<Point>, Error> {
