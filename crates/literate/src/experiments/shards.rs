@@ -224,10 +224,12 @@ impl Plan {
                     strange.push(self.stranger(folder, &name, elsewhere.get(&name)));
                 } else if let Some(first) = found.insert(name.clone(), place) {
                     let [a, b] = [first, place].map(|place| path(&folders[place], &name));
-                    // What cannot be read is damaged, which is told later.
-                    if let (Ok(one), Ok(other)) = (regular(&a), regular(&b))
-                        && one != other
-                    {
+                    let same = match (regular(&a), regular(&b)) {
+                        (Ok(one), Ok(other)) => one == other,
+                        // What the system cannot read is told later.
+                        (Err(error), _) | (_, Err(error)) => error.raw_os_error().is_some(),
+                    };
+                    if !same {
                         let (a, b) = (a.display(), b.display());
                         twice.push(format!("{name} is in {a} and, otherwise, in {b}"));
                     }
