@@ -1,7 +1,7 @@
 //! The files of a report's folder, as they stand there: nobody vouches for them.
 
 use super::waiting::is_staging;
-use super::{Failure, shown};
+use super::{Failure, typed};
 use crate::experiments::Progress;
 use crate::input;
 use crate::report::{LAB, sums};
@@ -17,7 +17,7 @@ pub fn anew(folder: &Path) -> String {
         true => "`impact-paper paper --force`".into(),
         false => format!(
             "`impact-paper paper --out {} --force`, with the --profile or --set that it was made with,",
-            shown(folder)
+            typed(folder)
         ),
     }
 }

@@ -53,6 +53,16 @@ pub fn shown(path: &Path) -> String {
     one_line(&path.display().to_string(), 500)
 }
 
+/// A path as somebody may type it into a shell.
+pub fn typed(path: &Path) -> String {
+    let path = one_line(&path.display().to_string(), 500);
+    let dot = if path.starts_with('-') { "./" } else { "" };
+    match path.chars().all(|c| c.is_alphanumeric() || "/._-+,:@%".contains(c)) {
+        true if !path.is_empty() => format!("{dot}{path}"),
+        _ => format!("'{dot}{}'", path.replace('\'', r"'\''")),
+    }
+}
+
 /// The exit code of a verb; why it failed goes to stderr.
 pub fn ended(result: Result<(), Failure>) -> ExitCode {
     match result {
@@ -76,4 +86,21 @@ pub fn usage(error: &clap::Error) -> ExitCode {
     let line = format!("impact-paper: {}", line.strip_prefix("error: ").unwrap_or(&line));
     say(&one_line(&line, LONGEST));
     ExitCode::from(2)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::typed;
+    use std::path::Path;
+
+    #[test]
+    fn a_shell_reads_the_folder_that_was_meant() {
+        let typed = |path| typed(Path::new(path));
+        for plain in ["paper", "../a/b-1.2", "/tmp/µ"] {
+            assert_eq!(typed(plain), plain);
+        }
+        assert_eq!(typed("my results"), "'my results'");
+        assert_eq!(typed("-x"), "./-x");
+        assert_eq!(typed("it's $(a)"), r"'it'\''s $(a)'");
+    }
 }

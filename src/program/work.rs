@@ -1,6 +1,6 @@
 //! What the verbs that take time have in common: sample sizes, experiments by name, and where results are kept.
 
-use super::{Failure, shown};
+use super::{Failure, typed};
 use crate::experiments;
 use crate::params::Profile;
 use clap::builder::{PathBufValueParser, PossibleValue, PossibleValuesParser, TypedValueParser};
@@ -77,8 +77,12 @@ pub fn results(given: Option<PathBuf>, profile: Profile) -> PathBuf {
 
 /// How stale results of a profile are made fresh, in the folder that was given.
 pub fn remedy(profile: Profile, given: Option<&Path>) -> String {
-    let results = given.map_or(String::new(), |folder| format!(" --results {}", shown(folder)));
+    let results = given.map_or(String::new(), |folder| format!(" --results {}", typed(folder)));
     match profile {
+        Profile::Deep if given.is_some() => format!(
+            "`impact-paper run --profile deep --shard 1/1 --out NEW` and `impact-paper merge --profile deep{results} NEW` \
+             run them"
+        ),
         Profile::Deep => deep::REMEDY.into(),
         _ => format!("`impact-paper paper --profile {}{results}` runs them", profile.name()),
     }

@@ -32,7 +32,9 @@ pub fn files(name: &str) -> Result<Files, Failure> {
     }
     let no_report = |told: String| {
         let told = one_line(&told, 200);
-        Failure::input(format!("{name}: this revision has no folder paper/ here ({told})"))
+        Failure::input(format!(
+            "{name}: this revision has no folder paper/ here ({told}); give one that has, from the top of the checkout"
+        ))
     };
     let tree = format!("{commit}:{FOLDER}");
     let list = git(name, &["ls-tree", "-r", "-z", "--full-tree", "--long", &tree])?;

@@ -62,7 +62,7 @@ pub enum Error {
     NotFinite(String),
     #[error("{}", one_line(.0, LINE))]
     Template(String),
-    #[error("{path}: {source}; check --templates")]
+    #[error("{path}: {source}; {}", crate::input::remedy(source, "check --templates"))]
     Read { path: String, source: std::io::Error },
     #[error("{}; see report::parse for the markup that there is", one_line(.0, 200))]
     Markup(String),
