@@ -20,6 +20,9 @@ use std::path::{Path, PathBuf};
 /// What says of which sample a report is.
 pub const VALUES: &str = "values.json";
 
+/// The list of what was last written, as it is when all is in place.
+const LAST: &str = "SHA256SUMS.local.last";
+
 /// Folders that a report has.
 pub(super) const FOLDERS: [&str; 2] = ["data", "figures"];
 
@@ -204,6 +207,8 @@ impl<'a> Staging<'a> {
         }
         // Whoever is killed half-way leaves old and new files: at each moment the lists know both.
         stage(sums::LOCAL, own.local(files, stands, true).as_bytes()).map_err(failed)?;
+        let stays = |path: &str| stands(path) && !gone.contains(&path);
+        stage(LAST, own.local(files, stays, false).as_bytes()).map_err(failed)?;
         let placing = signals::moment(Now::Placing);
         progress.check()?;
         // Somebody may have changed a file while these were written.
@@ -230,12 +235,20 @@ impl<'a> Staging<'a> {
         staged: &Path,
         told: &mut Told<'p>,
     ) -> Result<(), Failure> {
-        let put = |path: &str| {
+        // What takes room comes first: a full disk leaves the old report.
+        let mut made = Vec::new();
+        for above in files.keys().filter_map(|path| Path::new(path).parent()) {
+            let above = self.folder.join(above);
+            made.push(signals::made(&above));
+            std::fs::create_dir_all(&above).map_err(|error| self.failed(&error, &above))?;
+        }
+        let rename = |from: &str, path: &str| {
             let target = self.folder.join(path);
-            std::fs::create_dir_all(target.parent().unwrap_or(self.folder))
-                .and_then(|()| std::fs::rename(staged.join(path), &target))
+            std::fs::rename(staged.join(from), &target)
                 .map_err(|error| self.failed(&error, &target))
         };
+        let put = |path: &str| rename(path, path);
+        let both = std::fs::read(staged.join(sums::LOCAL)).ok();
         put(sums::LOCAL)?;
         told.over.extend(own.unusable.then_some(sums::LOCAL));
         // What says of which sample it is goes first: without it the rest would be a report that nobody knows.
@@ -259,17 +272,20 @@ impl<'a> Staging<'a> {
         if files.contains_key(sums::NAME) {
             let mut theirs = self.theirs(own, files, [sums::NAME])?;
             // Of a list only the bytes that were found are known.
-            if theirs.is_empty() && folder::text(self.folder, sums::NAME).ok().as_deref() != list {
+            let found = folder::text(self.folder, sums::NAME).ok();
+            if theirs.is_empty() && found.is_some() && found.as_deref() != list {
                 theirs.push(sums::NAME);
             }
             let theirs = self.refuse(theirs)?;
             put(sums::NAME)?;
             told.over.extend(theirs);
         }
-        let local = staged.join(sums::LOCAL);
-        std::fs::write(&local, own.local(files, stands, false))
-            .map_err(|error| self.failed(&error, self.folder))?;
-        put(sums::LOCAL)
+        let found = folder::read(self.folder, sums::LOCAL).ok();
+        let changed = (found.is_some() && found != both).then_some(sums::LOCAL);
+        let changed = self.refuse(changed.into_iter().collect())?;
+        rename(LAST, sums::LOCAL)?;
+        told.over.extend(changed);
+        Ok(())
     }
 
     /// What the lists say; a list that cannot be read would make files of ours look like a stranger's.
