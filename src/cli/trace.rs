@@ -42,9 +42,9 @@ pub struct Args {
     /// before any of 8 twins, which differ in the last bits of every amplitude, has another gap or a
     /// time that differs by 0.001 divided by the largest of w and W, and before rounding decides which of two neighbouring gaps
     /// closes first (unless by a symmetry both close at once) or whether an impact is a mere graze. An estimate, not a proof: a touch
-    /// that neither the run nor a twin finds is not seen, and of gaps that share no mass, impacts within that time may have come the
-    /// other way round, and of a chatter only the end is sure. The output stays the same; the time
-    /// is that of 10 runs as long as they agree. Also says how fast errors grow.
+    /// that neither the run nor a twin finds is not seen; impacts of gaps that share no mass may have come the other way round within
+    /// that time; of a chatter only the end is sure. The output stays the same; the time is that of 10 runs as long as they agree.
+    /// Also says how fast errors grow.
     #[arg(long)]
     certify: bool,
     /// Add a column: the derivative of the time of each impact with regard to ln sigma. All forces are multiplied, and with them the free

@@ -26,6 +26,9 @@ const LAST: &str = "SHA256SUMS.local.last";
 /// Folders that a report has.
 pub(super) const FOLDERS: [&str; 2] = ["data", "figures"];
 
+/// The folder that the manual has.
+const COMPLETIONS: &str = "completions";
+
 /// What all verbs call the option.
 #[derive(Clone, Copy, clap::Args)]
 pub struct Force {
@@ -102,7 +105,7 @@ impl<'a> Staging<'a> {
         let _alone = alone(folder).map_err(failed)?;
         staging.no_folder([sums::LOCAL].iter())?;
         let own = staging.own()?;
-        let strange = |name: &String| !is_staging(folder, name);
+        let strange = |name: &String| !is_staging(folder, name) && !is_begun(folder, name);
         let strange = names(folder).map_err(failed)?.into_iter().find(strange);
         if let (Some(name), None, false) = (strange, &own, force) {
             return Err(Failure::input(format!(
@@ -236,9 +239,9 @@ impl<'a> Staging<'a> {
         told: &mut Told<'p>,
     ) -> Result<(), Failure> {
         // What takes room comes first: a full disk leaves the old report.
+        let above: BTreeSet<_> = files.keys().filter_map(|path| Path::new(path).parent()).collect();
         let mut made = Vec::new();
-        for above in files.keys().filter_map(|path| Path::new(path).parent()) {
-            let above = self.folder.join(above);
+        for above in above.into_iter().map(|above| self.folder.join(above)) {
             made.push(signals::made(&above));
             std::fs::create_dir_all(&above).map_err(|error| self.failed(&error, &above))?;
         }
@@ -373,6 +376,12 @@ impl<'a> Staging<'a> {
         let remedy = "remove it, or give another folder";
         Err(Failure::input(format!("{option}: {path} {what}; {remedy}")))
     }
+}
+
+/// Is it an empty folder of ours? A run that was killed before its first file leaves such.
+fn is_begun(folder: &Path, name: &str) -> bool {
+    let ours = FOLDERS.into_iter().chain([COMPLETIONS]).any(|own| own == name);
+    ours && folder.join(name).read_dir().is_ok_and(|mut files| files.next().is_none())
 }
 
 /// Whether something is there, as far as anybody can tell: what cannot be looked at is.
@@ -562,6 +571,18 @@ mod tests {
         assert!(failure.unwrap_err().message.contains("b.md"));
         assert_eq!(told.over, ["a.md"]);
         assert!(living.path().exists());
+    }
+
+    /// Killed before its first file was put in place.
+    #[test]
+    fn a_run_that_made_folders_alone_is_gone_on_with() {
+        let out = tempfile::tempdir().unwrap();
+        std::fs::create_dir(out.path().join("data")).unwrap();
+        place(out.path(), &report(&["data/a.csv"])).unwrap();
+        std::fs::create_dir(out.path().join("other")).unwrap();
+        std::fs::remove_file(out.path().join(sums::NAME)).unwrap();
+        std::fs::remove_file(out.path().join(sums::LOCAL)).unwrap();
+        assert_eq!(place(out.path(), &report(&[])).unwrap_err().code, 2);
     }
 
     /// A report that came during the run may be a fuller one.

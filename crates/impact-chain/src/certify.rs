@@ -5,9 +5,10 @@
 //! leave the run, and one another, as fast as the run leaves the truth, but for errors that they
 //! share with it. They are therefore held to a [`MARGIN`] of the [`TOLERANCE`] that is promised of
 //! the run. Where rounding decides which of two neighbouring gaps closes first, nothing is trusted any more, whatever the
-//! twins do. It is an estimate all the same, and no proof: a touch that neither the run nor a twin finds is not seen. Of
-//! gaps that share no mass, impacts within the tolerance may have come the other way round, and of a chatter only the end is sure. A run without chaos keeps its
-//! twins to its end.
+//! twins do. A run without chaos keeps its twins to its end.
+//!
+//! It is an estimate all the same, and no proof: a touch that neither the run nor a twin finds is not seen. Impacts of gaps that
+//! share no mass may have come the other way round within the tolerance, and of a chatter only the end is sure.
 
 use super::growth::Growth;
 use super::order::Order;
