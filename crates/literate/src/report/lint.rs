@@ -319,7 +319,7 @@ fn is_number_word(word: &str) -> bool {
 fn names_a_kind(text: &str, start: usize, word: &str) -> bool {
     let after = text[start + word.len()..].strip_prefix('-').unwrap_or_default();
     let next: String = after.chars().take_while(|c| c.is_alphabetic()).collect();
-    !next.is_empty() && !is_number_word(&next)
+    !next.is_empty() && !is_number_word(&next) && next.to_lowercase() != "one"
 }
 
 fn in_numeral(c: char) -> bool {
@@ -419,6 +419,7 @@ mod tests {
             [(1, 1, "Two".into()), (2, 13, "hundred".into())]
         );
         assert_eq!(found("twenty-five times, twice").len(), 3);
+        assert_eq!(found("twenty-one times, two-sided").len(), 1);
         for text in ["one of them, once, a single pair, both halves", "two-sided", "often, weight"]
         {
             assert_eq!(found(text), [], "{text}");
