@@ -542,7 +542,7 @@ fn exit_codes_are_those_of_the_table() {
         (2, "verify nowhere".into(), "nowhere"),
         (3, "status --profile quick --results empty".into(), "stale"),
         (3, "audit --profile quick --results empty".into(), "paper --profile quick"),
-        (3, "audit --profile deep --results empty".into(), "make deep"),
+        (3, "audit --profile deep --results empty".into(), "merge --profile deep --results empty"),
         // As memory ends that no estimate tells.
         (
             4,

@@ -94,9 +94,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
         (&mut judged.targets, of(&["methods"])),
     ];
     lists.into_iter().filter(|(_, asked)| !asked).for_each(|(list, _)| list.clear());
-    let prose = args.sources.templates.clone().unwrap_or_else(|| "templates".into());
-    let file = prose.join("published.toml").display().to_string();
-    let entry = |claim| Entry { claim, file: &file, line: published.line(&claim.id) };
+    let entry = |claim| Entry { claim, line: published.line(&claim.id) };
     let entries: Vec<Entry> = judged.claims.iter().map(entry).collect();
     match args.format {
         Format::Text => stdout::written(print(&judged, args.all || !args.claim.is_empty()))?,
