@@ -96,7 +96,7 @@ mod tests {
     #[test]
     fn a_shell_reads_the_folder_that_was_meant() {
         let typed = |path| typed(Path::new(path));
-        for plain in ["paper", "../a/b-1.2", "/tmp/µ"] {
+        for plain in ["paper", "../a/b-1.2", "/µ/b"] {
             assert_eq!(typed(plain), plain);
         }
         assert_eq!(typed("my results"), "'my results'");
