@@ -12,6 +12,7 @@ pub mod memory;
 pub mod output;
 mod own;
 pub mod places;
+mod placing;
 pub mod signals;
 pub mod sources;
 pub mod stdout;
