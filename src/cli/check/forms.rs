@@ -6,15 +6,14 @@ use impact_paper::report::claims::plain;
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 
-/// The file that holds the statements, from the top of the project.
-pub const FILE: &str = "templates/published.toml";
-
 /// A claim and the line of its statement.
 #[derive(Clone, Copy, Debug)]
 pub struct Entry<'a> {
     /// The claim.
     pub claim: &'a Check,
-    /// The line of its statement in [`FILE`], from 1.
+    /// The file of its statement, from the folder of work if it lies there.
+    pub file: &'a str,
+    /// The line there, from 1.
     pub line: usize,
 }
 
@@ -57,9 +56,9 @@ fn object(check: &Check) -> Value {
 
 /// All that is known, as JSON.
 pub fn json(entries: &[Entry], judged: &Judged) -> String {
-    let claim = |Entry { claim, line }: &Entry| {
+    let claim = |Entry { claim, file, line }: &Entry| {
         let mut own = object(claim);
-        own["file"] = FILE.into();
+        own["file"] = (*file).into();
         own["line"] = (*line).into();
         own
     };
@@ -100,12 +99,13 @@ pub fn github(entries: &[Entry], judged: &Judged) -> String {
         let what = plain(&check.ours);
         let _ = writeln!(out, "::error title=relation {}::{}", property(&check.id), data(&what));
     }
-    for Entry { claim, line } in worst.into_iter().take(ANNOTATIONS) {
+    for Entry { claim, file, line } in worst.into_iter().take(ANNOTATIONS) {
         let kind = level(claim.verdict)
             .map_or("notice", |level| if level == "note" { "notice" } else { level });
         let title = property(&format!("{}: {}", claim.id, claim.verdict.words()));
         let text = data(&message(claim));
-        let _ = writeln!(out, "::{kind} file={FILE},line={line},title={title}::{text}");
+        let file = property(file);
+        let _ = writeln!(out, "::{kind} file={file},line={line},title={title}::{text}");
     }
     out
 }

@@ -94,7 +94,11 @@ pub fn run(args: Args) -> Result<(), Failure> {
         (&mut judged.targets, of(&["methods"])),
     ];
     lists.into_iter().filter(|(_, asked)| !asked).for_each(|(list, _)| list.clear());
-    let entry = |claim| Entry { claim, line: published.line(&claim.id) };
+    let prose = args.sources.templates.clone().unwrap_or_else(|| "templates".into());
+    let here = std::env::current_dir().unwrap_or_default();
+    let file = prose.strip_prefix(here).unwrap_or(&prose).join("published.toml");
+    let file = file.display().to_string();
+    let entry = |claim| Entry { claim, file: &file, line: published.line(&claim.id) };
     let entries: Vec<Entry> = judged.claims.iter().map(entry).collect();
     match args.format {
         Format::Text => stdout::written(print(&judged, args.all || !args.claim.is_empty()))?,
