@@ -1,0 +1,127 @@
+//! The exit codes of `impact-paper`, each reached by each of its ways.
+
+use crate::{TEMPLATES, answer, outcome, templates};
+use std::path::Path;
+use std::process::Command;
+
+/// The exit codes of `--help` and DESIGN.md, one row for each way to get there.
+#[test]
+fn exit_codes_are_those_of_the_table() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let templates = |name: &str, file: &str, from: &str, to: &str| {
+        templates(&here.join(name), file, |text| {
+            assert!(text.contains(from), "{from}");
+            text.replacen(from, to, 1)
+        });
+    };
+    templates("good", "front.md", "# ", "# ");
+    templates("numeral", "front.md", "\n## ", "\nThere are 17 of them.\n\n## ");
+    templates("broken", "published.toml", "[[statement]]", "[[statement");
+    templates("renamed", "published.toml", "id = \"sec3_edges\"", "id = \"sec3_bends\"");
+    let text = std::fs::read_to_string(Path::new(TEMPLATES).join("published.toml")).unwrap();
+    let edges = &text[text.find("id = \"sec3_edges\"").unwrap()..];
+    let edges = &edges[..edges.find("value = ").unwrap() + "value = ".len()];
+    templates("differs", "published.toml", edges, &format!("{edges}9"));
+    templates("none", "front.md", "# ", "# ");
+    std::fs::remove_file(here.join("none/front.md")).unwrap();
+    templates("phrases", "front.md", "# ", "# ");
+    std::fs::remove_file(here.join("phrases/literals.toml")).unwrap();
+    std::fs::create_dir(here.join("empty")).unwrap();
+    let paper = |templates: &str| {
+        format!("paper --profile quick --out p --results r --templates {templates}")
+    };
+    let full = |limited: &str| format!("ulimit -f 1; exec \"$0\" {limited}");
+    let few = "ulimit -v 400000; exec \"$0\"";
+    let pairs = "(echo '{\"forcing\":[[0,0]'; yes ,[0,0] | head -n 6000000; echo ']}')";
+    let many = "\"$0\" bench scenario --masses 200000 >m";
+    let rows = [
+        (0, paper("good"), " statements of the paper: "),
+        (0, "verify p".into(), "all as SHA256SUMS lists them"),
+        (0, "diff p p --exit-code".into(), "nothing differs"),
+        (1, paper("differs"), "sec3_edges"),
+        (1, "check --profile quick --results r --templates differs".into(), "sec3_edges"),
+        (1, "verify p --rerun --results r --templates good".into(), "ledger.json"),
+        (1, paper("numeral"), "17"),
+        (2, paper("broken"), "published.toml"),
+        (2, "check --profile quick --results r --templates broken".into(), "published.toml"),
+        (2, paper("renamed"), "published.toml"),
+        (2, "check --profile quick --results r --templates renamed".into(), "published.toml"),
+        (2, "export RAYON_NUM_THREADS=999; exec \"$0\" check".into(), "RAYON_NUM_THREADS: 999"),
+        (2, "export RAYON_RS_NUM_CPUS=999; exec \"$0\" check".into(), "RAYON_RS_NUM_CPUS: 999"),
+        (2, paper("none"), "front.md: it is missing or empty"),
+        (2, paper("phrases"), "literals.toml: no such file"),
+        (2, format!("ulimit -v 250000; exec \"$0\" {}", paper("good")), "MiB of memory are needed"),
+        (2, "ulimit -v 75000; exec \"$0\" --version".into(), "the program: about "),
+        (
+            2,
+            format!("ulimit -v 700000; exec \"$0\" {} --threads 4", paper("good")),
+            "MiB of memory are needed",
+        ),
+        (2, format!("{few} diff p p"), "diff: about 408 MiB"),
+        (2, format!("{few} explain --paper p"), "explain: about 4"),
+        (2, format!("{few} plan --profile full"), "plan: about 408 MiB"),
+        (2, format!("{few} run --profile quick --shard 1/1 --out x"), "run: about 536 MiB"),
+        (2, format!("{few} merge --profile quick empty"), "merge: about 536 MiB"),
+        (
+            2,
+            "mkdir u; truncate -s 8M u/{1..30}.json; ulimit -v 700000; exec \"$0\" merge --profile quick u".into(),
+            "merge: about 1016 MiB",
+        ),
+        (2, format!("{pairs} >n; ulimit -v 400000; exec \"$0\" trace n --until 0"), "n: "),
+        (
+            2,
+            format!("{many}; ulimit -v 400000; exec \"$0\" trace m --until 0 --sensitivity sigma"),
+            "m: about ",
+        ),
+        (0, "ulimit -s 64; exec \"$0\" sweep --sigma 0.2 --realisations 3".into(), "0.2,"),
+        (2, "trace --until 1 $'no\nsuch'".into(), "no such: "),
+        (2, "paper --pdf --figure 3".into(), "--figure"),
+        (2, "verify nowhere".into(), "nowhere"),
+        (3, "status --profile quick --results empty".into(), "stale"),
+        (3, "audit --profile quick --results empty".into(), "paper --profile quick"),
+        (3, "audit --profile deep --results empty".into(), "merge --profile deep --results empty"),
+        // As memory ends that no estimate tells.
+        (
+            4,
+            "\"$0\" bench scenario --masses 9 >s; (exec \"$0\" -q trace s --until 1e9 >e) & \
+             until [ -s e ] || ! kill -0 $!; do sleep 0.1; done; kill -ABRT $!; wait $!; c=$?; echo aborted; exit $c"
+                .into(),
+            "aborted",
+        ),
+        (4, full("paper --figure 4 --out f --templates good"), "f: "),
+        (4, full("run --profile quick --shard 1/1 --experiment two_masses --out g"), "g"),
+        (4, "explain --paper p >/dev/full".into(), "standard output"),
+        (4, "paper --figure 4 --out h --templates good >/dev/full".into(), "standard output"),
+        (4, "--help >/dev/full".into(), "standard output"),
+    ];
+    for (expected, arguments, says) in rows {
+        let line =
+            if arguments.contains("exec") { arguments } else { format!("\"$0\" {arguments}") };
+        let mut command = Command::new("bash");
+        command.current_dir(here).args(["-c", &line, crate::PROGRAM]);
+        let (code, told, note) = outcome(&mut command);
+        assert_eq!(code, expected, "{line}: {told}{note}");
+        assert!(
+            told.contains(says) || note.lines().last().unwrap().contains(says),
+            "{line}: {note}"
+        );
+        assert!(!note.contains("panicked") && !note.contains(".staging"), "{note}");
+        if line.ends_with("--templates differs") && line.contains("paper") {
+            // Written all the same.
+            let ledger = std::fs::read_to_string(here.join("p/ledger.json")).unwrap();
+            assert!(ledger.contains("\"verdict\": \"differs\""));
+        }
+    }
+    let help = answer(here, "--help");
+    let design = std::fs::read_to_string("DESIGN.md").unwrap();
+    for (code, words) in
+        [(0, "fine"), (1, "check"), (2, "usage"), (3, "damaged"), (4, "disk"), (130, "SIGTERM")]
+    {
+        let says = |line: &str| line.contains(words);
+        let row = |line: &&str| line.trim_start().starts_with(&format!("{code} ")) && says(line);
+        assert!(help.lines().any(|line| row(&line)), "{help}");
+        let row = format!("| {code} | ");
+        assert!(design.lines().any(|line| line.starts_with(&row) && says(line)), "{code}");
+    }
+}

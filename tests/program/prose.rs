@@ -1,0 +1,70 @@
+//! Faults of the templates, each told with its file and line.
+
+use crate::{QUICK, templates};
+
+/// What is wrong with a file of the templates, and what is said behind its name: lines at its end (`+`, with ¦ for line ends and ◀▶ for
+/// characters of nobody), told with the last line; or words and others in their place.
+const FAULTS: &str = r##"front.md +<% include "front.md" %> => :$:12: a file includes itself (front.md -> front.md)
+front.md +«v.p | nofilter» => :$:8: Unknown filter
+front.md +«nofun(a=1)» => :$:2: Unknown function
+front.md +<% include "nix.md" %> => :$:12: Unknown template
+front.md +<% set s = "a" %><%- set_global s = s ~ s %> => :$:1: no template may set a variable
+front.md +<% endfor %> => :$:4: Unknown tag endfor
+front.md +«score.total | significant(digits=-1)» => :$:16: it takes how many digits
+front.md +«1 | percent» => :$:2: Invalid type for the value, expected text but got a number
+front.md +a ◀score.total▶ => :$:3: the character U+E000 is none of a text
+front.md +a &#xE000;score.total&#xE001; => :$:3: the character U+E000 is none of a text
+report.tex +%◀ => :$:2: the character U+E000 is none of a text
+literals.toml +[[literal]]¦why = "x"¦phrases = ["two nothings"] => :$: "two nothings": no prose has it
+references.bib +@article{aa, title={b}} => :$: aa lacks author or year
+references.bib +@article{aa, author={X}, title={b}, year={abc}} => :$:43: wrong number of digits
+report.html «page.body» ->  => : it has «page.body» 0 times
+report.html «page.body» -> «page.body»<div> => : the page is not whole
+report.tex \end{document} ->  => : it has \end{document} 0 times
+report.css } ->  => : 
+report.css } -> } @import "more.css"; => : @import
+references.bib volume  = {17} -> volume  = {17}, crossref = {homer2007} => :6: crossref
+front.md +It is «sweep.rise.half_height now. => :$:7: « is not closed
+front.md # -> ## => :1:1: a report begins with its title
+published.toml value = 100 -> value = nan => :11: the id "masses": its value is not finite
+published.toml value = 100 -> value = 1000000000000000000000000 => :14: invalid type
+published.toml place = "Sec. 2" -> place = "" => :11: the id "masses": its place has no words
+published.toml printed = "n =  -> printed = "" # " => :116: the id "sec2_parameters": its printed has
+published.toml statement = "For small σ -> statement = "" # " => :122: the id "sec2_few_below": its statement
+published.toml = "For small σ -> = "For small $σ => :122: the id "sec2_few_below": its statement has a formula
+published.toml "sec2_half_height" -> "sec2_few_below" => :134: the id "sec2_few_below": it stands twice
+published.toml "sec2_half_height" -> "sec2_new" => :134: the id "sec2_new": no claim judges it"##;
+
+#[test]
+fn faults_of_the_prose_are_told_with_their_place() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    crate::put(&here.join("r"), &QUICK.results);
+    let made = |file: &str, fault: &str| {
+        let _ = std::fs::remove_dir_all(here.join("t"));
+        templates(&here.join("t"), file, |text| match fault.split_once(" -> ") {
+            Some((from, to)) => text.replacen(from, to, 1),
+            None => {
+                let more = fault[1..].replace('¦', "\n");
+                let more = more.replace('◀', "\u{e000}").replace('▶', "\u{e001}");
+                format!("{}\n\n{more}\n", text.trim_end())
+            }
+        });
+        crate::run(here, "paper --profile quick --out p --results r --templates t")
+    };
+    for line in FAULTS.lines() {
+        let (given, says) = line.split_once(" => ").unwrap();
+        let (file, fault) = given.split_once(' ').unwrap();
+        let (code, told, note) = made(file, fault);
+        let text = std::fs::read_to_string(here.join("t").join(file)).unwrap();
+        let says = format!("{file}{}", says.replace('$', &text.lines().count().to_string()));
+        let line = note.lines().last().unwrap();
+        assert!(code == 2 && line.contains(&says), "{says}: {told}{note}");
+        for jargon in ["-->", " | ", "usize", "f64", "[\""] {
+            assert!(!line.contains(jargon), "{line}");
+        }
+    }
+    // A bar in a statement ends no cell of a table.
+    let (code, told, note) = made("published.toml", "= \"For small σ -> = \"For $|x|$ | small σ");
+    assert_eq!(code, 0, "{told}{note}");
+}

@@ -1,0 +1,222 @@
+//! What `impact-paper` writes over, and what it leaves as it is.
+
+use crate::paper::{refused, run};
+use crate::{QUICK, TEMPLATES, digest, templates, tree};
+
+/// Whatever writes, writes over nothing that it did not make itself.
+#[test]
+fn what_others_made_is_left_as_it_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    std::fs::create_dir_all(here.join("t/figures")).unwrap();
+    std::fs::create_dir(here.join("r")).unwrap();
+    let listed = format!("{}  report.md\n", "0".repeat(64));
+    for (name, text) in [
+        ("README.md", "by hand"),
+        ("t/report.md", "by hand"),
+        ("t/figures/fig04.svg", "by hand"),
+        ("t/SHA256SUMS", listed.as_str()),
+        ("r/sweep-quick.json", "{\"by\": \"hand\"}"),
+    ] {
+        std::fs::write(here.join(name), text).unwrap();
+    }
+    let before = tree(here);
+    for (arguments, says) in [
+        ("paper --profile quick --out .", "--out: ."),
+        ("paper --figure 4 --out t", "--out: t"),
+        ("paper --figure 4 --out t/figures", "fig04.svg"),
+        ("paper --profile quick --out t", "did not make"),
+    ] {
+        refused(here, arguments, &[says]);
+    }
+    let foreign = "r/sweep-quick.json: it stands where a saved result belongs";
+    let (code, _, note) = crate::run(here, "paper --profile quick --figure 3 --out f --results r");
+    assert!(code == 2 && note.contains(foreign) && note.lines().count() == 1, "{note}");
+    assert!(tree(here) == before, "{:?}", tree(here).keys());
+    // Forced, it says what it wrote over, and a folder of its own is written again without.
+    let (code, _, note) = run(here, "paper --figure 4 --out t --force");
+    assert!(code == 0 && note.contains("wrote over figures/fig04.svg"), "{note}");
+    assert_eq!(run(here, "paper --figure 4 --figure 5 --out t").0, 0);
+    assert_eq!(std::fs::read_to_string(here.join("t/report.md")).unwrap(), "by hand");
+}
+
+/// Who edits the list of a report makes no file of somebody else the program's; what goes with a report is named.
+#[test]
+fn lists_by_hand_take_no_file_away() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    crate::put(&here.join("p"), &QUICK.report);
+    crate::put(&here.join("r"), &QUICK.results);
+    crate::put(here, &[("outside".into(), Vec::new())].into());
+    crate::put(&here.join("p"), &[(".git/config".into(), Vec::new())].into());
+    let list = String::from_utf8(QUICK.report["SHA256SUMS"].clone()).unwrap();
+    let paper = "paper --profile quick --out p --results r";
+    for path in [".git/config", "../outside", "/outside", "data/../.git/config"] {
+        let more = format!("{list}{}  {path}\n", digest(""));
+        std::fs::write(here.join("p/SHA256SUMS"), more).unwrap();
+        let before = tree(here);
+        refused(here, paper, &["--out: p/SHA256SUMS: ", &format!("{path:?}"), "--force"]);
+        assert!(tree(here) == before, "{path}");
+    }
+    let more = format!("{list}{}  old.md\n", digest(""));
+    crate::put(
+        &here.join("p"),
+        &[("SHA256SUMS".into(), more.into()), ("old.md".into(), Vec::new())].into(),
+    );
+    let (code, _, note) = run(here, paper);
+    assert!(code == 0 && note.contains("removed 1 file of the report before: old.md"), "{note}");
+    assert!(here.join("p/.git/config").exists() && !here.join("p/old.md").exists());
+}
+
+/// A report without readable values is written anew by whom asks for it, as `verify` advises.
+#[test]
+fn a_report_without_values_is_written_anew_when_forced() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    crate::put(&here.join("r"), &QUICK.results);
+    crate::put(&here.join("v"), &QUICK.report);
+    let paper = "paper --profile quick --out v --results r";
+    let values = here.join("v/values.json");
+    std::fs::write(&values, "{}").unwrap();
+    refused(here, paper, &["values.json cannot be read; --force writes the report anew"]);
+    let (code, _, note) = run(here, &format!("{paper} --force"));
+    assert!(code == 0 && note.contains("--force: wrote over values.json"), "{note}");
+    assert!(tree(&here.join("v")) == QUICK.report);
+    std::fs::remove_file(&values).unwrap();
+    refused(here, paper, &["values.json cannot be read; --force writes the report anew"]);
+    assert_eq!(run(here, &format!("{paper} --force")).0, 0);
+    assert!(tree(&here.join("v")) == QUICK.report);
+}
+
+/// Names that a report's files have are no report.
+#[test]
+fn lists_and_ledgers_of_other_people_make_no_report() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let list = format!("{}  my.iso\n", digest("")).into_bytes();
+    let theirs = |name: &str, bytes: &[u8]| [(name.to_string(), bytes.to_vec())].into();
+    crate::put(&here.join("sums"), &theirs("SHA256SUMS", &list));
+    crate::put(&here.join("made"), &theirs("SHA256SUMS/file", b""));
+    crate::put(&here.join("acc"), &theirs("ledger.json", b"{\"accounts\":[]}"));
+    // By hand, of files that are no report's.
+    let names = ["ledger.json", "notes.md", "values.json"];
+    let line = |name: &&str| format!("{}  {name}\n", digest(""));
+    let list: String = names.iter().map(line).collect();
+    crate::put(&here.join("hand"), &theirs("SHA256SUMS", list.as_bytes()));
+    names.iter().for_each(|name| std::fs::write(here.join("hand").join(name), "").unwrap());
+    let hand = "paper --profile quick --out hand";
+    refused(here, hand, &["values.json cannot be read; --force"]);
+    let (code, _, note) = run(here, &format!("{hand} --force"));
+    assert!(code == 0 && note.contains("--force: wrote over SHA256SUMS, ledger.json"), "{note}");
+    assert!(here.join("hand/notes.md").exists());
+    for among in ["sums", "made", "acc"] {
+        let (code, _, note) = run(here, &format!("paper --figure 4 --out {among}/sub/figs"));
+        assert_eq!(code, 0, "{among}: {note}");
+        let what = "has files that this program did not make";
+        refused(here, &format!("paper --profile quick --out {among}"), &[what]);
+        for verb in [
+            "manual --out",
+            "run --profile quick --experiment two_masses --shard 1/1 --out",
+            "check --profile quick --claim sec3_edges --results",
+        ] {
+            let (code, _, note) = crate::run(here, &format!("{verb} {among}/of/{}", verb.len()));
+            assert_eq!(code, 0, "{verb}: {note}");
+        }
+    }
+}
+
+/// A list of what others wrote is none of ours: it is written over only when forced, and then named.
+#[cfg(unix)]
+#[test]
+fn local_lists_of_other_people_are_theirs() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let list = here.join("w/SHA256SUMS.local");
+    std::fs::create_dir(here.join("w")).unwrap();
+    let [ours, iso, page] =
+        ["report.md", "my.iso", "my.html"].map(|path| format!("{}  {path}\n", digest("")));
+    for (text, says) in [
+        ("precious\n".into(), "line 1: "),
+        (ours + &iso, "line 2: \"my.iso\""),
+        (page, "line 1: \"my.html\""),
+    ] {
+        for verb in ["paper --figure 4 --out w", "manual --out w"] {
+            std::fs::write(&list, &text).unwrap();
+            std::fs::write(here.join("w/my.iso"), "").unwrap();
+            let (code, _, note) = crate::run(here, verb);
+            let line = format!("--out: w/SHA256SUMS.local: {says}");
+            assert!(code == 2 && note.contains(&line) && note.lines().count() == 1, "{note}");
+            assert_eq!(std::fs::read_to_string(&list).unwrap(), text);
+            let (code, _, note) = crate::run(here, &format!("{verb} --force"));
+            assert!(code == 0 && note.contains("--force: wrote over "), "{note}");
+            assert!(note.contains("SHA256SUMS.local"), "{note}");
+            // From now on it is ours.
+            let (code, _, note) = crate::run(here, verb);
+            assert!(code == 0 && note.is_empty(), "{note}");
+        }
+    }
+    std::fs::rename(&list, here.join("kept")).unwrap();
+    std::os::unix::fs::symlink("../kept", &list).unwrap();
+    let (code, _, note) = crate::run(here, "paper --figure 4 --out w --force");
+    assert!(code == 0 && note.contains("SHA256SUMS.local"), "{note}");
+    assert!(here.join("kept").exists() && !list.is_symlink());
+    // A folder is in the way, whoever asks, and before anything is run.
+    std::fs::remove_file(&list).unwrap();
+    std::fs::create_dir(&list).unwrap();
+    let what = "w/SHA256SUMS.local is a folder where a file belongs; move it away";
+    for more in ["--figure 4", "--figure 4 --force", "--profile quick --results r --force"] {
+        refused(here, &format!("paper {more} --out w"), &[what]);
+    }
+    crate::refused(here, "manual --out w --force", &[what]);
+    assert!(!here.join("r").exists());
+}
+
+/// As `mkdir -p` does.
+#[test]
+fn a_folder_with_a_dot_behind_is_made() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let unit = "--profile quick --experiment two_masses --shard 1/1";
+    for (verb, out, file) in [
+        ("paper --figure 4 --out", "a/.", "a/figures/fig04.svg"),
+        ("manual --out", "b/c/./", "b/c/impact-paper.1"),
+        (&format!("run {unit} --out"), "d/.", "d/two_masses-quick-0000.json"),
+        (
+            "merge --profile quick --experiment two_masses d --results",
+            "e/.",
+            "e/two_masses-quick.json",
+        ),
+    ] {
+        let (code, _, note) = crate::run(here, &format!("{verb} {out}"));
+        assert!(code == 0 && here.join(file).exists(), "{verb}: {note}");
+    }
+}
+
+/// What is written among the templates would be read as prose.
+#[test]
+fn nothing_is_written_among_the_templates() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    templates(&here.join("t"), "front.md", |text| text.into());
+    for (verb, among) in [
+        ("paper --figure 4 --templates t --out", "t"),
+        ("paper --figure 4 --templates t --out", "new/../t/new"),
+        ("paper --profile quick --templates t --out new --results", "t"),
+        ("check --profile quick --templates t --results", "t/new"),
+        ("-q verify --rerun --templates t --results", "t"),
+        ("manual --out", TEMPLATES),
+        ("run --profile quick --shard 1/1 --out", TEMPLATES),
+        ("merge t --results", TEMPLATES),
+    ] {
+        if verb.contains("verify") {
+            crate::put(&here.join("paper"), &QUICK.report);
+        }
+        let (code, _, note) = crate::run(here, &format!("{verb} {among}"));
+        let what = format!("{among} is the folder of the templates, or lies in it");
+        assert!(code == 2 && note.contains(&what) && note.lines().count() == 1, "{verb}: {note}");
+    }
+    std::fs::create_dir(here.join("o")).unwrap();
+    templates(&here.join("o/data"), "front.md", |text| text.into());
+    let among = "paper --figure 4 --templates o/data --out o --force";
+    crate::refused(here, among, &["o has the templates where figures and data go"]);
+}
