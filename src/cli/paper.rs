@@ -211,7 +211,9 @@ fn refuse_over_other(
         Number::Text(name) => Some(name.clone()),
         _ => None,
     };
-    let found = values_in(out)?.and_then(name);
+    // As it will be: what is missing before a `..` is about to be made.
+    let there = &folder::resolved(out);
+    let found = values_in(there)?.and_then(name);
     // Of a report that does not tell what it is, a lesser one would take the place unseen, and figures might be of
     // other samples.
     let lesser = profile != Profile::Full || set::told().is_some() || figures;
@@ -219,7 +221,7 @@ fn refuse_over_other(
     if found.is_none()
         && lesser
         && asked
-        && holds_report(out).unwrap_or(true)
+        && holds_report(there).unwrap_or(true)
         && !is_usual(profile, out)
     {
         let remedy = match figures {

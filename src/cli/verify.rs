@@ -5,6 +5,7 @@ use impact_paper::experiments::Progress;
 use impact_paper::input::MEMORY;
 use impact_paper::params::Profile;
 use impact_paper::program::listed::{Checked, listed, own_profile};
+use impact_paper::program::places::refuse_report;
 use impact_paper::program::sources::Sources;
 use impact_paper::program::waiting::Waiting;
 use impact_paper::program::{Failure, folder, make, memory, signals, threads, work};
@@ -90,6 +91,7 @@ fn rerun(args: &Args, progress: &Progress) -> Result<Checked, Failure> {
         let remedy = "name one that can be written in TMPDIR";
         Failure::io(&e, "a temporary folder", remedy)
     })?;
+    refuse_report("TMPDIR", temporary.path(), args.templates.as_deref())?;
     let results = args.results.clone().unwrap_or_else(|| temporary.path().join("results"));
     let pdf = pdfs().any(|name| args.folder.join(name).symlink_metadata().is_ok());
     let typeset = pdf && make::TYPESETS;

@@ -60,28 +60,29 @@ pub fn obey() {
         4,
         Arc::new(AtomicBool::new(true)),
     );
-    let is = |now| *NOW.lock().unwrap_or_else(PoisonError::into_inner) == now;
+    let now = || NOW.lock().unwrap_or_else(PoisonError::into_inner);
     // A handler can only be refused if there is one already; then a signal just ends the program.
     let obeyed = move || {
+        // Held to the end, so that no work begins and no file is moved meanwhile.
+        let mut held = now();
         if let Some(stop) = WORK.get()
-            && !is(Now::Idle)
+            && *held != Now::Idle
             && !stop.swap(true, Ordering::Relaxed)
         {
+            drop(held);
             std::thread::sleep(PATIENCE);
+            held = now();
         }
-        loop {
-            // Held to the end, so that no file is moved meanwhile.
-            let now = NOW.lock().unwrap_or_else(PoisonError::into_inner);
-            if *now != Now::Placing {
-                end();
-            }
-            drop(now);
-            while is(Now::Placing) {
+        while *held == Now::Placing {
+            drop(held);
+            while *now() == Now::Placing {
                 std::thread::sleep(Duration::from_millis(10));
             }
             // All is in its place: what is left is to tell of it.
             std::thread::sleep(PATIENCE);
+            held = now();
         }
+        end();
     };
     #[cfg(not(unix))]
     let _ = ctrlc::set_handler(obeyed);
@@ -181,6 +182,7 @@ fn remove_empty(folders: &[PathBuf]) {
 /// Progress on stderr of work that a signal ends within a moment. What has not looked at the flag by then, such as a
 /// chain of many masses, is ended all the same.
 pub fn progress() -> Progress {
+    let _ending = NOW.lock().unwrap_or_else(PoisonError::into_inner);
     Progress::on_stderr(Arc::clone(WORK.get_or_init(Arc::default)))
 }
 

@@ -21,7 +21,9 @@ impl Waiting {
     /// A new one, with its mark.
     pub fn below(folder: &Path) -> io::Result<Self> {
         let made = tempfile::Builder::new().prefix(STAGING).tempdir_in(folder).map_err(bare)?;
-        let mark = File::create(made.path().join(OURS))?;
+        // Under a umask that allows nobody, `made` itself cannot.
+        let undo = |_: &io::Error| drop(std::fs::remove_dir(made.path()));
+        let mark = File::create(made.path().join(OURS)).inspect_err(undo)?;
         // Where there are no locks, leftovers stay.
         let _ = mark.try_lock();
         // What a killed run leaves is none of git's.

@@ -1,6 +1,6 @@
 //! `impact-paper check` for machines: every form says of every claim what the text says.
 
-use crate::{TEMPLATES, outcome, program, run};
+use crate::{PROGRAM, TEMPLATES, outcome, program, run};
 use impact_paper::claims::{self, Basis};
 use impact_paper::experiments::ALL;
 use impact_paper::experiments::{self, Progress, Store};
@@ -9,6 +9,7 @@ use impact_paper::report::claims::scorecard;
 use impact_paper::report::{contents, guards};
 use std::collections::BTreeSet;
 use std::path::Path;
+use std::process::Command;
 
 fn check(folder: &Path, arguments: &[&str], summary: Option<&Path>) -> (i32, String, String) {
     let mut command = program(folder, "check --profile quick --results r --templates");
@@ -90,6 +91,16 @@ fn every_form_has_every_claim_at_its_line() {
         told.starts_with("before\n## Claims") && told.contains("| sec2_half_height |"),
         "{told}"
     );
+    // One that cannot grow keeps what it had.
+    let line = format!(
+        "ulimit -f 8; exec \"$0\" check --profile quick --results r --templates {TEMPLATES} --format github"
+    );
+    let mut limited = Command::new("bash");
+    limited.args(["-c", &line, PROGRAM]).env("GITHUB_STEP_SUMMARY", &summary);
+    std::fs::write(&summary, "before\n").unwrap();
+    let (code, _, note) = outcome(limited.current_dir(folder.path()));
+    assert!(code == 4 && note.contains("GITHUB_STEP_SUMMARY"), "{note}");
+    assert_eq!(std::fs::read_to_string(&summary).unwrap(), "before\n");
     let annotations: Vec<&str> = out.lines().collect();
     assert_eq!(annotations.len(), 10, "{out}");
     // The worst come first.

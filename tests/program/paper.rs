@@ -108,8 +108,12 @@ fn threads_and_saved_results_change_no_byte_and_lesser_profiles_replace_no_full_
     assert_ne!(full, values);
     std::fs::write(at("one/values.json"), full).unwrap();
     let before = tree(&at("one"));
-    for arguments in ["--profile quick", "--profile ci", "--profile quick --figure 4"] {
-        refused(folder.path(), &format!("paper {arguments} --out one"), &["full profile"]);
+    for arguments in
+        ["--profile quick", "--profile ci --force", "--profile quick --figure 4 --force"]
+    {
+        for out in ["one", "missing/../one"] {
+            refused(folder.path(), &format!("paper {arguments} --out {out}"), &["full profile"]);
+        }
     }
     assert!(before == tree(&at("one")));
 }

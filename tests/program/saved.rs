@@ -59,8 +59,14 @@ fn status_gives_each_reason_and_audit_compares_bytes() {
     let (code, _, note) = run(folder, "status --profile quick --results results");
     assert!(code == 3 && note.contains("1 of 25 results is stale"), "{note}");
     fs::rename(&away, &kept).unwrap();
+    // What a killed run left goes, though nothing is saved.
+    let left = folder.join("results/.staging-impact-paper-dead00");
+    fs::write(&left, "").unwrap();
+    let hour_ago = std::time::SystemTime::now() - std::time::Duration::from_secs(3600);
+    fs::File::options().write(true).open(&left).unwrap().set_modified(hour_ago).unwrap();
     let (_, _, note) = run(folder, PAPER);
     assert_eq!(note.matches(": fresh").count(), EXPERIMENTS, "{note}");
+    assert!(!left.exists());
     assert_eq!(saved(folder), *results);
     let audit = "audit --profile quick --results results --sample";
     let (code, text, note) = run(folder, &format!("{audit} 100%"));

@@ -1,6 +1,6 @@
 //! `impact-paper verify`: what a folder says of itself, held against what stands in it.
 
-use crate::{QUICK, TEMPLATES, answer, digest, ended, program, put, refused, run};
+use crate::{QUICK, TEMPLATES, answer, digest, ended, outcome, program, put, refused, run};
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -144,6 +144,9 @@ fn a_rerun_finds_what_the_list_cannot() {
     assert_eq!(counts, [counts[0], counts[0] + 1]);
     let rerun = format!("verify r --rerun --results saved {templates}");
     assert_eq!(run(here, &rerun).0, 0);
+    let mut within = program(here, &rerun);
+    let (code, _, note) = outcome(within.env("TMPDIR", here.join("r")));
+    assert!(code == 2 && note.contains("TMPDIR: "), "{note}");
 
     // A forger who keeps the lists right, of the report and of what is built beside.
     let edit = |name: &str, change: &dyn Fn(String) -> String| {

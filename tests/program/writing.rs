@@ -9,14 +9,20 @@ fn what_others_made_is_left_as_it_is() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
     std::fs::create_dir_all(here.join("t/figures")).unwrap();
-    std::fs::create_dir(here.join("r")).unwrap();
+    for results in ["r", "s", "u"] {
+        std::fs::create_dir(here.join(results)).unwrap();
+    }
     let listed = format!("{}  report.md\n", "0".repeat(64));
+    // Its first line is as long as a digest.
+    let notes = format!("{:.<64}\nof worth", "# Notes of March");
     for (name, text) in [
         ("README.md", "by hand"),
         ("t/report.md", "by hand"),
         ("t/figures/fig04.svg", "by hand"),
         ("t/SHA256SUMS", listed.as_str()),
         ("r/sweep-quick.json", "{\"by\": \"hand\"}"),
+        ("s/sweep-quick.json", notes.as_str()),
+        ("u/sweep-quick.json", "12345"),
     ] {
         std::fs::write(here.join(name), text).unwrap();
     }
@@ -29,9 +35,12 @@ fn what_others_made_is_left_as_it_is() {
     ] {
         refused(here, arguments, &[says]);
     }
-    let foreign = "r/sweep-quick.json: it stands where a saved result belongs";
-    let (code, _, note) = crate::run(here, "paper --profile quick --figure 3 --out f --results r");
-    assert!(code == 2 && note.contains(foreign) && note.lines().count() == 1, "{note}");
+    for results in ["r", "s", "u"] {
+        let foreign = format!("{results}/sweep-quick.json: it stands where a saved result belongs");
+        let paper = format!("paper --profile quick --figure 3 --out f --results {results}");
+        let (code, _, note) = crate::run(here, &paper);
+        assert!(code == 2 && note.contains(&foreign) && note.lines().count() == 1, "{note}");
+    }
     assert!(tree(here) == before, "{:?}", tree(here).keys());
     // Forced, it says what it wrote over, and a folder of its own is written again without.
     let (code, _, note) = run(here, "paper --figure 4 --out t --force");

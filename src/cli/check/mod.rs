@@ -116,8 +116,13 @@ pub fn run(args: Args) -> Result<(), Failure> {
 fn summarise(text: &str) -> Result<(), Failure> {
     const NAME: &str = "GITHUB_STEP_SUMMARY";
     let Some(path) = std::env::var_os(NAME).filter(|path| !path.is_empty()) else { return Ok(()) };
-    let file = std::fs::OpenOptions::new().append(true).create(true).open(&path);
-    file.and_then(|mut file| file.write_all(text.as_bytes())).map_err(|error| {
+    let add = || {
+        let mut file = std::fs::OpenOptions::new().append(true).create(true).open(&path)?;
+        let before = file.metadata()?.len();
+        // Half a table would hide that there is more; a pipe takes nothing back.
+        file.write_all(text.as_bytes()).inspect_err(|_| drop(file.set_len(before)))
+    };
+    add().map_err(|error| {
         let path = path.display();
         let remedy = "name a file that can be written";
         Failure::io(&error, format!("{NAME} ({path})"), remedy)

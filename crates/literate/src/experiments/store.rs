@@ -90,8 +90,13 @@ impl Store {
         let Some(folder) = &self.folder else { return Ok(()) };
         let tried = std::fs::create_dir_all(folder)
             .and_then(|()| new_beside(&folder.join("result")).map(drop));
-        remove_leftovers(folder, begins_with_digest);
+        self.tidy();
         tried.map_err(|source| Error::Store { path: folder.clone(), source })
+    }
+
+    /// Removes what killed runs left there.
+    pub fn tidy(&self) {
+        self.folder.iter().for_each(|folder| remove_leftovers(folder, begins_with_digest));
     }
 
     /// Whether a result can be saved without replacing what was never one.
@@ -193,16 +198,13 @@ fn refuse_foreign(path: &Path) -> Result<(), Error> {
     }
 }
 
-/// Whether the first line has the form of a digest, or its length: files are cut short, and letters change.
+/// Whether the first line has the form of a digest, but for a few characters: files are cut short, and letters change.
 fn begins_with_digest(path: &Path) -> std::io::Result<bool> {
     let mut first = Vec::new();
     std::fs::File::open(path)?.take(65).read_to_end(&mut first)?;
-    let digest = &first[..first.len().min(64)];
-    let hexadecimal = digest.iter().all(|b| matches!(b, b'0'..=b'9' | b'a'..=b'f'));
-    Ok(match first.get(64) {
-        None => hexadecimal,
-        Some(end) => matches!(end, b'\n' | b'\r') && !digest.contains(&b'\n'),
-    })
+    let Some((digest, end)) = first.split_at_checked(64) else { return Ok(first.is_empty()) };
+    let hexadecimal = digest.iter().filter(|b| matches!(b, b'0'..=b'9' | b'a'..=b'f')).count();
+    Ok(hexadecimal >= 60 && end.iter().all(|end| matches!(end, b'\n' | b'\r')))
 }
 
 /// Writes a temporary file and renames it: at no time is there half a result under the name.
