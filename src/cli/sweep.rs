@@ -109,8 +109,9 @@ fn parameters(args: &Args) -> Result<SweepParams, Failure> {
         let message = format!("--transient: {:?} is not allowed; give 0 or more", args.transient);
         return Err(Failure::input(message));
     }
-    if !args.window.is_finite() || args.window <= 0.0 {
-        let message = format!("--window: {:?} is not allowed; give a number above 0", args.window);
+    // A window that is lost in the rounding of T has no impact in it.
+    if !args.window.is_finite() || args.window < 1e-3 {
+        let message = format!("--window: {:?} is not allowed; give 0.001 or more", args.window);
         return Err(Failure::input(message));
     }
     if args.transient + args.window > LATEST {

@@ -4,11 +4,16 @@ use crate::{QUICK, templates};
 
 /// What is wrong with a file of the templates, and what is said behind its name: lines at its end (`+`, with ¦ for line ends and ◀▶ for
 /// characters of nobody), told with the last line; or words and others in their place.
-const FAULTS: &str = r##"front.md +<% include "front.md" %> => :$:12: a file includes itself (front.md -> front.md)
+const FAULTS: &str = r##"front.md +<% include "front.md" %> => :$:1: no template has a tag "include"
+front.md +<%- macro a() %>x<% endmacro %> => :$:1: no template has a tag "macro"
 front.md +«v.p | nofilter» => :$:8: Unknown filter
 front.md +«nofun(a=1)» => :$:2: Unknown function
-front.md +<% include "nix.md" %> => :$:12: Unknown template
-front.md +<% set s = "a" %><%- set_global s = s ~ s %> => :$:1: no template may set a variable
+front.md +<% for i in [41, 42] %>In «i» chains. <% endfor %> => :$:28: this is a plain number
+front.md +<% for row in keys.sweep.rows.sigma %>«loop.index» <% endfor %> => :$:40: this is a plain number
+front.md +«claims | length» => :$:1: this is a plain number
+front.md +«"seven chains"» => :$:1: this is a text in quotes
+front.md +«"7" ~ score.total» => :$:1: this is a text in quotes
+front.md +<% set s = "a" %><%- set_global s = s ~ s %> => :$:1: no template has a tag "set"
 front.md +<% endfor %> => :$:4: Unknown tag endfor
 front.md +«score.total | significant(digits=-1)» => :$:16: it takes how many digits
 front.md +«1 | percent» => :$:2: Invalid type for the value, expected text but got a number

@@ -118,6 +118,14 @@ impl Inputs {
             inputs.forcing_frequency =
                 or("forcing-frequency", &options.forcing_frequency, chain.forcing_frequency)?;
             inputs.spacing = or("spacing", &options.spacing, chain.spacing)?;
+            // As of a scenario.
+            for (field, x, range) in [
+                ("omega", inputs.omega, [1e-3, 1e3]),
+                ("forcing-frequency", inputs.forcing_frequency, [1e-3, 1e3]),
+                ("spacing", inputs.spacing, [1e-6, 1e6]),
+            ] {
+                bounded(field, x.unwrap_or(f64::NAN), range)?;
+            }
         }
         Ok(inputs)
     }

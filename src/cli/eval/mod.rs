@@ -52,16 +52,16 @@ struct Options {
     #[arg(long, value_name = "K", allow_hyphen_values = true)]
     k: Option<String>,
 
-    /// Natural frequency ω, > 0 [default: 1].
+    /// Natural frequency ω, 0.001 to 1000 [default: 1].
     #[arg(long, value_name = "w", allow_hyphen_values = true)]
     omega: Option<String>,
 
-    /// Forcing frequency Ω, > 0 and different from ω [default: √2; the double nearest to √2 is
+    /// Forcing frequency Ω, 0.001 to 1000 and different from ω [default: √2; the double nearest to √2 is
     /// read as √2 itself].
     #[arg(long, value_name = "W", allow_hyphen_values = true)]
     forcing_frequency: Option<String>,
 
-    /// Spacing d of the masses at rest, > 0 [default: 1].
+    /// Spacing d of the masses at rest, 0.000001 to 1000000 [default: 1].
     #[arg(long, value_name = "d", allow_hyphen_values = true)]
     spacing: Option<String>,
 

@@ -33,7 +33,7 @@ impl Library {
         }
         let read = from_biblatex_str(text).map_err(|errors| {
             let told: Vec<String> = errors.iter().map(|error| explained(error, text)).collect();
-            Error::Template(told.join("; "))
+            Error::Template(format!("{}; mend it, or restore the file", told.join("; ")))
         })?;
         for entry in &read {
             let lacks = match () {
@@ -46,7 +46,7 @@ impl Library {
             let key = entry.key();
             let at = text.find(&format!("{key},")).unwrap_or_default();
             let line = line(&text[..at]);
-            return Err(Error::Template(format!("references.bib:{line}: {key} lacks {lacks}")));
+            return Err(Error::Template(format!("references.bib:{line}: {key} lacks {lacks}; give it")));
         }
         let style = style()?;
         let locales = locales();

@@ -59,7 +59,7 @@ pub struct Filler {
 }
 
 impl Filler {
-    /// Sets Tera up: all `.md`, `.tex` and `.html` files can be included by their relative path.
+    /// Sets Tera up with all `.md`, `.tex` and `.html` files.
     pub fn new(templates: &Templates, values: &Registry, program: Program) -> Result<Self, Error> {
         let mut tera = Tera::new();
         let failure = |error| failure(&error, templates);
@@ -155,7 +155,7 @@ impl Filler {
 
 /// One line: file, line, column, what is wrong, and names that begin alike.
 fn failure(error: &tera::Error, templates: &Templates) -> Error {
-    use tera::ErrorKind::{CircularInclude, Msg, RenderingError, SyntaxError};
+    use tera::ErrorKind::{Msg, RenderingError, SyntaxError};
     let text = |path: &str| templates.text(path).unwrap_or_default();
     let (RenderingError(report) | SyntaxError(report)) = error.kind() else {
         let told = error.to_string();
@@ -166,13 +166,6 @@ fn failure(error: &tera::Error, templates: &Templates) -> Error {
         };
         return Error::Template(match error.kind() {
             Msg(_) => picture().unwrap_or(told),
-            CircularInclude { tpl, include_chain } => {
-                let next = include_chain.get(1).unwrap_or(tpl);
-                let named = text(tpl).find(&format!("\"{next}\"")).unwrap_or_default();
-                let way = include_chain.join(" -> ");
-                let place = line_and_column(text(tpl), named);
-                format!("{tpl}:{place}: a file includes itself ({way}); remove the tag")
-            }
             _ => told,
         });
     };
@@ -186,7 +179,7 @@ fn failure(error: &tera::Error, templates: &Templates) -> Error {
         } else if what == "Unknown tag" {
             let line = text(report.filename()).lines().nth(line - 1).unwrap_or_default();
             let tag = line.chars().skip(column).take_while(|c| c.is_alphanumeric());
-            format!(" {}, or one that ends nothing; remove it", tag.collect::<String>())
+            format!(" {}: it ends nothing; remove it", tag.collect::<String>())
         } else {
             String::new()
         };

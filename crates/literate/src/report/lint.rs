@@ -43,8 +43,8 @@ pub enum Fault {
     Open(&'static str, &'static str),
     /// A character that is none of a text, by its number.
     Control(char),
-    /// A tag that keeps a text, and may double it until the memory is full.
-    Set,
+    /// A tag that no prose has, by its word.
+    Tag(String),
 }
 
 impl std::fmt::Display for Finding {
@@ -59,10 +59,11 @@ impl std::fmt::Display for Finding {
                     "{path}:{line}:{column}: the character U+{number:04X} is none of a text; remove it"
                 );
             }
-            Fault::Set => {
+            Fault::Tag(word) => {
+                let tags = TAGS.join(", ");
                 return write!(
                     f,
-                    "{path}:{line}:{column}: no template may set a variable; remove the tag"
+                    "{path}:{line}:{column}: no template has a tag {word:?}, only {tags}; remove it"
                 );
             }
             Fault::Open(open, close) => {
@@ -124,7 +125,7 @@ pub fn check(templates: &Templates, program: Program) -> Result<(), Error> {
             return Err(Error::Template(format!("{}.md: {what}", of.prose)));
         }
     }
-    let odd = |(path, text)| odd(path, text).or_else(|| sets(path, text));
+    let odd = |(path, text)| odd(path, text).or_else(|| other_tag(path, text));
     let odd: Vec<Finding> = templates.iter().filter_map(odd).collect();
     if !odd.is_empty() {
         return Err(Error::Lint(odd));
@@ -148,15 +149,21 @@ pub fn check(templates: &Templates, program: Program) -> Result<(), Error> {
     }
 }
 
-/// The first tag that sets a variable, in what is filled.
-fn sets(path: &str, text: &str) -> Option<Finding> {
+/// Tags that templates may have. Variables could double until the memory is full; what is included, imported or put
+/// into a block would stand at no line of its own.
+const TAGS: [&str; 6] = ["if", "elif", "else", "endif", "for", "endfor"];
+
+/// The first tag of another kind, in what is filled.
+fn other_tag(path: &str, text: &str) -> Option<Finding> {
     let (mut position, mut at) = (Position { line: 1, column: 1 }, 0);
     let filled = [".md", ".tex", ".html"].iter().any(|end| path.ends_with(end));
     while let Some((start, end)) = next_tag(text, at).filter(|_| filled) {
-        let inner = text[start..end].strip_prefix("<%").unwrap_or_default();
-        if inner.trim_start_matches(['-', ' ', '\n', '\r', '\t']).starts_with("set") {
+        let inner = text[start..end].strip_prefix("<%").unwrap_or("if");
+        let inner = inner.trim_start_matches(['-', ' ', '\n', '\r', '\t']);
+        let word = inner.split(|c: char| !c.is_alphanumeric() && c != '_').next();
+        if let Some(word) = word.filter(|word| !TAGS.contains(word)) {
             position.past(text, start);
-            return Some(position.finding(path, Fault::Set));
+            return Some(position.finding(path, Fault::Tag(word.into())));
         }
         at = end;
     }
@@ -384,7 +391,7 @@ mod tests {
             Fault::Numeral(numeral) => (f.line, f.column, numeral),
             Fault::Open(open, _) => (f.line, f.column, format!("open {open}")),
             Fault::Control(c) => (f.line, f.column, format!("control {}", u32::from(c))),
-            Fault::Set => (f.line, f.column, "set".into()),
+            Fault::Tag(word) => (f.line, f.column, format!("tag {word}")),
         };
         findings("x.md", text, &Declared::default()).into_iter().map(place).collect()
     }

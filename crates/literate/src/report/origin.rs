@@ -56,11 +56,24 @@ pub(super) fn next_tag(text: &str, at: usize) -> Option<(usize, usize)> {
     Some((start, start + text[start..].find(close)? + close.len()))
 }
 
-/// Whether a tag computes with plain numbers, which are for conditions, or writes one in quotes.
-fn computes(tag: &str) -> bool {
-    let inner = tag.trim_start_matches(['«', '-', ' ', '(']);
-    inner.starts_with("raw.")
-        || inner.starts_with(|c: char| c.is_ascii_digit() || "\"'`".contains(c))
+/// What a tag has outside of brackets, which name rows and give arguments.
+fn bare(tag: &str) -> String {
+    let mut depth = 0_i32;
+    let outside = |c: &char| {
+        depth += i32::from("([".contains(*c));
+        let outside = depth == 0;
+        depth -= i32::from(")]".contains(*c));
+        outside
+    };
+    tag.chars().filter(outside).collect()
+}
+
+/// May the tag write a plain number? One declared, or one in a row that the program made.
+fn has_a_number(tag: &str) -> bool {
+    let tag = tag.trim_matches(['-', ' ']);
+    let other = ["raw.", "loop."].iter().any(|other| tag.starts_with(other));
+    let row = tag.starts_with(char::is_alphabetic) && bare(tag).contains('.') && !tag.contains('|');
+    tag.starts_with("literal(") || (row && !other)
 }
 
 /// Templates and the text that was made of them, one after the other.
@@ -126,20 +139,23 @@ impl Filled {
         self
     }
 
-    /// Refuses a tag that wrote no value and no words: a whole row or table, or a plain number.
+    /// Refuses a tag that wrote no value and no words of the program: a whole row or table, a plain number, or what
+    /// the tag itself has in quotes.
     pub fn refuse_dumps(&self) -> Result<(), Error> {
         let ends = self.pieces.iter().skip(1).map(|piece| piece.start).chain([self.text.len()]);
         for (piece, end) in self.pieces.iter().zip(ends) {
             let wrote = &self.text[piece.start..end];
             let from = &self.templates[piece.template].text[piece.origin..];
-            if !piece.tag || !from.starts_with('«') {
-                continue;
-            }
+            let Some(tag) = from.strip_prefix('«').filter(|_| piece.tag) else { continue };
+            let tag = tag.split('»').next().unwrap_or_default();
             let what = match () {
                 () if ["{\"", "[\"", "[{", "[["].iter().any(|dump| wrote.starts_with(dump)) => {
                     "a whole row or table; name a column of a row"
                 }
-                () if wrote.parse::<f64>().is_ok() && computes(from) => {
+                () if bare(tag).contains(['"', '\'', '`']) => {
+                    "a text in quotes; write it in the prose"
+                }
+                () if wrote.parse::<f64>().is_ok() && !has_a_number(tag) => {
                     "a plain number; name a value, so that it has its digits and its card"
                 }
                 () => continue,
