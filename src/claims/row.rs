@@ -32,6 +32,8 @@ pub struct Row {
     pub id: &'static str,
     /// What its verdict rests on.
     pub basis: Basis,
+    /// The words or formula that it judges, where no number says: others that are printed would be judged by nothing.
+    pub reads: Option<&'static str>,
     /// Whether it compares random numbers within their standard errors.
     pub statistical: bool,
     /// The experiments that it needs, the theory apart.
@@ -44,12 +46,12 @@ type Find = fn(&Evidence, &Statement) -> Result<Finding, Error>;
 
 /// A claim about the theory, without a run.
 pub const fn theory(id: &'static str, basis: Basis, find: Find) -> Row {
-    Row { id, basis, statistical: false, needs: &[], find }
+    Row { id, basis, reads: None, statistical: false, needs: &[], find }
 }
 
 /// A claim about runs that compares no errors.
 pub const fn measured(id: &'static str, basis: Basis, needs: &'static [Need], find: Find) -> Row {
-    Row { id, basis, statistical: false, needs, find }
+    Row { id, basis, reads: None, statistical: false, needs, find }
 }
 
 /// A claim about runs whose tolerance has room for standard errors.
@@ -59,7 +61,7 @@ pub const fn statistical(
     needs: &'static [Need],
     find: Find,
 ) -> Row {
-    Row { id, basis, statistical: true, needs, find }
+    Row { id, basis, reads: None, statistical: true, needs, find }
 }
 
 /// A finding of whole cases that must all agree.
@@ -68,9 +70,17 @@ pub fn cases(cases: Cases, note: &str) -> Result<Finding, Error> {
 }
 
 impl Row {
+    /// Says which words or formula it judges.
+    pub const fn of(self, reads: &'static str) -> Self {
+        Row { reads: Some(reads), ..self }
+    }
+
     /// Computes the claim.
     pub fn claim(&self, evidence: &Evidence) -> Result<Check, Error> {
         let statement = evidence.published.statement(self.id)?;
+        if let Some(reads) = self.reads.filter(|reads| *reads != statement.printed) {
+            return Err(evidence.published.unread(self.id, reads).into());
+        }
         let finding = (self.find)(evidence, statement)?;
         Ok(finding.claim(statement, self.basis))
     }

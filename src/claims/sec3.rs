@@ -8,7 +8,7 @@ use super::{Judgement, Statement, Text};
 use crate::experiments::SWEEP;
 
 pub const ROWS: &[Row] = &[
-    theory("sec3_impact_types", Exact, impact_types),
+    theory("sec3_impact_types", Exact, impact_types).of("n + 1 = (n − 1) + 2"),
     theory("sec3_vertices", Exact, |e, s| size(e.results.identities.graph_vertices, s)),
     theory("sec3_edges", Exact, |e, s| size(e.results.identities.graph_edges, s)),
     statistical("sec4_few_and_many", OurMeasure, &[&SWEEP], few_and_many),

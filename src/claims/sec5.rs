@@ -10,10 +10,12 @@ use std::collections::BTreeSet;
 pub const ROWS: &[Row] = &[
     measured("sec5_fig5", Exact, &[&SEGMENTS], |e, s| motion(&e.results.of(&SEGMENTS)?.fig05, s)),
     measured("sec5_fig6", Exact, &[&SEGMENTS], |e, s| motion(&e.results.of(&SEGMENTS)?.fig06, s)),
-    measured("sec5_masses_of_circuit", Exact, &[&SEGMENTS], masses_of_circuit),
-    theory("sec5_eq6", Exact, |e, _| cases(e.results.identities.eq6, ENUMERATION)),
-    theory("sec5_eq7", Exact, |e, _| cases(e.results.identities.eq7, ENUMERATION)),
-    theory("sec5_eq8", OurMeasure, eq8),
+    measured("sec5_masses_of_circuit", Exact, &[&SEGMENTS], masses_of_circuit).of("k + 1"),
+    theory("sec5_eq6", Exact, |e, _| cases(e.results.identities.eq6, ENUMERATION))
+        .of("(N − 1)!/(N − k)!"),
+    theory("sec5_eq7", Exact, |e, _| cases(e.results.identities.eq7, ENUMERATION))
+        .of("N!/(k (N − k)!)"),
+    theory("sec5_eq8", OurMeasure, eq8).of("≪ 1"),
     theory("sec5_majority", OurMeasure, majority),
 ];
 

@@ -8,32 +8,38 @@ use super::{Judgement, Statement, Text};
 pub const ROWS: &[Row] = &[
     theory("sec7_eq11", Exact, |e, _| {
         cases(e.results.identities.eq11, "Every k at ten values of p.")
-    }),
+    })
+    .of("Φ(k + 1) − Φ(k) ∝ f(k)"),
     theory("sec7_eq13", Rounding, |e, _| {
         Ok(rounding(e.results.identities.eq13, 1e-13, "f at its zeros, over its largest term."))
-    }),
+    })
+    .of("k±"),
     theory("sec7_eq14_15", Rounding, |e, _| {
         Ok(rounding(e.results.identities.eq14_15, 1e-13, "At ten values of p."))
-    }),
+    })
+    .of("−1 and −(N + 1)"),
     theory("sec7_eq16_17", Exact, |e, _| {
         cases(e.results.identities.eq16_17, "Sign and slope at every k.")
-    }),
+    })
+    .of("−(k + 1) < 0; k (N − k) > 0"),
     theory("sec7_start", Exact, start),
     theory("sec7_maximum", Rounding, |e, _| {
         Ok(rounding(e.results.identities.f_maximum, 1e-13, "f is even about that place."))
-    }),
-    theory("sec7_p_crit", Rounding, p_crit),
+    })
+    .of("(Np − 1)/2p"),
+    theory("sec7_p_crit", Rounding, p_crit).of("((1 + √(N + 1))/N)²"),
     theory("sec7_other_root", Exact, |e, _| {
         cases(e.results.identities.other_root, "Every N up to the number of cases.")
-    }),
+    })
+    .of("k < 0"),
     theory("sec7_inflexion", Rounding, inflexion),
     theory("sec7_extrema", Exact, extrema),
     theory("sec7_still_one", Exact, still_one),
-    theory("sec7_jump", OurMeasure, jump),
+    theory("sec7_jump", OurMeasure, jump).of("much larger than 1"),
     theory("sec7_monotone", Exact, |e, _| {
         cases(e.results.identities.monotone, "On a grid of p from the jump to one.")
     }),
-    theory("sec7_limit", Exact, limit),
+    theory("sec7_limit", Exact, limit).of("N − 1"),
 ];
 
 const INTEGER: &str = "an integer is exact";

@@ -19,15 +19,18 @@ pub const ROWS: &[Row] = &[
             1e-13,
             "Against the equations of motion solved by variation of constants, at five times.",
         ))
-    }),
-    statistical("sec8_no_impact", OurMeasure, &[&STARTS], no_impact),
+    })
+    .of("Eq. (19)"),
+    statistical("sec8_no_impact", OurMeasure, &[&STARTS], no_impact)
+        .of("1 − p = P(Y₀ + Y₁/|ω² − Ω²| < d)"),
     theory("sec8_amplitude", Rounding, |e, _| {
         Ok(rounding(
             e.results.identities.amplitude,
             1e-13,
             "Against √2 times the root mean square over a period.",
         ))
-    }),
+    })
+    .of("Eq. (21)"),
     theory("sec8_densities", Rounding, |e, _| {
         Ok(rounding(
             e.results.identities.distributions,
@@ -42,7 +45,8 @@ pub const ROWS: &[Row] = &[
             1e-12,
             "Closed form against the double integral at five σ where the latter has digits left.",
         ))
-    }),
+    })
+    .of("Eq. (25)"),
     theory("sec8_p_small", OurMeasure, p_small),
     measured("sec8_large_sigma", OurMeasure, &[&SWEEP], large_sigma),
     statistical("sec8_threshold_shift", OurMeasure, &[&SWEEP, &PROTOCOL, &CHAINS], threshold_shift),

@@ -16,12 +16,14 @@ pub const ROWS: &[Row] = &[
             e.results.identities.eq29,
             "Circuits through one vertex twice, by the lengths of their loops, on graphs of one to six vertices.",
         )
-    }),
-    theory("sec9_eq30", Exact, eq30),
+    })
+    .of("(N − 1)!/(N − (k − 1))!"),
+    theory("sec9_eq30", Exact, eq30).of("γ(k, 2)/2 · (N − 1)!/(N − (k − 1))!"),
     theory("sec9_eq32", Exact, |e, _| {
         cases(e.results.identities.eq32, "Every n up to ten, one sum at a time.")
-    }),
-    theory("sec9_eq33", Exact, |e, s| class_range(e, s, 33)),
+    })
+    .of("(n − 1)!/((j − 1)! (n − j)!)"),
+    theory("sec9_eq33", Exact, |e, s| class_range(e, s, 33)).of("(k − 1)/2 · N!/(N − (k − 1))!"),
     theory("sec9_eq35", Exact, |e, s| class_range(e, s, 35)),
     theory("sec9_eq36", Exact, |e, s| class_range(e, s, 36)),
     theory("sec9_eq37", Exact, |e, s| class_range(e, s, 37)),
@@ -31,8 +33,9 @@ pub const ROWS: &[Row] = &[
             "From k = 3 on, where each formula is used in the range that is printed with it. For k = 1 and \
              2, which the distribution needs too, it is not.",
         )
-    }),
-    theory("sec9_even_small_p", OurMeasure, even_small_p),
+    })
+    .of("Eq. (38)"),
+    theory("sec9_even_small_p", OurMeasure, even_small_p).of("significant at p = 0.005"),
     theory("sec9_dominate", OurMeasure, dominate),
     theory("sec9_convergence", OurMeasure, convergence),
     theory("sec9_mean_large_p", OurMeasure, mean_large_p),

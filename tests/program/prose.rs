@@ -8,8 +8,8 @@ const FAULTS: &str = r##"front.md +<% include "front.md" %> => :$:1: no template
 front.md +<%- macro a() %>x<% endmacro %> => :$:1: no template has a tag "macro"
 front.md +«v.p | nofilter» => :$:8: Unknown filter
 front.md +«nofun(a=1)» => :$:2: Unknown function
-front.md +<% for i in [41, 42] %>In «i» chains. <% endfor %> => :$:28: this is a plain number
-front.md +<% for row in keys.sweep.rows.sigma %>«loop.index» <% endfor %> => :$:40: this is a plain number
+front.md +<% for i in [41, 42] %>In «i» chains. <% endfor %> => :$:27: this is a plain number
+front.md +<% for row in keys.sweep.rows.sigma %>«loop.index» <% endfor %> => :$:39: this is a plain number
 front.md +«claims | length» => :$:1: this is a plain number
 front.md +«"seven chains"» => :$:1: this is a text in quotes
 front.md +«"7" ~ score.total» => :$:1: this is a text in quotes
@@ -37,6 +37,7 @@ published.toml place = "Sec. 2" -> place = "" => :11: the id "masses": its place
 published.toml printed = "n =  -> printed = "" # " => :116: the id "sec2_parameters": its printed has
 published.toml statement = "For small σ -> statement = "" # " => :122: the id "sec2_few_below": its statement
 published.toml = "For small σ -> = "For small $σ => :122: the id "sec2_few_below": its statement has a formula
+published.toml printed = "N − 1" -> printed = "N − 2" => :385: the id "sec7_limit": its claim judges "N − 1", and not its printed
 published.toml "sec2_half_height" -> "sec2_few_below" => :134: the id "sec2_few_below": it stands twice
 published.toml "sec2_half_height" -> "sec2_new" => :134: the id "sec2_new": no claim judges it"##;
 

@@ -125,6 +125,14 @@ impl Published {
         self.fault(id, 1, "no claim judges it; write one, or remove it")
     }
 
+    /// A statement of which other words are printed than those that its claim judges.
+    pub fn unread(&self, id: &str, reads: &str) -> PublishedError {
+        let what = format!(
+            "its claim judges {reads:?}, and not its printed; restore it, or write a claim"
+        );
+        self.fault(id, 1, &what)
+    }
+
     /// The lines of the file, from 1, where an entry gives itself this id.
     fn lines(&self, id: &str) -> impl Iterator<Item = usize> {
         let own = ['"', '\''].map(|quote| format!("id={quote}{id}{quote}"));

@@ -46,7 +46,9 @@ impl Library {
             let key = entry.key();
             let at = text.find(&format!("{key},")).unwrap_or_default();
             let line = line(&text[..at]);
-            return Err(Error::Template(format!("references.bib:{line}: {key} lacks {lacks}; give it")));
+            return Err(Error::Template(format!(
+                "references.bib:{line}: {key} lacks {lacks}; give it"
+            )));
         }
         let style = style()?;
         let locales = locales();
