@@ -1,5 +1,6 @@
 //! The git command, without a shell between.
 
+use super::signals;
 use std::io;
 use std::process::Command;
 
@@ -12,6 +13,11 @@ pub fn git(arguments: &[&str]) -> io::Result<Result<Vec<u8>, String>> {
     // Its messages are told to people, and looked at by tests.
     command.env("LC_ALL", "C").args(["--no-pager", "--no-replace-objects"]);
     let output = command.args(arguments).output()?;
+    if output.status.code().is_none() {
+        // Ctrl-C of a terminal goes to git too: it is to end this program, and git gave no answer.
+        signals::await_end();
+        return Err(io::Error::other("a signal ended it; try again"));
+    }
     if output.status.success() {
         return Ok(Ok(output.stdout));
     }

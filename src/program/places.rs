@@ -6,6 +6,9 @@ use super::sources::prose;
 use super::{Failure, folder};
 use std::path::{Path, PathBuf};
 
+/// Files by which a folder of prose is known.
+const PROSE: [&str; 3] = ["published.toml", "literals.toml", "references.bib"];
+
 /// Is it, without links and dots, below a report, which has no other files?
 pub(super) fn lies_in_report(there: &Path) -> bool {
     // What nobody may see higher up is somebody else's.
@@ -21,7 +24,9 @@ pub fn refuse_prose(option: &str, folder: &Path, templates: Option<&Path>) -> Re
     let given = templates.map(PathBuf::from);
     let prose: Vec<PathBuf> =
         given.into_iter().chain(prose()).map(|prose| folder::resolved(&prose)).collect();
-    if prose.iter().any(|prose| there.starts_with(prose)) {
+    // That of another checkout, or of one that is not seen from here.
+    let among = |above: &Path| PROSE.iter().all(|file| above.join(file).is_file());
+    if prose.iter().any(|prose| there.starts_with(prose)) || there.ancestors().any(among) {
         let what = "is the folder of the templates, or lies in it; give another folder";
         return Err(Failure::input(format!("{option}: {} {what}", folder.display())));
     }

@@ -21,6 +21,12 @@ pub(super) fn yield_to_end() {
     }
 }
 
+/// Gives a signal, which may be on its way, the time in which it ends the program.
+pub(super) fn await_end() {
+    std::thread::sleep(PATIENCE + Duration::from_millis(300));
+    yield_to_end();
+}
+
 /// The flag of the work under way.
 static WORK: OnceLock<Arc<AtomicBool>> = OnceLock::new();
 

@@ -207,6 +207,10 @@ fn nothing_is_written_among_the_templates() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
     templates(&here.join("t"), "front.md", |text| text.into());
+    // Also from within, where nobody names them.
+    for within in [here.join("t"), here.join("t/methods")] {
+        crate::refused(&within, "paper --profile quick", &["is the folder of the templates"]);
+    }
     for (verb, among) in [
         ("paper --figure 4 --templates t --out", "t"),
         ("paper --figure 4 --templates t --out", "new/../t/new"),
