@@ -161,10 +161,14 @@ fn revisions_of_git_are_compared() {
         let (code, _, note) = outcome(program(&sub, "diff v1 paper").env(name, value));
         assert!(code == 2 && note.contains(words) && note.lines().count() == 1, "{note}");
     }
-    // Ctrl-C ends git as well, which is no answer.
+    // Ctrl-C ends git as well, maybe first, which is no answer.
     let bin = here.join("bin");
     fs::create_dir(&bin).unwrap();
-    fs::write(bin.join("git"), "#!/bin/sh\nkill -INT $PPID\nkill -KILL $$\n").unwrap();
+    fs::write(
+        bin.join("git"),
+        "#!/bin/sh\n(/bin/sleep 0.1; kill -INT $PPID) >/dev/null 2>&1 &\nkill -KILL $$\n",
+    )
+    .unwrap();
     let mode = std::os::unix::fs::PermissionsExt::from_mode(0o755);
     fs::set_permissions(bin.join("git"), mode).unwrap();
     let (code, _, note) = outcome(program(&sub, "diff v1 paper").env("PATH", &bin));
