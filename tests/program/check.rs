@@ -101,6 +101,11 @@ fn every_form_has_every_claim_at_its_line() {
     let (code, _, note) = outcome(limited.current_dir(folder.path()));
     assert!(code == 4 && note.contains("GITHUB_STEP_SUMMARY"), "{note}");
     assert_eq!(std::fs::read_to_string(&summary).unwrap(), "before\n");
+    // Nobody reads this pipe.
+    let pipe = folder.path().join("pipe");
+    assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    let (code, _, note) = check(folder.path(), &["--format", "github"], Some(&pipe));
+    assert!(code == 2 && note.contains("it is no file"), "{note}");
     let annotations: Vec<&str> = out.lines().collect();
     assert_eq!(annotations.len(), 10, "{out}");
     // The worst come first.

@@ -73,4 +73,8 @@ fn faults_of_the_prose_are_told_with_their_place() {
     // A bar in a statement ends no cell of a table.
     let (code, told, note) = made("published.toml", "= \"For small σ -> = \"For $|x|$ | small σ");
     assert_eq!(code, 0, "{told}{note}");
+    // The lock of an editor, a link to nowhere, is no prose.
+    std::os::unix::fs::symlink("me@here.1:2", here.join("t/.#front.md")).unwrap();
+    let (code, told, note) = crate::run(here, "check --profile quick --results r --templates t");
+    assert_eq!(code, 0, "{told}{note}");
 }

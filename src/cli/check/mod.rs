@@ -117,9 +117,13 @@ fn summarise(text: &str) -> Result<(), Failure> {
     const NAME: &str = "GITHUB_STEP_SUMMARY";
     let Some(path) = std::env::var_os(NAME).filter(|path| !path.is_empty()) else { return Ok(()) };
     let add = || {
+        // A pipe might wait for a reader for ever.
+        if std::fs::metadata(&path).is_ok_and(|found| !found.is_file()) {
+            return Err(io::Error::new(io::ErrorKind::InvalidInput, "it is no file"));
+        }
         let mut file = std::fs::OpenOptions::new().append(true).create(true).open(&path)?;
         let before = file.metadata()?.len();
-        // Half a table would hide that there is more; a pipe takes nothing back.
+        // Half a table would hide that there is more.
         file.write_all(text.as_bytes()).inspect_err(|_| drop(file.set_len(before)))
     };
     add().map_err(|error| {

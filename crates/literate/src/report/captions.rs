@@ -6,7 +6,34 @@ use super::document::{Block, Inline};
 use crate::source::Program;
 
 /// Before the path of a picture.
-pub(super) const IMAGE: &str = "image:";
+const IMAGE: &str = "image:";
+
+/// A picture: a figure if it stands alone in its paragraph.
+pub(super) fn picture(path: &str, caption: Vec<Inline>) -> Inline {
+    Inline::Link { to: format!("{IMAGE}{path}"), shown: caption }
+}
+
+/// Refuses one amid other things.
+pub(super) fn refuse_pictures(inlines: &[Inline]) -> Result<(), Error> {
+    let image =
+        |inline: &Inline| matches!(inline, Inline::Link { to, .. } if to.starts_with(IMAGE));
+    match inlines.iter().any(image) {
+        true => Err(Error::Markup("a picture stands alone in its paragraph".into())),
+        false => Ok(()),
+    }
+}
+
+/// Refuses an id that does not tell of which kind it is: a table with one of a figure would be called one.
+pub(super) fn of_kind(kind: &str, id: &str) -> Result<(), Error> {
+    let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, ':' | '-' | '_' | '.');
+    let name = id.strip_prefix(kind).and_then(|name| name.strip_prefix(':'));
+    match name.is_some_and(|name| !name.is_empty() && name.chars().all(plain)) {
+        true => Ok(()),
+        false => Err(Error::Markup(format!(
+            "the id {id:?} is not {kind}: with letters, digits and any of : - _ . behind it"
+        ))),
+    }
+}
 
 /// A paragraph, or the figure or the list of references that stands alone in it.
 pub(super) fn paragraph(mut inlines: Vec<Inline>) -> Result<Block, Error> {
@@ -28,12 +55,10 @@ pub(super) fn paragraph(mut inlines: Vec<Inline>) -> Result<Block, Error> {
         *first = words;
         return Ok(Block::Scene { lab: Some(lab), caption: inlines });
     }
-    let image =
-        |inline: &Inline| matches!(inline, Inline::Link { to, .. } if to.starts_with(IMAGE));
-    if inlines.iter().any(image) {
-        let (Some(Inline::Link { to, shown }), true) = (inlines.pop(), inlines.is_empty()) else {
-            return Err(Error::Markup("a picture stands alone in its paragraph".into()));
-        };
+    if let [Inline::Link { to, shown }] = inlines.as_mut_slice()
+        && to.starts_with(IMAGE)
+    {
+        let shown = std::mem::take(shown);
         let path = to.trim_start_matches(IMAGE).to_string();
         let number = number_of_figure(&path);
         let id = format!("fig:{number}");
@@ -49,6 +74,7 @@ pub(super) fn paragraph(mut inlines: Vec<Inline>) -> Result<Block, Error> {
             caption: shown,
         });
     }
+    refuse_pictures(&inlines)?;
     Ok(Block::Paragraph(inlines))
 }
 

@@ -17,11 +17,6 @@ pub struct Labels {
 
 impl Labels {
     fn add(&mut self, id: &str, number: &str, of: Document) -> Result<(), Error> {
-        let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, ':' | '-' | '_' | '.');
-        if !id.chars().all(plain) {
-            let what = format!("the id {id:?} has more than letters, digits and any of : - _ .");
-            return Err(Error::Markup(what));
-        }
         match self.labels.insert(id.to_string(), (number.to_string(), of)) {
             None => Ok(()),
             Some(_) => Err(Error::Label(id.to_string())),

@@ -18,7 +18,7 @@
 //! - `[@rice1945]`: a citation of `references.bib`.
 //! - `[@bibliography]` alone in a paragraph: the list of what was cited.
 
-use super::captions::{IMAGE, join, listing, opens_caption, paragraph};
+use super::captions::{join, listing, of_kind, opens_caption, paragraph, picture, refuse_pictures};
 use super::card::words_and_maths;
 use super::document::{Align, Block, Inline, plain};
 use super::mark::{self, Mark};
@@ -142,13 +142,16 @@ impl<'a> Reader<'a> {
                     return Err(markup("a line across the page is shown nowhere"));
                 }
                 // Text right inside an item of a tight list.
-                _ => Some(Block::Paragraph(self.inlines()?)),
+                _ => Some(Block::Paragraph(self.without_pictures()?)),
             };
             let Some(mut block) = new else { continue };
             let begun = self.at;
             let joined = join(&mut blocks, &mut block)?;
             if let (Some(id), Some(offset)) = (&joined, caption) {
                 self.attribute = None;
+                self.at = offset;
+                let kind = if matches!(block, Block::Table { .. }) { "tab" } else { "lst" };
+                id.iter().try_for_each(|id| of_kind(kind, id))?;
                 id.iter().for_each(|id| self.places.add(format!("#{id}"), offset));
             } else if let Some(offset) = caption {
                 self.at = offset;
@@ -190,9 +193,18 @@ impl<'a> Reader<'a> {
             Tag::Heading { level, id, classes, attrs } => {
                 let level = level as u8;
                 let unnumbered = classes.iter().any(|class| &**class == "unnumbered");
-                if !attrs.is_empty() || classes.iter().any(|class| &**class != "unnumbered") {
-                    return Err(markup("a heading has {#id} and .unnumbered, and nothing else"));
+                let own = id
+                    .iter()
+                    .map(|id| format!("#{id}"))
+                    .chain(unnumbered.then(|| ".unnumbered".into()));
+                let written = attributes(self.source(&range));
+                if !attrs.is_empty() || (!written.is_empty() && written != own.collect::<Vec<_>>())
+                {
+                    return Err(markup(
+                        "a heading has {#sec:id .unnumbered} behind it, or one of both, and nothing else",
+                    ));
                 }
+                id.iter().try_for_each(|id| of_kind("sec", id))?;
                 if level == 1 && std::mem::replace(&mut self.titled, true) {
                     return Err(markup("a second title: sections begin with ##"));
                 }
@@ -200,7 +212,7 @@ impl<'a> Reader<'a> {
                     return Err(markup("a heading steps over a level"));
                 }
                 self.level = level;
-                let text = self.inlines()?;
+                let text = self.without_pictures()?;
                 self.at = range.start;
                 if plain(&text).trim().is_empty() {
                     return Err(markup("a heading without words"));
@@ -276,7 +288,7 @@ impl<'a> Reader<'a> {
             let mut cells = Vec::new();
             while let Some(Event::Start(Tag::TableCell)) = self.peek() {
                 self.next();
-                cells.push(self.inlines()?);
+                cells.push(self.without_pictures()?);
                 self.next();
             }
             self.next();
@@ -326,6 +338,12 @@ impl<'a> Reader<'a> {
         Ok(out)
     }
 
+    /// The same where no picture can stand.
+    fn without_pictures(&mut self) -> Result<Vec<Inline>, Error> {
+        let inlines = self.inlines()?;
+        refuse_pictures(&inlines).map(|()| inlines)
+    }
+
     /// Refuses markup that was left over as text, since its other end is missing.
     fn whole(&mut self, text: &str, range: &Range<usize>) -> Result<(), Error> {
         let source = &self.filled.text;
@@ -373,7 +391,7 @@ impl<'a> Reader<'a> {
     fn span(&mut self, tag: Tag<'_>, range: Range<usize>) -> Result<Inline, Error> {
         let hides = matches!(tag, Tag::Emphasis | Tag::Link { .. });
         self.inside += usize::from(hides);
-        let inner = self.inlines()?;
+        let inner = self.without_pictures()?;
         self.inside -= usize::from(hides);
         self.at = range.start;
         self.next();
@@ -406,9 +424,7 @@ impl<'a> Reader<'a> {
                 Inline::Link { to, shown: inner }
             }
             // Becomes a figure if it stands alone in its paragraph, else an error there.
-            Tag::Image { dest_url, .. } => {
-                Inline::Link { to: format!("{IMAGE}{dest_url}"), shown: inner }
-            }
+            Tag::Image { dest_url, .. } => picture(&dest_url, inner),
             other => return Err(markup(format!("no such markup: {other:?}"))),
         })
     }
@@ -451,6 +467,7 @@ impl<'a> Reader<'a> {
         let (tag, after) =
             after.split_once('}').ok_or_else(|| markup(r"a \tag{ without its end"))?;
         let tex = self.maths(format!("{}{}", before.trim(), after.trim_end()).trim())?;
+        of_kind("eq", &format!("eq:{tag}"))?;
         self.places.add(format!("#eq:{tag}"), self.at);
         Ok(Inline::Display { tex, tag: Some(tag.to_string()) })
     }
@@ -524,6 +541,13 @@ fn comment(html: &str) -> Result<(), Error> {
     }
 }
 
+/// What stands in the `{…}` behind the words of a heading, if that is no formula's.
+fn attributes(heading: &str) -> Vec<&str> {
+    let inner = heading.trim_end().strip_suffix('}').and_then(|text| text.rsplit_once('{'));
+    let inner = inner.map(|(_, inner)| inner).filter(|inner| inner.starts_with(['#', '.']));
+    inner.unwrap_or_default().split_whitespace().collect()
+}
+
 /// Cells of a row of a table, by its bars.
 fn cells_of(row: &str) -> usize {
     let row = row.trim();
@@ -535,6 +559,7 @@ fn cells_of(row: &str) -> usize {
 /// `@fig:2; @fig:3` or `!claim:rise`.
 fn own_link(reference: &str) -> Result<Inline, Error> {
     if let Some(id) = reference.strip_prefix('!') {
+        of_kind("claim", id)?;
         return Ok(Inline::Anchor { id: id.to_string(), number: String::new() });
     }
     let one = |id: &str| {

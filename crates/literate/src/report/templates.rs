@@ -88,7 +88,9 @@ impl Walk {
                 );
                 return refuse(folder, &what);
             }
-            let Some(name) = path.file_name().and_then(|name| name.to_str()) else { continue };
+            // Locks and copies of editors are hidden.
+            let name = path.file_name().and_then(|name| name.to_str());
+            let Some(name) = name.filter(|name| !name.starts_with('.')) else { continue };
             let relative = format!("{prefix}{name}");
             if path.is_dir() {
                 self.folder(&path, &format!("{relative}/"))?;
