@@ -32,7 +32,8 @@ pub struct Row {
     pub id: &'static str,
     /// What its verdict rests on.
     pub basis: Basis,
-    /// The words or formula that it judges, where no number says: others that are printed would be judged by nothing.
+    /// The words or formula that it judges, where a number alone does not say: others that are printed would be judged by
+    /// nothing. `{}` stands for the number.
     pub reads: Option<&'static str>,
     /// Whether it compares random numbers within their standard errors.
     pub statistical: bool,
@@ -78,8 +79,10 @@ impl Row {
     /// Computes the claim.
     pub fn claim(&self, evidence: &Evidence) -> Result<Check, Error> {
         let statement = evidence.published.statement(self.id)?;
-        if let Some(reads) = self.reads.filter(|reads| *reads != statement.printed) {
-            return Err(evidence.published.unread(self.id, reads).into());
+        let number = statement.value.map(|x| format!("{x:.*}", usize::from(statement.decimals)));
+        let reads = self.reads.map(|reads| reads.replace("{}", &number.unwrap_or_default()));
+        if let Some(reads) = reads.filter(|reads| *reads != statement.printed) {
+            return Err(evidence.published.unread(self.id, &reads).into());
         }
         let finding = (self.find)(evidence, statement)?;
         Ok(finding.claim(statement, self.basis))

@@ -16,7 +16,7 @@ pub const ROWS: &[Row] = &[
     theory("sec5_eq7", Exact, |e, _| cases(e.results.identities.eq7, ENUMERATION))
         .of("N!/(k (N − k)!)"),
     theory("sec5_eq8", OurMeasure, eq8).of("≪ 1"),
-    theory("sec5_majority", OurMeasure, majority),
+    theory("sec5_majority", OurMeasure, majority).of("length ≈ N"),
 ];
 
 const ENUMERATION: &str = "Formula against enumeration on graphs of one to six vertices.";

@@ -47,7 +47,7 @@ pub const ROWS: &[Row] = &[
         ))
     })
     .of("Eq. (25)"),
-    theory("sec8_p_small", OurMeasure, p_small),
+    theory("sec8_p_small", OurMeasure, p_small).of("extremely small for σ < {}"),
     measured("sec8_large_sigma", OurMeasure, &[&SWEEP], large_sigma),
     statistical("sec8_threshold_shift", OurMeasure, &[&SWEEP, &PROTOCOL, &CHAINS], threshold_shift),
     measured("sec8_mean_is_easier", OurMeasure, &[&SWEEP], mean_is_easier),

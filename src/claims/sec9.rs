@@ -24,9 +24,9 @@ pub const ROWS: &[Row] = &[
     })
     .of("(n − 1)!/((j − 1)! (n − j)!)"),
     theory("sec9_eq33", Exact, |e, s| class_range(e, s, 33)).of("(k − 1)/2 · N!/(N − (k − 1))!"),
-    theory("sec9_eq35", Exact, |e, s| class_range(e, s, 35)),
-    theory("sec9_eq36", Exact, |e, s| class_range(e, s, 36)),
-    theory("sec9_eq37", Exact, |e, s| class_range(e, s, 37)),
+    theory("sec9_eq35", Exact, |e, s| class_range(e, s, 35)).of("valid for k > {}"),
+    theory("sec9_eq36", Exact, |e, s| class_range(e, s, 36)).of("valid for k > {}"),
+    theory("sec9_eq37", Exact, |e, s| class_range(e, s, 37)).of("valid for k > {}"),
     theory("sec9_eq38", Exact, |e, _| {
         cases(
             e.results.identities.eq38,
@@ -35,7 +35,7 @@ pub const ROWS: &[Row] = &[
         )
     })
     .of("Eq. (38)"),
-    theory("sec9_even_small_p", OurMeasure, even_small_p).of("significant at p = 0.005"),
+    theory("sec9_even_small_p", OurMeasure, even_small_p).of("significant at p = {}"),
     theory("sec9_dominate", OurMeasure, dominate),
     theory("sec9_convergence", OurMeasure, convergence),
     theory("sec9_mean_large_p", OurMeasure, mean_large_p),

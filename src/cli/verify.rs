@@ -88,8 +88,8 @@ fn rerun(args: &Args, progress: &Progress) -> Result<Checked, Failure> {
     };
     // Removed in the end, whatever happens.
     let temporary = Waiting::temporary().map_err(|e| {
-        let remedy = "name one that can be written in TMPDIR";
-        Failure::io(&e, "a temporary folder", remedy)
+        let what = format!("a temporary folder in TMPDIR ({})", std::env::temp_dir().display());
+        Failure::io(&e, what, "name one that can be written in TMPDIR")
     })?;
     refuse_report("TMPDIR", temporary.path(), args.templates.as_deref())?;
     let results = args.results.clone().unwrap_or_else(|| temporary.path().join("results"));

@@ -54,16 +54,21 @@ impl Drop for Waiting {
     }
 }
 
-/// Removes such a folder, its mark last: whoever is killed meanwhile leaves what the next run knows.
+/// Removes such a folder, its mark last: whoever is killed meanwhile, or cannot remove all, leaves what the next run
+/// knows.
 pub fn clear(waiting: &Path) {
+    let mut left = false;
     for entry in std::fs::read_dir(waiting).into_iter().flatten().flatten() {
         let (path, name) = (entry.path(), entry.file_name());
-        // What cannot be removed is in nobody's way.
-        let _ = match entry.file_type().is_ok_and(|kind| kind.is_dir()) {
+        left |= match entry.file_type().is_ok_and(|kind| kind.is_dir()) {
             true => std::fs::remove_dir_all(path),
             false if name == OURS => continue,
             false => std::fs::remove_file(path),
-        };
+        }
+        .is_err();
+    }
+    if left {
+        return;
     }
     let _ = std::fs::remove_file(waiting.join(OURS));
     let _ = std::fs::remove_dir(waiting);

@@ -154,12 +154,17 @@ fn what_does_not_hold_is_an_error_in_every_form() {
         format!("{}9{}", &text[..value], &text[value..])
     };
     let more = |text: &str| text.replacen("printed = \"16\"", "printed = \"16 or 99\"", 1);
+    let finer = |text: &str| {
+        let at = text.find("id = \"sec9_eq36\"").unwrap();
+        format!("{}{}", &text[..at], text[at..].replacen("value = 4", "value = 4.4", 1))
+    };
     // The file is named from the folder of work, however it was given.
     let annotation = "::error file=t/published.toml,line=";
     let guard = "::error title=relation printed_as_it_reads::";
-    let cases: [Wrong; 2] = [
+    let cases: [Wrong; 3] = [
         (edges, " --claim sec3_edges", ["FAILS sec3_edges", annotation, "**differs**"]),
         (more, "", ["FAILS relation printed_as_it_reads: ", guard, "| printed_as_it_reads | "]),
+        (finer, "", ["FAILS relation printed_as_it_reads: ", guard, "| printed_as_it_reads | "]),
     ];
     for (change, more, [text, github, markdown]) in cases {
         let folder = tempfile::tempdir().unwrap();

@@ -161,6 +161,16 @@ fn revisions_of_git_are_compared() {
         let (code, _, note) = outcome(program(&sub, "diff v1 paper").env(name, value));
         assert!(code == 2 && note.contains(words) && note.lines().count() == 1, "{note}");
     }
+    // A file that git has lost is named.
+    let blob = Command::new("git")
+        .current_dir(&sub)
+        .args(["rev-parse", "v1:sub/paper/values.json"])
+        .output();
+    let blob = String::from_utf8(blob.unwrap().stdout).unwrap();
+    let (folder, object) = blob.trim().split_at(2);
+    fs::remove_file(here.join(".git/objects").join(folder).join(object)).unwrap();
+    let (code, _, note) = run(&sub, "diff v1 paper");
+    assert!(code == 2 && note.contains("v1: paper/values.json cannot be read"), "{note}");
     // Ctrl-C ends git as well, maybe first, which is no answer.
     let bin = here.join("bin");
     fs::create_dir(&bin).unwrap();

@@ -12,6 +12,9 @@ front.md +<% for i in [41, 42] %>In «i» chains. <% endfor %> => :$:27: this is
 front.md +<% for row in keys.sweep.rows.sigma %>«loop.index» <% endfor %> => :$:39: this is a plain number
 front.md +«claims | length» => :$:1: this is a plain number
 front.md +«"seven chains"» => :$:1: this is a text in quotes
+front.md +«[4711]» => :$:1: this is no name of a value
+front.md +«range(start=17, end=18)» => :$:1: this is no name of a value
+front.md +«1 > 0» => :$:1: this is no name of a value
 front.md +«"7" ~ score.total» => :$:1: this is a text in quotes
 front.md +<% set s = "a" %><%- set_global s = s ~ s %> => :$:1: no template has a tag "set"
 front.md +<% endfor %> => :$:4: Unknown tag endfor
@@ -38,6 +41,7 @@ published.toml printed = "n =  -> printed = "" # " => :116: the id "sec2_paramet
 published.toml statement = "For small σ -> statement = "" # " => :122: the id "sec2_few_below": its statement
 published.toml = "For small σ -> = "For small $σ => :122: the id "sec2_few_below": its statement has a formula
 published.toml printed = "N − 1" -> printed = "N − 2" => :385: the id "sec7_limit": its claim judges "N − 1", and not its printed
+published.toml printed = "valid for k > 3" -> printed = "valid for k < 3" => :503: the id "sec9_eq35": its claim judges "valid for k > 3", and not its printed
 published.toml "sec2_half_height" -> "sec2_few_below" => :134: the id "sec2_few_below": it stands twice
 published.toml "sec2_half_height" -> "sec2_new" => :134: the id "sec2_new": no claim judges it"##;
 

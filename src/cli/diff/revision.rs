@@ -52,7 +52,13 @@ pub fn files(name: &str) -> Result<Files, Failure> {
     for (path, _) in listed {
         // As it is stored: `git show` might convert it.
         let bytes = git(name, &["cat-file", "blob", &format!("{commit}:{FOLDER}/{path}")])?;
-        files.insert(path, bytes.map_err(no_report)?);
+        let unread = |told: String| {
+            let told = one_line(&told, 200);
+            let remedy = "see whether `git fsck` finds a fault, or give another revision";
+            Failure::input(format!("{name}: paper/{path} cannot be read ({told}); {remedy}"))
+        };
+        let bytes = bytes.map_err(unread)?;
+        files.insert(path, bytes);
     }
     Ok(files)
 }

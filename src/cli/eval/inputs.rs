@@ -88,8 +88,9 @@ impl Inputs {
             let text = required(quantity, "sigma", &options.sigma, meaning)?;
             let sigma = number("sigma", text)?;
             // Others are refused where they are used.
-            if sigma > 0.0 && sigma.is_finite() {
-                bounded("sigma", sigma, [0.0, LARGEST])?;
+            if sigma > LARGEST && sigma.is_finite() {
+                let what = format!("sigma: {sigma:e} is out of range; give {LARGEST} at most");
+                return Err(Failure::input(what));
             }
             inputs.sigma = Some(sigma);
         }

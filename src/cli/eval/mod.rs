@@ -44,7 +44,7 @@ struct Options {
     #[arg(long, value_name = "P", allow_hyphen_values = true)]
     p: Option<String>,
 
-    /// Standard deviation σ of the forcing, > 0.
+    /// Standard deviation σ of the forcing, > 0, 1000000 at most.
     #[arg(long, value_name = "S", allow_hyphen_values = true)]
     sigma: Option<String>,
 
@@ -65,7 +65,7 @@ struct Options {
     #[arg(long, value_name = "d", allow_hyphen_values = true)]
     spacing: Option<String>,
 
-    /// Coefficient of restitution r, 0 ≤ r < 1 [default: 0.8].
+    /// Coefficient of restitution r, 0 to 0.999 [default: 0.8].
     #[arg(long, value_name = "r", allow_hyphen_values = true)]
     restitution: Option<String>,
 

@@ -69,7 +69,8 @@ fn as_it_reads(look: Look<'_>) -> Option<String> {
         let number = format!("{:.*}", usize::from(statement.decimals), statement.value?);
         let read = || numbers(&statement.printed);
         let held = HELD.contains(&statement.id.as_str());
-        let named = held || read().all(|own| own == number);
+        let exact = number.parse() == Ok(statement.value?) || read().next().is_none();
+        let named = held || (exact && read().all(|own| own == number));
         unless(named, || {
             format!("{} reads {:?}, and is judged by {number}", statement.id, statement.printed)
         })

@@ -68,11 +68,20 @@ fn bare(tag: &str) -> String {
     tag.chars().filter(outside).collect()
 }
 
+/// Does the tag name something, `table["row"].column | filter`, and compute nothing?
+fn names(tag: &str) -> bool {
+    let name = |part: &str| {
+        part.starts_with(|c: char| c.is_ascii_alphabetic())
+            && part.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '_' | '.'))
+            && !["true", "false", "none", "range"].contains(&part)
+    };
+    bare(tag).split('|').all(|part| name(part.trim()))
+}
+
 /// May the tag write a plain number? One declared, or one in a row that the program made.
 fn has_a_number(tag: &str) -> bool {
-    let tag = tag.trim_matches(['-', ' ']);
     let other = ["raw.", "loop."].iter().any(|other| tag.starts_with(other));
-    let row = tag.starts_with(char::is_alphabetic) && bare(tag).contains('.') && !tag.contains('|');
+    let row = bare(tag).contains('.') && !tag.contains('|');
     tag.starts_with("literal(") || (row && !other)
 }
 
@@ -147,7 +156,7 @@ impl Filled {
             let wrote = &self.text[piece.start..end];
             let from = &self.templates[piece.template].text[piece.origin..];
             let Some(tag) = from.strip_prefix('«').filter(|_| piece.tag) else { continue };
-            let tag = tag.split('»').next().unwrap_or_default();
+            let tag = tag.split('»').next().unwrap_or_default().trim_matches(['-', ' ', '\n']);
             let what = match () {
                 () if ["{\"", "[\"", "[{", "[["].iter().any(|dump| wrote.starts_with(dump)) => {
                     "a whole row or table; name a column of a row"
@@ -155,6 +164,7 @@ impl Filled {
                 () if bare(tag).contains(['"', '\'', '`']) => {
                     "a text in quotes; write it in the prose"
                 }
+                () if !names(tag) => "no name of a value; write it in the prose, or name a value",
                 () if wrote.parse::<f64>().is_ok() && !has_a_number(tag) => {
                     "a plain number; name a value, so that it has its digits and its card"
                 }
