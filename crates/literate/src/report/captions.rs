@@ -30,7 +30,7 @@ pub(super) fn of_kind(kind: &str, id: &str) -> Result<(), Error> {
     match name.is_some_and(|name| !name.is_empty() && name.chars().all(plain)) {
         true => Ok(()),
         false => Err(Error::Markup(format!(
-            "the id {id:?} is not {kind}: with letters, digits and any of : - _ . behind it"
+            "the id {id:?}: write {kind}: and behind it letters, digits or any of : - _ ."
         ))),
     }
 }
