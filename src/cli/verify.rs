@@ -5,7 +5,6 @@ use impact_paper::experiments::Progress;
 use impact_paper::input::MEMORY;
 use impact_paper::params::Profile;
 use impact_paper::program::listed::{Checked, listed, own_profile};
-use impact_paper::program::places::refuse_report;
 use impact_paper::program::sources::Sources;
 use impact_paper::program::waiting::Waiting;
 use impact_paper::program::{Failure, folder, make, memory, signals, threads, work};
@@ -91,13 +90,17 @@ fn rerun(args: &Args, progress: &Progress) -> Result<Checked, Failure> {
         let what = format!("a temporary folder in TMPDIR ({})", std::env::temp_dir().display());
         Failure::io(&e, what, "name one that can be written in TMPDIR")
     })?;
-    refuse_report("TMPDIR", temporary.path(), args.templates.as_deref())?;
     let results = args.results.clone().unwrap_or_else(|| temporary.path().join("results"));
     let pdf = pdfs().any(|name| args.folder.join(name).symlink_metadata().is_ok());
     let typeset = pdf && make::TYPESETS;
     let sources = Sources::of(args.threads, args.templates.clone(), results);
+    let named = |failure: Failure| match args.results {
+        Some(_) => failure,
+        None => Failure { message: failure.message.replacen("--results", "TMPDIR", 1), ..failure },
+    };
     let (made, _) =
-        threads::run(args.threads, || make::whole(&sources, profile, typeset, progress))?;
+        threads::run(args.threads, || make::whole(&sources, profile, typeset, progress))
+            .map_err(named)?;
     // What is built beside may be missing, but not be another.
     let mut files = made.committed;
     let stands = |path: &String| args.folder.join(path).symlink_metadata().is_ok();

@@ -36,7 +36,7 @@ const PATIENCE: Duration = Duration::from_millis(700);
 /// From now on Ctrl-C (SIGTERM, or the end of the terminal) raises the flag that work with [`Progress`] looks at; without such
 /// work, or the second time, it ends the program at once. Always with exit code 130.
 pub fn obey() {
-    let end = || -> ! {
+    let end = |now| -> ! {
         ENDING.store(true, Ordering::Relaxed);
         for path in TEMPORARY.lock().unwrap_or_else(PoisonError::into_inner).iter() {
             // Again, should the work that goes on have saved something meanwhile.
@@ -47,7 +47,10 @@ pub fn obey() {
         // Standard error may wait for a reader for ever.
         let (tells, told) = std::sync::mpsc::channel();
         let tell = move || {
-            say("impact-paper: interrupted");
+            say(match now {
+                Now::Placing => "impact-paper: interrupted between two files; the next run goes on",
+                _ => "impact-paper: interrupted",
+            });
             let _ = tells.send(());
         };
         if std::thread::Builder::new().stack_size(memory::SMALL).spawn(tell).is_ok() {
@@ -79,16 +82,22 @@ pub fn obey() {
             std::thread::sleep(PATIENCE);
             held = now();
         }
-        while *held == Now::Placing {
-            drop(held);
-            while *now() == Now::Placing {
+        let placing = *held == Now::Placing;
+        for _ in 0..20 {
+            if *held == Now::Placing {
+                drop(held);
                 std::thread::sleep(Duration::from_millis(10));
+                held = now();
             }
+        }
+        if placing && *held != Now::Placing {
             // All is in its place: what is left is to tell of it.
+            drop(held);
             std::thread::sleep(PATIENCE);
             held = now();
         }
-        end();
+        // Also on a disk where placing takes long: the next run goes on from any moment of it.
+        end(*held);
     };
     #[cfg(not(unix))]
     let _ = ctrlc::set_handler(obeyed);
@@ -126,7 +135,7 @@ pub enum Now {
     Working,
     /// Text is printed, and may wait for a reader for ever: the first signal ends the program.
     Idle,
-    /// Files are moved into place, which is a matter of moments: the signal waits.
+    /// Files are moved into place, which is a matter of moments: the signal waits for so long.
     Placing,
 }
 

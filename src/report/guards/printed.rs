@@ -1,7 +1,7 @@
 //! What was printed, verdicts and levels.
 
 use super::{Guard, Look, far, model, unless};
-use crate::claims::{Basis, Verdict};
+use crate::claims::{Basis, Verdict, rows};
 use crate::params::{CONVERGENCE_P, DISTRIBUTION_P, HIGHER_P};
 
 pub const GUARDS: &[Guard] = &[
@@ -59,17 +59,23 @@ fn numbers(text: &str) -> impl Iterator<Item = &str> {
 }
 
 /// Claims that compare all that is printed with what they find.
-const HELD: [&str; 3] = ["sec5_fig5", "sec5_fig6", "sec9_fig6_repeats"];
+const HELD: [&str; 4] = ["sec2_parameters", "sec5_fig5", "sec5_fig6", "sec9_fig6_repeats"];
 
 /// `published.toml` has what can be read in the paper and the number that is judged, each typed for
-/// itself: where numbers can be read, they are the one that is judged, to its last digit. Claims that judge more of
-/// what is printed hold it themselves.
+/// itself: where numbers can be read, they are the one that is judged, to its last digit; and where none is judged,
+/// none can be read. Claims that judge more of what is printed hold it themselves.
 fn as_it_reads(look: Look<'_>) -> Option<String> {
     look.published.statements.iter().find_map(|statement| {
-        let number = format!("{:.*}", usize::from(statement.decimals), statement.value?);
         let read = || numbers(&statement.printed);
         let held = HELD.contains(&statement.id.as_str());
-        let exact = number.parse() == Ok(statement.value?) || read().next().is_none();
+        let Some(value) = statement.value else {
+            let named = || rows().any(|row| row.id == statement.id && row.reads.is_some());
+            return unless(held || read().next().is_none() || named(), || {
+                format!("{} reads {:?}, and no number is judged", statement.id, statement.printed)
+            });
+        };
+        let number = format!("{value:.*}", usize::from(statement.decimals));
+        let exact = number.parse() == Ok(value) || read().next().is_none();
         let named = held || (exact && read().all(|own| own == number));
         unless(named, || {
             format!("{} reads {:?}, and is judged by {number}", statement.id, statement.printed)

@@ -1,7 +1,7 @@
 //! Markup that Markdown took for text, since its other end is missing or it is none here.
 
 /// Signs of markup, and what is wrong where one is left over in text.
-const SIGNS: [(&str, &str); 21] = [
+const SIGNS: [(&str, &str); 24] = [
     ("$", "a formula without its end, or with brackets that do not match; write \\$ for the sign"),
     ("`", "code without its end; write \\` for the sign"),
     ("*", "emphasis without its other end; write \\* for the sign"),
@@ -23,6 +23,9 @@ const SIGNS: [(&str, &str); 21] = [
     ("#######", "a heading has at most six signs"),
     ("[ ]", "lists of tasks are no part of the report"),
     ("[x]", "lists of tasks are no part of the report"),
+    ("@", "a reference without its brackets; write [@…]"),
+    ("[", "a reference without its sign; write [@…]"),
+    ("#", "a heading has a blank behind its signs; write \\# for the sign"),
 ];
 
 /// The first leftover in a piece of text that stands at `start` of the source: its offset, and what is
@@ -47,13 +50,25 @@ pub fn find(
     SIGNS.iter().filter_map(of).min_by_key(|(offset, _)| *offset)
 }
 
+/// What a reference begins with.
+const KINDS: [&str; 9] = ["eq", "fig", "sec", "tab", "lst", "claim", "row", "mark", "sign"];
+
 /// Would the sign, where it stands, begin or end something? A star between blanks would not, nor a low
-/// line inside a word.
+/// line inside a word, nor what names nothing that can be referred to, nor a number sign in a line.
 fn is_markup(source: &str, at: usize, sign: &str) -> bool {
-    if !matches!(sign, "*" | "_") {
-        return true;
-    }
     let Some((before, after)) = source.split_at_checked(at) else { return false };
+    match sign {
+        "*" | "_" => {}
+        "@" | "[" => {
+            let kind = after[1..].split_once(':').map(|(kind, _)| kind.to_lowercase());
+            // Within [@one; @two] it has its brackets.
+            let last = before.rfind(['[', ']']).map_or("", |bracket| &source[bracket..]);
+            return !last.starts_with("[@")
+                && kind.is_some_and(|kind| KINDS.contains(&kind.as_str()));
+        }
+        "#" => return before.rsplit('\n').next().is_some_and(|line| line.trim().is_empty()),
+        _ => return true,
+    }
     let word = |c: Option<char>| c.is_some_and(char::is_alphanumeric);
     let blank = |c: Option<char>| c.is_none_or(char::is_whitespace);
     let own = |c: char| c == '*' || c == '_';

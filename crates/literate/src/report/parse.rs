@@ -365,6 +365,10 @@ impl<'a> Reader<'a> {
         if let Some(c) = text.chars().find(|c| is_no_text(*c) && !self.source(range).contains(*c)) {
             return Err(markup(format!("the character U+{:04X} is none of a text", u32::from(c))));
         }
+        let written = self.source(range);
+        if written.starts_with('&') && written.ends_with(';') && written != text {
+            return Err(markup(format!("{written} is no text; write the character itself")));
+        }
         let odd = |c: char| !c.is_ascii() && !is_no_text(c);
         for (i, c) in text.char_indices().filter(|(_, c)| odd(*c)) {
             tex::text(c.encode_utf8(&mut [0; 4])).inspect_err(|_| self.at = range.start + i)?;

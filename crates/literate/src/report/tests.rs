@@ -484,6 +484,12 @@ fn broken_prose_is_told_with_its_place() {
         ("~~a~~", "14:1", "struck-out"),
         ("####### a", "14:1", "at most six"),
         ("- [ ] a", "14:3", "tasks"),
+        ("see @sec:a", "14:5", "without its brackets"),
+        ("see (@Fig:a)", "14:6", "without its brackets"),
+        ("see [sec:a]", "14:5", "without its sign"),
+        ("##A", "14:1", "a blank behind"),
+        ("&#x37; masses", "14:1", "write the character itself"),
+        ("and &frac12; of it", "14:5", "write the character itself"),
         ("at «v.half_height and\n\n«v.half_height»", "14:4", "is not closed"),
         ("if <% if raw.x\n\n<% endif %>", "14:4", "is not closed"),
         ("at «raw.half_height»", "14:4", "a plain number"),
@@ -496,7 +502,7 @@ fn broken_prose_is_told_with_its_place() {
         assert!(error.starts_with(&format!("report.md:{place}: ")), "{broken}: {error}");
         assert!(error.contains(words) && !error.contains('\n'), "{broken}: {error}");
     }
-    let good = "Words \\*, \\_, \\$, a * b, a_b, [a, b], <!-- a comment --> and\n\n<!-- another -->\n\n\
+    let good = "Words \\*, \\_, \\$, me@x.org: C#, \\@sec:a, \\#, a * b, a_b, [a, b], <!-- a comment --> and\n\n<!-- another -->\n\n\
         [data](data), [code](../src/lib.rs), [out](https://x.org/a), `*` and $a_b * c^*$.";
     assembled(&format!("{PROSE}\n\n{good}\n")).unwrap();
 }
