@@ -54,7 +54,61 @@ pub fn refused(tex: &str) -> Option<String> {
             }
         }
     }
-    bare(rest)
+    bare(rest).or_else(|| ungrouped(tex))
+}
+
+/// How many arguments a macro takes.
+fn arguments(name: &str) -> usize {
+    const ONE: &str = "sqrt bar hat tilde vec dot ddot overline underline widehat overbrace underbrace mathrm mathbf \
+        mathbb mathcal mathit mathsf boldsymbol text textrm";
+    let among = |list: &str| list.split_whitespace().any(|own| own == name);
+    if among("frac dfrac tfrac binom") { 2 } else { usize::from(among(ONE)) }
+}
+
+/// The first macro with arguments of its own that stands, without brackets, where LaTeX takes one sign.
+fn ungrouped(tex: &str) -> Option<String> {
+    let macro_of = |text: &str| -> Option<String> {
+        let name = text.strip_prefix('\\')?;
+        Some(name.chars().take_while(char::is_ascii_alphabetic).collect())
+    };
+    let wrong = |argument: &str| {
+        let name = macro_of(argument.trim_start())?;
+        let takes = arguments(&name) > 0 || name == "left" || name == "begin";
+        takes.then(|| format!(r"\{name} is an argument here; put it into {{…}}"))
+    };
+    let mut at = 0;
+    while let Some(offset) = tex[at..].find(['^', '_', '\\']) {
+        at += offset;
+        let Some(name) = macro_of(&tex[at..]) else {
+            at += 1;
+            if let Some(what) = wrong(&tex[at..]) {
+                return Some(what);
+            }
+            continue;
+        };
+        // `\_` and its like are signs.
+        at += 1 + name.len().max(tex[at + 1..].chars().next().map_or(0, char::len_utf8));
+        let mut rest = &tex[at..];
+        for _ in 0..arguments(&name) {
+            if let Some(what) = wrong(rest) {
+                return Some(what);
+            }
+            rest = behind(rest.trim_start());
+        }
+    }
+    None
+}
+
+/// What is behind the first group or sign of a text.
+fn behind(text: &str) -> &str {
+    let mut depth = 0_i32;
+    for (i, c) in text.char_indices() {
+        depth += i32::from("{[".contains(c)) - i32::from("}]".contains(c));
+        if depth <= 0 {
+            return &text[i + c.len_utf8()..];
+        }
+    }
+    ""
 }
 
 /// The first sign with a meaning of its own in LaTeX between macros. (Columns of an environment keep their &.)
@@ -75,6 +129,7 @@ mod tests {
             r"\begin{aligned} a \end{aligned}",
             r"\{x\}",
             r"50\,\% \& \# x",
+            r"\_\sqrt{2} a^\ast \frac{\sqrt{2}}{\left( a \right)}\sqrt{x^{\frac12}} \sqrt[3]{a}",
             "x",
         ] {
             assert_eq!(refused(tex), None, "{tex}");
@@ -89,6 +144,10 @@ mod tests {
             (r"n # \alpha", r"write \#"),
             (r"\\\sigmma", r"\sigmma "),
             (r"\begin{align} a \end{align}", "\"align\""),
+            (r"\frac{1}\sqrt{2}", r"\sqrt is an argument"),
+            (r"\frac{1} \left[ a \right]", r"\left is an argument"),
+            (r"x^\overline{a}", r"\overline is"),
+            (r"\Phi_ \sqrt{a}", r"\sqrt is"),
         ] {
             let told = refused(tex).unwrap_or_default();
             assert!(told.contains(name), "{tex}: {told}");
