@@ -144,7 +144,7 @@ fn a_rerun_finds_what_the_list_cannot() {
     assert_eq!(counts, [counts[0], counts[0] + 1]);
     let rerun = format!("verify r --rerun --results saved {templates}");
     assert_eq!(run(here, &rerun).0, 0);
-    let mut within = program(here, &rerun);
+    let mut within = program(here, &format!("verify r --rerun {templates}"));
     let (code, _, note) = outcome(within.env("TMPDIR", here.join("r")));
     assert!(code == 2 && note.contains("TMPDIR: "), "{note}");
 
