@@ -5,6 +5,8 @@
 //! macros, `\operatorname` among them; of a macro that is not known it shows the source in red. So
 //! mathematics is held against a list of what is known there, to LaTeX with amsmath, and to math-core.
 
+use super::html::LONGEST;
+
 /// Macros, by kind.
 const ALLOWED: &str = "
     alpha beta gamma delta epsilon varepsilon zeta eta theta vartheta iota kappa lambda mu nu xi pi rho
@@ -54,7 +56,9 @@ pub fn refused(tex: &str) -> Option<String> {
             }
         }
     }
-    bare(rest).or_else(|| ungrouped(tex))
+    // Longer formulas are refused as such.
+    let ungrouped = || Some(tex).filter(|tex| tex.len() <= LONGEST).and_then(ungrouped);
+    bare(rest).or_else(ungrouped)
 }
 
 /// How many arguments a macro takes.

@@ -11,7 +11,7 @@ static CONVERTER: LazyLock<Option<LatexToMathML>> =
     LazyLock::new(|| LatexToMathML::new(MathCoreConfig::default()).ok());
 
 /// No formula is longer, in bytes: commands without brackets that follow each other nest as well.
-const LONGEST: usize = 4000;
+pub const LONGEST: usize = 4000;
 
 /// No formula has more brackets within each other: the converter calls itself for each.
 const DEEPEST: usize = 50;

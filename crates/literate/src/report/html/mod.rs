@@ -17,6 +17,7 @@ mod picture;
 mod scene;
 
 pub use fonts::base64;
+pub use maths::LONGEST;
 pub use scene::Moving;
 
 use super::Error;
