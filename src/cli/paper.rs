@@ -20,7 +20,8 @@ use std::time::{Duration, Instant};
 /// Runs every experiment, draws all figures and writes the report.
 ///
 /// Results of long runs are saved and used again as long as parameters and simulating code are the
-/// same. Files are moved into place at the very end: Ctrl-C (exit code 130) leaves the report as it was. Only files
+/// same. Files are moved into place at the very end: Ctrl-C (exit code 130) leaves the report as it was, or,
+/// where the disk is slow, between two files, from where the next run goes on. Only files
 /// that an earlier run wrote, and nobody changed since, are replaced; folders .staging-impact-paper-* in --out, which
 /// killed runs leave, are removed. Ends with exit code 1 if a claim,
 /// a target of accuracy or counted work, or a check fails; the report is written all the same.

@@ -2,7 +2,7 @@
 //! what they belong to.
 
 use super::Error;
-use super::document::{Block, Inline};
+use super::document::{Block, Inline, plain};
 use crate::source::Program;
 
 /// Before the path of a picture.
@@ -20,18 +20,6 @@ pub(super) fn refuse_pictures(inlines: &[Inline]) -> Result<(), Error> {
     match inlines.iter().any(image) {
         true => Err(Error::Markup("a picture stands alone in its paragraph".into())),
         false => Ok(()),
-    }
-}
-
-/// Refuses an id that does not tell of which kind it is: a table with one of a figure would be called one.
-pub(super) fn of_kind(kind: &str, id: &str) -> Result<(), Error> {
-    let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, ':' | '-' | '_' | '.');
-    let name = id.strip_prefix(kind).and_then(|name| name.strip_prefix(':'));
-    match name.is_some_and(|name| !name.is_empty() && name.chars().all(plain)) {
-        true => Ok(()),
-        false => Err(Error::Markup(format!(
-            "the id {id:?}: write {kind}: and behind it letters, digits or any of : - _ ."
-        ))),
     }
 }
 
@@ -59,6 +47,9 @@ pub(super) fn paragraph(mut inlines: Vec<Inline>) -> Result<Block, Error> {
         && to.starts_with(IMAGE)
     {
         let shown = std::mem::take(shown);
+        if plain(&shown).trim().is_empty() {
+            return Err(Error::Markup("a figure without a caption".into()));
+        }
         let path = to.trim_start_matches(IMAGE).to_string();
         let number = number_of_figure(&path);
         let id = format!("fig:{number}");

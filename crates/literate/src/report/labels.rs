@@ -131,6 +131,10 @@ impl Labels {
             let what = format!("{} cites {key} and has no [@bibliography]", here.markdown);
             return Err(Error::Markup(what));
         }
+        if lists.len() > 1 {
+            let what = format!("{} has [@bibliography] twice", here.markdown);
+            return Err(Error::Markup(what));
+        }
         for entries in lists {
             *entries = library.entries(&cited)?;
         }
@@ -207,8 +211,20 @@ impl Labels {
     }
 }
 
+/// Refuses an id that does not tell of which kind it is: a table with one of a figure would be called one.
+pub(super) fn of_kind(kind: &str, id: &str) -> Result<(), Error> {
+    let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, ':' | '-' | '_' | '.');
+    let name = id.strip_prefix(kind).and_then(|name| name.strip_prefix(':'));
+    match name.is_some_and(|name| !name.is_empty() && name.chars().all(plain)) {
+        true => Ok(()),
+        false => Err(Error::Markup(format!(
+            "the id {id:?}: write {kind}: and behind it letters, digits or any of : - _ ."
+        ))),
+    }
+}
+
 /// What a kind of reference is called: short for one and several, and in full.
-fn names(kind: &str) -> Option<[&'static str; 4]> {
+pub(super) fn names(kind: &str) -> Option<[&'static str; 4]> {
     Some(match kind {
         "eq" => ["Eq.", "Eqs.", "Equation", "Equations"],
         "fig" => ["Fig.", "Figs.", "Figure", "Figures"],

@@ -1,5 +1,7 @@
 //! Markup that Markdown took for text, since its other end is missing or it is none here.
 
+use super::labels::names;
+
 /// Signs of markup, and what is wrong where one is left over in text.
 const SIGNS: [(&str, &str); 24] = [
     ("$", "a formula without its end, or with brackets that do not match; write \\$ for the sign"),
@@ -50,9 +52,6 @@ pub fn find(
     SIGNS.iter().filter_map(of).min_by_key(|(offset, _)| *offset)
 }
 
-/// What a reference begins with.
-const KINDS: [&str; 9] = ["eq", "fig", "sec", "tab", "lst", "claim", "row", "mark", "sign"];
-
 /// Would the sign, where it stands, begin or end something? A star between blanks would not, nor a low
 /// line inside a word, nor what names nothing that can be referred to, nor a number sign in a line.
 fn is_markup(source: &str, at: usize, sign: &str) -> bool {
@@ -63,8 +62,7 @@ fn is_markup(source: &str, at: usize, sign: &str) -> bool {
             let kind = after[1..].split_once(':').map(|(kind, _)| kind.to_lowercase());
             // Within [@one; @two] it has its brackets.
             let last = before.rfind(['[', ']']).map_or("", |bracket| &source[bracket..]);
-            return !last.starts_with("[@")
-                && kind.is_some_and(|kind| KINDS.contains(&kind.as_str()));
+            return !last.starts_with("[@") && kind.is_some_and(|kind| names(&kind).is_some());
         }
         "#" => return before.rsplit('\n').next().is_some_and(|line| line.trim().is_empty()),
         _ => return true,

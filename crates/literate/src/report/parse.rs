@@ -18,9 +18,10 @@
 //! - `[@rice1945]`: a citation of `references.bib`.
 //! - `[@bibliography]` alone in a paragraph: the list of what was cited.
 
-use super::captions::{join, listing, of_kind, opens_caption, paragraph, picture, refuse_pictures};
+use super::captions::{join, listing, opens_caption, paragraph, picture, refuse_pictures};
 use super::card::words_and_maths;
 use super::document::{Align, Block, Inline, plain};
+use super::labels::of_kind;
 use super::mark::{self, Mark};
 use super::origin::{Filled, Places};
 use super::print::print;

@@ -455,6 +455,7 @@ fn broken_prose_is_told_with_its_place() {
         ("[data]()", "14:1", "leads nowhere"),
         ("![Words.](figures/fig09.svg)", "14:1", "figures/fig09.svg"),
         ("words ![Words.](figures/fig03.svg)", "14:1", "a picture stands alone"),
+        ("![](figures/fig03.svg)", "14:1", "without a caption"),
         ("- ![Words.](figures/fig03.svg)", "14:3", "a picture stands alone"),
         ("| a |\n|---|\n| ![A.](figures/fig03.svg) |", "16:3", "a picture stands alone"),
         ("## ![Words.](figures/fig03.svg)", "14:4", "a picture stands alone"),
@@ -502,6 +503,8 @@ fn broken_prose_is_told_with_its_place() {
         assert!(error.starts_with(&format!("report.md:{place}: ")), "{broken}: {error}");
         assert!(error.contains(words) && !error.contains('\n'), "{broken}: {error}");
     }
+    let twice = assembled(&format!("{PROSE}\n\n[@bibliography]\n")).unwrap_err().to_string();
+    assert!(twice.contains("has [@bibliography] twice"), "{twice}");
     let good = "Words \\*, \\_, \\$, me@x.org: C#, \\@sec:a, \\#, a * b, a_b, [a, b], <!-- a comment --> and\n\n<!-- another -->\n\n\
         [data](data), [code](../src/lib.rs), [out](https://x.org/a), `*` and $a_b * c^*$.";
     assembled(&format!("{PROSE}\n\n{good}\n")).unwrap();
