@@ -141,14 +141,11 @@ pub fn choose(pairs: &[String]) -> Result<(), String> {
 /// Characters of what was given that a message repeats at most.
 const SHOWN: usize = 40;
 
-/// The name with the most letters in common, if it has half of them.
+/// The name that is most alike, if it is alike at all.
 fn nearest<'a>(name: &str, names: &[&'a str]) -> Option<&'a str> {
-    let pairs =
-        |word: &str| -> Vec<(char, char)> { word.chars().zip(word.chars().skip(1)).collect() };
-    let own = pairs(name);
-    let common = |other: &str| pairs(other).iter().filter(|pair| own.contains(pair)).count();
-    let best = names.iter().max_by_key(|other| common(other))?;
-    (2 * common(best) >= own.len().max(1)).then_some(*best)
+    let alike = |other: &&str| strsim::jaro_winkler(name, other);
+    let best = names.iter().copied().max_by(|a, b| alike(a).total_cmp(&alike(b)))?;
+    (alike(&best) > 0.7).then_some(best)
 }
 
 /// A line for each parameter: name, default, range; and where to find others.

@@ -6,11 +6,24 @@ use crate::{QUICK, templates};
 /// characters of nobody), told with the last line; or words and others in their place.
 const FAULTS: &str = r##"front.md +<% include "front.md" %> => :$:1: no template has a tag "include"
 front.md +<%- macro a() %>x<% endmacro %> => :$:1: no template has a tag "macro"
-front.md +«v.p | nofilter» => :$:8: Unknown filter
+front.md +«v.p | nofilter» => :$:1: no template has a filter "nofilter", only percent
+front.md +«sweep.rise.half_height | replace(from="half_height", to="onset")» => :$:1: no template has a filter "replace"
+front.md +Scen: A => :$:1: a paragraph that begins with `Scen:`
+front.md +lab theory: x => :$:1: a paragraph that begins with `lab`
+front.md +Lab theory What => :$:1: a paragraph that begins with `Lab`
+front.md +- Lba theory: x => :$:3: a paragraph that begins with `Lba`
+front.md +See (it)[x] now => :$:8: a link with its brackets changed
+front.md +See [it] (methods.md) now => :$:8: a link with a blank in it
+front.md +An {{ x }} b => :$:4: braces about a value
+front.md +An <<v.x>> b => :$:4: signs about a value
+front.md +Seen [-@rice1945] => :$:8: a reference without its brackets
+front.md +Seen [rice1945] => :$:6: a reference without its sign
+front.md +See \ref{x} => :$:5: a command of TeX outside of a formula
+front.md +See [@ eq:x] => :$:5: a blank behind the sign of [@ eq:x]
 front.md +«nofun(a=1)» => :$:2: Unknown function
 front.md +<% for i in [41, 42] %>In «i» chains. <% endfor %> => :$:27: this is a plain number
 front.md +<% for row in keys.sweep.rows.sigma %>«loop.index» <% endfor %> => :$:39: this is a plain number
-front.md +«claims | length» => :$:1: this is a plain number
+front.md +«claims | length» => :$:1: no template has a filter "length"
 front.md +«"seven chains"» => :$:1: this is a text in quotes
 front.md +«[4711]» => :$:1: this is no name of a value
 front.md +«range(start=17, end=18)» => :$:1: this is no name of a value
@@ -24,14 +37,21 @@ front.md +a ◀score.total▶ => :$:3: the character U+E000 is none of a text
 front.md +a &#xE000;score.total&#xE001; => :$:3: the character U+E000 is none of a text
 report.tex +%◀ => :$:2: the character U+E000 is none of a text
 literals.toml +[[literal]]¦why = "x"¦phrases = ["two nothings"] => :$: "two nothings": no prose has it
-references.bib +@article{aa, title={b}} => :$: aa lacks author or year
-references.bib +@article{aa, author={X}, title={b}, year={abc}} => :$:43: wrong number of digits
+references.bib +@article{aa, title={b}} => :$: aa lacks its author
+references.bib +@article{aa, author={b}} => :$: aa lacks its year
+references.bib +@phdtesis{aa, title={b}} => :$: aa has the type @phdtesis
+references.bib +@book{aa, title={ }} => :$: aa has `title`, which has nothing
+references.bib +@book{aa,¦year={199}} => :$: aa has `year`, which is no year of four digits
+references.bib +@book{aa, year={1999},¦Year={1998}} => :$: aa has `year`, which stands twice
+references.bib +@book{aa, volum={1}} => :$: aa has `volum`, which is no known field
+references.bib +@string{aa = {b}} => :$: @string takes fields from elsewhere
+references.bib +@article{aa, author={X}, title={b}, year={abc}} => :$: aa has `year`, which is no year
 report.html «page.body» ->  => : it has «page.body» 0 times
 report.html «page.body» -> «page.body»<div> => : the page is not whole
 report.tex \end{document} ->  => : it has \end{document} 0 times
 report.css } ->  => : 
 report.css } -> } @import "more.css"; => : @import
-references.bib volume  = {17} -> volume  = {17}, crossref = {homer2007} => :6: crossref
+references.bib volume  = {17} -> volume  = {17}, crossref = {homer2007} => :6: homer2007 has `crossref`
 front.md +It is «sweep.rise.half_height now. => :$:7: « is not closed
 front.md # -> ## => :1:1: a report begins with its title
 published.toml value = 100 -> value = nan => :11: the id "masses": its value is not finite

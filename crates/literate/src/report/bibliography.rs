@@ -1,9 +1,9 @@
 //! `references.bib` → labels and entries of the list of references, in a style of the Citation Style
 //! Language.
 
-use super::Error;
 use super::document::{Entry, Inline, plain};
-use crate::input::{line, line_and_column};
+use super::{Error, entries};
+use crate::input::line_and_column;
 use hayagriva::archive::{ArchivedStyle, locales};
 use hayagriva::citationberg::{FontStyle, FontWeight, IndependentStyle, Style};
 use hayagriva::io::{BibLaTeXError, from_biblatex_str};
@@ -22,34 +22,11 @@ pub struct Library(Vec<Entry>);
 impl Library {
     /// Reads BibTeX.
     pub fn read(text: &str) -> Result<Self, Error> {
-        for (number, line) in text.lines().enumerate() {
-            // The reader follows them without end where they lead back.
-            if let Some(word) = refers(line) {
-                return Err(Error::Template(format!(
-                    "references.bib:{}: {word} takes fields from elsewhere; write them out",
-                    number + 1
-                )));
-            }
-        }
+        entries::sound(text)?;
         let read = from_biblatex_str(text).map_err(|errors| {
             let told: Vec<String> = errors.iter().map(|error| explained(error, text)).collect();
             Error::Template(format!("{}; mend it, or restore the file", told.join("; ")))
         })?;
-        for entry in &read {
-            let lacks = match () {
-                () if entry.authors().is_none_or(<[_]>::is_empty) || entry.date().is_none() => {
-                    "author or year"
-                }
-                () if entry.title().is_none() => "its title",
-                () => continue,
-            };
-            let key = entry.key();
-            let at = text.find(&format!("{key},")).unwrap_or_default();
-            let line = line(&text[..at]);
-            return Err(Error::Template(format!(
-                "references.bib:{line}: {key} lacks {lacks}; give it"
-            )));
-        }
         let style = style()?;
         let locales = locales();
         let mut driver = BibliographyDriver::new();
@@ -100,16 +77,6 @@ fn style() -> Result<IndependentStyle, Error> {
     };
     (style.citation.layout.prefix, style.citation.layout.suffix) = (None, None);
     Ok(style)
-}
-
-/// A field or command by which an entry takes what another place has.
-fn refers(line: &str) -> Option<&'static str> {
-    let line = line.to_lowercase();
-    let given = |word: &str| {
-        let mut found = line.match_indices(word);
-        found.any(|(at, _)| line[at + word.len()..].trim_start().starts_with(['=', '{', '(']))
-    };
-    ["crossref", "xdata", "xref", "@string"].into_iter().find(|word| given(word))
 }
 
 /// A fault of the file with its line and column.

@@ -66,7 +66,34 @@ pub(super) fn paragraph(mut inlines: Vec<Inline>) -> Result<Block, Error> {
         });
     }
     refuse_pictures(&inlines)?;
-    Ok(Block::Paragraph(inlines))
+    let paragraph = Block::Paragraph(inlines);
+    match mistyped(&paragraph) {
+        Some(what) => Err(Error::Markup(what)),
+        None => Ok(paragraph),
+    }
+}
+
+/// What a paragraph means to open, by its first words, and does not: `Scen: …`, `lab theory: …`, `Lab theory …`.
+fn mistyped(paragraph: &Block) -> Option<String> {
+    let Block::Paragraph(words) = paragraph else { return None };
+    let Some(Inline::Text(text)) = words.first().filter(|_| !opens_caption(paragraph)) else {
+        return None;
+    };
+    let mut words = text.split_inclusive(|c: char| c.is_whitespace() || c == ':');
+    let (first, second) = (words.next()?, words.next().unwrap_or_default());
+    let opened = first.ends_with(':') || second.ends_with(':');
+    let own = first.trim_end().trim_end_matches(':').to_lowercase();
+    let meant = OPENINGS.into_iter().find(|form| {
+        let word = form.split([' ', ':']).next().unwrap_or_default().to_lowercase();
+        let (lab, far) = (word == "lab", strsim::osa_distance(&own, &word));
+        // So short a word has neighbours: a name has to follow it, and a colon.
+        let near = far <= 1 && if lab { second.ends_with(':') } else { opened };
+        near || far == 0 && lab
+    })?;
+    Some(format!(
+        "a paragraph that begins with `{}` is none of a kind; write `{meant}`",
+        first.trim_end()
+    ))
 }
 
 /// figures/fig03.svg → 3, figures/s01.svg → S1.
@@ -91,6 +118,14 @@ pub(super) fn listing(path: &str, program: &Program) -> Result<Block, Error> {
         text: found.text,
     })
 }
+
+/// Paragraphs of a kind of their own.
+const OPENINGS: [&str; 4] = [
+    "Table: caption {#tab:id}",
+    "Listing: caption {#lst:id}",
+    "Scene: caption",
+    "Lab name: caption",
+];
 
 const CAPTIONS: [&str; 2] = ["Table: ", "Listing: "];
 
@@ -141,4 +176,11 @@ fn caption_before(blocks: &mut Vec<Block>, opening: &str) -> Option<(Vec<Inline>
     let words = std::mem::take(words);
     blocks.pop();
     Some((words, id))
+}
+
+/// May it stand in a list or a quotation? What is counted there would have no number.
+pub(super) fn stands_within(block: &Block) -> bool {
+    use Block::{Code, List, Paragraph, Quote, Table};
+    matches!(block, Paragraph(_) | List { .. } | Quote(_) | Code { .. } | Table { .. })
+        && !opens_caption(block)
 }

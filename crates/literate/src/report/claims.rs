@@ -11,6 +11,8 @@ use serde::Serialize;
 #[expect(missing_docs, reason = "the fields are documented at Check")]
 pub struct Row {
     pub id: String,
+    /// The section that an id names, `sec7_limit`: "Sec. 7".
+    pub section: String,
     pub place: String,
     pub statement: String,
     pub printed: String,
@@ -28,6 +30,7 @@ impl Row {
         let words = |text: &str| markdown::escaped(&symbols(text));
         Row {
             id: claim.id.clone(),
+            section: claim.id.split('_').next().unwrap_or_default().replace("sec", "Sec. "),
             place: words(&claim.place),
             statement: words(&claim.statement),
             printed: words(&claim.printed),

@@ -18,7 +18,7 @@ use super::mark::Mark;
 use super::origin::{Filled, marked, next_tag};
 use super::print::{Asked, MOST_DIGITS, Style};
 use super::values::{Number, Registry, Value};
-use super::{Error, Templates};
+use super::{Error, Templates, lint};
 use crate::input::{Bounded, line_and_column, plain};
 use crate::source::Program;
 use crate::table::Table;
@@ -61,6 +61,7 @@ pub struct Filler {
 impl Filler {
     /// Sets Tera up with all `.md`, `.tex` and `.html` files.
     pub fn new(templates: &Templates, values: &Registry, program: Program) -> Result<Self, Error> {
+        lint::form(templates)?;
         let mut tera = Tera::new();
         let failure = |error| failure(&error, templates);
         let delimiters = Delimiters {
@@ -269,9 +270,6 @@ fn context(values: &Registry, tables: &[&Table]) -> Context {
     context
 }
 
-/// Bytes that a replacement may make.
-const REPLACED: usize = 1 << 20;
-
 /// How many digits a filter asks for.
 fn digits(arguments: &Kwargs) -> tera::TeraResult<usize> {
     let wrong = || format!("it takes how many digits, as in (digits=2), {MOST_DIGITS} at most");
@@ -306,16 +304,6 @@ fn register(tera: &mut Tera, program: Program) {
             Ok::<_, tera::Error>(mark.write())
         });
     }
-    // By the one of Tera a short template would grow without bound.
-    tera.register_filter("replace", |text: &str, arguments: Kwargs, _: &State| {
-        let from: String = arguments.must_get("from")?;
-        let to: String = arguments.must_get("to")?;
-        if text.len() + text.matches(&from).count() * to.len() > REPLACED {
-            let what = format!("`replace` makes more than {REPLACED} bytes; write the text itself");
-            return Err(tera::Error::message(what));
-        }
-        Ok(text.replace(&from, &to))
-    });
     tera.register_function("literal", |arguments: Kwargs, _: &State| {
         let text: String = arguments.must_get("text")?;
         let why: String = arguments.must_get("why")?;

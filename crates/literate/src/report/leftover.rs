@@ -3,9 +3,9 @@
 use super::labels::names;
 
 /// Signs of markup, and what is wrong where one is left over in text.
-const SIGNS: [(&str, &str); 24] = [
+const SIGNS: [(&str, &str); 30] = [
     ("$", "a formula without its end, or with brackets that do not match; write \\$ for the sign"),
-    ("`", "code without its end; write \\` for the sign"),
+    ("`", "code without its end, or code() within a line; write \\` for the sign"),
     ("*", "emphasis without its other end; write \\* for the sign"),
     ("_", "emphasis without its other end; write \\_ for the sign"),
     ("«", "a value without its end"),
@@ -17,6 +17,12 @@ const SIGNS: [(&str, &str); 24] = [
     ("<!--", "a comment without its end"),
     ("-->", "the end of a comment that does not begin"),
     ("](", "a link that is not whole"),
+    ("] (", "a link with a blank in it; write [words](target)"),
+    (")[", "a link with its brackets changed; write [words](target)"),
+    ("{{", "braces about a value; write «…»"),
+    ("{%", "braces about a tag; write <% … %>"),
+    ("<<", "signs about a value that are two each; write «…»"),
+    ("\\", "a command of TeX outside of a formula; write $…$, or [@…] for a reference"),
     ("[@", "a reference without its end"),
     ("[!", "a place without its end"),
     ("[^", "footnotes are no part of the report"),
@@ -56,20 +62,40 @@ pub fn find(
 /// line inside a word, nor what names nothing that can be referred to, nor a number sign in a line.
 fn is_markup(source: &str, at: usize, sign: &str) -> bool {
     let Some((before, after)) = source.split_at_checked(at) else { return false };
+    let word = |c: Option<char>| c.is_some_and(char::is_alphanumeric);
     match sign {
         "*" | "_" => {}
         "@" | "[" => {
-            let kind = after[1..].split_once(':').map(|(kind, _)| kind.to_lowercase());
+            let id = after[1..].split(|c: char| !c.is_alphanumeric()).next().unwrap_or_default();
+            let named =
+                names(&id.to_lowercase()).is_some() && after[1 + id.len()..].starts_with(':');
+            let cites = match sign {
+                // Within a word it is an address of mail.
+                "@" => !word(before.chars().next_back()) && id.starts_with(char::is_alphabetic),
+                _ => {
+                    id.starts_with(char::is_alphabetic)
+                        && id.ends_with(|c: char| c.is_ascii_digit())
+                }
+            };
             // Within [@one; @two] it has its brackets.
             let last = before.rfind(['[', ']']).map_or("", |bracket| &source[bracket..]);
-            return !last.starts_with("[@") && kind.is_some_and(|kind| names(&kind).is_some());
+            return !last.starts_with("[@") && (named || cites);
+        }
+        "\\" => return after[1..].starts_with(|c: char| c.is_ascii_alphabetic()),
+        "<<" => {
+            return after[2..].trim_start().starts_with(char::is_alphabetic)
+                && after.contains(">>");
+        }
+        ")[" => return !after[2..].starts_with(['@', '!']),
+        "] (" => {
+            let target = after[3..].split(')').next().unwrap_or_default();
+            return !target.contains(char::is_whitespace) && target.contains(['.', '#', '/']);
         }
         "#" => return before.rsplit('\n').next().is_some_and(|line| line.trim().is_empty()),
         _ => return true,
     }
-    let word = |c: Option<char>| c.is_some_and(char::is_alphanumeric);
     let blank = |c: Option<char>| c.is_none_or(char::is_whitespace);
-    let own = |c: char| c == '*' || c == '_';
+    let own = |c: char| matches!(c, '*' | '_');
     let before = before.trim_end_matches(own).chars().next_back();
     let after = after.trim_start_matches(own).chars().next();
     match sign {

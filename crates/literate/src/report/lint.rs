@@ -43,8 +43,8 @@ pub enum Fault {
     Open(&'static str, &'static str),
     /// A character that is none of a text, by its number.
     Control(char),
-    /// A tag that no prose has, by its word.
-    Tag(String),
+    /// A tag or a filter that no template has: which of both, its word, and those that there are.
+    Word(&'static str, String, &'static [&'static str]),
 }
 
 impl std::fmt::Display for Finding {
@@ -59,11 +59,11 @@ impl std::fmt::Display for Finding {
                     "{path}:{line}:{column}: the character U+{number:04X} is none of a text; remove it"
                 );
             }
-            Fault::Tag(word) => {
-                let tags = TAGS.join(", ");
+            Fault::Word(kind, word, all) => {
+                let all = all.join(", ");
                 return write!(
                     f,
-                    "{path}:{line}:{column}: no template has a tag {word:?}, only {tags}; remove it"
+                    "{path}:{line}:{column}: no template has a {kind} {word:?}, only {all}; remove it"
                 );
             }
             Fault::Open(open, close) => {
@@ -116,6 +116,16 @@ fn length(inner: &str, (open, close, long): (&str, &str, bool)) -> Option<usize>
     (!scope[..end].is_empty() && !scope[..end].ends_with([' ', '\n'])).then_some(end)
 }
 
+/// Refuses characters that are none of a text, and tags and filters that no template has.
+///
+/// # Errors
+/// All places where there are some.
+pub fn form(templates: &Templates) -> Result<(), Error> {
+    let odd = |(path, text)| odd(path, text).or_else(|| other_word(path, text));
+    let odd: Vec<Finding> = templates.iter().filter_map(odd).collect();
+    if odd.is_empty() { Ok(()) } else { Err(Error::Lint(odd)) }
+}
+
 /// Holds all prose against the lint.
 pub fn check(templates: &Templates, program: Program) -> Result<(), Error> {
     for of in program.documents {
@@ -125,11 +135,7 @@ pub fn check(templates: &Templates, program: Program) -> Result<(), Error> {
             return Err(Error::Template(format!("{}.md: {what}", of.prose)));
         }
     }
-    let odd = |(path, text)| odd(path, text).or_else(|| other_tag(path, text));
-    let odd: Vec<Finding> = templates.iter().filter_map(odd).collect();
-    if !odd.is_empty() {
-        return Err(Error::Lint(odd));
-    }
+    form(templates)?;
     let prose = templates.iter().filter(|(path, _)| path.ends_with(".md"));
     let declared = Declared::read(templates.text("literals.toml")?)?;
     let found: Vec<Finding> =
@@ -153,17 +159,29 @@ pub fn check(templates: &Templates, program: Program) -> Result<(), Error> {
 /// into a block would stand at no line of its own.
 const TAGS: [&str; 6] = ["if", "elif", "else", "endif", "for", "endfor"];
 
-/// The first tag of another kind, in what is filled.
-fn other_tag(path: &str, text: &str) -> Option<Finding> {
+/// Filters that templates may have. Others would change the name of a value, or its digits.
+const FILTERS: [&str; 5] = ["percent", "no_error", "significant", "split", "last"];
+
+/// The first tag or filter of another kind, in what is filled.
+fn other_word(path: &str, text: &str) -> Option<Finding> {
     let (mut position, mut at) = (Position { line: 1, column: 1 }, 0);
     let filled = [".md", ".tex", ".html"].iter().any(|end| path.ends_with(end));
+    let word = |text: &str| -> String {
+        let text = text.trim_start_matches(['-', ' ', '\n', '\r', '\t']);
+        text.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect()
+    };
     while let Some((start, end)) = next_tag(text, at).filter(|_| filled) {
-        let inner = text[start..end].strip_prefix("<%").unwrap_or("if");
-        let inner = inner.trim_start_matches(['-', ' ', '\n', '\r', '\t']);
-        let word = inner.split(|c: char| !c.is_alphanumeric() && c != '_').next();
-        if let Some(word) = word.filter(|word| !TAGS.contains(word)) {
+        let tag = &text[start..end];
+        let own = tag.strip_prefix("<%").map(word).filter(|word| !TAGS.contains(&word.as_str()));
+        // What is quoted is no filter.
+        let bare: String = tag.split('"').step_by(2).filter(|_| !tag.starts_with("<#")).collect();
+        let mut filters = bare.split('|').skip(1).map(word);
+        let filter = filters.find(|word| !FILTERS.contains(&word.as_str()));
+        let fault = own.map(|word| Fault::Word("tag", word, &TAGS));
+        let fault = fault.or(filter.map(|word| Fault::Word("filter", word, &FILTERS)));
+        if let Some(fault) = fault {
             position.past(text, start);
-            return Some(position.finding(path, Fault::Tag(word.into())));
+            return Some(position.finding(path, fault));
         }
         at = end;
     }
@@ -391,7 +409,7 @@ mod tests {
             Fault::Numeral(numeral) => (f.line, f.column, numeral),
             Fault::Open(open, _) => (f.line, f.column, format!("open {open}")),
             Fault::Control(c) => (f.line, f.column, format!("control {}", u32::from(c))),
-            Fault::Tag(word) => (f.line, f.column, format!("tag {word}")),
+            Fault::Word(kind, word, _) => (f.line, f.column, format!("{kind} {word}")),
         };
         findings("x.md", text, &Declared::default()).into_iter().map(place).collect()
     }

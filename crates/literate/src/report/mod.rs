@@ -13,6 +13,7 @@ pub mod claims;
 pub mod compare;
 pub mod document;
 pub mod documents;
+mod entries;
 pub mod filler;
 pub mod html;
 pub mod labels;
@@ -35,6 +36,7 @@ pub mod typeset;
 pub mod uses;
 pub mod valued;
 pub mod values;
+mod written;
 
 pub use assemble::{Files, Input, LAB, Report, assemble, files_of};
 pub use documents::Document;

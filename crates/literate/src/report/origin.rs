@@ -43,16 +43,13 @@ pub fn marked(text: &str) -> String {
 
 /// Start and end of the first tag from `at` on.
 pub(super) fn next_tag(text: &str, at: usize) -> Option<(usize, usize)> {
-    let mut found = None;
-    // What comes after a tag that is found need not be searched for others.
-    let mut end = text.len();
-    for (open, close) in TAGS {
-        if let Some(start) = text[at..end].find(open) {
-            end = at + start;
-            found = Some((end, close));
-        }
-    }
-    let (start, close) = found?;
+    // One walk to the nearest sign: a search for each of them would read the whole rest each time.
+    let begins = |(i, _): (usize, &str)| {
+        let start = at + i;
+        let (_, close) = TAGS.iter().find(|(open, _)| text[start..].starts_with(open))?;
+        Some((start, *close))
+    };
+    let (start, close) = text[at..].match_indices(['«', '<']).find_map(begins)?;
     Some((start, start + text[start..].find(close)? + close.len()))
 }
 

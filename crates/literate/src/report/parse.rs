@@ -18,7 +18,9 @@
 //! - `[@rice1945]`: a citation of `references.bib`.
 //! - `[@bibliography]` alone in a paragraph: the list of what was cited.
 
-use super::captions::{join, listing, opens_caption, paragraph, picture, refuse_pictures};
+use super::captions::{
+    join, listing, opens_caption, paragraph, picture, refuse_pictures, stands_within,
+};
 use super::card::words_and_maths;
 use super::document::{Align, Block, Inline, plain};
 use super::labels::of_kind;
@@ -27,6 +29,7 @@ use super::origin::{Filled, Places};
 use super::print::print;
 use super::valued::{bare, framed};
 use super::values::Registry;
+use super::written::{attributes, cells_of, comment, markup, own_link};
 use super::{Error, html, leftover, macros, tex};
 use crate::input::is_no_text;
 use crate::source::Program;
@@ -60,6 +63,7 @@ pub fn parse<'a>(
         at: 0,
         attribute: None,
         inside: 0,
+        within: 0,
         titled: false,
         level: 1,
         places: Places::of(filled),
@@ -84,6 +88,8 @@ struct Reader<'a> {
     attribute: Option<usize>,
     /// Emphasis and links about what is being read.
     inside: usize,
+    /// Lists and quotations about it.
+    within: usize,
     /// Whether there is a title already, and the level of the last heading.
     titled: bool,
     level: u8,
@@ -143,10 +149,18 @@ impl<'a> Reader<'a> {
                     return Err(markup("a line across the page is shown nowhere"));
                 }
                 // Text right inside an item of a tight list.
-                _ => Some(Block::Paragraph(self.without_pictures()?)),
+                _ => {
+                    let begun = self.events.peek().map_or(self.at, |(_, range)| range.start);
+                    Some(self.paragraph(begun)?)
+                }
             };
             let Some(mut block) = new else { continue };
             let begun = self.at;
+            if self.within > 0 && !stands_within(&block) {
+                return Err(markup(
+                    "what has a number or a place of its own stands in no list and no quotation",
+                ));
+            }
             let joined = join(&mut blocks, &mut block)?;
             if let (Some(id), Some(offset)) = (&joined, caption) {
                 self.attribute = None;
@@ -176,21 +190,17 @@ impl<'a> Reader<'a> {
         }
     }
 
+    /// Blocks of an item of a list, or of a quotation.
+    fn inner(&mut self) -> Result<Vec<Block>, Error> {
+        self.within += 1;
+        let blocks = self.blocks()?;
+        self.within -= 1;
+        Ok(blocks)
+    }
+
     fn block(&mut self, tag: Tag<'_>, range: Range<usize>) -> Result<Option<Block>, Error> {
         let block = match tag {
-            Tag::Paragraph => {
-                let inlines = self.inlines()?;
-                self.at = range.start;
-                let block = paragraph(inlines)?;
-                if let Block::Figure { id, path, .. } = &block {
-                    self.places.add(format!("#{id}"), range.start);
-                    self.places.add(format!("({path}"), range.start);
-                }
-                if let Block::Scene { lab: Some(lab), .. } = &block {
-                    self.places.add(format!("Lab {lab}"), range.start);
-                }
-                block
-            }
+            Tag::Paragraph => self.paragraph(range.start)?,
             Tag::Heading { level, id, classes, attrs } => {
                 let level = level as u8;
                 let unnumbered = classes.iter().any(|class| &**class == "unnumbered");
@@ -223,12 +233,12 @@ impl<'a> Reader<'a> {
                 let number = (!unnumbered && level > 1).then(String::new);
                 Block::Heading { level, number, id, text }
             }
-            Tag::BlockQuote(_) => Block::Quote(self.blocks()?),
+            Tag::BlockQuote(_) => Block::Quote(self.inner()?),
             Tag::List(start) => {
                 let mut items = Vec::new();
                 while let Some(Event::Start(Tag::Item)) = self.peek() {
                     self.next();
-                    items.push(self.blocks()?);
+                    items.push(self.inner()?);
                     self.next();
                 }
                 Block::List { start, items }
@@ -275,6 +285,22 @@ impl<'a> Reader<'a> {
         };
         self.next();
         Ok(Some(block))
+    }
+
+    /// A paragraph that begins there, or what stands alone in it.
+    fn paragraph(&mut self, begun: usize) -> Result<Block, Error> {
+        let inlines = self.inlines()?;
+        self.at = begun;
+        let block = paragraph(inlines)?;
+        match &block {
+            Block::Figure { id, path, .. } => {
+                self.places.add(format!("#{id}"), begun);
+                self.places.add(format!("({path}"), begun);
+            }
+            Block::Scene { lab: Some(lab), .. } => self.places.add(format!("Lab {lab}"), begun),
+            _ => {}
+        }
+        Ok(block)
     }
 
     fn table(&mut self, columns: &[Alignment]) -> Result<Block, Error> {
@@ -529,47 +555,4 @@ fn is_block(tag: &Tag<'_>) -> bool {
             | Item
             | Table(_)
     )
-}
-
-fn markup(what: impl Into<String>) -> Error {
-    Error::Markup(what.into())
-}
-
-/// Comments are for writers; other HTML has no place in four formats.
-fn comment(html: &str) -> Result<(), Error> {
-    match (html.starts_with("<!--"), html.ends_with("-->") && html.len() >= 7) {
-        (true, true) => Ok(()),
-        (true, false) => {
-            Err(markup("a comment <!-- without --> at the end of its last line hides text"))
-        }
-        (false, _) => Err(markup(format!("HTML has no place in four formats: {html}"))),
-    }
-}
-
-/// What stands in the `{…}` behind the words of a heading, if that is no formula's.
-fn attributes(heading: &str) -> Vec<&str> {
-    let inner = heading.trim_end().strip_suffix('}').and_then(|text| text.rsplit_once('{'));
-    let inner = inner.map(|(_, inner)| inner).filter(|inner| inner.starts_with(['#', '.']));
-    inner.unwrap_or_default().split_whitespace().collect()
-}
-
-/// Cells of a row of a table, by its bars.
-fn cells_of(row: &str) -> usize {
-    let row = row.trim();
-    let row = row.strip_prefix('|').unwrap_or(row);
-    let row = row.strip_suffix('|').filter(|rest| !rest.ends_with('\\')).unwrap_or(row);
-    row.matches('|').count() - row.matches(r"\|").count() + 1
-}
-
-/// `@fig:2; @fig:3` or `!claim:rise`.
-fn own_link(reference: &str) -> Result<Inline, Error> {
-    if let Some(id) = reference.strip_prefix('!') {
-        of_kind("claim", id)?;
-        return Ok(Inline::Anchor { id: id.to_string(), number: String::new() });
-    }
-    let one = |id: &str| {
-        let id = id.trim().strip_prefix('@').map(str::to_string);
-        id.ok_or_else(|| Error::Reference(reference.to_string()))
-    };
-    reference.split(';').map(one).collect::<Result<_, _>>().map(Inline::Unresolved)
 }
