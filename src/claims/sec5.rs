@@ -56,13 +56,14 @@ fn masses_of_circuit(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
     let runs = gaps.iter().filter(|&&gap| gap == 0 || !gaps.contains(&(gap - 1))).count();
     let walls = gaps.iter().filter(|&&gap| gap == 0 || gap == segment.masses).count();
     let predicted = gaps.len() + runs - walls;
+    let printed = s.number()?;
     Ok(Finding {
         ours: Text::default().integer(found),
         tolerance: Text::words("none"),
         reason: "an integer is exact",
         judgement: Judgement::Explained {
-            agrees: found as f64 == s.number()?,
-            holds: found == predicted,
+            agrees: found as f64 == printed,
+            holds: found == predicted && printed == (gaps.len() + 1) as f64,
         },
         note: Text::words("k different gaps in ")
             .integer(runs)

@@ -63,14 +63,6 @@ pub fn all() -> impl Iterator<Item = &'static Guard> {
     files.into_iter().flatten()
 }
 
-/// Whether an id is this one, or begins so if it ends with `*`.
-pub fn fits(own: &str, id: &str) -> bool {
-    match own.strip_suffix('*') {
-        Some(start) => id.starts_with(start),
-        None => id == own,
-    }
-}
-
 /// All relations, as checks.
 pub fn checks(look: Look<'_>) -> Vec<Check> {
     let one = |guard: &Guard| {

@@ -8,12 +8,10 @@
 //! decides, a guard ([`impact_paper::report::guards`]), or a report that cannot be made. A comparison with stored bytes is
 //! none. A number is guarded if one notices in both directions.
 
-mod reasons;
 mod size;
 mod tally;
 pub mod verb;
 
-use reasons::Reasons;
 use tally::{Tally, used};
 
 use impact_paper::claims::{self, Check, Published, targets};

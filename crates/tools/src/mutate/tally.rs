@@ -1,8 +1,7 @@
 //! Which numbers are used, and how many of them are guarded.
 
-use super::{Mutations, Reasons};
+use super::Mutations;
 use impact_paper::claims::Check;
-use impact_paper::report::guards::fits;
 use impact_paper::report::mark::Mark;
 use impact_paper::report::uses::uses;
 use impact_paper::report::values::{Number, Registry, Value};
@@ -10,63 +9,26 @@ use impact_paper::report::{Error, Input, PROGRAM, Templates, assemble, equations
 use impact_paper::table::table_of;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What is known of the numbers that prose or claims use.
+/// The numbers that prose or claims use.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Tally {
     /// Ids of those that a check notices in both directions.
     pub guarded: BTreeSet<String>,
-    /// Of the others, ids by the kind that their reason gives them.
-    pub excused: BTreeMap<String, BTreeSet<String>>,
-    /// Of the others, ids without a reason.
-    pub bare: BTreeSet<String>,
-    /// Patterns of reasons that nothing needs: unknown ids, and guarded ones.
-    pub needless: Vec<String>,
+    /// Ids of the others.
+    pub unguarded: BTreeSet<String>,
 }
 
 impl Tally {
-    /// Counts what became of the numbers that are used.
-    pub fn of(
-        used: &BTreeSet<String>,
-        found: &Mutations,
-        reasons: &Reasons,
-        values: &Registry,
-    ) -> Tally {
-        let mut tally = Tally::default();
-        for id in used {
-            if found.get(id).is_some_and(super::Mutation::guarded) {
-                tally.guarded.insert(id.clone());
-            } else if let Some(group) = reasons.of(id) {
-                tally.excused.entry(group.kind.clone()).or_default().insert(id.clone());
-            } else {
-                tally.bare.insert(id.clone());
-            }
-        }
-        let known = |pattern: &str| values.iter().any(|value| fits(pattern, &value.id));
-        for pattern in reasons.groups().iter().flat_map(|group| &group.ids) {
-            let mut own = used.iter().filter(|id| fits(pattern, id)).peekable();
-            if !known(pattern) {
-                tally.needless.push(format!("{pattern:?} (there is no such value)"));
-            } else if own.peek().is_some() && own.all(|id| tally.guarded.contains(id)) {
-                tally.needless.push(format!("{pattern:?} (guarded)"));
-            }
-        }
-        tally
+    /// Counts which of the numbers that are used are guarded.
+    pub fn of(used: BTreeSet<String>, found: &Mutations) -> Tally {
+        let noticed = |id: &String| found.get(id).is_some_and(super::Mutation::guarded);
+        let (guarded, unguarded) = used.into_iter().partition(noticed);
+        Tally { guarded, unguarded }
     }
 
     /// Whether this is a number that is used.
     pub fn knows(&self, id: &str) -> bool {
-        let excused = || self.excused.values().any(|ids| ids.contains(id));
-        self.guarded.contains(id) || self.bare.contains(id) || excused()
-    }
-
-    /// How many numbers are used.
-    pub fn used(&self) -> usize {
-        self.guarded.len() + self.unguarded()
-    }
-
-    /// How many of them are not guarded.
-    pub fn unguarded(&self) -> usize {
-        self.bare.len() + self.excused.values().map(BTreeSet::len).sum::<usize>()
+        self.guarded.contains(id) || self.unguarded.contains(id)
     }
 }
 
@@ -109,4 +71,24 @@ pub fn used(
         values.get(id).is_some_and(|value| !words(value))
     };
     Ok(shown.chain(stated).filter(number).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Mutation;
+    use super::*;
+
+    #[test]
+    fn a_number_is_guarded_if_both_sides_are_noticed() {
+        let seen = || vec!["claim".to_string()];
+        let moved = |above, below| Mutation { by: 1.0, place: "report".into(), above, below };
+        let found =
+            [("both", seen(), seen()), ("above", seen(), vec![]), ("below", vec![], seen())];
+        let found = found.map(|(id, above, below)| (id.to_string(), moved(above, below)));
+        let used = ["both", "above", "below", "never moved"].map(String::from);
+        let tally = Tally::of(used.into(), &found.into());
+        assert_eq!(Vec::from_iter(&tally.guarded), ["both"]);
+        assert_eq!(Vec::from_iter(&tally.unguarded), ["above", "below", "never moved"]);
+        assert!(tally.knows("above") && !tally.knows("another"));
+    }
 }

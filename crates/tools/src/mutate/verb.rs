@@ -1,6 +1,6 @@
 //! `impact-paper-tools mutate`.
 
-use super::{Mutation, Mutations, Reasons, Subject, Tally, mutate, used};
+use super::{Mutation, Mutations, Subject, Tally, mutate, used};
 use impact_paper::claims;
 use impact_paper::experiments::{ALL, Error, Progress};
 use impact_paper::params::Profile;
@@ -14,8 +14,7 @@ use std::fmt::Write as _;
 ///
 /// A number is moved to both sides, where the paper printed it or on its way to the report, and verdicts are computed
 /// again; nothing is simulated. Comparisons with stored bytes are no checks here. Ends with exit code 1
-/// if no check notices a number that prose or claims use and unguarded.toml gives no reason, or if
-/// it gives one without need.
+/// if no check notices a number that prose or claims use.
 #[derive(clap::Args)]
 pub struct Args {
     /// Sample sizes.
@@ -49,9 +48,8 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let profile = args.profile;
     let templates = args.sources.templates()?;
     let published = args.sources.published(&templates)?;
-    let reasons = Reasons::read(templates.text("unguarded.toml")?)?;
     let progress = signals::progress();
-    let (found, used, values) = threads::run(args.sources.threads, || {
+    let (found, used) = threads::run(args.sources.threads, || {
         let results = args.sources.run(&ALL, profile, &templates, &progress)?;
         results.look();
         let claims = claims::all(&results, &published)?;
@@ -69,46 +67,29 @@ pub fn run(args: Args) -> Result<(), Failure> {
         }
         let wanted = |value: &Value| asked.is_empty() || used.contains(&value.id);
         let found = found(subject, &wanted, &progress)?;
-        Ok((found, used, values))
+        Ok((found, used))
     })?;
-    let reasons = if args.value.is_empty() { reasons } else { Reasons::default() };
-    let tally = Tally::of(&used, &found, &reasons, &values);
+    let tally = Tally::of(used, &found);
     let form = if args.json { data } else { text };
-    stdout::print(&form(&found, &tally, &reasons))?;
-    failure(&tally).map_or(Ok(()), Err)
+    stdout::print(&form(&found, &tally))?;
+    if tally.unguarded.is_empty() {
+        return Ok(());
+    }
+    let ids: Vec<&str> = tally.unguarded.iter().map(String::as_str).collect();
+    let ids = ids.join(", ");
+    Err(Failure::check(format!(
+        "no check notices that these are wrong: {ids}; guard them, or show them nowhere"
+    )))
 }
 
-fn failure(tally: &Tally) -> Option<Failure> {
-    let mut faults = Vec::new();
-    if !tally.bare.is_empty() {
-        let ids: Vec<&str> = tally.bare.iter().map(String::as_str).collect();
-        faults.push(format!(
-            "no check notices that these are wrong: {}; guard them, or give a reason in unguarded.toml",
-            ids.join(", ")
-        ));
-    }
-    if !tally.needless.is_empty() {
-        faults.push(format!(
-            "unguarded.toml has reasons without need: {}",
-            tally.needless.join(", ")
-        ));
-    }
-    (!faults.is_empty()).then(|| Failure::check(faults.join("; ")))
+fn standing(id: &str, tally: &Tally) -> &'static str {
+    if tally.guarded.contains(id) { "guarded" } else { "UNGUARDED" }
 }
 
-/// How a number stands, in a word or with its reason.
-fn standing<'a>(id: &str, tally: &Tally, reasons: &'a Reasons) -> (&'static str, &'a str) {
-    if tally.guarded.contains(id) {
-        ("guarded", "")
-    } else {
-        reasons.of(id).map_or(("UNGUARDED", ""), |group| ("excused", group.why.as_str()))
-    }
-}
-
-fn text(found: &Mutations, tally: &Tally, reasons: &Reasons) -> String {
+fn text(found: &Mutations, tally: &Tally) -> String {
     let mut out = String::new();
     for (id, mutation) in found.iter().filter(|(id, _)| tally.knows(id)) {
-        let (word, why) = standing(id, tally, reasons);
+        let word = standing(id, tally);
         let Mutation { by, place, above, below } = mutation;
         let _ = write!(out, "{word:9} {id} ± {by:.1e} at {place}: ");
         let list = |red: &[String]| match red {
@@ -116,38 +97,27 @@ fn text(found: &Mutations, tally: &Tally, reasons: &Reasons) -> String {
             red => red.join(", "),
         };
         if above == below {
-            let _ = write!(out, "{}", list(above));
+            let _ = writeln!(out, "{}", list(above));
         } else {
-            let _ = write!(out, "above {}, below {}", list(above), list(below));
+            let _ = writeln!(out, "above {}, below {}", list(above), list(below));
         }
-        let _ = if why.is_empty() { writeln!(out) } else { writeln!(out, " ({why})") };
     }
-    for (kind, ids) in &tally.excused {
-        let _ = writeln!(out, "excused, {kind}: {}", ids.len());
-    }
-    let _ = writeln!(
-        out,
-        "{} numbers: {} guarded, {} not, {} of these without a reason",
-        tally.used(),
-        tally.guarded.len(),
-        tally.unguarded(),
-        tally.bare.len()
-    );
+    let Tally { guarded, unguarded } = tally;
+    let (guarded, unguarded) = (guarded.len(), unguarded.len());
+    let _ = writeln!(out, "{} numbers: {guarded} guarded, {unguarded} not", guarded + unguarded);
     out
 }
 
-fn data(found: &Mutations, tally: &Tally, reasons: &Reasons) -> String {
+fn data(found: &Mutations, tally: &Tally) -> String {
     let one = |(id, mutation): (&String, &Mutation)| {
-        let (word, why) = standing(id, tally, reasons);
+        let word = standing(id, tally).to_lowercase();
         json!({
             "id": id, "by": mutation.by, "at": mutation.place, "above": mutation.above,
-            "below": mutation.below, "standing": word.to_lowercase(), "reason": why,
+            "below": mutation.below, "standing": word,
         })
     };
     let values: Vec<_> = found.iter().filter(|(id, _)| tally.knows(id)).map(one).collect();
-    let counts = json!({
-        "used": tally.used(), "guarded": tally.guarded.len(), "unguarded": tally.unguarded(),
-        "without_a_reason": tally.bare.len(),
-    });
-    format!("{:#}\n", json!({ "counts": counts, "needless": tally.needless, "values": values }))
+    let (guarded, unguarded) = (tally.guarded.len(), tally.unguarded.len());
+    let counts = json!({ "used": guarded + unguarded, "guarded": guarded, "unguarded": unguarded });
+    format!("{:#}\n", json!({ "counts": counts, "values": values }))
 }
