@@ -37,13 +37,13 @@ front.md +a ◀score.total▶ => :$:3: the character U+E000 is none of a text
 front.md +a &#xE000;score.total&#xE001; => :$:3: the character U+E000 is none of a text
 report.tex +%◀ => :$:2: the character U+E000 is none of a text
 literals.toml +[[literal]]¦why = "x"¦phrases = ["two nothings"] => :$: "two nothings": no prose has it
-references.bib +@article{aa, title={b}} => :$: aa lacks its author
-references.bib +@article{aa, author={b}} => :$: aa lacks its year
+references.bib +@article{aa, title={b}} => :$: aa lacks its author or editor
+references.bib +@article{aa, author={b}} => :$: aa lacks its year or date
 references.bib +@phdtesis{aa, title={b}} => :$: aa has the type @phdtesis
-references.bib +@book{aa, title={ }} => :$: aa has `title`, which has nothing
+references.bib +@book{aa, author={b}, year={1999}, title={ }} => :$: aa lacks its title
 references.bib +@book{aa,¦year={199}} => :$: aa has `year`, which is no year of four digits
 references.bib +@book{aa, year={1999},¦Year={1998}} => :$: aa has `year`, which stands twice
-references.bib +@book{aa, volum={1}} => :$: aa has `volum`, which is no known field
+references.bib +@book{aa, volum={1}} => :$: aa has `volum`, which is no field; is `volume` meant?
 references.bib +@string{aa = {b}} => :$: @string takes fields from elsewhere
 references.bib +@article{aa, author={X}, title={b}, year={abc}} => :$: aa has `year`, which is no year
 report.html «page.body» ->  => : it has «page.body» 0 times

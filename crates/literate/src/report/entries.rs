@@ -5,11 +5,15 @@ use super::Error;
 use crate::input::line;
 use biblatex::{EntryType, Pair, RawBibliography, RawChunk, RawEntry};
 
-/// Fields that the list of references shows, or that managers of references write beside them.
-const FIELDS: &str = "abstract address annotation author booktitle chapter copyright date doi edition editor \
-    eprint eprinttype eventtitle file groups howpublished institution isbn issn issue journal journaltitle keywords \
-    langid language location month note number organization pages pagetotal publisher school series shortjournal \
-    shorttitle subtitle title translator type url urldate version volume volumes year";
+/// Fields that the list of references shows. Managers of references write many others beside them.
+const FIELDS: &str = "author booktitle chapter date doi edition editor howpublished institution issue journal \
+    journaltitle note number organization pages publisher school series title translator url volume year";
+
+/// Of each of these an entry has one, with something in it.
+const NEEDED: [&[&str]; 3] = [&["author", "editor"], &["year", "date"], &["title"]];
+
+/// Fields of BibLaTeX that are spelt nearly as these.
+const NEAR: [&str; 4] = ["editora", "editorb", "editorc", "volumes"];
 
 /// Refuses what no list of references could show as it was meant.
 ///
@@ -38,41 +42,50 @@ pub fn sound(text: &str) -> Result<(), Error> {
 
 /// The first fault of an entry: its offset, and what is said behind the key.
 fn wrong(entry: &RawEntry<'_>) -> Option<(usize, String)> {
-    let head = entry.key.span.start;
-    let kind = entry.kind.v;
+    let (head, kind) = (entry.key.span.start, entry.kind.v);
     if matches!(EntryType::new(kind), EntryType::Unknown(_)) {
-        let what = format!(
-            "has the type @{kind}, which there is not; write @article, @book, @phdthesis or the like"
-        );
-        return Some((head, what));
+        let what = "which there is not; write @article, @book, @phdthesis or the like";
+        return Some((head, format!("has the type @{kind}, {what}")));
     }
-    let name = |pair: &Pair<'_>| pair.key.v.to_lowercase();
-    for (i, pair) in entry.fields.iter().enumerate() {
-        let (own, value) = (name(pair), value(pair));
-        let what = match own.as_str() {
-            // The reader follows them without end where they lead back.
-            "crossref" | "xdata" | "xref" => "takes fields from elsewhere; write them out",
-            _ if entry.fields[..i].iter().any(|other| name(other) == own) => {
-                "stands twice; keep one"
-            }
-            _ if !FIELDS.split(' ').any(|field| field == own) => {
-                "is no known field; correct its name, or remove it"
-            }
-            _ if !value.contains(char::is_alphanumeric) => {
-                "has nothing in it; fill it, or remove it"
-            }
-            "year" if value.len() != 4 || value.contains(|c: char| !c.is_ascii_digit()) => {
-                "is no year of four digits; correct it"
-            }
-            _ => continue,
-        };
-        return Some((pair.key.span.start, format!("has `{own}`, which {what}")));
+    let mut fields = entry.fields.iter().enumerate();
+    let one = |(i, pair): (usize, &Pair<'_>)| {
+        let before = entry.fields[..i].iter().map(name);
+        Some((pair.key.span.start, format!("has `{}`, which {}", pair.key.v, fault(pair, before)?)))
+    };
+    if let Some(found) = fields.find_map(one) {
+        return Some(found);
     }
-    let has =
-        |fields: &[&str]| entry.fields.iter().any(|pair| fields.contains(&name(pair).as_str()));
-    let lacks =
-        [&["author"][..], &["year", "date"], &["title"]].into_iter().find(|fields| !has(fields))?;
-    Some((head, format!("lacks its {}; give it", lacks[0])))
+    let has = |names: &&[&str]| {
+        let full = |pair: &&Pair<'_>| value(pair).contains(char::is_alphanumeric);
+        entry.fields.iter().filter(full).any(|pair| names.contains(&name(pair).as_str()))
+    };
+    let lacks = NEEDED.into_iter().find(|names| !has(names))?;
+    Some((head, format!("lacks its {}; give it", lacks.join(" or "))))
+}
+
+/// What is wrong with a field; the names of those before it.
+fn fault(pair: &Pair<'_>, mut before: impl Iterator<Item = String>) -> Option<String> {
+    let (own, value) = (name(pair), value(pair));
+    let shown = |name: &str| FIELDS.split(' ').any(|field| field == name);
+    let meant = FIELDS.split(' ').find(|field| strsim::osa_distance(field, &own) == 1);
+    match meant {
+        // The reader follows them without end where they lead back.
+        _ if ["crossref", "xdata", "xref"].contains(&own.as_str()) => {
+            Some("takes fields from elsewhere; write them out".into())
+        }
+        _ if shown(&own) && before.any(|name| name == own) => Some("stands twice; keep one".into()),
+        _ if own == "year" && (value.len() != 4 || !value.bytes().all(|c| c.is_ascii_digit())) => {
+            Some("is no year of four digits; correct it".into())
+        }
+        Some(meant) if !shown(&own) && !NEAR.contains(&own.as_str()) => {
+            Some(format!("is no field; is `{meant}` meant?"))
+        }
+        _ => None,
+    }
+}
+
+fn name(pair: &Pair<'_>) -> String {
+    pair.key.v.to_lowercase()
 }
 
 /// The value of a field without braces and blanks about it.
