@@ -42,7 +42,7 @@ references.bib +@article{aa, author={b}} => :$: aa lacks its year or date
 references.bib +@phdtesis{aa, title={b}} => :$: aa has the type @phdtesis
 references.bib +@book{aa, author={b}, year={1999}, title={ }} => :$: aa lacks its title
 references.bib +@book{aa,¦year={199}} => :$: aa has `year`, which is no year of four digits
-references.bib +@book{aa, year={1999},¦Year={1998}} => :$: aa has `year`, which stands twice
+references.bib +@book{aa, year={1999},¦Year={1998}} => :$: aa has `Year`, which stands twice
 references.bib +@book{aa, volum={1}} => :$: aa has `volum`, which is no field; is `volume` meant?
 references.bib +@string{aa = {b}} => :$: @string takes fields from elsewhere
 references.bib +@article{aa, author={X}, title={b}, year={abc}} => :$: aa has `year`, which is no year
