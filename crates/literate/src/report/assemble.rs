@@ -190,7 +190,7 @@ fn parts<'a>(
     values: &'a Registry,
 ) -> Result<(Vec<Part<'a>>, Labels), Error> {
     let library = Library::read(input.templates.text("references.bib")?)?;
-    let (mut labels, mut shown) = (Labels::default(), BTreeSet::new());
+    let (mut labels, mut shown) = (Labels::of(input.figures), BTreeSet::new());
     let mut parts = Vec::new();
     let read = |filled| parse::parse(filled, values, input.program);
     let read: Vec<_> = filled.par_iter().with_max_len(1).map(read).collect();
@@ -206,7 +206,8 @@ fn parts<'a>(
     if let Some(figure) = input.figures.iter().find(|figure| !shown.contains(&figure.id)) {
         return Err(Error::NotShown(figure.id.clone()));
     }
-    labels.judge(input.claims)?;
+    let tell = |error| parts.iter().fold(error, |error, part: &Part<'_>| part.places.tell(error));
+    labels.judge(input.claims).map_err(tell)?;
     for Part { of, blocks, places } in &mut parts {
         labels.resolve(blocks, *of, &library).map_err(|error| places.tell(error))?;
     }
@@ -306,7 +307,10 @@ fn check_links(
     let leads =
         |to: &str| match (to.split_once("://"), to.strip_prefix('#'), to.strip_prefix("../")) {
             // What a browser would run or read from a disk is no address of a source.
-            (Some((scheme, _)), ..) => ["https", "http"].contains(&scheme),
+            (Some((scheme, host)), ..) => {
+                ["https", "http"].contains(&scheme) && host.starts_with(char::is_alphanumeric)
+            }
+            _ if to.starts_with("mailto:") => to.contains('@'),
             (_, Some(id), _) => {
                 let id = id.replacen('-', ":", 1);
                 labels.number(&id).is_some() && labels.beside(&id, here).is_none()

@@ -66,6 +66,10 @@ pub(super) fn paragraph(mut inlines: Vec<Inline>) -> Result<Block, Error> {
         });
     }
     refuse_pictures(&inlines)?;
+    let lists = |inline: &Inline| matches!(inline, Inline::Unresolved(ids) if ids.iter().any(|id| id == "bibliography"));
+    if inlines.iter().any(lists) {
+        return Err(Error::Markup("[@bibliography] stands alone in its paragraph".into()));
+    }
     let paragraph = Block::Paragraph(inlines);
     match mistyped(&paragraph) {
         Some(what) => Err(Error::Markup(what)),
@@ -91,7 +95,7 @@ fn mistyped(paragraph: &Block) -> Option<String> {
         near || far == 0 && lab
     })?;
     Some(format!(
-        "a paragraph that begins with `{}` is none of a kind; write `{meant}`",
+        "a paragraph that begins with `{}` is none of a kind; write `{meant}`, or begin it with another word",
         first.trim_end()
     ))
 }
@@ -144,6 +148,7 @@ pub(super) fn join(
         Block::Table { id, number, caption, .. } => {
             let found = caption_before(blocks, CAPTIONS[0]);
             let Some((words, attribute)) = found else { return Ok(None) };
+            refuse_empty(&words)?;
             (*caption, *id) = (words, attribute);
             *number = Some(String::new());
             Ok(Some(id.clone()))
@@ -154,10 +159,18 @@ pub(super) fn join(
                     "code of `{item}` without the paragraph `Listing: caption {{#lst:id}}` before it"
                 )));
             };
+            refuse_empty(&words)?;
             (*caption, *id) = (words, attribute);
             Ok(Some(Some(id.clone())))
         }
         _ => Ok(None),
+    }
+}
+
+fn refuse_empty(caption: &[Inline]) -> Result<(), Error> {
+    match plain(caption).trim() {
+        "" => Err(Error::Markup("a caption without its words".into())),
+        _ => Ok(()),
     }
 }
 

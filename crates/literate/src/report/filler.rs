@@ -26,6 +26,30 @@ use serde_json::Value as Json;
 use std::collections::{BTreeMap, BTreeSet};
 use tera::{Context, Delimiters, Kwargs, State, Tera};
 
+/// What conditions and loops have besides names.
+const WORDS: [&str; 20] = [
+    "if",
+    "elif",
+    "else",
+    "endif",
+    "for",
+    "in",
+    "endfor",
+    "and",
+    "or",
+    "not",
+    "is",
+    "defined",
+    "starting_with",
+    "ending_with",
+    "containing",
+    "pat",
+    "true",
+    "false",
+    "loop",
+    "last",
+];
+
 /// Bytes at most that a template makes: the longest of ours makes a tenth of a million.
 const LONGEST: u64 = 4 << 20;
 
@@ -97,28 +121,64 @@ impl Filler {
         self.context.insert(name, rows);
     }
 
-    /// Holds names of values in tags against what there is: in a condition Tera takes one that it does not have for
-    /// *false*.
+    /// Holds names in tags against what there is: in a condition Tera takes one that it does not have for *false*.
     fn known(&self) -> Result<(), Error> {
         for (path, text) in self.templates.iter().filter(|(path, _)| path.ends_with(".md")) {
+            // What loops name, anywhere in the file.
+            let mut own = BTreeSet::new();
             let mut at = 0;
             while let Some((start, end)) = next_tag(text, at) {
                 at = end;
+                let tag = &text[start..end];
+                if tag.starts_with("<#") {
+                    continue;
+                }
+                let fault = |what: String| {
+                    let place = line_and_column(text, start);
+                    Err(Error::Template(format!("{path}:{place}: {what}")))
+                };
                 // What is quoted is no name.
-                let bare = text[start..end].split('"').step_by(2);
+                let (bare, quoted): (Vec<_>, Vec<_>) =
+                    tag.split('"').enumerate().partition(|(i, _)| i % 2 == 0);
                 let other = |c: char| !(c.is_ascii_alphanumeric() || c == '_' || c == '.');
-                let mut words = bare.flat_map(|part| part.split(other));
+                let words = || bare.iter().flat_map(|(_, part)| part.split(other));
                 let unknown = |word: &&str| {
                     let root = word.split_once('.').map(|(root, _)| root);
                     root.is_some_and(|root| self.roots.contains(root))
                         && !self.names.contains(*word)
                 };
-                if let Some(word) = words.find(unknown).filter(|_| !text[start..].starts_with("<#"))
-                {
-                    let place = line_and_column(text, start);
-                    return Err(Error::Template(format!(
-                        "{path}:{place}: there is no value {word}; `explain` lists all"
-                    )));
+                if let Some(word) = words().find(unknown) {
+                    return fault(format!("there is no value {word}; `explain` lists all"));
+                }
+                if !tag.starts_with("<%") {
+                    continue;
+                }
+                if words().any(|word| word == "for") {
+                    own.extend(words().take_while(|word| *word != "in"));
+                }
+                let name = |word: &&str| {
+                    let root = word.split('.').next().unwrap_or_default();
+                    let number = root.is_empty() || root.starts_with(|c: char| c.is_ascii_digit());
+                    !number
+                        && !WORDS.contains(&root)
+                        && !own.contains(root)
+                        && !self.context.contains_key(root)
+                };
+                if let Some(word) = words().find(name) {
+                    return fault(format!("there is no name {word}; correct it"));
+                }
+                let compares = |part: &str| {
+                    ["==", "!=", "<", ">", "<=", ">="]
+                        .iter()
+                        .any(|sign| part.trim_end().ends_with(sign))
+                };
+                let number = bare.iter().zip(&quoted).find(|((_, before), (_, text))| {
+                    compares(before) && text.parse::<f64>().is_ok()
+                });
+                if let Some((_, (_, number))) = number {
+                    return fault(format!(
+                        "a number in quotes, {number:?}, equals no number; write it without"
+                    ));
                 }
             }
         }
@@ -307,6 +367,9 @@ fn register(tera: &mut Tera, program: Program) {
     tera.register_function("literal", |arguments: Kwargs, _: &State| {
         let text: String = arguments.must_get("text")?;
         let why: String = arguments.must_get("why")?;
+        if text.trim().is_empty() {
+            return Err(tera::Error::message("`literal` needs a number in `text`"));
+        }
         if why.trim().is_empty() {
             return Err(tera::Error::message("`literal` needs its reason in `why`"));
         }

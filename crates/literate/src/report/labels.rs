@@ -2,20 +2,34 @@
 
 use super::Error;
 use super::bibliography::Library;
+use super::captions::number_of_figure;
 use super::document::{Block, Inline, rewrite, visit};
 use super::documents::Document;
 use crate::claims::Check;
-use std::collections::BTreeMap;
+use crate::figures::Figure;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Everything that can be referred to, of all documents: id → number, and which document has it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Labels {
     labels: BTreeMap<String, (String, Document)>,
+    /// Parts of figures: `fig:8a`.
+    panels: BTreeSet<String>,
     /// Anchors of each kind so far.
     anchors: BTreeMap<String, usize>,
 }
 
 impl Labels {
+    /// None yet, of a report with these figures.
+    pub fn of(figures: &[Figure]) -> Self {
+        let panels = figures.iter().flat_map(|figure| {
+            let number = number_of_figure(&figure.id);
+            let drawn = |letter: &char| figure.svg.contains(&format!("aria-label=\"({letter})\""));
+            ('a'..='z').filter(drawn).map(move |letter| format!("fig:{number}{letter}"))
+        });
+        Labels { panels: panels.collect(), ..Labels::default() }
+    }
+
     fn add(&mut self, id: &str, number: &str, of: Document) -> Result<(), Error> {
         match self.labels.insert(id.to_string(), (number.to_string(), of)) {
             None => Ok(()),
@@ -95,6 +109,10 @@ impl Labels {
     /// Gives each judged statement that has its row more names: `row:id` and `mark:id`, shown as its verdict and number,
     /// and `sign:id`, shown as its verdict alone.
     pub fn judge(&mut self, claims: &[Check]) -> Result<(), Error> {
+        let mut placed = self.labels.keys().filter_map(|id| id.strip_prefix("claim:"));
+        if let Some(id) = placed.find(|id| !claims.iter().any(|claim| claim.id == *id)) {
+            return Err(Error::Claim(id.to_string()));
+        }
         for Check { id, verdict, .. } in claims {
             let Some((number, of)) = self.labels.get(&format!("claim:{id}")).cloned() else {
                 continue;
@@ -129,10 +147,6 @@ impl Labels {
         let lists: Vec<_> = lists.collect();
         if let (Some(key), true) = (cited.first(), lists.is_empty()) {
             let what = format!("{} cites {key} and has no [@bibliography]", here.markdown);
-            return Err(Error::Markup(what));
-        }
-        if lists.len() > 1 {
-            let what = format!("{} has [@bibliography] twice", here.markdown);
             return Err(Error::Markup(what));
         }
         for entries in lists {
@@ -183,7 +197,9 @@ impl Labels {
             let (target, part) = match self.number(&id) {
                 Some(_) => (id.as_str(), String::new()),
                 None => match id.strip_suffix(|c: char| c.is_ascii_lowercase()) {
-                    Some(whole) if lower == "fig" => (whole, format!("({})", &id[whole.len()..])),
+                    Some(whole) if self.panels.contains(&id) => {
+                        (whole, format!("({})", &id[whole.len()..]))
+                    }
                     _ => (id.as_str(), String::new()),
                 },
             };

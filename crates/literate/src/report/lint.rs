@@ -351,10 +351,50 @@ fn in_numeral(c: char) -> bool {
     c.is_numeric() || matches!(c, '.' | ',')
 }
 
+/// What may stand about a number without making a formula of it; of two that begin alike the longer first.
+const AROUND: [&str; 22] = [
+    r"\times",
+    r"\cdot",
+    r"\,",
+    r"\;",
+    r"\:",
+    r"\!",
+    r"\quad",
+    r"\approx",
+    r"\simeq",
+    r"\sim",
+    r"\leq",
+    r"\le",
+    r"\geq",
+    r"\ge",
+    r"\lesssim",
+    r"\gtrsim",
+    r"\ll",
+    r"\gg",
+    r"\pm",
+    r"\mathbf",
+    r"\mathit",
+    r"\boldsymbol",
+];
+
 /// Nothing but one number? `0` and `1` pass: they are as much words as numbers.
 fn is_number(maths: &str) -> bool {
-    let text = maths.replace(r"\times", "").replace(r"\cdot", "").replace(r"\,", "");
-    let text = text.trim();
+    let mut text = maths.to_string();
+    // Words and units in it are no letters of a formula.
+    for open in [r"\text{", r"\textrm{", r"\mathrm{"] {
+        while let Some((before, after)) = text.split_once(open) {
+            let Some((word, rest)) = after.split_once('}') else { break };
+            if is_number_word(word.trim()) {
+                return true;
+            }
+            let word = if word.contains(|c: char| c.is_ascii_digit()) { word } else { "" };
+            text = format!("{before}{word}{rest}");
+        }
+    }
+    for sign in AROUND {
+        text = text.replace(sign, "");
+    }
+    let text = text.trim_matches([' ', '=', '<', '>', '~', '≈', '±', '≤', '≥']);
     let digits = text.chars().any(|c| c.is_ascii_digit());
     digits
         && !matches!(text, "0" | "1")

@@ -6,6 +6,7 @@
 //! mathematics is held against a list of what is known there, to LaTeX with amsmath, and to math-core.
 
 use super::html::LONGEST;
+use super::valued::OPEN;
 
 /// Macros, by kind.
 const ALLOWED: &str = "
@@ -14,11 +15,13 @@ const ALLOWED: &str = "
     Gamma Delta Theta Lambda Xi Pi Sigma Upsilon Phi Psi Omega
     frac dfrac tfrac binom sqrt sum prod int iint oint partial nabla infty ell hbar prime
     le leq ge geq lt gt ne neq ll gg lesssim gtrsim approx sim simeq equiv propto in notin subset to mapsto
-    rightarrow leftarrow Rightarrow iff implies land lor forall exists cup cap setminus mid perp
-    pm mp times div cdot cdots dots ldots vdots ddots ast star circ oplus otimes
+    rightarrow leftarrow Rightarrow Leftrightarrow longrightarrow iff implies land lor wedge vee neg forall exists
+    cup cap bigcup bigcap setminus emptyset varnothing subseteq supset supseteq mid parallel perp top cong
+    pm mp times div cdot cdots dots ldots vdots ddots ast star circ oplus otimes dagger colon leqslant geqslant
     left right bigl bigr Bigl Bigr biggl biggr big Big langle rangle lceil rceil lfloor rfloor
     lbrace rbrace lvert rvert lVert rVert vert Vert
-    sin cos tan cot sinh cosh tanh coth arcsin arccos arctan exp ln log max min sup inf lim det arg Re Im
+    sin cos tan cot sinh cosh tanh coth arcsin arccos arctan exp ln log max min sup inf lim limsup liminf det dim deg Pr arg Re Im
+    bmod pmod overset underset mathring mathfrak textbf
     bar hat tilde vec dot ddot overline underline widehat overbrace underbrace
     mathrm mathbf mathbb mathcal mathit mathsf boldsymbol text textrm
     quad qquad thinspace negthinspace limits nolimits displaystyle textstyle tag begin end";
@@ -36,7 +39,9 @@ pub fn refused(tex: &str) -> Option<String> {
         }
         let name = &after[..after.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(after.len())];
         rest = &after[name.len()..];
-        if name.is_empty() {
+        if name.is_empty() && after.starts_with('\\') && !tex.contains(r"\begin{") {
+            return Some(r"a break \\ of lines stands in \begin{aligned}".into());
+        } else if name.is_empty() {
             // `\,` and its like: one character, which may be a backslash.
             rest = after.get(after.chars().next().map_or(0, char::len_utf8)..).unwrap_or_default();
         } else if name == "operatorname" {
@@ -56,26 +61,32 @@ pub fn refused(tex: &str) -> Option<String> {
             }
         }
     }
-    // Longer formulas are refused as such.
-    let ungrouped = || Some(tex).filter(|tex| tex.len() <= LONGEST).and_then(ungrouped);
-    bare(rest).or_else(ungrouped)
+    bare(rest)
 }
 
 /// How many arguments a macro takes.
 fn arguments(name: &str) -> usize {
-    const ONE: &str = "sqrt bar hat tilde vec dot ddot overline underline widehat overbrace underbrace mathrm mathbf \
+    const ONE: &str = "pmod mathring mathfrak textbf sqrt bar hat tilde vec dot ddot overline underline widehat overbrace underbrace mathrm mathbf \
         mathbb mathcal mathit mathsf boldsymbol text textrm";
     let among = |list: &str| list.split_whitespace().any(|own| own == name);
-    if among("frac dfrac tfrac binom") { 2 } else { usize::from(among(ONE)) }
+    if among("frac dfrac tfrac binom overset underset") { 2 } else { usize::from(among(ONE)) }
 }
 
-/// The first macro with arguments of its own that stands, without brackets, where LaTeX takes one sign.
-fn ungrouped(tex: &str) -> Option<String> {
+/// The first macro with arguments of its own, or value, that stands, without brackets, where LaTeX takes one sign.
+/// Values are framed (see [`super::valued`]).
+pub fn ungrouped(tex: &str) -> Option<String> {
+    // Longer formulas are refused as such.
+    if tex.len() > LONGEST {
+        return None;
+    }
     let macro_of = |text: &str| -> Option<String> {
         let name = text.strip_prefix('\\')?;
         Some(name.chars().take_while(char::is_ascii_alphabetic).collect())
     };
     let wrong = |argument: &str| {
+        if argument.trim_start().starts_with(OPEN) {
+            return Some("a value is an index or an argument here; put it into {…}".into());
+        }
         let name = macro_of(argument.trim_start())?;
         let takes = arguments(&name) > 0 || name == "left" || name == "begin";
         takes.then(|| format!(r"\{name} is an argument here; put it into {{…}}"))
@@ -129,14 +140,13 @@ mod tests {
     fn what_hosts_refuse_is_named() {
         for tex in [
             r"\frac{1}{2}\,\mathrm{erf}(x)",
-            r"a \\ b",
             r"\begin{aligned} a \end{aligned}",
             r"\{x\}",
             r"50\,\% \& \# x",
             r"\_\sqrt{2} a^\ast \frac{\sqrt{2}}{\left( a \right)}\sqrt{x^{\frac12}} \sqrt[3]{a}",
             "x",
         ] {
-            assert_eq!(refused(tex), None, "{tex}");
+            assert_eq!(refused(tex).or_else(|| ungrouped(tex)), None, "{tex}");
         }
         for (tex, name) in [
             (r"x + \operatorname{erf} x", "mathrm"),
@@ -146,14 +156,17 @@ mod tests {
             ("50 % x", r"write \%"),
             (r"\alpha % x", r"write \%"),
             (r"n # \alpha", r"write \#"),
-            (r"\\\sigmma", r"\sigmma "),
+            (r"\,\sigmma", r"\sigmma "),
+            (r"a \\ b", r"\begin{aligned}"),
             (r"\begin{align} a \end{align}", "\"align\""),
             (r"\frac{1}\sqrt{2}", r"\sqrt is an argument"),
             (r"\frac{1} \left[ a \right]", r"\left is an argument"),
             (r"x^\overline{a}", r"\overline is"),
             (r"\Phi_ \sqrt{a}", r"\sqrt is"),
+            ("x^\u{e003}n\u{e004}12\u{e005}", "a value is"),
+            ("\\frac{1}\u{e003}n\u{e004}12\u{e005}", "a value is"),
         ] {
-            let told = refused(tex).unwrap_or_default();
+            let told = refused(tex).or_else(|| ungrouped(tex)).unwrap_or_default();
             assert!(told.contains(name), "{tex}: {told}");
         }
     }
@@ -162,7 +175,9 @@ mod tests {
     #[test]
     fn what_is_allowed_is_read() {
         let with_brackets = |name: &str| match name {
-            "frac" | "dfrac" | "tfrac" | "binom" => format!(r"\{name}{{a}}{{b}}"),
+            "frac" | "dfrac" | "tfrac" | "binom" | "overset" | "underset" => {
+                format!(r"\{name}{{a}}{{b}}")
+            }
             "left" | "right" => r"\left( a \right)".into(),
             "begin" | "end" => r"\begin{aligned} a &= b \\ c &= d \end{aligned}".into(),
             "tag" => "a".into(),

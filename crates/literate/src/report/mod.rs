@@ -72,6 +72,8 @@ pub enum Error {
     At { place: String, error: Box<Error> },
     #[error("`Lab {}: …`: lab.js has no function of this name; correct it, or write one", one_line(.0, 200))]
     Lab(String),
+    #[error("[!claim:{}]: there is no claim of this id; correct or remove it", one_line(.0, 200))]
+    Claim(String),
     #[error("a link to {}: there is no such file or place; correct or remove it", one_line(.0, 200))]
     NoFile(String),
     #[error("{}: two things in the report have this id; give one of them another", one_line(.0, 200))]

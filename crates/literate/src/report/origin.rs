@@ -212,6 +212,7 @@ impl<'a> Places<'a> {
         let thing = match &error {
             Error::Label(id) => format!("#{id}"),
             Error::Reference(id) => format!("@{id}"),
+            Error::Claim(id) => format!("#claim:{id}"),
             Error::NoFile(path) => format!("({path}"),
             Error::Lab(lab) => format!("Lab {lab}"),
             _ => return error,

@@ -156,11 +156,24 @@ impl<'a> Reader<'a> {
             };
             let Some(mut block) = new else { continue };
             let begun = self.at;
+            if let (Some(Block::List { start: one, .. }), Block::List { start: other, .. }) =
+                (blocks.last(), &block)
+                && one.is_some() == other.is_some()
+            {
+                return Err(markup(
+                    "two lists without words between them are read as one; make them one",
+                ));
+            }
+            let is_list = |block: &Block| matches!(block, Block::Bibliography(_));
+            if is_list(&block) && blocks.iter().any(is_list) {
+                return Err(markup("a second [@bibliography]; a document has one"));
+            }
             if self.within > 0 && !stands_within(&block) {
                 return Err(markup(
                     "what has a number or a place of its own stands in no list and no quotation",
                 ));
             }
+            self.at = caption.unwrap_or(begun);
             let joined = join(&mut blocks, &mut block)?;
             if let (Some(id), Some(offset)) = (&joined, caption) {
                 self.attribute = None;
@@ -259,6 +272,11 @@ impl<'a> Reader<'a> {
                 if fenced && !last.is_some_and(|line| line.trim_start().starts_with(['`', '~'])) {
                     return Err(markup("a block of code without its end"));
                 }
+                let word = language.split(' ').next().unwrap_or_default();
+                if word == "math" || word.contains(|c: char| !c.is_ascii_alphanumeric()) {
+                    let what = "code of a language is named by a word; a formula stands between $$";
+                    return Err(markup(format!("{what}, and not in {word}")));
+                }
                 match language.split_once(' ') {
                     Some((_, item)) => listing(item, &self.program)?,
                     None => Block::Code { language, text: self.written(&text)? },
@@ -346,7 +364,10 @@ impl<'a> Reader<'a> {
                     self.whole(&text, &range)?;
                     self.text(&text, &mut out)?;
                 }
-                Event::Code(text) => out.push(Inline::Code(self.written(&text)?)),
+                Event::Code(text) => {
+                    self.has_no_role(&text, &range)?;
+                    out.push(Inline::Code(self.written(&text)?));
+                }
                 Event::InlineMath(_) if self.inside > 0 => {
                     return Err(markup("hosts see no formula inside emphasis or a link"));
                 }
@@ -365,10 +386,25 @@ impl<'a> Reader<'a> {
         Ok(out)
     }
 
-    /// The same where no picture can stand.
+    /// The same where no picture and no equation of its own can stand.
     fn without_pictures(&mut self) -> Result<Vec<Inline>, Error> {
         let inlines = self.inlines()?;
+        if inlines.iter().any(|inline| matches!(inline, Inline::Display { .. })) {
+            return Err(markup("an equation between $$ stands in a paragraph; write $…$ here"));
+        }
         refuse_pictures(&inlines).map(|()| inlines)
+    }
+
+    /// Other tools give code a role, or run it.
+    fn has_no_role(&self, code: &str, range: &Range<usize>) -> Result<(), Error> {
+        let before = self.filled.text[..range.start].split_whitespace().next_back();
+        let before =
+            before.filter(|_| !self.filled.text[..range.start].ends_with(char::is_whitespace));
+        let role = |word: &str| word.len() > 2 && word.contains(':') && word.ends_with(':');
+        match before.is_some_and(role) || code.starts_with("r ") {
+            true => Err(markup("code has no role and is not run; write $…$, [@…] or «…»")),
+            false => Ok(()),
+        }
     }
 
     /// Refuses markup that was left over as text, since its other end is missing.
@@ -445,12 +481,16 @@ impl<'a> Reader<'a> {
             Tag::Link { dest_url, .. } if dest_url.starts_with('@') => {
                 return Err(markup("a reference for a link; write two of them as [@one; @two]"));
             }
+            Tag::Link { .. } if plain(&inner).starts_with('@') => {
+                return Err(markup("a reference leads where it names; write [@…] alone"));
+            }
             Tag::Link { .. } if empty => return Err(markup("a link without words")),
             Tag::Link { dest_url, .. } | Tag::Image { dest_url, .. } if dest_url.is_empty() => {
                 return Err(markup("a link or picture that leads nowhere"));
             }
-            Tag::Link { dest_url, .. } => {
-                let to = self.written(&dest_url)?;
+            Tag::Link { dest_url, link_type, .. } => {
+                let mail = if link_type == LinkType::Email { "mailto:" } else { "" };
+                let to = format!("{mail}{}", self.written(&dest_url)?);
                 self.places.add(format!("({to}"), range.start);
                 Inline::Link { to, shown: inner }
             }
@@ -484,7 +524,10 @@ impl<'a> Reader<'a> {
         if bare.trim().is_empty() {
             return Err(markup("a formula without anything in it"));
         }
-        match macros::refused(&bare) {
+        if bare.contains('`') {
+            return Err(markup("code within a formula; write $…$ alone"));
+        }
+        match macros::refused(&bare).or_else(|| macros::ungrouped(&tex)) {
             Some(what) => Err(Error::Maths { tex: bare, what }),
             None => tex::maths(&bare).and_then(|_| html::reads(&bare)).map(|()| tex),
         }

@@ -18,6 +18,8 @@ pub fn text(text: &str) -> Result<String, Error> {
             '>' => out.push_str(r"\textgreater{}"),
             '|' => out.push_str(r"\textbar{}"),
             '"' => out.push_str(r"\textquotedbl{}"),
+            // Two of these become one sign.
+            '-' | '\'' | ',' if out.ends_with(c) => out.extend(['{', '}', c]),
             c if c.is_ascii() => out.push(c),
             // Latin letters with accents are known to T1 fonts.
             '\u{c0}'..='\u{17f}' if c != '×' && c != '÷' => out.push(c),

@@ -3,7 +3,7 @@
 //! Private-use characters frame id and digits; formats without cards take [`bare`] TeX, the HTML
 //! writer turns each piece into a button.
 
-const OPEN: char = '\u{e003}';
+pub(super) const OPEN: char = '\u{e003}';
 const NEXT: char = '\u{e004}';
 const CLOSE: char = '\u{e005}';
 

@@ -20,11 +20,16 @@ pub(super) fn comment(html: &str) -> Result<(), Error> {
     }
 }
 
-/// What stands in the `{…}` behind the words of a heading, if that is no formula's.
-pub(super) fn attributes(heading: &str) -> Vec<&str> {
+/// What stands in the `{…}` at the end of a heading.
+pub(super) fn attributes<'a>(heading: &'a str) -> Vec<&'a str> {
     let inner = heading.trim_end().strip_suffix('}').and_then(|text| text.rsplit_once('{'));
-    let inner = inner.map(|(_, inner)| inner).filter(|inner| inner.starts_with(['#', '.']));
-    inner.unwrap_or_default().split_whitespace().collect()
+    let inner = inner.map(|(_, inner)| inner).filter(|inner| !inner.ends_with('\\'));
+    // Markdown takes away what is in there, and empty braces too.
+    let words = |inner: &'a str| match inner.trim() {
+        "" => vec!["{}"],
+        inner => inner.split_whitespace().collect(),
+    };
+    inner.map(words).unwrap_or_default()
 }
 
 /// Cells of a row of a table, by its bars.
@@ -38,6 +43,11 @@ pub(super) fn cells_of(row: &str) -> usize {
 /// `@fig:2; @fig:3` or `!claim:rise`.
 pub(super) fn own_link(reference: &str) -> Result<Inline, Error> {
     if let Some(id) = reference.strip_prefix('!') {
+        if !id.starts_with("claim:") {
+            return Err(markup(format!(
+                "[!{id}] is no place of a claim, [!claim:id], and there are no callouts; remove it"
+            )));
+        }
         of_kind("claim", id)?;
         return Ok(Inline::Anchor { id: id.to_string(), number: String::new() });
     }
