@@ -12,12 +12,12 @@ front.md +Scen: A => :$:1: a paragraph that begins with `Scen:`
 front.md +lab theory: x => :$:1: a paragraph that begins with `lab`
 front.md +Lab theory What => :$:1: a paragraph that begins with `Lab`
 front.md +- Lba theory: x => :$:3: a paragraph that begins with `Lba`
-front.md +See (it)[x] now => :$:8: a link with its brackets changed
-front.md +See [it] (methods.md) now => :$:8: a link with a blank in it
+front.md +See (it)[x] now => :$:9: a link that is not whole
+front.md +See [it] (methods.md) now => :$:5: a link that is not whole
 front.md +An {{ x }} b => :$:4: braces about a value
 front.md +An <<v.x>> b => :$:4: signs about a value
-front.md +Seen [-@rice1945] => :$:8: a reference without its brackets
-front.md +Seen [rice1945] => :$:6: a reference without its sign
+front.md +Seen [-@rice1945] => :$:6: a link that is not whole
+front.md +Seen [rice1945] => :$:6: a link that is not whole
 front.md +See \ref{x} => :$:5: a command of TeX outside of a formula
 front.md +See [@ eq:x] => :$:5: a blank behind the sign of [@ eq:x]
 front.md +«nofun(a=1)» => :$:2: Unknown function
@@ -44,6 +44,12 @@ references.bib +@book{aa, author={b}, year={1999}, title={ }} => :$: aa lacks it
 references.bib +@book{aa,¦year={199}} => :$: aa has `year`, which is no year of four digits
 references.bib +@book{aa, year={1999},¦Year={1998}} => :$: aa has `Year`, which stands twice
 references.bib +@book{aa, volum={1}} => :$: aa has `volum`, which is no field; is `volume` meant?
+references.bib +@article{aa, author={B}, title={b}, year={1999}} => :$: aa lacks its journal
+references.bib +@misc{aa, author={B & C}, title={b}, year={1999}} => :$: aa has `author`, which is no list of names
+references.bib +@misc{aa, author={B}, title={\emph{b}}, year={1999}} => :$: aa would show \ as it stands
+references.bib +@misc{aa, author={B}, title={b}},¦year={1999}} => :$: aa ends before what stands here
+references.bib +@misc{aa, author={B}, title={b}, doi={https://doi.org/b}} => :$: aa has `doi`, which is an address
+references.bib +@misc{aa, author={B}, title={Ж}, year={1999}} => :$: no LaTeX is known
 references.bib +@string{aa = {b}} => :$: @string takes fields from elsewhere
 references.bib +@article{aa, author={X}, title={b}, year={abc}} => :$: aa has `year`, which is no year
 report.html «page.body» ->  => : it has «page.body» 0 times

@@ -1,15 +1,16 @@
 //! `references.bib` → labels and entries of the list of references, in a style of the Citation Style
 //! Language.
 
+use super::Error;
 use super::document::{Entry, Inline, plain};
-use super::{Error, entries};
+use super::entries::Entries;
 use crate::input::line_and_column;
 use hayagriva::archive::{ArchivedStyle, locales};
-use hayagriva::citationberg::{FontStyle, FontWeight, IndependentStyle, Style};
+use hayagriva::citationberg::{FontStyle, FontWeight, IndependentStyle, Locale, Style};
 use hayagriva::io::{BibLaTeXError, from_biblatex_str};
 use hayagriva::{
-    BibliographyDriver, BibliographyRequest, CitationItem, CitationRequest, ElemChild,
-    ElemChildren, Formatted,
+    BibliographyDriver, BibliographyItem, BibliographyRequest, CitationItem, CitationRequest,
+    ElemChild, ElemChildren, Formatted,
 };
 
 /// Authors and year in the text; author, year, title in the list.
@@ -22,30 +23,31 @@ pub struct Library(Vec<Entry>);
 impl Library {
     /// Reads BibTeX.
     pub fn read(text: &str) -> Result<Self, Error> {
-        entries::sound(text)?;
-        let read = from_biblatex_str(text).map_err(|errors| {
+        let faults = |errors: Vec<BibLaTeXError>, text: &str| {
             let told: Vec<String> = errors.iter().map(|error| explained(error, text)).collect();
             Error::Template(format!("{}; mend it, or restore the file", told.join("; ")))
-        })?;
-        let style = style()?;
-        let locales = locales();
-        let mut driver = BibliographyDriver::new();
-        for entry in &read {
-            let items = vec![CitationItem::with_entry(entry)];
-            driver.citation(CitationRequest::from_items(items, &style, &locales));
-        }
-        let rendered = driver.finish(BibliographyRequest::new(&style, None, &locales));
-        let labels: Vec<(&str, String)> = read
-            .iter()
-            .zip(&rendered.citations)
-            .map(|(entry, label)| (entry.key(), plain(&inlines(&label.citation))))
-            .collect();
-        let items = rendered.bibliography.map(|list| list.items).unwrap_or_default();
-        let one = |item: &hayagriva::BibliographyItem| {
-            let label = labels.iter().find(|(key, _)| *key == item.key)?.1.clone();
-            Some(Entry { key: item.key.clone(), label, text: inlines(&item.content) })
         };
-        Ok(Library(items.iter().filter_map(one).collect()))
+        let form = |error| faults(vec![BibLaTeXError::Parse(error)], text);
+        let written = Entries::read(text).map_err(form)?;
+        written.sound()?;
+        let kept = written.with_names_kept();
+        let read = from_biblatex_str(&kept).map_err(|errors| faults(errors, &kept))?;
+        let look = (style()?, locales());
+        let (all, _) = rendered(&read.iter().collect::<Vec<_>>(), &look);
+        let mut entries = Vec::new();
+        for key in all.iter().map(|item| &item.key) {
+            let Some(entry) = read.get(key) else { continue };
+            // Alone: beside others of its name the style takes initials away.
+            let (list, labels) = rendered(&[entry], &look);
+            let text = list.first().map(|item| inlines(&item.content)).unwrap_or_default();
+            let link = |part: &&Inline| matches!(part, Inline::Link { .. });
+            let words: Vec<Inline> = text.iter().filter(|part| !link(part)).cloned().collect();
+            written.shows(key, &plain(&words))?;
+            let label = labels.first().map(|label| plain(label)).unwrap_or_default();
+            entries.push(Entry { key: key.clone(), label, text });
+        }
+        tell_apart(&mut entries);
+        Ok(Library(entries))
     }
 
     fn entry(&self, key: &str) -> Result<&Entry, Error> {
@@ -70,6 +72,42 @@ impl Library {
     }
 }
 
+/// Entries as the style shows them, in its order, and labels of citations, in theirs.
+fn rendered(
+    entries: &[&hayagriva::Entry],
+    (style, locales): &(IndependentStyle, Vec<Locale>),
+) -> (Vec<BibliographyItem>, Vec<Vec<Inline>>) {
+    let mut driver = BibliographyDriver::new();
+    for entry in entries {
+        let items = vec![CitationItem::with_entry(*entry)];
+        driver.citation(CitationRequest::from_items(items, style, locales));
+    }
+    let made = driver.finish(BibliographyRequest::new(style, None, locales));
+    let labels = made.citations.iter().map(|label| inlines(&label.citation)).collect();
+    (made.bibliography.map(|list| list.items).unwrap_or_default(), labels)
+}
+
+/// Gives those with one label letters behind their year, in the order of the list.
+fn tell_apart(entries: &mut [Entry]) {
+    let labels: Vec<String> = entries.iter().map(|entry| entry.label.clone()).collect();
+    for (i, entry) in entries.iter_mut().enumerate() {
+        let alike = |range: &[String]| range.iter().filter(|label| **label == labels[i]).count();
+        let (before, all) = (alike(&labels[..i]), alike(&labels));
+        let Some(letter) = ('a'..='z').nth(before).filter(|_| all > 1) else { continue };
+        let year = labels[i].rsplit(' ').next().unwrap_or_default();
+        let lettered = format!("{year}{letter}");
+        entry.label = labels[i].replace(year, &lettered);
+        for part in &mut entry.text {
+            if let Inline::Text(words) = part
+                && words.contains(year)
+            {
+                *words = words.replacen(year, &lettered, 1);
+                break;
+            }
+        }
+    }
+}
+
 /// The style, without brackets around a citation: the report sets its own.
 fn style() -> Result<IndependentStyle, Error> {
     let Style::Independent(mut style) = STYLE.get() else {
@@ -88,9 +126,23 @@ fn explained(error: &BibLaTeXError, text: &str) -> String {
     format!("references.bib:{}: {what}", line_and_column(text, span.start))
 }
 
-/// Formatted text as pieces of running text.
+/// Formatted text as pieces of running text, words side by side in one.
 fn inlines(children: &ElemChildren) -> Vec<Inline> {
-    children.0.iter().flat_map(child).collect()
+    let mut out: Vec<Inline> = Vec::new();
+    for piece in children.0.iter().flat_map(child) {
+        match (out.last_mut(), piece) {
+            (Some(Inline::Text(before)), Inline::Text(words)) => before.push_str(&words),
+            (_, piece) => out.push(piece),
+        }
+    }
+    for piece in &mut out {
+        if let Inline::Text(words) = piece {
+            // A year without a day leaves its comma; of *and others* the style makes a name.
+            *words =
+                words.replace(",)", ")").replace("& others", "et al.").replace("et al..", "et al.");
+        }
+    }
+    out
 }
 
 fn child(child: &ElemChild) -> Vec<Inline> {

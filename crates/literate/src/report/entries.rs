@@ -1,43 +1,122 @@
-//! What an entry of `references.bib` says, looked at as it is written: what a reader of BibTeX passes over in
-//! silence would be missing in the list of references.
+//! Entries of `references.bib` as they are written: what a reader of BibTeX passes over in silence would be
+//! missing, or wrong, in the list of references.
 
-use super::Error;
-use crate::input::line;
-use biblatex::{EntryType, Pair, RawBibliography, RawChunk, RawEntry};
+use super::{Error, tex};
+use crate::input::{line, one_line};
+use biblatex::{EntryType, Pair, ParseError, RawBibliography, RawChunk, RawEntry};
 
 /// Fields that the list of references shows. Managers of references write many others beside them.
 const FIELDS: &str = "author booktitle chapter date doi edition editor howpublished institution issue journal \
     journaltitle note number organization pages publisher school series title translator url volume year";
 
-/// Of each of these an entry has one, with something in it.
-const NEEDED: [&[&str]; 3] = [&["author", "editor"], &["year", "date"], &["title"]];
+/// Of each of these an entry has one, with something in it; of the last, if it is of that type.
+const NEEDED: [(&str, &[&str]); 6] = [
+    ("", &["author", "editor"]),
+    ("", &["year", "date"]),
+    ("", &["title"]),
+    ("article", &["journal", "journaltitle"]),
+    ("inproceedings", &["booktitle"]),
+    ("incollection", &["booktitle"]),
+];
 
 /// Fields of BibLaTeX that are spelt nearly as these.
 const NEAR: [&str; 4] = ["editora", "editorb", "editorc", "volumes"];
 
-/// Refuses what no list of references could show as it was meant.
-///
-/// # Errors
-/// The line, the key, and what to write.
-pub fn sound(text: &str) -> Result<(), Error> {
-    // What is wrong with the form is told by who reads the entries.
-    let Ok(read) = RawBibliography::parse(text) else { return Ok(()) };
-    let told = |offset: usize, what: String| {
-        let line = line(text.get(..offset).unwrap_or(text));
-        Err(Error::Template(format!("references.bib:{line}: {what}")))
-    };
-    if let Some(pair) = read.abbreviations.first() {
-        return told(
-            pair.key.span.start,
-            "@string takes fields from elsewhere; write them out".into(),
-        );
+/// Fields that are names and not sentences: their capitals stay.
+const NAMES: [&str; 5] = ["journal", "journaltitle", "booktitle", "publisher", "series"];
+
+/// Signs that are markup where they would be shown.
+const SIGNS: [&str; 14] =
+    ["\\", "`", "''", "$", "~", "^", "_", "{", "}", "<", ">", "*", "«", "&amp;"];
+
+/// The entries of a file.
+pub struct Entries<'a> {
+    text: &'a str,
+    read: RawBibliography<'a>,
+}
+
+impl<'a> Entries<'a> {
+    /// Reads them.
+    ///
+    /// # Errors
+    /// What is wrong with the form of the file.
+    pub fn read(text: &'a str) -> Result<Self, ParseError> {
+        Ok(Entries { text, read: RawBibliography::parse(text)? })
     }
-    for entry in read.entries {
-        if let Some((offset, what)) = wrong(&entry.v) {
-            return told(offset, format!("{} {what}", entry.v.key.v));
+
+    /// Refuses what no list of references could show as it was meant.
+    ///
+    /// # Errors
+    /// The line, the key, and what to write.
+    pub fn sound(&self) -> Result<(), Error> {
+        let odd = |(_, c): &(usize, char)| tex::text(c.encode_utf8(&mut [0; 4])).is_err();
+        if let Some((offset, c)) = self.text.char_indices().find(odd) {
+            let c = one_line(&c.to_string(), 1);
+            return Err(
+                self.fault(offset, &format!("no LaTeX is known for {c:?}; write it otherwise"))
+            );
         }
+        if let Some(pair) = self.read.abbreviations.first() {
+            let what = "@string takes fields from elsewhere; write them out";
+            return Err(self.fault(pair.key.span.start, what));
+        }
+        for (i, entry) in self.read.entries.iter().enumerate() {
+            // A reader takes what is no entry for a comment.
+            let end = self.read.entries.get(i + 1).map_or(self.text.len(), |next| next.span.start);
+            let between = self.text[entry.span.end..end]
+                .trim_start_matches([' ', '\n', '\r', '\t', '}', ',']);
+            let between = between.split('@').next().unwrap_or_default();
+            let stray = between
+                .lines()
+                .find(|line| !line.trim().is_empty() && !line.trim().starts_with('%'));
+            if let Some(stray) = stray {
+                let offset =
+                    entry.span.end + self.text[entry.span.end..].find(stray).unwrap_or_default();
+                let what =
+                    format!("{} ends before what stands here; is a brace too many?", entry.v.key.v);
+                return Err(self.fault(offset, &what));
+            }
+            if let Some((offset, what)) = wrong(&entry.v) {
+                return Err(self.fault(offset, &format!("{} {what}", entry.v.key.v)));
+            }
+        }
+        Ok(())
     }
-    Ok(())
+
+    /// Refuses what would be shown of an entry, if a sign of markup is in it.
+    ///
+    /// # Errors
+    /// The line of the entry, and the sign.
+    pub fn shows(&self, key: &str, words: &str) -> Result<(), Error> {
+        let Some(sign) = SIGNS.into_iter().find(|sign| words.contains(sign)) else { return Ok(()) };
+        let own = self.read.entries.iter().find(|entry| entry.v.key.v == key);
+        let what = format!(
+            "{key} would show {sign} as it stands; write the word or character that is meant"
+        );
+        Err(self.fault(own.map_or(0, |entry| entry.span.start), &what))
+    }
+
+    /// The file with braces about what keeps its capitals.
+    pub fn with_names_kept(&self) -> String {
+        let (mut out, mut at) = (String::new(), 0);
+        for pair in self.read.entries.iter().flat_map(|entry| &entry.v.fields) {
+            if let [words] = pair.value.v.as_slice()
+                && NAMES.contains(&name(pair).as_str())
+                && matches!(words.v, RawChunk::Normal(_))
+            {
+                let span = &words.span;
+                out.push_str(&self.text[at..span.start]);
+                out.push_str(&format!("{{{}}}", &self.text[span.clone()]));
+                at = span.end;
+            }
+        }
+        out + &self.text[at..]
+    }
+
+    fn fault(&self, offset: usize, what: &str) -> Error {
+        let line = line(self.text.get(..offset).unwrap_or(self.text));
+        Error::Template(format!("references.bib:{line}: {what}"))
+    }
 }
 
 /// The first fault of an entry: its offset, and what is said behind the key.
@@ -47,19 +126,19 @@ fn wrong(entry: &RawEntry<'_>) -> Option<(usize, String)> {
         let what = "which there is not; write @article, @book, @phdthesis or the like";
         return Some((head, format!("has the type @{kind}, {what}")));
     }
-    let mut fields = entry.fields.iter().enumerate();
     let one = |(i, pair): (usize, &Pair<'_>)| {
         let before = entry.fields[..i].iter().map(name);
         Some((pair.key.span.start, format!("has `{}`, which {}", pair.key.v, fault(pair, before)?)))
     };
-    if let Some(found) = fields.find_map(one) {
+    if let Some(found) = entry.fields.iter().enumerate().find_map(one) {
         return Some(found);
     }
-    let has = |names: &&[&str]| {
+    let has = |names: &[&str]| {
         let full = |pair: &&Pair<'_>| value(pair).contains(char::is_alphanumeric);
         entry.fields.iter().filter(full).any(|pair| names.contains(&name(pair).as_str()))
     };
-    let lacks = NEEDED.into_iter().find(|names| !has(names))?;
+    let needs = |of: &str| of.is_empty() || of == kind.to_lowercase();
+    let (_, lacks) = NEEDED.into_iter().find(|(of, names)| needs(of) && !has(names))?;
     Some((head, format!("lacks its {}; give it", lacks.join(" or "))))
 }
 
@@ -68,20 +147,54 @@ fn fault(pair: &Pair<'_>, mut before: impl Iterator<Item = String>) -> Option<St
     let (own, value) = (name(pair), value(pair));
     let shown = |name: &str| FIELDS.split(' ').any(|field| field == name);
     let meant = FIELDS.split(' ').find(|field| strsim::osa_distance(field, &own) == 1);
-    match meant {
+    let what = match own.as_str() {
         // The reader follows them without end where they lead back.
-        _ if ["crossref", "xdata", "xref"].contains(&own.as_str()) => {
-            Some("takes fields from elsewhere; write them out".into())
+        "crossref" | "xdata" | "xref" => "takes fields from elsewhere; write them out",
+        _ if shown(&own) && before.any(|name| name == own) => "stands twice; keep one",
+        "year" if value.len() != 4 || !value.bytes().all(|c| c.is_ascii_digit()) => {
+            "is no year of four digits; correct it"
         }
-        _ if shown(&own) && before.any(|name| name == own) => Some("stands twice; keep one".into()),
-        _ if own == "year" && (value.len() != 4 || !value.bytes().all(|c| c.is_ascii_digit())) => {
-            Some("is no year of four digits; correct it".into())
+        "doi" if value.contains("://") => "is an address; write what follows doi.org/",
+        "author" | "editor" if !value.is_empty() && !are_names(&value) => {
+            "is no list of names; write `Family, Given and Family, Given`"
         }
-        Some(meant) if !shown(&own) && !NEAR.contains(&own.as_str()) => {
-            Some(format!("is no field; is `{meant}` meant?"))
+        _ => {
+            let meant = meant.filter(|_| !shown(&own) && !NEAR.contains(&own.as_str()))?;
+            return Some(format!("is no field; is `{meant}` meant?"));
         }
-        _ => None,
-    }
+    };
+    Some(what.into())
+}
+
+/// Are these names, joined by *and*? What stands in braces is one name.
+fn are_names(value: &str) -> bool {
+    let mut depth = 0_i32;
+    let bare: String = value
+        .chars()
+        .filter(|c| {
+            depth += i32::from(*c == '{') - i32::from(*c == '}');
+            depth == 0
+        })
+        .collect();
+    let words: Vec<&str> = bare.split_whitespace().collect();
+    let one = |name: &[&str]| {
+        let name = name.join(" ");
+        let parts: Vec<&str> = name.split(',').map(str::trim).collect();
+        let junior = |part: &str| part.len() <= 4 && part.starts_with(['J', 'S', 'I', 'V']);
+        let fits = match parts.as_slice() {
+            [family, middle, _] => !family.is_empty() && junior(middle),
+            // What was in braces has left nothing.
+            parts => {
+                parts.len() < 3
+                    && parts[1..].iter().all(|part| !part.is_empty() || value.contains('{'))
+            }
+        };
+        fits && !name.contains([';', '&', '/'])
+    };
+    let empty = |name: &[&str]| name.is_empty() && !value.contains('{');
+    let mut names = words.split(|word| *word == "and");
+    !words.iter().any(|word| ["AND", "And"].contains(word))
+        && names.all(|name| one(name) && !empty(name))
 }
 
 fn name(pair: &Pair<'_>) -> String {
@@ -90,13 +203,39 @@ fn name(pair: &Pair<'_>) -> String {
 
 /// The value of a field without braces and blanks about it.
 fn value(pair: &Pair<'_>) -> String {
-    let words: String = pair
-        .value
-        .v
-        .iter()
-        .map(|chunk| match chunk.v {
-            RawChunk::Normal(words) | RawChunk::Abbreviation(words) => words,
-        })
-        .collect();
+    let words = pair.value.v.iter().map(|chunk| match chunk.v {
+        RawChunk::Normal(words) | RawChunk::Abbreviation(words) => words,
+    });
+    let words: String = words.collect();
     words.trim_matches(|c: char| c.is_whitespace() || matches!(c, '{' | '}')).to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_joined_by_and() {
+        for right in [
+            "Homer, Martin and Hogan, S. John",
+            "Martin Homer",
+            "{di Bernardo}, Mario and\n  {van der Walt}, Stéfan J.",
+            "{SciPy 1.0 Contributors} and A, B",
+            "King, Jr., Martin and Doe, J. and others",
+        ] {
+            assert!(are_names(right), "{right}");
+        }
+        for wrong in [
+            "Doe, Jane & Roe, Richard",
+            "Doe, Jane; Roe, Richard",
+            "Doe, Jane AND Roe, Richard",
+            "Doe, Jane und Roe, Richard",
+            "Doe, Jane, Roe, Richard",
+            "Doe, Jane and",
+            "Doe, Jane and and Roe, Richard",
+            ",",
+        ] {
+            assert!(!are_names(wrong), "{wrong}");
+        }
+    }
 }

@@ -474,6 +474,21 @@ mod tests {
             [(1, 6, "3".into()), (1, 11, "4".into()), (1, 14, "½".into())]
         );
         assert_eq!(found("$0.12$ and $10^{-9}$").len(), 2);
+        for alone in [
+            r"\approx 0.12",
+            r"\text{0.12}",
+            r"\mathbf{3}",
+            "= 3",
+            r"3~\text{gaps}",
+            r"\mathrm{seven}",
+        ] {
+            assert_eq!(found(&format!("at ${alone}$")).len(), 1, "{alone}");
+        }
+        assert_eq!(
+            found(r"$= 0$, $\approx 1$, $x_{12}$, $\sigma = 0.12$, $10^{n}$ and $2 \text{ of } n$")
+                .len(),
+            0
+        );
         assert_eq!(found("a price of 5 $ only"), [(1, 12, "5".into())]);
     }
 

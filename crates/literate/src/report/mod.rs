@@ -19,7 +19,6 @@ pub mod html;
 pub mod labels;
 pub mod latex;
 pub mod ledger;
-mod leftover;
 pub mod lint;
 mod macros;
 pub mod mark;
@@ -36,7 +35,6 @@ pub mod typeset;
 pub mod uses;
 pub mod valued;
 pub mod values;
-mod written;
 
 pub use assemble::{Files, Input, LAB, Report, assemble, files_of};
 pub use documents::Document;

@@ -110,7 +110,7 @@ fn markdown_for_a_host() {
         "\nBy [Listing\u{a0}1](#lst-kick), in words.\n",
         "<a id=\"lst-kick\"></a>**Listing 1.** What $\\delta v$ does.\n\n<details>\n<summary><code>toy::flight::Motion::kick</code></summary>\n\n```rust\n/// ",
         "\n    self.b += kick * p.cos;\n}\n```\n\n<sub>From [src/flight.rs](../src/flight.rs).</sub>\n\n</details>\n",
-        "- <a id=\"ref-rice1945\"></a>Rice, S. O. (1945). *Noise*.\n",
+        "- <a id=\"ref-rice1945\"></a>Rice, S. O. (1945). Noise. *B*.\n",
     ] {
         assert!(text.contains(part), "{part:?} is not in\n{text}");
     }
@@ -549,8 +549,8 @@ fn broken_prose_is_told_with_its_place() {
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
-    let good = "Words \\*, \\_, \\$, me@x.org: C#, \\@sec:a, \\#, a * b, a_b, [a, b], <!-- a comment --> and\n\n<!-- another -->\n\n\
-        [data](data), [code](../src/lib.rs), [out](https://x.org/a), `*` and $a_b * c^*$.";
+    let good = "Words \\*, \\_, \\$, me@x.org: C#, \\@sec:a, \\#, a * b, a_b, \\[a, b\\], a < b, \\^, \\~, \\--, <!-- a comment --> and\n\n<!-- another -->\n\n\
+        [data](data), [code](../src/lib.rs), [out](https://x.org/a), <me@x.org>, [me](mailto:me@x.org), `*` and $a_b * c^*$.";
     assembled(&format!("{PROSE}\n\n{good}\n")).unwrap();
 }
 

@@ -1,8 +1,8 @@
 //! What is read off the source itself, as it is written, where the reader of Markdown says nothing of it.
 
-use super::Error;
-use super::document::Inline;
-use super::labels::of_kind;
+use super::super::Error;
+use super::super::document::Inline;
+use super::super::labels::of_kind;
 
 /// An error of the markup.
 pub(super) fn markup(what: impl Into<String>) -> Error {

@@ -120,7 +120,7 @@ fn is_markup(source: &str, at: usize, sign: &str) -> bool {
         }
         "\\" => return after[1..].starts_with(|c: char| c.is_ascii_alphabetic()),
         "{" => return !after.starts_with("{#"),
-        "#" => return !before.ends_with('{'),
+        "#" => return !before.ends_with('{') && !word(before.chars().next_back()),
         "}" => return !before.rfind('{').is_some_and(|open| source[open..].starts_with("{#")),
         "[ ]" | "[x]" => {
             let line = before.rsplit('\n').next().unwrap_or_default();
