@@ -27,28 +27,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use tera::{Context, Delimiters, Kwargs, State, Tera};
 
 /// What conditions and loops have besides names.
-const WORDS: [&str; 20] = [
-    "if",
-    "elif",
-    "else",
-    "endif",
-    "for",
-    "in",
-    "endfor",
-    "and",
-    "or",
-    "not",
-    "is",
-    "defined",
-    "starting_with",
-    "ending_with",
-    "containing",
-    "pat",
-    "true",
-    "false",
-    "loop",
-    "last",
-];
+const WORDS: &str = "if elif else endif for in endfor and or not is defined starting_with ending_with containing pat \
+    true false loop";
 
 /// Bytes at most that a template makes: the longest of ours makes a tenth of a million.
 const LONGEST: u64 = 4 << 20;
@@ -129,60 +109,50 @@ impl Filler {
             let mut at = 0;
             while let Some((start, end)) = next_tag(text, at) {
                 at = end;
-                let tag = &text[start..end];
-                if tag.starts_with("<#") {
-                    continue;
-                }
-                let fault = |what: String| {
+                if let Some(what) = self.unknown(&text[start..end], &mut own) {
                     let place = line_and_column(text, start);
-                    Err(Error::Template(format!("{path}:{place}: {what}")))
-                };
-                // What is quoted is no name.
-                let (bare, quoted): (Vec<_>, Vec<_>) =
-                    tag.split('"').enumerate().partition(|(i, _)| i % 2 == 0);
-                let other = |c: char| !(c.is_ascii_alphanumeric() || c == '_' || c == '.');
-                let words = || bare.iter().flat_map(|(_, part)| part.split(other));
-                let unknown = |word: &&str| {
-                    let root = word.split_once('.').map(|(root, _)| root);
-                    root.is_some_and(|root| self.roots.contains(root))
-                        && !self.names.contains(*word)
-                };
-                if let Some(word) = words().find(unknown) {
-                    return fault(format!("there is no value {word}; `explain` lists all"));
-                }
-                if !tag.starts_with("<%") {
-                    continue;
-                }
-                if words().any(|word| word == "for") {
-                    own.extend(words().take_while(|word| *word != "in"));
-                }
-                let name = |word: &&str| {
-                    let root = word.split('.').next().unwrap_or_default();
-                    let number = root.is_empty() || root.starts_with(|c: char| c.is_ascii_digit());
-                    !number
-                        && !WORDS.contains(&root)
-                        && !own.contains(root)
-                        && !self.context.contains_key(root)
-                };
-                if let Some(word) = words().find(name) {
-                    return fault(format!("there is no name {word}; correct it"));
-                }
-                let compares = |part: &str| {
-                    ["==", "!=", "<", ">", "<=", ">="]
-                        .iter()
-                        .any(|sign| part.trim_end().ends_with(sign))
-                };
-                let number = bare.iter().zip(&quoted).find(|((_, before), (_, text))| {
-                    compares(before) && text.parse::<f64>().is_ok()
-                });
-                if let Some((_, (_, number))) = number {
-                    return fault(format!(
-                        "a number in quotes, {number:?}, equals no number; write it without"
-                    ));
+                    return Err(Error::Template(format!("{path}:{place}: {what}")));
                 }
             }
         }
         Ok(())
+    }
+
+    /// What a tag names and there is not, in words; `own` are the names that loops before it gave.
+    fn unknown<'t>(&self, tag: &'t str, own: &mut BTreeSet<&'t str>) -> Option<String> {
+        if tag.starts_with("<#") {
+            return None;
+        }
+        // What is quoted is no name.
+        let other = |c: char| !(c.is_ascii_alphanumeric() || c == '_' || c == '.');
+        let words: Vec<&str> =
+            tag.split('"').step_by(2).flat_map(|part| part.split(other)).collect();
+        let root = |word: &str| word.split('.').next().unwrap_or_default().to_string();
+        let value = |word: &&&str| word.contains('.') && self.roots.contains(&root(word));
+        if let Some(word) = words.iter().filter(value).find(|word| !self.names.contains(**word)) {
+            return Some(format!("there is no value {word}; `explain` lists all"));
+        }
+        if !tag.starts_with("<%") {
+            return None;
+        }
+        if words.contains(&"for") {
+            own.extend(words.iter().take_while(|word| **word != "in"));
+        }
+        let known = |word: &&&str| {
+            let root = root(word);
+            let number = root.is_empty() || root.starts_with(|c: char| c.is_ascii_digit());
+            let word = WORDS.split_whitespace().any(|word| word == root);
+            number || word || own.contains(root.as_str()) || self.context.contains_key(&root)
+        };
+        if let Some(word) = words.iter().find(|word| !known(word)) {
+            return Some(format!("there is no name {word}; correct it"));
+        }
+        let (bare, quoted) = (tag.split('"').step_by(2), tag.split('"').skip(1).step_by(2));
+        let compared =
+            |part: &str| part.trim_end().ends_with(['=', '<', '>']) && !part.ends_with("pat=");
+        let mut pairs = bare.zip(quoted).filter(|(before, _)| compared(before));
+        let (_, number) = pairs.find(|(_, text)| text.parse::<f64>().is_ok())?;
+        Some(format!("a number in quotes, {number:?}, equals no number; write it without"))
     }
 
     /// Fills one template; values are marks in the result.
