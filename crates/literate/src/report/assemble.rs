@@ -311,6 +311,7 @@ fn check_links(
                 ["https", "http"].contains(&scheme) && host.starts_with(char::is_alphanumeric)
             }
             _ if to.starts_with("mailto:") => to.contains('@'),
+            (_, Some(id), _) if id.contains(':') => false,
             (_, Some(id), _) => {
                 let id = id.replacen('-', ":", 1);
                 labels.number(&id).is_some() && labels.beside(&id, here).is_none()

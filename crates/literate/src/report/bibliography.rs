@@ -30,8 +30,8 @@ impl Library {
         let form = |error| faults(vec![BibLaTeXError::Parse(error)], text);
         let written = Entries::read(text).map_err(form)?;
         written.sound()?;
-        let kept = written.with_names_kept();
-        let read = from_biblatex_str(&kept).map_err(|errors| faults(errors, &kept))?;
+        let understood = written.understood();
+        let read = from_biblatex_str(&understood).map_err(|errors| faults(errors, &understood))?;
         let look = (style()?, locales());
         let (all, _) = rendered(&read.iter().collect::<Vec<_>>(), &look);
         let mut entries = Vec::new();
@@ -132,10 +132,21 @@ fn inlines(children: &ElemChildren) -> Vec<Inline> {
     for piece in children.0.iter().flat_map(child) {
         match (out.last_mut(), piece) {
             (Some(Inline::Text(before)), Inline::Text(words)) => before.push_str(&words),
+            (Some(Inline::Emphasis(before)), Inline::Emphasis(words)) => before.extend(words),
             (_, piece) => out.push(piece),
         }
     }
     for piece in &mut out {
+        // Beside its editors the style names a collection twice.
+        if let Inline::Emphasis(inner) = piece
+            && let words = plain(inner)
+            && let Some((title, rest)) = words.split_once(": ")
+            && let Some(rest) = rest.strip_suffix(title)
+        {
+            let rest = rest.trim_end_matches(". ");
+            let words = if rest.is_empty() { title.into() } else { format!("{title}: {rest}") };
+            *inner = vec![Inline::Text(words)];
+        }
         if let Inline::Text(words) = piece {
             // A year without a day leaves its comma; of *and others* the style makes a name.
             *words =

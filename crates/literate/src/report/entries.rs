@@ -6,8 +6,8 @@ use crate::input::{line, one_line};
 use biblatex::{EntryType, Pair, ParseError, RawBibliography, RawChunk, RawEntry};
 
 /// Fields that the list of references shows. Managers of references write many others beside them.
-const FIELDS: &str = "author booktitle chapter date doi edition editor howpublished institution issue journal \
-    journaltitle note number organization pages publisher school series title translator url volume year";
+const FIELDS: &str = "author booktitle chapter date doi edition editor institution issue journal \
+    journaltitle number pages publisher school title translator url volume year";
 
 /// Of each of these an entry has one, with something in it; of the last, if it is of that type.
 const NEEDED: [(&str, &[&str]); 6] = [
@@ -23,7 +23,8 @@ const NEEDED: [(&str, &[&str]); 6] = [
 const NEAR: [&str; 4] = ["editora", "editorb", "editorc", "volumes"];
 
 /// Fields that are names and not sentences: their capitals stay.
-const NAMES: [&str; 5] = ["journal", "journaltitle", "booktitle", "publisher", "series"];
+const NAMES: [&str; 6] =
+    ["journal", "journaltitle", "booktitle", "publisher", "school", "institution"];
 
 /// Signs that are markup where they would be shown.
 const SIGNS: [&str; 14] =
@@ -60,22 +61,21 @@ impl<'a> Entries<'a> {
             let what = "@string takes fields from elsewhere; write them out";
             return Err(self.fault(pair.key.span.start, what));
         }
-        for (i, entry) in self.read.entries.iter().enumerate() {
-            // A reader takes what is no entry for a comment.
-            let end = self.read.entries.get(i + 1).map_or(self.text.len(), |next| next.span.start);
-            let between = self.text[entry.span.end..end]
-                .trim_start_matches([' ', '\n', '\r', '\t', '}', ',']);
-            let between = between.split('@').next().unwrap_or_default();
-            let stray = between
-                .lines()
-                .find(|line| !line.trim().is_empty() && !line.trim().starts_with('%'));
-            if let Some(stray) = stray {
-                let offset =
-                    entry.span.end + self.text[entry.span.end..].find(stray).unwrap_or_default();
-                let what =
-                    format!("{} ends before what stands here; is a brace too many?", entry.v.key.v);
-                return Err(self.fault(offset, &what));
+        let ends = self.read.entries.iter().map(|entry| (entry.span.end, entry.v.key.v));
+        let starts = self.read.entries.iter().map(|entry| entry.span.start);
+        let gaps = std::iter::once((0, "")).chain(ends).zip(starts.chain([self.text.len()]));
+        for ((from, key), to) in gaps {
+            if let Some(offset) = stray(&self.text[from..to]) {
+                let what = match key {
+                    "" => "text before the first entry; is an @ missing?".into(),
+                    key => format!(
+                        "{key} ends before what stands here; is a brace too many, or an @ missing?"
+                    ),
+                };
+                return Err(self.fault(from + offset, &what));
             }
+        }
+        for entry in &self.read.entries {
             if let Some((offset, what)) = wrong(&entry.v) {
                 return Err(self.fault(offset, &format!("{} {what}", entry.v.key.v)));
             }
@@ -96,18 +96,32 @@ impl<'a> Entries<'a> {
         Err(self.fault(own.map_or(0, |entry| entry.span.start), &what))
     }
 
-    /// The file with braces about what keeps its capitals.
-    pub fn with_names_kept(&self) -> String {
+    /// The file as the reader of entries understands it: names of journals keep their capitals, initials
+    /// stand apart, and who published a thesis or a report is its publisher.
+    pub fn understood(&self) -> String {
         let (mut out, mut at) = (String::new(), 0);
-        for pair in self.read.entries.iter().flat_map(|entry| &entry.v.fields) {
-            if let [words] = pair.value.v.as_slice()
-                && NAMES.contains(&name(pair).as_str())
-                && matches!(words.v, RawChunk::Normal(_))
-            {
-                let span = &words.span;
-                out.push_str(&self.text[at..span.start]);
-                out.push_str(&format!("{{{}}}", &self.text[span.clone()]));
-                at = span.end;
+        let mut put = |span: &std::ops::Range<usize>, words: &str| {
+            out.push_str(&self.text[at..span.start]);
+            out.push_str(words);
+            at = span.end;
+        };
+        for entry in self.read.entries.iter().map(|entry| &entry.v) {
+            let published = entry.fields.iter().any(|pair| name(pair) == "publisher");
+            for pair in &entry.fields {
+                let own = name(pair);
+                match own.as_str() {
+                    "school" | "institution" if !published => put(&pair.key.span, "publisher"),
+                    // Beside a volume the style makes a part and a chapter of it.
+                    "series" => put(&pair.key.span, "the-series"),
+                    _ => {}
+                }
+                let [words] = pair.value.v.as_slice() else { continue };
+                let RawChunk::Normal(text) = words.v else { continue };
+                if NAMES.contains(&own.as_str()) {
+                    put(&words.span, &format!("{{{text}}}"));
+                } else if ["author", "editor"].contains(&own.as_str()) {
+                    put(&words.span, &apart(text));
+                }
             }
         }
         out + &self.text[at..]
@@ -119,12 +133,32 @@ impl<'a> Entries<'a> {
     }
 }
 
+/// Where in what stands between entries, which a reader takes for a comment, there are words that are none.
+fn stray(between: &str) -> Option<usize> {
+    let end = between.find('@').unwrap_or(between.len());
+    let mut at = 0;
+    for line in between[..end].split_inclusive('\n') {
+        let words = line.trim_start_matches([' ', '\t', '}', ')', ',']).trim();
+        if !words.is_empty() && !words.starts_with('%') {
+            return Some(at + line.find(words).unwrap_or_default());
+        }
+        at += line.len();
+    }
+    None
+}
+
 /// The first fault of an entry: its offset, and what is said behind the key.
 fn wrong(entry: &RawEntry<'_>) -> Option<(usize, String)> {
     let (head, kind) = (entry.key.span.start, entry.kind.v);
     if matches!(EntryType::new(kind), EntryType::Unknown(_)) {
         let what = "which there is not; write @article, @book, @phdthesis or the like";
         return Some((head, format!("has the type @{kind}, {what}")));
+    }
+    if entry.key.v.contains(':') {
+        return Some((
+            head,
+            "has a colon in its key, which references take for their kind; change it".into(),
+        ));
     }
     let one = |(i, pair): (usize, &Pair<'_>)| {
         let before = entry.fields[..i].iter().map(name);
@@ -155,6 +189,7 @@ fn fault(pair: &Pair<'_>, mut before: impl Iterator<Item = String>) -> Option<St
             "is no year of four digits; correct it"
         }
         "doi" if value.contains("://") => "is an address; write what follows doi.org/",
+        "doi" | "url" if value.contains(char::is_whitespace) => "has a blank in it; remove it",
         "author" | "editor" if !value.is_empty() && !are_names(&value) => {
             "is no list of names; write `Family, Given and Family, Given`"
         }
@@ -197,6 +232,18 @@ fn are_names(value: &str) -> bool {
         && names.all(|name| one(name) && !empty(name))
 }
 
+/// `P.J. Holmes` with a blank between the initials.
+fn apart(names: &str) -> String {
+    let mut out = String::new();
+    for c in names.chars() {
+        if c.is_uppercase() && out.ends_with('.') {
+            out.push(' ');
+        }
+        out.push(c);
+    }
+    out
+}
+
 fn name(pair: &Pair<'_>) -> String {
     pair.key.v.to_lowercase()
 }
@@ -236,6 +283,32 @@ mod tests {
             ",",
         ] {
             assert!(!are_names(wrong), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn entries_are_understood() {
+        let text = "@phdthesis{a, author={P.J. Holmes}, school={U of B}}\n@book{b, series={S}, publisher = \"P Q\"}";
+        let read = Entries::read(text).unwrap();
+        let understood = "@phdthesis{a, author={P. J. Holmes}, publisher={{U of B}}}\n\
+            @book{b, the-series={S}, publisher = \"{P Q}\"}";
+        assert_eq!(read.understood(), understood);
+        assert!(read.shows("b", "T & P").is_ok());
+        let told = read.shows("b", "\\foo{T}").unwrap_err().to_string();
+        assert!(told.starts_with("references.bib:2: b would show"), "{told}");
+    }
+
+    #[test]
+    fn words_between_entries_are_none() {
+        let entry = "@misc{a, author={B}, title={C}, year={1999}}";
+        let sound = |text: &str| Entries::read(text).unwrap().sound().map_err(|e| e.to_string());
+        assert_eq!(sound(&format!("% d\n\n{entry},\n% e\n@comment{{x, y}}\n{entry}\n")), Ok(()));
+        for (text, place) in [
+            (format!("\nmisc{{b}}\n{entry}"), ":2: text before"),
+            (format!("{entry}\n\n  d = 1}}\n"), ":3: a ends"),
+        ] {
+            let told = sound(&text).unwrap_err();
+            assert!(told.contains(place), "{told}");
         }
     }
 }

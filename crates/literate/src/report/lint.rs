@@ -74,7 +74,10 @@ impl std::fmt::Display for Finding {
             }
         };
         write!(f, "{path}:{line}:{column}: the naked numeral {numeral}; name a value «v.…», ")?;
-        if numeral.starts_with(char::is_alphabetic) {
+        if numeral.contains(['\\', '^', '{']) {
+            let doubled = numeral.replace('\\', "\\\\");
+            write!(f, "or declare «literal(text=\"${doubled}$\", why=\"…\")»")
+        } else if numeral.starts_with(char::is_alphabetic) {
             write!(f, "or declare the phrase around it, with its reason, in literals.toml")
         } else {
             write!(f, "or declare «literal(text=\"{numeral}\", why=\"…\")»")
@@ -84,12 +87,14 @@ impl std::fmt::Display for Finding {
 
 /// Pairs of delimiters between which digits are exempt, in the order in which they are tried, and whether
 /// what is between them may go over several paragraphs.
-const EXEMPT: [(&str, &str, bool); 13] = [
+const EXEMPT: [(&str, &str, bool); 15] = [
     ("<#", "#>", true),
     ("<%", "%>", true),
     ("«", "»", true),
     ("<!--", "-->", true),
+    ("````", "````", true),
     ("```", "```", true),
+    ("~~~", "~~~", true),
     ("`", "`", false),
     ("$$", "$$", false),
     ("$", "$", false),
@@ -108,6 +113,12 @@ fn length(inner: &str, (open, close, long): (&str, &str, bool)) -> Option<usize>
     if ["«", "<%"].contains(&open) {
         // Another begins before it ends.
         return ends.next().filter(|end| !scope[..*end].contains(open));
+    }
+    if open == "](" {
+        // Brackets in the target come in pairs.
+        let depth =
+            |text: &str| text.matches('(').count() as i32 - text.matches(')').count() as i32;
+        return ends.find(|end| depth(&scope[..*end]) <= 0);
     }
     if open != "$" {
         return ends.next();
@@ -281,8 +292,13 @@ pub fn findings(path: &str, text: &str, declared: &Declared) -> Vec<Finding> {
     // The word that the position is in, and whether it began with a letter.
     let mut word: Option<bool> = None;
     while let Some(c) = rest.chars().next() {
-        if rest.starts_with(r"\$") {
+        // A sign behind a backslash is meant as it stands.
+        if rest
+            .strip_prefix('\\')
+            .is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_punctuation()))
+        {
             rest = position.past(rest, 2);
+            word = None;
             continue;
         }
         let opens = |(open, ..): &&(&str, _, _)| rest.starts_with(open);

@@ -82,14 +82,18 @@ fn write_block(block: &Block, indent: &str, out: &mut String) {
             let line = |line: &str| format!("> {line}").trim_end().to_string();
             inner.trim_end().lines().map(line).collect::<Vec<_>>().join("\n")
         }
-        Block::Code { language, text } => format!("```{language}\n{}\n```", text.trim_end()),
+        Block::Code { language, text } => {
+            let fence = fence(text, 3);
+            format!("{fence}{language}\n{}\n{fence}", text.trim_end())
+        }
         // Hosts fold `details`; Markdown goes on inside it after a blank line.
         Block::Listing { id, number, caption, item, file, text } => format!(
             "{}**Listing {number}.** {}\n\n<details>\n<summary><code>{item}</code></summary>\n\n\
-             ```rust\n{}\n```\n\n<sub>From [{file}](../{file}).</sub>\n\n</details>",
+             {fence}rust\n{}\n{fence}\n\n<sub>From [{file}](../{file}).</sub>\n\n</details>",
             anchor(id),
             prose.all(caption),
-            text.trim_end()
+            text.trim_end(),
+            fence = fence(text, 3)
         ),
         // Nothing moves here.
         Block::Scene { .. } => return,
@@ -126,6 +130,14 @@ fn table(columns: &[Align], head: &[Vec<Inline>], rows: &[Vec<Vec<Inline>>]) -> 
     out.push_str(&format!("|{}|\n", rules.join("|")));
     rows.iter().for_each(|cells| out.push_str(&row(cells)));
     out
+}
+
+/// As many grave accents about code as none in it has, and so many at least.
+fn fence(code: &str, least: usize) -> String {
+    let longest = code.split(|c| c != '`').map(str::len).max().unwrap_or_default();
+    let fits = |length: usize| !code.contains('`') || length > longest;
+    let length = if fits(least) { least } else { longest + 1 };
+    "`".repeat(length)
 }
 
 /// `fig:3` → an HTML anchor `fig-3`, which hosts keep.
@@ -176,18 +188,25 @@ impl Writer {
         while i < flat.len() {
             if let Inline::Maths(tex) = flat[i] {
                 // Words that touch the closing dollar move inside.
-                let mut tail = String::new();
-                let mut rest = None;
-                if let Some(Inline::Text(text)) = flat.get(i + 1) {
+                let mut formula = maths(tex).to_string();
+                let mut rest = "";
+                while let Some(Inline::Text(text)) = flat.get(i + 1) {
                     let (glued, after) = text.split_at(glued(text));
-                    tail = if glued.is_empty() { tail } else { format!(r"\text{{{glued}}}") };
-                    rest = Some(after);
-                }
-                out.push_str(&format!("${}{tail}$", maths(tex)));
-                if let Some(rest) = rest {
-                    self.text(rest, &mut out);
+                    (i, rest) = (i + 1, after);
+                    if !glued.is_empty() {
+                        formula.push_str(&format!(r"\text{{{glued}}}"));
+                    }
+                    // And so does a formula behind them.
+                    match flat.get(i + 1) {
+                        Some(Inline::Maths(tex)) if rest.is_empty() => {
+                            formula.push_str(&maths(tex))
+                        }
+                        _ => break,
+                    }
                     i += 1;
                 }
+                out.push_str(&format!("${formula}$"));
+                self.text(rest, &mut out);
             } else {
                 self.one(flat[i], &mut out);
             }
@@ -202,7 +221,11 @@ impl Writer {
             Inline::Soft | Inline::Break if self.in_table => out.push(' '),
             Inline::Soft => out.push('\n'),
             Inline::Break => out.push_str("\\\n"),
-            Inline::Code(code) => out.push_str(&format!("`{code}`")),
+            Inline::Code(code) => {
+                let fence = fence(code, 1);
+                let blank = if code.starts_with('`') || code.ends_with('`') { " " } else { "" };
+                out.push_str(&format!("{fence}{blank}{code}{blank}{fence}"));
+            }
             Inline::Emphasis(inner) => out.push_str(&format!("*{}*", self.all(inner))),
             Inline::Raised(inner) => out.push_str(&format!("<sup>{}</sup>", self.all(inner))),
             Inline::Strong(inner) => out.push_str(&format!("**{}**", self.all(inner))),
@@ -243,7 +266,13 @@ impl Writer {
                 && chars[i - 1].is_alphanumeric()
                 && chars.get(i + 1).is_some_and(|next| next.is_alphanumeric());
             let escape = match c {
-                '\\' | '*' | '`' | '<' | '$' => true,
+                '\\' | '*' | '`' | '<' | '$' | '~' => true,
+                // Not what names a character.
+                '&' => {
+                    chars[i + 1..].iter().find(|c| !c.is_alphanumeric() && **c != '#') == Some(&';')
+                }
+                // Not what defines a link.
+                '[' => starts_line && i == 0 && text.contains("]:"),
                 '_' => !inside_word,
                 '|' => self.in_table,
                 '(' => i > 0 && chars[i - 1] == ']',

@@ -76,7 +76,7 @@ pub enum Error {
     NoFile(String),
     #[error("{}: two things in the report have this id; give one of them another", one_line(.0, 200))]
     Label(String),
-    #[error("[@{}]: nothing in the report has this id; correct or remove the reference", one_line(.0, 200))]
+    #[error("[@{}]: nothing in the report has this id; correct or remove the reference{}", one_line(.0, 200), several(.0))]
     Reference(String),
     #[error(
         "no LaTeX is known for the character '{}' (U+{:04X}); write it otherwise, or add it to report::tex",
@@ -104,6 +104,14 @@ impl Error {
             Error::At { .. } => self,
             error => Error::At { place, error: Box::new(error) },
         }
+    }
+}
+
+/// How several references are written, behind one that may be meant so.
+fn several(reference: &str) -> &'static str {
+    match reference.contains([' ', ',', ';', '@']) {
+        true => "; several are [@eq:1; @eq:2], of one kind and alike in their capitals",
+        false => "",
     }
 }
 

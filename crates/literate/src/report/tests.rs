@@ -412,6 +412,22 @@ fn a_report_with_a_mistake_is_refused() {
     assert!(matches!(fails("Title", "漢"), Error::NoLatex('漢')));
 }
 
+/// What another reader of Markdown would take for markup is kept from it.
+#[test]
+fn markdown_shows_what_is_meant() {
+    let text = "# T\n\n$a$–$b$ is \\` and ``a `b` c``, \\~\\~c\\~\\~, \\&lt; d.\n\n\\[x\\]: yes\n\n\
+        ````\n```\n12\n````\n\n[DOI](https://doi.org/10.1/S0(98)00123-4)\n";
+    let text = markdown::write(&tree(text));
+    for kept in [
+        r"$a\text{–}b$ is \` and ``a `b` c``, \~\~c\~\~, \&lt; d.",
+        "\n\\[x]: yes\n",
+        "\n````\n```\n12\n````\n",
+        "(https://doi.org/10.1/S0(98)00123-4)",
+    ] {
+        assert!(text.contains(kept), "{kept}: {text}");
+    }
+}
+
 /// Behind a line's end TeX takes a bracket or a star for its own.
 #[test]
 fn tex_takes_no_bracket_for_its_own() {
@@ -478,7 +494,7 @@ fn broken_prose_is_told_with_its_place() {
         ("a *word with $x$*", "14:14", "inside emphasis"),
         ("---", "14:1", "shown nowhere"),
         ("[a]: https://x.org", "14:1", "a definition of a link"),
-        ("~~~\ncode", "14:1", "a block of code without its end"),
+        ("~~~\ncode", "14:1", "~~~ is not closed"),
         ("Table: Words. {#tab:b}\n\nwords", "14:1", "a caption without its table"),
         ("words {#sec:b}", "14:7", "an id {#…}"),
         ("| a | b |\n|---|---|\n| c | d | «v.half_height» |", "16:1", "a row of 3 cells"),
@@ -540,6 +556,11 @@ fn broken_prose_is_told_with_its_place() {
         ("[a](http://b c)", "14:1", "a link that is not whole"),
         ("[fig(#tab:x).", "14:1", "a link that is not whole"),
         ("[@fig:3z]", "14:1", "nothing in the report"),
+        ("## A {#sec:a}\n\n[a](#sec:a)", "16:1", "a link to #sec:a"),
+        ("[a](<https://x.org/a b>)", "14:1", "a blank in the target"),
+        ("    code", "14:", "four blanks"),
+        ("[@eq:a, @eq:b]", "14:1", "several are"),
+        ("| a |\n|---|\n| |x| |", "16:1", "a bar in a cell"),
     ] {
         let made = assembled(&format!("{PROSE}\n\n{broken}\n"));
         let error = made.map_or_else(|error| error.to_string(), |_| "nothing is told".into());

@@ -150,6 +150,9 @@ impl Reader<'_> {
             Tag::Link { .. } if plain(&inner).starts_with('@') => {
                 return Err(markup("a reference leads where it names; write [@…] alone"));
             }
+            Tag::Link { dest_url, .. } if dest_url.contains(char::is_whitespace) => {
+                return Err(markup("a blank in the target of a link; write %20"));
+            }
             Tag::Link { .. } if empty => return Err(markup("a link without words")),
             Tag::Link { dest_url, .. } | Tag::Image { dest_url, .. } if dest_url.is_empty() => {
                 return Err(markup("a link or picture that leads nowhere"));

@@ -267,8 +267,13 @@ impl<'a> Reader<'a> {
                     self.next();
                 }
                 self.at = range.start;
+                if !fenced {
+                    return Err(markup(
+                        "words set in by four blanks are code; put it between ```, or set them less",
+                    ));
+                }
                 let last = self.source(&range).trim_end().lines().skip(1).last();
-                if fenced && !last.is_some_and(|line| line.trim_start().starts_with(['`', '~'])) {
+                if !last.is_some_and(|line| line.trim_start().starts_with(['`', '~'])) {
                     return Err(markup("a block of code without its end"));
                 }
                 let word = language.split(' ').next().unwrap_or_default();
@@ -327,7 +332,9 @@ impl<'a> Reader<'a> {
             // Markdown cuts and fills rows in silence.
             let (own, all) = (cells_of(self.source(&range)), columns.len());
             if own != all {
-                return Err(markup(format!("a row of {own} cells in a table of {all} columns")));
+                return Err(markup(format!(
+                    "a row of {own} cells in a table of {all} columns; a bar in a cell is \\|"
+                )));
             }
             let mut cells = Vec::new();
             while let Some(Event::Start(Tag::TableCell)) = self.peek() {
