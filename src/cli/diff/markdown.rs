@@ -117,9 +117,9 @@ fn cell(text: &str) -> String {
 }
 
 fn plain(text: &str, most: usize) -> String {
-    // An at-sign would call somebody; two tildes would strike out.
+    // An at-sign would call somebody.
     let seen = one_line(&text.replace(is_obeyed, " "), most);
-    escaped(&seen.replace('@', "@\u{200b}")).replace('~', "\\~")
+    escaped(&seen.replace('@', "@\u{200b}"))
 }
 
 fn pair(pair: &Option<[String; 2]>) -> String {
