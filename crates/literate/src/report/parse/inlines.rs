@@ -66,7 +66,7 @@ impl Reader<'_> {
         let before = self.filled.text[..range.start].split_whitespace().next_back();
         let before =
             before.filter(|_| !self.filled.text[..range.start].ends_with(char::is_whitespace));
-        let role = |word: &str| word.len() > 2 && word.contains(':') && word.ends_with(':');
+        let role = |word: &str| word.len() > 2 && word.starts_with(':') && word.ends_with(':');
         match before.is_some_and(role) || code.starts_with("r ") {
             true => Err(markup("code has no role and is not run; write $…$, [@…] or «…»")),
             false => Ok(()),
