@@ -49,7 +49,7 @@ references.bib +@misc{aa, author={B & C}, title={b}, year={1999}} => :$: aa has 
 references.bib +@misc{aa, author={B}, title={\emph{b}}, year={1999}} => :$: aa would show \ as it stands
 references.bib +@misc{aa, author={B}, title={b}},¦year={1999}} => :$: aa ends before what stands here
 references.bib +@misc{aa, author={B}, title={b}, doi={https://doi.org/b}} => :$: aa has `doi`, which is an address
-references.bib +@misc{aa, author={B}, title={Ж}, year={1999}} => :$: no LaTeX is known
+references.bib +@misc{aa, author={B}, title={Ж}, year={1999}} => :$: aa: no LaTeX is known
 references.bib +@string{aa = {b}} => :$: @string takes fields from elsewhere
 references.bib +@article{aa, author={X}, title={b}, year={abc}} => :$: aa has `year`, which is no year
 report.html «page.body» ->  => : it has «page.body» 0 times

@@ -2,7 +2,7 @@
 //! missing, or wrong, in the list of references.
 
 use super::{Error, tex};
-use crate::input::{line, one_line};
+use crate::input::line;
 use biblatex::{EntryType, Pair, ParseError, RawBibliography, RawChunk, RawEntry};
 
 /// Fields that the list of references shows. Managers of references write many others beside them.
@@ -50,13 +50,6 @@ impl<'a> Entries<'a> {
     /// # Errors
     /// The line, the key, and what to write.
     pub fn sound(&self) -> Result<(), Error> {
-        let odd = |(_, c): &(usize, char)| tex::text(c.encode_utf8(&mut [0; 4])).is_err();
-        if let Some((offset, c)) = self.text.char_indices().find(odd) {
-            let c = one_line(&c.to_string(), 1);
-            return Err(
-                self.fault(offset, &format!("no LaTeX is known for {c:?}; write it otherwise"))
-            );
-        }
         if let Some(pair) = self.read.abbreviations.first() {
             let what = "@string takes fields from elsewhere; write them out";
             return Err(self.fault(pair.key.span.start, what));
@@ -83,17 +76,23 @@ impl<'a> Entries<'a> {
         Ok(())
     }
 
-    /// Refuses what would be shown of an entry, if a sign of markup is in it.
+    /// Refuses what would be shown of an entry, if a sign of markup is in it, or a character without LaTeX.
     ///
     /// # Errors
     /// The line of the entry, and the sign.
     pub fn shows(&self, key: &str, words: &str) -> Result<(), Error> {
-        let Some(sign) = SIGNS.into_iter().find(|sign| words.contains(sign)) else { return Ok(()) };
+        let what = if let Some(sign) = SIGNS.into_iter().find(|sign| words.contains(sign)) {
+            format!(
+                "{key} would show {sign} as it stands; write the word or character that is meant"
+            )
+        } else if let Err(error) = tex::text(words) {
+            format!("{key}: {error}")
+        } else {
+            return Ok(());
+        };
         let own = self.read.entries.iter().find(|entry| entry.v.key.v == key);
-        let what = format!(
-            "{key} would show {sign} as it stands; write the word or character that is meant"
-        );
-        Err(self.fault(own.map_or(0, |entry| entry.span.start), &what))
+        let offset = own.map_or(0, |entry| entry.span.start);
+        Err(self.fault(offset, &what))
     }
 
     /// The file as the reader of entries understands it: names of journals keep their capitals, initials
