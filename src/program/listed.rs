@@ -61,9 +61,7 @@ pub fn listed(root: &Path, only: Option<&str>, progress: &Progress) -> Result<Ch
     // Of what was last written, what is built beside: the rest may be of another revision by now.
     let remedy = format!("move it away; {} writes the report anew", folder::anew(root));
     let local = folder::local(root, &remedy)?.unwrap_or_default();
-    let beside = |entry: &&sums::Entry| {
-        folder::is_beside(&entry.path) && found.binary_search(&entry.path).is_ok()
-    };
+    let beside = |entry: &&sums::Entry| folder::is_beside(&entry.path);
     for entry in local.iter().filter(beside).chain(&entries) {
         known.insert(&entry.path, &entry.digest);
     }

@@ -112,6 +112,8 @@ impl<'a> Entries<'a> {
                     "school" | "institution" if !published => put(&pair.key.span, "publisher"),
                     // Beside a volume the style makes a part and a chapter of it.
                     "series" => put(&pair.key.span, "the-series"),
+                    // It would leave its comma.
+                    _ if value(pair).is_empty() => put(&pair.key.span, &format!("no-{own}")),
                     _ => {}
                 }
                 let [words] = pair.value.v.as_slice() else { continue };
@@ -187,6 +189,17 @@ fn fault(pair: &Pair<'_>, mut before: impl Iterator<Item = String>) -> Option<St
         "year" if value.len() != 4 || !value.bytes().all(|c| c.is_ascii_digit()) => {
             "is no year of four digits; correct it"
         }
+        "date" if !is_date(&value) => "is no date as 2007-05-31; correct it",
+        "url"
+            if !["http://", "https://", "ftp://"]
+                .iter()
+                .any(|scheme| value.starts_with(scheme)) =>
+        {
+            "is no address with https:// at its beginning; correct it"
+        }
+        _ if shown(&own) && value.replace(r"\$", "").matches('$').count() % 2 == 1 => {
+            "has a $ without its other end"
+        }
         "doi" if value.contains("://") => "is an address; write what follows doi.org/",
         "doi" | "url" if value.contains(char::is_whitespace) => "has a blank in it; remove it",
         "author" | "editor" if !value.is_empty() && !are_names(&value) => {
@@ -229,6 +242,23 @@ fn are_names(value: &str) -> bool {
     let mut names = words.split(|word| *word == "and");
     !words.iter().any(|word| ["AND", "And"].contains(word))
         && names.all(|name| one(name) && !empty(name))
+}
+
+/// A year, month or day, or two of them with a stroke between.
+fn is_date(text: &str) -> bool {
+    let number = |part: &str, least: u32, most: u32| {
+        part.bytes().all(|c| c.is_ascii_digit())
+            && part.parse::<u32>().is_ok_and(|number| (least..=most).contains(&number))
+    };
+    let one = |date: &str| {
+        let parts: Vec<&str> = date.split('-').collect();
+        let fits = |i: usize, long: usize, least, most| {
+            parts.get(i).is_none_or(|part| part.len() == long && number(part, least, most))
+        };
+        parts.len() <= 3 && fits(0, 4, 1, 9999) && fits(1, 2, 1, 12) && fits(2, 2, 1, 31)
+    };
+    let ends: Vec<&str> = text.split('/').collect();
+    ends.len() <= 2 && ends.into_iter().all(one)
 }
 
 /// `P.J. Holmes` with a blank between the initials.
@@ -282,6 +312,26 @@ mod tests {
             ",",
         ] {
             assert!(!are_names(wrong), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn dates_are_known() {
+        for right in ["2007", "2007-05", "2007-05-31", "2007/2008", "1999-12-31/2000-01-02"] {
+            assert!(is_date(right), "{right}");
+        }
+        for wrong in [
+            "",
+            "MCM",
+            "soon",
+            "2000-13-45",
+            "99",
+            "2000-1",
+            "2000/2001/2002",
+            "2000-01-01-01",
+            "+200",
+        ] {
+            assert!(!is_date(wrong), "{wrong}");
         }
     }
 

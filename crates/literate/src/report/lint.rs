@@ -41,6 +41,8 @@ pub enum Fault {
     Numeral(String),
     /// A delimiter, and the one that ought to end it.
     Open(&'static str, &'static str),
+    /// A value without its name.
+    Empty,
     /// A character that is none of a text, by its number.
     Control(char),
     /// A tag or a filter that no template has: which of both, its word, and those that there are.
@@ -57,6 +59,12 @@ impl std::fmt::Display for Finding {
                 return write!(
                     f,
                     "{path}:{line}:{column}: the character U+{number:04X} is none of a text; remove it"
+                );
+            }
+            Fault::Empty => {
+                return write!(
+                    f,
+                    "{path}:{line}:{column}: a value without its name; write «group.name»"
                 );
             }
             Fault::Word(kind, word, all) => {
@@ -188,7 +196,10 @@ fn other_word(path: &str, text: &str) -> Option<Finding> {
         let bare: String = tag.split('"').step_by(2).filter(|_| !tag.starts_with("<#")).collect();
         let mut filters = bare.split('|').skip(1).map(word);
         let filter = filters.find(|word| !FILTERS.contains(&word.as_str()));
+        let empty =
+            tag.strip_prefix('«').is_some_and(|tag| tag.trim_end_matches('»').trim().is_empty());
         let fault = own.map(|word| Fault::Word("tag", word, &TAGS));
+        let fault = fault.or(empty.then_some(Fault::Empty));
         let fault = fault.or(filter.map(|word| Fault::Word("filter", word, &FILTERS)));
         if let Some(fault) = fault {
             position.past(text, start);
@@ -465,6 +476,7 @@ mod tests {
             Fault::Numeral(numeral) => (f.line, f.column, numeral),
             Fault::Open(open, _) => (f.line, f.column, format!("open {open}")),
             Fault::Control(c) => (f.line, f.column, format!("control {}", u32::from(c))),
+            Fault::Empty => (f.line, f.column, "empty".into()),
             Fault::Word(kind, word, _) => (f.line, f.column, format!("{kind} {word}")),
         };
         findings("x.md", text, &Declared::default()).into_iter().map(place).collect()

@@ -560,6 +560,10 @@ fn broken_prose_is_told_with_its_place() {
         ("[a](<https://x.org/a b>)", "14:1", "a blank in the target"),
         ("    code", "14:", "four blanks"),
         ("[@eq:a, @eq:b]", "14:1", "several are"),
+        ("Scene: A\n\nScene: B", "16:1", "a second scene"),
+        ("## A [b](data)", "14:1", "a heading leads nowhere else"),
+        ("## A [@fig:3]", "14:1", "a heading leads nowhere else"),
+        ("at «»", "14:4", "a value without its name"),
         ("| a |\n|---|\n| |x| |", "16:1", "a bar in a cell"),
     ] {
         let made = assembled(&format!("{PROSE}\n\n{broken}\n"));

@@ -26,7 +26,7 @@ mod written;
 
 use super::Error;
 use super::captions::{join, listing, opens_caption, paragraph, stands_within};
-use super::document::{Align, Block, plain};
+use super::document::{Align, Block, Inline, plain};
 use super::labels::of_kind;
 use super::origin::{Filled, Places};
 use super::values::Registry;
@@ -163,6 +163,10 @@ impl<'a> Reader<'a> {
                     "two lists without words between them are read as one; make them one",
                 ));
             }
+            let scene = |block: &Block| matches!(block, Block::Scene { lab: None, .. });
+            if scene(&block) && blocks.iter().any(scene) {
+                return Err(markup("a second scene; a document has one"));
+            }
             let is_list = |block: &Block| matches!(block, Block::Bibliography(_));
             if is_list(&block) && blocks.iter().any(is_list) {
                 return Err(markup("a second [@bibliography]; a document has one"));
@@ -237,6 +241,11 @@ impl<'a> Reader<'a> {
                 self.level = level;
                 let text = self.without_pictures()?;
                 self.at = range.start;
+                let leads =
+                    |inline: &Inline| matches!(inline, Inline::Link { .. } | Inline::Unresolved(_));
+                if text.iter().any(leads) {
+                    return Err(markup("a heading leads nowhere else; put the link into the text"));
+                }
                 if plain(&text).trim().is_empty() {
                     return Err(markup("a heading without words"));
                 }
