@@ -160,7 +160,10 @@ fn replay(file: &str, text: &str, order: &[usize]) -> Result<Segment, Error> {
     };
     let saved: Saved = serde_json::from_str(text).map_err(|error| fault(error.to_string()))?;
     let inner = saved.scenario.to_string();
-    let scenario = Scenario::from_json(&inner).map_err(|error| fault(error.to_string()))?;
+    // The place would be one in what is written out here, and not in the file.
+    let unplaced = |error: String| error.split(" at line ").next().unwrap_or_default().to_string();
+    let scenario =
+        Scenario::from_json(&inner).map_err(|error| fault(unplaced(error.to_string())))?;
     if saved.order != order
         || !(0.0 <= saved.from && saved.from < saved.until && saved.until <= LATEST)
     {

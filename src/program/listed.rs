@@ -47,7 +47,8 @@ pub fn listed(root: &Path, only: Option<&str>, progress: &Progress) -> Result<Ch
         Failure::input(format!("{}: {what}; {remedy}", place.display()))
     };
     let [list, local] = [sums::NAME, sums::LOCAL].map(|name| root.join(name).symlink_metadata());
-    if local.is_ok() && list.is_err() {
+    let ledger = root.join("ledger.json").symlink_metadata();
+    if local.is_ok() && list.is_err() && ledger.is_err() {
         let (root, local) = (root.display(), sums::LOCAL);
         return Err(Failure::input(format!(
             "{root}: it holds single files and no report; `sha256sum --check {local}` in it checks them"

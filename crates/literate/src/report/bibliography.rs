@@ -123,7 +123,10 @@ fn explained(error: &BibLaTeXError, text: &str) -> String {
         BibLaTeXError::Parse(error) => (error.kind.to_string(), &error.span),
         BibLaTeXError::Type(error) => (error.kind.to_string(), &error.span),
     };
-    format!("references.bib:{}: {what}", line_and_column(text, span.start))
+    // Where the reader sees that a brace is missing is behind it.
+    let brace =
+        if what.contains("expected") { "; is a brace or a comma missing before?" } else { "" };
+    format!("references.bib:{}: {what}{brace}", line_and_column(text, span.start))
 }
 
 /// Formatted text as pieces of running text, words side by side in one.

@@ -146,8 +146,8 @@ impl Labels {
         });
         let lists: Vec<_> = lists.collect();
         if let (Some(key), true) = (cited.first(), lists.is_empty()) {
-            let what = format!("{} cites {key} and has no [@bibliography]", here.markdown);
-            return Err(Error::Markup(what));
+            let what = format!("it cites {key} and has no list; add a paragraph [@bibliography]");
+            return Err(Error::Template(format!("{}: {what}", here.prose)));
         }
         for entries in lists {
             *entries = library.entries(&cited)?;

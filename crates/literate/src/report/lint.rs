@@ -12,6 +12,7 @@
 //! as *two-sided*, passes. Whatever the model itself fixes (*two masses* meet in an impact) is declared
 //! once, as a phrase with its reason, in `literals.toml`; a phrase that no prose has is refused.
 
+use super::labels::names;
 use super::origin::next_tag;
 use super::{Error, Templates};
 use crate::input::{is_no_text, line, one_line, toml_fault};
@@ -350,7 +351,9 @@ pub fn findings(path: &str, text: &str, declared: &Declared) -> Vec<Finding> {
             if c.is_numeric() && !begins_with_letter {
                 let numeral: String = rest.chars().take_while(|c| in_numeral(*c)).collect();
                 let numeral = numeral.trim_end_matches(['.', ',']).to_string();
-                findings.push(position.numeral(path, &numeral));
+                if !within_markup(&text[..text.len() - rest.len()]) {
+                    findings.push(position.numeral(path, &numeral));
+                }
                 rest = position.past(rest, numeral.len());
                 continue;
             }
@@ -360,6 +363,16 @@ pub fn findings(path: &str, text: &str, declared: &Declared) -> Vec<Finding> {
         rest = position.past(rest, c.len_utf8());
     }
     findings
+}
+
+/// Does what is before a numeral make it a part of markup that is told as such: `[^1]`, `@fig:1`, `\sigma^2`?
+fn within_markup(before: &str) -> bool {
+    let Some(before) = before.strip_suffix(':') else {
+        return before.ends_with('^') && !before.ends_with(r"\^");
+    };
+    let kind = before.rsplit(|c: char| !c.is_alphabetic()).next().unwrap_or_default();
+    names(&kind.to_lowercase()).is_some()
+        && before[..before.len() - kind.len()].ends_with(['@', '['])
 }
 
 fn is_number_word(word: &str) -> bool {
@@ -502,6 +515,9 @@ mod tests {
             [(1, 6, "3".into()), (1, 11, "4".into()), (1, 14, "½".into())]
         );
         assert_eq!(found("$0.12$ and $10^{-9}$").len(), 2);
+        // What is told as markup is no number.
+        assert_eq!(found(r"a[^1], (@fig:1]), ([fig:1]) or \sigma^2").len(), 0);
+        assert_eq!(found(r"fig:1 or 2\^3").len(), 3);
         for alone in [
             r"\approx 0.12",
             r"\text{0.12}",
