@@ -368,11 +368,12 @@ pub fn findings(path: &str, text: &str, declared: &Declared) -> Vec<Finding> {
 /// Does what is before a numeral make it a part of markup that is told as such: `[^1]`, `@fig:1`, `\sigma^2`?
 fn within_markup(before: &str) -> bool {
     let Some(before) = before.strip_suffix(':') else {
-        return before.ends_with('^') && !before.ends_with(r"\^");
+        let sign = before.ends_with(['^', '~']);
+        return sign && !before.ends_with(r"\^") && !before.ends_with(r"\~");
     };
     let kind = before.rsplit(|c: char| !c.is_alphabetic()).next().unwrap_or_default();
     names(&kind.to_lowercase()).is_some()
-        && before[..before.len() - kind.len()].ends_with(['@', '['])
+        && before[..before.len() - kind.len()].ends_with(['@', '[', '{'])
 }
 
 fn is_number_word(word: &str) -> bool {
@@ -516,7 +517,7 @@ mod tests {
         );
         assert_eq!(found("$0.12$ and $10^{-9}$").len(), 2);
         // What is told as markup is no number.
-        assert_eq!(found(r"a[^1], (@fig:1]), ([fig:1]) or \sigma^2").len(), 0);
+        assert_eq!(found(r"a[^1], (@fig:1]), ([fig:1]), \ref{fig:3}, H~2~O or \sigma^2").len(), 0);
         assert_eq!(found(r"fig:1 or 2\^3").len(), 3);
         for alone in [
             r"\approx 0.12",
