@@ -61,7 +61,14 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let strange =
         |fault: &String| fault.starts_with("unlisted") || fault.starts_with("rerun: not made");
     let remedy = if checked.faults.iter().all(strange) {
-        "remove what is not listed, or put it elsewhere".to_string()
+        let lost = args.folder.join(sums::LOCAL).symlink_metadata().is_err();
+        let lost = lost.then(|| {
+            let (local, anew) = (sums::LOCAL, folder::anew(&args.folder));
+            format!(
+                "; {local}, which lists what is built beside, is not there: {anew} writes it anew"
+            )
+        });
+        format!("remove what is not listed, or put it elsewhere{}", lost.unwrap_or_default())
     } else {
         format!(
             "{} writes the report anew, `impact-paper diff` compares two of them (but not what is built beside); \

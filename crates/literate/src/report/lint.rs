@@ -13,7 +13,7 @@
 //! once, as a phrase with its reason, in `literals.toml`; a phrase that no prose has is refused.
 
 use super::labels::names;
-use super::origin::next_tag;
+use super::tags::other_word;
 use super::{Error, Templates};
 use crate::input::{is_no_text, line, one_line, toml_fault};
 use crate::source::Program;
@@ -175,42 +175,6 @@ pub fn check(templates: &Templates, program: Program) -> Result<(), Error> {
     }
 }
 
-/// Tags that templates may have. Variables could double until the memory is full; what is included, imported or put
-/// into a block would stand at no line of its own.
-const TAGS: [&str; 6] = ["if", "elif", "else", "endif", "for", "endfor"];
-
-/// Filters that templates may have. Others would change the name of a value, or its digits.
-const FILTERS: [&str; 5] = ["percent", "no_error", "significant", "split", "last"];
-
-/// The first tag or filter of another kind, in what is filled.
-fn other_word(path: &str, text: &str) -> Option<Finding> {
-    let (mut position, mut at) = (Position { line: 1, column: 1 }, 0);
-    let filled = [".md", ".tex", ".html"].iter().any(|end| path.ends_with(end));
-    let word = |text: &str| -> String {
-        let text = text.trim_start_matches(['-', ' ', '\n', '\r', '\t']);
-        text.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect()
-    };
-    while let Some((start, end)) = next_tag(text, at).filter(|_| filled) {
-        let tag = &text[start..end];
-        let own = tag.strip_prefix("<%").map(word).filter(|word| !TAGS.contains(&word.as_str()));
-        // What is quoted is no filter.
-        let bare: String = tag.split('"').step_by(2).filter(|_| !tag.starts_with("<#")).collect();
-        let mut filters = bare.split('|').skip(1).map(word);
-        let filter = filters.find(|word| !FILTERS.contains(&word.as_str()));
-        let empty =
-            tag.strip_prefix('«').is_some_and(|tag| tag.trim_end_matches('»').trim().is_empty());
-        let fault = own.map(|word| Fault::Word("tag", word, &TAGS));
-        let fault = fault.or(empty.then_some(Fault::Empty));
-        let fault = fault.or(filter.map(|word| Fault::Word("filter", word, &FILTERS)));
-        if let Some(fault) = fault {
-            position.past(text, start);
-            return Some(position.finding(path, fault));
-        }
-        at = end;
-    }
-    None
-}
-
 /// Words that are numbers and nothing else.
 const WORDS: &str = "two three four five six seven eight nine ten eleven twelve thirteen fourteen \
     fifteen sixteen seventeen eighteen nineteen twenty thirty forty fifty sixty seventy eighty ninety \
@@ -288,7 +252,7 @@ impl Declared {
 /// The first character that is none of a text.
 fn odd(path: &str, text: &str) -> Option<Finding> {
     let (at, c) = text.char_indices().find(|(_, c)| is_no_text(*c))?;
-    let mut position = Position { line: 1, column: 1 };
+    let mut position = Position::default();
     position.past(text, at);
     Some(position.finding(path, Fault::Control(c)))
 }
@@ -299,7 +263,7 @@ pub fn findings(path: &str, text: &str, declared: &Declared) -> Vec<Finding> {
         return vec![odd];
     }
     let mut findings = Vec::new();
-    let mut position = Position { line: 1, column: 1 };
+    let mut position = Position::default();
     let mut rest = text;
     // The word that the position is in, and whether it began with a letter.
     let mut word: Option<bool> = None;
@@ -454,14 +418,20 @@ fn list_marker(line: &str) -> usize {
     }
 }
 
-struct Position {
+pub(super) struct Position {
     line: usize,
     column: usize,
 }
 
+impl Default for Position {
+    fn default() -> Self {
+        Position { line: 1, column: 1 }
+    }
+}
+
 impl Position {
     /// Moves over so many bytes of `rest`, and returns what is behind them.
-    fn past<'a>(&mut self, rest: &'a str, bytes: usize) -> &'a str {
+    pub(super) fn past<'a>(&mut self, rest: &'a str, bytes: usize) -> &'a str {
         for c in rest[..bytes].chars() {
             if c == '\n' {
                 (self.line, self.column) = (self.line + 1, 1);
@@ -472,7 +442,7 @@ impl Position {
         &rest[bytes..]
     }
 
-    fn finding(&self, path: &str, fault: Fault) -> Finding {
+    pub(super) fn finding(&self, path: &str, fault: Fault) -> Finding {
         Finding { path: path.to_string(), line: self.line, column: self.column, fault }
     }
 

@@ -29,6 +29,7 @@ pub mod print;
 pub mod shown;
 pub mod spell;
 pub mod sums;
+mod tags;
 pub mod templates;
 mod tex;
 pub mod typeset;
