@@ -54,6 +54,7 @@ null => line 1
 "simultaneous":1|null|true|["joint"] => simultaneous
 "initial":"start"|{"free":3}|{"random":{}}|[]|{} => initial
 "initial":1|3 => initial: no value that it can have
+"initial":"random" => initial.random; it stands without its values
 "initial":{"random":[0.1,1]} => initial.random; a JSON object
 "initial":{"random":{"sigma":[]}} => initial.random.sigma; a number
 "initial":{"random":{"sigma":-1,"seed":1}} => initial.random.sigma; give a number

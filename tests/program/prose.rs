@@ -62,6 +62,8 @@ front.md +It is «sweep.rise.half_height now. => :$:7: « is not closed
 front.md # -> ## => :1:1: a report begins with its title
 published.toml value = 100 -> value = nan => :11: the id "masses": its value is not finite
 published.toml value = 100 -> value = 1000000000000000000000000 => :14: invalid type
+published.toml place = "Sec. 2" -> place = Sec. 2 => :12: this is neither a number nor text in quotes
+published.toml place = "Sec. 2" -> place = few => :12: this is neither a number nor text in quotes
 published.toml place = "Sec. 2" -> place = "" => :11: the id "masses": its place has no words
 published.toml printed = "n =  -> printed = "" # " => :116: the id "sec2_parameters": its printed has
 published.toml statement = "For small σ -> statement = "" # " => :122: the id "sec2_few_below": its statement

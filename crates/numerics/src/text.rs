@@ -26,7 +26,8 @@ pub fn count(number: usize, noun: &str) -> String {
 }
 
 /// What parsers say to programmers, and what it says to everybody.
-const PLAIN: [(&str, &str); 25] = [
+const PLAIN: [(&str, &str); 26] = [
+    ("invalid type: unit variant, expected newtype variant", "it stands without its values"),
     (" as i128", ""),
     ("expected f64", "expected a number"),
     ("expected u8", "expected a whole number"),

@@ -40,8 +40,8 @@ pub struct Finding {
 pub enum Fault {
     /// A numeral.
     Numeral(String),
-    /// A delimiter, and the one that ought to end it.
-    Open(&'static str, &'static str),
+    /// A kind of [`EXEMPT`] that opens and does not close.
+    Open((&'static str, &'static str, bool)),
     /// A value without its name.
     Empty,
     /// A character that is none of a text, by its number.
@@ -75,10 +75,11 @@ impl std::fmt::Display for Finding {
                     "{path}:{line}:{column}: no template has a {kind} {word:?}, only {all}; remove it"
                 );
             }
-            Fault::Open(open, close) => {
+            Fault::Open((open, close, long)) => {
+                let here = if *long { "" } else { " in its paragraph" };
                 return write!(
                     f,
-                    "{path}:{line}:{column}: {open} is not closed; put {close} where it ends"
+                    "{path}:{line}:{column}: {open} is not closed{here}; put {close} where it ends"
                 );
             }
         };
@@ -284,7 +285,7 @@ pub fn findings(path: &str, text: &str, declared: &Declared) -> Vec<Finding> {
             let (open, close, _) = kind;
             let inner = &rest[open.len()..];
             let Some(length) = length(inner, kind) else {
-                return vec![position.finding(path, Fault::Open(open, close))];
+                return vec![position.finding(path, Fault::Open(kind))];
             };
             if open == "$" && is_number(&inner[..length]) {
                 findings.push(position.numeral(path, &inner[..length]));
@@ -458,7 +459,7 @@ mod tests {
     fn found(text: &str) -> Vec<(usize, usize, String)> {
         let place = |f: Finding| match f.fault {
             Fault::Numeral(numeral) => (f.line, f.column, numeral),
-            Fault::Open(open, _) => (f.line, f.column, format!("open {open}")),
+            Fault::Open((open, ..)) => (f.line, f.column, format!("open {open}")),
             Fault::Control(c) => (f.line, f.column, format!("control {}", u32::from(c))),
             Fault::Empty => (f.line, f.column, "empty".into()),
             Fault::Word(kind, word, _) => (f.line, f.column, format!("{kind} {word}")),

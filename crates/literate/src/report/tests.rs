@@ -518,6 +518,7 @@ fn broken_prose_is_told_with_its_place() {
         ("and &frac12; of it", "14:5", "write the character itself"),
         ("at «v.half_height and\n\n«v.half_height»", "14:4", "is not closed"),
         ("if <% if raw.x\n\n<% endif %>", "14:4", "is not closed"),
+        ("$$\n\nx\n$$", "14:1", "is not closed in its paragraph"),
         ("at «raw.half_height»", "14:4", "a plain number"),
         ("at «40 + 2»", "14:4", "no name of a value"),
         ("at «\"3.14\"»", "14:4", "a text in quotes"),
