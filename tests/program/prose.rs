@@ -5,29 +5,15 @@ use crate::{QUICK, templates};
 /// What is wrong with a file of the templates, and what is said behind its name: lines at its end (`+`, with ¦ for line ends and ◀▶ for
 /// characters of nobody), told with the last line; or words and others in their place.
 const FAULTS: &str = r##"front.md +<% include "front.md" %> => :$:1: no template has a tag "include"
-front.md +<%- macro a() %>x<% endmacro %> => :$:1: no template has a tag "macro"
 front.md +«v.p | nofilter» => :$:1: no template has a filter "nofilter", only percent
-front.md +«sweep.rise.half_height | replace(from="half_height", to="onset")» => :$:1: no template has a filter "replace"
-front.md +Scen: A => :$:1: a paragraph that begins with `Scen:`
 front.md +lab theory: x => :$:1: a paragraph that begins with `lab`
-front.md +Lab theory What => :$:1: a paragraph that begins with `Lab`
 front.md +- Lba theory: x => :$:3: a paragraph that begins with `Lba`
-front.md +See (it)[x] now => :$:9: a link that is not whole
-front.md +See [it] (methods.md) now => :$:5: a link that is not whole
-front.md +An {{ x }} b => :$:4: braces about a value
-front.md +An <<v.x>> b => :$:4: signs about a value
-front.md +Seen [-@rice1945] => :$:6: a link that is not whole
-front.md +Seen [rice1945] => :$:6: a link that is not whole
-front.md +See \ref{x} => :$:5: a command of TeX outside of a formula
-front.md +See [@ eq:x] => :$:5: a blank behind the sign of [@ eq:x]
 front.md +«nofun(a=1)» => :$:2: Unknown function
 front.md +<% for i in [41, 42] %>In «i» chains. <% endfor %> => :$:27: this is a plain number
 front.md +<% for row in keys.sweep.rows.sigma %>«loop.index» <% endfor %> => :$:39: this is a plain number
 front.md +«claims | length» => :$:1: no template has a filter "length"
 front.md +«"seven chains"» => :$:1: this is a text in quotes
-front.md +«[4711]» => :$:1: this is no name of a value
 front.md +«range(start=17, end=18)» => :$:1: this is no name of a value
-front.md +«1 > 0» => :$:1: this is no name of a value
 front.md +«"7" ~ score.total» => :$:1: this is a text in quotes
 front.md +<% set s = "a" %><%- set_global s = s ~ s %> => :$:1: no template has a tag "set"
 front.md +<% endfor %> => :$:4: Unknown tag endfor
