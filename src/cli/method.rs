@@ -44,6 +44,11 @@ impl Choice {
         self.method == Name::Certified
     }
 
+    /// Whether it flies in closed form, so that rounding is what moves its impacts first.
+    pub fn is_closed(&self) -> bool {
+        matches!(self.method, Name::Certified | Name::Sampled | Name::Newton)
+    }
+
     /// The method.
     ///
     /// # Errors

@@ -87,6 +87,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let numbers =
         args.figure.iter().map(read).collect::<Result<BTreeSet<figures::Number>, Failure>>()?;
     refuse_over_other(profile, &out, !args.figure.is_empty(), args.force)?;
+    args.sources.refuse_strange()?;
     let templates = args.sources.templates.as_deref();
     refuse_report("--results", &args.sources.results, templates)?;
     refuse_prose("--out", &out, templates)?;

@@ -24,7 +24,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64};
 /// standard error, if there were any. Past some 150 units of time a chaotic chain depends on the last
 /// bit: only statistics are reproducible there. --certify says where that begins. Amplitudes so large
 /// (near resonance, say) that rounding may move a gap by more than 1e-6 of the spacing are refused; where it
-/// may by more than 1e-9, standard error says by how much. A chatter has come to rest
+/// may by more than 1e-9, standard error says by how much (of methods in closed form). A chatter has come to rest
 /// when its bodies part more slowly than 1e-10 d w; they then stay in contact as long as forces press them.
 #[derive(clap::Args)]
 #[command(after_help = FORM)]
@@ -236,7 +236,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
         lines.push_str(header);
     }
     let written = written.and_then(|()| out.write_all(lines.as_bytes()));
-    let rounded = rounded(&scenario).filter(|_| args.method.is_certified());
+    let rounded = rounded(&scenario).filter(|_| args.method.is_closed());
     let (certificate, ties) = match (ran, written.and_then(|()| out.flush())) {
         (_, Err(error)) => return stdout::written(Err(error)),
         (Ok(ran), Ok(())) => ran,

@@ -3,7 +3,6 @@
 use super::document::Only;
 use impact_paper::experiments::Progress;
 use impact_paper::input::MEMORY;
-use impact_paper::params::Profile;
 use impact_paper::program::listed::{Checked, listed, own_profile};
 use impact_paper::program::sources::Sources;
 use impact_paper::program::waiting::Waiting;
@@ -25,12 +24,9 @@ pub struct Args {
     folder: PathBuf,
     #[command(flatten)]
     only: Only,
-    /// Make the report again, without saved results, and compare byte by byte.
+    /// Make the report again, with the profile that it has and without saved results, and compare byte by byte.
     #[arg(long, conflicts_with = "document")]
     rerun: bool,
-    /// Sample sizes of the rerun [default: those of the report].
-    #[arg(long, requires = "rerun", value_parser = work::of_reports())]
-    profile: Option<Profile>,
     /// Take results of long runs from this folder, where they are fresh, and keep them there.
     #[arg(long, value_name = "DIR", requires = "rerun", value_parser = work::folder())]
     results: Option<PathBuf>,
@@ -86,12 +82,7 @@ fn pdfs() -> impl Iterator<Item = String> {
 
 /// Makes the report again and compares.
 fn rerun(args: &Args, progress: &Progress) -> Result<Checked, Failure> {
-    let own = own_profile(&args.folder);
-    let profile = match (args.profile, &own) {
-        (Some(profile), Ok(_)) => profile,
-        (Some(profile), Err(failure)) if !failure.message.contains("--set") => profile,
-        _ => own?,
-    };
+    let profile = own_profile(&args.folder)?;
     // Removed in the end, whatever happens.
     let temporary = Waiting::temporary().map_err(|e| {
         let what = format!("a temporary folder in TMPDIR ({})", std::env::temp_dir().display());

@@ -1,5 +1,7 @@
 //! A report on disk, held against its own lists.
 
+use super::output::names;
+use super::waiting::is_staging;
 use super::{Failure, folder, memory, shown, stdout, work};
 use crate::digest::sha256;
 use crate::experiments::{Progress, alive};
@@ -48,6 +50,11 @@ pub fn listed(root: &Path, only: Option<&str>, progress: &Progress) -> Result<Ch
     };
     let [list, local] = [sums::NAME, sums::LOCAL].map(|name| root.join(name).symlink_metadata());
     let ledger = root.join("ledger.json").symlink_metadata();
+    let begun = |name: &String| is_staging(root, name);
+    if list.is_err() && names(root).is_ok_and(|names| names.iter().any(begun)) {
+        let what = "it is not there: a run that puts the report into place was ended, or goes on";
+        return Err(unusable(what.into()));
+    }
     if local.is_ok() && list.is_err() && ledger.is_err() {
         let (root, local) = (root.display(), sums::LOCAL);
         return Err(Failure::input(format!(
@@ -110,7 +117,11 @@ pub fn listed(root: &Path, only: Option<&str>, progress: &Progress) -> Result<Ch
 /// Exit code 2 if they name none.
 pub fn own_profile(root: &Path) -> Result<Profile, Failure> {
     let unknown = |what: &str| {
-        Failure::input(format!("{}: values.json {what}; give --profile", root.display()))
+        let anew = folder::anew(root);
+        Failure::input(format!(
+            "{}: values.json {what}; restore it, or {anew} writes the report anew",
+            root.display()
+        ))
     };
     memory::to_parse(root, &["values.json"], &root.display().to_string())?;
     let text = folder::text(root, "values.json").or_else(|error| {

@@ -82,7 +82,9 @@ pub fn usage(error: &clap::Error) -> ExitCode {
         };
     }
     let text = plain(&error.to_string());
-    let lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
+    // No verb takes a value that looks like an option.
+    let helps = |line: &&str| !line.is_empty() && !line.starts_with("tip: to pass '");
+    let lines = text.lines().map(str::trim).filter(helps);
     let line = lines.collect::<Vec<_>>().join("; ");
     let line = format!("impact-paper: {}", line.strip_prefix("error: ").unwrap_or(&line));
     say(&one_line(&line, LONGEST));

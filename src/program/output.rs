@@ -243,7 +243,7 @@ pub fn free(what: &str, path: &Path, Force { force }: Force) -> Result<(), Failu
 }
 
 /// Names of what is in a folder.
-fn names(folder: &Path) -> io::Result<Vec<String>> {
+pub(super) fn names(folder: &Path) -> io::Result<Vec<String>> {
     let name = |entry: io::Result<std::fs::DirEntry>| {
         entry.map(|entry| entry.file_name().to_string_lossy().into_owned())
     };

@@ -7,7 +7,7 @@ use super::{Failure, folder};
 use std::path::{Path, PathBuf};
 
 /// Files by which a folder of prose is known.
-const PROSE: [&str; 3] = ["published.toml", "literals.toml", "references.bib"];
+pub(super) const PROSE: [&str; 3] = ["published.toml", "literals.toml", "references.bib"];
 
 /// Is it, without links and dots, below a report, which has no other files?
 pub(super) fn lies_in_report(there: &Path) -> bool {
@@ -27,6 +27,11 @@ pub fn refuse_prose(option: &str, folder: &Path, templates: Option<&Path>) -> Re
     // That of another checkout, or of one that is not seen from here.
     let among = |above: &Path| PROSE.iter().all(|file| above.join(file).is_file());
     if prose.iter().any(|prose| there.starts_with(prose)) || there.ancestors().any(among) {
+        let here = folder::resolved(Path::new("."));
+        if folder.is_relative() && here.ancestors().any(among) {
+            let what = "the working folder is that of the templates, or lies in it; change to the checkout";
+            return Err(Failure::input(what));
+        }
         let what = "is the folder of the templates, or lies in it; give another folder";
         return Err(Failure::input(format!("{option}: {} {what}", folder.display())));
     }

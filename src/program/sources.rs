@@ -1,13 +1,13 @@
 //! Where `paper` and `check` read prose and keep results.
 
-use super::places::refuse_report;
+use super::places::{PROSE as FILES, refuse_report};
 use super::{Failure, memory, signals, threads, work};
 use crate::claims::{self, Published};
 use crate::committed;
 use crate::experiments::{self, Need, Progress, Results, Store};
 use crate::input::MEMORY;
 use crate::params::{Profile, set};
-use crate::report::{self, Templates};
+use crate::report::{self, PROGRAM, Templates};
 use std::path::{Path, PathBuf};
 
 /// The prose: where it is, its folder is.
@@ -36,9 +36,26 @@ impl Sources {
         Sources { threads, templates, results }
     }
 
+    /// Refuses a folder of prose that has nothing of it.
+    ///
+    /// # Errors
+    /// Exit code 2 with the option.
+    pub fn refuse_strange(&self) -> Result<(), Failure> {
+        let strange = |folder: &&PathBuf| {
+            let no = |file: &str| folder.join(file).symlink_metadata().is_err();
+            let documents = PROGRAM.documents.iter().all(|of| no(&format!("{}.md", of.prose)));
+            folder.is_dir() && documents && FILES.into_iter().all(no)
+        };
+        let Some(folder) = self.templates.as_ref().filter(strange) else { return Ok(()) };
+        let (folder, files) = (folder.display(), FILES.join(", "));
+        let what = format!("has none of {files}; give the folder that has all of the prose");
+        Err(Failure::input(format!("--templates: {folder} {what}")))
+    }
+
     /// The templates.
     pub fn templates(&self) -> Result<Templates, Failure> {
         let templates = find(self.templates.as_deref())?;
+        self.refuse_strange()?;
         let long: usize = templates.iter().map(|(_, text)| text.len()).sum();
         memory::fits(PARSED * long as u128 + (memory::RESULTS << 20), "the templates", MEMORY)?;
         Ok(templates)

@@ -30,6 +30,12 @@ null => line 1
 [[0,1]] => expected a JSON object
 {"forcing":[[1,2]],"forcing":[[1,2]]} => forcing; duplicate
 {"forcing":[[1,2]]} {"forcing":[[1,2]]} => one JSON object
+{"forcing":[[nan,1]]} => forcing[0][0]: no value that it can have
+{"forcing":[[[1,2]],[[1,2]]]} => forcing: it has lists of pairs; forcing_frequencies
+{"forcing_frequencies":[1.4],"forcing":[[1,2]]} => forcing: it is one list of pairs
+{"forcing":[[[1,2]],[[1,2]]],"forcing_freqencies":[1.4,1.7]} => forcing_freqencies: unknown field
+{"forcing_frequencies":[1.4],"forcing":[[[1,2]]],"restitution":.8} => restitution: no value that it can have
+{"forcing_frequencies":[1.4],"forcing":[[[1,2]]],} => scenario: trailing comma
 {} => forcing; mass
 {"forcing":[]} => forcing; mass
 {"forcing":[[1]]} => forcing
@@ -109,7 +115,7 @@ fn near_resonance() {
         assert!(code == 0 && out.len() > 100, "{note}");
         note
     };
-    for more in ["", " --certify"] {
+    for more in ["", " --certify", " --method sampled"] {
         let note = said("1.0000001", more);
         assert!(
             note.lines().count() == 1 && note.contains("closing speed v by 2.9e-7/v"),
@@ -198,6 +204,8 @@ paper --figure 4 --out file|file/below => --out
 paper --profile quick --out file => it is a file
 paper --profile quick --figure 3 --results file => --results: file: not a directory
 paper --templates nowhere => nowhere
+paper --templates empty => --templates: empty has none of published.toml
+check --templates empty => --templates: empty has none of published.toml
 check --claim no-such-claim => --claim
 check --profile quick --results file => --results: file: not a directory
 check --profile quick --results loop => --results: loop: a symbolic link that leads to no folder
@@ -206,9 +214,10 @@ merge empty --results loop => --results: loop: a symbolic link
 verify => paper/SHA256SUMS: ; give the folder of a report
 verify empty => empty/SHA256SUMS: ; give the folder of a report
 verify file => file/SHA256SUMS: 
-verify --profile quick => --rerun
-verify --rerun --profile deep => --profile
+verify --results r => --rerun
 verify --rerun --threads 0|10000 => --threads; give 1 
+paper --threads -1 => no whole number of 0 or more
+trace x.json -until 10 => '-u' found; Usage: impact-paper trace
 check --templates nowhere --threads 10000 => --threads; give 1 
 run --profile quick --shard 0/3|4/3 --out d => 1 <= i <= N
 run --profile quick --shard 2 --out d => like 2/3

@@ -30,6 +30,7 @@ references.bib +@book{aa, author={b}, year={1999}, title={ }} => :$: aa lacks it
 references.bib +@book{aa,¦year={199}} => :$: aa has `year`, which is no year of four digits
 references.bib +@book{aa, year={1999},¦Year={1998}} => :$: aa has `Year`, which stands twice
 references.bib +@book{aa, volum={1}} => :$: aa has `volum`, which is no field; is `volume` meant?
+references.bib +@misc{aa, author={B}, title={b}, year={1999}, eprint={2101.01234}} => :$: aa has `eprint`, which is not shown
 references.bib +@article{aa, author={B}, title={b}, year={1999}} => :$: aa lacks its journal
 references.bib +@misc{aa, author={B & C}, title={b}, year={1999}} => :$: aa has `author`, which is no list of names
 references.bib +@misc{aa, author={B}, title={\emph{b}}, year={1999}} => :$: aa would show \ as it stands

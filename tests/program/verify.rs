@@ -52,6 +52,11 @@ fn what_is_as_listed_is_fine_with_what_is_built_beside() {
     fs::remove_file(paper.join("SHA256SUMS.local")).unwrap();
     let unlisted = ["unlisted a.pdf", "unlisted report.html"];
     faults(folder.path(), &unlisted, "remove what is not listed");
+    // Ended before the list came: a first report, or all of it moved away.
+    fs::remove_file(paper.join("SHA256SUMS")).unwrap();
+    refused(folder.path(), "verify", &["SHA256SUMS", "was ended, or goes on", "--force"]);
+    fs::remove_dir_all(paper.join(".staging-impact-paper-1")).unwrap();
+    refused(folder.path(), "verify", &["SHA256SUMS: No such file"]);
 }
 
 /// A terminal obeys nothing of them.
@@ -100,7 +105,7 @@ fn lists_that_cannot_be_trusted_are_refused_with_their_line() {
     write("paper/SHA256SUMS", b"\xff\xfe");
     refused(folder.path(), "verify", &["SHA256SUMS"]);
     let (code, _, note) = run(small().0.path(), "verify --rerun");
-    assert!(code == 2 && note.contains("--profile"), "{note}");
+    assert!(code == 2 && note.contains("values.json cannot be read; restore it"), "{note}");
 }
 
 /// Neither a link to a file, nor one to a folder, nor a pipe that would never end.
@@ -175,10 +180,14 @@ fn a_rerun_finds_what_the_list_cannot() {
 
 #[test]
 fn ctrl_c_ends_a_rerun() {
-    let (folder, _) = small();
-    let temporary = folder.path().join("tmp");
+    let folder = tempfile::tempdir().unwrap();
+    let [temporary, paper] = ["tmp", "paper"].map(|name| folder.path().join(name));
     fs::create_dir(&temporary).unwrap();
-    let rerun = format!("verify --rerun --profile full --templates {TEMPLATES}");
+    put(&paper, &QUICK.report);
+    let values = paper.join("values.json");
+    let text = fs::read_to_string(&values).unwrap();
+    fs::write(&values, text.replacen("\"quick\"", "\"full\"", 1)).unwrap();
+    let rerun = format!("verify --rerun --templates {TEMPLATES}");
     let mut command = program(folder.path(), &rerun);
     command.env("TMPDIR", &temporary).stderr(Stdio::null());
     ended(&mut command, "-INT", Duration::from_secs(10));

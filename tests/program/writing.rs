@@ -209,7 +209,7 @@ fn nothing_is_written_among_the_templates() {
     templates(&here.join("t"), "front.md", |text| text.into());
     // Also from within, where nobody names them.
     for within in [here.join("t"), here.join("t/methods")] {
-        crate::refused(&within, "paper --profile quick", &["is the folder of the templates"]);
+        crate::refused(&within, "paper --profile quick", &["change to the checkout"]);
     }
     for (verb, among) in [
         ("paper --figure 4 --templates t --out", "t"),

@@ -169,10 +169,40 @@ impl<F: Default> Form<F> {
     }
 }
 
-impl Form<Vec<Pairs>> {
-    /// The scenario of a form with `forcing_frequencies`.
+/// Does the forcing begin with three brackets, as that of several components? Its brackets tell it even where the text is
+/// broken further on.
+fn has_lists(text: &str) -> bool {
+    let key = text.split_once("\"forcing\"").map_or("", |(_, behind)| behind);
+    let signs = key.chars().filter(|c| !c.is_whitespace());
+    signs.take(4).eq(":[[[".chars())
+}
+
+impl Form<Pairs> {
+    /// The scenario of a form with one component.
     fn scenario(mut self) -> Result<Scenario, Error> {
-        let frequencies = self.forcing_frequencies.take().unwrap_or_default();
+        if self.forcing_frequencies.is_some() {
+            return Err(Error::input(
+                "forcing",
+                "it is one list of pairs beside forcing_frequencies",
+                "give one list of pairs for each frequency, or one forcing_frequency",
+            ));
+        }
+        let frequency = self.forcing_frequency.take();
+        let pairs = std::mem::take(&mut self.forcing);
+        self.with(vec![(frequency.unwrap_or(Chain::default().forcing_frequency), pairs)])
+    }
+}
+
+impl Form<Vec<Pairs>> {
+    /// The scenario of a form with several components.
+    fn scenario(mut self) -> Result<Scenario, Error> {
+        let Some(frequencies) = self.forcing_frequencies.take() else {
+            return Err(Error::input(
+                "forcing",
+                "it has lists of pairs, as several components do, and there are no forcing_frequencies",
+                "give the frequency of each list, or give forcing one pair for each mass",
+            ));
+        };
         if self.forcing_frequency.is_some() {
             return Err(Error::input(
                 "forcing_frequency",
@@ -267,21 +297,10 @@ impl Scenario {
     /// # Errors
     /// [`Error::Input`] names the field and the remedy.
     pub fn from_json(text: &str) -> Result<Scenario, Error> {
-        /// Which of the two forms a file has.
-        #[derive(Deserialize)]
-        struct Kind {
-            forcing_frequencies: Option<serde::de::IgnoredAny>,
-        }
-        let several =
-            serde_json::from_str::<Kind>(text).is_ok_and(|kind| kind.forcing_frequencies.is_some());
-        let scenario = if several {
+        let scenario = if has_lists(text) {
             Form::<Vec<Pairs>>::read(text)?.scenario()?
         } else {
-            let mut form = Form::<Pairs>::read(text)?;
-            let frequency = form.forcing_frequency.take();
-            let frequency = frequency.unwrap_or(Chain::default().forcing_frequency);
-            let pairs = std::mem::take(&mut form.forcing);
-            form.with(vec![(frequency, pairs)])?
+            Form::<Pairs>::read(text)?.scenario()?
         };
         scenario.validate()?;
         Ok(scenario)

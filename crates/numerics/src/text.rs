@@ -26,7 +26,7 @@ pub fn count(number: usize, noun: &str) -> String {
 }
 
 /// What parsers say to programmers, and what it says to everybody.
-const PLAIN: [(&str, &str); 26] = [
+const PLAIN: [(&str, &str); 28] = [
     ("invalid type: unit variant, expected newtype variant", "it stands without its values"),
     (" as i128", ""),
     ("expected f64", "expected a number"),
@@ -43,14 +43,19 @@ const PLAIN: [(&str, &str); 26] = [
     ("invalid type: map", "invalid type: object"),
     ("invalid type: sequence", "invalid type: list"),
     ("trailing characters", "more than belongs here"),
+    ("expected ident", "no value that it can have"),
+    ("key must be a string", "a name in quotes is missing"),
     ("EOF while parsing", "it ends inside"),
     ("`i64`", "a number"),
     ("`usize`", "a whole number"),
     ("`&str`", "text"),
     ("invalid float literal", "it is no number; write one such as 0.12"),
     ("cannot parse float from empty string", "it is no number; write one such as 0.12"),
-    ("invalid digit found in string", "it is no whole number; write one such as 1000"),
-    ("cannot parse integer from empty string", "it is no whole number; write one such as 1000"),
+    ("invalid digit found in string", "it is no whole number of 0 or more; write one such as 1000"),
+    (
+        "cannot parse integer from empty string",
+        "it is no whole number of 0 or more; write one such as 1000",
+    ),
     ("number too large to fit in target type", "it is too large; give a smaller number"),
     ("number too small to fit in target type", "it is too small; give a larger number"),
 ];

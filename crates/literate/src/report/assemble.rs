@@ -206,6 +206,10 @@ fn parts<'a>(
     if let Some(figure) = input.figures.iter().find(|figure| !shown.contains(&figure.id)) {
         return Err(Error::NotShown(figure.id.clone()));
     }
+    let missing = |entry: &&EquationEntry| labels.number(&format!("eq:{}", entry.number)).is_none();
+    if let Some(entry) = input.equations.iter().find(missing) {
+        return Err(Error::NoEquation(entry.number.to_string()));
+    }
     let tell = |error| parts.iter().fold(error, |error, part: &Part<'_>| part.places.tell(error));
     labels.judge(input.claims).map_err(tell)?;
     for Part { of, blocks, places } in &mut parts {

@@ -8,6 +8,7 @@ use crate::input::line_and_column;
 use hayagriva::archive::{ArchivedStyle, locales};
 use hayagriva::citationberg::{FontStyle, FontWeight, IndependentStyle, Locale, Style};
 use hayagriva::io::{BibLaTeXError, from_biblatex_str};
+use hayagriva::types::MaybeTyped;
 use hayagriva::{
     BibliographyDriver, BibliographyItem, BibliographyRequest, CitationItem, CitationRequest,
     ElemChild, ElemChildren, Formatted,
@@ -37,6 +38,7 @@ impl Library {
         let mut entries = Vec::new();
         for key in all.iter().map(|item| &item.key) {
             let Some(entry) = read.get(key) else { continue };
+            let entry = &with_numbers(entry, &written);
             // Alone: beside others of its name the style takes initials away.
             let (list, labels) = rendered(&[entry], &look);
             let text = list.first().map(|item| inlines(&item.content)).unwrap_or_default();
@@ -70,6 +72,23 @@ impl Library {
     pub fn keys(&self) -> impl Iterator<Item = &str> {
         self.0.iter().map(|entry| entry.key.as_str())
     }
+}
+
+/// The entry with its numbers as they are written.
+fn with_numbers(entry: &hayagriva::Entry, written: &Entries<'_>) -> hayagriva::Entry {
+    let mut own = entry.clone();
+    if let Some(pages) = written.pages(entry.key()) {
+        own.set_page_range(MaybeTyped::String(pages));
+    }
+    if let Some(volume) = written.volume(entry.key()).map(MaybeTyped::String) {
+        let mut parents = own.parents().to_vec();
+        match parents.iter_mut().find(|parent| parent.volume().is_some()) {
+            Some(parent) => parent.set_volume(volume),
+            None => own.set_volume(volume),
+        }
+        own.set_parents(parents);
+    }
+    own
 }
 
 /// Entries as the style shows them, in its order, and labels of citations, in theirs.

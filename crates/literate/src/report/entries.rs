@@ -6,7 +6,7 @@ use crate::input::line;
 use biblatex::{EntryType, Pair, ParseError, RawBibliography, RawChunk, RawEntry};
 
 /// Fields that the list of references shows. Managers of references write many others beside them.
-const FIELDS: &str = "author booktitle chapter date doi edition editor institution issue journal \
+const FIELDS: &str = "author booktitle chapter date doi edition editor eid institution issue journal \
     journaltitle number pages publisher school title translator url volume year";
 
 /// Of each of these an entry has one, with something in it; of the last, if it is of that type.
@@ -76,6 +76,34 @@ impl<'a> Entries<'a> {
         Ok(())
     }
 
+    /// The field of an entry, if it has something in it.
+    fn field(&self, key: &str, wanted: &str) -> Option<String> {
+        let entry = self.read.entries.iter().find(|entry| entry.v.key.v == key)?;
+        let own = entry.v.fields.iter().find(|pair| name(pair) == wanted)?;
+        Some(value(own)).filter(|value| !value.is_empty())
+    }
+
+    /// The volume of an entry, if it begins with a zero, which a number would lose.
+    pub fn volume(&self, key: &str) -> Option<String> {
+        self.field(key, "volume").filter(|volume| volume.starts_with('0'))
+    }
+
+    /// The pages of an entry, or the number of its article, where they are more than one number or two: zeros before a number
+    /// are part of it, and commas part several.
+    pub fn pages(&self, key: &str) -> Option<String> {
+        let pages = self.field(key, "pages").or_else(|| self.field(key, "eid"))?;
+        let range = |part: &str| {
+            let ends = part.split(['-', '–']).map(str::trim).filter(|end| !end.is_empty());
+            ends.collect::<Vec<_>>().join("–")
+        };
+        let parts: Vec<String> = pages.split(',').map(range).collect();
+        let is_number = |end: &str| {
+            !end.starts_with('0') && !end.is_empty() && end.bytes().all(|c| c.is_ascii_digit())
+        };
+        let plain = parts.len() == 1 && parts[0].split('–').all(is_number);
+        (!plain && !pages.contains(['\\', '{', '$'])).then(|| parts.join(", "))
+    }
+
     /// Refuses what would be shown of an entry, if a sign of markup is in it, or a character without LaTeX.
     ///
     /// # Errors
@@ -105,11 +133,13 @@ impl<'a> Entries<'a> {
             at = span.end;
         };
         for entry in self.read.entries.iter().map(|entry| &entry.v) {
-            let published = entry.fields.iter().any(|pair| name(pair) == "publisher");
+            let has = |wanted| entry.fields.iter().any(|pair| name(pair) == wanted);
+            let (published, paged) = (has("publisher"), has("pages"));
             for pair in &entry.fields {
                 let own = name(pair);
                 match own.as_str() {
                     "school" | "institution" if !published => put(&pair.key.span, "publisher"),
+                    "eid" if !paged => put(&pair.key.span, "pages"),
                     // Beside a volume the style makes a part and a chapter of it.
                     "series" => put(&pair.key.span, "the-series"),
                     // It would leave its comma.
@@ -172,6 +202,11 @@ fn wrong(entry: &RawEntry<'_>) -> Option<(usize, String)> {
         let full = |pair: &&Pair<'_>| value(pair).contains(char::is_alphanumeric);
         entry.fields.iter().filter(full).any(|pair| names.contains(&name(pair).as_str()))
     };
+    let lost = |pair: &&Pair<'_>| ["eprint", "howpublished"].contains(&name(pair).as_str());
+    if let Some(pair) = entry.fields.iter().find(lost).filter(|_| !has(&["doi", "url"])) {
+        let what = "which is not shown; give the address that it leads to as `url`";
+        return Some((pair.key.span.start, format!("has `{}`, {what}", pair.key.v)));
+    }
     let needs = |of: &str| of.is_empty() || of == kind.to_lowercase();
     let (_, lacks) = NEEDED.into_iter().find(|(of, names)| needs(of) && !has(names))?;
     Some((head, format!("lacks its {}; give it", lacks.join(" or "))))
@@ -358,6 +393,24 @@ mod tests {
         ] {
             let told = sound(&text).unwrap_err();
             assert!(told.contains(place), "{told}");
+        }
+    }
+
+    #[test]
+    fn numbers_of_pages_stay_as_they_are_written() {
+        for (written, shown) in [
+            ("12--19", None),
+            ("7", None),
+            ("032205", Some("032205")),
+            ("002--031", Some("002–031")),
+            ("1, 5 -- 9", Some("1, 5–9")),
+            ("1--9,12--15", Some("1–9, 12–15")),
+            ("S12--S19", Some("S12–S19")),
+        ] {
+            let text = format!("@article{{a, pages={{{written}}}, volume={{05}}}}");
+            let read = Entries::read(&text).unwrap();
+            assert_eq!(read.pages("a").as_deref(), shown, "{written}");
+            assert_eq!(read.volume("a").as_deref(), Some("05"));
         }
     }
 }

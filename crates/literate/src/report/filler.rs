@@ -147,6 +147,11 @@ impl Filler {
         if let Some(word) = words.iter().find(|word| !known(word)) {
             return Some(format!("there is no name {word}; correct it"));
         }
+        let judged = words.iter().any(|word| ["if", "elif"].contains(word));
+        let shown = |word: &&&str| value(word) && !["raw", "keys"].contains(&root(word).as_str());
+        if let Some(word) = words.iter().find(|word| judged && shown(word)) {
+            return Some(format!("{word} is what is shown, a text; a condition has raw.{word}"));
+        }
         let (bare, quoted) = (tag.split('"').step_by(2), tag.split('"').skip(1).step_by(2));
         let compared =
             |part: &str| part.trim_end().ends_with(['=', '<', '>']) && !part.ends_with("pat=");

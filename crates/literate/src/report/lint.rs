@@ -268,7 +268,10 @@ pub fn findings(path: &str, text: &str, declared: &Declared) -> Vec<Finding> {
     let mut rest = text;
     // The word that the position is in, and whether it began with a letter.
     let mut word: Option<bool> = None;
+    // In a paragraph with TeX outside of a formula it is TeX that is wrong, and told as such.
+    let mut tex = false;
     while let Some(c) = rest.chars().next() {
+        tex = (tex && !rest.starts_with("\n\n")) || is_tex(rest, position.column);
         // A sign behind a backslash is meant as it stands.
         if rest
             .strip_prefix('\\')
@@ -316,7 +319,7 @@ pub fn findings(path: &str, text: &str, declared: &Declared) -> Vec<Finding> {
             if c.is_numeric() && !begins_with_letter {
                 let numeral: String = rest.chars().take_while(|c| in_numeral(*c)).collect();
                 let numeral = numeral.trim_end_matches(['.', ',']).to_string();
-                if !within_markup(&text[..text.len() - rest.len()]) {
+                if !tex && !within_markup(&text[..text.len() - rest.len()]) {
                     findings.push(position.numeral(path, &numeral));
                 }
                 rest = position.past(rest, numeral.len());
@@ -328,6 +331,14 @@ pub fn findings(path: &str, text: &str, declared: &Declared) -> Vec<Finding> {
         rest = position.past(rest, c.len_utf8());
     }
     findings
+}
+
+/// Does text that is no formula go on with a command of TeX, or with a bracket that opens one of its formulas?
+fn is_tex(rest: &str, column: usize) -> bool {
+    rest.strip_prefix('\\').is_some_and(|rest| {
+        let begins = |c: char| c.is_ascii_alphabetic() || c == '(' || (c == '[' && column == 1);
+        rest.starts_with(begins)
+    })
 }
 
 /// Does what is before a numeral make it a part of markup that is told as such: `[^1]`, `@fig:1`, `\sigma^2`?

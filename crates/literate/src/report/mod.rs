@@ -94,6 +94,8 @@ pub enum Error {
     Lint(Vec<lint::Finding>),
     #[error("{0} is not shown; put ![caption](figures/{0}.svg) into the prose")]
     NotShown(String),
+    #[error("equation ({0}) is not shown; put \\tag{{{0}}} to it in the prose")]
+    NoEquation(String),
     #[error("no template and no claim names {0}; use or remove it, or declare it data_only()")]
     Unused(String),
 }

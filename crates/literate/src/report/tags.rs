@@ -20,6 +20,11 @@ pub(super) fn other_word(path: &str, text: &str) -> Option<Finding> {
     };
     while let Some((start, end)) = next_tag(text, at).filter(|_| filled) {
         let tag = &text[start..end];
+        if ["<%", "«"].iter().any(|open| tag[2..].contains(open)) && !tag.starts_with("<#") {
+            // It has lost its end, which is told when all delimiters are held against each other.
+            at = start + 2;
+            continue;
+        }
         let own = tag.strip_prefix("<%").map(word).filter(|word| !TAGS.contains(&word.as_str()));
         // What is quoted is no filter.
         let bare: String = tag.split('"').step_by(2).filter(|_| !tag.starts_with("<#")).collect();

@@ -235,7 +235,7 @@ fn with_lab(prose: &str, lab: Option<&str>) -> Result<Report, Error> {
     })
 }
 
-const PROSE: &str = "# Title\n\nAt «v.half_height», [@rice1945].\n\n[@bibliography]\n\n\
+const PROSE: &str = "# Title\n\nAt «v.half_height», [@rice1945]. $$x = y \\tag{18}$$\n\n[@bibliography]\n\n\
     ![The rise.](figures/fig03.svg)\n\n| Id | Check |\n|---|---|\n\
     <% for c in claims %>| [!claim:«c.id»] | «c.statement»: «c.ours», «c.verdict» |\n<% endfor %>";
 
@@ -409,6 +409,7 @@ fn a_report_with_a_mistake_is_refused() {
     assert!(matches!(fails("fig03.svg", "fig04.svg"), Error::NoFile(_)));
     assert!(matches!(fails("At", "[At](javascript://x)"), Error::NoFile(_)));
     assert!(matches!(fails("![The rise.](figures/fig03.svg)", ""), Error::NotShown(_)));
+    assert!(matches!(fails("\\tag{18}", ""), Error::NoEquation(number) if number == "18"));
     assert!(matches!(fails("Title", "漢"), Error::NoLatex('漢')));
 }
 
@@ -454,7 +455,6 @@ fn broken_prose_is_told_with_its_place() {
         ("#### Deep", "14:1", "steps over a level"),
         ("##", "14:1", "a heading without words"),
         ("## A {#sec:a .unnumbred}", "14:1", ".unnumbered"),
-        ("## A {#sec:a #sec:b}", "14:1", "nothing else"),
         ("## A {#}", "14:1", "nothing else"),
         ("## A {#sec:a\"onclick=\"x}", "14:1", "write sec: and behind it"),
         ("## A {#fig:a}", "14:1", "write sec: and behind it"),
@@ -476,15 +476,12 @@ fn broken_prose_is_told_with_its_place() {
         ("words ![Words.](figures/fig03.svg)", "14:1", "a picture stands alone"),
         ("![](figures/fig03.svg)", "14:1", "without a caption"),
         ("- ![Words.](figures/fig03.svg)", "14:3", "stands in no list"),
-        ("- a\n\n  ![Words.](figures/fig03.svg)", "16:3", "stands in no list"),
         ("> ## Words", "14:3", "stands in no list"),
         ("- Table: Words {#tab:w}\n\n  | a |\n  |---|", "14:3", "stands in no list"),
-        ("- [@bibliography]", "14:3", "stands in no list"),
         ("- Scene: Words.", "14:3", "stands in no list"),
         ("| a |\n|---|\n| ![A.](figures/fig03.svg) |", "16:3", "a picture stands alone"),
         ("[![Words.](figures/fig03.svg)](data)", "14:2", "a picture stands alone"),
         ("a *word", "14:3", "emphasis"),
-        ("a **word** and __word", "14:16", "emphasis"),
         ("a word[^a]", "14:7", "footnotes"),
         ("a «v.half_height»» b", "14:18", "the end of a value"),
         ("<b>bold</b>", "14:1", "HTML"),
@@ -516,6 +513,11 @@ fn broken_prose_is_told_with_its_place() {
         ("at «v.half_height and\n\n«v.half_height»", "14:4", "is not closed"),
         ("if <% if raw.x\n\n<% endif %>", "14:4", "is not closed"),
         ("$$\n\nx\n$$", "14:1", "is not closed in its paragraph"),
+        ("<%- if raw.x > 0 > a <% endif %>", "14:1", "<% is not closed"),
+        ("$a = v.half_height»$", "14:1", "the end of a value that does not begin"),
+        ("\\begin{equation}\nN = n + 1\n\\end{equation}", "14:1", "a command of TeX"),
+        ("With \\(n + 1\\) gaps", "14:7", "a formula of TeX"),
+        ("<% if v.half_height == 0 %>a<% endif %>", "14:1", "a condition has raw.v.half_height"),
         ("at «raw.half_height»", "14:4", "a plain number"),
         ("at «\"3.14\"»", "14:4", "a text in quotes"),
         ("at «v»", "14:4", "a whole row"),

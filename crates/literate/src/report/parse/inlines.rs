@@ -196,6 +196,9 @@ impl Reader<'_> {
         if bare.contains('`') {
             return Err(markup("code within a formula; write $…$ alone"));
         }
+        if bare.contains('»') {
+            return Err(markup("the end of a value that does not begin; put « before its name"));
+        }
         match macros::refused(&bare).or_else(|| macros::ungrouped(&tex)) {
             Some(what) => Err(Error::Maths { tex: bare, what }),
             None => tex::maths(&bare).and_then(|_| html::reads(&bare)).map(|()| tex),
