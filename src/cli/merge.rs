@@ -50,8 +50,10 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let folder = work::results(args.results, profile);
     let there = resolved(&folder);
     if args.folders.iter().any(|own| resolved(own) == there) {
-        let message =
-            format!("--results: {} is a folder of a shard; give another", folder.display());
+        let message = format!(
+            "--results: {} is given as a folder of a shard too; give another for one of the two",
+            folder.display()
+        );
         return Err(Failure::input(message));
     }
     refuse_report("--results", &folder, None)?;

@@ -40,7 +40,7 @@ pub struct Finding {
 pub enum Fault {
     /// A numeral.
     Numeral(String),
-    /// A kind of [`EXEMPT`] that opens and does not close.
+    /// A kind of `EXEMPT` that opens and does not close.
     Open((&'static str, &'static str, bool)),
     /// A value without its name.
     Empty,
