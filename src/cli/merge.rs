@@ -2,13 +2,12 @@
 
 use super::folder::resolved;
 use super::places::refuse_report;
-use super::{Failure, memory, shown, signals, stdout, threads, work};
+use super::{Failure, memory, shard, shown, signals, stdout, threads, work};
 use impact_paper::experiments::{Store, alive};
 use impact_paper::input::MEMORY;
 use impact_paper::numerics::text::count;
 use impact_paper::params::Profile;
-use std::fs::DirEntry;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Joins the folders of all shards to saved results, byte for byte those of one machine.
 ///
@@ -34,16 +33,6 @@ pub struct Args {
     threads: Option<usize>,
 }
 
-/// Lengths of what may be units in a folder.
-fn lengths(folder: &Path) -> impl Iterator<Item = u128> {
-    let of = |entry: DirEntry| {
-        let unit = entry.path().extension().is_some_and(|end| end == "json");
-        let is_file = entry.metadata().is_ok_and(|found| found.is_file());
-        (unit && is_file).then(|| memory::length(&entry.path()))
-    };
-    std::fs::read_dir(folder).into_iter().flatten().flatten().filter_map(of)
-}
-
 pub fn run(args: Args) -> Result<(), Failure> {
     let profile = args.profile;
     let plan = args.only.plan(profile)?;
@@ -59,8 +48,14 @@ pub fn run(args: Args) -> Result<(), Failure> {
     refuse_report("--results", &folder, None)?;
     let results = Store::open(&folder)?;
     let _made = signals::made(&folder);
-    let long = args.folders.iter().flat_map(|folder| lengths(folder)).sum::<u128>();
+    let long = args.folders.iter().flat_map(|folder| shard::lengths(folder)).sum::<u128>();
     memory::fits(2 * long + (memory::RESULTS << 20), "merge", MEMORY)?;
+    args.folders.iter().try_for_each(|folder| shard::refuse_above(folder))?;
+    if args.folders.iter().all(|folder| folder.is_dir() && !shard::holds_units(folder)) {
+        let first = args.folders.first().map(|folder| shown(folder)).unwrap_or_default();
+        let remedy = "give folders that `impact-paper run` wrote";
+        return Err(Failure::input(format!("{first}: it has no unit of work; {remedy}")));
+    }
     let progress = signals::progress();
     let _alive = alive(|| Some("merge: at work".into()));
     threads::run(args.threads, || Ok(plan.merge(&args.folders, &results, &progress)?))?;

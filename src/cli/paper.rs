@@ -75,7 +75,12 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let ordinary = [Profile::Quick, Profile::Ci, Profile::Full];
     let ordinary = ordinary.map(|profile| folder::resolved(&default_folder(profile)));
     if other && ordinary.iter().any(|folder| folder::resolved(&out).starts_with(folder)) {
-        return Err(Failure::input("--set: this is another paper; give it a folder with --out"));
+        let given = args.out.as_ref().map(|out| {
+            format!("{} is the place of the paper's own report, or lies in it: ", out.display())
+        });
+        let given = given.unwrap_or_default();
+        let remedy = "this is another paper; give it a folder of its own with --out";
+        return Err(Failure::input(format!("--set: {given}{remedy}")));
     }
     if other && profile == Profile::Full && args.figure.is_empty() {
         return Err(Failure::input(

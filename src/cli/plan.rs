@@ -72,6 +72,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     if let Some(of) = args.shards {
         shard::number("--shards", of)?;
     }
+    args.left.iter().try_for_each(|folder| shard::refuse_above(folder))?;
     let stores =
         args.left.iter().map(|folder| Store::open(folder).map_err(shard::given_by("--left")));
     let stores: Vec<Store> = stores.collect::<Result<_, _>>()?;

@@ -6,7 +6,8 @@ use impact_paper::experiments::{Error, Store};
 use impact_paper::numerics::text::count;
 use impact_paper::params::Profile;
 use literate::experiments::shards::MOST;
-use std::path::PathBuf;
+use std::fs::DirEntry;
+use std::path::{Path, PathBuf};
 
 /// Runs one shard of a profile: its share of the units of work that `plan` lists.
 ///
@@ -56,6 +57,31 @@ pub fn given_by(option: &str) -> impl Fn(Error) -> Failure + Copy {
         }
         other => other.into(),
     }
+}
+
+/// Lengths of what may be units in a folder.
+pub fn lengths(folder: &Path) -> impl Iterator<Item = u128> {
+    let of = |entry: DirEntry| {
+        let unit = entry.path().extension().is_some_and(|end| end == "json");
+        let is_file = entry.metadata().is_ok_and(|found| found.is_file());
+        (unit && is_file).then(|| memory::length(&entry.path()))
+    };
+    std::fs::read_dir(folder).into_iter().flatten().flatten().filter_map(of)
+}
+
+/// May there be units in the folder?
+pub fn holds_units(folder: &Path) -> bool {
+    lengths(folder).next().is_some()
+}
+
+/// Refuses a folder that has folders of shards in it in place of units.
+pub fn refuse_above(folder: &Path) -> Result<(), Failure> {
+    let below = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let below = below.map(|entry| entry.path()).filter(|path| holds_units(path));
+    let Some(first) = below.min().filter(|_| !holds_units(folder)) else { return Ok(()) };
+    let (folder, first) = (shown(folder), shown(&first));
+    let what = format!("{folder}: units of work are in {first} and not in it");
+    Err(Failure::input(format!("{what}; give folders that `impact-paper run` wrote")))
 }
 
 pub fn run(args: Args) -> Result<(), Failure> {

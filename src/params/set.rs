@@ -143,9 +143,10 @@ const SHOWN: usize = 40;
 
 /// The name that is most alike, if it is alike at all.
 fn nearest<'a>(name: &str, names: &[&'a str]) -> Option<&'a str> {
-    let alike = |other: &&str| strsim::jaro_winkler(name, other);
-    let best = names.iter().copied().max_by(|a, b| alike(a).total_cmp(&alike(b)))?;
-    (alike(&best) > 0.7).then_some(best)
+    let other = |other: &&str| strsim::osa_distance(name, other);
+    let best = names.iter().copied().min_by_key(other)?;
+    // A third of the letters may differ: no single letter is like a name.
+    (3 * other(&best) <= name.len()).then_some(best)
 }
 
 /// A line for each parameter: name, default, range; and where to find others.

@@ -150,8 +150,10 @@ fn report(folder: &Path) -> Result<Option<Vec<sums::Entry>>, Failure> {
     let remedy = "see that it can be read, or write over the report with --force";
     let unread = |place: &Path, error| Failure::io(&error, place.display(), remedy);
     let list = list(folder).map_err(|error| unread(&place, error))?;
-    let beside = has_ledger(folder).map_err(|error| unread(&ledger, error))?;
-    let Some(text) = list.filter(|_| beside) else { return Ok(None) };
+    // A ledger that was lost takes nothing from the list; one that is none makes it a list of other files.
+    let beside = self::text(folder, "ledger.json").map_err(|error| unread(&ledger, error))?;
+    let ours = beside.is_none_or(|text| ledger::is_one(&text));
+    let Some(text) = list.filter(|_| ours) else { return Ok(None) };
     let fault = |what: String| Failure::input(format!("{}: {what}", place.display()));
     let malformed =
         |error| fault(format!("{error}; mend it, or write over the report with --force"));

@@ -43,8 +43,8 @@ impl Sources {
     pub fn refuse_strange(&self) -> Result<(), Failure> {
         let strange = |folder: &&PathBuf| {
             let no = |file: &str| folder.join(file).symlink_metadata().is_err();
-            let documents = PROGRAM.documents.iter().all(|of| no(&format!("{}.md", of.prose)));
-            folder.is_dir() && documents && FILES.into_iter().all(no)
+            let first = PROGRAM.documents.first().map(|of| format!("{}.md", of.prose));
+            folder.is_dir() && first.is_none_or(|first| no(&first)) && FILES.into_iter().all(no)
         };
         let Some(folder) = self.templates.as_ref().filter(strange) else { return Ok(()) };
         let (folder, files) = (folder.display(), FILES.join(", "));

@@ -204,6 +204,10 @@ paper --figure 4 --out file|file/below => --out
 paper --profile quick --out file => it is a file
 paper --profile quick --figure 3 --results file => --results: file: not a directory
 paper --templates nowhere => nowhere
+paper --set r=0.6 --figure 4 --out o => there is no parameter; there are masses
+paper --set restituion=0.6 --figure 4 --out o => is restitution meant?
+paper --set restitution=0.6 --figure 4 --out paper => paper is the place of the paper's own report
+merge empty => empty: it has no unit of work
 paper --templates empty => --templates: empty has none of published.toml
 check --templates empty => --templates: empty has none of published.toml
 check --claim no-such-claim => --claim

@@ -72,6 +72,11 @@ fn threads_and_saved_results_change_no_byte_and_lesser_profiles_replace_no_full_
     assert!(told.contains("report.html") && told.contains(" statements of the paper: "), "{told}");
     assert!(report == tree(&at("one")));
 
+    // A file that was lost comes back.
+    std::fs::remove_file(at("one/ledger.json")).unwrap();
+    assert_eq!(run(folder.path(), paper).0, 0);
+    assert!(report == tree(&at("one")));
+
     // What was edited is refused at once by its name; forced, it is told what changed, in one screen.
     let ledger = String::from_utf8(report["ledger.json"].clone()).unwrap();
     let edited = ledger.replace("\"verdict\": \"reproduced\"", "\"verdict\": \"differs\"");

@@ -31,6 +31,10 @@ references.bib +@book{aa,¦year={199}} => :$: aa has `year`, which is no year of
 references.bib +@book{aa, year={1999},¦Year={1998}} => :$: aa has `Year`, which stands twice
 references.bib +@book{aa, volum={1}} => :$: aa has `volum`, which is no field; is `volume` meant?
 references.bib +@misc{aa, author={B}, title={b}, year={1999}, eprint={2101.01234}} => :$: aa has `eprint`, which is not shown
+references.bib +@misc{aa, author={B}, title={b}, subtitle={c}, year={1999}} => :$: aa has `subtitle`, which is not shown
+references.bib +@misc{aa, author={B and et al.}, title={b}, year={1999}} => :$: aa has `author`, which has et al.
+references.bib +@misc{aa, author={The B Collaboration}, title={b}, year={1999}} => :$: aa has `author`, which has a group
+references.bib +@misc{aa, author={B}, title={b}, year={1999}, url={https://b.c/d\_e}} => :$: aa has `url`, which has a backslash
 references.bib +@article{aa, author={B}, title={b}, year={1999}} => :$: aa lacks its journal
 references.bib +@misc{aa, author={B & C}, title={b}, year={1999}} => :$: aa has `author`, which is no list of names
 references.bib +@misc{aa, author={B}, title={\emph{b}}, year={1999}} => :$: aa would show \ as it stands

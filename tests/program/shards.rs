@@ -132,6 +132,9 @@ fn a_shard_goes_on_where_it_was() {
     let array = "plan --profile quick --shards 3 --array --left";
     assert_eq!(run(folder, &format!("{array} 1 2 3")).1, "2\n");
     assert_eq!(run(folder, &format!("{array} 2")).1, "1-3\n");
+    for verb in [format!("{array} ."), "merge --profile quick --results new .".into()] {
+        refused(folder, &verb, &[".: units of work are in ./1 and not in it"]);
+    }
     let (code, text, note) = shard(folder, 2);
     assert_eq!(text, format!("2: shard 2/3: 2 units run, {} fresh\n", second.len() - 2), "{note}");
     assert_eq!(code, 0);

@@ -26,7 +26,8 @@ pub fn count(number: usize, noun: &str) -> String {
 }
 
 /// What parsers say to programmers, and what it says to everybody.
-const PLAIN: [(&str, &str); 28] = [
+const PLAIN: [(&str, &str); 29] = [
+    ("expected identifier", "expected a name"),
     ("invalid type: unit variant, expected newtype variant", "it stands without its values"),
     (" as i128", ""),
     ("expected f64", "expected a number"),

@@ -199,7 +199,14 @@ fn parts<'a>(
         latex::title(&blocks).map_err(|error| error.at(filled.place(0)))?;
         let own = illustrate(&mut blocks, input.figures, input.program)
             .and_then(|own| labels.number_all(&mut blocks, *of).map(|()| own))
-            .map_err(|error| places.tell(error))?;
+            .map_err(|error| match error {
+                Error::Label(id, _) => {
+                    let earlier = parts.iter().map(|part: &Part<'_>| &part.places);
+                    let first = earlier.chain([&places]).find_map(|places| places.first(&id));
+                    places.tell(Error::Label(id, first))
+                }
+                error => places.tell(error),
+            })?;
         shown.extend(own.into_iter().filter(|_| !of.repeats));
         parts.push(Part { of: *of, blocks, places });
     }

@@ -41,7 +41,10 @@ impl Library {
             let entry = &with_numbers(entry, &written);
             // Alone: beside others of its name the style takes initials away.
             let (list, labels) = rendered(&[entry], &look);
-            let text = list.first().map(|item| inlines(&item.content)).unwrap_or_default();
+            let mut text = list.first().map(|item| inlines(&item.content)).unwrap_or_default();
+            if let Some(chapter) = written.field(key, "chapter") {
+                as_chapter(&mut text, &chapter);
+            }
             let link = |part: &&Inline| matches!(part, Inline::Link { .. });
             let words: Vec<Inline> = text.iter().filter(|part| !link(part)).cloned().collect();
             written.shows(key, &plain(&words))?;
@@ -74,11 +77,18 @@ impl Library {
     }
 }
 
+/// A hyphen that the style takes for no range of numbers.
+const TIED: &str = "\u{2011}";
+
 /// The entry with its numbers as they are written.
 fn with_numbers(entry: &hayagriva::Entry, written: &Entries<'_>) -> hayagriva::Entry {
     let mut own = entry.clone();
     if let Some(pages) = written.pages(entry.key()) {
         own.set_page_range(MaybeTyped::String(pages));
+    }
+    let serial = entry.keyed_serial_number("serial").is_some();
+    if let Some(number) = written.field(entry.key(), "number").filter(|_| serial) {
+        own.set_keyed_serial_number("serial", number.replace('-', TIED));
     }
     if let Some(volume) = written.volume(entry.key()).map(MaybeTyped::String) {
         let mut parents = own.parents().to_vec();
@@ -127,6 +137,16 @@ fn tell_apart(entries: &mut [Entry]) {
     }
 }
 
+/// A chapter, which the style takes for a number of its book, and may show again.
+fn as_chapter(text: &mut [Inline], chapter: &str) {
+    let (number, own) = (format!("No. {chapter}"), format!("Chapter {chapter}"));
+    for part in text {
+        if let Inline::Text(words) = part {
+            *words = words.replace(&format!("{number}; {own}"), &own).replace(&number, &own);
+        }
+    }
+}
+
 /// The style, without brackets around a citation: the report sets its own.
 fn style() -> Result<IndependentStyle, Error> {
     let Style::Independent(mut style) = STYLE.get() else {
@@ -171,8 +191,11 @@ fn inlines(children: &ElemChildren) -> Vec<Inline> {
         }
         if let Inline::Text(words) = piece {
             // A year without a day leaves its comma; of *and others* the style makes a name.
-            *words =
-                words.replace(",)", ")").replace("& others", "et al.").replace("et al..", "et al.");
+            *words = words
+                .replace(",)", ")")
+                .replace("& others", "et al.")
+                .replace("et al..", "et al.")
+                .replace(TIED, "-");
         }
     }
     out

@@ -26,6 +26,22 @@ const NEAR: [&str; 4] = ["editora", "editorb", "editorc", "volumes"];
 const NAMES: [&str; 6] =
     ["journal", "journaltitle", "booktitle", "publisher", "school", "institution"];
 
+/// Kinds of entries that the style shows as another: proceedings without their pages and publisher, and programs and
+/// data each as the other.
+const KINDS: [(&str, &str); 4] = [
+    ("inproceedings", "incollection"),
+    ("conference", "incollection"),
+    ("software", "dataset"),
+    ("dataset", "misc"),
+];
+
+/// What an edition in words is, which the style shows as it is written.
+const EDITIONS: [&str; 10] =
+    ["first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth"];
+
+/// Words of groups, whose last word would be taken for a family name.
+const GROUPS: [&str; 4] = ["Collaboration", "Consortium", "Association", "Committee"];
+
 /// Signs that are markup where they would be shown.
 const SIGNS: [&str; 14] =
     ["\\", "`", "''", "$", "~", "^", "_", "{", "}", "<", ">", "*", "«", "&amp;"];
@@ -77,7 +93,7 @@ impl<'a> Entries<'a> {
     }
 
     /// The field of an entry, if it has something in it.
-    fn field(&self, key: &str, wanted: &str) -> Option<String> {
+    pub fn field(&self, key: &str, wanted: &str) -> Option<String> {
         let entry = self.read.entries.iter().find(|entry| entry.v.key.v == key)?;
         let own = entry.v.fields.iter().find(|pair| name(pair) == wanted)?;
         Some(value(own)).filter(|value| !value.is_empty())
@@ -135,10 +151,16 @@ impl<'a> Entries<'a> {
         for entry in self.read.entries.iter().map(|entry| &entry.v) {
             let has = |wanted| entry.fields.iter().any(|pair| name(pair) == wanted);
             let (published, paged) = (has("publisher"), has("pages"));
+            let kinds = KINDS.iter().find(|(kind, _)| kind.eq_ignore_ascii_case(entry.kind.v));
+            if let Some((_, shown)) = kinds {
+                put(&entry.kind.span, shown);
+            }
             for pair in &entry.fields {
                 let own = name(pair);
                 match own.as_str() {
-                    "school" | "institution" if !published => put(&pair.key.span, "publisher"),
+                    "school" | "institution" | "organization" if !published => {
+                        put(&pair.key.span, "publisher")
+                    }
                     "eid" if !paged => put(&pair.key.span, "pages"),
                     // Beside a volume the style makes a part and a chapter of it.
                     "series" => put(&pair.key.span, "the-series"),
@@ -148,7 +170,11 @@ impl<'a> Entries<'a> {
                 }
                 let [words] = pair.value.v.as_slice() else { continue };
                 let RawChunk::Normal(text) = words.v else { continue };
-                if NAMES.contains(&own.as_str()) {
+                let edition = text.trim().split(' ').next().unwrap_or_default().to_lowercase();
+                let edition = EDITIONS.iter().position(|word| own == "edition" && *word == edition);
+                if let Some(before) = edition {
+                    put(&words.span, &(before + 1).to_string());
+                } else if NAMES.contains(&own.as_str()) {
                     put(&words.span, &format!("{{{text}}}"));
                 } else if ["author", "editor"].contains(&own.as_str()) {
                     put(&words.span, &apart(text));
@@ -202,6 +228,11 @@ fn wrong(entry: &RawEntry<'_>) -> Option<(usize, String)> {
         let full = |pair: &&Pair<'_>| value(pair).contains(char::is_alphanumeric);
         entry.fields.iter().filter(full).any(|pair| names.contains(&name(pair).as_str()))
     };
+    let subtitle = entry.fields.iter().find(|pair| name(pair) == "subtitle");
+    if let Some(pair) = subtitle {
+        let what = "which is not shown; write it into the title, behind a colon";
+        return Some((pair.key.span.start, format!("has `{}`, {what}", pair.key.v)));
+    }
     let lost = |pair: &&Pair<'_>| ["eprint", "howpublished"].contains(&name(pair).as_str());
     if let Some(pair) = entry.fields.iter().find(lost).filter(|_| !has(&["doi", "url"])) {
         let what = "which is not shown; give the address that it leads to as `url`";
@@ -236,7 +267,18 @@ fn fault(pair: &Pair<'_>, mut before: impl Iterator<Item = String>) -> Option<St
             "has a $ without its other end"
         }
         "doi" if value.contains("://") => "is an address; write what follows doi.org/",
+        "doi" | "url" if value.contains('\\') => {
+            "has a backslash in it; write the address as a browser shows it"
+        }
         "doi" | "url" if value.contains(char::is_whitespace) => "has a blank in it; remove it",
+        "author" | "editor" if outside(&written(pair)).contains("et al") => {
+            "has et al.; write `and others`"
+        }
+        "author" | "editor"
+            if GROUPS.iter().any(|group| outside(&written(pair)).contains(group)) =>
+        {
+            "has a group, which is no person; put its name into braces of its own: {{…}}"
+        }
         "author" | "editor" if !value.is_empty() && !are_names(&value) => {
             "is no list of names; write `Family, Given and Family, Given`"
         }
@@ -248,16 +290,19 @@ fn fault(pair: &Pair<'_>, mut before: impl Iterator<Item = String>) -> Option<St
     Some(what.into())
 }
 
+/// A text without what stands in braces, of which the last is left.
+fn outside(text: &str) -> String {
+    let mut depth = 0_i32;
+    let outside = |c: &char| {
+        depth += i32::from(*c == '{') - i32::from(*c == '}');
+        depth == 0
+    };
+    text.chars().filter(outside).collect()
+}
+
 /// Are these names, joined by *and*? What stands in braces is one name.
 fn are_names(value: &str) -> bool {
-    let mut depth = 0_i32;
-    let bare: String = value
-        .chars()
-        .filter(|c| {
-            depth += i32::from(*c == '{') - i32::from(*c == '}');
-            depth == 0
-        })
-        .collect();
+    let bare = outside(value);
     let words: Vec<&str> = bare.split_whitespace().collect();
     let one = |name: &[&str]| {
         let name = name.join(" ");
@@ -312,12 +357,17 @@ fn name(pair: &Pair<'_>) -> String {
     pair.key.v.to_lowercase()
 }
 
-/// The value of a field without braces and blanks about it.
-fn value(pair: &Pair<'_>) -> String {
+/// The value of a field.
+fn written(pair: &Pair<'_>) -> String {
     let words = pair.value.v.iter().map(|chunk| match chunk.v {
         RawChunk::Normal(words) | RawChunk::Abbreviation(words) => words,
     });
-    let words: String = words.collect();
+    words.collect()
+}
+
+/// The value of a field without braces and blanks about it.
+fn value(pair: &Pair<'_>) -> String {
+    let words = written(pair);
     words.trim_matches(|c: char| c.is_whitespace() || matches!(c, '{' | '}')).to_string()
 }
 
@@ -372,10 +422,12 @@ mod tests {
 
     #[test]
     fn entries_are_understood() {
-        let text = "@phdthesis{a, author={P.J. Holmes}, school={U of B}}\n@book{b, series={S}, publisher = \"P Q\"}";
+        let text = "@phdthesis{a, author={P.J. Holmes}, school={U of B}}\n@book{b, series={S}, publisher = \"P Q\"}\n\
+            @inproceedings{c, eid={012}, organization={O}, edition={Second}}";
         let read = Entries::read(text).unwrap();
         let understood = "@phdthesis{a, author={P. J. Holmes}, publisher={{U of B}}}\n\
-            @book{b, the-series={S}, publisher = \"{P Q}\"}";
+            @book{b, the-series={S}, publisher = \"{P Q}\"}\n\
+            @incollection{c, pages={012}, publisher={O}, edition={2}}";
         assert_eq!(read.understood(), understood);
         assert!(read.shows("b", "T & P").is_ok());
         let told = read.shows("b", "\\foo{T}").unwrap_err().to_string();

@@ -33,7 +33,7 @@ impl Labels {
     fn add(&mut self, id: &str, number: &str, of: Document) -> Result<(), Error> {
         match self.labels.insert(id.to_string(), (number.to_string(), of)) {
             None => Ok(()),
-            Some(_) => Err(Error::Label(id.to_string())),
+            Some(_) => Err(Error::Label(id.to_string(), None)),
         }
     }
 

@@ -239,7 +239,8 @@ impl Declared {
             let fits = |(at, _): (usize, &str)| {
                 let Some(begin) = start.checked_sub(at) else { return false };
                 let found = text.get(begin..begin + phrase.len());
-                found.is_some_and(|found| found.eq_ignore_ascii_case(phrase))
+                // A line may end between its words.
+                found.is_some_and(|found| found.replace('\n', " ").eq_ignore_ascii_case(phrase))
             };
             if phrase.to_ascii_lowercase().match_indices(&word.to_ascii_lowercase()).any(fits) {
                 self.met.borrow_mut().insert(i);

@@ -75,8 +75,11 @@ pub enum Error {
     Claim(String),
     #[error("a link to {}: there is no such file or place; correct or remove it", one_line(.0, 200))]
     NoFile(String),
-    #[error("{}: two things in the report have this id; give one of them another", one_line(.0, 200))]
-    Label(String),
+    #[error(
+        "{}: two things in the report have this id{}; give one of them another",
+        one_line(.0, 200), .1.as_ref().map(|place| format!(", the first at {place}")).unwrap_or_default()
+    )]
+    Label(String, Option<String>),
     #[error("[@{}]: nothing in the report has this id; correct or remove the reference{}", one_line(.0, 200), several(.0))]
     Reference(String),
     #[error(

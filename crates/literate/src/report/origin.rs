@@ -207,10 +207,17 @@ impl<'a> Places<'a> {
         self.found.push((thing, offset));
     }
 
+    /// Where the thing with an id stands first.
+    pub fn first(&self, id: &str) -> Option<String> {
+        let thing = format!("#{id}");
+        let (_, offset) = self.found.iter().find(|(own, _)| *own == thing)?;
+        Some(self.filled.place(*offset))
+    }
+
     /// The error with the place of what it names. Of two things with one id the second is meant.
     pub fn tell(&self, error: Error) -> Error {
         let thing = match &error {
-            Error::Label(id) => format!("#{id}"),
+            Error::Label(id, _) => format!("#{id}"),
             Error::Reference(id) => format!("@{id}"),
             Error::Claim(id) => format!("#claim:{id}"),
             Error::NoFile(path) => format!("({path}"),

@@ -78,6 +78,9 @@ pub fn find(
     if escaped && text.starts_with('[') && begins(source, start - 1) && paragraph.ends_with("\\]") {
         return Some((start, "an equation of TeX; write $$…$$"));
     }
+    if let Some(what) = of_tex(source, start, text).filter(|_| escaped) {
+        return Some((start, what));
+    }
     let skip = usize::from(escaped);
     // Brackets come in pieces of their own: a sign may go on behind this one.
     let rest = source.get(start..).filter(|rest| rest.starts_with(text)).unwrap_or(text);
@@ -94,6 +97,23 @@ pub fn find(
         first(sign, &|at| !line || begins(source, at)).map(|at| (at, OTHER))
     });
     others.chain(signs).min_by_key(|(offset, _)| *offset)
+}
+
+/// What a sign behind a backslash is to TeX, which nobody means as it stands: an accent between letters, a space.
+fn of_tex(source: &str, start: usize, text: &str) -> Option<&'static str> {
+    let before = source.get(..start.checked_sub(1)?)?.chars().next_back();
+    let (sign, after) = (text.chars().next()?, source[start..].chars().nth(1));
+    let letter = |c: Option<char>| c.is_some_and(char::is_alphabetic);
+    match sign {
+        '\'' | '"' | '^' | '~' | '`' | '='
+            if letter(before) && (letter(after) || after == Some('{')) =>
+        {
+            Some("an accent of TeX; write the letter itself, such as é")
+        }
+        ',' | ';' | '/' => Some("a space of TeX; write a blank"),
+        '!' if !matches!(after, Some('[' | '\\')) => Some("a space of TeX; write a blank"),
+        _ => None,
+    }
 }
 
 /// Does a line begin there?
@@ -118,7 +138,7 @@ fn is_markup(source: &str, at: usize, sign: &str) -> bool {
             let address = word(before.chars().next_back()) && word(after[1..].chars().next());
             return !within && !address;
         }
-        "\\" => return after[1..].starts_with(|c: char| c.is_ascii_alphabetic()),
+        "\\" => return after[1..].starts_with(|c: char| c.is_ascii_alphabetic() || c == ' '),
         "{" => return !after.starts_with("{#"),
         "#" => return !before.ends_with('{') && !word(before.chars().next_back()),
         "}" => return !before.rfind('{').is_some_and(|open| source[open..].starts_with("{#")),
