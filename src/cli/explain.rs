@@ -43,7 +43,10 @@ pub fn run(args: Args) -> Result<(), Failure> {
     }
     let cards = Cards { values: &values, ledger: &ledger, program: PROGRAM };
     let place = args.only.document.as_ref().map_or("", |_| " in this document");
-    let get = |id: &String| cards.get(id).ok_or_else(|| unknown(id, place, &cards.ids()));
+    // Templates have quotation marks in names of rows.
+    let bare = |id: &String| id.replace('"', "");
+    let get =
+        |id: &String| cards.get(&bare(id)).ok_or_else(|| unknown(&bare(id), place, &cards.ids()));
     let result = if args.ids.is_empty() {
         let all: Vec<Card> = cards.ids().iter().filter_map(|id| cards.get(id)).collect();
         list(&all, args.json)

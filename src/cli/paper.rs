@@ -127,7 +127,11 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let head = format!("{place}: {number} in {time}{documents}\n");
     // It is told also where a check fails.
     let printed = stdout::print(&(head + &told));
-    judged.verdict().and(printed)
+    let more = |failure: Failure| Failure {
+        message: format!("{}; `impact-paper check` of the same says more", failure.message),
+        ..failure
+    };
+    judged.verdict().map_err(more).and(printed)
 }
 
 /// What holds, and what came out otherwise than in the report before: some lines.

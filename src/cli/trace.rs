@@ -82,7 +82,8 @@ fn rounded(scenario: &Scenario) -> Option<String> {
     let width = rounding::width(scenario);
     (width > rounding::TOLD * scenario.spacing).then(|| {
         format!(
-            "rounding of large amplitudes may move an impact at closing speed v by {width:.1e}/v"
+            "rounding of large amplitudes may move each impact at closing speed v by {width:.1e}/v, and errors grow \
+             from impact to impact"
         )
     })
 }

@@ -24,13 +24,15 @@ front.md +a &#xE000;score.total&#xE001; => :$:3: the character U+E000 is none of
 report.tex +%◀ => :$:2: the character U+E000 is none of a text
 literals.toml +[[literal]]¦why = "x"¦phrases = ["two nothings"] => :$: "two nothings": no prose has it
 references.bib +@article{aa, title={b}} => :$: aa lacks its author or editor
-references.bib +@article{aa, author={b}} => :$: aa lacks its year or date
+references.bib +@article{aa, author={B}} => :$: aa lacks its year or date
 references.bib +@phdtesis{aa, title={b}} => :$: aa has the type @phdtesis
-references.bib +@book{aa, author={b}, year={1999}, title={ }} => :$: aa lacks its title
+references.bib +@book{aa, author={B}, year={1999}, title={ }} => :$: aa lacks its title
 references.bib +@book{aa,¦year={199}} => :$: aa has `year`, which is no year of four digits
 references.bib +@book{aa, year={1999},¦Year={1998}} => :$: aa has `Year`, which stands twice
 references.bib +@book{aa, volum={1}} => :$: aa has `volum`, which is no field; is `volume` meant?
 references.bib +@misc{aa, author={B}, title={b}, year={1999}, eprint={2101.01234}} => :$: aa has `eprint`, which is not shown
+references.bib +@misc{aa, author={B and van der C, D.}, title={b}, year={1999}} => :$: aa has `author`, which has a name with a small letter
+references.bib +@misc{aa, author={B}, title={b}, year={1999}, doi={doi:10.1/2}} => :$: aa has `doi`, which does not begin with 10.
 references.bib +@misc{aa, author={B}, title={b}, subtitle={c}, year={1999}} => :$: aa has `subtitle`, which is not shown
 references.bib +@misc{aa, author={B and et al.}, title={b}, year={1999}} => :$: aa has `author`, which has et al.
 references.bib +@misc{aa, author={The B Collaboration}, title={b}, year={1999}} => :$: aa has `author`, which has a group
@@ -44,8 +46,12 @@ references.bib +@misc{aa, author={B}, title={Ж}, year={1999}} => :$: aa: no LaT
 references.bib +@string{aa = {b}} => :$: @string takes fields from elsewhere
 references.bib +@article{aa, author={X}, title={b}, year={abc}} => :$: aa has `year`, which is no year
 report.html «page.body» ->  => : it has «page.body» 0 times
-report.html «page.body» -> «page.body»<div> => : the page is not whole
+report.html «page.body» -> «page.body»<div> => :41: expected 'div' tag, not 'main'; write &amp;
 report.tex \end{document} ->  => : it has \end{document} 0 times
+report.html </main> ->  => :47: expected 'main' tag, not 'body'; write &amp; for &
+report.html <title> -> <p>B & C</p><title> => :7: malformed entity reference
+report.html <title> -> <link rel="stylesheet" href="s.css"/><title> => : <link rel="stylesheet": the page is one file
+report.css :root { -> a { b: url(c.woff2); } :root { => : url(c.woff2): the page is one file
 report.css } ->  => : 
 report.css } -> } @import "more.css"; => : @import
 references.bib volume  = {17} -> volume  = {17}, crossref = {homer2007} => :6: homer2007 has `crossref`
@@ -93,6 +99,14 @@ fn faults_of_the_prose_are_told_with_their_place() {
             assert!(!line.contains(jargon), "{line}");
         }
     }
+    // A style may have what is markup elsewhere.
+    let style = ":root { -> a { &:hover { b: c; } } /* d & e */ @media (width < 40rem) { a { b: c; } } :root {";
+    let (code, told, note) = made("report.css", style);
+    assert_eq!(code, 0, "{told}{note}");
+    // A section that was emptied is named, and not what else misses it.
+    let text = std::fs::read_to_string(here.join("t/edition/04-orbits.md")).unwrap();
+    let (code, _, note) = made("edition/04-orbits.md", &format!("{} -> ", text.trim_end()));
+    assert!(code == 2 && note.contains("edition/04-orbits.md: it is empty; write"), "{note}");
     // A bar in a statement ends no cell of a table.
     let (code, told, note) = made("published.toml", "= \"For small σ -> = \"For $|x|$ | small σ");
     assert_eq!(code, 0, "{told}{note}");

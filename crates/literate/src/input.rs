@@ -115,6 +115,7 @@ pub fn remedy<'a>(error: &Error, otherwise: &'a str) -> &'a str {
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::WriteZero => "make room",
         ErrorKind::FileTooLarge => "allow larger files (ulimit -f)",
         ErrorKind::OutOfMemory => MEMORY,
+        ErrorKind::InvalidData => "save it as UTF-8",
         ErrorKind::NotADirectory | ErrorKind::AlreadyExists => {
             "a file is in the way; choose another folder"
         }

@@ -17,6 +17,7 @@ use super::values::Registry;
 use super::{Error, html, latex, ledger, lint, markdown, parse, sums};
 use crate::claims::Check;
 use crate::figures::{DataFile, Figure};
+use crate::input::one_line;
 use crate::source::Program;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
@@ -201,7 +202,8 @@ fn parts<'a>(
             .and_then(|own| labels.number_all(&mut blocks, *of).map(|()| own))
             .map_err(|error| match error {
                 Error::Label(id, _) => {
-                    let earlier = parts.iter().map(|part: &Part<'_>| &part.places);
+                    let own = parts.iter().filter(|part: &&Part<'_>| !part.of.repeats);
+                    let earlier = own.map(|part| &part.places);
                     let first = earlier.chain([&places]).find_map(|places| places.first(&id));
                     places.tell(Error::Label(id, first))
                 }
@@ -247,8 +249,14 @@ fn skins(templates: &Templates) -> Result<(), Error> {
     let fault = |what: String| Err(Error::Template(what));
     // The text, the cards that its buttons open, the end of a document, and where the page's first link leads.
     let once = [
+        ("report.tex", "\\documentclass"),
+        ("report.tex", "\\begin{document}"),
         ("report.tex", "«body»"),
+        ("report.tex", "«listings»"),
         ("report.tex", "\\end{document}"),
+        ("report.html", "«style»"),
+        ("report.html", "«page.glyphs»"),
+        ("report.html", "id=\"cards\""),
         ("report.html", "«page.body»"),
         ("report.html", "«page.cards»"),
         ("report.html", "«script»"),
@@ -260,9 +268,13 @@ fn skins(templates: &Templates) -> Result<(), Error> {
             return fault(format!("{path}: it has {what} {times} times; write it once"));
         }
     }
-    if templates.text("report.html")?.contains("<script src") {
-        return fault("report.html: <script src: the page is one file; put the script here".into());
+    let page = templates.text("report.html")?;
+    for outside in ["<script src", "<link rel=\"stylesheet\"", "<img src=\"http"] {
+        if page.contains(outside) {
+            return fault(format!("report.html: {outside}: the page is one file; put it here"));
+        }
     }
+    html::is_shell(page)?;
     for path in ["report.css", "report.js", "scene.js"] {
         let Ok(text) = templates.text(path) else { continue };
         // It would end the element that it stands in.
@@ -275,13 +287,16 @@ fn skins(templates: &Templates) -> Result<(), Error> {
         }
     }
     let style = templates.text("report.css").unwrap_or_default();
-    match ["@import", "url(http", "url(//", "url(\"http", "url('http"]
-        .iter()
-        .find(|what| style.contains(**what))
-    {
-        Some(what) => fault(format!(
-            "report.css: {what}: the page is one file; put here what is to be imported"
-        )),
+    let within =
+        |to: &str| to.trim_start_matches(['"', '\'']).starts_with(['#']) || to.contains("data:");
+    let address = |to: &str| to.split(')').next().unwrap_or_default().to_string();
+    let urls = style.split("url(").skip(1).map(address).find(|to| !within(to));
+    let import = style.contains("@import").then(|| "@import".to_string());
+    match import.or(urls.map(|to| format!("url({to})"))) {
+        Some(what) => {
+            let what = one_line(&what, 100);
+            fault(format!("report.css: {what}: the page is one file; put it here, or data:"))
+        }
         None => Ok(()),
     }
 }

@@ -35,6 +35,10 @@ const KINDS: [(&str, &str); 4] = [
     ("dataset", "misc"),
 ];
 
+/// What a thesis is, by the words that BibLaTeX has for it.
+const THESES: [(&str, &str); 2] =
+    [("phdthesis", "Doctoral dissertation"), ("mathesis", "Master’s thesis")];
+
 /// What an edition in words is, which the style shows as it is written.
 const EDITIONS: [&str; 10] =
     ["first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth"];
@@ -170,6 +174,11 @@ impl<'a> Entries<'a> {
                 }
                 let [words] = pair.value.v.as_slice() else { continue };
                 let RawChunk::Normal(text) = words.v else { continue };
+                let thesis = THESES.iter().find(|(kind, _)| own == "type" && *kind == text.trim());
+                if let Some((_, words_of)) = thesis {
+                    put(&words.span, words_of);
+                    continue;
+                }
                 let edition = text.trim().split(' ').next().unwrap_or_default().to_lowercase();
                 let edition = EDITIONS.iter().position(|word| own == "edition" && *word == edition);
                 if let Some(before) = edition {
@@ -266,6 +275,9 @@ fn fault(pair: &Pair<'_>, mut before: impl Iterator<Item = String>) -> Option<St
         _ if shown(&own) && value.replace(r"\$", "").matches('$').count() % 2 == 1 => {
             "has a $ without its other end"
         }
+        "doi" if !value.is_empty() && !value.contains("://") && !value.starts_with("10.") => {
+            "does not begin with 10. as each DOI; write what follows doi.org/"
+        }
         "doi" if value.contains("://") => "is an address; write what follows doi.org/",
         "doi" | "url" if value.contains('\\') => {
             "has a backslash in it; write the address as a browser shows it"
@@ -279,7 +291,10 @@ fn fault(pair: &Pair<'_>, mut before: impl Iterator<Item = String>) -> Option<St
         {
             "has a group, which is no person; put its name into braces of its own: {{…}}"
         }
-        "author" | "editor" if !value.is_empty() && !are_names(&value) => {
+        "author" | "editor" if outside(&written(pair)).split_whitespace().any(is_particle) => {
+            "has a name with a small letter at its beginning; put the family name into braces: {van der Pol}, B."
+        }
+        "author" | "editor" if !value.is_empty() && !are_names(written(pair).trim()) => {
             "is no list of names; write `Family, Given and Family, Given`"
         }
         _ => {
@@ -288,6 +303,11 @@ fn fault(pair: &Pair<'_>, mut before: impl Iterator<Item = String>) -> Option<St
         }
     };
     Some(what.into())
+}
+
+/// Does a name begin small, as *van* and *de* do?
+fn is_particle(word: &str) -> bool {
+    word.starts_with(char::is_lowercase) && !["and", "others"].contains(&word)
 }
 
 /// A text without what stands in braces, of which the last is left.
@@ -316,7 +336,17 @@ fn are_names(value: &str) -> bool {
                     && parts[1..].iter().all(|part| !part.is_empty() || value.contains('{'))
             }
         };
-        fits && !name.contains([';', '&', '/'])
+        // Without its comma a family name would be taken for a given one, and initials for a family.
+        let (alone, family) = match parts.as_slice() {
+            [_] => (true, name.split(' ').skip(1).last().unwrap_or_default()),
+            _ => (false, parts[0]),
+        };
+        let initial = |word: &str| {
+            let bare = word.replace(['.', '-'], "");
+            let short = bare.chars().all(char::is_uppercase) && (1..=3).contains(&bare.len());
+            short && (alone || word.ends_with('.'))
+        };
+        fits && !name.contains([';', '&', '/']) && !family.split(' ').any(initial)
     };
     let empty = |name: &[&str]| name.is_empty() && !value.contains('{');
     let mut names = words.split(|word| *word == "and");
@@ -394,6 +424,9 @@ mod tests {
             "Doe, Jane, Roe, Richard",
             "Doe, Jane and",
             "Doe, Jane and and Roe, Richard",
+            "Goyder H. G. D. and Teh C. E.",
+            "H. G. D. Goyder, C. E. Teh",
+            "Goyder HGD",
             ",",
         ] {
             assert!(!are_names(wrong), "{wrong}");

@@ -77,6 +77,7 @@ impl std::fmt::Display for Finding {
             }
             Fault::Open((open, close, long)) => {
                 let here = if *long { "" } else { " in its paragraph" };
+                let close = if *close == "$" { "$, with no blank before it," } else { close };
                 return write!(
                     f,
                     "{path}:{line}:{column}: {open} is not closed{here}; put {close} where it ends"
@@ -155,6 +156,11 @@ pub fn check(templates: &Templates, program: Program) -> Result<(), Error> {
             let what = "it is missing or empty; write the document";
             return Err(Error::Template(format!("{}.md: {what}", of.prose)));
         }
+    }
+    let empty = |(path, text): &(&str, &str)| path.ends_with(".md") && text.trim().is_empty();
+    if let Some((path, _)) = templates.iter().find(empty) {
+        let what = "it is empty; write what it had, or remove it";
+        return Err(Error::Template(format!("{path}: {what}")));
     }
     form(templates)?;
     let prose = templates.iter().filter(|(path, _)| path.ends_with(".md"));

@@ -25,6 +25,7 @@ use super::card::Cards;
 use super::document::{Block, plain, title};
 use super::documents::Document;
 use super::labels::Labels;
+use super::origin::next_tag;
 use crate::figures::{Figure, Glyphs};
 use crate::source::Program;
 use serde::Serialize;
@@ -38,10 +39,36 @@ pub fn reads(tex: &str) -> Result<(), Error> {
 
 /// Whether a page is well-formed: what the shell opens is closed.
 pub fn is_whole(page: &str) -> Result<(), Error> {
-    let options = roxmltree::ParsingOptions { allow_dtd: true, ..Default::default() };
-    let found = roxmltree::Document::parse_with_options(page, options);
     let told = |error| Error::Template(format!("report.html: the page is not whole: {error}"));
-    found.map(|_| ()).map_err(told)
+    // What a style has is no markup.
+    let (head, rest) = page.split_once("<style>").unwrap_or((page, ""));
+    let (_, rest) = rest.split_once("</style>").unwrap_or(("", rest));
+    well_formed(&format!("{head}{rest}")).map_err(told)
+}
+
+/// Whether the shell of the pages is well-formed, before anything is filled in.
+///
+/// # Errors
+/// The line of report.html.
+pub fn is_shell(template: &str) -> Result<(), Error> {
+    let (mut bare, mut at) = (String::new(), 0);
+    while let Some((start, end)) = next_tag(template, at) {
+        bare.push_str(&template[at..start]);
+        bare.extend(template[start..end].chars().filter(|c| *c == '\n'));
+        at = end;
+    }
+    bare.push_str(&template[at..]);
+    well_formed(&bare).map_err(|error| {
+        let (what, row) = (error.to_string(), error.pos().row);
+        let what = what.split(" at ").next().unwrap_or_default();
+        let remedy = "write &amp; for &, and close each tag, as <br/>";
+        Error::Template(format!("report.html:{row}: {what}; {remedy}"))
+    })
+}
+
+fn well_formed(page: &str) -> Result<(), roxmltree::Error> {
+    let options = roxmltree::ParsingOptions { allow_dtd: true, ..Default::default() };
+    roxmltree::Document::parse_with_options(page, options).map(drop)
 }
 
 /// What a page knows beside its text.

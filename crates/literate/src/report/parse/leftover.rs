@@ -38,7 +38,10 @@ const SIGNS: [(&str, &str); 37] = [
     ("<", "a bracket of HTML, or a sign of a formula; write $…$, or \\< for the sign"),
     (">", "a bracket of HTML, or a sign of a formula; write $…$, or \\> for the sign"),
     ("@", "a reference without its brackets; write [@…], or \\@ for the sign"),
-    ("$", "a formula without its end, or with brackets that do not match; write \\$ for the sign"),
+    (
+        "$",
+        "a formula without its end, with a blank behind its first $ or before its last, or with brackets that do not match; write \\$ for the sign",
+    ),
     ("`", "code without its end, or code() within a line; write \\` for the sign"),
     ("*", "emphasis without its other end; write \\* for the sign"),
     ("_", "emphasis without its other end; write \\_ for the sign"),

@@ -216,7 +216,16 @@ impl<'a> Reader<'a> {
 
     fn block(&mut self, tag: Tag<'_>, range: Range<usize>) -> Result<Option<Block>, Error> {
         let block = match tag {
-            Tag::Paragraph => self.paragraph(range.start)?,
+            Tag::Paragraph => {
+                let text = self.source(&range).trim();
+                let begins = text.starts_with('[') && !text.starts_with("[@");
+                if begins && text.contains("](figures/") && text.ends_with(".svg)") {
+                    return Err(markup(
+                        "a picture has ! before its brackets, ![caption](figures/…)",
+                    ));
+                }
+                self.paragraph(range.start)?
+            }
             Tag::Heading { level, id, classes, attrs } => {
                 let level = level as u8;
                 let unnumbered = classes.iter().any(|class| &**class == "unnumbered");
@@ -251,7 +260,7 @@ impl<'a> Reader<'a> {
                 }
                 let id = id.map(|id| id.to_string());
                 id.iter().for_each(|id| self.places.add(format!("#{id}"), range.start));
-                let number = (!unnumbered && level > 1).then(String::new);
+                let number = (!unnumbered && matches!(level, 2 | 3)).then(String::new);
                 Block::Heading { level, number, id, text }
             }
             Tag::BlockQuote(_) => Block::Quote(self.inner()?),

@@ -202,8 +202,9 @@ fn assembled(prose: &str) -> Result<Report, Error> {
 
 fn with_lab(prose: &str, lab: Option<&str>) -> Result<Report, Error> {
     let bib = "@article{rice1945, author={Rice, S. O.}, title={Noise}, journal={B}, year=1945}";
-    let tex = "\\title{«title»}«body»\\end{document}";
-    let html = "<html><title>«page.title»</title><main id=\"text\">«page.body»</main>«page.cards»<script>«script»</script></html>";
+    let tex = "\\documentclass{a}\\title{«title»}\\begin{document}«body»«listings»\\end{document}";
+    let html = "<html><title>«page.title»</title><style>«style»</style>«page.glyphs»<main id=\"text\">«page.body»</main>\
+        <script id=\"cards\">«page.cards»</script><script>«script»</script></html>";
     let files = [
         ("report.md", prose),
         ("references.bib", bib),
@@ -295,7 +296,7 @@ fn a_report_is_all_its_files() {
     assert!(markdown.contains("![It rises \\[steeply\\].](figures/fig03.svg)"), "{markdown}");
     assert!(markdown.contains("1 | A threshold \\| exists: 0.1165(4), reproduced |"), "{markdown}");
     assert!(markdown.contains("[fig03.csv](data/fig03.csv)"), "{markdown}");
-    assert!(text("report.tex").starts_with("\\title{Title}"));
+    assert!(text("report.tex").contains("\\title{Title}"));
     assert!(text("report.tex").contains("At 0.1165(4), "), "{}", text("report.tex"));
     assert!(text("values.json").contains("\"score.reproduced\""));
     assert_eq!(text("SHA256SUMS").lines().count(), paths.len() - 1);
