@@ -170,11 +170,12 @@ impl<F: Default> Form<F> {
 }
 
 /// Does the forcing begin with three brackets, as that of several components? Its brackets tell it even where the text is
-/// broken further on.
+/// broken further on; of empty ones their frequencies tell it.
 fn has_lists(text: &str) -> bool {
     let key = text.split_once("\"forcing\"").map_or("", |(_, behind)| behind);
-    let signs = key.chars().filter(|c| !c.is_whitespace());
-    signs.take(4).eq(":[[[".chars())
+    let signs: String = key.chars().filter(|c| !c.is_whitespace()).take(4).collect();
+    let empty = signs.starts_with(":[]") || signs == ":[[]";
+    signs == ":[[[" || (empty && text.contains("\"forcing_frequencies\""))
 }
 
 impl Form<Pairs> {

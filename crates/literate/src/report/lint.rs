@@ -129,7 +129,13 @@ fn length(inner: &str, (open, close, long): (&str, &str, bool)) -> Option<usize>
         // Brackets in the target come in pairs.
         let depth =
             |text: &str| text.matches('(').count() as i32 - text.matches(')').count() as i32;
-        return ends.find(|end| depth(&scope[..*end]) <= 0);
+        let whole = ends.find(|end| depth(&scope[..*end]) <= 0);
+        // Behind a blank there is no target any more, but a title, or text.
+        return whole.map(|end| scope[..end].find(char::is_whitespace).unwrap_or(end));
+    }
+    if ["[@", "[!"].contains(&open) && !scope.starts_with('[') {
+        // What it names has neither brackets nor formulas.
+        return ends.next().filter(|end| !scope[..*end].contains(['[', '(', ')', '$']));
     }
     if open != "$" {
         return ends.next();

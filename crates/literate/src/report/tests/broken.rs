@@ -91,6 +91,8 @@ fn broken_prose_is_told_with_its_place() {
         ("[The rise.](figures/fig03.svg)", "14:1", "a picture has ! before its brackets"),
         ("of $ n $ masses", "14:4", "with a blank behind its first $"),
         ("of $n $ masses", "14:4", "with no blank before it"),
+        ("See ([@fig:3) of two [masses](data).", "14:6", "[@ is not closed"),
+        ("See [a](data of (or so) masses.", "14:7", "]( is not closed"),
         ("at «raw.half_height»", "14:4", "a plain number"),
         ("at «\"3.14\"»", "14:4", "a text in quotes"),
         ("at «v»", "14:4", "a whole row"),
