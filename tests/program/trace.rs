@@ -124,7 +124,7 @@ fn a_run_that_is_stopped_tells_its_rounding_and_has_no_certificate() {
     let trace = |more: &str| run(folder.path(), &format!("trace s.json --until 1e4{more}"));
     let (code, plain, note) = trace("");
     assert!(code == 4 && plain.lines().count() > 1000 && note.lines().count() == 2, "{note}");
-    assert!(note.contains("may move an impact") && !note.contains("certificate"), "{note}");
+    assert!(note.contains("may move each impact") && !note.contains("certificate"), "{note}");
     let (code, out, note) = trace(" --certify");
     assert!(code == 4 && out == plain && note.contains("no certificate"), "{note}");
 }

@@ -198,6 +198,9 @@ pub fn toml_fault(text: &str, error: &toml::de::Error) -> String {
         message if bare.iter().any(|bare| message.starts_with(bare)) => {
             "this is neither a number nor text in quotes, \"…\"".into()
         }
+        message if message.contains("missing comma between array") => {
+            "the list before has no end here; is a ] or a comma missing before?".into()
+        }
         message => one_line(&plain(message), 300),
     };
     format!("{}: {what}; mend this line, or restore the file", line(before))

@@ -127,9 +127,20 @@ impl Published {
 
     /// A statement of which other words are printed than those that its claim judges.
     pub fn unread(&self, id: &str, reads: &str) -> PublishedError {
-        let what = format!(
-            "its claim judges {reads:?}, and not its printed; restore it, or write a claim"
-        );
+        let made = |own: &&Statement| {
+            let digits = |value| format!("{value:.*}", usize::from(own.decimals));
+            own.value.is_some_and(|value| reads.contains(&digits(value)))
+        };
+        let own = self.statement(id).ok().filter(made);
+        let what = match own {
+            Some(own) => format!(
+                "its value and decimals read {reads:?}, and its printed is {:?}; restore the one that is wrong",
+                one_line(&own.printed, 80)
+            ),
+            None => format!(
+                "its claim judges {reads:?}, and not its printed; restore it, or write a claim"
+            ),
+        };
         self.fault(id, 1, &what)
     }
 

@@ -209,7 +209,10 @@ fn failure(error: &tera::Error, templates: &Templates) -> Error {
     let place = format!("{}:{line}:{}", report.filename(), column + 1);
     // Tera lists every name that there is: too many to read.
     let Some((what, names)) = report.message().split_once(" Available fields: ") else {
-        let what = plain(report.message());
+        // Tera names its usual signs.
+        let ours = |text: String, (theirs, ours): &(&str, &str)| text.replace(theirs, ours);
+        let signs = [("%}", "%>"), ("{%", "<%"), ("}}", "»"), ("{{", "«")];
+        let what = signs.iter().fold(plain(report.message()), ours);
         let hint = if what.contains("nexpected end of input") {
             "; a tag before has no end: <% endif %>, <% endfor %> or the like".into()
         } else if what == "Unknown tag" {

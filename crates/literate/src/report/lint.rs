@@ -42,8 +42,8 @@ pub enum Fault {
     Numeral(String),
     /// A kind of `EXEMPT` that opens and does not close.
     Open((&'static str, &'static str, bool)),
-    /// A value without its name.
-    Empty,
+    /// Something else that is wrong with its form, and what to write.
+    Form(&'static str),
     /// A character that is none of a text, by its number.
     Control(char),
     /// A tag or a filter that no template has: which of both, its word, and those that there are.
@@ -62,12 +62,7 @@ impl std::fmt::Display for Finding {
                     "{path}:{line}:{column}: the character U+{number:04X} is none of a text; remove it"
                 );
             }
-            Fault::Empty => {
-                return write!(
-                    f,
-                    "{path}:{line}:{column}: a value without its name; write «group.name»"
-                );
-            }
+            Fault::Form(what) => return write!(f, "{path}:{line}:{column}: {what}"),
             Fault::Word(kind, word, all) => {
                 let all = all.join(", ");
                 return write!(
@@ -115,6 +110,10 @@ const EXEMPT: [(&str, &str, bool); 15] = [
     ("](", ")", false),
     ("<http", ">", false),
 ];
+
+/// Tags and values of other template languages.
+const BRACES: [(&str, &str); 2] =
+    [("{%", "braces about a tag; write <% … %>"), ("{{", "braces about a value; write «…»")];
 
 /// Where what a delimiter opens ends: the length of what is between. A dollar that ends a formula has no
 /// blank before it.
@@ -294,6 +293,9 @@ pub fn findings(path: &str, text: &str, declared: &Declared) -> Vec<Finding> {
             word = None;
             continue;
         }
+        if let Some((_, what)) = BRACES.iter().find(|(braces, _)| rest.starts_with(braces)) {
+            return vec![position.finding(path, Fault::Form(what))];
+        }
         let opens = |(open, ..): &&(&str, _, _)| rest.starts_with(open);
         // A dollar before a blank is a sign of money.
         let money = rest.strip_prefix('$').is_some_and(|rest| rest.starts_with([' ', '\n']));
@@ -303,6 +305,12 @@ pub fn findings(path: &str, text: &str, declared: &Declared) -> Vec<Finding> {
             let Some(length) = length(inner, kind) else {
                 return vec![position.finding(path, Fault::Open(kind))];
             };
+            let behind = inner[length + close.len()..].trim_start_matches([' ', '\u{a0}']);
+            let percent = ["%", "percent", "per cent"].iter().any(|sign| behind.starts_with(sign));
+            if open == "«" && inner[..length].trim_end().ends_with("percent") && percent {
+                let what = "a percent sign stands behind a value that has its own; remove one";
+                findings.push(position.finding(path, Fault::Form(what)));
+            }
             if open == "$" && is_number(&inner[..length]) {
                 findings.push(position.numeral(path, &inner[..length]));
             }
@@ -485,7 +493,7 @@ mod tests {
             Fault::Numeral(numeral) => (f.line, f.column, numeral),
             Fault::Open((open, ..)) => (f.line, f.column, format!("open {open}")),
             Fault::Control(c) => (f.line, f.column, format!("control {}", u32::from(c))),
-            Fault::Empty => (f.line, f.column, "empty".into()),
+            Fault::Form(what) => (f.line, f.column, what.to_string()),
             Fault::Word(kind, word, _) => (f.line, f.column, format!("{kind} {word}")),
         };
         findings("x.md", text, &Declared::default()).into_iter().map(place).collect()

@@ -2,7 +2,7 @@
 //! What is meant as it stands has a backslash before it.
 
 /// Signs of markup, and what is wrong where one is left over in text: of two at one place the first.
-const SIGNS: [(&str, &str); 37] = [
+const SIGNS: [(&str, &str); 35] = [
     ("«", "a value without its end"),
     ("»", "the end of a value that does not begin"),
     ("<%", "a tag without its end"),
@@ -11,8 +11,6 @@ const SIGNS: [(&str, &str); 37] = [
     ("#>", "the end of a comment that does not begin"),
     ("<!--", "a comment without its end"),
     ("-->", "the end of a comment that does not begin"),
-    ("{{", "braces about a value; write «…»"),
-    ("{%", "braces about a tag; write <% … %>"),
     ("<<", "signs about a value that are two each; write «…»"),
     ("[@", "a reference without its end"),
     ("[!", "a place without its end"),
