@@ -66,7 +66,7 @@ published.toml printed = "n =  -> printed = "" # " => :116: the id "sec2_paramet
 published.toml statement = "For small σ -> statement = "" # " => :122: the id "sec2_few_below": its statement
 published.toml = "For small σ -> = "For small $σ => :122: the id "sec2_few_below": its statement has a formula
 published.toml printed = "N − 1" -> printed = "N − 2" => :385: the id "sec7_limit": its claim judges "N − 1", and not its printed
-published.toml printed = "valid for k > 3" -> printed = "valid for k < 3" => :503: the id "sec9_eq35": its claim judges "valid for k > 3", and not its printed
+published.toml printed = "valid for k > 3" -> printed = "valid for k < 3" => :503: the id "sec9_eq35": its value and decimals read "valid for k > 3", and its printed is "valid for k < 3"
 published.toml value = 0.12 -> value = 0.13 => :134: the id "sec2_half_height": its value and decimals read "σ ≈ 0.13", and its printed is "σ ≈ 0.12"
 published.toml "sec2_half_height" -> "sec2_few_below" => :134: the id "sec2_few_below": it stands twice
 published.toml "sec2_half_height" -> "sec2_new" => :134: the id "sec2_new": no claim judges it"##;
