@@ -108,6 +108,11 @@ fn faults_of_the_prose_are_told_with_their_place() {
     let text = std::fs::read_to_string(here.join("t/edition/04-orbits.md")).unwrap();
     let (code, _, note) = made("edition/04-orbits.md", &format!("{} -> ", text.trim_end()));
     assert!(code == 2 && note.contains("edition/04-orbits.md: it is empty; write"), "{note}");
+    // So is one that another was copied over.
+    let read = |name: &str| std::fs::read_to_string(here.join("t/edition").join(name)).unwrap();
+    let [own, other] = ["05-counting.md", "06-probability.md"].map(read);
+    let (code, _, note) = made("edition/05-counting.md", &format!("{own} -> {other}"));
+    assert!(code == 2 && note.contains("the first at edition/05-counting.md:1:1"), "{note}");
     // A bar in a statement ends no cell of a table.
     let (code, told, note) = made("published.toml", "= \"For small σ -> = \"For $|x|$ | small σ");
     assert_eq!(code, 0, "{told}{note}");

@@ -118,7 +118,7 @@ pub fn fill(input: &Input<'_>) -> Result<(Registry, Filler, Vec<Filled>), Error>
 
 /// Makes the whole report.
 pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
-    lint::check(input.templates, input.program)?;
+    let declared = lint::check(input.templates, input.program)?;
     skins(input.templates)?;
     let (mut values, mut filler, filled) = fill(input)?;
     let marks: Vec<Mark> =
@@ -128,6 +128,7 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
     values.shorten(input.program);
 
     let (parts, labels) = parts(input, &filled, &values)?;
+    declared.refuse_unmet()?;
     let all: Vec<&[Block]> = parts.iter().map(|part| part.blocks.as_slice()).collect();
     let uses = uses(input.claims, &values, &all);
     let mut ledger = ledger::ledger(input.claims, input.figures, input.equations, &uses);

@@ -153,8 +153,11 @@ pub fn form(templates: &Templates) -> Result<(), Error> {
     if odd.is_empty() { Ok(()) } else { Err(Error::Lint(odd)) }
 }
 
-/// Holds all prose against the lint.
-pub fn check(templates: &Templates, program: Program) -> Result<(), Error> {
+/// Holds all prose against the lint. What it gives says which declared phrases the prose has.
+///
+/// # Errors
+/// What is missing or empty, and all places with a fault.
+pub fn check(templates: &Templates, program: Program) -> Result<Declared, Error> {
     for of in program.documents {
         let mut texts = of.files(templates).into_iter().map(|path| templates.text(path));
         if texts.all(|text| text.is_ok_and(|text| text.trim().is_empty())) {
@@ -175,16 +178,7 @@ pub fn check(templates: &Templates, program: Program) -> Result<(), Error> {
     if !found.is_empty() {
         return Err(Error::Lint(found));
     }
-    match declared.unmet().as_slice() {
-        [] => Ok(()),
-        [first, rest @ ..] => {
-            let more = match rest.len() {
-                0 => String::new(),
-                more => format!(", nor {more} more"),
-            };
-            Err(declared.fault(first, &format!("no prose has it{more}; remove what none has")))
-        }
-    }
+    Ok(declared)
 }
 
 /// Words that are numbers and nothing else.
@@ -234,6 +228,26 @@ impl Declared {
         let at = self.text.find(&format!("\"{phrase}\"")).unwrap_or_default();
         let line = line(&self.text[..at]);
         Error::Template(format!("literals.toml:{line}: {:?}: {what}", one_line(phrase, 80)))
+    }
+
+    /// Refuses phrases that no prose has. Where a section is missing they are many: other faults are told first.
+    ///
+    /// # Errors
+    /// The first, with its line.
+    pub fn refuse_unmet(&self) -> Result<(), Error> {
+        match self.unmet().as_slice() {
+            [] => Ok(()),
+            [first, rest @ ..] => {
+                let more = match rest.len() {
+                    0 => String::new(),
+                    more => format!(", nor {more} more"),
+                };
+                let what = format!(
+                    "no prose has it{more}; remove what none has, or restore the section that had it"
+                );
+                Err(self.fault(first, &what))
+            }
+        }
     }
 
     /// Phrases that no text had so far.
