@@ -11,6 +11,7 @@ mod captions;
 pub mod card;
 pub mod claims;
 pub mod compare;
+mod declared;
 pub mod document;
 pub mod documents;
 mod entries;
