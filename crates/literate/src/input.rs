@@ -37,8 +37,11 @@ pub fn regular_text(path: &Path) -> Result<String, Error> {
     text(regular(path)?)
 }
 
+/// Bytes as text. Lines end in `\n` however they end in the file, so that what is made of them has the same bytes.
 fn text(bytes: Vec<u8>) -> Result<String, Error> {
-    String::from_utf8(bytes).map_err(|_| Error::new(ErrorKind::InvalidData, "it is no UTF-8 text"))
+    let wrong = |_| Error::new(ErrorKind::InvalidData, "it is no UTF-8 text");
+    let text = String::from_utf8(bytes).map_err(wrong)?;
+    Ok(if text.contains('\r') { text.replace("\r\n", "\n") } else { text })
 }
 
 fn bounded(file: impl Read, mib: u64) -> Result<Vec<u8>, Error> {
@@ -185,7 +188,7 @@ pub fn remove_leftovers(folder: &Path, is_ours: impl Fn(&Path) -> std::io::Resul
 /// Is the character none of a text: one that controls a terminal, or one for private use, which frames values in filled
 /// prose?
 pub fn is_no_text(c: char) -> bool {
-    let controls = c.is_control() && !matches!(c, '\n' | '\r' | '\t');
+    let controls = c.is_control() && !matches!(c, '\n' | '\t');
     controls || ('\u{e000}'..='\u{f8ff}').contains(&c)
 }
 

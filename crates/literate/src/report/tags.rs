@@ -15,7 +15,7 @@ pub(super) fn other_word(path: &str, text: &str) -> Option<Finding> {
     let (mut position, mut at) = (Position::default(), 0);
     let filled = [".md", ".tex", ".html"].iter().any(|end| path.ends_with(end));
     let word = |text: &str| -> String {
-        let text = text.trim_start_matches(['-', ' ', '\n', '\r', '\t']);
+        let text = text.trim_start_matches(['-', ' ', '\n', '\t']);
         text.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect()
     };
     while let Some((start, end)) = next_tag(text, at).filter(|_| filled) {
