@@ -239,7 +239,7 @@ fn the_map_in_the_readme_is_current() {
     }
     assert!(
         readme[start..end] == map,
-        "the map is stale: IMPACT_PAPER_REWRITE=1 cargo test --test report structure"
+        "the map is stale: IMPACT_PAPER_REWRITE=1 cargo test --release --test report structure"
     );
 }
 
