@@ -1,7 +1,7 @@
 # Every target is one line that calls cargo, the program or a script. Needed: Rust (rust-toolchain.toml
 # names the version), make and a C compiler for linking.
 
-.PHONY: paper quick check deep mutate pdf latex browser test test-checked test-long lint deny identity bundle fuzz bench measure clean help
+.PHONY: paper quick check deep mutate latex browser test test-checked test-long lint deny identity bundle fuzz bench measure clean help
 
 paper: ## the whole reproduction in the full profile, into paper/
 	.ci/module && cargo run --release --locked -- paper
@@ -17,9 +17,6 @@ deep: ## what is too long for every report, again, into benches/deep/: a quarter
 
 mutate: ## which check notices when a number of the report is wrong; fails if none does and no reason is given
 	cargo run --release --locked -p impact-paper-tools -- mutate
-
-pdf: ## make paper, and PDFs of its documents too: typeset in the program, minutes more to build
-	.ci/module && cargo run --release --locked --features pdf -- paper --pdf
 
 latex: ## the documents of paper/ by TeX Live, into target/latex (installed when missing)
 	.ci/latex

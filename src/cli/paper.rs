@@ -41,9 +41,6 @@ pub struct Args {
     out: Option<PathBuf>,
     #[command(flatten)]
     force: output::Force,
-    /// Write report.pdf too (needs a binary with the feature pdf: make pdf).
-    #[arg(long, conflicts_with = "figure")]
-    pdf: bool,
     #[command(flatten)]
     sources: Sources,
 }
@@ -108,7 +105,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     }
     let made = threads::run(args.sources.threads, || {
         if whole {
-            let (report, judged) = make::whole(&args.sources, profile, args.pdf, &progress)?;
+            let (report, judged) = make::whole(&args.sources, profile, &progress)?;
             let files: Files = report.committed.into_iter().chain(report.beside).collect();
             Ok((files, judged))
         } else {

@@ -7,13 +7,13 @@ use impact_paper::program::listed::{Checked, listed, own_profile};
 use impact_paper::program::sources::Sources;
 use impact_paper::program::waiting::Waiting;
 use impact_paper::program::{Failure, folder, make, memory, signals, threads, work};
-use impact_paper::report::{PROGRAM, sums};
+use impact_paper::report::sums;
 use std::io::ErrorKind;
 use std::path::PathBuf;
 
 /// Says whether a report is what its SHA256SUMS lists; with --rerun, what is made here.
 ///
-/// With --rerun the report is made again and compared. Every digest is computed anew. PDFs and HTML are built beside and not committed: SHA256SUMS.local
+/// With --rerun the report is made again and compared. Every digest is computed anew. HTML is built beside and not committed: SHA256SUMS.local
 /// lists them. Ends with exit code 1 if a file differs, is missing, or stands there without being
 /// listed. Writes nothing. What a release on GitHub holds is attested besides: `gh attestation verify FILE
 /// --repo OWNER/REPO` says whether that repository built the file, and from which commit.
@@ -75,11 +75,6 @@ pub fn run(args: Args) -> Result<(), Failure> {
     Err(Failure::check(format!("{}: {them}; {remedy}", args.folder.display())))
 }
 
-/// What only a binary with the typesetter makes.
-fn pdfs() -> impl Iterator<Item = String> {
-    PROGRAM.documents.iter().filter_map(|document| document.print).map(|name| format!("{name}.pdf"))
-}
-
 /// Makes the report again and compares.
 fn rerun(args: &Args, progress: &Progress) -> Result<Checked, Failure> {
     let profile = own_profile(&args.folder)?;
@@ -89,15 +84,13 @@ fn rerun(args: &Args, progress: &Progress) -> Result<Checked, Failure> {
         Failure::io(&e, what, "name one that can be written in TMPDIR")
     })?;
     let results = args.results.clone().unwrap_or_else(|| temporary.path().join("results"));
-    let pdf = pdfs().any(|name| args.folder.join(name).symlink_metadata().is_ok());
-    let typeset = pdf && make::TYPESETS;
     let sources = Sources::of(args.threads, args.templates.clone(), results);
     let named = |failure: Failure| match args.results {
         Some(_) => failure,
         None => Failure { message: failure.message.replacen("--results", "TMPDIR", 1), ..failure },
     };
     let (made, _) =
-        threads::run(args.threads, || make::whole(&sources, profile, typeset, progress))
+        threads::run(args.threads, || make::whole(&sources, profile, progress))
             .map_err(named)?;
     // What is built beside may be missing, but not be another.
     let mut files = made.committed;
@@ -117,13 +110,10 @@ fn rerun(args: &Args, progress: &Progress) -> Result<Checked, Failure> {
         }
     }
     for path in folder::walk(&args.folder, progress)? {
-        let known = path == sums::LOCAL || (!typeset && pdfs().any(|name| path == name));
-        if !known && !files.contains_key(&path) {
+        if path != sums::LOCAL && !files.contains_key(&path) {
             fault("not made", &path);
         }
     }
     let fine = format!(" made again with the {} profile, the same bytes", profile.name());
-    let open = if pdf && !typeset { "; PDFs need a binary with the feature pdf" } else { "" };
-    let fine = fine + open;
     Ok(Checked { files: files.len(), fine, faults })
 }

@@ -74,7 +74,7 @@ pub fn is_beside(path: &str) -> bool {
     match path.split_once('/') {
         Some((folder, name)) => folder == "figures" && name.ends_with(".pdf"),
         None => {
-            path.ends_with(".pdf") || path.ends_with(".html") || [LAB, sums::LOCAL].contains(&path)
+            path.ends_with(".html") || [LAB, sums::LOCAL].contains(&path)
         }
     }
 }

@@ -15,22 +15,15 @@ use rayon::prelude::*;
 /// The engine as WebAssembly, where `.ci/module` has put it: the machine may have no compiler for that.
 const MODULE: &str = "target/page.wasm";
 
-/// Whether this build has the typesetter.
-pub const TYPESETS: bool = cfg!(feature = "pdf");
-
-/// Runs every experiment and makes every file; with `pdf`, report.pdf too. Says also what holds.
+/// Runs every experiment and makes every file. Says also what holds.
 ///
 /// # Errors
 /// Exit codes 1 (a lint), 2, 4 and 130.
 pub fn whole(
     sources: &Sources,
     profile: Profile,
-    pdf: bool,
     progress: &Progress,
 ) -> Result<(Report, Judged), Failure> {
-    if pdf && !TYPESETS {
-        return Err(report::Error::NoTypesetter.into());
-    }
     let reading = alive(|| Some("reading the templates".into()));
     let templates = sources.templates()?;
     report::lint::check(&templates, PROGRAM)?;
@@ -39,7 +32,7 @@ pub fn whole(
     drop(reading);
     let results = sources.run(&ALL, profile, &templates, progress)?;
     results.look();
-    // Machines may be slow or busy, a loop of a template long, and a typesetter takes its time.
+    // Machines may be slow or busy, a loop of a template long.
     let _alive = alive(|| Some("making figures and documents".into()));
     let draw = |number| {
         progress.check()?;
@@ -80,7 +73,6 @@ pub fn whole(
         equations: &equations::entries(),
         scene: scene.as_ref(),
         lab: lab.as_deref(),
-        pdf,
         program: PROGRAM,
     });
     let report = report.map_err(|error| match error {

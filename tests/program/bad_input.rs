@@ -198,7 +198,6 @@ paper --set restitution --out d => restitution=; give 0.3 to
 paper --out d --set seed=9007199254740993|masses=3 => =; give 
 paper --set masses=50 --set masses=60 --out d => masses; twice
 paper --threads 0 --figure 4 => --threads
-paper --pdf --figure 4 => --pdf
 paper --figure 4 --out loop => link
 paper --figure 4 --out file|file/below => --out
 paper --profile quick --out file => it is a file

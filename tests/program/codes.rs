@@ -76,7 +76,6 @@ fn exit_codes_are_those_of_the_table() {
         ),
         (0, "ulimit -s 64; exec \"$0\" sweep --sigma 0.2 --realisations 3".into(), "0.2,"),
         (2, "trace --until 1 $'no\nsuch'".into(), "no such: "),
-        (2, "paper --pdf --figure 3".into(), "--figure"),
         (2, "verify nowhere".into(), "nowhere"),
         (3, "status --profile quick --results empty".into(), "stale"),
         (3, "audit --profile quick --results empty".into(), "paper --profile quick"),

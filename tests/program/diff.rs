@@ -56,7 +56,7 @@ fn changed() -> tempfile::TempDir {
 fn the_same_report_twice_differs_in_nothing() {
     let folder = twice();
     let here = folder.path();
-    fs::write(here.join("b/report.pdf"), "built beside").unwrap();
+    fs::write(here.join("b/lab.js"), "built beside").unwrap();
     assert_eq!(answer(here, "diff a b --exit-code"), "a and b: nothing differs\n");
     assert!(answer(here, "diff a b --markdown").contains("Nothing: "));
     assert_eq!(json(here, "diff a b --json")["same"], true);

@@ -33,10 +33,10 @@ fn what_is_as_listed_is_fine_with_what_is_built_beside() {
     let paper = folder.path().join("paper");
     let write = |path: &str, text: &str| fs::write(paper.join(path), text).unwrap();
     write("report.html", "page");
-    write("a.pdf", "");
+    write("lab.js", "");
     // Of a revision that was here before, but for what is built beside.
-    let [page, pdf, other] = ["page", "", "other"].map(digest);
-    let local = format!("{pdf}  a.pdf\n{page}  report.html\n{other}  report.md\n");
+    let [page, script, other] = ["page", "", "other"].map(digest);
+    let local = format!("{script}  lab.js\n{page}  report.html\n{other}  report.md\n");
     write("SHA256SUMS.local", &local);
     fs::create_dir(paper.join(".staging-impact-paper-1")).unwrap();
     write(".staging-impact-paper-1/report.md", "half");
@@ -46,11 +46,11 @@ fn what_is_as_listed_is_fine_with_what_is_built_beside() {
     // A page that somebody else put there, in place of ours or where none was made.
     write("report.html", "planted");
     faults(folder.path(), &["differs  report.html"], "--force");
-    fs::remove_file(paper.join("a.pdf")).unwrap();
-    faults(folder.path(), &["missing  a.pdf", "differs  report.html"], "--force");
-    write("a.pdf", "");
+    fs::remove_file(paper.join("lab.js")).unwrap();
+    faults(folder.path(), &["missing  lab.js", "differs  report.html"], "--force");
+    write("lab.js", "");
     fs::remove_file(paper.join("SHA256SUMS.local")).unwrap();
-    let unlisted = ["unlisted a.pdf", "unlisted report.html"];
+    let unlisted = ["unlisted lab.js", "unlisted report.html"];
     faults(folder.path(), &unlisted, "remove what is not listed");
     // Ended before the list came: a first report, or all of it moved away.
     fs::remove_file(paper.join("SHA256SUMS")).unwrap();

@@ -9,5 +9,3 @@ mod parsers;
 mod prose;
 mod quick;
 mod structure;
-#[cfg(feature = "pdf")]
-mod typeset;

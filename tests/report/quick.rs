@@ -68,7 +68,6 @@ pub static QUICK: LazyLock<Quick> = LazyLock::new(|| {
         equations: &equations::entries(),
         scene: scene.as_ref(),
         lab: Some(""),
-        pdf: false,
         program: PROGRAM,
     };
     let report = assemble(&input).unwrap_or_else(|error| panic!("{error}"));

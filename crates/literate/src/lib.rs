@@ -10,7 +10,7 @@
 //!    `cascade.orbits[n=3].delta`, by which prose, figures, claims and cards name it.
 //! 3. A [figure](figures) is one list of shapes, written as SVG, into the page and as PDF, with its data beside it.
 //! 4. A [statement](claims) that was printed is held against what was found; its verdict is a function of numbers, and can fail.
-//! 5. The [report](mod@report) fills people's prose with all of it: Markdown, LaTeX, HTML and PDF, a ledger of the claims, all values as
+//! 5. The [report](mod@report) fills people's prose with all of it: Markdown, LaTeX and HTML, a ledger of the claims, all values as
 //!    data, a card for each number. A numeral that nobody computed is refused by file and line.
 //!
 //! A table, and a number by its address:

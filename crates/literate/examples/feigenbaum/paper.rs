@@ -263,7 +263,6 @@ pub fn make(
         equations: &[],
         scene: None,
         lab: None,
-        pdf: false,
         program: PROGRAM,
     })?)
 }

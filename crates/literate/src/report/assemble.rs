@@ -47,8 +47,6 @@ pub struct Input<'a> {
     pub scene: Option<&'a html::Moving>,
     /// What a page loads when a reader asks it to compute: lab.js, beside the pages.
     pub lab: Option<&'a str>,
-    /// Whether PDFs are wanted; the feature `pdf` makes them.
-    pub pdf: bool,
     /// The program that makes it.
     pub program: Program,
 }
@@ -58,8 +56,7 @@ pub struct Input<'a> {
 pub struct Report {
     /// Files that are committed; SHA256SUMS covers them.
     pub committed: Files,
-    /// Files that stand beside them and are not committed: pages, PDFs if they were asked for, figures/*.pdf for
-    /// LaTeX.
+    /// Files that stand beside them and are not committed: pages, figures/*.pdf for LaTeX.
     pub beside: Files,
 }
 
@@ -78,23 +75,21 @@ struct Written {
     page: html::Parts,
 }
 
-/// A document for LaTeX, and as PDF where that is wanted.
+/// A document for LaTeX.
 struct Print {
     name: &'static str,
     title: String,
     body: String,
     listings: String,
-    pdf: Option<Vec<u8>>,
 }
 
 impl Print {
-    fn of(name: &'static str, blocks: &[Block], input: &Input<'_>) -> Result<Self, Error> {
+    fn of(name: &'static str, blocks: &[Block]) -> Result<Self, Error> {
         Ok(Print {
             name,
             title: latex::title(blocks)?,
             body: latex::write(blocks)?,
             listings: latex::listings(blocks)?,
-            pdf: input.pdf.then(|| typeset(blocks, input)).transpose()?,
         })
     }
 }
@@ -146,20 +141,19 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
     let cards = Cards { values: &values, ledger: &ledger, program: input.program };
     let site = |of| html::Site { here: of, labels: &labels, moving, lab: input.lab.is_some() };
     let written = parts.par_iter().with_max_len(1).map(|Part { of, blocks, .. }| {
-        let print = of.print.map(|name| Print::of(name, blocks, input)).transpose()?;
+        let print = of.print.map(|name| Print::of(name, blocks)).transpose()?;
         let page = html::write(blocks, input.figures, site(*of), cards)?;
         Ok(Written { of: *of, markdown: markdown::write(blocks), print, page })
     });
     for written in written.collect::<Vec<Result<Written, Error>>>() {
         let Written { of, markdown, print, page } = written?;
         committed.insert(of.markdown.into(), markdown.into_bytes());
-        if let Some(Print { name, title, body, listings, pdf }) = print {
+        if let Some(Print { name, title, body, listings }) = print {
             filler.insert("title", &title);
             filler.insert("letter", &of.letter);
             filler.insert("body", &body);
             filler.insert("listings", &listings);
             committed.insert(format!("{name}.tex"), filler.fill("report.tex")?.into_bytes());
-            beside.extend(pdf.map(|pdf| (format!("{name}.pdf"), pdf)));
         }
         filler.insert("page", &page);
         filler.insert("style", &flush(input.templates.text("report.css")?));
@@ -226,16 +220,6 @@ fn parts<'a>(
         labels.resolve(blocks, *of, &library).map_err(|error| places.tell(error))?;
     }
     Ok((parts, labels))
-}
-
-#[cfg(feature = "pdf")]
-fn typeset(blocks: &[Block], input: &Input<'_>) -> Result<Vec<u8>, Error> {
-    super::typeset::pdf(blocks, input.figures, input.templates)
-}
-
-#[cfg(not(feature = "pdf"))]
-fn typeset(_: &[Block], _: &Input<'_>) -> Result<Vec<u8>, Error> {
-    Err(Error::NoTypesetter)
 }
 
 /// Lines without indentation and comments, which are for those who write them: a page is loaded sooner.

@@ -16,7 +16,7 @@ pub struct Document {
     pub markdown: &'static str,
     /// Its file for browsers.
     pub page: &'static str,
-    /// Its files for paper, without their endings `.tex` and `.pdf`, if it is printed.
+    /// Its file for LaTeX, without its ending `.tex`, if it is printed.
     pub print: Option<&'static str>,
     /// Whether it shows figures that have their place in another: a front page does.
     pub repeats: bool,
@@ -36,10 +36,7 @@ impl Document {
 
     /// Paths of its files in the folder of a report.
     pub fn paths(&self) -> impl Iterator<Item = String> {
-        let print = self
-            .print
-            .into_iter()
-            .flat_map(|name| [".tex", ".pdf"].map(|end| format!("{name}{end}")));
+        let print = self.print.map(|name| format!("{name}.tex"));
         [self.markdown, self.page].map(String::from).into_iter().chain(print)
     }
 

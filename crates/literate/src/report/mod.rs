@@ -33,7 +33,6 @@ pub mod sums;
 mod tags;
 pub mod templates;
 mod tex;
-pub mod typeset;
 pub mod uses;
 pub mod valued;
 pub mod values;
@@ -90,10 +89,6 @@ pub enum Error {
     NoLatex(char),
     #[error("no MathML for ${}$: {}; write it otherwise", one_line(tex, 200), one_line(what, 200))]
     Maths { tex: String, what: String },
-    #[error("report.pdf: {0}")]
-    Typeset(String),
-    #[error("--pdf: this binary was built without the typesetter; run make pdf")]
-    NoTypesetter,
     #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
     Lint(Vec<lint::Finding>),
     #[error("{0} is not shown; put ![caption](figures/{0}.svg) into the prose")]

@@ -21,9 +21,7 @@ impl Shown {
     /// Of a whole document.
     pub fn of(document: Document, blocks: &[Block]) -> Self {
         let mut shown = Shown::in_blocks(blocks);
-        let print = document.print.into_iter();
-        let print = print.flat_map(|name| [format!("{name}.tex"), format!("{name}.pdf")]);
-        shown.files.extend(print.chain([document.markdown.into(), document.page.into()]));
+        shown.files.extend(document.paths());
         for block in blocks {
             if let Block::Figure { path, data, .. } = block {
                 shown.files.extend(data.iter().cloned());

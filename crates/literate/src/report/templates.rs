@@ -10,12 +10,11 @@ use std::path::{Path, PathBuf};
 const TEXT: [&str; 9] = [".md", ".tex", ".typ", ".bib", ".toml", ".html", ".css", ".js", ".json"];
 
 /// What stands around the text of the documents, where a folder has none of its own.
-const SKIN: [(&str, &str); 5] = [
+const SKIN: [(&str, &str); 4] = [
     ("report.css", include_str!("../../skin/report.css")),
     ("report.html", include_str!("../../skin/report.html")),
     ("report.js", include_str!("../../skin/report.js")),
     ("report.tex", include_str!("../../skin/report.tex")),
-    ("report.typ", include_str!("../../skin/report.typ")),
 ];
 
 /// Files and folders that may stand in the folder: somebody might give the root.

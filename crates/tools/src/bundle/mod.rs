@@ -101,7 +101,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
 /// Exit code 1 if the results give another report than the committed one.
 fn beside(args: &Args, profile: Profile, progress: &Progress) -> Result<Files, Failure> {
     let sources = Sources::of(None, None, args.results.clone());
-    let (made, _) = make::whole(&sources, profile, make::TYPESETS, progress)?;
+    let (made, _) = make::whole(&sources, profile, progress)?;
     for (path, bytes) in &made.committed {
         if folder::read(Path::new(PAPER), path).ok().as_ref() != Some(bytes) {
             let what = format!("bundle: the results do not give paper/{path} as it is committed");

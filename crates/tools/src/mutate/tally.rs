@@ -53,7 +53,6 @@ pub fn used(
         equations: &equations::entries(),
         scene: None,
         lab: None,
-        pdf: false,
         program: PROGRAM,
     };
     let (values, _, filled) = assemble::fill(&input)?;

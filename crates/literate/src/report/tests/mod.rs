@@ -233,7 +233,6 @@ fn with_lab(prose: &str, lab: Option<&str>) -> Result<Report, Error> {
         }],
         scene: None,
         lab,
-        pdf: false,
         program: TOY,
     })
 }
@@ -359,7 +358,6 @@ fn documents_refer_to_each_other() {
             equations: &[],
             scene: None,
             lab: None,
-            pdf: false,
             program,
         })
     };
