@@ -1,7 +1,7 @@
 # Every target is one line that calls cargo, the program or a script. Needed: Rust (rust-toolchain.toml
 # names the version), make and a C compiler for linking.
 
-.PHONY: paper quick check deep mutate latex browser test test-checked test-long lint deny identity bundle fuzz bench measure clean help
+.PHONY: paper quick check deep latex browser test test-checked test-long lint deny identity archive fuzz bench measure clean help
 
 paper: ## the whole reproduction in the full profile, into paper/
 	.ci/module && cargo run --release --locked -- paper
@@ -14,9 +14,6 @@ check: ## every claim with its verdict; fails if one does not hold
 
 deep: ## what is too long for every report, again, into benches/deep/: a quarter of an hour on two cores
 	cargo run --release --locked -- run --profile deep --shard 1/1 --out target/deep && cargo run --release --locked -- merge --profile deep target/deep
-
-mutate: ## which check notices when a number of the report is wrong; fails if none does and no reason is given
-	cargo run --release --locked -p impact-paper-tools -- mutate
 
 latex: ## the documents of paper/ by TeX Live, into target/latex (installed when missing)
 	.ci/latex
@@ -42,8 +39,8 @@ deny: ## licences, sources, second versions and known faults of all crates (carg
 identity: ## the same bytes for any threads, folder, locale, C library and build (quick profile; minutes to build)
 	.ci/identity
 
-bundle: ## all that it takes to make the report again, in target/impact-paper.zip (after make paper)
-	cargo run --release --locked -p impact-paper-tools -- bundle --force target/impact-paper.zip
+archive: ## the last commit and the source of all crates in target/impact-paper.tar.gz, which builds without a network
+	.ci/archive
 
 fuzz: ## every parser against texts that a fuzzer thinks out (needs Rust nightly; minutes to build)
 	.ci/fuzz

@@ -28,18 +28,6 @@ use failure::LONGEST;
 use std::path::Path;
 use std::process::ExitCode;
 
-/// What the project says of itself in Cargo.toml.
-pub mod about {
-    /// The version.
-    pub const VERSION: &str = env!("CARGO_PKG_VERSION");
-    /// One line.
-    pub const DESCRIPTION: &str = env!("CARGO_PKG_DESCRIPTION");
-    /// Who wrote it.
-    pub const AUTHORS: &str = env!("CARGO_PKG_AUTHORS");
-    /// The oldest compiler.
-    pub const RUST_VERSION: &str = env!("CARGO_PKG_RUST_VERSION");
-}
-
 /// Tells a fault of the program itself (exit code 4) in one line: what failed, and where.
 pub fn tell(fault: &std::panic::PanicHookInfo<'_>) {
     let words = fault.payload_as_str().unwrap_or("no words");

@@ -230,18 +230,6 @@ pub(super) fn stands(path: &Path) -> bool {
     path.symlink_metadata().err().is_none_or(|error| !is_absent(&error))
 }
 
-/// Refuses, before a long run, a single file that stands there already, unless forced.
-///
-/// # Errors
-/// Exit code 2 with its name.
-pub fn free(what: &str, path: &Path, Force { force }: Force) -> Result<(), Failure> {
-    if force || !stands(path) {
-        return Ok(());
-    }
-    let path = path.display();
-    Err(Failure::input(format!("{what}: {path} is there already; give another file, or --force")))
-}
-
 /// Names of what is in a folder.
 pub(super) fn names(folder: &Path) -> io::Result<Vec<String>> {
     let name = |entry: io::Result<std::fs::DirEntry>| {

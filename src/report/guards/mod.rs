@@ -5,7 +5,7 @@
 //! equation, a closed form against a sum of its own. None compares a number with a copy of itself, or
 //! with bytes of an earlier run; what a guard computes anew it computes by another way than the code
 //! that it guards, from a record or from first principles (`guards::model`). `impact-paper check` names each
-//! that fails, and `make mutate` measures what they notice.
+//! that fails.
 
 mod carried;
 mod chains;
@@ -39,7 +39,7 @@ pub struct Look<'a> {
 /// A relation that must hold.
 #[derive(Clone, Copy, Debug)]
 pub struct Guard {
-    /// Its name, as `check` and `mutate` tell it.
+    /// Its name, as `check` tells it.
     pub name: &'static str,
     /// Ids of the values that it relates; a `*` at the end stands for any ending.
     pub ids: &'static [&'static str],

@@ -96,7 +96,7 @@ impl Print {
 
 /// The values with the scorecard among them, the filler with all names that templates use, and the prose of each
 /// document as it was filled.
-pub fn fill(input: &Input<'_>) -> Result<(Registry, Filler, Vec<Filled>), Error> {
+fn fill(input: &Input<'_>) -> Result<(Registry, Filler, Vec<Filled>), Error> {
     let mut values = input.values.clone();
     values.extend(scorecard(input.claims))?;
     let mut filler = Filler::new(input.templates, &values, input.program)?;

@@ -33,7 +33,7 @@ pub mod sums;
 mod tags;
 pub mod templates;
 mod tex;
-pub mod uses;
+mod uses;
 pub mod valued;
 pub mod values;
 
