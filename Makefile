@@ -1,7 +1,7 @@
 # Every target is one line that calls cargo, the program or a script. Needed: Rust (rust-toolchain.toml
 # names the version), make and a C compiler for linking.
 
-.PHONY: paper quick check deep latex browser test test-checked test-long lint deny identity archive fuzz bench measure clean help
+.PHONY: paper quick check deep latex browser test test-checked test-long lint deny identity archive bench measure clean help
 
 paper: ## the whole reproduction in the full profile, into paper/
 	.ci/module && cargo run --release --locked -- paper
@@ -22,16 +22,16 @@ browser: ## the pages of paper/ in headless Chromium, as readers use them (Chrom
 	.ci/browser
 
 test: ## all tests but the long ones
-	cargo test --release --locked --workspace --exclude impact-paper-fuzz
+	cargo test --release --locked --workspace
 
 test-long: ## the long tests only (large samples, a job array on Slurm, which root installs when missing)
-	cargo test --release --locked --workspace --exclude impact-paper-fuzz -- --ignored
+	cargo test --release --locked --workspace -- --ignored
 
 test-checked: ## all tests but the long ones, with checks of overflow and debug assertions (compiles everything again)
 	CARGO_TARGET_DIR=target/checked CARGO_PROFILE_RELEASE_DEBUG_ASSERTIONS=true CARGO_PROFILE_RELEASE_OVERFLOW_CHECKS=true $(MAKE) test
 
 lint: ## formatting, clippy, documentation and spelling, warnings denied
-	cargo fmt --check && cargo clippy --release --locked --workspace --exclude impact-paper-fuzz --all-targets -- -D warnings && RUSTDOCFLAGS="-D warnings" cargo doc --release --locked --no-deps --document-private-items && .ci/spell
+	cargo fmt --check && cargo clippy --release --locked --workspace --all-targets -- -D warnings && RUSTDOCFLAGS="-D warnings" cargo doc --release --locked --no-deps --document-private-items && .ci/spell
 
 deny: ## licences, sources, second versions and known faults of all crates (cargo-deny is built when missing: minutes)
 	cargo install --quiet --locked --root target/deny cargo-deny@0.20.2 && target/deny/bin/cargo-deny --locked --workspace check
@@ -41,9 +41,6 @@ identity: ## the same bytes for any threads, folder, locale, C library and build
 
 archive: ## the last commit and the source of all crates in target/impact-paper.tar.gz, which builds without a network
 	.ci/archive
-
-fuzz: ## every parser against texts that a fuzzer thinks out (needs Rust nightly; minutes to build)
-	.ci/fuzz
 
 bench: ## how fast the parts are, on this machine
 	cargo bench --locked --bench engine

@@ -90,8 +90,7 @@ fn rerun(args: &Args, progress: &Progress) -> Result<Checked, Failure> {
         None => Failure { message: failure.message.replacen("--results", "TMPDIR", 1), ..failure },
     };
     let (made, _) =
-        threads::run(args.threads, || make::whole(&sources, profile, progress))
-            .map_err(named)?;
+        threads::run(args.threads, || make::whole(&sources, profile, progress)).map_err(named)?;
     // What is built beside may be missing, but not be another.
     let mut files = made.committed;
     let stands = |path: &String| args.folder.join(path).symlink_metadata().is_ok();

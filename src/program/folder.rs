@@ -73,9 +73,7 @@ pub fn walk(folder: &Path, progress: &Progress) -> Result<Vec<String>, Failure> 
 pub fn is_beside(path: &str) -> bool {
     match path.split_once('/') {
         Some((folder, name)) => folder == "figures" && name.ends_with(".pdf"),
-        None => {
-            path.ends_with(".html") || [LAB, sums::LOCAL].contains(&path)
-        }
+        None => path.ends_with(".html") || [LAB, sums::LOCAL].contains(&path),
     }
 }
 

@@ -1,11 +1,11 @@
-//! The report and what it is made of: templates, figures, pages, parsers, and rules about the source.
+//! The report and what it is made of: templates, figures, pages, damaged texts, and rules about the source.
 
 mod budgets;
 mod commonmark;
+mod damage;
 mod depends;
 mod figures;
 mod html;
-mod parsers;
 mod prose;
 mod quick;
 mod structure;

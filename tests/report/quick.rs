@@ -1,6 +1,6 @@
 //! The whole report of the quick profile in memory, for the tests that read it.
 
-use impact_paper::claims::{self, Check, Published};
+use impact_paper::claims::{self, Published};
 use impact_paper::experiments::spacetime::scene::Scene;
 use impact_paper::experiments::{ALL, SPACE_TIME};
 use impact_paper::experiments::{Progress, Results, Store, run::run};
@@ -9,7 +9,6 @@ use impact_paper::params::Profile;
 use impact_paper::report::{
     self, Document, Input, PROGRAM, Registry, Report, Templates, assemble, contents, equations,
 };
-use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::LazyLock;
 
@@ -19,8 +18,6 @@ pub struct Quick {
     pub report: Report,
     pub results: Results,
     pub values: Registry,
-    pub rows: BTreeMap<&'static str, serde_json::Value>,
-    pub claims: Vec<Check>,
     /// The figures that the same results would give if they were of the full profile.
     pub full: Vec<Figure>,
 }
@@ -72,5 +69,5 @@ pub static QUICK: LazyLock<Quick> = LazyLock::new(|| {
     };
     let report = assemble(&input).unwrap_or_else(|error| panic!("{error}"));
     assert!(report == assemble(&input).unwrap(), "the same input gives other bytes");
-    Quick { templates, figures, report, results, values, rows, claims, full }
+    Quick { templates, figures, report, results, values, full }
 });

@@ -1,0 +1,121 @@
+//! Text from outside that is nearly right: for each of its readers a valid text is damaged in a seeded way. No reader
+//! panics or hangs, and each refusal is one line.
+
+use crate::quick::QUICK;
+use impact_paper::experiments::built::code;
+use impact_paper::numerics::random::generator;
+use impact_paper::report::bibliography::Library;
+use impact_paper::report::filler::Filler;
+use impact_paper::report::labels::Labels;
+use impact_paper::report::origin::Filled;
+use impact_paper::report::{Document, Error, PROGRAM, Templates};
+use impact_paper::report::{compare, latex, ledger, markdown, parse, sums};
+use impact_paper::{claims::Published, digest::sha256, dynamics::Scenario};
+use literate::experiments::identity::{Identity, told};
+use literate::experiments::store;
+use rand::RngExt;
+use std::{fs, sync::LazyLock, sync::mpsc::channel, time::Duration};
+
+const SCENARIO: &str = r#"{"restitution": 0.8, "boundary": "ring", "initial": {"free": [[0.1, 0], [0, 0.1]]},
+    "forcing_frequencies": [1.5, 2.5], "forcing": [[[1, 2], [3, 4]], [[5, 6], [7, 8]]]}"#;
+
+const PROSE: &str = r#"# A title
+
+## Sec {#sec:a}
+
+Masses ([@rice1945]; see [@eq:18] and [@sec:a]) at «sweep.rise.half_height» move *fast*, [here](x.md):
+
+$$
+p_{\mathrm{crit}} = \left(\frac{1 + \sqrt{N+1}}{«sweep.rise.half_height | significant(digits=3)»}\right)^2 \tag{18}
+$$
+
+| Check | Ours |
+|:--|--:|
+<% for c in [1, 2] %>| «c» | «sweep.rise.half_height | percent» |
+<% endfor %>
+[@bibliography]
+"#;
+
+/// What is put in anywhere: signs that mean something to one of the readers, numbers, and what can be nested.
+const SIGNS: &str = "{~}~[~]~(~)~\"~\\~,~=~\n\n~\r~\0~#~$~$$~```~*~|~> ~- ~«~»~«(~<% if true %>~<!--~[@~![~\
+                     {\"a\":~\\sqrt{~\u{e000}~\u{2028}~NaN~-1e309~99999999999999999999~5e-324";
+
+type Reader = fn(&str) -> Result<(), String>;
+
+fn damaged(name: &str, index: u64, good: &str) -> String {
+    let mut random = generator(name, 1, index);
+    let signs: Vec<&str> = SIGNS.split('~').collect();
+    let mut bytes = good.as_bytes().to_vec();
+    for _ in 0..random.random_range(1..4) {
+        let at = random.random_range(0..=bytes.len());
+        let end = (at + random.random_range(0..40)).min(bytes.len());
+        match random.random_range(0..5) {
+            0 if at < bytes.len() => bytes[at] ^= 1 << random.random_range(0..8),
+            1 => drop(bytes.drain(at..end)),
+            2 if random.random_bool(0.2) => bytes.truncate(at),
+            3 => drop(bytes.splice(at..at, bytes[at..end].to_vec())),
+            _ => {
+                let times = if random.random_bool(0.1) { 1000 } else { 1 };
+                let sign = signs[random.random_range(0..signs.len())];
+                drop(bytes.splice(at..at, sign.repeat(times).bytes()));
+            }
+        }
+    }
+    String::from_utf8_lossy(&bytes).into_owned()
+}
+
+/// Gives a reader the valid text and so many damaged ones.
+fn survives(name: &str, good: String, count: u64, read: Reader) {
+    assert_eq!(read(&good), Ok(()), "{name}");
+    let texts: Vec<String> = (0..count).map(|index| damaged(name, index, &good)).collect();
+    let (tell, told) = channel();
+    let given = texts.clone();
+    std::thread::spawn(move || given.iter().all(|text| tell.send(read(text)).is_ok()));
+    for text in texts {
+        let told = told.recv_timeout(Duration::from_secs(60));
+        let line = told.unwrap_or_else(|_| panic!("{name} panics or hangs: {text}"));
+        let line = line.err().unwrap_or_default();
+        assert!(!line.contains(char::is_control) && line.len() <= 2000, "{name}: {line}: {text}");
+    }
+}
+
+static LIBRARY: LazyLock<Library> =
+    LazyLock::new(|| Library::read(include_str!("../../templates/references.bib")).unwrap());
+
+/// What documents make of a text.
+fn prose(text: &str) -> Result<(), Error> {
+    let (values, templates) = (&QUICK.values, Templates::of([("report.md", text)]));
+    let filled = Filler::new(&templates, values, PROGRAM)?.fill("report.md")?;
+    let (mut blocks, _) = parse::parse(&Filled::plain("report.md", &filled), values, PROGRAM)?;
+    let (here, mut labels) = (Document::REPORT, Labels::default());
+    labels.number_all(&mut blocks, here)?;
+    labels.resolve(&mut blocks, here, &LIBRARY)?;
+    markdown::write(&blocks);
+    latex::write(&blocks).map(drop)
+}
+
+fn line<T>(read: Result<T, impl std::fmt::Display>) -> Result<(), String> {
+    read.map(drop).map_err(|error| error.to_string())
+}
+
+#[test]
+fn no_reader_panics_or_hangs() {
+    survives("prose", PROSE.into(), 500, |text| line(prose(text)));
+    let file = |path: &str| fs::read_to_string(path).unwrap();
+    let of = |path: &str, count, read: Reader| survives(path, file(path), count, read);
+    of("templates/published.toml", 500, |text| line(Published::parse(text)));
+    of("templates/references.bib", 50, |text| line(Library::read(text)));
+    of("paper/values.json", 100, |text| line(compare::read(text)));
+    of("paper/ledger.json", 100, |text| line(ledger::read(text)));
+    of("paper/SHA256SUMS", 1000, |text| line(sums::read(text)));
+    let scenario = |text: &str| line(Scenario::from_json(text).and_then(|own| own.validate()));
+    survives("scenario", SCENARIO.into(), 2000, scenario);
+    // Saved results with a checksum that fits, as no accident makes it.
+    let identity = Identity::new("test", code("src/experiments/rise.rs"), &[1.5, 0.25]);
+    let saved = serde_json::to_string(&identity).unwrap() + "\n[[\"row\",0.5],[\"\",null]]\n";
+    survives("saved", saved, 1000, |text| {
+        let whole = format!("{}\n{text}", sha256(text));
+        let (_, body) = store::parsed(&whole).map_err(|reasons| told(&reasons))?;
+        line(serde_json::from_str::<Vec<(String, Option<f64>)>>(body))
+    });
+}
