@@ -6,7 +6,6 @@ use std::fs;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
 
 /// Refuses `text` as a scenario with one line that has all of `words`.
 fn refused(text: impl AsRef<[u8]>, words: &[&str]) {
@@ -302,9 +301,7 @@ fn options_out_of_range() {
         let option = group.find('=').filter(|_| group != arguments).map_or(0, |at| at + 1);
         for value in group[option..].split('|') {
             let value = format!("{}{value}", &group[..option]);
-            let began = Instant::now();
             crate::refused(here, &arguments.replace(group, &value), &words);
-            assert!(began.elapsed() < Duration::from_secs(20), "{arguments}");
             count += 1;
         }
     }

@@ -93,7 +93,7 @@ fn every_form_has_every_claim_at_its_line() {
     );
     // One that cannot grow keeps what it had.
     let line = format!(
-        "ulimit -f 8; exec \"$0\" check --profile quick --results r --templates {TEMPLATES} --format github"
+        "ulimit -f 8; exec \"$0\" check --profile quick --results r --templates '{TEMPLATES}' --format github"
     );
     let mut limited = Command::new("bash");
     limited.args(["-c", &line, PROGRAM]).env("GITHUB_STEP_SUMMARY", &summary);

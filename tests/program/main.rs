@@ -23,7 +23,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
-use std::sync::{LazyLock, RwLock};
+use std::sync::LazyLock;
 use std::time::{Duration, Instant};
 
 /// The program.
@@ -38,13 +38,12 @@ const EXPERIMENTS: usize = 25;
 /// A chain of three masses.
 const SCENARIO: &str = r#"{"forcing":[[0.9,-0.4],[-0.7,0.8],[0.3,0.9]]}"#;
 
-/// Written by a test that measures a time: no other runs the program meanwhile.
-static ALONE: RwLock<()> = RwLock::new(());
-
-/// The program in a folder, with arguments between which a blank stands.
+/// The program in a folder, with arguments between which a blank stands; the path of the templates may have blanks too.
 fn program(folder: &Path, arguments: &str) -> Command {
     let mut command = Command::new(PROGRAM);
-    command.current_dir(folder).args(arguments.split(' '));
+    let arguments = arguments.replace(TEMPLATES, "\u{1}");
+    let words = arguments.split(' ').map(|word| word.replace('\u{1}', TEMPLATES));
+    command.current_dir(folder).args(words);
     command
 }
 
@@ -56,7 +55,6 @@ fn told(output: &Output) -> (i32, String, String) {
 
 /// The same of a command.
 fn outcome(command: &mut Command) -> (i32, String, String) {
-    let _others = ALONE.read().unwrap();
     told(&command.output().unwrap())
 }
 
@@ -92,25 +90,22 @@ fn refused(folder: &Path, arguments: &str, words: &[&str]) {
     }
 }
 
-/// Starts a command, sends it a signal a while after, and holds it to the code 130 and a time to end; its
-/// stdout, and its stderr if that is piped.
-fn ended(command: &mut Command, signal: &str, within: Duration) -> [String; 2] {
-    let alone = ALONE.write().unwrap();
+/// Starts a command, sends it a signal when it is at work, and holds it to the exit code 130: its stdout, and its stderr
+/// if that is piped. What does not end within a minute is killed, and fails.
+fn ended(command: &mut Command, signal: &str) -> [String; 2] {
     let mut child = command.stdout(Stdio::piped()).spawn().unwrap();
     std::thread::sleep(Duration::from_secs(1));
     let early = child.try_wait().unwrap();
-    let asked = Instant::now();
     let kill = Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap();
-    while child.try_wait().unwrap().is_none() && asked.elapsed() < Duration::from_secs(20) {
+    let asked = Instant::now();
+    while child.try_wait().unwrap().is_none() && asked.elapsed() < Duration::from_secs(60) {
         std::thread::sleep(Duration::from_millis(10));
     }
-    let took = asked.elapsed();
     let _ = child.kill();
     let output = child.wait_with_output().unwrap();
-    drop(alone);
     assert!(early.is_none() && kill.success(), "it must still be running: {early:?}");
     let (code, out, note) = told(&output);
-    assert!(code == 130 && took < within, "{code} after {took:?}: {out}{note}");
+    assert_eq!(code, 130, "{out}{note}");
     [out, note]
 }
 

@@ -3,7 +3,6 @@
 use crate::{EXPERIMENTS, QUICK, TEMPLATES, answer, ended, files, program, tree};
 use std::path::Path;
 use std::process::{Command, Stdio};
-use std::time::Duration;
 
 /// The program in a folder of its own, with the templates of the project.
 pub fn run(folder: &Path, arguments: &str) -> (i32, String, String) {
@@ -128,7 +127,7 @@ fn ctrl_c_leaves_nothing_half_written() {
     let folder = tempfile::tempdir().unwrap();
     let paper = "paper --figure 3 --out paper --results r --threads 2 --templates";
     let mut command = program(folder.path(), &format!("{paper} {TEMPLATES}"));
-    ended(command.stderr(Stdio::null()), "-TERM", Duration::from_secs(10));
+    ended(command.stderr(Stdio::null()), "-TERM");
     assert!(!folder.path().join("paper").exists());
     assert_eq!(tree(&folder.path().join("r")).len(), 0);
 }

@@ -217,13 +217,13 @@ fn a_read_only_folder_is_read() {
     let root = Command::new("id").arg("-u").output().unwrap().stdout == b"0\n";
     let nobody = if root { "setpriv --reuid=65534 --regid=65534 --clear-groups" } else { "env" };
     let as_reader = || {
-        let paper = PAPER.replace("report", "open/report");
+        let paper = PAPER.replace("report", "open/report").replace(TEMPLATES, "templates");
         let line = format!("exec {nobody} ./program {paper}");
         outcome(Command::new("bash").args(["-c", &line]).current_dir(folder))
     };
-    // What the program reads when it runs, for one that lies in no checkout.
+    // What the program reads when it runs: the checkout may lie where nobody else may go.
     let benches = concat!(env!("CARGO_MANIFEST_DIR"), "/benches");
-    let status = Command::new("cp").args(["-r", benches, "."]).current_dir(folder).status();
+    let status = Command::new("cp").args(["-r", benches, TEMPLATES, "."]).current_dir(folder).status();
     assert!(status.unwrap().success());
     fs::create_dir(folder.join("open")).unwrap();
     set(&folder.join("open"), 0o777);
