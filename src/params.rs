@@ -7,7 +7,6 @@ mod accuracy;
 mod bias;
 mod chains;
 mod chosen;
-mod heat;
 mod history;
 mod independence;
 mod nucleation;
@@ -21,7 +20,6 @@ pub use accuracy::{AnalyticParams, MethodName, RaceParams, ScaleParams, Setting,
 pub use bias::BiasParams;
 pub use chains::{ChainCurve, ChainKind, ChainsParams};
 pub use chosen::*;
-pub use heat::{HeatParams, HeatRow};
 pub use history::HistoryParams;
 pub use impact_chain::{Boundary, Chain, Start};
 pub use impact_numerics::estimates::LEVEL;

@@ -110,19 +110,10 @@ impl<'a> Running<'a> {
 
     /// Goes on until a time; false where the engine gave up.
     pub fn go(&mut self, until: f64, mut see: impl FnMut(Impact)) -> Result<bool, Error> {
-        self.go_while(until, |impact| {
+        let ended = self.engine.run(until, |impact| {
             see(impact);
-            true
-        })
-    }
-
-    /// The same, and not on after an impact of which that is said.
-    pub fn go_while(
-        &mut self,
-        until: f64,
-        mut on: impl FnMut(Impact) -> bool,
-    ) -> Result<bool, Error> {
-        let ended = self.engine.run(until, |impact| on(impact) && !self.progress.stopped());
+            !self.progress.stopped()
+        });
         self.progress.check()?;
         match ended {
             Ok(()) => Ok(true),

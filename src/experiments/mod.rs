@@ -4,9 +4,7 @@
 
 pub mod accuracy;
 pub mod chains;
-pub mod closed;
 pub mod ensembles;
-pub mod heat;
 pub mod history;
 pub mod horizon;
 pub mod identities;
@@ -23,7 +21,6 @@ pub mod rise;
 pub mod run;
 pub mod seeds;
 pub mod segments;
-pub mod silence;
 pub mod spacetime;
 pub mod starts;
 pub mod starts_tables;
@@ -45,10 +42,9 @@ pub use results::{Looked, Results};
 pub use run::run;
 
 use crate::params::{
-    AnalyticParams, BiasParams, ChainsParams, HeatParams, HistoryParams, HorizonParams,
-    IndependenceParams, NucleationParams, Profile, ProtocolParams, RaceParams, RestitutionParams,
-    ScaleParams, SeedsParams, SpaceTimeParams, StartsParams, SweepParams, TrialParams,
-    TwoMassesParams,
+    AnalyticParams, BiasParams, ChainsParams, HistoryParams, HorizonParams, IndependenceParams,
+    NucleationParams, Profile, ProtocolParams, RaceParams, RestitutionParams, ScaleParams,
+    SeedsParams, SpaceTimeParams, StartsParams, SweepParams, TrialParams, TwoMassesParams,
 };
 use crate::table::Table;
 use accuracy::{analytic, bias, race, scale, tables, trials};
@@ -58,7 +54,7 @@ use literate::experiments::deep::Deep;
 use literate::experiments::experiment::How::{Cut, Read, Whole};
 
 /// All experiments, in the order in which they run.
-pub const ALL: [Need; 27] = [
+pub const ALL: &[Need] = &[
     &SEGMENTS,
     &MEASURED,
     &SWEEP,
@@ -73,18 +69,14 @@ pub const ALL: [Need; 27] = [
     &TRIALS,
     &SCALE,
     &ANALYTIC,
-    &HEAT,
     &NUCLEATION,
     &SEEDS,
     &HISTORY,
-    &LONG_HISTORY,
-    &SILENCE,
     &INDEPENDENCE,
     &RESTITUTION,
     &CHAINS,
     &LONG_PROTOCOL,
     &SIZES,
-    &CLOSED,
     &REPLAY,
 ];
 
@@ -246,15 +238,6 @@ pub const ANALYTIC: Experiment<AnalyticParams, analytic::Analytic> = Experiment 
     tables: tables::analytic,
 };
 
-/// How hot running chains are.
-pub const HEAT: Deep<HeatParams, heat::Heat, Vec<Option<heat::Run>>> = Deep::new(
-    ("heat", "heat ([@sec:heat])"),
-    code("src/experiments/heat/mod.rs"),
-    HeatParams::new,
-    ("heat", cutting()),
-    heat::tables::tables,
-);
-
 /// First impacts of chains from rest.
 pub const NUCLEATION: Experiment<NucleationParams, nucleation::Nucleation, Vec<nucleation::First>> =
     Experiment {
@@ -282,26 +265,6 @@ pub const HISTORY: Experiment<HistoryParams, history::History, Vec<history::Coun
     how: Cut("history", cutting()),
     tables: history::tables::tables,
 };
-
-/// Long chains that are heated first.
-pub const LONG_HISTORY: Experiment<HistoryParams, history::History, Vec<history::Counts>> =
-    Experiment {
-        name: "long_history",
-        code: code("src/experiments/history/mod.rs"),
-        parameters: HistoryParams::long,
-        how: Cut("long history", cutting()),
-        tables: history::tables::of_long,
-    };
-
-/// Chains that were hit, and when they are hit again.
-pub const SILENCE: Experiment<silence::SilenceParams, silence::Silence, Vec<Option<silence::Run>>> =
-    Experiment {
-        name: "silence",
-        code: code("src/experiments/silence.rs"),
-        parameters: silence::SilenceParams::new,
-        how: Cut("silence", cutting()),
-        tables: silence::tables,
-    };
 
 /// Whether impacts are independent.
 pub const INDEPENDENCE: Deep<
@@ -362,15 +325,6 @@ pub const SIZES: Deep<ChainsParams, chains::Chains, chains::Part> = Deep {
         chains::tables::sizes,
     )
 };
-
-/// The closed theory beside chains under the same forces.
-pub const CLOSED: Deep<closed::ClosedParams, closed::Closed, Vec<closed::Counts>> = Deep::new(
-    ("closed", "the closed theory and its chains ([@tab:closed])"),
-    code("src/experiments/closed.rs"),
-    closed::ClosedParams::new,
-    ("closed theory", cutting()),
-    closed::tables,
-);
 
 /// Runs that a page repeats.
 pub const REPLAY: Experiment<replay::Runs, replay::Replays> = Experiment {

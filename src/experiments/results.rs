@@ -117,6 +117,6 @@ mod tests {
     fn what_was_not_run_is_an_error() {
         let results = Results::empty(Profile::Quick);
         assert!(matches!(results.of(&SWEEP), Err(Error::NotRun("sweep"))));
-        assert!(matches!(results.table("heat.rising"), Err(Error::NotRun("heat"))));
+        assert!(matches!(results.table("sweep.rows"), Err(Error::NotRun("sweep"))));
     }
 }

@@ -27,7 +27,6 @@ mod s04;
 mod s05;
 mod s06;
 mod s07;
-mod s08;
 mod s09;
 mod s10;
 mod s11;
@@ -40,8 +39,8 @@ pub use literate::figures::*;
 pub use number::Number;
 
 use crate::experiments::{
-    ANALYTIC, CHAINS, CLOSED, HEAT, INDEPENDENCE, LONG_PROTOCOL, MEASURED, NUCLEATION, PROTOCOL,
-    RACE, RESTITUTION, SCALE, SEEDS, SEGMENTS, SIZES, SPACE_TIME, SWEEP,
+    ANALYTIC, CHAINS, INDEPENDENCE, LONG_PROTOCOL, MEASURED, NUCLEATION, PROTOCOL, RACE,
+    RESTITUTION, SCALE, SEEDS, SEGMENTS, SIZES, SPACE_TIME, SWEEP,
 };
 use crate::experiments::{Need, Results};
 use crate::params::{Profile, set};
@@ -90,15 +89,14 @@ const PAPER: [Listed; 15] = [
 ];
 
 /// Figures of this edition.
-const OWN: [Listed; 14] = [
+const OWN: [Listed; 13] = [
     figure(&[&PROTOCOL, &LONG_PROTOCOL], !THEORY, s01::draw),
     figure(&[&SPACE_TIME], !THEORY, |all| s02::draw(all.of(&SPACE_TIME)?)),
     figure(&[&NUCLEATION, &SWEEP], !THEORY, s03::draw),
-    figure(&[&SEEDS, &SWEEP, &PROTOCOL, &CLOSED], !THEORY, s04::draw),
+    figure(&[&SEEDS, &SWEEP, &PROTOCOL], !THEORY, s04::draw),
     figure(&[&CHAINS, &SIZES, &PROTOCOL], !THEORY, s05::draw),
     figure(&[], THEORY, |all| s06::draw(&all.theory.large)),
     figure(&[], THEORY, |all| s07::draw(&all.theory)),
-    figure(&[&HEAT], !THEORY, s08::draw),
     figure(&[&INDEPENDENCE], !THEORY, s09::draw),
     figure(&[&RESTITUTION], !THEORY, s10::draw),
     figure(&[&RACE], !THEORY, |all| s11::draw(all.of(&RACE)?)),

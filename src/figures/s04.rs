@@ -31,40 +31,25 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         (table("seeds.advance")?, table("seeds.waits")?, table("seeds.fronts")?);
     let sheet = Sheet::new(13050);
     let theory = table("seeds.theory")?;
-    counts(&sheet, means, &[theory, table("closed.counts")?], results.of(&SWEEP)?)?;
+    counts(&sheet, means, theory, results.of(&SWEEP)?)?;
     advances(&sheet, advance)?;
     halves(&sheet, rise, scores)?;
     standing(&sheet, waits, fronts, results.of(&SEEDS)?.parameters.tick)?;
     Ok(sheet.finish("s04", "From one gap to many: nucleation and growth", description(waits)))
 }
 
-fn counts(
-    sheet: &Sheet,
-    means: &Table,
-    [theory, closed]: &[&Table; 2],
-    sweep: &Sweep,
-) -> Result<(), Error> {
+fn counts(sheet: &Sheet, means: &Table, theory: &Table, sweep: &Sweep) -> Result<(), Error> {
     let x = Axis::linear(SIGMAS.0, SIGMAS.1, 0.01, 2, FORCING);
     let y = count_axis(sweep.parameters.chain.gaps(), "mean count of all");
     let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 8150, 3730), x, y)?;
     let transient = [("transient", sweep.parameters.protocol.transient)];
     let lines = [
-        ("closed theory", "expected", Stroke::dashed(ORANGE, LINE, Dash::Alternate)),
         ("circuits, Eq. (25)", "eq25", Stroke::dashed(BLUE, LINE, Dash::Short)),
         ("circuits, from rest", "from_rest", Stroke::dashed(PURPLE, LINE, Dash::Long)),
     ];
     let mut entries = Vec::new();
     for (name, column, stroke) in lines {
-        if column == "expected" {
-            let paper = &sweep.parameters.chain;
-            let own = [("r", paper.restitution), ("masses", paper.masses as f64), transient[0]];
-            let expected = closed.estimates(&own, "sigma", column);
-            let points: Vec<_> = expected.iter().map(|(x, own)| (*x, own.value)).collect();
-            panel.quiet().curve(name, &points, stroke, Outside::Refuse)?;
-            panel.record(name, expected);
-        } else {
-            panel.curve(name, &theory.points(&[], "sigma", column), stroke, Outside::Refuse)?;
-        }
+        panel.curve(name, &theory.points(&[], "sigma", column), stroke, Outside::Refuse)?;
         entries.push(Entry::line(stroke, name));
     }
     panel.joined(GROWN.0, &means.estimates(&transient, "sigma", "grown"), GROWN.1)?;
@@ -151,7 +136,7 @@ fn standing(sheet: &Sheet, waits: &Table, fronts: &Table, tick: f64) -> Result<(
 
 fn description(waits: &Table) -> String {
     format!(
-        "(a) Mean count of all against σ: simulated points along nucleation and growth and the closed theory; circuits steeper. (b) Advance \
+        "(a) Mean count of all against σ: simulated points along nucleation and growth; circuits steeper. (b) Advance \
          against time: slower than ∝ t, the more so the smaller σ. (c) Half height falls with T. (d) Share of longer waits: first \
          below a constant rate, then above it, from σ = {} down.",
         waits.values("sigma").first().copied().unwrap_or_default(),

@@ -1,12 +1,10 @@
-//! Fig. S10: the rise and the heat at several restitutions.
+//! Fig. S10: the rise and the rate of impacts at several restitutions.
 
 use super::FORCING;
 use super::prelude::*;
 use super::simulated::count_axis;
 use crate::experiments::restitution::Restitution;
-use crate::experiments::restitution::hot::steady;
 use crate::experiments::{RESTITUTION, Results};
-use crate::params::Chain;
 use crate::table::Table;
 
 /// Restitutions of (a), and their looks.
@@ -18,10 +16,7 @@ const RISES: [(f64, Mark, Colour); 5] = [
     (0.95, Mark::Disc, BLUE),
 ];
 
-/// The σ of (c), and their looks.
-const WARM: [(f64, Mark, Colour); 2] = [(0.15, Mark::Disc, RED), (0.3, Mark::OpenSquare, BLUE)];
-
-/// Looks of the r of (d), the last one first.
+/// Looks of the r of (c), the last one first.
 const LOOKS: [(Mark, Colour); 4] = [
     (Mark::Disc, RED),
     (Mark::OpenSquare, ORANGE),
@@ -45,12 +40,11 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         curves: table("restitution.curves")?,
         heating: table("restitution.heating")?,
     };
-    let sheet = Sheet::new(12_850);
+    let sheet = Sheet::new(12_120);
     rises(&sheet, &shown)?;
     places(&sheet, &shown)?;
-    warmth(&sheet, &shown)?;
     heating(&sheet, &shown)?;
-    let title = "The rise and the heat at several restitutions";
+    let title = "The rise and the rate of impacts at several restitutions";
     Ok(sheet.finish("s10", title, description(&shown)))
 }
 
@@ -84,58 +78,15 @@ fn places(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
     let x = Axis::linear(0.0, 1.0, 0.2, 2, "restitution *r*");
     let y =
         Axis::linear(0.0, 0.35, 0.1, 4, "*σ*_{1/2} (*d ω*^{2})").column("half_height (d omega^2)");
-    let panel = sheet.lettered("(b)", Frame::new(1150, 4700, 4150, 7200), x, y)?;
+    let panel = sheet.lettered("(b)", Frame::new(1150, 4700, 8150, 7200), x, y)?;
     let points = shown.curves.estimates(&[], "r", "half_height");
     panel.joined("half height", &points, (Mark::Disc, MEDIUM, Stroke::solid(RED, THIN)))
-}
-
-/// s²/σ² of the balance with little loss at one σ.
-fn little_loss(found: &Restitution, sigma: f64, lost: f64) -> f64 {
-    let chain = Chain { restitution: 1.0 - lost, ..found.parameters.chain.clone() };
-    steady(&chain, sigma)
-}
-
-fn warmth(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
-    let (x, y) = (Axis::decades(-3, 0, 1, "1 − *r*"), Axis::decades(0, 3, 1, "*s*^{2}/*σ*^{2}"));
-    let panel = sheet.lettered("(c)", Frame::new(5350, 4700, 8150, 7200), x, y)?;
-    let losses = || (0..=60).map(|i| pxfm::f_exp10(-3.0 + 0.05 * f64::from(i)));
-    let rare = |lost: f64| (lost, 2.0 * (2.0 - lost) / lost);
-    let solid = Stroke::solid(INK, LINE);
-    panel.curve("rare impacts", &losses().map(rare).collect::<Vec<_>>(), solid, Outside::Cut)?;
-    let until = shown.heating.values("window_end").last().copied().unwrap_or_default();
-    let mut marks = Vec::new();
-    for (sigma, mark, colour) in WARM {
-        let mut points = shown.rise.estimates(&[("sigma", sigma)], "r", "variance_ratio");
-        if sigma == shown.found.parameters.heated_sigma {
-            points.extend(shown.heating.estimates(&[("window_end", until)], "r", "variance_ratio"));
-        }
-        points.retain(|(r, _)| *r < 1.0);
-        points.iter_mut().for_each(|(r, _)| *r = 1.0 - *r);
-        let (name, look) = (format!("*σ* = {sigma}"), (mark, MEDIUM, Stroke::solid(colour, THIN)));
-        panel.estimates(&name, &points, look)?;
-        marks.push(Entry::mark(look, &name));
-        // The law is for hot chains, and drawn where little is lost.
-        let curve: Vec<_> = losses()
-            .filter(|lost| *lost <= 0.1)
-            .map(|lost| (lost, little_loss(shown.found, sigma, lost)))
-            .collect();
-        panel.curve(&format!("little loss, {name}"), &curve, little(colour), Outside::Cut)?;
-    }
-    let mut entries =
-        vec![Entry::line(solid, "rare impacts"), Entry::line(little(INK), "little loss")];
-    entries.extend(marks);
-    sheet.legend_in_columns((4850, 8150), (SMALL, 340), (2, 1950), &entries)
-}
-
-/// The line of the law for little loss.
-fn little(colour: Colour) -> Stroke {
-    Stroke::dashed(colour, THIN, Dash::Long)
 }
 
 fn heating(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
     let x = Axis::decades(1, 4, 1, "time *t* (1/*ω*)").from(20.0, 2000.0).finely();
     let y = Axis::decades(1, 3, 1, "impacts per unit time").from(20.0, 500.0).finely();
-    let panel = sheet.lettered("(d)", Frame::new(1150, 9400, 8150, 11_900), x, y)?;
+    let panel = sheet.lettered("(c)", Frame::new(1150, 8670, 8150, 11_170), x, y)?;
     // A window stands at its middle on the logarithmic axis; the first has none.
     let ends = shown.heating.values("window_end");
     let middle = |end: f64| {
@@ -157,7 +108,7 @@ fn heating(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
         entries.push(Entry::mark(look, &named(r)));
     }
     entries.insert(0, Entry::line(solid, "expected at *r* = 1"));
-    sheet.legend_in_columns((1400, 9650), (SMALL, 340), (3, 2700), &entries)
+    sheet.legend_in_columns((1400, 8920), (SMALL, 340), (3, 2700), &entries)
 }
 
 fn description(shown: &Shown<'_>) -> String {
@@ -166,8 +117,8 @@ fn description(shown: &Shown<'_>) -> String {
         at.map_or("none".into(), |(r, own)| format!("{} at r = {r}", short(*own, 3)))
     };
     format!(
-        "(a) Mean count against σ: the smaller r, the later it rises. (b) Half height, from {} to {}. (c) s²/σ² against 1 − r, below the \
-         line of rare impacts. (d) Impacts per time in windows that double: level, but for r = 1.",
+        "(a) Mean count against σ: the smaller r, the later it rises. (b) Half height, from {} to {}. (c) Impacts per \
+         time in windows that double: level, but for r = 1.",
         end(halves.first()),
         end(halves.last()),
     )

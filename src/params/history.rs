@@ -1,6 +1,6 @@
 //! Chains that are heated first: sizes of the experiment.
 
-use super::{Chain, Grid, Profile, SEED, set};
+use super::{Chain, Grid, Profile, set};
 use serde::{Deserialize, Serialize};
 
 /// Chains that run under a large force, which is then lowered.
@@ -44,24 +44,6 @@ impl HistoryParams {
             realisations,
             stream: "history".into(),
             seed: set::seed(),
-        }
-    }
-
-    /// Long chains, beside those of Table `sizes.places`.
-    pub fn long(profile: Profile) -> Self {
-        let (masses, last, realisations) = match profile {
-            Profile::Full | Profile::Deep => (10_000, 5000.0, 3),
-            Profile::Ci => (1000, 1000.0, 3),
-            Profile::Quick => (300, 1000.0, 2),
-        };
-        HistoryParams {
-            chain: Chain { masses, ..Chain::default() },
-            sigmas: Grid::default().and(65, 95, 10, 1000).values(),
-            transients: vec![500.0, last],
-            realisations,
-            stream: "long history".into(),
-            seed: SEED,
-            ..Self::new(profile)
         }
     }
 }

@@ -259,7 +259,6 @@ eval p-of-sigma --sigma 0.1 --spacing 1e400|1e-400 => spacing:; would be read as
 eval p-of-sigma --sigma 0.1 --spacing x => spacing: `x`
 eval p-crit --vertices 0|100000001|99999999999999999999999 => vertices; give
 eval p-crit --masses 0|100000001|99999999999999999999999 => masses; give
-eval mean-count --sigma 0.2 --masses 0|10001 => masses; give 1 to 10000
 eval p-crit --vertices -1|1.5|1e3|abc|nan => vertices:; whole number
 eval p-crit --masses -1|1.5|1e3|abc|nan => masses:; whole number
 eval p-jump --masses 100 --vertices 101 => masses; vertices; one of them

@@ -19,7 +19,7 @@ fn one_document_is_compared_verified_and_explained() {
     edit("figures/s01.svg", "<svg", "<svg ");
     edit("beyond.md", "Nucleation", "nucleation");
     let values = fs::read_to_string(here.join("paper/values.json")).unwrap();
-    let at = values.find("\"heat.all.balance\": {").unwrap();
+    let at = values.find("\"restitution.all.shift\": {").unwrap();
     let (before, after) = values.split_at(at);
     let after = after.replacen("\"value\": ", "\"value\": 1", 1);
     fs::write(here.join("paper/values.json"), format!("{before}{after}")).unwrap();
@@ -32,15 +32,18 @@ fn one_document_is_compared_verified_and_explained() {
     let diff = |document: &str| answer(here, &format!("diff old paper --document {document}"));
     assert_eq!(diff("edition"), "old and paper: nothing differs\n");
     let told = diff("beyond");
-    for part in ["1 number changed\n", "heat.all.balance: ", "differs beyond.md", "s01.svg"] {
+    for part in ["1 number changed\n", "restitution.all.shift: ", "differs beyond.md", "s01.svg"] {
         assert!(told.contains(part), "{part}: {told}");
     }
     assert!(!told.contains("SHA256SUMS") && !told.contains("values.json"), "{told}");
 
     let edition = answer(here, "explain --document edition");
     assert!(edition.contains("\nfig:3 ") && edition.contains("claim:sec7_jump"), "{edition}");
-    assert!(!edition.contains("heat.all.balance") && !edition.contains("fig:s1 "), "{edition}");
-    refused(here, "explain --document edition heat.all.balance", &["there is no"]);
+    assert!(
+        !edition.contains("restitution.all.shift") && !edition.contains("fig:s1 "),
+        "{edition}"
+    );
+    refused(here, "explain --document edition restitution.all.shift", &["there is no"]);
     refused(here, "verify --document report", &["--document <NAME>", "edition"]);
     edit("ledger.json", "\"beyond\": {", "\"behind\": {");
     for verb in ["verify", "explain", "diff old paper"] {

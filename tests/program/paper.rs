@@ -202,10 +202,8 @@ fn another_parameter_makes_another_report_that_says_so() {
     ] {
         refused(here, &format!("{quiet} {more} --out o"), &["values.json", remedy]);
     }
-    for more in ["", " --figure s8"] {
-        let low = format!("{quiet} quick --out n --set masses=40 --set restitution=0.9{more}");
-        refused(here, &low, &["its frame; with these", "nearer to the paper's", "--figure"]);
-    }
+    let low = format!("{quiet} quick --out n --set masses=40 --set restitution=0.9");
+    refused(here, &low, &["its frame; with these", "nearer to the paper's", "--figure"]);
 }
 
 /// Pages and completions go where nothing else is; --quiet hides progress and no error.

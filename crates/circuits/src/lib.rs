@@ -6,8 +6,6 @@
 //! - [`distribution`]: the number X of different impacts, Eqs. (9) and (10) (Figs. 8 and 9).
 //! - [`jump`]: why its most likely value jumps, Eqs. (11) to (18) (Fig. 10).
 //! - [`impact_probability`]: the relation of p and σ, Eqs. (20) to (25) (Fig. 11).
-//! - [`balance`]: how hot a running chain is (ours).
-//! - [`closed`]: the same, and the mean count of gaps with impacts, with nothing measured (ours).
 //! - [`higher_order`]: circuits that repeat vertices, Eqs. (26) to (38) (Figs. 13 to 15).
 //! - [`commuting`]: orders of impacts that no mass notices (ours).
 //! - [`large`]: Eq. (10) and its jump for many vertices (ours).
@@ -26,8 +24,6 @@
 //! # Ok::<(), impact_circuits::Error>(())
 //! ```
 
-pub mod balance;
-pub mod closed;
 pub mod commuting;
 pub mod counting;
 pub mod distribution;

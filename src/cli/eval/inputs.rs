@@ -5,7 +5,7 @@ use super::quantity::Quantity;
 use crate::cli::sigmas::LARGEST;
 use crate::cli::{Failure, number};
 use impact_paper::circuits::LARGEST_N;
-use impact_paper::params::{Chain, Protocol, VERTICES};
+use impact_paper::params::{Chain, VERTICES};
 use serde::Serialize;
 
 /// What a quantity may depend on.
@@ -21,8 +21,6 @@ pub enum Need {
     Sigma,
     /// ω, Ω and d, with defaults.
     Oscillator,
-    /// n, r, T and W of a simulation, with defaults.
-    Protocol,
 }
 
 impl Need {
@@ -34,7 +32,6 @@ impl Need {
             Need::K => "--k",
             Need::Sigma => "--sigma",
             Need::Oscillator => "[ω Ω d]",
-            Need::Protocol => "[n r T W]",
         }
     }
 }
@@ -58,12 +55,6 @@ pub struct Inputs {
     pub forcing_frequency: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spacing: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub restitution: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub transient: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub window: Option<f64>,
 }
 
 impl Inputs {
@@ -99,21 +90,6 @@ impl Inputs {
             Some(text) => number(field, text).map(Some),
             None => Ok(Some(default)),
         };
-        if needs(Need::Protocol) {
-            let masses =
-                options.masses.as_ref().map_or(Ok(chain.masses), |text| whole("masses", text))?;
-            // Each takes some tens of microseconds for each of the drawn chains.
-            inputs.masses =
-                Some(bounded("masses", masses as f64, [1.0, 10_000.0]).map(|_| masses)?);
-            inputs.restitution = or("restitution", &options.restitution, chain.restitution)?;
-            bounded("restitution", inputs.restitution.unwrap_or(0.0), [0.0, 0.999])?;
-            let protocol = Protocol::default();
-            inputs.transient = or("transient", &options.transient, protocol.transient)?;
-            inputs.window = or("window", &options.window, protocol.window)?;
-            bounded("transient", inputs.transient.unwrap_or(f64::NAN), [0.0, 1e12])?;
-            // A window of no length has no impact in it.
-            bounded("window", inputs.window.unwrap_or(f64::NAN), [1e-3, 1e12])?;
-        }
         if needs(Need::Oscillator) {
             inputs.omega = or("omega", &options.omega, chain.natural_frequency)?;
             inputs.forcing_frequency =
@@ -202,6 +178,7 @@ fn whole(field: &str, text: &str) -> Result<usize, Failure> {
 /// An option without effect is a misunderstanding, so it is an error.
 fn refuse_unused(quantity: &Quantity, options: &Options) -> Result<(), Failure> {
     let given = [
+        ("masses", &options.masses, Need::Vertices),
         ("vertices", &options.vertices, Need::Vertices),
         ("p", &options.p, Need::P),
         ("sigma", &options.sigma, Need::Sigma),
@@ -209,16 +186,9 @@ fn refuse_unused(quantity: &Quantity, options: &Options) -> Result<(), Failure> 
         ("omega", &options.omega, Need::Oscillator),
         ("forcing-frequency", &options.forcing_frequency, Need::Oscillator),
         ("spacing", &options.spacing, Need::Oscillator),
-        ("restitution", &options.restitution, Need::Protocol),
-        ("transient", &options.transient, Need::Protocol),
-        ("window", &options.window, Need::Protocol),
     ];
-    let masses = [Need::Vertices, Need::Protocol].iter().any(|need| quantity.needs.contains(need));
-    let masses = std::iter::once(("masses", &options.masses, masses));
-    let given =
-        given.into_iter().map(|(field, text, need)| (field, text, quantity.needs.contains(&need)));
-    for (field, text, used) in masses.chain(given) {
-        if text.is_some() && !used {
+    for (field, text, need) in given {
+        if text.is_some() && !quantity.needs.contains(&need) {
             let name = quantity.name;
             let problem = format!("{field}: {name} does not depend on it; leave --{field} out");
             return Err(Failure::input(problem));

@@ -5,12 +5,11 @@ mod quantity;
 
 use super::{Failure, stdout};
 use impact_paper::circuits;
-use impact_paper::experiments::alive;
 use inputs::Inputs;
 use quantity::{QUANTITIES, Quantity, Value};
 use serde::Serialize;
 
-/// Evaluates one quantity of the theory (Secs. 3 to 9 and S2), as one JSON object.
+/// Evaluates one quantity of the theory (Secs. 3 to 9), as one JSON object.
 ///
 /// `impact-paper eval p-jump --vertices 100` prints
 /// {"quantity":"p-jump","value":0.01303285872435575,"inputs":{"vertices":100}}.
@@ -64,18 +63,6 @@ struct Options {
     /// Spacing d of the masses at rest, 0.000001 to 1000000 [default: 1].
     #[arg(long, value_name = "d", allow_hyphen_values = true)]
     spacing: Option<String>,
-
-    /// Coefficient of restitution r, 0 to 0.999 [default: 0.8].
-    #[arg(long, value_name = "r", allow_hyphen_values = true)]
-    restitution: Option<String>,
-
-    /// Transient T that is dropped, in 1/ω [default: 500].
-    #[arg(long, value_name = "T", allow_hyphen_values = true)]
-    transient: Option<String>,
-
-    /// Window W in which gaps are counted, in 1/ω [default: 200].
-    #[arg(long, value_name = "W", allow_hyphen_values = true)]
-    window: Option<String>,
 }
 
 /// What `eval` prints, in this order.
@@ -98,7 +85,6 @@ pub fn run(args: Args) -> Result<(), Failure> {
         Failure::input(format!("quantity: `{name}` is unknown; see `impact-paper eval --list`"))
     })?;
     let inputs = Inputs::read(quantity, &args.options)?;
-    let _alive = alive(|| Some(format!("eval {}: at work", quantity.name)));
     let value = (quantity.evaluate)(&inputs).map_err(|error| explain(error, &inputs))?;
     if !value.is_finite() {
         return Err(Failure::run(format!("{name}: the result is not a finite number")));
@@ -137,8 +123,7 @@ fn help() -> String {
     format!(
         "Quantities (name, equation, options, meaning):\n{}\n\nOptions that a quantity does not \
          use are an error. Floats are printed with the fewest digits that read back to the same \
-         double, integers as integers. N is at most {} (a result then takes some seconds), and \
-         the chain of mean-count has 10 000 masses at most (a minute). \
+         double, integers as integers. N is at most {} (a result then takes some seconds). \
          P(X = k) is printed as 0 where it is below the smallest double. With higher orders, k is \
          the number of different vertices, and circuits are primitive (a repetition of a shorter \
          one is not counted).",

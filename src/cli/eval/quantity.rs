@@ -4,8 +4,6 @@ use super::inputs::{Inputs, Need};
 use impact_paper::circuits::distribution::{Law, SampleSpace};
 use impact_paper::circuits::impact_probability::ImpactProbability;
 use impact_paper::circuits::{Error, counting, jump};
-use impact_paper::experiments::closed::mean_count;
-use impact_paper::params::Chain;
 use serde::Serialize;
 
 /// A result: floats keep their decimal point, integers have none.
@@ -116,35 +114,9 @@ pub const QUANTITIES: &[Quantity] = &[
         N_P_K,
         |i| i.law(FiveClasses)?.probability(i.k()).map(Value::Float),
     ),
-    quantity(
-        [
-            "mean-count",
-            "Sec. S2",
-            "gaps with an impact after T, within W, from rest; nothing measured",
-        ],
-        &[Need::Sigma, Need::Protocol],
-        |i| {
-            let times = [i.transient.unwrap_or(f64::NAN), i.window.unwrap_or(f64::NAN)];
-            let sigma = i.sigma.unwrap_or(f64::NAN);
-            Ok(Value::Float(mean_count(&i.chain(), sigma, times, DRAWN)?.value))
-        },
-    ),
 ];
 
-/// Chains that are drawn for a mean count: their number leaves some two gaps open.
-const DRAWN: u64 = 300;
-
 impl Inputs {
-    /// The chain that is asked for, from rest between walls.
-    fn chain(&self) -> Chain {
-        let paper = Chain::default();
-        Chain {
-            masses: self.masses.unwrap_or(paper.masses),
-            restitution: self.restitution.unwrap_or(paper.restitution),
-            ..paper
-        }
-    }
-
     fn law(&self, space: SampleSpace) -> Result<Law, Error> {
         Law::new(space, self.big_n(), self.p.unwrap_or_default())
     }

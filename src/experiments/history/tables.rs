@@ -46,34 +46,27 @@ pub fn tables(history: &History) -> Vec<Table> {
             average(&row.counts())
         })
         .done();
-    let rise = rise("history.rise", history);
     let run = Table::of("history.run", &[parameters], |own| own.realisations)
         .chosen("hot", "d omega^2", "σ of the force at first", |own| Some(own.hot))
         .chosen("heating", "1/omega", "for so long", |own| Some(own.heating))
         .chosen("window", "1/omega", "", |own| Some(own.window))
         .count("realisations", "chains at each σ", |own| own.realisations as u64)
         .done();
-    vec![lowered, rise, run]
+    vec![lowered, rise(history), run]
 }
 
 /// Where the mean of all passes half of all gaps, after each transient.
-fn rise(name: &'static str, history: &History) -> Table {
+fn rise(history: &History) -> Table {
     let parameters = &history.parameters;
     let whole: Vec<usize> = (0..parameters.transients.len()).collect();
-    Table::of(name, &whole, |_| parameters.realisations)
+    Table::of("history.rise", &whole, |_| parameters.realisations)
         .key("transient", "1/omega", |after| parameters.transients[*after])
-        .chosen("masses", "1", "", |_| Some(parameters.chain.masses as f64))
         .estimate("half_height", "d omega^2", "the mean of all passes half of all gaps", |after| {
             let counts: Vec<Vec<f64>> =
                 (0..history.rows.len()).map(|at| row(history, at, *after).counts()).collect();
             half_height(&parameters.sigmas, &counts, 0.5 * parameters.chain.gaps() as f64)
         })
         .done()
-}
-
-/// The same of long chains.
-pub fn of_long(history: &History) -> Vec<Table> {
-    vec![rise("long_history.rise", history)]
 }
 
 /// Chains from rest: counts of the main sweep at each σ, and half heights of the map after each transient.

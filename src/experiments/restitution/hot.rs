@@ -14,26 +14,16 @@ use crate::numerics::quadrature::GaussLegendre;
 use crate::params::Chain;
 use pxfm::{f_cbrt, f_exp};
 
-/// A hot chain without loss, in one window.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hot {
-    /// Impacts per unit of time, in the mean over the window.
-    pub rate: f64,
-    /// s²/σ² at its end, all energy being of motion: ⟨v²⟩/2 over σ².
-    pub ratio: f64,
-}
-
 /// Where exp(−x³) is nothing.
 const FAR: f64 = 3.6;
 
-/// What is expected in the window from `begin` to `end`, at r = 1.
-pub fn hot(chain: &Chain, sigma: f64, begin: f64, end: f64) -> Hot {
-    let (d, omega) = (chain.spacing, chain.natural_frequency);
+/// Impacts per unit of time at r = 1, in the mean over the window from `begin` to `end`.
+pub fn hot(chain: &Chain, sigma: f64, begin: f64, end: f64) -> f64 {
+    let d = chain.spacing;
     let rule = GaussLegendre::new(16);
     let weight = |x: f64| f_exp(-x * x * x);
     let sum = |f: &dyn Fn(f64) -> f64| rule.integrate_panels(0.0, FAR, 8, f);
     let all = sum(&weight);
-    let square = sum(&|x| x * x * weight(x)) / all;
     // The mean distance of two velocities is twice the integral of the share below times the share
     // above, over all velocities; that of the shares of |v| alone gives both signs at once.
     let above = |x: f64| 0.5 * rule.integrate_panels(x, FAR, 8, weight) / all;
@@ -41,16 +31,5 @@ pub fn hot(chain: &Chain, sigma: f64, begin: f64, end: f64) -> Hot {
     // |v| in units of the cube root of 9 A t, whose mean over the window is that of a power.
     let scale = |t: f64| f_cbrt(4.5 * sigma * sigma * d * t);
     let mean = 0.75 * (end * scale(end) - begin * scale(begin)) / (end - begin);
-    let gaps = chain.gaps() as f64;
-    let speed = scale(end) / (sigma * omega);
-    Hot { rate: gaps * 0.5 * distance * mean / d, ratio: 0.5 * square * speed * speed }
-}
-
-/// s²/σ² of a hot chain that loses a little, if velocities are normal with variance u²: the force
-/// gives 2 A f(0) = σ² d/(√(2π) u) to each mass and unit of time, and impacts take (1 − r²) u³/(√π d).
-/// Their balance gives u⁴ = σ² d²/(√2 (1 − r²)), of which half is s².
-pub fn steady(chain: &Chain, sigma: f64) -> f64 {
-    let (d, omega, r) = (chain.spacing, chain.natural_frequency, chain.restitution);
-    let fourth = d * d / (std::f64::consts::SQRT_2 * (1.0 - r * r));
-    0.5 * fourth.sqrt() / (sigma * omega * omega)
+    chain.gaps() as f64 * 0.5 * distance * mean / d
 }

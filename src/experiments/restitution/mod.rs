@@ -1,4 +1,4 @@
-//! What restitution does to a chain: the rise and its heat.
+//! What restitution does to a chain: where it rises, and how many impacts it has per unit of time.
 //!
 //! One kind of run serves both. A curve is run at each σ through a transient and a window; a
 //! chain that is watched while it heats goes through windows of which each is as long as all before.
@@ -24,8 +24,6 @@ pub type Restitution = Ran<RestitutionParams, Option<Run>>;
 pub struct Run {
     /// Impacts in each window.
     pub impacts: Vec<u64>,
-    /// Half the sum of squares of the free amplitudes of all masses, at the end of each window.
-    pub free: Vec<f64>,
     /// Different gaps with an impact in the last window, in which all that follows is counted.
     pub distinct: u64,
     /// Contact phases begun.
@@ -71,10 +69,10 @@ fn chain(parameters: &RestitutionParams, restitution: f64) -> Chain {
 fn weight(parameters: &RestitutionParams, case: &Case) -> u64 {
     let until = case.ends.last().copied().unwrap_or(0.0);
     if case.restitution == 1.0 {
-        return (hot(&parameters.chain, case.sigma, 0.0, until).rate * until) as u64;
+        return (hot(&parameters.chain, case.sigma, 0.0, until) * until) as u64;
     }
     let paper = weights::run(&parameters.chain, case.sigma, until) as f64;
-    // Masses that move faster meet more often: as the heat of the balance, but for its limit.
+    // Masses that lose less move faster and meet more often; the number keeps r = 1 finite.
     let speed = |r: f64| ((1.0 + r) / (1.03 - r)).sqrt();
     // Under strong forces impacts accumulate at small r.
     let soft = (1.0 - case.restitution / 0.15).max(0.0);
@@ -102,9 +100,7 @@ impl Ensembles for RestitutionParams {
 
     fn fits(&self, row: usize, run: &Option<Run>) -> bool {
         let (gaps, windows) = (self.chain.gaps() as u64, cases(self)[row].ends.len());
-        run.as_ref().is_none_or(|run| {
-            [run.impacts.len(), run.free.len()] == [windows; 2] && run.distinct <= gaps
-        })
+        run.as_ref().is_none_or(|run| run.impacts.len() == windows && run.distinct <= gaps)
     }
 }
 

@@ -26,8 +26,6 @@ pub(super) fn realisation(
         let counters = motion.engine.counters();
         run.impacts.push(counters.impacts - before.impacts);
         run.phases = counters.contact_phases - before.contact_phases;
-        let free = motion.engine.free_parts();
-        run.free.push(free.iter().map(|[a, b]| 0.5 * (a * a + b * b)).sum());
         run.distinct = count(&hit);
     }
     Ok(Some(run))

@@ -1,12 +1,11 @@
 //! What follows from the runs.
 
-use super::hot::{hot, steady};
-use super::{Case, Restitution, Run, cases, chain};
-use crate::circuits::balance::variance_ratio;
+use super::hot::hot;
+use super::{Case, Restitution, Run, cases};
 use crate::numerics::estimates::{self, average, half_height, jackknife, ratio};
 use crate::numerics::regression::line;
 use crate::numerics::statistics::Estimate;
-use crate::params::{HeatParams, RestitutionParams, set};
+use crate::params::RestitutionParams;
 use crate::table::Table;
 use pxfm::f_log;
 
@@ -47,11 +46,6 @@ fn rise_table(rows: &[Row<'_>]) -> Table {
         .estimate("mean_count", "1", "different gaps with an impact", |row| {
             row.mean(|run| run.distinct as f64)
         })
-        .estimate("variance_ratio", "1", RATIO_OF_HIT, |row| {
-            // A mass that was never hit has what it began with.
-            let counts = row.mean(|run| run.distinct as f64)?;
-            (counts.value >= row.gaps() - 1.0).then(|| row.variance_ratio(row.last()))?
-        })
         .estimate("impacts", "omega", IMPACTS, |row| row.rate(row.last()))
         .estimate("phases_per_impact", "1", "contact phases over impacts", |row| {
             row.ratio(|run| [run.phases as f64, run.impacts.last().map_or(0.0, |&n| n as f64)])
@@ -60,12 +54,6 @@ fn rise_table(rows: &[Row<'_>]) -> Table {
         .done()
 }
 
-const VARIANCE_RATIO: &str = "s²/σ² at the end: mean over all masses of half the sum of squares of both free \
-    amplitudes, over σ²";
-const RATIO_OF_HIT: &str = "s²/σ² at the end: mean over all masses of half the sum of squares of both free \
-    amplitudes, over σ²; none where more than one gap was missed in the mean";
-const STEADY: &str = "the same for hot chains that lose little";
-const BALANCED: &str = "the same by the balance of rare impacts";
 const IMPACTS: &str = "impacts per unit of time";
 
 /// Each r.
@@ -83,15 +71,6 @@ fn curve_table(curves: &[&[Row<'_>]]) -> Table {
                 half_height(&parameters.sigmas, &counts, half(parameters))
             },
         )
-        .real("balanced", "1", 2, BALANCED, |curve| curve.first().map_or(f64::NAN, Row::balanced))
-        // The text speaks of these among the chains of another experiment.
-        .same("balanced", |curve| {
-            let r = first(curve);
-            let paper = set::chain().restitution;
-            [paper, HeatParams::RESTITUTION]
-                .contains(&r)
-                .then(|| format!("heat.others[r={r}].balanced"))
-        })
         .done()
 }
 
@@ -107,15 +86,7 @@ fn heating_table(heated: &[Row<'_>]) -> Table {
         .key("r", "1", |(row, _)| row.case.restitution)
         .key("window_end", "1/omega", |(row, window)| row.ends()[*window])
         .estimate("impacts", "omega", IMPACTS, |(row, window)| row.rate(*window))
-        .real("impacts_lossless", "omega", 3, "the same for a hot chain at r = 1", |at| {
-            lossless(at).rate
-        })
-        .estimate("variance_ratio", "1", VARIANCE_RATIO, |(row, window)| {
-            row.variance_ratio(*window)
-        })
-        .real("variance_ratio_lossless", "1", 3, "the same for a hot chain at r = 1", |at| {
-            lossless(at).ratio
-        })
+        .real("impacts_lossless", "omega", 3, "the same for a hot chain at r = 1", lossless)
         .done()
 }
 
@@ -131,12 +102,6 @@ fn heated_table(heated: &[Row<'_>]) -> Table {
             "a of impacts per unit of time ∝ tᵃ, over the last windows",
             exponent,
         )
-        .real("variance_ratio_balanced", "1", 2, BALANCED, Row::balanced)
-        .real("variance_ratio_steady", "1", 2, STEADY, Row::steady)
-        .real("over_steady", "1", 2, "s²/σ² in the last window over that", |row| {
-            let found = row.variance_ratio(row.last());
-            found.map_or(f64::NAN, |found| found.value / row.steady())
-        })
         .done()
 }
 
@@ -194,10 +159,6 @@ impl Row<'_> {
         self.case.realisations
     }
 
-    fn gaps(&self) -> f64 {
-        self.parameters.chain.gaps() as f64
-    }
-
     fn ends(&self) -> &[f64] {
         &self.case.ends
     }
@@ -227,20 +188,5 @@ impl Row<'_> {
         let begin = window.checked_sub(1).map_or(0.0, |before| self.case.ends[before]);
         let time = self.case.ends[window] - begin;
         self.mean(|run| run.impacts[window] as f64 / time)
-    }
-
-    fn variance_ratio(&self, window: usize) -> Option<Estimate> {
-        let heat = self.parameters.chain.masses as f64 * self.case.sigma * self.case.sigma;
-        self.mean(|run| run.free[window] / heat)
-    }
-
-    /// s²/σ² of hot chains that lose little.
-    fn steady(&self) -> f64 {
-        steady(&chain(self.parameters, self.case.restitution), self.case.sigma)
-    }
-
-    /// s²/σ² by the balance of rare impacts; not a number at r = 1, where there is none.
-    fn balanced(&self) -> f64 {
-        variance_ratio(&chain(self.parameters, self.case.restitution)).unwrap_or(f64::NAN)
     }
 }

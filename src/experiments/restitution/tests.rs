@@ -3,7 +3,7 @@ use super::tables::tables;
 use super::*;
 use crate::numerics::quadrature::GaussLegendre;
 use crate::params::{Profile, Protocol};
-use pxfm::{f_cbrt, f_exp, f_lgamma, f_log};
+use pxfm::{f_cbrt, f_exp, f_lgamma};
 
 fn small() -> RestitutionParams {
     let mut parameters = RestitutionParams::new(Profile::Quick);
@@ -25,11 +25,8 @@ fn tables_follow_from_the_runs_as_by_hand() {
     parameters.sigmas = vec![0.1, 0.2];
     parameters.realisations = 2;
     parameters.heated = vec![0.9];
-    let run = |distinct, impacts: &[u64]| {
-        let impacts = impacts.to_vec();
-        let free = vec![0.12; impacts.len()];
-        Some(Run { distinct, impacts, free, phases: 0 })
-    };
+    let run =
+        |distinct, impacts: &[u64]| Some(Run { distinct, impacts: impacts.to_vec(), phases: 0 });
     // 13 gaps: half is 6.5. Means 1 and 12 at r = 0.5, 5.5 and 9 at r = 0.8.
     let row = |a, b| vec![run(a, &[0, 3]), run(b, &[9, 6])];
     let rows = vec![
@@ -46,10 +43,6 @@ fn tables_follow_from_the_runs_as_by_hand() {
     let keys = [("r", 0.5), ("sigma", 0.1)];
     near(rise.number(&keys, "mean_count").unwrap(), 1.0);
     near(rise.number(&keys, "impacts").unwrap(), 4.5 / 60.0);
-    // Most masses were not hit; at 0.2 of 13 gaps one was missed in the mean.
-    assert!(rise.number(&keys, "variance_ratio").is_err());
-    let hit = rise.number(&[("r", 0.5), ("sigma", 0.2)], "variance_ratio").unwrap();
-    near(hit, 0.12 / (12.0 * 0.04));
     near(curves.number(&[("r", 0.5)], "half_height").unwrap(), 0.1 + 0.1 * 5.5 / 11.0);
     near(curves.number(&[("r", 0.8)], "half_height").unwrap(), 0.1 + 0.1 / 3.5);
     near(all.number(&[], "shift").unwrap(), 0.1 / 3.5 - 0.05);
@@ -60,8 +53,7 @@ fn tables_follow_from_the_runs_as_by_hand() {
     near(heated.number(&[("r", 0.9)], "exponent").unwrap(), 1.0);
 }
 
-/// ω = d = 1 and the density exp(−|v|³/c), c = 9 σ² t/2: the mean distance over pairs, and the second moment as
-/// a ratio of values of Γ.
+/// ω = d = 1 and the density exp(−|v|³/c), c = 9 σ² t/2: the mean distance over pairs.
 #[test]
 fn hot_chains_by_other_integrals() {
     let chain = crate::params::Chain::default();
@@ -77,9 +69,6 @@ fn hot_chains_by_other_integrals() {
         let times = rule.integrate_panels(f_cbrt(begin), f_cbrt(end), 1, |x| 3.0 * x * x * x);
         let mean = times / (end - begin);
         let rate = chain.gaps() as f64 * 0.5 * distance * mean * f_cbrt(4.5 * sigma * sigma);
-        assert!((found.rate / rate - 1.0).abs() < 1e-9, "{} {rate}", found.rate);
-        let scale = f_exp(2.0 / 3.0 * f_log(4.5 * sigma * sigma * end));
-        let ratio = 0.5 * scale / f_exp(f_lgamma(1.0 / 3.0)) / (sigma * sigma);
-        assert!((found.ratio / ratio - 1.0).abs() < 1e-9, "{} {ratio}", found.ratio);
+        assert!((found / rate - 1.0).abs() < 1e-9, "{found} {rate}");
     }
 }

@@ -42,7 +42,6 @@ pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
         .real("eq25", "1", 2, OFF, |line| line.off("eq25"))
         .real("from_rest", "1", 2, OFF, |line| line.off("from_rest"))
         .real("by_then", "1", 2, OFF, |line| line.off("by_then"))
-        .real("balanced", "1", 2, OFF, |line| line.off("balanced"))
         .real("grown", "1", 2, OFF, |line| line.off("grown"))
         .done();
     // With the protocol of the main sweep.

@@ -52,19 +52,10 @@ pub fn beat(chain: &Chain) -> f64 {
 impl Waits {
     /// Of a run and its seed.
     pub(super) fn of(parameters: &SeedsParams, (seed, trace): (usize, &Trace)) -> Self {
-        Self::from(parameters, seed, &trace.firsts, &trace.crossed)
-    }
-
-    /// Of what the closed theory expects of it.
-    pub(super) fn expected(parameters: &SeedsParams, (seed, trace): (usize, &Trace)) -> Self {
-        Self::from(parameters, seed, &trace.expected, &trace.crossed)
-    }
-
-    fn from(parameters: &SeedsParams, seed: usize, firsts: &[Option<u32>], crossed: &[u8]) -> Self {
-        let ahead = |gap: usize| (firsts[gap], usize::from(crossed[gap]));
+        let ahead = |gap: usize| (trace.firsts[gap], usize::from(trace.crossed[gap]));
         let mut waits = Waits::default();
         waits.follow(parameters, (0..seed).rev().map(ahead));
-        waits.follow(parameters, (seed + 1..firsts.len()).map(ahead));
+        waits.follow(parameters, (seed + 1..trace.firsts.len()).map(ahead));
         waits
     }
 

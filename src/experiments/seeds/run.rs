@@ -1,7 +1,6 @@
 //! Runs of chains in which exactly one gap closes by itself.
 
 use super::{Seeds, fronts};
-use crate::circuits::closed::spread::Spreading;
 use crate::circuits::nucleation::reach::closes_by_itself;
 use crate::dynamics::{self, Engine, Initial, Scenario};
 use crate::experiments::nucleation::differences;
@@ -22,8 +21,6 @@ pub struct Trace {
     pub(super) hits: Vec<u64>,
     /// For each gap the tick of its first impact.
     pub(super) firsts: Vec<Option<u32>>,
-    /// The same by the closed theory, under the same forces.
-    pub(super) expected: Vec<Option<u32>>,
     /// For each gap the whole parts of its width that its own motion from rest crosses.
     pub(super) crossed: Vec<u8>,
 }
@@ -54,15 +51,7 @@ fn part(
     progress: &Progress,
 ) -> Result<Part, Error> {
     let sigma = parameters.sigmas[unit.row];
-    let spreading = Spreading::new(&parameters.chain).map_err(|own| Error::failed("seeds", own))?;
-    unit.each(stage, |index| trace(parameters, &spreading, sigma, index, progress))
-}
-
-/// Ticks of these times, as far as the run goes.
-fn ticks(parameters: &SeedsParams, times: &[f64]) -> Vec<Option<u32>> {
-    let within = |time: &f64| *time <= parameters.tick * parameters.ticks() as f64;
-    let tick = |time: &f64| within(time).then_some((time / parameters.tick) as u32);
-    times.iter().map(tick).collect()
+    unit.each(stage, |index| trace(parameters, sigma, index, progress))
 }
 
 /// So many amplitudes are drawn in search of a chain at most: ten times as many as any search took within the ranges of `--set`.
@@ -153,7 +142,6 @@ fn crossed(chain: &Chain, delta: [f64; 2]) -> u8 {
 
 fn trace(
     parameters: &SeedsParams,
-    spreading: &Spreading,
     sigma: f64,
     index: u64,
     progress: &Progress,
@@ -164,11 +152,6 @@ fn trace(
     let (forcing, seed) =
         Search { chain, sigma, normals: &mut normals, progress, drawn: 0 }.chain()?;
     let crossed = differences(&forcing).map(|delta| crossed(chain, delta)).collect();
-    let fault = |source| Error::failed("seeds", source);
-    // The closed theory, from the first impact of the seed.
-    let mut theory = spreading.drawn(sigma, &forcing).map_err(fault)?;
-    theory.alone[seed] = 0.0;
-    let expected = ticks(parameters, &theory.first_impacts(&mut normals));
     let still = Chain { masses: 0, ..chain.clone() };
     let scenario =
         Scenario { forcing, initial: Initial::Rest, ..Scenario::draw(&still, sigma, &mut normals) };
@@ -198,7 +181,7 @@ fn trace(
     });
     progress.check()?;
     match ended {
-        Ok(()) => Ok(Some(Trace { seed: Some(seed), hits, firsts, expected, crossed })),
+        Ok(()) => Ok(Some(Trace { seed: Some(seed), hits, firsts, crossed })),
         Err(dynamics::Error::Work { .. }) => Ok(None),
         Err(source) => Err(fault(source)),
     }
@@ -209,15 +192,13 @@ fn fits(parameters: &SeedsParams, unit: &Unit, traces: &Part) -> bool {
     let fits = |trace: &Trace| match trace.seed {
         Some(seed) => {
             let beyond = |bins: &u64| bins.checked_shr(parameters.bins as u32).unwrap_or(0) == 0;
-            let lengths = [&trace.firsts, &trace.expected].map(Vec::len);
-            let lengths = [lengths[0], lengths[1], trace.hits.len(), trace.crossed.len()];
+            let lengths = [trace.firsts.len(), trace.hits.len(), trace.crossed.len()];
             let parts = |own: &u8| usize::from(*own) < fronts::PARTS;
             seed < gaps
-                && lengths == [gaps; 4]
+                && lengths == [gaps; 3]
                 && trace.hits.iter().all(beyond)
                 && trace.crossed.iter().all(parts)
                 && outwards(parameters, seed, &trace.firsts)
-                && outwards(parameters, seed, &trace.expected)
         }
         None => *trace == Trace::default(),
     };
@@ -324,20 +305,6 @@ mod tests {
     }
 
     #[test]
-    fn expected_impacts_are_in_ticks() {
-        let mut parameters = small();
-        parameters.tick = 2.0;
-        let end = 2.0 * parameters.ticks() as f64;
-        let found = ticks(&parameters, &[f64::INFINITY, 5.0, 0.0, end + 0.1, end]);
-        assert_eq!(found, [None, Some(2), Some(0), None, Some(parameters.ticks() as u32)]);
-        // The theory follows the same forces: fronts go outwards from the gap that closes by itself.
-        let found = CUTTING.run(&parameters, "test", &Progress::silent()).unwrap();
-        let all = found.rows.iter().flatten().flatten().filter(|run| run.seed.is_some());
-        let reached: usize = all.map(|run| run.expected.iter().flatten().count()).sum();
-        assert!(reached > 300, "{reached}");
-    }
-
-    #[test]
     fn parts_whose_impacts_jump_are_refused() {
         let mut parameters = small();
         parameters.chain.masses = 3;
@@ -345,8 +312,7 @@ mod tests {
         let own = |firsts: [Option<u32>; 4]| {
             let (hits, crossed) = (vec![1; 4], vec![0; 4]);
             let firsts = firsts.to_vec();
-            let expected = vec![None, Some(0), None, None];
-            vec![Some(Trace { seed: Some(1), hits, firsts, expected, crossed })]
+            vec![Some(Trace { seed: Some(1), hits, firsts, crossed })]
         };
         assert!(fits(&parameters, &unit, &own([None, Some(0), Some(7), Some(7)])));
         assert!(!fits(&parameters, &unit, &own([None, Some(0), None, Some(7)])));

@@ -5,7 +5,6 @@ use super::fronts::{Fronts, PARTS, Waits, beat};
 use super::growth::{GROUPS, Prediction, closing, predictions};
 use super::{ByDistance, Seeds, Trace};
 use crate::circuits;
-use crate::circuits::balance::variance_ratio;
 use crate::circuits::distribution::{Law, SampleSpace};
 use crate::circuits::impact_probability::ImpactProbability;
 use crate::numerics::estimates::{average, share};
@@ -33,8 +32,6 @@ struct Row<'a> {
     runs: Vec<(usize, &'a Trace)>,
     seen: ByDistance,
     fronts: Fronts<'a>,
-    /// The same by the closed theory.
-    expected: Fronts<'a>,
 }
 
 /// All tables.
@@ -52,13 +49,11 @@ pub fn tables(seeds: &Seeds) -> Vec<Table> {
         .collect();
     let row = |place: usize| {
         let runs: Vec<(usize, &Trace)> = ran(&seeds.rows[place]).collect();
-        let fronts = |waits: fn(&SeedsParams, (usize, &Trace)) -> Waits| {
-            Fronts::new(parameters, runs.iter().map(|run| waits(parameters, *run)).collect())
-        };
-        let (fronts, expected) = (fronts(Waits::of), fronts(Waits::expected));
+        let waits = runs.iter().map(|run| Waits::of(parameters, *run)).collect();
+        let fronts = Fronts::new(parameters, waits);
         let seen = ByDistance::sum(&groups[place], GROUPS);
         let (sigma, closing) = (parameters.sigmas[place], &closing[place]);
-        Row { parameters, sigma, closing, runs, seen, fronts, expected }
+        Row { parameters, sigma, closing, runs, seen, fronts }
     };
     let rows: Vec<Row<'_>> = (0..seeds.rows.len()).into_par_iter().map(row).collect();
     let predicted = predictions(parameters, &closing, &groups);
@@ -128,13 +123,7 @@ fn fronts(rows: &[Row<'_>]) -> Table {
             row.seen.exponent()
         })
         .estimate("speed", "omega", "steps over the time of all waits", |row| row.fronts.speed())
-        .estimate("speed_expected", "omega", "the same by the closed theory, same forces", |row| {
-            row.expected.speed()
-        })
         .estimate("bursts", "1", "share of steps within a beat", |row| row.fronts.bursts())
-        .estimate("bursts_expected", "1", "the same by the closed theory", |row| {
-            row.expected.bursts()
-        })
         .real("even", "1", 2, "the same at a constant hazard and this speed", |row| {
             row.fronts.even()
         })
@@ -142,9 +131,6 @@ fn fronts(rows: &[Row<'_>]) -> Table {
             row.fronts.standing()
         })
         .estimate("long", "1", "share of waits longer than a window", |row| row.fronts.stands(0))
-        .estimate("long_expected", "1", "the same by the closed theory", |row| {
-            row.expected.stands(0)
-        })
         .estimate("longer", "1", "share of these that last a second window", |row| {
             row.fronts.stands(1)
         })
@@ -217,9 +203,6 @@ fn means(rows: &[Row<'_>], predicted: &[Prediction]) -> Table {
                 row.circuits(|_| Ok(row.closing[1].iter().take(row.end(own.transient)).sum()))
             },
         )
-        .real("balanced", "1", 3, "with p of a chain as hot as the balance says", |(.., row)| {
-            row.circuits(|law| law.heated(variance_ratio(&row.parameters.chain)?)?.p())
-        })
         .done()
 }
 
@@ -268,19 +251,6 @@ fn all(parameters: &SeedsParams, rows: &[Row<'_>]) -> Table {
             Some(format!("seeds.course[sigma={},until={end}].alive", least?.sigma))
         })
         .real("beat", TIME, 3, "2π/|Ω − ω|", |own| beat(&own.chain))
-        .real(
-            "speed_off",
-            "1",
-            1,
-            "largest relative difference of a speed by the closed theory",
-            |_| {
-                let off = |row: &Row<'_>| {
-                    let [found, expected] = [&row.fronts, &row.expected].map(Fronts::speed);
-                    Some((expected?.value / found?.value - 1.0).abs())
-                };
-                rows.iter().filter(whole).filter_map(off).fold(0.0, f64::max)
-            },
-        )
         .count("fronts", "fronts of all runs", |_| count(|run| run.fronts))
         .count("steps", "steps of all of them", |_| count(Waits::steps))
         .real("spacing", "1", 2, "gaps from one that closes by itself to the next, there", |_| {
@@ -344,9 +314,7 @@ mod tests {
         // The seed is hit in the first bin, its neighbours in the second and the fourth, or one of them at all.
         let run = |hits: [u64; 3], firsts: [Option<u32>; 3]| {
             let (hits, firsts, crossed) = (hits.to_vec(), firsts.to_vec(), vec![0; 3]);
-            // Expected to reach both neighbours at 20.
-            let expected = vec![Some(20), Some(0), Some(20)];
-            Some(Trace { seed: Some(1), hits, firsts, expected, crossed })
+            Some(Trace { seed: Some(1), hits, firsts, crossed })
         };
         let rows = vec![vec![
             run([0, 0b0001, 0b1010], [None, Some(0), Some(30)]),
@@ -367,10 +335,8 @@ mod tests {
         assert_eq!(longer, [(30.0, 0.5), (40.0, 0.25), (100.0, 0.25)]);
         let speed = fronts.number(&[("sigma", 0.1)], "speed").unwrap();
         assert_eq!(speed, 3.0 / 200.0);
-        assert_eq!(fronts.number(&[("sigma", 0.1)], "speed_expected"), Ok(1.0 / 20.0));
         let of = |column| all.number(&[], column).unwrap();
         assert_eq!([of("fronts"), of("steps"), of("least_alive")], [4.0, 3.0, 0.5]);
-        assert!((of("speed_off") - (0.05 / 0.015 - 1.0)).abs() < 1e-12);
         assert!((of("meeting_time") * 2.0 * speed / of("spacing") - 1.0).abs() < 1e-14);
     }
 }

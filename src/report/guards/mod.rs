@@ -9,7 +9,6 @@
 
 mod carried;
 mod chains;
-mod heat;
 mod history;
 mod maps;
 mod model;
@@ -54,7 +53,6 @@ pub fn all() -> impl Iterator<Item = &'static Guard> {
         maps::GUARDS,
         carried::GUARDS,
         nucleation::GUARDS,
-        heat::GUARDS,
         history::GUARDS,
         restitution::GUARDS,
         chains::GUARDS,

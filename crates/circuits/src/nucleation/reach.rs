@@ -32,7 +32,7 @@ pub struct Reach {
 const STEPS: usize = 8;
 
 /// The curve E and its first derivative at a time.
-pub(crate) fn curve(chain: &Chain, time: f64) -> ([f64; 2], [f64; 2]) {
+fn curve(chain: &Chain, time: f64) -> ([f64; 2], [f64; 2]) {
     let (omega, big_omega) = (chain.natural_frequency, chain.forcing_frequency);
     let scale = 1.0 / (omega * omega - big_omega * big_omega);
     let (sin, cos) = pxfm::f_sincos(omega * time);

@@ -93,7 +93,7 @@ pub trait Entry: Sync {
         self.at(profile).identity().parameters.clone()
     }
 
-    /// Path of the item that is its code: `src/experiments/heat/mod.rs` is `experiments::heat`.
+    /// Path of the item that is its code: `src/experiments/sweep/mod.rs` is `experiments::sweep`.
     fn item(&self) -> String {
         let path = self.code().file.trim_start_matches("src/").trim_end_matches(".rs");
         path.trim_end_matches("/mod").replace('/', "::")
