@@ -27,12 +27,12 @@ mod s04;
 mod s05;
 mod s06;
 mod s07;
+mod s08;
 mod s09;
 mod s10;
 mod s11;
 mod s12;
 mod s13;
-mod s14;
 mod simulated;
 
 pub use literate::figures::*;
@@ -97,12 +97,12 @@ const OWN: [Listed; 13] = [
     figure(&[&CHAINS, &SIZES, &PROTOCOL], !THEORY, s05::draw),
     figure(&[], THEORY, |all| s06::draw(&all.theory.large)),
     figure(&[], THEORY, |all| s07::draw(&all.theory)),
-    figure(&[&INDEPENDENCE], !THEORY, s09::draw),
-    figure(&[&RESTITUTION], !THEORY, s10::draw),
-    figure(&[&RACE], !THEORY, |all| s11::draw(all.of(&RACE)?)),
-    figure(&[&RACE, &MEASURED], !THEORY, |all| s12::draw(all.of(&RACE)?, all.of(&MEASURED)?)),
-    figure(&[&SCALE, &MEASURED], !THEORY, |all| s13::draw(all.of(&SCALE)?, all.of(&MEASURED)?)),
-    figure(&[&ANALYTIC], !THEORY, |all| s14::draw(all.of(&ANALYTIC)?)),
+    figure(&[&INDEPENDENCE], !THEORY, s08::draw),
+    figure(&[&RESTITUTION], !THEORY, s09::draw),
+    figure(&[&RACE], !THEORY, |all| s10::draw(all.of(&RACE)?)),
+    figure(&[&RACE, &MEASURED], !THEORY, |all| s11::draw(all.of(&RACE)?, all.of(&MEASURED)?)),
+    figure(&[&SCALE, &MEASURED], !THEORY, |all| s12::draw(all.of(&SCALE)?, all.of(&MEASURED)?)),
+    figure(&[&ANALYTIC], !THEORY, |all| s13::draw(all.of(&ANALYTIC)?)),
 ];
 
 /// All figures: first the paper's, then our own.

@@ -1,10 +1,22 @@
-//! Fig. S9: successive impacts, circuits and different gaps beside independent impacts.
+//! Fig. S9: the rise and the rate of impacts at several restitutions.
 
+use super::FORCING;
 use super::prelude::*;
-use crate::experiments::Results;
+use super::simulated::count_axis;
+use crate::experiments::restitution::Restitution;
+use crate::experiments::{RESTITUTION, Results};
 use crate::table::Table;
 
-/// Looks of the ensembles, by rising σ.
+/// Restitutions of (a), and their looks.
+const RISES: [(f64, Mark, Colour); 5] = [
+    (0.0, Mark::Disc, RED),
+    (0.4, Mark::OpenSquare, ORANGE),
+    (0.6, Mark::OpenTriangle, PURPLE),
+    (0.8, Mark::Ring, GREEN),
+    (0.95, Mark::Disc, BLUE),
+];
+
+/// Looks of the r of (c), the last one first.
 const LOOKS: [(Mark, Colour); 4] = [
     (Mark::Disc, RED),
     (Mark::OpenSquare, ORANGE),
@@ -12,103 +24,102 @@ const LOOKS: [(Mark, Colour); 4] = [
     (Mark::Ring, BLUE),
 ];
 
-/// The largest length of circuits in (b).
-const LONGEST: f64 = 70.0;
+/// What is drawn.
+struct Shown<'a> {
+    found: &'a Restitution,
+    rise: &'a Table,
+    curves: &'a Table,
+    heating: &'a Table,
+}
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let table = |name| results.table(name);
-    let (near, frequencies) = (table("independence.near")?, table("independence.circuits")?);
-    let (blocks, rising) = (table("independence.different")?, table("independence.rising")?);
-    let sheet = Sheet::new(8700);
-    distances(&sheet, near)?;
-    circuits(&sheet, frequencies)?;
-    different(&sheet, blocks, *rising.values("gaps").first().unwrap_or(&1.0))?;
-    Ok(sheet.finish("s09", "Successive impacts beside independent ones", description(rising)))
-}
-
-fn looked(table: &Table) -> Vec<(f64, (Mark, Colour))> {
-    // The last look is that of the highest σ, whatever is between.
-    let sigmas = table.values("sigma");
-    let last = sigmas.len().saturating_sub(1);
-    let look = |at: usize| if at == last { LOOKS[3] } else { LOOKS[at.min(2)] };
-    sigmas.into_iter().enumerate().map(|(at, sigma)| (sigma, look(at))).collect()
-}
-
-fn ends(table: &Table) -> impl Iterator<Item = (f64, (Mark, Colour))> {
-    let mut all = looked(table);
-    let last = all.pop();
-    all.into_iter().take(1).chain(last)
-}
-
-fn named(sigma: f64) -> String {
-    format!("*σ* = {sigma}")
-}
-
-fn distances(sheet: &Sheet, near: &Table) -> Result<(), Error> {
-    let x = Axis::linear(-0.5, 12.5, 2.0, 2, "distance |*i* − *j*| from one impact to the next");
-    let y = Axis::linear(0.0, 1.6, 0.5, 5, "observed / independent");
-    let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 480, 8150, 3380), x, y)?;
-    let level = Stroke::solid(INK, LINE);
-    panel.level("independent", 1.0, level)?;
-    let mut entries = vec![Entry::line(level, "independent")];
-    for (sigma, (mark, colour)) in looked(near) {
-        let thin = Stroke::solid(colour, THIN);
-        let known = near.estimates(&[("sigma", sigma)], "distance", "over_independent");
-        panel.estimates(&named(sigma), &known, (mark, MEDIUM, thin))?;
-        entries.push(Entry::mark((mark, MEDIUM, thin), &named(sigma)));
-    }
-    let (line, marks) = entries.split_at(1);
-    sheet.legend((3800, 2250), (SMALL, 310), line)?;
-    sheet.legend((5900, 2250), (SMALL, 310), marks)
-}
-
-fn circuits(sheet: &Sheet, found: &Table) -> Result<(), Error> {
-    let x = Axis::linear(0.0, LONGEST, 20.0, 4, "length *k*");
-    let y = Axis::decades(-6, -1, 1, "frequency");
-    let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 4780, 4450, 7380), x, y)?;
-    let line = Stroke::solid(INK, LINE);
-    let points = |sigma: f64, column: &str| -> Vec<(f64, f64)> {
-        let all = found.points(&[("sigma", sigma)], "k", column).into_iter();
-        all.filter(|at| at.0 <= LONGEST).collect()
+    let shown = Shown {
+        found: results.of(&RESTITUTION)?,
+        rise: table("restitution.rise")?,
+        curves: table("restitution.curves")?,
+        heating: table("restitution.heating")?,
     };
-    let equal = found.values("sigma").first().map(|sigma| points(*sigma, "equal"));
-    panel.curve("equal and independent", &equal.unwrap_or_default(), line, Outside::Cut)?;
-    let mut entries = vec![Entry::line(line, "equal and independent")];
-    for (sigma, (mark, colour)) in ends(found) {
-        let thin = Stroke::solid(colour, THIN);
-        let look = (mark, MEDIUM * 2 / 3, thin);
-        panel.marks(&named(sigma), &points(sigma, "measured"), look, Outside::Cut)?;
-        entries.push(Entry::mark((mark, MEDIUM, thin), &named(sigma)));
-    }
-    sheet.legend_in_columns((300, 8420), (SMALL, 340), (1, 3150), &entries)
+    let sheet = Sheet::new(12_120);
+    rises(&sheet, &shown)?;
+    places(&sheet, &shown)?;
+    heating(&sheet, &shown)?;
+    let title = "The rise and the rate of impacts at several restitutions";
+    Ok(sheet.finish("s09", title, description(&shown)))
 }
 
-fn different(sheet: &Sheet, found: &Table, gaps: f64) -> Result<(), Error> {
-    let x = Axis::linear(0.0, 3.0, 1.0, 4, "impacts, *m*/*N*");
-    let y = Axis::linear(0.0, 1.0, 0.2, 2, "different gaps/*N*");
-    let panel = sheet.lettered(LETTERS[2], Frame::new(5550, 4780, 8150, 7380), x, y)?;
-    let points = |sigma: f64, column: &str| -> Vec<(f64, f64)> {
-        let all = found.points(&[("sigma", sigma)], "impacts", column).into_iter();
-        all.map(|(m, own)| (m / gaps, own / gaps)).collect()
-    };
-    if let Some(sigma) = found.values("sigma").first() {
-        let line = Stroke::solid(INK, LINE);
-        panel.curve("equal and independent", &points(*sigma, "equal"), line, Outside::Cut)?;
-    }
-    for (sigma, (mark, colour)) in ends(found) {
+fn named(r: f64) -> String {
+    format!("*r* = {r}")
+}
+
+fn rises(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
+    let gaps = shown.found.parameters.chain.gaps() as f64;
+    let last = shown.found.parameters.sigmas.iter().copied().fold(0.0, f64::max);
+    let x = Axis::linear(0.05, last + 0.02, 0.1, 5, FORCING);
+    let y = count_axis(shown.found.parameters.chain.gaps(), "mean count");
+    let panel = sheet.lettered("(a)", Frame::new(1150, 430, 8150, 3230), x, y)?;
+    let half = Stroke::dashed(INK, THIN, Dash::Short);
+    let level = [(0.05, 0.5 * gaps), (last + 0.02, 0.5 * gaps)];
+    panel.guide("half of all gaps", &level, half)?;
+    let mut entries = Vec::new();
+    for (r, mark, colour) in RISES {
+        let points = shown.rise.estimates(&[("r", r)], "sigma", "mean_count");
+        if points.is_empty() {
+            continue;
+        }
         let look = (mark, MEDIUM, Stroke::solid(colour, THIN));
-        panel.marks(&named(sigma), &points(sigma, "measured"), look, Outside::Cut)?;
+        panel.joined(&named(r), &points, look)?;
+        entries.push(Entry::mark(look, &named(r)));
     }
-    Ok(())
+    sheet.legend_in_columns((5000, 2150), (SMALL, 340), (3, 1500), &entries)
 }
 
-fn description(rising: &Table) -> String {
-    let last = |column| rising.values(column).last().map_or("none".into(), |own| short(*own, 2));
+fn places(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
+    let x = Axis::linear(0.0, 1.0, 0.2, 2, "restitution *r*");
+    let y =
+        Axis::linear(0.0, 0.35, 0.1, 4, "*σ*_{1/2} (*d ω*^{2})").column("half_height (d omega^2)");
+    let panel = sheet.lettered("(b)", Frame::new(1150, 4700, 8150, 7200), x, y)?;
+    let points = shown.curves.estimates(&[], "r", "half_height");
+    panel.joined("half height", &points, (Mark::Disc, MEDIUM, Stroke::solid(RED, THIN)))
+}
+
+fn heating(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
+    let x = Axis::decades(1, 4, 1, "time *t* (1/*ω*)").from(20.0, 2000.0).finely();
+    let y = Axis::decades(1, 3, 1, "impacts per unit time").from(20.0, 500.0).finely();
+    let panel = sheet.lettered("(c)", Frame::new(1150, 8670, 8150, 11_170), x, y)?;
+    // A window stands at its middle on the logarithmic axis; the first has none.
+    let ends = shown.heating.values("window_end");
+    let middle = |end: f64| {
+        let before = ends.iter().copied().take_while(|own| *own < end).last()?;
+        Some((before * end).sqrt())
+    };
+    let table = shown.heating;
+    let solid = Stroke::solid(INK, LINE);
+    let law = table.points(&[("r", 1.0)], "window_end", "impacts_lossless");
+    let law: Vec<_> = law.iter().filter_map(|(end, own)| Some((middle(*end)?, *own))).collect();
+    panel.curve("hot, without loss", &law, solid, Outside::Cut)?;
+    let mut entries = Vec::new();
+    for (r, (mark, colour)) in table.values("r").into_iter().rev().zip(LOOKS) {
+        let points = table.estimates(&[("r", r)], "window_end", "impacts");
+        let points: Vec<_> =
+            points.iter().filter_map(|(end, own)| Some((middle(*end)?, *own))).collect();
+        let look = (mark, MEDIUM, Stroke::solid(colour, THIN));
+        panel.estimates(&named(r), &points, look)?;
+        entries.push(Entry::mark(look, &named(r)));
+    }
+    entries.insert(0, Entry::line(solid, "expected at *r* = 1"));
+    sheet.legend_in_columns((1400, 8920), (SMALL, 340), (3, 2700), &entries)
+}
+
+fn description(shown: &Shown<'_>) -> String {
+    let halves = shown.curves.points(&[], "r", "half_height");
+    let end = |at: Option<&(f64, f64)>| {
+        at.map_or("none".into(), |(r, own)| format!("{} at r = {r}", short(*own, 3)))
+    };
     format!(
-        "(a) Successions over those of independent impacts: none at distance 0, few at 1, near one beyond. (b) Share of circuits of \
-         length k: below equal gaps for short ones, far above for long ones, of mean length {} for {}. (c) Different gaps among m \
-         impacts: points below the curve for the smallest σ, above it for the largest.",
-        last("length"),
-        last("length_equal"),
+        "(a) Mean count against σ: the smaller r, the later it rises. (b) Half height, from {} to {}. (c) Impacts per \
+         time in windows that double: level, but for r = 1.",
+        end(halves.first()),
+        end(halves.last()),
     )
 }

@@ -1,127 +1,79 @@
-//! Fig. S13: what an impact costs against the number of masses, counted and measured.
+//! Fig. S13: digits of the ways to compute p(σ) and P(X = k).
 
+use super::FORCING;
 use super::prelude::*;
-use super::rivals::{Timed, by_method, entries, look, most_accurate, timed};
-use crate::experiments::Measured;
-use crate::experiments::accuracy::scale::{Scale as Costs, ScaleRow};
-use crate::experiments::accuracy::tables::name;
-use crate::experiments::measured::{Row, What};
-use crate::params::MethodName;
+use crate::experiments::accuracy::analytic::{Analytic, Route, Way};
 
-/// The engine's own measured rows with their evaluations: one chain, one thread.
-fn own(measured: &Measured) -> Vec<&Row> {
-    measured.of(What::Engine).filter(|row| row.chains == 1 && row.note.is_empty()).collect()
-}
+/// Errors are drawn from here on, and up to one: a larger error has no digit left either.
+const LOWEST: i32 = -18;
 
-pub fn draw(scale: &Costs, measured: &Measured) -> Result<Figure, Error> {
-    let sheet = Sheet::new(12_800);
-    let own = own(measured);
-    // Somewhat wider than the sizes, which would stand on the other axis.
-    let masses = || Axis::decades(0, 7, 1, "number of masses *n*").from(7.0, 1.4e6);
-    let work = scale.rows.iter().map(|row| row.evaluations_per_impact);
-    let (x, y) = (masses().bare(), Axis::around(work, 1, "evaluations per impact"));
-    let counted = sheet.lettered(LETTERS[0], Frame::new(1200, 430, 8150, 2730), x, y)?;
-    let point = |row: &ScaleRow| Some((row.masses as f64, row.evaluations_per_impact));
-    let all = by_method(&scale.rows, |row| row.setting, point);
-    for (method, points) in &all {
-        let look = look(*method);
-        counted.marked(name(*method), points, (look.2, look), Outside::Refuse)?;
-    }
-    // Sizes beyond what the report runs, counted when they were timed.
-    let largest = scale.rows.iter().map(|row| row.masses as u64).max().unwrap_or(0);
-    let beyond: Vec<_> = own
-        .iter()
-        .filter(|row| row.n > largest)
-        .filter_map(|row| Some((row.n as f64, row.evaluations_per_impact?)))
-        .collect();
-    let red = look(MethodName::Certified);
-    let open = (Mark::OpenDiamond, LARGE, red.2);
-    counted.marks("counted in the timed run", &beyond, open, Outside::Cut)?;
+/// Smaller errors are luck.
+const FLOOR: f64 = 1e-17;
 
-    let programs: Vec<Timed> = timed(measured)
-        .into_iter()
-        .filter(|row| row.horizon.is_some() && row.name != MethodName::Certified.id())
-        .collect();
-    let programs = most_accurate(&programs);
-    let times = own.iter().filter_map(|row| row.microseconds_per_impact);
-    let (x, y) =
-        (masses(), Axis::around(times, 1, "µs per impact").finely().column("time per impact (us)"));
-    let clock = sheet.lettered(LETTERS[1], Frame::new(1200, 3450, 8150, 5150), x, y)?;
-    let line: Vec<_> =
-        own.iter().filter_map(|row| Some((row.n as f64, row.microseconds_per_impact?))).collect();
-    clock.marked("this engine", &line, (red.2, red), Outside::Refuse)?;
-    let words = (TINY, INK, HPos::Right, VPos::Bottom);
-    let told = format!("measured on {}", measured.date);
-    clock.note(&told, (clock.x.hi, clock.y.hi), (0, -80), words)?;
-
-    let mut legend = entries(|method| all.iter().any(|(own, _)| *own == method));
-    legend.push(Entry::mark(open, "the timed run"));
-    sheet.legend_in_columns((500, 6350), (SMALL, 370), (2, 2650), &legend)?;
-    ranked(&sheet, &programs)?;
-    Ok(sheet.finish("s13", "Cost of an impact against n", description(scale, measured)))
-}
-
-/// A row for each program at its most accurate setting, the fastest at the top.
-fn ranked(sheet: &Sheet, programs: &[&Timed]) -> Result<(), Error> {
-    const ROW: i32 = 330;
-    let mut sizes: Vec<u64> = programs.iter().map(|row| row.masses).collect();
-    sizes.sort_unstable();
-    sizes.dedup();
-    let largest = sizes.last().copied().unwrap_or(0);
-    let mut rows: Vec<&Timed> =
-        programs.iter().copied().filter(|row| row.masses == largest).collect();
-    rows.sort_by(|a, b| a.microseconds.total_cmp(&b.microseconds));
-    let count = rows.len() as i32;
-    let top = 7500;
-    let times = programs.iter().map(|row| row.microseconds);
-    let places = Axis::new(Scale::Linear, [-0.5, f64::from(count) - 0.5], "", Vec::new());
-    let x =
-        Axis::around(times, 1, "measured µs per impact").column("measured time per impact (us)");
-    let y = places.column("place from below (1)");
-    let panel = sheet.panel(Frame::new(2900, top, 8150, top + ROW * count), x, y)?;
-    let panel = panel.file("c");
-    sheet.text(LETTERS[2], (260, top - 80), (TEXT, INK, HPos::Left, VPos::Bottom))?;
-    // The smaller disc leaves the ring to be seen.
-    let line = Stroke::solid(INK, THIN);
-    let marks = [(Mark::Ring, LARGE, line), (Mark::Disc, 36, line)];
-    for (place, own) in rows.iter().enumerate() {
-        let y = f64::from(count - 1) - place as f64;
-        let title: &str = match own.method {
-            Some(method) => name(method),
-            None => &own.name,
-        };
-        let colour = if own.method == Some(MethodName::Certified) { RED } else { INK };
-        let words = (SMALL, colour, HPos::Right, VPos::Center);
-        panel.note(title, (panel.x.lo, y), (-120, 0), words)?;
-        let guide = Stroke::dashed(PALE, HAIR, Dash::Dotted);
-        panel.level("row", y, guide)?;
-        for (masses, mark) in sizes.iter().zip(marks) {
-            let alike = |row: &&&Timed| row.name == own.name && row.masses == *masses;
-            let at: Vec<_> =
-                programs.iter().filter(alike).map(|row| (row.microseconds, y)).collect();
-            let panel = panel.series(&format!("{title}, n = {masses}"));
-            panel.marks(title, &at, mark, Outside::Refuse)?;
+fn route(route: Route) -> (String, Stroke) {
+    match route {
+        Route::DoubleIntegral { panels: 1 } => {
+            ("one minus the double integral".into(), Stroke::dashed(ORANGE, LINE, Dash::Short))
         }
+        Route::DoubleIntegral { panels } => (
+            format!("the same, {panels} × {panels} panels"),
+            Stroke::dashed(BLUE, LINE, Dash::Long),
+        ),
+        Route::SingleIntegral => {
+            ("one minus a single integral".into(), Stroke::dashed(GREEN, LINE, Dash::Dotted))
+        }
+        Route::ClosedForm => ("closed form".into(), Stroke::solid(RED, LINE)),
     }
-    for (i, (masses, mark)) in sizes.iter().zip(marks).enumerate() {
-        let text = format!("*n* = {masses}");
-        let entry = Entry::mark(mark, &text);
-        let at = (2900 + 2300 * i as i32, top + ROW * count + 1100);
-        sheet.legend(at, (SMALL, 370), &[entry])?;
-    }
-    Ok(())
 }
 
-fn description(scale: &Costs, measured: &Measured) -> String {
-    let certified = |row: &&ScaleRow| row.setting.method == MethodName::Certified;
-    let most = scale.rows.iter().rfind(certified);
-    let counted = most.map_or("none".into(), |row| {
-        format!("{} at n = {}", short(row.evaluations_per_impact, 2), row.masses)
-    });
-    let last = own(measured).last().and_then(|row| Some((row.n, row.microseconds_per_impact?)));
-    let timed = last.map_or("none".into(), |(n, time)| format!("{} at n = {n}", short(time, 2)));
+fn way(way: Way) -> (&'static str, Colour, Mark) {
+    match way {
+        Way::Factorials => ("factorials", ORANGE, Mark::Square),
+        Way::LogGamma => ("log-gamma", BLUE, Mark::Ring),
+        Way::Ratios => ("ratios of terms", GREEN, Mark::Diamond),
+        Way::Products => ("products, 106 bits", RED, Mark::Disc),
+    }
+}
+
+pub fn draw(analytic: &Analytic) -> Result<Figure, Error> {
+    let sheet = Sheet::new(10_300);
+    let errors = |highest: i32| Axis::decades(LOWEST, highest, 3, "relative error");
+    let sigmas = analytic.parameters.sigmas.iter().copied();
+    let sigma = Axis::around(sigmas, 1, FORCING);
+    let relation = Frame::new(1250, 430, 8150, 3330);
+    let relation = sheet.lettered(LETTERS[0], relation, sigma, errors(1))?;
+    let shown = |error: f64| error.clamp(FLOOR, 1.0);
+    let mut entries = Vec::new();
+    for own in &analytic.relation {
+        let (name, stroke) = route(own.route);
+        let points: Vec<_> = own.points.iter().map(|p| (p.0, shown(p.1))).collect();
+        relation.curve(&name, &points, stroke, Outside::Edge)?;
+        entries.push(Entry::line(stroke, &name));
+    }
+    sheet.legend_in_columns((400, 4500), (SMALL, 370), (2, 4250), &entries)?;
+
+    let sizes = analytic.parameters.sizes.iter().map(|&n| n as f64);
+    let big_n = Axis::around(sizes, 1, "number of vertices *N*");
+    let distribution = Frame::new(1250, 5700, 8150, 8600);
+    let distribution = sheet.lettered(LETTERS[1], distribution, big_n, errors(-6))?;
+    let mut entries = Vec::new();
+    for own in &analytic.distribution {
+        let (name, colour, mark) = way(own.way);
+        let points = own.points.iter().filter_map(|p| Some((p.big_n as f64, shown(p.error?))));
+        let points: Vec<_> = points.collect();
+        let look = (mark, 58, Stroke::solid(colour, THIN));
+        distribution.marked(name, &points, (look.2, look), Outside::Edge)?;
+        entries.push(Entry::mark(look, name));
+    }
+    sheet.legend_in_columns((400, 9750), (SMALL, 370), (2, 4250), &entries)?;
+    Ok(sheet.finish("s13", "Digits of the analytic methods", description(analytic)))
+}
+
+fn description(analytic: &Analytic) -> String {
     format!(
-        "Cost against the number of masses n, all axes logarithmic. (a) Evaluations per impact: this engine lowest and nearly level, \
-         {counted}; Runge–Kutta grows with n. (b) Microseconds per impact of this engine, {timed}. (c) Programs by their time, this engine first."
+        "Relative errors on logarithmic axes. (a) Of p(σ) against σ: the closed form is level at rounding; one minus an integral loses \
+         all digits towards small σ. (b) Of P(X = k) and its mean against N, N p = {}: factorials end early, logarithms of \
+         the gamma function lose digits with N, ratios of terms and products keep theirs.",
+        analytic.parameters.mean_degree,
     )
 }

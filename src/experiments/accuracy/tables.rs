@@ -55,7 +55,7 @@ fn or_nan(value: Option<f64>) -> f64 {
     value.unwrap_or(f64::NAN)
 }
 
-/// Figs. S11 and S12.
+/// Figs. S10 and S11.
 pub fn race(race: &Race) -> Vec<Table> {
     let of = |method| race.entries.iter().filter(move |entry| entry.setting.method == method);
     let coarsest: Vec<&Entry> =
@@ -196,7 +196,7 @@ pub fn bias(biases: &Biases) -> Vec<Table> {
     vec![cells, means, ends]
 }
 
-/// Fig. S13.
+/// Fig. S12.
 pub fn scale(scale: &Scale) -> Vec<Table> {
     let of = |method| scale.rows.iter().filter(move |row| row.setting.method == method);
     let methods = MethodName::ALL.into_iter();
@@ -214,7 +214,7 @@ pub fn scale(scale: &Scale) -> Vec<Table> {
     vec![table]
 }
 
-/// Fig. S14.
+/// Fig. S13.
 pub fn analytic(analytic: &Analytic) -> Vec<Table> {
     let printed = |own: &&Relation| matches!(own.route, Route::DoubleIntegral { .. });
     let printed = analytic.relation.iter().filter(printed).max_by_key(|own| own.evaluations);
