@@ -161,56 +161,6 @@ fn revisions_of_git_are_compared() {
         let (code, _, note) = outcome(program(&sub, "diff v1 paper").env(name, value));
         assert!(code == 2 && note.contains(words) && note.lines().count() == 1, "{note}");
     }
-    // A file that git has lost is named.
-    let blob = Command::new("git")
-        .current_dir(&sub)
-        .args(["rev-parse", "v1:sub/paper/values.json"])
-        .output();
-    let blob = String::from_utf8(blob.unwrap().stdout).unwrap();
-    let (folder, object) = blob.trim().split_at(2);
-    fs::remove_file(here.join(".git/objects").join(folder).join(object)).unwrap();
-    let (code, _, note) = run(&sub, "diff v1 paper");
-    assert!(code == 2 && note.contains("v1: paper/values.json cannot be read"), "{note}");
-    // Ctrl-C ends git as well, maybe first, which is no answer.
-    let bin = here.join("bin");
-    fs::create_dir(&bin).unwrap();
-    fs::write(
-        bin.join("git"),
-        "#!/bin/sh\n(/bin/sleep 0.1; kill -INT $PPID) >/dev/null 2>&1 &\nkill -KILL $$\n",
-    )
-    .unwrap();
-    let mode = std::os::unix::fs::PermissionsExt::from_mode(0o755);
-    fs::set_permissions(bin.join("git"), mode).unwrap();
-    let (code, _, note) = outcome(program(&sub, "diff v1 paper").env("PATH", &bin));
-    assert_eq!(code, 130, "{note}");
-}
-
-/// Files as long as no report has are refused before they are read, in folders and in revisions.
-#[test]
-fn what_is_too_long_for_a_report_is_not_read() {
-    let folder = twice();
-    let here = folder.path();
-    let long = |path: &str, mib: u64| {
-        fs::File::create(here.join("b").join(path)).unwrap().set_len(mib << 20).unwrap();
-    };
-    long("data/one.csv", 9);
-    refused(here, "diff a b", &["b: data/one.csv: it is longer than 8 MiB"]);
-    fs::remove_file(here.join("b/data/one.csv")).unwrap();
-    (0..9).for_each(|i| long(&format!("data/{i}.csv"), 8));
-    refused(here, "diff a b", &["b: its files are longer than 64 MiB together"]);
-
-    let git = |arguments: &str| {
-        let mut command = Command::new("git");
-        command.current_dir(here).args(["-c", "user.name=a", "-c", "user.email=a@b"]);
-        assert!(command.args(arguments.split(' ')).output().unwrap().status.success());
-    };
-    (0..9).for_each(|i| fs::remove_file(here.join(format!("b/data/{i}.csv"))).unwrap());
-    long("data/one.csv", 9);
-    fs::rename(here.join("b"), here.join("paper")).unwrap();
-    git("init --quiet");
-    git("add --force paper");
-    git("commit --quiet --message long");
-    refused(here, "diff a HEAD", &["HEAD: data/one.csv: it is longer than 8 MiB"]);
 }
 
 /// Which part is wrong is told by the unit tests of `compare`.

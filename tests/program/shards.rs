@@ -247,30 +247,3 @@ fn what_is_not_one_whole_set_is_refused_by_name() {
     fine(folder, MERGE);
     assert!(files(&folder.join("joined")) == QUICK.results);
 }
-
-/// Files that are no units are named, the first few of however many there are.
-#[test]
-fn strangers_are_named() {
-    let folder = tempfile::tempdir().unwrap();
-    let folder = folder.path();
-    fs::create_dir(folder.join("1")).unwrap();
-    for i in 0..2000 {
-        fs::write(folder.join(format!("1/strange-{i:04}.json")), "{}").unwrap();
-    }
-    fs::write(folder.join("1/sweep-ci-0007.json"), "{}").unwrap();
-    refused(folder, "merge --profile quick 1", &["strange-0004.json is no", "and 1996 more"]);
-}
-
-/// A unit that two folders have, and one of them as a pipe, which would never end.
-#[cfg(unix)]
-#[test]
-fn a_pipe_in_the_place_of_a_unit_is_refused() {
-    let folder = complete();
-    let folder = folder.path();
-    let name = SHARDS[1].keys().next().unwrap();
-    let made = std::process::Command::new("mkfifo").arg(folder.join("1").join(name)).status();
-    assert!(made.unwrap().success());
-    refused(folder, MERGE, &[name.trim_end_matches(".json"), "otherwise, in 2"]);
-    let help = crate::answer(folder, "merge --help");
-    assert!(help.contains("no JSON"), "{help}");
-}

@@ -58,17 +58,6 @@ fn what_is_as_listed_is_fine_with_what_is_built_beside() {
     refused(folder.path(), "verify", &["SHA256SUMS: No such file"]);
 }
 
-/// A terminal obeys nothing of them.
-#[cfg(unix)]
-#[test]
-fn names_of_folders_are_told_in_one_line() {
-    let (folder, _) = small();
-    let odd = "pa\u{1b}[31m\nper";
-    fs::rename(folder.path().join("paper"), folder.path().join(odd)).unwrap();
-    let told = answer(folder.path(), &format!("verify {odd}"));
-    assert_eq!(told, "pa [31m per: 2 files, all as SHA256SUMS lists them\n");
-}
-
 #[test]
 fn edited_missing_and_unlisted_files_are_named() {
     let (folder, _) = small();
