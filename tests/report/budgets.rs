@@ -64,7 +64,7 @@ fn no_document_outgrows_its_reader() {
         assert_eq!(note.matches("](figures/").count(), 1, "{title}: figures");
         assert!(note.lines().filter(dashes).count() <= 1, "{title}: more than one table");
     }
-    assert_eq!(notes.len(), 5, "notes of the second paper");
+    assert_eq!(notes.len(), 4, "notes of the second paper");
     for (what, count, budget) in &counts {
         println!("{count:6} of {budget:6} words: {what}");
     }
