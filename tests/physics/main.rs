@@ -2,7 +2,6 @@
 //! whatever the arithmetic, and scenes whose outcome is known beforehand.
 
 mod certified;
-mod certify;
 mod components;
 mod contact;
 mod ensemble;
@@ -12,7 +11,6 @@ mod methods;
 mod reference;
 mod roundings;
 mod segments;
-mod sensitivity;
 mod simultaneous;
 mod traces;
 

@@ -114,7 +114,7 @@ fn near_resonance() {
         assert!(code == 0 && out.len() > 100, "{note}");
         note
     };
-    for more in ["", " --certify", " --method sampled"] {
+    for more in ["", " --method sampled"] {
         let note = said("1.0000001", more);
         assert!(
             note.lines().count() == 1 && note.contains("closing speed v by 2.9e-7/v"),

@@ -34,7 +34,6 @@ fn exit_codes_are_those_of_the_table() {
     let full = |limited: &str| format!("ulimit -f 1; exec \"$0\" {limited}");
     let few = "ulimit -v 400000; exec \"$0\"";
     let pairs = "(echo '{\"forcing\":[[0,0]'; yes ,[0,0] | head -n 6000000; echo ']}')";
-    let many = "\"$0\" bench scenario --masses 200000 >m";
     let rows = [
         (0, paper("good"), " statements of the paper: "),
         (0, "verify p".into(), "all as SHA256SUMS lists them"),
@@ -69,11 +68,6 @@ fn exit_codes_are_those_of_the_table() {
             "merge: about 1016 MiB",
         ),
         (2, format!("{pairs} >n; ulimit -v 400000; exec \"$0\" trace n --until 0"), "n: "),
-        (
-            2,
-            format!("{many}; ulimit -v 400000; exec \"$0\" trace m --until 0 --sensitivity sigma"),
-            "m: about ",
-        ),
         (0, "ulimit -s 64; exec \"$0\" sweep --sigma 0.2 --realisations 3".into(), "0.2,"),
         (2, "trace --until 1 $'no\nsuch'".into(), "no such: "),
         (2, "verify nowhere".into(), "nowhere"),

@@ -1,6 +1,6 @@
 //! `impact-paper trace`: its table, its methods, and what it says of ties.
 
-use crate::{SCENARIO, answer, program, refused, run};
+use crate::{SCENARIO, answer, program, run};
 use std::io::Write;
 use std::process::Stdio;
 
@@ -59,9 +59,6 @@ fn what_was_done_with_ties_is_said() {
         assert!(run.0 == 0 && run.2.contains(words) && run.2.lines().count() == 1, "{run:?}");
     }
     assert_ne!(plain.1, together.1);
-    let certified = trace(joint, " --certify");
-    assert_eq!(certified.1, together.1);
-    assert!(certified.2.contains("all at once") && certified.2.contains("can be trusted"));
     let (code, out, note) = trace(joint, " --method verlet");
     assert_eq!((code, out.as_str(), note.lines().count()), (2, "", 1), "{note}");
     assert!(note.contains("simultaneous") && note.contains("verlet"), "{note}");
@@ -70,61 +67,11 @@ fn what_was_done_with_ties_is_said() {
 }
 
 #[test]
-fn derivatives_are_a_column_and_end_where_there_are_none() {
-    let sensitivity = |scenario: &str, more: &str| {
-        let folder = folder(scenario);
-        run(folder.path(), &format!("trace s.json --until 10 --sensitivity sigma{more}"))
-    };
-    let plain = answer(folder(SCENARIO).path(), "trace s.json --until 10");
-    let (code, own, note) = sensitivity(SCENARIO, "");
-    assert!(code == 0 && note.is_empty() && own.lines().count() > 5, "{note}");
-    assert!(own.starts_with("time,gap,closing_speed,dtime_dlnsigma\n"), "{own}");
-    let without = own.lines().map(|line| format!("{}\n", line.rsplit_once(',').unwrap().0));
-    assert_eq!(without.collect::<String>(), plain);
-    let (code, out, note) = sensitivity(SCENARIO, " --method verlet");
-    assert!((code, out.as_str()) == (2, "") && note.contains("--sensitivity"), "{note}");
-    let tie = r#"{"forcing":[[0.9,0.8],[0,0],[-0.9,-0.8]]}"#;
-    let (code, out, note) = sensitivity(tie, "");
-    assert_eq!((code, out.lines().count(), note.lines().count()), (2, 2, 1), "{note}");
-    assert!(note.contains("impact 2 at") && note.contains("--max-impacts 1"), "{note}");
-    // What the message advises.
-    assert_eq!(sensitivity(tie, " --max-impacts 1").0, 0);
-    // It closes at 5e-8, where the derivative would be wrong by half of itself.
-    let graze = r#"{"forcing_frequency":1.5,"initial":"zero","forcing":[[0,-1.2500000000000003]]}"#;
-    let (code, _, note) = sensitivity(graze, "");
-    assert!(code != 0 && note.contains("impact 1") && note.contains("grazes"), "{note}");
-    assert!(!note.contains("--max-impacts") && note.contains("leave out --sensitivity"), "{note}");
-}
-
-#[test]
-fn certificates_stand_on_stderr_and_the_output_is_the_same() {
-    let folder = folder(SCENARIO);
-    let trace = |more: &str| run(folder.path(), &format!("trace s.json --until 300{more}"));
-    let (plain, (code, out, note)) = (trace(""), trace(" --certify"));
-    assert_eq!((plain.0, plain.2.as_str(), code, &plain.1), (0, "", 0, &out));
-    let words = format!(" of {} impacts can be trusted, before t = ", out.lines().count() - 1);
-    assert!(note.contains(&words) && note.contains("errors grow as exp(0."), "{note}");
-    assert_eq!(note.lines().count(), 1, "{note}");
-    let (_, out, note) = trace(" --certify --max-impacts 5");
-    let words = "5 impacts can be trusted, to the end";
-    assert!(out.lines().count() == 6 && note.contains(words), "{out}{note}");
-    let (_, _, note) = trace(" --certify --max-impacts 0");
-    assert!(note.starts_with("impact-paper: there is no impact to trust; "), "{note}");
-    for method in ["verlet", "sampled"] {
-        let arguments = format!("trace s.json --until 300 --certify --method {method}");
-        refused(folder.path(), &arguments, &["--certify", method]);
-    }
-}
-
-#[test]
-fn a_run_that_is_stopped_tells_its_rounding_and_has_no_certificate() {
+fn a_run_that_is_stopped_tells_its_rounding() {
     // A fast mass between walls has more impacts in 1/w than a run may have.
     let fast = r#"{"natural_frequency":0.001,"forcing_frequency":1000,"restitution":1,"forcing":[[0,1e6]]}"#;
     let folder = folder(fast);
-    let trace = |more: &str| run(folder.path(), &format!("trace s.json --until 1e4{more}"));
-    let (code, plain, note) = trace("");
-    assert!(code == 4 && plain.lines().count() > 1000 && note.lines().count() == 2, "{note}");
-    assert!(note.contains("may move each impact") && !note.contains("certificate"), "{note}");
-    let (code, out, note) = trace(" --certify");
-    assert!(code == 4 && out == plain && note.contains("no certificate"), "{note}");
+    let (code, out, note) = run(folder.path(), "trace s.json --until 1e4");
+    assert!(code == 4 && out.lines().count() > 1000 && note.lines().count() == 2, "{note}");
+    assert!(note.contains("may move each impact"), "{note}");
 }

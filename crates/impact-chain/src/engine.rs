@@ -85,12 +85,6 @@ impl Engine {
         self
     }
 
-    /// Takes a long chain in the order of time too: whoever asks for one impact at a time would have a slice for each.
-    pub(super) fn in_order(mut self) -> Self {
-        inside!(&mut self.0, simulation => simulation.front = None);
-        self
-    }
-
     /// Bytes that a simulation of so many masses and components takes, its scenario included.
     pub fn memory(masses: usize, components: usize) -> u128 {
         let each = if components == 1 { bytes::<1>(masses) } else { bytes::<COMPONENTS>(masses) };

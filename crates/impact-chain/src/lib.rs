@@ -7,8 +7,7 @@
 //! - [`Chain`] is the model, [`Scenario`] one chain with its forcing and its start, drawn at random or read from JSON.
 //! - [`Engine::run`] hands out each [`Impact`]; masses that stay together are in contact, with a contact force
 //!   ([`Engine::contacts`]), and gaps that close at the same instant follow a rule ([`Simultaneous`]).
-//! - [`certify()`] says up to which impact a run can be trusted where it is chaotic, [`rounding`] bounds
-//!   what rounding does to one impact. [`Sensitivity`] has the derivatives of impact times by the strength of the forcing.
+//! - [`rounding`] bounds what rounding does to one impact; [`Growth`] tells how fast two runs part where they are chaotic.
 //! - [`replay`] is a run that is repeated, and proved by a digest of its impacts.
 //! - [`methods`] are other ways to simulate the same chain, to compare with.
 //!
@@ -27,14 +26,13 @@
 //! # Ok::<(), impact_chain::Error>(())
 //! ```
 //!
-//! `examples/` has a run, a sweep and a certified time to begin with. Equal input gives equal bits on every machine.
+//! `examples/` has a run and a sweep to begin with. Equal input gives equal bits on every machine.
 //!
 //! Numbers of equations are those of M. Homer and S. J. Hogan (2007), *Impact Dynamics of Large Dimensional
 //! Systems*. The chain is a piecewise smooth system: smooth in flight, with a jump of velocities at impacts.
 //!
 //! **Eq. (1)** (step towards (2)): its general form has no code of its own.
 
-mod certify;
 mod chain;
 mod contact;
 mod engine;
@@ -49,20 +47,16 @@ mod halves;
 mod impact;
 mod linear;
 pub mod methods;
-mod order;
 pub mod replay;
 pub mod rounding;
 mod scenario;
-mod sensitivity;
 mod simulation;
 mod simultaneous;
 mod topology;
 
-pub use certify::{Certificate, TOLERANCE, TWINS, certify};
 pub use chain::{Boundary, Chain, Start};
 pub use engine::{Counters, Engine, Impact};
 pub use error::Error;
 pub use growth::Growth;
 pub use scenario::{Initial, Overtone, Scenario};
-pub use sensitivity::Sensitivity;
 pub use simultaneous::Simultaneous;
