@@ -128,7 +128,7 @@ def part_ours():
     """One chain of every size, then many chains."""
     from common import judge
 
-    for n in [20, 100, 1_000, 10_000, 100_000, 1_000_000]:
+    for n in [20, 100, 1_000, 10_000]:
         say(f"  one chain of {n} masses")
         report = timed("--masses", n, "--chain", CHAIN)
         more = {}

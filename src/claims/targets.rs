@@ -94,10 +94,8 @@ fn clock(measured: &Measured) -> Vec<Check> {
     let command = |name: &str| {
         measured.of(What::Command).find(|row| row.name == name).and_then(|row| row.seconds)
     };
-    let ratio = time(engine(measured, 1_000_000)).zip(time(engine(measured, 100)));
     let one = ("one_chain", "time of an impact, one chain of 100 masses");
     let many = ("ensemble", "time of an impact, an ensemble on one core");
-    let size = ("size", "time of an impact at a million masses, over that at a hundred");
     let mut all = vec![
         at_most(one, (0.25, " µs"), time(engine(measured, 100)), true),
         at_most(many, (0.25, " µs"), ensemble, true),
@@ -109,7 +107,6 @@ fn clock(measured: &Measured) -> Vec<Check> {
             25.0,
         ),
         against(measured, "heyoka_100", "the same, 100 masses", 100, 100.0),
-        at_most(size, (2.0, ""), ratio.map(|(a, b)| a / b), true),
     ];
     for (name, what, bound) in [
         ("quick", "the quick profile", 5.0),
@@ -252,7 +249,7 @@ mod tests {
         let measured = results.of_mut(&MEASURED).unwrap();
         let mut row = measured.of(What::Engine).find(|row| row.n == 100).unwrap().clone();
         measured.rows.clear();
-        for id in ["one_chain", "ensemble", "heyoka_20", "size", "full", "memory"] {
+        for id in ["one_chain", "ensemble", "heyoka_20", "full", "memory"] {
             assert_eq!(verdict(&results, id), Verdict::CannotBeJudged, "{id}");
         }
         row.microseconds_per_impact = Some(0.2);

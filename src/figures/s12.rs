@@ -8,7 +8,7 @@ use crate::experiments::accuracy::tables::name;
 use crate::experiments::measured::{Row, What};
 use crate::params::MethodName;
 
-/// The engine's own measured rows with their evaluations: one chain, one thread.
+/// The engine's own measured rows: one chain, one thread.
 fn own(measured: &Measured) -> Vec<&Row> {
     measured.of(What::Engine).filter(|row| row.chains == 1 && row.note.is_empty()).collect()
 }
@@ -17,7 +17,7 @@ pub fn draw(scale: &Costs, measured: &Measured) -> Result<Figure, Error> {
     let sheet = Sheet::new(12_800);
     let own = own(measured);
     // Somewhat wider than the sizes, which would stand on the other axis.
-    let masses = || Axis::decades(0, 7, 1, "number of masses *n*").from(7.0, 1.4e6);
+    let masses = || Axis::decades(0, 5, 1, "number of masses *n*").from(7.0, 1.4e4);
     let work = scale.rows.iter().map(|row| row.evaluations_per_impact);
     let (x, y) = (masses().bare(), Axis::around(work, 1, "evaluations per impact"));
     let counted = sheet.lettered(LETTERS[0], Frame::new(1200, 430, 8150, 2730), x, y)?;
@@ -27,16 +27,6 @@ pub fn draw(scale: &Costs, measured: &Measured) -> Result<Figure, Error> {
         let look = look(*method);
         counted.marked(name(*method), points, (look.2, look), Outside::Refuse)?;
     }
-    // Sizes beyond what the report runs, counted when they were timed.
-    let largest = scale.rows.iter().map(|row| row.masses as u64).max().unwrap_or(0);
-    let beyond: Vec<_> = own
-        .iter()
-        .filter(|row| row.n > largest)
-        .filter_map(|row| Some((row.n as f64, row.evaluations_per_impact?)))
-        .collect();
-    let red = look(MethodName::Certified);
-    let open = (Mark::OpenDiamond, LARGE, red.2);
-    counted.marks("counted in the timed run", &beyond, open, Outside::Cut)?;
 
     let programs: Vec<Timed> = timed(measured)
         .into_iter()
@@ -47,6 +37,7 @@ pub fn draw(scale: &Costs, measured: &Measured) -> Result<Figure, Error> {
     let (x, y) =
         (masses(), Axis::around(times, 1, "µs per impact").finely().column("time per impact (us)"));
     let clock = sheet.lettered(LETTERS[1], Frame::new(1200, 3450, 8150, 5150), x, y)?;
+    let red = look(MethodName::Certified);
     let line: Vec<_> =
         own.iter().filter_map(|row| Some((row.n as f64, row.microseconds_per_impact?))).collect();
     clock.marked("this engine", &line, (red.2, red), Outside::Refuse)?;
@@ -54,8 +45,7 @@ pub fn draw(scale: &Costs, measured: &Measured) -> Result<Figure, Error> {
     let told = format!("measured on {}", measured.date);
     clock.note(&told, (clock.x.hi, clock.y.hi), (0, -80), words)?;
 
-    let mut legend = entries(|method| all.iter().any(|(own, _)| *own == method));
-    legend.push(Entry::mark(open, "the timed run"));
+    let legend = entries(|method| all.iter().any(|(own, _)| *own == method));
     sheet.legend_in_columns((500, 6350), (SMALL, 370), (2, 2650), &legend)?;
     ranked(&sheet, &programs)?;
     Ok(sheet.finish("s12", "Cost of an impact against n", description(scale, measured)))

@@ -75,6 +75,11 @@ impl Failure {
         Failure { message: format!("{option}: {}", self.message), ..self }
     }
 
+    /// The same with another remedy.
+    pub fn and(self, remedy: &str) -> Self {
+        Failure { message: format!("{}; {remedy}", self.message), ..self }
+    }
+
     /// Tells it on standard error.
     pub(super) fn tell(self) -> ExitCode {
         yield_to_end();

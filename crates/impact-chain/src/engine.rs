@@ -2,7 +2,6 @@
 
 use super::flight::Motion;
 use super::force::Force;
-use super::front::Front;
 use super::scenario::COMPONENTS;
 use super::simulation::{Gap, Simulation};
 use super::{Error, Scenario};
@@ -78,22 +77,14 @@ impl Engine {
         }))
     }
 
-    /// Has each half of a chain of very many masses between walls run on a thread of its own, of those where it is run: the same
-    /// impacts. Other chains run as they do.
-    pub fn on_two_cores(mut self) -> Self {
-        inside!(&mut self.0, simulation => simulation.front.iter_mut().for_each(|front| front.on_two_cores = true));
-        self
-    }
-
     /// Bytes that a simulation of so many masses and components takes, its scenario included.
     pub fn memory(masses: usize, components: usize) -> u128 {
-        let each = if components == 1 { bytes::<1>(masses) } else { bytes::<COMPONENTS>(masses) };
+        let each = if components == 1 { bytes::<1>() } else { bytes::<COMPONENTS>() };
         masses as u128 * (each + size_of::<[f64; 2]>() * (1 + components)) as u128
     }
 
     /// Runs until time `until`, and hands each impact to `sink` in order; stops early, right
     /// after that impact, when `sink` returns false. May be called again with a later time.
-    /// A chain of very many masses hands them out by slices of time.
     ///
     /// # Errors
     /// [`Error::Work`] when the bound on work is exceeded.
@@ -139,13 +130,11 @@ impl Engine {
     }
 }
 
-/// Bytes of one mass with its gap. The queue has a key and two nodes for each gap of the next power of two; a long chain may keep
-/// one of its halves twice.
-fn bytes<const M: usize>(masses: usize) -> usize {
-    let own = size_of::<Motion<M>>()
+/// Bytes of one mass with its gap. The queue has a key and two nodes for each gap of the next power of two.
+fn bytes<const M: usize>() -> usize {
+    size_of::<Motion<M>>()
         + size_of::<[[f64; 2]; M]>()
         + size_of::<Gap<M>>()
         + size_of::<Force<M>>()
-        + 2 * Earliest::BYTES;
-    own + Front::<M>::of(masses, 1.0).map_or(0, |_| own / 2 + Front::<M>::BYTES)
+        + 2 * Earliest::BYTES
 }

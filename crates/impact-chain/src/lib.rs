@@ -39,11 +39,8 @@ mod engine;
 mod error;
 mod flight;
 mod force;
-mod front;
 mod gap;
 mod growth;
-#[cfg(not(target_family = "wasm"))]
-mod halves;
 mod impact;
 mod linear;
 pub mod methods;

@@ -8,7 +8,6 @@
 use super::engine::{Counters, Impact, Sink};
 use super::flight::{Motion, Phases, Rates};
 use super::force::Force;
-use super::front::Front;
 use super::gap;
 use super::impact::jumps;
 use super::simultaneous::Ties;
@@ -89,8 +88,6 @@ pub(super) struct Simulation<const M: usize> {
     pub(super) ties: Ties,
     pub(super) budget_end: Instant,
     pub(super) budget_left: u64,
-    /// Only of a long chain.
-    pub(super) front: Option<Box<Front<M>>>,
 }
 
 /// A width below zero by rounding is zero unless the gap is closing, and then due now.
@@ -155,7 +152,6 @@ impl<const M: usize> Simulation<M> {
             ties: Ties::new(scenario.simultaneous),
             budget_end: Instant::ZERO.after(1.0 / w),
             budget_left: EVENTS_PER_GAP * gaps as u64,
-            front: Front::of(gaps, w).map(Box::new),
         };
         simulation.start()?;
         Ok(simulation)
@@ -203,34 +199,19 @@ impl<const M: usize> Simulation<M> {
         if !self.ties.left.is_empty() && !self.hand_out(sink) {
             return Ok(());
         }
-        // Pages have no long chains, and fewer bytes without them.
-        if cfg!(not(target_family = "wasm"))
-            && let Some(mut front) = self.front.take()
-        {
-            let goes_on = self.run_along(&mut front, end, sink);
-            self.front = Some(front);
-            if !goes_on? {
-                return Ok(());
-            }
-        }
-        self.run_in_order(end, sink).map(|_| ())
-    }
-
-    /// Takes all events up to `end` in the order of time; false if the receiver wants no more.
-    pub(super) fn run_in_order(&mut self, end: Instant, sink: Sink) -> Result<bool, Error> {
         while let Some(k) = self.next_event(end) {
             if let Some(impact) = self.step(k)?
                 && (!sink(impact) || !self.ties.left.is_empty() && !self.hand_out(sink))
             {
-                return Ok(false);
+                return Ok(());
             }
         }
-        Ok(true)
+        Ok(())
     }
 
     /// Goes to the next event up to `end`; returns its gap.
     #[inline(always)]
-    pub(super) fn next_event(&mut self, end: Instant) -> Option<usize> {
+    fn next_event(&mut self, end: Instant) -> Option<usize> {
         let (mut k, mut at) = self.queue.first();
         // A search changes nothing that others see, so its place among others does not matter.
         let seen = !matches!(self.gaps[k].awaits, Awaits::Search { .. });
@@ -246,7 +227,7 @@ impl<const M: usize> Simulation<M> {
 
     /// What gap k waited for has come, at the instant `now`; returns the impact if it is one.
     #[inline(always)]
-    pub(super) fn step(&mut self, k: usize) -> Result<Option<Impact>, Error> {
+    fn step(&mut self, k: usize) -> Result<Option<Impact>, Error> {
         match self.gaps[k].awaits {
             // Touching without speed is no impact, but contact may begin.
             Awaits::Impact(0.0) => {

@@ -33,7 +33,7 @@ impl Method for Certified {
         let mut cost = Cost::default();
         let own = *start == State::of(scenario);
         let moved = if own { None } else { Some(start.as_scenario(scenario)?) };
-        let mut engine = Engine::new(moved.as_ref().unwrap_or(scenario))?.on_two_cores();
+        let mut engine = Engine::new(moved.as_ref().unwrap_or(scenario))?;
         let resting = if own { Vec::new() } else { resting(scenario, start) };
         let speed = AT_REST * scenario.spacing * scenario.natural_frequency;
         engine
