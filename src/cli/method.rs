@@ -39,11 +39,6 @@ pub struct Choice {
 }
 
 impl Choice {
-    /// Whether it is the engine of this project.
-    pub fn is_certified(&self) -> bool {
-        self.method == Name::Certified
-    }
-
     /// Whether it flies in closed form, so that rounding is what moves its impacts first.
     pub fn is_closed(&self) -> bool {
         matches!(self.method, Name::Certified | Name::Sampled | Name::Newton)

@@ -2,7 +2,7 @@
 
 use super::{Failure, memory, method, stdout};
 use impact_paper::dynamics::methods::State;
-use impact_paper::dynamics::{Engine, Error, Impact, Scenario, Simultaneous, rounding};
+use impact_paper::dynamics::{Engine, Error, Impact, Scenario, rounding};
 use impact_paper::experiments::{alive, say};
 use impact_paper::input;
 use impact_paper::numerics::clock::LATEST;
@@ -16,8 +16,8 @@ use std::sync::atomic::{AtomicBool, AtomicU64};
 /// Prints the impacts of one scenario as CSV: time, gap, closing speed.
 ///
 /// Gap 0 lies between the left wall and mass 1, gap j between masses j and j + 1; on a ring gap n
-/// lies between masses n and 1. Neighbouring gaps that close at exactly the same instant (a three-way
-/// impact) follow the law "simultaneous" of the scenario; how often there were such is said on
+/// lies between masses n and 1. Of neighbouring gaps that close at exactly the same instant (a three-way
+/// impact) the lowest is taken first, until none closes; how often there were such is said on
 /// standard error, if there were any. Past some 150 units of time a chaotic chain depends on the last
 /// bit: only statistics are reproducible there. Amplitudes so large
 /// (near resonance, say) that rounding may move a gap by more than 1e-6 of the spacing are refused; where it
@@ -41,14 +41,11 @@ pub struct Args {
 
 const FORM: &str = r#"The scenario, with the defaults of everything but "forcing":
   {"spacing": 1, "natural_frequency": 1, "forcing_frequency": 1.4142135623730951,
-   "restitution": 0.8, "boundary": "walls", "simultaneous": "sequential", "initial": "rest",
+   "restitution": 0.8, "boundary": "walls", "initial": "rest",
    "forcing": [[alpha_1, beta_1], ..., [alpha_n, beta_n]]}
 Several components of the forcing, 8 at most:
    "forcing_frequencies": [W_1, W_2, ...], "forcing": [[[alpha_1, beta_1], ...], [[...], ...], ...]
 boundary: "walls" or "ring".
-simultaneous: when neighbouring gaps close at exactly the same instant, "sequential" takes one after
-          the other, lowest gap first, until none closes; "joint" takes all at once, each with
-          Newton's restitution, those in contact with them as well. Only the method certified.
 initial:  "rest" (at equilibrium), "zero" (no free part),
           {"free": [[a_1, b_1], ...]} (x_j = j d + a_j cos wt + b_j sin wt + forced response),
           {"random": {"sigma": s, "seed": k}} (normal free parts)."#;
@@ -65,15 +62,11 @@ fn rounded(scenario: &Scenario) -> Option<String> {
 }
 
 /// What is said of impacts of several neighbouring gaps at once.
-fn simultaneous(count: u64, law: Simultaneous) -> String {
+fn simultaneous(count: u64) -> String {
     let times = if count == 1 { "once" } else { &format!("{count} times") };
-    let taken = match law {
-        Simultaneous::Sequential => "one after the other, lowest gap first",
-        Simultaneous::Joint => "all at once",
-    };
     format!(
         "impact-paper: {times}, neighbouring gaps closed at exactly the same instant; \
-         they were taken {taken}"
+         they were taken one after the other, lowest gap first"
     )
 }
 
@@ -114,12 +107,6 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let (masses, components) = (scenario.forcing.len(), 1 + scenario.overtones.len());
     memory::fits(Engine::memory(masses, components), &name, "give fewer masses")?;
     let (method, start) = (args.method.method()?, State::of(&scenario));
-    if scenario.simultaneous == Simultaneous::Joint && !args.method.is_certified() {
-        return Err(Failure::input(format!(
-            "simultaneous: only the method certified has the joint law, not {}; leave out one of the two",
-            method.name()
-        )));
-    }
     // Written in whole lines: a signal that ends the program leaves no half of a number.
     let (mut out, mut lines) = (io::stdout().lock(), String::new());
     let mut written = Ok(());
@@ -177,7 +164,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
         }
     };
     if cost.simultaneous > 0 {
-        say(&simultaneous(cost.simultaneous, scenario.simultaneous));
+        say(&simultaneous(cost.simultaneous));
     }
     if let Some(rounded) = rounded {
         say(&format!("impact-paper: {rounded}"));

@@ -7,7 +7,7 @@
 
 use super::ensembles::each;
 use super::{Error, Progress};
-use crate::dynamics::{Engine, Initial, Scenario, Simultaneous};
+use crate::dynamics::{Engine, Initial, Scenario};
 use crate::numerics::random::NormalPairs;
 use crate::params::{Boundary, Chain, TwoMassesParams};
 use crate::table::Table;
@@ -148,7 +148,6 @@ impl Direction<'_> {
             initial: Initial::Rest,
             forcing: self.forcing.iter().map(|pair| pair.map(|x| scale * x)).collect(),
             overtones: Vec::new(),
-            simultaneous: Simultaneous::default(),
         };
         let failed = |source| Error::failed("two masses", source);
         let mut time = None;

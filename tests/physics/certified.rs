@@ -1,16 +1,21 @@
 //! Segments: from one state, is the next impact the right one, and at the right time?
 //!
 //! The state is what the doubles of the scenario say, exactly; chaos has no time to act. Times and
-//! closing speeds are held to the bounds of `dynamics::rounding`, whose table is counted again here,
-//! and misses and ghosts are counted.
+//! closing speeds are held to the bounds of `dynamics::rounding`, and misses and ghosts are counted.
 
-use crate::reference::{Dd, Hit, Real, Reference};
-use crate::roundings::{self, COUNTED, Case, Parts, RANGE};
+use crate::reference::{Dd, Real, Reference};
 use crate::{first, given};
-use impact_paper::dynamics::rounding::{self, SPEED, STAGES, TIME, TRANSVERSAL};
+use impact_paper::dynamics::rounding::{self, TIME};
 use impact_paper::dynamics::{Engine, Error, Initial, Overtone, Scenario};
 use impact_paper::numerics::random::NormalPairs;
 use impact_paper::params::Boundary;
+
+/// The closing speed is off by at most ε S (C′ max(ω, Ω) + C M₂/v), where M₂ = ω² R₁ + Ω² R₂ bounds Δ'' and its term is what
+/// the error of the time does to the speed. This is C′.
+const SPEED: f64 = 47.0;
+
+/// An impact is no graze if v² is at least this many M₂ C ε S.
+const TRANSVERSAL: f64 = 50.0;
 
 /// What was seen.
 #[derive(Debug, Default)]
@@ -21,9 +26,6 @@ struct Tally {
     undecidable: usize,
     /// The largest |δs| in units of ε S/v.
     worst: f64,
-    /// Impacts in the first frame, and their largest |δs| over what is counted for each.
-    own: usize,
-    worst_own: f64,
     /// The largest |δv| over its bound.
     worst_speed: f64,
 }
@@ -67,39 +69,6 @@ impl Unit {
     }
 }
 
-/// The largest |δs| of an impact in the first frame of its gap, from its very amplitudes.
-fn own_bound(scenario: &Scenario, start: &Reference<Dd>, hit: &Hit<Dd>) -> Option<f64> {
-    // Counted for one component and given free parts.
-    if !scenario.overtones.is_empty() || !matches!(scenario.initial, Initial::Free(_)) {
-        return None;
-    }
-    let frequencies = [scenario.natural_frequency, scenario.forcing_frequency];
-    let fastest = frequencies[0].max(frequencies[1]);
-    let root = hit.time.near() * fastest / RANGE;
-    if root > 0.999 {
-        return None;
-    }
-    let of = |which: usize| {
-        start
-            .sides(hit.gap)
-            .map(|side| side.map_or([0.0; 2], |j| [0, 1].map(|i| start.mass(j)[which][i].near())))
-    };
-    let parts = Parts { spacing: scenario.spacing, free: of(0), forced: of(1) };
-    let counted = [-1.0, -0.5, 0.0, 0.5, 1.0].map(|step| {
-        let case = Case { frequencies, phases: [0.0; 2], advanced: false, root, step };
-        roundings::of(&case, &parts)[0]
-    });
-    let mut bound = counted.into_iter().fold(0.0, f64::max);
-    let scale = start.scale(hit.gap);
-    let [_, convergence] = STAGES[COUNTED].1.map(|_| STAGES[COUNTED].1[0]);
-    bound += convergence * scale;
-    if start.gap(hit.gap).jet(&Dd::of(0.0))[0].near() < 8.0 * f64::EPSILON * scale {
-        bound += STAGES[COUNTED + 1].1[0] * scale;
-    }
-    let speed = hit.closing_speed.near();
-    Some(0.5 * f64::EPSILON * bound * (1.0 + 1.0 / TRANSVERSAL) / speed)
-}
-
 /// Holds one segment against the reference.
 fn hold(scenario: &Scenario, until: f64, tally: &mut Tally) {
     let start = Reference::<Dd>::new(scenario);
@@ -128,12 +97,6 @@ fn hold(scenario: &Scenario, until: f64, tally: &mut Tally) {
             tally.impacts += 1;
             tally.worst = tally.worst.max(units);
             tally.worst_speed = tally.worst_speed.max(off);
-            if let Some(bound) = own_bound(scenario, &start, &b) {
-                let own = error / bound;
-                assert!(own <= 1.0, "{own} times what is counted, t = {time}: {scenario:?}");
-                tally.own += 1;
-                tally.worst_own = tally.worst_own.max(own);
-            }
         }
         (ours, theirs) => {
             // Allowed only if one of the two is a graze, or both fall together.
@@ -206,7 +169,6 @@ fn corner_biased_segments_have_no_miss_and_no_ghost() {
     let tally = corners(0, 16_000);
     assert!(tally.segments >= 10_000 && tally.impacts > 4000, "{tally:?}");
     assert!(tally.undecidable * 100 < tally.segments, "{tally:?}");
-    assert!(tally.own > 2000, "{tally:?}");
 }
 
 /// Ω/ω − 1 from 2⁻⁵² to 0.1 and of both signs, alone or with components near and far, from rest and with free
@@ -283,41 +245,4 @@ fn a_million_corner_biased_segments() {
     let tally = corners(1_000_000, count);
     assert!(count < 2_000_000 || tally.segments >= 1_000_000, "{tally:?}");
     assert!(tally.undecidable * 100 < tally.segments, "{tally:?}");
-}
-
-/// The table of `dynamics::rounding` is the counted one: no stage adds more, none much less.
-#[test]
-fn the_bounds_are_the_sums_of_counted_roundings() {
-    let eighth = std::f64::consts::FRAC_PI_4;
-    let mut most = [[[0.0f64; COUNTED]; 3]; 2];
-    for (i, root) in (-10..=10).flat_map(|i| (1..=10).map(move |root| (i, root))) {
-        // Ω/ω from 1/1000 to 1000.
-        let frequencies = [1.0, 1.0001 * 2f64.powi(i)];
-        let root = f64::from(root) / 10.0;
-        for step in [-1.0, 0.0, 1.0] {
-            for phases in [[0.0; 2], [eighth; 2], [-eighth, eighth]] {
-                for advanced in [false, true] {
-                    let case = Case { frequencies, phases, advanced, root, step };
-                    let found = roundings::worst(&case);
-                    for (most, found) in most.iter_mut().flatten().zip(found.iter().flatten()) {
-                        for (most, found) in most.iter_mut().zip(found) {
-                            *most = most.max(*found);
-                        }
-                    }
-                }
-            }
-        }
-    }
-    let mut wrong = Vec::new();
-    for (k, of) in ["Δ", "Δ'"].into_iter().enumerate() {
-        for (stage, (name, stated)) in STAGES[..COUNTED].iter().enumerate() {
-            let counted = most[k].iter().map(|group| group[stage]).fold(0.0, f64::max);
-            println!("{of}, {name}: {counted:.2}, stated {}", stated[k]);
-            if counted > stated[k] || counted < 0.8 * stated[k] {
-                wrong.push(format!("{of}, {name}: {counted}, not {}", stated[k]));
-            }
-        }
-    }
-    assert!(wrong.is_empty(), "{wrong:?}");
-    println!("C = {TIME}, C' = {SPEED}");
 }

@@ -9,7 +9,6 @@ mod hard_cases;
 mod invariants;
 mod methods;
 mod reference;
-mod roundings;
 mod segments;
 mod simultaneous;
 mod traces;

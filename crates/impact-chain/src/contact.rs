@@ -16,7 +16,6 @@ use super::force::Force;
 use super::gap;
 use super::linear::contact_forces;
 use super::simulation::{Awaits, Simulation};
-use super::simultaneous::Simultaneous;
 use impact_numerics::clock::Instant;
 use impact_numerics::first_root::Next;
 use impact_numerics::local_frame::ROUNDING;
@@ -24,7 +23,7 @@ use impact_numerics::window::next_window;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Separation speed, in units of d ω, below which a chatter is taken to have come to rest.
-pub const CONTACT_SPEED: f64 = 1e-10;
+const CONTACT_SPEED: f64 = 1e-10;
 
 /// In the settled run, gaps may still move this much faster, and be this wide in units of d.
 const SLOW: f64 = 10.0 * CONTACT_SPEED;
@@ -32,10 +31,10 @@ const SHUT: f64 = 1e-16;
 
 /// One gap of a run that is being settled: its index, width and rate.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Resting {
-    pub k: usize,
-    pub f0: f64,
-    pub g0: f64,
+struct Resting {
+    k: usize,
+    f0: f64,
+    g0: f64,
 }
 
 impl<const M: usize> Simulation<M> {
@@ -54,12 +53,7 @@ impl<const M: usize> Simulation<M> {
 
     /// An impact that is slow, or that hits a cluster.
     pub(super) fn collide_in_contact(&mut self, k: usize, speed: f64, phases: &Phases<M>) {
-        if self.collide_tied(k, phases) {
-            return;
-        }
-        if self.ties.law == Simultaneous::Joint {
-            return self.collide_jointly(k, phases);
-        }
+        self.count_tie(k);
         let mut freed = Vec::new();
         for near in self.topology.adjacent(k).into_iter().flatten() {
             if self.gaps[near].in_contact {
@@ -93,7 +87,7 @@ impl<const M: usize> Simulation<M> {
     }
 
     /// Width and rate of gap k now.
-    pub(super) fn resting(&self, k: usize, phases: &Phases<M>, jump: f64) -> Resting {
+    fn resting(&self, k: usize, phases: &Phases<M>, jump: f64) -> Resting {
         let frame = self.look(k, phases);
         let [f0, g0] = self.carried(k, &frame, jump).unwrap_or([frame.f0, frame.g0]);
         Resting { k, f0, g0 }
@@ -106,12 +100,7 @@ impl<const M: usize> Simulation<M> {
 
     /// Takes the gaps whose state has just changed, grows them to whole runs of shut and slow
     /// gaps, settles each run, and frames all that was touched.
-    pub(super) fn settle_runs(
-        &mut self,
-        mut known: Vec<Resting>,
-        p: &Phases<M>,
-        released: Option<usize>,
-    ) {
+    fn settle_runs(&mut self, mut known: Vec<Resting>, p: &Phases<M>, released: Option<usize>) {
         // Grow: neighbours of settled gaps that are themselves shut and slow, or in contact.
         let mut touched: BTreeSet<usize> = known.iter().map(|r| r.k).collect();
         let mut i = 0;
@@ -267,7 +256,7 @@ impl<const M: usize> Simulation<M> {
     }
 
     /// What a unit of contact force does to its own gap: the sum of the inverse masses.
-    pub(super) fn stiffness(&self, gaps: &[usize]) -> Vec<f64> {
+    fn stiffness(&self, gaps: &[usize]) -> Vec<f64> {
         let own = |k: usize| {
             self.topology.sides(k).into_iter().map(|m| self.topology.inverse_mass(m)).sum()
         };
@@ -324,13 +313,13 @@ impl<const M: usize> Simulation<M> {
     }
 
     /// The masses (and walls) along adjacent gaps, left to right.
-    pub(super) fn members(&self, gaps: &[usize]) -> Vec<usize> {
+    fn members(&self, gaps: &[usize]) -> Vec<usize> {
         let first = self.topology.sides(gaps[0])[0];
         std::iter::once(first).chain(gaps.iter().map(|&k| self.topology.sides(k)[1])).collect()
     }
 
     /// Frees the cluster that gap k belongs to; returns its gaps, left to right.
-    pub(super) fn free_cluster(&mut self, k: usize, phases: &Phases<M>) -> Vec<usize> {
+    fn free_cluster(&mut self, k: usize, phases: &Phases<M>) -> Vec<usize> {
         let mut gaps = std::collections::VecDeque::from([k]);
         let contact = |side: usize, k: usize| {
             self.topology.adjacent(k)[side].filter(|&near| self.gaps[near].in_contact)

@@ -26,7 +26,7 @@ pub enum Error {
     /// The bound on work was exceeded (exit code 4).
     #[error(
         "the chain has more than {bound} events within one unit of time, the last at gap {gap}; the run was stopped \
-         at t = {time}; give an earlier end, weaker forces or, where many gaps close at once, \"simultaneous\": \"joint\""
+         at t = {time}; give an earlier end or weaker forces"
     )]
     Work {
         /// The gap of the last event.

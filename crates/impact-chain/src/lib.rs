@@ -6,7 +6,7 @@
 //!
 //! - [`Chain`] is the model, [`Scenario`] one chain with its forcing and its start, drawn at random or read from JSON.
 //! - [`Engine::run`] hands out each [`Impact`]; masses that stay together are in contact, with a contact force
-//!   ([`Engine::contacts`]), and gaps that close at the same instant follow a rule ([`Simultaneous`]).
+//!   ([`Engine::contacts`]), and of gaps that close at the same instant the lowest comes first.
 //! - [`rounding`] bounds what rounding does to one impact; [`Growth`] tells how fast two runs part where they are chaotic.
 //! - [`replay`] is a run that is repeated, and proved by a digest of its impacts.
 //! - [`methods`] are other ways to simulate the same chain, to compare with.
@@ -56,4 +56,3 @@ pub use engine::{Counters, Engine, Impact};
 pub use error::Error;
 pub use growth::Growth;
 pub use scenario::{Initial, Overtone, Scenario};
-pub use simultaneous::Simultaneous;

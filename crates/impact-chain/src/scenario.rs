@@ -1,6 +1,6 @@
 //! A scenario: one chain, its forcing and its start, complete and checked.
 
-use super::{Error, Simultaneous, rounding};
+use super::{Error, rounding};
 use crate::{Boundary, Chain, Start};
 use impact_numerics::random::NormalPairs;
 use impact_numerics::text::{count, plain};
@@ -34,7 +34,6 @@ struct Form<F: Default> {
     forcing_frequencies: Option<Vec<f64>>,
     restitution: f64,
     boundary: Boundary,
-    simultaneous: Simultaneous,
     initial: InitialForm,
     forcing: F,
 }
@@ -96,7 +95,6 @@ impl<F: Default> Default for Form<F> {
             forcing_frequencies: None,
             restitution: chain.restitution,
             boundary: chain.boundary,
-            simultaneous: Simultaneous::default(),
             initial: InitialForm::Rest,
             forcing: F::default(),
         }
@@ -159,7 +157,6 @@ impl<F: Default> Form<F> {
             forcing_frequency,
             restitution: self.restitution,
             boundary: self.boundary,
-            simultaneous: self.simultaneous,
             initial,
             forcing,
             overtones: components
@@ -244,9 +241,6 @@ pub struct Scenario {
     pub restitution: f64,
     /// Walls or ring.
     pub boundary: Boundary,
-    /// What happens when neighbouring gaps close at the same instant. The rivals of the engine have
-    /// their own ways and do not look at it.
-    pub simultaneous: Simultaneous,
     /// The start.
     pub initial: Initial,
     /// Amplitudes (α_j, β_j) of Eq. (5), one pair a mass.
@@ -286,7 +280,6 @@ impl Scenario {
             forcing_frequency: chain.forcing_frequency,
             restitution: chain.restitution,
             boundary: chain.boundary,
-            simultaneous: Simultaneous::default(),
             initial: if chain.start == Start::Rest { Initial::Rest } else { Initial::Zero },
             forcing,
             overtones: Vec::new(),

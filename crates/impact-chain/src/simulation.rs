@@ -2,8 +2,8 @@
 //!
 //! Nothing is integrated. Each gap knows the instant of its next impact, found by the certified
 //! search from its own local frame; the earliest is taken from a winner tree, two masses are
-//! kicked, and the three gaps that they border are framed anew. What happens when neighbouring gaps
-//! close at the same instant is in `simultaneous`.
+//! kicked, and the three gaps that they border are framed anew. Of gaps that close at the same instant
+//! the lowest comes first; such ties are counted in `simultaneous`.
 
 use super::engine::{Counters, Impact, Sink};
 use super::flight::{Motion, Phases, Rates};
@@ -62,7 +62,7 @@ pub(super) const NEARLY_SHUT: f64 = 1e-9;
 const ROUNDING: f64 = 1e-12;
 
 /// Below this part of what its positions are made of at t = 0, a gap may be exactly shut: roundings
-/// of amplitudes and sums add up to 5 · 2^-53 (see `rounding`).
+/// of amplitudes and sums add up to 5 · 2^-53.
 const SHUT: f64 = 4.0 * f64::EPSILON;
 
 /// The simulation of one scenario with `M` components of the forcing.
@@ -149,7 +149,7 @@ impl<const M: usize> Simulation<M> {
             work: Work::default(),
             impacts: 0,
             contact_phases: 0,
-            ties: Ties::new(scenario.simultaneous),
+            ties: Ties::NONE,
             budget_end: Instant::ZERO.after(1.0 / w),
             budget_left: EVENTS_PER_GAP * gaps as u64,
         };
@@ -196,12 +196,9 @@ impl<const M: usize> Simulation<M> {
     /// [`Error::Work`] when the bound on work is exceeded.
     pub fn run(&mut self, until: f64, sink: Sink) -> Result<(), Error> {
         let end = Instant::at(until);
-        if !self.ties.left.is_empty() && !self.hand_out(sink) {
-            return Ok(());
-        }
         while let Some(k) = self.next_event(end) {
             if let Some(impact) = self.step(k)?
-                && (!sink(impact) || !self.ties.left.is_empty() && !self.hand_out(sink))
+                && !sink(impact)
             {
                 return Ok(());
             }
@@ -234,15 +231,14 @@ impl<const M: usize> Simulation<M> {
                 self.spend(k)?;
                 let phases = Phases::at(&self.rates, self.now);
                 self.collide_in_contact(k, 0.0, &phases);
-                // With it others may have been hit, jointly.
-                return Ok(self.ties.left.pop_front());
             }
             Awaits::Impact(speed) => {
                 let impact = self.count_impact(k, speed)?;
                 let phases = Phases::at(&self.rates, self.now);
-                if !(self.queue.ties_beside(k) && self.collide_tied(k, &phases)) {
-                    self.collide(k, speed, &phases);
+                if self.queue.ties_beside(k) {
+                    self.count_tie(k);
                 }
+                self.collide(k, speed, &phases);
                 return Ok(Some(impact));
             }
             Awaits::Search { whole_reach: true } if !self.gaps[k].in_contact => {
@@ -277,17 +273,10 @@ impl<const M: usize> Simulation<M> {
 
     /// Counts the impact of gap k now, and takes it from the budget.
     #[inline(always)]
-    pub(super) fn count_impact(&mut self, k: usize, closing_speed: f64) -> Result<Impact, Error> {
+    fn count_impact(&mut self, k: usize, closing_speed: f64) -> Result<Impact, Error> {
         self.spend(k)?;
         self.impacts += 1;
         Ok(Impact { time: self.now.time(), gap: self.topology.label(k), closing_speed })
-    }
-
-    /// Counts another impact at the same instant; should the budget be spent, the next event says so.
-    pub(super) fn count_another(&mut self, k: usize, closing_speed: f64) -> Impact {
-        self.budget_left = self.budget_left.saturating_sub(1);
-        self.impacts += 1;
-        Impact { time: self.now.time(), gap: self.topology.label(k), closing_speed }
     }
 
     /// Takes one event from the budget of the current unit of time.

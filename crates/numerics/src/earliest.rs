@@ -143,8 +143,8 @@ impl Earliest {
             return node - width;
         }
         let agrees = |below: &usize| self.nodes[*below] ^ self.nodes[1] <= self.mask();
-        let [left, right] =
-            [2 * node, 2 * node + 1].map(|below| agrees(&below).then(|| self.winner_in_full(below)));
+        let [left, right] = [2 * node, 2 * node + 1]
+            .map(|below| agrees(&below).then(|| self.winner_in_full(below)));
         left.into_iter().chain(right).min_by_key(|&index| self.keys[index]).unwrap_or(0)
     }
 

@@ -43,7 +43,7 @@ pub enum Expected {
         within: f64,
     },
     /// Some of the impacts, in order; bounces that die out and what happens within a cluster are
-    /// a matter of the method and of the law of simultaneous impacts.
+    /// a matter of the method.
     Sequence {
         /// Time and gap of each.
         impacts: Vec<(f64, usize)>,

@@ -6,7 +6,7 @@
 use super::case::{Case, Expected};
 use super::truth::Truth;
 use crate::dynamics::methods::{Certified, Method, State};
-use crate::dynamics::{Error, Initial, Overtone, Scenario, Simultaneous};
+use crate::dynamics::{Error, Initial, Overtone, Scenario};
 use crate::numerics::random::NormalPairs;
 use crate::params::{Boundary, Chain, SEED};
 use std::f64::consts::{PI, SQRT_2};
@@ -62,7 +62,6 @@ fn one(free: [f64; 2], forcing: [f64; 2], big_omega: f64, restitution: f64) -> S
         initial: Initial::Free(vec![free]),
         forcing: vec![forcing],
         overtones: Vec::new(),
-        simultaneous: Simultaneous::default(),
     }
 }
 
