@@ -2,7 +2,7 @@
 
 use super::Failure;
 use impact_paper::dynamics::methods::{
-    Certified, Method, MoreauJean, Newton, Penalty, RungeKutta, Sampled, Verlet,
+    Certified, Method, MoreauJean, Penalty, RungeKutta, Sampled, Verlet,
 };
 
 /// A method by its name. The texts are the lines of `--help`.
@@ -12,8 +12,6 @@ pub enum Name {
     Certified,
     /// Flight in closed form, gaps sampled every --step [0.01], sign changes bisected: misses grazes.
     Sampled,
-    /// Flight in closed form, Newton's iteration where samples every --step [0.05] call for it: may lose roots.
-    Newton,
     /// Dormand–Prince 5(4) with events, --tolerance [1e-9]: misses pairs of roots within a step.
     RungeKutta,
     /// Time stepping on velocities, --step [0.001]: first order, hits near misses, but can rest.
@@ -41,7 +39,7 @@ pub struct Choice {
 impl Choice {
     /// Whether it flies in closed form, so that rounding is what moves its impacts first.
     pub fn is_closed(&self) -> bool {
-        matches!(self.method, Name::Certified | Name::Sampled | Name::Newton)
+        matches!(self.method, Name::Certified | Name::Sampled)
     }
 
     /// The method.
@@ -54,7 +52,6 @@ impl Choice {
         let method: Box<dyn Method> = match self.method {
             Name::Certified => Box::new(Certified),
             Name::Sampled => Box::new(Sampled { step: step(0.01) }),
-            Name::Newton => Box::new(Newton { step: step(0.05) }),
             Name::RungeKutta => Box::new(RungeKutta { tolerance: self.tolerance.unwrap_or(1e-9) }),
             Name::MoreauJean => Box::new(MoreauJean { step: step(1e-3) }),
             Name::Verlet => Box::new(Verlet { step: step(1e-3) }),

@@ -11,7 +11,6 @@ pub fn look(method: MethodName) -> Marker {
     let (colour, mark) = match method {
         MethodName::Certified => (RED, Mark::Disc),
         MethodName::Sampled => (BLUE, Mark::Ring),
-        MethodName::Newton => (GREEN, Mark::Diamond),
         MethodName::RungeKutta => (ORANGE, Mark::Square),
         MethodName::MoreauJean => (PURPLE, Mark::Triangle),
         MethodName::Verlet => (INK, Mark::Cross),

@@ -11,8 +11,6 @@ pub enum MethodName {
     Certified,
     /// Gaps looked at on a grid of times, and bisection.
     Sampled,
-    /// Newton's iteration from a look on a grid of times.
-    Newton,
     /// A Runge–Kutta pair of orders 5 and 4 with events.
     RungeKutta,
     /// Time stepping on velocities.
@@ -25,10 +23,9 @@ pub enum MethodName {
 
 impl MethodName {
     /// All of them, ours first.
-    pub const ALL: [MethodName; 7] = [
+    pub const ALL: [MethodName; 6] = [
         MethodName::Certified,
         MethodName::Sampled,
-        MethodName::Newton,
         MethodName::RungeKutta,
         MethodName::MoreauJean,
         MethodName::Verlet,
@@ -40,7 +37,6 @@ impl MethodName {
         match self {
             MethodName::Certified => "certified",
             MethodName::Sampled => "sampled",
-            MethodName::Newton => "newton",
             MethodName::RungeKutta => "runge-kutta",
             MethodName::MoreauJean => "moreau-jean",
             MethodName::Verlet => "verlet",
@@ -130,11 +126,10 @@ pub struct RaceParams {
 impl RaceParams {
     /// The sizes of each profile.
     pub fn new(profile: Profile) -> Self {
-        use MethodName::{Certified, MoreauJean, Newton, Penalty, RungeKutta, Sampled, Verlet};
+        use MethodName::{Certified, MoreauJean, Penalty, RungeKutta, Sampled, Verlet};
         let quick = settings(&[
             (Certified, &[0.0]),
             (Sampled, &[0.1]),
-            (Newton, &[0.1]),
             (RungeKutta, &[1e-3]),
             (MoreauJean, &[1e-1]),
             (Verlet, &[1e-1]),
@@ -143,7 +138,6 @@ impl RaceParams {
         let whole = settings(&[
             (Certified, &[0.0]),
             (Sampled, &[0.5, 0.2, 0.1, 0.03, 0.01]),
-            (Newton, &[0.5, 0.2, 0.1, 0.03, 0.01]),
             (RungeKutta, &[1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13]),
             (MoreauJean, &[1e-1, 1e-2, 1e-3, 1e-4]),
             (Verlet, &[1e-1, 1e-2, 1e-3, 1e-4]),
@@ -197,12 +191,11 @@ pub struct TrialParams {
 impl TrialParams {
     /// The sizes of each profile.
     pub fn new(profile: Profile) -> Self {
-        use MethodName::{Certified, MoreauJean, Newton, Penalty, RungeKutta, Sampled, Verlet};
+        use MethodName::{Certified, MoreauJean, Penalty, RungeKutta, Sampled, Verlet};
         TrialParams {
             settings: settings(&[
                 (Certified, &[0.0]),
                 (Sampled, &[0.03]),
-                (Newton, &[0.03]),
                 (RungeKutta, &[1e-9]),
                 (MoreauJean, &[1e-3]),
                 (Verlet, &[1e-3]),

@@ -22,7 +22,7 @@ pub struct BiasParams {
 impl BiasParams {
     /// The sizes of each profile.
     pub fn new(profile: Profile) -> Self {
-        use MethodName::{MoreauJean, Newton, Penalty, RungeKutta, Sampled, Verlet};
+        use MethodName::{MoreauJean, Penalty, RungeKutta, Sampled, Verlet};
         let coarse = |n| {
             settings(&[(MoreauJean, &[0.1]), (Verlet, &[0.1]), (Penalty, &[0.1])])
                 .into_iter()
@@ -42,7 +42,6 @@ impl BiasParams {
                     (MoreauJean, 0.01, 10),
                     (Penalty, 0.01, 10),
                     (Sampled, 0.3, 24),
-                    (Newton, 0.3, 24),
                     (RungeKutta, 1e-3, 6),
                     (RungeKutta, 1e-6, 6),
                 ] {

@@ -2,7 +2,7 @@
 
 use crate::{drawn, given, run};
 use impact_paper::dynamics::methods::{
-    Certified, Cost, Method, MoreauJean, Newton, Penalty, RungeKutta, Sampled, State, Verlet,
+    Certified, Cost, Method, MoreauJean, Penalty, RungeKutta, Sampled, State, Verlet,
 };
 use impact_paper::dynamics::{Engine, Error, Impact, Scenario};
 use impact_paper::params::{Boundary, Chain};
@@ -44,7 +44,6 @@ fn all() -> Vec<Box<dyn Method>> {
     vec![
         Box::new(Certified),
         Box::new(Sampled { step: 0.01 }),
-        Box::new(Newton { step: 0.05 }),
         Box::new(RungeKutta { tolerance: 1e-9 }),
         Box::new(MoreauJean { step: 1e-3 }),
         Box::new(Verlet { step: 1e-3 }),
@@ -126,16 +125,13 @@ type Seen<'a> = (f64, &'a dyn Method, std::ops::RangeInclusive<usize>);
 
 #[test]
 fn grazes_are_missed_by_looking() {
-    let cases: [Seen; 12] = [
+    let cases: [Seen; 10] = [
         // A dip of depth δ is below zero for 2 √(2δ) = 0.0089 at δ = 1e-5: a step of 0.1 sees a tenth.
         (1e-5, &Sampled { step: 0.1 }, 1..=14),
         (1e-3, &Sampled { step: 0.01 }, 50..=50),
         // Steps that a tolerance of 1e-9 allows are longer than that.
         (1e-5, &RungeKutta { tolerance: 1e-9 }, 0..=14),
         (1e-2, &RungeKutta { tolerance: 1e-9 }, 50..=50),
-        // Newton finds grazes where the parabola guesses them, and loses deeper dips to a wrong root.
-        (1e-5, &Newton { step: 0.2 }, 50..=50),
-        (1e-3, &Newton { step: 0.2 }, 20..=49),
         // Time stepping also hits what only comes near, to some h²/8: by the error of its flight, or by
         // the forecast of its steps.
         (-1e-6, &Verlet { step: 0.01 }, 11..=50),
@@ -183,8 +179,7 @@ fn penalty_springs_mix_impacts_that_overlap() {
     assert!((hard - 1.0).abs() < 1e-3, "{hard}");
 }
 
-/// At the wall: contact for the engine, an end of the run for events, one flip a step for Verlet,
-/// a lost root and a way through the wall for Newton.
+/// At the wall: contact for the engine, an end of the run for events, one flip a step for Verlet.
 #[test]
 fn contact_is_where_events_end() {
     let until = 20.0;
@@ -203,9 +198,6 @@ fn contact_is_where_events_end() {
     assert!((10..exact.len()).contains(&found.len()), "{}", found.len());
     // Both walls in turn, as it should be.
     assert!([0, 1].iter().all(|gap| found.iter().any(|i| i.gap == *gap)));
-    let lost = impacts(&Newton { step: 0.05 }, &pressed(), until);
-    let strong = |list: &[Impact]| list.iter().filter(|i| i.closing_speed > 0.1).count();
-    assert_ne!(strong(&lost), strong(&exact), "Newton loses its way after the first contact");
 }
 
 /// A run that is stopped by its receiver ends right there, and one that goes on from a state in the
@@ -222,9 +214,8 @@ fn runs_stop_and_go_on() {
             velocities: engine.velocities(30.0),
         };
         let exact = run(&mut engine, 40.0);
-        let more: [Box<dyn Method>; 2] =
-            [Box::new(Sampled { step: 0.1 }), Box::new(Newton { step: 0.01 })];
-        for (i, method) in all().into_iter().chain(more).enumerate() {
+        let more: Box<dyn Method> = Box::new(Sampled { step: 0.1 });
+        for (i, method) in all().into_iter().chain([more]).enumerate() {
             let name = method.name();
             let mut found: Vec<Impact> = Vec::new();
             let cost = method.run(&scenario, &start, 40.0, &mut |impact| {
@@ -232,7 +223,7 @@ fn runs_stop_and_go_on() {
                 found.len() < 3
             });
             assert_eq!((cost.unwrap().impacts, found.len()), (3, 3), "{name}");
-            let room = if !(3..=6).contains(&i) { 1e-12 } else { 0.02 };
+            let room = if !(2..=5).contains(&i) { 1e-12 } else { 0.02 };
             for (exact, found) in exact.iter().zip(&found) {
                 let off = (exact.time - found.time).abs();
                 assert!(exact.gap == found.gap && off < room, "{name}: {exact:?} {found:?}");
@@ -293,9 +284,8 @@ fn no_method_loops_or_panics_on_bad_data() {
         assert_eq!(run(&ring, &State::of(&ring), 9.0).unwrap().impacts, 0, "{name}: one on a ring");
     }
     for step in [0.0, -1.0, f64::NAN, f64::INFINITY, 2.0, 1e-300] {
-        let wrong: [&dyn Method; 6] = [
+        let wrong: [&dyn Method; 5] = [
             &Sampled { step },
-            &Newton { step },
             &MoreauJean { step },
             &Verlet { step },
             &Penalty { step },

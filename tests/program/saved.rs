@@ -223,7 +223,8 @@ fn a_read_only_folder_is_read() {
     };
     // What the program reads when it runs: the checkout may lie where nobody else may go.
     let benches = concat!(env!("CARGO_MANIFEST_DIR"), "/benches");
-    let status = Command::new("cp").args(["-r", benches, TEMPLATES, "."]).current_dir(folder).status();
+    let status =
+        Command::new("cp").args(["-r", benches, TEMPLATES, "."]).current_dir(folder).status();
     assert!(status.unwrap().success());
     fs::create_dir(folder.join("open")).unwrap();
     set(&folder.join("open"), 0o777);

@@ -3,7 +3,7 @@
 use super::super::signals;
 use super::{Drawn, Failure, draw, print};
 use impact_paper::dynamics::methods::{
-    Certified, Method, MoreauJean, Newton, Penalty, RungeKutta, Sampled, State, Verlet,
+    Certified, Method, MoreauJean, Penalty, RungeKutta, Sampled, State, Verlet,
 };
 use impact_paper::dynamics::{Error, Impact, Scenario};
 use impact_paper::experiments::alive;
@@ -98,7 +98,6 @@ fn settings() -> Vec<(Box<dyn Method>, String)> {
         all.extend(values.iter().map(|&x| (of(x), format!("{name}={x:e}"))));
     };
     stepped(|step| Box::new(Sampled { step }), "h", &[0.1, 0.03, 0.01, 0.003]);
-    stepped(|step| Box::new(Newton { step }), "h", &[0.2, 0.05]);
     let tolerances = [1e-4, 1e-6, 1e-9, 1e-12];
     stepped(|tolerance| Box::new(RungeKutta { tolerance }), "tol", &tolerances);
     stepped(|step| Box::new(MoreauJean { step }), "h", &[1e-1, 1e-2, 1e-3, 1e-4]);

@@ -94,7 +94,6 @@ impl Ensemble {
             MethodName::Certified => return own,
             // At each point of the grid all gaps, and around an impact a root in its own.
             MethodName::Sampled => 4.0 * grid + 20.0 * impacts,
-            MethodName::Newton => 2.0 * grid + 20.0 * impacts,
             // Integration stops at each impact, and starts anew with all masses.
             MethodName::RungeKutta => 25.0 * masses * impacts,
             // A step needs no sines of its own for each mass.

@@ -1,7 +1,7 @@
 //! From the name of a method and its setting to the method.
 
 use crate::dynamics::methods::{
-    Certified, Method, MoreauJean, Newton, Penalty, RungeKutta, Sampled, Verlet,
+    Certified, Method, MoreauJean, Penalty, RungeKutta, Sampled, Verlet,
 };
 use crate::params::{MethodName, Setting};
 
@@ -11,7 +11,6 @@ pub fn method(setting: Setting) -> Box<dyn Method> {
     match setting.method {
         MethodName::Certified => Box::new(Certified),
         MethodName::Sampled => Box::new(Sampled { step }),
-        MethodName::Newton => Box::new(Newton { step }),
         MethodName::RungeKutta => Box::new(RungeKutta { tolerance: step }),
         MethodName::MoreauJean => Box::new(MoreauJean { step }),
         MethodName::Verlet => Box::new(Verlet { step }),

@@ -17,7 +17,6 @@ pub fn name(method: MethodName) -> &'static str {
     match method {
         MethodName::Certified => "engine",
         MethodName::Sampled => "sampling",
-        MethodName::Newton => "Newton",
         MethodName::RungeKutta => "Runge–Kutta",
         MethodName::MoreauJean => "time stepping",
         MethodName::Verlet => "Verlet",

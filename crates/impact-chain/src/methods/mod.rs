@@ -1,7 +1,7 @@
-//! The engine and its rivals: seven ways to simulate one chain, under one trait.
+//! The engine and its rivals: six ways to simulate one chain, under one trait.
 //!
 //! Each rival is the textbook form of a method that is in use, so that its cost and its failures
-//! can be measured on the same scenes: sampled gaps, Newton's iteration, a Runge–Kutta pair with
+//! can be measured on the same scenes: sampled gaps, a Runge–Kutta pair with
 //! events, time stepping on velocities, Verlet with a flip, penalty springs. Each file says what its
 //! method is, where it comes from, of which order it is, and where it fails.
 
@@ -11,7 +11,6 @@ mod dormand_prince;
 mod flights;
 mod forcing;
 mod moreau_jean;
-mod newton;
 mod penalty;
 mod row;
 mod runge_kutta;
@@ -22,7 +21,6 @@ mod verlet;
 
 pub use certified::Certified;
 pub use moreau_jean::MoreauJean;
-pub use newton::Newton;
 pub use penalty::Penalty;
 pub use runge_kutta::RungeKutta;
 pub use sampled::Sampled;

@@ -1,9 +1,11 @@
 //! A gap sampled on a grid of times, and bisection.
 
 use super::crossing::crossing;
-use super::flights::{Locate, Look, run_samples};
+use super::flights::{Flights, Look};
+use super::tally::{Grid, Step, Stop, Tally};
 use super::{Cost, Method, State};
 use crate::{Error, Impact, Scenario};
+use impact_numerics::clock::Instant;
 
 /// Flight in closed form; every gap is looked at with a fixed step, and a change of its sign is
 /// bisected down to neighbouring doubles.
@@ -33,13 +35,85 @@ impl Method for Sampled {
         until: f64,
         sink: &mut dyn FnMut(Impact) -> bool,
     ) -> Result<Cost, Error> {
-        run_samples(self, (scenario, start), until, self.step, sink)
+        let mut flights = Flights::new(scenario, start)?;
+        let grid = Grid::new(scenario, start, until, self.step)?;
+        let mut tally = Tally::new(scenario, sink);
+        let gaps = flights.topology.gaps();
+        let phases = flights.phases(Instant::at(start.time));
+        let begin = (0..gaps).map(|k| flights.look(k, 0.0, &phases)).collect();
+        tally.cost.evaluations += gaps as u64;
+        let mut samples = Samples { begin, end: Vec::new(), roots: vec![None; gaps] };
+        let ended = grid.steps().try_for_each(|step| {
+            tally.cost.steps += 1;
+            samples.step(&mut flights, &step, &mut tally)
+        });
+        tally.finish(ended)
     }
 }
 
-impl Locate for Sampled {
-    fn locate(&self, from: Look, to: Look, mut at: impl FnMut(f64) -> Look) -> Option<f64> {
-        let changes = to.width < 0.0;
-        changes.then(|| crossing(from.s, to.s, from.width, |s| at(s).width))
+/// All gaps in one step.
+struct Samples {
+    /// At the beginning of the step, or right after the last impact beside the gap.
+    begin: Vec<Look>,
+    /// At the end of the step.
+    end: Vec<Look>,
+    /// When the gap closes between.
+    roots: Vec<Option<f64>>,
+}
+
+impl Samples {
+    fn step(&mut self, flights: &mut Flights, step: &Step, tally: &mut Tally) -> Result<(), Stop> {
+        let last = flights.phases_in(step, step.h);
+        let gaps = self.begin.len();
+        self.end.clear();
+        self.end.extend((0..gaps).map(|k| flights.look(k, step.h, &last)));
+        tally.cost.evaluations += gaps as u64;
+        for k in 0..gaps {
+            self.roots[k] = self.locate(k, flights, step, tally);
+        }
+        while let Some((k, s)) = self.earliest() {
+            let phases = flights.phases_in(step, s);
+            let time = step.from.after(s).time();
+            let before = flights.look(k, s, &phases);
+            let speed = (-before.rate).max(0.0);
+            flights.hit(k, speed, &phases);
+            self.begin[k] = Look { s, width: 0.0, rate: flights.restitution * speed };
+            let [left, right] = flights.topology.adjacent(k);
+            let near = [left, right.filter(|right| Some(*right) != left)];
+            for j in near.into_iter().flatten() {
+                self.begin[j] = flights.look(j, s, &phases);
+            }
+            for j in [Some(k)].into_iter().chain(near).flatten() {
+                self.end[j] = flights.look(j, step.h, &last);
+                tally.cost.evaluations += 2;
+                self.roots[j] = self.locate(j, flights, step, tally);
+            }
+            // A gap that stands still at zero is no impact, but it is work: it may do so for ever.
+            if speed > 0.0 {
+                tally.impact(k, time, speed)?;
+            } else {
+                tally.spend(k, time)?;
+            }
+        }
+        for (begin, end) in self.begin.iter_mut().zip(&self.end) {
+            *begin = Look { s: 0.0, ..*end };
+        }
+        Ok(())
+    }
+
+    /// The time after the beginning of the step at which gap k comes to zero, if its sign changes.
+    fn locate(&self, k: usize, flights: &Flights, step: &Step, tally: &mut Tally) -> Option<f64> {
+        let (from, to) = (self.begin[k], self.end[k]);
+        let at = |s| {
+            tally.cost.evaluations += 1;
+            flights.look(k, s, &flights.phases_in(step, s)).width
+        };
+        (to.width < 0.0).then(|| crossing(from.s, to.s, from.width, at))
+    }
+
+    /// The gap that closes first, the lowest of equals.
+    fn earliest(&self) -> Option<(usize, f64)> {
+        let found = self.roots.iter().enumerate().filter_map(|(k, s)| Some((k, (*s)?)));
+        found.reduce(|best, next| if next.1 < best.1 { next } else { best })
     }
 }
