@@ -24,7 +24,6 @@ pub mod segments;
 pub mod spacetime;
 pub mod starts;
 pub mod starts_tables;
-pub mod survival;
 pub mod sweep;
 pub mod tally;
 pub mod theory;

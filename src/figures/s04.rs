@@ -1,17 +1,16 @@
-//! Fig. S4: what one gap that closes by itself sets off, how its fronts stand, and the mean count that follows.
+//! Fig. S4: what one gap that closes by itself sets off, and the mean count that follows.
 
 use super::FORCING;
 use super::prelude::*;
 use super::simulated::count_axis;
-use crate::experiments::seeds::tables::spread;
 use crate::experiments::sweep::Sweep;
-use crate::experiments::{Results, SEEDS, SWEEP};
+use crate::experiments::{Results, SWEEP};
 use crate::table::Table;
 
 /// The σ of (a).
 const SIGMAS: (f64, f64) = (0.075, 0.165);
 
-/// Lines of the σ in (b) and (d).
+/// Lines of the σ in (b).
 const SPREADS: [Stroke; 4] = [
     Stroke::solid(PURPLE, LINE),
     Stroke::dashed(BLUE, LINE, Dash::Long),
@@ -27,15 +26,11 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let table = |name| results.table(name);
     let (means, rise, scores) =
         (table("seeds.means")?, table("seeds.rise")?, table("seeds.scores")?);
-    let (advance, waits, fronts) =
-        (table("seeds.advance")?, table("seeds.waits")?, table("seeds.fronts")?);
-    let sheet = Sheet::new(13050);
-    let theory = table("seeds.theory")?;
-    counts(&sheet, means, theory, results.of(&SWEEP)?)?;
-    advances(&sheet, advance)?;
+    let sheet = Sheet::new(9350);
+    counts(&sheet, means, table("seeds.theory")?, results.of(&SWEEP)?)?;
+    advances(&sheet, table("seeds.advance")?)?;
     halves(&sheet, rise, scores)?;
-    standing(&sheet, waits, fronts, results.of(&SEEDS)?.parameters.tick)?;
-    Ok(sheet.finish("s04", "From one gap to many: nucleation and growth", description(waits)))
+    Ok(sheet.finish("s04", "From one gap to many: nucleation and growth", DESCRIPTION.into()))
 }
 
 fn counts(sheet: &Sheet, means: &Table, theory: &Table, sweep: &Sweep) -> Result<(), Error> {
@@ -70,6 +65,14 @@ fn named(sigma: f64) -> String {
     format!("*σ* = {sigma}")
 }
 
+/// Four of so many, or all, from the first to the last.
+fn spread<T>(all: &[T]) -> impl Iterator<Item = &T> {
+    let last = all.len().saturating_sub(1);
+    let mut places = vec![0, last / 3, 2 * last / 3, last];
+    places.dedup();
+    places.into_iter().filter_map(|place| all.get(place))
+}
+
 fn advances(sheet: &Sheet, advance: &Table) -> Result<(), Error> {
     let x = Axis::decades(1, 4, 1, "time since the first impact (1/*ω*)").from(20.0, 2000.0);
     let y = Axis::decades(-1, 2, 1, "advance (gaps)");
@@ -101,44 +104,5 @@ fn halves(sheet: &Sheet, rise: &Table, scores: &Table) -> Result<(), Error> {
     sheet.legend((4850, 8650), (SMALL, 370), &entries)
 }
 
-/// (t, share that stands longer) at each tick from the first on: it falls where waits end, and is level between.
-fn longer(waits: &Table, sigma: f64, tick: f64) -> Vec<(f64, f64)> {
-    let known = waits.points(&[("sigma", sigma)], "time", "longer");
-    let last = known.last().map_or(0, |(time, _)| (time / tick).round() as u32);
-    let at = |time: f64| known.iter().rev().find(|(own, _)| *own <= time).map_or(1.0, |own| own.1);
-    (1..=last).map(|ticks| f64::from(ticks) * tick).map(|time| (time, at(time))).collect()
-}
-
-fn standing(sheet: &Sheet, waits: &Table, fronts: &Table, tick: f64) -> Result<(), Error> {
-    let x = Axis::decades(0, 3, 1, "time *t* for which a front stands (1/*ω*)");
-    let y = Axis::decades(-2, 0, 1, "share longer than *t*");
-    let panel = sheet.lettered(LETTERS[3], Frame::new(1150, 10150, 8150, 12250), x, y)?;
-    // The key of (b) is that of these lines too.
-    for (sigma, stroke) in waits.values("sigma").into_iter().zip(SPREADS) {
-        let name = named(sigma);
-        panel.quiet().curve(&name, &longer(waits, sigma, tick), stroke, Outside::Cut)?;
-        panel.record(&name, waits.points(&[("sigma", sigma)], "time", "longer"));
-    }
-    // The first row, were every wait to end at the same rate.
-    if let Some((_, speed)) = fronts.points(&[], "sigma", "speed").first() {
-        let decay = |step: u32| {
-            let time = pxfm::f_exp10(f64::from(step) / 40.0);
-            (time, pxfm::f_exp(-speed * time))
-        };
-        let even = Stroke::dashed(SPREADS[0].colour, THIN, Dash::Short);
-        let points: Vec<_> = (0..=120).map(decay).collect();
-        panel.guide("constant rate", &points, even)?;
-        let entry = Entry::line(even, "constant rate, lowest *σ*");
-        sheet.legend((1400, 11_900), (SMALL, 270), &[entry])?;
-    }
-    Ok(())
-}
-
-fn description(waits: &Table) -> String {
-    format!(
-        "(a) Mean count of all against σ: simulated points along nucleation and growth; circuits steeper. (b) Advance \
-         against time: slower than ∝ t, the more so the smaller σ. (c) Half height falls with T. (d) Share of longer waits: first \
-         below a constant rate, then above it, from σ = {} down.",
-        waits.values("sigma").first().copied().unwrap_or_default(),
-    )
-}
+const DESCRIPTION: &str = "(a) Mean count of all against σ: simulated points along nucleation and growth; circuits steeper. (b) Advance \
+    against time: slower than ∝ t, the more so the smaller σ. (c) Half height falls with T.";

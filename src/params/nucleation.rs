@@ -100,13 +100,9 @@ impl SeedsParams {
             seed: set::seed(),
         }
     }
+
     /// Ticks of a run.
     pub fn ticks(&self) -> usize {
         (self.bin * self.bins as f64 / self.tick).round() as usize
-    }
-
-    /// Ticks of a window.
-    pub fn window_ticks(&self) -> usize {
-        (self.bin * self.window as f64 / self.tick).round() as usize
     }
 }

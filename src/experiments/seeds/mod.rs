@@ -3,7 +3,7 @@
 //!
 //! - [`run`](mod@run): chains with exactly one such gap, and where impacts get from there.
 //! - [`counting`]: their impacts by distance, and how far they spread.
-//! - [`fronts`]: how long fronts stand, and which gaps hold them.
+//! - [`fronts`]: how long fronts stand.
 //! - [`growth`]: what follows for a chain with as many of them as chance gives it.
 //! - [`tables`]: the numbers of all this, and [`compared`]: beside the main sweep and the map of the protocol.
 

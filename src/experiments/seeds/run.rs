@@ -1,9 +1,8 @@
 //! Runs of chains in which exactly one gap closes by itself.
 
-use super::{Seeds, fronts};
+use super::Seeds;
 use crate::circuits::nucleation::reach::closes_by_itself;
 use crate::dynamics::{self, Engine, Initial, Scenario};
-use crate::experiments::nucleation::differences;
 use crate::experiments::{Error, Progress, weights};
 use crate::numerics::random::NormalPairs;
 use crate::params::{Chain, SeedsParams};
@@ -21,8 +20,6 @@ pub struct Trace {
     pub(super) hits: Vec<u64>,
     /// For each gap the tick of its first impact.
     pub(super) firsts: Vec<Option<u32>>,
-    /// For each gap the whole parts of its width that its own motion from rest crosses.
-    pub(super) crossed: Vec<u8>,
 }
 
 /// Some runs at one σ; none where the engine gave up.
@@ -130,16 +127,6 @@ impl Search<'_> {
     }
 }
 
-/// The whole parts of its width that a gap's own motion from rest crosses: as many as it would close by itself
-/// were it only so wide.
-fn crossed(chain: &Chain, delta: [f64; 2]) -> u8 {
-    let closes = |parts: &u8| {
-        let part = f64::from(*parts) / fronts::PARTS as f64;
-        closes_by_itself(&Chain { spacing: part * chain.spacing, ..chain.clone() }, delta)
-    };
-    (1..fronts::PARTS as u8).take_while(closes).count() as u8
-}
-
 fn trace(
     parameters: &SeedsParams,
     sigma: f64,
@@ -151,7 +138,6 @@ fn trace(
     let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, index);
     let (forcing, seed) =
         Search { chain, sigma, normals: &mut normals, progress, drawn: 0 }.chain()?;
-    let crossed = differences(&forcing).map(|delta| crossed(chain, delta)).collect();
     let still = Chain { masses: 0, ..chain.clone() };
     let scenario =
         Scenario { forcing, initial: Initial::Rest, ..Scenario::draw(&still, sigma, &mut normals) };
@@ -181,7 +167,7 @@ fn trace(
     });
     progress.check()?;
     match ended {
-        Ok(()) => Ok(Some(Trace { seed: Some(seed), hits, firsts, crossed })),
+        Ok(()) => Ok(Some(Trace { seed: Some(seed), hits, firsts })),
         Err(dynamics::Error::Work { .. }) => Ok(None),
         Err(source) => Err(fault(source)),
     }
@@ -192,12 +178,9 @@ fn fits(parameters: &SeedsParams, unit: &Unit, traces: &Part) -> bool {
     let fits = |trace: &Trace| match trace.seed {
         Some(seed) => {
             let beyond = |bins: &u64| bins.checked_shr(parameters.bins as u32).unwrap_or(0) == 0;
-            let lengths = [trace.firsts.len(), trace.hits.len(), trace.crossed.len()];
-            let parts = |own: &u8| usize::from(*own) < fronts::PARTS;
             seed < gaps
-                && lengths == [gaps; 3]
+                && [trace.firsts.len(), trace.hits.len()] == [gaps; 2]
                 && trace.hits.iter().all(beyond)
-                && trace.crossed.iter().all(parts)
                 && outwards(parameters, seed, &trace.firsts)
         }
         None => *trace == Trace::default(),
@@ -230,6 +213,7 @@ mod tests {
     use super::super::fronts::Waits;
     use super::super::tables::tables;
     use super::*;
+    use crate::experiments::nucleation::differences;
     use crate::params::Profile;
     use crate::table::Table;
 
@@ -295,24 +279,12 @@ mod tests {
     }
 
     #[test]
-    fn a_gap_crosses_the_parts_that_its_own_motion_reaches() {
-        let chain = Chain::default();
-        // With Ω² = 2 it reaches (1 + √2) times a difference of sines.
-        let reach = 1.0 + std::f64::consts::SQRT_2;
-        for (share, parts) in [(0.1, 0), (0.26, 1), (0.49, 1), (0.51, 2), (0.76, 3), (0.99, 3)] {
-            assert_eq!(crossed(&chain, [0.0, -share / reach]), parts, "{share}");
-        }
-    }
-
-    #[test]
     fn parts_whose_impacts_jump_are_refused() {
         let mut parameters = small();
         parameters.chain.masses = 3;
         let unit = Unit { row: 0, realisations: 0..1, covers: String::new(), weight: 1 };
         let own = |firsts: [Option<u32>; 4]| {
-            let (hits, crossed) = (vec![1; 4], vec![0; 4]);
-            let firsts = firsts.to_vec();
-            vec![Some(Trace { seed: Some(1), hits, firsts, crossed })]
+            vec![Some(Trace { seed: Some(1), hits: vec![1; 4], firsts: firsts.to_vec() })]
         };
         assert!(fits(&parameters, &unit, &own([None, Some(0), Some(7), Some(7)])));
         assert!(!fits(&parameters, &unit, &own([None, Some(0), None, Some(7)])));
@@ -320,7 +292,7 @@ mod tests {
         assert!(!fits(&parameters, &unit, &own([None, Some(0), Some(7), Some(121)])));
         assert!(!fits(&parameters, &unit, &own([None, Some(1), Some(7), Some(7)])));
         let mut torn = own([None, Some(0), Some(7), Some(7)]);
-        torn[0].as_mut().unwrap().crossed.pop();
+        torn[0].as_mut().unwrap().hits.pop();
         assert!(!fits(&parameters, &unit, &torn));
     }
 

@@ -1,7 +1,7 @@
 //! What follows from the runs.
 
 use super::counting::{bits, ran};
-use super::fronts::{Fronts, PARTS, Waits, beat};
+use super::fronts::{Fronts, Waits, beat};
 use super::growth::{GROUPS, Prediction, closing, predictions};
 use super::{ByDistance, Seeds, Trace};
 use crate::circuits;
@@ -15,14 +15,6 @@ use rayon::prelude::*;
 
 const SIGMA: &str = "d omega^2";
 const TIME: &str = "1/omega";
-
-/// What tells gaps by how much of their width their own motion crosses.
-const CROSSED: [(&str, &str); PARTS] = [
-    ("long_at_0", "less than a quarter"),
-    ("long_at_1", "a quarter"),
-    ("long_at_2", "half"),
-    ("long_at_3", "three quarters"),
-];
 
 /// The runs at one σ.
 struct Row<'a> {
@@ -50,7 +42,7 @@ pub fn tables(seeds: &Seeds) -> Vec<Table> {
     let row = |place: usize| {
         let runs: Vec<(usize, &Trace)> = ran(&seeds.rows[place]).collect();
         let waits = runs.iter().map(|run| Waits::of(parameters, *run)).collect();
-        let fronts = Fronts::new(parameters, waits);
+        let fronts = Fronts { parameters, runs: waits };
         let seen = ByDistance::sum(&groups[place], GROUPS);
         let (sigma, closing) = (parameters.sigmas[place], &closing[place]);
         Row { parameters, sigma, closing, runs, seen, fronts }
@@ -61,7 +53,6 @@ pub fn tables(seeds: &Seeds) -> Vec<Table> {
         course(&rows),
         advance(&rows),
         fronts(&rows),
-        waits(&rows),
         means(&rows, &predicted),
         theory(parameters),
         rise(parameters, &predicted),
@@ -117,7 +108,7 @@ fn whole(row: &&Row<'_>) -> bool {
 /// What fronts do, at whole hundredths.
 fn fronts(rows: &[Row<'_>]) -> Table {
     let rows: Vec<&Row<'_>> = rows.iter().filter(whole).collect();
-    let mut table = Table::of("seeds.fronts", &rows, |row| row.runs.len())
+    Table::of("seeds.fronts", &rows, |row| row.runs.len())
         .key("sigma", SIGMA, |row| row.sigma)
         .real("exponent", "1", 2, "d ln(advance)/d ln t over the last three quarters", |row| {
             row.seen.exponent()
@@ -130,51 +121,6 @@ fn fronts(rows: &[Row<'_>]) -> Table {
         .estimate("standing", "1", "share of fronts without a step in the second half", |row| {
             row.fronts.standing()
         })
-        .estimate("long", "1", "share of waits longer than a window", |row| row.fronts.stands(0))
-        .estimate("longer", "1", "share of these that last a second window", |row| {
-            row.fronts.stands(1)
-        })
-        .estimate("longest", "1", "share of these that last a third one", |row| {
-            row.fronts.stands(2)
-        })
-        .estimate("memory", "1", "long waits after long ones over those after short ones", |row| {
-            row.fronts.memory()
-        })
-        .real("alike", "1", 3, "long waits of the like of what held, over all", |row| {
-            row.fronts.alike()
-        });
-    for (parts, (name, width)) in CROSSED.into_iter().enumerate() {
-        let meaning = format!("chance of a long wait at a gap that crosses {width} of its width");
-        table = table.estimate(name, "1", &meaning, move |row| row.fronts.holds(parts));
-    }
-    table.done()
-}
-
-/// Four of so many, or all, from the first to the last.
-pub fn spread<T>(all: &[T]) -> impl Iterator<Item = &T> {
-    let last = all.len().saturating_sub(1);
-    let mut places = vec![0, last / 3, 2 * last / 3, last];
-    places.dedup();
-    places.into_iter().filter_map(|place| all.get(place))
-}
-
-/// The waits of fronts, where some end, at four σ.
-fn waits(rows: &[Row<'_>]) -> Table {
-    let mut lengths = Vec::new();
-    for row in spread(rows) {
-        let [ended, cut] = &row.fronts.waits;
-        for (ticks, share) in row.fronts.lasting(None).into_iter().enumerate() {
-            if ended[ticks] + cut[ticks] > 0 {
-                lengths.push((row, ticks, [ended[ticks], cut[ticks]], share));
-            }
-        }
-    }
-    Table::of("seeds.waits", &lengths, |(row, ..)| row.runs.len())
-        .key("sigma", SIGMA, |(row, ..)| row.sigma)
-        .key("time", TIME, |(row, ticks, ..)| *ticks as f64 * row.parameters.tick)
-        .count("ended", "waits that ended with a step", |(_, _, counts, _)| counts[0])
-        .count("cut", "waits that the end of the run cut off", |(_, _, counts, _)| counts[1])
-        .real("longer", "1", 3, "share of waits that last longer", |(.., lasting)| *lasting)
         .done()
 }
 
@@ -235,8 +181,6 @@ fn all(parameters: &SeedsParams, rows: &[Row<'_>]) -> Table {
     let last = parameters.transients.last().copied().unwrap_or(0);
     let alive = |row: &Row<'_>| row.alive(last) as f64 / row.runs.len().max(1) as f64;
     let least = rows.iter().min_by(|a, b| alive(a).total_cmp(&alive(b)));
-    let fastest = || rows.last()?.fronts.speed().filter(|speed| speed.value > 0.0);
-    let spacing = || rows.last().map_or(f64::NAN, |row| 1.0 / row.closing[1].iter().sum::<f64>());
     let count = |of: fn(&Waits) -> u64| rows.iter().flat_map(|row| &row.fronts.runs).map(of).sum();
     Table::of("seeds.all", &[parameters], |own| own.realisations)
         .count("realisations", "chains at each σ", |own| own.realisations as u64)
@@ -253,12 +197,6 @@ fn all(parameters: &SeedsParams, rows: &[Row<'_>]) -> Table {
         .real("beat", TIME, 3, "2π/|Ω − ω|", |own| beat(&own.chain))
         .count("fronts", "fronts of all runs", |_| count(|run| run.fronts))
         .count("steps", "steps of all of them", |_| count(Waits::steps))
-        .real("spacing", "1", 2, "gaps from one that closes by itself to the next, there", |_| {
-            spacing()
-        })
-        .real("meeting_time", TIME, 2, "the time for half of that way", |_| {
-            fastest().map_or(f64::NAN, |speed| 0.5 * spacing() / speed.value)
-        })
         .done()
 }
 
@@ -313,8 +251,8 @@ mod tests {
         (parameters.bins, parameters.window, parameters.transients) = (4, 2, vec![0, 2]);
         // The seed is hit in the first bin, its neighbours in the second and the fourth, or one of them at all.
         let run = |hits: [u64; 3], firsts: [Option<u32>; 3]| {
-            let (hits, firsts, crossed) = (hits.to_vec(), firsts.to_vec(), vec![0; 3]);
-            Some(Trace { seed: Some(1), hits, firsts, crossed })
+            let (hits, firsts) = (hits.to_vec(), firsts.to_vec());
+            Some(Trace { seed: Some(1), hits, firsts })
         };
         let rows = vec![vec![
             run([0, 0b0001, 0b1010], [None, Some(0), Some(30)]),
@@ -322,7 +260,7 @@ mod tests {
             run([0b0010, 0b0001, 0b0010], [Some(30), Some(0), Some(40)]),
         ]];
         let found = tables(&Seeds { parameters, rows });
-        let [course, advance, fronts, waits, _, _, _, all] = &found[..] else { panic!() };
+        let [course, advance, fronts, _, _, _, all] = &found[..] else { panic!() };
         let at = |until: f64, column| course.number(&[("until", until)], column).unwrap();
         let columns = ["reached", "active", "active_share", "alive", "distance"];
         assert_eq!(columns.map(|column| at(50.0, column)), [2.5, 2.5, 1.0, 1.0, 1.0]);
@@ -331,12 +269,9 @@ mod tests {
         let advance = advance.points(&[], "time", "advance");
         assert_eq!(advance, [(25.0, 0.0), (50.0, 0.75), (75.0, 0.75), (100.0, 0.75)]);
         // Waits of 30, 30 and 40, and one that is cut off at 100.
-        let longer = waits.points(&[], "time", "longer");
-        assert_eq!(longer, [(30.0, 0.5), (40.0, 0.25), (100.0, 0.25)]);
         let speed = fronts.number(&[("sigma", 0.1)], "speed").unwrap();
         assert_eq!(speed, 3.0 / 200.0);
         let of = |column| all.number(&[], column).unwrap();
         assert_eq!([of("fronts"), of("steps"), of("least_alive")], [4.0, 3.0, 0.5]);
-        assert!((of("meeting_time") * 2.0 * speed / of("spacing") - 1.0).abs() < 1e-14);
     }
 }
