@@ -4,18 +4,14 @@
 //! the clock by the committed measurements, and is open while nobody measured it.
 
 use super::{Basis, Check, Error, Kind, Text, Verdict};
-use crate::experiments::accuracy::analytic::{Analytic, Route, Way};
 use crate::experiments::accuracy::race::{Entry, Race};
 use crate::experiments::measured::{Row, What};
-use crate::experiments::{ANALYTIC, MEASURED, RACE, SCALE, TRIALS};
+use crate::experiments::{MEASURED, RACE, SCALE, TRIALS};
 use crate::experiments::{Measured, Need, Results};
 use crate::params::MethodName;
 
 /// The experiments that the targets need.
-pub const NEEDS: &[Need] = &[&RACE, &ANALYTIC, &SCALE, &TRIALS, &MEASURED];
-
-/// Largest error of p(σ), and of P(X = k) and its mean, that is allowed.
-pub const DIGITS: f64 = 1e-13;
+pub const NEEDS: &[Need] = &[&RACE, &SCALE, &TRIALS, &MEASURED];
 
 /// Largest error of a waiting time in units of ε (d + R₁ + R₂)/|Δ'| that is allowed.
 pub const UNITS: f64 = 8.0;
@@ -23,13 +19,12 @@ pub const UNITS: f64 = 8.0;
 /// All targets, those of the clock first.
 pub fn targets(results: &Results) -> Result<Vec<Check>, Error> {
     let measured = results.of(&MEASURED)?;
-    let (race, analytic) = (results.of(&RACE)?, results.of(&ANALYTIC)?);
+    let race = results.of(&RACE)?;
     let mut all = clock(measured);
     all.extend(memory(measured));
     all.push(growth(results)?);
     all.extend(segments(race));
     all.push(scenes(results)?);
-    all.extend(digits(analytic));
     Ok(all)
 }
 
@@ -193,17 +188,6 @@ fn scenes(results: &Results) -> Result<Check, Error> {
     Ok(at_most(name, (0.0, ""), Some(wrong as f64), false))
 }
 
-fn digits(analytic: &Analytic) -> Vec<Check> {
-    let relation = analytic.relation_error(Route::ClosedForm);
-    let products = analytic.distribution_error(Way::Products);
-    let first = ("relation", "largest relative error of p(σ), Eq. (25)");
-    let second = ("distribution", "largest relative error of P(X = k) and μ, Eq. (9)");
-    vec![
-        at_most(first, (DIGITS, ""), relation, false),
-        at_most(second, (DIGITS, ""), products, false),
-    ]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -223,22 +207,19 @@ mod tests {
     #[test]
     fn targets_follow_the_numbers() {
         let mut results = results();
-        for id in ["misses", "waiting", "scenes", "work", "relation", "distribution"] {
+        for id in ["misses", "waiting", "scenes", "work"] {
             assert_eq!(verdict(&results, id), Verdict::Reproduced, "{id}");
         }
         let race = results.of_mut(&RACE).unwrap();
         race.entries[0].segments.unseen += 1;
         race.entries[0].segments.units = Some(9.0);
-        let analytic = results.of_mut(&ANALYTIC).unwrap();
-        analytic.relation.last_mut().unwrap().points[0].1 = 2e-13;
-        analytic.distribution.last_mut().unwrap().points[0].error = Some(2e-13);
         let verdicts = &mut results.of_mut(&TRIALS).unwrap().scenes[0].trials[0].verdicts;
         verdicts[0] = crate::experiments::accuracy::case::Verdict::Missed;
         let scale = results.of_mut(&SCALE).unwrap();
         let own = |m: MethodName| m == MethodName::Certified;
         let largest = scale.rows.iter_mut().filter(|row| own(row.setting.method)).last();
         largest.unwrap().evaluations_per_impact *= 3.0;
-        for id in ["misses", "waiting", "scenes", "work", "relation", "distribution"] {
+        for id in ["misses", "waiting", "scenes", "work"] {
             assert_eq!(verdict(&results, id), Verdict::Differs, "{id}");
         }
     }

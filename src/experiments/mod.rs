@@ -8,7 +8,6 @@ pub mod ensembles;
 pub mod history;
 pub mod horizon;
 pub mod identities;
-pub mod independence;
 pub mod long;
 pub mod measured;
 pub mod nucleation;
@@ -41,12 +40,12 @@ pub use results::{Looked, Results};
 pub use run::run;
 
 use crate::params::{
-    AnalyticParams, BiasParams, ChainsParams, HistoryParams, HorizonParams, IndependenceParams,
-    NucleationParams, Profile, ProtocolParams, RaceParams, RestitutionParams, ScaleParams,
-    SeedsParams, SpaceTimeParams, StartsParams, SweepParams, TrialParams, TwoMassesParams,
+    BiasParams, ChainsParams, HistoryParams, HorizonParams, NucleationParams, Profile,
+    ProtocolParams, RaceParams, RestitutionParams, ScaleParams, SeedsParams, SpaceTimeParams,
+    StartsParams, SweepParams, TrialParams, TwoMassesParams,
 };
 use crate::table::Table;
-use accuracy::{analytic, bias, race, scale, tables, trials};
+use accuracy::{bias, race, scale, tables, trials};
 use built::code;
 use ensembles::cutting;
 use literate::experiments::deep::Deep;
@@ -67,11 +66,9 @@ pub const ALL: &[Need] = &[
     &BIAS,
     &TRIALS,
     &SCALE,
-    &ANALYTIC,
     &NUCLEATION,
     &SEEDS,
     &HISTORY,
-    &INDEPENDENCE,
     &RESTITUTION,
     &CHAINS,
     &LONG_PROTOCOL,
@@ -228,15 +225,6 @@ pub const SCALE: Experiment<ScaleParams, scale::Scale> = Experiment {
     tables: tables::scale,
 };
 
-/// Ways to compute Eqs. (9) and (25).
-pub const ANALYTIC: Experiment<AnalyticParams, analytic::Analytic> = Experiment {
-    name: "analytic",
-    code: code("src/experiments/accuracy/analytic.rs"),
-    parameters: AnalyticParams::new,
-    how: Whole { run: analytic::run, weight: |p| 3 * p.sizes.iter().sum::<usize>() as u64 / 2 },
-    tables: tables::analytic,
-};
-
 /// First impacts of chains from rest.
 pub const NUCLEATION: Experiment<NucleationParams, nucleation::Nucleation, Vec<nucleation::First>> =
     Experiment {
@@ -264,19 +252,6 @@ pub const HISTORY: Experiment<HistoryParams, history::History, Vec<history::Coun
     how: Cut("history", cutting()),
     tables: history::tables::tables,
 };
-
-/// Whether impacts are independent.
-pub const INDEPENDENCE: Deep<
-    IndependenceParams,
-    independence::Independence,
-    Vec<independence::Outcome>,
-> = Deep::new(
-    ("independence", "order of impacts ([@sec:independence])"),
-    code("src/experiments/independence/mod.rs"),
-    IndependenceParams::new,
-    ("independence", cutting()),
-    independence::tables::tables,
-);
 
 /// Long chains, damping and other forces.
 pub const CHAINS: Deep<ChainsParams, chains::Chains, chains::Part> = Deep::new(

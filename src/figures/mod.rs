@@ -30,17 +30,14 @@ mod s07;
 mod s08;
 mod s09;
 mod s10;
-mod s11;
-mod s12;
-mod s13;
 mod simulated;
 
 pub use literate::figures::*;
 pub use number::Number;
 
 use crate::experiments::{
-    ANALYTIC, CHAINS, INDEPENDENCE, LONG_PROTOCOL, MEASURED, NUCLEATION, PROTOCOL, RACE,
-    RESTITUTION, SCALE, SEEDS, SEGMENTS, SIZES, SPACE_TIME, SWEEP,
+    CHAINS, LONG_PROTOCOL, MEASURED, NUCLEATION, PROTOCOL, RACE, RESTITUTION, SCALE, SEEDS,
+    SEGMENTS, SIZES, SPACE_TIME, SWEEP,
 };
 use crate::experiments::{Need, Results};
 use crate::params::{Profile, set};
@@ -89,20 +86,17 @@ const PAPER: [Listed; 15] = [
 ];
 
 /// Figures of this edition.
-const OWN: [Listed; 13] = [
+const OWN: [Listed; 10] = [
     figure(&[&PROTOCOL, &LONG_PROTOCOL], !THEORY, s01::draw),
     figure(&[&SPACE_TIME], !THEORY, |all| s02::draw(all.of(&SPACE_TIME)?)),
     figure(&[&NUCLEATION, &SWEEP], !THEORY, s03::draw),
     figure(&[&SEEDS, &SWEEP, &PROTOCOL], !THEORY, s04::draw),
     figure(&[&CHAINS, &SIZES, &PROTOCOL], !THEORY, s05::draw),
     figure(&[], THEORY, |all| s06::draw(&all.theory.large)),
-    figure(&[], THEORY, |all| s07::draw(&all.theory)),
-    figure(&[&INDEPENDENCE], !THEORY, s08::draw),
-    figure(&[&RESTITUTION], !THEORY, s09::draw),
-    figure(&[&RACE], !THEORY, |all| s10::draw(all.of(&RACE)?)),
-    figure(&[&RACE, &MEASURED], !THEORY, |all| s11::draw(all.of(&RACE)?, all.of(&MEASURED)?)),
-    figure(&[&SCALE, &MEASURED], !THEORY, |all| s12::draw(all.of(&SCALE)?, all.of(&MEASURED)?)),
-    figure(&[&ANALYTIC], !THEORY, |all| s13::draw(all.of(&ANALYTIC)?)),
+    figure(&[&RESTITUTION], !THEORY, s07::draw),
+    figure(&[&RACE], !THEORY, |all| s08::draw(all.of(&RACE)?)),
+    figure(&[&RACE, &MEASURED], !THEORY, |all| s09::draw(all.of(&RACE)?, all.of(&MEASURED)?)),
+    figure(&[&SCALE, &MEASURED], !THEORY, |all| s10::draw(all.of(&SCALE)?, all.of(&MEASURED)?)),
 ];
 
 /// All figures: first the paper's, then our own.

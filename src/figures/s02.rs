@@ -2,7 +2,6 @@
 
 use super::prelude::*;
 use crate::experiments::spacetime::SpaceTime;
-use crate::experiments::spacetime::scene::Scene;
 
 /// How much of the run the second panel shows.
 const DETAIL: f64 = 400.0;
@@ -37,9 +36,7 @@ pub fn draw(run: &SpaceTime) -> Result<Figure, Error> {
     let tick = Entry::mark((Mark::Square, 16, INK_LINE), "impact");
     let disc = Entry::mark((START.0, START.1, RED_DISC), "gap that closes by itself");
     sheet.legend_in_columns((1500, 9500), (SMALL, 370), (1, 2400), &[tick, disc])?;
-    let mut figure = sheet.finish("s02", "One long run", description(run));
-    figure.data.extend(Scene::of(run).map(|scene| positions(&scene)));
-    Ok(figure)
+    Ok(sheet.finish("s02", "One long run", description(run)))
 }
 
 const INK_LINE: Stroke = Stroke::solid(INK, HAIR);
@@ -85,19 +82,4 @@ fn description(run: &SpaceTime) -> String {
 
 fn thousandths(time: f64) -> f64 {
     (time * 1000.0).round() / 1000.0
-}
-
-/// Steps of the table of positions.
-const STEPS: u32 = 24;
-
-/// Positions of all bodies at times that are evenly spread over the scene.
-fn positions(scene: &Scene) -> DataFile {
-    let names = (scene.first..).take(scene.bodies.len()).map(|number| format!("x_{number} (d)"));
-    let header = std::iter::once("time (1/omega)".to_string()).chain(names).collect();
-    let row = |step: u32| {
-        let time = scene.from + (scene.until - scene.from) * f64::from(step) / f64::from(STEPS);
-        let places = scene.positions(time).into_iter().map(|x| x / scene.spacing);
-        std::iter::once(time).chain(places).map(|x| format!("{x:?}")).collect()
-    };
-    DataFile { name: "s02c.csv".into(), header, rows: (0..=STEPS).map(row).collect() }
 }

@@ -1,72 +1,125 @@
-//! Fig. S7: the five classes of Sec. 9 among circuits of all orders.
+//! Fig. S7: the rise and the rate of impacts at several restitutions.
 
+use super::FORCING;
 use super::prelude::*;
-use crate::experiments::theory::Theory;
+use super::simulated::count_axis;
+use crate::experiments::restitution::Restitution;
+use crate::experiments::{RESTITUTION, Results};
+use crate::table::Table;
 
-/// Looks of the numbers of different vertices in (a), from few to many.
-const LOOKS: [Dash; 5] = [Dash::Long, Dash::Short, Dash::Alternate, Dash::Twice, Dash::Dotted];
+/// Restitutions of (a), and their looks.
+const RISES: [(f64, Mark, Colour); 5] = [
+    (0.0, Mark::Disc, RED),
+    (0.4, Mark::OpenSquare, ORANGE),
+    (0.6, Mark::OpenTriangle, PURPLE),
+    (0.8, Mark::Ring, GREEN),
+    (0.95, Mark::Disc, BLUE),
+];
 
-/// Upper end of the shares' axes: above one, so that curves stay clear of what stands there.
-const TOP: f64 = 1.1;
+/// Looks of the r of (c), the last one first.
+const LOOKS: [(Mark, Colour); 4] = [
+    (Mark::Disc, RED),
+    (Mark::OpenSquare, ORANGE),
+    (Mark::OpenTriangle, PURPLE),
+    (Mark::Ring, BLUE),
+];
 
-pub fn draw(theory: &Theory) -> Result<Figure, Error> {
-    let sheet = Sheet::new(7700);
-    let orders = &theory.orders;
-    let x = Axis::decades(-3, -1, 1, "*p*");
-    let share = Axis::linear(0.0, TOP, 0.2, 2, "share of the five classes");
-    let whole = sheet.lettered(LETTERS[0], Frame::new(1150, 480, 6250, 3380), x, share)?;
-    let mut entries = Vec::new();
-    for (own, dash) in orders.shares.iter().zip(LOOKS) {
-        let points: Vec<_> = own.rows.iter().map(|row| (row.x, row.y)).collect();
-        let stroke = Stroke::dashed(INK, LINE, dash);
-        whole.curve(&format!("K = {}", own.k), &points, stroke, Outside::Cut)?;
-        entries.push(Entry::line(stroke, &format!("*K* = {}", own.k)));
-    }
-    let points: Vec<_> = orders.whole.iter().map(|row| (row.x, row.y)).collect();
-    let all = Stroke::solid(RED, LINE);
-    whole.curve("all circuits", &points, all, Outside::Refuse)?;
-    entries.push(Entry::line(all, "all circuits"));
-    guide(&whole, orders.pole, "1/*N*", HPos::Right)?;
-    guide(&whole, theory.scalars.p_jump, "*p*_{jump}", HPos::Left)?;
-    sheet.legend((6480, 1000), (SMALL, 400), &entries)?;
-    distributions(&sheet, theory)?;
-    Ok(sheet.finish("s07", "Circuits of all orders", description(theory)))
+/// What is drawn.
+struct Shown<'a> {
+    found: &'a Restitution,
+    rise: &'a Table,
+    curves: &'a Table,
+    heating: &'a Table,
 }
 
-/// An upright line at a place of p, with its name above.
-fn guide(panel: &Panel, p: f64, name: &str, side: HPos) -> Result<(), Error> {
-    let stroke = Stroke::dashed(GREY, THIN, Dash::Dotted);
-    panel.guide(name, &[(p, 0.0), (p, TOP)], stroke)?;
-    let dx = if matches!(side, HPos::Left) { 20 } else { -20 };
-    panel.note(name, (p, TOP), (dx, -80), (TINY, INK, side, VPos::Bottom))
-}
-
-fn distributions(sheet: &Sheet, theory: &Theory) -> Result<(), Error> {
-    let orders = &theory.orders;
-    let n = theory.vertices as f64;
-    let x = Axis::linear(0.0, n + 1.0, 20.0, 2, "*k*");
-    let y = Axis::decades(-4, 0, 1, "*P*(*X* = *k*)");
-    let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 4680, 8150, 6580), x, y)?;
-    let look = |mark, colour| (mark, 42, Stroke::solid(colour, THIN));
-    let series = [
-        ("simple circuits", &orders.simple_at_jump, look(Mark::Ring, GREEN)),
-        ("all circuits", &orders.at_jump, look(Mark::Disc, RED)),
-    ];
-    for (name, values, look) in series {
-        panel.marks(name, &over_k(values), look, Outside::Cut)?;
-    }
-    let entry = |i: usize, p: f64| {
-        let (name, _, look) = series[i];
-        Entry::mark(look, &format!("{name} at *p* = {}", short(p, 4)))
+pub fn draw(results: &Results) -> Result<Figure, Error> {
+    let table = |name| results.table(name);
+    let shown = Shown {
+        found: results.of(&RESTITUTION)?,
+        rise: table("restitution.rise")?,
+        curves: table("restitution.curves")?,
+        heating: table("restitution.heating")?,
     };
-    sheet.legend((700, 7550), (SMALL, 400), &[entry(0, theory.scalars.p_jump)])?;
-    sheet.legend((4400, 7550), (SMALL, 400), &[entry(1, orders.jump.p)])
+    let sheet = Sheet::new(12_120);
+    rises(&sheet, &shown)?;
+    places(&sheet, &shown)?;
+    heating(&sheet, &shown)?;
+    let title = "The rise and the rate of impacts at several restitutions";
+    Ok(sheet.finish("s07", title, description(&shown)))
 }
 
-fn description(theory: &Theory) -> String {
+fn named(r: f64) -> String {
+    format!("*r* = {r}")
+}
+
+fn rises(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
+    let gaps = shown.found.parameters.chain.gaps() as f64;
+    let last = shown.found.parameters.sigmas.iter().copied().fold(0.0, f64::max);
+    let x = Axis::linear(0.05, last + 0.02, 0.1, 5, FORCING);
+    let y = count_axis(shown.found.parameters.chain.gaps(), "mean count");
+    let panel = sheet.lettered("(a)", Frame::new(1150, 430, 8150, 3230), x, y)?;
+    let half = Stroke::dashed(INK, THIN, Dash::Short);
+    let level = [(0.05, 0.5 * gaps), (last + 0.02, 0.5 * gaps)];
+    panel.guide("half of all gaps", &level, half)?;
+    let mut entries = Vec::new();
+    for (r, mark, colour) in RISES {
+        let points = shown.rise.estimates(&[("r", r)], "sigma", "mean_count");
+        if points.is_empty() {
+            continue;
+        }
+        let look = (mark, MEDIUM, Stroke::solid(colour, THIN));
+        panel.joined(&named(r), &points, look)?;
+        entries.push(Entry::mark(look, &named(r)));
+    }
+    sheet.legend_in_columns((5000, 2150), (SMALL, 340), (3, 1500), &entries)
+}
+
+fn places(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
+    let x = Axis::linear(0.0, 1.0, 0.2, 2, "restitution *r*");
+    let y =
+        Axis::linear(0.0, 0.35, 0.1, 4, "*σ*_{1/2} (*d ω*^{2})").column("half_height (d omega^2)");
+    let panel = sheet.lettered("(b)", Frame::new(1150, 4700, 8150, 7200), x, y)?;
+    let points = shown.curves.estimates(&[], "r", "half_height");
+    panel.joined("half height", &points, (Mark::Disc, MEDIUM, Stroke::solid(RED, THIN)))
+}
+
+fn heating(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
+    let x = Axis::decades(1, 4, 1, "time *t* (1/*ω*)").from(20.0, 2000.0).finely();
+    let y = Axis::decades(1, 3, 1, "impacts per unit time").from(20.0, 500.0).finely();
+    let panel = sheet.lettered("(c)", Frame::new(1150, 8670, 8150, 11_170), x, y)?;
+    // A window stands at its middle on the logarithmic axis; the first has none.
+    let ends = shown.heating.values("window_end");
+    let middle = |end: f64| {
+        let before = ends.iter().copied().take_while(|own| *own < end).last()?;
+        Some((before * end).sqrt())
+    };
+    let table = shown.heating;
+    let solid = Stroke::solid(INK, LINE);
+    let law = table.points(&[("r", 1.0)], "window_end", "impacts_lossless");
+    let law: Vec<_> = law.iter().filter_map(|(end, own)| Some((middle(*end)?, *own))).collect();
+    panel.curve("hot, without loss", &law, solid, Outside::Cut)?;
+    let mut entries = Vec::new();
+    for (r, (mark, colour)) in table.values("r").into_iter().rev().zip(LOOKS) {
+        let points = table.estimates(&[("r", r)], "window_end", "impacts");
+        let points: Vec<_> =
+            points.iter().filter_map(|(end, own)| Some((middle(*end)?, *own))).collect();
+        let look = (mark, MEDIUM, Stroke::solid(colour, THIN));
+        panel.estimates(&named(r), &points, look)?;
+        entries.push(Entry::mark(look, &named(r)));
+    }
+    entries.insert(0, Entry::line(solid, "expected at *r* = 1"));
+    sheet.legend_in_columns((1400, 8920), (SMALL, 340), (3, 2700), &entries)
+}
+
+fn description(shown: &Shown<'_>) -> String {
+    let halves = shown.curves.points(&[], "r", "half_height");
+    let end = |at: Option<&(f64, f64)>| {
+        at.map_or("none".into(), |(r, own)| format!("{} at r = {r}", short(*own, 3)))
+    };
     format!(
-        "(a) Share of the five classes among all circuits, and among those with K vertices, against p, N = {}: it falls from one to \
-         zero at p = 1/K. (b) P(X = k) at the jump: two humps with simple circuits, with all circuits a trough.",
-        theory.vertices,
+        "(a) Mean count against σ: the smaller r, the later it rises. (b) Half height, from {} to {}. (c) Impacts per \
+         time in windows that double: level, but for r = 1.",
+        end(halves.first()),
+        end(halves.last()),
     )
 }

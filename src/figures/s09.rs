@@ -1,125 +1,117 @@
-//! Fig. S9: the rise and the rate of impacts at several restitutions.
+//! Fig. S9: how long a run is true, against its work, its error and its time.
 
-use super::FORCING;
 use super::prelude::*;
-use super::simulated::count_axis;
-use crate::experiments::restitution::Restitution;
-use crate::experiments::{RESTITUTION, Results};
-use crate::table::Table;
+use super::rivals::{Timed, by_method, entries, entries_of_others, look, look_of, others, timed};
+use crate::experiments::Measured;
+use crate::experiments::accuracy::race::{DISPLACED, Entry, Race};
+use crate::experiments::accuracy::tables::name;
+use crate::params::MethodName;
 
-/// Restitutions of (a), and their looks.
-const RISES: [(f64, Mark, Colour); 5] = [
-    (0.0, Mark::Disc, RED),
-    (0.4, Mark::OpenSquare, ORANGE),
-    (0.6, Mark::OpenTriangle, PURPLE),
-    (0.8, Mark::Ring, GREEN),
-    (0.95, Mark::Disc, BLUE),
-];
+/// The rounding of doubles, 2⁻⁵³.
+const ROUNDING: f64 = f64::EPSILON / 2.0;
 
-/// Looks of the r of (c), the last one first.
-const LOOKS: [(Mark, Colour); 4] = [
-    (Mark::Disc, RED),
-    (Mark::OpenSquare, ORANGE),
-    (Mark::OpenTriangle, PURPLE),
-    (Mark::Ring, BLUE),
-];
-
-/// What is drawn.
-struct Shown<'a> {
-    found: &'a Restitution,
-    rise: &'a Table,
-    curves: &'a Table,
-    heating: &'a Table,
+/// Time after which an error ε has grown to [`DISPLACED`]: ln(10⁻³/ε)/λ, with λ and its error.
+fn allowed(race: &Race, error: f64) -> Option<[f64; 3]> {
+    let growth = race.growth.growth?;
+    let folds = pxfm::f_log(DISPLACED / error).max(0.0);
+    Some([growth.interval[1], growth.value, growth.interval[0]].map(|rate| folds / rate))
 }
 
-pub fn draw(results: &Results) -> Result<Figure, Error> {
-    let table = |name| results.table(name);
-    let shown = Shown {
-        found: results.of(&RESTITUTION)?,
-        rise: table("restitution.rise")?,
-        curves: table("restitution.curves")?,
-        heating: table("restitution.heating")?,
+pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
+    let sheet = Sheet::new(9950);
+    let top = (race.parameters.until / 50.0).ceil() * 50.0;
+    let costs = race.entries.iter().filter_map(|entry| entry.evaluations_per_impact);
+    let (x, y) =
+        (Axis::around(costs, 1, "evaluations per impact"), horizon(top, "horizon *t* (1/*ω*)"));
+    let by_cost = sheet.lettered(LETTERS[0], Frame::new(1100, 430, 8150, 3500), x, y)?;
+    let x = Axis::decades(-18, 0, 6, "error of the next impact (1/*ω*)");
+    let y = horizon(top, "horizon *t* (1/*ω*)");
+    let by_error = sheet.lettered(LETTERS[1], Frame::new(1100, 4900, 4300, 7350), x, y)?;
+
+    let points = |place: &dyn Fn(&Entry) -> Option<f64>| {
+        by_method(&race.entries, |e| e.setting, |e| Some((place(e)?, e.horizon?[0])))
     };
-    let sheet = Sheet::new(12_120);
-    rises(&sheet, &shown)?;
-    places(&sheet, &shown)?;
-    heating(&sheet, &shown)?;
-    let title = "The rise and the rate of impacts at several restitutions";
-    Ok(sheet.finish("s09", title, description(&shown)))
-}
-
-fn named(r: f64) -> String {
-    format!("*r* = {r}")
-}
-
-fn rises(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
-    let gaps = shown.found.parameters.chain.gaps() as f64;
-    let last = shown.found.parameters.sigmas.iter().copied().fold(0.0, f64::max);
-    let x = Axis::linear(0.05, last + 0.02, 0.1, 5, FORCING);
-    let y = count_axis(shown.found.parameters.chain.gaps(), "mean count");
-    let panel = sheet.lettered("(a)", Frame::new(1150, 430, 8150, 3230), x, y)?;
-    let half = Stroke::dashed(INK, THIN, Dash::Short);
-    let level = [(0.05, 0.5 * gaps), (last + 0.02, 0.5 * gaps)];
-    panel.guide("half of all gaps", &level, half)?;
-    let mut entries = Vec::new();
-    for (r, mark, colour) in RISES {
-        let points = shown.rise.estimates(&[("r", r)], "sigma", "mean_count");
-        if points.is_empty() {
-            continue;
+    chaos(&by_error, race)?;
+    let ceiling = allowed(race, ROUNDING);
+    if let Some([_, ceiling, _]) = ceiling.filter(|c| c[1] < top) {
+        let line = Stroke::dashed(GREY, LINE, Dash::Short);
+        by_cost.level("what chaos allows to doubles", ceiling, line)?;
+        let look = (TINY, INK, HPos::Right, VPos::Bottom);
+        by_cost.note("what chaos allows to doubles", (by_cost.x.hi, ceiling), (0, -70), look)?;
+    }
+    let by_work = |e: &Entry| e.evaluations_per_impact;
+    let by_median = |e: &Entry| e.segments.errors.map(|errors| errors[0]);
+    for (panel, place) in
+        [(&by_cost, &by_work as &dyn Fn(&Entry) -> Option<f64>), (&by_error, &by_median)]
+    {
+        let bars = by_method(&race.entries, |e| e.setting, |e| Some((place(e)?, e.horizon?[1])));
+        for ((method, points), (_, errors)) in points(place).iter().zip(bars) {
+            let look = look(*method);
+            let bars: Vec<_> =
+                points.iter().zip(errors).map(|(p, e)| (p.0, p.1 - e.1, p.1 + e.1)).collect();
+            panel.bars(name(*method), &bars, 0, look.2, Outside::Edge)?;
+            if std::ptr::eq(panel, &by_cost) {
+                panel.curve(name(*method), points, look.2, Outside::Refuse)?;
+            }
+            panel.marks(name(*method), points, look, Outside::Edge)?;
         }
-        let look = (mark, MEDIUM, Stroke::solid(colour, THIN));
-        panel.joined(&named(r), &points, look)?;
-        entries.push(Entry::mark(look, &named(r)));
     }
-    sheet.legend_in_columns((5000, 2150), (SMALL, 340), (3, 1500), &entries)
+    let present = points(&by_work);
+    let programs = timed(measured);
+    let mut legend = entries(|method| present.iter().any(|(m, _)| *m == method));
+    legend.extend(entries_of_others(&others(&programs)));
+    sheet.legend_in_columns((350, 8600), (SMALL, 370), (4, 2800), &legend)?;
+    clock(&sheet, measured, race.parameters.chain.masses, top)?;
+    Ok(sheet.finish("s09", "How long a run is true", description(race)))
 }
 
-fn places(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
-    let x = Axis::linear(0.0, 1.0, 0.2, 2, "restitution *r*");
-    let y =
-        Axis::linear(0.0, 0.35, 0.1, 4, "*σ*_{1/2} (*d ω*^{2})").column("half_height (d omega^2)");
-    let panel = sheet.lettered("(b)", Frame::new(1150, 4700, 8150, 7200), x, y)?;
-    let points = shown.curves.estimates(&[], "r", "half_height");
-    panel.joined("half height", &points, (Mark::Disc, MEDIUM, Stroke::solid(RED, THIN)))
+/// The axis of horizons.
+fn horizon(top: f64, label: &str) -> Axis {
+    let step = if top > 60.0 { 50.0 } else { 10.0 };
+    Axis::linear(0.0, top, step, 1, label).column("horizon (1/omega)")
 }
 
-fn heating(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
-    let x = Axis::decades(1, 4, 1, "time *t* (1/*ω*)").from(20.0, 2000.0).finely();
-    let y = Axis::decades(1, 3, 1, "impacts per unit time").from(20.0, 500.0).finely();
-    let panel = sheet.lettered("(c)", Frame::new(1150, 8670, 8150, 11_170), x, y)?;
-    // A window stands at its middle on the logarithmic axis; the first has none.
-    let ends = shown.heating.values("window_end");
-    let middle = |end: f64| {
-        let before = ends.iter().copied().take_while(|own| *own < end).last()?;
-        Some((before * end).sqrt())
-    };
-    let table = shown.heating;
-    let solid = Stroke::solid(INK, LINE);
-    let law = table.points(&[("r", 1.0)], "window_end", "impacts_lossless");
-    let law: Vec<_> = law.iter().filter_map(|(end, own)| Some((middle(*end)?, *own))).collect();
-    panel.curve("hot, without loss", &law, solid, Outside::Cut)?;
-    let mut entries = Vec::new();
-    for (r, (mark, colour)) in table.values("r").into_iter().rev().zip(LOOKS) {
-        let points = table.estimates(&[("r", r)], "window_end", "impacts");
-        let points: Vec<_> =
-            points.iter().filter_map(|(end, own)| Some((middle(*end)?, *own))).collect();
-        let look = (mark, MEDIUM, Stroke::solid(colour, THIN));
-        panel.estimates(&named(r), &points, look)?;
-        entries.push(Entry::mark(look, &named(r)));
+/// The line that chaos allows, with the band of λ's interval.
+fn chaos(panel: &Panel, race: &Race) -> Result<(), Error> {
+    let at = |error: f64| allowed(race, error).map(|t| (error, t));
+    let errors = (0..=72).map(|i| pxfm::f_exp10(-18.0 + 0.25 * f64::from(i)));
+    let grid: Vec<_> = errors.filter_map(at).collect();
+    let cut = |t: f64| t.min(panel.y.hi);
+    let below = grid.iter().map(|(x, t)| (*x, cut(t[0])));
+    let above = grid.iter().rev().map(|(x, t)| (*x, cut(t[2])));
+    panel.area("interval of the growth", &below.chain(above).collect::<Vec<_>>(), PALE, 100)?;
+    let line: Vec<_> = grid.iter().map(|(x, t)| (*x, t[1])).collect();
+    let stroke = Stroke::dashed(GREY, LINE, Dash::Short);
+    panel.curve("what chaos allows", &line, stroke, Outside::Cut)
+}
+
+/// Panel (c): the horizon of programs on one chain against the time they take, as measured.
+fn clock(sheet: &Sheet, measured: &Measured, masses: usize, top: f64) -> Result<(), Error> {
+    // The engine is the certified method; as one of the methods it is the same, with more to count.
+    let again = MethodName::Certified.id();
+    let compared =
+        |row: &Timed| row.masses as usize == masses && row.horizon.is_some() && row.name != again;
+    let rows: Vec<Timed> = timed(measured).into_iter().filter(compared).collect();
+    let time = rows.iter().map(|row| row.microseconds);
+    let x = Axis::around(time, 1, "measured µs per impact").column("measured time per impact (us)");
+    let y = horizon(top, "");
+    let panel = sheet.lettered(LETTERS[2], Frame::new(5300, 4900, 8150, 7350), x, y)?;
+    let others = others(&rows);
+    for row in &rows {
+        let point = [(row.microseconds, row.horizon.unwrap_or(0.0))];
+        panel.marks(&row.name, &point, look_of(row, &others), Outside::Edge)?;
     }
-    entries.insert(0, Entry::line(solid, "expected at *r* = 1"));
-    sheet.legend_in_columns((1400, 8920), (SMALL, 340), (3, 2700), &entries)
+    Ok(())
 }
 
-fn description(shown: &Shown<'_>) -> String {
-    let halves = shown.curves.points(&[], "r", "half_height");
-    let end = |at: Option<&(f64, f64)>| {
-        at.map_or("none".into(), |(r, own)| format!("{} at r = {r}", short(*own, 3)))
-    };
+fn description(race: &Race) -> String {
+    let growth = race.growth.growth.map_or("unknown".into(), |g| short(g.value, 3));
     format!(
-        "(a) Mean count against σ: the smaller r, the later it rises. (b) Half height, from {} to {}. (c) Impacts per \
-         time in windows that double: level, but for r = 1.",
-        end(halves.first()),
-        end(halves.last()),
+        "Time up to which a run has every impact right, mean of {} chains with n = {} and σ = {}: (a) against evaluations per \
+         impact, (b) against the median error of one impact, with the line that the growth λ = {growth} allows, (c) against \
+         measured time, on one chain.",
+        race.impacts.len(),
+        race.parameters.chain.masses,
+        race.parameters.sigma,
     )
 }

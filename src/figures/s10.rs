@@ -1,68 +1,117 @@
-//! Fig. S10: error and misses of the next impact against counted work, for every method.
+//! Fig. S10: what an impact costs against the number of masses, counted and measured.
 
 use super::prelude::*;
-use super::rivals::{by_method, entries, look};
-use crate::experiments::accuracy::race::{DISPLACED, Entry, Race};
+use super::rivals::{Timed, by_method, entries, look, most_accurate, timed};
+use crate::experiments::Measured;
+use crate::experiments::accuracy::scale::{Scale as Costs, ScaleRow};
 use crate::experiments::accuracy::tables::name;
+use crate::experiments::measured::{Row, What};
 use crate::params::MethodName;
 
-pub fn draw(race: &Race) -> Result<Figure, Error> {
-    let sheet = Sheet::new(9500);
-    let costs = || race.entries.iter().filter_map(|entry| entry.evaluations_per_impact);
-    let cost_axis = || Axis::around(costs(), 1, "evaluations per impact");
-    let error = Axis::decades(-18, 0, 3, "error in time (1/*ω*)");
-    let (x, y) = (cost_axis().bare(), error.column("error of the next impact's time (1/omega)"));
-    let errors = sheet.lettered(LETTERS[0], Frame::new(1300, 430, 8150, 4030), x, y)?;
-    errors.level("counts as missed", DISPLACED, Stroke::dashed(GREY, HAIR, Dash::Short))?;
-    let words = (TINY, INK, HPos::Left, VPos::Bottom);
-    let place = (errors.x.lo, DISPLACED);
-    errors.note("missed above", place, (110, -60), words)?;
-
-    let tried = race.entries.iter().map(|e| e.segments.tried).max().unwrap_or(1);
-    let bottom = -(pxfm::f_log10(tried as f64).ceil() as i32) - 1;
-    let mut axis = Axis::decades(bottom, 0, 1, "share missed");
-    // Below one in all that were tried there is nothing but zero.
-    axis.ticks.retain(|tick| tick.at <= axis.lo || tick.at >= 9.5 * axis.lo);
-    if let Some(first) = axis.ticks.first_mut() {
-        first.label = Some("none".into());
-    }
-    let misses = Frame::new(1300, 4650, 8150, 7250);
-    let misses = sheet.lettered(LETTERS[1], misses, cost_axis(), axis)?;
-
-    let spread = |e: &Entry| Some((e.evaluations_per_impact?, e.segments.errors?[2]));
-    let middle = |e: &Entry| Some((e.evaluations_per_impact?, e.segments.errors?[0]));
-    let missed = |e: &Entry| {
-        let share = e.segments.misses() as f64 / e.segments.tried.max(1) as f64;
-        Some((e.evaluations_per_impact?, share))
-    };
-    let medians = by_method(&race.entries, |e| e.setting, middle);
-    for ((method, points), (_, ends)) in
-        medians.iter().zip(by_method(&race.entries, |e| e.setting, spread))
-    {
-        let look = look(*method);
-        let bars: Vec<_> = points.iter().zip(&ends).map(|(a, b)| (a.0, a.1, b.1)).collect();
-        let thin = Stroke::solid(look.2.colour, HAIR);
-        errors.bars(name(*method), &bars, 0, thin, Outside::Edge)?;
-        errors.marked(name(*method), points, (look.2, look), Outside::Edge)?;
-    }
-    for (method, points) in by_method(&race.entries, |e| e.setting, missed) {
-        let look = look(method);
-        misses.marked(name(method), &points, (look.2, look), Outside::Edge)?;
-    }
-    let entries = entries(|method| medians.iter().any(|(m, _)| *m == method));
-    sheet.legend_in_columns((700, 8450), (SMALL, 370), (3, 2650), &entries)?;
-    Ok(sheet.finish("s10", "Error and misses of the next impact", description(race)))
+/// The engine's own measured rows: one chain, one thread.
+fn own(measured: &Measured) -> Vec<&Row> {
+    measured.of(What::Engine).filter(|row| row.chains == 1 && row.note.is_empty()).collect()
 }
 
-fn description(race: &Race) -> String {
-    let certified = race.entries.iter().find(|e| e.setting.method == MethodName::Certified);
-    let largest = certified.and_then(|entry| Some(entry.segments.errors?[2]));
+pub fn draw(scale: &Costs, measured: &Measured) -> Result<Figure, Error> {
+    let sheet = Sheet::new(12_800);
+    let own = own(measured);
+    // Somewhat wider than the sizes, which would stand on the other axis.
+    let masses = || Axis::decades(0, 5, 1, "number of masses *n*").from(7.0, 1.4e4);
+    let work = scale.rows.iter().map(|row| row.evaluations_per_impact);
+    let (x, y) = (masses().bare(), Axis::around(work, 1, "evaluations per impact"));
+    let counted = sheet.lettered(LETTERS[0], Frame::new(1200, 430, 8150, 2730), x, y)?;
+    let point = |row: &ScaleRow| Some((row.masses as f64, row.evaluations_per_impact));
+    let all = by_method(&scale.rows, |row| row.setting, point);
+    for (method, points) in &all {
+        let look = look(*method);
+        counted.marked(name(*method), points, (look.2, look), Outside::Refuse)?;
+    }
+
+    let programs: Vec<Timed> = timed(measured)
+        .into_iter()
+        .filter(|row| row.horizon.is_some() && row.name != MethodName::Certified.id())
+        .collect();
+    let programs = most_accurate(&programs);
+    let times = own.iter().filter_map(|row| row.microseconds_per_impact);
+    let (x, y) =
+        (masses(), Axis::around(times, 1, "µs per impact").finely().column("time per impact (us)"));
+    let clock = sheet.lettered(LETTERS[1], Frame::new(1200, 3450, 8150, 5150), x, y)?;
+    let red = look(MethodName::Certified);
+    let line: Vec<_> =
+        own.iter().filter_map(|row| Some((row.n as f64, row.microseconds_per_impact?))).collect();
+    clock.marked("this engine", &line, (red.2, red), Outside::Refuse)?;
+    let words = (TINY, INK, HPos::Right, VPos::Bottom);
+    let told = format!("measured on {}", measured.date);
+    clock.note(&told, (clock.x.hi, clock.y.hi), (0, -80), words)?;
+
+    let legend = entries(|method| all.iter().any(|(own, _)| *own == method));
+    sheet.legend_in_columns((500, 6350), (SMALL, 370), (2, 2650), &legend)?;
+    ranked(&sheet, &programs)?;
+    Ok(sheet.finish("s10", "Cost of an impact against n", description(scale, measured)))
+}
+
+/// A row for each program at its most accurate setting, the fastest at the top.
+fn ranked(sheet: &Sheet, programs: &[&Timed]) -> Result<(), Error> {
+    const ROW: i32 = 330;
+    let mut sizes: Vec<u64> = programs.iter().map(|row| row.masses).collect();
+    sizes.sort_unstable();
+    sizes.dedup();
+    let largest = sizes.last().copied().unwrap_or(0);
+    let mut rows: Vec<&Timed> =
+        programs.iter().copied().filter(|row| row.masses == largest).collect();
+    rows.sort_by(|a, b| a.microseconds.total_cmp(&b.microseconds));
+    let count = rows.len() as i32;
+    let top = 7500;
+    let times = programs.iter().map(|row| row.microseconds);
+    let places = Axis::new(Scale::Linear, [-0.5, f64::from(count) - 0.5], "", Vec::new());
+    let x =
+        Axis::around(times, 1, "measured µs per impact").column("measured time per impact (us)");
+    let y = places.column("place from below (1)");
+    let panel = sheet.panel(Frame::new(2900, top, 8150, top + ROW * count), x, y)?;
+    let panel = panel.file("c");
+    sheet.text(LETTERS[2], (260, top - 80), (TEXT, INK, HPos::Left, VPos::Bottom))?;
+    // The smaller disc leaves the ring to be seen.
+    let line = Stroke::solid(INK, THIN);
+    let marks = [(Mark::Ring, LARGE, line), (Mark::Disc, 36, line)];
+    for (place, own) in rows.iter().enumerate() {
+        let y = f64::from(count - 1) - place as f64;
+        let title: &str = match own.method {
+            Some(method) => name(method),
+            None => &own.name,
+        };
+        let colour = if own.method == Some(MethodName::Certified) { RED } else { INK };
+        let words = (SMALL, colour, HPos::Right, VPos::Center);
+        panel.note(title, (panel.x.lo, y), (-120, 0), words)?;
+        let guide = Stroke::dashed(PALE, HAIR, Dash::Dotted);
+        panel.level("row", y, guide)?;
+        for (masses, mark) in sizes.iter().zip(marks) {
+            let alike = |row: &&&Timed| row.name == own.name && row.masses == *masses;
+            let at: Vec<_> =
+                programs.iter().filter(alike).map(|row| (row.microseconds, y)).collect();
+            let panel = panel.series(&format!("{title}, n = {masses}"));
+            panel.marks(title, &at, mark, Outside::Refuse)?;
+        }
+    }
+    for (i, (masses, mark)) in sizes.iter().zip(marks).enumerate() {
+        let text = format!("*n* = {masses}");
+        let entry = Entry::mark(mark, &text);
+        let at = (2900 + 2300 * i as i32, top + ROW * count + 1100);
+        sheet.legend(at, (SMALL, 370), &[entry])?;
+    }
+    Ok(())
+}
+
+fn description(scale: &Costs, measured: &Measured) -> String {
+    let certified = |row: &&ScaleRow| row.setting.method == MethodName::Certified;
+    let most = scale.rows.iter().rfind(certified);
+    let counted = most.map_or("none".into(), |row| {
+        format!("{} at n = {}", short(row.evaluations_per_impact, 2), row.masses)
+    });
+    let last = own(measured).last().and_then(|row| Some((row.n, row.microseconds_per_impact?)));
+    let timed = last.map_or("none".into(), |(n, time)| format!("{} at n = {n}", short(time, 2)));
     format!(
-        "Against counted work, a marker for each method and step or tolerance, n = {}, σ = {}: (a) median error of the time of the next \
-         impact, with a line up to the largest, which for the engine is {}; (b) the share of states from which the \
-         next impact is missed.",
-        race.parameters.chain.masses,
-        race.parameters.sigma,
-        largest.map_or("unknown".into(), |error| short(error, 2)),
+        "Cost against the number of masses n, all axes logarithmic. (a) Evaluations per impact: this engine lowest and nearly level, \
+         {counted}; Runge–Kutta grows with n. (b) Microseconds per impact of this engine, {timed}. (c) Programs by their time, this engine first."
     )
 }

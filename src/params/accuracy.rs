@@ -62,40 +62,6 @@ pub(super) fn settings(list: &[(MethodName, &[f64])]) -> Vec<Setting> {
     list.iter().flat_map(of).collect()
 }
 
-/// Ways to compute Eq. (25) and the distributions of Sec. 6.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct AnalyticParams {
-    /// Standard deviations σ, rising.
-    pub sigmas: Vec<f64>,
-    /// Panels in each direction of the double integral of Eq. (25), rising.
-    pub panels: Vec<usize>,
-    /// Numbers of vertices N, rising.
-    pub sizes: Vec<usize>,
-    /// N p, the same at every N.
-    pub mean_degree: f64,
-}
-
-impl AnalyticParams {
-    /// The sizes of each profile.
-    pub fn new(profile: Profile) -> Self {
-        let (per_decade, sizes): (u32, &[usize]) = match profile {
-            Profile::Full | Profile::Deep => {
-                (16, &[10, 20, 50, 100, 170, 171, 300, 1000, 10_000, 100_000, 1_000_000])
-            }
-            Profile::Ci => (8, &[10, 20, 50, 100, 170, 171, 300, 1000, 10_000, 100_000]),
-            Profile::Quick => (4, &[10, 30, 100, 170, 171, 1000, 10_000]),
-        };
-        // From 0.0135, below which p leaves the range of doubles, to 10.
-        let step = pxfm::f_exp(pxfm::f_log(10.0) / f64::from(per_decade));
-        let mut sigmas = vec![0.0135];
-        while let Some(last) = sigmas.last().filter(|last| **last * step < 10.0) {
-            sigmas.push(last * step);
-        }
-        sigmas.push(10.0);
-        AnalyticParams { sigmas, panels: vec![1, 3], sizes: sizes.to_vec(), mean_degree: 10.0 }
-    }
-}
-
 /// Every method against the true motion of a few chains: the next impact from many exact states,
 /// and whole runs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -45,12 +45,6 @@ pub const LARGE_VERTICES: [usize; 11] =
 /// Those of them whose k* is drawn against p N (ours).
 pub const DRAWN_VERTICES: [usize; 3] = [100, 10_000, 1_000_000];
 
-/// How many edges more than a simple circuit others may have, while orders are added (ours).
-pub const ORDERS: [usize; 10] = [0, 1, 2, 3, 5, 10, 20, 50, 100, 500];
-
-/// Numbers of different vertices whose circuits of all orders are drawn (ours).
-pub const ORDERS_K: [usize; 5] = [5, 10, 20, 50, 100];
-
 /// Two impacts of adjacent gaps closer in time than this count as near-simultaneous (ours, 1/ω).
 pub const NEAR_SIMULTANEOUS: f64 = 1e-9;
 

@@ -14,8 +14,6 @@ pub struct SpaceTimeParams {
     pub until: f64,
     /// The first realisation is taken that has an impact in the last part of this length.
     pub last: f64,
-    /// How much of its end is kept mass by mass.
-    pub scene: f64,
     /// Name of the random stream.
     pub stream: String,
     /// Master seed.
@@ -35,7 +33,6 @@ impl SpaceTimeParams {
             sigma: PRINTED_THRESHOLD,
             until,
             last: until / 10.0,
-            scene: 60.0,
             stream: "space-time".into(),
             seed: set::seed(),
         }

@@ -5,8 +5,7 @@ use super::judged::Judged;
 use super::sources::Sources;
 use crate::claims::{self, Check, Text, Verdict};
 use crate::committed;
-use crate::experiments::spacetime::scene::Scene;
-use crate::experiments::{ALL, Progress, Results, SPACE_TIME, alive};
+use crate::experiments::{ALL, Progress, Results, alive};
 use crate::figures::{self, Figure};
 use crate::params::{Profile, set};
 use crate::report::{self, PROGRAM, Report, contents, equations};
@@ -53,9 +52,6 @@ pub fn whole(
         Some(_) => Judged { claims, ..Judged::default() },
     };
     let claims = &judged.claims;
-    let scene = Scene::of(results.of(&SPACE_TIME)?);
-    let scene = scene.as_ref().map(report::scene::moving).transpose();
-    let scene = scene.map_err(|error| Failure::run(error.to_string()))?;
     let module = committed::bytes(MODULE).filter(|module| is_module(module));
     if module.is_none() {
         let what = "is not there or no module, so the pages run nothing; `make paper` builds it";
@@ -71,7 +67,6 @@ pub fn whole(
         claims,
         figures: &drawn,
         equations: &equations::entries(),
-        scene: scene.as_ref(),
         lab: lab.as_deref(),
         program: PROGRAM,
     });

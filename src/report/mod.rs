@@ -7,7 +7,6 @@ pub mod lab;
 pub mod map;
 mod program;
 pub mod recipe;
-pub mod scene;
 
 pub use literate::report::*;
 pub use program::PROGRAM;

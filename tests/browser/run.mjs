@@ -2,7 +2,7 @@
 // if something is wrong. Usage: node run.mjs FOLDER [FOLDER FOR PICTURES]
 import { chromium } from "playwright-core";
 import { createRequire } from "node:module";
-import { existsSync, readFileSync, statSync } from "node:fs";
+import { existsSync, statSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { labs } from "./lab.mjs";
@@ -11,10 +11,10 @@ const report = resolve(process.argv[2] ?? "../../paper");
 const pictures = process.argv[3];
 /** What each page has at least: figures, links inside it, equations, elements at most, bytes at most. */
 const PAGES = {
-  "index.html": { figures: 2, links: 4, equations: 0, elements: 15_000, bytes: 300 * 1024 },
+  "index.html": { figures: 1, links: 4, equations: 0, elements: 15_000, bytes: 300 * 1024 },
   "report.html": { figures: 15, links: 150, equations: 39, elements: 15_000, bytes: 1.2 * 1024 * 1024 },
-  "beyond.html": { figures: 10, links: 100, equations: 10, elements: 18_000, bytes: 2.6 * 1024 * 1024 },
-  "methods.html": { figures: 4, links: 20, equations: 0, elements: 15_000, bytes: 1.2 * 1024 * 1024 },
+  "beyond.html": { figures: 7, links: 100, equations: 10, elements: 18_000, bytes: 2.6 * 1024 * 1024 },
+  "methods.html": { figures: 3, links: 20, equations: 0, elements: 15_000, bytes: 1.2 * 1024 * 1024 },
   "ledger.html": { figures: 0, links: 70, equations: 0, elements: 15_000, bytes: 1.2 * 1024 * 1024 },
 };
 const axe = createRequire(import.meta.url).resolve("axe-core/axe.min.js");
@@ -244,61 +244,6 @@ async function filters(page) {
   check((await shown.count()) === (await all.count()), "ledger: a row that is gone to stays hidden");
 }
 
-/** Positions of the masses as the program computed them: a time and the places of all bodies in each row. */
-function saved_positions() {
-  const lines = readFileSync(join(report, "data/s02c.csv"), "utf8").trim().split("\n").slice(1);
-  return lines.map((line) => line.split(",").map(Number)).map(([t, ...places]) => ({ t, places }));
-}
-
-/** The scene stands until it is played, puts masses where the program has them, and obeys keys and reader. */
-async function moves(page, name, calm) {
-  const rows = saved_positions();
-  const worst = await page.evaluate((rows) => {
-    const { positions } = document.getElementById("scene");
-    return Math.max(...rows.flatMap(({ t, places }) => positions(t).map((x, k) => Math.abs(x - places[k]))));
-  }, rows);
-  check(rows.length > 20 && worst < 1e-9, `${name}: masses of the scene are misplaced by ${worst}`);
-  const state = () =>
-    page.evaluate(() => [...document.querySelectorAll("#scene .masses rect, #scene input")].map((node) => node.value ?? node.getAttribute("x")).join());
-  const [button, slider] = [page.locator("#scene .controls button"), page.locator("#scene .controls input")];
-  const stands = async (when) => {
-    const before = await state();
-    await page.waitForTimeout(300);
-    check(before === (await state()), `${name}: the scene moves ${when}`);
-  };
-  await page.locator("#scene").scrollIntoViewIfNeeded();
-  await stands("unasked");
-  check((await slider.inputValue()) === (await slider.getAttribute("min")), `${name}: the scene does not stand at its beginning`);
-  if (calm) {
-    check(!(await button.isVisible()), `${name}: Play is offered to those who prefer no motion`);
-  } else {
-    const before = await state();
-    await button.focus();
-    await page.keyboard.press("Enter");
-    await page.waitForTimeout(500);
-    check(before !== (await state()), `${name}: Enter on Play moves nothing`);
-    check((await button.innerText()) === "Pause", `${name}: Play does not turn into Pause`);
-    await page.keyboard.press("Space");
-    await stands("after Pause");
-    await page.keyboard.press("Space");
-    await page.emulateMedia({ reducedMotion: "reduce" });
-    await page.waitForTimeout(100);
-    await stands("on although no motion is preferred now");
-    await page.emulateMedia({ reducedMotion: "no-preference" });
-  }
-  await slider.focus();
-  await page.keyboard.press("End");
-  const [told, bars] = await page.evaluate(() => [
-    document.querySelector("#scene input").getAttribute("aria-valuetext"),
-    [...document.querySelectorAll("#scene .counts rect")].map((bar) => Number(bar.getAttribute("height"))),
-  ]);
-  check(/^t = \d+\.\d, impacts: [1-9]\d*$/.test(told), `${name}: the scene's time is told as ${told}`);
-  const full = bars.every((height, i) => i % 2 === 0 || Math.abs(height - bars[i - 1]) < 1e-6);
-  check(full, `${name}: at the end the bars of the scene are not full`);
-  await page.keyboard.press("Home");
-  check(/impacts: 0$/.test(await slider.getAttribute("aria-valuetext")), `${name}: the scene does not go back`);
-}
-
 async function accessible(page, name) {
   await page.addScriptTag({ path: axe });
   const found = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
@@ -328,7 +273,6 @@ for (const [file, least] of Object.entries(PAGES)) {
     await tables_are_one_stop(page, name);
     await references_are_seen(page, name);
     await search_finds(page, name);
-    if (file === "index.html") await moves(page, name, false);
     if (file === "ledger.html") await filters(page);
     await accessible(page, name);
     if (pictures) {
@@ -340,17 +284,9 @@ for (const [file, least] of Object.entries(PAGES)) {
 }
 await labs({ report, open, check, stays_narrow, accessible, pictures });
 
-const calm = await open("index.html", 1280, "light", { reducedMotion: "reduce" });
-await moves(calm, "calm", true);
-await calm.context().close();
-
 // Without scripts all that is to be read is there.
 for (const file of Object.keys(PAGES)) {
   const page = await open(file, 1280, "light", { javaScriptEnabled: false });
-  if (file === "index.html") {
-    check(await page.locator("#scene svg").isVisible(), "without scripts the scene shows nothing");
-    check(!(await page.locator("#scene .controls").isVisible()), "without scripts the scene has controls that do nothing");
-  }
   if (file === "ledger.html") check((await page.locator("#tab-claims tbody tr:visible").count()) > 60, "without scripts the ledger lacks rows");
   check(await page.locator("main").isVisible(), `without scripts ${file} shows nothing`);
   await page.context().close();

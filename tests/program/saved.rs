@@ -108,17 +108,17 @@ fn status_gives_each_reason_and_audit_compares_bytes() {
     assert!(saved(folder) == *results);
 
     // A result that the code does not give, with everything else right: only an audit finds it.
-    let text = std::str::from_utf8(&results["analytic-quick.json"]).unwrap();
+    let text = std::str::from_utf8(&results["horizon-quick.json"]).unwrap();
     let number = text
         .rsplit([',', ':'])
         .find_map(|end| end.split(|c: char| !c.is_ascii_digit()).find(|digits| digits.len() > 9))
         .unwrap();
     let other = format!("{}{}", if number.starts_with('1') { 2 } else { 1 }, &number[1..]);
-    forge("analytic-quick.json", 2, number, &other);
+    forge("horizon-quick.json", 2, number, &other);
     assert_eq!(status(folder)["fresh"], true);
     let (code, text, note) = run(folder, &format!("{audit} 100%"));
     assert_eq!(code, 1, "{text}{note}");
-    assert!(text.contains("analytic: differs") && note.contains("analytic"), "{text}{note}");
+    assert!(text.contains("horizon: differs") && note.contains("horizon"), "{text}{note}");
 }
 
 /// What the deep profile gave is committed: carried over as long as its audit finds no fault. Why one is not is told by

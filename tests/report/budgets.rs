@@ -61,7 +61,7 @@ fn no_document_outgrows_its_reader() {
         counts.push((format!("note: {title}"), words(note), 600));
         let dashes =
             |line: &&str| line.starts_with('|') && line.chars().all(|c| "|-: ".contains(c));
-        assert_eq!(note.matches("](figures/").count(), 1, "{title}: figures");
+        assert!(note.matches("](figures/").count() <= 1, "{title}: figures");
         assert!(note.lines().filter(dashes).count() <= 1, "{title}: more than one table");
     }
     assert_eq!(notes.len(), 4, "notes of the second paper");

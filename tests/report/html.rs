@@ -2,9 +2,6 @@
 //! quick profile.
 
 use crate::quick::QUICK;
-use impact_paper::dynamics::{Engine, Scenario};
-use impact_paper::experiments::SPACE_TIME;
-use impact_paper::numerics::random::NormalPairs;
 use impact_paper::report::{PROGRAM, compare, recipe};
 use roxmltree::{Document, Node, ParsingOptions};
 use std::collections::{BTreeMap, BTreeSet};
@@ -132,8 +129,7 @@ fn every_figure_says_what_is_seen_with_its_numbers() {
         .filter(|svg| svg.attribute("role") == Some("img"))
         .map(|svg| (svg.attribute("aria-labelledby").unwrap_or_default(), svg))
         .collect();
-    assert_eq!(pictures.len(), QUICK.figures.len() + 1);
-    assert!(pictures.contains_key("scene-title scene-desc"));
+    assert_eq!(pictures.len(), QUICK.figures.len());
     for figure in &QUICK.figures {
         let (title, description) = (format!("{}-title", figure.id), format!("{}-desc", figure.id));
         let svg = pictures[format!("{title} {description}").as_str()];
@@ -200,80 +196,6 @@ fn cells_of_wide_tables_know_their_column() {
             assert_eq!(named, heads, "{}", words(row));
         }
     }
-}
-
-/// Without its script the scene's picture, caption and description are there, and controls that would do nothing are
-/// not.
-#[test]
-fn the_scene_is_complete_without_its_script() {
-    let page = page("index.html");
-    let scene = page.descendants().find(|node| node.attribute("id") == Some("scene")).unwrap();
-    let inside = |name: &str| -> Vec<_> {
-        scene.descendants().filter(|node| node.tag_name().name() == name).collect()
-    };
-    assert_eq!(inside("script").len(), 2);
-    assert_eq!(elements(&page, "input").len(), 1);
-    let controls = scene.children().find(|n| n.attribute("class") == Some("controls")).unwrap();
-    assert_eq!(controls.attribute("hidden"), Some(""));
-    assert!(inside("input")[0].has_attribute("aria-label"));
-    assert!(words(inside("figcaption")[0]).len() > 100);
-
-    // The table has every mass where the engine has it. (The browser holds the script to the table.)
-    let data: serde_json::Value = serde_json::from_str(&words(inside("script")[0])).unwrap();
-    let number = |name: &str| data[name].as_f64().unwrap();
-    let [from, first] = ["from", "first"].map(number);
-    let (first, bodies) = (first as usize, data["bodies"].as_array().unwrap().len());
-    assert_eq!(bodies, 22);
-    let run = QUICK.results.of(&SPACE_TIME).unwrap();
-    let parameters = &run.parameters;
-    let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, run.realisation);
-    let scenario = Scenario::draw(&parameters.chain, parameters.sigma, &mut normals);
-    let mut engine = Engine::new(&scenario).unwrap();
-    let mut hits = Vec::new();
-    engine.run(from, |_| true).unwrap();
-    let table = String::from_utf8(QUICK.report.committed["data/s02c.csv"].clone()).unwrap();
-    assert!(table.starts_with(&format!("time (1/omega),x_{first} (d),")), "{table}");
-    let read = |line: &str| line.split(',').map(|cell| cell.parse().unwrap()).collect();
-    let rows: Vec<Vec<f64>> = table.lines().skip(1).map(read).collect();
-    assert!(rows.len() == 25 && rows[0][0] == from);
-    for row in &rows {
-        let seen = |impact: impact_paper::dynamics::Impact| {
-            let gap = impact.gap.wrapping_sub(first);
-            hits.extend((gap < bodies - 1).then_some((impact.time, gap)));
-            true
-        };
-        engine.run(row[0], seen).unwrap();
-        let wall = (parameters.chain.masses + 1) as f64;
-        let all = [vec![0.0], engine.positions(row[0]), vec![wall]].concat();
-        for (shown, truth) in row[1..].iter().zip(&all[first..]) {
-            assert!((shown - truth).abs() < 1e-9, "at {}: {shown} {truth}", row[0]);
-        }
-    }
-    let listed: Vec<(f64, usize)> = serde_json::from_value(data["impacts"].clone()).unwrap();
-    assert!(listed.len() > 10 && listed == hits, "{listed:?} {hits:?}");
-
-    // Each block stands where its mass is at first, by the scale that the script moves it with.
-    let group =
-        |class: &str| scene.descendants().find(|n| n.attribute("class") == Some(class)).unwrap();
-    let rects = group("masses").children().filter(|n| n.tag_name().name() == "rect");
-    let places: Vec<f64> = rects.map(|r| r.attribute("x").unwrap().parse().unwrap()).collect();
-    assert_eq!(places.len(), bodies);
-    for (k, (x, place)) in places.iter().zip(&rows[0][1..]).enumerate() {
-        let expected = 60.0 + 50.0 * k as f64 + number("scale") * (place - first as f64);
-        assert!((x - expected).abs() < 0.051, "block {k}: {x} {expected}");
-    }
-    // No block lies on another: the distance of two blocks is their gap.
-    assert!(places.windows(2).all(|pair| pair[1] - pair[0] > 49.9), "{places:?}");
-    // A bar for each gap, pale and to its full length, and its number below.
-    let mut bars = group("counts").children().filter(|n| n.tag_name().name() == "rect").step_by(2);
-    let numbers = group("counts").children().filter(|n| n.tag_name().name() == "text");
-    for (gap, own) in numbers.enumerate() {
-        let counted = hits.iter().filter(|hit| hit.1 == gap).count();
-        assert_eq!(words(own).trim().parse(), Ok(counted), "gap {gap}");
-        let height: f64 = bars.next().unwrap().attribute("height").unwrap().parse().unwrap();
-        assert!((height - number("bar") * counted as f64).abs() < 1e-9, "gap {gap}: {height}");
-    }
-    assert!(bars.next().is_none());
 }
 
 /// All equations of the paper with their numbers, as MathML.

@@ -1,13 +1,11 @@
 //! The whole report of the quick profile in memory, for the tests that read it.
 
 use impact_paper::claims::{self, Published};
-use impact_paper::experiments::spacetime::scene::Scene;
-use impact_paper::experiments::{ALL, SPACE_TIME};
-use impact_paper::experiments::{Progress, Results, Store, run::run};
+use impact_paper::experiments::{ALL, Progress, Results, Store, run::run};
 use impact_paper::figures::{self, Figure};
 use impact_paper::params::Profile;
 use impact_paper::report::{
-    self, Document, Input, PROGRAM, Registry, Report, Templates, assemble, contents, equations,
+    Document, Input, PROGRAM, Registry, Report, Templates, assemble, contents, equations,
 };
 use std::path::Path;
 use std::sync::LazyLock;
@@ -51,8 +49,6 @@ pub static QUICK: LazyLock<Quick> = LazyLock::new(|| {
     let claims = claims::all(&results, &published).unwrap();
     let values = contents::registry(&results, &published).unwrap();
     let rows = contents::rows(&results, &claims).unwrap();
-    let scene = Scene::of(results.of(&SPACE_TIME).unwrap());
-    let scene = scene.as_ref().map(|scene| report::scene::moving(scene).unwrap());
     let [figures, full] = [&results, &full].map(|results| -> Vec<_> {
         figures::all().map(|number| figures::draw(number, results).unwrap()).collect()
     });
@@ -63,7 +59,6 @@ pub static QUICK: LazyLock<Quick> = LazyLock::new(|| {
         claims: &claims,
         figures: &figures,
         equations: &equations::entries(),
-        scene: scene.as_ref(),
         lab: Some(""),
         program: PROGRAM,
     };

@@ -3,7 +3,6 @@
 //! and good to about 1e−30.
 
 use crate::numerics::double_double::DoubleDouble;
-use crate::numerics::scaled::Scaled;
 
 /// π/2 to 106 bits.
 const HALF_PI: DoubleDouble =
@@ -43,27 +42,6 @@ pub fn sin_cos(x: DoubleDouble) -> [DoubleDouble; 2] {
     }
 }
 
-/// e^{−x} for x ≥ 0, however small.
-pub fn decay(x: DoubleDouble) -> Scaled {
-    // e^{−x} = (e^{−x/1024})^1024, and so on until the series is short.
-    if x.hi > 1.0 {
-        let root = decay(x.times_power_of_two(1.0 / 1024.0));
-        return (0..10).fold(root, |power, _| power.square());
-    }
-    Scaled::from(series(DoubleDouble::ONE, |k| -x / dd(k + 1.0)))
-}
-
-/// √π erf(x)/2 for x ≥ 0: x e^{−x²} Σ (2x²)^k/(2k + 1)!!, a sum of positive terms.
-pub fn erf_integral(x: DoubleDouble) -> Scaled {
-    let square = x * x;
-    // From here on erf is 1 to 106 bits.
-    if x.hi > 8.7 {
-        return Scaled::from(HALF_PI.times_power_of_two(2.0).sqrt().times_power_of_two(0.5));
-    }
-    let sum = series(DoubleDouble::ONE, |k| square.times_power_of_two(2.0) / dd(2.0 * k + 3.0));
-    Scaled::from(x) * Scaled::from(sum) * decay(square)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -83,29 +61,5 @@ mod tests {
             close(c, ca * cb - sa * sb, 1e-28);
             assert!((s.to_f64() - pxfm::f_sin(a + b)).abs() < 2e-16);
         }
-    }
-
-    #[test]
-    fn decay_halves_and_multiplies() {
-        for (a, b) in [(0.5, 0.25), (3.0, 700.0), (40.5, 0.001)] {
-            let one = decay(dd(a) + dd(b)) / (decay(dd(a)) * decay(dd(b)));
-            close(one.to_double_double(), DoubleDouble::ONE, 1e-27);
-            assert!((decay(dd(a)).to_f64() / pxfm::f_exp(-a) - 1.0).abs() < 1e-15);
-        }
-        // e^{−2000} is far below the range of doubles.
-        let tiny = decay(dd(2000.0));
-        assert!(tiny.to_f64() == 0.0 && (tiny.ln() + 2000.0).abs() < 1e-12);
-    }
-
-    #[test]
-    fn the_error_function_of_doubles() {
-        let root_pi = std::f64::consts::PI.sqrt();
-        for x in [0.01, 0.5, 1.0, 2.5, 6.0, 8.6, 9.0, 30.0] {
-            let ours = erf_integral(dd(x)).to_f64() * 2.0 / root_pi;
-            assert!((ours / pxfm::f_erf(x) - 1.0).abs() < 1e-15, "{x}");
-        }
-        // Both sides of the place where the series ends.
-        let [a, b] = [8.699_999, 8.700_001].map(|x| erf_integral(dd(x)).to_double_double());
-        close(a, b, 1e-28);
     }
 }

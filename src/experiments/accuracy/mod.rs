@@ -5,13 +5,11 @@
 //! - [`scenes`], [`case`], [`trials`]: situations in which methods fail, what must come out of each, and what
 //!   each makes of them.
 //! - [`scale`]: counted work against the number of masses.
-//! - [`analytic`]: ways to compute Eq. (25) and the distribution of Eq. (9).
 //! - [`tables`]: what all of these say.
 //!
 //! Cost is counted work here, which is the same on every machine; times of the clock are in
 //! [`super::measured`].
 
-pub mod analytic;
 pub mod bias;
 pub mod case;
 mod exact;

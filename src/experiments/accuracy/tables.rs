@@ -1,6 +1,5 @@
 //! What the comparison of methods says.
 
-use super::analytic::{self, Analytic, Relation, Route, SizePoint, Way};
 use super::bias::{self, BiasRow, Biases};
 use super::race::{self, DISPLACED, Entry, Race};
 use super::scale::{self, Scale, ScaleRow};
@@ -8,7 +7,7 @@ use crate::experiments::Measured;
 use crate::experiments::measured::What;
 use crate::numerics::estimates::with_error;
 use crate::numerics::statistics::Estimate;
-use crate::params::{MethodName, PRINTED_THRESHOLD, Setting};
+use crate::params::{MethodName, Setting};
 use crate::table::Table;
 use crate::value::origin;
 
@@ -54,7 +53,7 @@ fn or_nan(value: Option<f64>) -> f64 {
     value.unwrap_or(f64::NAN)
 }
 
-/// Figs. S10 and S11.
+/// Figs. S8 and S9.
 pub fn race(race: &Race) -> Vec<Table> {
     let of = |method| race.entries.iter().filter(move |entry| entry.setting.method == method);
     let coarsest: Vec<&Entry> =
@@ -195,7 +194,7 @@ pub fn bias(biases: &Biases) -> Vec<Table> {
     vec![cells, means, ends]
 }
 
-/// Fig. S12.
+/// Fig. S10.
 pub fn scale(scale: &Scale) -> Vec<Table> {
     let of = |method| scale.rows.iter().filter(move |row| row.setting.method == method);
     let methods = MethodName::ALL.into_iter();
@@ -211,53 +210,6 @@ pub fn scale(scale: &Scale) -> Vec<Table> {
         .real("work_large", "1", 2, "evaluations per impact", |ends| ends[1].evaluations_per_impact)
         .done();
     vec![table]
-}
-
-/// Fig. S13.
-pub fn analytic(analytic: &Analytic) -> Vec<Table> {
-    let printed = |own: &&Relation| matches!(own.route, Route::DoubleIntegral { .. });
-    let printed = analytic.relation.iter().filter(printed).max_by_key(|own| own.evaluations);
-    let points = printed.map_or(&[][..], |own| own.points.as_slice());
-    let lost = points.iter().rev().find(|point| point.1 >= 1.0);
-    let near = |point: &&(f64, f64)| (point.0 - PRINTED_THRESHOLD).abs();
-    let at = points.iter().min_by(|a, b| near(a).total_cmp(&near(b)));
-    let sigmas = &analytic.parameters.sigmas;
-    let relation = Table::of("analytic.relation", &[()], |()| 0)
-        .chosen("low", "d omega^2", "first σ", |()| sigmas.first().copied())
-        .chosen("high", "d omega^2", "last σ", |()| sigmas.last().copied())
-        .computed_by(origin(analytic::run))
-        .count("evaluations", "points of the quadrature", |()| {
-            printed.map_or(0, |own| own.evaluations)
-        })
-        .real("lost", "d omega^2", 2, "σ below which it has no digit", |()| {
-            or_nan(lost.map(|point| point.0))
-        })
-        .real("near", "d omega^2", 2, "σ nearest to the printed threshold", |()| {
-            or_nan(at.map(|point| point.0))
-        })
-        .real("near_error", "1", 1, "its relative error there", |()| {
-            or_nan(at.map(|point| point.1))
-        })
-        .real("closed_form", "1", 1, "largest relative error of the closed form", |()| {
-            or_nan(analytic.relation_error(Route::ClosedForm))
-        })
-        .done();
-    let last = |way: Way| -> Option<(Way, &SizePoint)> {
-        let own = analytic.distribution.iter().find(|own| own.way == way)?;
-        Some((way, own.points.iter().rev().find(|point| point.error.is_some())?))
-    };
-    let ways: Vec<_> = Way::ALL.into_iter().filter_map(last).collect();
-    let ways = Table::of("analytic.ways", &ways, |_| 0)
-        .text_key("way", |(way, _)| format!("{way:?}").to_lowercase())
-        .chosen("n", "1", "largest N within its range", |(_, point)| Some(point.big_n as f64))
-        .computed_by(origin(analytic::run))
-        .real("error", "1", 1, "its relative error there", |(_, point)| or_nan(point.error))
-        .real("largest", "1", 1, "its largest relative error", |(way, _)| {
-            or_nan(analytic.distribution_error(*way))
-        })
-        .count("terms", "terms that it takes there", |(_, point)| point.terms)
-        .done();
-    vec![relation, ways]
 }
 
 /// When and where times were measured.

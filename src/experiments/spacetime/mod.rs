@@ -4,7 +4,6 @@
 //! Which run is shown is not a matter of taste: it is the first realisation of its stream that
 //! still has impacts in the last part of the run.
 
-pub mod scene;
 pub mod tables;
 
 use super::{Error, Progress};
@@ -24,35 +23,6 @@ pub struct SpaceTime {
     pub times: Vec<f64>,
     /// Gap of each impact, from 0.
     pub gaps: Vec<u32>,
-    /// A part of it, mass by mass.
-    pub scene: Record,
-}
-
-/// A part of the run, complete enough to know where every mass is at every time of it:
-/// x_j(t) = (j + 1) d + a cos ωt + b sin ωt + (α cos Ωt + β sin Ωt)/(ω² − Ω²) for j from 0.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Record {
-    /// Its first time.
-    pub from: f64,
-    /// Its last time; earlier than asked for if masses came to rest against each other.
-    pub until: f64,
-    /// (α, β) of each mass.
-    pub forcing: Vec<[f64; 2]>,
-    /// (a, b) of each mass at first.
-    pub free: Vec<[f64; 2]>,
-    /// What changes them.
-    pub events: Vec<SceneEvent>,
-}
-
-/// An impact, and the free parts of the masses that it hit.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct SceneEvent {
-    /// When.
-    pub time: f64,
-    /// The gap that closed.
-    pub gap: u32,
-    /// (mass from 0, a, b) after it.
-    pub after: Vec<(u32, f64, f64)>,
 }
 
 /// A step of a front: from a gap that was hit to its neighbour.
@@ -84,10 +54,9 @@ pub fn run(parameters: &SpaceTimeParams, progress: &Progress) -> Result<SpaceTim
             })
             .map_err(failed)?;
         if times.last().is_some_and(|t| *t > parameters.until - parameters.last) {
-            let scene = scene(parameters, &scenario).map_err(failed)?;
             stage.advance(1);
             let parameters = parameters.clone();
-            return Ok(SpaceTime { parameters, realisation, times, gaps, scene });
+            return Ok(SpaceTime { parameters, realisation, times, gaps });
         }
     }
     Err(Error::input(
@@ -99,42 +68,6 @@ pub fn run(parameters: &SpaceTimeParams, progress: &Progress) -> Result<SpaceTim
 
 /// Realisations after which the search for one that keeps hitting is given up.
 const REALISATIONS: u64 = 1000;
-
-/// The last part of a run.
-fn scene(
-    parameters: &SpaceTimeParams,
-    scenario: &Scenario,
-) -> Result<Record, crate::dynamics::Error> {
-    let from = (parameters.until - parameters.scene).max(0.0);
-    let mut until = parameters.until;
-    let mut engine = Engine::new(scenario)?;
-    engine.run(from, |_| true)?;
-    let free = engine.free_parts();
-    let phases = engine.counters().contact_phases;
-    // In contact masses move otherwise than by their own free parts.
-    if !engine.contacts(from).is_empty() {
-        until = from;
-    }
-    let (mut now, mut events) = (free.clone(), Vec::new());
-    while from < until {
-        let mut hit = None;
-        engine.run(until, |impact| {
-            hit = Some(impact);
-            false
-        })?;
-        let Some(impact) = hit else { break };
-        if engine.counters().contact_phases > phases {
-            until = impact.time;
-            break;
-        }
-        let next = engine.free_parts();
-        let changed = (0..next.len()).filter(|&j| next[j] != now[j]);
-        let after = changed.map(|j| (j as u32, next[j][0], next[j][1])).collect();
-        events.push(SceneEvent { time: impact.time, gap: impact.gap as u32, after });
-        now = next;
-    }
-    Ok(Record { from, until, forcing: scenario.forcing.clone(), free, events })
-}
 
 impl SpaceTime {
     /// Number of gaps.
@@ -195,10 +128,6 @@ mod tests {
     use super::*;
     use crate::params::{Chain, Profile};
 
-    fn quick() -> SpaceTime {
-        run(&SpaceTimeParams::new(Profile::Quick), &Progress::silent()).unwrap()
-    }
-
     /// Five gaps by hand: gap 1 starts, then 2 and 0 follow; gap 4 starts and 3 is never hit.
     fn by_hand() -> SpaceTime {
         let mut parameters = SpaceTimeParams::new(Profile::Quick);
@@ -209,13 +138,6 @@ mod tests {
             realisation: 0,
             times: vec![10.0, 12.0, 13.0, 14.0, 50.0, 60.0, 61.0],
             gaps: vec![1, 2, 1, 0, 4, 1, 1],
-            scene: Record {
-                from: 0.0,
-                until: 0.0,
-                forcing: Vec::new(),
-                free: Vec::new(),
-                events: Vec::new(),
-            },
         }
     }
 
@@ -255,35 +177,6 @@ mod tests {
             };
             engine.run(found.parameters.until, seen).unwrap();
             assert!(last <= late, "realisation {index} has an impact at {last}");
-        }
-    }
-
-    /// The second route: positions from the scene's events are those of the engine.
-    #[test]
-    fn the_scene_knows_where_every_mass_is() {
-        let found = quick();
-        let scene = &found.scene;
-        assert!(scene.events.len() > 50 && scene.until > scene.from + 50.0);
-        let parameters = &found.parameters;
-        let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, found.realisation);
-        let scenario = Scenario::draw(&parameters.chain, parameters.sigma, &mut normals);
-        let mut engine = Engine::new(&scenario).unwrap();
-        let mut free = scene.free.clone();
-        let mut events = scene.events.iter().peekable();
-        for i in 0..=200 {
-            let time = scene.from + (scene.until - scene.from) * f64::from(i) / 200.0;
-            while let Some(event) = events.next_if(|event| event.time <= time) {
-                event.after.iter().for_each(|&(j, a, b)| free[j as usize] = [a, b]);
-            }
-            engine.run(time, |_| true).unwrap();
-            for (j, x) in engine.positions(time).into_iter().enumerate() {
-                let ([a, b], [alpha, beta]) = (free[j], scene.forcing[j]);
-                let forced = std::f64::consts::SQRT_2 * time;
-                let own = (j + 1) as f64 + a * time.cos() + b * time.sin()
-                    - alpha * forced.cos()
-                    - beta * forced.sin();
-                assert!((own - x).abs() < 1e-12, "mass {j} at {time}: {own} {x}");
-            }
         }
     }
 }

@@ -1,5 +1,5 @@
 //! The graph theory of Secs. 3 to 9 as numbers: what Figs. 7 to 15 draw and what the text quotes; and
-//! what lies beyond the paper, many vertices and all orders of circuits (Figs. S6 and S7).
+//! what lies beyond the paper, many vertices (Fig. S6) and circuits up to the order of distant impacts.
 //!
 //! Cheap and in memory: [`run`] takes some tenths of a second at most and nothing is saved.
 //! Distributions are vectors over k = 1..=N (index i holds k = i + 1).
@@ -9,13 +9,11 @@ pub(crate) mod curves;
 pub(crate) mod distributions;
 pub(crate) mod jump;
 pub(crate) mod large;
-pub(crate) mod orders;
 mod results;
 pub(crate) mod slips;
 pub(crate) mod tables;
 
 pub use large::{Large, LargeJump, LargeShares};
-pub use orders::{AllOrders, OrderJump, OrderRemarks, OrderShares};
 pub use results::*;
 
 use crate::circuits::Error;
@@ -48,7 +46,6 @@ pub fn run(vertices: usize) -> Result<Theory, Error> {
         convergence: each(&CONVERGENCE_P, distributions::higher)?,
         slips: slips::slips(vertices)?,
         large: large::large()?,
-        orders: orders::orders(vertices, &scalars)?,
         scalars,
         scalars_walls,
     })

@@ -1,6 +1,6 @@
 //! The shapes of the theory's results.
 
-use super::{AllOrders, Large};
+use super::Large;
 use serde::{Deserialize, Serialize};
 
 /// Everything that the theory figures and theory values need.
@@ -34,8 +34,6 @@ pub struct Theory {
     pub slips: Slips,
     /// Fig. S6: many vertices, whatever `vertices` is.
     pub large: Large,
-    /// Fig. S7: circuits of all orders.
-    pub orders: AllOrders,
 }
 
 /// Fig. 7: the number of simple circuits of each length.

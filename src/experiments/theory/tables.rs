@@ -1,11 +1,11 @@
 //! The numbers of Secs. 3 to 9 and of what goes beyond them, as tables.
 
 use super::distributions::sum;
-use super::{Curve, HigherDistribution, MeanRow, Step, Theory, large, orders};
+use super::{Curve, HigherDistribution, MeanRow, Step, Theory, large};
 use crate::circuits::distribution::Law;
 use crate::circuits::graph::Graph;
 use crate::circuits::impact_probability::ImpactProbability;
-use crate::circuits::{counting, jump};
+use crate::circuits::{commuting, counting, jump};
 use crate::experiments::identities::{self, Identities, relation::sigma_kept};
 use crate::experiments::{Results, theory};
 use crate::params::set;
@@ -28,7 +28,7 @@ pub fn tables(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
         higher(theory, identities),
     ];
     tables.extend(many_vertices(theory));
-    tables.extend(all_orders(theory));
+    tables.push(commuting_circuits(theory));
     Some(tables)
 }
 
@@ -318,48 +318,19 @@ fn many_vertices(theory: &Theory) -> [Table; 2] {
     [jumps, sigma]
 }
 
-/// Circuits of all orders.
-fn all_orders(theory: &Theory) -> [Table; 2] {
-    let (found, remarks) = (&theory.orders, &theory.orders.remarks);
-    let simple = |id: &'static str| {
-        move |own: &orders::OrderJump| (own.most == Some(0)).then(|| id.to_string())
-    };
-    let jumps = Table::of("theory.orders", &found.jumps, |_| 0)
-        .computed_by(origin(orders::orders))
-        .key("most", "1", |own| own.most.unwrap_or_default() as f64)
-        .real("p_jump", "1", 5, "p at which k* leaves 1", |own| own.p)
-        .same("p_jump", simple("theory.jump.p_jump"))
-        .count("k_after", "k* after it", |own| own.k_after as u64)
-        .same("k_after", simple("theory.jump.k_after"))
-        .done();
-    let all = one("theory.all_orders", origin(orders::orders))
-        .chosen("pole", "1", "1/N", |()| Some(found.pole))
-        .real("p_jump", "1", 5, "p at which k* leaves 1", |()| found.jump.p)
-        .count("k_after", "k* after it", |()| found.jump.k_after as u64)
-        .real("before_pole", "1", 2, "1 − N p_jump", |()| remarks.before_pole)
-        .real("ends", "1", 2, "P(X = 1) at the jump", |()| remarks.ends)
-        .real("five_at_jump", "1", 2, "share of the five classes at their p_jump, k = k*", |()| {
-            remarks.five_at_jump
+/// Gaps of the chain whose simple circuits are enumerated.
+const ENUMERATED: usize = 7;
+
+/// Simple circuits that differ only by the order of impacts without a common mass.
+fn commuting_circuits(theory: &Theory) -> Table {
+    let [circuits, classes] = commuting::simple_classes(ENUMERATED);
+    one("theory.commuting", origin(commuting::simple_classes))
+        .count("gaps", "gaps of a chain", |()| ENUMERATED as u64)
+        .count("circuits", "simple circuits", |()| circuits as u64)
+        .count("classes", "of them that a mass tells apart", |()| classes as u64)
+        .computed_by(origin(commuting::mean_without_orders))
+        .real("mean", "1", 2, "mean number at the jump, each class with p^k once", |()| {
+            commuting::mean_without_orders(theory.vertices, theory.scalars.p_jump)
         })
-        .real("whole_at_jump", "1", 2, "their share at the jump with all orders", |()| {
-            remarks.whole_at_jump
-        })
-        .real("beyond_five", "1", 2, "share of other circuits at the smallest p of Fig. 13", |()| {
-            remarks.beyond_five
-        })
-        .real(
-            "four_visits",
-            "1",
-            2,
-            "share of Eq. (36) among circuits with three edges more",
-            |()| remarks.four_visits_of_third,
-        )
-        .count("diverges_at_jump", "smallest k without a finite weight at p_jump", |()| {
-            remarks.diverges_at_jump as u64
-        })
-        .count("diverges_at_large_p", "the same at the largest p of Fig. 13", |()| {
-            remarks.diverges_at_large_p as u64
-        })
-        .done();
-    [jumps, all]
+        .done()
 }

@@ -7,7 +7,6 @@
 
 mod classes;
 mod doubled;
-mod orders;
 mod sample_space;
 
 pub use classes::{Class, four_visits, three_visits, two_doubled};
@@ -15,5 +14,4 @@ pub use doubled::{
     compositions, doubled, doubled_as_printed, doubled_paths, is_composition, length_of_loops,
     paths_by_falling, paths_with_loops,
 };
-pub use orders::{LARGEST_N, Orders, diverges_from, primitive_of_length, total_of_all};
 pub use sample_space::{CLASSES, FiveClass, SHARED, different, multiplicity};

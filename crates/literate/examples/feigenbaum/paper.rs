@@ -261,7 +261,6 @@ pub fn make(
         claims: &claims,
         figures: &figures,
         equations: &[],
-        scene: None,
         lab: None,
         program: PROGRAM,
     })?)

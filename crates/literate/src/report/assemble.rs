@@ -43,8 +43,6 @@ pub struct Input<'a> {
     pub figures: &'a [Figure],
     /// The numbered equations of the paper.
     pub equations: &'a [EquationEntry],
-    /// What moves on a page.
-    pub scene: Option<&'a html::Moving>,
     /// What a page loads when a reader asks it to compute: lab.js, beside the pages.
     pub lab: Option<&'a str>,
     /// The program that makes it.
@@ -135,11 +133,8 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
     let values_json = serde_json::to_string_pretty(&values).map_err(json)? + "\n";
     committed.insert("values.json".into(), values_json.into_bytes());
     committed.insert("ledger.json".into(), ledger::json(&ledger).map_err(json)?.into_bytes());
-    let moving = |scene| Ok((scene, flush(input.templates.text("scene.js")?)));
-    let moving = input.scene.map(moving).transpose()?;
-    let moving = moving.as_ref().map(|(scene, script)| (*scene, script.as_str()));
     let cards = Cards { values: &values, ledger: &ledger, program: input.program };
-    let site = |of| html::Site { here: of, labels: &labels, moving, lab: input.lab.is_some() };
+    let site = |of| html::Site { here: of, labels: &labels, lab: input.lab.is_some() };
     let written = parts.par_iter().with_max_len(1).map(|Part { of, blocks, .. }| {
         let print = of.print.map(|name| Print::of(name, blocks)).transpose()?;
         let page = html::write(blocks, input.figures, site(*of), cards)?;
@@ -260,7 +255,7 @@ fn skins(templates: &Templates) -> Result<(), Error> {
         }
     }
     html::is_shell(page)?;
-    for path in ["report.css", "report.js", "scene.js"] {
+    for path in ["report.css", "report.js"] {
         let Ok(text) = templates.text(path) else { continue };
         // It would end the element that it stands in.
         if text.contains("</") {
@@ -347,7 +342,7 @@ fn check_links(
 fn check_labs(blocks: &[Block], templates: &Templates) -> Result<(), Error> {
     let Ok(script) = templates.text("lab.js") else { return Ok(()) };
     let unknown = blocks.iter().find_map(|block| match block {
-        Block::Scene { lab: Some(lab), .. } => {
+        Block::Lab { lab, .. } => {
             (!script.contains(&format!("function {lab}("))).then(|| Error::Lab(lab.clone()))
         }
         _ => None,

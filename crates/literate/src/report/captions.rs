@@ -1,4 +1,4 @@
-//! What stands alone in its paragraph (a figure, a scene, the references), and captions that stand before
+//! What stands alone in its paragraph (a figure, a lab, the references), and captions that stand before
 //! what they belong to.
 
 use super::Error;
@@ -31,17 +31,11 @@ pub(super) fn paragraph(mut inlines: Vec<Inline>) -> Result<Block, Error> {
         return Ok(Block::Bibliography(Vec::new()));
     }
     if let Some(Inline::Text(first)) = inlines.first_mut()
-        && let Some(words) = first.strip_prefix("Scene: ")
-    {
-        *first = words.to_string();
-        return Ok(Block::Scene { lab: None, caption: inlines });
-    }
-    if let Some(Inline::Text(first)) = inlines.first_mut()
         && let Some((lab, words)) = first.strip_prefix("Lab ").and_then(|own| own.split_once(": "))
     {
         let (lab, words) = (lab.to_string(), words.to_string());
         *first = words;
-        return Ok(Block::Scene { lab: Some(lab), caption: inlines });
+        return Ok(Block::Lab { lab, caption: inlines });
     }
     if let [Inline::Link { to, shown }] = inlines.as_mut_slice()
         && to.starts_with(IMAGE)
@@ -124,12 +118,8 @@ pub(super) fn listing(path: &str, program: &Program) -> Result<Block, Error> {
 }
 
 /// Paragraphs of a kind of their own.
-const OPENINGS: [&str; 4] = [
-    "Table: caption {#tab:id}",
-    "Listing: caption {#lst:id}",
-    "Scene: caption",
-    "Lab name: caption",
-];
+const OPENINGS: [&str; 3] =
+    ["Table: caption {#tab:id}", "Listing: caption {#lst:id}", "Lab name: caption"];
 
 const CAPTIONS: [&str; 2] = ["Table: ", "Listing: "];
 

@@ -77,10 +77,10 @@ pub enum Block {
         file: String,
         text: String,
     },
-    /// The place of what moves, in formats in which it can.
-    Scene {
-        /// What a reader runs there; nothing where a picture moves.
-        lab: Option<String>,
+    /// What a reader runs there, in formats in which that is possible.
+    Lab {
+        /// Name of the function that runs it.
+        lab: String,
         caption: Vec<Inline>,
     },
     /// The place of the list of references; filled by [`Labels::resolve`](super::labels::Labels::resolve).
@@ -186,7 +186,7 @@ pub fn visit(blocks: &[Block], visit: &mut impl FnMut(&Inline)) {
             Block::Heading { text, .. } | Block::Paragraph(text) => visit_inlines(text, visit),
             Block::Figure { caption, .. }
             | Block::Listing { caption, .. }
-            | Block::Scene { caption, .. } => {
+            | Block::Lab { caption, .. } => {
                 visit_inlines(caption, visit);
             }
             Block::Table { caption, head, rows, .. } => {
@@ -225,7 +225,7 @@ pub fn rewrite<E>(
             Block::Heading { text, .. } | Block::Paragraph(text) => rewrite_inlines(text, change)?,
             Block::Figure { caption, .. }
             | Block::Listing { caption, .. }
-            | Block::Scene { caption, .. } => {
+            | Block::Lab { caption, .. } => {
                 rewrite_inlines(caption, change)?;
             }
             Block::Table { caption, head, rows, .. } => {

@@ -105,7 +105,7 @@ fn write_block(block: &Block) -> Result<String, Error> {
         }
         // On paper nothing unfolds: it stands behind the text, see `listings`.
         Block::Listing { .. } => String::new(),
-        Block::Scene { .. } => String::new(),
+        Block::Lab { .. } => String::new(),
         Block::Bibliography(entries) => {
             let mut out = String::from(HANGING);
             for entry in entries {

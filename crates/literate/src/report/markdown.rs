@@ -96,7 +96,7 @@ fn write_block(block: &Block, indent: &str, out: &mut String) {
             fence = fence(text, 3)
         ),
         // Nothing moves here.
-        Block::Scene { .. } => return,
+        Block::Lab { .. } => return,
         Block::Bibliography(entries) => {
             let entry = |entry: &super::document::Entry| {
                 format!("- {}{}", anchor(&format!("ref:{}", entry.key)), prose.all(&entry.text))

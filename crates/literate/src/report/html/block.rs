@@ -36,8 +36,7 @@ impl Page<'_> {
             }
             Block::Paragraph(text) => self.paragraph(text)?,
             Block::Figure { .. } => self.figure(block)?,
-            Block::Scene { lab: None, caption } => self.scene(caption)?,
-            Block::Scene { lab: Some(lab), caption } => self.lab(lab, caption)?,
+            Block::Lab { lab, caption } => self.lab(lab, caption)?,
             Block::Table { id, number, caption, columns, head, rows } => {
                 let mut text = String::from("<figure class=\"table\"");
                 if let Some(id) = id {

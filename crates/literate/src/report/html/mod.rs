@@ -1,7 +1,7 @@
 //! The tree → the parts of report.html; its shell and its style sheet are templates.
 //!
 //! One file, readable from a disk: pictures, fonts and styles are inside it, nothing is loaded and
-//! no script is needed (one plays a scene). It is well-formed XML too, so that tests can read it.
+//! no script is needed. It is well-formed XML too, so that tests can read it.
 
 mod block;
 mod card;
@@ -11,14 +11,13 @@ mod figure;
 mod fonts;
 mod inline;
 mod keep;
+mod lab;
 mod lines;
 mod maths;
 mod picture;
-mod scene;
 
 pub use fonts::base64;
 pub use maths::LONGEST;
-pub use scene::Moving;
 
 use super::Error;
 use super::card::Cards;
@@ -78,9 +77,7 @@ pub struct Site<'a> {
     pub here: Document,
     /// The places of all documents.
     pub labels: &'a Labels,
-    /// What moves, and the script.
-    pub moving: Option<(&'a Moving, &'a str)>,
-    /// Whether lab.js lies beside the pages, by which readers run what moves themselves.
+    /// Whether lab.js lies beside the pages, by which readers run the program themselves.
     pub lab: bool,
 }
 

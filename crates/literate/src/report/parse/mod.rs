@@ -8,8 +8,7 @@
 //! - `Table: caption {#tab:id}`, a paragraph right before a table: its caption.
 //! - `Listing: caption {#lst:id}`, a paragraph right before `«code(item="path::of::item")»`: a
 //!   listing of that item of the source.
-//! - `Scene: caption`, a paragraph: what moves, where a format can show it, else nothing; `Lab name: caption`: what
-//!   readers run themselves.
+//! - `Lab name: caption`, a paragraph: what readers run themselves, where a format can, else nothing.
 //! - `[!claim:id]`: a place that can be referred to; it shows its number.
 //! - `[@eq:18]`, `[@fig:2; @fig:3]`, `[@sec:id]`, `[@tab:id]`, `[@lst:id]`, `[@claim:id]`: references, written
 //!   out as "Eq. (18)" and so on; with a capital, as `[@Fig:2]`, in full as at the start of a sentence.
@@ -162,10 +161,6 @@ impl<'a> Reader<'a> {
                 return Err(markup(
                     "two lists without words between them are read as one; make them one",
                 ));
-            }
-            let scene = |block: &Block| matches!(block, Block::Scene { lab: None, .. });
-            if scene(&block) && blocks.iter().any(scene) {
-                return Err(markup("a second scene; a document has one"));
             }
             let is_list = |block: &Block| matches!(block, Block::Bibliography(_));
             if is_list(&block) && blocks.iter().any(is_list) {
@@ -337,7 +332,7 @@ impl<'a> Reader<'a> {
                 self.places.add(format!("#{id}"), begun);
                 self.places.add(format!("({path}"), begun);
             }
-            Block::Scene { lab: Some(lab), .. } => self.places.add(format!("Lab {lab}"), begun),
+            Block::Lab { lab, .. } => self.places.add(format!("Lab {lab}"), begun),
             _ => {}
         }
         Ok(block)

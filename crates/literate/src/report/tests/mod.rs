@@ -48,8 +48,6 @@ Table: What σ gives {#tab:sigma}
 
 > An aside.
 
-Scene: They move.
-
 Lab toy: You run *them*.
 
 ```rust
@@ -231,7 +229,6 @@ fn with_lab(prose: &str, lab: Option<&str>) -> Result<Report, Error> {
             home: "toy::flight".into(),
             step_towards: None,
         }],
-        scene: None,
         lab,
         program: TOY,
     })
@@ -356,7 +353,6 @@ fn documents_refer_to_each_other() {
             claims: &claims,
             figures: &figures,
             equations: &[],
-            scene: None,
             lab: None,
             program,
         })
