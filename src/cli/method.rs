@@ -2,7 +2,7 @@
 
 use super::Failure;
 use impact_paper::dynamics::methods::{
-    Certified, Method, MoreauJean, Penalty, RungeKutta, Sampled, Verlet,
+    Certified, Method, MoreauJean, Penalty, RungeKutta, Sampled, Truth, Verlet,
 };
 
 /// A method by its name. The texts are the lines of `--help`.
@@ -20,18 +20,20 @@ pub enum Name {
     Verlet,
     /// A stiff damped spring for each contact, --step [0.0001]: order 1/2, restitution off in clusters.
     Penalty,
+    /// Every time to 106 bits, slowly: walls, one frequency, no contact; asks the engine which gap is next.
+    Truth,
 }
 
 /// Which method, and how fine.
 #[derive(clap::Args)]
 pub struct Choice {
-    /// How to simulate; all but the first are there to be compared with it.
+    /// Simulate by this method; all but the first are there to be compared with it.
     #[arg(long, value_name = "NAME", value_enum, default_value_t = Name::Certified, hide_default_value = true)]
     method: Name,
-    /// Step in time, of the methods that have one.
+    /// Take this step in time, of the methods that have one.
     #[arg(long, value_name = "H", allow_hyphen_values = true)]
     step: Option<f64>,
-    /// Error allowed in a step, of runge-kutta.
+    /// Allow this error in a step, of runge-kutta.
     #[arg(long, value_name = "TOL", allow_hyphen_values = true)]
     tolerance: Option<f64>,
 }
@@ -56,9 +58,10 @@ impl Choice {
             Name::MoreauJean => Box::new(MoreauJean { step: step(1e-3) }),
             Name::Verlet => Box::new(Verlet { step: step(1e-3) }),
             Name::Penalty => Box::new(Penalty { step: step(1e-4) }),
+            Name::Truth => Box::new(Truth),
         };
         let (has_step, has_tolerance) = match self.method {
-            Name::Certified => (false, false),
+            Name::Certified | Name::Truth => (false, false),
             Name::RungeKutta => (false, true),
             _ => (true, false),
         };

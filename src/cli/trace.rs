@@ -13,23 +13,34 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering::Relaxed;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
-/// Prints the impacts of one scenario as CSV: time, gap, closing speed.
+/// Print the impacts of one scenario as CSV: time, gap, closing speed.
 ///
-/// Gap 0 lies between the left wall and mass 1, gap j between masses j and j + 1; on a ring gap n
-/// lies between masses n and 1. Of neighbouring gaps that close at exactly the same instant (a three-way
-/// impact) the lowest is taken first, until none closes; how often there were such is said on
-/// standard error, if there were any. Past some 150 units of time a chaotic chain depends on the last
-/// bit: only statistics are reproducible there. Amplitudes so large
-/// (near resonance, say) that rounding may move a gap by more than 1e-6 of the spacing are refused; where it
-/// may by more than 1e-9, standard error says by how much (of methods in closed form). A chatter has come to rest
-/// when its bodies part more slowly than 1e-10 d w; they then stay in contact as long as forces press them.
+/// Examples:
+///   impact-paper trace chain.json --until 100
+///   impact-paper trace - --until 100 --max-impacts 20 < chain.json
+///   impact-paper trace chain.json --until 100 --method verlet --step 0.01
+///   impact-paper trace chain.json --until 100 --method truth
+///
+/// Count gaps from the left wall: gap 0 lies between it and mass 1, gap j between masses j and
+/// j + 1; on a ring gap n lies between masses n and 1. Of neighbouring gaps that close at exactly
+/// the same instant the lowest is taken first; standard error says how often that was.
+///
+/// Do not trust single impacts far into a chaotic run: errors grow about tenfold in a dozen units
+/// of time. Compare with --method truth to see from where on a run is off. The truth has every
+/// time to 106 bits, but only for walls, one frequency and no contact; it asks the engine which
+/// gap is next, so it cannot show an impact that the engine misses.
+///
+/// Give smaller amplitudes where rounding may move a gap by more than 1e-6 of the spacing (near
+/// resonance, say): they are refused. From 1e-9 on, standard error says by how much (methods in
+/// closed form). Bodies that part more slowly than 1e-10 d w stay in contact while forces press
+/// them.
 #[derive(clap::Args)]
-#[command(after_help = FORM)]
+#[command(verbatim_doc_comment, after_help = FORM)]
 pub struct Args {
-    /// File with the scenario as JSON (the form is below), 64 MiB at most; - for standard input.
+    /// Read the scenario from this JSON file (the form is below), 64 MiB at most; - for standard input.
     #[arg(value_name = "SCENARIO.json")]
     scenario: PathBuf,
-    /// Time at which to stop, from 0 to 1e12.
+    /// Stop at this time, from 0 to 1e12.
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     until: f64,
     /// Stop after this many impacts.

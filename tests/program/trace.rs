@@ -52,6 +52,35 @@ fn what_was_done_with_ties_is_said() {
 }
 
 #[test]
+fn the_truth_shows_from_where_on_a_run_is_off_and_refuses_what_it_does_not_know() {
+    let chain = r#"{"forcing":[[1.9,-0.5],[0.3,0.1],[0.7,-1.1],[-0.3,-0.6],[-0.9,-0.7],[-0.4,-0.2],[-0.7,0.3],[-0.4,-2.6]]}"#;
+    let folder = folder(chain);
+    let times = |method: &str| -> Vec<[f64; 2]> {
+        let text = answer(folder.path(), &format!("trace s.json --until 200 --method {method}"));
+        let cells = |line: &str| -> Vec<f64> {
+            line.split(',').map(|cell| cell.parse().unwrap()).collect()
+        };
+        text.lines().skip(1).map(cells).map(|cells| [cells[0], cells[1]]).collect()
+    };
+    let (truth, own) = (times("truth"), times("certified"));
+    for (a, b) in truth.iter().zip(&own).take(20) {
+        assert!(a[1] == b[1] && (a[0] - b[0]).abs() < 1e-12, "{a:?} {b:?}");
+    }
+    let apart = |(a, b): (&[f64; 2], &[f64; 2])| a[1] != b[1] || (a[0] - b[0]).abs() > 1e-3;
+    assert!(truth.iter().zip(&own).any(apart), "{} impacts", truth.len());
+    for (scenario, words) in [
+        (r#"{"boundary":"ring","forcing":[[1,0],[0,0]]}"#, "walls only"),
+        (r#"{"forcing_frequencies":[2,3],"forcing":[[[1,0]],[[0,1]]]}"#, "one frequency only"),
+        (r#"{"restitution":0.2,"forcing":[[5.88,-4.94]]}"#, "no contact"),
+    ] {
+        std::fs::write(folder.path().join("s.json"), scenario).unwrap();
+        let (code, _, note) = run(folder.path(), "trace s.json --until 100 --method truth");
+        assert_eq!((code, note.lines().count()), (2, 1), "{note}");
+        assert!(note.contains(words) && note.contains("another method"), "{note}");
+    }
+}
+
+#[test]
 fn a_run_that_is_stopped_tells_its_rounding() {
     // A fast mass between walls has more impacts in 1/w than a run may have.
     let fast = r#"{"natural_frequency":0.001,"forcing_frequency":1000,"restitution":1,"forcing":[[0,1e6]]}"#;

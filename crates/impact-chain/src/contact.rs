@@ -23,7 +23,7 @@ use impact_numerics::window::next_window;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Separation speed, in units of d ω, below which a chatter is taken to have come to rest.
-const CONTACT_SPEED: f64 = 1e-10;
+pub(super) const CONTACT_SPEED: f64 = 1e-10;
 
 /// In the settled run, gaps may still move this much faster, and be this wide in units of d.
 const SLOW: f64 = 10.0 * CONTACT_SPEED;

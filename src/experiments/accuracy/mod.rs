@@ -12,11 +12,9 @@
 
 pub mod bias;
 pub mod case;
-mod exact;
 pub mod race;
 mod routes;
 pub mod scale;
 pub mod scenes;
 pub mod tables;
 pub mod trials;
-pub mod truth;

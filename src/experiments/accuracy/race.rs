@@ -2,8 +2,8 @@
 //! they leave the truth, with the counted work of both.
 
 use super::routes::method;
-use super::truth::{Hit, Truth};
 use crate::dynamics::methods::State;
+use crate::dynamics::methods::truth::{Hit, TrueMotion};
 use crate::dynamics::{self, Impact, Scenario};
 use crate::experiments::ensembles::each;
 use crate::experiments::horizon::{self, Horizon};
@@ -97,7 +97,7 @@ pub fn run(parameters: &RaceParams, progress: &Progress) -> Result<Race, Error> 
             progress.check()?;
             let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, index as u64);
             let scenario = Scenario::draw(&parameters.chain, parameters.sigma, &mut normals);
-            let mut truth = Truth::of(&scenario, &State::of(&scenario));
+            let mut truth = TrueMotion::of(&scenario, &State::of(&scenario));
             let hits = truth.run(parameters.until).map_err(failed)?;
             Ok(Course { scenario, hits })
         })
@@ -136,7 +136,7 @@ fn targets(parameters: &RaceParams, courses: &[Course]) -> Result<Vec<Target>, E
             let (_, state) = &hits[i * last / wanted.min(last)];
             let scenario = state.as_scenario(scenario).map_err(failed)?;
             let state = State { time: 0.0, ..state.clone() };
-            let truth = Truth::of(&scenario, &state);
+            let truth = TrueMotion::of(&scenario, &state);
             targets.extend(truth.next(LONGEST).map_err(failed)?.map(|hit| {
                 let unit = f64::EPSILON * truth.scale(hit.gap) / hit.closing_speed;
                 Target { scenario, state, hit, unit }

@@ -4,7 +4,7 @@
 //! expectation comes from a closed form where there is one, else from the motion to 106 bits.
 
 use super::case::{Case, Expected};
-use super::truth::Truth;
+use crate::dynamics::methods::truth::TrueMotion;
 use crate::dynamics::methods::{Certified, Method, State};
 use crate::dynamics::{Error, Initial, Overtone, Scenario};
 use crate::numerics::random::NormalPairs;
@@ -118,7 +118,7 @@ fn recontact(decades: i32) -> Scene {
 
 /// The first impact of the true motion.
 fn first(scenario: &Scenario, start: &State, until: f64, within: f64) -> Result<Expected, Error> {
-    Ok(match Truth::of(scenario, start).next(until)? {
+    Ok(match TrueMotion::of(scenario, start).next(until)? {
         Some(hit) => Expected::First { gap: hit.gap, time: hit.time.to_f64(), within },
         None => Expected::Nothing,
     })

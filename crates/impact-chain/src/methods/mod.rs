@@ -1,4 +1,4 @@
-//! The engine and its rivals: six ways to simulate one chain, under one trait.
+//! The engine, its rivals and the truth: ways to simulate one chain, under one trait.
 //!
 //! Each rival is the textbook form of a method that is in use, so that its cost and its failures
 //! can be measured on the same scenes: sampled gaps, a Runge–Kutta pair with
@@ -17,6 +17,7 @@ mod runge_kutta;
 mod sampled;
 mod state;
 mod tally;
+pub mod truth;
 mod verlet;
 
 pub use certified::Certified;
@@ -25,6 +26,7 @@ pub use penalty::Penalty;
 pub use runge_kutta::RungeKutta;
 pub use sampled::Sampled;
 pub use state::State;
+pub use truth::Truth;
 pub use verlet::Verlet;
 
 use super::{Error, Impact, Scenario};

@@ -7,10 +7,73 @@
 //! method. A tie of two gaps within the rounding of doubles could be taken in the wrong order; it
 //! has a probability of about 1e−14 an impact.
 
-use super::exact::sin_cos;
-use crate::dynamics::methods::{Certified, Method, State};
-use crate::dynamics::{Error, Impact, Scenario};
-use crate::numerics::double_double::DoubleDouble;
+use super::tally::{Stop, Tally, check_end};
+use super::{Certified, Cost, Method, State};
+use crate::contact::CONTACT_SPEED;
+use crate::{Boundary, Engine, Error, Impact, Scenario};
+use impact_numerics::double_double::{DoubleDouble, sin_cos};
+
+/// The true motion as a method.
+///
+/// - Source: this project, [`TrueMotion`].
+/// - Order: none, it has no step. Times are right to some thirty digits as long as the gaps are.
+/// - Fails: it shares the engine's choice of the next gap, so an impact that the engine misses it misses too. What it has not
+///   (a ring, several frequencies, contact) is an error.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Truth;
+
+/// What to do where there is no truth.
+const REMEDY: &str = "use another method";
+
+impl Method for Truth {
+    fn name(&self) -> &'static str {
+        "truth"
+    }
+
+    fn run(
+        &self,
+        scenario: &Scenario,
+        start: &State,
+        until: f64,
+        sink: &mut dyn FnMut(Impact) -> bool,
+    ) -> Result<Cost, Error> {
+        check_end(until)?;
+        let refused = |field: &str, problem: String| Err(Error::input(field, problem, REMEDY));
+        if scenario.boundary == Boundary::Ring {
+            return refused("boundary", "the truth knows walls only".into());
+        }
+        if !scenario.overtones.is_empty() {
+            return refused("forcing_frequencies", "the truth knows one frequency only".into());
+        }
+        let engine = Engine::new(&start.as_scenario(scenario)?)?;
+        if let Some((gap, _)) = engine.contacts(0.0).first() {
+            return refused(
+                "initial",
+                format!("gap {gap} is in contact, which the truth does not know"),
+            );
+        }
+        let slow = CONTACT_SPEED * scenario.spacing * scenario.natural_frequency;
+        let mut tally = Tally::new(scenario, sink);
+        let mut motion = TrueMotion::of(scenario, start);
+        let mut run = || -> Result<(), Stop> {
+            while let Some(hit) = motion.next(until)? {
+                let (time, speed) = (hit.time.to_f64(), hit.closing_speed);
+                if scenario.restitution * speed <= slow {
+                    let problem = format!(
+                        "gap {} comes to rest at t = {time}, and the truth knows no contact",
+                        hit.gap
+                    );
+                    return Err(Error::input("contact", problem, REMEDY).into());
+                }
+                motion.advance(&hit);
+                tally.impact(hit.gap, time, speed)?;
+            }
+            Ok(())
+        };
+        let ended = run();
+        tally.finish(ended)
+    }
+}
 
 fn dd(x: f64) -> DoubleDouble {
     DoubleDouble::from(x)
@@ -18,7 +81,7 @@ fn dd(x: f64) -> DoubleDouble {
 
 /// A chain between walls, in flight.
 #[derive(Clone, Debug)]
-pub struct Truth {
+pub struct TrueMotion {
     scenario: Scenario,
     /// ω and Ω.
     rates: [DoubleDouble; 2],
@@ -46,15 +109,15 @@ pub struct Hit {
 #[derive(Clone, Copy)]
 struct Phases([[DoubleDouble; 2]; 2]);
 
-impl Truth {
+impl TrueMotion {
     /// The chain of a scenario from exactly the state that is given: one component of forcing, no
     /// contact, walls at both ends.
-    pub fn of(scenario: &Scenario, state: &State) -> Truth {
+    pub fn of(scenario: &Scenario, state: &State) -> TrueMotion {
         let rates = [scenario.natural_frequency, scenario.forcing_frequency].map(dd);
         let factor = rates[0] * rates[0] - rates[1] * rates[1];
         let forced: Vec<_> =
             scenario.forcing.iter().map(|pair| pair.map(|x| dd(x) / factor)).collect();
-        let mut truth = Truth {
+        let mut truth = TrueMotion {
             scenario: scenario.clone(),
             rates,
             free: vec![[DoubleDouble::ZERO; 2]; forced.len()],
@@ -199,8 +262,8 @@ impl Truth {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numerics::random::NormalPairs;
-    use crate::params::Chain;
+    use crate::Chain;
+    use impact_numerics::random::NormalPairs;
 
     fn chain(index: u64) -> Scenario {
         let chain = Chain { masses: 20, ..Chain::default() };
@@ -213,10 +276,10 @@ mod tests {
     fn the_truth_has_digits_beyond_doubles() {
         let scenario = chain(1);
         let start = State::of(&scenario);
-        let mut moved = Truth::of(&scenario, &start);
+        let mut moved = TrueMotion::of(&scenario, &start);
         moved.free[7][0] = moved.free[7][0] + dd(1e-20);
         let (one, other) =
-            (Truth::of(&scenario, &start).run(50.0).unwrap(), moved.run(50.0).unwrap());
+            (TrueMotion::of(&scenario, &start).run(50.0).unwrap(), moved.run(50.0).unwrap());
         assert_eq!(one.len(), other.len());
         let largest = one
             .iter()
@@ -229,7 +292,7 @@ mod tests {
     #[test]
     fn the_gap_just_hit_is_shut_and_opens_as_the_law_says() {
         let scenario = chain(2);
-        let mut truth = Truth::of(&scenario, &State::of(&scenario));
+        let mut truth = TrueMotion::of(&scenario, &State::of(&scenario));
         for _ in 0..50 {
             let hit = truth.next(1e3).unwrap().unwrap();
             truth.advance(&hit);
