@@ -28,9 +28,10 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         (table("seeds.means")?, table("seeds.rise")?, table("seeds.scores")?);
     let sheet = Sheet::new(9350);
     counts(&sheet, means, table("seeds.theory")?, results.of(&SWEEP)?)?;
-    advances(&sheet, table("seeds.advance")?)?;
+    let advance = table("seeds.advance")?;
+    advances(&sheet, advance)?;
     halves(&sheet, rise, scores)?;
-    Ok(sheet.finish("s04", "From one gap to many: nucleation and growth", DESCRIPTION.into()))
+    Ok(sheet.finish("s04", "From one gap to many: nucleation and growth", description(advance)))
 }
 
 fn counts(sheet: &Sheet, means: &Table, theory: &Table, sweep: &Sweep) -> Result<(), Error> {
@@ -104,5 +105,11 @@ fn halves(sheet: &Sheet, rise: &Table, scores: &Table) -> Result<(), Error> {
     sheet.legend((4850, 8650), (SMALL, 370), &entries)
 }
 
-const DESCRIPTION: &str = "(a) Mean count of all against σ: simulated points along nucleation and growth; circuits steeper. (b) Advance \
-    against time: slower than ∝ t, the more so the smaller σ. (c) Half height falls with T.";
+fn description(advance: &Table) -> String {
+    let sigmas = advance.values("sigma");
+    let [low, high] = [sigmas.first(), sigmas.last()].map(|own| own.copied().unwrap_or_default());
+    format!(
+        "(a) Mean count of all against σ: simulated points along nucleation and growth; circuits steeper. (b) Advance \
+         against time at σ from {low} to {high}: slower than ∝ t, the more so the smaller σ. (c) Half height falls with T.",
+    )
+}
