@@ -80,14 +80,13 @@ pub const ALL: &[Need] = &[
 pub type Together = fn(&Results, &[Table]) -> Option<Vec<Table>>;
 
 /// What follows from several experiments together.
-pub const TOGETHER: [Together; 7] = [
+pub const TOGETHER: [Together; 6] = [
     theory::tables::tables,
     theory::beside::tables,
     sweep::tables::of_both,
     seeds::compared::tables,
     history::tables::beside,
     starts_tables::beside_theory,
-    chains::tables::beside_map,
 ];
 
 /// The experiments that a profile saves: the deep one those that take long, all others all.
@@ -253,9 +252,9 @@ pub const HISTORY: Experiment<HistoryParams, history::History, Vec<history::Coun
     tables: history::tables::tables,
 };
 
-/// Long chains, damping and other forces.
+/// Chains of other lengths, starts and ends.
 pub const CHAINS: Deep<ChainsParams, chains::Chains, chains::Part> = Deep::new(
-    ("chains", "long chains, friction, other forces ([@sec:chains])"),
+    ("chains", "long chains, other starts and ends ([@sec:chains])"),
     code("src/experiments/chains/mod.rs"),
     ChainsParams::new,
     ("long chains", chains::CUTTING),

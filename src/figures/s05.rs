@@ -1,37 +1,25 @@
-//! Fig. S5: long chains, friction, and a force with a common period.
+//! Fig. S5: chains of several lengths.
 
 use super::FORCING;
 use super::prelude::*;
-use crate::experiments::chains::{Chains, Curve, Ensemble};
+use crate::experiments::chains::{Chains, Curve};
 use crate::experiments::{CHAINS, Results};
 use crate::numerics::statistics::Estimate;
 use crate::params::{ChainCurve, ChainKind};
 use crate::table::Table;
 
-/// Marks and colours of lengths and of frictions, from the smallest.
-const LOOKS: [(Mark, Colour); 6] = [
-    (Mark::Ring, PURPLE),
-    (Mark::Disc, BLUE),
-    (Mark::Square, GREEN),
-    (Mark::Diamond, ORANGE),
-    (Mark::Triangle, RED),
-    (Mark::OpenSquare, INK),
-];
-
-/// The frequency of (d).
-const COMMON: &str = "frequency-2";
+/// Marks and colours of lengths, from the smallest.
+const LOOKS: [(Mark, Colour); 4] =
+    [(Mark::Ring, PURPLE), (Mark::Disc, BLUE), (Mark::Square, GREEN), (Mark::Diamond, ORANGE)];
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let (chains, sizes) = (results.of(&CHAINS)?, results.table("sizes.places")?);
     let window = [("window", chains.parameters.window)];
     let map = results.table("protocol.cells")?.points(&window, "transient", "half_height_all");
-    let sheet = Sheet::new(11_050);
+    let sheet = Sheet::new(5500);
     lengths(&sheet, chains)?;
     times(&sheet, results.table("chains.lengths")?, sizes, &map)?;
-    frictions(&sheet, results.table("chains.damped")?, &map)?;
-    period(&sheet, chains)?;
-    let title = "Long chains, friction, and a common period";
-    Ok(sheet.finish("s05", title, description(sizes)))
+    Ok(sheet.finish("s05", "Chains of several lengths", description(sizes)))
 }
 
 /// The look of a length, by its order of magnitude.
@@ -109,59 +97,10 @@ fn times(sheet: &Sheet, old: &Table, anew: &Table, map: &[(f64, f64)]) -> Result
     sheet.legend((4900, 4720), (SMALL, 340), &[entry])
 }
 
-fn frictions(sheet: &Sheet, found: &Table, map: &[(f64, f64)]) -> Result<(), Error> {
-    let x = Axis::decades(1, 4, 1, "transient *T* (1/*ω*)");
-    let y = Axis::linear(0.09, 0.16, 0.01, 2, "*σ*_{1/2} (*d ω*^{2})")
-        .column("half_height (d omega^2)");
-    let panel = sheet.lettered(LETTERS[2], Frame::new(1000, 6150, 3900, 9150), x, y)?;
-    let stroke = Stroke::solid(INK, THIN);
-    panel.curve("without friction", map, stroke, Outside::Cut)?;
-    let mut entries = vec![Entry::line(stroke, "*c* = 0")];
-    for (damping, (mark, colour)) in found.values("damping").into_iter().zip(&LOOKS[1..]) {
-        let look = (*mark, MEDIUM, Stroke::solid(*colour, THIN));
-        let name = format!("*c* = {damping}");
-        let all = found.estimates(&[("damping", damping)], "transient", "half_height");
-        panel.joined(&name, &all, look)?;
-        entries.push(Entry::mark(look, &name));
-    }
-    sheet.legend_in_columns((600, 10_130), (SMALL, 340), (2, 1750), &entries)
-}
-
-/// The share of the chains with an impact in the last window, with its binomial error.
-fn alive(row: &Ensemble) -> (f64, Estimate) {
-    let all = row.runs.len().max(1) as f64;
-    let share = 1.0 - row.silent.iter().sum::<u64>() as f64 / all;
-    let error = (share * (1.0 - share) / all).sqrt();
-    (row.sigma, crate::numerics::estimates::with_error(share, error))
-}
-
-fn period(sheet: &Sheet, chains: &Chains) -> Result<(), Error> {
-    let x = Axis::linear(0.2, 0.44, 0.1, 2, FORCING);
-    let y = Axis::linear(0.0, 1.0, 0.2, 2, "share of the chains");
-    let panel = sheet.lettered(LETTERS[3], Frame::new(5150, 6150, 8050, 9150), x, y)?;
-    let Some((_, curve)) = chains.curve(COMMON) else { return Ok(()) };
-    let line = |of: fn(&[f64; 3]) -> f64| -> Vec<(f64, f64)> {
-        curve.kept_expected.iter().map(|own| (own[0], of(own))).collect()
-    };
-    let (bound, there) = (Stroke::dashed(BLUE, LINE, Dash::Short), Stroke::solid(INK, LINE));
-    panel.curve("all phases", &line(|own| own[1]), bound, Outside::Cut)?;
-    panel.curve("common period", &line(|own| own[2]), there, Outside::Cut)?;
-    let all: Vec<_> = curve.rows.iter().map(alive).collect();
-    let look = (Mark::Disc, MEDIUM, Stroke::solid(RED, THIN));
-    panel.estimates("simulation", &all, look)?;
-    let entries = [
-        Entry::line(bound, "all phases, Eq. (20)"),
-        Entry::line(there, "common period"),
-        Entry::mark(look, "simulation"),
-    ];
-    sheet.legend((4900, 10_130), (SMALL, 340), &entries)
-}
-
 fn description(sizes: &Table) -> String {
     let longest = sizes.values("masses").into_iter().fold(0.0, f64::max);
     format!(
         "(a) Share of gaps with an impact against σ after one transient: the shortest chain rises later, others, up to {longest} \
-         masses, lie on one another. (b) Half height against T, falling the further the longer the chain. (c) With friction: higher \
-         and more level. (d) Chains with an impact for Ω = 2: on the lower of two curves."
+         masses, lie on one another. (b) Half height against T, falling the further the longer the chain."
     )
 }

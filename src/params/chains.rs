@@ -1,17 +1,15 @@
-//! Long chains, damping and other forces: sizes of the experiment.
+//! Chains of other lengths, starts and ends: sizes of the experiment.
 
 use super::{Boundary, Chain, Grid, Profile, SEED, Start, set};
 use serde::{Deserialize, Serialize};
 
-/// Chains that differ from the paper's in length, damping or force.
+/// Chains that differ from the paper's in length, start or ends.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ChainsParams {
     /// The chain, but for what a curve has of its own.
     pub chain: Chain,
     /// Window W.
     pub window: f64,
-    /// Time between two strokes of damping.
-    pub stroke: f64,
     /// Gaps of a long chain that are counted together, at least.
     pub piece: usize,
     /// The curves.
@@ -30,14 +28,6 @@ pub enum ChainKind {
     Length,
     /// In its start or its ends, followed over the transients.
     Drift,
-    /// In that its flight is damped, followed over the transients.
-    Damping,
-    /// In the number of components of its force.
-    Components,
-    /// In the frequency of its force, which has a common period with ω.
-    Frequency,
-    /// Short chains, of which many fall silent.
-    Silence,
 }
 
 /// One kind of chain at several σ.
@@ -45,7 +35,7 @@ pub enum ChainKind {
 pub struct ChainCurve {
     /// In what it differs.
     pub kind: ChainKind,
-    /// `length-1000`, `damping-0.001`, …
+    /// `length-1000`, `drift-ring`, …
     pub name: String,
     /// Number of masses n.
     pub masses: usize,
@@ -53,12 +43,6 @@ pub struct ChainCurve {
     pub start: Start,
     /// Walls or ring.
     pub boundary: Boundary,
-    /// Damping c of ẍ + 2cẋ + ω² x = F.
-    pub damping: f64,
-    /// Frequency Ω of the force, the first if there are several.
-    pub forcing_frequency: f64,
-    /// Number of components of the force.
-    pub components: usize,
     /// Standard deviations σ, rising.
     pub sigmas: Vec<f64>,
     /// Transients T, rising, no window reaching the next.
@@ -91,9 +75,6 @@ impl ChainsParams {
             masses: chain.masses,
             start: chain.start,
             boundary: chain.boundary,
-            damping: 0.0,
-            forcing_frequency: chain.forcing_frequency,
-            components: 1,
             sigmas: grid(8, 16),
             transients: vec![500.0],
             realisations: few(realisations),
@@ -113,8 +94,6 @@ impl ChainsParams {
             curves.extend([
                 long(1000, 8, grid(8, 15), &[500.0, 750.0, 5000.0]),
                 long(10_000, 2, grid(8, 14), &[500.0, 1000.0, 50_000.0]),
-                long(100_000, 1, grid(10, 12), &[500.0, 1250.0]),
-                long(1_000_000, 1, grid(10, 12), &[500.0, 1500.0]),
             ]);
         }
         let ends: &[f64] = if full { &[100.0, 500.0, 1000.0, 2000.0] } else { &[100.0, 500.0] };
@@ -127,34 +106,9 @@ impl ChainsParams {
             ChainCurve { start: Start::Random, ..drift("random") },
             ChainCurve { boundary: Boundary::Ring, ..drift("ring") },
         ]);
-        curves.extend([0.0005, 0.002, 0.008].map(|damping| ChainCurve {
-            damping,
-            sigmas: grid(10, 18),
-            transients: ends.to_vec(),
-            ..plain(ChainKind::Damping, format!("damping-{damping}"), 16)
-        }));
-        curves.extend([2, 4, 8].map(|components| ChainCurve {
-            components,
-            sigmas: grid(5, 13),
-            ..plain(ChainKind::Components, format!("components-{components}"), 24)
-        }));
-        curves.extend([1.5, 2.0].map(|forcing_frequency| {
-            let weak = forcing_frequency == 2.0;
-            let sigmas = if weak { grid(22, 42) } else { grid(10, 18) };
-            let sigmas = sigmas.into_iter().step_by(if weak && full { 2 } else { 1 }).collect();
-            let name = format!("frequency-{forcing_frequency}");
-            ChainCurve { forcing_frequency, sigmas, ..plain(ChainKind::Frequency, name, 48) }
-        }));
-        curves.push(ChainCurve {
-            masses: 10,
-            sigmas: vec![0.2, 0.25, 0.3],
-            transients: vec![2000.0],
-            ..plain(ChainKind::Silence, "silence".into(), 240)
-        });
         ChainsParams {
             chain,
             window: 200.0,
-            stroke: 10.0,
             piece: 1000,
             curves,
             stream: "chains".into(),
@@ -173,9 +127,6 @@ impl ChainsParams {
             masses,
             start: shape.chain.start,
             boundary: shape.chain.boundary,
-            damping: 0.0,
-            forcing_frequency: shape.chain.forcing_frequency,
-            components: 1,
             // Three σ about the place where shorter runs put the half height.
             sigmas: Grid::default().and(middle - 4, middle + 4, 4, 1000).values(),
             transients: vec![transient],

@@ -1,4 +1,4 @@
-//! Chains that differ from the paper's in length, damping or force.
+//! Chains that differ from the paper's in length, start or ends.
 //!
 //! One kind of run serves all: a chain goes through several windows, and the different gaps with an
 //! impact in each are counted, those of a long chain piece by piece.
@@ -6,8 +6,6 @@
 pub(crate) mod joining;
 mod run;
 pub mod tables;
-
-pub use run::FREQUENCIES;
 
 use super::ensembles::{Begun, Ensembles, joined_by};
 use super::{Progress, weights};
@@ -36,13 +34,6 @@ pub struct Curve {
     pub half_heights: Vec<Option<Estimate>>,
     /// ... and how far the σ lie apart at which it is a tenth and nine tenths.
     pub widths: Vec<Option<Estimate>>,
-    /// Where half of the chains have impacts in the last window.
-    pub kept_half: Option<Estimate>,
-    /// For another frequency, where half of the chains have a gap that closes by itself: if the phases came as
-    /// close to any pair as one likes, and with the phases that there are until the end.
-    pub kept_half_expected: Option<[f64; 2]>,
-    /// (σ, these two shares of the chains), to be drawn.
-    pub kept_expected: Vec<[f64; 3]>,
 }
 
 /// Chains of one kind at one σ.
@@ -54,10 +45,6 @@ pub struct Ensemble {
     pub runs: Vec<Run>,
     /// For each transient the mean share of the gaps with an impact in the window.
     pub shares: Vec<Option<Estimate>>,
-    /// Chains without an impact in the last window: of those with an open gap, and of the others.
-    pub silent: [u64; 2],
-    /// Chains with an open gap, and the others.
-    pub chains: [u64; 2],
     /// Realisations that the engine ended early.
     pub failed: u64,
 }
@@ -67,8 +54,6 @@ pub struct Ensemble {
 pub struct Run {
     /// Different gaps with an impact in the window after each transient, of each piece of the chain.
     pub counts: Vec<Vec<u32>>,
-    /// Open gaps: those that the forced motion alone closes.
-    pub open: u32,
 }
 
 /// Some realisations of one row; none where the engine gave up.
@@ -98,7 +83,6 @@ impl Chains {
 pub fn chain(parameters: &ChainsParams, curve: &ChainCurve) -> Chain {
     Chain {
         masses: curve.masses,
-        forcing_frequency: curve.forcing_frequency,
         start: curve.start,
         boundary: curve.boundary,
         ..parameters.chain.clone()
@@ -120,10 +104,7 @@ fn cases(parameters: &ChainsParams) -> impl Iterator<Item = (&ChainCurve, f64)> 
 
 fn weight(parameters: &ChainsParams, curve: &ChainCurve, sigma: f64) -> u64 {
     let until = curve.transients.last().copied().unwrap_or(0.0) + parameters.window;
-    let strokes = if curve.damping > 0.0 { (until / parameters.stroke) as u64 } else { 0 };
-    // A force with several components costs each search as much more.
-    let one = weights::run(&chain(parameters, curve), sigma, until) * curve.components as u64;
-    one + strokes * curve.masses as u64
+    weights::run(&chain(parameters, curve), sigma, until)
 }
 
 impl Ensembles for ChainsParams {
@@ -145,15 +126,12 @@ impl Ensembles for ChainsParams {
 
     fn fits(&self, row: usize, run: &Option<Run>) -> bool {
         let Some((curve, _)) = cases(self).nth(row) else { return false };
-        let gaps = chain(self, curve).gaps();
-        let sizes = pieces(gaps, self.piece);
+        let sizes = pieces(chain(self, curve).gaps(), self.piece);
         let window = |own: &Vec<u32>| {
             own.len() == sizes.len() && own.iter().zip(&sizes).all(|(&k, &size)| k as usize <= size)
         };
         run.as_ref().is_none_or(|run| {
-            run.counts.len() == curve.transients.len()
-                && run.counts.iter().all(window)
-                && run.open as usize <= gaps
+            run.counts.len() == curve.transients.len() && run.counts.iter().all(window)
         })
     }
 }

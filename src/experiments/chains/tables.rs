@@ -1,12 +1,7 @@
 //! What chains of other kinds say, each kind beside the paper's.
 
-use super::run::FREQUENCIES;
-use super::{Chains, Curve, Ensemble, chain, joining};
+use super::{Chains, Curve, joining};
 use crate::circuits::impact_probability::ImpactProbability;
-use crate::circuits::nucleation::chain::half;
-use crate::circuits::nucleation::reach::Reach;
-use crate::experiments::protocol_tables::address;
-use crate::experiments::{CHAINS, PROTOCOL, Results};
 use crate::numerics::estimates::{difference, with_error};
 use crate::numerics::statistics::Estimate;
 use crate::params::{Chain, ChainCurve, ChainKind};
@@ -72,153 +67,37 @@ pub fn tables(found: &Chains) -> Vec<Table> {
         .estimate("width", UNIT, "from a tenth to nine tenths of all gaps", |place| {
             place.curve.widths[place.at]
         })
-        .estimate("kept_half", UNIT, "where half of the chains have impacts in the end", |place| {
-            place.curve.kept_half.filter(|_| place.at + 1 == place.own.transients.len())
-        })
         .done();
     let starts = places(found, ChainKind::Drift);
     let starts = begin("chains.starts", &starts)
         .text_key("chain", |place| place.own.name.trim_start_matches("drift-").into());
-    let damped = places(found, ChainKind::Damping);
-    let damped = begin("chains.damped", &damped).key("damping", "omega", |place| place.own.damping);
-    let components = places(found, ChainKind::Components);
-    let components = begin("chains.components", &components)
-        .key("components", "1", |place| place.own.components as f64);
-    let frequencies = places(found, ChainKind::Frequency);
-    let frequencies =
-        begin("chains.frequencies", &frequencies)
-            .key("frequency", "omega", |place| place.own.forcing_frequency);
-    let there = |at: usize| {
-        move |place: &Place| place.curve.kept_half_expected.map_or(f64::NAN, |own| own[at])
-    };
-    vec![
-        lengths,
-        half_height(transient(starts)).done(),
-        half_height(transient(damped)).done(),
-        kept_half(half_height(components))
-            .computed_by(origin(one_frequency))
-            .real(
-                "one_frequency",
-                UNIT,
-                3,
-                "the same expected of one, at the mean square frequency",
-                |place| one_frequency(found, place.own),
-            )
-            .done(),
-        kept_half(half_height(frequencies))
-            .real("all_phases", UNIT, 3, "the same expected if all phases come", there(0))
-            .real("common_period", UNIT, 3, "the same with those that do", there(1))
-            .done(),
-        all(found),
-    ]
+    vec![lengths, half_height(transient(starts)).done(), all(found)]
 }
 
 fn begin<'a>(name: &'static str, places: &'a [Place<'a>]) -> Building<'a, Place<'a>> {
     Table::of(name, places, |place| place.own.realisations)
 }
 
-fn kept_half<'a>(table: Building<'a, Place<'a>>) -> Building<'a, Place<'a>> {
-    table.estimate("kept_half", UNIT, "where half of the chains have impacts", |place| {
-        place.curve.kept_half
-    })
-}
-
-/// The σ at which half of the chains ever have an impact, by the formula for clumps, if the force had one component
-/// with the same response, at the mean square of their frequencies.
-fn one_frequency(found: &Chains, own: &ChainCurve) -> f64 {
-    let several = chain(&found.parameters, own);
-    let square = |chain: &Chain| chain.forcing_frequency * chain.forcing_frequency;
-    let natural = several.natural_frequency * several.natural_frequency;
-    let others = FREQUENCIES.iter().take(own.components.saturating_sub(1));
-    let mean = others.fold(square(&several), |sum, x| sum + x * natural) / own.components as f64;
-    let one = Chain { forcing_frequency: mean.sqrt(), ..several.clone() };
-    let reach = Reach::ever(&one, 256);
-    let detuning = |chain: &Chain| (natural - square(chain)).abs();
-    half(&one, &reach, &reach.every(4)) * detuning(&several) / detuning(&one)
-}
-
-/// Open gaps, silence, and sizes.
+/// Sizes, and the length in which one open gap is to be expected.
 fn all(found: &Chains) -> Table {
     let chain = &found.parameters.chain;
     let lengths = || found.of(ChainKind::Length).map(|(own, _)| own.masses as f64);
-    let silence = found.curve("silence");
-    let first = silence.and_then(|(_, curve)| curve.rows.first());
-    let total = |of: fn(&Ensemble) -> [u64; 2]| -> u64 {
-        found.curves.iter().flat_map(|curve| &curve.rows).map(|row| of(row)[0]).sum()
-    };
     Table::of("chains.all", &[()], |()| 0)
         .chosen("shortest", "1", "masses", |()| lengths().reduce(f64::min))
         .chosen("longest", "1", "masses", |()| lengths().reduce(f64::max))
-        .chosen("transient", "1/omega", "of the paper's length", |()| {
-            found.curve("length-100")?.0.transients.last().copied()
-        })
-        .chosen("stroke", "1/omega", "time from stroke to stroke", |()| {
-            Some(found.parameters.stroke)
-        })
         .chosen("sigma", UNIT, "at the rise", |()| Some(SIGMA))
-        .chosen("silence_masses", "1", "short chains", |()| Some(silence?.0.masses as f64))
-        .chosen("silence_until", "1/omega", "their transient", |()| {
-            silence?.0.transients.last().copied()
-        })
-        .chosen("silence_sigma", UNIT, "their σ", |()| Some(first?.sigma))
         .computed_by(origin(open_length))
         .real("open_length", "1", 2, "masses for each open gap at the rise", |()| {
             open_length(chain, SIGMA)
-        })
-        .computed_by(origin(joining::join))
-        .count("open", "chains with an open gap", |()| total(|row| row.chains))
-        .count("open_silent", "of these, silent in the last window", |()| total(|row| row.silent))
-        .count("shut", "short chains without an open gap", |()| {
-            first.map_or(0, |row| row.chains[1])
-        })
-        .count("shut_silent", "of these, silent in the last window", |()| {
-            first.map_or(0, |row| row.silent[1])
         })
         .done()
 }
 
 /// 1/P(Q > d): the forced motion of a gap between masses closes it with this probability.
-fn open_length(chain: &crate::params::Chain, sigma: f64) -> f64 {
+fn open_length(chain: &Chain, sigma: f64) -> f64 {
     let square = |x: f64| x * x;
     let detuning = (square(chain.natural_frequency) - square(chain.forcing_frequency)).abs();
     pxfm::f_exp(square(0.5 * chain.spacing * detuning / sigma))
-}
-
-/// Half heights without friction, which the map over protocols has, and how much they fall.
-pub fn beside_map(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
-    let (found, map) = (results.of(&CHAINS).ok()?, results.of(&PROTOCOL).ok()?);
-    let window = found.parameters.window;
-    let of_map = |time| map.cell(time, window)?.half_height_all;
-    let damped: Vec<_> = found.of(ChainKind::Damping).collect();
-    let (strongest, curve) = *damped.last()?;
-    let times = &strongest.transients;
-    let undamped = Table::of("chains.undamped", times, |_| map.parameters.realisations)
-        .key("transient", "1/omega", |time| *time)
-        .estimate("half_height", UNIT, "of the paper's chain", |time| of_map(*time))
-        .same("half_height", |time| {
-            map.cell(*time, window).map(|own| address("protocol", own, "half_height_all"))
-        })
-        .done();
-    let (from, to) = (*times.get(1)?, *times.last()?);
-    let late = |at: usize| curve.half_heights.get(at).copied().flatten();
-    let fall = |early: Option<Estimate>, late: Option<Estimate>| {
-        early.zip(late).map(|(early, late)| difference(early, late))
-    };
-    // Errors as if both were of different chains, which makes them too large.
-    let fall = Table::of("chains.fall", &[()], |()| map.parameters.realisations)
-        .chosen("from", "1/omega", "first transient", |()| Some(from))
-        .chosen("to", "1/omega", "last transient", |()| Some(to))
-        .chosen("damping", "omega", "the strongest friction", |()| Some(strongest.damping))
-        .computed_by(origin(beside_map))
-        .estimate("undamped", UNIT, "fall of the half height without friction", |()| {
-            fall(of_map(from), of_map(to))
-        })
-        .over(|()| strongest.realisations)
-        .estimate("damped", UNIT, "the same with the strongest friction", |()| {
-            fall(late(1), late(times.len() - 1))
-        })
-        .done();
-    Some(vec![undamped, fall])
 }
 
 /// ln 2/2p at a half height: regions of this length to both sides of seeds of density p leave half of all gaps.

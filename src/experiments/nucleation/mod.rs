@@ -67,23 +67,3 @@ fn first(
         .map_err(fault)?;
     Ok(time)
 }
-
-/// The differences of the amplitudes on both sides of each gap of a chain between walls, which are
-/// not forced.
-pub(super) fn differences(forcing: &[[f64; 2]]) -> impl Iterator<Item = [f64; 2]> {
-    let wall = || std::iter::once([0.0; 2]);
-    let left = wall().chain(forcing.iter().copied());
-    let right = forcing.iter().copied().chain(wall());
-    left.zip(right).map(|(a, b)| [b[0] - a[0], b[1] - a[1]])
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn gaps_lie_between_neighbours_and_unforced_walls() {
-        let found: Vec<_> = differences(&[[1.0, 2.0], [4.0, -1.0]]).collect();
-        assert_eq!(found, [[1.0, 2.0], [3.0, -3.0], [-4.0, 1.0]]);
-    }
-}

@@ -213,9 +213,17 @@ mod tests {
     use super::super::fronts::Waits;
     use super::super::tables::tables;
     use super::*;
-    use crate::experiments::nucleation::differences;
     use crate::params::Profile;
     use crate::table::Table;
+
+    /// The differences of the amplitudes on both sides of each gap of a chain between walls, which are
+    /// not forced.
+    fn differences(forcing: &[[f64; 2]]) -> impl Iterator<Item = [f64; 2]> {
+        let wall = || std::iter::once([0.0; 2]);
+        let left = wall().chain(forcing.iter().copied());
+        let right = forcing.iter().copied().chain(wall());
+        left.zip(right).map(|(a, b)| [b[0] - a[0], b[1] - a[1]])
+    }
 
     fn small() -> SeedsParams {
         let mut parameters = SeedsParams::new(Profile::Quick);

@@ -1,17 +1,14 @@
 //! Relations between numbers that must hold whatever was drawn, beside the claims.
 //!
 //! A claim holds a number against what the paper printed, and many numbers of this edition were never
-//! printed. A guard holds them against one another: a mean against its counts, a root against its
-//! equation, a closed form against a sum of its own. None compares a number with a copy of itself, or
-//! with bytes of an earlier run; what a guard computes anew it computes by another way than the code
-//! that it guards, from a record or from first principles (`guards::model`). `impact-paper check` names each
-//! that fails.
+//! printed. A guard holds them against one another, as two samples of one thing or a mean and its bound.
+//! None compares a number with a copy of itself, or with bytes of an earlier run. `impact-paper check` names
+//! each that fails.
 
 mod carried;
 mod chains;
 mod history;
 mod maps;
-mod model;
 mod nucleation;
 mod printed;
 mod restitution;
