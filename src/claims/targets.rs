@@ -165,7 +165,7 @@ pub(crate) fn own_entry(race: &Race) -> Option<&Entry> {
 
 fn segments(race: &Race) -> Vec<Check> {
     let own = own_entry(race);
-    let misses = own.map(|entry| entry.segments.misses() as f64);
+    let misses = own.map(|entry| entry.segments.misses as f64);
     let units = own.and_then(|entry| entry.segments.units);
     let missed = ("misses", "impacts missed from exact states");
     let waiting = (
@@ -211,7 +211,7 @@ mod tests {
             assert_eq!(verdict(&results, id), Verdict::Reproduced, "{id}");
         }
         let race = results.of_mut(&RACE).unwrap();
-        race.entries[0].segments.unseen += 1;
+        race.entries[0].segments.misses += 1;
         race.entries[0].segments.units = Some(9.0);
         let verdicts = &mut results.of_mut(&TRIALS).unwrap().scenes[0].trials[0].verdicts;
         verdicts[0] = crate::experiments::accuracy::case::Verdict::Missed;

@@ -29,10 +29,10 @@ pub fn draw(race: &Race) -> Result<Figure, Error> {
     let misses = Frame::new(1300, 4650, 8150, 7250);
     let misses = sheet.lettered(LETTERS[1], misses, cost_axis(), axis)?;
 
-    let spread = |e: &Entry| Some((e.evaluations_per_impact?, e.segments.errors?[2]));
+    let spread = |e: &Entry| Some((e.evaluations_per_impact?, e.segments.errors?[1]));
     let middle = |e: &Entry| Some((e.evaluations_per_impact?, e.segments.errors?[0]));
     let missed = |e: &Entry| {
-        let share = e.segments.misses() as f64 / e.segments.tried.max(1) as f64;
+        let share = e.segments.misses as f64 / e.segments.tried.max(1) as f64;
         Some((e.evaluations_per_impact?, share))
     };
     let medians = by_method(&race.entries, |e| e.setting, middle);
@@ -56,7 +56,7 @@ pub fn draw(race: &Race) -> Result<Figure, Error> {
 
 fn description(race: &Race) -> String {
     let certified = race.entries.iter().find(|e| e.setting.method == MethodName::Certified);
-    let largest = certified.and_then(|entry| Some(entry.segments.errors?[2]));
+    let largest = certified.and_then(|entry| Some(entry.segments.errors?[1]));
     format!(
         "Against counted work, a marker for each method and step or tolerance, n = {}, σ = {}: (a) median error of the time of the next \
          impact, with a line up to the largest, which for the engine is {}; (b) the share of states from which the \

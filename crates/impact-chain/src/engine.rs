@@ -32,8 +32,6 @@ pub struct Counters {
     pub searches: u64,
     /// Pieces screened by a polynomial, without a sine.
     pub pieces: u64,
-    /// Searches that went on by certified steps, where the screen could not decide.
-    pub stepped: u64,
     /// Evaluations of a gap by the root search.
     pub evaluations: u64,
     /// Decisions taken inside the undecidable band of the search.

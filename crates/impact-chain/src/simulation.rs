@@ -490,7 +490,6 @@ impl<const M: usize> Simulation<M> {
             contact_phases: self.contact_phases,
             searches: self.work.searches,
             pieces: self.work.pieces,
-            stepped: self.work.stepped,
             evaluations: self.work.evaluations,
             undecided: self.work.undecided,
             simultaneous: self.ties.count,

@@ -17,7 +17,7 @@ pub struct DoubleDouble {
 }
 
 /// a + b exactly, as rounded sum and error.
-pub fn two_sum(a: f64, b: f64) -> DoubleDouble {
+fn two_sum(a: f64, b: f64) -> DoubleDouble {
     let hi = a + b;
     let b_part = hi - a;
     let lo = (a - (hi - b_part)) + (b - b_part);

@@ -4,7 +4,6 @@ use super::local_frame::{Frame, Frequencies};
 use super::nodes::Nodes;
 use super::screen::{Eighths, Piece};
 use super::stepping::first_root_by_steps;
-use std::ops::AddAssign;
 
 /// What a search found.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,16 +35,6 @@ pub struct Work {
     pub stepped: u64,
     /// Decisions taken inside the undecidable band.
     pub undecided: u64,
-}
-
-impl AddAssign for Work {
-    fn add_assign(&mut self, other: Work) {
-        self.searches += other.searches;
-        self.pieces += other.pieces;
-        self.evaluations += other.evaluations;
-        self.stepped += other.stepped;
-        self.undecided += other.undecided;
-    }
 }
 
 /// How often the reach is halved: pieces of 1, 1/2, … 2^-LEVELS of it.

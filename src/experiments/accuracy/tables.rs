@@ -69,7 +69,7 @@ fn entries(name: &'static str, entries: &[&Entry]) -> Table {
         .chosen("setting", "1/omega", "step or tolerance", |entry| Some(entry.setting.value))
         .computed_by(origin(race::run))
         .count("misses", "states from which the next impact is missed", |entry| {
-            entry.segments.misses()
+            entry.segments.misses
         })
         .real("error", "1/omega", 1, "median error of its time", |entry| {
             or_nan(entry.segments.errors.map(|errors| errors[0]))
@@ -89,7 +89,7 @@ fn entries(name: &'static str, entries: &[&Entry]) -> Table {
 fn all(race: &Race) -> Table {
     let cost = |entry: &&Entry| or_nan(entry.evaluations_per_impact);
     let faultless = race.entries.iter().filter(|entry| {
-        entry.setting.method != MethodName::Certified && entry.segments.misses() == 0
+        entry.setting.method != MethodName::Certified && entry.segments.misses == 0
     });
     let best = faultless.min_by(|a, b| cost(a).total_cmp(&cost(b)));
     let tried = race.entries.iter().map(|entry| entry.segments.tried).max();
