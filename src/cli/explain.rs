@@ -1,6 +1,5 @@
 //! `impact-paper explain`.
 
-use super::document::Only;
 use super::{Failure, folder, memory, stdout};
 use impact_paper::experiments::alive;
 use impact_paper::input::{is_obeyed, one_line, regular_text};
@@ -23,8 +22,6 @@ pub struct Args {
     /// What to explain.
     #[arg(value_name = "ID")]
     ids: Vec<String>,
-    #[command(flatten)]
-    only: Only,
     /// Folder of the report.
     #[arg(long, value_name = "DIR", default_value = "paper")]
     paper: PathBuf,
@@ -36,17 +33,12 @@ pub struct Args {
 pub fn run(args: Args) -> Result<(), Failure> {
     memory::to_parse(&args.paper, &["values.json", "ledger.json"], "explain")?;
     let _alive = alive(|| Some("explain: at work".into()));
-    let mut values = values(&args.paper)?;
-    let mut ledger = ledger(&args.paper)?;
-    if let Some(document) = &args.only.document {
-        ledger.only(document, &mut values).map_err(fault)?;
-    }
+    let values = values(&args.paper)?;
+    let ledger = ledger(&args.paper)?;
     let cards = Cards { values: &values, ledger: &ledger, program: PROGRAM };
-    let place = args.only.document.as_ref().map_or("", |_| " in this document");
     // Templates have quotation marks in names of rows.
     let bare = |id: &String| id.replace('"', "");
-    let get =
-        |id: &String| cards.get(&bare(id)).ok_or_else(|| unknown(&bare(id), place, &cards.ids()));
+    let get = |id: &String| cards.get(&bare(id)).ok_or_else(|| unknown(&bare(id), &cards.ids()));
     let result = if args.ids.is_empty() {
         let all: Vec<Card> = cards.ids().iter().filter_map(|id| cards.get(id)).collect();
         list(&all, args.json)
@@ -147,7 +139,7 @@ fn stands(row: &Row) -> Option<(&'static str, usize)> {
 }
 
 /// One line with the ids that are spelt much alike: a third of the letters may differ.
-fn unknown(id: &str, place: &str, ids: &[String]) -> Failure {
+fn unknown(id: &str, ids: &[String]) -> Failure {
     let asked: Vec<char> = id.chars().collect();
     let near = |known: &String| Some((distance(&asked, known)?, known.clone()));
     let mut near: Vec<(usize, String)> = ids.iter().filter_map(near).collect();
@@ -159,7 +151,7 @@ fn unknown(id: &str, place: &str, ids: &[String]) -> Failure {
     };
     let id = match one_line(id, 60) {
         empty if empty.is_empty() => "the ID is empty".to_string(),
-        id => format!("there is no {id:?}{place}"),
+        id => format!("there is no {id:?}"),
     };
     Failure::input(format!("explain: {id}{near}; without an id all are listed"))
 }

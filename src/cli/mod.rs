@@ -4,7 +4,6 @@ mod audit;
 mod bench;
 mod check;
 mod diff;
-mod document;
 mod eval;
 mod explain;
 mod manual;

@@ -158,7 +158,7 @@ fn changes(out: &Path, files: &Files) -> Vec<String> {
     };
     let parts = (Parts::of("before", before), Parts::of("now", files.clone()));
     let (Ok(old), Ok(new)) = parts else { return Vec::new() };
-    let Ok(diff) = compare::diff(&old, &new, &[]) else { return Vec::new() };
+    let diff = compare::diff(&old, &new);
     let before = shown(out);
     if diff.numbers.is_empty() && diff.verdicts.is_empty() {
         return vec![format!(

@@ -1,6 +1,5 @@
 //! `impact-paper verify`.
 
-use super::document::Only;
 use impact_paper::experiments::Progress;
 use impact_paper::input::MEMORY;
 use impact_paper::program::listed::{Checked, listed, own_profile};
@@ -22,10 +21,8 @@ pub struct Args {
     /// Folder of the report.
     #[arg(value_name = "DIR", default_value = "paper")]
     folder: PathBuf,
-    #[command(flatten)]
-    only: Only,
     /// Make the report again, with the profile that it has and without saved results, and compare byte by byte.
-    #[arg(long, conflicts_with = "document")]
+    #[arg(long)]
     rerun: bool,
     /// Take results of long runs from this folder, where they are fresh, and keep them there.
     #[arg(long, value_name = "DIR", requires = "rerun", value_parser = work::folder())]
@@ -42,7 +39,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let long = memory::length(&args.folder.join(sums::NAME));
     memory::fits(16 * long + (64 << 20), "verify", MEMORY)?;
     let progress = signals::progress();
-    let mut checked = listed(&args.folder, args.only.document.as_deref(), &progress)?;
+    let mut checked = listed(&args.folder, &progress)?;
     checked.tell(&args.folder)?;
     if args.rerun {
         let again = rerun(&args, &progress)?;

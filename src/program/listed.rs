@@ -8,7 +8,7 @@ use crate::experiments::{Progress, alive};
 use crate::input::is_obeyed;
 use crate::params::Profile;
 use crate::report::values::Number;
-use crate::report::{compare, ledger, sums};
+use crate::report::{compare, sums};
 use std::collections::BTreeMap;
 use std::io::ErrorKind;
 use std::path::Path;
@@ -37,11 +37,11 @@ impl Checked {
     }
 }
 
-/// Compares the folder with its list, or only the files of one document.
+/// Compares the folder with its list.
 ///
 /// # Errors
-/// Exit code 2 if there is no list that can be read, or none of that document.
-pub fn listed(root: &Path, only: Option<&str>, progress: &Progress) -> Result<Checked, Failure> {
+/// Exit code 2 if there is no list that can be read.
+pub fn listed(root: &Path, progress: &Progress) -> Result<Checked, Failure> {
     let _alive = alive(|| Some("comparing files with their list".into()));
     let place = root.join(sums::NAME);
     let unusable = |what: String| {
@@ -72,19 +72,6 @@ pub fn listed(root: &Path, only: Option<&str>, progress: &Progress) -> Result<Ch
     let beside = |entry: &&sums::Entry| folder::is_beside(&entry.path);
     for entry in local.iter().filter(beside).chain(&entries) {
         known.insert(&entry.path, &entry.digest);
-    }
-    let mut found = found.clone();
-    if let Some(document) = only {
-        let place = root.join("ledger.json");
-        let text = folder::read(root, "ledger.json")
-            .map_err(|error| Failure::io(&error, place.display(), folder::REMEDY))?;
-        let ledger = ledger::read(&String::from_utf8_lossy(&text));
-        let ledger = ledger.map_err(|e| unusable(e.to_string()))?;
-        let Some(shown) = ledger.documents.get(document) else {
-            return Err(unusable(format!("ledger.json does not say what {document} shows")));
-        };
-        known.retain(|path, _| shown.files.contains(*path));
-        found.retain(|path| shown.files.contains(path));
     }
     let mut faults = Vec::new();
     let mut fault =

@@ -103,29 +103,6 @@ fn number_verdict_and_files_are_told() {
 }
 
 #[test]
-fn words_are_told_and_moved_numbers_counted() {
-    let folder = twice();
-    let here = folder.path();
-    let at = |path: &str| here.join("b").join(path);
-    edit(&at("report.md"), "simulated a row of forced masses", "simulated a ~chain~ of masses");
-    edit(&at("report.md"), "0.1159(4); the paper", "0.1162(5); the paper");
-    let out = answer(here, "diff a b");
-    let told = "prose\n  1 sentence with other words, 1 with other numbers alone\n  Edition, Abstract\n    ";
-    assert!(out.contains(told), "{out}");
-    assert!(out.contains(" simulated a [-row-]{+~chain~+} of [-forced-] masses that "), "{out}");
-
-    let markdown = answer(here, "diff a b --markdown");
-    let told = "<summary>1 sentence with other words, 1 with other numbers alone</summary>\n\n- Edition, Abstract: ";
-    assert!(markdown.contains(told) && markdown.contains("\n</details>\n"), "{markdown}");
-    let words = " simulated a ~~row~~ **\\~chain\\~** of ~~forced~~ masses that ";
-    assert!(markdown.contains(words), "{markdown}");
-    let prose = &json(here, "diff a b --json --document edition")["diff"]["prose"][0];
-    assert_eq!((&prose["document"], &prose["numbers_alone"]), (&"Edition".into(), &1.into()));
-    let pieces = &prose["sentences"][0]["pieces"];
-    assert_eq!(pieces[1]["changed"], serde_json::json!(["row", "~chain~"]));
-}
-
-#[test]
 fn revisions_of_git_are_compared() {
     let folder = changed();
     let here = folder.path();

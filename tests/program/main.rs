@@ -6,7 +6,6 @@ mod check;
 mod cluster;
 mod codes;
 mod diff;
-mod document;
 mod eval;
 mod explain;
 mod paper;

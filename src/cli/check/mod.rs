@@ -3,7 +3,6 @@
 mod forms;
 
 use self::forms::Entry;
-use super::document::Only;
 use super::judged::Judged;
 use super::sources::Sources;
 use super::{Failure, signals, stdout, threads, work};
@@ -21,19 +20,15 @@ use std::io::{self, Write};
 ///
 /// Saved results are used where they are fresh; what is missing is run. Prints what fails first, then
 /// what differs, and with --all the rest; ends with exit code 1 if one differs without an explanation that holds, if a target is
-/// missed that does not depend on the clock, or if a relation between numbers does not hold. Statements
-/// belong to the edition, the front page and the ledger, relations to the second paper, targets to the
-/// methods.
+/// missed that does not depend on the clock, or if a relation between numbers does not hold.
 #[derive(clap::Args)]
 pub struct Args {
     /// Sample sizes.
     #[arg(long, default_value = "full", value_parser = work::of_reports())]
     profile: Profile,
     /// Only this claim (may be repeated); runs no more than it needs.
-    #[arg(long, value_name = "ID", conflicts_with = "document")]
+    #[arg(long, value_name = "ID")]
     claim: Vec<String>,
-    #[command(flatten)]
-    only: Only,
     /// Print what is reproduced, met and held too.
     #[arg(long)]
     all: bool,
@@ -70,15 +65,13 @@ pub fn run(args: Args) -> Result<(), Failure> {
         some => all.into_iter().filter(|id| some.iter().any(|one| one == id)).collect(),
     };
     let mut needs: Vec<_> = asked.iter().flat_map(|id| claims::needs(id)).copied().collect();
-    let document = args.only.document.as_deref();
-    let of = |names: &[&str]| document.is_none_or(|name| names.contains(&name));
     // Targets and relations belong to the whole.
-    let whole = args.claim.is_empty() && of(&["beyond", "methods"]);
+    let whole = args.claim.is_empty();
     if whole {
         needs = ALL.into();
     }
     let progress = signals::progress();
-    let mut judged = threads::run(args.sources.threads, || {
+    let judged = threads::run(args.sources.threads, || {
         let results = args.sources.run(&needs, profile, &templates, &progress)?;
         let one = |id: &&str| claims::one(id, &results, &published);
         let claims = asked.iter().map(one).collect::<Result<Vec<Check>, claims::Error>>()?;
@@ -88,12 +81,6 @@ pub fn run(args: Args) -> Result<(), Failure> {
         let values = contents::registry(&results, &published)?;
         Judged::all(&results, &published, values, claims)
     })?;
-    let lists = [
-        (&mut judged.claims, of(&["front", "edition", "ledger"])),
-        (&mut judged.relations, of(&["beyond"])),
-        (&mut judged.targets, of(&["methods"])),
-    ];
-    lists.into_iter().filter(|(_, asked)| !asked).for_each(|(list, _)| list.clear());
     let prose = args.sources.templates.clone().unwrap_or_else(|| "templates".into());
     let here = std::env::current_dir().unwrap_or_default();
     let file = prose.strip_prefix(here).unwrap_or(&prose).join("published.toml");

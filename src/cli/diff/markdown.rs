@@ -1,26 +1,20 @@
 //! A comparison as a comment on a pull request.
 
-use super::text::{fate, reworded, words};
+use super::text::fate;
 use super::{by_weight, count, signed};
 use impact_paper::input::{is_obeyed, one_line};
-use impact_paper::report::compare::{Change, ClaimChange, Diff, ProseChange};
+use impact_paper::report::compare::{Change, ClaimChange, Diff};
 use impact_paper::report::markdown::escaped;
 use impact_paper::report::spell;
 
 /// Of more rows the largest are shown.
 const ROWS: usize = 40;
 
-/// Of more sentences the first are shown.
-const SENTENCES: usize = 20;
-
 /// Hosts take comments of 65536 characters.
 const LONGEST: usize = 60_000;
 
 /// A cell is read, not studied.
 const WIDTH: usize = 160;
-
-/// A sentence is studied.
-const LONG: usize = 600;
 
 /// The largest differences.
 pub fn markdown(old: &str, new: &str, diff: &Diff) -> String {
@@ -35,7 +29,6 @@ pub fn markdown(old: &str, new: &str, diff: &Diff) -> String {
     let (numbers, other) = by_weight(&diff.numbers);
     let rows = numbers.into_iter().map(value).collect();
     table(&mut out, "| Number | Before | Now | Δ | Δ/σ |\n|---|---|---|---|---|\n", rows);
-    prose(&mut out, &diff.prose);
     let ids = |new: bool| {
         let these = other.iter().filter(|change| change.after.is_some() == new);
         these.map(|change| change.id.clone()).collect::<Vec<String>>()
@@ -61,9 +54,6 @@ fn shortened(mut text: String) -> String {
     if text.len() > LONGEST {
         let end = text.floor_char_boundary(LONGEST);
         text.truncate(text[..end].rfind('\n').map_or(end, |end| end + 1));
-        if text.rfind("<details>") > text.rfind("</details>") {
-            text += "\n</details>\n";
-        }
         text += "\nThe rest is too long for a comment.\n";
     }
     text
@@ -81,27 +71,6 @@ fn table(out: &mut String, head: &str, rows: Vec<String>) {
     }
 }
 
-fn prose(out: &mut String, changes: &[ProseChange]) {
-    let Some(told) = reworded(changes).map(|told| sentence(&told)) else { return };
-    let mut lines = Vec::new();
-    for change in changes {
-        for sentence in &change.sentences {
-            let place = plain(&format!("{}, {}", change.document, sentence.section), WIDTH);
-            let marks = [["~~", "~~"], ["**", "**"]];
-            let told = words(&sentence.pieces, marks, " ", |text| plain(text, LONG));
-            lines.push(format!("- {place}: {told}\n"));
-        }
-    }
-    if lines.is_empty() {
-        *out += &format!("\n{told}.\n");
-        return;
-    }
-    let more = more(lines.len().saturating_sub(SENTENCES));
-    lines.truncate(SENTENCES);
-    let (shown, more) = (lines.concat(), more.trim_start());
-    *out += &format!("\n<details>\n<summary>{told}</summary>\n\n{shown}\n{more}\n\n</details>\n");
-}
-
 fn more(number: usize) -> String {
     if number == 0 { String::new() } else { format!(" … and {number} more.") }
 }
@@ -113,12 +82,8 @@ fn sentence(text: &str) -> String {
 
 /// One line of plain words for a cell.
 fn cell(text: &str) -> String {
-    plain(&spell::text(text), WIDTH)
-}
-
-fn plain(text: &str, most: usize) -> String {
     // An at-sign would call somebody.
-    let seen = one_line(&text.replace(is_obeyed, " "), most);
+    let seen = one_line(&spell::text(text).replace(is_obeyed, " "), WIDTH);
     escaped(&seen.replace('@', "@\u{200b}"))
 }
 
@@ -151,7 +116,6 @@ fn value(change: &Change) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use impact_paper::report::compare::{Piece, SentenceChange};
 
     #[test]
     fn cells_are_plain_words() {
@@ -174,20 +138,6 @@ mod tests {
         let text = markdown("a", "b", &diff);
         assert!(text.chars().count() < 65536 && text.ends_with("too long for a comment.\n"));
         assert!(text.lines().filter(|line| line.starts_with("| claim")).all(|l| l.ends_with(" |")));
-        let piece = Piece::Changed(["_".repeat(600), "|".repeat(600)]);
-        let sentence = SentenceChange { section: "s".into(), pieces: vec![piece; 3] };
-        let prose = |sentences| {
-            let change = ProseChange { document: "d".into(), numbers_alone: 2, sentences };
-            markdown("a", "b", &Diff { prose: vec![change], ..Diff::default() })
-        };
-        let long = prose(vec![sentence.clone(); 25]);
-        assert!(long.ends_with("\n</details>\n\nThe rest is too long for a comment.\n"));
-        let many = prose(vec![SentenceChange { pieces: vec![], ..sentence }; 25]);
-        assert!(many.ends_with("- d, s: \n\n… and 5 more.\n\n</details>\n"), "{many}");
-        assert!(
-            prose(vec![])
-                .ends_with("\nNo sentence with other words, 2 with other numbers alone.\n")
-        );
         let few = Diff { gained: (0..50).map(|i| i.to_string()).collect(), ..Diff::default() };
         assert!(markdown("a", "b", &few).ends_with("39 … and 10 more.\n"));
     }

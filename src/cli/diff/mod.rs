@@ -4,19 +4,16 @@ mod markdown;
 mod revision;
 mod text;
 
-use super::document::Only;
 use super::{Failure, folder, memory, shown, stdout};
 use impact_paper::experiments::{Progress, alive};
 use impact_paper::input::{self, FOUND, MEMORY};
 pub use impact_paper::numerics::text::count;
 use impact_paper::report::compare::{self, Change, Diff, Parts};
-use impact_paper::report::{Files, PROGRAM};
+use impact_paper::report::Files;
 use serde_json::json;
 use std::path::Path;
 
-/// Says what differs between two reports: verdicts, numbers, sentences, files.
-///
-/// A sentence in which nothing but numbers moved is counted, not told.
+/// Says what differs between two reports: verdicts, numbers, files.
 ///
 /// OLD and NEW are folders of reports, or else revisions of git, whose folder paper/ is meant. A
 /// difference is no failure: the exit code is 0 unless --exit-code asks for more.
@@ -28,8 +25,6 @@ pub struct Args {
     /// The later one.
     #[arg(value_name = "NEW")]
     new: String,
-    #[command(flatten)]
-    only: Only,
     /// For a comment on a pull request: the largest differences, in tables.
     #[arg(long)]
     markdown: bool,
@@ -46,12 +41,9 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let _alive = alive(|| Some("diff: at work".into()));
     let (old, new) = (files(&args.old)?, files(&args.new)?);
     let unusable = |what: String| Failure::input(format!("{what}; is it a report?"));
-    let mut before = Parts::of(&args.old, old).map_err(unusable)?;
-    let mut after = Parts::of(&args.new, new).map_err(unusable)?;
-    if let Some(document) = &args.only.document {
-        before.only(document).and_then(|()| after.only(document)).map_err(unusable)?;
-    }
-    let diff = compare::diff(&before, &after, PROGRAM.documents).map_err(unusable)?;
+    let before = Parts::of(&args.old, old).map_err(unusable)?;
+    let after = Parts::of(&args.new, new).map_err(unusable)?;
+    let diff = compare::diff(&before, &after);
     let told = match (args.markdown, args.json) {
         (true, _) => markdown::markdown,
         (_, true) => json,
@@ -70,7 +62,7 @@ pub fn fate(change: &compare::ClaimChange) -> String {
     format!("{}: {}", change.id, text::fate(change.before.as_deref(), change.after.as_deref()))
 }
 
-/// Bytes for each of a text that is compared by its words: measured, with a little room.
+/// Bytes for each of a text that is parsed: measured, with a little room.
 const PARSED: u128 = 50;
 
 /// All files of a report may have so many MiB; ours has twenty.
@@ -106,7 +98,7 @@ fn bounded<'a>(name: &str, files: impl Iterator<Item = (&'a str, u64)>) -> Resul
             return Err(Failure::input(format!("{what}; is it a report?")));
         }
         all += length;
-        let each = if path.ends_with(".md") || path.ends_with(".json") { PARSED } else { 1 };
+        let each = if path.ends_with(".json") { PARSED } else { 1 };
         read += each * u128::from(length);
     }
     if all > MOST << 20 {

@@ -1,11 +1,8 @@
 //! A comparison for the terminal.
 
 use super::{by_weight, count, signed};
-use impact_paper::input::{is_obeyed, one_line};
-use impact_paper::report::compare::{Change, ClaimChange, Diff, Piece, ProseChange};
-
-/// So many characters of what stayed lead from one change of a sentence to the next.
-const AROUND: usize = 160;
+use impact_paper::input::is_obeyed;
+use impact_paper::report::compare::{Change, ClaimChange, Diff};
 
 /// All of it.
 pub fn text(old: &str, new: &str, diff: &Diff) -> String {
@@ -25,7 +22,6 @@ pub fn text(old: &str, new: &str, diff: &Diff) -> String {
     let (numbers, other) = by_weight(&diff.numbers);
     let lines = numbers.into_iter().chain(other).map(value).collect();
     section(format!("{} changed", count(diff.numbers.len(), "number")), lines);
-    section("prose".into(), prose(&diff.prose));
     let named = |what: &str, paths: &[String]| -> Vec<String> {
         paths.iter().map(|path| format!("{what} {path}")).collect()
     };
@@ -59,48 +55,4 @@ fn value(change: &Change) -> String {
     let difference = difference.map(|d| format!("; Δ {}", signed(d))).unwrap_or_default();
     let sigmas = change.sigmas.map(|s| format!(", {} σ", signed(s))).unwrap_or_default();
     format!("{change}{difference}{}", if difference.is_empty() { "" } else { &sigmas })
-}
-
-fn prose(changes: &[ProseChange]) -> Vec<String> {
-    let mut lines: Vec<String> = reworded(changes).into_iter().collect();
-    for change in changes {
-        for part in change.sentences.chunk_by(|a, b| a.section == b.section) {
-            lines.push(format!("{}, {}", change.document, part[0].section));
-            lines.extend(part.iter().map(|sentence| {
-                let marks = [["[-", "-]"], ["{+", "+}"]];
-                format!("  {}", words(&sentence.pieces, marks, "", str::to_owned))
-            }));
-        }
-    }
-    lines
-}
-
-/// How many sentences differ, if a document does.
-pub fn reworded(changes: &[ProseChange]) -> Option<String> {
-    let words = changes.iter().map(|change| change.sentences.len()).sum();
-    let numbers: usize = changes.iter().map(|change| change.numbers_alone).sum();
-    let told = || {
-        let words = count(words, "sentence");
-        format!("{words} with other words, {numbers} with other numbers alone")
-    };
-    (!changes.is_empty()).then(told)
-}
-
-/// A sentence with marks about what went and what came.
-pub fn words(
-    pieces: &[Piece],
-    marks: [[&str; 2]; 2],
-    between: &str,
-    told: impl Fn(&str) -> String,
-) -> String {
-    let marked = |(text, [open, close]): (&String, [&str; 2])| {
-        (!text.is_empty()).then(|| format!("{open}{}{close}", told(text)))
-    };
-    let piece = |piece: &Piece| match piece {
-        Piece::Same(text) => told(&one_line(text, AROUND)),
-        Piece::Changed(texts) => {
-            texts.iter().zip(marks).filter_map(marked).collect::<Vec<_>>().join(between)
-        }
-    };
-    pieces.iter().map(piece).collect::<Vec<_>>().join(" ")
 }

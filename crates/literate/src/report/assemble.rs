@@ -11,7 +11,6 @@ use super::labels::Labels;
 use super::ledger::EquationEntry;
 use super::mark::Mark;
 use super::origin::{Filled, Places};
-use super::shown::Shown;
 use super::uses::uses;
 use super::values::Registry;
 use super::{Error, html, latex, ledger, lint, markdown, parse, sums};
@@ -124,9 +123,7 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
     declared.refuse_unmet()?;
     let all: Vec<&[Block]> = parts.iter().map(|part| part.blocks.as_slice()).collect();
     let uses = uses(input.claims, &values, &all);
-    let mut ledger = ledger::ledger(input.claims, input.figures, input.equations, &uses);
-    let shown = |part: &Part<'_>| (part.of.prose.to_string(), Shown::of(part.of, &part.blocks));
-    ledger.documents = parts.iter().map(shown).collect();
+    let ledger = ledger::ledger(input.claims, input.figures, input.equations, &uses);
 
     let (mut committed, mut beside) = (Files::new(), Files::new());
     let json = |e: serde_json::Error| Error::Template(format!("values.json: {e}"));

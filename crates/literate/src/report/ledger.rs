@@ -2,8 +2,6 @@
 
 use super::Error;
 use super::claims::plain;
-use super::shown::Shown;
-use super::values::Registry;
 use crate::claims::Check;
 use crate::figures::Figure;
 use serde::{Deserialize, Serialize};
@@ -20,9 +18,6 @@ pub struct Ledger {
     /// The numbered equations of the paper.
     #[serde(default)]
     pub equations: Vec<EquationEntry>,
-    /// The documents, by the name of their prose.
-    #[serde(default)]
-    pub documents: BTreeMap<String, Shown>,
 }
 
 /// A statement; the fields are those of [`Check`], as text. Some came and went with versions, and reports of two are
@@ -78,19 +73,6 @@ pub struct EquationEntry {
     pub step_towards: Option<String>,
 }
 
-impl Ledger {
-    /// Leaves what one document shows, here and of the values; the equations stand in all.
-    pub fn only(&mut self, document: &str, values: &mut Registry) -> Result<(), Error> {
-        let shown = self.documents.get(document).ok_or_else(|| {
-            Error::Template(format!("ledger.json does not say what {document} shows"))
-        })?;
-        self.claims.retain(|claim| shown.claims.contains(&claim.id));
-        self.figures.retain(|figure| shown.files.contains(&figure.picture));
-        values.retain(|value| shown.values.contains(&value.id));
-        Ok(())
-    }
-}
-
 /// The entries of the figures.
 pub fn figures(figures: &[Figure]) -> Vec<FigureEntry> {
     let figure = |figure: &Figure| FigureEntry {
@@ -129,7 +111,6 @@ pub fn ledger(
         claims: claims.iter().map(claim).collect(),
         figures: self::figures(figures),
         equations: equations.to_vec(),
-        documents: BTreeMap::new(),
     }
 }
 

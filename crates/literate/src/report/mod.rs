@@ -27,7 +27,6 @@ pub mod markdown;
 pub mod origin;
 pub mod parse;
 pub mod print;
-pub mod shown;
 pub mod spell;
 pub mod sums;
 mod tags;

@@ -4,8 +4,8 @@
 //! is the same number. Integers and numbers of few digits agree by chance, so they count only where the
 //! prose names claim and value in one paragraph.
 
-use super::document::Block;
-use super::shown::Shown;
+use super::document::{Block, Inline, visit};
+use super::valued::{Piece, pieces};
 use super::values::{Number, Registry};
 use crate::claims::{Check, Text};
 use std::collections::{BTreeMap, BTreeSet};
@@ -52,9 +52,24 @@ fn numbers(text: &Text) -> impl Iterator<Item = f64> + '_ {
 fn together(documents: &[&[Block]]) -> BTreeMap<String, BTreeSet<String>> {
     let mut out: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
     for block in documents.iter().copied().flatten().filter(|b| matches!(b, Block::Paragraph(_))) {
-        let shown = Shown::in_blocks(std::slice::from_ref(block));
-        for claim in shown.claims {
-            out.entry(claim).or_default().extend(shown.values.iter().cloned());
+        let (mut claims, mut values) = (BTreeSet::new(), BTreeSet::new());
+        visit(std::slice::from_ref(block), &mut |inline| match inline {
+            Inline::Reference { to, .. } => {
+                claims.extend(to.strip_prefix("claim:").map(String::from));
+            }
+            Inline::Value { id, .. } => {
+                values.insert(id.clone());
+            }
+            Inline::Maths(tex) | Inline::Display { tex, .. } => {
+                values.extend(pieces(tex).into_iter().filter_map(|piece| match piece {
+                    Piece::Value { id, .. } => Some(id.to_string()),
+                    Piece::Tex(_) => None,
+                }));
+            }
+            _ => {}
+        });
+        for claim in claims {
+            out.entry(claim).or_default().extend(values.iter().cloned());
         }
     }
     out

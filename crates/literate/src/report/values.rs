@@ -90,11 +90,6 @@ impl Registry {
     pub fn iter(&self) -> impl Iterator<Item = &Value> {
         self.values.values()
     }
-
-    /// Leaves those of which this is so.
-    pub fn retain(&mut self, keep: impl Fn(&Value) -> bool) {
-        self.values.retain(|_, value| keep(value));
-    }
 }
 
 /// `name` or `group.name`, each of lower-case letters, digits and `_`, beginning with a letter.
