@@ -6,7 +6,6 @@ mod check;
 mod diff;
 mod eval;
 mod explain;
-mod manual;
 mod merge;
 mod method;
 mod number;
@@ -64,7 +63,7 @@ const GROUPS: [(&str, &[&str]); 5] = [
     ("Look at", &["explain", "status"]),
     ("Compute", &["eval", "sweep", "trace", "bench"]),
     ("On several machines", &["plan", "run", "merge"]),
-    ("For keepers", &["audit", "manual"]),
+    ("For keepers", &["audit"]),
 ];
 
 /// The command line, with its verbs in groups.
@@ -85,7 +84,6 @@ fn command() -> clap::Command {
 #[derive(Subcommand)]
 enum Verb {
     Audit(audit::Args),
-    Manual(manual::Args),
     Bench(bench::Args),
     Check(check::Args),
     Diff(diff::Args),
@@ -117,7 +115,6 @@ pub fn main() -> ExitCode {
     }
     let result = match verb {
         Verb::Audit(args) => audit::run(args),
-        Verb::Manual(args) => manual::run(&args),
         Verb::Bench(args) => bench::run(args),
         Verb::Check(args) => check::run(args),
         Verb::Diff(args) => diff::run(args),

@@ -22,9 +22,6 @@ pub const VALUES: &str = "values.json";
 /// Folders that a report has.
 pub(super) const FOLDERS: [&str; 2] = ["data", "figures"];
 
-/// The folder that the manual has.
-const COMPLETIONS: &str = "completions";
-
 /// What all verbs call the option.
 #[derive(Clone, Copy, clap::Args)]
 pub struct Force {
@@ -114,11 +111,6 @@ impl<'a> Staging<'a> {
     pub fn refuse_changed(&self) -> Result<(), Failure> {
         let _alone = alone(self.folder).map_err(|error| self.failed(&error, self.folder))?;
         let own = self.own()?.unwrap_or_default();
-        if let Some(page) = own.manual().filter(|page| stands(&self.folder.join(page))) {
-            let (option, folder) = (self.option, self.folder.display());
-            let what = "a report has no other files; give another folder";
-            return Err(Failure::input(format!("{option}: {folder} has {page}; {what}")));
-        }
         // A document may stand without a list of it; and a list may be somebody else's.
         let documents = PROGRAM.documents.iter().flat_map(Document::paths);
         let others: Vec<String> = documents.chain([sums::NAME.into()]).collect();
@@ -221,8 +213,7 @@ impl<'a> Staging<'a> {
 
 /// Is it an empty folder of ours? A run that was killed before its first file leaves such.
 fn is_begun(folder: &Path, name: &str) -> bool {
-    let ours = FOLDERS.into_iter().chain([COMPLETIONS]).any(|own| own == name);
-    ours && folder.join(name).read_dir().is_ok_and(|mut files| files.next().is_none())
+    FOLDERS.contains(&name) && folder.join(name).read_dir().is_ok_and(|mut files| files.next().is_none())
 }
 
 /// Whether something is there, as far as anybody can tell: what cannot be looked at is.

@@ -45,11 +45,6 @@ impl Own {
         Ok(Some(own))
     }
 
-    /// A page of the manual among what was last written.
-    pub fn manual(&self) -> Option<&str> {
-        self.local.iter().map(|entry| entry.path.as_str()).find(|path| is_manual(path))
-    }
-
     /// Whether it wrote these bytes under this path. A list of a report says nothing that is not made
     /// again.
     pub fn wrote(&self, path: &str, bytes: &[u8]) -> bool {
@@ -84,7 +79,7 @@ fn local(folder: &Path) -> Result<Option<Vec<sums::Entry>>, Failure> {
     let list = folder::local(folder, remedy)?;
     let written = |path: &str| {
         let beside = || folder::is_beside(path) && (path.contains('/') || is_document(path));
-        sums::is_of_report(path) || path == LAB || beside() || is_manual(path)
+        sums::is_of_report(path) || path == LAB || beside()
     };
     let lines = list.iter().flatten().enumerate();
     match lines.into_iter().find(|(_, entry)| !written(&entry.path)) {
@@ -100,13 +95,6 @@ fn local(folder: &Path) -> Result<Option<Vec<sums::Entry>>, Failure> {
 /// Is it a file of one of our documents?
 fn is_document(path: &str) -> bool {
     PROGRAM.documents.iter().flat_map(Document::paths).any(|own| own == path)
-}
-
-/// Is it a page of the manual, or a completion?
-fn is_manual(path: &str) -> bool {
-    let name = path.strip_prefix("completions/");
-    let ours = name.unwrap_or(path).strip_prefix("impact-paper");
-    ours.is_some_and(|rest| !rest.contains('/') && (name.is_some() || rest.ends_with(".1")))
 }
 
 /// Is it a report, or what is left of one?

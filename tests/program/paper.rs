@@ -206,42 +206,23 @@ fn another_parameter_makes_another_report_that_says_so() {
     refused(here, &low, &["its frame; with these", "nearer to the paper's", "--figure"]);
 }
 
-/// Pages and completions go where nothing else is; --quiet hides progress and no error.
+/// Results go into no report, and no figures into what others made; --quiet hides progress and no error.
 #[test]
-fn the_manual_is_written_and_quiet_work_says_nothing() {
+fn a_report_has_no_other_files_and_quiet_work_says_nothing() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
-    assert_eq!(crate::run(here, "manual --out m").0, 0);
-    let page = std::fs::read_to_string(here.join("m/impact-paper-trace.1")).unwrap();
-    assert!(page.contains(".TH") && page.contains("certified"), "{page}");
-    let bash = std::fs::read_to_string(here.join("m/completions/impact-paper.bash")).unwrap();
-    assert!(bash.contains("--max-impacts") && bash.contains("sweep"), "{bash}");
-    // Each verb that it finds is one whose options it lists.
-    let found =
-        bash.lines().filter_map(|line| line.trim().strip_prefix("cmd=\"")?.strip_suffix('"'));
-    let found: Vec<&str> = found.filter(|name| !name.is_empty()).collect();
-    let listed = |name: &&str| bash.contains(&format!("\n        {name})\n"));
-    assert!(found.len() > 15 && found.iter().all(listed), "{bash}");
     for (folder, name) in [("report", "SHA256SUMS"), ("left", "ledger.json")] {
         let file = (name.to_string(), QUICK.report[name].clone());
         crate::put(&here.join(folder), &[file].into());
     }
     std::fs::create_dir(here.join("left/data")).unwrap();
     for folder in ["report", "left", "left/data", "left/new"] {
-        for verb in ["manual --out", "run --profile quick --shard 1/1 --out"] {
-            crate::refused(here, &format!("{verb} {folder}"), &["holds a report"]);
-        }
+        let shard = "run --profile quick --shard 1/1 --out";
+        crate::refused(here, &format!("{shard} {folder}"), &["holds a report"]);
         refused(here, &format!("-q check --profile quick --results {folder}"), &["holds a report"]);
         refused(here, &format!("-q paper --out o --results {folder}"), &["holds a report"]);
     }
     refused(here, "-q paper --figure 4 --out left/new", &["it lies in a report"]);
-    refused(
-        here,
-        "-q paper --profile quick --out m",
-        &["completions/impact-paper.bash", "other files"],
-    );
-    std::fs::write(here.join("m/impact-paper.1"), "mine").unwrap();
-    crate::refused(here, "manual --out m", &["impact-paper.1", "--force"]);
 
     let sweep = "sweep --sigma 0.1 --masses 4 --realisations 2";
     let (code, quiet, note) = crate::run(here, &format!("-q {sweep}"));

@@ -69,7 +69,7 @@ fn edited_missing_and_unlisted_files_are_named() {
     faults(folder.path(), &lines, "3 faults");
 }
 
-/// What `paper --figure` and `manual` write has a list of its own.
+/// What `paper --figure` writes has a list of its own.
 #[test]
 fn single_files_are_no_report() {
     let folder = tempfile::tempdir().unwrap();

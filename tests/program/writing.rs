@@ -113,7 +113,6 @@ fn nothing_is_written_among_the_templates() {
         ("paper --profile quick --templates t --out new --results", "t"),
         ("check --profile quick --templates t --results", "t/new"),
         ("-q verify --rerun --templates t --results", "t"),
-        ("manual --out", TEMPLATES),
         ("run --profile quick --shard 1/1 --out", TEMPLATES),
         ("merge t --results", TEMPLATES),
     ] {
