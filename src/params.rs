@@ -11,7 +11,6 @@ mod history;
 mod nucleation;
 mod protocol;
 mod restitution;
-pub mod set;
 mod sizes;
 mod spacetime;
 

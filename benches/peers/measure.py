@@ -227,7 +227,7 @@ def part_commands():
         ["sweep", "--sigma", ",".join(own), "--realisations", number, "--format", "json"]
         for number, own in sigmas.items()
     ]}  # fmt: skip
-    for profile in ["quick", "ci", "full"]:
+    for profile in ["quick", "full"]:
         folders = ["--results", fresh / profile, "--out", fresh / f"paper-{profile}"]
         commands[profile] = [["paper", "--profile", profile, *folders]]
     for name, calls in commands.items():

@@ -105,7 +105,6 @@ fn clock(measured: &Measured) -> Vec<Check> {
     ];
     for (name, what, bound) in [
         ("quick", "the quick profile", 5.0),
-        ("ci", "the profile of pull requests", 30.0),
         ("full", "the full profile", 120.0),
         ("main sweep", "its main sweep alone", 60.0),
     ] {

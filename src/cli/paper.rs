@@ -9,7 +9,7 @@ use super::{Failure, folder, make, memory, shown, signals, stdout, threads, work
 use impact_paper::claims::Verdict;
 use impact_paper::experiments::Progress;
 use impact_paper::figures;
-use impact_paper::params::{Profile, set};
+use impact_paper::params::Profile;
 use impact_paper::report::compare::{self, Parts};
 use impact_paper::report::values::Number;
 use impact_paper::report::{self, Files, PROGRAM, Registry};
@@ -27,13 +27,9 @@ use std::time::{Duration, Instant};
 /// a target of accuracy or counted work, or a check fails; the report is written all the same.
 #[derive(clap::Args)]
 pub struct Args {
-    /// Sample sizes [default: full; with --set: ci].
-    #[arg(long, value_parser = work::of_reports())]
-    profile: Option<Profile>,
-    /// What if a parameter were another? For example restitution=0.7; may be repeated, `list` lists them. Nothing
-    /// is judged then, every document and figure says so, and --out has to be given.
-    #[arg(long, value_name = "NAME=VALUE")]
-    set: Vec<String>,
+    /// Sample sizes.
+    #[arg(long, default_value = "full", value_parser = work::of_reports())]
+    profile: Profile,
     #[arg(long, value_name = "N", allow_hyphen_values = true, help = figure_help())]
     figure: Vec<String>,
     /// Folder to write into [default: paper for the full profile, else target/paper-PROFILE].
@@ -60,31 +56,8 @@ const MOVED: usize = 6;
 
 pub fn run(args: Args) -> Result<(), Failure> {
     let began = Instant::now();
-    if args.set == ["list"] {
-        return stdout::print(&set::list());
-    }
-    set::choose(&args.set).map_err(|e| Failure::input(format!("--set: {e}")))?;
-    let other = set::told().is_some();
-    // Also where what was set is the paper's: it is to be compared with other settings.
-    let usual = if args.set.is_empty() { Profile::Full } else { Profile::Ci };
-    let profile = args.profile.unwrap_or(usual);
+    let profile = args.profile;
     let out = args.out.clone().unwrap_or_else(|| default_folder(profile));
-    let ordinary = [Profile::Quick, Profile::Ci, Profile::Full];
-    let ordinary = ordinary.map(|profile| folder::resolved(&default_folder(profile)));
-    if other && ordinary.iter().any(|folder| folder::resolved(&out).starts_with(folder)) {
-        let given = args.out.as_ref().map(|out| {
-            format!("{} is the place of the paper's own report, or lies in it: ", out.display())
-        });
-        let given = given.unwrap_or_default();
-        let remedy = "this is another paper; give it a folder of its own with --out";
-        return Err(Failure::input(format!("--set: {given}{remedy}")));
-    }
-    if other && profile == Profile::Full && args.figure.is_empty() {
-        return Err(Failure::input(
-            "--set: the full profile has results that take a quarter of an hour, of the paper's parameters only; give \
-             --profile ci, or --figure",
-        ));
-    }
     let read = |text: &String| text.parse().map_err(|e| Failure::input(format!("--figure: {e}")));
     let numbers =
         args.figure.iter().map(read).collect::<Result<BTreeSet<figures::Number>, Failure>>()?;
@@ -137,9 +110,6 @@ fn told(out: &Path, files: &Files, judged: &Judged) -> String {
     let [met, missed, open] =
         [Verdict::Reproduced, Verdict::Differs, Verdict::CannotBeJudged].map(count);
     let timed = judged.targets.iter().filter(|one| one.verdict == Verdict::Differs && !one.fails());
-    if let Some(told) = set::told() {
-        return format!("{told}; nothing is judged\n");
-    }
     let mut lines = judged.scores();
     lines.push(format!(
         "{} targets: {met} met, {missed} missed ({} of these by the clock), {open} not measured",
@@ -184,15 +154,14 @@ fn changes(out: &Path, files: &Files) -> Vec<String> {
 fn default_folder(profile: Profile) -> PathBuf {
     match profile {
         Profile::Full | Profile::Deep => "paper".into(),
-        Profile::Ci => "target/paper-ci".into(),
         Profile::Quick => "target/paper-quick".into(),
     }
 }
 
-/// Is it where a profile of the paper's parameters writes, and nothing of worth is lost?
+/// Is it where a profile writes, and nothing of worth is lost?
 fn is_usual(profile: Profile, out: &Path) -> bool {
     let usual = || folder::resolved(out) == folder::resolved(&default_folder(profile));
-    profile != Profile::Full && set::told().is_none() && usual()
+    profile != Profile::Full && usual()
 }
 
 /// The values of the report in a folder, if there is one.
@@ -224,7 +193,7 @@ fn refuse_over_other(
     let found = values_in(there)?.and_then(name);
     // Of a report that does not tell what it is, a lesser one would take the place unseen, and figures might be of
     // other samples.
-    let lesser = profile != Profile::Full || set::told().is_some() || figures;
+    let lesser = profile != Profile::Full || figures;
     let asked = figures || !force;
     if found.is_none()
         && lesser
@@ -243,7 +212,7 @@ fn refuse_over_other(
     }
     match found {
         Some(name)
-            if name != set::profile(profile) && (figures || name == Profile::Full.name()) =>
+            if name != profile.name() && (figures || name == Profile::Full.name()) =>
         {
             Err(Failure::input(format!(
                 "--out: {} holds a report of the {name} profile; give another folder",

@@ -2,7 +2,7 @@
 
 use super::{Error, Progress};
 use crate::dynamics::replay::{Asked, Forces, Replay};
-use crate::params::{Boundary, Chain, Profile, Protocol, SEED, Start, set};
+use crate::params::{Boundary, Chain, Profile, Protocol, SEED, Start};
 use crate::table::Table;
 use crate::value::origin;
 use serde::{Deserialize, Serialize};
@@ -40,7 +40,7 @@ pub fn runs(_: Profile) -> Runs {
         let forces = Forces::Drawn { sigma, stream: "sweep".into(), seed, realisation: 0 };
         Asked { chain, forces, transient: protocol.transient, window: protocol.window }
     };
-    let swept = |sigma: f64| drawn(sigma, set::chain(), set::seed(), set::protocol());
+    let swept = |sigma: f64| drawn(sigma, Chain::default(), SEED, Protocol::default());
     let other = |sigma: f64, chain: Chain| drawn(sigma, chain, SEED, Protocol::default());
     let given = |pairs: Vec<[f64; 2]>, restitution: f64, until: f64| {
         let chain = Chain { masses: pairs.len(), restitution, ..Chain::default() };

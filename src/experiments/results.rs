@@ -1,7 +1,7 @@
 //! All results together.
 
 use super::{ALL, Error, Need, TOGETHER, identities, theory};
-use crate::params::{Profile, set};
+use crate::params::{Profile, VERTICES};
 use crate::table::Table;
 use literate::experiments::deep::Audit;
 use literate::experiments::{Found, Typed};
@@ -96,10 +96,10 @@ impl Results {
         Results {
             profile,
             theory: LazyLock::new(Box::new(|| {
-                theory::run(set::vertices()).expect("the theory exists for the paper's N")
+                theory::run(VERTICES).expect("the theory exists for the paper's N")
             })),
             identities: LazyLock::new(Box::new(|| {
-                identities::run(set::vertices()).expect("the theory exists for the paper's N")
+                identities::run(VERTICES).expect("the theory exists for the paper's N")
             })),
             found: BTreeMap::new(),
             tables: OnceLock::new(),

@@ -133,11 +133,9 @@ pub fn draw(number: Number, results: &Results) -> Result<Figure, Error> {
     let sampled =
         figure.needs.iter().any(|need| need.is_saved()) && results.profile < Profile::Full;
     let samples = sampled.then(|| format!("profile {}: not for citation", results.profile.name()));
-    let other = set::told();
     let mut drawn = (figure.draw)(results)?;
-    if samples.is_some() || other.is_some() {
-        let foot: Vec<String> = other.into_iter().chain(samples).collect();
-        drawn = drawn.with_foot(&foot.join("; "))?;
+    if let Some(foot) = samples {
+        drawn = drawn.with_foot(&foot)?;
     }
     let figure = drawn;
     let source = format!("figures::{}", figure.id);

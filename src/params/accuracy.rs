@@ -111,7 +111,6 @@ impl RaceParams {
         ]);
         let (until, at_least, chains, segments, settings) = match profile {
             Profile::Full | Profile::Deep => (250.0, 20.0, 12, 1200, whole),
-            Profile::Ci => (250.0, 10.0, 3, 120, whole),
             Profile::Quick => (30.0, 10.0, 2, 12, quick),
         };
         let chain = Chain { masses: 20, ..Chain::default() };
@@ -122,7 +121,6 @@ impl RaceParams {
             until: 300.0,
             realisations: match profile {
                 Profile::Full | Profile::Deep => 60,
-                Profile::Ci => 20,
                 Profile::Quick => 6,
             },
             stream: stream.clone(),
@@ -170,7 +168,6 @@ impl TrialParams {
             short: profile < Profile::Full,
             clusters: match profile {
                 Profile::Full | Profile::Deep => vec![3, 5],
-                Profile::Ci => vec![3],
                 Profile::Quick => Vec::new(),
             },
         }
@@ -200,7 +197,6 @@ impl ScaleParams {
         use MethodName::{Certified, MoreauJean, RungeKutta, Sampled, Verlet};
         let (masses, largest, rivals) = match profile {
             Profile::Full | Profile::Deep => (vec![10, 30, 100, 300, 1000, 10_000], 10_000, 300),
-            Profile::Ci => (vec![10, 30, 100, 300, 1000, 10_000], 10_000, 100),
             Profile::Quick => (vec![10, 30, 100, 1000], 1000, 30),
         };
         let list = settings(&[

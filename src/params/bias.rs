@@ -32,9 +32,6 @@ impl BiasParams {
         let short = Protocol { transient: 100.0, window: 100.0 };
         let (scenes, settings) = match profile {
             Profile::Quick => (vec![(0.12, short), (0.3, short)], coarse(2)),
-            Profile::Ci => {
-                (vec![(0.12, Protocol::default()), (0.15, short), (0.3, short)], coarse(12))
-            }
             Profile::Full | Profile::Deep => {
                 let mut list = coarse(64);
                 for (method, value, n) in [

@@ -1,6 +1,6 @@
 //! Chains of other lengths, starts and ends: sizes of the experiment.
 
-use super::{Boundary, Chain, Grid, Profile, SEED, Start, set};
+use super::{Boundary, Chain, Grid, Profile, SEED, Start};
 use serde::{Deserialize, Serialize};
 
 /// Chains that differ from the paper's in length, start or ends.
@@ -54,11 +54,10 @@ pub struct ChainCurve {
 impl ChainsParams {
     /// The sizes of each profile.
     pub fn new(profile: Profile) -> Self {
-        let chain = set::chain();
+        let chain = Chain::default();
         let grid = |from, to| {
             let step = match profile {
                 Profile::Full | Profile::Deep => 1,
-                Profile::Ci => 2,
                 Profile::Quick => 4,
             };
             Grid::default().and(from, to, step, 100).values()
@@ -66,7 +65,6 @@ impl ChainsParams {
         let full = matches!(profile, Profile::Full | Profile::Deep);
         let few = |n: usize| match profile {
             Profile::Full | Profile::Deep => n,
-            Profile::Ci => n.div_ceil(4),
             Profile::Quick => n.div_ceil(24).max(2),
         };
         let plain = |kind: ChainKind, name: String, realisations: usize| ChainCurve {
@@ -112,12 +110,12 @@ impl ChainsParams {
             piece: 1000,
             curves,
             stream: "chains".into(),
-            seed: set::seed(),
+            seed: SEED,
         }
     }
 
     /// Half heights of three lengths after three transients, near enough to tell 0.002 apart; the same
-    /// in every profile, and of the paper's chain whatever is set.
+    /// in every profile.
     pub fn sizes(_: Profile) -> Self {
         let shape =
             ChainsParams { chain: Chain::default(), seed: SEED, ..Self::new(Profile::Quick) };

@@ -1,6 +1,6 @@
 //! Chains that are heated first: sizes of the experiment.
 
-use super::{Chain, Grid, Profile, set};
+use super::{Chain, Grid, Profile, SEED};
 use serde::{Deserialize, Serialize};
 
 /// Chains that run under a large force, which is then lowered.
@@ -31,11 +31,10 @@ impl HistoryParams {
     pub fn new(profile: Profile) -> Self {
         let (sigmas, last, realisations) = match profile {
             Profile::Full | Profile::Deep => (Grid::default().and(2, 13, 1, 100), 4000.0, 32),
-            Profile::Ci => (Grid::default().and(3, 13, 2, 100), 1000.0, 8),
             Profile::Quick => (Grid::default().and(6, 12, 3, 100), 1000.0, 3),
         };
         HistoryParams {
-            chain: set::chain(),
+            chain: Chain::default(),
             hot: 0.2,
             heating: 300.0,
             sigmas: sigmas.values(),
@@ -43,7 +42,7 @@ impl HistoryParams {
             window: 200.0,
             realisations,
             stream: "history".into(),
-            seed: set::seed(),
+            seed: SEED,
         }
     }
 }

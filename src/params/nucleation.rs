@@ -1,6 +1,6 @@
 //! Gaps that close by themselves, and what one of them sets off: sizes of the experiments.
 
-use super::{Chain, Grid, Profile, set};
+use super::{Chain, Grid, Profile, SEED};
 use serde::{Deserialize, Serialize};
 
 /// Chains from rest, run until their first impact.
@@ -31,20 +31,17 @@ impl NucleationParams {
                 Grid::default().and(6, 16, 1, 100),
                 2000.0,
             ),
-            Profile::Ci => {
-                (&[(10, 400), (100, 200), (1000, 40)], Grid::default().and(6, 16, 2, 100), 1000.0)
-            }
             Profile::Quick => (&[(10, 60), (100, 30)], Grid::default().and(8, 16, 2, 100), 500.0),
         };
         let times = [10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0];
         NucleationParams {
-            chain: set::chain(),
+            chain: Chain::default(),
             lengths: lengths.to_vec(),
             sigmas: sigmas.values(),
             times: times.into_iter().filter(|time| *time <= last).collect(),
             angles: 256,
             stream: "nucleation".into(),
-            seed: set::seed(),
+            seed: SEED,
         }
     }
 }
@@ -83,11 +80,10 @@ impl SeedsParams {
             Profile::Full | Profile::Deep => {
                 (Grid::default().and(16, 30, 1, 200).and(16, 16, 1, 100), 240)
             }
-            Profile::Ci => (Grid::default().and(8, 16, 1, 100), 30),
             Profile::Quick => (Grid::default().and(9, 14, 1, 100), 6),
         };
         SeedsParams {
-            chain: set::chain(),
+            chain: Chain::default(),
             sigmas: sigmas.values(),
             realisations,
             wait: 2000.0,
@@ -97,7 +93,7 @@ impl SeedsParams {
             window: 8,
             transients: vec![2, 4, 8, 20, 40],
             stream: "seeds".into(),
-            seed: set::seed(),
+            seed: SEED,
         }
     }
 

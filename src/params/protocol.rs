@@ -1,6 +1,6 @@
 //! The map over transients and windows: sizes of the experiment.
 
-use super::{Chain, Grid, Profile, SEED, set};
+use super::{Chain, Grid, Profile, SEED};
 use serde::{Deserialize, Serialize};
 
 /// The map of the half height over transient and window: one long run of each realisation, in
@@ -28,7 +28,7 @@ pub struct ProtocolParams {
 }
 
 impl ProtocolParams {
-    /// The long end of the map: the same in every profile, and of the paper's chain whatever is set.
+    /// The long end of the map: the same in every profile.
     pub fn long(_: Profile) -> Self {
         ProtocolParams {
             transients: vec![1e3, 4e3, 1e4, 2e4, 5e4, 1e5],
@@ -51,13 +51,12 @@ impl ProtocolParams {
             Profile::Full | Profile::Deep => {
                 (9, 7, Grid::default().and(34, 68, 2, 400).and(18, 22, 1, 100).values(), 120)
             }
-            Profile::Ci => (7, 5, Grid::default().and(9, 17, 1, 100).values(), 24),
             Profile::Quick => (6, 5, Grid::default().and(9, 17, 1, 100).values(), 6),
         };
         let transients = [10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0, 4000.0];
         let windows = [20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0];
         ProtocolParams {
-            chain: set::chain(),
+            chain: Chain::default(),
             transients: transients[..longest].to_vec(),
             windows: windows[..widest].to_vec(),
             sigmas,
@@ -65,7 +64,7 @@ impl ProtocolParams {
             short_until: 1000.0,
             realisations,
             stream: "protocol".into(),
-            seed: set::seed(),
+            seed: SEED,
         }
     }
 }

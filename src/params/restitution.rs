@@ -1,6 +1,6 @@
 //! What restitution does to a chain: sizes of the experiment.
 
-use super::{Chain, Grid, Profile, Protocol, set};
+use super::{Chain, Grid, Profile, Protocol, SEED};
 use serde::{Deserialize, Serialize};
 
 /// Chains with several restitutions, the random numbers being common to all.
@@ -40,17 +40,15 @@ impl RestitutionParams {
                 rise.and(8, 18, 1, 100).and(4, 6, 1, 20).and(2, 3, 1, 5),
                 24,
             ),
-            Profile::Ci => (&[0.0, 0.1, 0.8, 0.95], rise.and(9, 15, 2, 100).and(2, 6, 1, 10), 6),
             Profile::Quick => (&[0.0, 0.8], rise.and(9, 15, 6, 100).and(30, 60, 30, 100), 2),
         };
         let (heated, doublings, heated_realisations): (&[f64], _, _) = match profile {
             Profile::Full | Profile::Deep => (&[0.9, 0.98, 0.995, 1.0], 6, 8),
-            Profile::Ci => (&[0.9, 0.98, 1.0], 4, 4),
             Profile::Quick => (&[0.9, 1.0], 2, 2),
         };
         RestitutionParams {
-            chain: set::chain(),
-            protocol: set::protocol(),
+            chain: Chain::default(),
+            protocol: Protocol::default(),
             restitutions: restitutions.to_vec(),
             sigmas: sigmas.values(),
             realisations,
@@ -59,7 +57,7 @@ impl RestitutionParams {
             ends: (0..=doublings).map(|i| 25.0 * f64::from(1_u32 << i)).collect(),
             heated_realisations,
             stream: "restitution".into(),
-            seed: set::seed(),
+            seed: SEED,
         }
     }
 }

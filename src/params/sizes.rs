@@ -1,6 +1,6 @@
 //! Sample sizes and grids of each profile, in one place.
 
-use super::{Boundary, Chain, Profile, Protocol, SECOND_SEED, SEED, Start, set};
+use super::{Boundary, Chain, Profile, Protocol, SECOND_SEED, SEED, Start};
 use serde::{Deserialize, Serialize};
 
 /// A σ axis made of stretches of equal steps; values are exact quotients, so 0.12 is the double
@@ -74,11 +74,6 @@ impl SweepParams {
                 1000,
                 100,
             ),
-            Profile::Ci => (
-                Grid::default().and(2, 7, 1, 100).and(16, 36, 1, 200).and(10, 20, 1, 50).values(),
-                60,
-                20,
-            ),
             Profile::Quick => (
                 Grid::default()
                     .and(2, 8, 2, 100)
@@ -91,13 +86,13 @@ impl SweepParams {
             ),
         };
         SweepParams {
-            chain: set::chain(),
-            protocol: set::protocol(),
+            chain: Chain::default(),
+            protocol: Protocol::default(),
             sigmas,
             realisations,
             level: Some(Level { above: 0.16, realisations: level }),
             stream: "sweep".into(),
-            seed: set::seed(),
+            seed: SEED,
         }
     }
 
@@ -105,7 +100,6 @@ impl SweepParams {
     pub fn second_seed(profile: Profile) -> Self {
         let (sigmas, realisations) = match profile {
             Profile::Full | Profile::Deep => (Grid::default().and(34, 64, 1, 400).values(), 400),
-            Profile::Ci => (Grid::default().and(8, 16, 1, 100).values(), 30),
             Profile::Quick => (Grid::default().and(8, 16, 1, 100).values(), 8),
         };
         SweepParams { sigmas, realisations, seed: SECOND_SEED, ..Self::main(profile) }
@@ -143,7 +137,6 @@ impl StartsParams {
     pub fn new(profile: Profile) -> Self {
         let (step, realisations) = match profile {
             Profile::Full | Profile::Deep => (1, 100),
-            Profile::Ci => (2, 16),
             Profile::Quick => (2, 4),
         };
         let near = Grid::default().and(8, 18, step, 100).values();
@@ -151,7 +144,7 @@ impl StartsParams {
         // A smaller r or a larger Ω move the rise up, a larger r or a smaller Ω move it down.
         let low = Grid::default().and(4, 14, step, 100).values();
         let variant = |name: &str, sigmas: &Vec<f64>, change: fn(&mut Chain)| {
-            let mut chain = set::chain();
+            let mut chain = Chain::default();
             change(&mut chain);
             StartVariant { name: name.into(), chain, sigmas: sigmas.clone() }
         };
@@ -171,10 +164,10 @@ impl StartsParams {
         }
         StartsParams {
             variants,
-            protocol: set::protocol(),
+            protocol: Protocol::default(),
             realisations,
             stream: "starts".into(),
-            seed: set::seed(),
+            seed: SEED,
         }
     }
 }
@@ -205,7 +198,6 @@ impl HorizonParams {
             until: 500.0,
             realisations: match profile {
                 Profile::Full | Profile::Deep => 100,
-                Profile::Ci => 30,
                 Profile::Quick => 10,
             },
             stream: "horizon".into(),
@@ -242,7 +234,6 @@ impl TwoMassesParams {
             },
             directions: match profile {
                 Profile::Full | Profile::Deep => 40,
-                Profile::Ci => 20,
                 Profile::Quick => 10,
             },
             halvings: 28,

@@ -1,6 +1,6 @@
 //! One long run, to look at.
 
-use super::{Chain, PRINTED_THRESHOLD, Profile, set};
+use super::{Chain, PRINTED_THRESHOLD, Profile, SEED};
 use serde::{Deserialize, Serialize};
 
 /// One realisation at the printed threshold, kept impact by impact.
@@ -25,16 +25,15 @@ impl SpaceTimeParams {
     pub fn new(profile: Profile) -> Self {
         let until = match profile {
             Profile::Full | Profile::Deep => 4000.0,
-            Profile::Ci => 1000.0,
             Profile::Quick => 400.0,
         };
         SpaceTimeParams {
-            chain: set::chain(),
+            chain: Chain::default(),
             sigma: PRINTED_THRESHOLD,
             until,
             last: until / 10.0,
             stream: "space-time".into(),
-            seed: set::seed(),
+            seed: SEED,
         }
     }
 }

@@ -16,7 +16,7 @@ pub fn anew(folder: &Path) -> String {
     match folder == Path::new("paper") {
         true => "`impact-paper paper --force`".into(),
         false => format!(
-            "`impact-paper paper --out {} --force`, with the --profile or --set that it was made with,",
+            "`impact-paper paper --out {} --force`, with the --profile that it was made with,",
             typed(folder)
         ),
     }

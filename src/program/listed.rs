@@ -117,10 +117,6 @@ pub fn own_profile(root: &Path) -> Result<Profile, Failure> {
     })?;
     let values = compare::read(&text).map_err(|_| unknown("is not one of a report"))?;
     match values.get("profile").map(|value| &value.number) {
-        Some(Number::Text(name)) if name.contains('(') => Err(Failure::input(format!(
-            "{}: it is of the profile {name}; only `paper --set` makes it again",
-            root.display()
-        ))),
         Some(Number::Text(name)) => work::profile(name)
             .filter(|own| *own != Profile::Deep)
             .ok_or_else(|| unknown("names a profile that this program does not have")),

@@ -3,11 +3,11 @@
 use super::Failure;
 use super::judged::Judged;
 use super::sources::Sources;
-use crate::claims::{self, Check, Text, Verdict};
+use crate::claims;
 use crate::committed;
 use crate::experiments::{ALL, Progress, Results, alive};
 use crate::figures::{self, Figure};
-use crate::params::{Profile, set};
+use crate::params::Profile;
 use crate::report::{self, PROGRAM, Report, contents, equations};
 use rayon::prelude::*;
 
@@ -39,18 +39,10 @@ pub fn whole(
     };
     let numbers: Vec<figures::Number> = figures::all().collect();
     let drawn: Vec<Figure> = numbers.into_par_iter().map(draw).collect::<Result<_, Failure>>()?;
-    let mut claims =
-        claims::all(&results, &published).map_err(|error| of_parameters(error.into()))?;
-    if let Some(told) = set::told() {
-        claims.iter_mut().for_each(|claim| not_judged(claim, &told));
-    }
-    let contents = contents::registry(&results, &published);
-    let values = contents.map_err(|error| of_parameters(error.into()))?;
-    let rows = contents::rows(&results, &claims).map_err(|error| of_parameters(error.into()))?;
-    let judged = match set::told() {
-        None => Judged::all(&results, &published, values.clone(), claims)?,
-        Some(_) => Judged { claims, ..Judged::default() },
-    };
+    let claims = claims::all(&results, &published)?;
+    let values = contents::registry(&results, &published)?;
+    let rows = contents::rows(&results, &claims)?;
+    let judged = Judged::all(&results, &published, values.clone(), claims)?;
     let claims = &judged.claims;
     let module = committed::bytes(MODULE).filter(|module| is_module(module));
     if module.is_none() {
@@ -69,11 +61,6 @@ pub fn whole(
         equations: &equations::entries(),
         lab: lab.as_deref(),
         program: PROGRAM,
-    });
-    let report = report.map_err(|error| match error {
-        // A value that these parameters do not have.
-        report::Error::Template(_) | report::Error::NotFinite(_) => of_parameters(error.into()),
-        error => error.into(),
     })?;
     Ok((report, judged))
 }
@@ -94,24 +81,6 @@ pub fn figure(number: figures::Number, results: &Results) -> Result<Figure, Fail
     figures::draw(number, results).map_err(|error| {
         let failure = Failure::from(error);
         let message = format!("figure {number}: {}", failure.message);
-        of_parameters(Failure { message, ..failure })
+        Failure { message, ..failure }
     })
-}
-
-/// What fails for parameters that were set is their fault, and not the program's.
-fn of_parameters(failure: Failure) -> Failure {
-    let failed = [2, 4].contains(&failure.code) && set::told().is_some();
-    if !failed {
-        return failure;
-    }
-    Failure::input(failure.message).and(
-        "with these parameters not every part can be made; give values nearer to the paper's, or --figure with those \
-         that can be drawn",
-    )
-}
-
-/// The paper says nothing of other parameters than its own.
-fn not_judged(claim: &mut Check, told: &str) {
-    claim.verdict = Verdict::CannotBeJudged;
-    claim.note = Text::words(format!("Not judged, {told}."));
 }

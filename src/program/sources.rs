@@ -64,11 +64,7 @@ impl Sources {
     /// What the paper printed.
     pub fn published(&self, templates: &Templates) -> Result<Published, Failure> {
         let text = templates.text("published.toml")?;
-        let mut published = Published::parse(text).map_err(claims::Error::from)?;
-        for parameter in &mut published.parameters {
-            parameter.value = set::printed(&parameter.id).unwrap_or(parameter.value);
-        }
-        Ok(published)
+        Ok(Published::parse(text).map_err(claims::Error::from)?)
     }
 
     /// Runs what is needed. The folder of results is made only if something long is run.
@@ -81,16 +77,12 @@ impl Sources {
     ) -> Result<Results, Failure> {
         memory::least(memory::RESULTS, "the results")?;
         let long = needs.iter().any(|need| need.is_saved());
-        // Results of other parameters do not take the place of the paper's.
-        let folder = match set::told() {
-            None => self.results.clone(),
-            Some(_) => self.results.join("what-if"),
-        };
+        let folder = &self.results;
         if long {
-            refuse_report("--results", &folder, self.templates.as_deref())?;
+            refuse_report("--results", folder, self.templates.as_deref())?;
         }
-        let _made = long.then(|| signals::made(&folder));
-        let store = if long { Store::open(&folder)? } else { Store::nowhere() };
+        let _made = long.then(|| signals::made(folder));
+        let store = if long { Store::open(folder)? } else { Store::nowhere() };
         store.tidy();
         // Before the first run, not after hours when its turn comes.
         for need in needs.iter().filter(|need| need.is_saved()) {

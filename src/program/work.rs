@@ -12,7 +12,6 @@ use std::path::{Path, PathBuf};
 fn profiles(some: &[Profile]) -> impl TypedValueParser<Value = Profile> {
     let about = |profile| match profile {
         Profile::Quick => "To try out: seconds",
-        Profile::Ci => "For pull requests: half a minute",
         Profile::Full => "The committed report: minutes",
         Profile::Deep => {
             "What is run now and then, committed, and carried over: a quarter of an hour"
@@ -29,7 +28,7 @@ pub fn profile(name: &str) -> Option<Profile> {
 
 /// Reads sample sizes of a report.
 pub fn of_reports() -> impl TypedValueParser<Value = Profile> {
-    profiles(&[Profile::Quick, Profile::Ci, Profile::Full])
+    profiles(&[Profile::Quick, Profile::Full])
 }
 
 /// Reads sample sizes, and what takes longer than any report may.

@@ -3,7 +3,7 @@
 
 use crate::experiments::measured::FILE;
 use crate::experiments::{ALL, MEASURED};
-use crate::params::{Profile, set};
+use crate::params::{Profile, VERTICES};
 use literate::source::Recipe;
 use serde_json::Value as Json;
 
@@ -11,15 +11,12 @@ use serde_json::Value as Json;
 pub fn recipe(name: &str, profile: &str) -> Option<Recipe> {
     let profile = match profile {
         "quick" => Profile::Quick,
-        "ci" => Profile::Ci,
         _ => Profile::Full,
     };
     Some(match name {
-        "theory" => Recipe::of(
-            name,
-            "experiments::theory".into(),
-            &serde_json::json!({"N": set::vertices()}),
-        ),
+        "theory" => {
+            Recipe::of(name, "experiments::theory".into(), &serde_json::json!({"N": VERTICES}))
+        }
         "audits" => Recipe::of(name, "literate::experiments::deep::audit".into(), &Json::Null),
         _ => {
             let experiment = ALL.iter().find(|experiment| experiment.name() == name)?;

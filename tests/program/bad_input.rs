@@ -186,24 +186,12 @@ bench methods --until NaN => --until: NaN
 bench methods --reference nowhere.json => --reference: nowhere.json
 paper --figure 16|0|x => --figure
 paper --profile deep => --profile
-paper --set restitution=0.7 => --set: ; --out
-paper --set restitution=0.7 --out paper|./new/../paper => --set: ; --out
-paper --set restitution=0.7 --figure 3 --out paper/new => --set: ; --out
-paper --set masses=60 --profile quick --out target/paper-ci => --set: ; --out
-paper --set restitution=0.7 --profile full --out d => --profile ci; --figure
-paper --set restituton=0.7 --out d => there is no parameter; restitution
-paper --set restitution --out d => restitution=; give 0.3 to
-paper --out d --set seed=9007199254740993|masses=3 => =; give 
-paper --set masses=50 --set masses=60 --out d => masses; twice
 paper --threads 0 --figure 4 => --threads
 paper --figure 4 --out loop => link
 paper --figure 4 --out file|file/below => --out
 paper --profile quick --out file => it is a file
 paper --profile quick --figure 3 --results file => --results: file: not a directory
 paper --templates nowhere => nowhere
-paper --set r=0.6 --figure 4 --out o => there is no parameter; there are masses
-paper --set restituion=0.6 --figure 4 --out o => is restitution meant?
-paper --set restitution=0.6 --figure 4 --out paper => paper is the place of the paper's own report
 merge empty => empty: it has no unit of work
 paper --templates empty => --templates: empty has none of published.toml
 check --templates empty => --templates: empty has none of published.toml

@@ -7,9 +7,9 @@ use std::process::Command;
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
 /// Starts munged, slurmctld and slurmd on this machine (root installs them when missing), and stops
-/// them. Half a minute in a release build, most of it the profile ci twice.
+/// them. Some minutes, most of it the full profile twice.
 #[test]
-#[ignore = "starts a Slurm, and runs the profile ci twice"]
+#[ignore = "starts a Slurm, and runs the full profile twice"]
 fn a_job_array_with_a_killed_task_gives_the_bytes_of_one_machine() {
     let folder = tempfile::tempdir().unwrap();
     let cluster = Path::new(ROOT).join("benches/cluster");
@@ -25,7 +25,7 @@ fn a_job_array_with_a_killed_task_gives_the_bytes_of_one_machine() {
     for line in ["killed task 2 of job", "missing units of work", "resubmitted task 2 alone"] {
         assert!(text.contains(line), "{text}{note}");
     }
-    let paper = "paper --profile ci --out report --results local --templates";
+    let paper = "paper --profile full --out report --results local --templates";
     let (code, _, note) = run(folder.path(), &format!("{paper} {TEMPLATES}"));
     assert_eq!(code, 0, "{note}");
     let made = |name: &str| -> Vec<_> {

@@ -112,9 +112,7 @@ fn threads_and_saved_results_change_no_byte_and_lesser_profiles_replace_no_full_
     assert_ne!(full, values);
     std::fs::write(at("one/values.json"), full).unwrap();
     let before = tree(&at("one"));
-    for arguments in
-        ["--profile quick", "--profile ci --force", "--profile quick --figure 4 --force"]
-    {
+    for arguments in ["--profile quick --force", "--profile quick --figure 4 --force"] {
         for out in ["one", "missing/../one"] {
             refused(folder.path(), &format!("paper {arguments} --out {out}"), &["full profile"]);
         }
@@ -147,63 +145,6 @@ fn a_module_is_looked_at() {
         let said = note.contains("target/page.wasm is not there or no module");
         assert_eq!((code, said, here.join("p/lab.js").exists()), (0, !taken, taken), "{note}");
     }
-}
-
-/// What if a parameter were another: nothing is judged, everything says so, and the paper's folder stays as it is.
-#[test]
-fn another_parameter_makes_another_report_that_says_so() {
-    let folder = tempfile::tempdir().unwrap();
-    let here = folder.path();
-    let (code, list, _) = run(here, "paper --set list");
-    assert!(code == 0 && list.contains("masses             100"), "{list}");
-    // The paper's own value is set to be compared, so with the same samples.
-    let (code, told, note) = run(here, "paper --set masses=100 --figure 1");
-    assert!(code == 0 && told.starts_with("target/paper-ci: "), "{told}{note}");
-
-    let set = "-q paper --set restitution=0.7 --set masses=50 --profile quick --results r";
-    let (code, told, note) = run(here, &format!("{set} --out o"));
-    assert_eq!((code, note.as_str()), (0, ""));
-    let words = "not the paper's parameters: masses = 50, restitution = 0.7";
-    assert!(told.contains(words) && told.contains("nothing is judged"), "{told}");
-    let text = |name: &str| std::fs::read_to_string(here.join("o").join(name)).unwrap();
-    for name in ["report.md", "beyond.md", "methods.md", "README.md", "ledger.md"] {
-        assert!(text(name).contains(words), "{name}");
-        assert!(text(name).contains("the words were written for the paper's"), "{name}");
-    }
-    for name in ["fig03", "fig08", "s06"] {
-        assert!(text(&format!("figures/{name}.svg")).contains(words), "{name}");
-    }
-    let ledger: serde_json::Value = serde_json::from_str(&text("ledger.json")).unwrap();
-    let claims = ledger["claims"].as_array().unwrap();
-    assert!(claims.iter().all(|claim| claim["verdict"] == "cannot be judged"), "{claims:?}");
-    assert!(text("values.json").contains(&format!("quick ({words})")));
-    // The rise is another one, and the theory has other vertices.
-    let row = |text: &str| text.lines().last().unwrap().to_string();
-    let own = std::str::from_utf8(&QUICK.report["data/fig03a.csv"]).unwrap();
-    assert_ne!(row(&text("data/fig03a.csv")), row(own));
-    // Another choice does not go into this folder, and its results are not taken for those of the paper.
-    let (code, _, note) =
-        run(here, "paper --set masses=40 --profile quick --figure 3 --results r --out o");
-    assert!(code == 2 && note.contains("holds a report of the quick (not the paper"), "{note}");
-    let figure = "paper --profile quick --figure 3 --results r --out";
-    let (_, _, note) = run(here, &format!("{figure} p"));
-    assert!(note.contains("sweep: run"), "{note}");
-    // Nor do they take the place of these.
-    run(here, &format!("{figure} q --set masses=40"));
-    let (_, _, note) = run(here, &format!("{figure} p"));
-    assert!(!note.contains("sweep: run"), "{note}");
-    // What these parameters cannot have is their fault.
-    std::fs::remove_file(here.join("o/values.json")).unwrap();
-    let quiet = "-q paper --results r --profile";
-    for (more, remedy) in [
-        ("quick --set masses=50", "--force writes the report anew"),
-        ("quick --figure 3", "restore"),
-        ("full --figure 4 --force", "restore"),
-    ] {
-        refused(here, &format!("{quiet} {more} --out o"), &["values.json", remedy]);
-    }
-    let low = format!("{quiet} quick --out n --set masses=40 --set restitution=0.9");
-    refused(here, &low, &["its frame; with these", "nearer to the paper's", "--figure"]);
 }
 
 /// Results go into no report, and no figures into what others made; --quiet hides progress and no error.

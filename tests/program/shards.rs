@@ -224,7 +224,7 @@ fn what_is_not_one_whole_set_is_refused_by_name() {
     fs::remove_file(other.join(name)).unwrap();
     // What is no unit here.
     for (stranger, says) in [
-        ("sweep-ci-0007.json", "3/sweep-ci-0007.json is of profile ci;"),
+        ("sweep-full-0007.json", "3/sweep-full-0007.json is of profile full;"),
         ("sweep-quick-0099.json", "3/sweep-quick-0099.json is no unit of work of profile quick;"),
         ("sweep-quick.json", "3/sweep-quick.json is no unit of work of profile quick;"),
     ] {

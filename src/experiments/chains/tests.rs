@@ -22,7 +22,7 @@ fn parameters(curves: Vec<ChainCurve>) -> ChainsParams {
 
 #[test]
 fn windows_of_each_profile_do_not_overlap_and_names_differ() {
-    let profiles = [Profile::Quick, Profile::Ci, Profile::Full].map(ChainsParams::new);
+    let profiles = [Profile::Quick, Profile::Full].map(ChainsParams::new);
     for parameters in profiles.into_iter().chain([ChainsParams::sizes(Profile::Quick)]) {
         let mut names = std::collections::BTreeSet::new();
         for own in &parameters.curves {

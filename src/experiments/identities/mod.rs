@@ -14,7 +14,7 @@ use crate::circuits::distribution::{Law, SampleSpace};
 use crate::circuits::graph::Graph;
 use crate::circuits::higher_order::doubled_as_printed;
 use crate::circuits::{Error, Fraction, jump as jumps};
-use crate::params::set;
+use crate::params::Chain;
 use serde::{Deserialize, Serialize};
 
 /// Whole cases that agree or fail.
@@ -160,7 +160,7 @@ pub fn run(vertices: usize) -> Result<Identities, Error> {
     let leap = jumps::p_jump(SampleSpace::Simple, vertices)?;
     let law = |p: f64| Law::new(SampleSpace::Simple, vertices, p);
     let graph = Graph::of_chain(3);
-    let chain = set::chain();
+    let chain = Chain::default();
     let before = [crit, 0.5 * (crit + leap.bracket[0])];
     let [by_variance, by_difference] = jump::mean_slopes(vertices, leap.p)?;
     let overlap_sigma = 0.145;

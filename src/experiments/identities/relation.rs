@@ -101,7 +101,7 @@ pub(crate) fn any(p: f64, gaps: usize) -> f64 {
 
 /// At the σ of the main sweeps of all profiles.
 pub(crate) fn nucleation(gaps: usize) -> Result<Vec<Nucleation>, Error> {
-    let profiles = [Profile::Quick, Profile::Ci, Profile::Full];
+    let profiles = [Profile::Quick, Profile::Full];
     let mut sigmas = profiles.map(|profile| SweepParams::main(profile).sigmas).concat();
     sigmas.sort_by(f64::total_cmp);
     sigmas.dedup();

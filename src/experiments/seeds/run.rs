@@ -51,7 +51,7 @@ fn part(
     unit.each(stage, |index| trace(parameters, sigma, index, progress))
 }
 
-/// So many amplitudes are drawn in search of a chain at most: ten times as many as any search took within the ranges of `--set`.
+/// So many amplitudes are drawn in search of a chain at most: ten times as many as any search took.
 const DRAWN: u64 = 10_000_000;
 
 /// The search for a chain in which exactly one gap closes by itself.

@@ -8,7 +8,7 @@ use crate::circuits::impact_probability::ImpactProbability;
 use crate::circuits::{commuting, counting, jump};
 use crate::experiments::identities::{self, Identities, relation::sigma_kept};
 use crate::experiments::{Results, theory};
-use crate::params::set;
+use crate::params::Chain;
 use crate::table::{Building, Table};
 use crate::value::{Origin, origin};
 
@@ -170,7 +170,7 @@ fn relation(theory: &Theory, id: &Identities) -> Table {
 
 /// Gaps that close by themselves.
 fn gaps(id: &Identities) -> Table {
-    let all = set::chain().gaps() as f64;
+    let all = Chain::default().gaps() as f64;
     Table::of("theory.gap", &id.nucleation, |_| 0)
         .key("sigma", "d omega^2", |own| own.sigma)
         .computed_by(origin(ImpactProbability::p))

@@ -3,7 +3,6 @@
 use super::mark;
 use crate::claims::{self, Basis, Check, FAMILY_LEVEL, Verdict};
 use crate::experiments::Results;
-use crate::params::set;
 use crate::report::values::{Value, origin};
 
 /// The verdicts on the statements of one section of the paper.
@@ -73,7 +72,7 @@ pub fn values(results: &Results) -> Vec<Value> {
         Value::integer("statistical_claims", level.claims),
         Value::real("claim_quantile", level.quantile, 3),
         Value::real("family_level", FAMILY_LEVEL, 1),
-        Value::text("profile", set::profile(results.profile)),
+        Value::text("profile", results.profile.name()),
         Value::text("version", env!("CARGO_PKG_VERSION")),
     ];
     super::from(values, origin(claims::level), "")

@@ -8,8 +8,6 @@ use serde::{Deserialize, Serialize};
 pub enum Profile {
     /// To try out: seconds.
     Quick,
-    /// For pull requests: half a minute.
-    Ci,
     /// The committed report.
     Full,
     /// What takes long: run now and then, committed, and carried over.
@@ -18,13 +16,12 @@ pub enum Profile {
 
 impl Profile {
     /// All of them, rising.
-    pub const ALL: [Profile; 4] = [Profile::Quick, Profile::Ci, Profile::Full, Profile::Deep];
+    pub const ALL: [Profile; 3] = [Profile::Quick, Profile::Full, Profile::Deep];
 
     /// Its name on the command line, in reports and in names of files.
     pub fn name(self) -> &'static str {
         match self {
             Profile::Quick => "quick",
-            Profile::Ci => "ci",
             Profile::Full => "full",
             Profile::Deep => "deep",
         }

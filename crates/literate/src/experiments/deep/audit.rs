@@ -66,7 +66,6 @@ struct AuditParams {
 pub(super) fn work(profile: Profile) -> u64 {
     match profile {
         Profile::Quick => 200_000,
-        Profile::Ci => 1_000_000,
         Profile::Full | Profile::Deep => 2_000_000,
     }
 }
