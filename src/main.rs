@@ -5,15 +5,12 @@
 
 mod cli;
 
-use impact_paper::program::{ended, memory, tell};
+use impact_paper::program::{tell, threads};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
     std::panic::set_hook(Box::new(tell));
-    if let Err(failure) = memory::least(memory::BEGIN, "the program") {
-        return ended(Err(failure));
-    }
-    let thread = std::thread::Builder::new().stack_size(memory::STACK).spawn(cli::main);
+    let thread = std::thread::Builder::new().stack_size(threads::STACK).spawn(cli::main);
     match thread.map(std::thread::JoinHandle::join) {
         Ok(Ok(code)) => code,
         // The hook has told it.

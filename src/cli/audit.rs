@@ -1,6 +1,6 @@
 //! `impact-paper audit`.
 
-use super::{Failure, memory, number, signals, stdout, threads, work};
+use super::{Failure, number, signals, stdout, threads, work};
 use impact_paper::experiments::{self, Error, Store};
 use impact_paper::numerics::random::generator;
 use impact_paper::params::Profile;
@@ -48,7 +48,6 @@ fn share(text: &str) -> Result<Share, String> {
 }
 
 pub fn run(args: Args) -> Result<(), Failure> {
-    memory::least(memory::RESULTS, "audit")?;
     let profile = args.profile;
     let store = Store::open(&work::results(args.results.clone(), profile))?;
     let mut chosen = experiments::of(profile);

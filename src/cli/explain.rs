@@ -1,6 +1,6 @@
 //! `impact-paper explain`.
 
-use super::{Failure, folder, memory, stdout};
+use super::{Failure, folder, stdout};
 use impact_paper::experiments::alive;
 use impact_paper::input::{is_obeyed, one_line, regular_text};
 use impact_paper::report::PROGRAM;
@@ -31,7 +31,6 @@ pub struct Args {
 }
 
 pub fn run(args: Args) -> Result<(), Failure> {
-    memory::to_parse(&args.paper, &["values.json", "ledger.json"], "explain")?;
     let _alive = alive(|| Some("explain: at work".into()));
     let values = values(&args.paper)?;
     let ledger = ledger(&args.paper)?;

@@ -2,9 +2,8 @@
 
 use super::folder::resolved;
 use super::places::refuse_report;
-use super::{Failure, memory, shard, shown, signals, stdout, threads, work};
+use super::{Failure, shard, shown, signals, stdout, threads, work};
 use impact_paper::experiments::{Store, alive};
-use impact_paper::input::MEMORY;
 use impact_paper::numerics::text::count;
 use impact_paper::params::Profile;
 use std::path::PathBuf;
@@ -48,8 +47,6 @@ pub fn run(args: Args) -> Result<(), Failure> {
     refuse_report("--results", &folder, None)?;
     let results = Store::open(&folder)?;
     let _made = signals::made(&folder);
-    let long = args.folders.iter().flat_map(|folder| shard::lengths(folder)).sum::<u128>();
-    memory::fits(2 * long + (memory::RESULTS << 20), "merge", MEMORY)?;
     args.folders.iter().try_for_each(|folder| shard::refuse_above(folder))?;
     if args.folders.iter().all(|folder| folder.is_dir() && !shard::holds_units(folder)) {
         let first = args.folders.first().map(|folder| shown(folder)).unwrap_or_default();

@@ -5,7 +5,7 @@ use super::judged::Judged;
 use super::output::{self, Staging, VALUES};
 use super::places::{holds_report, refuse_prose, refuse_report};
 use super::sources::Sources;
-use super::{Failure, folder, make, memory, shown, signals, stdout, threads, work};
+use super::{Failure, folder, make, shown, signals, stdout, threads, work};
 use impact_paper::claims::Verdict;
 use impact_paper::experiments::Progress;
 use impact_paper::figures;
@@ -166,7 +166,6 @@ fn is_usual(profile: Profile, out: &Path) -> bool {
 
 /// The values of the report in a folder, if there is one.
 fn values_in(out: &Path) -> Result<Option<Registry>, Failure> {
-    memory::to_parse(out, &[VALUES, LEDGER], "--out")?;
     match folder::text(out, VALUES) {
         Ok(text) => Ok(compare::read(&text).ok()),
         Err(error) => {

@@ -1,6 +1,6 @@
 //! `impact-paper plan`.
 
-use super::{Failure, memory, shard, stdout, work};
+use super::{Failure, shard, stdout, work};
 use impact_paper::experiments::Store;
 use impact_paper::numerics::text::count;
 use impact_paper::params::Profile;
@@ -67,7 +67,6 @@ impl<'a> Line<'a> {
 }
 
 pub fn run(args: Args) -> Result<(), Failure> {
-    memory::least(128, "plan")?;
     let profile = args.profile;
     if let Some(of) = args.shards {
         shard::number("--shards", of)?;

@@ -1,7 +1,7 @@
 //! `impact-paper run`.
 
 use super::places::refuse_report;
-use super::{Failure, memory, shown, signals, stdout, threads, work};
+use super::{Failure, shown, signals, stdout, threads, work};
 use impact_paper::experiments::{Error, Store};
 use impact_paper::numerics::text::count;
 use impact_paper::params::Profile;
@@ -59,19 +59,13 @@ pub fn given_by(option: &str) -> impl Fn(Error) -> Failure + Copy {
     }
 }
 
-/// Lengths of what may be units in a folder.
-pub fn lengths(folder: &Path) -> impl Iterator<Item = u128> {
-    let of = |entry: DirEntry| {
-        let unit = entry.path().extension().is_some_and(|end| end == "json");
-        let is_file = entry.metadata().is_ok_and(|found| found.is_file());
-        (unit && is_file).then(|| memory::length(&entry.path()))
-    };
-    std::fs::read_dir(folder).into_iter().flatten().flatten().filter_map(of)
-}
-
 /// May there be units in the folder?
 pub fn holds_units(folder: &Path) -> bool {
-    lengths(folder).next().is_some()
+    let unit = |entry: DirEntry| {
+        entry.path().extension().is_some_and(|end| end == "json")
+            && entry.metadata().is_ok_and(|found| found.is_file())
+    };
+    std::fs::read_dir(folder).into_iter().flatten().flatten().any(unit)
 }
 
 /// Refuses a folder that has folders of shards in it in place of units.
@@ -85,7 +79,6 @@ pub fn refuse_above(folder: &Path) -> Result<(), Failure> {
 }
 
 pub fn run(args: Args) -> Result<(), Failure> {
-    memory::least(memory::RESULTS, "run")?;
     let profile = args.profile;
     let unwritable = given_by("--out");
     let plan = args.only.plan(profile)?;

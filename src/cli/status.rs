@@ -1,6 +1,6 @@
 //! `impact-paper status`.
 
-use super::{Failure, memory, stdout, work};
+use super::{Failure, stdout, work};
 use impact_paper::experiments::Store;
 use impact_paper::experiments::{self, Entry};
 use impact_paper::params::Profile;
@@ -30,7 +30,6 @@ pub struct Args {
 }
 
 pub fn run(args: Args) -> Result<(), Failure> {
-    memory::least(64, "status")?;
     let profile = args.profile;
     let store = Store::open(&work::results(args.results.clone(), profile))?;
     let found: Vec<Found> =

@@ -155,10 +155,8 @@ const OUTCOME: u128 = 2 << 10;
 fn fits(args: &Args) -> Result<(), Failure> {
     let threads = args.threads.unwrap_or_else(threads::cores) as u128;
     let chain = Engine::memory(args.masses, 1) + 64 * args.masses as u128;
-    let chains = threads * (chain + memory::THREAD);
-    memory::fits(chains, "--masses", "give fewer masses or threads")?;
-    let needed = chains + OUTCOME * args.realisations as u128;
-    memory::fits(needed, "--realisations", "give fewer, with other values of --seed")
+    let needed = threads * chain + OUTCOME * args.realisations as u128;
+    memory::fits(needed, "--masses, --realisations", "give fewer")
 }
 
 /// Runs σ after σ.

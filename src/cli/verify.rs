@@ -1,11 +1,10 @@
 //! `impact-paper verify`.
 
 use impact_paper::experiments::Progress;
-use impact_paper::input::MEMORY;
 use impact_paper::program::listed::{Checked, listed, own_profile};
 use impact_paper::program::sources::Sources;
 use impact_paper::program::waiting::Waiting;
-use impact_paper::program::{Failure, folder, make, memory, signals, threads, work};
+use impact_paper::program::{Failure, folder, make, signals, threads, work};
 use impact_paper::report::sums;
 use std::io::ErrorKind;
 use std::path::PathBuf;
@@ -36,8 +35,6 @@ pub struct Args {
 }
 
 pub fn run(args: Args) -> Result<(), Failure> {
-    let long = memory::length(&args.folder.join(sums::NAME));
-    memory::fits(16 * long + (64 << 20), "verify", MEMORY)?;
     let progress = signals::progress();
     let mut checked = listed(&args.folder, &progress)?;
     checked.tell(&args.folder)?;

@@ -40,7 +40,7 @@ use crate::experiments::{
     SEGMENTS, SIZES, SPACE_TIME, SWEEP,
 };
 use crate::experiments::{Need, Results};
-use crate::params::{Profile, set};
+use crate::params::Profile;
 
 /// The label of an axis of σ.
 const FORCING: &str = "*σ* (*d ω*^{2})";

@@ -2,7 +2,7 @@
 
 use super::output::names;
 use super::waiting::is_staging;
-use super::{Failure, folder, memory, shown, stdout, work};
+use super::{Failure, folder, shown, stdout, work};
 use crate::digest::sha256;
 use crate::experiments::{Progress, alive};
 use crate::input::is_obeyed;
@@ -110,7 +110,6 @@ pub fn own_profile(root: &Path) -> Result<Profile, Failure> {
             root.display()
         ))
     };
-    memory::to_parse(root, &["values.json"], &root.display().to_string())?;
     let text = folder::text(root, "values.json").or_else(|error| {
         Failure::of_the_system(&error, root.join("values.json").display())?;
         Err(unknown("cannot be read"))

@@ -1,12 +1,14 @@
 //! Ctrl-C, SIGTERM and the end of the terminal: what they end, and what they leave.
 
-use super::memory;
 use crate::experiments::{Progress, say};
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::Duration;
+
+/// Stack of a thread that only waits and tells, in bytes: RUST_MIN_STACK may ask for more than there is.
+const SMALL: usize = 1 << 20;
 
 /// What a shell calls a program that Ctrl-C ended: 128 + SIGINT.
 pub(super) const INTERRUPTED: u8 = 130;
@@ -53,7 +55,7 @@ pub fn obey() {
             });
             let _ = tells.send(());
         };
-        if std::thread::Builder::new().stack_size(memory::SMALL).spawn(tell).is_ok() {
+        if std::thread::Builder::new().stack_size(SMALL).spawn(tell).is_ok() {
             let _ = told.recv_timeout(Duration::from_millis(200));
         }
         std::process::exit(i32::from(INTERRUPTED))
@@ -62,7 +64,7 @@ pub fn obey() {
     #[cfg(unix)]
     let _ =
         signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::new(AtomicBool::new(false)));
-    // Where memory ends in spite of all estimates, that is told and aborts.
+    // Where memory ends, that is told and aborts.
     #[cfg(unix)]
     let _ = signal_hook::flag::register_conditional_shutdown(
         signal_hook::consts::SIGABRT,
@@ -112,7 +114,7 @@ fn on_signals(obey: impl Fn() + Send + 'static) {
     let hangup = (!is_ignored(SIGHUP)).then_some(SIGHUP);
     let signals = signal_hook::iterator::Signals::new(hangup.into_iter().chain([SIGINT, SIGTERM]));
     let follow = |mut signals: signal_hook::iterator::Signals| {
-        let thread = std::thread::Builder::new().stack_size(memory::SMALL);
+        let thread = std::thread::Builder::new().stack_size(SMALL);
         thread.spawn(move || signals.forever().for_each(|_| obey()))
     };
     // Without, such a signal just ends the program.

@@ -1,12 +1,11 @@
 //! Where `paper` and `check` read prose and keep results.
 
 use super::places::{PROSE as FILES, refuse_report};
-use super::{Failure, memory, signals, threads, work};
+use super::{Failure, signals, threads, work};
 use crate::claims::{self, Published};
 use crate::committed;
 use crate::experiments::{self, Need, Progress, Results, Store};
-use crate::input::MEMORY;
-use crate::params::{Profile, set};
+use crate::params::Profile;
 use crate::report::{self, PROGRAM, Templates};
 use std::path::{Path, PathBuf};
 
@@ -26,9 +25,6 @@ pub struct Sources {
     #[arg(long, value_name = "DIR", default_value = "target/results", value_parser = work::folder())]
     pub results: PathBuf,
 }
-
-/// Bytes for each of the templates while a report is made: measured, with a little room.
-const PARSED: u128 = 450;
 
 impl Sources {
     /// From options of another verb.
@@ -56,8 +52,6 @@ impl Sources {
     pub fn templates(&self) -> Result<Templates, Failure> {
         let templates = find(self.templates.as_deref())?;
         self.refuse_strange()?;
-        let long: usize = templates.iter().map(|(_, text)| text.len()).sum();
-        memory::fits(PARSED * long as u128 + (memory::RESULTS << 20), "the templates", MEMORY)?;
         Ok(templates)
     }
 
@@ -75,7 +69,6 @@ impl Sources {
         templates: &Templates,
         progress: &Progress,
     ) -> Result<Results, Failure> {
-        memory::least(memory::RESULTS, "the results")?;
         let long = needs.iter().any(|need| need.is_saved());
         let folder = &self.results;
         if long {

@@ -1,11 +1,13 @@
 //! Threads: how many may be asked for, and work on them.
 
-use super::{Failure, memory};
+use super::Failure;
 use std::num::ParseIntError;
-use std::sync::atomic::Ordering;
 
 /// Threads for each core that may be asked for: more share the same cores, and cost memory.
 const THREADS_A_CORE: usize = 4;
+
+/// Stack of a thread that works, in bytes: the system, or RUST_MIN_STACK, may give less.
+pub const STACK: usize = 8 << 20;
 
 /// Cores at hand.
 pub fn cores() -> usize {
@@ -42,15 +44,11 @@ pub fn run<T: Send>(
     work: impl FnOnce() -> Result<T, Failure> + Send,
 ) -> Result<T, Failure> {
     let number = threads.or_else(of_environment).unwrap_or_else(cores);
-    memory::POOL.store(number, Ordering::Relaxed);
-    memory::least(memory::BEGIN, "the threads")?;
-    let builder = rayon::ThreadPoolBuilder::new().num_threads(number).stack_size(memory::STACK);
+    let builder = rayon::ThreadPoolBuilder::new().num_threads(number).stack_size(STACK);
     let pool = builder.build().map_err(|error| {
         Failure::input(format!("--threads: {error}; give a smaller number of threads"))
     })?;
-    let result = pool.install(work);
-    memory::POOL.store(0, Ordering::Relaxed);
-    result
+    pool.install(work)
 }
 
 /// The number of threads that the environment asks for.

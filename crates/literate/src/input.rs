@@ -104,7 +104,7 @@ pub fn bare(error: Error) -> Error {
 }
 
 /// What to do where there is too little memory.
-pub const MEMORY: &str = "raise the limits of the process, or end other programs";
+const MEMORY: &str = "raise the limits of the process, or end other programs";
 
 /// What to do about what the system said: `otherwise`, unless it is not the place that is at fault.
 pub fn remedy<'a>(error: &Error, otherwise: &'a str) -> &'a str {

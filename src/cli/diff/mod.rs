@@ -4,9 +4,9 @@ mod markdown;
 mod revision;
 mod text;
 
-use super::{Failure, folder, memory, shown, stdout};
+use super::{Failure, folder, shown, stdout};
 use impact_paper::experiments::{Progress, alive};
-use impact_paper::input::{self, FOUND, MEMORY};
+use impact_paper::input::{self, FOUND};
 pub use impact_paper::numerics::text::count;
 use impact_paper::report::compare::{self, Change, Diff, Parts};
 use impact_paper::report::Files;
@@ -37,7 +37,6 @@ pub struct Args {
 }
 
 pub fn run(args: Args) -> Result<(), Failure> {
-    memory::least(128, "diff")?;
     let _alive = alive(|| Some("diff: at work".into()));
     let (old, new) = (files(&args.old)?, files(&args.new)?);
     let unusable = |what: String| Failure::input(format!("{what}; is it a report?"));
@@ -61,9 +60,6 @@ pub fn run(args: Args) -> Result<(), Failure> {
 pub fn fate(change: &compare::ClaimChange) -> String {
     format!("{}: {}", change.id, text::fate(change.before.as_deref(), change.after.as_deref()))
 }
-
-/// Bytes for each of a text that is parsed: measured, with a little room.
-const PARSED: u128 = 50;
 
 /// All files of a report may have so many MiB; ours has twenty.
 const MOST: u64 = 64;
@@ -91,22 +87,19 @@ fn standing(name: &str) -> Result<Files, Failure> {
 
 /// Refuses files that are longer than those of any report, before they are read: paths and lengths.
 fn bounded<'a>(name: &str, files: impl Iterator<Item = (&'a str, u64)>) -> Result<(), Failure> {
-    let (mut all, mut read) = (0_u64, 0_u128);
+    let mut all = 0;
     for (path, length) in files {
         if length > FOUND << 20 {
             let what = format!("{name}: {path}: {}", input::too_long(FOUND));
             return Err(Failure::input(format!("{what}; is it a report?")));
         }
         all += length;
-        let each = if path.ends_with(".json") { PARSED } else { 1 };
-        read += each * u128::from(length);
     }
     if all > MOST << 20 {
         let what = format!("{name}: its files are longer than {MOST} MiB together");
         return Err(Failure::input(format!("{what}; is it a report?")));
     }
-    // The other report may be as long.
-    memory::fits(2 * read, name, MEMORY)
+    Ok(())
 }
 
 /// The numbers that both reports have, what a reader must see first at the front, and those that one has.
