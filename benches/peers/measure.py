@@ -23,13 +23,13 @@ HERE = Path(__file__).resolve().parent
 TOP = HERE.parent.parent
 WORK = TOP / "target" / "peers"
 OURS = TOP / "target" / "release" / "impact-paper"
+MEASURE = TOP / "target" / "release" / "examples" / "measure"
 FILE = TOP / "benches" / "measured.json"
 # At n = 20 chain 0 comes to rest on a regular orbit, where no error grows; chain 1 is chaotic.
 SIGMA, UNTIL, CHAIN = 0.3, 200.0, 1
 SIZES = [20, 100]
 PATIENCE = 10.0  # seconds within which a command is begun again
 KEYS = ["compared", "horizon_impact", "horizon_time"]
-CARGO = ["cargo", "run", "--release", "--locked", "--quiet"]
 # Name of a part: its script and what pip must install for it.
 PYTHON = {
     "heyoka": ("heyoka_taylor.py", ["heyoka==7.13.2"]),
@@ -86,14 +86,18 @@ def call(command, limit, keep=False):
     return text, seconds, None if keep else usage.ru_maxrss / 1024
 
 
-def ours(*arguments, limit=300):
-    return call([str(OURS), *map(str, arguments)], limit)
+def ours(*arguments, limit=300, program=OURS):
+    return call([str(program), *map(str, arguments)], limit)
+
+
+def measure(*arguments, limit=300):
+    return ours(*arguments, limit=limit, program=MEASURE)
 
 
 def inputs(n):
     """Files of the scenario and of its true impacts."""
     scenario, reference = WORK / f"n{n}.json", WORK / f"reference-n{n}.json"
-    text, _, _ = ours("bench", "scenario", "--masses", n, "--sigma", SIGMA, "--chain", CHAIN)
+    text, _, _ = measure("scenario", "--masses", n, "--sigma", SIGMA, "--chain", CHAIN)
     fresh = not scenario.is_file() or scenario.read_text() != text
     scenario.write_text(text)
     if fresh or not reference.is_file():
@@ -106,7 +110,7 @@ def inputs(n):
 
 
 def engine(case, version, what="engine", **more):
-    """A row from a case of `bench engine`."""
+    """A row from a case of `measure engine`."""
     same = ["n", "sigma", "until", "chains", "threads", "lanes", "impacts", "seconds", "peak_mib"]
     nanoseconds = case["ns_per_impact"]
     row = {key: case[key] for key in same + ["evaluations_per_impact"]}
@@ -115,13 +119,13 @@ def engine(case, version, what="engine", **more):
 
 
 def timed(*settings):
-    """`bench engine`, repeated for as long as peers are."""
+    """`measure engine`, repeated for as long as peers are."""
     from common import ENOUGH
 
-    command = ["bench", "engine", *settings, "--repetitions"]
-    case = json.loads(ours(*command, 3)[0])["cases"][0]
+    command = ["engine", *settings, "--repetitions"]
+    case = json.loads(measure(*command, 3)[0])["cases"][0]
     seconds = case["ns_per_impact_median"] * case["impacts"] * 1e-9
-    return json.loads(ours(*command, math.ceil(ENOUGH / seconds))[0])
+    return json.loads(measure(*command, math.ceil(ENOUGH / seconds))[0])
 
 
 def part_ours():
@@ -140,7 +144,7 @@ def part_ours():
             own = [(float(line[0]), int(line[1])) for line in lines]
             more = dict(zip(KEYS, judge(own, true), strict=True))
         yield engine(report["cases"][0], report["version"], **more)
-    text, _, _ = ours("bench", "engine", "--masses", 1_000_000, "--repetitions", 1)
+    text, _, _ = measure("engine", "--masses", 1_000_000, "--repetitions", 1)
     report = json.loads(text)
     yield engine(report["cases"][0], report["version"], note="memory: a single run")
     say("  a ballistic chain of 100 masses")
@@ -158,7 +162,7 @@ def part_ours():
 
 
 def part_methods():
-    """Our own rivals; `bench methods` prints rows."""
+    """Our own rivals; `measure methods` prints rows."""
     from common import ENOUGH
 
     for n in SIZES:
@@ -166,7 +170,7 @@ def part_methods():
         say(f"  n = {n}")
         chain = ["--masses", n, "--sigma", SIGMA, "--chain", CHAIN, "--until", UNTIL]
         chain += ["--seconds", ENOUGH]
-        text, _, _ = ours("bench", "methods", *chain, "--reference", reference, limit=400)
+        text, _, _ = measure("methods", *chain, "--reference", reference, limit=400)
         yield from json.loads(text)["rows"]
 
 
@@ -214,7 +218,7 @@ def rows_of(name):
 
 def part_commands():
     """Wall time of whole commands, without saved results; of short ones the best."""
-    report = json.loads(ours("bench", "engine", "--masses", 1, "--until", 1)[0])
+    report = json.loads(measure("engine", "--masses", 1, "--until", 1)[0])
     fresh = Path(tempfile.mkdtemp(dir=WORK))
     # The sweep as the report has it: beyond the rise with fewer realisations.
     run, rows = (rows_of(f"sweep-{table}.csv") for table in ["run", "rows"])
@@ -292,7 +296,8 @@ def main():
             parser.error("of another day or machine; measure all, or give --out")
     WORK.mkdir(parents=True, exist_ok=True)
     say("build")
-    call(["cargo", "build", "--release", "--locked", "--quiet"], 1800)
+    build = ["cargo", "build", "--release", "--locked", "--quiet"]
+    call([*build, "--bins", "--example", "measure"], 1800)
     rows = {part: [row for row in kept if of_part(row) == part] for part in PARTS}
     for part in wanted:
         say(part)

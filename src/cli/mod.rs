@@ -1,7 +1,6 @@
 //! One file per verb; the exit codes are a contract.
 
 mod audit;
-mod bench;
 mod check;
 mod diff;
 mod eval;
@@ -61,7 +60,7 @@ const TEMPLATE: &str =
 const GROUPS: [(&str, &[&str]); 5] = [
     ("Make and check", &["paper", "check", "verify", "diff"]),
     ("Look at", &["explain", "status"]),
-    ("Compute", &["eval", "sweep", "trace", "bench"]),
+    ("Compute", &["eval", "sweep", "trace"]),
     ("On several machines", &["plan", "run", "merge"]),
     ("For keepers", &["audit"]),
 ];
@@ -84,7 +83,6 @@ fn command() -> clap::Command {
 #[derive(Subcommand)]
 enum Verb {
     Audit(audit::Args),
-    Bench(bench::Args),
     Check(check::Args),
     Diff(diff::Args),
     Eval(eval::Args),
@@ -115,7 +113,6 @@ pub fn main() -> ExitCode {
     }
     let result = match verb {
         Verb::Audit(args) => audit::run(args),
-        Verb::Bench(args) => bench::run(args),
         Verb::Check(args) => check::run(args),
         Verb::Diff(args) => diff::run(args),
         Verb::Eval(args) => eval::run(args),

@@ -210,9 +210,7 @@ fn refuse_over_other(
         )));
     }
     match found {
-        Some(name)
-            if name != profile.name() && (figures || name == Profile::Full.name()) =>
-        {
+        Some(name) if name != profile.name() && (figures || name == Profile::Full.name()) => {
             Err(Failure::input(format!(
                 "--out: {} holds a report of the {name} profile; give another folder",
                 out.display()

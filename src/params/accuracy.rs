@@ -82,7 +82,7 @@ pub struct RaceParams {
     pub settings: Vec<Setting>,
     /// The twins whose growth gives the line that chaos allows.
     pub growth: HorizonParams,
-    /// Name of the random stream: that of `impact-paper bench`, so that its first chain is the one
+    /// Name of the random stream: that of `benches/peers/measure.rs`, so that its first chain is the one
     /// on which other programs are measured.
     pub stream: String,
     /// Master seed, likewise.
@@ -217,7 +217,7 @@ impl ScaleParams {
         }
     }
 
-    /// Simulated time at n masses: that of `impact-paper bench engine`, and short for rivals.
+    /// Simulated time at n masses: that of `benches/peers/measure.rs`, and short for rivals.
     pub fn until(&self, masses: usize, method: MethodName) -> f64 {
         match method {
             MethodName::Certified => (200_000.0 / masses as f64).clamp(10.0, 200.0),

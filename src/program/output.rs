@@ -213,7 +213,8 @@ impl<'a> Staging<'a> {
 
 /// Is it an empty folder of ours? A run that was killed before its first file leaves such.
 fn is_begun(folder: &Path, name: &str) -> bool {
-    FOLDERS.contains(&name) && folder.join(name).read_dir().is_ok_and(|mut files| files.next().is_none())
+    FOLDERS.contains(&name)
+        && folder.join(name).read_dir().is_ok_and(|mut files| files.next().is_none())
 }
 
 /// Whether something is there, as far as anybody can tell: what cannot be looked at is.

@@ -135,14 +135,12 @@ trace - --until 5 => standard input:; it is empty
 trace s.json --until soon => --until; it is no number; 0.12
 trace s.json --until 5 --max-impacts 1e9 => --max-impacts; it is no whole number; 1000
 sweep --sigma 0.1 --masses 1e9 => --masses; it is no whole number
-bench scenario --masses 1500000|1000000000000 => --masses:; 64 MiB; fewer masses
 paper --figure= => no figure \"\"
 trace s.json --until 5 --untill 6 => --untill
 trace s.json --until=-1|NaN|inf|-inf|1e300||soon => --until
 trace s.json --until 5 --max-impacts=-1|1.5|many|99999999999999999999 => --max-impacts
 trace s.json --until 5 --step 0.1 => --step; certified; leave it out
 trace s.json --until 5 --method verlet --step -1 => --step: -1.0 is out of range
-bench methods --masses 5 --seconds nan => --seconds: NaN is out of range; give 0 to 1e4
 trace s.json --until 5 --method verlet --step 0 => --step: 0.0; give a number
 trace s.json --until 5 --method verlet --step soon => --step; soon
 trace s.json --until 5 --method verlet --tolerance 0.1 => --tolerance; --step
@@ -168,22 +166,6 @@ sweep --sigma 0.1 --seed -1 => --seed
 sweep --sigma 0.1 --threads 0|10000|4294967296 => --threads; give 1 
 sweep --sigma 0.1 --format xml => --format
 sweep --sigma 0.1 --unknown 1 => --unknown
-bench engine --masses x => --masses
-bench engine --masses 1000000000000 => --masses, --chains: about
-bench engine --masses 10 --chains 18446744073709551615 => --masses, --chains: about
-bench engine --chain 18446744073709551614 --chains 3 => --chain: 18446744073709551614 is too large
-bench engine --chains 0 => --chains: 0
-bench engine --chains -1 => '--chains <C>'
-bench engine --sigma NaN => --sigma: NaN
-bench engine --restitution 1.5 => --restitution: 1.5
-bench engine --sigma 1e-400 => --sigma; read as 0
-bench engine --until -1 => --until: -1.0
-bench engine --masses 10 --threads 0|1000000000 => --threads
-bench engine --repetitions 0|1000001 => --repetitions: 
-bench scenario --masses 0 => --masses: 0
-bench methods --masses 1000000000000 => --masses: about
-bench methods --until NaN => --until: NaN
-bench methods --reference nowhere.json => --reference: nowhere.json
 paper --figure 16|0|x => --figure
 paper --profile deep => --profile
 paper --threads 0 --figure 4 => --threads
@@ -448,8 +430,7 @@ fn long_work_gives_signs_of_life() {
     locked.lock().unwrap();
     let waits = format!("paper --figure 4 --out . --templates {TEMPLATES}");
     let sweep = "sweep --sigma 0.3 --realisations 1 --masses 10 --window 1e11";
-    let bench = "bench engine --masses 10 --until 1e9";
-    let begun = ["trace s.json --until 1e12", bench, sweep, &waits].map(|verb| {
+    let begun = ["trace s.json --until 1e12", sweep, &waits].map(|verb| {
         let mut command = program(folder.path(), verb);
         command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
     });

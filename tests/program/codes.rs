@@ -48,6 +48,13 @@ fn exit_codes_are_those_of_the_table() {
         (2, "export RAYON_RS_NUM_CPUS=999; exec \"$0\" check".into(), "RAYON_RS_NUM_CPUS: 999"),
         (2, paper("none"), "front.md: it is missing or empty"),
         (2, paper("phrases"), "literals.toml: no such file"),
+        (
+            0,
+            "ulimit -v 1000000; exec \"$0\" sweep --sigma 0.3 --masses 1000000 --realisations 1 --transient 0 \
+             --window 1 --threads 1"
+                .into(),
+            "0.3,",
+        ),
         (0, "ulimit -s 64; exec \"$0\" sweep --sigma 0.2 --realisations 3".into(), "0.2,"),
         (2, "trace --until 1 $'no\nsuch'".into(), "no such: "),
         (2, "verify nowhere".into(), "nowhere"),

@@ -1,7 +1,6 @@
 //! The program as its users run it.
 
 mod bad_input;
-mod bench;
 mod check;
 mod cluster;
 mod codes;

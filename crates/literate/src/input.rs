@@ -8,7 +8,7 @@ use std::time::SystemTime;
 use tempfile::NamedTempFile;
 
 /// MiB at most of a text that somebody names: it is kept in memory. A scenario of a million masses has less.
-pub const NAMED: u64 = 64;
+const NAMED: u64 = 64;
 
 /// MiB at most of a file that is found in a folder: four times the largest that the program writes.
 pub const FOUND: u64 = 8;

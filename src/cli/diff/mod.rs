@@ -8,8 +8,8 @@ use super::{Failure, folder, shown, stdout};
 use impact_paper::experiments::{Progress, alive};
 use impact_paper::input::{self, FOUND};
 pub use impact_paper::numerics::text::count;
-use impact_paper::report::compare::{self, Change, Diff, Parts};
 use impact_paper::report::Files;
+use impact_paper::report::compare::{self, Change, Diff, Parts};
 use serde_json::json;
 use std::path::Path;
 
