@@ -426,7 +426,7 @@ mod tests {
     fn what_is_no_text_is_found_with_its_place() {
         assert_eq!(found("a\n«v.x and\n«v.y»"), [(2, 1, "open «".into())]);
         assert_eq!(found("a\nb\u{8}c 3"), [(2, 2, "control 8".into())]);
-        assert_eq!(found("a\r\n\tb\0"), [(2, 3, "control 0".into())]);
+        assert_eq!(found("a\n\tb\0"), [(2, 3, "control 0".into())]);
         assert_eq!(found("a `\u{e000}v.x\u{e001}`"), [(1, 4, "control 57344".into())]);
     }
 
