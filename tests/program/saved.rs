@@ -57,7 +57,7 @@ fn status_gives_each_reason_and_audit_compares_bytes() {
     let [kept, away] = ["results/trials-quick.json", "trials"].map(|path| folder.join(path));
     fs::rename(&kept, &away).unwrap();
     let (code, _, note) = run(folder, "status --profile quick --results results");
-    assert!(code == 3 && note.contains("1 of 25 results is stale"), "{note}");
+    assert!(code == 3 && note.contains(&format!("1 of {EXPERIMENTS} results is stale")), "{note}");
     fs::rename(&away, &kept).unwrap();
     // What a killed run left goes, though nothing is saved.
     let left = folder.join("results/.staging-impact-paper-dead00");
