@@ -29,7 +29,7 @@ pub fn whole(
     // Faults of the templates are told before the long runs, not after them.
     let published = sources.published(&templates)?;
     drop(reading);
-    let results = sources.run(&ALL, profile, &templates, progress)?;
+    let results = sources.run(ALL, profile, &templates, progress)?;
     results.look();
     // Machines may be slow or busy, a loop of a template long.
     let _alive = alive(|| Some("making figures and documents".into()));

@@ -123,7 +123,7 @@ fn guards_relate_values_of_the_report() {
         std::fs::read_to_string(Path::new("templates").join(file)).map_err(|e| e.to_string())
     };
     let (store, quiet) = (Store::nowhere(), Progress::silent());
-    let results = experiments::run(&ALL, Profile::Quick, &scenario, &store, &quiet).unwrap();
+    let results = experiments::run(ALL, Profile::Quick, &scenario, &store, &quiet).unwrap();
     let published = claims::published().unwrap();
     let mut values = contents::registry(&results, &published).unwrap();
     values.extend(scorecard(&claims::all(&results, &published).unwrap())).unwrap();

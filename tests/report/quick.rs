@@ -42,8 +42,8 @@ pub static QUICK: LazyLock<Quick> = LazyLock::new(|| {
     let folder = tempfile::tempdir().unwrap();
     let store = Store::open(folder.path()).unwrap();
     // Run, then read again as it was saved.
-    let [results, mut full] = [(); 2]
-        .map(|()| run(&ALL, Profile::Quick, &scenario, &store, &Progress::silent()).unwrap());
+    let [results, mut full] =
+        [(); 2].map(|()| run(ALL, Profile::Quick, &scenario, &store, &Progress::silent()).unwrap());
     full.profile = Profile::Full;
     let published = Published::parse(templates.text("published.toml").unwrap()).unwrap();
     let claims = claims::all(&results, &published).unwrap();
