@@ -5,7 +5,6 @@ use crate::claims::targets;
 use crate::claims::{Basis, Check, Kind, Published, Verdict, scorecard, split};
 use crate::experiments::Results;
 use crate::report::guards::{self, Look};
-use crate::report::{self, Registry};
 
 /// What was found.
 #[derive(Clone, Debug, Default)]
@@ -19,16 +18,13 @@ pub struct Judged {
 }
 
 impl Judged {
-    /// Everything that can be asked of results, whose `values` are known.
+    /// Everything that can be asked of results.
     pub fn all(
         results: &Results,
         published: &Published,
-        mut values: Registry,
         claims: Vec<Check>,
     ) -> Result<Self, Failure> {
-        values.extend(report::claims::scorecard(&claims))?;
-        let look = Look { results, published, values: &values, claims: &claims };
-        let relations = guards::checks(look);
+        let relations = guards::checks(Look { results, published });
         Ok(Judged { targets: targets::targets(results)?, relations, claims })
     }
 

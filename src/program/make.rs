@@ -42,7 +42,7 @@ pub fn whole(
     let claims = claims::all(&results, &published)?;
     let values = contents::registry(&results, &published)?;
     let rows = contents::rows(&results, &claims)?;
-    let judged = Judged::all(&results, &published, values.clone(), claims)?;
+    let judged = Judged::all(&results, &published, claims)?;
     let claims = &judged.claims;
     let module = committed::bytes(MODULE).filter(|module| is_module(module));
     if module.is_none() {

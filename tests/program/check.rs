@@ -5,7 +5,6 @@ use impact_paper::claims::{self, Basis};
 use impact_paper::experiments::ALL;
 use impact_paper::experiments::{self, Progress, Store};
 use impact_paper::params::Profile;
-use impact_paper::report::claims::scorecard;
 use impact_paper::report::{contents, guards};
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -125,8 +124,7 @@ fn guards_relate_values_of_the_report() {
     let (store, quiet) = (Store::nowhere(), Progress::silent());
     let results = experiments::run(ALL, Profile::Quick, &scenario, &store, &quiet).unwrap();
     let published = claims::published().unwrap();
-    let mut values = contents::registry(&results, &published).unwrap();
-    values.extend(scorecard(&claims::all(&results, &published).unwrap())).unwrap();
+    let values = contents::registry(&results, &published).unwrap();
     let mut names = BTreeSet::new();
     for guard in guards::all() {
         assert!(names.insert(guard.name), "two guards are {}", guard.name);

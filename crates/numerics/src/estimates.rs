@@ -40,7 +40,7 @@ pub fn jackknife(
 }
 
 /// The sums of both members of all pairs but one.
-pub fn sums(pairs: &[[f64; 2]], out: Option<usize>) -> [f64; 2] {
+fn sums(pairs: &[[f64; 2]], out: Option<usize>) -> [f64; 2] {
     let mut sums = [0.0; 2];
     for (_, pair) in pairs.iter().enumerate().filter(|(at, _)| Some(*at) != out) {
         sums[0] += pair[0];

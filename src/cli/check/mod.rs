@@ -10,7 +10,6 @@ use impact_paper::claims::{self, Check, Verdict};
 use impact_paper::experiments::ALL;
 use impact_paper::params::Profile;
 use impact_paper::report::claims::plain;
-use impact_paper::report::contents;
 use std::io::{self, Write};
 
 /// Judges the statements of the paper, our targets, and relations between numbers.
@@ -78,8 +77,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
         if !whole {
             return Ok(Judged { claims, ..Judged::default() });
         }
-        let values = contents::registry(&results, &published)?;
-        Judged::all(&results, &published, values, claims)
+        Judged::all(&results, &published, claims)
     })?;
     let prose = args.sources.templates.clone().unwrap_or_else(|| "templates".into());
     let here = std::env::current_dir().unwrap_or_default();

@@ -14,7 +14,6 @@ mod printed;
 mod restitution;
 mod sweep;
 
-use super::values::{Number, Registry};
 use crate::claims::{self, Basis, Check, Kind, Published, Text, Verdict};
 use crate::experiments::Results;
 use crate::numerics::statistics::Estimate;
@@ -26,10 +25,6 @@ pub struct Look<'a> {
     pub results: &'a Results,
     /// What the paper printed.
     pub published: &'a Published,
-    /// The values of the report, with the scorecard.
-    pub values: &'a Registry,
-    /// The judged statements.
-    pub claims: &'a [Check],
 }
 
 /// A relation that must hold.
@@ -78,34 +73,6 @@ pub fn checks(look: Look<'_>) -> Vec<Check> {
         }
     };
     all().map(one).collect()
-}
-
-impl Look<'_> {
-    /// The number of a value; none if it is words or an interval.
-    fn number(&self, id: &str) -> Option<f64> {
-        match self.values.get(id)?.number {
-            Number::Integer(n) => Some(n as f64),
-            Number::Real { value, .. } => Some(value),
-            Number::Interval { .. } | Number::Text(_) => None,
-        }
-    }
-
-    /// Complains unless a value is this number, up to rounding. A value that is words says that
-    /// there is no such number, and agrees.
-    fn is(&self, id: &str, expected: f64) -> Option<String> {
-        far(id, self.number(id)?, expected)
-    }
-}
-
-/// What two ways of computing one number may differ by, relative to it: logarithms and sums in
-/// doubles lose some digits, and no number of the report shows more than these.
-const ROUNDING: f64 = 1e-9;
-
-/// Complains about two numbers that should be one, up to rounding.
-fn far(what: &str, found: f64, expected: f64) -> Option<String> {
-    let room = ROUNDING * found.abs().max(expected.abs());
-    let near = (found - expected).abs() <= room;
-    (!near).then(|| format!("{what} is {found}, and {expected} by another way"))
 }
 
 /// How far two estimates that chance alone separates may lie apart.

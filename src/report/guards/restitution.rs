@@ -1,7 +1,6 @@
 //! What restitution does to a chain: what chance must not break.
 
-use super::{Guard, Look, far};
-use crate::numerics::statistics::Estimate;
+use super::{Guard, Look};
 use crate::table::Table;
 
 pub const GUARDS: &[Guard] = &[
@@ -17,20 +16,12 @@ fn table<'a>(look: Look<'a>, name: &'static str) -> Option<&'a Table> {
     look.results.table(name).ok()
 }
 
-/// No mean is at half of all gaps before half of the chains can have an impact at all; and the shift, for which
-/// realisations are left out of both ends together, is the difference of the ends.
+/// No mean is at half of all gaps before half of the chains can have an impact at all.
 fn halves(look: Look<'_>) -> Option<String> {
     let halves = table(look, "restitution.curves")?.estimates(&[], "r", "half_height");
-    let bound = look.number("theory.relation.sigma_kept_half")?;
-    let early = |at: &&(f64, Estimate)| at.1.value <= bound - 5.0 * at.1.error;
-    let shift = || {
-        let own = table(look, "restitution.all")?.number(&[], "shift").ok()?;
-        far("the shift", own, halves.last()?.1.value - halves.first()?.1.value)
-    };
-    let early = halves.iter().find(early);
-    early
-        .map(|(r, own)| format!("half height {} at r = {r}, below the bound {bound}", own.value))
-        .or_else(shift)
+    let bound = look.results.identities.sigma_kept_half;
+    let early = halves.iter().find(|(_, own)| own.value <= bound - 5.0 * own.error);
+    early.map(|(r, own)| format!("half height {} at r = {r}, below the bound {bound}", own.value))
 }
 
 /// Without loss the impacts per unit of time rise in every window.

@@ -102,17 +102,6 @@ fn is_id(id: &str) -> bool {
     parts.clone().count() <= 2 && parts.all(name)
 }
 
-/// A unit of the last printed digit of a deterministic real number.
-pub fn last_digit(value: &Value) -> Option<f64> {
-    match value.number {
-        Number::Real { value, digits: Digits::Significant(digits) } => {
-            Some(ten_to(place(value, digits)))
-        }
-        Number::Real { digits: Digits::Decimals(decimals), .. } => Some(ten_to(-(decimals as i32))),
-        _ => None,
-    }
-}
-
 /// The power of ten of the last of so many significant digits.
 pub fn place(x: f64, digits: usize) -> i32 {
     let places = digits.clamp(1, 17) - 1;
