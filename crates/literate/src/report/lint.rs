@@ -13,7 +13,6 @@
 //! once, as a phrase with its reason, in `literals.toml`; a phrase that no prose has is refused.
 
 pub use super::declared::Declared;
-use super::labels::names;
 use super::tags::other_word;
 use super::{Error, Templates};
 use crate::input::is_no_text;
@@ -41,8 +40,6 @@ pub enum Fault {
     Numeral(String),
     /// A kind of `EXEMPT` that opens and does not close.
     Open((&'static str, &'static str, bool)),
-    /// Something else that is wrong with its form, and what to write.
-    Form(&'static str),
     /// A character that is none of a text, by its number.
     Control(char),
     /// A tag or a filter that no template has: which of both, its word, and those that there are.
@@ -61,7 +58,6 @@ impl std::fmt::Display for Finding {
                     "{path}:{line}:{column}: the character U+{number:04X} is none of a text; remove it"
                 );
             }
-            Fault::Form(what) => return write!(f, "{path}:{line}:{column}: {what}"),
             Fault::Word(kind, word, all) => {
                 let all = all.join(", ");
                 return write!(
@@ -109,10 +105,6 @@ const EXEMPT: [(&str, &str, bool); 15] = [
     ("](", ")", false),
     ("<http", ">", false),
 ];
-
-/// Tags and values of other template languages.
-const BRACES: [(&str, &str); 2] =
-    [("{%", "braces about a tag; write <% … %>"), ("{{", "braces about a value; write «…»")];
 
 /// Where what a delimiter opens ends: the length of what is between. A dollar that ends a formula has no
 /// blank before it.
@@ -203,10 +195,7 @@ pub fn findings(path: &str, text: &str, declared: &Declared) -> Vec<Finding> {
     let mut rest = text;
     // The word that the position is in, and whether it began with a letter.
     let mut word: Option<bool> = None;
-    // In a paragraph with TeX outside of a formula it is TeX that is wrong, and told as such.
-    let mut tex = false;
     while let Some(c) = rest.chars().next() {
-        tex = (tex && !rest.starts_with("\n\n")) || is_tex(rest, position.column);
         // A sign behind a backslash is meant as it stands.
         if rest
             .strip_prefix('\\')
@@ -215,9 +204,6 @@ pub fn findings(path: &str, text: &str, declared: &Declared) -> Vec<Finding> {
             rest = position.past(rest, 2);
             word = None;
             continue;
-        }
-        if let Some((_, what)) = BRACES.iter().find(|(braces, _)| rest.starts_with(braces)) {
-            return vec![position.finding(path, Fault::Form(what))];
         }
         let opens = |(open, ..): &&(&str, _, _)| rest.starts_with(open);
         // A dollar before a blank is a sign of money.
@@ -228,12 +214,6 @@ pub fn findings(path: &str, text: &str, declared: &Declared) -> Vec<Finding> {
             let Some(length) = length(inner, kind) else {
                 return vec![position.finding(path, Fault::Open(kind))];
             };
-            let behind = inner[length + close.len()..].trim_start_matches([' ', '\u{a0}']);
-            let percent = ["%", "percent", "per cent"].iter().any(|sign| behind.starts_with(sign));
-            if open == "«" && inner[..length].trim_end().ends_with("percent") && percent {
-                let what = "a percent sign stands behind a value that has its own; remove one";
-                findings.push(position.finding(path, Fault::Form(what)));
-            }
             if open == "$" && is_number(&inner[..length]) {
                 findings.push(position.numeral(path, &inner[..length]));
             }
@@ -263,9 +243,7 @@ pub fn findings(path: &str, text: &str, declared: &Declared) -> Vec<Finding> {
             if c.is_numeric() && !begins_with_letter {
                 let numeral: String = rest.chars().take_while(|c| in_numeral(*c)).collect();
                 let numeral = numeral.trim_end_matches(['.', ',']).to_string();
-                if !tex && !within_markup(&text[..text.len() - rest.len()]) {
-                    findings.push(position.numeral(path, &numeral));
-                }
+                findings.push(position.numeral(path, &numeral));
                 rest = position.past(rest, numeral.len());
                 continue;
             }
@@ -275,25 +253,6 @@ pub fn findings(path: &str, text: &str, declared: &Declared) -> Vec<Finding> {
         rest = position.past(rest, c.len_utf8());
     }
     findings
-}
-
-/// Does text that is no formula go on with a command of TeX, or with a bracket that opens one of its formulas?
-fn is_tex(rest: &str, column: usize) -> bool {
-    rest.strip_prefix('\\').is_some_and(|rest| {
-        let begins = |c: char| c.is_ascii_alphabetic() || c == '(' || (c == '[' && column == 1);
-        rest.starts_with(begins)
-    })
-}
-
-/// Does what is before a numeral make it a part of markup that is told as such: `[^1]`, `@fig:1`, `\sigma^2`?
-fn within_markup(before: &str) -> bool {
-    let Some(before) = before.strip_suffix(':') else {
-        let sign = before.ends_with(['^', '~']);
-        return sign && !before.ends_with(r"\^") && !before.ends_with(r"\~");
-    };
-    let kind = before.rsplit(|c: char| !c.is_alphabetic()).next().unwrap_or_default();
-    names(&kind.to_lowercase()).is_some()
-        && before[..before.len() - kind.len()].ends_with(['@', '[', '{'])
 }
 
 fn is_number_word(word: &str) -> bool {
@@ -416,7 +375,6 @@ mod tests {
             Fault::Numeral(numeral) => (f.line, f.column, numeral),
             Fault::Open((open, ..)) => (f.line, f.column, format!("open {open}")),
             Fault::Control(c) => (f.line, f.column, format!("control {}", u32::from(c))),
-            Fault::Form(what) => (f.line, f.column, what.to_string()),
             Fault::Word(kind, word, _) => (f.line, f.column, format!("{kind} {word}")),
         };
         findings("x.md", text, &Declared::default()).into_iter().map(place).collect()
@@ -442,9 +400,6 @@ mod tests {
             [(1, 6, "3".into()), (1, 11, "4".into()), (1, 14, "½".into())]
         );
         assert_eq!(found("$0.12$ and $10^{-9}$").len(), 2);
-        // What is told as markup is no number.
-        assert_eq!(found(r"a[^1], (@fig:1]), ([fig:1]), \ref{fig:3}, H~2~O or \sigma^2").len(), 0);
-        assert_eq!(found(r"fig:1 or 2\^3").len(), 3);
         for alone in [
             r"\approx 0.12",
             r"\text{0.12}",

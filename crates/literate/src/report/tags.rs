@@ -30,11 +30,7 @@ pub(super) fn other_word(path: &str, text: &str) -> Option<Finding> {
         let bare: String = tag.split('"').step_by(2).filter(|_| !tag.starts_with("<#")).collect();
         let mut filters = bare.split('|').skip(1).map(word);
         let filter = filters.find(|word| !FILTERS.contains(&word.as_str()));
-        let empty =
-            tag.strip_prefix('«').is_some_and(|tag| tag.trim_end_matches('»').trim().is_empty());
         let fault = own.map(|word| Fault::Word("tag", word, &TAGS));
-        let fault =
-            fault.or(empty.then_some(Fault::Form("a value without its name; write «group.name»")));
         let fault = fault.or(filter.map(|word| Fault::Word("filter", word, &FILTERS)));
         if let Some(fault) = fault {
             position.past(text, start);

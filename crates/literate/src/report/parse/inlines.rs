@@ -86,9 +86,9 @@ impl Reader<'_> {
                 "a table needs a line of dashes below its head with as many columns; write \\| for the sign",
             ));
         }
-        if let Some((offset, what)) = leftover::find(source, range.start, text, escaped) {
+        if let Some(offset) = leftover::find(source, range.start, text, escaped) {
             self.at = offset;
-            return Err(markup(what));
+            return Err(markup(leftover::WHAT));
         }
         // Characters for private use frame values; nobody else writes them, not as `&#xE000;` either.
         if let Some(c) = text.chars().find(|c| is_no_text(*c) && !self.source(range).contains(*c)) {
