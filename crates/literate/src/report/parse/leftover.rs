@@ -29,7 +29,7 @@ fn is_markup(source: &str, at: usize, sign: char) -> bool {
         // Within [@one; @two] it has its brackets.
         '@' => {
             let within = before.rfind(['[', ']']).is_some_and(|at| source[at..].starts_with("[@"));
-            !within && !(word(last) && word(next))
+            !(within || word(last) && word(next))
         }
         '\\' => next.is_some_and(|c| c.is_ascii_alphabetic() || c == ' '),
         '{' => !after.starts_with("{#"),
