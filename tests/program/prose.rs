@@ -9,20 +9,8 @@ front.md +<% endfor %> => :$:4: Unknown tag endfor
 front.md +«1 | percent» => :$:2: Invalid type for the value, expected text but got a number
 report.tex +%◀ => :$:2: the character U+E000 is none of a text
 literals.toml +[[literal]]¦why = "x"¦phrases = ["two nothings"] => :$: "two nothings": no prose has it
-references.bib +@article{aa, title={b}} => :$: aa lacks its author or editor
-references.bib +@phdtesis{aa, title={b}} => :$: aa has the type @phdtesis
-references.bib +@book{aa, year={1999},¦Year={1998}} => :$: aa has `Year`, which stands twice
-references.bib +@book{aa, volum={1}} => :$: aa has `volum`, which is no field; is `volume` meant?
-references.bib +@misc{aa, author={B}, title={b}, year={1999}, eprint={2101.01234}} => :$: aa has `eprint`, which is not shown
-references.bib +@misc{aa, author={B and van der C, D.}, title={b}, year={1999}} => :$: aa has `author`, which has a name with a small letter
-references.bib +@misc{aa, author={B}, title={b}, year={1999}, doi={doi:10.1/2}} => :$: aa has `doi`, which does not begin with 10.
-references.bib +@misc{aa, author={B}, title={b}, subtitle={c}, year={1999}} => :$: aa has `subtitle`, which is not shown
-references.bib +@misc{aa, author={B}, title={b}, year={1999}, url={https://b.c/d\_e}} => :$: aa has `url`, which has a backslash
-references.bib +@misc{aa, author={B}, title={\emph{b}}, year={1999}} => :$: aa would show \ as it stands
-references.bib +@misc{aa, author={B}, title={b}},¦year={1999}} => :$: aa ends before what stands here
-references.bib +@misc{aa, author={B}, title={b}, doi={https://doi.org/b}} => :$: aa has `doi`, which is an address
-references.bib +@misc{aa, author={B}, title={Ж}, year={1999}} => :$: aa: no LaTeX is known
-references.bib +@string{aa = {b}} => :$: @string takes fields from elsewhere
+references.bib +@article{aa, title={b}} => :$: aa lacks its author
+references.bib +@misc{aa, author={B}, title={b}, year={1999}} => :$: aa has the type @misc
 report.html «page.body» ->  => : it has «page.body» 0 times
 report.html «page.body» -> «page.body»<div> => :41: expected 'div' tag, not 'main'; write &amp;
 report.tex \end{document} ->  => : it has \end{document} 0 times

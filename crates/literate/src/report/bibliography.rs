@@ -1,21 +1,14 @@
-//! `references.bib` → labels and entries of the list of references, in a style of the Citation Style
-//! Language.
+//! `references.bib` → labels and entries of the list of references: authors and year, title, where it was published.
+//!
+//! Articles, books, parts of collections, theses and software; entries of other kinds are refused.
 
-use super::Error;
 use super::document::{Entry, Inline, plain};
-use super::entries::Entries;
-use crate::input::line_and_column;
-use hayagriva::archive::{ArchivedStyle, locales};
-use hayagriva::citationberg::{FontStyle, FontWeight, IndependentStyle, Locale, Style};
-use hayagriva::io::{BibLaTeXError, from_biblatex_str};
-use hayagriva::types::MaybeTyped;
-use hayagriva::{
-    BibliographyDriver, BibliographyItem, BibliographyRequest, CitationItem, CitationRequest,
-    ElemChild, ElemChildren, Formatted,
-};
+use super::{Error, tex};
+use crate::input::{line, line_and_column};
+use biblatex::{Bibliography, ChunksExt, EntryType, Person, RawBibliography};
 
-/// Authors and year in the text; author, year, title in the list.
-const STYLE: ArchivedStyle = ArchivedStyle::AmericanPsychologicalAssociation;
+/// Of more authors than this the list shows the first and the last.
+const MOST: usize = 20;
 
 /// All entries of a .bib file, in the order in which a list shows them.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -23,34 +16,33 @@ pub struct Library(Vec<Entry>);
 
 impl Library {
     /// Reads BibTeX.
+    ///
+    /// # Errors
+    /// The line, the key, and what is wrong: the form, a kind that is not shown, a field that is missing.
     pub fn read(text: &str) -> Result<Self, Error> {
-        let faults = |errors: Vec<BibLaTeXError>, text: &str| {
-            let told: Vec<String> = errors.iter().map(|error| explained(error, text)).collect();
-            Error::Template(format!("{}; mend it, or restore the file", told.join("; ")))
+        let form = |error: biblatex::ParseError| {
+            let place = line_and_column(text, error.span.start);
+            let remedy = "is a brace or a comma missing before?";
+            Error::Template(format!("references.bib:{place}: {}; {remedy}", error.kind))
         };
-        let form = |error| faults(vec![BibLaTeXError::Parse(error)], text);
-        let written = Entries::read(text).map_err(form)?;
-        written.sound()?;
-        let understood = written.understood();
-        let read = from_biblatex_str(&understood).map_err(|errors| faults(errors, &understood))?;
-        let look = (style()?, locales());
-        let (all, _) = rendered(&read.iter().collect::<Vec<_>>(), &look);
-        let mut entries = Vec::new();
-        for key in all.iter().map(|item| &item.key) {
-            let Some(entry) = read.get(key) else { continue };
-            let entry = &with_numbers(entry, &written);
-            // Alone: beside others of its name the style takes initials away.
-            let (list, labels) = rendered(&[entry], &look);
-            let mut text = list.first().map(|item| inlines(&item.content)).unwrap_or_default();
-            if let Some(chapter) = written.field(key, "chapter") {
-                as_chapter(&mut text, &chapter);
+        let raw = RawBibliography::parse(text).map_err(form)?;
+        // The reader follows these without end where they lead back.
+        let borrowed = |pair: &&biblatex::Pair<'_>| {
+            ["crossref", "xdata", "xref"].contains(&pair.key.v.to_lowercase().as_str())
+        };
+        for entry in &raw.entries {
+            if let Some(pair) = entry.v.fields.iter().find(borrowed) {
+                let what = format!("{} has `{}`; write its fields out", entry.v.key.v, pair.key.v);
+                return Err(fault(text, pair.key.span.start, &what));
             }
-            let link = |part: &&Inline| matches!(part, Inline::Link { .. });
-            let words: Vec<Inline> = text.iter().filter(|part| !link(part)).cloned().collect();
-            written.shows(key, &plain(&words))?;
-            let label = labels.first().map(|label| plain(label)).unwrap_or_default();
-            entries.push(Entry { key: key.clone(), label, text });
         }
+        let places: Vec<usize> = raw.entries.iter().map(|entry| entry.span.start).collect();
+        let read = Bibliography::from_raw(raw).map_err(form)?;
+        let shown = |(entry, &at): (&biblatex::Entry, &usize)| {
+            shown(entry).map_err(|what| fault(text, at, &format!("{} {what}", entry.key)))
+        };
+        let mut entries = read.iter().zip(&places).map(shown).collect::<Result<Vec<_>, _>>()?;
+        entries.sort_by_cached_key(|entry| collated(&plain(&entry.text)));
         tell_apart(&mut entries);
         Ok(Library(entries))
     }
@@ -77,43 +69,154 @@ impl Library {
     }
 }
 
-/// A hyphen that the style takes for no range of numbers.
-const TIED: &str = "\u{2011}";
-
-/// The entry with its numbers as they are written.
-fn with_numbers(entry: &hayagriva::Entry, written: &Entries<'_>) -> hayagriva::Entry {
-    let mut own = entry.clone();
-    if let Some(pages) = written.pages(entry.key()) {
-        own.set_page_range(MaybeTyped::String(pages));
-    }
-    let serial = entry.keyed_serial_number("serial").is_some();
-    if let Some(number) = written.field(entry.key(), "number").filter(|_| serial) {
-        own.set_keyed_serial_number("serial", number.replace('-', TIED));
-    }
-    if let Some(volume) = written.volume(entry.key()).map(MaybeTyped::String) {
-        let mut parents = own.parents().to_vec();
-        match parents.iter_mut().find(|parent| parent.volume().is_some()) {
-            Some(parent) => parent.set_volume(volume),
-            None => own.set_volume(volume),
-        }
-        own.set_parents(parents);
-    }
-    own
+fn fault(text: &str, at: usize, what: &str) -> Error {
+    Error::Template(format!("references.bib:{}: {what}", line(text.get(..at).unwrap_or(text))))
 }
 
-/// Entries as the style shows them, in its order, and labels of citations, in theirs.
-fn rendered(
-    entries: &[&hayagriva::Entry],
-    (style, locales): &(IndependentStyle, Vec<Locale>),
-) -> (Vec<BibliographyItem>, Vec<Vec<Inline>>) {
-    let mut driver = BibliographyDriver::new();
-    for entry in entries {
-        let items = vec![CitationItem::with_entry(*entry)];
-        driver.citation(CitationRequest::from_items(items, style, locales));
+/// An entry as the list shows it; what is said behind its key if it cannot be shown.
+fn shown(entry: &biblatex::Entry) -> Result<Entry, String> {
+    let field = |names: &[&str]| {
+        let found = names.iter().find_map(|name| entry.get(name)).map(|chunks| {
+            let words = chunks.format_verbatim().replace("---", "—").replace("--", "–");
+            words.split_whitespace().collect::<Vec<_>>().join(" ")
+        });
+        found.filter(|words| !words.is_empty())
+    };
+    let needed = |names: &[&str]| {
+        field(names).ok_or_else(|| format!("lacks its {}; give it", names.join(" or ")))
+    };
+    let people = |name: &str| {
+        let people = entry.get_as::<Vec<Person>>(name).unwrap_or_default();
+        if people.is_empty() { Err(format!("lacks its {name}; give it")) } else { Ok(people) }
+    };
+    let authors = people("author").or_else(|what| people("editor").map_err(|_| what))?;
+    let (title, date) = (needed(&["title"])?, needed(&["year", "date"])?);
+    let year = date.split('-').next().unwrap_or_default();
+    let family: Vec<&str> = authors.iter().map(|person| person.name.as_str()).collect();
+    let label = match family.as_slice() {
+        [one] => format!("{one}, {year}"),
+        [one, two] if *two != "others" => format!("{one} & {two}, {year}"),
+        [one, ..] => format!("{one} et al., {year}"),
+        [] => year.to_string(),
+    };
+    let mut text = vec![Inline::Text(format!("{} ({year}). ", listed(&authors)))];
+    let words = |text: &mut Vec<Inline>, more: &str| text.push(Inline::Text(more.into()));
+    let slanted = |text: &mut Vec<Inline>, words: &str| {
+        text.push(Inline::Emphasis(vec![Inline::Text(words.into())]));
+    };
+    let ending = |publisher: Option<String>| match publisher {
+        Some(publisher) => format!(". {}.", publisher.trim_end_matches('.')),
+        None => ".".into(),
+    };
+    let pages = field(&["pages", "eid"]);
+    match entry.entry_type {
+        EntryType::Article => {
+            words(&mut text, &format!("{}. ", title.trim_end_matches('.')));
+            slanted(&mut text, &needed(&["journal", "journaltitle"])?);
+            if let Some(volume) = field(&["volume"]) {
+                words(&mut text, ", ");
+                slanted(&mut text, &volume);
+            }
+            let number = field(&["number", "issue"]).map(|number| format!("({number})"));
+            let pages = pages.map(|pages| format!(", {pages}")).unwrap_or_default();
+            words(&mut text, &format!("{}{pages}.", number.unwrap_or_default()));
+        }
+        EntryType::Book => {
+            slanted(&mut text, &title);
+            let edition =
+                field(&["edition"]).map(|edition| format!(" ({} ed.)", ordinal(&edition)));
+            words(&mut text, &(edition.unwrap_or_default() + &ending(field(&["publisher"]))));
+        }
+        EntryType::InCollection | EntryType::InProceedings => {
+            words(&mut text, &format!("{}. In ", title.trim_end_matches('.')));
+            slanted(&mut text, &needed(&["booktitle"])?);
+            let pages = pages.map(|pages| format!(" (pp. {pages})")).unwrap_or_default();
+            words(&mut text, &(pages + &ending(field(&["publisher"]))));
+        }
+        EntryType::PhdThesis | EntryType::MastersThesis | EntryType::Thesis => {
+            slanted(&mut text, &title);
+            let master = entry.entry_type == EntryType::MastersThesis;
+            let kind = if master { "Master’s thesis" } else { "Doctoral dissertation" };
+            let school = needed(&["school", "institution"])?;
+            words(&mut text, &format!(" [{kind}]{}", ending(Some(school))));
+        }
+        EntryType::Software => {
+            slanted(&mut text, &title);
+            words(&mut text, " [Computer software].");
+        }
+        ref other => {
+            let kinds = "@article, @book, @incollection, @phdthesis or @software";
+            return Err(format!("has the type @{other}, which is not shown; write {kinds}"));
+        }
     }
-    let made = driver.finish(BibliographyRequest::new(style, None, locales));
-    let labels = made.citations.iter().map(|label| inlines(&label.citation)).collect();
-    (made.bibliography.map(|list| list.items).unwrap_or_default(), labels)
+    tex::text(&plain(&text)).map_err(|error| format!("cannot be shown: {error}"))?;
+    let address = field(&["doi"]).map(|doi| format!("https://doi.org/{doi}"));
+    if let Some(to) = address.or_else(|| field(&["url"])) {
+        words(&mut text, " ");
+        text.push(Inline::Link { to: to.clone(), shown: vec![Inline::Text(to)] });
+    }
+    Ok(Entry { key: entry.key.clone(), label, text })
+}
+
+/// `Rice, S. O.`, or the name of a group.
+fn inverted(person: &Person) -> String {
+    let initial = |word: &str| word.chars().next().map(|c| format!("{c}."));
+    let tied = |word: &str| word.split('-').filter_map(initial).collect::<Vec<_>>().join("-");
+    let given = person.given_name.replace('.', ". ");
+    let initials: Vec<String> = given.split_whitespace().map(tied).collect();
+    let suffix = Some(&person.suffix).filter(|suffix| !suffix.is_empty());
+    let family = [person.prefix.as_str(), person.name.as_str()].join(" ");
+    let parts = [Some(family.trim().into()), Some(initials.join(" ")), suffix.cloned()];
+    let parts: Vec<String> = parts.into_iter().flatten().filter(|part| !part.is_empty()).collect();
+    parts.join(", ")
+}
+
+/// All authors, with a full stop at the end.
+fn listed(people: &[Person]) -> String {
+    let names: Vec<String> = people.iter().map(inverted).collect();
+    let list = match names.as_slice() {
+        [] => String::new(),
+        [one] => one.clone(),
+        [first @ .., last] if last == "others" => format!("{}, et al.", first.join(", ")),
+        [first @ .., last] if names.len() <= MOST => format!("{}, & {last}", first.join(", ")),
+        [.., last] => format!("{}, … {last}", names[..MOST - 1].join(", ")),
+    };
+    if list.ends_with('.') { list } else { list + "." }
+}
+
+/// `2` as `2nd`; words stay.
+fn ordinal(edition: &str) -> String {
+    let end = match edition {
+        "1" => "st",
+        "2" => "nd",
+        "3" => "rd",
+        _ if edition.bytes().all(|c| c.is_ascii_digit()) => "th",
+        _ => "",
+    };
+    format!("{edition}{end}")
+}
+
+/// What a text is sorted by: small letters without accents, and no signs.
+fn collated(text: &str) -> String {
+    const ACCENTS: [(&str, char); 13] = [
+        ("áàâäãåāă", 'a'),
+        ("çćč", 'c'),
+        ("ďđ", 'd'),
+        ("éèêëēěę", 'e'),
+        ("ğ", 'g'),
+        ("íìîïīı", 'i'),
+        ("ł", 'l'),
+        ("ñńň", 'n'),
+        ("óòôöõøō", 'o'),
+        ("řŕ", 'r'),
+        ("śšş", 's'),
+        ("úùûüūů", 'u'),
+        ("žźż", 'z'),
+    ];
+    let bare =
+        |c: char| ACCENTS.iter().find(|(all, _)| all.contains(c)).map_or(c, |(_, bare)| *bare);
+    let words = text.chars().filter(|c| c.is_alphanumeric() || *c == ' ');
+    words.flat_map(char::to_lowercase).map(bare).collect()
 }
 
 /// Gives those with one label letters behind their year, in the order of the list.
@@ -126,100 +229,69 @@ fn tell_apart(entries: &mut [Entry]) {
         let year = labels[i].rsplit(' ').next().unwrap_or_default();
         let lettered = format!("{year}{letter}");
         entry.label = labels[i].replace(year, &lettered);
-        for part in &mut entry.text {
-            if let Inline::Text(words) = part
-                && words.contains(year)
-            {
-                *words = words.replacen(year, &lettered, 1);
-                break;
-            }
+        if let Some(Inline::Text(words)) = entry.text.first_mut() {
+            *words = words.replacen(year, &lettered, 1);
         }
     }
 }
 
-/// A chapter, which the style takes for a number of its book, and may show again.
-fn as_chapter(text: &mut [Inline], chapter: &str) {
-    let (number, own) = (format!("No. {chapter}"), format!("Chapter {chapter}"));
-    for part in text {
-        if let Inline::Text(words) = part {
-            *words = words.replace(&format!("{number}; {own}"), &own).replace(&number, &own);
-        }
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The list, with emphasis between stars; or the fault.
+    fn list(text: &str) -> Result<Vec<String>, String> {
+        let library = Library::read(text).map_err(|error| error.to_string())?;
+        let piece = |part: &Inline| match part {
+            Inline::Emphasis(inner) => format!("*{}*", plain(inner)),
+            Inline::Link { to, .. } => format!("<{to}>"),
+            other => plain(std::slice::from_ref(other)),
+        };
+        let entry = |entry: &Entry| {
+            format!("{}: {}", entry.label, entry.text.iter().map(piece).collect::<String>())
+        };
+        Ok(library.0.iter().map(entry).collect())
     }
-}
 
-/// The style, without brackets around a citation: the report sets its own.
-fn style() -> Result<IndependentStyle, Error> {
-    let Style::Independent(mut style) = STYLE.get() else {
-        return Err(Error::Template("references: the style depends on another".into()));
-    };
-    (style.citation.layout.prefix, style.citation.layout.suffix) = (None, None);
-    Ok(style)
-}
-
-/// A fault of the file with its line and column.
-fn explained(error: &BibLaTeXError, text: &str) -> String {
-    let (what, span) = match error {
-        BibLaTeXError::Parse(error) => (error.kind.to_string(), &error.span),
-        BibLaTeXError::Type(error) => (error.kind.to_string(), &error.span),
-    };
-    // Where the reader sees that a brace is missing is behind it.
-    let brace =
-        if what.contains("expected") { "; is a brace or a comma missing before?" } else { "" };
-    format!("references.bib:{}: {what}{brace}", line_and_column(text, span.start))
-}
-
-/// Formatted text as pieces of running text, words side by side in one.
-fn inlines(children: &ElemChildren) -> Vec<Inline> {
-    let mut out: Vec<Inline> = Vec::new();
-    for piece in children.0.iter().flat_map(child) {
-        match (out.last_mut(), piece) {
-            (Some(Inline::Text(before)), Inline::Text(words)) => before.push_str(&words),
-            (Some(Inline::Emphasis(before)), Inline::Emphasis(words)) => before.extend(words),
-            (_, piece) => out.push(piece),
-        }
+    #[test]
+    fn each_kind_is_shown() {
+        let text = "@article{a, author={Šidák, Zbyněk}, title={Rectangles}, journal={J. {S}tat.}, year={1967}, volume={62},
+              number={3--4}, pages={626--633}, doi={10.1/x(2)}}
+            @book{b, author={Rice, Stephen O. and {di Bernardo}, Mario}, title={Noise \\& more}, edition={2},
+              publisher={Dover, New York}, year={1954}}
+            @incollection{c, author={Rice, S.O. and A, Jean-Marc and others}, title={Part}, booktitle={Whole}, year={1955},
+              pages={1--2}, publisher={P}}
+            @phdthesis{d, author={Rice, Stephen O. and {di Bernardo}, Mario}, title={T}, school={U of B}, year={1954}}
+            @software{e, author={{A Group}}, title={Code}, date={2025-03-01}, url={https://x.org/}}";
+        let expected = [
+            "A Group, 2025: A Group. (2025). *Code* [Computer software]. <https://x.org/>",
+            "Rice & di Bernardo, 1954a: Rice, S. O., & di Bernardo, M. (1954a). *Noise & more* (2nd ed.). Dover, New York.",
+            "Rice & di Bernardo, 1954b: Rice, S. O., & di Bernardo, M. (1954b). *T* [Doctoral dissertation]. U of B.",
+            "Rice et al., 1955: Rice, S. O., A, J.-M., et al. (1955). Part. In *Whole* (pp. 1–2). P.",
+            "Šidák, 1967: Šidák, Z. (1967). Rectangles. *J. Stat.*, *62*(3–4), 626–633. <https://doi.org/10.1/x(2)>",
+        ];
+        let mut found = list(text).unwrap();
+        found.sort_by_key(|line| expected.iter().position(|other| other == line));
+        assert_eq!(found, expected);
+        assert!(list(text).unwrap()[4].starts_with("Šidák"), "accents are sorted as letters");
     }
-    for piece in &mut out {
-        // Beside its editors the style names a collection twice.
-        if let Inline::Emphasis(inner) = piece
-            && let words = plain(inner)
-            && let Some((title, rest)) = words.split_once(": ")
-            && let Some(rest) = rest.strip_suffix(title)
-        {
-            let rest = rest.trim_end_matches(". ");
-            let words = if rest.is_empty() { title.into() } else { format!("{title}: {rest}") };
-            *inner = vec![Inline::Text(words)];
-        }
-        if let Inline::Text(words) = piece {
-            // A year without a day leaves its comma; of *and others* the style makes a name.
-            *words = words
-                .replace(",)", ")")
-                .replace("& others", "et al.")
-                .replace("et al..", "et al.")
-                .replace(TIED, "-");
-        }
-    }
-    out
-}
 
-fn child(child: &ElemChild) -> Vec<Inline> {
-    match child {
-        ElemChild::Text(text) => vec![formatted(text)],
-        ElemChild::Elem(element) => inlines(&element.children),
-        ElemChild::Markup(text) => vec![Inline::Text(text.clone())],
-        ElemChild::Link { text, url } => {
-            vec![Inline::Link { to: url.clone(), shown: vec![formatted(text)] }]
+    #[test]
+    fn what_cannot_be_shown_is_told_with_its_line() {
+        for (text, told) in [
+            (
+                "\n@misc{a, author={B}, title={c}, year={1999}}",
+                "references.bib:2: a has the type @misc",
+            ),
+            ("@book{a, author={B}, title={c}}", "references.bib:1: a lacks its year or date"),
+            ("@book{a, title={c}, year={1}}", "references.bib:1: a lacks its author"),
+            ("@article{a, author={B}, title={c}, year={1}}", "a lacks its journal or journaltitle"),
+            ("@book{a, author={B}, title={Ж}, year={1}}", "a cannot be shown"),
+            ("@book{a,\ncrossref={a}}", "references.bib:2: a has `crossref`"),
+            ("@book{a, author={B}, title={c, year={1}}", "references.bib:1:"),
+        ] {
+            let found = list(text).unwrap_err();
+            assert!(found.contains(told) && !found.contains('\n'), "{found}");
         }
-        ElemChild::Transparent { .. } => Vec::new(),
-    }
-}
-
-fn formatted(piece: &Formatted) -> Inline {
-    let words = Inline::Text(piece.text.clone());
-    if piece.formatting.font_style == FontStyle::Italic {
-        Inline::Emphasis(vec![words])
-    } else if piece.formatting.font_weight == FontWeight::Bold {
-        Inline::Strong(vec![words])
-    } else {
-        words
     }
 }

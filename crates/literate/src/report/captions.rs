@@ -64,34 +64,7 @@ pub(super) fn paragraph(mut inlines: Vec<Inline>) -> Result<Block, Error> {
     if inlines.iter().any(lists) {
         return Err(Error::Markup("[@bibliography] stands alone in its paragraph".into()));
     }
-    let paragraph = Block::Paragraph(inlines);
-    match mistyped(&paragraph) {
-        Some(what) => Err(Error::Markup(what)),
-        None => Ok(paragraph),
-    }
-}
-
-/// What a paragraph means to open, by its first words, and does not: `Scen: …`, `lab theory: …`, `Lab theory …`.
-fn mistyped(paragraph: &Block) -> Option<String> {
-    let Block::Paragraph(words) = paragraph else { return None };
-    let Some(Inline::Text(text)) = words.first().filter(|_| !opens_caption(paragraph)) else {
-        return None;
-    };
-    let mut words = text.split_inclusive(|c: char| c.is_whitespace() || c == ':');
-    let (first, second) = (words.next()?, words.next().unwrap_or_default());
-    let opened = first.ends_with(':') || second.ends_with(':');
-    let own = first.trim_end().trim_end_matches(':').to_lowercase();
-    let meant = OPENINGS.into_iter().find(|form| {
-        let word = form.split([' ', ':']).next().unwrap_or_default().to_lowercase();
-        let (lab, far) = (word == "lab", strsim::osa_distance(&own, &word));
-        // So short a word has neighbours: a name has to follow it, and a colon.
-        let near = far <= 1 && if lab { second.ends_with(':') } else { opened };
-        near || far == 0 && lab
-    })?;
-    Some(format!(
-        "a paragraph that begins with `{}` is none of a kind; write `{meant}`, or begin it with another word",
-        first.trim_end()
-    ))
+    Ok(Block::Paragraph(inlines))
 }
 
 /// figures/fig03.svg → 3, figures/s01.svg → S1.
@@ -116,10 +89,6 @@ pub(super) fn listing(path: &str, program: &Program) -> Result<Block, Error> {
         text: found.text,
     })
 }
-
-/// Paragraphs of a kind of their own.
-const OPENINGS: [&str; 3] =
-    ["Table: caption {#tab:id}", "Listing: caption {#lst:id}", "Lab name: caption"];
 
 const CAPTIONS: [&str; 2] = ["Table: ", "Listing: "];
 

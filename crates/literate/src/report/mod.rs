@@ -14,7 +14,6 @@ pub mod compare;
 mod declared;
 pub mod document;
 pub mod documents;
-mod entries;
 pub mod filler;
 pub mod html;
 pub mod labels;
