@@ -1,5 +1,5 @@
 //! Lists the homes of the numbered equations: every doc comment with `**Eq. (n)**`, as
-//! (n, path of the item, what the comment says behind it, file). The report and the README's map read
+//! (n, path of the item, what the comment says behind it, file). The report and the crate's first page read
 //! this list, so that neither can disagree with the source.
 
 use super::depends::{self, CRATES, of_crate};

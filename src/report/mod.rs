@@ -4,7 +4,6 @@ pub mod contents;
 pub mod equations;
 pub mod guards;
 pub mod lab;
-pub mod map;
 mod program;
 pub mod recipe;
 

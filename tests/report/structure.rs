@@ -1,5 +1,5 @@
-//! Rules about the source that no compiler checks: who imports whom, portable arithmetic, and a README that is
-//! current.
+//! Rules about the source that no compiler checks: who imports whom, portable arithmetic, and a README
+//! that is current.
 
 use impact_paper::report::{PROGRAM, Templates};
 use std::collections::BTreeSet;
@@ -223,26 +223,6 @@ fn no_path_of_a_machine() {
     }
 }
 
-const MAP: [&str; 2] = ["<!-- map: generated -->\n", "<!-- map: end -->\n"];
-
-#[test]
-fn the_map_in_the_readme_is_current() {
-    let path = root().join("README.md");
-    let readme = fs::read_to_string(&path).unwrap();
-    let start = readme.find(MAP[0]).expect("the README has the map's first marker") + MAP[0].len();
-    let end = readme.find(MAP[1]).expect("the README has the map's last marker");
-    let map = format!("\n{}\n", impact_paper::report::map::markdown().unwrap());
-    if std::env::var_os("IMPACT_PAPER_REWRITE").is_some() {
-        let text = format!("{}{map}{}", &readme[..start], &readme[end..]);
-        fs::write(&path, text).unwrap();
-        return;
-    }
-    assert!(
-        readme[start..end] == map,
-        "the map is stale: IMPACT_PAPER_REWRITE=1 cargo test --release --test report structure"
-    );
-}
-
 /// The score on the README's first screen is that of the committed ledger.
 #[test]
 fn the_readme_has_the_score() {
@@ -263,7 +243,7 @@ fn the_readme_has_the_score() {
     assert!(line.contains(&score), "the README does not say: {score}");
 }
 
-/// Links of the map and of the README lead to files of the project.
+/// Links of the README lead to files of the project.
 #[test]
 fn links_of_the_readme_land() {
     let readme = fs::read_to_string(root().join("README.md")).unwrap();
