@@ -12,7 +12,7 @@ quick: ## the same with small samples, into target/paper-quick/
 check: ## every claim with its verdict; fails if one does not hold
 	cargo run --release --locked -- check
 
-deep: ## what is too long for every report, again, into benches/deep/: a quarter of an hour on two cores
+deep: ## what is too long for every report, again, into benches/deep/: minutes on two cores
 	cargo run --release --locked -- run --profile deep --shard 1/1 --out target/deep && cargo run --release --locked -- merge --profile deep target/deep
 
 latex: ## the documents of paper/ by TeX Live, into target/latex (installed when missing)

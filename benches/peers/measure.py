@@ -40,7 +40,7 @@ PYTHON = {
 PARTS = ["ours", "methods", *PYTHON, "diffsol", "commands"]
 ROW = {
     "what": "engine", "name": "", "version": "", "settings": "", "n": 0, "sigma": SIGMA,
-    "until": UNTIL, "chains": 1, "threads": 1, "lanes": 1, "impacts": 0,
+    "until": UNTIL, "chains": 1, "threads": 1, "impacts": 0,
     "microseconds_per_impact": None, "evaluations_per_impact": None, "compared": None,
     "horizon_impact": None, "horizon_time": None, "segment_misses": None, "segments": None,
     "seconds": None, "peak_mib": None, "note": "",
@@ -111,7 +111,7 @@ def inputs(n):
 
 def engine(case, version, what="engine", **more):
     """A row from a case of `measure engine`."""
-    same = ["n", "sigma", "until", "chains", "threads", "lanes", "impacts", "seconds", "peak_mib"]
+    same = ["n", "sigma", "until", "chains", "threads", "impacts", "seconds", "peak_mib"]
     nanoseconds = case["ns_per_impact"]
     row = {key: case[key] for key in same + ["evaluations_per_impact"]}
     row["microseconds_per_impact"] = nanoseconds and nanoseconds / 1e3
@@ -153,7 +153,7 @@ def part_ours():
     example += ["--example", "ballistic", "--", "100", str(impacts)]
     best = min(float(call(example, 300)[0]) for _ in range(5))
     row = {"what": "model", "name": "ballistic", "version": report["version"], "n": 100}
-    row |= {"sigma": 0.0, "until": 0.0, "chains": 1, "threads": 1, "lanes": 1, "impacts": impacts}
+    row |= {"sigma": 0.0, "until": 0.0, "chains": 1, "threads": 1, "impacts": impacts}
     yield row | {"microseconds_per_impact": best, "seconds": best * impacts * 1e-6}
     for threads in sorted({1, os.cpu_count() or 1}):
         say(f"  an ensemble on {threads} thread(s)")

@@ -157,7 +157,7 @@ fn engine(
     let per_impact = |x: f64| (counted.impacts > 0).then(|| x / counted.impacts as f64);
     Ok(json!({
         "n": drawn.masses, "sigma": drawn.sigma, "restitution": RESTITUTION, "until": until,
-        "chains": chains, "threads": threads, "lanes": 1, "repetitions": repetitions,
+        "chains": chains, "threads": threads, "repetitions": repetitions,
         "impacts": counted.impacts,
         "ns_per_impact": per_impact(seconds[0] * 1e9),
         "ns_per_impact_median": per_impact(seconds[seconds.len() / 2] * 1e9),
@@ -255,7 +255,7 @@ fn row(
     json!({
         "what": "method", "name": method.name(), "version": env!("CARGO_PKG_VERSION"),
         "settings": setting, "n": drawn.masses, "sigma": drawn.sigma, "until": until,
-        "chains": 1, "threads": 1, "lanes": 1, "impacts": count,
+        "chains": 1, "threads": 1, "impacts": count,
         "microseconds_per_impact": per_impact(best * 1e6),
         "evaluations_per_impact": evaluations.filter(|x| *x > 0.0),
         "compared": truth.impacts.len(),

@@ -23,7 +23,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64};
 ///
 /// Count gaps from the left wall: gap 0 lies between it and mass 1, gap j between masses j and
 /// j + 1; on a ring gap n lies between masses n and 1. Of neighbouring gaps that close at exactly
-/// the same instant the lowest is taken first; standard error says how often that was.
+/// the same instant the lowest is taken first; of the method certified, standard error says how often.
 ///
 /// Do not trust single impacts far into a chaotic run: errors grow about tenfold in a dozen units
 /// of time. Compare with --method truth to see from where on a run is off. The truth has every

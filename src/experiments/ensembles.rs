@@ -1,6 +1,7 @@
 //! Experiments that are ensembles: rows of realisations, each of which is run by its number alone.
 
 use super::{Error, Progress};
+use crate::dynamics::observe::FirstPassages;
 use crate::dynamics::{self, Engine, Impact, Scenario};
 use literate::experiments::cutting::{Cutting, Join, Row, Unit};
 use literate::experiments::progress::Stage;
@@ -93,6 +94,7 @@ pub fn each<A: Send, R: Send>(
 pub struct Running<'a> {
     /// Its engine.
     pub engine: Engine,
+    gaps: usize,
     name: &'static str,
     progress: &'a Progress,
 }
@@ -105,7 +107,18 @@ impl<'a> Running<'a> {
         progress: &'a Progress,
     ) -> Result<Self, Error> {
         let engine = Engine::new(scenario).map_err(|source| Error::failed(name, source))?;
-        Ok(Running { engine, name, progress })
+        Ok(Running { engine, gaps: scenario.gaps(), name, progress })
+    }
+
+    /// Goes on until a time, and notes the first impact of each gap after each transient; none where the engine gave up.
+    pub fn passages<'b>(
+        &mut self,
+        transients: &'b [f64],
+        until: f64,
+    ) -> Result<Option<FirstPassages<'b>>, Error> {
+        let mut passages = FirstPassages::new(transients, self.gaps);
+        let ended = passages.follow(&mut self.engine, until, || self.progress.stopped());
+        Ok(self.ended(ended)?.then_some(passages))
     }
 
     /// Goes on until a time; false where the engine gave up.
@@ -114,6 +127,10 @@ impl<'a> Running<'a> {
             see(impact);
             !self.progress.stopped()
         });
+        self.ended(ended)
+    }
+
+    fn ended(&self, ended: Result<(), dynamics::Error>) -> Result<bool, Error> {
         self.progress.check()?;
         match ended {
             Ok(()) => Ok(true),

@@ -96,14 +96,8 @@ fn pair(parameters: &HorizonParams, index: u64) -> Result<Twins, Error> {
         *amplitude = if j % 2 == 0 { amplitude.next_up() } else { amplitude.next_down() };
     }
     let failed = |source| Error::failed("horizon", source);
-    let mut first = Vec::new();
     let mut engine = Engine::new(&scenario).map_err(failed)?;
-    engine
-        .run(parameters.until, |impact| {
-            first.push(impact);
-            true
-        })
-        .map_err(failed)?;
+    let first = engine.impacts(parameters.until).map_err(failed)?;
     let mut compared = Compared::default();
     let mut own = first.iter();
     let mut engine = Engine::new(&twin).map_err(failed)?;

@@ -82,8 +82,6 @@ pub struct Row {
     pub chains: u64,
     /// Threads used.
     pub threads: u32,
-    /// Chains side by side in the registers of one thread.
-    pub lanes: u32,
     /// Impacts that it saw, over all chains.
     pub impacts: u64,
     /// Wall time over impacts: the best of several repetitions.

@@ -11,7 +11,6 @@ pub mod identities;
 pub mod long;
 pub mod measured;
 pub mod nucleation;
-pub mod observe;
 pub mod protocol;
 pub mod protocol_tables;
 pub mod replay;

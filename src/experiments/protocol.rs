@@ -2,6 +2,7 @@
 
 use super::ensembles::{Begun, Ensembles, joined_by};
 use super::{Error, Progress, rise, weights};
+use crate::dynamics::observe::FirstPassages;
 use crate::dynamics::{self, Engine, Scenario};
 use crate::numerics::random::NormalPairs;
 use crate::numerics::statistics::{Estimate, mean};
@@ -69,47 +70,6 @@ pub type Counts = Vec<Option<u32>>;
 
 /// Some realisations of one σ; none where there was no run to the end.
 pub type Part = Vec<Option<Counts>>;
-
-/// The first impact of each gap after each transient: all that the windows need.
-struct FirstPassages<'a> {
-    transients: &'a [f64],
-    /// `times[transient][gap]`, infinite until known.
-    times: Vec<Vec<f64>>,
-    /// For each gap the number of transients whose first impact is known.
-    known: Vec<usize>,
-}
-
-impl<'a> FirstPassages<'a> {
-    fn new(transients: &'a [f64], gaps: usize) -> Self {
-        FirstPassages {
-            transients,
-            times: vec![vec![f64::INFINITY; gaps]; transients.len()],
-            known: vec![0; gaps],
-        }
-    }
-
-    fn see(&mut self, time: f64, gap: usize) {
-        let gap = gap % self.known.len();
-        let known = &mut self.known[gap];
-        while self.transients.get(*known).is_some_and(|&transient| time > transient) {
-            self.times[*known][gap] = time;
-            *known += 1;
-        }
-    }
-
-    /// Distinct gaps in every window (T, T + W] that ends by `until`.
-    fn counts(&self, windows: &[f64], until: f64) -> Counts {
-        let mut counts = Vec::with_capacity(self.transients.len() * windows.len());
-        for (times, transient) in self.times.iter().zip(self.transients) {
-            for window in windows {
-                let end = transient + window;
-                let hit = times.iter().filter(|&&time| time <= end).count();
-                counts.push((end <= until).then_some(hit as u32));
-            }
-        }
-        counts
-    }
-}
 
 /// The map in units of work: realisations of one σ.
 pub const CUTTING: Cutting<ProtocolParams, Part, ProtocolMap> = joined_by(join);
@@ -222,12 +182,7 @@ pub(super) fn realisation(
         Err(source) => return Err(Error::failed("protocol map", source)),
     };
     let mut passages = FirstPassages::new(&parameters.transients, scenario.gaps());
-    let mut seen = 0_u32;
-    let ended = engine.run(until, |impact| {
-        passages.see(impact.time, impact.gap);
-        seen = seen.wrapping_add(1);
-        !seen.is_multiple_of(4096) || !progress.stopped()
-    });
+    let ended = passages.follow(&mut engine, until, || progress.stopped());
     progress.check()?;
     match ended {
         Ok(()) => Ok(Some(passages.counts(&parameters.windows, until))),
@@ -239,19 +194,8 @@ pub(super) fn realisation(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::experiments::observe::{self, Outcome};
+    use crate::experiments::tally::{self, Outcome};
     use crate::params::{Profile, Protocol};
-
-    #[test]
-    fn windows_by_hand() {
-        let mut passages = FirstPassages::new(&[1.0, 5.0], 3);
-        for (time, gap) in [(0.5, 0), (1.0, 1), (2.0, 0), (3.0, 0), (6.0, 1), (9.0, 0)] {
-            passages.see(time, gap);
-        }
-        // After 1: gap 0 at 2, gap 1 at 6. After 5: gap 1 at 6, gap 0 at 9.
-        let counts = passages.counts(&[1.0, 4.0, 5.0], 9.5);
-        assert_eq!(counts, [Some(1), Some(1), Some(2), Some(1), Some(2), None]);
-    }
 
     #[test]
     fn one_run_reads_every_window_as_its_own_run_would() {
@@ -269,7 +213,7 @@ mod tests {
                     let protocol = Protocol { transient, window };
                     let key = (parameters.stream.as_str(), parameters.seed, index);
                     let chain = &parameters.chain;
-                    let alone = observe::realisation(chain, protocol, 0.16, key, &quiet).unwrap();
+                    let alone = tally::realisation(chain, protocol, 0.16, key, &quiet).unwrap();
                     let Outcome::Counted(alone) = alone else { panic!("{alone:?}") };
                     assert_eq!(cell.next(), Some(&Some(alone.distinct)));
                     most = most.max(alone.distinct);

@@ -132,7 +132,7 @@ pub fn tables(own: &Replays) -> Vec<Table> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::experiments::observe::{Outcome, realisation};
+    use crate::experiments::tally::{Outcome, realisation};
 
     fn found() -> Replays {
         run(&runs(Profile::Quick), &Progress::silent()).unwrap()

@@ -1,7 +1,7 @@
 //! The motions of Figs. 5(b) and 6(b): saved scenarios, replayed by the engine.
 
 use super::Error;
-use crate::dynamics::{Engine, Impact, Scenario};
+use crate::dynamics::{Engine, Scenario};
 use crate::input::one_line;
 use crate::table::Table;
 use crate::value::origin;
@@ -199,7 +199,7 @@ fn record(scenario: &Scenario, from: f64, until: f64) -> Result<Segment, crate::
     for point in 0..=POINTS {
         let time = if point == POINTS { until } else { from + point as f64 * step };
         // The engine stops after each impact, because positions are exact only up to the next.
-        while let Some(impact) = next_impact(&mut engine, time)? {
+        while let Some(impact) = engine.next_impact(time)? {
             let positions = engine.positions(impact.time);
             let place = match impact.gap {
                 0 => 0.0,
@@ -217,15 +217,6 @@ fn record(scenario: &Scenario, from: f64, until: f64) -> Result<Segment, crate::
         segment.push(time, engine.positions(time));
     }
     Ok(segment)
-}
-
-fn next_impact(engine: &mut Engine, until: f64) -> Result<Option<Impact>, crate::dynamics::Error> {
-    let mut found = None;
-    engine.run(until, |impact| {
-        found = Some(impact);
-        false
-    })?;
-    Ok(found)
 }
 
 impl Segment {

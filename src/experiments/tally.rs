@@ -1,8 +1,53 @@
 //! What realisations of one σ showed together: whole numbers only, so that tallies of parts join to
 //! that of the whole, wherever the cuts are.
 
-use super::observe::{Observed, Outcome};
+use super::{Error, Progress};
+use crate::dynamics::observe::{Observed, observe};
+use crate::dynamics::{self, Engine, Scenario};
+use crate::numerics::random::NormalPairs;
+use crate::params::{Chain, Protocol};
 use serde::{Deserialize, Serialize};
+
+/// How one realisation ended.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Outcome {
+    /// It ran to T + W.
+    Counted(Observed),
+    /// It started with an overlapping gap.
+    Rejected,
+    /// The engine gave up, after what was observed.
+    Failed(Observed, dynamics::Error),
+}
+
+/// Runs realisation `index` of a chain at σ = `sigma` and observes it.
+///
+/// # Errors
+/// [`Error::Interrupted`], or [`Error::Failed`] if the chain itself is not allowed. A start that
+/// overlaps and an engine that gives up are outcomes, not errors.
+pub fn realisation(
+    chain: &Chain,
+    protocol: Protocol,
+    sigma: f64,
+    key: (&str, u64, u64),
+    progress: &Progress,
+) -> Result<Outcome, Error> {
+    progress.check()?;
+    let (stream, seed, index) = key;
+    let scenario = Scenario::draw(chain, sigma, &mut NormalPairs::new(stream, seed, index));
+    let mut engine = match Engine::new(&scenario) {
+        Ok(engine) => engine,
+        Err(dynamics::Error::Overlap { .. }) => return Ok(Outcome::Rejected),
+        Err(source) => return Err(Error::failed("sweep", source)),
+    };
+    let Protocol { transient, window } = protocol;
+    let stopped = || progress.stopped();
+    let (observed, ended) = observe(&scenario, &mut engine, transient, transient + window, stopped);
+    progress.check()?;
+    Ok(match ended {
+        Ok(()) => Outcome::Counted(observed),
+        Err(error) => Outcome::Failed(observed, error),
+    })
+}
 
 /// Realisations in their order.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -94,7 +139,6 @@ fn add(total: &mut Observed, seen: &Observed) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dynamics;
 
     #[test]
     fn cut_anywhere_the_tally_is_the_same() {

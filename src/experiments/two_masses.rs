@@ -150,15 +150,8 @@ impl Direction<'_> {
             overtones: Vec::new(),
         };
         let failed = |source| Error::failed("two masses", source);
-        let mut time = None;
         let mut engine = Engine::new(&scenario).map_err(failed)?;
-        engine
-            .run(until, |impact| {
-                time = Some(impact.time);
-                false
-            })
-            .map_err(failed)?;
-        Ok(time)
+        Ok(engine.next_impact(until).map_err(failed)?.map(|impact| impact.time))
     }
 
     /// Impacts below the bound, and for each time the smallest ratio to the bound with an impact.

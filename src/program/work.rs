@@ -13,9 +13,7 @@ fn profiles(some: &[Profile]) -> impl TypedValueParser<Value = Profile> {
     let about = |profile| match profile {
         Profile::Quick => "To try out: seconds",
         Profile::Full => "The committed report: minutes",
-        Profile::Deep => {
-            "What is run now and then, committed, and carried over: a quarter of an hour"
-        }
+        Profile::Deep => "What is run now and then, committed, and carried over: minutes",
     };
     let known = some.iter().map(|own| PossibleValue::new(own.name()).help(about(*own)));
     PossibleValuesParser::new(known).try_map(|name| profile(&name).ok_or("unknown"))

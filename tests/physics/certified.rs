@@ -169,6 +169,8 @@ fn corner_biased_segments_have_no_miss_and_no_ghost() {
     let tally = corners(0, 16_000);
     assert!(tally.segments >= 10_000 && tally.impacts > 4000, "{tally:?}");
     assert!(tally.undecidable * 100 < tally.segments, "{tally:?}");
+    // Of these the worst had 2.3 and 0.03; a loss of digits would show here before it reaches the bounds.
+    assert!(tally.worst < 5.0 && tally.worst_speed < 0.1, "{tally:?}");
 }
 
 /// Ω/ω − 1 from 2⁻⁵² to 0.1 and of both signs, alone or with components near and far, from rest and with free

@@ -30,20 +30,12 @@ fn given(free: Vec<[f64; 2]>, forcing: Vec<[f64; 2]>) -> Scenario {
 
 /// Its impacts from where an engine is to a time.
 fn run(engine: &mut Engine, until: f64) -> Vec<Impact> {
-    let mut impacts = Vec::new();
-    let all = |impact| {
-        impacts.push(impact);
-        true
-    };
-    engine.run(until, all).unwrap();
-    impacts
+    engine.impacts(until).unwrap()
 }
 
 /// The next of them.
 fn first(engine: &mut Engine, until: f64) -> Option<Impact> {
-    let mut found = None;
-    engine.run(until, |impact| found.replace(impact).is_some()).unwrap();
-    found
+    engine.next_impact(until).unwrap()
 }
 
 /// All impacts of a scenario up to a time.

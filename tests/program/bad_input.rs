@@ -47,7 +47,6 @@ null => line 1
 "natural_frequency":0|-1|1e300|1e-300 => natural_frequency
 "forcing_frequency":0|-1|1e300|1|1.0 => forcing_frequency
 "boundary":"wall"|""|1|null|["walls"] => boundary
-"simultaneous":"joint" => simultaneous; unknown
 "initial":"start"|{"free":3}|{"random":{}}|[]|{} => initial
 "initial":"random" => initial.random; it stands without its values
 "initial":{"random":{"sigma":-1,"seed":1}} => initial.random.sigma; give a number

@@ -1,6 +1,6 @@
 //! `impact-paper check` for machines: every form says of every claim what the text says.
 
-use crate::{PROGRAM, TEMPLATES, outcome, program, run};
+use crate::{TEMPLATES, outcome, program, run};
 use impact_paper::claims::{self, Basis};
 use impact_paper::experiments::ALL;
 use impact_paper::experiments::{self, Progress, Store};
@@ -8,7 +8,6 @@ use impact_paper::params::Profile;
 use impact_paper::report::{contents, guards};
 use std::collections::BTreeSet;
 use std::path::Path;
-use std::process::Command;
 
 fn check(folder: &Path, arguments: &[&str], summary: Option<&Path>) -> (i32, String, String) {
     let mut command = program(folder, "check --profile quick --results r --templates");
@@ -90,21 +89,6 @@ fn every_form_has_every_claim_at_its_line() {
         told.starts_with("before\n## Claims") && told.contains("| sec2_half_height |"),
         "{told}"
     );
-    // One that cannot grow keeps what it had.
-    let line = format!(
-        "ulimit -f 8; exec \"$0\" check --profile quick --results r --templates '{TEMPLATES}' --format github"
-    );
-    let mut limited = Command::new("bash");
-    limited.args(["-c", &line, PROGRAM]).env("GITHUB_STEP_SUMMARY", &summary);
-    std::fs::write(&summary, "before\n").unwrap();
-    let (code, _, note) = outcome(limited.current_dir(folder.path()));
-    assert!(code == 4 && note.contains("GITHUB_STEP_SUMMARY"), "{note}");
-    assert_eq!(std::fs::read_to_string(&summary).unwrap(), "before\n");
-    // Nobody reads this pipe.
-    let pipe = folder.path().join("pipe");
-    assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
-    let (code, _, note) = check(folder.path(), &["--format", "github"], Some(&pipe));
-    assert!(code == 2 && note.contains("it is no file"), "{note}");
     let annotations: Vec<&str> = out.lines().collect();
     assert_eq!(annotations.len(), 10, "{out}");
     // The worst come first.
@@ -155,19 +139,12 @@ fn what_does_not_hold_is_an_error_in_every_form() {
         format!("{}9{}", &text[..value], &text[value..])
     };
     let more = |text: &str| text.replacen("printed = \"16\"", "printed = \"16 or 99\"", 1);
-    let finer = |text: &str| {
-        let at = text.find("id = \"sec9_eq36\"").unwrap();
-        format!("{}{}", &text[..at], text[at..].replacen("value = 4", "value = 4.4", 1))
-    };
-    let counted = |text: &str| text.replacen("very few impacts\"", "7 impacts\"", 1);
     // The file is named from the folder of work, however it was given.
     let annotation = "::error file=t/published.toml,line=";
     let guard = "::error title=relation printed_as_it_reads::";
-    let cases: [Wrong; 4] = [
+    let cases: [Wrong; 2] = [
         (edges, " --claim sec3_edges", ["FAILS sec3_edges", annotation, "**differs**"]),
         (more, "", ["FAILS relation printed_as_it_reads: ", guard, "| printed_as_it_reads | "]),
-        (finer, "", ["FAILS relation printed_as_it_reads: ", guard, "| printed_as_it_reads | "]),
-        (counted, "", ["FAILS relation printed_as_it_reads: ", guard, "| printed_as_it_reads | "]),
     ];
     for (change, more, [text, github, markdown]) in cases {
         let folder = tempfile::tempdir().unwrap();

@@ -45,7 +45,6 @@ fn exit_codes_are_those_of_the_table() {
         (2, paper("renamed"), "published.toml"),
         (2, "check --profile quick --results r --templates renamed".into(), "published.toml"),
         (2, "export RAYON_NUM_THREADS=999; exec \"$0\" check".into(), "RAYON_NUM_THREADS: 999"),
-        (2, "export RAYON_RS_NUM_CPUS=999; exec \"$0\" check".into(), "RAYON_RS_NUM_CPUS: 999"),
         (2, paper("none"), "front.md: it is missing or empty"),
         (2, paper("phrases"), "literals.toml: no such file"),
         (
@@ -55,25 +54,14 @@ fn exit_codes_are_those_of_the_table() {
                 .into(),
             "0.3,",
         ),
-        (0, "ulimit -s 64; exec \"$0\" sweep --sigma 0.2 --realisations 3".into(), "0.2,"),
         (2, "trace --until 1 $'no\nsuch'".into(), "no such: "),
         (2, "verify nowhere".into(), "nowhere"),
         (3, "status --profile quick --results empty".into(), "stale"),
         (3, "audit --profile quick --results empty".into(), "paper --profile quick"),
-        (3, "audit --profile deep --results empty".into(), "merge --profile deep --results empty"),
-        // As memory ends.
-        (
-            4,
-            "echo '{\"forcing\":[[0.9,0],[0,-0.9],[-0.9,0.3]]}' >s; (exec \"$0\" -q trace s --until 1e9 >e) & \
-             until [ -s e ] || ! kill -0 $!; do sleep 0.1; done; kill -ABRT $!; wait $!; c=$?; echo aborted; exit $c"
-                .into(),
-            "aborted",
-        ),
         (4, full("paper --figure 4 --out f --templates good"), "f: "),
         (4, full("run --profile quick --shard 1/1 --experiment two_masses --out g"), "g"),
         (4, "explain --paper p >/dev/full".into(), "standard output"),
         (4, "paper --figure 4 --out h --templates good >/dev/full".into(), "standard output"),
-        (4, "--help >/dev/full".into(), "standard output"),
     ];
     for (expected, arguments, says) in rows {
         let line =

@@ -180,7 +180,8 @@ fn a_killed_run_leaves_nothing_that_is_read() {
 fn a_full_disk_is_told_and_leaves_nothing_half() {
     let results = &QUICK.results;
     let folder = tempfile::tempdir().unwrap();
-    let limited = format!("ulimit -f 1; exec {PROGRAM} {PAPER}");
+    let paper = PAPER.replace(TEMPLATES, &format!("'{TEMPLATES}'"));
+    let limited = format!("ulimit -f 1; exec '{PROGRAM}' {paper}");
     let mut bash = Command::new("bash");
     let (code, _, note) = outcome(bash.args(["-c", &limited]).current_dir(folder.path()));
     assert_eq!(code, 4, "{note}");

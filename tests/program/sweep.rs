@@ -1,6 +1,6 @@
 //! `impact-paper sweep` as a user meets it.
 
-use crate::{PROGRAM, answer, ended, outcome, program, run};
+use crate::{PROGRAM, answer, ended, program, run};
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::Duration;
@@ -69,31 +69,6 @@ fn sweep(arguments: &str) -> Command {
     let mut command = program(Path::new("."), &format!("sweep {arguments}"));
     command.stderr(Stdio::piped());
     command
-}
-
-/// Where messages cannot be written, they are lost and nothing else: codes stay, and signals end what runs.
-#[cfg(target_os = "linux")]
-#[test]
-fn messages_that_cannot_be_written_change_nothing() {
-    let full = |arguments: &str| {
-        let mut command = sweep(arguments);
-        command.stderr(std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap());
-        command
-    };
-    assert_eq!(outcome(&mut full("--sigma x")).0, 2);
-    assert_eq!(outcome(&mut full("--sigma 0.3 --realisations 2")).0, 0);
-    ended(&mut full("--sigma 0.3 --realisations 1000000"), "-INT");
-}
-
-/// Nobody reads what it says, and it waits for that with the lock on standard error.
-#[cfg(target_os = "linux")]
-#[test]
-fn signals_end_a_sweep_whose_messages_nobody_reads() {
-    use std::io::Write;
-    let (_reader, mut writer) = std::io::pipe().unwrap();
-    writer.write_all(&[b'\n'; 1 << 16]).unwrap();
-    let mut command = sweep("--sigma 0.3 --realisations 1000000");
-    ended(command.stderr(writer), "-INT");
 }
 
 #[cfg(unix)]

@@ -120,18 +120,6 @@ fn imports_flow_one_way() {
     assert!(violations.is_empty(), "{}", violations.join("\n"));
 }
 
-#[test]
-fn imports_are_read_right() {
-    let named = |line, depth| layers_named(line, depth);
-    assert_eq!(named("use crate::circuits::jump;", 2), ["circuits"]);
-    assert_eq!(named("use crate::{claims::Check, figures};", 2), ["claims", "figures"]);
-    assert_eq!(named("use super::super::dynamics::Engine;", 2), ["dynamics"]);
-    assert_eq!(named("use super::dynamics;", 2), Vec::<String>::new());
-    assert_eq!(named("pub use impact_chain::{Chain, Start};", 0), ["dynamics"]);
-    assert_eq!(named("let name = \"impact_chain::\";", 1), Vec::<String>::new());
-    assert_eq!(named("let x = crate::report::print(y);", 1), ["report"]);
-}
-
 /// Methods of f64 that ask the platform's mathematical library, or fuse operations.
 const PLATFORM: [&str; 29] = [
     "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sin_cos", "sinh", "cosh", "tanh",

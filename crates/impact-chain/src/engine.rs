@@ -90,6 +90,32 @@ impl Engine {
         self.run_to(until, &mut sink)
     }
 
+    /// The next impact up to time `until`, if there is one; the run stops right after it.
+    ///
+    /// # Errors
+    /// As [`Engine::run`].
+    pub fn next_impact(&mut self, until: f64) -> Result<Option<Impact>, Error> {
+        let mut next = None;
+        self.run(until, |impact| {
+            next = Some(impact);
+            false
+        })?;
+        Ok(next)
+    }
+
+    /// All impacts up to time `until`, in order.
+    ///
+    /// # Errors
+    /// As [`Engine::run`].
+    pub fn impacts(&mut self, until: f64) -> Result<Vec<Impact>, Error> {
+        let mut impacts = Vec::new();
+        self.run(until, |impact| {
+            impacts.push(impact);
+            true
+        })?;
+        Ok(impacts)
+    }
+
     /// One code for every receiver: with one for each, all below would be compiled where it is called, as fast as that
     /// crate is.
     fn run_to(&mut self, until: f64, sink: Sink) -> Result<(), Error> {

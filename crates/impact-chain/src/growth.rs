@@ -1,6 +1,6 @@
 //! How fast the difference between two runs grows.
 
-use impact_numerics::regression;
+use impact_numerics::statistics::slope;
 
 /// Differences that follow the growth: above the rounding of the times, below saturation.
 const GROWING: std::ops::Range<f64> = 1e-13..1e-4;
@@ -31,14 +31,13 @@ impl Growth {
     /// The rate λ of the growth e^λt, by a straight line through the logarithms; nothing if too
     /// few differences lie where growth can be seen.
     pub fn rate(&self) -> Option<f64> {
-        let points: Vec<(f64, f64, f64)> = self
+        let points: Vec<(f64, f64)> = self
             .largest
             .iter()
             .filter(|(_, largest)| GROWING.contains(largest))
-            .map(|&(stride, largest)| ((stride as f64 + 0.5) * STRIDE, pxfm::f_log(largest), 1.0))
+            .map(|&(stride, largest)| ((stride as f64 + 0.5) * STRIDE, pxfm::f_log(largest)))
             .collect();
-        let line = (points.len() >= LEAST_POINTS).then(|| regression::line(&points)).flatten();
-        line.map(|line| line.slope)
+        (points.len() >= LEAST_POINTS).then(|| slope(&points)).flatten()
     }
 }
 

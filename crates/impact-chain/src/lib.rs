@@ -8,6 +8,7 @@
 //! - [`Engine::run`] hands out each [`Impact`]; masses that stay together are in contact, with a contact force
 //!   ([`Engine::contacts`]), and of gaps that close at the same instant the lowest comes first.
 //! - [`rounding`] bounds what rounding does to one impact; [`Growth`] tells how fast two runs part where they are chaotic.
+//! - [`observe`] counts what ensembles need of a run.
 //! - [`replay`] is a run that is repeated, and proved by a digest of its impacts.
 //! - [`methods`] are other ways to simulate the same chain, to compare with.
 //!
@@ -44,6 +45,7 @@ mod growth;
 mod impact;
 mod linear;
 pub mod methods;
+pub mod observe;
 pub mod replay;
 pub mod rounding;
 mod scenario;

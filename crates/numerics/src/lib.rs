@@ -7,7 +7,7 @@
 //!   ([`screen`]); phases without drift from a [`clock`] of 96 bits; the next event of many from [`earliest`].
 //! - Numbers beyond f64: [`double_double`] has 32 digits, [`scaled`] the exponents of factorials.
 //! - Roots and integrals: [`bisection`], [`regula_falsi`], [`quadrature`].
-//! - Samples: [`random`] streams that depend on nothing but their names, [`statistics`], [`regression`], the
+//! - Samples: [`random`] streams that depend on nothing but their names, [`statistics`], the
 //!   [`bootstrap`], and [`estimates`] with the jackknife's errors.
 
 pub mod bisection;
@@ -22,7 +22,6 @@ pub mod local_frame;
 mod nodes;
 pub mod quadrature;
 pub mod random;
-pub mod regression;
 pub mod regula_falsi;
 pub mod scaled;
 pub mod screen;

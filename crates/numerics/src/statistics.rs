@@ -101,6 +101,16 @@ pub fn last_rise(x: &[f64], y: &[Option<f64>], level: f64) -> Option<f64> {
     Some(x0 + (x1 - x0) * (level - y0) / (y1 - y0))
 }
 
+/// The slope of the straight line through (x, y) by least squares. None below two different x.
+pub fn slope(points: &[(f64, f64)]) -> Option<f64> {
+    let total = points.len() as f64;
+    let centre = points.iter().map(|&(x, _)| x).sum::<f64>() / total;
+    let level = points.iter().map(|&(_, y)| y).sum::<f64>() / total;
+    let spread: f64 = points.iter().map(|&(x, _)| (x - centre) * (x - centre)).sum();
+    let rise = || points.iter().map(|&(x, y)| (x - centre) * (y - level)).sum::<f64>();
+    (points.len() >= 2 && spread > 0.0).then(|| rise() / spread)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -168,5 +178,13 @@ mod tests {
         assert_eq!(last_rise(&x, &[Some(9.0); 5], 4.0), None);
         assert_eq!(last_rise(&x, &[Some(1.0); 5], 4.0), None);
         assert_eq!(last_rise(&[], &[], 4.0), None);
+    }
+
+    #[test]
+    fn slopes_by_hand() {
+        assert_eq!(slope(&[(0.0, 1.0), (1.0, 3.0), (5.0, 11.0)]), Some(2.0));
+        // x = −1, 0, 1 and y = 0, 3, 0: level.
+        assert_eq!(slope(&[(-1.0, 0.0), (0.0, 3.0), (1.0, 0.0)]), Some(0.0));
+        assert_eq!((slope(&[(1.0, 2.0), (1.0, 3.0)]), slope(&[])), (None, None));
     }
 }

@@ -2,7 +2,7 @@
 
 pub mod tables;
 
-use super::ensembles::{Begun, Ensembles, Ran, Running, count};
+use super::ensembles::{Begun, Ensembles, Ran, Running};
 use super::{Error, Progress, weights};
 use crate::dynamics::{Initial, Scenario};
 use crate::numerics::random::NormalPairs;
@@ -62,17 +62,11 @@ fn realisation(
     let free = motion.engine.free_parts();
     let lowered = lowered(&hot, &free, parameters.heating, sigma / parameters.hot);
     let mut motion = Running::new(&lowered, "history", progress)?;
-    let mut counts = Vec::with_capacity(parameters.transients.len());
-    for transient in &parameters.transients {
-        let mut hit = vec![false; parameters.chain.gaps()];
-        let ended = motion.go(*transient, |_| ())?
-            && motion.go(transient + parameters.window, |impact| hit[impact.gap] = true)?;
-        if !ended {
-            return Ok(None);
-        }
-        counts.push(count(&hit));
-    }
-    Ok(Some(counts))
+    let Some(passages) = motion.passages(&parameters.transients, until(parameters))? else {
+        return Ok(None);
+    };
+    let counts = passages.counts(&[parameters.window], until(parameters));
+    Ok(Some(counts.into_iter().flatten().map(u64::from).collect()))
 }
 
 /// The scenario that goes on from a time at which all forces change by a factor: places and velocities

@@ -57,13 +57,7 @@ fn first(
     let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, index);
     let scenario = Scenario::draw(chain, sigma, &mut normals);
     let fault = |source: dynamics::Error| Error::failed("nucleation", source);
-    let mut time = None;
-    Engine::new(&scenario)
-        .map_err(fault)?
-        .run(parameters.times.last().copied().unwrap_or(0.0), |impact| {
-            time = Some(impact.time);
-            false
-        })
-        .map_err(fault)?;
-    Ok(time)
+    let until = parameters.times.last().copied().unwrap_or(0.0);
+    let mut engine = Engine::new(&scenario).map_err(fault)?;
+    Ok(engine.next_impact(until).map_err(fault)?.map(|impact| impact.time))
 }

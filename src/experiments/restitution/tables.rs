@@ -3,8 +3,7 @@
 use super::hot::hot;
 use super::{Case, Restitution, Run, cases};
 use crate::numerics::estimates::{self, average, half_height, jackknife, ratio};
-use crate::numerics::regression::line;
-use crate::numerics::statistics::Estimate;
+use crate::numerics::statistics::{Estimate, slope};
 use crate::params::RestitutionParams;
 use crate::table::Table;
 use pxfm::f_log;
@@ -147,10 +146,10 @@ fn exponent(row: &Row<'_>) -> Option<Estimate> {
             let kept = row.runs.iter().enumerate().filter(|(at, _)| Some(*at) != out);
             let impacts: u64 = kept.map(|(_, run)| run.impacts[place]).sum();
             let rate = impacts as f64 / (ends[place] - ends[place - 1]);
-            (rate > 0.0).then(|| (f_log(ends[place]), f_log(rate), 1.0))
+            (rate > 0.0).then(|| (f_log(ends[place]), f_log(rate)))
         };
         let points: Option<Vec<_>> = (first..ends.len()).map(point).collect();
-        Some(line(&points?)?.slope)
+        slope(&points?)
     })
 }
 

@@ -2,7 +2,7 @@
 
 use super::Seeds;
 use crate::circuits::nucleation::reach::closes_by_itself;
-use crate::dynamics::{self, Engine, Initial, Scenario};
+use crate::dynamics::{self, Engine, Impact, Initial, Scenario};
 use crate::experiments::{Error, Progress, weights};
 use crate::numerics::random::NormalPairs;
 use crate::params::{Chain, SeedsParams};
@@ -118,13 +118,9 @@ fn trace(
         Scenario { forcing, initial: Initial::Rest, ..Scenario::draw(&still, sigma, &mut normals) };
     let fault = |source| Error::failed("seeds", source);
     let mut engine = Engine::new(&scenario).map_err(fault)?;
-    let mut first = None;
-    let begun = engine.run(parameters.wait, |impact| {
-        first = Some((impact.time, impact.gap));
-        false
-    });
-    begun.map_err(fault)?;
-    let Some((first, gap)) = first else {
+    let Some(Impact { time: first, gap, .. }) =
+        engine.next_impact(parameters.wait).map_err(fault)?
+    else {
         return Ok(Some(Trace::default()));
     };
     debug_assert_eq!(gap, seed);

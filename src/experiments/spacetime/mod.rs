@@ -44,15 +44,10 @@ pub fn run(parameters: &SpaceTimeParams, progress: &Progress) -> Result<SpaceTim
         progress.check()?;
         let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, realisation);
         let scenario = Scenario::draw(&parameters.chain, parameters.sigma, &mut normals);
-        let (mut times, mut gaps) = (Vec::new(), Vec::new());
         let mut engine = Engine::new(&scenario).map_err(failed)?;
-        engine
-            .run(parameters.until, |impact| {
-                times.push(impact.time);
-                gaps.push(impact.gap as u32);
-                true
-            })
-            .map_err(failed)?;
+        let impacts = engine.impacts(parameters.until).map_err(failed)?;
+        let (times, gaps): (Vec<f64>, Vec<u32>) =
+            impacts.into_iter().map(|impact| (impact.time, impact.gap as u32)).unzip();
         if times.last().is_some_and(|t| *t > parameters.until - parameters.last) {
             stage.advance(1);
             let parameters = parameters.clone();

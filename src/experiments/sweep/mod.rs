@@ -6,10 +6,10 @@
 pub mod laws;
 pub mod tables;
 
-use super::observe::{NEAR_DECADES, SLOW_DECADES, realisation};
 use super::rise::{Resampled, Rise};
-use super::tally::Tally;
+use super::tally::{Tally, realisation};
 use super::{Error, Progress, weights};
+use crate::dynamics::observe::{NEAR_DECADES, SLOW_DECADES};
 use crate::numerics::statistics as stat;
 use crate::params::{COMPARABLE_REJECTED, Protocol, SweepParams};
 use literate::experiments::cutting::{Cutting, Row, Unit};
@@ -241,7 +241,8 @@ pub(crate) fn reduce(parameters: &SweepParams, sigma: f64, tally: Tally) -> Samp
 mod tests {
     use super::*;
     use crate::dynamics;
-    use crate::experiments::observe::{Observed, Outcome};
+    use crate::dynamics::observe::Observed;
+    use crate::experiments::tally::Outcome;
     use crate::params::{NEAR_SIMULTANEOUS, Profile, SLOW};
 
     fn counted(distinct: u32, window_impacts: u64) -> Outcome {

@@ -107,14 +107,8 @@ mod tests {
             let mut engine = Engine::new(&scenario).unwrap();
             let mut start = State::of(&scenario);
             for count in 0..200 {
-                let mut hit = None;
-                engine
-                    .run(1e3, |impact| {
-                        hit = Some(impact);
-                        false
-                    })
-                    .unwrap();
-                let (hit, found) = (hit.unwrap(), next(&scenario, &start).unwrap());
+                let hit = engine.next_impact(1e3).unwrap().unwrap();
+                let found = next(&scenario, &start).unwrap();
                 assert_eq!(hit.gap, found.gap, "impact {count} at {}, r = {r}", hit.time);
                 let error = (hit.time - found.time).abs();
                 assert!(error * hit.closing_speed < 1e-13, "{count}: {error:e} at {hit:?}");
@@ -142,14 +136,8 @@ mod tests {
         }
         let start =
             State { time, positions: engine.positions(time), velocities: engine.velocities(time) };
-        let mut hit = None;
-        engine
-            .run(100.0, |impact| {
-                hit = Some(impact);
-                false
-            })
-            .unwrap();
-        let (hit, found) = (hit.unwrap(), next(&scenario, &start).unwrap());
+        let hit = engine.next_impact(100.0).unwrap().unwrap();
+        let found = next(&scenario, &start).unwrap();
         assert!(hit.gap == found.gap && (hit.time - found.time).abs() < 1e-12, "{hit:?} {found:?}");
     }
 }

@@ -63,7 +63,7 @@ impl Method for Truth {
                         "gap {} comes to rest at t = {time}, and the truth knows no contact",
                         hit.gap
                     );
-                    return Err(Error::input("contact", problem, REMEDY).into());
+                    return Err(Error::input("restitution", problem, REMEDY).into());
                 }
                 motion.advance(&hit);
                 tally.impact(hit.gap, time, speed)?;

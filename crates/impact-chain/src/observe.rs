@@ -1,9 +1,8 @@
-//! What is read from one realisation while it runs; no list of impacts is kept.
+//! What ensembles count of one run while it goes on; no list of impacts is kept.
+//!
+//! It stands here, and not where ensembles are made, since it sees every impact.
 
-use super::{Error, Progress};
-use crate::dynamics::{self, Engine, Impact, Scenario};
-use crate::numerics::random::NormalPairs;
-use crate::params::{Chain, Protocol};
+use crate::{Boundary, Engine, Error, Impact, Scenario};
 use serde::{Deserialize, Serialize};
 
 /// The δ below which two impacts of adjacent gaps are counted as close, in units of 1/ω.
@@ -12,7 +11,7 @@ pub const NEAR_DECADES: [f64; 9] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e
 /// The v below which a closing speed is counted as slow, in units of d ω.
 pub const SLOW_DECADES: [f64; 8] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8];
 
-/// Impacts between two looks at the flag that ends the work.
+/// Impacts between two questions whether to stop.
 const LOOK_EVERY: u64 = 4096;
 
 /// What one realisation showed.
@@ -34,17 +33,6 @@ pub struct Observed {
     pub slow: [u64; SLOW_DECADES.len()],
     /// Contact phases begun.
     pub contact_phases: u64,
-}
-
-/// How one realisation ended.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Outcome {
-    /// It ran to T + W.
-    Counted(Observed),
-    /// It started with an overlapping gap.
-    Rejected,
-    /// The engine gave up, after what was observed.
-    Failed(Observed, dynamics::Error),
 }
 
 /// The running observation of one realisation.
@@ -123,38 +111,89 @@ fn masses_hit(hit: &[bool], ring: bool) -> u32 {
     inner + u32::from(last)
 }
 
-/// Runs realisation `index` of a chain at σ = `sigma` and observes it.
-///
-/// # Errors
-/// [`Error::Interrupted`], or [`Error::Failed`] if the chain itself is not allowed. A start that
-/// overlaps and an engine that gives up are outcomes, not errors.
-pub fn realisation(
-    chain: &Chain,
-    protocol: Protocol,
-    sigma: f64,
-    key: (&str, u64, u64),
-    progress: &Progress,
-) -> Result<Outcome, Error> {
-    progress.check()?;
-    let (stream, seed, index) = key;
-    let scenario = Scenario::draw(chain, sigma, &mut NormalPairs::new(stream, seed, index));
-    let mut engine = match Engine::new(&scenario) {
-        Ok(engine) => engine,
-        Err(dynamics::Error::Overlap { .. }) => return Ok(Outcome::Rejected),
-        Err(source) => return Err(Error::failed("sweep", source)),
-    };
-    let ring = chain.boundary == crate::params::Boundary::Ring;
-    let mut watch = Watch::new(scenario.gaps(), ring, protocol.transient);
-    let ended = engine.run(protocol.transient + protocol.window, |impact| {
+/// Follows an engine of a scenario through a transient and a window that ends at `until`, and counts; stops where `stopped`
+/// says so. An engine that gives up has its error beside what was counted.
+pub fn observe(
+    scenario: &Scenario,
+    engine: &mut Engine,
+    transient: f64,
+    until: f64,
+    stopped: impl Fn() -> bool,
+) -> (Observed, Result<(), Error>) {
+    let ring = scenario.boundary == Boundary::Ring;
+    let mut watch = Watch::new(scenario.gaps(), ring, transient);
+    let ended = engine.run(until, |impact| {
         watch.see(impact);
-        !watch.observed.impacts.is_multiple_of(LOOK_EVERY) || !progress.stopped()
+        !watch.observed.impacts.is_multiple_of(LOOK_EVERY) || !stopped()
     });
-    progress.check()?;
-    let observed = watch.end(&engine);
-    Ok(match ended {
-        Ok(()) => Outcome::Counted(observed),
-        Err(error) => Outcome::Failed(observed, error),
-    })
+    (watch.end(engine), ended)
+}
+
+/// The first impact of each gap after each transient: all that the windows need.
+#[derive(Clone, Debug)]
+pub struct FirstPassages<'a> {
+    transients: &'a [f64],
+    /// `times[transient][gap]`, infinite until known.
+    times: Vec<Vec<f64>>,
+    /// For each gap the number of transients whose first impact is known.
+    known: Vec<usize>,
+}
+
+impl<'a> FirstPassages<'a> {
+    /// For transients, rising, and so many gaps.
+    pub fn new(transients: &'a [f64], gaps: usize) -> Self {
+        FirstPassages {
+            transients,
+            times: vec![vec![f64::INFINITY; gaps]; transients.len()],
+            known: vec![0; gaps],
+        }
+    }
+
+    fn see(&mut self, time: f64, gap: usize) {
+        let gap = gap % self.known.len();
+        let known = &mut self.known[gap];
+        while self.transients.get(*known).is_some_and(|&transient| time > transient) {
+            self.times[*known][gap] = time;
+            *known += 1;
+        }
+    }
+
+    /// Follows an engine to a time; stops where `stopped` says so.
+    ///
+    /// # Errors
+    /// As [`Engine::run`].
+    pub fn follow(
+        &mut self,
+        engine: &mut Engine,
+        until: f64,
+        stopped: impl Fn() -> bool,
+    ) -> Result<(), Error> {
+        let mut seen = 0_u64;
+        engine.run(until, |impact| {
+            self.see(impact.time, impact.gap);
+            seen += 1;
+            !seen.is_multiple_of(LOOK_EVERY) || !stopped()
+        })
+    }
+
+    /// Which gaps impact in the window (T, T + W] of the transient of this index.
+    pub fn hit(&self, transient: usize, window: f64) -> Vec<bool> {
+        let end = self.transients[transient] + window;
+        self.times[transient].iter().map(|&time| time <= end).collect()
+    }
+
+    /// Distinct gaps in every window (T, T + W] that ends by `until`, transients outer; none for the others.
+    pub fn counts(&self, windows: &[f64], until: f64) -> Vec<Option<u32>> {
+        let mut counts = Vec::with_capacity(self.transients.len() * windows.len());
+        for (times, transient) in self.times.iter().zip(self.transients) {
+            for window in windows {
+                let end = transient + window;
+                let hit = times.iter().filter(|&&time| time <= end).count();
+                counts.push((end <= until).then_some(hit as u32));
+            }
+        }
+        counts
+    }
 }
 
 #[cfg(test)]
@@ -220,5 +259,16 @@ mod tests {
         // Between walls the first and the last gap (0 and 4) are none.
         let impacts = [impact(1.0, 4, 1.0), impact(1.01, 0, 1.0)];
         assert_eq!(watch_all(5, false, 0.0, &impacts).observed.adjacent_pairs, 0);
+    }
+
+    #[test]
+    fn windows_by_hand() {
+        let mut passages = FirstPassages::new(&[1.0, 5.0], 3);
+        for (time, gap) in [(0.5, 0), (1.0, 1), (2.0, 0), (3.0, 0), (6.0, 1), (9.0, 0)] {
+            passages.see(time, gap);
+        }
+        // After 1: gap 0 at 2, gap 1 at 6. After 5: gap 1 at 6, gap 0 at 9.
+        let counts = passages.counts(&[1.0, 4.0, 5.0], 9.5);
+        assert_eq!(counts, [Some(1), Some(1), Some(2), Some(1), Some(2), None]);
     }
 }
