@@ -1,12 +1,7 @@
 //! `impact-paper check` for machines: every form says of every claim what the text says.
 
 use crate::{TEMPLATES, outcome, program, run};
-use impact_paper::claims::{self, Basis};
-use impact_paper::experiments::ALL;
-use impact_paper::experiments::{self, Progress, Store};
-use impact_paper::params::Profile;
-use impact_paper::report::{contents, guards};
-use std::collections::BTreeSet;
+use impact_paper::claims::Basis;
 use std::path::Path;
 
 fn check(folder: &Path, arguments: &[&str], summary: Option<&Path>) -> (i32, String, String) {
@@ -97,33 +92,6 @@ fn every_form_has_every_claim_at_its_line() {
     assert!(annotations.is_sorted_by_key(|line| rank(line).unwrap()), "{out}");
     let file = format!(" file={TEMPLATES}/published.toml,line=");
     assert!(annotations[0].contains(&file), "{out}");
-}
-
-/// Guards have names of their own, and relate values that there are.
-#[test]
-fn guards_relate_values_of_the_report() {
-    let scenario = |file: &str| {
-        std::fs::read_to_string(Path::new("templates").join(file)).map_err(|e| e.to_string())
-    };
-    let (store, quiet) = (Store::nowhere(), Progress::silent());
-    let results = experiments::run(ALL, Profile::Quick, &scenario, &store, &quiet).unwrap();
-    let published = claims::published().unwrap();
-    let values = contents::registry(&results, &published).unwrap();
-    let mut names = BTreeSet::new();
-    for guard in guards::all() {
-        assert!(names.insert(guard.name), "two guards are {}", guard.name);
-        for id in guard.ids {
-            let fits = |own: &str| match id.strip_suffix('*') {
-                Some(start) => own.starts_with(start),
-                None => own == *id,
-            };
-            let known = values.iter().any(|value| fits(&value.id))
-                || values.get(id).is_some()
-                || values.tables().any(|table| fits(table.name()));
-            assert!(known, "{} has no {id}", guard.name);
-        }
-    }
-    assert!(names.len() >= 10, "{names:?}");
 }
 
 /// A change of what is printed, more arguments, and signs of it in text, annotations and Markdown.

@@ -25,8 +25,6 @@ fn exit_codes_are_those_of_the_table() {
     templates("differs", "published.toml", edges, &format!("{edges}9"));
     templates("none", "front.md", "# ", "# ");
     std::fs::remove_file(here.join("none/front.md")).unwrap();
-    templates("phrases", "front.md", "# ", "# ");
-    std::fs::remove_file(here.join("phrases/literals.toml")).unwrap();
     std::fs::create_dir(here.join("empty")).unwrap();
     let paper = |templates: &str| {
         format!("paper --profile quick --out p --results r --templates {templates}")
@@ -46,7 +44,6 @@ fn exit_codes_are_those_of_the_table() {
         (2, "check --profile quick --results r --templates renamed".into(), "published.toml"),
         (2, "export RAYON_NUM_THREADS=999; exec \"$0\" check".into(), "RAYON_NUM_THREADS: 999"),
         (2, paper("none"), "front.md: it is missing or empty"),
-        (2, paper("phrases"), "literals.toml: no such file"),
         (
             0,
             "ulimit -v 1000000; exec \"$0\" sweep --sigma 0.3 --masses 1000000 --realisations 1 --transient 0 \

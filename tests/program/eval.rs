@@ -99,5 +99,7 @@ fn bounds_are_those_of_the_library() {
     ] {
         crate::refused(Path::new("."), &format!("eval {arguments}"), &[says]);
     }
+    let (code, _, note) = crate::run(Path::new("."), "eval p-crit --vertices 2");
+    assert!(code == 0 && note.contains("no probability"), "{note}");
     assert!(float("p-jump --vertices 4") < 1.0 && float("higher-p-jump --vertices 2") < 1.0);
 }

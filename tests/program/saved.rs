@@ -54,19 +54,8 @@ fn status_gives_each_reason_and_audit_compares_bytes() {
     let (folder, results) = (whole(), &QUICK.results);
     let folder = folder.path();
     assert_eq!(with(&status(folder), "fresh").len(), EXPERIMENTS);
-    let [kept, away] = ["results/trials-quick.json", "trials"].map(|path| folder.join(path));
-    fs::rename(&kept, &away).unwrap();
-    let (code, _, note) = run(folder, "status --profile quick --results results");
-    assert!(code == 3 && note.contains(&format!("1 of {EXPERIMENTS} results is stale")), "{note}");
-    fs::rename(&away, &kept).unwrap();
-    // What a killed run left goes, though nothing is saved.
-    let left = folder.join("results/.staging-impact-paper-dead00");
-    fs::write(&left, "").unwrap();
-    let hour_ago = std::time::SystemTime::now() - std::time::Duration::from_secs(3600);
-    fs::File::options().write(true).open(&left).unwrap().set_modified(hour_ago).unwrap();
     let (_, _, note) = run(folder, PAPER);
     assert_eq!(note.matches(": fresh").count(), EXPERIMENTS, "{note}");
-    assert!(!left.exists());
     assert_eq!(saved(folder), *results);
     let audit = "audit --profile quick --results results --sample";
     let (code, text, note) = run(folder, &format!("{audit} 100%"));

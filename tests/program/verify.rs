@@ -69,15 +69,6 @@ fn edited_missing_and_unlisted_files_are_named() {
     faults(folder.path(), &lines, "3 faults");
 }
 
-/// What `paper --figure` writes has a list of its own.
-#[test]
-fn single_files_are_no_report() {
-    let folder = tempfile::tempdir().unwrap();
-    let figure = format!("paper --figure 4 --out f --templates {TEMPLATES}");
-    assert_eq!(run(folder.path(), &figure).0, 0);
-    refused(folder.path(), "verify f", &["f: it holds single files", "sha256sum --check"]);
-}
-
 /// Which lines a list cannot have is told by the unit tests of `sums`.
 #[test]
 fn lists_that_cannot_be_trusted_are_refused_with_their_line() {

@@ -109,22 +109,11 @@ fn nothing_is_written_among_the_templates() {
     }
     for (verb, among) in [
         ("paper --figure 4 --templates t --out", "t"),
-        ("paper --figure 4 --templates t --out", "new/../t/new"),
         ("paper --profile quick --templates t --out new --results", "t"),
-        ("check --profile quick --templates t --results", "t/new"),
-        ("-q verify --rerun --templates t --results", "t"),
         ("run --profile quick --shard 1/1 --out", TEMPLATES),
-        ("merge t --results", TEMPLATES),
     ] {
-        if verb.contains("verify") {
-            crate::put(&here.join("paper"), &QUICK.report);
-        }
         let (code, _, note) = crate::run(here, &format!("{verb} {among}"));
         let what = format!("{among} is the folder of the templates, or lies in it");
         assert!(code == 2 && note.contains(&what) && note.lines().count() == 1, "{verb}: {note}");
     }
-    std::fs::create_dir(here.join("o")).unwrap();
-    templates(&here.join("o/data"), "front.md", |text| text.into());
-    let among = "paper --figure 4 --templates o/data --out o --force";
-    crate::refused(here, among, &["o has the templates where figures and data go"]);
 }

@@ -162,17 +162,6 @@ fn no_bit_depends_on_the_platform() {
     }
 }
 
-/// A file is about one thing: none is longer than this before its tests.
-const TOO_LONG: usize = 600;
-
-#[test]
-fn files_end() {
-    for (path, text) in sources() {
-        let lines = text.lines().take_while(|line| *line != "#[cfg(test)]").count();
-        assert!(lines <= TOO_LONG, "{path}: {lines} lines; split it");
-    }
-}
-
 /// The first page of `cargo doc` leads to sections of the report that exist.
 #[test]
 fn links_of_the_documentation_land() {

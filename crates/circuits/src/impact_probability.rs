@@ -93,6 +93,10 @@ fn saturation(x: f64) -> f64 {
     if x == 0.0 { 1.0 } else { -pxfm::f_expm1(-x) / x }
 }
 
+/// An exponent below which p differs from 1 by so little that 1 − p is the more accurate of the two: its own rounding
+/// falls below the last bit of p.
+const NEARLY_ONE: f64 = 0.01;
+
 impl ImpactProbability {
     /// For a gap of masses d = `spacing` apart, natural frequency ω and forcing frequency Ω.
     ///
@@ -162,6 +166,9 @@ impl ImpactProbability {
     /// the paper's chain).
     pub fn p(&self) -> Result<f64, Error> {
         let (exponent, factor) = self.leading();
+        if exponent.to_f64() < NEARLY_ONE {
+            return Ok(1.0 - self.complement());
+        }
         // Half the exponent twice: the exponential must not underflow before its factor acts.
         let half = (-exponent.to_double_double()).times_power_of_two(0.5).exp();
         let p = (half * factor) * half;

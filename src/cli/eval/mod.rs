@@ -5,6 +5,7 @@ mod quantity;
 
 use super::{Failure, stdout};
 use impact_paper::circuits;
+use impact_paper::experiments::say;
 use inputs::Inputs;
 use quantity::{QUANTITIES, Quantity, Value};
 use serde::Serialize;
@@ -88,6 +89,9 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let value = (quantity.evaluate)(&inputs).map_err(|error| explain(error, &inputs))?;
     if !value.is_finite() {
         return Err(Failure::run(format!("{name}: the result is not a finite number")));
+    }
+    if quantity.name == "p-crit" && matches!(value, Value::Float(p) if p > 1.0) {
+        say("impact-paper: p_crit is above 1, so no probability reaches it: N is too small");
     }
     let answer = Answer { quantity: quantity.name, value, inputs };
     let json = serde_json::to_string(&answer)
