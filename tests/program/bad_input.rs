@@ -138,7 +138,6 @@ sweep --sigma 0.1 --transient -1|NaN|1e13 => --transient
 sweep --sigma 0.1 --restitution 1.1|-0.1|NaN => --restitution
 sweep --sigma 0.1 --seed -1 => --seed
 sweep --sigma 0.1 --threads 0|10000|4294967296 => --threads; give 1 
-sweep --sigma 0.1 --format xml => --format
 paper --figure 16|0|x => --figure
 paper --profile deep => --profile
 paper --threads 0 --figure 4 => --threads
@@ -153,17 +152,14 @@ check --claim no-such-claim => --claim
 check --profile quick --results file => --results: file: not a directory
 verify => paper/SHA256SUMS: ; give the folder of a report
 verify empty => empty/SHA256SUMS: ; give the folder of a report
-verify --results r => --rerun
 run --profile quick --shard 0/3|4/3 --out d => 1 <= i <= N
 run --profile quick --out d => --shard
-run --profile quick --shard 1/3 => --out
 run --profile quick --shard 1/3 --out file|file/below => --out: file
 plan --shards 0 => --shards: 0
 merge => DIR
 audit --sample -1%|0|1e-400 => '--sample <SHARE>'; percentage like 10%
 eval => QUANTITY
 eval no-such-thing => no-such-thing; --list
-eval --list --sigma 3 => --list
 eval p-crit --no-such-option => --no-such-option
 eval k-star --p -0.1|1.0000000000000002|nan|inf|-inf => p:; 0 ≤ p ≤ 1
 eval k-star --p abc|0,5 => p:; decimal
@@ -251,9 +247,6 @@ fn files_without_end_are_refused() {
     long("templates/report.md");
     let check = "check --profile=quick --claim=sec3_edges --templates=templates";
     crate::refused(folder, check, &["report.md", "8 MiB"]);
-    if Path::new("/dev/zero").exists() {
-        crate::refused(folder, "trace /dev/zero --until=5", &["/dev/zero", "64 MiB"]);
-    }
 }
 
 #[test]
