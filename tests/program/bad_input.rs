@@ -4,7 +4,6 @@
 use crate::{SCENARIO, TEMPLATES, program, run};
 use std::fs;
 use std::io::{BufRead, BufReader};
-use std::path::Path;
 use std::process::Stdio;
 
 /// Refuses `text` as a scenario with one line that has all of `words`.
