@@ -131,10 +131,9 @@ fn forged(bytes: &[u8], line: usize, from: &str, to: &str) -> String {
     format!("{}\n{made_of}", digest(&made_of))
 }
 
-/// Copies the project's templates, and changes one of their files.
+/// Copies the project's templates, which may be read-only, and changes one of their files.
 fn templates(to: &Path, file: &str, change: impl Fn(&str) -> String) {
     assert!(Command::new("cp").arg("-r").arg(TEMPLATES).arg(to).status().unwrap().success());
-    // Those of a checkout that may not be written.
     assert!(Command::new("chmod").args(["-R", "u+w"]).arg(to).status().unwrap().success());
     // What a folder does not have is the crate's.
     let skin = Path::new(TEMPLATES).join("../crates/literate/skin").join(file);
