@@ -93,7 +93,7 @@ fn saturation(x: f64) -> f64 {
     if x == 0.0 { 1.0 } else { -pxfm::f_expm1(-x) / x }
 }
 
-/// An exponent below which p differs from 1 by so little that 1 − p is the more accurate of the two: its own rounding
+/// An exponent below which p differs from 1 by so little that 1 − p is the more accurate of the two: its rounding
 /// falls below the last bit of p.
 const NEARLY_ONE: f64 = 0.01;
 

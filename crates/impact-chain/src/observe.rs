@@ -1,6 +1,5 @@
-//! What ensembles count of one run while it goes on; no list of impacts is kept.
-//!
-//! It stands here, and not where ensembles are made, since it sees every impact.
+//! Counts of one run for ensembles: different gaps in a window, close and slow impacts, first impacts after several
+//! transients. No list of impacts is kept. The code sees every impact, so it is compiled for speed with the engine.
 
 use crate::{Boundary, Engine, Error, Impact, Scenario};
 use serde::{Deserialize, Serialize};
@@ -112,7 +111,7 @@ fn masses_hit(hit: &[bool], ring: bool) -> u32 {
 }
 
 /// Follows an engine of a scenario through a transient and a window that ends at `until`, and counts; stops where `stopped`
-/// says so. An engine that gives up has its error beside what was counted.
+/// says so. Returns what was counted, and the error of an engine that gave up.
 pub fn observe(
     scenario: &Scenario,
     engine: &mut Engine,
