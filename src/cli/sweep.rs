@@ -9,7 +9,7 @@ use impact_paper::params::{Boundary, Chain, Protocol, SEED, Start, SweepParams};
 use serde::Serialize;
 use std::io::{self, Write};
 
-/// Runs an ensemble of random chains at each σ and prints one row a σ.
+/// Runs an ensemble of random chains at each σ and prints one row for each σ.
 ///
 /// A row counts the distinct gaps that impact in the window (T, T + W]; realisations without any
 /// are not kept. Realisation i has the same standard normals at every σ. Rows come together at the

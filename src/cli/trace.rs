@@ -13,7 +13,7 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering::Relaxed;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
-/// Print the impacts of one scenario as CSV: time, gap, closing speed.
+/// Prints the impacts of one scenario as CSV: time, gap, closing speed
 ///
 /// Examples:
 ///   impact-paper trace chain.json --until 100

@@ -101,7 +101,7 @@ pub fn run(parameters: &SweepParams, name: &str, progress: &Progress) -> Result<
     CUTTING.run(parameters, name, progress)
 }
 
-/// One row a σ.
+/// A row for each σ.
 pub fn rows(parameters: &SweepParams) -> Vec<Row> {
     let row = |&sigma: &f64| Row {
         covers: format!("sigma = {sigma}"),
