@@ -100,14 +100,17 @@ pub struct Running<'a> {
 }
 
 impl<'a> Running<'a> {
-    /// A chain at its start, in an experiment of a name.
+    /// A chain at its start, in an experiment of a name; none for a start that overlaps.
     pub fn new(
         scenario: &Scenario,
         name: &'static str,
         progress: &'a Progress,
-    ) -> Result<Self, Error> {
-        let engine = Engine::new(scenario).map_err(|source| Error::failed(name, source))?;
-        Ok(Running { engine, gaps: scenario.gaps(), name, progress })
+    ) -> Result<Option<Self>, Error> {
+        match Engine::new(scenario) {
+            Ok(engine) => Ok(Some(Running { engine, gaps: scenario.gaps(), name, progress })),
+            Err(dynamics::Error::Overlap { .. }) => Ok(None),
+            Err(source) => Err(Error::failed(name, source)),
+        }
     }
 
     /// Goes on until a time, and notes the first impact of each gap after each transient; none where the engine gave up.

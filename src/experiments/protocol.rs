@@ -1,9 +1,8 @@
 //! The influence of the counting protocol: half height against transient T and window W.
 
-use super::ensembles::{Begun, Ensembles, joined_by};
+use super::ensembles::{Begun, Ensembles, Running, joined_by};
 use super::{Error, Progress, rise, weights};
-use crate::dynamics::observe::FirstPassages;
-use crate::dynamics::{self, Engine, Scenario};
+use crate::dynamics::Scenario;
 use crate::numerics::random::NormalPairs;
 use crate::numerics::statistics::{Estimate, mean};
 use crate::params::{
@@ -176,19 +175,11 @@ pub(super) fn realisation(
 ) -> Result<Option<Counts>, Error> {
     let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, index);
     let scenario = Scenario::draw(&parameters.chain, sigma, &mut normals);
-    let mut engine = match Engine::new(&scenario) {
-        Ok(engine) => engine,
-        Err(dynamics::Error::Overlap { .. }) => return Ok(None),
-        Err(source) => return Err(Error::failed("protocol map", source)),
+    let Some(mut motion) = Running::new(&scenario, "protocol map", progress)? else {
+        return Ok(None);
     };
-    let mut passages = FirstPassages::new(&parameters.transients, scenario.gaps());
-    let ended = passages.follow(&mut engine, until, || progress.stopped());
-    progress.check()?;
-    match ended {
-        Ok(()) => Ok(Some(passages.counts(&parameters.windows, until))),
-        Err(dynamics::Error::Work { .. }) => Ok(None),
-        Err(source) => Err(Error::failed("protocol map", source)),
-    }
+    let passages = motion.passages(&parameters.transients, until)?;
+    Ok(passages.map(|passages| passages.counts(&parameters.windows, until)))
 }
 
 #[cfg(test)]

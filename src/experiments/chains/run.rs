@@ -18,7 +18,7 @@ pub(super) fn realisation(
     let scenario = Scenario::draw(&chain(parameters, curve), sigma, &mut normals);
     let sizes = pieces(scenario.gaps(), parameters.piece);
     let until = curve.transients.last().copied().unwrap_or(0.0) + parameters.window;
-    let mut motion = Running::new(&scenario, "chains", progress)?;
+    let Some(mut motion) = Running::new(&scenario, "chains", progress)? else { return Ok(None) };
     let Some(passages) = motion.passages(&curve.transients, until)? else { return Ok(None) };
     let counts = |transient: usize| {
         let hit = passages.hit(transient, parameters.window);

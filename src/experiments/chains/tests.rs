@@ -41,6 +41,15 @@ fn pieces_make_up_the_chain() {
     assert_eq!(pieces(100_001, 1000).iter().sum::<usize>(), 100_001);
 }
 
+/// Of 40 masses with random free parts at σ = 0.3 nine chains of ten overlap at the start.
+#[test]
+fn starts_that_overlap_are_left_out() {
+    let overlapping = ChainCurve { start: Start::Random, sigmas: vec![0.3], ..curve(40) };
+    let found = CUTTING.run(&parameters(vec![overlapping]), "test", &Progress::silent()).unwrap();
+    let [row] = &found.curves[0].rows[..] else { panic!() };
+    assert!(row.failed > 0 && row.runs.len() as u64 + row.failed == 4, "{row:?}");
+}
+
 #[test]
 fn counts_are_those_of_the_sweep_and_of_all_pieces() {
     let parameters = parameters(vec![curve(40)]);

@@ -55,13 +55,15 @@ fn realisation(
 ) -> Result<Counts, Error> {
     let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, index);
     let hot = Scenario::draw(&parameters.chain, parameters.hot, &mut normals);
-    let mut motion = Running::new(&hot, "history", progress)?;
+    let Some(mut motion) = Running::new(&hot, "history", progress)? else { return Ok(None) };
     if !motion.go(parameters.heating, |_| ())? {
         return Ok(None);
     }
     let free = motion.engine.free_parts();
     let lowered = lowered(&hot, &free, parameters.heating, sigma / parameters.hot);
-    let mut motion = Running::new(&lowered, "history", progress)?;
+    let Some(mut motion) = Running::new(&lowered, "history", progress)? else {
+        return Ok(None);
+    };
     let Some(passages) = motion.passages(&parameters.transients, until(parameters))? else {
         return Ok(None);
     };

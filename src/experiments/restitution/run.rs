@@ -15,7 +15,9 @@ pub(super) fn realisation(
 ) -> Result<Option<Run>, Error> {
     let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, index);
     let scenario = Scenario::draw(&chain(parameters, case.restitution), case.sigma, &mut normals);
-    let mut motion = Running::new(&scenario, "restitution", progress)?;
+    let Some(mut motion) = Running::new(&scenario, "restitution", progress)? else {
+        return Ok(None);
+    };
     let mut run = Run::default();
     for &end in &case.ends {
         let before = motion.engine.counters();
