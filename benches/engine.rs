@@ -4,8 +4,8 @@
 
 use divan::Bencher;
 use divan::counter::ItemsCount;
-use impact_paper::dynamics::{Engine, Scenario};
-use impact_paper::numerics::random::NormalPairs;
+use impact_chain::{Engine, Scenario};
+use impact_numerics::random::NormalPairs;
 use impact_paper::params::Chain;
 
 fn main() {

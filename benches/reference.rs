@@ -10,7 +10,7 @@
 #[path = "../tests/physics/reference/mod.rs"]
 mod reference;
 
-use impact_paper::dynamics::Scenario;
+use impact_chain::Scenario;
 use reference::{Dd, Real, Reference};
 use serde_json::json;
 

@@ -20,9 +20,9 @@ pub struct Crate {
 /// The crates below the program.
 pub const CRATES: [Crate; 4] = [
     Crate { name: "literate", folder: "crates/literate/src", module: "literate" },
-    Crate { name: "impact_numerics", folder: "crates/numerics/src", module: "numerics" },
-    Crate { name: "impact_chain", folder: "crates/impact-chain/src", module: "dynamics" },
-    Crate { name: "impact_circuits", folder: "crates/circuits/src", module: "circuits" },
+    Crate { name: "impact_numerics", folder: "crates/numerics/src", module: "impact_numerics" },
+    Crate { name: "impact_chain", folder: "crates/impact-chain/src", module: "impact_chain" },
+    Crate { name: "impact_circuits", folder: "crates/circuits/src", module: "impact_circuits" },
 ];
 
 /// Layers that count as one.

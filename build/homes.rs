@@ -60,7 +60,7 @@ pub fn collect(folder: &Path, endings: &[&str], into: &mut Vec<PathBuf>) -> io::
     Ok(())
 }
 
-/// crates/circuits/src/jump.rs → circuits::jump, crates/circuits/src/lib.rs → circuits.
+/// crates/circuits/src/jump.rs → impact_circuits::jump, crates/circuits/src/lib.rs → circuits.
 pub fn module(file: &Path) -> String {
     depends::module(&file.to_string_lossy()).join("::")
 }

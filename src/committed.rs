@@ -5,7 +5,7 @@
 //! program itself. A binary that is to travel alone is built with the feature `embed`: it has a copy
 //! inside instead of that checkout.
 
-use crate::input;
+use literate::input;
 use std::borrow::Cow;
 use std::io;
 use std::path::{Path, PathBuf};

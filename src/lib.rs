@@ -6,21 +6,21 @@
 //!
 //! - [Section 1](../../../paper/report.html#sec-introduction) and
 //!   [Section 2](../../../paper/report.html#sec-simulation), the chain of forced masses and its
-//!   impacts: [`dynamics`].
+//!   impacts: [`impact_chain`].
 //! - [Section 3](../../../paper/report.html#sec-graph) to
 //!   [Section 7](../../../paper/report.html#sec-jump), circuits of the impact graph, their
-//!   probability, the jump: [`circuits`].
+//!   probability, the jump: [`impact_circuits`].
 //! - [Section 8](../../../paper/report.html#sec-relation), how p follows from σ:
-//!   [`circuits::impact_probability`].
+//!   [`impact_circuits::impact_probability`].
 //! - [Section 9](../../../paper/report.html#sec-higher), circuits that are not simple:
-//!   [`circuits::higher_order`].
+//!   [`impact_circuits::higher_order`].
 //! - What is run, with which parameters: [`experiments`] and [`params`].
 //! - What is shown: [`figures`], [`claims`] and [`report`].
-//! - Mathematics that knows no physics: [`numerics`]; what that means for
+//! - Mathematics that knows no physics: [`impact_numerics`]; what that means for
 //!   [the method](../../../paper/methods.html#sec-method) and its
 //!   [speed and accuracy](../../../paper/methods.html#sec-accuracy).
 //!
-//! Imports flow one way: `numerics` → `dynamics` → `circuits` (crates of their own) → `experiments` →
+//! Imports flow one way: `impact-numerics` → `impact-chain` → `impact-circuits` (crates of their own) → `experiments` →
 //! `figures`, `claims` → `report` → `program`; `params` may be read by all.
 //!
 //! # Where each equation lives
@@ -38,6 +38,3 @@ pub mod params;
 #[cfg(not(target_family = "wasm"))]
 pub mod program;
 pub mod report;
-
-pub use literate::{digest, input, table, value};
-pub use {impact_chain as dynamics, impact_circuits as circuits, impact_numerics as numerics};

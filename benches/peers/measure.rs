@@ -4,11 +4,11 @@
 //! Chain i of n masses starts from rest; its forcing is drawn from stream i of the seed.
 
 use clap::Parser;
-use impact_paper::dynamics::methods::{
+use impact_chain::methods::{
     Certified, Method, MoreauJean, Penalty, RungeKutta, Sampled, State, Verlet,
 };
-use impact_paper::dynamics::{Counters, Engine, Error, Impact, Scenario};
-use impact_paper::numerics::random::NormalPairs;
+use impact_chain::{Counters, Engine, Error, Impact, Scenario};
+use impact_numerics::random::NormalPairs;
 use impact_paper::params::Chain;
 use rayon::prelude::*;
 use serde::Deserialize;

@@ -8,8 +8,8 @@ use super::{Judgement, Statement, Text};
 use crate::experiments::sweep::tables::{mean_all, mode_half};
 use crate::experiments::sweep::{Sweep, SweepRow};
 use crate::experiments::{CHAINS, STARTS, SWEEP, TWO_MASSES};
-use crate::numerics::statistics::Estimate;
 use crate::params::Protocol;
+use impact_numerics::statistics::Estimate;
 
 pub const ROWS: &[Row] = &[
     measured("sec2_parameters", Exact, &[&SWEEP], parameters),

@@ -7,7 +7,7 @@ use super::{Judgement, Statement, Text};
 use crate::experiments::protocol_tables::range;
 use crate::experiments::starts_tables::share_of_start;
 use crate::experiments::{CHAINS, PROTOCOL, RESTITUTION, STARTS, SWEEP};
-use crate::numerics::statistics::{Estimate, wilson};
+use impact_numerics::statistics::{Estimate, wilson};
 
 /// Eq. (20) in the simulation: a chain with random free parts that overlaps at its start, or has an
 /// impact later, has a gap with Y₀ + Y₁/|ω² − Ω²| ≥ d.

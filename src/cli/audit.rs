@@ -1,8 +1,8 @@
 //! `impact-paper audit`.
 
 use super::{Failure, number, signals, stdout, threads, work};
+use impact_numerics::random::generator;
 use impact_paper::experiments::{self, Error, Store};
-use impact_paper::numerics::random::generator;
 use impact_paper::params::Profile;
 use rand::seq::SliceRandom;
 use std::path::PathBuf;

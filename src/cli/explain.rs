@@ -2,12 +2,12 @@
 
 use super::{Failure, folder, stdout};
 use impact_paper::experiments::alive;
-use impact_paper::input::{is_obeyed, one_line, regular_text};
 use impact_paper::report::PROGRAM;
 use impact_paper::report::card::{Card, Cards, Row};
 use impact_paper::report::document::{Inline, spelt};
 use impact_paper::report::ledger::Ledger;
 use impact_paper::report::{Registry, compare};
+use literate::input::{is_obeyed, one_line, regular_text};
 use serde_json::json;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};

@@ -3,8 +3,8 @@
 use super::folder::resolved;
 use super::places::refuse_report;
 use super::{Failure, shard, shown, signals, stdout, threads, work};
+use impact_numerics::text::count;
 use impact_paper::experiments::{Store, alive};
-use impact_paper::numerics::text::count;
 use impact_paper::params::Profile;
 use std::path::PathBuf;
 

@@ -1,7 +1,7 @@
 //! The methods of simulation by name.
 
 use super::Failure;
-use impact_paper::dynamics::methods::{
+use impact_chain::methods::{
     Certified, Method, MoreauJean, Penalty, RungeKutta, Sampled, Truth, Verlet,
 };
 

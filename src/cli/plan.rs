@@ -1,8 +1,8 @@
 //! `impact-paper plan`.
 
 use super::{Failure, shard, stdout, work};
+use impact_numerics::text::count;
 use impact_paper::experiments::Store;
-use impact_paper::numerics::text::count;
 use impact_paper::params::Profile;
 use literate::experiments::shards::Task;
 use serde::Serialize;

@@ -2,8 +2,8 @@
 
 use super::places::refuse_report;
 use super::{Failure, shown, signals, stdout, threads, work};
+use impact_numerics::text::count;
 use impact_paper::experiments::{Error, Store};
-use impact_paper::numerics::text::count;
 use impact_paper::params::Profile;
 use literate::experiments::shards::MOST;
 use std::fs::DirEntry;

@@ -5,7 +5,7 @@ use super::number;
 /// More values than this are taken for a slip.
 const MOST: usize = 100_000;
 
-/// With larger ones rounding would hide the spacing of 1 (see `dynamics::rounding`).
+/// With larger ones rounding would hide the spacing of 1 (see `impact_chain::rounding`).
 pub const LARGEST: f64 = 1e6;
 
 /// Reads a list or a range of standard deviations.

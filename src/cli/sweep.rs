@@ -1,11 +1,11 @@
 //! `impact-paper sweep`.
 
 use super::{Failure, memory, sigmas, signals, stdout, threads};
-use impact_paper::dynamics::Engine;
+use impact_chain::Engine;
+use impact_numerics::clock::LATEST;
 use impact_paper::experiments::{Progress, sweep};
-use impact_paper::input::one_line;
-use impact_paper::numerics::clock::LATEST;
 use impact_paper::params::{Boundary, Chain, Protocol, SEED, Start, SweepParams};
+use literate::input::one_line;
 use serde::Serialize;
 use std::io::{self, Write};
 

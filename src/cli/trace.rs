@@ -1,12 +1,12 @@
 //! `impact-paper trace`.
 
 use super::{Failure, memory, method, stdout};
-use impact_paper::dynamics::methods::State;
-use impact_paper::dynamics::{Engine, Error, Impact, Scenario, rounding};
+use impact_chain::methods::State;
+use impact_chain::{Engine, Error, Impact, Scenario, rounding};
+use impact_numerics::clock::LATEST;
+use impact_numerics::text::count;
 use impact_paper::experiments::{alive, say};
-use impact_paper::input;
-use impact_paper::numerics::clock::LATEST;
-use impact_paper::numerics::text::count;
+use literate::input;
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

@@ -1,8 +1,8 @@
 //! Experiments that are ensembles: rows of realisations, each of which is run by its number alone.
 
 use super::{Error, Progress};
-use crate::dynamics::observe::FirstPassages;
-use crate::dynamics::{self, Engine, Impact, Scenario};
+use impact_chain::observe::FirstPassages;
+use impact_chain::{self, Engine, Impact, Scenario};
 use literate::experiments::cutting::{Cutting, Join, Row, Unit};
 use literate::experiments::progress::Stage;
 use rayon::prelude::*;
@@ -108,7 +108,7 @@ impl<'a> Running<'a> {
     ) -> Result<Option<Self>, Error> {
         match Engine::new(scenario) {
             Ok(engine) => Ok(Some(Running { engine, gaps: scenario.gaps(), name, progress })),
-            Err(dynamics::Error::Overlap { .. }) => Ok(None),
+            Err(impact_chain::Error::Overlap { .. }) => Ok(None),
             Err(source) => Err(Error::failed(name, source)),
         }
     }
@@ -133,11 +133,11 @@ impl<'a> Running<'a> {
         self.ended(ended)
     }
 
-    fn ended(&self, ended: Result<(), dynamics::Error>) -> Result<bool, Error> {
+    fn ended(&self, ended: Result<(), impact_chain::Error>) -> Result<bool, Error> {
         self.progress.check()?;
         match ended {
             Ok(()) => Ok(true),
-            Err(dynamics::Error::Work { .. }) => Ok(false),
+            Err(impact_chain::Error::Work { .. }) => Ok(false),
             Err(source) => Err(Error::failed(self.name, source)),
         }
     }

@@ -5,13 +5,13 @@
 
 use super::ensembles::each;
 use super::{Error, Progress};
-use crate::dynamics::{Engine, Growth, Impact, Scenario};
-use crate::numerics::estimates::average;
-use crate::numerics::random::NormalPairs;
-use crate::numerics::statistics::Estimate;
 use crate::params::HorizonParams;
-use crate::table::Table;
-use crate::value::origin;
+use impact_chain::{Engine, Growth, Impact, Scenario};
+use impact_numerics::estimates::average;
+use impact_numerics::random::NormalPairs;
+use impact_numerics::statistics::Estimate;
+use literate::table::Table;
+use literate::value::origin;
 use serde::{Deserialize, Serialize};
 
 /// The measured horizon. Means over the twins, with standard error and a normal interval.

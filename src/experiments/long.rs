@@ -3,8 +3,8 @@
 use super::ensembles::joined_by;
 use super::protocol::{self, Part, ProtocolMap};
 use super::{Error, Progress};
-use crate::numerics::statistics::{normal_quantile, standard_deviation};
 use crate::params::{LEVEL, ProtocolParams};
+use impact_numerics::statistics::{normal_quantile, standard_deviation};
 use literate::experiments::cutting::{Cutting, Unit};
 use literate::experiments::deep::Distance;
 use serde::{Deserialize, Serialize};

@@ -6,7 +6,7 @@
 
 use super::Error;
 use crate::committed;
-use crate::input::one_line;
+use literate::input::one_line;
 use serde::{Deserialize, Serialize};
 
 /// Where the file lies, seen from the top of the project.
@@ -44,7 +44,7 @@ pub enum What {
     Engine,
     /// Many chains in the engine of this project, for the most impacts a second.
     Ensemble,
-    /// Another method, written in this project (`dynamics::methods`).
+    /// Another method, written in this project (`impact_chain::methods`).
     Method,
     /// Another project.
     Peer,

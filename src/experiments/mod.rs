@@ -43,12 +43,12 @@ use crate::params::{
     ProtocolParams, RaceParams, RestitutionParams, ScaleParams, SeedsParams, SpaceTimeParams,
     StartsParams, SweepParams, TrialParams, TwoMassesParams,
 };
-use crate::table::Table;
 use accuracy::{bias, race, scale, tables, trials};
 use built::code;
 use ensembles::cutting;
 use literate::experiments::deep::Deep;
 use literate::experiments::experiment::How::{Cut, Read, Whole};
+use literate::table::Table;
 
 /// All experiments, in the order in which they run.
 pub const ALL: &[Need] = &[

@@ -2,12 +2,12 @@
 
 use super::ensembles::{Begun, Ensembles, Running, joined_by};
 use super::{Error, Progress, rise, weights};
-use crate::dynamics::Scenario;
-use crate::numerics::random::NormalPairs;
-use crate::numerics::statistics::{Estimate, mean};
 use crate::params::{
     COMPARABLE_REJECTED, PRINTED_THRESHOLD, PRINTED_THRESHOLD_UNIT, ProtocolParams,
 };
+use impact_chain::Scenario;
+use impact_numerics::random::NormalPairs;
+use impact_numerics::statistics::{Estimate, mean};
 use literate::experiments::cutting::{Cutting, Row};
 use serde::{Deserialize, Serialize};
 

@@ -2,9 +2,9 @@
 
 use super::long::LongMap;
 use super::protocol::{ProtocolCell, ProtocolMap, join};
-use crate::numerics::statistics::Estimate;
-use crate::table::Table;
-use crate::value::origin;
+use impact_numerics::statistics::Estimate;
+use literate::table::Table;
+use literate::value::origin;
 
 /// Of the map of the paper's chain.
 pub fn of_map(map: &ProtocolMap) -> Vec<Table> {

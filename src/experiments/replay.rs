@@ -1,10 +1,10 @@
 //! Runs that a page repeats: each with a digest of its impacts, which whoever computes the same bits finds again.
 
 use super::{Error, Progress};
-use crate::dynamics::replay::{Asked, Forces, Replay};
 use crate::params::{Boundary, Chain, Profile, Protocol, SEED, Start};
-use crate::table::Table;
-use crate::value::origin;
+use impact_chain::replay::{Asked, Forces, Replay};
+use literate::table::Table;
+use literate::value::origin;
 use serde::{Deserialize, Serialize};
 
 /// What is run: each run with a name.

@@ -2,9 +2,9 @@
 
 use super::{ALL, Error, Need, TOGETHER, identities, theory};
 use crate::params::{Profile, VERTICES};
-use crate::table::Table;
 use literate::experiments::deep::Audit;
 use literate::experiments::{Found, Typed};
+use literate::table::Table;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::sync::{Arc, LazyLock, OnceLock};

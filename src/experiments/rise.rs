@@ -3,9 +3,9 @@
 //! The realisations are resampled, not the rows: realisation i has the same standard normals at
 //! every σ, so a resample takes its counts at all σ together.
 
-use crate::numerics::bootstrap;
-use crate::numerics::statistics::{Estimate, count_quantile, last_rise, mode};
 use crate::params::{LEVEL, RESAMPLES};
+use impact_numerics::bootstrap;
+use impact_numerics::statistics::{Estimate, count_quantile, last_rise, mode};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 

@@ -1,11 +1,11 @@
 //! The motions of Figs. 5(b) and 6(b): saved scenarios, replayed by the engine.
 
 use super::Error;
-use crate::dynamics::{Engine, Scenario};
-use crate::input::one_line;
-use crate::table::Table;
-use crate::value::origin;
+use impact_chain::{Engine, Scenario};
 use literate::experiments::experiment::Given;
+use literate::input::one_line;
+use literate::table::Table;
+use literate::value::origin;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -182,7 +182,7 @@ fn replay(file: &str, text: &str, order: &[usize]) -> Result<Segment, Error> {
 }
 
 /// Runs a scenario and records positions and impacts from `from` to `until`.
-fn record(scenario: &Scenario, from: f64, until: f64) -> Result<Segment, crate::dynamics::Error> {
+fn record(scenario: &Scenario, from: f64, until: f64) -> Result<Segment, impact_chain::Error> {
     let mut engine = Engine::new(scenario)?;
     engine.run(from, |_| true)?;
     let masses = scenario.forcing.len();

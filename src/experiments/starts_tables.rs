@@ -4,11 +4,11 @@ use super::Results;
 use super::starts::{Starts, Variant};
 use super::{rise, sweep};
 use crate::experiments::STARTS;
-use crate::numerics::estimates::difference;
-use crate::numerics::statistics::Estimate;
 use crate::params::COMPARABLE_REJECTED;
-use crate::table::Table;
-use crate::value::origin;
+use impact_numerics::estimates::difference;
+use impact_numerics::statistics::Estimate;
+use literate::table::Table;
+use literate::value::origin;
 
 /// All tables.
 pub fn tables(starts: &Starts) -> Vec<Table> {
@@ -45,7 +45,7 @@ pub fn tables(starts: &Starts) -> Vec<Table> {
         .computed_by(origin(sweep::reduce))
         .estimate("rejected", "1", "share of the random starts there that overlap", |last| {
             last.and_then(|row| {
-                crate::numerics::estimates::share(row.rejected as u64, row.realisations as u64)
+                impact_numerics::estimates::share(row.rejected as u64, row.realisations as u64)
             })
         })
         .done();

@@ -2,10 +2,10 @@
 //! that of the whole, wherever the cuts are.
 
 use super::{Error, Progress};
-use crate::dynamics::observe::{Observed, observe};
-use crate::dynamics::{self, Engine, Scenario};
-use crate::numerics::random::NormalPairs;
 use crate::params::{Chain, Protocol};
+use impact_chain::observe::{Observed, observe};
+use impact_chain::{self, Engine, Scenario};
+use impact_numerics::random::NormalPairs;
 use serde::{Deserialize, Serialize};
 
 /// How one realisation ended.
@@ -16,7 +16,7 @@ pub enum Outcome {
     /// It started with an overlapping gap.
     Rejected,
     /// The engine gave up, after what was observed.
-    Failed(Observed, dynamics::Error),
+    Failed(Observed, impact_chain::Error),
 }
 
 /// Runs realisation `index` of a chain at σ = `sigma` and observes it.
@@ -36,7 +36,7 @@ pub fn realisation(
     let scenario = Scenario::draw(chain, sigma, &mut NormalPairs::new(stream, seed, index));
     let mut engine = match Engine::new(&scenario) {
         Ok(engine) => engine,
-        Err(dynamics::Error::Overlap { .. }) => return Ok(Outcome::Rejected),
+        Err(impact_chain::Error::Overlap { .. }) => return Ok(Outcome::Rejected),
         Err(source) => return Err(Error::failed("sweep", source)),
     };
     let Protocol { transient, window } = protocol;
@@ -152,7 +152,7 @@ mod tests {
             adjacent_pairs: impacts / 5,
             contact_phases: 1,
         };
-        let error = |gap| dynamics::Error::Work { gap, time: 1.5, bound: 7 };
+        let error = |gap| impact_chain::Error::Work { gap, time: 1.5, bound: 7 };
         let outcomes = [
             Outcome::Counted(seen(4, 40)),
             Outcome::Rejected,

@@ -7,11 +7,11 @@
 
 use super::ensembles::each;
 use super::{Error, Progress};
-use crate::dynamics::{Engine, Initial, Scenario};
-use crate::numerics::random::NormalPairs;
 use crate::params::{Boundary, Chain, TwoMassesParams};
-use crate::table::Table;
-use crate::value::origin;
+use impact_chain::{Engine, Initial, Scenario};
+use impact_numerics::random::NormalPairs;
+use literate::table::Table;
+use literate::value::origin;
 use serde::{Deserialize, Serialize};
 
 /// The smallest forces that lead to an impact.

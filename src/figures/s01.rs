@@ -2,7 +2,7 @@
 
 use super::prelude::*;
 use crate::experiments::Results;
-use crate::numerics::statistics::Estimate;
+use impact_numerics::statistics::Estimate;
 
 /// The windows, and their looks.
 const WINDOWS: [(f64, Mark, Colour, Dash); 3] = [

@@ -3,7 +3,7 @@
 use super::FORCING;
 use super::prelude::*;
 use crate::experiments::Results;
-use crate::table::Table;
+use literate::table::Table;
 
 /// The σ of (a).
 const SIGMAS: (f64, f64) = (0.055, 0.165);

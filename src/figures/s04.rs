@@ -5,7 +5,7 @@ use super::prelude::*;
 use super::simulated::count_axis;
 use crate::experiments::sweep::Sweep;
 use crate::experiments::{Results, SWEEP};
-use crate::table::Table;
+use literate::table::Table;
 
 /// The σ of (a).
 const SIGMAS: (f64, f64) = (0.075, 0.165);

@@ -4,9 +4,9 @@ use super::FORCING;
 use super::prelude::*;
 use crate::experiments::chains::{Chains, Curve};
 use crate::experiments::{CHAINS, Results};
-use crate::numerics::statistics::Estimate;
 use crate::params::{ChainCurve, ChainKind};
-use crate::table::Table;
+use impact_numerics::statistics::Estimate;
+use literate::table::Table;
 
 /// Marks and colours of lengths, from the smallest.
 const LOOKS: [(Mark, Colour); 4] =

@@ -5,7 +5,7 @@ use super::prelude::*;
 use super::simulated::count_axis;
 use crate::experiments::restitution::Restitution;
 use crate::experiments::{RESTITUTION, Results};
-use crate::table::Table;
+use literate::table::Table;
 
 /// Restitutions of (a), and their looks.
 const RISES: [(f64, Mark, Colour); 5] = [

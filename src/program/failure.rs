@@ -2,9 +2,9 @@
 
 use super::signals::{INTERRUPTED, yield_to_end};
 use crate::experiments::{Error, say};
-use crate::input::{is_obeyed, one_line, remedy};
 use crate::report::{self, contents};
-use crate::{claims, dynamics, figures};
+use crate::{claims, figures};
+use literate::input::{is_obeyed, one_line, remedy};
 use std::fmt::Display;
 use std::io;
 use std::process::ExitCode;
@@ -119,7 +119,7 @@ impl From<Error> for Failure {
 
 /// Whether a run was refused for what it was given.
 fn is_input(error: &(dyn std::error::Error + Send + Sync + 'static)) -> bool {
-    matches!(error.downcast_ref(), Some(dynamics::Error::Input { .. }))
+    matches!(error.downcast_ref(), Some(impact_chain::Error::Input { .. }))
 }
 
 impl From<claims::Error> for Failure {

@@ -3,8 +3,8 @@
 use super::waiting::is_staging;
 use super::{Failure, typed};
 use crate::experiments::Progress;
-use crate::input;
 use crate::report::{LAB, sums};
+use literate::input;
 use std::io;
 use std::path::{Component, Path, PathBuf};
 

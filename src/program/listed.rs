@@ -3,12 +3,12 @@
 use super::output::names;
 use super::waiting::is_staging;
 use super::{Failure, folder, shown, stdout, work};
-use crate::digest::sha256;
 use crate::experiments::{Progress, alive};
-use crate::input::is_obeyed;
 use crate::params::Profile;
 use crate::report::values::Number;
 use crate::report::{compare, sums};
+use literate::digest::sha256;
+use literate::input::is_obeyed;
 use std::collections::BTreeMap;
 use std::io::ErrorKind;
 use std::path::Path;

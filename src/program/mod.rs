@@ -23,8 +23,8 @@ pub mod work;
 pub use failure::Failure;
 
 use crate::experiments::say;
-use crate::input::{one_line, plain};
 use failure::LONGEST;
+use literate::input::{one_line, plain};
 use std::path::Path;
 use std::process::ExitCode;
 

@@ -10,8 +10,8 @@ use super::places::{lies_in_report, refuse_dangling};
 use super::signals;
 use super::waiting::{Waiting, clear, is_living, is_staging};
 use super::{Failure, folder};
-use crate::input::{bare, is_absent, listed, one_line};
 use crate::report::{Document, Files, PROGRAM, sums};
+use literate::input::{bare, is_absent, listed, one_line};
 use std::collections::BTreeSet;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -236,7 +236,7 @@ mod tests {
     use super::super::waiting::OURS;
     use super::*;
     use crate::experiments::Progress;
-    use crate::input::STAGING;
+    use literate::input::STAGING;
     use std::time::Duration;
 
     const ASK: Force = Force { force: false };

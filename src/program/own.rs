@@ -1,9 +1,9 @@
 //! What the lists in a folder say that the program wrote there.
 
 use super::{Failure, folder};
-use crate::digest::sha256;
-use crate::input::{is_absent, one_line};
 use crate::report::{Document, Files, LAB, PROGRAM, ledger, sums};
+use literate::digest::sha256;
+use literate::input::{is_absent, one_line};
 use std::collections::BTreeMap;
 use std::io;
 use std::path::Path;

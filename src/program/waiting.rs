@@ -1,7 +1,7 @@
 //! Folders in which files wait until all are complete, and what killed runs leave of them.
 
 use super::signals;
-use crate::input::{STAGING, bare, is_settled};
+use literate::input::{STAGING, bare, is_settled};
 use std::fs::File;
 use std::io;
 use std::path::Path;

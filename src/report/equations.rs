@@ -86,7 +86,7 @@ pub fn homes(number: u32) -> impl Iterator<Item = Home> {
 /// Where an equation lives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Home {
-    /// Path of the item, as `circuits::jump::p_crit`.
+    /// Path of the item, as `impact_circuits::jump::p_crit`.
     pub item: &'static str,
     /// The file, as `crates/circuits/src/jump.rs`.
     pub file: &'static str,
@@ -121,7 +121,7 @@ mod tests {
     #[test]
     fn homes_are_read_from_the_comments() {
         let home = |number| homes(number).next().unwrap();
-        assert_eq!(home(18).item, "circuits::jump::p_crit");
+        assert_eq!(home(18).item, "impact_circuits::jump::p_crit");
         assert_eq!(home(18).step_towards(), None);
         assert_eq!(home(14).step_towards(), Some("(18)"));
     }

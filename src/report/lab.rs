@@ -42,7 +42,7 @@ mod tests {
         for (i, found) in own.found.iter().enumerate() {
             assert_eq!(data["runs"][i]["found"]["digest"], found.digest.as_str());
             let asked = serde_json::from_value(data["runs"][i]["asked"].clone());
-            let asked: crate::dynamics::replay::Asked = asked.unwrap();
+            let asked: impact_chain::replay::Asked = asked.unwrap();
             assert_eq!(asked, own.parameters[i].1);
         }
     }

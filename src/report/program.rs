@@ -10,11 +10,11 @@ pub const PROGRAM: Program = Program {
     sources: include!(concat!(env!("OUT_DIR"), "/sources.rs")),
     crates: &[
         ("impact_paper::", ""),
-        ("impact_chain::", "dynamics::"),
-        ("impact_circuits::", "circuits::"),
-        ("impact_numerics::", "numerics::"),
+        ("impact_chain::", "impact_chain::"),
+        ("impact_circuits::", "impact_circuits::"),
+        ("impact_numerics::", "impact_numerics::"),
     ],
-    quoted: &["numerics::", "dynamics::", "circuits::"],
+    quoted: &["impact_numerics::", "impact_chain::", "impact_circuits::"],
     recipe,
     judge: |claim| format!("claims::{}", claim.split('_').next().unwrap_or_default()),
     exists: committed::exists,
@@ -109,7 +109,7 @@ mod tests {
     /// A module has the place of its file.
     #[test]
     fn items_have_a_place() {
-        let jump = PROGRAM.place("circuits::jump::p_jump", |_| None).unwrap();
+        let jump = PROGRAM.place("impact_circuits::jump::p_jump", |_| None).unwrap();
         assert_eq!(jump.file, "crates/circuits/src/jump.rs");
         let text = std::fs::read_to_string(jump.file).unwrap();
         assert!(text.lines().nth(jump.line - 1).unwrap().contains("fn p_jump"));
@@ -118,14 +118,16 @@ mod tests {
 
     #[test]
     fn a_renamed_item_is_refused() {
-        let error = PROGRAM.item("circuits::jump::p_yump").unwrap_err();
+        let error = PROGRAM.item("impact_circuits::jump::p_yump").unwrap_err();
         assert!(error.contains("`p_yump`") && error.contains("p_jump, "), "{error}");
-        assert!(PROGRAM.item("circuits::yump::p_jump").unwrap_err().contains("there is no item"));
+        assert!(
+            PROGRAM.item("impact_circuits::yump::p_jump").unwrap_err().contains("there is no item")
+        );
         let error = PROGRAM.item("cli::run").unwrap_err();
         assert!(
-            error.contains("no such module; begin with one of numerics::…, dynamics::…"),
+            error.contains("no such module; begin with one of impact_numerics::…, impact_chain::…"),
             "{error}"
         );
-        assert!(PROGRAM.item("dynamics::flight::Phases::kick").is_err());
+        assert!(PROGRAM.item("impact_chain::flight::Phases::kick").is_err());
     }
 }

@@ -1,13 +1,13 @@
 //! Segments: from one state, is the next impact the right one, and at the right time?
 //!
 //! The state is what the doubles of the scenario say, exactly; chaos has no time to act. Times and
-//! closing speeds are held to the bounds of `dynamics::rounding`, and misses and ghosts are counted.
+//! closing speeds are held to the bounds of `impact_chain::rounding`, and misses and ghosts are counted.
 
 use crate::reference::{Dd, Real, Reference};
 use crate::{first, given};
-use impact_paper::dynamics::rounding::{self, TIME};
-use impact_paper::dynamics::{Engine, Error, Initial, Overtone, Scenario};
-use impact_paper::numerics::random::NormalPairs;
+use impact_chain::rounding::{self, TIME};
+use impact_chain::{Engine, Error, Initial, Overtone, Scenario};
+use impact_numerics::random::NormalPairs;
 use impact_paper::params::Boundary;
 
 /// The closing speed is off by at most ε S (C′ max(ω, Ω) + C M₂/v), where M₂ = ω² R₁ + Ω² R₂ bounds Δ'' and its term is what

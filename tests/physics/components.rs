@@ -3,8 +3,8 @@
 use crate::reference::Real;
 use crate::trace;
 use crate::traces::held;
-use impact_paper::dynamics::{Engine, Initial, Overtone, Scenario};
-use impact_paper::numerics::random::NormalPairs;
+use impact_chain::{Engine, Initial, Overtone, Scenario};
+use impact_numerics::random::NormalPairs;
 use impact_paper::params::{Boundary, Chain, Start};
 
 /// A chain whose components share the mean square displacement that σ = `sigma` gives.

@@ -2,7 +2,7 @@
 //! forcing only, so a mass under F cos Ωt is at j d + a − F/3 at t = 0, and forces are known.
 
 use crate::{given, run};
-use impact_paper::dynamics::{Engine, Impact, Initial, Scenario};
+use impact_chain::{Engine, Impact, Initial, Scenario};
 
 /// Masses at these places, with these velocities, under these forces.
 fn scene(masses: &[(f64, f64)], forces: &[f64], restitution: f64) -> Scenario {

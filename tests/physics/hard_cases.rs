@@ -3,9 +3,9 @@
 
 use crate::reference::{Big, Dd, Real, Reference};
 use crate::{drawn, first, given, run, trace};
-use impact_paper::dynamics::methods::State;
-use impact_paper::dynamics::{Engine, Initial, Overtone, Scenario};
-use impact_paper::numerics::random::NormalPairs;
+use impact_chain::methods::State;
+use impact_chain::{Engine, Initial, Overtone, Scenario};
+use impact_numerics::random::NormalPairs;
 use impact_paper::params::Chain;
 
 /// One mass between walls, with free part (a, b) and forcing (α, β).

@@ -13,8 +13,8 @@ mod segments;
 mod simultaneous;
 mod traces;
 
-use impact_paper::dynamics::{Engine, Impact, Initial, Scenario};
-use impact_paper::numerics::random::NormalPairs;
+use impact_chain::{Engine, Impact, Initial, Scenario};
+use impact_numerics::random::NormalPairs;
 use impact_paper::params::Chain;
 
 /// A chain drawn from a stream of random numbers.

@@ -1,10 +1,10 @@
 //! The rivals of the engine: each converges at its order, and fails where its documentation says.
 
 use crate::{drawn, given, run};
-use impact_paper::dynamics::methods::{
+use impact_chain::methods::{
     Certified, Cost, Method, MoreauJean, Penalty, RungeKutta, Sampled, State, Verlet,
 };
-use impact_paper::dynamics::{Engine, Error, Impact, Scenario};
+use impact_chain::{Engine, Error, Impact, Scenario};
 use impact_paper::params::{Boundary, Chain};
 
 fn chain(masses: usize, boundary: Boundary, sigma: f64, index: u64) -> Scenario {

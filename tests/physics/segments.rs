@@ -9,7 +9,7 @@
 use crate::reference::{Dd, Hit, Real};
 use crate::trace;
 use crate::traces::held;
-use impact_paper::dynamics::Scenario;
+use impact_chain::Scenario;
 use impact_paper::experiments::segments::FILES;
 
 /// The impacts as gaps: L-1, 1-2, 2-3 and 3-R are 0, 1, 2 and 3. That of Sec. 5 is not simple; both close.

@@ -3,8 +3,8 @@
 
 use crate::reference::{Dd, Reference};
 use crate::{drawn, first, run, trace};
-use impact_paper::dynamics::{Engine, Initial, Scenario};
-use impact_paper::numerics::random::NormalPairs;
+use impact_chain::{Engine, Initial, Scenario};
+use impact_numerics::random::NormalPairs;
 use impact_paper::params::Chain;
 
 fn draw(masses: usize, sigma: f64, index: u64) -> Scenario {

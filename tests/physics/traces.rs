@@ -2,7 +2,7 @@
 
 use crate::reference::{Big, Dd, Hit, Real, Reference};
 use crate::{drawn, trace};
-use impact_paper::dynamics::Scenario;
+use impact_chain::Scenario;
 use impact_paper::params::{Boundary, Chain, Start};
 
 #[test]

@@ -1,8 +1,8 @@
 //! `impact-paper eval`: the contract of its output, and each kind of bad input.
 
-use impact_paper::circuits::distribution::{Law, SampleSpace};
-use impact_paper::circuits::impact_probability::ImpactProbability;
-use impact_paper::circuits::{LARGEST_N, counting, jump};
+use impact_circuits::distribution::{Law, SampleSpace};
+use impact_circuits::impact_probability::ImpactProbability;
+use impact_circuits::{LARGEST_N, counting, jump};
 use serde_json::{Value, json};
 use std::path::Path;
 

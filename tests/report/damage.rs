@@ -2,15 +2,17 @@
 //! panics or hangs, and each refusal is one line.
 
 use crate::quick::QUICK;
+use impact_chain::Scenario;
+use impact_numerics::random::generator;
+use impact_paper::claims::Published;
 use impact_paper::experiments::built::code;
-use impact_paper::numerics::random::generator;
 use impact_paper::report::bibliography::Library;
 use impact_paper::report::filler::Filler;
 use impact_paper::report::labels::Labels;
 use impact_paper::report::origin::Filled;
 use impact_paper::report::{Document, Error, PROGRAM, Templates};
 use impact_paper::report::{compare, latex, ledger, markdown, parse, sums};
-use impact_paper::{claims::Published, digest::sha256, dynamics::Scenario};
+use literate::digest::sha256;
 use literate::experiments::identity::{Identity, told};
 use literate::experiments::store;
 use rand::RngExt;

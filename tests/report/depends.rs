@@ -47,7 +47,7 @@ fn a_change_that_matters_is_seen_and_another_is_not() {
         ("crates/literate/src/experiments/cutting.rs", "pub struct Unit;\n"),
         (
             "src/experiments/near.rs",
-            "use super::{Error, Unit, watch::{self, Watch as Seen}};\nuse crate::digest::sha256;\nuse crate::params::{Chain, SEED};\nuse crate::dynamics::Engine;\npub struct Near;\n",
+            "use super::{Error, Unit, watch::{self, Watch as Seen}};\nuse literate::digest::sha256;\nuse crate::params::{Chain, SEED};\nuse impact_chain::Engine;\npub struct Near;\n",
         ),
         ("src/experiments/watch.rs", "pub struct Watch;\n"),
         ("src/experiments/chain.rs", "use crate::params::Chain;\n"),

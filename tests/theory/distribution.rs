@@ -2,9 +2,9 @@
 
 use crate::high_precision::{Big, big, int, near, relative_error};
 use SampleSpace::{FiveClasses, FiveClassesPrinted, Simple};
-use impact_paper::circuits::counting;
-use impact_paper::circuits::distribution::{Law, SampleSpace};
-use impact_paper::circuits::higher_order::{CLASSES, Class};
+use impact_circuits::counting;
+use impact_circuits::distribution::{Law, SampleSpace};
+use impact_circuits::higher_order::{CLASSES, Class};
 
 /// The weights of k = 1..=N, term by term as Eqs. (10) and (38) have them.
 pub fn weights(space: SampleSpace, big_n: usize, p: f64) -> Vec<Big> {

@@ -4,8 +4,8 @@ use crate::distribution::weights;
 use crate::high_precision::{Big, big, exp, int, near, relative_error};
 use SampleSpace::{FiveClasses, FiveClassesPrinted, Simple};
 use dashu::integer::UBig;
-use impact_paper::circuits::distribution::{Law, SampleSpace};
-use impact_paper::circuits::{Error, jump};
+use impact_circuits::distribution::{Law, SampleSpace};
+use impact_circuits::{Error, jump};
 
 #[test]
 fn p_crit_to_the_last_digits() {

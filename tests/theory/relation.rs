@@ -1,8 +1,8 @@
 //! Eqs. (20) to (25) against quadrature in 67-digit arithmetic.
 
 use crate::high_precision::{Big, Gauss, big, exp, int, relative_error, root_two};
-use impact_paper::circuits::Error;
-use impact_paper::circuits::impact_probability::{ImpactProbability, density_forced, density_free};
+use impact_circuits::Error;
+use impact_circuits::impact_probability::{ImpactProbability, density_forced, density_free};
 use std::f64::consts::SQRT_2;
 
 /// The parameters of one case, σ, d, ω, Ω as exact numbers; √2 for the double nearest to it.

@@ -1,8 +1,8 @@
 //! What the figures draw: consistency of the results with the circuits and with themselves.
 
-use impact_paper::circuits::distribution::{Law, SampleSpace};
-use impact_paper::circuits::impact_probability::ImpactProbability;
-use impact_paper::circuits::{counting, jump};
+use impact_circuits::distribution::{Law, SampleSpace};
+use impact_circuits::impact_probability::ImpactProbability;
+use impact_circuits::{counting, jump};
 use impact_paper::experiments::theory::{self, Theory};
 use impact_paper::params::VERTICES;
 use std::sync::LazyLock;

@@ -2,10 +2,10 @@
 
 use super::text::fate;
 use super::{by_weight, count, signed};
-use impact_paper::input::{is_obeyed, one_line};
 use impact_paper::report::compare::{Change, ClaimChange, Diff};
 use impact_paper::report::markdown::escaped;
 use impact_paper::report::spell;
+use literate::input::{is_obeyed, one_line};
 
 /// Of more rows the largest are shown.
 const ROWS: usize = 40;

@@ -5,11 +5,11 @@ mod revision;
 mod text;
 
 use super::{Failure, folder, shown, stdout};
+pub use impact_numerics::text::count;
 use impact_paper::experiments::{Progress, alive};
-use impact_paper::input::{self, FOUND};
-pub use impact_paper::numerics::text::count;
 use impact_paper::report::Files;
 use impact_paper::report::compare::{self, Change, Diff, Parts};
+use literate::input::{self, FOUND};
 use serde_json::json;
 use std::path::Path;
 

@@ -1,8 +1,8 @@
 //! The report of a revision of git, read by the git command.
 
 use super::super::{Failure, folder};
-use impact_paper::input::one_line;
 use impact_paper::report::{Files, sums};
+use literate::input::one_line;
 use std::io::ErrorKind;
 
 /// The folder of the report in a revision, from where the program runs.

@@ -1,8 +1,8 @@
 //! A comparison for the terminal.
 
 use super::{by_weight, count, signed};
-use impact_paper::input::is_obeyed;
 use impact_paper::report::compare::{Change, ClaimChange, Diff};
+use literate::input::is_obeyed;
 
 /// All of it.
 pub fn text(old: &str, new: &str, diff: &Diff) -> String {

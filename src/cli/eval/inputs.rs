@@ -4,7 +4,7 @@ use super::Options;
 use super::quantity::Quantity;
 use crate::cli::sigmas::LARGEST;
 use crate::cli::{Failure, number};
-use impact_paper::circuits::LARGEST_N;
+use impact_circuits::LARGEST_N;
 use impact_paper::params::{Chain, VERTICES};
 use serde::Serialize;
 

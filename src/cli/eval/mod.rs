@@ -4,7 +4,7 @@ mod inputs;
 mod quantity;
 
 use super::{Failure, stdout};
-use impact_paper::circuits;
+use impact_circuits;
 use impact_paper::experiments::say;
 use inputs::Inputs;
 use quantity::{QUANTITIES, Quantity, Value};
@@ -100,7 +100,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
 }
 
 /// The error in terms of the option that was typed: `--masses` gives N too.
-fn explain(error: circuits::Error, inputs: &Inputs) -> Failure {
+fn explain(error: impact_circuits::Error, inputs: &Inputs) -> Failure {
     let message = error.to_string();
     match (inputs.masses, message.strip_prefix("vertices:")) {
         (Some(_), Some(rest)) => Failure::input(format!("masses (N = n + 1):{rest}")),
@@ -132,6 +132,6 @@ fn help() -> String {
          the number of different vertices, and circuits are primitive (a repetition of a shorter \
          one is not counted).",
         list(),
-        circuits::LARGEST_N
+        impact_circuits::LARGEST_N
     )
 }

@@ -1,9 +1,9 @@
 //! The quantities that `eval` knows: a row each.
 
 use super::inputs::{Inputs, Need};
-use impact_paper::circuits::distribution::{Law, SampleSpace};
-use impact_paper::circuits::impact_probability::ImpactProbability;
-use impact_paper::circuits::{Error, counting, jump};
+use impact_circuits::distribution::{Law, SampleSpace};
+use impact_circuits::impact_probability::ImpactProbability;
+use impact_circuits::{Error, counting, jump};
 use serde::Serialize;
 
 /// A result: floats keep their decimal point, integers have none.

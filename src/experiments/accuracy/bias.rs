@@ -2,13 +2,13 @@
 //! the differences chain by chain.
 
 use super::routes::method;
-use crate::dynamics::methods::{Cost, State};
-use crate::dynamics::{Impact, Scenario};
 use crate::experiments::ensembles::{Begun, Ensembles, joined_by};
 use crate::experiments::{Error, Progress, weights};
-use crate::numerics::random::NormalPairs;
-use crate::numerics::statistics::{mean, standard_error};
 use crate::params::{BiasParams, Chain, MethodName, Protocol, Setting};
+use impact_chain::methods::{Cost, State};
+use impact_chain::{Impact, Scenario};
+use impact_numerics::random::NormalPairs;
+use impact_numerics::statistics::{mean, standard_error};
 use literate::experiments::cutting::{Cutting, Row};
 use serde::{Deserialize, Serialize};
 

@@ -1,7 +1,7 @@
 //! A run, what must come out of it, and what a method made of it.
 
-use crate::dynamics::methods::{Method, State};
-use crate::dynamics::{Error, Impact, Scenario};
+use impact_chain::methods::{Method, State};
+use impact_chain::{Error, Impact, Scenario};
 use serde::{Deserialize, Serialize};
 
 /// One run and its outcome.
@@ -273,7 +273,7 @@ fn timed(worst: f64, within: f64) -> Outcome {
 mod tests {
     use super::super::scenes;
     use super::*;
-    use crate::dynamics::methods::{Certified, Cost};
+    use impact_chain::methods::{Certified, Cost};
 
     /// A judge that lets everything pass would be no judge: a false copy of the engine fails.
     #[test]

@@ -2,16 +2,16 @@
 //! they leave the truth, with the counted work of both.
 
 use super::routes::method;
-use crate::dynamics::methods::State;
-use crate::dynamics::methods::truth::{Hit, TrueMotion};
-use crate::dynamics::{self, Impact, Scenario};
 use crate::experiments::ensembles::each;
 use crate::experiments::horizon::{self, Horizon};
 use crate::experiments::{Error, Progress};
-use crate::numerics::double_double::DoubleDouble;
-use crate::numerics::random::NormalPairs;
-use crate::numerics::statistics::{mean, quantile, standard_error};
 use crate::params::{RaceParams, Setting};
+use impact_chain::methods::State;
+use impact_chain::methods::truth::{Hit, TrueMotion};
+use impact_chain::{self, Impact, Scenario};
+use impact_numerics::double_double::DoubleDouble;
+use impact_numerics::random::NormalPairs;
+use impact_numerics::statistics::{mean, quantile, standard_error};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -169,7 +169,7 @@ fn follow(
     setting: Setting,
     course: &Course,
     progress: &Progress,
-) -> (f64, Option<dynamics::methods::Cost>) {
+) -> (f64, Option<impact_chain::methods::Cost>) {
     let mut left = None;
     let mut truth = course.hits.iter().map(|(hit, _)| hit);
     let mut compare = |impact: Impact| {

@@ -1,9 +1,7 @@
 //! From the name of a method and its setting to the method.
 
-use crate::dynamics::methods::{
-    Certified, Method, MoreauJean, Penalty, RungeKutta, Sampled, Verlet,
-};
 use crate::params::{MethodName, Setting};
+use impact_chain::methods::{Certified, Method, MoreauJean, Penalty, RungeKutta, Sampled, Verlet};
 
 /// The method of a setting.
 pub fn method(setting: Setting) -> Box<dyn Method> {

@@ -1,12 +1,12 @@
 //! Counted work of an impact against the number of masses.
 
 use super::routes::method;
-use crate::dynamics::methods::State;
-use crate::dynamics::{Impact, Scenario};
 use crate::experiments::ensembles::each;
 use crate::experiments::{Error, Progress};
-use crate::numerics::random::NormalPairs;
 use crate::params::{ScaleParams, Setting};
+use impact_chain::methods::State;
+use impact_chain::{Impact, Scenario};
+use impact_numerics::random::NormalPairs;
 use serde::{Deserialize, Serialize};
 
 /// Counted work of all methods at all sizes.

@@ -4,11 +4,11 @@
 //! expectation comes from a closed form where there is one, else from the motion to 106 bits.
 
 use super::case::{Case, Expected};
-use crate::dynamics::methods::truth::TrueMotion;
-use crate::dynamics::methods::{Certified, Method, State};
-use crate::dynamics::{Error, Initial, Overtone, Scenario};
-use crate::numerics::random::NormalPairs;
 use crate::params::{Boundary, Chain, SEED};
+use impact_chain::methods::truth::TrueMotion;
+use impact_chain::methods::{Certified, Method, State};
+use impact_chain::{Error, Initial, Overtone, Scenario};
+use impact_numerics::random::NormalPairs;
 use std::f64::consts::{PI, SQRT_2};
 
 /// One kind of trouble.
@@ -402,7 +402,7 @@ mod tests {
                 let Expected::Sequence { impacts, .. } = &case.expected else { panic!("{case:?}") };
                 assert!(impacts.len() >= 2, "{id}: {}", impacts.len());
                 let scenario = case.start.as_scenario(&case.scenario).unwrap();
-                let mut engine = crate::dynamics::Engine::new(&scenario).unwrap();
+                let mut engine = impact_chain::Engine::new(&scenario).unwrap();
                 engine.run(case.until, |_| true).unwrap();
                 assert!(engine.counters().contact_phases > 0, "{id} never sticks");
             }

@@ -5,11 +5,11 @@ use super::race::{self, DISPLACED, Entry, Race};
 use super::scale::{self, Scale, ScaleRow};
 use crate::experiments::Measured;
 use crate::experiments::measured::What;
-use crate::numerics::estimates::with_error;
-use crate::numerics::statistics::Estimate;
 use crate::params::{MethodName, Setting};
-use crate::table::Table;
-use crate::value::origin;
+use impact_numerics::estimates::with_error;
+use impact_numerics::statistics::Estimate;
+use literate::table::Table;
+use literate::value::origin;
 
 /// What a method is called in figures and tables.
 pub fn name(method: MethodName) -> &'static str {

@@ -2,8 +2,8 @@
 
 use super::super::{Error, Progress};
 use super::{Chains, Curve, Ensemble, Part, Run, cases, chain, pieces};
-use crate::numerics::estimates::{average, half_height, width};
 use crate::params::{ChainCurve, ChainsParams};
+use impact_numerics::estimates::{average, half_height, width};
 use rayon::prelude::*;
 
 pub(crate) fn join(

@@ -9,8 +9,8 @@ pub mod tables;
 
 use super::ensembles::{Begun, Ensembles, joined_by};
 use super::{Progress, weights};
-use crate::numerics::statistics::Estimate;
 use crate::params::{Chain, ChainCurve, ChainKind, ChainsParams};
+use impact_numerics::statistics::Estimate;
 use literate::experiments::cutting::{Cutting, Row};
 use serde::{Deserialize, Serialize};
 

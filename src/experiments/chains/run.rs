@@ -3,9 +3,9 @@
 use super::super::ensembles::Running;
 use super::super::{Error, Progress};
 use super::{Run, chain, pieces};
-use crate::dynamics::Scenario;
-use crate::numerics::random::NormalPairs;
 use crate::params::{ChainCurve, ChainsParams};
+use impact_chain::Scenario;
+use impact_numerics::random::NormalPairs;
 
 pub(super) fn realisation(
     parameters: &ChainsParams,

@@ -1,12 +1,12 @@
 //! What chains of other kinds say, each kind beside the paper's.
 
 use super::{Chains, Curve, joining};
-use crate::circuits::impact_probability::ImpactProbability;
-use crate::numerics::estimates::{difference, with_error};
-use crate::numerics::statistics::Estimate;
 use crate::params::{Chain, ChainCurve, ChainKind};
-use crate::table::{Building, Table};
-use crate::value::origin;
+use impact_circuits::impact_probability::ImpactProbability;
+use impact_numerics::estimates::{difference, with_error};
+use impact_numerics::statistics::Estimate;
+use literate::table::{Building, Table};
+use literate::value::origin;
 
 /// The σ of which the text speaks: at the rise.
 const SIGMA: f64 = 0.12;

@@ -1,7 +1,7 @@
 use super::*;
-use crate::dynamics::{Engine, Scenario};
-use crate::numerics::random::NormalPairs;
 use crate::params::{Boundary, Profile, Start};
+use impact_chain::{Engine, Scenario};
+use impact_numerics::random::NormalPairs;
 
 fn curve(masses: usize) -> ChainCurve {
     ChainCurve {

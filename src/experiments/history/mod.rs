@@ -4,9 +4,9 @@ pub mod tables;
 
 use super::ensembles::{Begun, Ensembles, Ran, Running};
 use super::{Error, Progress, weights};
-use crate::dynamics::{Initial, Scenario};
-use crate::numerics::random::NormalPairs;
 use crate::params::HistoryParams;
+use impact_chain::{Initial, Scenario};
+use impact_numerics::random::NormalPairs;
 use literate::experiments::cutting::Row;
 
 /// Counts after a larger force, for each σ, rising.

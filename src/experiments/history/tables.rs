@@ -5,9 +5,9 @@ use super::super::protocol_tables::address;
 use super::super::sweep::tables::mean_all;
 use super::{Counts, History};
 use crate::experiments::{HISTORY, PROTOCOL, SWEEP};
-use crate::numerics::estimates::{average, half_height};
-use crate::numerics::statistics::Estimate;
-use crate::table::Table;
+use impact_numerics::estimates::{average, half_height};
+use impact_numerics::statistics::Estimate;
+use literate::table::Table;
 
 /// Chains at one σ, in the window after one transient.
 struct Row<'a> {

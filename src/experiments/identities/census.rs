@@ -1,10 +1,10 @@
 //! Counts of circuits, against the enumeration of small graphs: Secs. 3, 5 and 9.
 
 use super::{Cases, ClassRange};
-use crate::circuits::Fraction;
-use crate::circuits::counting::{paths, phi};
-use crate::circuits::graph::{Circuit, Graph};
-use crate::circuits::higher_order::{
+use impact_circuits::Fraction;
+use impact_circuits::counting::{paths, phi};
+use impact_circuits::graph::{Circuit, Graph};
+use impact_circuits::higher_order::{
     Class, compositions, doubled, doubled_as_printed, doubled_paths, four_visits, three_visits,
     two_doubled,
 };

@@ -1,9 +1,9 @@
 //! The distribution and its jump, Secs. 6 and 7: identities, signs, zeros and slopes.
 
 use super::Cases;
-use crate::circuits::distribution::{Law, SampleSpace};
-use crate::circuits::{Error, jump};
-use crate::numerics::bisection;
+use impact_circuits::distribution::{Law, SampleSpace};
+use impact_circuits::{Error, jump};
+use impact_numerics::bisection;
 
 /// The p of Figs. 8 to 14, and some beyond.
 const GRID: [f64; 10] = [0.001, 0.005, 0.01, 0.012, 0.015, 0.02, 0.04, 0.1, 0.5, 1.0];

@@ -9,12 +9,12 @@ pub(crate) mod jump;
 pub(crate) mod relation;
 
 use super::rise::ONSET;
-use crate::circuits::counting::ratio_to_longest;
-use crate::circuits::distribution::{Law, SampleSpace};
-use crate::circuits::graph::Graph;
-use crate::circuits::higher_order::doubled_as_printed;
-use crate::circuits::{Error, Fraction, jump as jumps};
 use crate::params::Chain;
+use impact_circuits::counting::ratio_to_longest;
+use impact_circuits::distribution::{Law, SampleSpace};
+use impact_circuits::graph::Graph;
+use impact_circuits::higher_order::doubled_as_printed;
+use impact_circuits::{Error, Fraction, jump as jumps};
 use serde::{Deserialize, Serialize};
 
 /// Whole cases that agree or fail.

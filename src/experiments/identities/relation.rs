@@ -1,13 +1,13 @@
 //! The relation of p and σ, Sec. 8, and gaps that close by themselves.
 
 use super::Nucleation;
-use crate::circuits::Error;
-use crate::circuits::impact_probability::{
+use crate::params::{Chain, Profile, SweepParams};
+use impact_circuits::Error;
+use impact_circuits::impact_probability::{
     ImpactProbability, amplitude, density_forced, density_free,
 };
-use crate::numerics::bisection;
-use crate::numerics::quadrature::GaussLegendre;
-use crate::params::{Chain, Profile, SweepParams};
+use impact_numerics::bisection;
+use impact_numerics::quadrature::GaussLegendre;
 
 /// Amplitudes and start of a mass, in units of d and d ω: (α₁, β₁, x − j d, ẋ).
 type Mass = [f64; 4];

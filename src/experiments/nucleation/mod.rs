@@ -4,9 +4,9 @@ pub mod tables;
 
 use super::ensembles::{Begun, Ensembles, Ran};
 use super::{Error, Progress};
-use crate::dynamics::{self, Engine, Scenario};
-use crate::numerics::random::NormalPairs;
 use crate::params::{Chain, NucleationParams};
+use impact_chain::{self, Engine, Scenario};
+use impact_numerics::random::NormalPairs;
 use literate::experiments::cutting::Row;
 
 /// First impacts of chains from rest, for each length and σ: length by length.
@@ -56,7 +56,7 @@ fn first(
 ) -> Result<First, Error> {
     let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, index);
     let scenario = Scenario::draw(chain, sigma, &mut normals);
-    let fault = |source: dynamics::Error| Error::failed("nucleation", source);
+    let fault = |source: impact_chain::Error| Error::failed("nucleation", source);
     let until = parameters.times.last().copied().unwrap_or(0.0);
     let mut engine = Engine::new(&scenario).map_err(fault)?;
     Ok(engine.next_impact(until).map_err(fault)?.map(|impact| impact.time))

@@ -1,11 +1,11 @@
 //! What follows from first impacts, beside what the reach of single gaps says.
 
 use super::{First, Nucleation, ensembles};
-use crate::circuits::nucleation::chain::{AtLeastOne, Chances, half};
-use crate::circuits::nucleation::reach::Reach;
-use crate::numerics::estimates::share;
 use crate::params::{Chain, NucleationParams};
-use crate::table::Table;
+use impact_circuits::nucleation::chain::{AtLeastOne, Chances, half};
+use impact_circuits::nucleation::reach::Reach;
+use impact_numerics::estimates::share;
+use literate::table::Table;
 use rayon::prelude::*;
 
 /// Angles of the rule for neighbours, which takes their square.

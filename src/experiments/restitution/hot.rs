@@ -10,8 +10,8 @@
 //! and from a narrow start f ∝ exp(−|v|³/(9 A t)). The spring of each place is what a row of charged
 //! sheets is to one sheet: on average it cancels, and here it is left out.
 
-use crate::numerics::quadrature::GaussLegendre;
 use crate::params::Chain;
+use impact_numerics::quadrature::GaussLegendre;
 use pxfm::{f_cbrt, f_exp};
 
 /// Where exp(−x³) is nothing.

@@ -3,9 +3,9 @@
 use super::super::ensembles::{Running, count};
 use super::super::{Error, Progress};
 use super::{Case, Run, chain};
-use crate::dynamics::Scenario;
-use crate::numerics::random::NormalPairs;
 use crate::params::RestitutionParams;
+use impact_chain::Scenario;
+use impact_numerics::random::NormalPairs;
 
 pub(super) fn realisation(
     parameters: &RestitutionParams,

@@ -2,10 +2,10 @@
 
 use super::hot::hot;
 use super::{Case, Restitution, Run, cases};
-use crate::numerics::estimates::{self, average, half_height, jackknife, ratio};
-use crate::numerics::statistics::{Estimate, slope};
 use crate::params::RestitutionParams;
-use crate::table::Table;
+use impact_numerics::estimates::{self, average, half_height, jackknife, ratio};
+use impact_numerics::statistics::{Estimate, slope};
+use literate::table::Table;
 use pxfm::f_log;
 
 /// Windows at the end over which an exponent is fitted.

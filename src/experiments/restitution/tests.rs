@@ -1,8 +1,8 @@
 use super::hot::hot;
 use super::tables::tables;
 use super::*;
-use crate::numerics::quadrature::GaussLegendre;
 use crate::params::{Profile, Protocol};
+use impact_numerics::quadrature::GaussLegendre;
 use pxfm::{f_cbrt, f_exp, f_lgamma};
 
 fn small() -> RestitutionParams {

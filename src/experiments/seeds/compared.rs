@@ -3,9 +3,9 @@
 
 use crate::experiments::protocol_tables::address;
 use crate::experiments::{PROTOCOL, Results, SEEDS};
-use crate::numerics::estimates::difference;
-use crate::numerics::statistics::Estimate;
-use crate::table::Table;
+use impact_numerics::estimates::difference;
+use impact_numerics::statistics::Estimate;
+use literate::table::Table;
 
 /// One transient, by its half height in the map and its means there, with the cells that predict them.
 struct Line<'a> {

@@ -11,10 +11,10 @@
 //! R(l, t) the share that is hit within t.
 
 use super::ByDistance;
-use crate::circuits::nucleation::reach::Reach;
-use crate::numerics::estimates::jackknife;
-use crate::numerics::statistics::{Estimate, last_rise};
 use crate::params::SeedsParams;
+use impact_circuits::nucleation::reach::Reach;
+use impact_numerics::estimates::jackknife;
+use impact_numerics::statistics::{Estimate, last_rise};
 
 /// Angles at which the reach of a gap is computed.
 const ANGLES: usize = 256;
@@ -161,7 +161,7 @@ mod tests {
     /// By the last bin nearly as many gaps have closed as ever will, by the integral for a start from rest.
     #[test]
     fn bins_add_up_to_unlimited_time() {
-        use crate::circuits::impact_probability::ImpactProbability;
+        use impact_circuits::impact_probability::ImpactProbability;
         let parameters = SeedsParams::new(Profile::Quick);
         for (sigma, [_, inner]) in parameters.sigmas.iter().zip(closing(&parameters)) {
             let law = ImpactProbability::of_paper(*sigma).unwrap();

@@ -1,11 +1,11 @@
 //! Runs of chains in which exactly one gap closes by itself.
 
 use super::Seeds;
-use crate::circuits::nucleation::reach::closes_by_itself;
-use crate::dynamics::{self, Engine, Impact, Initial, Scenario};
 use crate::experiments::{Error, Progress, weights};
-use crate::numerics::random::NormalPairs;
 use crate::params::{Chain, SeedsParams};
+use impact_chain::{self, Engine, Impact, Initial, Scenario};
+use impact_circuits::nucleation::reach::closes_by_itself;
+use impact_numerics::random::NormalPairs;
 use literate::experiments::cutting::{Cutting, Row, Unit};
 use literate::experiments::progress::Stage;
 use serde::{Deserialize, Serialize};
@@ -139,7 +139,7 @@ fn trace(
     progress.check()?;
     match ended {
         Ok(()) => Ok(Some(Trace { seed: Some(seed), hits, firsts })),
-        Err(dynamics::Error::Work { .. }) => Ok(None),
+        Err(impact_chain::Error::Work { .. }) => Ok(None),
         Err(source) => Err(fault(source)),
     }
 }
@@ -185,7 +185,7 @@ mod tests {
     use super::super::tables::tables;
     use super::*;
     use crate::params::Profile;
-    use crate::table::Table;
+    use literate::table::Table;
 
     /// The differences of the amplitudes on both sides of each gap of a chain between walls, which are
     /// not forced.

@@ -4,13 +4,13 @@ use super::counting::{bits, ran};
 use super::fronts::{Fronts, Waits, beat};
 use super::growth::{GROUPS, Prediction, closing, predictions};
 use super::{ByDistance, Seeds, Trace};
-use crate::circuits;
-use crate::circuits::distribution::{Law, SampleSpace};
-use crate::circuits::impact_probability::ImpactProbability;
-use crate::numerics::estimates::{average, share};
-use crate::numerics::statistics::Estimate;
 use crate::params::SeedsParams;
-use crate::table::Table;
+use impact_circuits;
+use impact_circuits::distribution::{Law, SampleSpace};
+use impact_circuits::impact_probability::ImpactProbability;
+use impact_numerics::estimates::{average, share};
+use impact_numerics::statistics::Estimate;
+use literate::table::Table;
 use rayon::prelude::*;
 
 const SIGMA: &str = "d omega^2";
@@ -221,7 +221,10 @@ impl Row<'_> {
     }
 
     /// [`circuits()`] at this σ.
-    fn circuits(&self, p: impl Fn(&ImpactProbability) -> Result<f64, circuits::Error>) -> f64 {
+    fn circuits(
+        &self,
+        p: impl Fn(&ImpactProbability) -> Result<f64, impact_circuits::Error>,
+    ) -> f64 {
         circuits(self.parameters, self.sigma, p)
     }
 }
@@ -230,7 +233,7 @@ impl Row<'_> {
 fn circuits(
     parameters: &SeedsParams,
     sigma: f64,
-    p: impl Fn(&ImpactProbability) -> Result<f64, circuits::Error>,
+    p: impl Fn(&ImpactProbability) -> Result<f64, impact_circuits::Error>,
 ) -> f64 {
     let chain = &parameters.chain;
     let (omega, big_omega) = (chain.natural_frequency, chain.forcing_frequency);

@@ -7,9 +7,9 @@
 pub mod tables;
 
 use super::{Error, Progress};
-use crate::dynamics::{Engine, Scenario};
-use crate::numerics::random::NormalPairs;
 use crate::params::SpaceTimeParams;
+use impact_chain::{Engine, Scenario};
+use impact_numerics::random::NormalPairs;
 use serde::{Deserialize, Serialize};
 
 /// The run.
@@ -166,7 +166,7 @@ mod tests {
             let scenario = Scenario::draw(&Chain::default(), found.parameters.sigma, &mut normals);
             let mut last = 0.0;
             let mut engine = Engine::new(&scenario).unwrap();
-            let seen = |impact: crate::dynamics::Impact| {
+            let seen = |impact: impact_chain::Impact| {
                 last = impact.time;
                 true
             };

@@ -1,8 +1,8 @@
 //! What the report says of the run.
 
 use super::{SpaceTime, run};
-use crate::table::Table;
-use crate::value::origin;
+use literate::table::Table;
+use literate::value::origin;
 
 /// The table of the run.
 pub fn tables(own: &SpaceTime) -> Vec<Table> {

@@ -1,8 +1,8 @@
 //! How rare three-way impacts and sticking are (the remark of Sec. 2): power laws over decades.
 
 use super::SweepRow;
-use crate::dynamics::observe::{NEAR_DECADES, SLOW_DECADES};
 use crate::params::{NEAR_SIMULTANEOUS, SLOW};
+use impact_chain::observe::{NEAR_DECADES, SLOW_DECADES};
 use serde::{Deserialize, Serialize};
 
 /// First decade of the law of neighbouring impacts that is fitted, δ = 1e−2: at 1e−1 two impacts
@@ -57,9 +57,9 @@ pub struct LawsTotals {
     /// Impacts.
     pub impacts: u64,
     /// Impacts that follow one of an adjacent gap within each δ of
-    /// [`crate::dynamics::observe::NEAR_DECADES`].
+    /// [`impact_chain::observe::NEAR_DECADES`].
     pub near_decades: Vec<u64>,
-    /// Impacts slower than each v of [`crate::dynamics::observe::SLOW_DECADES`].
+    /// Impacts slower than each v of [`impact_chain::observe::SLOW_DECADES`].
     pub slow_decades: Vec<u64>,
     /// Contact phases.
     pub contact_phases: u64,

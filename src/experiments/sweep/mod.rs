@@ -9,9 +9,9 @@ pub mod tables;
 use super::rise::{Resampled, Rise};
 use super::tally::{Tally, realisation};
 use super::{Error, Progress, weights};
-use crate::dynamics::observe::{NEAR_DECADES, SLOW_DECADES};
-use crate::numerics::statistics as stat;
 use crate::params::{COMPARABLE_REJECTED, Protocol, SweepParams};
+use impact_chain::observe::{NEAR_DECADES, SLOW_DECADES};
+use impact_numerics::statistics as stat;
 use literate::experiments::cutting::{Cutting, Row, Unit};
 use literate::experiments::progress::Stage;
 use rayon::prelude::*;
@@ -240,10 +240,10 @@ pub(crate) fn reduce(parameters: &SweepParams, sigma: f64, tally: Tally) -> Samp
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dynamics;
-    use crate::dynamics::observe::Observed;
     use crate::experiments::tally::Outcome;
     use crate::params::{NEAR_SIMULTANEOUS, Profile, SLOW};
+    use impact_chain;
+    use impact_chain::observe::Observed;
 
     fn counted(distinct: u32, window_impacts: u64) -> Outcome {
         let impacts = 2 * window_impacts;
@@ -261,7 +261,7 @@ mod tests {
     fn nothing_is_dropped_silently() {
         let mut parameters = SweepParams::main(Profile::Quick);
         parameters.chain.masses = 9;
-        let error = dynamics::Error::Work { gap: 3, time: 1.5, bound: 7 };
+        let error = impact_chain::Error::Work { gap: 3, time: 1.5, bound: 7 };
         let outcomes = [
             counted(0, 0),
             counted(4, 40),

@@ -4,10 +4,10 @@ use super::super::{Results, rise};
 use super::laws;
 use super::{Sweep, SweepRow};
 use crate::experiments::{SECOND_SEED, SWEEP};
-use crate::numerics::statistics::Estimate;
 use crate::params::{LEVEL, NEAR_SIMULTANEOUS, PRINTED_THRESHOLD, SLOW};
-use crate::table::Table;
-use crate::value::origin;
+use impact_numerics::statistics::Estimate;
+use literate::table::Table;
+use literate::value::origin;
 
 /// A σ above the rise.
 const ABOVE: f64 = 0.2;
@@ -272,7 +272,7 @@ pub fn largest_between_seeds(first: &Sweep, second: &Sweep) -> Option<(f64, usiz
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numerics::quadrature::GaussLegendre;
+    use impact_numerics::quadrature::GaussLegendre;
 
     /// The amplitude of the difference of two forces is Rayleigh distributed with variance 2σ² in each
     /// quadrature; the chance that it exceeds one is the integral of that density.

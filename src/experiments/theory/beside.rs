@@ -3,8 +3,8 @@
 use super::{Curve, CurveRow, curves};
 use crate::experiments::sweep::{Sweep, SweepRow};
 use crate::experiments::{Results, SWEEP, rise};
-use crate::table::Table;
-use crate::value::origin;
+use literate::table::Table;
+use literate::value::origin;
 
 /// The σ at which the text sets means side by side, as far as the sweep has them.
 const SIGMAS: [f64; 8] = [0.1, 0.11, 0.12, 0.13, 0.14, 0.15, 0.2, 0.3];

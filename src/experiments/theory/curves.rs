@@ -1,10 +1,10 @@
 //! Curves over p and over σ: Figs. 9, 11, 12 and 15.
 
 use super::{Curve, CurveRow, MeanRow, MostLikely, RelationRow, Scalars, Step};
-use crate::circuits::distribution::{Law, SampleSpace};
-use crate::circuits::impact_probability::ImpactProbability;
-use crate::circuits::{Error, jump};
 use crate::params::Grid;
+use impact_circuits::distribution::{Law, SampleSpace};
+use impact_circuits::impact_probability::ImpactProbability;
+use impact_circuits::{Error, jump};
 use rayon::prelude::*;
 
 /// The σ axis of Figs. 11, 12 and 15: 0.02 to 0.4 in steps of 0.001, finer where circuits of higher order add most.

@@ -1,9 +1,9 @@
 //! Distributions at single values of p: Figs. 7, 8, 13 and 14.
 
 use super::{ClassContribution, Distribution, HigherDistribution, SimpleCircuits};
-use crate::circuits::distribution::{Law, SampleSpace};
-use crate::circuits::higher_order::CLASSES;
-use crate::circuits::{Error, counting};
+use impact_circuits::distribution::{Law, SampleSpace};
+use impact_circuits::higher_order::CLASSES;
+use impact_circuits::{Error, counting};
 
 /// Fig. 7.
 pub fn simple_circuits(vertices: usize) -> Result<SimpleCircuits, Error> {

@@ -1,11 +1,11 @@
 //! The jump and its mechanism: Fig. 10 and single numbers.
 
 use super::{Mechanism, Point, Scalars};
-use crate::circuits::distribution::{Law, SampleSpace};
-use crate::circuits::impact_probability::ImpactProbability;
-use crate::circuits::{Error, jump};
-use crate::numerics::bisection;
 use SampleSpace::{FiveClasses, FiveClassesPrinted, Simple};
+use impact_circuits::distribution::{Law, SampleSpace};
+use impact_circuits::impact_probability::ImpactProbability;
+use impact_circuits::{Error, jump};
+use impact_numerics::bisection;
 
 /// Upper end of every search over σ: p(σ) and p_rest(σ) are above 0.99 there.
 const LARGE_SIGMA: f64 = 1.0;

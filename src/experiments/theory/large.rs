@@ -2,10 +2,10 @@
 
 use super::Point;
 use super::jump::sigma_of;
-use crate::circuits::distribution::SampleSpace;
-use crate::circuits::large::{jump_rule, limit_share};
-use crate::circuits::{Error, jump};
 use crate::params::{DRAWN_VERTICES, Grid, LARGE_VERTICES};
+use impact_circuits::distribution::SampleSpace;
+use impact_circuits::large::{jump_rule, limit_share};
+use impact_circuits::{Error, jump};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 

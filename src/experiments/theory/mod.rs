@@ -16,8 +16,8 @@ pub(crate) mod tables;
 pub use large::{Large, LargeJump, LargeShares};
 pub use results::*;
 
-use crate::circuits::Error;
 use crate::params::{CONVERGENCE_P, DISTRIBUTION_P, HIGHER_P};
+use impact_circuits::Error;
 
 /// Computes everything for a graph of `vertices` vertices (main curves) and of one more (thin
 /// curves).

@@ -2,12 +2,12 @@
 
 use super::distributions::{sum, total_variation};
 use super::{FirstLocalMaximum, Point, Slips};
-use crate::circuits::distribution::{Law, SampleSpace};
-use crate::circuits::higher_order::{self, CLASSES};
-use crate::circuits::impact_probability::ImpactProbability;
-use crate::circuits::{Error, Fraction, counting, jump};
 use crate::params::REMARK_P;
 use SampleSpace::{FiveClasses, Simple};
+use impact_circuits::distribution::{Law, SampleSpace};
+use impact_circuits::higher_order::{self, CLASSES};
+use impact_circuits::impact_probability::ImpactProbability;
+use impact_circuits::{Error, Fraction, counting, jump};
 
 /// All of them, for one N.
 pub fn slips(vertices: usize) -> Result<Slips, Error> {

@@ -2,15 +2,15 @@
 
 use super::distributions::sum;
 use super::{Curve, HigherDistribution, MeanRow, Step, Theory, large};
-use crate::circuits::distribution::Law;
-use crate::circuits::graph::Graph;
-use crate::circuits::impact_probability::ImpactProbability;
-use crate::circuits::{commuting, counting, jump};
 use crate::experiments::identities::{self, Identities, relation::sigma_kept};
 use crate::experiments::{Results, theory};
 use crate::params::Chain;
-use crate::table::{Building, Table};
-use crate::value::{Origin, origin};
+use impact_circuits::distribution::Law;
+use impact_circuits::graph::Graph;
+use impact_circuits::impact_probability::ImpactProbability;
+use impact_circuits::{commuting, counting, jump};
+use literate::table::{Building, Table};
+use literate::value::{Origin, origin};
 
 /// All tables of the theory.
 pub fn tables(results: &Results, _: &[Table]) -> Option<Vec<Table>> {

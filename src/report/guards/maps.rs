@@ -5,7 +5,7 @@ use crate::claims;
 use crate::experiments::protocol::{ProtocolCell, ProtocolMap};
 use crate::experiments::rise::Rise;
 use crate::experiments::{LONG_PROTOCOL, PROTOCOL, SWEEP};
-use crate::numerics::statistics::Estimate;
+use impact_numerics::statistics::Estimate;
 
 pub const GUARDS: &[Guard] = &[
     Guard { name: "maps_meet", ids: &["protocol*", "long_protocol*"], find: meet },

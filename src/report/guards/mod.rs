@@ -16,7 +16,7 @@ mod sweep;
 
 use crate::claims::{self, Basis, Check, Kind, Published, Text, Verdict};
 use crate::experiments::Results;
-use crate::numerics::statistics::Estimate;
+use impact_numerics::statistics::Estimate;
 
 /// What a guard may look at.
 #[derive(Clone, Copy, Debug)]

@@ -1,7 +1,7 @@
 //! What restitution does to a chain: what chance must not break.
 
 use super::{Guard, Look};
-use crate::table::Table;
+use literate::table::Table;
 
 pub const GUARDS: &[Guard] = &[
     Guard {

@@ -2,7 +2,7 @@
 
 use super::{Guard, Look, room, unless};
 use crate::claims;
-use crate::numerics::statistics::Estimate;
+use impact_numerics::statistics::Estimate;
 
 pub const GUARDS: &[Guard] = &[
     Guard { name: "two_seeds", ids: &["second_seed.*"], find: two_seeds },

@@ -2,7 +2,7 @@
 
 use super::gap::Gap;
 use super::real::Real;
-use impact_paper::dynamics::{Initial, Scenario};
+use impact_chain::{Initial, Scenario};
 use impact_paper::params::Boundary;
 
 /// One impact.
