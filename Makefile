@@ -1,7 +1,7 @@
 # Every target is one line that calls cargo, the program or a script. Needed: Rust (rust-toolchain.toml
 # names the version), make and a C compiler for linking.
 
-.PHONY: paper quick check deep latex browser test test-checked test-long lint deny identity archive bench measure clean help
+.PHONY: paper quick check latex browser test test-checked test-long lint deny identity archive bench measure clean help
 
 paper: ## the whole reproduction in the full profile, into paper/
 	.ci/module && cargo run --release --locked -- paper
@@ -11,9 +11,6 @@ quick: ## the same with small samples, into target/paper-quick/
 
 check: ## every claim with its verdict; fails if one does not hold
 	cargo run --release --locked -- check
-
-deep: ## what is too long for every report, again, into benches/deep/: minutes on two cores
-	cargo run --release --locked -- run --profile deep --shard 1/1 --out target/deep && cargo run --release --locked -- merge --profile deep target/deep
 
 latex: ## the documents of paper/ by TeX Live, into target/latex (installed when missing)
 	.ci/latex

@@ -19,10 +19,7 @@ pub fn run() -> io::Result<()> {
         source.insert(file.to_string_lossy().replace('\\', "/"), fs::read_to_string(&file)?);
     }
     let mut out = format!("({:?}, &[\n", hash(&fs::read("Cargo.lock")?));
-    let saved = |path: &&String| {
-        path.starts_with("src/experiments/")
-            || path.starts_with("crates/literate/src/experiments/deep/")
-    };
+    let saved = |path: &&String| path.starts_with("src/experiments/");
     for path in source.keys().filter(saved) {
         let _ = writeln!(out, "    ({path:?}, &[");
         for file in depends::files(&source, path) {

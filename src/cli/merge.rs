@@ -19,14 +19,13 @@ pub struct Args {
     #[arg(value_name = "DIR", required = true)]
     folders: Vec<PathBuf>,
     /// Sample sizes.
-    #[arg(long, default_value = "full", value_parser = work::of_all())]
+    #[arg(long, default_value = "full", value_parser = work::profiles())]
     profile: Profile,
     #[command(flatten)]
     only: work::Only,
-    /// Folder in which results of long runs are kept; without it target/results, and benches/deep for
-    /// the deep profile.
-    #[arg(long, value_name = "DIR", value_parser = work::folder())]
-    results: Option<PathBuf>,
+    /// Folder in which results of long runs are kept.
+    #[arg(long, value_name = "DIR", default_value = "target/results", value_parser = work::folder())]
+    results: PathBuf,
     /// Number of threads; all cores without it. It changes no bit of the result.
     #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = threads::read)]
     threads: Option<usize>,
@@ -35,7 +34,7 @@ pub struct Args {
 pub fn run(args: Args) -> Result<(), Failure> {
     let profile = args.profile;
     let plan = args.only.plan(profile)?;
-    let folder = work::results(args.results, profile);
+    let folder = args.results;
     let there = resolved(&folder);
     if args.folders.iter().any(|own| resolved(own) == there) {
         let message = format!(

@@ -1,6 +1,5 @@
 //! One file per verb; the exit codes are a contract.
 
-mod audit;
 mod check;
 mod diff;
 mod eval;
@@ -12,7 +11,6 @@ mod paper;
 mod plan;
 mod shard;
 mod sigmas;
-mod status;
 mod sweep;
 mod trace;
 mod verify;
@@ -57,12 +55,11 @@ const TEMPLATE: &str =
     "{about}\n\n{usage-heading} {usage}\n\n{before-help}Options:\n{options}{after-help}";
 
 /// Who uses which verb.
-const GROUPS: [(&str, &[&str]); 5] = [
+const GROUPS: [(&str, &[&str]); 4] = [
     ("Make and check", &["paper", "check", "verify", "diff"]),
-    ("Look at", &["explain", "status"]),
+    ("Look at", &["explain"]),
     ("Compute", &["eval", "sweep", "trace"]),
     ("On several machines", &["plan", "run", "merge"]),
-    ("For keepers", &["audit"]),
 ];
 
 /// The command line, with its verbs in groups.
@@ -82,7 +79,6 @@ fn command() -> clap::Command {
 
 #[derive(Subcommand)]
 enum Verb {
-    Audit(audit::Args),
     Check(check::Args),
     Diff(diff::Args),
     Eval(eval::Args),
@@ -91,7 +87,6 @@ enum Verb {
     Paper(paper::Args),
     Plan(plan::Args),
     Run(shard::Args),
-    Status(status::Args),
     Sweep(sweep::Args),
     Trace(trace::Args),
     Verify(verify::Args),
@@ -112,7 +107,6 @@ pub fn main() -> ExitCode {
         return program::ended(Err(failure));
     }
     let result = match verb {
-        Verb::Audit(args) => audit::run(args),
         Verb::Check(args) => check::run(args),
         Verb::Diff(args) => diff::run(args),
         Verb::Eval(args) => eval::run(args),
@@ -121,7 +115,6 @@ pub fn main() -> ExitCode {
         Verb::Paper(args) => paper::run(args),
         Verb::Plan(args) => plan::run(args),
         Verb::Run(args) => shard::run(args),
-        Verb::Status(args) => status::run(args),
         Verb::Sweep(args) => sweep::run(args),
         Verb::Trace(args) => trace::run(args),
         Verb::Verify(args) => verify::run(args),

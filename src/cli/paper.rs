@@ -28,7 +28,7 @@ use std::time::{Duration, Instant};
 #[derive(clap::Args)]
 pub struct Args {
     /// Sample sizes.
-    #[arg(long, default_value = "full", value_parser = work::of_reports())]
+    #[arg(long, default_value = "full", value_parser = work::profiles())]
     profile: Profile,
     #[arg(long, value_name = "N", allow_hyphen_values = true, help = figure_help())]
     figure: Vec<String>,
@@ -153,7 +153,7 @@ fn changes(out: &Path, files: &Files) -> Vec<String> {
 /// Where a profile writes unless told otherwise.
 fn default_folder(profile: Profile) -> PathBuf {
     match profile {
-        Profile::Full | Profile::Deep => "paper".into(),
+        Profile::Full => "paper".into(),
         Profile::Quick => "target/paper-quick".into(),
     }
 }

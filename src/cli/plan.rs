@@ -21,7 +21,7 @@ use std::path::PathBuf;
 #[command(verbatim_doc_comment)]
 pub struct Args {
     /// Sample sizes.
-    #[arg(long, default_value = "full", value_parser = work::of_all())]
+    #[arg(long, default_value = "full", value_parser = work::profiles())]
     profile: Profile,
     #[command(flatten)]
     only: work::Only,

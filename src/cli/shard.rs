@@ -19,7 +19,7 @@ pub struct Args {
     #[arg(long, value_name = "i/N", value_parser = share, allow_hyphen_values = true)]
     shard: (usize, usize),
     /// Sample sizes.
-    #[arg(long, default_value = "full", value_parser = work::of_all())]
+    #[arg(long, default_value = "full", value_parser = work::profiles())]
     profile: Profile,
     #[command(flatten)]
     only: work::Only,

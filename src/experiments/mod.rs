@@ -1,5 +1,5 @@
 //! What is run: one experiment a file, and the list of them ([`ALL`]): names, parameters, runs and tables. An
-//! experiment that stands there is known to the whole program. How experiments are saved, cut and carried over is for
+//! experiment that stands there is known to the whole program. How experiments are saved and cut is for
 //! [`literate::experiments`].
 
 pub mod accuracy;
@@ -8,7 +8,6 @@ pub mod ensembles;
 pub mod history;
 pub mod horizon;
 pub mod identities;
-pub mod long;
 pub mod measured;
 pub mod nucleation;
 pub mod protocol;
@@ -46,7 +45,6 @@ use crate::params::{
 use accuracy::{bias, race, scale, tables, trials};
 use built::code;
 use ensembles::cutting;
-use literate::experiments::deep::Deep;
 use literate::experiments::experiment::How::{Cut, Read, Whole};
 use literate::table::Table;
 
@@ -88,13 +86,9 @@ pub const TOGETHER: [Together; 6] = [
     starts_tables::beside_theory,
 ];
 
-/// The experiments that a profile saves: the deep one those that take long, all others all.
-pub fn of(profile: Profile) -> Vec<Need> {
-    let own = |one: &Need| match profile {
-        Profile::Deep => one.carried().is_some(),
-        _ => one.is_saved(),
-    };
-    ALL.iter().copied().filter(own).collect()
+/// The experiments whose results are saved.
+pub fn of(_: Profile) -> Vec<Need> {
+    ALL.iter().copied().filter(|one| one.is_saved()).collect()
 }
 
 /// The motions of Figs. 5(b) and 6(b).
@@ -125,31 +119,32 @@ pub const SWEEP: Experiment<SweepParams, sweep::Sweep, tally::Tally> = Experimen
 };
 
 /// The rise again, with another seed.
-pub const SECOND_SEED: Deep<SweepParams, sweep::Sweep, tally::Tally> = Deep::new(
-    ("second_seed", "the rise with another seed ([@sec:simulation])"),
-    code("src/experiments/sweep/mod.rs"),
-    SweepParams::second_seed,
-    ("second seed", sweep::CUTTING),
-    sweep::tables::of_second_seed,
-);
+pub const SECOND_SEED: Experiment<SweepParams, sweep::Sweep, tally::Tally> = Experiment {
+    name: "second_seed",
+    code: code("src/experiments/sweep/mod.rs"),
+    parameters: SweepParams::second_seed,
+    how: Cut("second seed", sweep::CUTTING),
+    tables: sweep::tables::of_second_seed,
+};
 
 /// Half height against transient and window.
-pub const PROTOCOL: Deep<ProtocolParams, protocol::ProtocolMap, protocol::Part> = Deep::new(
-    ("protocol", "transients and windows ([@tab:protocol])"),
-    code("src/experiments/protocol.rs"),
-    ProtocolParams::new,
-    ("protocol map", protocol::CUTTING),
-    protocol_tables::of_map,
-);
+pub const PROTOCOL: Experiment<ProtocolParams, protocol::ProtocolMap, protocol::Part> =
+    Experiment {
+        name: "protocol",
+        code: code("src/experiments/protocol.rs"),
+        parameters: ProtocolParams::new,
+        how: Cut("protocol map", protocol::CUTTING),
+        tables: protocol_tables::of_map,
+    };
 
 /// Other starts, boundaries, restitutions and frequencies.
-pub const STARTS: Deep<StartsParams, starts::Starts, tally::Tally> = Deep::new(
-    ("starts", "other starts, ends and frequencies ([@tab:starts])"),
-    code("src/experiments/starts.rs"),
-    StartsParams::new,
-    ("variants", starts::CUTTING),
-    starts_tables::tables,
-);
+pub const STARTS: Experiment<StartsParams, starts::Starts, tally::Tally> = Experiment {
+    name: "starts",
+    code: code("src/experiments/starts.rs"),
+    parameters: StartsParams::new,
+    how: Cut("variants", starts::CUTTING),
+    tables: starts_tables::tables,
+};
 
 /// Chaos and its horizon.
 pub const HORIZON: Experiment<HorizonParams, horizon::Horizon> = Experiment {
@@ -194,13 +189,13 @@ pub const RACE: Experiment<RaceParams, race::Race> = Experiment {
 };
 
 /// What methods do to the mean count.
-pub const BIAS: Deep<BiasParams, bias::Biases, bias::Part> = Deep::new(
-    ("bias", "bias of coarse methods ([@tab:bias])"),
-    code("src/experiments/accuracy/bias.rs"),
-    BiasParams::new,
-    ("bias of methods", bias::CUTTING),
-    tables::bias,
-);
+pub const BIAS: Experiment<BiasParams, bias::Biases, bias::Part> = Experiment {
+    name: "bias",
+    code: code("src/experiments/accuracy/bias.rs"),
+    parameters: BiasParams::new,
+    how: Cut("bias of methods", bias::CUTTING),
+    tables: tables::bias,
+};
 
 /// Every method in the scenes where methods fail.
 pub const TRIALS: Experiment<TrialParams, trials::Trials> = Experiment {
@@ -252,50 +247,44 @@ pub const HISTORY: Experiment<HistoryParams, history::History, Vec<history::Coun
 };
 
 /// Chains of other lengths, starts and ends.
-pub const CHAINS: Deep<ChainsParams, chains::Chains, chains::Part> = Deep::new(
-    ("chains", "long chains, other starts and ends ([@sec:chains])"),
-    code("src/experiments/chains/mod.rs"),
-    ChainsParams::new,
-    ("long chains", chains::CUTTING),
-    chains::tables::tables,
-);
+pub const CHAINS: Experiment<ChainsParams, chains::Chains, chains::Part> = Experiment {
+    name: "chains",
+    code: code("src/experiments/chains/mod.rs"),
+    parameters: ChainsParams::new,
+    how: Cut("long chains", chains::CUTTING),
+    tables: chains::tables::tables,
+};
 
 /// Chains of several restitutions.
-pub const RESTITUTION: Deep<
+pub const RESTITUTION: Experiment<
     RestitutionParams,
     restitution::Restitution,
     Vec<Option<restitution::Run>>,
-> = Deep::new(
-    ("restitution", "restitution ([@sec:restitution])"),
-    code("src/experiments/restitution/mod.rs"),
-    RestitutionParams::new,
-    ("restitution", cutting()),
-    restitution::tables::tables,
-);
-
-/// The long end of the map over transients and windows.
-pub const LONG_PROTOCOL: Deep<ProtocolParams, long::LongMap, protocol::Part> = Deep {
-    from: Profile::Quick,
-    distance: Some(long::distance),
-    ..Deep::new(
-        ("long_protocol", "the longest transients ([@tab:long])"),
-        code("src/experiments/long.rs"),
-        ProtocolParams::long,
-        ("long protocol map", long::CUTTING),
-        protocol_tables::of_long,
-    )
+> = Experiment {
+    name: "restitution",
+    code: code("src/experiments/restitution/mod.rs"),
+    parameters: RestitutionParams::new,
+    how: Cut("restitution", cutting()),
+    tables: restitution::tables::tables,
 };
 
+/// The long end of the map over transients and windows.
+pub const LONG_PROTOCOL: Experiment<ProtocolParams, protocol::ProtocolMap, protocol::Part> =
+    Experiment {
+        name: "long_protocol",
+        code: code("src/experiments/protocol.rs"),
+        parameters: ProtocolParams::long,
+        how: Cut("long protocol map", protocol::CUTTING),
+        tables: protocol_tables::of_long,
+    };
+
 /// Chains of several lengths after several transients.
-pub const SIZES: Deep<ChainsParams, chains::Chains, chains::Part> = Deep {
-    from: Profile::Quick,
-    ..Deep::new(
-        ("sizes", "lengths and transients ([@tab:sizes])"),
-        code("src/experiments/chains/mod.rs"),
-        ChainsParams::sizes,
-        ("length and transient", chains::CUTTING),
-        chains::tables::sizes,
-    )
+pub const SIZES: Experiment<ChainsParams, chains::Chains, chains::Part> = Experiment {
+    name: "sizes",
+    code: code("src/experiments/chains/mod.rs"),
+    parameters: ChainsParams::sizes,
+    how: Cut("length and transient", chains::CUTTING),
+    tables: chains::tables::sizes,
 };
 
 /// Runs that a page repeats.

@@ -1,6 +1,5 @@
 //! Tables of the map over transients and windows, and of its long end.
 
-use super::long::LongMap;
 use super::protocol::{ProtocolCell, ProtocolMap, join};
 use impact_numerics::statistics::Estimate;
 use literate::table::Table;
@@ -42,12 +41,12 @@ pub fn range(places: impl Iterator<Item = Option<Estimate>>) -> Option<Estimate>
 }
 
 /// Of its long end.
-pub fn of_long(long: &LongMap) -> Vec<Table> {
-    let all = Table::of("long_protocol.all", &[&long.map.parameters], |own| own.realisations)
+pub fn of_long(long: &ProtocolMap) -> Vec<Table> {
+    let all = Table::of("long_protocol.all", &[&long.parameters], |own| own.realisations)
         .count("realisations", "chains at each σ", |own| own.realisations as u64)
         .count("sigmas", "values of σ", |own| own.sigmas.len() as u64)
         .done();
-    vec![cells("long_protocol.cells", &long.map), all]
+    vec![cells("long_protocol.cells", long), all]
 }
 
 /// The address of a number of a cell.

@@ -2,7 +2,6 @@
 
 use super::{ALL, Error, Need, TOGETHER, identities, theory};
 use crate::params::{Profile, VERTICES};
-use literate::experiments::deep::Audit;
 use literate::experiments::{Found, Typed};
 use literate::table::Table;
 use rayon::prelude::*;
@@ -25,8 +24,6 @@ pub struct Results {
     found: BTreeMap<&'static str, Found>,
     /// Tables of the results, made when first looked at.
     tables: OnceLock<BTreeMap<&'static str, Arc<Table>>>,
-    /// Of each result that is carried over, by the name of its experiment, what became of a sample.
-    pub audits: BTreeMap<String, Audit>,
 }
 
 impl Results {
@@ -103,7 +100,6 @@ impl Results {
             })),
             found: BTreeMap::new(),
             tables: OnceLock::new(),
-            audits: BTreeMap::new(),
         }
     }
 }

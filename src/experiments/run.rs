@@ -16,9 +16,7 @@ pub fn run(
     let mut results = Results::empty(profile);
     let needed = |one: &&Need| needs.iter().any(|need| need.name() == one.name());
     for experiment in ALL.iter().filter(needed) {
-        let (found, audit) = experiment.found(profile, given, store, progress)?;
-        results.put(experiment.name(), found);
-        results.audits.extend(audit.map(|audit| (experiment.name().into(), audit)));
+        results.put(experiment.name(), experiment.found(profile, given, store, progress)?);
     }
     progress.check()?;
     Ok(results)

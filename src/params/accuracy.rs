@@ -110,7 +110,7 @@ impl RaceParams {
             (Penalty, &[1e-1, 1e-2, 1e-3, 1e-4]),
         ]);
         let (until, at_least, chains, segments, settings) = match profile {
-            Profile::Full | Profile::Deep => (250.0, 20.0, 12, 1200, whole),
+            Profile::Full => (250.0, 20.0, 12, 1200, whole),
             Profile::Quick => (30.0, 10.0, 2, 12, quick),
         };
         let chain = Chain { masses: 20, ..Chain::default() };
@@ -120,7 +120,7 @@ impl RaceParams {
             sigma: 0.3,
             until: 300.0,
             realisations: match profile {
-                Profile::Full | Profile::Deep => 60,
+                Profile::Full => 60,
                 Profile::Quick => 6,
             },
             stream: stream.clone(),
@@ -167,7 +167,7 @@ impl TrialParams {
             ]),
             short: profile < Profile::Full,
             clusters: match profile {
-                Profile::Full | Profile::Deep => vec![3, 5],
+                Profile::Full => vec![3, 5],
                 Profile::Quick => Vec::new(),
             },
         }
@@ -196,7 +196,7 @@ impl ScaleParams {
     pub fn new(profile: Profile) -> Self {
         use MethodName::{Certified, MoreauJean, RungeKutta, Sampled, Verlet};
         let (masses, largest, rivals) = match profile {
-            Profile::Full | Profile::Deep => (vec![10, 30, 100, 300, 1000, 10_000], 10_000, 300),
+            Profile::Full => (vec![10, 30, 100, 300, 1000, 10_000], 10_000, 300),
             Profile::Quick => (vec![10, 30, 100, 1000], 1000, 30),
         };
         let list = settings(&[

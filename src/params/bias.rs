@@ -32,7 +32,7 @@ impl BiasParams {
         let short = Protocol { transient: 100.0, window: 100.0 };
         let (scenes, settings) = match profile {
             Profile::Quick => (vec![(0.12, short), (0.3, short)], coarse(2)),
-            Profile::Full | Profile::Deep => {
+            Profile::Full => {
                 let mut list = coarse(64);
                 for (method, value, n) in [
                     (Verlet, 0.01, 10),

@@ -57,14 +57,14 @@ impl ChainsParams {
         let chain = Chain::default();
         let grid = |from, to| {
             let step = match profile {
-                Profile::Full | Profile::Deep => 1,
+                Profile::Full => 1,
                 Profile::Quick => 4,
             };
             Grid::default().and(from, to, step, 100).values()
         };
-        let full = matches!(profile, Profile::Full | Profile::Deep);
+        let full = matches!(profile, Profile::Full);
         let few = |n: usize| match profile {
-            Profile::Full | Profile::Deep => n,
+            Profile::Full => n,
             Profile::Quick => n.div_ceil(24).max(2),
         };
         let plain = |kind: ChainKind, name: String, realisations: usize| ChainCurve {
@@ -88,10 +88,10 @@ impl ChainsParams {
             long(100, 120, grid(8, 16), &[500.0]),
         ];
         if full {
-            // All at one T, then in proportion to ln n, then to n.
+            // All at one T, then in proportion to ln n, one to n.
             curves.extend([
                 long(1000, 8, grid(8, 15), &[500.0, 750.0, 5000.0]),
-                long(10_000, 2, grid(8, 14), &[500.0, 1000.0, 50_000.0]),
+                long(10_000, 2, grid(8, 14), &[500.0, 1000.0]),
             ]);
         }
         let ends: &[f64] = if full { &[100.0, 500.0, 1000.0, 2000.0] } else { &[100.0, 500.0] };
@@ -114,9 +114,8 @@ impl ChainsParams {
         }
     }
 
-    /// Half heights of three lengths after three transients, near enough to tell 0.002 apart; the same
-    /// in every profile.
-    pub fn sizes(_: Profile) -> Self {
+    /// Half heights of three lengths after three transients; of two short ones after two in the quick profile.
+    pub fn sizes(profile: Profile) -> Self {
         let shape =
             ChainsParams { chain: Chain::default(), seed: SEED, ..Self::new(Profile::Quick) };
         let curve = |transient: f64, masses: usize, realisations, middle: u32| ChainCurve {
@@ -130,20 +129,25 @@ impl ChainsParams {
             transients: vec![transient],
             realisations,
         };
-        ChainsParams {
-            curves: vec![
-                curve(500.0, 100, 1200, 117),
-                curve(500.0, 1000, 120, 117),
-                curve(500.0, 10_000, 12, 117),
-                curve(5000.0, 100, 1000, 107),
-                curve(5000.0, 1000, 100, 103),
-                curve(5000.0, 10_000, 10, 103),
-                curve(50_000.0, 100, 800, 103),
-                curve(50_000.0, 1000, 30, 98),
-                curve(50_000.0, 10_000, 3, 96),
+        let curves = match profile {
+            Profile::Full => vec![
+                curve(500.0, 100, 150, 117),
+                curve(500.0, 1000, 15, 117),
+                curve(500.0, 10_000, 2, 117),
+                curve(5000.0, 100, 125, 107),
+                curve(5000.0, 1000, 12, 103),
+                curve(5000.0, 10_000, 2, 103),
+                curve(50_000.0, 100, 100, 103),
+                curve(50_000.0, 1000, 3, 98),
+                curve(50_000.0, 10_000, 2, 96),
             ],
-            stream: "sizes".into(),
-            ..shape
-        }
+            Profile::Quick => vec![
+                curve(50.0, 20, 10, 160),
+                curve(50.0, 100, 2, 140),
+                curve(500.0, 20, 10, 125),
+                curve(500.0, 100, 2, 117),
+            ],
+        };
+        ChainsParams { curves, stream: "sizes".into(), ..shape }
     }
 }

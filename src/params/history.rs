@@ -30,7 +30,7 @@ impl HistoryParams {
     /// The sizes of each profile.
     pub fn new(profile: Profile) -> Self {
         let (sigmas, last, realisations) = match profile {
-            Profile::Full | Profile::Deep => (Grid::default().and(2, 13, 1, 100), 4000.0, 32),
+            Profile::Full => (Grid::default().and(2, 13, 1, 100), 4000.0, 32),
             Profile::Quick => (Grid::default().and(6, 12, 3, 100), 1000.0, 3),
         };
         HistoryParams {

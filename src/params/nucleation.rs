@@ -26,7 +26,7 @@ impl NucleationParams {
     /// The sizes of each profile.
     pub fn new(profile: Profile) -> Self {
         let (lengths, sigmas, last): (&[_], _, _) = match profile {
-            Profile::Full | Profile::Deep => (
+            Profile::Full => (
                 &[(10, 4000), (100, 2000), (1000, 400)],
                 Grid::default().and(6, 16, 1, 100),
                 2000.0,
@@ -77,9 +77,7 @@ impl SeedsParams {
     /// The sizes of each profile.
     pub fn new(profile: Profile) -> Self {
         let (sigmas, realisations) = match profile {
-            Profile::Full | Profile::Deep => {
-                (Grid::default().and(16, 30, 1, 200).and(16, 16, 1, 100), 240)
-            }
+            Profile::Full => (Grid::default().and(16, 30, 1, 200).and(16, 16, 1, 100), 240),
             Profile::Quick => (Grid::default().and(9, 14, 1, 100), 6),
         };
         SeedsParams {

@@ -28,17 +28,20 @@ pub struct ProtocolParams {
 }
 
 impl ProtocolParams {
-    /// The long end of the map: the same in every profile.
-    pub fn long(_: Profile) -> Self {
+    /// The long end of the map.
+    pub fn long(profile: Profile) -> Self {
+        let (transients, windows, step, realisations) = match profile {
+            Profile::Full => (vec![1e3, 4e3, 1e4, 2e4], vec![20.0, 200.0, 2000.0], 1, 12),
+            Profile::Quick => (vec![500.0, 1e3], vec![20.0, 200.0], 11, 2),
+        };
         ProtocolParams {
-            transients: vec![1e3, 4e3, 1e4, 2e4, 5e4, 1e5],
-            windows: vec![20.0, 200.0, 2000.0],
-            // 23 values.
-            sigmas: Grid::default().and(26, 48, 1, 400).values(),
+            transients,
+            windows,
+            sigmas: Grid::default().and(26, 48, step, 400).values(),
             // None is shortened.
             short_above: 1.0,
             short_until: 1e6,
-            realisations: 200,
+            realisations,
             stream: "long-protocol".into(),
             chain: Chain::default(),
             seed: SEED,
@@ -48,7 +51,7 @@ impl ProtocolParams {
     /// The map of each profile.
     pub fn new(profile: Profile) -> Self {
         let (longest, widest, sigmas, realisations) = match profile {
-            Profile::Full | Profile::Deep => {
+            Profile::Full => {
                 (9, 7, Grid::default().and(34, 68, 2, 400).and(18, 22, 1, 100).values(), 120)
             }
             Profile::Quick => (6, 5, Grid::default().and(9, 17, 1, 100).values(), 6),

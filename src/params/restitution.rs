@@ -35,7 +35,7 @@ impl RestitutionParams {
     pub fn new(profile: Profile) -> Self {
         let rise = Grid::default();
         let (restitutions, sigmas, realisations): (&[f64], _, _) = match profile {
-            Profile::Full | Profile::Deep => (
+            Profile::Full => (
                 &[0.0, 0.05, 0.1, 0.2, 0.4, 0.6, 0.8, 0.9, 0.95],
                 rise.and(8, 18, 1, 100).and(4, 6, 1, 20).and(2, 3, 1, 5),
                 24,
@@ -43,7 +43,7 @@ impl RestitutionParams {
             Profile::Quick => (&[0.0, 0.8], rise.and(9, 15, 6, 100).and(30, 60, 30, 100), 2),
         };
         let (heated, doublings, heated_realisations): (&[f64], _, _) = match profile {
-            Profile::Full | Profile::Deep => (&[0.9, 0.98, 0.995, 1.0], 6, 8),
+            Profile::Full => (&[0.9, 0.98, 0.995, 1.0], 6, 8),
             Profile::Quick => (&[0.9, 1.0], 2, 2),
         };
         RestitutionParams {

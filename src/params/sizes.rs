@@ -63,7 +63,7 @@ impl SweepParams {
     /// The main sweep of Sec. 2 (Figs. 2, 3, 12 and 15).
     pub fn main(profile: Profile) -> Self {
         let (sigmas, realisations, level) = match profile {
-            Profile::Full | Profile::Deep => (
+            Profile::Full => (
                 // 69 values, 0.0025 apart where the rise is.
                 Grid::default()
                     .and(4, 15, 1, 200)
@@ -99,7 +99,7 @@ impl SweepParams {
     /// The headline numbers again, with another seed and fewer realisations on the rise only.
     pub fn second_seed(profile: Profile) -> Self {
         let (sigmas, realisations) = match profile {
-            Profile::Full | Profile::Deep => (Grid::default().and(34, 64, 1, 400).values(), 400),
+            Profile::Full => (Grid::default().and(34, 64, 1, 400).values(), 400),
             Profile::Quick => (Grid::default().and(8, 16, 1, 100).values(), 8),
         };
         SweepParams { sigmas, realisations, seed: SECOND_SEED, ..Self::main(profile) }
@@ -136,7 +136,7 @@ impl StartsParams {
     /// The variants of each profile.
     pub fn new(profile: Profile) -> Self {
         let (step, realisations) = match profile {
-            Profile::Full | Profile::Deep => (1, 100),
+            Profile::Full => (1, 100),
             Profile::Quick => (2, 4),
         };
         let near = Grid::default().and(8, 18, step, 100).values();
@@ -197,7 +197,7 @@ impl HorizonParams {
             sigma: 0.2,
             until: 500.0,
             realisations: match profile {
-                Profile::Full | Profile::Deep => 100,
+                Profile::Full => 100,
                 Profile::Quick => 10,
             },
             stream: "horizon".into(),
@@ -229,11 +229,11 @@ impl TwoMassesParams {
         TwoMassesParams {
             chain: Chain { masses: 2, ..Chain::default() },
             times: match profile {
-                Profile::Full | Profile::Deep => vec![1e2, 1e3, 1e4],
+                Profile::Full => vec![1e2, 1e3, 1e4],
                 _ => vec![1e2, 1e3],
             },
             directions: match profile {
-                Profile::Full | Profile::Deep => 40,
+                Profile::Full => 40,
                 Profile::Quick => 10,
             },
             halvings: 28,

@@ -24,7 +24,7 @@ impl SpaceTimeParams {
     /// The run of each profile.
     pub fn new(profile: Profile) -> Self {
         let until = match profile {
-            Profile::Full | Profile::Deep => 4000.0,
+            Profile::Full => 4000.0,
             Profile::Quick => 400.0,
         };
         SpaceTimeParams {

@@ -117,7 +117,6 @@ pub fn own_profile(root: &Path) -> Result<Profile, Failure> {
     let values = compare::read(&text).map_err(|_| unknown("is not one of a report"))?;
     match values.get("profile").map(|value| &value.number) {
         Some(Number::Text(name)) => work::profile(name)
-            .filter(|own| *own != Profile::Deep)
             .ok_or_else(|| unknown("names a profile that this program does not have")),
         _ => Err(unknown("names no profile")),
     }

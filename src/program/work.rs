@@ -1,37 +1,25 @@
 //! What the verbs that take time have in common: sample sizes, experiments by name, and where results are kept.
 
-use super::{Failure, typed};
+use super::Failure;
 use crate::experiments;
 use crate::params::Profile;
 use clap::builder::{PathBufValueParser, PossibleValue, PossibleValuesParser, TypedValueParser};
-use literate::experiments::deep;
 use literate::experiments::shards::Plan;
-use std::path::{Path, PathBuf};
-
-/// Reads the name of a profile, one of these.
-fn profiles(some: &[Profile]) -> impl TypedValueParser<Value = Profile> {
-    let about = |profile| match profile {
-        Profile::Quick => "To try out: seconds",
-        Profile::Full => "The committed report: minutes",
-        Profile::Deep => "What is run now and then, committed, and carried over: minutes",
-    };
-    let known = some.iter().map(|own| PossibleValue::new(own.name()).help(about(*own)));
-    PossibleValuesParser::new(known).try_map(|name| profile(&name).ok_or("unknown"))
-}
+use std::path::PathBuf;
 
 /// The profile of a name.
 pub fn profile(name: &str) -> Option<Profile> {
     Profile::ALL.into_iter().find(|own| own.name() == name)
 }
 
-/// Reads sample sizes of a report.
-pub fn of_reports() -> impl TypedValueParser<Value = Profile> {
-    profiles(&[Profile::Quick, Profile::Full])
-}
-
-/// Reads sample sizes, and what takes longer than any report may.
-pub fn of_all() -> impl TypedValueParser<Value = Profile> {
-    profiles(&Profile::ALL)
+/// Reads sample sizes.
+pub fn profiles() -> impl TypedValueParser<Value = Profile> {
+    let about = |profile| match profile {
+        Profile::Quick => "To try out: seconds",
+        Profile::Full => "The committed report: minutes",
+    };
+    let known = Profile::ALL.map(|own| PossibleValue::new(own.name()).help(about(own)));
+    PossibleValuesParser::new(known).try_map(|name| profile(&name).ok_or("unknown"))
 }
 
 /// Reads a folder that may have to be made: without dots at its end, with which none can be.
@@ -60,27 +48,5 @@ impl Only {
         }
         let plan = Plan::new(experiments::of, profile);
         Ok(if self.names.is_empty() { plan } else { plan.only(&self.names) })
-    }
-}
-
-/// Where results of a profile are kept unless a folder is given: beside the source what is committed,
-/// under target what is not.
-pub fn results(given: Option<PathBuf>, profile: Profile) -> PathBuf {
-    given.unwrap_or_else(|| match profile {
-        Profile::Deep => "benches/deep".into(),
-        _ => "target/results".into(),
-    })
-}
-
-/// How stale results of a profile are made fresh, in the folder that was given.
-pub fn remedy(profile: Profile, given: Option<&Path>) -> String {
-    let results = given.map_or(String::new(), |folder| format!(" --results {}", typed(folder)));
-    match profile {
-        Profile::Deep if given.is_some() => format!(
-            "`impact-paper run --profile deep --shard 1/1 --out NEW` and `impact-paper merge --profile deep{results} NEW` \
-             run them"
-        ),
-        Profile::Deep => deep::REMEDY.into(),
-        _ => format!("`impact-paper paper --profile {}{results}` runs them", profile.name()),
     }
 }

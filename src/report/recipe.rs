@@ -5,7 +5,6 @@ use crate::experiments::measured::FILE;
 use crate::experiments::{ALL, MEASURED};
 use crate::params::{Profile, VERTICES};
 use literate::source::Recipe;
-use serde_json::Value as Json;
 
 /// The recipe of a name, in the profile of a name; None for a name that no experiment has.
 pub fn recipe(name: &str, profile: &str) -> Option<Recipe> {
@@ -17,7 +16,6 @@ pub fn recipe(name: &str, profile: &str) -> Option<Recipe> {
         "theory" => {
             Recipe::of(name, "experiments::theory".into(), &serde_json::json!({"N": VERTICES}))
         }
-        "audits" => Recipe::of(name, "literate::experiments::deep::audit".into(), &Json::Null),
         _ => {
             let experiment = ALL.iter().find(|experiment| experiment.name() == name)?;
             let recipe = Recipe::of(name, experiment.item(), &experiment.parameters(profile));

@@ -156,7 +156,6 @@ run --profile quick --out d => --shard
 run --profile quick --shard 1/3 --out file|file/below => --out: file
 plan --shards 0 => --shards: 0
 merge => DIR
-audit --sample -1%|0|1e-400 => '--sample <SHARE>'; percentage like 10%
 eval => QUANTITY
 eval no-such-thing => no-such-thing; --list
 eval p-crit --no-such-option => --no-such-option

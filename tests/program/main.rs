@@ -30,7 +30,7 @@ const PROGRAM: &str = env!("CARGO_BIN_EXE_impact-paper");
 /// The project's templates.
 const TEMPLATES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/templates");
 
-/// Number of the experiments that are saved in every profile but the deep one.
+/// Number of the experiments that are saved.
 const EXPERIMENTS: usize = 19;
 
 /// A chain of three masses.

@@ -23,7 +23,7 @@ use std::io::{self, Write};
 #[derive(clap::Args)]
 pub struct Args {
     /// Sample sizes.
-    #[arg(long, default_value = "full", value_parser = work::of_reports())]
+    #[arg(long, default_value = "full", value_parser = work::profiles())]
     profile: Profile,
     /// Only this claim (may be repeated); runs no more than it needs.
     #[arg(long, value_name = "ID")]

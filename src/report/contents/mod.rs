@@ -4,10 +4,9 @@
 //! compiler gives ([`super::values::origin`]). Groups
 //! are `v` (ours), `paper` (numbers that the paper chose), `printed` (numbers in its statements), and
 //! one for the cells of each table: `readings`, `compare`, `protocol`, `protocols`, `long`,
-//! `orbits`, `chains`, `sizes`, `starts`, `bias` and `carried`.
+//! `orbits`, `chains`, `sizes`, `starts` and `bias`.
 
 mod accuracy;
-mod carried;
 mod ledger;
 
 use super::claims::printed;
@@ -42,7 +41,7 @@ pub enum Error {
 pub type Section = fn(&Results) -> Result<Vec<Value>, Error>;
 
 /// All values but what the paper printed, in the order of the report.
-pub const SECTIONS: [Section; 2] = [carried::values, |results| Ok(ledger::values(results))];
+pub const SECTIONS: [Section; 1] = [|results| Ok(ledger::values(results))];
 
 /// All values of the report.
 ///
@@ -70,7 +69,6 @@ pub fn rows(
         ("strip", serde_json::to_value(ledger::strip(claims))?),
         ("scene_heads", serde_json::to_value(accuracy::scene_heads(results)?)?),
         ("scene_table", serde_json::to_value(accuracy::scene_table(results)?)?),
-        ("carried_table", serde_json::to_value(carried::table(results)?)?),
     ]))
 }
 

@@ -27,7 +27,7 @@ fn of_rise(rise: &Rise) -> Places {
 /// All maps, by what they were run with.
 fn maps<'a>(look: Look<'a>) -> impl Iterator<Item = (&'a str, &'a ProtocolMap)> {
     let rest = look.results.of(&PROTOCOL).into_iter().map(|map| ("rest", map));
-    let long = look.results.of(&LONG_PROTOCOL).into_iter().map(|long| ("long", &long.map));
+    let long = look.results.of(&LONG_PROTOCOL).into_iter().map(|long| ("long", long));
     rest.chain(long)
 }
 

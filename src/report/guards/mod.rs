@@ -5,7 +5,6 @@
 //! None compares a number with a copy of itself, or with bytes of an earlier run. `impact-paper check` names
 //! each that fails.
 
-mod carried;
 mod chains;
 mod history;
 mod maps;
@@ -43,7 +42,6 @@ pub fn all() -> impl Iterator<Item = &'static Guard> {
     let files = [
         sweep::GUARDS,
         maps::GUARDS,
-        carried::GUARDS,
         nucleation::GUARDS,
         history::GUARDS,
         restitution::GUARDS,

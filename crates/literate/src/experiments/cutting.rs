@@ -104,22 +104,12 @@ impl<P: Sync, U: Send, T> Cutting<P, U, T> {
     /// Runs all units and joins them.
     pub fn run(&self, parameters: &P, name: &str, progress: &Progress) -> Result<T, Error> {
         let units = self.units(parameters);
-        let parts = self.given(parameters, &units.iter().collect::<Vec<_>>(), name, progress)?;
-        self.joined(parameters, parts, progress)
-    }
-
-    /// What some units give, in their order.
-    pub fn given(
-        &self,
-        parameters: &P,
-        units: &[&Unit],
-        name: &str,
-        progress: &Progress,
-    ) -> Result<Vec<U>, Error> {
         let stage = progress.stage(name, units.iter().map(|unit| unit.weight).sum());
         // Units share the cores with the realisations inside them.
-        let part = |unit: &&Unit| (self.part)(parameters, unit, &stage, progress);
-        units.par_iter().with_max_len(1).map(part).collect()
+        let part = |unit: &Unit| (self.part)(parameters, unit, &stage, progress);
+        let parts: Vec<U> =
+            units.par_iter().with_max_len(1).map(part).collect::<Result<_, Error>>()?;
+        self.joined(parameters, parts, progress)
     }
 
     /// The result of the parts of all units, in order.

@@ -19,8 +19,6 @@ pub enum Error {
         "{experiment}: a result is not finite, so it was not saved; this is a fault of the program"
     )]
     NotFinite { experiment: String },
-    #[error("{name}: there is nothing to audit: {why}")]
-    Stale { name: &'static str, why: String },
     #[error("{name}: what a unit of work gave is not understood; run its shard again")]
     NotUnderstood { name: &'static str },
     #[error("{what}; {remedy}")]

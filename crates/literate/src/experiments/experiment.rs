@@ -1,9 +1,8 @@
 //! An experiment: a name, parameters, a way to run it, and the tables that follow.
 
 use super::cutting::{Cutting, Unit};
-use super::deep::Audit;
-use super::identity::{Identity, Reason, told};
-use super::store::{Store, written};
+use super::identity::Identity;
+use super::store::Store;
 use super::{Code, Error, Profile, Progress};
 use crate::table::Table;
 use rayon::prelude::*;
@@ -73,7 +72,7 @@ impl<P: Params, T: Json, U: Json> Experiment<P, T, U> {
                 How::Cut(words, Cutting { rows, part, fits, join })
             }
         };
-        Run { name: self.name, profile, identity, parameters, how, fails: |_| false }
+        Run { name: self.name, profile, identity, parameters, how }
     }
 }
 
@@ -104,19 +103,14 @@ pub trait Entry: Sync {
         true
     }
 
-    /// What it runs, in words with a reference, if it takes so long that its result is committed.
-    fn carried(&self) -> Option<&'static str> {
-        None
-    }
-
-    /// Its result, with the audit of one that is carried over.
+    /// Its result.
     fn found(
         &self,
         profile: Profile,
         given: Given<'_>,
         store: &Store,
         progress: &Progress,
-    ) -> Result<(Found, Option<Audit>), Error>;
+    ) -> Result<Found, Error>;
 
     /// The tables of a result.
     fn tables(&self, found: &Found) -> Vec<Table>;
@@ -151,12 +145,11 @@ impl<P: Params, T: Json, U: Json> Entry for Experiment<P, T, U> {
         given: Given<'_>,
         store: &Store,
         progress: &Progress,
-    ) -> Result<(Found, Option<Audit>), Error> {
-        let found = match &self.how {
+    ) -> Result<Found, Error> {
+        Ok(Arc::new(match &self.how {
             How::Read(read) => read(given)?,
             _ => self.get(profile, store, progress)?,
-        };
-        Ok((Arc::new(found), None))
+        }))
     }
 
     fn tables(&self, found: &Found) -> Vec<Table> {
@@ -175,12 +168,6 @@ pub trait Saved: Send + Sync {
 
     /// What the result depends on.
     fn identity(&self) -> &Identity;
-
-    /// Why the saved result is not to be used; nothing if it is fresh.
-    fn stale(&self, store: &Store) -> Vec<Reason>;
-
-    /// Runs it again and compares with the fresh saved result, byte by byte.
-    fn audit(&self, store: &Store, progress: &Progress) -> Result<bool, Error>;
 
     /// Its units of work: one if it is not cut.
     fn units(&self) -> Vec<Unit>;
@@ -207,8 +194,6 @@ pub(super) struct Run<P, T, U> {
     pub identity: Identity,
     pub parameters: P,
     pub how: How<P, T, U>,
-    /// Whether a result says that it failed.
-    pub fails: fn(&T) -> bool,
 }
 
 impl<P: Send + Sync, T: Json, U: Json> Run<P, T, U> {
@@ -233,24 +218,6 @@ impl<P: Send + Sync, T: Json, U: Json> Saved for Run<P, T, U> {
 
     fn identity(&self) -> &Identity {
         &self.identity
-    }
-
-    fn stale(&self, store: &Store) -> Vec<Reason> {
-        match store.look(&self.identity, self.profile) {
-            Ok(text) => match serde_json::from_str(&text) {
-                Ok(result) if (self.fails)(&result) => vec![Reason::Failed],
-                Ok(_) => Vec::new(),
-                Err(_) => vec![Reason::Schema],
-            },
-            Err(reasons) => reasons,
-        }
-    }
-
-    fn audit(&self, store: &Store, progress: &Progress) -> Result<bool, Error> {
-        let name = self.name;
-        let saved = store.look(&self.identity, self.profile);
-        let saved = saved.map_err(|reasons| Error::Stale { name, why: told(&reasons) })?;
-        Ok(written(name, &self.run(progress)?)? == saved)
     }
 
     fn units(&self) -> Vec<Unit> {

@@ -89,12 +89,6 @@ impl Identity {
         Identity { unit: Some(UnitOf { number, realisations, covers }), ..self.clone() }
     }
 
-    /// Another identity that depends on the code of this one too.
-    pub fn with_code(self, mut other: Identity) -> Identity {
-        other.code.extend(self.code);
-        other
-    }
-
     /// Name of its file in a profile, without the ending.
     pub fn file_stem(&self, profile: Profile) -> String {
         let (experiment, profile) = (&self.experiment, profile.name());
@@ -152,8 +146,6 @@ pub enum Reason {
     Schema,
     /// It cannot be trusted, and why.
     Damaged(String),
-    /// An audit of a committed result found another than was saved.
-    Failed,
 }
 
 impl std::fmt::Display for Reason {
@@ -170,15 +162,7 @@ impl std::fmt::Display for Reason {
             Reason::Dependency => f.write_str("Cargo.lock changed"),
             Reason::Schema => f.write_str("saved in another form"),
             Reason::Damaged(what) => f.write_str(what),
-            Reason::Failed => f.write_str("a sample of it, run again, gave another result"),
         }
-    }
-}
-
-impl Reason {
-    /// Whether only the program is another: what was saved may be what it would give.
-    pub fn is_of_source(&self) -> bool {
-        matches!(self, Reason::Code(_) | Reason::Dependency)
     }
 }
 

@@ -2,7 +2,6 @@
 //! as long as what they are made of is the same.
 
 pub mod cutting;
-pub mod deep;
 mod error;
 pub mod experiment;
 pub mod identity;

@@ -10,20 +10,17 @@ pub enum Profile {
     Quick,
     /// The committed report.
     Full,
-    /// What takes long: run now and then, committed, and carried over.
-    Deep,
 }
 
 impl Profile {
     /// All of them, rising.
-    pub const ALL: [Profile; 3] = [Profile::Quick, Profile::Full, Profile::Deep];
+    pub const ALL: [Profile; 2] = [Profile::Quick, Profile::Full];
 
     /// Its name on the command line, in reports and in names of files.
     pub fn name(self) -> &'static str {
         match self {
             Profile::Quick => "quick",
             Profile::Full => "full",
-            Profile::Deep => "deep",
         }
     }
 }
