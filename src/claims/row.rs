@@ -1,7 +1,8 @@
 //! How a row of the ledger is made: evidence in, finding out.
 
-use super::{Basis, Check, Finding, Level, Published, PublishedError, Statement, all_cases};
-use crate::experiments::identities::Cases;
+use super::{
+    Basis, Check, Finding, Level, Published, PublishedError, Statement, all_cases, rounding,
+};
 use crate::experiments::{self, Need, Results};
 
 /// What a claim may look at.
@@ -13,6 +14,13 @@ pub struct Evidence<'a> {
     pub published: &'a Published,
     /// The level of a statistical claim.
     pub level: Level,
+}
+
+impl Evidence<'_> {
+    /// The number with this address.
+    pub fn number(&self, address: &str) -> Result<f64, Error> {
+        Ok(self.results.number(address)?)
+    }
 }
 
 /// Why a claim could not be computed.
@@ -65,9 +73,16 @@ pub const fn statistical(
     Row { id, basis, reads: None, statistical: true, needs, find }
 }
 
-/// A finding of whole cases that must all agree.
-pub fn cases(cases: Cases, note: &str) -> Result<Finding, Error> {
-    Ok(all_cases(cases.compared, cases.failed, note))
+/// A finding of whole cases that must all agree: those of the statement in `theory.cases`.
+pub fn cases(e: &Evidence, s: &Statement, note: &str) -> Result<Finding, Error> {
+    let of = |column: &str| e.number(&format!("theory.cases[statement={}].{column}", s.id));
+    Ok(all_cases(of("compared")? as u64, of("failed")? as u64, note))
+}
+
+/// A finding that rounding must explain: the largest difference of the statement in `theory.differences`.
+pub fn difference(e: &Evidence, s: &Statement, allowed: f64, note: &str) -> Result<Finding, Error> {
+    let largest = e.number(&format!("theory.differences[statement={}].largest", s.id))?;
+    Ok(rounding(largest, allowed, note))
 }
 
 impl Row {

@@ -5,14 +5,13 @@ use super::row::{Error, Evidence, Row, measured};
 use super::{Finding, open};
 use super::{Judgement, Statement, Text};
 use crate::experiments::SWEEP;
-use crate::experiments::theory::beside::{LARGE_SIGMA, distance};
+use crate::experiments::theory::beside::LARGE_SIGMA;
 
 pub const ROWS: &[Row] = &[measured("sec10_improves", OurMeasure, &[&SWEEP], improves)];
 
 fn improves(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let (sweep, curve) = (e.results.of(&SWEEP)?, &e.results.theory.curve);
-    let simple = distance(sweep, curve, |row| row.simple);
-    let (Some(simple), Some(higher)) = (simple, distance(sweep, curve, |row| row.higher)) else {
+    let of = |column| e.number(&format!("sweep.beside_theory.{column}"));
+    let (Ok(simple), Ok(higher)) = (of("simple"), of("higher")) else {
         return Ok(open(Text::words("no row"), "The sweep has no row at small σ."));
     };
     Ok(Finding {

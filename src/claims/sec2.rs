@@ -199,7 +199,7 @@ fn onset(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
             "The mean does not pass a twentieth of all gaps.",
         ));
     };
-    let predicted = e.results.identities.sigma_kept_half;
+    let predicted = e.number("theory.relation.sigma_kept_half")?;
     let near =
         (kept.value / predicted - 1.0).abs() <= 0.05 + e.level.quantile * kept.error / predicted;
     let holds = near && rounds(e, s, &half)?;

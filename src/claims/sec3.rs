@@ -8,22 +8,21 @@ use super::{Judgement, Statement, Text};
 use crate::experiments::SWEEP;
 
 pub const ROWS: &[Row] = &[
-    theory("sec3_impact_types", Exact, impact_types).of("n + 1 = (n − 1) + 2"),
-    theory("sec3_vertices", Exact, |e, s| size(e.results.identities.graph_vertices, s)),
-    theory("sec3_edges", Exact, |e, s| size(e.results.identities.graph_edges, s)),
+    theory("sec3_impact_types", Exact, |e, s| {
+        cases(e, s, "Every number of masses up to the number of cases.")
+    })
+    .of("n + 1 = (n − 1) + 2"),
+    theory("sec3_vertices", Exact, |e, s| size(e.number("theory.graph.vertices")?, s)),
+    theory("sec3_edges", Exact, |e, s| size(e.number("theory.graph.edges")?, s)),
     statistical("sec4_few_and_many", OurMeasure, &[&SWEEP], few_and_many),
 ];
 
-fn impact_types(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    cases(e.results.identities.impact_types, "Every number of masses up to the number of cases.")
-}
-
-fn size(found: usize, s: &Statement) -> Result<Finding, Error> {
+fn size(found: f64, s: &Statement) -> Result<Finding, Error> {
     Ok(Finding {
-        ours: Text::default().integer(found),
+        ours: Text::default().integer(found as usize),
         tolerance: Text::words("none"),
         reason: "an integer is exact",
-        judgement: Judgement::Plain { agrees: found as f64 == s.number()? },
+        judgement: Judgement::Plain { agrees: found == s.number()? },
         note: Text::default(),
     })
 }

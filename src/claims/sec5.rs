@@ -5,16 +5,15 @@ use super::row::{Error, Evidence, Row, cases, measured, theory};
 use super::{Finding, Judgement, Statement, Text};
 use crate::experiments::SEGMENTS;
 use crate::experiments::segments::Segment;
+use crate::params::VERTICES;
 use std::collections::BTreeSet;
 
 pub const ROWS: &[Row] = &[
     measured("sec5_fig5", Exact, &[&SEGMENTS], |e, s| motion(&e.results.of(&SEGMENTS)?.fig05, s)),
     measured("sec5_fig6", Exact, &[&SEGMENTS], |e, s| motion(&e.results.of(&SEGMENTS)?.fig06, s)),
     measured("sec5_masses_of_circuit", Exact, &[&SEGMENTS], masses_of_circuit).of("k + 1"),
-    theory("sec5_eq6", Exact, |e, _| cases(e.results.identities.eq6, ENUMERATION))
-        .of("(N − 1)!/(N − k)!"),
-    theory("sec5_eq7", Exact, |e, _| cases(e.results.identities.eq7, ENUMERATION))
-        .of("N!/(k (N − k)!)"),
+    theory("sec5_eq6", Exact, |e, s| cases(e, s, ENUMERATION)).of("(N − 1)!/(N − k)!"),
+    theory("sec5_eq7", Exact, |e, s| cases(e, s, ENUMERATION)).of("N!/(k (N − k)!)"),
     theory("sec5_eq8", OurMeasure, eq8).of("≪ 1"),
     theory("sec5_majority", OurMeasure, majority).of("length ≈ N"),
 ];
@@ -76,33 +75,32 @@ fn masses_of_circuit(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
 }
 
 fn eq8(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let theory = &e.results.theory;
-    let n = theory.vertices as f64;
-    let ratio = theory.slips.ratio_before_last;
-    let exceptions = &e.results.identities.eq8_exceptions;
+    let n = VERTICES as f64;
+    let ratio = e.number("theory.lengths.before_last")?;
+    let exceptions = e.number("theory.lengths.exceptions")? as usize;
     let holds = (ratio * (n - 1.0) / n - 1.0).abs() < 1e-13
-        && exceptions.iter().all(|&k| k + 4 > theory.vertices);
+        && e.number("theory.lengths.first_exception")? + 4.0 > n;
     Ok(Finding {
         ours: Text::words("at k = N − 1: ").significant(ratio, 4),
         tolerance: Text::words("at most ").significant(0.1, 1),
         reason: "ours: “far below one” as at most a tenth",
-        judgement: Judgement::Explained { agrees: exceptions.is_empty(), holds },
+        judgement: Judgement::Explained { agrees: exceptions == 0, holds },
         note: Text::words("The ratio at k = N − 1 is N/(N − 1), above one. Above a tenth are the ")
-            .integer(exceptions.len())
+            .integer(exceptions)
             .say(" lengths next to N, where most circuits are; below them Eq. (8) holds."),
     })
 }
 
 fn majority(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let slips = &e.results.theory.slips;
+    let share = e.number("theory.lengths.share")?;
     Ok(Finding {
         ours: Text::default()
-            .significant(slips.share_near_end, 4)
+            .significant(share, 4)
             .say(" of all within three of N; the peak at k = ")
-            .integer(slips.longest_peak),
+            .integer(e.number("theory.lengths.peak")? as usize),
         tolerance: Text::words("more than half"),
         reason: "ours: “about N” as within three of it; “majority” as more than half",
-        judgement: Judgement::Plain { agrees: slips.share_near_end > 0.5 },
+        judgement: Judgement::Plain { agrees: share > 0.5 },
         note: Text::default(),
     })
 }

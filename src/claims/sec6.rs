@@ -6,11 +6,12 @@ use super::sec2;
 use super::{Finding, open, rounding};
 use super::{Judgement, Statement, Text};
 use crate::experiments::SWEEP;
-use crate::experiments::theory::tables::two_largest_steps;
+use crate::params::{DISTRIBUTION_P, VERTICES};
 
 pub const ROWS: &[Row] = &[
     theory("sec6_normalised", Rounding, |e, s| {
-        let off = e.results.identities.normalisation.max((s.number()? - 1.0).abs());
+        let found = e.number("theory.differences[statement=sec6_normalised].largest")?;
+        let off = found.max((s.number()? - 1.0).abs());
         Ok(rounding(off, 1e-13, "Over ten values of p up to one."))
     }),
     theory("sec6_fig8_few", OurMeasure, few),
@@ -20,50 +21,48 @@ pub const ROWS: &[Row] = &[
 ];
 
 fn few(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let theory = &e.results.theory;
-    let Some(panel) = theory.distributions.first() else {
-        return Ok(open(Text::words("nothing"), "Fig. 8 was not computed."));
-    };
-    let limit = theory.vertices as f64 / sec2::VERY_FEW;
+    let p = DISTRIBUTION_P[0];
+    let of = |column| e.number(&format!("theory.distribution[p={p}].{column}"));
+    let (mean, k_star) = (of("mean")?, of("k_star")?);
+    let limit = VERTICES as f64 / sec2::VERY_FEW;
     Ok(Finding {
         ours: Text::words("μ = ")
-            .significant(panel.mean, 4)
+            .significant(mean, 4)
             .say(", k* = ")
-            .integer(panel.k_star)
+            .integer(k_star as usize)
             .say(" at p = ")
-            .chosen(panel.p),
+            .chosen(p),
         tolerance: Text::words("at most ").significant(limit, 2),
         reason: "ours: “very few” as a twentieth of all vertices",
-        judgement: Judgement::Plain { agrees: panel.mean <= limit && panel.k_star == 1 },
+        judgement: Judgement::Plain { agrees: mean <= limit && k_star == 1.0 },
         note: Text::default(),
     })
 }
 
 fn rise(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let theory = &e.results.theory;
-    let (Some(a), Some(c)) = (theory.distributions.first(), theory.distributions.get(2)) else {
-        return Ok(open(Text::words("nothing"), "Fig. 8 was not computed."));
-    };
-    let n = theory.vertices as f64;
+    let [a, _, c, _] = DISTRIBUTION_P;
+    let mean = |p: f64| e.number(&format!("theory.distribution[p={p}].mean"));
+    let (few, many, n) = (mean(a)?, mean(c)?, VERTICES as f64);
     Ok(Finding {
         ours: Text::words("μ from ")
-            .significant(a.mean, 3)
+            .significant(few, 3)
             .say(" to ")
-            .significant(c.mean, 3)
+            .significant(many, 3)
             .say(" while p goes from ")
-            .chosen(a.p)
+            .chosen(a)
             .say(" to ")
-            .chosen(c.p),
+            .chosen(c),
         tolerance: Text::words("from below a tenth to above three quarters of N"),
         reason: "ours: what “rapidly towards the size of the whole system” asks at least",
-        judgement: Judgement::Plain { agrees: a.mean < 0.1 * n && c.mean > 0.75 * n },
+        judgement: Judgement::Plain { agrees: few < 0.1 * n && many > 0.75 * n },
         note: Text::default(),
     })
 }
 
 fn step(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let theory = &e.results.theory;
-    let [largest, second] = two_largest_steps(&theory.most_likely.steps);
+    let [largest, second] =
+        [e.number("theory.mean.largest_step")?, e.number("theory.mean.other_steps")?]
+            .map(|step| step as usize);
     Ok(Finding {
         ours: Text::words("one step of height ")
             .integer(largest)
@@ -71,20 +70,18 @@ fn step(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
             .integer(second),
         tolerance: Text::words("one step of ten or more, all others of one"),
         reason: "ours: “large” as at least a tenth of N; a step function of integers has ones",
-        judgement: Judgement::Plain { agrees: largest * 10 >= theory.vertices && second == 1 },
+        judgement: Judgement::Plain { agrees: largest * 10 >= VERTICES && second == 1 },
         note: Text::default(),
     })
 }
 
 fn like_simulation(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
     let sweep = e.results.of(&SWEEP)?;
-    let theory = &e.results.theory;
     let simulated: Vec<f64> =
         sweep.rows.iter().filter_map(|row| Some(row.mean_distinct? / sec2::gaps(sweep))).collect();
-    let n = theory.vertices as f64;
-    let mean: Vec<f64> = theory.most_likely.mean.iter().map(|row| row.mean / n).collect();
-    let ends = |curve: &[f64]| Some([*curve.first()?, *curve.last()?]);
-    let (Some([a, b]), Some([c, d])) = (ends(&simulated), ends(&mean)) else {
+    let n = VERTICES as f64;
+    let (c, d) = (e.number("theory.mean.at_zero")? / n, e.number("theory.mean.at_one")? / n);
+    let (Some(&a), Some(&b)) = (simulated.first(), simulated.last()) else {
         return Ok(open(Text::words("no curves"), "One of the two curves is empty."));
     };
     let rises = |[low, high]: [f64; 2]| low < 0.25 && high > 0.9;
@@ -103,8 +100,8 @@ fn like_simulation(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
         judgement: Judgement::Plain {
             agrees: rises([a, b])
                 && rises([c, d])
-                && mean.windows(2).all(|w| w[1] >= w[0])
-                && theory.scalars.k_after_jump > 1,
+                && e.number("theory.cases[statement=sec6_like_simulation].failed")? == 0.0
+                && e.number("theory.jump.k_after")? > 1.0,
         },
         note: Text::words(
             "Simulated is the mean of the kept. What agrees beyond this is judged in Section 8.",

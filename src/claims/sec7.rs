@@ -1,104 +1,88 @@
 //! Section 7: the discontinuity of the most likely number.
 
 use super::Basis::{Exact, OurMeasure, Rounding};
-use super::row::{Error, Evidence, Row, cases, theory};
-use super::{Finding, all_cases, rounding};
+use super::Finding;
+use super::row::{Error, Evidence, Row, cases, difference, theory};
 use super::{Judgement, Statement, Text};
 
 pub const ROWS: &[Row] = &[
-    theory("sec7_eq11", Exact, |e, _| {
-        cases(e.results.identities.eq11, "Every k at ten values of p.")
-    })
-    .of("Φ(k + 1) − Φ(k) ∝ f(k)"),
-    theory("sec7_eq13", Rounding, |e, _| {
-        Ok(rounding(e.results.identities.eq13, 1e-13, "f at its zeros, over its largest term."))
+    theory("sec7_eq11", Exact, |e, s| cases(e, s, "Every k at ten values of p."))
+        .of("Φ(k + 1) − Φ(k) ∝ f(k)"),
+    theory("sec7_eq13", Rounding, |e, s| {
+        difference(e, s, 1e-13, "f at its zeros, over its largest term.")
     })
     .of("k±"),
-    theory("sec7_eq14_15", Rounding, |e, _| {
-        Ok(rounding(e.results.identities.eq14_15, 1e-13, "At ten values of p."))
-    })
-    .of("−1 and −(N + 1)"),
-    theory("sec7_eq16_17", Exact, |e, _| {
-        cases(e.results.identities.eq16_17, "Sign and slope at every k.")
-    })
-    .of("−(k + 1) < 0; k (N − k) > 0"),
+    theory("sec7_eq14_15", Rounding, |e, s| difference(e, s, 1e-13, "At ten values of p."))
+        .of("−1 and −(N + 1)"),
+    theory("sec7_eq16_17", Exact, |e, s| cases(e, s, "Sign and slope at every k."))
+        .of("−(k + 1) < 0; k (N − k) > 0"),
     theory("sec7_start", Exact, start),
-    theory("sec7_maximum", Rounding, |e, _| {
-        Ok(rounding(e.results.identities.f_maximum, 1e-13, "f is even about that place."))
-    })
-    .of("(Np − 1)/2p"),
+    theory("sec7_maximum", Rounding, |e, s| difference(e, s, 1e-13, "f is even about that place."))
+        .of("(Np − 1)/2p"),
     theory("sec7_p_crit", Rounding, p_crit).of("((1 + √(N + 1))/N)²"),
-    theory("sec7_other_root", Exact, |e, _| {
-        cases(e.results.identities.other_root, "Every N up to the number of cases.")
-    })
-    .of("k < 0"),
+    theory("sec7_other_root", Exact, |e, s| cases(e, s, "Every N up to the number of cases."))
+        .of("k < 0"),
     theory("sec7_inflexion", Rounding, inflexion),
     theory("sec7_extrema", Exact, extrema),
     theory("sec7_still_one", Exact, still_one),
     theory("sec7_jump", OurMeasure, jump).of("much larger than 1"),
-    theory("sec7_monotone", Exact, |e, _| {
-        cases(e.results.identities.monotone, "On a grid of p from the jump to one.")
-    }),
+    theory("sec7_monotone", Exact, |e, s| cases(e, s, "On a grid of p from the jump to one.")),
     theory("sec7_limit", Exact, limit).of("N − 1"),
 ];
 
 const INTEGER: &str = "an integer is exact";
 
 fn start(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
-    let first = e.results.theory.mechanism.first().map_or(0, |row| row.k_star);
+    let first = e.number("theory.jump.k_at_zero")?;
     Ok(Finding {
-        ours: Text::words("k* = ").integer(first).say(" as p → 0+"),
+        ours: Text::words("k* = ").integer(first as usize).say(" as p → 0+"),
         tolerance: Text::words("none"),
         reason: INTEGER,
-        judgement: Judgement::Plain { agrees: first as f64 == s.number()? },
+        judgement: Judgement::Plain { agrees: first == s.number()? },
         note: Text::default(),
     })
 }
 
 /// As differences have it: Φ(k + 1) − Φ(k), continued to all k, touches zero and does not change sign.
 fn inflexion(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let id = &e.results.identities;
-    let falling = id.falling_below_crit;
+    let off = e.number("theory.differences[statement=sec7_inflexion].largest")?;
+    let steps = e.number("theory.cases[statement=sec7_inflexion].compared")?;
+    let failed = e.number("theory.cases[statement=sec7_inflexion].failed")?;
     let allowed = 1e-13;
     Ok(Finding {
         ours: Text::words("f is −p (k − k₀)² with k₀ = ")
-            .significant(id.k_touch, 4)
+            .significant(e.number("theory.jump.k_touch")?, 4)
             .say(", within ")
-            .significant(id.inflexion, 1)
+            .significant(off, 1)
             .say("; Φ falls at ")
-            .integer((falling.compared - falling.failed) as usize)
+            .integer((steps - failed) as usize)
             .say(" of ")
-            .integer(falling.compared as usize)
+            .integer(steps as usize)
             .say(" steps up to p_crit"),
         tolerance: Text::default().significant(allowed, 1).say(" relative, and all steps"),
         reason: "rounding; integers are exact",
-        judgement: Judgement::Plain {
-            agrees: id.inflexion <= allowed && falling.failed == 0 && falling.compared > 0,
-        },
+        judgement: Judgement::Plain { agrees: off <= allowed && failed == 0.0 && steps > 0.0 },
         note: Text::words(
             "The flat place lies between two integers, so on the integers Φ is not stationary.",
         ),
     })
 }
 
-fn extrema(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let cases = e.results.identities.extrema;
-    let first = e.results.theory.slips.first_local_maximum.p;
+fn extrema(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
     Ok(Finding {
         note: Text::words(
             "Neighbours of ⌈k₋⌉ and ⌈k₊⌉, since f is a forward difference. The first local maximum on the \
              integers appears at p = ",
         )
-        .significant(first, 8)
+        .significant(e.number("theory.first_maximum.p")?, 8)
         .say(", a little above p_crit."),
-        ..all_cases(cases.compared, cases.failed, "")
+        ..cases(e, s, "")?
     })
 }
 
 fn p_crit(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let formula = e.results.theory.scalars.p_crit;
-    let found = e.results.identities.p_crit_by_bisection;
-    let k = e.results.identities.k_touch;
+    let (formula, found) = (e.number("theory.jump.p_crit")?, e.number("theory.jump.p_crit_found")?);
+    let k = e.number("theory.jump.k_touch")?;
     let allowed = 1e-13;
     Ok(Finding {
         ours: Text::words("the zeros appear at p = ").significant(found, 15),
@@ -110,49 +94,44 @@ fn p_crit(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
 }
 
 fn still_one(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
-    let [at, between] = e.results.identities.k_star_before_jump;
+    let (at, between) = (e.number("theory.jump.k_at_crit")?, e.number("theory.jump.k_before")?);
     let printed = s.number()?;
     Ok(Finding {
         ours: Text::words("k* = ")
-            .integer(at)
+            .integer(at as usize)
             .say(" at p_crit and ")
-            .integer(between)
+            .integer(between as usize)
             .say(" half way to the jump"),
         tolerance: Text::words("none"),
         reason: INTEGER,
-        judgement: Judgement::Plain { agrees: at as f64 == printed && between as f64 == printed },
+        judgement: Judgement::Plain { agrees: at == printed && between == printed },
         note: Text::default(),
     })
 }
 
 fn jump(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let theory = &e.results.theory;
-    let scalars = &theory.scalars;
+    let (crit, leap) = (e.number("theory.jump.p_crit")?, e.number("theory.jump.p_jump")?);
+    let k_after = e.number("theory.jump.k_after")? as usize;
     Ok(Finding {
-        ours: Text::words("from 1 to ")
-            .integer(scalars.k_after_jump)
-            .say(" at p = ")
-            .significant(scalars.p_jump, 15),
+        ours: Text::words("from 1 to ").integer(k_after).say(" at p = ").significant(leap, 15),
         tolerance: Text::words("ten or more, above p_crit"),
         reason: "ours: “much larger” as at least ten times",
-        judgement: Judgement::Plain {
-            agrees: scalars.k_after_jump >= 10 && scalars.p_jump > scalars.p_crit,
-        },
+        judgement: Judgement::Plain { agrees: k_after >= 10 && leap > crit },
         note: Text::words("The paper prints p_crit only; the jump comes ")
-            .significant(100.0 * (scalars.p_jump / scalars.p_crit - 1.0), 3)
+            .significant(100.0 * (leap / crit - 1.0), 3)
             .say(" % later."),
     })
 }
 
 fn limit(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
-    let slips = &e.results.theory.slips;
+    let last = e.number("theory.jump.k_at_one")?;
     Ok(Finding {
-        ours: Text::words("k* = ").integer(slips.k_star_at_one).say(" at p = 1"),
+        ours: Text::words("k* = ").integer(last as usize).say(" at p = 1"),
         tolerance: Text::words("none"),
         reason: INTEGER,
-        judgement: Judgement::Plain { agrees: slips.k_star_at_one as f64 == s.number()? },
+        judgement: Judgement::Plain { agrees: last == s.number()? },
         note: Text::words("There Φ(N)/Φ(N − 1) is ")
-            .significant(slips.last_ratio_at_one, 2)
+            .significant(e.number("theory.jump.last_ratio")?, 2)
             .say("."),
     })
 }

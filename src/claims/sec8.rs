@@ -1,47 +1,42 @@
 //! Section 8: a relation between σ and p.
 
 use super::Basis::{OurMeasure, Rounding};
-use super::row::{Error, Evidence, Row, measured, statistical, theory};
+use super::row::{Error, Evidence, Row, difference, measured, statistical, theory};
 use super::sec2;
 use super::sec8_chains::{no_impact, restitution_ensures, restitution_omitted, threshold_shift};
 use super::{Finding, open, rounding};
 use super::{Judgement, Statement, Text};
 use crate::experiments::sweep::Sweep;
-use crate::experiments::theory::beside::{self, LARGE_SIGMA, increases, largest_distance};
-use crate::experiments::theory::slips;
+use crate::experiments::theory::beside::LARGE_SIGMA;
 use crate::experiments::{CHAINS, PROTOCOL, RESTITUTION, STARTS, SWEEP};
+use crate::params::VERTICES;
 
 pub const ROWS: &[Row] = &[
     measured("sec8_expected_jump", OurMeasure, &[&SWEEP], expected_jump),
-    theory("sec8_separation", Rounding, |e, _| {
-        Ok(rounding(
-            e.results.identities.separation,
-            1e-13,
-            "Against the equations of motion solved by variation of constants, at five times.",
-        ))
+    theory("sec8_separation", Rounding, |e, s| {
+        let note =
+            "Against the equations of motion solved by variation of constants, at five times.";
+        difference(e, s, 1e-13, note)
     })
     .of("Eq. (19)"),
     statistical("sec8_no_impact", OurMeasure, &[&STARTS], no_impact)
         .of("1 − p = P(Y₀ + Y₁/|ω² − Ω²| < d)"),
-    theory("sec8_amplitude", Rounding, |e, _| {
-        Ok(rounding(
-            e.results.identities.amplitude,
-            1e-13,
-            "Against √2 times the root mean square over a period.",
-        ))
+    theory("sec8_amplitude", Rounding, |e, s| {
+        difference(e, s, 1e-13, "Against √2 times the root mean square over a period.")
     })
     .of("Eq. (21)"),
-    theory("sec8_densities", Rounding, |e, _| {
-        Ok(rounding(
-            e.results.identities.distributions,
+    theory("sec8_densities", Rounding, |e, s| {
+        difference(
+            e,
+            s,
             1e-12,
             "The probability of Y ≤ x at five x and three σ, against the integral of the two normal \
              densities over a disc; the second also at |ω² − Ω²| = 1/2.",
-        ))
+        )
     }),
     theory("sec8_eq25", Rounding, |e, _| {
         Ok(rounding(
-            e.results.identities.eq25,
+            e.number("theory.relation.difference")?,
             1e-12,
             "Closed form against the double integral at five σ where the latter has digits left.",
         ))
@@ -64,13 +59,14 @@ pub const ROWS: &[Row] = &[
 /// proportion to p^k have a mean with the slope Var(X)/p.
 fn expected_jump(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
     let sweep = e.results.of(&SWEEP)?;
-    let (Some([one, two]), Some([all, _])) =
-        (increases(sweep, |row| row.mean_distinct), increases(sweep, |row| row.mean_all))
+    let of = |column| e.number(&format!("sweep.beside_theory.{column}"));
+    let (Ok(one), Ok(two), Ok(all)) =
+        (of("largest_increase"), of("increase_of_two"), of("increase_of_all"))
     else {
         return Ok(open(Text::words("too few rows"), "The grid of σ is too coarse."));
     };
-    let id = &e.results.identities;
-    let (variance, difference) = (id.mean_slope_by_variance, id.mean_slope_by_difference);
+    let (difference, variance) =
+        (e.number("theory.jump.slope")?, e.number("theory.jump.variance_over_p")?);
     let half = sec2::gaps(sweep) / 2.0;
     let ratio = two / one;
     Ok(Finding {
@@ -97,10 +93,11 @@ fn expected_jump(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
 }
 
 fn p_small(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
-    let scalars = &e.results.theory.scalars;
+    let (crit, jump) =
+        (e.number("theory.relation.sigma_crit")?, e.number("theory.relation.sigma_jump")?);
     let printed = s.number()?;
     let [low, high] = s.rounding()?;
-    let Ok(p) = slips::p_at(printed) else {
+    let Ok(p) = e.number(&format!("theory.gap[sigma={printed}].p")) else {
         return Ok(open(Text::words("nothing"), "There is no p of this σ."));
     };
     Ok(Finding {
@@ -108,25 +105,24 @@ fn p_small(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
         tolerance: Text::words("below p_crit up to the σ that is printed, ± ")
             .significant((high - low) / 2.0, 1),
         reason: "ours: “extremely small” as below the first change of k*; and half a unit of the printed digit",
-        judgement: Judgement::Plain { agrees: scalars.sigma_crit >= low },
+        judgement: Judgement::Plain { agrees: crit >= low },
         note: Text::words("p reaches p_crit at σ = ")
-            .significant(scalars.sigma_crit, 4)
+            .significant(crit, 4)
             .say(" and p_jump at ")
-            .significant(scalars.sigma_jump, 4)
+            .significant(jump, 4)
             .say(": within the rounding of the printed value, and below it."),
     })
 }
 
 fn large_sigma(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
     let sweep = e.results.of(&SWEEP)?;
-    let Some([distance, at]) = largest_distance(sweep, &e.results.theory.curve) else {
+    let of = |column| e.number(&format!("sweep.beside_theory.{column}"));
+    let (Ok(distance), Ok(at)) = (of("large_distance"), of("large_distance_at")) else {
         return Ok(open(Text::words("no row"), "The sweep has no row at large σ."));
     };
     let limit = sec2::gaps(sweep) / 10.0;
-    let found = sweep.rows.iter().find(|row| row.sigma == at).and_then(|row| row.mean_distinct);
-    let missed = found.map_or(f64::NAN, |mean| sec2::gaps(sweep) - mean);
-    let theory = beside::at(&e.results.theory.curve, at, |row| row.simple);
-    let short = theory.map_or(f64::NAN, |mean| e.results.theory.vertices as f64 - mean);
+    let missed = sec2::gaps(sweep) - of("large_mean")?;
+    let short = VERTICES as f64 - of("large_theory")?;
     Ok(Finding {
         ours: Text::words("largest distance from σ = ")
             .chosen(LARGE_SIGMA)
@@ -141,7 +137,7 @@ fn large_sigma(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
             .say(" (mean of the kept). The tolerance is generous: there the theory misses ")
             .significant(short, 2)
             .say(" of its ")
-            .integer(e.results.theory.vertices)
+            .integer(VERTICES)
             .say(" vertices, the simulation ")
             .significant(missed, 2)
             .say(" of its ")

@@ -18,12 +18,13 @@ pub(super) fn no_impact(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
     let level = 1.0 - e.level.each;
     let mut seen = Vec::new();
     for row in &random.rows {
-        let nucleation = &e.results.identities.nucleation;
         let ran = row.realisations - row.failed;
         let some = row.kept + row.rejected;
-        let Some(predicted) = nucleation.iter().find(|n| n.sigma == row.sigma) else { continue };
+        let Ok(bound) = e.number(&format!("theory.gap[sigma={}].any_random", row.sigma)) else {
+            continue;
+        };
         let Some(interval) = wilson(some as u64, ran as u64, level) else { continue };
-        seen.push((row, some as f64 / ran as f64, predicted.any_random, interval));
+        seen.push((row, some as f64 / ran as f64, bound, interval));
     }
     let telling = || seen.iter().filter(|(.., bound, _)| (0.05..0.95).contains(bound));
     let above = seen.iter().filter(|(.., bound, [low, _])| low > bound).count();
@@ -87,7 +88,7 @@ pub(super) fn threshold_shift(e: &Evidence, _: &Statement) -> Result<Finding, Er
             "Chains of both starts did not rise after two transients or more.",
         ));
     };
-    let theory = e.results.theory.scalars.sigma_half;
+    let theory = e.number("theory.relation.sigma_half")?;
     let [low, high] = e.published.statement("sec2_half_height")?.rounding()?;
     let room = e.level.among(both.len());
     let mut holds = true;

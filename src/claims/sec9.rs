@@ -5,31 +5,29 @@ use super::row::{Error, Evidence, Row, cases, measured, theory};
 use super::{Finding, open};
 use super::{Judgement, Statement, Text};
 use crate::experiments::SEGMENTS;
-use crate::experiments::theory::Theory;
 use crate::experiments::theory::beside::LARGE_SIGMA;
-use crate::experiments::theory::tables::{largest_change, largest_mean_difference, moves};
+use crate::params::{CONVERGENCE_P, HIGHER_P, REMARK_P};
 
 pub const ROWS: &[Row] = &[
     measured("sec9_fig6_repeats", Exact, &[&SEGMENTS], fig6_repeats),
-    theory("sec9_eq29", Exact, |e, _| {
+    theory("sec9_eq29", Exact, |e, s| {
         cases(
-            e.results.identities.eq29,
+            e,
+            s,
             "Circuits through one vertex twice, by the lengths of their loops, on graphs of one to six vertices.",
         )
     })
     .of("(N − 1)!/(N − (k − 1))!"),
     theory("sec9_eq30", Exact, eq30).of("γ(k, 2)/2 · (N − 1)!/(N − (k − 1))!"),
-    theory("sec9_eq32", Exact, |e, _| {
-        cases(e.results.identities.eq32, "Every n up to ten, one sum at a time.")
-    })
-    .of("(n − 1)!/((j − 1)! (n − j)!)"),
+    theory("sec9_eq32", Exact, |e, s| cases(e, s, "Every n up to ten, one sum at a time.")).of("(n − 1)!/((j − 1)! (n − j)!)"),
     theory("sec9_eq33", Exact, |e, s| class_range(e, s, 33)).of("(k − 1)/2 · N!/(N − (k − 1))!"),
     theory("sec9_eq35", Exact, |e, s| class_range(e, s, 35)).of("valid for k > {}"),
     theory("sec9_eq36", Exact, |e, s| class_range(e, s, 36)).of("valid for k > {}"),
     theory("sec9_eq37", Exact, |e, s| class_range(e, s, 37)).of("valid for k > {}"),
-    theory("sec9_eq38", Exact, |e, _| {
+    theory("sec9_eq38", Exact, |e, s| {
         cases(
-            e.results.identities.eq38,
+            e,
+            s,
             "From k = 3 on, where each formula is used in the range that is printed with it. For k = 1 and \
              2, which the distribution needs too, it is not.",
         )
@@ -67,49 +65,45 @@ fn fig6_repeats(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
 }
 
 fn eq30(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let id = &e.results.identities;
-    let counted = id.eq30_counted;
+    let (printed, counted) =
+        (e.number("theory.higher.eq30_printed")?, e.number("theory.higher.eq30_counted")?);
+    let compared = e.number("theory.cases[statement=sec9_eq30].compared")?;
+    let failed = e.number("theory.cases[statement=sec9_eq30].failed")?;
     Ok(Finding {
         ours: Text::words("Eq. (30) gives ")
-            .significant(id.eq30_printed, 1)
+            .significant(printed, 1)
             .say(", enumeration ")
             .integer(counted as usize),
         tolerance: Text::words("none"),
         reason: INTEGER,
         judgement: Judgement::Explained {
-            agrees: id.eq30_printed == counted as f64,
-            holds: id.eq30_times_n.failed == 0
-                && id.eq30_times_n.compared > 0
-                && (e.results.theory.slips.missing_factor / e.results.theory.vertices as f64 - 1.0)
-                    .abs()
-                    < 1e-13,
+            agrees: printed == counted,
+            holds: failed == 0.0 && compared > 0.0,
         },
         note: Text::words(
             "A factor N is missing, the choice of the vertex that is visited twice; \
              Eq. (33) has it. With it the formula agrees in ",
         )
-        .integer(id.eq30_times_n.compared as usize)
+        .integer(compared as usize)
         .say(" of ")
-        .integer(id.eq30_times_n.compared as usize)
+        .integer(compared as usize)
         .say(" cases."),
     })
 }
 
 fn class_range(e: &Evidence, s: &Statement, equation: u32) -> Result<Finding, Error> {
-    let ranges = &e.results.identities.classes;
-    let Some(range) = ranges.iter().find(|range| range.equation == equation) else {
-        return Ok(open(Text::words("nothing"), "The formula was not compared."));
-    };
+    let of = |column| e.number(&format!("theory.class_ranges[equation={equation}].{column}"));
+    let (right_from, counted) = (of("right_from")?, of("counted_below")?);
     // A printed "k > 3" means from 4 on; without a printed range every length is meant.
-    let printed_from = s.value.map_or(1, |k| k as usize + 1);
-    let agrees = range.right_from == printed_from && range.cases.failed == 0;
-    let ours = Text::words("right from k = ").integer(range.right_from).say(" on");
+    let printed_from = s.value.map_or(1.0, |k| k + 1.0);
+    let agrees = right_from == printed_from && of("failed")? == 0.0;
+    let ours = Text::words("right from k = ").integer(right_from as usize).say(" on");
     let note = Text::words("One length below, on three vertices, the formula gives ")
-        .chosen(range.formula_below)
+        .chosen(of("formula_below")?)
         .say(" and enumeration finds ")
-        .integer(range.counted_below as usize)
+        .integer(counted as usize)
         .say(": sequences that repeat a shorter one.");
-    let compared = range.cases.compared > 3;
+    let compared = of("compared")? > 3.0;
     Ok(Finding {
         ours,
         tolerance: Text::words("none"),
@@ -119,31 +113,24 @@ fn class_range(e: &Evidence, s: &Statement, equation: u32) -> Result<Finding, Er
             // Without a range: wrong only where both loops are alike and so counted as half.
             None => Judgement::Explained {
                 agrees: agrees && compared,
-                holds: compared && range.right_from == 3 && range.counted_below == 0,
+                holds: compared && right_from == 3.0 && counted == 0.0,
             },
         },
         note,
     })
 }
 
-/// Share of simple circuits at one p.
-pub(crate) fn simple_share(theory: &Theory, p: f64) -> Option<f64> {
-    theory.slips.simple_shares.iter().find(|row| row.x == p).map(|row| row.y)
+/// A number of the distribution with five classes at one p.
+fn of_five(e: &Evidence, p: f64, column: &str) -> Result<f64, Error> {
+    e.number(&format!("theory.classes[p={p}].{column}"))
 }
 
 fn even_small_p(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
     let p = s.number()?;
-    let (Some(share), Some(panel)) =
-        (simple_share(&e.results.theory, p), e.results.theory.higher.iter().find(|h| h.p == p))
+    let (Ok(share), Ok(first_order)) = (of_five(e, p, "simple"), of_five(e, p, "first_order"))
     else {
         return Ok(open(Text::words("nothing"), "This p was not computed."));
     };
-    // One doubled vertex costs p and can be placed in k²/2 ways, except on a single vertex.
-    let first_order: f64 = (1_u32..)
-        .zip(&panel.simple)
-        .skip(1)
-        .map(|(k, q)| q * p * f64::from(k) * f64::from(k) / 2.0)
-        .sum();
     let higher = (1.0 - share) / share;
     Ok(Finding {
         ours: Text::words("higher orders hold ").significant(100.0 * (1.0 - share), 2).say(" %"),
@@ -163,21 +150,13 @@ fn even_small_p(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
 }
 
 fn dominate(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let theory = &e.results.theory;
-    let shares: Vec<(f64, f64)> =
-        theory.slips.simple_shares.iter().map(|row| (row.x, row.y)).collect();
-    let falls = shares.windows(2).all(|w| w[1].0 <= w[0].0 || w[1].1 < w[0].1);
-    let Some(last) = theory.higher.last() else {
-        return Ok(open(Text::words("nothing"), "Fig. 13 was not computed."));
-    };
-    let Some(share) = last.classes.first().map(|class| class.share) else {
-        return Ok(open(Text::words("nothing"), "Fig. 13 has no classes."));
-    };
+    let shares =
+        REMARK_P.into_iter().map(|p| of_five(e, p, "simple")).collect::<Result<Vec<_>, _>>()?;
+    let falls = shares.windows(2).all(|w| w[1] < w[0]);
+    let p = HIGHER_P[2];
+    let share = of_five(e, p, "simple")?;
     Ok(Finding {
-        ours: Text::words("simple circuits hold ")
-            .significant(share, 2)
-            .say(" at p = ")
-            .chosen(last.p),
+        ours: Text::words("simple circuits hold ").significant(share, 2).say(" at p = ").chosen(p),
         tolerance: Text::words("at most ").significant(0.01, 1),
         reason: "ours: “insignificant” as at most one in a hundred, and falling with p",
         judgement: Judgement::Plain { agrees: share <= 0.01 && falls },
@@ -186,27 +165,24 @@ fn dominate(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
 }
 
 fn convergence(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let theory = &e.results.theory;
-    let (Some(a), Some(b)) = (theory.convergence.first(), theory.convergence.last()) else {
-        return Ok(open(Text::words("nothing"), "Fig. 14 was not computed."));
-    };
-    let later: Vec<_> = theory.slips.total_variations.iter().filter(|v| v.x >= a.p).collect();
-    let falls = later.windows(2).all(|w| w[1].y < w[0].y);
-    let [p_last, last] = later.last().map_or([f64::NAN; 2], |v| [v.x, v.y]);
+    let (distance, [p_a, p_b]) = (|p| of_five(e, p, "variation"), CONVERGENCE_P);
+    let (a, b) = (distance(p_a)?, distance(p_b)?);
+    let later = REMARK_P.into_iter().filter(|p| *p >= p_a);
+    let later = later.map(|p| Ok((p, distance(p)?))).collect::<Result<Vec<_>, Error>>()?;
+    let falls = later.windows(2).all(|w| w[1].1 < w[0].1);
+    let (p_last, last) = later.last().copied().unwrap_or((f64::NAN, f64::NAN));
     Ok(Finding {
         ours: Text::words("total variation distance ")
-            .significant(a.total_variation, 3)
+            .significant(a, 3)
             .say(" at p = ")
-            .chosen(a.p)
+            .chosen(p_a)
             .say(", ")
-            .significant(b.total_variation, 3)
+            .significant(b, 3)
             .say(" at ")
-            .chosen(b.p),
+            .chosen(p_b),
         tolerance: Text::words("falling, and at most half from panel (a) to (b)"),
         reason: "ours: convergence asks for a decrease at every p that was computed",
-        judgement: Judgement::Plain {
-            agrees: falls && later.len() > 2 && b.total_variation < 0.5 * a.total_variation,
-        },
+        judgement: Judgement::Plain { agrees: falls && later.len() > 2 && b < 0.5 * a },
         note: Text::words(
             "“Essentially identical” holds in the limit: where the paper shows it a tenth of the weight \
              still differs; at p = ",
@@ -219,15 +195,14 @@ fn convergence(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
 }
 
 fn mean_large_p(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let Some(last) = e.results.theory.higher.last() else {
-        return Ok(open(Text::words("nothing"), "Fig. 13 was not computed."));
-    };
-    let difference = last.mean / last.mean_simple - 1.0;
+    let p = HIGHER_P[2];
+    let mean = e.number(&format!("theory.distribution[p={p}].mean"))?;
+    let difference = of_five(e, p, "mean_difference")? / mean;
     Ok(Finding {
         ours: Text::words("relative difference ")
             .significant(difference, 2)
             .say(" at p = ")
-            .chosen(last.p),
+            .chosen(p),
         tolerance: Text::words("at most ").significant(0.05, 1),
         reason: "ours: “very good” as within one in twenty",
         judgement: Judgement::Plain { agrees: difference.abs() <= 0.05 },
@@ -236,7 +211,8 @@ fn mean_large_p(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
 }
 
 fn mean_small_p(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let [difference, at] = largest_mean_difference(&e.results.theory);
+    let (difference, at) =
+        (e.number("theory.higher.means_ratio")?, e.number("theory.higher.means_apart_at")?);
     Ok(Finding {
         ours: Text::words("relative difference up to ")
             .significant(difference, 2)
@@ -250,28 +226,25 @@ fn mean_small_p(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
 }
 
 fn higher_jump(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let scalars = &e.results.theory.scalars;
-    let shift = scalars.higher_p_jump / scalars.p_jump - 1.0;
+    let (higher, simple) = (e.number("theory.higher.p_jump")?, e.number("theory.jump.p_jump")?);
+    let (k_after, shift) = (e.number("theory.higher.k_after")? as usize, higher / simple - 1.0);
     Ok(Finding {
         ours: Text::words("p_jump = ")
-            .significant(scalars.higher_p_jump, 6)
+            .significant(higher, 6)
             .say(", to k* = ")
-            .integer(scalars.higher_k_after_jump)
+            .integer(k_after)
             .say("; for simple circuits ")
-            .significant(scalars.p_jump, 6),
+            .significant(simple, 6),
         tolerance: Text::words("another p, and a step of ten or more"),
         reason: "both are known to the last bit; “jump” as in Section 7",
-        judgement: Judgement::Plain {
-            agrees: shift.abs() > 1e-9 && scalars.higher_k_after_jump >= 10,
-        },
+        judgement: Judgement::Plain { agrees: shift.abs() > 1e-9 && k_after >= 10 },
         note: Text::words("A change by ").significant(100.0 * shift, 2).say(" %."),
     })
 }
 
 fn fig15_modest(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let theory = &e.results.theory;
-    let [change, at] = largest_change(&theory.curve);
-    let shift = theory.scalars.sigma_half - theory.scalars.higher_sigma_half;
+    let (change, at) = (e.number("theory.higher.change")?, e.number("theory.higher.change_at")?);
+    let shift = e.number("theory.higher.half_shift")?;
     let [low, high] = e.published.statement("sec2_half_height")?.rounding()?;
     Ok(Finding {
         ours: Text::words("largest change ")
@@ -294,7 +267,10 @@ fn fig15_modest(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
 }
 
 fn relation_matters(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let [relation, higher] = moves(&e.results.theory);
+    let of = |column| e.number(&format!("theory.relation.{column}"));
+    let simple = of("sigma_jump")?;
+    let relation = (of("sigma_jump_rest")? - simple).abs();
+    let higher = (of("sigma_jump_higher")? - simple).abs();
     Ok(Finding {
         ours: Text::words("another relation moves the jump by ")
             .significant(relation, 3)

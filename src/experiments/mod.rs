@@ -34,7 +34,7 @@ pub use literate::experiments::{
     Entry, Error, Experiment, Need, Progress, Store, alive, be_quiet, say,
 };
 pub use measured::Measured;
-pub use results::{Looked, Results};
+pub use results::Results;
 pub use run::run;
 
 use crate::params::{
@@ -77,8 +77,7 @@ pub const ALL: &[Need] = &[
 pub type Together = fn(&Results, &[Table]) -> Option<Vec<Table>>;
 
 /// What follows from several experiments together.
-pub const TOGETHER: [Together; 6] = [
-    theory::tables::tables,
+pub const TOGETHER: [Together; 5] = [
     theory::beside::tables,
     sweep::tables::of_both,
     seeds::compared::tables,

@@ -1,25 +1,18 @@
 //! All results together.
 
 use super::{ALL, Error, Need, TOGETHER, identities, theory};
-use crate::params::{Profile, VERTICES};
+use crate::params::Profile;
 use literate::experiments::{Found, Typed};
-use literate::table::Table;
+use literate::table::{Missing, Table, number, table_of};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
-use std::sync::{Arc, LazyLock, OnceLock};
-
-/// What is computed when it is first looked at.
-pub type Looked<T> = LazyLock<T, Box<dyn FnOnce() -> T + Send>>;
+use std::sync::{Arc, OnceLock};
 
 /// The results of the experiments that were asked for.
 #[derive(Debug)]
 pub struct Results {
     /// The sample sizes.
     pub profile: Profile,
-    /// Secs. 3 to 9, computed when first looked at: `&results.theory.curve` is all it takes.
-    pub theory: Looked<theory::Theory>,
-    /// Exact statements of Secs. 3 to 9 against a second route, computed when first looked at.
-    pub identities: Looked<identities::Identities>,
     /// Of each experiment that was run, by its name.
     found: BTreeMap<&'static str, Found>,
     /// Tables of the results, made when first looked at.
@@ -50,15 +43,7 @@ impl Results {
         Arc::get_mut(self.found.get_mut(experiment.name())?)?.downcast_mut()
     }
 
-    /// Computes what is otherwise computed when first looked at. Who works on several threads looks
-    /// first.
-    pub fn look(&self) {
-        rayon::join(|| LazyLock::force(&self.theory), || LazyLock::force(&self.identities));
-        // After them: some tables look at both.
-        self.tables();
-    }
-
-    /// The tables of all results that there are, by name.
+    /// The tables of the theory and of all results that there are, by name.
     pub fn tables(&self) -> &BTreeMap<&'static str, Arc<Table>> {
         // Made before the lock is taken: a thread that waits in it for others may begin something else that looks here.
         match self.tables.get() {
@@ -74,8 +59,10 @@ impl Results {
         let of = |experiment: &Need| {
             self.found(experiment.name()).map_or_else(Vec::new, |own| experiment.tables(own))
         };
-        let own: Vec<Vec<Table>> = ALL.par_iter().with_max_len(1).map(of).collect();
-        let mut all: Vec<Table> = own.into_iter().flatten().collect();
+        let runs = || ALL.par_iter().with_max_len(1).map(of).collect::<Vec<_>>().concat();
+        let exact = || rayon::join(theory::tables, identities::tables);
+        let (mut all, (theory, identities)) = rayon::join(runs, exact);
+        all.extend(theory.into_iter().chain(identities));
         for tables in TOGETHER {
             all.extend(tables(self, &all).into_iter().flatten());
         }
@@ -88,19 +75,19 @@ impl Results {
         self.tables().get(name).map(Arc::as_ref).ok_or(Error::NotRun(experiment))
     }
 
+    /// The number with this address: `theory.jump.p_jump`.
+    #[track_caller]
+    pub fn number(&self, address: &str) -> Result<f64, Error> {
+        let table = table_of(address).and_then(|name| self.tables().get(name));
+        match table.and_then(|table| number(table.at(address)?)) {
+            Some(found) => Ok(found),
+            None => Err(Missing::new(address).into()),
+        }
+    }
+
     /// Results of which nothing was run yet.
     pub fn empty(profile: Profile) -> Self {
-        Results {
-            profile,
-            theory: LazyLock::new(Box::new(|| {
-                theory::run(VERTICES).expect("the theory exists for the paper's N")
-            })),
-            identities: LazyLock::new(Box::new(|| {
-                identities::run(VERTICES).expect("the theory exists for the paper's N")
-            })),
-            found: BTreeMap::new(),
-            tables: OnceLock::new(),
-        }
+        Results { profile, found: BTreeMap::new(), tables: OnceLock::new() }
     }
 }
 

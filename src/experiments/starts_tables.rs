@@ -53,10 +53,11 @@ pub fn tables(starts: &Starts) -> Vec<Table> {
 }
 
 /// What of the distance to the theory the start explains.
-pub fn beside_theory(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
+pub fn beside_theory(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
     let starts = results.of(&STARTS).ok()?;
     let half = |name: &str| starts.variant(name).and_then(|own| own.rise.half_height_all);
-    let theory = results.theory.scalars.sigma_half;
+    let relation = all.iter().find(|table| table.name() == "theory.relation")?;
+    let theory = relation.number(&[], "sigma_half").ok()?;
     let table = Table::of("starts.beside_theory", &[()], |()| 0)
         .computed_by(origin(share_of_start))
         .real(

@@ -1,37 +1,37 @@
 //! Fig. 7: how many simple circuits there are of each length.
 
 use super::prelude::*;
-use crate::experiments::theory::Theory;
-use std::f64::consts::LN_10;
+use crate::experiments::Results;
+use crate::params::VERTICES as N;
 
-pub fn draw(theory: &Theory) -> Result<Figure, Error> {
-    let circuits = &theory.simple_circuits;
-    let n = theory.vertices;
+pub fn draw(results: &Results) -> Result<Figure, Error> {
+    let circuits = results.table("theory.circuits")?;
+    let of = |column| circuits.points(&[], "k", column).into_iter().map(|point| point.1);
+    let share: Vec<f64> = of("share").collect();
+    let logs: Vec<f64> = of("log_share").collect();
     let sheet = Sheet::new(5150);
-    let top = largest(&circuits.share);
-    let x = Axis::linear(0.0, n as f64 + 1.0, 20.0, 2, "length *k*");
+    let top = largest(&share);
+    let x = Axis::linear(0.0, N as f64 + 1.0, 20.0, 2, "length *k*");
     let y = upwards_from_zero(top, "*ϕ*_{*N*}(*k*) / *ϕ*_{*N*}^{tot}");
     let panel = sheet.panel(Frame::new(1350, 300, 8100, 4200), x, y)?;
-    panel.columns("share of circuits", &circuits.share, Stroke::solid(GREEN, THIN))?;
+    panel.columns("share of circuits", &share, Stroke::solid(GREEN, THIN))?;
 
-    let logs: Vec<f64> =
-        circuits.log_count.iter().map(|l| (l - circuits.log_total) / LN_10).collect();
     let lowest = (logs.iter().copied().fold(0.0, f64::min) / 40.0).floor() as i32 * 40;
     let inset = sheet.inset(
         Frame::new(2850, 650, 6150, 2750),
-        Axis::linear(0.0, n as f64 + 1.0, 25.0, 1, "*k*"),
+        Axis::linear(0.0, N as f64 + 1.0, 25.0, 1, "*k*"),
         Axis::decades(lowest, 0, 40, "share"),
     )?;
     inset.curve(
         "logarithm of the share",
-        &over_k(&circuits.share),
+        &over_k(&share),
         Stroke::solid(GREEN, LINE),
         Outside::Refuse,
     )?;
 
-    let peak = circuits.share.iter().position(|&s| s == top).unwrap_or(0) + 1;
+    let peak = share.iter().position(|&s| s == top).unwrap_or(0) + 1;
     let description = format!(
-        "Columns over k = 1 … {n}: the share of all simple circuits of a fully connected graph of N = {n} vertices that have \
+        "Columns over k = 1 … {N}: the share of all simple circuits of a fully connected graph of N = {N} vertices that have \
          length k. Only the last few are visible; the highest, {}, stands at k = {peak}. An inset shows the logarithm, which \
          falls to about 10^{} at k = 1.",
         short(top, 3),

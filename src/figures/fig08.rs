@@ -1,30 +1,33 @@
 //! Fig. 8 (a) to (d): the distribution of the number of different impacts at four p.
 
 use super::prelude::*;
-use crate::experiments::theory::Theory;
+use crate::experiments::Results;
+use crate::experiments::theory::law::simple;
+use crate::params::{DISTRIBUTION_P, VERTICES as N};
 
-pub fn draw(theory: &Theory) -> Result<Figure, Error> {
+pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sheet = Sheet::new(6750);
-    let n = theory.vertices;
     let mut seen = Vec::new();
-    for (i, distribution) in theory.distributions.iter().take(4).enumerate() {
-        let top = largest(&distribution.probability);
-        let x = Axis::linear(0.0, n as f64 + 1.0, 20.0, 2, "*k*");
+    for (i, at) in DISTRIBUTION_P.into_iter().enumerate() {
+        let of = |column| results.number(&format!("theory.distribution[p={at}].{column}"));
+        let (probability, k_star) = (simple(at), of("k_star")?);
+        let top = largest(&probability);
+        let x = Axis::linear(0.0, N as f64 + 1.0, 20.0, 2, "*k*");
         let y = upwards_from_zero(1.04 * top, "*P*(*X* = *k*)");
         let panel = sheet.panel(FOUR[i], x, y)?;
-        let p = short(distribution.p, 3);
+        let p = short(at, 3);
         let own = panel.series(&format!("probability at p = {p}"));
-        own.columns("probability", &distribution.probability, Stroke::solid(GREEN, THIN))?;
+        own.columns("probability", &probability, Stroke::solid(GREEN, THIN))?;
         heading(&panel, LETTERS[i], &format!("*p* = {p}"))?;
-        let (k_star, mean) = (distribution.k_star, short(distribution.mean, 3));
+        let mean = short(of("mean")?, 3);
         let lines = [format!("*k*^{{∗}} = {k_star}"), format!("*μ* = {mean}")];
         // The words go where the columns are low.
-        let side = if k_star > n / 2 { HPos::Left } else { HPos::Right };
+        let side = if k_star > N as f64 / 2.0 { HPos::Left } else { HPos::Right };
         corner(&panel, side, &lines)?;
         seen.push(format!("{} p = {p}: mean {mean}", LETTERS[i]));
     }
     let description = format!(
-        "Columns over k = 1 … {n}: the probability of k different impacts for simple circuits, N = {n}. From panel to panel \
+        "Columns over k = 1 … {N}: the probability of k different impacts for simple circuits, N = {N}. From panel to panel \
          the weight moves from single impacts to nearly the whole system. {}.",
         seen.join("; ")
     );

@@ -1,15 +1,16 @@
 //! Fig. 9: (a) the most likely and (b) the expected number of impacts against p.
 
 use super::prelude::*;
-use crate::experiments::theory::{MeanRow, Theory};
+use crate::experiments::Results;
+use crate::experiments::theory::law::{means, steps};
+use crate::params::VERTICES as N;
 
 /// Largest p of the insets.
 const SMALL_P: f64 = 0.04;
 
-pub fn draw(theory: &Theory) -> Result<Figure, Error> {
+pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sheet = Sheet::new(9600);
-    let n = theory.vertices;
-    let top = (n as f64 / 20.0).ceil() * 20.0;
+    let top = (N as f64 / 20.0).ceil() * 20.0;
     let labels = ["*k*^{∗}", "*μ*"];
     let mut panels = Vec::new();
     for (i, edge) in [(0, 430), (1, 5130)] {
@@ -22,34 +23,28 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
         let inset = sheet.inset(frame, x(SMALL_P, 0.01), y(-6.0))?;
         panels.push((panel, inset));
     }
-    let scalars = &theory.scalars;
+    let p_jump = results.number("theory.jump.p_jump")?;
+    let jump = results.number("theory.jump.k_after")?;
     for panel in [&panels[0].0, &panels[0].1] {
-        most_likely(theory, panel)?;
+        most_likely([p_jump, jump], panel)?;
     }
     let inset = &panels[0].1;
-    let jump = scalars.k_after_jump as f64;
     inset.marks(
         "before the jump",
-        &[(scalars.p_jump, 1.0)],
+        &[(p_jump, 1.0)],
         (Mark::Disc, 50, Stroke::solid(GREEN, THIN)),
         Outside::Refuse,
     )?;
     inset.marks(
         "after the jump",
-        &[(scalars.p_jump, jump)],
+        &[(p_jump, jump)],
         (Mark::Ring, 50, Stroke::solid(GREEN, THIN)),
         Outside::Refuse,
     )?;
-    let note = format!("from 1 to {} at *p* = {}", scalars.k_after_jump, short(scalars.p_jump, 4));
-    inset.note(
-        &note,
-        (scalars.p_jump, jump / 2.0),
-        (110, 0),
-        (TINY, INK, HPos::Left, VPos::Center),
-    )?;
+    let note = format!("from 1 to {jump} at *p* = {}", short(p_jump, 4));
+    inset.note(&note, (p_jump, jump / 2.0), (110, 0), (TINY, INK, HPos::Left, VPos::Center))?;
 
-    let mean = points(&theory.most_likely.mean);
-    let fine = points(&theory.most_likely.mean_inset);
+    let [mean, fine] = means();
     let stroke = Stroke::solid(GREEN, LINE);
     panels[1].0.curve("mean", &mean, stroke, Outside::Refuse)?;
     let inset = panels[1].1.clone().file("b-inset");
@@ -59,32 +54,25 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     inset.note("*μ* → 1 as *p* → 0", (SMALL_P, 1.0), (-60, -90), look)?;
 
     let description = format!(
-        "Against the edge probability p, for N = {n}, with insets for small p: (a) the most likely number of impacts is 1 up \
-         to p = {}, jumps there to {} and climbs on in steps of one; (b) the expected number rises from 1 without a jump \
-         and levels off towards {n}.",
-        short(scalars.p_jump, 4),
-        scalars.k_after_jump,
+        "Against the edge probability p, for N = {N}, with insets for small p: (a) the most likely number of impacts is 1 up \
+         to p = {}, jumps there to {jump} and climbs on in steps of one; (b) the expected number rises from 1 without a jump \
+         and levels off towards {N}.",
+        short(p_jump, 4),
     );
     Ok(sheet.finish("fig09", "Most likely and expected number of impacts", description))
 }
 
-fn points(rows: &[MeanRow]) -> Vec<(f64, f64)> {
-    rows.iter().map(|row| (row.p, row.mean)).collect()
-}
-
 /// k* as a staircase; its jump from 1 is dotted, because no value lies between.
-fn most_likely(theory: &Theory, panel: &Panel) -> Result<(), Error> {
-    let jump = theory.scalars.p_jump;
-    let first = theory.scalars.k_after_jump as f64;
+fn most_likely([jump, first]: [f64; 2], panel: &Panel) -> Result<(), Error> {
     let solid = Stroke::solid(GREEN, LINE);
     let mut stairs = Vec::new();
     let mut level = None;
-    for step in theory.most_likely.steps.iter().filter(|s| s.k_star > 1) {
+    for (p, k_star) in steps().into_iter().filter(|(_, k_star)| *k_star > 1) {
         if let Some(before) = level {
-            stairs.push((step.p, before));
+            stairs.push((p, before));
         }
-        level = Some(step.k_star as f64);
-        stairs.push((step.p, step.k_star as f64));
+        level = Some(k_star as f64);
+        stairs.push((p, k_star as f64));
     }
     stairs.extend(level.map(|k| (1.0, k)));
     panel.curve("most likely number, 1", &[(0.0, 1.0), (jump, 1.0)], solid, Outside::Cut)?;

@@ -1,15 +1,27 @@
 //! Fig. 10: how the jump of the most likely number of impacts comes about.
 
 use super::prelude::*;
-use crate::experiments::theory::{Mechanism, Theory};
+use crate::experiments::theory::law::{f, k_star, simple, stages, zeros};
+use crate::params::VERTICES as N;
 
-pub fn draw(theory: &Theory) -> Result<Figure, Error> {
-    let rows: Vec<&Mechanism> = theory.mechanism.iter().take(4).collect();
+/// What a row shows.
+struct Row {
+    /// Points of f.
+    f: Vec<(f64, f64)>,
+    zeros: Option<[f64; 2]>,
+    /// Φ/Γ at k = 1, 2, ….
+    weights: Vec<f64>,
+    k_star: usize,
+}
+
+pub fn draw() -> Result<Figure, Error> {
+    let row = |p| Row { f: f(p), zeros: zeros(p), weights: simple(p), k_star: k_star(p) };
+    let rows = stages().map(row);
     let sheet = Sheet::new(850 + 2350 * rows.len() as u32);
     // Beyond this k nothing changes sign again.
     let last_zero = rows.iter().filter_map(|row| row.zeros).map(|z| z[1]).fold(20.0, f64::max);
-    let shown = ((1.8 * last_zero / 10.0).ceil() * 10.0).min(theory.vertices as f64);
-    for (i, row) in rows.iter().enumerate() {
+    let shown = ((1.8 * last_zero / 10.0).ceil() * 10.0).min(N as f64);
+    for (i, (row, p)) in rows.iter().zip(stages()).enumerate() {
         let edge = 550 + 2350 * i as i32;
         let last = i + 1 == rows.len();
         let k = || {
@@ -21,8 +33,8 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
         let left = left.file(&format!("{letter}-f"));
         let p = match i {
             0 => "*p* → 0".to_string(),
-            1 => format!("*p* = *p*_{{crit}} = {}", short(row.p, 4)),
-            _ => format!("*p* = {}", short(row.p, 4)),
+            1 => format!("*p* = *p*_{{crit}} = {}", short(p, 4)),
+            _ => format!("*p* = {}", short(p, 4)),
         };
         left.note(
             &format!("{} {p}", LETTERS[i]),
@@ -31,7 +43,7 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
             (SMALL, INK, HPos::Left, VPos::Bottom),
         )?;
         sign(&left, row)?;
-        let columns = &row.phi_over_gamma[..row.phi_over_gamma.len().min(shown as usize)];
+        let columns = &row.weights[..row.weights.len().min(shown as usize)];
         let room = if i == 0 { 1.0 } else { 1.02 };
         let y = upwards_from_zero(room * largest(columns), "Φ_{*N*,*p*}(*k*) / Γ_{*N*,*p*}");
         let right = sheet.panel(Frame::new(5250, edge, 8250, edge + 1700), k(), y)?;
@@ -44,18 +56,17 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
         }
     }
     let description = format!(
-        "Four rows for rising p, N = {}, over k. Left, the function f, whose sign tells whether the weight Φ grows from k to \
+        "Four rows for rising p, N = {N}, over k. Left, the function f, whose sign tells whether the weight Φ grows from k to \
          k + 1; right, Φ divided by its sum. Where f turns positive a second maximum grows, until it overtakes the first \
          column: the most likely numbers are {}.",
-        theory.vertices,
         rows.iter().map(|row| row.k_star.to_string()).collect::<Vec<_>>().join(", ")
     );
     Ok(sheet.finish("fig10", "The mechanism of the jump", description))
 }
 
 /// The axis of f: around zero, as high as its maximum.
-fn signs(row: &Mechanism) -> Axis {
-    let top = row.f.iter().map(|point| point.y).fold(0.0, f64::max);
+fn signs(row: &Row) -> Axis {
+    let top = row.f.iter().map(|point| point.1).fold(0.0, f64::max);
     let (hi, step) = if top <= 1.0 {
         (1.0, 1.0)
     } else if top <= 2.0 {
@@ -67,11 +78,10 @@ fn signs(row: &Mechanism) -> Axis {
     Axis::linear(-3.0 * step, hi, step, 1, "*f*_{*N*,*p*}(*k*)")
 }
 
-fn sign(panel: &Panel, row: &Mechanism) -> Result<(), Error> {
+fn sign(panel: &Panel, row: &Row) -> Result<(), Error> {
     let zero = Stroke::solid(GREY, HAIR);
     panel.level("zero", 0.0, zero)?;
-    let f: Vec<_> = row.f.iter().map(|point| (point.x, point.y)).collect();
-    panel.curve("f", &f, Stroke::solid(BLUE, LINE), Outside::Cut)?;
+    panel.curve("f", &row.f, Stroke::solid(BLUE, LINE), Outside::Cut)?;
     if let Some(zeros) = row.zeros {
         let at: Vec<_> = zeros.iter().map(|&k| (k, 0.0)).collect();
         panel.marks(
@@ -89,7 +99,7 @@ fn sign(panel: &Panel, row: &Mechanism) -> Result<(), Error> {
     Ok(())
 }
 
-fn weight(panel: &Panel, row: &Mechanism, shown: &[f64]) -> Result<(), Error> {
+fn weight(panel: &Panel, row: &Row, shown: &[f64]) -> Result<(), Error> {
     panel.columns("weight", shown, Stroke::solid(GREEN, THIN))?;
     let first = shown.first().copied().unwrap_or(0.0);
     let level = Stroke::dashed(INK, HAIR, Dash::Short);

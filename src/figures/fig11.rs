@@ -2,16 +2,19 @@
 
 use super::prelude::*;
 use super::simulated::sigma_axis;
-use crate::experiments::theory::{RelationRow, Theory};
+use crate::experiments::Results;
 
 /// Lowest decade of the logarithmic panel.
 const LOWEST: i32 = -20;
 
-pub fn draw(theory: &Theory) -> Result<Figure, Error> {
+pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sheet = Sheet::new(8950);
-    let rows = &theory.relation;
-    let end = rows.last().map_or(0.4, |row| row.sigma);
-    let top = (rows.iter().map(|r| r.p.max(r.p_rest)).fold(0.0, f64::max) * 10.0).ceil() / 10.0;
+    let curve =
+        |column| Ok::<_, Error>(results.table("theory.curve")?.points(&[], "sigma", column));
+    let (p_rest, p) = (curve("p_rest")?, curve("p")?);
+    let end = p.last().map_or(0.4, |point| point.0);
+    let top = p.iter().chain(&p_rest).map(|point| point.1).fold(0.0, f64::max);
+    let top = (top * 10.0).ceil() / 10.0;
     let sigma = || sigma_axis(end);
     let (x, y) = (sigma().bare(), Axis::linear(0.0, top, 0.2, 2, "*p*"));
     let linear = sheet.lettered(LETTERS[0], Frame::new(1300, 430, 8150, 3450), x, y)?;
@@ -19,9 +22,6 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
     let decades = sheet.lettered(LETTERS[1], Frame::new(1300, 4350, 8150, 8050), x, y)?;
 
     let (main, rest) = (Stroke::solid(BLUE, LINE), Stroke::dashed(GREY, LINE, Dash::Short));
-    let curve = |value: fn(&RelationRow) -> f64| -> Vec<(f64, f64)> {
-        rows.iter().map(|r| (r.sigma, value(r))).collect()
-    };
     // Both vanish with σ.
     let from_zero = |mut points: Vec<(f64, f64)>| {
         if points.first().is_some_and(|p| p.0 > 0.0) {
@@ -29,7 +29,6 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
         }
         points
     };
-    let (p_rest, p) = (curve(|r| r.p_rest), curve(|r| r.p));
     linear.curve("p for a start from rest", &from_zero(p_rest.clone()), rest, Outside::Refuse)?;
     linear.curve("p of Eq. (25)", &from_zero(p.clone()), main, Outside::Refuse)?;
     decades.curve("p for a start from rest", &p_rest, rest, Outside::Cut)?;
@@ -40,20 +39,19 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
         &[Entry::line(main, "Eq. (25): random free parts"), Entry::line(rest, "start from rest")],
     )?;
 
-    let scalars = &theory.scalars;
-    let (level, bottom) = (scalars.p_jump, decades.y.lo);
+    let (level, bottom) = (results.number("theory.jump.p_jump")?, decades.y.lo);
+    let jump = results.number("theory.relation.sigma_jump")?;
+    let jump_rest = results.number("theory.relation.sigma_jump_rest")?;
     let guide = Stroke::dashed(INK, HAIR, Dash::Dotted);
-    let corner = [(0.0, level), (scalars.sigma_jump, level), (scalars.sigma_jump, bottom)];
+    let corner = [(0.0, level), (jump, level), (jump, bottom)];
     decades.guide("jump of k*", &corner, guide)?;
-    let rest = [(scalars.sigma_jump_rest, level), (scalars.sigma_jump_rest, bottom)];
+    let rest = [(jump_rest, level), (jump_rest, bottom)];
     decades.guide("jump of k* from rest", &rest, guide)?;
     let told = format!("*k*^{{∗}} jumps at *p* = {}", short(level, 4));
     let look = |side, v| (SMALL, INK, side, v);
-    let above = (scalars.sigma_jump, level);
+    let above = (jump, level);
     decades.note(&told, above, (110, 260), look(HPos::Left, VPos::Top))?;
-    for (sigma, side, dx) in
-        [(scalars.sigma_jump, HPos::Left, 70), (scalars.sigma_jump_rest, HPos::Right, -70)]
-    {
+    for (sigma, side, dx) in [(jump, HPos::Left, 70), (jump_rest, HPos::Right, -70)] {
         decades.note(&number(sigma, 4), (sigma, bottom), (dx, -110), look(side, VPos::Bottom))?;
     }
 
@@ -61,9 +59,14 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
         "Probability p that two neighbours meet against σ, on (a) a linear and (b) a logarithmic axis: it stays at zero and then \
          rises steeply, and passes {}, where k* jumps, at σ = {}. A broken curve for a start from rest lies above it \
          up to σ = {}.",
-        short(scalars.p_jump, 4),
-        short(scalars.sigma_jump, 4),
-        rows.iter().rev().find(|r| r.p_rest > r.p).map_or("0".into(), |r| short(r.sigma, 2)),
+        short(level, 4),
+        short(jump, 4),
+        p_rest
+            .iter()
+            .zip(&p)
+            .rev()
+            .find(|(rest, p)| rest.1 > p.1)
+            .map_or("0".into(), |(rest, _)| short(rest.0, 2)),
     );
     Ok(sheet.finish("fig11", "Impact probability against forcing", description))
 }

@@ -5,29 +5,31 @@ use super::simulated::{
     CROSSES, HEIGHTS, MAIN, at, count_axis, crosses, curve, last_sigma, means, printed, rise,
     sigma_axis,
 };
-use crate::experiments::sweep::Sweep;
-use crate::experiments::theory::Theory;
+use crate::experiments::{Results, SWEEP};
+use crate::params::VERTICES;
 
-pub fn draw(sweep: &Sweep, theory: &Theory) -> Result<Figure, Error> {
+pub fn draw(results: &Results) -> Result<Figure, Error> {
+    let (sweep, theory) = (results.of(&SWEEP)?, results.table("theory.curve")?);
     let sheet = Sheet::new(HEIGHTS.0);
-    let n = sweep.parameters.chain.gaps().max(theory.curve_walls.vertices);
+    let n = sweep.parameters.chain.gaps().max(VERTICES + 1);
     let end = last_sigma(sweep);
     let panel = sheet.panel(MAIN, sigma_axis(end), count_axis(n, "expected number of impacts"))?;
     let (main, thin) = (Stroke::solid(GREEN, LINE), Stroke::solid(GREEN, THIN / 2));
-    let walls = curve(&theory.curve_walls, end, |row| row.simple);
+    let walls = curve(theory, end, "walls");
     panel.curve("theory, N = n + 1", &walls, thin, Outside::Refuse)?;
-    let simple = curve(&theory.curve, end, |row| row.simple);
+    let simple = curve(theory, end, "simple");
     panel.curve("theory", &simple, main, Outside::Refuse)?;
     let simulated = means(sweep);
     crosses(&panel, "simulation", &simulated)?;
-    let (big_n, big_n_walls) = (theory.curve.vertices, theory.curve_walls.vertices);
+    let (big_n, big_n_walls) = (VERTICES, VERTICES + 1);
     let near = rise(&sheet, 0.08, count_axis(n, "impacts"))?;
     printed(&near)?;
     near.curve("theory, N = n + 1, near the rise", &walls, thin, Outside::Cut)?;
     near.curve("theory, near the rise", &simple, main, Outside::Cut)?;
     near.marks("simulation, near the rise", &simulated, CROSSES, Outside::Cut)?;
     if let Some(half) = sweep.rise.half_height {
-        lag(&sheet, &near, [half.value, theory.scalars.sigma_half], n as f64 / 2.0)?;
+        let theory = results.number("theory.relation.sigma_half")?;
+        lag(&sheet, &near, [half.value, theory], n as f64 / 2.0)?;
     }
     sheet.legend(
         (1200, HEIGHTS.1),

@@ -2,7 +2,9 @@
 //! and (d) on a logarithmic axis, which the paper does not have.
 
 use super::prelude::*;
-use crate::experiments::theory::{HigherDistribution, Theory};
+use crate::experiments::Results;
+use crate::experiments::theory::higher::{contributions, five};
+use crate::params::{HIGHER_P, VERTICES as N};
 
 /// Largest k of the detail in (b).
 const DETAIL: usize = 20;
@@ -25,16 +27,18 @@ const CLASSES: [Class; 5] = [
     ("two vertices twice", "*ϕ*_{*N*}^{2}", INK, Dash::Alternate),
 ];
 
-pub fn draw(theory: &Theory) -> Result<Figure, Error> {
+/// What a panel shows.
+struct Distribution {
+    p: f64,
+    total: Vec<f64>,
+    classes: [Vec<f64>; 5],
+}
+
+pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sheet = Sheet::new(11_350);
-    let n = theory.vertices;
-    let [small, middle, large] = theory.higher.as_slice() else {
-        return Err(Error::Shape {
-            figure: "13",
-            expected: "higher-order distributions at three p",
-        });
-    };
-    let whole = n as f64 + 1.0;
+    let all = HIGHER_P.map(|p| Distribution { p, total: five(p), classes: contributions(p) });
+    let [small, middle, large] = &all;
+    let whole = N as f64 + 1.0;
     let k = |end: f64| {
         let (step, minor) = if end < 50.0 { (end / 4.0, 5) } else { (20.0, 2) };
         Axis::linear(0.0, end, step, minor, "*k*")
@@ -47,7 +51,7 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
         // The detail shows the higher orders: the simple circuits leave it at its upper edge.
         let top = if i == 1 {
             let higher = distribution.classes.iter().skip(1);
-            1.5 * higher.map(|c| largest(&c.probability)).fold(0.0, f64::max)
+            1.5 * higher.map(|class| largest(class)).fold(0.0, f64::max)
         } else {
             largest(&distribution.total)
         };
@@ -71,29 +75,32 @@ pub fn draw(theory: &Theory) -> Result<Figure, Error> {
         Entry::line(Stroke::dashed(colour, LINE, dash), &format!("{name}, {symbol}"))
     }));
     sheet.legend_in_columns((400, 10_250), (SMALL, 400), (3, 4100), &entries)?;
-    let share = |of: &HigherDistribution| short(of.classes.first().map_or(0.0, |c| c.share), 2);
+    let share = |p: f64| {
+        let share = results.number(&format!("theory.classes[p={p}].simple"));
+        share.map(|share| short(share, 2))
+    };
     let description = format!(
-        "Probability of k different impacts, N = {n}, for five classes of circuits: a red line for the sum, broken ones for the \
+        "Probability of k different impacts, N = {N}, for five classes of circuits: a red line for the sum, broken ones for the \
          classes. (b) enlarges (a); (e), (f) are (a), (d) on a logarithmic axis. Simple circuits hold {} of the whole at p = {}, {} at p = {} and {} at p = {}.",
-        share(small),
+        share(small.p)?,
         short(small.p, 3),
-        share(middle),
+        share(middle.p)?,
         short(middle.p, 3),
-        share(large),
+        share(large.p)?,
         short(large.p, 3),
     );
     Ok(sheet.finish("fig13", "Distributions with higher-order circuits", description))
 }
 
-fn series(panel: &Panel, distribution: &HigherDistribution, detail: bool) -> Result<(), Error> {
+fn series(panel: &Panel, distribution: &Distribution, detail: bool) -> Result<(), Error> {
     let shown = if detail { DETAIL } else { distribution.total.len() };
     let of = |values: &[f64]| values[..shown.min(values.len())].to_vec();
     panel.curve("all five classes", &over_k(&of(&distribution.total)), SUM, Outside::Cut)?;
     for (class, &(name, _, colour, dash)) in distribution.classes.iter().zip(&CLASSES) {
         // On a logarithmic axis each is seen.
         let points = match panel.y.scale {
-            Scale::Linear => visible(&of(&class.probability), panel.y.hi),
-            _ => over_k(&class.probability),
+            Scale::Linear => visible(&of(class), panel.y.hi),
+            _ => over_k(class),
         };
         panel.curve(name, &points, Stroke::dashed(colour, LINE, dash), Outside::Cut)?;
         if detail {

@@ -4,19 +4,20 @@ use super::prelude::*;
 use super::simulated::{
     CROSSES, HEIGHTS, MAIN, at, count_axis, crosses, curve, last_sigma, means, rise, sigma_axis,
 };
-use crate::experiments::sweep::Sweep;
-use crate::experiments::theory::Theory;
+use crate::experiments::{Results, SWEEP};
+use crate::params::VERTICES;
 
-pub fn draw(sweep: &Sweep, theory: &Theory) -> Result<Figure, Error> {
+pub fn draw(results: &Results) -> Result<Figure, Error> {
+    let (sweep, theory) = (results.of(&SWEEP)?, results.table("theory.curve")?);
     let sheet = Sheet::new(HEIGHTS.0);
-    let n = sweep.parameters.chain.gaps().max(theory.curve.vertices);
+    let n = sweep.parameters.chain.gaps().max(VERTICES);
     let end = last_sigma(sweep);
     let panel = sheet.panel(MAIN, sigma_axis(end), count_axis(n, "expected number of impacts"))?;
     let green = Stroke::solid(GREEN, LINE);
     let blue = Stroke::dashed(BLUE, LINE, Dash::Long);
-    let simple = curve(&theory.curve, end, |row| row.simple);
+    let simple = curve(theory, end, "simple");
     panel.curve("theory, simple circuits", &simple, green, Outside::Refuse)?;
-    let higher = curve(&theory.curve, end, |row| row.higher);
+    let higher = curve(theory, end, "higher");
     panel.curve("theory, five classes", &higher, blue, Outside::Refuse)?;
     let simulated = means(sweep);
     crosses(&panel, "simulation", &simulated)?;

@@ -42,9 +42,11 @@ fn line(results: &Results, window: f64, place: &str) -> Result<Vec<(f64, Estimat
 }
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
-    let found = &results.identities;
     // Half of N takes half of the chains, and a twentieth of N a twentieth of them.
-    let seeds = [found.sigma_kept_half, found.sigma_kept_onset];
+    let seeds = [
+        results.number("theory.relation.sigma_kept_half")?,
+        results.number("theory.relation.sigma_kept_onset")?,
+    ];
     let sheet = Sheet::new(6_200);
     let (mut entries, mut others) = (Vec::new(), Vec::new());
     for (place, ((column, label, [low, high, step], name), seeds)) in

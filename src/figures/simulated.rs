@@ -3,7 +3,8 @@
 use super::FORCING;
 use super::prelude::*;
 use crate::experiments::sweep::{Sweep, SweepRow};
-use crate::experiments::theory;
+use crate::experiments::theory::beside;
+use literate::table::Table;
 
 /// Line of the simulation's marks.
 pub const CROSS: Stroke = Stroke::solid(RED, THIN);
@@ -66,23 +67,13 @@ pub fn crosses(panel: &Panel, name: &str, points: &[(f64, f64)]) -> Result<(), E
 }
 
 /// A theory curve up to `end`.
-pub fn curve(
-    curve: &theory::Curve,
-    end: f64,
-    value: fn(&theory::CurveRow) -> f64,
-) -> Vec<(f64, f64)> {
-    curve.rows.iter().filter(|r| r.sigma <= end).map(|r| (r.sigma, value(r))).collect()
-}
-
-/// The value of a curve at some σ, linear between its points.
-pub fn value_at(points: &[(f64, f64)], sigma: f64) -> Option<f64> {
-    points.windows(2).find(|w| w[0].0 <= sigma && sigma <= w[1].0).map(|w| {
-        let share = (sigma - w[0].0) / (w[1].0 - w[0].0);
-        w[0].1 + share * (w[1].1 - w[0].1)
-    })
+pub fn curve(table: &Table, end: f64, column: &str) -> Vec<(f64, f64)> {
+    let mut points = table.points(&[], "sigma", column);
+    points.retain(|(sigma, _)| *sigma <= end);
+    points
 }
 
 /// The value of a curve at some σ in words.
 pub fn at(points: &[(f64, f64)], sigma: f64) -> String {
-    value_at(points, sigma).map_or("nothing".into(), |value| super::chart::short(value, 3))
+    beside::at(points, sigma).map_or("nothing".into(), |value| super::chart::short(value, 3))
 }

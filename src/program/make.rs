@@ -30,7 +30,7 @@ pub fn whole(
     let published = sources.published(&templates)?;
     drop(reading);
     let results = sources.run(ALL, profile, &templates, progress)?;
-    results.look();
+    results.tables();
     // Machines may be slow or busy, a loop of a template long.
     let _alive = alive(|| Some("making figures and documents".into()));
     let draw = |number| {

@@ -4,7 +4,7 @@
 use crate::quick::QUICK;
 use impact_paper::experiments::{Results, SEGMENTS, SPACE_TIME};
 use impact_paper::figures::{self, Error};
-use impact_paper::params::Profile;
+use impact_paper::params::{Profile, VERTICES};
 use roxmltree::{Document, Node};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -204,7 +204,7 @@ const GUIDES: &str = "equilibrium; wall; printed; half of all gaps; zero; counts
 #[test]
 fn data_files_have_headers_with_units_and_the_rows_of_what_is_drawn() {
     let results = &QUICK.results;
-    let (n, theory) = (results.theory.vertices, &results.theory);
+    let curve = results.table("theory.curve").unwrap().points(&[], "sigma", "p_rest");
     let mut rows = BTreeMap::new();
     for figure in &QUICK.figures {
         let schematic = ["fig01", "fig04"].contains(&figure.id.as_str());
@@ -244,12 +244,12 @@ fn data_files_have_headers_with_units_and_the_rows_of_what_is_drawn() {
     }
     for (name, expected) in [
         ("fig05b.csv", 3 * results.of(&SEGMENTS).unwrap().fig05.times.len() + 4),
-        ("fig07.csv", n),
-        ("fig08d.csv", n),
-        ("fig09b.csv", theory.most_likely.mean.len()),
-        ("fig09b-inset.csv", theory.most_likely.mean_inset.len()),
-        ("fig14b.csv", 2 * n),
-        ("fig15-inset.csv", theory.curve.rows.iter().filter(|row| row.sigma <= 0.4).count()),
+        ("fig07.csv", VERTICES),
+        ("fig08d.csv", VERTICES),
+        ("fig09b.csv", 241),
+        ("fig09b-inset.csv", 401),
+        ("fig14b.csv", 2 * VERTICES),
+        ("fig15-inset.csv", curve.iter().filter(|(sigma, _)| *sigma <= 0.4).count()),
     ] {
         assert_eq!(rows.get(name).map(Vec::len), Some(expected), "{name}");
     }
@@ -259,7 +259,7 @@ fn data_files_have_headers_with_units_and_the_rows_of_what_is_drawn() {
     }
     // Values are those of the results, in their units, on logarithmic axes too.
     let first = &rows["fig11b.csv"][0];
-    assert_eq!(first[2].parse(), Ok(theory.relation[0].p_rest), "{first:?}");
+    assert_eq!(first[2].parse(), Ok(curve[0].1), "{first:?}");
 }
 
 /// Thousands of impacts are strokes, not thousands of elements, and cover exactly the impacts.

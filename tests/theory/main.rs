@@ -5,4 +5,4 @@ mod distribution;
 mod high_precision;
 mod jump;
 mod relation;
-mod results;
+mod tables;

@@ -43,6 +43,15 @@ pub struct Missing {
     place: String,
 }
 
+impl Missing {
+    /// That there is no number at an address that the caller asks for.
+    #[track_caller]
+    pub fn new(address: impl Into<String>) -> Missing {
+        let place = std::panic::Location::caller();
+        Missing { address: address.into(), place: format!("{}:{}", place.file(), place.line()) }
+    }
+}
+
 /// A table that is being made, of rows R.
 pub struct Building<'a, R> {
     rows: &'a [R],
@@ -99,7 +108,7 @@ impl Table {
     fn select<'a>(&'a self, keys: Keys<'a>) -> impl Iterator<Item = &'a [Value]> {
         let agrees = move |cells: &[Value]| {
             let is = |(name, wanted): &(&str, f64)| {
-                self.column(name).and_then(|at| plain(&cells[at])) == Some(*wanted)
+                self.column(name).and_then(|at| number(&cells[at])) == Some(*wanted)
             };
             keys.iter().all(is)
         };
@@ -109,23 +118,21 @@ impl Table {
     /// The one cell in the row with these keys.
     #[track_caller]
     pub fn cell<'a>(&'a self, keys: Keys<'a>, column: &str) -> Result<&'a Value, Missing> {
-        let place = std::panic::Location::caller();
-        let cell = self.column(column).and_then(|at| self.select(keys).next()?.get(at));
-        cell.ok_or_else(|| {
-            let keys: Vec<String> =
-                keys.iter().map(|(name, key)| format!("{name}={key}")).collect();
-            let address = format!("{}[{}].{column}", self.name, keys.join(","));
-            Missing { address, place: format!("{}:{}", place.file(), place.line()) }
-        })
+        if let Some(cell) = self.column(column).and_then(|at| self.select(keys).next()?.get(at)) {
+            return Ok(cell);
+        }
+        let keys: Vec<String> = keys.iter().map(|(name, key)| format!("{name}={key}")).collect();
+        Err(Missing::new(format!("{}[{}].{column}", self.name, keys.join(","))))
     }
 
     /// The number of a cell.
     #[track_caller]
     pub fn number<'a>(&'a self, keys: Keys<'a>, column: &str) -> Result<f64, Missing> {
         let cell = self.cell(keys, column)?;
-        let place = std::panic::Location::caller();
-        let place = format!("{}:{}", place.file(), place.line());
-        plain(cell).ok_or(Missing { address: cell.id.clone(), place })
+        match number(cell) {
+            Some(number) => Ok(number),
+            None => Err(Missing::new(&cell.id)),
+        }
     }
 
     /// The numbers of a column where there are any, each with that of another column.
@@ -137,7 +144,7 @@ impl Table {
     pub fn estimates(&self, keys: Keys<'_>, x: &str, y: &str) -> Vec<(f64, Estimate)> {
         let Some((x, y)) = self.column(x).zip(self.column(y)) else { return Vec::new() };
         self.select(keys)
-            .filter_map(|cells| Some((plain(&cells[x])?, estimate(&cells[y])?)))
+            .filter_map(|cells| Some((number(&cells[x])?, estimate(&cells[y])?)))
             .collect()
     }
 
@@ -145,7 +152,7 @@ impl Table {
     pub fn values(&self, column: &str) -> Vec<f64> {
         let mut found = Vec::new();
         if let Some(at) = self.column(column) {
-            for value in self.rows.iter().filter_map(|(_, cells)| plain(&cells[at])) {
+            for value in self.rows.iter().filter_map(|(_, cells)| number(&cells[at])) {
                 if !found.contains(&value) {
                     found.push(value);
                 }
@@ -236,12 +243,12 @@ fn ways(all: &[String], cell: &Value) -> Vec<String> {
 fn called(cell: &Value) -> String {
     match &cell.number {
         Number::Text(words) => words.clone(),
-        _ => plain(cell).unwrap_or(f64::NAN).to_string(),
+        _ => number(cell).unwrap_or(f64::NAN).to_string(),
     }
 }
 
 /// The number of a cell; none of words.
-fn plain(cell: &Value) -> Option<f64> {
+pub fn number(cell: &Value) -> Option<f64> {
     match cell.number {
         Number::Integer(n) => Some(n as f64),
         Number::Real { value, .. } => Some(value),
@@ -250,7 +257,7 @@ fn plain(cell: &Value) -> Option<f64> {
 }
 
 fn estimate(cell: &Value) -> Option<Estimate> {
-    let value = plain(cell)?;
+    let value = number(cell)?;
     let error = match cell.kind {
         Kind::Ensemble { standard_error, .. } => standard_error,
         _ => 0.0,

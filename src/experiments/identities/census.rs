@@ -1,6 +1,6 @@
 //! Counts of circuits, against the enumeration of small graphs: Secs. 3, 5 and 9.
 
-use super::{Cases, ClassRange};
+use super::{Cases, cases};
 use impact_circuits::Fraction;
 use impact_circuits::counting::{paths, phi};
 use impact_circuits::graph::{Circuit, Graph};
@@ -10,13 +10,27 @@ use impact_circuits::higher_order::{
 };
 use std::collections::BTreeMap;
 
+/// A printed formula for a class of circuits, against enumeration.
+pub(crate) struct ClassRange {
+    /// Its equation.
+    pub equation: f64,
+    /// The smallest length from which on it is right in every case.
+    pub right_from: usize,
+    /// Cases from that length on.
+    pub cases: Cases,
+    /// One length below, on three vertices: what it gives.
+    pub formula_below: f64,
+    /// One length below, on three vertices: what enumeration finds.
+    pub counted_below: u64,
+}
+
 /// Number of primitive circuits by (N, length, class), found by enumeration.
-pub(super) type Census = BTreeMap<(usize, usize, Vec<usize>), u64>;
+pub(crate) type Census = BTreeMap<(usize, usize, Vec<usize>), u64>;
 
 /// Longest circuits that are enumerated on N = 1, 2, … vertices.
 const LONGEST: [usize; 6] = [6, 10, 8, 7, 6, 6];
 
-pub(super) fn census() -> Census {
+pub(crate) fn census() -> Census {
     let mut census = Census::new();
     for (n, longest) in (1..).zip(LONGEST) {
         for circuit in Graph::of_chain(n - 1).circuits(longest) {
@@ -27,49 +41,41 @@ pub(super) fn census() -> Census {
 }
 
 /// All (N, length) that were enumerated.
-pub(super) fn enumerated() -> impl Iterator<Item = (usize, usize)> {
+fn enumerated() -> impl Iterator<Item = (usize, usize)> {
     (1..).zip(LONGEST).flat_map(|(n, longest)| (1..=longest).map(move |k| (n, k)))
 }
 
-pub(super) fn counted(census: &Census, n: usize, k: usize, repeats: &[usize]) -> u64 {
+pub(crate) fn counted(census: &Census, n: usize, k: usize, repeats: &[usize]) -> u64 {
     census.get(&(n, k, repeats.to_vec())).copied().unwrap_or(0)
 }
 
+/// n + 1 impacts of a chain, two of them at walls, by the names of the vertices.
 pub(super) fn impact_types() -> Cases {
-    let mut cases = Cases::default();
-    for masses in 1..=20 {
+    cases((1..=20).map(|masses| {
         let graph = Graph::of_chain(masses);
-        let walls = (0..graph.vertices())
-            .filter(|&v| graph.label(v).starts_with('L') || graph.label(v).ends_with('R'))
-            .count();
-        cases.see(graph.vertices() == masses + 1 && walls == 2);
-    }
-    cases
+        let at_wall = |&v: &usize| graph.label(v).starts_with('L') || graph.label(v).ends_with('R');
+        let walls = (0..graph.vertices()).filter(at_wall).count();
+        graph.vertices() == masses + 1 && walls == 2
+    }))
 }
 
 /// Closed paths from vertex 0 without repetition: rotations of the simple circuits through it.
 pub(super) fn eq6(census: &Census) -> Cases {
-    let mut cases = Cases::default();
-    for (n, k) in enumerated().filter(|&(n, k)| k <= n) {
+    cases(enumerated().filter(|&(n, k)| k <= n).map(|(n, k)| {
         // A path is a simple circuit with one of its k vertices as the first: N paths in all.
         let all_paths = u128::from(counted(census, n, k, &[])) * k as u128;
-        cases.see(paths(n, k).map(|each| each * n as u128) == Some(all_paths));
-    }
-    cases
+        paths(n, k).map(|each| each * n as u128) == Some(all_paths)
+    }))
 }
 
 pub(super) fn eq7(census: &Census) -> Cases {
-    let mut cases = Cases::default();
-    for (n, k) in enumerated().filter(|&(n, k)| k <= n) {
-        cases.see(phi(n, k) == Some(u128::from(counted(census, n, k, &[]))));
-    }
-    cases
+    let agrees = |(n, k)| phi(n, k) == Some(u128::from(counted(census, n, k, &[])));
+    cases(enumerated().filter(|&(n, k)| k <= n).map(agrees))
 }
 
 /// Circuits through vertex 0 twice, by the sorted lengths of their two loops.
 pub(super) fn eq29() -> Cases {
-    let mut cases = Cases::default();
-    for (n, longest) in (1..).zip(LONGEST) {
+    cases((1..).zip(LONGEST).flat_map(|(n, longest)| {
         let mut loops: BTreeMap<[usize; 2], u128> = BTreeMap::new();
         let through = |circuit: &Circuit| {
             let visits = circuit.visits();
@@ -83,24 +89,21 @@ pub(super) fn eq29() -> Cases {
             lengths.sort_unstable();
             *loops.entry(lengths).or_insert(0) += 1;
         }
-        for ([a, b], circuits) in loops {
+        loops.into_iter().map(move |([a, b], circuits)| {
             // Two loops of equal length may be named in either order: half of the formula.
             let ordered = if a == b { 2 * circuits } else { circuits };
-            cases.see(doubled_paths(n, a + b) == Some(ordered));
-        }
-    }
-    cases
+            doubled_paths(n, a + b) == Some(ordered)
+        })
+    }))
 }
 
 pub(super) fn eq30_times_n(census: &Census) -> Cases {
-    let mut cases = Cases::default();
-    for (n, k) in enumerated().filter(|&(n, k)| k >= 3 && k <= n + 1) {
+    cases(enumerated().filter(|&(n, k)| k >= 3 && k <= n + 1).map(|(n, k)| {
         let times_n = doubled_as_printed(n, k)
             .map(|f| Fraction::new(f.numerator * n as u128, f.denominator))
             .and_then(Fraction::integer);
-        cases.see(times_n == Some(u128::from(counted(census, n, k, &[1]))));
-    }
-    cases
+        times_n == Some(u128::from(counted(census, n, k, &[1])))
+    }))
 }
 
 pub(super) fn eq32() -> Cases {
@@ -111,74 +114,59 @@ pub(super) fn eq32() -> Cases {
             _ => (1..=n).map(|first| count(n - first, j - 1)).sum(),
         }
     }
-    let mut cases = Cases::default();
-    for n in 1..=10 {
-        for j in 1..=n {
-            cases.see(compositions(n, j) == Some(count(n, j)));
-        }
-    }
-    cases
+    let agrees = |(n, j)| compositions(n, j) == Some(count(n, j));
+    cases((1..=10).flat_map(|n| (1..=n).map(move |j| (n, j))).map(agrees))
 }
 
 /// Circuits of all five classes with k different vertices, wherever no formula of Eq. (38) is used
 /// below the range that is printed with it: from k = 3 on, since Eq. (37) has length k + 2 > 4.
 pub(super) fn eq38(census: &Census) -> Cases {
-    let mut cases = Cases::default();
-    for (n, longest) in (1..).zip(LONGEST) {
-        for k in (3..=n).take_while(|k| k + 3 <= longest) {
-            let printed = [
-                phi(n, k).map(|count| Fraction::new(count, 1)),
-                doubled(n, k + 1),
-                three_visits(n, k + 2),
-                four_visits(n, k + 3),
-                two_doubled(n, k + 2),
-            ];
-            let printed: Option<u128> =
-                printed.into_iter().map(|count| count.and_then(Fraction::integer)).sum();
-            let classes: [(usize, &[usize]); 5] =
-                [(0, &[]), (1, &[1]), (2, &[0, 1]), (3, &[0, 0, 1]), (2, &[2])];
-            let found: u64 =
-                classes.iter().map(|(more, class)| counted(census, n, k + more, class)).sum();
-            cases.see(printed == Some(u128::from(found)));
-        }
-    }
-    cases
+    let of = |(n, longest): (usize, usize)| {
+        (3..=n).take_while(move |k| k + 3 <= longest).map(move |k| (n, k))
+    };
+    cases((1..).zip(LONGEST).flat_map(of).map(|(n, k)| {
+        let simple = phi(n, k).map(|count| Fraction::new(count, 1));
+        let printed: [(Option<Fraction>, usize, &[usize]); 5] = [
+            (simple, 0, &[]),
+            (doubled(n, k + 1), 1, &[1]),
+            (three_visits(n, k + 2), 2, &[0, 1]),
+            (four_visits(n, k + 3), 3, &[0, 0, 1]),
+            (two_doubled(n, k + 2), 2, &[2]),
+        ];
+        let found: u64 =
+            printed.iter().map(|(_, more, class)| counted(census, n, k + more, class)).sum();
+        let sum: Option<u128> =
+            printed.into_iter().map(|(count, ..)| count.and_then(Fraction::integer)).sum();
+        sum == Some(u128::from(found))
+    }))
 }
 
 /// A formula for N vertices and length k.
 type Formula = fn(usize, usize) -> Option<Fraction>;
 
-pub(crate) fn class_ranges(census: &Census) -> Vec<ClassRange> {
-    let printed: [(u32, Formula, &[usize]); 4] = [
-        (33, doubled, &[1]),
-        (35, three_visits, &[0, 1]),
-        (36, four_visits, &[0, 0, 1]),
-        (37, two_doubled, &[2]),
+pub(super) fn class_ranges(census: &Census) -> Vec<ClassRange> {
+    let printed: [(f64, Formula, &[usize]); 4] = [
+        (33.0, doubled, &[1]),
+        (35.0, three_visits, &[0, 1]),
+        (36.0, four_visits, &[0, 0, 1]),
+        (37.0, two_doubled, &[2]),
     ];
-    printed
-        .into_iter()
-        .map(|(equation, formula, repeats)| {
-            let class = Class::new(repeats);
-            let agrees = |n: usize, k: usize| {
-                let value = formula(n, k).and_then(Fraction::integer);
-                value == Some(u128::from(counted(census, n, k, repeats)))
-            };
-            let possible: Vec<(usize, usize)> =
-                enumerated().filter(|&(n, k)| class.different(k).is_some_and(|d| d <= n)).collect();
-            let wrong = possible.iter().filter(|&&(n, k)| !agrees(n, k)).map(|&(_, k)| k).max();
-            let right_from = wrong.map_or(1, |k| k + 1);
-            let mut cases = Cases::default();
-            for &(n, k) in possible.iter().filter(|&&(_, k)| k >= right_from) {
-                cases.see(agrees(n, k));
-            }
-            let below = right_from - 1;
-            ClassRange {
-                equation,
-                right_from,
-                cases,
-                formula_below: formula(3, below).map_or(f64::NAN, Fraction::to_f64),
-                counted_below: counted(census, 3, below, repeats),
-            }
-        })
-        .collect()
+    let range = |(equation, formula, repeats): (f64, Formula, &[usize])| {
+        let class = Class::new(repeats);
+        let agrees = |&(n, k): &(usize, usize)| {
+            let value = formula(n, k).and_then(Fraction::integer);
+            value == Some(u128::from(counted(census, n, k, repeats)))
+        };
+        let possible: Vec<(usize, usize)> =
+            enumerated().filter(|&(n, k)| class.different(k).is_some_and(|d| d <= n)).collect();
+        let below = possible.iter().filter(|own| !agrees(own)).map(|own| own.1).max().unwrap_or(0);
+        ClassRange {
+            equation,
+            right_from: below + 1,
+            cases: cases(possible.iter().filter(|own| own.1 > below).map(agrees)),
+            formula_below: formula(3, below).map_or(f64::NAN, Fraction::to_f64),
+            counted_below: counted(census, 3, below, repeats),
+        }
+    };
+    printed.map(range).into()
 }

@@ -1,12 +1,8 @@
-//! The relation of p and σ, Sec. 8, and gaps that close by themselves.
+//! The relation of p and σ, Sec. 8.
 
-use super::Nucleation;
-use crate::params::{Chain, Profile, SweepParams};
-use impact_circuits::Error;
 use impact_circuits::impact_probability::{
     ImpactProbability, amplitude, density_forced, density_free,
 };
-use impact_numerics::bisection;
 use impact_numerics::quadrature::GaussLegendre;
 
 /// Amplitudes and start of a mass, in units of d and d ω: (α₁, β₁, x − j d, ẋ).
@@ -85,54 +81,11 @@ pub(super) fn distributions() -> f64 {
 /// The σ at which the double integral still has some digits of p left.
 const EQ25_SIGMAS: [f64; 5] = [0.15, 0.2, 0.3, 0.5, 1.0];
 
-pub(crate) fn eq25() -> Result<f64, Error> {
-    let mut largest = 0.0_f64;
-    for sigma in EQ25_SIGMAS {
-        let gap = ImpactProbability::of_paper(sigma)?;
-        largest = largest.max((gap.p_by_double_integral(8) / gap.p()? - 1.0).abs());
-    }
-    Ok(largest)
-}
-
-/// Probability that one of `gaps` independent gaps closes by itself.
-pub(crate) fn any(p: f64, gaps: usize) -> f64 {
-    -pxfm::f_expm1(gaps as f64 * pxfm::f_log1p(-p))
-}
-
-/// At the σ of the main sweeps of all profiles.
-pub(crate) fn nucleation(gaps: usize) -> Result<Vec<Nucleation>, Error> {
-    let profiles = [Profile::Quick, Profile::Full];
-    let mut sigmas = profiles.map(|profile| SweepParams::main(profile).sigmas).concat();
-    sigmas.sort_by(f64::total_cmp);
-    sigmas.dedup();
-    sigmas
-        .into_iter()
-        .map(|sigma| {
-            let gap = ImpactProbability::of_paper(sigma)?;
-            let p_rest = gap.p_from_rest().unwrap_or(0.0);
-            let p = gap.p().unwrap_or(0.0);
-            // A wall does not move: the amplitudes of its gap are those of one mass.
-            let wall = ImpactProbability::of_paper(sigma / std::f64::consts::SQRT_2)?;
-            let no_wall = 2.0 * pxfm::f_log1p(-wall.p().unwrap_or(0.0));
-            let none = (gaps - 2) as f64 * pxfm::f_log1p(-p) + no_wall;
-            let (any_rest, any_random) = (any(p_rest, gaps), -pxfm::f_expm1(none));
-            Ok(Nucleation { sigma, p, p_rest, any_rest, any_random })
-        })
-        .collect()
-}
-
-/// σ at which such a share of the chains has a gap that closes by itself.
-pub(crate) fn sigma_kept(share: f64, gaps: usize) -> f64 {
-    let reached = |sigma: f64| {
-        let p = ImpactProbability::of_paper(sigma).and_then(|gap| gap.p_from_rest());
-        p.is_ok_and(|p| any(p, gaps) >= share)
-    };
-    bisection::bracket(0.01, 1.0, reached)[1]
-}
-
-/// Δ(0) = d + δα_0 − δα_1 is normal with variance 4σ² (both frequencies of the paper's chain).
-pub(crate) fn overlap(sigma: f64, chain: &Chain) -> Result<f64, Error> {
-    let deviations = chain.spacing / (2.0 * sigma);
-    let overlapped = 0.5 * pxfm::f_erfc(deviations / std::f64::consts::SQRT_2);
-    Ok(overlapped / ImpactProbability::of_paper(sigma)?.p()?)
+/// Eq. (25): largest relative difference between closed form and double integral.
+pub(crate) fn eq25() -> f64 {
+    EQ25_SIGMAS.into_iter().fold(0.0, |largest: f64, sigma| {
+        let gap = ImpactProbability::of_paper(sigma).expect("σ is positive");
+        let p = gap.p().expect("σ is large enough");
+        largest.max((gap.p_by_double_integral(8) / p - 1.0).abs())
+    })
 }

@@ -1,6 +1,5 @@
 //! The theory beside the simulation.
 
-use super::{Curve, CurveRow, curves};
 use crate::experiments::sweep::{Sweep, SweepRow};
 use crate::experiments::{Results, SWEEP, rise};
 use literate::table::Table;
@@ -12,24 +11,21 @@ const SIGMAS: [f64; 8] = [0.1, 0.11, 0.12, 0.13, 0.14, 0.15, 0.2, 0.3];
 /// From here on σ is called large (ours).
 pub(crate) const LARGE_SIGMA: f64 = 0.2;
 
-/// A column of a theory curve at any σ in its range, linear between its rows.
-pub(crate) fn at(curve: &Curve, sigma: f64, column: fn(&CurveRow) -> f64) -> Option<f64> {
-    let w = curve.rows.windows(2).find(|w| w[0].sigma <= sigma && sigma <= w[1].sigma)?;
-    let share = (sigma - w[0].sigma) / (w[1].sigma - w[0].sigma);
-    Some(column(&w[0]) + share * (column(&w[1]) - column(&w[0])))
+/// A curve of the theory at any σ in its range, linear between its points.
+pub(crate) fn at(curve: &[(f64, f64)], sigma: f64) -> Option<f64> {
+    let w = curve.windows(2).find(|w| w[0].0 <= sigma && sigma <= w[1].0)?;
+    let share = (sigma - w[0].0) / (w[1].0 - w[0].0);
+    Some(w[0].1 + share * (w[1].1 - w[0].1))
 }
 
-/// Largest distance of theory and simulation at large σ, in gaps, and where.
-pub(crate) fn largest_distance(sweep: &Sweep, curve: &Curve) -> Option<[f64; 2]> {
+/// Where theory and simulation lie farthest apart at large σ: their distance in gaps, σ, and both means.
+fn largest_distance(sweep: &Sweep, curve: &[(f64, f64)]) -> Option<[f64; 4]> {
     let rows = sweep.rows.iter().filter(|row| row.sigma >= LARGE_SIGMA);
     let distances = rows.filter_map(|row| {
-        let theory = at(curve, row.sigma, |r| r.simple)?;
-        Some([(row.mean_distinct? - theory).abs(), row.sigma])
+        let (mean, theory) = (row.mean_distinct?, at(curve, row.sigma)?);
+        Some([(mean - theory).abs(), row.sigma, theory, mean])
     });
-    distances.fold(None, |most: Option<[f64; 2]>, one| match most {
-        Some(most) if most[0] >= one[0] => Some(most),
-        _ => Some(one),
-    })
+    distances.reduce(|most, one| if most[0] >= one[0] { most } else { one })
 }
 
 /// The finest step of the grid, to a part in a million.
@@ -40,7 +36,7 @@ fn finest(sweep: &Sweep) -> f64 {
 
 /// The largest increase of a mean within one and within two steps of the grid, in gaps; over the
 /// finest part of the grid.
-pub(crate) fn increases(sweep: &Sweep, mean: fn(&SweepRow) -> Option<f64>) -> Option<[f64; 2]> {
+fn increases(sweep: &Sweep, mean: fn(&SweepRow) -> Option<f64>) -> Option<[f64; 2]> {
     let points: Vec<(f64, f64)> =
         sweep.rows.iter().filter_map(|row| Some((row.sigma, mean(row)?))).collect();
     let finest = finest(sweep);
@@ -58,11 +54,11 @@ pub(crate) fn increases(sweep: &Sweep, mean: fn(&SweepRow) -> Option<f64>) -> Op
 
 /// Root mean square distance of a theory curve from the simulated means, from the first row with
 /// kept realisations up to where σ is large.
-pub(crate) fn distance(sweep: &Sweep, curve: &Curve, column: fn(&CurveRow) -> f64) -> Option<f64> {
+fn distance(sweep: &Sweep, curve: &[(f64, f64)]) -> Option<f64> {
     let rows = sweep.rows.iter().filter(|row| row.sigma < LARGE_SIGMA);
     let squares: Vec<f64> = rows
         .filter_map(|row| {
-            let difference = row.mean_distinct? - at(curve, row.sigma, column)?;
+            let difference = row.mean_distinct? - at(curve, row.sigma)?;
             Some(difference * difference)
         })
         .collect();
@@ -71,34 +67,43 @@ pub(crate) fn distance(sweep: &Sweep, curve: &Curve, column: fn(&CurveRow) -> f6
 }
 
 /// What the text says of both.
-pub fn tables(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
-    let (sweep, theory) = (results.of(&SWEEP).ok()?, &results.theory);
-    let curve = &theory.curve;
+pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
+    let sweep = results.of(&SWEEP).ok()?;
+    let table = |name| all.iter().find(|table| table.name() == name);
+    let (curve, relation) = (table("theory.curve")?, table("theory.relation")?);
+    let curves = ["simple", "higher", "rest"].map(|column| curve.points(&[], "sigma", column));
+    let [simple, higher, rest] = &curves;
     let found = |number: Option<f64>| number.unwrap_or(f64::NAN);
-    let root = |column| found(distance(sweep, curve, column));
     let rows: Vec<&SweepRow> =
         sweep.rows.iter().filter(|row| SIGMAS.contains(&row.sigma) && row.kept > 0).collect();
-    let mean = |row: &SweepRow, column| found(at(curve, row.sigma, column));
+    let mean = |row: &SweepRow, curve| found(at(curve, row.sigma));
     let means = Table::of("sweep.theory", &rows, |_| 0)
         .key("sigma", "d omega^2", |row| row.sigma)
-        .computed_by(origin(curves::curve))
-        .real("simple", "1", 3, "μ, simple circuits", |row| mean(row, |own| own.simple))
-        .real("higher", "1", 3, "μ, five classes", |row| mean(row, |own| own.higher))
-        .real("rest", "1", 3, "μ from rest, simple circuits", |row| {
-            mean(row, |own| own.simple_rest)
-        })
+        .computed_by(origin(at))
+        .real("simple", "1", 3, "μ, simple circuits", |row| mean(row, simple))
+        .real("higher", "1", 3, "μ, five classes", |row| mean(row, higher))
+        .real("rest", "1", 3, "μ from rest, simple circuits", |row| mean(row, rest))
         .done();
+    let far = |at: usize| largest_distance(sweep, simple).map(|far| far[at]);
+    let kept = increases(sweep, |row| row.mean_distinct);
     let table = Table::of("sweep.beside_theory", &[()], |()| 0)
         .computed_by(origin(largest_distance))
         .chosen("large_sigma", "d omega^2", "from here on σ is called large", |()| {
             Some(LARGE_SIGMA)
         })
         .real("large_distance", "1", 2, "largest distance of both means at large σ", |()| {
-            found(largest_distance(sweep, curve).map(|[distance, _]| distance))
+            found(far(0))
         })
+        .chosen("large_distance_at", "d omega^2", "σ of it", |()| far(1))
+        .real("large_theory", "1", 3, "μ there", |()| found(far(2)))
+        .real("large_mean", "1", 3, "mean of the kept there", |()| found(far(3)))
         .computed_by(origin(increases))
         .real("largest_increase", "1", 2, "of the mean of the kept in one step of σ", |()| {
-            found(increases(sweep, |row| row.mean_distinct).map(|[one, _]| one))
+            found(kept.map(|[one, _]| one))
+        })
+        .real("increase_of_two", "1", 2, "in two steps", |()| found(kept.map(|[_, two]| two)))
+        .real("increase_of_all", "1", 2, "of the mean of all in one step", |()| {
+            found(increases(sweep, |row| row.mean_all).map(|[one, _]| one))
         })
         .chosen("step", "d omega^2", "the finest of the grid", |()| Some(finest(sweep)))
         .computed_by(origin(rise::find))
@@ -107,14 +112,17 @@ pub fn tables(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
             "d omega^2",
             2,
             "half height of the theory less that of the simulation",
-            |()| found(sweep.rise.half_height.map(|half| theory.scalars.sigma_half - half.value)),
+            |()| {
+                let theory = relation.number(&[], "sigma_half").ok();
+                found(theory.zip(sweep.rise.half_height).map(|(own, half)| own - half.value))
+            },
         )
         .computed_by(origin(distance))
         .real("simple", "1", 3, "root mean square distance of the means, simple circuits", |()| {
-            root(|row| row.simple)
+            found(distance(sweep, simple))
         })
-        .real("higher", "1", 3, "the same with five classes", |()| root(|row| row.higher))
-        .real("rest", "1", 3, "the same from rest", |()| root(|row| row.simple_rest))
+        .real("higher", "1", 3, "the same with five classes", |()| found(distance(sweep, higher)))
+        .real("rest", "1", 3, "the same from rest", |()| found(distance(sweep, rest)))
         .done();
     Some(vec![means, table])
 }
@@ -137,15 +145,14 @@ mod tests {
 
     #[test]
     fn distances_are_taken_between_the_rows_of_the_curve() {
-        let row = |sigma, simple| CurveRow { sigma, simple, higher: 0.0, simple_rest: 0.0 };
-        let curve = Curve { vertices: 100, rows: vec![row(0.0, 0.0), row(0.4, 40.0)] };
+        let curve = [(0.0, 0.0), (0.4, 40.0)];
         let close = |a: Option<f64>, b: f64| (a.unwrap() - b).abs() < 1e-12;
-        assert!(close(at(&curve, 0.1, |row| row.simple), 10.0));
-        assert_eq!(at(&curve, 0.5, |row| row.simple), None);
+        assert!(close(at(&curve, 0.1), 10.0));
+        assert_eq!(at(&curve, 0.5), None);
         let sweep = sweep(&[(0.1, 13.0), (0.15, 11.0), (0.2, 22.0), (0.3, 25.0), (0.5, 90.0)]);
         // Below 0.2 the differences are 3 and −4, from there on 2 and −5.
-        assert!(close(distance(&sweep, &curve, |row| row.simple), 12.5_f64.sqrt()));
-        let [most, sigma] = largest_distance(&sweep, &curve).unwrap();
+        assert!(close(distance(&sweep, &curve), 12.5_f64.sqrt()));
+        let [most, sigma, ..] = largest_distance(&sweep, &curve).unwrap();
         assert!(close(Some(most), 5.0) && sigma == 0.3);
     }
 

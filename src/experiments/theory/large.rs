@@ -1,52 +1,14 @@
-//! The theory for many vertices: Fig. S6.
+//! The theory for many vertices, with p N held fixed as N grows: Fig. S6.
 
-use super::Point;
-use super::jump::sigma_of;
-use crate::params::{DRAWN_VERTICES, Grid, LARGE_VERTICES};
-use impact_circuits::distribution::SampleSpace;
+use super::relation::{p_of, reaches};
+use super::{known, one};
+use crate::params::{Grid, LARGE_VERTICES};
+use impact_circuits::distribution::SampleSpace::Simple;
+use impact_circuits::jump::{self, Jump, p_jump};
 use impact_circuits::large::{jump_rule, limit_share};
-use impact_circuits::{Error, jump};
+use literate::table::Table;
+use literate::value::origin;
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
-
-/// What becomes of Secs. 6 and 7 as N grows with p N held fixed.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Large {
-    /// The jump of k* at several N, rising.
-    pub jumps: Vec<LargeJump>,
-    /// k*/N against p N.
-    pub shares: Vec<LargeShares>,
-    /// The limit of k*/N against p N.
-    pub limit: Vec<Point>,
-    /// σ at which p(σ) is p_jump of the largest N.
-    pub sigma_jump: f64,
-}
-
-/// The jump for one N.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct LargeJump {
-    /// Number of vertices N.
-    pub vertices: usize,
-    /// p_jump.
-    pub p: f64,
-    /// N p_jump.
-    pub p_n: f64,
-    /// k* just after it.
-    pub k_after: usize,
-    /// k*/N just after it.
-    pub share: f64,
-    /// The root of k² = 2 N (ln k − 1), for N > e³.
-    pub rule: Option<f64>,
-}
-
-/// k*/N against p N for one N.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct LargeShares {
-    /// Number of vertices N.
-    pub vertices: usize,
-    /// The points; at the jump there are two.
-    pub rows: Vec<Point>,
-}
 
 /// So many steps of k* between two values of p N are drawn one by one.
 const FEW: usize = 3;
@@ -56,44 +18,72 @@ fn drawn() -> Vec<f64> {
     Grid::default().and(0, 500, 1, 200).values()
 }
 
-/// All of it.
-pub fn large() -> Result<Large, Error> {
-    let jumps = LARGE_VERTICES.into_par_iter().map(jump_at).collect::<Result<Vec<_>, _>>()?;
-    let sigma_jump = jumps.last().map_or(0.0, |last| sigma_of(last.p));
-    let known = jumps.iter().filter(|jump| DRAWN_VERTICES.contains(&jump.vertices));
-    let limit = drawn().into_iter().map(|x| Point { x, y: limit_share(x) });
-    Ok(Large { shares: known.map(shares).collect(), jumps, limit: limit.collect(), sigma_jump })
+pub(super) fn tables() -> Vec<Table> {
+    let jumps: Vec<(f64, Jump)> = LARGE_VERTICES
+        .into_par_iter()
+        .map(|vertices| (vertices as f64, known(p_jump(Simple, vertices))))
+        .collect();
+    let share = |(n, jump): &(f64, Jump)| jump.k_after as f64 / n;
+    let table = Table::of("theory.large", &jumps, |_| 0)
+        .computed_by(origin(p_jump))
+        .key("n", "1", |(n, _)| *n)
+        .real("vertices", "1", 1, "N", |(n, _)| *n)
+        .count("k_after", "k* after the jump", |(_, jump)| jump.k_after as u64)
+        .real("share", "1", 2, "k*/N after the jump", share)
+        .real("rule", "1", 4, "root of k² = 2 N (ln k − 1)", |(n, _)| {
+            jump_rule(*n as usize).unwrap_or(f64::NAN)
+        })
+        .real("p_n", "1", 5, "N p_jump", |(n, jump)| jump.p * n)
+        .done();
+    let sigma = one("theory.large_relation", origin(reaches))
+        .real("sigma_jump", "d omega^2", 3, "σ of the jump at the largest N", |()| {
+            jumps.last().map_or(f64::NAN, |(_, jump)| reaches(p_of, jump.p))
+        })
+        .done();
+    vec![table, sigma]
 }
 
-fn jump_at(vertices: usize) -> Result<LargeJump, Error> {
-    let found = jump::p_jump(SampleSpace::Simple, vertices)?;
-    Ok(LargeJump {
-        vertices,
-        p: found.p,
-        p_n: found.p * vertices as f64,
-        k_after: found.k_after,
-        share: found.k_after as f64 / vertices as f64,
-        rule: jump_rule(vertices),
-    })
+/// The limit of k*/N against p N.
+pub fn limit() -> Vec<(f64, f64)> {
+    drawn().into_iter().map(|x| (x, limit_share(x))).collect()
 }
 
-/// k* is 1 up to the jump and the local maximum beyond it, since Φ(k)/Φ(1) rises with p.
-fn shares(found: &LargeJump) -> LargeShares {
-    let big_n = found.vertices as f64;
-    let point = |x: f64, k: usize| Point { x, y: k as f64 / big_n };
-    let (before, after): (Vec<f64>, Vec<f64>) = drawn().into_iter().partition(|x| *x <= found.p_n);
-    let mut rows: Vec<Point> = before.into_iter().map(|x| point(x, 1)).collect();
-    rows.extend([point(found.p_n, 1), point(found.p_n, found.k_after)]);
-    let mut level = found.k_after;
+/// k*/N against p N up to the jump and beyond: 1 before it, the local maximum then, since Φ(k)/Φ(1) rises with p.
+pub fn shares(vertices: usize) -> [Vec<(f64, f64)>; 2] {
+    let leap = known(p_jump(Simple, vertices));
+    let (big_n, at) = (vertices as f64, leap.p * vertices as f64);
+    let point = |x: f64, k: usize| (x, k as f64 / big_n);
+    let (before, after): (Vec<f64>, Vec<f64>) = drawn().into_iter().partition(|x| *x <= at);
+    let before = before.into_iter().chain([at]).map(|x| point(x, 1)).collect();
+    let (mut level, mut rows) = (leap.k_after, vec![point(at, leap.k_after)]);
     for x in after {
-        let k = jump::local_maximum(found.vertices, x / big_n).max(found.k_after);
+        let k = jump::local_maximum(vertices, x / big_n).max(leap.k_after);
         // Few steps are drawn as steps; where there are many they cannot be seen.
         if k - level <= FEW {
-            let steps = (level..k).map(|k| (big_n * jump::step(found.vertices, k), k));
+            let steps = (level..k).map(|k| (big_n * jump::step(vertices, k), k));
             rows.extend(steps.flat_map(|(x, k)| [point(x, k), point(x, k + 1)]));
         }
         rows.push(point(x, k));
         level = k;
     }
-    LargeShares { vertices: found.vertices, rows }
+    [before, rows]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use impact_circuits::distribution::Law;
+
+    #[test]
+    fn drawn_shares_are_those_of_k_star() {
+        for vertices in [100, 10_000] {
+            let n = vertices as f64;
+            let share = |p: f64| Law::new(Simple, vertices, p).unwrap().k_star() as f64 / n;
+            for (x, y) in shares(vertices).concat().into_iter().step_by(40) {
+                // At a step both ends are drawn.
+                let sides = [1.0 - 1e-13, 1.0 + 1e-13].map(|near| share(near * x / n));
+                assert!(sides.contains(&y), "{x} {y} {sides:?}");
+            }
+        }
+    }
 }

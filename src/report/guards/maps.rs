@@ -77,14 +77,11 @@ fn fall(look: Look<'_>) -> Option<String> {
 /// mean of all is half of N no sooner than half of the chains have such a gap, and a twentieth of it no
 /// sooner than a twentieth of them.
 fn need_seeds(look: Look<'_>) -> Option<String> {
-    let seeds = &look.results.identities;
+    let of = |column: &str| look.results.number(&format!("theory.relation.{column}")).ok();
+    let (half, onset) = (of("sigma_kept_half")?, of("sigma_kept_onset")?);
     let quantile = claims::level().quantile;
     maps(look).flat_map(|(_, map)| &map.cells).find_map(|cell| {
-        let bounds = [
-            (cell.half_height_all, seeds.sigma_kept_half),
-            (cell.kept_half, seeds.sigma_kept_half),
-            (cell.onset, seeds.sigma_kept_onset),
-        ];
+        let bounds = [(cell.half_height_all, half), (cell.kept_half, half), (cell.onset, onset)];
         bounds.into_iter().find_map(|(own, bound)| {
             let own = own?;
             unless(own.value >= bound - quantile * own.error, || {

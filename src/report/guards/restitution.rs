@@ -19,7 +19,7 @@ fn table<'a>(look: Look<'a>, name: &'static str) -> Option<&'a Table> {
 /// No mean is at half of all gaps before half of the chains can have an impact at all.
 fn halves(look: Look<'_>) -> Option<String> {
     let halves = table(look, "restitution.curves")?.estimates(&[], "r", "half_height");
-    let bound = look.results.identities.sigma_kept_half;
+    let bound = look.results.number("theory.relation.sigma_kept_half").ok()?;
     let early = halves.iter().find(|(_, own)| own.value <= bound - 5.0 * own.error);
     early.map(|(r, own)| format!("half height {} at r = {r}, below the bound {bound}", own.value))
 }

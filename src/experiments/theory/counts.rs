@@ -1,0 +1,83 @@
+//! How many circuits there are: Secs. 3 and 5, Fig. 7.
+
+use super::{known, one, sum};
+use crate::params::VERTICES;
+use impact_circuits::distribution::SampleSpace;
+use impact_circuits::graph::Graph;
+use impact_circuits::{commuting, counting, jump};
+use literate::table::Table;
+use literate::value::origin;
+use std::f64::consts::LN_10;
+
+/// Gaps of the chain whose simple circuits are enumerated.
+const ENUMERATED: usize = 7;
+
+pub(super) fn tables() -> Vec<Table> {
+    vec![graph(), circuits(), lengths(), commuting_circuits()]
+}
+
+/// Sec. 3.
+fn graph() -> Table {
+    let graph = Graph::of_chain(3);
+    one("theory.graph", origin(Graph::of_chain))
+        .count("vertices", "of the graph for three masses", |()| graph.vertices() as u64)
+        .count("edges", "of the same", |()| graph.edges().count() as u64)
+        .done()
+}
+
+/// Sec. 5, Fig. 7.
+fn circuits() -> Table {
+    let lengths: Vec<usize> = (1..=VERTICES).collect();
+    let (shares, log_total) = counting::shares(VERTICES);
+    Table::of("theory.circuits", &lengths, |_| 0)
+        .key("k", "1", |k| *k as f64)
+        .computed_by(origin(counting::shares))
+        .real("share", "1", 3, "of all simple circuits, those of length k", |k| shares[k - 1])
+        .computed_by(origin(counting::log_phi))
+        .real("log_share", "1", 3, "decimal logarithm of the share", |k| {
+            (known(counting::log_phi(VERTICES, *k)) - log_total) / LN_10
+        })
+        .computed_by(origin(counting::ratio_to_longest))
+        .real("ratio", "1", 4, "Eq. (8)", |k| counting::ratio_to_longest(VERTICES, *k))
+        .done()
+}
+
+fn lengths() -> Table {
+    let (shares, _) = counting::shares(VERTICES);
+    let ratio = |k| counting::ratio_to_longest(VERTICES, k);
+    one("theory.lengths", origin(counting::ratio_to_longest))
+        .real("before_last", "1", 4, "Eq. (8) at k = N − 1", |()| ratio(VERTICES - 1))
+        .count(
+            "exceptions",
+            "lengths k < N with more than a tenth of the circuits of length N",
+            |()| (1..VERTICES).filter(|&k| ratio(k) > 0.1).count() as u64,
+        )
+        .chosen("first_exception", "1", "the shortest of them", |()| {
+            (1..VERTICES).find(|&k| ratio(k) > 0.1).map(|k| k as f64)
+        })
+        .computed_by(origin(counting::shares))
+        .count("peak", "the most frequent length", |()| {
+            let largest = (1..=VERTICES).max_by(|a, b| shares[a - 1].total_cmp(&shares[b - 1]));
+            largest.unwrap_or(VERTICES) as u64
+        })
+        .count("from", "N − 3", |()| VERTICES as u64 - 3)
+        .real("share", "1", 2, "of simple circuits that are as long or longer", |()| {
+            sum(shares[VERTICES - 4..].iter().copied())
+        })
+        .done()
+}
+
+/// Simple circuits that differ only by the order of impacts without a common mass.
+fn commuting_circuits() -> Table {
+    let [circuits, classes] = commuting::simple_classes(ENUMERATED);
+    one("theory.commuting", origin(commuting::simple_classes))
+        .count("gaps", "gaps of a chain", |()| ENUMERATED as u64)
+        .count("circuits", "simple circuits", |()| circuits as u64)
+        .count("classes", "of them that a mass tells apart", |()| classes as u64)
+        .computed_by(origin(commuting::mean_without_orders))
+        .real("mean", "1", 2, "mean number at the jump, each class with p^k once", |()| {
+            let leap = known(jump::p_jump(SampleSpace::Simple, VERTICES));
+            commuting::mean_without_orders(VERTICES, leap.p)
+        })
+        .done()
+}

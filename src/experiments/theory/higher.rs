@@ -1,0 +1,146 @@
+//! Circuits that repeat vertices: Sec. 9, Figs. 13 and 14.
+
+use super::law::{law, means, simple};
+use super::{known, one, sum};
+use crate::experiments::identities::census::{census, counted};
+use crate::params::{HIGHER_P, REMARK_P, VERTICES};
+use SampleSpace::{FiveClasses, FiveClassesPrinted, Simple};
+use impact_circuits::distribution::{Law, SampleSpace};
+use impact_circuits::higher_order::{CLASSES, doubled, doubled_as_printed};
+use impact_circuits::{Fraction, jump};
+use literate::table::Table;
+use literate::value::origin;
+
+/// P(X = k) of five classes, k = 1..=N.
+pub fn five(p: f64) -> Vec<f64> {
+    law(FiveClasses, p).probabilities()
+}
+
+/// What each of the five classes contributes to it, in the order of Eq. (38).
+pub fn contributions(p: f64) -> [Vec<f64>; 5] {
+    CLASSES.map(|class| law(FiveClasses, p).contribution(&class))
+}
+
+/// Half the sum of absolute differences.
+fn total_variation(a: &[f64], b: &[f64]) -> f64 {
+    0.5 * sum(a.iter().zip(b).map(|(a, b)| (a - b).abs()))
+}
+
+/// One doubled vertex costs p and can be placed in k²/2 ways, except on a single vertex: the weight of such circuits over
+/// that of simple ones.
+fn first_order(p: f64) -> f64 {
+    let higher = (1_u32..).zip(simple(p)).skip(1);
+    sum(higher.map(|(k, q)| q * p * f64::from(k) * f64::from(k) / 2.0))
+}
+
+pub(super) fn classes() -> Table {
+    Table::of("theory.classes", &REMARK_P, |_| 0)
+        .computed_by(origin(contributions))
+        .key("p", "1", |p| *p)
+        .real("simple", "1", 2, "share of simple circuits", |p| {
+            sum(law(FiveClasses, *p).contribution(&CLASSES[0]))
+        })
+        .computed_by(origin(total_variation))
+        .real("variation", "1", 2, "distance from the distribution of simple circuits", |p| {
+            total_variation(&five(*p), &simple(*p))
+        })
+        .computed_by(origin(Law::mean))
+        .real("mean_difference", "1", 2, "μ less that of simple circuits", |p| {
+            law(FiveClasses, *p).mean() - law(Simple, *p).mean()
+        })
+        .computed_by(origin(first_order))
+        .real("first_order", "1", 2, "weight of one doubled vertex, to first order in p", |p| {
+            first_order(*p)
+        })
+        .done()
+}
+
+/// The p up to 0.04 at which the two means differ most in proportion, and both there.
+fn means_apart() -> [f64; 3] {
+    let [_, inset] = means();
+    let rows = inset.into_iter().map(|(p, mean)| [p, mean, law(FiveClasses, p).mean()]);
+    let share = |[_, mean, higher]: [f64; 3]| (higher / mean - 1.0).abs();
+    rows.fold([0.0, 1.0, 1.0], |most, row| if share(row) > share(most) { row } else { most })
+}
+
+/// The largest change of μ(p(σ)) by higher orders, and the σ where it is.
+fn largest_change(curve: &Table) -> [f64; 2] {
+    let [simple, higher] = ["simple", "higher"].map(|of| curve.points(&[], "sigma", of));
+    simple.iter().zip(higher).fold([0.0, 0.0], |most, ((sigma, simple), (_, higher))| {
+        let change = (higher - simple).abs();
+        if change > most[0] { [change, *sigma] } else { most }
+    })
+}
+
+/// Weight of circuits with one doubled vertex over that of simple ones, k being the whole part of μ.
+fn doubling(p: f64) -> f64 {
+    let law = law(FiveClasses, p);
+    let of = |class| law.contribution(class)[law.mean() as usize - 1];
+    of(&CLASSES[1]) / of(&CLASSES[0])
+}
+
+/// Beside the curve over σ, the σ at which μ is (N + 1)/2 and those of the jump: of a start from rest, and with five
+/// classes of all and in the relation.
+pub(super) fn higher(curve: &Table, relation: &Table) -> Table {
+    let (sigma, census) = ("d omega^2", census());
+    let of = |column| relation.number(&[], column).unwrap_or(f64::NAN);
+    let jump = |space| known(jump::p_jump(space, VERTICES));
+    let fraction = |found: Option<Fraction>| found.map_or(f64::NAN, Fraction::to_f64);
+    let (first, last) = (HIGHER_P[0], HIGHER_P[HIGHER_P.len() - 1]);
+    // From this k on p k²/2 is at least one.
+    let tail_from = (2.0 / first).sqrt().ceil() as usize;
+    let [apart_at, mean, more] = means_apart();
+    let [change, change_at] = largest_change(curve);
+    one("theory.higher", origin(doubled_as_printed))
+        .real("eq30_printed", "1", 1, "Eq. (30) as printed, k = N = 3", |()| {
+            fraction(doubled_as_printed(3, 3))
+        })
+        .count("eq30_counted", "circuits that it should count", |()| counted(&census, 3, 3, &[1]))
+        .computed_by(origin(doubled))
+        .real("eq33_printed", "1", 2, "Eq. (33), k = 2 and N = 3", |()| fraction(doubled(3, 2)))
+        .count("eq33_counted", "circuits that it should count", |()| counted(&census, 3, 2, &[1]))
+        .computed_by(origin(jump::p_jump))
+        .real("p_jump", "1", 5, "p_jump with five classes", |()| jump(FiveClasses).p)
+        .count("k_after", "k* after it", |()| jump(FiveClasses).k_after as u64)
+        .real("printed_shift", "1", 1, "relative shift of it with the printed formulas", |()| {
+            jump(FiveClassesPrinted).p / jump(FiveClasses).p - 1.0
+        })
+        .computed_by(origin(five))
+        .count("tail_from", "k from which on p k²/2 is one or more, smallest p of Fig. 13", |()| {
+            tail_from as u64
+        })
+        .real("tail_weight", "1", 1, "probability of these k", |()| {
+            sum(five(first).into_iter().skip(tail_from - 1))
+        })
+        .computed_by(origin(doubling))
+        .real(
+            "doubling",
+            "1",
+            3,
+            "weight of one doubled vertex, largest p of Fig. 13, k = μ",
+            |()| doubling(last),
+        )
+        .computed_by(origin(means_apart))
+        .chosen("means_apart_at", "1", "p at which the means differ most in proportion", |()| {
+            Some(apart_at)
+        })
+        .real("means_apart", "1", 2, "by so much", |()| more - mean)
+        .real("means_ratio", "1", 2, "in proportion", |()| more / mean - 1.0)
+        .computed_by(origin(largest_change))
+        .real("change", "1", 2, "largest change of μ over σ", |()| change)
+        .chosen("change_at", sigma, "σ of it", |()| Some(change_at))
+        .real("half_shift", sigma, 1, "shift of σ at which μ is (N + 1)/2", |()| {
+            of("sigma_half") - of("sigma_half_higher")
+        })
+        .real(
+            "relation_over",
+            "1",
+            2,
+            "shift of the jump by the start from rest over that by higher orders",
+            |()| {
+                let shift = |column| (of(column) - of("sigma_jump")).abs();
+                shift("sigma_jump_rest") / shift("sigma_jump_higher")
+            },
+        )
+        .done()
+}

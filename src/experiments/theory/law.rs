@@ -1,0 +1,181 @@
+//! The number of different impacts, and why its most likely value jumps: Secs. 6 and 7, Figs. 8 to 10.
+
+use super::{known, one};
+use crate::experiments::identities::jump::{mean_slopes, touching};
+use crate::params::{DISTRIBUTION_P, Grid, VERTICES};
+use impact_circuits::distribution::Law;
+use impact_circuits::distribution::SampleSpace::{self, Simple};
+use impact_circuits::{Fraction, jump};
+use literate::table::Table;
+use literate::value::origin;
+
+pub(super) fn tables() -> Vec<Table> {
+    vec![distributions(), mean(), jumping(), first_maximum()]
+}
+
+/// The distribution for the paper's N.
+pub(super) fn law(space: SampleSpace, p: f64) -> Law {
+    known(Law::new(space, VERTICES, p))
+}
+
+/// P(X = k) of simple circuits, k = 1..=N.
+pub fn simple(p: f64) -> Vec<f64> {
+    law(Simple, p).probabilities()
+}
+
+/// k* of simple circuits.
+pub fn k_star(p: f64) -> usize {
+    law(Simple, p).k_star()
+}
+
+/// Fig. 8.
+fn distributions() -> Table {
+    Table::of("theory.distribution", &DISTRIBUTION_P, |_| 0)
+        .computed_by(origin(Law::mean))
+        .key("p", "1", |p| *p)
+        .real("mean", "1", 3, "μ", |p| law(Simple, *p).mean())
+        .computed_by(origin(Law::k_star))
+        .count("k_star", "k*", |p| k_star(*p) as u64)
+        .done()
+}
+
+/// Fig. 9 (a): where k* leaves its value before, and what it is then; from p = 0 on, the last holds to p = 1.
+pub fn steps() -> Vec<(f64, usize)> {
+    let leap = known(jump::p_jump(Simple, VERTICES));
+    let later = (leap.k_after..VERTICES - 1).map(|k| (jump::step(VERTICES, k), k + 1));
+    [(0.0, 1), (leap.p, leap.k_after)].into_iter().chain(later).collect()
+}
+
+/// Fig. 9 (b): μ(p) of simple circuits, finer where it rises; and finest up to p = 0.04, for the inset.
+pub fn means() -> [Vec<(f64, f64)>; 2] {
+    let whole = Grid::default().and(0, 49, 1, 1000).and(10, 200, 1, 200).values();
+    let inset = Grid::default().and(0, 400, 1, 10_000).values();
+    [whole, inset].map(|grid| grid.into_iter().map(|p| (p, law(Simple, p).mean())).collect())
+}
+
+/// The p at which μ passes `level`, linear between points.
+fn crossing(means: &[(f64, f64)], level: f64) -> Option<f64> {
+    let w = means.windows(2).find(|w| w[0].1 < level && level <= w[1].1)?;
+    Some(w[0].0 + (w[1].0 - w[0].0) * (level - w[0].1) / (w[1].1 - w[0].1))
+}
+
+/// Fig. 9.
+fn mean() -> Table {
+    let mut heights: Vec<usize> = steps().windows(2).map(|w| w[1].1 - w[0].1).collect();
+    heights.sort_unstable_by(|a, b| b.cmp(a));
+    let [whole, inset] = means();
+    let p_at = |share: f64| {
+        let level = share * VERTICES as f64;
+        [&inset, &whole].into_iter().find_map(|means| crossing(means, level)).unwrap_or(1.0)
+    };
+    one("theory.mean", origin(steps))
+        .count("largest_step", "of k*", |()| heights[0] as u64)
+        .count("other_steps", "the second largest step of k*", |()| heights[1] as u64)
+        .computed_by(origin(Law::mean))
+        .real("at_zero", "1", 1, "μ for p → 0", |()| whole[0].1)
+        .real("at_one", "1", 2, "μ at p = 1", |()| law(Simple, 1.0).mean())
+        .computed_by(origin(crossing))
+        .real("p_tenth", "1", 3, "p at which μ is N/10", |()| p_at(0.1))
+        .real("p_nine_tenths", "1", 2, "p at which μ is 9 N/10", |()| p_at(0.9))
+        .done()
+}
+
+/// Sec. 7.
+fn jumping() -> Table {
+    let p_crit = |vertices| known(jump::p_crit(vertices));
+    let (crit, leap) = (p_crit(VERTICES), known(jump::p_jump(Simple, VERTICES)));
+    let at_one = law(Simple, 1.0);
+    let [by_variance, by_difference] = mean_slopes(VERTICES, leap.p);
+    one("theory.jump", origin(jump::p_crit))
+        .real("p_crit", "1", 5, "Eq. (18)", |()| crit)
+        .real("p_crit_walls", "1", 5, "the same for N + 1", |()| p_crit(VERTICES + 1))
+        .real("k_touch", "1", 4, "double zero of f at p_crit", |()| {
+            (VERTICES as f64 * crit - 1.0) / (2.0 * crit)
+        })
+        .computed_by(origin(touching))
+        .real("p_crit_found", "1", 5, "p at which the zeros of f appear, by bisection", |()| {
+            touching(VERTICES)
+        })
+        .computed_by(origin(jump::p_jump))
+        .real("p_jump", "1", 5, "p at which k* leaves 1", |()| leap.p)
+        .count("k_after", "k* after it", |()| leap.k_after as u64)
+        .real("after_crit", "1", 2, "p_jump/p_crit − 1", |()| leap.p / crit - 1.0)
+        .computed_by(origin(Law::k_star))
+        .count("k_at_zero", "k* for p → 0", |()| k_star(0.0) as u64)
+        .count("k_at_crit", "k* at p_crit", |()| k_star(crit) as u64)
+        .count("k_before", "k* half way from p_crit to p_jump", |()| {
+            k_star(0.5 * (crit + leap.bracket[0])) as u64
+        })
+        .count("k_at_one", "k* at p = 1", |()| at_one.k_star() as u64)
+        .computed_by(origin(Law::weight))
+        .real("last_ratio", "1", 2, "Φ(N)/Φ(N − 1) at p = 1", |()| {
+            (known(at_one.weight(VERTICES)) / known(at_one.weight(VERTICES - 1))).to_f64()
+        })
+        .computed_by(origin(mean_slopes))
+        .real("slope", "1", 4, "dμ/dp at p_jump, from values of μ on both sides", |()| {
+            by_difference
+        })
+        .real("variance_over_p", "1", 4, "Var(X)/p at p_jump", |()| by_variance)
+        .done()
+}
+
+fn first_maximum() -> Table {
+    let (k, [above, below]) =
+        jump::first_local_maximum(VERTICES).expect("N = 100 has a local maximum");
+    let p = Fraction::new(above as u128, below as u128);
+    one("theory.first_maximum", origin(jump::first_local_maximum))
+        .count("numerator", "of p", |()| p.numerator as u64)
+        .count("denominator", "of p", |()| p.denominator as u64)
+        .real("p", "1", 5, "where Φ first has a local maximum beyond k = 1", |()| p.to_f64())
+        .count("k", "where it is", |()| k as u64)
+        .count("k_next", "where it is as well", |()| k as u64 + 1)
+        .done()
+}
+
+/// Fig. 10: p → 0, p_crit, half way from p_crit to the jump, and as far beyond the jump as the jump is from p_crit.
+pub fn stages() -> [f64; 4] {
+    let (crit, leap) = (known(jump::p_crit(VERTICES)), known(jump::p_jump(Simple, VERTICES)).p);
+    [0.0, crit, 0.5 * (crit + leap), leap + (leap - crit)]
+}
+
+/// f_{N,p}(k) on [0, N], four points to a unit of k.
+pub fn f(p: f64) -> Vec<(f64, f64)> {
+    let ks = (0..=VERTICES * 4).map(|i| i as f64 / 4.0);
+    ks.map(|k| (k, jump::f(VERTICES, p, k))).collect()
+}
+
+/// The zeros of f_{N,p}. The double nearest to p_crit may lie on either side of it; there both are 1/√p.
+pub fn zeros(p: f64) -> Option<[f64; 2]> {
+    if p == known(jump::p_crit(VERTICES)) {
+        return Some([1.0 / p.sqrt(); 2]);
+    }
+    jump::zeros(VERTICES, p)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_are_where_k_star_changes() {
+        let steps = steps();
+        assert_eq!((steps[0], steps.last().unwrap().1), ((0.0, 1), k_star(1.0)));
+        for pair in steps.windows(2) {
+            let p = pair[1].0;
+            assert_eq!(k_star(p * (1.0 - 1e-14)), pair[0].1);
+            assert_eq!(k_star(p * (1.0 + 1e-14)), pair[1].1);
+        }
+    }
+
+    #[test]
+    fn the_stages_of_figure_10_differ() {
+        let stages = stages();
+        let leap = steps()[1];
+        assert!(stages.is_sorted() && stages[2] < leap.0 && leap.0 < stages[3]);
+        assert_eq!(stages.map(k_star)[..3], [1, 1, 1]);
+        let rises = |p: f64| simple(p).windows(2).any(|w| w[1] > w[0]);
+        assert_eq!(stages.map(rises), [false, false, true, true]);
+        let [minus, plus] = zeros(stages[1]).unwrap();
+        assert!(minus == plus && jump::f(VERTICES, stages[1], plus).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,179 @@
+//! The relation of p and σ, and μ along it: Sec. 8, Figs. 11, 12 and 15; and gaps that close by themselves.
+
+use super::law::law;
+use super::{known, one};
+use crate::experiments::identities::relation::eq25;
+use crate::experiments::rise::ONSET;
+use crate::params::{Chain, Grid, Profile, SweepParams, VERTICES};
+use SampleSpace::{FiveClasses, Simple};
+use impact_circuits::distribution::{Law, SampleSpace};
+use impact_circuits::impact_probability::ImpactProbability;
+use impact_circuits::jump::{p_crit, p_jump};
+use impact_numerics::bisection;
+use literate::table::Table;
+use literate::value::origin;
+use rayon::prelude::*;
+use std::f64::consts::SQRT_2;
+
+const SIGMA: &str = "d omega^2";
+
+/// σ of the random starts whose overlap is given.
+const OVERLAP: f64 = 0.145;
+
+/// p(σ) of Eq. (25) for the paper's chain, 0 where it underflows.
+pub(super) fn p_of(sigma: f64) -> f64 {
+    known(ImpactProbability::of_paper(sigma)).p().unwrap_or(0.0)
+}
+
+/// The same for a start from rest.
+fn p_rest_of(sigma: f64) -> f64 {
+    known(ImpactProbability::of_paper(sigma)).p_from_rest().unwrap_or(0.0)
+}
+
+/// The smallest σ at which a property that holds from there on holds, to the last bit. At σ = 1 both probabilities are above
+/// 0.99.
+fn smallest_sigma(holds: impl FnMut(f64) -> bool) -> f64 {
+    bisection::bracket(0.0, 1.0, holds)[1]
+}
+
+/// The σ at which a probability is p.
+pub(super) fn reaches(p_of: fn(f64) -> f64, p: f64) -> f64 {
+    smallest_sigma(|sigma| p_of(sigma) >= p)
+}
+
+/// The σ at which μ along a relation is (N + 1)/2: half way between 1 and N.
+fn half(p_of: fn(f64) -> f64, space: SampleSpace) -> f64 {
+    let middle = 0.5 * (VERTICES as f64 + 1.0);
+    smallest_sigma(|sigma| law(space, p_of(sigma)).mean() >= middle)
+}
+
+/// From 0.02 to 0.4 in steps of 0.001, finer where circuits of higher order add most.
+pub(super) fn curve() -> Table {
+    let sigmas =
+        Grid::default().and(20, 139, 1, 1000).and(700, 760, 1, 5000).and(153, 400, 1, 1000);
+    let row = |sigma: f64| {
+        let (p, rest) = (p_of(sigma), p_rest_of(sigma));
+        let walls = known(Law::new(Simple, VERTICES + 1, p)).mean();
+        let means = [(Simple, p), (FiveClasses, p), (Simple, rest)];
+        let [simple, higher, from_rest] = means.map(|(space, p)| law(space, p).mean());
+        [sigma, p, rest, simple, higher, from_rest, walls]
+    };
+    let rows: Vec<[f64; 7]> = sigmas.values().into_par_iter().map(row).collect();
+    Table::of("theory.curve", &rows, |_| 0)
+        .key("sigma", SIGMA, |row| row[0])
+        .computed_by(origin(ImpactProbability::p))
+        .real("p", "1", 3, "Eq. (25)", |row| row[1])
+        .computed_by(origin(ImpactProbability::p_from_rest))
+        .real("p_rest", "1", 3, "the same from rest", |row| row[2])
+        .computed_by(origin(Law::mean))
+        .real("simple", "1", 3, "μ, simple circuits", |row| row[3])
+        .real("higher", "1", 3, "μ, five classes", |row| row[4])
+        .real("rest", "1", 3, "μ from rest, simple circuits", |row| row[5])
+        .real("walls", "1", 3, "μ, simple circuits, N + 1 vertices", |row| row[6])
+        .done()
+}
+
+/// Probability that one of `gaps` independent gaps closes by itself.
+fn any(p: f64, gaps: usize) -> f64 {
+    -pxfm::f_expm1(gaps as f64 * pxfm::f_log1p(-p))
+}
+
+/// The same by p of Eq. (25), for random free parts, gaps at the walls by their own p, since a wall does not move: an upper
+/// bound, since normal variables make symmetric convex events no less likely together than one by one.
+fn any_random(sigma: f64, gaps: usize) -> f64 {
+    let none = (gaps - 2) as f64 * pxfm::f_log1p(-p_of(sigma));
+    -pxfm::f_expm1(none + 2.0 * pxfm::f_log1p(-p_of(sigma / SQRT_2)))
+}
+
+/// σ at which such a share of the chains has a gap that closes by itself, from rest and as if gaps were independent.
+fn sigma_kept(share: f64) -> f64 {
+    smallest_sigma(|sigma| any(p_rest_of(sigma), Chain::default().gaps()) >= share)
+}
+
+/// Starts with random free parts that overlap: Δ(0) = d + δα_0 − δα_1 is normal with variance 4σ².
+fn overlap(sigma: f64) -> f64 {
+    0.5 * pxfm::f_erfc(Chain::default().spacing / (2.0 * sigma) / SQRT_2)
+}
+
+/// Sec. 8.
+pub(super) fn relation() -> Table {
+    let jump = |space, vertices| known(p_jump(space, vertices)).p;
+    let leap = jump(Simple, VERTICES);
+    one("theory.relation", origin(reaches))
+        .real("sigma_crit", SIGMA, 4, "σ at which p is p_crit", |()| {
+            reaches(p_of, known(p_crit(VERTICES)))
+        })
+        .real("sigma_jump", SIGMA, 4, "σ at which p is p_jump", |()| reaches(p_of, leap))
+        .real("sigma_jump_walls", SIGMA, 4, "the same for N + 1", |()| {
+            reaches(p_of, jump(Simple, VERTICES + 1))
+        })
+        .real("sigma_jump_rest", SIGMA, 4, "from rest", |()| reaches(p_rest_of, leap))
+        .real("sigma_jump_higher", SIGMA, 4, "with five classes", |()| {
+            reaches(p_of, jump(FiveClasses, VERTICES))
+        })
+        .computed_by(origin(half))
+        .real("sigma_half", SIGMA, 4, "σ at which μ is (N + 1)/2", |()| half(p_of, Simple))
+        .real("sigma_half_rest", SIGMA, 4, "from rest", |()| half(p_rest_of, Simple))
+        .real("sigma_half_higher", SIGMA, 4, "with five classes", |()| half(p_of, FiveClasses))
+        .computed_by(origin(eq25))
+        .real("difference", "1", 1, "Eq. (25) less its double integral, relative", |()| eq25())
+        .computed_by(origin(sigma_kept))
+        .real(
+            "sigma_kept_half",
+            SIGMA,
+            3,
+            "σ at which half of the chains have a gap that closes by itself",
+            |()| sigma_kept(0.5),
+        )
+        .real("sigma_kept_onset", SIGMA, 3, "σ at which enough have one for the onset", |()| {
+            sigma_kept(ONSET)
+        })
+        .computed_by(origin(overlap))
+        .chosen("overlap_sigma", SIGMA, "of random starts", |()| Some(OVERLAP))
+        .real("overlap_share", "1", 2, "starts that overlap, over p", |()| {
+            overlap(OVERLAP) / p_of(OVERLAP)
+        })
+        .done()
+}
+
+/// Gaps that close by themselves, at the σ of the main sweeps of all profiles.
+pub(super) fn gaps() -> Table {
+    let gaps = Chain::default().gaps();
+    let profiles = [Profile::Quick, Profile::Full];
+    let mut sigmas = profiles.map(|profile| SweepParams::main(profile).sigmas).concat();
+    sigmas.sort_by(f64::total_cmp);
+    sigmas.dedup();
+    Table::of("theory.gap", &sigmas, |_| 0)
+        .key("sigma", SIGMA, |sigma| *sigma)
+        .computed_by(origin(ImpactProbability::p))
+        .real("p", "1", 3, "Eq. (25)", |sigma| p_of(*sigma))
+        .computed_by(origin(ImpactProbability::p_from_rest))
+        .real("p_rest", "1", 3, "the same from rest", |sigma| p_rest_of(*sigma))
+        .real("ratio", "1", 2, "p_rest/p", |sigma| p_rest_of(*sigma) / p_of(*sigma))
+        .real("expected", "1", 2, "gaps that close by themselves, from rest", |sigma| {
+            gaps as f64 * p_rest_of(*sigma)
+        })
+        .computed_by(origin(any))
+        .real("any_rest", "1", 3, "probability that one does", |sigma| any(p_rest_of(*sigma), gaps))
+        .computed_by(origin(any_random))
+        .real("any_random", "1", 3, "bound on it with random free parts", |sigma| {
+            any_random(*sigma, gaps)
+        })
+        .done()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// p_rest from 40-digit arithmetic: 0.0309524 at σ = 0.12, 0.00711502 at 0.1, and with them
+    /// 1 − (1 − p_rest)^101 = 0.958 and 0.514; half of 10⁶ would lie between.
+    #[test]
+    fn gaps_that_close_by_themselves_have_their_known_values() {
+        assert!((p_rest_of(0.12) - 0.0309524).abs() < 1e-7);
+        assert!((any(p_rest_of(0.12), 101) - 0.958).abs() < 1e-3);
+        assert!((sigma_kept(0.958) - 0.12).abs() < 1e-4);
+        assert!(sigma_kept(0.5) > 0.099 && sigma_kept(0.5) < 0.1);
+        assert!(sigma_kept(ONSET) > 0.07 && sigma_kept(ONSET) < 0.09);
+    }
+}

@@ -1,0 +1,102 @@
+//! The tables of the theory: against the circuits, by other routes, and with themselves.
+
+use impact_circuits::counting;
+use impact_circuits::distribution::{Law, SampleSpace};
+use impact_circuits::impact_probability::ImpactProbability;
+use impact_paper::experiments::Results;
+use impact_paper::params::{Profile, VERTICES};
+use std::sync::LazyLock;
+
+static RESULTS: LazyLock<Results> = LazyLock::new(|| Results::empty(Profile::Quick));
+
+fn number(address: &str) -> f64 {
+    RESULTS.number(address).unwrap()
+}
+
+fn mean(space: SampleSpace, vertices: usize, p: f64) -> f64 {
+    Law::new(space, vertices, p).unwrap().mean()
+}
+
+/// From 50-digit arithmetic: ((1 + √101)/100)², and the 19th root of 20·80!/99!, the least such root of all k.
+#[test]
+fn p_crit_and_p_jump_of_a_hundred_vertices() {
+    assert!((number("theory.jump.p_crit") - 0.012209975124224177).abs() < 1e-17);
+    assert!((number("theory.jump.p_jump") - 0.01303285872435575).abs() < 1e-17);
+    assert_eq!(number("theory.jump.k_after"), 20.0);
+}
+
+#[test]
+fn sigmas_invert_the_relation() {
+    let p = |sigma: f64| ImpactProbability::of_paper(sigma).unwrap().p().unwrap();
+    let rest = |sigma: f64| ImpactProbability::of_paper(sigma).unwrap().p_from_rest().unwrap();
+    let sigma = |column: &str| number(&format!("theory.relation.{column}"));
+    let leap = number("theory.jump.p_jump");
+    for (found, wanted) in [
+        (p(sigma("sigma_crit")), number("theory.jump.p_crit")),
+        (p(sigma("sigma_jump")), leap),
+        (p(sigma("sigma_jump_higher")), number("theory.higher.p_jump")),
+        (rest(sigma("sigma_jump_rest")), leap),
+        (mean(SampleSpace::Simple, VERTICES, p(sigma("sigma_half"))), 50.5),
+        (mean(SampleSpace::FiveClasses, VERTICES, p(sigma("sigma_half_higher"))), 50.5),
+        (mean(SampleSpace::Simple, VERTICES, rest(sigma("sigma_half_rest"))), 50.5),
+    ] {
+        assert!((found / wanted - 1.0).abs() < 1e-12, "{found} {wanted}");
+    }
+}
+
+#[test]
+fn curves_follow_relation_and_distribution() {
+    let table = RESULTS.table("theory.curve").unwrap();
+    let column = |name| table.points(&[], "sigma", name);
+    let (p, rest) = (column("p"), column("p_rest"));
+    let means = ["simple", "higher", "rest", "walls"].map(column);
+    assert!([&p, &rest].iter().all(|all| all.windows(2).all(|w| w[0].1 < w[1].1)));
+    for (i, (sigma, p)) in p.iter().enumerate() {
+        let [simple, higher, from_rest, walls] = means.each_ref().map(|all| all[i].1);
+        assert_eq!(simple, mean(SampleSpace::Simple, VERTICES, *p));
+        assert_eq!(walls, mean(SampleSpace::Simple, VERTICES + 1, *p));
+        assert!(higher >= simple, "{sigma}");
+        assert!((rest[i].1 > *p) == (from_rest > simple) || rest[i].1 < 1e-15, "{sigma}");
+    }
+}
+
+#[test]
+fn slips_of_the_paper_by_other_routes() {
+    // Eq. (8) at k = N − 1 is N/(N − 1) by hand.
+    assert!((number("theory.lengths.before_last") - 100.0 / 99.0).abs() < 1e-15);
+    let exact = ["theory.lengths.peak", "theory.mean.at_zero", "theory.jump.k_at_one"].map(number);
+    assert_eq!(exact, [99.0, 1.0, 99.0]);
+    assert!((number("theory.jump.last_ratio") - 0.99).abs() < 1e-15);
+    // Near the end φ(N − j)/φ(N) = N/((N − j) j!): shares of j = 0..3 over all j.
+    let weight = |j: usize| 100.0 / ((100 - j) as f64 * (1..=j).product::<usize>() as f64);
+    let near_end: f64 = (0..4).map(weight).sum();
+    let all: f64 = (0..18).map(weight).sum();
+    assert!((number("theory.lengths.share") / (near_end / all) - 1.0).abs() < 1e-13);
+    let [slope, variance] = ["theory.jump.slope", "theory.jump.variance_over_p"].map(number);
+    assert!((slope / variance - 1.0).abs() < 1e-6);
+    // At p = 0.005 nearly all weight is at small k, where class sums are short: direct.
+    let share = number("theory.classes[p=0.005].simple");
+    let (mut simple, mut all) = (0.0, 0.0);
+    for k in 1..=70_usize {
+        let (x, n) = (k as f64, counting::log_phi(VERTICES, k).unwrap().exp());
+        let power = |e: usize| (0..e).fold(1.0, |w, _| w * 0.005);
+        let two = if k == 2 { 1.0 } else { (x - 1.0) * x * x * (x + 1.0) / 8.0 };
+        let single = if k == 1 { 0.0 } else { 1.0 };
+        let higher = x * x / 2.0 * power(k + 1)
+            + x * x * (x + 1.0) / 6.0 * power(k + 2)
+            + x * x * (x + 1.0) * (x + 2.0) / 24.0 * power(k + 3);
+        simple += n * power(k);
+        all += n * (power(k) + single * higher + two * power(k + 2));
+    }
+    assert!((share / (simple / all) - 1.0).abs() < 1e-9, "{share} {}", simple / all);
+}
+
+#[test]
+fn large_graphs_go_on_from_the_paper() {
+    let table = RESULTS.table("theory.large").unwrap();
+    let column = |name| table.points(&[], "n", name);
+    assert_eq!(number("theory.large[n=100].p_n"), 100.0 * number("theory.jump.p_jump"));
+    for name in ["share", "p_n"] {
+        assert!(column(name).windows(2).all(|w| w[1].1 < w[0].1), "{name}");
+    }
+}
