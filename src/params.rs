@@ -5,27 +5,19 @@
 
 mod accuracy;
 mod bias;
-mod chains;
 mod chosen;
-mod history;
+mod ensembles;
 mod nucleation;
-mod protocol;
-mod restitution;
 mod sizes;
 mod spacetime;
 
 pub use accuracy::{MethodName, RaceParams, ScaleParams, Setting, TrialParams};
 pub use bias::BiasParams;
-pub use chains::{ChainCurve, ChainKind, ChainsParams};
 pub use chosen::*;
-pub use history::HistoryParams;
-pub use impact_chain::{Boundary, Chain, Start};
+pub use ensembles::*;
+pub use impact_chain::{Boundary, Chain, Protocol, Start};
 pub use impact_numerics::estimates::LEVEL;
 pub use literate::experiments::Profile;
 pub use nucleation::{NucleationParams, SeedsParams};
-pub use protocol::ProtocolParams;
-pub use restitution::RestitutionParams;
-pub use sizes::{
-    Grid, HorizonParams, Level, StartVariant, StartsParams, SweepParams, TwoMassesParams,
-};
+pub use sizes::{Grid, HorizonParams, TwoMassesParams};
 pub use spacetime::SpaceTimeParams;

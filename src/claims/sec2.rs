@@ -5,10 +5,10 @@ use super::row::{Error, Evidence, Row, measured, statistical};
 use super::sec2_rare::{percolation, sticking, three_way, two_masses, walls_like_masses};
 use super::{Finding, open};
 use super::{Judgement, Statement, Text};
-use crate::experiments::sweep::tables::{mean_all, mode_half};
-use crate::experiments::sweep::{Sweep, SweepRow};
+use crate::experiments::sweep::{self, mode_half};
 use crate::experiments::{CHAINS, STARTS, SWEEP, TWO_MASSES};
 use crate::params::Protocol;
+use impact_chain::rise::{self, Counted};
 use impact_numerics::statistics::Estimate;
 
 pub const ROWS: &[Row] = &[
@@ -26,12 +26,12 @@ pub const ROWS: &[Row] = &[
 ];
 
 /// Number of gaps N of the swept chain.
-pub(super) fn gaps(sweep: &Sweep) -> f64 {
-    sweep.parameters.chain.gaps() as f64
+pub(super) fn gaps(sweep: &Counted) -> f64 {
+    sweep.ensemble.chain.gaps() as f64
 }
 
 fn parameters(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
-    let chain = &e.results.of(&SWEEP)?.parameters.chain;
+    let chain = &sweep::main(e.results)?.ensemble.chain;
     let square = chain.forcing_frequency * chain.forcing_frequency;
     let pairs = [
         (chain.masses as f64, e.published.parameter("masses")?),
@@ -68,9 +68,9 @@ fn parameters(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
 }
 
 /// Of small σ, the largest that is not above two thirds of the printed threshold.
-pub(super) fn small<'a>(e: &'a Evidence) -> Result<Option<&'a SweepRow>, Error> {
+pub(super) fn small<'a>(e: &'a Evidence) -> Result<Option<&'a rise::Row>, Error> {
     let threshold = e.published.statement("sec2_half_height")?.number()?;
-    Ok(e.results.of(&SWEEP)?.rows.iter().rev().find(|row| row.sigma < 0.67 * threshold))
+    Ok(sweep::main(e.results)?.first().rows.iter().rev().find(|row| row.sigma < 0.67 * threshold))
 }
 
 /// All gaps over those that are very few.
@@ -78,13 +78,14 @@ pub(super) const VERY_FEW: f64 = 20.0;
 
 /// The paper discards chains without impacts; that the mean of all is small is owed to those.
 fn few_below(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let sweep = e.results.of(&SWEEP)?;
+    let sweep = sweep::main(e.results)?;
     let Some(row) = small(e)? else {
         return Ok(open(Text::words("no row"), "The sweep has no row below the threshold."));
     };
     let at = Text::words("at σ = ").chosen(row.sigma);
-    let found = row.mean_distinct.zip(row.standard_error).zip(mean_all(row));
-    let Some(((kept, kept_error), [all, all_error])) = found else {
+    let found = row.mean.zip(row.mean_all);
+    let Some((kept, all)) = found.and_then(|(kept, all)| kept.estimate().zip(all.estimate()))
+    else {
         return Ok(open(at.say(" too few kept realisations"), "Of one chain no error is known."));
     };
     let limit = gaps(sweep) / VERY_FEW;
@@ -92,20 +93,20 @@ fn few_below(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
     Ok(Finding {
         ours: at
             .say(" mean of the kept: ")
-            .with_error(kept, kept_error)
+            .with_error(kept.value, kept.error)
             .say(", of all: ")
-            .with_error(all, all_error),
+            .with_error(all.value, all.error),
         tolerance: Text::words("at most ").significant(limit, 2),
         reason: "ours: “very few” as a twentieth of all gaps, at two thirds of the printed threshold; and the \
                  statistical error at the level of the table",
         judgement: Judgement::Explained {
-            agrees: kept <= limit + room * kept_error,
-            holds: all <= limit + room * all_error,
+            agrees: kept.value <= limit + room * kept.error,
+            holds: all.value <= limit + room * all.error,
         },
         note: Text::words("Judged by the mean of the kept, as the paper counts. Only ")
             .integer(row.kept)
             .say(" of ")
-            .integer(row.realisations)
+            .integer(row.ran)
             .say(
                 " chains have impacts, but in these they have spread. With the others the mean is \
                  within the tolerance.",
@@ -114,7 +115,7 @@ fn few_below(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
 }
 
 fn rise_exists(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let rise = &e.results.of(&SWEEP)?.rise;
+    let rise = &sweep::main(e.results)?.first().rise;
     let (Some(width), Some(half)) = (rise.kept_width, rise.half_height) else {
         return Ok(open(
             Text::words("no rise"),
@@ -163,11 +164,11 @@ fn half_unit(s: &Statement) -> Result<Text, Error> {
 }
 
 fn half_height(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
-    let sweep = e.results.of(&SWEEP)?;
-    let Some(half) = sweep.rise.half_height else {
+    let sweep = sweep::main(e.results)?;
+    let Some(half) = sweep.first().rise.half_height else {
         return Ok(open(Text::words("no rise"), "The mean does not pass half of all gaps."));
     };
-    let Protocol { transient, window } = sweep.parameters.protocol;
+    let Protocol { transient, window } = sweep.first().protocol;
     Ok(Finding {
         ours: Text::words("σ½ = ").with_error(half.value, half.error),
         tolerance: half_unit(s)?,
@@ -179,7 +180,7 @@ fn half_height(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
                 .say(", W = ")
                 .integer(window as usize)
                 .say(" and a start from rest; it moves with all three.");
-            match sweep.rise.half_height_all {
+            match sweep.first().rise.half_height_all {
                 Some(all) => {
                     note.say(" The mean of all has ").with_error(all.value, all.error).say(".")
                 }
@@ -191,7 +192,7 @@ fn half_height(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
 
 /// The first impacts come where a gap closes by itself, long before the rise is half way up.
 fn onset(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
-    let rise = &e.results.of(&SWEEP)?.rise;
+    let rise = &sweep::main(e.results)?.first().rise;
     let (Some(onset), Some(kept), Some(half)) = (rise.onset, rise.kept_half, rise.half_height)
     else {
         return Ok(open(
@@ -223,7 +224,7 @@ fn onset(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
 }
 
 fn mode_rise(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
-    let sweep = e.results.of(&SWEEP)?;
+    let sweep = sweep::main(e.results)?;
     let Some([low, high]) = mode_half(sweep) else {
         return Ok(open(Text::words("no rise"), "The mode does not pass half of all gaps."));
     };

@@ -4,15 +4,19 @@ use super::row::{Error, Evidence};
 use super::sec2::LAST_DIGIT;
 use super::{Finding, open};
 use super::{Judgement, Statement, Text};
-use crate::experiments::sweep::laws;
-use crate::experiments::{CHAINS, STARTS, SWEEP, TWO_MASSES};
-use crate::params::{ChainKind, NEAR_SIMULTANEOUS, SLOW};
+use crate::experiments::chains::is_length;
+use crate::experiments::ensembles::named;
+use crate::experiments::starts::half_height;
+use crate::experiments::sweep::{self, laws};
+use crate::experiments::{CHAINS, STARTS, TWO_MASSES};
+use crate::params::{NEAR_SIMULTANEOUS, SLOW};
+use impact_chain::counts::SLOW_DECADES;
 
 /// Share of impacts that may be called negligible (ours).
 pub(super) const NEGLIGIBLE: f64 = 1e-3;
 
 pub(super) fn three_way(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let totals = laws::run(&e.results.of(&SWEEP)?.rows).totals;
+    let totals = laws::run(&sweep::main(e.results)?.runs).totals;
     let Some(&seen) = totals.near_decades.last() else {
         return Ok(open(Text::words("no impacts"), "The sweep has no impacts."));
     };
@@ -44,10 +48,10 @@ pub(super) fn three_way(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
 }
 
 pub(super) fn sticking(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let sweep = e.results.of(&SWEEP)?;
-    let impacts: u64 = sweep.rows.iter().map(|row| row.impacts).sum();
-    let contacts: u64 = sweep.rows.iter().map(|row| row.contact_phases).sum();
-    let slow: u64 = sweep.rows.iter().map(|row| row.slow).sum();
+    let sweep = sweep::main(e.results)?;
+    let impacts: u64 = sweep.runs.iter().map(|own| own.total.impacts).sum();
+    let contacts: u64 = sweep.runs.iter().map(|own| own.total.contact_phases).sum();
+    let slow: u64 = sweep.runs.iter().map(|own| own.total.slow[SLOW_DECADES.len() - 1]).sum();
     if impacts == 0 {
         return Ok(open(Text::words("no impacts"), "The sweep has no impacts."));
     }
@@ -100,7 +104,7 @@ pub(super) fn two_masses(e: &Evidence, _: &Statement) -> Result<Finding, Error> 
 
 pub(super) fn walls_like_masses(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
     let starts = e.results.of(&STARTS)?;
-    let half = |name| starts.variant(name).and_then(|variant| variant.rise.half_height_all);
+    let half = |name| named(starts, name).and_then(half_height);
     let (Some(walls), Some(ring)) = (half("rest"), half("ring")) else {
         return Ok(open(Text::words("no rise"), "One of the two means does not pass one half."));
     };
@@ -124,11 +128,10 @@ pub(super) fn walls_like_masses(e: &Evidence, _: &Statement) -> Result<Finding, 
 /// The threshold of percolation sharpens with size. The paper names the likeness and no quantity.
 pub(super) fn percolation(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
     let chains = e.results.of(&CHAINS)?;
-    let widths = chains.of(ChainKind::Length).filter_map(|(own, found)| {
-        let width = own.transients.iter().zip(&found.widths).next()?.1.as_ref()?;
-        Some((own.masses, *width))
-    });
-    let widths: Vec<_> = widths.filter(|(masses, _)| *masses >= 100).collect();
+    let widths = chains.iter().filter(|own| is_length(own) && own.ensemble.chain.masses >= 100);
+    let widths: Vec<_> = widths
+        .filter_map(|own| Some((own.ensemble.chain.masses, own.first().rise.width?)))
+        .collect();
     let ours = match (widths.first(), widths.last()) {
         (Some((n, own)), Some((most, long))) if most > n => Text::words("width of the rise ")
             .with_error(own.value, own.error)

@@ -6,6 +6,7 @@ use super::sec2::{gaps, small};
 use super::{Finding, open};
 use super::{Judgement, Statement, Text};
 use crate::experiments::SWEEP;
+use crate::experiments::sweep;
 
 pub const ROWS: &[Row] = &[
     theory("sec3_impact_types", Exact, |e, s| {
@@ -29,12 +30,10 @@ fn size(found: f64, s: &Statement) -> Result<Finding, Error> {
 
 /// Different impacts of a chain in the window, as Sec. 6 counts them.
 fn few_and_many(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let sweep = e.results.of(&SWEEP)?;
-    let mean = |row: &crate::experiments::sweep::SweepRow| {
-        Some((row.sigma, row.mean_distinct?, row.standard_error?))
-    };
+    let sweep = sweep::main(e.results)?;
+    let mean = |row: &impact_chain::rise::Row| Some((row.sigma, row.mean?.value, row.mean?.error?));
     let (Some((low, few, error)), Some((high, many, many_error))) =
-        (small(e)?.and_then(mean), sweep.rows.last().and_then(mean))
+        (small(e)?.and_then(mean), sweep.first().rows.last().and_then(mean))
     else {
         return Ok(open(Text::words("too few kept realisations"), "A row has no error."));
     };

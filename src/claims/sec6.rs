@@ -5,7 +5,7 @@ use super::row::{Error, Evidence, Row, measured, theory};
 use super::sec2;
 use super::{Finding, open, rounding};
 use super::{Judgement, Statement, Text};
-use crate::experiments::SWEEP;
+use crate::experiments::{SWEEP, sweep};
 use crate::params::{DISTRIBUTION_P, VERTICES};
 
 pub const ROWS: &[Row] = &[
@@ -76,9 +76,13 @@ fn step(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
 }
 
 fn like_simulation(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let sweep = e.results.of(&SWEEP)?;
-    let simulated: Vec<f64> =
-        sweep.rows.iter().filter_map(|row| Some(row.mean_distinct? / sec2::gaps(sweep))).collect();
+    let sweep = sweep::main(e.results)?;
+    let simulated: Vec<f64> = sweep
+        .first()
+        .rows
+        .iter()
+        .filter_map(|row| Some(row.mean?.value / sec2::gaps(sweep)))
+        .collect();
     let n = VERTICES as f64;
     let (c, d) = (e.number("theory.mean.at_zero")? / n, e.number("theory.mean.at_one")? / n);
     let (Some(&a), Some(&b)) = (simulated.first(), simulated.last()) else {

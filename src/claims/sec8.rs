@@ -6,10 +6,11 @@ use super::sec2;
 use super::sec8_chains::{no_impact, restitution_ensures, restitution_omitted, threshold_shift};
 use super::{Finding, open, rounding};
 use super::{Judgement, Statement, Text};
-use crate::experiments::sweep::Sweep;
+use crate::experiments::sweep;
 use crate::experiments::theory::beside::LARGE_SIGMA;
 use crate::experiments::{CHAINS, PROTOCOL, RESTITUTION, STARTS, SWEEP};
 use crate::params::VERTICES;
+use impact_chain::rise::Counted;
 
 pub const ROWS: &[Row] = &[
     measured("sec8_expected_jump", OurMeasure, &[&SWEEP], expected_jump),
@@ -58,7 +59,7 @@ pub const ROWS: &[Row] = &[
 /// A jump stays in one step of the grid, however fine; a slope is shared by all. And weights in
 /// proportion to p^k have a mean with the slope Var(X)/p.
 fn expected_jump(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let sweep = e.results.of(&SWEEP)?;
+    let sweep = sweep::main(e.results)?;
     let of = |column| e.number(&format!("sweep.beside_theory.{column}"));
     let (Ok(one), Ok(two), Ok(all)) =
         (of("largest_increase"), of("increase_of_two"), of("increase_of_all"))
@@ -115,7 +116,7 @@ fn p_small(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
 }
 
 fn large_sigma(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let sweep = e.results.of(&SWEEP)?;
+    let sweep = sweep::main(e.results)?;
     let of = |column| e.number(&format!("sweep.beside_theory.{column}"));
     let (Ok(distance), Ok(at)) = (of("large_distance"), of("large_distance_at")) else {
         return Ok(open(Text::words("no row"), "The sweep has no row at large σ."));
@@ -147,13 +148,13 @@ fn large_sigma(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
 }
 
 /// Width of the mode's bootstrap interval over that of the mean, in the rise: the median.
-fn mode_over_mean(sweep: &Sweep) -> Option<f64> {
-    let rise = [sweep.rise.onset?.value, sweep.rise.half_height_all?.value];
-    let rows = sweep.rows.iter().filter(|row| rise[0] <= row.sigma && row.sigma <= rise[1]);
+fn mode_over_mean(sweep: &Counted) -> Option<f64> {
+    let rise = [sweep.first().rise.onset?.value, sweep.first().rise.half_height_all?.value];
+    let rows = sweep.first().rows.iter().filter(|row| rise[0] <= row.sigma && row.sigma <= rise[1]);
     let mut ratios: Vec<f64> = rows
         .filter_map(|row| {
             let [low, high] = row.mode_interval?;
-            let [from, to] = row.mean_interval?;
+            let [from, to] = row.mean?.interval?;
             (to > from).then(|| (high - low) as f64 / (to - from))
         })
         .collect();
@@ -162,7 +163,7 @@ fn mode_over_mean(sweep: &Sweep) -> Option<f64> {
 }
 
 fn mean_is_easier(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let Some(ratio) = mode_over_mean(e.results.of(&SWEEP)?) else {
+    let Some(ratio) = mode_over_mean(sweep::main(e.results)?) else {
         return Ok(open(Text::words("no interval"), "There are too few rows in the rise."));
     };
     Ok(Finding {

@@ -4,31 +4,36 @@ use super::row::{Error, Evidence};
 use super::sec2_rare::NEGLIGIBLE;
 use super::{Finding, open};
 use super::{Judgement, Statement, Text};
-use crate::experiments::protocol_tables::range;
-use crate::experiments::starts_tables::share_of_start;
-use crate::experiments::{CHAINS, PROTOCOL, RESTITUTION, STARTS, SWEEP};
+use crate::experiments::ensembles::named;
+use crate::experiments::protocol::range;
+use crate::experiments::starts::{half_height, share_of_start};
+use crate::experiments::sweep;
+use crate::experiments::{CHAINS, PROTOCOL, RESTITUTION, STARTS};
+use impact_chain::Protocol;
+use impact_chain::rise::Curve;
 use impact_numerics::statistics::{Estimate, wilson};
 
 /// Eq. (20) in the simulation: a chain with random free parts that overlaps at its start, or has an
 /// impact later, has a gap with Y₀ + Y₁/|ω² − Ω²| ≥ d.
 pub(super) fn no_impact(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let Some(random) = e.results.of(&STARTS)?.variant("random") else {
+    let Some(random) = named(e.results.of(&STARTS)?, "random") else {
         return Ok(open(Text::words("no run"), "No chain has started with random free parts."));
     };
     let level = 1.0 - e.level.each;
     let mut seen = Vec::new();
-    for row in &random.rows {
+    for (row, counted) in random.runs.iter().zip(&random.first().rows) {
         let ran = row.realisations - row.failed;
-        let some = row.kept + row.rejected;
+        let some = counted.kept + row.rejected;
         let Ok(bound) = e.number(&format!("theory.gap[sigma={}].any_random", row.sigma)) else {
             continue;
         };
         let Some(interval) = wilson(some as u64, ran as u64, level) else { continue };
-        seen.push((row, some as f64 / ran as f64, bound, interval));
+        seen.push((row, some, some as f64 / ran as f64, bound, interval));
     }
     let telling = || seen.iter().filter(|(.., bound, _)| (0.05..0.95).contains(bound));
     let above = seen.iter().filter(|(.., bound, [low, _])| low > bound).count();
-    let least = telling().map(|(_, share, bound, _)| share / bound).fold(f64::INFINITY, f64::min);
+    let least =
+        telling().map(|(_, _, share, bound, _)| share / bound).fold(f64::INFINITY, f64::min);
     let low = telling().filter(|(.., bound, [_, high])| *high < 2.0 / 3.0 * bound).count();
     if telling().count() < 3 {
         return Ok(open(
@@ -36,7 +41,7 @@ pub(super) fn no_impact(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
             "The bound lies between a twentieth and nineteen twentieths at too few σ.",
         ));
     }
-    let text = telling().fold(Text::words("share of chains"), |text, (row, share, bound, _)| {
+    let text = telling().fold(Text::words("share of chains"), |text, (row, _, share, bound, _)| {
         let ran = (row.realisations - row.failed) as f64;
         let first = text.0.len() == 1;
         let text = text.say(if first { " " } else { "; " });
@@ -47,7 +52,7 @@ pub(super) fn no_impact(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
             .chosen(row.sigma)
     });
     let overlaps: usize = telling().map(|(row, ..)| row.rejected).sum();
-    let some: usize = telling().map(|(row, ..)| row.rejected + row.kept).sum();
+    let some: usize = telling().map(|(_, some, ..)| some).sum();
     Ok(Finding {
         ours: text,
         tolerance: Text::words("none above its bound, none below two thirds of it"),
@@ -70,19 +75,21 @@ pub(super) fn no_impact(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
 /// Half heights of the mean of all, from rest and with random free parts, for each transient that
 /// both were run to.
 fn of_both_starts(e: &Evidence) -> Result<Vec<(f64, Estimate, Estimate)>, Error> {
-    let (map, chains) = (e.results.of(&PROTOCOL)?, e.results.of(&CHAINS)?);
-    let Some((own, found)) = chains.curve("drift-random") else { return Ok(Vec::new()) };
-    let window = chains.parameters.window;
-    let both = own.transients.iter().zip(&found.half_heights).filter_map(|(&time, random)| {
-        let rest = map.cell(time, window)?.half_height_all?;
-        Some((time, rest, (*random)?))
-    });
-    Ok(both.collect())
+    let (map, chains) = (&e.results.of(&PROTOCOL)?[0], e.results.of(&CHAINS)?);
+    let both = |own: &Curve| {
+        let Protocol { transient, window } = own.protocol;
+        let rest = map.curve(transient, window)?.rise.half_height_all?;
+        Some((transient, rest, own.rise.half_height_all?))
+    };
+    let random = named(chains, "random").map_or(&[][..], |found| &found.curves);
+    Ok(random.iter().filter_map(both).collect())
 }
 
 pub(super) fn threshold_shift(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
     let both = of_both_starts(e)?;
-    let Some(half) = e.results.of(&SWEEP)?.rise.half_height_all.filter(|_| both.len() > 1) else {
+    let Some(half) =
+        sweep::main(e.results)?.first().rise.half_height_all.filter(|_| both.len() > 1)
+    else {
         return Ok(open(
             Text::words("no two transients"),
             "Chains of both starts did not rise after two transients or more.",
@@ -132,17 +139,17 @@ pub(super) fn restitution_omitted(e: &Evidence, _: &Statement) -> Result<Finding
     let found = e.results.of(&RESTITUTION)?;
     let curves = e.results.table("restitution.curves")?;
     let starts = e.results.of(&STARTS)?;
-    let of_start = |name| starts.variant(name).and_then(|variant| variant.rise.half_height_all);
-    let cells = &e.results.of(&PROTOCOL)?.cells;
+    let of_start = |name| named(starts, name).and_then(half_height);
+    let cells = &e.results.of(&PROTOCOL)?[0].curves;
     let ranges = (
         range(curves.estimates(&[], "r", "half_height").into_iter().map(|(_, own)| Some(own))),
-        range(cells.iter().map(|cell| cell.half_height_all)),
+        range(cells.iter().map(|cell| cell.rise.half_height_all)),
         range(["rest", "random"].into_iter().map(of_start)),
     );
     let (Some(restitution), Some(time), Some(start)) = ranges else {
         return Ok(open(Text::words("no rise"), "A mean does not pass half of all gaps."));
     };
-    let rs = &found.parameters.restitutions;
+    let rs: Vec<f64> = found.iter().map(|own| own.ensemble.chain.restitution).collect();
     let more = |other: &Estimate| {
         let error = (restitution.error * restitution.error + other.error * other.error).sqrt();
         restitution.value >= other.value - e.level.quantile * error
@@ -171,9 +178,10 @@ pub(super) fn restitution_omitted(e: &Evidence, _: &Statement) -> Result<Finding
 
 pub(super) fn restitution_ensures(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
     let found = e.results.of(&RESTITUTION)?;
+    let rs: Vec<f64> = found.iter().map(|own| own.ensemble.chain.restitution).collect();
     let own = e.published.parameter("restitution")?;
-    let largest = e.results.of(&SWEEP)?.rows.last().map_or(0.0, |row| row.sigma);
-    let sigmas = || found.parameters.sigmas.iter().copied().filter(|&sigma| sigma <= largest);
+    let largest = sweep::main(e.results)?.runs.last().map_or(0.0, |row| row.sigma);
+    let sigmas = || found[0].ensemble.sigmas.iter().copied().filter(|&sigma| sigma <= largest);
     let Some(strongest) = sigmas().reduce(f64::max) else {
         return Ok(open(Text::words("no run"), "No chain was run at the σ of the paper."));
     };
@@ -184,7 +192,7 @@ pub(super) fn restitution_ensures(e: &Evidence, _: &Statement) -> Result<Finding
         rise.cell(&keys, "phases").ok()?;
         Some(rise.number(&keys, "phases_per_impact").unwrap_or(0.0))
     };
-    let lowest = found.parameters.restitutions.first().copied().unwrap_or(own);
+    let lowest = rs.first().copied().unwrap_or(own);
     let (Some(ours), Some(without)) = (phases(own, strongest), phases(lowest, strongest)) else {
         return Ok(open(
             Text::words("no run"),
@@ -192,9 +200,7 @@ pub(super) fn restitution_ensures(e: &Evidence, _: &Statement) -> Result<Finding
         ));
     };
     // Up to this σ no restitution that was run has any contact.
-    let free = |sigma: f64| {
-        found.parameters.restitutions.iter().all(|&r| phases(r, sigma).is_some_and(|x| x == 0.0))
-    };
+    let free = |sigma: f64| rs.iter().all(|&r| phases(r, sigma).is_some_and(|x| x == 0.0));
     let without_contact = sigmas().take_while(|&sigma| free(sigma)).last();
     let note = Text::words("Contact phases over impacts.");
     Ok(Finding {

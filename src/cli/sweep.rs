@@ -1,11 +1,14 @@
 //! `impact-paper sweep`.
 
 use super::{Failure, memory, sigmas, signals, stdout, threads};
-use impact_chain::Engine;
+use impact_chain::counts::{NEAR_DECADES, SLOW_DECADES};
+use impact_chain::rise::{self, MOST_REJECTED};
+use impact_chain::{Boundary, Chain, Counts, Engine, Ensemble, Protocol, Start};
 use impact_numerics::clock::LATEST;
-use impact_paper::experiments::{Progress, sweep};
-use impact_paper::params::{Boundary, Chain, Protocol, SEED, Start, SweepParams};
+use impact_paper::experiments::{Error, Progress};
+use impact_paper::params::SEED;
 use literate::input::one_line;
+use rayon::prelude::*;
 use serde::Serialize;
 use std::io::{self, Write};
 
@@ -89,15 +92,15 @@ struct Row {
 }
 
 pub fn run(args: Args) -> Result<(), Failure> {
-    let parameters = parameters(&args)?;
+    let ensemble = ensemble(&args)?;
     fits(&args)?;
     let progress = signals::progress();
-    let rows = threads::run(args.threads, || rows(&parameters, &progress))?;
+    let rows = threads::run(args.threads, || rows(&ensemble, &progress))?;
     stdout::written(write(&rows, args.format))
 }
 
 /// Checks what the engine cannot check.
-fn parameters(args: &Args) -> Result<SweepParams, Failure> {
+fn ensemble(args: &Args) -> Result<Ensemble, Failure> {
     let sigmas = sigmas::parse(&args.sigma).map_err(|e| Failure::input(one_line(&e, 500)))?;
     let at_least_one = |name: &str, value: usize| {
         let message = format!("--{name}: 0 is not allowed; give 1 or more");
@@ -123,7 +126,8 @@ fn parameters(args: &Args) -> Result<SweepParams, Failure> {
             format!("--restitution: {:?} is not in [0, 1]; give e.g. 0.8", args.restitution);
         return Err(Failure::input(message));
     }
-    Ok(SweepParams {
+    Ok(Ensemble {
+        name: "sweep".into(),
         chain: Chain {
             masses: args.masses,
             restitution: args.restitution,
@@ -138,12 +142,12 @@ fn parameters(args: &Args) -> Result<SweepParams, Failure> {
             },
             ..Chain::default()
         },
-        protocol: Protocol { transient: args.transient, window: args.window },
+        protocols: vec![Protocol { transient: args.transient, window: args.window }],
         sigmas,
         realisations: args.realisations,
-        level: None,
         stream: "sweep".into(),
         seed: args.seed,
+        ..Ensemble::default()
     })
 }
 
@@ -160,38 +164,51 @@ fn fits(args: &Args) -> Result<(), Failure> {
 }
 
 /// Runs σ after σ.
-fn rows(parameters: &SweepParams, progress: &Progress) -> Result<Vec<Row>, Failure> {
-    let stage = progress.stage("sweep", sweep::work(parameters));
-    let mut rows = Vec::with_capacity(parameters.sigmas.len());
-    for &sigma in &parameters.sigmas {
-        let row = sweep::at(parameters, sigma, &stage, progress)?.row;
-        if let Some(first) = &row.first_failure {
+fn rows(ensemble: &Ensemble, progress: &Progress) -> Result<Vec<Row>, Failure> {
+    let work = |&sigma: &f64| ensemble.work(sigma).saturating_mul(ensemble.realisations as u64);
+    let stage =
+        progress.stage("sweep", ensemble.sigmas.iter().map(work).fold(0, u64::saturating_add));
+    let mut rows = Vec::with_capacity(ensemble.sigmas.len());
+    for &sigma in &ensemble.sigmas {
+        let one = |index| {
+            progress.check()?;
+            let counts = ensemble.realisation(sigma, index as u64, || progress.stopped());
+            stage.advance(ensemble.work(sigma));
+            progress.check()?;
+            counts.map_err(|source| Error::failed("sweep", source))
+        };
+        let counts: Result<Vec<Counts>, Error> =
+            (0..ensemble.realisations).into_par_iter().with_max_len(1).map(one).collect();
+        let counts: Counts = counts?.into_iter().collect();
+        let (of, all) = (counts.rejected, ensemble.realisations);
+        if let Some(first) = &counts.first_failure {
             stage.say(&format!(
-                "impact-paper: sigma {sigma:?}: {} of {} realisations ended early and are in no \
+                "impact-paper: sigma {sigma:?}: {} of {all} realisations ended early and are in no \
                  mean; the first: {first}",
-                row.failed, row.realisations
+                counts.failed
             ));
         }
-        if !row.comparable {
+        if of as f64 > MOST_REJECTED * all as f64 {
             stage.say(&format!(
-                "impact-paper: sigma {sigma:?}: {} of {} starts overlapped and were rejected; the \
-                 row is not comparable with others",
-                row.rejected, row.realisations
+                "impact-paper: sigma {sigma:?}: {of} of {all} starts overlapped and were rejected; the \
+                 row is not comparable with others"
             ));
         }
+        let row = rise::Row::new(sigma, &counts, 0, ensemble.chain.gaps(), [None; 2]);
+        let total = &counts.total;
         rows.push(Row {
             sigma,
-            realisations: row.realisations,
+            realisations: all,
             kept: row.kept,
-            rejected: row.rejected,
-            mean_distinct: row.mean_distinct,
-            standard_error: row.standard_error,
-            mode_distinct: row.mode_distinct,
-            impacts_per_time: row.impacts_per_time,
-            impacts: row.impacts,
-            near_simultaneous: row.near_simultaneous,
-            slow: row.slow,
-            contact_phases: row.contact_phases,
+            rejected: of,
+            mean_distinct: row.mean.map(|mean| mean.value),
+            standard_error: row.mean.and_then(|mean| mean.error),
+            mode_distinct: row.mode,
+            impacts_per_time: row.impacts.map(|mean| mean.value / ensemble.protocols[0].window),
+            impacts: total.impacts,
+            near_simultaneous: total.near[NEAR_DECADES.len() - 1],
+            slow: total.slow[SLOW_DECADES.len() - 1],
+            contact_phases: total.contact_phases,
         });
     }
     Ok(rows)

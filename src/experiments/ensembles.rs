@@ -1,149 +1,131 @@
-//! Experiments that are ensembles: rows of realisations, each of which is run by its number alone.
+//! Experiments that are ensembles of chains: cut into units by σ and realisation, joined to curves.
 
 use super::{Error, Progress};
-use impact_chain::observe::FirstPassages;
-use impact_chain::{self, Engine, Impact, Scenario};
-use literate::experiments::cutting::{Cutting, Join, Row, Unit};
+use impact_chain::rise::{Counted, Curve};
+use impact_chain::{Counts, Ensemble};
+use literate::experiments::cutting::{Cutting, Row, Unit};
 use literate::experiments::progress::Stage;
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
 
-/// What runs a realisation by its number, unless the chain is not allowed.
-pub type Begun<'a, R> = Result<Box<dyn Fn(u64) -> Result<R, Error> + Sync + 'a>, Error>;
+/// How ensembles are cut into units, and joined.
+pub const CUTTING: Cutting<Vec<Ensemble>, Counts, Vec<Counted>> =
+    Cutting { rows, part, fits, join };
 
-/// Parameters that say which realisations there are, and how they run.
-pub trait Ensembles: Clone + Sync {
-    /// What one realisation gives.
-    type One: Clone + Send;
-
-    /// The rows, in their order.
-    fn rows(&self) -> Vec<Row>;
-
-    /// What runs the realisations of a row.
-    fn row<'a>(&'a self, row: usize, progress: &'a Progress) -> Begun<'a, Self::One>;
-
-    /// Whether what was read from a file can be a realisation of a row.
-    fn fits(&self, row: usize, one: &Self::One) -> bool;
+/// Each ensemble with each of its σ.
+fn cases(all: &[Ensemble]) -> impl Iterator<Item = (&Ensemble, f64)> {
+    all.iter().flat_map(|own| own.sigmas.iter().map(move |&sigma| (own, sigma)))
 }
 
-/// What all realisations gave.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Ran<P, R> {
-    /// What was run.
-    pub parameters: P,
-    /// For each row its realisations.
-    pub rows: Vec<Vec<R>>,
+fn rows(all: &Vec<Ensemble>) -> Vec<Row> {
+    let row = |(own, sigma): (&Ensemble, f64)| Row {
+        covers: format!("{}, sigma = {sigma}", own.name),
+        realisations: own.realisations_at(sigma),
+        weight: own.work(sigma),
+    };
+    cases(all).map(row).collect()
 }
 
-/// Ensembles in units of work; they are kept as they are.
-pub const fn cutting<P: Ensembles>() -> Cutting<P, Vec<P::One>, Ran<P, P::One>> {
-    joined_by(ran)
-}
-
-/// Ensembles in units of work, of which a result is made.
-pub const fn joined_by<P: Ensembles, T>(
-    join: Join<P, Vec<P::One>, T>,
-) -> Cutting<P, Vec<P::One>, T> {
-    Cutting { rows: P::rows, part, fits: |own, unit, all| fits(own, unit, all), join }
-}
-
-fn part<P: Ensembles>(
-    parameters: &P,
+fn part(
+    all: &Vec<Ensemble>,
     unit: &Unit,
     stage: &Stage,
     progress: &Progress,
-) -> Result<Vec<P::One>, Error> {
-    let run = parameters.row(unit.row, progress)?;
-    unit.each(stage, |index| {
+) -> Result<Counts, Error> {
+    let Some((own, sigma)) = cases(all).nth(unit.row) else { return Ok(Counts::default()) };
+    let one = |index| {
         progress.check()?;
-        run(index)
-    })
+        let counts = own.realisation(sigma, index, || progress.stopped());
+        progress.check()?;
+        counts.map_err(|source| Error::failed("an ensemble", source))
+    };
+    Ok(unit.each(stage, one)?.into_iter().collect())
 }
 
-fn fits<P: Ensembles>(parameters: &P, unit: &Unit, all: &[P::One]) -> bool {
-    all.len() == unit.realisations.len() && all.iter().all(|one| parameters.fits(unit.row, one))
+fn fits(all: &Vec<Ensemble>, unit: &Unit, counts: &Counts) -> bool {
+    cases(all).nth(unit.row).is_some_and(|(own, _)| counts.fit(own, unit.realisations.len()))
 }
 
-fn ran<P: Ensembles>(
-    parameters: &P,
-    parts: Vec<Vec<Vec<P::One>>>,
-    _: &Progress,
-) -> Result<Ran<P, P::One>, Error> {
-    let rows = parts.into_iter().map(|parts| parts.concat()).collect();
-    Ok(Ran { parameters: parameters.clone(), rows })
+fn join(
+    all: &Vec<Ensemble>,
+    parts: Vec<Vec<Counts>>,
+    progress: &Progress,
+) -> Result<Vec<Counted>, Error> {
+    let mut parts = parts.into_iter();
+    let counted = |own: &Ensemble| {
+        let at_each = parts.by_ref().take(own.sigmas.len());
+        let counts: Vec<Counts> = at_each.map(|parts| parts.into_iter().collect()).collect();
+        let curve = |window| {
+            progress.check()?;
+            Ok(Curve::new(own, &counts, window))
+        };
+        let windows = (0..own.protocols.len()).into_par_iter().with_max_len(1);
+        Ok(Counted::new(own.clone(), &counts, windows.map(curve).collect::<Result<_, Error>>()?))
+    };
+    all.iter().map(counted).collect()
 }
 
-/// What each of several things gives, on all threads and told by the stage.
+/// What each of several things gives, on all threads; the stage advances by one for each.
 pub fn each<A: Send, R: Send>(
     stage: &Stage,
     progress: &Progress,
     all: impl IntoIterator<Item = A>,
-    one: impl Fn(A) -> Result<R, Error> + Sync,
+    run: impl Fn(A) -> Result<R, Error> + Sync,
 ) -> Result<Vec<R>, Error> {
     let all: Vec<A> = all.into_iter().collect();
-    let told = |own| {
+    let one = |item| {
         progress.check()?;
-        let found = one(own)?;
+        let found = run(item)?;
         stage.advance(1);
         Ok(found)
     };
-    all.into_par_iter().with_max_len(1).map(told).collect()
+    all.into_par_iter().with_max_len(1).map(one).collect()
 }
 
-/// A chain on its way.
-pub struct Running<'a> {
-    /// Its engine.
-    pub engine: Engine,
-    gaps: usize,
-    name: &'static str,
-    progress: &'a Progress,
+/// The ensemble of a name.
+pub fn named<'a>(all: &'a [Counted], name: &str) -> Option<&'a Counted> {
+    all.iter().find(|own| own.ensemble.name == name)
 }
 
-impl<'a> Running<'a> {
-    /// A chain at its start, in an experiment of a name; none for a start that overlaps.
-    pub fn new(
-        scenario: &Scenario,
-        name: &'static str,
-        progress: &'a Progress,
-    ) -> Result<Option<Self>, Error> {
-        match Engine::new(scenario) {
-            Ok(engine) => Ok(Some(Running { engine, gaps: scenario.gaps(), name, progress })),
-            Err(impact_chain::Error::Overlap { .. }) => Ok(None),
-            Err(source) => Err(Error::failed(name, source)),
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use impact_chain::{Chain, Protocol};
+
+    fn small(name: &str, masses: usize) -> Ensemble {
+        Ensemble {
+            name: name.into(),
+            chain: Chain { masses, ..Chain::default() },
+            sigmas: vec![0.1, 0.16],
+            protocols: vec![Protocol { transient: 20.0, window: 50.0 }],
+            realisations: 7,
+            ..Ensemble::default()
         }
     }
 
-    /// Goes on until a time, and notes the first impact of each gap after each transient; none where the engine gave up.
-    pub fn passages<'b>(
-        &mut self,
-        transients: &'b [f64],
-        until: f64,
-    ) -> Result<Option<FirstPassages<'b>>, Error> {
-        let mut passages = FirstPassages::new(transients, self.gaps);
-        let ended = passages.follow(&mut self.engine, until, || self.progress.stopped());
-        Ok(self.ended(ended)?.then_some(passages))
-    }
-
-    /// Goes on until a time; false where the engine gave up.
-    pub fn go(&mut self, until: f64, mut see: impl FnMut(Impact)) -> Result<bool, Error> {
-        let ended = self.engine.run(until, |impact| {
-            see(impact);
-            !self.progress.stopped()
-        });
-        self.ended(ended)
-    }
-
-    fn ended(&self, ended: Result<(), impact_chain::Error>) -> Result<bool, Error> {
-        self.progress.check()?;
-        match ended {
-            Ok(()) => Ok(true),
-            Err(impact_chain::Error::Work { .. }) => Ok(false),
-            Err(source) => Err(Error::failed(self.name, source)),
+    /// Cut anywhere, counts are the same.
+    #[test]
+    fn units_join_to_the_counts_of_all_realisations() {
+        let (all, quiet) = (vec![small("a", 20), small("b", 9)], Progress::silent());
+        let stage = quiet.stage("test", 1);
+        for (row, (own, sigma)) in cases(&all).enumerate() {
+            let cut = |realisations| {
+                let unit = Unit { row, realisations, covers: String::new(), weight: 1 };
+                let counts = part(&all, &unit, &stage, &quiet).unwrap();
+                assert!(
+                    fits(&all, &unit, &counts)
+                        && !fits(&all, &Unit { realisations: 0..8, ..unit }, &counts)
+                );
+                counts
+            };
+            let whole = cut(0..7);
+            let one = |index| own.realisation(sigma, index, || false).unwrap();
+            assert_eq!(whole, (0..7).map(one).collect());
+            for at in 1..7 {
+                assert_eq!([cut(0..at), cut(at..7)].into_iter().collect::<Counts>(), whole);
+            }
         }
+        let found = CUTTING.run(&all, "test", &quiet).unwrap();
+        assert_eq!(named(&found, "b").unwrap().first().rows[1].counts.len(), 11);
+        assert_eq!(found[0].first().rows[1].ran, 7);
     }
-}
-
-/// How many there are.
-pub fn count(hit: &[bool]) -> u64 {
-    hit.iter().map(|&hit| u64::from(hit)).sum()
 }

@@ -11,21 +11,17 @@ pub mod identities;
 pub mod measured;
 pub mod nucleation;
 pub mod protocol;
-pub mod protocol_tables;
 pub mod replay;
 pub mod restitution;
-pub mod rise;
 pub mod run;
 pub mod seeds;
 pub mod segments;
+pub mod sizes;
 pub mod spacetime;
 pub mod starts;
-pub mod starts_tables;
 pub mod sweep;
-pub mod tally;
 pub mod theory;
 pub mod two_masses;
-pub mod weights;
 
 pub mod built;
 mod results;
@@ -38,13 +34,13 @@ pub use results::Results;
 pub use run::run;
 
 use crate::params::{
-    BiasParams, ChainsParams, HistoryParams, HorizonParams, NucleationParams, Profile,
-    ProtocolParams, RaceParams, RestitutionParams, ScaleParams, SeedsParams, SpaceTimeParams,
-    StartsParams, SweepParams, TrialParams, TwoMassesParams,
+    self, BiasParams, HorizonParams, NucleationParams, Profile, RaceParams, ScaleParams,
+    SeedsParams, SpaceTimeParams, TrialParams, TwoMassesParams,
 };
 use accuracy::{bias, race, scale, tables, trials};
 use built::code;
-use ensembles::cutting;
+use impact_chain::rise::Counted;
+use impact_chain::{Counts, Ensemble};
 use literate::experiments::experiment::How::{Cut, Read, Whole};
 use literate::table::Table;
 
@@ -79,10 +75,10 @@ pub type Together = fn(&Results, &[Table]) -> Option<Vec<Table>>;
 /// What follows from several experiments together.
 pub const TOGETHER: [Together; 5] = [
     theory::beside::tables,
-    sweep::tables::of_both,
+    sweep::of_both,
     seeds::compared::tables,
-    history::tables::beside,
-    starts_tables::beside_theory,
+    history::beside,
+    starts::beside_theory,
 ];
 
 /// The experiments whose results are saved.
@@ -108,41 +104,43 @@ pub const MEASURED: Experiment<(), Measured> = Experiment {
     tables: tables::measured,
 };
 
+/// An experiment that is ensembles of chains.
+pub type Ensembles = Experiment<Vec<Ensemble>, Vec<Counted>, Counts>;
+
 /// The main sweep of Sec. 2.
-pub const SWEEP: Experiment<SweepParams, sweep::Sweep, tally::Tally> = Experiment {
+pub const SWEEP: Ensembles = Experiment {
     name: "sweep",
-    code: code("src/experiments/sweep/mod.rs"),
-    parameters: SweepParams::main,
-    how: Cut("main sweep", sweep::CUTTING),
-    tables: sweep::tables::tables,
+    code: code("src/experiments/ensembles.rs"),
+    parameters: params::sweep,
+    how: Cut("main sweep", ensembles::CUTTING),
+    tables: sweep::tables,
 };
 
 /// The rise again, with another seed.
-pub const SECOND_SEED: Experiment<SweepParams, sweep::Sweep, tally::Tally> = Experiment {
+pub const SECOND_SEED: Ensembles = Experiment {
     name: "second_seed",
-    code: code("src/experiments/sweep/mod.rs"),
-    parameters: SweepParams::second_seed,
-    how: Cut("second seed", sweep::CUTTING),
-    tables: sweep::tables::of_second_seed,
+    code: code("src/experiments/ensembles.rs"),
+    parameters: params::second_seed,
+    how: Cut("second seed", ensembles::CUTTING),
+    tables: sweep::of_second_seed,
 };
 
 /// Half height against transient and window.
-pub const PROTOCOL: Experiment<ProtocolParams, protocol::ProtocolMap, protocol::Part> =
-    Experiment {
-        name: "protocol",
-        code: code("src/experiments/protocol.rs"),
-        parameters: ProtocolParams::new,
-        how: Cut("protocol map", protocol::CUTTING),
-        tables: protocol_tables::of_map,
-    };
+pub const PROTOCOL: Ensembles = Experiment {
+    name: "protocol",
+    code: code("src/experiments/ensembles.rs"),
+    parameters: params::protocol,
+    how: Cut("protocol map", ensembles::CUTTING),
+    tables: protocol::tables,
+};
 
 /// Other starts, boundaries, restitutions and frequencies.
-pub const STARTS: Experiment<StartsParams, starts::Starts, tally::Tally> = Experiment {
+pub const STARTS: Ensembles = Experiment {
     name: "starts",
-    code: code("src/experiments/starts.rs"),
-    parameters: StartsParams::new,
-    how: Cut("variants", starts::CUTTING),
-    tables: starts_tables::tables,
+    code: code("src/experiments/ensembles.rs"),
+    parameters: params::starts,
+    how: Cut("variants", ensembles::CUTTING),
+    tables: starts::tables,
 };
 
 /// Chaos and its horizon.
@@ -152,7 +150,7 @@ pub const HORIZON: Experiment<HorizonParams, horizon::Horizon> = Experiment {
     parameters: HorizonParams::new,
     how: Whole {
         run: horizon::run,
-        weight: |p| 3 * p.realisations as u64 * weights::run(&p.chain, p.sigma, p.until) / 2,
+        weight: |p| 3 * p.realisations as u64 * impact_chain::work(&p.chain, p.sigma, p.until) / 2,
     },
     tables: horizon::tables,
 };
@@ -174,7 +172,10 @@ pub const SPACE_TIME: Experiment<SpaceTimeParams, spacetime::SpaceTime> = Experi
     name: "spacetime",
     code: code("src/experiments/spacetime/mod.rs"),
     parameters: SpaceTimeParams::new,
-    how: Whole { run: spacetime::run, weight: |p| 8 * weights::run(&p.chain, p.sigma, p.until) },
+    how: Whole {
+        run: spacetime::run,
+        weight: |p| 8 * impact_chain::work(&p.chain, p.sigma, p.until),
+    },
     tables: spacetime::tables::tables,
 };
 
@@ -218,72 +219,77 @@ pub const SCALE: Experiment<ScaleParams, scale::Scale> = Experiment {
 };
 
 /// First impacts of chains from rest.
-pub const NUCLEATION: Experiment<NucleationParams, nucleation::Nucleation, Vec<nucleation::First>> =
-    Experiment {
-        name: "nucleation",
-        code: code("src/experiments/nucleation/mod.rs"),
-        parameters: NucleationParams::new,
-        how: Cut("first impacts", cutting()),
-        tables: nucleation::tables::tables,
-    };
+pub const NUCLEATION: Experiment<NucleationParams, nucleation::Nucleation> = Experiment {
+    name: "nucleation",
+    code: code("src/experiments/nucleation/mod.rs"),
+    parameters: NucleationParams::new,
+    how: Whole {
+        run: nucleation::run,
+        // A search of a gap costs about what an impact does.
+        weight: |p| 100 * nucleation::count(p),
+    },
+    tables: nucleation::tables::tables,
+};
 
 /// What one gap that closes by itself sets off.
-pub const SEEDS: Experiment<SeedsParams, seeds::Seeds, seeds::Part> = Experiment {
+pub const SEEDS: Experiment<SeedsParams, seeds::Seeds> = Experiment {
     name: "seeds",
     code: code("src/experiments/seeds/mod.rs"),
     parameters: SeedsParams::new,
-    how: Cut("seeds", seeds::CUTTING),
+    how: Whole {
+        run: seeds::run,
+        weight: |p| {
+            let until = p.bin * p.bins as f64;
+            let one = |sigma: &f64| impact_chain::work(&p.chain, *sigma, until);
+            p.realisations as u64 * p.sigmas.iter().map(one).sum::<u64>()
+        },
+    },
     tables: seeds::tables::tables,
 };
 
 /// Chains that are heated first.
-pub const HISTORY: Experiment<HistoryParams, history::History, Vec<history::Counts>> = Experiment {
+pub const HISTORY: Ensembles = Experiment {
     name: "history",
-    code: code("src/experiments/history/mod.rs"),
-    parameters: HistoryParams::new,
-    how: Cut("history", cutting()),
-    tables: history::tables::tables,
+    code: code("src/experiments/ensembles.rs"),
+    parameters: params::history,
+    how: Cut("history", ensembles::CUTTING),
+    tables: history::tables,
 };
 
 /// Chains of other lengths, starts and ends.
-pub const CHAINS: Experiment<ChainsParams, chains::Chains, chains::Part> = Experiment {
+pub const CHAINS: Ensembles = Experiment {
     name: "chains",
-    code: code("src/experiments/chains/mod.rs"),
-    parameters: ChainsParams::new,
-    how: Cut("long chains", chains::CUTTING),
-    tables: chains::tables::tables,
+    code: code("src/experiments/ensembles.rs"),
+    parameters: params::chains,
+    how: Cut("chains", ensembles::CUTTING),
+    tables: chains::tables,
 };
 
 /// Chains of several restitutions.
-pub const RESTITUTION: Experiment<
-    RestitutionParams,
-    restitution::Restitution,
-    Vec<Option<restitution::Run>>,
-> = Experiment {
+pub const RESTITUTION: Ensembles = Experiment {
     name: "restitution",
-    code: code("src/experiments/restitution/mod.rs"),
-    parameters: RestitutionParams::new,
-    how: Cut("restitution", cutting()),
-    tables: restitution::tables::tables,
+    code: code("src/experiments/ensembles.rs"),
+    parameters: params::restitution,
+    how: Cut("restitution", ensembles::CUTTING),
+    tables: restitution::tables,
 };
 
 /// The long end of the map over transients and windows.
-pub const LONG_PROTOCOL: Experiment<ProtocolParams, protocol::ProtocolMap, protocol::Part> =
-    Experiment {
-        name: "long_protocol",
-        code: code("src/experiments/protocol.rs"),
-        parameters: ProtocolParams::long,
-        how: Cut("long protocol map", protocol::CUTTING),
-        tables: protocol_tables::of_long,
-    };
+pub const LONG_PROTOCOL: Ensembles = Experiment {
+    name: "long_protocol",
+    code: code("src/experiments/ensembles.rs"),
+    parameters: params::long_protocol,
+    how: Cut("long protocol map", ensembles::CUTTING),
+    tables: protocol::of_long,
+};
 
 /// Chains of several lengths after several transients.
-pub const SIZES: Experiment<ChainsParams, chains::Chains, chains::Part> = Experiment {
+pub const SIZES: Ensembles = Experiment {
     name: "sizes",
-    code: code("src/experiments/chains/mod.rs"),
-    parameters: ChainsParams::sizes,
-    how: Cut("length and transient", chains::CUTTING),
-    tables: chains::tables::sizes,
+    code: code("src/experiments/ensembles.rs"),
+    parameters: params::sizes,
+    how: Cut("lengths and transients", ensembles::CUTTING),
+    tables: sizes::tables,
 };
 
 /// Runs that a page repeats.

@@ -132,7 +132,7 @@ pub fn tables(own: &Replays) -> Vec<Table> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::experiments::tally::{Outcome, realisation};
+    use impact_chain::Ensemble;
 
     fn found() -> Replays {
         run(&runs(Profile::Quick), &Progress::silent()).unwrap()
@@ -144,11 +144,14 @@ mod tests {
         let Replays { parameters, found } = found();
         for ((name, asked), found) in parameters.iter().zip(&found) {
             let protocol = Protocol { transient: asked.transient, window: asked.window };
-            if let Forces::Drawn { sigma, stream, seed, realisation: index } = &asked.forces {
-                let key = (stream.as_str(), *seed, *index);
-                let own = realisation(&asked.chain, protocol, *sigma, key, &Progress::silent());
-                let Ok(Outcome::Counted(own)) = own else { panic!("{name}: {own:?}") };
-                assert_eq!((own.distinct as usize, own.impacts), (found.distinct, found.impacts));
+            if let Forces::Drawn { sigma, stream, seed, realisation } = &asked.forces {
+                let (chain, stream) = (asked.chain.clone(), stream.clone());
+                let protocols = vec![protocol];
+                let alone =
+                    Ensemble { chain, protocols, stream, seed: *seed, ..Ensemble::default() };
+                let counts = alone.realisation(*sigma, *realisation, || false).unwrap();
+                assert_eq!(counts.distinct[0], [Some(found.distinct as u32)], "{name}");
+                assert_eq!(counts.total.impacts, found.impacts, "{name}");
             }
             let sticks = name.starts_with("chatter") || name.starts_with("contact");
             assert_eq!(found.contact_phases > 0, sticks, "{name}");

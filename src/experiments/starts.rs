@@ -1,109 +1,79 @@
 //! What the choices that the paper leaves open change: the start, walls or ring, r and Ω.
 
-use super::rise::Rise;
-use super::sweep::{self, SweepRow};
-use super::tally::Tally;
-use super::{Error, Progress};
-use crate::params::{Chain, StartVariant, StartsParams, SweepParams};
-use literate::experiments::cutting::{Cutting, Row, Unit};
-use literate::experiments::progress::Stage;
-use serde::{Deserialize, Serialize};
+use super::ensembles::named;
+use super::{Results, STARTS};
+use impact_chain::rise::{Counted, Curve, MOST_REJECTED};
+use impact_numerics::estimates::{difference, share};
+use impact_numerics::statistics::Estimate;
+use literate::table::Table;
+use literate::value::origin;
 
-/// The variants, the paper's chain first.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Starts {
-    /// What was run.
-    pub parameters: StartsParams,
-    /// One for each variant, in the order of the parameters.
-    pub variants: Vec<Variant>,
+/// The half height of the mean of all, in the first window.
+pub fn half_height(of: &Counted) -> Option<Estimate> {
+    of.first().rise.half_height_all
 }
 
-/// One chain that differs from the paper's in one respect.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Variant {
-    /// `rest`, `zero`, `random`, `ring`, `restitution-0.6`, …
-    pub name: String,
-    /// The chain.
-    pub chain: Chain,
-    /// The ensemble; a row with too many rejected starts says `comparable: false`.
-    pub rows: Vec<SweepRow>,
-    /// Where the rise is, over the comparable rows only.
-    pub rise: Rise,
-}
+pub(super) const HALF_HEIGHT: &str = "σ where the mean of all passes half of all gaps";
 
-impl Starts {
-    /// The variant of a name.
-    pub fn variant(&self, name: &str) -> Option<&Variant> {
-        self.variants.iter().find(|variant| variant.name == name)
-    }
-}
-
-/// The variants in units of work: the rows of each variant's ensemble, one variant after another.
-pub const CUTTING: Cutting<StartsParams, Tally, Starts> = Cutting { rows, part, fits, join };
-
-/// The ensemble of a variant.
-fn ensemble(parameters: &StartsParams, variant: &StartVariant) -> SweepParams {
-    SweepParams {
-        chain: variant.chain.clone(),
-        protocol: parameters.protocol,
-        sigmas: variant.sigmas.clone(),
-        realisations: parameters.realisations,
-        level: None,
-        stream: parameters.stream.clone(),
-        seed: parameters.seed,
-    }
-}
-
-fn rows(parameters: &StartsParams) -> Vec<Row> {
-    let of = |variant: &StartVariant| {
-        let name = variant.name.clone();
-        let rows = sweep::rows(&ensemble(parameters, variant)).into_iter();
-        rows.map(move |row| Row { covers: format!("{name}, {}", row.covers), ..row })
-    };
-    parameters.variants.iter().flat_map(of).collect()
-}
-
-/// The ensemble to which a unit belongs, and its unit there.
-fn within(parameters: &StartsParams, unit: &Unit) -> Option<(SweepParams, Unit)> {
-    let (place, unit) = unit.within(parameters.variants.iter().map(|own| own.sigmas.len()))?;
-    Some((ensemble(parameters, &parameters.variants[place]), unit))
-}
-
-fn part(
-    parameters: &StartsParams,
-    unit: &Unit,
-    stage: &Stage,
-    progress: &Progress,
-) -> Result<Tally, Error> {
-    match within(parameters, unit) {
-        Some((ensemble, unit)) => sweep::part(&ensemble, &unit, stage, progress),
-        None => Ok(Tally::default()),
-    }
-}
-
-fn fits(parameters: &StartsParams, unit: &Unit, tally: &Tally) -> bool {
-    within(parameters, unit).is_some_and(|(ensemble, unit)| sweep::fits(&ensemble, &unit, tally))
-}
-
-fn join(
-    parameters: &StartsParams,
-    tallies: Vec<Vec<Tally>>,
-    progress: &Progress,
-) -> Result<Starts, Error> {
-    let mut tallies = tallies.into_iter();
-    let variants = parameters
-        .variants
-        .iter()
-        .map(|variant| {
-            let own = tallies.by_ref().take(variant.sigmas.len()).collect();
-            let sweep = sweep::join(&ensemble(parameters, variant), own, progress)?;
-            Ok(Variant {
-                name: variant.name.clone(),
-                chain: variant.chain.clone(),
-                rows: sweep.rows,
-                rise: sweep.rise,
-            })
+/// Of variants of the paper's chain.
+pub fn tables(variants: &Vec<Counted>) -> Vec<Table> {
+    let rest = named(variants, "rest").and_then(half_height);
+    let realisations = variants[0].ensemble.realisations;
+    let table = Table::of("starts.variants", variants, |own| own.ensemble.realisations)
+        .text_key("chain", |own| own.ensemble.name.clone())
+        .chosen("restitution", "1", "", |own| Some(own.ensemble.chain.restitution))
+        .chosen("forcing_frequency", "omega", "", |own| Some(own.ensemble.chain.forcing_frequency))
+        .computed_by(origin(Curve::new))
+        .estimate("half_height", "d omega^2", HALF_HEIGHT, half_height)
+        .estimate("difference", "d omega^2", "half height less that from rest", |own| {
+            Some(difference(half_height(own)?, rest?))
         })
-        .collect::<Result<_, Error>>()?;
-    Ok(Starts { parameters: parameters.clone(), variants })
+        .done();
+    let last = named(variants, "random").and_then(|random| random.runs.last());
+    let all = Table::of("starts.all", &[last], |_| last.map_or(0, |row| row.realisations))
+        .count("realisations", "chains at each σ", |_| realisations as u64)
+        .chosen(
+            "most_rejected",
+            "1",
+            "share of overlapping starts up to which a row is used",
+            |_| Some(MOST_REJECTED),
+        )
+        .chosen("rejected_at", "d omega^2", "the last σ of random starts", |last| {
+            last.map(|row| row.sigma)
+        })
+        .estimate("rejected", "1", "share of the random starts there that overlap", |last| {
+            last.and_then(|row| share(row.rejected as u64, row.realisations as u64))
+        })
+        .done();
+    vec![table, all]
+}
+
+/// What of the distance to the theory the start explains.
+pub fn beside_theory(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
+    let starts = results.of(&STARTS).ok()?;
+    let half = |name: &str| named(starts, name).and_then(half_height);
+    let relation = all.iter().find(|table| table.name() == "theory.relation")?;
+    let theory = relation.number(&[], "sigma_half").ok()?;
+    let table = Table::of("starts.beside_theory", &[()], |()| 0)
+        .computed_by(origin(share_of_start))
+        .real(
+            "share",
+            "1",
+            2,
+            "of the distance from rest to the theory, with random free parts",
+            |()| {
+                let both: Option<(Estimate, Estimate)> = half("rest").zip(half("random"));
+                both.map_or(f64::NAN, |(rest, random)| {
+                    share_of_start(rest.value, random.value, theory)
+                })
+            },
+        )
+        .done();
+    Some(vec![table])
+}
+
+/// How much of the distance between theory and simulation the start explains: half heights from
+/// rest, from random free parts, and of the theory.
+pub fn share_of_start(rest: f64, random: f64, theory: f64) -> f64 {
+    (random - rest) / (theory - rest)
 }

@@ -2,24 +2,25 @@
 
 use super::prelude::*;
 use super::simulated::{
-    CROSSES, HEIGHTS, MAIN, comparable, count_axis, crosses, last_sigma, printed, rise, sigma_axis,
+    CROSSES, HEIGHTS, MAIN, count_axis, crosses, last_sigma, printed, rise, sigma_axis,
 };
-use crate::experiments::sweep::Sweep;
+use impact_chain::rise::Counted;
 
-pub fn draw(sweep: &Sweep) -> Result<Figure, Error> {
+pub fn draw(sweep: &Counted) -> Result<Figure, Error> {
     let sheet = Sheet::new(HEIGHTS.0 - 380);
-    let n = sweep.parameters.chain.gaps();
+    let n = sweep.ensemble.chain.gaps();
     let (x, y) = (sigma_axis(last_sigma(sweep)), count_axis(n, "most likely number of impacts"));
     let panel = sheet.panel(MAIN, x, y)?;
     let bar = Stroke::solid(GREY, THIN);
-    let bars: Vec<_> = comparable(sweep)
+    let bars: Vec<_> = sweep
+        .comparable()
         .filter_map(|row| {
             let [low, high] = row.mode_interval?;
             (low < high).then_some((row.sigma, low as f64, high as f64))
         })
         .collect();
     let modes: Vec<_> =
-        comparable(sweep).filter_map(|row| Some((row.sigma, row.mode_distinct? as f64))).collect();
+        sweep.comparable().filter_map(|row| Some((row.sigma, row.mode? as f64))).collect();
     panel.series("mode").bars("interval of the mode", &bars, 40, bar, Outside::Refuse)?;
     crosses(&panel, "mode", &modes)?;
     let near = rise(&sheet, 0.075, count_axis(n, "impacts"))?;
@@ -38,7 +39,7 @@ pub fn draw(sweep: &Sweep) -> Result<Figure, Error> {
         "Most likely number of different gaps that impact against σ, simulated with {} masses; bars are 95 % \
          bootstrap intervals. Below the rise the mode is small and badly determined, beyond it nearly all {n} gaps \
          impact.",
-        sweep.parameters.chain.masses
+        sweep.ensemble.chain.masses
     );
     Ok(sheet.finish("fig02", "Most likely number of impacts", description))
 }

@@ -1,29 +1,28 @@
 //! Fig. 3: the expected number of impacts against σ, simulated, and how many runs it rests on.
 
 use super::prelude::*;
-use super::simulated::{
-    CROSS, CROSSES, comparable, count_axis, crosses, last_sigma, means, sigma_axis,
-};
-use crate::experiments::sweep::{Sweep, SweepRow};
+use super::simulated::{CROSS, CROSSES, count_axis, crosses, last_sigma, means, sigma_axis};
+use impact_chain::rise::{Counted, Row};
 
-pub fn draw(sweep: &Sweep) -> Result<Figure, Error> {
+pub fn draw(sweep: &Counted) -> Result<Figure, Error> {
     let sheet = Sheet::new(7450);
-    let n = sweep.parameters.chain.gaps();
+    let n = sweep.ensemble.chain.gaps();
     let end = last_sigma(sweep);
     let (x, y) = (sigma_axis(end).bare(), count_axis(n, "expected number of impacts"));
     let panel = sheet.lettered(LETTERS[0], Frame::new(1200, 430, 8150, 4430), x, y)?;
     let all: Vec<_> =
-        comparable(sweep).filter_map(|row| Some((row.sigma, row.mean_all?))).collect();
+        sweep.comparable().filter_map(|row| Some((row.sigma, row.mean_all?.value))).collect();
     let broken = Stroke::dashed(GREY, LINE, Dash::Short);
     panel.curve("mean of all", &all, broken, Outside::Refuse)?;
     let kept = means(sweep);
-    let bars: Vec<_> = comparable(sweep)
-        .filter_map(|row| row.mean_interval.map(|[low, high]| (row.sigma, low, high)))
+    let bars: Vec<_> = sweep
+        .comparable()
+        .filter_map(|row| row.mean?.interval.map(|[low, high]| (row.sigma, low, high)))
         .collect();
     let intervals = panel.series("mean of the kept");
     intervals.bars("interval of the mean", &bars, 40, CROSS, Outside::Refuse)?;
     crosses(&panel, "mean of the kept", &kept)?;
-    if let Some(half) = sweep.rise.half_height {
+    if let Some(half) = sweep.first().rise.half_height {
         let level = n as f64 / 2.0;
         let guide = Stroke::dashed(INK, HAIR, Dash::Dotted);
         let corner = [(half.value, level), (half.value, 0.0)];
@@ -44,7 +43,7 @@ pub fn draw(sweep: &Sweep) -> Result<Figure, Error> {
     let (x, y) = (sigma_axis(end), Axis::linear(0.0, 1.0, 0.5, 2, "kept share"));
     let share = sheet.lettered(LETTERS[1], Frame::new(1200, 5100, 8150, 6550), x, y)?;
     let fraction: Vec<_> =
-        comparable(sweep).filter_map(|row| Some((row.sigma, kept_fraction(row)?))).collect();
+        sweep.comparable().filter_map(|row| Some((row.sigma, kept_fraction(row)?))).collect();
     let line = Stroke::solid(GREY, THIN);
     let dot = (Mark::Disc, 38, Stroke::solid(INK, HAIR));
     share.marked("kept fraction", &fraction, (line, dot), Outside::Refuse)?;
@@ -53,8 +52,8 @@ pub fn draw(sweep: &Sweep) -> Result<Figure, Error> {
         "(a) Mean number of different gaps that impact against σ, simulated with {} masses: of the realisations with an impact \
          (crosses, 95 % intervals) it {}; of all realisations (broken line) it starts near zero. (b) The share with an \
          impact rises from {} to {}.",
-        sweep.parameters.chain.masses,
-        sweep.rise.half_height.map_or("rises".into(), |half| format!(
+        sweep.ensemble.chain.masses,
+        sweep.first().rise.half_height.map_or("rises".into(), |half| format!(
             "passes half of {n} at σ = {}",
             short(half.value, 4)
         )),
@@ -64,7 +63,6 @@ pub fn draw(sweep: &Sweep) -> Result<Figure, Error> {
     Ok(sheet.finish("fig03", "Expected number of impacts", description))
 }
 
-fn kept_fraction(row: &SweepRow) -> Option<f64> {
-    let ran = row.realisations - row.rejected - row.failed;
-    (ran > 0).then(|| row.kept as f64 / ran as f64)
+fn kept_fraction(row: &Row) -> Option<f64> {
+    (row.ran > 0).then(|| row.kept as f64 / row.ran as f64)
 }

@@ -5,13 +5,13 @@ use super::simulated::{
     CROSSES, HEIGHTS, MAIN, at, count_axis, crosses, curve, last_sigma, means, printed, rise,
     sigma_axis,
 };
-use crate::experiments::{Results, SWEEP};
+use crate::experiments::{Results, sweep};
 use crate::params::VERTICES;
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
-    let (sweep, theory) = (results.of(&SWEEP)?, results.table("theory.curve")?);
+    let (sweep, theory) = (sweep::main(results)?, results.table("theory.curve")?);
     let sheet = Sheet::new(HEIGHTS.0);
-    let n = sweep.parameters.chain.gaps().max(VERTICES + 1);
+    let n = sweep.ensemble.chain.gaps().max(VERTICES + 1);
     let end = last_sigma(sweep);
     let panel = sheet.panel(MAIN, sigma_axis(end), count_axis(n, "expected number of impacts"))?;
     let (main, thin) = (Stroke::solid(GREEN, LINE), Stroke::solid(GREEN, THIN / 2));
@@ -27,7 +27,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     near.curve("theory, N = n + 1, near the rise", &walls, thin, Outside::Cut)?;
     near.curve("theory, near the rise", &simple, main, Outside::Cut)?;
     near.marks("simulation, near the rise", &simulated, CROSSES, Outside::Cut)?;
-    if let Some(half) = sweep.rise.half_height {
+    if let Some(half) = sweep.first().rise.half_height {
         let theory = results.number("theory.relation.sigma_half")?;
         lag(&sheet, &near, [half.value, theory], n as f64 / 2.0)?;
     }

@@ -4,13 +4,13 @@ use super::prelude::*;
 use super::simulated::{
     CROSSES, HEIGHTS, MAIN, at, count_axis, crosses, curve, last_sigma, means, rise, sigma_axis,
 };
-use crate::experiments::{Results, SWEEP};
+use crate::experiments::{Results, sweep};
 use crate::params::VERTICES;
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
-    let (sweep, theory) = (results.of(&SWEEP)?, results.table("theory.curve")?);
+    let (sweep, theory) = (sweep::main(results)?, results.table("theory.curve")?);
     let sheet = Sheet::new(HEIGHTS.0);
-    let n = sweep.parameters.chain.gaps().max(VERTICES);
+    let n = sweep.ensemble.chain.gaps().max(VERTICES);
     let end = last_sigma(sweep);
     let panel = sheet.panel(MAIN, sigma_axis(end), count_axis(n, "expected number of impacts"))?;
     let green = Stroke::solid(GREEN, LINE);

@@ -35,6 +35,7 @@ mod simulated;
 pub use literate::figures::*;
 pub use number::Number;
 
+use crate::experiments::sweep;
 use crate::experiments::{
     CHAINS, LONG_PROTOCOL, MEASURED, NUCLEATION, PROTOCOL, RACE, RESTITUTION, SCALE, SEEDS,
     SEGMENTS, SIZES, SPACE_TIME, SWEEP,
@@ -69,8 +70,8 @@ const fn figure(
 /// The figures of the paper.
 const PAPER: [Listed; 15] = [
     figure(&[], !THEORY, |_| fig01::draw()),
-    figure(&[&SWEEP], !THEORY, |all| fig02::draw(all.of(&SWEEP)?)),
-    figure(&[&SWEEP], !THEORY, |all| fig03::draw(all.of(&SWEEP)?)),
+    figure(&[&SWEEP], !THEORY, |all| fig02::draw(sweep::main(all)?)),
+    figure(&[&SWEEP], !THEORY, |all| fig03::draw(sweep::main(all)?)),
     figure(&[], !THEORY, |_| fig04::draw()),
     figure(&[&SEGMENTS], !THEORY, |all| fig05::draw(all.of(&SEGMENTS)?)),
     figure(&[&SEGMENTS], !THEORY, |all| fig06::draw(all.of(&SEGMENTS)?)),

@@ -3,8 +3,9 @@
 use super::FORCING;
 use super::prelude::*;
 use super::simulated::count_axis;
-use crate::experiments::sweep::Sweep;
-use crate::experiments::{Results, SWEEP};
+use crate::experiments::Results;
+use crate::experiments::sweep;
+use impact_chain::rise::Counted;
 use literate::table::Table;
 
 /// The σ of (a).
@@ -27,18 +28,18 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let (means, rise, scores) =
         (table("seeds.means")?, table("seeds.rise")?, table("seeds.scores")?);
     let sheet = Sheet::new(9350);
-    counts(&sheet, means, table("seeds.theory")?, results.of(&SWEEP)?)?;
+    counts(&sheet, means, table("seeds.theory")?, sweep::main(results)?)?;
     let advance = table("seeds.advance")?;
     advances(&sheet, advance)?;
     halves(&sheet, rise, scores)?;
     Ok(sheet.finish("s04", "From one gap to many: nucleation and growth", description(advance)))
 }
 
-fn counts(sheet: &Sheet, means: &Table, theory: &Table, sweep: &Sweep) -> Result<(), Error> {
+fn counts(sheet: &Sheet, means: &Table, theory: &Table, sweep: &Counted) -> Result<(), Error> {
     let x = Axis::linear(SIGMAS.0, SIGMAS.1, 0.01, 2, FORCING);
-    let y = count_axis(sweep.parameters.chain.gaps(), "mean count of all");
+    let y = count_axis(sweep.ensemble.chain.gaps(), "mean count of all");
     let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 8150, 3730), x, y)?;
-    let transient = [("transient", sweep.parameters.protocol.transient)];
+    let transient = [("transient", sweep.first().protocol.transient)];
     let lines = [
         ("circuits, Eq. (25)", "eq25", Stroke::dashed(BLUE, LINE, Dash::Short)),
         ("circuits, from rest", "from_rest", Stroke::dashed(PURPLE, LINE, Dash::Long)),
@@ -50,9 +51,11 @@ fn counts(sheet: &Sheet, means: &Table, theory: &Table, sweep: &Sweep) -> Result
     }
     panel.joined(GROWN.0, &means.estimates(&transient, "sigma", "grown"), GROWN.1)?;
     entries.insert(0, Entry::both(GROWN.1.2, GROWN.1, GROWN.0));
-    let inside = sweep.rows.iter().filter(|row| row.sigma > SIGMAS.0 && row.sigma < SIGMAS.1);
-    let bars: Vec<_> =
-        inside.filter_map(|row| Some((row.sigma, row.mean_all?, row.mean_all_interval?))).collect();
+    let inside =
+        sweep.first().rows.iter().filter(|row| row.sigma > SIGMAS.0 && row.sigma < SIGMAS.1);
+    let bars: Vec<_> = inside
+        .filter_map(|row| Some((row.sigma, row.mean_all?.value, row.mean_all?.interval?)))
+        .collect();
     let look = (Mark::Disc, 42, Stroke::solid(RED, THIN));
     let ends: Vec<_> = bars.iter().map(|(x, _, [low, high])| (*x, *low, *high)).collect();
     panel.bars("simulation", &ends, 35, look.2, Outside::Refuse)?;

@@ -2,9 +2,10 @@
 
 use super::FORCING;
 use super::prelude::*;
-use crate::experiments::chains::{Chains, Curve};
+use crate::experiments::chains::is_length;
 use crate::experiments::{CHAINS, Results};
-use crate::params::{ChainCurve, ChainKind};
+use impact_chain::rise::Counted;
+use impact_numerics::estimates::with_error;
 use impact_numerics::statistics::Estimate;
 use literate::table::Table;
 
@@ -14,7 +15,7 @@ const LOOKS: [(Mark, Colour); 4] =
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let (chains, sizes) = (results.of(&CHAINS)?, results.table("sizes.places")?);
-    let window = [("window", chains.parameters.window)];
+    let window = [("window", chains[0].first().protocol.window)];
     let map = results.table("protocol.cells")?.points(&window, "transient", "half_height_all");
     let sheet = Sheet::new(5500);
     lengths(&sheet, chains)?;
@@ -45,29 +46,33 @@ const COMMON_TIME: f64 = 500.0;
 const ASIDE: f64 = 0.002;
 
 /// (σ, share) of a curve at a transient.
-fn shares(own: &ChainCurve, curve: &Curve, time: f64) -> Vec<(f64, Estimate)> {
-    let Some(at) = own.transients.iter().position(|own| *own == time) else { return Vec::new() };
-    curve.rows.iter().filter_map(|row| Some((row.sigma, row.shares[at]?))).collect()
+fn shares(own: &Counted, time: f64) -> Vec<(f64, Estimate)> {
+    let gaps = own.ensemble.chain.gaps() as f64 / own.ensemble.pieces as f64;
+    let share = |mean: Estimate| with_error(mean.value / gaps, mean.error / gaps);
+    let rows = own.curves.iter().filter(|curve| curve.protocol.transient == time);
+    rows.flat_map(|curve| &curve.rows)
+        .filter_map(|row| Some((row.sigma, share(row.mean_all?.estimate()?))))
+        .collect()
 }
 
-fn lengths(sheet: &Sheet, chains: &Chains) -> Result<(), Error> {
+fn lengths(sheet: &Sheet, chains: &[Counted]) -> Result<(), Error> {
     let x = Axis::linear(0.07, 0.19, 0.04, 4, FORCING);
     let y = Axis::linear(0.0, 1.0, 0.2, 2, "share of the gaps");
     let panel = sheet.lettered(LETTERS[0], Frame::new(1000, 430, 3900, 3730), x, y)?;
     let mut entries = Vec::new();
-    for (own, curve) in chains.of(ChainKind::Length) {
-        let mut all = shares(own, curve, COMMON_TIME);
+    for own in chains.iter().filter(|own| is_length(own)) {
+        let mut all = shares(own, COMMON_TIME);
         if all.is_empty() {
             continue;
         }
-        let look = look(own.masses);
-        let name = length(own.masses);
+        let masses = own.ensemble.chain.masses;
+        let (look, name) = (look(masses), length(masses));
         // Long chains lie on one another: a line for the paper's length, the marks of the others beside it.
-        if own.masses <= 100 {
+        if masses <= 100 {
             panel.joined(&name, &all, look)?;
         } else {
             panel.record(&name, all.clone());
-            let aside = ASIDE * f64::from(own.masses.ilog10() - 2);
+            let aside = ASIDE * f64::from(masses.ilog10() - 2);
             all.iter_mut().for_each(|point| point.0 += aside);
             panel.quiet().estimates(&name, &all, look)?;
         }

@@ -1,10 +1,10 @@
-//! Fig. S7: the rise and the rate of impacts at several restitutions.
+//! Fig. S7: the rise at several restitutions.
 
 use super::FORCING;
 use super::prelude::*;
 use super::simulated::count_axis;
-use crate::experiments::restitution::Restitution;
 use crate::experiments::{RESTITUTION, Results};
+use impact_chain::rise::Counted;
 use literate::table::Table;
 
 /// Restitutions of (a), and their looks.
@@ -16,20 +16,11 @@ const RISES: [(f64, Mark, Colour); 5] = [
     (0.95, Mark::Disc, BLUE),
 ];
 
-/// Looks of the r of (c), the last one first.
-const LOOKS: [(Mark, Colour); 4] = [
-    (Mark::Disc, RED),
-    (Mark::OpenSquare, ORANGE),
-    (Mark::OpenTriangle, PURPLE),
-    (Mark::Ring, BLUE),
-];
-
 /// What is drawn.
 struct Shown<'a> {
-    found: &'a Restitution,
+    found: &'a [Counted],
     rise: &'a Table,
     curves: &'a Table,
-    heating: &'a Table,
 }
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
@@ -38,13 +29,11 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         found: results.of(&RESTITUTION)?,
         rise: table("restitution.rise")?,
         curves: table("restitution.curves")?,
-        heating: table("restitution.heating")?,
     };
-    let sheet = Sheet::new(12_120);
+    let sheet = Sheet::new(8150);
     rises(&sheet, &shown)?;
     places(&sheet, &shown)?;
-    heating(&sheet, &shown)?;
-    let title = "The rise and the rate of impacts at several restitutions";
+    let title = "The rise at several restitutions";
     Ok(sheet.finish("s07", title, description(&shown)))
 }
 
@@ -53,10 +42,10 @@ fn named(r: f64) -> String {
 }
 
 fn rises(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
-    let gaps = shown.found.parameters.chain.gaps() as f64;
-    let last = shown.found.parameters.sigmas.iter().copied().fold(0.0, f64::max);
+    let gaps = shown.found[0].ensemble.chain.gaps() as f64;
+    let last = shown.found[0].ensemble.sigmas.iter().copied().fold(0.0, f64::max);
     let x = Axis::linear(0.05, last + 0.02, 0.1, 5, FORCING);
-    let y = count_axis(shown.found.parameters.chain.gaps(), "mean count");
+    let y = count_axis(shown.found[0].ensemble.chain.gaps(), "mean count");
     let panel = sheet.lettered("(a)", Frame::new(1150, 430, 8150, 3230), x, y)?;
     let half = Stroke::dashed(INK, THIN, Dash::Short);
     let level = [(0.05, 0.5 * gaps), (last + 0.02, 0.5 * gaps)];
@@ -83,42 +72,13 @@ fn places(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
     panel.joined("half height", &points, (Mark::Disc, MEDIUM, Stroke::solid(RED, THIN)))
 }
 
-fn heating(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
-    let x = Axis::decades(1, 4, 1, "time *t* (1/*ω*)").from(20.0, 2000.0).finely();
-    let y = Axis::decades(1, 3, 1, "impacts per unit time").from(20.0, 500.0).finely();
-    let panel = sheet.lettered("(c)", Frame::new(1150, 8670, 8150, 11_170), x, y)?;
-    // A window stands at its middle on the logarithmic axis; the first has none.
-    let ends = shown.heating.values("window_end");
-    let middle = |end: f64| {
-        let before = ends.iter().copied().take_while(|own| *own < end).last()?;
-        Some((before * end).sqrt())
-    };
-    let table = shown.heating;
-    let solid = Stroke::solid(INK, LINE);
-    let law = table.points(&[("r", 1.0)], "window_end", "impacts_lossless");
-    let law: Vec<_> = law.iter().filter_map(|(end, own)| Some((middle(*end)?, *own))).collect();
-    panel.curve("hot, without loss", &law, solid, Outside::Cut)?;
-    let mut entries = Vec::new();
-    for (r, (mark, colour)) in table.values("r").into_iter().rev().zip(LOOKS) {
-        let points = table.estimates(&[("r", r)], "window_end", "impacts");
-        let points: Vec<_> =
-            points.iter().filter_map(|(end, own)| Some((middle(*end)?, *own))).collect();
-        let look = (mark, MEDIUM, Stroke::solid(colour, THIN));
-        panel.estimates(&named(r), &points, look)?;
-        entries.push(Entry::mark(look, &named(r)));
-    }
-    entries.insert(0, Entry::line(solid, "expected at *r* = 1"));
-    sheet.legend_in_columns((1400, 8920), (SMALL, 340), (3, 2700), &entries)
-}
-
 fn description(shown: &Shown<'_>) -> String {
     let halves = shown.curves.points(&[], "r", "half_height");
     let end = |at: Option<&(f64, f64)>| {
         at.map_or("none".into(), |(r, own)| format!("{} at r = {r}", short(*own, 3)))
     };
     format!(
-        "(a) Mean count against σ: the smaller r, the later it rises. (b) Half height, from {} to {}. (c) Impacts per \
-         time in windows that double: level, but for r = 1.",
+        "(a) Mean count against σ: the smaller r, the later it rises. (b) Half height, from {} to {}.",
         end(halves.first()),
         end(halves.last()),
     )

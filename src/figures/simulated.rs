@@ -2,8 +2,8 @@
 
 use super::FORCING;
 use super::prelude::*;
-use crate::experiments::sweep::{Sweep, SweepRow};
 use crate::experiments::theory::beside;
+use impact_chain::rise::Counted;
 use literate::table::Table;
 
 /// Line of the simulation's marks.
@@ -15,19 +15,14 @@ pub const CROSSES: Marker = (Mark::Cross, 56, CROSS);
 /// The σ that the paper prints for the rise (Sec. 2).
 const PRINTED: f64 = 0.12;
 
-/// Rows that may be compared with others: few enough starts overlap.
-pub fn comparable(sweep: &Sweep) -> impl Iterator<Item = &SweepRow> {
-    sweep.rows.iter().filter(|row| row.comparable)
-}
-
 /// The axis of σ from zero to the sweep's end.
 pub fn sigma_axis(end: f64) -> Axis {
     Axis::linear(0.0, end, 0.1, 2, FORCING)
 }
 
 /// Largest σ of a sweep.
-pub fn last_sigma(sweep: &Sweep) -> f64 {
-    sweep.rows.last().map_or(0.4, |row| row.sigma)
+pub fn last_sigma(sweep: &Counted) -> f64 {
+    sweep.first().rows.last().map_or(0.4, |row| row.sigma)
 }
 
 /// An axis for counts of impacts up to `n` and a little above.
@@ -57,8 +52,8 @@ pub fn printed(panel: &Panel) -> Result<(), Error> {
 }
 
 /// The mean of the kept against σ.
-pub fn means(sweep: &Sweep) -> Vec<(f64, f64)> {
-    comparable(sweep).filter_map(|row| Some((row.sigma, row.mean_distinct?))).collect()
+pub fn means(sweep: &Counted) -> Vec<(f64, f64)> {
+    sweep.comparable().filter_map(|row| Some((row.sigma, row.mean?.value))).collect()
 }
 
 /// Red crosses.

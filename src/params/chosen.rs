@@ -1,22 +1,5 @@
 //! The protocol and single numbers.
 
-use serde::{Deserialize, Serialize};
-
-/// The counting protocol (ours; Sec. 2 speaks only of "a suitable transient time").
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Protocol {
-    /// Transient T that is dropped, in units of 1/ω.
-    pub transient: f64,
-    /// Window W in which distinct gaps are counted, in units of 1/ω.
-    pub window: f64,
-}
-
-impl Default for Protocol {
-    fn default() -> Self {
-        Protocol { transient: 500.0, window: 200.0 }
-    }
-}
-
 /// Master seed of all random streams (ours: the year of the paper).
 pub const SEED: u64 = 2007;
 
@@ -56,9 +39,3 @@ pub const PRINTED_THRESHOLD_UNIT: f64 = 0.01;
 
 /// The threshold as the paper prints it (Sec. 2).
 pub const PRINTED_THRESHOLD: f64 = 0.12;
-
-/// Share of rejected (overlapping) starts above which a row is not comparable (ours).
-pub const COMPARABLE_REJECTED: f64 = 0.1;
-
-/// Bootstrap resamples behind each interval (ours).
-pub const RESAMPLES: usize = 1000;

@@ -2,19 +2,22 @@
 
 use super::contents::Error;
 use super::html::base64;
-use crate::experiments::{REPLAY, Results, SWEEP};
+use crate::experiments::sweep;
+use crate::experiments::{REPLAY, Results};
+use impact_chain::rise::Mean;
 use serde_json::json;
 
 /// The file, from the module in WebAssembly and the script.
 pub fn script(module: &[u8], results: &Results, script: &str) -> Result<String, Error> {
-    let (replays, sweep) = (results.of(&REPLAY)?, results.of(&SWEEP)?);
+    let (replays, sweep) = (results.of(&REPLAY)?, sweep::main(results)?);
     let runs = replays.parameters.iter().zip(&replays.found);
     let runs: Vec<_> = runs
         .map(|((name, asked), found)| json!({ "name": name, "asked": asked, "found": found }))
         .collect();
-    let rows = sweep.rows.iter().filter(|row| row.comparable);
-    let rows: Vec<_> = rows.map(|row| (row.sigma, row.mean_all, row.mean_distinct)).collect();
-    let gaps = sweep.parameters.chain.gaps();
+    let value = |own: Option<Mean>| own.map(|own| own.value);
+    let rows: Vec<_> =
+        sweep.comparable().map(|row| (row.sigma, value(row.mean_all), value(row.mean))).collect();
+    let gaps = sweep.ensemble.chain.gaps();
     let data =
         json!({ "runs": runs, "curve": { "gaps": gaps, "rows": rows }, "module": base64(module) });
     Ok(format!("\"use strict\";\nconst LAB = {data};\n{script}"))

@@ -1,8 +1,8 @@
 //! Ensembles: what an independent simulator measured, and random numbers that σ does not change.
 
 use crate::drawn;
-use impact_paper::experiments::{Progress, sweep};
-use impact_paper::params::{Chain, Profile, Start, SweepParams};
+use impact_chain::{Chain, Ensemble, Start};
+use impact_paper::experiments::{Progress, ensembles::CUTTING};
 
 /// The same normals at every σ: scaled by 2^1 the amplitudes are exactly doubled.
 #[test]
@@ -16,18 +16,20 @@ fn realisations_are_common_to_all_sigma() {
 #[test]
 fn the_rise_lies_where_it_was_measured_elsewhere() {
     // An independent simulator, 1000 realisations, rest start, T = 500, W = 200: 0.1165(4).
-    let parameters = SweepParams {
+    let ensemble = Ensemble {
         sigmas: (18..=28).map(|i| f64::from(i) / 200.0).collect(),
         realisations: 60,
-        ..SweepParams::main(Profile::Full)
+        stream: "sweep".into(),
+        ..Ensemble::default()
     };
-    assert_eq!(parameters.chain.start, Start::Rest);
-    let found = sweep::run(&parameters, "test", &Progress::silent()).unwrap();
-    let half = found.rise.half_height.unwrap();
+    assert_eq!(ensemble.chain.start, Start::Rest);
+    let found = CUTTING.run(&vec![ensemble], "test", &Progress::silent()).unwrap();
+    let rise = &found[0].first().rise;
+    let half = rise.half_height.unwrap();
     // Four standard errors of both together; a wrong law of impact moves it by ten.
     let error = (half.error * half.error + 4e-4 * 4e-4).sqrt();
     assert!(half.error < 2e-3, "{half:?}");
     assert!((half.value - 0.1165).abs() < 4.0 * error, "{half:?}");
-    let onset = found.rise.kept_half.unwrap().value;
+    let onset = rise.kept_half.unwrap().value;
     assert!(onset < half.value, "half of the chains impact long before half of the gaps: {onset}");
 }

@@ -3,6 +3,7 @@
 //! the paper, and every claim has its place in it.
 
 use crate::quick::QUICK;
+use impact_chain::rise::Mean;
 use impact_paper::claims::{self, Verdict};
 use impact_paper::experiments::{Need, Progress, Results, Store, run::run};
 use impact_paper::experiments::{STARTS, SWEEP};
@@ -62,13 +63,14 @@ fn claims_fail_when_the_results_say_so() {
     assert_eq!(verdict("sec2_onset", &results), Verdict::DiffersAndExplained);
     assert_eq!(verdict("sec2_sticking", &results), Verdict::Reproduced);
     assert_eq!(verdict("sec2_parameters", &results), Verdict::Reproduced);
-    let sweep = results.of_mut(&SWEEP).unwrap();
-    for place in [&mut sweep.rise.half_height, &mut sweep.rise.kept_half] {
+    let sweep = &mut results.of_mut(&SWEEP).unwrap()[0];
+    let rise = &mut sweep.curves[0].rise;
+    for place in [&mut rise.half_height, &mut rise.kept_half] {
         place.as_mut().unwrap().value += 0.05;
     }
-    sweep.parameters.chain.restitution = 0.7;
-    for row in &mut sweep.rows {
-        row.contact_phases = row.impacts / 100;
+    sweep.ensemble.chain.restitution = 0.7;
+    for own in &mut sweep.runs {
+        own.total.contact_phases = own.total.impacts / 100;
     }
     assert_eq!(verdict("sec2_half_height", &results), Verdict::Differs);
     // The onset still differs, but what explained it no longer holds.
@@ -78,12 +80,10 @@ fn claims_fail_when_the_results_say_so() {
 
     // The paper discards chains without impacts: the mean of the kept is judged, and that of all explains.
     let small = |kept: f64, all: f64, results: &mut Results| {
-        let rows = &mut results.of_mut(&SWEEP).unwrap().rows;
+        let rows = &mut results.of_mut(&SWEEP).unwrap()[0].curves[0].rows;
         let row = rows.iter_mut().rfind(|row| row.sigma < 0.0804).unwrap();
-        (row.mean_distinct, row.standard_error) = (Some(kept), Some(0.01));
-        row.mean_all = Some(all);
-        row.counts = vec![0; row.counts.len()];
-        row.counts[0] = 10_000;
+        let mean = |value| Some(Mean { value, error: Some(0.01), interval: None });
+        (row.mean, row.mean_all) = (mean(kept), mean(all));
     };
     for (kept, all, expected) in [
         (14.0, 0.6, Verdict::DiffersAndExplained),
@@ -98,17 +98,17 @@ fn claims_fail_when_the_results_say_so() {
     assert_eq!(verdict("sec8_no_impact", &results), Verdict::Reproduced);
     for share in [1, 0] {
         let starts = results.of_mut(&STARTS).unwrap();
-        let random = starts.variants.iter_mut().find(|own| own.name == "random").unwrap();
-        for row in &mut random.rows {
-            row.realisations = 1000;
-            (row.kept, row.rejected) = (700 * share, 200 * share);
+        let random = starts.iter_mut().find(|own| own.ensemble.name == "random").unwrap();
+        for (own, row) in random.runs.iter_mut().zip(&mut random.curves[0].rows) {
+            own.realisations = 1000;
+            (row.kept, own.rejected) = (700 * share, 200 * share);
         }
         assert_eq!(verdict("sec8_no_impact", &results), Verdict::Differs, "{share}");
     }
 
-    results.of_mut(&SWEEP).unwrap().rise.half_height = None;
+    results.of_mut(&SWEEP).unwrap()[0].curves[0].rise.half_height = None;
     assert_eq!(verdict("sec2_half_height", &results), Verdict::CannotBeJudged);
-    let rows = &mut results.of_mut(&SWEEP).unwrap().rows;
-    rows.iter_mut().flat_map(|row| row.near_decades.last_mut()).for_each(|n| *n += 1000);
+    let runs = &mut results.of_mut(&SWEEP).unwrap()[0].runs;
+    runs.iter_mut().flat_map(|own| own.total.near.last_mut()).for_each(|n| *n += 1000);
     assert_eq!(verdict("sec2_three_way", &results), Verdict::Differs);
 }

@@ -1,35 +1,32 @@
-//! How many of the gaps close in a window of time, as the forcing grows: the jump of Fig. 3 in small.
+//! The rise in a chain of yours: how many of its gaps close in a window of time, as the forcing grows (Fig. 3 in small).
 //!
 //!     cargo run --release -p impact-chain --example sweep
 
-use impact_chain::{Chain, Engine, Error, Scenario};
-use impact_numerics::random::NormalPairs;
-use impact_numerics::statistics::{mean, standard_error};
-
-const REALISATIONS: u64 = 10;
-const TRANSIENT: f64 = 200.0;
-const WINDOW: f64 = 200.0;
+use impact_chain::rise::Curve;
+use impact_chain::{Chain, Counts, Ensemble, Error, Protocol};
 
 fn main() -> Result<(), Error> {
-    let chain = Chain { masses: 50, ..Chain::default() };
-    println!("sigma  gaps that closed, of {}", chain.gaps());
-    for sigma in [0.08, 0.10, 0.12, 0.14, 0.16, 0.20, 0.30] {
-        let counts: Result<Vec<f64>, Error> =
-            (0..REALISATIONS).map(|index| closed(&chain, sigma, index)).collect();
-        let counts = counts?;
-        let [mean, error] = [mean(&counts), standard_error(&counts)].map(Option::unwrap_or_default);
-        println!(" {sigma:.2}  {mean:5.1} ± {error:.1}");
+    let ensemble = Ensemble {
+        chain: Chain { masses: 50, restitution: 0.8, ..Chain::default() },
+        sigmas: vec![0.08, 0.10, 0.11, 0.12, 0.13, 0.14, 0.16, 0.20],
+        protocols: vec![Protocol { transient: 200.0, window: 200.0 }],
+        realisations: 20,
+        ..Ensemble::default()
+    };
+    let at = |sigma: &f64| (0..20).map(|i| ensemble.realisation(*sigma, i, || false)).collect();
+    let counts = ensemble.sigmas.iter().map(at).collect::<Result<Vec<Counts>, Error>>()?;
+    let curve = Curve::new(&ensemble, &counts, 0);
+    for row in &curve.rows {
+        let mean = row.mean_all.unwrap_or_default();
+        let error = mean.error.unwrap_or_default();
+        println!(
+            "σ = {:.2}: {:5.1} ± {error:.1} of {} gaps",
+            row.sigma,
+            mean.value,
+            ensemble.chain.gaps()
+        );
     }
+    let half = curve.rise.half_height_all.expect("it rises through half of all gaps");
+    println!("half height at σ = {:.3} ± {:.3}", half.value, half.error);
     Ok(())
-}
-
-/// Distinct gaps that close in the window, after the transient.
-fn closed(chain: &Chain, sigma: f64, index: u64) -> Result<f64, Error> {
-    let scenario = Scenario::draw(chain, sigma, &mut NormalPairs::new("sweep", 2007, index));
-    let mut hit = vec![false; chain.gaps()];
-    Engine::new(&scenario)?.run(TRANSIENT + WINDOW, |impact| {
-        hit[impact.gap] |= impact.time >= TRANSIENT;
-        true
-    })?;
-    Ok(hit.iter().filter(|hit| **hit).count() as f64)
 }

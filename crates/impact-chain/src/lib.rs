@@ -8,7 +8,8 @@
 //! - [`Engine::run`] hands out each [`Impact`]; masses that stay together are in contact, with a contact force
 //!   ([`Engine::contacts`]), and of gaps that close at the same instant the lowest comes first.
 //! - [`rounding`] bounds what rounding does to one impact; [`Growth`] tells how fast two runs part where they are chaotic.
-//! - [`observe`] counts what ensembles need of a run.
+//! - [`Ensemble`] is many chains at several σ, counted in windows of time ([`Counts`]); [`rise`] says where the number of
+//!   impacts rises.
 //! - [`replay`] is a run that is repeated, and proved by a digest of its impacts.
 //! - [`methods`] are other ways to simulate the same chain, to compare with.
 //!
@@ -36,7 +37,9 @@
 
 mod chain;
 mod contact;
+pub mod counts;
 mod engine;
+mod ensemble;
 mod error;
 mod flight;
 mod force;
@@ -45,8 +48,8 @@ mod growth;
 mod impact;
 mod linear;
 pub mod methods;
-pub mod observe;
 pub mod replay;
+pub mod rise;
 pub mod rounding;
 mod scenario;
 mod simulation;
@@ -54,7 +57,9 @@ mod simultaneous;
 mod topology;
 
 pub use chain::{Boundary, Chain, Start};
+pub use counts::Counts;
 pub use engine::{Counters, Engine, Impact};
+pub use ensemble::{Beyond, Ensemble, Heating, Protocol, work};
 pub use error::Error;
 pub use growth::Growth;
 pub use scenario::{Initial, Overtone, Scenario};

@@ -414,6 +414,24 @@ impl Scenario {
         }
     }
 
+    /// The scenario that goes on from a time at which all forces change by a factor: places and velocities stay, so the
+    /// free parts, given as they are then, take what the forced parts lose.
+    pub fn lowered(&self, free: &[[f64; 2]], time: f64, factor: f64) -> Scenario {
+        let (omega, big_omega) = (self.natural_frequency, self.forcing_frequency);
+        let lost = (1.0 - factor) / (omega * omega - big_omega * big_omega);
+        let mut now = self.later(free, time);
+        if let Initial::Free(parts) = &mut now.initial {
+            for ([a, b], force) in parts.iter_mut().zip(&now.forcing) {
+                *a += lost * force[0];
+                *b += lost * big_omega / omega * force[1];
+            }
+        }
+        for force in &mut now.forcing {
+            *force = force.map(|x| factor * x);
+        }
+        now
+    }
+
     /// The components of the forcing: frequency, and amplitudes of each mass.
     pub fn components(&self) -> impl Iterator<Item = (f64, &[[f64; 2]])> {
         let further = self.overtones.iter().map(|own| (own.frequency, own.amplitudes.as_slice()));
@@ -446,6 +464,35 @@ impl Scenario {
         match self.boundary {
             Boundary::Walls => self.forcing.len() + 1,
             Boundary::Ring => self.forcing.len(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_and_velocities_go_on_when_the_force_is_lowered() {
+        let chain = Chain { masses: 5, ..Chain::default() };
+        let mut normals = NormalPairs::new("test of history", 1, 1);
+        let hot = Scenario::draw(&chain, 0.3, &mut normals);
+        let free: Vec<[f64; 2]> = (0..5).map(|_| normals.pair()).collect();
+        let (time, h) = (7.3, 1e-5);
+        let place = |scenario: &Scenario, free: [f64; 2], j: usize, t: f64| {
+            let [alpha, beta] = scenario.forcing[j];
+            let (sin, cos) = pxfm::f_sincos(t);
+            let (forced_sin, forced_cos) = pxfm::f_sincos(scenario.forcing_frequency * t);
+            free[0] * cos + free[1] * sin - alpha * forced_cos - beta * forced_sin
+        };
+        let after = hot.lowered(&free, time, 0.4);
+        let Initial::Free(parts) = &after.initial else { panic!() };
+        for j in 0..5 {
+            let before = |t| place(&hot, free[j], j, t);
+            let then = |t| place(&after, parts[j], j, t);
+            assert!((before(time) - then(0.0)).abs() < 1e-12);
+            let speeds = [before(time + h) - before(time - h), then(h) - then(-h)];
+            assert!((speeds[0] - speeds[1]).abs() < 1e-9 * h.sqrt(), "{speeds:?}");
         }
     }
 }

@@ -2,14 +2,14 @@
 //! the differences chain by chain.
 
 use super::routes::method;
-use crate::experiments::ensembles::{Begun, Ensembles, joined_by};
-use crate::experiments::{Error, Progress, weights};
+use crate::experiments::{Error, Progress};
 use crate::params::{BiasParams, Chain, MethodName, Protocol, Setting};
 use impact_chain::methods::{Cost, State};
 use impact_chain::{Impact, Scenario};
 use impact_numerics::random::NormalPairs;
 use impact_numerics::statistics::{mean, standard_error};
-use literate::experiments::cutting::{Cutting, Row};
+use literate::experiments::cutting::{Cutting, Row, Unit};
+use literate::experiments::progress::Stage;
 use serde::{Deserialize, Serialize};
 
 /// Bias of all methods.
@@ -65,7 +65,8 @@ pub struct Counted {
 pub type Part = Vec<Counted>;
 
 /// The ensembles in units of work: for each scene the certified engine and then every setting.
-pub const CUTTING: Cutting<BiasParams, Part, Biases> = joined_by(join);
+pub const CUTTING: Cutting<BiasParams, Part, Biases> =
+    Cutting { rows, part, fits: |_, unit, part| part.len() == unit.realisations.len(), join };
 
 /// Runs everything.
 pub fn run(parameters: &BiasParams, progress: &Progress) -> Result<Biases, Error> {
@@ -87,7 +88,7 @@ impl Ensemble {
     /// Work of one realisation, in impacts.
     fn weight(&self, chain: &Chain) -> u64 {
         let time = self.protocol.transient + self.protocol.window;
-        let own = weights::run(chain, self.sigma, time);
+        let own = impact_chain::work(chain, self.sigma, time);
         let (impacts, masses) = (own as f64, chain.masses as f64);
         let grid = masses * time / self.setting.value;
         let looks = match self.setting.method {
@@ -118,39 +119,31 @@ fn ensembles(parameters: &BiasParams) -> Vec<Ensemble> {
     parameters.scenes.iter().flat_map(of).collect()
 }
 
-impl Ensembles for BiasParams {
-    type One = Counted;
-
-    fn rows(&self) -> Vec<Row> {
-        let row = |ensemble: &Ensemble| {
-            let Setting { method, value } = ensemble.setting;
-            let method = match method {
-                MethodName::Certified => method.id().into(),
-                _ => format!("{} at {value}", method.id()),
-            };
-            Row {
-                covers: format!("{method}, sigma = {}", ensemble.sigma),
-                realisations: ensemble.realisations,
-                weight: ensemble.weight(&self.chain),
-            }
+fn rows(parameters: &BiasParams) -> Vec<Row> {
+    let row = |ensemble: &Ensemble| {
+        let Setting { method, value } = ensemble.setting;
+        let method = match method {
+            MethodName::Certified => method.id().into(),
+            _ => format!("{} at {value}", method.id()),
         };
-        ensembles(self).iter().map(row).collect()
-    }
+        Row {
+            covers: format!("{method}, sigma = {}", ensemble.sigma),
+            realisations: ensemble.realisations,
+            weight: ensemble.weight(&parameters.chain),
+        }
+    };
+    ensembles(parameters).iter().map(row).collect()
+}
 
-    fn row<'a>(&'a self, row: usize, progress: &'a Progress) -> Begun<'a, Counted> {
-        let ensemble = ensembles(self).swap_remove(row);
-        Ok(Box::new(move |index| {
-            let mut normals = NormalPairs::new(&self.stream, self.seed, index);
-            let scenario = Scenario::draw(&self.chain, ensemble.sigma, &mut normals);
-            let counted = count(ensemble.setting, &scenario, ensemble.protocol, progress);
-            progress.check()?;
-            Ok(counted)
-        }))
-    }
-
-    fn fits(&self, _: usize, _: &Counted) -> bool {
-        true
-    }
+fn part(own: &BiasParams, unit: &Unit, stage: &Stage, progress: &Progress) -> Result<Part, Error> {
+    let ensemble = ensembles(own).swap_remove(unit.row);
+    unit.each(stage, |index| {
+        let mut normals = NormalPairs::new(&own.stream, own.seed, index);
+        let scenario = Scenario::draw(&own.chain, ensemble.sigma, &mut normals);
+        let counted = count(ensemble.setting, &scenario, ensemble.protocol, progress);
+        progress.check()?;
+        Ok(counted)
+    })
 }
 
 fn join(parameters: &BiasParams, parts: Vec<Vec<Part>>, _: &Progress) -> Result<Biases, Error> {
@@ -216,8 +209,8 @@ fn count(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::experiments::sweep;
-    use crate::params::{Profile, SweepParams};
+    use crate::params::Profile;
+    use impact_chain::{Counts, Ensemble, rise};
 
     /// Certified counts are those of the main sweep, by its own way of counting.
     #[test]
@@ -229,16 +222,11 @@ mod tests {
         let coarse = Setting { method: MethodName::Verlet, value: 0.1 };
         parameters.settings = vec![(own, 3), (coarse, 2)];
         let found = run(&parameters, &Progress::silent()).unwrap();
-        let sweep = SweepParams {
-            sigmas: vec![0.3],
-            realisations: 3,
-            level: None,
-            protocol: short,
-            ..SweepParams::main(Profile::Quick)
-        };
-        let stage = Progress::silent().stage("test", 0);
-        let sample = sweep::at(&sweep, 0.3, &stage, &Progress::silent()).unwrap();
-        assert_eq!(Some(found.certified[0].mean), sample.row.mean_all);
+        let stream = parameters.stream.clone();
+        let sweep = Ensemble { protocols: vec![short], stream, ..Ensemble::default() };
+        let counts: Counts = (0..3).map(|i| sweep.realisation(0.3, i, || false).unwrap()).collect();
+        let row = rise::Row::new(0.3, &counts, 0, 101, [None; 2]);
+        assert_eq!(Some(found.certified[0].mean), row.mean_all.map(|mean| mean.value));
         // Against itself nothing differs; a coarse method differs, on chains of its own number.
         assert_eq!((found.rows[0].bias, found.rows[0].error), (Some(0.0), Some(0.0)));
         assert_eq!(found.rows[1].pairs, 2);

@@ -2,20 +2,26 @@
 
 pub mod tables;
 
-use super::ensembles::{Begun, Ensembles, Ran};
+use super::ensembles::each;
 use super::{Error, Progress};
 use crate::params::{Chain, NucleationParams};
-use impact_chain::{self, Engine, Scenario};
+use impact_chain::{Engine, Scenario};
 use impact_numerics::random::NormalPairs;
-use literate::experiments::cutting::Row;
+use serde::{Deserialize, Serialize};
 
-/// First impacts of chains from rest, for each length and σ: length by length.
-pub type Nucleation = Ran<NucleationParams, First>;
+/// First impacts of chains from rest.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Nucleation {
+    /// What was run.
+    pub parameters: NucleationParams,
+    /// For each length and σ, length by length, the realisations.
+    pub rows: Vec<Vec<First>>,
+}
 
 /// The time of a chain's first impact, if it has one in time.
 pub type First = Option<f64>;
 
-/// The ensembles in their order.
+/// The ensembles in their order: masses, realisations, σ.
 fn ensembles(parameters: &NucleationParams) -> impl Iterator<Item = (usize, usize, f64)> {
     let of = |&(masses, realisations): &(usize, usize)| {
         parameters.sigmas.iter().map(move |&sigma| (masses, realisations, sigma))
@@ -23,29 +29,20 @@ fn ensembles(parameters: &NucleationParams) -> impl Iterator<Item = (usize, usiz
     parameters.lengths.iter().flat_map(of)
 }
 
-impl Ensembles for NucleationParams {
-    type One = First;
+/// Chains of all ensembles.
+pub fn count(parameters: &NucleationParams) -> u64 {
+    ensembles(parameters).map(|(_, realisations, _)| realisations as u64).sum()
+}
 
-    fn rows(&self) -> Vec<Row> {
-        let row = |(masses, realisations, sigma)| Row {
-            covers: format!("n = {masses}, sigma = {sigma}"),
-            realisations,
-            // A search of a gap costs about what an impact does.
-            weight: masses as u64 + 1,
-        };
-        ensembles(self).map(row).collect()
-    }
-
-    fn row<'a>(&'a self, row: usize, _: &'a Progress) -> Begun<'a, First> {
-        let (masses, _, sigma) = ensembles(self).nth(row).unwrap_or_default();
-        let chain = Chain { masses, ..self.chain.clone() };
-        Ok(Box::new(move |index| first(self, &chain, sigma, index)))
-    }
-
-    fn fits(&self, _: usize, time: &First) -> bool {
-        let last = self.times.last().copied().unwrap_or(0.0);
-        time.is_none_or(|time| (0.0..=last).contains(&time))
-    }
+/// Runs all chains, each to its first impact.
+pub fn run(parameters: &NucleationParams, progress: &Progress) -> Result<Nucleation, Error> {
+    let stage = progress.stage("first impacts", count(parameters));
+    let rows = ensembles(parameters).map(|(masses, realisations, sigma)| {
+        let chain = Chain { masses, ..parameters.chain.clone() };
+        let one = |index| first(parameters, &chain, sigma, index);
+        each(&stage, progress, 0..realisations as u64, one)
+    });
+    Ok(Nucleation { parameters: parameters.clone(), rows: rows.collect::<Result<_, _>>()? })
 }
 
 fn first(
@@ -56,8 +53,8 @@ fn first(
 ) -> Result<First, Error> {
     let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, index);
     let scenario = Scenario::draw(chain, sigma, &mut normals);
-    let fault = |source: impact_chain::Error| Error::failed("nucleation", source);
     let until = parameters.times.last().copied().unwrap_or(0.0);
-    let mut engine = Engine::new(&scenario).map_err(fault)?;
-    Ok(engine.next_impact(until).map_err(fault)?.map(|impact| impact.time))
+    let impact = Engine::new(&scenario).and_then(|mut engine| engine.next_impact(until));
+    let impact = impact.map_err(|source| Error::failed("nucleation", source))?;
+    Ok(impact.map(|impact| impact.time))
 }

@@ -1,8 +1,9 @@
 //! What is predicted beside what was simulated: by the main sweep, and after several transients by the map of the
 //! protocol.
 
-use crate::experiments::protocol_tables::address;
+use crate::experiments::protocol::address;
 use crate::experiments::{PROTOCOL, Results, SEEDS};
+use impact_chain::rise::Row;
 use impact_numerics::estimates::difference;
 use impact_numerics::statistics::Estimate;
 use literate::table::Table;
@@ -20,24 +21,28 @@ struct Line<'a> {
 pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
     let of = |name: &str| all.iter().find(|table| table.name() == name);
     let (means, rise, found) = (of("seeds.means")?, of("seeds.rise")?, of("sweep.rows")?);
-    let (seeds, map) = (&results.of(&SEEDS).ok()?.parameters, results.of(&PROTOCOL).ok()?);
+    let (seeds, map) = (&results.of(&SEEDS).ok()?.parameters, &results.of(&PROTOCOL).ok()?[0]);
     let window = seeds.window as f64 * seeds.bin;
-    let curve = |&transient: &f64| Some((transient, map.curve(transient, window)?));
+    let mean = |row: &Row| Some((row.sigma, row.mean_all?.value));
+    let curve = |&transient: &f64| {
+        let rows = &map.curve(transient, window)?.rows;
+        Some((transient, rows.iter().filter_map(mean).collect::<Vec<_>>()))
+    };
     let curves: Vec<_> = rise.values("transient").iter().filter_map(curve).collect();
     let common =
         |sigma: &f64| curves.iter().all(|(_, found)| found.iter().any(|at| at.0 == *sigma));
     let sigmas: Vec<f64> = seeds.sigmas.iter().copied().filter(common).collect();
     let line = |(transient, mut found): (f64, Vec<(f64, f64)>)| {
         found.retain(|(sigma, _)| sigmas.contains(sigma));
-        let half_height = map.cell(transient, window).and_then(|cell| cell.half_height_all);
+        let half_height = map.curve(transient, window).and_then(|cell| cell.rise.half_height_all);
         Line { transient, half_height, found, means }
     };
     let lines: Vec<Line<'_>> = curves.into_iter().map(line).collect();
-    let scores = Table::of("seeds.scores", &lines, |_| map.parameters.realisations)
+    let scores = Table::of("seeds.scores", &lines, |_| map.ensemble.realisations)
         .key("transient", "1/omega", |line| line.transient)
         .estimate("half_height", "d omega^2", "", |line| line.half_height)
         .same("half_height", |line| {
-            map.cell(line.transient, window).map(|own| address("protocol", own, "half_height_all"))
+            map.curve(line.transient, window).map(|own| address("protocol", own, "half_height_all"))
         })
         .real("eq25", "1", 2, OFF, |line| line.off("eq25"))
         .real("from_rest", "1", 2, OFF, |line| line.off("from_rest"))

@@ -15,7 +15,7 @@ pub mod run;
 pub mod tables;
 
 pub use counting::ByDistance;
-pub use run::{CUTTING, Part, Trace};
+pub use run::{Part, Trace, run};
 
 use crate::params::SeedsParams;
 use serde::{Deserialize, Serialize};

@@ -1,13 +1,12 @@
 //! Runs of chains in which exactly one gap closes by itself.
 
 use super::Seeds;
-use crate::experiments::{Error, Progress, weights};
+use crate::experiments::ensembles::each;
+use crate::experiments::{Error, Progress};
 use crate::params::{Chain, SeedsParams};
 use impact_chain::{self, Engine, Impact, Initial, Scenario};
 use impact_circuits::nucleation::reach::closes_by_itself;
 use impact_numerics::random::NormalPairs;
-use literate::experiments::cutting::{Cutting, Row, Unit};
-use literate::experiments::progress::Stage;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
@@ -22,33 +21,18 @@ pub struct Trace {
     pub(super) firsts: Vec<Option<u32>>,
 }
 
-/// Some runs at one σ; none where the engine gave up.
+/// Runs at one σ; none where the engine gave up.
 pub type Part = Vec<Option<Trace>>;
 
-/// The experiment in units of work.
-pub const CUTTING: Cutting<SeedsParams, Part, Seeds> = Cutting { rows, part, fits, join };
-
-fn weight(parameters: &SeedsParams, sigma: f64) -> u64 {
-    weights::run(&parameters.chain, sigma, parameters.bin * parameters.bins as f64)
-}
-
-fn rows(parameters: &SeedsParams) -> Vec<Row> {
-    let row = |&sigma: &f64| Row {
-        covers: format!("sigma = {sigma}"),
-        realisations: parameters.realisations,
-        weight: weight(parameters, sigma),
-    };
-    parameters.sigmas.iter().map(row).collect()
-}
-
-fn part(
-    parameters: &SeedsParams,
-    unit: &Unit,
-    stage: &Stage,
-    progress: &Progress,
-) -> Result<Part, Error> {
-    let sigma = parameters.sigmas[unit.row];
-    unit.each(stage, |index| trace(parameters, sigma, index, progress))
+/// Runs all chains.
+pub fn run(parameters: &SeedsParams, progress: &Progress) -> Result<Seeds, Error> {
+    let chains = parameters.sigmas.len() * parameters.realisations;
+    let stage = progress.stage("seeds", chains as u64);
+    let rows = parameters.sigmas.iter().map(|&sigma| {
+        let one = |index| trace(parameters, sigma, index, progress);
+        each(&stage, progress, 0..parameters.realisations as u64, one)
+    });
+    Ok(Seeds { parameters: parameters.clone(), rows: rows.collect::<Result<_, _>>()? })
 }
 
 /// The search for a chain in which exactly one gap closes by itself.
@@ -144,40 +128,6 @@ fn trace(
     }
 }
 
-fn fits(parameters: &SeedsParams, unit: &Unit, traces: &Part) -> bool {
-    let gaps = parameters.chain.gaps();
-    let fits = |trace: &Trace| match trace.seed {
-        Some(seed) => {
-            let beyond = |bins: &u64| bins.checked_shr(parameters.bins as u32).unwrap_or(0) == 0;
-            seed < gaps
-                && [trace.firsts.len(), trace.hits.len()] == [gaps; 2]
-                && trace.hits.iter().all(beyond)
-                && outwards(parameters, seed, &trace.firsts)
-        }
-        None => *trace == Trace::default(),
-    };
-    traces.len() == unit.realisations.len() && traces.iter().flatten().all(fits)
-}
-
-/// Whether impacts came to one gap after the other, from the seed to both sides, within the run.
-fn outwards(parameters: &SeedsParams, seed: usize, firsts: &[Option<u32>]) -> bool {
-    let last = parameters.ticks() as u32 + 1;
-    let tick = |gap: usize| firsts[gap].unwrap_or(last);
-    let after = |gap: usize| match firsts[gap] {
-        Some(tick) => tick < last,
-        None => true,
-    };
-    firsts[seed] == Some(0)
-        && (0..firsts.len()).all(after)
-        && (1..=seed).all(|gap| tick(gap) <= tick(gap - 1))
-        && (seed + 1..firsts.len()).all(|gap| tick(gap - 1) <= tick(gap))
-}
-
-fn join(parameters: &SeedsParams, parts: Vec<Vec<Part>>, _: &Progress) -> Result<Seeds, Error> {
-    let rows = parts.into_iter().map(|parts| parts.concat()).collect();
-    Ok(Seeds { parameters: parameters.clone(), rows })
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::counting::ran;
@@ -251,27 +201,9 @@ mod tests {
     }
 
     #[test]
-    fn parts_whose_impacts_jump_are_refused() {
-        let mut parameters = small();
-        parameters.chain.masses = 3;
-        let unit = Unit { row: 0, realisations: 0..1, covers: String::new(), weight: 1 };
-        let own = |firsts: [Option<u32>; 4]| {
-            vec![Some(Trace { seed: Some(1), hits: vec![1; 4], firsts: firsts.to_vec() })]
-        };
-        assert!(fits(&parameters, &unit, &own([None, Some(0), Some(7), Some(7)])));
-        assert!(!fits(&parameters, &unit, &own([None, Some(0), None, Some(7)])));
-        assert!(!fits(&parameters, &unit, &own([None, Some(0), Some(8), Some(7)])));
-        assert!(!fits(&parameters, &unit, &own([None, Some(0), Some(7), Some(121)])));
-        assert!(!fits(&parameters, &unit, &own([None, Some(1), Some(7), Some(7)])));
-        let mut torn = own([None, Some(0), Some(7), Some(7)]);
-        torn[0].as_mut().unwrap().hits.pop();
-        assert!(!fits(&parameters, &unit, &torn));
-    }
-
-    #[test]
     fn impacts_spread_from_the_seed_and_the_prediction_knows_its_limits() {
         let parameters = small();
-        let found = CUTTING.run(&parameters, "test", &Progress::silent()).unwrap();
+        let found = run(&parameters, &Progress::silent()).unwrap();
         let tables = tables(&found);
         let table = |name: &str| tables.iter().find(|table| table.name() == name).unwrap();
         let at = |table: &Table, sigma: f64, key: (&'static str, f64), column| {

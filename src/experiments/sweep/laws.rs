@@ -1,8 +1,8 @@
 //! How rare three-way impacts and sticking are (the remark of Sec. 2): power laws over decades.
 
-use super::SweepRow;
 use crate::params::{NEAR_SIMULTANEOUS, SLOW};
-use impact_chain::observe::{NEAR_DECADES, SLOW_DECADES};
+use impact_chain::counts::{NEAR_DECADES, SLOW_DECADES};
+use impact_chain::rise::Runs;
 use serde::{Deserialize, Serialize};
 
 /// First decade of the law of neighbouring impacts that is fitted, δ = 1e−2: at 1e−1 two impacts
@@ -57,9 +57,9 @@ pub struct LawsTotals {
     /// Impacts.
     pub impacts: u64,
     /// Impacts that follow one of an adjacent gap within each δ of
-    /// [`impact_chain::observe::NEAR_DECADES`].
+    /// [`impact_chain::counts::NEAR_DECADES`].
     pub near_decades: Vec<u64>,
-    /// Impacts slower than each v of [`impact_chain::observe::SLOW_DECADES`].
+    /// Impacts slower than each v of [`impact_chain::counts::SLOW_DECADES`].
     pub slow_decades: Vec<u64>,
     /// Contact phases.
     pub contact_phases: u64,
@@ -70,31 +70,31 @@ pub struct LawsTotals {
 }
 
 /// Fits the laws to the rows of a sweep.
-pub fn run(rows: &[SweepRow]) -> Laws {
+pub fn run(rows: &[Runs]) -> Laws {
     let fitted: Vec<LawsRow> = rows
         .iter()
-        .filter(|row| row.impacts > 0)
+        .filter(|row| row.total.impacts > 0)
         .map(|row| LawsRow {
             sigma: row.sigma,
-            impacts: row.impacts,
-            near: fit(&row.near_decades[NEAR_FROM..], NEAR_DECADES[NEAR_FROM], 1, row.impacts),
-            slow: (row.contact_phases == 0)
+            impacts: row.total.impacts,
+            near: fit(&row.total.near[NEAR_FROM..], NEAR_DECADES[NEAR_FROM], 1, row.total.impacts),
+            slow: (row.total.contact_phases == 0)
                 .then(|| {
-                    let nested = &row.slow_decades[SLOW_FROM..];
-                    fit(nested, SLOW_DECADES[SLOW_FROM], 2, row.impacts)
+                    let nested = &row.total.slow[SLOW_FROM..];
+                    fit(nested, SLOW_DECADES[SLOW_FROM], 2, row.total.impacts)
                 })
                 .flatten(),
-            contact_phases: row.contact_phases,
+            contact_phases: row.total.contact_phases,
         })
         .collect();
     // With the exponent fixed, the counts at the first decade scale down to the limit.
-    let near_decades = sums(rows, NEAR_DECADES.len(), |row| &row.near_decades);
-    let slow_decades = sums(rows, SLOW_DECADES.len(), |row| &row.slow_decades);
+    let near_decades = sums(rows, NEAR_DECADES.len(), |row| &row.total.near);
+    let slow_decades = sums(rows, SLOW_DECADES.len(), |row| &row.total.slow);
     let slow_ratio = SLOW / SLOW_DECADES[SLOW_FROM];
     let first = |counts: &[u64], from: usize| counts[from] as f64;
     let totals = LawsTotals {
-        impacts: rows.iter().map(|row| row.impacts).sum(),
-        contact_phases: rows.iter().map(|row| row.contact_phases).sum(),
+        impacts: rows.iter().map(|row| row.total.impacts).sum(),
+        contact_phases: rows.iter().map(|row| row.total.contact_phases).sum(),
         expected_near_simultaneous: first(&near_decades, NEAR_FROM)
             * (NEAR_SIMULTANEOUS / NEAR_DECADES[NEAR_FROM]),
         expected_slow: first(&slow_decades, SLOW_FROM) * slow_ratio * slow_ratio,
@@ -104,7 +104,7 @@ pub fn run(rows: &[SweepRow]) -> Laws {
     Laws { rows: fitted, totals }
 }
 
-fn sums(rows: &[SweepRow], decades: usize, pick: fn(&SweepRow) -> &[u64]) -> Vec<u64> {
+fn sums(rows: &[Runs], decades: usize, pick: fn(&Runs) -> &[u64]) -> Vec<u64> {
     (0..decades).map(|i| rows.iter().map(|row| pick(row)[i]).sum()).collect()
 }
 

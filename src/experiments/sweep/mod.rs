@@ -1,301 +1,270 @@
-//! The numerical simulations of Sec. 2: ensembles over σ (Figs. 2, 3, 12 and 15).
-//!
-//! All cores share the realisations; what they show is collected in the order of the realisations
-//! and reduced by one thread, so neither the number of threads nor that of machines changes a bit.
+//! The numerical simulations of Sec. 2 (Figs. 2, 3, 12 and 15): means and shares at each σ, where the rise is, and what is
+//! rare.
 
 pub mod laws;
-pub mod tables;
 
-use super::rise::{Resampled, Rise};
-use super::tally::{Tally, realisation};
-use super::{Error, Progress, weights};
-use crate::params::{COMPARABLE_REJECTED, Protocol, SweepParams};
-use impact_chain::observe::{NEAR_DECADES, SLOW_DECADES};
-use impact_numerics::statistics as stat;
-use literate::experiments::cutting::{Cutting, Row, Unit};
-use literate::experiments::progress::Stage;
-use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
-use std::ops::Range;
+use super::{Error, Results, SECOND_SEED, SWEEP};
+use crate::params::{LEVEL, NEAR_SIMULTANEOUS, PRINTED_THRESHOLD, SLOW};
+use impact_chain::rise::{Counted, Curve, Mean, Row, Runs};
+use impact_numerics::estimates::{difference, share, with_error};
+use literate::table::Table;
+use literate::value::origin;
 
-/// An ensemble over σ.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Sweep {
-    /// What was run.
-    pub parameters: SweepParams,
-    /// One row for each σ, rising.
-    pub rows: Vec<SweepRow>,
-    /// Where the rise is, read from the comparable rows.
-    pub rise: Rise,
+/// A σ above the rise.
+const ABOVE: f64 = 0.2;
+/// A σ at which masses begin to be able to stick.
+const STICKING: f64 = 0.3;
+
+/// The main sweep.
+pub fn main(results: &Results) -> Result<&Counted, Error> {
+    Ok(&results.of(&SWEEP)?[0])
 }
 
-/// The ensemble at one σ. Means, mode and quantiles are of the number of distinct gaps that
-/// impact in the window; "kept" are the realisations with at least one.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct SweepRow {
-    /// Standard deviation σ of the amplitudes.
-    pub sigma: f64,
-    /// Realisations drawn: kept, without impact in the window, rejected and failed.
-    pub realisations: usize,
-    /// With at least one impact in the window.
-    pub kept: usize,
-    /// With an overlapping start.
-    pub rejected: usize,
-    /// Ended by the engine before T + W.
-    pub failed: usize,
-    /// What the engine said of the first failed one.
-    pub first_failure: Option<String>,
-    /// Whether few enough were rejected for the row to be compared with others.
-    pub comparable: bool,
-    /// Mean of the kept.
-    pub mean_distinct: Option<f64>,
-    /// Standard error of that mean.
-    pub standard_error: Option<f64>,
-    /// Bootstrap interval of that mean.
-    pub mean_interval: Option<[f64; 2]>,
-    /// Mean of all that ran, those without impact included.
-    pub mean_all: Option<f64>,
-    /// Bootstrap interval of that mean.
-    pub mean_all_interval: Option<[f64; 2]>,
-    /// Mode of the kept; of several the lowest.
-    pub mode_distinct: Option<usize>,
-    /// Bootstrap interval of the mode.
-    pub mode_interval: Option<[usize; 2]>,
-    /// Impacts in the window: mean of the kept, and its standard error.
-    pub impacts_in_window: Option<[f64; 2]>,
-    /// Masses hit in the window: mean of the kept, and its standard error.
-    pub masses_hit: Option<[f64; 2]>,
-    /// Impacts per unit time and kept realisation, in the window.
-    pub impacts_per_time: Option<f64>,
-    /// All impacts simulated, transient and failed realisations included.
-    pub impacts: u64,
-    /// Of these, impacts within [`crate::params::NEAR_SIMULTANEOUS`] of one of an adjacent gap.
-    pub near_simultaneous: u64,
-    /// Of these, impacts with a closing speed below [`crate::params::SLOW`].
-    pub slow: u64,
-    /// Contact phases begun.
-    pub contact_phases: u64,
-    /// Impacts that follow one of an adjacent gap within each δ of [`NEAR_DECADES`].
-    pub near_decades: Vec<u64>,
-    /// Impacts with a closing speed below each v of [`SLOW_DECADES`].
-    pub slow_decades: Vec<u64>,
-    /// Realisations that ran, by their number of distinct gaps k = 0..=N.
-    pub counts: Vec<u32>,
+/// All tables of the main sweep.
+pub fn tables(found: &Vec<Counted>) -> Vec<Table> {
+    let sweep = &found[0];
+    vec![
+        run("sweep.run", sweep),
+        rows(sweep),
+        rise_table("sweep.rise", sweep),
+        modes(sweep),
+        laws_table(sweep),
+        rare(sweep),
+        sticking(),
+    ]
 }
 
-/// One σ: the row without its bootstrap intervals, and the count of each realisation (none if it
-/// did not run to the end).
-#[derive(Clone, Debug)]
-pub struct Sample {
-    /// The row.
-    pub row: SweepRow,
-    /// Distinct gaps of each realisation.
-    pub distinct: Vec<Option<u32>>,
+/// Those of the sweep with the second seed.
+pub fn of_second_seed(found: &Vec<Counted>) -> Vec<Table> {
+    vec![run("second_seed.run", &found[0]), rise_table("second_seed.rise", &found[0])]
 }
 
-/// The ensemble in units of work.
-pub const CUTTING: Cutting<SweepParams, Tally, Sweep> = Cutting { rows, part, fits, join };
-
-/// Runs the ensemble over all σ.
-pub fn run(parameters: &SweepParams, name: &str, progress: &Progress) -> Result<Sweep, Error> {
-    CUTTING.run(parameters, name, progress)
-}
-
-/// A row for each σ.
-pub fn rows(parameters: &SweepParams) -> Vec<Row> {
-    let row = |&sigma: &f64| Row {
-        covers: format!("sigma = {sigma}"),
-        realisations: parameters.realisations_at(sigma),
-        weight: weight(parameters, sigma),
-    };
-    parameters.sigmas.iter().map(row).collect()
-}
-
-/// Runs some realisations of one σ.
-pub fn part(
-    parameters: &SweepParams,
-    unit: &Unit,
-    stage: &Stage,
-    progress: &Progress,
-) -> Result<Tally, Error> {
-    tally(parameters, parameters.sigmas[unit.row], unit.realisations.clone(), stage, progress)
-}
-
-/// Whether a tally can be that of a unit.
-pub fn fits(parameters: &SweepParams, unit: &Unit, tally: &Tally) -> bool {
-    tally.can_be(unit.realisations.len(), parameters.chain.gaps())
-}
-
-/// Reduces the tallies of each σ, and finds the rise.
-pub fn join(
-    parameters: &SweepParams,
-    tallies: Vec<Vec<Tally>>,
-    progress: &Progress,
-) -> Result<Sweep, Error> {
-    let mut rows = Vec::with_capacity(parameters.sigmas.len());
-    let mut counts = Vec::with_capacity(parameters.sigmas.len());
-    for (&sigma, tallies) in parameters.sigmas.iter().zip(tallies) {
-        let Sample { row, distinct } = reduce(parameters, sigma, Tally::joined(tallies));
-        // A row of which many starts overlapped is shown, but no place is read from it.
-        counts.push(if row.comparable { distinct } else { vec![None; distinct.len()] });
-        rows.push(row);
-    }
-    progress.check()?;
-    let gaps = parameters.chain.gaps();
-    let found = Resampled::of(&parameters.sigmas, &counts, gaps, parameters.seed);
-    let (rise, intervals) = (found.rise(), found.intervals());
-    for (row, interval) in rows.iter_mut().zip(intervals) {
-        row.mean_interval = interval.mean_kept;
-        row.mean_all_interval = interval.mean_all;
-        row.mode_interval = interval.mode;
-    }
-    Ok(Sweep { parameters: parameters.clone(), rows, rise })
-}
-
-/// Work of one realisation.
-fn weight(parameters: &SweepParams, sigma: f64) -> u64 {
-    let Protocol { transient, window } = parameters.protocol;
-    weights::run(&parameters.chain, sigma, transient + window)
-}
-
-/// Units of work of all σ, for the stage that [`at`] advances.
-pub fn work(parameters: &SweepParams) -> u64 {
-    rows(parameters).iter().map(Row::work).fold(0, u64::saturating_add)
-}
-
-/// Runs the ensemble at one σ, without bootstrap.
-pub fn at(
-    parameters: &SweepParams,
-    sigma: f64,
-    stage: &Stage,
-    progress: &Progress,
-) -> Result<Sample, Error> {
-    let tally = tally(parameters, sigma, 0..parameters.realisations_at(sigma), stage, progress)?;
-    Ok(reduce(parameters, sigma, tally))
-}
-
-/// Runs realisations at one σ.
-fn tally(
-    parameters: &SweepParams,
-    sigma: f64,
-    realisations: Range<usize>,
-    stage: &Stage,
-    progress: &Progress,
-) -> Result<Tally, Error> {
-    let weight = weight(parameters, sigma);
-    let outcomes: Vec<_> = realisations
-        .into_par_iter()
-        .with_max_len(1)
-        .map(|index| {
-            let key = (parameters.stream.as_str(), parameters.seed, index as u64);
-            let outcome = realisation(&parameters.chain, parameters.protocol, sigma, key, progress);
-            stage.advance(weight);
-            outcome
+/// What follows from both.
+pub fn of_both(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
+    let (first, second) = main(results).ok().zip(results.of(&SECOND_SEED).ok())?;
+    let found = largest_between_seeds(first.first(), second[0].first());
+    let table = Table::of("second_seed.beside_first", &[()], |()| 0)
+        .computed_by(origin(largest_between_seeds))
+        .real(
+            "largest",
+            "1",
+            2,
+            "largest difference of the means of the kept, over its standard error",
+            |()| found.map_or(f64::NAN, |(errors, _)| errors),
+        )
+        .count("compared", "values of σ with means in both", |()| {
+            found.map_or(0, |(_, rows)| rows as u64)
         })
-        .collect::<Result<_, _>>()?;
-    Ok(outcomes.iter().collect())
+        .done();
+    Some(vec![table])
 }
 
-/// Reduces the tally of one σ.
-pub(crate) fn reduce(parameters: &SweepParams, sigma: f64, tally: Tally) -> Sample {
-    let Tally { distinct, kept_impacts, kept_masses, rejected, failed, first_failure, total } =
-        tally;
-    let mut counts = vec![0; parameters.chain.gaps() + 1];
-    distinct.iter().flatten().for_each(|&k| counts[k as usize] += 1);
-    let ran: Vec<f64> = distinct.iter().flatten().map(|&k| f64::from(k)).collect();
-    let kept: Vec<f64> = ran.iter().copied().filter(|&k| k > 0.0).collect();
-    let mut kept_counts = counts.clone();
-    kept_counts[0] = 0;
-    let time = kept.len() as f64 * parameters.protocol.window;
-    let row = SweepRow {
-        sigma,
-        realisations: distinct.len(),
-        kept: kept.len(),
-        rejected,
-        failed,
-        first_failure,
-        comparable: rejected as f64 <= COMPARABLE_REJECTED * distinct.len() as f64,
-        mean_distinct: stat::mean(&kept),
-        standard_error: stat::standard_error(&kept),
-        mean_interval: None,
-        mean_all: stat::mean(&ran),
-        mean_all_interval: None,
-        mode_distinct: stat::mode(&kept_counts),
-        mode_interval: None,
-        // Realisations without impact add nothing to either sum.
-        impacts_in_window: stat::mean_of_sums(kept.len(), kept_impacts),
-        masses_hit: stat::mean_of_sums(kept.len(), kept_masses),
-        impacts_per_time: (time > 0.0).then(|| kept_impacts[0] as f64 / time),
-        impacts: total.impacts,
-        near_simultaneous: total.near[NEAR_DECADES.len() - 1],
-        slow: total.slow[SLOW_DECADES.len() - 1],
-        contact_phases: total.contact_phases,
-        near_decades: total.near.to_vec(),
-        slow_decades: total.slow.to_vec(),
-        counts,
+/// What was run.
+fn run(name: &'static str, sweep: &Counted) -> Table {
+    let of = |pick: fn(&Runs) -> u64| move |own: &&Counted| own.runs.iter().map(pick).sum();
+    let protocol = sweep.first().protocol;
+    Table::of(name, &[sweep], |own| own.ensemble.realisations)
+        .count("gaps", "gaps of a chain", |own| own.ensemble.chain.gaps() as u64)
+        .chosen("transient", "1/omega", "", |_| Some(protocol.transient))
+        .chosen("window", "1/omega", "", |_| Some(protocol.window))
+        .count("realisations", "chains at each σ", |own| own.ensemble.realisations as u64)
+        .chosen("level_above", "d omega^2", "above this σ fewer chains are run", |own| {
+            own.ensemble.beyond.map(|beyond| beyond.above)
+        })
+        .chosen("level_realisations", "1", "so many", |own| {
+            own.ensemble.beyond?.realisations.map(|few| few as f64)
+        })
+        .count("sigmas", "values of σ", |own| own.runs.len() as u64)
+        .count("seed", "master seed", |own| own.ensemble.seed)
+        .chosen("confidence", "1", "of all intervals", |_| Some(LEVEL))
+        .count("impacts", "impacts simulated, transients included", of(|own| own.total.impacts))
+        .count("failed", "realisations that the engine ended early", of(|own| own.failed as u64))
+        .done()
+}
+
+/// Each σ.
+fn rows(sweep: &Counted) -> Table {
+    let estimate = |own: Option<Mean>| own?.estimate();
+    Table::of("sweep.rows", &sweep.first().rows, |row| row.ran)
+        .key("sigma", "d omega^2", |row| row.sigma)
+        .computed_by(origin(Row::new))
+        .estimate("kept", "1", "share of the realisations with an impact in the window", |row| {
+            share(row.kept as u64, row.ran as u64)
+        })
+        .estimate("mean_all", "1", "different gaps with an impact, mean of all", |row| {
+            estimate(row.mean_all)
+        })
+        .over(|row| row.kept)
+        .estimate("mean", "1", "different gaps with an impact, mean of the kept", |row| {
+            estimate(row.mean)
+        })
+        .estimate("impacts", "1", "impacts in the window, mean of the kept", |row| {
+            estimate(row.impacts)
+        })
+        .estimate("masses", "1", "masses hit in the window, mean of the kept", |row| {
+            estimate(row.masses)
+        })
+        .done()
+}
+
+/// Places of the rise.
+fn rise_table(name: &'static str, sweep: &Counted) -> Table {
+    Table::of(name, &[sweep.first()], |_| sweep.ensemble.realisations)
+        .computed_by(origin(Curve::new))
+        .estimate(
+            "half_height",
+            "d omega^2",
+            "the mean of the kept passes half of all gaps",
+            |own| own.rise.half_height,
+        )
+        .interval("half_height_interval", "d omega^2", "its bootstrap interval", |own| {
+            own.rise.half_height.map(|half| half.interval)
+        })
+        .estimate(
+            "half_height_all",
+            "d omega^2",
+            "the mean of all passes half of all gaps",
+            |own| own.rise.half_height_all,
+        )
+        .estimate("onset", "d omega^2", "the mean of all passes a twentieth of all gaps", |own| {
+            own.rise.onset
+        })
+        .estimate("kept_half", "d omega^2", "half of the chains have an impact", |own| {
+            own.rise.kept_half
+        })
+        .estimate(
+            "width",
+            "d omega^2",
+            "from a tenth to nine tenths of all gaps, of the mean of all",
+            |own| own.rise.width,
+        )
+        .estimate(
+            "kept_width",
+            "d omega^2",
+            "from a quarter to three quarters of all gaps, of the mean of the kept",
+            |own| own.rise.kept_width,
+        )
+        .done()
+}
+
+/// Where the mode is.
+fn modes(sweep: &Counted) -> Table {
+    let width = |row: &Row| row.mode_interval.map_or(0, |[low, high]| high - low.min(high));
+    let noisiest =
+        sweep.first().rows.iter().filter(|row| width(row) > 0).max_by_key(|row| width(row));
+    let half = mode_half(sweep);
+    Table::of("sweep.mode", &[()], |()| 0)
+        .chosen("noisiest_sigma", "d omega^2", "where the interval of the mode is longest", |()| {
+            noisiest.map(|row| row.sigma)
+        })
+        .interval("noisiest", "1", "that interval", |()| {
+            noisiest?.mode_interval.map(|ends| ends.map(|end| end as f64))
+        })
+        .computed_by(origin(mode_half))
+        .chosen(
+            "half_from",
+            "d omega^2",
+            "to here the mode is surely under half of all gaps",
+            |()| half.map(|[low, _]| low),
+        )
+        .chosen("half_to", "d omega^2", "from here surely over", |()| half.map(|[_, high]| high))
+        .done()
+}
+
+/// The laws of near and slow impacts, at each σ that has impacts.
+fn laws_table(sweep: &Counted) -> Table {
+    let fits = laws::run(&sweep.runs).rows;
+    Table::of("sweep.laws", &fits, |row| row.impacts as usize)
+        .key("sigma", "d omega^2", |row| row.sigma)
+        .computed_by(origin(laws::run))
+        .estimate("near_exponent", "1", "of the share of impacts next to another within δ", |row| {
+            row.near.map(|law| with_error(law.exponent, law.exponent_error))
+        })
+        .estimate("near_coefficient", "1", "share over δ", |row| {
+            row.near.map(|law| with_error(law.coefficient, law.coefficient_error))
+        })
+        .estimate("slow_exponent", "1", "of the share of impacts slower than v", |row| {
+            row.slow.map(|law| with_error(law.exponent, law.exponent_error))
+        })
+        .done()
+}
+
+/// What is rare, over all σ.
+fn rare(sweep: &Counted) -> Table {
+    let laws = laws::run(&sweep.runs);
+    let last = |decades: &[u64]| decades.last().copied().unwrap_or(0);
+    Table::of("sweep.rare", &[laws], |_| 0)
+        .computed_by(origin(laws::run))
+        .count("near_simultaneous", "impacts next to another within the limit", |own| {
+            last(&own.totals.near_decades)
+        })
+        .real("near_expected", "1", 2, "the law's", |own| own.totals.expected_near_simultaneous)
+        .real("near_limit", "1/omega", 1, "", |_| NEAR_SIMULTANEOUS)
+        .count("slow", "impacts slower than the limit", |own| last(&own.totals.slow_decades))
+        .real("slow_expected", "1", 1, "the law's", |own| own.totals.expected_slow)
+        .real("slow_limit", "d omega", 1, "", |_| SLOW)
+        .chosen("contact_sigma", "d omega^2", "above the rise", |_| Some(ABOVE))
+        .count("contact_phases_below", "contact phases up to that σ", |own| {
+            let below = own.rows.iter().filter(|row| row.sigma <= ABOVE);
+            below.map(|row| row.contact_phases).sum()
+        })
+        .count("contact_phases", "contact phases of all σ", |own| own.totals.contact_phases)
+        .done()
+}
+
+/// The probability that the forces on a pair can press it together: |ΔF| > d ω².
+fn can_stick(sigma: &f64) -> f64 {
+    pxfm::f_exp(-0.25 / (sigma * sigma))
+}
+
+fn sticking() -> Table {
+    Table::of("sweep.sticking", &[PRINTED_THRESHOLD, STICKING], |_| 0)
+        .key("sigma", "d omega^2", |sigma| *sigma)
+        .real("chance", "1", 1, "that the forces on a pair can press it together", can_stick)
+        .done()
+}
+
+/// Between which σ the mode passes half of all gaps: below the first it is surely under one half,
+/// from the second on surely over it, as far as its bootstrap intervals tell.
+pub fn mode_half(sweep: &Counted) -> Option<[f64; 2]> {
+    let half = sweep.ensemble.chain.gaps() as f64 / 2.0;
+    let intervals: Vec<(f64, [usize; 2])> =
+        sweep.first().rows.iter().filter_map(|row| Some((row.sigma, row.mode_interval?))).collect();
+    let low = intervals.iter().find(|(_, [_, top])| *top as f64 >= half)?;
+    let below = intervals.iter().rposition(|(_, [bottom, _])| (*bottom as f64) < half)?;
+    Some([low.0, intervals.get(below + 1)?.0])
+}
+
+/// Fewest kept realisations for a mean whose error is taken as normal.
+const FEWEST: usize = 30;
+
+/// The largest difference between the curves of two seeds, in standard errors, and the rows.
+pub fn largest_between_seeds(first: &Curve, second: &Curve) -> Option<(f64, usize)> {
+    let estimate = |own: &Row| own.mean.filter(|_| own.kept >= FEWEST)?.estimate();
+    let apart = |b: &Row| {
+        let a = first.rows.iter().find(|a| a.sigma == b.sigma)?;
+        let apart = difference(estimate(a)?, estimate(b)?);
+        (apart.error > 0.0).then(|| apart.value.abs() / apart.error)
     };
-    Sample { row, distinct }
+    let all: Vec<f64> = second.rows.iter().filter_map(apart).collect();
+    Some((all.iter().copied().reduce(f64::max)?, all.len()))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::experiments::tally::Outcome;
-    use crate::params::{NEAR_SIMULTANEOUS, Profile, SLOW};
-    use impact_chain;
-    use impact_chain::observe::Observed;
+    use impact_numerics::quadrature::GaussLegendre;
 
-    fn counted(distinct: u32, window_impacts: u64) -> Outcome {
-        let impacts = 2 * window_impacts;
-        let masses = distinct.saturating_sub(1);
-        Outcome::Counted(Observed {
-            distinct,
-            masses,
-            window_impacts,
-            impacts,
-            ..Observed::default()
-        })
-    }
-
+    /// The amplitude of the difference of two forces is Rayleigh distributed with variance 2σ² in each
+    /// quadrature; the chance that it exceeds one is the integral of that density.
     #[test]
-    fn nothing_is_dropped_silently() {
-        let mut parameters = SweepParams::main(Profile::Quick);
-        parameters.chain.masses = 9;
-        let error = impact_chain::Error::Work { gap: 3, time: 1.5, bound: 7 };
-        let outcomes = [
-            counted(0, 0),
-            counted(4, 40),
-            counted(10, 120),
-            counted(4, 80),
-            Outcome::Rejected,
-            Outcome::Failed(Observed { impacts: 5, ..Observed::default() }, error.clone()),
-        ];
-        let Sample { row, distinct } = reduce(&parameters, 0.1, outcomes.iter().collect());
-        assert_eq!(distinct, [Some(0), Some(4), Some(10), Some(4), None, None]);
-        assert_eq!((row.realisations, row.kept, row.rejected, row.failed), (6, 3, 1, 1));
-        assert_eq!(row.first_failure, Some(error.to_string()));
-        assert!(!row.comparable, "one of six was rejected");
-        assert_eq!((row.mean_distinct, row.mean_all), (Some(6.0), Some(4.5)));
-        assert_eq!(row.standard_error, Some(2.0)); // s = √12, over √3
-        assert_eq!(row.mode_distinct, Some(4));
-        assert_eq!(row.impacts_per_time, Some(240.0 / (3.0 * 200.0)));
-        assert_eq!(row.impacts_in_window, Some([80.0, (3200.0_f64 / 2.0 / 3.0).sqrt()]));
-        assert_eq!(row.masses_hit, Some([5.0, 2.0]));
-        assert_eq!(row.impacts, 485);
-        assert_eq!(row.counts, [1, 0, 0, 0, 2, 0, 0, 0, 0, 0, 1]);
-    }
-
-    #[test]
-    fn of_nothing_kept_there_is_no_mean() {
-        let parameters = SweepParams::main(Profile::Quick);
-        let row = reduce(&parameters, 0.1, [counted(0, 0)].iter().collect()).row;
-        assert_eq!((row.mean_distinct, row.mean_all), (None, Some(0.0)));
-        assert_eq!((row.mode_distinct, row.impacts_per_time), (None, None));
-    }
-
-    #[test]
-    fn the_last_decades_are_the_declared_limits() {
-        assert_eq!(NEAR_DECADES.last(), Some(&NEAR_SIMULTANEOUS));
-        assert_eq!(SLOW_DECADES.last(), Some(&SLOW));
+    fn the_chance_to_stick_is_the_integral_of_a_density() {
+        let rule = GaussLegendre::new(20);
+        for sigma in [PRINTED_THRESHOLD, ABOVE, STICKING] {
+            let variance = 2.0 * sigma * sigma;
+            let density = |x: f64| x / variance * pxfm::f_exp(-0.5 * x * x / variance);
+            let integral = rule.integrate_panels(1.0, 1.0 + 12.0 * sigma, 30, density);
+            assert!((can_stick(&sigma) / integral - 1.0).abs() < 1e-10, "{sigma}");
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! The theory beside the simulation.
 
-use crate::experiments::sweep::{Sweep, SweepRow};
-use crate::experiments::{Results, SWEEP, rise};
+use crate::experiments::{Results, sweep};
+use impact_chain::rise::{Counted, Mean, Row};
 use literate::table::Table;
 use literate::value::origin;
 
@@ -19,26 +19,26 @@ pub(crate) fn at(curve: &[(f64, f64)], sigma: f64) -> Option<f64> {
 }
 
 /// Where theory and simulation lie farthest apart at large σ: their distance in gaps, σ, and both means.
-fn largest_distance(sweep: &Sweep, curve: &[(f64, f64)]) -> Option<[f64; 4]> {
-    let rows = sweep.rows.iter().filter(|row| row.sigma >= LARGE_SIGMA);
+fn largest_distance(sweep: &Counted, curve: &[(f64, f64)]) -> Option<[f64; 4]> {
+    let rows = sweep.first().rows.iter().filter(|row| row.sigma >= LARGE_SIGMA);
     let distances = rows.filter_map(|row| {
-        let (mean, theory) = (row.mean_distinct?, at(curve, row.sigma)?);
+        let (mean, theory) = (row.mean?.value, at(curve, row.sigma)?);
         Some([(mean - theory).abs(), row.sigma, theory, mean])
     });
     distances.reduce(|most, one| if most[0] >= one[0] { most } else { one })
 }
 
 /// The finest step of the grid, to a part in a million.
-fn finest(sweep: &Sweep) -> f64 {
-    let steps = sweep.rows.windows(2).map(|w| w[1].sigma - w[0].sigma);
+fn finest(sweep: &Counted) -> f64 {
+    let steps = sweep.first().rows.windows(2).map(|w| w[1].sigma - w[0].sigma);
     (steps.fold(f64::INFINITY, f64::min) * 1e6).round() / 1e6
 }
 
 /// The largest increase of a mean within one and within two steps of the grid, in gaps; over the
 /// finest part of the grid.
-fn increases(sweep: &Sweep, mean: fn(&SweepRow) -> Option<f64>) -> Option<[f64; 2]> {
+fn increases(sweep: &Counted, mean: fn(&Row) -> Option<Mean>) -> Option<[f64; 2]> {
     let points: Vec<(f64, f64)> =
-        sweep.rows.iter().filter_map(|row| Some((row.sigma, mean(row)?))).collect();
+        sweep.first().rows.iter().filter_map(|row| Some((row.sigma, mean(row)?.value))).collect();
     let finest = finest(sweep);
     let fine = |step: f64| step < 1.01 * finest;
     let mut found: Option<[f64; 2]> = None;
@@ -54,11 +54,11 @@ fn increases(sweep: &Sweep, mean: fn(&SweepRow) -> Option<f64>) -> Option<[f64; 
 
 /// Root mean square distance of a theory curve from the simulated means, from the first row with
 /// kept realisations up to where σ is large.
-fn distance(sweep: &Sweep, curve: &[(f64, f64)]) -> Option<f64> {
-    let rows = sweep.rows.iter().filter(|row| row.sigma < LARGE_SIGMA);
+fn distance(sweep: &Counted, curve: &[(f64, f64)]) -> Option<f64> {
+    let rows = sweep.first().rows.iter().filter(|row| row.sigma < LARGE_SIGMA);
     let squares: Vec<f64> = rows
         .filter_map(|row| {
-            let difference = row.mean_distinct? - at(curve, row.sigma)?;
+            let difference = row.mean?.value - at(curve, row.sigma)?;
             Some(difference * difference)
         })
         .collect();
@@ -68,15 +68,19 @@ fn distance(sweep: &Sweep, curve: &[(f64, f64)]) -> Option<f64> {
 
 /// What the text says of both.
 pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
-    let sweep = results.of(&SWEEP).ok()?;
+    let sweep = sweep::main(results).ok()?;
     let table = |name| all.iter().find(|table| table.name() == name);
     let (curve, relation) = (table("theory.curve")?, table("theory.relation")?);
     let curves = ["simple", "higher", "rest"].map(|column| curve.points(&[], "sigma", column));
     let [simple, higher, rest] = &curves;
     let found = |number: Option<f64>| number.unwrap_or(f64::NAN);
-    let rows: Vec<&SweepRow> =
-        sweep.rows.iter().filter(|row| SIGMAS.contains(&row.sigma) && row.kept > 0).collect();
-    let mean = |row: &SweepRow, curve| found(at(curve, row.sigma));
+    let rows: Vec<&Row> = sweep
+        .first()
+        .rows
+        .iter()
+        .filter(|row| SIGMAS.contains(&row.sigma) && row.kept > 0)
+        .collect();
+    let mean = |row: &Row, curve| found(at(curve, row.sigma));
     let means = Table::of("sweep.theory", &rows, |_| 0)
         .key("sigma", "d omega^2", |row| row.sigma)
         .computed_by(origin(at))
@@ -85,7 +89,7 @@ pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
         .real("rest", "1", 3, "μ from rest, simple circuits", |row| mean(row, rest))
         .done();
     let far = |at: usize| largest_distance(sweep, simple).map(|far| far[at]);
-    let kept = increases(sweep, |row| row.mean_distinct);
+    let kept = increases(sweep, |row| row.mean);
     let table = Table::of("sweep.beside_theory", &[()], |()| 0)
         .computed_by(origin(largest_distance))
         .chosen("large_sigma", "d omega^2", "from here on σ is called large", |()| {
@@ -106,7 +110,7 @@ pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
             found(increases(sweep, |row| row.mean_all).map(|[one, _]| one))
         })
         .chosen("step", "d omega^2", "the finest of the grid", |()| Some(finest(sweep)))
-        .computed_by(origin(rise::find))
+        .computed_by(origin(impact_chain::rise::Curve::new))
         .real(
             "half_gap",
             "d omega^2",
@@ -114,7 +118,9 @@ pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
             "half height of the theory less that of the simulation",
             |()| {
                 let theory = relation.number(&[], "sigma_half").ok();
-                found(theory.zip(sweep.rise.half_height).map(|(own, half)| own - half.value))
+                found(
+                    theory.zip(sweep.first().rise.half_height).map(|(own, half)| own - half.value),
+                )
             },
         )
         .computed_by(origin(distance))
@@ -130,17 +136,19 @@ pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::params::{Profile, SweepParams};
+    use impact_chain::rise::{Curve as Counts, Rise};
+    use impact_chain::{Ensemble, Protocol};
 
     /// A sweep with these mean counts.
-    fn sweep(means: &[(f64, f64)]) -> Sweep {
-        let parameters = SweepParams::main(Profile::Quick);
-        let row = |(sigma, mean): &(f64, f64)| SweepRow {
-            sigma: *sigma,
-            mean_distinct: Some(*mean),
-            ..SweepRow::default()
+    fn sweep(means: &[(f64, f64)]) -> Counted {
+        let row = |&(sigma, value): &(f64, f64)| Row {
+            sigma,
+            mean: Some(Mean { value, ..Mean::default() }),
+            ..Row::default()
         };
-        Sweep { parameters, rows: means.iter().map(row).collect(), rise: rise::Rise::default() }
+        let rows = means.iter().map(row).collect();
+        let curve = Counts { protocol: Protocol::default(), rows, rise: Rise::default() };
+        Counted { ensemble: Ensemble::default(), runs: Vec::new(), curves: vec![curve] }
     }
 
     #[test]
@@ -159,6 +167,6 @@ mod tests {
     #[test]
     fn increases_are_those_of_the_finest_grid() {
         let sweep = sweep(&[(0.1, 0.0), (0.11, 1.0), (0.12, 4.0), (0.13, 5.0), (0.2, 90.0)]);
-        assert_eq!(increases(&sweep, |row| row.mean_distinct), Some([3.0, 4.0]));
+        assert_eq!(increases(&sweep, |row| row.mean), Some([3.0, 4.0]));
     }
 }

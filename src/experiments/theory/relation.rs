@@ -3,9 +3,9 @@
 use super::law::law;
 use super::{known, one};
 use crate::experiments::identities::relation::eq25;
-use crate::experiments::rise::ONSET;
-use crate::params::{Chain, Grid, Profile, SweepParams, VERTICES};
+use crate::params::{self, Chain, Grid, Profile, VERTICES};
 use SampleSpace::{FiveClasses, Simple};
+use impact_chain::rise::ONSET;
 use impact_circuits::distribution::{Law, SampleSpace};
 use impact_circuits::impact_probability::ImpactProbability;
 use impact_circuits::jump::{p_crit, p_jump};
@@ -140,7 +140,7 @@ pub(super) fn relation() -> Table {
 pub(super) fn gaps() -> Table {
     let gaps = Chain::default().gaps();
     let profiles = [Profile::Quick, Profile::Full];
-    let mut sigmas = profiles.map(|profile| SweepParams::main(profile).sigmas).concat();
+    let mut sigmas = profiles.map(|profile| params::sweep(profile)[0].sigmas.clone()).concat();
     sigmas.sort_by(f64::total_cmp);
     sigmas.dedup();
     Table::of("theory.gap", &sigmas, |_| 0)

@@ -2,9 +2,9 @@
 
 use super::{Guard, Look, room, unless};
 use crate::claims;
-use crate::experiments::protocol::{ProtocolCell, ProtocolMap};
-use crate::experiments::rise::Rise;
-use crate::experiments::{LONG_PROTOCOL, PROTOCOL, SWEEP};
+use crate::experiments::sweep;
+use crate::experiments::{LONG_PROTOCOL, PROTOCOL};
+use impact_chain::rise::{Counted, Curve};
 use impact_numerics::statistics::Estimate;
 
 pub const GUARDS: &[Guard] = &[
@@ -16,18 +16,15 @@ pub const GUARDS: &[Guard] = &[
 /// The half heights of the mean of the kept and of all, the onset, and where half of the chains are kept.
 type Places = [Option<Estimate>; 4];
 
-fn places(cell: &ProtocolCell) -> Places {
-    [cell.half_height, cell.half_height_all, cell.onset, cell.kept_half]
-}
-
-fn of_rise(rise: &Rise) -> Places {
+fn places(cell: &Curve) -> Places {
+    let rise = &cell.rise;
     [rise.half_height, rise.half_height_all, rise.onset, rise.kept_half]
 }
 
 /// All maps, by what they were run with.
-fn maps<'a>(look: Look<'a>) -> impl Iterator<Item = (&'a str, &'a ProtocolMap)> {
-    let rest = look.results.of(&PROTOCOL).into_iter().map(|map| ("rest", map));
-    let long = look.results.of(&LONG_PROTOCOL).into_iter().map(|long| ("long", long));
+fn maps<'a>(look: Look<'a>) -> impl Iterator<Item = (&'a str, &'a Counted)> {
+    let rest = look.results.of(&PROTOCOL).into_iter().map(|map| ("rest", &map[0]));
+    let long = look.results.of(&LONG_PROTOCOL).into_iter().map(|long| ("long", &long[0]));
     rest.chain(long)
 }
 
@@ -42,16 +39,20 @@ fn meet(look: Look<'_>) -> Option<String> {
             })
         })
     };
-    let sweep = look.results.of(&SWEEP).ok()?;
-    let protocol = sweep.parameters.protocol;
+    let sweep = sweep::main(look.results).ok()?;
+    let protocol = sweep.first().protocol;
     maps(look).find_map(|(name, map)| {
-        let at = map.cell(protocol.transient, protocol.window);
+        let at = map.curve(protocol.transient, protocol.window);
         let swept = at.filter(|_| name == "rest");
-        let swept = swept.and_then(|at| apart(name, places(at), of_rise(&sweep.rise)));
-        let rest = look.results.of(&PROTOCOL).ok().filter(|_| name == "long")?;
+        let swept = swept.and_then(|at| apart(name, places(at), places(sweep.first())));
+        let rest = look.results.of(&PROTOCOL).ok().map(|map| &map[0]).filter(|_| name == "long")?;
         swept.or_else(|| {
-            map.cells.iter().find_map(|own| {
-                apart(name, places(own), places(rest.cell(own.transient, own.window)?))
+            map.curves.iter().find_map(|own| {
+                apart(
+                    name,
+                    places(own),
+                    places(rest.curve(own.protocol.transient, own.protocol.window)?),
+                )
             })
         })
     })
@@ -60,8 +61,10 @@ fn meet(look: Look<'_>) -> Option<String> {
 /// Longer waiting and longer counting move the rise down, but for errors.
 fn fall(look: Look<'_>) -> Option<String> {
     maps(look).find_map(|(name, map)| {
-        let pairs = map.cells.iter().flat_map(|a| map.cells.iter().map(move |b| (a, b)));
-        let mut falls = pairs.filter(|(a, b)| a.transient <= b.transient && a.window <= b.window);
+        let pairs = map.curves.iter().flat_map(|a| map.curves.iter().map(move |b| (a, b)));
+        let mut falls = pairs.filter(|(a, b)| {
+            a.protocol.transient <= b.protocol.transient && a.protocol.window <= b.protocol.window
+        });
         falls.find_map(|(a, b)| {
             places(a).into_iter().zip(places(b)).find_map(|(before, after)| {
                 let (before, after) = before.zip(after)?;
@@ -80,8 +83,12 @@ fn need_seeds(look: Look<'_>) -> Option<String> {
     let of = |column: &str| look.results.number(&format!("theory.relation.{column}")).ok();
     let (half, onset) = (of("sigma_kept_half")?, of("sigma_kept_onset")?);
     let quantile = claims::level().quantile;
-    maps(look).flat_map(|(_, map)| &map.cells).find_map(|cell| {
-        let bounds = [(cell.half_height_all, half), (cell.kept_half, half), (cell.onset, onset)];
+    maps(look).flat_map(|(_, map)| &map.curves).find_map(|cell| {
+        let bounds = [
+            (cell.rise.half_height_all, half),
+            (cell.rise.kept_half, half),
+            (cell.rise.onset, onset),
+        ];
         bounds.into_iter().find_map(|(own, bound)| {
             let own = own?;
             unless(own.value >= bound - quantile * own.error, || {

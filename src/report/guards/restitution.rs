@@ -3,14 +3,11 @@
 use super::{Guard, Look};
 use literate::table::Table;
 
-pub const GUARDS: &[Guard] = &[
-    Guard {
-        name: "no_half_before_an_impact",
-        ids: &["restitution.curves*", "theory.relation.sigma_kept_half"],
-        find: halves,
-    },
-    Guard { name: "no_loss_no_rest", ids: &["restitution.heating*"], find: heating },
-];
+pub const GUARDS: &[Guard] = &[Guard {
+    name: "no_half_before_an_impact",
+    ids: &["restitution.curves*", "theory.relation.sigma_kept_half"],
+    find: halves,
+}];
 
 fn table<'a>(look: Look<'a>, name: &'static str) -> Option<&'a Table> {
     look.results.table(name).ok()
@@ -22,15 +19,4 @@ fn halves(look: Look<'_>) -> Option<String> {
     let bound = look.results.number("theory.relation.sigma_kept_half").ok()?;
     let early = halves.iter().find(|(_, own)| own.value <= bound - 5.0 * own.error);
     early.map(|(r, own)| format!("half height {} at r = {r}, below the bound {bound}", own.value))
-}
-
-/// Without loss the impacts per unit of time rise in every window.
-fn heating(look: Look<'_>) -> Option<String> {
-    let rates = table(look, "restitution.heating")?.points(&[("r", 1.0)], "window_end", "impacts");
-    if rates.is_empty() {
-        return Some("nothing was run without loss".into());
-    }
-    let falls = |pair: &&[(f64, f64)]| pair[1].1 <= pair[0].1;
-    let pair = rates.windows(2).find(falls)?;
-    Some(format!("without loss {} impacts per unit of time follow {}", pair[1].1, pair[0].1))
 }

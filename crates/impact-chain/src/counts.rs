@@ -1,0 +1,344 @@
+//! What an ensemble showed at one σ, in whole numbers that add: different gaps in each window, close and slow impacts. No
+//! list of impacts is kept. The code sees every impact, so it is compiled for speed with the engine.
+
+use crate::{Boundary, Counters, Engine, Ensemble, Error, Impact, Protocol};
+use serde::{Deserialize, Serialize};
+
+/// The δ below which two impacts of adjacent gaps are counted as close, in units of 1/ω.
+pub const NEAR_DECADES: [f64; 9] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];
+
+/// The v below which a closing speed is counted as slow, in units of d ω.
+pub const SLOW_DECADES: [f64; 8] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8];
+
+/// Impacts between two questions whether to stop.
+const LOOK_EVERY: u64 = 4096;
+
+/// Realisations in their order, for each window of the ensemble. Counts of realisations that follow one another are joined
+/// by collecting them.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Counts {
+    /// Different gaps with an impact in each window, of each piece of each realisation; none if it did not run to the end of
+    /// the window.
+    pub distinct: Vec<Vec<Option<u32>>>,
+    /// Impacts in each window, of each realisation.
+    pub impacts: Vec<Vec<u64>>,
+    /// Masses that are hit in each window, of each realisation.
+    pub masses: Vec<Vec<u32>>,
+    /// Contact phases begun in each window, of each realisation.
+    pub phases: Vec<Vec<u64>>,
+    /// Realisations with an overlapping start.
+    pub rejected: usize,
+    /// Realisations that the engine ended early.
+    pub failed: usize,
+    /// What the engine said of the first of these.
+    pub first_failure: Option<String>,
+    /// All impacts, of failed realisations too.
+    pub total: Total,
+}
+
+/// Impacts of whole runs, transients included.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Total {
+    /// Impacts.
+    pub impacts: u64,
+    /// Impacts that follow one of an adjacent gap within each of [`NEAR_DECADES`].
+    pub near: [u64; NEAR_DECADES.len()],
+    /// Impacts with a closing speed below each of [`SLOW_DECADES`].
+    pub slow: [u64; SLOW_DECADES.len()],
+    /// Contact phases begun.
+    pub contact_phases: u64,
+}
+
+impl Total {
+    /// Adds another.
+    pub fn add(&mut self, other: &Total) {
+        self.impacts += other.impacts;
+        self.contact_phases += other.contact_phases;
+        self.near.iter_mut().zip(other.near).for_each(|(sum, n)| *sum += n);
+        self.slow.iter_mut().zip(other.slow).for_each(|(sum, n)| *sum += n);
+    }
+}
+
+impl Counts {
+    /// One realisation without any count.
+    fn none(ensemble: &Ensemble) -> Counts {
+        let windows = ensemble.protocols.len();
+        Counts {
+            distinct: vec![vec![None; ensemble.pieces]; windows],
+            impacts: vec![vec![0]; windows],
+            masses: vec![vec![0]; windows],
+            phases: vec![vec![0]; windows],
+            ..Counts::default()
+        }
+    }
+
+    /// One realisation whose start overlaps.
+    pub(crate) fn rejected(ensemble: &Ensemble) -> Counts {
+        Counts { rejected: 1, ..Counts::none(ensemble) }
+    }
+
+    /// One realisation that the engine ended.
+    pub(crate) fn failed(ensemble: &Ensemble, error: &Error) -> Counts {
+        Counts { failed: 1, first_failure: Some(error.to_string()), ..Counts::none(ensemble) }
+    }
+
+    /// Whether they can be those of so many realisations of an ensemble.
+    pub fn fit(&self, ensemble: &Ensemble, realisations: usize) -> bool {
+        let (windows, gaps) = (ensemble.protocols.len(), ensemble.chain.gaps() as u32);
+        self.distinct.len() == windows
+            && [self.impacts.len(), self.masses.len(), self.phases.len()] == [windows; 3]
+            && self.distinct.iter().all(|own| own.len() == realisations * ensemble.pieces)
+            && self.impacts.iter().all(|own| own.len() == realisations)
+            && self.masses.iter().all(|own| own.len() == realisations)
+            && self.phases.iter().all(|own| own.len() == realisations)
+            && self.distinct.iter().flatten().flatten().all(|&k| k <= gaps)
+    }
+}
+
+fn extend<T>(rows: &mut Vec<Vec<T>>, next: Vec<Vec<T>>) {
+    match rows.is_empty() {
+        true => *rows = next,
+        false => rows.iter_mut().zip(next).for_each(|(row, next)| row.extend(next)),
+    }
+}
+
+impl FromIterator<Counts> for Counts {
+    fn from_iter<I: IntoIterator<Item = Counts>>(all: I) -> Self {
+        let mut whole = Counts::default();
+        for own in all {
+            extend(&mut whole.distinct, own.distinct);
+            extend(&mut whole.impacts, own.impacts);
+            extend(&mut whole.masses, own.masses);
+            extend(&mut whole.phases, own.phases);
+            whole.rejected += own.rejected;
+            whole.failed += own.failed;
+            whole.first_failure = whole.first_failure.or(own.first_failure);
+            whole.total.add(&own.total);
+        }
+        whole
+    }
+}
+
+/// The running observation of one realisation.
+pub(crate) struct Watch {
+    ring: bool,
+    total: Total,
+    /// Time of the last impact of each gap.
+    last: Vec<f64>,
+    /// Transients, rising.
+    transients: Vec<f64>,
+    /// `firsts[transient][gap]`: time of the first impact after it, infinite until known. All windows follow from these.
+    firsts: Vec<Vec<f64>>,
+    /// For each gap the number of transients whose first impact is known.
+    known: Vec<usize>,
+    /// Begins and ends of windows, rising.
+    edges: Vec<f64>,
+    /// What the engine had counted at each of them.
+    at: Vec<Counters>,
+}
+
+/// Times without repetition, rising.
+fn rising(times: impl Iterator<Item = f64>) -> Vec<f64> {
+    let mut times: Vec<f64> = times.collect();
+    times.sort_by(f64::total_cmp);
+    times.dedup();
+    times
+}
+
+impl Watch {
+    pub fn new(ensemble: &Ensemble) -> Self {
+        let transients = rising(ensemble.protocols.iter().map(|own| own.transient));
+        let ends = ensemble.protocols.iter().map(Protocol::end);
+        Watch::of(ensemble.chain.gaps(), ensemble.chain.boundary, transients, ends)
+    }
+
+    fn of(
+        gaps: usize,
+        boundary: Boundary,
+        transients: Vec<f64>,
+        ends: impl Iterator<Item = f64>,
+    ) -> Self {
+        Watch {
+            ring: boundary == Boundary::Ring,
+            total: Total::default(),
+            last: vec![f64::NEG_INFINITY; gaps],
+            firsts: vec![vec![f64::INFINITY; gaps]; transients.len()],
+            known: vec![0; gaps],
+            edges: rising(transients.iter().copied().chain(ends)),
+            at: Vec::new(),
+            transients,
+        }
+    }
+
+    fn see(&mut self, impact: Impact) {
+        let gaps = self.last.len();
+        // On a ring gap n lies between masses n and 1: modulo n it is the neighbour of gap 1.
+        let gap = impact.gap % gaps;
+        let known = &mut self.known[gap];
+        while self.transients.get(*known).is_some_and(|&transient| impact.time > transient) {
+            self.firsts[*known][gap] = impact.time;
+            *known += 1;
+        }
+        let left = match gap {
+            0 if self.ring && gaps > 1 => self.last[gaps - 1],
+            0 => f64::NEG_INFINITY,
+            _ => self.last[gap - 1],
+        };
+        let right = match gap + 1 {
+            next if next < gaps => self.last[next],
+            _ if self.ring && gaps > 1 => self.last[0],
+            _ => f64::NEG_INFINITY,
+        };
+        let since = impact.time - left.max(right);
+        for (count, &within) in self.total.near.iter_mut().zip(&NEAR_DECADES) {
+            if since > within {
+                break;
+            }
+            *count += 1;
+        }
+        for (count, &below) in self.total.slow.iter_mut().zip(&SLOW_DECADES) {
+            if impact.closing_speed >= below {
+                break;
+            }
+            *count += 1;
+        }
+        self.last[gap] = impact.time;
+        self.total.impacts += 1;
+    }
+
+    /// Follows an engine to a time; stops where `stopped` says so.
+    pub fn follow(
+        &mut self,
+        engine: &mut Engine,
+        until: f64,
+        stopped: impl Fn() -> bool,
+    ) -> Result<(), Error> {
+        while let Some(&edge) = self.edges.get(self.at.len()).filter(|edge| **edge <= until) {
+            engine.run(edge, |impact| {
+                self.see(impact);
+                !self.total.impacts.is_multiple_of(LOOK_EVERY) || !stopped()
+            })?;
+            self.at.push(engine.counters());
+        }
+        Ok(())
+    }
+
+    /// What was counted, of a run that ended so.
+    pub fn counts(
+        mut self,
+        ensemble: &Ensemble,
+        engine: &Engine,
+        ended: Result<(), Error>,
+    ) -> Result<Counts, Error> {
+        self.total.contact_phases = engine.counters().contact_phases;
+        let mut counts = match ended {
+            Ok(()) => Counts::none(ensemble),
+            Err(error @ Error::Work { .. }) => {
+                return Ok(Counts { total: self.total, ..Counts::failed(ensemble, &error) });
+            }
+            Err(error) => return Err(error),
+        };
+        for (place, protocol) in ensemble.protocols.iter().enumerate() {
+            let edge = |time: f64| self.at.get(self.edges.partition_point(|at| *at < time));
+            let Some((begin, end)) = edge(protocol.transient).zip(edge(protocol.end())) else {
+                continue;
+            };
+            let hit = self.hit(protocol);
+            let pieces = ensemble.pieces;
+            for (piece, count) in counts.distinct[place].iter_mut().enumerate() {
+                let at = |piece: usize| piece * hit.len() / pieces;
+                let hit = &hit[at(piece)..at(piece + 1)];
+                *count = Some(hit.iter().map(|&hit| u32::from(hit)).sum());
+            }
+            counts.impacts[place] = vec![end.impacts - begin.impacts];
+            counts.masses[place] = vec![masses_hit(&hit, self.ring)];
+            counts.phases[place] = vec![end.contact_phases - begin.contact_phases];
+        }
+        counts.total = self.total;
+        Ok(counts)
+    }
+
+    /// Which gaps impact in a window (T, T + W].
+    fn hit(&self, protocol: &Protocol) -> Vec<bool> {
+        let transient = self.transients.partition_point(|at| *at < protocol.transient);
+        self.firsts[transient].iter().map(|&time| time <= protocol.end()).collect()
+    }
+}
+
+/// Masses with an impact on one side or both: mass j lies between gaps j − 1 and j, and on a ring the
+/// last one between the last gap and the first.
+fn masses_hit(hit: &[bool], ring: bool) -> u32 {
+    let last = ring && hit.first().zip(hit.last()).is_some_and(|(first, last)| *first || *last);
+    let inner = hit.windows(2).map(|sides| u32::from(sides[0] || sides[1])).sum::<u32>();
+    inner + u32::from(last)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn impact(time: f64, gap: usize, closing_speed: f64) -> Impact {
+        Impact { time, gap, closing_speed }
+    }
+
+    fn watched(gaps: usize, boundary: Boundary, from: Vec<f64>, impacts: &[Impact]) -> Watch {
+        let mut watch = Watch::of(gaps, boundary, from, std::iter::empty());
+        impacts.iter().for_each(|&impact| watch.see(impact));
+        watch
+    }
+
+    /// Gaps 0 and 4 of a row of four masses are at its walls. On a ring of five the masses at both
+    /// ends of gap 0 (or 5) are the last and the first.
+    #[test]
+    fn masses_between_gaps_by_hand() {
+        for (hit, row, ring) in [
+            ([true, false, false, false, false], 1, 2),
+            ([true, true, false, false, false], 2, 3),
+            ([true, false, false, false, true], 2, 3),
+            ([false, true, false, true, false], 4, 4),
+            ([true; 5], 4, 5),
+            ([false; 5], 0, 0),
+        ] {
+            assert_eq!((masses_hit(&hit, false), masses_hit(&hit, true)), (row, ring), "{hit:?}");
+        }
+    }
+
+    #[test]
+    fn adjacent_impacts_by_hand() {
+        // Gap 1 follows gap 0 by 0.5; gap 2 follows gap 1 by 0.05; gap 0 has gap 1 as its only
+        // neighbour, 0.054 ago; gap 3 follows gap 2 by 0.004.
+        let impacts = [
+            impact(1.0, 0, 1.0),
+            impact(1.5, 1, 0.05),
+            impact(1.55, 2, 0.0005),
+            impact(1.554, 0, 1.0),
+            impact(1.554, 3, 1e-9),
+        ];
+        let seen = watched(4, Boundary::Walls, vec![0.0], &impacts).total;
+        assert_eq!(seen.near, [3, 1, 0, 0, 0, 0, 0, 0, 0]);
+        assert_eq!(seen.slow, [3, 2, 2, 1, 1, 1, 1, 1]);
+    }
+
+    #[test]
+    fn the_ends_of_a_ring_are_neighbours() {
+        // Gaps of a ring of 5 masses are 1..=5.
+        let impacts = [impact(1.0, 5, 1.0), impact(1.01, 1, 1.0)];
+        assert_eq!(watched(5, Boundary::Ring, vec![0.0], &impacts).total.near[0], 1);
+        // Between walls the first and the last gap (0 and 4) are none.
+        let impacts = [impact(1.0, 4, 1.0), impact(1.01, 0, 1.0)];
+        assert_eq!(watched(5, Boundary::Walls, vec![0.0], &impacts).total.near[0], 0);
+    }
+
+    #[test]
+    fn windows_by_hand() {
+        let impacts = [(0.5, 0), (1.0, 1), (2.0, 0), (3.0, 0), (6.0, 1), (9.0, 0)]
+            .map(|(time, gap)| impact(time, gap, 1.0));
+        let watch = watched(3, Boundary::Walls, vec![1.0, 5.0], &impacts);
+        // After 1 (open at its start): gap 0 at 2, gap 1 at 6. After 5: gap 1 at 6, gap 0 at 9.
+        let hit = |transient, window| watch.hit(&Protocol { transient, window });
+        assert_eq!(hit(1.0, 1.0), [true, false, false]);
+        assert_eq!(hit(1.0, 5.0), [true, true, false]);
+        assert_eq!(hit(5.0, 1.0), [false, true, false]);
+        assert_eq!(hit(5.0, 4.0), [true, true, false]);
+    }
+}
