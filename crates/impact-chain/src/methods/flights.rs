@@ -30,6 +30,9 @@ pub struct Flights {
     forced: Vec<Component>,
 }
 
+/// Bounds are rounded outwards by more than the rounding of amplitudes.
+const INFLATION: f64 = 1.0 + 1e-12;
+
 /// (sin, cos) of ωt and of each Ωt.
 pub type Phases = ((f64, f64), [(f64, f64); COMPONENTS]);
 
@@ -94,6 +97,20 @@ impl Flights {
         let rate = self.omega * (b * cos - a * sin) + forced_rate;
         let width = if is_rounding(width, rate, self.spacing) { 0.0 } else { width };
         Look { s, width, rate }
+    }
+
+    /// A bound on the second derivative of gap k: Σ R Ω² over its sinusoids of amplitude R, its free part among them.
+    pub fn bend(&self, k: usize) -> f64 {
+        let [left, right] = self.topology.sides(k);
+        let length = |x: f64, y: f64| (x * x + y * y).sqrt();
+        let [of_left, of_right] = [self.free[left], self.free[right]];
+        let free = length(of_right[0] - of_left[0], of_right[1] - of_left[1]);
+        let forced = self.forced.iter().map(|own| {
+            let [c, s] =
+                [&own.cos, &own.sin].map(|amplitudes| amplitudes[right] - amplitudes[left]);
+            own.frequency * own.frequency * length(c, s)
+        });
+        INFLATION * (self.omega * self.omega * free + forced.sum::<f64>())
     }
 
     /// The impact law at gap k: a jump of velocity only rotates into the free part.

@@ -1,10 +1,11 @@
 //! The engine, its rivals and the truth: ways to simulate one chain, under one trait.
 //!
 //! Each rival is the textbook form of a method that is in use, so that its cost and its failures
-//! can be measured on the same scenes: sampled gaps, a Runge–Kutta pair with
-//! events, time stepping on velocities, Verlet with a flip, penalty springs. Each file says what its
-//! method is, where it comes from, of which order it is, and where it fails.
+//! can be measured on the same scenes: sampled gaps, conservative advancement, a
+//! Runge–Kutta pair with events, time stepping on velocities, Verlet with a flip, penalty springs. Each file says
+//! what its method is, where it comes from, of which order it is, and where it fails.
 
+mod advancement;
 mod certified;
 mod crossing;
 mod dormand_prince;
@@ -20,6 +21,7 @@ mod tally;
 pub mod truth;
 mod verlet;
 
+pub use advancement::Advancement;
 pub use certified::Certified;
 pub use moreau_jean::MoreauJean;
 pub use penalty::Penalty;

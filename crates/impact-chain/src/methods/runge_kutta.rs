@@ -3,7 +3,7 @@
 use super::crossing::{crossing, is_rounding};
 use super::dormand_prince::Stages;
 use super::row::Row;
-use super::tally::{Stop, Tally, check_end};
+use super::tally::{Stop, Tally, check_end, check_tolerance};
 use super::{Cost, Method, State};
 use crate::{Error, Impact, Scenario};
 use impact_numerics::clock::Instant;
@@ -27,9 +27,6 @@ pub struct RungeKutta {
     pub tolerance: f64,
 }
 
-/// The tolerances that make sense in doubles.
-const TOLERANCES: std::ops::RangeInclusive<f64> = 1e-15..=0.1;
-
 /// The first step, in units of 1/max(ω, Ω).
 const FIRST: f64 = 0.01;
 
@@ -46,10 +43,7 @@ impl Method for RungeKutta {
         sink: &mut dyn FnMut(Impact) -> bool,
     ) -> Result<Cost, Error> {
         let row = Row::new(scenario, start)?;
-        if !TOLERANCES.contains(&self.tolerance) {
-            let problem = format!("{:?} is out of range", self.tolerance);
-            return Err(Error::input("tolerance", problem, "give a number from 1e-15 to 0.1"));
-        }
+        check_tolerance(self.tolerance)?;
         check_end(until)?;
         let mut tally = Tally::new(scenario, sink);
         let now = Instant::at(start.time);

@@ -158,6 +158,18 @@ impl Grid {
     }
 }
 
+/// The tolerances that make sense in doubles.
+const TOLERANCES: std::ops::RangeInclusive<f64> = 1e-15..=0.1;
+
+/// Refuses a tolerance that is none.
+pub fn check_tolerance(tolerance: f64) -> Result<(), Error> {
+    if TOLERANCES.contains(&tolerance) {
+        return Ok(());
+    }
+    let problem = format!("{tolerance:?} is out of range");
+    Err(Error::input("tolerance", problem, "give a number from 1e-15 to 0.1"))
+}
+
 /// Refuses an end that is no time.
 pub fn check_end(until: f64) -> Result<(), Error> {
     if until.abs() <= LATEST {
