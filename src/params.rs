@@ -4,15 +4,13 @@
 //! of the sample sizes, and of nothing else: it never changes the model.
 
 mod accuracy;
-mod bias;
 mod chosen;
 mod ensembles;
 mod nucleation;
 mod sizes;
 mod spacetime;
 
-pub use accuracy::{MethodName, RaceParams, ScaleParams, Setting, TrialParams};
-pub use bias::BiasParams;
+pub use accuracy::{BENCH, BiasParams, MethodName, RaceParams, ScaleParams, Setting, TrialParams};
 pub use chosen::*;
 pub use ensembles::*;
 pub use impact_chain::{Boundary, Chain, Protocol, Start};

@@ -4,12 +4,10 @@
 //! Chain i of n masses starts from rest; its forcing is drawn from stream i of the seed.
 
 use clap::Parser;
-use impact_chain::methods::{
-    Certified, Method, MoreauJean, Penalty, RungeKutta, Sampled, State, Verlet,
-};
+use impact_chain::methods::{Method, State};
 use impact_chain::{Counters, Engine, Error, Impact, Scenario};
 use impact_numerics::random::NormalPairs;
-use impact_paper::params::Chain;
+use impact_paper::params::{Chain, MethodName};
 use rayon::prelude::*;
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -202,17 +200,25 @@ const REPETITIONS: usize = 20;
 
 /// Each method with its steps or tolerances, coarse to fine.
 fn settings() -> Vec<(Box<dyn Method>, String)> {
-    let mut all: Vec<(Box<dyn Method>, String)> = vec![(Box::new(Certified), String::new())];
-    let mut stepped = |of: fn(f64) -> Box<dyn Method>, name: &str, values: &[f64]| {
-        all.extend(values.iter().map(|&x| (of(x), format!("{name}={x:e}"))));
+    let values = |method| -> &[f64] {
+        match method {
+            MethodName::Certified | MethodName::Truth => &[0.0],
+            MethodName::Sampled => &[0.1, 0.03, 0.01, 0.003],
+            MethodName::Advancement => &[1e-6, 1e-9, 1e-12],
+            MethodName::RungeKutta => &[1e-4, 1e-6, 1e-9, 1e-12],
+            MethodName::MoreauJean | MethodName::Verlet => &[1e-1, 1e-2, 1e-3, 1e-4],
+            MethodName::Penalty => &[1e-2, 1e-3, 1e-4],
+        }
     };
-    stepped(|step| Box::new(Sampled { step }), "h", &[0.1, 0.03, 0.01, 0.003]);
-    let tolerances = [1e-4, 1e-6, 1e-9, 1e-12];
-    stepped(|tolerance| Box::new(RungeKutta { tolerance }), "tol", &tolerances);
-    stepped(|step| Box::new(MoreauJean { step }), "h", &[1e-1, 1e-2, 1e-3, 1e-4]);
-    stepped(|step| Box::new(Verlet { step }), "h", &[1e-1, 1e-2, 1e-3, 1e-4]);
-    stepped(|step| Box::new(Penalty { step }), "h", &[1e-2, 1e-3, 1e-4]);
-    all
+    let of = |method: MethodName| {
+        let setting = move |x: f64| match method {
+            MethodName::Certified => String::new(),
+            own if own.has_tolerance() => format!("tol={x:e}"),
+            _ => format!("h={x:e}"),
+        };
+        values(method).iter().map(move |&x| (method.with(x), setting(x)))
+    };
+    MethodName::ALL.into_iter().flat_map(of).collect()
 }
 
 /// A row of benches/measured.json: one setting, run as often as there is time for.
@@ -284,13 +290,10 @@ fn found(scenario: &Scenario, method: &dyn Method, segment: &Segment) -> bool {
         positions: segment.u.iter().zip(1..).map(|(u, j)| f64::from(j) * d + u).collect(),
         velocities: segment.v.clone(),
     };
-    let mut first = None;
-    let run: Result<_, Error> = method.run(scenario, &start, segment.next_t + 1.0, &mut |impact| {
-        first = Some(impact);
-        false
-    });
-    run.is_ok()
-        && first.is_some_and(|own: Impact| {
+    let first = method.first(scenario, &start, segment.next_t + 1.0);
+    first.is_ok_and(|first| {
+        first.is_some_and(|own| {
             own.gap == segment.next_gap && (own.time - segment.next_t).abs() <= CLOSE
         })
+    })
 }

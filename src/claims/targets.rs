@@ -5,6 +5,7 @@
 
 use super::{Basis, Check, Error, Kind, Text, Verdict};
 use crate::experiments::accuracy::race::{Entry, Race};
+use crate::experiments::accuracy::trials::right;
 use crate::experiments::measured::{Row, What};
 use crate::experiments::{MEASURED, RACE, SCALE, TRIALS};
 use crate::experiments::{Measured, Need, Results};
@@ -147,11 +148,10 @@ fn memory(measured: &Measured) -> Vec<Check> {
 /// Counted work of the largest chain over that of a hundred masses.
 fn growth(results: &Results) -> Result<Check, Error> {
     let scale = results.of(&SCALE)?;
-    let own = || scale.rows.iter().filter(|row| row.setting.method == MethodName::Certified);
-    let largest = own().max_by_key(|row| row.masses);
-    let hundred = own().find(|row| row.masses == 100);
-    let ratio =
-        largest.zip(hundred).map(|(a, b)| a.evaluations_per_impact / b.evaluations_per_impact);
+    let own = || scale.iter().filter(|row| row.0.method == MethodName::Certified);
+    let largest = own().max_by_key(|row| row.1);
+    let hundred = own().find(|row| row.1 == 100);
+    let ratio = largest.zip(hundred).map(|(a, b)| a.2 / b.2);
     let name =
         ("work", "evaluations per impact in the largest chain over those at a hundred masses");
     Ok(at_most(name, (2.0, ""), ratio, false))
@@ -164,8 +164,8 @@ pub(crate) fn own_entry(race: &Race) -> Option<&Entry> {
 
 fn segments(race: &Race) -> Vec<Check> {
     let own = own_entry(race);
-    let misses = own.map(|entry| entry.segments.misses as f64);
-    let units = own.and_then(|entry| entry.segments.units);
+    let misses = own.map(|entry| entry.misses as f64);
+    let units = own.and_then(|entry| entry.units);
     let missed = ("misses", "impacts missed from exact states");
     let waiting = (
         "waiting",
@@ -176,13 +176,9 @@ fn segments(race: &Race) -> Vec<Check> {
 
 fn scenes(results: &Results) -> Result<Check, Error> {
     let trials = results.of(&TRIALS)?;
-    let own = |method: MethodName| method == MethodName::Certified;
-    let wrong: usize = trials
-        .scenes
-        .iter()
-        .flat_map(|scene| scene.trials.iter().filter(|t| own(t.setting.method)))
-        .map(|trial| trial.verdicts.len() - trial.right())
-        .sum();
+    // The engine is the first of the methods.
+    let own = trials.scenes.iter().map(|(_, trials)| &trials[0]);
+    let wrong: usize = own.map(|trial| trial.len() - right(trial)).sum();
     let name = ("scenes", "cases of the scenes of failure with another outcome than expected");
     Ok(at_most(name, (0.0, ""), Some(wrong as f64), false))
 }
@@ -210,14 +206,13 @@ mod tests {
             assert_eq!(verdict(&results, id), Verdict::Reproduced, "{id}");
         }
         let race = results.of_mut(&RACE).unwrap();
-        race.entries[0].segments.misses += 1;
-        race.entries[0].segments.units = Some(9.0);
-        let verdicts = &mut results.of_mut(&TRIALS).unwrap().scenes[0].trials[0].verdicts;
-        verdicts[0] = crate::experiments::accuracy::case::Verdict::Missed;
+        race.entries[0].misses += 1;
+        race.entries[0].units = Some(9.0);
+        results.of_mut(&TRIALS).unwrap().scenes[0].1[0][0] =
+            crate::experiments::accuracy::case::Verdict::Missed;
         let scale = results.of_mut(&SCALE).unwrap();
         let own = |m: MethodName| m == MethodName::Certified;
-        let largest = scale.rows.iter_mut().filter(|row| own(row.setting.method)).last();
-        largest.unwrap().evaluations_per_impact *= 3.0;
+        scale.iter_mut().filter(|row| own(row.0.method)).last().unwrap().2 *= 3.0;
         for id in ["misses", "waiting", "scenes", "work"] {
             assert_eq!(verdict(&results, id), Verdict::Differs, "{id}");
         }

@@ -7,6 +7,8 @@
 use super::Error;
 use crate::committed;
 use literate::input::one_line;
+use literate::table::Table;
+use literate::value::origin;
 use serde::{Deserialize, Serialize};
 
 /// Where the file lies, seen from the top of the project.
@@ -107,35 +109,20 @@ pub struct Row {
     pub note: String,
 }
 
-/// What to do about any broken file.
-const AGAIN: &str = "run make measure again, or restore the file";
-
 impl Measured {
     /// The committed file.
     ///
     /// # Errors
-    /// As [`Measured::parse`]; and if the file cannot be read.
+    /// [`Error::Input`] names the first field that is missing, unknown or of another type.
     pub fn committed() -> Result<Self, Error> {
+        let again = "run make measure again, or restore the file";
         let text = committed::text(FILE)
-            .map_err(|e| Error::input("measured.json", e.to_string(), AGAIN))?;
-        Measured::parse(&text)
-    }
-
-    /// Reads and checks the file.
-    ///
-    /// # Errors
-    /// [`Error::Input`] names the first field that is missing, unknown or out of bounds.
-    pub fn parse(text: &str) -> Result<Self, Error> {
-        let mut reader = serde_json::Deserializer::from_str(text);
-        let measured: Measured =
-            serde_path_to_error::deserialize(&mut reader).map_err(|error| {
-                let path = error.path().to_string();
-                let field = if matches!(&*path, "." | "?") { "file" } else { &path };
-                wrong(field, error.into_inner().to_string())
-            })?;
-        reader.end().map_err(|error| wrong("file", error.to_string()))?;
-        measured.check()?;
-        Ok(measured)
+            .map_err(|error| Error::input("measured.json", error.to_string(), again))?;
+        let mut reader = serde_json::Deserializer::from_str(&text);
+        serde_path_to_error::deserialize(&mut reader).map_err(|error| {
+            let field = format!("measured.json: {}", one_line(&error.path().to_string(), 80));
+            Error::input(field, one_line(&error.into_inner().to_string(), 1000), again)
+        })
     }
 
     /// Rows of one kind.
@@ -143,70 +130,38 @@ impl Measured {
         self.rows.iter().filter(move |row| row.what == what)
     }
 
-    fn check(&self) -> Result<(), Error> {
-        let digits = |part: &str, n| part.len() == n && part.bytes().all(|b| b.is_ascii_digit());
-        let parts: Vec<&str> = self.date.split('-').collect();
-        if !matches!(parts[..], [y, m, d] if digits(y, 4) && digits(m, 2) && digits(d, 2)) {
-            return Err(wrong("date", format!("{:?} is no day YYYY-MM-DD", self.date)));
-        }
-        if self.machine.cores == 0 {
-            return Err(wrong("machine.cores", "a machine has at least one".into()));
-        }
-        for (i, row) in self.rows.iter().enumerate() {
-            row.check()
-                .map_err(|(field, problem)| wrong(&format!("rows[{i}].{field}"), problem))?;
-        }
-        Ok(())
+    /// Time of an impact in one chain of 100 masses, by what has this name.
+    fn impact(&self, what: What, name: &str) -> f64 {
+        let own = self.of(what).filter(|row| row.name == name && row.n == 100 && row.chains == 1);
+        own.filter_map(|row| row.microseconds_per_impact).last().unwrap_or(f64::NAN)
     }
 }
 
-impl Row {
-    /// Field and problem of the first value that cannot be.
-    fn check(&self) -> Result<(), (&'static str, String)> {
-        let positive = [
-            ("microseconds_per_impact", self.microseconds_per_impact),
-            ("evaluations_per_impact", self.evaluations_per_impact),
-            ("horizon_time", self.horizon_time),
-            ("seconds", self.seconds),
-            ("peak_mib", self.peak_mib),
-        ];
-        for (field, value) in positive {
-            if let Some(x) = value
-                && !(x.is_finite() && x > 0.0)
-            {
-                return Err((field, format!("{x:?} is not positive")));
-            }
-        }
-        if self.name.is_empty() {
-            return Err(("name", "it is empty".into()));
-        }
-        for (field, x) in [("sigma", self.sigma), ("until", self.until)] {
-            if !(x.is_finite() && x >= 0.0) {
-                return Err((field, format!("{x:?} is not 0 or more")));
-            }
-        }
-        if self.segments.is_some() != self.segment_misses.is_some() {
-            return Err(("segments", "segments and segment_misses come together".into()));
-        }
-        if self.segment_misses > self.segments {
-            return Err(("segment_misses", "more were missed than tried".into()));
-        }
-        if self.horizon_impact.is_some() != self.horizon_time.is_some() {
-            return Err(("horizon_impact", "horizon_impact and horizon_time come together".into()));
-        }
-        if self.horizon_impact > self.compared {
-            return Err(("horizon_impact", "it lies beyond the impacts compared".into()));
-        }
-        if self.what == What::Absent && self.note.is_empty() {
-            return Err(("note", "an absent peer has a reason".into()));
-        }
-        Ok(())
-    }
-}
-
-fn wrong(field: &str, problem: String) -> Error {
-    let field = format!("measured.json: {}", one_line(field, 80));
-    Error::input(field, one_line(&problem, 1000), AGAIN)
+/// When and where times were measured, and what an impact takes.
+pub fn tables(measured: &Measured) -> Vec<Table> {
+    let machine = &measured.machine;
+    let table = Table::of("measured.machine", &[()], |()| 1)
+        .computed_by(origin(Measured::committed))
+        .words("date", "when", |()| measured.date.clone())
+        .words("processor", "on what", |()| machine.processor.replace("(R)", ""))
+        .words("os", "under what", |()| machine.os.replace('_', "-"))
+        .count("cores", "processors", |()| u64::from(machine.cores))
+        .measured();
+    let engine = measured.impact(What::Engine, "impact-paper");
+    let [certified, advancement] =
+        ["certified", "advancement"].map(|name| measured.impact(What::Method, name));
+    let ballistic = measured.impact(What::Model, "ballistic");
+    let impact = Table::of("measured.impact", &[()], |()| 1)
+        .computed_by(origin(Measured::committed))
+        .real("engine", "us", 2, "time of an impact in the engine, one chain of 100 masses", |()| {
+            engine
+        })
+        .real("ballistic", "us", 2, "the same of masses that fly freely", |()| ballistic)
+        .real("advancement", "1", 2, "time of conservative advancement over the engine's", |()| {
+            advancement / certified
+        })
+        .measured();
+    vec![table.done(), impact.done()]
 }
 
 #[cfg(test)]
@@ -217,52 +172,8 @@ mod tests {
     fn the_committed_file_reads() {
         let measured = Measured::committed().unwrap();
         assert!(measured.of(What::Engine).count() > 0);
+        assert!(measured.impact(What::Method, "advancement") > 0.0);
         let text = serde_json::to_string(&measured).unwrap();
-        assert_eq!(Measured::parse(&text).unwrap(), measured);
         assert!(!text.contains("/home") && !text.contains("/root"));
-    }
-
-    /// The committed file with one text replaced by another.
-    fn with(old: &str, new: &str) -> String {
-        let text = serde_json::to_string(&Measured::committed().unwrap()).unwrap();
-        assert!(text.contains(old), "{old} is not in the file");
-        text.replacen(old, new, 1)
-    }
-
-    #[test]
-    fn what_is_wrong_is_named() {
-        let measured = Measured::committed().unwrap();
-        let row = &measured.rows[0];
-        let name = format!("\"name\":{:?}", row.name);
-        let date = format!("\"date\":{:?}", measured.date);
-        let time =
-            format!("\"microseconds_per_impact\":{:?}", row.microseconds_per_impact.unwrap());
-        for (text, field) in [
-            (String::new(), "file: "),
-            ("{}".into(), "missing field `date`"),
-            (with(&date, "\"date\":\"today\""), "date: "),
-            (with(&name, "\"name\":\"\""), "rows[0].name: "),
-            (with(&name, "\"name\":7"), "rows[0].name: "),
-            (with(&name, "\"nome\":\"x\""), "rows[0].nome: "),
-            (with(&time, "\"microseconds_per_impact\":-1.0"), "rows[0].microseconds_per_impact: "),
-            (with("\"what\":\"engine\"", "\"what\":\"motor\""), "rows[0].what: "),
-            (with("\"what\":\"engine\"", "\"what\":\"absent\""), "rows[0].note: "),
-            (format!("{} x", with("{", "{")), "file: "),
-        ] {
-            let error = Measured::parse(&text).unwrap_err().to_string();
-            assert!(error.starts_with("measured.json: ") && error.contains(field), "{error}");
-        }
-    }
-
-    #[test]
-    fn counts_agree() {
-        let mut row = Measured::committed().unwrap().rows.remove(0);
-        (row.segments, row.segment_misses) = (Some(3), Some(4));
-        assert_eq!(row.check().unwrap_err().0, "segment_misses");
-        (row.segments, row.segment_misses) = (None, Some(4));
-        assert_eq!(row.check().unwrap_err().0, "segments");
-        (row.segments, row.segment_misses) = (None, None);
-        (row.compared, row.horizon_impact, row.horizon_time) = (Some(5), Some(6), Some(1.0));
-        assert_eq!(row.check().unwrap_err().0, "horizon_impact");
     }
 }

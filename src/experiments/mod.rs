@@ -101,7 +101,7 @@ pub const MEASURED: Experiment<(), Measured> = Experiment {
     code: code("src/experiments/measured.rs"),
     parameters: |_| (),
     how: Read(|_| Measured::committed()),
-    tables: tables::measured,
+    tables: measured::tables,
 };
 
 /// An experiment that is ensembles of chains.
@@ -189,11 +189,14 @@ pub const RACE: Experiment<RaceParams, race::Race> = Experiment {
 };
 
 /// What methods do to the mean count.
-pub const BIAS: Experiment<BiasParams, bias::Biases, bias::Part> = Experiment {
+pub const BIAS: Experiment<BiasParams, bias::Biases> = Experiment {
     name: "bias",
     code: code("src/experiments/accuracy/bias.rs"),
     parameters: BiasParams::new,
-    how: Cut("bias of methods", bias::CUTTING),
+    how: Whole {
+        run: bias::run,
+        weight: |p| 100_000 * p.settings.iter().map(|own| own.1 as u64).sum::<u64>(),
+    },
     tables: tables::bias,
 };
 

@@ -11,10 +11,11 @@ pub fn look(method: MethodName) -> Marker {
     let (colour, mark) = match method {
         MethodName::Certified => (RED, Mark::Disc),
         MethodName::Sampled => (BLUE, Mark::Ring),
+        MethodName::Advancement => (GREEN, Mark::Diamond),
         MethodName::RungeKutta => (ORANGE, Mark::Square),
         MethodName::MoreauJean => (PURPLE, Mark::Triangle),
         MethodName::Verlet => (INK, Mark::Cross),
-        MethodName::Penalty => (GREY, Mark::Plus),
+        MethodName::Penalty | MethodName::Truth => (GREY, Mark::Plus),
     };
     (mark, LARGE, Stroke::solid(colour, THIN))
 }

@@ -8,7 +8,7 @@ use crate::params::MethodName;
 
 pub fn draw(race: &Race) -> Result<Figure, Error> {
     let sheet = Sheet::new(9500);
-    let costs = || race.entries.iter().filter_map(|entry| entry.evaluations_per_impact);
+    let costs = || race.entries.iter().filter_map(|entry| entry.work);
     let cost_axis = || Axis::around(costs(), 1, "evaluations per impact");
     let error = Axis::decades(-18, 0, 3, "error in time (1/*ω*)");
     let (x, y) = (cost_axis().bare(), error.column("error of the next impact's time (1/omega)"));
@@ -18,7 +18,7 @@ pub fn draw(race: &Race) -> Result<Figure, Error> {
     let place = (errors.x.lo, DISPLACED);
     errors.note("missed above", place, (110, -60), words)?;
 
-    let tried = race.entries.iter().map(|e| e.segments.tried).max().unwrap_or(1);
+    let tried = race.entries.iter().map(|e| e.tried).max().unwrap_or(1);
     let bottom = -(pxfm::f_log10(tried as f64).ceil() as i32) - 1;
     let mut axis = Axis::decades(bottom, 0, 1, "share missed");
     // Below one in all that were tried there is nothing but zero.
@@ -29,11 +29,11 @@ pub fn draw(race: &Race) -> Result<Figure, Error> {
     let misses = Frame::new(1300, 4650, 8150, 7250);
     let misses = sheet.lettered(LETTERS[1], misses, cost_axis(), axis)?;
 
-    let spread = |e: &Entry| Some((e.evaluations_per_impact?, e.segments.errors?[1]));
-    let middle = |e: &Entry| Some((e.evaluations_per_impact?, e.segments.errors?[0]));
+    let spread = |e: &Entry| Some((e.work?, e.errors?[1]));
+    let middle = |e: &Entry| Some((e.work?, e.errors?[0]));
     let missed = |e: &Entry| {
-        let share = e.segments.misses as f64 / e.segments.tried.max(1) as f64;
-        Some((e.evaluations_per_impact?, share))
+        let share = e.misses as f64 / e.tried.max(1) as f64;
+        Some((e.work?, share))
     };
     let medians = by_method(&race.entries, |e| e.setting, middle);
     for ((method, points), (_, ends)) in
@@ -56,13 +56,13 @@ pub fn draw(race: &Race) -> Result<Figure, Error> {
 
 fn description(race: &Race) -> String {
     let certified = race.entries.iter().find(|e| e.setting.method == MethodName::Certified);
-    let largest = certified.and_then(|entry| Some(entry.segments.errors?[1]));
+    let largest = certified.and_then(|entry| Some(entry.errors?[1]));
     format!(
         "Against counted work, a marker for each method and step or tolerance, n = {}, σ = {}: (a) median error of the time of the next \
          impact, with a line up to the largest, which for the engine is {}; (b) the share of states from which the \
          next impact is missed.",
-        race.parameters.chain.masses,
-        race.parameters.sigma,
+        race.parameters.growth.chain.masses,
+        race.parameters.growth.sigma,
         largest.map_or("unknown".into(), |error| short(error, 2)),
     )
 }

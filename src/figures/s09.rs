@@ -12,7 +12,7 @@ const ROUNDING: f64 = f64::EPSILON / 2.0;
 
 /// Time after which an error ε has grown to [`DISPLACED`]: ln(10⁻³/ε)/λ, with λ and its error.
 fn allowed(race: &Race, error: f64) -> Option<[f64; 3]> {
-    let growth = race.growth.growth?;
+    let growth = race.growth.growth()?;
     let folds = pxfm::f_log(DISPLACED / error).max(0.0);
     Some([growth.interval[1], growth.value, growth.interval[0]].map(|rate| folds / rate))
 }
@@ -20,7 +20,7 @@ fn allowed(race: &Race, error: f64) -> Option<[f64; 3]> {
 pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
     let sheet = Sheet::new(9950);
     let top = (race.parameters.until / 50.0).ceil() * 50.0;
-    let costs = race.entries.iter().filter_map(|entry| entry.evaluations_per_impact);
+    let costs = race.entries.iter().filter_map(|entry| entry.work);
     let (x, y) =
         (Axis::around(costs, 1, "evaluations per impact"), horizon(top, "horizon *t* (1/*ω*)"));
     let by_cost = sheet.lettered(LETTERS[0], Frame::new(1100, 430, 8150, 3500), x, y)?;
@@ -29,7 +29,7 @@ pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
     let by_error = sheet.lettered(LETTERS[1], Frame::new(1100, 4900, 4300, 7350), x, y)?;
 
     let points = |place: &dyn Fn(&Entry) -> Option<f64>| {
-        by_method(&race.entries, |e| e.setting, |e| Some((place(e)?, e.horizon?[0])))
+        by_method(&race.entries, |e| e.setting, |e| Some((place(e)?, e.horizon()?.value)))
     };
     chaos(&by_error, race)?;
     let ceiling = allowed(race, ROUNDING);
@@ -39,12 +39,13 @@ pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
         let look = (TINY, INK, HPos::Right, VPos::Bottom);
         by_cost.note("what chaos allows to doubles", (by_cost.x.hi, ceiling), (0, -70), look)?;
     }
-    let by_work = |e: &Entry| e.evaluations_per_impact;
-    let by_median = |e: &Entry| e.segments.errors.map(|errors| errors[0]);
+    let by_work = |e: &Entry| e.work;
+    let by_median = |e: &Entry| e.errors.map(|errors| errors[0]);
     for (panel, place) in
         [(&by_cost, &by_work as &dyn Fn(&Entry) -> Option<f64>), (&by_error, &by_median)]
     {
-        let bars = by_method(&race.entries, |e| e.setting, |e| Some((place(e)?, e.horizon?[1])));
+        let bars =
+            by_method(&race.entries, |e| e.setting, |e| Some((place(e)?, e.horizon()?.error)));
         for ((method, points), (_, errors)) in points(place).iter().zip(bars) {
             let look = look(*method);
             let bars: Vec<_> =
@@ -61,7 +62,7 @@ pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
     let mut legend = entries(|method| present.iter().any(|(m, _)| *m == method));
     legend.extend(entries_of_others(&others(&programs)));
     sheet.legend_in_columns((350, 8600), (SMALL, 370), (4, 2800), &legend)?;
-    clock(&sheet, measured, race.parameters.chain.masses, top)?;
+    clock(&sheet, measured, race.parameters.growth.chain.masses, top)?;
     Ok(sheet.finish("s09", "How long a run is true", description(race)))
 }
 
@@ -105,13 +106,11 @@ fn clock(sheet: &Sheet, measured: &Measured, masses: usize, top: f64) -> Result<
 }
 
 fn description(race: &Race) -> String {
-    let growth = race.growth.growth.map_or("unknown".into(), |g| short(g.value, 3));
+    let growth = race.growth.growth().map_or("unknown".into(), |g| short(g.value, 3));
     format!(
         "Time up to which a run has every impact right, mean of {} chains with n = {} and σ = {}: (a) against evaluations per \
          impact, (b) against the median error of one impact, with the line that the growth λ = {growth} allows, (c) against \
          measured time, on one chain.",
-        race.impacts.len(),
-        race.parameters.chain.masses,
-        race.parameters.sigma,
+        race.parameters.chains, race.parameters.growth.chain.masses, race.parameters.growth.sigma,
     )
 }

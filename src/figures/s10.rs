@@ -3,7 +3,7 @@
 use super::prelude::*;
 use super::rivals::{Timed, by_method, entries, look, most_accurate, timed};
 use crate::experiments::Measured;
-use crate::experiments::accuracy::scale::{Scale as Costs, ScaleRow};
+use crate::experiments::accuracy::scale::Scale as Costs;
 use crate::experiments::accuracy::tables::name;
 use crate::experiments::measured::{Row, What};
 use crate::params::MethodName;
@@ -18,11 +18,10 @@ pub fn draw(scale: &Costs, measured: &Measured) -> Result<Figure, Error> {
     let own = own(measured);
     // Somewhat wider than the sizes, which would stand on the other axis.
     let masses = || Axis::decades(0, 5, 1, "number of masses *n*").from(7.0, 1.4e4);
-    let work = scale.rows.iter().map(|row| row.evaluations_per_impact);
+    let work = scale.iter().map(|row| row.2);
     let (x, y) = (masses().bare(), Axis::around(work, 1, "evaluations per impact"));
     let counted = sheet.lettered(LETTERS[0], Frame::new(1200, 430, 8150, 2730), x, y)?;
-    let point = |row: &ScaleRow| Some((row.masses as f64, row.evaluations_per_impact));
-    let all = by_method(&scale.rows, |row| row.setting, point);
+    let all = by_method(scale, |row| row.0, |row| Some((row.1 as f64, row.2)));
     for (method, points) in &all {
         let look = look(*method);
         counted.marked(name(*method), points, (look.2, look), Outside::Refuse)?;
@@ -103,11 +102,9 @@ fn ranked(sheet: &Sheet, programs: &[&Timed]) -> Result<(), Error> {
 }
 
 fn description(scale: &Costs, measured: &Measured) -> String {
-    let certified = |row: &&ScaleRow| row.setting.method == MethodName::Certified;
-    let most = scale.rows.iter().rfind(certified);
-    let counted = most.map_or("none".into(), |row| {
-        format!("{} at n = {}", short(row.evaluations_per_impact, 2), row.masses)
-    });
+    let most = scale.iter().rfind(|row| row.0.method == MethodName::Certified);
+    let counted =
+        most.map_or("none".into(), |(_, n, work)| format!("{} at n = {n}", short(*work, 2)));
     let last = own(measured).last().and_then(|row| Some((row.n, row.microseconds_per_impact?)));
     let timed = last.map_or("none".into(), |(n, time)| format!("{} at n = {n}", short(time, 2)));
     format!(

@@ -1,51 +1,73 @@
-//! Sizes of what the report says about speed and accuracy.
+//! Methods of simulation by name, and the sizes of what compares their speed and accuracy.
 
-use super::{Chain, HorizonParams, Profile};
+use super::{Chain, HorizonParams, Profile, Protocol, SEED};
+use impact_chain::methods::{
+    Advancement, Certified, Method, MoreauJean, Penalty, RungeKutta, Sampled, Truth, Verlet,
+};
 use serde::{Deserialize, Serialize};
+use std::slice;
 
-/// A way to simulate, as `impact-paper trace --method` names it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+/// A method of simulation by its name in results, in measurements and on the command line. The texts are the lines of
+/// `trace --help`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
 #[serde(rename_all = "kebab-case")]
 pub enum MethodName {
-    /// The certified engine of this project.
+    /// Flight in closed form, the first root of each gap certified: nothing is missed.
     Certified,
-    /// Gaps looked at on a grid of times, and bisection.
+    /// Flight in closed form, gaps sampled every --step [0.01], sign changes bisected: misses grazes.
     Sampled,
-    /// A Runge–Kutta pair of orders 5 and 4 with events.
+    /// Flight in closed form, gaps advanced by parabolas below them to --tolerance [1e-12]: hits near misses.
+    Advancement,
+    /// Dormand–Prince 5(4) with events, --tolerance [1e-9]: misses pairs of roots within a step.
     RungeKutta,
-    /// Time stepping on velocities.
+    /// Time stepping on velocities, --step [0.001]: first order, hits near misses, but can rest.
     MoreauJean,
-    /// Verlet's scheme with a flip of velocities.
+    /// Velocity Verlet with flips at the ends of steps, --step [0.001]: first order, impacts late.
     Verlet,
-    /// Springs where masses overlap.
+    /// A stiff damped spring for each contact, --step [0.0001]: order 1/2, restitution off in clusters.
     Penalty,
+    /// Every time to 106 bits, slowly: walls, one frequency, no contact; asks the engine which gap is next.
+    Truth,
 }
 
 impl MethodName {
-    /// All of them, ours first.
-    pub const ALL: [MethodName; 6] = [
+    /// The engine and its rivals.
+    pub const ALL: [MethodName; 7] = [
         MethodName::Certified,
         MethodName::Sampled,
+        MethodName::Advancement,
         MethodName::RungeKutta,
         MethodName::MoreauJean,
         MethodName::Verlet,
         MethodName::Penalty,
     ];
 
-    /// The name on the command line and in measurements.
-    pub fn id(self) -> &'static str {
+    /// The method with a step in units of 1/ω or a tolerance, if it has one.
+    pub fn with(self, value: f64) -> Box<dyn Method> {
         match self {
-            MethodName::Certified => "certified",
-            MethodName::Sampled => "sampled",
-            MethodName::RungeKutta => "runge-kutta",
-            MethodName::MoreauJean => "moreau-jean",
-            MethodName::Verlet => "verlet",
-            MethodName::Penalty => "penalty",
+            MethodName::Certified => Box::new(Certified),
+            MethodName::Sampled => Box::new(Sampled { step: value }),
+            MethodName::Advancement => Box::new(Advancement { tolerance: value }),
+            MethodName::RungeKutta => Box::new(RungeKutta { tolerance: value }),
+            MethodName::MoreauJean => Box::new(MoreauJean { step: value }),
+            MethodName::Verlet => Box::new(Verlet { step: value }),
+            MethodName::Penalty => Box::new(Penalty { step: value }),
+            MethodName::Truth => Box::new(Truth),
         }
+    }
+
+    /// Its name.
+    pub fn id(self) -> &'static str {
+        self.with(0.0).name()
+    }
+
+    /// Whether its setting is a tolerance and no step.
+    pub fn has_tolerance(self) -> bool {
+        matches!(self, MethodName::Advancement | MethodName::RungeKutta)
     }
 }
 
-/// A method with its step or tolerance; the certified engine has none, and 0 stands for it.
+/// A method with its step or tolerance; 0 for the engine, which has none.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Setting {
     /// The method.
@@ -54,22 +76,54 @@ pub struct Setting {
     pub value: f64,
 }
 
-/// Shorthand for lists of settings.
-pub(super) fn settings(list: &[(MethodName, &[f64])]) -> Vec<Setting> {
-    let of = |&(method, values): &(MethodName, &[f64])| {
-        values.iter().map(move |&value| Setting { method, value }).collect::<Vec<_>>()
-    };
-    list.iter().flat_map(of).collect()
+const STEPS: [f64; 4] = [1e-1, 1e-2, 1e-3, 1e-4];
+
+/// Settings of each method of [`MethodName::ALL`] in the race, coarse to fine.
+const RACE: [&[f64]; 7] = [
+    &[0.0],
+    &[0.5, 0.2, 0.1, 0.03, 0.01],
+    &[1e-3, 1e-6, 1e-9, 1e-12],
+    &[1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13],
+    &STEPS,
+    &STEPS,
+    &STEPS,
+];
+
+/// The same in the quick profile.
+const QUICK: [f64; 7] = [0.0, 0.1, 1e-9, 1e-3, 0.1, 0.1, 0.1];
+
+/// The same in the scenes where methods fail.
+const SCENES: [f64; 7] = [0.0, 0.03, 1e-12, 1e-9, 1e-3, 1e-3, 1e-3];
+
+/// The same against the number of masses, without the last method.
+const SCALE: [f64; 6] = [0.0, 0.1, 1e-12, 1e-6, 0.01, 0.01];
+
+const COARSE: [(f64, usize); 2] = [(0.1, 64), (0.01, 10)];
+
+/// The same for the bias of the mean, with numbers of chains.
+const BIAS: [&[(f64, usize)]; 7] =
+    [&[], &[(0.3, 24)], &[(1e-12, 24)], &[(1e-3, 6), (1e-6, 6)], &COARSE, &COARSE, &COARSE];
+
+/// Each method with each of its values.
+fn all<T: Copy>(values: &[&[T]]) -> Vec<(MethodName, T)> {
+    let own = MethodName::ALL.into_iter().zip(values);
+    own.flat_map(|(method, own)| own.iter().map(move |value| (method, *value))).collect()
 }
+
+fn settings(values: &[&[f64]]) -> Vec<Setting> {
+    all(values).into_iter().map(|(method, value)| Setting { method, value }).collect()
+}
+
+/// Random stream and seed of the chains: those of `benches/peers/measure.rs`, so that the first chain is the one on which
+/// other programs are measured.
+pub const BENCH: (&str, u64) = ("bench", 1);
 
 /// Every method against the true motion of a few chains: the next impact from many exact states,
 /// and whole runs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RaceParams {
-    /// The chain without its forcing.
-    pub chain: Chain,
-    /// Standard deviation σ.
-    pub sigma: f64,
+    /// The twins whose growth gives the line that chaos allows; all methods run the same chains.
+    pub growth: HorizonParams,
     /// Length of the runs; a run ends where it has left the truth.
     pub until: f64,
     /// Until then a run goes on although it has left the truth, so that its cost is known.
@@ -80,64 +134,24 @@ pub struct RaceParams {
     pub segments: usize,
     /// The methods.
     pub settings: Vec<Setting>,
-    /// The twins whose growth gives the line that chaos allows.
-    pub growth: HorizonParams,
-    /// Name of the random stream: that of `benches/peers/measure.rs`, so that its first chain is the one
-    /// on which other programs are measured.
-    pub stream: String,
-    /// Master seed, likewise.
-    pub seed: u64,
 }
 
 impl RaceParams {
     /// The sizes of each profile.
     pub fn new(profile: Profile) -> Self {
-        use MethodName::{Certified, MoreauJean, Penalty, RungeKutta, Sampled, Verlet};
-        let quick = settings(&[
-            (Certified, &[0.0]),
-            (Sampled, &[0.1]),
-            (RungeKutta, &[1e-3]),
-            (MoreauJean, &[1e-1]),
-            (Verlet, &[1e-1]),
-            (Penalty, &[1e-1]),
-        ]);
-        let whole = settings(&[
-            (Certified, &[0.0]),
-            (Sampled, &[0.5, 0.2, 0.1, 0.03, 0.01]),
-            (RungeKutta, &[1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13]),
-            (MoreauJean, &[1e-1, 1e-2, 1e-3, 1e-4]),
-            (Verlet, &[1e-1, 1e-2, 1e-3, 1e-4]),
-            (Penalty, &[1e-1, 1e-2, 1e-3, 1e-4]),
-        ]);
-        let (until, at_least, chains, segments, settings) = match profile {
-            Profile::Full => (250.0, 20.0, 12, 1200, whole),
-            Profile::Quick => (30.0, 10.0, 2, 12, quick),
-        };
-        let chain = Chain { masses: 20, ..Chain::default() };
-        let (stream, seed) = ("bench".to_string(), 1);
+        let quick = profile == Profile::Quick;
+        let (until, at_least, chains, segments, realisations) =
+            if quick { (30.0, 10.0, 2, 12, 6) } else { (250.0, 20.0, 12, 1200, 60) };
         let growth = HorizonParams {
-            chain: chain.clone(),
+            chain: Chain { masses: 20, ..Chain::default() },
             sigma: 0.3,
             until: 300.0,
-            realisations: match profile {
-                Profile::Full => 60,
-                Profile::Quick => 6,
-            },
-            stream: stream.clone(),
-            seed,
+            realisations,
+            stream: BENCH.0.into(),
+            seed: BENCH.1,
         };
-        RaceParams {
-            chain,
-            sigma: 0.3,
-            until,
-            at_least,
-            chains,
-            segments,
-            settings,
-            growth,
-            stream,
-            seed,
-        }
+        let settings = settings(&if quick { QUICK.each_ref().map(slice::from_ref) } else { RACE });
+        RaceParams { growth, until, at_least, chains, segments, settings }
     }
 }
 
@@ -148,80 +162,85 @@ pub struct TrialParams {
     pub settings: Vec<Setting>,
     /// Whether the scenes that take long (waits, many impacts) are cut short.
     pub short: bool,
-    /// Numbers of masses that are pressed together; without any that scene is left out.
-    pub clusters: Vec<u32>,
 }
 
 impl TrialParams {
     /// The sizes of each profile.
     pub fn new(profile: Profile) -> Self {
-        use MethodName::{Certified, MoreauJean, Penalty, RungeKutta, Sampled, Verlet};
-        TrialParams {
-            settings: settings(&[
-                (Certified, &[0.0]),
-                (Sampled, &[0.03]),
-                (RungeKutta, &[1e-9]),
-                (MoreauJean, &[1e-3]),
-                (Verlet, &[1e-3]),
-                (Penalty, &[1e-3]),
-            ]),
-            short: profile < Profile::Full,
-            clusters: match profile {
-                Profile::Full => vec![3, 5],
-                Profile::Quick => Vec::new(),
-            },
-        }
+        let settings = settings(&SCENES.each_ref().map(slice::from_ref));
+        TrialParams { settings, short: profile == Profile::Quick }
     }
 }
 
 /// Counted work of an impact against the number of masses.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ScaleParams {
-    /// The chain without its forcing and its number of masses.
-    pub chain: Chain,
     /// Standard deviation σ.
     pub sigma: f64,
     /// Numbers of masses n, rising.
     pub masses: Vec<usize>,
-    /// The methods, each with its largest n.
-    pub settings: Vec<(Setting, usize)>,
-    /// Name of the random stream.
-    pub stream: String,
-    /// Master seed.
-    pub seed: u64,
+    /// Largest n of all methods but the engine.
+    pub rivals: usize,
+    /// The methods.
+    pub settings: Vec<Setting>,
 }
 
 impl ScaleParams {
     /// The sizes of each profile.
     pub fn new(profile: Profile) -> Self {
-        use MethodName::{Certified, MoreauJean, RungeKutta, Sampled, Verlet};
-        let (masses, largest, rivals) = match profile {
-            Profile::Full => (vec![10, 30, 100, 300, 1000, 10_000], 10_000, 300),
-            Profile::Quick => (vec![10, 30, 100, 1000], 1000, 30),
+        let (masses, rivals) = match profile {
+            Profile::Full => (vec![10, 30, 100, 300, 1000, 10_000], 300),
+            Profile::Quick => (vec![10, 30, 100, 1000], 30),
         };
-        let list = settings(&[
-            (Certified, &[0.0]),
-            (Sampled, &[0.1]),
-            (RungeKutta, &[1e-6]),
-            (MoreauJean, &[0.01]),
-            (Verlet, &[0.01]),
-        ]);
-        let limit = |s: Setting| (s, if s.method == Certified { largest } else { rivals });
-        ScaleParams {
-            chain: Chain::default(),
-            sigma: 0.3,
-            masses,
-            settings: list.into_iter().map(limit).collect(),
-            stream: "bench".into(),
-            seed: 1,
-        }
+        let settings = settings(&SCALE.each_ref().map(slice::from_ref));
+        ScaleParams { sigma: 0.3, masses, rivals, settings }
     }
+}
 
-    /// Simulated time at n masses: that of `benches/peers/measure.rs`, and short for rivals.
-    pub fn until(&self, masses: usize, method: MethodName) -> f64 {
-        match method {
-            MethodName::Certified => (200_000.0 / masses as f64).clamp(10.0, 200.0),
-            _ => 20.0,
+/// The mean number of distinct gaps by every method, on the same chains.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BiasParams {
+    /// The chain without its forcing.
+    pub chain: Chain,
+    /// Standard deviations σ, each with transient and window.
+    pub scenes: Vec<(f64, Protocol)>,
+    /// The methods, each with its number of realisations.
+    pub settings: Vec<(Setting, usize)>,
+    /// Name of the random stream: that of the main sweep.
+    pub stream: String,
+    /// Master seed, likewise.
+    pub seed: u64,
+}
+
+impl BiasParams {
+    /// The sizes of each profile.
+    pub fn new(profile: Profile) -> Self {
+        let short = Protocol { transient: 100.0, window: 100.0 };
+        let bias =
+            |(method, (value, n)): (MethodName, (f64, usize))| (Setting { method, value }, n);
+        let all = all(&BIAS).into_iter().map(bias);
+        let (scenes, settings) = match profile {
+            Profile::Quick => (
+                vec![(0.12, short), (0.3, short)],
+                all.filter(|own| own.0.value == 0.1).map(|own| (own.0, 2)).collect(),
+            ),
+            Profile::Full => {
+                (vec![(0.12, Protocol::default()), (0.15, short), (0.3, short)], all.collect())
+            }
+        };
+        BiasParams { chain: Chain::default(), scenes, settings, stream: "sweep".into(), seed: SEED }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_method_has_one_name_everywhere() {
+        for name in MethodName::ALL.into_iter().chain([MethodName::Truth]) {
+            assert_eq!(serde_json::json!(name), name.id());
+            assert_eq!(clap::ValueEnum::to_possible_value(&name).unwrap().get_name(), name.id());
         }
     }
 }

@@ -1,6 +1,7 @@
 //! `impact-paper trace`: its table, its methods, and what it says of ties.
 
 use crate::{SCENARIO, answer, program, run};
+use impact_paper::params::MethodName;
 use std::io::Write;
 use std::process::Stdio;
 
@@ -33,7 +34,7 @@ fn the_method_that_is_named_is_run() {
     let folder = folder(SCENARIO);
     let by = |method: &str| answer(folder.path(), &format!("trace s.json --until 10{method}"));
     let plain = by("");
-    for method in ["certified", "sampled", "runge-kutta", "moreau-jean", "verlet", "penalty"] {
+    for method in MethodName::ALL.map(MethodName::id) {
         let out = by(&format!(" --method {method}"));
         assert!(out.lines().count() > 5, "{out}");
         assert_eq!(out == plain, method == "certified", "{method}");

@@ -7,8 +7,6 @@ use serde::{Deserialize, Serialize};
 /// One run and its outcome.
 #[derive(Clone, Debug)]
 pub struct Case {
-    /// What is special about it: `depth 1e-3`.
-    pub name: String,
     /// The chain.
     pub scenario: Scenario,
     /// Where it starts.
@@ -19,79 +17,56 @@ pub struct Case {
     pub expected: Expected,
 }
 
+/// How far off a time may be in most scenes, in units of 1/ω: coarse enough for every method at
+/// its usual step.
+pub const NEAR: f64 = 1e-2;
+
+/// How far off a speed may be that should not change, relative to it.
+const STEADY: f64 = 1e-6;
+
 /// What must come out of a case.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Expected {
-    /// The first impact.
-    First {
-        /// Its gap.
-        gap: usize,
-        /// Its time.
-        time: f64,
-        /// How far off a time may be.
-        within: f64,
-    },
-    /// No impact at all.
-    Nothing,
-    /// Two gaps are hit at the same time, in any order, before anything else.
-    Together {
-        /// The gaps.
-        gaps: [usize; 2],
-        /// The time.
-        time: f64,
-        /// How far off a time may be.
-        within: f64,
-    },
-    /// Some of the impacts, in order; bounces that die out and what happens within a cluster are
-    /// a matter of the method.
-    Sequence {
+    /// Impacts in order, of those that count: bounces that die out and what happens within a cluster are a matter of the
+    /// method.
+    Impacts {
         /// Time and gap of each.
         impacts: Vec<(f64, usize)>,
-        /// Slower impacts are passed over.
+        /// Slower impacts do not count.
         faster: f64,
-        /// Impacts of other gaps are passed over.
+        /// Nor do those of other gaps; all gaps do if this is empty.
         among: Vec<usize>,
+        /// Whether none may follow to the end of the run.
+        all: bool,
         /// How far off a time may be.
         within: f64,
     },
-    /// Some of the impacts, in order, and none after them to the end: bounces that die out.
-    Rest {
-        /// Time and gap of each.
-        impacts: Vec<(f64, usize)>,
-        /// Slower impacts are passed over.
-        faster: f64,
-        /// How far off a time may be.
-        within: f64,
-    },
+    /// Two gaps are hit at a time, in any order, before anything else.
+    Together([usize; 2], f64),
     /// For each impact at gap k one at gap N − 1 − k at the same time.
-    Mirror {
-        /// How far off a time may be.
-        within: f64,
-    },
-    /// All impacts at the same closing speed.
-    Steady {
-        /// How many impacts, at least.
-        impacts: u64,
-        /// The speed.
-        speed: f64,
-        /// How far off, relative to it.
-        within: f64,
-    },
+    Mirror,
+    /// So many impacts at least, all at this closing speed.
+    Steady(usize, f64),
     /// An error, before anything is run.
     Refused,
 }
 
-/// What a method made of a case.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Outcome {
-    /// In one word.
-    pub verdict: Verdict,
-    /// How far off its time (or, for steady speeds, its relative speed) was, where that was seen.
-    pub error: Option<f64>,
+impl Expected {
+    /// The first impact.
+    pub fn first(gap: usize, time: f64, within: f64) -> Expected {
+        let (impacts, faster, among) = (vec![(time, gap)], -1.0, Vec::new());
+        Expected::Impacts { impacts, faster, among, all: false, within }
+    }
+
+    /// No impact at all.
+    pub fn nothing() -> Expected {
+        let (impacts, faster, among) = (Vec::new(), -1.0, Vec::new());
+        Expected::Impacts { impacts, faster, among, all: true, within: 0.0 }
+    }
 }
 
 /// An outcome in one word.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
     /// As expected.
@@ -129,144 +104,94 @@ impl Verdict {
 }
 
 impl Case {
-    /// Runs a method on this case and judges what it did.
-    pub fn judge(&self, method: &dyn Method) -> Outcome {
-        let mut judge = Judge { case: self, seen: Vec::new(), count: 0, worst: 0.0 };
-        let ran = method.run(&self.scenario, &self.start, self.until, &mut |i| judge.see(i));
+    /// Runs a method on this case and judges what it did. Returns how far off its times were too, at most.
+    pub fn judge(&self, method: &dyn Method) -> (Verdict, f64) {
+        let mut seen = Vec::new();
+        let ran = method.run(&self.scenario, &self.start, self.until, &mut |impact| {
+            if self.counts(&impact) {
+                seen.push(impact);
+            }
+            self.goes_on(seen.len())
+        });
         match (ran, &self.expected) {
             (Err(Error::Input { .. } | Error::Overlap { .. }), Expected::Refused) => {
-                Outcome { verdict: Verdict::Right, error: None }
+                (Verdict::Right, 0.0)
             }
-            (Ok(_), Expected::Refused) => Outcome { verdict: Verdict::Accepted, error: None },
-            (Err(_), _) => Outcome { verdict: Verdict::GaveUp, error: None },
-            (Ok(_), _) => judge.end(),
-        }
-    }
-}
-
-/// What was seen of a run so far, as far as the expectation needs it.
-struct Judge<'a> {
-    case: &'a Case,
-    seen: Vec<Impact>,
-    count: u64,
-    worst: f64,
-}
-
-impl Judge<'_> {
-    /// Whether the run should go on.
-    fn see(&mut self, impact: Impact) -> bool {
-        self.count += 1;
-        match &self.case.expected {
-            Expected::First { .. } | Expected::Nothing | Expected::Refused => {
-                self.seen.push(impact);
-                false
-            }
-            Expected::Together { .. } => {
-                self.seen.push(impact);
-                self.seen.len() < 2
-            }
-            Expected::Sequence { impacts, faster, among, .. } => {
-                if impact.closing_speed > *faster && among.contains(&impact.gap) {
-                    self.seen.push(impact);
-                }
-                self.seen.len() < impacts.len()
-            }
-            Expected::Rest { impacts, faster, .. } => {
-                if impact.closing_speed > *faster {
-                    self.seen.push(impact);
-                }
-                self.seen.len() <= impacts.len()
-            }
-            Expected::Mirror { .. } => {
-                self.seen.push(impact);
-                true
-            }
-            Expected::Steady { speed, .. } => {
-                self.worst = self.worst.max((impact.closing_speed / speed - 1.0).abs());
-                true
-            }
+            (Ok(_), Expected::Refused) => (Verdict::Accepted, 0.0),
+            (Err(_), _) => (Verdict::GaveUp, 0.0),
+            (Ok(_), _) => self.judged(&seen),
         }
     }
 
-    fn end(&self) -> Outcome {
-        match &self.case.expected {
-            Expected::First { gap, time, within } => self.in_order(&[(*time, *gap)], *within),
-            Expected::Sequence { impacts, within, .. } => self.in_order(impacts, *within),
-            Expected::Rest { impacts, within, .. } => match self.in_order(impacts, *within) {
-                found if found.verdict == Verdict::Right && self.seen.len() > impacts.len() => {
-                    Outcome { verdict: Verdict::Ghost, error: None }
+    fn counts(&self, impact: &Impact) -> bool {
+        let Expected::Impacts { faster, among, .. } = &self.expected else { return true };
+        impact.closing_speed > *faster && (among.is_empty() || among.contains(&impact.gap))
+    }
+
+    /// Whether the run should go on after so many impacts that count.
+    fn goes_on(&self, seen: usize) -> bool {
+        match &self.expected {
+            Expected::Impacts { impacts, all, .. } => seen < impacts.len() + usize::from(*all),
+            Expected::Together(..) => seen < 2,
+            Expected::Mirror | Expected::Steady(..) => true,
+            Expected::Refused => false,
+        }
+    }
+
+    fn judged(&self, seen: &[Impact]) -> (Verdict, f64) {
+        match &self.expected {
+            Expected::Impacts { impacts, within, .. } => in_order(impacts, *within, seen),
+            Expected::Refused => (Verdict::Accepted, 0.0),
+            Expected::Together(gaps, time) => {
+                let mut found: Vec<usize> = seen.iter().map(|impact| impact.gap).collect();
+                found.sort_unstable();
+                let off = seen.iter().map(|impact| (impact.time - time).abs());
+                match found == gaps {
+                    true => least(off.fold(0.0, f64::max), NEAR, Verdict::Displaced),
+                    false if seen.len() < 2 => (Verdict::Missed, 0.0),
+                    false => (Verdict::WrongGap, 0.0),
                 }
-                found => found,
-            },
-            Expected::Nothing if self.seen.is_empty() => right(None),
-            Expected::Nothing => Outcome { verdict: Verdict::Ghost, error: None },
-            Expected::Refused => Outcome { verdict: Verdict::Accepted, error: None },
-            Expected::Together { gaps, time, within } => {
-                let mut seen: Vec<usize> = self.seen.iter().map(|impact| impact.gap).collect();
-                seen.sort_unstable();
-                if seen != gaps {
-                    let verdict = if seen.len() < 2 { Verdict::Missed } else { Verdict::WrongGap };
-                    return Outcome { verdict, error: None };
-                }
-                let off = |impact: &Impact| (impact.time - time).abs();
-                timed(self.seen.iter().map(off).fold(0.0, f64::max), *within)
             }
-            Expected::Mirror { within } => self.mirror(*within),
-            Expected::Steady { impacts, within, .. } => {
-                let verdict = match (self.count >= *impacts, self.worst <= *within) {
-                    (false, _) => Verdict::Missed,
-                    (true, false) => Verdict::Drifted,
-                    (true, true) => Verdict::Right,
+            Expected::Mirror if seen.is_empty() => (Verdict::Missed, 0.0),
+            Expected::Mirror => {
+                let last = self.scenario.gaps() - 1;
+                let off = |impact: &Impact| {
+                    let partners = seen.iter().filter(|other| other.gap == last - impact.gap);
+                    let off = partners.map(|other| (other.time - impact.time).abs());
+                    off.fold(f64::INFINITY, f64::min)
                 };
-                Outcome { verdict, error: Some(self.worst) }
+                let early = seen.iter().filter(|impact| impact.time < self.until - NEAR);
+                least(early.map(off).fold(0.0, f64::max), NEAR, Verdict::WrongGap)
             }
-        }
-    }
-
-    /// Impacts one after the other.
-    fn in_order(&self, expected: &[(f64, usize)], within: f64) -> Outcome {
-        let mut worst: f64 = 0.0;
-        for (i, (time, gap)) in expected.iter().enumerate() {
-            let Some(seen) = self.seen.get(i) else {
-                return Outcome { verdict: Verdict::Missed, error: None };
-            };
-            let early = seen.time - time;
-            worst = worst.max(early.abs());
-            if seen.gap != *gap {
-                let verdict = if early < -within { Verdict::Ghost } else { Verdict::WrongGap };
-                return Outcome { verdict, error: None };
+            Expected::Steady(impacts, _) if seen.len() < *impacts => (Verdict::Missed, 0.0),
+            Expected::Steady(_, speed) => {
+                let off = seen.iter().map(|impact| (impact.closing_speed / speed - 1.0).abs());
+                least(off.fold(0.0, f64::max), STEADY, Verdict::Drifted)
             }
-            if early.abs() > within {
-                return Outcome { verdict: Verdict::Displaced, error: Some(worst) };
-            }
-        }
-        right(Some(worst))
-    }
-
-    fn mirror(&self, within: f64) -> Outcome {
-        let last = self.case.scenario.gaps() - 1;
-        let until = self.case.until;
-        let mut worst: f64 = 0.0;
-        for impact in self.seen.iter().filter(|impact| impact.time < until - within) {
-            let partners = self.seen.iter().filter(|other| other.gap == last - impact.gap);
-            let nearest = partners.map(|other| (other.time - impact.time).abs());
-            worst = worst.max(nearest.fold(f64::INFINITY, f64::min));
-        }
-        match self.seen.is_empty() {
-            true => Outcome { verdict: Verdict::Missed, error: None },
-            false if worst <= within => right(Some(worst)),
-            false => Outcome { verdict: Verdict::WrongGap, error: None },
         }
     }
 }
 
-fn right(error: Option<f64>) -> Outcome {
-    Outcome { verdict: Verdict::Right, error }
+/// Right if the worst is within a bound.
+fn least(worst: f64, within: f64, otherwise: Verdict) -> (Verdict, f64) {
+    (if worst <= within { Verdict::Right } else { otherwise }, worst)
 }
 
-fn timed(worst: f64, within: f64) -> Outcome {
-    let verdict = if worst <= within { Verdict::Right } else { Verdict::Displaced };
-    Outcome { verdict, error: Some(worst) }
+/// Impacts one after the other, and no more.
+fn in_order(expected: &[(f64, usize)], within: f64, seen: &[Impact]) -> (Verdict, f64) {
+    let mut worst: f64 = 0.0;
+    for (i, (time, gap)) in expected.iter().enumerate() {
+        let Some(seen) = seen.get(i) else { return (Verdict::Missed, worst) };
+        let early = seen.time - time;
+        worst = worst.max(early.abs());
+        if seen.gap != *gap {
+            return (if early < -within { Verdict::Ghost } else { Verdict::WrongGap }, worst);
+        }
+        if early.abs() > within {
+            return (Verdict::Displaced, worst);
+        }
+    }
+    (if seen.len() > expected.len() { Verdict::Ghost } else { Verdict::Right }, worst)
 }
 
 #[cfg(test)]
@@ -275,60 +200,46 @@ mod tests {
     use super::*;
     use impact_chain::methods::{Certified, Cost};
 
-    /// A judge that lets everything pass would be no judge: a false copy of the engine fails.
+    /// The engine with another time and closing speed of each impact, or without any.
+    struct False(f64);
+
+    impl Method for False {
+        fn name(&self) -> &'static str {
+            "false"
+        }
+
+        fn run(
+            &self,
+            scenario: &Scenario,
+            start: &State,
+            until: f64,
+            sink: &mut dyn FnMut(Impact) -> bool,
+        ) -> Result<Cost, Error> {
+            if self.0 == 0.0 {
+                return Ok(Cost::default());
+            }
+            Certified.run(scenario, start, until, &mut |impact| {
+                let (time, speed) = (impact.time + self.0, impact.closing_speed * (1.0 + self.0));
+                sink(Impact { time, closing_speed: speed, ..impact })
+            })
+        }
+    }
+
+    /// A judge that lets everything pass would be no judge.
     #[test]
     fn a_method_that_errs_is_told() {
-        struct Late(f64);
-        impl Method for Late {
-            fn name(&self) -> &'static str {
-                "late"
-            }
-            fn run(
-                &self,
-                scenario: &Scenario,
-                start: &State,
-                until: f64,
-                sink: &mut dyn FnMut(Impact) -> bool,
-            ) -> Result<Cost, Error> {
-                Certified.run(scenario, start, until, &mut |impact| {
-                    sink(Impact {
-                        time: impact.time + self.0,
-                        closing_speed: impact.closing_speed * (1.0 + self.0),
-                        gap: impact.gap,
-                    })
-                })
-            }
-        }
-        struct Blind;
-        impl Method for Blind {
-            fn name(&self) -> &'static str {
-                "blind"
-            }
-            fn run(
-                &self,
-                _: &Scenario,
-                _: &State,
-                _: f64,
-                _: &mut dyn FnMut(Impact) -> bool,
-            ) -> Result<Cost, Error> {
-                Ok(Cost::default())
-            }
-        }
-        for scene in scenes::all(true, &[3]).unwrap() {
+        for scene in scenes::all(true).unwrap() {
             for case in &scene.cases {
-                let late = case.judge(&Late(0.05)).verdict;
-                let blind = case.judge(&Blind).verdict;
-                let quiet = case.expected == Expected::Nothing;
-                match scene.id {
-                    "bad-input" => assert_eq!((late, blind), (Verdict::Right, Verdict::Accepted)),
-                    "elastic" => assert_eq!((late, blind), (Verdict::Drifted, Verdict::Missed)),
+                let [(late, _), (blind, _)] = [0.05, 0.0].map(|by| case.judge(&False(by)));
+                let expected = match scene.id {
+                    "bad-input" => (Verdict::Right, Verdict::Accepted),
+                    "elastic" => (Verdict::Drifted, Verdict::Missed),
                     // A common delay leaves a mirror image a mirror image.
-                    "mirror" => assert_eq!((late, blind), (Verdict::Right, Verdict::Missed)),
-                    _ if quiet => assert_eq!((late, blind), (Verdict::Right, Verdict::Right)),
-                    id => {
-                        assert_eq!((late, blind), (Verdict::Displaced, Verdict::Missed), "{id}");
-                    }
-                }
+                    "mirror" => (Verdict::Right, Verdict::Missed),
+                    _ if case.expected == Expected::nothing() => (Verdict::Right, Verdict::Right),
+                    _ => (Verdict::Displaced, Verdict::Missed),
+                };
+                assert_eq!((late, blind), expected, "{}", scene.id);
             }
         }
     }

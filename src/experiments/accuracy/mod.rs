@@ -13,7 +13,6 @@
 pub mod bias;
 pub mod case;
 pub mod race;
-mod routes;
 pub mod scale;
 pub mod scenes;
 pub mod tables;

@@ -1,13 +1,12 @@
 //! What the comparison of methods says.
 
-use super::bias::{self, BiasRow, Biases};
+use super::bias::{self, Biases, Counted};
 use super::race::{self, DISPLACED, Entry, Race};
-use super::scale::{self, Scale, ScaleRow};
-use crate::experiments::Measured;
-use crate::experiments::measured::What;
+use super::scale::{self, Scale};
 use crate::params::{MethodName, Setting};
+use impact_chain::methods::Cost;
 use impact_numerics::estimates::with_error;
-use impact_numerics::statistics::Estimate;
+use impact_numerics::statistics::{Estimate, mean, standard_error};
 use literate::table::Table;
 use literate::value::origin;
 
@@ -16,16 +15,18 @@ pub fn name(method: MethodName) -> &'static str {
     match method {
         MethodName::Certified => "engine",
         MethodName::Sampled => "sampling",
+        MethodName::Advancement => "advancement",
         MethodName::RungeKutta => "Runge–Kutta",
         MethodName::MoreauJean => "time stepping",
         MethodName::Verlet => "Verlet",
         MethodName::Penalty => "penalty springs",
+        MethodName::Truth => "true motion",
     }
 }
 
 /// A method with its step or tolerance, as Markdown.
 pub fn titled(setting: Setting) -> String {
-    let letter = if setting.method == MethodName::RungeKutta { r"\mathrm{tol}" } else { "h" };
+    let letter = if setting.method.has_tolerance() { r"\mathrm{tol}" } else { "h" };
     match setting.method {
         MethodName::Certified => name(setting.method).to_string(),
         method => format!("{}, ${letter} = {}$", name(method), power(setting.value)),
@@ -68,41 +69,36 @@ fn entries(name: &'static str, entries: &[&Entry]) -> Table {
         .text_key("method", |entry| entry.setting.method.id().into())
         .chosen("setting", "1/omega", "step or tolerance", |entry| Some(entry.setting.value))
         .computed_by(origin(race::run))
-        .count("misses", "states from which the next impact is missed", |entry| {
-            entry.segments.misses
-        })
+        .count("misses", "states from which the next impact is missed", |entry| entry.misses)
         .real("error", "1/omega", 1, "median error of its time", |entry| {
-            or_nan(entry.segments.errors.map(|errors| errors[0]))
+            or_nan(entry.errors.map(|errors| errors[0]))
         })
         .real("units", "1", 2, "largest error over what rounding the gap does", |entry| {
-            or_nan(entry.segments.units)
+            or_nan(entry.units)
         })
-        .real("work", "1", 2, "evaluations per impact", |entry| {
-            or_nan(entry.evaluations_per_impact)
-        })
-        .estimate("horizon", "1/omega", "time up to which a run is true", |entry| {
-            entry.horizon.map(|[mean, error]| with_error(mean, error))
-        })
+        .real("work", "1", 2, "evaluations per impact", |entry| or_nan(entry.work))
+        .estimate("horizon", "1/omega", "time up to which a run is true", |entry| entry.horizon())
         .done()
 }
 
 fn all(race: &Race) -> Table {
-    let cost = |entry: &&Entry| or_nan(entry.evaluations_per_impact);
-    let faultless = race.entries.iter().filter(|entry| {
-        entry.setting.method != MethodName::Certified && entry.segments.misses == 0
-    });
+    let cost = |entry: &&Entry| or_nan(entry.work);
+    let faultless = race
+        .entries
+        .iter()
+        .filter(|entry| entry.setting.method != MethodName::Certified && entry.misses == 0);
     let best = faultless.min_by(|a, b| cost(a).total_cmp(&cost(b)));
-    let tried = race.entries.iter().map(|entry| entry.segments.tried).max();
+    let tried = race.entries.iter().map(|entry| entry.tried).max();
     // ln of a displacement over the rounding of one.
     let folds = pxfm::f_log(DISPLACED / (f64::EPSILON / 2.0));
-    let growth = race.growth.growth;
+    let (run, growth) = (&race.parameters.growth, race.growth.growth());
     Table::of("race.all", &[()], |()| race.growth.twins.len())
-        .chosen("masses", "1", "masses", |()| Some(race.parameters.chain.masses as f64))
-        .chosen("sigma", "d omega^2", "standard deviation σ", |()| Some(race.parameters.sigma))
+        .chosen("masses", "1", "masses", |()| Some(run.chain.masses as f64))
+        .chosen("sigma", "d omega^2", "standard deviation σ", |()| Some(run.sigma))
         .chosen("until", "1/omega", "the end of the runs", |()| Some(race.parameters.until))
         .chosen("displaced", "1/omega", "from here on an impact is another", |()| Some(DISPLACED))
         .computed_by(origin(race::run))
-        .count("chains", "chains", |()| race.impacts.len() as u64)
+        .count("chains", "chains", |()| race.parameters.chains as u64)
         .count("states", "from which each method is asked for the next impact", |()| {
             tried.unwrap_or(0)
         })
@@ -122,10 +118,54 @@ fn all(race: &Race) -> Table {
         .done()
 }
 
-/// Bias and its error as shares of the mean.
-fn share(row: &BiasRow) -> Option<Estimate> {
-    let own = row.own_mean.filter(|own| *own > 0.0)?;
-    Some(with_error(row.bias? / own, row.error? / own))
+/// One method at one σ beside the engine on the same chains.
+pub struct Compared {
+    /// The method.
+    pub setting: Setting,
+    /// σ.
+    pub sigma: f64,
+    /// Chains that both ran to the end.
+    pub pairs: usize,
+    /// Mean difference of their counts over the engine's mean count, with the error of differences chain by chain.
+    pub share: Option<Estimate>,
+    /// Evaluations per impact.
+    pub work: Option<f64>,
+}
+
+fn counts(runs: &[Counted]) -> impl Iterator<Item = Option<f64>> {
+    runs.iter().map(|run| run.distinct.map(f64::from))
+}
+
+/// The comparisons of all methods, settings outer.
+pub fn compared(biases: &Biases) -> Vec<Compared> {
+    let mut rows = Vec::new();
+    for (i, (setting, _)) in biases.parameters.settings.iter().enumerate() {
+        for ((sigma, _), runs) in biases.parameters.scenes.iter().zip(&biases.runs) {
+            let (ours, theirs) = (&runs[0], &runs[i + 1]);
+            let pairs: Vec<(f64, f64)> =
+                counts(theirs).zip(counts(ours)).filter_map(|(a, b)| a.zip(b)).collect();
+            let differences: Vec<f64> = pairs.iter().map(|(a, b)| a - b).collect();
+            let own = mean(&pairs.iter().map(|pair| pair.1).collect::<Vec<_>>());
+            let share = || {
+                let own = own.filter(|own| *own > 0.0)?;
+                Some(with_error(mean(&differences)? / own, standard_error(&differences)? / own))
+            };
+            let mut cost = Cost::default();
+            for run in theirs {
+                cost.impacts += run.impacts;
+                cost.evaluations += run.evaluations;
+            }
+            let (share, work) = (share(), cost.evaluations_per_impact());
+            rows.push(Compared {
+                setting: *setting,
+                sigma: *sigma,
+                pairs: pairs.len(),
+                share,
+                work,
+            });
+        }
+    }
+    rows
 }
 
 /// A setting in addresses.
@@ -133,36 +173,34 @@ fn called(setting: Setting) -> String {
     format!("{}-{}", setting.method.id(), setting.value)
 }
 
-fn address(row: &BiasRow) -> String {
-    format!("bias.cells[setting={},sigma={}].share", called(row.setting), row.sigma)
-}
-
 /// The bias of the mean.
 pub fn bias(biases: &Biases) -> Vec<Table> {
-    let order: Vec<Setting> = biases.parameters.settings.iter().map(|own| own.0).collect();
-    let mut rows: Vec<&BiasRow> = biases.rows.iter().collect();
-    rows.sort_by_key(|row| order.iter().position(|own| *own == row.setting));
-    let cells = Table::of("bias.cells", &rows, |row| row.pairs as usize)
+    let rows = compared(biases);
+    let cells = Table::of("bias.cells", &rows, |row| row.pairs)
         .text_key("setting", |row| called(row.setting))
         .key("sigma", "d omega^2", |row| row.sigma)
         .words("name", "method with step or tolerance", |row| titled(row.setting))
         .computed_by(origin(bias::run))
-        .estimate("share", "1", "bias of the mean over the mean", |row| share(row))
+        .estimate("share", "1", "bias of the mean over the mean", |row| row.share)
         .done();
-    let scenes: Vec<_> = biases.certified.iter().zip(&biases.parameters.scenes).collect();
-    let means = Table::of("bias.means", &scenes, |(own, _)| own.realisations as usize)
-        .key("sigma", "d omega^2", |(own, _)| own.sigma)
-        .chosen("transient", "1/omega", "transient", |(_, scene)| Some(scene.1.transient))
-        .chosen("window", "1/omega", "window", |(_, scene)| Some(scene.1.window))
+    let engine = |runs: &Vec<Vec<Counted>>| counts(&runs[0]).flatten().collect::<Vec<f64>>();
+    let scenes: Vec<_> =
+        biases.parameters.scenes.iter().zip(biases.runs.iter().map(engine)).collect();
+    let means = Table::of("bias.means", &scenes, |(_, own)| own.len())
+        .key("sigma", "d omega^2", |(scene, _)| scene.0)
+        .chosen("transient", "1/omega", "transient", |(scene, _)| Some(scene.1.transient))
+        .chosen("window", "1/omega", "window", |(scene, _)| Some(scene.1.window))
         .computed_by(origin(bias::run))
-        .real("mean", "1", 3, "mean number of impacting gaps, by the engine", |(own, _)| own.mean)
+        .real("mean", "1", 3, "mean number of impacting gaps, by the engine", |(_, own)| {
+            or_nan(mean(own))
+        })
         .done();
     let at = |sigma: Option<f64>| {
-        let rows = biases.rows.iter().filter(move |row| Some(row.sigma) == sigma);
-        rows.filter_map(|row| Some((row, share(row)?)))
+        let rows = rows.iter().filter(move |row| Some(row.sigma) == sigma);
+        rows.filter_map(|row| Some((row, row.share?)))
     };
-    let [low, high] =
-        [biases.certified.first(), biases.certified.last()].map(|own| own.map(|own| own.sigma));
+    let sigmas = &biases.parameters.scenes;
+    let [low, high] = [sigmas.first(), sigmas.last()].map(|own| own.map(|own| own.0));
     // The one that is large for sure: two standard errors less.
     let surely = |own: &Estimate| own.value.abs() - 2.0 * own.error;
     let worst = at(low).max_by(|a, b| surely(&a.1).total_cmp(&surely(&b.1)));
@@ -170,7 +208,10 @@ pub fn bias(biases: &Biases) -> Vec<Table> {
     let [near, far] = [low, high].map(|sigma| at(sigma).find(|(row, _)| row.setting == verlet));
     // Within one per cent, one standard error allowed for.
     let good = || at(high).filter(|(_, own)| own.value.abs() - own.error <= 0.01).count();
-    let same = |own: Option<(&BiasRow, Estimate)>| own.map(|(row, _)| address(row));
+    let same = |own: Option<(&Compared, Estimate)>| {
+        let (setting, sigma) = own.map(|(row, _)| (called(row.setting), row.sigma))?;
+        Some(format!("bias.cells[setting={setting},sigma={sigma}].share"))
+    };
     let ends = Table::of("bias.ends", &[()], |()| 0)
         .chosen("low", "d omega^2", "σ on the rise", |()| low)
         .chosen("high", "d omega^2", "σ far above it", |()| high)
@@ -180,7 +221,7 @@ pub fn bias(biases: &Biases) -> Vec<Table> {
         })
         .computed_by(origin(bias::run))
         .real("work", "1", 2, "evaluations per impact of that scheme", |()| {
-            or_nan(far.and_then(|(row, _)| row.evaluations_per_impact))
+            or_nan(far.and_then(|(row, _)| row.work))
         })
         .count("good", "settings within one per cent far above the rise", |()| good() as u64)
         .count("settings", "settings that were run there", |()| at(high).count() as u64)
@@ -196,44 +237,21 @@ pub fn bias(biases: &Biases) -> Vec<Table> {
 
 /// Fig. S10.
 pub fn scale(scale: &Scale) -> Vec<Table> {
-    let of = |method| scale.rows.iter().filter(move |row| row.setting.method == method);
-    let methods = MethodName::ALL.into_iter();
-    let ends: Vec<[&ScaleRow; 2]> =
-        methods.filter_map(|method| Some([of(method).next()?, of(method).next_back()?])).collect();
+    let ends = MethodName::ALL.into_iter().filter_map(|method| {
+        let own = || scale.iter().filter(move |row| row.0.method == method);
+        own().next().zip(own().next_back())
+    });
+    let ends: Vec<_> = ends.collect();
     let table = Table::of("scale.ends", &ends, |_| 1)
-        .text_key("method", |[own, _]| own.setting.method.id().into())
-        .chosen("setting", "1/omega", "step or tolerance", |[own, _]| Some(own.setting.value))
-        .chosen("small", "1", "fewest masses", |[own, _]| Some(own.masses as f64))
-        .chosen("large", "1", "most masses", |[_, own]| Some(own.masses as f64))
+        .text_key("method", |(own, _)| own.0.method.id().into())
+        .chosen("setting", "1/omega", "step or tolerance", |(own, _)| Some(own.0.value))
+        .chosen("small", "1", "fewest masses", |(own, _)| Some(own.1 as f64))
+        .chosen("large", "1", "most masses", |(_, own)| Some(own.1 as f64))
         .computed_by(origin(scale::run))
-        .real("work_small", "1", 2, "evaluations per impact", |ends| ends[0].evaluations_per_impact)
-        .real("work_large", "1", 2, "evaluations per impact", |ends| ends[1].evaluations_per_impact)
+        .real("work_small", "1", 2, "evaluations per impact", |(own, _)| own.2)
+        .real("work_large", "1", 2, "evaluations per impact", |(_, own)| own.2)
         .done();
     vec![table]
-}
-
-/// When and where times were measured.
-pub fn measured(measured: &Measured) -> Vec<Table> {
-    let machine = &measured.machine;
-    let table = Table::of("measured.machine", &[()], |()| 1)
-        .computed_by(origin(Measured::parse))
-        .words("date", "when", |()| measured.date.clone())
-        .words("processor", "on what", |()| machine.processor.replace("(R)", ""))
-        .words("os", "under what", |()| machine.os.replace('_', "-"))
-        .count("cores", "processors", |()| u64::from(machine.cores))
-        .measured();
-    let time = |what| {
-        let own = measured.of(what).filter(|row| row.n == 100 && row.chains == 1);
-        or_nan(own.filter_map(|row| row.microseconds_per_impact).next())
-    };
-    let impact = Table::of("measured.impact", &[()], |()| 1)
-        .computed_by(origin(Measured::parse))
-        .real("engine", "us", 2, "time of an impact in the engine, one chain of 100 masses", |()| {
-            time(What::Engine)
-        })
-        .real("ballistic", "us", 2, "the same of masses that fly freely", |()| time(What::Model))
-        .measured();
-    vec![table.done(), impact.done()]
 }
 
 #[cfg(test)]
@@ -248,21 +266,5 @@ mod tests {
         assert_eq!(spoken(fine), r"Runge–Kutta with $\mathrm{tol} = 2\times10^{-9}$");
         assert_eq!(called(fine), "runge-kutta-0.000000002");
         assert_eq!(power(1e-6), "10^{-6}");
-    }
-
-    #[test]
-    fn a_bias_is_a_share_of_the_mean() {
-        let row = BiasRow {
-            setting: Setting { method: MethodName::Verlet, value: 0.1 },
-            sigma: 0.12,
-            pairs: 4,
-            own_mean: Some(50.0),
-            bias: Some(-5.0),
-            error: Some(1.0),
-            evaluations_per_impact: None,
-        };
-        let found = share(&row).unwrap();
-        assert_eq!((found.value, found.error), (-0.1, 0.02));
-        assert_eq!(share(&BiasRow { own_mean: Some(0.0), ..row }), None);
     }
 }

@@ -1,11 +1,10 @@
 //! Every method on every scene in which methods fail.
 
 use super::case::Verdict;
-use super::routes::method;
 use super::scenes;
 use crate::experiments::ensembles::each;
 use crate::experiments::{Error, Progress};
-use crate::params::{Setting, TrialParams};
+use crate::params::TrialParams;
 use serde::{Deserialize, Serialize};
 
 /// What became of every method in every scene.
@@ -13,91 +12,56 @@ use serde::{Deserialize, Serialize};
 pub struct Trials {
     /// What was run.
     pub parameters: TrialParams,
-    /// One for each scene.
-    pub scenes: Vec<SceneRow>,
+    /// What happens in each scene, and for each setting in their order what it made of each case.
+    pub scenes: Vec<(String, Vec<Trial>)>,
 }
 
-/// One scene.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct SceneRow {
-    /// Its id.
-    pub id: String,
-    /// What happens in it.
-    pub what: String,
-    /// One for each setting, in their order.
-    pub trials: Vec<Trial>,
+/// What one method made of each case of a scene.
+pub type Trial = Vec<Verdict>;
+
+/// Cases that came out as they must.
+pub fn right(trial: &Trial) -> usize {
+    trial.iter().filter(|verdict| **verdict == Verdict::Right).count()
 }
 
-/// One method in one scene.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Trial {
-    /// Method and setting.
-    pub setting: Setting,
-    /// What it made of each case.
-    pub verdicts: Vec<Verdict>,
-}
-
-impl Trial {
-    /// Cases that came out as they must.
-    pub fn right(&self) -> usize {
-        self.verdicts.iter().filter(|verdict| **verdict == Verdict::Right).count()
-    }
-
-    /// What went wrong most often; of several the first in the order of [`Verdict`].
-    pub fn trouble(&self) -> Option<Verdict> {
-        let wrong = |v: &Verdict| *v != Verdict::Right;
-        let count = |v: Verdict| self.verdicts.iter().filter(|other| **other == v).count();
-        let mut kinds: Vec<Verdict> = self.verdicts.iter().copied().filter(wrong).collect();
-        kinds.sort_unstable();
-        kinds.dedup();
-        // Of equal counts `max_by_key` takes the last.
-        kinds.into_iter().rev().max_by_key(|v| count(*v))
-    }
+/// What went wrong most often; of several the first in the order of [`Verdict`].
+pub fn trouble(trial: &Trial) -> Option<Verdict> {
+    let mut wrong: Vec<Verdict> =
+        trial.iter().copied().filter(|verdict| *verdict != Verdict::Right).collect();
+    wrong.sort_unstable();
+    // Of equal counts `max_by_key` takes the last.
+    wrong.chunk_by(|a, b| a == b).rev().max_by_key(|own| own.len()).map(|own| own[0])
 }
 
 /// Runs everything.
 pub fn run(parameters: &TrialParams, progress: &Progress) -> Result<Trials, Error> {
-    let failed = |source| Error::failed("trials", source);
-    let scenes = scenes::all(parameters.short, &parameters.clusters).map_err(failed)?;
-    let pairs: Vec<(usize, usize)> = (0..scenes.len())
-        .flat_map(|scene| (0..parameters.settings.len()).map(move |setting| (scene, setting)))
-        .collect();
-    let stage = progress.stage("scenes where methods fail", pairs.len() as u64);
+    let scenes = scenes::all(parameters.short).map_err(|source| Error::failed("trials", source))?;
+    let settings = &parameters.settings;
+    let pairs = scenes.iter().flat_map(|scene| settings.iter().map(move |own| (scene, own)));
+    let stage = progress.stage("scenes where methods fail", (scenes.len() * settings.len()) as u64);
     let trials = each(&stage, progress, pairs, |(scene, setting)| {
-        let setting = parameters.settings[setting];
-        let method = method(setting);
-        let mut verdicts = Vec::new();
-        for case in &scenes[scene].cases {
+        let method = setting.method.with(setting.value);
+        let judge = |case: &super::case::Case| {
             progress.check()?;
-            verdicts.push(case.judge(method.as_ref()).verdict);
-        }
-        Ok(Trial { setting, verdicts })
+            Ok(case.judge(method.as_ref()).0)
+        };
+        scene.cases.iter().map(judge).collect::<Result<Trial, Error>>()
     })?;
-    let rows = scenes.iter().zip(trials.chunks(parameters.settings.len().max(1)));
+    let rows = scenes.iter().zip(trials.chunks(settings.len().max(1)));
     Ok(Trials {
         parameters: parameters.clone(),
-        scenes: rows
-            .map(|(scene, trials)| SceneRow {
-                id: scene.id.into(),
-                what: scene.what.into(),
-                trials: trials.to_vec(),
-            })
-            .collect(),
+        scenes: rows.map(|(scene, trials)| (scene.what.into(), trials.to_vec())).collect(),
     })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::params::MethodName;
 
     #[test]
     fn the_commonest_trouble_is_named() {
         use Verdict::{Displaced, Ghost, Missed, Right};
-        let of = |verdicts: &[Verdict]| {
-            let setting = Setting { method: MethodName::Verlet, value: 0.1 };
-            Trial { setting, verdicts: verdicts.to_vec() }.trouble()
-        };
+        let of = |verdicts: &[Verdict]| trouble(&verdicts.to_vec());
         assert_eq!(of(&[Right, Right]), None);
         assert_eq!(of(&[Right, Displaced, Displaced, Missed]), Some(Displaced));
         assert_eq!(of(&[Ghost, Missed]), Some(Missed));

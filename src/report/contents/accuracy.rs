@@ -3,7 +3,7 @@
 use super::Error;
 use crate::experiments::accuracy::case::Verdict;
 use crate::experiments::accuracy::tables::titled;
-use crate::experiments::accuracy::trials::{SceneRow, Trial};
+use crate::experiments::accuracy::trials::{Trial, right, trouble};
 use crate::experiments::{Results, TRIALS};
 use serde::Serialize;
 
@@ -13,7 +13,7 @@ pub struct Line {
     name: String,
     cells: Vec<String>,
     /// How a reader of the method's output learns of a failure.
-    told: String,
+    told: &'static str,
 }
 
 /// Heads of the columns of the table of scenes.
@@ -23,9 +23,8 @@ pub fn scene_heads(results: &Results) -> Result<Vec<String>, Error> {
 
 /// Whether failures in a scene end with an error or with a wrong result that looks like a right one. No method here
 /// warns of a result that it gives.
-fn told(scene: &SceneRow) -> &'static str {
-    let any =
-        |of: fn(Verdict) -> bool| scene.trials.iter().flat_map(|t| &t.verdicts).any(|v| of(*v));
+fn told(trials: &[Trial]) -> &'static str {
+    let any = |of: fn(Verdict) -> bool| trials.iter().flatten().any(|verdict| of(*verdict));
     match (any(|v| v == Verdict::GaveUp), any(|v| !matches!(v, Verdict::Right | Verdict::GaveUp))) {
         (false, false) => "–",
         (true, false) => "refused",
@@ -36,20 +35,17 @@ fn told(scene: &SceneRow) -> &'static str {
 
 /// The table of scenes: in how many cases each method is right, and what goes wrong else.
 pub fn scene_table(results: &Results) -> Result<Vec<Line>, Error> {
-    let cell = |trial: &Trial| match trial.trouble() {
-        None => "right".to_string(),
-        Some(trouble) if trial.right() == 0 && trial.verdicts.len() == 1 => {
-            trouble.words().to_string()
-        }
-        Some(trouble) => {
-            let (right, all) = (trial.right(), trial.verdicts.len());
-            format!("{right} of {all} right, else {}", Verdict::words(trouble))
+    let cell = |trial: &Trial| match (trouble(trial), right(trial), trial.len()) {
+        (None, ..) => "right".to_string(),
+        (Some(trouble), 0, 1) => trouble.words().to_string(),
+        (Some(trouble), right, all) => {
+            format!("{right} of {all} right, else {}", trouble.words())
         }
     };
-    let lines = results.of(&TRIALS)?.scenes.iter().map(|scene| Line {
-        name: scene.what.clone(),
-        cells: scene.trials.iter().map(cell).collect(),
-        told: told(scene).into(),
-    });
-    Ok(lines.collect())
+    let line = |(what, trials): &(String, Vec<Trial>)| Line {
+        name: what.clone(),
+        cells: trials.iter().map(cell).collect(),
+        told: told(trials),
+    };
+    Ok(results.of(&TRIALS)?.scenes.iter().map(line).collect())
 }

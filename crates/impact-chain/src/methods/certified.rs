@@ -86,16 +86,6 @@ mod tests {
     use crate::{Boundary, Chain};
     use impact_numerics::random::NormalPairs;
 
-    fn next(scenario: &Scenario, start: &State) -> Option<Impact> {
-        let mut found = None;
-        let mut sink = |impact| {
-            found = Some(impact);
-            false
-        };
-        Certified.run(scenario, start, start.time + 100.0, &mut sink).unwrap();
-        found
-    }
-
     /// Started anew right after each impact, it finds the next one of the whole run, and the gap
     /// just hit is not hit again.
     #[test]
@@ -108,7 +98,8 @@ mod tests {
             let mut start = State::of(&scenario);
             for count in 0..200 {
                 let hit = engine.next_impact(1e3).unwrap().unwrap();
-                let found = next(&scenario, &start).unwrap();
+                let found =
+                    Certified.first(&scenario, &start, start.time + 100.0).unwrap().unwrap();
                 assert_eq!(hit.gap, found.gap, "impact {count} at {}, r = {r}", hit.time);
                 let error = (hit.time - found.time).abs();
                 assert!(error * hit.closing_speed < 1e-13, "{count}: {error:e} at {hit:?}");
@@ -137,7 +128,7 @@ mod tests {
         let start =
             State { time, positions: engine.positions(time), velocities: engine.velocities(time) };
         let hit = engine.next_impact(100.0).unwrap().unwrap();
-        let found = next(&scenario, &start).unwrap();
+        let found = Certified.first(&scenario, &start, start.time + 100.0).unwrap().unwrap();
         assert!(hit.gap == found.gap && (hit.time - found.time).abs() < 1e-12, "{hit:?} {found:?}");
     }
 }

@@ -46,6 +46,13 @@ pub struct Cost {
     pub simultaneous: u64,
 }
 
+impl Cost {
+    /// Evaluations per impact; none without an impact.
+    pub fn evaluations_per_impact(&self) -> Option<f64> {
+        (self.impacts > 0).then(|| self.evaluations as f64 / self.impacts as f64)
+    }
+}
+
 /// A way to simulate a chain.
 pub trait Method: Sync {
     /// Name, as in `trace --method`, e.g. "verlet".
@@ -66,4 +73,40 @@ pub trait Method: Sync {
         until: f64,
         sink: &mut dyn FnMut(Impact) -> bool,
     ) -> Result<Cost, Error>;
+
+    /// The first impact up to the time `until`, if there is one.
+    ///
+    /// # Errors
+    /// As [`Method::run`].
+    fn first(
+        &self,
+        scenario: &Scenario,
+        start: &State,
+        until: f64,
+    ) -> Result<Option<Impact>, Error> {
+        let mut first = None;
+        self.run(scenario, start, until, &mut |impact| {
+            first = Some(impact);
+            false
+        })?;
+        Ok(first)
+    }
+
+    /// All impacts up to the time `until`, in order.
+    ///
+    /// # Errors
+    /// As [`Method::run`].
+    fn impacts(
+        &self,
+        scenario: &Scenario,
+        start: &State,
+        until: f64,
+    ) -> Result<Vec<Impact>, Error> {
+        let mut impacts = Vec::new();
+        self.run(scenario, start, until, &mut |impact| {
+            impacts.push(impact);
+            true
+        })?;
+        Ok(impacts)
+    }
 }

@@ -202,11 +202,7 @@ impl TrueMotion {
 
     /// The next impact up to time `until`; the motion stays where it is.
     pub fn next(&self, until: f64) -> Result<Option<Hit>, Error> {
-        let mut found: Option<Impact> = None;
-        Certified.run(&self.scenario, &self.state(), until, &mut |impact| {
-            found = Some(impact);
-            false
-        })?;
+        let found = Certified.first(&self.scenario, &self.state(), until)?;
         Ok(found.map(|impact| self.refined(impact)))
     }
 
