@@ -141,12 +141,11 @@ const PLATFORM: [&str; 29] = [
 ];
 
 /// (file, method, why its bits do not depend on the machine).
-const OWN_METHODS: [(&str, &str, &str); 5] = [
+const OWN_METHODS: [(&str, &str, &str); 4] = [
     ("crates/impact-chain/src/flight.rs", "sin_cos", "the clock's own kernel"),
     ("crates/circuits/src/impact_probability.rs", "exp", "of DoubleDouble"),
     ("crates/circuits/src/from_rest.rs", "exp", "of DoubleDouble"),
     ("crates/circuits/src/counting.rs", "ln", "of Scaled"),
-    ("crates/circuits/src/distribution.rs", "ln", "of Scaled"),
 ];
 
 #[test]

@@ -5,7 +5,7 @@ use crate::high_precision::{Big, big, exp, int, near, relative_error};
 use SampleSpace::{FiveClasses, FiveClassesPrinted, Simple};
 use dashu::integer::UBig;
 use impact_circuits::distribution::{Law, SampleSpace};
-use impact_circuits::{Error, jump};
+use impact_circuits::jump;
 
 #[test]
 fn p_crit_to_the_last_digits() {
@@ -95,17 +95,17 @@ fn jump_of_five_classes_is_bracketed_to_the_last_bit() {
 #[test]
 fn small_graphs_have_no_jump() {
     for big_n in 1..=3 {
-        let none = Err(Error::NoJump { vertices: big_n, least: 4 });
-        assert_eq!(jump::p_jump(Simple, big_n), none);
+        let none = jump::p_jump(Simple, big_n).unwrap_err();
+        assert_eq!((none.field, none.remedy.as_str()), ("vertices", "give N ≥ 4"));
         // By hand: at p = 1 no Φ(k) exceeds Φ(1) = N.
         assert_eq!(Law::new(Simple, big_n, 1.0).unwrap().k_star(), 1);
     }
-    assert_eq!(jump::p_jump(FiveClasses, 1), Err(Error::NoJump { vertices: 1, least: 2 }));
-    assert!(matches!(jump::p_jump(Simple, 0), Err(Error::Input { .. })));
+    assert_eq!(jump::p_jump(FiveClasses, 1).unwrap_err().remedy, "give N ≥ 2");
+    assert!(jump::p_jump(Simple, 0).is_err());
 }
 
 #[test]
-fn f_as_printed_its_ends_and_its_slope() {
+fn f_as_printed() {
     for (big_n, p) in [(4, 0.7), (100, 0.0125), (100, 0.3), (1_000_000, 1.01e-6)] {
         let printed = |k: f64| {
             let (k, p) = (big(k), big(p));
@@ -114,14 +114,6 @@ fn f_as_printed_its_ends_and_its_slope() {
         for k in [0.0, 0.5, 1.0, 9.25, big_n as f64 / 3.0, big_n as f64] {
             let exact = printed(k);
             assert!(relative_error(jump::f(big_n, p, k), &exact) < 1e-13, "k = {k}");
-        }
-        assert_eq!(jump::f(big_n, p, 0.0), jump::f_at_zero());
-        assert_eq!(jump::f(big_n, p, big_n as f64), jump::f_at_end(big_n));
-        for k in [0.5, 2.0, big_n as f64 / 3.0] {
-            assert_eq!(jump::f(big_n, 0.0, k), jump::f_without_p(k));
-            // f is linear in p, so a difference over any step is the slope.
-            let slope = jump::f(big_n, 1.0, k) - jump::f(big_n, 0.0, k);
-            assert!((slope / jump::slope_in_p(big_n, k) - 1.0).abs() < 1e-14);
         }
     }
 }

@@ -89,7 +89,7 @@ fn closed_forms_agree_with_quadrature_to_the_last_digits() {
             let exact = exp(-least) * factor;
             match law.p() {
                 Err(error) => {
-                    assert!(matches!(error, Error::Underflow { .. }), "{at}");
+                    assert!(error.problem.contains("below the range"), "{at}");
                     assert!(exact < big(f64::MIN_POSITIVE), "{at}");
                 }
                 Ok(p) => assert!(relative_error(p, &exact) < 5e-15, "{at}: {p}"),
@@ -117,7 +117,9 @@ fn closed_forms_agree_with_quadrature_to_the_last_digits() {
 #[test]
 fn logarithm_and_probability_say_when_they_leave_the_range_of_doubles() {
     let law = |sigma| ImpactProbability::of_paper(sigma).unwrap();
-    let underflows = |result: Result<f64, Error>| matches!(result, Err(Error::Underflow { .. }));
+    let underflows = |result: Result<f64, Error>| {
+        result.is_err_and(|error| error.problem.contains("below the range"))
+    };
     assert!(law(0.0135).p().is_ok() && underflows(law(0.0125).p()));
     assert!(law(1e-153).log_p().is_ok() && underflows(law(1e-155).log_p()));
     assert!(law(1e76).log_p().is_ok() && underflows(law(1e80).log_p()));

@@ -28,7 +28,8 @@ pub struct Law {
     p: f64,
 }
 
-/// The weights of all k, one after another: [`Law::weight`] without the detours.
+/// The weight of k, from which that of k + 1 follows.
+#[derive(Clone, Copy)]
 pub(crate) struct Weights {
     space: SampleSpace,
     big_n: usize,
@@ -91,59 +92,60 @@ struct Sums {
 
 impl Law {
     /// # Errors
-    /// [`Error::Input`] for N outside 1..=[`super::LARGEST_N`] or p outside [0, 1].
+    /// [`Error`] for N outside 1..=[`super::LARGEST_N`] or p outside [0, 1].
     pub fn new(space: SampleSpace, big_n: usize, p: f64) -> Result<Self, Error> {
         check_vertices(big_n)?;
         check_p(p)?;
         Ok(Law { space, big_n, p })
     }
 
-    fn weights(&self) -> Weights {
-        Weights::new(self.space, self.big_n, DoubleDouble::from(self.p))
+    /// The weights of k = 1..=N, in order.
+    fn weights(&self) -> impl Iterator<Item = Weights> + use<> {
+        let mut next = Weights::new(self.space, self.big_n, DoubleDouble::from(self.p));
+        (1..=self.big_n).map(move |k| {
+            while next.k < k {
+                next.advance();
+            }
+            next
+        })
     }
 
     /// **Eq. (10)**
     ///
     /// The weight Φ_{N,p}(k), over p: p^(k−1) N!/(k (N − k)!) for simple circuits. The common
     /// factor p drops out of every probability, and without it the limit p → 0+ is the value at
-    /// p = 0. Γ_{N,p}, over p as well, is the sum of all weights: [`Law::log_gamma`].
+    /// p = 0. Γ_{N,p}, over p as well, is the sum of all weights.
     ///
     /// # Errors
-    /// [`Error::Input`] for k outside 1..=N.
+    /// [`Error`] for k outside 1..=N.
     pub fn weight(&self, k: usize) -> Result<Scaled, Error> {
         check_k(self.big_n, k)?;
-        let mut weights = self.weights();
-        while weights.k < k {
-            weights.advance();
-        }
+        let weights = self.weights().nth(k - 1).expect("k ≤ N");
         Ok(weights.moment() / Scaled::from(k))
     }
 
     /// Sums all weights that can matter to the last bit of 106.
     fn sums(&self) -> Sums {
         let negligible = Scaled::from(1e-32) / Scaled::from(self.big_n);
-        let mut weights = self.weights();
         let mut sums = Sums {
             total: Scaled::ZERO,
             first_moment: Scaled::ZERO,
             largest: Scaled::ZERO,
             largest_at: 1,
         };
-        loop {
-            let k = weights.k;
-            let moment = weights.moment();
+        for weights in self.weights() {
+            let (k, moment) = (weights.k, weights.moment());
             let weight = moment / Scaled::from(k);
             sums.first_moment = sums.first_moment + moment;
             sums.total = sums.total + weight;
             if self.space != SampleSpace::Simple && weight > sums.largest {
                 (sums.largest, sums.largest_at) = (weight, k);
             }
-            let done = weights.falls_for_good() && weight < sums.total * negligible;
-            if done || k == self.big_n {
-                return sums;
+            if weights.falls_for_good() && weight < sums.total * negligible {
+                break;
             }
-            weights.advance();
         }
+        sums
     }
 
     /// **Eq. (9)**
@@ -151,7 +153,7 @@ impl Law {
     /// P(X = k) = Φ_{N,p}(k)/Γ_{N,p}; 0 where it is below the smallest double.
     ///
     /// # Errors
-    /// [`Error::Input`] for k outside 1..=N.
+    /// [`Error`] for k outside 1..=N.
     pub fn probability(&self, k: usize) -> Result<f64, Error> {
         Ok((self.weight(k)? / self.sums().total).to_f64())
     }
@@ -164,35 +166,19 @@ impl Law {
 
     /// The weights of k = 1..=N, over p, in order.
     pub fn all_weights(&self) -> impl Iterator<Item = Scaled> {
-        let mut weights = self.weights();
-        (1..=self.big_n).map(move |k| {
-            while weights.k < k {
-                weights.advance();
-            }
-            weights.moment() / Scaled::from(k)
-        })
+        self.weights().map(|weights| weights.moment() / Scaled::from(weights.k))
     }
 
     /// What one of the five classes contributes to P(X = k), k = 1..=N: the classes add up to
     /// [`Law::probabilities`]. For a sample space of five classes.
-    pub fn contribution(&self, class: &higher_order::FiveClass) -> Vec<f64> {
+    pub fn contribution(&self, class: &higher_order::Class) -> Vec<f64> {
         let total = self.sums().total;
-        let extra = (0..class.class().excess()).fold(Scaled::ONE, |w, _| w * self.p);
-        let mut weights = self.weights();
-        (1..=self.big_n)
-            .map(|k| {
-                while weights.k < k {
-                    weights.advance();
-                }
-                let circuits = DoubleDouble::from(class.per_simple_circuit(self.space, k));
-                (weights.arranged * circuits * extra / (Scaled::from(k) * total)).to_f64()
-            })
-            .collect()
-    }
-
-    /// ln Γ_{N,p} (−∞ at p = 0).
-    pub fn log_gamma(&self) -> f64 {
-        (self.sums().total * Scaled::from(self.p)).ln()
+        let extra = (0..class.excess()).fold(Scaled::ONE, |w, _| w * self.p);
+        let share = |weights: Weights| {
+            let circuits = DoubleDouble::from(class.per_simple_circuit(self.space, weights.k));
+            (weights.arranged * circuits * extra / (Scaled::from(weights.k) * total)).to_f64()
+        };
+        self.weights().map(share).collect()
     }
 
     /// k*, the most likely number of different impacts; the lowest of several.
@@ -209,12 +195,9 @@ impl Law {
         if top == 1 || jump::rises(self.big_n, self.p, 1) {
             return top;
         }
-        let mut weights = self.weights();
-        while weights.k < top {
-            weights.advance();
-        }
         let first = Scaled::from(self.big_n) * Scaled::from(top);
-        if weights.moment() > first { top } else { 1 }
+        let exceeds = self.weights().nth(top - 1).is_some_and(|own| own.moment() > first);
+        if exceeds { top } else { 1 }
     }
 
     /// μ, the expected number of different impacts.

@@ -6,19 +6,15 @@ use impact_numerics::bisection;
 use impact_numerics::double_double::{DoubleDouble, two_product};
 use impact_numerics::scaled::Scaled;
 
-/// **Eq. (11)**
-///
-/// Φ_{N,p}(k + 1) − Φ_{N,p}(k) = p^k N!/((N − k)! k (k + 1)) · f_{N,p}(k), for 1 ≤ k < N.
-pub fn difference(big_n: usize, p: f64, k: usize) -> Scaled {
-    let edges = (0..k).fold(Scaled::ONE, |w, i| w * (Scaled::from(p) * Scaled::from(big_n - i)));
-    let below = Scaled::from(k) * Scaled::from(k + 1);
-    edges / below * Scaled::from(f_exact(big_n, p, k))
-}
-
 /// **Eq. (12)**
 ///
 /// f_{N,p}(k) = −p k² + (N p − 1) k − 1 at real k: Φ_{N,p} rises from k to k + 1 where it is
 /// positive. Written as p k (N − k) − (k + 1), with the product exact.
+///
+/// **Eq. (14)** (step towards (18)): f_{N,p}(0) = −1, whatever N and p.
+/// **Eq. (15)** (step towards (18)): f_{N,p}(N) = −(N + 1), whatever p.
+/// **Eq. (16)** (step towards (18)): f_{N,0}(k) = −(k + 1) < 0, so at p → 0+ every step falls.
+/// **Eq. (17)** (step towards (18)): ∂f/∂p = k (N − k), positive inside (0, N), so f grows with p at every k.
 pub fn f(big_n: usize, p: f64, k: f64) -> f64 {
     let product = two_product(k, big_n as f64 - k) * p;
     (product - DoubleDouble::from(k) - DoubleDouble::ONE).to_f64()
@@ -30,7 +26,10 @@ fn f_exact(big_n: usize, p: f64, k: usize) -> DoubleDouble {
     two_product(p, (k * (big_n - k)) as f64) - DoubleDouble::from(k + 1)
 }
 
-/// Whether Φ_{N,p}(k + 1) > Φ_{N,p}(k), decided exactly, for 1 ≤ k < N.
+/// **Eq. (11)**
+///
+/// Φ_{N,p}(k + 1) − Φ_{N,p}(k) = p^k N!/((N − k)! k (k + 1)) · f_{N,p}(k), for 1 ≤ k < N: whether it is positive,
+/// decided exactly.
 pub fn rises(big_n: usize, p: f64, k: usize) -> bool {
     k < big_n && f_exact(big_n, p, k) > DoubleDouble::ZERO
 }
@@ -49,41 +48,13 @@ pub fn zeros(big_n: usize, p: f64) -> Option<[f64; 2]> {
     Some([2.0 / twice, twice / (2.0 * p)])
 }
 
-/// **Eq. (14)** (step towards (18))
-///
-/// f_{N,p}(0) = −1, whatever N and p.
-pub fn f_at_zero() -> f64 {
-    -1.0
-}
-
-/// **Eq. (15)** (step towards (18))
-///
-/// f_{N,p}(N) = −(N + 1), whatever p.
-pub fn f_at_end(big_n: usize) -> f64 {
-    -(big_n as f64 + 1.0)
-}
-
-/// **Eq. (16)** (step towards (18))
-///
-/// f_{N,0}(k) = −(k + 1) < 0: at p → 0+ every step falls.
-pub fn f_without_p(k: f64) -> f64 {
-    -(k + 1.0)
-}
-
-/// **Eq. (17)** (step towards (18))
-///
-/// ∂f/∂p = k (N − k), positive inside (0, N): f grows with p at every k.
-pub fn slope_in_p(big_n: usize, k: f64) -> f64 {
-    k * (big_n as f64 - k)
-}
-
 /// **Eq. (18)**
 ///
 /// p_crit = ((1 + √(N + 1))/N)², where f_{N,p} first touches zero: Φ gets a stationary point, as
 /// a function of real k. k* stays at 1 until [`p_jump`].
 ///
 /// # Errors
-/// [`Error::Input`] for N outside 1..=[`super::LARGEST_N`].
+/// [`Error`] for N outside 1..=[`super::LARGEST_N`].
 pub fn p_crit(big_n: usize) -> Result<f64, Error> {
     check_vertices(big_n)?;
     let root = (1.0 + (big_n as f64 + 1.0).sqrt()) / big_n as f64;
@@ -145,13 +116,13 @@ pub struct Jump {
 /// bisection over doubles finds the place to the last bit.
 ///
 /// # Errors
-/// [`Error::NoJump`] if k* = 1 for every p (N ≤ 3 for simple circuits, N = 1 with higher orders),
-/// [`Error::Input`] for N out of range.
+/// [`Error`] if k* = 1 for every p (N ≤ 3 for simple circuits, N = 1 with higher orders), and for N out of
+/// range.
 pub fn p_jump(space: SampleSpace, big_n: usize) -> Result<Jump, Error> {
     check_vertices(big_n)?;
     if !first_is_exceeded(space, big_n, DoubleDouble::ONE) {
         let least = if space == SampleSpace::Simple { 4 } else { 2 };
-        return Err(Error::NoJump { vertices: big_n, least });
+        return Err(Error::no_jump(big_n, least));
     }
     let exceeded = |p: f64| first_is_exceeded(space, big_n, DoubleDouble::from(p));
     let [below, above] = bisection::bracket(0.0, 1.0, exceeded);
@@ -175,4 +146,53 @@ fn first_is_exceeded(space: SampleSpace, big_n: usize, p: DoubleDouble) -> bool 
         }
     }
     false
+}
+
+impl Error {
+    /// k* stays at 1 for every p in [0, 1].
+    fn no_jump(big_n: usize, least: usize) -> Error {
+        let problem = format!(
+            "with N = {big_n} the most likely number of impacts is 1 for every p, so there is no jump"
+        );
+        Error::new("vertices", problem, format!("give N ≥ {least}"))
+    }
+}
+
+/// The limit of k*/N and of μ/N for N → ∞ with p N fixed: max(0, 1 − 1/(p N)). For k Φ_{N,p}(k) is a Poisson weight of
+/// N − k with mean 1/p (ours, beyond the paper).
+pub fn limit_share(p_big_n: f64) -> f64 {
+    (1.0 - 1.0 / p_big_n).max(0.0)
+}
+
+/// The larger root of k² = 2 N (ln k − 1): where k* jumps to for many vertices, but for about ln k (ours). Nothing for
+/// N ≤ e³, where there is no root.
+pub fn jump_rule(big_n: usize) -> Option<f64> {
+    let big_n = big_n as f64;
+    let beyond = |k: f64| k * k >= 2.0 * big_n * (pxfm::f_log(k) - 1.0);
+    // The difference is least at √N.
+    let least = big_n.sqrt();
+    (!beyond(least)).then(|| bisection::bracket(least, big_n, beyond)[1])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Second routes: the exact jump, from which the rule is off by about ln k; and ⌈k+⌉ of Eq. (13), which is N − 1/p
+    /// but for less than one and 1/(p k*).
+    #[test]
+    fn the_rules_for_many_vertices_are_near_the_jump_and_its_share() {
+        for big_n in [21, 100, 1000, 1_000_000] {
+            let k = p_jump(SampleSpace::Simple, big_n).unwrap().k_after as f64;
+            let rule = jump_rule(big_n).unwrap();
+            assert!((rule - k).abs() <= 2.0 * pxfm::f_log(k) + 1.0, "N = {big_n}: {rule}");
+        }
+        assert_eq!(jump_rule(20), None);
+        for (big_n, c) in [(100, 2.0), (10_000, 1.5), (1_000_000, 3.0)] {
+            let p = c / big_n as f64;
+            let k = local_maximum(big_n, p) as f64;
+            let limit = limit_share(c) * big_n as f64;
+            assert!(k < limit + 1.0 && k > limit - 1.0 / (p * (k - 1.0)), "{big_n} {c}");
+        }
+    }
 }

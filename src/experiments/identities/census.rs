@@ -5,8 +5,8 @@ use impact_circuits::Fraction;
 use impact_circuits::counting::{paths, phi};
 use impact_circuits::graph::{Circuit, Graph};
 use impact_circuits::higher_order::{
-    Class, compositions, doubled, doubled_as_printed, doubled_paths, four_visits, three_visits,
-    two_doubled,
+    CLASSES, Class, compositions, doubled, doubled_as_printed, doubled_paths, four_visits,
+    three_visits, two_doubled,
 };
 use std::collections::BTreeMap;
 
@@ -145,28 +145,22 @@ pub(super) fn eq38(census: &Census) -> Cases {
 type Formula = fn(usize, usize) -> Option<Fraction>;
 
 pub(super) fn class_ranges(census: &Census) -> Vec<ClassRange> {
-    let printed: [(f64, Formula, &[usize]); 4] = [
-        (33.0, doubled, &[1]),
-        (35.0, three_visits, &[0, 1]),
-        (36.0, four_visits, &[0, 0, 1]),
-        (37.0, two_doubled, &[2]),
-    ];
-    let range = |(equation, formula, repeats): (f64, Formula, &[usize])| {
-        let class = Class::new(repeats);
+    let formulas: [Formula; 4] = [doubled, three_visits, four_visits, two_doubled];
+    let range = |(class, formula): (&Class, Formula)| {
         let agrees = |&(n, k): &(usize, usize)| {
             let value = formula(n, k).and_then(Fraction::integer);
-            value == Some(u128::from(counted(census, n, k, repeats)))
+            value == Some(u128::from(counted(census, n, k, class.repeats)))
         };
         let possible: Vec<(usize, usize)> =
             enumerated().filter(|&(n, k)| class.different(k).is_some_and(|d| d <= n)).collect();
         let below = possible.iter().filter(|own| !agrees(own)).map(|own| own.1).max().unwrap_or(0);
         ClassRange {
-            equation,
+            equation: class.equation.into(),
             right_from: below + 1,
             cases: cases(possible.iter().filter(|own| own.1 > below).map(agrees)),
             formula_below: formula(3, below).map_or(f64::NAN, Fraction::to_f64),
-            counted_below: counted(census, 3, below, repeats),
+            counted_below: counted(census, 3, below, class.repeats),
         }
     };
-    printed.map(range).into()
+    CLASSES[1..].iter().zip(formulas).map(range).collect()
 }

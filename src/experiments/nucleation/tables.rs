@@ -2,8 +2,7 @@
 
 use super::{First, Nucleation, ensembles};
 use crate::params::{Chain, NucleationParams};
-use impact_circuits::nucleation::chain::{AtLeastOne, Chances, half};
-use impact_circuits::nucleation::reach::Reach;
+use impact_circuits::nucleation::{AtLeastOne, Chances, Reach, half};
 use impact_numerics::estimates::share;
 use literate::table::Table;
 use rayon::prelude::*;

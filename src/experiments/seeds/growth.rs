@@ -12,7 +12,7 @@
 
 use super::ByDistance;
 use crate::params::SeedsParams;
-use impact_circuits::nucleation::reach::Reach;
+use impact_circuits::nucleation::Reach;
 use impact_numerics::estimates::jackknife;
 use impact_numerics::statistics::{Estimate, last_rise};
 

@@ -5,7 +5,7 @@ use crate::experiments::ensembles::each;
 use crate::experiments::{Error, Progress};
 use crate::params::{Chain, SeedsParams};
 use impact_chain::{self, Engine, Impact, Initial, Scenario};
-use impact_circuits::nucleation::reach::closes_by_itself;
+use impact_circuits::nucleation::closes_by_itself;
 use impact_numerics::random::NormalPairs;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;

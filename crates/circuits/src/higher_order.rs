@@ -1,0 +1,202 @@
+//! Circuits that repeat vertices (Sec. 9): how many there are, class by class, and the sample
+//! space of five classes.
+//!
+//! The printed formulas count cyclic sequences as length!/length would, which is right only while
+//! no sequence can be a repetition of a shorter one. [`SampleSpace::FiveClasses`] counts the circuits
+//! that are really different.
+
+use crate::Fraction;
+use crate::counting::arrangements;
+use crate::distribution::SampleSpace;
+use impact_numerics::double_double::DoubleDouble;
+
+/// **Eq. (29)**
+///
+/// Number of paths from a given doubled vertex for a loop, back, and for another loop, k vertices in all:
+/// (N − 1)!/(N − (k − 1))!, for k ≥ 2; zero beyond N + 1. Nothing beyond 128 bits. How the k − 2 other vertices are
+/// divided between the loops does not matter:
+///
+/// **Eq. (26)** (step towards (30)): with γ_1 and γ_2 of them, k = (γ_1 + 1) + (γ_2 + 1).
+/// **Eq. (27)** (step towards (29)): (N − 1) … (N − γ_1) ways for the first loop, (N − (γ_1 + 1)) … (N − (γ_1 + γ_2)) for
+/// the second.
+/// **Eq. (28)** (step towards (29)): together (N − 1) … (N − (k − 2)).
+pub fn doubled_paths(big_n: usize, k: usize) -> Option<u128> {
+    arrangements(big_n - 1, k - 2)
+}
+
+/// **Eq. (30)**
+///
+/// φ_N^1(k) *as this equation prints it*: γ(k, 2)/2 times [`doubled_paths`]. A factor N, the
+/// choice of the doubled vertex, is missing; Eq. (33) has it.
+pub fn doubled_as_printed(big_n: usize, k: usize) -> Option<Fraction> {
+    let splits = compositions(k, 2)?;
+    Some(Fraction::new(splits.checked_mul(doubled_paths(big_n, k)?)?, 2))
+}
+
+/// **Eq. (32)**
+///
+/// γ(n, j), the number of ways to write n as an ordered sum of j positive integers: the binomial
+/// coefficient (n − 1 over j − 1), for n, j ≥ 1. Nothing beyond 128 bits.
+///
+/// **Eq. (31)** (step towards (32)): α_1 + … + α_j = n with every α_i > 0.
+pub fn compositions(n: usize, j: usize) -> Option<u128> {
+    if j > n {
+        return Some(0);
+    }
+    let chosen = (j - 1).min(n - j);
+    (0..chosen).try_fold(1_u128, |value, i| {
+        // value · (n − 1 − i) is divisible by i + 1: a product of consecutive integers.
+        Some(value.checked_mul((n - 1 - i) as u128)? / (i as u128 + 1))
+    })
+}
+
+/// **Eq. (33)**
+///
+/// φ_N^1(k) = (k − 1)/2 · N!/(N − (k − 1))!, as printed, for k ≥ 1: circuits of length k with one
+/// vertex visited twice and no other repeated. Fails at k = 2 (a loop run twice is no new
+/// circuit), where it gives N/2. Nothing beyond 128 bits.
+pub fn doubled(big_n: usize, k: usize) -> Option<Fraction> {
+    let choices = arrangements(big_n, k - 1)?;
+    Some(Fraction::new(choices.checked_mul(k as u128 - 1)?, 2))
+}
+
+/// (k − 1)!/(k − j)! · N!/(N − d)! / divisor: the common form of the printed formulas.
+fn printed(big_n: usize, k: usize, j: usize, d: usize, divisor: u128) -> Option<Fraction> {
+    let positions = arrangements(k - 1, j - 1)?;
+    Some(Fraction::new(positions.checked_mul(arrangements(big_n, d)?)?, divisor))
+}
+
+/// **Eq. (35)**
+///
+/// φ_N^{1,0}(k) as printed, for k ≥ 3: one vertex visited three times, 1/6 (k − 1)!/(k − 3)!
+/// N!/(N − (k − 2))!. Gives N/3 at k = 3, where there is none. Nothing beyond 128 bits.
+pub fn three_visits(big_n: usize, k: usize) -> Option<Fraction> {
+    printed(big_n, k, 3, k - 2, 6)
+}
+
+/// **Eq. (36)**
+///
+/// φ_N^{1,0,0}(k) as printed, for k ≥ 4: one vertex visited four times, 1/24 (k − 1)!/(k − 4)!
+/// N!/(N − (k − 3))!. Gives N/4 at k = 4, where there is none. Nothing beyond 128 bits.
+pub fn four_visits(big_n: usize, k: usize) -> Option<Fraction> {
+    printed(big_n, k, 4, k - 3, 24)
+}
+
+/// **Eq. (37)**
+///
+/// φ_N^2(k) as printed, for k ≥ 3: two vertices visited twice, 1/8 (k − 1)!/(k − 4)!
+/// N!/(N − (k − 2))!. Gives 3 N (N − 1)/4 at k = 4, where there are N (N − 1)/2. Nothing beyond
+/// 128 bits.
+pub fn two_doubled(big_n: usize, k: usize) -> Option<Fraction> {
+    printed(big_n, k, 4, k - 2, 8)
+}
+
+/// **Eq. (34)**
+///
+/// The class of circuits in which exactly δ_j vertices are visited j + 1 times and every other
+/// vertex at most once: the index of φ_N^{…, δ_3, δ_2, δ_1}.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Class {
+    /// The printed equation that counts it.
+    pub equation: u32,
+    /// δ_1, δ_2, …: index j − 1 holds δ_j.
+    pub repeats: &'static [usize],
+}
+
+/// The five classes, in the order of Eq. (38).
+pub const CLASSES: [Class; 5] = [
+    Class { equation: 7, repeats: &[] },
+    Class { equation: 33, repeats: &[1] },
+    Class { equation: 35, repeats: &[0, 1] },
+    Class { equation: 36, repeats: &[0, 0, 1] },
+    Class { equation: 37, repeats: &[2] },
+];
+
+impl Class {
+    /// Σ j δ_j, by how much the length exceeds the number of different vertices.
+    pub fn excess(&self) -> usize {
+        self.repeats.iter().enumerate().map(|(i, delta)| (i + 1) * delta).sum()
+    }
+
+    /// The number of different vertices of its circuits of length k; nothing if k is too short.
+    pub fn different(&self, k: usize) -> Option<usize> {
+        let repeated: usize = self.repeats.iter().sum();
+        k.checked_sub(self.excess()).filter(|d| *d >= repeated.max(1))
+    }
+
+    /// [`SHARED`] times its number of circuits with k different vertices, over φ_N(k): by the
+    /// printed formula, or as primitive circuits. A polynomial in k with whole coefficients,
+    /// whatever N.
+    pub fn per_simple_circuit(&self, space: SampleSpace, k: usize) -> u128 {
+        let short = space == SampleSpace::FiveClasses;
+        let k = k as u128;
+        match self.equation {
+            7 => SHARED,
+            // A single vertex run over and over is a shorter circuit repeated.
+            33 | 35 | 36 if short && k == 1 => 0,
+            // Of the 3/2 cyclic sequences of two vertices twice, only aabb is primitive.
+            37 if short && k == 2 => SHARED,
+            33 => 12 * k * k,
+            35 => 4 * k * k * (k + 1),
+            36 => k * k * (k + 1) * (k + 2),
+            _ => 3 * (k - 1) * k * k * (k + 1),
+        }
+    }
+}
+
+/// The common denominator of the five classes.
+pub const SHARED: u128 = 24;
+
+/// **Eq. (38)**
+///
+/// φ_N(k) + φ_N^1(k+1) + φ_N^{1,0}(k+2) + φ_N^{1,0,0}(k+3) + φ_N^2(k+2), each times p for each edge more than k, over
+/// φ_N(k) and times [`SHARED`]: the weight of all circuits with k different vertices over that of the simple ones.
+pub fn multiplicity(space: SampleSpace, p: DoubleDouble, k: usize) -> DoubleDouble {
+    let [simple, doubled, three, four, two] =
+        CLASSES.map(|class| class.per_simple_circuit(space, k));
+    let real = |x: u128| DoubleDouble::from(x);
+    // Horner's scheme in p; the excess lengths are 0, 1, 2, 3 and 2.
+    real(simple) + p * (real(doubled) + p * (real(three + two) + p * real(four)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::counting::phi;
+    use crate::graph::Graph;
+
+    #[test]
+    fn polynomials_are_quotients_of_what_enumeration_finds() {
+        for big_n in 1..=5 {
+            // By class and number of different vertices; k + 3 edges at most.
+            let mut found = [[0_u128; 6]; 5];
+            for circuit in Graph::of_chain(big_n - 1).circuits(big_n + 3) {
+                if let Some(at) = CLASSES.iter().position(|c| c.repeats == circuit.repeats()) {
+                    found[at][circuit.different_vertices()] += 1;
+                }
+            }
+            for (class, found) in CLASSES.iter().zip(found) {
+                for k in 1..=big_n {
+                    let ours = class.per_simple_circuit(SampleSpace::FiveClasses, k);
+                    let circuits = ours * phi(big_n, k).unwrap();
+                    assert_eq!(circuits, SHARED * found[k], "{class:?} N = {big_n} k = {k}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn polynomials_are_quotients_of_the_printed_formulas() {
+        for (class, formula) in
+            CLASSES[1..].iter().zip([doubled, three_visits, four_visits, two_doubled])
+        {
+            for k in 1..=12 {
+                let ours = class.per_simple_circuit(SampleSpace::FiveClassesPrinted, k);
+                let circuits = Fraction::new(ours * phi(12, k).unwrap(), SHARED);
+                assert_eq!(formula(12, k + class.excess()), Some(circuits), "{class:?} {k}");
+            }
+        }
+        // One vertex visited m times, alone: m equal letters, (m − 1)!/m! = 1/m per vertex.
+        assert_eq!(four_visits(7, 4), Some(Fraction::new(7, 4)));
+    }
+}

@@ -1,0 +1,428 @@
+//! Nucleation: how likely it is that a gap of a chain at rest closes by itself, and that one of a chain does (ours).
+//!
+//! # One gap
+//! A chain at rest has free parts that cancel the forced positions and velocities at t = 0. With the
+//! differences δα = ρ cos θ, δβ = ρ sin θ of the amplitudes on both sides of a gap, its width is
+//!
+//! Δ(t) = d − ρ E(t) · (cos θ, sin θ),
+//! E(t) = (cos ωt − cos Ωt, (Ω/ω) sin ωt − sin Ωt)/(ω² − Ω²),
+//!
+//! the same plane curve E for every gap of every chain. The gap closes by T where ρ M_T(θ) ≥ d, with
+//! M_T(θ) the largest value of E · (cos θ, sin θ) on [0, T]: how far the convex hull of the curve
+//! reaches in that direction. The differences are normal, so ρ is Rayleigh distributed, θ uniform,
+//! and for a gap between two masses
+//!
+//! p_T = (1/2π) ∮ exp(−(d/(2σ M_T(θ)))²) dθ.
+//!
+//! At a wall only one of the amplitudes differs from zero: σ/√2 stands for σ. For incommensurable
+//! frequencies M_T rises to M(θ) = (1 + √(cos²θ + (Ω/ω)² sin²θ))/|ω² − Ω²|, and p_T to p_rest. A gap
+//! closes late only if it closes barely: the phases that it needs form an ellipse of size √ε, for ρ M = d + ε,
+//! which a straight line of length T in the torus of phases misses for ε of order T^{−2} only.
+//!
+//! # Two neighbours
+//! Neighbours share a mass, and with it the force on that mass: both amplitude differences contain it
+//! with opposite signs, so their covariance is −σ². In polar coordinates for the radii of the two,
+//! r_1 = s cos φ and r_2 = s sin φ, the integral over s is elementary, and three angles are left. Where
+//! tan φ < m_2/m_1, m_i = d/M(θ_i), the second radius decides whether both close, and with t = tan φ
+//!
+//! P = ⟨ ∫_0^{m_2/m_1} (2 t D/Q²)(1 + h) e^{−h} dt ⟩ over θ_1 and θ_2, and the same with 1 and 2 exchanged,
+//! Q = v_2 + v_1 t² + 2σ² t cos(θ_1 − θ_2),  D = v_1 v_2 − σ⁴,  h = m_2² Q/(2 D t²),
+//!
+//! v_1 and v_2 being the variances of the differences. No function but the exponential is asked for.
+//!
+//! # At least one gap of a chain
+//! The gaps are 1-dependent: gaps that share no mass know nothing of one another, neighbours do, and
+//! those that close by themselves come in clumps. Let a clump begin at a gap that closes when the gap to its left does
+//! not. There is a gap that closes if and only if there is a clump, and beginnings of clumps are nearly
+//! independent: with their mean number λ, none begins with a probability near e^{−λ}.
+//!
+//! Dependence only makes chains without such a gap more frequent. In unlimited time a gap does not close if the
+//! difference of its forces lies in a set that is convex and symmetric about zero, and forces are jointly normal. By the
+//! Gaussian correlation inequality (Royen 2014) all gaps stay open with at least the product of their probabilities
+//! to do so: as if gaps were independent is a bound on the share of chains with a gap that closes.
+
+use impact_chain::{Boundary, Chain};
+use impact_numerics::quadrature::GaussLegendre;
+use impact_numerics::regula_falsi::crossing;
+use std::f64::consts::TAU;
+
+/// M_T(θ) at equally spaced angles θ from 0, in units of length per unit of amplitude of the force.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reach {
+    /// M_T at each angle.
+    pub radii: Vec<f64>,
+}
+
+/// Steps of the search for maxima in a unit of ωt.
+const STEPS: usize = 8;
+
+/// The curve E and its first derivative at a time.
+fn curve(chain: &Chain, time: f64) -> ([f64; 2], [f64; 2]) {
+    let (omega, big_omega) = (chain.natural_frequency, chain.forcing_frequency);
+    let scale = 1.0 / (omega * omega - big_omega * big_omega);
+    let (sin, cos) = pxfm::f_sincos(omega * time);
+    let (forced_sin, forced_cos) = pxfm::f_sincos(big_omega * time);
+    let at = [cos - forced_cos, big_omega / omega * sin - forced_sin];
+    let slope = [big_omega * forced_sin - omega * sin, big_omega * (cos - forced_cos)];
+    (at.map(|x| scale * x), slope.map(|x| scale * x))
+}
+
+fn along([x, y]: [f64; 2], [cos, sin]: [f64; 2]) -> f64 {
+    x * cos + y * sin
+}
+
+impl Reach {
+    /// The reach within each of some rising times, at `angles` angles. Times are rounded down to
+    /// eighths of 1/ω; maxima are exact to rounding but for two of them less than an eighth apart.
+    pub fn within(chain: &Chain, times: &[f64], angles: usize) -> Vec<Reach> {
+        let step = 1.0 / (STEPS as f64 * chain.natural_frequency);
+        let directions: Vec<[f64; 2]> = directions(angles).collect();
+        let mut radii = vec![0.0_f64; angles];
+        let mut reaches = Vec::with_capacity(times.len());
+        let mut before = curve(chain, 0.0);
+        let mut i: u64 = 0;
+        for time in times {
+            while (i + 1) as f64 * step <= *time {
+                let (from, until) = (i as f64 * step, (i + 1) as f64 * step);
+                let after = curve(chain, until);
+                for (radius, direction) in radii.iter_mut().zip(&directions) {
+                    let [rises, falls] = [before.1, after.1].map(|slope| along(slope, *direction));
+                    *radius = radius.max(along(after.0, *direction));
+                    // Between a rise and a fall the values stay below both tangents.
+                    let most = along(before.0, *direction) + rises * step;
+                    if rises > 0.0 && falls < 0.0 && most > *radius {
+                        let top = top(chain, *direction, from, until);
+                        *radius = radius.max(along(curve(chain, top).0, *direction));
+                    }
+                }
+                (before, i) = (after, i + 1);
+            }
+            reaches.push(Reach { radii: radii.clone() });
+        }
+        reaches
+    }
+
+    /// The reach in unlimited time, for frequencies that have no common multiple.
+    pub fn ever(chain: &Chain, angles: usize) -> Reach {
+        let (omega, big_omega) = (chain.natural_frequency, chain.forcing_frequency);
+        let scale = 1.0 / (omega * omega - big_omega * big_omega).abs();
+        let ratio = big_omega / omega;
+        let radius =
+            |[cos, sin]: [f64; 2]| scale * (1.0 + (cos * cos + ratio * ratio * sin * sin).sqrt());
+        Reach { radii: directions(angles).map(radius).collect() }
+    }
+
+    /// The same at every `step`-th angle only.
+    pub fn every(&self, step: usize) -> Reach {
+        Reach { radii: self.radii.iter().copied().step_by(step.max(1)).collect() }
+    }
+
+    /// The probability that a gap closes by itself whose two amplitudes differ by normals with
+    /// variance `variance` each: 2σ² between masses, σ² at a wall; d is the `spacing`.
+    pub fn probability(&self, spacing: f64, variance: f64) -> f64 {
+        let beyond = |radius: &f64| {
+            let least = spacing / radius;
+            pxfm::f_exp(-0.5 * least * least / variance)
+        };
+        self.radii.iter().filter(|radius| **radius > 0.0).map(beyond).fold(0.0, |sum, x| sum + x)
+            / self.radii.len() as f64
+    }
+}
+
+/// Whether a gap between amplitudes that differ by these of a chain at rest closes in unlimited
+/// time.
+pub fn closes_by_itself(chain: &Chain, [delta_alpha, delta_beta]: [f64; 2]) -> bool {
+    let (omega, big_omega) = (chain.natural_frequency, chain.forcing_frequency);
+    let turned = big_omega / omega * delta_beta;
+    let free = (delta_alpha * delta_alpha + turned * turned).sqrt();
+    let forced = (delta_alpha * delta_alpha + delta_beta * delta_beta).sqrt();
+    free + forced >= chain.spacing * (omega * omega - big_omega * big_omega).abs()
+}
+
+/// (cos θ, sin θ) at equally spaced angles.
+fn directions(angles: usize) -> impl Iterator<Item = [f64; 2]> {
+    (0..angles).map(move |i| {
+        let (sin, cos) = pxfm::f_sincos(TAU * i as f64 / angles as f64);
+        [cos, sin]
+    })
+}
+
+/// Where the curve turns back in a direction, between times of which the first still rises.
+fn top(chain: &Chain, direction: [f64; 2], mut from: f64, mut until: f64) -> f64 {
+    // The slope is nearly straight in an eighth: false position halves the number of bits left, and
+    // bisection in turn keeps both ends moving.
+    let slope = |time: f64| along(curve(chain, time).1, direction);
+    let (mut rises, mut falls) = (slope(from), slope(until));
+    for round in 0..24 {
+        let share = if round % 3 == 2 { 0.5 } else { rises / (rises - falls) };
+        let time = from + share * (until - from);
+        let found = slope(time);
+        if found.abs() <= 1e-9 || time <= from || time >= until {
+            return time;
+        }
+        if found > 0.0 { (from, rises) = (time, found) } else { (until, falls) = (time, found) }
+    }
+    0.5 * (from + until)
+}
+
+/// Points of the rule on each side of the angle from which on the other radius decides.
+const POINTS: usize = 20;
+
+/// The probability that two neighbouring gaps both close by themselves, of variances v_1 and v_2
+/// (2σ² between masses, σ² at a wall). The rule over the angles has the points of the reach.
+fn both(reach: &Reach, spacing: f64, sigma: f64, [v_1, v_2]: [f64; 2]) -> f64 {
+    let rule = GaussLegendre::new(POINTS);
+    let shared = sigma * sigma;
+    let determinant = v_1 * v_2 - shared * shared;
+    let angles = reach.radii.len();
+    let cosines: Vec<f64> =
+        (0..angles).map(|i| pxfm::f_cos(TAU * i as f64 / angles as f64)).collect();
+    // The part where the gap of the least radius `m` and the variance `v` decides.
+    let decides = |(m, v): (f64, f64), (other_m, other_v): (f64, f64), twice_shared: f64| {
+        rule.integrate(0.0, m / other_m, |t| {
+            let q = v + t * (twice_shared + other_v * t);
+            let half = 0.5 * m * m * q / (determinant * t * t);
+            t / (q * q) * (1.0 + half) * pxfm::f_exp(-half)
+        })
+    };
+    let mut sum = 0.0;
+    for (i, first) in reach.radii.iter().enumerate() {
+        // With equal variances the order of the angles does not matter.
+        let others = if v_1 == v_2 { i + 1 } else { angles };
+        for (j, second) in reach.radii[..others].iter().enumerate() {
+            if *first <= 0.0 || *second <= 0.0 {
+                continue;
+            }
+            let (one, two) = ((spacing / first, v_1), (spacing / second, v_2));
+            let twice_shared = 2.0 * shared * cosines[(angles + i - j) % angles];
+            let both = decides(two, one, twice_shared) + decides(one, two, twice_shared);
+            sum += if v_1 == v_2 && j < i { 2.0 * both } else { both };
+        }
+    }
+    2.0 * determinant * sum / (angles * angles) as f64
+}
+
+/// How likely it is that single gaps and neighbours close by themselves, of a chain from rest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Chances {
+    /// A gap between masses.
+    pub p: f64,
+    /// A gap at a wall.
+    pub wall: f64,
+    /// Both of two neighbouring gaps between masses.
+    pub pair: f64,
+    /// A gap at a wall and its neighbour.
+    pub wall_pair: f64,
+}
+
+/// The probability that at least one gap of a chain closes by itself.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AtLeastOne {
+    /// As if gaps knew nothing of one another.
+    pub independent: f64,
+    /// The mean number λ of clumps.
+    pub clumps: f64,
+    /// 1 − e^{−λ}.
+    pub value: f64,
+}
+
+impl Chances {
+    /// The chances within a reach, for forces of standard deviation `sigma`; for neighbours, which take
+    /// the square of the number of angles, that reach may be at `fewer` angles.
+    pub fn new(chain: &Chain, reach: &Reach, fewer: &Reach, sigma: f64) -> Chances {
+        let (mass, wall) = (2.0 * sigma * sigma, sigma * sigma);
+        let d = chain.spacing;
+        Chances {
+            p: reach.probability(d, mass),
+            wall: reach.probability(d, wall),
+            pair: both(fewer, d, sigma, [mass, mass]),
+            wall_pair: both(fewer, d, sigma, [wall, mass]),
+        }
+    }
+
+    /// For a chain of `masses` masses, one at least, between walls or in a ring.
+    pub fn at_least_one(&self, masses: usize, boundary: Boundary) -> AtLeastOne {
+        // Each gap's chance to close, and that of a clump to begin there.
+        let walls = boundary == Boundary::Walls && masses > 1;
+        let gaps = if boundary == Boundary::Walls { masses + 1 } else { masses };
+        let closes =
+            |gap: usize| if walls && (gap == 0 || gap == masses) { self.wall } else { self.p };
+        let begins = |gap: usize| match (walls, gap) {
+            (true, 0) => self.wall,
+            (true, 1) => self.p - self.wall_pair,
+            (true, gap) if gap == masses => self.wall - self.wall_pair,
+            _ => self.p - self.pair,
+        };
+        let (mut clumps, mut none) = (0.0, 1.0);
+        for gap in 0..gaps {
+            clumps += begins(gap);
+            none *= 1.0 - closes(gap);
+        }
+        let value = -pxfm::f_expm1(-clumps);
+        AtLeastOne { independent: 1.0 - none, clumps, value }
+    }
+}
+
+/// The σ at which half of such chains have a gap that closes by itself, to about 1e-6 of itself; the sum over
+/// angles is less exact.
+pub fn half(chain: &Chain, reach: &Reach, fewer: &Reach) -> f64 {
+    let share = |sigma: f64| {
+        Chances::new(chain, reach, fewer, sigma).at_least_one(chain.masses, chain.boundary).value
+    };
+    let logarithms = [0.02, 2.0].map(|times: f64| pxfm::f_log(times * chain.spacing));
+    pxfm::f_exp(crossing(logarithms, 1e-6, |log_sigma| share(pxfm::f_exp(log_sigma)) - 0.5))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::impact_probability::ImpactProbability;
+    use impact_numerics::random::NormalPairs;
+
+    #[test]
+    fn the_curve_is_the_motion_of_a_chain_at_rest() {
+        // E solves E″ + ω² E = −(cos Ωt, sin Ωt), E(0) = E′(0) = 0; central differences.
+        let chain = Chain { natural_frequency: 1.3, ..Chain::default() };
+        let h = 1e-4;
+        for time in [0.3, 2.0, 17.5] {
+            let [left, here, right] = [time - h, time, time + h].map(|t| curve(&chain, t));
+            let (sin, cos) = pxfm::f_sincos(chain.forcing_frequency * time);
+            for (axis, force) in [cos, sin].into_iter().enumerate() {
+                let second = (left.0[axis] - 2.0 * here.0[axis] + right.0[axis]) / (h * h);
+                assert!((second + 1.69 * here.0[axis] + force).abs() < 1e-6);
+                let first = (right.0[axis] - left.0[axis]) / (2.0 * h);
+                assert!((first - here.1[axis]).abs() < 1e-7);
+            }
+        }
+        assert_eq!(curve(&chain, 0.0), ([0.0; 2], [0.0; 2]));
+    }
+
+    #[test]
+    fn no_sample_of_the_curve_lies_beyond_its_reach() {
+        let chain = Chain::default();
+        let times = [5.0, 40.0, 300.0];
+        let reaches = Reach::within(&chain, &times, 90);
+        let ever = Reach::ever(&chain, 90);
+        let samples: Vec<_> = (0..=300_000).map(|i| curve(&chain, f64::from(i) * 1e-3).0).collect();
+        for (time, reach) in times.iter().zip(&reaches) {
+            for (angle, direction) in directions(90).enumerate() {
+                let sampled = samples[..=(time * 1e3) as usize].iter();
+                let sampled = sampled.map(|at| along(*at, direction)).fold(0.0, f64::max);
+                let found = reach.radii[angle];
+                // Samples 10⁻³ apart miss at most |E″| 10⁻⁶/8.
+                assert!((0.0..1e-6).contains(&(found - sampled + 1e-12)), "{time} {angle}");
+                assert!(found <= ever.radii[angle] + 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn in_unlimited_time_it_is_the_integral_of_the_start_from_rest() {
+        let chain = Chain::default();
+        for sigma in [0.08, 0.12, 0.2] {
+            let law = ImpactProbability::of_paper(sigma).unwrap();
+            let p = Reach::ever(&chain, 256).probability(1.0, 2.0 * sigma * sigma);
+            assert!((p / law.p_from_rest().unwrap() - 1.0).abs() < 1e-13, "{sigma}: {p}");
+        }
+    }
+
+    #[test]
+    fn a_gap_that_closes_is_one_within_reach() {
+        let chain = Chain::default();
+        let ever = Reach::ever(&chain, 8);
+        for (radius, [cos, sin]) in ever.radii.iter().zip(directions(8)) {
+            for (rho, closes) in [(0.999 / radius, false), (1.001 / radius, true)] {
+                assert_eq!(closes_by_itself(&chain, [rho * cos, rho * sin]), closes);
+            }
+        }
+    }
+
+    #[test]
+    fn sampled_neighbours_close_as_often() {
+        // Four masses' forces in a row between walls: a wall gap and its neighbour, and two gaps
+        // between masses; five standard errors of 60 000 draws.
+        let chain = Chain::default();
+        let (sigma, draws) = (0.15_f64, 60_000);
+        let reach = Reach::ever(&chain, 48);
+        let (mass, wall) = (2.0 * sigma * sigma, sigma * sigma);
+        let mut normals = NormalPairs::new("test of neighbouring gaps", 1, 0);
+        let mut hits = [0_u32; 2];
+        for _ in 0..draws {
+            let forces: [[f64; 2]; 3] = std::array::from_fn(|_| normals.pair().map(|x| sigma * x));
+            let closes =
+                |a: [f64; 2], b: [f64; 2]| closes_by_itself(&chain, [b[0] - a[0], b[1] - a[1]]);
+            let between = closes(forces[0], forces[1]);
+            hits[0] += u32::from(closes([0.0; 2], forces[0]) && between);
+            hits[1] += u32::from(between && closes(forces[1], forces[2]));
+        }
+        for (hits, pair) in hits.into_iter().zip([[wall, mass], [mass, mass]]) {
+            let p = both(&reach, 1.0, sigma, pair);
+            let error = (p * (1.0 - p) / f64::from(draws)).sqrt();
+            assert!((f64::from(hits) / f64::from(draws) - p).abs() < 5.0 * error, "{hits} {p}");
+            // Sharing a mass makes it more likely than by chance.
+            let alone = pair.map(|variance| reach.probability(1.0, variance));
+            assert!(p > 1.5 * alone[0] * alone[1], "{p} {alone:?}");
+        }
+    }
+
+    #[test]
+    fn order_does_not_matter_and_finer_rules_agree() {
+        let chain = Chain::default();
+        let (mass, wall) = (2.0 * 0.0144, 0.0144);
+        // 64 angles are used where chains are looked at.
+        let [coarse, fine] = [64, 96].map(|angles| Reach::ever(&chain, angles));
+        let p = |reach, pair| both(reach, 1.0, 0.12, pair);
+        let there = p(&coarse, [wall, mass]);
+        assert!((there / p(&coarse, [mass, wall]) - 1.0).abs() < 1e-12);
+        let finer = p(&fine, [wall, mass]);
+        assert!((there / finer - 1.0).abs() < 1e-9, "{there} {finer}");
+    }
+
+    #[test]
+    fn drawn_chains_are_near_the_value() {
+        let chain = Chain { masses: 30, ..Chain::default() };
+        let reach = Reach::ever(&chain, 32);
+        let draws = 4000;
+        let half = half(&chain, &reach, &reach);
+        for (sigma, index) in [(0.08, 0), (0.11, 1), (half, 2)] {
+            let mut normals = NormalPairs::new("test of clumps", 1, index);
+            let (mut some, mut clumps) = (0_u32, 0_u32);
+            for _ in 0..draws {
+                let mut forces: Vec<[f64; 2]> =
+                    (0..30).map(|_| normals.pair().map(|x| sigma * x)).collect();
+                forces.insert(0, [0.0; 2]);
+                forces.push([0.0; 2]);
+                let closes: Vec<bool> = forces
+                    .windows(2)
+                    .map(|pair| {
+                        let delta = [pair[1][0] - pair[0][0], pair[1][1] - pair[0][1]];
+                        closes_by_itself(&chain, delta)
+                    })
+                    .collect();
+                some += u32::from(closes.contains(&true));
+                clumps += u32::from(closes[0]);
+                clumps += closes.windows(2).map(|pair| u32::from(!pair[0] && pair[1])).sum::<u32>();
+            }
+            let found =
+                Chances::new(&chain, &reach, &reach, sigma).at_least_one(30, Boundary::Walls);
+            let n = f64::from(draws);
+            let (share, mean) = (f64::from(some) / n, f64::from(clumps) / n);
+            let error = (share * (1.0 - share) / n).sqrt();
+            assert!((share - found.value).abs() < 0.01 + 5.0 * error, "{share} {found:?}");
+            assert!((mean - found.clumps).abs() < 5.0 * (mean / n).sqrt(), "{mean} {found:?}");
+            assert!(found.independent > found.value);
+            // That independent gaps are a bound is the Gaussian correlation inequality.
+            assert!(share < found.independent + 3.0 * error, "{share} {found:?}");
+            assert!(sigma != half || (found.value - 0.5).abs() < 1e-5, "{found:?}");
+        }
+    }
+
+    /// The mean number of clumps is that of gaps less that of neighbours that both close.
+    #[test]
+    fn clumps_are_gaps_less_neighbours() {
+        let own = Chances { p: 0.03, wall: 0.01, pair: 0.004, wall_pair: 0.002 };
+        let found = own.at_least_one(12, Boundary::Walls);
+        let pairs = 2.0 * own.wall_pair + 10.0 * own.pair;
+        assert!((found.clumps - (2.0 * own.wall + 11.0 * own.p - pairs)).abs() < 1e-15);
+    }
+}
