@@ -2,13 +2,25 @@
 //! (n, path of the item, what the comment says behind it, file). The report and the crate's first page read
 //! this list, so that neither can disagree with the source.
 
-use super::depends::{self, CRATES, of_crate};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
 
 /// The report, from the first page of `cargo doc`.
 const REPORT: &str = "../../../paper/report.html";
+
+/// Crates of this workspace: the name in code, and where the source lies.
+const CRATES: [(&str, &str); 4] = [
+    ("literate", "crates/literate/src"),
+    ("impact_numerics", "crates/numerics/src"),
+    ("impact_chain", "crates/impact-chain/src"),
+    ("impact_circuits", "crates/circuits/src"),
+];
+
+/// The crate that a file belongs to; none if it is of the program itself.
+fn of_crate(path: &str) -> Option<(&'static str, &'static str)> {
+    CRATES.into_iter().find(|(_, folder)| path.starts_with(folder))
+}
 
 /// Writes `homes.rs` for `report::equations`, and `map.md` for the first page of `cargo doc`.
 pub fn run() -> io::Result<()> {
@@ -20,10 +32,7 @@ pub fn run() -> io::Result<()> {
             let _ = writeln!(out, "    ({number}, {item:?}, {note:?}, {path:?}),");
             let link = format!("[({number})]({REPORT}#eq-{number})");
             // The page of the source: an item may be private, and has no page of its own then.
-            let (own, folder) = match of_crate(&path) {
-                Some(own) => (own.name, own.folder),
-                None => ("impact_paper", "src"),
-            };
+            let (own, folder) = of_crate(&path).unwrap_or(("impact_paper", "src"));
             let source = format!("../src/{own}{}.html", path.trim_start_matches(folder));
             rows.push((number, format!("| {link} | [`{item}`]({source}) |\n")));
         }
@@ -39,7 +48,7 @@ pub fn run() -> io::Result<()> {
 /// The source of the program and of its crates, sorted.
 pub fn source_files() -> io::Result<Vec<PathBuf>> {
     let mut files = Vec::new();
-    for folder in CRATES.iter().map(|own| own.folder).chain(["src"]) {
+    for folder in CRATES.into_iter().map(|(_, folder)| folder).chain(["src"]) {
         println!("cargo::rerun-if-changed={folder}");
         collect(Path::new(folder), &["rs"], &mut files)?;
     }
@@ -62,7 +71,12 @@ pub fn collect(folder: &Path, endings: &[&str], into: &mut Vec<PathBuf>) -> io::
 
 /// crates/circuits/src/jump.rs → impact_circuits::jump, crates/circuits/src/lib.rs → circuits.
 pub fn module(file: &Path) -> String {
-    depends::module(&file.to_string_lossy()).join("::")
+    let path = file.to_string_lossy().replace('\\', "/");
+    let (name, folder) = of_crate(&path).map_or((None, "src"), |(name, own)| (Some(name), own));
+    let inside = path[folder.len()..].trim_end_matches(".rs").split('/').skip(1);
+    let mut parts: Vec<&str> = name.into_iter().chain(inside).collect();
+    parts.pop_if(|last| ["mod", "lib"].contains(last));
+    parts.join("::")
 }
 
 fn homes(module: &str, text: &str) -> Vec<(u32, String, String)> {

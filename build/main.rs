@@ -2,7 +2,6 @@
 //! quotes, and, with the feature `embed`, what it else reads when it runs.
 
 mod commit;
-mod depends;
 mod embedded;
 mod fingerprint;
 mod homes;

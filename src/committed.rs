@@ -1,4 +1,4 @@
-//! Files of the project that the program reads when it runs: prose, printed numbers, long results, times.
+//! Files of the project that the program reads when it runs: prose, printed numbers, times.
 //!
 //! None of them is compiled in, so a change of one word compiles nothing. Each is looked for below the
 //! current folder, then in the checkout in which the program was built, which is a folder above the

@@ -4,12 +4,10 @@ mod check;
 mod diff;
 mod eval;
 mod explain;
-mod merge;
 mod method;
 mod number;
 mod paper;
-mod plan;
-mod shard;
+mod run;
 mod sigmas;
 mod sweep;
 mod trace;
@@ -30,7 +28,7 @@ const EXIT_CODES: &str = "Exit codes:
        the same; or a rule of the prose is broken (a naked numeral, an unused value), and
        nothing is
   2    wrong usage or input, broken prose too, or a place that cannot be written
-  3    saved results or units of work are stale, missing or damaged
+  3    saved results are stale, missing or damaged, says `paper --dry-run`
   4    a run failed, or the system did: a full disk, no memory, an I/O error
   130  ended by Ctrl-C, SIGTERM or SIGHUP";
 
@@ -55,11 +53,10 @@ const TEMPLATE: &str =
     "{about}\n\n{usage-heading} {usage}\n\n{before-help}Options:\n{options}{after-help}";
 
 /// Who uses which verb.
-const GROUPS: [(&str, &[&str]); 4] = [
-    ("Make and check", &["paper", "check", "verify", "diff"]),
+const GROUPS: [(&str, &[&str]); 3] = [
+    ("Make and check", &["paper", "check", "verify", "diff", "run"]),
     ("Look at", &["explain"]),
     ("Compute", &["eval", "sweep", "trace"]),
-    ("On several machines", &["plan", "run", "merge"]),
 ];
 
 /// The command line, with its verbs in groups.
@@ -83,10 +80,8 @@ enum Verb {
     Diff(diff::Args),
     Eval(eval::Args),
     Explain(explain::Args),
-    Merge(merge::Args),
     Paper(paper::Args),
-    Plan(plan::Args),
-    Run(shard::Args),
+    Run(run::Args),
     Sweep(sweep::Args),
     Trace(trace::Args),
     Verify(verify::Args),
@@ -111,10 +106,8 @@ pub fn main() -> ExitCode {
         Verb::Diff(args) => diff::run(args),
         Verb::Eval(args) => eval::run(args),
         Verb::Explain(args) => explain::run(args),
-        Verb::Merge(args) => merge::run(args),
         Verb::Paper(args) => paper::run(args),
-        Verb::Plan(args) => plan::run(args),
-        Verb::Run(args) => shard::run(args),
+        Verb::Run(args) => run::run(args),
         Verb::Sweep(args) => sweep::run(args),
         Verb::Trace(args) => trace::run(args),
         Verb::Verify(args) => verify::run(args),

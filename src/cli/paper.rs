@@ -7,7 +7,7 @@ use super::places::{holds_report, refuse_prose, refuse_report};
 use super::sources::Sources;
 use super::{Failure, folder, make, shown, signals, stdout, threads, work};
 use impact_paper::claims::Verdict;
-use impact_paper::experiments::Progress;
+use impact_paper::experiments::{ALL, Need, Progress, Store};
 use impact_paper::figures;
 use impact_paper::params::Profile;
 use impact_paper::report::compare::{self, Parts};
@@ -35,6 +35,9 @@ pub struct Args {
     /// Folder to write into [default: paper for the full profile, else target/paper-PROFILE].
     #[arg(long, value_name = "DIR", value_parser = work::folder())]
     out: Option<PathBuf>,
+    /// Say which experiments would be run, and why (exit code 3 if any), and run nothing.
+    #[arg(long)]
+    dry_run: bool,
     #[command(flatten)]
     force: output::Force,
     #[command(flatten)]
@@ -61,6 +64,9 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let read = |text: &String| text.parse().map_err(|e| Failure::input(format!("--figure: {e}")));
     let numbers =
         args.figure.iter().map(read).collect::<Result<BTreeSet<figures::Number>, Failure>>()?;
+    if args.dry_run {
+        return dry_run(&args.sources, profile, &needs(&numbers));
+    }
     refuse_over_other(profile, &out, !args.figure.is_empty(), args.force)?;
     args.sources.refuse_strange()?;
     let templates = args.sources.templates.as_deref();
@@ -220,6 +226,26 @@ fn refuse_over_other(
     }
 }
 
+/// The experiments of figures, or all if none is named.
+fn needs(numbers: &BTreeSet<figures::Number>) -> Vec<Need> {
+    match numbers.is_empty() {
+        true => ALL.to_vec(),
+        false => numbers.iter().flat_map(|&number| figures::needs(number)).copied().collect(),
+    }
+}
+
+/// One line for each experiment that would be run.
+fn dry_run(sources: &Sources, profile: Profile, needs: &[Need]) -> Result<(), Failure> {
+    let store = Store::open(&sources.results)?;
+    let stale: Vec<String> =
+        needs.iter().filter_map(|need| Some(need.stale(profile, &store)? + "\n")).collect();
+    stdout::print(&stale.concat())?;
+    match stale.len() {
+        0 => Ok(()),
+        stale => Err(Failure::stale(format!("{} to be run", count(stale, "experiment")))),
+    }
+}
+
 /// The figures that were asked for, and nothing else.
 fn some(
     sources: &Sources,
@@ -227,9 +253,7 @@ fn some(
     profile: Profile,
     progress: &Progress,
 ) -> Result<Files, Failure> {
-    let needs: Vec<_> =
-        numbers.iter().flat_map(|&number| figures::needs(number)).copied().collect();
-    let results = sources.run(&needs, profile, &sources.templates()?, progress)?;
+    let results = sources.run(&needs(numbers), profile, &sources.templates()?, progress)?;
     let mut files = Files::new();
     for &number in numbers {
         progress.check()?;

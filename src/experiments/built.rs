@@ -1,23 +1,74 @@
-//! What this program was built of, by which saved results are known.
+//! What results were made of: each is used again only by the code that would compute it again to the same bits.
+//!
+//! A change of prose, of a figure, of a verdict or of another experiment leaves it as it is.
 
-use crate::committed;
-use literate::experiments::{Built, Code};
+use literate::experiments::Code;
+use std::collections::BTreeMap;
 
-/// Each file of an experiment, with path and hash of every file that it depends on.
-type Modules = &'static [(&'static str, &'static [(&'static str, &'static str)])];
+/// Path and hash of Cargo.lock and of every source file.
+const FILES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/fingerprint.rs"));
 
-/// Hash of Cargo.lock, and the modules (see `build/fingerprint.rs`).
-const DEPENDENCIES: (&str, Modules) = include!(concat!(env!("OUT_DIR"), "/dependencies.rs"));
+/// What all experiments depend on. An experiment that uses the files of another one names them among its own.
+const SHARED: [&str; 8] = [
+    "Cargo.lock",
+    "crates/numerics/src",
+    "crates/impact-chain/src",
+    "crates/circuits/src",
+    "crates/literate/src/experiments",
+    "src/params.rs",
+    "src/params",
+    "src/experiments/ensembles.rs",
+];
 
-static BUILT: Built = Built { lock: DEPENDENCIES.0, files, committed: committed::text };
+/// Ends of files that change no result: tables are made of results anew each time, and the others are words for people.
+const LEFT_OUT: [&str; 4] = ["tables.rs", "tests.rs", "progress.rs", "error.rs"];
 
-fn files(module: &str) -> Vec<(String, String)> {
-    let own = DEPENDENCIES.1.iter().find(|(path, _)| *path == module);
-    let files = own.map(|(_, files)| *files).unwrap_or_default();
-    files.iter().map(|(path, hash)| ((*path).into(), (*hash).into())).collect()
+/// The code of an experiment of this program: its files and folders, that of its main item first.
+pub const fn code(own: &'static [&'static str]) -> Code {
+    Code { own, files: made_of }
 }
 
-/// The code of an experiment of this program, in this file.
-pub const fn code(file: &'static str) -> Code {
-    Code { built: &BUILT, file }
+/// Path and hash of every file of which results are made, beside what all share of these files and folders.
+fn made_of(own: &[&str]) -> BTreeMap<String, String> {
+    let within = |path: &str| {
+        let mut named = SHARED.iter().chain(own);
+        named.any(|named| {
+            path.strip_prefix(named).is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
+        }) && !LEFT_OUT.iter().any(|end| path.ends_with(end))
+    };
+    let files = FILES.iter().filter(|(path, _)| within(path));
+    files.map(|(path, hash)| ((*path).into(), (*hash).into())).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{SWEEP, saved};
+    use super::made_of;
+
+    #[test]
+    fn what_may_change_a_number_is_in_and_what_follows_from_results_is_not() {
+        let of = |own: &[&str]| made_of(own).into_keys().collect::<Vec<String>>();
+        let sweep = of(SWEEP.code.own);
+        for file in [
+            "Cargo.lock",
+            "crates/impact-chain/src/engine.rs",
+            "crates/literate/src/experiments/cutting.rs",
+            "src/params/chosen.rs",
+            "src/experiments/ensembles.rs",
+        ] {
+            assert!(sweep.iter().any(|own| own == file), "{file}");
+        }
+        for file in ["sweep", "figures/", "claims/", "literate/src/report", "protocol"] {
+            assert!(
+                !sweep.iter().any(|own| own.contains(file) && !own.contains("params")),
+                "{file}"
+            );
+        }
+        let shared = of(&[]);
+        for experiment in saved() {
+            for own in experiment.code().own {
+                assert!(of(&[own]).len() > shared.len(), "there is no {own}");
+            }
+        }
+    }
 }

@@ -34,8 +34,8 @@ pub use results::Results;
 pub use run::run;
 
 use crate::params::{
-    self, BiasParams, HorizonParams, NucleationParams, Profile, RaceParams, ScaleParams,
-    SeedsParams, SpaceTimeParams, TrialParams, TwoMassesParams,
+    self, BiasParams, HorizonParams, NucleationParams, RaceParams, ScaleParams, SeedsParams,
+    SpaceTimeParams, TrialParams, TwoMassesParams,
 };
 use accuracy::{bias, race, scale, tables, trials};
 use built::code;
@@ -82,14 +82,14 @@ pub const TOGETHER: [Together; 5] = [
 ];
 
 /// The experiments whose results are saved.
-pub fn of(_: Profile) -> Vec<Need> {
+pub fn saved() -> Vec<Need> {
     ALL.iter().copied().filter(|one| one.is_saved()).collect()
 }
 
 /// The motions of Figs. 5(b) and 6(b).
 pub const SEGMENTS: Experiment<(), segments::Segments> = Experiment {
     name: "segments",
-    code: code("src/experiments/segments.rs"),
+    code: code(&["src/experiments/segments.rs"]),
     parameters: |_| (),
     how: Read(segments::read),
     tables: segments::tables,
@@ -98,7 +98,7 @@ pub const SEGMENTS: Experiment<(), segments::Segments> = Experiment {
 /// Times that were measured once.
 pub const MEASURED: Experiment<(), Measured> = Experiment {
     name: "measured",
-    code: code("src/experiments/measured.rs"),
+    code: code(&["src/experiments/measured.rs"]),
     parameters: |_| (),
     how: Read(|_| Measured::committed()),
     tables: measured::tables,
@@ -110,7 +110,7 @@ pub type Ensembles = Experiment<Vec<Ensemble>, Vec<Counted>, Counts>;
 /// The main sweep of Sec. 2.
 pub const SWEEP: Ensembles = Experiment {
     name: "sweep",
-    code: code("src/experiments/ensembles.rs"),
+    code: code(&["src/experiments/ensembles.rs"]),
     parameters: params::sweep,
     how: Cut("main sweep", ensembles::CUTTING),
     tables: sweep::tables,
@@ -119,7 +119,7 @@ pub const SWEEP: Ensembles = Experiment {
 /// The rise again, with another seed.
 pub const SECOND_SEED: Ensembles = Experiment {
     name: "second_seed",
-    code: code("src/experiments/ensembles.rs"),
+    code: code(&["src/experiments/ensembles.rs"]),
     parameters: params::second_seed,
     how: Cut("second seed", ensembles::CUTTING),
     tables: sweep::of_second_seed,
@@ -128,7 +128,7 @@ pub const SECOND_SEED: Ensembles = Experiment {
 /// Half height against transient and window.
 pub const PROTOCOL: Ensembles = Experiment {
     name: "protocol",
-    code: code("src/experiments/ensembles.rs"),
+    code: code(&["src/experiments/ensembles.rs"]),
     parameters: params::protocol,
     how: Cut("protocol map", ensembles::CUTTING),
     tables: protocol::tables,
@@ -137,7 +137,7 @@ pub const PROTOCOL: Ensembles = Experiment {
 /// Other starts, boundaries, restitutions and frequencies.
 pub const STARTS: Ensembles = Experiment {
     name: "starts",
-    code: code("src/experiments/ensembles.rs"),
+    code: code(&["src/experiments/ensembles.rs"]),
     parameters: params::starts,
     how: Cut("variants", ensembles::CUTTING),
     tables: starts::tables,
@@ -146,7 +146,7 @@ pub const STARTS: Ensembles = Experiment {
 /// Chaos and its horizon.
 pub const HORIZON: Experiment<HorizonParams, horizon::Horizon> = Experiment {
     name: "horizon",
-    code: code("src/experiments/horizon.rs"),
+    code: code(&["src/experiments/horizon.rs"]),
     parameters: HorizonParams::new,
     how: Whole {
         run: horizon::run,
@@ -158,7 +158,7 @@ pub const HORIZON: Experiment<HorizonParams, horizon::Horizon> = Experiment {
 /// Two masses under a low force.
 pub const TWO_MASSES: Experiment<TwoMassesParams, two_masses::TwoMasses> = Experiment {
     name: "two_masses",
-    code: code("src/experiments/two_masses.rs"),
+    code: code(&["src/experiments/two_masses.rs"]),
     parameters: TwoMassesParams::new,
     how: Whole {
         run: two_masses::run,
@@ -170,7 +170,7 @@ pub const TWO_MASSES: Experiment<TwoMassesParams, two_masses::TwoMasses> = Exper
 /// One long run.
 pub const SPACE_TIME: Experiment<SpaceTimeParams, spacetime::SpaceTime> = Experiment {
     name: "spacetime",
-    code: code("src/experiments/spacetime/mod.rs"),
+    code: code(&["src/experiments/spacetime"]),
     parameters: SpaceTimeParams::new,
     how: Whole {
         run: spacetime::run,
@@ -182,7 +182,11 @@ pub const SPACE_TIME: Experiment<SpaceTimeParams, spacetime::SpaceTime> = Experi
 /// Every method against the true motion.
 pub const RACE: Experiment<RaceParams, race::Race> = Experiment {
     name: "race",
-    code: code("src/experiments/accuracy/race.rs"),
+    code: code(&[
+        "src/experiments/accuracy/race.rs",
+        "src/experiments/accuracy",
+        "src/experiments/horizon.rs",
+    ]),
     parameters: RaceParams::new,
     how: Whole { run: race::run, weight: |p| 30_000 * (p.chains * p.settings.len()) as u64 },
     tables: tables::race,
@@ -191,7 +195,7 @@ pub const RACE: Experiment<RaceParams, race::Race> = Experiment {
 /// What methods do to the mean count.
 pub const BIAS: Experiment<BiasParams, bias::Biases> = Experiment {
     name: "bias",
-    code: code("src/experiments/accuracy/bias.rs"),
+    code: code(&["src/experiments/accuracy/bias.rs", "src/experiments/accuracy"]),
     parameters: BiasParams::new,
     how: Whole {
         run: bias::run,
@@ -203,7 +207,7 @@ pub const BIAS: Experiment<BiasParams, bias::Biases> = Experiment {
 /// Every method in the scenes where methods fail.
 pub const TRIALS: Experiment<TrialParams, trials::Trials> = Experiment {
     name: "trials",
-    code: code("src/experiments/accuracy/trials.rs"),
+    code: code(&["src/experiments/accuracy/trials.rs", "src/experiments/accuracy"]),
     parameters: TrialParams::new,
     how: Whole {
         run: trials::run,
@@ -215,7 +219,7 @@ pub const TRIALS: Experiment<TrialParams, trials::Trials> = Experiment {
 /// Counted work against the number of masses.
 pub const SCALE: Experiment<ScaleParams, scale::Scale> = Experiment {
     name: "scale",
-    code: code("src/experiments/accuracy/scale.rs"),
+    code: code(&["src/experiments/accuracy/scale.rs", "src/experiments/accuracy"]),
     parameters: ScaleParams::new,
     how: Whole { run: scale::run, weight: |p| 300_000 + 7 * p.masses.iter().sum::<usize>() as u64 },
     tables: tables::scale,
@@ -224,7 +228,7 @@ pub const SCALE: Experiment<ScaleParams, scale::Scale> = Experiment {
 /// First impacts of chains from rest.
 pub const NUCLEATION: Experiment<NucleationParams, nucleation::Nucleation> = Experiment {
     name: "nucleation",
-    code: code("src/experiments/nucleation/mod.rs"),
+    code: code(&["src/experiments/nucleation"]),
     parameters: NucleationParams::new,
     how: Whole {
         run: nucleation::run,
@@ -237,7 +241,7 @@ pub const NUCLEATION: Experiment<NucleationParams, nucleation::Nucleation> = Exp
 /// What one gap that closes by itself sets off.
 pub const SEEDS: Experiment<SeedsParams, seeds::Seeds> = Experiment {
     name: "seeds",
-    code: code("src/experiments/seeds/mod.rs"),
+    code: code(&["src/experiments/seeds"]),
     parameters: SeedsParams::new,
     how: Whole {
         run: seeds::run,
@@ -253,7 +257,7 @@ pub const SEEDS: Experiment<SeedsParams, seeds::Seeds> = Experiment {
 /// Chains that are heated first.
 pub const HISTORY: Ensembles = Experiment {
     name: "history",
-    code: code("src/experiments/ensembles.rs"),
+    code: code(&["src/experiments/ensembles.rs"]),
     parameters: params::history,
     how: Cut("history", ensembles::CUTTING),
     tables: history::tables,
@@ -262,7 +266,7 @@ pub const HISTORY: Ensembles = Experiment {
 /// Chains of other lengths, starts and ends.
 pub const CHAINS: Ensembles = Experiment {
     name: "chains",
-    code: code("src/experiments/ensembles.rs"),
+    code: code(&["src/experiments/ensembles.rs"]),
     parameters: params::chains,
     how: Cut("chains", ensembles::CUTTING),
     tables: chains::tables,
@@ -271,7 +275,7 @@ pub const CHAINS: Ensembles = Experiment {
 /// Chains of several restitutions.
 pub const RESTITUTION: Ensembles = Experiment {
     name: "restitution",
-    code: code("src/experiments/ensembles.rs"),
+    code: code(&["src/experiments/ensembles.rs"]),
     parameters: params::restitution,
     how: Cut("restitution", ensembles::CUTTING),
     tables: restitution::tables,
@@ -280,7 +284,7 @@ pub const RESTITUTION: Ensembles = Experiment {
 /// The long end of the map over transients and windows.
 pub const LONG_PROTOCOL: Ensembles = Experiment {
     name: "long_protocol",
-    code: code("src/experiments/ensembles.rs"),
+    code: code(&["src/experiments/ensembles.rs"]),
     parameters: params::long_protocol,
     how: Cut("long protocol map", ensembles::CUTTING),
     tables: protocol::of_long,
@@ -289,7 +293,7 @@ pub const LONG_PROTOCOL: Ensembles = Experiment {
 /// Chains of several lengths after several transients.
 pub const SIZES: Ensembles = Experiment {
     name: "sizes",
-    code: code("src/experiments/ensembles.rs"),
+    code: code(&["src/experiments/ensembles.rs"]),
     parameters: params::sizes,
     how: Cut("lengths and transients", ensembles::CUTTING),
     tables: sizes::tables,
@@ -298,7 +302,7 @@ pub const SIZES: Ensembles = Experiment {
 /// Runs that a page repeats.
 pub const REPLAY: Experiment<replay::Runs, replay::Replays> = Experiment {
     name: "replay",
-    code: code("src/experiments/replay.rs"),
+    code: code(&["src/experiments/replay.rs"]),
     parameters: replay::runs,
     how: Whole {
         run: replay::run,
@@ -312,32 +316,11 @@ pub const REPLAY: Experiment<replay::Runs, replay::Replays> = Experiment {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use literate::experiments::shards::Plan;
-    use std::collections::BTreeMap;
+    use std::collections::BTreeSet;
 
     #[test]
-    fn names_of_units_differ_and_their_weights_are_shared_evenly() {
-        for profile in Profile::ALL {
-            let plan = Plan::new(of, profile);
-            let names: BTreeMap<&str, u64> =
-                plan.tasks.iter().map(|task| (task.name.as_str(), task.unit.weight)).collect();
-            assert_eq!(names.len(), plan.tasks.len());
-            let whole: u64 = names.values().sum();
-            let heaviest = names.values().max().unwrap();
-            for shards in [1, 3, 7] {
-                let mut loads = vec![0; shards];
-                for (task, shard) in plan.tasks.iter().zip(plan.shards(shards)) {
-                    loads[shard - 1] += task.unit.weight;
-                }
-                let even = whole / shards as u64;
-                assert!(loads.iter().all(|&load| load <= even + heaviest), "{loads:?}");
-                assert!(loads.iter().all(|&load| load + heaviest >= even), "{loads:?}");
-            }
-        }
-        // The cuts are the same whatever the number of machines; so many have one unit each.
-        let plan = Plan::new(of, Profile::Quick);
-        let mut alone = plan.shards(plan.tasks.len());
-        alone.sort_unstable();
-        assert_eq!(alone, (1..=plan.tasks.len()).collect::<Vec<_>>());
+    fn names_differ() {
+        let names: BTreeSet<&str> = ALL.iter().map(|one| one.name()).collect();
+        assert_eq!(names.len(), ALL.len());
     }
 }

@@ -92,6 +92,11 @@ impl Failure {
         ExitCode::from(self.code)
     }
 
+    /// Saved results are stale: exit code 3.
+    pub fn stale(message: impl Into<String>) -> Self {
+        Failure { code: 3, message: message.into() }
+    }
+
     /// A run failed: exit code 4.
     pub fn run(message: impl Into<String>) -> Self {
         Failure { code: 4, message: message.into() }
@@ -105,7 +110,6 @@ impl From<Error> for Failure {
             Error::Store { source, .. } => Failure::io_code(source),
             Error::Input { .. } | Error::Foreign { .. } => 2,
             Error::Failed { source, .. } if is_input(source.as_ref()) => 2,
-            Error::Units { .. } | Error::NotUnderstood { .. } => 3,
             _ => 4,
         };
         Failure { code, message: error.to_string() }

@@ -77,10 +77,6 @@ impl Sources {
         let _made = long.then(|| signals::made(folder));
         let store = if long { Store::open(folder)? } else { Store::nowhere() };
         store.tidy();
-        // Before the first run, not after hours when its turn comes.
-        for need in needs.iter().filter(|need| need.is_saved()) {
-            store.refuse_foreign(need.at(profile).identity(), profile)?;
-        }
         let scenario = |file: &str| {
             let text = templates.text(file).map(String::from);
             text.map_err(|_| "this file is missing from the templates".to_string())

@@ -144,18 +144,14 @@ paper --figure 4 --out file|file/below => --out
 paper --profile quick --out file => it is a file
 paper --profile quick --figure 3 --results file => --results: file: not a directory
 paper --templates nowhere => nowhere
-merge empty => empty: it has no unit of work
 paper --templates empty => --templates: empty has none of published.toml
 check --templates empty => --templates: empty has none of published.toml
 check --claim no-such-claim => --claim
 check --profile quick --results file => --results: file: not a directory
 verify => paper/SHA256SUMS: ; give the folder of a report
 verify empty => empty/SHA256SUMS: ; give the folder of a report
-run --profile quick --shard 0/3|4/3 --out d => 1 <= i <= N
-run --profile quick --out d => --shard
-run --profile quick --shard 1/3 --out file|file/below => --out: file
-plan --shards 0 => --shards: 0
-merge => DIR
+run --profile quick --shard 0/3|4/3 --results d => 1 <= i <= N
+run --profile quick --shard 1/3 --results file|file/below => --results: file
 eval => QUANTITY
 eval no-such-thing => no-such-thing; --list
 eval p-crit --no-such-option => --no-such-option

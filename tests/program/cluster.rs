@@ -21,18 +21,16 @@ fn a_job_array_with_a_killed_task_gives_the_bytes_of_one_machine() {
         .unwrap();
     let text = String::from_utf8_lossy(&output.stdout);
     let note = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{text}{note}");
-    for line in ["killed task 2 of job", "missing units of work", "resubmitted task 2 alone"] {
-        assert!(text.contains(line), "{text}{note}");
-    }
-    let paper = "paper --profile full --out report --results local --templates";
-    let (code, _, note) = run(folder.path(), &format!("{paper} {TEMPLATES}"));
-    assert_eq!(code, 0, "{note}");
-    let made = |name: &str| -> Vec<_> {
+    assert!(output.status.success() && text.contains("killed task 2"), "{text}{note}");
+    let made = |results: &str| -> Vec<_> {
+        let paper = format!("paper --out report --results {results} --templates {TEMPLATES}");
+        let (code, _, said) = run(folder.path(), &paper);
+        assert_eq!(code, 0, "{said}");
+        assert!(results == "local" || !said.contains("run again"), "{said}");
         let sum = |(name, bytes): (String, Vec<u8>)| (name, digest(bytes));
-        files(&folder.path().join(name)).into_iter().map(sum).collect()
+        files(&folder.path().join(results)).into_iter().map(sum).collect()
     };
-    let merged = made("results");
-    assert_eq!(merged.len(), EXPERIMENTS);
-    assert_eq!(merged, made("local"));
+    let joined = made("results");
+    assert_eq!(joined.len(), EXPERIMENTS);
+    assert_eq!(joined, made("local"));
 }

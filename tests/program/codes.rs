@@ -53,9 +53,9 @@ fn exit_codes_are_those_of_the_table() {
         ),
         (2, "trace --until 1 $'no\nsuch'".into(), "no such: "),
         (2, "verify nowhere".into(), "nowhere"),
-        (3, "merge --profile quick --results q empty".into(), "missing"),
+        (3, "paper --profile quick --results q --dry-run".into(), "to be run"),
         (4, full("paper --figure 4 --out f --templates good"), "f: "),
-        (4, full("run --profile quick --shard 1/1 --experiment two_masses --out g"), "g"),
+        (4, full("run --profile quick --shard 1/1 --results g"), "g"),
         (4, "explain --paper p >/dev/full".into(), "standard output"),
         (4, "paper --figure 4 --out h --templates good >/dev/full".into(), "standard output"),
     ];

@@ -121,14 +121,14 @@ fn digest(bytes: impl AsRef<[u8]>) -> String {
 }
 
 /// A saved result with other text in its second or third line, and a checksum that is right.
-fn forged(bytes: &[u8], line: usize, from: &str, to: &str) -> String {
+fn forged(bytes: &[u8], line: usize, from: &str, to: &str) -> Vec<u8> {
     let text = std::str::from_utf8(bytes).unwrap();
     let mut lines: Vec<&str> = text.lines().collect();
     let changed = lines[line].replacen(from, to, 1);
     assert_ne!(changed, lines[line], "there is no {from}");
     lines[line] = &changed;
     let made_of = format!("{}\n{}\n", lines[1], lines[2]);
-    format!("{}\n{made_of}", digest(&made_of))
+    format!("{}\n{made_of}", digest(&made_of)).into()
 }
 
 /// Copies the project's templates, which may be read-only, and changes one of their files.

@@ -151,7 +151,7 @@ fn a_report_has_no_other_files_and_quiet_work_says_nothing() {
     }
     std::fs::create_dir(here.join("left/data")).unwrap();
     for folder in ["report", "left", "left/data", "left/new"] {
-        let shard = "run --profile quick --shard 1/1 --out";
+        let shard = "run --profile quick --shard 1/1 --results";
         crate::refused(here, &format!("{shard} {folder}"), &["holds a report"]);
         refused(here, &format!("-q check --profile quick --results {folder}"), &["holds a report"]);
         refused(here, &format!("-q paper --out o --results {folder}"), &["holds a report"]);

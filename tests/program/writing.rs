@@ -110,7 +110,7 @@ fn nothing_is_written_among_the_templates() {
     for (verb, among) in [
         ("paper --figure 4 --templates t --out", "t"),
         ("paper --profile quick --templates t --out new --results", "t"),
-        ("run --profile quick --shard 1/1 --out", TEMPLATES),
+        ("run --profile quick --shard 1/1 --results", TEMPLATES),
     ] {
         let (code, _, note) = crate::run(here, &format!("{verb} {among}"));
         let what = format!("{among} is the folder of the templates, or lies in it");

@@ -13,6 +13,7 @@ use impact_paper::report::origin::Filled;
 use impact_paper::report::{Document, Error, PROGRAM, Templates};
 use impact_paper::report::{compare, latex, ledger, markdown, parse, sums};
 use literate::digest::sha256;
+use literate::experiments::Profile;
 use literate::experiments::identity::{Identity, told};
 use literate::experiments::store;
 use rand::RngExt;
@@ -113,7 +114,7 @@ fn no_reader_panics_or_hangs() {
     let scenario = |text: &str| line(Scenario::from_json(text).and_then(|own| own.validate()));
     survives("scenario", SCENARIO.into(), 2000, scenario);
     // Saved results with a checksum that fits, as no accident makes it.
-    let identity = Identity::new("test", code("src/experiments/rise.rs"), &[1.5, 0.25]);
+    let identity = Identity::new("test", Profile::Quick, code(&[]), &[1.5, 0.25]);
     let saved = serde_json::to_string(&identity).unwrap() + "\n[[\"row\",0.5],[\"\",null]]\n";
     survives("saved", saved, 1000, |text| {
         let whole = format!("{}\n{text}", sha256(text));

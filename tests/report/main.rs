@@ -3,7 +3,6 @@
 mod budgets;
 mod commonmark;
 mod damage;
-mod depends;
 mod figures;
 mod html;
 mod prose;

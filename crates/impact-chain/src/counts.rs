@@ -81,18 +81,6 @@ impl Counts {
     pub(crate) fn failed(ensemble: &Ensemble, error: &Error) -> Counts {
         Counts { failed: 1, first_failure: Some(error.to_string()), ..Counts::none(ensemble) }
     }
-
-    /// Whether they can be those of so many realisations of an ensemble.
-    pub fn fit(&self, ensemble: &Ensemble, realisations: usize) -> bool {
-        let (windows, gaps) = (ensemble.protocols.len(), ensemble.chain.gaps() as u32);
-        self.distinct.len() == windows
-            && [self.impacts.len(), self.masses.len(), self.phases.len()] == [windows; 3]
-            && self.distinct.iter().all(|own| own.len() == realisations * ensemble.pieces)
-            && self.impacts.iter().all(|own| own.len() == realisations)
-            && self.masses.iter().all(|own| own.len() == realisations)
-            && self.phases.iter().all(|own| own.len() == realisations)
-            && self.distinct.iter().flatten().flatten().all(|&k| k <= gaps)
-    }
 }
 
 fn extend<T>(rows: &mut Vec<Vec<T>>, next: Vec<Vec<T>>) {

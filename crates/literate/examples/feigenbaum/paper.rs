@@ -6,12 +6,13 @@
 use impact_numerics::double_double::DoubleDouble;
 use literate::claims::{Basis, Check, Finding, Judgement, Published, Statement, Text};
 use literate::experiments::experiment::How;
-use literate::experiments::{Built, Code, Error, Experiment, Profile, Progress, Store};
+use literate::experiments::{Code, Error, Experiment, Profile, Progress, Store};
 use literate::figures::prelude::*;
 use literate::report::claims::printed;
 use literate::report::{self, Input, Registry, Report, Templates, assemble};
 use literate::source::{PLAIN, Program, Recipe};
 use literate::table::Table;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Prose and data.
@@ -39,10 +40,9 @@ const PROGRAM: Program = Program {
     ..PLAIN
 };
 
-const BUILT: Built = Built {
-    lock: "",
-    files: |file| vec![(file.into(), literate::digest::sha256(SOURCE.2))],
-    committed: |_| Err(std::io::ErrorKind::NotFound.into()),
+const CODE: Code = Code {
+    own: &[SOURCE.1],
+    files: |_| BTreeMap::from([(SOURCE.1.into(), literate::digest::sha256(SOURCE.2))]),
 };
 
 /// How far the cascade of period doublings is followed.
@@ -68,7 +68,7 @@ pub struct Orbit {
 /// The experiment: it is run once, saved, and used again.
 pub const CASCADE: Experiment<Depth, Vec<Orbit>> = Experiment {
     name: "cascade",
-    code: Code { built: &BUILT, file: SOURCE.1 },
+    code: CODE,
     parameters: |profile| Depth { deepest: if profile == Profile::Quick { 8 } else { 16 } },
     how: How::Whole { run: cascade, weight: |depth| 1 << depth.deepest },
     tables: |cascade| tables(cascade),

@@ -2,12 +2,13 @@
 //!
 //! Such an experiment has rows (each σ of an ensemble, say), and each row has realisations. A unit
 //! is a row's realisations from one number to another; where the cuts are follows from the
-//! parameters alone, never from the number of machines. One machine runs all units and joins what
-//! they give, several machines do the same: that is why they give the same bytes.
+//! parameters alone, never from the number of machines. A result is joined of all units, whoever ran
+//! them: that is why several machines give the same bytes as one.
 
 use super::progress::Stage;
 use super::{Error, Progress};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// No unit is meant to weigh more than this many impacts: half a second of one core ...
@@ -35,8 +36,10 @@ impl Row {
 }
 
 /// Some realisations of one row: what is run, saved and joined as a whole.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Unit {
+    /// Its place among all units.
+    pub number: usize,
     /// Place of its row.
     pub row: usize,
     /// Its realisations.
@@ -48,17 +51,9 @@ pub struct Unit {
 }
 
 impl Unit {
-    /// Where rows are those of several lists of these lengths, one list after another: the place of
-    /// the list that has its row, and the unit as one of that list.
-    pub fn within(&self, lengths: impl IntoIterator<Item = usize>) -> Option<(usize, Unit)> {
-        let mut row = self.row;
-        for (place, length) in lengths.into_iter().enumerate() {
-            match row.checked_sub(length) {
-                Some(rest) => row = rest,
-                None => return Some((place, Unit { row, ..self.clone() })),
-            }
-        }
-        None
+    /// All of an experiment that is not cut.
+    pub fn whole(weight: u64) -> Unit {
+        Unit { number: 0, row: 0, realisations: 0..0, covers: "all of it".into(), weight }
     }
 
     /// Runs its realisations, in any order and on any thread, and advances the stage after each.
@@ -86,37 +81,44 @@ pub struct Cutting<P, U, T> {
     pub rows: fn(&P) -> Vec<Row>,
     /// Runs realisations of a row, and advances the stage by the row's weight for each.
     pub part: fn(&P, &Unit, &Stage, &Progress) -> Result<U, Error>,
-    /// Whether what was read from a file can be the part of a unit.
-    pub fits: fn(&P, &Unit, &U) -> bool,
     /// Makes the result.
     pub join: Join<P, U, T>,
 }
 
-impl<P: Sync, U: Send, T> Cutting<P, U, T> {
+impl<P, U, T> Cutting<P, U, T> {
     /// All units: row by row, realisation by realisation.
     pub fn units(&self, parameters: &P) -> Vec<Unit> {
         let rows = (self.rows)(parameters);
         let all = rows.iter().map(Row::work).fold(0, u64::saturating_add);
         let heavy = HEAVY.max(all / MANY);
-        rows.iter().enumerate().flat_map(|(place, row)| cut(place, row, heavy)).collect()
+        let units = rows.iter().enumerate().flat_map(|(place, row)| cut(place, row, heavy));
+        units.enumerate().map(|(number, unit)| Unit { number, ..unit }).collect()
     }
 
-    /// Runs all units and joins them.
-    pub fn run(&self, parameters: &P, name: &str, progress: &Progress) -> Result<T, Error> {
+    /// Runs all units and joins them; nothing is saved.
+    pub fn run(&self, parameters: &P, name: &str, progress: &Progress) -> Result<T, Error>
+    where
+        P: Sync,
+        U: Send,
+    {
         let units = self.units(parameters);
         let stage = progress.stage(name, units.iter().map(|unit| unit.weight).sum());
-        // Units share the cores with the realisations inside them.
         let part = |unit: &Unit| (self.part)(parameters, unit, &stage, progress);
-        let parts: Vec<U> =
-            units.par_iter().with_max_len(1).map(part).collect::<Result<_, Error>>()?;
-        self.joined(parameters, parts, progress)
+        let parts: Result<Vec<U>, Error> = units.par_iter().with_max_len(1).map(part).collect();
+        self.joined(parameters, &units, parts?, progress)
     }
 
     /// The result of the parts of all units, in order.
-    pub fn joined(&self, parameters: &P, parts: Vec<U>, progress: &Progress) -> Result<T, Error> {
+    pub fn joined(
+        &self,
+        parameters: &P,
+        units: &[Unit],
+        parts: Vec<U>,
+        progress: &Progress,
+    ) -> Result<T, Error> {
         progress.check()?;
         let mut rows: Vec<Vec<U>> = (self.rows)(parameters).iter().map(|_| Vec::new()).collect();
-        for (unit, part) in self.units(parameters).into_iter().zip(parts) {
+        for (unit, part) in units.iter().zip(parts) {
             rows[unit.row].push(part);
         }
         (self.join)(parameters, rows, progress)
@@ -132,7 +134,7 @@ fn cut(place: usize, row: &Row, heavy: u64) -> Vec<Unit> {
         .map(|piece| {
             let realisations = at(piece)..at(piece + 1);
             let weight = row.weight.saturating_mul(realisations.len() as u64);
-            Unit { row: place, realisations, covers: row.covers.clone(), weight }
+            Unit { number: 0, row: place, realisations, covers: row.covers.clone(), weight }
         })
         .collect()
 }
@@ -159,16 +161,6 @@ mod tests {
     }
 
     #[test]
-    fn rows_of_lists_one_after_another() {
-        let unit = |row| Unit { row, realisations: 3..5, covers: "here".into(), weight: 7 };
-        let found = |row| unit(row).within([2, 0, 3]);
-        assert_eq!(found(1), Some((0, unit(1))));
-        assert_eq!(found(2), Some((2, unit(0))));
-        assert_eq!(found(4), Some((2, unit(2))));
-        assert_eq!(found(5), None);
-    }
-
-    #[test]
     fn a_billion_realisations_are_thousands_of_units() {
         let cutting: Cutting<u64, (), ()> = Cutting {
             rows: |&realisations| {
@@ -180,7 +172,6 @@ mod tests {
                 [100, 7000, 20_000].map(row).to_vec()
             },
             part: |_, _, _, _| Ok(()),
-            fits: |_, _, ()| true,
             join: |_, _, _| Ok(()),
         };
         assert_eq!(cutting.units(&300).len(), 1 + 3 + 6);

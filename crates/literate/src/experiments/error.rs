@@ -21,10 +21,6 @@ pub enum Error {
         "{experiment}: a result is not finite, so it was not saved; this is a fault of the program"
     )]
     NotFinite { experiment: String },
-    #[error("{name}: what a unit of work gave is not understood; run its shard again")]
-    NotUnderstood { name: &'static str },
-    #[error("{what}; {remedy}")]
-    Units { what: String, remedy: String },
     #[error("{path}: it stands where a saved result belongs, and is none; move it away")]
     Foreign { path: PathBuf },
     #[error("--results: {path}: {source}; {}", remedy(source, "choose another folder"))]

@@ -1,14 +1,16 @@
 //! An experiment: a name, parameters, a way to run it, and the tables that follow.
 
 use super::cutting::{Cutting, Unit};
-use super::identity::Identity;
+use super::identity::{Identity, told};
 use super::store::Store;
 use super::{Code, Error, Profile, Progress};
+use crate::input::count;
 use crate::table::Table;
 use rayon::prelude::*;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::any::Any;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// An experiment with parameters P and result T; U is what a unit of one that is cut gives.
@@ -57,22 +59,88 @@ impl<P: Serialize + Send + Sync> Params for P {}
 pub type Found = Arc<dyn Any + Send + Sync>;
 
 impl<P: Params, T: Json, U: Json> Experiment<P, T, U> {
-    /// The result: the saved one if it is fresh, else that of a run.
+    /// The result: the saved one if it is fresh, else that of a run, which is then saved. Units that are in the store
+    /// are not run again; each of the others is saved as soon as it is there.
+    ///
+    /// # Errors
+    /// What the run returns; [`Error::NotFinite`] for a result with a number that is not finite;
+    /// [`Error::Store`] if it cannot be saved: better before the run than after it.
     pub fn get(&self, profile: Profile, store: &Store, progress: &Progress) -> Result<T, Error> {
-        self.run_of(profile).get(store, progress)
-    }
-
-    pub(super) fn run_of(&self, profile: Profile) -> Run<P, T, U> {
-        let parameters = (self.parameters)(profile);
-        let identity = Identity::new(self.name, self.code, &parameters);
-        let how = match self.how {
-            How::Read(read) => How::Read(read),
-            How::Whole { run, weight } => How::Whole { run, weight },
-            How::Cut(words, Cutting { rows, part, fits, join }) => {
-                How::Cut(words, Cutting { rows, part, fits, join })
+        let (parameters, identity) = self.known_by(profile);
+        match store.look(&identity) {
+            Ok(result) => {
+                progress.say(&format!("{}: fresh", self.name));
+                return Ok(result);
+            }
+            Err(reasons) => progress.say(&format!("{}: {}", self.name, told(&reasons))),
+        }
+        store.prepare(&identity)?;
+        let result = match &self.how {
+            How::Read(_) => return Err(Error::NotRun(self.name)),
+            How::Whole { run, .. } => run(&parameters, progress)?,
+            How::Cut(words, cutting) => {
+                let units = cutting.units(&parameters);
+                let given = Units { cutting, words, parameters: &parameters, identity: &identity };
+                let (parts, _) = given.parts(&units, store, progress)?;
+                cutting.joined(&parameters, &units, parts, progress)?
             }
         };
-        Run { name: self.name, profile, identity, parameters, how }
+        store.put(&identity, &result)?;
+        store.remove_units(&identity);
+        Ok(result)
+    }
+
+    /// Its parameters in a profile, and what its result depends on.
+    fn known_by(&self, profile: Profile) -> (P, Identity) {
+        let parameters = (self.parameters)(profile);
+        let identity = Identity::new(self.name, profile, self.code, &parameters);
+        (parameters, identity)
+    }
+}
+
+/// An experiment that is cut, in one profile.
+struct Units<'a, P, T, U> {
+    cutting: &'a Cutting<P, U, T>,
+    words: &'a str,
+    parameters: &'a P,
+    identity: &'a Identity,
+}
+
+impl<P: Params, T, U: Json> Units<'_, P, T, U> {
+    /// What some units give, in their order, and how many of them were not in the store and had to be run.
+    fn parts(
+        &self,
+        units: &[Unit],
+        store: &Store,
+        progress: &Progress,
+    ) -> Result<(Vec<U>, usize), Error> {
+        let look = |unit: &Unit| store.look::<U>(&self.identity.of_unit(unit));
+        let saved: Vec<_> = units.par_iter().map(look).collect();
+        let mut lost: BTreeMap<String, usize> = BTreeMap::new();
+        for reasons in saved.iter().filter_map(|found| found.as_ref().err()) {
+            *lost.entry(told(reasons)).or_default() += 1;
+        }
+        let run: usize = lost.values().sum();
+        let name = &self.identity.experiment;
+        if run < units.len() {
+            let all = count(units.len(), "unit");
+            progress.say(&format!("{name}: {} of {all} there", units.len() - run));
+        }
+        for (why, number) in lost.iter().filter(|(why, _)| *why != "run") {
+            progress.say(&format!("{name}: {} {why}", count(*number, "unit")));
+        }
+        let open = units.iter().zip(&saved).filter(|(_, found)| found.is_err());
+        let stage = progress.stage(self.words, open.map(|(unit, _)| unit.weight).sum());
+        let part = |(unit, found): (&Unit, Result<U, _>)| {
+            found.or_else(|_| {
+                let part = (self.cutting.part)(self.parameters, unit, &stage, progress)?;
+                store.put(&self.identity.of_unit(unit), &part)?;
+                Ok(part)
+            })
+        };
+        // Units share the cores with the realisations inside them.
+        let parts = units.par_iter().zip(saved).with_max_len(1).map(part);
+        Ok((parts.collect::<Result<_, Error>>()?, run))
     }
 }
 
@@ -84,24 +152,33 @@ pub trait Entry: Sync {
     /// Its code.
     fn code(&self) -> Code;
 
-    /// What it saves in a profile.
-    fn at(&self, profile: Profile) -> Arc<dyn Saved + '_>;
+    /// With which parameters it is run in a profile.
+    fn parameters(&self, profile: Profile) -> serde_json::Value;
 
-    /// With which parameters it was run, in this profile or for it.
-    fn parameters(&self, profile: Profile) -> serde_json::Value {
-        self.at(profile).identity().parameters.clone()
-    }
-
-    /// Path of the item that is its code: `src/experiments/sweep/mod.rs` is `experiments::sweep`.
+    /// Path of the item that is its code: `src/experiments/sweep` is `experiments::sweep`.
     fn item(&self) -> String {
-        let path = self.code().file.trim_start_matches("src/").trim_end_matches(".rs");
-        path.trim_end_matches("/mod").replace('/', "::")
+        let path = self.code().own.first().copied().unwrap_or_default();
+        path.trim_start_matches("src/").trim_end_matches(".rs").replace('/', "::")
     }
 
     /// Whether its result is saved; else it is read from a committed file.
-    fn is_saved(&self) -> bool {
-        true
-    }
+    fn is_saved(&self) -> bool;
+
+    /// Its units of work: one if it is not cut.
+    fn units(&self, profile: Profile) -> Vec<Unit>;
+
+    /// Runs those of some of its units that are not in the store, and saves what each gives as soon as it is there; none if
+    /// the result is fresh. Returns how many were run.
+    fn run_units(
+        &self,
+        profile: Profile,
+        units: &[Unit],
+        store: &Store,
+        progress: &Progress,
+    ) -> Result<usize, Error>;
+
+    /// What would be run, and why; none if the saved result is fresh.
+    fn stale(&self, profile: Profile, store: &Store) -> Option<String>;
 
     /// Its result.
     fn found(
@@ -131,12 +208,53 @@ impl<P: Params, T: Json, U: Json> Entry for Experiment<P, T, U> {
         self.code
     }
 
-    fn at(&self, profile: Profile) -> Arc<dyn Saved + '_> {
-        Arc::new(self.run_of(profile))
+    fn parameters(&self, profile: Profile) -> serde_json::Value {
+        self.known_by(profile).1.parameters
     }
 
     fn is_saved(&self) -> bool {
         !matches!(self.how, How::Read(_))
+    }
+
+    fn units(&self, profile: Profile) -> Vec<Unit> {
+        let parameters = (self.parameters)(profile);
+        match &self.how {
+            How::Read(_) => Vec::new(),
+            How::Whole { weight, .. } => vec![Unit::whole(weight(&parameters))],
+            How::Cut(_, cutting) => cutting.units(&parameters),
+        }
+    }
+
+    fn run_units(
+        &self,
+        profile: Profile,
+        units: &[Unit],
+        store: &Store,
+        progress: &Progress,
+    ) -> Result<usize, Error> {
+        let (parameters, identity) = self.known_by(profile);
+        if store.look::<T>(&identity).is_ok() {
+            return Ok(0);
+        }
+        match &self.how {
+            How::Cut(words, cutting) => {
+                store.prepare(&identity)?;
+                let given = Units { cutting, words, parameters: &parameters, identity: &identity };
+                Ok(given.parts(units, store, progress)?.1)
+            }
+            _ => self.get(profile, store, progress).map(|_| units.len()),
+        }
+    }
+
+    fn stale(&self, profile: Profile, store: &Store) -> Option<String> {
+        let (parameters, identity) = self.known_by(profile);
+        let reasons = store.look::<T>(&identity).err().filter(|_| self.is_saved())?;
+        let why = format!("{}: {}", self.name, told(&reasons));
+        let How::Cut(_, cutting) = &self.how else { return Some(why) };
+        let units = cutting.units(&parameters);
+        let there = |unit: &&Unit| store.look::<U>(&identity.of_unit(unit)).is_ok();
+        let there = units.iter().filter(there).count();
+        Some(format!("{why}; {there} of {} there", count(units.len(), "unit")))
     }
 
     fn found(
@@ -159,120 +277,4 @@ impl<P: Params, T: Json, U: Json> Entry for Experiment<P, T, U> {
 
 impl<P: Params, T: Json, U: Json> Typed for Experiment<P, T, U> {
     type Result = T;
-}
-
-/// What an experiment saves in a profile.
-pub trait Saved: Send + Sync {
-    /// The name of the experiment.
-    fn name(&self) -> &'static str;
-
-    /// What the result depends on.
-    fn identity(&self) -> &Identity;
-
-    /// Its units of work: one if it is not cut.
-    fn units(&self) -> Vec<Unit>;
-
-    /// Runs some of its units and saves what each gives as soon as it is there.
-    fn run_units(
-        &self,
-        units: &[(&Unit, &Identity)],
-        store: &Store,
-        progress: &Progress,
-    ) -> Result<(), Error>;
-
-    /// Whether a text can be what a unit gave.
-    fn understands(&self, unit: &Unit, text: &str) -> bool;
-
-    /// Joins what all units gave, as texts in their order, and saves the result.
-    fn merge(&self, texts: &[String], store: &Store, progress: &Progress) -> Result<(), Error>;
-}
-
-/// What is run in a profile, with its parameters.
-pub(super) struct Run<P, T, U> {
-    pub name: &'static str,
-    pub profile: Profile,
-    pub identity: Identity,
-    pub parameters: P,
-    pub how: How<P, T, U>,
-}
-
-impl<P: Send + Sync, T: Json, U: Json> Run<P, T, U> {
-    /// The result: the saved one if it is fresh, else that of a run.
-    pub fn get(&self, store: &Store, progress: &Progress) -> Result<T, Error> {
-        store.get(&self.identity, self.profile, progress, || self.run(progress))
-    }
-
-    fn run(&self, progress: &Progress) -> Result<T, Error> {
-        match &self.how {
-            How::Read(_) => Err(Error::NotRun(self.name)),
-            How::Whole { run, .. } => run(&self.parameters, progress),
-            How::Cut(name, cutting) => cutting.run(&self.parameters, name, progress),
-        }
-    }
-}
-
-impl<P: Send + Sync, T: Json, U: Json> Saved for Run<P, T, U> {
-    fn name(&self) -> &'static str {
-        self.name
-    }
-
-    fn identity(&self) -> &Identity {
-        &self.identity
-    }
-
-    fn units(&self) -> Vec<Unit> {
-        match &self.how {
-            How::Read(_) => Vec::new(),
-            How::Whole { weight, .. } => vec![Unit {
-                row: 0,
-                realisations: 0..0,
-                covers: "all of it".into(),
-                weight: weight(&self.parameters),
-            }],
-            How::Cut(_, cutting) => cutting.units(&self.parameters),
-        }
-    }
-
-    fn run_units(
-        &self,
-        units: &[(&Unit, &Identity)],
-        store: &Store,
-        progress: &Progress,
-    ) -> Result<(), Error> {
-        match &self.how {
-            How::Read(_) | How::Whole { .. } => units.iter().try_for_each(|(_, identity)| {
-                store.put(identity, self.profile, &self.run(progress)?)
-            }),
-            How::Cut(name, cutting) => {
-                let stage = progress.stage(name, units.iter().map(|(unit, _)| unit.weight).sum());
-                units.par_iter().with_max_len(1).try_for_each(|(unit, identity)| {
-                    let part = (cutting.part)(&self.parameters, unit, &stage, progress)?;
-                    store.put(identity, self.profile, &part)
-                })
-            }
-        }
-    }
-
-    fn understands(&self, unit: &Unit, text: &str) -> bool {
-        match &self.how {
-            How::Read(_) | How::Whole { .. } => serde_json::from_str::<T>(text).is_ok(),
-            How::Cut(_, cutting) => serde_json::from_str(text)
-                .is_ok_and(|part| (cutting.fits)(&self.parameters, unit, &part)),
-        }
-    }
-
-    fn merge(&self, texts: &[String], store: &Store, progress: &Progress) -> Result<(), Error> {
-        let unread = |_| Error::NotUnderstood { name: self.name };
-        let result = match &self.how {
-            How::Read(_) | How::Whole { .. } => {
-                serde_json::from_str(&texts.concat()).map_err(unread)?
-            }
-            How::Cut(_, cutting) => {
-                let given = texts.iter().map(|text| serde_json::from_str(text));
-                let given: Vec<U> = given.collect::<Result<_, _>>().map_err(unread)?;
-                cutting.joined(&self.parameters, given, progress)?
-            }
-        };
-        store.put(&self.identity, self.profile, &result)
-    }
 }

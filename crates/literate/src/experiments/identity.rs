@@ -4,41 +4,25 @@ use super::Profile;
 use super::cutting::Unit;
 use crate::input::one_line;
 use serde::{Deserialize, Serialize};
-use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
-use std::io;
 
 /// The form of saved files; a change of it makes all of them unknown.
-const SCHEMA: u32 = 2;
-
-/// What a program was built of, and where it finds what is committed.
-pub struct Built {
-    /// Hash of Cargo.lock.
-    pub lock: &'static str,
-    /// Path and hash of every file that the code in a file depends on, itself among them.
-    pub files: fn(&str) -> Vec<(String, String)>,
-    /// The text of a committed file, by its path from the top of the project.
-    pub committed: fn(&str) -> io::Result<Cow<'static, str>>,
-}
+const SCHEMA: u32 = 3;
 
 /// The code of an experiment.
 #[derive(Clone, Copy)]
 pub struct Code {
-    /// The program that it belongs to.
-    pub built: &'static Built,
-    /// Its file, from the top of the project.
-    pub file: &'static str,
+    /// Its own files and folders, from the top of the project, that of its main item first.
+    pub own: &'static [&'static str],
+    /// Path and hash of every file that the code in these depends on, themselves among them.
+    pub files: fn(&[&str]) -> BTreeMap<String, String>,
 }
 
 /// The code of experiments in tests.
 #[cfg(test)]
 pub(crate) const TOY: Code = Code {
-    built: &Built {
-        lock: "lock",
-        files: |file| vec![(file.into(), "hash".into())],
-        committed: |_| Err(io::ErrorKind::NotFound.into()),
-    },
-    file: "toy.rs",
+    own: &["toy.rs"],
+    files: |own| own.iter().map(|file| (file.to_string(), "hash".into())).collect(),
 };
 
 /// Everything that a result depends on.
@@ -46,61 +30,54 @@ pub(crate) const TOY: Code = Code {
 pub struct Identity {
     /// Name of the experiment.
     pub experiment: String,
+    /// Its sample sizes by name.
+    profile: Profile,
     /// The form of the saved file.
     schema: u32,
     /// The parameters, seed included.
     pub parameters: serde_json::Value,
     /// The unit of work, if it is only a part of the result.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    unit: Option<UnitOf>,
-    /// Hash of Cargo.lock.
-    lock: String,
+    unit: Option<Unit>,
     /// Hashes of the files that the experiment depends on.
     code: BTreeMap<String, String>,
 }
 
-/// A unit of an experiment that is cut.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-struct UnitOf {
-    /// Its place among all units, from 0.
-    number: usize,
-    /// Its realisations of the row that it covers.
-    realisations: std::ops::Range<usize>,
-    /// What its row is about.
-    covers: String,
-}
-
 impl Identity {
     /// Of an experiment with these parameters and this code.
-    pub fn new(experiment: &str, code: Code, parameters: &impl Serialize) -> Self {
+    pub fn new(
+        experiment: &str,
+        profile: Profile,
+        code: Code,
+        parameters: &impl Serialize,
+    ) -> Self {
         Identity {
             experiment: experiment.into(),
+            profile,
             schema: SCHEMA,
             parameters: serde_json::to_value(parameters).unwrap_or_default(),
             unit: None,
-            lock: code.built.lock.into(),
-            code: (code.built.files)(code.file).into_iter().collect(),
+            code: (code.files)(code.own),
         }
     }
 
-    /// Of one unit of the experiment, at its place among all.
-    pub fn of_unit(&self, number: usize, unit: &Unit) -> Self {
-        let (realisations, covers) = (unit.realisations.clone(), unit.covers.clone());
-        Identity { unit: Some(UnitOf { number, realisations, covers }), ..self.clone() }
+    /// Of one unit of the experiment.
+    pub fn of_unit(&self, unit: &Unit) -> Self {
+        Identity { unit: Some(unit.clone()), ..self.clone() }
     }
 
-    /// Name of its file in a profile, without the ending.
-    pub fn file_stem(&self, profile: Profile) -> String {
-        let (experiment, profile) = (&self.experiment, profile.name());
+    /// Whether it is of a whole result, and not of a unit.
+    pub fn is_whole(&self) -> bool {
+        self.unit.is_none()
+    }
+
+    /// Name of its file, without the ending: `sweep-full`, of a unit `sweep-full-0012`.
+    pub fn file_stem(&self) -> String {
+        let (experiment, profile) = (&self.experiment, self.profile.name());
         match &self.unit {
             Some(unit) => format!("{experiment}-{profile}-{:04}", unit.number),
             None => format!("{experiment}-{profile}"),
         }
-    }
-
-    /// Files of the source that the experiment depends on.
-    pub fn files(&self) -> impl Iterator<Item = &str> {
-        self.code.keys().map(String::as_str)
     }
 
     /// Why a result that was made of `saved` is not the one that would be made of this.
@@ -109,7 +86,7 @@ impl Identity {
         if saved.schema != self.schema || saved.experiment != self.experiment {
             return vec![Reason::Schema];
         }
-        if saved.parameters != self.parameters {
+        if saved.parameters != self.parameters || saved.profile != self.profile {
             reasons.push(Reason::Parameters);
         }
         if saved.unit != self.unit {
@@ -121,9 +98,6 @@ impl Identity {
         let changed: Vec<String> = changed.cloned().collect();
         if !changed.is_empty() {
             reasons.push(Reason::Code(changed));
-        }
-        if saved.lock != self.lock {
-            reasons.push(Reason::Dependency);
         }
         reasons
     }
@@ -140,8 +114,6 @@ pub enum Reason {
     Unit,
     /// These files of the source are others now.
     Code(Vec<String>),
-    /// Other versions of crates (Cargo.lock).
-    Dependency,
     /// It was saved in another form.
     Schema,
     /// It cannot be trusted, and why.
@@ -159,15 +131,34 @@ impl std::fmt::Display for Reason {
                 [one, others @ ..] => write!(f, "{one} and {} more changed", others.len()),
                 [] => f.write_str("the code changed"),
             },
-            Reason::Dependency => f.write_str("Cargo.lock changed"),
             Reason::Schema => f.write_str("saved in another form"),
             Reason::Damaged(what) => f.write_str(what),
         }
     }
 }
 
-/// Reasons in one line.
+/// What is done for these reasons, in one line: `run again, Cargo.lock changed`; `run` where nothing was saved.
 pub fn told(reasons: &[Reason]) -> String {
+    if reasons == [Reason::Missing] {
+        return "run".into();
+    }
     // A file that was saved elsewhere names its own sources.
-    one_line(&reasons.iter().map(ToString::to_string).collect::<Vec<_>>().join(", "), 1000)
+    let all = reasons.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
+    one_line(&format!("run again, {all}"), 1000)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_changed_file_is_named_and_another_changes_nothing() {
+        let of = |hash: &'static str| {
+            let code = BTreeMap::from([("Cargo.lock", "0"), ("sweep/mod.rs", hash)]);
+            let code = code.into_iter().map(|(path, hash)| (path.into(), hash.into())).collect();
+            Identity { code, ..Identity::new("sweep", Profile::Quick, TOY, &1) }
+        };
+        assert_eq!(of("a").reasons(&of("a")), []);
+        assert_eq!(told(&of("a").reasons(&of("b"))), "run again, sweep/mod.rs changed");
+    }
 }

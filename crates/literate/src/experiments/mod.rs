@@ -11,8 +11,8 @@ pub mod shards;
 pub mod store;
 
 pub use error::Error;
-pub use experiment::{Entry, Experiment, Found, Given, Saved, Typed};
-pub use identity::{Built, Code};
+pub use experiment::{Entry, Experiment, Found, Given, Typed};
+pub use identity::Code;
 pub use profile::Profile;
 pub use progress::{Progress, alive, be_quiet, say};
 pub use store::Store;

@@ -1,12 +1,12 @@
 //! Results of long runs, saved and reused.
 //!
-//! A saved result has a file of its own, named by experiment and profile. It has three lines of
-//! text: a checksum of the other two, what the result was made of, and the result. It is reused if
+//! A saved result has a file of its own, named by experiment and profile, and so has a unit of one that is not yet
+//! joined, named by its number too. It has three lines of text: a checksum of the other two, what the result was made of, and the result. It is reused if
 //! all of that is as it would be made of now; whatever is not whole or not known is run again, and
 //! the reason is said.
 
-use super::identity::{Identity, Reason, told};
-use super::{Error, Profile, Progress};
+use super::Error;
+use super::identity::{Identity, Reason};
 use crate::digest::sha256;
 use crate::input::{new_beside, regular_text, remove_leftovers};
 use serde::Serialize;
@@ -41,57 +41,27 @@ impl Store {
     }
 
     /// Where a result is saved.
-    fn path(&self, identity: &Identity, profile: Profile) -> Option<PathBuf> {
-        let name = format!("{}.json", identity.file_stem(profile));
+    fn path(&self, identity: &Identity) -> Option<PathBuf> {
+        let name = format!("{}.json", identity.file_stem());
         self.folder.as_ref().map(|folder| folder.join(name))
     }
 
-    /// The saved result as text, or why there is none to be used.
-    pub fn look(&self, identity: &Identity, profile: Profile) -> Result<String, Vec<Reason>> {
-        let path = self.path(identity, profile).ok_or_else(|| vec![Reason::Missing])?;
-        read(&path, identity)
+    /// The saved result, or why there is none to be used.
+    pub fn look<T: DeserializeOwned>(&self, identity: &Identity) -> Result<T, Vec<Reason>> {
+        let path = self.path(identity).ok_or_else(|| vec![Reason::Missing])?;
+        let text = read(&path, identity)?;
+        serde_json::from_str(&text).map_err(|_| vec![Reason::Schema])
     }
 
-    /// The saved result of an experiment, or else that of `run`, which is then saved.
-    ///
-    /// # Errors
-    /// What `run` returns; [`Error::NotFinite`] for a result with a number that is not finite;
-    /// [`Error::Store`] if it cannot be saved: better before the run than after it.
-    pub fn get<T>(
-        &self,
-        identity: &Identity,
-        profile: Profile,
-        progress: &Progress,
-        run: impl FnOnce() -> Result<T, Error>,
-    ) -> Result<T, Error>
-    where
-        T: Serialize + DeserializeOwned + PartialEq,
-    {
-        let Some(path) = self.path(identity, profile) else { return run() };
-        let name = &identity.experiment;
-        let understood =
-            |text: String| serde_json::from_str(&text).map_err(|_| vec![Reason::Schema]);
-        match read(&path, identity).and_then(understood) {
-            Ok(result) => {
-                progress.say(&format!("{name}: fresh"));
-                return Ok(result);
-            }
-            Err(reasons) => progress.say(&format!("{name}: run ({})", told(&reasons))),
-        }
-        self.prepare()?;
-        refuse_foreign(&path)?;
-        let result = run()?;
-        self.put(identity, profile, &result)?;
-        Ok(result)
-    }
-
-    /// Makes the folder, and tries whether something can be saved there.
-    pub fn prepare(&self) -> Result<(), Error> {
-        let Some(folder) = &self.folder else { return Ok(()) };
-        let tried = std::fs::create_dir_all(folder)
-            .and_then(|()| new_beside(&folder.join("result")).map(drop));
+    /// Makes the folder, and tries whether this result can be saved there without replacing what was never one.
+    pub fn prepare(&self, identity: &Identity) -> Result<(), Error> {
+        let Some((folder, path)) = self.folder.as_ref().zip(self.path(identity)) else {
+            return Ok(());
+        };
+        let tried = std::fs::create_dir_all(folder).and_then(|()| new_beside(&path).map(drop));
         self.tidy();
-        tried.map_err(|source| Error::Store { path: folder.clone(), source })
+        tried.map_err(|source| Error::Store { path: folder.clone(), source })?;
+        refuse_foreign(&path)
     }
 
     /// Removes what killed runs left there.
@@ -99,20 +69,31 @@ impl Store {
         self.folder.iter().for_each(|folder| remove_leftovers(folder, begins_with_digest));
     }
 
-    /// Whether a result can be saved without replacing what was never one.
-    pub fn refuse_foreign(&self, identity: &Identity, profile: Profile) -> Result<(), Error> {
-        self.path(identity, profile).map_or(Ok(()), |path| refuse_foreign(&path))
-    }
-
     /// Saves a result.
-    pub fn put<T>(&self, identity: &Identity, profile: Profile, result: &T) -> Result<(), Error>
+    pub fn put<T>(&self, identity: &Identity, result: &T) -> Result<(), Error>
     where
         T: Serialize + DeserializeOwned + PartialEq,
     {
-        let Some(path) = self.path(identity, profile) else { return Ok(()) };
+        let Some(path) = self.path(identity) else { return Ok(()) };
         refuse_foreign(&path)?;
         let body = written(&identity.experiment, result)?;
         save(&path, identity, &body).map_err(|source| Error::Store { path, source })
+    }
+
+    /// Removes the files of the units of a result, which is joined.
+    pub fn remove_units(&self, identity: &Identity) {
+        let stem = format!("{}-", identity.file_stem());
+        let unit = |path: &PathBuf| {
+            let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+            let number = name.strip_prefix(&stem).and_then(|rest| rest.strip_suffix(".json"));
+            number.is_some_and(|number| number.bytes().all(|b| b.is_ascii_digit()))
+                && begins_with_digest(path).unwrap_or(false)
+        };
+        let all = self.folder.iter().filter_map(|folder| std::fs::read_dir(folder).ok()).flatten();
+        for path in all.flatten().map(|entry| entry.path()).filter(unit) {
+            // One that stays is no fault: the joined result is looked for first.
+            let _ = std::fs::remove_file(path);
+        }
     }
 }
 
@@ -163,7 +144,7 @@ pub fn parsed(text: &str) -> Result<(Identity, &str), Vec<Reason>> {
 /// # Errors
 /// [`Error::NotFinite`]: JSON has no NaN and no infinity, and serde_json writes null. Reading back
 /// tells all such losses.
-pub fn written<T>(experiment: &str, result: &T) -> Result<String, Error>
+fn written<T>(experiment: &str, result: &T) -> Result<String, Error>
 where
     T: Serialize + DeserializeOwned + PartialEq,
 {
@@ -207,12 +188,15 @@ fn begins_with_digest(path: &Path) -> std::io::Result<bool> {
     Ok(hexadecimal >= 60 && end.iter().all(|end| matches!(end, b'\n' | b'\r')))
 }
 
-/// Writes a temporary file and renames it: at no time is there half a result under the name.
+/// Writes a temporary file and renames it: at no time is there half a result under the name. A unit that a lost machine
+/// had not yet on its disk is found damaged, and run again.
 fn save(path: &Path, identity: &Identity, body: &str) -> std::io::Result<()> {
-    let identity = serde_json::to_string(identity)?;
+    let made_of = serde_json::to_string(identity)?;
     let mut file = new_beside(path)?;
-    write!(file.as_file_mut(), "{}\n{identity}\n{body}\n", digest(&[&identity, body]))?;
-    file.as_file().sync_all()?;
+    write!(file.as_file_mut(), "{}\n{made_of}\n{body}\n", digest(&[&made_of, body]))?;
+    if identity.is_whole() {
+        file.as_file().sync_all()?;
+    }
     file.persist(path)?;
     Ok(())
 }
@@ -224,11 +208,12 @@ fn digest(lines: &[&str]) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::super::Profile;
     use super::super::identity::TOY;
     use super::*;
 
-    fn identity(parameter: f64) -> Identity {
-        Identity::new("test", TOY, &parameter)
+    fn identity() -> Identity {
+        Identity::new("test", Profile::Quick, TOY, &1.5)
     }
 
     #[test]
@@ -238,11 +223,8 @@ mod tests {
         let mut result: Vec<_> = (0..500).flat_map(|_| normals.pair()).map(Some).collect();
         result.extend([None, Some(-0.0), Some(f64::MIN_POSITIVE / 4.0), Some(f64::MAX)]);
         let store = Store::open(folder.path()).unwrap();
-        let get = |run: &dyn Fn() -> Result<Vec<Option<f64>>, Error>| {
-            store.get(&identity(1.5), Profile::Quick, &Progress::silent(), run).unwrap()
-        };
-        get(&|| Ok(result.clone()));
-        let again = get(&|| panic!("it is saved"));
+        store.put(&identity(), &result).unwrap();
+        let again: Vec<Option<f64>> = store.look(&identity()).unwrap();
         let bits =
             |v: &[Option<f64>]| -> Vec<_> { v.iter().map(|x| x.map(f64::to_bits)).collect() };
         assert_eq!(bits(&again), bits(&result));
@@ -253,8 +235,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let store = Store::open(folder.path()).unwrap();
         for bad in [f64::NAN, f64::INFINITY] {
-            let run = || Ok(vec![Some(bad)]);
-            let saved = store.get(&identity(1.0), Profile::Quick, &Progress::silent(), run);
+            let saved = store.put(&identity(), &vec![Some(bad)]);
             assert!(matches!(saved, Err(Error::NotFinite { .. })));
         }
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
