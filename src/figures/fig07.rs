@@ -1,14 +1,11 @@
 //! Fig. 7: how many simple circuits there are of each length.
 
 use super::prelude::*;
-use crate::experiments::Results;
+use crate::experiments::theory::counts::shares;
 use crate::params::VERTICES as N;
 
-pub fn draw(results: &Results) -> Result<Figure, Error> {
-    let circuits = results.table("theory.circuits")?;
-    let of = |column| circuits.points(&[], "k", column).into_iter().map(|point| point.1);
-    let share: Vec<f64> = of("share").collect();
-    let logs: Vec<f64> = of("log_share").collect();
+pub fn draw() -> Result<Figure, Error> {
+    let [share, logs] = shares();
     let sheet = Sheet::new(5150);
     let top = largest(&share);
     let x = Axis::linear(0.0, N as f64 + 1.0, 20.0, 2, "length *k*");

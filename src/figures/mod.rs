@@ -75,7 +75,7 @@ const PAPER: [Listed; 15] = [
     figure(&[], !THEORY, |_| fig04::draw()),
     figure(&[&SEGMENTS], !THEORY, |all| fig05::draw(all.of(&SEGMENTS)?)),
     figure(&[&SEGMENTS], !THEORY, |all| fig06::draw(all.of(&SEGMENTS)?)),
-    figure(&[], THEORY, fig07::draw),
+    figure(&[], THEORY, |_| fig07::draw()),
     figure(&[], THEORY, fig08::draw),
     figure(&[], THEORY, fig09::draw),
     figure(&[], THEORY, |_| fig10::draw()),

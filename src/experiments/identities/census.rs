@@ -10,20 +10,6 @@ use impact_circuits::higher_order::{
 };
 use std::collections::BTreeMap;
 
-/// A printed formula for a class of circuits, against enumeration.
-pub(crate) struct ClassRange {
-    /// Its equation.
-    pub equation: f64,
-    /// The smallest length from which on it is right in every case.
-    pub right_from: usize,
-    /// Cases from that length on.
-    pub cases: Cases,
-    /// One length below, on three vertices: what it gives.
-    pub formula_below: f64,
-    /// One length below, on three vertices: what enumeration finds.
-    pub counted_below: u64,
-}
-
 /// Number of primitive circuits by (N, length, class), found by enumeration.
 pub(crate) type Census = BTreeMap<(usize, usize, Vec<usize>), u64>;
 
@@ -144,7 +130,9 @@ pub(super) fn eq38(census: &Census) -> Cases {
 /// A formula for N vertices and length k.
 type Formula = fn(usize, usize) -> Option<Fraction>;
 
-pub(super) fn class_ranges(census: &Census) -> Vec<ClassRange> {
+/// Of each printed formula for a class of circuits: its equation, the smallest length from which on it is right in every
+/// case, the cases from there on, and what it gives and enumeration finds one length below, on three vertices.
+pub(super) fn class_ranges(census: &Census) -> Vec<(f64, usize, Cases, f64, u64)> {
     let formulas: [Formula; 4] = [doubled, three_visits, four_visits, two_doubled];
     let range = |(class, formula): (&Class, Formula)| {
         let agrees = |&(n, k): &(usize, usize)| {
@@ -154,13 +142,10 @@ pub(super) fn class_ranges(census: &Census) -> Vec<ClassRange> {
         let possible: Vec<(usize, usize)> =
             enumerated().filter(|&(n, k)| class.different(k).is_some_and(|d| d <= n)).collect();
         let below = possible.iter().filter(|own| !agrees(own)).map(|own| own.1).max().unwrap_or(0);
-        ClassRange {
-            equation: class.equation.into(),
-            right_from: below + 1,
-            cases: cases(possible.iter().filter(|own| own.1 > below).map(agrees)),
-            formula_below: formula(3, below).map_or(f64::NAN, Fraction::to_f64),
-            counted_below: counted(census, 3, below, class.repeats),
-        }
+        let cases = cases(possible.iter().filter(|own| own.1 > below).map(agrees));
+        let found = formula(3, below).map_or(f64::NAN, Fraction::to_f64);
+        let counted = counted(census, 3, below, class.repeats);
+        (class.equation.into(), below + 1, cases, found, counted)
     };
     CLASSES[1..].iter().zip(formulas).map(range).collect()
 }

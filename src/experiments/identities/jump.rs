@@ -1,6 +1,8 @@
 //! The distribution and its jump, Secs. 6 and 7: identities, signs, zeros and slopes.
 
-use super::{Cases, cases};
+use super::{Cases, cases, largest};
+use crate::experiments::theory::{known, law};
+use crate::params::VERTICES;
 use impact_circuits::distribution::{Law, SampleSpace::Simple};
 use impact_circuits::jump;
 use impact_numerics::bisection;
@@ -9,162 +11,140 @@ use impact_numerics::scaled::Scaled;
 /// The p of Figs. 8 to 14, and some beyond.
 const GRID: [f64; 10] = [0.001, 0.005, 0.01, 0.012, 0.015, 0.02, 0.04, 0.1, 0.5, 1.0];
 
-fn law(n: usize, p: f64) -> Law {
-    Law::new(Simple, n, p).expect("N and p are in range")
+/// N as a real number.
+const N: f64 = VERTICES as f64;
+
+fn simple(p: f64) -> Law {
+    law::law(Simple, p)
 }
 
 /// Φ(k)/p for k = 1..=N.
-fn weights(n: usize, p: f64) -> Vec<Scaled> {
-    law(n, p).all_weights().collect()
+fn weights(p: f64) -> Vec<Scaled> {
+    simple(p).all_weights().collect()
 }
 
-fn p_crit(n: usize) -> f64 {
-    jump::p_crit(n).expect("N is in range")
+fn f(p: f64, k: f64) -> f64 {
+    jump::f(VERTICES, p, k)
 }
 
-/// The largest of some numbers, zero at least.
-fn largest(numbers: impl IntoIterator<Item = f64>) -> f64 {
-    numbers.into_iter().fold(0.0, f64::max)
+/// The largest of the three terms of f at k.
+fn size(p: f64, k: f64) -> f64 {
+    largest([p * k * k, ((N * p - 1.0) * k).abs(), 1.0])
+}
+
+/// Where f is largest.
+fn top(p: f64) -> f64 {
+    (N * p - 1.0) / (2.0 * p)
 }
 
 /// Eq. (9): largest distance of the sum of the probabilities from one.
-pub(super) fn normalisation(n: usize) -> f64 {
-    largest(GRID.map(|p| (law(n, p).probabilities().iter().sum::<f64>() - 1.0).abs()))
+pub(super) fn normalisation() -> f64 {
+    largest(GRID.map(|p| (simple(p).probabilities().iter().sum::<f64>() - 1.0).abs()))
 }
 
 /// μ at neighbouring p of a grid of [0, 1].
-pub(super) fn mean_rises(n: usize) -> Cases {
-    let means: Vec<f64> = (0..=200).map(|i| law(n, f64::from(i) / 200.0).mean()).collect();
+pub(super) fn mean_rises() -> Cases {
+    let means: Vec<f64> = (0..=200).map(|i| simple(f64::from(i) / 200.0).mean()).collect();
     cases(means.windows(2).map(|w| w[1] >= w[0]))
 }
 
-/// Eq. (11): sign of the difference of neighbouring weights against the sign of f.
-pub(super) fn eq11(n: usize) -> Cases {
-    cases(GRID.into_iter().flat_map(|p| {
-        let weights = weights(n, p);
-        (1..n).map(move |k| {
-            let (here, next, f) = (weights[k - 1], weights[k], jump::f(n, p, k as f64));
-            // A tie of the weights is a zero of f.
-            (next > here) == (f > 0.0) && (next < here) == (f < 0.0)
-        })
-    }))
+/// Eq. (11): sign of the difference of neighbouring weights against the sign of f. A tie of the weights is a zero of f.
+pub(super) fn eq11() -> Cases {
+    let of_p = |p| weights(p).windows(2).map(|w| w[1].partial_cmp(&w[0])).collect::<Vec<_>>();
+    let steps =
+        GRID.into_iter().flat_map(|p| of_p(p).into_iter().zip(1_u32..).map(move |s| (p, s)));
+    cases(steps.map(|(p, (sign, k))| sign == f(p, k.into()).partial_cmp(&0.0)))
 }
 
 /// Eq. (13): |f(k±)| over the largest of its three terms.
-pub(super) fn eq13(n: usize) -> f64 {
-    let zeros = |p| jump::zeros(n, p).into_iter().flatten().map(move |k| (p, k));
-    largest(GRID.into_iter().flat_map(zeros).map(|(p, k)| jump::f(n, p, k).abs() / size(n, p, k)))
+pub(super) fn eq13() -> f64 {
+    let zeros = |p| jump::zeros(VERTICES, p).into_iter().flatten().map(move |k| (p, k));
+    largest(GRID.into_iter().flat_map(zeros).map(|(p, k)| f(p, k).abs() / size(p, k)))
 }
 
 /// Eqs. (14) and (15): relative deviation of f at the ends.
-pub(super) fn ends(n: usize) -> f64 {
-    let at = |p, k| jump::f(n, p, k);
+pub(super) fn ends() -> f64 {
     largest(
-        GRID.into_iter().flat_map(|p| {
-            [at(p, 0.0) + 1.0, at(p, n as f64) / (n as f64 + 1.0) + 1.0].map(f64::abs)
-        }),
+        GRID.into_iter().flat_map(|p| [f(p, 0.0), f(p, N) / (N + 1.0)]).map(|f| (f + 1.0).abs()),
     )
 }
 
-/// Eqs. (16) and (17): signs, and the slope against a finite difference.
-pub(super) fn slopes(n: usize) -> Cases {
-    cases((1..n).flat_map(|k| {
-        let k = k as f64;
-        let none = jump::f(n, 0.0, k);
-        // f is linear in p, so the difference over all of [0, 1] is the slope.
-        let slope = jump::f(n, 1.0, k) - none;
-        let positive = slope > 0.0 && (slope / (k * (n as f64 - k)) - 1.0).abs() < 1e-14;
+/// Eqs. (16) and (17): signs, and the slope against a finite difference: f is linear in p.
+pub(super) fn slopes() -> Cases {
+    cases((1..VERTICES).map(|k| k as f64).flat_map(|k| {
+        let (none, slope) = (f(0.0, k), f(1.0, k) - f(0.0, k));
+        let positive = slope > 0.0 && (slope / (k * (N - k)) - 1.0).abs() < 1e-14;
         [none < 0.0 && none == -(k + 1.0), positive]
     }))
 }
 
-/// Eq. (18): the p at which the zeros of f appear. f has real zeros for k > 0 where its largest value, at
-/// k = (N p − 1)/2p, is not negative.
-pub(crate) fn touching(n: usize) -> f64 {
-    let top = |p: f64| {
-        let k = (n as f64 * p - 1.0) / (2.0 * p);
-        k > 0.0 && jump::f(n, p, k) >= 0.0
-    };
-    bisection::bracket(1e-6, 1.0, top)[1]
+/// Eq. (18): the p at which f gets real zeros for k > 0, since its largest value is not negative.
+pub(crate) fn touching() -> f64 {
+    bisection::bracket(1e-6, 1.0, |p| top(p) > 0.0 && f(p, top(p)) >= 0.0)[1]
 }
 
 /// k* at neighbouring p of a grid from just beyond the jump to one.
-pub(super) fn monotone(n: usize) -> Cases {
-    let from = jump::p_jump(Simple, n).map_or(1.0, |leap| leap.bracket[1]);
-    let k_star = |i: i32| law(n, (from + (1.0 - from) * f64::from(i) / 1000.0).min(1.0)).k_star();
-    let found: Vec<usize> = [1].into_iter().chain((0..=1000).map(k_star)).collect();
+pub(super) fn monotone() -> Cases {
+    let from = known(jump::p_jump(Simple, VERTICES)).bracket[1];
+    let p = |i: i32| (from + (1.0 - from) * f64::from(i) / 1000.0).min(1.0);
+    let found: Vec<usize> =
+        [1].into_iter().chain((0..=1000).map(|i| simple(p(i)).k_star())).collect();
     cases(found.windows(2).map(|w| w[1] >= w[0]))
 }
 
-/// The size of the terms of f at k.
-fn size(n: usize, p: f64, k: f64) -> f64 {
-    largest([p * k * k, ((n as f64 * p - 1.0) * k).abs(), 1.0])
-}
-
-/// Eq. (12): f is even about the place of its largest value, (N p − 1)/2p: difference of both sides over the largest
-/// of its terms.
-pub(super) fn maximum(n: usize) -> f64 {
-    largest(GRID.into_iter().flat_map(|p| {
-        let top = (n as f64 * p - 1.0) / (2.0 * p);
-        [0.5, 3.0, 40.0].map(|away| {
-            let difference = jump::f(n, p, top + away) - jump::f(n, p, top - away);
-            difference.abs() / size(n, p, top + away).max(size(n, p, top - away))
-        })
-    }))
+/// Eq. (12): f is even about the place of its largest value: difference of both sides over the largest of its terms.
+pub(super) fn maximum() -> f64 {
+    let pairs = |p| [0.5, 3.0, 40.0].map(|away| (p, top(p) + away, top(p) - away));
+    let off = |(p, a, b)| (f(p, a) - f(p, b)).abs() / size(p, a).max(size(p, b));
+    largest(GRID.into_iter().flat_map(pairs).map(off))
 }
 
 /// p = ((1 − √(N + 1))/N)², N from 1 to 1000, where f has a double zero too, at k < 0.
 pub(super) fn other_root() -> Cases {
-    cases((1..=1000).map(|n| {
-        let root = (1.0 - f64::from(n + 1).sqrt()) / f64::from(n);
-        let p = root * root;
-        let slope = f64::from(n) * p - 1.0;
+    cases((1..=1000).map(f64::from).map(|n| {
+        let root = (1.0 - (n + 1.0).sqrt()) / n;
+        let (p, slope) = (root * root, n * root * root - 1.0);
         (slope * slope - 4.0 * p).abs() < 1e-13 && slope / (2.0 * p) < 0.0
     }))
 }
 
 /// The weights themselves around ⌈k₋⌉ and ⌈k₊⌉, at p from the first integer maximum to one; at the ends of 1..=N one
 /// neighbour is enough.
-pub(super) fn extrema(n: usize) -> Cases {
-    let first = jump::first_local_maximum(n).map_or(1.0, |(_, [a, b])| a as f64 / b as f64);
+pub(super) fn extrema() -> Cases {
+    let first = jump::first_local_maximum(VERTICES).map_or(1.0, |(_, [a, b])| a as f64 / b as f64);
     // At the first p itself a minimum and a maximum are level.
     cases((1..=200).flat_map(|i| {
         let p = (first * pxfm::f_exp(-pxfm::f_log(first) * f64::from(i) / 200.0)).min(1.0);
-        let Some(zeros) = jump::zeros(n, p) else { return vec![false] };
-        let weights = weights(n, p);
-        let [low, high] = zeros.map(|k| (k.ceil() as usize).clamp(1, n));
-        let around = |k: usize| [k - 1, k + 1].into_iter().filter(|&k| k >= 1 && k <= n);
-        let above = around(low).map(|other| weights[other - 1] >= weights[low - 1]);
-        let below = around(high).map(|other| weights[other - 1] <= weights[high - 1]);
+        let Some(zeros) = jump::zeros(VERTICES, p) else { return vec![false] };
+        let weights = weights(p);
+        let [low, high] = zeros.map(|k| (k.ceil() as usize).clamp(1, VERTICES) - 1);
+        let around = |at: usize| [at.checked_sub(1), Some(at + 1)].into_iter().flatten();
+        let above = around(low).filter_map(|at| Some(*weights.get(at)? >= weights[low]));
+        let below = around(high).filter_map(|at| Some(*weights.get(at)? <= weights[high]));
         above.chain(below).collect()
     }))
 }
 
 /// At p_crit, with a double zero, f is −p (k − k_touch)²: Φ flattens there and falls on both sides. Distance of f from
 /// it over the largest of its terms.
-pub(super) fn inflexion(n: usize) -> f64 {
-    let crit = p_crit(n);
-    let touch = (n as f64 * crit - 1.0) / (2.0 * crit);
-    largest((1..=n).map(|k| {
-        let k = k as f64;
-        let difference = jump::f(n, crit, k) + crit * (k - touch) * (k - touch);
-        difference.abs() / size(n, crit, k)
-    }))
+pub(super) fn inflexion() -> f64 {
+    let p = known(jump::p_crit(VERTICES));
+    let off = |k: f64| (f(p, k) + p * (k - top(p)) * (k - top(p))).abs() / size(p, k);
+    largest((1..=VERTICES).map(|k| off(k as f64)))
 }
 
 /// Steps Φ(k) > Φ(k + 1) at every p of a grid from above 0 to p_crit, included.
-pub(super) fn falling(n: usize) -> Cases {
-    let at = |i: i32, k: usize| jump::f(n, p_crit(n) * f64::from(i) / 100.0, k as f64);
-    cases((1..=100).flat_map(|i| (1..n).map(move |k| (i, k))).map(|(i, k)| at(i, k) < 0.0))
+pub(super) fn falling() -> Cases {
+    let crit = known(jump::p_crit(VERTICES));
+    let steps = (1..=100).flat_map(|i| (1..VERTICES).map(move |k| (f64::from(i), k as f64)));
+    cases(steps.map(|(i, k)| f(crit * i / 100.0, k) < 0.0))
 }
 
 /// dμ/dp: Var(X)/p for weights in proportion to p^k, and by a central difference.
-pub(crate) fn mean_slopes(n: usize, p: f64) -> [f64; 2] {
-    let mean = law(n, p).mean();
-    let variance: f64 = (1_u32..)
-        .zip(law(n, p).probabilities())
-        .map(|(k, q)| q * (f64::from(k) - mean) * (f64::from(k) - mean))
-        .sum();
+pub(crate) fn mean_slopes(p: f64) -> [f64; 2] {
+    let mean = simple(p).mean();
+    let squares = (1..).map(f64::from).map(|k: f64| (k - mean) * (k - mean));
+    let variance: f64 = squares.zip(simple(p).probabilities()).map(|(square, q)| q * square).sum();
     let step = 1e-5 * p;
-    [variance / p, (law(n, p + step).mean() - law(n, p - step).mean()) / (2.0 * step)]
+    [variance / p, (simple(p + step).mean() - simple(p - step).mean()) / (2.0 * step)]
 }

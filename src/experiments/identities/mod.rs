@@ -8,8 +8,7 @@ pub(crate) mod census;
 pub(crate) mod jump;
 pub(crate) mod relation;
 
-use crate::params::VERTICES;
-use census::{ClassRange, census};
+use census::census;
 use literate::table::Table;
 use literate::value::origin;
 
@@ -21,20 +20,25 @@ fn cases(agree: impl IntoIterator<Item = bool>) -> Cases {
     agree.into_iter().fold([0, 0], |[all, failed], agrees| [all + 1, failed + u64::from(!agrees)])
 }
 
+/// The largest of some numbers, zero at least.
+fn largest(numbers: impl IntoIterator<Item = f64>) -> f64 {
+    numbers.into_iter().fold(0.0, f64::max)
+}
+
 /// The comparisons as tables, for the paper's N.
 pub fn tables() -> Vec<Table> {
-    let (census, n) = (census(), VERTICES);
+    let census = census();
     let rows: [(&str, Cases); 14] = [
         ("sec3_impact_types", census::impact_types()),
         ("sec5_eq6", census::eq6(&census)),
         ("sec5_eq7", census::eq7(&census)),
-        ("sec6_like_simulation", jump::mean_rises(n)),
-        ("sec7_eq11", jump::eq11(n)),
-        ("sec7_eq16_17", jump::slopes(n)),
+        ("sec6_like_simulation", jump::mean_rises()),
+        ("sec7_eq11", jump::eq11()),
+        ("sec7_eq16_17", jump::slopes()),
         ("sec7_other_root", jump::other_root()),
-        ("sec7_inflexion", jump::falling(n)),
-        ("sec7_extrema", jump::extrema(n)),
-        ("sec7_monotone", jump::monotone(n)),
+        ("sec7_inflexion", jump::falling()),
+        ("sec7_extrema", jump::extrema()),
+        ("sec7_monotone", jump::monotone()),
         ("sec9_eq29", census::eq29()),
         ("sec9_eq30", census::eq30_times_n(&census)),
         ("sec9_eq32", census::eq32()),
@@ -47,11 +51,11 @@ pub fn tables() -> Vec<Table> {
         .count("failed", "cases that do not agree", |(_, [_, failed])| *failed)
         .done();
     let rows: [(&str, f64); 8] = [
-        ("sec6_normalised", jump::normalisation(n)),
-        ("sec7_eq13", jump::eq13(n)),
-        ("sec7_eq14_15", jump::ends(n)),
-        ("sec7_maximum", jump::maximum(n)),
-        ("sec7_inflexion", jump::inflexion(n)),
+        ("sec6_normalised", jump::normalisation()),
+        ("sec7_eq13", jump::eq13()),
+        ("sec7_eq14_15", jump::ends()),
+        ("sec7_maximum", jump::maximum()),
+        ("sec7_inflexion", jump::inflexion()),
         ("sec8_separation", relation::separation()),
         ("sec8_amplitude", relation::amplitudes()),
         ("sec8_densities", relation::distributions()),
@@ -63,14 +67,12 @@ pub fn tables() -> Vec<Table> {
         .done();
     let ranges = Table::of("theory.class_ranges", &census::class_ranges(&census), |_| 0)
         .computed_by(origin(census::class_ranges))
-        .key("equation", "1", |own: &ClassRange| own.equation)
-        .count("right_from", "the length from which on it is right", |own| own.right_from as u64)
-        .count("compared", "cases from that length on", |own| own.cases[0])
-        .count("failed", "of these", |own| own.cases[1])
-        .real("formula_below", "1", 2, "one length below, on three vertices", |own| {
-            own.formula_below
-        })
-        .count("counted_below", "the circuits there", |own| own.counted_below)
+        .key("equation", "1", |row| row.0)
+        .count("right_from", "the length from which on it is right", |row| row.1 as u64)
+        .count("compared", "cases from that length on", |row| row.2[0])
+        .count("failed", "of these", |row| row.2[1])
+        .real("formula_below", "1", 2, "one length below, on three vertices", |row| row.3)
+        .count("counted_below", "the circuits there", |row| row.4)
         .done();
     vec![cases, differences, ranges]
 }

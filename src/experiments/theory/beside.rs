@@ -1,7 +1,7 @@
 //! The theory beside the simulation.
 
 use crate::experiments::{Results, sweep};
-use impact_chain::rise::{Counted, Mean, Row};
+use impact_chain::rise::{Mean, Row};
 use literate::table::Table;
 use literate::value::origin;
 
@@ -18,52 +18,31 @@ pub(crate) fn at(curve: &[(f64, f64)], sigma: f64) -> Option<f64> {
     Some(w[0].1 + share * (w[1].1 - w[0].1))
 }
 
-/// Where theory and simulation lie farthest apart at large σ: their distance in gaps, σ, and both means.
-fn largest_distance(sweep: &Counted, curve: &[(f64, f64)]) -> Option<[f64; 4]> {
-    let rows = sweep.first().rows.iter().filter(|row| row.sigma >= LARGE_SIGMA);
-    let distances = rows.filter_map(|row| {
-        let (mean, theory) = (row.mean?.value, at(curve, row.sigma)?);
-        Some([(mean - theory).abs(), row.sigma, theory, mean])
+/// Where theory and simulated means lie farthest apart at large σ: their distance in gaps, σ, and both.
+fn largest_distance(means: &[(f64, f64)], curve: &[(f64, f64)]) -> Option<[f64; 4]> {
+    let large = means.iter().filter(|(sigma, _)| *sigma >= LARGE_SIGMA);
+    let distances = large.filter_map(|&(sigma, mean)| {
+        let theory = at(curve, sigma)?;
+        Some([(mean - theory).abs(), sigma, theory, mean])
     });
     distances.reduce(|most, one| if most[0] >= one[0] { most } else { one })
 }
 
-/// The finest step of the grid, to a part in a million.
-fn finest(sweep: &Counted) -> f64 {
-    let steps = sweep.first().rows.windows(2).map(|w| w[1].sigma - w[0].sigma);
-    (steps.fold(f64::INFINITY, f64::min) * 1e6).round() / 1e6
+/// The largest increase of a mean within one and within two steps of σ, in gaps; where the grid is `finest`.
+fn increases(means: &[(f64, f64)], finest: f64) -> Option<[f64; 2]> {
+    let fine = |w: &[(f64, f64)]| w.windows(2).all(|w| w[1].0 - w[0].0 < 1.01 * finest);
+    let steps = means.windows(3).filter(|w| fine(w)).map(|w| [w[0].1, w[1].1, w[2].1]);
+    let found = steps.map(|[a, b, c]| [(b - a).max(c - b), c - a]);
+    found.reduce(|a, b| [a[0].max(b[0]), a[1].max(b[1])]).map(|found| found.map(|x| x.max(0.0)))
 }
 
-/// The largest increase of a mean within one and within two steps of the grid, in gaps; over the
-/// finest part of the grid.
-fn increases(sweep: &Counted, mean: fn(&Row) -> Option<Mean>) -> Option<[f64; 2]> {
-    let points: Vec<(f64, f64)> =
-        sweep.first().rows.iter().filter_map(|row| Some((row.sigma, mean(row)?.value))).collect();
-    let finest = finest(sweep);
-    let fine = |step: f64| step < 1.01 * finest;
-    let mut found: Option<[f64; 2]> = None;
-    for w in points.windows(3) {
-        let [(x, a), (y, b), (z, c)] = [w[0], w[1], w[2]];
-        if fine(y - x) && fine(z - y) {
-            let [one, two] = found.unwrap_or([0.0; 2]);
-            found = Some([one.max(b - a).max(c - b), two.max(c - a)]);
-        }
-    }
-    found
-}
-
-/// Root mean square distance of a theory curve from the simulated means, from the first row with
-/// kept realisations up to where σ is large.
-fn distance(sweep: &Counted, curve: &[(f64, f64)]) -> Option<f64> {
-    let rows = sweep.first().rows.iter().filter(|row| row.sigma < LARGE_SIGMA);
-    let squares: Vec<f64> = rows
-        .filter_map(|row| {
-            let difference = row.mean?.value - at(curve, row.sigma)?;
-            Some(difference * difference)
-        })
-        .collect();
-    let count = squares.len();
-    (count > 0).then(|| (squares.into_iter().sum::<f64>() / count as f64).sqrt())
+/// Root mean square distance of a theory curve from the simulated means, up to where σ is large.
+fn distance(means: &[(f64, f64)], curve: &[(f64, f64)]) -> Option<f64> {
+    let small = means.iter().filter(|(sigma, _)| *sigma < LARGE_SIGMA);
+    let differences: Vec<f64> =
+        small.filter_map(|(sigma, mean)| Some(mean - at(curve, *sigma)?)).collect();
+    let squares = differences.iter().map(|difference| difference * difference);
+    (!differences.is_empty()).then(|| (squares.sum::<f64>() / differences.len() as f64).sqrt())
 }
 
 /// What the text says of both.
@@ -74,22 +53,26 @@ pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
     let curves = ["simple", "higher", "rest"].map(|column| curve.points(&[], "sigma", column));
     let [simple, higher, rest] = &curves;
     let found = |number: Option<f64>| number.unwrap_or(f64::NAN);
-    let rows: Vec<&Row> = sweep
-        .first()
-        .rows
-        .iter()
-        .filter(|row| SIGMAS.contains(&row.sigma) && row.kept > 0)
-        .collect();
-    let mean = |row: &Row, curve| found(at(curve, row.sigma));
-    let means = Table::of("sweep.theory", &rows, |_| 0)
-        .key("sigma", "d omega^2", |row| row.sigma)
+    let rows = &sweep.first().rows;
+    let of = |mean: fn(&Row) -> Option<Mean>| -> Vec<(f64, f64)> {
+        rows.iter().filter_map(|row| Some((row.sigma, mean(row)?.value))).collect()
+    };
+    let means = of(|row| row.mean);
+    // To a part in a million.
+    let steps = rows.windows(2).map(|w| w[1].sigma - w[0].sigma);
+    let finest = (steps.fold(f64::INFINITY, f64::min) * 1e6).round() / 1e6;
+    let sigmas: Vec<f64> =
+        means.iter().map(|own| own.0).filter(|sigma| SIGMAS.contains(sigma)).collect();
+    let mean = |sigma: &f64, curve| found(at(curve, *sigma));
+    let theory = Table::of("sweep.theory", &sigmas, |_| 0)
+        .key("sigma", "d omega^2", |sigma| *sigma)
         .computed_by(origin(at))
-        .real("simple", "1", 3, "μ, simple circuits", |row| mean(row, simple))
-        .real("higher", "1", 3, "μ, five classes", |row| mean(row, higher))
-        .real("rest", "1", 3, "μ from rest, simple circuits", |row| mean(row, rest))
+        .real("simple", "1", 3, "μ, simple circuits", |sigma| mean(sigma, simple))
+        .real("higher", "1", 3, "μ, five classes", |sigma| mean(sigma, higher))
+        .real("rest", "1", 3, "μ from rest, simple circuits", |sigma| mean(sigma, rest))
         .done();
-    let far = |at: usize| largest_distance(sweep, simple).map(|far| far[at]);
-    let kept = increases(sweep, |row| row.mean);
+    let far = |at: usize| largest_distance(&means, simple).map(|far| far[at]);
+    let kept = increases(&means, finest);
     let table = Table::of("sweep.beside_theory", &[()], |()| 0)
         .computed_by(origin(largest_distance))
         .chosen("large_sigma", "d omega^2", "from here on σ is called large", |()| {
@@ -107,9 +90,9 @@ pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
         })
         .real("increase_of_two", "1", 2, "in two steps", |()| found(kept.map(|[_, two]| two)))
         .real("increase_of_all", "1", 2, "of the mean of all in one step", |()| {
-            found(increases(sweep, |row| row.mean_all).map(|[one, _]| one))
+            found(increases(&of(|row| row.mean_all), finest).map(|[one, _]| one))
         })
-        .chosen("step", "d omega^2", "the finest of the grid", |()| Some(finest(sweep)))
+        .chosen("step", "d omega^2", "the finest of the grid", |()| Some(finest))
         .computed_by(origin(impact_chain::rise::Curve::new))
         .real(
             "half_gap",
@@ -117,39 +100,24 @@ pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
             2,
             "half height of the theory less that of the simulation",
             |()| {
-                let theory = relation.number(&[], "sigma_half").ok();
-                found(
-                    theory.zip(sweep.first().rise.half_height).map(|(own, half)| own - half.value),
-                )
+                let half =
+                    sweep.first().rise.half_height.zip(relation.number(&[], "sigma_half").ok());
+                found(half.map(|(half, theory)| theory - half.value))
             },
         )
         .computed_by(origin(distance))
         .real("simple", "1", 3, "root mean square distance of the means, simple circuits", |()| {
-            found(distance(sweep, simple))
+            found(distance(&means, simple))
         })
-        .real("higher", "1", 3, "the same with five classes", |()| found(distance(sweep, higher)))
-        .real("rest", "1", 3, "the same from rest", |()| found(distance(sweep, rest)))
+        .real("higher", "1", 3, "the same with five classes", |()| found(distance(&means, higher)))
+        .real("rest", "1", 3, "the same from rest", |()| found(distance(&means, rest)))
         .done();
-    Some(vec![means, table])
+    Some(vec![theory, table])
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use impact_chain::rise::{Curve as Counts, Rise};
-    use impact_chain::{Ensemble, Protocol};
-
-    /// A sweep with these mean counts.
-    fn sweep(means: &[(f64, f64)]) -> Counted {
-        let row = |&(sigma, value): &(f64, f64)| Row {
-            sigma,
-            mean: Some(Mean { value, ..Mean::default() }),
-            ..Row::default()
-        };
-        let rows = means.iter().map(row).collect();
-        let curve = Counts { protocol: Protocol::default(), rows, rise: Rise::default() };
-        Counted { ensemble: Ensemble::default(), runs: Vec::new(), curves: vec![curve] }
-    }
 
     #[test]
     fn distances_are_taken_between_the_rows_of_the_curve() {
@@ -157,16 +125,16 @@ mod tests {
         let close = |a: Option<f64>, b: f64| (a.unwrap() - b).abs() < 1e-12;
         assert!(close(at(&curve, 0.1), 10.0));
         assert_eq!(at(&curve, 0.5), None);
-        let sweep = sweep(&[(0.1, 13.0), (0.15, 11.0), (0.2, 22.0), (0.3, 25.0), (0.5, 90.0)]);
+        let means = [(0.1, 13.0), (0.15, 11.0), (0.2, 22.0), (0.3, 25.0), (0.5, 90.0)];
         // Below 0.2 the differences are 3 and −4, from there on 2 and −5.
-        assert!(close(distance(&sweep, &curve), 12.5_f64.sqrt()));
-        let [most, sigma, ..] = largest_distance(&sweep, &curve).unwrap();
+        assert!(close(distance(&means, &curve), 12.5_f64.sqrt()));
+        let [most, sigma, ..] = largest_distance(&means, &curve).unwrap();
         assert!(close(Some(most), 5.0) && sigma == 0.3);
     }
 
     #[test]
     fn increases_are_those_of_the_finest_grid() {
-        let sweep = sweep(&[(0.1, 0.0), (0.11, 1.0), (0.12, 4.0), (0.13, 5.0), (0.2, 90.0)]);
-        assert_eq!(increases(&sweep, |row| row.mean), Some([3.0, 4.0]));
+        let means = [(0.1, 0.0), (0.11, 1.0), (0.12, 4.0), (0.13, 5.0), (0.2, 90.0)];
+        assert_eq!(increases(&means, 0.01), Some([3.0, 4.0]));
     }
 }

@@ -13,7 +13,7 @@ use std::f64::consts::LN_10;
 const ENUMERATED: usize = 7;
 
 pub(super) fn tables() -> Vec<Table> {
-    vec![graph(), circuits(), lengths(), commuting_circuits()]
+    vec![graph(), lengths(), commuting_circuits()]
 }
 
 /// Sec. 3.
@@ -25,23 +25,14 @@ fn graph() -> Table {
         .done()
 }
 
-/// Sec. 5, Fig. 7.
-fn circuits() -> Table {
-    let lengths: Vec<usize> = (1..=VERTICES).collect();
+/// Fig. 7: share of all simple circuits that those of length k = 1..=N have, and its decimal logarithm.
+pub fn shares() -> [Vec<f64>; 2] {
     let (shares, log_total) = counting::shares(VERTICES);
-    Table::of("theory.circuits", &lengths, |_| 0)
-        .key("k", "1", |k| *k as f64)
-        .computed_by(origin(counting::shares))
-        .real("share", "1", 3, "of all simple circuits, those of length k", |k| shares[k - 1])
-        .computed_by(origin(counting::log_phi))
-        .real("log_share", "1", 3, "decimal logarithm of the share", |k| {
-            (known(counting::log_phi(VERTICES, *k)) - log_total) / LN_10
-        })
-        .computed_by(origin(counting::ratio_to_longest))
-        .real("ratio", "1", 4, "Eq. (8)", |k| counting::ratio_to_longest(VERTICES, *k))
-        .done()
+    let logarithm = |k| (known(counting::log_phi(VERTICES, k)) - log_total) / LN_10;
+    [shares, (1..=VERTICES).map(logarithm).collect()]
 }
 
+/// Sec. 5.
 fn lengths() -> Table {
     let (shares, _) = counting::shares(VERTICES);
     let ratio = |k| counting::ratio_to_longest(VERTICES, k);

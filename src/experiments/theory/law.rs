@@ -14,7 +14,7 @@ pub(super) fn tables() -> Vec<Table> {
 }
 
 /// The distribution for the paper's N.
-pub(super) fn law(space: SampleSpace, p: f64) -> Law {
+pub(crate) fn law(space: SampleSpace, p: f64) -> Law {
     known(Law::new(space, VERTICES, p))
 }
 
@@ -85,7 +85,7 @@ fn jumping() -> Table {
     let p_crit = |vertices| known(jump::p_crit(vertices));
     let (crit, leap) = (p_crit(VERTICES), known(jump::p_jump(Simple, VERTICES)));
     let at_one = law(Simple, 1.0);
-    let [by_variance, by_difference] = mean_slopes(VERTICES, leap.p);
+    let [by_variance, by_difference] = mean_slopes(leap.p);
     one("theory.jump", origin(jump::p_crit))
         .real("p_crit", "1", 5, "Eq. (18)", |()| crit)
         .real("p_crit_walls", "1", 5, "the same for N + 1", |()| p_crit(VERTICES + 1))
@@ -94,7 +94,7 @@ fn jumping() -> Table {
         })
         .computed_by(origin(touching))
         .real("p_crit_found", "1", 5, "p at which the zeros of f appear, by bisection", |()| {
-            touching(VERTICES)
+            touching()
         })
         .computed_by(origin(jump::p_jump))
         .real("p_jump", "1", 5, "p at which k* leaves 1", |()| leap.p)

@@ -25,7 +25,7 @@ pub fn tables() -> Vec<Table> {
 }
 
 /// What a formula gives for the numbers of the paper, where it exists.
-fn known<T>(found: Result<T, Error>) -> T {
+pub(crate) fn known<T>(found: Result<T, Error>) -> T {
     found.expect("the theory exists for the paper's N and p")
 }
 
