@@ -157,6 +157,7 @@ impl Engine {
 /// Bytes of one mass with its gap. The queue has a key and two nodes for each gap of the next power of two.
 fn bytes<const M: usize>() -> usize {
     size_of::<Motion<M>>()
+        + size_of::<[f64; 2]>()
         + size_of::<[[f64; 2]; M]>()
         + size_of::<Gap<M>>()
         + size_of::<Force<M>>()

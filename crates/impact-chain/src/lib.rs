@@ -38,6 +38,7 @@
 mod chain;
 mod contact;
 pub mod counts;
+mod elastic;
 mod engine;
 mod ensemble;
 mod error;

@@ -75,6 +75,8 @@ pub(super) struct Simulation<const M: usize> {
     pub(super) topology: Topology,
     /// Masses 1..n; 0 and n + 1 are the walls.
     pub(super) motions: Vec<Motion<M>>,
+    /// What doubles leave of their free parts, if impacts are elastic.
+    pub(super) remainders: Vec<[f64; 2]>,
     /// The forced response (c, s) of each mass on its own.
     pub(super) forced: Vec<[[f64; 2]; M]>,
     pub(super) gaps: Vec<Gap<M>>,
@@ -141,6 +143,7 @@ impl<const M: usize> Simulation<M> {
             rates: Rates::new(&frequencies),
             topology,
             motions,
+            remainders: vec![[0.0; 2]; if scenario.restitution == 1.0 { n + 2 } else { 0 }],
             forced: responses,
             gaps: vec![gap; gaps],
             forces: vec![Force::ZERO; gaps],
@@ -299,6 +302,9 @@ impl<const M: usize> Simulation<M> {
         if self.is_contact_matter(k, speed) {
             return self.collide_in_contact(k, speed, phases);
         }
+        if self.is_conservative(k, speed) {
+            return self.reflect(k, speed, phases);
+        }
         let jumps = self.kick_neighbours(k, speed, phases);
         if k > 0 && k + 1 < self.gaps.len() {
             // Each neighbour shares one mass with the gap.
@@ -314,6 +320,11 @@ impl<const M: usize> Simulation<M> {
             return self.queue.set(k - 1, keys);
         }
         self.set_frame(k, phases, 0.0, self.restitution * speed);
+        self.reframe_beside(k, phases, jumps);
+    }
+
+    /// Frames the gaps that share a mass with gap k, whose neighbours' velocities have just jumped by `jumps`.
+    pub(super) fn reframe_beside(&mut self, k: usize, phases: &Phases<M>, jumps: [f64; 2]) {
         let [before, after] = self.topology.adjacent(k);
         for near in [before, after].into_iter().flatten() {
             self.reframe(near, phases, self.jump_of_gap(near, k, jumps));

@@ -1,0 +1,62 @@
+//! Impacts that lose nothing: elastic, of neighbours whose forcing does not tell them apart. Orbits of such masses may repeat
+//! themselves for ever, and a rounding that is the same whenever an orbit comes by would add up.
+//!
+//! The impact reflects the relative free part X = (a, b) of the two in the direction n = (−sin ωt, cos ωt) of their kick:
+//! X' = X − 2 n (n·X)/(n·n). In double-doubles this keeps |X| to 1e−31, whatever rounding did to n. And n is turned to the
+//! instant at which the motions close the gap, some 1e−16 beside the root that was found: so what the search rounds moves one
+//! impact, and none after it.
+
+use super::flight::Phases;
+use super::simulation::Simulation;
+use impact_numerics::double_double::DoubleDouble;
+
+/// At slower impacts, in units of d ω, a gap is known better from its frame than from the motions.
+const SLOW: f64 = 1e-3;
+
+impl<const M: usize> Simulation<M> {
+    /// Whether the impact of gap k at `speed` keeps the energy of its neighbours' free motion.
+    #[inline(always)]
+    pub(super) fn is_conservative(&self, k: usize, speed: f64) -> bool {
+        self.restitution == 1.0 && {
+            let [left, right] = self.topology.sides(k);
+            speed > SLOW * self.spacing * self.search.frequencies.omega
+                && self.forced[left] == self.forced[right]
+        }
+    }
+
+    /// The impact of gap k at `speed`, where it [keeps energy](Self::is_conservative).
+    #[cold]
+    pub(super) fn reflect(&mut self, k: usize, speed: f64, phases: &Phases<M>) {
+        let w = self.search.frequencies.omega;
+        let sides = self.topology.sides(k);
+        let [left, right] = sides.map(|m| self.free_part(m));
+        let [a, b] = [right[0] - left[0], right[1] - left[1]];
+        let [sin, cos] = [phases.sin, phases.cos].map(DoubleDouble::from);
+        // |n|² − 1.
+        let excess = (sin * sin + cos * cos - DoubleDouble::ONE).to_f64();
+        let place = a * cos + b * sin;
+        let width = (place + DoubleDouble::from(self.spacing)).to_f64() - 0.5 * excess * place.hi;
+        let late = width / speed;
+        let [sin, cos] = [sin + cos * (w * late), cos - sin * (w * late)];
+        let rate = b * cos - a * sin;
+        let inverse = sides.map(|m| self.topology.inverse_mass(m));
+        let kick = (rate * excess - rate) * (2.0 / (inverse[0] + inverse[1]));
+        let weights = [-inverse[0], inverse[1]];
+        for (m, weight) in sides.into_iter().zip(weights) {
+            let [a, b] = self.free_part(m);
+            let [a, b] = [a - sin * kick * weight, b + cos * kick * weight];
+            (self.motions[m].a, self.motions[m].b) = (a.hi, b.hi);
+            self.remainders[m] = [a.lo, b.lo];
+        }
+        self.set_frame(k, phases, 0.0, -w * rate.hi);
+        self.gaps[k].origin = self.now.after(late);
+        self.queue.set(k, [self.queue.key(k).after(late)]);
+        self.reframe_beside(k, phases, weights.map(|weight| weight * w * kick.hi));
+    }
+
+    /// The free part (a, b) of mass m.
+    fn free_part(&self, m: usize) -> [DoubleDouble; 2] {
+        let (motion, [a, b]) = (&self.motions[m], self.remainders[m]);
+        [DoubleDouble { hi: motion.a, lo: a }, DoubleDouble { hi: motion.b, lo: b }]
+    }
+}
