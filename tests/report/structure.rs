@@ -141,10 +141,9 @@ const PLATFORM: [&str; 29] = [
 ];
 
 /// (file, method, why its bits do not depend on the machine).
-const OWN_METHODS: [(&str, &str, &str); 4] = [
+const OWN_METHODS: [(&str, &str, &str); 3] = [
     ("crates/impact-chain/src/flight.rs", "sin_cos", "the clock's own kernel"),
     ("crates/circuits/src/impact_probability.rs", "exp", "of DoubleDouble"),
-    ("crates/circuits/src/from_rest.rs", "exp", "of DoubleDouble"),
     ("crates/circuits/src/counting.rs", "ln", "of Scaled"),
 ];
 

@@ -2,7 +2,7 @@
 
 use crate::high_precision::{Big, Gauss, big, exp, int, relative_error, root_two};
 use impact_circuits::Error;
-use impact_circuits::impact_probability::{ImpactProbability, density_forced, density_free};
+use impact_circuits::impact_probability::ImpactProbability;
 use std::f64::consts::SQRT_2;
 
 /// The parameters of one case, σ, d, ω, Ω as exact numbers; √2 for the double nearest to it.
@@ -131,20 +131,6 @@ fn logarithm_and_probability_say_when_they_leave_the_range_of_doubles() {
     assert!(
         (law(0.0135).log_p().unwrap() / pxfm::f_log(law(0.0135).p().unwrap()) - 1.0).abs() < 1e-15
     );
-}
-
-#[test]
-fn densities_have_the_printed_form() {
-    for (sigma, q) in [(0.3, 1.0), (0.3, 2.5), (2.0, 0.4)] {
-        for x in [0.1, 0.7, 2.0] {
-            let (s, y, q2) = (big(sigma), big(x), big(q) * big(q));
-            let exponent = q2.clone() * &y * &y / (int(4) * &s * &s);
-            let printed = q2 * y / (int(2) * &s * s) * exp(-exponent);
-            assert!(relative_error(density_forced(x, sigma, q), &printed) < 1e-13);
-        }
-    }
-    assert_eq!((density_free(-1.0, 1.0), density_free(0.0, 1.0)), (0.0, 0.0));
-    assert_eq!(density_free(0.4, 0.3), density_forced(0.4, 0.3, 1.0));
 }
 
 #[test]

@@ -1,6 +1,5 @@
 //! The tables of the theory: against the circuits, by other routes, and with themselves.
 
-use impact_circuits::counting;
 use impact_circuits::distribution::{Law, SampleSpace};
 use impact_circuits::impact_probability::ImpactProbability;
 use impact_paper::experiments::Results;
@@ -74,21 +73,6 @@ fn slips_of_the_paper_by_other_routes() {
     assert!((number("theory.lengths.share") / (near_end / all) - 1.0).abs() < 1e-13);
     let [slope, variance] = ["theory.jump.slope", "theory.jump.variance_over_p"].map(number);
     assert!((slope / variance - 1.0).abs() < 1e-6);
-    // At p = 0.005 nearly all weight is at small k, where class sums are short: direct.
-    let share = number("theory.classes[p=0.005].simple");
-    let (mut simple, mut all) = (0.0, 0.0);
-    for k in 1..=70_usize {
-        let (x, n) = (k as f64, counting::log_phi(VERTICES, k).unwrap().exp());
-        let power = |e: usize| (0..e).fold(1.0, |w, _| w * 0.005);
-        let two = if k == 2 { 1.0 } else { (x - 1.0) * x * x * (x + 1.0) / 8.0 };
-        let single = if k == 1 { 0.0 } else { 1.0 };
-        let higher = x * x / 2.0 * power(k + 1)
-            + x * x * (x + 1.0) / 6.0 * power(k + 2)
-            + x * x * (x + 1.0) * (x + 2.0) / 24.0 * power(k + 3);
-        simple += n * power(k);
-        all += n * (power(k) + single * higher + two * power(k + 2));
-    }
-    assert!((share / (simple / all) - 1.0).abs() < 1e-9, "{share} {}", simple / all);
 }
 
 #[test]

@@ -6,52 +6,33 @@
 //! a mass meets the gap to its left and the gap to its right by turns, whichever of the (k − 1)! cyclic
 //! orders of the k gaps it is: all of them are one order up to such changes.
 
+use crate::graph::{Circuit, Graph};
 use std::collections::BTreeSet;
 
 /// Number of simple circuits on `big_n` gaps in a row, and of classes of them that changes of
 /// neighbouring impacts without a common mass lead from one to another, by enumeration.
 pub fn simple_classes(big_n: usize) -> [usize; 2] {
-    let mut left = BTreeSet::new();
-    grow(&mut Vec::new(), big_n, &mut left);
-    let circuits = left.len();
-    let mut classes = 0;
+    let all = Graph::of_chain(big_n - 1).circuits(big_n);
+    let mut left: BTreeSet<Circuit> = all.filter(|circuit| circuit.repeats().is_empty()).collect();
+    let (circuits, mut classes) = (left.len(), 0);
     while let Some(circuit) = left.pop_first() {
         classes += 1;
         let mut reached = vec![circuit];
         while let Some(circuit) = reached.pop() {
-            for other in changed(&circuit) {
-                if left.remove(&other) {
-                    reached.push(other);
-                }
-            }
+            reached.extend(changed(circuit.word()).filter(|other| left.remove(other)));
         }
     }
     [circuits, classes]
 }
 
-/// All circuits that begin with these gaps, of which the first is the lowest.
-fn grow(begun: &mut Vec<usize>, big_n: usize, into: &mut BTreeSet<Vec<usize>>) {
-    let first = begun.first().map_or(0, |&first| first + 1);
-    for gap in first..big_n {
-        if !begun.contains(&gap) {
-            begun.push(gap);
-            into.insert(begun.clone());
-            grow(begun, big_n, into);
-            begun.pop();
-        }
-    }
-}
-
-/// A circuit after each allowed change of two neighbours, written from its lowest gap on.
-fn changed(circuit: &[usize]) -> impl Iterator<Item = Vec<usize>> + '_ {
-    let k = circuit.len();
-    let free = move |&at: &usize| circuit[at].abs_diff(circuit[(at + 1) % k]) > 1;
-    (0..k).filter(free).map(move |at| {
-        let mut other = circuit.to_vec();
-        other.swap(at, (at + 1) % k);
-        let lowest = (0..k).min_by_key(|&place| other[place]).unwrap_or(0);
-        other.rotate_left(lowest);
-        other
+/// A circuit after each allowed change of two neighbours.
+fn changed(word: &[usize]) -> impl Iterator<Item = Circuit> + '_ {
+    let after = |at: usize| (at + 1) % word.len();
+    let free = move |at: &usize| word[*at].abs_diff(word[after(*at)]) > 1;
+    (0..word.len()).filter(free).map(move |at| {
+        let mut other = word.to_vec();
+        other.swap(at, after(at));
+        Circuit::new(other)
     })
 }
 
@@ -79,9 +60,9 @@ mod tests {
     #[test]
     fn changes_are_of_impacts_without_a_common_mass() {
         // Around the end gap 2 comes before gap 0.
-        assert_eq!(changed(&[0, 1, 2]).collect::<Vec<_>>(), [vec![0, 2, 1]]);
-        let other: Vec<_> = changed(&[0, 2, 1, 3]).collect();
-        assert_eq!(other, [vec![0, 1, 3, 2], vec![0, 2, 3, 1], vec![0, 3, 2, 1]]);
+        assert_eq!(changed(&[0, 1, 2]).collect::<Vec<_>>(), [Circuit::new(vec![0, 2, 1])]);
+        let other = [vec![0, 1, 3, 2], vec![0, 2, 3, 1], vec![0, 3, 2, 1]].map(Circuit::new);
+        assert_eq!(changed(&[0, 2, 1, 3]).collect::<Vec<_>>(), other);
     }
 
     #[test]

@@ -36,11 +36,6 @@ impl Graph {
         &self.labels[vertex]
     }
 
-    /// The vertex of that name.
-    fn vertex(&self, label: &str) -> Option<usize> {
-        self.labels.iter().position(|l| l == label)
-    }
-
     /// All N² edges (from, to), loops included, in lexicographic order.
     pub fn edges(&self) -> impl Iterator<Item = (usize, usize)> {
         let n = self.vertices();
@@ -50,15 +45,25 @@ impl Graph {
     /// Every primitive circuit of at most `longest` edges, in lexicographic order: a circuit that
     /// only runs another one several times over is the same periodic orbit and is left out.
     ///
-    /// There are about N^longest/longest of them: meant for small graphs.
-    pub fn circuits(&self, longest: usize) -> Circuits {
-        Circuits { vertices: self.vertices(), longest, word: Vec::new(), started: false }
+    /// There are about N^longest/longest of them: meant for small graphs. Their least rotations are the Lyndon words over
+    /// the vertices, which Duval's algorithm lists in order.
+    pub fn circuits(&self, longest: usize) -> impl Iterator<Item = Circuit> + use<> {
+        let last = self.vertices() - 1;
+        let first = (longest > 0).then(|| Circuit(vec![0]));
+        std::iter::successors(first, move |circuit| {
+            let mut word: Vec<usize> = circuit.0.iter().copied().cycle().take(longest).collect();
+            while word.last() == Some(&last) {
+                word.pop();
+            }
+            *word.last_mut()? += 1;
+            Some(Circuit(word))
+        })
     }
 
     /// The circuit through vertices of these names, or nothing if one is unknown.
     pub fn circuit(&self, labels: &[&str]) -> Option<Circuit> {
-        let word: Option<Vec<usize>> = labels.iter().map(|l| self.vertex(l)).collect();
-        word.map(Circuit::new)
+        let vertex = |label: &&str| self.labels.iter().position(|own| own == label);
+        labels.iter().map(vertex).collect::<Option<_>>().map(Circuit::new)
     }
 }
 
@@ -79,7 +84,7 @@ impl Circuit {
         self.0.len()
     }
 
-    /// How often each visited vertex occurs.
+    /// How often each visited vertex occurs; their number is X, that of different impacts.
     pub fn visits(&self) -> BTreeMap<usize, usize> {
         let mut visits = BTreeMap::new();
         for vertex in &self.0 {
@@ -88,48 +93,12 @@ impl Circuit {
         visits
     }
 
-    /// Its number of different vertices, the number X of different impacts.
-    pub fn different_vertices(&self) -> usize {
-        self.visits().len()
-    }
-
     /// δ_1, δ_2, …: how many vertices are visited j + 1 times, without trailing zeros; empty for a
     /// simple circuit. The class of Eq. (34) to which the circuit belongs.
     pub fn repeats(&self) -> Vec<usize> {
         let visits = self.visits();
         let most = visits.values().copied().max().unwrap_or(1);
         (2..=most).map(|m| visits.values().filter(|v| **v == m).count()).collect()
-    }
-}
-
-/// Iterator over primitive circuits, see [`Graph::circuits`]. Their least rotations are the Lyndon
-/// words over the vertices, which Duval's algorithm lists in order.
-#[derive(Clone, Debug)]
-pub struct Circuits {
-    vertices: usize,
-    longest: usize,
-    word: Vec<usize>,
-    started: bool,
-}
-
-impl Iterator for Circuits {
-    type Item = Circuit;
-
-    fn next(&mut self) -> Option<Circuit> {
-        if !self.started {
-            self.started = true;
-            self.word = vec![0];
-        } else {
-            let period = self.word.len();
-            while self.word.len() < self.longest {
-                self.word.push(self.word[self.word.len() - period]);
-            }
-            while self.word.last() == Some(&(self.vertices - 1)) {
-                self.word.pop();
-            }
-            *self.word.last_mut()? += 1;
-        }
-        (self.longest > 0).then(|| Circuit(self.word.clone()))
     }
 }
 
@@ -154,7 +123,7 @@ mod tests {
         assert!(simple.repeats().is_empty());
         let sequence = ["L-1", "L-1", "1-2", "L-1", "2-3", "1-2", "3-R", "3-R"];
         let other = graph.circuit(&sequence).unwrap();
-        assert_eq!((other.length(), other.different_vertices()), (8, 4));
+        assert_eq!((other.length(), other.visits().len()), (8, 4));
         // One vertex three times, two twice.
         assert_eq!(other.repeats(), [2, 1]);
     }

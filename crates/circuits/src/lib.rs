@@ -26,7 +26,6 @@
 pub mod commuting;
 pub mod counting;
 pub mod distribution;
-mod from_rest;
 pub mod graph;
 pub mod higher_order;
 pub mod impact_probability;

@@ -327,17 +327,6 @@ mod tests {
     }
 
     #[test]
-    fn a_gap_that_closes_is_one_within_reach() {
-        let chain = Chain::default();
-        let ever = Reach::ever(&chain, 8);
-        for (radius, [cos, sin]) in ever.radii.iter().zip(directions(8)) {
-            for (rho, closes) in [(0.999 / radius, false), (1.001 / radius, true)] {
-                assert_eq!(closes_by_itself(&chain, [rho * cos, rho * sin]), closes);
-            }
-        }
-    }
-
-    #[test]
     fn sampled_neighbours_close_as_often() {
         // Four masses' forces in a row between walls: a wall gap and its neighbour, and two gaps
         // between masses; five standard errors of 60 000 draws.
@@ -415,14 +404,5 @@ mod tests {
             assert!(share < found.independent + 3.0 * error, "{share} {found:?}");
             assert!(sigma != half || (found.value - 0.5).abs() < 1e-5, "{found:?}");
         }
-    }
-
-    /// The mean number of clumps is that of gaps less that of neighbours that both close.
-    #[test]
-    fn clumps_are_gaps_less_neighbours() {
-        let own = Chances { p: 0.03, wall: 0.01, pair: 0.004, wall_pair: 0.002 };
-        let found = own.at_least_one(12, Boundary::Walls);
-        let pairs = 2.0 * own.wall_pair + 10.0 * own.pair;
-        assert!((found.clumps - (2.0 * own.wall + 11.0 * own.p - pairs)).abs() < 1e-15);
     }
 }
