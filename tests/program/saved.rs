@@ -40,7 +40,7 @@ fn each_reason_is_told_and_nothing_else_is_run_again() {
     let simulation = "\"crates/impact-chain/src/simulation.rs\":\"";
     forge("horizon-quick.json", 1, simulation, "\"crates/impact-chain/src/simulation.rs\":\"0");
     forge("starts-quick.json", 1, "\"Cargo.lock\":\"", "\"Cargo.lock\":\"0");
-    forge("scale-quick.json", 1, "\"seed\":", "\"seed\":1");
+    forge("scale-quick.json", 1, "\"sigma\":", "\"sigma\":1");
     forge("race-quick.json", 1, "\"schema\":", "\"schema\":9");
     let protocol = folder.join("results/protocol-quick.json");
     fs::write(&protocol, &results["protocol-quick.json"][..1000]).unwrap();

@@ -67,14 +67,15 @@ impl<P: Params, T: Json, U: Json> Experiment<P, T, U> {
     /// [`Error::Store`] if it cannot be saved: better before the run than after it.
     pub fn get(&self, profile: Profile, store: &Store, progress: &Progress) -> Result<T, Error> {
         let (parameters, identity) = self.known_by(profile);
-        match store.look(&identity) {
+        let why = match store.look(&identity) {
             Ok(result) => {
                 progress.say(&format!("{}: fresh", self.name));
                 return Ok(result);
             }
-            Err(reasons) => progress.say(&format!("{}: {}", self.name, told(&reasons))),
-        }
+            Err(reasons) => told(&reasons),
+        };
         store.prepare(&identity)?;
+        progress.say(&format!("{}: {why}", self.name));
         let result = match &self.how {
             How::Read(_) => return Err(Error::NotRun(self.name)),
             How::Whole { run, .. } => run(&parameters, progress)?,
