@@ -65,25 +65,19 @@ struct Impulses {
     later: Vec<f64>,
     /// Velocities at the beginning of a step.
     before: Vec<f64>,
-    /// Whether the gap had an impulse in the last step.
-    touching: Vec<bool>,
-    /// Whether any gap was active in the last step.
-    touched: bool,
     active: Vec<Active>,
+    /// Those gaps that had an impulse in the last step.
+    touching: Vec<usize>,
 }
 
 impl Stepper for Impulses {
     fn step(&mut self, row: &mut Row, step: &Step, tally: &mut Tally) -> Result<(), Stop> {
         let half = 0.5 * step.h;
-        let gaps = self.touching.len();
+        let gaps = row.topology.gaps();
         self.active.clear();
         if row.any_shut(half) {
-            for k in 0..gaps {
-                let rate = row.rate(k);
-                if row.width(k) + half * rate <= 0.0 {
-                    self.active.push(Active { k, rate, impulse: 0.0 });
-                }
-            }
+            let shut = (0..gaps).filter(|&k| row.width(k) + half * row.rate(k) <= 0.0);
+            self.active.extend(shut.map(|k| Active { k, rate: row.rate(k), impulse: 0.0 }));
         }
         row.forces(step.to, &mut self.later);
         tally.cost.evaluations += row.masses() + gaps as u64;
@@ -100,7 +94,14 @@ impl Stepper for Impulses {
             *u += half * (v + before);
         }
         std::mem::swap(&mut self.forces, &mut self.later);
-        self.report(step, tally)
+        // What has an impulse and had none is an impact.
+        let pressed = || self.active.iter().filter(|gap| gap.impulse > 0.0);
+        let before = std::mem::take(&mut self.touching);
+        self.touching = pressed().map(|gap| gap.k).collect();
+        for gap in pressed().filter(|gap| !before.contains(&gap.k)) {
+            tally.impact(gap.k, step.to.time(), (-gap.rate).max(0.0))?;
+        }
+        Ok(())
     }
 }
 
@@ -112,9 +113,8 @@ impl Impulses {
             later: forces.clone(),
             forces,
             before: row.v.clone(),
-            touching: vec![false; row.topology.gaps()],
-            touched: false,
             active: Vec::new(),
+            touching: Vec::new(),
         }
     }
 
@@ -135,24 +135,6 @@ impl Impulses {
                 break;
             }
         }
-    }
-
-    /// Hands out the episodes that begin with this step.
-    fn report(&mut self, step: &Step, tally: &mut Tally) -> Result<(), Stop> {
-        if self.active.is_empty() && !self.touched {
-            return Ok(());
-        }
-        self.touched = !self.active.is_empty();
-        let mut active = self.active.iter().peekable();
-        for (k, touching) in self.touching.iter_mut().enumerate() {
-            let own = active.next_if(|gap| gap.k == k).filter(|gap| gap.impulse > 0.0);
-            let began = own.filter(|_| !*touching);
-            *touching = own.is_some();
-            if let Some(gap) = began {
-                tally.impact(k, step.to.time(), (-gap.rate).max(0.0))?;
-            }
-        }
-        Ok(())
     }
 }
 

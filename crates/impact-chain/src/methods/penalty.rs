@@ -114,33 +114,23 @@ impl Stepper for Springs {
             *v += half * a;
             *u += step.h * *v;
         }
-        let gaps = self.touching.len();
-        tally.cost.evaluations += row.masses() + gaps as u64;
+        tally.cost.evaluations += row.masses() + self.touching.len() as u64;
         if self.contacts > 0 || row.any_shut(0.0) {
-            self.begin_and_end(row, step, tally)?;
+            for k in 0..self.touching.len() {
+                let (width, speed) = (row.width(k), -row.rate(k));
+                let begins = !self.touching[k] && width < 0.0 && speed > 0.0;
+                if begins {
+                    tally.impact(k, step.to.time(), speed)?;
+                }
+                self.touching[k] = begins || self.touching[k] && width < 0.0;
+            }
+            self.contacts = self.touching.iter().filter(|touching| **touching).count();
         }
         // The damper sees the velocity in the middle of the step, half a step ago.
         self.push(row, step.to);
         for (v, a) in row.v.iter_mut().zip(&self.accelerations) {
             *v += half * a;
         }
-        Ok(())
-    }
-}
-
-impl Springs {
-    /// Begins and ends contacts after a step.
-    fn begin_and_end(&mut self, row: &Row, step: &Step, tally: &mut Tally) -> Result<(), Stop> {
-        for k in 0..self.touching.len() {
-            let (width, speed) = (row.width(k), -row.rate(k));
-            if self.touching[k] {
-                self.touching[k] = width < 0.0;
-            } else if width < 0.0 && speed > 0.0 {
-                self.touching[k] = true;
-                tally.impact(k, step.to.time(), speed)?;
-            }
-        }
-        self.contacts = self.touching.iter().filter(|touching| **touching).count();
         Ok(())
     }
 }

