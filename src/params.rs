@@ -8,7 +8,6 @@ mod chosen;
 mod ensembles;
 mod nucleation;
 mod sizes;
-mod spacetime;
 
 pub use accuracy::{BENCH, BiasParams, MethodName, RaceParams, ScaleParams, Setting, TrialParams};
 pub use chosen::*;
@@ -17,5 +16,4 @@ pub use impact_chain::{Boundary, Chain, Protocol, Start};
 pub use impact_numerics::estimates::LEVEL;
 pub use literate::experiments::Profile;
 pub use nucleation::{NucleationParams, SeedsParams};
-pub use sizes::{Grid, HorizonParams, TwoMassesParams};
-pub use spacetime::SpaceTimeParams;
+pub use sizes::{Grid, HorizonParams, SpaceTimeParams, TwoMassesParams};

@@ -8,6 +8,7 @@ use crate::experiments::chains::is_length;
 use crate::experiments::ensembles::named;
 use crate::experiments::starts::half_height;
 use crate::experiments::sweep::{self, laws};
+use crate::experiments::two_masses;
 use crate::experiments::{CHAINS, STARTS, TWO_MASSES};
 use crate::params::{NEAR_SIMULTANEOUS, SLOW};
 use impact_chain::counts::SLOW_DECADES;
@@ -78,7 +79,8 @@ pub(super) fn sticking(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
 
 pub(super) fn two_masses(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
     let found = e.results.of(&TWO_MASSES)?;
-    let least = found.excess.iter().map(|x| x.least).fold(f64::INFINITY, f64::min);
+    let least = found.excess.iter().map(|own| own[0]).fold(f64::INFINITY, f64::min);
+    let safe = two_masses::safe_force(&found.parameters.chain);
     if !least.is_finite() {
         return Ok(open(Text::words("no run"), "No direction of the forcing was tried."));
     }
@@ -94,10 +96,10 @@ pub(super) fn two_masses(e: &Evidence, _: &Statement) -> Result<Finding, Error> 
         reason: "a gap whose amplitudes add up to less than d never closes; rounding of the \
                  bracket aside",
         judgement: Judgement::Plain {
-            agrees: found.violations == 0 && least >= 1.0 - 1e-9 && found.safe_force > 0.0,
+            agrees: found.violations == 0 && least >= 1.0 - 1e-9 && safe > 0.0,
         },
         note: Text::words("No direction of the forces lets the masses meet below an amplitude of ")
-            .significant(found.safe_force, 4)
+            .significant(safe, 4)
             .say(" on each."),
     })
 }

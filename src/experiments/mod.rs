@@ -170,13 +170,13 @@ pub const TWO_MASSES: Experiment<TwoMassesParams, two_masses::TwoMasses> = Exper
 /// One long run.
 pub const SPACE_TIME: Experiment<SpaceTimeParams, spacetime::SpaceTime> = Experiment {
     name: "spacetime",
-    code: code(&["src/experiments/spacetime"]),
+    code: code(&["src/experiments/spacetime.rs"]),
     parameters: SpaceTimeParams::new,
     how: Whole {
         run: spacetime::run,
         weight: |p| 8 * impact_chain::work(&p.chain, p.sigma, p.until),
     },
-    tables: spacetime::tables::tables,
+    tables: spacetime::tables,
 };
 
 /// Every method against the true motion.

@@ -1,5 +1,6 @@
 //! Runs that a page repeats: each with a digest of its impacts, which whoever computes the same bits finds again.
 
+use super::ensembles::each;
 use super::{Error, Progress};
 use crate::params::{Boundary, Chain, Profile, Protocol, SEED, Start};
 use impact_chain::replay::{Asked, Forces, Replay};
@@ -36,27 +37,26 @@ pub struct Found {
 
 /// The first are realisations behind Fig. 3; the others go where an engine may go wrong.
 pub fn runs(_: Profile) -> Runs {
-    let drawn = |sigma: f64, chain: Chain, seed: u64, protocol: Protocol| {
-        let forces = Forces::Drawn { sigma, stream: "sweep".into(), seed, realisation: 0 };
-        Asked { chain, forces, transient: protocol.transient, window: protocol.window }
+    let drawn = |sigma: f64, chain: Chain| {
+        let forces = Forces::Drawn { sigma, stream: "sweep".into(), seed: SEED, realisation: 0 };
+        let Protocol { transient, window } = Protocol::default();
+        Asked { chain, forces, transient, window }
     };
-    let swept = |sigma: f64| drawn(sigma, Chain::default(), SEED, Protocol::default());
-    let other = |sigma: f64, chain: Chain| drawn(sigma, chain, SEED, Protocol::default());
     let given = |pairs: Vec<[f64; 2]>, restitution: f64, until: f64| {
         let chain = Chain { masses: pairs.len(), restitution, ..Chain::default() };
         Asked { chain, forces: Forces::Given(pairs), transient: 0.0, window: until }
     };
     let chain = Chain::default;
     let named = [
-        ("Fig. 3 at σ = 0.12", swept(0.12)),
-        ("Fig. 3 at σ = 0.05, without an impact", swept(0.05)),
-        ("Fig. 3 at σ = 0.2", swept(0.2)),
-        ("Fig. 3 at σ = 0.3", swept(0.3)),
-        ("a ring", other(0.2, Chain { boundary: Boundary::Ring, ..chain() })),
-        ("a random start", other(0.16, Chain { start: Start::Random, ..chain() })),
-        ("no loss, r = 1", other(0.12, Chain { restitution: 1.0, ..chain() })),
-        ("no rebound, r = 0", other(0.3, Chain { restitution: 0.0, ..chain() })),
-        ("a thousand masses", other(0.16, Chain { masses: 1000, ..chain() })),
+        ("Fig. 3 at σ = 0.12", drawn(0.12, chain())),
+        ("Fig. 3 at σ = 0.05, without an impact", drawn(0.05, chain())),
+        ("Fig. 3 at σ = 0.2", drawn(0.2, chain())),
+        ("Fig. 3 at σ = 0.3", drawn(0.3, chain())),
+        ("a ring", drawn(0.2, Chain { boundary: Boundary::Ring, ..chain() })),
+        ("a random start", drawn(0.16, Chain { start: Start::Random, ..chain() })),
+        ("no loss, r = 1", drawn(0.12, Chain { restitution: 1.0, ..chain() })),
+        ("no rebound, r = 0", drawn(0.3, Chain { restitution: 0.0, ..chain() })),
+        ("a thousand masses", drawn(0.16, Chain { masses: 1000, ..chain() })),
         // As in the scenes of `accuracy::scenes`.
         ("chatter: one mass comes to rest at a wall", given(vec![[5.88, -4.94]], 0.2, 20.0)),
         ("contact: five masses are pressed together", given(pressed(), 0.2, 20.0)),
@@ -89,12 +89,10 @@ fn mirrored() -> Vec<[f64; 2]> {
 pub fn run(parameters: &Runs, progress: &Progress) -> Result<Replays, Error> {
     let stage = progress.stage("replays", parameters.len() as u64);
     let one = |(_, asked): &(String, Asked)| {
-        progress.check()?;
         let failed = |source| Error::failed("replay", source);
         let mut replay = Replay::new(asked).map_err(failed)?;
         replay.advance(u64::MAX, |_, _| ()).map_err(failed)?;
         let work = replay.engine().counters();
-        stage.advance(1);
         Ok(Found {
             impacts: work.impacts,
             distinct: replay.distinct(),
@@ -103,8 +101,7 @@ pub fn run(parameters: &Runs, progress: &Progress) -> Result<Replays, Error> {
             digest: replay.digest(),
         })
     };
-    let found = parameters.iter().map(one).collect::<Result<_, Error>>()?;
-    Ok(Replays { parameters: parameters.clone(), found })
+    Ok(Replays { parameters: parameters.clone(), found: each(&stage, progress, parameters, one)? })
 }
 
 /// What the pages hold their own runs against.
@@ -134,14 +131,11 @@ mod tests {
     use super::*;
     use impact_chain::Ensemble;
 
-    fn found() -> Replays {
-        run(&runs(Profile::Quick), &Progress::silent()).unwrap()
-    }
-
     /// The count is that of the ensembles, and a name says what is in its run.
     #[test]
     fn runs_are_what_they_are_called() {
-        let Replays { parameters, found } = found();
+        let Replays { parameters, found } =
+            run(&runs(Profile::Quick), &Progress::silent()).unwrap();
         for ((name, asked), found) in parameters.iter().zip(&found) {
             let protocol = Protocol { transient: asked.transient, window: asked.window };
             if let Forces::Drawn { sigma, stream, seed, realisation } = &asked.forces {

@@ -75,7 +75,7 @@ fn description(run: &SpaceTime) -> String {
         run.parameters.chain.masses,
         run.parameters.sigma,
         run.starts().len(),
-        run.reached(),
+        run.reached(run.parameters.until),
         run.width(),
     )
 }

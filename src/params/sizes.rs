@@ -1,6 +1,6 @@
 //! Sample sizes and grids of each profile, in one place.
 
-use super::{Chain, Profile, SEED};
+use super::{Chain, PRINTED_THRESHOLD, Profile, SEED};
 use serde::{Deserialize, Serialize};
 
 /// A σ axis made of stretches of equal steps; values are exact quotients, so 0.12 is the double
@@ -46,10 +46,7 @@ impl HorizonParams {
             chain: Chain::default(),
             sigma: 0.2,
             until: 500.0,
-            realisations: match profile {
-                Profile::Full => 100,
-                Profile::Quick => 10,
-            },
+            realisations: if profile == Profile::Quick { 10 } else { 100 },
             stream: "horizon".into(),
             seed: SEED,
         }
@@ -76,18 +73,48 @@ pub struct TwoMassesParams {
 impl TwoMassesParams {
     /// The sizes of each profile.
     pub fn new(profile: Profile) -> Self {
+        let (times, directions) = match profile {
+            Profile::Full => (vec![1e2, 1e3, 1e4], 40),
+            Profile::Quick => (vec![1e2, 1e3], 10),
+        };
         TwoMassesParams {
             chain: Chain { masses: 2, ..Chain::default() },
-            times: match profile {
-                Profile::Full => vec![1e2, 1e3, 1e4],
-                _ => vec![1e2, 1e3],
-            },
-            directions: match profile {
-                Profile::Full => 40,
-                Profile::Quick => 10,
-            },
+            times,
+            directions,
             halvings: 28,
             stream: "two-masses".into(),
+            seed: SEED,
+        }
+    }
+}
+
+/// One realisation at the printed threshold, kept impact by impact.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SpaceTimeParams {
+    /// The chain without its forcing.
+    pub chain: Chain,
+    /// Standard deviation σ.
+    pub sigma: f64,
+    /// Length of the run.
+    pub until: f64,
+    /// The first realisation is taken that has an impact in the last part of this length.
+    pub last: f64,
+    /// Name of the random stream.
+    pub stream: String,
+    /// Master seed.
+    pub seed: u64,
+}
+
+impl SpaceTimeParams {
+    /// The run of each profile.
+    pub fn new(profile: Profile) -> Self {
+        let until = if profile == Profile::Quick { 400.0 } else { 4000.0 };
+        SpaceTimeParams {
+            chain: Chain::default(),
+            sigma: PRINTED_THRESHOLD,
+            until,
+            last: until / 10.0,
+            stream: "space-time".into(),
             seed: SEED,
         }
     }

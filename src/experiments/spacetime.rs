@@ -1,0 +1,194 @@
+//! One long run at the printed threshold, impact by impact: where impacts start, how they spread
+//! along the chain, and where they stop.
+//!
+//! Which run is shown is not a matter of taste: it is the first realisation of its stream that
+//! still has impacts in the last part of the run.
+
+use super::{Error, Progress};
+use crate::params::SpaceTimeParams;
+use impact_chain::{Engine, Scenario};
+use impact_numerics::random::NormalPairs;
+use literate::table::Table;
+use literate::value::origin;
+use serde::{Deserialize, Serialize};
+
+/// The run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SpaceTime {
+    /// What was run.
+    pub parameters: SpaceTimeParams,
+    /// Which realisation it is, from 0; those before it had no impact in the last part.
+    pub realisation: u64,
+    /// Time of each impact, rising.
+    pub times: Vec<f64>,
+    /// Gap of each impact, from 0.
+    pub gaps: Vec<u32>,
+}
+
+/// Runs realisations until one keeps hitting.
+pub fn run(parameters: &SpaceTimeParams, progress: &Progress) -> Result<SpaceTime, Error> {
+    let stage = progress.stage("spacetime", 1);
+    for realisation in 0..REALISATIONS {
+        progress.check()?;
+        let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, realisation);
+        let scenario = Scenario::draw(&parameters.chain, parameters.sigma, &mut normals);
+        let impacts =
+            Engine::new(&scenario).and_then(|mut engine| engine.impacts(parameters.until));
+        let impacts = impacts.map_err(|source| Error::failed("spacetime", source))?;
+        let (times, gaps): (Vec<f64>, Vec<u32>) =
+            impacts.into_iter().map(|impact| (impact.time, impact.gap as u32)).unzip();
+        if times.last().is_some_and(|t| *t > parameters.until - parameters.last) {
+            stage.advance(1);
+            let parameters = parameters.clone();
+            return Ok(SpaceTime { parameters, realisation, times, gaps });
+        }
+    }
+    Err(Error::input(
+        "sigma",
+        format!("none of {REALISATIONS} runs with {:?} has late impacts", parameters.sigma),
+        "give a larger one",
+    ))
+}
+
+/// Realisations after which the search for one that keeps hitting is given up.
+const REALISATIONS: u64 = 1000;
+
+impl SpaceTime {
+    /// Number of gaps.
+    pub fn width(&self) -> usize {
+        self.parameters.chain.gaps()
+    }
+
+    /// Time of the first impact of each gap.
+    pub fn firsts(&self) -> Vec<Option<f64>> {
+        let mut firsts = vec![None; self.width()];
+        for (&time, &gap) in self.times.iter().zip(&self.gaps) {
+            firsts[gap as usize].get_or_insert(time);
+        }
+        firsts
+    }
+
+    /// Gaps reached by a time.
+    pub fn reached(&self, by: f64) -> usize {
+        self.firsts().iter().flatten().filter(|first| **first <= by).count()
+    }
+
+    /// For each gap that is hit its first impact, and the earlier of those of its neighbours.
+    fn beside(&self) -> impl Iterator<Item = (usize, f64, Option<f64>)> {
+        let firsts = self.firsts();
+        (0..firsts.len()).filter_map(move |gap| {
+            let left = gap.checked_sub(1).and_then(|left| firsts[left]);
+            let near = left.into_iter().chain(firsts.get(gap + 1).copied().flatten());
+            Some((gap, firsts[gap]?, near.reduce(f64::min)))
+        })
+    }
+
+    /// The gaps at which impacts start: hit when neither neighbour had been. Such a gap closes by
+    /// itself, since its masses move as they did from the beginning.
+    pub fn starts(&self) -> Vec<usize> {
+        let alone = |own: &(usize, f64, Option<f64>)| own.2.is_none_or(|near| near >= own.1);
+        self.beside().filter(alone).map(|(gap, ..)| gap).collect()
+    }
+
+    /// The steps of all fronts, the quickest first: each gap that is reached, without the starts. How long after the first
+    /// impact of its earlier neighbour, the gap, and when.
+    pub fn advances(&self) -> Vec<(f64, usize, f64)> {
+        let advance = |(gap, time, near): (usize, f64, Option<f64>)| {
+            near.filter(|near| *near < time).map(|near| (time - near, gap, time))
+        };
+        let mut advances: Vec<_> = self.beside().filter_map(advance).collect();
+        advances.sort_by(|a, b| a.0.total_cmp(&b.0));
+        advances
+    }
+}
+
+/// The table of the run.
+pub fn tables(own: &SpaceTime) -> Vec<Table> {
+    let time = "1/omega";
+    let none = f64::NAN;
+    let (until, advances) = (own.parameters.until, own.advances());
+    let (median, longest) = (advances.get(advances.len() / 2), advances.last());
+    vec![
+        Table::of("spacetime.run", &[()], |()| 1)
+            .chosen("sigma", "d omega^2", "standard deviation σ", |()| Some(own.parameters.sigma))
+            .chosen("until", time, "length of the run", |()| Some(until))
+            .chosen("last", time, "in which it has impacts", |()| Some(own.parameters.last))
+            .chosen("quarter", time, "of the run", |()| Some(until / 4.0))
+            .chosen("half", time, "of the run", |()| Some(until / 2.0))
+            .computed_by(origin(run))
+            .count("passed_over", "realisations without late impacts", |()| own.realisation)
+            .count("impacts", "impacts", |()| own.times.len() as u64)
+            .real("first", time, 3, "the first impact", |()| {
+                own.times.first().copied().unwrap_or(none)
+            })
+            .computed_by(origin(SpaceTime::reached))
+            .count("reached", "gaps with an impact", |()| own.reached(until) as u64)
+            .computed_by(origin(SpaceTime::reached))
+            .count("reached_by_quarter", "gaps with an impact", |()| {
+                own.reached(until / 4.0) as u64
+            })
+            .count("reached_by_half", "gaps with an impact", |()| own.reached(until / 2.0) as u64)
+            .computed_by(origin(SpaceTime::starts))
+            .count("starts", "gaps hit when neither neighbour was", |()| own.starts().len() as u64)
+            .computed_by(origin(SpaceTime::advances))
+            .real("advance_median", time, 3, "median step of a front", |()| {
+                median.map_or(none, |step| step.0)
+            })
+            .real("advance_longest", time, 3, "longest step of a front", |()| {
+                longest.map_or(none, |step| step.0)
+            })
+            .count("advance_gap", "gap that it reaches", |()| {
+                longest.map_or(0, |step| step.1 as u64)
+            })
+            .real("advance_time", time, 3, "when it does", |()| longest.map_or(none, |step| step.2))
+            .done(),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::params::{Chain, Profile};
+
+    /// Five gaps by hand: gap 1 starts, then 2 and 0 follow; gap 4 starts and 3 is never hit.
+    fn by_hand() -> SpaceTime {
+        let mut parameters = SpaceTimeParams::new(Profile::Quick);
+        parameters.chain = Chain { masses: 4, ..Chain::default() };
+        parameters.until = 100.0;
+        SpaceTime {
+            parameters,
+            realisation: 0,
+            times: vec![10.0, 12.0, 13.0, 14.0, 50.0, 60.0, 61.0],
+            gaps: vec![1, 2, 1, 0, 4, 1, 1],
+        }
+    }
+
+    #[test]
+    fn a_small_run_is_read_right() {
+        let run = by_hand();
+        assert_eq!(run.firsts(), [Some(14.0), Some(10.0), Some(12.0), None, Some(50.0)]);
+        assert_eq!((run.reached(100.0), run.reached(12.0)), (4, 2));
+        assert_eq!(run.starts(), [1, 4]);
+        assert_eq!(run.advances(), [(2.0, 2, 12.0), (4.0, 0, 14.0)]);
+    }
+
+    #[test]
+    fn the_run_is_the_first_that_keeps_hitting() {
+        // Below the threshold some runs fall silent, and are passed over.
+        let seeded = |seed| {
+            let quick = SpaceTimeParams::new(Profile::Quick);
+            let parameters = SpaceTimeParams { seed, sigma: 0.1, last: 10.0, ..quick };
+            run(&parameters, &Progress::silent()).unwrap()
+        };
+        let found = (1..=10).map(seeded).find(|found| found.realisation > 0).expect("one in ten");
+        let SpaceTimeParams { until, last, sigma, seed, .. } = found.parameters;
+        assert!(found.times.last().unwrap() > &(until - last) && found.times.is_sorted());
+        // Those passed over really had no late impact.
+        for index in 0..found.realisation {
+            let mut normals = NormalPairs::new("space-time", seed, index);
+            let scenario = Scenario::draw(&Chain::default(), sigma, &mut normals);
+            let impacts = Engine::new(&scenario).unwrap().impacts(until).unwrap();
+            assert!(impacts.last().is_none_or(|impact| impact.time <= until - last), "{index}");
+        }
+    }
+}
