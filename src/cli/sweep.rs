@@ -2,7 +2,7 @@
 
 use super::{Failure, memory, sigmas, signals, stdout, threads};
 use impact_chain::counts::{NEAR_DECADES, SLOW_DECADES};
-use impact_chain::rise::{self, MOST_REJECTED};
+use impact_chain::rise;
 use impact_chain::{Boundary, Chain, Counts, Engine, Ensemble, Protocol, Start};
 use impact_numerics::clock::LATEST;
 use impact_paper::experiments::{Error, Progress};
@@ -188,7 +188,7 @@ fn rows(ensemble: &Ensemble, progress: &Progress) -> Result<Vec<Row>, Failure> {
                 counts.failed
             ));
         }
-        if of as f64 > MOST_REJECTED * all as f64 {
+        if of as f64 > ensemble.most_rejected * all as f64 {
             stage.say(&format!(
                 "impact-paper: sigma {sigma:?}: {of} of {all} starts overlapped and were rejected; the \
                  row is not comparable with others"

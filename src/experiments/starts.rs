@@ -2,7 +2,7 @@
 
 use super::ensembles::named;
 use super::{Results, STARTS};
-use impact_chain::rise::{Counted, Curve, MOST_REJECTED};
+use impact_chain::rise::{Counted, Curve};
 use impact_numerics::estimates::{difference, share};
 use impact_numerics::statistics::Estimate;
 use literate::table::Table;
@@ -36,7 +36,7 @@ pub fn tables(variants: &Vec<Counted>) -> Vec<Table> {
             "most_rejected",
             "1",
             "share of overlapping starts up to which a row is used",
-            |_| Some(MOST_REJECTED),
+            |_| Some(variants[0].ensemble.most_rejected),
         )
         .chosen("rejected_at", "d omega^2", "the last σ of random starts", |last| {
             last.map(|row| row.sigma)

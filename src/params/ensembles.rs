@@ -120,6 +120,8 @@ pub fn chains(profile: Profile) -> Vec<Ensemble> {
     let transients: &[f64] = if full { &[100.0, 500.0, 1000.0, 2000.0] } else { &[100.0, 500.0] };
     let mut random = chain("random", grid(9, 18), 24, transients);
     random.chain.start = Start::Random;
+    // Beyond the rise the half height lies where more starts overlap; what is left of them is counted.
+    random.most_rejected = 1.0;
     let mut ring = chain("ring", grid(9, 18), 24, transients);
     ring.chain.boundary = Boundary::Ring;
     all.extend([random, ring]);

@@ -65,6 +65,8 @@ pub struct Ensemble {
     pub realisations: usize,
     /// Where fewer or shorter ones do.
     pub beyond: Option<Beyond>,
+    /// Share of overlapping starts above which a σ is not compared with others: no place is read from it.
+    pub most_rejected: f64,
     /// Pieces of about equal length in which a long chain is counted, each like a realisation.
     pub pieces: usize,
     /// Name of the random stream.
@@ -83,6 +85,7 @@ impl Default for Ensemble {
             protocols: vec![Protocol::default()],
             realisations: 100,
             beyond: None,
+            most_rejected: 0.1,
             pieces: 1,
             stream: "ensemble".into(),
             seed: 2007,

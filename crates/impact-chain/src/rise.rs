@@ -16,9 +16,6 @@ use serde::{Deserialize, Serialize};
 /// Share of N at which the rise has its onset.
 pub const ONSET: f64 = 0.05;
 
-/// Share of overlapping starts above which a σ is not compared with others: no place is read from it.
-pub const MOST_REJECTED: f64 = 0.1;
-
 /// Resamples behind each interval.
 const RESAMPLES: u64 = 1000;
 
@@ -48,13 +45,6 @@ pub struct Runs {
     pub first_failure: Option<String>,
     /// All impacts.
     pub total: Total,
-}
-
-impl Runs {
-    /// Whether few enough starts overlapped for this σ to be compared with others.
-    pub fn comparable(&self) -> bool {
-        self.rejected as f64 <= MOST_REJECTED * self.realisations as f64
-    }
 }
 
 /// Counts in one window, against σ.
@@ -165,7 +155,9 @@ impl Counted {
     /// Its rows that may be compared with others.
     pub fn comparable(&self) -> impl Iterator<Item = &Row> {
         let both = self.first().rows.iter().zip(&self.runs);
-        both.filter(|(_, runs)| runs.comparable()).map(|(row, _)| row)
+        let most = self.ensemble.most_rejected;
+        let few = move |own: &Runs| own.rejected as f64 <= most * own.realisations as f64;
+        both.filter(move |(_, runs)| few(runs)).map(|(row, _)| row)
     }
 }
 
@@ -278,7 +270,7 @@ impl Curve {
     /// The curve of the window in this place.
     pub fn new(ensemble: &Ensemble, counts: &[Counts], window: usize) -> Curve {
         let comparable = |own: &Counts, sigma| {
-            own.rejected as f64 <= MOST_REJECTED * ensemble.realisations_at(sigma) as f64
+            own.rejected as f64 <= ensemble.most_rejected * ensemble.realisations_at(sigma) as f64
         };
         let read = |(own, &sigma): (&'_ Counts, &f64)| comparable(own, sigma);
         let used: Vec<bool> = counts.iter().zip(&ensemble.sigmas).map(read).collect();
