@@ -133,29 +133,6 @@ fn zeros_solve_the_quadratic() {
     assert_eq!(jump::zeros(100, crit * (1.0 - 1e-12)), None);
     assert!(jump::zeros(100, crit * (1.0 + 1e-12)).is_some());
     assert_eq!(jump::zeros(100, 0.0), None);
-    // The two zeros meet at 1/√p_crit.
-    let [a, b] = jump::zeros(100, crit * (1.0 + 1e-12)).unwrap();
-    let middle = 1.0 / crit.sqrt();
-    assert!((a / middle - 1.0).abs() < 1e-4 && (b / middle - 1.0).abs() < 1e-4);
-}
-
-#[test]
-fn integer_maximum_is_the_ceiling_of_k_plus() {
-    for big_n in [4, 5, 30, 100] {
-        for i in 1..=400 {
-            let p = f64::from(i) / 400.0;
-            let top = jump::local_maximum(big_n, p);
-            // Direct: the last k at which Φ rises, plus one.
-            let direct = (1..big_n).rev().find(|k| jump::rises(big_n, p, *k)).map_or(1, |k| k + 1);
-            assert_eq!(top, direct, "N = {big_n}, p = {p}");
-            if top > 1 {
-                // At p = 0.055, N = 30 the zero is 10 up to the rounding of p.
-                let plus = jump::zeros(big_n, p).unwrap()[1];
-                let near = [plus - 1e-9, plus + 1e-9].map(|x| x.ceil() as usize);
-                assert!(near.contains(&top), "N = {big_n}, p = {p}: {plus} {top}");
-            }
-        }
-    }
 }
 
 #[test]

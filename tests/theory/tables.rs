@@ -3,6 +3,7 @@
 use impact_circuits::distribution::{Law, SampleSpace};
 use impact_circuits::impact_probability::ImpactProbability;
 use impact_paper::experiments::Results;
+use impact_paper::experiments::theory::{large, law};
 use impact_paper::params::{Profile, VERTICES};
 use std::sync::LazyLock;
 
@@ -75,6 +76,35 @@ fn slips_of_the_paper_by_other_routes() {
     assert!((slope / variance - 1.0).abs() < 1e-6);
 }
 
+/// p_rest from 40-digit arithmetic, and 1 − (1 − p_rest)^101.
+#[test]
+fn gaps_that_close_by_themselves_have_their_known_values() {
+    assert!((number("theory.gap[sigma=0.12].p_rest") - 0.0309524).abs() < 1e-7);
+    assert!((number("theory.gap[sigma=0.12].any_rest") - 0.958).abs() < 1e-3);
+    assert!((0.099..0.1).contains(&number("theory.relation.sigma_kept_half")));
+    assert!((0.07..0.09).contains(&number("theory.relation.sigma_kept_onset")));
+}
+
+#[test]
+fn steps_are_where_k_star_changes() {
+    let steps = law::steps();
+    assert_eq!((steps[0], steps.last().unwrap().1), ((0.0, 1), law::k_star(1.0)));
+    for pair in steps.windows(2) {
+        let sides = [1.0 - 1e-14, 1.0 + 1e-14].map(|near| law::k_star(near * pair[1].0));
+        assert_eq!(sides, [pair[0].1, pair[1].1]);
+    }
+}
+
+#[test]
+fn the_stages_of_figure_10_differ() {
+    let stages = law::stages();
+    let leap = number("theory.jump.p_jump");
+    assert!(stages.is_sorted() && stages[2] < leap && leap < stages[3]);
+    assert_eq!(stages.map(law::k_star)[..3], [1, 1, 1]);
+    let rises = |p: f64| law::simple(p).windows(2).any(|w| w[1] > w[0]);
+    assert_eq!(stages.map(rises), [false, false, true, true]);
+}
+
 #[test]
 fn large_graphs_go_on_from_the_paper() {
     let table = RESULTS.table("theory.large").unwrap();
@@ -82,5 +112,11 @@ fn large_graphs_go_on_from_the_paper() {
     assert_eq!(number("theory.large[n=100].p_n"), 100.0 * number("theory.jump.p_jump"));
     for name in ["share", "p_n"] {
         assert!(column(name).windows(2).all(|w| w[1].1 < w[0].1), "{name}");
+    }
+    // At a step both ends are drawn.
+    for (x, y) in large::shares(VERTICES).concat().into_iter().step_by(40) {
+        let n = VERTICES as f64;
+        let sides = [1.0 - 1e-13, 1.0 + 1e-13].map(|near| law::k_star(near * x / n) as f64 / n);
+        assert!(sides.contains(&y), "{x} {y} {sides:?}");
     }
 }

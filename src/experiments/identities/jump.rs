@@ -33,7 +33,7 @@ fn size(p: f64, k: f64) -> f64 {
 }
 
 /// Where f is largest.
-fn top(p: f64) -> f64 {
+pub(crate) fn top(p: f64) -> f64 {
     (N * p - 1.0) / (2.0 * p)
 }
 

@@ -67,22 +67,3 @@ pub fn shares(vertices: usize) -> [Vec<(f64, f64)>; 2] {
     }
     [before, rows]
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use impact_circuits::distribution::Law;
-
-    #[test]
-    fn drawn_shares_are_those_of_k_star() {
-        for vertices in [100, 10_000] {
-            let n = vertices as f64;
-            let share = |p: f64| Law::new(Simple, vertices, p).unwrap().k_star() as f64 / n;
-            for (x, y) in shares(vertices).concat().into_iter().step_by(40) {
-                // At a step both ends are drawn.
-                let sides = [1.0 - 1e-13, 1.0 + 1e-13].map(|near| share(near * x / n));
-                assert!(sides.contains(&y), "{x} {y} {sides:?}");
-            }
-        }
-    }
-}

@@ -1,7 +1,7 @@
 //! The number of different impacts, and why its most likely value jumps: Secs. 6 and 7, Figs. 8 to 10.
 
 use super::{known, one};
-use crate::experiments::identities::jump::{mean_slopes, touching};
+use crate::experiments::identities::jump::{mean_slopes, top, touching};
 use crate::params::{DISTRIBUTION_P, Grid, VERTICES};
 use impact_circuits::distribution::Law;
 use impact_circuits::distribution::SampleSpace::{self, Simple};
@@ -84,18 +84,15 @@ fn mean() -> Table {
 fn jumping() -> Table {
     let p_crit = |vertices| known(jump::p_crit(vertices));
     let (crit, leap) = (p_crit(VERTICES), known(jump::p_jump(Simple, VERTICES)));
-    let at_one = law(Simple, 1.0);
+    let (at_one, between) = (law(Simple, 1.0), 0.5 * (crit + leap.bracket[0]));
+    let [before, last] = [VERTICES - 1, VERTICES].map(|k| known(at_one.weight(k)));
     let [by_variance, by_difference] = mean_slopes(leap.p);
     one("theory.jump", origin(jump::p_crit))
         .real("p_crit", "1", 5, "Eq. (18)", |()| crit)
         .real("p_crit_walls", "1", 5, "the same for N + 1", |()| p_crit(VERTICES + 1))
-        .real("k_touch", "1", 4, "double zero of f at p_crit", |()| {
-            (VERTICES as f64 * crit - 1.0) / (2.0 * crit)
-        })
+        .real("k_touch", "1", 4, "double zero of f at p_crit", |()| top(crit))
         .computed_by(origin(touching))
-        .real("p_crit_found", "1", 5, "p at which the zeros of f appear, by bisection", |()| {
-            touching()
-        })
+        .real("p_crit_found", "1", 5, "where zeros of f appear, by bisection", |()| touching())
         .computed_by(origin(jump::p_jump))
         .real("p_jump", "1", 5, "p at which k* leaves 1", |()| leap.p)
         .count("k_after", "k* after it", |()| leap.k_after as u64)
@@ -103,18 +100,12 @@ fn jumping() -> Table {
         .computed_by(origin(Law::k_star))
         .count("k_at_zero", "k* for p → 0", |()| k_star(0.0) as u64)
         .count("k_at_crit", "k* at p_crit", |()| k_star(crit) as u64)
-        .count("k_before", "k* half way from p_crit to p_jump", |()| {
-            k_star(0.5 * (crit + leap.bracket[0])) as u64
-        })
+        .count("k_before", "k* half way from p_crit to p_jump", |()| k_star(between) as u64)
         .count("k_at_one", "k* at p = 1", |()| at_one.k_star() as u64)
         .computed_by(origin(Law::weight))
-        .real("last_ratio", "1", 2, "Φ(N)/Φ(N − 1) at p = 1", |()| {
-            (known(at_one.weight(VERTICES)) / known(at_one.weight(VERTICES - 1))).to_f64()
-        })
+        .real("last_ratio", "1", 2, "Φ(N)/Φ(N − 1) at p = 1", |()| (last / before).to_f64())
         .computed_by(origin(mean_slopes))
-        .real("slope", "1", 4, "dμ/dp at p_jump, from values of μ on both sides", |()| {
-            by_difference
-        })
+        .real("slope", "1", 4, "dμ/dp at p_jump, by a difference", |()| by_difference)
         .real("variance_over_p", "1", 4, "Var(X)/p at p_jump", |()| by_variance)
         .done()
 }
@@ -150,32 +141,4 @@ pub fn zeros(p: f64) -> Option<[f64; 2]> {
         return Some([1.0 / p.sqrt(); 2]);
     }
     jump::zeros(VERTICES, p)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn steps_are_where_k_star_changes() {
-        let steps = steps();
-        assert_eq!((steps[0], steps.last().unwrap().1), ((0.0, 1), k_star(1.0)));
-        for pair in steps.windows(2) {
-            let p = pair[1].0;
-            assert_eq!(k_star(p * (1.0 - 1e-14)), pair[0].1);
-            assert_eq!(k_star(p * (1.0 + 1e-14)), pair[1].1);
-        }
-    }
-
-    #[test]
-    fn the_stages_of_figure_10_differ() {
-        let stages = stages();
-        let leap = steps()[1];
-        assert!(stages.is_sorted() && stages[2] < leap.0 && leap.0 < stages[3]);
-        assert_eq!(stages.map(k_star)[..3], [1, 1, 1]);
-        let rises = |p: f64| simple(p).windows(2).any(|w| w[1] > w[0]);
-        assert_eq!(stages.map(rises), [false, false, true, true]);
-        let [minus, plus] = zeros(stages[1]).unwrap();
-        assert!(minus == plus && jump::f(VERTICES, stages[1], plus).abs() < 1e-12);
-    }
 }

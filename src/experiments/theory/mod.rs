@@ -6,8 +6,8 @@
 pub(crate) mod beside;
 pub(crate) mod counts;
 pub(crate) mod higher;
-pub(crate) mod large;
-pub(crate) mod law;
+pub mod large;
+pub mod law;
 pub(crate) mod relation;
 
 use impact_circuits::Error;

@@ -80,8 +80,8 @@ fn any(p: f64, gaps: usize) -> f64 {
 
 /// The same by p of Eq. (25), for random free parts, gaps at the walls by their own p, since a wall does not move: an upper
 /// bound, since normal variables make symmetric convex events no less likely together than one by one.
-fn any_random(sigma: f64, gaps: usize) -> f64 {
-    let none = (gaps - 2) as f64 * pxfm::f_log1p(-p_of(sigma));
+fn any_random(sigma: &f64) -> f64 {
+    let none = (Chain::default().gaps() - 2) as f64 * pxfm::f_log1p(-p_of(*sigma));
     -pxfm::f_expm1(none + 2.0 * pxfm::f_log1p(-p_of(sigma / SQRT_2)))
 }
 
@@ -90,27 +90,22 @@ fn sigma_kept(share: f64) -> f64 {
     smallest_sigma(|sigma| any(p_rest_of(sigma), Chain::default().gaps()) >= share)
 }
 
-/// Starts with random free parts that overlap: Δ(0) = d + δα_0 − δα_1 is normal with variance 4σ².
+/// Share of starts with random free parts that overlap, over p: Δ(0) = d + δα_0 − δα_1 is normal with variance 4σ².
 fn overlap(sigma: f64) -> f64 {
-    0.5 * pxfm::f_erfc(Chain::default().spacing / (2.0 * sigma) / SQRT_2)
+    0.5 * pxfm::f_erfc(Chain::default().spacing / (2.0 * sigma) / SQRT_2) / p_of(sigma)
 }
 
 /// Sec. 8.
 pub(super) fn relation() -> Table {
-    let jump = |space, vertices| known(p_jump(space, vertices)).p;
-    let leap = jump(Simple, VERTICES);
+    let crit = known(p_crit(VERTICES));
+    let jumps = [(Simple, VERTICES), (Simple, VERTICES + 1), (FiveClasses, VERTICES)];
+    let [jump, walls, higher] = jumps.map(|(space, vertices)| known(p_jump(space, vertices)).p);
     one("theory.relation", origin(reaches))
-        .real("sigma_crit", SIGMA, 4, "σ at which p is p_crit", |()| {
-            reaches(p_of, known(p_crit(VERTICES)))
-        })
-        .real("sigma_jump", SIGMA, 4, "σ at which p is p_jump", |()| reaches(p_of, leap))
-        .real("sigma_jump_walls", SIGMA, 4, "the same for N + 1", |()| {
-            reaches(p_of, jump(Simple, VERTICES + 1))
-        })
-        .real("sigma_jump_rest", SIGMA, 4, "from rest", |()| reaches(p_rest_of, leap))
-        .real("sigma_jump_higher", SIGMA, 4, "with five classes", |()| {
-            reaches(p_of, jump(FiveClasses, VERTICES))
-        })
+        .real("sigma_crit", SIGMA, 4, "σ at which p is p_crit", |()| reaches(p_of, crit))
+        .real("sigma_jump", SIGMA, 4, "σ at which p is p_jump", |()| reaches(p_of, jump))
+        .real("sigma_jump_walls", SIGMA, 4, "the same for N + 1", |()| reaches(p_of, walls))
+        .real("sigma_jump_rest", SIGMA, 4, "from rest", |()| reaches(p_rest_of, jump))
+        .real("sigma_jump_higher", SIGMA, 4, "with five classes", |()| reaches(p_of, higher))
         .computed_by(origin(half))
         .real("sigma_half", SIGMA, 4, "σ at which μ is (N + 1)/2", |()| half(p_of, Simple))
         .real("sigma_half_rest", SIGMA, 4, "from rest", |()| half(p_rest_of, Simple))
@@ -130,15 +125,14 @@ pub(super) fn relation() -> Table {
         })
         .computed_by(origin(overlap))
         .chosen("overlap_sigma", SIGMA, "of random starts", |()| Some(OVERLAP))
-        .real("overlap_share", "1", 2, "starts that overlap, over p", |()| {
-            overlap(OVERLAP) / p_of(OVERLAP)
-        })
+        .real("overlap_share", "1", 2, "starts that overlap, over p", |()| overlap(OVERLAP))
         .done()
 }
 
 /// Gaps that close by themselves, at the σ of the main sweeps of all profiles.
 pub(super) fn gaps() -> Table {
     let gaps = Chain::default().gaps();
+    let expected = |sigma: &f64| gaps as f64 * p_rest_of(*sigma);
     let profiles = [Profile::Quick, Profile::Full];
     let mut sigmas = profiles.map(|profile| params::sweep(profile)[0].sigmas.clone()).concat();
     sigmas.sort_by(f64::total_cmp);
@@ -150,30 +144,10 @@ pub(super) fn gaps() -> Table {
         .computed_by(origin(ImpactProbability::p_from_rest))
         .real("p_rest", "1", 3, "the same from rest", |sigma| p_rest_of(*sigma))
         .real("ratio", "1", 2, "p_rest/p", |sigma| p_rest_of(*sigma) / p_of(*sigma))
-        .real("expected", "1", 2, "gaps that close by themselves, from rest", |sigma| {
-            gaps as f64 * p_rest_of(*sigma)
-        })
+        .real("expected", "1", 2, "gaps that close by themselves, from rest", expected)
         .computed_by(origin(any))
         .real("any_rest", "1", 3, "probability that one does", |sigma| any(p_rest_of(*sigma), gaps))
         .computed_by(origin(any_random))
-        .real("any_random", "1", 3, "bound on it with random free parts", |sigma| {
-            any_random(*sigma, gaps)
-        })
+        .real("any_random", "1", 3, "bound on it with random free parts", any_random)
         .done()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// p_rest from 40-digit arithmetic: 0.0309524 at σ = 0.12, 0.00711502 at 0.1, and with them
-    /// 1 − (1 − p_rest)^101 = 0.958 and 0.514; half of 10⁶ would lie between.
-    #[test]
-    fn gaps_that_close_by_themselves_have_their_known_values() {
-        assert!((p_rest_of(0.12) - 0.0309524).abs() < 1e-7);
-        assert!((any(p_rest_of(0.12), 101) - 0.958).abs() < 1e-3);
-        assert!((sigma_kept(0.958) - 0.12).abs() < 1e-4);
-        assert!(sigma_kept(0.5) > 0.099 && sigma_kept(0.5) < 0.1);
-        assert!(sigma_kept(ONSET) > 0.07 && sigma_kept(ONSET) < 0.09);
-    }
 }
