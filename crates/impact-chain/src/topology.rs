@@ -67,4 +67,10 @@ impl Topology {
     pub fn inverse_mass(&self, m: usize) -> f64 {
         if self.is_wall(m) { 0.0 } else { 1.0 }
     }
+
+    /// The inverse masses beside gap k.
+    #[inline]
+    pub fn inverse_masses(&self, k: usize) -> [f64; 2] {
+        self.sides(k).map(|m| self.inverse_mass(m))
+    }
 }

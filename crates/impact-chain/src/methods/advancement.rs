@@ -1,7 +1,8 @@
 //! Conservative advancement.
 
 use super::flights::{Flights, Look};
-use super::tally::{Stop, Tally, check_end, check_tolerance};
+use super::steps::{check_end, check_tolerance};
+use super::tally::{Stop, Tally};
 use super::{Cost, Method, State};
 use crate::{Error, Impact, Scenario};
 use impact_numerics::clock::{Instant, LATEST};

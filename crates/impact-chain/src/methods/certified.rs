@@ -1,6 +1,6 @@
 //! The engine of this project, under the trait of its rivals.
 
-use super::tally::check_end;
+use super::steps::check_end;
 use super::{Cost, Method, State};
 use crate::topology::Topology;
 use crate::{Engine, Error, Impact, Scenario};

@@ -3,7 +3,7 @@
 use super::State;
 use super::crossing::is_rounding;
 use super::forcing::{COMPONENTS, Component};
-use super::tally::Step;
+use super::steps::Step;
 use crate::impact::jumps;
 use crate::topology::Topology;
 use crate::{Error, Scenario};
@@ -116,7 +116,7 @@ impl Flights {
     /// The impact law at gap k: a jump of velocity only rotates into the free part.
     pub fn hit(&mut self, k: usize, speed: f64, phases: &Phases) {
         let sides = self.topology.sides(k);
-        let inverse = sides.map(|m| self.topology.inverse_mass(m));
+        let inverse = self.topology.inverse_masses(k);
         let (sin, cos) = phases.0;
         for (side, jump) in sides.into_iter().zip(jumps(speed, self.restitution, inverse)) {
             let kick = jump / self.omega;

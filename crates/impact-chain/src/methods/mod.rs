@@ -17,6 +17,7 @@ mod row;
 mod runge_kutta;
 mod sampled;
 mod state;
+mod steps;
 mod tally;
 pub mod truth;
 mod verlet;

@@ -1,7 +1,8 @@
 //! Penalty springs.
 
 use super::row::{Row, Stepper, run_steps};
-use super::tally::{Step, Stop, Tally};
+use super::steps::Step;
+use super::tally::{Stop, Tally};
 use super::{Cost, Method, State};
 use crate::{Error, Impact, Scenario};
 use impact_numerics::clock::Instant;
@@ -98,7 +99,7 @@ impl Springs {
         }
         for k in (0..self.touching.len()).filter(|&k| self.touching[k]) {
             let [left, right] = row.topology.sides(k);
-            let [of_left, of_right] = row.inverse_masses(k);
+            let [of_left, of_right] = row.topology.inverse_masses(k);
             let apart = -(self.stiffness * row.width(k) + self.damping * row.rate(k));
             let force = apart / (of_left + of_right);
             self.accelerations[left] -= force * of_left;

@@ -1,7 +1,8 @@
 //! The row of masses as an integrator sees it: displacements, velocities, forces, impact law.
 
 use super::forcing::Component;
-use super::tally::{Step, Stop, Tally, steps};
+use super::steps::{Step, steps};
+use super::tally::{Stop, Tally};
 use super::{Cost, State};
 use crate::Boundary;
 use crate::impact::jumps;
@@ -64,17 +65,11 @@ impl Row {
         self.v[right] - self.v[left]
     }
 
-    /// The inverse masses beside gap k.
-    #[inline]
-    pub fn inverse_masses(&self, k: usize) -> [f64; 2] {
-        self.topology.sides(k).map(|m| self.topology.inverse_mass(m))
-    }
-
     /// An impulse P ≥ 0 that opens gap k, for masses 1/`lightness`.
     #[inline]
     pub fn push(&mut self, k: usize, impulse: f64, lightness: f64) {
         let [left, right] = self.topology.sides(k);
-        let [of_left, of_right] = self.inverse_masses(k);
+        let [of_left, of_right] = self.topology.inverse_masses(k);
         self.v[left] -= impulse * of_left * lightness;
         self.v[right] += impulse * of_right * lightness;
     }
@@ -82,7 +77,7 @@ impl Row {
     /// The impact law at gap k.
     pub fn hit(&mut self, k: usize, speed: f64) {
         let [left, right] = self.topology.sides(k);
-        let jumps = jumps(speed, self.restitution, self.inverse_masses(k));
+        let jumps = jumps(speed, self.restitution, self.topology.inverse_masses(k));
         self.v[left] += jumps[0];
         self.v[right] += jumps[1];
     }
@@ -107,8 +102,7 @@ impl Row {
         }
     }
 
-    /// Whether any gap would be narrower than zero after `ahead` at its present rate: a look at all
-    /// gaps that is cheap, because mostly none is.
+    /// Whether any gap would be shut after `ahead` at its present rate: a cheap look, as mostly none is.
     pub fn any_shut(&self, ahead: f64) -> bool {
         let (u, v) = (&self.u, &self.v);
         let is_shut =
@@ -153,8 +147,7 @@ pub fn run_steps<S: Stepper>(
     tally.finish(ended)
 }
 
-/// Error of velocity and place of a forced mass that meets nothing, after flying for 10.24 with steps
-/// of `h`.
+/// Error of velocity and place of a forced mass that meets nothing, after 10.24 with steps of `h`.
 #[cfg(test)]
 pub fn flight_error<S: Stepper>(h: f64, begin: impl Fn(&Row, Instant) -> S) -> f64 {
     let scenario = Scenario::from_json(r#"{"forcing":[[0.1,0.2]]}"#).unwrap();

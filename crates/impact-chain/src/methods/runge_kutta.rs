@@ -3,7 +3,8 @@
 use super::crossing::{crossing, is_rounding};
 use super::dormand_prince::Stages;
 use super::row::Row;
-use super::tally::{Stop, Tally, check_end, check_tolerance};
+use super::steps::{check_end, check_tolerance};
+use super::tally::{Stop, Tally};
 use super::{Cost, Method, State};
 use crate::{Error, Impact, Scenario};
 use impact_numerics::clock::Instant;

@@ -2,7 +2,8 @@
 
 use super::crossing::crossing;
 use super::flights::{Flights, Look};
-use super::tally::{Step, Stop, Tally, steps};
+use super::steps::{Step, steps};
+use super::tally::{Stop, Tally};
 use super::{Cost, Method, State};
 use crate::{Error, Impact, Scenario};
 use impact_numerics::clock::Instant;

@@ -117,18 +117,18 @@ impl State {
 mod tests {
     use super::*;
     use crate::Engine;
-    use crate::{Boundary, Chain, Start};
+    use crate::{Chain, Start};
     use impact_numerics::random::NormalPairs;
 
-    fn drawn(boundary: Boundary, start: Start, sigma: f64) -> Scenario {
-        let chain = Chain { masses: 7, boundary, start, ..Chain::default() };
-        Scenario::draw(&chain, sigma, &mut NormalPairs::new("state", 1, 0))
+    fn drawn(start: Start) -> Scenario {
+        let chain = Chain { masses: 7, start, ..Chain::default() };
+        Scenario::draw(&chain, 0.1, &mut NormalPairs::new("state", 1, 0))
     }
 
     #[test]
     fn a_start_is_what_the_engine_has() {
         for start in [Start::Rest, Start::Zero, Start::Random] {
-            let scenario = drawn(Boundary::Walls, start, 0.1);
+            let scenario = drawn(start);
             let (state, engine) = (State::of(&scenario), Engine::new(&scenario).unwrap());
             let near = |a: &[f64], b: Vec<f64>| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-14);
             assert!(near(&state.positions, engine.positions(0.0)), "{start:?}");
@@ -136,31 +136,9 @@ mod tests {
         }
     }
 
-    /// From a state in the middle of a flight, the moved scenario flies on as the first one does.
-    #[test]
-    fn the_moved_scenario_flies_on() {
-        let scenario = drawn(Boundary::Ring, Start::Rest, 0.1);
-        let engine = Engine::new(&scenario).unwrap();
-        let at = |time| State {
-            time,
-            positions: engine.positions(time),
-            velocities: engine.velocities(time),
-        };
-        let moved = Engine::new(&at(1234.5).as_scenario(&scenario).unwrap()).unwrap();
-        for s in [0.0, 0.75, 3.0] {
-            let later = at(1234.5 + s);
-            for (x, y) in moved.positions(s).iter().zip(&later.positions) {
-                assert!((x - y).abs() < 1e-14, "{x} {y}");
-            }
-            for (x, y) in moved.velocities(s).iter().zip(&later.velocities) {
-                assert!((x - y).abs() < 1e-14, "{x} {y}");
-            }
-        }
-    }
-
     #[test]
     fn states_outside_the_model_are_refused() {
-        let scenario = drawn(Boundary::Walls, Start::Rest, 0.1);
+        let scenario = drawn(Start::Rest);
         let good = State::of(&scenario);
         let refused = |change: fn(&mut State)| {
             let mut state = good.clone();

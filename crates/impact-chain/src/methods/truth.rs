@@ -7,7 +7,8 @@
 //! method. A tie of two gaps within the rounding of doubles could be taken in the wrong order; it
 //! has a probability of about 1e−14 an impact.
 
-use super::tally::{Stop, Tally, check_end};
+use super::steps::check_end;
+use super::tally::{Stop, Tally};
 use super::{Certified, Cost, Method, State};
 use crate::contact::CONTACT_SPEED;
 use crate::{Boundary, Engine, Error, Impact, Scenario};
@@ -38,35 +39,30 @@ impl Method for Truth {
         sink: &mut dyn FnMut(Impact) -> bool,
     ) -> Result<Cost, Error> {
         check_end(until)?;
-        let refused = |field: &str, problem: String| Err(Error::input(field, problem, REMEDY));
+        let refused = |field: &str, problem: &str| Error::input(field, problem, REMEDY);
         if scenario.boundary == Boundary::Ring {
-            return refused("boundary", "the truth knows walls only".into());
+            return Err(refused("boundary", "the truth knows walls only"));
         }
         if !scenario.overtones.is_empty() {
-            return refused("forcing_frequencies", "the truth knows one frequency only".into());
+            return Err(refused("forcing_frequencies", "the truth knows one frequency only"));
         }
         let engine = Engine::new(&start.as_scenario(scenario)?)?;
-        if let Some((gap, _)) = engine.contacts(0.0).first() {
-            return refused(
-                "initial",
-                format!("gap {gap} is in contact, which the truth does not know"),
-            );
+        if !engine.contacts(0.0).is_empty() {
+            return Err(refused("initial", "a gap is in contact, and the truth knows no contact"));
         }
         let slow = CONTACT_SPEED * scenario.spacing * scenario.natural_frequency;
         let mut tally = Tally::new(scenario, sink);
         let mut motion = TrueMotion::of(scenario, start);
         let mut run = || -> Result<(), Stop> {
             while let Some(hit) = motion.next(until)? {
-                let (time, speed) = (hit.time.to_f64(), hit.closing_speed);
+                let (gap, time, speed) = (hit.gap, hit.time.to_f64(), hit.closing_speed);
                 if scenario.restitution * speed <= slow {
-                    let problem = format!(
-                        "gap {} comes to rest at t = {time}, and the truth knows no contact",
-                        hit.gap
-                    );
-                    return Err(Error::input("restitution", problem, REMEDY).into());
+                    let rest = format!("gap {gap} comes to rest at t = {time}");
+                    let problem = format!("{rest}, and the truth knows no contact");
+                    return Err(refused("restitution", &problem).into());
                 }
                 motion.advance(&hit);
-                tally.impact(hit.gap, time, speed)?;
+                tally.impact(gap, time, speed)?;
             }
             Ok(())
         };
@@ -79,15 +75,15 @@ fn dd(x: f64) -> DoubleDouble {
     DoubleDouble::from(x)
 }
 
-/// A chain between walls, in flight.
+/// A chain between walls, in flight. Bodies are numbered from the left wall (0) to the right one (n + 1).
 #[derive(Clone, Debug)]
 pub struct TrueMotion {
     scenario: Scenario,
     /// ω and Ω.
     rates: [DoubleDouble; 2],
-    /// Free parts (a, b) of the masses.
+    /// Free parts (a, b) of the bodies.
     free: Vec<[DoubleDouble; 2]>,
-    /// Forced responses (c, s).
+    /// Their forced responses (c, s).
     forced: Vec<[DoubleDouble; 2]>,
     time: DoubleDouble,
     /// The gap that is shut right now, after its impact.
@@ -106,8 +102,7 @@ pub struct Hit {
 }
 
 /// Sine and cosine of ωt and Ωt.
-#[derive(Clone, Copy)]
-struct Phases([[DoubleDouble; 2]; 2]);
+type Phases = [[DoubleDouble; 2]; 2];
 
 impl TrueMotion {
     /// The chain of a scenario from exactly the state that is given: one component of forcing, no
@@ -115,65 +110,58 @@ impl TrueMotion {
     pub fn of(scenario: &Scenario, state: &State) -> TrueMotion {
         let rates = [scenario.natural_frequency, scenario.forcing_frequency].map(dd);
         let factor = rates[0] * rates[0] - rates[1] * rates[1];
-        let forced: Vec<_> =
-            scenario.forcing.iter().map(|pair| pair.map(|x| dd(x) / factor)).collect();
-        let mut truth = TrueMotion {
-            scenario: scenario.clone(),
-            rates,
-            free: vec![[DoubleDouble::ZERO; 2]; forced.len()],
-            forced,
-            time: dd(state.time),
-            shut: None,
-        };
-        let phases = truth.phases(truth.time);
-        for j in 0..truth.free.len() {
-            let [v, rate] = truth.forced_motion(j, &phases);
-            let place = dd(scenario.spacing) * (j + 1) as f64;
-            let u = dd(state.positions[j]) - place - v;
-            let quadrature = (dd(state.velocities[j]) - rate) / truth.rates[0];
-            let [sin, cos] = phases.0[0];
-            truth.free[j] = [u * cos - quadrature * sin, u * sin + quadrature * cos];
+        let n = scenario.forcing.len();
+        let mut forced = vec![[DoubleDouble::ZERO; 2]; n + 2];
+        for (forced, pair) in forced[1..].iter_mut().zip(&scenario.forcing) {
+            *forced = pair.map(|x| dd(x) / factor);
+        }
+        let free = vec![[DoubleDouble::ZERO; 2]; n + 2];
+        let (scenario, time) = (scenario.clone(), dd(state.time));
+        let mut truth = TrueMotion { scenario, rates, free, forced, time, shut: None };
+        let phases = truth.phases(time);
+        for m in 1..=n {
+            let [v, rate] = truth.forced_motion(m, &phases);
+            let u = dd(state.positions[m - 1]) - truth.place(m) - v;
+            let quadrature = (dd(state.velocities[m - 1]) - rate) / rates[0];
+            let [sin, cos] = phases[0];
+            truth.free[m] = [u * cos - quadrature * sin, u * sin + quadrature * cos];
         }
         truth
     }
 
     fn phases(&self, t: DoubleDouble) -> Phases {
-        Phases(self.rates.map(|rate| sin_cos(rate * t)))
+        self.rates.map(|rate| sin_cos(rate * t))
     }
 
-    /// Forced response of mass j (from 0) and its rate.
-    fn forced_motion(&self, j: usize, Phases([_, [sin, cos]]): &Phases) -> [DoubleDouble; 2] {
-        let [c, s] = self.forced[j];
+    /// The place m d of body m.
+    fn place(&self, m: usize) -> DoubleDouble {
+        dd(self.scenario.spacing) * m as f64
+    }
+
+    /// Forced response of body m and its rate.
+    fn forced_motion(&self, m: usize, [_, [sin, cos]]: &Phases) -> [DoubleDouble; 2] {
+        let [c, s] = self.forced[m];
         [c * *cos + s * *sin, self.rates[1] * (s * *cos - c * *sin)]
     }
 
-    /// Displacement and velocity of mass j (from 0).
-    fn motion(&self, j: usize, phases: &Phases) -> [DoubleDouble; 2] {
-        let [v, rate] = self.forced_motion(j, phases);
-        let [a, b] = self.free[j];
-        let [sin, cos] = phases.0[0];
+    /// Displacement and velocity of body m.
+    fn motion(&self, m: usize, phases: &Phases) -> [DoubleDouble; 2] {
+        let [v, rate] = self.forced_motion(m, phases);
+        let [a, b] = self.free[m];
+        let [sin, cos] = phases[0];
         [a * cos + b * sin + v, self.rates[0] * (b * cos - a * sin) + rate]
-    }
-
-    /// The masses on both sides of a gap; a wall is none.
-    fn sides(&self, gap: usize) -> [Option<usize>; 2] {
-        [gap.checked_sub(1), (gap < self.free.len()).then_some(gap)]
     }
 
     /// Width and rate of a gap.
     fn gap(&self, gap: usize, phases: &Phases) -> [DoubleDouble; 2] {
-        let none = [DoubleDouble::ZERO; 2];
-        let [left, right] = self.sides(gap).map(|j| j.map_or(none, |j| self.motion(j, phases)));
+        let [left, right] = [gap, gap + 1].map(|m| self.motion(m, phases));
         [dd(self.scenario.spacing) + (right[0] - left[0]), right[1] - left[1]]
     }
 
     /// d + R₁ + R₂ of a gap, as long as neither side is hit: the scale of its rounding.
     pub fn scale(&self, gap: usize) -> f64 {
-        let of = |parts: &[[DoubleDouble; 2]], j: Option<usize>| {
-            j.map_or([0.0; 2], |j| parts[j].map(DoubleDouble::to_f64))
-        };
         let length = |parts: &[[DoubleDouble; 2]]| {
-            let [left, right] = self.sides(gap).map(|j| of(parts, j));
+            let [left, right] = [gap, gap + 1].map(|m| parts[m].map(DoubleDouble::to_f64));
             let [x, y] = [right[0] - left[0], right[1] - left[1]];
             (x * x + y * y).sqrt()
         };
@@ -182,20 +170,17 @@ impl TrueMotion {
 
     /// The state at this moment, rounded to doubles; the gap just hit is shut to the last bit.
     pub fn state(&self) -> State {
-        let phases = self.phases(self.time);
-        let (mut positions, mut velocities) = (Vec::new(), Vec::new());
-        for j in 0..self.free.len() {
-            let [u, rate] = self.motion(j, &phases);
-            positions.push((u + dd(self.scenario.spacing) * (j + 1) as f64).to_f64());
-            velocities.push(rate.to_f64());
-        }
-        match self.shut.map(|gap| self.sides(gap)) {
-            Some([Some(left), Some(right)]) => positions[right] = positions[left],
-            Some([None, Some(right)]) => positions[right] = 0.0,
-            Some([Some(left), None]) => {
-                positions[left] = self.scenario.spacing * (left + 2) as f64;
-            }
-            _ => (),
+        let (n, phases) = (self.scenario.forcing.len(), self.phases(self.time));
+        let motions = (1..=n).map(|m| {
+            let [u, rate] = self.motion(m, &phases);
+            ((u + self.place(m)).to_f64(), rate.to_f64())
+        });
+        let (mut positions, velocities): (Vec<f64>, Vec<f64>) = motions.unzip();
+        match self.shut {
+            Some(0) => positions[0] = 0.0,
+            Some(gap) if gap < n => positions[gap] = positions[gap - 1],
+            Some(_) => positions[n - 1] = self.scenario.spacing * (n + 1) as f64,
+            None => (),
         }
         State { time: self.time.to_f64(), positions, velocities }
     }
@@ -229,19 +214,17 @@ impl TrueMotion {
     pub fn advance(&mut self, hit: &Hit) {
         let phases = self.phases(hit.time);
         let [_, rate] = self.gap(hit.gap, &phases);
-        let sides = self.sides(hit.gap);
+        let sides = [(hit.gap, -1.0), (hit.gap + 1, 1.0)];
+        let masses = sides.iter().filter(|(m, _)| (1..=self.scenario.forcing.len()).contains(m));
         // Two equal masses share the jump, a wall leaves all of it to its mass.
-        let shared = if sides.iter().all(Option::is_some) { 0.5 } else { 1.0 };
+        let shared = 1.0 / masses.clone().count() as f64;
         let jump = -rate * (dd(1.0) + dd(self.scenario.restitution)) * shared / self.rates[0];
-        let [sin, cos] = phases.0[0];
-        for (side, sign) in sides.into_iter().zip([-1.0, 1.0]) {
-            if let Some(j) = side {
-                let [a, b] = self.free[j];
-                self.free[j] = [a - jump * sin * sign, b + jump * cos * sign];
-            }
+        let [sin, cos] = phases[0];
+        for &(m, sign) in masses {
+            let [a, b] = self.free[m];
+            self.free[m] = [a - jump * sin * sign, b + jump * cos * sign];
         }
-        self.time = hit.time;
-        self.shut = Some(hit.gap);
+        (self.time, self.shut) = (hit.time, Some(hit.gap));
     }
 
     /// Runs to time `until` and lists the impacts, with the state right after each.
@@ -273,15 +256,12 @@ mod tests {
         let scenario = chain(1);
         let start = State::of(&scenario);
         let mut moved = TrueMotion::of(&scenario, &start);
-        moved.free[7][0] = moved.free[7][0] + dd(1e-20);
+        moved.free[8][0] = moved.free[8][0] + dd(1e-20);
         let (one, other) =
             (TrueMotion::of(&scenario, &start).run(50.0).unwrap(), moved.run(50.0).unwrap());
         assert_eq!(one.len(), other.len());
-        let largest = one
-            .iter()
-            .zip(&other)
-            .map(|((a, _), (b, _))| (a.time - b.time).to_f64().abs())
-            .fold(0.0, f64::max);
+        let apart = one.iter().zip(&other).map(|(a, b)| (a.0.time - b.0.time).to_f64().abs());
+        let largest = apart.fold(0.0, f64::max);
         assert!(largest > 1e-21 && largest < 1e-15, "{largest:e}");
     }
 

@@ -1,7 +1,8 @@
 //! Verlet with a flip of velocities.
 
 use super::row::{Row, Stepper, run_steps};
-use super::tally::{Step, Stop, Tally};
+use super::steps::Step;
+use super::tally::{Stop, Tally};
 use super::{Cost, Method, State};
 use crate::{Error, Impact, Scenario};
 use impact_numerics::clock::Instant;
@@ -83,7 +84,7 @@ impl Stepper for Flip {
 mod tests {
     use super::*;
     use crate::methods::row::flight_error;
-    use crate::methods::tally::steps;
+    use crate::methods::steps::steps;
 
     #[test]
     fn flight_is_of_order_two() {

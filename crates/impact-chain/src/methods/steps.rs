@@ -1,0 +1,99 @@
+//! Steps in time of equal length, and what is refused of a step, a tolerance or an end.
+
+use super::State;
+use crate::{Error, Scenario};
+use impact_numerics::clock::{Instant, LATEST};
+
+/// Steps that one run may take.
+pub const MOST_STEPS: f64 = 1e10;
+
+/// The shortest step.
+const SHORTEST: f64 = 1e-9;
+
+/// One of equal steps in time; the last one may be shorter.
+#[derive(Clone, Copy)]
+pub struct Step {
+    /// Its beginning.
+    pub from: Instant,
+    /// Its end.
+    pub to: Instant,
+    /// Its length.
+    pub h: f64,
+}
+
+/// The steps of length `h` from `start` to `until`, in order.
+///
+/// # Errors
+/// [`Error::Input`] for a step that is none, that is longer than 1/max(ω, Ω), or too short.
+pub fn steps(
+    scenario: &Scenario,
+    start: &State,
+    until: f64,
+    h: f64,
+) -> Result<impl Iterator<Item = Step>, Error> {
+    check("step", h, SHORTEST..=1.0 / scenario.fastest())?;
+    check_end(until)?;
+    let count = ((until - start.time).max(0.0) / h).ceil();
+    if count > MOST_STEPS {
+        return Err(too_many(count, "step"));
+    }
+    let (begin, end) = (Instant::at(start.time), Instant::at(until));
+    let mut from = begin;
+    Ok((1..=count as u64).map(move |i| {
+        let step = match i < count as u64 {
+            true => Step { from, to: begin.after(i as f64 * h), h },
+            false => Step { from, to: end, h: end.since(from).max(0.0) },
+        };
+        from = step.to;
+        step
+    }))
+}
+
+/// So many steps are not taken.
+pub fn too_many(steps: f64, field: &str) -> Error {
+    let remedy = format!("give a larger {field} or an earlier end, for at most {MOST_STEPS:e}");
+    Error::input(field, format!("{steps:.1e} steps are needed"), remedy)
+}
+
+/// Refuses an end that is no time.
+pub fn check_end(until: f64) -> Result<(), Error> {
+    check("until", until, -LATEST..=LATEST)
+}
+
+/// Refuses a tolerance that makes no sense in doubles.
+pub fn check_tolerance(tolerance: f64) -> Result<(), Error> {
+    check("tolerance", tolerance, 1e-15..=0.1)
+}
+
+fn check(field: &str, x: f64, range: std::ops::RangeInclusive<f64>) -> Result<(), Error> {
+    if range.contains(&x) {
+        return Ok(());
+    }
+    let remedy = format!("give a number from {:?} to {:?}", range.start(), range.end());
+    Err(Error::input(field, format!("{x:?} is out of range"), remedy))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_end_at_the_end() {
+        let scenario = Scenario::from_json(r#"{"forcing":[[0.5,0.5]]}"#).unwrap();
+        let start = State { time: 3.0, ..State::of(&scenario) };
+        let of = |until: f64, h: f64| {
+            steps(&scenario, &start, until, h).map(Iterator::collect::<Vec<Step>>)
+        };
+        let all = of(4.05, 0.1).unwrap();
+        assert_eq!(all.len(), 11);
+        assert!(all.windows(2).all(|pair| pair[0].to == pair[1].from));
+        assert_eq!((all[0].from.time(), all[10].to.time()), (3.0, 4.05));
+        assert!((all[10].h - 0.05).abs() < 1e-15 && all[9].h == 0.1);
+        assert!(of(2.0, 0.1).unwrap().is_empty());
+        for (until, h) in [(4.0, 0.0), (4.0, f64::NAN), (4.0, 0.8), (4.0, 1e-10), (1e12, 0.1)] {
+            let error = of(until, h).err().unwrap().to_string();
+            assert!(error.starts_with("step: "), "{error}");
+        }
+        assert!(of(f64::NAN, 0.1).is_err());
+    }
+}
