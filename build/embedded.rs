@@ -8,7 +8,7 @@ use std::{env, fs, io};
 
 /// Where they lie; fonts, which are beside templates, are always inside.
 const FOLDERS: [(&str, &[&str]); 2] = [
-    ("templates", &["md", "tex", "typ", "bib", "toml", "html", "css", "js", "json"]),
+    ("templates", &["md", "tex", "bib", "toml", "html", "css", "js", "json"]),
     ("benches", &["json"]),
 ];
 
