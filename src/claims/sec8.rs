@@ -98,9 +98,7 @@ fn p_small(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
         (e.number("theory.relation.sigma_crit")?, e.number("theory.relation.sigma_jump")?);
     let printed = s.number()?;
     let [low, high] = s.rounding()?;
-    let Ok(p) = e.number(&format!("theory.gap[sigma={printed}].p")) else {
-        return Ok(open(Text::words("nothing"), "There is no p of this σ."));
-    };
+    let p = e.number(&format!("theory.gap[sigma={printed}].p"))?;
     Ok(Finding {
         ours: Text::words("p = ").significant(p, 3).say(" at σ = ").chosen(printed),
         tolerance: Text::words("below p_crit up to the σ that is printed, ± ")

@@ -1,8 +1,8 @@
 //! Section 9: circuits that repeat impacts.
 
 use super::Basis::{Exact, OurMeasure};
+use super::Finding;
 use super::row::{Error, Evidence, Row, cases, measured, theory};
-use super::{Finding, open};
 use super::{Judgement, Statement, Text};
 use crate::experiments::SEGMENTS;
 use crate::experiments::theory::beside::LARGE_SIGMA;
@@ -127,10 +127,7 @@ fn of_five(e: &Evidence, p: f64, column: &str) -> Result<f64, Error> {
 
 fn even_small_p(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
     let p = s.number()?;
-    let (Ok(share), Ok(first_order)) = (of_five(e, p, "simple"), of_five(e, p, "first_order"))
-    else {
-        return Ok(open(Text::words("nothing"), "This p was not computed."));
-    };
+    let (share, first_order) = (of_five(e, p, "simple")?, of_five(e, p, "first_order")?);
     let higher = (1.0 - share) / share;
     Ok(Finding {
         ours: Text::words("higher orders hold ").significant(100.0 * (1.0 - share), 2).say(" %"),

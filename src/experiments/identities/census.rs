@@ -11,7 +11,7 @@ use impact_circuits::higher_order::{
 use std::collections::BTreeMap;
 
 /// Number of primitive circuits by (N, length, class), found by enumeration.
-pub(crate) type Census = BTreeMap<(usize, usize, Vec<usize>), u64>;
+pub(crate) type Census = BTreeMap<(usize, usize, Vec<usize>), u128>;
 
 /// Longest circuits that are enumerated on N = 1, 2, … vertices.
 const LONGEST: [usize; 6] = [6, 10, 8, 7, 6, 6];
@@ -31,7 +31,7 @@ fn enumerated() -> impl Iterator<Item = (usize, usize)> {
     (1..).zip(LONGEST).flat_map(|(n, longest)| (1..=longest).map(move |k| (n, k)))
 }
 
-pub(crate) fn counted(census: &Census, n: usize, k: usize, repeats: &[usize]) -> u64 {
+pub(crate) fn counted(census: &Census, n: usize, k: usize, repeats: &[usize]) -> u128 {
     census.get(&(n, k, repeats.to_vec())).copied().unwrap_or(0)
 }
 
@@ -49,13 +49,13 @@ pub(super) fn impact_types() -> Cases {
 pub(super) fn eq6(census: &Census) -> Cases {
     cases(enumerated().filter(|&(n, k)| k <= n).map(|(n, k)| {
         // A path is a simple circuit with one of its k vertices as the first: N paths in all.
-        let all_paths = u128::from(counted(census, n, k, &[])) * k as u128;
+        let all_paths = counted(census, n, k, &[]) * k as u128;
         paths(n, k).map(|each| each * n as u128) == Some(all_paths)
     }))
 }
 
 pub(super) fn eq7(census: &Census) -> Cases {
-    let agrees = |(n, k)| phi(n, k) == Some(u128::from(counted(census, n, k, &[])));
+    let agrees = |(n, k)| phi(n, k) == Some(counted(census, n, k, &[]));
     cases(enumerated().filter(|&(n, k)| k <= n).map(agrees))
 }
 
@@ -88,7 +88,7 @@ pub(super) fn eq30_times_n(census: &Census) -> Cases {
         let times_n = doubled_as_printed(n, k)
             .map(|f| Fraction::new(f.numerator * n as u128, f.denominator))
             .and_then(Fraction::integer);
-        times_n == Some(u128::from(counted(census, n, k, &[1])))
+        times_n == Some(counted(census, n, k, &[1]))
     }))
 }
 
@@ -119,11 +119,11 @@ pub(super) fn eq38(census: &Census) -> Cases {
             (four_visits(n, k + 3), 3, &[0, 0, 1]),
             (two_doubled(n, k + 2), 2, &[2]),
         ];
-        let found: u64 =
+        let found: u128 =
             printed.iter().map(|(_, more, class)| counted(census, n, k + more, class)).sum();
         let sum: Option<u128> =
             printed.into_iter().map(|(count, ..)| count.and_then(Fraction::integer)).sum();
-        sum == Some(u128::from(found))
+        sum == Some(found)
     }))
 }
 
@@ -132,12 +132,12 @@ type Formula = fn(usize, usize) -> Option<Fraction>;
 
 /// Of each printed formula for a class of circuits: its equation, the smallest length from which on it is right in every
 /// case, the cases from there on, and what it gives and enumeration finds one length below, on three vertices.
-pub(super) fn class_ranges(census: &Census) -> Vec<(f64, usize, Cases, f64, u64)> {
+pub(super) fn class_ranges(census: &Census) -> Vec<(f64, usize, Cases, f64, u128)> {
     let formulas: [Formula; 4] = [doubled, three_visits, four_visits, two_doubled];
     let range = |(class, formula): (&Class, Formula)| {
         let agrees = |&(n, k): &(usize, usize)| {
             let value = formula(n, k).and_then(Fraction::integer);
-            value == Some(u128::from(counted(census, n, k, class.repeats)))
+            value == Some(counted(census, n, k, class.repeats))
         };
         let possible: Vec<(usize, usize)> =
             enumerated().filter(|&(n, k)| class.different(k).is_some_and(|d| d <= n)).collect();

@@ -72,7 +72,7 @@ pub fn tables() -> Vec<Table> {
         .count("compared", "cases from that length on", |row| row.2[0])
         .count("failed", "of these", |row| row.2[1])
         .real("formula_below", "1", 2, "one length below, on three vertices", |row| row.3)
-        .count("counted_below", "the circuits there", |row| row.4)
+        .count("counted_below", "the circuits there", |row| row.4 as u64)
         .done();
     vec![cases, differences, ranges]
 }

@@ -36,21 +36,18 @@ pub fn shares() -> [Vec<f64>; 2] {
 fn lengths() -> Table {
     let (shares, _) = counting::shares(VERTICES);
     let ratio = |k| counting::ratio_to_longest(VERTICES, k);
+    let exceptions = || (1..VERTICES).filter(|&k| ratio(k) > 0.1).map(|k| k as u64);
+    let peak = (1..=VERTICES).max_by(|a, b| shares[a - 1].total_cmp(&shares[b - 1]));
     one("theory.lengths", origin(counting::ratio_to_longest))
         .real("before_last", "1", 4, "Eq. (8) at k = N − 1", |()| ratio(VERTICES - 1))
         .count(
             "exceptions",
             "lengths k < N with more than a tenth of the circuits of length N",
-            |()| (1..VERTICES).filter(|&k| ratio(k) > 0.1).count() as u64,
+            |()| exceptions().count() as u64,
         )
-        .chosen("first_exception", "1", "the shortest of them", |()| {
-            (1..VERTICES).find(|&k| ratio(k) > 0.1).map(|k| k as f64)
-        })
+        .count("first_exception", "the shortest of them", |()| exceptions().min().unwrap_or(0))
         .computed_by(origin(counting::shares))
-        .count("peak", "the most frequent length", |()| {
-            let largest = (1..=VERTICES).max_by(|a, b| shares[a - 1].total_cmp(&shares[b - 1]));
-            largest.unwrap_or(VERTICES) as u64
-        })
+        .count("peak", "the most frequent length", |()| peak.unwrap_or(VERTICES) as u64)
         .count("from", "N − 3", |()| VERTICES as u64 - 3)
         .real("share", "1", 2, "of simple circuits that are as long or longer", |()| {
             sum(shares[VERTICES - 4..].iter().copied())

@@ -79,39 +79,40 @@ fn doubling(p: f64) -> f64 {
     of(&CLASSES[1]) / of(&CLASSES[0])
 }
 
-/// Beside the curve over σ, the σ at which μ is (N + 1)/2 and those of the jump: of a start from rest, and with five
-/// classes of all and in the relation.
+/// Single numbers of Sec. 9, with those of the tables `theory.curve` and `theory.relation` that belong there.
 pub(super) fn higher(curve: &Table, relation: &Table) -> Table {
     let (sigma, census) = ("d omega^2", census());
-    let of = |column| relation.number(&[], column).unwrap_or(f64::NAN);
+    let counted = |k| counted(&census, 3, k, &[1]) as u64;
+    let printed = [doubled_as_printed(3, 3), doubled(3, 2)];
+    let [eq30, eq33] = printed.map(|found| found.map_or(f64::NAN, Fraction::to_f64));
     let jump = |space| known(jump::p_jump(space, VERTICES));
-    let fraction = |found: Option<Fraction>| found.map_or(f64::NAN, Fraction::to_f64);
-    let (first, last) = (HIGHER_P[0], HIGHER_P[HIGHER_P.len() - 1]);
+    let (leap, shifted) = (jump(FiveClasses), jump(FiveClassesPrinted).p);
+    let [first, _, last] = HIGHER_P;
     // From this k on p k²/2 is at least one.
-    let tail_from = (2.0 / first).sqrt().ceil() as usize;
-    let [apart_at, mean, more] = means_apart();
-    let [change, change_at] = largest_change(curve);
+    let tail = (2.0 / first).sqrt().ceil() as usize;
+    let weight = sum(five(first).into_iter().skip(tail - 1));
+    let ([at, mean, more], [change, change_at]) = (means_apart(), largest_change(curve));
+    let of = |column| relation.number(&[], column).unwrap_or(f64::NAN);
+    let half_shift = of("sigma_half") - of("sigma_half_higher");
+    let shift = |column| (of(column) - of("sigma_jump")).abs();
+    let over = shift("sigma_jump_rest") / shift("sigma_jump_higher");
     one("theory.higher", origin(doubled_as_printed))
-        .real("eq30_printed", "1", 1, "Eq. (30) as printed, k = N = 3", |()| {
-            fraction(doubled_as_printed(3, 3))
-        })
-        .count("eq30_counted", "circuits that it should count", |()| counted(&census, 3, 3, &[1]))
+        .real("eq30_printed", "1", 1, "Eq. (30) as printed, k = N = 3", |()| eq30)
+        .count("eq30_counted", "circuits that it should count", |()| counted(3))
         .computed_by(origin(doubled))
-        .real("eq33_printed", "1", 2, "Eq. (33), k = 2 and N = 3", |()| fraction(doubled(3, 2)))
-        .count("eq33_counted", "circuits that it should count", |()| counted(&census, 3, 2, &[1]))
+        .real("eq33_printed", "1", 2, "Eq. (33), k = 2 and N = 3", |()| eq33)
+        .count("eq33_counted", "circuits that it should count", |()| counted(2))
         .computed_by(origin(jump::p_jump))
-        .real("p_jump", "1", 5, "p_jump with five classes", |()| jump(FiveClasses).p)
-        .count("k_after", "k* after it", |()| jump(FiveClasses).k_after as u64)
+        .real("p_jump", "1", 5, "p_jump with five classes", |()| leap.p)
+        .count("k_after", "k* after it", |()| leap.k_after as u64)
         .real("printed_shift", "1", 1, "relative shift of it with the printed formulas", |()| {
-            jump(FiveClassesPrinted).p / jump(FiveClasses).p - 1.0
+            shifted / leap.p - 1.0
         })
         .computed_by(origin(five))
         .count("tail_from", "k from which on p k²/2 is one or more, smallest p of Fig. 13", |()| {
-            tail_from as u64
+            tail as u64
         })
-        .real("tail_weight", "1", 1, "probability of these k", |()| {
-            sum(five(first).into_iter().skip(tail_from - 1))
-        })
+        .real("tail_weight", "1", 1, "probability of these k", |()| weight)
         .computed_by(origin(doubling))
         .real(
             "doubling",
@@ -122,25 +123,20 @@ pub(super) fn higher(curve: &Table, relation: &Table) -> Table {
         )
         .computed_by(origin(means_apart))
         .chosen("means_apart_at", "1", "p at which the means differ most in proportion", |()| {
-            Some(apart_at)
+            Some(at)
         })
         .real("means_apart", "1", 2, "by so much", |()| more - mean)
         .real("means_ratio", "1", 2, "in proportion", |()| more / mean - 1.0)
         .computed_by(origin(largest_change))
         .real("change", "1", 2, "largest change of μ over σ", |()| change)
         .chosen("change_at", sigma, "σ of it", |()| Some(change_at))
-        .real("half_shift", sigma, 1, "shift of σ at which μ is (N + 1)/2", |()| {
-            of("sigma_half") - of("sigma_half_higher")
-        })
+        .real("half_shift", sigma, 1, "shift of σ at which μ is (N + 1)/2", |()| half_shift)
         .real(
             "relation_over",
             "1",
             2,
-            "shift of the jump by the start from rest over that by higher orders",
-            |()| {
-                let shift = |column| (of(column) - of("sigma_jump")).abs();
-                shift("sigma_jump_rest") / shift("sigma_jump_higher")
-            },
+            "shift of the jump from rest over that by higher orders",
+            |()| over,
         )
         .done()
 }
