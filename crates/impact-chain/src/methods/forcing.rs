@@ -5,27 +5,13 @@ pub use crate::scenario::COMPONENTS;
 use impact_numerics::clock::{Instant, Rate};
 use impact_numerics::trig::sin_cos_turn;
 
-/// The components of a scenario, to be changed.
-fn parts_mut(scenario: &mut Scenario) -> impl Iterator<Item = (f64, &mut [[f64; 2]])> {
-    let overtones = scenario.overtones.iter_mut();
-    std::iter::once((scenario.forcing_frequency, &mut scenario.forcing[..]))
-        .chain(overtones.map(|overtone| (overtone.frequency, &mut overtone.amplitudes[..])))
-}
-
-/// ω² − Ω², by which a forcing is divided for its response.
-fn factor(scenario: &Scenario, big_w: f64) -> f64 {
-    let w = scenario.natural_frequency;
-    (w - big_w) * (w + big_w)
-}
-
 /// The forced response of each mass at t = 0: displacement and velocity.
 pub fn response(scenario: &Scenario) -> Vec<[f64; 2]> {
     let mut response = vec![[0.0; 2]; scenario.forcing.len()];
-    for (big_w, amplitudes) in scenario.components() {
-        let factor = factor(scenario, big_w);
-        for ([x, v], [alpha, beta]) in response.iter_mut().zip(amplitudes) {
-            *x += alpha / factor;
-            *v += big_w * (beta / factor);
+    for own in Component::response(scenario) {
+        for (j, [x, v]) in response.iter_mut().enumerate() {
+            *x += own.cos[j + 1];
+            *v += own.frequency * own.sin[j + 1];
         }
     }
     response
@@ -33,7 +19,9 @@ pub fn response(scenario: &Scenario) -> Vec<[f64; 2]> {
 
 /// Rotates the forcing so that it is at t = 0 what it was at the instant `at`.
 pub fn turn(scenario: &mut Scenario, at: Instant) {
-    for (big_w, amplitudes) in parts_mut(scenario) {
+    let first = (scenario.forcing_frequency, &mut scenario.forcing);
+    let further = scenario.overtones.iter_mut().map(|own| (own.frequency, &mut own.amplitudes));
+    for (big_w, amplitudes) in std::iter::once(first).chain(further) {
         let (sin, cos) = sin_cos_turn(Rate::new(big_w).turn(at));
         for [alpha, beta] in amplitudes {
             (*alpha, *beta) = (*alpha * cos + *beta * sin, *beta * cos - *alpha * sin);
@@ -76,7 +64,8 @@ impl Component {
     pub fn response(scenario: &Scenario) -> Vec<Component> {
         let mut components = Component::of(scenario);
         for component in &mut components {
-            let factor = factor(scenario, component.frequency);
+            let (w, big_w) = (scenario.natural_frequency, component.frequency);
+            let factor = (w - big_w) * (w + big_w);
             for amplitude in component.cos.iter_mut().chain(&mut component.sin) {
                 *amplitude /= factor;
             }
