@@ -72,14 +72,17 @@ impl Unit {
     }
 }
 
+/// Makes a result T of the parts U of each row, those of its units in order.
+pub type Join<P, U, T> = fn(&P, Vec<Vec<U>>, &Progress) -> Result<T, Error>;
+
 /// How an experiment with parameters P is cut into parts U and joined to a result T.
 pub struct Cutting<P, U, T> {
     /// The rows, in their order.
     pub rows: fn(&P) -> Vec<Row>,
     /// Runs realisations of a row, and advances the stage by the row's weight for each.
     pub part: fn(&P, &Unit, &Stage, &Progress) -> Result<U, Error>,
-    /// Makes the result of the parts of each row, those of its units in order.
-    pub join: fn(&P, Vec<Vec<U>>, &Progress) -> Result<T, Error>,
+    /// Makes the result.
+    pub join: Join<P, U, T>,
 }
 
 impl<P, U, T> Cutting<P, U, T> {
