@@ -176,10 +176,10 @@ mod tests {
                 }
             }
             for (class, found) in CLASSES.iter().zip(found) {
-                for k in 1..=big_n {
+                for (k, found) in (1..=big_n).zip(&found[1..]) {
                     let ours = class.per_simple_circuit(SampleSpace::FiveClasses, k);
                     let circuits = ours * phi(big_n, k).unwrap();
-                    assert_eq!(circuits, SHARED * found[k], "{class:?} N = {big_n} k = {k}");
+                    assert_eq!(circuits, SHARED * found, "{class:?} N = {big_n} k = {k}");
                 }
             }
         }
