@@ -3,8 +3,8 @@
 use super::{Failure, memory, sigmas, signals, stdout, threads};
 use impact_chain::counts::{NEAR_DECADES, SLOW_DECADES};
 use impact_chain::rise;
+use impact_chain::search::clock::LATEST;
 use impact_chain::{Boundary, Chain, Counts, Engine, Ensemble, Protocol, Start};
-use impact_numerics::clock::LATEST;
 use impact_paper::experiments::{Error, Progress};
 use impact_paper::params::SEED;
 use literate::input::one_line;

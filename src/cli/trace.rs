@@ -2,8 +2,8 @@
 
 use super::{Failure, memory, method, stdout};
 use impact_chain::methods::State;
+use impact_chain::search::clock::LATEST;
 use impact_chain::{Engine, Error, Impact, Scenario, rounding};
-use impact_numerics::clock::LATEST;
 use impact_numerics::text::count;
 use impact_paper::experiments::{alive, say};
 use literate::input;
@@ -59,6 +59,7 @@ Several components of the forcing, 8 at most:
 boundary: "walls" or "ring".
 initial:  "rest" (at equilibrium), "zero" (no free part),
           {"free": [[a_1, b_1], ...]} (x_j = j d + a_j cos wt + b_j sin wt + forced response),
+          {"at": {"positions": [x_1, ...], "velocities": [v_1, ...]}} (from the left wall),
           {"random": {"sigma": s, "seed": k}} (normal free parts)."#;
 
 /// What rounding does to the times of a scenario with large amplitudes; nothing where it is little.
@@ -113,7 +114,8 @@ pub fn run(args: Args) -> Result<(), Failure> {
         Error::Input { .. } | Error::Overlap { .. } => Failure::input(format!("{name}: {error}")),
     };
     let numbers = text.bytes().filter(|byte| *byte == b',').count() as u128;
-    memory::fits(NUMBER * numbers, &name, "give fewer masses")?;
+    let most = NUMBER * numbers + Engine::memory(numbers as usize / 2, 1);
+    memory::fits(most, &name, "give fewer masses")?;
     let scenario = Scenario::from_json(&text).map_err(in_file)?;
     let (masses, components) = (scenario.forcing.len(), 1 + scenario.overtones.len());
     memory::fits(Engine::memory(masses, components), &name, "give fewer masses")?;

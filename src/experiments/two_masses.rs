@@ -118,8 +118,8 @@ fn thresholds(
     let hits = |ratio: f64, until: f64| -> Result<bool, Error> {
         progress.check()?;
         let scaled = forcing.iter().map(|pair| pair.map(|x| ratio * bound * x)).collect();
-        let scenario = Scenario::given(&parameters.chain, scaled);
-        let first = Engine::new(&scenario).and_then(|mut engine| engine.next_impact(until));
+        let first = Scenario::given(&parameters.chain, scaled)
+            .and_then(|scenario| Engine::new(&scenario)?.next_impact(until));
         Ok(first.map_err(|source| Error::failed("two masses", source))?.is_some())
     };
     let latest = parameters.times.last().copied().unwrap_or(0.0);

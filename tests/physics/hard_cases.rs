@@ -180,8 +180,9 @@ fn next_to_resonance_a_gap_that_hardly_moves_is_soon_passed() {
     for (k, scale) in [(1.0, 1.65e-7), (2.0, 1.6e-7), (16.0, 1.1e-7), (64.0, 1.6e-7)] {
         let forcing =
             [[0.3, 0.2], [-0.25, 0.1], [0.1, -0.3]].map(|x| x.map(|x| x * scale * k / 8.0));
-        let chain = Chain { forcing_frequency: 1.0 + k * f64::EPSILON, ..Chain::default() };
-        let mut engine = Engine::new(&Scenario::given(&chain, forcing.to_vec())).unwrap();
+        let forcing_frequency = 1.0 + k * f64::EPSILON;
+        let chain = Chain { masses: 3, forcing_frequency, ..Chain::default() };
+        let mut engine = Engine::new(&Scenario::given(&chain, forcing.to_vec()).unwrap()).unwrap();
         engine.run(30.0, |_| true).unwrap();
         let counters = engine.counters();
         println!("k = {k}: {counters:?}");

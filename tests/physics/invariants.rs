@@ -3,8 +3,8 @@
 use crate::components::{self, EIGHT};
 use crate::reference::{Big, Dd, Real, Reference, dd};
 use crate::{drawn, first, given, trace};
+use impact_chain::search::trig::small_sin_cos;
 use impact_chain::{Engine, Impact, Initial, Scenario};
-use impact_numerics::trig::small_sin_cos;
 use impact_paper::params::{Boundary, Chain};
 
 fn draw(masses: usize, sigma: f64, index: u64) -> Scenario {

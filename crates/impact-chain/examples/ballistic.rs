@@ -3,8 +3,8 @@
 //!
 //!     cargo run --release -p impact-chain --example ballistic -- MASSES IMPACTS
 
-use impact_numerics::clock::Instant;
-use impact_numerics::earliest::Earliest;
+use impact_chain::search::clock::Instant;
+use impact_chain::search::earliest::Earliest;
 use impact_numerics::random::NormalPairs;
 
 /// A mass in free flight: where it was, since when, and how fast it is.

@@ -16,11 +16,11 @@ use super::force::Force;
 use super::gap;
 use super::linear::contact_forces;
 use super::simulation::{Awaits, Simulation};
-use impact_numerics::clock::Instant;
-use impact_numerics::first_root::Next;
-use impact_numerics::local_frame::ROUNDING;
-use impact_numerics::window::next_window;
-use std::collections::{BTreeMap, BTreeSet};
+use crate::search::clock::Instant;
+use crate::search::first_root::Next;
+use crate::search::local_frame::ROUNDING;
+use crate::search::window::next_window;
+use std::collections::BTreeMap;
 
 /// Separation speed, in units of d ω, below which a chatter is taken to have come to rest.
 pub(super) const CONTACT_SPEED: f64 = 1e-10;
@@ -29,13 +29,11 @@ pub(super) const CONTACT_SPEED: f64 = 1e-10;
 const SLOW: f64 = 10.0 * CONTACT_SPEED;
 const SHUT: f64 = 1e-16;
 
-/// One gap of a run that is being settled: its index, width and rate.
-#[derive(Clone, Copy, Debug)]
-struct Resting {
-    k: usize,
-    f0: f64,
-    g0: f64,
-}
+/// Width and rate of a gap that may be settled.
+type Resting = (usize, [f64; 2]);
+
+/// Shut and at rest.
+const STILL: [f64; 2] = [0.0; 2];
 
 impl<const M: usize> Simulation<M> {
     /// Whether the impact of gap k at `speed` needs more than the impact law.
@@ -53,7 +51,6 @@ impl<const M: usize> Simulation<M> {
 
     /// An impact that is slow, or that hits a cluster.
     pub(super) fn collide_in_contact(&mut self, k: usize, speed: f64, phases: &Phases<M>) {
-        self.count_tie(k);
         let mut freed = Vec::new();
         for near in self.topology.adjacent(k).into_iter().flatten() {
             if self.gaps[near].in_contact {
@@ -63,12 +60,13 @@ impl<const M: usize> Simulation<M> {
         let jumps = self.kick_neighbours(k, speed, phases);
         let mut resting: Vec<Resting> = freed
             .into_iter()
-            .map(|near| Resting { k: near, f0: 0.0, g0: self.jump_of_gap(near, k, jumps) })
+            .map(|near| (near, [0.0, self.jump_of_gap(near, k, jumps)]))
+            .chain([(k, [0.0, self.restitution * speed])])
             .collect();
-        resting.push(Resting { k, f0: 0.0, g0: self.restitution * speed });
         for near in self.topology.adjacent(k).into_iter().flatten() {
-            if resting.iter().all(|r| r.k != near) {
-                resting.push(self.resting(near, phases, self.jump_of_gap(near, k, jumps)));
+            if resting.iter().all(|(known, _)| *known != near) {
+                let jump = self.jump_of_gap(near, k, jumps);
+                resting.push((near, self.resting(near, phases, jump)));
             }
         }
         self.settle_runs(resting, phases, None);
@@ -82,127 +80,120 @@ impl<const M: usize> Simulation<M> {
 
     /// Settles gaps that are shut and at rest; `released` is not pressed any more.
     pub(super) fn settle(&mut self, p: &Phases<M>, shut: &[usize], released: Option<usize>) {
-        let resting = shut.iter().map(|&k| Resting { k, f0: 0.0, g0: 0.0 }).collect();
-        self.settle_runs(resting, p, released);
+        self.settle_runs(shut.iter().map(|&k| (k, STILL)).collect(), p, released);
     }
 
     /// Width and rate of gap k now.
-    fn resting(&self, k: usize, phases: &Phases<M>, jump: f64) -> Resting {
+    fn resting(&self, k: usize, phases: &Phases<M>, jump: f64) -> [f64; 2] {
         let frame = self.look(k, phases);
-        let [f0, g0] = self.carried(k, &frame, jump).unwrap_or([frame.f0, frame.g0]);
-        Resting { k, f0, g0 }
+        self.carried(k, &frame, jump).unwrap_or([frame.f0, frame.g0])
     }
 
-    fn is_settled(&self, r: &Resting) -> bool {
-        r.f0 <= SHUT * self.spacing
-            && r.g0.abs() <= SLOW * self.spacing * self.search.frequencies.omega
+    fn is_settled(&self, [width, rate]: [f64; 2]) -> bool {
+        width <= SHUT * self.spacing
+            && rate.abs() <= SLOW * self.spacing * self.search.frequencies.omega
     }
 
     /// Takes the gaps whose state has just changed, grows them to whole runs of shut and slow
     /// gaps, settles each run, and frames all that was touched.
-    fn settle_runs(&mut self, mut known: Vec<Resting>, p: &Phases<M>, released: Option<usize>) {
+    fn settle_runs(&mut self, changed: Vec<Resting>, p: &Phases<M>, released: Option<usize>) {
         // Grow: neighbours of settled gaps that are themselves shut and slow, or in contact.
-        let mut touched: BTreeSet<usize> = known.iter().map(|r| r.k).collect();
-        let mut i = 0;
-        while i < known.len() {
-            if self.is_settled(&known[i]) {
-                for near in self.topology.adjacent(known[i].k).into_iter().flatten() {
-                    if touched.contains(&near) {
-                        continue;
-                    }
-                    if self.gaps[near].in_contact {
-                        // Its masses would be given another motion, and its contact not know of it.
-                        let freed = self.free_cluster(near, p);
-                        touched.extend(&freed);
-                        known.extend(freed.into_iter().map(|k| Resting { k, f0: 0.0, g0: 0.0 }));
-                    } else {
-                        touched.insert(near);
-                        known.push(self.resting(near, p, 0.0));
-                    }
-                }
+        let mut order: Vec<usize> = changed.iter().map(|(k, _)| *k).collect();
+        let mut known: BTreeMap<usize, [f64; 2]> = changed.into_iter().collect();
+        let mut next = 0;
+        while let Some(&k) = order.get(next) {
+            next += 1;
+            if !self.is_settled(known[&k]) {
+                continue;
             }
-            i += 1;
+            for near in self.topology.adjacent(k).into_iter().flatten() {
+                if known.contains_key(&near) {
+                    continue;
+                }
+                let more: Vec<Resting> = if self.gaps[near].in_contact {
+                    // Its masses would be given another motion, and its contact not know of it.
+                    self.free_cluster(near, p).into_iter().map(|k| (k, STILL)).collect()
+                } else {
+                    vec![(near, self.resting(near, p, 0.0))]
+                };
+                order.extend(more.iter().map(|(k, _)| *k));
+                known.extend(more);
+            }
         }
-        known.sort_by_key(|r| r.k);
-        let settled: Vec<bool> = known.iter().map(|r| self.is_settled(r)).collect();
         // What the rates of the gaps beside the runs jump by.
         let mut jumps: BTreeMap<usize, f64> = BTreeMap::new();
-        for run in self.runs(&known, |i| settled[i]) {
-            let [first, last] = self.settle_run(&mut known, &run, p, released);
-            let [before, _] = self.topology.adjacent(known[run[0]].k);
-            let [_, after] = self.topology.adjacent(known[run[run.len() - 1]].k);
+        for run in self.runs(&known) {
+            let rates: Vec<f64> = run.iter().map(|k| known[k][1]).collect();
+            let [first, last] = self.settle_run(&run, &rates, p, released);
+            let [before, _] = self.topology.adjacent(run[0]);
+            let [_, after] = self.topology.adjacent(run[run.len() - 1]);
             before.into_iter().for_each(|near| *jumps.entry(near).or_default() += first);
             after.into_iter().for_each(|near| *jumps.entry(near).or_default() -= last);
+            if run.len() > 1 {
+                known.extend(run.into_iter().map(|k| (k, STILL)));
+            }
         }
         let jump = |k: usize| jumps.get(&k).copied().unwrap_or(0.0);
         // The motions are final now: frame everything else that was touched.
-        for r in &known {
-            if !self.gaps[r.k].in_contact {
-                self.set_frame(r.k, p, r.f0, r.g0 + jump(r.k));
+        for (&k, [width, rate]) in &known {
+            if !self.gaps[k].in_contact {
+                self.set_frame(k, p, *width, rate + jump(k));
             }
         }
-        for &k in &touched {
+        for &k in known.keys() {
             for near in self.topology.adjacent(k).into_iter().flatten() {
-                if !touched.contains(&near) && !self.gaps[near].in_contact {
+                if !known.contains_key(&near) && !self.gaps[near].in_contact {
                     self.reframe(near, p, jump(near));
                 }
             }
         }
     }
 
-    /// Splits `known` (sorted) into maximal runs of adjacent gaps for which `keep` holds, as lists
-    /// of positions from left to right. On a ring a run may pass from the last gap to the first.
-    fn runs(&self, known: &[Resting], keep: impl Fn(usize) -> bool) -> Vec<Vec<usize>> {
+    /// The maximal runs of adjacent settled gaps, from left to right. On a ring a run may pass from the last gap to the
+    /// first.
+    fn runs(&self, known: &BTreeMap<usize, [f64; 2]>) -> Vec<Vec<usize>> {
+        let follows = |run: &[usize], k: usize| {
+            run.last().is_some_and(|last| self.topology.adjacent(*last)[1] == Some(k))
+        };
         let mut runs: Vec<Vec<usize>> = Vec::new();
-        for i in (0..known.len()).filter(|&i| keep(i)) {
+        for (&k, _) in known.iter().filter(|(_, state)| self.is_settled(**state)) {
             match runs.last_mut() {
-                Some(run) if self.follows(known[run[run.len() - 1]].k, known[i].k) => run.push(i),
-                _ => runs.push(vec![i]),
+                Some(run) if follows(run, k) => run.push(k),
+                _ => runs.push(vec![k]),
             }
         }
-        if runs.len() > 1 {
-            let last = &runs[runs.len() - 1];
-            if self.follows(known[last[last.len() - 1]].k, known[runs[0][0]].k) {
-                let first = runs.remove(0);
-                runs.last_mut().expect("there were two").extend(first);
-            }
+        if runs.len() > 1 && follows(&runs[runs.len() - 1], runs[0][0]) {
+            let first = runs.remove(0);
+            runs.last_mut().expect("there were two").extend(first);
         }
         runs
-    }
-
-    fn follows(&self, k: usize, next: usize) -> bool {
-        self.topology.adjacent(k)[1] == Some(next)
     }
 
     /// Settles one run: common velocity, then the forces say which gaps stay shut. Returns what the velocities of its
     /// first and last mass jump by.
     fn settle_run(
         &mut self,
-        known: &mut [Resting],
-        run: &[usize],
+        gaps: &[usize],
+        rates: &[f64],
         p: &Phases<M>,
         released: Option<usize>,
     ) -> [f64; 2] {
-        let gaps: Vec<usize> = run.iter().map(|&i| known[i].k).collect();
         let allowed: Vec<bool> = gaps.iter().map(|&k| Some(k) != released).collect();
-        let accelerations = self.accelerations(&gaps);
-        let frequencies = &self.search.frequencies;
+        let accelerations: Vec<_> = gaps.iter().map(|&k| self.acceleration(k)).collect();
+        // What a unit of contact force does to its own gap: the sum of the inverse masses.
+        let inverse = |k: usize| self.topology.sides(k).map(|m| self.topology.inverse_mass(m));
+        let stiffness: Vec<f64> = gaps.iter().map(|&k| inverse(k).iter().sum()).collect();
         let forces =
-            contact_forces(&accelerations, &self.stiffness(&gaps), &allowed, p, frequencies);
-        let pressed: Vec<bool> = forces.iter().map(Option::is_some).collect();
+            contact_forces(&accelerations, &stiffness, &allowed, p, &self.search.frequencies);
         let alone = gaps.len() == 1;
-        if alone && (known[run[0]].g0 < 0.0 || !pressed[0]) {
+        if alone && (rates[0] < 0.0 || forces[0].is_none()) {
             return [0.0; 2];
         }
-        let rates: Vec<f64> = run.iter().map(|&i| known[i].g0).collect();
-        let jumps = self.jumps_of_run(&gaps, &rates);
+        let jumps = self.jumps_of_run(gaps, rates);
         if !alone {
             // Perfectly inelastic end of a chatter or collapse: one velocity for all.
-            self.make_rigid(&gaps);
-            self.make_free(&gaps, p);
-            for &i in run {
-                (known[i].f0, known[i].g0) = (0.0, 0.0);
-            }
+            self.make_rigid(gaps);
+            self.make_free(gaps, p);
         }
         let mut cluster = Vec::new();
         for (i, &k) in gaps.iter().enumerate() {
@@ -240,27 +231,16 @@ impl<const M: usize> Simulation<M> {
         [common, common - last]
     }
 
-    /// Acceleration of each gap without contact forces, at width zero: ω² d + ΔF_j(t).
-    fn accelerations(&self, gaps: &[usize]) -> Vec<Force<M>> {
+    /// Acceleration of a gap without contact forces, at width zero: ω² d + ΔF_j(t).
+    fn acceleration(&self, k: usize) -> Force<M> {
         let w = self.search.frequencies.omega;
-        let force = |k: usize| {
-            let [left, right] = self.topology.sides(k).map(|m| self.forced[m]);
-            let forced = std::array::from_fn(|m| {
-                let big_w = self.search.frequencies.big_omegas[m];
-                let factor = (w - big_w) * (w + big_w);
-                [0, 1].map(|i| factor * (right[m][i] - left[m][i]))
-            });
-            Force { constant: w * w * self.spacing, forced }
-        };
-        gaps.iter().map(|&k| force(k)).collect()
-    }
-
-    /// What a unit of contact force does to its own gap: the sum of the inverse masses.
-    fn stiffness(&self, gaps: &[usize]) -> Vec<f64> {
-        let own = |k: usize| {
-            self.topology.sides(k).into_iter().map(|m| self.topology.inverse_mass(m)).sum()
-        };
-        gaps.iter().map(|&k| own(k)).collect()
+        let [left, right] = self.topology.sides(k).map(|m| self.forced[m]);
+        let forced = std::array::from_fn(|m| {
+            let big_w = self.search.frequencies.big_omegas[m];
+            let factor = (w - big_w) * (w + big_w);
+            [0, 1].map(|i| factor * (right[m][i] - left[m][i]))
+        });
+        Force { constant: w * w * self.spacing, forced }
     }
 
     /// Gives the masses along `gaps` (adjacent, left to right) one common motion.

@@ -5,7 +5,7 @@ use super::force::Force;
 use super::scenario::COMPONENTS;
 use super::simulation::{Gap, Simulation};
 use super::{Error, Scenario};
-use impact_numerics::earliest::Earliest;
+use crate::search::earliest::Earliest;
 
 /// One impact.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,7 +36,7 @@ pub struct Counters {
     pub evaluations: u64,
     /// Decisions taken inside the undecidable band of the search.
     pub undecided: u64,
-    /// Runs of two or more neighbouring gaps that closed at exactly the same instant.
+    /// Instants at which two or more neighbouring gaps closed together.
     pub simultaneous: u64,
 }
 

@@ -1,7 +1,7 @@
 //! Flight: the motion of a mass between its impacts, in closed form.
 
-use impact_numerics::clock::{Instant, Rate};
-use impact_numerics::local_frame::Frequencies;
+use crate::search::clock::{Instant, Rate};
+use crate::search::local_frame::Frequencies;
 
 /// Sine and cosine of the phases ωt and Ωt of each component of the forcing at one instant.
 #[derive(Clone, Copy, Debug)]

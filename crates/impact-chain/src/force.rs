@@ -1,7 +1,7 @@
 //! A contact force, or the acceleration it fights: a constant and what oscillates with the forcing.
 
 use super::flight::Phases;
-use impact_numerics::local_frame::{Frequencies, ROUNDING};
+use crate::search::local_frame::{Frequencies, ROUNDING};
 use std::ops::{Add, Div, Neg, Sub};
 
 /// L + Σ (C cos Ωt + S sin Ωt), with one pair (C, S) for each component of the forcing.

@@ -1,7 +1,7 @@
 //! The gap between neighbours, seen from one instant.
 
 use super::flight::{Motion, Phases};
-use impact_numerics::local_frame::{Frame, Frequencies};
+use crate::search::local_frame::{Frame, Frequencies};
 
 /// The local frame of a gap at an instant.
 ///

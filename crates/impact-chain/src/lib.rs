@@ -1,34 +1,4 @@
-//! Forced masses in a row that hit one another, simulated without time steps.
-//!
-//! Each mass hangs on a spring of its own and is forced by sinusoids; neighbours that meet rebound with a coefficient of
-//! restitution. The motion between impacts is known in closed form, so the next impact is a root, and
-//! [`Engine`] finds the first one by a search that proves that it has missed none.
-//!
-//! - [`Chain`] is the model, [`Scenario`] one chain with its forcing and its start, drawn at random or read from JSON.
-//! - [`Engine::run`] hands out each [`Impact`]; masses that stay together are in contact, with a contact force
-//!   ([`Engine::contacts`]), and of gaps that close at the same instant the lowest comes first.
-//! - [`rounding`] bounds what rounding does to one impact; [`Growth`] tells how fast two runs part where they are chaotic.
-//! - [`Ensemble`] is many chains at several σ, counted in windows of time ([`Counts`]); [`rise`] says where the number of
-//!   impacts rises.
-//! - [`replay`] is a run that is repeated, and proved by a digest of its impacts.
-//! - [`methods`] are other ways to simulate the same chain, to compare with.
-//!
-//! ```
-//! use impact_chain::{Chain, Engine, Scenario};
-//! use impact_numerics::random::NormalPairs;
-//!
-//! let chain = Chain { masses: 10, ..Chain::default() };
-//! let scenario = Scenario::draw(&chain, 0.3, &mut NormalPairs::new("doc", 1, 0));
-//! let mut impacts = 0;
-//! Engine::new(&scenario)?.run(100.0, |impact| {
-//!     impacts += 1;
-//!     impact.closing_speed >= 0.0
-//! })?;
-//! assert!(impacts > 0);
-//! # Ok::<(), impact_chain::Error>(())
-//! ```
-//!
-//! `examples/` has a run and a sweep to begin with. Equal input gives equal bits on every machine.
+#![doc = include_str!("../README.md")]
 //!
 //! Numbers of equations are those of M. Homer and S. J. Hogan (2007), *Impact Dynamics of Large Dimensional
 //! Systems*. The chain is a piecewise smooth system: smooth in flight, with a jump of velocities at impacts.
@@ -53,8 +23,8 @@ pub mod replay;
 pub mod rise;
 pub mod rounding;
 mod scenario;
+pub mod search;
 mod simulation;
-mod simultaneous;
 mod topology;
 
 pub use chain::{Boundary, Chain, Start};

@@ -2,7 +2,7 @@
 
 use super::flight::Phases;
 use super::force::Force;
-use impact_numerics::local_frame::Frequencies;
+use crate::search::local_frame::Frequencies;
 
 /// Which gaps of a run stay shut, and with which contact force.
 ///

@@ -54,13 +54,13 @@ impl Asked {
                 return Err(Error::input(field, problem, "give a finite number ≥ 0"));
             }
         }
-        Ok(match &self.forces {
+        match &self.forces {
             Forces::Drawn { sigma, stream, seed, realisation } => {
                 let mut normals = NormalPairs::new(stream, *seed, *realisation);
-                Scenario::draw(&self.chain, *sigma, &mut normals)
+                Ok(Scenario::draw(&self.chain, *sigma, &mut normals))
             }
             Forces::Given(pairs) => Scenario::given(&self.chain, pairs.clone()),
-        })
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! A scenario: one chain, its forcing and its start, complete and checked.
 
-use super::{Error, rounding};
-use crate::{Boundary, Chain, Start};
+use crate::methods::State;
+use crate::{Boundary, Chain, Engine, Error, Start, rounding};
 use impact_numerics::random::NormalPairs;
 use impact_numerics::text::{count, plain};
 use serde::de::value::MapAccessDeserializer;
@@ -45,13 +45,22 @@ type Pairs = Vec<[f64; 2]>;
 #[derive(Deserialize)]
 #[serde(
     rename_all = "lowercase",
-    expecting = "\"rest\", \"zero\", {\"free\": …} or {\"random\": …}"
+    expecting = "\"rest\", \"zero\", {\"free\": …}, {\"at\": …} or {\"random\": …}"
 )]
 enum InitialForm {
     Rest,
     Zero,
     Free(Vec<[f64; 2]>),
+    At(Object<At>),
     Random(Object<Random>),
+}
+
+/// The form of a start from places and rates.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct At {
+    positions: Vec<f64>,
+    velocities: Vec<f64>,
 }
 
 /// The form of a random start.
@@ -107,7 +116,8 @@ impl<F: Default> Form<F> {
     where
         F: Deserialize<'a>,
     {
-        let remedy = "see the form in `impact-paper trace --help`";
+        let remedy =
+            r#"write {"forcing": [[alpha, beta], ...]}, and what is not as in the paper beside it"#;
         let refuse = |problem: &str| Err(Error::input("scenario", problem, remedy));
         if text.trim().is_empty() {
             return refuse("it is empty");
@@ -133,10 +143,15 @@ impl<F: Default> Form<F> {
     /// The scenario with these components of the forcing.
     fn with(self, components: Vec<(f64, Pairs)>) -> Result<Scenario, Error> {
         let masses = components.first().map_or(0, |(_, pairs)| pairs.len());
+        let mut start = None;
         let initial = match self.initial {
             InitialForm::Rest => Initial::Rest,
             InitialForm::Zero => Initial::Zero,
             InitialForm::Free(parts) => Initial::Free(parts),
+            InitialForm::At(Object(At { positions, velocities })) => {
+                start = Some(State { time: 0.0, positions, velocities });
+                Initial::Zero
+            }
             InitialForm::Random(Object(Random { sigma, seed })) => {
                 if !(0.0..=1e9).contains(&sigma) {
                     return Err(Error::input(
@@ -151,7 +166,7 @@ impl<F: Default> Form<F> {
         };
         let mut components = components.into_iter();
         let (forcing_frequency, forcing) = components.next().unwrap_or_default();
-        Ok(Scenario {
+        let scenario = Scenario {
             spacing: self.spacing,
             natural_frequency: self.natural_frequency,
             forcing_frequency,
@@ -162,7 +177,8 @@ impl<F: Default> Form<F> {
             overtones: components
                 .map(|(frequency, amplitudes)| Overtone { frequency, amplitudes })
                 .collect(),
-        })
+        };
+        start.map_or(Ok(scenario.clone()), |start| start.as_scenario(&scenario))
     }
 }
 
@@ -264,8 +280,7 @@ impl Scenario {
     /// Draws the amplitudes α_j, β_j of the forcing α_j cos Ωt + β_j sin Ωt with standard deviation `sigma` from `normals`: first the
     /// n pairs of the forcing, then, for a random start, the n pairs of the free part.
     pub fn draw(chain: &Chain, sigma: f64, normals: &mut NormalPairs) -> Scenario {
-        let forcing = scaled_pairs(chain.masses, sigma, normals);
-        let mut scenario = Scenario::given(chain, forcing);
+        let mut scenario = Scenario::of(chain, scaled_pairs(chain.masses, sigma, normals));
         if chain.start == Start::Random {
             scenario.initial = Initial::Free(scaled_pairs(chain.masses, sigma, normals));
         }
@@ -273,7 +288,25 @@ impl Scenario {
     }
 
     /// A chain with given amplitudes; a random start, of which there is no chance here, is one without a free part.
-    pub fn given(chain: &Chain, forcing: Vec<[f64; 2]>) -> Scenario {
+    ///
+    /// # Errors
+    /// [`Error::Input`] if there is not one pair for each mass of the chain.
+    pub fn given(chain: &Chain, forcing: Vec<[f64; 2]>) -> Result<Scenario, Error> {
+        if forcing.len() != chain.masses {
+            return Err(Error::input(
+                "forcing",
+                format!(
+                    "it has {} for {}",
+                    count(forcing.len(), "pair"),
+                    count(chain.masses, "mass")
+                ),
+                "give one pair [alpha, beta] for each mass",
+            ));
+        }
+        Ok(Scenario::of(chain, forcing))
+    }
+
+    fn of(chain: &Chain, forcing: Vec<[f64; 2]>) -> Scenario {
         Scenario {
             spacing: chain.spacing,
             natural_frequency: chain.natural_frequency,
@@ -286,17 +319,20 @@ impl Scenario {
         }
     }
 
-    /// Reads a scenario from JSON (the form is in `impact-paper trace --help`).
+    /// Reads a scenario from JSON: `{"forcing": [[α₁, β₁], …]}`, with the fields of [`Chain`] beside it where they are not as in the paper.
+    ///
+    /// `"initial"` is `"rest"`, `"zero"`, `{"free": [[a₁, b₁], …]}`, `{"at": {"positions": [x₁, …], "velocities": [v₁, …]}}`
+    /// or `{"random": {"sigma": σ, "seed": k}}`. Several components are `"forcing_frequencies": [Ω₁, …]` with a list of pairs for each.
     ///
     /// # Errors
-    /// [`Error::Input`] names the field and the remedy.
+    /// As [`Engine::new`]; [`Error::Input`] names the field and the remedy.
     pub fn from_json(text: &str) -> Result<Scenario, Error> {
         let scenario = if has_lists(text) {
             Form::<Vec<Pairs>>::read(text)?.scenario()?
         } else {
             Form::<Pairs>::read(text)?.scenario()?
         };
-        scenario.validate()?;
+        Engine::new(&scenario)?;
         Ok(scenario)
     }
 
@@ -494,5 +530,43 @@ mod tests {
             let speeds = [before(time + h) - before(time - h), then(h) - then(-h)];
             assert!((speeds[0] - speeds[1]).abs() < 1e-9 * h.sqrt(), "{speeds:?}");
         }
+    }
+
+    #[test]
+    fn a_start_from_places_and_rates_is_there() {
+        let at = r#"{"positions":[0.9,2.2],"velocities":[0.5,-0.25]}"#;
+        let json = format!(r#"{{"forcing":[[0.3,0.2],[-0.1,0.4]],"initial":{{"at":{at}}}}}"#);
+        let engine = Engine::new(&Scenario::from_json(&json).unwrap()).unwrap();
+        let found = [engine.positions(0.0), engine.velocities(0.0)];
+        for (found, given) in found.iter().flatten().zip([0.9, 2.2, 0.5, -0.25]) {
+            assert!((found - given).abs() < 1e-15, "{found} {given}");
+        }
+    }
+
+    #[test]
+    fn what_no_engine_takes_is_refused_when_it_is_read() {
+        for (fields, words) in [
+            (r#""initial":{"free":[[-1.5,0]]}"#, "initial: gap 0 starts overlapped by 5e-1; give"),
+            (
+                r#""initial":{"at":{"positions":[-1],"velocities":[0]}}"#,
+                "gap 0 starts overlapped by 1e0",
+            ),
+            (
+                r#""initial":{"at":{"positions":[1],"velocities":[]}}"#,
+                "start.velocities: 0 values for 1",
+            ),
+            (r#""initial":{"at":{"positions":[1]}}"#, "initial.at: missing field `velocities`"),
+            (r#""spacing":0"#, "spacing: 0.0 is out of range; give"),
+            (r#""start":0"#, "start: unknown field"),
+        ] {
+            let json = format!(r#"{{"forcing":[[0,0]],{fields}}}"#);
+            let error = Scenario::from_json(&json).expect_err(fields).to_string();
+            assert!(error.contains(words), "{fields}: {error}");
+        }
+        let error = Scenario::given(&Chain::default(), vec![[0.1; 2]; 3]).unwrap_err().to_string();
+        assert!(
+            error.starts_with("forcing: it has 3 pairs for 100 masses; give one pair"),
+            "{error}"
+        );
     }
 }

@@ -3,21 +3,21 @@
 //! Nothing is integrated. Each gap knows the instant of its next impact, found by the certified
 //! search from its own local frame; the earliest is taken from a winner tree, two masses are
 //! kicked, and the three gaps that they border are framed anew. Of gaps that close at the same instant
-//! the lowest comes first; such ties are counted in `simultaneous`.
+//! the lowest comes first, each by the law for two, until none closes. Instants are whole numbers of ticks, so "the same" means
+//! the same; such ties come from exact symmetries, and are counted.
 
 use super::engine::{Counters, Impact, Sink};
 use super::flight::{Motion, Phases, Rates};
 use super::force::Force;
 use super::gap;
 use super::impact::jumps;
-use super::simultaneous::Ties;
 use super::topology::Topology;
 use super::{Error, Initial, Scenario};
-use impact_numerics::clock::Instant;
-use impact_numerics::earliest::Earliest;
-use impact_numerics::first_root::{Next, Search, Work};
-use impact_numerics::local_frame::{Frame, Frequencies};
-use impact_numerics::window::next_window;
+use crate::search::clock::Instant;
+use crate::search::earliest::Earliest;
+use crate::search::first_root::{Next, Search, Work};
+use crate::search::local_frame::{Frame, Frequencies};
+use crate::search::window::next_window;
 
 /// The response (c, s) of an undamped oscillator to a component of Eq. (3), with ω² − Ω² as
 /// (ω − Ω)(ω + Ω).
@@ -87,7 +87,9 @@ pub(super) struct Simulation<const M: usize> {
     pub(super) work: Work,
     pub(super) impacts: u64,
     pub(super) contact_phases: u64,
-    pub(super) ties: Ties,
+    /// Instants at which neighbouring gaps closed together, and the last of them.
+    pub(super) ties: u64,
+    pub(super) tied: Option<Instant>,
     pub(super) budget_end: Instant,
     pub(super) budget_left: u64,
 }
@@ -152,7 +154,8 @@ impl<const M: usize> Simulation<M> {
             work: Work::default(),
             impacts: 0,
             contact_phases: 0,
-            ties: Ties::NONE,
+            ties: 0,
+            tied: None,
             budget_end: Instant::ZERO.after(1.0 / w),
             budget_left: EVENTS_PER_GAP * gaps as u64,
         };
@@ -272,6 +275,19 @@ impl<const M: usize> Simulation<M> {
             Awaits::Nothing => unreachable!("a gap that awaits nothing has the key NEVER"),
         }
         Ok(None)
+    }
+
+    /// Counts the instant, once, if a gap beside gap k closes now as gap k does.
+    #[cold]
+    fn count_tie(&mut self, k: usize) {
+        let is_due = |near: usize| {
+            matches!(self.gaps[near].awaits, Awaits::Impact(_)) && self.queue.key(near) == self.now
+        };
+        let ties = self.topology.adjacent(k).into_iter().flatten().any(is_due);
+        if ties && self.tied != Some(self.now) {
+            self.ties += 1;
+            self.tied = Some(self.now);
+        }
     }
 
     /// Counts the impact of gap k now, and takes it from the budget.
@@ -503,7 +519,7 @@ impl<const M: usize> Simulation<M> {
             pieces: self.work.pieces,
             evaluations: self.work.evaluations,
             undecided: self.work.undecided,
-            simultaneous: self.ties.count,
+            simultaneous: self.ties,
         }
     }
 }

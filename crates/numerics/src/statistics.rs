@@ -31,14 +31,6 @@ pub fn standard_error(sample: &[f64]) -> Option<f64> {
     Some(standard_deviation(sample)? / (sample.len() as f64).sqrt())
 }
 
-/// The mean and its standard error of `count` whole numbers, from their sum and sum of squares.
-pub fn mean_of_sums(count: usize, [sum, squares]: [u64; 2]) -> Option<[f64; 2]> {
-    let n = count as f64;
-    let mean = sum as f64 / n;
-    let variance = (squares as f64 - mean * sum as f64) / (n - 1.0);
-    (count > 1).then(|| [mean, (variance.max(0.0) / n).sqrt()])
-}
-
 /// The quantile of a sorted sample, linear between order statistics (Hyndman and Fan's type 7).
 pub fn quantile(sorted: &[f64], share: f64) -> Option<f64> {
     let last = sorted.len().checked_sub(1)?;

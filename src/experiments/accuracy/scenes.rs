@@ -72,7 +72,7 @@ pub fn all(short: bool) -> Result<Vec<Scene>, Error> {
 /// Masses between walls under a forcing at frequency Ω, from rest.
 fn row(forcing: Vec<[f64; 2]>, forcing_frequency: f64, restitution: f64) -> Scenario {
     let chain = Chain { masses: forcing.len(), forcing_frequency, restitution, ..Chain::default() };
-    Scenario::given(&chain, forcing)
+    Scenario::given(&chain, forcing).expect("a pair for each mass")
 }
 
 /// One mass between walls, with free part (a, b) and forcing (α, β).

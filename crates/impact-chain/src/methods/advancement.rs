@@ -4,9 +4,9 @@ use super::flights::{Flights, Look};
 use super::steps::{check_end, check_tolerance};
 use super::tally::{Stop, Tally};
 use super::{Cost, Method, State};
+use crate::search::clock::{Instant, LATEST};
+use crate::search::earliest::Earliest;
 use crate::{Error, Impact, Scenario};
-use impact_numerics::clock::{Instant, LATEST};
-use impact_numerics::earliest::Earliest;
 
 /// Flight in closed form; each gap is advanced to where the parabola below it comes to zero, and no gap can close before.
 /// The parabola has the width and the rate of the gap and a bound on its second derivative. The gap that is open for the

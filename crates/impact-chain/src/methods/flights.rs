@@ -5,10 +5,10 @@ use super::crossing::is_rounding;
 use super::forcing::{COMPONENTS, Component};
 use super::steps::Step;
 use crate::impact::jumps;
+use crate::search::clock::{Instant, Rate};
+use crate::search::trig::sin_cos_turn;
 use crate::topology::Topology;
 use crate::{Error, Scenario};
-use impact_numerics::clock::{Instant, Rate};
-use impact_numerics::trig::sin_cos_turn;
 
 /// Width and rate of a gap, `s` after the beginning of a step.
 #[derive(Clone, Copy, Debug)]

@@ -2,8 +2,8 @@
 
 use crate::Scenario;
 pub use crate::scenario::COMPONENTS;
-use impact_numerics::clock::{Instant, Rate};
-use impact_numerics::trig::sin_cos_turn;
+use crate::search::clock::{Instant, Rate};
+use crate::search::trig::sin_cos_turn;
 
 /// The forced response of each mass at t = 0: displacement and velocity.
 pub fn response(scenario: &Scenario) -> Vec<[f64; 2]> {

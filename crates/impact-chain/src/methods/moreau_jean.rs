@@ -4,8 +4,8 @@ use super::row::{Row, Stepper, run_steps};
 use super::steps::Step;
 use super::tally::{Stop, Tally};
 use super::{Cost, Method, State};
+use crate::search::clock::Instant;
 use crate::{Error, Impact, Scenario};
-use impact_numerics::clock::Instant;
 
 /// Contacts on the level of velocities and impulses: flight by the implicit midpoint rule (Jean's θ
 /// = 1/2); gaps that the forecast Δ + h Δ'/2 finds shut enter one complementarity problem

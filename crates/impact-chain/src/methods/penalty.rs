@@ -4,8 +4,8 @@ use super::row::{Row, Stepper, run_steps};
 use super::steps::Step;
 use super::tally::{Stop, Tally};
 use super::{Cost, Method, State};
+use crate::search::clock::Instant;
 use crate::{Error, Impact, Scenario};
-use impact_numerics::clock::Instant;
 use std::f64::consts::PI;
 
 /// A shut gap is a stiff spring with a damper that is tuned to the restitution; velocity Verlet.

@@ -6,9 +6,9 @@ use super::tally::{Stop, Tally};
 use super::{Cost, State};
 use crate::Boundary;
 use crate::impact::jumps;
+use crate::search::clock::Instant;
 use crate::topology::Topology;
 use crate::{Error, Impact, Scenario};
-use impact_numerics::clock::Instant;
 
 /// A state with its forces; bodies are numbered from the left wall (0) to the right one (n + 1).
 pub struct Row {

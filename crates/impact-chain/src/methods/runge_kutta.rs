@@ -6,8 +6,8 @@ use super::row::Row;
 use super::steps::{check_end, check_tolerance};
 use super::tally::{Stop, Tally};
 use super::{Cost, Method, State};
+use crate::search::clock::Instant;
 use crate::{Error, Impact, Scenario};
-use impact_numerics::clock::Instant;
 
 /// The pair of Dormand and Prince with a tolerance; a gap that is negative at the end of a step is
 /// an event, bisected on the dense output; the earliest ends the step, and integration begins anew.

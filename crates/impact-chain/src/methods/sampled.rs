@@ -5,8 +5,8 @@ use super::flights::{Flights, Look};
 use super::steps::{Step, steps};
 use super::tally::{Stop, Tally};
 use super::{Cost, Method, State};
+use crate::search::clock::Instant;
 use crate::{Error, Impact, Scenario};
-use impact_numerics::clock::Instant;
 
 /// Flight in closed form; every gap is looked at with a fixed step, and a change of its sign is
 /// bisected down to neighbouring doubles.

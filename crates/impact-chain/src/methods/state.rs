@@ -1,9 +1,9 @@
 //! A state of the masses at any time, and the scenario that starts there.
 
 use super::forcing;
+use crate::search::clock::{Instant, LATEST};
 use crate::topology::Topology;
 use crate::{Error, Initial, Scenario};
-use impact_numerics::clock::{Instant, LATEST};
 
 /// Positions and velocities of the masses 1..n at a time: what a method starts from.
 #[derive(Clone, Debug, PartialEq)]

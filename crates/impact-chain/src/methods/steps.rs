@@ -1,8 +1,8 @@
 //! Steps in time of equal length, and what is refused of a step, a tolerance or an end.
 
 use super::State;
+use crate::search::clock::{Instant, LATEST};
 use crate::{Error, Scenario};
-use impact_numerics::clock::{Instant, LATEST};
 
 /// Steps that one run may take.
 pub const MOST_STEPS: f64 = 1e10;

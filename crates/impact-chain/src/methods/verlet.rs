@@ -4,8 +4,8 @@ use super::row::{Row, Stepper, run_steps};
 use super::steps::Step;
 use super::tally::{Stop, Tally};
 use super::{Cost, Method, State};
+use crate::search::clock::Instant;
 use crate::{Error, Impact, Scenario};
-use impact_numerics::clock::Instant;
 
 /// Velocity Verlet; at the end of a step each gap that is negative and closing, from the left, gets
 /// the impact law.

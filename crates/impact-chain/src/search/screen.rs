@@ -206,7 +206,7 @@ impl Coefficients {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::random::NormalPairs;
+    use impact_numerics::random::NormalPairs;
 
     /// What every certificate rests on: the polynomial of the coefficients lies below f. The second
     /// route is f in absolute form, with the platform's sine and cosine.

@@ -179,7 +179,7 @@ enum Sight {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::random::NormalPairs;
+    use impact_numerics::random::NormalPairs;
 
     const OMEGAS: [[f64; 2]; 4] =
         [[1.0, std::f64::consts::SQRT_2], [1.3, 0.7], [0.2, 3.0], [1.0, 1.0001]];

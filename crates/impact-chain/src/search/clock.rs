@@ -133,8 +133,8 @@ impl Rate {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::random::NormalPairs;
     use dashu::float::{DBig, FBig, round::mode::HalfEven};
+    use impact_numerics::random::NormalPairs;
 
     type Big = FBig<HalfEven, 2>;
 

@@ -88,7 +88,7 @@ impl Part {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::random::NormalPairs;
+    use impact_numerics::random::NormalPairs;
 
     /// On a fine grid nothing is below zero before the window, and much later something is.
     #[test]

@@ -162,7 +162,7 @@ impl Earliest {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::random::generator;
+    use impact_numerics::random::generator;
     use rand::Rng;
 
     /// Against a scan of all keys, with many exact ties, many that only words make, and times before and after the epoch.
