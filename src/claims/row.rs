@@ -18,6 +18,7 @@ pub struct Evidence<'a> {
 
 impl Evidence<'_> {
     /// The number with this address.
+    #[track_caller]
     pub fn number(&self, address: &str) -> Result<f64, Error> {
         Ok(self.results.number(address)?)
     }

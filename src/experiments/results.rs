@@ -101,5 +101,8 @@ mod tests {
         let results = Results::empty(Profile::Quick);
         assert!(matches!(results.of(&SWEEP), Err(Error::NotRun("sweep"))));
         assert!(matches!(results.table("sweep.rows"), Err(Error::NotRun("sweep"))));
+        let missing = results.number("theory.jump.no").unwrap_err().to_string();
+        assert!(missing.contains("theory.jump.no") && missing.contains("results.rs"), "{missing}");
+        assert!(results.number("sweep.rise.half_height").is_err());
     }
 }
