@@ -21,7 +21,7 @@ browser: ## the pages of paper/ in headless Chromium, as readers use them (Chrom
 test: ## all tests but the long ones
 	cargo test --release --locked --workspace
 
-test-long: ## the long tests only (large samples, a job array on Slurm, which root installs when missing)
+test-long: ## the long test only (a job array on Slurm, which root installs when missing)
 	cargo test --release --locked --workspace -- --ignored
 
 test-checked: ## all tests but the long ones, with checks of overflow and debug assertions (compiles everything again)
