@@ -6,7 +6,7 @@ use super::sec2_rare::{percolation, sticking, three_way, two_masses, walls_like_
 use super::{Finding, open};
 use super::{Judgement, Statement, Text};
 use crate::experiments::sweep::{self, mode_half};
-use crate::experiments::{CHAINS, STARTS, SWEEP, TWO_MASSES};
+use crate::experiments::{BRANCHES, STARTS, SWEEP, TWO_MASSES};
 use crate::params::Protocol;
 use impact_chain::rise::{self, Counted};
 use impact_numerics::statistics::Estimate;
@@ -21,7 +21,7 @@ pub const ROWS: &[Row] = &[
     statistical("sec2_three_way", OurMeasure, &[&SWEEP], three_way),
     measured("sec2_sticking", OurMeasure, &[&SWEEP], sticking),
     measured("sec2_two_masses", Exact, &[&TWO_MASSES], two_masses),
-    measured("sec2_percolation", OurMeasure, &[&CHAINS], percolation),
+    measured("sec2_percolation", OurMeasure, &[&BRANCHES], percolation),
     statistical("sec2_walls_like_masses", PrintedDigit, &[&STARTS], walls_like_masses),
 ];
 

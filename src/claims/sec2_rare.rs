@@ -4,12 +4,11 @@ use super::row::{Error, Evidence};
 use super::sec2::LAST_DIGIT;
 use super::{Finding, open};
 use super::{Judgement, Statement, Text};
-use crate::experiments::chains::is_length;
+use crate::experiments::branches::from_rest;
 use crate::experiments::ensembles::named;
 use crate::experiments::starts::half_height;
 use crate::experiments::sweep::{self, laws};
-use crate::experiments::two_masses;
-use crate::experiments::{CHAINS, STARTS, TWO_MASSES};
+use crate::experiments::{BRANCHES, STARTS, TWO_MASSES, two_masses};
 use crate::params::{NEAR_SIMULTANEOUS, SLOW};
 use impact_chain::counts::SLOW_DECADES;
 
@@ -129,11 +128,15 @@ pub(super) fn walls_like_masses(e: &Evidence, _: &Statement) -> Result<Finding, 
 
 /// The threshold of percolation sharpens with size. The paper names the likeness and no quantity.
 pub(super) fn percolation(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let chains = e.results.of(&CHAINS)?;
-    let widths = chains.iter().filter(|own| is_length(own) && own.ensemble.chain.masses >= 100);
-    let widths: Vec<_> = widths
-        .filter_map(|own| Some((own.ensemble.chain.masses, own.first().rise.width?)))
+    let found = e.results.of(&BRANCHES)?;
+    let transient = sweep::main(e.results)?.first().protocol.transient;
+    let mut widths: Vec<_> = from_rest(found)
+        .filter(|(own, curve)| {
+            own.ensemble.chain.masses >= 100 && curve.protocol.transient == transient
+        })
+        .filter_map(|(own, curve)| Some((own.ensemble.chain.masses, curve.rise.width?)))
         .collect();
+    widths.sort_by_key(|(masses, _)| *masses);
     let ours = match (widths.first(), widths.last()) {
         (Some((n, own)), Some((most, long))) if most > n => Text::words("width of the rise ")
             .with_error(own.value, own.error)

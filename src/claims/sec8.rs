@@ -8,7 +8,7 @@ use super::{Finding, open, rounding};
 use super::{Judgement, Statement, Text};
 use crate::experiments::sweep;
 use crate::experiments::theory::beside::LARGE_SIGMA;
-use crate::experiments::{CHAINS, PROTOCOL, RESTITUTION, STARTS, SWEEP};
+use crate::experiments::{BRANCHES, PROTOCOL, RESTITUTION, STARTS, SWEEP};
 use crate::params::VERTICES;
 use impact_chain::rise::Counted;
 
@@ -45,7 +45,12 @@ pub const ROWS: &[Row] = &[
     .of("Eq. (25)"),
     theory("sec8_p_small", OurMeasure, p_small).of("extremely small for σ < {}"),
     measured("sec8_large_sigma", OurMeasure, &[&SWEEP], large_sigma),
-    statistical("sec8_threshold_shift", OurMeasure, &[&SWEEP, &PROTOCOL, &CHAINS], threshold_shift),
+    statistical(
+        "sec8_threshold_shift",
+        OurMeasure,
+        &[&SWEEP, &PROTOCOL, &BRANCHES],
+        threshold_shift,
+    ),
     measured("sec8_mean_is_easier", OurMeasure, &[&SWEEP], mean_is_easier),
     statistical(
         "sec8_restitution_omitted",

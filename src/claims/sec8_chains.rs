@@ -8,7 +8,7 @@ use crate::experiments::ensembles::named;
 use crate::experiments::protocol::range;
 use crate::experiments::starts::{half_height, share_of_start};
 use crate::experiments::sweep;
-use crate::experiments::{CHAINS, PROTOCOL, RESTITUTION, STARTS};
+use crate::experiments::{BRANCHES, PROTOCOL, RESTITUTION, STARTS};
 use impact_chain::Protocol;
 use impact_chain::rise::Curve;
 use impact_numerics::statistics::{Estimate, wilson};
@@ -75,7 +75,7 @@ pub(super) fn no_impact(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
 /// Half heights of the mean of all, from rest and with random free parts, for each transient that
 /// both were run to.
 fn of_both_starts(e: &Evidence) -> Result<Vec<(f64, Estimate, Estimate)>, Error> {
-    let (map, chains) = (&e.results.of(&PROTOCOL)?[0], e.results.of(&CHAINS)?);
+    let (map, chains) = (&e.results.of(&PROTOCOL)?[0], e.results.of(&BRANCHES)?);
     let both = |own: &Curve| {
         let Protocol { transient, window } = own.protocol;
         let rest = map.curve(transient, window)?.rise.half_height_all?;

@@ -3,9 +3,8 @@
 //! [`literate::experiments`].
 
 pub mod accuracy;
-pub mod chains;
+pub mod branches;
 pub mod ensembles;
-pub mod history;
 pub mod horizon;
 pub mod identities;
 pub mod measured;
@@ -16,7 +15,6 @@ pub mod restitution;
 pub mod run;
 pub mod seeds;
 pub mod segments;
-pub mod sizes;
 pub mod spacetime;
 pub mod starts;
 pub mod sweep;
@@ -61,11 +59,8 @@ pub const ALL: &[Need] = &[
     &SCALE,
     &NUCLEATION,
     &SEEDS,
-    &HISTORY,
     &RESTITUTION,
-    &CHAINS,
-    &LONG_PROTOCOL,
-    &SIZES,
+    &BRANCHES,
     &REPLAY,
 ];
 
@@ -73,13 +68,8 @@ pub const ALL: &[Need] = &[
 pub type Together = fn(&Results, &[Table]) -> Option<Vec<Table>>;
 
 /// What follows from several experiments together.
-pub const TOGETHER: [Together; 5] = [
-    theory::beside::tables,
-    sweep::of_both,
-    seeds::compared::tables,
-    history::beside,
-    starts::beside_theory,
-];
+pub const TOGETHER: [Together; 4] =
+    [theory::beside::tables, sweep::of_both, seeds::compared::tables, starts::beside_theory];
 
 /// The experiments whose results are saved.
 pub fn saved() -> Vec<Need> {
@@ -254,24 +244,6 @@ pub const SEEDS: Experiment<SeedsParams, seeds::Seeds> = Experiment {
     tables: seeds::tables::tables,
 };
 
-/// Chains that are heated first.
-pub const HISTORY: Ensembles = Experiment {
-    name: "history",
-    code: code(&["src/experiments/ensembles.rs"]),
-    parameters: params::history,
-    how: Cut("history", ensembles::CUTTING),
-    tables: history::tables,
-};
-
-/// Chains of other lengths, starts and ends.
-pub const CHAINS: Ensembles = Experiment {
-    name: "chains",
-    code: code(&["src/experiments/ensembles.rs"]),
-    parameters: params::chains,
-    how: Cut("chains", ensembles::CUTTING),
-    tables: chains::tables,
-};
-
 /// Chains of several restitutions.
 pub const RESTITUTION: Ensembles = Experiment {
     name: "restitution",
@@ -281,22 +253,13 @@ pub const RESTITUTION: Ensembles = Experiment {
     tables: restitution::tables,
 };
 
-/// The long end of the map over transients and windows.
-pub const LONG_PROTOCOL: Ensembles = Experiment {
-    name: "long_protocol",
+/// Chains from rest and from above, of several lengths, after several transients.
+pub const BRANCHES: Ensembles = Experiment {
+    name: "branches",
     code: code(&["src/experiments/ensembles.rs"]),
-    parameters: params::long_protocol,
-    how: Cut("long protocol map", ensembles::CUTTING),
-    tables: protocol::of_long,
-};
-
-/// Chains of several lengths after several transients.
-pub const SIZES: Ensembles = Experiment {
-    name: "sizes",
-    code: code(&["src/experiments/ensembles.rs"]),
-    parameters: params::sizes,
-    how: Cut("lengths and transients", ensembles::CUTTING),
-    tables: sizes::tables,
+    parameters: params::branches,
+    how: Cut("branches", ensembles::CUTTING),
+    tables: branches::tables,
 };
 
 /// Runs that a page repeats.

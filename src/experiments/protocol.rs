@@ -8,7 +8,7 @@ use impact_numerics::statistics::Estimate;
 use literate::table::Table;
 use literate::value::origin;
 
-/// Of the map of the paper's chain.
+/// All tables.
 pub fn tables(found: &Vec<Counted>) -> Vec<Table> {
     let map = &found[0];
     let halves = || map.curves.iter().filter_map(|own| Some((own.rise.half_height?, own)));
@@ -31,16 +31,7 @@ pub fn tables(found: &Vec<Counted>) -> Vec<Table> {
             range(own.curves.iter().map(|cell| cell.rise.half_height_all))
         })
         .done();
-    vec![cells("protocol.cells", map), all]
-}
-
-/// Of its long end.
-pub fn of_long(found: &Vec<Counted>) -> Vec<Table> {
-    let all = Table::of("long_protocol.all", found, |own| own.ensemble.realisations)
-        .count("realisations", "chains at each σ", |own| own.ensemble.realisations as u64)
-        .count("sigmas", "values of σ", |own| own.ensemble.sigmas.len() as u64)
-        .done();
-    vec![cells("long_protocol.cells", &found[0]), all]
+    vec![cells(map), all]
 }
 
 /// Whether a number rounds to the printed threshold with the printed digits.
@@ -80,8 +71,8 @@ const PLACES: [Place; 4] = [
     }),
 ];
 
-fn cells(name: &'static str, map: &Counted) -> Table {
-    let table = Table::of(name, &map.curves, |_| map.ensemble.realisations)
+fn cells(map: &Counted) -> Table {
+    let table = Table::of("protocol.cells", &map.curves, |_| map.ensemble.realisations)
         .key("transient", "1/omega", |own| own.protocol.transient)
         .key("window", "1/omega", |own| own.protocol.window)
         .computed_by(origin(Curve::new));

@@ -29,7 +29,6 @@ mod s06;
 mod s07;
 mod s08;
 mod s09;
-mod s10;
 mod simulated;
 
 pub use literate::figures::*;
@@ -37,8 +36,8 @@ pub use number::Number;
 
 use crate::experiments::sweep;
 use crate::experiments::{
-    CHAINS, LONG_PROTOCOL, MEASURED, NUCLEATION, PROTOCOL, RACE, RESTITUTION, SCALE, SEEDS,
-    SEGMENTS, SIZES, SPACE_TIME, SWEEP,
+    BRANCHES, MEASURED, NUCLEATION, PROTOCOL, RACE, RESTITUTION, SCALE, SEEDS, SEGMENTS,
+    SPACE_TIME, SWEEP,
 };
 use crate::experiments::{Need, Results};
 use crate::params::Profile;
@@ -87,17 +86,16 @@ const PAPER: [Listed; 15] = [
 ];
 
 /// Figures of this edition.
-const OWN: [Listed; 10] = [
-    figure(&[&PROTOCOL, &LONG_PROTOCOL], !THEORY, s01::draw),
-    figure(&[&SPACE_TIME], !THEORY, |all| s02::draw(all.of(&SPACE_TIME)?)),
-    figure(&[&NUCLEATION, &SWEEP], !THEORY, s03::draw),
-    figure(&[&SEEDS, &SWEEP, &PROTOCOL], !THEORY, s04::draw),
-    figure(&[&CHAINS, &SIZES, &PROTOCOL], !THEORY, s05::draw),
-    figure(&[], THEORY, s06::draw),
-    figure(&[&RESTITUTION], !THEORY, s07::draw),
-    figure(&[&RACE], !THEORY, |all| s08::draw(all.of(&RACE)?)),
-    figure(&[&RACE, &MEASURED], !THEORY, |all| s09::draw(all.of(&RACE)?, all.of(&MEASURED)?)),
-    figure(&[&SCALE, &MEASURED], !THEORY, |all| s10::draw(all.of(&SCALE)?, all.of(&MEASURED)?)),
+const OWN: [Listed; 9] = [
+    figure(&[&SPACE_TIME], !THEORY, |all| s01::draw(all.of(&SPACE_TIME)?)),
+    figure(&[&NUCLEATION, &SWEEP], !THEORY, s02::draw),
+    figure(&[&SEEDS, &SWEEP, &PROTOCOL], !THEORY, s03::draw),
+    figure(&[&BRANCHES, &PROTOCOL], !THEORY, s04::draw),
+    figure(&[], THEORY, s05::draw),
+    figure(&[&RESTITUTION], !THEORY, s06::draw),
+    figure(&[&RACE], !THEORY, |all| s07::draw(all.of(&RACE)?)),
+    figure(&[&RACE, &MEASURED], !THEORY, |all| s08::draw(all.of(&RACE)?, all.of(&MEASURED)?)),
+    figure(&[&SCALE, &MEASURED], !THEORY, |all| s09::draw(all.of(&SCALE)?, all.of(&MEASURED)?)),
 ];
 
 /// All figures: first the paper's, then our own.

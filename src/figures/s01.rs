@@ -1,104 +1,85 @@
-//! Fig. S1: half height and onset against the transient.
+//! Fig. S1: one long run, gap against time, a tick for each impact.
 
 use super::prelude::*;
-use crate::experiments::Results;
-use impact_numerics::statistics::Estimate;
+use crate::experiments::spacetime::SpaceTime;
 
-/// The windows, and their looks.
-const WINDOWS: [(f64, Mark, Colour, Dash); 3] = [
-    (20.0, Mark::Disc, RED, Dash::Short),
-    (200.0, Mark::Square, BLUE, Dash::Long),
-    (2000.0, Mark::Diamond, GREEN, Dash::Alternate),
-];
+/// How much of the run the second panel shows.
+const DETAIL: f64 = 400.0;
 
-/// The window of which the description speaks.
-const WINDOW: f64 = 200.0;
+/// A gap at which impacts start.
+const START: (Mark, i32, Stroke) = (Mark::Disc, 62, Stroke::solid(WHITE, HAIR));
 
-/// The map of the paper's chain, and its long end.
-const REST: [&str; 2] = ["protocol.cells", "long_protocol.cells"];
-
-/// The panels: the column of a place, its axis with its ends and step, and its column in data files.
-const PLACES: [(&str, &str, [f64; 3], &str); 2] = [
-    (
-        "half_height_all",
-        "half height *σ*_{1/2} (*d ω*^{2})",
-        [0.07, 0.19, 0.02],
-        "half_height (d omega^2)",
-    ),
-    ("onset", "onset *σ*_{0} (*d ω*^{2})", [0.075, 0.12, 0.01], "onset (d omega^2)"),
-];
-
-/// The line of the bound that no mean over all chains passes.
-const BOUND: Stroke = Stroke::dashed(INK, THIN, Dash::Dotted);
-
-/// (T, place) at a window; the long end follows the map.
-fn line(results: &Results, window: f64, place: &str) -> Result<Vec<(f64, Estimate)>, Error> {
-    let (map, keys) = (results.table(REST[0])?, [("window", window)]);
-    let mut all = map.estimates(&keys, "transient", place);
-    let last = map.values("transient").into_iter().fold(0.0, f64::max);
-    let long = results.table(REST[1])?.estimates(&keys, "transient", place);
-    all.extend(long.into_iter().filter(|(time, _)| *time > last));
-    Ok(all)
-}
-
-pub fn draw(results: &Results) -> Result<Figure, Error> {
-    // Half of N takes half of the chains, and a twentieth of N a twentieth of them.
-    let seeds = [
-        results.number("theory.relation.sigma_kept_half")?,
-        results.number("theory.relation.sigma_kept_onset")?,
-    ];
-    let sheet = Sheet::new(6_200);
-    let (mut entries, mut others) = (Vec::new(), Vec::new());
-    for (place, ((column, label, [low, high, step], name), seeds)) in
-        PLACES.into_iter().zip(seeds).enumerate()
-    {
-        let left = [1200, 5250][place];
-        let panel = sheet.lettered(
-            LETTERS[place],
-            Frame::new(left, 430, left + 2900, 3930),
-            Axis::decades(1, 5, 1, "transient *T* (1/*ω*)"),
-            Axis::linear(low, high, step, 2, label).column(name),
-        )?;
-        panel.level("bound by seeds", seeds, BOUND)?;
-        for (window, _, colour, dash) in WINDOWS.into_iter().filter(|_| place == 0) {
-            let line = line(results, window, "half_height")?;
-            let line: Vec<_> = line.iter().map(|(time, own)| (*time, own.value)).collect();
-            let (name, look) = (named(window), Stroke::dashed(colour, THIN, dash));
-            panel.curve(&format!("kept, {name}"), &line, look, Outside::Cut)?;
-            others.push(Entry::line(look, &format!("kept, {name}, in (a)")));
-        }
-        for (window, mark, colour, _) in WINDOWS {
-            let (name, look) = (named(window), (mark, MEDIUM, Stroke::solid(colour, THIN)));
-            panel.joined(&name, &line(results, window, column)?, look)?;
-            if place == 0 {
-                entries.push(Entry::both(look.2, look, &name));
-            }
-        }
-    }
-    others.push(Entry::line(BOUND, "bound for the mean of all"));
-    sheet.legend((1200, 5000), (SMALL, 340), &entries)?;
-    sheet.legend((4900, 5000), (SMALL, 340), &others)?;
-    let title = "Half height and onset against the transient";
-    Ok(sheet.finish("s01", title, description(results, seeds)?))
-}
-
-fn named(window: f64) -> String {
-    format!("*W* = {window}/*ω*")
-}
-
-fn description(results: &Results, seeds: [f64; 2]) -> Result<String, Error> {
-    let ends = |place: &str| -> Result<String, Error> {
-        let line = line(results, WINDOW, place)?;
-        let ends = line.first().zip(line.last().filter(|_| line.len() > 1));
-        Ok(ends.map_or("none".into(), |(first, last)| {
-            format!("from {} to {}", short(first.1.value, 4), short(last.1.value, 4))
-        }))
+pub fn draw(run: &SpaceTime) -> Result<Figure, Error> {
+    let sheet = Sheet::new(9750);
+    let until = run.parameters.until;
+    let gaps = || {
+        let last = (run.width() - 1) as f64;
+        Axis::linear(-1.0, last + 1.0, 20.0, 2, "gap")
     };
-    let [half, onset] = seeds.map(|seeds| short(seeds, 3));
-    Ok(format!(
-        "Against T: (a) half height of the mean of all, falling with T and with the window towards the \
-         level {half}, {} at W = {WINDOW}; broken, of the kept, below it. (b) Onset, {}, above {onset}.",
-        ends(PLACES[0].0)?,
-        ends(PLACES[1].0)?,
-    ))
+    let time = |from: f64, to: f64, step: f64| Axis::linear(from, to, step, 2, "time *t* (1/*ω*)");
+
+    // Thousandths are finer than the picture, and a file of all digits would be twice as long.
+    let whole = time(0.0, until, until / 4.0).column("time_to_thousandths (1/omega)");
+    let whole = sheet.lettered(LETTERS[0], Frame::new(1200, 430, 8150, 4130), whole, gaps())?;
+    let impacts = points(run, 0.0, until);
+    let row = (whole.frame.bottom - whole.frame.top) / (run.width() as i32 + 1);
+    whole.quiet().ticks("impacts", &impacts, 12, Stroke::solid(INK, row as u32))?;
+    whole.record("impacts", impacts.iter().map(|(time, gap)| (thousandths(*time), *gap)));
+    starts(&whole, run, until)?;
+
+    let (from, to) = detail(run);
+    let near = Frame::new(1200, 5250, 8150, 8550);
+    let near = sheet.lettered(LETTERS[1], near, time(from, to, DETAIL / 4.0), gaps())?.quiet();
+    near.ticks("first impacts", &points(run, from, to), 14, Stroke::solid(INK, 30))?;
+    starts(&near, run, to)?;
+
+    let tick = Entry::mark((Mark::Square, 16, INK_LINE), "impact");
+    let disc = Entry::mark((START.0, START.1, RED_DISC), "gap that closes by itself");
+    sheet.legend_in_columns((1500, 9500), (SMALL, 370), (1, 2400), &[tick, disc])?;
+    Ok(sheet.finish("s01", "One long run", description(run)))
+}
+
+const INK_LINE: Stroke = Stroke::solid(INK, HAIR);
+const RED_DISC: Stroke = Stroke::solid(RED, HAIR);
+
+/// Where the second panel begins and ends: a round time before the first impact.
+fn detail(run: &SpaceTime) -> (f64, f64) {
+    let first = run.times.first().copied().unwrap_or(0.0);
+    let from = (first / 10.0).floor() * 10.0;
+    (from, from + DETAIL)
+}
+
+fn points(run: &SpaceTime, from: f64, to: f64) -> Vec<(f64, f64)> {
+    let all = run.times.iter().zip(&run.gaps).map(|(&time, &gap)| (time, f64::from(gap)));
+    all.filter(|(time, _)| (from..=to).contains(time)).collect()
+}
+
+/// A disc at the first impact of each gap at which impacts start.
+fn starts(panel: &Panel, run: &SpaceTime, until: f64) -> Result<(), Error> {
+    let firsts = run.firsts();
+    let own = run.starts().into_iter().filter_map(|gap| Some((firsts[gap]?, gap as f64)));
+    let own: Vec<_> = own.filter(|(time, _)| *time <= until).collect();
+    let (mark, half, _) = START;
+    // A white rim lifts the disc off the ticks.
+    panel.quiet().marks("rims", &own, (Mark::Disc, half + 22, START.2), Outside::Refuse)?;
+    panel.quiet().marks("starts", &own, (mark, half, RED_DISC), Outside::Refuse)?;
+    panel.record("starts", own.iter().map(|(time, gap)| (thousandths(*time), *gap)));
+    Ok(())
+}
+
+fn description(run: &SpaceTime) -> String {
+    format!(
+        "Gap against time, a tick for each of {} impacts of one run of {} masses at σ = {}. Impacts form horizontal bands that \
+         begin at {} red discs and widen in bursts; {} of {} gaps are reached by the end. (b) A part of it, finer.",
+        run.times.len(),
+        run.parameters.chain.masses,
+        run.parameters.sigma,
+        run.starts().len(),
+        run.reached(run.parameters.until),
+        run.width(),
+    )
+}
+
+fn thousandths(time: f64) -> f64 {
+    (time * 1000.0).round() / 1000.0
 }

@@ -1,85 +1,87 @@
-//! Fig. S2: one long run, gap against time, a tick for each impact.
+//! Fig. S2: gaps that close by themselves, and chains with one of them.
 
+use super::FORCING;
 use super::prelude::*;
-use crate::experiments::spacetime::SpaceTime;
+use crate::experiments::Results;
+use literate::table::Table;
 
-/// How much of the run the second panel shows.
-const DETAIL: f64 = 400.0;
+/// The σ of (a).
+const SIGMAS: (f64, f64) = (0.055, 0.165);
 
-/// A gap at which impacts start.
-const START: (Mark, i32, Stroke) = (Mark::Disc, 62, Stroke::solid(WHITE, HAIR));
+/// Looks of the lengths.
+const LENGTHS: [(Colour, Mark); 3] =
+    [(GREEN, Mark::Diamond), (RED, Mark::Disc), (PURPLE, Mark::Square)];
 
-pub fn draw(run: &SpaceTime) -> Result<Figure, Error> {
-    let sheet = Sheet::new(9750);
-    let until = run.parameters.until;
-    let gaps = || {
-        let last = (run.width() - 1) as f64;
-        Axis::linear(-1.0, last + 1.0, 20.0, 2, "gap")
-    };
-    let time = |from: f64, to: f64, step: f64| Axis::linear(from, to, step, 2, "time *t* (1/*ω*)");
+/// Looks of the σ in (b).
+const TIMES: [(Colour, Mark); 3] =
+    [(BLUE, Mark::Disc), (ORANGE, Mark::Square), (RED, Mark::Diamond)];
 
-    // Thousandths are finer than the picture, and a file of all digits would be twice as long.
-    let whole = time(0.0, until, until / 4.0).column("time_to_thousandths (1/omega)");
-    let whole = sheet.lettered(LETTERS[0], Frame::new(1200, 430, 8150, 4130), whole, gaps())?;
-    let impacts = points(run, 0.0, until);
-    let row = (whole.frame.bottom - whole.frame.top) / (run.width() as i32 + 1);
-    whole.quiet().ticks("impacts", &impacts, 12, Stroke::solid(INK, row as u32))?;
-    whole.record("impacts", impacts.iter().map(|(time, gap)| (thousandths(*time), *gap)));
-    starts(&whole, run, until)?;
-
-    let (from, to) = detail(run);
-    let near = Frame::new(1200, 5250, 8150, 8550);
-    let near = sheet.lettered(LETTERS[1], near, time(from, to, DETAIL / 4.0), gaps())?.quiet();
-    near.ticks("first impacts", &points(run, from, to), 14, Stroke::solid(INK, 30))?;
-    starts(&near, run, to)?;
-
-    let tick = Entry::mark((Mark::Square, 16, INK_LINE), "impact");
-    let disc = Entry::mark((START.0, START.1, RED_DISC), "gap that closes by itself");
-    sheet.legend_in_columns((1500, 9500), (SMALL, 370), (1, 2400), &[tick, disc])?;
-    Ok(sheet.finish("s02", "One long run", description(run)))
+pub fn draw(results: &Results) -> Result<Figure, Error> {
+    let table = |name| results.table(name);
+    let (found, missing) = (table("nucleation.chains")?, table("nucleation.times")?);
+    let shares = table("nucleation.shares")?;
+    let sheet = Sheet::new(8600);
+    chains(&sheet, found, shares, table("sweep.rows")?)?;
+    times(&sheet, missing)?;
+    Ok(sheet.finish("s02", "Gaps that close by themselves", description(missing)))
 }
 
-const INK_LINE: Stroke = Stroke::solid(INK, HAIR);
-const RED_DISC: Stroke = Stroke::solid(RED, HAIR);
-
-/// Where the second panel begins and ends: a round time before the first impact.
-fn detail(run: &SpaceTime) -> (f64, f64) {
-    let first = run.times.first().copied().unwrap_or(0.0);
-    let from = (first / 10.0).floor() * 10.0;
-    (from, from + DETAIL)
+fn chains(sheet: &Sheet, found: &Table, shares: &Table, sweep: &Table) -> Result<(), Error> {
+    let x = Axis::linear(SIGMAS.0, SIGMAS.1, 0.02, 2, FORCING);
+    let y = Axis::linear(0.0, 1.05, 0.2, 2, "share of the chains");
+    let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 6150, 3730), x, y)?;
+    let mut kept = sweep.points(&[], "sigma", "kept");
+    kept.retain(|(sigma, _)| *sigma > SIGMAS.0 && *sigma < SIGMAS.1);
+    let kept_look = (Mark::Ring, LARGE, Stroke::solid(INK, THIN));
+    panel.marks("kept", &kept, kept_look, Outside::Refuse)?;
+    let mut entries = Vec::new();
+    let last = found.values("time").last().copied().unwrap_or_default();
+    for (masses, (colour, mark)) in found.values("masses").into_iter().zip(LENGTHS) {
+        let (name, keys) = (format!("*n* = {masses}"), [("masses", masses), ("time", last)]);
+        let line = Stroke::solid(colour, LINE);
+        panel.curve(&name, &shares.points(&keys[..1], "sigma", "clumps"), line, Outside::Refuse)?;
+        let thin = Stroke::solid(colour, THIN);
+        let own = found.estimates(&keys, "sigma", "found");
+        panel.series(&format!("{name}, simulation")).estimates(&name, &own, (mark, LARGE, thin))?;
+        entries.push(Entry::both(line, (mark, LARGE, thin), &name));
+    }
+    entries.push(Entry::mark(kept_look, "kept, *n* = 100"));
+    sheet.legend((6350, 1150), (SMALL, 370), &entries)
 }
 
-fn points(run: &SpaceTime, from: f64, to: f64) -> Vec<(f64, f64)> {
-    let all = run.times.iter().zip(&run.gaps).map(|(&time, &gap)| (time, f64::from(gap)));
-    all.filter(|(time, _)| (from..=to).contains(time)).collect()
+/// The lowest, the middle and the highest σ.
+fn three(found: &Table) -> impl Iterator<Item = f64> {
+    let sigmas = found.values("sigma");
+    let last = sigmas.len().saturating_sub(1);
+    [0, last / 2, last].into_iter().filter_map(move |place| sigmas.get(place).copied())
 }
 
-/// A disc at the first impact of each gap at which impacts start.
-fn starts(panel: &Panel, run: &SpaceTime, until: f64) -> Result<(), Error> {
-    let firsts = run.firsts();
-    let own = run.starts().into_iter().filter_map(|gap| Some((firsts[gap]?, gap as f64)));
-    let own: Vec<_> = own.filter(|(time, _)| *time <= until).collect();
-    let (mark, half, _) = START;
-    // A white rim lifts the disc off the ticks.
-    panel.quiet().marks("rims", &own, (Mark::Disc, half + 22, START.2), Outside::Refuse)?;
-    panel.quiet().marks("starts", &own, (mark, half, RED_DISC), Outside::Refuse)?;
-    panel.record("starts", own.iter().map(|(time, gap)| (thousandths(*time), *gap)));
-    Ok(())
+fn times(sheet: &Sheet, found: &Table) -> Result<(), Error> {
+    let x = Axis::decades(0, 4, 1, "transient *T* (1/*ω*)").from(8.0, 3e3);
+    let y = Axis::decades(-6, 0, 2, "1 − *p*_{*T*}/*p*");
+    let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 5250, 8150, 7650), x, y)?;
+    let mut entries = Vec::new();
+    for (sigma, (colour, mark)) in three(found).zip(TIMES) {
+        let name = format!("*σ* = {sigma}");
+        let points = found.points(&[("sigma", sigma)], "time", "missing");
+        let thin = Stroke::solid(colour, THIN);
+        let mark = (mark, LARGE, thin);
+        panel.marked(&name, &points, (thin, mark), Outside::Cut)?;
+        entries.push(Entry::both(thin, mark, &name));
+    }
+    // T^{−2} through (10, 10).
+    let law = Stroke::dashed(INK, THIN, Dash::Short);
+    panel.guide("power", &[(10.0, 10.0), (1e4, 1e-5)], law)?;
+    entries.push(Entry::line(law, "∝ *T*^{ −2}"));
+    sheet.legend((1400, 6400), (SMALL, 370), &entries)
 }
 
-fn description(run: &SpaceTime) -> String {
+fn description(missing: &Table) -> String {
+    let sigmas = missing.values("sigma");
     format!(
-        "Gap against time, a tick for each of {} impacts of one run of {} masses at σ = {}. Impacts form horizontal bands that \
-         begin at {} red discs and widen in bursts; {} of {} gaps are reached by the end. (b) A part of it, finer.",
-        run.times.len(),
-        run.parameters.chain.masses,
-        run.parameters.sigma,
-        run.starts().len(),
-        run.reached(run.parameters.until),
-        run.width(),
+        "(a) Share of chains with an impact against σ: measured points on steep curves, farther left for longer chains. (b) What is \
+         missing of p after T, for σ from {} to {}: lines like 1/T².",
+        sigmas.first().copied().unwrap_or_default(),
+        sigmas.last().copied().unwrap_or_default(),
     )
-}
-
-fn thousandths(time: f64) -> f64 {
-    (time * 1000.0).round() / 1000.0
 }

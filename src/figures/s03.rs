@@ -1,87 +1,118 @@
-//! Fig. S3: gaps that close by themselves, and chains with one of them.
+//! Fig. S3: what one gap that closes by itself sets off, and the mean count that follows.
 
 use super::FORCING;
 use super::prelude::*;
+use super::simulated::count_axis;
 use crate::experiments::Results;
+use crate::experiments::sweep;
+use impact_chain::rise::Counted;
 use literate::table::Table;
 
 /// The σ of (a).
-const SIGMAS: (f64, f64) = (0.055, 0.165);
+const SIGMAS: (f64, f64) = (0.075, 0.165);
 
-/// Looks of the lengths.
-const LENGTHS: [(Colour, Mark); 3] =
-    [(GREEN, Mark::Diamond), (RED, Mark::Disc), (PURPLE, Mark::Square)];
+/// Lines of the σ in (b).
+const SPREADS: [Stroke; 4] = [
+    Stroke::solid(PURPLE, LINE),
+    Stroke::dashed(BLUE, LINE, Dash::Long),
+    Stroke::dashed(ORANGE, LINE, Dash::Alternate),
+    Stroke::solid(RED, THIN),
+];
 
-/// Looks of the σ in (b).
-const TIMES: [(Colour, Mark); 3] =
-    [(BLUE, Mark::Disc), (ORANGE, Mark::Square), (RED, Mark::Diamond)];
+/// Nucleation and growth, which is computed at some places only.
+const GROWN: (&str, Marker) =
+    ("nucleation and growth", (Mark::OpenSquare, 44, Stroke::solid(INK, HAIR)));
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let table = |name| results.table(name);
-    let (found, missing) = (table("nucleation.chains")?, table("nucleation.times")?);
-    let shares = table("nucleation.shares")?;
-    let sheet = Sheet::new(8600);
-    chains(&sheet, found, shares, table("sweep.rows")?)?;
-    times(&sheet, missing)?;
-    Ok(sheet.finish("s03", "Gaps that close by themselves", description(missing)))
+    let (means, rise, scores) =
+        (table("seeds.means")?, table("seeds.rise")?, table("seeds.scores")?);
+    let sheet = Sheet::new(9350);
+    counts(&sheet, means, table("seeds.theory")?, sweep::main(results)?)?;
+    let advance = table("seeds.advance")?;
+    advances(&sheet, advance)?;
+    halves(&sheet, rise, scores)?;
+    Ok(sheet.finish("s03", "From one gap to many: nucleation and growth", description(advance)))
 }
 
-fn chains(sheet: &Sheet, found: &Table, shares: &Table, sweep: &Table) -> Result<(), Error> {
-    let x = Axis::linear(SIGMAS.0, SIGMAS.1, 0.02, 2, FORCING);
-    let y = Axis::linear(0.0, 1.05, 0.2, 2, "share of the chains");
-    let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 6150, 3730), x, y)?;
-    let mut kept = sweep.points(&[], "sigma", "kept");
-    kept.retain(|(sigma, _)| *sigma > SIGMAS.0 && *sigma < SIGMAS.1);
-    let kept_look = (Mark::Ring, LARGE, Stroke::solid(INK, THIN));
-    panel.marks("kept", &kept, kept_look, Outside::Refuse)?;
+fn counts(sheet: &Sheet, means: &Table, theory: &Table, sweep: &Counted) -> Result<(), Error> {
+    let x = Axis::linear(SIGMAS.0, SIGMAS.1, 0.01, 2, FORCING);
+    let y = count_axis(sweep.ensemble.chain.gaps(), "mean count of all");
+    let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 8150, 3730), x, y)?;
+    let transient = [("transient", sweep.first().protocol.transient)];
+    let lines = [
+        ("circuits, Eq. (25)", "eq25", Stroke::dashed(BLUE, LINE, Dash::Short)),
+        ("circuits, from rest", "from_rest", Stroke::dashed(PURPLE, LINE, Dash::Long)),
+    ];
     let mut entries = Vec::new();
-    let last = found.values("time").last().copied().unwrap_or_default();
-    for (masses, (colour, mark)) in found.values("masses").into_iter().zip(LENGTHS) {
-        let (name, keys) = (format!("*n* = {masses}"), [("masses", masses), ("time", last)]);
-        let line = Stroke::solid(colour, LINE);
-        panel.curve(&name, &shares.points(&keys[..1], "sigma", "clumps"), line, Outside::Refuse)?;
-        let thin = Stroke::solid(colour, THIN);
-        let own = found.estimates(&keys, "sigma", "found");
-        panel.series(&format!("{name}, simulation")).estimates(&name, &own, (mark, LARGE, thin))?;
-        entries.push(Entry::both(line, (mark, LARGE, thin), &name));
+    for (name, column, stroke) in lines {
+        panel.curve(name, &theory.points(&[], "sigma", column), stroke, Outside::Refuse)?;
+        entries.push(Entry::line(stroke, name));
     }
-    entries.push(Entry::mark(kept_look, "kept, *n* = 100"));
-    sheet.legend((6350, 1150), (SMALL, 370), &entries)
+    panel.joined(GROWN.0, &means.estimates(&transient, "sigma", "grown"), GROWN.1)?;
+    entries.insert(0, Entry::both(GROWN.1.2, GROWN.1, GROWN.0));
+    let inside =
+        sweep.first().rows.iter().filter(|row| row.sigma > SIGMAS.0 && row.sigma < SIGMAS.1);
+    let bars: Vec<_> = inside
+        .filter_map(|row| Some((row.sigma, row.mean_all?.value, row.mean_all?.interval?)))
+        .collect();
+    let look = (Mark::Disc, 42, Stroke::solid(RED, THIN));
+    let ends: Vec<_> = bars.iter().map(|(x, _, [low, high])| (*x, *low, *high)).collect();
+    panel.bars("simulation", &ends, 35, look.2, Outside::Refuse)?;
+    let points: Vec<_> = bars.iter().map(|(x, y, _)| (*x, *y)).collect();
+    panel.marks("simulation", &points, look, Outside::Refuse)?;
+    entries.push(Entry::mark(look, "simulation"));
+    sheet.legend((1400, 700), (SMALL, 370), &entries)
 }
 
-/// The lowest, the middle and the highest σ.
-fn three(found: &Table) -> impl Iterator<Item = f64> {
-    let sigmas = found.values("sigma");
-    let last = sigmas.len().saturating_sub(1);
-    [0, last / 2, last].into_iter().filter_map(move |place| sigmas.get(place).copied())
+fn named(sigma: f64) -> String {
+    format!("*σ* = {sigma}")
 }
 
-fn times(sheet: &Sheet, found: &Table) -> Result<(), Error> {
-    let x = Axis::decades(0, 4, 1, "transient *T* (1/*ω*)").from(8.0, 3e3);
-    let y = Axis::decades(-6, 0, 2, "1 − *p*_{*T*}/*p*");
-    let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 5250, 8150, 7650), x, y)?;
+/// Four of so many, or all, from the first to the last.
+fn spread<T>(all: &[T]) -> impl Iterator<Item = &T> {
+    let last = all.len().saturating_sub(1);
+    let mut places = vec![0, last / 3, 2 * last / 3, last];
+    places.dedup();
+    places.into_iter().filter_map(|place| all.get(place))
+}
+
+fn advances(sheet: &Sheet, advance: &Table) -> Result<(), Error> {
+    let x = Axis::decades(1, 4, 1, "time since the first impact (1/*ω*)").from(20.0, 2000.0);
+    let y = Axis::decades(-1, 2, 1, "advance (gaps)");
+    let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 5250, 4050, 7650), x, y)?;
     let mut entries = Vec::new();
-    for (sigma, (colour, mark)) in three(found).zip(TIMES) {
-        let name = format!("*σ* = {sigma}");
-        let points = found.points(&[("sigma", sigma)], "time", "missing");
-        let thin = Stroke::solid(colour, THIN);
-        let mark = (mark, LARGE, thin);
-        panel.marked(&name, &points, (thin, mark), Outside::Cut)?;
-        entries.push(Entry::both(thin, mark, &name));
+    for (sigma, stroke) in spread(&advance.values("sigma")).zip(SPREADS) {
+        let points = advance.points(&[("sigma", *sigma)], "time", "advance");
+        let name = named(*sigma);
+        panel.curve(&name, &points, stroke, Outside::Cut)?;
+        entries.push(Entry::line(stroke, &name));
     }
-    // T^{−2} through (10, 10).
-    let law = Stroke::dashed(INK, THIN, Dash::Short);
-    panel.guide("power", &[(10.0, 10.0), (1e4, 1e-5)], law)?;
-    entries.push(Entry::line(law, "∝ *T*^{ −2}"));
-    sheet.legend((1400, 6400), (SMALL, 370), &entries)
+    let straight = Stroke::dashed(INK, THIN, Dash::Short);
+    panel.guide("constant speed", &[(10.0, 0.1), (1e4, 100.0)], straight)?;
+    entries.push(Entry::line(straight, "∝ *t*"));
+    sheet.legend_in_columns((650, 8680), (SMALL, 320), (3, 1800), &entries)
 }
 
-fn description(missing: &Table) -> String {
-    let sigmas = missing.values("sigma");
+fn halves(sheet: &Sheet, rise: &Table, scores: &Table) -> Result<(), Error> {
+    let x = Axis::decades(1, 4, 1, "transient *T* (1/*ω*)").from(20.0, 2000.0);
+    let y = Axis::linear(0.1, 0.15, 0.01, 2, "*σ*_{1/2} of all (*d ω*^{2})")
+        .column("half_height (d omega^2)");
+    let panel = sheet.lettered(LETTERS[2], Frame::new(5350, 5250, 8150, 7650), x, y)?;
+    let grown = rise.points(&[], "transient", "half_height");
+    panel.marked(GROWN.0, &grown, (GROWN.1.2, GROWN.1), Outside::Edge)?;
+    let look = (Mark::Disc, LARGE, Stroke::solid(RED, THIN));
+    let found = scores.estimates(&[], "transient", "half_height");
+    panel.estimates("simulation", &found, look)?;
+    let entries = [Entry::both(GROWN.1.2, GROWN.1, GROWN.0), Entry::mark(look, "simulation")];
+    sheet.legend((4850, 8650), (SMALL, 370), &entries)
+}
+
+fn description(advance: &Table) -> String {
+    let sigmas = advance.values("sigma");
+    let [low, high] = [sigmas.first(), sigmas.last()].map(|own| own.copied().unwrap_or_default());
     format!(
-        "(a) Share of chains with an impact against σ: measured points on steep curves, farther left for longer chains. (b) What is \
-         missing of p after T, for σ from {} to {}: lines like 1/T².",
-        sigmas.first().copied().unwrap_or_default(),
-        sigmas.last().copied().unwrap_or_default(),
+        "(a) Mean count of all against σ: simulated points along nucleation and growth; circuits steeper. (b) Advance \
+         against time at σ from {low} to {high}: slower than ∝ t, the more so the smaller σ. (c) Half height falls with T.",
     )
 }

@@ -1,118 +1,90 @@
-//! Fig. S4: what one gap that closes by itself sets off, and the mean count that follows.
+//! Fig. S4: chains from rest and from above after several transients.
 
 use super::FORCING;
 use super::prelude::*;
-use super::simulated::count_axis;
 use crate::experiments::Results;
-use crate::experiments::sweep;
-use impact_chain::rise::Counted;
+use crate::experiments::branches::{self, Both, share};
 use literate::table::Table;
 
-/// The σ of (a).
-const SIGMAS: (f64, f64) = (0.075, 0.165);
+/// The window of the half heights.
+const WINDOW: f64 = 200.0;
 
-/// Lines of the σ in (b).
-const SPREADS: [Stroke; 4] = [
-    Stroke::solid(PURPLE, LINE),
-    Stroke::dashed(BLUE, LINE, Dash::Long),
-    Stroke::dashed(ORANGE, LINE, Dash::Alternate),
-    Stroke::solid(RED, THIN),
-];
+/// The branches: column, name, colour.
+const BRANCHES: [(&str, &str, Colour); 2] =
+    [("from_rest", "from rest", BLUE), ("from_above", "from above", RED)];
 
-/// Nucleation and growth, which is computed at some places only.
-const GROWN: (&str, Marker) =
-    ("nucleation and growth", (Mark::OpenSquare, 44, Stroke::solid(INK, HAIR)));
+/// Marks and colours of the other lengths, all from rest.
+const LENGTHS: [(Mark, Colour); 3] =
+    [(Mark::Ring, PURPLE), (Mark::OpenSquare, GREEN), (Mark::Diamond, ORANGE)];
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
-    let table = |name| results.table(name);
-    let (means, rise, scores) =
-        (table("seeds.means")?, table("seeds.rise")?, table("seeds.scores")?);
-    let sheet = Sheet::new(9350);
-    counts(&sheet, means, table("seeds.theory")?, sweep::main(results)?)?;
-    let advance = table("seeds.advance")?;
-    advances(&sheet, advance)?;
-    halves(&sheet, rise, scores)?;
-    Ok(sheet.finish("s04", "From one gap to many: nucleation and growth", description(advance)))
+    let both = results.table("branches.half_heights")?;
+    let sheet = Sheet::new(5700);
+    half_heights(&sheet, results, both)?;
+    shares(&sheet, &branches::both(results.of(&crate::experiments::BRANCHES)?))?;
+    Ok(sheet.finish("s04", "Chains from rest and from above", description(both)))
 }
 
-fn counts(sheet: &Sheet, means: &Table, theory: &Table, sweep: &Counted) -> Result<(), Error> {
-    let x = Axis::linear(SIGMAS.0, SIGMAS.1, 0.01, 2, FORCING);
-    let y = count_axis(sweep.ensemble.chain.gaps(), "mean count of all");
-    let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 8150, 3730), x, y)?;
-    let transient = [("transient", sweep.first().protocol.transient)];
-    let lines = [
-        ("circuits, Eq. (25)", "eq25", Stroke::dashed(BLUE, LINE, Dash::Short)),
-        ("circuits, from rest", "from_rest", Stroke::dashed(PURPLE, LINE, Dash::Long)),
-    ];
-    let mut entries = Vec::new();
-    for (name, column, stroke) in lines {
-        panel.curve(name, &theory.points(&[], "sigma", column), stroke, Outside::Refuse)?;
-        entries.push(Entry::line(stroke, name));
-    }
-    panel.joined(GROWN.0, &means.estimates(&transient, "sigma", "grown"), GROWN.1)?;
-    entries.insert(0, Entry::both(GROWN.1.2, GROWN.1, GROWN.0));
-    let inside =
-        sweep.first().rows.iter().filter(|row| row.sigma > SIGMAS.0 && row.sigma < SIGMAS.1);
-    let bars: Vec<_> = inside
-        .filter_map(|row| Some((row.sigma, row.mean_all?.value, row.mean_all?.interval?)))
-        .collect();
-    let look = (Mark::Disc, 42, Stroke::solid(RED, THIN));
-    let ends: Vec<_> = bars.iter().map(|(x, _, [low, high])| (*x, *low, *high)).collect();
-    panel.bars("simulation", &ends, 35, look.2, Outside::Refuse)?;
-    let points: Vec<_> = bars.iter().map(|(x, y, _)| (*x, *y)).collect();
-    panel.marks("simulation", &points, look, Outside::Refuse)?;
-    entries.push(Entry::mark(look, "simulation"));
-    sheet.legend((1400, 700), (SMALL, 370), &entries)
-}
-
-fn named(sigma: f64) -> String {
-    format!("*σ* = {sigma}")
-}
-
-/// Four of so many, or all, from the first to the last.
-fn spread<T>(all: &[T]) -> impl Iterator<Item = &T> {
-    let last = all.len().saturating_sub(1);
-    let mut places = vec![0, last / 3, 2 * last / 3, last];
-    places.dedup();
-    places.into_iter().filter_map(|place| all.get(place))
-}
-
-fn advances(sheet: &Sheet, advance: &Table) -> Result<(), Error> {
-    let x = Axis::decades(1, 4, 1, "time since the first impact (1/*ω*)").from(20.0, 2000.0);
-    let y = Axis::decades(-1, 2, 1, "advance (gaps)");
-    let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 5250, 4050, 7650), x, y)?;
-    let mut entries = Vec::new();
-    for (sigma, stroke) in spread(&advance.values("sigma")).zip(SPREADS) {
-        let points = advance.points(&[("sigma", *sigma)], "time", "advance");
-        let name = named(*sigma);
-        panel.curve(&name, &points, stroke, Outside::Cut)?;
-        entries.push(Entry::line(stroke, &name));
-    }
-    let straight = Stroke::dashed(INK, THIN, Dash::Short);
-    panel.guide("constant speed", &[(10.0, 0.1), (1e4, 100.0)], straight)?;
-    entries.push(Entry::line(straight, "∝ *t*"));
-    sheet.legend_in_columns((650, 8680), (SMALL, 320), (3, 1800), &entries)
-}
-
-fn halves(sheet: &Sheet, rise: &Table, scores: &Table) -> Result<(), Error> {
-    let x = Axis::decades(1, 4, 1, "transient *T* (1/*ω*)").from(20.0, 2000.0);
-    let y = Axis::linear(0.1, 0.15, 0.01, 2, "*σ*_{1/2} of all (*d ω*^{2})")
+fn half_heights(sheet: &Sheet, results: &Results, both: &Table) -> Result<(), Error> {
+    let x = Axis::decades(1, 6, 1, "transient *T* (1/*ω*)").from(30.0, 5e5);
+    let y = Axis::linear(0.06, 0.14, 0.01, 2, "*σ*_{1/2} (*d ω*^{2})")
         .column("half_height (d omega^2)");
-    let panel = sheet.lettered(LETTERS[2], Frame::new(5350, 5250, 8150, 7650), x, y)?;
-    let grown = rise.points(&[], "transient", "half_height");
-    panel.marked(GROWN.0, &grown, (GROWN.1.2, GROWN.1), Outside::Edge)?;
-    let look = (Mark::Disc, LARGE, Stroke::solid(RED, THIN));
-    let found = scores.estimates(&[], "transient", "half_height");
-    panel.estimates("simulation", &found, look)?;
-    let entries = [Entry::both(GROWN.1.2, GROWN.1, GROWN.0), Entry::mark(look, "simulation")];
-    sheet.legend((4850, 8650), (SMALL, 370), &entries)
+    let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 4250, 3930), x, y)?;
+    let bound = Stroke::dashed(INK, THIN, Dash::Dotted);
+    panel.level("bound", results.number("theory.relation.sigma_kept_half")?, bound)?;
+    let map = results.table("protocol.cells")?;
+    let map = map.points(&[("window", WINDOW)], "transient", "half_height_all");
+    let line = Stroke::solid(PURPLE, HAIR);
+    panel.curve("map, n = 100", &map, line, Outside::Cut)?;
+    let masses = results.number("branches.all.masses")?;
+    let mut entries = Vec::new();
+    for (column, name, colour) in BRANCHES {
+        let look = (Mark::Disc, MEDIUM, Stroke::solid(colour, THIN));
+        panel.joined(name, &both.estimates(&[], "transient", column), look)?;
+        entries.push(Entry::both(look.2, look, &format!("{name}, *n* = {masses}")));
+    }
+    let lengths = results.table("branches.lengths")?;
+    for (masses, (mark, colour)) in lengths.values("masses").into_iter().zip(LENGTHS) {
+        let look = (mark, LARGE, Stroke::solid(colour, THIN));
+        let (name, keys) =
+            (format!("from rest, *n* = {masses}"), [("masses", masses), ("window", WINDOW)]);
+        panel.estimates(&name, &lengths.estimates(&keys, "transient", "half_height"), look)?;
+        entries.push(Entry::mark(look, &name));
+    }
+    entries.push(Entry::line(line, "the map, *n* = 100"));
+    entries.push(Entry::line(bound, "bound from rest, *n* = 100"));
+    sheet.legend_in_columns((700, 4800), (SMALL, 330), (3, 2700), &entries)
 }
 
-fn description(advance: &Table) -> String {
-    let sigmas = advance.values("sigma");
-    let [low, high] = [sigmas.first(), sigmas.last()].map(|own| own.copied().unwrap_or_default());
+/// Shares after the first transient and after the last.
+fn shares(sheet: &Sheet, both: &[Both<'_>]) -> Result<(), Error> {
+    let x = Axis::linear(0.05, 0.135, 0.02, 2, FORCING);
+    let y = Axis::linear(0.0, 1.0, 0.2, 2, "share of the gaps");
+    let panel = sheet.lettered(LETTERS[1], Frame::new(5150, 430, 8250, 3930), x, y)?;
+    let ends = [both.first(), both.last()].into_iter().flatten();
+    for (own, (dash, mark)) in ends.zip([(Dash::Short, Mark::Ring), (Dash::Solid, Mark::Disc)]) {
+        for ((_, name, colour), branch) in BRANCHES.into_iter().zip([own.rest, own.above]) {
+            let name = format!("{name}, *T* = {}", own.transient());
+            let at = |&sigma: &f64| Some((sigma, share(branch, sigma)?));
+            let points: Vec<_> = branch.0.ensemble.sigmas.iter().filter_map(at).collect();
+            panel.joined(&name, &points, (mark, MEDIUM, Stroke::dashed(colour, THIN, dash)))?;
+        }
+    }
+    Ok(())
+}
+
+fn description(both: &Table) -> String {
+    let ends = |column| {
+        let places = both.points(&[], "transient", column);
+        let ends = places.first().zip(places.last());
+        ends.map_or("none".into(), |(first, last)| {
+            format!("from {} to {}", short(first.1, 3), short(last.1, 3))
+        })
+    };
     format!(
-        "(a) Mean count of all against σ: simulated points along nucleation and growth; circuits steeper. (b) Advance \
-         against time at σ from {low} to {high}: slower than ∝ t, the more so the smaller σ. (c) Half height falls with T.",
+        "(a) Half height against T: from rest it falls, {}; from above it rises, {}. (b) Share of gaps with an impact against σ, \
+         early and late: two curves far apart that approach.",
+        ends("from_rest"),
+        ends("from_above"),
     )
 }

@@ -1,67 +1,86 @@
-//! Fig. S6: what becomes of the most likely number and of its jump for many vertices.
+//! Fig. S6: the rise at several restitutions.
 
+use super::FORCING;
 use super::prelude::*;
-use crate::experiments::Results;
-use crate::experiments::theory::large;
-use crate::params::DRAWN_VERTICES;
+use super::simulated::count_axis;
+use crate::experiments::{RESTITUTION, Results};
+use impact_chain::rise::Counted;
 use literate::table::Table;
 
-/// The p N in (a): around the onset, where the sizes differ.
-const RANGE: (f64, f64) = (0.75, 2.25);
+/// Restitutions of (a), and their looks.
+const RISES: [(f64, Mark, Colour); 5] = [
+    (0.0, Mark::Disc, RED),
+    (0.4, Mark::OpenSquare, ORANGE),
+    (0.6, Mark::OpenTriangle, PURPLE),
+    (0.8, Mark::Ring, GREEN),
+    (0.95, Mark::Disc, BLUE),
+];
 
-/// Colours of the numbers of vertices in (a).
-const SIZES: [(Colour, Dash); 3] =
-    [(ORANGE, Dash::Solid), (BLUE, Dash::Long), (GREEN, Dash::Alternate)];
+/// What is drawn.
+struct Shown<'a> {
+    found: &'a [Counted],
+    rise: &'a Table,
+    curves: &'a Table,
+}
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
-    let sheet = Sheet::new(8450);
-    shares(&sheet)?;
-    jumps(&sheet, results.table("theory.large")?)?;
-    Ok(sheet.finish("s06", "The theory at large N", DESCRIPTION.into()))
+    let table = |name| results.table(name);
+    let shown = Shown {
+        found: results.of(&RESTITUTION)?,
+        rise: table("restitution.rise")?,
+        curves: table("restitution.curves")?,
+    };
+    let sheet = Sheet::new(8150);
+    rises(&sheet, &shown)?;
+    places(&sheet, &shown)?;
+    let title = "The rise at several restitutions";
+    Ok(sheet.finish("s06", title, description(&shown)))
 }
 
-/// A power of ten as the figures write it.
-fn power(vertices: usize) -> String {
-    format!("10^{{{}}}", vertices.ilog10())
+fn named(r: f64) -> String {
+    format!("*r* = {r}")
 }
 
-fn shares(sheet: &Sheet) -> Result<(), Error> {
-    let x = Axis::linear(RANGE.0, RANGE.1, 0.25, 5, "*p N*");
-    let y = Axis::linear(0.0, 0.6, 0.1, 2, "*k*^{∗}/*N*");
-    let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 8150, 3730), x, y)?;
+fn rises(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
+    let gaps = shown.found[0].ensemble.chain.gaps() as f64;
+    let last = shown.found[0].ensemble.sigmas.iter().copied().fold(0.0, f64::max);
+    let x = Axis::linear(0.05, last + 0.02, 0.1, 5, FORCING);
+    let y = count_axis(shown.found[0].ensemble.chain.gaps(), "mean count");
+    let panel = sheet.lettered("(a)", Frame::new(1150, 430, 8150, 3230), x, y)?;
+    let half = Stroke::dashed(INK, THIN, Dash::Short);
+    let level = [(0.05, 0.5 * gaps), (last + 0.02, 0.5 * gaps)];
+    panel.guide("half of all gaps", &level, half)?;
     let mut entries = Vec::new();
-    for (vertices, (colour, dash)) in DRAWN_VERTICES.into_iter().zip(SIZES) {
-        let stroke = Stroke::dashed(colour, LINE, dash);
-        // No value lies within the jump.
-        let [before, after] = large::shares(vertices);
-        let name = format!("N = {vertices}");
-        panel.curve(&name, &before, stroke, Outside::Cut)?;
-        panel.curve(&name, &after, stroke, Outside::Cut)?;
-        let jump: Vec<_> = before.last().into_iter().chain(after.first()).copied().collect();
-        panel.guide("jump", &jump, Stroke::dashed(colour, THIN, Dash::Dotted))?;
-        entries.push(Entry::line(stroke, &format!("*N* = {}", power(vertices))));
+    for (r, mark, colour) in RISES {
+        let points = shown.rise.estimates(&[("r", r)], "sigma", "mean_count");
+        if points.is_empty() {
+            continue;
+        }
+        let look = (mark, MEDIUM, Stroke::solid(colour, THIN));
+        panel.joined(&named(r), &points, look)?;
+        entries.push(Entry::mark(look, &named(r)));
     }
-    let limit = large::limit();
-    let stroke = Stroke::dashed(INK, THIN, Dash::Short);
-    panel.curve("limit", &limit, stroke, Outside::Cut)?;
-    entries.push(Entry::line(stroke, "max(0, 1 − 1/(*p N*))"));
-    sheet.legend((5500, 2350), (SMALL, 370), &entries)
+    sheet.legend_in_columns((5000, 2150), (SMALL, 340), (3, 1500), &entries)
 }
 
-fn jumps(sheet: &Sheet, table: &Table) -> Result<(), Error> {
-    let x = Axis::decades(1, 6, 1, "*N*");
-    let y = Axis::decades(-3, 0, 1, "*k*^{∗}/*N* at the jump");
-    let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 5250, 8150, 7550), x, y)?;
-    let rule = table.points(&[], "n", "rule");
-    let rule: Vec<_> = rule.into_iter().map(|(n, k)| (n, k / n)).collect();
-    let line = Stroke::solid(INK, THIN);
-    panel.curve("rule", &rule, line, Outside::Refuse)?;
-    let exact = table.points(&[], "n", "share");
-    let disc = (Mark::Disc, 55, Stroke::solid(GREEN, THIN));
-    panel.marks("exact", &exact, disc, Outside::Refuse)?;
-    let entries = [Entry::mark(disc, "exact"), Entry::line(line, "*k*^{2} = 2*N*(ln *k* − 1)")];
-    sheet.legend((5200, 5650), (SMALL, 370), &entries)
+fn places(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
+    let x = Axis::linear(0.0, 1.0, 0.2, 2, "restitution *r*");
+    let y =
+        Axis::linear(0.0, 0.35, 0.1, 4, "*σ*_{1/2} (*d ω*^{2})").column("half_height (d omega^2)");
+    let panel = sheet.lettered("(b)", Frame::new(1150, 4700, 8150, 7200), x, y)?;
+    let points = shown.curves.estimates(&[], "r", "half_height");
+    panel.joined("half height", &points, (Mark::Disc, MEDIUM, Stroke::solid(RED, THIN)))
 }
 
-const DESCRIPTION: &str = "(a) The most likely number over N against p N: zero, a jump soon after p N = 1, then a curve; the larger N, the \
-     smaller the jump. (b) Height of the jump against N, with the rule.";
+fn description(shown: &Shown<'_>) -> String {
+    let halves = shown.curves.points(&[], "r", "half_height");
+    let end = |at: Option<&(f64, f64)>| {
+        at.map_or("none".into(), |(r, own)| format!("{} at r = {r}", short(*own, 3)))
+    };
+    format!(
+        "(a) Mean count of all chains against σ, a curve for each restitution r: the smaller r, the later it rises. (b) Half \
+         height against r, from {} to {}.",
+        end(halves.first()),
+        end(halves.last()),
+    )
+}

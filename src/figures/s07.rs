@@ -1,85 +1,67 @@
-//! Fig. S7: the rise at several restitutions.
+//! Fig. S7: error and misses of the next impact against counted work, for every method.
 
-use super::FORCING;
 use super::prelude::*;
-use super::simulated::count_axis;
-use crate::experiments::{RESTITUTION, Results};
-use impact_chain::rise::Counted;
-use literate::table::Table;
+use super::rivals::{by_method, entries, look};
+use crate::experiments::accuracy::race::{DISPLACED, Entry, Race};
+use crate::experiments::accuracy::tables::name;
+use crate::params::MethodName;
 
-/// Restitutions of (a), and their looks.
-const RISES: [(f64, Mark, Colour); 5] = [
-    (0.0, Mark::Disc, RED),
-    (0.4, Mark::OpenSquare, ORANGE),
-    (0.6, Mark::OpenTriangle, PURPLE),
-    (0.8, Mark::Ring, GREEN),
-    (0.95, Mark::Disc, BLUE),
-];
+pub fn draw(race: &Race) -> Result<Figure, Error> {
+    let sheet = Sheet::new(9500);
+    let costs = || race.entries.iter().filter_map(|entry| entry.work);
+    let cost_axis = || Axis::around(costs(), 1, "evaluations per impact");
+    let error = Axis::decades(-18, 0, 3, "error in time (1/*ω*)");
+    let (x, y) = (cost_axis().bare(), error.column("error of the next impact's time (1/omega)"));
+    let errors = sheet.lettered(LETTERS[0], Frame::new(1300, 430, 8150, 4030), x, y)?;
+    errors.level("counts as missed", DISPLACED, Stroke::dashed(GREY, HAIR, Dash::Short))?;
+    let words = (TINY, INK, HPos::Right, VPos::Bottom);
+    errors.note("missed above", (errors.x.hi, DISPLACED), (-60, -60), words)?;
 
-/// What is drawn.
-struct Shown<'a> {
-    found: &'a [Counted],
-    rise: &'a Table,
-    curves: &'a Table,
-}
-
-pub fn draw(results: &Results) -> Result<Figure, Error> {
-    let table = |name| results.table(name);
-    let shown = Shown {
-        found: results.of(&RESTITUTION)?,
-        rise: table("restitution.rise")?,
-        curves: table("restitution.curves")?,
-    };
-    let sheet = Sheet::new(8150);
-    rises(&sheet, &shown)?;
-    places(&sheet, &shown)?;
-    let title = "The rise at several restitutions";
-    Ok(sheet.finish("s07", title, description(&shown)))
-}
-
-fn named(r: f64) -> String {
-    format!("*r* = {r}")
-}
-
-fn rises(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
-    let gaps = shown.found[0].ensemble.chain.gaps() as f64;
-    let last = shown.found[0].ensemble.sigmas.iter().copied().fold(0.0, f64::max);
-    let x = Axis::linear(0.05, last + 0.02, 0.1, 5, FORCING);
-    let y = count_axis(shown.found[0].ensemble.chain.gaps(), "mean count");
-    let panel = sheet.lettered("(a)", Frame::new(1150, 430, 8150, 3230), x, y)?;
-    let half = Stroke::dashed(INK, THIN, Dash::Short);
-    let level = [(0.05, 0.5 * gaps), (last + 0.02, 0.5 * gaps)];
-    panel.guide("half of all gaps", &level, half)?;
-    let mut entries = Vec::new();
-    for (r, mark, colour) in RISES {
-        let points = shown.rise.estimates(&[("r", r)], "sigma", "mean_count");
-        if points.is_empty() {
-            continue;
-        }
-        let look = (mark, MEDIUM, Stroke::solid(colour, THIN));
-        panel.joined(&named(r), &points, look)?;
-        entries.push(Entry::mark(look, &named(r)));
+    let tried = race.entries.iter().map(|e| e.tried).max().unwrap_or(1);
+    let bottom = -(pxfm::f_log10(tried as f64).ceil() as i32) - 1;
+    let mut axis = Axis::decades(bottom, 0, 1, "share missed");
+    // Below one in all that were tried there is nothing but zero.
+    axis.ticks.retain(|tick| tick.at <= axis.lo || tick.at >= 9.5 * axis.lo);
+    if let Some(first) = axis.ticks.first_mut() {
+        first.label = Some("none".into());
     }
-    sheet.legend_in_columns((5000, 2150), (SMALL, 340), (3, 1500), &entries)
-}
+    let misses = Frame::new(1300, 4650, 8150, 7250);
+    let misses = sheet.lettered(LETTERS[1], misses, cost_axis(), axis)?;
 
-fn places(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
-    let x = Axis::linear(0.0, 1.0, 0.2, 2, "restitution *r*");
-    let y =
-        Axis::linear(0.0, 0.35, 0.1, 4, "*σ*_{1/2} (*d ω*^{2})").column("half_height (d omega^2)");
-    let panel = sheet.lettered("(b)", Frame::new(1150, 4700, 8150, 7200), x, y)?;
-    let points = shown.curves.estimates(&[], "r", "half_height");
-    panel.joined("half height", &points, (Mark::Disc, MEDIUM, Stroke::solid(RED, THIN)))
-}
-
-fn description(shown: &Shown<'_>) -> String {
-    let halves = shown.curves.points(&[], "r", "half_height");
-    let end = |at: Option<&(f64, f64)>| {
-        at.map_or("none".into(), |(r, own)| format!("{} at r = {r}", short(*own, 3)))
+    let spread = |e: &Entry| Some((e.work?, e.errors?[1]));
+    let middle = |e: &Entry| Some((e.work?, e.errors?[0]));
+    let missed = |e: &Entry| {
+        let share = e.misses as f64 / e.tried.max(1) as f64;
+        Some((e.work?, share))
     };
+    let medians = by_method(&race.entries, |e| e.setting, middle);
+    for ((method, points), (_, ends)) in
+        medians.iter().zip(by_method(&race.entries, |e| e.setting, spread))
+    {
+        let look = look(*method);
+        let bars: Vec<_> = points.iter().zip(&ends).map(|(a, b)| (a.0, a.1, b.1)).collect();
+        let thin = Stroke::solid(look.2.colour, HAIR);
+        errors.bars(name(*method), &bars, 0, thin, Outside::Edge)?;
+        errors.marked(name(*method), points, (look.2, look), Outside::Edge)?;
+    }
+    for (method, points) in by_method(&race.entries, |e| e.setting, missed) {
+        let look = look(method);
+        misses.marked(name(method), &points, (look.2, look), Outside::Edge)?;
+    }
+    let entries = entries(|method| medians.iter().any(|(m, _)| *m == method));
+    sheet.legend_in_columns((700, 8450), (SMALL, 370), (3, 2650), &entries)?;
+    Ok(sheet.finish("s07", "Error and misses of the next impact", description(race)))
+}
+
+fn description(race: &Race) -> String {
+    let certified = race.entries.iter().find(|e| e.setting.method == MethodName::Certified);
+    let largest = certified.and_then(|entry| Some(entry.errors?[1]));
     format!(
-        "(a) Mean count against σ: the smaller r, the later it rises. (b) Half height, from {} to {}.",
-        end(halves.first()),
-        end(halves.last()),
+        "Against counted work, a marker for each method and step or tolerance, n = {}, σ = {}: (a) median error of the time of the next \
+         impact, with a line up to the largest, which for the engine is {}; (b) the share of states from which the \
+         next impact is missed.",
+        race.parameters.growth.chain.masses,
+        race.parameters.growth.sigma,
+        largest.map_or("unknown".into(), |error| short(error, 2)),
     )
 }

@@ -94,38 +94,78 @@ pub fn starts(profile: Profile) -> Vec<Ensemble> {
     variants
 }
 
-/// Chains of several lengths, random starts and rings, after several transients.
-pub fn chains(profile: Profile) -> Vec<Ensemble> {
+/// Chains from rest and from above, of several lengths and after several transients, each at a few σ around the rise; and
+/// chains with a random start and on a ring.
+pub fn branches(profile: Profile) -> Vec<Ensemble> {
+    const REST: Option<Heating> = None;
+    const ABOVE: Option<Heating> = Some(Heating { sigma: 0.2, time: 300.0 });
+    // Masses, start, σ in thousandths (first, last, step), realisations, transients.
+    type Case = (usize, Option<Heating>, [u32; 3], usize, &'static [f64]);
+    let late: &[f64] = &[5e4, 1e5];
+    let cases: &[Case] = match profile {
+        Profile::Full => &[
+            (100, REST, [80, 160, 10], 120, &[500.0]),
+            (1000, REST, [80, 150, 10], 8, &[500.0]),
+            (10_000, REST, [80, 140, 10], 2, &[500.0]),
+            (100, REST, [100, 116, 8], 100, &[5e3]),
+            (1000, REST, [95, 111, 8], 8, &[5e3]),
+            (10_000, REST, [95, 111, 8], 1, &[5e3]),
+            (100, REST, [98, 110, 6], 30, &[5e4]),
+            (1000, REST, [92, 104, 6], 2, &[5e4]),
+            (3000, REST, [85, 130, 5], 4, &[500.0]),
+            (3000, ABOVE, [55, 100, 5], 4, &[500.0]),
+            (3000, REST, [85, 110, 5], 2, &[5e3]),
+            (3000, ABOVE, [70, 100, 5], 2, &[5e3]),
+            (3000, REST, [85, 100, 5], 1, late),
+            (3000, ABOVE, [75, 100, 5], 1, late),
+        ],
+        Profile::Quick => &[
+            (20, REST, [140, 180, 20], 10, &[50.0]),
+            (100, REST, [120, 160, 20], 2, &[50.0]),
+            (20, REST, [105, 145, 20], 10, &[500.0]),
+            (100, REST, [100, 140, 20], 2, &[500.0]),
+            (200, REST, [80, 160, 20], 2, &[50.0, 500.0]),
+            (200, ABOVE, [40, 100, 20], 2, &[50.0, 500.0]),
+        ],
+    };
+    let of = |&(masses, heating, [from, to, step], realisations, transients): &Case| {
+        let start = if heating.is_some() { "above" } else { "rest" };
+        // Of the paper's chain after the longest time a wider window too.
+        let wide = transients == [5e4] && masses == 100;
+        // There both branches have met before.
+        let met = Beyond { above: 0.0975, realisations: None, until: Some(50_200.0) };
+        let both = masses == 3000 || masses == 200;
+        Ensemble {
+            chain: Chain { masses, ..Chain::default() },
+            heating,
+            protocols: windows(transients, if wide { &[200.0, 2000.0] } else { &[200.0] }),
+            beyond: Some(met).filter(|_| transients == late),
+            pieces: (masses / 250).max(1),
+            stream: if both { "history" } else { "sizes" }.into(),
+            ..paper(
+                &format!("{start}, n = {masses}, T = {}", transients[0]),
+                Grid::default().and(from, to, step as usize, 1000),
+                realisations,
+            )
+        }
+    };
     let full = profile == Profile::Full;
-    let grid = |from, to| Grid::default().and(from, to, if full { 1 } else { 4 }, 100);
-    let few = |n: usize| if full { n } else { n.div_ceil(24).max(2) };
-    let chain = |name: &str, sigmas, realisations, transients: &[f64]| Ensemble {
+    let transients: &[f64] = if full { &[100.0, 500.0, 1000.0, 2000.0] } else { &[100.0, 500.0] };
+    let other = |name: &str| Ensemble {
         protocols: windows(transients, &[200.0]),
         stream: "chains".into(),
-        ..paper(name, sigmas, few(realisations))
+        ..paper(
+            name,
+            Grid::default().and(9, 18, if full { 1 } else { 4 }, 100),
+            if full { 24 } else { 2 },
+        )
     };
-    let length = |masses: usize, realisations, sigmas, transients: &[f64]| Ensemble {
-        chain: Chain { masses, ..Chain::default() },
-        pieces: (masses / 1000).max(1),
-        ..chain(&format!("length-{masses}"), sigmas, realisations, transients)
-    };
-    let mut all = vec![
-        length(10, 600, grid(9, 25), &[50.0, 250.0, 500.0]),
-        length(100, 120, grid(8, 16), &[500.0]),
-    ];
-    if full {
-        all.push(length(1000, 8, grid(8, 15), &[500.0, 750.0, 5000.0]));
-        all.push(length(10_000, 2, grid(8, 14), &[500.0, 1000.0]));
-    }
-    let transients: &[f64] = if full { &[100.0, 500.0, 1000.0, 2000.0] } else { &[100.0, 500.0] };
-    let mut random = chain("random", grid(9, 18), 24, transients);
+    let (mut random, mut ring) = (other("random"), other("ring"));
     random.chain.start = Start::Random;
     // Beyond the rise the half height lies where more starts overlap; what is left of them is counted.
     random.most_rejected = 1.0;
-    let mut ring = chain("ring", grid(9, 18), 24, transients);
     ring.chain.boundary = Boundary::Ring;
-    all.extend([random, ring]);
-    all
+    cases.iter().map(of).chain([random, ring]).collect()
 }
 
 /// Chains of several restitutions.
@@ -145,62 +185,4 @@ pub fn restitution(profile: Profile) -> Vec<Ensemble> {
         ..paper(&format!("r = {restitution}"), sigmas.clone(), realisations)
     };
     restitutions.iter().map(of).collect()
-}
-
-/// Chains that come from above: the force is lowered after a time well beyond the rise.
-pub fn history(profile: Profile) -> Vec<Ensemble> {
-    let (sigmas, last, realisations) = match profile {
-        Profile::Full => (Grid::default().and(2, 13, 1, 100), 4000.0, 32),
-        Profile::Quick => (Grid::default().and(6, 12, 3, 100), 1000.0, 3),
-    };
-    vec![Ensemble {
-        heating: Some(Heating { sigma: 0.2, time: 300.0 }),
-        protocols: windows(&[500.0, last], &[200.0]),
-        ..paper("history", sigmas, realisations)
-    }]
-}
-
-/// Lengths after several transients, near enough to the half height to tell 0.002 apart.
-pub fn sizes(profile: Profile) -> Vec<Ensemble> {
-    let cases: &[(f64, usize, usize, u32)] = match profile {
-        Profile::Full => &[
-            (500.0, 100, 150, 117),
-            (500.0, 1000, 15, 117),
-            (500.0, 10_000, 2, 117),
-            (5000.0, 100, 125, 107),
-            (5000.0, 1000, 12, 103),
-            (5000.0, 10_000, 2, 103),
-            (50_000.0, 100, 100, 103),
-            (50_000.0, 1000, 3, 98),
-            (50_000.0, 10_000, 2, 96),
-        ],
-        Profile::Quick => {
-            &[(50.0, 20, 10, 160), (50.0, 100, 2, 140), (500.0, 20, 10, 125), (500.0, 100, 2, 117)]
-        }
-    };
-    let of = |&(transient, masses, realisations, middle): &(f64, usize, usize, u32)| Ensemble {
-        chain: Chain { masses, ..Chain::default() },
-        protocols: windows(&[transient], &[200.0]),
-        pieces: (masses / 1000).max(1),
-        stream: "sizes".into(),
-        ..paper(
-            &format!("{masses} masses, T = {transient}"),
-            Grid::default().and(middle - 4, middle + 4, 4, 1000),
-            realisations,
-        )
-    };
-    cases.iter().map(of).collect()
-}
-
-/// The long end of the map over transients and windows.
-pub fn long_protocol(profile: Profile) -> Vec<Ensemble> {
-    let (transients, widths, step, realisations): (&[f64], &[f64], _, _) = match profile {
-        Profile::Full => (&[1e3, 4e3, 1e4, 2e4], &[20.0, 200.0, 2000.0], 1, 12),
-        Profile::Quick => (&[500.0, 1e3], &[20.0, 200.0], 11, 2),
-    };
-    vec![Ensemble {
-        protocols: windows(transients, widths),
-        stream: "long-protocol".into(),
-        ..paper("long_protocol", Grid::default().and(26, 48, step, 400), realisations)
-    }]
 }

@@ -126,6 +126,8 @@ pub struct Rise {
     pub width: Option<Estimate>,
     /// The mean over realisations with an impact from N/4 to 3N/4: it is never as low as a tenth where there are any.
     pub kept_width: Option<Estimate>,
+    /// The mean over all from N/4 to 3N/4.
+    pub quarters: Option<Estimate>,
 }
 
 impl Counted {
@@ -167,7 +169,7 @@ struct Places {
     mean_all: Vec<Option<f64>>,
     mode: Vec<Option<usize>>,
     /// In the order of [`Rise`].
-    places: [Option<f64>; 6],
+    places: [Option<f64>; 7],
 }
 
 /// Counts of one window: `counts[σ][realisation]`. A row may have only the first of the realisations.
@@ -190,7 +192,7 @@ impl Sample<'_> {
             mean: Vec::with_capacity(sigmas.len()),
             mean_all: Vec::with_capacity(sigmas.len()),
             mode: Vec::with_capacity(sigmas.len()),
-            places: [None; 6],
+            places: [None; 7],
         };
         let over = |sum: u64, of: u64| (of > 0).then(|| sum as f64 / of as f64);
         let mut histogram = vec![0; self.largest() + 1];
@@ -214,6 +216,7 @@ impl Sample<'_> {
             last_rise(sigmas, &share, 0.5),
             between(all(0.1), all(0.9)),
             between(kept(0.25), kept(0.75)),
+            between(all(0.25), all(0.75)),
         ];
         found
     }
@@ -251,6 +254,7 @@ impl Resampled {
             kept_half: place(3),
             width: place(4),
             kept_width: place(5),
+            quarters: place(6),
         }
     }
 
@@ -377,6 +381,8 @@ mod tests {
             // From 1, between 0.5 and 3.5, to 9, between 7.5 and 10.
             (0.4 + 0.1 * 0.6) - (0.2 + 0.1 / 6.0),
             0.3 + 0.1 - 0.2 - 0.1 * 0.5 / (14.0 / 3.0 - 2.0),
+            // From 2.5, between 0.5 and 3.5, to 7.5.
+            0.4 - (0.2 + 0.1 * 2.0 / 3.0),
         ];
         for (place, expected) in found.places.iter().zip(expected) {
             assert!((place.unwrap() - expected).abs() < 1e-15, "{place:?} {expected}");

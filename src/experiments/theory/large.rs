@@ -1,4 +1,4 @@
-//! The theory for many vertices, with p N held fixed as N grows: Fig. S6.
+//! The theory for many vertices, with p N held fixed as N grows: Fig. S5.
 
 use super::relation::{p_of, reaches};
 use super::{known, one};

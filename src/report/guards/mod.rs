@@ -5,8 +5,6 @@
 //! None compares a number with a copy of itself, or with bytes of an earlier run. `impact-paper check` names
 //! each that fails.
 
-mod chains;
-mod history;
 mod maps;
 mod nucleation;
 mod printed;
@@ -39,15 +37,8 @@ pub struct Guard {
 
 /// All guards.
 pub fn all() -> impl Iterator<Item = &'static Guard> {
-    let files = [
-        sweep::GUARDS,
-        maps::GUARDS,
-        nucleation::GUARDS,
-        history::GUARDS,
-        restitution::GUARDS,
-        chains::GUARDS,
-        printed::GUARDS,
-    ];
+    let files =
+        [sweep::GUARDS, maps::GUARDS, nucleation::GUARDS, restitution::GUARDS, printed::GUARDS];
     files.into_iter().flatten()
 }
 
