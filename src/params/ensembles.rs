@@ -110,14 +110,14 @@ pub fn branches(profile: Profile) -> Vec<Ensemble> {
             (100, REST, [100, 116, 8], 100, &[5e3]),
             (1000, REST, [95, 111, 8], 8, &[5e3]),
             (10_000, REST, [95, 111, 8], 1, &[5e3]),
-            (100, REST, [98, 110, 6], 30, &[5e4]),
+            (100, REST, [98, 114, 8], 30, &[5e4]),
             (1000, REST, [92, 104, 6], 2, &[5e4]),
-            (3000, REST, [85, 130, 5], 4, &[500.0]),
-            (3000, ABOVE, [55, 100, 5], 4, &[500.0]),
-            (3000, REST, [85, 110, 5], 2, &[5e3]),
-            (3000, ABOVE, [70, 100, 5], 2, &[5e3]),
-            (3000, REST, [85, 100, 5], 1, late),
-            (3000, ABOVE, [75, 100, 5], 1, late),
+            (2500, REST, [85, 130, 5], 4, &[500.0]),
+            (2500, ABOVE, [55, 100, 5], 4, &[500.0]),
+            (2500, REST, [85, 110, 5], 2, &[5e3]),
+            (2500, ABOVE, [70, 100, 5], 2, &[5e3]),
+            (2500, REST, [85, 105, 5], 1, late),
+            (2500, ABOVE, [75, 100, 5], 1, late),
         ],
         Profile::Quick => &[
             (20, REST, [140, 180, 20], 10, &[50.0]),
@@ -132,14 +132,17 @@ pub fn branches(profile: Profile) -> Vec<Ensemble> {
         let start = if heating.is_some() { "above" } else { "rest" };
         // Of the paper's chain after the longest time a wider window too.
         let wide = transients == [5e4] && masses == 100;
-        // There both branches have met before.
-        let met = Beyond { above: 0.0975, realisations: None, until: Some(50_200.0) };
-        let both = masses == 3000 || masses == 200;
+        let both = masses == 2500 || masses == 200;
         Ensemble {
             chain: Chain { masses, ..Chain::default() },
             heating,
             protocols: windows(transients, if wide { &[200.0, 2000.0] } else { &[200.0] }),
-            beyond: Some(met).filter(|_| transients == late),
+            // There both branches have met before.
+            beyond: (transients == late).then_some(Beyond {
+                above: 0.1025,
+                realisations: None,
+                until: Some(50_200.0),
+            }),
             pieces: (masses / 250).max(1),
             stream: if both { "history" } else { "sizes" }.into(),
             ..paper(
