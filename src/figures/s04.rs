@@ -31,7 +31,7 @@ fn half_heights(sheet: &Sheet, results: &Results, both: &Table) -> Result<(), Er
         .column("half_height (d omega^2)");
     let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 4250, 3930), x, y)?;
     let bound = Stroke::dashed(INK, THIN, Dash::Dotted);
-    panel.level("bound", results.number("theory.relation.sigma_kept_half")?, bound)?;
+    panel.level("bound by seeds", results.number("theory.relation.sigma_kept_half")?, bound)?;
     let map = results.table("protocol.cells")?;
     let map = map.points(&[("window", WINDOW)], "transient", "half_height_all");
     let line = Stroke::solid(PURPLE, HAIR);
