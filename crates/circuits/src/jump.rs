@@ -2,8 +2,8 @@
 
 use super::distribution::{Law, SampleSpace, Weights};
 use super::{Error, check_vertices};
-use impact_numerics::bisection;
 use impact_numerics::double_double::{DoubleDouble, two_product};
+use impact_numerics::roots;
 use impact_numerics::scaled::Scaled;
 
 /// **Eq. (12)**
@@ -125,7 +125,7 @@ pub fn p_jump(space: SampleSpace, big_n: usize) -> Result<Jump, Error> {
         return Err(Error::no_jump(big_n, least));
     }
     let exceeded = |p: f64| first_is_exceeded(space, big_n, DoubleDouble::from(p));
-    let [below, above] = bisection::bracket(0.0, 1.0, exceeded);
+    let [below, above] = roots::bracket(0.0, 1.0, exceeded);
     let half = DoubleDouble { hi: below, lo: 0.5 * (above - below) };
     let p = if first_is_exceeded(space, big_n, half) { below } else { above };
     Ok(Jump { p, bracket: [below, above], k_after: Law::new(space, big_n, above)?.k_star() })
@@ -171,7 +171,7 @@ pub fn jump_rule(big_n: usize) -> Option<f64> {
     let beyond = |k: f64| k * k >= 2.0 * big_n * (pxfm::f_log(k) - 1.0);
     // The difference is least at √N.
     let least = big_n.sqrt();
-    (!beyond(least)).then(|| bisection::bracket(least, big_n, beyond)[1])
+    (!beyond(least)).then(|| roots::bracket(least, big_n, beyond)[1])
 }
 
 #[cfg(test)]

@@ -43,7 +43,7 @@
 
 use impact_chain::{Boundary, Chain};
 use impact_numerics::quadrature::GaussLegendre;
-use impact_numerics::regula_falsi::crossing;
+use impact_numerics::roots::crossing;
 use std::f64::consts::TAU;
 
 /// M_T(θ) at equally spaced angles θ from 0, in units of length per unit of amplitude of the force.

@@ -13,7 +13,6 @@
 
 use super::flight::{Motion, Phases};
 use super::force::Force;
-use super::gap;
 use super::linear::contact_forces;
 use super::simulation::{Awaits, Simulation};
 use crate::search::clock::Instant;
@@ -324,7 +323,7 @@ impl<const M: usize> Simulation<M> {
         let force = self.forces[k];
         let frequencies = &self.search.frequencies;
         let motion = Motion { forced: force.forced, ..Motion::STILL };
-        let mut frame = gap::frame(force.constant, &motion, p, frequencies);
+        let mut frame = motion.frame(force.constant, p, frequencies);
         // What began with a force that only its curvature makes press is not to end by rounding.
         let rounding = ROUNDING * force.size();
         if frame.f0.abs() <= rounding {

@@ -1,7 +1,7 @@
 //! Flight: the motion of a mass between its impacts, in closed form.
 
 use crate::search::clock::{Instant, Rate};
-use crate::search::local_frame::Frequencies;
+use crate::search::local_frame::{Frame, Frequencies};
 
 /// Sine and cosine of the phases ωt and Ωt of each component of the forcing at one instant.
 #[derive(Clone, Copy, Debug)]
@@ -109,7 +109,45 @@ impl<const M: usize> Motion<M> {
         self.a -= kick * p.sin;
         self.b += kick * p.cos;
     }
+
+    /// The local frame of a gap at an instant.
+    ///
+    /// **Eq. (19)**: Δ(t) = d + A cos ωt + B sin ωt + C cos Ωt + D sin Ωt, where the capitals are the
+    /// differences of the amplitudes of the two neighbours (`self`). The bounds take |u| + |u̇/ω| for the
+    /// amplitude R of a part: at most √2 too much, and no square root.
+    #[inline(always)]
+    pub fn frame(
+        &self,
+        spacing: f64,
+        phases: &Phases<M>,
+        frequencies: &Frequencies<M>,
+    ) -> Frame<M> {
+        let mean = spacing + self.offset;
+        let seen = self.seen(phases);
+        let w2 = frequencies.omega * frequencies.omega;
+        let r1 = seen.u.abs() + seen.u_quadrature.abs();
+        let mut bound = w2 * w2 * r1;
+        let mut size = mean.abs() + r1;
+        for m in 0..M {
+            let [v, v_quadrature] = seen.forced[m];
+            let r2 = v.abs() + v_quadrature.abs();
+            let big_w2 = frequencies.big_omegas[m] * frequencies.big_omegas[m];
+            bound += big_w2 * big_w2 * r2;
+            size += frequencies.weights[m] * r2;
+        }
+        Frame {
+            f0: mean + seen.place(),
+            g0: seen.velocity(frequencies),
+            alpha: seen.u,
+            forced: seen.forced,
+            bound: bound * INFLATION,
+            size,
+        }
+    }
 }
+
+/// Bounds are rounded outwards by more than the rounding of amplitudes and frames.
+const INFLATION: f64 = 1.0 + 1e-12;
 
 impl<const M: usize> Seen<M> {
     /// Distance from the centre of motion.

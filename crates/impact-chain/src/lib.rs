@@ -14,7 +14,6 @@ mod ensemble;
 mod error;
 mod flight;
 mod force;
-mod gap;
 mod growth;
 mod impact;
 mod linear;

@@ -9,7 +9,6 @@
 use super::engine::{Counters, Impact, Sink};
 use super::flight::{Motion, Phases, Rates};
 use super::force::Force;
-use super::gap;
 use super::impact::jumps;
 use super::topology::Topology;
 use super::{Error, Initial, Scenario};
@@ -381,7 +380,7 @@ impl<const M: usize> Simulation<M> {
     pub(super) fn look(&self, k: usize, phases: &Phases<M>) -> Frame<M> {
         let [left, right] = self.topology.sides(k);
         let motion = self.motions[right].minus(&self.motions[left]);
-        gap::frame(self.spacing, &motion, phases, &self.search.frequencies)
+        motion.frame(self.spacing, phases, &self.search.frequencies)
     }
 
     /// Takes the frame of gap k anew, `jump` being what its rate has just jumped by.

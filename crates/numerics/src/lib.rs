@@ -2,17 +2,16 @@
 //! functions of `pxfm` are used, never the platform's libm.
 //!
 //! - Numbers beyond f64: [`double_double`] has 32 digits, [`scaled`] the exponents of factorials.
-//! - Roots and integrals: [`bisection`], [`regula_falsi`], [`quadrature`].
+//! - Roots and integrals: [`roots`], [`quadrature`].
 //! - Samples: [`random`] streams that depend on nothing but their names, [`statistics`], the
 //!   [`bootstrap`], and [`estimates`] with the jackknife's errors.
 
-pub mod bisection;
 pub mod bootstrap;
 pub mod double_double;
 pub mod estimates;
 pub mod quadrature;
 pub mod random;
-pub mod regula_falsi;
+pub mod roots;
 pub mod scaled;
 pub mod statistics;
 pub mod text;

@@ -5,7 +5,7 @@ use crate::experiments::theory::{known, law};
 use crate::params::VERTICES;
 use impact_circuits::distribution::{Law, SampleSpace::Simple};
 use impact_circuits::jump;
-use impact_numerics::bisection;
+use impact_numerics::roots;
 use impact_numerics::scaled::Scaled;
 
 /// The p of Figs. 8 to 14, and some beyond.
@@ -80,7 +80,7 @@ pub(super) fn slopes() -> Cases {
 
 /// Eq. (18): the p at which f gets real zeros for k > 0, since its largest value is not negative.
 pub(crate) fn touching() -> f64 {
-    bisection::bracket(1e-6, 1.0, |p| top(p) > 0.0 && f(p, top(p)) >= 0.0)[1]
+    roots::bracket(1e-6, 1.0, |p| top(p) > 0.0 && f(p, top(p)) >= 0.0)[1]
 }
 
 /// k* at neighbouring p of a grid from just beyond the jump to one.

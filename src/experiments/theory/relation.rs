@@ -9,7 +9,7 @@ use impact_chain::rise::ONSET;
 use impact_circuits::distribution::{Law, SampleSpace};
 use impact_circuits::impact_probability::ImpactProbability;
 use impact_circuits::jump::{p_crit, p_jump};
-use impact_numerics::bisection;
+use impact_numerics::roots;
 use literate::table::Table;
 use literate::value::origin;
 use rayon::prelude::*;
@@ -33,7 +33,7 @@ fn p_rest_of(sigma: f64) -> f64 {
 /// The smallest σ at which a property that holds from there on holds, to the last bit. At σ = 1 both probabilities are above
 /// 0.99.
 fn smallest_sigma(holds: impl FnMut(f64) -> bool) -> f64 {
-    bisection::bracket(0.0, 1.0, holds)[1]
+    roots::bracket(0.0, 1.0, holds)[1]
 }
 
 /// The σ at which a probability is p.

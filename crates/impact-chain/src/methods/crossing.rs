@@ -1,6 +1,6 @@
 //! The change of sign that sampling sees, located by bisection.
 
-use impact_numerics::bisection::bracket;
+use impact_numerics::roots::bracket;
 
 /// Halvings of the time after an impact in search of a width above zero.
 const HALVINGS: u32 = 64;
