@@ -5,10 +5,10 @@ use super::row::{Error, Evidence, Row, measured, statistical};
 use super::sec2_rare::{percolation, sticking, three_way, two_masses, walls_like_masses};
 use super::{Finding, open};
 use super::{Judgement, Statement, Text};
+use crate::experiments::rise::{self, Counted};
 use crate::experiments::sweep::{self, mode_half};
 use crate::experiments::{BRANCHES, STARTS, SWEEP, TWO_MASSES};
 use crate::params::Protocol;
-use impact_chain::rise::{self, Counted};
 use impact_numerics::statistics::Estimate;
 
 pub const ROWS: &[Row] = &[

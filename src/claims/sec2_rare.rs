@@ -4,13 +4,13 @@ use super::row::{Error, Evidence};
 use super::sec2::LAST_DIGIT;
 use super::{Finding, open};
 use super::{Judgement, Statement, Text};
+use crate::experiments::SLOW_DECADES;
 use crate::experiments::branches::from_rest;
 use crate::experiments::ensembles::named;
 use crate::experiments::starts::half_height;
 use crate::experiments::sweep::{self, laws};
 use crate::experiments::{BRANCHES, STARTS, TWO_MASSES, two_masses};
 use crate::params::{NEAR_SIMULTANEOUS, SLOW};
-use impact_chain::counts::SLOW_DECADES;
 
 /// Share of impacts that may be called negligible (ours).
 pub(super) const NEGLIGIBLE: f64 = 1e-3;

@@ -31,7 +31,8 @@ fn size(found: f64, s: &Statement) -> Result<Finding, Error> {
 /// Different impacts of a chain in the window, as Sec. 6 counts them.
 fn few_and_many(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
     let sweep = sweep::main(e.results)?;
-    let mean = |row: &impact_chain::rise::Row| Some((row.sigma, row.mean?.value, row.mean?.error?));
+    let mean =
+        |row: &crate::experiments::rise::Row| Some((row.sigma, row.mean?.value, row.mean?.error?));
     let (Some((low, few, error)), Some((high, many, many_error))) =
         (small(e)?.and_then(mean), sweep.first().rows.last().and_then(mean))
     else {

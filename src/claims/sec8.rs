@@ -6,11 +6,11 @@ use super::sec2;
 use super::sec8_chains::{no_impact, restitution_ensures, restitution_omitted, threshold_shift};
 use super::{Finding, open, rounding};
 use super::{Judgement, Statement, Text};
+use crate::experiments::rise::Counted;
 use crate::experiments::sweep;
 use crate::experiments::theory::beside::LARGE_SIGMA;
 use crate::experiments::{BRANCHES, PROTOCOL, RESTITUTION, STARTS, SWEEP};
 use crate::params::VERTICES;
-use impact_chain::rise::Counted;
 
 pub const ROWS: &[Row] = &[
     measured("sec8_expected_jump", OurMeasure, &[&SWEEP], expected_jump),

@@ -6,11 +6,11 @@ use super::{Finding, open};
 use super::{Judgement, Statement, Text};
 use crate::experiments::ensembles::named;
 use crate::experiments::protocol::range;
+use crate::experiments::rise::Curve;
 use crate::experiments::starts::{half_height, share_of_start};
 use crate::experiments::sweep;
 use crate::experiments::{BRANCHES, PROTOCOL, RESTITUTION, STARTS};
-use impact_chain::Protocol;
-use impact_chain::rise::Curve;
+use crate::params::Protocol;
 use impact_numerics::statistics::{Estimate, wilson};
 
 /// Eq. (20) in the simulation: a chain with random free parts that overlaps at its start, or has an

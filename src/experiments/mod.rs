@@ -2,6 +2,9 @@
 //! experiment that stands there is known to the whole program. How experiments are saved and cut is for
 //! [`literate::experiments`].
 
+// Parameters and results are what an experiment declares, and a vector is one of them.
+#![allow(clippy::ptr_arg)]
+
 pub mod accuracy;
 pub mod branches;
 pub mod ensembles;
@@ -24,6 +27,8 @@ pub mod two_masses;
 pub mod built;
 mod results;
 
+pub use impact_chain::counts::SLOW_DECADES;
+pub use impact_chain::rise;
 pub use literate::experiments::{
     Entry, Error, Experiment, Need, Progress, Store, alive, be_quiet, say,
 };

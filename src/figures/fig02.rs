@@ -4,7 +4,7 @@ use super::prelude::*;
 use super::simulated::{
     CROSSES, HEIGHTS, MAIN, count_axis, crosses, last_sigma, printed, rise, sigma_axis,
 };
-use impact_chain::rise::Counted;
+use crate::experiments::rise::Counted;
 
 pub fn draw(sweep: &Counted) -> Result<Figure, Error> {
     let sheet = Sheet::new(HEIGHTS.0 - 380);

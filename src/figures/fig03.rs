@@ -2,7 +2,7 @@
 
 use super::prelude::*;
 use super::simulated::{CROSS, CROSSES, count_axis, crosses, last_sigma, means, sigma_axis};
-use impact_chain::rise::{Counted, Row};
+use crate::experiments::rise::{Counted, Row};
 
 pub fn draw(sweep: &Counted) -> Result<Figure, Error> {
     let sheet = Sheet::new(7450);

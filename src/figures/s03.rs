@@ -4,8 +4,8 @@ use super::FORCING;
 use super::prelude::*;
 use super::simulated::count_axis;
 use crate::experiments::Results;
+use crate::experiments::rise::Counted;
 use crate::experiments::sweep;
-use impact_chain::rise::Counted;
 use literate::table::Table;
 
 /// The σ of (a).

@@ -3,8 +3,8 @@
 use super::FORCING;
 use super::prelude::*;
 use super::simulated::count_axis;
+use crate::experiments::rise::Counted;
 use crate::experiments::{RESTITUTION, Results};
-use impact_chain::rise::Counted;
 use literate::table::Table;
 
 /// Restitutions of (a), and their looks.

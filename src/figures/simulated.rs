@@ -2,8 +2,8 @@
 
 use super::FORCING;
 use super::prelude::*;
+use crate::experiments::rise::Counted;
 use crate::experiments::theory::beside;
-use impact_chain::rise::Counted;
 use literate::table::Table;
 
 /// Line of the simulation's marks.

@@ -2,9 +2,9 @@
 
 use super::contents::Error;
 use super::html::base64;
+use crate::experiments::rise::Mean;
 use crate::experiments::sweep;
 use crate::experiments::{REPLAY, Results};
-use impact_chain::rise::Mean;
 use serde_json::json;
 
 /// The file, from the module in WebAssembly and the script.

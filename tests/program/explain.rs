@@ -11,7 +11,7 @@ fn report() -> tempfile::TempDir {
 
 /// What is asked for, and parts of what is told.
 const CARDS: &str = "\
-sweep.rise.half_height => standard error; experiments::rise::find (src/experiments/rise.rs:; seed: 2007
+sweep.rise.half_height => standard error; impact_chain::rise::Curve::new (crates/impact-chain/src/rise.rs:; seed: 2007
 sweep.rise.half_height => chain masses: 100; sweep-rise.csv
 second_seed.rise.half_height => seed: 7002
 theory.jump.p_jump => reproduced
@@ -91,6 +91,6 @@ fn every_origin_is_a_function() {
     let means: Vec<&String> = values.keys().filter(means).collect();
     assert!(means.len() > 1, "{means:?}");
     for mean in means {
-        assert_eq!(values[mean]["source"], "experiments::sweep::reduce");
+        assert_eq!(values[mean]["source"], "impact_chain::rise::Row::new");
     }
 }

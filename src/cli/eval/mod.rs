@@ -4,7 +4,6 @@ mod inputs;
 mod quantity;
 
 use super::{Failure, stdout};
-use impact_circuits;
 use impact_paper::experiments::say;
 use inputs::Inputs;
 use quantity::{QUANTITIES, Quantity, Value};

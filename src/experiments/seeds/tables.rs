@@ -5,7 +5,6 @@ use super::fronts::{Fronts, Waits, beat};
 use super::growth::{GROUPS, Prediction, closing, predictions};
 use super::{ByDistance, Seeds, Trace};
 use crate::params::SeedsParams;
-use impact_circuits;
 use impact_circuits::distribution::{Law, SampleSpace};
 use impact_circuits::impact_probability::ImpactProbability;
 use impact_numerics::estimates::{average, share};

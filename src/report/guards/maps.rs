@@ -2,8 +2,8 @@
 
 use super::{Guard, Look, room, unless};
 use crate::claims;
+use crate::experiments::rise::Curve;
 use crate::experiments::{BRANCHES, PROTOCOL, branches, sweep};
-use impact_chain::rise::Curve;
 use impact_numerics::estimates::difference;
 use impact_numerics::statistics::Estimate;
 
