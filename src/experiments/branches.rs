@@ -129,9 +129,10 @@ fn lengths(found: &[Counted], both: &[Both<'_>]) -> Table {
 
 fn starts(found: &[Counted]) -> Table {
     let other = |own: &&Counted| ["random", "ring"].contains(&own.ensemble.name.as_str());
-    let rows: Vec<_> = found.iter().filter(other).collect();
-    let rows: Vec<(&Counted, &Curve)> =
-        rows.iter().flat_map(|own| own.curves.iter().map(move |curve| (*own, curve))).collect();
+    let mut rows: Vec<(&Counted, &Curve)> = Vec::new();
+    for own in found.iter().filter(other) {
+        rows.extend(own.curves.iter().map(|curve| (own, curve)));
+    }
     Table::of("branches.starts", &rows, |row| row.0.ensemble.realisations)
         .text_key("chain", |row| row.0.ensemble.name.clone())
         .key("transient", "1/omega", |row| row.1.protocol.transient)
@@ -155,24 +156,26 @@ fn all(found: &[Counted], both: &[Both<'_>]) -> Table {
         .chosen("heating", "1/omega", "for so long", |()| heated.map(|(_, own)| own.time))
         .computed_by(origin(exponent))
         .estimate("exponent", "1", "of T in the distance, from the first to the last", |()| {
-            exponent(both)
+            exponent(ends(both)?)
         })
         .computed_by(origin(logarithmic))
         .estimate("logarithmic", UNIT, "the last distance, if it fell like 1/ln T", |()| {
-            logarithmic(both)
+            logarithmic(ends(both)?)
         })
         .done()
 }
 
+/// A transient and the distance after it.
+type End = (f64, Estimate);
+
 /// The first transient and the last, each with its distance.
-fn ends(both: &[Both<'_>]) -> Option<[(f64, Estimate); 2]> {
+fn ends(both: &[Both<'_>]) -> Option<[End; 2]> {
     let end = |own: Option<&Both<'_>>| Some((own?.transient(), own?.distance()?));
     Some([end(both.first())?, end(both.last())?])
 }
 
 /// The exponent a of a distance that falls like T^−a from the first transient to the last.
-fn exponent(both: &[Both<'_>]) -> Option<Estimate> {
-    let [(early, first), (late, last)] = ends(both)?;
+fn exponent([(early, first), (late, last)]: [End; 2]) -> Option<Estimate> {
     let logarithm = pxfm::f_log(late / early);
     let [a, b] = [first, last].map(|own| own.error / own.value);
     let exponent = pxfm::f_log(first.value / last.value) / logarithm;
@@ -181,8 +184,23 @@ fn exponent(both: &[Both<'_>]) -> Option<Estimate> {
 }
 
 /// What would be left of the first distance after the last transient, if it fell like 1/ln T.
-fn logarithmic(both: &[Both<'_>]) -> Option<Estimate> {
-    let [(early, first), (late, _)] = ends(both)?;
+fn logarithmic([(early, first), (late, _)]: [End; 2]) -> Option<Estimate> {
     let factor = pxfm::f_log(early) / pxfm::f_log(late);
     Some(with_error(factor * first.value, factor * first.error))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn laws_of_a_distance_by_hand() {
+        let ends = [(1e2, with_error(0.04, 0.003)), (1e4, with_error(0.01, 0.001))];
+        let found = exponent(ends).unwrap();
+        // ln 4/ln 100 = log 2, and √(0.075² + 0.1²)/ln 100.
+        assert!((found.value - 0.301029995663981).abs() < 1e-14, "{found:?}");
+        assert!((found.error - 0.125 / 4.60517018598809).abs() < 1e-14, "{found:?}");
+        let left = logarithmic(ends).unwrap();
+        assert!((left.value - 0.02).abs() < 1e-15 && (left.error - 0.0015).abs() < 1e-15);
+    }
 }

@@ -19,7 +19,7 @@ const LENGTHS: [(Mark, Colour); 3] =
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let both = results.table("branches.half_heights")?;
-    let sheet = Sheet::new(5700);
+    let sheet = Sheet::new(6050);
     half_heights(&sheet, results, both)?;
     shares(&sheet, &branches::both(results.of(&crate::experiments::BRANCHES)?))?;
     Ok(sheet.finish("s04", "Chains from rest and from above", description(both)))
@@ -53,7 +53,7 @@ fn half_heights(sheet: &Sheet, results: &Results, both: &Table) -> Result<(), Er
     }
     entries.push(Entry::line(line, "the map, *n* = 100"));
     entries.push(Entry::line(bound, "bound from rest, *n* = 100"));
-    sheet.legend_in_columns((700, 4800), (SMALL, 330), (3, 2700), &entries)
+    sheet.legend_in_columns((1150, 4800), (SMALL, 340), (4, 3900), &entries)
 }
 
 /// Shares after the first transient and after the last.
