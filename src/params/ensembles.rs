@@ -125,7 +125,7 @@ pub fn branches(profile: Profile) -> Vec<Ensemble> {
             (20, REST, [105, 145, 20], 10, &[500.0]),
             (100, REST, [100, 140, 20], 2, &[500.0]),
             (200, REST, [80, 160, 20], 2, &[50.0, 500.0]),
-            (200, ABOVE, [40, 100, 20], 2, &[50.0, 500.0]),
+            (200, ABOVE, [20, 100, 20], 2, &[50.0, 500.0]),
         ],
     };
     let of = |&(masses, heating, [from, to, step], realisations, transients): &Case| {
