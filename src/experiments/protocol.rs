@@ -15,7 +15,7 @@ pub fn tables(found: &Vec<Counted>) -> Vec<Table> {
     let least = halves().min_by(|a, b| a.0.value.total_cmp(&b.0.value)).map(|(_, own)| own);
     let most = halves().max_by(|a, b| a.0.value.total_cmp(&b.0.value)).map(|(_, own)| own);
     let half = |own: Option<&Curve>| own.and_then(|own| own.rise.half_height);
-    let same = |own: Option<&Curve>| own.map(|own| address("protocol", own, "half_height"));
+    let same = |own: Option<&Curve>| own.map(|own| address(own, "half_height"));
     let all = Table::of("protocol.all", &[map], |own| own.ensemble.realisations)
         .count("realisations", "chains at each σ", |own| own.ensemble.realisations as u64)
         .count("sigmas", "values of σ", |own| own.ensemble.sigmas.len() as u64)
@@ -50,9 +50,9 @@ pub fn range(places: impl Iterator<Item = Option<Estimate>>) -> Option<Estimate>
 }
 
 /// The address of a number of a cell.
-pub fn address(experiment: &str, own: &Curve, column: &str) -> String {
+pub fn address(own: &Curve, column: &str) -> String {
     let Protocol { transient, window } = own.protocol;
-    format!("{experiment}.cells[transient={transient},window={window}].{column}")
+    format!("protocol.cells[transient={transient},window={window}].{column}")
 }
 
 /// A column: its name, what it is, and the place of a cell.

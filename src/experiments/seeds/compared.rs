@@ -42,7 +42,7 @@ pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
         .key("transient", "1/omega", |line| line.transient)
         .estimate("half_height", "d omega^2", "", |line| line.half_height)
         .same("half_height", |line| {
-            map.curve(line.transient, window).map(|own| address("protocol", own, "half_height_all"))
+            map.curve(line.transient, window).map(|own| address(own, "half_height_all"))
         })
         .real("eq25", "1", 2, OFF, |line| line.off("eq25"))
         .real("from_rest", "1", 2, OFF, |line| line.off("from_rest"))
