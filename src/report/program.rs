@@ -8,12 +8,7 @@ use literate::source::Program;
 /// This program.
 pub const PROGRAM: Program = Program {
     sources: include!(concat!(env!("OUT_DIR"), "/sources.rs")),
-    crates: &[
-        ("impact_paper::", ""),
-        ("impact_chain::", "impact_chain::"),
-        ("impact_circuits::", "impact_circuits::"),
-        ("impact_numerics::", "impact_numerics::"),
-    ],
+    crates: &[("impact_paper::", "")],
     quoted: &["impact_numerics::", "impact_chain::", "impact_circuits::"],
     recipe,
     judge: |claim| format!("claims::{}", claim.split('_').next().unwrap_or_default()),

@@ -39,7 +39,7 @@ mod tests {
         };
         assert_eq!(of("seed"), Some("2007"));
         assert_eq!(of("chain masses"), Some("100"));
-        assert_eq!(of("protocol transient"), Some("500"));
+        assert_eq!(of("protocols transient"), Some("500"));
         assert!(of("sigmas").unwrap().contains(" from 0.02 to 0.4"), "{:?}", of("sigmas"));
         for experiment in ALL {
             let recipe = super::recipe(experiment.name(), "full").unwrap();

@@ -20,7 +20,7 @@ use rand::RngExt;
 use std::{fs, sync::LazyLock, sync::mpsc::channel, time::Duration};
 
 const SCENARIO: &str = r#"{"restitution": 0.8, "boundary": "ring", "initial": {"free": [[0.1, 0], [0, 0.1]]},
-    "forcing_frequencies": [1.5, 2.5], "forcing": [[[1, 2], [3, 4]], [[5, 6], [7, 8]]]}"#;
+    "forcing_frequencies": [1.5, 2.5], "forcing": [[[0.1, 0.2], [0.3, 0.4]], [[0.5, 0.6], [0.7, 0.8]]]}"#;
 
 const PROSE: &str = r#"# A title
 

@@ -102,7 +102,9 @@ fn layers_named(line: &str, depth: usize) -> Vec<String> {
             None => named.push(word(rest)),
         }
     }
-    let crates = CRATES.iter().filter(|(name, _)| line.contains(&format!("{name}::")));
+    // A quoted name is no import.
+    let code = line.replace("\"impact_", "\"");
+    let crates = CRATES.iter().filter(|(name, _)| code.contains(&format!("{name}::")));
     named.extend(crates.map(|(_, layer)| (*layer).to_string()));
     let climb = "super::".repeat(depth);
     if let Some(i) = line.find(&climb).filter(|_| depth > 0) {

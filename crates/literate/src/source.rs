@@ -269,9 +269,28 @@ fn flatten(name: &str, value: &Json, into: &mut Vec<(String, String)>) {
                 flatten(&whole, value, into);
             }
         }
-        Json::Array(list) => into.push((name.into(), listed(list))),
+        Json::Array(list) => match merged(list) {
+            Some(one) => flatten(name, &one, into),
+            None => into.push((name.into(), listed(list))),
+        },
         scalar => into.push((name.into(), shown(scalar))),
     }
+}
+
+/// Several objects as one: a field in which they differ is the list of its values.
+fn merged(list: &[Json]) -> Option<Json> {
+    let all: Vec<_> = list.iter().map(Json::as_object).collect::<Option<_>>()?;
+    let of = |name: &String| {
+        let values = all.iter().filter_map(|own| own.get(name)).filter(|own| !own.is_null());
+        let values: Vec<Json> = values.cloned().collect();
+        let value = match values.as_slice() {
+            [] => Json::Null,
+            [first, others @ ..] if others.iter().all(|own| own == first) => first.clone(),
+            _ => merged(&values).unwrap_or(Json::Array(values)),
+        };
+        (name.clone(), value)
+    };
+    Some(Json::Object(all.first()?.keys().map(of).collect()))
 }
 
 fn listed(list: &[Json]) -> String {
