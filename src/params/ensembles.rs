@@ -110,14 +110,13 @@ pub fn branches(profile: Profile) -> Vec<Ensemble> {
             (100, REST, [100, 116, 8], 100, &[5e3]),
             (1000, REST, [95, 111, 8], 8, &[5e3]),
             (10_000, REST, [95, 111, 8], 1, &[5e3]),
-            (100, REST, [98, 114, 8], 30, &[5e4]),
-            (1000, REST, [92, 104, 6], 2, &[5e4]),
-            (2500, REST, [85, 130, 5], 4, &[500.0]),
-            (2500, ABOVE, [35, 100, 5], 4, &[500.0]),
-            (2500, REST, [85, 115, 5], 2, &[5e3]),
-            (2500, ABOVE, [70, 100, 5], 2, &[5e3]),
-            (2500, REST, [85, 105, 5], 1, late),
-            (2500, ABOVE, [75, 100, 5], 1, late),
+            (100, REST, [90, 114, 8], 20, &[5e4]),
+            (2000, REST, [85, 140, 5], 4, &[500.0]),
+            (2000, ABOVE, [35, 100, 5], 4, &[500.0]),
+            (2000, REST, [85, 120, 5], 2, &[5e3]),
+            (2000, ABOVE, [70, 100, 5], 2, &[5e3]),
+            (2000, REST, [85, 105, 5], 1, late),
+            (2000, ABOVE, [75, 100, 5], 1, late),
         ],
         Profile::Quick => &[
             (20, REST, [140, 180, 20], 10, &[50.0]),
@@ -132,17 +131,11 @@ pub fn branches(profile: Profile) -> Vec<Ensemble> {
         let start = if heating.is_some() { "above" } else { "rest" };
         // Of the paper's chain after the longest time a wider window too.
         let wide = transients == [5e4] && masses == 100;
-        let both = masses == 2500 || masses == 200;
+        let both = masses == 2000 || masses == 200;
         Ensemble {
             chain: Chain { masses, ..Chain::default() },
             heating,
             protocols: windows(transients, if wide { &[200.0, 2000.0] } else { &[200.0] }),
-            // There both branches have met before.
-            beyond: (transients == late).then_some(Beyond {
-                above: 0.1025,
-                realisations: None,
-                until: Some(50_200.0),
-            }),
             pieces: (masses / 250).max(1),
             stream: if both { "history" } else { "sizes" }.into(),
             ..paper(
