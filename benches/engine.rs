@@ -4,7 +4,7 @@
 
 use divan::Bencher;
 use divan::counter::ItemsCount;
-use impact_chain::{Engine, Scenario};
+use impact_chain::{Engine, Ensemble, Scenario};
 use impact_numerics::random::NormalPairs;
 use impact_paper::params::Chain;
 
@@ -32,4 +32,18 @@ fn impacts(bencher: Bencher, masses: usize) {
     let until = 70_000.0 / masses as f64;
     let count = run(&scenario, until);
     bencher.counter(ItemsCount::new(count)).bench(|| run(divan::black_box(&scenario), until));
+}
+
+/// A realisation of the main sweep at each σ, first by the bare engine, then as ensembles run and count it.
+#[divan::bench(args = [(0.16, false), (0.16, true), (0.3, false), (0.3, true)])]
+fn counted(bencher: Bencher, (sigma, counts): (f64, bool)) {
+    let ensemble = Ensemble { stream: "sweep".into(), ..Ensemble::default() };
+    let realisation = || ensemble.realisation(sigma, 0, || false).expect("the chain is allowed");
+    let mut normals = NormalPairs::new("sweep", 2007, 0);
+    let scenario = Scenario::draw(&ensemble.chain, sigma, &mut normals);
+    let bencher = bencher.counter(ItemsCount::new(realisation().total.impacts));
+    match counts {
+        true => bencher.bench(realisation),
+        false => bencher.bench(|| run(divan::black_box(&scenario), ensemble.until(sigma))),
+    }
 }

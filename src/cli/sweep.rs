@@ -151,7 +151,7 @@ fn ensemble(args: &Args) -> Result<Ensemble, Failure> {
     })
 }
 
-/// Bytes that a realisation leaves until its row is reduced: 1305 were measured, and pieces of threads are joined.
+/// Bytes that the counts of a realisation take until those of its σ are joined, as an upper bound.
 const OUTCOME: u128 = 2 << 10;
 
 /// Refuses an ensemble that is too large for the memory: each thread has a chain, and a few words for each of

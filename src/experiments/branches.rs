@@ -149,11 +149,11 @@ fn all(found: &[Counted], both: &[Both<'_>]) -> Table {
         .chosen("masses", "1", "masses of the chains of both branches", |()| {
             heated.map(|(own, _)| masses(own) as f64)
         })
-        .chosen("stretch", "1", "of so many masses, counted like a chain", |()| {
+        .chosen("stretch", "1", "masses of a stretch that is counted like a chain", |()| {
             heated.map(|(own, _)| (masses(own) / own.ensemble.pieces) as f64)
         })
         .chosen("hot", UNIT, "σ of the force at first", |()| heated.map(|(_, own)| own.sigma))
-        .chosen("heating", "1/omega", "for so long", |()| heated.map(|(_, own)| own.time))
+        .chosen("heating", "1/omega", "time under that force", |()| heated.map(|(_, own)| own.time))
         .computed_by(origin(exponent))
         .estimate("exponent", "1", "of T in the distance, from the first to the last", |()| {
             exponent(ends(both)?)

@@ -20,8 +20,14 @@ const SHARED: [&str; 8] = [
     "src/experiments/ensembles.rs",
 ];
 
-/// Ends of files that change no result: tables are made of results anew each time, and the others are words for people.
-const LEFT_OUT: [&str; 4] = ["tables.rs", "tests.rs", "progress.rs", "error.rs"];
+/// Files that change no result: words for people. Files of tables are left out too, since tables are made of results anew
+/// each time, and so is `src/experiments/mod.rs`, which only lists what is run.
+const LEFT_OUT: [&str; 2] =
+    ["crates/literate/src/experiments/progress.rs", "crates/literate/src/experiments/error.rs"];
+
+fn left_out(path: &str) -> bool {
+    LEFT_OUT.contains(&path) || path.starts_with("src/experiments/") && path.ends_with("tables.rs")
+}
 
 /// The code of an experiment of this program: its files and folders, that of its main item first.
 pub const fn code(own: &'static [&'static str]) -> Code {
@@ -34,7 +40,7 @@ fn made_of(own: &[&str]) -> BTreeMap<String, String> {
         let mut named = SHARED.iter().chain(own);
         named.any(|named| {
             path.strip_prefix(named).is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
-        }) && !LEFT_OUT.iter().any(|end| path.ends_with(end))
+        }) && !left_out(path)
     };
     let files = FILES.iter().filter(|(path, _)| within(path));
     files.map(|(path, hash)| ((*path).into(), (*hash).into())).collect()

@@ -53,7 +53,7 @@ pub fn run(parameters: &HorizonParams, progress: &Progress) -> Result<Horizon, E
     Ok(Horizon { parameters: parameters.clone(), twins })
 }
 
-/// What follows: means over the twins.
+/// Means over the twins.
 pub fn tables(found: &Horizon) -> Vec<Table> {
     let table = Table::of("horizon.twins", &[found], |own| own.twins.len())
         .computed_by(origin(run))

@@ -72,7 +72,7 @@ pub const ALL: &[Need] = &[
 /// Makes tables of the results of several experiments and of their own tables; none where one was not asked for.
 pub type Together = fn(&Results, &[Table]) -> Option<Vec<Table>>;
 
-/// What follows from several experiments together.
+/// Tables that need several experiments.
 pub const TOGETHER: [Together; 4] =
     [theory::beside::tables, sweep::of_both, seeds::compared::tables, starts::beside_theory];
 

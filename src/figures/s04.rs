@@ -58,7 +58,7 @@ fn half_heights(sheet: &Sheet, results: &Results, both: &Table) -> Result<(), Er
 
 /// Shares after the first transient and after the last.
 fn shares(sheet: &Sheet, both: &[Both<'_>]) -> Result<(), Error> {
-    let x = Axis::linear(0.03, 0.135, 0.02, 2, FORCING);
+    let x = Axis::linear(0.03, 0.145, 0.02, 2, FORCING);
     let y = Axis::linear(0.0, 1.0, 0.2, 2, "share of the gaps");
     let panel = sheet.lettered(LETTERS[1], Frame::new(5150, 430, 8250, 3930), x, y)?;
     let ends = [both.first(), both.last()].into_iter().flatten();

@@ -99,45 +99,46 @@ pub fn starts(profile: Profile) -> Vec<Ensemble> {
 pub fn branches(profile: Profile) -> Vec<Ensemble> {
     const REST: Option<Heating> = None;
     const ABOVE: Option<Heating> = Some(Heating { sigma: 0.2, time: 300.0 });
-    // Masses, start, σ in thousandths (first, last, step), realisations, transients.
-    type Case = (usize, Option<Heating>, [u32; 3], usize, &'static [f64]);
+    // Stream, masses, start, σ in thousandths (first, last, step), realisations, transients.
+    type Case = (&'static str, usize, Option<Heating>, [u32; 3], usize, &'static [f64]);
+    const LENGTH: &str = "sizes";
+    const BOTH: &str = "history";
     let late: &[f64] = &[5e4, 1e5];
     let cases: &[Case] = match profile {
         Profile::Full => &[
-            (100, REST, [80, 160, 10], 120, &[500.0]),
-            (1000, REST, [80, 150, 10], 8, &[500.0]),
-            (10_000, REST, [80, 150, 10], 2, &[500.0]),
-            (100, REST, [100, 116, 8], 100, &[5e3]),
-            (1000, REST, [95, 111, 8], 8, &[5e3]),
-            (10_000, REST, [95, 111, 8], 1, &[5e3]),
-            (100, REST, [90, 114, 8], 30, &[5e4]),
-            (2000, REST, [85, 140, 5], 4, &[500.0]),
-            (2000, ABOVE, [35, 100, 5], 4, &[500.0]),
-            (2000, REST, [85, 120, 5], 2, &[5e3]),
-            (2000, ABOVE, [70, 100, 5], 2, &[5e3]),
-            (2000, REST, [85, 105, 5], 1, late),
-            (2000, ABOVE, [75, 100, 5], 1, late),
+            (LENGTH, 100, REST, [80, 160, 10], 120, &[500.0]),
+            (LENGTH, 1000, REST, [80, 150, 10], 8, &[500.0]),
+            (LENGTH, 10_000, REST, [80, 150, 10], 2, &[500.0]),
+            (LENGTH, 100, REST, [100, 116, 8], 100, &[5e3]),
+            (LENGTH, 1000, REST, [95, 111, 8], 8, &[5e3]),
+            (LENGTH, 10_000, REST, [95, 111, 8], 1, &[5e3]),
+            (LENGTH, 100, REST, [90, 114, 8], 30, &[5e4]),
+            (BOTH, 2000, REST, [85, 140, 5], 4, &[500.0]),
+            (BOTH, 2000, ABOVE, [35, 100, 5], 4, &[500.0]),
+            (BOTH, 2000, REST, [85, 120, 5], 2, &[5e3]),
+            (BOTH, 2000, ABOVE, [70, 100, 5], 2, &[5e3]),
+            (BOTH, 2000, REST, [85, 105, 5], 1, late),
+            (BOTH, 2000, ABOVE, [75, 100, 5], 1, late),
         ],
         Profile::Quick => &[
-            (20, REST, [140, 180, 20], 10, &[50.0]),
-            (100, REST, [120, 160, 20], 2, &[50.0]),
-            (20, REST, [105, 145, 20], 10, &[500.0]),
-            (100, REST, [100, 140, 20], 2, &[500.0]),
-            (200, REST, [80, 160, 20], 2, &[50.0, 500.0]),
-            (200, ABOVE, [20, 100, 20], 2, &[50.0, 500.0]),
+            (LENGTH, 20, REST, [140, 180, 20], 10, &[50.0]),
+            (LENGTH, 100, REST, [120, 160, 20], 2, &[50.0]),
+            (LENGTH, 20, REST, [105, 145, 20], 10, &[500.0]),
+            (LENGTH, 100, REST, [100, 140, 20], 2, &[500.0]),
+            (BOTH, 200, REST, [80, 160, 20], 2, &[50.0, 500.0]),
+            (BOTH, 200, ABOVE, [20, 100, 20], 2, &[50.0, 500.0]),
         ],
     };
-    let of = |&(masses, heating, [from, to, step], realisations, transients): &Case| {
+    let of = |&(stream, masses, heating, [from, to, step], realisations, transients): &Case| {
         let start = if heating.is_some() { "above" } else { "rest" };
         // Of the paper's chain after the longest time a wider window too.
         let wide = transients == [5e4] && masses == 100;
-        let both = masses == 2000 || masses == 200;
         Ensemble {
             chain: Chain { masses, ..Chain::default() },
             heating,
             protocols: windows(transients, if wide { &[200.0, 2000.0] } else { &[200.0] }),
             pieces: (masses / 250).max(1),
-            stream: if both { "history" } else { "sizes" }.into(),
+            stream: stream.into(),
             ..paper(
                 &format!("{start}, n = {masses}, T = {}", transients[0]),
                 Grid::default().and(from, to, step as usize, 1000),

@@ -96,6 +96,7 @@ fn orbits_that_repeat_themselves_keep_their_times() {
         let period = first + first + rest;
         let free = parts.iter().map(|b| [0.0, *b]).collect();
         let scenario = Scenario { restitution: 1.0, ..given(free, vec![[0.0; 2]; parts.len()]) };
+        let last = if parts == [2.3] { 3e6 } else { 2e5 };
         let mut k = 0.0;
         let see = |impact: Impact| {
             let number = ((impact.time - first.near()) / period.near()).round();
@@ -107,10 +108,10 @@ fn orbits_that_repeat_themselves_keep_their_times() {
             let units = own / (f64::EPSILON * period.near() * (k + 1.0).sqrt());
             largest = largest.max(units);
             assert!(units < 20.0, "{amplitude} of {parts:?}: {units} at {impact:?}, {k}");
-            k < 200_000.0
+            k < last
         };
         Engine::new(&scenario).unwrap().run(1e9, see).unwrap();
-        assert_eq!(k, 200_000.0);
+        assert_eq!(k, last);
     }
     println!("times of repeating orbits: off by {largest:.1} √k last bits of the period");
 }

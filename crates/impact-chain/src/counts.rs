@@ -18,7 +18,7 @@ const LOOK_EVERY: u64 = 4096;
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Counts {
     /// Different gaps with an impact in each window, of each piece of each realisation; none if it did not run to the end of
-    /// the window.
+    /// the window, or the engine ended it early.
     pub distinct: Vec<Vec<Option<u32>>>,
     /// Impacts in each window, of each realisation.
     pub impacts: Vec<Vec<u64>>,

@@ -40,18 +40,18 @@ pub struct Heating {
 /// Beyond the rise all chains count nearly the same number of gaps, and each costs most: fewer or shorter runs do.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Beyond {
-    /// Above this σ ...
+    /// The σ above which runs are fewer or shorter, in units of d ω².
     pub above: f64,
-    /// ... so many realisations are run ...
+    /// Number of realisations there.
     pub realisations: Option<usize>,
-    /// ... to this time; windows that end later have no counts.
+    /// Time at which they end, in units of 1/ω; windows that end later have no counts.
     pub until: Option<f64>,
 }
 
 /// An ensemble. Realisation i has the same standard normals at every σ.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Ensemble {
-    /// What distinguishes it from others.
+    /// Its name among others.
     pub name: String,
     /// The chain, with its start.
     pub chain: Chain,
@@ -139,8 +139,14 @@ impl Ensemble {
 
     /// [`work`] of one realisation.
     pub fn work(&self, sigma: f64) -> u64 {
-        let heating = self.heating.map_or(0, |own| work(&self.chain, own.sigma, own.time));
-        heating + work(&self.chain, sigma, self.until(sigma))
+        let until = self.until(sigma);
+        match self.heating {
+            // From above the rise lies lower.
+            Some(Heating { sigma: hot, time }) => {
+                work(&self.chain, hot, time) + work(&self.chain, sigma + 0.03, until)
+            }
+            None => work(&self.chain, sigma, until),
+        }
     }
 
     /// Runs realisation `index` at a σ and counts; gives up where `stopped` says so, with counts that are then of no use.

@@ -98,9 +98,9 @@ pub struct Row {
     pub mode: Option<usize>,
     /// Bootstrap interval of the mode.
     pub mode_interval: Option<[usize; 2]>,
-    /// Impacts in the window: mean over realisations with at least one.
+    /// Impacts in the window of a whole chain: mean over realisations with at least one.
     pub impacts: Option<Mean>,
-    /// Masses that are hit in the window: mean over realisations with at least one.
+    /// Masses of a whole chain that are hit in the window: mean over realisations with at least one.
     pub masses: Option<Mean>,
     /// Contact phases begun in the window, of all realisations.
     pub phases: u64,

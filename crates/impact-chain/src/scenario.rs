@@ -453,19 +453,28 @@ impl Scenario {
     /// The scenario that goes on from a time at which all forces change by a factor: places and velocities stay, so the
     /// free parts, given as they are then, take what the forced parts lose.
     pub fn lowered(&self, free: &[[f64; 2]], time: f64, factor: f64) -> Scenario {
-        let (omega, big_omega) = (self.natural_frequency, self.forcing_frequency);
-        let lost = (1.0 - factor) / (omega * omega - big_omega * big_omega);
-        let mut now = self.later(free, time);
-        if let Initial::Free(parts) = &mut now.initial {
-            for ([a, b], force) in parts.iter_mut().zip(&now.forcing) {
+        let omega = self.natural_frequency;
+        let now = self.later(free, time);
+        let Initial::Free(mut parts) = now.initial.clone() else { return now };
+        for (big_omega, forces) in now.components() {
+            let lost = (1.0 - factor) / (omega * omega - big_omega * big_omega);
+            for ([a, b], force) in parts.iter_mut().zip(forces) {
                 *a += lost * force[0];
                 *b += lost * big_omega / omega * force[1];
             }
         }
-        for force in &mut now.forcing {
-            *force = force.map(|x| factor * x);
+        let lower =
+            |forces: &[[f64; 2]]| forces.iter().map(|own| own.map(|x| factor * x)).collect();
+        let overtone = |own: &Overtone| Overtone {
+            frequency: own.frequency,
+            amplitudes: lower(&own.amplitudes),
+        };
+        Scenario {
+            initial: Initial::Free(parts),
+            forcing: lower(&now.forcing),
+            overtones: now.overtones.iter().map(overtone).collect(),
+            ..now
         }
-        now
     }
 
     /// The components of the forcing: frequency, and amplitudes of each mass.
@@ -512,14 +521,18 @@ mod tests {
     fn places_and_velocities_go_on_when_the_force_is_lowered() {
         let chain = Chain { masses: 5, ..Chain::default() };
         let mut normals = NormalPairs::new("test of history", 1, 1);
-        let hot = Scenario::draw(&chain, 0.3, &mut normals);
+        let mut hot = Scenario::draw(&chain, 0.3, &mut normals);
+        let amplitudes = (0..5).map(|_| normals.pair()).collect();
+        hot.overtones = vec![Overtone { frequency: 2.3, amplitudes }];
         let free: Vec<[f64; 2]> = (0..5).map(|_| normals.pair()).collect();
         let (time, h) = (7.3, 1e-5);
         let place = |scenario: &Scenario, free: [f64; 2], j: usize, t: f64| {
-            let [alpha, beta] = scenario.forcing[j];
             let (sin, cos) = pxfm::f_sincos(t);
-            let (forced_sin, forced_cos) = pxfm::f_sincos(scenario.forcing_frequency * t);
-            free[0] * cos + free[1] * sin - alpha * forced_cos - beta * forced_sin
+            let forced = scenario.components().map(|(big_omega, forces)| {
+                let (sin, cos) = pxfm::f_sincos(big_omega * t);
+                (forces[j][0] * cos + forces[j][1] * sin) / (1.0 - big_omega * big_omega)
+            });
+            free[0] * cos + free[1] * sin + forced.sum::<f64>()
         };
         let after = hot.lowered(&free, time, 0.4);
         let Initial::Free(parts) = &after.initial else { panic!() };

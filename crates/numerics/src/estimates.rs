@@ -1,6 +1,6 @@
 //! Numbers with their errors and intervals, from samples and by the jackknife.
 
-use super::statistics::{Estimate, last_rise, mean, normal_quantile, standard_error};
+use super::statistics::{Estimate, mean, normal_quantile, standard_error};
 
 /// The level of intervals.
 pub const LEVEL: f64 = 0.95;
@@ -57,31 +57,6 @@ pub fn ratio(pairs: &[[f64; 2]]) -> Option<Estimate> {
     })
 }
 
-/// Where the mean rises through a height for good. `samples[i]` are those at `sigmas[i]`; member j has the same random
-/// numbers at each, and one can be left out at all of them together.
-pub fn rise(sigmas: &[f64], samples: &[Vec<f64>], height: f64, out: Option<usize>) -> Option<f64> {
-    let mean = |own: &Vec<f64>| {
-        let kept = own.iter().enumerate().filter(|(member, _)| Some(*member) != out);
-        let (n, sum) = kept.fold((0, 0.0), |(n, sum), (_, x)| (n + 1, sum + x));
-        (n > 0).then(|| sum / f64::from(n))
-    };
-    let means: Vec<Option<f64>> = samples.iter().map(mean).collect();
-    last_rise(sigmas, &means, height)
-}
-
-/// The same with its error.
-pub fn half_height(sigmas: &[f64], samples: &[Vec<f64>], height: f64) -> Option<Estimate> {
-    let members = samples.iter().map(Vec::len).min()?;
-    jackknife(members, |out| rise(sigmas, samples, height, out))
-}
-
-/// How far σ goes from one height of the mean to another.
-pub fn width(sigmas: &[f64], samples: &[Vec<f64>], [low, high]: [f64; 2]) -> Option<Estimate> {
-    let members = samples.iter().map(Vec::len).min()?;
-    let between = |out| Some(rise(sigmas, samples, high, out)? - rise(sigmas, samples, low, out)?);
-    jackknife(members, between)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -101,18 +76,5 @@ mod tests {
         let means = [2.5, 2.0, 1.5];
         let found = jackknife(3, |out| Some(out.map_or(2.0, |out| means[out]))).unwrap();
         assert!((found.error - (1.0_f64 / 3.0).sqrt()).abs() < 1e-15);
-    }
-
-    #[test]
-    fn a_half_height_by_hand() {
-        // Means 0, 2 and 4 rise through 1 at 1.5; without either run 0, 1, 4 and 0, 3, 4: at 2 and 4/3.
-        let counts = [vec![0.0, 0.0], vec![1.0, 3.0], vec![4.0, 4.0]];
-        let found = half_height(&[1.0, 2.0, 3.0], &counts, 1.0).unwrap();
-        assert_eq!(found.value, 1.5);
-        let half = 0.5 * (2.0 - 4.0 / 3.0);
-        assert!((found.error - half).abs() < 1e-15, "{found:?}");
-        assert_eq!(half_height(&[1.0, 2.0, 3.0], &counts, 5.0), None);
-        // From 1 to 3: at 1.5 and 2.5; without either run at 2 and 8/3, 4/3 and 2.
-        assert_eq!(width(&[1.0, 2.0, 3.0], &counts, [1.0, 3.0]).unwrap().value, 1.0);
     }
 }

@@ -39,7 +39,7 @@ pub fn of_second_seed(found: &Vec<Counted>) -> Vec<Table> {
     vec![run("second_seed.run", &found[0]), rise_table("second_seed.rise", &found[0])]
 }
 
-/// What follows from both.
+/// How far the two seeds lie apart.
 pub fn of_both(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
     let (first, second) = main(results).ok().zip(results.of(&SECOND_SEED).ok())?;
     let found = largest_between_seeds(first.first(), second[0].first());
@@ -82,7 +82,7 @@ fn run(name: &'static str, sweep: &Counted) -> Table {
         .done()
 }
 
-/// Each σ.
+/// Means and shares at each σ.
 fn rows(sweep: &Counted) -> Table {
     let estimate = |own: Option<Mean>| own?.estimate();
     Table::of("sweep.rows", &sweep.first().rows, |row| row.ran)

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
-/// No unit is meant to weigh more than this many impacts: half a second of one core ...
+/// No unit is meant to weigh more than this many impacts: a third of a second of one core, about ...
 const HEAVY: u64 = 1_000_000;
 
 /// ... unless an experiment had then more units than about this many: each has a file.

@@ -110,11 +110,6 @@ pub fn place(x: f64, digits: usize) -> i32 {
     leading.unwrap_or(0) - places as i32
 }
 
-/// A power of ten, as the literal is.
-pub fn ten_to(power: i32) -> f64 {
-    format!("1e{power}").parse().unwrap_or(f64::MIN_POSITIVE)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
