@@ -125,7 +125,7 @@ async function circuits(page, name, figure, { report, check }) {
     const words = await at(p);
     check(Math.abs(Number(words.match(/μ = ([\d.]+)\. /)?.[1]) / mean - 1) < 1e-3, `${name}: p = ${p}: ${words}, not ${mean}`);
   }
-  const [[, , , p_jump, k_after]] = table("jump");
+  const [[, , , , p_jump, k_after]] = table("jump");
   const sides = [await at(p_jump * (1 - 1e-12)), await at(p_jump * (1 + 1e-12))];
   check(sides[0].startsWith("k* = 1,") && sides[1].startsWith(`k* = ${k_after},`), `${name}: beside the jump: ${sides}`);
   await set("vertices N", "1000");
