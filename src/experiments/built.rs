@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 /// Path and hash of Cargo.lock and of every source file.
 const FILES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/fingerprint.rs"));
 
-/// What all experiments depend on. An experiment that uses the files of another one names them among its own.
+/// What all experiments depend on. An experiment that uses files of another one names them too.
 const SHARED: [&str; 8] = [
     "Cargo.lock",
     "crates/numerics/src",

@@ -52,7 +52,7 @@ pub fn run(parameters: &TwoMassesParams, progress: &Progress) -> Result<TwoMasse
     })
 }
 
-/// The bound, and how near to its own bound each direction has an impact.
+/// The bound, and how near to its bound each direction has an impact.
 pub fn tables(found: &TwoMasses) -> Vec<Table> {
     let bound = Table::of("two_masses.bound", &[found], |_| 0)
         .computed_by(origin(safe_force))

@@ -3,7 +3,7 @@
 //!
 //! The impact reflects the relative free part X = (a, b) of the two in the direction n = (−sin ωt, cos ωt) of their kick:
 //! X' = X − 2 n (n·X)/(n·n). In double-doubles this keeps |X| to 1e−31, whatever rounding did to n. And n is turned to the
-//! instant at which the motions close the gap, some 1e−16 beside the root that was found: so what the search rounds moves one
+//! instant at which the motions close the gap, some 1e−16 from the root that was found: so what the search rounds moves one
 //! impact, and none after it.
 
 use super::flight::Phases;

@@ -118,7 +118,7 @@ fn all(race: &Race) -> Table {
         .done()
 }
 
-/// One method at one σ beside the engine on the same chains.
+/// One method at one σ, and the engine on the same chains.
 pub struct Compared {
     /// The method.
     pub setting: Setting,
