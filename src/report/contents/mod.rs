@@ -10,8 +10,7 @@ mod accuracy;
 mod ledger;
 
 use super::claims::printed;
-use super::mark::Mark;
-use super::print::Style;
+use super::mark::framed;
 use super::values::{Origin, Registry, Value};
 use crate::claims::{self, Check, Published};
 use crate::experiments::Results;
@@ -74,7 +73,7 @@ pub fn rows(
 
 /// The value with this id, as a template writes it.
 fn mark(id: impl Into<String>) -> String {
-    Mark { id: id.into(), style: Style::default() }.write()
+    framed(&id.into(), "")
 }
 
 /// With the item that computed them, for all values of one place that do not name their own.

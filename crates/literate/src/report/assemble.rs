@@ -9,7 +9,7 @@ use super::documents::Document;
 use super::filler::Filler;
 use super::labels::Labels;
 use super::ledger::EquationEntry;
-use super::mark::Mark;
+use super::mark::ids;
 use super::origin::{Filled, Places};
 use super::uses::uses;
 use super::values::Registry;
@@ -113,10 +113,9 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
     let declared = lint::check(input.templates, input.program)?;
     skins(input.templates)?;
     let (mut values, mut filler, filled) = fill(input)?;
-    let marks: Vec<Mark> =
-        filled.iter().flat_map(|filled| Mark::split(&filled.text)).flatten().collect();
-    check_unused(&values, &marks)?;
-    values.keep_cells(marks.iter().map(|mark| mark.id.as_str()));
+    let used: BTreeSet<String> = filled.iter().flat_map(|filled| ids(&filled.text)).collect();
+    check_unused(&values, &used)?;
+    values.keep_cells(used.iter().map(String::as_str));
     values.shorten(input.program);
 
     let (parts, labels) = parts(input, &filled, &values)?;
@@ -288,11 +287,10 @@ fn data(file: &DataFile) -> (String, Vec<u8>) {
     (format!("data/{}", file.name), file.csv().into_bytes())
 }
 
-fn check_unused(values: &Registry, marks: &[Mark]) -> Result<(), Error> {
-    let used: BTreeSet<&str> = marks.iter().map(|mark| mark.id.as_str()).collect();
+fn check_unused(values: &Registry, used: &BTreeSet<String>) -> Result<(), Error> {
     let unused: Vec<&str> = values
         .iter()
-        .filter(|value| !value.for_data_only && !used.contains(value.id.as_str()))
+        .filter(|value| !value.for_data_only && !used.contains(&value.id))
         .map(|value| value.id.as_str())
         .collect();
     if unused.is_empty() { Ok(()) } else { Err(Error::Unused(unused.join(", "))) }

@@ -5,7 +5,7 @@
 //! markup only: numbers, words of references and digits of values are in the tree already.
 
 use super::documents::Document;
-use super::valued::bare;
+use super::mark::bare;
 use super::{Error, spell};
 
 /// A block of the report.
@@ -122,7 +122,7 @@ pub enum Inline {
     Strong(Vec<Inline>),
     /// Small and raised, as the number of a note: verdicts behind a statement.
     Raised(Vec<Inline>),
-    /// Mathematics in the line, as TeX; values in it are framed (see [`super::valued`]).
+    /// Mathematics in the line, as TeX; values in it are framed (see [`super::mark`]).
     Maths(String),
     /// A displayed equation, as TeX without its tag.
     Display {

@@ -14,9 +14,9 @@
 //! `«code(item="module::Type::method")»` is an item of the source, see [`Program::item`].
 
 use super::documents::Document;
-use super::mark::Mark;
+use super::mark;
 use super::origin::{Filled, marked, next_tag};
-use super::print::{Asked, MOST_DIGITS, Style};
+use super::print::MOST_DIGITS;
 use super::values::{Number, Registry, Value};
 use super::{Error, Templates, lint};
 use crate::input::{Bounded, line_and_column, plain};
@@ -263,8 +263,8 @@ fn raw(value: &Value) -> Json {
     }
 }
 
-fn mark(value: &Value) -> Json {
-    Mark { id: value.id.clone(), style: Style::default() }.write().into()
+fn marked_value(value: &Value) -> Json {
+    mark::framed(&value.id, "").into()
 }
 
 /// Puts something under a name with dots into a tree of objects.
@@ -279,7 +279,7 @@ fn context(values: &Registry, tables: &[&Table]) -> Context {
     for value in values.iter() {
         let name = &value.id;
         let group = if name.contains('.') { "" } else { "v." };
-        put(&mut marks, &format!("{group}{name}"), mark(value));
+        put(&mut marks, &format!("{group}{name}"), marked_value(value));
         put(&mut numbers, name, raw(value));
     }
     for table in tables {
@@ -292,7 +292,7 @@ fn context(values: &Registry, tables: &[&Table]) -> Context {
             // A table of one row without keys is that row.
             rows.remove("").unwrap_or_else(|| rows.into_iter().collect())
         };
-        put(&mut marks, table.name(), rows(mark));
+        put(&mut marks, table.name(), rows(marked_value));
         put(&mut numbers, table.name(), rows(raw));
         put(&mut keys, &format!("{}.rows", table.name()), table.rows().collect());
         for key in table.keys() {
@@ -318,28 +318,14 @@ fn digits(arguments: &Kwargs) -> tera::TeraResult<usize> {
 /// The filters on values; `literal` for a number that the prose may type with a reason; and `code`
 /// for an item of the source, which [`super::parse`] makes a listing.
 fn register(tera: &mut Tera, program: Program) {
-    type Change = fn(&mut Style, &Kwargs) -> tera::TeraResult<()>;
-    let changes: [(&str, Change); 3] = [
-        ("percent", |style, _| {
-            style.percent = true;
-            Ok(())
-        }),
-        ("no_error", |style, _| {
-            style.no_error = true;
-            Ok(())
-        }),
-        ("significant", |style, arguments| {
-            style.digits = Some(Asked::Significant(digits(arguments)?));
-            Ok(())
-        }),
-    ];
-    for (name, change) in changes {
+    for name in ["percent", "no_error", "significant"] {
         tera.register_filter(name, move |text: &str, arguments: Kwargs, _: &State| {
-            let mut mark = Mark::read(text).ok_or_else(|| {
-                tera::Error::message(format!("`{name}` is a filter of values such as v.p_crit"))
-            })?;
-            change(&mut mark.style, &arguments)?;
-            Ok::<_, tera::Error>(mark.write())
+            let word = match name {
+                "significant" => format!("{name}{}", digits(&arguments)?),
+                _ => name.to_string(),
+            };
+            let what = || format!("`{name}` is a filter of values such as v.p_crit");
+            mark::with(text, &word).ok_or_else(|| tera::Error::message(what()))
         });
     }
     tera.register_function("literal", |arguments: Kwargs, _: &State| {
@@ -363,6 +349,7 @@ fn register(tera: &mut Tera, program: Program) {
 #[cfg(test)]
 mod tests {
     use super::super::Value;
+    use super::super::mark::Piece;
     use super::*;
     use crate::source::TOY;
 
@@ -379,13 +366,11 @@ mod tests {
         let filled =
             fill(r"$x^{{2}}$ {% «v.p_crit» and «printed.rise | percent | significant(digits=1)»")
                 .unwrap();
-        let pieces = Mark::split(&filled);
-        assert_eq!(pieces.len(), 4);
-        assert_eq!(pieces[0], Err(r"$x^{{2}}$ {% "));
-        assert_eq!(pieces[1], Ok(Mark { id: "p_crit".into(), style: Style::default() }));
-        let style =
-            Style { percent: true, digits: Some(Asked::Significant(1)), ..Style::default() };
-        assert_eq!(pieces[3], Ok(Mark { id: "printed.rise".into(), style }));
+        let value = |id: &str, shown| Piece::Value { id: id.into(), shown };
+        let rise = value("printed.rise", " percent significant1");
+        let pieces =
+            [Piece::Text(r"$x^{{2}}$ {% "), value("p_crit", ""), Piece::Text(" and "), rise];
+        assert_eq!(mark::pieces(&filled), pieces);
     }
 
     #[test]

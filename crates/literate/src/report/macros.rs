@@ -6,7 +6,7 @@
 //! mathematics is held against a list of what is known there, to LaTeX with amsmath, and to math-core.
 
 use super::html::LONGEST;
-use super::valued::OPEN;
+use crate::input::is_no_text;
 
 /// Macros, by kind.
 const ALLOWED: &str = "
@@ -73,7 +73,7 @@ fn arguments(name: &str) -> usize {
 }
 
 /// The first macro with arguments of its own, or value, that stands, without brackets, where LaTeX takes one sign.
-/// Values are framed (see [`super::valued`]).
+/// Values are framed (see [`super::mark`]).
 pub fn ungrouped(tex: &str) -> Option<String> {
     // Longer formulas are refused as such.
     if tex.len() > LONGEST {
@@ -84,7 +84,7 @@ pub fn ungrouped(tex: &str) -> Option<String> {
         Some(name.chars().take_while(char::is_ascii_alphabetic).collect())
     };
     let wrong = |argument: &str| {
-        if argument.trim_start().starts_with(OPEN) {
+        if argument.trim_start().starts_with(is_no_text) {
             return Some("a value is an index or an argument here; put it into {…}".into());
         }
         let name = macro_of(argument.trim_start())?;
@@ -163,8 +163,8 @@ mod tests {
             (r"\frac{1} \left[ a \right]", r"\left is an argument"),
             (r"x^\overline{a}", r"\overline is"),
             (r"\Phi_ \sqrt{a}", r"\sqrt is"),
-            ("x^\u{e003}n\u{e004}12\u{e005}", "a value is"),
-            ("\\frac{1}\u{e003}n\u{e004}12\u{e005}", "a value is"),
+            ("x^\u{e000}n\u{e001}12\u{e002}", "a value is"),
+            ("\\frac{1}\u{e000}n\u{e001}12\u{e002}", "a value is"),
         ] {
             let told = refused(tex).or_else(|| ungrouped(tex)).unwrap_or_default();
             assert!(told.contains(name), "{tex}: {told}");

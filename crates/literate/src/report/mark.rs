@@ -1,92 +1,112 @@
-//! Places of values in filled text.
+//! Marks: where a value stands in text, in private-use characters, into which neither Tera nor Markdown reads anything.
+//!
+//! In filled prose a mark holds the id of a value and what filters ask of its digits; in the mathematics of a
+//! [`document`](super::document) it holds id and digits, so that a page can make a button of them. The place marks of
+//! [`super::origin`] are marks without an id.
 
 use super::print::{Asked, Style};
 
-/// The place of a value in filled text. Private-use characters frame it, so that neither Tera nor
-/// Markdown reads anything into it, and no prose can contain one by accident.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Mark {
-    /// Id of the value.
-    pub id: String,
-    /// What the filters asked for.
-    pub style: Style,
-}
-
 const OPEN: char = '\u{e000}';
-const CLOSE: char = '\u{e001}';
-const NEXT: char = '\u{e002}';
+const NEXT: char = '\u{e001}';
+const CLOSE: char = '\u{e002}';
 
 /// Brackets of an address, into which Markdown would read a link.
-const BRACKETS: [(&str, &str); 2] = [("[", "\u{e008}"), ("]", "\u{e009}")];
+const BRACKETS: [(&str, &str); 2] = [("[", "\u{e003}"), ("]", "\u{e004}")];
+
+/// A piece of text with marks.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Piece<'a> {
+    /// Text between marks.
+    Text(&'a str),
+    /// A value.
+    Value {
+        /// Its id.
+        id: String,
+        /// Its digits as TeX, or in filled prose the words of its filters.
+        shown: &'a str,
+    },
+}
+
+/// A mark with an id and what is shown.
+pub fn framed(id: &str, shown: &str) -> String {
+    let id = BRACKETS.iter().fold(id.to_string(), |id, (own, kept)| id.replace(own, kept));
+    format!("{OPEN}{id}{NEXT}{shown}{CLOSE}")
+}
+
+/// Cuts text at its marks.
+pub fn pieces(text: &str) -> Vec<Piece<'_>> {
+    let mut out = Vec::new();
+    let mut rest = text;
+    while let Some((before, mark)) = rest.split_once(OPEN) {
+        let Some((mark, after)) = mark.split_once(CLOSE) else { break };
+        let Some((id, shown)) = mark.split_once(NEXT) else { break };
+        let id = BRACKETS.iter().fold(id.to_string(), |id, (own, kept)| id.replace(kept, own));
+        out.extend((!before.is_empty()).then_some(Piece::Text(before)));
+        out.push(Piece::Value { id, shown });
+        rest = after;
+    }
+    out.extend((!rest.is_empty()).then_some(Piece::Text(rest)));
+    out
+}
+
+/// Text with what its marks show, and without them.
+pub fn bare(text: &str) -> String {
+    let shown = |piece| match piece {
+        Piece::Text(text) | Piece::Value { shown: text, .. } => text,
+    };
+    pieces(text).into_iter().map(shown).collect()
+}
+
+/// Ids of the values in a text.
+pub fn ids(text: &str) -> impl Iterator<Item = String> + '_ {
+    pieces(text).into_iter().filter_map(|piece| match piece {
+        Piece::Value { id, .. } => Some(id),
+        Piece::Text(_) => None,
+    })
+}
+
+/// The mark of a value with one more word of a filter; none for other text.
+pub fn with(mark: &str, word: &str) -> Option<String> {
+    match pieces(mark).as_slice() {
+        [Piece::Value { id, shown }] => Some(framed(id, &format!("{shown} {word}"))),
+        _ => None,
+    }
+}
+
+/// What the words of filters ask for: `percent`, `no_error`, `significant3`.
+pub fn style(words: &str) -> Style {
+    let mut style = Style::default();
+    for word in words.split_whitespace() {
+        match word.strip_prefix("significant") {
+            Some(digits) => style.digits = digits.parse().ok().map(Asked::Significant),
+            None => {
+                style.percent |= word == "percent";
+                style.no_error |= word == "no_error";
+            }
+        }
+    }
+    style
+}
 
 /// Does a mark end with this character?
 pub fn ends(c: char) -> bool {
     c == CLOSE
 }
 
-/// Is there a part of a mark in what is none?
-pub fn is_cut(text: &str) -> bool {
-    text.contains([OPEN, CLOSE])
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-impl Mark {
-    /// The mark as text.
-    pub fn write(&self) -> String {
-        let id = BRACKETS.iter().fold(self.id.clone(), |id, (own, kept)| id.replace(own, kept));
-        let mut out = format!("{OPEN}{id}");
-        let mut flag = |text: String| {
-            out.push(NEXT);
-            out.push_str(&text);
-        };
-        if self.style.percent {
-            flag("percent".into());
-        }
-        if let Some(Asked::Significant(n)) = self.style.digits {
-            flag(format!("significant{n}"));
-        }
-        if self.style.no_error {
-            flag("noerror".into());
-        }
-        out.push(CLOSE);
-        out
-    }
-
-    /// Reads what [`Mark::write`] wrote; None for anything else.
-    pub fn read(text: &str) -> Option<Mark> {
-        let inner = text.strip_prefix(OPEN)?.strip_suffix(CLOSE)?;
-        let mut parts = inner.split(NEXT);
-        let id = parts.next()?.to_string();
-        let id = BRACKETS.iter().fold(id, |id, (own, kept)| id.replace(kept, own));
-        let mut style = Style::default();
-        for flag in parts {
-            match flag {
-                "percent" => style.percent = true,
-                "noerror" => style.no_error = true,
-                _ => {
-                    let digits = flag.strip_prefix("significant")?.parse().ok()?;
-                    style.digits = Some(Asked::Significant(digits));
-                }
-            }
-        }
-        (!id.contains(OPEN)).then_some(Mark { id, style })
-    }
-
-    /// Cuts text at its marks: Ok is a mark, Err is text between marks.
-    pub fn split(text: &str) -> Vec<Result<Mark, &str>> {
-        let mut pieces = Vec::new();
-        let mut rest = text;
-        while let Some(start) = rest.find(OPEN) {
-            let Some(length) = rest[start..].find(CLOSE) else { break };
-            let end = start + length + CLOSE.len_utf8();
-            if start > 0 {
-                pieces.push(Err(&rest[..start]));
-            }
-            pieces.push(Mark::read(&rest[start..end]).ok_or(&rest[start..end]));
-            rest = &rest[end..];
-        }
-        if !rest.is_empty() {
-            pieces.push(Err(rest));
-        }
-        pieces
+    #[test]
+    fn marks_come_off() {
+        let [half, k] = [framed("rows[x=1].half", "0.1165(4)"), framed("k", "3")];
+        let tex = format!(r"\sigma = {half}, k = {k}");
+        assert_eq!(bare(&tex), r"\sigma = 0.1165(4), k = 3");
+        assert_eq!(ids(&tex).collect::<Vec<_>>(), ["rows[x=1].half", "k"]);
+        let filtered = with(&with(&k, "percent").unwrap(), "significant2").unwrap();
+        let Some(Piece::Value { shown, .. }) = pieces(&filtered).pop() else { panic!() };
+        let digits = Some(Asked::Significant(2));
+        assert_eq!(style(shown), Style { percent: true, digits, no_error: false });
+        assert_eq!(with("x", "percent"), None);
     }
 }

@@ -6,7 +6,7 @@
 //! follows a closing `$` without a space (`$n$-th`) moves inside.
 
 use super::document::{Align, Block, Inline};
-use super::valued::bare;
+use super::mark::bare;
 
 /// Writes report.md.
 pub fn write(blocks: &[Block]) -> String {

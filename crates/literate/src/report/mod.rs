@@ -32,7 +32,6 @@ mod tags;
 pub mod templates;
 mod tex;
 mod uses;
-pub mod valued;
 pub mod values;
 
 pub use assemble::{Files, Input, LAB, Report, assemble, files_of};

@@ -1,7 +1,7 @@
 //! Characters for pdflatex: what is special is escaped, what is not ASCII is named.
 
 use super::Error;
-use super::valued::bare;
+use super::mark::bare;
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 

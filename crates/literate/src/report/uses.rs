@@ -5,7 +5,7 @@
 //! prose names claim and value in one paragraph.
 
 use super::document::{Block, Inline, visit};
-use super::valued::{Piece, pieces};
+use super::mark::ids;
 use super::values::{Number, Registry};
 use crate::claims::{Check, Text};
 use std::collections::{BTreeMap, BTreeSet};
@@ -61,10 +61,7 @@ fn together(documents: &[&[Block]]) -> BTreeMap<String, BTreeSet<String>> {
                 values.insert(id.clone());
             }
             Inline::Maths(tex) | Inline::Display { tex, .. } => {
-                values.extend(pieces(tex).into_iter().filter_map(|piece| match piece {
-                    Piece::Value { id, .. } => Some(id.to_string()),
-                    Piece::Tex(_) => None,
-                }));
+                values.extend(ids(tex));
             }
             _ => {}
         });

@@ -2,7 +2,7 @@
 
 use super::{Page, escape, lines};
 use crate::report::Error;
-use crate::report::valued::{Piece, bare, pieces};
+use crate::report::mark::{Piece, bare, pieces};
 use math_core::{LatexToMathML, MathCoreConfig, MathDisplay};
 use std::panic::catch_unwind;
 use std::sync::LazyLock;
@@ -59,12 +59,12 @@ fn parts(page: &Page<'_>, tex: &str) -> Result<Vec<Part>, Error> {
     let (mut part, mut depth) = (String::new(), 0);
     for piece in pieces(tex) {
         match piece {
-            Piece::Tex(text) => {
+            Piece::Text(text) => {
                 depth += braces(text);
                 part.push_str(text);
             }
-            Piece::Value { digits, .. } if depth != 0 => part.push_str(digits),
-            Piece::Value { id, digits: tex } => {
+            Piece::Value { shown, .. } if depth != 0 => part.push_str(shown),
+            Piece::Value { id, shown } => {
                 if !part.trim().is_empty() {
                     // The empty group keeps the space of a relation at the cut.
                     out.push(Part::Tex(format!("{part}{{}}")));
@@ -72,7 +72,7 @@ fn parts(page: &Page<'_>, tex: &str) -> Result<Vec<Part>, Error> {
                 // A relation keeps its distance, a bracket has none.
                 let close = part.trim().is_empty() || part.trim_end().ends_with(['(', '[']);
                 let blank = if close { "" } else { "\u{2009}" };
-                out.push(Part::Button(blank.to_string() + &page.button(id, &digits(tex)?)));
+                out.push(Part::Button(blank.to_string() + &page.button(&id, &digits(shown)?)));
                 part = String::from("{}");
             }
         }

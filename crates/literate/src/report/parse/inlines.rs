@@ -4,9 +4,8 @@ use super::super::captions::{picture, refuse_pictures};
 use super::super::card::words_and_maths;
 use super::super::document::{Inline, plain};
 use super::super::labels::of_kind;
-use super::super::mark::{self, Mark};
+use super::super::mark::{self, Piece, bare, framed, pieces};
 use super::super::print::print;
-use super::super::valued::{bare, framed};
 use super::super::{Error, html, macros, tex};
 use super::written::{comment, markup, own_link};
 use super::{Reader, is_block, leftover};
@@ -171,15 +170,15 @@ impl Reader<'_> {
 
     /// Text with marks → words and values.
     fn text(&self, text: &str, out: &mut Vec<Inline>) -> Result<(), Error> {
-        for piece in Mark::split(text) {
+        for piece in pieces(text) {
             match piece {
-                Err(words) => match (whole(words)?, out.last_mut()) {
+                Piece::Text(words) => match (whole(words)?, out.last_mut()) {
                     (words, Some(Inline::Text(before))) => before.push_str(words),
                     (words, _) => out.push(Inline::Text(words.to_string())),
                 },
-                Ok(mark) => {
-                    let shown = words_and_maths(&self.shown(&mark, Target::Prose)?);
-                    out.push(Inline::Value { id: mark.id, shown });
+                Piece::Value { id, shown } => {
+                    let shown = words_and_maths(&self.shown(&id, shown, Target::Prose)?);
+                    out.push(Inline::Value { id, shown });
                 }
             }
         }
@@ -224,19 +223,19 @@ impl Reader<'_> {
 
     fn replaced(&self, text: &str, target: Target) -> Result<String, Error> {
         let one = |piece| match piece {
-            Ok(mark) => self.shown(&mark, target),
-            Err(text) => whole(text).map(str::to_string),
+            Piece::Value { id, shown } => self.shown(&id, shown, target),
+            Piece::Text(text) => whole(text).map(str::to_string),
         };
-        Mark::split(text).into_iter().map(one).collect()
+        pieces(text).into_iter().map(one).collect()
     }
 
-    fn shown(&self, mark: &Mark, target: Target) -> Result<String, Error> {
-        let unknown = || Error::Template(format!("there is no value {}", mark.id));
-        let value = self.values.get(&mark.id).ok_or_else(unknown)?;
-        let printed = print(&value.number, mark.style);
+    fn shown(&self, id: &str, words: &str, target: Target) -> Result<String, Error> {
+        let unknown = || Error::Template(format!("there is no value {id}"));
+        let value = self.values.get(id).ok_or_else(unknown)?;
+        let printed = print(&value.number, mark::style(words));
         Ok(match target {
             Target::Prose => printed.markdown(),
-            Target::Maths => framed(&mark.id, &printed.maths()),
+            Target::Maths => framed(id, &printed.maths()),
             Target::Plain => printed.plain(),
         })
     }
@@ -244,7 +243,7 @@ impl Reader<'_> {
 
 /// Text without a part of a value.
 fn whole(text: &str) -> Result<&str, Error> {
-    match mark::is_cut(text) {
+    match text.contains(is_no_text) {
         true => Err(Error::Template("a filter has cut a value; print it whole".into())),
         false => Ok(text),
     }
