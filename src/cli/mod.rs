@@ -4,8 +4,6 @@ mod check;
 mod diff;
 mod eval;
 mod explain;
-mod method;
-mod number;
 mod paper;
 mod run;
 mod sigmas;
@@ -52,6 +50,19 @@ struct Cli {
 const TEMPLATE: &str =
     "{about}\n\n{usage-heading} {usage}\n\n{before-help}Options:\n{options}{after-help}";
 
+/// A reader of numbers in a range, both ends among them.
+fn within(
+    low: f64,
+    high: f64,
+) -> impl Fn(&str) -> Result<f64, String> + Clone + Send + Sync + 'static {
+    move |text| {
+        let range = || format!("give a number from {low:?} to {high:?}");
+        let number = text.trim().parse::<f64>().map_err(|_| range())?;
+        // A negative zero would be printed as one.
+        (low..=high).contains(&number).then_some(number + 0.0).ok_or_else(range)
+    }
+}
+
 /// Who uses which verb.
 const GROUPS: [(&str, &[&str]); 3] = [
     ("Make and check", &["paper", "check", "verify", "diff", "run"]),
@@ -61,7 +72,7 @@ const GROUPS: [(&str, &[&str]); 3] = [
 
 /// The command line, with its verbs in groups.
 fn command() -> clap::Command {
-    let command = number::of_all(Cli::command());
+    let command = Cli::command();
     let line = |name: &&str| {
         let about = command.find_subcommand(name).and_then(clap::Command::get_about);
         let about = about.map(ToString::to_string).unwrap_or_default();

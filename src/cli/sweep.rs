@@ -1,18 +1,18 @@
 //! `impact-paper sweep`.
 
-use super::{Failure, memory, sigmas, signals, stdout, threads};
+use super::{Failure, memory, sigmas, signals, stdout, threads, within};
 use impact_chain::counts::{NEAR_DECADES, SLOW_DECADES};
 use impact_chain::rise;
 use impact_chain::search::clock::LATEST;
 use impact_chain::{Boundary, Chain, Counts, Engine, Ensemble, Protocol, Start};
-use impact_paper::experiments::{Error, Progress};
+use impact_paper::experiments::ensembles::CUTTING;
+use impact_paper::experiments::{Progress, say};
 use impact_paper::params::SEED;
-use literate::input::one_line;
-use rayon::prelude::*;
+use literate::experiments::cutting::Cutting;
 use serde::Serialize;
 use std::io::{self, Write};
 
-/// Runs an ensemble of random chains at each σ and prints one row for each σ.
+/// Runs an ensemble of random chains at each σ and prints a row for each σ.
 ///
 /// A row counts the distinct gaps that impact in the window (T, T + W]; realisations without any
 /// are not kept. Realisation i has the same standard normals at every σ. Rows come together at the
@@ -21,60 +21,49 @@ use std::io::{self, Write};
 #[derive(clap::Args)]
 pub struct Args {
     /// Standard deviations: a list 0.1,0.12 or a range A..B:STEP (B included when hit).
-    #[arg(long, value_name = "A..B:STEP|LIST", allow_hyphen_values = true)]
-    sigma: String,
+    #[arg(long, value_name = "A..B:STEP|LIST", allow_hyphen_values = true, value_parser = sigmas::parse)]
+    sigma: Sigmas,
     /// Number of masses n.
-    #[arg(long, value_name = "n", default_value_t = 100, allow_hyphen_values = true)]
+    #[arg(long, value_name = "n", default_value_t = 100, value_parser = at_least_one)]
     masses: usize,
     /// Realisations at each σ.
-    #[arg(long, value_name = "R", default_value_t = 1000, allow_hyphen_values = true)]
+    #[arg(long, value_name = "R", default_value_t = 1000, value_parser = at_least_one)]
     realisations: usize,
     /// Transient T that is dropped, in units of 1/ω.
-    #[arg(long, value_name = "T", default_value_t = 500.0, allow_hyphen_values = true)]
+    #[arg(long, value_name = "T", default_value = "500", value_parser = within(0.0, LATEST), allow_hyphen_values = true)]
     transient: f64,
     /// Window W in which impacts are counted, in units of 1/ω.
-    #[arg(long, value_name = "W", default_value_t = 200.0, allow_hyphen_values = true)]
+    #[arg(long, value_name = "W", default_value = "200", value_parser = within(1e-3, LATEST), allow_hyphen_values = true)]
     window: f64,
-    /// Coefficient of restitution r, from 0 to 1.
-    #[arg(long, value_name = "r", default_value_t = 0.8, allow_hyphen_values = true)]
+    /// Coefficient of restitution r.
+    #[arg(long, value_name = "r", default_value = "0.8", value_parser = within(0.0, 1.0), allow_hyphen_values = true)]
     restitution: f64,
     /// How a realisation starts: at rest, without free part, or with a random one.
-    #[arg(long, value_name = "START", default_value = "rest")]
-    initial: Initial,
+    #[arg(long, value_name = "START", default_value = "rest", value_parser = ["rest", "zero", "random"])]
+    initial: String,
     /// What stands at the ends.
-    #[arg(long, value_name = "BOUNDARY", default_value = "walls")]
-    boundary: Ends,
+    #[arg(long, value_name = "BOUNDARY", default_value = "walls", value_parser = ["walls", "ring"])]
+    boundary: String,
     /// Master seed of the random streams.
-    #[arg(long, value_name = "S", default_value_t = SEED, allow_hyphen_values = true)]
+    #[arg(long, value_name = "S", default_value_t = SEED)]
     seed: u64,
     /// Number of threads; all cores without it. It changes no bit of the result.
-    #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = threads::read)]
+    #[arg(long, value_name = "K", value_parser = threads::read)]
     threads: Option<usize>,
     /// Form of the table.
-    #[arg(long, default_value = "csv")]
-    format: Format,
+    #[arg(long, default_value = "csv", value_parser = ["csv", "json"])]
+    format: String,
 }
 
-#[derive(Clone, Copy, clap::ValueEnum)]
-enum Initial {
-    Rest,
-    Zero,
-    Random,
+/// A list of σ, which is one value of the command line.
+type Sigmas = std::sync::Arc<[f64]>;
+
+fn at_least_one(text: &str) -> Result<usize, String> {
+    let number: Option<usize> = text.parse().ok();
+    number.filter(|&n| n > 0).ok_or_else(|| "give a whole number, 1 or more".into())
 }
 
-#[derive(Clone, Copy, clap::ValueEnum)]
-enum Ends {
-    Walls,
-    Ring,
-}
-
-#[derive(Clone, Copy, clap::ValueEnum)]
-enum Format {
-    Csv,
-    Json,
-}
-
-/// One printed row; the names are the columns.
+/// A printed row; the names are the columns.
 #[derive(Debug, Serialize)]
 struct Row {
     sigma: f64,
@@ -92,145 +81,104 @@ struct Row {
 }
 
 pub fn run(args: Args) -> Result<(), Failure> {
-    let ensemble = ensemble(&args)?;
-    fits(&args)?;
-    let progress = signals::progress();
-    let rows = threads::run(args.threads, || rows(&ensemble, &progress))?;
-    stdout::written(write(&rows, args.format))
-}
-
-/// Checks what the engine cannot check.
-fn ensemble(args: &Args) -> Result<Ensemble, Failure> {
-    let sigmas = sigmas::parse(&args.sigma).map_err(|e| Failure::input(one_line(&e, 500)))?;
-    let at_least_one = |name: &str, value: usize| {
-        let message = format!("--{name}: 0 is not allowed; give 1 or more");
-        if value == 0 { Err(Failure::input(message)) } else { Ok(()) }
-    };
-    at_least_one("masses", args.masses)?;
-    at_least_one("realisations", args.realisations)?;
-    if args.transient.is_nan() || args.transient < 0.0 {
-        let message = format!("--transient: {:?} is not allowed; give 0 or more", args.transient);
-        return Err(Failure::input(message));
-    }
-    // A window that is lost in the rounding of T has no impact in it.
-    if !args.window.is_finite() || args.window < 1e-3 {
-        let message = format!("--window: {:?} is not allowed; give 0.001 or more", args.window);
-        return Err(Failure::input(message));
-    }
-    if args.transient + args.window > LATEST {
-        let message = "--transient, --window: they end after t = 1e12; give shorter ones";
-        return Err(Failure::input(message));
-    }
-    if !(0.0..=1.0).contains(&args.restitution) {
-        let message =
-            format!("--restitution: {:?} is not in [0, 1]; give e.g. 0.8", args.restitution);
-        return Err(Failure::input(message));
-    }
-    Ok(Ensemble {
-        name: "sweep".into(),
-        chain: Chain {
-            masses: args.masses,
-            restitution: args.restitution,
-            boundary: match args.boundary {
-                Ends::Walls => Boundary::Walls,
-                Ends::Ring => Boundary::Ring,
-            },
-            start: match args.initial {
-                Initial::Rest => Start::Rest,
-                Initial::Zero => Start::Zero,
-                Initial::Random => Start::Random,
-            },
-            ..Chain::default()
+    let chain = Chain {
+        masses: args.masses,
+        restitution: args.restitution,
+        boundary: if args.boundary == "ring" { Boundary::Ring } else { Boundary::Walls },
+        start: match args.initial.as_str() {
+            "zero" => Start::Zero,
+            "random" => Start::Random,
+            _ => Start::Rest,
         },
+        ..Chain::default()
+    };
+    let ensemble = Ensemble {
+        name: "sweep".into(),
+        chain,
         protocols: vec![Protocol { transient: args.transient, window: args.window }],
-        sigmas,
+        sigmas: args.sigma.to_vec(),
         realisations: args.realisations,
         stream: "sweep".into(),
         seed: args.seed,
         ..Ensemble::default()
-    })
-}
-
-/// Bytes that the counts of a realisation take until those of its σ are joined, as an upper bound.
-const OUTCOME: u128 = 2 << 10;
-
-/// Refuses an ensemble that is too large for the memory: each thread has a chain, and a few words for each of
-/// its gaps besides.
-fn fits(args: &Args) -> Result<(), Failure> {
+    };
+    // Each thread has a chain, and a few words for each of its gaps; each realisation leaves its counts.
     let threads = args.threads.unwrap_or_else(threads::cores) as u128;
     let chain = Engine::memory(args.masses, 1) + 64 * args.masses as u128;
-    let needed = threads * chain + OUTCOME * args.realisations as u128;
-    memory::fits(needed, "--masses, --realisations", "give fewer")
+    let needed = threads * chain + (1 << 10) * args.realisations as u128;
+    memory::fits(needed, "--masses, --realisations", "give fewer")?;
+    if args.transient + args.window > LATEST {
+        return Err(Failure::input(
+            "--transient, --window: they end after t = 1e12; give shorter ones",
+        ));
+    }
+    let progress = signals::progress();
+    let rows = threads::run(args.threads, || rows(ensemble, &progress))?;
+    let out = io::BufWriter::new(io::stdout().lock());
+    stdout::written(if args.format == "json" { json(&rows, out) } else { csv(&rows, out) })
 }
 
-/// Runs σ after σ.
-fn rows(ensemble: &Ensemble, progress: &Progress) -> Result<Vec<Row>, Failure> {
-    let work = |&sigma: &f64| ensemble.work(sigma).saturating_mul(ensemble.realisations as u64);
-    let stage =
-        progress.stage("sweep", ensemble.sigmas.iter().map(work).fold(0, u64::saturating_add));
-    let mut rows = Vec::with_capacity(ensemble.sigmas.len());
-    for &sigma in &ensemble.sigmas {
-        let one = |index| {
-            progress.check()?;
-            let counts = ensemble.realisation(sigma, index as u64, || progress.stopped());
-            stage.advance(ensemble.work(sigma));
-            progress.check()?;
-            counts.map_err(|source| Error::failed("sweep", source))
-        };
-        let counts: Result<Vec<Counts>, Error> =
-            (0..ensemble.realisations).into_par_iter().with_max_len(1).map(one).collect();
-        let counts: Counts = counts?.into_iter().collect();
-        let (of, all) = (counts.rejected, ensemble.realisations);
-        if let Some(first) = &counts.first_failure {
-            stage.say(&format!(
-                "impact-paper: sigma {sigma:?}: {} of {all} realisations ended early and are in no \
-                 mean; the first: {first}",
-                counts.failed
-            ));
-        }
-        if of as f64 > ensemble.most_rejected * all as f64 {
-            stage.say(&format!(
-                "impact-paper: sigma {sigma:?}: {of} of {all} starts overlapped and were rejected; the \
-                 row is not comparable with others"
-            ));
-        }
-        let row = rise::Row::new(sigma, &counts, 0, ensemble.chain.gaps(), [None; 2]);
-        let total = &counts.total;
-        rows.push(Row {
-            sigma,
-            realisations: all,
-            kept: row.kept,
-            rejected: of,
-            mean_distinct: row.mean.map(|mean| mean.value),
-            standard_error: row.mean.and_then(|mean| mean.error),
-            mode_distinct: row.mode,
-            impacts_per_time: row.impacts.map(|mean| mean.value / ensemble.protocols[0].window),
-            impacts: total.impacts,
-            near_simultaneous: total.near[NEAR_DECADES.len() - 1],
-            slow: total.slow[SLOW_DECADES.len() - 1],
-            contact_phases: total.contact_phases,
-        });
-    }
-    Ok(rows)
+/// Runs all σ.
+fn rows(ensemble: Ensemble, progress: &Progress) -> Result<Vec<Row>, Failure> {
+    let cutting: Cutting<Vec<Ensemble>, Counts, Vec<Counts>> = Cutting {
+        rows: CUTTING.rows,
+        part: CUTTING.part,
+        join: |_, parts, _| {
+            Ok(parts.into_iter().map(|parts| parts.into_iter().collect()).collect())
+        },
+    };
+    let all = vec![ensemble];
+    let counts = cutting.run(&all, "sweep", progress)?;
+    let row = |(&sigma, counts): (&f64, &Counts)| row(&all[0], sigma, counts);
+    Ok(all[0].sigmas.iter().zip(&counts).map(row).collect())
 }
 
-fn write(rows: &[Row], format: Format) -> io::Result<()> {
-    let mut out = io::BufWriter::new(io::stdout().lock());
-    match format {
-        Format::Csv => {
-            let mut csv = csv::Writer::from_writer(&mut out);
-            for row in rows {
-                csv.serialize(row).map_err(|error| match error.into_kind() {
-                    csv::ErrorKind::Io(error) => error,
-                    other => io::Error::other(format!("{other:?}")),
-                })?;
-            }
-            csv.flush()?;
-        }
-        Format::Json => {
-            serde_json::to_writer_pretty(&mut out, rows)?;
-            writeln!(out)?;
-        }
+fn row(ensemble: &Ensemble, sigma: f64, counts: &Counts) -> Row {
+    let (all, rejected) = (ensemble.realisations, counts.rejected);
+    if let Some(first) = &counts.first_failure {
+        let failed = counts.failed;
+        say(&format!(
+            "impact-paper: sigma {sigma:?}: {failed} of {all} realisations ended early and are in no mean; the \
+             first: {first}"
+        ));
     }
+    if rejected as f64 > ensemble.most_rejected * all as f64 {
+        say(&format!(
+            "impact-paper: sigma {sigma:?}: {rejected} of {all} starts overlapped and were rejected; the row is not \
+             comparable with others"
+        ));
+    }
+    let (row, total) =
+        (rise::Row::new(sigma, counts, 0, ensemble.chain.gaps(), [None; 2]), &counts.total);
+    Row {
+        sigma,
+        realisations: all,
+        kept: row.kept,
+        rejected,
+        mean_distinct: row.mean.map(|mean| mean.value),
+        standard_error: row.mean.and_then(|mean| mean.error),
+        mode_distinct: row.mode,
+        impacts_per_time: row.impacts.map(|mean| mean.value / ensemble.protocols[0].window),
+        impacts: total.impacts,
+        near_simultaneous: total.near[NEAR_DECADES.len() - 1],
+        slow: total.slow[SLOW_DECADES.len() - 1],
+        contact_phases: total.contact_phases,
+    }
+}
+
+fn csv(rows: &[Row], out: impl Write) -> io::Result<()> {
+    let mut csv = csv::Writer::from_writer(out);
+    for row in rows {
+        csv.serialize(row).map_err(|error| match error.into_kind() {
+            csv::ErrorKind::Io(error) => error,
+            other => io::Error::other(format!("{other:?}")),
+        })?;
+    }
+    csv.flush()
+}
+
+fn json(rows: &[Row], mut out: impl Write) -> io::Result<()> {
+    serde_json::to_writer_pretty(&mut out, rows)?;
+    writeln!(out)?;
     out.flush()
 }

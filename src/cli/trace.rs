@@ -1,17 +1,16 @@
 //! `impact-paper trace`.
 
-use super::{Failure, memory, method, stdout};
+use super::{Failure, memory, stdout, within};
 use impact_chain::methods::State;
 use impact_chain::search::clock::LATEST;
 use impact_chain::{Engine, Error, Impact, Scenario, rounding};
-use impact_numerics::text::count;
 use impact_paper::experiments::{alive, say};
+use impact_paper::params::MethodName;
 use literate::input;
-use std::io::{self, ErrorKind, Write};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::atomic::Ordering::Relaxed;
-use std::sync::atomic::{AtomicBool, AtomicU64};
+use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 /// Prints the impacts of one scenario as CSV: time, gap, closing speed
 ///
@@ -40,14 +39,21 @@ pub struct Args {
     /// Read the scenario from this JSON file (the form is below), 64 MiB at most; - for standard input.
     #[arg(value_name = "SCENARIO.json")]
     scenario: PathBuf,
-    /// Stop at this time, from 0 to 1e12.
-    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    /// Stop at this time.
+    #[arg(long, value_name = "T", value_parser = within(0.0, LATEST), allow_hyphen_values = true)]
     until: f64,
     /// Stop after this many impacts.
-    #[arg(long, value_name = "M", allow_hyphen_values = true)]
+    #[arg(long, value_name = "M")]
     max_impacts: Option<u64>,
-    #[command(flatten)]
-    method: method::Choice,
+    /// Simulate by this method; all but the first are there to be compared with it.
+    #[arg(long, value_name = "NAME", value_enum, default_value_t = MethodName::Certified, hide_default_value = true)]
+    method: MethodName,
+    /// Take this step in time, of the methods that have one.
+    #[arg(long, value_name = "H", allow_hyphen_values = true)]
+    step: Option<f64>,
+    /// Allow this error in a step, of runge-kutta, or this width of a gap that is hit, of advancement.
+    #[arg(long, value_name = "TOL", allow_hyphen_values = true)]
+    tolerance: Option<f64>,
 }
 
 const FORM: &str = r#"The scenario, with the defaults of everything but "forcing":
@@ -62,125 +68,129 @@ initial:  "rest" (at equilibrium), "zero" (no free part),
           {"at": {"positions": [x_1, ...], "velocities": [v_1, ...]}} (from the left wall),
           {"random": {"sigma": s, "seed": k}} (normal free parts)."#;
 
-/// What rounding does to the times of a scenario with large amplitudes; nothing where it is little.
-fn rounded(scenario: &Scenario) -> Option<String> {
-    let width = rounding::width(scenario);
-    (width > rounding::TOLD * scenario.spacing).then(|| {
-        format!(
-            "rounding of large amplitudes may move each impact at closing speed v by {width:.1e}/v, and errors grow \
-             from impact to impact"
-        )
-    })
-}
-
-/// What is said of impacts of several neighbouring gaps at once.
-fn simultaneous(count: u64) -> String {
-    let times = if count == 1 { "once" } else { &format!("{count} times") };
-    format!(
-        "impact-paper: {times}, neighbouring gaps closed at exactly the same instant; \
-         they were taken one after the other, lowest gap first"
-    )
-}
-
 /// Bytes that a number takes while a list grows: the old place, and the new one of twice its length.
 const NUMBER: u128 = 3 * size_of::<f64>() as u128;
 
-/// So much is printed at once, in bytes.
+/// So much is printed at once, in bytes, in whole lines: a signal that ends the program leaves no half of a number.
 const BLOCK: usize = 16 << 10;
 
+/// Closing speed below which an impact belongs to a chatter, in units of d ω, and how many of them are worth a line.
+const SLOW: (f64, u64) = (1e-6, 10_000);
+
 pub fn run(args: Args) -> Result<(), Failure> {
-    if !(0.0..=LATEST).contains(&args.until) {
-        let message =
-            format!("--until: {:?} is out of range; give a time from 0 to 1e12", args.until);
-        return Err(Failure::input(message));
+    let (name, scenario) = read(&args.scenario)?;
+    let (method, start) = (args.method.with(setting(&args)?), State::of(&scenario));
+    let slow = SLOW.0 * scenario.spacing * scenario.natural_frequency;
+    let (mut out, mut lines) = (io::stdout().lock(), String::new());
+    let mut written = Ok(());
+    let mut header = "time,gap,closing_speed\n";
+    let [mut all, mut slower] = [0; 2];
+    let latest = Arc::new(AtomicU64::new(0));
+    let _alive = alive({
+        let latest = Arc::clone(&latest);
+        move || Some(format!("trace: at t = {:?}", f64::from_bits(latest.load(Relaxed))))
+    });
+    let most = args.max_impacts.unwrap_or(u64::MAX);
+    let mut sink = |Impact { time, gap, closing_speed }: Impact| {
+        latest.store(time.to_bits(), Relaxed);
+        if all < most {
+            // A run that is refused at its start prints nothing.
+            lines.push_str(std::mem::take(&mut header));
+            lines.push_str(&format!("{time:?},{gap},{closing_speed:?}\n"));
+            (all, slower) = (all + 1, slower + u64::from(closing_speed < slow));
+            if lines.len() >= BLOCK {
+                written = out.write_all(lines.as_bytes());
+                lines.clear();
+            }
+        }
+        all < most && written.is_ok()
+    };
+    let until = if most == 0 { 0.0 } else { args.until };
+    let ran = method.run(&scenario, &start, until, &mut sink);
+    if ran.is_ok() {
+        lines.push_str(header);
     }
-    let path = args.scenario.as_path();
+    // What was found before a run was stopped is printed.
+    if let Err(error) =
+        written.and_then(|()| out.write_all(lines.as_bytes())).and_then(|()| out.flush())
+    {
+        return stdout::written(Err(error));
+    }
+    if slower > SLOW.1 {
+        say(&format!(
+            "impact-paper: {slower} of {all} impacts closed more slowly than 1e-6 d w: a chatter, in which bodies come \
+             to rest on one another by ever weaker impacts; the smaller r, the more; --max-impacts bounds them"
+        ));
+    }
+    if let Ok(cost) = &ran
+        && cost.simultaneous > 0
+    {
+        say(&format!(
+            "impact-paper: impacts at exactly the same instant as one in a neighbouring gap: {}; they were taken one after \
+             the other, lowest gap first",
+            cost.simultaneous
+        ));
+    }
+    let width = rounding::width(&scenario);
+    let closed = matches!(args.method, MethodName::Certified | MethodName::Sampled);
+    if closed
+        && width > rounding::TOLD * scenario.spacing
+        && matches!(ran, Ok(_) | Err(Error::Work { .. }))
+    {
+        say(&format!(
+            "impact-paper: rounding of large amplitudes may move each impact at closing speed v by {width:.1e}/v, and \
+             errors grow from impact to impact"
+        ));
+    }
+    ran.map(drop).map_err(|error| in_file(&name, error))
+}
+
+/// Reads a scenario, with the name of its file for messages.
+fn read(path: &Path) -> Result<(String, Scenario), Failure> {
     let piped = path == Path::new("-");
     let name = if piped { "standard input".into() } else { path.display().to_string() };
     let text = if piped { input::read_from(io::stdin()) } else { input::read(path) };
     let text = text.map_err(|error| {
-        let remedy = match error.kind() {
-            ErrorKind::InvalidInput | ErrorKind::OutOfMemory => "give a scenario of fewer masses",
-            _ if piped => "write a scenario into it",
-            _ => "give the path of a readable scenario file",
-        };
-        Failure::input(format!("{name}: {error}; {remedy}"))
+        Failure::input(format!("{name}: {error}; give a scenario, see `impact-paper trace --help`"))
     })?;
-    let in_file = |error: Error| match error {
+    let numbers = text.bytes().filter(|byte| *byte == b',').count();
+    let most = NUMBER * numbers as u128 + Engine::memory(numbers / 2, 1);
+    memory::fits(most, &name, "give fewer masses")?;
+    let scenario = Scenario::from_json(&text).map_err(|error| in_file(&name, error))?;
+    Ok((name, scenario))
+}
+
+/// What is wrong with a scenario, a setting or a run.
+fn in_file(name: &str, error: Error) -> Failure {
+    match error {
         Error::Work { .. } => Failure::run(error.to_string()),
         Error::Input { ref field, .. } if ["step", "tolerance"].contains(&field.as_str()) => {
             Failure::input(format!("--{error}"))
         }
-        Error::Input { .. } | Error::Overlap { .. } => Failure::input(format!("{name}: {error}")),
-    };
-    let numbers = text.bytes().filter(|byte| *byte == b',').count() as u128;
-    let most = NUMBER * numbers + Engine::memory(numbers as usize / 2, 1);
-    memory::fits(most, &name, "give fewer masses")?;
-    let scenario = Scenario::from_json(&text).map_err(in_file)?;
-    let (masses, components) = (scenario.forcing.len(), 1 + scenario.overtones.len());
-    memory::fits(Engine::memory(masses, components), &name, "give fewer masses")?;
-    let (method, start) = (args.method.method()?, State::of(&scenario));
-    // Written in whole lines: a signal that ends the program leaves no half of a number.
-    let (mut out, mut lines) = (io::stdout().lock(), String::new());
-    let mut written = Ok(());
-    let mut header = "time,gap,closing_speed\n";
-    let mut left = args.max_impacts.unwrap_or(u64::MAX);
-    // Impacts so far, the time of the last, and whether a reader is waited for.
-    let told = Arc::new((AtomicU64::new(0), AtomicU64::new(0), AtomicBool::new(false)));
-    let _alive = alive({
-        let told = Arc::clone(&told);
-        move || {
-            let (met, latest, waits) = &*told;
-            let impacts = count(met.load(Relaxed) as usize, "impact");
-            let last = match f64::from_bits(latest.load(Relaxed)) {
-                0.0 => " yet".to_owned(),
-                latest => format!(", the last at t = {latest:?}"),
-            };
-            (!waits.load(Relaxed)).then(|| format!("trace: {impacts}{last}"))
-        }
-    });
-    let mut sink = |impact: Impact| {
-        let Impact { time, gap, closing_speed } = impact;
-        told.0.fetch_add(1, Relaxed);
-        told.1.store(time.to_bits(), Relaxed);
-        if left > 0 {
-            // A run that is refused at its start prints nothing.
-            lines.push_str(std::mem::take(&mut header));
-            lines.push_str(&format!("{time:?},{gap},{closing_speed:?}\n"));
-            left -= 1;
-            if lines.len() >= BLOCK {
-                told.2.store(true, Relaxed);
-                written = out.write_all(lines.as_bytes());
-                told.2.store(false, Relaxed);
-                lines.clear();
-            }
-        }
-        left > 0 && written.is_ok()
-    };
-    let until = if args.max_impacts == Some(0) { 0.0 } else { args.until };
-    let ran = method.run(&scenario, &start, until, &mut sink);
-    // What was found before a run was stopped is printed; a run that is refused at its start prints nothing.
-    if ran.is_ok() {
-        lines.push_str(header);
+        error => Failure::input(format!("{name}: {error}")),
     }
-    let written = written.and_then(|()| out.write_all(lines.as_bytes()));
-    let rounded = rounded(&scenario).filter(|_| args.method.is_closed());
-    let cost = match (ran, written.and_then(|()| out.flush())) {
-        (_, Err(error)) => return stdout::written(Err(error)),
-        (Ok(cost), Ok(())) => cost,
-        (Err(error), Ok(())) => {
-            // The impacts of a run that was stopped have the same rounding.
-            if let Some(rounded) = rounded.filter(|_| matches!(error, Error::Work { .. })) {
-                say(&format!("impact-paper: {rounded}"));
-            }
-            return Err(in_file(error));
-        }
+}
+
+/// The step or tolerance of the method; its range is checked by the method.
+///
+/// # Errors
+/// Exit code 2 for an option that the method does not have.
+fn setting(args: &Args) -> Result<f64, Failure> {
+    let (takes, usual) = match args.method {
+        MethodName::Certified | MethodName::Truth => ("neither", 0.0),
+        MethodName::Sampled => ("--step", 0.01),
+        MethodName::Advancement => ("--tolerance", 1e-12),
+        MethodName::RungeKutta => ("--tolerance", 1e-9),
+        MethodName::MoreauJean | MethodName::Verlet => ("--step", 1e-3),
+        MethodName::Penalty => ("--step", 1e-4),
     };
-    if cost.simultaneous > 0 {
-        say(&simultaneous(cost.simultaneous));
+    for (option, value) in [("--step", args.step), ("--tolerance", args.tolerance)] {
+        if value.is_some() && option != takes {
+            let name = args.method.id();
+            return Err(Failure::input(format!(
+                "{option}: the method {name} takes {takes}; leave it out"
+            )));
+        }
     }
-    if let Some(rounded) = rounded {
-        say(&format!("impact-paper: {rounded}"));
-    }
-    Ok(())
+    Ok(args.step.or(args.tolerance).unwrap_or(usual))
 }

@@ -95,7 +95,7 @@ fn bounds_are_those_of_the_library() {
     let most = LARGEST_N + 1;
     for (arguments, says) in [
         (format!("mean-impacts --p 0.1 --vertices {most}"), "vertices:"),
-        (format!("mean-impacts --p 0.1 --masses {LARGEST_N}"), "masses:"),
+        (format!("mean-impacts --p 0.1 --masses {LARGEST_N}"), "--masses (N = n + 1):"),
     ] {
         crate::refused(Path::new("."), &format!("eval {arguments}"), &[says]);
     }

@@ -90,3 +90,20 @@ fn a_run_that_is_stopped_tells_its_rounding() {
     assert!(code == 4 && out.lines().count() > 1000 && note.lines().count() == 2, "{note}");
     assert!(note.contains("may move each impact"), "{note}");
 }
+
+/// Bodies that come to rest on one another do so by very many weak impacts: a line says why the table is long.
+#[test]
+fn a_chatter_that_makes_most_of_the_rows_is_named() {
+    let chain = r#"{"restitution":0,"forcing":[[1.9,-0.5],[0.3,0.1],[0.7,-1.1],[-0.3,-0.6],[-0.9,-0.7],[-0.4,-0.2],[-0.7,0.3],[-0.4,-2.6]]}"#;
+    let folder = folder(chain);
+    let (code, out, note) = run(folder.path(), "trace s.json --until 4000");
+    let slow = |line: &&str| line.split(',').next_back().unwrap().parse::<f64>().unwrap() < 1e-6;
+    let found = out.lines().skip(1).filter(slow).count();
+    assert!(
+        code == 0 && note.contains(&format!("{found} of {}", out.lines().count() - 1)),
+        "{note}"
+    );
+    let named = |note: &str| note.lines().filter(|line| line.contains("chatter")).count();
+    assert_eq!(named(&note), 1, "{note}");
+    assert_eq!(named(&run(folder.path(), "trace s.json --until 4").2), 0);
+}

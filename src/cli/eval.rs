@@ -1,0 +1,257 @@
+//! `impact-paper eval`: one quantity of the theory as JSON.
+
+use super::{Failure, stdout, within};
+use clap::builder::PossibleValuesParser;
+use impact_circuits::distribution::{Law, SampleSpace};
+use impact_circuits::impact_probability::ImpactProbability;
+use impact_circuits::{Error, LARGEST_N, counting, jump};
+use impact_paper::experiments::say;
+use impact_paper::params::{Chain, VERTICES};
+use serde::Serialize;
+use serde_json::Value;
+
+/// Evaluates one quantity of the theory (Secs. 3 to 9), as one JSON object.
+///
+/// `impact-paper eval p-jump --vertices 100` prints
+/// {"quantity":"p-jump","value":0.01303285872435575,"inputs":{"vertices":100}}.
+#[derive(clap::Args)]
+#[command(after_help = help())]
+pub struct Args {
+    /// What to evaluate, one of the names below.
+    #[arg(value_name = "QUANTITY", required_unless_present = "list", hide_possible_values = true,
+        value_parser = PossibleValuesParser::new(QUANTITIES.iter().map(|quantity| quantity.name)))]
+    quantity: Option<String>,
+    /// List all quantities with their equations and what they need.
+    #[arg(long)]
+    list: bool,
+    #[command(flatten)]
+    inputs: Inputs,
+}
+
+/// What a quantity may depend on; the answer repeats what it used.
+#[derive(clap::Args, Serialize)]
+struct Inputs {
+    /// Number of masses n between walls; there are N = n + 1 vertices.
+    #[arg(long, value_name = "n", conflicts_with = "vertices")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    masses: Option<usize>,
+    /// Number of vertices N of the graph [default: 100].
+    #[arg(long, value_name = "N")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    vertices: Option<usize>,
+    /// Probability p of an edge; 0 means the limit p → 0+.
+    #[arg(long, value_name = "P", value_parser = within(0.0, 1.0), allow_hyphen_values = true)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    p: Option<f64>,
+    /// Number of different impacts k, 1 ≤ k ≤ N.
+    #[arg(long, value_name = "K")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    k: Option<usize>,
+    /// Standard deviation σ of the forcing, above 0.
+    #[arg(long, value_name = "S", value_parser = within(0.0, 1e6), allow_hyphen_values = true)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sigma: Option<f64>,
+    /// Natural frequency ω [default: 1].
+    #[arg(long, value_name = "w", value_parser = within(1e-3, 1e3), allow_hyphen_values = true)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    omega: Option<f64>,
+    /// Forcing frequency Ω, different from ω [default: √2; the double nearest to √2 is read as √2 itself].
+    #[arg(long, value_name = "W", value_parser = within(1e-3, 1e3), allow_hyphen_values = true)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    forcing_frequency: Option<f64>,
+    /// Spacing d of the masses at rest [default: 1].
+    #[arg(long, value_name = "d", value_parser = within(1e-6, 1e6), allow_hyphen_values = true)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    spacing: Option<f64>,
+}
+
+/// What `eval` prints, in this order.
+#[derive(Serialize)]
+struct Answer {
+    quantity: &'static str,
+    value: Value,
+    inputs: Inputs,
+}
+
+/// One quantity of the theory: where the paper has it, what it is, what it needs.
+struct Quantity {
+    name: &'static str,
+    equation: &'static str,
+    meaning: &'static str,
+    needs: &'static [&'static str],
+    evaluate: fn(&Inputs) -> Result<Value, Error>,
+}
+
+const N: &[&str] = &["N"];
+const N_P: &[&str] = &["N", "p"];
+const N_K: &[&str] = &["N", "k"];
+const N_P_K: &[&str] = &["N", "p", "k"];
+const SIGMA: &[&str] = &["sigma", "oscillator"];
+
+const fn quantity(
+    [name, equation, meaning]: [&'static str; 3],
+    needs: &'static [&'static str],
+    evaluate: fn(&Inputs) -> Result<Value, Error>,
+) -> Quantity {
+    Quantity { name, equation, meaning, needs, evaluate }
+}
+
+use SampleSpace::{FiveClasses, Simple};
+
+/// All quantities.
+const QUANTITIES: &[Quantity] = &[
+    quantity(["p-crit", "Eq. (18)", "p at which Φ gets a stationary point"], N, |i| {
+        jump::p_crit(i.vertices()).map(Value::from)
+    }),
+    quantity(["p-jump", "Sec. 7", "infimum of p with k* > 1 (N ≥ 4)"], N, |i| {
+        Ok(jump::p_jump(Simple, i.vertices())?.p.into())
+    }),
+    quantity(["k-after-jump", "Sec. 7", "k* just after the jump (N ≥ 4)"], N, |i| {
+        Ok(jump::p_jump(Simple, i.vertices())?.k_after.into())
+    }),
+    quantity(["k-star", "Sec. 6", "most likely number of impacts; the lowest of several"], N_P, {
+        |i| Ok(i.law(Simple)?.k_star().into())
+    }),
+    quantity(["mean-impacts", "Sec. 6", "μ, the expected number of impacts"], N_P, |i| {
+        Ok(i.law(Simple)?.mean().into())
+    }),
+    quantity(["probability", "Eqs. (9), (10)", "P(X = k)"], N_P_K, |i| {
+        i.law(Simple)?.probability(i.k.unwrap_or_default()).map(Value::from)
+    }),
+    quantity(
+        ["log-circuits", "Eq. (7)", "ln φ_N(k), number of simple circuits of length k"],
+        N_K,
+        |i| counting::log_phi(i.vertices(), i.k.unwrap_or_default()).map(Value::from),
+    ),
+    quantity(
+        ["p-of-sigma", "Eqs. (20) to (25)", "p(σ), that a gap closes by itself"],
+        SIGMA,
+        |i| i.relation()?.p().map(Value::from),
+    ),
+    quantity(["log-p-of-sigma", "Eqs. (20) to (25)", "ln p(σ)"], SIGMA, |i| {
+        i.relation()?.log_p().map(Value::from)
+    }),
+    quantity(["higher-p-jump", "Eq. (38)", "p-jump of the five classes (N ≥ 2)"], N, |i| {
+        Ok(jump::p_jump(FiveClasses, i.vertices())?.p.into())
+    }),
+    quantity(
+        ["higher-k-after-jump", "Eq. (38)", "k-after-jump of the five classes (N ≥ 2)"],
+        N,
+        |i| Ok(jump::p_jump(FiveClasses, i.vertices())?.k_after.into()),
+    ),
+    quantity(["higher-k-star", "Eq. (38)", "k-star of the five classes"], N_P, |i| {
+        Ok(i.law(FiveClasses)?.k_star().into())
+    }),
+    quantity(["higher-mean-impacts", "Eq. (38)", "mean-impacts of the five classes"], N_P, |i| {
+        Ok(i.law(FiveClasses)?.mean().into())
+    }),
+    quantity(["higher-probability", "Eq. (38)", "probability in the five classes"], N_P_K, |i| {
+        i.law(FiveClasses)?.probability(i.k.unwrap_or_default()).map(Value::from)
+    }),
+];
+
+impl Inputs {
+    /// With the defaults of what the quantity needs.
+    ///
+    /// # Errors
+    /// Exit code 2 for an option that it does not use, which is a misunderstanding, and for one that is missing.
+    fn of(mut self, quantity: &Quantity) -> Result<Inputs, Failure> {
+        let given = [
+            ("masses", self.masses.is_some(), "N"),
+            ("vertices", self.vertices.is_some(), "N"),
+            ("p", self.p.is_some(), "p"),
+            ("k", self.k.is_some(), "k"),
+            ("sigma", self.sigma.is_some(), "sigma"),
+            ("omega", self.omega.is_some(), "oscillator"),
+            ("forcing-frequency", self.forcing_frequency.is_some(), "oscillator"),
+            ("spacing", self.spacing.is_some(), "oscillator"),
+        ];
+        let (name, needs) = (quantity.name, |need: &str| quantity.needs.contains(&need));
+        for (option, given, need) in given {
+            if given && !needs(need) {
+                let what = format!("--{option}: {name} does not depend on it; leave it out");
+                return Err(Failure::input(what));
+            }
+            if !given && option == need && needs(need) {
+                let what = format!("--{option}: {name} needs it; see `impact-paper eval --help`");
+                return Err(Failure::input(what));
+            }
+        }
+        if needs("N") {
+            let more = self.masses.map(|masses| masses.saturating_add(1));
+            self.vertices = more.or(self.vertices).or(Some(VERTICES));
+        }
+        if needs("oscillator") {
+            let chain = Chain::default();
+            self.omega.get_or_insert(chain.natural_frequency);
+            self.forcing_frequency.get_or_insert(chain.forcing_frequency);
+            self.spacing.get_or_insert(chain.spacing);
+        }
+        Ok(self)
+    }
+
+    fn vertices(&self) -> usize {
+        self.vertices.unwrap_or(VERTICES)
+    }
+
+    fn law(&self, space: SampleSpace) -> Result<Law, Error> {
+        Law::new(space, self.vertices(), self.p.unwrap_or_default())
+    }
+
+    fn relation(&self) -> Result<ImpactProbability, Error> {
+        let [sigma, spacing, omega, forcing_frequency] =
+            [self.sigma, self.spacing, self.omega, self.forcing_frequency]
+                .map(|x| x.unwrap_or(f64::NAN));
+        ImpactProbability::new(sigma, spacing, omega, forcing_frequency)
+    }
+}
+
+pub fn run(args: Args) -> Result<(), Failure> {
+    let asked = |quantity: &&Quantity| args.quantity.as_deref() == Some(quantity.name);
+    let Some(quantity) = QUANTITIES.iter().find(asked).filter(|_| !args.list) else {
+        return stdout::print(&list());
+    };
+    let inputs = args.inputs.of(quantity)?;
+    let value = (quantity.evaluate)(&inputs).map_err(|error| {
+        // --masses gives N too.
+        let what = error.to_string();
+        match (inputs.masses, what.strip_prefix("vertices:")) {
+            (Some(_), Some(rest)) => Failure::input(format!("--masses (N = n + 1):{rest}")),
+            _ => Failure::input(format!("--{what}")),
+        }
+    })?;
+    if value.is_null() {
+        return Err(Failure::run(format!("{}: the result is not a finite number", quantity.name)));
+    }
+    if quantity.name == "p-crit" && value.as_f64() > Some(1.0) {
+        say("impact-paper: p_crit is above 1, so no probability reaches it: N is too small");
+    }
+    let answer = Answer { quantity: quantity.name, value, inputs };
+    let json = serde_json::to_string(&answer).map_err(|error| Failure::run(error.to_string()))?;
+    stdout::print(&(json + "\n"))
+}
+
+/// One line for each quantity: name, equation, what it needs, what it is.
+fn list() -> String {
+    let option = |need: &&str| match *need {
+        "N" => "[N]".into(),
+        "oscillator" => "[ω Ω d]".into(),
+        need => format!("--{need}"),
+    };
+    let line = |q: &Quantity| {
+        let needs: Vec<String> = q.needs.iter().map(option).collect();
+        format!("{:<20} {:<18} {:<16} {}\n", q.name, q.equation, needs.join(" "), q.meaning)
+    };
+    QUANTITIES.iter().map(line).collect()
+}
+
+/// What stands below the options in `--help`.
+fn help() -> String {
+    format!(
+        "Quantities (name, equation, options, meaning):\n{}\nFloats are printed with the fewest digits that read \
+         back to the same double, integers as integers. N is at most {LARGEST_N} (a result then takes some seconds). \
+         P(X = k) is printed as 0 where it is below the smallest double. With higher orders, k is the number of \
+         different vertices, and circuits are primitive (a repetition of a shorter one is not counted).",
+        list()
+    )
+}
