@@ -14,7 +14,7 @@ fn main() -> ExitCode {
     match thread.map(std::thread::JoinHandle::join) {
         Ok(Ok(code)) => code,
         // The hook has told it.
-        Ok(Err(_)) => ExitCode::from(4),
+        Ok(Err(_)) => ExitCode::FAILURE,
         Err(_) => cli::main(),
     }
 }

@@ -221,13 +221,16 @@ pub fn run(args: Args) -> Result<(), Failure> {
         }
     })?;
     if value.is_null() {
-        return Err(Failure::run(format!("{}: the result is not a finite number", quantity.name)));
+        return Err(Failure::check(format!(
+            "{}: the result is not a finite number",
+            quantity.name
+        )));
     }
     if quantity.name == "p-crit" && value.as_f64() > Some(1.0) {
         say("impact-paper: p_crit is above 1, so no probability reaches it: N is too small");
     }
     let answer = Answer { quantity: quantity.name, value, inputs };
-    let json = serde_json::to_string(&answer).map_err(|error| Failure::run(error.to_string()))?;
+    let json = serde_json::to_string(&answer).map_err(|error| Failure::check(error.to_string()))?;
     stdout::print(&(json + "\n"))
 }
 

@@ -1,6 +1,6 @@
 //! `impact-paper explain`.
 
-use super::{Failure, folder, stdout};
+use super::{Failure, stdout};
 use impact_paper::experiments::alive;
 use impact_paper::report::PROGRAM;
 use impact_paper::report::card::{Card, Cards, Row};
@@ -50,7 +50,8 @@ pub fn run(args: Args) -> Result<(), Failure> {
 
 fn read(paper: &Path, name: &str) -> Result<String, Failure> {
     let place = || format!("--paper: {}", paper.join(name).display());
-    folder::text(paper, name).map_err(|e| Failure::io(&e, place(), folder::REMEDY))
+    let text = regular_text(&paper.join(name));
+    text.map_err(|e| Failure::io(&e, place(), "give the folder of a report"))
 }
 
 fn values(folder: &Path) -> Result<Registry, Failure> {

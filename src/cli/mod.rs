@@ -14,21 +14,21 @@ mod verify;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use impact_paper::experiments::be_quiet;
 use impact_paper::program::{
-    self, Failure, folder, git, judged, make, memory, output, places, shown, signals, sources,
-    stdout, threads, work,
+    self, Failure, git, judged, make, memory, shown, signals, sources, stdout, threads, work,
 };
+use impact_paper::report::values::Number;
+use impact_paper::report::{compare, folder};
+use std::path::Path;
 use std::process::ExitCode;
 
 /// The contract; DESIGN.md has the same table.
 const EXIT_CODES: &str = "Exit codes:
   0    fine
   1    a claim, target, check or comparison failed, and what was asked for is written all
-       the same; or a rule of the prose is broken (a naked numeral, an unused value), and
-       nothing is
-  2    wrong usage or input, broken prose too, or a place that cannot be written
-  3    saved results are stale, missing or damaged, says `paper --dry-run`
-  4    a run failed, or the system did: a full disk, no memory, an I/O error
-  130  ended by Ctrl-C, SIGTERM or SIGHUP";
+       the same; a rule of the prose is broken (a naked numeral, an unused value) or a run
+       failed, and nothing is; or saved results are stale, says `paper --dry-run`
+  2    wrong usage or input, broken prose too, or a place that cannot be read or written
+  130  ended by Ctrl-C or SIGTERM";
 
 /// Version, and the commit in a build from a checkout: that of the last change of the source.
 const VERSION: &str =
@@ -109,9 +109,6 @@ pub fn main() -> ExitCode {
         be_quiet();
     }
     signals::obey();
-    if let Err(failure) = threads::environment() {
-        return program::ended(Err(failure));
-    }
     let result = match verb {
         Verb::Check(args) => check::run(args),
         Verb::Diff(args) => diff::run(args),
@@ -124,6 +121,15 @@ pub fn main() -> ExitCode {
         Verb::Verify(args) => verify::run(args),
     };
     program::ended(result)
+}
+
+/// The profile that a report names, if there is one in a folder.
+fn profile_in(root: &Path) -> Option<String> {
+    let text = String::from_utf8(folder::read(root, "values.json").ok()?).ok()?;
+    match &compare::read(&text).ok()?.get("profile")?.number {
+        Number::Text(name) => Some(name.clone()),
+        _ => None,
+    }
 }
 
 #[cfg(test)]

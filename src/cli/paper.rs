@@ -2,17 +2,15 @@
 
 use super::diff::{count, fate};
 use super::judged::Judged;
-use super::output::{self, Staging, VALUES};
-use super::places::{holds_report, refuse_prose, refuse_report};
 use super::sources::Sources;
-use super::{Failure, folder, make, shown, signals, stdout, threads, work};
+use super::{Failure, make, shown, signals, stdout, threads, work};
 use impact_paper::claims::Verdict;
-use impact_paper::experiments::{ALL, Need, Progress, Store};
+use impact_paper::experiments::{ALL, Need, Progress, Store, say};
 use impact_paper::figures;
 use impact_paper::params::Profile;
 use impact_paper::report::compare::{self, Parts};
-use impact_paper::report::values::Number;
-use impact_paper::report::{self, Files, PROGRAM, Registry};
+use impact_paper::report::{self, Files, PROGRAM, Report, folder};
+use literate::input::listed;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -20,10 +18,8 @@ use std::time::{Duration, Instant};
 /// Runs every experiment, draws all figures and writes the report.
 ///
 /// Results of long runs are saved and used again as long as parameters and simulating code are the
-/// same. Files are moved into place at the very end: Ctrl-C (exit code 130) leaves the report as it was, or,
-/// where the disk is slow, between two files, from where the next run goes on. Only files
-/// that an earlier run wrote, and nobody changed since, are replaced; folders .staging-impact-paper-* in --out, which
-/// killed runs leave, are removed. Ends with exit code 1 if a claim,
+/// same. Files are moved into place at the very end: Ctrl-C (exit code 130) leaves the report as it was. Only files
+/// that an earlier run wrote, and nobody edited since, are replaced. Ends with exit code 1 if a claim,
 /// a target of accuracy or counted work, or a check fails; the report is written all the same.
 #[derive(clap::Args)]
 pub struct Args {
@@ -33,19 +29,17 @@ pub struct Args {
     #[arg(long, value_name = "N", allow_hyphen_values = true, help = figure_help())]
     figure: Vec<String>,
     /// Folder to write into [default: paper for the full profile, else target/paper-PROFILE].
-    #[arg(long, value_name = "DIR", value_parser = work::folder())]
+    #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Say which experiments would be run, and why (exit code 3 if any), and run nothing.
+    /// Say which experiments would be run, and why (exit code 1 if any), and run nothing.
     #[arg(long)]
     dry_run: bool,
-    #[command(flatten)]
-    force: output::Force,
+    /// Write over files that this program did not make, or that were edited since; says which.
+    #[arg(long)]
+    force: bool,
     #[command(flatten)]
     sources: Sources,
 }
-
-/// The file in which a report keeps its verdicts.
-const LEDGER: &str = "ledger.json";
 
 fn figure_help() -> String {
     let (paper, own) = (figures::Number::PAPER, figures::Number::OWN);
@@ -59,54 +53,43 @@ const MOVED: usize = 6;
 
 pub fn run(args: Args) -> Result<(), Failure> {
     let began = Instant::now();
-    let profile = args.profile;
-    let out = args.out.clone().unwrap_or_else(|| default_folder(profile));
+    let Args { profile, sources, force, .. } = args;
+    let out = args.out.unwrap_or_else(|| default_folder(profile));
     let read = |text: &String| text.parse().map_err(|e| Failure::input(format!("--figure: {e}")));
     let numbers =
         args.figure.iter().map(read).collect::<Result<BTreeSet<figures::Number>, Failure>>()?;
     if args.dry_run {
-        return dry_run(&args.sources, profile, &needs(&numbers));
+        return dry_run(&sources, profile, &needs(&numbers));
     }
-    refuse_over_other(profile, &out, !args.figure.is_empty(), args.force)?;
-    args.sources.refuse_strange()?;
-    let templates = args.sources.templates.as_deref();
-    refuse_report("--results", &args.sources.results, templates)?;
-    refuse_prose("--out", &out, templates)?;
+    let whole = numbers.is_empty();
+    refuse_over_other(profile, &out, whole)?;
+    let option = |error: folder::Error| Failure::from(error).of("--out");
+    folder::refuse(&out, &Files::new(), whole, force).map_err(option)?;
     let progress = signals::progress();
-    let staging = Staging::below(&out, "--out", args.force)?;
-    if folder::resolved(&args.sources.results).starts_with(folder::resolved(&out)) {
-        let message = "--results is --out, or lies in it; give another folder, since a report has no other files";
-        return Err(Failure::input(message));
-    }
-    let whole = args.figure.is_empty();
-    if whole {
-        staging.refuse_changed()?;
-    }
-    let made = threads::run(args.sources.threads, || {
-        if whole {
-            let (report, judged) = make::whole(&args.sources, profile, &progress)?;
-            let files: Files = report.committed.into_iter().chain(report.beside).collect();
-            Ok((files, judged))
-        } else {
-            Ok((some(&args.sources, &numbers, profile, &progress)?, Judged::default()))
+    let store = Store::open(&sources.results)?;
+    let made = threads::run(sources.threads, || match whole {
+        true => make::whole(&sources, profile, &store, &progress),
+        false => {
+            let committed = some(&sources, &numbers, profile, &progress)?;
+            Ok((Report { committed, beside: Files::new() }, Judged::default()))
         }
     });
-    let (files, judged) = made?;
+    let (report, judged) = made?;
     // What was there before is compared first: it is about to be replaced.
-    let told = if whole { told(&out, &files, &judged) } else { String::new() };
-    staging.place(&files, &progress)?;
+    let told = if whole { told(&out, &report.committed, &judged) } else { String::new() };
+    let written = report.write(&out, force).map_err(option)?;
+    for (what, files) in [("removed", written.removed), ("--force: wrote over", written.over)] {
+        if !files.is_empty() {
+            say(&format!("impact-paper: {what} {}", listed(&files)));
+        }
+    }
     let time = duration(began.elapsed());
     let pages: Vec<&str> = PROGRAM.documents.iter().map(|document| document.page).collect();
     let documents = if whole { format!(": {}", pages.join(", ")) } else { String::new() };
-    let number = count(files.len(), "file");
-    let place = shown(&out);
-    let head = format!("{place}: {number} in {time}{documents}\n");
+    let number = count(report.committed.len() + report.beside.len(), "file");
     // It is told also where a check fails.
-    let printed = stdout::print(&(head + &told));
-    let more = |failure: Failure| Failure {
-        message: format!("{}; `impact-paper check` of the same says more", failure.message),
-        ..failure
-    };
+    let printed = stdout::print(&format!("{}: {number} in {time}{documents}\n{told}", shown(&out)));
+    let more = |failure: Failure| failure.and("`impact-paper check` of the same says more");
     judged.verdict().map_err(more).and(printed)
 }
 
@@ -129,7 +112,9 @@ fn told(out: &Path, files: &Files, judged: &Judged) -> String {
 /// What the report in `out` said otherwise, if there is one.
 fn changes(out: &Path, files: &Files) -> Vec<String> {
     let read = |name: &str| Some((name.to_string(), folder::read(out, name).ok()?));
-    let Some(before) = [VALUES, LEDGER].into_iter().map(read).collect::<Option<Files>>() else {
+    let Some(before) =
+        ["values.json", "ledger.json"].into_iter().map(read).collect::<Option<Files>>()
+    else {
         return Vec::new();
     };
     let parts = (Parts::of("before", before), Parts::of("now", files.clone()));
@@ -164,59 +149,11 @@ fn default_folder(profile: Profile) -> PathBuf {
     }
 }
 
-/// Is it where a profile writes, and nothing of worth is lost?
-fn is_usual(profile: Profile, out: &Path) -> bool {
-    let usual = || folder::resolved(out) == folder::resolved(&default_folder(profile));
-    profile != Profile::Full && usual()
-}
-
-/// The values of the report in a folder, if there is one.
-fn values_in(out: &Path) -> Result<Option<Registry>, Failure> {
-    match folder::text(out, VALUES) {
-        Ok(text) => Ok(compare::read(&text).ok()),
-        Err(error) => {
-            Failure::of_the_system(&error, format!("--out: {}", out.join(VALUES).display()))?;
-            Ok(None)
-        }
-    }
-}
-
 /// Lesser samples must not take the place of the committed report, and single figures not stand among those
 /// of other samples.
-fn refuse_over_other(
-    profile: Profile,
-    out: &Path,
-    figures: bool,
-    output::Force { force }: output::Force,
-) -> Result<(), Failure> {
-    let name = |values: Registry| match &values.get("profile")?.number {
-        Number::Text(name) => Some(name.clone()),
-        _ => None,
-    };
-    // As it will be: what is missing before a `..` is about to be made.
-    let there = &folder::resolved(out);
-    let found = values_in(there)?.and_then(name);
-    // Of a report that does not tell what it is, a lesser one would take the place unseen, and figures might be of
-    // other samples.
-    let lesser = profile != Profile::Full || figures;
-    let asked = figures || !force;
-    if found.is_none()
-        && lesser
-        && asked
-        && holds_report(there).unwrap_or(true)
-        && !is_usual(profile, out)
-    {
-        let remedy = match figures {
-            true => "restore it, or give another folder",
-            false => "--force writes the report anew",
-        };
-        return Err(Failure::input(format!(
-            "--out: {} holds a report whose {VALUES} cannot be read; {remedy}",
-            out.display()
-        )));
-    }
-    match found {
-        Some(name) if name != profile.name() && (figures || name == Profile::Full.name()) => {
+fn refuse_over_other(profile: Profile, out: &Path, whole: bool) -> Result<(), Failure> {
+    match super::profile_in(out) {
+        Some(name) if name != profile.name() && (!whole || name == Profile::Full.name()) => {
             Err(Failure::input(format!(
                 "--out: {} holds a report of the {name} profile; give another folder",
                 out.display()
@@ -242,7 +179,7 @@ fn dry_run(sources: &Sources, profile: Profile, needs: &[Need]) -> Result<(), Fa
     stdout::print(&stale.concat())?;
     match stale.len() {
         0 => Ok(()),
-        stale => Err(Failure::stale(format!("{} to be run", count(stale, "experiment")))),
+        stale => Err(Failure::check(format!("{} to be run", count(stale, "experiment")))),
     }
 }
 

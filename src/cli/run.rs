@@ -1,6 +1,5 @@
 //! `impact-paper run`.
 
-use super::places::refuse_report;
 use super::{Failure, shown, signals, stdout, threads, work};
 use impact_numerics::text::count;
 use impact_paper::experiments::{self, Store};
@@ -27,7 +26,7 @@ pub struct Args {
     #[arg(long, default_value = "full", value_parser = work::profiles())]
     profile: Profile,
     /// Folder in which results are kept; it is made when missing.
-    #[arg(long, value_name = "DIR", default_value = "target/results", value_parser = work::folder())]
+    #[arg(long, value_name = "DIR", default_value = "target/results")]
     results: PathBuf,
     /// Number of threads; all cores without it. It changes no bit of the result.
     #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = threads::read)]
@@ -45,9 +44,7 @@ fn share(text: &str) -> Result<(usize, usize), String> {
 
 pub fn run(args: Args) -> Result<(), Failure> {
     let Args { shard, profile, results, threads } = args;
-    refuse_report("--results", &results, None)?;
     let store = Store::open(&results)?;
-    let _made = signals::made(&results);
     let progress = signals::progress();
     let saved = experiments::saved();
     let told = threads::run(threads, || match shard {

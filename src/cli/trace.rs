@@ -163,7 +163,7 @@ fn read(path: &Path) -> Result<(String, Scenario), Failure> {
 /// What is wrong with a scenario, a setting or a run.
 fn in_file(name: &str, error: Error) -> Failure {
     match error {
-        Error::Work { .. } => Failure::run(error.to_string()),
+        Error::Work { .. } => Failure::check(error.to_string()),
         Error::Input { ref field, .. } if ["step", "tolerance"].contains(&field.as_str()) => {
             Failure::input(format!("--{error}"))
         }

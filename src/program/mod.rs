@@ -1,23 +1,15 @@
 //! What the programs of this project share: exit codes, signals, threads, standard output, where prose and
-//! results lie, and how a report is made, judged, written and found again.
+//! results lie, and how a report is made and judged.
 
-mod alone;
 mod failure;
-pub mod folder;
 pub mod git;
 pub mod judged;
-pub mod listed;
 pub mod make;
 pub mod memory;
-pub mod output;
-mod own;
-pub mod places;
-mod placing;
 pub mod signals;
 pub mod sources;
 pub mod stdout;
 pub mod threads;
-pub mod waiting;
 pub mod work;
 
 pub use failure::Failure;
@@ -28,7 +20,7 @@ use literate::input::{one_line, plain};
 use std::path::Path;
 use std::process::ExitCode;
 
-/// Tells a fault of the program itself (exit code 4) in one line: what failed, and where.
+/// Tells a fault of the program itself (exit code 1) in one line: what failed, and where.
 pub fn tell(fault: &std::panic::PanicHookInfo<'_>) {
     let words = fault.payload_as_str().unwrap_or("no words");
     let place = fault.location().map_or_else(String::new, |at| format!(" at {at}"));
@@ -40,16 +32,6 @@ pub fn tell(fault: &std::panic::PanicHookInfo<'_>) {
 /// A path as messages on standard output show it, in one line.
 pub fn shown(path: &Path) -> String {
     one_line(&path.display().to_string(), 500)
-}
-
-/// A path as somebody may type it into a shell.
-pub fn typed(path: &Path) -> String {
-    let path = one_line(&path.display().to_string(), 500);
-    let dot = if path.starts_with('-') { "./" } else { "" };
-    match path.chars().all(|c| c.is_alphanumeric() || "/._-+,:@%".contains(c)) {
-        true if !path.is_empty() => format!("{dot}{path}"),
-        _ => format!("'{dot}{}'", path.replace('\'', r"'\''")),
-    }
 }
 
 /// The exit code of a verb; why it failed goes to stderr.
@@ -77,21 +59,4 @@ pub fn usage(error: &clap::Error) -> ExitCode {
     let line = format!("impact-paper: {}", line.strip_prefix("error: ").unwrap_or(&line));
     say(&one_line(&line, LONGEST));
     ExitCode::from(2)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::typed;
-    use std::path::Path;
-
-    #[test]
-    fn a_shell_reads_the_folder_that_was_meant() {
-        let typed = |path| typed(Path::new(path));
-        for plain in ["paper", "../a/b-1.2", "/µ/b"] {
-            assert_eq!(typed(plain), plain);
-        }
-        assert_eq!(typed("my results"), "'my results'");
-        assert_eq!(typed("-x"), "./-x");
-        assert_eq!(typed("it's $(a)"), r"'it'\''s $(a)'");
-    }
 }

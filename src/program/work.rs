@@ -1,8 +1,7 @@
 //! Options that verbs have in common.
 
 use crate::params::Profile;
-use clap::builder::{PathBufValueParser, PossibleValue, PossibleValuesParser, TypedValueParser};
-use std::path::PathBuf;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
 /// The profile of a name.
 pub fn profile(name: &str) -> Option<Profile> {
@@ -17,9 +16,4 @@ pub fn profiles() -> impl TypedValueParser<Value = Profile> {
     };
     let known = Profile::ALL.map(|own| PossibleValue::new(own.name()).help(about(own)));
     PossibleValuesParser::new(known).try_map(|name| profile(&name).ok_or("unknown"))
-}
-
-/// Reads a folder that may have to be made: without dots at its end, with which none can be.
-pub fn folder() -> impl TypedValueParser<Value = PathBuf> {
-    PathBufValueParser::new().map(|folder| folder.components().collect())
 }

@@ -60,23 +60,6 @@ fn each_reason_is_told_and_nothing_else_is_run_again() {
     assert!(saved(folder) == *results);
 }
 
-/// A disk on which no file can grow beyond a kilobyte.
-#[test]
-fn a_full_disk_is_told_and_leaves_nothing_half() {
-    let results = &QUICK.results;
-    let folder = tempfile::tempdir().unwrap();
-    let paper = PAPER.replace(TEMPLATES, &format!("'{TEMPLATES}'"));
-    let limited = format!("ulimit -f 1; exec '{PROGRAM}' {paper}");
-    let mut bash = Command::new("bash");
-    let (code, _, note) = outcome(bash.args(["-c", &limited]).current_dir(folder.path()));
-    assert_eq!(code, 4, "{note}");
-    let last = note.lines().last().unwrap();
-    assert!(last.contains("results/") && last.contains("ulimit -f"), "{note}");
-    assert!(!folder.path().join("results").exists());
-    run(folder.path(), PAPER);
-    assert!(saved(folder.path()) == *results);
-}
-
 #[test]
 fn two_runs_at_once_do_not_disturb_each_other() {
     let folder = tempfile::tempdir().unwrap();

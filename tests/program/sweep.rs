@@ -1,9 +1,8 @@
 //! `impact-paper sweep` as a user meets it.
 
-use crate::{PROGRAM, answer, ended, program, run};
+use crate::{answer, ended, program, run};
 use std::path::Path;
 use std::process::{Command, Stdio};
-use std::time::Duration;
 
 const SMALL: &str = "--masses 30 --realisations 24 --transient 60 --window 40";
 
@@ -85,30 +84,4 @@ fn signals_end_a_sweep_of_any_size() {
             assert!(out.is_empty() && note.contains("interrupted"), "{out}{note}");
         }
     }
-}
-
-/// Who runs it under `nohup` wants it to outlive the terminal.
-#[cfg(target_os = "linux")]
-#[test]
-fn a_hangup_ends_the_work_unless_it_is_ignored() {
-    let folder = tempfile::tempdir().unwrap();
-    let long = "-q sweep --sigma 0.3 --realisations 2 --masses 10 --window 1e10";
-    let under = |words: &[&str]| {
-        let mut command = Command::new(words[0]);
-        command.args(&words[1..]).arg(PROGRAM).args(long.split(' ')).current_dir(folder.path());
-        command
-    };
-    // These tests may be under it themselves.
-    ended(&mut under(&["env", "--default-signal=HUP"]), "-HUP");
-    let mut command = under(&["nohup"]);
-    let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
-    let id = child.id().to_string();
-    let send = |signal: &str| Command::new("kill").args([signal, &id]).status().unwrap();
-    let wait = || std::thread::sleep(Duration::from_millis(1200));
-    wait();
-    send("-HUP");
-    wait();
-    let early = child.try_wait().unwrap();
-    send("-TERM");
-    assert_eq!((early, child.wait().unwrap().code()), (None, Some(130)));
 }

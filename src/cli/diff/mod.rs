@@ -6,7 +6,7 @@ mod text;
 
 use super::{Failure, folder, shown, stdout};
 pub use impact_numerics::text::count;
-use impact_paper::experiments::{Progress, alive};
+use impact_paper::experiments::alive;
 use impact_paper::report::Files;
 use impact_paper::report::compare::{self, Change, Diff, Parts};
 use literate::input::{self, FOUND};
@@ -72,7 +72,7 @@ fn files(name: &str) -> Result<Files, Failure> {
 /// The files in a folder.
 fn standing(name: &str) -> Result<Files, Failure> {
     let root = Path::new(name);
-    let mut paths = folder::walk(root, &Progress::silent())?;
+    let mut paths = folder::walk(root)?;
     paths.retain(|path| !folder::is_beside(path));
     let length = |path: &String| root.join(path).symlink_metadata().map_or(0, |file| file.len());
     bounded(name, paths.iter().map(|path| (path.as_str(), length(path))))?;

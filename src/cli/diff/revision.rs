@@ -1,7 +1,7 @@
 //! The report of a revision of git, read by the git command.
 
-use super::super::{Failure, folder};
-use impact_paper::report::{Files, sums};
+use super::super::Failure;
+use impact_paper::report::{Files, folder};
 use literate::input::one_line;
 use std::io::ErrorKind;
 
@@ -45,7 +45,7 @@ pub fn files(name: &str) -> Result<Files, Failure> {
         let length = head.rsplit(' ').next()?.parse().unwrap_or(0);
         Some((path.to_string(), length))
     };
-    let meant = |(path, _): &(String, u64)| sums::is_inside(path) && !folder::is_beside(path);
+    let meant = |(path, _): &(String, u64)| !folder::is_beside(path);
     let listed: Vec<(String, u64)> = list.split('\0').filter_map(line).filter(meant).collect();
     super::bounded(name, listed.iter().map(|(path, length)| (path.as_str(), *length)))?;
     let mut files = Files::new();

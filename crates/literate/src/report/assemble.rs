@@ -7,13 +7,14 @@ use super::claims::{Row, scorecard};
 use super::document::{self, Block, Inline};
 use super::documents::Document;
 use super::filler::Filler;
+use super::folder::{self, SUMS};
 use super::labels::Labels;
 use super::ledger::EquationEntry;
 use super::mark::ids;
 use super::origin::{Filled, Places};
 use super::uses::uses;
 use super::values::Registry;
-use super::{Error, html, latex, ledger, lint, markdown, parse, sums};
+use super::{Error, html, latex, ledger, lint, markdown, parse};
 use crate::claims::Check;
 use crate::figures::{DataFile, Figure};
 use crate::input::one_line;
@@ -161,7 +162,7 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
     let pdf =
         |figure: &Figure| (format!("figures/{}.pdf", figure.id), figure.drawing.pdf(&figure.title));
     beside.extend(input.figures.par_iter().map(pdf).collect::<Vec<_>>());
-    committed.insert(sums::NAME.into(), sums::write(&committed).into_bytes());
+    committed.insert(SUMS.into(), folder::sums(&committed).into_bytes());
     for Part { of, blocks, places } in &parts {
         check_links(blocks, *of, &labels, &committed, input.program)
             .and_then(|()| check_labs(blocks, input.templates))

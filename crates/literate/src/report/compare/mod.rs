@@ -6,8 +6,9 @@ mod numbers;
 pub use claims::ClaimChange;
 pub use numbers::{Change, changes, read};
 
+use super::folder::SUMS;
 use super::ledger::{self, Ledger};
-use super::{Files, Registry, sums};
+use super::{Files, Registry};
 use serde::Serialize;
 use std::collections::BTreeSet;
 
@@ -60,7 +61,7 @@ fn text<'a>(name: &str, files: &'a Files, path: &str) -> Result<&'a str, String>
 /// What differs.
 pub fn diff(before: &Parts, after: &Parts) -> Diff {
     let known = |files: &'_ Files| -> BTreeSet<String> {
-        files.keys().filter(|path| *path != sums::NAME).cloned().collect()
+        files.keys().filter(|path| *path != SUMS).cloned().collect()
     };
     let (old, new) = (known(&before.files), known(&after.files));
     let differing = |path: &&String| before.files[*path] != after.files[*path];

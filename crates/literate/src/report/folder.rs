@@ -1,0 +1,402 @@
+//! A report in its folder: written whole and over nothing that somebody edited, and compared with its list.
+//!
+//! SHA256SUMS lists, as `sha256sum` does, every file of a report that is committed, or the figures that were written
+//! alone. Pages and figures for LaTeX stand beside them; they are made anew each time, and no list has them.
+
+use super::assemble::{Files, LAB, Report};
+use crate::digest::sha256;
+use crate::input::{self, STAGING, is_absent, listed, remedy};
+use std::collections::{BTreeMap, BTreeSet};
+use std::io;
+use std::path::Path;
+use std::sync::RwLock;
+
+/// The list, in the folder.
+pub const SUMS: &str = "SHA256SUMS";
+
+/// Held for reading while files are put into place, so that who ends the program waits for it by holding it for writing.
+pub static WRITING: RwLock<()> = RwLock::new(());
+
+/// Why a folder is not written or compared.
+#[derive(Debug, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages tell")]
+pub enum Error {
+    #[error(
+        "{0}: it has files and no {SUMS} of a report; give a new or empty folder, or --force to write among them"
+    )]
+    NotOurs(String),
+    #[error("{}: not as this program last wrote it: {}; move it away, or write over it with --force", .0, listed(.1))]
+    Edited(String, Vec<String>),
+    #[error("{0}: it is a symbolic link out of the folder; remove it, or give another folder")]
+    Link(String),
+    #[error("{0}: there is no {SUMS}; give the folder of a report")]
+    NoList(String),
+    #[error(
+        "{place}: {source}; {}",
+        remedy(source, "see that it can be read and written, or give another folder")
+    )]
+    Io { place: String, source: io::Error },
+}
+
+/// What was done to files that somebody else may miss.
+#[derive(Debug, Default, PartialEq, Eq)]
+pub struct Written {
+    /// Edited files that were written over, or removed, by force.
+    pub over: Vec<String>,
+    /// Files of the report before that this one does not have.
+    pub removed: Vec<String>,
+}
+
+/// Digests by path: several where a run was killed.
+type Digests = BTreeMap<String, BTreeSet<String>>;
+
+fn failed(place: &Path) -> impl Fn(io::Error) -> Error {
+    let place = place.display().to_string();
+    move |source| Error::Io { place: place.clone(), source }
+}
+
+/// The digest of each file.
+fn digests<'a>(files: impl Iterator<Item = (&'a String, &'a Vec<u8>)>) -> BTreeMap<String, String> {
+    files.map(|(path, bytes)| (path.clone(), sha256(bytes))).collect()
+}
+
+fn lines(digests: &BTreeMap<String, String>) -> String {
+    digests.iter().map(|(path, digest)| format!("{digest}  {path}\n")).collect()
+}
+
+/// Lines that `sha256sum --check` reads, sorted by path.
+pub fn sums(files: &Files) -> String {
+    lines(&digests(files.iter()))
+}
+
+/// Reads the lines: path and digest. None if there is none, or one is no file of a report, so that no list leads out of the folder, or has
+/// what is not ours removed.
+pub fn read_sums(text: &str) -> Option<BTreeMap<String, String>> {
+    let entry = |line: &str| {
+        let (digest, path) = line.split_once("  ")?;
+        let of_report = match path.split_once('/') {
+            None => [".md", ".tex", ".json"].iter().any(|end| path.ends_with(end)),
+            Some((folder, name)) => ["data", "figures"].contains(&folder) && !name.contains('/'),
+        };
+        (of_report && digest.len() == 64).then(|| (path.to_string(), digest.to_string()))
+    };
+    text.lines().map(entry).collect::<Option<BTreeMap<_, _>>>().filter(|list| !list.is_empty())
+}
+
+/// A file below a folder.
+pub fn read(folder: &Path, path: &str) -> io::Result<Vec<u8>> {
+    input::regular(&folder.join(path))
+}
+
+/// Names in a folder; none if it is not there.
+fn names(folder: &Path) -> Result<Vec<String>, Error> {
+    let name = |entry: io::Result<std::fs::DirEntry>| {
+        entry.map(|entry| entry.file_name().to_string_lossy().into_owned())
+    };
+    match std::fs::read_dir(folder) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Vec::new()),
+        found => found.and_then(|all| all.map(name).collect()).map_err(failed(folder)),
+    }
+}
+
+/// Paths of all files below a folder, sorted, with slashes. Links are listed and not followed, and what a killed run left
+/// half-done is passed over.
+pub fn walk(folder: &Path) -> Result<Vec<String>, Error> {
+    let mut paths = Vec::new();
+    let mut open = vec![String::new()];
+    while let Some(prefix) = open.pop() {
+        for name in names(&folder.join(&prefix))? {
+            let path = format!("{prefix}{name}");
+            let place = folder.join(&path);
+            if place.symlink_metadata().map_err(failed(&place))?.is_dir() {
+                open.extend((!path.starts_with(STAGING)).then(|| format!("{path}/")));
+            } else {
+                paths.push(path);
+            }
+        }
+    }
+    paths.sort();
+    Ok(paths)
+}
+
+/// Whether a file is built beside those of a report, and never committed: .gitignore names the same.
+pub fn is_beside(path: &str) -> bool {
+    match path.split_once('/') {
+        Some((folder, name)) => folder == "figures" && name.ends_with(".pdf"),
+        None => path.ends_with(".html") || path == LAB,
+    }
+}
+
+/// What the lists say that was written into a folder: SHA256SUMS, and those that killed runs were about to put there.
+/// None if the folder has other files and no list.
+fn ours(folder: &Path) -> Result<Option<Digests>, Error> {
+    let names = names(folder)?;
+    let killed = names.iter().filter(|name| name.starts_with(STAGING));
+    let places = killed.map(|name| format!("{name}/{SUMS}")).chain([SUMS.into()]);
+    let list = |place: String| read_sums(&String::from_utf8(read(folder, &place).ok()?).ok()?);
+    let lists: Vec<_> = places.filter_map(list).collect();
+    if lists.is_empty() && names.iter().any(|name| !name.starts_with(STAGING)) {
+        return Ok(None);
+    }
+    let mut all = Digests::new();
+    for (path, digest) in lists.into_iter().flatten() {
+        all.entry(path).or_default().insert(digest);
+    }
+    Ok(Some(all))
+}
+
+/// Paths of files that stand there with other bytes than we wrote, and than `files` are about to bring.
+fn edited<'a>(
+    folder: &Path,
+    ours: &Digests,
+    files: &Files,
+    paths: impl Iterator<Item = &'a String>,
+) -> Vec<String> {
+    let is_edited = |path: &&String| match read(folder, path) {
+        Ok(bytes) => {
+            let wrote = ours.get(*path).is_some_and(|own| own.contains(&sha256(&bytes)));
+            !wrote && files.get(*path) != Some(&bytes)
+        }
+        Err(error) => !is_absent(&error),
+    };
+    let paths: BTreeSet<&String> = paths.filter(|path| *path != SUMS).collect();
+    paths.into_iter().filter(is_edited).cloned().collect()
+}
+
+/// Refuses a folder that is not ours, and files that were edited, by name: of `files` that are about to be written, and of a
+/// whole report also those that the list names. Forced, it returns what was edited.
+pub fn refuse(
+    folder: &Path,
+    files: &Files,
+    whole: bool,
+    force: bool,
+) -> Result<Vec<String>, Error> {
+    let place = || folder.display().to_string();
+    let ours = match ours(folder)? {
+        None if !force => return Err(Error::NotOurs(place())),
+        ours => ours.unwrap_or_default(),
+    };
+    let paths = ours.keys().filter(|_| whole).chain(files.keys());
+    match edited(folder, &ours, files, paths) {
+        edited if edited.is_empty() || force => Ok(edited),
+        edited => Err(Error::Edited(place(), edited)),
+    }
+}
+
+/// Writes files: first all into a temporary folder, then each is renamed into its place, the list last. With a list among
+/// them they are a whole report, and what only the list before has is removed; without one their lines are put into the
+/// list that is there. `beside` are files that no list has. A run that is killed leaves old and new files, and the next
+/// one knows both.
+pub fn write(folder: &Path, files: &Files, beside: &Files, force: bool) -> Result<Written, Error> {
+    let whole = files.contains_key(SUMS);
+    let over = refuse(folder, files, whole, force)?;
+    for below in ["data", "figures"].map(|below| folder.join(below)) {
+        if below.is_symlink() {
+            return Err(Error::Link(below.display().to_string()));
+        }
+    }
+    let standing = read(folder, SUMS).ok().and_then(|text| String::from_utf8(text).ok());
+    let mut list = standing.and_then(|text| read_sums(&text)).unwrap_or_default();
+    let gone = |path: &&String| whole && !files.contains_key(*path) && folder.join(path).exists();
+    let gone: Vec<String> = list.keys().filter(gone).cloned().collect();
+    list.retain(|_, _| !whole);
+    list.extend(digests(files.iter().filter(|(path, _)| *path != SUMS)));
+
+    let _moment = WRITING.read();
+    std::fs::create_dir_all(folder).map_err(failed(folder))?;
+    let killed: Vec<String> =
+        names(folder)?.into_iter().filter(|name| name.starts_with(STAGING)).collect();
+    let staged = tempfile::Builder::new().prefix(STAGING).tempdir_in(folder);
+    let staged = staged.map_err(failed(folder))?;
+    let put = |root: &Path, path: &str, how: &dyn Fn(&Path) -> io::Result<()>| {
+        let place = root.join(path);
+        let above = place.parent().map_or(Ok(()), std::fs::create_dir_all);
+        above.and_then(|()| how(&place)).map_err(failed(&folder.join(path)))
+    };
+    let (name, list) = (SUMS.to_string(), lines(&list).into_bytes());
+    let mut all: Vec<_> = files.iter().filter(|(path, _)| *path != SUMS).chain(beside).collect();
+    all.push((&name, &list));
+    for (path, bytes) in &all {
+        put(staged.path(), path, &|place| std::fs::write(place, bytes))?;
+    }
+    for path in &gone {
+        put(folder, path, &|place| std::fs::remove_file(place))?;
+    }
+    for (path, _) in &all {
+        put(folder, path, &|place| std::fs::rename(staged.path().join(path), place))?;
+    }
+    for name in killed {
+        let _ = std::fs::remove_dir_all(folder.join(name));
+    }
+    Ok(Written { over, removed: gone })
+}
+
+/// What is wrong with the files of a folder, one line each: digests by path say what should be there.
+fn faults(folder: &Path, expected: &BTreeMap<String, String>) -> Result<Vec<String>, Error> {
+    let fault = |(path, digest): (&String, &String)| match read(folder, path) {
+        Ok(bytes) if sha256(&bytes) == *digest => None,
+        Ok(_) => Some(format!("differs  {path}")),
+        Err(error) if is_absent(&error) => Some(format!("missing  {path}")),
+        Err(error) => Some(format!("unread   {path} ({error})")),
+    };
+    let strange = walk(folder)?.into_iter().filter(|path| !expected.contains_key(path));
+    let strange = strange.map(|path| format!("unlisted {path}"));
+    Ok(expected.iter().filter_map(fault).chain(strange).collect())
+}
+
+/// Compares a folder with its list: how many files that names, and what is wrong, one line each. What is built beside is
+/// on no list.
+pub fn verify(folder: &Path) -> Result<(usize, Vec<String>), Error> {
+    let place = folder.join(SUMS);
+    let text = input::regular_text(&place).map_err(failed(&place))?;
+    let list = read_sums(&text).ok_or_else(|| Error::NoList(folder.display().to_string()))?;
+    let passed = |fault: &String| {
+        fault.strip_prefix("unlisted ").is_some_and(|path| path == SUMS || is_beside(path))
+    };
+    let faults = faults(folder, &list)?.into_iter().filter(|fault| !passed(fault)).collect();
+    Ok((list.len(), faults))
+}
+
+impl Report {
+    /// Writes all of it into a folder.
+    pub fn write(&self, folder: &Path, force: bool) -> Result<Written, Error> {
+        write(folder, &self.committed, &self.beside, force)
+    }
+
+    /// Compares a folder with all of it, byte by byte: how many files were compared, and what is wrong, one line each. What
+    /// is built beside may be missing, but not be another.
+    pub fn compare(&self, folder: &Path) -> Result<(usize, Vec<String>), Error> {
+        let beside = self.beside.iter().filter(|(path, _)| folder.join(path).exists());
+        let all = digests(self.committed.iter().chain(beside));
+        Ok((all.len(), faults(folder, &all)?))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+
+    fn files(pairs: &[(&str, &str)]) -> Files {
+        pairs.iter().map(|(path, text)| (path.to_string(), text.as_bytes().to_vec())).collect()
+    }
+
+    /// A whole report with a page beside it.
+    fn report(pairs: &[(&str, &str)]) -> Report {
+        let mut committed = files(pairs);
+        committed.insert(SUMS.into(), sums(&committed).into_bytes());
+        Report { committed, beside: files(&[("report.html", "page")]) }
+    }
+
+    /// All that stands in a folder.
+    fn standing(folder: &Path) -> Files {
+        let one = |path: String| (path.clone(), read(folder, &path).unwrap());
+        walk(folder).unwrap().into_iter().map(one).collect()
+    }
+
+    fn whole(report: &Report) -> Files {
+        report.committed.clone().into_iter().chain(report.beside.clone()).collect()
+    }
+
+    #[test]
+    fn a_report_is_replaced_and_what_others_put_there_is_left() {
+        let temporary = tempfile::tempdir().unwrap();
+        let folder = &temporary.path().join("new/paper");
+        let old = report(&[("data/old.csv", "1"), ("report.md", "a")]);
+        assert_eq!(old.write(folder, false).unwrap(), Written::default());
+        assert_eq!(standing(folder), whole(&old));
+        fs::write(folder.join("notes.txt"), "by hand").unwrap();
+        let new = report(&[("data/new.csv", "1"), ("report.md", "b")]);
+        assert_eq!(new.write(folder, false).unwrap().removed, ["data/old.csv"]);
+        let notes = files(&[("notes.txt", "by hand")]);
+        assert_eq!(standing(folder), whole(&new).into_iter().chain(notes).collect());
+        assert_eq!(verify(folder).unwrap(), (2, vec!["unlisted notes.txt".into()]));
+        // A figure alone: the list has it from then on.
+        let figure = files(&[("figures/fig01.svg", "drawn")]);
+        write(folder, &figure, &Files::new(), false).unwrap();
+        write(folder, &files(&[("figures/fig01.svg", "again")]), &Files::new(), false).unwrap();
+        fs::remove_file(folder.join("notes.txt")).unwrap();
+        assert_eq!(verify(folder).unwrap(), (3, Vec::new()));
+    }
+
+    #[test]
+    fn a_folder_of_others_and_edited_files_are_refused_by_name() {
+        let temporary = tempfile::tempdir().unwrap();
+        let folder = temporary.path();
+        let old = report(&[("data/a.csv", "1"), ("data/b.csv", "1"), ("report.md", "a")]);
+        let new = report(&[("README.md", "c"), ("data/a.csv", "2"), ("report.md", "b")]);
+        fs::write(folder.join("README.md"), "by hand").unwrap();
+        // A list of other files, or one that leads out, is none of a report.
+        for list in ["foo.tar.gz", "../out.md", "data/../out", ".git/config"]
+            .map(|path| format!("{}  {path}\n", sha256("")))
+        {
+            fs::write(folder.join(SUMS), list).unwrap();
+            assert!(matches!(new.write(folder, false), Err(Error::NotOurs(_))));
+        }
+        fs::remove_file(folder.join(SUMS)).unwrap();
+        assert!(matches!(new.write(folder, false), Err(Error::NotOurs(_))));
+        old.write(folder, true).unwrap();
+        // One that would be replaced, one that would go, and one that no list has.
+        for path in ["data/a.csv", "data/b.csv"] {
+            fs::write(folder.join(path), "by hand").unwrap();
+        }
+        let before = standing(folder);
+        let named = "README.md, data/a.csv, data/b.csv; ";
+        let told = new.write(folder, false).unwrap_err().to_string();
+        assert!(told.contains(named) && told.contains("--force"), "{told}");
+        assert!(refuse(folder, &Files::new(), true, false).is_err());
+        assert_eq!(standing(folder), before);
+        let done = new.write(folder, true).unwrap();
+        assert_eq!(done.over, ["README.md", "data/a.csv", "data/b.csv"]);
+        assert_eq!(standing(folder), whole(&new));
+    }
+
+    /// Wherever a run was killed, the next one writes its files.
+    #[test]
+    fn a_run_that_was_killed_is_mended() {
+        let [old, new, next] = ["old", "new", "next"].map(|word| {
+            report(&[("data/a.csv", word), ("report.md", word), ("values.json", word)])
+        });
+        let order: Vec<&String> = new.committed.keys().filter(|path| *path != SUMS).collect();
+        for first in [true, false] {
+            for replaced in 0..=order.len() {
+                let temporary = tempfile::tempdir().unwrap();
+                let folder = temporary.path();
+                if !first {
+                    old.write(folder, false).unwrap();
+                }
+                let staged = folder.join(format!("{STAGING}killed"));
+                for (path, bytes) in &new.committed {
+                    let moved = order[..replaced].contains(&path);
+                    let place = if moved { folder.join(path) } else { staged.join(path) };
+                    fs::create_dir_all(place.parent().unwrap()).unwrap();
+                    fs::write(place, bytes).unwrap();
+                }
+                refuse(folder, &Files::new(), true, false).unwrap();
+                next.write(folder, false).unwrap();
+                assert_eq!(standing(folder), whole(&next));
+                assert!(!staged.exists());
+            }
+        }
+    }
+
+    #[test]
+    fn what_differs_is_missing_or_unlisted_is_named() {
+        let temporary = tempfile::tempdir().unwrap();
+        let folder = temporary.path();
+        let report = report(&[("data/a.csv", "1"), ("report.md", "a"), ("values.json", "{}")]);
+        report.write(folder, false).unwrap();
+        assert_eq!(verify(folder).unwrap(), (3, Vec::new()));
+        assert_eq!(report.compare(folder).unwrap(), (5, Vec::new()));
+        fs::remove_file(folder.join("data/a.csv")).unwrap();
+        for path in ["report.md", "report.html", "data/b.csv"] {
+            fs::write(folder.join(path), "by hand").unwrap();
+        }
+        let faults = ["missing  data/a.csv", "differs  report.md", "unlisted data/b.csv"];
+        assert_eq!(verify(folder).unwrap().1, faults);
+        let faults = [faults[0], "differs  report.html", faults[1], faults[2]];
+        assert_eq!(report.compare(folder).unwrap().1, faults);
+        fs::remove_file(folder.join(SUMS)).unwrap();
+        assert!(verify(folder).unwrap_err().to_string().contains(SUMS));
+    }
+}
