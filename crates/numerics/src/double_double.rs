@@ -3,7 +3,7 @@
 //!
 //! The error-free sum is Knuth's, the error-free product Dekker's; neither needs a fused
 //! multiply-add, so the bits are the same on every machine. Magnitudes must stay between about
-//! 2^−450 and 2^450 for products to be exact; [`super::scaled::Scaled`] takes care of that.
+//! 2^−450 and 2^450 for products to be exact; [`super::scaled::Scaled`] has an exponent for that.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
