@@ -239,7 +239,7 @@ fn row(
         impacts.clear();
         count = 0;
         let began = Instant::now();
-        ended = method.run(scenario, &start, until, &mut |impact| {
+        ended = method.run((scenario, &start, until), &mut |impact| {
             count += 1;
             if impacts.len() < truth.impacts.len() {
                 impacts.push(impact);
@@ -290,7 +290,7 @@ fn found(scenario: &Scenario, method: &dyn Method, segment: &Segment) -> bool {
         positions: segment.u.iter().zip(1..).map(|(u, j)| f64::from(j) * d + u).collect(),
         velocities: segment.v.clone(),
     };
-    let first = method.first(scenario, &start, segment.next_t + 1.0);
+    let first = method.first((scenario, &start, segment.next_t + 1.0));
     first.is_ok_and(|first| {
         first.is_some_and(|own| {
             own.gap == segment.next_gap && (own.time - segment.next_t).abs() <= CLOSE

@@ -106,7 +106,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
         all < most && written.is_ok()
     };
     let until = if most == 0 { 0.0 } else { args.until };
-    let ran = method.run(&scenario, &start, until, &mut sink);
+    let ran = method.run((&scenario, &start, until), &mut sink);
     if ran.is_ok() {
         lines.push_str(header);
     }

@@ -6,10 +6,10 @@
 use super::ensembles::each;
 use super::{Error, Progress};
 use crate::params::HorizonParams;
-use impact_chain::{Engine, Growth, Scenario};
+use impact_chain::{Engine, Scenario};
 use impact_numerics::estimates::average;
 use impact_numerics::random::NormalPairs;
-use impact_numerics::statistics::Estimate;
+use impact_numerics::statistics::{Estimate, slope};
 use literate::table::Table;
 use literate::value::origin;
 use serde::{Deserialize, Serialize};
@@ -86,6 +86,25 @@ fn tenfold(growth: Estimate) -> Estimate {
     }
 }
 
+/// Differences that follow the growth: above the rounding of the times, below saturation.
+const GROWING: std::ops::Range<f64> = 1e-13..1e-4;
+
+/// Units of time in which the largest difference is one point of the growth.
+const STRIDE: f64 = 5.0;
+
+/// The rate λ of the growth e^λt of differences with their times, which rise: by a straight line through the logarithms of
+/// the largest in each stride; none from fewer than three points.
+fn rate(differences: &[(f64, f64)]) -> Option<f64> {
+    let stride = |own: &(f64, f64)| (own.0 / STRIDE) as u64;
+    let points: Vec<(f64, f64)> = differences
+        .chunk_by(|a, b| stride(a) == stride(b))
+        .map(|own| (stride(&own[0]), own.iter().map(|own| own.1).fold(0.0, f64::max)))
+        .filter(|(_, largest)| GROWING.contains(largest))
+        .map(|(stride, largest)| ((stride as f64 + 0.5) * STRIDE, pxfm::f_log(largest)))
+        .collect();
+    (points.len() >= 3).then(|| slope(&points)).flatten()
+}
+
 /// Runs a scenario and its twin, whose amplitudes are one bit larger and smaller in turn.
 fn pair(parameters: &HorizonParams, index: u64) -> Result<Twins, impact_chain::Error> {
     let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, index);
@@ -95,22 +114,32 @@ fn pair(parameters: &HorizonParams, index: u64) -> Result<Twins, impact_chain::E
         *amplitude = if j % 2 == 0 { amplitude.next_up() } else { amplitude.next_down() };
     }
     let first = Engine::new(&scenario)?.impacts(parameters.until)?;
-    let (mut growth, mut order, mut met) = (Growth::default(), None, first.iter().zip(0..));
+    let (mut growth, mut order, mut met) = (Vec::new(), None, first.iter().zip(0..));
     Engine::new(&twin)?.run(parameters.until, |other| {
         let Some((own, before)) = met.next() else { return false };
         if own.gap == other.gap {
-            growth.see(own.time, (own.time - other.time).abs());
+            growth.push((own.time, (own.time - other.time).abs()));
         } else {
             order = Some((own.time.min(other.time), before));
         }
         order.is_none()
     })?;
-    Ok(Twins { order, growth: growth.rate() })
+    Ok(Twins { order, growth: rate(&growth) })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn only_what_lies_between_rounding_and_saturation_counts() {
+        // e^(t/4), hidden by rounding before and by saturation after.
+        let of = |time: f64| (1e-15 * pxfm::f_exp(0.25 * time)).clamp(1e-14, 1e-3);
+        let times = || (0..200).map(|i| 0.5 * f64::from(i));
+        let found = rate(&times().map(|time| (time, of(time))).collect::<Vec<_>>()).unwrap();
+        assert!((found - 0.25).abs() < 1e-3, "{found}");
+        assert_eq!(rate(&times().map(|time| (time, 1e-15)).collect::<Vec<_>>()), None);
+    }
 
     #[test]
     fn twins_part_and_repeat_exactly() {

@@ -27,7 +27,7 @@ fn trace(
     until: f64,
 ) -> (Vec<Impact>, Result<Cost, Error>) {
     let mut impacts = Vec::new();
-    let cost = method.run(scenario, &State::of(scenario), until, &mut |impact| {
+    let cost = method.run((scenario, &State::of(scenario), until), &mut |impact| {
         impacts.push(impact);
         true
     });
@@ -35,7 +35,7 @@ fn trace(
 }
 
 fn impacts(method: &dyn Method, scenario: &Scenario, until: f64) -> Vec<Impact> {
-    method.impacts(scenario, &State::of(scenario), until).unwrap()
+    method.impacts((scenario, &State::of(scenario), until)).unwrap()
 }
 
 fn all() -> Vec<Box<dyn Method>> {
@@ -229,7 +229,7 @@ fn runs_stop_and_go_on() {
         for method in all().into_iter().chain([more]) {
             let name = method.name();
             let mut found: Vec<Impact> = Vec::new();
-            let cost = method.run(&scenario, &start, 40.0, &mut |impact| {
+            let cost = method.run((&scenario, &start, 40.0), &mut |impact| {
                 found.push(impact);
                 found.len() < 3
             });
@@ -240,7 +240,7 @@ fn runs_stop_and_go_on() {
                 let off = (exact.time - found.time).abs();
                 assert!(exact.gap == found.gap && off < room, "{name}: {exact:?} {found:?}");
             }
-            assert_eq!(method.run(&scenario, &start, 29.0, &mut |_| true).unwrap().impacts, 0);
+            assert_eq!(method.run((&scenario, &start, 29.0), &mut |_| true).unwrap().impacts, 0);
         }
     }
 }
@@ -279,7 +279,7 @@ fn no_method_loops_or_panics_on_bad_data() {
     for method in all() {
         let name = method.name();
         let run = |scenario: &Scenario, start: &State, until: f64| {
-            method.run(scenario, start, until, &mut |_| true)
+            method.run((scenario, start, until), &mut |_| true)
         };
         let overlap = run(&good, &overlapped, 9.0);
         assert!(matches!(overlap, Err(Error::Overlap { gap: 1, .. })), "{name}");

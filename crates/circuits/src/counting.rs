@@ -95,15 +95,6 @@ mod tests {
     }
 
     #[test]
-    fn ratio_to_the_longest_is_the_quotient_of_counts() {
-        for k in 1..=30 {
-            let quotient = (phi_scaled(30, k) / phi_scaled(30, 30)).to_f64();
-            assert!((ratio_to_longest(30, k) / quotient - 1.0).abs() < 1e-15);
-        }
-        assert!(ratio_to_longest(30, 29) > 1.0);
-    }
-
-    #[test]
     fn shares_are_counts_over_their_sum() {
         let (shares, log_total) = shares(30);
         let total: u128 = (1..=30).map(|k| phi(30, k).unwrap()).sum();

@@ -327,47 +327,6 @@ mod tests {
     }
 
     #[test]
-    fn sampled_neighbours_close_as_often() {
-        // Four masses' forces in a row between walls: a wall gap and its neighbour, and two gaps
-        // between masses; five standard errors of 60 000 draws.
-        let chain = Chain::default();
-        let (sigma, draws) = (0.15_f64, 60_000);
-        let reach = Reach::ever(&chain, 48);
-        let (mass, wall) = (2.0 * sigma * sigma, sigma * sigma);
-        let mut normals = NormalPairs::new("test of neighbouring gaps", 1, 0);
-        let mut hits = [0_u32; 2];
-        for _ in 0..draws {
-            let forces: [[f64; 2]; 3] = std::array::from_fn(|_| normals.pair().map(|x| sigma * x));
-            let closes =
-                |a: [f64; 2], b: [f64; 2]| closes_by_itself(&chain, [b[0] - a[0], b[1] - a[1]]);
-            let between = closes(forces[0], forces[1]);
-            hits[0] += u32::from(closes([0.0; 2], forces[0]) && between);
-            hits[1] += u32::from(between && closes(forces[1], forces[2]));
-        }
-        for (hits, pair) in hits.into_iter().zip([[wall, mass], [mass, mass]]) {
-            let p = both(&reach, 1.0, sigma, pair);
-            let error = (p * (1.0 - p) / f64::from(draws)).sqrt();
-            assert!((f64::from(hits) / f64::from(draws) - p).abs() < 5.0 * error, "{hits} {p}");
-            // Sharing a mass makes it more likely than by chance.
-            let alone = pair.map(|variance| reach.probability(1.0, variance));
-            assert!(p > 1.5 * alone[0] * alone[1], "{p} {alone:?}");
-        }
-    }
-
-    #[test]
-    fn order_does_not_matter_and_finer_rules_agree() {
-        let chain = Chain::default();
-        let (mass, wall) = (2.0 * 0.0144, 0.0144);
-        // 64 angles are used where chains are looked at.
-        let [coarse, fine] = [64, 96].map(|angles| Reach::ever(&chain, angles));
-        let p = |reach, pair| both(reach, 1.0, 0.12, pair);
-        let there = p(&coarse, [wall, mass]);
-        assert!((there / p(&coarse, [mass, wall]) - 1.0).abs() < 1e-12);
-        let finer = p(&fine, [wall, mass]);
-        assert!((there / finer - 1.0).abs() < 1e-9, "{there} {finer}");
-    }
-
-    #[test]
     fn drawn_chains_are_near_the_value() {
         let chain = Chain { masses: 30, ..Chain::default() };
         let reach = Reach::ever(&chain, 32);

@@ -316,17 +316,4 @@ mod tests {
         let impacts = [impact(1.0, 4, 1.0), impact(1.01, 0, 1.0)];
         assert_eq!(watched(5, Boundary::Walls, vec![0.0], &impacts).total.near[0], 0);
     }
-
-    #[test]
-    fn windows_by_hand() {
-        let impacts = [(0.5, 0), (1.0, 1), (2.0, 0), (3.0, 0), (6.0, 1), (9.0, 0)]
-            .map(|(time, gap)| impact(time, gap, 1.0));
-        let watch = watched(3, Boundary::Walls, vec![1.0, 5.0], &impacts);
-        // After 1 (open at its start): gap 0 at 2, gap 1 at 6. After 5: gap 1 at 6, gap 0 at 9.
-        let hit = |transient, window| watch.hit(&Protocol { transient, window });
-        assert_eq!(hit(1.0, 1.0), [true, false, false]);
-        assert_eq!(hit(1.0, 5.0), [true, true, false]);
-        assert_eq!(hit(5.0, 1.0), [false, true, false]);
-        assert_eq!(hit(5.0, 4.0), [true, true, false]);
-    }
 }

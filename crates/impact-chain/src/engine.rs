@@ -19,7 +19,7 @@ pub struct Impact {
 }
 
 /// Who is handed the impacts of a run; false stops it.
-pub(super) type Sink<'a> = &'a mut dyn FnMut(Impact) -> bool;
+pub type Sink<'a> = &'a mut dyn FnMut(Impact) -> bool;
 
 /// Counted work of a run: deterministic, and a result like any other.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

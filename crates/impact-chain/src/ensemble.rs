@@ -209,23 +209,6 @@ mod tests {
     }
 
     #[test]
-    fn one_run_reads_every_window_as_a_run_for_it_alone_would() {
-        let whole = run(&small(), 0.16, 6);
-        for (at, &protocol) in small().protocols.iter().enumerate() {
-            let alone = run(&Ensemble { protocols: vec![protocol], ..small() }, 0.16, 6);
-            assert_eq!(whole.distinct[at], alone.distinct[0]);
-            assert_eq!(
-                (&whole.impacts[at], &whole.masses[at]),
-                (&alone.impacts[0], &alone.masses[0])
-            );
-        }
-        assert!(
-            whole.distinct[1].iter().flatten().any(|&k| k > 3),
-            "without impacts nothing is tested"
-        );
-    }
-
-    #[test]
     fn windows_by_a_list_of_impacts() {
         let scenario =
             Scenario::draw(&small().chain, 0.16, &mut NormalPairs::new("ensemble", 2007, 2));

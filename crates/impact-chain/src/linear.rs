@@ -36,29 +36,15 @@ struct Shut<'a, const M: usize> {
 }
 
 impl<const M: usize> Shut<'_, M> {
-    /// Adds gaps that are driven shut; true if none is left. Runs grow to the right, then to the left, as far as they
-    /// do, so that a long one needs few rounds.
+    /// Adds gaps that are driven shut; true if none is left.
     fn grow(&mut self) -> bool {
         let n = self.g.len();
-        self.spread(0..n);
-        self.spread((0..n).rev());
         let forces = self.forces();
         let of = |i: usize| forces.get(i).copied().flatten().unwrap_or(Force::ZERO);
         let between = |&i: &usize| self.is_driven(i, [of(i.wrapping_sub(1)), of(i + 1)]);
         let more: Vec<usize> = (0..n).filter(between).collect();
         more.iter().for_each(|&i| self.active[i] = true);
         more.is_empty()
-    }
-
-    /// Adds, one after the other, every gap that the run before it drives shut. What that takes for its last force is
-    /// what it would be if the next gap were open: never more than it is.
-    fn spread(&mut self, order: impl Iterator<Item = usize>) {
-        let mut last = None;
-        for i in order {
-            let force = last.map_or(Force::ZERO, |(pivot, right): (f64, Force<M>)| right / pivot);
-            self.active[i] |= self.is_driven(i, [force, Force::ZERO]);
-            last = self.active[i].then(|| self.eliminated(i, last));
-        }
     }
 
     /// Whether an open gap is driven shut by its acceleration and the forces of its neighbours.
@@ -148,23 +134,5 @@ mod tests {
                 assert!((lambda[i] * a).abs() < 1e-9);
             }
         }
-    }
-
-    /// A ramp of accelerations, as of masses that are driven together: shut in the middle, open at both ends.
-    #[test]
-    fn long_runs_need_few_rounds() {
-        let n = 2000;
-        let g: Vec<_> = (0..n)
-            .map(|i| Force { constant: (f64::from(i) - 900.5).abs() - 300.0, forced: [[0.0; 2]] })
-            .collect();
-        let p = Phases { sin: 0.0, cos: 1.0, forced: [[0.0, 1.0]] };
-        let (stiffness, allowed) = (vec![2.0; g.len()], vec![true; g.len()]);
-        let frequencies = &Frequencies::new(1.0, [1.4]);
-        let active = vec![false; g.len()];
-        let mut shut =
-            Shut { g: &g, stiffness: &stiffness, allowed: &allowed, p: &p, frequencies, active };
-        let rounds = (1..).find(|_| shut.grow()).unwrap();
-        let pressed = shut.active.iter().filter(|&&active| active).count();
-        assert!(rounds < 5 && (900..1500).contains(&pressed), "{rounds} rounds, {pressed}");
     }
 }

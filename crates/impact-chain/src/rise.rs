@@ -389,14 +389,6 @@ mod tests {
         }
     }
 
-    #[test]
-    fn rejected_realisations_weigh_nothing() {
-        let mut with = counts();
-        with.iter_mut().for_each(|row| row.push(None));
-        let places = sample(&SIGMAS, &with).places(&[1; 5]).places;
-        assert_eq!(places, sample(&SIGMAS, &counts()).places(&[1; 4]).places);
-    }
-
     fn one(distinct: Option<u32>, impacts: u64, masses: u32, phases: u64) -> Counts {
         Counts {
             distinct: vec![vec![distinct]],
@@ -423,28 +415,6 @@ mod tests {
         assert_eq!(row.impacts.unwrap().value, 80.0);
         assert_eq!(row.phases_per_impact.unwrap().value, 1.0 / 240.0);
         assert_eq!(row.counts, [1, 0, 0, 0, 2, 0, 0, 0, 0, 0, 1]);
-    }
-
-    #[test]
-    fn without_spread_there_is_no_width() {
-        // All realisations alike: every resample gives the same places.
-        let counts: Vec<Counts> = [0, 4, 8]
-            .map(|k| (0..20).map(|_| one(Some(k), 1, 1, 0)).collect())
-            .into_iter()
-            .collect();
-        let ensemble = Ensemble {
-            chain: crate::Chain { masses: 9, ..crate::Chain::default() },
-            sigmas: SIGMAS[..3].to_vec(),
-            realisations: 20,
-            ..Ensemble::default()
-        };
-        let Curve { rows, rise, .. } = Curve::new(&ensemble, &counts, 0);
-        let half = rise.half_height_all.unwrap();
-        assert!(half.error < 1e-12);
-        assert_eq!(half.interval, [half.value, half.value]);
-        assert_eq!(rise.width, None, "8 of 10 is below nine tenths");
-        assert_eq!(rows[1].mean_all.unwrap().interval, Some([4.0, 4.0]));
-        assert_eq!((rows[2].mode_interval, rows[0].mode_interval), (Some([8, 8]), None));
     }
 
     #[test]

@@ -3,12 +3,8 @@
 use crate::methods::State;
 use crate::{Boundary, Chain, Engine, Error, Start, rounding};
 use impact_numerics::random::NormalPairs;
-use impact_numerics::text::{count, plain};
-use serde::de::value::MapAccessDeserializer;
-use serde::de::{MapAccess, Visitor};
-use serde::{Deserialize, Deserializer};
-use std::fmt;
-use std::marker::PhantomData;
+use impact_numerics::text::plain;
+use serde::Deserialize;
 
 /// The start of one scenario.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,10 +20,13 @@ pub enum Initial {
 /// Components of the forcing that a scenario may have at most.
 pub const COMPONENTS: usize = 8;
 
-/// The form of a scenario file, with forcing `F`: one component, or several with their frequencies.
+/// One component: a pair for each mass.
+type Pairs = Vec<[f64; 2]>;
+
+/// The form of a scenario file.
 #[derive(Deserialize)]
-#[serde(default, deny_unknown_fields)]
-struct Form<F: Default> {
+#[serde(default, deny_unknown_fields, expecting = "a JSON object")]
+struct Form {
     spacing: f64,
     natural_frequency: f64,
     forcing_frequency: Option<f64>,
@@ -35,66 +34,29 @@ struct Form<F: Default> {
     restitution: f64,
     boundary: Boundary,
     initial: InitialForm,
-    forcing: F,
+    forcing: Forcing,
 }
 
-/// One component: a pair for each mass.
-type Pairs = Vec<[f64; 2]>;
+/// One component, or several.
+#[derive(Deserialize)]
+#[serde(untagged, expecting = "no list of pairs [alpha, beta], nor one for each frequency")]
+enum Forcing {
+    One(Pairs),
+    Several(Vec<Pairs>),
+}
 
 /// The start as a scenario file names it.
 #[derive(Deserialize)]
-#[serde(
-    rename_all = "lowercase",
-    expecting = "\"rest\", \"zero\", {\"free\": …}, {\"at\": …} or {\"random\": …}"
-)]
+#[serde(rename_all = "lowercase", deny_unknown_fields)]
 enum InitialForm {
     Rest,
     Zero,
-    Free(Vec<[f64; 2]>),
-    At(Object<At>),
-    Random(Object<Random>),
+    Free(Pairs),
+    At { positions: Vec<f64>, velocities: Vec<f64> },
+    Random { sigma: f64, seed: u64 },
 }
 
-/// The form of a start from places and rates.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct At {
-    positions: Vec<f64>,
-    velocities: Vec<f64>,
-}
-
-/// The form of a random start.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Random {
-    sigma: f64,
-    seed: u64,
-}
-
-/// Fields by their names: serde would take an array of them, in their order, as well.
-struct Object<T>(T);
-
-impl<'de, T: Deserialize<'de>> Deserialize<'de> for Object<T> {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        struct Fields<T>(PhantomData<T>);
-
-        impl<'de, T: Deserialize<'de>> Visitor<'de> for Fields<T> {
-            type Value = Object<T>;
-
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("a JSON object {…}")
-            }
-
-            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Object<T>, A::Error> {
-                T::deserialize(MapAccessDeserializer::new(map)).map(Object)
-            }
-        }
-
-        from.deserialize_map(Fields(PhantomData))
-    }
-}
-
-impl<F: Default> Default for Form<F> {
+impl Default for Form {
     fn default() -> Self {
         let chain = Chain::default();
         Form {
@@ -105,67 +67,67 @@ impl<F: Default> Default for Form<F> {
             restitution: chain.restitution,
             boundary: chain.boundary,
             initial: InitialForm::Rest,
-            forcing: F::default(),
+            forcing: Forcing::One(Vec::new()),
         }
     }
 }
 
-impl<F: Default> Form<F> {
-    /// Reads a form.
-    fn read<'a>(text: &'a str) -> Result<Self, Error>
-    where
-        F: Deserialize<'a>,
-    {
-        let remedy =
-            r#"write {"forcing": [[alpha, beta], ...]}, and what is not as in the paper beside it"#;
-        let refuse = |problem: &str| Err(Error::input("scenario", problem, remedy));
-        if text.trim().is_empty() {
-            return refuse("it is empty");
-        }
-        if text.starts_with('\u{feff}') {
-            return refuse("it begins with a byte-order mark; save it as UTF-8 without");
-        }
+const FORM: &str =
+    r#"write {"forcing": [[alpha, beta], ...]}, and what is not as in the paper beside it"#;
+
+impl Form {
+    fn read(text: &str) -> Result<Self, Error> {
         let mut reader = serde_json::Deserializer::from_str(text);
-        let Object(form) = serde_path_to_error::deserialize(&mut reader).map_err(|error| {
+        let form = serde_path_to_error::deserialize(&mut reader).map_err(|error| {
             // What has no name in the path is called "?".
             let path = error.path().to_string().replace(".?", "");
-            let field =
-                if [".", "?"].contains(&path.as_str()) { "scenario".to_string() } else { path };
-            Error::input(field, plain(&error.into_inner().to_string()), remedy)
+            let field = if [".", "?"].contains(&path.as_str()) { "scenario" } else { &path };
+            Error::input(field, plain(&error.inner().to_string()), FORM)
         })?;
-        reader.end().map_err(|error| {
-            let remedy = "write one JSON object and nothing after it";
-            Error::input("scenario", error.to_string(), remedy)
-        })?;
+        reader.end().map_err(|error| Error::input("scenario", error.to_string(), FORM))?;
         Ok(form)
     }
 
-    /// The scenario with these components of the forcing.
-    fn with(self, components: Vec<(f64, Pairs)>) -> Result<Scenario, Error> {
-        let masses = components.first().map_or(0, |(_, pairs)| pairs.len());
+    /// The components of the forcing, with their frequencies.
+    fn components(&mut self) -> Result<Vec<(f64, Pairs)>, Error> {
+        let usual = Chain::default().forcing_frequency;
+        let forcing = std::mem::replace(&mut self.forcing, Forcing::One(Vec::new()));
+        match (forcing, &self.forcing_frequency, self.forcing_frequencies.take()) {
+            (Forcing::One(pairs), one, None) => Ok(vec![(one.unwrap_or(usual), pairs)]),
+            (Forcing::Several(lists), None, Some(frequencies))
+                if frequencies.len() == lists.len() && (1..=COMPONENTS).contains(&lists.len()) =>
+            {
+                Ok(frequencies.into_iter().zip(lists).collect())
+            }
+            _ => Err(Error::input(
+                "forcing",
+                "its lists and its frequencies do not belong together",
+                format!(
+                    "give one list of pairs, or 1 to {COMPONENTS} forcing_frequencies and a list for each"
+                ),
+            )),
+        }
+    }
+
+    fn scenario(mut self) -> Result<Scenario, Error> {
+        let mut components = self.components()?.into_iter();
+        let (forcing_frequency, forcing) = components.next().unwrap_or_default();
+        let overtone = |(frequency, amplitudes)| Overtone { frequency, amplitudes };
         let mut start = None;
         let initial = match self.initial {
             InitialForm::Rest => Initial::Rest,
             InitialForm::Zero => Initial::Zero,
             InitialForm::Free(parts) => Initial::Free(parts),
-            InitialForm::At(Object(At { positions, velocities })) => {
+            InitialForm::At { positions, velocities } => {
                 start = Some(State { time: 0.0, positions, velocities });
                 Initial::Zero
             }
-            InitialForm::Random(Object(Random { sigma, seed })) => {
-                if !(0.0..=1e9).contains(&sigma) {
-                    return Err(Error::input(
-                        "initial.random.sigma",
-                        format!("{sigma:?} is no standard deviation"),
-                        "give a number from 0.0 to 1e9",
-                    ));
-                }
+            InitialForm::Random { sigma, seed } => {
+                within("initial.random.sigma", sigma, 0.0, 1e9)?;
                 let mut normals = NormalPairs::new("trace", seed, 0);
-                Initial::Free(scaled_pairs(masses, sigma, &mut normals))
+                Initial::Free(scaled_pairs(forcing.len(), sigma, &mut normals))
             }
         };
-        let mut components = components.into_iter();
-        let (forcing_frequency, forcing) = components.next().unwrap_or_default();
         let scenario = Scenario {
             spacing: self.spacing,
             natural_frequency: self.natural_frequency,
@@ -174,72 +136,34 @@ impl<F: Default> Form<F> {
             boundary: self.boundary,
             initial,
             forcing,
-            overtones: components
-                .map(|(frequency, amplitudes)| Overtone { frequency, amplitudes })
-                .collect(),
+            overtones: components.map(overtone).collect(),
         };
         start.map_or(Ok(scenario.clone()), |start| start.as_scenario(&scenario))
     }
 }
 
-/// Does the forcing begin with three brackets, as that of several components? Its brackets tell it even where the text is
-/// broken further on; of empty ones their frequencies tell it.
-fn has_lists(text: &str) -> bool {
-    let key = text.split_once("\"forcing\"").map_or("", |(_, behind)| behind);
-    let signs: String = key.chars().filter(|c| !c.is_whitespace()).take(4).collect();
-    let empty = signs.starts_with(":[]") || signs == ":[[]";
-    signs == ":[[[" || (empty && text.contains("\"forcing_frequencies\""))
-}
-
-impl Form<Pairs> {
-    /// The scenario of a form with one component.
-    fn scenario(mut self) -> Result<Scenario, Error> {
-        if self.forcing_frequencies.is_some() {
-            return Err(Error::input(
-                "forcing",
-                "it is one list of pairs beside forcing_frequencies",
-                "give one list of pairs for each frequency, or one forcing_frequency",
-            ));
-        }
-        let frequency = self.forcing_frequency.take();
-        let pairs = std::mem::take(&mut self.forcing);
-        self.with(vec![(frequency.unwrap_or(Chain::default().forcing_frequency), pairs)])
-    }
-}
-
-impl Form<Vec<Pairs>> {
-    /// The scenario of a form with several components.
-    fn scenario(mut self) -> Result<Scenario, Error> {
-        let Some(frequencies) = self.forcing_frequencies.take() else {
-            return Err(Error::input(
-                "forcing",
-                "it has lists of pairs, as several components do, and there are no forcing_frequencies",
-                "give the frequency of each list, or give forcing one pair for each mass",
-            ));
-        };
-        if self.forcing_frequency.is_some() {
-            return Err(Error::input(
-                "forcing_frequency",
-                "it stands beside forcing_frequencies",
-                "give one of the two",
-            ));
-        }
-        let forcing = std::mem::take(&mut self.forcing);
-        if frequencies.len() != forcing.len() || forcing.is_empty() || forcing.len() > COMPONENTS {
-            let (given, lists) = (frequencies.len(), forcing.len());
-            return Err(Error::input(
-                "forcing_frequencies",
-                format!("their number is {given}, and forcing has {}", count(lists, "list")),
-                format!("give 1 to {COMPONENTS}, and one list of pairs for each"),
-            ));
-        }
-        self.with(frequencies.into_iter().zip(forcing).collect())
-    }
-}
-
 /// `masses` pairs of normals with standard deviation `sigma`.
-fn scaled_pairs(masses: usize, sigma: f64, normals: &mut NormalPairs) -> Vec<[f64; 2]> {
+fn scaled_pairs(masses: usize, sigma: f64, normals: &mut NormalPairs) -> Pairs {
     (0..masses).map(|_| normals.pair().map(|x| sigma * x)).collect()
+}
+
+/// Refuses a number outside [low, high].
+fn within(field: &str, x: f64, low: f64, high: f64) -> Result<(), Error> {
+    if (low..=high).contains(&x) {
+        return Ok(());
+    }
+    let remedy = format!("give a number from {low:?} to {high:?}");
+    Err(Error::input(field, format!("{x:?} is out of range"), remedy))
+}
+
+/// Refuses what is not one pair of numbers for each of so many masses.
+fn pairs_within(field: &str, pairs: &[[f64; 2]], masses: usize) -> Result<(), Error> {
+    if pairs.len() != masses || masses == 0 {
+        let problem = format!("it has {} pairs for {masses} masses", pairs.len());
+        return Err(Error::input(field, problem, "give one pair for each mass, at least one"));
+    }
+    let all = pairs.iter().enumerate().flat_map(|(j, pair)| pair.map(|x| (j, x)));
+    all.into_iter().try_for_each(|(j, x)| within(&format!("{field}[{j}]"), x, -1e9, 1e9))
 }
 
 /// One chain with the amplitudes of its forcing.
@@ -292,17 +216,7 @@ impl Scenario {
     /// # Errors
     /// [`Error::Input`] if there is not one pair for each mass of the chain.
     pub fn given(chain: &Chain, forcing: Vec<[f64; 2]>) -> Result<Scenario, Error> {
-        if forcing.len() != chain.masses {
-            return Err(Error::input(
-                "forcing",
-                format!(
-                    "it has {} for {}",
-                    count(forcing.len(), "pair"),
-                    count(chain.masses, "mass")
-                ),
-                "give one pair [alpha, beta] for each mass",
-            ));
-        }
+        pairs_within("forcing", &forcing, chain.masses)?;
         Ok(Scenario::of(chain, forcing))
     }
 
@@ -327,11 +241,7 @@ impl Scenario {
     /// # Errors
     /// As [`Engine::new`]; [`Error::Input`] names the field and the remedy.
     pub fn from_json(text: &str) -> Result<Scenario, Error> {
-        let scenario = if has_lists(text) {
-            Form::<Vec<Pairs>>::read(text)?.scenario()?
-        } else {
-            Form::<Pairs>::read(text)?.scenario()?
-        };
+        let scenario = Form::read(text)?.scenario()?;
         Engine::new(&scenario)?;
         Ok(scenario)
     }
@@ -341,81 +251,29 @@ impl Scenario {
     /// # Errors
     /// [`Error::Input`] names the first field that is out of bounds.
     pub fn validate(&self) -> Result<(), Error> {
-        let within = |field: &str, x: f64, low: f64, high: f64| {
-            if x >= low && x <= high {
-                return Ok(());
-            }
-            let remedy = format!("give a number from {low:?} to {high:?}");
-            Err(Error::input(field, format!("{x:?} is out of range"), remedy))
-        };
         within("spacing", self.spacing, 1e-6, 1e6)?;
         within("natural_frequency", self.natural_frequency, 1e-3, 1e3)?;
         within("restitution", self.restitution, 0.0, 1.0)?;
-        let single = self.overtones.is_empty();
-        if self.overtones.len() >= COMPONENTS {
-            return Err(Error::input(
-                "forcing_frequencies",
-                format!("{} are too many", self.overtones.len() + 1),
-                format!("give 1 to {COMPONENTS}"),
-            ));
-        }
-        let frequencies = std::iter::once(self.forcing_frequency)
-            .chain(self.overtones.iter().map(|overtone| overtone.frequency));
-        for (m, frequency) in frequencies.enumerate() {
-            let field = match single {
-                true => "forcing_frequency".to_string(),
-                false => format!("forcing_frequencies[{m}]"),
+        let masses = self.forcing.len();
+        for (m, (frequency, pairs)) in self.components().enumerate() {
+            let (of, field) = match self.overtones.is_empty() {
+                true => ("forcing_frequency".to_string(), "forcing".to_string()),
+                false => (format!("forcing_frequencies[{m}]"), format!("forcing[{m}]")),
             };
-            within(&field, frequency, 1e-3, 1e3)?;
-            if frequency == self.natural_frequency {
+            within(&of, frequency, 1e-3, 1e3)?;
+            if frequency == self.natural_frequency || m >= COMPONENTS {
                 return Err(Error::input(
-                    field,
-                    format!("{frequency:?} equals the natural frequency (resonance)"),
-                    "the undamped response grows without bound; choose another frequency",
+                    of,
+                    format!(
+                        "{frequency:?} equals the natural frequency (resonance), or is one too many"
+                    ),
+                    format!("choose another; give 1 to {COMPONENTS}"),
                 ));
             }
-        }
-        if self.forcing.is_empty() {
-            return Err(Error::input(
-                "forcing",
-                "it names no mass",
-                "give one pair [alpha, beta] for each mass, at least one",
-            ));
-        }
-        let pairs = |field: &str, pairs: &[[f64; 2]]| {
-            for (j, pair) in pairs.iter().enumerate() {
-                for x in pair {
-                    within(&format!("{field}[{j}]"), *x, -1e9, 1e9)?;
-                }
-            }
-            Ok(())
-        };
-        pairs(if single { "forcing" } else { "forcing[0]" }, &self.forcing)?;
-        for (m, overtone) in self.overtones.iter().enumerate() {
-            let field = format!("forcing[{}]", m + 1);
-            if overtone.amplitudes.len() != self.forcing.len() {
-                let (own, first) = (overtone.amplitudes.len(), self.forcing.len());
-                return Err(Error::input(
-                    field,
-                    format!("it has {}, forcing[0] has {first}", count(own, "pair")),
-                    "give one pair [alpha, beta] for each mass in each list",
-                ));
-            }
-            pairs(&field, &overtone.amplitudes)?;
+            pairs_within(&field, pairs, masses)?;
         }
         if let Initial::Free(free) = &self.initial {
-            if free.len() != self.forcing.len() {
-                return Err(Error::input(
-                    "initial.free",
-                    format!(
-                        "it has {} for {}",
-                        count(free.len(), "pair"),
-                        count(self.forcing.len(), "mass")
-                    ),
-                    "give one pair [a, b] for each mass",
-                ));
-            }
-            pairs("initial.free", free)?;
+            pairs_within("initial.free", free, masses)?;
         }
         let (width, most) = (rounding::width(self), rounding::MOST * self.spacing);
         if width <= most {
@@ -560,14 +418,6 @@ mod tests {
     fn what_no_engine_takes_is_refused_when_it_is_read() {
         for (fields, words) in [
             (r#""initial":{"free":[[-1.5,0]]}"#, "initial: gap 0 starts overlapped by 5e-1; give"),
-            (
-                r#""initial":{"at":{"positions":[-1],"velocities":[0]}}"#,
-                "gap 0 starts overlapped by 1e0",
-            ),
-            (
-                r#""initial":{"at":{"positions":[1],"velocities":[]}}"#,
-                "start.velocities: 0 values for 1",
-            ),
             (r#""initial":{"at":{"positions":[1]}}"#, "initial.at: missing field `velocities`"),
             (r#""spacing":0"#, "spacing: 0.0 is out of range; give"),
             (r#""start":0"#, "start: unknown field"),
@@ -577,9 +427,6 @@ mod tests {
             assert!(error.contains(words), "{fields}: {error}");
         }
         let error = Scenario::given(&Chain::default(), vec![[0.1; 2]; 3]).unwrap_err().to_string();
-        assert!(
-            error.starts_with("forcing: it has 3 pairs for 100 masses; give one pair"),
-            "{error}"
-        );
+        assert!(error.starts_with("forcing: it has 3 pairs for 100 masses; give one"), "{error}");
     }
 }

@@ -364,12 +364,8 @@ impl<const M: usize> Simulation<M> {
     pub(super) fn jump_of_gap(&self, near: usize, k: usize, jumps: [f64; 2]) -> f64 {
         let sides = self.topology.sides(k);
         let of = |m: usize| {
-            sides
-                .iter()
-                .zip(jumps)
-                .filter(|(side, _)| **side == m)
-                .map(|(_, jump)| jump)
-                .sum::<f64>()
+            let both = sides.iter().zip(jumps).filter(|(side, _)| **side == m);
+            both.map(|(_, jump)| jump).sum::<f64>()
         };
         let [left, right] = self.topology.sides(near);
         of(right) - of(left)

@@ -70,25 +70,6 @@ mod tests {
     }
 
     #[test]
-    fn a_histogram_by_hand() {
-        let mut found = [7; 4];
-        histogram(&[Some(0), Some(3), None, Some(3), Some(1)], &[2, 1, 5, 1, 3], &mut found);
-        assert_eq!((found, total(&found)), ([2, 3, 0, 2], [7, 9]));
-    }
-
-    #[test]
-    fn each_member_is_drawn_once_on_average() {
-        // Sum over 4000 resamples of a binomial with mean 1, variance 0.9: mean 1 ± 5 · 0.015.
-        let mut sums = [0; 10];
-        for index in 0..4000 {
-            for (sum, weight) in sums.iter_mut().zip(weights(3, index, 10)) {
-                *sum += weight;
-            }
-        }
-        assert!(sums.iter().all(|&sum| (f64::from(sum) / 4000.0 - 1.0).abs() < 0.075), "{sums:?}");
-    }
-
-    #[test]
     fn the_error_of_a_mean_is_the_known_one() {
         // 400 standard normals: the standard error of the mean is s/√400 by theory, and the
         // bootstrap with 2000 resamples knows a standard deviation to 1.6 %: allow five times that.

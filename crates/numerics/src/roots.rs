@@ -53,13 +53,6 @@ mod tests {
     use super::*;
 
     #[test]
-    fn root_of_two_is_bracketed_by_neighbours() {
-        let [below, above] = bracket(0.0, 1e300, |x| x * x > 2.0);
-        assert_eq!(below.next_up(), above);
-        assert!(below * below <= 2.0 && above * above > 2.0);
-    }
-
-    #[test]
     fn work_is_bounded() {
         for threshold in [5e-324, 1.0, 1e300] {
             let mut count = 0;
@@ -81,18 +74,5 @@ mod tests {
         });
         assert!((root - 2.0_f64.sqrt()).abs() < 1e-9, "{root}");
         assert!(count < 25, "{count}");
-    }
-
-    #[test]
-    fn a_flat_function_and_a_step_end() {
-        // A share that is nothing below and everything above, as at the end of a steep rise.
-        let steep = crossing([-4.0, 1.0], 1e-7, |x| 1.0 / (1.0 + (-40.0 * x).exp()) - 0.5);
-        assert!(steep.abs() < 1e-7, "{steep}");
-        let mut count = 0;
-        let step = crossing([0.0, 1.0], 1e-3, |x| {
-            count += 1;
-            if x < 0.7 { -0.5 } else { 0.5 }
-        });
-        assert!((step - 0.7).abs() < 2e-3 && count < 40, "{step} {count}");
     }
 }

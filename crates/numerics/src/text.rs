@@ -26,9 +26,10 @@ pub fn count(number: usize, noun: &str) -> String {
 }
 
 /// What parsers say to programmers, and what it says to everybody.
-const PLAIN: [(&str, &str); 29] = [
+const PLAIN: [(&str, &str); 30] = [
     ("expected identifier", "expected a name"),
     ("invalid type: unit variant, expected newtype variant", "it stands without its values"),
+    ("invalid type: unit variant, expected struct variant", "it stands without its values"),
     (" as i128", ""),
     ("expected f64", "expected a number"),
     ("expected u8", "expected a whole number"),

@@ -67,7 +67,7 @@ fn count(
     };
     let until = protocol.transient + protocol.window;
     let method = setting.method.with(setting.value);
-    let ran = method.run(scenario, &State::of(scenario), until, &mut see).ok();
+    let ran = method.run((scenario, &State::of(scenario), until), &mut see).ok();
     let distinct = ran.map(|_| hit.iter().map(|hit| u32::from(*hit)).sum());
     let Cost { impacts, evaluations, .. } = ran.unwrap_or_default();
     Counted { distinct, impacts, evaluations }

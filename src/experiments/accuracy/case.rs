@@ -107,7 +107,7 @@ impl Case {
     /// Runs a method on this case and judges what it did. Returns how far off its times were too, at most.
     pub fn judge(&self, method: &dyn Method) -> (Verdict, f64) {
         let mut seen = Vec::new();
-        let ran = method.run(&self.scenario, &self.start, self.until, &mut |impact| {
+        let ran = method.run((&self.scenario, &self.start, self.until), &mut |impact| {
             if self.counts(&impact) {
                 seen.push(impact);
             }
@@ -198,7 +198,7 @@ fn in_order(expected: &[(f64, usize)], within: f64, seen: &[Impact]) -> (Verdict
 mod tests {
     use super::super::scenes;
     use super::*;
-    use impact_chain::methods::{Certified, Cost};
+    use impact_chain::methods::{Certified, Cost, Sink, Task};
 
     /// The engine with another time and closing speed of each impact, or without any.
     struct False(f64);
@@ -208,17 +208,11 @@ mod tests {
             "false"
         }
 
-        fn run(
-            &self,
-            scenario: &Scenario,
-            start: &State,
-            until: f64,
-            sink: &mut dyn FnMut(Impact) -> bool,
-        ) -> Result<Cost, Error> {
+        fn run(&self, (scenario, start, until): Task, sink: Sink) -> Result<Cost, Error> {
             if self.0 == 0.0 {
                 return Ok(Cost::default());
             }
-            Certified.run(scenario, start, until, &mut |impact| {
+            Certified.run((scenario, start, until), &mut |impact| {
                 let (time, speed) = (impact.time + self.0, impact.closing_speed * (1.0 + self.0));
                 sink(Impact { time, closing_speed: speed, ..impact })
             })

@@ -137,7 +137,7 @@ fn entry(
     let (mut misses, mut errors, mut units) = (0, Vec::new(), None);
     for Target { scenario, state, hit, unit } in targets {
         progress.check()?;
-        match method.first(scenario, state, hit.time.to_f64() + PATIENCE) {
+        match method.first((scenario, state, hit.time.to_f64() + PATIENCE)) {
             Ok(Some(impact)) if impact.gap == hit.gap => {
                 let error = error(hit, &impact);
                 errors.push(error);
@@ -175,7 +175,7 @@ fn follow(
         left = left.or(other.map(|hit| hit.time.to_f64()));
         (left.is_none() || impact.time < parameters.at_least) && !progress.stopped()
     };
-    let cost = method.run(scenario, &State::of(scenario), parameters.until, &mut compare);
+    let cost = method.run((scenario, &State::of(scenario), parameters.until), &mut compare);
     // Or at an impact of the truth that the run never came to.
     let left = left.or_else(|| truth.next().map(|hit| hit.time.to_f64()));
     (left.unwrap_or(parameters.until), cost.unwrap_or_default())

@@ -149,7 +149,7 @@ const BOUNCE: f64 = 0.3;
 
 /// The impacts of some gaps, without the last bounces, that the engine has.
 fn flights(scenario: Scenario, start: State, until: f64, among: Vec<usize>) -> Result<Case, Error> {
-    let mut impacts = Certified.impacts(&scenario, &start, until)?;
+    let mut impacts = Certified.impacts((&scenario, &start, until))?;
     impacts.retain(|impact| impact.closing_speed > BOUNCE && among.contains(&impact.gap));
     let impacts = impacts.iter().map(|impact| (impact.time, impact.gap)).collect();
     let expected = Expected::Impacts { impacts, faster: BOUNCE, among, all: false, within: NEAR };

@@ -3,10 +3,10 @@
 use super::flights::{Flights, Look};
 use super::steps::{check_end, check_tolerance};
 use super::tally::{Stop, Tally};
-use super::{Cost, Method, State};
+use super::{Cost, Method, Sink, Task};
+use crate::Error;
 use crate::search::clock::{Instant, LATEST};
 use crate::search::earliest::Earliest;
-use crate::{Error, Impact, Scenario};
 
 /// Flight in closed form; each gap is advanced to where the parabola below it comes to zero, and no gap can close before.
 /// The parabola has the width and the rate of the gap and a bound on its second derivative. The gap that is open for the
@@ -29,13 +29,7 @@ impl Method for Advancement {
         "advancement"
     }
 
-    fn run(
-        &self,
-        scenario: &Scenario,
-        start: &State,
-        until: f64,
-        sink: &mut dyn FnMut(Impact) -> bool,
-    ) -> Result<Cost, Error> {
+    fn run(&self, (scenario, start, until): Task, sink: Sink) -> Result<Cost, Error> {
         let flights = Flights::new(scenario, start)?;
         check_tolerance(self.tolerance)?;
         check_end(until)?;
@@ -101,42 +95,5 @@ impl Run {
         // A gap that never moves has no zero.
         let s = if s.is_nan() { LATEST } else { s.clamp(LEAST, LATEST) };
         self.queue.set(k, [now.after(s)]);
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::methods::Certified;
-    use crate::{Boundary, Chain};
-    use impact_numerics::random::NormalPairs;
-
-    /// Impacts of whole runs are those of the certified search, and no graze is missed.
-    #[test]
-    fn no_root_is_passed() {
-        let method = Advancement { tolerance: 1e-13 };
-        for boundary in [Boundary::Walls, Boundary::Ring] {
-            for index in 0..20 {
-                let chain = Chain { masses: 20, boundary, ..Chain::default() };
-                let mut normals = NormalPairs::new("advancement", 1, index);
-                let scenario = Scenario::draw(&chain, 0.3, &mut normals);
-                let start = State::of(&scenario);
-                let exact = Certified.impacts(&scenario, &start, 20.0).unwrap();
-                let found = method.impacts(&scenario, &start, 20.0).unwrap();
-                assert!(exact.len() > 30 && exact.len() == found.len(), "{}", found.len());
-                for (a, b) in exact.iter().zip(&found) {
-                    assert!(a.gap == b.gap && (a.time - b.time).abs() < 1e-6, "{a:?} {b:?}");
-                }
-            }
-        }
-        // The wall of gap 1 is reached by the free motion of a mass, and passed by 1e-12.
-        for i in 0..100 {
-            let (sin, cos) = pxfm::f_sincos(0.2 + 0.0123 * f64::from(i));
-            let [a, b] = [-(1.0 + 1e-12) * sin, (1.0 + 1e-12) * cos];
-            let json = format!(r#"{{"forcing":[[0,0]],"initial":{{"free":[[{a},{b}]]}}}}"#);
-            let scenario = Scenario::from_json(&json).unwrap();
-            let found = method.first(&scenario, &State::of(&scenario), 3.0).unwrap();
-            assert!(found.is_some_and(|impact| impact.gap == 1), "{i}: {found:?}");
-        }
     }
 }

@@ -70,40 +70,24 @@ impl Stages {
     pub fn attempt(&mut self, row: &Row, from: Instant, h: f64, tolerance: f64) -> f64 {
         self.h = h;
         for (stage, coefficients) in STAGES.iter().enumerate() {
-            match stage {
-                0 => self.combine::<1>(coefficients),
-                1 => self.combine::<2>(coefficients),
-                2 => self.combine::<3>(coefficients),
-                3 => self.combine::<4>(coefficients),
-                4 => self.combine::<5>(coefficients),
-                _ => self.combine::<6>(coefficients),
+            for i in 0..self.y.len() {
+                self.next[i] = self.y[i] + h * self.weighted(&coefficients[..=stage], i);
             }
             derivative(row, from.after(NODES[stage] * h), &self.next, &mut self.k[stage + 1]);
         }
         let mut sum = 0.0;
-        let k = self.slopes::<7>();
         for (i, (y, next)) in self.y.iter().zip(&self.next).enumerate() {
-            let error = h * weighted(&ERROR, &k, i);
+            let error = h * self.weighted(&ERROR, i);
             let allowed = tolerance * (1.0 + y.abs().max(next.abs()));
             sum += (error / allowed) * (error / allowed);
         }
         (sum / self.y.len() as f64).sqrt()
     }
 
-    /// The first S derivatives.
-    fn slopes<const S: usize>(&self) -> [&[f64]; S] {
-        std::array::from_fn(|j| &self.k[j][..self.y.len()])
-    }
-
-    /// `next` = y + h Σ a_j k_j over the first S derivatives.
-    fn combine<const S: usize>(&mut self, coefficients: &[f64; 6]) {
-        let coefficients: [f64; S] = std::array::from_fn(|j| coefficients[j]);
-        let mut next = std::mem::take(&mut self.next);
-        let k = self.slopes::<S>();
-        for (i, (next, y)) in next.iter_mut().zip(&self.y).enumerate() {
-            *next = y + self.h * weighted(&coefficients, &k, i);
-        }
-        self.next = next;
+    /// Σ a_j k_j of component i over as many derivatives.
+    #[inline(always)]
+    fn weighted(&self, a: &[f64], i: usize) -> f64 {
+        a.iter().zip(&self.k).fold(0.0, |sum, (a, k)| sum + a * k[i])
     }
 
     /// Component i at the part θ of the step.
@@ -112,7 +96,7 @@ impl Stages {
         let difference = self.next[i] - self.y[i];
         let bend = h * self.k[0][i] - difference;
         let third = difference - h * self.k[6][i] - bend;
-        let fourth = h * weighted(&DENSE, &self.slopes(), i);
+        let fourth = h * self.weighted(&DENSE, i);
         self.y[i] + theta * (difference + rest * (bend + theta * (third + rest * fourth)))
     }
 
@@ -129,16 +113,6 @@ impl Stages {
         }
         std::mem::swap(&mut self.y, &mut self.next);
     }
-}
-
-/// Σ a_j k_j of component i.
-#[inline(always)]
-fn weighted<const S: usize>(a: &[f64; S], k: &[&[f64]; S], i: usize) -> f64 {
-    let mut sum = 0.0;
-    for j in 0..S {
-        sum += a[j] * k[j][i];
-    }
-    sum
 }
 
 /// (u, v)' = (v, −ω² u + forcing).

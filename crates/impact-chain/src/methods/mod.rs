@@ -33,6 +33,7 @@ pub use truth::Truth;
 pub use verlet::Verlet;
 
 use super::{Error, Impact, Scenario};
+pub use crate::engine::Sink;
 
 /// Counted work of a method: deterministic.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -54,57 +55,43 @@ impl Cost {
     }
 }
 
+/// What a method runs: a chain, from a state, to a time. The start of the scenario is not looked at.
+pub type Task<'a> = (&'a Scenario, &'a State, f64);
+
 /// A way to simulate a chain.
 pub trait Method: Sync {
     /// Name, as in `trace --method`, e.g. "verlet".
     fn name(&self) -> &'static str;
 
-    /// Runs from `start` to the time `until` and hands each impact to `sink`, which stops the run
-    /// right after that impact by returning false. The start of `scenario` is not looked at.
+    /// Runs and hands each impact to `sink`, which stops the run right after that impact by returning false.
     ///
-    /// A gap of `start` that is shut but for rounding is shut; it is hit only if it is closing.
+    /// A gap of the start that is shut but for rounding is shut; it is hit only if it is closing.
     ///
     /// # Errors
     /// [`Error::Input`] for a scenario, start, step or tolerance outside the model,
     /// [`Error::Overlap`] for an overlapping start, [`Error::Work`] when a bound on work is exceeded.
-    fn run(
-        &self,
-        scenario: &Scenario,
-        start: &State,
-        until: f64,
-        sink: &mut dyn FnMut(Impact) -> bool,
-    ) -> Result<Cost, Error>;
+    fn run(&self, task: Task, sink: Sink) -> Result<Cost, Error>;
 
-    /// The first impact up to the time `until`, if there is one.
+    /// The first impact, if there is one.
     ///
     /// # Errors
     /// As [`Method::run`].
-    fn first(
-        &self,
-        scenario: &Scenario,
-        start: &State,
-        until: f64,
-    ) -> Result<Option<Impact>, Error> {
+    fn first(&self, task: Task) -> Result<Option<Impact>, Error> {
         let mut first = None;
-        self.run(scenario, start, until, &mut |impact| {
+        self.run(task, &mut |impact| {
             first = Some(impact);
             false
         })?;
         Ok(first)
     }
 
-    /// All impacts up to the time `until`, in order.
+    /// All impacts, in order.
     ///
     /// # Errors
     /// As [`Method::run`].
-    fn impacts(
-        &self,
-        scenario: &Scenario,
-        start: &State,
-        until: f64,
-    ) -> Result<Vec<Impact>, Error> {
+    fn impacts(&self, task: Task) -> Result<Vec<Impact>, Error> {
         let mut impacts = Vec::new();
-        self.run(scenario, start, until, &mut |impact| {
+        self.run(task, &mut |impact| {
             impacts.push(impact);
             true
         })?;

@@ -3,9 +3,9 @@
 use super::row::{Row, Stepper, run_steps};
 use super::steps::Step;
 use super::tally::{Stop, Tally};
-use super::{Cost, Method, State};
+use super::{Cost, Method, Sink, Task};
+use crate::Error;
 use crate::search::clock::Instant;
-use crate::{Error, Impact, Scenario};
 use std::f64::consts::PI;
 
 /// A shut gap is a stiff spring with a damper that is tuned to the restitution; velocity Verlet.
@@ -41,16 +41,10 @@ impl Method for Penalty {
         "penalty"
     }
 
-    fn run(
-        &self,
-        scenario: &Scenario,
-        start: &State,
-        until: f64,
-        sink: &mut dyn FnMut(Impact) -> bool,
-    ) -> Result<Cost, Error> {
+    fn run(&self, (scenario, start, until): Task, sink: Sink) -> Result<Cost, Error> {
         let step = self.step * scenario.natural_frequency;
         let begin = |row: &Row| Springs::begin(row, Instant::at(start.time), step, self.step);
-        run_steps((scenario, start), until, self.step, sink, begin)
+        run_steps((scenario, start, until), self.step, sink, begin)
     }
 }
 
@@ -139,14 +133,6 @@ impl Stepper for Springs {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::methods::row::flight_error;
-
-    #[test]
-    fn flight_is_of_order_two() {
-        let error = |h| flight_error(h, |row, at| Springs::begin(row, at, h, h));
-        let ratio = error(0.02) / error(0.01);
-        assert!((ratio - 4.0).abs() < 0.1, "{ratio}");
-    }
 
     /// The free oscillation of the contact: e^(−ζω t) over half a damped period is r.
     #[test]

@@ -3,12 +3,12 @@
 use super::forcing::Component;
 use super::steps::{Step, steps};
 use super::tally::{Stop, Tally};
-use super::{Cost, State};
+use super::{Cost, Sink, State, Task};
 use crate::Boundary;
 use crate::impact::jumps;
 use crate::search::clock::Instant;
 use crate::topology::Topology;
-use crate::{Error, Impact, Scenario};
+use crate::{Error, Scenario};
 
 /// A state with its forces; bodies are numbered from the left wall (0) to the right one (n + 1).
 pub struct Row {
@@ -130,10 +130,9 @@ pub trait Stepper {
 
 /// Runs a method with a fixed step, made by `begin` from the start.
 pub fn run_steps<S: Stepper>(
-    (scenario, start): (&Scenario, &State),
-    until: f64,
+    (scenario, start, until): Task,
     step: f64,
-    sink: &mut dyn FnMut(Impact) -> bool,
+    sink: Sink,
     begin: impl FnOnce(&Row) -> S,
 ) -> Result<Cost, Error> {
     let mut row = Row::new(scenario, start)?;
@@ -145,21 +144,4 @@ pub fn run_steps<S: Stepper>(
         stepper.step(&mut row, &step, &mut tally)
     });
     tally.finish(ended)
-}
-
-/// Error of velocity and place of a forced mass that meets nothing, after 10.24 with steps of `h`.
-#[cfg(test)]
-pub fn flight_error<S: Stepper>(h: f64, begin: impl Fn(&Row, Instant) -> S) -> f64 {
-    let scenario = Scenario::from_json(r#"{"forcing":[[0.1,0.2]]}"#).unwrap();
-    let start = State { time: 5.0, ..State::of(&scenario) };
-    let mut row = Row::new(&scenario, &start).unwrap();
-    let mut stepper = begin(&row, Instant::at(start.time));
-    let mut sink = |_| panic!("it meets nothing");
-    let mut tally = Tally::new(&scenario, &mut sink);
-    for step in steps(&scenario, &start, start.time + 10.24, h).unwrap() {
-        assert!(stepper.step(&mut row, &step, &mut tally).is_ok());
-    }
-    let engine = crate::Engine::new(&start.as_scenario(&scenario).unwrap()).unwrap();
-    let [x, v] = [engine.positions(10.24)[0], engine.velocities(10.24)[0]];
-    (row.u[1] + 1.0 - x).abs().max((row.v[1] - v).abs())
 }

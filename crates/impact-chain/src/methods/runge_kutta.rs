@@ -5,9 +5,9 @@ use super::dormand_prince::Stages;
 use super::row::Row;
 use super::steps::{check_end, check_tolerance};
 use super::tally::{Stop, Tally};
-use super::{Cost, Method, State};
+use super::{Cost, Method, Sink, Task};
+use crate::Error;
 use crate::search::clock::Instant;
-use crate::{Error, Impact, Scenario};
 
 /// The pair of Dormand and Prince with a tolerance; a gap that is negative at the end of a step is
 /// an event, bisected on the dense output; the earliest ends the step, and integration begins anew.
@@ -36,13 +36,7 @@ impl Method for RungeKutta {
         "runge-kutta"
     }
 
-    fn run(
-        &self,
-        scenario: &Scenario,
-        start: &State,
-        until: f64,
-        sink: &mut dyn FnMut(Impact) -> bool,
-    ) -> Result<Cost, Error> {
+    fn run(&self, (scenario, start, until): Task, sink: Sink) -> Result<Cost, Error> {
         let row = Row::new(scenario, start)?;
         check_tolerance(self.tolerance)?;
         check_end(until)?;

@@ -4,9 +4,9 @@ use super::crossing::crossing;
 use super::flights::{Flights, Look};
 use super::steps::{Step, steps};
 use super::tally::{Stop, Tally};
-use super::{Cost, Method, State};
+use super::{Cost, Method, Sink, Task};
+use crate::Error;
 use crate::search::clock::Instant;
-use crate::{Error, Impact, Scenario};
 
 /// Flight in closed form; every gap is looked at with a fixed step, and a change of its sign is
 /// bisected down to neighbouring doubles.
@@ -29,13 +29,7 @@ impl Method for Sampled {
         "sampled"
     }
 
-    fn run(
-        &self,
-        scenario: &Scenario,
-        start: &State,
-        until: f64,
-        sink: &mut dyn FnMut(Impact) -> bool,
-    ) -> Result<Cost, Error> {
+    fn run(&self, (scenario, start, until): Task, sink: Sink) -> Result<Cost, Error> {
         let mut flights = Flights::new(scenario, start)?;
         let mut steps = steps(scenario, start, until, self.step)?;
         let mut tally = Tally::new(scenario, sink);

@@ -253,44 +253,4 @@ mod tests {
         assert!(total.evaluations < 2 * roots, "{total:?}, {roots} roots");
         assert!(total.stepped < 12_000 / 8, "{total:?}");
     }
-
-    /// Screen and steps are two ways to the same root.
-    #[test]
-    fn steps_alone_find_the_same_roots() {
-        for [w, big_w] in OMEGAS {
-            let search = Search::new(Frequencies::new(w, [big_w]));
-            let reach = search.frequencies.reach;
-            for i in 0..3000 {
-                let frame = frame(i, &search.frequencies);
-                let mut work = Work::default();
-                let quick = search.first_root(&frame, &mut work);
-                let frequencies = &search.frequencies;
-                let sure = first_root_by_steps(&frame, 0.0, reach, frequencies, &mut work);
-                match (quick, sure) {
-                    (Next::Root { s, speed }, Next::Root { s: sure, speed: own }) => {
-                        let close = 1e-13 / speed.max(1e-3);
-                        assert!((s - sure).abs() < close, "frame {i}: {s} {sure}");
-                        assert!((speed - own).abs() < 1e-12 / speed.max(1e-3), "frame {i}");
-                    }
-                    _ => assert_eq!(quick, sure, "frame {i} of {w}, {big_w}"),
-                }
-            }
-        }
-    }
-
-    /// An advanced frame is the same function seen later.
-    #[test]
-    fn a_frame_advances_by_its_reach() {
-        let frequencies = Frequencies::new(1.0, [std::f64::consts::SQRT_2]);
-        for i in 0..300 {
-            let frame = frame(i, &frequencies);
-            let (early, late) = (
-                absolute(&frame, &frequencies),
-                absolute(&frame.advanced(&frequencies), &frequencies),
-            );
-            for s in [0.0, 0.3, 1.7] {
-                assert!((late(s) - early(s + frequencies.reach)).abs() < 1e-14, "frame {i}");
-            }
-        }
-    }
 }
