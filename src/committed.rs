@@ -29,10 +29,24 @@ pub fn find(path: &str) -> Option<PathBuf> {
     program.ancestors().skip(1).map(|above| above.join(path)).find(|path| path.is_file())
 }
 
+/// The checkout, if there is one.
+fn checkout() -> Option<PathBuf> {
+    find("src/committed.rs")?.canonicalize().ok()?.ancestors().nth(2).map(Path::to_path_buf)
+}
+
 /// Whether a file or folder of the project is there. Without a checkout nobody can say, and it is believed.
 pub fn exists(path: &str) -> bool {
-    let checkout = find("src/committed.rs");
-    checkout.is_none_or(|own| own.ancestors().nth(2).is_none_or(|top| top.join(path).exists()))
+    checkout().is_none_or(|top| top.join(path).exists())
+}
+
+/// The way from a folder, which may not be there yet, up to the checkout, as `../`; none if it lies outside.
+pub fn top(folder: &Path) -> Option<String> {
+    let folder = std::path::absolute(folder).ok()?;
+    let real =
+        |above: &Path| Some(above.canonicalize().ok()?.join(folder.strip_prefix(above).ok()?));
+    let below =
+        folder.ancestors().find_map(real)?.strip_prefix(checkout()?).ok()?.components().count();
+    Some(if below == 0 { "./".into() } else { "../".repeat(below) })
 }
 
 /// The text of a file, by its path from the top of the project.

@@ -68,7 +68,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let progress = signals::progress();
     let store = Store::open(&sources.results)?;
     let made = threads::run(sources.threads, || match whole {
-        true => make::whole(&sources, profile, &store, &progress),
+        true => make::whole(&sources, profile, &out, &store, &progress),
         false => {
             let committed = some(&sources, &numbers, profile, &progress)?;
             Ok((Report { committed, beside: Files::new() }, Judged::default()))

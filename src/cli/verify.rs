@@ -42,11 +42,12 @@ pub fn run(args: Args) -> Result<(), Failure> {
     if args.rerun {
         let profile = profile(&args)?;
         let store = args.results.as_deref().map_or(Ok(Store::nowhere()), Store::open)?;
-        let Args { threads, templates, .. } = args;
+        let Args { threads, templates, folder, .. } = args;
         let sources = Sources { threads, templates, results: PathBuf::new() };
         let progress = signals::progress();
-        let made = threads::run(threads, || make::whole(&sources, profile, &store, &progress))?.0;
-        let (files, again) = made.compare(&args.folder)?;
+        let made =
+            threads::run(threads, || make::whole(&sources, profile, &folder, &store, &progress))?.0;
+        let (files, again) = made.compare(&folder)?;
         if again.is_empty() {
             let name = profile.name();
             let fine = format!("made again with the {name} profile, the same bytes");

@@ -10,14 +10,16 @@ use crate::figures::{self, Figure};
 use crate::params::Profile;
 use crate::report::{self, PROGRAM, Report, contents, equations};
 use rayon::prelude::*;
+use std::path::Path;
 
 /// The engine as WebAssembly, where `.ci/module` has put it: the machine may have no compiler for that.
 const MODULE: &str = "target/page.wasm";
 
-/// Runs every experiment that is not in the store, and makes every file. Says also what holds.
+/// Runs every experiment that is not in the store, and makes every file of a report in the folder `out`. Says also what holds.
 pub fn whole(
     sources: &Sources,
     profile: Profile,
+    out: &Path,
     store: &Store,
     progress: &Progress,
 ) -> Result<(Report, Judged), Failure> {
@@ -56,6 +58,7 @@ pub fn whole(
         figures: &drawn,
         equations: &equations::entries(),
         lab: lab.as_deref(),
+        top: committed::top(out).as_deref(),
         program: PROGRAM,
     })?;
     Ok((report, judged))

@@ -1,7 +1,6 @@
 //! lab.js, which a page loads when a reader asks it to compute: the engine, what to hold its runs against, and the script.
 
 use super::contents::Error;
-use super::html::base64;
 use crate::experiments::rise::Mean;
 use crate::experiments::sweep;
 use crate::experiments::{REPLAY, Results};
@@ -21,6 +20,21 @@ pub fn script(module: &[u8], results: &Results, script: &str) -> Result<String, 
     let data =
         json!({ "runs": runs, "curve": { "gaps": gaps, "rows": rows }, "module": base64(module) });
     Ok(format!("\"use strict\";\nconst LAB = {data};\n{script}"))
+}
+
+/// Base64 with padding (RFC 4648).
+fn base64(bytes: &[u8]) -> String {
+    const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut out = String::with_capacity(bytes.len().div_ceil(3) * 4);
+    for chunk in bytes.chunks(3) {
+        let at = |i: usize| u32::from(chunk.get(i).copied().unwrap_or(0));
+        let bits = at(0) << 16 | at(1) << 8 | at(2);
+        for i in 0..4 {
+            let letter = LETTERS[(bits >> (18 - 6 * i) & 63) as usize];
+            out.push(if i <= chunk.len() { letter as char } else { '=' });
+        }
+    }
+    out
 }
 
 #[cfg(test)]

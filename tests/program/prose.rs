@@ -11,13 +11,6 @@ report.tex +%◀ => :$:2: the character U+E000 is none of a text
 literals.toml +[[literal]]¦why = "x"¦phrases = ["two nothings"] => :$: "two nothings": no prose has it
 references.bib +@article{aa, title={b}} => :$: aa lacks its author
 references.bib +@misc{aa, author={B}, title={b}, year={1999}} => :$: aa has the type @misc
-report.html «page.body» ->  => : it has «page.body» 0 times
-report.html «page.body» -> «page.body»<div> => :41: expected 'div' tag, not 'main'; write &amp;
-report.tex \end{document} ->  => : it has \end{document} 0 times
-report.html <title> -> <link rel="stylesheet" href="s.css"/><title> => : <link rel="stylesheet": the page is one file
-report.css :root { -> a { b: url(c.woff2); } :root { => : url(c.woff2): the page is one file
-report.css } ->  => : 
-report.css } -> } @import "more.css"; => : @import
 references.bib volume  = {17} -> volume  = {17}, crossref = {homer2007} => :6: homer2007 has `crossref`
 front.md +It is «sweep.rise.half_height now. => :$:7: « is not closed
 front.md # -> ## => :1:1: a report begins with its title
@@ -62,10 +55,6 @@ fn faults_of_the_prose_are_told_with_their_place() {
             assert!(!line.contains(jargon), "{line}");
         }
     }
-    // A style may have what is markup elsewhere.
-    let style = ":root { -> a { &:hover { b: c; } } /* d & e */ @media (width < 40rem) { a { b: c; } } :root {";
-    let (code, told, note) = made("report.css", style);
-    assert_eq!(code, 0, "{told}{note}");
     // A section that was emptied is named, and not what else misses it.
     let text = std::fs::read_to_string(here.join("t/edition/04-orbits.md")).unwrap();
     let (code, _, note) = made("edition/04-orbits.md", &format!("{} -> ", text.trim_end()));

@@ -2,10 +2,9 @@
 //! quick profile.
 
 use crate::quick::QUICK;
-use impact_paper::report::{PROGRAM, compare, recipe};
+use impact_paper::report::{PROGRAM, Report, compare, recipe};
 use roxmltree::{Document, Node, ParsingOptions};
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
 use std::sync::LazyLock;
 
 static PAGES: LazyLock<BTreeMap<&str, String>> = LazyLock::new(|| {
@@ -25,18 +24,15 @@ fn pages() -> impl Iterator<Item = (&'static str, Document<'static>)> {
 /// A card: title, first line, and which rows it has.
 type Card = (String, String, Vec<usize>);
 
-/// The JSON in a script of this id.
-fn data(page: &Document<'_>, id: &str) -> serde_json::Value {
-    let script = page.descendants().find(|node| node.attribute("id") == Some(id)).unwrap();
-    serde_json::from_str(script.text().unwrap()).unwrap()
+/// Rows and cards that lie beside the pages.
+fn cards(report: &Report) -> (Vec<String>, BTreeMap<String, Card>) {
+    let text = std::str::from_utf8(&report.beside["cards.js"]).unwrap();
+    let json = text.strip_prefix("CARDS = ").and_then(|text| text.strip_suffix(";\n"));
+    serde_json::from_str(json.unwrap()).unwrap()
 }
 
 fn elements<'a>(page: &'a Document<'a>, name: &str) -> Vec<Node<'a, 'a>> {
     page.descendants().filter(|node| node.tag_name().name() == name).collect()
-}
-
-fn ids<'a>(page: &'a Document<'a>) -> BTreeSet<&'a str> {
-    page.descendants().filter_map(|node| node.attribute("id")).collect()
 }
 
 fn words(node: Node<'_, '_>) -> String {
@@ -44,75 +40,74 @@ fn words(node: Node<'_, '_>) -> String {
 }
 
 #[test]
-fn every_id_is_unique_and_every_link_lands() {
-    let pages: Vec<_> = pages().collect();
-    let ids: BTreeMap<&str, BTreeSet<&str>> =
-        pages.iter().map(|(name, page)| (*name, ids(page))).collect();
-    let (mut inside, mut across) = (0, 0);
-    for (name, page) in &pages {
-        let count = page.descendants().filter(|node| node.has_attribute("id")).count();
-        assert_eq!(count, ids[name].len(), "{name}: an id stands twice");
-        for link in elements(page, "a").into_iter().chain(elements(page, "use")) {
-            let to = link.attribute("href").unwrap();
-            if !to.contains("://") {
-                let (file, id) = to.split_once('#').unwrap_or((to, ""));
-                inside += usize::from(file.is_empty());
-                across += usize::from(!file.is_empty() && !id.is_empty());
-                let file = if file.is_empty() { name } else { file };
-                assert!(id.is_empty() || ids[file].contains(id), "{name}: no {to}");
-                let source = file.strip_prefix("../").map(|path| Path::new(path).exists());
-                let made = QUICK.report.committed.contains_key(file)
-                    || ids.contains_key(file)
-                    || ["SHA256SUMS", "data"].contains(&file);
-                assert!(source.unwrap_or(made), "{name}: no {to}");
-            }
-        }
+fn every_link_lands_wherever_the_report_is_written() {
+    let links = |text: &str| {
+        let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
+        let page = Document::parse_with_options(text, options).unwrap();
+        let all = |names: [&str; 2]| -> Vec<String> {
+            let nodes = page.descendants();
+            nodes
+                .filter_map(|n| names.iter().find_map(|name| n.attribute(*name)).map(String::from))
+                .collect()
+        };
+        (all(["href", "src"]), all(["id", "id"]))
+    };
+    crate::quick::links_land(
+        |report| {
+            let page = |of: &impact_paper::report::Document| {
+                let text = std::str::from_utf8(&report.beside[of.page]).unwrap();
+                (of.page.to_string(), links(&text.replace("href=\"data:,\"", "")))
+            };
+            let cards = format!("<p>{}</p>", cards(report).0.concat());
+            let cards = ("cards.js".to_string(), links(&cards));
+            PROGRAM.documents.iter().map(page).chain([cards]).collect()
+        },
+        500,
+        150,
+    );
+    // What the style sheet loads.
+    let style = std::str::from_utf8(&QUICK.report.beside["report.css"]).unwrap();
+    for url in style.split("url(").skip(1).map(|rest| rest.split(')').next().unwrap()) {
+        assert!(QUICK.report.beside.contains_key(url), "{url}");
     }
-    assert!(inside > 500 && across > 150, "{inside} {across}");
 }
 
 #[test]
 fn every_value_has_one_card() {
-    let mut shown = 0;
+    let (rows, cards) = cards(&QUICK.report);
+    let (mut shown, mut asked) = (0, BTreeSet::new());
     for (name, page) in pages() {
-        let mut buttons = elements(&page, "button");
-        buttons.retain(|button| button.attribute("class") == Some("value"));
-        shown += buttons.len();
-        let asked: BTreeSet<&str> =
-            buttons.iter().map(|b| b.attribute("data-card").unwrap()).collect();
-        let (rows, cards): (Vec<String>, BTreeMap<String, Card>) =
-            serde_json::from_value(data(&page, "cards")).unwrap();
-        let have: BTreeSet<&str> = cards.keys().map(String::as_str).collect();
-        assert_eq!(asked, have, "{name}: a card without a number, or a number without its card");
-        assert!(buttons.iter().all(|button| !words(*button).trim().is_empty()));
-        assert_eq!(rows.iter().collect::<BTreeSet<_>>().len(), rows.len(), "{name}: a row twice");
-        // A path of an item that leads to no file was renamed or misspelt.
-        for row in rows.iter().filter(|row| !row.starts_with("<dt>id</dt>")) {
-            let linked = !row.contains("<code>") || row.contains("<a href=\"../");
-            assert!(linked, "{name}: {row}");
-        }
-        for button in &buttons {
-            assert!(button.ancestors().all(|outer| outer.tag_name().name() != "math"));
-        }
-        if name == "report.html" {
-            // The headline number stands in an equation, and opens there too.
-            let own = &cards["sweep.rise.half_height"];
-            let text: String = own.2.iter().map(|row| rows[*row].as_str()).collect();
-            for part in ["rise::", "<wbr/>Curve::<wbr/>new", "standard error", "seed: 2007"] {
-                assert!(text.contains(part), "{part:?} is not in {text:?}");
-            }
-            // What a claim uses has its verdict, but for short numbers, as a small sample may give.
-            let judged = |row: &String| row.starts_with("<dt>claims") && row.contains("reproduced");
-            assert!(rows.iter().filter(|row| judged(row)).count() > 20);
-            let displayed = |node: &Node<'_, '_>| {
-                node.ancestors().any(|outer| outer.attribute("class") == Some("equation"))
-            };
-            let opens =
-                |b: &Node<'_, '_>| b.attribute("data-card") == Some("sweep.rise.half_height");
-            assert!(buttons.iter().any(|button| opens(button) && displayed(button)));
+        let of = |node: &Node<'_, '_>| node.attribute("class") == Some("value");
+        for value in page.descendants().filter(of) {
+            shown += 1;
+            asked.insert(value.attribute("data-card").unwrap().to_string());
+            assert!(!words(value).trim().is_empty(), "{name}");
+            assert!(value.ancestors().all(|outer| outer.tag_name().name() != "math"));
         }
     }
+    let have: BTreeSet<String> = cards.keys().cloned().collect();
+    assert_eq!(asked, have, "a card without a number, or a number without its card");
     assert!(shown > 800, "{shown}");
+    assert_eq!(rows.iter().collect::<BTreeSet<_>>().len(), rows.len(), "a row twice");
+    // A path of an item that leads to no file was renamed or misspelt.
+    for row in rows.iter().filter(|row| !row.starts_with("<dt>id</dt>")) {
+        assert!(!row.contains("<code>") || row.contains("<a href=\"../"), "{row}");
+    }
+    let own = &cards["sweep.rise.half_height"];
+    let text: String = own.2.iter().map(|row| rows[*row].as_str()).collect();
+    for part in ["rise::", "<wbr/>Curve::<wbr/>new", "standard error", "seed: 2007"] {
+        assert!(text.contains(part), "{part:?} is not in {text:?}");
+    }
+    // What a claim uses has its verdict, but for short numbers, as a small sample may give.
+    let judged = |row: &&String| row.starts_with("<dt>claims") && row.contains("reproduced");
+    assert!(rows.iter().filter(judged).count() > 20);
+    // The headline number stands in an equation, and opens there too.
+    let page = page("report.html");
+    let headline = |node: &Node<'_, '_>| {
+        node.attribute("data-card") == Some("sweep.rise.half_height")
+            && node.ancestors().any(|outer| outer.attribute("class") == Some("equation"))
+    };
+    assert!(page.descendants().any(|node| headline(&node)));
     let values = std::str::from_utf8(&QUICK.report.committed["values.json"]).unwrap();
     for value in compare::read(values).unwrap().iter().filter(|v| !v.experiment.is_empty()) {
         let known = recipe::recipe(&value.experiment, "quick").is_some();
@@ -202,16 +197,13 @@ fn cells_of_wide_tables_know_their_column() {
 #[test]
 fn equations_are_mathml() {
     let page = page("report.html");
-    let ids = ids(&page);
     for number in 1..=38 {
-        assert!(ids.contains(format!("eq-{number}").as_str()), "Eq. ({number})");
+        let id = format!("eq-{number}");
+        assert!(page.descendants().any(|n| n.attribute("id") == Some(&id)), "Eq. ({number})");
     }
     assert!(elements(&page, "math").len() > 400);
     assert!(elements(&page, "merror").is_empty());
-    let is_code = |node: &Node<'_, '_>| {
-        node.parent_element().is_some_and(|outer| outer.tag_name().name() == "script")
-    };
-    let texts = page.descendants().filter(|node| node.is_text() && !is_code(node));
+    let texts = page.descendants().filter(Node::is_text);
     for text in texts.filter_map(|node| node.text()) {
         assert!(!text.contains(['\u{e000}', '\u{e003}', '\u{e005}', '$']), "{text:?}");
     }
@@ -238,6 +230,11 @@ fn colours_stand_out_in_light_and_dark() {
             (a.max(b) + 0.05) / (a.min(b) + 0.05)
         };
         for (name, _) in impact_paper::figures::palette() {
+            for rule in
+                ["fill", "stroke"].map(|kind| format!(".{kind}-{name} {{ {kind}: var(--{name})"))
+            {
+                assert!(css.contains(&rule), "{rule}");
+            }
             let least = match name {
                 "page" => continue,
                 // Fills behind other things.

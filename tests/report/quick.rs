@@ -7,6 +7,7 @@ use impact_paper::params::Profile;
 use impact_paper::report::{
     Document, Input, PROGRAM, Registry, Report, Templates, assemble, contents, equations,
 };
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::LazyLock;
 
@@ -14,6 +15,8 @@ pub struct Quick {
     pub templates: Templates,
     pub figures: Vec<Figure>,
     pub report: Report,
+    /// The same as it is written into a folder of target/, and where no checkout is.
+    pub elsewhere: [Report; 2],
     pub results: Results,
     pub values: Registry,
     /// The figures that the same results would give if they were of the full profile.
@@ -31,6 +34,43 @@ impl Quick {
         let texts =
             document.files(&self.templates).into_iter().map(|path| self.templates.text(path));
         texts.map(Result::unwrap).collect::<Vec<_>>().join("\n\n")
+    }
+}
+
+/// Links and places of each file.
+pub type Links = BTreeMap<String, (Vec<String>, Vec<String>)>;
+
+/// Follows the links of files in a report that is written into paper/, into a folder of target/, and elsewhere; so many at
+/// least lead within a file, and from one to another.
+pub fn links_land(files: impl Fn(&Report) -> Links, least: usize, across: usize) {
+    for (report, top) in [&QUICK.report, &QUICK.elsewhere[0], &QUICK.elsewhere[1]]
+        .into_iter()
+        .zip(["../", "../../", "none"])
+    {
+        let files = files(report);
+        let (mut inside, mut outside, mut up) = (0, 0, 0);
+        for (name, (links, places)) in &files {
+            let distinct: BTreeSet<_> = places.iter().collect();
+            assert_eq!(distinct.len(), places.len(), "{name}: a place stands twice");
+            for link in links.iter().filter(|link| !link.contains("://")) {
+                let (file, id) = link.split_once('#').unwrap_or((link, ""));
+                if let Some(path) = file.strip_prefix(top).filter(|path| !path.starts_with('.')) {
+                    up += 1;
+                    assert!(Path::new(path).exists(), "{name}: no {link}");
+                    continue;
+                }
+                let to = if file.is_empty() { name } else { file };
+                let own = || report.committed.contains_key(to) || report.beside.contains_key(to);
+                assert!(own() || to == "data", "{name}: no {link}");
+                if !id.is_empty() {
+                    inside += usize::from(to == name);
+                    outside += usize::from(to != name);
+                    assert!(files[to].1.iter().any(|place| place == id), "{name}: no {link}");
+                }
+            }
+        }
+        assert!(inside > least && outside > across, "{inside} {outside}");
+        assert!((up > 30) == (top != "none"), "{up} links to files of the project");
     }
 }
 
@@ -52,17 +92,23 @@ pub static QUICK: LazyLock<Quick> = LazyLock::new(|| {
     let [figures, full] = [&results, &full].map(|results| -> Vec<_> {
         figures::all().map(|number| figures::draw(number, results).unwrap()).collect()
     });
-    let input = Input {
-        templates: &templates,
-        values: &values,
-        rows: &rows,
-        claims: &claims,
-        figures: &figures,
-        equations: &equations::entries(),
-        lab: Some(""),
-        program: PROGRAM,
+    let equations = equations::entries();
+    let made = |top| {
+        let input = Input {
+            templates: &templates,
+            values: &values,
+            rows: &rows,
+            claims: &claims,
+            figures: &figures,
+            equations: &equations,
+            lab: Some(""),
+            top,
+            program: PROGRAM,
+        };
+        assemble(&input).unwrap_or_else(|error| panic!("{error}"))
     };
-    let report = assemble(&input).unwrap_or_else(|error| panic!("{error}"));
-    assert!(report == assemble(&input).unwrap(), "the same input gives other bytes");
-    Quick { templates, figures, report, results, values, full }
+    let report = made(Some("../"));
+    assert!(report == made(Some("../")), "the same input gives other bytes");
+    let elsewhere = [made(Some("../../")), made(None)];
+    Quick { templates, figures, report, elsewhere, results, values, full }
 });

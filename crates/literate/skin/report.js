@@ -2,22 +2,23 @@
 // What a page can do beside being read: cards of numbers, looks at what is referred to, a search, filters.
 {
   const all = (what, within = document) => [...within.querySelectorAll(what)];
-  const data = (id) => JSON.parse(document.getElementById(id).textContent);
   const make = (tag, properties = {}, ...children) => {
     const node = Object.assign(document.createElement(tag), properties);
     node.append(...children);
     return node;
   };
 
-  // What readers run themselves is loaded when it is first asked for.
+  // A page on a disk may read nothing but scripts: what is beside it is loaded when it is first asked for.
+  const load = (src) => new Promise((onload, onerror) => document.head.append(make("script", { src, onload, onerror })));
+
+  // What readers run themselves.
   let lab;
-  const load = () => new Promise((done, failed) => document.head.append(make("script", { src: "lab.js", onload: done, onerror: failed })));
   for (const figure of all("WebAssembly" in globalThis ? ".lab" : "#none")) {
     figure.hidden = false;
     figure.querySelector("button").addEventListener("click", async () => {
       const status = figure.querySelector("[role=status]");
       status.textContent = "Loading …";
-      await (lab ??= load()).then(() => open_lab(figure)).catch(() => {
+      await (lab ??= load("lab.js")).then(() => open_lab(figure)).catch(() => {
         lab = undefined;
         status.textContent = "lab.js cannot be loaded; it belongs beside this page.";
       });
@@ -26,22 +27,40 @@
 
   // The card of a number.
   const card = document.getElementById("card");
-  const [rows, cards] = data("cards");
-  for (const button of all("button.value")) {
-    button.addEventListener("click", () => {
-      const [title, lead, own] = cards[button.dataset.card];
-      card.querySelector("header span").innerHTML = title;
-      card.querySelector("p").innerHTML = lead;
-      card.querySelector("dl").innerHTML = own.map((row) => rows[row]).join("");
-      card.hidePopover();
-      card.showPopover({ source: button });
-      card.scrollTop = 0;
+  let cards;
+  const open = async (value) => {
+    await (cards ??= load("cards.js"));
+    const [rows, all] = CARDS;
+    const [title, lead, own] = all[value.dataset.card];
+    card.querySelector("header span").innerHTML = title;
+    card.querySelector("p").innerHTML = lead;
+    card.querySelector("dl").innerHTML = own.map((row) => rows[row]).join("");
+    card.hidePopover();
+    card.showPopover({ source: value });
+    card.scrollTop = 0;
+  };
+  const values = all(".value");
+  for (const value of values) {
+    value.addEventListener("click", () => open(value));
+    value.addEventListener("keydown", (event) => {
+      if (event.key !== "Enter" && event.key !== " ") return;
+      event.preventDefault();
+      open(value);
     });
   }
+  // A number in a PDF leads to its card: report.html#value:ID.
+  const asked = () => {
+    const [kind, id] = decodeURIComponent(location.hash).split(/:(.*)/s);
+    const value = kind === "#value" && values.find((value) => value.dataset.card === id);
+    if (!value) return;
+    value.scrollIntoView({ block: "center" });
+    open(value);
+  };
+  addEventListener("hashchange", asked);
 
   // A table is one stop of the Tab key; arrows go from number to number.
   for (const table of all("table")) {
-    const buttons = all("button.value", table);
+    const buttons = all(".value", table);
     buttons.slice(1).forEach((button) => (button.tabIndex = -1));
     const cell = (button) => button.closest("td, th");
     const steps = {
@@ -71,7 +90,7 @@
   const show = (link, target) => {
     const copy = target.cloneNode(true);
     all("[id]", copy).concat(copy).forEach((node) => node.removeAttribute("id"));
-    all("button, a", copy).forEach((node) => node.replaceWith(...node.childNodes));
+    all("[role=button], a", copy).forEach((node) => node.replaceWith(...node.childNodes));
     all("[tabindex]", copy).forEach((node) => node.removeAttribute("tabindex"));
     look.replaceChildren(copy);
     look.showPopover({ source: link });
@@ -176,4 +195,5 @@
     table.closest("figure").querySelector("figcaption").after(make("div", { className: "filters" }, ...choices.map(({ label }) => label), count));
   }
   mark();
+  asked();
 }

@@ -262,6 +262,7 @@ pub fn make(
         figures: &figures,
         equations: &[],
         lab: None,
+        top: Some("../"),
         program: PROGRAM,
     })?)
 }

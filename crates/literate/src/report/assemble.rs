@@ -2,7 +2,7 @@
 
 use super::Templates;
 use super::bibliography::Library;
-use super::card::Cards;
+use super::card::{Cards, links};
 use super::claims::{Row, scorecard};
 use super::document::{self, Block, Inline};
 use super::documents::Document;
@@ -17,7 +17,6 @@ use super::values::Registry;
 use super::{Error, html, latex, ledger, lint, markdown, parse};
 use crate::claims::Check;
 use crate::figures::{DataFile, Figure};
-use crate::input::one_line;
 use crate::source::Program;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
@@ -45,6 +44,8 @@ pub struct Input<'a> {
     pub equations: &'a [EquationEntry],
     /// What a page loads when a reader asks it to compute: lab.js, beside the pages.
     pub lab: Option<&'a str>,
+    /// The way from where it is written to the files of the project, as `../`; none if it is written elsewhere.
+    pub top: Option<&'a str>,
     /// The program that makes it.
     pub program: Program,
 }
@@ -63,33 +64,6 @@ struct Part<'a> {
     of: Document,
     blocks: Vec<Block>,
     places: Places<'a>,
-}
-
-/// What a document is before the templates are put around it.
-struct Written {
-    of: Document,
-    markdown: String,
-    print: Option<Print>,
-    page: html::Parts,
-}
-
-/// A document for LaTeX.
-struct Print {
-    name: &'static str,
-    title: String,
-    body: String,
-    listings: String,
-}
-
-impl Print {
-    fn of(name: &'static str, blocks: &[Block]) -> Result<Self, Error> {
-        Ok(Print {
-            name,
-            title: latex::title(blocks)?,
-            body: latex::write(blocks)?,
-            listings: latex::listings(blocks)?,
-        })
-    }
 }
 
 /// The values with the scorecard among them, the filler with all names that templates use, and the prose of each
@@ -112,7 +86,6 @@ fn fill(input: &Input<'_>) -> Result<(Registry, Filler, Vec<Filled>), Error> {
 /// Makes the whole report.
 pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
     let declared = lint::check(input.templates, input.program)?;
-    skins(input.templates)?;
     let (mut values, mut filler, filled) = fill(input)?;
     let used: BTreeSet<String> = filled.iter().flat_map(|filled| ids(&filled.text)).collect();
     check_unused(&values, &used)?;
@@ -131,28 +104,27 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
     committed.insert("values.json".into(), values_json.into_bytes());
     committed.insert("ledger.json".into(), ledger::json(&ledger).map_err(json)?.into_bytes());
     let cards = Cards { values: &values, ledger: &ledger, program: input.program };
-    let site = |of| html::Site { here: of, labels: &labels, lab: input.lab.is_some() };
+    let (program, figures, top) = (input.program, input.figures, input.top);
+    let site = html::Site { program, figures, labels: &labels, lab: input.lab.is_some(), top };
+    let mut shown = BTreeSet::new();
     let written = parts.par_iter().with_max_len(1).map(|Part { of, blocks, .. }| {
-        let print = of.print.map(|name| Print::of(name, blocks)).transpose()?;
-        let page = html::write(blocks, input.figures, site(*of), cards)?;
-        Ok(Written { of: *of, markdown: markdown::write(blocks), print, page })
+        Ok((latex::write(blocks, *of)?, html::write(blocks, *of, site)?))
     });
-    for written in written.collect::<Vec<Result<Written, Error>>>() {
-        let Written { of, markdown, print, page } = written?;
-        committed.insert(of.markdown.into(), markdown.into_bytes());
-        if let Some(Print { name, title, body, listings }) = print {
-            filler.insert("title", &title);
-            filler.insert("letter", &of.letter);
-            filler.insert("body", &body);
-            filler.insert("listings", &listings);
+    let written = written.collect::<Vec<Result<_, Error>>>();
+    for (Part { of, blocks, .. }, written) in parts.iter().zip(written) {
+        let (print, page) = written?;
+        committed.insert(of.markdown.into(), markdown::write(blocks).into_bytes());
+        if let Some(name) = of.print {
+            filler.insert("print", &print);
             committed.insert(format!("{name}.tex"), filler.fill("report.tex")?.into_bytes());
         }
         filler.insert("page", &page);
-        filler.insert("style", &flush(input.templates.text("report.css")?));
-        filler.insert("script", &flush(input.templates.text("report.js")?));
-        let page = filler.fill("report.html")?;
-        html::is_whole(&page)?;
-        beside.insert(of.page.into(), page.into_bytes());
+        shown.extend(page.values);
+        beside.insert(of.page.into(), filler.fill("report.html")?.into_bytes());
+    }
+    beside.extend(html::beside(&shown, cards, site)?);
+    for name in ["report.css", "report.js"] {
+        beside.insert(name.into(), input.templates.text(name)?.as_bytes().to_vec());
     }
     beside.extend(input.lab.map(|lab| (LAB.to_string(), lab.as_bytes().to_vec())));
     for figure in input.figures {
@@ -184,8 +156,8 @@ fn parts<'a>(
     let read: Vec<_> = filled.par_iter().with_max_len(1).map(read).collect();
     for ((of, filled), read) in input.program.documents.iter().zip(filled).zip(read) {
         let (mut blocks, places) = read?;
-        latex::title(&blocks).map_err(|error| error.at(filled.place(0)))?;
-        let own = illustrate(&mut blocks, input.figures, input.program)
+        document::title(&blocks).map_err(|error| error.at(filled.place(0)))?;
+        let own = illustrate(&mut blocks, input)
             .and_then(|own| labels.number_all(&mut blocks, *of).map(|()| own))
             .map_err(|error| match error {
                 Error::Label(id, _) => {
@@ -212,70 +184,6 @@ fn parts<'a>(
         labels.resolve(blocks, *of, &library).map_err(|error| places.tell(error))?;
     }
     Ok((parts, labels))
-}
-
-/// Lines without indentation and comments, which are for those who write them: a page is loaded sooner.
-fn flush(text: &str) -> String {
-    let lines = text.lines().map(str::trim_start).filter(|line| !line.starts_with("//"));
-    lines.flat_map(|line| [line, "\n"]).collect()
-}
-
-/// What stands around the text of the documents: it has a place for the text, and leaves nothing open and
-/// nothing outside the one file that the page is.
-fn skins(templates: &Templates) -> Result<(), Error> {
-    let fault = |what: String| Err(Error::Template(what));
-    // The text, the cards that its buttons open, the end of a document, and where the page's first link leads.
-    let once = [
-        ("report.tex", "\\documentclass"),
-        ("report.tex", "\\begin{document}"),
-        ("report.tex", "«body»"),
-        ("report.tex", "«listings»"),
-        ("report.tex", "\\end{document}"),
-        ("report.html", "«style»"),
-        ("report.html", "«page.glyphs»"),
-        ("report.html", "id=\"cards\""),
-        ("report.html", "«page.body»"),
-        ("report.html", "«page.cards»"),
-        ("report.html", "«script»"),
-        ("report.html", "id=\"text\""),
-    ];
-    for (path, what) in once {
-        let times = templates.text(path)?.matches(what).count();
-        if times != 1 {
-            return fault(format!("{path}: it has {what} {times} times; write it once"));
-        }
-    }
-    let page = templates.text("report.html")?;
-    for outside in ["<script src", "<link rel=\"stylesheet\"", "<img src=\"http"] {
-        if page.contains(outside) {
-            return fault(format!("report.html: {outside}: the page is one file; put it here"));
-        }
-    }
-    html::is_shell(page)?;
-    for path in ["report.css", "report.js"] {
-        let Ok(text) = templates.text(path) else { continue };
-        // It would end the element that it stands in.
-        if text.contains("</") {
-            return fault(format!("{path}: </ ends it in the page; write <\\/"));
-        }
-        let [open, close] = ['{', '}'].map(|brace| text.matches(brace).count());
-        if open != close {
-            return fault(format!("{path}: {open} times {{ and {close} times }}; one is missing"));
-        }
-    }
-    let style = templates.text("report.css").unwrap_or_default();
-    let within =
-        |to: &str| to.trim_start_matches(['"', '\'']).starts_with(['#']) || to.contains("data:");
-    let address = |to: &str| to.split(')').next().unwrap_or_default().to_string();
-    let urls = style.split("url(").skip(1).map(address).find(|to| !within(to));
-    let import = style.contains("@import").then(|| "@import".to_string());
-    match import.or(urls.map(|to| format!("url({to})"))) {
-        Some(what) => {
-            let what = one_line(&what, 100);
-            fault(format!("report.css: {what}: the page is one file; put it here, or data:"))
-        }
-        None => Ok(()),
-    }
 }
 
 /// The picture of a figure and its data.
@@ -306,22 +214,22 @@ fn check_links(
     program: Program,
 ) -> Result<(), Error> {
     let is_page = |to: &str| program.documents.iter().any(|of| of.page == to);
-    let leads =
-        |to: &str| match (to.split_once("://"), to.strip_prefix('#'), to.strip_prefix("../")) {
-            // What a browser would run or read from a disk is no address of a source.
-            (Some((scheme, host)), ..) => {
-                ["https", "http"].contains(&scheme) && host.starts_with(char::is_alphanumeric)
-            }
-            _ if to.starts_with("mailto:") => to.contains('@'),
-            (_, Some(id), _) if id.contains(':') => false,
-            (_, Some(id), _) => {
-                let id = id.replacen('-', ":", 1);
-                labels.number(&id).is_some() && labels.beside(&id, here).is_none()
-            }
-            (.., Some(path)) => (program.exists)(path),
-            _ if is_page(to) => true,
-            _ => files.keys().any(|path| path == to || path.starts_with(&format!("{to}/"))),
-        };
+    let leads = |to: &str| match (to.split_once("://"), to.strip_prefix('#')) {
+        // What a browser would run or read from a disk is no address of a source.
+        (Some((scheme, host)), _) => {
+            ["https", "http"].contains(&scheme) && host.starts_with(char::is_alphanumeric)
+        }
+        _ if to.starts_with("mailto:") => to.contains('@'),
+        (_, Some(id)) if id.contains(':') => false,
+        (_, Some(id)) => {
+            let id = id.replacen('-', ":", 1);
+            labels.document(&id) == Some(here)
+        }
+        // Seen before it was led from where the report is written.
+        _ if to.starts_with('.') => true,
+        _ if is_page(to) => true,
+        _ => files.keys().any(|path| path == to || path.starts_with(&format!("{to}/"))),
+    };
     let mut result = Ok(());
     document::visit(blocks, &mut |inline| {
         if let Inline::Link { to, .. } = inline
@@ -346,24 +254,37 @@ fn check_labs(blocks: &[Block], templates: &Templates) -> Result<(), Error> {
     unknown.map_or(Ok(()), Err)
 }
 
-/// Gives the figures in the prose their alternative text and data; which these are.
-fn illustrate(
-    blocks: &mut [Block],
-    figures: &[Figure],
-    program: Program,
-) -> Result<Vec<String>, Error> {
+/// Gives the figures in the prose their alternative text and data, and leads what leads to files of the project; which
+/// figures these are.
+fn illustrate(blocks: &mut [Block], input: &Input<'_>) -> Result<Vec<String>, Error> {
     let mut shown = Vec::new();
-    for block in blocks {
-        if let Block::Figure { path, alt, data, code, experiments, .. } = block {
+    for block in blocks.iter_mut() {
+        if let Block::Figure { path, alt, origin, .. } = block {
+            let own = |figure: &&Figure| *path == format!("figures/{}.svg", figure.id);
             let figure =
-                figures.iter().find(|figure| *path == format!("figures/{}.svg", figure.id));
-            let figure = figure.ok_or_else(|| Error::NoFile(path.clone()))?;
+                input.figures.iter().find(own).ok_or_else(|| Error::NoFile(path.clone()))?;
             *alt = figure.description.clone();
-            *data = figure.data.iter().map(|d| format!("data/{}", d.name)).collect();
-            *code = program.file(&figure.source).map(|file| format!("../{file}"));
-            *experiments = figure.experiments.clone();
+            let words = |words: &str| Inline::Text(words.into());
+            let data: Vec<String> =
+                figure.data.iter().map(|file| format!("data/{}", file.name)).collect();
+            let code = input.program.file(&figure.source).map(|file| format!("../{file}"));
+            for (name, files) in [("Data: ", data), ("Code: ", code.into_iter().collect())] {
+                if !files.is_empty() {
+                    origin.push(words(if origin.is_empty() { "" } else { " " }));
+                    origin.push(words(name));
+                    origin.extend(links(&files));
+                    origin.push(words("."));
+                }
+            }
             shown.push(figure.id.clone());
         }
     }
+    document::rewrite(blocks, &mut |inline| match &inline {
+        Inline::Link { to, .. } => match to.strip_prefix("../") {
+            Some(path) if !(input.program.exists)(path) => Err(Error::NoFile(to.clone())),
+            _ => Ok(document::led(inline, input.top)),
+        },
+        _ => Ok(vec![inline]),
+    })?;
     Ok(shown)
 }

@@ -47,17 +47,8 @@ pub(super) fn paragraph(mut inlines: Vec<Inline>) -> Result<Block, Error> {
         let path = to.trim_start_matches(IMAGE).to_string();
         let number = number_of_figure(&path);
         let id = format!("fig:{number}");
-        let (alt, data, code, experiments) = (String::new(), Vec::new(), None, Vec::new());
-        return Ok(Block::Figure {
-            id,
-            number,
-            path,
-            alt,
-            data,
-            code,
-            experiments,
-            caption: shown,
-        });
+        let (alt, origin) = (String::new(), Vec::new());
+        return Ok(Block::Figure { id, number, path, alt, origin, caption: shown });
     }
     refuse_pictures(&inlines)?;
     let lists = |inline: &Inline| matches!(inline, Inline::Unresolved(ids) if ids.iter().any(|id| id == "bibliography"));
@@ -80,12 +71,15 @@ pub(super) fn number_of_figure(path: &str) -> String {
 /// The listing of an item; its caption stands before it.
 pub(super) fn listing(path: &str, program: &Program) -> Result<Block, Error> {
     let found = program.item(path).map_err(Error::Markup)?;
+    let words = |words: &str| Inline::Text(words.into());
+    let link = Inline::Link { to: format!("../{}", found.file), shown: vec![words(found.file)] };
     Ok(Block::Listing {
         id: String::new(),
         number: String::new(),
         caption: Vec::new(),
         item: path.to_string(),
         file: found.file.to_string(),
+        origin: vec![words("From "), link, words(".")],
         text: found.text,
     })
 }

@@ -33,12 +33,8 @@ pub enum Block {
         path: String,
         /// What is seen, for those who do not see it.
         alt: String,
-        /// Paths of its data relative to the report.
-        data: Vec<String>,
-        /// Path of the code that draws it, relative to the report; none if it is not known.
-        code: Option<String>,
-        /// Names of the experiments whose results it shows.
-        experiments: Vec<&'static str>,
+        /// Where its data is, and the code that draws it.
+        origin: Vec<Inline>,
         caption: Vec<Inline>,
     },
     Table {
@@ -75,6 +71,8 @@ pub enum Block {
         item: String,
         /// Its file, from the top of the project.
         file: String,
+        /// The same in words, as a link.
+        origin: Vec<Inline>,
         text: String,
     },
     /// What a reader runs there, in formats in which that is possible.
@@ -184,10 +182,10 @@ pub fn visit(blocks: &[Block], visit: &mut impl FnMut(&Inline)) {
     for block in blocks {
         match block {
             Block::Heading { text, .. } | Block::Paragraph(text) => visit_inlines(text, visit),
-            Block::Figure { caption, .. }
-            | Block::Listing { caption, .. }
-            | Block::Lab { caption, .. } => {
+            Block::Lab { caption, .. } => visit_inlines(caption, visit),
+            Block::Figure { caption, origin, .. } | Block::Listing { caption, origin, .. } => {
                 visit_inlines(caption, visit);
+                visit_inlines(origin, visit);
             }
             Block::Table { caption, head, rows, .. } => {
                 visit_inlines(caption, visit);
@@ -223,10 +221,10 @@ pub fn rewrite<E>(
     for block in blocks {
         match block {
             Block::Heading { text, .. } | Block::Paragraph(text) => rewrite_inlines(text, change)?,
-            Block::Figure { caption, .. }
-            | Block::Listing { caption, .. }
-            | Block::Lab { caption, .. } => {
+            Block::Lab { caption, .. } => rewrite_inlines(caption, change)?,
+            Block::Figure { caption, origin, .. } | Block::Listing { caption, origin, .. } => {
                 rewrite_inlines(caption, change)?;
+                rewrite_inlines(origin, change)?;
             }
             Block::Table { caption, head, rows, .. } => {
                 rewrite_inlines(caption, change)?;
@@ -246,7 +244,8 @@ pub fn rewrite<E>(
     Ok(())
 }
 
-fn rewrite_inlines<E>(
+/// The same of running text.
+pub fn rewrite_inlines<E>(
     inlines: &mut Vec<Inline>,
     change: &mut impl FnMut(Inline) -> Result<Vec<Inline>, E>,
 ) -> Result<(), E> {
@@ -265,6 +264,18 @@ fn rewrite_inlines<E>(
     }
     *inlines = out;
     Ok(())
+}
+
+/// A link to a file of the project, `../src/main.rs` as from paper/, as it leads from where the report is written;
+/// where no way leads there, its words alone.
+pub fn led(inline: Inline, top: Option<&str>) -> Vec<Inline> {
+    match inline {
+        Inline::Link { to, shown } if to.starts_with("../") => match top {
+            Some(top) => vec![Inline::Link { to: to.replacen("../", top, 1), shown }],
+            None => shown,
+        },
+        other => vec![other],
+    }
 }
 
 /// The words alone, for alternative text and widths of columns.

@@ -3,7 +3,7 @@
 //! SHA256SUMS lists, as `sha256sum` does, every file of a report that is committed, or the figures that were written
 //! alone. Pages and figures for LaTeX stand beside them; they are made anew each time, and no list has them.
 
-use super::assemble::{Files, LAB, Report};
+use super::assemble::{Files, Report};
 use crate::digest::sha256;
 use crate::input::{self, STAGING, is_absent, listed, remedy};
 use std::collections::{BTreeMap, BTreeSet};
@@ -122,8 +122,11 @@ pub fn walk(folder: &Path) -> Result<Vec<String>, Error> {
 /// Whether a file is built beside those of a report, and never committed: .gitignore names the same.
 pub fn is_beside(path: &str) -> bool {
     match path.split_once('/') {
-        Some((folder, name)) => folder == "figures" && name.ends_with(".pdf"),
-        None => path.ends_with(".html") || path == LAB,
+        Some((folder, name)) => match folder {
+            "figures" => name.ends_with(".pdf"),
+            _ => folder == "fonts",
+        },
+        None => [".html", ".css", ".js"].iter().any(|end| path.ends_with(end)),
     }
 }
 

@@ -42,9 +42,9 @@ impl Labels {
         self.labels.get(id).map(|(number, _)| number.as_str())
     }
 
-    /// The document that has an id, if it is another than this one.
-    pub fn beside(&self, id: &str, here: Document) -> Option<Document> {
-        self.labels.get(id).map(|(_, of)| *of).filter(|of| *of != here)
+    /// The document that has an id.
+    pub fn document(&self, id: &str) -> Option<Document> {
+        self.labels.get(id).map(|(_, of)| *of)
     }
 
     /// Gives numbers to the sections, captioned tables, listings and anchors of a document.
@@ -219,7 +219,7 @@ impl Labels {
             };
             out.push(Inline::Reference {
                 to: target.to_string(),
-                within: self.beside(target, here),
+                within: self.document(target).filter(|of| *of != here),
                 shown,
             });
         }

@@ -1,11 +1,42 @@
-//! The tree → the body of report.tex; its shell is a template.
+//! The tree → a document for LaTeX; what stands around it is the template report.tex.
 
 use super::Error;
-use super::document::{self, Align, Block, Inline, continues, is_equation, plain};
+use super::document::{self, Align, Block, Inline, continues, is_equation, plain, spelt};
+use super::documents::Document;
 use super::tex;
+use serde::Serialize;
 
-/// Writes the body of report.tex.
-pub fn write(blocks: &[Block]) -> Result<String, Error> {
+/// What the template has places for.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Parts {
+    /// What numbers begin with.
+    pub letter: &'static str,
+    /// The page that has the cards of its numbers.
+    pub page: &'static str,
+    /// The title.
+    pub title: String,
+    /// The same as words, for what a reader of PDF shows.
+    pub bookmark: String,
+    /// The text.
+    pub body: String,
+    /// The listings, which stand behind the text; empty if there are none.
+    pub listings: String,
+}
+
+/// Writes all parts of a document.
+pub fn write(blocks: &[Block], of: Document) -> Result<Parts, Error> {
+    let title = document::title(blocks)?;
+    Ok(Parts {
+        letter: of.letter,
+        page: of.page,
+        title: inlines(title)?,
+        bookmark: bookmark(title)?,
+        body: body(blocks)?,
+        listings: listings(blocks)?,
+    })
+}
+
+fn body(blocks: &[Block]) -> Result<String, Error> {
     let mut out = String::new();
     let mut before: Option<&Block> = None;
     for block in blocks {
@@ -24,16 +55,10 @@ pub fn write(blocks: &[Block]) -> Result<String, Error> {
     Ok(out)
 }
 
-/// The title: the words of the first heading of level 1.
-pub fn title(blocks: &[Block]) -> Result<String, Error> {
-    inlines(document::title(blocks)?)
-}
-
-/// The listings, which stand behind the text; empty if there are none.
-pub fn listings(blocks: &[Block]) -> Result<String, Error> {
+fn listings(blocks: &[Block]) -> Result<String, Error> {
     let mut out = String::new();
     for block in blocks {
-        let Block::Listing { id, number, caption, item, file, text } = block else { continue };
+        let Block::Listing { id, number, caption, item, file, text, .. } = block else { continue };
         if out.is_empty() {
             out.push_str(LISTINGS);
         }
@@ -66,7 +91,10 @@ fn write_block(block: &Block) -> Result<String, Error> {
                 _ => "paragraph",
             };
             let label = id.as_deref().map(|id| format!("\\label{{{id}}}")).unwrap_or_default();
-            let words = bookmarked(text)?;
+            let mut words = inlines(text)?;
+            if words != bookmark(text)? {
+                words = format!("\\texorpdfstring{{{words}}}{{{}}}", bookmark(text)?);
+            }
             match number {
                 Some(_) => format!("\\{command}{{{words}}}{label}"),
                 None => format!(
@@ -95,11 +123,11 @@ fn write_block(block: &Block) -> Result<String, Error> {
                 out.push_str(&format!("\\setcounter{{enumi}}{{{}}}\n", start.saturating_sub(1)));
             }
             for item in items {
-                out.push_str(&format!("\\item {}\n", apart(write(item)?.trim_end())));
+                out.push_str(&format!("\\item {}\n", apart(body(item)?.trim_end())));
             }
             format!("{out}\\end{{{kind}}}")
         }
-        Block::Quote(blocks) => format!("\\begin{{quote}}\n{}\\end{{quote}}", write(blocks)?),
+        Block::Quote(blocks) => format!("\\begin{{quote}}\n{}\\end{{quote}}", body(blocks)?),
         Block::Code { text, .. } => {
             format!("{{\\small\\begin{{alltt}}\n{}\n\\end{{alltt}}}}", tex::code(text.trim_end())?)
         }
@@ -118,16 +146,12 @@ fn write_block(block: &Block) -> Result<String, Error> {
     })
 }
 
-/// Words of a heading: where they have mathematics, PDF bookmarks show them without markup.
-fn bookmarked(text: &[Inline]) -> Result<String, Error> {
-    let words = inlines(text)?;
-    if !words.contains(['$', '\\']) {
-        return Ok(words);
-    }
-    let plain: String = plain(text).chars().filter(|c| !"\\{}$^_#%&~".contains(*c)).collect();
-    let plain = plain.replace('σ', "sigma").replace('φ', "phi");
-    let ascii: String = plain.chars().filter(char::is_ascii).collect();
-    Ok(format!("\\texorpdfstring{{{words}}}{{{ascii}}}"))
+/// Words as bookmarks of a PDF show them: ASCII without markup.
+fn bookmark(text: &[Inline]) -> Result<String, Error> {
+    let words = spelt(text).replace('σ', "sigma").replace('φ', "phi").replace('–', "-");
+    let mut words = words.replace('\u{a0}', " ");
+    words.retain(|c| c.is_ascii());
+    tex::text(&words)
 }
 
 /// The list of references: its second lines are indented.
@@ -138,7 +162,8 @@ fn label(id: &str) -> String {
     format!("\\phantomsection\\label{{{id}}}")
 }
 
-fn inlines(list: &[Inline]) -> Result<String, Error> {
+/// Running text.
+pub fn inlines(list: &[Inline]) -> Result<String, Error> {
     let mut out = String::new();
     for (i, piece) in list.iter().enumerate() {
         // A blank line around an equation would begin a paragraph.
@@ -182,8 +207,7 @@ fn inline(inline: &Inline) -> Result<String, Error> {
                 None => format!("\n\\begin{{equation*}}\n{maths}\n\\end{{equation*}}\n"),
             }
         }
-        // On paper nothing opens.
-        Inline::Value { shown, .. } => inlines(shown)?,
+        Inline::Value { id, shown } => tex::value(id, &inlines(shown)?),
         Inline::Link { to, shown } if to.contains("://") => {
             let shown = inlines(shown)?;
             let bare = shown.starts_with("http");

@@ -5,7 +5,7 @@
 //! macros, `\operatorname` among them; of a macro that is not known it shows the source in red. So
 //! mathematics is held against a list of what is known there, to LaTeX with amsmath, and to math-core.
 
-use super::html::LONGEST;
+use super::mathml::LONGEST;
 use crate::input::is_no_text;
 
 /// Macros, by kind.
@@ -190,9 +190,9 @@ mod tests {
         for name in ALLOWED.split_whitespace() {
             let tex = with_brackets(name);
             assert!(
-                super::super::html::reads(&tex).is_ok(),
+                super::super::mathml::reads(&tex).is_ok(),
                 "{tex}: {:?}",
-                super::super::html::reads(&tex)
+                super::super::mathml::reads(&tex)
             );
         }
     }

@@ -38,13 +38,12 @@ fn write_block(block: &Block, indent: &str, out: &mut String) {
             )
         }
         Block::Paragraph(text) => prose.all(text),
-        Block::Figure { id, number, path, alt, data, code, caption, .. } => format!(
-            "{}\n![{}]({path})\n\n**Figure {number}.** {}{}",
-            anchor(id),
-            alternative(alt),
-            prose.all(caption),
-            origin(data, code.as_ref())
-        ),
+        Block::Figure { id, number, path, alt, origin, caption } => {
+            let (caption, origin) = (prose.all(caption), prose.all(origin));
+            let origin = if origin.is_empty() { origin } else { format!("\n<sub>{origin}</sub>") };
+            let (id, alt) = (anchor(id), alternative(alt));
+            format!("{id}\n![{alt}]({path})\n\n**Figure {number}.** {caption}{origin}")
+        }
         Block::Table { id, number, caption, columns, head, rows } => {
             let mut text = id.as_deref().map_or(String::new(), anchor);
             if let Some(number) = number {
@@ -87,12 +86,13 @@ fn write_block(block: &Block, indent: &str, out: &mut String) {
             format!("{fence}{language}\n{}\n{fence}", text.trim_end())
         }
         // Hosts fold `details`; Markdown goes on inside it after a blank line.
-        Block::Listing { id, number, caption, item, file, text } => format!(
+        Block::Listing { id, number, caption, item, origin, text, .. } => format!(
             "{}**Listing {number}.** {}\n\n<details>\n<summary><code>{item}</code></summary>\n\n\
-             {fence}rust\n{}\n{fence}\n\n<sub>From [{file}](../{file}).</sub>\n\n</details>",
+             {fence}rust\n{}\n{fence}\n\n<sub>{}</sub>\n\n</details>",
             anchor(id),
             prose.all(caption),
             text.trim_end(),
+            prose.all(origin),
             fence = fence(text, 3)
         ),
         // Nothing moves here.
@@ -149,16 +149,6 @@ fn anchor(id: &str) -> String {
 fn alternative(text: &str) -> String {
     let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
     line.replace('\\', r"\\").replace('[', r"\[").replace(']', r"\]").replace('_', r"\_")
-}
-
-/// Links from a figure to its data and to the code that draws it, which is beside paper/.
-fn origin(data: &[String], code: Option<&String>) -> String {
-    let link = |path: &String| format!("[{}]({path})", path.rsplit('/').next().unwrap_or(path));
-    let links = data.iter().map(link).collect::<Vec<_>>().join(", ");
-    let data = (!data.is_empty()).then(|| format!("Data: {links}."));
-    let code = code.map(|path| format!("Code: {}.", link(path)));
-    let told: Vec<String> = data.into_iter().chain(code).collect();
-    if told.is_empty() { String::new() } else { format!("\n<sub>{}</sub>", told.join(" ")) }
 }
 
 /// Words as Markdown that shows just these words; mathematics between dollars stays.

@@ -1,7 +1,7 @@
 //! Characters for pdflatex: what is special is escaped, what is not ASCII is named.
 
 use super::Error;
-use super::mark::bare;
+use super::mark::{Piece, pieces};
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
@@ -35,7 +35,11 @@ pub fn text(text: &str) -> Result<String, Error> {
 
 /// Mathematics: TeX already, but for characters beyond ASCII. In words, as in `\text{…}`, they are text.
 pub fn maths(tex: &str) -> Result<String, Error> {
-    let tex = bare(tex);
+    let piece = |piece| match piece {
+        Piece::Text(tex) => tex.to_string(),
+        Piece::Value { id, shown } => value(&id, shown),
+    };
+    let tex: String = pieces(tex).into_iter().map(piece).collect();
     let mut out = String::with_capacity(tex.len());
     // How deep in braces words are, if they are.
     let mut words: Option<usize> = None;
@@ -56,6 +60,13 @@ pub fn maths(tex: &str) -> Result<String, Error> {
         }
     }
     Ok(out)
+}
+
+/// A value that leads to its card: the template says how.
+pub fn value(id: &str, shown: &str) -> String {
+    let plain = |c: u8| c.is_ascii_alphanumeric() || b"._:=,-".contains(&c);
+    let one = |c: u8| if plain(c) { char::from(c).into() } else { format!("\\%{c:02X}") };
+    format!("\\origin{{{}}}{{{shown}}}", id.bytes().map(one).collect::<String>())
 }
 
 /// Macros of formulas whose argument is words.

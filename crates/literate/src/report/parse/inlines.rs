@@ -6,7 +6,7 @@ use super::super::document::{Inline, plain};
 use super::super::labels::of_kind;
 use super::super::mark::{self, Piece, bare, framed, pieces};
 use super::super::print::print;
-use super::super::{Error, html, macros, tex};
+use super::super::{Error, macros, mathml, tex};
 use super::written::{comment, markup, own_link};
 use super::{Reader, is_block, leftover};
 use crate::input::is_no_text;
@@ -200,7 +200,7 @@ impl Reader<'_> {
         }
         match macros::refused(&bare).or_else(|| macros::ungrouped(&tex)) {
             Some(what) => Err(Error::Maths { tex: bare, what }),
-            None => tex::maths(&bare).and_then(|_| html::reads(&bare)).map(|()| tex),
+            None => tex::maths(&bare).and_then(|_| mathml::reads(&bare)).map(|()| tex),
         }
     }
 

@@ -122,16 +122,18 @@ fn markdown_for_a_host() {
 
 #[test]
 fn latex_for_pdflatex() {
-    let text = latex::write(&tree(SAMPLE)).unwrap();
+    let latex::Parts { body: text, listings: appendix, .. } =
+        latex::write(&tree(SAMPLE), Document::REPORT).unwrap();
     for part in [
         "\\section{Introduction}\\label{sec:introduction}\n\nMasses",
+        "\\origin{half_height}{0.1165(4)} and $\\sigma = \\origin{half_height}{0.1165(4)}$, far below",
         "see \\hyperref[fig:3]{Fig.~3}, Eqs.~\\hyperref[eq:18]{(18)} and",
         "at 100 \\% of \\texttt{a\\_\\allowbreak{}b}.\n\\begin{equation}\np_{",
         "\\tag{18}\\label{eq:18}\n\\end{equation}\nwhere $N$ is large, so\n\\begin{equation}\n",
         "\\includegraphics[width=0.8\\linewidth,height=0.62\\textheight,keepaspectratio]{figures/fig03.pdf}",
-        "\\caption{The rise, at 0.1165(4) or $\\sigma$ \\ensuremath{\\ge} 0.12.}\\label{fig:3}",
+        "\\caption{The rise, at \\origin{half_height}{0.1165(4)} or $\\sigma$ \\ensuremath{\\ge} 0.12.}\\label{fig:3}",
         "\\begin{longtable}{llr}\n\\caption{What \\ensuremath{\\sigma} gives}\\label{tab:sigma}\\\\\n",
-        "\\phantomsection\\label{claim:jump}2 & a\\_b * c & 94.5(8)~\\% \\\\\n",
+        "\\phantomsection\\label{claim:jump}2 & a\\_b * c & \\origin{kept}{94.5(8)~\\%} \\\\\n",
         "\\phantomsection\\section*{References}",
         "\nBy \\hyperref[lst:kick]{Listing~1}, in words.\n",
     ] {
@@ -141,7 +143,6 @@ fn latex_for_pdflatex() {
         !text.contains("self.b +=") && !text.contains("They move") && !text.contains("You run"),
         "{text}"
     );
-    let appendix = latex::listings(&tree(SAMPLE)).unwrap();
     for part in [
         "\\section*{Listings}",
         "\\phantomsection\\label{lst:kick}\\textbf{Listing 1.} What $\\delta v$ does. \\texttt{toy::\\allowbreak{}flight",
@@ -200,16 +201,9 @@ fn assembled(prose: &str) -> Result<Report, Error> {
 
 fn with_lab(prose: &str, lab: Option<&str>) -> Result<Report, Error> {
     let bib = "@article{rice1945, author={Rice, S. O.}, title={Noise}, journal={B}, year=1945}";
-    let tex = "\\documentclass{a}\\title{«title»}\\begin{document}«body»«listings»\\end{document}";
-    let html = "<html><title>«page.title»</title><style>«style»</style>«page.glyphs»<main id=\"text\">«page.body»</main>\
-        <script id=\"cards\">«page.cards»</script><script>«script»</script></html>";
     let files = [
         ("report.md", prose),
         ("references.bib", bib),
-        ("report.tex", tex),
-        ("report.html", html),
-        ("report.css", ""),
-        ("report.js", ""),
         ("lab.js", "function toy(bench) {}"),
         ("literals.toml", "literal = []"),
     ];
@@ -230,6 +224,7 @@ fn with_lab(prose: &str, lab: Option<&str>) -> Result<Report, Error> {
             step_towards: None,
         }],
         lab,
+        top: Some("../"),
         program: TOY,
     })
 }
@@ -293,13 +288,35 @@ fn a_report_is_all_its_files() {
     assert!(markdown.contains("1 | A threshold \\| exists: 0.1165(4), reproduced |"), "{markdown}");
     assert!(markdown.contains("[fig03.csv](data/fig03.csv)"), "{markdown}");
     assert!(text("report.tex").contains("\\title{Title}"));
-    assert!(text("report.tex").contains("At 0.1165(4), "), "{}", text("report.tex"));
+    assert!(
+        text("report.tex").contains("At \\origin{half_height}{0.1165(4)}, "),
+        "{}",
+        text("report.tex")
+    );
     assert!(text("values.json").contains("\"score.reproduced\""));
     assert_eq!(text("SHA256SUMS").lines().count(), paths.len() - 1);
     let sum = "5fbfa3bf9031ae769b4cb3a5cd6b9e1c235880438f409f9ec99217b60b1ecb17  data/fig03.csv\n";
     assert!(text("SHA256SUMS").contains(sum), "{}", text("SHA256SUMS"));
-    assert_eq!(report.beside.keys().collect::<Vec<_>>(), ["figures/fig03.pdf", "report.html"]);
+    let beside = report.beside.keys().filter(|path| !path.starts_with("fonts/"));
+    let expected = ["cards.js", "figures/fig03.pdf", "report.css", "report.html", "report.js"];
+    assert_eq!(beside.collect::<Vec<_>>(), expected);
     assert_eq!(assembled(PROSE).unwrap(), report);
+}
+
+/// A title is plain text where no markup is read, and markup of each format else.
+#[test]
+fn titles_are_clean() {
+    let title = r"# Impact\_dynamics & large % systems: R&D $\sigma_{1/2}$";
+    let report = assembled(&PROSE.replace("# Title", title)).unwrap();
+    let page = String::from_utf8(report.beside["report.html"].clone()).unwrap();
+    let tex = String::from_utf8(report.committed["report.tex"].clone()).unwrap();
+    for (text, part) in [
+        (&page, "<title>Impact_dynamics &amp; large % systems: R&amp;D σ_(1/2)</title>"),
+        (&tex, r"\title{Impact\_dynamics \& large \% systems: R\&D $\sigma_{1/2}$}"),
+        (&tex, r"pdftitle={Impact\_dynamics \& large \% systems: R\&D sigma\_(1/2)}"),
+    ] {
+        assert!(text.contains(part), "{part} is not in {text}");
+    }
 }
 
 /// A front page shows a figure of the report again, and what is referred to is found in the document that has it.
@@ -354,6 +371,7 @@ fn documents_refer_to_each_other() {
             figures: &figures,
             equations: &[],
             lab: None,
+            top: Some("../"),
             program,
         })
     };
@@ -431,7 +449,7 @@ fn markdown_shows_what_is_meant() {
 fn tex_takes_no_bracket_for_its_own() {
     let text =
         "# T\n\n| a | b |\n|---|---|\n| \\[q\\] | c |\n\nwords\\\n\\[y\\] or\n\n- \\[z\\] a\n";
-    let text = latex::write(&tree(text)).unwrap();
+    let text = latex::write(&tree(text), Document::REPORT).unwrap().body;
     for kept in ["\n{}[q] & c", "\\\\\n{}[y] or", "\\item {}[z] a"] {
         assert!(text.contains(kept), "{kept}: {text}");
     }

@@ -1,0 +1,291 @@
+//! What a reader is told about one thing: the card that opens in HTML and in the terminal.
+//!
+//! Cards are made of values.json and ledger.json alone, with the parameters of the profile, so that
+//! no run is needed.
+
+use super::captions::number_of_figure;
+use super::document::Inline;
+use super::ledger::Ledger;
+use super::print::{Asked, Style, print};
+use super::values::{Digits, Kind, Number, Registry, Value};
+use crate::figures::DataFile;
+use crate::source::{Program, Recipe};
+use crate::table::table_of;
+
+/// A card: a title and rows, for any format.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Card {
+    /// Id of what it is about: `half_height`, `fig:3`, `eq:18`, `claim:sec7_jump`.
+    pub id: String,
+    /// What it is about, as the report shows it.
+    pub title: Vec<Inline>,
+    /// What it is in one plain sentence; may be empty.
+    pub lead: String,
+    /// What is known of it.
+    pub rows: Vec<Row>,
+}
+
+/// One thing that is known.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// Its name, as "standard error".
+    pub name: &'static str,
+    /// The thing.
+    pub text: Vec<Inline>,
+    /// Path of the item of the source that it names, if it does.
+    pub item: Option<String>,
+}
+
+impl Card {
+    fn of(id: String, title: Vec<Inline>) -> Self {
+        Card { id, title, lead: String::new(), rows: Vec::new() }
+    }
+
+    fn row(&mut self, name: &'static str, text: Vec<Inline>) {
+        if !text.is_empty() {
+            self.rows.push(Row { name, text, item: None });
+        }
+    }
+
+    fn words(&mut self, name: &'static str, text: impl Into<String>) {
+        let text = text.into();
+        if !text.is_empty() {
+            self.row(name, vec![Inline::Text(text)]);
+        }
+    }
+
+    /// A row with an item of the source, which links to its file.
+    fn item(&mut self, name: &'static str, item: &str, program: Program) {
+        if item.is_empty() {
+            return;
+        }
+        let code = Inline::Code(item.to_string());
+        let text = match program.file(item) {
+            Some(file) => vec![link(&format!("../{file}"), code)],
+            None => vec![code],
+        };
+        self.rows.push(Row { name, text, item: Some(item.to_string()) });
+    }
+
+    /// Rows for an experiment: where it is, and its parameters.
+    fn experiment(&mut self, name: &str, cards: &Cards<'_>) {
+        let recipe = (cards.program.recipe)(name, cards.profile());
+        let Some(Recipe { item, parameters, data, .. }) = recipe else { return };
+        self.item("experiment", &item, cards.program);
+        let pairs: Vec<String> =
+            parameters.iter().map(|(name, setting)| format!("{name}: {setting}")).collect();
+        self.words("its parameters", pairs.join("; "));
+        if let Some(path) = data {
+            let name = path.rsplit('/').next().unwrap_or(path);
+            self.row("its data", vec![link(&format!("../{path}"), Inline::Text(name.into()))]);
+        }
+    }
+}
+
+/// Everything that has a card.
+#[derive(Clone, Copy, Debug)]
+pub struct Cards<'a> {
+    /// The values.
+    pub values: &'a Registry,
+    /// Claims, figures, equations.
+    pub ledger: &'a Ledger,
+    /// The program that they lead to.
+    pub program: Program,
+}
+
+impl Cards<'_> {
+    /// The profile with which the values were made.
+    pub(super) fn profile(&self) -> &str {
+        match self.values.get("profile").map(|value| &value.number) {
+            Some(Number::Text(text)) => text,
+            _ => "",
+        }
+    }
+
+    /// The card of an id; a claim is found without its `claim:` too, a figure as `fig:s1`, `Fig:3`.
+    pub fn get(&self, id: &str) -> Option<Card> {
+        let id = id.trim();
+        let lower = id.to_lowercase();
+        match lower.split_once(':') {
+            Some(("fig", _)) => self.figure(&lower),
+            Some(("eq", number)) => self.equation(number.parse().ok()?),
+            Some(("claim", name)) => self.claim(name),
+            Some(_) => None,
+            None => self.value(id.strip_prefix("v.").unwrap_or(id)).or_else(|| self.claim(id)),
+        }
+    }
+
+    /// All ids, in the order values, figures, equations, claims.
+    pub fn ids(&self) -> Vec<String> {
+        let values = self.values.iter().map(|value| value.id.clone());
+        let figures = self.ledger.figures.iter().map(|figure| figure_id(&figure.id));
+        let equations = self.ledger.equations.iter().map(|e| format!("eq:{}", e.number));
+        let claims = self.ledger.claims.iter().map(|claim| format!("claim:{}", claim.id));
+        values.chain(figures).chain(equations).chain(claims).collect()
+    }
+
+    fn value(&self, id: &str) -> Option<Card> {
+        let value = self.values.get(id)?;
+        let mut title = words_and_maths(&print(&value.number, Style::default()).markdown());
+        if !value.unit.is_empty() {
+            title.push(Inline::Text("\u{a0}".into()));
+            title.extend(words_and_maths(&value.unit));
+        }
+        let mut card = Card { lead: lead(value), ..Card::of(value.id.clone(), title) };
+        if !matches!(value.number, Number::Text(_) | Number::Integer(_)) {
+            let full = Style { digits: Some(Asked::Full), ..Style::default() };
+            card.words("in full", print(&value.number, full).plain());
+        }
+        if let Kind::Ensemble { realisations, standard_error } = &value.kind {
+            card.words("standard error", format!("{standard_error}"));
+            card.words("n", format!("{realisations}"));
+        }
+        if let Kind::Printed { place } = &value.kind {
+            card.words("place", place.clone());
+        }
+        if !value.source.is_empty() {
+            card.item("computed by", &value.source, self.program);
+        }
+        let home = self.ledger.equations.iter().find(|equation| equation.home == value.source);
+        if let Some(number) = home.map(|equation| equation.number) {
+            let shown = format!("Eq.\u{a0}({number})");
+            card.row(
+                "equation",
+                vec![Inline::Reference { to: format!("eq:{number}"), within: None, shown }],
+            );
+        }
+        card.experiment(&value.experiment, self);
+        card.row("note", words_and_maths(&value.note));
+        let mut data = vec![link("values.json", Inline::Text("values.json".into()))];
+        let shows = |names: &[String]| names.contains(&value.experiment);
+        let figures = self.ledger.figures.iter().filter(|figure| shows(&figure.experiments));
+        let csv: Vec<&String> = figures.flat_map(|figure| &figure.data).collect();
+        // A cell has the file of its table; what has no table has those of its experiment.
+        let own = table_of(&value.id).map(|table| format!("data/{}", DataFile::name_of(table)));
+        if let Some(own) = &own {
+            data.push(Inline::Text(", ".into()));
+            data.extend(links([own]));
+        } else if value.experiment != "theory" && !csv.is_empty() {
+            data.push(Inline::Text("; of the same experiment: ".into()));
+            data.extend(links(csv));
+        }
+        card.row("data", data);
+        let claims = self.ledger.claims.iter().filter(|claim| claim.values.contains(&value.id));
+        let mut used = Vec::new();
+        for claim in claims {
+            if !used.is_empty() {
+                used.push(Inline::Text("; ".into()));
+            }
+            let shown = claim.id.clone();
+            let to = format!("claim:{}", claim.id);
+            used.push(Inline::Reference { to, within: None, shown });
+            used.push(Inline::Text(format!(" ({}): {}", claim.place, claim.verdict)));
+        }
+        card.row("claims", used);
+        card.row("id", vec![Inline::Code(value.id.clone())]);
+        Some(card)
+    }
+
+    fn figure(&self, asked: &str) -> Option<Card> {
+        let figure = self.ledger.figures.iter().find(|figure| figure_id(&figure.id) == asked)?;
+        let title = vec![Inline::Text(figure.title.clone())];
+        let mut card = Card::of(asked.into(), title);
+        card.words("shows", figure.description.clone());
+        card.row("picture", links([&figure.picture]));
+        card.row("data", links(&figure.data));
+        card.item("drawn by", &figure.source, self.program);
+        for name in &figure.experiments {
+            card.experiment(name, self);
+        }
+        Some(card)
+    }
+
+    fn equation(&self, number: u32) -> Option<Card> {
+        let equation = self.ledger.equations.iter().find(|equation| equation.number == number)?;
+        let title = words_and_maths(&equation.what);
+        let mut card = Card::of(format!("eq:{number}"), title);
+        card.words("stands in", format!("Sec. {}", equation.section));
+        card.item("home", &equation.home, self.program);
+        if let Some(towards) = &equation.step_towards {
+            card.words("is", format!("a step towards {towards}"));
+        }
+        let values = self.values.iter().filter(|value| value.source == equation.home);
+        let values: Vec<&str> = values.map(|value| value.id.as_str()).collect();
+        card.words("values", values.join(", "));
+        Some(card)
+    }
+
+    fn claim(&self, id: &str) -> Option<Card> {
+        let claim = self.ledger.claims.iter().find(|claim| claim.id == id)?;
+        let title = words_and_maths(&claim.statement);
+        let mut card = Card::of(format!("claim:{id}"), title);
+        for (name, words) in [
+            ("stands in", &claim.place),
+            ("printed", &claim.printed),
+            ("found", &claim.ours),
+            ("tolerance", &claim.tolerance),
+            ("because", &claim.reason),
+            ("verdict", &claim.verdict),
+            ("note", &claim.note),
+        ] {
+            card.words(name, words);
+        }
+        card.words("values", claim.values.join(", "));
+        card.item("judged by", &(self.program.judge)(&claim.id), self.program);
+        Some(card)
+    }
+}
+
+/// Markdown of printed values, "3 $\times$ 4", as words and mathematics.
+pub fn words_and_maths(text: &str) -> Vec<Inline> {
+    let piece = |(i, piece): (usize, &str)| match i % 2 {
+        0 => Inline::Text(piece.to_string()),
+        _ => Inline::Maths(piece.to_string()),
+    };
+    text.split('$').enumerate().filter(|(_, piece)| !piece.is_empty()).map(piece).collect()
+}
+
+fn link(to: &str, shown: Inline) -> Inline {
+    Inline::Link { to: to.into(), shown: vec![shown] }
+}
+
+/// A list of links with commas.
+pub(super) fn links<'a>(paths: impl IntoIterator<Item = &'a String>) -> Vec<Inline> {
+    let mut out = Vec::new();
+    for path in paths {
+        if !out.is_empty() {
+            out.push(Inline::Text(", ".into()));
+        }
+        let name = path.rsplit('/').next().unwrap_or(path);
+        out.push(link(path, Inline::Text(name.into())));
+    }
+    out
+}
+
+/// `fig03` → `fig:3`, `s01` → `fig:s1`.
+fn figure_id(figure: &str) -> String {
+    format!("fig:{}", number_of_figure(figure).to_lowercase())
+}
+
+/// What kind of number it is, and where it comes from.
+fn lead(value: &Value) -> String {
+    let what = match (&value.kind, &value.number) {
+        (Kind::Exact, Number::Text(_)) => "Words that were computed".into(),
+        (Kind::Exact, _) => "An exact number".into(),
+        (Kind::Deterministic, Number::Interval { .. }) => "An interval".into(),
+        (Kind::Deterministic, Number::Real { digits: Digits::Significant(_), .. }) => {
+            "A number computed without chance and rounded".into()
+        }
+        (Kind::Deterministic, _) => "A number computed without chance".into(),
+        (Kind::Ensemble { realisations, .. }, _) => {
+            format!("Found from {realisations} realisations, with its standard error in brackets")
+        }
+        (Kind::Printed { .. }, _) => return "A number that the paper prints.".into(),
+        (Kind::Measured, _) => "A number measured once, and an input since".into(),
+    };
+    match value.experiment.as_str() {
+        "" => format!("{what}."),
+        "theory" => format!("{what}, from the theory."),
+        name => format!("{what}, from the experiment “{}”.", name.replace('_', " ")),
+    }
+}

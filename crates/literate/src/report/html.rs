@@ -1,0 +1,490 @@
+//! The tree → a page; what stands around it is the template report.html.
+//!
+//! A page lies on a disk with its style sheet, script, fonts and the cards of its numbers beside it. It is
+//! well-formed XML, so that tests can read it.
+
+use super::card::Cards;
+use super::document::{self, Align, Block, Inline, plain, spelt};
+use super::documents::Document;
+use super::labels::Labels;
+use super::{Error, Files, latex, mathml};
+use crate::claims::Verdict;
+use crate::figures::{Figure, Glyphs, escape as text, path_data};
+use crate::source::Program;
+use math_core::MathDisplay;
+use serde::Serialize;
+use std::cell::RefCell;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write as _;
+
+/// The faces of the pages.
+const FONTS: [(&str, &[u8]); 4] = [
+    ("LibertinusSerif-Regular", include_bytes!("../../fonts/LibertinusSerif-Regular.woff2")),
+    ("LibertinusSerif-Italic", include_bytes!("../../fonts/LibertinusSerif-Italic.woff2")),
+    ("LibertinusSerif-Bold", include_bytes!("../../fonts/LibertinusSerif-Bold.woff2")),
+    ("LibertinusMath-Regular", include_bytes!("../../fonts/LibertinusMath-Regular.woff2")),
+];
+
+/// What the pages of a report share.
+#[derive(Clone, Copy, Debug)]
+pub struct Site<'a> {
+    /// The program that makes them.
+    pub program: Program,
+    /// The figures.
+    pub figures: &'a [Figure],
+    /// The places of all documents.
+    pub labels: &'a Labels,
+    /// Whether lab.js lies beside the pages, by which readers run the program themselves.
+    pub lab: bool,
+    /// The way from the pages to the files of the project, as `../`, if there is one.
+    pub top: Option<&'a str>,
+}
+
+/// What the template has places for.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Parts {
+    /// The file.
+    pub file: &'static str,
+    /// The same for hosts.
+    pub markdown: &'static str,
+    /// What is known of the program: name and words.
+    pub about: BTreeMap<&'static str, String>,
+    /// The same in its order, which a template that loops through a map does not keep.
+    pub meta: Vec<(&'static str, String)>,
+    /// File and name of each document.
+    pub documents: Vec<(&'static str, String)>,
+    /// The title as words.
+    pub title: String,
+    /// The same for BibTeX.
+    pub bibtex: String,
+    /// The title with its mathematics.
+    pub heading: String,
+    /// Id, number and words of each section.
+    pub sections: Vec<[String; 3]>,
+    /// The same of each figure.
+    pub figures: Vec<[String; 3]>,
+    /// The text.
+    pub body: String,
+    /// The outlines that figures share.
+    pub glyphs: String,
+    /// The values that the page shows.
+    #[serde(skip)]
+    pub values: BTreeSet<String>,
+}
+
+/// Writes all parts of a page.
+pub fn write(blocks: &[Block], here: Document, site: Site<'_>) -> Result<Parts, Error> {
+    let page = Page { site, values: RefCell::default(), glyphs: RefCell::default() };
+    let title = document::title(blocks)?;
+    let meta: Vec<_> =
+        site.program.about.iter().map(|(name, words)| (*name, text(words))).collect();
+    let mut glyphs = String::new();
+    let (heading, body) = (page.inlines(title)?, page.blocks(blocks)?);
+    let (mut sections, mut figures) = (Vec::new(), Vec::new());
+    for block in blocks {
+        match block {
+            Block::Heading { level: 2, number, id, text } => sections.push([
+                id_of(id.as_deref(), text),
+                number.clone().unwrap_or_default(),
+                page.inlines(text)?,
+            ]),
+            Block::Figure { id, number, path, .. } => {
+                let name = text(&page.figure(path)?.title);
+                figures.push([id_of(Some(id), &[]), number.clone(), name]);
+            }
+            _ => (),
+        }
+    }
+    for (id, steps) in page.glyphs.borrow().iter() {
+        let _ = writeln!(glyphs, "<path id=\"glyph-{id}\" d=\"{}\"/>", path_data(steps, ' '));
+    }
+    Ok(Parts {
+        file: here.page,
+        markdown: here.markdown,
+        about: meta.iter().cloned().collect(),
+        meta,
+        documents: site.program.documents.iter().map(|of| (of.page, text(of.name))).collect(),
+        title: text(&spelt(title)),
+        bibtex: text(&latex::inlines(title)?),
+        heading,
+        sections,
+        figures,
+        body,
+        glyphs,
+        values: page.values.into_inner(),
+    })
+}
+
+/// What lies beside the pages: fonts, and the cards of all values that they show, as a script, since pages on a disk may
+/// read nothing else. A row that several cards have stands once.
+pub fn beside(values: &BTreeSet<String>, cards: Cards<'_>, site: Site<'_>) -> Result<Files, Error> {
+    let page = Page { site, values: RefCell::default(), glyphs: RefCell::default() };
+    let (mut rows, mut places, mut all) = (Vec::new(), BTreeMap::new(), BTreeMap::new());
+    for id in values {
+        let unknown = || Error::Template(format!("there is no value {id}"));
+        let card = cards.get(id).ok_or_else(unknown)?;
+        let mut own = Vec::new();
+        for row in &card.rows {
+            let mut words = vec![row.text.clone()];
+            for text in &mut words {
+                document::rewrite_inlines(text, &mut |inline| {
+                    Ok::<_, Error>(match inline {
+                        Inline::Reference { to, shown, .. } => {
+                            let within = site.labels.document(&to);
+                            vec![Inline::Reference { to, within, shown }]
+                        }
+                        other => document::led(other, site.top),
+                    })
+                })?;
+            }
+            let row = format!("<dt>{}</dt><dd>{}</dd>", row.name, page.inlines(&words.concat())?);
+            own.push(*places.entry(row.clone()).or_insert_with(|| {
+                rows.push(row);
+                rows.len() - 1
+            }));
+        }
+        all.insert(id, (page.inlines(&card.title)?, text(&card.lead), own));
+    }
+    let json = serde_json::to_string(&(rows, all)).unwrap_or_default();
+    let mut files = Files::from([("cards.js".into(), format!("CARDS = {json};\n").into_bytes())]);
+    let font = |(name, bytes): (&str, &[u8])| (format!("fonts/{name}.woff2"), bytes.to_vec());
+    files.extend(FONTS.map(font));
+    Ok(files)
+}
+
+/// The id of a place on a page: `fig:3` → `fig-3`; for a section without one its words, as `references`.
+fn id_of(id: Option<&str>, words: &[Inline]) -> String {
+    let Some(id) = id else {
+        let words = plain(words).to_lowercase();
+        let words = words.split(|c: char| !c.is_ascii_alphanumeric());
+        return words.filter(|word| !word.is_empty()).collect::<Vec<_>>().join("-");
+    };
+    id.replace([':', '.', '[', ']', '=', ','], "-")
+}
+
+/// Characters of a cell that is text.
+const TEXT: usize = 100;
+/// Columns whose cells have more characters than this are no towers: they have a least width.
+const WIDTHS: [(usize, &str); 3] = [(300, "long"), (TEXT, "text"), (40, "words")];
+
+/// So many columns do not stand side by side on a narrow screen, nor more than a few if one of them is of text.
+const MANY: usize = 6;
+const FEW: usize = 3;
+
+const OPENING: [char; 4] = ['(', '[', '“', '‘'];
+const CLOSING: [char; 12] = ['.', ',', ';', ':', '!', '?', ')', ']', '”', '’', '%', '-'];
+
+/// A page in the making.
+pub(super) struct Page<'a> {
+    site: Site<'a>,
+    values: RefCell<BTreeSet<String>>,
+    glyphs: RefCell<Glyphs>,
+}
+
+impl Page<'_> {
+    fn blocks(&self, blocks: &[Block]) -> Result<String, Error> {
+        blocks.iter().map(|block| self.block(block)).collect()
+    }
+
+    fn block(&self, block: &Block) -> Result<String, Error> {
+        Ok(match block {
+            // The template has the title.
+            Block::Heading { level: 1, .. } => String::new(),
+            Block::Heading { level, number, id, text } => {
+                let number = number.as_ref().map(|n| format!("<span>{n}</span> "));
+                let words = number.unwrap_or_default() + &self.inlines(text)?;
+                if *level > 2 && id.is_none() {
+                    return Ok(format!("<h{level}>{words}</h{level}>\n"));
+                }
+                let id = id_of(id.as_deref(), text);
+                format!("<h{level} id=\"{id}\"><a href=\"#{id}\">{words}</a></h{level}>\n")
+            }
+            Block::Paragraph(text) => self.paragraph(text)?,
+            Block::Figure { id, number, path, origin, caption, .. } => {
+                let figure = self.figure(path)?;
+                self.glyphs.borrow_mut().extend(figure.drawing.glyphs.clone());
+                let svg = figure.drawing.on_page(&figure.id, &figure.title, &figure.description);
+                let name = path.rsplit('/').next().unwrap_or(path);
+                format!(
+                    "<figure id=\"{}\">{}<figcaption><strong>Figure {number}.</strong> {} <span class=\"origin\">\
+                     Picture: <a href=\"{path}\">{name}</a>. {}</span></figcaption></figure>\n",
+                    id_of(Some(id), &[]),
+                    scroll(&format!("Figure {number}"), &svg),
+                    self.inlines(caption)?,
+                    self.inlines(origin)?
+                )
+            }
+            Block::Lab { .. } if !self.site.lab => String::new(),
+            Block::Lab { lab, caption } => format!(
+                "<figure class=\"lab\" id=\"lab-{lab}\" data-lab=\"{lab}\" hidden=\"\"><div class=\"controls\">\
+                 <button type=\"button\">Run it here</button><span role=\"status\"></span></div>\
+                 <figcaption><strong>Live.</strong> {}</figcaption></figure>\n",
+                self.inlines(caption)?
+            ),
+            Block::Table { id, number, caption, columns, head, rows } => {
+                let id = id.as_ref().map(|id| format!(" id=\"{}\"", id_of(Some(id), &[])));
+                let name = format!("Table {}", number.as_deref().unwrap_or_default());
+                let mut out = format!("<figure class=\"table\"{}>", id.unwrap_or_default());
+                if number.is_some() {
+                    let caption = self.inlines(caption)?;
+                    let _ =
+                        write!(out, "<figcaption><strong>{name}.</strong> {caption}</figcaption>");
+                }
+                out + &scroll(name.trim(), &self.table(columns, head, rows)?) + "</figure>\n"
+            }
+            Block::List { start, items } => {
+                let (open, close) = match start {
+                    Some(n) => (format!("<ol start=\"{n}\">\n"), "</ol>\n"),
+                    None => ("<ul>\n".into(), "</ul>\n"),
+                };
+                let item = |item: &Vec<Block>| {
+                    // One paragraph stands without `<p>`.
+                    let words = match item.as_slice() {
+                        [Block::Paragraph(text)] => self.inlines(text),
+                        blocks => self.blocks(blocks),
+                    };
+                    Ok(format!("<li>{}</li>\n", words?))
+                };
+                open + &items.iter().map(item).collect::<Result<String, Error>>()? + close
+            }
+            Block::Quote(blocks) => {
+                format!("<blockquote>\n{}</blockquote>\n", self.blocks(blocks)?)
+            }
+            Block::Code { text, .. } => code(text),
+            Block::Listing { id, number, caption, item, origin, text, .. } => format!(
+                "<div class=\"listing\" id=\"{}\"><p><strong>Listing {number}.</strong> {}</p>\n<details><summary>{}\
+                 </summary>\n{}<p class=\"origin\">{}</p></details></div>\n",
+                id_of(Some(id), &[]),
+                self.inlines(caption)?,
+                self.inline(&Inline::Code(item.clone()))?,
+                code(text),
+                self.inlines(origin)?
+            ),
+            Block::Bibliography(entries) => {
+                let mut out = String::from("<ul class=\"references\">\n");
+                for entry in entries {
+                    let id = id_of(Some(&format!("ref:{}", entry.key)), &[]);
+                    let _ = writeln!(out, "<li id=\"{id}\">{}</li>", self.inlines(&entry.text)?);
+                }
+                out + "</ul>\n"
+            }
+        })
+    }
+
+    fn figure(&self, path: &str) -> Result<&Figure, Error> {
+        let own = |figure: &&Figure| *path == format!("figures/{}.svg", figure.id);
+        self.site.figures.iter().find(own).ok_or_else(|| Error::NoFile(path.into()))
+    }
+
+    /// HTML lets no equation stand inside a `<p>`: the sentence goes on in the next one.
+    fn paragraph(&self, text: &[Inline]) -> Result<String, Error> {
+        let mut out = String::new();
+        let is_display = |inline: &Inline| matches!(inline, Inline::Display { .. });
+        for (i, words) in text.split(is_display).enumerate() {
+            let equation = text.iter().filter(|inline| is_display(inline)).nth(i);
+            let words = self.inlines(words)?;
+            if !words.trim().is_empty() {
+                let class = if i > 0 { " class=\"on\"" } else { "" };
+                let _ = writeln!(out, "<p{class}>{}</p>", words.trim());
+            }
+            out += &equation.map_or(Ok(String::new()), |equation| self.inline(equation))?;
+        }
+        Ok(out)
+    }
+
+    fn table(
+        &self,
+        columns: &[Align],
+        head: &[Vec<Inline>],
+        rows: &[Vec<Vec<Inline>>],
+    ) -> Result<String, Error> {
+        let longest =
+            |i: usize| rows.iter().filter_map(|row| row.get(i)).map(|c| plain(c).len()).max();
+        let longest: Vec<usize> = (0..columns.len()).filter_map(longest).collect();
+        let class = |i: usize| {
+            let long = |length: &usize| WIDTHS.iter().find(|(least, _)| length > least);
+            let class = match columns.get(i) {
+                Some(Align::Right) => Some("right"),
+                Some(Align::Centre) => Some("centre"),
+                _ => longest.get(i).and_then(long).map(|(_, class)| *class),
+            };
+            class.map_or(String::new(), |class| format!(" class=\"{class}\""))
+        };
+        // On a narrow screen rows of many columns become lists, with the heads as names, or at
+        // least scroll sideways as lines and not as towers.
+        let has_words = |cell: &Vec<Inline>| {
+            let is_word = |inline: &Inline| matches!(inline, Inline::Text(text) if text.contains(char::is_alphabetic));
+            cell.iter().any(is_word)
+        };
+        let texts = longest.iter().any(|length| *length > TEXT) && columns.len() > FEW;
+        let many = columns.len() >= MANY || texts;
+        let lists = many && head.iter().all(has_words);
+        // A browser forgets that these are tables once style sheets lay them out as lists.
+        let [table, line, field, column] = match (lists, many) {
+            (true, _) => [
+                " class=\"lists\" role=\"table\"",
+                " role=\"row\"",
+                " role=\"cell\"",
+                " role=\"columnheader\"",
+            ],
+            (false, true) => [" class=\"many\"", "", "", ""],
+            (false, false) => [""; 4],
+        };
+        let mut out = format!("<table{table}>\n<thead><tr{line}>");
+        for (i, cell) in head.iter().enumerate() {
+            let mut words = self.inlines(cell)?;
+            // Some readers of screens see no words in mathematics.
+            if matches!(cell.as_slice(), [Inline::Maths(_)]) {
+                let spelt = text(&spelt(cell));
+                words = format!(
+                    "<span aria-hidden=\"true\">{words}</span><span class=\"unseen\">{spelt}</span>"
+                );
+            }
+            // A head without words is no head.
+            let _ = match words.trim().is_empty() {
+                true => write!(out, "<td{}></td>", class(i)),
+                false => write!(out, "<th scope=\"col\"{column}{}>{words}</th>", class(i)),
+            };
+        }
+        out.push_str("</tr></thead>\n<tbody>\n");
+        for row in rows {
+            let _ = write!(out, "<tr{line}>");
+            for (i, cell) in row.iter().enumerate() {
+                let name = head.get(i).filter(|_| lists);
+                let name = name.map(|head| format!(" data-name=\"{}\"", text(&spelt(head))));
+                let (name, words) = (name.unwrap_or_default(), self.inlines(cell)?);
+                let _ = write!(out, "<td{field}{}{name}>{words}</td>", class(i));
+            }
+            out.push_str("</tr>\n");
+        }
+        Ok(out + "</tbody>\n</table>")
+    }
+
+    /// Running text. Browsers end lines before and after a formula, whatever stands there: what has to stay in one line with
+    /// it is kept there.
+    fn inlines(&self, list: &[Inline]) -> Result<String, Error> {
+        // Pieces, and whether each stays with the one before.
+        let mut pieces: Vec<(String, bool)> = Vec::new();
+        for (i, piece) in list.iter().enumerate() {
+            let before = i.checked_sub(1).and_then(|before| list.get(before));
+            let is_maths = |piece: Option<&Inline>| matches!(piece, Some(Inline::Maths(_)));
+            let is_value = |piece: Option<&Inline>| matches!(piece, Some(Inline::Value { .. }));
+            let Inline::Text(words) = piece else {
+                let opens = pieces
+                    .last()
+                    .is_some_and(|(text, _)| text.ends_with(OPENING) || text == "\u{a0}");
+                let kept = match is_maths(Some(piece)) {
+                    true => opens || is_value(before),
+                    false => is_value(Some(piece)) && (is_maths(before) || opens),
+                };
+                pieces.push((self.inline(piece)?, kept));
+                continue;
+            };
+            // `$x =$ 3`.
+            if words == " " && matches!(before, Some(Inline::Maths(tex)) if relates(tex)) {
+                pieces.push(("\u{a0}".into(), true));
+                continue;
+            }
+            let closing = if is_maths(before) { words.trim_start_matches(CLOSING) } else { words };
+            let (closing, rest) = words.split_at(words.len() - closing.len());
+            let (rest, opening) = rest.split_at(rest.trim_end_matches(OPENING).len());
+            pieces.extend([(text(closing), true), (text(rest), false), (text(opening), false)]);
+            pieces.retain(|(text, _)| !text.is_empty());
+        }
+        let together = pieces.chunk_by(|_, (_, kept)| *kept);
+        let group = |group: &[(String, bool)]| match group {
+            [(text, _)] => text.clone(),
+            all => {
+                let all: String = all.iter().map(|(text, _)| text.as_str()).collect();
+                format!("<span class=\"keep\">{all}</span>")
+            }
+        };
+        Ok(together.map(group).collect())
+    }
+
+    fn inline(&self, inline: &Inline) -> Result<String, Error> {
+        Ok(match inline {
+            Inline::Text(words) => text(words),
+            Inline::Soft => "\n".into(),
+            Inline::Break => "<br/>".into(),
+            // Long paths may break at their joints.
+            Inline::Code(code) => {
+                let code = text(code).replace('/', "/<wbr\u{0}>").replace("::", "::<wbr\u{0}>");
+                let code = code.replace(',', ",<wbr\u{0}>").replace('[', "<wbr\u{0}>[");
+                format!("<code>{}</code>", code.replace('\u{0}', "/"))
+            }
+            Inline::Emphasis(inner) => format!("<em>{}</em>", self.inlines(inner)?),
+            Inline::Raised(inner) => format!("<sup>{}</sup>", self.inlines(inner)?),
+            Inline::Strong(inner) => format!("<strong>{}</strong>", self.inlines(inner)?),
+            Inline::Maths(tex) => mathml::write(self, tex, MathDisplay::Inline)?,
+            Inline::Display { tex, tag } => {
+                let formula = mathml::write(self, tex, MathDisplay::Block)?;
+                let (id, number) = match tag {
+                    Some(tag) => (
+                        format!(" id=\"eq-{tag}\""),
+                        format!("<a class=\"number\" href=\"#eq-{tag}\">({tag})</a>"),
+                    ),
+                    None => Default::default(),
+                };
+                let name = format!("Equation {}", tag.as_deref().unwrap_or("without number"));
+                let formula = scroll(&name, &formula);
+                format!("<div class=\"equation\"{id}>{formula}{number}</div>\n")
+            }
+            Inline::Value { id, shown } => {
+                let part = |inline: &Inline| match inline {
+                    Inline::Maths(tex) => mathml::digits(tex),
+                    other => self.inline(other),
+                };
+                self.value(id, &shown.iter().map(part).collect::<Result<String, Error>>()?)
+            }
+            Inline::Link { to, shown } => {
+                // A document is another file here.
+                let of = self.site.program.documents.iter().find(|of| of.markdown == to);
+                let to = of.map_or(to.as_str(), |of| of.page);
+                format!("<a href=\"{}\">{}</a>", text(to), self.inlines(shown)?)
+            }
+            Inline::Reference { to, within, shown } => {
+                let file = within.map_or("", |document| document.page);
+                let sign = shown.chars().next();
+                let verdict = Verdict::ALL.iter().find(|verdict| Some(verdict.sign()) == sign);
+                // A sign alone has its word for those who do not see it.
+                let class = verdict.map_or(String::new(), |verdict| {
+                    let words = verdict.words();
+                    let name = words.replace(' ', "-");
+                    format!(" class=\"verdict {name}\" title=\"{words}\"")
+                });
+                format!("<a href=\"{file}#{}\"{class}>{}</a>", id_of(Some(to), &[]), text(shown))
+            }
+            Inline::Anchor { id, number } => {
+                format!("<span id=\"{}\">{number}</span>", id_of(Some(id), &[]))
+            }
+            Inline::Unresolved(ids) => return Err(Error::Reference(ids.join("; "))),
+        })
+    }
+
+    /// A value, which opens its card. (Browsers break lines about a `<button>`, and not about words.)
+    pub(super) fn value(&self, id: &str, shown: &str) -> String {
+        self.values.borrow_mut().insert(id.to_string());
+        let id = text(id);
+        format!(
+            "<span role=\"button\" tabindex=\"0\" class=\"value\" data-card=\"{id}\">{shown}</span>"
+        )
+    }
+}
+
+/// What scrolls by itself where it is too wide.
+fn scroll(name: &str, inner: &str) -> String {
+    format!(
+        "<div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"{name}\">{inner}</div>"
+    )
+}
+
+fn code(words: &str) -> String {
+    format!("<pre tabindex=\"0\"><code>{}</code></pre>\n", text(words.trim_end()))
+}
+
+/// Formulas that end before their right side.
+fn relates(tex: &str) -> bool {
+    let ends = ["=", "<", ">", r"\approx", r"\le", r"\ge", r"\lt", r"\gt", r"\pm"];
+    ends.iter().any(|end| tex.trim_end().ends_with(end))
+}
