@@ -1,41 +1,113 @@
-//! How a row of the ledger is made: evidence in, finding out.
+//! How a row of the ledger is made: evidence in, a check out.
 
-use super::{
-    Basis, Check, Finding, Level, Published, PublishedError, Statement, all_cases, rounding,
-};
-use crate::experiments::{self, Need, Results};
+pub(super) use super::Basis::{Exact, OurMeasure, PrintedDigit, Rounding};
+use super::{Basis, Level, Published, PublishedError};
+pub(super) use super::{Check, Statement, Text, chosen, integer, significant};
+use crate::experiments::{self, Need, Results, sweep};
+use impact_chain::rise::Counted;
+use impact_numerics::statistics::Estimate;
+use literate::value::Number;
 
-/// What a claim may look at.
+/// What a check may look at.
 #[derive(Clone, Copy, Debug)]
 pub struct Evidence<'a> {
     /// Results of the experiments.
     pub results: &'a Results,
     /// What the paper printed.
     pub published: &'a Published,
-    /// The level of a statistical claim.
+    /// The level of a statistical check.
     pub level: Level,
 }
 
-impl Evidence<'_> {
-    /// The number with this address.
-    #[track_caller]
-    pub fn number(&self, address: &str) -> Result<f64, Error> {
-        Ok(self.results.number(address)?)
-    }
-}
-
-/// Why a claim could not be computed.
+/// Why a check could not be computed.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
-    /// The file of statements and the claims do not fit together.
+    /// The file of statements and the checks do not fit together.
     #[error(transparent)]
     Published(#[from] PublishedError),
     /// A result is missing.
     #[error(transparent)]
     Experiment(#[from] experiments::Error),
+    /// The samples are too small for what is asked.
+    #[error("the results at hand do not decide it")]
+    Undecided,
 }
 
-/// A claim before it is computed.
+/// A check, or why there is none.
+pub type Judged = Result<Check, Error>;
+
+/// What the results have where the samples are large enough for it.
+pub fn some<T>(found: Option<T>) -> Result<T, Error> {
+    found.ok_or(Error::Undecided)
+}
+
+/// A number with its standard error.
+pub fn estimate(own: &Estimate) -> Number {
+    super::with_error(own.value, own.error)
+}
+
+impl<'a> Evidence<'a> {
+    /// The number with this address.
+    #[track_caller]
+    pub fn number(&self, address: &str) -> Result<f64, Error> {
+        Ok(self.results.number(address)?)
+    }
+
+    /// Several numbers of one row of a table.
+    #[track_caller]
+    pub fn numbers<const N: usize>(
+        &self,
+        row: &str,
+        columns: [&str; N],
+    ) -> Result<[f64; N], Error> {
+        let mut found = [0.0; N];
+        for (number, column) in found.iter_mut().zip(columns) {
+            *number = self.number(&format!("{row}.{column}"))?;
+        }
+        Ok(found)
+    }
+
+    /// How many cases of a statement were compared, and in how many the paper is wrong.
+    pub fn cases(&self, s: &Statement) -> Result<[usize; 2], Error> {
+        let found =
+            self.numbers(&format!("theory.cases[statement={}]", s.id), ["compared", "failed"]);
+        Ok(found?.map(|count| count as usize))
+    }
+
+    /// The largest difference between the two sides of a statement.
+    pub fn difference(&self, s: &Statement) -> Result<f64, Error> {
+        self.number(&format!("theory.differences[statement={}].largest", s.id))
+    }
+
+    /// The main sweep.
+    pub fn sweep(&self) -> Result<&'a Counted, Error> {
+        Ok(sweep::main(self.results)?)
+    }
+
+    /// Number of gaps N of the swept chain.
+    pub fn gaps(&self) -> Result<f64, Error> {
+        Ok(self.sweep()?.ensemble.chain.gaps() as f64)
+    }
+
+    /// Half a unit of the last digit in which the paper prints the threshold.
+    pub fn half_unit(&self) -> Result<f64, Error> {
+        Ok(self.published.statement("sec2_half_height")?.half_unit())
+    }
+
+    /// Whether an estimate rounds to a printed number, its statistical error allowed for.
+    pub fn rounds(&self, s: &Statement, estimate: &Estimate) -> Result<bool, Error> {
+        let [low, high] = s.interval()?;
+        let room = self.level.quantile * estimate.error;
+        Ok((low - room..=high + room).contains(&estimate.value))
+    }
+}
+
+/// A tolerance to both sides.
+pub fn plus_minus(half: f64) -> Text {
+    Text::of("± {}", [significant(half, 1)])
+}
+
+/// A check of a statement before it is computed.
 pub struct Row {
     /// Id of the statement that it judges.
     pub id: &'static str,
@@ -48,42 +120,59 @@ pub struct Row {
     pub statistical: bool,
     /// The experiments that it needs, the theory apart.
     pub needs: &'static [Need],
-    /// Computes the finding.
-    pub find: Find,
+    /// Computes the check.
+    find: Find,
 }
 
-type Find = fn(&Evidence, &Statement) -> Result<Finding, Error>;
-
-/// A claim about the theory, without a run.
-pub const fn theory(id: &'static str, basis: Basis, find: Find) -> Row {
-    Row { id, basis, reads: None, statistical: false, needs: &[], find }
+enum Find {
+    /// Whole cases that must all agree, with a note.
+    Cases(&'static str),
+    /// A difference that rounding must explain, with its bound and a note.
+    Difference(f64, &'static str),
+    By(fn(&Evidence, &Statement) -> Judged),
 }
 
-/// A claim about runs that compares no errors.
-pub const fn measured(id: &'static str, basis: Basis, needs: &'static [Need], find: Find) -> Row {
+const fn new(id: &'static str, basis: Basis, needs: &'static [Need], find: Find) -> Row {
     Row { id, basis, reads: None, statistical: false, needs, find }
 }
 
-/// A claim about runs whose tolerance has room for standard errors.
+/// A statement about the theory that whole cases decide.
+pub const fn cases(id: &'static str, note: &'static str) -> Row {
+    new(id, Exact, &[], Find::Cases(note))
+}
+
+/// A statement about the theory that is an equality of real numbers.
+pub const fn difference(id: &'static str, allowed: f64, note: &'static str) -> Row {
+    new(id, Rounding, &[], Find::Difference(allowed, note))
+}
+
+/// Another statement about the theory, without a run.
+pub const fn theory(
+    id: &'static str,
+    basis: Basis,
+    find: fn(&Evidence, &Statement) -> Judged,
+) -> Row {
+    new(id, basis, &[], Find::By(find))
+}
+
+/// A statement about runs that compares no errors.
+pub const fn measured(
+    id: &'static str,
+    basis: Basis,
+    needs: &'static [Need],
+    find: fn(&Evidence, &Statement) -> Judged,
+) -> Row {
+    new(id, basis, needs, Find::By(find))
+}
+
+/// A statement about runs whose tolerance has room for standard errors.
 pub const fn statistical(
     id: &'static str,
     basis: Basis,
     needs: &'static [Need],
-    find: Find,
+    find: fn(&Evidence, &Statement) -> Judged,
 ) -> Row {
-    Row { id, basis, reads: None, statistical: true, needs, find }
-}
-
-/// A finding of whole cases that must all agree: those of the statement in `theory.cases`.
-pub fn cases(e: &Evidence, s: &Statement, note: &str) -> Result<Finding, Error> {
-    let of = |column: &str| e.number(&format!("theory.cases[statement={}].{column}", s.id));
-    Ok(all_cases(of("compared")? as u64, of("failed")? as u64, note))
-}
-
-/// A finding that rounding must explain: the largest difference of the statement in `theory.differences`.
-pub fn difference(e: &Evidence, s: &Statement, allowed: f64, note: &str) -> Result<Finding, Error> {
-    let largest = e.number(&format!("theory.differences[statement={}].largest", s.id))?;
-    Ok(rounding(largest, allowed, note))
+    Row { statistical: true, ..new(id, basis, needs, Find::By(find)) }
 }
 
 impl Row {
@@ -92,15 +181,34 @@ impl Row {
         Row { reads: Some(reads), ..self }
     }
 
-    /// Computes the claim.
-    pub fn claim(&self, evidence: &Evidence) -> Result<Check, Error> {
-        let statement = evidence.published.statement(self.id)?;
-        let number = statement.value.map(|x| format!("{x:.*}", usize::from(statement.decimals)));
-        let reads = self.reads.map(|reads| reads.replace("{}", &number.unwrap_or_default()));
-        if let Some(reads) = reads.filter(|reads| *reads != statement.printed) {
-            return Err(evidence.published.unread(self.id, &reads).into());
+    /// Computes the check.
+    ///
+    /// # Errors
+    /// If something else is printed than what it judges, or a result was not run.
+    pub fn check(&self, e: &Evidence) -> Judged {
+        let s = e.published.statement(self.id)?;
+        let number = s.value.map(|x| format!("{x:.*}", usize::from(s.decimals)));
+        let number = number.unwrap_or_default();
+        let reads = self.reads.map(|reads| reads.replace("{}", &number));
+        if let Some(reads) = reads.filter(|reads| *reads != s.printed) {
+            return Err(e.published.unread(self.id, &reads).into());
         }
-        let finding = (self.find)(evidence, statement)?;
-        Ok(finding.claim(statement, self.basis))
+        let found = match self.find {
+            Find::Cases(note) => {
+                e.cases(s).map(|[all, failed]| s.all_cases(all, failed).note(note))
+            }
+            Find::Difference(allowed, note) => {
+                e.difference(s).map(|largest| s.rounding(largest, allowed).note(note))
+            }
+            Find::By(find) => find(e, s),
+        };
+        let check = match found {
+            Err(Error::Undecided) => s.open("–").note("The results at hand do not decide it."),
+            found => found?,
+        };
+        // What reads as a number is the number that is judged.
+        let other =
+            s.printed.chars().all(|c| c.is_ascii_digit() || c == '.') && s.printed != number;
+        Ok(if other { check.judged(false) } else { check }.on(self.basis))
     }
 }

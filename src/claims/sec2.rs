@@ -1,15 +1,14 @@
 //! Section 2: the simulation.
 
-use super::Basis::{Exact, OurMeasure, PrintedDigit};
-use super::row::{Error, Evidence, Row, measured, statistical};
-use super::sec2_rare::{percolation, sticking, three_way, two_masses, walls_like_masses};
-use super::{Finding, open};
-use super::{Judgement, Statement, Text};
-use crate::experiments::rise::{self, Counted};
-use crate::experiments::sweep::{self, mode_half};
-use crate::experiments::{BRANCHES, STARTS, SWEEP, TWO_MASSES};
-use crate::params::Protocol;
-use impact_numerics::statistics::Estimate;
+use super::row::*;
+use crate::experiments::branches::from_rest;
+use crate::experiments::ensembles::named;
+use crate::experiments::starts::half_height as half_of;
+use crate::experiments::sweep::{laws, mode_half};
+use crate::experiments::{BRANCHES, SLOW_DECADES, STARTS, SWEEP, TWO_MASSES, two_masses};
+use crate::params::{NEAR_SIMULTANEOUS, Protocol, SLOW};
+use impact_chain::rise;
+use impact_numerics::estimates::difference;
 
 pub const ROWS: &[Row] = &[
     measured("sec2_parameters", Exact, &[&SWEEP], parameters),
@@ -20,223 +19,233 @@ pub const ROWS: &[Row] = &[
     measured("sec2_mode_rise", PrintedDigit, &[&SWEEP], mode_rise).of("σ ≈ {}"),
     statistical("sec2_three_way", OurMeasure, &[&SWEEP], three_way),
     measured("sec2_sticking", OurMeasure, &[&SWEEP], sticking),
-    measured("sec2_two_masses", Exact, &[&TWO_MASSES], two_masses),
-    measured("sec2_percolation", OurMeasure, &[&BRANCHES], percolation),
+    measured("sec2_two_masses", Exact, &[&TWO_MASSES], without_impact),
+    measured("sec2_percolation", OurMeasure, &[&BRANCHES, &SWEEP], percolation),
     statistical("sec2_walls_like_masses", PrintedDigit, &[&STARTS], walls_like_masses),
 ];
 
-/// Number of gaps N of the swept chain.
-pub(super) fn gaps(sweep: &Counted) -> f64 {
-    sweep.ensemble.chain.gaps() as f64
-}
-
-fn parameters(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
-    let chain = &sweep::main(e.results)?.ensemble.chain;
+fn parameters(e: &Evidence, s: &Statement) -> Judged {
+    let chain = &e.sweep()?.ensemble.chain;
+    let (n, d, omega, r) =
+        (chain.masses, chain.spacing, chain.natural_frequency, chain.restitution);
     let square = chain.forcing_frequency * chain.forcing_frequency;
+    let printed = |id| e.published.parameter(id);
     let pairs = [
-        (chain.masses as f64, e.published.parameter("masses")?),
-        (chain.spacing, e.published.parameter("spacing")?),
-        (chain.natural_frequency, e.published.parameter("natural_frequency")?),
-        (chain.restitution, e.published.parameter("restitution")?),
-        (1.0, e.published.parameter("mass")?),
+        (n as f64, printed("masses")?),
+        (d, printed("spacing")?),
+        (omega, printed("natural_frequency")?),
+        (r, printed("restitution")?),
+        (1.0, printed("mass")?),
     ];
-    let same_square =
-        (square - e.published.parameter("forcing_frequency_squared")?).abs() <= 4.0 * f64::EPSILON;
-    let (n, d, r) = (chain.masses, chain.spacing, chain.restitution);
+    let same_square = (square - printed("forcing_frequency_squared")?).abs() <= 4.0 * f64::EPSILON;
     let reads = s.printed == format!("n = {n}, d = m = ω = {d}, Ω = √{}, r = {r}", square.round());
-    Ok(Finding {
-        ours: Text::words("n = ")
-            .integer(chain.masses)
-            .say(", d = ")
-            .chosen(chain.spacing)
-            .say(", ω = ")
-            .chosen(chain.natural_frequency)
-            .say(", Ω² = ")
-            .significant(square, 1)
-            .say(", r = ")
-            .chosen(chain.restitution),
-        tolerance: Text::words("none"),
-        reason: "the same numbers",
-        judgement: Judgement::Plain {
-            agrees: reads && same_square && pairs.iter().all(|(ours, printed)| ours == printed),
-        },
-        note: Text::words(
-            "The paper prints neither initial condition nor transient nor window; for these it refers \
-             to Homer (1999).",
-        ),
-    })
+    let found = Text::of(
+        "n = {}, d = {}, ω = {}, Ω² = {}, r = {}",
+        [integer(n), chosen(d), chosen(omega), significant(square, 1), chosen(r)],
+    );
+    let same = pairs.iter().all(|(ours, printed)| ours == printed);
+    Ok(s.found(found, reads && same_square && same).within("none", "the same numbers").note(
+        "The paper prints neither initial condition nor transient nor window; for these it refers \
+         to Homer (1999).",
+    ))
 }
 
 /// Of small σ, the largest that is not above two thirds of the printed threshold.
-pub(super) fn small<'a>(e: &'a Evidence) -> Result<Option<&'a rise::Row>, Error> {
+pub(super) fn small<'a>(e: &Evidence<'a>) -> Result<&'a rise::Row, Error> {
     let threshold = e.published.statement("sec2_half_height")?.number()?;
-    Ok(sweep::main(e.results)?.first().rows.iter().rev().find(|row| row.sigma < 0.67 * threshold))
+    some(e.sweep()?.first().rows.iter().rev().find(|row| row.sigma < 0.67 * threshold))
 }
 
 /// All gaps over those that are very few.
 pub(super) const VERY_FEW: f64 = 20.0;
 
 /// The paper discards chains without impacts; that the mean of all is small is owed to those.
-fn few_below(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let sweep = sweep::main(e.results)?;
-    let Some(row) = small(e)? else {
-        return Ok(open(Text::words("no row"), "The sweep has no row below the threshold."));
-    };
-    let at = Text::words("at σ = ").chosen(row.sigma);
-    let found = row.mean.zip(row.mean_all);
-    let Some((kept, all)) = found.and_then(|(kept, all)| kept.estimate().zip(all.estimate()))
-    else {
-        return Ok(open(at.say(" too few kept realisations"), "Of one chain no error is known."));
-    };
-    let limit = gaps(sweep) / VERY_FEW;
+fn few_below(e: &Evidence, s: &Statement) -> Judged {
+    let row = small(e)?;
+    let mean = |own: Option<rise::Mean>| some(own.and_then(|own| own.estimate()));
+    let (kept, all) = (mean(row.mean)?, mean(row.mean_all)?);
+    let limit = e.gaps()? / VERY_FEW;
     let room = e.level.quantile;
-    Ok(Finding {
-        ours: at
-            .say(" mean of the kept: ")
-            .with_error(kept.value, kept.error)
-            .say(", of all: ")
-            .with_error(all.value, all.error),
-        tolerance: Text::words("at most ").significant(limit, 2),
-        reason: "ours: “very few” as a twentieth of all gaps, at two thirds of the printed threshold; and the \
-                 statistical error at the level of the table",
-        judgement: Judgement::Explained {
-            agrees: kept.value <= limit + room * kept.error,
-            holds: all.value <= limit + room * all.error,
-        },
-        note: Text::words("Judged by the mean of the kept, as the paper counts. Only ")
-            .integer(row.kept)
-            .say(" of ")
-            .integer(row.ran)
-            .say(
-                " chains have impacts, but in these they have spread. With the others the mean is \
-                 within the tolerance.",
-            ),
-    })
+    let found = Text::of(
+        "at σ = {} mean of the kept: {}, of all: {}",
+        [chosen(row.sigma), estimate(&kept), estimate(&all)],
+    );
+    let reason = "ours: “very few” as a twentieth of all gaps, at two thirds of the printed threshold; and the \
+                  statistical error at the level of the table";
+    Ok(s.found(found, kept.value <= limit + room * kept.error)
+        .explained(all.value <= limit + room * all.error)
+        .within(Text::of("at most {}", [significant(limit, 2)]), reason)
+        .note(Text::of(
+            "Judged by the mean of the kept, as the paper counts. Only {} of {} chains have impacts, but in these they \
+             have spread. With the others the mean is within the tolerance.",
+            [integer(row.kept), integer(row.ran)],
+        )))
 }
 
-fn rise_exists(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let rise = &sweep::main(e.results)?.first().rise;
-    let (Some(width), Some(half)) = (rise.kept_width, rise.half_height) else {
-        return Ok(open(
-            Text::words("no rise"),
-            "The mean of the kept does not pass one and three quarters of all gaps.",
-        ));
-    };
+fn rise_exists(e: &Evidence, s: &Statement) -> Judged {
+    let rise = &e.sweep()?.first().rise;
+    let (width, half) = (some(rise.kept_width)?, some(rise.half_height)?);
     let share = width.value / half.value;
-    let error =
-        share * (square(width.error / width.value) + square(half.error / half.value)).sqrt();
-    let note = Text::words("Judged by the mean of the kept.");
-    Ok(Finding {
-        ours: Text::words("a quarter to three quarters of all gaps within ")
-            .with_error(share, error)
-            .say(" of σ½"),
-        tolerance: Text::words("at most half"),
-        reason: "ours: a response in proportion to σ would take all of σ½; and the statistical \
-                 error",
-        judgement: Judgement::Plain { agrees: share <= 0.5 + e.level.quantile * error },
-        note: match rise.width {
-            Some(width) => note
-                .say(" The mean of all rises from a tenth to nine tenths within Δσ = ")
-                .with_error(width.value, width.error)
-                .say("."),
-            None => note,
-        },
-    })
+    let [a, b] = [&width, &half].map(|own| (own.error / own.value) * (own.error / own.value));
+    let error = share * (a + b).sqrt();
+    let found = Text::of(
+        "a quarter to three quarters of all gaps within {} of σ½",
+        [super::with_error(share, error)],
+    );
+    let reason =
+        "ours: a response in proportion to σ would take all of σ½; and the statistical error";
+    let more = rise.width.map(|width| {
+        let more = " The mean of all rises from a tenth to nine tenths within Δσ = {}.";
+        Text::of(more, [estimate(&width)])
+    });
+    Ok(s.found(found, share <= 0.5 + e.level.quantile * error)
+        .within("at most half", reason)
+        .note(Text::from("Judged by the mean of the kept.").then(more.unwrap_or_default())))
 }
 
-fn square(x: f64) -> f64 {
-    x * x
-}
-
-/// Whether an estimate rounds to a printed number, its statistical error allowed for.
-fn rounds(e: &Evidence, s: &Statement, estimate: &Estimate) -> Result<bool, Error> {
-    let [low, high] = s.rounding()?;
-    let room = e.level.quantile * estimate.error;
-    Ok(estimate.value >= low - room && estimate.value <= high + room)
-}
-
-pub(super) const LAST_DIGIT: &str =
+const LAST_DIGIT: &str =
     "half a unit of the last printed digit, and the statistical error at the level of the table";
 
-fn half_unit(s: &Statement) -> Result<Text, Error> {
-    let [low, high] = s.rounding()?;
-    Ok(Text::words("± ").significant((high - low) / 2.0, 1))
-}
-
-fn half_height(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
-    let sweep = sweep::main(e.results)?;
-    let Some(half) = sweep.first().rise.half_height else {
-        return Ok(open(Text::words("no rise"), "The mean does not pass half of all gaps."));
-    };
-    let Protocol { transient, window } = sweep.first().protocol;
-    Ok(Finding {
-        ours: Text::words("σ½ = ").with_error(half.value, half.error),
-        tolerance: half_unit(s)?,
-        reason: LAST_DIGIT,
-        judgement: Judgement::Plain { agrees: rounds(e, s, &half)? },
-        note: {
-            let note = Text::words("Judged by the mean of the kept, with T = ")
-                .integer(transient as usize)
-                .say(", W = ")
-                .integer(window as usize)
-                .say(" and a start from rest; it moves with all three.");
-            match sweep.first().rise.half_height_all {
-                Some(all) => {
-                    note.say(" The mean of all has ").with_error(all.value, all.error).say(".")
-                }
-                None => note,
-            }
-        },
-    })
+fn half_height(e: &Evidence, s: &Statement) -> Judged {
+    let curve = e.sweep()?.first();
+    let half = some(curve.rise.half_height)?;
+    let Protocol { transient, window } = curve.protocol;
+    let note = Text::of(
+        "Judged by the mean of the kept, with T = {}, W = {} and a start from rest; it moves with all three.",
+        [integer(transient as usize), integer(window as usize)],
+    );
+    let all = curve.rise.half_height_all;
+    let all = all.map(|all| Text::of(" The mean of all has {}.", [estimate(&all)]));
+    Ok(s.found(Text::of("σ½ = {}", [estimate(&half)]), e.rounds(s, &half)?)
+        .within(plus_minus(s.half_unit()), LAST_DIGIT)
+        .note(note.then(all.unwrap_or_default())))
 }
 
 /// The first impacts come where a gap closes by itself, long before the rise is half way up.
-fn onset(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
-    let rise = &sweep::main(e.results)?.first().rise;
-    let (Some(onset), Some(kept), Some(half)) = (rise.onset, rise.kept_half, rise.half_height)
-    else {
-        return Ok(open(
-            Text::words("no onset"),
-            "The mean does not pass a twentieth of all gaps.",
-        ));
-    };
+fn onset(e: &Evidence, s: &Statement) -> Judged {
+    let rise = &e.sweep()?.first().rise;
+    let (onset, kept, half) = (some(rise.onset)?, some(rise.kept_half)?, some(rise.half_height)?);
     let predicted = e.number("theory.relation.sigma_kept_half")?;
     let near =
         (kept.value / predicted - 1.0).abs() <= 0.05 + e.level.quantile * kept.error / predicted;
-    let holds = near && rounds(e, s, &half)?;
-    Ok(Finding {
-        ours: Text::words("σ = ").with_error(onset.value, onset.error),
-        tolerance: half_unit(s)?,
-        reason: LAST_DIGIT,
-        judgement: Judgement::Explained { agrees: rounds(e, s, &onset)?, holds },
-        note: Text::words(
+    Ok(s.found(Text::of("σ = {}", [estimate(&onset)]), e.rounds(s, &onset)?)
+        .explained(near && e.rounds(s, &half)?)
+        .within(plus_minus(s.half_unit()), LAST_DIGIT)
+        .note(Text::of(
             "The printed σ is that of half the height. Judged by the mean of all: where any chain is kept, the mean of \
              the kept is above a twentieth. Impacts begin where a gap first closes by itself, and spread at larger σ. \
-             Half of the chains have impacts at σ = ",
-        )
-        .with_error(kept.value, kept.error)
-        .say("; from the probability of such a gap after a start from rest follows ")
-        .significant(predicted, 4)
-        .say(
-            ", within the 5 % that neighbouring gaps with a common mass and the finite time cost.",
-        ),
-    })
+             Half of the chains have impacts at σ = {}; from the probability of such a gap after a start from rest \
+             follows {}, within the 5 % that neighbouring gaps with a common mass and the finite time cost.",
+            [estimate(&kept), significant(predicted, 4)],
+        )))
 }
 
-fn mode_rise(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
-    let sweep = sweep::main(e.results)?;
-    let Some([low, high]) = mode_half(sweep) else {
-        return Ok(open(Text::words("no rise"), "The mode does not pass half of all gaps."));
-    };
-    let [from, to] = s.rounding()?;
-    Ok(Finding {
-        ours: Text::words("between σ = ").chosen(low).say(" and ").chosen(high),
-        tolerance: half_unit(s)?,
-        reason: "the two intervals have to meet: half a unit of the last printed digit, and the \
-                 range of σ in which bootstrap intervals of the mode reach over half of all gaps",
-        judgement: Judgement::Plain { agrees: low <= to && high >= from },
-        note: Text::words(
-            "The counts are spread so widely below the rise that their mode is not determined.",
+fn mode_rise(e: &Evidence, s: &Statement) -> Judged {
+    let [low, high] = some(mode_half(e.sweep()?))?;
+    let [from, to] = s.interval()?;
+    let found = Text::of("between σ = {} and {}", [chosen(low), chosen(high)]);
+    let reason = "the two intervals have to meet: half a unit of the last printed digit, and the range of σ in which \
+                  bootstrap intervals of the mode reach over half of all gaps";
+    Ok(s.found(found, low <= to && high >= from)
+        .within(plus_minus(s.half_unit()), reason)
+        .note("The counts are spread so widely below the rise that their mode is not determined."))
+}
+
+/// Share of impacts that may be called negligible (ours).
+pub(super) const NEGLIGIBLE: f64 = 1e-3;
+
+fn three_way(e: &Evidence, s: &Statement) -> Judged {
+    let totals = laws::run(&e.sweep()?.runs).totals;
+    let seen = *some(totals.near_decades.last())?;
+    let (expected, impacts) = (totals.expected_near_simultaneous, totals.impacts as f64);
+    // Counts of rare events: Poisson, with one event of room where almost none are expected.
+    let room = e.level.quantile * expected.sqrt() + 1.0 + e.level.quantile;
+    let share = expected.max(seen as f64) / impacts;
+    // Masses in contact pass a hit on to one another at once.
+    let passed_on = totals.contact_phases as f64;
+    let excess = seen as f64 - expected;
+    let found = Text::of(
+        "{} of {} impacts within {} of one next to it",
+        [integer(seen as usize), significant(impacts, 2), significant(NEAR_SIMULTANEOUS, 1)],
+    );
+    let reason = "ours: one in a thousand; and the count must be that of the fitted law, but for hits \
+                  that masses in contact pass on to one another at once, one for each contact phase";
+    Ok(s.found(found, share <= NEGLIGIBLE && (-room..=room + passed_on).contains(&excess))
+        .within(Text::of("a share of {}", [significant(NEGLIGIBLE, 1)]), reason)
+        .note(Text::of(
+            "The share within δ falls in proportion to δ; the fitted law predicts {} such impacts, and none at δ = 0.",
+            [significant(expected, 2)],
+        )))
+}
+
+fn sticking(e: &Evidence, s: &Statement) -> Judged {
+    let totals = e.sweep()?.runs.iter().map(|own| &own.total);
+    let [impacts, contacts, slow] = totals.fold([0, 0, 0], |[a, b, c], own| {
+        [a + own.impacts, b + own.contact_phases, c + own.slow[SLOW_DECADES.len() - 1]]
+    });
+    let share = some((impacts > 0).then(|| contacts as f64 / impacts as f64))?;
+    let found = Text::of(
+        "{} contact phases in {} impacts",
+        [integer(contacts as usize), significant(impacts as f64, 2)],
+    );
+    Ok(s.found(found, share <= NEGLIGIBLE)
+        .within(Text::of("a share of {}", [significant(NEGLIGIBLE, 1)]), "ours: one in a thousand")
+        .note(Text::of(
+            "Two masses on their own can stick only if their forces differ by more than d ω². {} impacts were slower \
+             than {}.",
+            [integer(slow as usize), significant(SLOW, 1)],
+        )))
+}
+
+fn without_impact(e: &Evidence, s: &Statement) -> Judged {
+    let found = e.results.of(&TWO_MASSES)?;
+    let least = some(found.excess.iter().map(|own| own[0]).reduce(f64::min))?;
+    let safe = two_masses::safe_force(&found.parameters.chain);
+    let text = Text::of(
+        "{} impacts below the force that the amplitudes allow; smallest force with an impact, over that bound: {}",
+        [integer(found.violations as usize), significant(least, 6)],
+    );
+    let reason =
+        "a gap whose amplitudes add up to less than d never closes; rounding of the bracket aside";
+    Ok(s.found(text, found.violations == 0 && least >= 1.0 - 1e-9 && safe > 0.0)
+        .within("none below 1", reason)
+        .note(Text::of(
+            "No direction of the forces lets the masses meet below an amplitude of {} on each.",
+            [significant(safe, 4)],
+        )))
+}
+
+fn walls_like_masses(e: &Evidence, s: &Statement) -> Judged {
+    let starts = e.results.of(&STARTS)?;
+    let half = |name| some(named(starts, name).and_then(half_of));
+    let apart = difference(half("ring")?, half("rest")?);
+    let allowed = e.half_unit()?;
+    let agrees = apart.value.abs() <= allowed + e.level.quantile * apart.error;
+    Ok(s.found(Text::of("σ½ differs by {}", [estimate(&apart)]), agrees)
+        .within(plus_minus(allowed), LAST_DIGIT)
+        .note(
+            "A ring has N = n gaps, a chain between walls N = n + 1. After longer transients a ring rises somewhat \
+             earlier.",
+        ))
+}
+
+/// The threshold of percolation sharpens with size. The paper names the likeness and no quantity.
+fn percolation(e: &Evidence, s: &Statement) -> Judged {
+    let transient = e.sweep()?.first().protocol.transient;
+    let widths = from_rest(e.results.of(&BRANCHES)?)
+        .filter(|(_, curve)| curve.protocol.transient == transient)
+        .filter_map(|(own, curve)| Some((own.ensemble.chain.masses, curve.rise.width?)));
+    let mut widths: Vec<_> = widths.filter(|(masses, _)| *masses >= 100).collect();
+    widths.sort_by_key(|(masses, _)| *masses);
+    let found = match (widths.first(), widths.last()) {
+        (Some((n, own)), Some((most, long))) if most > n => Text::of(
+            "width of the rise {} for n = {}, {} for n = {}",
+            [estimate(own), integer(*n), estimate(long), integer(*most)],
         ),
-    })
+        _ => "chains of one length only".into(),
+    };
+    Ok(s.open(found).note(
+        "A likeness in words, of which no number follows. The threshold of percolation becomes sharp in \
+         a large system; this rise, after the same transient, does not.",
+    ))
 }

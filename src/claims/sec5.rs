@@ -1,8 +1,6 @@
 //! Section 5: counting orbits.
 
-use super::Basis::{Exact, OurMeasure};
-use super::row::{Error, Evidence, Row, cases, measured, theory};
-use super::{Finding, Judgement, Statement, Text};
+use super::row::*;
 use crate::experiments::SEGMENTS;
 use crate::experiments::segments::Segment;
 use crate::params::VERTICES;
@@ -12,15 +10,15 @@ pub const ROWS: &[Row] = &[
     measured("sec5_fig5", Exact, &[&SEGMENTS], |e, s| motion(&e.results.of(&SEGMENTS)?.fig05, s)),
     measured("sec5_fig6", Exact, &[&SEGMENTS], |e, s| motion(&e.results.of(&SEGMENTS)?.fig06, s)),
     measured("sec5_masses_of_circuit", Exact, &[&SEGMENTS], masses_of_circuit).of("k + 1"),
-    theory("sec5_eq6", Exact, |e, s| cases(e, s, ENUMERATION)).of("(N − 1)!/(N − k)!"),
-    theory("sec5_eq7", Exact, |e, s| cases(e, s, ENUMERATION)).of("N!/(k (N − k)!)"),
+    cases("sec5_eq6", ENUMERATION).of("(N − 1)!/(N − k)!"),
+    cases("sec5_eq7", ENUMERATION).of("N!/(k (N − k)!)"),
     theory("sec5_eq8", OurMeasure, eq8).of("≪ 1"),
     theory("sec5_majority", OurMeasure, majority).of("length ≈ N"),
 ];
 
 const ENUMERATION: &str = "Formula against enumeration on graphs of one to six vertices.";
 
-fn motion(segment: &Segment, s: &Statement) -> Result<Finding, Error> {
+fn motion(segment: &Segment, s: &Statement) -> Judged {
     let found = segment.names();
     // The statement names the sequence at its end, after "as".
     let asked = s.statement.rsplit_once(" as ").map_or("", |(_, names)| names);
@@ -28,79 +26,60 @@ fn motion(segment: &Segment, s: &Statement) -> Result<Finding, Error> {
     let different = found.iter().collect::<BTreeSet<_>>().len();
     let reads =
         [found.join(", "), format!("{} impacts, {different} of them different", found.len())];
-    let in_order = segment.impacts.windows(2).all(|w| w[0].time < w[1].time);
-    Ok(Finding {
-        ours: Text::words(found.join(", ")),
-        tolerance: Text::words("none"),
-        reason: "the same impacts in the same order",
-        judgement: Judgement::Plain {
-            agrees: in_order
-                && found == asked
-                && reads.contains(&s.printed)
-                && found.len() as f64 == s.number()?,
-        },
-        note: Text::words("A segment of a solution of the equations of motion, from time ")
-            .significant(segment.from, 4)
-            .say(" to ")
-            .significant(segment.until, 4)
-            .say(", with the first impact again at its end; not a periodic orbit."),
-    })
+    let agrees = segment.impacts.windows(2).all(|w| w[0].time < w[1].time)
+        && found == asked
+        && reads.contains(&s.printed)
+        && found.len() as f64 == s.number()?;
+    Ok(s.found(found.join(", "), agrees)
+        .within("none", "the same impacts in the same order")
+        .note(Text::of(
+            "A segment of a solution of the equations of motion, from time {} to {}, with the first impact again at its \
+             end; not a periodic orbit.",
+            [significant(segment.from, 4), significant(segment.until, 4)],
+        )))
 }
 
-fn masses_of_circuit(e: &Evidence, s: &Statement) -> Result<Finding, Error> {
+fn masses_of_circuit(e: &Evidence, s: &Statement) -> Judged {
     let segment = &e.results.of(&SEGMENTS)?.fig05;
     let gaps: BTreeSet<usize> = segment.impacts.iter().map(|i| i.gap).collect();
     let found = segment.masses_hit();
     // Each run of neighbouring gaps has one body more than gaps; walls are bodies but no masses.
     let runs = gaps.iter().filter(|&&gap| gap == 0 || !gaps.contains(&(gap - 1))).count();
     let walls = gaps.iter().filter(|&&gap| gap == 0 || gap == segment.masses).count();
-    let predicted = gaps.len() + runs - walls;
     let printed = s.number()?;
-    Ok(Finding {
-        ours: Text::default().integer(found),
-        tolerance: Text::words("none"),
-        reason: "an integer is exact",
-        judgement: Judgement::Explained {
-            agrees: found as f64 == printed,
-            holds: found == predicted && printed == (gaps.len() + 1) as f64,
-        },
-        note: Text::words("k different gaps in ")
-            .integer(runs)
-            .say(" runs of neighbours touch k + ")
-            .integer(runs)
-            .say(" bodies, of which ")
-            .integer(walls)
-            .say(" are walls; k + 1 masses need one run without walls."),
-    })
+    Ok(s.found(integer(found), found as f64 == printed)
+        .explained(found == gaps.len() + runs - walls && printed == (gaps.len() + 1) as f64)
+        .within("none", "an integer is exact")
+        .note(Text::of(
+            "k different gaps in {} runs of neighbours touch k + {} bodies, of which {} are walls; k + 1 masses need one \
+             run without walls.",
+            [integer(runs), integer(runs), integer(walls)],
+        )))
 }
 
-fn eq8(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
+fn eq8(e: &Evidence, s: &Statement) -> Judged {
     let n = VERTICES as f64;
-    let ratio = e.number("theory.lengths.before_last")?;
-    let exceptions = e.number("theory.lengths.exceptions")? as usize;
-    let holds = (ratio * (n - 1.0) / n - 1.0).abs() < 1e-13
-        && e.number("theory.lengths.first_exception")? + 4.0 > n;
-    Ok(Finding {
-        ours: Text::words("at k = N − 1: ").significant(ratio, 4),
-        tolerance: Text::words("at most ").significant(0.1, 1),
-        reason: "ours: “far below one” as at most a tenth",
-        judgement: Judgement::Explained { agrees: exceptions == 0, holds },
-        note: Text::words("The ratio at k = N − 1 is N/(N − 1), above one. Above a tenth are the ")
-            .integer(exceptions)
-            .say(" lengths next to N, where most circuits are; below them Eq. (8) holds."),
-    })
+    let [ratio, exceptions, first] =
+        e.numbers("theory.lengths", ["before_last", "exceptions", "first_exception"])?;
+    Ok(s.found(Text::of("at k = N − 1: {}", [significant(ratio, 4)]), exceptions == 0.0)
+        .explained((ratio * (n - 1.0) / n - 1.0).abs() < 1e-13 && first + 4.0 > n)
+        .within(
+            Text::of("at most {}", [significant(0.1, 1)]),
+            "ours: “far below one” as at most a tenth",
+        )
+        .note(Text::of(
+            "The ratio at k = N − 1 is N/(N − 1), above one. Above a tenth are the {} lengths next to N, where most \
+             circuits are; below them Eq. (8) holds.",
+            [integer(exceptions as usize)],
+        )))
 }
 
-fn majority(e: &Evidence, _: &Statement) -> Result<Finding, Error> {
-    let share = e.number("theory.lengths.share")?;
-    Ok(Finding {
-        ours: Text::default()
-            .significant(share, 4)
-            .say(" of all within three of N; the peak at k = ")
-            .integer(e.number("theory.lengths.peak")? as usize),
-        tolerance: Text::words("more than half"),
-        reason: "ours: “about N” as within three of it; “majority” as more than half",
-        judgement: Judgement::Plain { agrees: share > 0.5 },
-        note: Text::default(),
-    })
+fn majority(e: &Evidence, s: &Statement) -> Judged {
+    let [share, peak] = e.numbers("theory.lengths", ["share", "peak"])?;
+    let found = Text::of(
+        "{} of all within three of N; the peak at k = {}",
+        [significant(share, 4), integer(peak as usize)],
+    );
+    let reason = "ours: “about N” as within three of it; “majority” as more than half";
+    Ok(s.found(found, share > 0.5).within("more than half", reason))
 }

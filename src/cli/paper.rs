@@ -1,10 +1,8 @@
 //! `impact-paper paper`.
 
-use super::diff::{count, fate};
-use super::judged::Judged;
 use super::sources::Sources;
-use super::{Failure, make, shown, signals, stdout, threads, work};
-use impact_paper::claims::Verdict;
+use super::{Failure, judged, make, shown, signals, stdout, threads, work};
+use impact_numerics::text::count;
 use impact_paper::experiments::{ALL, Need, Progress, Store, say};
 use impact_paper::figures;
 use impact_paper::params::Profile;
@@ -71,12 +69,14 @@ pub fn run(args: Args) -> Result<(), Failure> {
         true => make::whole(&sources, profile, &out, &store, &progress),
         false => {
             let committed = some(&sources, &numbers, profile, &progress)?;
-            Ok((Report { committed, beside: Files::new() }, Judged::default()))
+            Ok((Report { committed, beside: Files::new() }, Vec::new()))
         }
     });
-    let (report, judged) = made?;
+    let (report, checks) = made?;
     // What was there before is compared first: it is about to be replaced.
-    let told = if whole { told(&out, &report.committed, &judged) } else { String::new() };
+    let told = if whole { judged::scores(&checks) } else { Vec::new() };
+    let changes = if whole { changes(&out, &report.committed) } else { Vec::new() };
+    let told: String = told.into_iter().chain(changes).map(|line| line + "\n").collect();
     let written = report.write(&out, force).map_err(option)?;
     for (what, files) in [("removed", written.removed), ("--force: wrote over", written.over)] {
         if !files.is_empty() {
@@ -90,23 +90,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     // It is told also where a check fails.
     let printed = stdout::print(&format!("{}: {number} in {time}{documents}\n{told}", shown(&out)));
     let more = |failure: Failure| failure.and("`impact-paper check` of the same says more");
-    judged.verdict().map_err(more).and(printed)
-}
-
-/// What holds, and what came out otherwise than in the report before: some lines.
-fn told(out: &Path, files: &Files, judged: &Judged) -> String {
-    let count = |verdict| judged.targets.iter().filter(|one| one.verdict == verdict).count();
-    let [met, missed, open] =
-        [Verdict::Reproduced, Verdict::Differs, Verdict::CannotBeJudged].map(count);
-    let timed = judged.targets.iter().filter(|one| one.verdict == Verdict::Differs && !one.fails());
-    let mut lines = judged.scores();
-    lines.push(format!(
-        "{} targets: {met} met, {missed} missed ({} of these by the clock), {open} not measured",
-        judged.targets.len(),
-        timed.count()
-    ));
-    lines.extend(changes(out, files));
-    lines.into_iter().map(|line| format!("{line}\n")).collect()
+    judged::verdict(&checks).map_err(more).and(printed)
 }
 
 /// What the report in `out` said otherwise, if there is one.
@@ -128,7 +112,7 @@ fn changes(out: &Path, files: &Files) -> Vec<String> {
     }
     let moved: Vec<_> =
         diff.verdicts.iter().filter(|change| change.before != change.after).collect();
-    let line = |change: &&compare::ClaimChange| format!("  {}", fate(change));
+    let line = |change: &&compare::Change| format!("  {}: {}", change.id, change.fate());
     let mut lines = vec![format!(
         "{} and {} differ from the report before in {before}; `impact-paper diff OLD NEW` tells them",
         count(diff.numbers.len(), "number"),

@@ -86,6 +86,7 @@ impl From<claims::Error> for Failure {
         match error {
             claims::Error::Published(error) => Failure::input(error.to_string()),
             claims::Error::Experiment(error) => error.into(),
+            claims::Error::Undecided => Failure::check(error.to_string()),
         }
     }
 }

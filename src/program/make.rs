@@ -1,9 +1,9 @@
 //! The whole report, from experiments to files in memory.
 
 use super::Failure;
-use super::judged::Judged;
+use super::judged;
 use super::sources::{Sources, run};
-use crate::claims;
+use crate::claims::{self, Check};
 use crate::committed;
 use crate::experiments::{ALL, Progress, Results, Store, alive};
 use crate::figures::{self, Figure};
@@ -22,7 +22,7 @@ pub fn whole(
     out: &Path,
     store: &Store,
     progress: &Progress,
-) -> Result<(Report, Judged), Failure> {
+) -> Result<(Report, Vec<Check>), Failure> {
     let templates = sources.templates()?;
     report::lint::check(&templates, PROGRAM)?;
     // Faults of the templates are told before the long runs, not after them.
@@ -40,8 +40,6 @@ pub fn whole(
     let claims = claims::all(&results, &published)?;
     let values = contents::registry(&results, &published)?;
     let rows = contents::rows(&results, &claims)?;
-    let judged = Judged::all(&results, &published, claims)?;
-    let claims = &judged.claims;
     let module = committed::bytes(MODULE).filter(|module| module.starts_with(b"\0asm"));
     if module.is_none() {
         let what = "is not there or no module, so the pages run nothing; `make paper` builds it";
@@ -54,14 +52,14 @@ pub fn whole(
         templates: &templates,
         values: &values,
         rows: &rows,
-        claims,
+        claims: &claims,
         figures: &drawn,
         equations: &equations::entries(),
         lab: lab.as_deref(),
         top: committed::top(out).as_deref(),
         program: PROGRAM,
     })?;
-    Ok((report, judged))
+    Ok((report, [claims, judged::own(&results)?].concat()))
 }
 
 /// Draws one figure.

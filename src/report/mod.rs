@@ -2,7 +2,6 @@
 
 pub mod contents;
 pub mod equations;
-pub mod guards;
 pub mod lab;
 mod program;
 pub mod recipe;

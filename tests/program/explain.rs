@@ -1,6 +1,6 @@
 //! `impact-paper explain` as a user meets it, on the report of the quick profile.
 
-use crate::{QUICK, answer, json, put, refused};
+use crate::{QUICK, answer, json, outcome, program, put, refused};
 
 /// A folder with the report as `r`.
 fn report() -> tempfile::TempDir {
@@ -46,16 +46,30 @@ fn values_figures_equations_and_claims_are_explained() {
 }
 
 #[test]
-fn an_unknown_id_is_one_line_with_the_nearest() {
+fn things_are_found_by_part_by_number_and_as_people_write_them() {
     let folder = report();
-    for (id, says) in [
-        ("sweep.rise.half_hight", "sweep.rise.half_height"),
-        ("eq:99", "eq:9"),
-        ("sec7_jmp", "sec7_jump"),
-        ("", "explain: the ID is empty; without an id all are listed"),
-        ("nope", "there is no \"nope\"; without an id all are listed"),
+    let half: String = {
+        let values: serde_json::Value =
+            serde_json::from_slice(&QUICK.report["values.json"]).unwrap();
+        let number = &values["sweep.rise.half_height"]["number"]["real"]["value"];
+        number.to_string().chars().take(5).collect()
+    };
+    for (asked, id) in [
+        ("Fig. 3", "fig:3: "),
+        ("Eq. (18)", "eq:18: "),
+        ("SEC7_JUMP", "claim:sec7_jump: "),
+        ("sweep.rise.half", "sweep.rise.half_height "),
+        (&half, "sweep.rise.half_height"),
     ] {
-        refused(folder.path(), &format!("explain --paper r {id}"), &[says]);
+        let mut command = program(folder.path(), "explain --paper r");
+        let (code, told, note) = outcome(command.arg(asked));
+        assert!(
+            code == 0 && told.lines().any(|line| line.starts_with(id)),
+            "{asked}: {told}{note}"
+        );
+    }
+    for (id, says) in [("", "there is no \"\""), ("nope", "there is no \"nope\"")] {
+        refused(folder.path(), &format!("explain --paper r {id}"), &[says, "all are listed"]);
     }
     refused(folder.path(), "explain --paper no-such-folder x", &["--paper"]);
     assert!(!folder.path().join("no-such-folder").exists());

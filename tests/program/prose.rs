@@ -14,17 +14,17 @@ references.bib +@misc{aa, author={B}, title={b}, year={1999}} => :$: aa has the 
 references.bib volume  = {17} -> volume  = {17}, crossref = {homer2007} => :6: homer2007 has `crossref`
 front.md +It is «sweep.rise.half_height now. => :$:7: « is not closed
 front.md # -> ## => :1:1: a report begins with its title
-published.toml value = 100 -> value = nan => :11: the id "masses": its value is not finite
+published.toml value = 100 -> value = nan => :11: the id "masses": a text is empty
 published.toml place = "Sec. 2" -> place = Sec. 2 => :12: this is neither a number nor text in quotes
-published.toml place = "Sec. 2" -> place = "" => :11: the id "masses": its place has no words
-published.toml printed = "n =  -> printed = "" # " => :116: the id "sec2_parameters": its printed has
-published.toml statement = "For small σ -> statement = "" # " => :122: the id "sec2_few_below": its statement
-published.toml = "For small σ -> = "For small $σ => :122: the id "sec2_few_below": its statement has a formula
-published.toml printed = "N − 1" -> printed = "N − 2" => :385: the id "sec7_limit": its claim judges "N − 1", and not its printed
-published.toml printed = "valid for k > 3" -> printed = "valid for k < 3" => :503: the id "sec9_eq35": its value and decimals read "valid for k > 3", and its printed is "valid for k < 3"
-published.toml value = 0.12 -> value = 0.13 => :134: the id "sec2_half_height": its value and decimals read "σ ≈ 0.13", and its printed is "σ ≈ 0.12"
+published.toml place = "Sec. 2" -> place = "" => :11: the id "masses": a text is empty
+published.toml printed = "n =  -> printed = "" # " => :116: the id "sec2_parameters": a text is empty
+published.toml statement = "For small σ -> statement = "" # " => :122: the id "sec2_few_below": a text is empty
+published.toml = "For small σ -> = "For small $σ => :122: the id "sec2_few_below": a text is empty
+published.toml printed = "N − 1" -> printed = "N − 2" => :385: the id "sec7_limit": its check judges "N − 1", and not its printed
+published.toml printed = "valid for k > 3" -> printed = "valid for k < 3" => :503: the id "sec9_eq35": its check judges "valid for k > 3", and not its printed
+published.toml value = 0.12 -> value = 0.13 => :134: the id "sec2_half_height": its check judges "σ ≈ 0.13", and not its printed
 published.toml "sec2_half_height" -> "sec2_few_below" => :134: the id "sec2_few_below": it stands twice
-published.toml "sec2_half_height" -> "sec2_new" => :134: the id "sec2_new": no claim judges it"##;
+published.toml "sec2_half_height" -> "sec2_new" => :134: the id "sec2_new": no check judges it"##;
 
 #[test]
 fn faults_of_the_prose_are_told_with_their_place() {

@@ -4,7 +4,7 @@
 //! prose. All of the paper is in this folder.
 
 use impact_numerics::double_double::DoubleDouble;
-use literate::claims::{Basis, Check, Finding, Judgement, Published, Statement, Text};
+use literate::claims::{Basis, Check, Published, Statement, decimals};
 use literate::experiments::experiment::How;
 use literate::experiments::{Code, Error, Experiment, Profile, Progress, Store};
 use literate::figures::prelude::*;
@@ -216,24 +216,20 @@ fn convergence(orbits: &Table, limit: &Table) -> Result<Figure, literate::figure
 /// The statements, each held against a column of the limits.
 fn claims(published: &Published, limit: &Table) -> Result<Vec<Check>, Box<dyn std::error::Error>> {
     let one = |statement: &Statement| {
-        let (printed, [low, high]) = (statement.number()?, statement.rounding()?);
-        let ours = limit.number(&[], &statement.id)?;
-        let agrees = (low..=high).contains(&ours);
-        let mut finding = Finding {
-            ours: Text::default().decimals(ours, usize::from(statement.decimals) + 2),
-            tolerance: Text::words("half a unit of the last printed digit"),
-            reason: "a printed number was rounded",
-            judgement: Judgement::Plain { agrees },
-            note: Text::default(),
-        };
-        if statement.id == "onset" {
+        let (printed, [low, high]) = (statement.number()?, statement.interval()?);
+        let found = limit.number(&[], &statement.id)?;
+        let digits = usize::from(statement.decimals) + 2;
+        let check = statement.found(decimals(found, digits), (low..=high).contains(&found));
+        let check = check
+            .within("half a unit of the last printed digit", "a printed number was rounded")
+            .on(Basis::PrintedDigit);
+        Ok(match statement.id.as_str() {
             // The explanation can fail: ours, rounded to three decimals, must be what is printed.
-            let holds = (ours * 1000.0).round() == printed * 1000.0;
-            finding.judgement = Judgement::Explained { agrees, holds };
-            finding.note =
-                Text::words("printed is the number rounded to three decimals, and a zero");
-        }
-        Ok(finding.claim(statement, Basis::PrintedDigit))
+            "onset" => check
+                .explained((found * 1000.0).round() == printed * 1000.0)
+                .note("printed is the number rounded to three decimals, and a zero"),
+            _ => check,
+        })
     };
     published.statements.iter().map(one).collect()
 }

@@ -1,26 +1,21 @@
-//! Statements of a paper, targets and relations beside what is found, and verdicts on them: [`Check`].
+//! Statements of a paper, targets and relations, each held against what is found: [`Check`].
 
-mod basis;
-mod finding;
 mod level;
 mod published;
 mod text;
-mod verdict;
 
-pub use basis::{Basis, split};
-pub use finding::{Finding, all_cases, open, rounding};
 pub use level::{FAMILY_LEVEL, Level};
 pub use published::{Parameter, Published, PublishedError, Statement};
-pub use text::Text;
-pub use verdict::{Judgement, Verdict};
+pub use text::{Text, chosen, decimals, integer, significant, with_error};
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// What is held against something.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Kind {
     /// A statement that was printed.
+    #[default]
     Statement,
     /// What an edition promises of itself.
     Target,
@@ -28,10 +23,99 @@ pub enum Kind {
     Relation,
 }
 
-/// One thing that is held against what is found, with the verdict.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+/// What a verdict rests on; where several things decide, the weakest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Basis {
+    /// Whole numbers, orders and inequalities, which agree or do not.
+    #[serde(rename = "exact")]
+    Exact,
+    /// Agreement within the rounding of double precision.
+    #[serde(rename = "rounding")]
+    Rounding,
+    /// Half a unit of the last digit that the paper printed.
+    #[serde(rename = "printed digit")]
+    PrintedDigit,
+    /// Standard errors at the level of the table.
+    #[serde(rename = "statistics")]
+    Statistics,
+    /// A measure of our own, for a statement in words.
+    #[serde(rename = "our measure")]
+    OurMeasure,
+    /// Times of a clock; no statement of a paper rests on them.
+    #[serde(rename = "clock")]
+    Clock,
+}
+
+impl Basis {
+    /// Every basis of a statement, the strongest first.
+    pub const ALL: [Basis; 5] =
+        [Basis::Exact, Basis::Rounding, Basis::PrintedDigit, Basis::Statistics, Basis::OurMeasure];
+
+    /// The basis in words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Basis::Exact => "exact",
+            Basis::Rounding => "rounding",
+            Basis::PrintedDigit => "printed digit",
+            Basis::Statistics => "statistics",
+            Basis::OurMeasure => "our measure",
+            Basis::Clock => "clock",
+        }
+    }
+}
+
+/// The verdict on a statement, a target or a relation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Verdict {
+    /// What is found lies within the tolerance.
+    #[serde(rename = "reproduced")]
+    Reproduced,
+    /// It does not, and the difference has the size that our explanation predicts.
+    #[serde(rename = "differs and explained")]
+    DiffersAndExplained,
+    /// It does not, or our explanation of a difference fails.
+    #[serde(rename = "differs")]
+    Differs,
+    /// The results at hand do not decide.
+    #[serde(rename = "cannot be judged")]
+    CannotBeJudged,
+}
+
+impl Verdict {
+    /// Every verdict, in the order of a scorecard.
+    pub const ALL: [Verdict; 4] = [
+        Verdict::Reproduced,
+        Verdict::DiffersAndExplained,
+        Verdict::Differs,
+        Verdict::CannotBeJudged,
+    ];
+
+    /// The verdict in words, and as a sign, which needs no colour.
+    fn both(self) -> (&'static str, char) {
+        match self {
+            Verdict::Reproduced => ("reproduced", '✓'),
+            Verdict::DiffersAndExplained => ("differs and explained", '≠'),
+            Verdict::Differs => ("differs", '✗'),
+            Verdict::CannotBeJudged => ("cannot be judged", '?'),
+        }
+    }
+
+    /// The verdict in words.
+    pub fn words(self) -> &'static str {
+        self.both().0
+    }
+
+    /// The verdict as a sign.
+    pub fn sign(self) -> char {
+        self.both().1
+    }
+}
+
+/// One thing that is held against what is found, with the verdict; texts are saved as they are printed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Check {
     /// What it is.
+    #[serde(default)]
     pub kind: Kind,
     /// Its id; that of a statement as in `published.toml`.
     pub id: String,
@@ -40,9 +124,11 @@ pub struct Check {
     /// What is said, in our words.
     pub statement: String,
     /// What can be read there, in its shortest form.
-    pub printed: String,
+    #[serde(alias = "printed")]
+    pub expected: String,
     /// What we find, with its error.
-    pub ours: Text,
+    #[serde(alias = "ours")]
+    pub found: Text,
     /// How far from the printed value a finding may lie; the bound of a target.
     pub tolerance: Text,
     /// Why the tolerance has this size.
@@ -53,9 +139,62 @@ pub struct Check {
     pub verdict: Verdict,
     /// What explains a difference, or what should be known besides.
     pub note: Text,
+    /// Ids of the values that it states or is held against.
+    #[serde(default)]
+    pub values: Vec<String>,
 }
 
 impl Check {
+    /// A check that is not of a printed statement, with what was found; `None` where the results do not decide.
+    pub fn new(kind: Kind, id: &str, statement: &str, found: impl Into<Text>) -> Check {
+        Check {
+            kind,
+            id: id.into(),
+            place: String::new(),
+            statement: statement.into(),
+            expected: String::new(),
+            found: found.into(),
+            tolerance: Text::default(),
+            reason: String::new(),
+            basis: Basis::Exact,
+            verdict: Verdict::CannotBeJudged,
+            note: Text::default(),
+            values: Vec::new(),
+        }
+    }
+
+    /// Judged by whether the finding lies within the tolerance.
+    pub fn judged(self, agrees: bool) -> Check {
+        let verdict = if agrees { Verdict::Reproduced } else { Verdict::Differs };
+        Check { verdict, ..self }
+    }
+
+    /// With an explanation, which predicts what is found or does not: one that fails makes the check fail whatever the
+    /// finding.
+    pub fn explained(self, holds: bool) -> Check {
+        let verdict = match (self.verdict, holds) {
+            (_, false) => Verdict::Differs,
+            (Verdict::Differs, true) => Verdict::DiffersAndExplained,
+            (verdict, true) => verdict,
+        };
+        Check { verdict, ..self }
+    }
+
+    /// With its tolerance and why it has this size.
+    pub fn within(self, tolerance: impl Into<Text>, reason: &str) -> Check {
+        Check { tolerance: tolerance.into(), reason: reason.into(), ..self }
+    }
+
+    /// With what explains a difference, or what should be known besides.
+    pub fn note(self, note: impl Into<Text>) -> Check {
+        Check { note: note.into(), ..self }
+    }
+
+    /// With what the verdict rests on.
+    pub fn on(self, basis: Basis) -> Check {
+        Check { basis, ..self }
+    }
+
     /// Whether a report is to be refused for it: a difference that nothing explains, or whose explanation no
     /// longer holds. Times of the clock decide nothing.
     pub fn fails(&self) -> bool {
@@ -67,10 +206,63 @@ impl Check {
         match (self.kind, self.verdict) {
             (Kind::Statement, verdict) => verdict.words(),
             (Kind::Target, Verdict::Reproduced) => "met",
-            (Kind::Target, Verdict::CannotBeJudged) => "not measured",
-            (Kind::Target, _) => "missed",
             (Kind::Relation, Verdict::Reproduced) => "holds",
+            (_, Verdict::CannotBeJudged) => "not measured",
+            (Kind::Target, _) => "missed",
             (Kind::Relation, _) => "does not hold",
         }
+    }
+}
+
+impl Statement {
+    /// A check of it that the results do not decide.
+    pub fn open(&self, found: impl Into<Text>) -> Check {
+        Check {
+            place: self.place.clone(),
+            expected: self.printed.clone(),
+            ..Check::new(Kind::Statement, &self.id, &self.statement, found)
+        }
+    }
+
+    /// A check of it by what was found.
+    pub fn found(&self, found: impl Into<Text>, agrees: bool) -> Check {
+        self.open(found).judged(agrees)
+    }
+
+    /// A check of it in whole cases that must all agree.
+    pub fn all_cases(&self, cases: usize, failures: usize) -> Check {
+        let found = Text::of("{} of {} cases agree", [integer(cases - failures), integer(cases)]);
+        self.found(found, failures == 0 && cases > 0).within("none", "integers are exact")
+    }
+
+    /// A check of it by a largest relative deviation that rounding must explain.
+    pub fn rounding(&self, largest: f64, allowed: f64) -> Check {
+        let found = Text::of("largest relative deviation {}", [significant(largest, 1)]);
+        let reason = "rounding in double precision, with room for the length of the sums";
+        self.found(found, largest <= allowed).within(significant(allowed, 1), reason)
+    }
+}
+
+/// How many checks have each verdict, in the order of [`Verdict::ALL`].
+pub fn score<'a>(checks: impl Iterator<Item = &'a Check> + Clone) -> [usize; 4] {
+    Verdict::ALL.map(|verdict| checks.clone().filter(|check| check.verdict == verdict).count())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_check_is_saved_as_it_is_printed_and_its_explanation_can_fail() {
+        let open = Check::new(Kind::Relation, "a", "b", with_error(0.11652, 0.0004));
+        let judged = |agrees, holds| open.clone().judged(agrees).explained(holds);
+        assert_eq!(judged(true, true).verdict, Verdict::Reproduced);
+        assert_eq!(judged(false, true).verdict, Verdict::DiffersAndExplained);
+        assert!(judged(true, false).fails() && judged(false, false).fails());
+        let saved = serde_json::to_value(judged(false, true)).unwrap();
+        assert_eq!(saved["found"], "0.1165(4)");
+        assert_eq!(saved["verdict"], Verdict::DiffersAndExplained.words());
+        let read: Check = serde_json::from_value(saved.clone()).unwrap();
+        assert_eq!(serde_json::to_value(read).unwrap(), saved);
     }
 }

@@ -1,53 +1,30 @@
-//! Sentences of a claim: words, and numbers that the report prints with the digits they deserve.
+//! Sentences of a check: words, and numbers that the report prints with the digits they deserve.
 
+use crate::report::print::{Style, print};
 use crate::value::{Digits, Number};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
+use std::fmt;
 
 /// A short text with numbers in it; its words are numbers of the kind [`Number::Text`].
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
-#[serde(transparent)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(into = "String", from = "String")]
 pub struct Text(pub Vec<Number>);
 
 impl Text {
-    /// A text of words alone.
-    pub fn words(words: impl Into<String>) -> Text {
-        Text::default().say(words)
+    /// A sentence in which each `{}` stands for the next of the numbers.
+    pub fn of(sentence: &str, numbers: impl IntoIterator<Item = Number>) -> Text {
+        let (mut out, mut words) = (Text::default(), sentence.split("{}"));
+        out = out.then(words.next().unwrap_or_default());
+        for (number, words) in numbers.into_iter().zip(words) {
+            out.0.push(number);
+            out = out.then(words);
+        }
+        out
     }
 
-    /// Goes on with words.
-    pub fn say(mut self, words: impl Into<String>) -> Text {
-        self.0.push(Number::Text(words.into()));
-        self
-    }
-
-    fn number(mut self, value: f64, digits: Digits) -> Text {
-        self.0.push(Number::Real { value, digits });
-        self
-    }
-
-    /// Goes on with a number and its error.
-    pub fn with_error(self, value: f64, error: f64) -> Text {
-        self.number(value, Digits::Error(error))
-    }
-
-    /// Goes on with a number of so many decimals.
-    pub fn decimals(self, value: f64, decimals: usize) -> Text {
-        self.number(value, Digits::Decimals(decimals))
-    }
-
-    /// Goes on with a number of so many significant digits.
-    pub fn significant(self, value: f64, digits: usize) -> Text {
-        self.number(value, Digits::Significant(digits))
-    }
-
-    /// Goes on with a number that was chosen, with all its digits.
-    pub fn chosen(self, value: f64) -> Text {
-        self.number(value, Digits::of(value))
-    }
-
-    /// Goes on with an integer.
-    pub fn integer(mut self, value: usize) -> Text {
-        self.0.push(Number::Integer(value as i64));
+    /// Goes on with another text.
+    pub fn then(mut self, more: impl Into<Text>) -> Text {
+        self.0.extend(more.into().0);
         self
     }
 
@@ -57,14 +34,72 @@ impl Text {
     }
 }
 
+/// A number with its standard error.
+pub fn with_error(value: f64, error: f64) -> Number {
+    Number::Real { value, digits: Digits::Error(error) }
+}
+
+/// A number of so many decimals.
+pub fn decimals(value: f64, decimals: usize) -> Number {
+    Number::Real { value, digits: Digits::Decimals(decimals) }
+}
+
+/// A number of so many significant digits.
+pub fn significant(value: f64, digits: usize) -> Number {
+    Number::Real { value, digits: Digits::Significant(digits) }
+}
+
+/// A number that was chosen, with all its digits.
+pub fn chosen(value: f64) -> Number {
+    Number::Real { value, digits: Digits::of(value) }
+}
+
+/// An integer.
+pub fn integer(value: usize) -> Number {
+    Number::Integer(value as i64)
+}
+
+impl From<Number> for Text {
+    fn from(number: Number) -> Text {
+        Text(vec![number])
+    }
+}
+
+impl From<&str> for Text {
+    fn from(words: &str) -> Text {
+        words.to_string().into()
+    }
+}
+
+impl From<String> for Text {
+    fn from(words: String) -> Text {
+        if words.is_empty() { Text::default() } else { Number::Text(words).into() }
+    }
+}
+
+impl From<Text> for String {
+    fn from(text: Text) -> String {
+        text.to_string()
+    }
+}
+
+/// As for terminals and data.
+impl fmt::Display for Text {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.iter().try_for_each(|piece| f.write_str(&print(piece, Style::default()).plain()))
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn a_chosen_number_keeps_its_digits_and_gets_no_others() {
+    fn numbers_stand_in_their_places_with_their_digits() {
+        let text = Text::of("k* at {}, {}", [with_error(0.11652, 0.0004), significant(8.87e-4, 3)]);
+        assert_eq!(text.then(integer(12345)).to_string(), "k* at 0.1165(4), 8.87e-412345");
         for (value, digits) in [(0.08, 1), (0.1175, 4), (4000.0, 1), (1e-9, 1), (0.0, 1)] {
-            assert_eq!(Digits::of(value), Digits::Significant(digits), "{value}");
+            assert_eq!(chosen(value), significant(value, digits), "{value}");
         }
     }
 }

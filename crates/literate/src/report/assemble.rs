@@ -3,7 +3,7 @@
 use super::Templates;
 use super::bibliography::Library;
 use super::card::{Cards, links};
-use super::claims::{Row, scorecard};
+use super::claims::{row, scorecard};
 use super::document::{self, Block, Inline};
 use super::documents::Document;
 use super::filler::Filler;
@@ -72,7 +72,7 @@ fn fill(input: &Input<'_>) -> Result<(Registry, Filler, Vec<Filled>), Error> {
     let mut values = input.values.clone();
     values.extend(scorecard(input.claims))?;
     let mut filler = Filler::new(input.templates, &values, input.program)?;
-    filler.insert("claims", &input.claims.iter().map(Row::of).collect::<Vec<Row>>());
+    filler.insert("claims", &input.claims.iter().map(row).collect::<Vec<_>>());
     filler.insert("figures", &ledger::figures(input.figures));
     filler.insert("equations", &input.equations);
     for (name, rows) in input.rows {

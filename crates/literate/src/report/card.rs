@@ -124,6 +124,27 @@ impl Cards<'_> {
         values.chain(figures).chain(equations).chain(claims).collect()
     }
 
+    /// Ids of what was asked for: by its id, as "Fig. 3" or "Eq. (18)", by a part of its id, or by its digits.
+    pub fn find(&self, asked: &str) -> Vec<String> {
+        // Templates have quotation marks in names of rows; people write brackets and blanks.
+        let asked = asked.trim().replace('"', "");
+        let lower = asked.to_lowercase().replace(['(', ')', ' '], "");
+        let id = lower.replacen("fig.", "fig:", 1).replacen("eq.", "eq:", 1);
+        for id in [&asked, &id] {
+            if let Some(card) = self.get(id) {
+                return vec![card.id];
+            }
+        }
+        let all = self.ids();
+        let part = all.iter().filter(|id| !lower.is_empty() && id.to_lowercase().contains(&lower));
+        let part: Vec<String> = part.cloned().collect();
+        let digits = |value: &&Value| !lower.is_empty() && value.plain().starts_with(&lower);
+        match part.is_empty() {
+            false => part,
+            true => self.values.iter().filter(digits).map(|value| value.id.clone()).collect(),
+        }
+    }
+
     fn value(&self, id: &str) -> Option<Card> {
         let value = self.values.get(id)?;
         let mut title = words_and_maths(&print(&value.number, Style::default()).markdown());
@@ -179,7 +200,7 @@ impl Cards<'_> {
             let shown = claim.id.clone();
             let to = format!("claim:{}", claim.id);
             used.push(Inline::Reference { to, within: None, shown });
-            used.push(Inline::Text(format!(" ({}): {}", claim.place, claim.verdict)));
+            used.push(Inline::Text(format!(" ({}): {}", claim.place, claim.verdict.words())));
         }
         card.row("claims", used);
         card.row("id", vec![Inline::Code(value.id.clone())]);
@@ -220,13 +241,13 @@ impl Cards<'_> {
         let title = words_and_maths(&claim.statement);
         let mut card = Card::of(format!("claim:{id}"), title);
         for (name, words) in [
-            ("stands in", &claim.place),
-            ("printed", &claim.printed),
-            ("found", &claim.ours),
-            ("tolerance", &claim.tolerance),
-            ("because", &claim.reason),
-            ("verdict", &claim.verdict),
-            ("note", &claim.note),
+            ("stands in", claim.place.clone()),
+            ("printed", claim.expected.clone()),
+            ("found", claim.found.to_string()),
+            ("tolerance", claim.tolerance.to_string()),
+            ("because", claim.reason.clone()),
+            ("verdict", claim.verdict.words().into()),
+            ("note", claim.note.to_string()),
         ] {
             card.words(name, words);
         }

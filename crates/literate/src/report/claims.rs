@@ -1,52 +1,33 @@
-//! Claims as rows for templates, ledgers and terminals.
+//! Checks as rows for templates, and their numbers as values.
 
 use super::markdown;
 use super::print::{Style, print};
 use super::values::{Number, Value, origin};
-use crate::claims::{Basis, Check, Published, Text, Verdict, split};
-use serde::Serialize;
+use crate::claims::{Basis, Check, Published, Text, Verdict, score};
+use serde_json::json;
 
-/// One claim for a template: every field is Markdown, its numbers printed with their digits.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[expect(missing_docs, reason = "the fields are documented at Check")]
-pub struct Row {
-    pub id: String,
-    /// The section that an id names, `sec7_limit`: "Sec. 7".
-    pub section: String,
-    pub place: String,
-    pub statement: String,
-    pub printed: String,
-    pub ours: String,
-    pub tolerance: String,
-    pub reason: String,
-    pub basis: String,
-    pub verdict: String,
-    pub note: String,
+/// One check for a template: the fields of [`Check`] as Markdown, its numbers printed with their digits.
+pub fn row(check: &Check) -> serde_json::Value {
+    let words = |text: &str| markdown::escaped(&symbols(text));
+    json!({
+        "id": check.id,
+        // The section that an id names, `sec7_limit`: "Sec. 7".
+        "section": check.id.split('_').next().unwrap_or_default().replace("sec", "Sec. "),
+        "place": words(&check.place),
+        "statement": words(&check.statement),
+        "expected": words(&check.expected),
+        "found": sentence(&check.found),
+        "tolerance": sentence(&check.tolerance),
+        // Stands in emphasis, in which hosts see no formula.
+        "reason": markdown::escaped(&check.reason),
+        "basis": check.basis.words(),
+        "verdict": check.verdict.words(),
+        "note": sentence(&check.note),
+    })
 }
 
-impl Row {
-    /// The row of a claim.
-    pub fn of(claim: &Check) -> Self {
-        let words = |text: &str| markdown::escaped(&symbols(text));
-        Row {
-            id: claim.id.clone(),
-            section: claim.id.split('_').next().unwrap_or_default().replace("sec", "Sec. "),
-            place: words(&claim.place),
-            statement: words(&claim.statement),
-            printed: words(&claim.printed),
-            ours: sentence(&claim.ours),
-            tolerance: sentence(&claim.tolerance),
-            // Stands in emphasis, in which hosts see no formula.
-            reason: markdown::escaped(&claim.reason),
-            basis: claim.basis.words().to_string(),
-            verdict: claim.verdict.words().to_string(),
-            note: sentence(&claim.note),
-        }
-    }
-}
-
-/// A text of a claim as Markdown.
-pub fn sentence(text: &Text) -> String {
+/// A text of a check as Markdown.
+fn sentence(text: &Text) -> String {
     let piece = |piece: &Number| match piece {
         Number::Text(words) => markdown::escaped(&symbols(words)),
         number => print(number, Style::default()).markdown(),
@@ -80,15 +61,6 @@ fn symbols(text: &str) -> String {
     out + rest
 }
 
-/// A text of a claim for terminals and data.
-pub fn plain(text: &Text) -> String {
-    let piece = |piece: &Number| match piece {
-        Number::Text(words) => words.clone(),
-        number => print(number, Style::default()).plain(),
-    };
-    text.0.iter().map(piece).collect()
-}
-
 /// What was printed, as values: the groups `paper` (parameters) and `printed` (statements).
 pub fn printed(published: &Published) -> Vec<Value> {
     let chosen = published.parameters.iter().map(|p| {
@@ -106,36 +78,31 @@ pub fn printed(published: &Published) -> Vec<Value> {
 /// `score.differs`, `score.cannot_be_judged`, and for each basis `score.exact`, … those reproduced
 /// and `score.exact_of`, … all.
 pub fn scorecard(claims: &[Check]) -> Vec<Value> {
-    let value = |name: &str, count: usize| {
-        Value::integer(format!("score.{name}"), count).source(origin(scorecard), "").data_only()
+    let value = |name: String, count: usize| {
+        let id = format!("score.{}", name.replace(' ', "_"));
+        Value::integer(id, count).source(origin(scorecard), "").data_only()
     };
-    let count = |verdict| claims.iter().filter(|claim| claim.verdict == verdict).count();
-    let verdict = |verdict: &Verdict| value(&verdict.words().replace(' ', "_"), count(*verdict));
-    let bases = Basis::ALL.iter().zip(split(claims)).flat_map(|(basis, counts)| {
-        let name = basis.words().replace(' ', "_");
-        let all = counts.iter().sum();
-        [value(&name, counts[0]), value(&format!("{name}_of"), all)]
+    let verdicts = Verdict::ALL.into_iter().zip(score(claims.iter()));
+    let verdicts = verdicts.map(|(verdict, count)| value(verdict.words().into(), count));
+    let bases = Basis::ALL.into_iter().flat_map(|basis| {
+        let of = score(claims.iter().filter(|claim| claim.basis == basis));
+        let all = value(format!("{}_of", basis.words()), of.iter().sum());
+        [value(basis.words().into(), of[0]), all]
     });
-    let verdicts = Verdict::ALL.iter().map(verdict);
-    verdicts.chain([value("total", claims.len())]).chain(bases).collect()
+    verdicts.chain([value("total".into(), claims.len())]).chain(bases).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::claims::with_error;
 
     #[test]
     fn symbols_with_an_index_or_a_star_are_formulas() {
         let text = "At p_crit k* of φ_N(k) is fig_3_b, 2*3, a_ and σ_x.";
         let set = r"At $p_{\mathrm{crit}}$ $k^*$ of $\phi_N$(k) is fig_3_b, 2*3, a_ and $σ_x$.";
         assert_eq!(symbols(text), set);
-    }
-
-    #[test]
-    fn numbers_of_claims_have_their_digits() {
-        let text =
-            Text::words("k* at ").with_error(0.11652, 0.0004).say(", ").significant(8.87e-4, 3);
-        assert_eq!(sentence(&text), r"$k^*$ at 0.1165(4), $8.87\times10^{-4}$");
-        assert_eq!(plain(&text.integer(12345)), "k* at 0.1165(4), 8.87e-412345");
+        let text = Text::of("k* at {}.", [with_error(0.11652, 0.0004)]);
+        assert_eq!(sentence(&text), "$k^*$ at 0.1165(4).");
     }
 }

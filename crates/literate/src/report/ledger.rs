@@ -1,7 +1,6 @@
 //! The ledger: every claim, figure and numbered equation of the paper, and its status.
 
 use super::Error;
-use super::claims::plain;
 use crate::claims::Check;
 use crate::figures::Figure;
 use serde::{Deserialize, Serialize};
@@ -11,33 +10,13 @@ use std::collections::BTreeMap;
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Ledger {
     /// The judged statements.
-    pub claims: Vec<ClaimEntry>,
+    pub claims: Vec<Check>,
     /// The figures.
     #[serde(default)]
     pub figures: Vec<FigureEntry>,
     /// The numbered equations of the paper.
     #[serde(default)]
     pub equations: Vec<EquationEntry>,
-}
-
-/// A statement; the fields are those of [`Check`], as text. Some came and went with versions, and reports of two are
-/// compared.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
-#[expect(missing_docs, reason = "the fields are documented at Check")]
-pub struct ClaimEntry {
-    pub id: String,
-    pub place: String,
-    pub statement: String,
-    pub printed: String,
-    pub ours: String,
-    pub tolerance: String,
-    pub reason: String,
-    pub basis: String,
-    pub verdict: String,
-    pub note: String,
-    /// Ids of the values of the report that it states or is held against.
-    pub values: Vec<String>,
 }
 
 /// A figure.
@@ -94,18 +73,9 @@ pub fn ledger(
     equations: &[EquationEntry],
     uses: &BTreeMap<String, Vec<String>>,
 ) -> Ledger {
-    let claim = |claim: &Check| ClaimEntry {
-        id: claim.id.clone(),
-        place: claim.place.clone(),
-        statement: claim.statement.clone(),
-        printed: claim.printed.clone(),
-        ours: plain(&claim.ours),
-        tolerance: plain(&claim.tolerance),
-        reason: claim.reason.clone(),
-        basis: claim.basis.words().to_string(),
-        verdict: claim.verdict.words().to_string(),
-        note: plain(&claim.note),
-        values: uses.get(&claim.id).cloned().unwrap_or_default(),
+    let claim = |claim: &Check| {
+        let values = uses.get(&claim.id).cloned().unwrap_or_default();
+        Check { values, ..claim.clone() }
     };
     Ledger {
         claims: claims.iter().map(claim).collect(),

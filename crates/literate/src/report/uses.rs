@@ -19,7 +19,7 @@ pub fn uses(
     let together = together(documents);
     let one = |claim: &Check| {
         let numbers: Vec<f64> =
-            [&claim.ours, &claim.tolerance, &claim.note].into_iter().flat_map(numbers).collect();
+            [&claim.found, &claim.tolerance, &claim.note].into_iter().flat_map(numbers).collect();
         let near = together.get(&claim.id);
         let near = |id: &String| near.is_some_and(|near| near.contains(id));
         let states = |number: &Number, id: &String| match number {

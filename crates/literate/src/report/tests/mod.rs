@@ -3,7 +3,7 @@
 mod broken;
 
 use super::*;
-use crate::claims::{Basis, Check, Kind, Text, Verdict};
+use crate::claims::{Check, Kind, decimals, with_error};
 use crate::figures::{DataFile, Drawing, Figure};
 use crate::source::{Program, TOY};
 
@@ -179,19 +179,10 @@ fn figure() -> Figure {
 }
 
 fn claim() -> Check {
-    Check {
-        kind: Kind::Statement,
-        id: "rise".into(),
-        place: "Sec. 2".into(),
-        statement: "A threshold | exists".into(),
-        printed: "σ ≈ 0.12".into(),
-        ours: Text::default().with_error(0.11652, 0.0004),
-        tolerance: Text::default().decimals(0.005, 3),
-        reason: "half a unit".into(),
-        verdict: Verdict::Reproduced,
-        basis: Basis::Statistics,
-        note: Text::default(),
-    }
+    let found =
+        Check::new(Kind::Statement, "rise", "A threshold | exists", with_error(0.11652, 0.0004));
+    let judged = found.judged(true).within(decimals(0.005, 3), "half a unit");
+    Check { place: "Sec. 2".into(), expected: "σ ≈ 0.12".into(), ..judged }
 }
 
 /// Assembles a report with one figure, one claim and one value from this prose.
@@ -231,7 +222,7 @@ fn with_lab(prose: &str, lab: Option<&str>) -> Result<Report, Error> {
 
 const PROSE: &str = "# Title\n\nAt «v.half_height», [@rice1945]. $$x = y \\tag{18}$$\n\n[@bibliography]\n\n\
     ![The rise.](figures/fig03.svg)\n\n| Id | Check |\n|---|---|\n\
-    <% for c in claims %>| [!claim:«c.id»] | «c.statement»: «c.ours», «c.verdict» |\n<% endfor %>";
+    <% for c in claims %>| [!claim:«c.id»] | «c.statement»: «c.found», «c.verdict» |\n<% endfor %>";
 
 #[test]
 fn what_readers_run_is_offered_where_it_can_be_run() {

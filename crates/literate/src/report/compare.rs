@@ -1,0 +1,377 @@
+//! What changed between two reports: numbers, verdicts and files; as text, Markdown and JSON.
+
+use super::folder::SUMS;
+use super::ledger::{self, Ledger};
+use super::print::{Asked, Style, print};
+use super::values::{Kind, Number, Registry, Value};
+use super::{Error, Files, markdown, spell};
+use crate::claims::{Check, Text, significant};
+use crate::input::{is_obeyed, one_line};
+use impact_numerics::text::count;
+use serde::Serialize;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A report, with the parts that are compared as what they mean.
+#[derive(Debug)]
+pub struct Parts {
+    files: Files,
+    values: Registry,
+    ledger: Ledger,
+}
+
+/// A number or a check of which something differs.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Change {
+    /// Its id.
+    pub id: String,
+    /// The number as it was printed, or the verdict; None for what is new.
+    pub before: Option<String>,
+    /// The same now; None for what is gone.
+    pub after: Option<String>,
+    /// After minus before, where both are numbers.
+    pub difference: Option<f64>,
+    /// The difference over the combined standard error, where there is one. Runs with the same seed
+    /// share their chance, and then it overrates the error.
+    pub sigmas: Option<f64>,
+    /// What else differs, by its name, before and after.
+    pub also: BTreeMap<&'static str, [String; 2]>,
+}
+
+/// What differs, part by part; all empty for the same bytes.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Diff {
+    /// Checks with another verdict or another measure, gained and lost.
+    pub verdicts: Vec<Change>,
+    /// Values with another number, unit or kind, gained and lost, the largest change first.
+    pub numbers: Vec<Change>,
+    /// Files that only the later report has.
+    pub gained: Vec<String>,
+    /// Files that only the earlier report has.
+    pub lost: Vec<String>,
+    /// Files with other bytes.
+    pub differing: Vec<String>,
+}
+
+/// Reads a values.json.
+///
+/// # Errors
+/// What is none.
+pub fn read(text: &str) -> Result<Registry, Error> {
+    let fault = |what: String| Error::Template(format!("values.json: {what}"));
+    let values: BTreeMap<String, Value> =
+        serde_json::from_str(text).map_err(|e| fault(e.to_string()))?;
+    let mut registry = Registry::new();
+    registry.extend(values.into_values()).map_err(|e| fault(e.to_string()))?;
+    Ok(registry)
+}
+
+impl Parts {
+    /// Reads values and checks of a report, which errors call `name`.
+    ///
+    /// # Errors
+    /// What is missing or cannot be read.
+    pub fn of(name: &str, files: Files) -> Result<Self, String> {
+        let text = |path: &str| {
+            let bytes = files.get(path).ok_or_else(|| format!("{name}: {path} is missing"))?;
+            std::str::from_utf8(bytes).map_err(|error| format!("{name}: {path}: {error}"))
+        };
+        let fault = |error: Error| format!("{name}: {error}");
+        let values = read(text("values.json")?).map_err(fault)?;
+        let ledger = ledger::read(text("ledger.json")?).map_err(fault)?;
+        Ok(Parts { files, values, ledger })
+    }
+}
+
+/// What differs.
+pub fn diff(before: &Parts, after: &Parts) -> Diff {
+    let known = |files: &'_ Files| -> BTreeSet<String> {
+        files.keys().filter(|path| *path != SUMS).cloned().collect()
+    };
+    let (old, new) = (known(&before.files), known(&after.files));
+    let differing = |path: &&String| before.files[*path] != after.files[*path];
+    let by_id = |ledger: &'_ Ledger| -> BTreeMap<String, Check> {
+        ledger.claims.iter().map(|check| (check.id.clone(), check.clone())).collect()
+    };
+    let (checks, were) = (by_id(&after.ledger), by_id(&before.ledger));
+    let ids: BTreeSet<&String> = were.keys().chain(checks.keys()).collect();
+    let verdicts = ids.into_iter().filter_map(|id| verdict(id, were.get(id), checks.get(id)));
+    Diff {
+        verdicts: verdicts.collect(),
+        numbers: numbers(&before.values, &after.values),
+        gained: new.difference(&old).cloned().collect(),
+        lost: old.difference(&new).cloned().collect(),
+        differing: old.intersection(&new).filter(differing).cloned().collect(),
+    }
+}
+
+/// How a check changed: its verdict, and what it is held against.
+fn verdict(id: &str, before: Option<&Check>, after: Option<&Check>) -> Option<Change> {
+    let words = |check: &Check| check.words().to_string();
+    let measure = |check: &Check| [check.expected.clone(), check.tolerance.to_string()];
+    let moved = before.map(words) != after.map(words);
+    if !moved && before.map(measure) == after.map(measure) {
+        return None;
+    }
+    let fields = |check: &Check| {
+        let found = if moved { check.found.to_string() } else { String::new() };
+        let [expected, tolerance] = measure(check);
+        [("found", found), ("expected", expected), ("tolerance", tolerance)]
+    };
+    let pairs = before.map(fields).zip(after.map(fields));
+    let also = pairs.into_iter().flat_map(|(old, new)| old.into_iter().zip(new));
+    let also = also.map(|((name, old), (_, new))| (name, [old, new]));
+    Some(Change {
+        id: id.into(),
+        before: before.map(words),
+        after: after.map(words),
+        also: also.filter(|(_, [old, new])| old != new).collect(),
+        ..Change::default()
+    })
+}
+
+/// All changes of numbers, units and kinds; other fields (notes, sources) do not count. What is of another kind
+/// comes first, then the largest differences in standard errors, and last what only one report has.
+fn numbers(before: &Registry, after: &Registry) -> Vec<Change> {
+    let ids: BTreeSet<&str> = before.iter().chain(after.iter()).map(|v| v.id.as_str()).collect();
+    let change = |id: &str| {
+        let (old, new) = (before.get(id), after.get(id));
+        let meant = |value: Option<&Value>| value.map(|v| (v.number.clone(), kind(v)));
+        if meant(old) == meant(new) {
+            return None;
+        }
+        // In full where their digits do not show the difference.
+        let number = |value: &Value| value.number.clone();
+        let hidden =
+            old.map(Value::plain) == new.map(Value::plain) && old.map(number) != new.map(number);
+        let style = Style { digits: hidden.then_some(Asked::Full), ..Style::default() };
+        let shown = |value: &Value| spell::text(&print(&value.number, style).plain());
+        let both = old.zip(new);
+        let difference = both.and_then(|(old, new)| Some(real(new)? - real(old)?));
+        let difference = difference.filter(|difference| difference.is_finite());
+        let error = both.map(|(old, new)| error(old).hypot(error(new)));
+        let sigmas = difference.zip(error).map(|(difference, error)| difference / error);
+        let kinds = both.map(|(old, new)| [kind(old), kind(new)]).filter(|[old, new]| old != new);
+        Some(Change {
+            id: id.to_string(),
+            before: old.map(shown),
+            after: new.map(shown),
+            difference,
+            sigmas: sigmas.filter(|sigmas| sigmas.is_finite()),
+            also: kinds.into_iter().map(|kinds| ("kind", kinds)).collect(),
+        })
+    };
+    let mut changes: Vec<Change> = ids.into_iter().filter_map(change).collect();
+    let weight = |change: &Change| match (change.sigmas, change.difference) {
+        _ if change.before.is_none() || change.after.is_none() => -1.0,
+        (Some(sigmas), _) => sigmas.abs(),
+        (None, Some(difference)) if change.also.is_empty() || difference == 0.0 => 0.0,
+        _ => f64::INFINITY,
+    };
+    changes.sort_by(|a, b| weight(b).total_cmp(&weight(a)));
+    changes
+}
+
+/// Kind and unit in words.
+fn kind(value: &Value) -> String {
+    let kind = match &value.kind {
+        Kind::Exact => "exact".into(),
+        Kind::Deterministic => "deterministic".into(),
+        Kind::Ensemble { realisations, .. } => format!("ensemble of {realisations}"),
+        Kind::Printed { place } => format!("printed at {place}"),
+        Kind::Measured => "measured".into(),
+    };
+    if value.unit.is_empty() { kind } else { format!("{kind}, in {}", spell::text(&value.unit)) }
+}
+
+fn real(value: &Value) -> Option<f64> {
+    match value.number {
+        Number::Integer(n) => Some(n as f64),
+        Number::Real { value, .. } => Some(value),
+        _ => None,
+    }
+}
+
+fn error(value: &Value) -> f64 {
+    match value.kind {
+        Kind::Ensemble { standard_error, .. } => standard_error,
+        _ => 0.0,
+    }
+}
+
+/// A difference with its sign and three digits.
+fn signed(value: f64) -> String {
+    let sign = if value > 0.0 { "+" } else { "" };
+    format!("{sign}{}", Text::from(significant(value, 3)))
+}
+
+impl Change {
+    /// `reproduced -> differs`, `new, reproduced`, `gone, was reproduced`.
+    pub fn fate(&self) -> String {
+        match (&self.before, &self.after) {
+            (Some(before), Some(after)) if before == after => before.clone(),
+            (Some(before), Some(after)) => format!("{before} -> {after}"),
+            (None, after) => format!("new, {}", after.as_deref().unwrap_or_default()),
+            (Some(before), None) => format!("gone, was {before}"),
+        }
+    }
+
+    fn also(&self) -> Vec<String> {
+        let one = |(name, [old, new]): (&&str, &[String; 2])| format!("{name}: {old} -> {new}");
+        self.also.iter().map(one).collect()
+    }
+
+    fn line(&self) -> String {
+        let difference = self.difference.map(|own| format!("; Δ {}", signed(own)));
+        let sigmas = self.sigmas.map(|own| format!(", {} σ", signed(own)));
+        let also: String = self.also().iter().map(|own| format!("; {own}")).collect();
+        let more = difference.unwrap_or_default() + &sigmas.unwrap_or_default() + &also;
+        format!("  {}: {}{more}", self.id, self.fate())
+    }
+}
+
+/// Of more rows the first are shown: hosts take comments of 65536 characters.
+const ROWS: usize = 40;
+
+impl Diff {
+    /// Whether nothing differs.
+    pub fn is_empty(&self) -> bool {
+        *self == Diff::default()
+    }
+
+    /// How many verdicts and numbers changed.
+    fn counts(&self) -> String {
+        let verdicts = count(self.verdicts.len(), "check");
+        format!("{verdicts} and {} changed", count(self.numbers.len(), "number"))
+    }
+
+    fn files(&self) -> [(&'static str, &[String]); 3] {
+        [("new", &self.gained), ("gone", &self.lost), ("differs", &self.differing)]
+    }
+
+    /// For a terminal: all of it.
+    pub fn text(&self, old: &str, new: &str) -> String {
+        if self.is_empty() {
+            return format!("{old} and {new}: nothing differs\n");
+        }
+        let changes = self.verdicts.iter().chain(&self.numbers).map(Change::line);
+        let files = self
+            .files()
+            .into_iter()
+            .flat_map(|(what, paths)| paths.iter().map(move |path| format!("  {what:8} {path}")));
+        // A report, and the name of a file, may hold what a terminal obeys.
+        let lines = changes.chain(files).map(|line| line.replace(is_obeyed, " ") + "\n");
+        lines.fold(self.counts() + "\n", |text, line| text + &line)
+    }
+
+    /// For a comment on a pull request: the largest differences, in tables.
+    pub fn markdown(&self, old: &str, new: &str) -> String {
+        let mut out = format!("### What changes in the report: {} → {}\n\n", cell(old), cell(new));
+        if self.is_empty() {
+            return out + "Nothing: every file has the same bytes.\n";
+        }
+        out += &format!("{}.\n", self.counts());
+        let number = |value: Option<f64>| value.map(signed).unwrap_or_default();
+        for (head, changes) in [("Check", &self.verdicts), ("Number", &self.numbers)] {
+            if !changes.is_empty() {
+                out += &format!("\n| {head} | | Δ | Δ/σ | |\n|---|---|---|---|---|\n");
+            }
+            for change in changes.iter().take(ROWS) {
+                let words = [&change.id, &change.fate(), &change.also().join("; ")];
+                let [id, fate, also] = words.map(|text| cell(&text.replace("->", "→")));
+                let (difference, sigmas) = (number(change.difference), number(change.sigmas));
+                out += &format!("| {id} | {fate} | {difference} | {sigmas} | {also} |\n");
+            }
+            out += &more(changes.len());
+        }
+        for (what, paths) in self.files().into_iter().filter(|(_, paths)| !paths.is_empty()) {
+            let shown: Vec<String> = paths.iter().take(ROWS).map(|path| cell(path)).collect();
+            out += &format!("\nFiles, {what}: {}\n{}", shown.join(", "), more(paths.len()));
+        }
+        out
+    }
+}
+
+fn more(number: usize) -> String {
+    if number > ROWS { format!("\n… and {} more.\n", number - ROWS) } else { String::new() }
+}
+
+/// One line of plain words for a cell. An at-sign would call somebody.
+fn cell(text: &str) -> String {
+    markdown::escaped(&one_line(&spell::text(text), 160).replace('@', "@\u{200b}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::values::Digits;
+    use super::*;
+
+    fn report(values: Vec<Value>, checks: &[(&str, &str, &str)]) -> Parts {
+        let mut registry = Registry::new();
+        registry.extend(values).unwrap();
+        let check = |(id, verdict, tolerance): &(&str, &str, &str)| {
+            let form = serde_json::json!({"kind": "statement", "id": id, "place": "", "statement": "", "expected": "",
+                "found": *verdict, "tolerance": tolerance, "reason": "", "basis": "exact", "verdict": verdict, "note": ""});
+            serde_json::from_value(form).unwrap()
+        };
+        let claims = checks.iter().map(check).collect();
+        let files = [("ledger.json".into(), format!("{checks:?}").into_bytes())].into();
+        Parts { files, values: registry, ledger: Ledger { claims, ..Ledger::default() } }
+    }
+
+    #[test]
+    fn numbers_are_compared_by_both_errors_and_shown() {
+        let before = vec![
+            Value::real("a", 0.1, 2),
+            Value::ensemble("b", 1.0, 0.3, 9),
+            Value::integer("gone", 1),
+            Value::integer("same", 1),
+            Value::real("unit", 2.0, 2),
+        ];
+        let after = vec![
+            Value::real("a", 0.1 + 1e-9, 2),
+            Value::ensemble("b", 2.0, 0.4, 9),
+            Value::integer("new", 1),
+            Value::integer("same", 1).note("other words"),
+            Value::text("unit", "@two"),
+        ];
+        let diff = diff(&report(before, &[]), &report(after, &[]));
+        let text = diff.text("x", "y");
+        for line in [
+            "no check and 5 numbers changed\n  unit: 2.0 -> @two; kind: deterministic -> exact\n  b: 1.0(3) -> ",
+            "2.0(4); Δ +1.00, +2.00 σ\n  a: 0.1 -> 0.100000001; Δ +1.00e-9\n",
+            "  gone: gone, was 1\n  new: new, 1\n",
+        ] {
+            assert!(text.contains(line), "{line}: {text}");
+        }
+        let markdown = diff.markdown("x", "y");
+        for row in ["| +1.00 | +2.00 |  |\n", "@\u{200b}two |", "deterministic → exact |\n"] {
+            assert!(markdown.contains(row), "{row}: {markdown}");
+        }
+    }
+
+    #[test]
+    fn checks_change_by_verdict_and_by_measure() {
+        let [good, bad] = ["reproduced", "differs"];
+        let before = report(vec![], &[("a", good, "1"), ("b", good, "1"), ("c", good, "1")]);
+        let after = report(vec![], &[("a", bad, "1"), ("b", good, "2"), ("d", good, "1")]);
+        let diff = diff(&before, &after);
+        assert_eq!(
+            diff.text("x", "y"),
+            "4 checks and no number changed\n  a: reproduced -> differs; found: reproduced -> differs\n  b: reproduced; \
+             tolerance: 1 -> 2\n  c: gone, was reproduced\n  d: new, reproduced\n  differs  ledger.json\n"
+        );
+        assert!(super::diff(&after, &after).is_empty());
+        let many = Diff { gained: (0..50).map(|i| i.to_string()).collect(), ..diff };
+        assert!(many.markdown("a", "b").contains("39\n\n… and 10 more.\n"));
+    }
+
+    /// Formatting panics beyond 65535 digits.
+    #[test]
+    fn digits_that_nobody_prints_do_no_harm() {
+        let odd = |digits| Value::integer("x", 1).with_number(Number::Real { value: 1.5, digits });
+        let [a, b] = [Digits::Decimals(usize::MAX), Digits::Significant(usize::MAX)]
+            .map(|digits| report(vec![odd(digits)], &[]));
+        assert_eq!(diff(&a, &b).numbers.len(), 1);
+        assert!(diff(&a, &b).text("a", "b").len() < 9999);
+    }
+}

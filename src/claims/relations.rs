@@ -1,0 +1,171 @@
+//! Relations between numbers of this edition that must hold whatever was drawn: each between two independent routes,
+//! as two samples of one thing, or a simulation and its bound.
+
+use super::row::{Error, Evidence};
+use super::{Basis, Check, Kind, Text, integer, level, published, significant};
+use crate::experiments::rise::Curve;
+use crate::experiments::{BRANCHES, NUCLEATION, PROTOCOL, Results, branches};
+use impact_numerics::estimates::difference;
+use impact_numerics::statistics::Estimate;
+
+/// Departures from a relation, each over what chance and what a formula leaves out allow: at most one.
+type Departures = Result<Vec<f64>, Error>;
+
+/// Name, statement and departures of each.
+const RELATIONS: [(&str, &str, fn(&Evidence) -> Departures); 6] = [
+    (
+        "two_seeds",
+        "two seeds of the main sweep have one half height, and one mean at each σ",
+        two_seeds,
+    ),
+    (
+        "laws_of_chance",
+        "impacts near in time go with the time between, and slow ones with the square of their speed",
+        laws_of_chance,
+    ),
+    (
+        "map_meets_sweep",
+        "the map of protocols and the main sweep, which drew other forces, have one rise",
+        map_meets_sweep,
+    ),
+    (
+        "no_rise_before_seeds",
+        "from rest no share of the chains has impacts before as many have a gap that closes by itself",
+        no_rise_before_seeds,
+    ),
+    (
+        "above_stays_above",
+        "chains from above have at least as many gaps with an impact as chains from rest under the same forces",
+        above_stays_above,
+    ),
+    (
+        "first_impacts_as_expected",
+        "as many chains have an impact as the theory of clumps expects",
+        first_impacts_as_expected,
+    ),
+];
+
+/// All relations, as checks.
+///
+/// # Errors
+/// If a result was not run.
+pub fn relations(results: &Results) -> Result<Vec<Check>, Error> {
+    let published = published()?;
+    let e = Evidence { results, published: &published, level: level() };
+    let one = |(id, statement, find): (&str, &str, fn(&Evidence) -> Departures)| {
+        let found = match find(&e) {
+            Err(Error::Undecided) => Vec::new(),
+            found => found?,
+        };
+        let largest = found.iter().copied().fold(0.0, f64::max);
+        let text = "the largest of {} departures is {} of what is allowed";
+        let text = Text::of(text, [integer(found.len()), significant(largest, 2)]);
+        let check = Check::new(Kind::Relation, id, statement, text).on(Basis::Statistics);
+        let holds = found.iter().all(|departure| *departure <= 1.0);
+        Ok(if found.is_empty() { check } else { check.judged(holds) })
+    };
+    RELATIONS.into_iter().map(one).collect()
+}
+
+/// How far two estimates lie apart, over what chance allows.
+fn apart(e: &Evidence, a: &Estimate, b: &Estimate) -> f64 {
+    (a.value - b.value).abs() / (e.level.quantile * a.error.hypot(b.error))
+}
+
+fn two_seeds(e: &Evidence) -> Departures {
+    let halves = ["sweep.rise", "second_seed.rise"].map(|name| {
+        let table = e.results.table(name)?;
+        Ok::<_, Error>(table.estimates(&[], "half_height", "half_height").pop())
+    });
+    let [a, b] = halves;
+    let halves = a?.zip(b?).map(|((_, a), (_, b))| apart(e, &a, &b));
+    let means = e.numbers("second_seed.beside_first", ["largest", "compared"]).ok();
+    let means = means.map(|[largest, compared]| largest / e.level.among(compared as usize));
+    Ok(halves.into_iter().chain(means).collect())
+}
+
+/// What chance makes of events that need no coincidence beyond being near: the share within a time
+/// goes with that time, and the share of slow impacts with the square of the speed, because the
+/// rate of impacts goes with the speed itself.
+fn laws_of_chance(e: &Evidence) -> Departures {
+    let laws = e.results.table("sweep.laws")?;
+    let off = |(column, expected): (&'static str, f64)| {
+        let found = laws.estimates(&[], "sigma", column).into_iter();
+        let (_, own) = found.into_iter().find(|(sigma, _)| *sigma == 0.2)?;
+        Some((own.value - expected).abs() / (e.level.quantile * own.error))
+    };
+    Ok([("near_exponent", 1.0), ("slow_exponent", 2.0)].into_iter().filter_map(off).collect())
+}
+
+/// Half heights of the mean of the kept and of all, onset, and where half of the chains are kept.
+fn map_meets_sweep(e: &Evidence) -> Departures {
+    let sweep = e.sweep()?.first();
+    let map = &e.results.of(&PROTOCOL)?[0];
+    let Some(own) = map.curve(sweep.protocol.transient, sweep.protocol.window) else {
+        return Err(Error::Undecided);
+    };
+    let places = |cell: &Curve| {
+        let rise = &cell.rise;
+        [rise.half_height, rise.half_height_all, rise.onset, rise.kept_half]
+    };
+    let pairs = places(own).into_iter().zip(places(sweep));
+    Ok(pairs.filter_map(|(a, b)| Some(apart(e, &a?, &b?))).collect())
+}
+
+/// However long one waits, and whatever r is: the mean of all is half of N no sooner than half of the chains have such
+/// a gap, and a twentieth of it no sooner than a twentieth of them.
+fn no_rise_before_seeds(e: &Evidence) -> Departures {
+    let [half, onset] = e.numbers("theory.relation", ["sigma_kept_half", "sigma_kept_onset"])?;
+    let (map, found) = (&e.results.of(&PROTOCOL)?[0], e.results.of(&BRANCHES)?);
+    let masses = map.ensemble.chain.masses;
+    let long = branches::from_rest(found).filter(|(own, _)| own.ensemble.chain.masses == masses);
+    let bounds = map.curves.iter().chain(long.map(|(_, curve)| curve)).flat_map(|cell| {
+        let rise = &cell.rise;
+        [(rise.half_height_all, half), (rise.kept_half, half), (rise.onset, onset)]
+    });
+    let other = e.results.table("restitution.curves")?.estimates(&[], "r", "half_height");
+    let all = bounds.chain(other.into_iter().map(|(_, own)| (Some(own), half)));
+    let early = all.filter_map(|(own, bound)| own.map(|own| (bound - own.value, own.error)));
+    Ok(early.map(|(early, error)| over(early, e.level.quantile * error)).collect())
+}
+
+/// What is too much over what is allowed.
+fn over(excess: f64, allowed: f64) -> f64 {
+    if excess <= 0.0 { 0.0 } else { excess / allowed }
+}
+
+fn above_stays_above(e: &Evidence) -> Departures {
+    let shares = e.results.table("branches.shares")?;
+    let mut found = Vec::new();
+    for transient in shares.values("transient") {
+        let of = |column| shares.estimates(&[("transient", transient)], "sigma", column);
+        let above = of("from_above");
+        for (sigma, rest) in of("from_rest") {
+            if let Some((_, own)) = above.iter().find(|(other, _)| *other == sigma) {
+                let less = difference(rest, *own);
+                found.push(over(less.value, 5.0 * less.error));
+            }
+        }
+    }
+    Ok(found)
+}
+
+/// What the formula leaves out, times n: a clump keeps others out of the gaps beside it, which moves the share
+/// by some gaps of n times λ²e^{−λ}/2.
+const LEFT_OUT: f64 = 1.5;
+
+/// But for what the formula leaves out and chance: five standard errors, and five chains where hardly any is expected.
+fn first_impacts_as_expected(e: &Evidence) -> Departures {
+    let chains = e.results.table("nucleation.chains")?;
+    let lengths = &e.results.of(&NUCLEATION)?.parameters.lengths;
+    let of_length = |(masses, n): &(usize, usize)| {
+        let (masses, n) = (*masses as f64, *n as f64);
+        let points = chains.points(&[("masses", masses)], "clumps", "found");
+        let off = points.into_iter().map(move |(p, found)| {
+            let room = LEFT_OUT / masses + 5.0 * (p * (1.0 - p) / n).sqrt() + 5.0 / n;
+            (found - p).abs() / room
+        });
+        off.collect::<Vec<f64>>()
+    };
+    Ok(lengths.iter().flat_map(of_length).collect())
+}
