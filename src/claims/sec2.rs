@@ -4,8 +4,8 @@ use super::row::*;
 use crate::experiments::branches::from_rest;
 use crate::experiments::ensembles::named;
 use crate::experiments::starts::half_height as half_of;
-use crate::experiments::sweep::{laws, mode_half};
-use crate::experiments::{BRANCHES, SLOW_DECADES, STARTS, SWEEP, TWO_MASSES, two_masses};
+use crate::experiments::sweep::{laws, mode_half, total};
+use crate::experiments::{BRANCHES, STARTS, SWEEP, TWO_MASSES, two_masses};
 use crate::params::{NEAR_SIMULTANEOUS, Protocol, SLOW};
 use impact_chain::rise;
 use impact_numerics::estimates::difference;
@@ -155,14 +155,14 @@ fn mode_rise(e: &Evidence, s: &Statement) -> Judged {
 pub(super) const NEGLIGIBLE: f64 = 1e-3;
 
 fn three_way(e: &Evidence, s: &Statement) -> Judged {
-    let totals = laws::run(&e.sweep()?.runs).totals;
-    let seen = *some(totals.near_decades.last())?;
-    let (expected, impacts) = (totals.expected_near_simultaneous, totals.impacts as f64);
+    let total = total(e.sweep()?);
+    let seen = *some(total.near.last())?;
+    let ([expected, _], impacts) = (laws::expected(&total), total.impacts as f64);
     // Counts of rare events: Poisson, with one event of room where almost none are expected.
     let room = e.level.quantile * expected.sqrt() + 1.0 + e.level.quantile;
     let share = expected.max(seen as f64) / impacts;
     // Masses in contact pass a hit on to one another at once.
-    let passed_on = totals.contact_phases as f64;
+    let passed_on = total.contact_phases as f64;
     let excess = seen as f64 - expected;
     let found = Text::of(
         "{} of {} impacts within {} of one next to it",
@@ -179,10 +179,9 @@ fn three_way(e: &Evidence, s: &Statement) -> Judged {
 }
 
 fn sticking(e: &Evidence, s: &Statement) -> Judged {
-    let totals = e.sweep()?.runs.iter().map(|own| &own.total);
-    let [impacts, contacts, slow] = totals.fold([0, 0, 0], |[a, b, c], own| {
-        [a + own.impacts, b + own.contact_phases, c + own.slow[SLOW_DECADES.len() - 1]]
-    });
+    let total = total(e.sweep()?);
+    let (impacts, contacts, slow) =
+        (total.impacts, total.contact_phases, *some(total.slow.last())?);
     let share = some((impacts > 0).then(|| contacts as f64 / impacts as f64))?;
     let found = Text::of(
         "{} contact phases in {} impacts",

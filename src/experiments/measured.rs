@@ -58,38 +58,27 @@ pub enum What {
     Absent,
 }
 
-/// One run. Times are in microseconds or seconds of the clock, simulated time is in units of 1/ω.
+/// One run, as far as the report needs it. Times are in microseconds or seconds of the clock, simulated time is in units of 1/ω.
 ///
 /// A run starts from rest with r = 0.8 and Ω = √2 between walls. Its accuracy is held against a
 /// reference of 106 bits: impacts one after the other up to the first wrong one (the *horizon*),
 /// and the next impact alone from the true state after each impact (*segments*).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
 pub struct Row {
     /// What the row tells.
     pub what: What,
     /// Name of engine, method, peer or command.
     pub name: String,
-    /// Its version.
-    pub version: String,
-    /// Step, tolerance or options, e.g. "tol=1e-10"; may be empty.
-    pub settings: String,
     /// Number of masses n; 0 for a command that has many.
     pub n: u64,
-    /// Standard deviation σ of the forcing; 0 for a command that has many.
-    pub sigma: f64,
     /// Simulated time T.
     pub until: f64,
     /// Chains run.
     pub chains: u64,
     /// Threads used.
     pub threads: u32,
-    /// Impacts that it saw, over all chains.
-    pub impacts: u64,
     /// Wall time over impacts: the best of several repetitions.
     pub microseconds_per_impact: Option<f64>,
-    /// Evaluations of a gap, or of an acceleration, per impact, where they were counted.
-    pub evaluations_per_impact: Option<f64>,
     /// Impacts of the reference that the run was held against; none if it was not.
     pub compared: Option<u64>,
     /// Number, counted from 1, of the first impact with a wrong gap or a time off by more than
@@ -97,10 +86,6 @@ pub struct Row {
     pub horizon_impact: Option<u64>,
     /// Time of that impact in the reference.
     pub horizon_time: Option<f64>,
-    /// Segments whose next impact was not found: wrong gap, or a time off by more than 1e−3.
-    pub segment_misses: Option<u64>,
-    /// Segments tried.
-    pub segments: Option<u64>,
     /// Wall time of all of it, in seconds.
     pub seconds: Option<f64>,
     /// Largest resident memory of the process, in MiB.
@@ -111,9 +96,6 @@ pub struct Row {
 
 impl Measured {
     /// The committed file.
-    ///
-    /// # Errors
-    /// [`Error::Input`] names the first field that is missing, unknown or of another type.
     pub fn committed() -> Result<Self, Error> {
         let again = "run make measure again, or restore the file";
         let text = committed::text(FILE)

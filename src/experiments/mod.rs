@@ -27,7 +27,6 @@ pub mod two_masses;
 pub mod built;
 mod results;
 
-pub use impact_chain::counts::SLOW_DECADES;
 pub use impact_chain::rise;
 pub use literate::experiments::{
     Entry, Error, Experiment, Need, Progress, Store, alive, be_quiet, say,
@@ -280,15 +279,3 @@ pub const REPLAY: Experiment<replay::Runs, replay::Replays> = Experiment {
     },
     tables: replay::tables,
 };
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use std::collections::BTreeSet;
-
-    #[test]
-    fn names_differ() {
-        let names: BTreeSet<&str> = ALL.iter().map(|one| one.name()).collect();
-        assert_eq!(names.len(), ALL.len());
-    }
-}

@@ -83,14 +83,3 @@ fn cells(map: &Counted) -> Table {
         })
         .done()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn rounding_to_the_printed_digits() {
-        assert!(prints_as_published(0.115) && prints_as_published(0.1249));
-        assert!(!prints_as_published(0.1149) && !prints_as_published(0.1251));
-    }
-}

@@ -35,12 +35,4 @@ mod tests {
         assert!(results.of(&TWO_MASSES).is_ok());
         assert!(results.of(&SWEEP).is_err() && results.of(&SEGMENTS).is_err());
     }
-
-    #[test]
-    fn a_missing_scenario_is_named() {
-        let none = |_: &str| Err("not there".to_string());
-        let (store, quiet) = (Store::nowhere(), Progress::silent());
-        let error = run(&[&SEGMENTS], Profile::Quick, &none, &store, &quiet).unwrap_err();
-        assert!(error.to_string().starts_with("scenarios/fig05.json: not there"), "{error}");
-    }
 }

@@ -127,10 +127,6 @@ struct Saved {
 }
 
 /// Replays both segments from the files of [`FILES`].
-///
-/// # Errors
-/// [`Error::Input`] names the file if it is missing or broken, if the engine refuses it, or if its
-/// impacts are not those for which it was saved.
 pub fn read(given: Given<'_>) -> Result<Segments, Error> {
     let one = |file: &str| {
         given(file).and_then(|text| replay(&text)).map_err(|problem| {

@@ -171,24 +171,4 @@ mod tests {
         assert_eq!(run.starts(), [1, 4]);
         assert_eq!(run.advances(), [(2.0, 2, 12.0), (4.0, 0, 14.0)]);
     }
-
-    #[test]
-    fn the_run_is_the_first_that_keeps_hitting() {
-        // Below the threshold some runs fall silent, and are passed over.
-        let seeded = |seed| {
-            let quick = SpaceTimeParams::new(Profile::Quick);
-            let parameters = SpaceTimeParams { seed, sigma: 0.1, last: 10.0, ..quick };
-            run(&parameters, &Progress::silent()).unwrap()
-        };
-        let found = (1..=10).map(seeded).find(|found| found.realisation > 0).expect("one in ten");
-        let SpaceTimeParams { until, last, sigma, seed, .. } = found.parameters;
-        assert!(found.times.last().unwrap() > &(until - last) && found.times.is_sorted());
-        // Those passed over really had no late impact.
-        for index in 0..found.realisation {
-            let mut normals = NormalPairs::new("space-time", seed, index);
-            let scenario = Scenario::draw(&Chain::default(), sigma, &mut normals);
-            let impacts = Engine::new(&scenario).unwrap().impacts(until).unwrap();
-            assert!(impacts.last().is_none_or(|impact| impact.time <= until - last), "{index}");
-        }
-    }
 }

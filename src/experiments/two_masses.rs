@@ -151,21 +151,6 @@ mod tests {
     use crate::params::Profile;
 
     #[test]
-    fn the_worst_direction_meets_the_general_bound() {
-        // ω = 1, Ω = √2: 1/(2(1 + √2)) = (√2 − 1)/2.
-        let chain = Chain { masses: 2, ..Chain::default() };
-        let safe = safe_force(&chain);
-        assert!((safe - 0.5 * (2.0_f64.sqrt() - 1.0)).abs() < 1e-15);
-        // No direction of unit forces has a smaller bound for the gap between the masses.
-        let mut normals = NormalPairs::new("test-two", 1, 0);
-        for _ in 0..1000 {
-            let unit = |[x, y]: [f64; 2]| [x, y].map(|c| c / (x * x + y * y).sqrt());
-            let forcing = [unit(normals.pair()), unit(normals.pair())];
-            assert!(bound(&chain, &forcing) >= safe * (1.0 - 1e-14));
-        }
-    }
-
-    #[test]
     fn thresholds_lie_above_the_bound_and_fall_towards_it() {
         let mut parameters = TwoMassesParams::new(Profile::Quick);
         parameters.directions = 6;

@@ -5,8 +5,8 @@
 
 use crate::reference::{Dd, Real, Reference};
 use crate::{first, given};
-use impact_chain::rounding::{self, TIME};
-use impact_chain::{Engine, Error, Initial, Overtone, Scenario};
+use impact_chain::rounding::TIME;
+use impact_chain::{Engine, Scenario};
 use impact_numerics::random::NormalPairs;
 use impact_paper::params::Boundary;
 
@@ -166,71 +166,4 @@ fn corner_biased_segments_have_no_miss_and_no_ghost() {
     assert!(tally.undecidable * 100 < tally.segments, "{tally:?}");
     // Of these the worst had 2.3 and 0.03; a loss of digits would show here before it reaches the bounds.
     assert!(tally.worst < 5.0 && tally.worst_speed < 0.1, "{tally:?}");
-}
-
-/// Ω/ω − 1 from 2⁻⁵² to 0.1 and of both signs, alone or with components near and far, from rest and with free
-/// parts: amplitudes that keep the bound are taken, and it holds; others are refused by its number.
-#[test]
-fn near_resonance_the_bound_holds_or_the_scenario_is_refused() {
-    let (mut tally, mut refused, mut large) = (Tally::default(), 0, 0);
-    for index in 0..1600 {
-        let mut normals = NormalPairs::new("resonance", 1, index);
-        let i = index as i32;
-        let distance = 0.1f64.min(2f64.powi(-(i % 50) - 3)) * if i % 2 == 0 { 1.0 } else { -1.0 };
-        let omega = [1.0, 1.0, 0.25, 3.0][index as usize / 50 % 4];
-        // Amplitudes for which α/(ω² − Ω²) is about 10 to 10⁹ spacings, but no force above 1.
-        let size = (10f64.powi(1 + i % 9) * distance.abs()).min(1.0) * omega * omega;
-        let n = 1 + index as usize % 3;
-        let mut draw = |size: f64| -> Vec<[f64; 2]> {
-            (0..n).map(|_| normals.pair().map(|x| x * size)).collect()
-        };
-        let forcing = draw(size);
-        let overtones = match i / 7 % 4 {
-            0 => vec![(1.0 - 1.5 * distance, draw(size)), (2.7, draw(3.0 * omega * omega))],
-            1 => vec![(std::f64::consts::SQRT_2, draw(omega * omega))],
-            _ => Vec::new(),
-        };
-        let initial = if i % 4 == 1 { Initial::Free(draw(0.1)) } else { Initial::Rest };
-        let scenario = Scenario {
-            natural_frequency: omega,
-            forcing_frequency: omega * (1.0 + distance),
-            boundary: if n == 3 && i % 5 == 0 { Boundary::Ring } else { Boundary::Walls },
-            initial,
-            overtones: overtones
-                .into_iter()
-                .map(|(ratio, amplitudes)| Overtone { frequency: ratio * omega, amplitudes })
-                .collect(),
-            ..given(Vec::new(), forcing)
-        };
-        if scenario.components().any(|(frequency, _)| frequency == omega) {
-            continue;
-        }
-        let chain = Reference::<Dd>::new(&scenario);
-        let widest = (0..=n).map(|gap| chain.scale(gap)).fold(0.0, f64::max);
-        let width = rounding::width(&scenario);
-        let exact = TIME * f64::EPSILON * widest;
-        assert!(width > 0.999 * exact && width < 4.0 * exact, "{width:e} {exact:e}: {scenario:?}");
-        match Engine::new(&scenario) {
-            Err(Error::Input { field, problem, .. }) => {
-                assert!(field == "forcing" && width > rounding::MOST, "{problem}: {width:e}");
-                assert!(problem.contains(&format!("{width:.1e}")), "{problem}");
-                refused += 1;
-            }
-            Err(Error::Overlap { .. }) => {}
-            other => {
-                assert!(width <= rounding::MOST, "{width:e} was taken");
-                large += i32::from(width > rounding::TOLD);
-                // On beyond the first impact, where there is nothing to compare with: it ends.
-                let mut left = 1000;
-                let ended = other.unwrap().run(200.0 / omega, |_| {
-                    left -= 1;
-                    left > 0
-                });
-                assert!(ended.is_ok() || matches!(ended, Err(Error::Work { .. })), "{ended:?}");
-                hold(&scenario, 25.0 / omega, &mut tally);
-            }
-        }
-    }
-    println!("{tally:?}, {refused} refused, {large} large");
-    assert!(tally.impacts > 600 && refused > 100 && large > 200, "{tally:?} {refused} {large}");
 }

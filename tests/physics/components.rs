@@ -65,20 +65,6 @@ fn one_component_given_either_way_is_the_same_to_the_last_bit() {
     }
 }
 
-/// A second component without amplitude takes the code of several components, and rounds otherwise.
-#[test]
-fn a_silent_component_changes_nothing_but_roundings() {
-    let plain = drawn(&Chain { masses: 8, ..Chain::default() }, 0.3, &EIGHT[..1], 1);
-    let amplitudes = vec![[0.0; 2]; 8];
-    let silent =
-        Scenario { overtones: vec![Overtone { frequency: 2.5, amplitudes }], ..plain.clone() };
-    let [plain, silent] = [plain, silent].map(|scenario| trace(&scenario, 30.0));
-    assert!(plain.len() > 20 && plain.len() == silent.len());
-    for (a, b) in plain.iter().zip(&silent) {
-        assert!(a.gap == b.gap && (a.time - b.time).abs() < 1e-9, "{a:?} {b:?}");
-    }
-}
-
 /// Frequencies, lists of amplitudes (or how many good ones), and words of the refusal.
 const REFUSED: &str = "\
 2,3,4,5,6,7,8,9,10 | 9 => forcing; 1 to 8

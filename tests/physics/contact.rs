@@ -61,22 +61,6 @@ fn clusters_are_released_gap_by_gap_where_a_force_changes_its_sign() {
     }
 }
 
-/// From width and rate zero: Δ = 1 + A cos s + B sin s + (2F/3) cos 2t.
-#[test]
-fn a_pair_that_is_released_parts_as_its_force_says() {
-    let (force, s) = (1.5f64, 0.2);
-    let release = 0.5 * (1.0 / (2.0 * force)).acos();
-    let scenario = scene(&[(1.5, 0.1), (1.5, 0.1)], &[force, -force], 0.8);
-    let mut engine = Engine::new(&scenario).unwrap();
-    let t = release + s;
-    run(&mut engine, t);
-    let x = engine.positions(t);
-    let forced = |t: f64| 2.0 * force / 3.0 * (2.0 * t).cos();
-    let rate = -4.0 * force / 3.0 * (2.0 * release).sin();
-    let width = 1.0 - (1.0 + forced(release)) * s.cos() - rate * s.sin() + forced(t);
-    assert!(width > 0.0 && (x[1] - x[0] - width).abs() < 1e-14, "{} {width}", x[1] - x[0]);
-}
-
 /// With Ω = √2 neither the responses nor their sums are doubles, so such a pair is apart, or in one
 /// another, by some 1e-16.
 #[test]

@@ -3,8 +3,7 @@
 
 use crate::reference::{Dd, Reference};
 use crate::{drawn, first, run, trace};
-use impact_chain::{Engine, Initial, Scenario};
-use impact_numerics::random::NormalPairs;
+use impact_chain::{Engine, Scenario};
 use impact_paper::params::Chain;
 
 fn draw(masses: usize, sigma: f64, index: u64) -> Scenario {
@@ -69,25 +68,6 @@ fn a_three_way_impact() {
     }
 }
 
-/// An unforced chain whose masses from..=to are in one point, at these velocities.
-fn heap(n: usize, members: &[(usize, f64, f64)], r: f64) -> Scenario {
-    let mut free = vec![[0.0; 2]; n];
-    for &(j, place, v) in members {
-        free[j - 1] = [place - j as f64, v];
-    }
-    Scenario { restitution: r, initial: Initial::Free(free), ..draw(n, 0.0, 0) }
-}
-
-/// Masses in one point with forces that press the middle together: Ω = 2, so x = a − F/3 at t = 0.
-fn pressed(velocities: &[f64], forces: &[f64], r: f64) -> Scenario {
-    let n = velocities.len();
-    let members: Vec<(usize, f64, f64)> = (1..=n)
-        .map(|j| (j, 0.5 * (n + 1) as f64 + forces[j - 1] / 3.0, velocities[j - 1]))
-        .collect();
-    let forcing = forces.iter().map(|&f| [f, 0.0]).collect();
-    Scenario { forcing, forcing_frequency: 2.0, ..heap(n, &members, r) }
-}
-
 /// Ties of a mirror image with an even number of masses are none of neighbours: each impact has its twin to the last bit.
 #[test]
 fn an_even_mirror_image_keeps_its_symmetry() {
@@ -103,28 +83,4 @@ fn an_even_mirror_image_keeps_its_symmetry() {
         assert_eq!((worst > 1e-3, engine.counters().simultaneous > 0), (odd, odd));
         assert!(odd || worst < 1e-14, "{worst:e}");
     }
-}
-
-/// Also next to masses that have just come to rest together, whose common velocity is another than each had.
-#[test]
-fn the_speed_of_an_impact_is_that_of_its_masses() {
-    let mut normals = NormalPairs::new("settling", 1, 0);
-    let mut slow = 0;
-    for _ in 0..60 {
-        let pairs: Vec<[f64; 2]> = (0..7).map(|_| normals.pair()).collect();
-        let [velocities, forces] =
-            [0, 1].map(|i| pairs.iter().map(|pair| 3.0 * pair[i]).collect::<Vec<_>>());
-        let scenario = pressed(&velocities, &forces, 0.3);
-        let mut engine = Engine::new(&scenario).unwrap();
-        let mut before = engine.velocities(0.0);
-        while let Some(hit) = first(&mut engine, 0.0) {
-            if let 1..7 = hit.gap {
-                let closing = before[hit.gap - 1] - before[hit.gap];
-                assert!((hit.closing_speed - closing).abs() < 1e-13, "{hit:?} {closing:e}");
-                slow += usize::from(closing < 1e-8);
-            }
-            before = engine.velocities(0.0);
-        }
-    }
-    assert!(slow > 100, "{slow}");
 }

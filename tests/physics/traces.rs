@@ -5,22 +5,6 @@ use crate::{drawn, trace};
 use impact_chain::Scenario;
 use impact_paper::params::{Boundary, Chain, Start};
 
-#[test]
-fn double_double_sine_and_cosine_agree_with_dashu() {
-    let mut worst: f64 = 0.0;
-    for i in 0..200 {
-        let x = f64::from(i * i) * 0.37 - 900.0 + 1.0 / f64::from(i + 3);
-        let (s, c) = Dd::of(x).sin_cos();
-        let (big_s, big_c) = Big::of(x).sin_cos();
-        for (small, big) in [(s, big_s), (c, big_c)] {
-            let [hi, lo] = small.parts();
-            let error = (Big::of(hi) + Big::of(lo) - big).near().abs();
-            worst = worst.max(error / x.abs().max(1.0));
-        }
-    }
-    assert!(worst < 2e-32, "{worst:e}");
-}
-
 /// One chain, what is drawn for it, how long the engine must agree, and a least number of impacts.
 struct Case {
     chain: Chain,
@@ -115,7 +99,7 @@ fn the_two_precisions_of_the_reference_agree() {
     assert!(small.len() > 10);
     assert_eq!(small.len(), big.len());
     for (a, b) in small.iter().zip(&big) {
-        let [hi, lo] = a.time.parts();
+        let Dd { hi, lo } = a.time;
         let error = (Big::of(hi) + Big::of(lo) - b.time.clone()).near().abs();
         assert!(a.gap == b.gap && error < 1e-26, "t = {hi}: {error:e}");
     }

@@ -111,18 +111,6 @@ fn a_million_vertices_keep_thirteen_digits() {
 }
 
 #[test]
-fn contributions_of_the_classes_add_up() {
-    let (big_n, p) = (20, 0.07);
-    let law = Law::new(FiveClasses, big_n, p).unwrap();
-    let total = law.probabilities();
-    let parts: Vec<Vec<f64>> = CLASSES.iter().map(|class| law.contribution(class)).collect();
-    for k in 1..=big_n {
-        let added: f64 = parts.iter().map(|part| part[k - 1]).sum();
-        assert!((added / total[k - 1] - 1.0).abs() < 1e-14);
-    }
-}
-
-#[test]
 fn limit_of_small_p() {
     for space in [Simple, FiveClasses] {
         let law = Law::new(space, 100, 0.0).unwrap();

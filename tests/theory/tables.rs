@@ -45,22 +45,6 @@ fn sigmas_invert_the_relation() {
 }
 
 #[test]
-fn curves_follow_relation_and_distribution() {
-    let table = RESULTS.table("theory.curve").unwrap();
-    let column = |name| table.points(&[], "sigma", name);
-    let (p, rest) = (column("p"), column("p_rest"));
-    let means = ["simple", "higher", "rest", "walls"].map(column);
-    assert!([&p, &rest].iter().all(|all| all.windows(2).all(|w| w[0].1 < w[1].1)));
-    for (i, (sigma, p)) in p.iter().enumerate() {
-        let [simple, higher, from_rest, walls] = means.each_ref().map(|all| all[i].1);
-        assert_eq!(simple, mean(SampleSpace::Simple, VERTICES, *p));
-        assert_eq!(walls, mean(SampleSpace::Simple, VERTICES + 1, *p));
-        assert!(higher >= simple, "{sigma}");
-        assert!((rest[i].1 > *p) == (from_rest > simple) || rest[i].1 < 1e-15, "{sigma}");
-    }
-}
-
-#[test]
 fn slips_of_the_paper_by_other_routes() {
     // Eq. (8) at k = N − 1 is N/(N − 1) by hand.
     assert!((number("theory.lengths.before_last") - 100.0 / 99.0).abs() < 1e-15);
@@ -93,16 +77,6 @@ fn steps_are_where_k_star_changes() {
         let sides = [1.0 - 1e-14, 1.0 + 1e-14].map(|near| law::k_star(near * pair[1].0));
         assert_eq!(sides, [pair[0].1, pair[1].1]);
     }
-}
-
-#[test]
-fn the_stages_of_figure_10_differ() {
-    let stages = law::stages();
-    let leap = number("theory.jump.p_jump");
-    assert!(stages.is_sorted() && stages[2] < leap && leap < stages[3]);
-    assert_eq!(stages.map(law::k_star)[..3], [1, 1, 1]);
-    let rises = |p: f64| law::simple(p).windows(2).any(|w| w[1] > w[0]);
-    assert_eq!(stages.map(rises), [false, false, true, true]);
 }
 
 #[test]

@@ -45,9 +45,6 @@ fn phi_scaled(big_n: usize, k: usize) -> Scaled {
 }
 
 /// ln φ_N(k), for 1 ≤ k ≤ N.
-///
-/// # Errors
-/// [`Error`] for N or k out of range.
 pub fn log_phi(big_n: usize, k: usize) -> Result<f64, Error> {
     check_vertices(big_n)?;
     check_k(big_n, k)?;

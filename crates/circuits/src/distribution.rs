@@ -115,9 +115,6 @@ impl Law {
     /// The weight Φ_{N,p}(k), over p: p^(k−1) N!/(k (N − k)!) for simple circuits. The common
     /// factor p drops out of every probability, and without it the limit p → 0+ is the value at
     /// p = 0. Γ_{N,p}, over p as well, is the sum of all weights.
-    ///
-    /// # Errors
-    /// [`Error`] for k outside 1..=N.
     pub fn weight(&self, k: usize) -> Result<Scaled, Error> {
         check_k(self.big_n, k)?;
         let weights = self.weights().nth(k - 1).expect("k ≤ N");
@@ -151,9 +148,6 @@ impl Law {
     /// **Eq. (9)**
     ///
     /// P(X = k) = Φ_{N,p}(k)/Γ_{N,p}; 0 where it is below the smallest double.
-    ///
-    /// # Errors
-    /// [`Error`] for k outside 1..=N.
     pub fn probability(&self, k: usize) -> Result<f64, Error> {
         Ok((self.weight(k)? / self.sums().total).to_f64())
     }

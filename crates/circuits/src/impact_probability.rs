@@ -113,9 +113,6 @@ const NEARLY_ONE: f64 = 0.01;
 
 impl ImpactProbability {
     /// For a gap of masses d = `spacing` apart, natural frequency ω and forcing frequency Ω.
-    ///
-    /// # Errors
-    /// [`Error`] unless all four are within bounds and Ω ≠ ω.
     pub fn new(sigma: f64, spacing: f64, omega: f64, forcing: f64) -> Result<Self, Error> {
         check_positive("sigma", sigma, [0.0, 1e6])?;
         // As of a scenario.
@@ -137,9 +134,6 @@ impl ImpactProbability {
     }
 
     /// For the paper's chain, ω = 1, Ω = √2, d = 1 (Fig. 11).
-    ///
-    /// # Errors
-    /// [`Error`] unless σ is finite and positive.
     pub fn of_paper(sigma: f64) -> Result<Self, Error> {
         let chain = Chain::default();
         Self::new(sigma, chain.spacing, chain.natural_frequency, chain.forcing_frequency)
@@ -170,10 +164,6 @@ impl ImpactProbability {
     ///
     /// p(σ), the probability that a gap closes by itself, in closed form and to about 1e−15
     /// relative at the exact doubles given.
-    ///
-    /// # Errors
-    /// [`Error`] where p is below the range of normal doubles (σ under about 0.0135 for
-    /// the paper's chain).
     pub fn p(&self) -> Result<f64, Error> {
         let (exponent, factor) = self.leading();
         if exponent.to_f64() < NEARLY_ONE {
@@ -189,9 +179,6 @@ impl ImpactProbability {
     }
 
     /// ln p(σ), to about 1e−15 relative for every σ.
-    ///
-    /// # Errors
-    /// [`Error`] where p is below e^{−1e270}.
     pub fn log_p(&self) -> Result<f64, Error> {
         let (exponent, factor) = self.leading();
         if exponent.hi.is_nan() || exponent.hi > 1e270 {
@@ -249,9 +236,6 @@ impl ImpactProbability {
     /// The probability that a gap closes by itself after a start from rest. The integrand is
     /// periodic and analytic, so the trapezoidal rule converges faster than any power; the largest
     /// value of the exponential is taken out first, so small values keep their digits.
-    ///
-    /// # Errors
-    /// [`Error`] where the value is below the range of normal doubles.
     pub fn p_from_rest(&self) -> Result<f64, Error> {
         let scale = square(self.half_ratio * self.detuning);
         let kappa = self.frequency_ratio.to_f64();

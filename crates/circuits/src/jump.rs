@@ -52,9 +52,6 @@ pub fn zeros(big_n: usize, p: f64) -> Option<[f64; 2]> {
 ///
 /// p_crit = ((1 + √(N + 1))/N)², where f_{N,p} first touches zero: Φ gets a stationary point, as
 /// a function of real k. k* stays at 1 until [`p_jump`].
-///
-/// # Errors
-/// [`Error`] for N outside 1..=[`super::LARGEST_N`].
 pub fn p_crit(big_n: usize) -> Result<f64, Error> {
     check_vertices(big_n)?;
     let root = (1.0 + (big_n as f64 + 1.0).sqrt()) / big_n as f64;

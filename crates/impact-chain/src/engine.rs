@@ -91,9 +91,6 @@ impl Engine {
     }
 
     /// The next impact up to time `until`, if there is one; the run stops right after it.
-    ///
-    /// # Errors
-    /// As [`Engine::run`].
     pub fn next_impact(&mut self, until: f64) -> Result<Option<Impact>, Error> {
         let mut next = None;
         self.run(until, |impact| {
@@ -104,9 +101,6 @@ impl Engine {
     }
 
     /// All impacts up to time `until`, in order.
-    ///
-    /// # Errors
-    /// As [`Engine::run`].
     pub fn impacts(&mut self, until: f64) -> Result<Vec<Impact>, Error> {
         let mut impacts = Vec::new();
         self.run(until, |impact| {

@@ -44,9 +44,6 @@ impl Asked {
     }
 
     /// The scenario.
-    ///
-    /// # Errors
-    /// [`Error::Input`] names a field that no run can have.
     pub fn scenario(&self) -> Result<Scenario, Error> {
         for (field, time) in [("transient", self.transient), ("window", self.window)] {
             if !(time >= 0.0 && time.is_finite()) {
@@ -76,9 +73,6 @@ pub struct Replay {
 
 impl Replay {
     /// Sets a run at its beginning.
-    ///
-    /// # Errors
-    /// As [`Asked::scenario`] and [`Engine::new`].
     pub fn new(asked: &Asked) -> Result<Replay, Error> {
         let scenario = asked.scenario()?;
         Ok(Replay {
@@ -91,9 +85,6 @@ impl Replay {
     }
 
     /// Goes on for so many impacts at most, and shows each with its gap counted from 0. False at the end of the run.
-    ///
-    /// # Errors
-    /// As [`Engine::run`].
     pub fn advance(&mut self, most: u64, mut see: impl FnMut(f64, usize)) -> Result<bool, Error> {
         let (mut left, gaps) = (most, self.hit.len());
         let Replay { engine, hit, seen, transient, .. } = self;

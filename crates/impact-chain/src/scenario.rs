@@ -212,9 +212,6 @@ impl Scenario {
     }
 
     /// A chain with given amplitudes; a random start, of which there is no chance here, is one without a free part.
-    ///
-    /// # Errors
-    /// [`Error::Input`] if there is not one pair for each mass of the chain.
     pub fn given(chain: &Chain, forcing: Vec<[f64; 2]>) -> Result<Scenario, Error> {
         pairs_within("forcing", &forcing, chain.masses)?;
         Ok(Scenario::of(chain, forcing))
@@ -247,9 +244,6 @@ impl Scenario {
     }
 
     /// Checks every field against the model.
-    ///
-    /// # Errors
-    /// [`Error::Input`] names the first field that is out of bounds.
     pub fn validate(&self) -> Result<(), Error> {
         within("spacing", self.spacing, 1e-6, 1e6)?;
         within("natural_frequency", self.natural_frequency, 1e-3, 1e3)?;

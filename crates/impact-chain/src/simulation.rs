@@ -103,9 +103,6 @@ fn not_below<const M: usize>(frame: &mut Frame<M>) {
 
 impl<const M: usize> Simulation<M> {
     /// Sets a scenario at t = 0.
-    ///
-    /// # Errors
-    /// [`Error::Input`] for values outside the model, [`Error::Overlap`] for an overlapping start.
     pub fn new(scenario: &Scenario) -> Result<Self, Error> {
         scenario.validate()?;
         let w = scenario.natural_frequency;
@@ -196,9 +193,6 @@ impl<const M: usize> Simulation<M> {
 
     /// Runs until time `until`, and hands each impact to `sink` in order; stops early, right
     /// after that impact, when `sink` returns false. May be called again with a later time.
-    ///
-    /// # Errors
-    /// [`Error::Work`] when the bound on work is exceeded.
     pub fn run(&mut self, until: f64, sink: Sink) -> Result<(), Error> {
         let end = Instant::at(until);
         while let Some(k) = self.next_event(end) {

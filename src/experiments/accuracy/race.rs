@@ -184,31 +184,3 @@ fn follow(
 fn error(hit: &Hit, impact: &Impact) -> f64 {
     (DoubleDouble::from(impact.time) - hit.time).to_f64().abs()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::params::{MethodName, Profile};
-
-    #[test]
-    fn ours_loses_nothing_and_a_coarse_method_does() {
-        let mut parameters = RaceParams::new(Profile::Quick);
-        parameters.segments = 40;
-        let race = run(&parameters, &Progress::silent()).unwrap();
-        let of = |name: MethodName| {
-            race.entries.iter().find(|entry| entry.setting.method == name).unwrap()
-        };
-        let ours = of(MethodName::Certified);
-        assert_eq!((ours.tried, ours.misses), (40, 0));
-        let [_, largest] = ours.errors.unwrap();
-        assert!(largest > 0.0 && largest < 1e-12, "{largest:e}");
-        assert_eq!(ours.runs[0], parameters.until, "{:?}", ours.runs);
-        assert!(ours.work.unwrap() < 40.0);
-        assert_eq!(of(MethodName::Advancement).misses, 0);
-        for name in [MethodName::Verlet, MethodName::Penalty, MethodName::MoreauJean] {
-            let theirs = of(name);
-            assert!(theirs.misses > 20, "{theirs:?}");
-            assert!(theirs.runs[0] < 0.5 * parameters.until, "{theirs:?}");
-        }
-    }
-}

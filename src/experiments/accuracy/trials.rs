@@ -53,17 +53,3 @@ pub fn run(parameters: &TrialParams, progress: &Progress) -> Result<Trials, Erro
         scenes: rows.map(|(scene, trials)| (scene.what.into(), trials.to_vec())).collect(),
     })
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_commonest_trouble_is_named() {
-        use Verdict::{Displaced, Ghost, Missed, Right};
-        let of = |verdicts: &[Verdict]| trouble(&verdicts.to_vec());
-        assert_eq!(of(&[Right, Right]), None);
-        assert_eq!(of(&[Right, Displaced, Displaced, Missed]), Some(Displaced));
-        assert_eq!(of(&[Ghost, Missed]), Some(Missed));
-    }
-}

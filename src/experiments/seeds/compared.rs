@@ -106,24 +106,3 @@ impl Line<'_> {
         (self.found.iter().map(square).sum::<f64>() / self.found.len() as f64).sqrt()
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_distance_is_the_root_of_the_mean_square() {
-        let rows = [(50.0, 0.1, 9.0), (50.0, 0.12, 20.0), (100.0, 0.1, 30.0)];
-        let means = Table::of("seeds.means", &rows, |_| 1)
-            .key("transient", "1/omega", |row| row.0)
-            .key("sigma", "d omega^2", |row| row.1)
-            .real("eq25", "1", 3, "", |row| row.2)
-            .done();
-        let line = |found: &[(f64, f64)]| {
-            let found = found.to_vec();
-            Line { transient: 50.0, half_height: None, found, means: &means }.off("eq25")
-        };
-        assert_eq!(line(&[(0.1, 6.0), (0.12, 24.0)]), 12.5_f64.sqrt());
-        assert!(line(&[(0.14, 6.0)]).is_nan());
-    }
-}

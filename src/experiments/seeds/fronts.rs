@@ -146,12 +146,4 @@ mod tests {
         // The wait that is cut has lasted for six ticks of twelve and not for more.
         assert_eq!(value(found.standing()), 0.0);
     }
-
-    #[test]
-    fn a_seed_at_the_wall_has_one_front() {
-        let mut run = run();
-        run.firsts = vec![Some(0), Some(9), None, None, None, None];
-        let found = Waits::of(&parameters(), (0, &run));
-        assert_eq!((found.fronts, found.ended, found.cut), (1, vec![9], vec![3]));
-    }
 }

@@ -130,12 +130,7 @@ fn trace(
 
 #[cfg(test)]
 mod tests {
-    use super::super::counting::ran;
-    use super::super::fronts::Waits;
-    use super::super::tables::tables;
     use super::*;
-    use crate::params::Profile;
-    use literate::table::Table;
 
     /// The differences of the amplitudes on both sides of each gap of a chain between walls, which are
     /// not forced.
@@ -144,16 +139,6 @@ mod tests {
         let left = wall().chain(forcing.iter().copied());
         let right = forcing.iter().copied().chain(wall());
         left.zip(right).map(|(a, b)| [b[0] - a[0], b[1] - a[1]])
-    }
-
-    fn small() -> SeedsParams {
-        let mut parameters = SeedsParams::new(Profile::Quick);
-        parameters.chain.masses = 20;
-        parameters.sigmas = vec![0.1, 0.14];
-        parameters.realisations = 60;
-        (parameters.bin, parameters.bins, parameters.window) = (10.0, 12, 3);
-        parameters.transients = vec![0, 4, 9];
-        parameters
     }
 
     fn drawn(chain: &Chain, sigma: f64, index: u64) -> (Vec<[f64; 2]>, usize) {
@@ -197,41 +182,6 @@ mod tests {
                 whole[0] > 500.0 && counts.abs() < 5.0 && squares.abs() < 5.0,
                 "{own:?} {whole:?}"
             );
-        }
-    }
-
-    #[test]
-    fn impacts_spread_from_the_seed_and_the_prediction_knows_its_limits() {
-        let parameters = small();
-        let found = run(&parameters, &Progress::silent()).unwrap();
-        let tables = tables(&found);
-        let table = |name: &str| tables.iter().find(|table| table.name() == name).unwrap();
-        let at = |table: &Table, sigma: f64, key: (&'static str, f64), column| {
-            table.number(&[("sigma", sigma), key], column).unwrap()
-        };
-        let (course, advance, means) =
-            (table("seeds.course"), table("seeds.advance"), table("seeds.means"));
-        for (sigma, part) in [0.1, 0.14].into_iter().zip(&found.rows) {
-            assert_eq!(part.len(), 60);
-            let runs: Vec<(usize, &Trace)> = ran(part).collect();
-            let reached = |trace: &Trace| trace.hits.iter().filter(|own| **own != 0).count();
-            let all: usize = runs.iter().map(|(_, trace)| reached(trace)).sum();
-            let mean = all as f64 / runs.len() as f64;
-            assert!((at(course, sigma, ("until", 120.0), "reached") - mean).abs() < 1e-12);
-            let advances = advance.points(&[("sigma", sigma)], "time", "advance");
-            assert!(advances.len() == 12 && advances.is_sorted_by(|a, b| a.1 <= b.1));
-            // Each gap that was reached, but for the seed, is a step of a front, and each wait has an end.
-            let waits: Vec<Waits> = runs.iter().map(|run| Waits::of(&parameters, *run)).collect();
-            assert_eq!(waits.iter().map(Waits::steps).sum::<u64>(), (all - runs.len()) as u64);
-            assert!(waits.iter().all(|own| own.cut.len() as u64 <= own.fronts && own.fronts <= 2));
-        }
-        let [low, high] = [0.1, 0.14].map(|sigma| at(course, sigma, ("until", 120.0), "reached"));
-        assert!(high > low);
-        // Later windows see more of the spreading, and no count exceeds the gaps.
-        for transient in [0.0, 40.0, 90.0] {
-            let mean = |sigma| at(means, sigma, ("transient", transient), "grown");
-            let [low, high] = [0.1, 0.14].map(mean);
-            assert!(0.0 < low && low < high && high <= 21.0, "{low} {high}");
         }
     }
 }

@@ -5,8 +5,9 @@ pub mod laws;
 
 use super::{Error, Results, SECOND_SEED, SWEEP};
 use crate::params::{LEVEL, NEAR_SIMULTANEOUS, PRINTED_THRESHOLD, SLOW};
+use impact_chain::counts::Total;
 use impact_chain::rise::{Counted, Curve, Mean, Row, Runs};
-use impact_numerics::estimates::{difference, share, with_error};
+use impact_numerics::estimates::{difference, share};
 use literate::table::Table;
 use literate::value::origin;
 
@@ -18,6 +19,13 @@ const STICKING: f64 = 0.3;
 /// The main sweep.
 pub fn main(results: &Results) -> Result<&Counted, Error> {
     Ok(&results.of(&SWEEP)?[0])
+}
+
+/// Impacts of all σ.
+pub fn total(sweep: &Counted) -> Total {
+    let mut total = Total::default();
+    sweep.runs.iter().for_each(|row| total.add(&row.total));
+    total
 }
 
 /// All tables of the main sweep.
@@ -173,42 +181,43 @@ fn modes(sweep: &Counted) -> Table {
 
 /// The laws of near and slow impacts, at each σ that has impacts.
 fn laws_table(sweep: &Counted) -> Table {
-    let fits = laws::run(&sweep.runs).rows;
-    Table::of("sweep.laws", &fits, |row| row.impacts as usize)
+    let rows: Vec<&Runs> = sweep.runs.iter().filter(|row| row.total.impacts > 0).collect();
+    Table::of("sweep.laws", &rows, |row| row.total.impacts as usize)
         .key("sigma", "d omega^2", |row| row.sigma)
         .computed_by(origin(laws::run))
         .estimate("near_exponent", "1", "of the share of impacts next to another within δ", |row| {
-            row.near.map(|law| with_error(law.exponent, law.exponent_error))
+            laws::run(row)[0].map(|law| law.exponent)
         })
         .estimate("near_coefficient", "1", "share over δ", |row| {
-            row.near.map(|law| with_error(law.coefficient, law.coefficient_error))
+            laws::run(row)[0].map(|law| law.coefficient)
         })
         .estimate("slow_exponent", "1", "of the share of impacts slower than v", |row| {
-            row.slow.map(|law| with_error(law.exponent, law.exponent_error))
+            laws::run(row)[1].map(|law| law.exponent)
         })
         .done()
 }
 
 /// What is rare, over all σ.
 fn rare(sweep: &Counted) -> Table {
-    let laws = laws::run(&sweep.runs);
+    let total = total(sweep);
     let last = |decades: &[u64]| decades.last().copied().unwrap_or(0);
-    Table::of("sweep.rare", &[laws], |_| 0)
+    let [near, slow] = laws::expected(&total);
+    Table::of("sweep.rare", &[total], |_| 0)
         .computed_by(origin(laws::run))
         .count("near_simultaneous", "impacts next to another within the limit", |own| {
-            last(&own.totals.near_decades)
+            last(&own.near)
         })
-        .real("near_expected", "1", 2, "the law's", |own| own.totals.expected_near_simultaneous)
+        .real("near_expected", "1", 2, "the law's", |_| near)
         .real("near_limit", "1/omega", 1, "", |_| NEAR_SIMULTANEOUS)
-        .count("slow", "impacts slower than the limit", |own| last(&own.totals.slow_decades))
-        .real("slow_expected", "1", 1, "the law's", |own| own.totals.expected_slow)
+        .count("slow", "impacts slower than the limit", |own| last(&own.slow))
+        .real("slow_expected", "1", 1, "the law's", |_| slow)
         .real("slow_limit", "d omega", 1, "", |_| SLOW)
         .chosen("contact_sigma", "d omega^2", "above the rise", |_| Some(ABOVE))
-        .count("contact_phases_below", "contact phases up to that σ", |own| {
-            let below = own.rows.iter().filter(|row| row.sigma <= ABOVE);
-            below.map(|row| row.contact_phases).sum()
+        .count("contact_phases_below", "contact phases up to that σ", |_| {
+            let below = sweep.runs.iter().filter(|row| row.sigma <= ABOVE);
+            below.map(|row| row.total.contact_phases).sum()
         })
-        .count("contact_phases", "contact phases of all σ", |own| own.totals.contact_phases)
+        .count("contact_phases", "contact phases of all σ", |own| own.contact_phases)
         .done()
 }
 

@@ -1,9 +1,9 @@
 //! An independent simulator of the chain in higher precision, to hold the engine against.
 //!
-//! Nothing here is taken from `src/` but the description of a scenario. It works in absolute time
+//! Nothing here is taken from the engine but the description of a scenario. It works in absolute time
 //! with the plain amplitudes of Eq. (19), searches by certified subdivision of intervals instead
-//! of forward stretches, and is generic over its numbers: [`dd::Dd`] (106 bits, own sine and
-//! cosine, fast) and [`big::Big`] (256 bits, dashu's sine and cosine) check each other.
+//! of forward stretches, and is generic over its numbers: [`dd::Dd`] (106 bits,
+//! fast) and [`big::Big`] (256 bits, dashu's sine and cosine) check each other.
 
 // benches/reference.rs uses a part of this module.
 #![allow(dead_code, unused_imports)]

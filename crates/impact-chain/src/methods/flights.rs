@@ -37,8 +37,6 @@ const INFLATION: f64 = 1.0 + 1e-12;
 pub type Phases = ((f64, f64), [(f64, f64); COMPONENTS]);
 
 impl Flights {
-    /// # Errors
-    /// As [`super::Method::run`].
     pub fn new(scenario: &Scenario, start: &State) -> Result<Flights, Error> {
         let u = start.displacements(scenario)?;
         let w = scenario.natural_frequency;

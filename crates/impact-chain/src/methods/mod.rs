@@ -73,9 +73,6 @@ pub trait Method: Sync {
     fn run(&self, task: Task, sink: Sink) -> Result<Cost, Error>;
 
     /// The first impact, if there is one.
-    ///
-    /// # Errors
-    /// As [`Method::run`].
     fn first(&self, task: Task) -> Result<Option<Impact>, Error> {
         let mut first = None;
         self.run(task, &mut |impact| {
@@ -86,9 +83,6 @@ pub trait Method: Sync {
     }
 
     /// All impacts, in order.
-    ///
-    /// # Errors
-    /// As [`Method::run`].
     fn impacts(&self, task: Task) -> Result<Vec<Impact>, Error> {
         let mut impacts = Vec::new();
         self.run(task, &mut |impact| {

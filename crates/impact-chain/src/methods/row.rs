@@ -26,8 +26,6 @@ pub struct Row {
 }
 
 impl Row {
-    /// # Errors
-    /// As [`super::Method::run`].
     pub fn new(scenario: &Scenario, start: &State) -> Result<Row, Error> {
         let u = start.displacements(scenario)?;
         let masses = scenario.forcing.len();

@@ -42,9 +42,6 @@ impl State {
 
     /// The displacements of all bodies from their places j d, from the left wall (0) to the right
     /// one (n + 1), with gaps that overlap by no more than rounding shut exactly.
-    ///
-    /// # Errors
-    /// [`Error::Input`] if scenario or state are outside the model, [`Error::Overlap`].
     pub(super) fn displacements(&self, scenario: &Scenario) -> Result<Vec<f64>, Error> {
         scenario.validate()?;
         self.validate(scenario.forcing.len())?;
@@ -97,9 +94,6 @@ impl State {
 
     /// The scenario that starts at t = 0 exactly where this state is: the forcing rotated by Ωt,
     /// the free parts derived.
-    ///
-    /// # Errors
-    /// As [`super::Method::run`].
     pub fn as_scenario(&self, scenario: &Scenario) -> Result<Scenario, Error> {
         let u = self.displacements(scenario)?;
         let mut moved = scenario.clone();

@@ -22,9 +22,6 @@ pub struct Step {
 }
 
 /// The steps of length `h` from `start` to `until`, in order.
-///
-/// # Errors
-/// [`Error::Input`] for a step that is none, that is longer than 1/max(ω, Ω), or too short.
 pub fn steps(
     scenario: &Scenario,
     start: &State,
