@@ -2,12 +2,8 @@
 //! well beyond the rise; of several lengths, after several transients.
 
 use super::starts::HALF_HEIGHT;
-use impact_chain::rise::{Counted, Curve};
+use crate::experiments::prelude::*;
 use impact_chain::{Boundary, Protocol, Start};
-use impact_numerics::estimates::{difference, with_error};
-use impact_numerics::statistics::Estimate;
-use literate::table::Table;
-use literate::value::origin;
 
 const UNIT: &str = "d omega^2";
 const WIDTH: &str = "from a quarter to three quarters of all gaps";

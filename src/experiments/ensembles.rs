@@ -1,7 +1,6 @@
 //! Experiments that are ensembles of chains: cut into units by σ and realisation, joined to curves.
 
-use super::{Error, Progress};
-use impact_chain::rise::{Counted, Curve};
+use crate::experiments::prelude::*;
 use impact_chain::{Counts, Ensemble};
 use literate::experiments::cutting::{Cutting, Row, Unit};
 use literate::experiments::progress::Stage;

@@ -3,16 +3,9 @@
 //! A change of one amplitude alone would be the smaller disturbance: in one run of four it is
 //! rounded away. Every operation of a run rounds, in every mass, so the twins differ in all.
 
-use super::ensembles::each;
-use super::{Error, Progress};
+use crate::experiments::prelude::*;
 use crate::params::HorizonParams;
-use impact_chain::{Engine, Scenario};
-use impact_numerics::estimates::average;
-use impact_numerics::random::NormalPairs;
-use impact_numerics::statistics::{Estimate, slope};
-use literate::table::Table;
-use literate::value::origin;
-use serde::{Deserialize, Serialize};
+use impact_numerics::statistics::slope;
 
 /// The twins.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -4,12 +4,9 @@
 //! depends on them. `make measure` writes them, with date and machine, and they are committed; the
 //! report only reads them, and so keeps its bytes until somebody measures again.
 
-use super::Error;
 use crate::committed;
+use crate::experiments::prelude::*;
 use literate::input::one_line;
-use literate::table::Table;
-use literate::value::origin;
-use serde::{Deserialize, Serialize};
 
 /// Where the file lies, seen from the top of the project.
 pub const FILE: &str = "benches/measured.json";

@@ -27,6 +27,22 @@ pub mod two_masses;
 pub mod built;
 mod results;
 
+/// What experiments and their tables use.
+pub(crate) mod prelude {
+    pub use super::ensembles::{each, named};
+    pub use super::{Error, Progress, Results};
+    pub use crate::params::Chain;
+    pub use impact_chain::methods::State;
+    pub use impact_chain::rise::{Counted, Curve};
+    pub use impact_chain::{Engine, Impact, Scenario};
+    pub use impact_numerics::estimates::{average, difference, share, with_error};
+    pub use impact_numerics::random::NormalPairs;
+    pub use impact_numerics::statistics::Estimate;
+    pub use literate::table::Table;
+    pub use literate::value::origin;
+    pub use serde::{Deserialize, Serialize};
+}
+
 pub use impact_chain::rise;
 pub use literate::experiments::{
     Entry, Error, Experiment, Need, Progress, Store, alive, be_quiet, say,
@@ -36,11 +52,12 @@ pub use results::Results;
 pub use run::run;
 
 use crate::params::{
-    self, BiasParams, HorizonParams, NucleationParams, RaceParams, ScaleParams, SeedsParams,
-    SpaceTimeParams, TrialParams, TwoMassesParams,
+    self, BiasParams, HorizonParams, NucleationParams, Profile, RaceParams, ScaleParams,
+    SeedsParams, SpaceTimeParams, TrialParams, TwoMassesParams,
 };
 use accuracy::{bias, race, scale, tables, trials};
 use built::code;
+use ensembles::CUTTING;
 use impact_chain::rise::Counted;
 use impact_chain::{Counts, Ensemble};
 use literate::experiments::experiment::How::{Cut, Read, Whole};
@@ -101,41 +118,29 @@ pub const MEASURED: Experiment<(), Measured> = Experiment {
 /// An experiment that is ensembles of chains.
 pub type Ensembles = Experiment<Vec<Ensemble>, Vec<Counted>, Counts>;
 
+const fn ensembles(
+    name: &'static str,
+    title: &'static str,
+    parameters: fn(Profile) -> Vec<Ensemble>,
+    tables: fn(&Vec<Counted>) -> Vec<Table>,
+) -> Ensembles {
+    let code = code(&["src/experiments/ensembles.rs"]);
+    Experiment { name, code, parameters, how: Cut(title, CUTTING), tables }
+}
+
 /// The main sweep of Sec. 2.
-pub const SWEEP: Ensembles = Experiment {
-    name: "sweep",
-    code: code(&["src/experiments/ensembles.rs"]),
-    parameters: params::sweep,
-    how: Cut("main sweep", ensembles::CUTTING),
-    tables: sweep::tables,
-};
+pub const SWEEP: Ensembles = ensembles("sweep", "main sweep", params::sweep, sweep::tables);
 
 /// The rise again, with another seed.
-pub const SECOND_SEED: Ensembles = Experiment {
-    name: "second_seed",
-    code: code(&["src/experiments/ensembles.rs"]),
-    parameters: params::second_seed,
-    how: Cut("second seed", ensembles::CUTTING),
-    tables: sweep::of_second_seed,
-};
+pub const SECOND_SEED: Ensembles =
+    ensembles("second_seed", "second seed", params::second_seed, sweep::of_second_seed);
 
 /// Half height against transient and window.
-pub const PROTOCOL: Ensembles = Experiment {
-    name: "protocol",
-    code: code(&["src/experiments/ensembles.rs"]),
-    parameters: params::protocol,
-    how: Cut("protocol map", ensembles::CUTTING),
-    tables: protocol::tables,
-};
+pub const PROTOCOL: Ensembles =
+    ensembles("protocol", "protocol map", params::protocol, protocol::tables);
 
 /// Other starts, boundaries, restitutions and frequencies.
-pub const STARTS: Ensembles = Experiment {
-    name: "starts",
-    code: code(&["src/experiments/ensembles.rs"]),
-    parameters: params::starts,
-    how: Cut("variants", ensembles::CUTTING),
-    tables: starts::tables,
-};
+pub const STARTS: Ensembles = ensembles("starts", "variants", params::starts, starts::tables);
 
 /// Chaos and its horizon.
 pub const HORIZON: Experiment<HorizonParams, horizon::Horizon> = Experiment {
@@ -249,22 +254,12 @@ pub const SEEDS: Experiment<SeedsParams, seeds::Seeds> = Experiment {
 };
 
 /// Chains of several restitutions.
-pub const RESTITUTION: Ensembles = Experiment {
-    name: "restitution",
-    code: code(&["src/experiments/ensembles.rs"]),
-    parameters: params::restitution,
-    how: Cut("restitution", ensembles::CUTTING),
-    tables: restitution::tables,
-};
+pub const RESTITUTION: Ensembles =
+    ensembles("restitution", "restitution", params::restitution, restitution::tables);
 
 /// Chains from rest and from above, of several lengths, after several transients.
-pub const BRANCHES: Ensembles = Experiment {
-    name: "branches",
-    code: code(&["src/experiments/ensembles.rs"]),
-    parameters: params::branches,
-    how: Cut("branches", ensembles::CUTTING),
-    tables: branches::tables,
-};
+pub const BRANCHES: Ensembles =
+    ensembles("branches", "branches", params::branches, branches::tables);
 
 /// Runs that a page repeats.
 pub const REPLAY: Experiment<replay::Runs, replay::Replays> = Experiment {

@@ -1,12 +1,8 @@
 //! The influence of the counting protocol: half height against transient T and window W.
 
+use crate::experiments::prelude::*;
 use crate::params::{PRINTED_THRESHOLD, PRINTED_THRESHOLD_UNIT};
 use impact_chain::Protocol;
-use impact_chain::rise::{Counted, Curve};
-use impact_numerics::estimates::with_error;
-use impact_numerics::statistics::Estimate;
-use literate::table::Table;
-use literate::value::origin;
 
 /// All tables.
 pub fn tables(found: &Vec<Counted>) -> Vec<Table> {

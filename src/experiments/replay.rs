@@ -1,12 +1,8 @@
 //! Runs that a page repeats: each with a digest of its impacts, which whoever computes the same bits finds again.
 
-use super::ensembles::each;
-use super::{Error, Progress};
-use crate::params::{Boundary, Chain, Profile, Protocol, SEED, Start};
+use crate::experiments::prelude::*;
+use crate::params::{Boundary, Profile, Protocol, SEED, Start};
 use impact_chain::replay::{Asked, Forces, Replay};
-use literate::table::Table;
-use literate::value::origin;
-use serde::{Deserialize, Serialize};
 
 /// What is run: each run with a name.
 pub type Runs = Vec<(String, Asked)>;

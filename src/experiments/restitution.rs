@@ -1,10 +1,8 @@
 //! What restitution does to a chain: where it rises, and how often masses come in contact.
 
 use super::starts::half_height;
-use impact_chain::rise::{Counted, Curve, Row};
-use impact_numerics::estimates::{difference, with_error};
-use literate::table::Table;
-use literate::value::origin;
+use crate::experiments::prelude::*;
+use impact_chain::rise::Row;
 
 /// All tables.
 pub fn tables(found: &Vec<Counted>) -> Vec<Table> {

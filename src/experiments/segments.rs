@@ -1,12 +1,8 @@
 //! The motions of Figs. 5(b) and 6(b): saved scenarios, replayed by the engine.
 
-use super::Error;
-use impact_chain::{Engine, Impact, Scenario};
+use crate::experiments::prelude::*;
 use literate::experiments::experiment::Given;
 use literate::input::one_line;
-use literate::table::Table;
-use literate::value::origin;
-use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The two segments.

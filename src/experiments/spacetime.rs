@@ -4,13 +4,8 @@
 //! Which run is shown is not a matter of taste: it is the first realisation of its stream that
 //! still has impacts in the last part of the run.
 
-use super::{Error, Progress};
+use crate::experiments::prelude::*;
 use crate::params::SpaceTimeParams;
-use impact_chain::{Engine, Scenario};
-use impact_numerics::random::NormalPairs;
-use literate::table::Table;
-use literate::value::origin;
-use serde::{Deserialize, Serialize};
 
 /// The run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

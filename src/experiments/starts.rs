@@ -1,12 +1,7 @@
 //! What the choices that the paper leaves open change: the start, walls or ring, r and Ω.
 
-use super::ensembles::named;
-use super::{Results, STARTS};
-use impact_chain::rise::{Counted, Curve};
-use impact_numerics::estimates::{difference, share};
-use impact_numerics::statistics::Estimate;
-use literate::table::Table;
-use literate::value::origin;
+use super::STARTS;
+use crate::experiments::prelude::*;
 
 /// The half height of the mean of all, in the first window.
 pub fn half_height(of: &Counted) -> Option<Estimate> {

@@ -5,14 +5,8 @@
 //! growing amplitude must therefore have its first impact at that bound or above, and come close
 //! to it when given time, because ω and Ω are incommensurable.
 
-use super::ensembles::each;
-use super::{Error, Progress};
-use crate::params::{Chain, TwoMassesParams};
-use impact_chain::{Engine, Scenario};
-use impact_numerics::random::NormalPairs;
-use literate::table::Table;
-use literate::value::origin;
-use serde::{Deserialize, Serialize};
+use crate::experiments::prelude::*;
+use crate::params::TwoMassesParams;
 
 /// The smallest forces that lead to an impact.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

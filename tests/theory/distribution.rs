@@ -3,7 +3,6 @@
 use crate::high_precision::{Big, big, int, near, relative_error};
 use SampleSpace::{FiveClasses, FiveClassesPrinted, Simple};
 use impact_circuits::distribution::{Law, SampleSpace};
-use impact_circuits::higher_order::CLASSES;
 
 /// The weights of k = 1..=N, term by term as Eqs. (10) and (38) have them.
 pub fn weights(space: SampleSpace, big_n: usize, p: f64) -> Vec<Big> {

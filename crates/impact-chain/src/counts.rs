@@ -306,14 +306,4 @@ mod tests {
         assert_eq!(seen.near, [3, 1, 0, 0, 0, 0, 0, 0, 0]);
         assert_eq!(seen.slow, [3, 2, 2, 1, 1, 1, 1, 1]);
     }
-
-    #[test]
-    fn the_ends_of_a_ring_are_neighbours() {
-        // Gaps of a ring of 5 masses are 1..=5.
-        let impacts = [impact(1.0, 5, 1.0), impact(1.01, 1, 1.0)];
-        assert_eq!(watched(5, Boundary::Ring, vec![0.0], &impacts).total.near[0], 1);
-        // Between walls the first and the last gap (0 and 4) are none.
-        let impacts = [impact(1.0, 4, 1.0), impact(1.01, 0, 1.0)];
-        assert_eq!(watched(5, Boundary::Walls, vec![0.0], &impacts).total.near[0], 0);
-    }
 }

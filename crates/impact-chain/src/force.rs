@@ -2,7 +2,6 @@
 
 use super::flight::Phases;
 use crate::search::local_frame::{Frequencies, ROUNDING};
-use std::ops::{Add, Div, Neg, Sub};
 
 /// L + Σ (C cos Ωt + S sin Ωt), with one pair (C, S) for each component of the forcing.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,7 +19,8 @@ impl<const M: usize> Force<M> {
     /// No force.
     pub const ZERO: Force<M> = Force { constant: 0.0, forced: [[0.0; 2]; M] };
 
-    fn zip(self, other: Self, of: impl Fn(f64, f64) -> f64) -> Self {
+    /// Of each part of two forces what `of` says.
+    pub fn zip(self, other: Self, of: impl Fn(f64, f64) -> f64) -> Self {
         Force {
             constant: of(self.constant, other.constant),
             forced: std::array::from_fn(|m| {
@@ -66,33 +66,5 @@ impl<const M: usize> Force<M> {
             rounding *= frequencies.fastest;
         }
         false
-    }
-}
-
-impl<const M: usize> Add for Force<M> {
-    type Output = Self;
-    fn add(self, other: Self) -> Self {
-        self.zip(other, |a, b| a + b)
-    }
-}
-
-impl<const M: usize> Sub for Force<M> {
-    type Output = Self;
-    fn sub(self, other: Self) -> Self {
-        self.zip(other, |a, b| a - b)
-    }
-}
-
-impl<const M: usize> Neg for Force<M> {
-    type Output = Self;
-    fn neg(self) -> Self {
-        self.zip(self, |a, _| -a)
-    }
-}
-
-impl<const M: usize> Div<f64> for Force<M> {
-    type Output = Self;
-    fn div(self, by: f64) -> Self {
-        self.zip(self, |a, _| a / by)
     }
 }

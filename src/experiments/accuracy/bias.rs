@@ -1,13 +1,9 @@
 //! What a method does to the mean number of gaps that impact: the same chains by every method, and
 //! the differences chain by chain.
 
-use crate::experiments::ensembles::each;
-use crate::experiments::{Error, Progress};
+use crate::experiments::prelude::*;
 use crate::params::{BiasParams, MethodName, Protocol, Setting};
-use impact_chain::methods::{Cost, State};
-use impact_chain::{Impact, Scenario};
-use impact_numerics::random::NormalPairs;
-use serde::{Deserialize, Serialize};
+use impact_chain::methods::Cost;
 
 /// All realisations by all methods.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -1,8 +1,8 @@
 //! A run, what must come out of it, and what a method made of it.
 
-use impact_chain::methods::{Method, State};
-use impact_chain::{Error, Impact, Scenario};
-use serde::{Deserialize, Serialize};
+use crate::experiments::prelude::*;
+use impact_chain::Error;
+use impact_chain::methods::Method;
 
 /// One run and its outcome.
 #[derive(Clone, Debug)]

@@ -1,18 +1,13 @@
 //! Every method against the true motion: the next impact from exact states, and whole runs until
 //! they leave the truth, with the counted work of both.
 
-use crate::experiments::ensembles::each;
 use crate::experiments::horizon::{self, Horizon};
-use crate::experiments::{Error, Progress};
+use crate::experiments::prelude::*;
 use crate::params::{HorizonParams, RaceParams, Setting};
 use impact_chain::methods::truth::{Hit, TrueMotion};
-use impact_chain::methods::{Cost, Method, State};
-use impact_chain::{Impact, Scenario};
+use impact_chain::methods::{Cost, Method};
 use impact_numerics::double_double::DoubleDouble;
-use impact_numerics::estimates::with_error;
-use impact_numerics::random::NormalPairs;
-use impact_numerics::statistics::{Estimate, mean, quantile, standard_error};
-use serde::{Deserialize, Serialize};
+use impact_numerics::statistics::{mean, quantile, standard_error};
 
 /// A time off by more than this counts as lost, in units of 1/ω.
 pub const DISPLACED: f64 = 1e-3;

@@ -1,11 +1,7 @@
 //! Counted work of an impact against the number of masses.
 
-use crate::experiments::ensembles::each;
-use crate::experiments::{Error, Progress};
-use crate::params::{BENCH, Chain, MethodName, ScaleParams, Setting};
-use impact_chain::Scenario;
-use impact_chain::methods::State;
-use impact_numerics::random::NormalPairs;
+use crate::experiments::prelude::*;
+use crate::params::{BENCH, MethodName, ScaleParams, Setting};
 
 /// Method, number of masses n, evaluations per impact: methods in their order, for each n rising.
 pub type Scale = Vec<(Setting, usize, f64)>;

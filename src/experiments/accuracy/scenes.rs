@@ -4,11 +4,11 @@
 //! expectation comes from a closed form where there is one, else from the motion to 106 bits.
 
 use super::case::{Case, Expected, NEAR};
-use crate::params::{Chain, SEED};
+use crate::experiments::prelude::*;
+use crate::params::SEED;
 use impact_chain::methods::truth::TrueMotion;
-use impact_chain::methods::{Certified, Method, State};
-use impact_chain::{Error, Initial, Overtone, Scenario};
-use impact_numerics::random::NormalPairs;
+use impact_chain::methods::{Certified, Method};
+use impact_chain::{Error, Initial, Overtone};
 use std::f64::consts::{PI, SQRT_2};
 
 /// One kind of trouble.

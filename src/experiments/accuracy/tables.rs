@@ -3,12 +3,10 @@
 use super::bias::{self, Biases, Counted};
 use super::race::{self, DISPLACED, Entry, Race};
 use super::scale::{self, Scale};
+use crate::experiments::prelude::*;
 use crate::params::{MethodName, Setting};
 use impact_chain::methods::Cost;
-use impact_numerics::estimates::with_error;
-use impact_numerics::statistics::{Estimate, mean, standard_error};
-use literate::table::Table;
-use literate::value::origin;
+use impact_numerics::statistics::{mean, standard_error};
 
 /// What a method is called in figures and tables.
 pub fn name(method: MethodName) -> &'static str {

@@ -2,10 +2,8 @@
 
 use super::case::Verdict;
 use super::scenes;
-use crate::experiments::ensembles::each;
-use crate::experiments::{Error, Progress};
+use crate::experiments::prelude::*;
 use crate::params::TrialParams;
-use serde::{Deserialize, Serialize};
 
 /// What became of every method in every scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -8,9 +8,8 @@ pub(crate) mod census;
 pub(crate) mod jump;
 pub(crate) mod relation;
 
+use crate::experiments::prelude::*;
 use census::census;
-use literate::table::Table;
-use literate::value::origin;
 
 /// Whole cases: how many were compared, and how many of these failed.
 pub(crate) type Cases = [u64; 2];

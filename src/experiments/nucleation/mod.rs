@@ -2,12 +2,8 @@
 
 pub mod tables;
 
-use super::ensembles::each;
-use super::{Error, Progress};
-use crate::params::{Chain, NucleationParams};
-use impact_chain::{Engine, Scenario};
-use impact_numerics::random::NormalPairs;
-use serde::{Deserialize, Serialize};
+use crate::experiments::prelude::*;
+use crate::params::NucleationParams;
 
 /// First impacts of chains from rest.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

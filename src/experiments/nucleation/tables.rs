@@ -1,10 +1,9 @@
 //! What follows from first impacts, beside what the reach of single gaps says.
 
 use super::{First, Nucleation, ensembles};
-use crate::params::{Chain, NucleationParams};
+use crate::experiments::prelude::*;
+use crate::params::NucleationParams;
 use impact_circuits::nucleation::{AtLeastOne, Chances, Reach, half};
-use impact_numerics::estimates::share;
-use literate::table::Table;
 use rayon::prelude::*;
 
 /// Angles of the rule for neighbours, which takes their square.

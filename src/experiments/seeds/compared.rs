@@ -1,12 +1,10 @@
 //! What is predicted beside what was simulated: by the main sweep, and after several transients by the map of the
 //! protocol.
 
+use crate::experiments::prelude::*;
 use crate::experiments::protocol::address;
-use crate::experiments::{PROTOCOL, Results, SEEDS};
+use crate::experiments::{PROTOCOL, SEEDS};
 use impact_chain::rise::Row;
-use impact_numerics::estimates::difference;
-use impact_numerics::statistics::Estimate;
-use literate::table::Table;
 
 /// One transient, by its half height in the map and its means there, with the cells that predict them.
 struct Line<'a> {

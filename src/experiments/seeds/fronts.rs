@@ -5,9 +5,9 @@
 //! end of the run; a front at a wall has no wait any more.
 
 use super::run::Trace;
-use crate::params::{Chain, SeedsParams};
+use crate::experiments::prelude::*;
+use crate::params::SeedsParams;
 use impact_numerics::estimates::ratio;
-use impact_numerics::statistics::Estimate;
 use std::f64::consts::TAU;
 
 /// What the fronts of one run did.

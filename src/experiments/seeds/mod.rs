@@ -17,8 +17,8 @@ pub mod tables;
 pub use counting::ByDistance;
 pub use run::{Part, Trace, run};
 
+use crate::experiments::prelude::*;
 use crate::params::SeedsParams;
-use serde::{Deserialize, Serialize};
 
 /// Chains with one gap that closes by itself.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -1,13 +1,10 @@
 //! Runs of chains in which exactly one gap closes by itself.
 
 use super::Seeds;
-use crate::experiments::ensembles::each;
-use crate::experiments::{Error, Progress};
-use crate::params::{Chain, SeedsParams};
-use impact_chain::{self, Engine, Impact, Initial, Scenario};
+use crate::experiments::prelude::*;
+use crate::params::SeedsParams;
+use impact_chain::{self, Initial};
 use impact_circuits::nucleation::closes_by_itself;
-use impact_numerics::random::NormalPairs;
-use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// One run, in time since its first impact.

@@ -4,12 +4,10 @@ use super::counting::{bits, ran};
 use super::fronts::{Fronts, Waits, beat};
 use super::growth::{GROUPS, Prediction, closing, predictions};
 use super::{ByDistance, Seeds, Trace};
+use crate::experiments::prelude::*;
 use crate::params::SeedsParams;
 use impact_circuits::distribution::{Law, SampleSpace};
 use impact_circuits::impact_probability::ImpactProbability;
-use impact_numerics::estimates::{average, share};
-use impact_numerics::statistics::Estimate;
-use literate::table::Table;
 use rayon::prelude::*;
 
 const SIGMA: &str = "d omega^2";

@@ -1,11 +1,9 @@
 //! How rare three-way impacts and sticking are (the remark of Sec. 2): power laws over decades.
 
+use crate::experiments::prelude::*;
 use crate::params::{NEAR_SIMULTANEOUS, SLOW};
-use impact_chain::counts::Total;
-use impact_chain::counts::{NEAR_DECADES, SLOW_DECADES};
+use impact_chain::counts::{NEAR_DECADES, SLOW_DECADES, Total};
 use impact_chain::rise::Runs;
-use impact_numerics::estimates::with_error;
-use impact_numerics::statistics::Estimate;
 
 /// First decade of the law of neighbouring impacts that is fitted, δ = 1e−2: at 1e−1 two impacts
 /// are no longer close against the time between impacts.

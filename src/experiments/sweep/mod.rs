@@ -3,13 +3,11 @@
 
 pub mod laws;
 
-use super::{Error, Results, SECOND_SEED, SWEEP};
+use super::{SECOND_SEED, SWEEP};
+use crate::experiments::prelude::*;
 use crate::params::{LEVEL, NEAR_SIMULTANEOUS, PRINTED_THRESHOLD, SLOW};
 use impact_chain::counts::Total;
-use impact_chain::rise::{Counted, Curve, Mean, Row, Runs};
-use impact_numerics::estimates::{difference, share};
-use literate::table::Table;
-use literate::value::origin;
+use impact_chain::rise::{Mean, Row, Runs};
 
 /// A σ above the rise.
 const ABOVE: f64 = 0.2;

@@ -1,9 +1,8 @@
 //! The theory beside the simulation.
 
-use crate::experiments::{Results, sweep};
+use crate::experiments::prelude::*;
+use crate::experiments::sweep;
 use impact_chain::rise::{Mean, Row};
-use literate::table::Table;
-use literate::value::origin;
 
 /// The σ at which the text sets means side by side, as far as the sweep has them.
 const SIGMAS: [f64; 8] = [0.1, 0.11, 0.12, 0.13, 0.14, 0.15, 0.2, 0.3];

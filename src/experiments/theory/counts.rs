@@ -1,12 +1,11 @@
 //! How many circuits there are: Secs. 3 and 5, Fig. 7.
 
 use super::{known, one, sum};
+use crate::experiments::prelude::*;
 use crate::params::VERTICES;
 use impact_circuits::distribution::SampleSpace;
 use impact_circuits::graph::Graph;
 use impact_circuits::{commuting, counting, jump};
-use literate::table::Table;
-use literate::value::origin;
 use std::f64::consts::LN_10;
 
 /// Gaps of the chain whose simple circuits are enumerated.

@@ -3,13 +3,12 @@
 use super::law::{law, means, simple};
 use super::{known, one, sum};
 use crate::experiments::identities::census::{census, counted};
+use crate::experiments::prelude::*;
 use crate::params::{HIGHER_P, REMARK_P, VERTICES};
 use SampleSpace::{FiveClasses, FiveClassesPrinted, Simple};
 use impact_circuits::distribution::{Law, SampleSpace};
 use impact_circuits::higher_order::{CLASSES, doubled, doubled_as_printed};
 use impact_circuits::{Fraction, jump};
-use literate::table::Table;
-use literate::value::origin;
 
 /// P(X = k) of five classes, k = 1..=N.
 pub fn five(p: f64) -> Vec<f64> {

@@ -2,11 +2,10 @@
 
 use super::relation::{p_of, reaches};
 use super::{known, one};
+use crate::experiments::prelude::*;
 use crate::params::{Grid, LARGE_VERTICES};
 use impact_circuits::distribution::SampleSpace::Simple;
 use impact_circuits::jump::{self, Jump, jump_rule, limit_share, p_jump};
-use literate::table::Table;
-use literate::value::origin;
 use rayon::prelude::*;
 
 /// So many steps of k* between two values of p N are drawn one by one.

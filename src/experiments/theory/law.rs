@@ -2,12 +2,11 @@
 
 use super::{known, one};
 use crate::experiments::identities::jump::{mean_slopes, top, touching};
+use crate::experiments::prelude::*;
 use crate::params::{DISTRIBUTION_P, Grid, VERTICES};
 use impact_circuits::distribution::Law;
 use impact_circuits::distribution::SampleSpace::{self, Simple};
 use impact_circuits::{Fraction, jump};
-use literate::table::Table;
-use literate::value::origin;
 
 pub(super) fn tables() -> Vec<Table> {
     vec![distributions(), mean(), jumping(), first_maximum()]

@@ -3,15 +3,14 @@
 use super::law::law;
 use super::{known, one};
 use crate::experiments::identities::relation::eq25;
-use crate::params::{self, Chain, Grid, Profile, VERTICES};
+use crate::experiments::prelude::*;
+use crate::params::{self, Grid, Profile, VERTICES};
 use SampleSpace::{FiveClasses, Simple};
 use impact_chain::rise::ONSET;
 use impact_circuits::distribution::{Law, SampleSpace};
 use impact_circuits::impact_probability::ImpactProbability;
 use impact_circuits::jump::{p_crit, p_jump};
 use impact_numerics::roots;
-use literate::table::Table;
-use literate::value::origin;
 use rayon::prelude::*;
 use std::f64::consts::SQRT_2;
 

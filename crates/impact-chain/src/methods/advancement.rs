@@ -1,11 +1,6 @@
 //! Conservative advancement.
 
-use super::flights::{Flights, Look};
-use super::steps::{check_end, check_tolerance};
-use super::tally::{Stop, Tally};
-use super::{Cost, Method, Sink, Task};
-use crate::Error;
-use crate::search::clock::{Instant, LATEST};
+use super::prelude::*;
 use crate::search::earliest::Earliest;
 
 /// Flight in closed form; each gap is advanced to where the parabola below it comes to zero, and no gap can close before.

@@ -1,9 +1,7 @@
 //! The engine of this project, under the trait of its rivals.
 
-use super::steps::check_end;
-use super::{Cost, Method, Sink, State, Task};
-use crate::topology::Topology;
-use crate::{Engine, Error, Impact, Scenario};
+use super::prelude::*;
+use crate::Engine;
 
 /// The exact event-driven engine: flight in closed form, the first root of each gap certified.
 ///

@@ -1,7 +1,6 @@
 //! The pair of Dormand and Prince: its coefficients, one step, its dense output.
 
-use super::row::Row;
-use crate::search::clock::Instant;
+use super::prelude::*;
 
 /// Nodes c_i of the stages 2 to 7.
 const NODES: [f64; 6] = [1.0 / 5.0, 3.0 / 10.0, 4.0 / 5.0, 8.0 / 9.0, 1.0, 1.0];

@@ -1,14 +1,7 @@
 //! Flight in closed form, as sampling looks at it.
 
-use super::State;
-use super::crossing::is_rounding;
 use super::forcing::{COMPONENTS, Component};
-use super::steps::Step;
-use crate::impact::jumps;
-use crate::search::clock::{Instant, Rate};
-use crate::search::trig::sin_cos_turn;
-use crate::topology::Topology;
-use crate::{Error, Scenario};
+use super::prelude::*;
 
 /// Width and rate of a gap, `s` after the beginning of a step.
 #[derive(Clone, Copy, Debug)]

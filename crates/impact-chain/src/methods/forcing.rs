@@ -1,9 +1,7 @@
 //! The forcing of a scenario as the rivals see it: the one place that knows its components.
 
-use crate::Scenario;
+use super::prelude::*;
 pub use crate::scenario::COMPONENTS;
-use crate::search::clock::{Instant, Rate};
-use crate::search::trig::sin_cos_turn;
 
 /// The forced response of each mass at t = 0: displacement and velocity.
 pub fn response(scenario: &Scenario) -> Vec<[f64; 2]> {

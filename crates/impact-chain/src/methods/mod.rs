@@ -35,6 +35,21 @@ pub use verlet::Verlet;
 use super::{Error, Impact, Scenario};
 pub use crate::engine::Sink;
 
+/// What the files of the methods use.
+mod prelude {
+    pub use super::crossing::{crossing, is_rounding};
+    pub use super::flights::{Flights, Look};
+    pub use super::row::{Row, Stepper, run_steps};
+    pub use super::steps::{Step, check_end, check_tolerance, steps};
+    pub use super::tally::{Stop, Tally};
+    pub use super::{Cost, Method, Sink, State, Task};
+    pub use crate::impact::jumps;
+    pub use crate::search::clock::{Instant, LATEST, Rate};
+    pub use crate::search::trig::sin_cos_turn;
+    pub use crate::topology::Topology;
+    pub use crate::{Boundary, Error, Impact, Initial, Scenario};
+}
+
 /// Counted work of a method: deterministic.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cost {

@@ -1,11 +1,6 @@
 //! Moreau–Jean time stepping.
 
-use super::row::{Row, Stepper, run_steps};
-use super::steps::Step;
-use super::tally::{Stop, Tally};
-use super::{Cost, Method, Sink, Task};
-use crate::Error;
-use crate::search::clock::Instant;
+use super::prelude::*;
 
 /// Contacts on the level of velocities and impulses: flight by the implicit midpoint rule (Jean's θ
 /// = 1/2); gaps that the forecast Δ + h Δ'/2 finds shut enter one complementarity problem

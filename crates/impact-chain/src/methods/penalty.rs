@@ -1,11 +1,6 @@
 //! Penalty springs.
 
-use super::row::{Row, Stepper, run_steps};
-use super::steps::Step;
-use super::tally::{Stop, Tally};
-use super::{Cost, Method, Sink, Task};
-use crate::Error;
-use crate::search::clock::Instant;
+use super::prelude::*;
 use std::f64::consts::PI;
 
 /// A shut gap is a stiff spring with a damper that is tuned to the restitution; velocity Verlet.

@@ -1,14 +1,7 @@
 //! The row of masses as an integrator sees it: displacements, velocities, forces, impact law.
 
 use super::forcing::Component;
-use super::steps::{Step, steps};
-use super::tally::{Stop, Tally};
-use super::{Cost, Sink, State, Task};
-use crate::Boundary;
-use crate::impact::jumps;
-use crate::search::clock::Instant;
-use crate::topology::Topology;
-use crate::{Error, Scenario};
+use super::prelude::*;
 
 /// A state with its forces; bodies are numbered from the left wall (0) to the right one (n + 1).
 pub struct Row {

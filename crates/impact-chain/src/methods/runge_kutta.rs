@@ -1,13 +1,7 @@
 //! A Runge–Kutta pair of orders 5 and 4 with events.
 
-use super::crossing::{crossing, is_rounding};
 use super::dormand_prince::Stages;
-use super::row::Row;
-use super::steps::{check_end, check_tolerance};
-use super::tally::{Stop, Tally};
-use super::{Cost, Method, Sink, Task};
-use crate::Error;
-use crate::search::clock::Instant;
+use super::prelude::*;
 
 /// The pair of Dormand and Prince with a tolerance; a gap that is negative at the end of a step is
 /// an event, bisected on the dense output; the earliest ends the step, and integration begins anew.

@@ -1,12 +1,6 @@
 //! A gap sampled on a grid of times, and bisection.
 
-use super::crossing::crossing;
-use super::flights::{Flights, Look};
-use super::steps::{Step, steps};
-use super::tally::{Stop, Tally};
-use super::{Cost, Method, Sink, Task};
-use crate::Error;
-use crate::search::clock::Instant;
+use super::prelude::*;
 
 /// Flight in closed form; every gap is looked at with a fixed step, and a change of its sign is
 /// bisected down to neighbouring doubles.

@@ -1,8 +1,6 @@
 //! Steps in time of equal length, and what is refused of a step, a tolerance or an end.
 
-use super::State;
-use crate::search::clock::{Instant, LATEST};
-use crate::{Error, Scenario};
+use super::prelude::*;
 
 /// Steps that one run may take.
 pub const MOST_STEPS: f64 = 1e10;

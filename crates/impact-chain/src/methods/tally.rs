@@ -1,9 +1,7 @@
 //! The count of a rival's work, and its bounds.
 
-use super::Cost;
+use super::prelude::*;
 use super::steps::{MOST_STEPS, too_many};
-use crate::topology::Topology;
-use crate::{Error, Impact, Scenario};
 
 /// Events that one gap may need within one unit of time 1/ω on average before a run is given up. A
 /// rival that cannot rest in contact sees infinitely many impacts in a finite time there.
@@ -89,23 +87,5 @@ impl<'a> Tally<'a> {
             Err(Stop::Failed(error)) => Err(error),
             Err(Stop::Asked) | Ok(()) => Ok(self.cost),
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_budget_is_that_of_one_unit_of_time() {
-        let scenario = Scenario::from_json(r#"{"forcing":[[0.5,0.5]]}"#).unwrap();
-        let mut sink = |_| true;
-        let mut tally = Tally::new(&scenario, &mut sink);
-        for i in 0..100_000 {
-            assert!(tally.impact(0, f64::from(i) * 1e-4, 1.0).is_ok());
-        }
-        let ended = (0..100_000).try_for_each(|_| tally.impact(1, 20.0, 1.0));
-        let error = tally.finish(ended).unwrap_err();
-        assert_eq!(error, Error::Work { gap: 1, time: 20.0, bound: 20_000 });
     }
 }

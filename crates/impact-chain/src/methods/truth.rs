@@ -7,11 +7,10 @@
 //! method. A tie of two gaps within the rounding of doubles could be taken in the wrong order; it
 //! has a probability of about 1e−14 an impact.
 
-use super::steps::check_end;
-use super::tally::{Stop, Tally};
-use super::{Certified, Cost, Method, Sink, State, Task};
+use super::Certified;
+use super::prelude::*;
+use crate::Engine;
 use crate::contact::CONTACT_SPEED;
-use crate::{Boundary, Engine, Error, Impact, Scenario};
 use impact_numerics::double_double::{DoubleDouble, sin_cos};
 
 /// The true motion as a method.

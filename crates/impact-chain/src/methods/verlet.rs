@@ -1,11 +1,6 @@
 //! Verlet with a flip of velocities.
 
-use super::row::{Row, Stepper, run_steps};
-use super::steps::Step;
-use super::tally::{Stop, Tally};
-use super::{Cost, Method, Sink, Task};
-use crate::Error;
-use crate::search::clock::Instant;
+use super::prelude::*;
 
 /// Velocity Verlet; at the end of a step each gap that is negative and closing, from the left, gets
 /// the impact law.
